@@ -1,0 +1,92 @@
+//! ABB IRB arms.
+//!
+//! Figures collected on 2026-11-21 from public repositories, by majority where they disagree: RobotComponents/RobotComponents @ 8eaaf1a2cc,
+//! visose/Robots (branch libraries) @ 1573995b4d, ros-industrial/abb_experimental @ 20b9cf86ad, PickNikRobotics/abb_ros2 @ 0705714217,
+//! SaltworkerMLU/robotkinematicscatalogue @ ea88ef98a3, 4rtur1t0/ARTE @ a8df0b121e, bourumir-wyngs/rs-opw-kinematics @ fb51d85bd7,
+//! rpiRobotics/abb_motion_program_exec @ 3891d1b78a.
+
+use super::{AngleUnit, CatalogueArm, CatalogueGeometry};
+
+pub(super) const ARMS: &[CatalogueArm] = &[
+    CatalogueArm {
+        name: "IRB 120-3/0.58",
+        geometry: CatalogueGeometry::Abb { a1: 0.0, a2: -70.0, c1: 290.0, c2: 270.0, c3: 302.0, c4: 72.0 },
+        angles: AngleUnit::Degrees,
+        limits: &[[-165.0, 165.0], [-110.0, 110.0], [-110.0, 70.0], [-160.0, 160.0], [-120.0, 120.0], [-400.0, 400.0]],
+        max_velocity: Some(&[250.0, 250.0, 250.0, 320.0, 320.0, 420.0]),
+        sources: 5,
+        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE; axis 4 is +-150 deg in visose/Robots, axis 3 -90 deg in robotkinematicscatalogue",
+    },
+    CatalogueArm {
+        name: "IRB 140-6/0.81",
+        geometry: CatalogueGeometry::Abb { a1: 70.0, a2: 0.0, c1: 352.0, c2: 360.0, c3: 380.0, c4: 65.0 },
+        angles: AngleUnit::Degrees,
+        limits: &[[-180.0, 180.0], [-90.0, 110.0], [-230.0, 50.0], [-200.0, 200.0], [-115.0, 115.0], [-400.0, 400.0]],
+        max_velocity: Some(&[200.0, 200.0, 260.0, 360.0, 360.0, 450.0]),
+        sources: 4,
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue, ARTE; axis 5 is +-120 deg in robotkinematicscatalogue",
+    },
+    CatalogueArm {
+        name: "IRB 1200-5/0.9",
+        geometry: CatalogueGeometry::Abb { a1: 0.0, a2: -42.0, c1: 399.1, c2: 448.0, c3: 451.0, c4: 82.0 },
+        angles: AngleUnit::Degrees,
+        limits: &[[-170.0, 170.0], [-100.0, 130.0], [-200.0, 70.0], [-270.0, 270.0], [-130.0, 130.0], [-360.0, 360.0]],
+        max_velocity: Some(&[288.0, 240.0, 300.0, 400.0, 405.0, 600.0]),
+        sources: 6,
+        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalogue, abb_motion_program_exec; axis 6 is +-400 deg in RobotComponents and visose/Robots: its turn limit is a software setting",
+    },
+    CatalogueArm {
+        name: "IRB 1600-6/1.45",
+        geometry: CatalogueGeometry::Abb { a1: 150.0, a2: 0.0, c1: 486.5, c2: 700.0, c3: 600.0, c4: 65.0 },
+        angles: AngleUnit::Degrees,
+        limits: &[[-180.0, 180.0], [-90.0, 120.0], [-245.0, 65.0], [-200.0, 200.0], [-115.0, 115.0], [-400.0, 400.0]],
+        max_velocity: Some(&[180.0, 180.0, 185.0, 385.0, 400.0, 460.0]),
+        sources: 4,
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue, ARTE; axis 2 goes to 150 deg in visose/Robots and ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arm exchanged",
+    },
+    CatalogueArm {
+        name: "IRB 2600-12/1.65",
+        geometry: CatalogueGeometry::Abb { a1: 150.0, a2: -115.0, c1: 445.0, c2: 700.0, c3: 795.0, c4: 85.0 },
+        angles: AngleUnit::Degrees,
+        limits: &[[-180.0, 180.0], [-95.0, 155.0], [-180.0, 75.0], [-400.0, 400.0], [-120.0, 120.0], [-400.0, 400.0]],
+        max_velocity: Some(&[175.0, 175.0, 175.0, 360.0, 360.0, 500.0]),
+        sources: 6,
+        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE, rs-opw-kinematics; ros-industrial/abb_experimental has axis 2 as -155..95 deg (sign turned) and axis 3 as -155..75 deg",
+    },
+    CatalogueArm {
+        name: "IRB 2600-12/1.85",
+        geometry: CatalogueGeometry::Abb { a1: 150.0, a2: -115.0, c1: 445.0, c2: 900.0, c3: 795.0, c4: 85.0 },
+        angles: AngleUnit::Degrees,
+        limits: &[[-180.0, 180.0], [-95.0, 155.0], [-180.0, 75.0], [-400.0, 400.0], [-120.0, 120.0], [-400.0, 400.0]],
+        max_velocity: None,
+        sources: 2,
+        provenance: "RobotComponents, robotkinematicscatalogue",
+    },
+    CatalogueArm {
+        name: "IRB 4600-20/2.5",
+        geometry: CatalogueGeometry::Abb { a1: 175.0, a2: -175.0, c1: 495.0, c2: 1095.0, c3: 1230.5, c4: 85.0 },
+        angles: AngleUnit::Degrees,
+        limits: &[[-180.0, 180.0], [-90.0, 150.0], [-180.0, 75.0], [-400.0, 400.0], [-120.0, 120.0], [-400.0, 400.0]],
+        max_velocity: Some(&[175.0, 175.0, 175.0, 360.0, 360.0, 500.0]),
+        sources: 4,
+        provenance: "RobotComponents, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalogue; axis 5 is -125..120 deg in ROS-Industrial and PickNik; robotkinematicscatalogue has the forearm of the 40/2.55 arm (1270/135)",
+    },
+    CatalogueArm {
+        name: "IRB 6640-235/2.55",
+        geometry: CatalogueGeometry::Abb { a1: 320.0, a2: -200.0, c1: 780.0, c2: 1075.0, c3: 1142.5, c4: 200.0 },
+        angles: AngleUnit::Degrees,
+        limits: &[[-170.0, 170.0], [-65.0, 85.0], [-180.0, 70.0], [-300.0, 300.0], [-120.0, 120.0], [-360.0, 360.0]],
+        max_velocity: Some(&[100.0, 90.0, 90.0, 170.0, 120.0, 190.0]),
+        sources: 3,
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue; the forearm is 1142 mm in two sources (rounded); visose Nagami.xml has a1 175 and c1 495, those of a 4600",
+    },
+    CatalogueArm {
+        name: "IRB 6700-150/3.2",
+        geometry: CatalogueGeometry::Abb { a1: 320.0, a2: -200.0, c1: 780.0, c2: 1280.0, c3: 1592.5, c4: 200.0 },
+        angles: AngleUnit::Degrees,
+        limits: &[[-170.0, 170.0], [-65.0, 85.0], [-180.0, 70.0], [-300.0, 300.0], [-130.0, 130.0], [-360.0, 360.0]],
+        max_velocity: Some(&[100.0, 90.0, 90.0, 170.0, 120.0, 190.0]),
+        sources: 5,
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue, ARTE, abb_motion_program_exec; a1 is 377 mm in ARTE",
+    },
+];

@@ -1,0 +1,32 @@
+//! Franka arms.
+//!
+//! Denavit-Hartenberg rows as Franka publishes them (control parameters documentation), the flange in the last row; held against a pose
+//! recorded on a machine (petercorke/robotics-toolbox-matlab#107). Limits and velocities after Franka's data sheet.
+
+use super::{AngleUnit, CatalogueArm, CatalogueGeometry};
+
+pub(super) const ARMS: &[CatalogueArm] = &[CatalogueArm {
+    name: "Panda",
+    geometry: CatalogueGeometry::Mdh(&[
+        [0.0, 0.0, 333.0, 0.0],
+        [-90.0, 0.0, 0.0, 0.0],
+        [90.0, 0.0, 316.0, 0.0],
+        [90.0, 82.5, 0.0, 0.0],
+        [-90.0, -82.5, 384.0, 0.0],
+        [90.0, 0.0, 0.0, 0.0],
+        [90.0, 88.0, 107.0, 0.0],
+    ]),
+    angles: AngleUnit::Radians,
+    limits: &[
+        [-2.8973, 2.8973],
+        [-1.7628, 1.7628],
+        [-2.8973, 2.8973],
+        [-3.0718, -0.0698],
+        [-2.8973, 2.8973],
+        [-0.0175, 3.7525],
+        [-2.8973, 2.8973],
+    ],
+    max_velocity: Some(&[2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61]),
+    sources: 2,
+    provenance: "Franka control parameters; limits are general knowledge of the data sheet",
+}];

@@ -1,0 +1,158 @@
+//! The arms that irbkin knows by name.
+
+mod abb;
+mod franka;
+
+use alloc::borrow::ToOwned;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use crate::error::{Error, ModelFault, UnknownRobot};
+use crate::kinematics::{DhRow, JointLimits, Mdh, OpwParameters, Pose, Robot};
+
+/// One arm of the catalogue, with the numbers as its maker prints them.
+#[derive(Clone, Copy, Debug)]
+pub struct CatalogueArm {
+    /// The maker's type name.
+    pub name: &'static str,
+    /// Its geometry.
+    pub geometry: CatalogueGeometry,
+    /// Unit of the limits and velocities.
+    pub angles: AngleUnit,
+    /// (lower, upper) limit of each joint.
+    pub limits: &'static [[f64; 2]],
+    /// Largest velocity of each joint, where a source has it.
+    pub max_velocity: Option<&'static [f64]>,
+    /// How many independent sources have these figures.
+    pub sources: u8,
+    /// Where the figures come from, and where sources disagree.
+    pub provenance: &'static str,
+}
+
+/// The unit of an arm's angles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AngleUnit {
+    /// Degrees.
+    Degrees,
+    /// Radians.
+    Radians,
+}
+
+impl AngleUnit {
+    fn to_radians(self, angle: f64) -> f64 {
+        match self {
+            Self::Degrees => angle.to_radians(),
+            Self::Radians => angle,
+        }
+    }
+}
+
+/// The geometry of a catalogue arm.
+#[derive(Clone, Copy, Debug)]
+pub enum CatalogueGeometry {
+    /// Ortho-parallel with a spherical wrist, in ABB's joint convention [mm].
+    Abb {
+        /// Distance of axis 2 from axis 1.
+        a1: f64,
+        /// Elbow offset, negative upwards.
+        a2: f64,
+        /// Height of axis 2.
+        c1: f64,
+        /// Upper arm.
+        c2: f64,
+        /// Forearm.
+        c3: f64,
+        /// Wrist centre to flange.
+        c4: f64,
+    },
+    /// Modified Denavit-Hartenberg rows: alpha [deg], a [mm], d [mm], theta offset [deg].
+    Mdh(&'static [[f64; 4]]),
+}
+
+const MAKERS: [&[CatalogueArm]; 2] = [abb::ARMS, franka::ARMS];
+
+/// Every arm of the catalogue.
+pub fn catalogue() -> impl Iterator<Item = &'static CatalogueArm> {
+    MAKERS.into_iter().flatten()
+}
+
+/// Finds an arm by its name; case, blanks, `-`, `_` and `/` do not matter.
+///
+/// # Errors
+///
+/// [`Error::UnknownRobot`] with the names that are close.
+pub fn find(name: &str) -> Result<&'static CatalogueArm, Error> {
+    let wanted = squeezed(name);
+    catalogue()
+        .find(|arm| squeezed(arm.name) == wanted)
+        .ok_or_else(|| Error::UnknownRobot(UnknownRobot { name: name.to_owned(), close: close_to(&wanted) }))
+}
+
+/// A name without what does not matter in it.
+fn squeezed(name: &str) -> String {
+    name.chars().filter(|c| !c.is_whitespace() && !matches!(c, '-' | '_' | '/')).flat_map(char::to_lowercase).collect()
+}
+
+/// Up to four names that hold the wanted one or are spelled like it.
+#[cfg(feature = "std")]
+fn close_to(wanted: &str) -> Vec<&'static str> {
+    const LEAST_SIMILARITY: f64 = 0.7;
+    let similarity = |arm: &CatalogueArm| {
+        let name = squeezed(arm.name);
+        if !wanted.is_empty() && name.contains(wanted) { 1.0 } else { strsim::jaro_winkler(&name, wanted) }
+    };
+    let mut ranked: Vec<_> = catalogue().map(|arm| (similarity(arm), arm.name)).filter(|(s, _)| *s >= LEAST_SIMILARITY).collect();
+    ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
+    ranked.into_iter().take(4).map(|(_, name)| name).collect()
+}
+
+#[cfg(not(feature = "std"))]
+fn close_to(wanted: &str) -> Vec<&'static str> {
+    catalogue().map(|arm| arm.name).filter(|name| !wanted.is_empty() && squeezed(name).contains(wanted)).take(4).collect()
+}
+
+impl CatalogueArm {
+    /// Number of joints.
+    #[must_use]
+    pub fn dof(&self) -> usize {
+        self.limits.len()
+    }
+}
+
+impl<const N: usize> Robot<N> {
+    /// The arm of that name from the catalogue; case, blanks, `-`, `_` and `/` do not matter.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::UnknownRobot`] with the names that are close; [`Error::InvalidModel`] when the arm does not have `N` joints.
+    pub fn named(name: &str) -> Result<Self, Error> {
+        Self::from_catalogue(find(name)?)
+    }
+
+    /// The robot of a catalogue arm.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidModel`] when the arm does not have `N` joints.
+    pub fn from_catalogue(arm: &CatalogueArm) -> Result<Self, Error> {
+        let wrong_count = || Error::from(ModelFault::JointCount { found: arm.dof(), wanted: N });
+        let limits: &[[f64; 2]; N] = arm.limits.try_into().map_err(|_| wrong_count())?;
+        let velocity = match arm.max_velocity {
+            Some(velocity) => Some(<[f64; N]>::try_from(velocity).map_err(|_| wrong_count())?.map(|v| arm.angles.to_radians(v))),
+            None => None,
+        };
+        let robot = match arm.geometry {
+            CatalogueGeometry::Abb { a1, a2, c1, c2, c3, c4 } => {
+                let [a1, a2, c1, c2, c3, c4] = [a1, a2, c1, c2, c3, c4].map(|mm| mm / 1e3);
+                Self::of_opw(OpwParameters::abb(a1, a2, c1, c2, c3, c4))?
+            }
+            CatalogueGeometry::Mdh(rows) => {
+                let rows = <[[f64; 4]; N]>::try_from(rows).map_err(|_| wrong_count())?;
+                let rows = rows.map(|[alpha, a, d, theta]| DhRow::new(alpha.to_radians(), a / 1e3, d / 1e3, theta.to_radians()));
+                Self::from_mdh(Mdh { base: Pose::identity(), rows, flange: Pose::identity() })?
+            }
+        };
+        let limits = JointLimits::new(limits.map(|limit| limit.map(|angle| arm.angles.to_radians(angle))))?;
+        robot.with_name(arm.name).with_limits(limits).with_max_velocity(velocity)
+    }
+}

@@ -1,0 +1,246 @@
+//! What can be wrong with an input, each fault with the field, the value and the bound.
+
+use core::fmt;
+
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use crate::kinematics::{Explanation, NotRecognised};
+
+/// Why a call was refused.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Error {
+    /// The pose is no rigid transform.
+    InvalidPose(PoseFault),
+    /// The joint vector is no joint vector of this arm.
+    InvalidJoints(JointFault),
+    /// The arm cannot be built, or cannot do what is asked of it.
+    InvalidModel(ModelFault),
+    /// The catalogue has no arm of that name.
+    UnknownRobot(UnknownRobot),
+    /// No solution inside the limits.
+    Unreachable(Explanation),
+}
+
+/// What is wrong with a pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum PoseFault {
+    /// An element is NaN or infinite.
+    NotFinite {
+        /// Row of the matrix, from 0.
+        row: usize,
+        /// Column of the matrix, from 0.
+        column: usize,
+        /// The element.
+        value: f64,
+    },
+    /// The last row is not 0 0 0 1.
+    LastRow {
+        /// The row that came.
+        row: [f64; 4],
+    },
+    /// The columns of the rotation are not orthonormal: the largest element of `R^T R - I` exceeds the bound.
+    NotOrthonormal {
+        /// The largest element of `R^T R - I`.
+        deviation: f64,
+        /// The largest that is repaired.
+        bound: f64,
+    },
+    /// The rotation mirrors: its determinant is negative.
+    Mirrored {
+        /// The determinant.
+        determinant: f64,
+    },
+    /// A quaternion's norm is too far from one.
+    QuaternionNorm {
+        /// The norm.
+        norm: f64,
+        /// The largest distance from one that is normalised.
+        bound: f64,
+    },
+    /// A translation, quaternion or Euler angle is NaN or infinite.
+    FieldNotFinite {
+        /// Name of the argument.
+        field: &'static str,
+        /// Index into it.
+        index: usize,
+        /// The element.
+        value: f64,
+    },
+}
+
+/// What is wrong with a joint vector.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum JointFault {
+    /// An angle is NaN or infinite.
+    NotFinite {
+        /// Name of the argument.
+        field: &'static str,
+        /// The joint, from 1.
+        joint: usize,
+        /// The angle.
+        value: f64,
+    },
+    /// A weight is negative, NaN or infinite.
+    Weight {
+        /// The joint, from 1.
+        joint: usize,
+        /// The weight.
+        value: f64,
+    },
+}
+
+/// What is wrong with the description of an arm.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum ModelFault {
+    /// A parameter is NaN or infinite.
+    NotFinite {
+        /// Name of the parameter.
+        field: &'static str,
+        /// Index into it, from 1 (joint or row).
+        index: usize,
+        /// The value.
+        value: f64,
+    },
+    /// A length is too short for the arm to be one.
+    TooShort {
+        /// Name and meaning of the length.
+        field: &'static str,
+        /// The length [m].
+        value: f64,
+        /// The least length [m].
+        bound: f64,
+    },
+    /// A joint sign is neither 1 nor -1.
+    Sign {
+        /// The joint, from 1.
+        joint: usize,
+        /// The sign.
+        value: f64,
+    },
+    /// A joint's lower limit is above its upper limit.
+    EmptyLimit {
+        /// The joint, from 1.
+        joint: usize,
+        /// Lower limit [rad].
+        lower: f64,
+        /// Upper limit [rad].
+        upper: f64,
+    },
+    /// A velocity limit is not positive.
+    Velocity {
+        /// The joint, from 1.
+        joint: usize,
+        /// The velocity [rad/s].
+        value: f64,
+    },
+    /// The arm has another number of joints.
+    JointCount {
+        /// Joints of the arm.
+        found: usize,
+        /// Joints that were asked for.
+        wanted: usize,
+    },
+    /// The geometry has no closed-form inverse here.
+    NoClosedForm(NotRecognised),
+}
+
+/// A name that the catalogue does not have.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnknownRobot {
+    /// The name that was asked for.
+    pub name: String,
+    /// Names that are close to it, the closest first.
+    pub close: Vec<&'static str>,
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::InvalidPose(fault) => fault.fmt(f),
+            Self::InvalidJoints(fault) => fault.fmt(f),
+            Self::InvalidModel(fault) => fault.fmt(f),
+            Self::UnknownRobot(fault) => fault.fmt(f),
+            Self::Unreachable(explanation) => explanation.fmt(f),
+        }
+    }
+}
+
+impl core::error::Error for Error {}
+
+impl fmt::Display for PoseFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFinite { row, column, value } => write!(f, "pose[{row}, {column}] is {value}: every element must be finite"),
+            Self::LastRow { row: [a, b, c, d] } => write!(f, "pose row 3 must be [0, 0, 0, 1], got [{a}, {b}, {c}, {d}]"),
+            Self::NotOrthonormal { deviation, bound } => {
+                write!(f, "pose rotation is off orthonormal by {deviation:.3e}, more than the {bound:.0e} that is repaired")
+            }
+            Self::Mirrored { determinant } => {
+                write!(f, "pose rotation mirrors: its determinant is {determinant:.6}, it must be 1 (is an axis negated?)")
+            }
+            Self::QuaternionNorm { norm, bound } => {
+                write!(f, "quaternion norm is {norm:.6}, it must be 1 within {bound:.0e} (order is w, x, y, z)")
+            }
+            Self::FieldNotFinite { field, index, value } => write!(f, "{field}[{index}] is {value}: every element must be finite"),
+        }
+    }
+}
+
+impl fmt::Display for JointFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFinite { field, joint, value } => write!(f, "{field}: joint {joint} is {value}, every angle must be finite [rad]"),
+            Self::Weight { joint, value } => write!(f, "weights: joint {joint} is {value}, a weight must be finite and not negative"),
+        }
+    }
+}
+
+impl fmt::Display for ModelFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFinite { field, index: 0, value } => write!(f, "{field} is {value}, it must be finite"),
+            Self::NotFinite { field, index, value } => write!(f, "{field} {index} is {value}, it must be finite"),
+            Self::TooShort { field, value, bound } => write!(f, "{field} is {value} m, it must be at least {bound:e} m"),
+            Self::Sign { joint, value } => write!(f, "joint {joint} sign is {value}, it must be 1 or -1"),
+            Self::EmptyLimit { joint, lower, upper } => {
+                write!(f, "joint {joint} limit is empty: lower {lower} rad > upper {upper} rad")
+            }
+            Self::Velocity { joint, value } => write!(f, "joint {joint} velocity is {value} rad/s, it must be positive"),
+            Self::JointCount { found, wanted } => write!(f, "the arm has {found} joints, {wanted} were asked for"),
+            Self::NoClosedForm(reason) => write!(f, "no closed-form inverse kinematics for this arm: {reason}"),
+        }
+    }
+}
+
+impl fmt::Display for UnknownRobot {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "unknown robot \"{}\"", self.name)?;
+        for (i, name) in self.close.iter().enumerate() {
+            write!(f, "{}\"{name}\"", if i == 0 { "; close names: " } else { ", " })?;
+        }
+        Ok(())
+    }
+}
+
+impl From<PoseFault> for Error {
+    fn from(fault: PoseFault) -> Self {
+        Self::InvalidPose(fault)
+    }
+}
+
+impl From<JointFault> for Error {
+    fn from(fault: JointFault) -> Self {
+        Self::InvalidJoints(fault)
+    }
+}
+
+impl From<ModelFault> for Error {
+    fn from(fault: ModelFault) -> Self {
+        Self::InvalidModel(fault)
+    }
+}

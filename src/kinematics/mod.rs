@@ -1,0 +1,28 @@
+//! The kinematics of serial arms.
+
+mod angles;
+mod chain;
+mod dh;
+mod jacobian;
+mod limits;
+mod pose;
+mod robot;
+mod select;
+mod singularity;
+mod solutions;
+mod spherical_wrist;
+mod status;
+pub mod thresholds;
+
+pub use chain::Chain;
+pub use dh::{DhRow, Mdh, Sdh};
+pub use jacobian::JacobianFrame;
+pub use limits::JointLimits;
+pub use pose::{
+    Pose, PoseError, pose_from_euler_zyx, pose_from_quaternion, pose_from_rows, pose_to_euler_zyx, pose_to_quaternion, pose_to_rows,
+};
+pub use robot::{Definition, Robot};
+pub use singularity::Singularity;
+pub use solutions::{SLOTS, Solution, Solutions};
+pub use spherical_wrist::{Condition, NotRecognised, OpwParameters, SingularDistances, SphericalWrist};
+pub use status::{Explanation, Reach, Status};

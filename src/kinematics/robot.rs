@@ -1,0 +1,356 @@
+//! A robot: a chain, its limits and, where its geometry is known, its inverse.
+
+use alloc::borrow::Cow;
+
+use nalgebra::SMatrix;
+
+use super::chain::Chain;
+use super::dh::{DhRow, Mdh, Sdh};
+use super::jacobian::JacobianFrame;
+use super::limits::JointLimits;
+use super::pose::{Pose, PoseError, checked_pose};
+use super::select::{check_joints, check_weights};
+use super::singularity::{Singularity, singular_values};
+use super::solutions::{SLOTS, Solution, Solutions};
+use super::spherical_wrist::{FreeChoice, NotRecognised, OpwParameters, SphericalWrist, recognise};
+use super::status::Status;
+use crate::error::{Error, ModelFault};
+
+/// A robot arm of `N` revolute joints.
+///
+/// Build one from the catalogue ([`Robot::named`]), from parameters ([`Robot::from_opw`]) or from a Denavit-Hartenberg table
+/// ([`Robot::from_mdh`], [`Robot::from_sdh`]). A robot does not change: `with_` gives a new one. No solve allocates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Robot<const N: usize> {
+    name: Cow<'static, str>,
+    definition: Definition<N>,
+    chain: Chain<N>,
+    geometry: Geometry,
+    limits: JointLimits<N>,
+    max_velocity: Option<[f64; N]>,
+}
+
+/// What a robot was built from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Definition<const N: usize> {
+    /// Parameters of an ortho-parallel arm with a spherical wrist.
+    Opw(OpwParameters),
+    /// A modified Denavit-Hartenberg table with its end transforms.
+    Mdh(Mdh<N>),
+}
+
+/// The closed form that an arm has.
+#[derive(Clone, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "a robot is built once and borrowed from then on; a box would need the heap")]
+enum Geometry {
+    SphericalWrist(WristSolver),
+    Serial(NotRecognised),
+}
+
+/// The geometry between the frames in which poses are given: what a solve needs.
+#[derive(Clone, Debug, PartialEq)]
+struct WristSolver {
+    arm: SphericalWrist,
+    t_shoulder_world: Pose,
+    t_tool_wrist: Pose,
+}
+
+impl WristSolver {
+    fn new<const N: usize>(arm: SphericalWrist, chain: &Chain<N>) -> Self {
+        Self {
+            t_shoulder_world: (chain.base() * arm.t_base_shoulder()).inverse(),
+            t_tool_wrist: (arm.t_wrist_flange() * chain.tool()).inverse(),
+            arm,
+        }
+    }
+}
+
+impl Robot<6> {
+    /// A robot from the parameters of an ortho-parallel arm with a spherical wrist.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidModel`] when a parameter is not finite, a sign is not 1 or -1, or a link has no length.
+    pub fn from_opw(opw: OpwParameters) -> Result<Self, Error> {
+        Self::of_opw(opw)
+    }
+
+    /// Every joint vector that brings the tool to `pose`.
+    ///
+    /// A pose out of reach has no solutions and tells so by [`Solutions::reach`]; at a singularity a joint that the pose leaves free
+    /// reads zero. Derivation: docs/ik_derivation.md.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidPose`] when the pose is not finite or no rigid transform; [`Error::InvalidModel`] when the arm has no closed form.
+    pub fn ik(&self, pose: &Pose) -> Result<Solutions<6>, Error> {
+        self.solve(pose, &FreeChoice::ZERO)
+    }
+
+    /// The solution inside the limits that is nearest to `seed` [rad], turns considered; free joints keep the seed's angle.
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::ik`], [`Error::InvalidJoints`] for a seed or weight that is not finite, and [`Error::Unreachable`] when no solution
+    /// is inside the limits.
+    pub fn ik_nearest(&self, pose: &Pose, seed: &[f64; 6], weights: &[f64; 6]) -> Result<Solution<6>, Error> {
+        check_joints("seed", seed)?;
+        check_weights(weights)?;
+        let solutions = self.solve(pose, &FreeChoice::seed(*seed))?;
+        solutions.nearest(seed, weights).ok_or_else(|| Error::Unreachable(solutions.explain()))
+    }
+
+    fn solve(&self, pose: &Pose, free: &FreeChoice) -> Result<Solutions<6>, Error> {
+        let solver = match &self.geometry {
+            Geometry::SphericalWrist(solver) => solver,
+            Geometry::Serial(reason) => return Err(ModelFault::NoClosedForm(*reason).into()),
+        };
+        let pose = checked_pose(pose)?;
+        let t_shoulder_wrist = solver.t_shoulder_world * pose * solver.t_tool_wrist;
+        let branches = solver.arm.solve(&t_shoulder_wrist, free);
+        let slots = core::array::from_fn(|slot| {
+            branches.q[slot].map(|q| {
+                let q = self.limits.settle(q);
+                let mut status = branches.flags[slot] | Status::FOUND;
+                status.set(Status::WITHIN_LIMITS, self.limits.contain(&q));
+                #[expect(clippy::cast_possible_truncation, reason = "eight slots")]
+                Solution { q, slot: slot as u8, status }
+            })
+        });
+        debug_assert_eq!(branches.flags.len(), SLOTS);
+        Ok(Solutions { slots, merged: branches.flags, reach: branches.reach, pose, limits: self.limits, emptied: None })
+    }
+
+    /// The spherical-wrist geometry, for an arm that has one.
+    #[must_use]
+    pub fn spherical_wrist(&self) -> Option<&SphericalWrist> {
+        match &self.geometry {
+            Geometry::SphericalWrist(solver) => Some(&solver.arm),
+            Geometry::Serial(_) => None,
+        }
+    }
+}
+
+impl<const N: usize> Robot<N> {
+    /// A robot from a modified (Craig) Denavit-Hartenberg table, with the closed form of its geometry.
+    ///
+    /// A six-axis table may have its frames and its zero pose anywhere; what is within 1e-9 rad or m of the form is made exactly so.
+    /// Seven-axis arms have forward kinematics and the Jacobian.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidModel`] when a number is not finite, a link has no length, or a six-axis arm has no known form: the message
+    /// names the axes and how far they are off. [`Robot::serial_chain`] takes such an arm without its inverse.
+    pub fn from_mdh(mdh: Mdh<N>) -> Result<Self, Error> {
+        let robot = Self::serial_chain(mdh)?;
+        match robot.geometry {
+            Geometry::Serial(reason) if N == 6 => Err(ModelFault::NoClosedForm(reason).into()),
+            _ => Ok(robot),
+        }
+    }
+
+    /// A robot from a standard Denavit-Hartenberg table; otherwise as [`Robot::from_mdh`].
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::from_mdh`].
+    pub fn from_sdh(sdh: Sdh<N>) -> Result<Self, Error> {
+        Self::from_mdh(sdh.into())
+    }
+
+    /// A robot from any modified Denavit-Hartenberg table: with the closed form where its geometry has one, without where not.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidModel`] when a number is not finite or a recognised arm's link has no length.
+    pub fn serial_chain(mdh: Mdh<N>) -> Result<Self, Error> {
+        check_rows(&mdh.rows)?;
+        let mdh = Mdh { base: checked_pose(&mdh.base)?, flange: checked_pose(&mdh.flange)?, rows: mdh.rows };
+        let six = <&[DhRow; 6]>::try_from(&mdh.rows[..]).ok().map(|rows| Mdh { base: mdh.base, rows: *rows, flange: mdh.flange });
+        let (chain, geometry) = match six.as_ref().map(recognise) {
+            Some(Ok((squared, arm))) => {
+                // The squared table has N = 6 rows: this is the same array under its generic name.
+                let rows = core::array::from_fn(|i| squared.rows[i]);
+                let chain = Chain::new(Mdh { rows, ..mdh.clone() });
+                let solver = WristSolver::new(arm, &chain);
+                (chain, Geometry::SphericalWrist(solver))
+            }
+            Some(Err(Error::InvalidModel(ModelFault::NoClosedForm(reason)))) => (Chain::new(mdh.clone()), Geometry::Serial(reason)),
+            Some(Err(fault)) => return Err(fault),
+            None => (Chain::new(mdh.clone()), Geometry::Serial(NotRecognised::joint_count(N))),
+        };
+        Ok(Self::new(Definition::Mdh(mdh), chain, geometry))
+    }
+
+    /// [`Robot::from_opw`] for a caller that is generic over the number of joints.
+    pub(crate) fn of_opw(opw: OpwParameters) -> Result<Self, Error> {
+        opw.check()?;
+        let Mdh { base, rows, flange } = opw.mdh();
+        let rows = <[DhRow; N]>::try_from(&rows[..]).map_err(|_| ModelFault::JointCount { found: 6, wanted: N })?;
+        let chain = Chain::new(Mdh { base, rows, flange });
+        let geometry = Geometry::SphericalWrist(WristSolver::new(SphericalWrist::from_opw(&opw), &chain));
+        Ok(Self::new(Definition::Opw(opw), chain, geometry))
+    }
+
+    fn new(definition: Definition<N>, chain: Chain<N>, geometry: Geometry) -> Self {
+        Self { name: Cow::Borrowed(""), definition, chain, geometry, limits: JointLimits::UNLIMITED, max_velocity: None }
+    }
+
+    /// The same robot under another name.
+    #[must_use]
+    pub fn with_name(mut self, name: impl Into<Cow<'static, str>>) -> Self {
+        self.name = name.into();
+        self
+    }
+
+    /// The same robot with other joint limits.
+    #[must_use]
+    pub fn with_limits(mut self, limits: JointLimits<N>) -> Self {
+        self.limits = limits;
+        self
+    }
+
+    /// The same robot with velocity limits [rad/s].
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidModel`] when a velocity is not positive.
+    pub fn with_max_velocity(mut self, max_velocity: Option<[f64; N]>) -> Result<Self, Error> {
+        for (i, value) in max_velocity.iter().flatten().copied().enumerate() {
+            if !(value > 0.0) {
+                return Err(ModelFault::Velocity { joint: i + 1, value }.into());
+            }
+        }
+        self.max_velocity = max_velocity;
+        Ok(self)
+    }
+
+    /// The same robot standing at `t_world_base`: poses and Jacobians are then in the world frame. A base that it had is replaced.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidPose`] when the base is no rigid transform.
+    pub fn with_base(mut self, t_world_base: &Pose) -> Result<Self, Error> {
+        self.chain = self.chain.with_base(checked_pose(t_world_base)?);
+        Ok(self.joined())
+    }
+
+    /// The same robot with its tool centre point at `t_flange_tool`. A tool that it had is replaced.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidPose`] when the tool is no rigid transform.
+    pub fn with_tool(mut self, t_flange_tool: &Pose) -> Result<Self, Error> {
+        self.chain = self.chain.with_tool(checked_pose(t_flange_tool)?);
+        Ok(self.joined())
+    }
+
+    fn joined(mut self) -> Self {
+        if let Geometry::SphericalWrist(solver) = self.geometry {
+            self.geometry = Geometry::SphericalWrist(WristSolver::new(solver.arm, &self.chain));
+        }
+        self
+    }
+
+    /// Catalogue name, or the name that was given.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Name of the closed form: "spherical wrist", or "serial" where there is none.
+    #[must_use]
+    pub fn family(&self) -> &'static str {
+        match self.geometry {
+            Geometry::SphericalWrist(_) => "spherical wrist",
+            Geometry::Serial(_) => "serial",
+        }
+    }
+
+    /// What the robot was built from.
+    #[must_use]
+    pub fn definition(&self) -> &Definition<N> {
+        &self.definition
+    }
+
+    /// The modified Denavit-Hartenberg table with its fixed end transforms.
+    #[must_use]
+    pub fn mdh(&self) -> &Mdh<N> {
+        self.chain.mdh()
+    }
+
+    /// The base in the world.
+    #[must_use]
+    pub fn base(&self) -> &Pose {
+        self.chain.base()
+    }
+
+    /// The tool centre point in the flange frame.
+    #[must_use]
+    pub fn tool(&self) -> &Pose {
+        self.chain.tool()
+    }
+
+    /// Joint limits.
+    #[must_use]
+    pub fn limits(&self) -> &JointLimits<N> {
+        &self.limits
+    }
+
+    /// Velocity limits [rad/s], where they are known.
+    #[must_use]
+    pub fn max_velocity(&self) -> Option<&[f64; N]> {
+        self.max_velocity.as_ref()
+    }
+
+    /// Pose of the tool for the joint angles `q` [rad].
+    #[must_use]
+    pub fn fk(&self, q: &[f64; N]) -> Pose {
+        self.chain.fk(q)
+    }
+
+    /// Every frame of the modified table after its joint, and the pose of the tool.
+    #[must_use]
+    pub fn link_frames(&self, q: &[f64; N]) -> ([Pose; N], Pose) {
+        self.chain.link_frames(q)
+    }
+
+    /// Geometric Jacobian of the tool: three linear rows [m/rad], three angular [1]; column `i` belongs to joint `i + 1`.
+    #[must_use]
+    pub fn jacobian(&self, q: &[f64; N], frame: JacobianFrame) -> SMatrix<f64, 6, N> {
+        self.chain.jacobian(q, frame)
+    }
+
+    /// How far `q` [rad] is from the singularities.
+    #[must_use]
+    pub fn singularity(&self, q: &[f64; N]) -> Singularity {
+        let values = singular_values(&self.jacobian(q, JacobianFrame::Base));
+        let arm = match (&self.geometry, <&[f64; 6]>::try_from(&q[..])) {
+            (Geometry::SphericalWrist(solver), Ok(q)) => Some((solver.arm.singular_distances(q), solver.arm.kinds(q))),
+            _ => None,
+        };
+        Singularity {
+            distances: arm.map(|(distances, _)| distances),
+            min_singular_value: values[5],
+            manipulability: values.iter().product(),
+            kinds: arm.map_or(Status::empty(), |(_, kinds)| kinds),
+        }
+    }
+
+    /// How far the tool at `q` [rad] is from `pose`.
+    #[must_use]
+    pub fn residual(&self, q: &[f64; N], pose: &Pose) -> PoseError {
+        PoseError::between(&self.fk(q), pose)
+    }
+}
+
+fn check_rows(rows: &[DhRow]) -> Result<(), Error> {
+    for (i, row) in rows.iter().enumerate() {
+        for (field, value) in [("alpha of row", row.alpha), ("a of row", row.a), ("d of row", row.d), ("theta of row", row.theta)] {
+            if !value.is_finite() {
+                return Err(ModelFault::NotFinite { field, index: i + 1, value }.into());
+            }
+        }
+    }
+    Ok(())
+}

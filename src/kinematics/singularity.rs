@@ -1,0 +1,30 @@
+//! How far a joint vector is from the singularities.
+
+use nalgebra::SMatrix;
+
+use super::spherical_wrist::SingularDistances;
+use super::status::Status;
+
+/// How far a joint vector is from the singularities of its arm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Singularity {
+    /// Distances from the wrist, elbow and shoulder singularity; `None` for an arm whose singularities have no such names.
+    pub distances: Option<SingularDistances>,
+    /// The smallest singular value of the Jacobian at the tool, its rows in m and rad as they are.
+    pub min_singular_value: f64,
+    /// Yoshikawa's manipulability, sqrt(det(J J^T)): the product of the singular values.
+    pub manipulability: f64,
+    /// The singularities at which the joint vector stands.
+    pub kinds: Status,
+}
+
+/// The singular values of a Jacobian of 6 or 7 joints, the largest first.
+pub(crate) fn singular_values<const N: usize>(jacobian: &SMatrix<f64, 6, N>) -> [f64; 6] {
+    // A column of zeros changes no singular value: one size serves every arm.
+    let mut padded = SMatrix::<f64, 6, 7>::zeros();
+    for (to, from) in padded.column_iter_mut().zip(jacobian.column_iter()) {
+        let mut to = to;
+        to.copy_from(&from);
+    }
+    padded.singular_values().into()
+}

@@ -1,0 +1,129 @@
+//! The answer of a solve: up to eight solutions, each in its slot.
+
+use super::limits::JointLimits;
+use super::pose::Pose;
+use super::status::{Explanation, Reach, Status};
+
+/// Number of slots of every closed-form arm.
+pub const SLOTS: usize = 8;
+
+/// One joint vector that brings the tool to the pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Solution<const N: usize> {
+    /// Joint angles [rad]: in (-pi, pi], or the full turn of it that is inside the limits.
+    pub q: [f64; N],
+    /// The slot, 0 ..= 7. For spherical-wrist arms: 4 (wrist centre behind axis 1) + 2 (behind the lower arm) + 1 (q5 < 0).
+    pub slot: u8,
+    /// Found, inside the limits or not, and the singularities that the pose stands at.
+    pub status: Status,
+}
+
+impl<const N: usize> Solution<N> {
+    /// Whether every joint is inside its limits.
+    #[must_use]
+    pub fn within_limits(&self) -> bool {
+        self.status.contains(Status::WITHIN_LIMITS)
+    }
+
+    /// The singularities that the pose stands at.
+    #[must_use]
+    pub fn kinds(&self) -> Status {
+        self.status & Status::KINDS
+    }
+}
+
+/// Every solution of a pose, and why there is none where there is none.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solutions<const N: usize> {
+    pub(crate) slots: [Option<Solution<N>>; SLOTS],
+    pub(crate) merged: [Status; SLOTS],
+    pub(crate) reach: Reach,
+    pub(crate) pose: Pose,
+    pub(crate) limits: JointLimits<N>,
+    /// Why the last selection left nothing.
+    pub(crate) emptied: Option<Explanation>,
+}
+
+impl<const N: usize> Solutions<N> {
+    /// Number of solutions, limits not regarded.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.iter().count()
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The solutions in the order of their slots.
+    pub fn iter(&self) -> impl Iterator<Item = &Solution<N>> {
+        self.slots.iter().flatten()
+    }
+
+    /// The solution in a slot.
+    #[must_use]
+    pub fn slot(&self, slot: usize) -> Option<&Solution<N>> {
+        self.slots.get(slot)?.as_ref()
+    }
+
+    /// What the solve says of each slot; empty flags where the branch does not exist.
+    #[must_use]
+    pub fn status(&self) -> [Status; SLOTS] {
+        core::array::from_fn(|i| self.slots[i].as_ref().map_or(self.merged[i], |solution| solution.status))
+    }
+
+    /// Whether the wrist centre gets to where the pose wants it.
+    #[must_use]
+    pub fn reach(&self) -> Reach {
+        self.reach
+    }
+
+    /// The pose that was solved.
+    #[must_use]
+    pub fn pose(&self) -> &Pose {
+        &self.pose
+    }
+
+    /// The limits that the solutions were held against.
+    #[must_use]
+    pub fn limits(&self) -> &JointLimits<N> {
+        &self.limits
+    }
+
+    /// The outcome in a sentence.
+    #[must_use]
+    pub fn explain(&self) -> Explanation {
+        if let Some(explanation) = self.emptied {
+            return explanation;
+        }
+        if self.reach != Reach::Reached {
+            return Explanation::OutOfReach(self.reach);
+        }
+        let solutions = self.len();
+        let inside = self.iter().filter(|solution| solution.within_limits()).count();
+        if inside > 0 {
+            return Explanation::Found { solutions, inside };
+        }
+        // The solution whose worst joint is the least outside.
+        let worst = |solution: &Solution<N>| {
+            (0..N)
+                .map(|joint| (joint + 1, self.limits.excess(joint, solution.q[joint])))
+                .fold((1, 0.0), |worst, joint| if joint.1 > worst.1 { joint } else { worst })
+        };
+        match self.iter().map(worst).min_by(|a, b| a.1.total_cmp(&b.1)) {
+            Some((joint, excess)) => Explanation::OutsideLimits { solutions, joint, excess },
+            None => Explanation::FilteredOut,
+        }
+    }
+}
+
+impl<'a, const N: usize> IntoIterator for &'a Solutions<N> {
+    type Item = &'a Solution<N>;
+    type IntoIter = core::iter::Flatten<core::slice::Iter<'a, Option<Solution<N>>>>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.slots.iter().flatten()
+    }
+}

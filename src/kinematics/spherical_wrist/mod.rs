@@ -1,0 +1,120 @@
+//! Arms with an ortho-parallel basis and a spherical wrist: axis 1 square to axis 2, axes 2 and 3 parallel, axes 4, 5, 6 through one point.
+//!
+//! `docs/ik_derivation.md` has the derivation; its equation numbers stand beside the code.
+
+mod opw;
+mod recognise;
+mod solve;
+
+pub use opw::OpwParameters;
+pub use recognise::{Condition, NotRecognised};
+pub(crate) use recognise::recognise;
+pub(crate) use solve::FreeChoice;
+
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
+use super::angles::distance_from_half_turns;
+use super::pose::{Pose, translation_z};
+use super::status::Status;
+use super::thresholds::{ELBOW_MERGE_SIN, LATERAL_MERGE, SHOULDER_MERGE, WRIST_MERGE_SIN};
+
+/// The geometry between the shoulder (on axis 1, at the height of axis 2) and the wrist centre.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SphericalWrist {
+    a1: f64,
+    a2: f64,
+    b: f64,
+    c2: f64,
+    c3: f64,
+    /// Length of the forearm, hypot(a2, c3).
+    k: f64,
+    signs: [f64; 6],
+    offsets: [f64; 6],
+    t_base_shoulder: Pose,
+    t_wrist_flange: Pose,
+}
+
+/// How far a joint vector is from each singularity of a spherical-wrist arm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SingularDistances {
+    /// Angle of joint 5 from 0 or 180 deg [rad].
+    pub wrist: f64,
+    /// Angle between upper arm and forearm from stretched or folded [rad].
+    pub elbow: f64,
+    /// Distance of the wrist centre from the plane through axis 1 that holds axis 2's direction [m]; from axis 1 itself where b = 0.
+    pub shoulder: f64,
+}
+
+impl SphericalWrist {
+    pub(crate) fn from_opw(opw: &OpwParameters) -> Self {
+        Self {
+            a1: opw.a1,
+            a2: opw.a2,
+            b: opw.b,
+            c2: opw.c2,
+            c3: opw.c3,
+            k: opw.a2.hypot(opw.c3),
+            signs: opw.signs.map(f64::from),
+            offsets: opw.offsets,
+            t_base_shoulder: translation_z(opw.c1),
+            t_wrist_flange: translation_z(opw.c4),
+        }
+    }
+
+    pub(crate) fn t_base_shoulder(&self) -> &Pose {
+        &self.t_base_shoulder
+    }
+
+    pub(crate) fn t_wrist_flange(&self) -> &Pose {
+        &self.t_wrist_flange
+    }
+
+    fn theta(&self, q: &[f64; 6]) -> [f64; 6] {
+        core::array::from_fn(|i| self.signs[i] * q[i] - self.offsets[i])
+    }
+
+    /// The sine of the elbow angle, x of the wrist centre in the plane of the arm [m], and the sine of joint 5, signed (eq. 21).
+    fn factors(&self, q: &[f64; 6]) -> [f64; 3] {
+        let [_, t2, t3, _, t5, _] = self.theta(q);
+        let (sin_2, cos_2) = t2.sin_cos();
+        let (sin_3, cos_3) = t3.sin_cos();
+        let (sin_23, cos_23) = (sin_2 * cos_3 + cos_2 * sin_3, cos_2 * cos_3 - sin_2 * sin_3);
+        let elbow = (self.a2 * cos_3 + self.c3 * sin_3) / self.k;
+        let x = self.a1 + self.c2 * sin_2 + self.c3 * sin_23 + self.a2 * cos_23;
+        [elbow, x, t5.sin()]
+    }
+
+    /// The determinant of the geometric Jacobian at the wrist centre, which is that of the tool's (eq. 21).
+    #[must_use]
+    pub fn jacobian_determinant(&self, q: &[f64; 6]) -> f64 {
+        let [elbow, x, wrist] = self.factors(q);
+        self.signs.iter().product::<f64>() * self.c2 * self.k * elbow * x * wrist
+    }
+
+    /// How far `q` is from each singularity.
+    #[must_use]
+    pub fn singular_distances(&self, q: &[f64; 6]) -> SingularDistances {
+        let [_, _, t3, _, t5, _] = self.theta(q);
+        SingularDistances {
+            wrist: distance_from_half_turns(t5),
+            elbow: distance_from_half_turns(t3 + self.a2.atan2(self.c3)),
+            shoulder: self.factors(q)[1].abs(),
+        }
+    }
+
+    /// The singularities at which `q` stands, by the thresholds that also merge the branches of a solve.
+    #[must_use]
+    pub fn kinds(&self, q: &[f64; 6]) -> Status {
+        let [elbow, x, wrist] = self.factors(q);
+        let mut kinds = Status::empty();
+        kinds.set(Status::WRIST, wrist.abs() <= WRIST_MERGE_SIN);
+        kinds.set(Status::ELBOW, elbow.abs() <= ELBOW_MERGE_SIN);
+        kinds.set(Status::SHOULDER, x.abs() <= self.shoulder_merge());
+        kinds
+    }
+
+    fn shoulder_merge(&self) -> f64 {
+        SHOULDER_MERGE.max((self.b.abs() * LATERAL_MERGE).sqrt())
+    }
+}

@@ -1,0 +1,52 @@
+//! Every threshold of the library, with its unit and its reason. `docs/accuracy.md` derives them.
+
+/// How far a rotation's columns may be from orthonormal and still be repaired: the largest element of `R^T R - I` [1].
+/// Single precision (6e-8) and text with six digits (1e-6) are inside, a scaled or sheared matrix is not.
+pub const ROTATION_REPAIR_BOUND: f64 = 1e-5;
+
+/// Deviation below which a rotation is taken as it is [1]: a product of seven rotations in float64 is this far off, a repair gains nothing.
+pub const ROTATION_ROUNDING: f64 = 4e-15;
+
+/// How far the last row of a pose may be from 0 0 0 1 [1]: what a numerically inverted matrix leaves there.
+pub const LAST_ROW_BOUND: f64 = 1e-9;
+
+/// How far a quaternion's norm may be from one [1]. Normalising loses no direction, so text with three digits is taken.
+pub const QUATERNION_NORM_BOUND: f64 = 2e-3;
+
+/// Cosine of the middle ZYX angle below which the outer two act as one [1]: a few roundings of a rotation's elements.
+pub const GIMBAL_COS: f64 = 1e-14;
+
+/// How far beyond reach the wrist centre may be and still get the stretched (or folded) arm [m].
+pub const REACH_TOLERANCE: f64 = 1e-9;
+
+/// |sin q5| below which the wrist's two branches are one [1]. A nanoradian is out of any encoder's sight, and both are returned from 2e-9 on.
+pub const WRIST_MERGE_SIN: f64 = 1.5e-9;
+
+/// |sin q5| below which a pose says nothing of q4 [1]: the rounding of the wrist's rotation, so a free choice leaves the residual there.
+pub const WRIST_FREE_SIN: f64 = 5e-15;
+
+/// Distance of the wrist centre from axis 1 below which the front and the back branch are one [m]; both are returned from 2e-9 on.
+pub const SHOULDER_MERGE: f64 = 1.5e-9;
+
+/// Position below which a direction is rounding, as a part of the arm's length [1]: a wrist centre this close to axis 1 says nothing of q1.
+pub const POSITION_ROUNDING: f64 = 2e-15;
+
+/// Square of the distance from the shoulder's tangent plane below which front and back are one, over the lateral offset b [m].
+/// With b != 0 the two branches meet like the elbow's, by the square root of rounding: x^2 = rho^2 - b^2 is rounded to about 1e-15 b.
+pub const LATERAL_MERGE: f64 = 1e-14;
+
+/// |sin| of the elbow angle below which the two elbow branches are one [1]. They differ by the square root of rounding, about 3e-8 rad:
+/// below this a pose does not tell them apart, and both are returned from 1e-6 on.
+pub const ELBOW_MERGE_SIN: f64 = 1e-7;
+
+/// How close to a singularity a seeded solve may keep the seed's free joint [rad, m]: the precision of the best poses met in practice.
+pub const SEEDED_FREE: f64 = 1e-12;
+
+/// How far an angle may pass a joint limit and still be inside [rad]: a pose taught at the limit must not be lost to rounding.
+pub const LIMIT_TOLERANCE: f64 = 1e-9;
+
+/// Least length of an upper arm or forearm [m].
+pub const LEAST_LINK: f64 = 1e-6;
+
+/// How far a Denavit-Hartenberg table may be from a known form and still be it [rad, m]: the rounding of a table in text. It is squared up.
+pub const FORM_TOLERANCE: f64 = 1e-9;

@@ -1,0 +1,51 @@
+//! Kinematics of ABB IRB robots and their kin: every inverse-kinematics solution, in a named slot, without allocating.
+//!
+//! All eight ways to bring an IRB 2600's tool to a pose:
+//!
+//! ```
+//! use irbkin::Robot;
+//!
+//! let robot: Robot<6> = Robot::named("IRB 2600-12/1.65")?;
+//! let pose = robot.fk(&[0.3, -0.2, 0.4, 0.5, -0.6, 0.7]);
+//! let solutions = robot.ik(&pose)?;
+//! assert_eq!(solutions.len(), 8);
+//! for solution in &solutions {
+//!     assert!(robot.residual(&solution.q, &pose).largest() < 1e-14);
+//! }
+//! # Ok::<(), irbkin::Error>(())
+//! ```
+//!
+//! The one a controller wants, next to where the arm stands:
+//!
+//! ```
+//! use irbkin::{Robot, pose_from_quaternion};
+//!
+//! let robot: Robot<6> = Robot::named("irb 1200 5/0.9")?;
+//! let pose = pose_from_quaternion([0.45, 0.1, 0.6], [0.5, 0.0, 0.75_f64.sqrt(), 0.0])?;
+//! let here = [0.2, 0.0, 0.3, 0.0, 0.5, 0.0];
+//! let next = robot.ik_nearest(&pose, &here, &[1.0; 6])?;
+//! assert!(next.within_limits());
+//! # Ok::<(), irbkin::Error>(())
+//! ```
+//!
+//! Metres, radians, `f64`. `docs/` of the repository has the conventions, the derivation and the accuracy.
+#![cfg_attr(not(feature = "std"), no_std)]
+#![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::float_cmp))]
+
+extern crate alloc;
+#[cfg(test)]
+extern crate std;
+
+mod catalogue;
+mod error;
+mod kinematics;
+#[cfg(feature = "python")]
+mod python;
+
+pub use catalogue::{AngleUnit, CatalogueArm, CatalogueGeometry, catalogue, find};
+pub use error::{Error, JointFault, ModelFault, PoseFault, UnknownRobot};
+pub use kinematics::{
+    Chain, Condition, Definition, DhRow, Explanation, JacobianFrame, JointLimits, Mdh, NotRecognised, OpwParameters, Pose, PoseError, Reach,
+    Robot, SLOTS, Sdh, SingularDistances, Singularity, Solution, Solutions, SphericalWrist, Status, pose_from_euler_zyx,
+    pose_from_quaternion, pose_from_rows, pose_to_euler_zyx, pose_to_quaternion, pose_to_rows, thresholds,
+};

@@ -1,0 +1,63 @@
+//! What several law tests need: random numbers, arms, distances.
+#![allow(dead_code, missing_docs, clippy::unwrap_used)]
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use irbkin::{Definition, Error, JointLimits, OpwParameters, Robot};
+
+/// A small generator, so that a run gives the same poses everywhere (xorshift64*).
+pub struct Rng(u64);
+
+impl Rng {
+    pub fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
+    }
+
+    /// Uniform in 0 .. 1.
+    pub fn unit(&mut self) -> f64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        #[expect(clippy::cast_precision_loss, reason = "53 bits")]
+        let mantissa = (self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 11) as f64;
+        mantissa / (1_u64 << 53) as f64
+    }
+
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    /// Uniform inside the limits; in one turn where a joint has none.
+    pub fn inside<const N: usize>(&mut self, limits: &JointLimits<N>) -> [f64; N] {
+        limits.to_array().map(|[low, high]| self.between(low.max(-TAU * 2.0), high.min(TAU * 2.0)))
+    }
+}
+
+/// Largest difference of two joint vectors, full turns not counted [rad].
+pub fn apart(a: &[f64; 6], b: &[f64; 6]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b - TAU * ((a - b) / TAU).round()).abs()).fold(0.0, f64::max)
+}
+
+/// Distance of the stretched arm's flange from axis 1, at the height of the shoulder [m].
+pub fn reach_of(robot: &Robot<6>) -> f64 {
+    match robot.definition() {
+        Definition::Opw(opw) => opw.a1.abs() + opw.c2 + opw.a2.hypot(opw.c3) + opw.c4,
+        Definition::Mdh(mdh) => mdh.rows.iter().map(|row| row.a.hypot(row.d)).sum(),
+    }
+}
+
+/// KUKA KR 6 R700 sixx (parameters of the cases from rs-opw-kinematics).
+pub fn kuka_kr6() -> Result<Robot<6>, Error> {
+    let robot = Robot::from_opw(OpwParameters {
+        a1: 0.025,
+        a2: -0.035,
+        b: 0.0,
+        c1: 0.4,
+        c2: 0.315,
+        c3: 0.365,
+        c4: 0.08,
+        offsets: [0.0, -FRAC_PI_2, 0.0, 0.0, 0.0, 0.0],
+        signs: [-1, 1, 1, -1, 1, -1],
+    })?;
+    Ok(robot.with_limits(JointLimits::new([[-PI, PI]; 6])?))
+}
