@@ -220,6 +220,9 @@ impl fmt::Display for ModelFault {
 impl fmt::Display for UnknownRobot {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "unknown robot \"{}\"", self.name)?;
+        if self.close.is_empty() {
+            return write!(f, "; no name of the catalogue is close to it");
+        }
         for (i, name) in self.close.iter().enumerate() {
             write!(f, "{}\"{name}\"", if i == 0 { "; close names: " } else { ", " })?;
         }

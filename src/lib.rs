@@ -36,6 +36,8 @@ extern crate alloc;
 #[cfg(test)]
 extern crate std;
 
+#[cfg(feature = "std")]
+pub mod batch;
 mod catalogue;
 mod error;
 mod kinematics;
@@ -45,7 +47,7 @@ mod python;
 pub use catalogue::{AngleUnit, CatalogueArm, CatalogueGeometry, catalogue, find};
 pub use error::{Error, JointFault, ModelFault, PoseFault, UnknownRobot};
 pub use kinematics::{
-    Chain, Condition, Definition, DhRow, Explanation, JacobianFrame, JointLimits, Mdh, NotRecognised, OpwParameters, Pose, PoseError, Reach,
-    Robot, SLOTS, Sdh, SingularDistances, Singularity, Solution, Solutions, SphericalWrist, Status, pose_from_euler_zyx,
+    Chain, Condition, Definition, DhRow, Explanation, JacobianFrame, JointLimits, Mdh, NotRecognised, OpwParameters, Pose, PoseError,
+    Reach, Robot, SLOTS, Sdh, SingularDistances, Singularity, Solution, Solutions, SphericalWrist, Status, pose_from_euler_zyx,
     pose_from_quaternion, pose_from_rows, pose_to_euler_zyx, pose_to_quaternion, pose_to_rows, thresholds,
 };

@@ -51,12 +51,7 @@ pub(crate) struct Frame {
 impl Frame {
     fn of(pose: &Pose) -> Self {
         let axes = pose.rotation.matrix();
-        Self {
-            x: axes.column(0).into(),
-            y: axes.column(1).into(),
-            z: axes.column(2).into(),
-            origin: pose.translation.vector,
-        }
+        Self { x: axes.column(0).into(), y: axes.column(1).into(), z: axes.column(2).into(), origin: pose.translation.vector }
     }
 
     fn pose(&self) -> Pose {
@@ -71,12 +66,7 @@ impl Frame {
         let cos = cos_q * link.cos_theta - sin_q * link.sin_theta;
         let y = self.y * link.cos_alpha + self.z * link.sin_alpha;
         let z = self.z * link.cos_alpha - self.y * link.sin_alpha;
-        Self {
-            x: self.x * cos + y * sin,
-            y: y * cos - self.x * sin,
-            z,
-            origin: self.origin + self.x * link.a + z * link.d,
-        }
+        Self { x: self.x * cos + y * sin, y: y * cos - self.x * sin, z, origin: self.origin + self.x * link.a + z * link.d }
     }
 }
 

@@ -22,6 +22,8 @@ pub use pose::{
     Pose, PoseError, pose_from_euler_zyx, pose_from_quaternion, pose_from_rows, pose_to_euler_zyx, pose_to_quaternion, pose_to_rows,
 };
 pub use robot::{Definition, Robot};
+#[cfg(feature = "python")]
+pub(crate) use select::{check_joints, check_weights};
 pub use singularity::Singularity;
 pub use solutions::{SLOTS, Solution, Solutions};
 pub use spherical_wrist::{Condition, NotRecognised, OpwParameters, SingularDistances, SphericalWrist};

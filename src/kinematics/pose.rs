@@ -26,10 +26,7 @@ impl PoseError {
     pub fn between(a: &Pose, b: &Pose) -> Self {
         // |Ra - Rb| (Frobenius) is 2 sqrt(2) sin(angle / 2): accurate for small angles, where the trace is not.
         let chord = (a.rotation.matrix() - b.rotation.matrix()).norm() / 8.0_f64.sqrt();
-        Self {
-            position: (a.translation.vector - b.translation.vector).norm(),
-            rotation: 2.0 * chord.min(1.0).asin(),
-        }
+        Self { position: (a.translation.vector - b.translation.vector).norm(), rotation: 2.0 * chord.min(1.0).asin() }
     }
 
     /// The larger of the two numbers, metres against radians.
@@ -63,10 +60,22 @@ pub fn pose_to_rows(pose: &Pose) -> [f64; 16] {
     let r = pose.rotation.matrix();
     let p = &pose.translation.vector;
     [
-        r[(0, 0)], r[(0, 1)], r[(0, 2)], p[0],
-        r[(1, 0)], r[(1, 1)], r[(1, 2)], p[1],
-        r[(2, 0)], r[(2, 1)], r[(2, 2)], p[2],
-        0.0, 0.0, 0.0, 1.0,
+        r[(0, 0)],
+        r[(0, 1)],
+        r[(0, 2)],
+        p[0],
+        r[(1, 0)],
+        r[(1, 1)],
+        r[(1, 2)],
+        p[1],
+        r[(2, 0)],
+        r[(2, 1)],
+        r[(2, 2)],
+        p[2],
+        0.0,
+        0.0,
+        0.0,
+        1.0,
     ]
 }
 
@@ -107,9 +116,15 @@ pub fn pose_from_quaternion(xyz: [f64; 3], wxyz: [f64; 4]) -> Result<Pose, Error
     }
     let [w, x, y, z] = wxyz.map(|element| element / norm);
     let rotation = Matrix3::new(
-        1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y),
-        2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x),
-        2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y),
+        1.0 - 2.0 * (y * y + z * z),
+        2.0 * (x * y - w * z),
+        2.0 * (x * z + w * y),
+        2.0 * (x * y + w * z),
+        1.0 - 2.0 * (x * x + z * z),
+        2.0 * (y * z - w * x),
+        2.0 * (x * z - w * y),
+        2.0 * (y * z + w * x),
+        1.0 - 2.0 * (x * x + y * y),
     );
     Ok(IsometryMatrix3::from_parts(Translation3::from(xyz), Rotation3::from_matrix_unchecked(rotation)))
 }
@@ -124,9 +139,15 @@ pub fn pose_from_euler_zyx(xyz: [f64; 3], zyx: [f64; 3]) -> Result<Pose, Error> 
     check_finite("euler_zyx", &zyx)?;
     let [(sz, cz), (sy, cy), (sx, cx)] = zyx.map(f64::sin_cos);
     let rotation = Matrix3::new(
-        cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx,
-        sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx,
-        -sy, cy * sx, cy * cx,
+        cz * cy,
+        cz * sy * sx - sz * cx,
+        cz * sy * cx + sz * sx,
+        sz * cy,
+        sz * sy * sx + cz * cx,
+        sz * sy * cx - cz * sx,
+        -sy,
+        cy * sx,
+        cy * cx,
     );
     Ok(IsometryMatrix3::from_parts(Translation3::from(xyz), Rotation3::from_matrix_unchecked(rotation)))
 }

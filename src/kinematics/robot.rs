@@ -11,7 +11,7 @@ use super::limits::JointLimits;
 use super::pose::{Pose, PoseError, checked_pose};
 use super::select::{check_joints, check_weights};
 use super::singularity::{Singularity, singular_values};
-use super::solutions::{SLOTS, Solution, Solutions};
+use super::solutions::{Solution, Solutions};
 use super::spherical_wrist::{FreeChoice, NotRecognised, OpwParameters, SphericalWrist, recognise};
 use super::status::Status;
 use crate::error::{Error, ModelFault};
@@ -117,8 +117,8 @@ impl Robot<6> {
                 Solution { q, slot: slot as u8, status }
             })
         });
-        debug_assert_eq!(branches.flags.len(), SLOTS);
-        Ok(Solutions { slots, merged: branches.flags, reach: branches.reach, pose, limits: self.limits, emptied: None })
+        let merged = branches.flags.map(|flags| if flags.contains(Status::MERGED) { flags } else { Status::empty() });
+        Ok(Solutions { slots, merged, reach: branches.reach, pose, limits: self.limits, emptied: None })
     }
 
     /// The spherical-wrist geometry, for an arm that has one.
@@ -264,6 +264,15 @@ impl<const N: usize> Robot<N> {
         match self.geometry {
             Geometry::SphericalWrist(_) => "spherical wrist",
             Geometry::Serial(_) => "serial",
+        }
+    }
+
+    /// Why the arm has no closed form, where it has none.
+    #[must_use]
+    pub fn no_closed_form(&self) -> Option<NotRecognised> {
+        match self.geometry {
+            Geometry::SphericalWrist(_) => None,
+            Geometry::Serial(reason) => Some(reason),
         }
     }
 

@@ -137,7 +137,7 @@ impl<const N: usize> Iterator for Turns<N> {
 }
 
 /// A joint vector of which every angle is finite.
-pub(crate) fn check_joints<const N: usize>(field: &'static str, q: &[f64; N]) -> Result<(), Error> {
+pub(crate) fn check_joints(field: &'static str, q: &[f64]) -> Result<(), Error> {
     match q.iter().position(|angle| !angle.is_finite()) {
         Some(i) => Err(JointFault::NotFinite { field, joint: i + 1, value: q[i] }.into()),
         None => Ok(()),
@@ -145,7 +145,7 @@ pub(crate) fn check_joints<const N: usize>(field: &'static str, q: &[f64; N]) ->
 }
 
 /// Weights that are finite and not negative.
-pub(crate) fn check_weights<const N: usize>(weights: &[f64; N]) -> Result<(), Error> {
+pub(crate) fn check_weights(weights: &[f64]) -> Result<(), Error> {
     match weights.iter().position(|weight| !(weight.is_finite() && *weight >= 0.0)) {
         Some(i) => Err(JointFault::Weight { joint: i + 1, value: weights[i] }.into()),
         None => Ok(()),

@@ -1,5 +1,5 @@
 //! What several law tests need: random numbers, arms, distances.
-#![allow(dead_code, missing_docs, clippy::unwrap_used)]
+#![allow(dead_code, unreachable_pub, missing_docs, clippy::unwrap_used)]
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

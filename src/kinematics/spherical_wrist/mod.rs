@@ -7,8 +7,8 @@ mod recognise;
 mod solve;
 
 pub use opw::OpwParameters;
-pub use recognise::{Condition, NotRecognised};
 pub(crate) use recognise::recognise;
+pub use recognise::{Condition, NotRecognised};
 pub(crate) use solve::FreeChoice;
 
 #[cfg(not(feature = "std"))]

@@ -67,7 +67,9 @@ impl fmt::Display for Condition {
             Self::Perpendicular { axes: (i, j), off } => {
                 write!(f, "axes {i} and {j} must be at right angles, they are {:.6} deg off", off.to_degrees())
             }
-            Self::Parallel { axes: (i, j), off } => write!(f, "axes {i} and {j} must be parallel, they are {:.6} deg off", off.to_degrees()),
+            Self::Parallel { axes: (i, j), off } => {
+                write!(f, "axes {i} and {j} must be parallel, they are {:.6} deg off", off.to_degrees())
+            }
             Self::Meeting { axes: (i, j), off } => write!(f, "axes {i} and {j} must meet, they pass {:.6} mm apart", off * 1e3),
         }
     }
@@ -157,7 +159,9 @@ fn measure(mdh: &Mdh<6>) -> Result<SphericalWrist, Error> {
     let approach = f6.z * sign_6;
     let theta_5 = angle(&approach, &forearm, &axis_5.cross(&forearm));
 
-    for (field, value) in [("upper arm (distance of axes 2 and 3)", c2), ("forearm (distance of the wrist centre from axis 3)", a2.hypot(c3))] {
+    for (field, value) in
+        [("upper arm (distance of axes 2 and 3)", c2), ("forearm (distance of the wrist centre from axis 3)", a2.hypot(c3))]
+    {
         if value < LEAST_LINK {
             return Err(ModelFault::TooShort { field, value, bound: LEAST_LINK }.into());
         }

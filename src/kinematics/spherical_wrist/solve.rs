@@ -12,9 +12,7 @@ use crate::kinematics::angles::wrap;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::solutions::SLOTS;
 use crate::kinematics::status::{Reach, Status};
-use crate::kinematics::thresholds::{
-    ELBOW_MERGE_SIN, POSITION_ROUNDING, REACH_TOLERANCE, SEEDED_FREE, WRIST_FREE_SIN, WRIST_MERGE_SIN,
-};
+use crate::kinematics::thresholds::{ELBOW_MERGE_SIN, POSITION_ROUNDING, REACH_TOLERANCE, SEEDED_FREE, WRIST_FREE_SIN, WRIST_MERGE_SIN};
 
 /// What to take for a joint that the pose does not determine.
 #[derive(Clone, Copy, Debug)]
@@ -159,8 +157,7 @@ impl SphericalWrist {
             if wrist.merged {
                 branches.flags[flipped] |= Status::MERGED;
             } else {
-                branches.q[flipped] =
-                    Some(self.joints([theta_1, elbow.theta_2, elbow.theta_3, theta_4 + PI, -theta_5, theta_6 + PI]));
+                branches.q[flipped] = Some(self.joints([theta_1, elbow.theta_2, elbow.theta_3, theta_4 + PI, -theta_5, theta_6 + PI]));
             }
         }
         Reach::Reached

@@ -1,0 +1,49 @@
+"""Kinematics of ABB IRB robots and their kin.
+
+Every inverse-kinematics solution, each in a named slot, with limits and singularities told. Metres, radians, float64;
+poses are 4x4 homogeneous matrices.
+
+    >>> import irbkin
+    >>> robot = irbkin.Robot("IRB 2600-12/1.65")
+    >>> solutions = robot.ik(robot.fk([0.3, -0.2, 0.4, 0.5, -0.6, 0.7]))
+    >>> len(solutions)
+    8
+"""
+
+from importlib.metadata import version
+
+from irbkin._core import Robot, Solution, Solutions, catalog, pose, to_xyz_euler_zyx, to_xyz_quaternion
+from irbkin.errors import (
+    InvalidJointsError,
+    InvalidModelError,
+    InvalidPoseError,
+    IrbkinError,
+    UnknownRobotError,
+    UnreachableError,
+)
+from irbkin.records import IkBatch, Kind, PoseCheck, Reach, Singularity, Status
+
+__version__ = version("irbkin")
+
+__all__ = [
+    "IkBatch",
+    "InvalidJointsError",
+    "InvalidModelError",
+    "InvalidPoseError",
+    "IrbkinError",
+    "Kind",
+    "PoseCheck",
+    "Reach",
+    "Robot",
+    "Singularity",
+    "Solution",
+    "Solutions",
+    "Status",
+    "UnknownRobotError",
+    "UnreachableError",
+    "__version__",
+    "catalog",
+    "pose",
+    "to_xyz_euler_zyx",
+    "to_xyz_quaternion",
+]

@@ -1,0 +1,38 @@
+"""What irbkin raises. Every message names the field, the value and the bound."""
+
+__all__ = [
+    "InvalidJointsError",
+    "InvalidModelError",
+    "InvalidPoseError",
+    "IrbkinError",
+    "UnknownRobotError",
+    "UnreachableError",
+]
+
+
+class IrbkinError(ValueError):
+    """The base of every error of irbkin."""
+
+
+class InvalidPoseError(IrbkinError):
+    """A pose is no rigid transform, or its array has a wrong shape."""
+
+
+class InvalidJointsError(IrbkinError):
+    """A joint vector is not finite, or its array has a wrong shape."""
+
+
+class InvalidModelError(IrbkinError):
+    """An arm cannot be built from these figures, or has no closed form for what is asked."""
+
+
+class UnreachableError(IrbkinError):
+    """No solution inside the limits."""
+
+
+class UnknownRobotError(IrbkinError, KeyError):
+    """The catalogue has no arm of that name; the message has the close ones."""
+
+    def __str__(self) -> str:
+        """The message as it is: KeyError would put it in quotes."""
+        return str(self.args[0]) if self.args else ""

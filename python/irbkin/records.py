@@ -1,0 +1,92 @@
+"""Flags and records that come out of irbkin."""
+
+from __future__ import annotations
+
+import enum
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+__all__ = ["IkBatch", "Kind", "PoseCheck", "Reach", "Singularity", "Status"]
+
+
+class Status(enum.IntFlag):
+    """What a solve says of one slot."""
+
+    FOUND = 1
+    """The slot holds a solution."""
+    WITHIN_LIMITS = 2
+    """The solution is inside the joint limits."""
+    WRIST = 4
+    """sin q5 = 0: axes 4 and 6 are one, only q4 + q6 or q4 - q6 is determined."""
+    ELBOW = 8
+    """The arm is stretched or folded: both elbow branches coincide."""
+    SHOULDER = 16
+    """The wrist centre is on axis 1: q1 is not determined."""
+    MERGED = 32
+    """The slot is empty because its solution coincides with that of another slot at a singularity."""
+    INVALID = 64
+    """The input of this row was invalid."""
+
+
+class Kind(enum.IntFlag):
+    """Kinds of singularity, with the values that they have in `Status`."""
+
+    WRIST = 4
+    """sin q5 = 0."""
+    ELBOW = 8
+    """The arm is stretched or folded."""
+    SHOULDER = 16
+    """The wrist centre is on axis 1."""
+
+
+class Reach(enum.Enum):
+    """Whether the wrist centre gets to where a pose wants it."""
+
+    REACHED = "reached"
+    TOO_FAR = "too far"
+    """It lies beyond the stretched arm."""
+    TOO_NEAR = "too near"
+    """It lies closer than the folded arm."""
+
+
+class IkBatch(NamedTuple):
+    """Solutions of many poses."""
+
+    q: npt.NDArray[np.float64]
+    """Joint angles [rad], shape (..., 8, n), NaN where a slot is empty."""
+    status: npt.NDArray[np.uint8]
+    """`Status` of each slot, shape (..., 8)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Singularity:
+    """How far joint vectors are from the singularities; numbers for one, arrays for many."""
+
+    wrist: Any
+    """Angle of joint 5 from 0 or 180 deg [rad]."""
+    elbow: Any
+    """Angle between upper arm and forearm from stretched or folded [rad]."""
+    shoulder: Any
+    """Distance of the wrist centre from axis 1 [m]; with a lateral offset b, from the plane through axis 1 along axis 2."""
+    min_singular_value: Any
+    """Smallest singular value of the Jacobian at the tool, its rows in m and rad as they are."""
+    manipulability: Any
+    """sqrt(det(J J^T)), the product of the singular values."""
+    kinds: Any
+    """`Kind` of the singularities at which the joint vector stands; for many, an array of its values, uint8."""
+
+
+@dataclass(frozen=True, slots=True)
+class PoseCheck:
+    """Whether a pose can be reached."""
+
+    reachable: bool
+    """Some joint vector brings the tool there."""
+    within_limits: bool
+    """One of them is inside the joint limits."""
+    reason: str
+    """The outcome in a sentence."""

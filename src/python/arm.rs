@@ -1,0 +1,122 @@
+//! A robot of either number of joints behind one Python class.
+
+use std::sync::Arc;
+
+use numpy::PyArrayDyn;
+use pyo3::prelude::*;
+
+use super::arrays::{Rows, output, writable};
+use super::errors::{Fault, to_py};
+use crate::batch;
+use crate::error::{Error, ModelFault};
+use crate::kinematics::{JacobianFrame, Robot, Singularity, check_joints};
+
+/// A robot of six or seven joints.
+#[derive(Clone, PartialEq)]
+pub(super) enum Arm {
+    Six(Arc<Robot<6>>),
+    Seven(Arc<Robot<7>>),
+}
+
+/// Runs the same expression on the robot, whatever its number of joints.
+macro_rules! on_robot {
+    ($arm:expr, $robot:ident => $body:expr) => {
+        match $arm {
+            $crate::python::arm::Arm::Six($robot) => $body,
+            $crate::python::arm::Arm::Seven($robot) => $body,
+        }
+    };
+}
+pub(super) use on_robot;
+
+impl From<Robot<6>> for Arm {
+    fn from(robot: Robot<6>) -> Self {
+        Self::Six(Arc::new(robot))
+    }
+}
+
+impl From<Robot<7>> for Arm {
+    fn from(robot: Robot<7>) -> Self {
+        Self::Seven(Arc::new(robot))
+    }
+}
+
+impl Arm {
+    pub(super) fn dof(&self) -> usize {
+        match self {
+            Self::Six(_) => 6,
+            Self::Seven(_) => 7,
+        }
+    }
+
+    /// The robot for a solve; a seven-axis arm says that it has no closed form.
+    pub(super) fn solvable(&self, py: Python<'_>) -> PyResult<&Arc<Robot<6>>> {
+        match self {
+            Self::Six(robot) => Ok(robot),
+            Self::Seven(robot) => {
+                let fault = robot.no_closed_form().map_or(ModelFault::JointCount { found: 7, wanted: 6 }, ModelFault::NoClosedForm);
+                Err(to_py(py, &fault.into()))
+            }
+        }
+    }
+
+    /// Joint vectors as an argument; a single one must be finite.
+    pub(super) fn joints<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Rows<'py>> {
+        let rows = Rows::read(q, &[self.dof()], "q", Fault::Joints)?;
+        if rows.is_single() {
+            check_joints("q", rows.data()?).map_err(|error| to_py(q.py(), &error))?;
+        }
+        Ok(rows)
+    }
+
+    pub(super) fn fk<'py>(&self, q: &Bound<'py, PyAny>, out: Option<&Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.mapped(q, out, &[4, 4], |q, poses| on_robot!(self, robot => batch::fk(robot, q, poses)))
+    }
+
+    pub(super) fn link_frames<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.mapped(q, None, &[self.dof() + 1, 4, 4], |q, frames| on_robot!(self, robot => batch::link_frames(robot, q, frames)))
+    }
+
+    pub(super) fn jacobian<'py>(
+        &self,
+        q: &Bound<'py, PyAny>,
+        frame: JacobianFrame,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.mapped(q, out, &[6, self.dof()], |q, rows| on_robot!(self, robot => batch::jacobian(robot, q, frame, rows)))
+    }
+
+    pub(super) fn singularity(&self, py: Python<'_>, q: &[f64]) -> Vec<Option<Singularity>> {
+        py.detach(|| on_robot!(self, robot => batch::singularity(robot, q).collect()))
+    }
+
+    /// An answer of shape (..., `tail`) for joint vectors (..., n), computed without the interpreter's lock.
+    fn mapped<'py>(
+        &self,
+        q: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+        tail: &[usize],
+        compute: impl FnOnce(&[f64], &mut [f64]) + Send,
+    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let rows = self.joints(q)?;
+        let answer = output(q.py(), out, &rows.shape_with(tail))?;
+        let (data, mut view) = (rows.data()?, writable(&answer)?);
+        let slice = view.as_slice_mut()?;
+        q.py().detach(|| compute(data, slice));
+        Ok(answer)
+    }
+
+    /// The arm with its robot changed.
+    pub(super) fn changed(&self, py: Python<'_>, change: impl Change) -> PyResult<Self> {
+        let changed = match self {
+            Self::Six(robot) => change.apply(Robot::clone(robot)).map(Self::from),
+            Self::Seven(robot) => change.apply(Robot::clone(robot)).map(Self::from),
+        };
+        changed.map_err(|error: Error| to_py(py, &error))
+    }
+}
+
+/// A change of a robot that is the same for any number of joints.
+pub(super) trait Change {
+    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>;
+}

@@ -1,0 +1,207 @@
+//! Building robots from Python's arguments, and their state for pickle, hash and comparison.
+
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+
+use super::arm::{Arm, Change, on_robot};
+use super::arrays::Rows;
+use super::errors::{Fault, to_py};
+use crate::error::{Error, ModelFault};
+use crate::kinematics::{Definition, DhRow, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh, pose_from_rows, pose_to_rows};
+
+/// Which Denavit-Hartenberg convention a table has.
+#[derive(Clone, Copy)]
+pub(super) enum Convention {
+    Modified,
+    Standard,
+}
+
+/// A robot from a Denavit-Hartenberg table of 6 or 7 rows.
+pub(super) fn from_table(
+    rows: &Bound<'_, PyAny>,
+    limits: Option<&Bound<'_, PyAny>>,
+    name: &str,
+    closed_form: bool,
+    convention: Convention,
+) -> PyResult<Arm> {
+    let py = rows.py();
+    let rows = Rows::read(rows, &[4], "rows", Fault::Model)?;
+    let table = rows.data()?.as_chunks::<4>().0;
+    let arm = match rows.lead[..] {
+        [6] => robot_of_table::<6>(table, closed_form, convention).map(Arm::from),
+        [7] => robot_of_table::<7>(table, closed_form, convention).map(Arm::from),
+        _ => return Err(Fault::Model.error(py, format!("rows must have shape (6, 4) or (7, 4), got {:?}", rows.shape_with(&[4])))),
+    };
+    named_and_limited(py, arm.map_err(|error| to_py(py, &error))?, limits, name)
+}
+
+fn robot_of_table<const N: usize>(table: &[[f64; 4]], closed_form: bool, convention: Convention) -> Result<Robot<N>, Error> {
+    let table: &[[f64; 4]; N] = table.try_into().map_err(|_| ModelFault::JointCount { found: table.len(), wanted: N })?;
+    let rows = table.map(|[alpha, a, d, theta]| DhRow::new(alpha, a, d, theta));
+    let (base, flange) = (Pose::identity(), Pose::identity());
+    let mdh = match convention {
+        Convention::Modified => Mdh { base, rows, flange },
+        Convention::Standard => Sdh { base, rows, flange }.into(),
+    };
+    if closed_form { Robot::from_mdh(mdh) } else { Robot::serial_chain(mdh) }
+}
+
+/// A robot from the parameters of an ortho-parallel arm; `signs` as floats, as they come out of an array.
+pub(super) fn from_opw(
+    py: Python<'_>,
+    mut opw: OpwParameters,
+    signs: [f64; 6],
+    limits: Option<&Bound<'_, PyAny>>,
+    name: &str,
+) -> PyResult<Arm> {
+    for (i, value) in signs.into_iter().enumerate() {
+        opw.signs[i] = match value {
+            1.0 => 1,
+            -1.0 => -1,
+            _ => return Err(to_py(py, &ModelFault::Sign { joint: i + 1, value }.into())),
+        };
+    }
+    let robot = Robot::from_opw(opw).map_err(|error| to_py(py, &error))?;
+    named_and_limited(py, robot.into(), limits, name)
+}
+
+/// The arm under a name, with limits where they were given.
+fn named_and_limited(py: Python<'_>, arm: Arm, limits: Option<&Bound<'_, PyAny>>, name: &str) -> PyResult<Arm> {
+    let arm = arm.changed(py, Name(name))?;
+    match limits {
+        Some(limits) => with_limits(&arm, limits),
+        None => Ok(arm),
+    }
+}
+
+/// The arm with limits of shape (n, 2).
+pub(super) fn with_limits(arm: &Arm, limits: &Bound<'_, PyAny>) -> PyResult<Arm> {
+    let rows = Rows::read(limits, &[arm.dof(), 2], "limits", Fault::Model)?;
+    arm.changed(limits.py(), Limits(rows.data()?.as_chunks::<2>().0))
+}
+
+struct Name<'a>(&'a str);
+struct Limits<'a>(&'a [[f64; 2]]);
+/// Another base.
+pub(super) struct Base(pub(super) Pose);
+/// Another tool.
+pub(super) struct Tool(pub(super) Pose);
+struct MaxVelocity<'a>(Option<&'a [f64]>);
+
+impl Change for Name<'_> {
+    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error> {
+        Ok(robot.with_name(self.0.to_owned()))
+    }
+}
+
+impl Change for Limits<'_> {
+    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error> {
+        let limits = <[[f64; 2]; N]>::try_from(self.0).map_err(|_| ModelFault::JointCount { found: N, wanted: self.0.len() })?;
+        Ok(robot.with_limits(JointLimits::new(limits)?))
+    }
+}
+
+impl Change for Base {
+    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error> {
+        robot.with_base(&self.0)
+    }
+}
+
+impl Change for Tool {
+    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error> {
+        robot.with_tool(&self.0)
+    }
+}
+
+impl Change for MaxVelocity<'_> {
+    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error> {
+        let velocity = match self.0 {
+            Some(velocity) => {
+                Some(<[f64; N]>::try_from(velocity).map_err(|_| ModelFault::JointCount { found: N, wanted: velocity.len() })?)
+            }
+            None => None,
+        };
+        robot.with_max_velocity(velocity)
+    }
+}
+
+/// Everything that a robot was built from: (name, definition, numbers of it, limits, base, tool, velocities).
+pub(super) type State = (String, String, Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>, Option<Vec<f64>>);
+
+/// The state of an arm. Equal robots have equal states.
+pub(super) fn state(arm: &Arm) -> State {
+    on_robot!(arm, robot => {
+        let (definition, numbers) = match robot.definition() {
+            Definition::Opw(opw) => ("opw", opw_numbers(opw)),
+            Definition::Mdh(mdh) => ("mdh", mdh_numbers(mdh)),
+        };
+        (
+            robot.name().to_owned(),
+            definition.to_owned(),
+            numbers,
+            robot.limits().to_array().concat(),
+            pose_to_rows(robot.base()).to_vec(),
+            pose_to_rows(robot.tool()).to_vec(),
+            robot.max_velocity().map(|velocity| velocity.to_vec()),
+        )
+    })
+}
+
+fn opw_numbers(opw: &OpwParameters) -> Vec<f64> {
+    let lengths = [opw.a1, opw.a2, opw.b, opw.c1, opw.c2, opw.c3, opw.c4];
+    lengths.into_iter().chain(opw.offsets).chain(opw.signs.map(f64::from)).collect()
+}
+
+fn mdh_numbers<const N: usize>(mdh: &Mdh<N>) -> Vec<f64> {
+    let rows = mdh.rows.iter().flat_map(|row| row.to_array());
+    rows.chain(pose_to_rows(&mdh.base)).chain(pose_to_rows(&mdh.flange)).collect()
+}
+
+/// Hash of a robot's value.
+pub(super) fn hash(py: Python<'_>, arm: &Arm) -> PyResult<isize> {
+    let (name, definition, numbers, limits, base, tool, velocity) = state(arm);
+    let numbers = [numbers, limits, base, tool, velocity.unwrap_or_default()].concat();
+    // Python's own hash of floats holds 0.0 and -0.0 for one, as the comparison does.
+    (name, definition, PyTuple::new(py, numbers)?).into_pyobject(py)?.hash()
+}
+
+/// The arm of a state, for pickle.
+pub(super) fn restored(py: Python<'_>, state: &State) -> PyResult<Arm> {
+    let (name, definition, numbers, limits, base, tool, velocity) = state;
+    let broken = || Fault::Model.error(py, "the pickled robot is damaged".to_owned());
+    let built = match (definition.as_str(), numbers.len()) {
+        ("opw", 19) => opw_of(numbers).ok_or_else(broken)?.map(Arm::from),
+        ("mdh", 56) => mdh_of::<6>(numbers).ok_or_else(broken)?.map(Arm::from),
+        ("mdh", 60) => mdh_of::<7>(numbers).ok_or_else(broken)?.map(Arm::from),
+        _ => return Err(broken()),
+    };
+    let pose = |rows: &[f64]| -> PyResult<Pose> {
+        let rows = <&[f64; 16]>::try_from(rows).map_err(|_| broken())?;
+        pose_from_rows(rows).map_err(|error| to_py(py, &error))
+    };
+    built
+        .map_err(|error| to_py(py, &error))?
+        .changed(py, Name(name))?
+        .changed(py, Limits(limits.as_chunks::<2>().0))?
+        .changed(py, Base(pose(base)?))?
+        .changed(py, Tool(pose(tool)?))?
+        .changed(py, MaxVelocity(velocity.as_deref()))
+}
+
+fn opw_of(numbers: &[f64]) -> Option<Result<Robot<6>, Error>> {
+    let &[a1, a2, b, c1, c2, c3, c4, ref rest @ ..] = numbers else { return None };
+    let (offsets, signs) = rest.split_first_chunk::<6>()?;
+    let signs = <[f64; 6]>::try_from(signs).ok()?.map(|sign| if sign < 0.0 { -1 } else { 1 });
+    Some(Robot::from_opw(OpwParameters { a1, a2, b, c1, c2, c3, c4, offsets: *offsets, signs }))
+}
+
+fn mdh_of<const N: usize>(numbers: &[f64]) -> Option<Result<Robot<N>, Error>> {
+    let (rows, poses) = numbers.split_at_checked(4 * N)?;
+    let (base, flange) = poses.split_first_chunk::<16>()?;
+    let rows = <[[f64; 4]; N]>::try_from(rows.as_chunks::<4>().0).ok()?;
+    let rows = rows.map(|[alpha, a, d, theta]| DhRow::new(alpha, a, d, theta));
+    let built = pose_from_rows(base)
+        .and_then(|base| Ok(Mdh { base, rows, flange: pose_from_rows(flange.try_into().unwrap_or(&[f64::NAN; 16]))? }))
+        .and_then(Robot::serial_chain);
+    Some(built)
+}

@@ -1,0 +1,81 @@
+//! The exceptions, enumerations and records that `irbkin` defines in Python, raised and made from here.
+
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+
+use crate::error::Error;
+use crate::kinematics::{Reach, Status};
+
+/// An attribute of a Python module of the package, looked up once.
+macro_rules! package_object {
+    ($name:ident, $module:literal, $attribute:literal) => {
+        pub(super) fn $name(py: Python<'_>) -> PyResult<&Bound<'_, PyAny>> {
+            static OBJECT: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
+            OBJECT.get_or_try_init(py, || Ok(py.import($module)?.getattr($attribute)?.unbind())).map(|object| object.bind(py))
+        }
+    };
+}
+
+package_object!(invalid_pose_error, "irbkin.errors", "InvalidPoseError");
+package_object!(invalid_joints_error, "irbkin.errors", "InvalidJointsError");
+package_object!(invalid_model_error, "irbkin.errors", "InvalidModelError");
+package_object!(unknown_robot_error, "irbkin.errors", "UnknownRobotError");
+package_object!(unreachable_error, "irbkin.errors", "UnreachableError");
+package_object!(kind_class, "irbkin.records", "Kind");
+package_object!(status_class, "irbkin.records", "Status");
+package_object!(reach_class, "irbkin.records", "Reach");
+package_object!(ik_batch_class, "irbkin.records", "IkBatch");
+package_object!(singularity_class, "irbkin.records", "Singularity");
+package_object!(pose_check_class, "irbkin.records", "PoseCheck");
+
+/// What kind of input was wrong: which exception tells of it.
+#[derive(Clone, Copy)]
+pub(super) enum Fault {
+    Pose,
+    Joints,
+    Model,
+}
+
+impl Fault {
+    /// The exception for this input with a message.
+    pub(super) fn error(self, py: Python<'_>, message: String) -> PyErr {
+        let class = match self {
+            Self::Pose => invalid_pose_error(py),
+            Self::Joints => invalid_joints_error(py),
+            Self::Model => invalid_model_error(py),
+        };
+        raised(class, message)
+    }
+}
+
+fn raised(class: PyResult<&Bound<'_, PyAny>>, message: String) -> PyErr {
+    class.and_then(|class| class.call1((message,))).map_or_else(|failure| failure, PyErr::from_value)
+}
+
+/// The Python exception of a core error.
+pub(super) fn to_py(py: Python<'_>, error: &Error) -> PyErr {
+    let class = match error {
+        Error::InvalidPose(_) => invalid_pose_error(py),
+        Error::InvalidJoints(_) => invalid_joints_error(py),
+        Error::InvalidModel(_) => invalid_model_error(py),
+        Error::UnknownRobot(_) => unknown_robot_error(py),
+        Error::Unreachable(_) => unreachable_error(py),
+    };
+    raised(class, error.to_string())
+}
+
+pub(super) fn kinds(py: Python<'_>, status: Status) -> PyResult<Bound<'_, PyAny>> {
+    kind_class(py)?.call1(((status & Status::KINDS).bits(),))
+}
+
+pub(super) fn status(py: Python<'_>, status: Status) -> PyResult<Bound<'_, PyAny>> {
+    status_class(py)?.call1((status.bits(),))
+}
+
+pub(super) fn reach(py: Python<'_>, reach: Reach) -> PyResult<Bound<'_, PyAny>> {
+    reach_class(py)?.getattr(match reach {
+        Reach::Reached => "REACHED",
+        Reach::TooFar { .. } => "TOO_FAR",
+        Reach::TooNear { .. } => "TOO_NEAR",
+    })
+}

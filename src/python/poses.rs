@@ -1,0 +1,93 @@
+//! Poses from and to translations with quaternions or Euler angles.
+
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+
+use super::arrays::{exactly, vector};
+use super::errors::{Fault, to_py};
+use crate::error::Error;
+use crate::kinematics::{
+    Pose, pose_from_euler_zyx, pose_from_quaternion, pose_from_rows, pose_to_euler_zyx, pose_to_quaternion, pose_to_rows,
+};
+
+/// The argument `field` as a checked pose.
+pub(super) fn read_pose(value: &Bound<'_, PyAny>, field: &str) -> PyResult<Pose> {
+    let rows = exactly::<16>(value, &[4, 4], field, Fault::Pose)?;
+    pose_from_rows(&rows).map_err(|error| to_py(value.py(), &error))
+}
+
+/// A pose as a (4, 4) array.
+pub(super) fn pose_array<'py>(py: Python<'py>, pose: &Pose) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    PyArray1::from_slice(py, &pose_to_rows(pose)).reshape([4, 4])
+}
+
+/// Pose from a translation and an orientation.
+///
+/// Args:
+///     xyz: Translation [m], shape (3,).
+///     quaternion: Orientation as w, x, y, z, shape (4,); normalised.
+///     euler_zyx: Orientation as rz, ry, rx [rad], shape (3,): Rz(rz) Ry(ry) Rx(rx).
+///
+/// Returns:
+///     Homogeneous matrix, shape (4, 4). Without an orientation, that of the base.
+///
+/// Raises:
+///     InvalidPoseError: A wrong shape, an element that is not finite, a quaternion whose norm is off one by more than 2e-3.
+///     TypeError: Both orientations are given, or something is no number.
+#[pyfunction]
+#[pyo3(signature = (xyz, quaternion=None, euler_zyx=None))]
+pub(super) fn pose<'py>(
+    xyz: &Bound<'py, PyAny>,
+    quaternion: Option<&Bound<'py, PyAny>>,
+    euler_zyx: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let py = xyz.py();
+    let xyz = vector::<3>(xyz, "xyz", Fault::Pose)?;
+    let pose: Result<Pose, Error> = match (quaternion, euler_zyx) {
+        (Some(_), Some(_)) => return Err(PyTypeError::new_err("give quaternion or euler_zyx, not both")),
+        (Some(quaternion), None) => pose_from_quaternion(xyz, vector(quaternion, "quaternion", Fault::Pose)?),
+        (None, Some(euler)) => pose_from_euler_zyx(xyz, vector(euler, "euler_zyx", Fault::Pose)?),
+        (None, None) => pose_from_euler_zyx(xyz, [0.0; 3]),
+    };
+    pose_array(py, &pose.map_err(|error| to_py(py, &error))?)
+}
+
+type TwoArrays<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
+
+/// Translation and quaternion of a pose.
+///
+/// Args:
+///     T: Homogeneous matrix, shape (4, 4), translation [m].
+///
+/// Returns:
+///     Translation [m], shape (3,), and quaternion w, x, y, z with w >= 0, shape (4,).
+///
+/// Raises:
+///     InvalidPoseError: T is no rigid transform.
+#[pyfunction]
+#[pyo3(name = "to_xyz_quaternion", signature = (T))]
+#[expect(non_snake_case, reason = "the name that users pass")]
+pub(super) fn to_xyz_quaternion<'py>(T: &Bound<'py, PyAny>) -> PyResult<TwoArrays<'py>> {
+    let (xyz, quaternion) = pose_to_quaternion(&read_pose(T, "T")?);
+    Ok((PyArray1::from_slice(T.py(), &xyz), PyArray1::from_slice(T.py(), &quaternion)))
+}
+
+/// Translation and ZYX Euler angles of a pose.
+///
+/// Args:
+///     T: Homogeneous matrix, shape (4, 4), translation [m].
+///
+/// Returns:
+///     Translation [m], shape (3,), and rz, ry, rx [rad], shape (3,), ry in -pi/2 .. pi/2. Where ry is +-pi/2 only rz - rx or rz + rx
+///     is determined: rz is 0 there.
+///
+/// Raises:
+///     InvalidPoseError: T is no rigid transform.
+#[pyfunction]
+#[pyo3(name = "to_xyz_euler_zyx", signature = (T))]
+#[expect(non_snake_case, reason = "the name that users pass")]
+pub(super) fn to_xyz_euler_zyx<'py>(T: &Bound<'py, PyAny>) -> PyResult<TwoArrays<'py>> {
+    let (xyz, zyx) = pose_to_euler_zyx(&read_pose(T, "T")?);
+    Ok((PyArray1::from_slice(T.py(), &xyz), PyArray1::from_slice(T.py(), &zyx)))
+}

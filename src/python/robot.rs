@@ -1,0 +1,412 @@
+//! `irbkin.Robot`.
+
+use std::sync::Arc;
+
+use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+
+use super::arm::{Arm, on_robot};
+use super::arrays::{Rows, checked_out, output, vector, writable};
+use super::build::{self, Convention, State};
+use super::errors::{self, Fault, to_py};
+use super::poses::{pose_array, read_pose};
+use super::solutions::{PySolutions, read_seed};
+use crate::batch;
+use crate::catalogue;
+use crate::kinematics::{Explanation, JacobianFrame, OpwParameters, Robot, SLOTS, Singularity, Status};
+
+/// A robot arm: `Robot("IRB 2600-12/1.65")`. Frozen, hashable, equal by value, picklable.
+///
+/// Args:
+///     name: Catalogue name; case, blanks, -, _ and / do not matter. `irbkin.catalog()` lists them.
+///
+/// Raises:
+///     UnknownRobotError: No arm of that name; the message has the close ones.
+#[pyclass(name = "Robot", module = "irbkin", frozen)]
+pub(super) struct PyRobot {
+    arm: Arm,
+}
+
+impl From<Arm> for PyRobot {
+    fn from(arm: Arm) -> Self {
+        Self { arm }
+    }
+}
+
+/// The robot of a pickled state.
+#[pyfunction]
+#[pyo3(name = "_restore_robot")]
+#[expect(clippy::needless_pass_by_value, reason = "an extracted argument")]
+pub(super) fn restore_robot(py: Python<'_>, state: State) -> PyResult<PyRobot> {
+    build::restored(py, &state).map(PyRobot::from)
+}
+
+#[pymethods]
+#[expect(non_snake_case, reason = "T is the name that users pass")]
+impl PyRobot {
+    #[new]
+    fn new(py: Python<'_>, name: &str) -> PyResult<Self> {
+        let arm = catalogue::find(name).and_then(|arm| match arm.dof() {
+            6 => Robot::<6>::from_catalogue(arm).map(Arm::from),
+            _ => Robot::<7>::from_catalogue(arm).map(Arm::from),
+        });
+        arm.map(Self::from).map_err(|error| to_py(py, &error))
+    }
+
+    /// Robot from a modified (Craig) Denavit-Hartenberg table: Rx(alpha) Tx(a) Rz(theta + q) Tz(d).
+    ///
+    /// Args:
+    ///     rows: alpha [rad], a [m], d [m], theta offset [rad] of each joint, shape (6, 4) or (7, 4).
+    ///     limits: Lower and upper limit of each joint [rad], shape (n, 2); none when not given.
+    ///     name: A name of your own.
+    ///     closed_form: With False, a six-axis arm of no known form is taken too: forward kinematics and Jacobian work, `ik` refuses.
+    ///
+    /// Raises:
+    ///     InvalidModelError: A number is not finite, a limit is empty, a link has no length, or no closed form is known: the message
+    ///         names the axes that do not meet or are not parallel, and by how much.
+    #[staticmethod]
+    #[pyo3(signature = (rows, limits=None, name="", *, closed_form=true))]
+    fn from_mdh(rows: &Bound<'_, PyAny>, limits: Option<&Bound<'_, PyAny>>, name: &str, closed_form: bool) -> PyResult<Self> {
+        build::from_table(rows, limits, name, closed_form, Convention::Modified).map(Self::from)
+    }
+
+    /// Robot from a standard Denavit-Hartenberg table: Rz(theta + q) Tz(d) Tx(a) Rx(alpha).
+    ///
+    /// Args:
+    ///     rows: alpha [rad], a [m], d [m], theta offset [rad] of each joint, in this order too, shape (6, 4) or (7, 4).
+    ///     limits: Lower and upper limit of each joint [rad], shape (n, 2); none when not given.
+    ///     name: A name of your own.
+    ///     closed_form: With False, a six-axis arm of no known form is taken too: forward kinematics and Jacobian work, `ik` refuses.
+    ///
+    /// Raises:
+    ///     InvalidModelError: As `from_mdh`.
+    #[staticmethod]
+    #[pyo3(signature = (rows, limits=None, name="", *, closed_form=true))]
+    fn from_sdh(rows: &Bound<'_, PyAny>, limits: Option<&Bound<'_, PyAny>>, name: &str, closed_form: bool) -> PyResult<Self> {
+        build::from_table(rows, limits, name, closed_form, Convention::Standard).map(Self::from)
+    }
+
+    /// Robot from Brandstoetter's parameters of an ortho-parallel arm with a spherical wrist.
+    ///
+    /// Args:
+    ///     a1, a2, b, c1, c2, c3, c4: Lengths [m]. At zero theta the arm stands straight up.
+    ///     offsets: Joint offsets [rad], shape (6,): theta = sign * q - offset, as opw_kinematics has it; zeros when not given.
+    ///     signs: Joint signs, each 1 or -1, shape (6,); ones when not given.
+    ///     limits: Lower and upper limit of each joint [rad], shape (6, 2); none when not given.
+    ///     name: A name of your own.
+    ///
+    /// Raises:
+    ///     InvalidModelError: A number is not finite, a sign is not 1 or -1, a limit is empty, or a link has no length.
+    #[staticmethod]
+    #[pyo3(signature = (a1, a2, b, c1, c2, c3, c4, offsets=None, signs=None, limits=None, name=""))]
+    #[expect(clippy::too_many_arguments, reason = "the parameters of the form have these names")]
+    fn from_opw(
+        py: Python<'_>,
+        a1: f64,
+        a2: f64,
+        b: f64,
+        c1: f64,
+        c2: f64,
+        c3: f64,
+        c4: f64,
+        offsets: Option<&Bound<'_, PyAny>>,
+        signs: Option<&Bound<'_, PyAny>>,
+        limits: Option<&Bound<'_, PyAny>>,
+        name: &str,
+    ) -> PyResult<Self> {
+        let offsets = offsets.map_or(Ok([0.0; 6]), |offsets| vector(offsets, "offsets", Fault::Model))?;
+        let signs = signs.map_or(Ok([1.0; 6]), |signs| vector(signs, "signs", Fault::Model))?;
+        let opw = OpwParameters { a1, a2, b, c1, c2, c3, c4, offsets, signs: [1; 6] };
+        build::from_opw(py, opw, signs, limits, name).map(Self::from)
+    }
+
+    /// Catalogue name, or the name that was given.
+    #[getter]
+    fn name(&self) -> &str {
+        on_robot!(&self.arm, robot => robot.name())
+    }
+
+    /// Number of joints.
+    #[getter]
+    fn dof(&self) -> usize {
+        self.arm.dof()
+    }
+
+    /// Name of the closed form: "spherical wrist", or "serial" where there is none.
+    #[getter]
+    fn family(&self) -> &'static str {
+        on_robot!(&self.arm, robot => robot.family())
+    }
+
+    /// Modified Denavit-Hartenberg rows: alpha [rad], a [m], d [m], theta offset [rad], shape (n, 4). `flange` follows the last row.
+    #[getter]
+    fn mdh<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let rows: Vec<f64> = on_robot!(&self.arm, robot => robot.mdh().rows.iter().flat_map(|row| row.to_array()).collect());
+        PyArray1::from_vec(py, rows).reshape([self.arm.dof(), 4])
+    }
+
+    /// Fixed transform from the last frame of `mdh` to the flange, shape (4, 4).
+    #[getter]
+    fn flange<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        on_robot!(&self.arm, robot => pose_array(py, &robot.mdh().flange))
+    }
+
+    /// The base in the world, shape (4, 4).
+    #[getter]
+    fn base<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        on_robot!(&self.arm, robot => pose_array(py, robot.base()))
+    }
+
+    /// The tool centre point in the flange frame, shape (4, 4).
+    #[getter]
+    fn tool<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        on_robot!(&self.arm, robot => pose_array(py, robot.tool()))
+    }
+
+    /// Lower and upper limit of each joint [rad], shape (n, 2); infinite where a joint has none.
+    #[getter]
+    fn limits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let flat = on_robot!(&self.arm, robot => robot.limits().to_array().concat());
+        PyArray1::from_vec(py, flat).reshape([self.arm.dof(), 2])
+    }
+
+    /// Largest velocity of each joint [rad/s], shape (n,), or None where no source has it.
+    #[getter]
+    fn max_velocity<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
+        on_robot!(&self.arm, robot => robot.max_velocity().map(|velocity| PyArray1::from_slice(py, velocity)))
+    }
+
+    /// The same robot with its tool centre point at T, shape (4, 4), in the flange frame. A tool that it had is replaced.
+    fn with_tool(&self, T: &Bound<'_, PyAny>) -> PyResult<Self> {
+        self.arm.changed(T.py(), build::Tool(read_pose(T, "T")?)).map(Self::from)
+    }
+
+    /// The same robot standing at T, shape (4, 4), in the world, in which poses are then given. A base that it had is replaced.
+    fn with_base(&self, T: &Bound<'_, PyAny>) -> PyResult<Self> {
+        self.arm.changed(T.py(), build::Base(read_pose(T, "T")?)).map(Self::from)
+    }
+
+    /// The same robot with other joint limits [rad], shape (n, 2).
+    fn with_limits(&self, limits: &Bound<'_, PyAny>) -> PyResult<Self> {
+        build::with_limits(&self.arm, limits).map(Self::from)
+    }
+
+    /// Forward kinematics: the pose of the tool.
+    ///
+    /// Args:
+    ///     q: Joint angles [rad], shape (..., n).
+    ///     out: Array to write to, shape (..., 4, 4), float64, C-contiguous; it is returned.
+    ///
+    /// Returns:
+    ///     Homogeneous matrices, shape (..., 4, 4), translation [m]. In a batch, a row with a NaN or inf gives NaN.
+    ///
+    /// Raises:
+    ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
+    #[pyo3(signature = (q, out=None))]
+    fn fk<'py>(&self, q: &Bound<'py, PyAny>, out: Option<&Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.arm.fk(q, out)
+    }
+
+    /// Every frame of the modified Denavit-Hartenberg table after its joint, then the tool.
+    ///
+    /// Args:
+    ///     q: Joint angles [rad], shape (..., n).
+    ///
+    /// Returns:
+    ///     Homogeneous matrices, shape (..., n + 1, 4, 4), translation [m].
+    ///
+    /// Raises:
+    ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
+    fn link_frames<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.arm.link_frames(q)
+    }
+
+    /// Geometric Jacobian of the tool.
+    ///
+    /// Args:
+    ///     q: Joint angles [rad], shape (..., n).
+    ///     frame: "base", the frame in which poses are given, or "tool".
+    ///     out: Array to write to, shape (..., 6, n), float64, C-contiguous; it is returned.
+    ///
+    /// Returns:
+    ///     Shape (..., 6, n): three linear rows [m/rad], then three angular [1].
+    ///
+    /// Raises:
+    ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
+    ///     ValueError: Another frame.
+    #[pyo3(signature = (q, frame="base", out=None))]
+    fn jacobian<'py>(&self, q: &Bound<'py, PyAny>, frame: &str, out: Option<&Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let frame = match frame {
+            "base" => JacobianFrame::Base,
+            "tool" => JacobianFrame::Tool,
+            _ => return Err(PyValueError::new_err(format!("frame must be \"base\" or \"tool\", got \"{frame}\""))),
+        };
+        self.arm.jacobian(q, frame, out)
+    }
+
+    /// How far joint vectors are from the singularities.
+    ///
+    /// Args:
+    ///     q: Joint angles [rad], shape (..., n).
+    ///
+    /// Returns:
+    ///     Singularity; numbers for (n,), arrays of shape (...) for (..., n). NaN where an arm has no such singularity.
+    ///
+    /// Raises:
+    ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
+    fn singularity<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let rows = self.arm.joints(q)?;
+        let records = self.arm.singularity(q.py(), rows.data()?);
+        singularity_record(q.py(), &records, (!rows.is_single()).then_some(&rows.lead))
+    }
+
+    /// Every joint vector that brings the tool to a pose.
+    ///
+    /// Args:
+    ///     T: Pose of the tool, shape (4, 4), translation [m].
+    ///
+    /// Returns:
+    ///     Solutions, each in its slot, limits not regarded; empty with `reach` and `shortfall` when out of reach.
+    ///
+    /// Raises:
+    ///     InvalidPoseError: T has a wrong shape, is not finite or is no rigid transform.
+    ///     InvalidModelError: The arm has no closed form.
+    #[pyo3(signature = (T))]
+    fn ik(&self, T: &Bound<'_, PyAny>) -> PyResult<PySolutions> {
+        let robot = self.arm.solvable(T.py())?;
+        let solutions = robot.ik(&read_pose(T, "T")?).map_err(|error| to_py(T.py(), &error))?;
+        Ok(PySolutions::new(Arc::clone(robot), solutions))
+    }
+
+    /// Every joint vector of many poses.
+    ///
+    /// Args:
+    ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
+    ///     out: Where to write: an IkBatch or tuple of arrays (..., 8, n) float64 and (..., 8) uint8, or the first of them alone.
+    ///     threads: Number of threads; 0 for one a core.
+    ///
+    /// Returns:
+    ///     IkBatch(q, status): joint angles [rad], shape (..., 8, n), NaN where a slot is empty, and `irbkin.Status` of each slot, shape
+    ///     (..., 8), uint8. A row that is no pose has status INVALID, the others are not touched by it.
+    ///
+    /// Raises:
+    ///     InvalidPoseError: T has a wrong shape.
+    ///     InvalidModelError: The arm has no closed form.
+    #[pyo3(signature = (T, out=None, threads=1))]
+    fn ik_batch<'py>(&self, T: &Bound<'py, PyAny>, out: Option<&Bound<'py, PyAny>>, threads: usize) -> PyResult<Bound<'py, PyAny>> {
+        let py = T.py();
+        let robot = self.arm.solvable(py)?;
+        let poses = Rows::read(T, &[4, 4], "T", Fault::Pose)?;
+        let (q, status) = batch_output(py, out, &poses)?;
+        let threads = if threads == 0 { std::thread::available_parallelism().map_or(1, usize::from) } else { threads };
+        let (data, mut q_view, mut status_view) = (poses.data()?, writable(&q)?, writable(&status)?);
+        let (q_slice, status_slice) = (q_view.as_slice_mut()?, status_view.as_slice_mut()?);
+        py.detach(|| batch::ik(robot, data, q_slice, status_slice, threads));
+        errors::ik_batch_class(py)?.call1((q, status))
+    }
+
+    /// The solution inside the limits that is nearest to `seed`, turns considered.
+    ///
+    /// Args:
+    ///     T: Pose of the tool, shape (4, 4), translation [m].
+    ///     seed: Joint vector [rad], shape (n,). A joint that the pose leaves free keeps its angle.
+    ///     weights: Cost of moving each joint, shape (n,); ones when not given.
+    ///
+    /// Returns:
+    ///     Joint vector [rad], shape (n,).
+    ///
+    /// Raises:
+    ///     UnreachableError: No solution inside the limits; the message says what is missing.
+    ///     InvalidPoseError, InvalidJointsError, InvalidModelError: As `ik`; a seed or weight that is not finite.
+    #[pyo3(signature = (T, seed, weights=None))]
+    fn ik_nearest<'py>(
+        &self,
+        T: &Bound<'py, PyAny>,
+        seed: &Bound<'py, PyAny>,
+        weights: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let (robot, pose) = (self.arm.solvable(T.py())?, read_pose(T, "T")?);
+        let (seed, weights) = read_seed(seed, weights)?;
+        let nearest = robot.ik_nearest(&pose, &seed, &weights).map_err(|error| to_py(T.py(), &error))?;
+        Ok(PyArray1::from_slice(T.py(), &nearest.q))
+    }
+
+    /// Whether a pose can be reached, inside the limits or not, and why not.
+    ///
+    /// Args:
+    ///     T: Pose of the tool, shape (4, 4), translation [m].
+    ///
+    /// Returns:
+    ///     PoseCheck(reachable, within_limits, reason).
+    ///
+    /// Raises:
+    ///     InvalidPoseError, InvalidModelError: As `ik`.
+    fn check_pose<'py>(&self, T: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let pose = read_pose(T, "T")?;
+        let solutions = self.arm.solvable(T.py())?.ik(&pose).map_err(|error| to_py(T.py(), &error))?;
+        let explanation = solutions.explain();
+        let inside = matches!(explanation, Explanation::Found { .. });
+        errors::pose_check_class(T.py())?.call1((!solutions.is_empty(), inside, explanation.to_string()))
+    }
+
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        other.cast::<Self>().is_ok_and(|other| other.get().arm == self.arm)
+    }
+
+    fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
+        build::hash(py, &self.arm)
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (State,))> {
+        Ok((py.import("irbkin._core")?.getattr("_restore_robot")?, (build::state(&self.arm),)))
+    }
+
+    fn __repr__(&self) -> String {
+        match self.name() {
+            "" => format!("Robot({} joints, {})", self.arm.dof(), self.family()),
+            name => format!("Robot(\"{name}\")"),
+        }
+    }
+}
+
+/// `irbkin.Singularity` of one record, or of records with the leading dimensions `lead`.
+fn singularity_record<'py>(py: Python<'py>, records: &[Option<Singularity>], lead: Option<&Vec<usize>>) -> PyResult<Bound<'py, PyAny>> {
+    let number = |of: fn(&Singularity) -> Option<f64>| records.iter().map(move |record| record.as_ref().and_then(of).unwrap_or(f64::NAN));
+    let columns = [
+        number(|s| s.distances.map(|d| d.wrist)),
+        number(|s| s.distances.map(|d| d.elbow)),
+        number(|s| s.distances.map(|d| d.shoulder)),
+        number(|s| Some(s.min_singular_value)),
+        number(|s| Some(s.manipulability)),
+    ];
+    let kinds = |record: &Option<Singularity>| record.map_or(Status::empty(), |record| record.kinds);
+    let mut fields: Vec<Bound<'py, PyAny>> = Vec::with_capacity(6);
+    for mut column in columns {
+        fields.push(match lead {
+            Some(lead) => PyArray1::from_iter(py, column).reshape(lead.clone())?.into_any(),
+            None => column.next().into_pyobject(py)?.into_any(),
+        });
+    }
+    fields.push(match lead {
+        Some(lead) => PyArray1::from_iter(py, records.iter().map(|record| kinds(record).bits())).reshape(lead.clone())?.into_any(),
+        None => errors::kinds(py, records.first().map_or(Status::empty(), kinds))?,
+    });
+    errors::singularity_class(py)?.call1(PyTuple::new(py, fields)?)
+}
+
+type BatchArrays<'py> = (Bound<'py, PyArrayDyn<f64>>, Bound<'py, PyArrayDyn<u8>>);
+
+/// The arrays that a batch is written to.
+fn batch_output<'py>(py: Python<'py>, out: Option<&Bound<'py, PyAny>>, poses: &Rows<'_>) -> PyResult<BatchArrays<'py>> {
+    let (q_shape, status_shape) = (poses.shape_with(&[SLOTS, 6]), poses.shape_with(&[SLOTS]));
+    let pair = out.and_then(|out| out.cast::<PyTuple>().ok());
+    match pair {
+        Some(pair) if pair.len() == 2 => {
+            Ok((output(py, Some(&pair.get_item(0)?), &q_shape)?, checked_out(&pair.get_item(1)?, &status_shape, "uint8")?))
+        }
+        Some(pair) => Err(PyTypeError::new_err(format!("out must be (q, status), got a tuple of {}", pair.len()))),
+        None => Ok((output(py, out, &q_shape)?, PyArrayDyn::zeros(py, status_shape, false))),
+    }
+}
