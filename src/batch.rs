@@ -63,7 +63,7 @@ pub fn ik(robot: &Robot<6>, poses: &[f64], q: &mut [f64], status: &mut [u8], thr
 fn ik_rows(robot: &Robot<6>, poses: &[[f64; 16]], q: &mut [[f64; SLOTS * 6]], status: &mut [[u8; SLOTS]]) {
     for ((rows, q), status) in poses.iter().zip(q).zip(status) {
         q.fill(f64::NAN);
-        let Ok(solutions) = pose_from_rows(rows).and_then(|pose| robot.ik(&pose)) else {
+        let Ok(solutions) = pose_from_rows(rows).and_then(|pose| robot.ik_checked(pose)) else {
             status.fill(Status::INVALID.bits());
             continue;
         };

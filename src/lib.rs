@@ -31,6 +31,8 @@
 //! Metres, radians, `f64`. `docs/` of the repository has the conventions, the derivation and the accuracy.
 #![cfg_attr(not(feature = "std"), no_std)]
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::float_cmp))]
+// A test links std, whose own float methods then come before the imported ones.
+#![cfg_attr(all(test, not(feature = "std")), allow(unused_imports))]
 
 extern crate alloc;
 #[cfg(test)]
@@ -48,6 +50,6 @@ pub use catalogue::{AngleUnit, CatalogueArm, CatalogueGeometry, catalogue, find}
 pub use error::{Error, JointFault, ModelFault, PoseFault, UnknownRobot};
 pub use kinematics::{
     Chain, Condition, Definition, DhRow, Explanation, JacobianFrame, JointLimits, Mdh, NotRecognised, OpwParameters, Pose, PoseError,
-    Reach, Robot, SLOTS, Sdh, SingularDistances, Singularity, Solution, Solutions, SphericalWrist, Status, pose_from_euler_zyx,
+    Reach, Relation, Robot, SLOTS, Sdh, SingularDistances, Singularity, Solution, Solutions, SphericalWrist, Status, pose_from_euler_zyx,
     pose_from_quaternion, pose_from_rows, pose_to_euler_zyx, pose_to_quaternion, pose_to_rows, thresholds,
 };

@@ -60,9 +60,9 @@ mod tests {
 
     #[test]
     fn quarter_turns_are_exact() {
-        for quarter in -8..=8 {
+        for quarter in -8_i32..=8 {
             let (sin, cos) = constant_sin_cos((f64::from(quarter) * 90.0).to_radians());
-            let expected = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)][quarter.rem_euclid(4) as usize];
+            let expected = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)][usize::try_from(quarter.rem_euclid(4)).unwrap()];
             assert_eq!((sin, cos), expected, "{quarter} quarters");
         }
         assert_eq!(constant_sin_cos(0.3), 0.3_f64.sin_cos());

@@ -26,5 +26,5 @@ pub use robot::{Definition, Robot};
 pub(crate) use select::{check_joints, check_weights};
 pub use singularity::Singularity;
 pub use solutions::{SLOTS, Solution, Solutions};
-pub use spherical_wrist::{Condition, NotRecognised, OpwParameters, SingularDistances, SphericalWrist};
+pub use spherical_wrist::{Condition, NotRecognised, OpwParameters, Relation, SingularDistances, SphericalWrist};
 pub use status::{Explanation, Reach, Status};

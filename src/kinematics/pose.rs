@@ -111,7 +111,7 @@ pub fn pose_from_quaternion(xyz: [f64; 3], wxyz: [f64; 4]) -> Result<Pose, Error
     check_finite("xyz", &xyz)?;
     check_finite("quaternion", &wxyz)?;
     let norm = wxyz.iter().map(|element| element * element).sum::<f64>().sqrt();
-    if !((norm - 1.0).abs() <= QUATERNION_NORM_BOUND) {
+    if (norm - 1.0).abs() > QUATERNION_NORM_BOUND {
         return Err(PoseFault::QuaternionNorm { norm, bound: QUATERNION_NORM_BOUND }.into());
     }
     let [w, x, y, z] = wxyz.map(|element| element / norm);

@@ -84,6 +84,11 @@ impl Robot<6> {
     ///
     /// [`Error::InvalidPose`] when the pose is not finite or no rigid transform; [`Error::InvalidModel`] when the arm has no closed form.
     pub fn ik(&self, pose: &Pose) -> Result<Solutions<6>, Error> {
+        self.solve(checked_pose(pose)?, &FreeChoice::ZERO)
+    }
+
+    /// [`Robot::ik`] for a pose that was checked where it came in.
+    pub(crate) fn ik_checked(&self, pose: Pose) -> Result<Solutions<6>, Error> {
         self.solve(pose, &FreeChoice::ZERO)
     }
 
@@ -96,16 +101,15 @@ impl Robot<6> {
     pub fn ik_nearest(&self, pose: &Pose, seed: &[f64; 6], weights: &[f64; 6]) -> Result<Solution<6>, Error> {
         check_joints("seed", seed)?;
         check_weights(weights)?;
-        let solutions = self.solve(pose, &FreeChoice::seed(*seed))?;
+        let solutions = self.solve(checked_pose(pose)?, &FreeChoice::seed(*seed))?;
         solutions.nearest(seed, weights).ok_or_else(|| Error::Unreachable(solutions.explain()))
     }
 
-    fn solve(&self, pose: &Pose, free: &FreeChoice) -> Result<Solutions<6>, Error> {
+    fn solve(&self, pose: Pose, free: &FreeChoice) -> Result<Solutions<6>, Error> {
         let solver = match &self.geometry {
             Geometry::SphericalWrist(solver) => solver,
             Geometry::Serial(reason) => return Err(ModelFault::NoClosedForm(*reason).into()),
         };
-        let pose = checked_pose(pose)?;
         let t_shoulder_wrist = solver.t_shoulder_world * pose * solver.t_tool_wrist;
         let branches = solver.arm.solve(&t_shoulder_wrist, free);
         let slots = core::array::from_fn(|slot| {
@@ -163,9 +167,9 @@ impl<const N: usize> Robot<N> {
     /// # Errors
     ///
     /// [`Error::InvalidModel`] when a number is not finite or a recognised arm's link has no length.
-    pub fn serial_chain(mdh: Mdh<N>) -> Result<Self, Error> {
+    pub fn serial_chain(mut mdh: Mdh<N>) -> Result<Self, Error> {
         check_rows(&mdh.rows)?;
-        let mdh = Mdh { base: checked_pose(&mdh.base)?, flange: checked_pose(&mdh.flange)?, rows: mdh.rows };
+        (mdh.base, mdh.flange) = (checked_pose(&mdh.base)?, checked_pose(&mdh.flange)?);
         let six = <&[DhRow; 6]>::try_from(&mdh.rows[..]).ok().map(|rows| Mdh { base: mdh.base, rows: *rows, flange: mdh.flange });
         let (chain, geometry) = match six.as_ref().map(recognise) {
             Some(Ok((squared, arm))) => {
@@ -217,7 +221,7 @@ impl<const N: usize> Robot<N> {
     /// [`Error::InvalidModel`] when a velocity is not positive.
     pub fn with_max_velocity(mut self, max_velocity: Option<[f64; N]>) -> Result<Self, Error> {
         for (i, value) in max_velocity.iter().flatten().copied().enumerate() {
-            if !(value > 0.0) {
+            if value.is_nan() || value <= 0.0 {
                 return Err(ModelFault::Velocity { joint: i + 1, value }.into());
             }
         }

@@ -73,11 +73,11 @@ impl<const N: usize> Solutions<N> {
             let mut turned = *solution;
             let mut total = 0.0;
             let mut inside = true;
-            for joint in 0..N {
-                match self.limits.turn_nearest(joint, solution.q[joint], seed[joint]) {
+            for (joint, seed) in seed.iter().enumerate() {
+                match self.limits.turn_nearest(joint, solution.q[joint], *seed) {
                     Some(angle) => {
                         turned.q[joint] = angle;
-                        total += cost(joint, angle - seed[joint]);
+                        total += cost(joint, angle - seed);
                     }
                     None => inside = false,
                 }
@@ -128,9 +128,7 @@ impl<const N: usize> Iterator for Turns<N> {
             None
         });
         let mut solution = self.base;
-        for joint in 0..N {
-            solution.q[joint] += TAU * turns[joint];
-        }
+        solution.q = core::array::from_fn(|joint| solution.q[joint] + TAU * turns[joint]);
         solution.status |= Status::WITHIN_LIMITS;
         Some(solution)
     }

@@ -107,7 +107,7 @@ impl Arm {
     }
 
     /// The arm with its robot changed.
-    pub(super) fn changed(&self, py: Python<'_>, change: impl Change) -> PyResult<Self> {
+    pub(super) fn changed(&self, py: Python<'_>, change: &impl Change) -> PyResult<Self> {
         let changed = match self {
             Self::Six(robot) => change.apply(Robot::clone(robot)).map(Self::from),
             Self::Seven(robot) => change.apply(Robot::clone(robot)).map(Self::from),

@@ -32,7 +32,7 @@ pub(super) fn from_table(
         [7] => robot_of_table::<7>(table, closed_form, convention).map(Arm::from),
         _ => return Err(Fault::Model.error(py, format!("rows must have shape (6, 4) or (7, 4), got {:?}", rows.shape_with(&[4])))),
     };
-    named_and_limited(py, arm.map_err(|error| to_py(py, &error))?, limits, name)
+    named_and_limited(py, &arm.map_err(|error| to_py(py, &error))?, limits, name)
 }
 
 fn robot_of_table<const N: usize>(table: &[[f64; 4]], closed_form: bool, convention: Convention) -> Result<Robot<N>, Error> {
@@ -62,12 +62,12 @@ pub(super) fn from_opw(
         };
     }
     let robot = Robot::from_opw(opw).map_err(|error| to_py(py, &error))?;
-    named_and_limited(py, robot.into(), limits, name)
+    named_and_limited(py, &robot.into(), limits, name)
 }
 
 /// The arm under a name, with limits where they were given.
-fn named_and_limited(py: Python<'_>, arm: Arm, limits: Option<&Bound<'_, PyAny>>, name: &str) -> PyResult<Arm> {
-    let arm = arm.changed(py, Name(name))?;
+fn named_and_limited(py: Python<'_>, arm: &Arm, limits: Option<&Bound<'_, PyAny>>, name: &str) -> PyResult<Arm> {
+    let arm = arm.changed(py, &Name(name))?;
     match limits {
         Some(limits) => with_limits(&arm, limits),
         None => Ok(arm),
@@ -77,7 +77,7 @@ fn named_and_limited(py: Python<'_>, arm: Arm, limits: Option<&Bound<'_, PyAny>>
 /// The arm with limits of shape (n, 2).
 pub(super) fn with_limits(arm: &Arm, limits: &Bound<'_, PyAny>) -> PyResult<Arm> {
     let rows = Rows::read(limits, &[arm.dof(), 2], "limits", Fault::Model)?;
-    arm.changed(limits.py(), Limits(rows.data()?.as_chunks::<2>().0))
+    arm.changed(limits.py(), &Limits(rows.data()?.as_chunks::<2>().0))
 }
 
 struct Name<'a>(&'a str);
@@ -181,11 +181,11 @@ pub(super) fn restored(py: Python<'_>, state: &State) -> PyResult<Arm> {
     };
     built
         .map_err(|error| to_py(py, &error))?
-        .changed(py, Name(name))?
-        .changed(py, Limits(limits.as_chunks::<2>().0))?
-        .changed(py, Base(pose(base)?))?
-        .changed(py, Tool(pose(tool)?))?
-        .changed(py, MaxVelocity(velocity.as_deref()))
+        .changed(py, &Name(name))?
+        .changed(py, &Limits(limits.as_chunks::<2>().0))?
+        .changed(py, &Base(pose(base)?))?
+        .changed(py, &Tool(pose(tool)?))?
+        .changed(py, &MaxVelocity(velocity.as_deref()))
 }
 
 fn opw_of(numbers: &[f64]) -> Option<Result<Robot<6>, Error>> {

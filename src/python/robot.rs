@@ -180,12 +180,12 @@ impl PyRobot {
 
     /// The same robot with its tool centre point at T, shape (4, 4), in the flange frame. A tool that it had is replaced.
     fn with_tool(&self, T: &Bound<'_, PyAny>) -> PyResult<Self> {
-        self.arm.changed(T.py(), build::Tool(read_pose(T, "T")?)).map(Self::from)
+        self.arm.changed(T.py(), &build::Tool(read_pose(T, "T")?)).map(Self::from)
     }
 
     /// The same robot standing at T, shape (4, 4), in the world, in which poses are then given. A base that it had is replaced.
     fn with_base(&self, T: &Bound<'_, PyAny>) -> PyResult<Self> {
-        self.arm.changed(T.py(), build::Base(read_pose(T, "T")?)).map(Self::from)
+        self.arm.changed(T.py(), &build::Base(read_pose(T, "T")?)).map(Self::from)
     }
 
     /// The same robot with other joint limits [rad], shape (n, 2).

@@ -20,7 +20,7 @@ impl Rng {
         self.0 ^= self.0 >> 27;
         #[expect(clippy::cast_precision_loss, reason = "53 bits")]
         let mantissa = (self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 11) as f64;
-        mantissa / (1_u64 << 53) as f64
+        mantissa / 2.0_f64.powi(53)
     }
 
     pub fn between(&mut self, low: f64, high: f64) -> f64 {

@@ -8,11 +8,11 @@ mod solve;
 
 pub use opw::OpwParameters;
 pub(crate) use recognise::recognise;
-pub use recognise::{Condition, NotRecognised};
+pub use recognise::{Condition, NotRecognised, Relation};
 pub(crate) use solve::FreeChoice;
 
 #[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
+use nalgebra::{ComplexField as _, RealField as _};
 
 use super::angles::distance_from_half_turns;
 use super::pose::{Pose, translation_z};

@@ -1,6 +1,6 @@
 //! Finding an ortho-parallel basis with a spherical wrist in a modified Denavit-Hartenberg table.
 
-use core::f64::consts::FRAC_PI_2;
+use core::f64::consts::{FRAC_PI_2, PI};
 use core::fmt;
 
 use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Translation3, Vector3};
@@ -15,62 +15,68 @@ use crate::kinematics::dh::Mdh;
 use crate::kinematics::pose::{Pose, translation_z};
 use crate::kinematics::thresholds::{FORM_TOLERANCE, LEAST_LINK};
 
-/// A condition of the form that an arm does not meet, and by how much.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Condition {
-    /// Two axes must be at right angles.
-    Perpendicular {
-        /// The axes, from 1.
-        axes: (usize, usize),
-        /// How far from 90 deg [rad].
-        off: f64,
-    },
-    /// Two axes must be parallel.
-    Parallel {
-        /// The axes, from 1.
-        axes: (usize, usize),
-        /// The angle between them [rad].
-        off: f64,
-    },
-    /// Two axes must meet.
-    Meeting {
-        /// The axes, from 1.
-        axes: (usize, usize),
-        /// Their distance; for axes 4 and 6 the distance of their feet on axis 5 [m].
-        off: f64,
-    },
+/// How two axes of a known form stand to one another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relation {
+    /// At right angles.
+    Perpendicular,
+    /// Parallel.
+    Parallel,
+    /// Meeting in a point.
+    Meeting,
 }
+
+/// A condition that an arm does not meet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Condition {
+    /// How the axes should stand.
+    pub relation: Relation,
+    /// The axes, from 1.
+    pub axes: (usize, usize),
+    /// How far they are off: an angle [rad] or, for axes that should meet, a distance [m].
+    pub off: f64,
+}
+
+/// The conditions of an ortho-parallel basis with a spherical wrist. Axes 4 and 6 meet axis 5 in one point.
+const FORM: [(Relation, (usize, usize)); 8] = [
+    (Relation::Perpendicular, (1, 2)),
+    (Relation::Parallel, (2, 3)),
+    (Relation::Perpendicular, (3, 4)),
+    (Relation::Perpendicular, (4, 5)),
+    (Relation::Perpendicular, (5, 6)),
+    (Relation::Meeting, (4, 5)),
+    (Relation::Meeting, (5, 6)),
+    (Relation::Meeting, (4, 6)),
+];
 
 /// Every condition that keeps an arm from having a closed form here.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NotRecognised {
     joints: usize,
-    conditions: [Option<Condition>; 8],
+    /// How far each condition of the form is off; zero where it is met.
+    off: [f64; FORM.len()],
 }
 
 impl NotRecognised {
     /// An arm whose number of joints alone rules a closed form out.
     pub(crate) fn joint_count(joints: usize) -> Self {
-        Self { joints, conditions: [None; 8] }
+        Self { joints, off: [0.0; FORM.len()] }
     }
 
     /// The conditions that are not met.
-    pub fn conditions(&self) -> impl Iterator<Item = &Condition> {
-        self.conditions.iter().flatten()
+    pub fn conditions(&self) -> impl Iterator<Item = Condition> {
+        let off = FORM.into_iter().zip(self.off).filter(|(_, off)| *off > 0.0);
+        off.map(|((relation, axes), off)| Condition { relation, axes, off })
     }
 }
 
 impl fmt::Display for Condition {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::Perpendicular { axes: (i, j), off } => {
-                write!(f, "axes {i} and {j} must be at right angles, they are {:.6} deg off", off.to_degrees())
-            }
-            Self::Parallel { axes: (i, j), off } => {
-                write!(f, "axes {i} and {j} must be parallel, they are {:.6} deg off", off.to_degrees())
-            }
-            Self::Meeting { axes: (i, j), off } => write!(f, "axes {i} and {j} must meet, they pass {:.6} mm apart", off * 1e3),
+        let Self { relation, axes: (i, j), off } = *self;
+        match relation {
+            Relation::Perpendicular => write!(f, "axes {i} and {j} must be at right angles, they are {:.6} deg off", off.to_degrees()),
+            Relation::Parallel => write!(f, "axes {i} and {j} must be parallel, they are {:.6} deg off", off.to_degrees()),
+            Relation::Meeting => write!(f, "axes {i} and {j} must meet, they pass {:.6} mm apart", off * 1e3),
         }
     }
 }
@@ -98,34 +104,29 @@ pub(crate) fn recognise(mdh: &Mdh<6>) -> Result<(Mdh<6>, SphericalWrist), Error>
 fn square_up(mdh: &Mdh<6>) -> Result<Mdh<6>, NotRecognised> {
     let mut squared = mdh.clone();
     let mut failed = NotRecognised::joint_count(6);
-    let mut next = 0;
-    let mut check = |value: &mut f64, exact: f64, condition: Condition| {
-        if (*value - exact).abs() > FORM_TOLERANCE {
-            failed.conditions[next] = Some(condition);
-            next += 1;
+    for ((relation, axes), failed) in FORM.into_iter().zip(&mut failed.off) {
+        let row = &mut squared.rows[axes.0];
+        let alpha = row.alpha;
+        let (value, exact) = match (relation, axes) {
+            (Relation::Parallel, _) => (&mut row.alpha, nearest_of(alpha, 0.0)),
+            (Relation::Perpendicular, _) => (&mut row.alpha, nearest_of(alpha, FRAC_PI_2)),
+            // Between its neighbours' feet on it, axis 5 runs for d of its own row, which is the row before that of axis 6.
+            (Relation::Meeting, (4, 6)) => (&mut row.d, 0.0),
+            (Relation::Meeting, _) => (&mut row.a, 0.0),
+        };
+        let off = (*value - exact).abs();
+        if off > FORM_TOLERANCE {
+            *failed = off;
         } else {
             *value = exact;
         }
-    };
-    for i in 1..6 {
-        let (axes, alpha) = ((i, i + 1), squared.rows[i].alpha);
-        let quarters = alpha / FRAC_PI_2;
-        let (exact, parallel) = if i == 2 {
-            ((quarters / 2.0).round() * 2.0 * FRAC_PI_2, true)
-        } else {
-            (((quarters - 1.0) / 2.0).round() * 2.0 * FRAC_PI_2 + FRAC_PI_2, false)
-        };
-        let off = (alpha - exact).abs();
-        let condition = if parallel { Condition::Parallel { axes, off } } else { Condition::Perpendicular { axes, off } };
-        check(&mut squared.rows[i].alpha, exact, condition);
     }
-    for i in [4, 5] {
-        let off = squared.rows[i].a.abs();
-        check(&mut squared.rows[i].a, 0.0, Condition::Meeting { axes: (i, i + 1), off });
-    }
-    let off = squared.rows[4].d.abs();
-    check(&mut squared.rows[4].d, 0.0, Condition::Meeting { axes: (4, 6), off });
-    if next == 0 { Ok(squared) } else { Err(failed) }
+    if failed.conditions().next().is_none() { Ok(squared) } else { Err(failed) }
+}
+
+/// The angle nearest to `alpha` that is `base` and half turns.
+fn nearest_of(alpha: f64, base: f64) -> f64 {
+    base + PI * ((alpha - base) / PI).round()
 }
 
 /// Reads the geometry off the frames at q = 0 (docs/ik_derivation.md, section 7). Lengths come from the rows, so that none is lost to
