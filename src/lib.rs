@@ -31,8 +31,8 @@
 //! Metres, radians, `f64`. `docs/` of the repository has the conventions, the derivation and the accuracy.
 #![cfg_attr(not(feature = "std"), no_std)]
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::float_cmp))]
-// A test links std, whose own float methods then come before the imported ones.
-#![cfg_attr(all(test, not(feature = "std")), allow(unused_imports))]
+// Where another crate of the build links std, its own float methods come before those imported for no_std.
+#![cfg_attr(not(feature = "std"), allow(unused_imports))]
 
 extern crate alloc;
 #[cfg(test)]
@@ -53,3 +53,8 @@ pub use kinematics::{
     Reach, Relation, Robot, SLOTS, Sdh, SingularDistances, Singularity, Solution, Solutions, SphericalWrist, Status, pose_from_euler_zyx,
     pose_from_quaternion, pose_from_rows, pose_to_euler_zyx, pose_to_quaternion, pose_to_rows, thresholds,
 };
+
+/// The Rust blocks of the README, run as documentation tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct ReadmeBlocks;

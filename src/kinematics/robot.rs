@@ -60,7 +60,7 @@ impl WristSolver {
         Self {
             t_shoulder_world: (chain.base() * arm.t_base_shoulder()).inverse(),
             t_tool_wrist: (arm.t_wrist_flange() * chain.tool()).inverse(),
-            arm,
+            arm: arm.standing_between(chain.base(), chain.tool()),
         }
     }
 }
@@ -87,6 +87,7 @@ impl Robot<6> {
         self.solve(checked_pose(pose)?, &FreeChoice::ZERO)
     }
 
+    #[cfg(feature = "std")]
     /// [`Robot::ik`] for a pose that was checked where it came in.
     pub(crate) fn ik_checked(&self, pose: Pose) -> Result<Solutions<6>, Error> {
         self.solve(pose, &FreeChoice::ZERO)

@@ -28,16 +28,14 @@ pub const WRIST_FREE_SIN: f64 = 5e-15;
 /// Distance of the wrist centre from axis 1 below which the front and the back branch are one [m]; both are returned from 2e-9 on.
 pub const SHOULDER_MERGE: f64 = 1.5e-9;
 
-/// Position below which a direction is rounding, as a part of the arm's length [1]: a wrist centre this close to axis 1 says nothing of q1.
-pub const POSITION_ROUNDING: f64 = 2e-15;
+/// How far rounding moves a position, as a part of the lengths it is summed from [1]: twice the worst of a million poses. A wrist centre this
+/// close to axis 1 says nothing of q1. An elbow whose straightening moves the wrist centre by half of this is straight, and its two
+/// branches are one: below about 1e-7 rad from stretched, by the square root of rounding.
+pub const POSITION_ROUNDING: f64 = 1.5e-15;
 
 /// Square of the distance from the shoulder's tangent plane below which front and back are one, over the lateral offset b [m].
 /// With b != 0 the two branches meet like the elbow's, by the square root of rounding: x^2 = rho^2 - b^2 is rounded to about 1e-15 b.
 pub const LATERAL_MERGE: f64 = 1e-14;
-
-/// |sin| of the elbow angle below which the two elbow branches are one [1]. They differ by the square root of rounding, about 3e-8 rad:
-/// below this a pose does not tell them apart, and both are returned from 1e-6 on.
-pub const ELBOW_MERGE_SIN: f64 = 1e-7;
 
 /// How close to a singularity a seeded solve may keep the seed's free joint [rad, m]: the precision of the best poses met in practice.
 pub const SEEDED_FREE: f64 = 1e-12;

@@ -17,7 +17,7 @@ use nalgebra::{ComplexField as _, RealField as _};
 use super::angles::distance_from_half_turns;
 use super::pose::{Pose, translation_z};
 use super::status::Status;
-use super::thresholds::{ELBOW_MERGE_SIN, LATERAL_MERGE, SHOULDER_MERGE, WRIST_MERGE_SIN};
+use super::thresholds::{LATERAL_MERGE, POSITION_ROUNDING, SHOULDER_MERGE, WRIST_MERGE_SIN};
 
 /// The geometry between the shoulder (on axis 1, at the height of axis 2) and the wrist centre.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +33,8 @@ pub struct SphericalWrist {
     offsets: [f64; 6],
     t_base_shoulder: Pose,
     t_wrist_flange: Pose,
+    /// The lengths that a position of the tool is summed from [m].
+    extent: f64,
 }
 
 /// How far a joint vector is from each singularity of a spherical-wrist arm.
@@ -59,7 +61,16 @@ impl SphericalWrist {
             offsets: opw.offsets,
             t_base_shoulder: translation_z(opw.c1),
             t_wrist_flange: translation_z(opw.c4),
+            extent: 0.0,
         }
+        .standing_between(&Pose::identity(), &Pose::identity())
+    }
+
+    /// The same arm between a base and a tool, which add to what a pose's rounding grows with.
+    pub(crate) fn standing_between(self, base: &Pose, tool: &Pose) -> Self {
+        let fixed = [base, &self.t_base_shoulder, &self.t_wrist_flange, tool];
+        let extent = self.a1.abs() + self.b.abs() + self.c2 + self.k + fixed.map(|pose| pose.translation.vector.norm()).iter().sum::<f64>();
+        Self { extent, ..self }
     }
 
     pub(crate) fn t_base_shoulder(&self) -> &Pose {
@@ -89,7 +100,7 @@ impl SphericalWrist {
     #[must_use]
     pub fn jacobian_determinant(&self, q: &[f64; 6]) -> f64 {
         let [elbow, x, wrist] = self.factors(q);
-        self.signs.iter().product::<f64>() * self.c2 * self.k * elbow * x * wrist
+        -self.signs.iter().product::<f64>() * self.c2 * self.k * elbow * x * wrist
     }
 
     /// How far `q` is from each singularity.
@@ -107,11 +118,28 @@ impl SphericalWrist {
     #[must_use]
     pub fn kinds(&self, q: &[f64; 6]) -> Status {
         let [elbow, x, wrist] = self.factors(q);
+        let cos_elbow = (self.theta(q)[2] + self.a2.atan2(self.c3)).cos();
         let mut kinds = Status::empty();
         kinds.set(Status::WRIST, wrist.abs() <= WRIST_MERGE_SIN);
-        kinds.set(Status::ELBOW, elbow.abs() <= ELBOW_MERGE_SIN);
+        let r = (self.c2 * self.c2 + self.k * self.k + 2.0 * self.c2 * self.k * cos_elbow).max(0.0).sqrt();
+        kinds.set(Status::ELBOW, (self.c2 * self.k * elbow).powi(2) <= self.straight_m2(r));
         kinds.set(Status::SHOULDER, x.abs() <= self.shoulder_merge());
         kinds
+    }
+
+    /// How far rounding moves a position of this arm at most [m].
+    fn position_rounding(&self) -> f64 {
+        POSITION_ROUNDING * self.extent
+    }
+
+    /// How far rounding commonly moves a position of this arm [m]: a link of lever l turns by this over l.
+    fn direction_rounding(&self) -> f64 {
+        2.0 * f64::EPSILON * self.extent
+    }
+
+    /// The square of m (eq. 8) below which a straight arm reaches the wrist centre too, to half the rounding of a position.
+    fn straight_m2(&self, r: f64) -> f64 {
+        self.position_rounding() * r * self.c2 * self.k
     }
 
     fn shoulder_merge(&self) -> f64 {

@@ -180,7 +180,9 @@ fn measure(mdh: &Mdh<6>) -> Result<SphericalWrist, Error> {
         offsets: [0.0, -theta_2, -theta_3, -theta_4, -theta_5, 0.0],
         t_base_shoulder: mdh.base * shoulder_pose(&f1, &forward, &side, &up),
         t_wrist_flange: t_wrist_last * mdh.flange,
-    })
+        extent: 0.0,
+    }
+    .standing_between(&Pose::identity(), &Pose::identity()))
 }
 
 /// 1 or -1: which way of axis x the arm faces.

@@ -12,7 +12,7 @@ use crate::kinematics::angles::wrap;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::solutions::SLOTS;
 use crate::kinematics::status::{Reach, Status};
-use crate::kinematics::thresholds::{ELBOW_MERGE_SIN, POSITION_ROUNDING, REACH_TOLERANCE, SEEDED_FREE, WRIST_FREE_SIN, WRIST_MERGE_SIN};
+use crate::kinematics::thresholds::{REACH_TOLERANCE, SEEDED_FREE, WRIST_FREE_SIN, WRIST_MERGE_SIN};
 
 /// What to take for a joint that the pose does not determine.
 #[derive(Clone, Copy, Debug)]
@@ -48,6 +48,15 @@ struct Shoulder {
     cos_1: f64,
     /// Wrist centre from axis 1, along the arm's plane [m]; negative behind it.
     x: f64,
+    /// How far rounding may turn it [rad].
+    error: f64,
+}
+
+/// The shoulder that faces the wrist centre, the one that has it behind, and whether they are one.
+struct Shoulders {
+    front: Shoulder,
+    behind: Shoulder,
+    merged: bool,
 }
 
 /// One way for the elbow to stand.
@@ -59,142 +68,194 @@ struct Elbow {
     cos_23: f64,
 }
 
+/// The elbow in front of and behind the line to the wrist centre; without the second, they are one.
+struct Elbows {
+    front: Elbow,
+    behind: Option<Elbow>,
+    /// How far rounding may turn the forearm [rad].
+    error: f64,
+}
+
 /// One branch of the wrist, with theta_5 in 0 ..= pi unless theta_4 was given; the other one is its flip.
 struct Wrist {
     theta: [f64; 3],
     merged: bool,
 }
 
+/// What one shoulder's branches are made from.
+struct Target<'a> {
+    wxy: [f64; 2],
+    wz: f64,
+    rotation: &'a Matrix3<f64>,
+    free_theta: [f64; 6],
+    radius: f64,
+    /// How far beyond reach the wrist centre may be and still get the stretched or folded arm [m].
+    tolerance: f64,
+}
+
 impl SphericalWrist {
     /// Every branch of the wrist frame `t_shoulder_wrist`.
     pub(crate) fn solve(&self, t_shoulder_wrist: &Pose, free: &FreeChoice) -> Branches {
-        let mut branches = Branches { q: [None; SLOTS], flags: [Status::empty(); SLOTS], reach: Reach::Reached };
         let w = t_shoulder_wrist.translation.vector;
-        let rotation = t_shoulder_wrist.rotation.matrix();
-        let free_theta = self.theta(&free.q);
-        let (front, merged) = match self.front(w.x, w.y, free_theta[0], free.radius) {
-            Ok(front) => front,
-            Err(missed) => {
-                branches.reach = missed;
-                return branches;
-            }
+        let mut target = Target {
+            wxy: [w.x, w.y],
+            wz: w.z,
+            rotation: t_shoulder_wrist.rotation.matrix(),
+            free_theta: self.theta(&free.q),
+            radius: free.radius,
+            tolerance: self.position_rounding(),
         };
-        let behind = Shoulder { sin_1: -front.sin_1, cos_1: -front.cos_1, x: -front.x };
-        // With b != 0 the two are not opposite: theta_1 differs by pi - 2 atan2(b, x) (eq. 4).
-        let behind = if self.b == 0.0 { behind } else { self.shoulder(w.x, w.y, -front.x) };
-        let first = self.fill(&mut branches, 0, &front, w.z, rotation, &free_theta, free.radius);
-        if merged {
-            for slot in 0..SLOTS / 2 {
-                if branches.q[slot].is_some() || branches.flags[slot].contains(Status::MERGED) {
-                    branches.flags[slot] |= Status::SHOULDER;
-                    branches.flags[slot + 4] = branches.flags[slot] | Status::MERGED;
-                }
-            }
-            branches.reach = first;
+        let shoulders = match self.shoulders(w.x, w.y, target.free_theta[0], free.radius) {
+            Ok(shoulders) => shoulders,
+            Err(missed) => return Branches::empty(missed),
+        };
+        let branches = self.branches(&shoulders, &target);
+        let shortfall = branches.reach.shortfall();
+        if shortfall == 0.0 || shortfall > REACH_TOLERANCE {
             return branches;
         }
-        let second = self.fill(&mut branches, 4, &behind, w.z, rotation, &free_theta, free.radius);
-        branches.reach = if second.shortfall() < first.shortfall() { second } else { first };
+        // No branch reaches, the nearest one by less than anyone could see: it gets the stretched or folded arm.
+        target.tolerance = shortfall;
+        self.branches(&shoulders, &target)
+    }
+
+    fn branches(&self, shoulders: &Shoulders, target: &Target<'_>) -> Branches {
+        let mut branches = Branches::empty(Reach::Reached);
+        let mut fill = |base: usize, shoulder: &Shoulder| match self.fill(&mut branches, base, shoulder, target) {
+            missed if missed == Reach::Reached || self.b == 0.0 => missed,
+            missed => match self.fill(&mut branches, base, &self.eased(shoulder, target), target) {
+                Reach::Reached => Reach::Reached,
+                _ => missed,
+            },
+        };
+        let (front, behind) = (fill(0, &shoulders.front), fill(4, &shoulders.behind));
+        branches.reach = if behind.shortfall() < front.shortfall() { behind } else { front };
+        if shoulders.merged {
+            branches.merge_shoulders();
+        }
         branches
     }
 
-    /// The shoulder that faces the wrist centre (eq. 2 to 4), and whether the one behind is the same.
-    fn front(&self, wx: f64, wy: f64, free_theta_1: f64, radius: f64) -> Result<(Shoulder, bool), Reach> {
-        let rho = wx.hypot(wy);
-        let inside = self.b.abs() - rho;
-        if inside > REACH_TOLERANCE {
-            return Err(Reach::TooNear { shortfall: inside });
+    /// Both shoulders (eq. 2 to 4).
+    fn shoulders(&self, wx: f64, wy: f64, free_theta_1: f64, radius: f64) -> Result<Shoulders, Reach> {
+        let (rho, rounding) = (wx.hypot(wy), self.position_rounding());
+        let outside = rho - self.b.abs();
+        if outside < -REACH_TOLERANCE {
+            return Err(Reach::TooNear { shortfall: -outside });
         }
-        if self.b == 0.0 && rho <= radius.max(POSITION_ROUNDING * (self.c2 + self.k)) {
+        if self.b == 0.0 && rho <= radius.max(rounding) {
             let (sin_1, cos_1) = free_theta_1.sin_cos();
-            return Ok((Shoulder { sin_1, cos_1, x: rho }, true));
+            let front = Shoulder { sin_1, cos_1, x: rho, error: 0.0 };
+            return Ok(Shoulders { front, behind: front.turned(), merged: true });
         }
-        let x = (-inside * (rho + self.b.abs())).max(0.0).sqrt();
-        Ok((self.shoulder(wx, wy, x), x <= self.shoulder_merge()))
+        // With b != 0 a wrist centre on the cylinder of radius b is on it to rounding: x = 0, not the square root of that rounding.
+        let x = if outside <= rounding { 0.0 } else { (outside * (rho + self.b.abs())).sqrt() };
+        let merged = x <= self.shoulder_merge();
+        let error = if merged { 0.0 } else { self.direction_rounding() / x };
+        let front = self.shoulder(wx, wy, x, error);
+        // With b != 0 the two are not opposite: theta_1 differs by pi - 2 atan2(b, x) (eq. 4).
+        let behind = if self.b == 0.0 { front.turned() } else { self.shoulder(wx, wy, -x, error) };
+        Ok(Shoulders { front, behind, merged })
     }
 
     /// theta_1 from `Rz(theta_1) (x, b) = (wx, wy)` (eq. 4).
-    fn shoulder(&self, wx: f64, wy: f64, x: f64) -> Shoulder {
+    fn shoulder(&self, wx: f64, wy: f64, x: f64, error: f64) -> Shoulder {
         let (sin, cos) = (wy * x - wx * self.b, wx * x + wy * self.b);
         let norm = sin.hypot(cos);
-        Shoulder { sin_1: sin / norm, cos_1: cos / norm, x }
+        Shoulder { sin_1: sin / norm, cos_1: cos / norm, x, error }
+    }
+
+    /// The shoulder with x moved towards reach as far as rounding leaves it open: next to the cylinder of radius b (eq. 3) a rounding of
+    /// the pose is a large part of x, and a pose at the edge of reach says by that edge which x it has.
+    fn eased(&self, shoulder: &Shoulder, target: &Target<'_>) -> Shoulder {
+        let ([wx, wy], b, rounding) = (target.wxy, self.b.abs(), self.position_rounding());
+        let x_of = |outside: f64| (outside.max(0.0) * (outside + 2.0 * b)).sqrt();
+        let outside = wx.hypot(wy) - b;
+        let sign = if shoulder.x.is_sign_negative() { -1.0 } else { 1.0 };
+        let mut nearest = f64::INFINITY;
+        for length in [self.c2 + self.k, self.c2 - self.k] {
+            let across = (length * length - target.wz * target.wz).max(0.0).sqrt();
+            for x in [self.a1 - across, self.a1 + across] {
+                if (x - shoulder.x).abs() < (nearest - shoulder.x).abs() {
+                    nearest = x;
+                }
+            }
+        }
+        let x = (sign * nearest).clamp(x_of(outside - rounding), x_of(outside + rounding));
+        self.shoulder(wx, wy, sign * x, shoulder.error)
     }
 
     /// Puts the four branches of one shoulder into slots `base` ..= `base` + 3.
-    #[expect(clippy::too_many_arguments, reason = "one call for each shoulder; a struct of these would be named once and read once")]
-    fn fill(
-        &self,
-        branches: &mut Branches,
-        base: usize,
-        shoulder: &Shoulder,
-        wz: f64,
-        rotation: &Matrix3<f64>,
-        free_theta: &[f64; 6],
-        radius: f64,
-    ) -> Reach {
-        let (elbows, elbow_merged) = match self.elbows(shoulder.x - self.a1, wz, free_theta[1], radius) {
+    fn fill(&self, branches: &mut Branches, base: usize, shoulder: &Shoulder, target: &Target<'_>) -> Reach {
+        let elbows = match self.elbows(shoulder.x - self.a1, target.wz, target) {
             Ok(elbows) => elbows,
             Err(missed) => return missed,
         };
         let theta_1 = shoulder.sin_1.atan2(shoulder.cos_1);
-        for (i, elbow) in elbows.into_iter().enumerate() {
-            let slot = base + 2 * i;
+        let merged = if elbows.behind.is_none() { Status::ELBOW } else { Status::empty() };
+        let error = shoulder.error + elbows.error;
+        for (elbow, slot) in [(Some(elbows.front), base), (elbows.behind, base + 2)] {
             let Some(elbow) = elbow else {
-                branches.flags[slot] = branches.flags[slot - 2] | Status::MERGED;
-                branches.flags[slot + 1] = branches.flags[slot - 2] | Status::MERGED;
+                for twin in [slot, slot + 1] {
+                    branches.flags[twin] = branches.flags[base] | Status::MERGED;
+                }
                 continue;
             };
-            let wrist = wrist(&forearm_to_flange(shoulder, &elbow, rotation), free_theta[3], radius);
+            let Elbow { theta_2, theta_3, .. } = elbow;
+            let wrist = wrist(&forearm_to_flange(shoulder, &elbow, target.rotation), target.free_theta[3], target.radius, error);
             let [theta_4, theta_5, theta_6] = wrist.theta;
-            let mut flags = Status::empty();
-            flags.set(Status::ELBOW, elbow_merged);
-            flags.set(Status::WRIST, wrist.merged);
+            let flags = if wrist.merged { merged | Status::WRIST } else { merged };
             // A free theta_4 that was given may leave theta_5 negative: then the flipped slot is the one that is kept.
             let (kept, flipped) = if theta_5 < 0.0 { (slot + 1, slot) } else { (slot, slot + 1) };
-            branches.q[kept] = Some(self.joints([theta_1, elbow.theta_2, elbow.theta_3, theta_4, theta_5, theta_6]));
+            branches.q[kept] = Some(self.joints([theta_1, theta_2, theta_3, theta_4, theta_5, theta_6]));
             branches.flags[kept] = flags;
             branches.flags[flipped] = flags;
             if wrist.merged {
                 branches.flags[flipped] |= Status::MERGED;
             } else {
-                branches.q[flipped] = Some(self.joints([theta_1, elbow.theta_2, elbow.theta_3, theta_4 + PI, -theta_5, theta_6 + PI]));
+                branches.q[flipped] = Some(self.joints([theta_1, theta_2, theta_3, theta_4 + PI, -theta_5, theta_6 + PI]));
             }
         }
         Reach::Reached
     }
 
-    /// The elbow in front of and behind the line to the wrist centre (eq. 6 to 12), and whether they are the same.
-    fn elbows(&self, x: f64, z: f64, free_theta_2: f64, radius: f64) -> Result<([Option<Elbow>; 2], bool), Reach> {
+    /// Both elbows (eq. 6 to 12).
+    fn elbows(&self, x: f64, z: f64, target: &Target<'_>) -> Result<Elbows, Reach> {
         let r2 = x * x + z * z;
         let r = r2.sqrt();
         let (longest, shortest) = (self.c2 + self.k, (self.c2 - self.k).abs());
-        if r - longest > REACH_TOLERANCE {
+        if r - longest > target.tolerance {
             return Err(Reach::TooFar { shortfall: r - longest });
         }
-        if shortest - r > REACH_TOLERANCE {
+        if shortest - r > target.tolerance {
             return Err(Reach::TooNear { shortfall: shortest - r });
         }
-        if r <= radius.max(POSITION_ROUNDING * longest) {
+        if r <= target.radius.max(self.position_rounding()) {
             // Folded onto axis 2: the upper arm may point anywhere.
-            let (sin_2, cos_2) = free_theta_2.sin_cos();
-            return Ok(([Some(self.elbow([sin_2, cos_2], [-sin_2, -cos_2])), None], true));
+            let (sin_2, cos_2) = target.free_theta[1].sin_cos();
+            return Ok(Elbows { front: self.elbow([sin_2, cos_2], [-sin_2, -cos_2]), behind: None, error: 0.0 });
         }
         let (to_longest, to_shortest) = (longest * longest - r2, r2 - shortest * shortest);
-        if to_longest <= 0.0 || to_shortest <= 0.0 {
-            // Stretched or folded, at the edge of reach or up to the tolerance beyond: both links lie on the line to the wrist centre.
+        let m2 = 0.25 * to_longest * to_shortest;
+        if m2 <= self.straight_m2(r) {
+            // Both links lie on the line to the wrist centre, to rounding or up to the tolerance beyond reach.
             let [dx, dz] = [x / r, z / r];
-            let upper = if to_shortest <= 0.0 && self.k > self.c2 { -1.0 } else { 1.0 };
-            let forearm = if to_shortest <= 0.0 && self.k <= self.c2 { -1.0 } else { 1.0 };
-            return Ok(([Some(self.elbow([upper * dx, upper * dz], [forearm * dx, forearm * dz])), None], true));
+            let (upper, forearm) = match (to_longest < to_shortest, self.k > self.c2) {
+                (true, _) => (1.0, 1.0),
+                (false, true) => (-1.0, 1.0),
+                (false, false) => (1.0, -1.0),
+            };
+            let front = self.elbow([upper * dx, upper * dz], [forearm * dx, forearm * dz]);
+            // The arm that made the pose may have been bent by as much as counts as straight, and by rounding on top of that.
+            let error = 2.0 * self.straight_m2(r).sqrt() / (self.k * r);
+            return Ok(Elbows { front, behind: None, error });
         }
-        let h2 = 0.5 * (r2 + (self.c2 - self.k) * (self.c2 + self.k));
-        let m = 0.5 * (to_longest * to_shortest).sqrt();
-        let merged = m <= ELBOW_MERGE_SIN * self.c2 * self.k;
+        let (m, h2) = (m2.sqrt(), 0.5 * (r2 + (self.c2 - self.k) * (self.c2 + self.k)));
         let elbow = |m: f64| {
             let upper = [(h2 * x - m * z) / r2, (h2 * z + m * x) / r2];
             self.elbow(upper, [(x - upper[0]) / self.k, (z - upper[1]) / self.k])
         };
-        Ok(([Some(elbow(m)), (!merged).then(|| elbow(-m))], merged))
+        Ok(Elbows { front: elbow(m), behind: Some(elbow(-m)), error: self.direction_rounding() * (self.c2 / m + 1.0 / r) })
     }
 
     /// The angles of an elbow from the direction of the upper arm, of any length, and that of the forearm, of length one (eq. 10 to 12).
@@ -211,6 +272,37 @@ impl SphericalWrist {
     }
 }
 
+impl Branches {
+    fn empty(reach: Reach) -> Self {
+        Self { q: [None; SLOTS], flags: [Status::empty(); SLOTS], reach }
+    }
+
+    /// The wrist centre is on axis 1: an elbow of the shoulder behind that the front one has too is the same branch, turned.
+    fn merge_shoulders(&mut self) {
+        for slot in 0..SLOTS {
+            if self.q[slot].is_some() {
+                self.flags[slot] |= Status::SHOULDER;
+            }
+        }
+        for elbow in [0, 2] {
+            if self.flags[elbow].is_empty() && self.q[elbow].is_none() {
+                continue;
+            }
+            for slot in [elbow, elbow + 1] {
+                self.q[slot + 4] = None;
+                self.flags[slot + 4] = self.flags[slot] | Status::SHOULDER | Status::MERGED;
+            }
+        }
+    }
+}
+
+impl Shoulder {
+    /// Turned by half a turn: what was in front is behind.
+    fn turned(self) -> Self {
+        Self { sin_1: -self.sin_1, cos_1: -self.cos_1, x: -self.x, error: self.error }
+    }
+}
+
 /// `Ry(-theta_23) Rz(-theta_1) R`, which is `Rz(theta_4) Ry(theta_5) Rz(theta_6)` (eq. 14).
 fn forearm_to_flange(shoulder: &Shoulder, elbow: &Elbow, rotation: &Matrix3<f64>) -> Matrix3<f64> {
     let (r0, r1, r2) = (rotation.row(0), rotation.row(1), rotation.row(2));
@@ -220,8 +312,9 @@ fn forearm_to_flange(shoulder: &Shoulder, elbow: &Elbow, rotation: &Matrix3<f64>
 }
 
 /// The wrist angles (eq. 15 to 18). Taking theta_6 and theta_5 with the sine and cosine of the theta_4 that was chosen keeps the
-/// residual at rounding next to theta_5 = 0, whatever theta_4 is.
-fn wrist(m: &Matrix3<f64>, free_theta_4: f64, radius: f64) -> Wrist {
+/// residual at rounding next to theta_5 = 0, whatever theta_4 is. `error` is how far rounding may turn the forearm: a theta_5 below it
+/// is none.
+fn wrist(m: &Matrix3<f64>, free_theta_4: f64, radius: f64, error: f64) -> Wrist {
     let column: Vector3<f64> = m.column(2).into();
     let sin_5 = column.x.hypot(column.y);
     let silent = sin_5 <= radius.max(WRIST_FREE_SIN);
@@ -231,5 +324,5 @@ fn wrist(m: &Matrix3<f64>, free_theta_4: f64, radius: f64) -> Wrist {
     let sin_5_signed = if projected.abs() <= WRIST_FREE_SIN { projected.max(0.0) } else { projected };
     let theta_5 = sin_5_signed.atan2(column.z);
     let theta_6 = (cos_4 * m[(1, 0)] - sin_4 * m[(0, 0)]).atan2(cos_4 * m[(1, 1)] - sin_4 * m[(0, 1)]);
-    Wrist { theta: [theta_4, theta_5, theta_6], merged: sin_5 <= WRIST_MERGE_SIN }
+    Wrist { theta: [theta_4, theta_5, theta_6], merged: sin_5 <= WRIST_MERGE_SIN.max(error) }
 }

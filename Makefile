@@ -1,0 +1,75 @@
+# irbkin's one gate. `make help` lists what there is.
+SHELL := bash
+.SHELLFLAGS := -eu -o pipefail -c
+.DELETE_ON_ERROR:
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+RUST_SOURCES := $(shell find src -name '*.rs') Cargo.toml
+BUILT := $(VENV)/.irbkin-built
+NO_STD := --no-default-features --features libm
+
+.PHONY: help run test check bench million wheel clean toolchains
+
+help: ## List the targets
+	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
+
+toolchains:
+	@command -v cargo >/dev/null || { echo "cargo is missing: install a Rust toolchain (1.89 or newer), https://rustup.rs"; exit 1; }
+	@command -v $(PYTHON) >/dev/null || { echo "$(PYTHON) is missing: install Python 3.10 or newer, or set PYTHON="; exit 1; }
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10))' || { echo "$(PYTHON) is older than 3.10: set PYTHON="; exit 1; }
+	@$(PYTHON) -c 'import ensurepip, venv' || { echo "$(PYTHON) has no venv: install it (Debian: python3-venv)"; exit 1; }
+
+$(VENV)/.made: | toolchains
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/pip install --quiet --disable-pip-version-check --upgrade 'pip>=25.1'
+	$(BIN)/pip install --quiet 'maturin>=1.9,<2' 'numpy>=1.23'
+	touch $@
+
+$(BUILT): $(VENV)/.made $(RUST_SOURCES) pyproject.toml | toolchains
+	VIRTUAL_ENV=$(abspath $(VENV)) $(BIN)/maturin develop --release --quiet
+	touch $@
+
+$(VENV)/.groups: $(VENV)/.made pyproject.toml
+	$(BIN)/pip install --quiet --group test --group check
+	touch $@
+
+run: $(BUILT) ## Solve a real IRB 2600 pose and show every solution
+	@$(BIN)/python examples/01_solve_a_pose.py
+
+test: $(BUILT) $(VENV)/.groups ## Run all tests, Rust's and Python's
+	cargo test --quiet
+	cargo test --quiet $(NO_STD) --lib --test laws --test allocation
+	$(BIN)/python -m pytest --quiet
+
+check: $(BUILT) $(VENV)/.groups ## Format, lints for each feature set, types, stubs, docs, benches that run
+	cargo fmt --check
+	cargo clippy --quiet --all-targets -- -D warnings
+	cargo clippy --quiet --all-targets --features serde -- -D warnings
+	cargo clippy --quiet --lib --features python -- -D warnings
+	cargo clippy --quiet --lib $(NO_STD) -- -D warnings
+	RUSTDOCFLAGS='-D warnings' cargo doc --quiet --no-deps --features serde
+	cargo bench --quiet --bench one_pose -- --test
+	for example in examples/*.rs; do cargo run --quiet --release --example "$$(basename "$$example" .rs)" >/dev/null; done
+	$(BIN)/ruff check --quiet .
+	$(BIN)/ruff format --check --quiet .
+	$(BIN)/mypy --no-error-summary
+	$(BIN)/python -m mypy.stubtest irbkin --concise
+	for example in examples/*.py; do $(BIN)/python "$$example" >/dev/null; done
+
+bench: | toolchains ## Time forward kinematics, Jacobian, inverse and singularity of one pose
+	cargo bench --bench one_pose
+
+million: | toolchains ## Solve a million random poses of each of seven arms and count what is lost, wrong or twice
+	IRBKIN_POSES=1000000 cargo test --quiet --release --test recall -- --nocapture --test-threads=1
+
+wheel: $(VENV)/.made ## Build the wheel and try it in an environment of its own
+	$(BIN)/maturin build --release --quiet --out dist
+	rm -rf dist/venv && $(PYTHON) -m venv dist/venv
+	dist/venv/bin/pip install --quiet --disable-pip-version-check dist/irbkin-*.whl
+	cd dist && venv/bin/python ../examples/01_solve_a_pose.py >/dev/null
+	ls -l dist/*.whl
+
+clean: ## Remove what was built
+	rm -rf $(VENV) target dist

@@ -1,0 +1,68 @@
+//! A solve allocates nothing.
+#![allow(unsafe_code, clippy::unwrap_used, missing_docs)]
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+use irbkin::{JacobianFrame, Robot};
+
+/// The system's allocator, counting what the test's own thread asks for.
+struct Counting;
+
+thread_local! {
+    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+}
+
+// SAFETY: every call goes to the system's allocator as it came.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        let _ = ALLOCATIONS.try_with(|count| count.set(count.get() + 1));
+        // SAFETY: the caller's contract is that of the system's allocator.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: as above.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+fn allocations_of(work: impl FnOnce()) -> usize {
+    let before = ALLOCATIONS.get();
+    work();
+    ALLOCATIONS.get() - before
+}
+
+#[test]
+fn the_counter_counts() {
+    assert_eq!(allocations_of(|| drop(std::hint::black_box(Box::new(1)))), 1);
+}
+
+#[test]
+fn solve_allocates_nothing() {
+    let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
+    let panda: Robot<7> = Robot::named("Panda").unwrap();
+    let q = [0.3, -0.2, 0.4, 0.5, -0.6, 0.7];
+    let pose = robot.fk(&q);
+    let count = allocations_of(|| {
+        let solutions = std::hint::black_box(robot.ik(&pose).unwrap());
+        assert_eq!(solutions.len(), 8);
+        assert!(solutions.turns().count() > 8);
+        std::hint::black_box(solutions.within_limits().filter(|s| s.q[0] > 0.0).least_motion(&q, &[1.0; 6]));
+        std::hint::black_box(robot.ik_nearest(&pose, &q, &[1.0; 6]).unwrap());
+        // Singular poses and poses out of reach go the same way.
+        std::hint::black_box(robot.ik(&robot.fk(&[0.0; 6])).unwrap());
+        let mut far = pose;
+        far.translation.vector.x += 10.0;
+        std::hint::black_box(robot.ik(&far).unwrap().explain());
+        std::hint::black_box(robot.jacobian(&q, JacobianFrame::Tool));
+        std::hint::black_box(robot.singularity(&q));
+        std::hint::black_box(robot.link_frames(&q));
+        std::hint::black_box(panda.fk(&[0.1; 7]));
+        std::hint::black_box(panda.singularity(&[0.1; 7]));
+    });
+    assert_eq!(count, 0);
+}
