@@ -10,7 +10,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use common::{Rng, reach_of};
 use nalgebra::Vector3;
 
-use irbkin::{OpwParameters, Pose, Robot, Solution, Status, thresholds};
+use irbkin::{FreeJoint, OpwParameters, Pose, Robot, Solution, Status, thresholds};
 
 const NEAR: [f64; 6] = [0.0, 1e-12, 1e-9, 1e-7, 1e-6, 1e-4];
 const BEYOND: [f64; 4] = [1e-12, 9e-10, 1e-6, 1e-3];
@@ -209,6 +209,15 @@ fn judge(arm: &Arm, q: &[f64; 6], pose: &Pose, place: Place, allowed: f64, tally
         tally.position = tally.position.max(residual.position);
         tally.rotation = tally.rotation.max(residual.rotation);
         tally.wrong += usize::from(residual.position > allowed + 3e-15 * reach || residual.rotation > 1e-14);
+        // The tool stays where the free joint goes, to rounding or the distance from the singularity.
+        if let Some(free) = solution.free {
+            let moved = arm.robot.with_free(pose, solution, 0.7).unwrap().unwrap();
+            let residual = arm.robot.residual(&moved.q, pose);
+            let distances = arm.robot.singularity(&solution.q).distances.unwrap();
+            let distance = if free == FreeJoint::Base { distances.shoulder } else { distances.wrist };
+            let distance = 2.0 * distance + 1e-14 * (1.0 + reach);
+            tally.wrong += usize::from(residual.largest() > allowed + distance);
+        }
         let again = |other: &&Solution<6>| {
             // Of the family that q1 is free in, two with the same q1 are two.
             let apart = Apart::of(arm, &other.q, &solution.q, (other.kinds() | solution.kinds()) - Status::SHOULDER);
@@ -222,9 +231,8 @@ fn judge(arm: &Arm, q: &[f64; 6], pose: &Pose, place: Place, allowed: f64, tally
     let flagged = |kind: Status, off: Option<f64>, threshold: f64| {
         off.is_none_or(|off| solutions.iter().any(|s| s.kinds().contains(kind)) || off > 0.5 * threshold)
     };
-    let flagged = (!alone || flagged(Status::WRIST, place.wrist, thresholds::WRIST_MERGE_SIN))
-        && (!alone || flagged(Status::ELBOW, place.elbow, 1e-8))
-        && flagged(Status::SHOULDER, place.shoulder, thresholds::SHOULDER_MERGE);
+    let wrist_and_elbow = flagged(Status::WRIST, place.wrist, thresholds::WRIST_MERGE_SIN) && flagged(Status::ELBOW, place.elbow, 1e-8);
+    let flagged = (!alone || wrist_and_elbow) && flagged(Status::SHOULDER, place.shoulder, thresholds::SHOULDER_MERGE);
     tally.flags += usize::from(!flagged);
 }
 

@@ -1,5 +1,5 @@
 //! Laws of the kinematics, on random arms and random joint vectors.
-#![allow(clippy::unwrap_used, missing_docs)]
+#![allow(clippy::unwrap_used, clippy::float_cmp, missing_docs)]
 
 mod common;
 

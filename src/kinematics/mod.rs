@@ -25,6 +25,6 @@ pub use robot::{Definition, Robot};
 #[cfg(feature = "python")]
 pub(crate) use select::{check_joints, check_weights};
 pub use singularity::Singularity;
-pub use solutions::{SLOTS, Solution, Solutions};
+pub use solutions::{FreeJoint, SLOTS, Solution, Solutions};
 pub use spherical_wrist::{Condition, NotRecognised, OpwParameters, Relation, SingularDistances, SphericalWrist};
 pub use status::{Explanation, Reach, Status};

@@ -11,7 +11,7 @@ use super::limits::JointLimits;
 use super::pose::{Pose, PoseError, checked_pose};
 use super::select::{check_joints, check_weights};
 use super::singularity::{Singularity, singular_values};
-use super::solutions::{Solution, Solutions};
+use super::solutions::{SLOTS, Solution, Solutions};
 use super::spherical_wrist::{FreeChoice, NotRecognised, OpwParameters, SphericalWrist, recognise};
 use super::status::Status;
 use crate::error::{Error, ModelFault};
@@ -106,7 +106,31 @@ impl Robot<6> {
         solutions.nearest(seed, weights).ok_or_else(|| Error::Unreachable(solutions.explain()))
     }
 
-    fn solve(&self, pose: Pose, free: &FreeChoice) -> Result<Solutions<6>, Error> {
+    /// The solution of the same pose whose free joint stands at `value` [rad]; `None` where no joint is free.
+    ///
+    /// The tool stays to rounding at the singularity, and by the pose's distance from it next to it: at most 1.5e-9 rad or m.
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::ik`], and [`Error::InvalidJoints`] when the value is not finite.
+    pub fn with_free(&self, pose: &Pose, solution: &Solution<6>, value: f64) -> Result<Option<Solution<6>>, Error> {
+        let Some(free) = solution.free else { return Ok(None) };
+        let joint = free.joint();
+        let mut q = solution.q;
+        q[joint - 1] = value;
+        check_joints("value", &q)?;
+        let slot = usize::from(solution.slot);
+        let solutions = self.solve(checked_pose(pose)?, &FreeChoice::forced(q, joint, slot >= SLOTS / 2))?;
+        let moved = solutions.slot(slot).or_else(|| solutions.slot(slot ^ 1));
+        Ok(moved.map(|moved| {
+            let mut moved = *moved;
+            moved.q[joint - 1] = value;
+            moved.status.set(Status::WITHIN_LIMITS, self.limits.contain(&moved.q));
+            moved
+        }))
+    }
+
+    pub(super) fn solve(&self, pose: Pose, free: &FreeChoice) -> Result<Solutions<6>, Error> {
         let solver = match &self.geometry {
             Geometry::SphericalWrist(solver) => solver,
             Geometry::Serial(reason) => return Err(ModelFault::NoClosedForm(*reason).into()),
@@ -119,7 +143,7 @@ impl Robot<6> {
                 let mut status = branches.flags[slot] | Status::FOUND;
                 status.set(Status::WITHIN_LIMITS, self.limits.contain(&q));
                 #[expect(clippy::cast_possible_truncation, reason = "eight slots")]
-                Solution { q, slot: slot as u8, status }
+                Solution { q, slot: slot as u8, status, free: branches.free[slot] }
             })
         });
         let merged = branches.flags.map(|flags| if flags.contains(Status::MERGED) { flags } else { Status::empty() });

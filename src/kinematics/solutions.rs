@@ -7,6 +7,42 @@ use super::status::{Explanation, Reach, Status};
 /// Number of slots of every closed-form arm.
 pub const SLOTS: usize = 8;
 
+/// A joint that a singular pose leaves free: the solution is one of a family.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FreeJoint {
+    /// The wrist centre is on axis 1: q1 is free, q2 and q3 are fixed, the wrist follows.
+    Base,
+    /// The wrist centre is on axis 2: q2 is free, q1 and q3 are fixed, the wrist follows.
+    Upper,
+    /// Axes 4 and 6 are one: q4 is free, q4 + q6 is fixed.
+    WristSum,
+    /// Axes 4 and 6 are one: q4 is free, q4 - q6 is fixed.
+    WristDifference,
+}
+
+impl FreeJoint {
+    /// Number of the free joint, from 1.
+    #[must_use]
+    pub fn joint(self) -> usize {
+        match self {
+            Self::Base => 1,
+            Self::Upper => 2,
+            Self::WristSum | Self::WristDifference => 4,
+        }
+    }
+
+    /// What stays fixed along the family.
+    #[must_use]
+    pub fn fixed(self) -> &'static str {
+        match self {
+            Self::Base => "q2, q3",
+            Self::Upper => "q1, q3",
+            Self::WristSum => "q4 + q6",
+            Self::WristDifference => "q4 - q6",
+        }
+    }
+}
+
 /// One joint vector that brings the tool to the pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solution<const N: usize> {
@@ -16,6 +52,8 @@ pub struct Solution<const N: usize> {
     pub slot: u8,
     /// Found, inside the limits or not, and the singularities that the pose stands at.
     pub status: Status,
+    /// The joint that the pose leaves free, at a singularity.
+    pub free: Option<FreeJoint>,
 }
 
 impl<const N: usize> Solution<N> {

@@ -10,7 +10,7 @@ use core::f64::consts::PI;
 use super::SphericalWrist;
 use crate::kinematics::angles::wrap;
 use crate::kinematics::pose::Pose;
-use crate::kinematics::solutions::SLOTS;
+use crate::kinematics::solutions::{FreeJoint, SLOTS};
 use crate::kinematics::status::{Reach, Status};
 use crate::kinematics::thresholds::{REACH_TOLERANCE, SEEDED_FREE, WRIST_FREE_SIN, WRIST_MERGE_SIN};
 
@@ -18,18 +18,27 @@ use crate::kinematics::thresholds::{REACH_TOLERANCE, SEEDED_FREE, WRIST_FREE_SIN
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FreeChoice {
     /// Joint angles [rad], of which the free one's is taken.
-    pub(crate) q: [f64; 6],
-    /// How close to a singularity the pose counts as silent, beyond rounding [rad, m].
-    pub(crate) radius: f64,
+    q: [f64; 6],
+    /// How close to a singularity the pose counts as silent, beyond rounding [rad, m]; above zero, the merged branch nearer to q is kept.
+    radius: f64,
+    /// A joint that is taken from q whatever the pose says, from 1.
+    forced: Option<usize>,
+    /// Whether a free q1 is that of the shoulder that has the wrist centre behind it.
+    behind: bool,
 }
 
 impl FreeChoice {
     /// Zero for a free joint, only where rounding hides it.
-    pub(crate) const ZERO: Self = Self { q: [0.0; 6], radius: 0.0 };
+    pub(crate) const ZERO: Self = Self { q: [0.0; 6], radius: 0.0, forced: None, behind: false };
 
     /// The seed's angle for a free joint.
     pub(crate) fn seed(q: [f64; 6]) -> Self {
-        Self { q, radius: SEEDED_FREE }
+        Self { q, radius: SEEDED_FREE, forced: None, behind: false }
+    }
+
+    /// The angle that `q` has for joint `joint`, from 1; for another one only where rounding hides it.
+    pub(crate) fn forced(q: [f64; 6], joint: usize, behind: bool) -> Self {
+        Self { q, radius: f64::MIN_POSITIVE, forced: Some(joint), behind }
     }
 }
 
@@ -38,6 +47,8 @@ pub(crate) struct Branches {
     pub(crate) q: [Option<[f64; 6]>; SLOTS],
     /// Singularities of each slot's branch, and MERGED where the slot gave its solution to another.
     pub(crate) flags: [Status; SLOTS],
+    /// The joint that the pose leaves free in each slot.
+    pub(crate) free: [Option<FreeJoint>; SLOTS],
     pub(crate) reach: Reach,
 }
 
@@ -57,6 +68,8 @@ struct Shoulders {
     front: Shoulder,
     behind: Shoulder,
     merged: bool,
+    /// Where they are merged: whether the one behind is kept.
+    keep_behind: bool,
 }
 
 /// One way for the elbow to stand.
@@ -74,12 +87,16 @@ struct Elbows {
     behind: Option<Elbow>,
     /// How far rounding may turn the forearm [rad].
     error: f64,
+    /// The wrist centre is on axis 2: the upper arm may point anywhere.
+    free: bool,
 }
 
 /// One branch of the wrist, with theta_5 in 0 ..= pi unless theta_4 was given; the other one is its flip.
 struct Wrist {
     theta: [f64; 3],
     merged: bool,
+    /// Singular by its own angle, whatever is known of the forearm.
+    free: bool,
 }
 
 /// What one shoulder's branches are made from.
@@ -87,8 +104,8 @@ struct Target<'a> {
     wxy: [f64; 2],
     wz: f64,
     rotation: &'a Matrix3<f64>,
+    free: &'a FreeChoice,
     free_theta: [f64; 6],
-    radius: f64,
     /// How far beyond reach the wrist centre may be and still get the stretched or folded arm [m].
     tolerance: f64,
 }
@@ -101,11 +118,11 @@ impl SphericalWrist {
             wxy: [w.x, w.y],
             wz: w.z,
             rotation: t_shoulder_wrist.rotation.matrix(),
+            free,
             free_theta: self.theta(&free.q),
-            radius: free.radius,
             tolerance: self.position_rounding(),
         };
-        let shoulders = match self.shoulders(w.x, w.y, target.free_theta[0], free.radius) {
+        let shoulders = match self.shoulders(&target) {
             Ok(shoulders) => shoulders,
             Err(missed) => return Branches::empty(missed),
         };
@@ -131,22 +148,25 @@ impl SphericalWrist {
         let (front, behind) = (fill(0, &shoulders.front), fill(4, &shoulders.behind));
         branches.reach = if behind.shortfall() < front.shortfall() { behind } else { front };
         if shoulders.merged {
-            branches.merge_shoulders();
+            branches.merge_shoulders(shoulders.keep_behind, self.b == 0.0);
         }
         branches
     }
 
     /// Both shoulders (eq. 2 to 4).
-    fn shoulders(&self, wx: f64, wy: f64, free_theta_1: f64, radius: f64) -> Result<Shoulders, Reach> {
+    fn shoulders(&self, target: &Target<'_>) -> Result<Shoulders, Reach> {
+        let [wx, wy] = target.wxy;
         let (rho, rounding) = (wx.hypot(wy), self.position_rounding());
         let outside = rho - self.b.abs();
         if outside < -REACH_TOLERANCE {
             return Err(Reach::TooNear { shortfall: -outside });
         }
-        if self.b == 0.0 && rho <= radius.max(rounding) {
-            let (sin_1, cos_1) = free_theta_1.sin_cos();
-            let front = Shoulder { sin_1, cos_1, x: rho, error: 0.0 };
-            return Ok(Shoulders { front, behind: front.turned(), merged: true });
+        let (sin_1, cos_1) = target.free_theta[0].sin_cos();
+        if self.b == 0.0 && (target.free.forced == Some(1) || rho <= target.free.radius.max(rounding)) {
+            let keep_behind = target.free.behind;
+            let kept = Shoulder { sin_1, cos_1, x: if keep_behind { -rho } else { rho }, error: 0.0 };
+            let (front, behind) = if keep_behind { (kept.turned(), kept) } else { (kept, kept.turned()) };
+            return Ok(Shoulders { front, behind, merged: true, keep_behind });
         }
         // With b != 0 a wrist centre on the cylinder of radius b is on it to rounding: x = 0, not the square root of that rounding.
         let x = if outside <= rounding { 0.0 } else { (outside * (rho + self.b.abs())).sqrt() };
@@ -155,7 +175,8 @@ impl SphericalWrist {
         let front = self.shoulder(wx, wy, x, error);
         // With b != 0 the two are not opposite: theta_1 differs by pi - 2 atan2(b, x) (eq. 4).
         let behind = if self.b == 0.0 { front.turned() } else { self.shoulder(wx, wy, -x, error) };
-        Ok(Shoulders { front, behind, merged })
+        let keep_behind = target.free.radius > 0.0 && front.sin_1 * sin_1 + front.cos_1 * cos_1 < 0.0;
+        Ok(Shoulders { front, behind, merged, keep_behind })
     }
 
     /// theta_1 from `Rz(theta_1) (x, b) = (wx, wy)` (eq. 4).
@@ -202,7 +223,7 @@ impl SphericalWrist {
                 continue;
             };
             let Elbow { theta_2, theta_3, .. } = elbow;
-            let wrist = wrist(&forearm_to_flange(shoulder, &elbow, target.rotation), target.free_theta[3], target.radius, error);
+            let wrist = wrist(&forearm_to_flange(shoulder, &elbow, target.rotation), target, error);
             let [theta_4, theta_5, theta_6] = wrist.theta;
             let flags = if wrist.merged { merged | Status::WRIST } else { merged };
             // A free theta_4 that was given may leave theta_5 negative: then the flipped slot is the one that is kept.
@@ -210,6 +231,13 @@ impl SphericalWrist {
             branches.q[kept] = Some(self.joints([theta_1, theta_2, theta_3, theta_4, theta_5, theta_6]));
             branches.flags[kept] = flags;
             branches.flags[flipped] = flags;
+            if elbows.free {
+                branches.free[kept] = Some(FreeJoint::Upper);
+                branches.free[flipped] = Some(FreeJoint::Upper);
+            }
+            if wrist.free {
+                branches.free[kept] = Some(self.free_wrist(theta_5));
+            }
             if wrist.merged {
                 branches.flags[flipped] |= Status::MERGED;
             } else {
@@ -230,10 +258,9 @@ impl SphericalWrist {
         if shortest - r > target.tolerance {
             return Err(Reach::TooNear { shortfall: shortest - r });
         }
-        if r <= target.radius.max(self.position_rounding()) {
-            // Folded onto axis 2: the upper arm may point anywhere.
+        if r <= target.free.radius.max(self.position_rounding()) {
             let (sin_2, cos_2) = target.free_theta[1].sin_cos();
-            return Ok(Elbows { front: self.elbow([sin_2, cos_2], [-sin_2, -cos_2]), behind: None, error: 0.0 });
+            return Ok(Elbows { front: self.elbow([sin_2, cos_2], [-sin_2, -cos_2]), behind: None, error: 0.0, free: true });
         }
         let (to_longest, to_shortest) = (longest * longest - r2, r2 - shortest * shortest);
         let m2 = 0.25 * to_longest * to_shortest;
@@ -248,14 +275,14 @@ impl SphericalWrist {
             let front = self.elbow([upper * dx, upper * dz], [forearm * dx, forearm * dz]);
             // The arm that made the pose may have been bent by as much as counts as straight, and by rounding on top of that.
             let error = 2.0 * self.straight_m2(r).sqrt() / (self.k * r);
-            return Ok(Elbows { front, behind: None, error });
+            return Ok(Elbows { front, behind: None, error, free: false });
         }
         let (m, h2) = (m2.sqrt(), 0.5 * (r2 + (self.c2 - self.k) * (self.c2 + self.k)));
         let elbow = |m: f64| {
             let upper = [(h2 * x - m * z) / r2, (h2 * z + m * x) / r2];
             self.elbow(upper, [(x - upper[0]) / self.k, (z - upper[1]) / self.k])
         };
-        Ok(Elbows { front: elbow(m), behind: Some(elbow(-m)), error: self.direction_rounding() * (self.c2 / m + 1.0 / r) })
+        Ok(Elbows { front: elbow(m), behind: Some(elbow(-m)), error: self.direction_rounding() * (self.c2 / m + 1.0 / r), free: false })
     }
 
     /// The angles of an elbow from the direction of the upper arm, of any length, and that of the forearm, of length one (eq. 10 to 12).
@@ -267,6 +294,12 @@ impl SphericalWrist {
         Elbow { theta_2, theta_3: sin_23.atan2(cos_23) - theta_2, sin_23, cos_23 }
     }
 
+    /// What the pose leaves open at theta_5 = 0 or 180 deg, in terms of the joints.
+    fn free_wrist(&self, theta_5: f64) -> FreeJoint {
+        let sum = (theta_5.cos() > 0.0) == (self.signs[3] * self.signs[5] > 0.0);
+        if sum { FreeJoint::WristSum } else { FreeJoint::WristDifference }
+    }
+
     fn joints(&self, theta: [f64; 6]) -> [f64; 6] {
         core::array::from_fn(|i| wrap(self.signs[i] * (theta[i] + self.offsets[i])))
     }
@@ -274,23 +307,29 @@ impl SphericalWrist {
 
 impl Branches {
     fn empty(reach: Reach) -> Self {
-        Self { q: [None; SLOTS], flags: [Status::empty(); SLOTS], reach }
+        Self { q: [None; SLOTS], flags: [Status::empty(); SLOTS], free: [None; SLOTS], reach }
     }
 
-    /// The wrist centre is on axis 1: an elbow of the shoulder behind that the front one has too is the same branch, turned.
-    fn merge_shoulders(&mut self) {
+    /// The wrist centre is on axis 1: an elbow that both shoulders have is one branch, turned. With b = 0, q1 is free.
+    fn merge_shoulders(&mut self, keep_behind: bool, free: bool) {
         for slot in 0..SLOTS {
             if self.q[slot].is_some() {
                 self.flags[slot] |= Status::SHOULDER;
+                if free {
+                    self.free[slot] = self.free[slot].or(Some(FreeJoint::Base));
+                }
             }
         }
+        let exists = |branches: &Self, elbow: usize| branches.q[elbow].is_some() || !branches.flags[elbow].is_empty();
         for elbow in [0, 2] {
-            if self.flags[elbow].is_empty() && self.q[elbow].is_none() {
+            let (kept, turned) = if keep_behind { (elbow + 4, elbow) } else { (elbow, elbow + 4) };
+            let (kept, turned) = if exists(self, kept) { (kept, turned) } else { (turned, kept) };
+            if !exists(self, kept) {
                 continue;
             }
-            for slot in [elbow, elbow + 1] {
-                self.q[slot + 4] = None;
-                self.flags[slot + 4] = self.flags[slot] | Status::SHOULDER | Status::MERGED;
+            for wrist in [0, 1] {
+                self.q[turned + wrist] = None;
+                self.flags[turned + wrist] = self.flags[kept + wrist] | Status::SHOULDER | Status::MERGED;
             }
         }
     }
@@ -314,15 +353,24 @@ fn forearm_to_flange(shoulder: &Shoulder, elbow: &Elbow, rotation: &Matrix3<f64>
 /// The wrist angles (eq. 15 to 18). Taking theta_6 and theta_5 with the sine and cosine of the theta_4 that was chosen keeps the
 /// residual at rounding next to theta_5 = 0, whatever theta_4 is. `error` is how far rounding may turn the forearm: a theta_5 below it
 /// is none.
-fn wrist(m: &Matrix3<f64>, free_theta_4: f64, radius: f64, error: f64) -> Wrist {
+fn wrist(m: &Matrix3<f64>, target: &Target<'_>, error: f64) -> Wrist {
     let column: Vector3<f64> = m.column(2).into();
     let sin_5 = column.x.hypot(column.y);
-    let silent = sin_5 <= radius.max(WRIST_FREE_SIN);
-    let (sin_4, cos_4) = if silent { free_theta_4.sin_cos() } else { (column.y / sin_5, column.x / sin_5) };
-    let theta_4 = if silent { free_theta_4 } else { column.y.atan2(column.x) };
+    let merged = sin_5 <= WRIST_MERGE_SIN.max(error);
+    let silent = target.free.forced == Some(4) || sin_5 <= target.free.radius.max(WRIST_FREE_SIN);
+    let (free_sin, free_cos) = target.free_theta[3].sin_cos();
+    let (sin_4, cos_4) = if silent {
+        (free_sin, free_cos)
+    } else {
+        // Of merged branches, the one nearer to the seed is kept.
+        let flips = merged && target.free.radius > 0.0 && free_sin * column.y + free_cos * column.x < 0.0;
+        let sign = if flips { -1.0 } else { 1.0 };
+        (sign * column.y / sin_5, sign * column.x / sin_5)
+    };
+    let theta_4 = if silent { target.free_theta[3] } else { sin_4.atan2(cos_4) };
     let projected = cos_4 * column.x + sin_4 * column.y;
     let sin_5_signed = if projected.abs() <= WRIST_FREE_SIN { projected.max(0.0) } else { projected };
     let theta_5 = sin_5_signed.atan2(column.z);
     let theta_6 = (cos_4 * m[(1, 0)] - sin_4 * m[(0, 0)]).atan2(cos_4 * m[(1, 1)] - sin_4 * m[(0, 1)]);
-    Wrist { theta: [theta_4, theta_5, theta_6], merged: sin_5 <= WRIST_MERGE_SIN.max(error) }
+    Wrist { theta: [theta_4, theta_5, theta_6], merged, free: sin_5 <= WRIST_MERGE_SIN }
 }
