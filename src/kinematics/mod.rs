@@ -3,6 +3,7 @@
 mod angles;
 mod chain;
 mod dh;
+mod follow;
 mod jacobian;
 mod limits;
 mod pose;
@@ -16,6 +17,7 @@ pub mod thresholds;
 
 pub use chain::Chain;
 pub use dh::{DhRow, Mdh, Sdh};
+pub use follow::{Break, BreakReason, Followed, Follower};
 pub use jacobian::JacobianFrame;
 pub use limits::JointLimits;
 pub use pose::{

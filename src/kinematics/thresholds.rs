@@ -48,3 +48,9 @@ pub const LEAST_LINK: f64 = 1e-6;
 
 /// How far a Denavit-Hartenberg table may be from a known form and still be it [rad, m]: the rounding of a table in text. It is squared up.
 pub const FORM_TOLERANCE: f64 = 1e-9;
+
+/// How much a joint step must grow over the one before it to be looked into as a jump [1].
+pub const JUMP_GROWTH: f64 = 3.0;
+
+/// Joint step that is never looked into as a jump [rad]: a third of a degree.
+pub const JUMP_LEAST: f64 = 6e-3;

@@ -1,0 +1,237 @@
+//! One continuous joint path along a path of poses.
+
+use alloc::vec::Vec;
+use core::f64::consts::TAU;
+use core::fmt;
+
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+use nalgebra::{IsometryMatrix3, Rotation3, Translation3};
+
+use super::pose::{Pose, checked_pose};
+use super::robot::Robot;
+use super::select::{check_joints, check_weights};
+use super::solutions::{FreeJoint, Solution};
+use super::spherical_wrist::FreeChoice;
+use super::status::{Explanation, Status};
+use super::thresholds::{JUMP_GROWTH, JUMP_LEAST, SEEDED_FREE};
+use crate::error::Error;
+
+/// How often a segment of the path is halved in search of a continuous way through it: to a trillionth of it.
+const HALVINGS: u32 = 40;
+
+/// A place where the joints cannot follow the path without a jump.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Break {
+    /// Index of the pose that is not met, or at which the joints arrive by a jump.
+    pub index: usize,
+    /// Why.
+    pub reason: BreakReason,
+}
+
+/// Why the joints cannot follow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum BreakReason {
+    /// No solution inside the limits.
+    Unreachable(Explanation),
+    /// A joint must turn while the tool stands still.
+    Jump {
+        /// The joint, from 1.
+        joint: usize,
+        /// By how much it turns [rad].
+        by: f64,
+        /// The singularities at which it does; empty where a joint limit is the cause.
+        kinds: Status,
+    },
+    /// The policy stops at a wrist singularity.
+    Stopped {
+        /// Joint 5 [rad].
+        q5: f64,
+    },
+}
+
+impl fmt::Display for Break {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "pose {}: ", self.index)?;
+        match self.reason {
+            BreakReason::Unreachable(explanation) => explanation.fmt(f),
+            BreakReason::Jump { joint, by, kinds } => {
+                write!(f, "J{joint} must turn by {:.1} deg on the spot, ", by.to_degrees())?;
+                match kinds {
+                    kinds if kinds.contains(Status::WRIST) => write!(f, "at the wrist singularity"),
+                    kinds if kinds.contains(Status::SHOULDER) => write!(f, "at the shoulder singularity"),
+                    kinds if kinds.contains(Status::ELBOW) => write!(f, "at the elbow singularity"),
+                    _ => write!(f, "the branch ends at a joint limit or at the edge of reach"),
+                }
+            }
+            BreakReason::Stopped { q5 } => write!(f, "stopped at the wrist singularity, J5 is {:.4} deg", q5.to_degrees()),
+        }
+    }
+}
+
+/// Follows a path pose by pose, each time with the solution that continues the last. Allocates nothing.
+#[derive(Clone, Debug)]
+pub struct Follower<'a> {
+    robot: &'a Robot<6>,
+    weights: [f64; 6],
+    /// The pose and the joints of the last step.
+    last: Option<(Pose, [f64; 6])>,
+    q: [f64; 6],
+    /// The joints' step before, continued where a pose leaves a joint free.
+    velocity: [f64; 6],
+}
+
+impl<'a> Follower<'a> {
+    /// A follower that stands at `seed` [rad].
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidJoints`] when the seed or a weight is not finite or a weight is negative.
+    pub fn new(robot: &'a Robot<6>, seed: &[f64; 6], weights: &[f64; 6]) -> Result<Self, Error> {
+        check_joints("seed", seed)?;
+        check_weights(weights)?;
+        Ok(Self { robot, weights: *weights, last: None, q: *seed, velocity: [0.0; 6] })
+    }
+
+    /// The joints of the next pose of the path [rad], and why they jumped when they did; without joints when there are none.
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::ik`].
+    pub fn step(&mut self, pose: &Pose) -> Result<(Option<Solution<6>>, Option<BreakReason>), Error> {
+        let pose = checked_pose(pose)?;
+        let mut next = match self.nearest(&pose)? {
+            Ok(next) => next,
+            Err(explanation) => {
+                (self.last, self.velocity) = (None, [0.0; 6]);
+                return Ok((None, Some(BreakReason::Unreachable(explanation))));
+            }
+        };
+        let mut jump = None;
+        if let Some((last_pose, _)) = self.last {
+            let usual = largest(&self.velocity).max(JUMP_LEAST / JUMP_GROWTH);
+            if largest(&difference(&next.q, &self.q)) > JUMP_GROWTH * usual {
+                (next, jump) = self.through(&last_pose, &pose, next)?;
+            }
+        }
+        self.velocity = if self.last.is_none() || jump.is_some() { [0.0; 6] } else { difference(&next.q, &self.q) };
+        self.q = next.q;
+        self.last = Some((pose, next.q));
+        Ok((Some(next), jump))
+    }
+
+    /// The solution nearest to where the joints stand; where the pose leaves joints free, nearest to where they are heading.
+    fn nearest(&self, pose: &Pose) -> Result<Result<Solution<6>, Explanation>, Error> {
+        let heading = core::array::from_fn(|i| self.q[i] + self.velocity[i]);
+        let solutions = self.robot.solve(*pose, &FreeChoice::seed(heading))?;
+        let Some(mut next) = solutions.nearest(&self.q, &self.weights) else { return Ok(Err(solutions.explain())) };
+        self.balance(&mut next, &heading);
+        Ok(Ok(next))
+    }
+
+    /// At a silent wrist the whole of what is left over went to joint 6: half of it belongs to joint 4.
+    fn balance(&self, next: &mut Solution<6>, heading: &[f64; 6]) {
+        let sign = match next.free {
+            Some(FreeJoint::WristSum) => 1.0,
+            Some(FreeJoint::WristDifference) => -1.0,
+            _ => return,
+        };
+        if next.q[4].sin().abs() > SEEDED_FREE {
+            return;
+        }
+        let over = next.q[5] - heading[5];
+        let over = over - TAU * (over / TAU).round();
+        let mut balanced = next.q;
+        balanced[3] += sign * over / 2.0;
+        balanced[5] -= over / 2.0;
+        if self.robot.limits().contain(&balanced) {
+            next.q = balanced;
+        }
+    }
+
+    /// Goes from the last pose to the next one by halving: a step that is only large shrinks with the segment, a jump does not.
+    fn through(&self, from: &Pose, to: &Pose, direct: Solution<6>) -> Result<(Solution<6>, Option<BreakReason>), Error> {
+        let mut scout = Self { velocity: [0.0; 6], ..self.clone() };
+        let whole = largest(&difference(&direct.q, &self.q));
+        let (mut done, mut width, mut depth) = (0.0, 1.0, 0);
+        let mut arrived = direct;
+        while done < 1.0 {
+            let end = if done + width >= 1.0 { 1.0 } else { done + width };
+            let pose = if end < 1.0 { between(from, to, end) } else { *to };
+            let step = match scout.nearest(&pose)? {
+                Ok(next) => {
+                    arrived = next;
+                    largest(&difference(&next.q, &scout.q))
+                }
+                // The straight line between two poses may leave reach where the path does not.
+                Err(_) => return Ok((direct, None)),
+            };
+            if step > whole / 4.0 && depth < HALVINGS {
+                (width, depth) = (width / 2.0, depth + 1);
+                continue;
+            }
+            if step > whole / 4.0 {
+                return Ok((direct, Some(self.jump(&direct, &pose, &scout.q)?)));
+            }
+            scout.q = arrived.q;
+            done = end;
+            if depth > 0 {
+                (width, depth) = (width * 2.0, depth - 1);
+            }
+        }
+        Ok((arrived, None))
+    }
+
+    /// The jump from where the joints stand to `to`, at the pose where it cannot be avoided.
+    fn jump(&self, to: &Solution<6>, pose: &Pose, at: &[f64; 6]) -> Result<BreakReason, Error> {
+        let steps = difference(&to.q, &self.q);
+        let joint = (0..6).fold(0, |most, i| if steps[i].abs() > steps[most].abs() { i } else { most });
+        let solutions = self.robot.solve(*pose, &FreeChoice::seed(*at))?;
+        let kinds = solutions.iter().fold(self.robot.singularity(at).kinds, |kinds, solution| kinds | solution.kinds());
+        Ok(BreakReason::Jump { joint: joint + 1, by: steps[joint], kinds })
+    }
+}
+
+/// A joint path along a path of poses.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Followed {
+    /// Joint angles of each pose [rad]; `None` where the pose is not met.
+    pub q: Vec<Option<[f64; 6]>>,
+    /// Where the joints cannot follow, and why.
+    pub breaks: Vec<Break>,
+}
+
+impl Robot<6> {
+    /// One continuous joint path along `path`, from the solution nearest to `seed` [rad] on: inside the limits, turns considered, through
+    /// singularities without a jump where there is a way.
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::ik_nearest`]; a pose that cannot be reached is no error but a break.
+    pub fn follow(&self, path: &[Pose], seed: &[f64; 6], weights: &[f64; 6]) -> Result<Followed, Error> {
+        let mut follower = Follower::new(self, seed, weights)?;
+        let mut followed = Followed { q: Vec::with_capacity(path.len()), breaks: Vec::new() };
+        for (index, pose) in path.iter().enumerate() {
+            let (solution, broken) = follower.step(pose)?;
+            followed.q.push(solution.map(|solution| solution.q));
+            followed.breaks.extend(broken.map(|reason| Break { index, reason }));
+        }
+        Ok(followed)
+    }
+}
+
+/// The pose at a part of the way from one to another: straight, at a constant rate of turn.
+fn between(from: &Pose, to: &Pose, part: f64) -> Pose {
+    let turn = (from.rotation.inverse() * to.rotation).scaled_axis() * part;
+    let position = from.translation.vector.lerp(&to.translation.vector, part);
+    IsometryMatrix3::from_parts(Translation3::from(position), from.rotation * Rotation3::new(turn))
+}
+
+fn difference(a: &[f64; 6], b: &[f64; 6]) -> [f64; 6] {
+    core::array::from_fn(|i| a[i] - b[i])
+}
+
+fn largest(steps: &[f64; 6]) -> f64 {
+    steps.iter().fold(0.0, |most, step| most.max(step.abs()))
+}

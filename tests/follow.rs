@@ -1,0 +1,159 @@
+//! A joint path that is smooth is followed without a jump, and where there is no way the break says where and why.
+//!
+//! `make hardsets` prints the table.
+#![allow(clippy::unwrap_used, clippy::cast_precision_loss, missing_docs)]
+
+mod common;
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use irbkin::{BreakReason, Followed, JointLimits, OpwParameters, Pose, Robot, Status};
+
+const SAMPLES: usize = 201;
+
+fn robot() -> Robot<6> {
+    Robot::named("IRB 2600-12/1.65").unwrap()
+}
+
+/// A joint path over t in -1 ..= 1, of which the middle sample is t = 0 exactly.
+fn joint_path(path: impl Fn(f64) -> [f64; 6]) -> Vec<[f64; 6]> {
+    (0..SAMPLES).map(|i| path(2.0 * i as f64 / (SAMPLES - 1) as f64 - 1.0)).collect()
+}
+
+fn largest_step(path: &[[f64; 6]]) -> f64 {
+    path.windows(2).flat_map(|pair| (0..6).map(move |i| (pair[1][i] - pair[0][i]).abs())).fold(0.0, f64::max)
+}
+
+fn follow(robot: &Robot<6>, made: &[[f64; 6]]) -> (Vec<Pose>, Followed) {
+    let poses: Vec<Pose> = made.iter().map(|q| robot.fk(q)).collect();
+    let followed = robot.follow(&poses, &made[0], &[1.0; 6]).unwrap();
+    (poses, followed)
+}
+
+/// Follows a smooth path: met everywhere, no break, no step more than one and a half times the path's own.
+fn check_smooth(name: &str, robot: &Robot<6>, made: &[[f64; 6]]) {
+    let (poses, followed) = follow(robot, made);
+    let q: Vec<[f64; 6]> = followed.q.iter().map(|q| q.unwrap()).collect();
+    let ratio = largest_step(&q) / largest_step(made);
+    let worst = q.iter().zip(&poses).map(|(q, pose)| robot.residual(q, pose).largest()).fold(0.0, f64::max);
+    println!("{name:52} largest step {ratio:5.2} x the path's  worst residual {worst:.1e}  breaks {}", followed.breaks.len());
+    assert!(followed.breaks.is_empty(), "{name}: {}", followed.breaks[0]);
+    assert!(ratio <= 1.5, "{name}: {ratio}");
+    // A pose within 1e-12 of a wrist singularity keeps the path's own joint 4.
+    assert!(worst <= 2e-12, "{name}: {worst:e}");
+    assert!(q.iter().all(|q| robot.limits().contain(q)), "{name}");
+}
+
+/// q2 that puts the wrist centre of an IRB 2600 on axis 1 for q3, leaning back.
+fn over_the_base(q3: f64) -> f64 {
+    let (along, across) = (0.7 - 0.795 * q3.sin() + 0.115 * q3.cos(), 0.795 * q3.cos() + 0.115 * q3.sin());
+    (-0.15 / along.hypot(across)).asin() - across.atan2(along)
+}
+
+/// q3 of a stretched IRB 2600.
+fn stretched() -> f64 {
+    (0.115_f64).atan2(0.795) - FRAC_PI_2
+}
+
+#[test]
+fn the_wrist_is_passed_without_a_jump() {
+    let robot = robot();
+    check_smooth("J5 through 0, J4 still", &robot, &joint_path(|t| [0.3 + 0.1 * t, 0.2, 0.1 + 0.2 * t, 0.7, 0.5 * t, -0.4]));
+    check_smooth("J5 through 0, J4 moving", &robot, &joint_path(|t| [0.3 * t, 0.2, 0.1, 0.7 + 0.4 * t, 0.5 * t, -0.4]));
+    check_smooth("J5 through 0, J4 and J6 moving", &robot, &joint_path(|t| [0.3, 0.2 * t, 0.1, 0.5 * t, 0.3 * t, 0.5 * t]));
+    check_smooth("J5 through 0, J4 against J6", &robot, &joint_path(|t| [0.3, 0.2 * t, 0.1, 0.5 * t, 0.3 * t, -0.5 * t]));
+    check_smooth("J5 = 0 all along, J4 moving", &robot, &joint_path(|t| [0.3 + 0.2 * t, 0.2, 0.1 * t, 0.8 * t, 0.0, 0.2]));
+    check_smooth("J5 = 0 all along, J4 and J6 moving", &robot, &joint_path(|t| [0.3, 0.2, 0.1, 0.8 * t, 0.0, 0.8 * t]));
+    for near in [1e-12, 1e-9, 1e-7, 1e-6, 1e-4] {
+        check_smooth(
+            &format!("J5 through {near:e} at the middle"),
+            &robot,
+            &joint_path(|t| [0.1 * t, 0.2, 0.1, 0.4 * t, near + 0.5 * t, 0.3]),
+        );
+        check_smooth(&format!("J5 = {near:e} all along"), &robot, &joint_path(|t| [0.3 * t, 0.2, 0.1, 0.4 * t, near, 0.3]));
+    }
+}
+
+#[test]
+fn the_shoulder_is_passed_without_a_jump() {
+    let robot = robot();
+    let q3 = -0.6;
+    let q2 = over_the_base(q3);
+    for near in [0.0, 1e-12, 1e-9, 1e-7, 1e-6, 1e-4] {
+        let name = format!("wrist centre over axis 1, {near:e} rad off at the middle");
+        check_smooth(&name, &robot, &joint_path(|t| [0.4 * t, q2 + near + 0.3 * t, q3, 0.3, 0.8 + 0.1 * t, 0.2 * t]));
+    }
+    check_smooth("along axis 1", &robot, &joint_path(|t| [0.4 * t, over_the_base(q3 + 0.1 * t), q3 + 0.1 * t, 0.3, 0.8, 0.2]));
+}
+
+#[test]
+fn the_elbow_is_stretched_and_bent_again() {
+    let robot = robot();
+    let q3 = stretched();
+    check_smooth("stretched and back", &robot, &joint_path(|t| [0.3 * t, 0.4, q3 + 0.4 * t * t, 0.3, 0.8, 0.2]));
+    check_smooth("through stretched", &robot, &joint_path(|t| [0.3 * t, 0.4 + 0.3 * t, q3 + 0.4 * t, 0.3, 0.8, 0.2]));
+    check_smooth("stretched all along", &robot, &joint_path(|t| [0.3 * t, 0.4 + 0.3 * t, q3, 0.3, 0.8 + 0.2 * t, 0.2]));
+    check_smooth("stretched with J5 through 0", &robot, &joint_path(|t| [0.3 * t, 0.4, q3 + 0.4 * t * t, 0.3, 0.5 * t, 0.2]));
+}
+
+#[test]
+fn turns_are_counted_up_to_the_limits() {
+    let robot = robot();
+    let turns = 390.0_f64.to_radians();
+    check_smooth("J4 and J6 from -390 to 390 deg", &robot, &joint_path(|t| [0.3, 0.2, 0.1, turns * t, 0.8, -turns * t]));
+    check_smooth("J1 from -179.9 to 179.9 deg", &robot, &joint_path(|t| [3.14 * t, 0.2, 0.1, 0.2, 0.8, 0.3]));
+    let free = robot.with_limits(JointLimits::UNLIMITED);
+    check_smooth("J1 from -720 to 720 deg without limits", &free, &joint_path(|t| [4.0 * PI * t, 0.2, 0.1, 0.2, 0.8, 0.3]));
+}
+
+#[test]
+fn arms_of_other_makers_pass_too() {
+    let kuka = common::kuka_kr6().unwrap();
+    check_smooth("KUKA, J5 through 0", &kuka, &joint_path(|t| [0.3, -1.4, 1.3 + 0.1 * t, 0.5 * t, 0.4 * t, 0.3]));
+    let lateral = Robot::from_opw(OpwParameters { b: 0.05, ..OpwParameters::abb(0.15, -0.11, 0.45, 0.6, 0.64, 0.1) }).unwrap();
+    check_smooth("lateral offset, J5 through 0", &lateral, &joint_path(|t| [0.3, 0.2, 0.1 * t, 0.5 * t, 0.4 * t, 0.3]));
+}
+
+/// Where the break is and by how much the joint turns.
+fn jump(followed: &Followed) -> (usize, usize, f64, Status) {
+    assert_eq!(followed.breaks.len(), 1, "{:?}", followed.breaks);
+    let broken = followed.breaks[0];
+    println!("{broken}");
+    let BreakReason::Jump { joint, by, kinds } = broken.reason else { unreachable!("{broken}") };
+    (broken.index, joint, by, kinds)
+}
+
+#[test]
+fn a_corner_in_the_wrist_singularity_is_a_break() {
+    // In along one direction, out along another: J4 must turn by 60 deg while J5 is 0.
+    let robot = robot();
+    let turned = |t: f64| if t < 0.0 { 0.0 } else { PI / 3.0 };
+    let made = joint_path(|t| [0.3, 0.2, 0.1, 0.2 + turned(t), 0.5 * t, 0.1 - turned(t)]);
+    let (index, joint, by, kinds) = jump(&follow(&robot, &made).1);
+    assert_eq!((index, joint, kinds), (SAMPLES / 2 + 1, 4, Status::WRIST));
+    assert!((by.abs() - PI / 3.0).abs() < 0.02, "{by}");
+}
+
+#[test]
+fn joint_4_turns_by_pi_where_the_wrist_keeps_its_sign() {
+    let robot = robot();
+    let mut limits = robot.limits().to_array();
+    limits[4][0] = 0.0;
+    let robot = robot.with_limits(JointLimits::new(limits).unwrap());
+    let made = joint_path(|t| [0.3, 0.2, 0.1, if t < 0.0 { 0.2 + PI } else { 0.2 }, 0.5 * t.abs(), if t < 0.0 { 0.1 - PI } else { 0.1 }]);
+    let (index, joint, by, kinds) = jump(&follow(&robot, &made).1);
+    assert!(index.abs_diff(SAMPLES / 2) <= 1 && [4, 6].contains(&joint) && kinds == Status::WRIST);
+    assert!((by.abs() - PI).abs() < 0.02, "{by}");
+}
+
+#[test]
+fn a_pose_out_of_reach_is_a_break_and_the_path_goes_on() {
+    let robot = robot();
+    let made = joint_path(|t| [0.3 * t, 0.2, 0.1, 0.4, 0.5, 0.1]);
+    let mut poses: Vec<Pose> = made.iter().map(|q| robot.fk(q)).collect();
+    poses[50].translation.vector.x += 5.0;
+    let followed = robot.follow(&poses, &made[0], &[1.0; 6]).unwrap();
+    assert_eq!((followed.breaks.len(), followed.breaks[0].index), (1, 50));
+    assert!(followed.breaks[0].to_string().starts_with("pose 50: wrist centre "));
+    assert!(followed.q[50].is_none() && followed.q[51].is_some());
+}
