@@ -5,6 +5,7 @@
 
 use nalgebra::SMatrix;
 
+use crate::error::{Error, ModelFault};
 use crate::kinematics::{JacobianFrame, Robot, SLOTS, Singularity, Status, pose_from_rows, pose_to_rows};
 
 /// Forward kinematics: rows of `N` joint angles to rows of 16 pose elements.
@@ -45,19 +46,28 @@ pub fn singularity<'a, const N: usize>(robot: &'a Robot<N>, q: &'a [f64]) -> imp
 
 /// Inverse kinematics: rows of 16 pose elements to eight slots of six joint angles and eight [`Status`] bytes a row, on up to `threads`
 /// threads. Empty slots are NaN.
-pub fn ik(robot: &Robot<6>, poses: &[f64], q: &mut [f64], status: &mut [u8], threads: usize) {
+///
+/// # Errors
+///
+/// [`Error::InvalidModel`] when the arm has no closed form.
+pub fn ik(robot: &Robot<6>, poses: &[f64], q: &mut [f64], status: &mut [u8], threads: usize) -> Result<(), Error> {
+    if let Some(reason) = robot.no_closed_form() {
+        return Err(ModelFault::NoClosedForm(reason).into());
+    }
     let poses = poses.as_chunks::<16>().0;
     let q = q.as_chunks_mut::<{ SLOTS * 6 }>().0;
     let status = status.as_chunks_mut::<SLOTS>().0;
     let share = poses.len().div_ceil(threads.max(1)).max(1);
     if share >= poses.len() {
-        return ik_rows(robot, poses, q, status);
+        ik_rows(robot, poses, q, status);
+        return Ok(());
     }
     std::thread::scope(|scope| {
         for ((poses, q), status) in poses.chunks(share).zip(q.chunks_mut(share)).zip(status.chunks_mut(share)) {
             scope.spawn(|| ik_rows(robot, poses, q, status));
         }
     });
+    Ok(())
 }
 
 fn ik_rows(robot: &Robot<6>, poses: &[[f64; 16]], q: &mut [[f64; SLOTS * 6]], status: &mut [[u8; SLOTS]]) {

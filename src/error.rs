@@ -84,6 +84,11 @@ pub enum JointFault {
         /// The angle.
         value: f64,
     },
+    /// The zone of a crossing policy is negative, NaN or infinite.
+    Zone {
+        /// The zone.
+        value: f64,
+    },
     /// A weight is negative, NaN or infinite.
     Weight {
         /// The joint, from 1.
@@ -195,6 +200,7 @@ impl fmt::Display for JointFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotFinite { field, joint, value } => write!(f, "{field}: joint {joint} is {value}, every angle must be finite [rad]"),
+            Self::Zone { value } => write!(f, "zone is {value}, it must be finite and not negative"),
             Self::Weight { joint, value } => write!(f, "weights: joint {joint} is {value}, a weight must be finite and not negative"),
         }
     }

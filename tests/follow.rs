@@ -7,7 +7,7 @@ mod common;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use irbkin::{BreakReason, Followed, JointLimits, OpwParameters, Pose, Robot, Status};
+use irbkin::{BreakReason, FollowOptions, Followed, JointLimits, OpwParameters, Pose, Robot, Status};
 
 const SAMPLES: usize = 201;
 
@@ -26,7 +26,7 @@ fn largest_step(path: &[[f64; 6]]) -> f64 {
 
 fn follow(robot: &Robot<6>, made: &[[f64; 6]]) -> (Vec<Pose>, Followed) {
     let poses: Vec<Pose> = made.iter().map(|q| robot.fk(q)).collect();
-    let followed = robot.follow(&poses, &made[0], &[1.0; 6]).unwrap();
+    let followed = robot.follow(&poses, &made[0], &FollowOptions::default()).unwrap();
     (poses, followed)
 }
 
@@ -101,7 +101,7 @@ fn turns_are_counted_up_to_the_limits() {
     let robot = robot();
     let turns = 390.0_f64.to_radians();
     check_smooth("J4 and J6 from -390 to 390 deg", &robot, &joint_path(|t| [0.3, 0.2, 0.1, turns * t, 0.8, -turns * t]));
-    check_smooth("J1 from -179.9 to 179.9 deg", &robot, &joint_path(|t| [3.14 * t, 0.2, 0.1, 0.2, 0.8, 0.3]));
+    check_smooth("J1 from -179 to 179 deg", &robot, &joint_path(|t| [179.0_f64.to_radians() * t, 0.2, 0.1, 0.2, 0.8, 0.3]));
     let free = robot.with_limits(JointLimits::UNLIMITED);
     check_smooth("J1 from -720 to 720 deg without limits", &free, &joint_path(|t| [4.0 * PI * t, 0.2, 0.1, 0.2, 0.8, 0.3]));
 }
@@ -152,7 +152,7 @@ fn a_pose_out_of_reach_is_a_break_and_the_path_goes_on() {
     let made = joint_path(|t| [0.3 * t, 0.2, 0.1, 0.4, 0.5, 0.1]);
     let mut poses: Vec<Pose> = made.iter().map(|q| robot.fk(q)).collect();
     poses[50].translation.vector.x += 5.0;
-    let followed = robot.follow(&poses, &made[0], &[1.0; 6]).unwrap();
+    let followed = robot.follow(&poses, &made[0], &FollowOptions::default()).unwrap();
     assert_eq!((followed.breaks.len(), followed.breaks[0].index), (1, 50));
     assert!(followed.breaks[0].to_string().starts_with("pose 50: wrist centre "));
     assert!(followed.q[50].is_none() && followed.q[51].is_some());

@@ -245,3 +245,19 @@ fn limits_that_are_empty_are_refused_by_name() {
     let refused = JointLimits::new([[0.0, 1.0], [1.2, -0.5]]).unwrap_err();
     assert_eq!(refused.to_string(), "joint 2 limit is empty: lower 1.2 rad > upper -0.5 rad");
 }
+
+#[test]
+fn a_lateral_offset_of_rounding_is_none() {
+    let mut mdh = Robot::<6>::named("IRB 1200-5/0.9").unwrap().mdh().clone();
+    (mdh.rows[1].d, mdh.rows[2].d) = (0.1 + 0.2, -0.3);
+    let from_table = Robot::from_mdh(mdh).unwrap();
+    let from_opw = Robot::from_opw(OpwParameters { b: 1e-12, ..OpwParameters::abb(0.0, -0.042, 0.3991, 0.448, 0.451, 0.082) }).unwrap();
+    let over_the_base = pose_from_euler_zyx([0.0, 0.0, 1.2], [0.0; 3]).unwrap();
+    for robot in [from_table, from_opw] {
+        let solutions = robot.ik(&over_the_base).unwrap();
+        assert!(!solutions.is_empty());
+        for solution in &solutions {
+            assert!(robot.residual(&solution.q, &over_the_base).largest() < 1e-14);
+        }
+    }
+}

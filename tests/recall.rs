@@ -62,7 +62,7 @@ fn check(name: &str, robot: &Robot<6>) {
     #[expect(clippy::cast_precision_loss, reason = "a mean")]
     let mean = solutions as f64 / poses as f64;
     println!(
-        "{name:20} {poses:8} poses  {lost} lost ({coarse} found to less than 1e-9 rad)  {wrong} wrong  {twice} twice  {mean:.2} solutions  \
+        "{name:20} {poses:8} poses  {lost} lost ({coarse} found only to worse than 1e-9 rad)  {wrong} wrong  {twice} twice  {mean:.2} solutions  \
          worst: {position:.1e} m ({:.2e} x reach)  {rotation:.1e} rad  recall {recall:.1e} rad",
         position / reach
     );

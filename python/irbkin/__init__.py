@@ -21,11 +21,14 @@ from irbkin.errors import (
     UnknownRobotError,
     UnreachableError,
 )
-from irbkin.records import IkBatch, Kind, PoseCheck, Reach, Singularity, Status
+from irbkin.records import Break, FollowResult, FreeJoint, IkBatch, Kind, PoseCheck, Reach, Singularity, Status
 
 __version__ = version("irbkin")
 
 __all__ = [
+    "Break",
+    "FollowResult",
+    "FreeJoint",
     "IkBatch",
     "InvalidJointsError",
     "InvalidModelError",

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
-__all__ = ["IkBatch", "Kind", "PoseCheck", "Reach", "Singularity", "Status"]
+__all__ = ["Break", "FollowResult", "FreeJoint", "IkBatch", "Kind", "PoseCheck", "Reach", "Singularity", "Status"]
 
 
 class Status(enum.IntFlag):
@@ -25,7 +25,7 @@ class Status(enum.IntFlag):
     ELBOW = 8
     """The arm is stretched or folded: both elbow branches coincide."""
     SHOULDER = 16
-    """The wrist centre is on axis 1: q1 is not determined."""
+    """The wrist centre is on axis 1: q1 is not determined. With a lateral offset: front and back meet."""
     MERGED = 32
     """The slot is empty because its solution coincides with that of another slot at a singularity."""
     INVALID = 64
@@ -50,7 +50,7 @@ class Reach(enum.Enum):
     TOO_FAR = "too far"
     """It lies beyond the stretched arm."""
     TOO_NEAR = "too near"
-    """It lies closer than the folded arm."""
+    """It lies closer than the folded arm, or inside the cylinder of the lateral offset."""
 
 
 class IkBatch(NamedTuple):
@@ -60,6 +60,36 @@ class IkBatch(NamedTuple):
     """Joint angles [rad], shape (..., 8, n), NaN where a slot is empty."""
     status: npt.NDArray[np.uint8]
     """`Status` of each slot, shape (..., 8)."""
+
+
+class FreeJoint(NamedTuple):
+    """The joint that a singular pose leaves free."""
+
+    joint: int
+    """Its number, from 1."""
+    fixed: str
+    """What stays fixed along the family: "q4 + q6", "q4 - q6", "q2, q3" or "q1, q3"."""
+
+
+class Break(NamedTuple):
+    """A place where the joints cannot follow a path without a jump."""
+
+    index: int
+    """Index of the pose that is not met, or at which the joints arrive by a jump."""
+    reason: str
+    """Where and why, in a sentence."""
+
+
+@dataclass(frozen=True, slots=True)
+class FollowResult:
+    """A joint path along a path of poses."""
+
+    q: npt.NDArray[np.float64]
+    """Joint angles [rad], shape (m, n), NaN where a pose is not met."""
+    orientation_error: npt.NDArray[np.float64]
+    """How far the tool's orientation is from that of each pose [rad], shape (m,), NaN where a pose is not met."""
+    breaks: tuple[Break, ...]
+    """Where the joints cannot follow, and why."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -75,8 +75,8 @@ impl fmt::Display for Break {
 pub struct Follower<'a> {
     robot: &'a Robot<6>,
     weights: [f64; 6],
-    /// The pose and the joints of the last step.
-    last: Option<(Pose, [f64; 6])>,
+    /// The pose of the last step.
+    last: Option<Pose>,
     q: [f64; 6],
     /// The joints' step before, continued where a pose leaves a joint free.
     velocity: [f64; 6],
@@ -94,6 +94,23 @@ impl<'a> Follower<'a> {
         Ok(Self { robot, weights: *weights, last: None, q: *seed, velocity: [0.0; 6] })
     }
 
+    /// Where the joints stand [rad].
+    #[must_use]
+    pub fn joints(&self) -> [f64; 6] {
+        self.q
+    }
+
+    /// The pose that the joints were last brought to; `None` before the first and behind one that was not met.
+    #[must_use]
+    pub fn pose(&self) -> Option<&Pose> {
+        self.last.as_ref()
+    }
+
+    /// Goes on from `q` [rad], at `pose`.
+    pub(crate) fn stand_at(&mut self, pose: &Pose, q: [f64; 6]) {
+        (self.last, self.q, self.velocity) = (Some(*pose), q, [0.0; 6]);
+    }
+
     /// The joints of the next pose of the path [rad], and why they jumped when they did; without joints when there are none.
     ///
     /// # Errors
@@ -109,7 +126,7 @@ impl<'a> Follower<'a> {
             }
         };
         let mut jump = None;
-        if let Some((last_pose, _)) = self.last {
+        if let Some(last_pose) = self.last {
             let usual = largest(&self.velocity).max(JUMP_LEAST / JUMP_GROWTH);
             if largest(&difference(&next.q, &self.q)) > JUMP_GROWTH * usual {
                 (next, jump) = self.through(&last_pose, &pose, next)?;
@@ -117,7 +134,7 @@ impl<'a> Follower<'a> {
         }
         self.velocity = if self.last.is_none() || jump.is_some() { [0.0; 6] } else { difference(&next.q, &self.q) };
         self.q = next.q;
-        self.last = Some((pose, next.q));
+        self.last = Some(pose);
         Ok((Some(next), jump))
     }
 
@@ -198,27 +215,10 @@ impl<'a> Follower<'a> {
 pub struct Followed {
     /// Joint angles of each pose [rad]; `None` where the pose is not met.
     pub q: Vec<Option<[f64; 6]>>,
+    /// How far the tool's orientation is from that of each pose [rad].
+    pub orientation_error: Vec<Option<f64>>,
     /// Where the joints cannot follow, and why.
     pub breaks: Vec<Break>,
-}
-
-impl Robot<6> {
-    /// One continuous joint path along `path`, from the solution nearest to `seed` [rad] on: inside the limits, turns considered, through
-    /// singularities without a jump where there is a way.
-    ///
-    /// # Errors
-    ///
-    /// As [`Robot::ik_nearest`]; a pose that cannot be reached is no error but a break.
-    pub fn follow(&self, path: &[Pose], seed: &[f64; 6], weights: &[f64; 6]) -> Result<Followed, Error> {
-        let mut follower = Follower::new(self, seed, weights)?;
-        let mut followed = Followed { q: Vec::with_capacity(path.len()), breaks: Vec::new() };
-        for (index, pose) in path.iter().enumerate() {
-            let (solution, broken) = follower.step(pose)?;
-            followed.q.push(solution.map(|solution| solution.q));
-            followed.breaks.extend(broken.map(|reason| Break { index, reason }));
-        }
-        Ok(followed)
-    }
 }
 
 /// The pose at a part of the way from one to another: straight, at a constant rate of turn.

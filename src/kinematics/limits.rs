@@ -47,7 +47,7 @@ impl<const N: usize> JointLimits<N> {
     /// Whether every joint is inside its limits, within [`LIMIT_TOLERANCE`].
     #[must_use]
     pub fn contain(&self, q: &[f64; N]) -> bool {
-        q.iter().enumerate().all(|(joint, angle)| self.excess(joint, *angle) <= LIMIT_TOLERANCE)
+        q.iter().enumerate().all(|(joint, angle)| angle.is_finite() && self.excess(joint, *angle) <= LIMIT_TOLERANCE)
     }
 
     /// How far an angle of joint `joint` (from 0) is outside its limits [rad]; zero inside.

@@ -2,6 +2,7 @@
 
 mod angles;
 mod chain;
+mod crossing;
 mod dh;
 mod follow;
 mod jacobian;
@@ -16,6 +17,7 @@ mod status;
 pub mod thresholds;
 
 pub use chain::Chain;
+pub use crossing::{Crossing, FollowOptions};
 pub use dh::{DhRow, Mdh, Sdh};
 pub use follow::{Break, BreakReason, Followed, Follower};
 pub use jacobian::JacobianFrame;

@@ -2,7 +2,7 @@
 
 use alloc::borrow::Cow;
 
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, Vector3};
 
 use super::chain::Chain;
 use super::dh::{DhRow, Mdh, Sdh};
@@ -130,11 +130,28 @@ impl Robot<6> {
         }))
     }
 
+    fn solver(&self) -> Result<&WristSolver, Error> {
+        match &self.geometry {
+            Geometry::SphericalWrist(solver) => Ok(solver),
+            Geometry::Serial(reason) => Err(ModelFault::NoClosedForm(*reason).into()),
+        }
+    }
+
+    /// The wrist frame of a pose, seen from the shoulder.
+    pub(super) fn wrist_pose(&self, pose: &Pose) -> Result<Pose, Error> {
+        let solver = self.solver()?;
+        Ok(solver.t_shoulder_world * pose * solver.t_tool_wrist)
+    }
+
+    /// The tool's centre point of a pose, seen from the shoulder, and the same point in the wrist frame.
+    pub(super) fn tool_point(&self, pose: &Pose) -> Result<(Vector3<f64>, Vector3<f64>), Error> {
+        let solver = self.solver()?;
+        let point = solver.t_shoulder_world.transform_point(&pose.translation.vector.into());
+        Ok((point.coords, solver.t_tool_wrist.inverse().translation.vector))
+    }
+
     pub(super) fn solve(&self, pose: Pose, free: &FreeChoice) -> Result<Solutions<6>, Error> {
-        let solver = match &self.geometry {
-            Geometry::SphericalWrist(solver) => solver,
-            Geometry::Serial(reason) => return Err(ModelFault::NoClosedForm(*reason).into()),
-        };
+        let solver = self.solver()?;
         let t_shoulder_wrist = solver.t_shoulder_world * pose * solver.t_tool_wrist;
         let branches = solver.arm.solve(&t_shoulder_wrist, free);
         let slots = core::array::from_fn(|slot| {
@@ -213,7 +230,7 @@ impl<const N: usize> Robot<N> {
 
     /// [`Robot::from_opw`] for a caller that is generic over the number of joints.
     pub(crate) fn of_opw(opw: OpwParameters) -> Result<Self, Error> {
-        opw.check()?;
+        let opw = opw.squared_up()?;
         let Mdh { base, rows, flange } = opw.mdh();
         let rows = <[DhRow; N]>::try_from(&rows[..]).map_err(|_| ModelFault::JointCount { found: 6, wanted: N })?;
         let chain = Chain::new(Mdh { base, rows, flange });

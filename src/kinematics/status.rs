@@ -14,7 +14,7 @@ bitflags::bitflags! {
         const WRIST = 4;
         /// The arm is stretched or folded: both elbow branches coincide.
         const ELBOW = 8;
-        /// The wrist centre is on axis 1: q1 is not determined.
+        /// The wrist centre is on axis 1: q1 is not determined. With a lateral offset: on the edge of its cylinder, where front and back meet.
         const SHOULDER = 16;
         /// The slot is empty because its solution coincides with that of another slot at a singularity.
         const MERGED = 32;
@@ -38,7 +38,7 @@ pub enum Reach {
         /// How far beyond [m].
         shortfall: f64,
     },
-    /// It lies closer than the folded arm.
+    /// It lies closer than the folded arm, or inside the cylinder of the lateral offset.
     TooNear {
         /// How far inside [m].
         shortfall: f64,
@@ -94,7 +94,7 @@ impl fmt::Display for Explanation {
                 write!(f, "all {solutions} outside limits; nearest: J{joint} by {:.1} deg", excess.to_degrees())
             }
             Self::OutOfReach(Reach::TooNear { shortfall }) => {
-                write!(f, "wrist centre {} closer than the folded arm reaches", Millimetres(shortfall))
+                write!(f, "wrist centre {} too near to be reached", Millimetres(shortfall))
             }
             Self::OutOfReach(reach) => write!(f, "wrist centre {} beyond reach", Millimetres(reach.shortfall())),
             Self::FilteredOut => write!(f, "no solution is left by the filter"),

@@ -54,3 +54,6 @@ pub const JUMP_GROWTH: f64 = 3.0;
 
 /// Joint step that is never looked into as a jump [rad]: a third of a degree.
 pub const JUMP_LEAST: f64 = 6e-3;
+
+/// |sin q5| below which a crossing policy acts [1]: one degree, as far as the orientation may then deviate.
+pub const WRIST_ZONE: f64 = 0.0175;

@@ -16,18 +16,14 @@ pub(super) struct Rows<'py> {
 impl<'py> Rows<'py> {
     /// Reads `value`, of shape (..., `tail`), as the argument `field`.
     pub(super) fn read(value: &Bound<'py, PyAny>, tail: &[usize], field: &str, fault: Fault) -> PyResult<Self> {
-        let array = match value.cast::<PyArrayDyn<f64>>() {
-            Ok(array) if array.is_c_contiguous() => array.clone(),
-            _ => converted(value, field, fault)?,
-        };
+        let array = contiguous(value, field, fault)?;
         let shape = array.shape();
         let Some(lead) = shape.strip_suffix(tail) else {
             let wanted = tail.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
             return Err(fault.error(value.py(), format!("{field} must have shape (..., {wanted}), got {shape:?}")));
         };
         let lead = lead.to_vec();
-        let array = array.try_readonly().map_err(|_| PyValueError::new_err(format!("{field} is being written by another call")))?;
-        Ok(Self { array, lead })
+        Ok(Self { array: readable(&array, field)?, lead })
     }
 
     /// The numbers in row-major order.
@@ -53,11 +49,24 @@ pub(super) fn vector<const N: usize>(value: &Bound<'_, PyAny>, field: &str, faul
 
 /// One array of exactly the shape `shape`, of `N` elements.
 pub(super) fn exactly<const N: usize>(value: &Bound<'_, PyAny>, shape: &[usize], field: &str, fault: Fault) -> PyResult<[f64; N]> {
-    let rows = Rows::read(value, shape, field, fault)?;
-    <[f64; N]>::try_from(rows.data()?)
-        .ok()
-        .filter(|_| rows.is_single())
-        .ok_or_else(|| fault.error(value.py(), format!("{field} must have shape {shape:?}, got {:?}", rows.array.shape())))
+    let array = contiguous(value, field, fault)?;
+    if array.shape() != shape {
+        return Err(fault.error(value.py(), format!("{field} must have shape {shape:?}, got {:?}", array.shape())));
+    }
+    let array = readable(&array, field)?;
+    Ok(array.as_slice()?.try_into().map_or([f64::NAN; N], |numbers: &[f64; N]| *numbers))
+}
+
+/// `value` as a C-contiguous float64 array: itself where it is one.
+fn contiguous<'py>(value: &Bound<'py, PyAny>, field: &str, fault: Fault) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    match value.cast::<PyArrayDyn<f64>>() {
+        Ok(array) if array.is_c_contiguous() => Ok(array.clone()),
+        _ => converted(value, field, fault),
+    }
+}
+
+fn readable<'py>(array: &Bound<'py, PyArrayDyn<f64>>, field: &str) -> PyResult<PyReadonlyArrayDyn<'py, f64>> {
+    array.try_readonly().map_err(|_| PyValueError::new_err(format!("{field} is being written by another call")))
 }
 
 fn converted<'py>(value: &Bound<'py, PyAny>, field: &str, fault: Fault) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {

@@ -26,6 +26,9 @@ package_object!(status_class, "irbkin.records", "Status");
 package_object!(reach_class, "irbkin.records", "Reach");
 package_object!(ik_batch_class, "irbkin.records", "IkBatch");
 package_object!(singularity_class, "irbkin.records", "Singularity");
+package_object!(free_joint_class, "irbkin.records", "FreeJoint");
+package_object!(break_class, "irbkin.records", "Break");
+package_object!(follow_result_class, "irbkin.records", "FollowResult");
 package_object!(pose_check_class, "irbkin.records", "PoseCheck");
 
 /// What kind of input was wrong: which exception tells of it.

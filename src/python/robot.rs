@@ -15,7 +15,10 @@ use super::poses::{pose_array, read_pose};
 use super::solutions::{PySolutions, read_seed};
 use crate::batch;
 use crate::catalogue;
-use crate::kinematics::{Explanation, JacobianFrame, OpwParameters, Robot, SLOTS, Singularity, Status};
+use crate::kinematics::thresholds::WRIST_ZONE;
+use crate::kinematics::{
+    Crossing, Explanation, FollowOptions, Followed, JacobianFrame, OpwParameters, Pose, Robot, SLOTS, Singularity, Status, pose_from_rows,
+};
 
 /// A robot arm: `Robot("IRB 2600-12/1.65")`. Frozen, hashable, equal by value, picklable.
 ///
@@ -303,7 +306,7 @@ impl PyRobot {
         let threads = if threads == 0 { std::thread::available_parallelism().map_or(1, usize::from) } else { threads };
         let (data, mut q_view, mut status_view) = (poses.data()?, writable(&q)?, writable(&status)?);
         let (q_slice, status_slice) = (q_view.as_slice_mut()?, status_view.as_slice_mut()?);
-        py.detach(|| batch::ik(robot, data, q_slice, status_slice, threads));
+        py.detach(|| batch::ik(robot, data, q_slice, status_slice, threads)).map_err(|error| to_py(py, &error))?;
         errors::ik_batch_class(py)?.call1((q, status))
     }
 
@@ -331,6 +334,43 @@ impl PyRobot {
         let (seed, weights) = read_seed(seed, weights)?;
         let nearest = robot.ik_nearest(&pose, &seed, &weights).map_err(|error| to_py(T.py(), &error))?;
         Ok(PyArray1::from_slice(T.py(), &nearest.q))
+    }
+
+    /// One continuous joint path along a path of poses: inside the limits, turns considered, through singularities without a jump where
+    /// there is a way.
+    ///
+    /// Args:
+    ///     T: Poses of the tool, shape (m, 4, 4), translation [m].
+    ///     seed: Joint vector from which the path starts [rad], shape (n,).
+    ///     weights: Cost of moving each joint, shape (n,); ones when not given.
+    ///     singular: What to do at the wrist singularity. "through": meet every pose exactly, however fast axes 4 and 6 turn. "error": stop
+    ///         where joint 5 comes into the zone, and where a joint must jump, as SingArea \Off. "wrist": inside the zone axes 4, 5, 6 go
+    ///         straight from where they enter to where they leave, position exact, as SingArea \Wrist. "lock_axis4": axis 4 stays at 0 or
+    ///         +-180 deg all along, position exact, orientation where it can be, as SingArea \LockAxis4.
+    ///     zone: |sin q5| below which `singular` acts.
+    ///
+    /// Returns:
+    ///     FollowResult: joints [rad], shape (m, n), NaN where a pose is not met; orientation error [rad], shape (m,); the breaks.
+    ///
+    /// Raises:
+    ///     InvalidPoseError: T has a wrong shape or holds a matrix that is no pose; the message has its index.
+    ///     InvalidJointsError: A seed, weight or zone that is not finite.
+    ///     InvalidModelError: The arm has no closed form.
+    ///     ValueError: Another `singular`.
+    #[pyo3(signature = (T, seed, weights=None, *, singular="through", zone=WRIST_ZONE))]
+    fn follow<'py>(
+        &self,
+        T: &Bound<'py, PyAny>,
+        seed: &Bound<'py, PyAny>,
+        weights: Option<&Bound<'py, PyAny>>,
+        singular: &str,
+        zone: f64,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (robot, (seed, weights)) = (self.arm.solvable(T.py())?, read_seed(seed, weights)?);
+        let options = FollowOptions { weights, crossing: read_crossing(singular)?, zone };
+        let path = read_path(T)?;
+        let followed = T.py().detach(|| robot.follow(&path, &seed, &options)).map_err(|error| to_py(T.py(), &error))?;
+        follow_result(T.py(), &followed)
     }
 
     /// Whether a pose can be reached, inside the limits or not, and why not.
@@ -409,4 +449,38 @@ fn batch_output<'py>(py: Python<'py>, out: Option<&Bound<'py, PyAny>>, poses: &R
         Some(pair) => Err(PyTypeError::new_err(format!("out must be (q, status), got a tuple of {}", pair.len()))),
         None => Ok((output(py, out, &q_shape)?, PyArrayDyn::zeros(py, status_shape, false))),
     }
+}
+
+fn read_crossing(singular: &str) -> PyResult<Crossing> {
+    match singular {
+        "through" => Ok(Crossing::Through),
+        "error" => Ok(Crossing::Error),
+        "wrist" => Ok(Crossing::Wrist),
+        "lock_axis4" => Ok(Crossing::LockAxis4),
+        _ => {
+            Err(PyValueError::new_err(format!("singular must be \"through\", \"error\", \"wrist\" or \"lock_axis4\", got \"{singular}\"")))
+        }
+    }
+}
+
+/// A path of poses, shape (m, 4, 4).
+fn read_path(value: &Bound<'_, PyAny>) -> PyResult<Vec<Pose>> {
+    let py = value.py();
+    let rows = Rows::read(value, &[4, 4], "T", Fault::Pose)?;
+    if rows.lead.len() != 1 {
+        return Err(Fault::Pose.error(py, format!("T must have shape (m, 4, 4), got {:?}", rows.shape_with(&[4, 4]))));
+    }
+    let poses = rows.data()?.as_chunks::<16>().0.iter().enumerate();
+    let pose = |(index, rows)| pose_from_rows(rows).map_err(|error| Fault::Pose.error(py, format!("T[{index}]: {error}")));
+    poses.map(pose).collect()
+}
+
+/// `irbkin.FollowResult` of a followed path.
+fn follow_result<'py>(py: Python<'py>, followed: &Followed) -> PyResult<Bound<'py, PyAny>> {
+    let joints: Vec<f64> = followed.q.iter().flat_map(|q| q.unwrap_or([f64::NAN; 6])).collect();
+    let joints = PyArray1::from_vec(py, joints).reshape([followed.q.len(), 6])?;
+    let errors = PyArray1::from_iter(py, followed.orientation_error.iter().map(|error| error.unwrap_or(f64::NAN)));
+    let breaks = followed.breaks.iter().map(|broken| errors::break_class(py)?.call1((broken.index, broken.to_string())));
+    let breaks = PyTuple::new(py, breaks.collect::<PyResult<Vec<_>>>()?)?;
+    errors::follow_result_class(py)?.call1((joints, errors, breaks))
 }

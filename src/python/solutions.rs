@@ -51,6 +51,28 @@ impl PySolution {
         errors::kinds(py, self.solution.status)
     }
 
+    /// The joint that the pose leaves free, at a singularity, and what stays fixed: FreeJoint(joint, fixed), or None.
+    #[getter]
+    fn free<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        self.solution.free.map(|free| errors::free_joint_class(py)?.call1((free.joint(), free.fixed()))).transpose()
+    }
+
+    /// The solution of the same pose with the free joint at another angle.
+    ///
+    /// Args:
+    ///     value: Angle of the free joint [rad].
+    ///
+    /// Returns:
+    ///     The solution; the tool stays to rounding at the singularity, and within 1.5e-9 rad or m next to it.
+    ///
+    /// Raises:
+    ///     InvalidJointsError: No joint is free, or the value is not finite.
+    fn with_free(&self, py: Python<'_>, value: f64) -> PyResult<Self> {
+        let moved = self.robot.with_free(&self.pose, &self.solution, value).map_err(|error| to_py(py, &error))?;
+        let moved = moved.ok_or_else(|| Fault::Joints.error(py, format!("no joint is free: {}", self.__repr__())))?;
+        Ok(Self { robot: Arc::clone(&self.robot), pose: self.pose, solution: moved })
+    }
+
     /// All flags of the slot.
     #[getter]
     fn status<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {

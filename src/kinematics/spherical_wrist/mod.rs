@@ -14,6 +14,8 @@ pub(crate) use solve::FreeChoice;
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
+use core::f64::consts::PI;
+
 use super::angles::distance_from_half_turns;
 use super::pose::{Pose, translation_z};
 use super::status::Status;
@@ -94,6 +96,17 @@ impl SphericalWrist {
         let elbow = (self.a2 * cos_3 + self.c3 * sin_3) / self.k;
         let x = self.a1 + self.c2 * sin_2 + self.c3 * sin_23 + self.a2 * cos_23;
         [elbow, x, t5.sin()]
+    }
+
+    /// sin q5, signed.
+    pub(crate) fn sin_5(&self, q: &[f64; 6]) -> f64 {
+        self.theta(q)[4].sin()
+    }
+
+    /// The angle of joint 4 nearest to that of `q` at which axis 5 is parallel to axes 2 and 3 [rad]: 0 or 180 deg for ABB's arms.
+    pub(crate) fn axis_4_in_plane(&self, q: &[f64; 6]) -> f64 {
+        let theta_4 = self.theta(q)[3];
+        q[3] + self.signs[3] * (PI * (theta_4 / PI).round() - theta_4)
     }
 
     /// The determinant of the geometric Jacobian at the wrist centre, which is that of the tool's (eq. 21).

@@ -6,7 +6,7 @@ use crate::error::{Error, ModelFault};
 use crate::kinematics::angles::wrap;
 use crate::kinematics::dh::{DhRow, Mdh, screw_x};
 use crate::kinematics::pose::Pose;
-use crate::kinematics::thresholds::LEAST_LINK;
+use crate::kinematics::thresholds::{FORM_TOLERANCE, LEAST_LINK};
 
 /// Brandstoetter's parameters of an ortho-parallel basis with a spherical wrist.
 ///
@@ -46,12 +46,17 @@ impl OpwParameters {
         Self { a1, a2, b: 0.0, c1, c2, c3, c4, offsets: [0.0, 0.0, -FRAC_PI_2, 0.0, 0.0, 0.0], signs: [1; 6] }
     }
 
-    /// Checks every parameter.
+    /// The parameters, checked; a lateral offset within [`FORM_TOLERANCE`] of zero is zero, for it changes how the shoulder's branches meet.
     ///
     /// # Errors
     ///
     /// [`Error::InvalidModel`] when a parameter is not finite, a sign is not 1 or -1, or the upper arm or forearm has no length.
-    pub fn check(&self) -> Result<(), Error> {
+    pub(crate) fn squared_up(self) -> Result<Self, Error> {
+        self.check()?;
+        Ok(Self { b: if self.b.abs() <= FORM_TOLERANCE { 0.0 } else { self.b }, ..self })
+    }
+
+    fn check(&self) -> Result<(), Error> {
         let lengths = [("a1", self.a1), ("a2", self.a2), ("b", self.b), ("c1", self.c1), ("c2", self.c2), ("c3", self.c3), ("c4", self.c4)];
         for (field, value) in lengths {
             if !value.is_finite() {

@@ -95,8 +95,13 @@ impl fmt::Display for NotRecognised {
 
 /// The table with what is within [`FORM_TOLERANCE`] of the form made exactly so, and the geometry of the arm.
 pub(crate) fn recognise(mdh: &Mdh<6>) -> Result<(Mdh<6>, SphericalWrist), Error> {
-    let squared = square_up(mdh).map_err(ModelFault::NoClosedForm)?;
-    let geometry = measure(&squared)?;
+    let mut squared = square_up(mdh).map_err(ModelFault::NoClosedForm)?;
+    let mut geometry = measure(&squared)?;
+    if geometry.b.abs() <= FORM_TOLERANCE {
+        // The offsets of rows 2 and 3 along the parallel axes cancel.
+        squared.rows[2].d = -squared.rows[1].d * geometry.signs[1] * geometry.signs[2];
+        geometry.b = 0.0;
+    }
     Ok((squared, geometry))
 }
 

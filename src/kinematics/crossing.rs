@@ -1,0 +1,230 @@
+//! What to do where a path crosses the wrist singularity, named as ABB names it.
+
+use alloc::vec::Vec;
+
+use super::follow::{Break, BreakReason, Followed, Follower};
+use super::pose::{Pose, PoseError, checked_pose};
+use super::robot::Robot;
+use super::thresholds::WRIST_ZONE;
+use crate::error::{Error, JointFault};
+
+/// What a path does at the wrist singularity.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Crossing {
+    /// Meets every pose exactly, however fast axes 4 and 6 must turn.
+    #[default]
+    Through,
+    /// Stops where joint 5 comes into the zone, and where a joint must jump. As `SingArea \Off`.
+    Error,
+    /// Inside the zone axes 4, 5 and 6 go straight from where they enter it to where they leave it; the tool's position stays exact, its
+    /// orientation deviates. As `SingArea \Wrist`.
+    Wrist,
+    /// Axis 4 stays at 0 or +-180 deg all along; the tool's position stays exact, its orientation is met where the pose can be reached
+    /// with axis 4 there. As `SingArea \LockAxis4`.
+    LockAxis4,
+}
+
+/// How a path is followed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FollowOptions {
+    /// Cost of moving each joint, in the choice among solutions.
+    pub weights: [f64; 6],
+    /// What to do at the wrist singularity.
+    pub crossing: Crossing,
+    /// |sin q5| below which joint 5 is in the zone of `crossing` [1].
+    pub zone: f64,
+}
+
+impl Default for FollowOptions {
+    fn default() -> Self {
+        Self { weights: [1.0; 6], crossing: Crossing::Through, zone: WRIST_ZONE }
+    }
+}
+
+/// How often the arm and a wrist with axis 4 held are solved in turn: each round shrinks the error by the tool's length over the arm's.
+const ROUNDS: usize = 60;
+
+impl Robot<6> {
+    /// One continuous joint path along `path`, from the solution nearest to `seed` [rad] on: inside the limits, turns considered.
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::ik_nearest`]; a pose that cannot be reached is no error but a break.
+    pub fn follow(&self, path: &[Pose], seed: &[f64; 6], options: &FollowOptions) -> Result<Followed, Error> {
+        if !(options.zone.is_finite() && options.zone >= 0.0) {
+            return Err(JointFault::Zone { value: options.zone }.into());
+        }
+        let mut walk = Walk {
+            robot: self,
+            path,
+            options,
+            follower: Follower::new(self, seed, &options.weights)?,
+            followed: Followed { q: Vec::with_capacity(path.len()), orientation_error: Vec::new(), breaks: Vec::new() },
+        };
+        match options.crossing {
+            Crossing::Through | Crossing::Error => walk.through()?,
+            Crossing::Wrist => walk.wrist()?,
+            Crossing::LockAxis4 => walk.lock_axis_4()?,
+        }
+        Ok(walk.finish())
+    }
+}
+
+/// A path on its way.
+struct Walk<'a> {
+    robot: &'a Robot<6>,
+    path: &'a [Pose],
+    options: &'a FollowOptions,
+    follower: Follower<'a>,
+    followed: Followed,
+}
+
+impl Walk<'_> {
+    fn in_zone(&self, q: &[f64; 6]) -> bool {
+        self.robot.spherical_wrist().is_some_and(|arm| arm.sin_5(q).abs() < self.options.zone)
+    }
+
+    fn record(&mut self, q: Option<[f64; 6]>, broken: Option<BreakReason>) {
+        let index = self.followed.q.len();
+        self.followed.q.push(q);
+        self.followed.breaks.extend(broken.map(|reason| Break { index, reason }));
+    }
+
+    /// Pose by pose; with [`Crossing::Error`] up to the zone or a jump.
+    fn through(&mut self) -> Result<(), Error> {
+        for pose in self.path {
+            let (solution, broken) = self.follower.step(pose)?;
+            let q = solution.map(|solution| solution.q);
+            if self.options.crossing == Crossing::Error {
+                let stopped = q.filter(|q| self.in_zone(q)).map(|q| BreakReason::Stopped { q5: q[4] });
+                if let Some(reason) = stopped.or(broken) {
+                    self.record(None, Some(reason));
+                    return Ok(());
+                }
+            }
+            self.record(q, broken);
+        }
+        Ok(())
+    }
+
+    /// Axes 4, 5 and 6 straight through the zone, position by the other three.
+    fn wrist(&mut self) -> Result<(), Error> {
+        let mut index = 0;
+        while index < self.path.len() {
+            let before = self.follower.clone();
+            let (solution, broken) = self.follower.step(&self.path[index])?;
+            let q = solution.map(|solution| solution.q);
+            match q.filter(|q| self.in_zone(q)) {
+                None => {
+                    self.record(q, broken);
+                    index += 1;
+                }
+                Some(entered) => index = self.cross(&before, index, entered)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// Records the poses of one zone, from `first` on; returns the index of the first pose behind it.
+    fn cross(&mut self, before: &Follower<'_>, first: usize, entered: [f64; 6]) -> Result<usize, Error> {
+        // Where the zone ends, on whatever wrist branch: sin q5 has the same size on both.
+        let mut behind = first + 1;
+        while behind < self.path.len() {
+            match self.follower.step(&self.path[behind])?.0 {
+                Some(solution) if self.in_zone(&solution.q) => behind += 1,
+                _ => break,
+            }
+        }
+        let (from, start) = if first > 0 && before.pose().is_some() { (before.joints(), first - 1) } else { (entered, first) };
+        let last = behind.min(self.path.len() - 1);
+        let to = match self.robot.ik_nearest(&self.path[last], &from, &self.options.weights) {
+            Ok(solution) => solution.q,
+            Err(Error::Unreachable(_)) => from,
+            Err(error) => return Err(error),
+        };
+        let mut q = from;
+        for index in first..behind {
+            #[expect(clippy::cast_precision_loss, reason = "a part of the way")]
+            let part = (index - start) as f64 / (last - start).max(1) as f64;
+            for joint in 3..6 {
+                q[joint] = from[joint] + (to[joint] - from[joint]) * part;
+            }
+            match self.to_point(&self.path[index], &q)? {
+                Some(found) => {
+                    q = found;
+                    self.record(Some(q), None);
+                }
+                None => self.record(None, Some(BreakReason::Unreachable(self.robot.ik(&self.path[index])?.explain()))),
+            }
+        }
+        self.follower.stand_at(&self.path[behind - 1], q);
+        Ok(behind)
+    }
+
+    /// Axis 4 at the nearest of 0 and +-180 deg all along.
+    fn lock_axis_4(&mut self) -> Result<(), Error> {
+        let Some(first) = self.path.first() else { return Ok(()) };
+        let (Some(start), _) = self.follower.step(first)? else { return self.through() };
+        let Some(arm) = self.robot.spherical_wrist() else { return self.through() };
+        let mut q = start.q;
+        q[3] = arm.axis_4_in_plane(&start.q);
+        for pose in self.path {
+            let found = self.held(pose, &q)?;
+            q = found.unwrap_or(q);
+            let broken = match found {
+                Some(_) => None,
+                None => Some(BreakReason::Unreachable(self.robot.ik(pose)?.explain())),
+            };
+            self.record(found, broken);
+        }
+        Ok(())
+    }
+
+    /// The joints for a pose with axis 4 as in `q`: arm and wrist solved in turn until both stand.
+    fn held(&self, pose: &Pose, q: &[f64; 6]) -> Result<Option<[f64; 6]>, Error> {
+        let pose = checked_pose(pose)?;
+        let Some(arm) = self.robot.spherical_wrist() else { return Ok(None) };
+        let rotation = self.robot.wrist_pose(&pose)?.rotation;
+        let mut held = *q;
+        for _ in 0..ROUNDS {
+            let m = arm.rotation_in_forearm(rotation.matrix(), &held);
+            let wrist = nearest_turns(self.robot, arm.with_axis_4_held(&m, &held), &held);
+            let Some(next) = wrist.map(|wrist| self.to_point(&pose, &wrist)).transpose()?.flatten() else { return Ok(None) };
+            let moved = next.iter().zip(&held).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            held = next;
+            if moved < 1e-15 {
+                break;
+            }
+        }
+        Ok(Some(held))
+    }
+
+    /// The joints inside the limits, nearest to `q`, that bring the tool's centre point to that of `pose` with the wrist of `q`.
+    fn to_point(&self, pose: &Pose, q: &[f64; 6]) -> Result<Option<[f64; 6]>, Error> {
+        let (point, lever) = self.robot.tool_point(pose)?;
+        let Some(arm) = self.robot.spherical_wrist() else { return Ok(None) };
+        let distance = |found: &[f64; 6]| found.iter().zip(q).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+        let found = arm.to_point(&point, &lever, q).filter_map(|found| nearest_turns(self.robot, found, q));
+        Ok(found.min_by(|a, b| distance(a).total_cmp(&distance(b))))
+    }
+
+    /// Measures the orientation of every pose.
+    fn finish(mut self) -> Followed {
+        let rows = self.followed.q.iter().zip(self.path);
+        let error = |(q, pose): (&Option<[f64; 6]>, &Pose)| q.map(|q| PoseError::between(&self.robot.fk(&q), pose).rotation);
+        self.followed.orientation_error = rows.map(error).collect();
+        // What was not come to, when the path stopped.
+        self.followed.q.resize(self.path.len(), None);
+        self.followed.orientation_error.resize(self.path.len(), None);
+        self.followed
+    }
+}
+
+/// Every joint at its turn inside the limits that is nearest to `seed`.
+fn nearest_turns(robot: &Robot<6>, q: [f64; 6], seed: &[f64; 6]) -> Option<[f64; 6]> {
+    let mut turned = q;
+    for (joint, angle) in turned.iter_mut().enumerate() {
+        *angle = robot.limits().turn_nearest(joint, *angle, seed[joint])?;
+    }
+    Some(turned)
+}
