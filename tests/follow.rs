@@ -1,13 +1,15 @@
 //! A joint path that is smooth is followed without a jump, and where there is no way the break says where and why.
 //!
 //! `make hardsets` prints the table.
-#![allow(clippy::unwrap_used, clippy::cast_precision_loss, missing_docs)]
+#![allow(clippy::unwrap_used, clippy::cast_precision_loss, clippy::float_cmp, missing_docs)]
 
 mod common;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use irbkin::{BreakReason, FollowOptions, Followed, JointLimits, OpwParameters, Pose, Robot, Status};
+use nalgebra::Vector3;
+
+use irbkin::{BreakReason, Crossing, FollowOptions, Followed, JointLimits, OpwParameters, Pose, Robot, Status, thresholds};
 
 const SAMPLES: usize = 201;
 
@@ -156,4 +158,82 @@ fn a_pose_out_of_reach_is_a_break_and_the_path_goes_on() {
     assert_eq!((followed.breaks.len(), followed.breaks[0].index), (1, 50));
     assert!(followed.breaks[0].to_string().starts_with("pose 50: wrist centre "));
     assert!(followed.q[50].is_none() && followed.q[51].is_some());
+}
+
+/// A straight line of the tool through the wrist singularity or `off` [rad] past it.
+fn crossing_line(robot: &Robot<6>, off: f64, along: [f64; 3]) -> Vec<Pose> {
+    let middle = robot.fk(&[0.3, 0.2, 0.1, if off == 0.0 { 0.0 } else { FRAC_PI_2 }, off, 0.2]);
+    joint_path(|t| [t; 6])
+        .iter()
+        .map(|t| {
+            let mut pose = middle;
+            pose.translation.vector += Vector3::from(along) * t[0];
+            pose
+        })
+        .collect()
+}
+
+struct Crossed {
+    step: f64,
+    position: f64,
+    orientation: f64,
+    followed: Followed,
+}
+
+fn cross(robot: &Robot<6>, path: &[Pose], crossing: Crossing) -> Crossed {
+    let seed = robot.ik_nearest(&path[0], &[0.3, 0.2, 0.1, 0.0, 0.3, 0.2], &[1.0; 6]).unwrap().q;
+    let followed = robot.follow(path, &seed, &FollowOptions { crossing, ..FollowOptions::default() }).unwrap();
+    let q: Vec<[f64; 6]> = followed.q.iter().map_while(|q| *q).collect();
+    let error = |(q, pose)| robot.residual(q, pose).position;
+    let position = q.iter().zip(path).map(error).fold(0.0, f64::max);
+    let orientation = followed.orientation_error.iter().flatten().copied().fold(0.0, f64::max);
+    Crossed { step: largest_step(&q), position, orientation, followed }
+}
+
+#[test]
+fn crossing_policies_keep_what_they_promise() {
+    let robot = robot();
+    for off in [0.0, 1e-4, 2e-3] {
+        for along in [[0.0, 0.15, 0.02], [0.1, 0.0, 0.1], [0.0, 0.2, 0.0]] {
+            let path = crossing_line(&robot, off, along);
+            let tell = |name: &str, crossed: &Crossed| {
+                println!(
+                    "line past J5 = 0 by {off:5e} rad, {along:?} m: {name:10} largest step {:6.3} deg  orientation {:8.1e} deg  position {:.0e} m",
+                    crossed.step.to_degrees(),
+                    crossed.orientation.to_degrees(),
+                    crossed.position
+                );
+            };
+            let through = cross(&robot, &path, Crossing::Through);
+            tell("through", &through);
+            assert!(through.position < 1e-14 && through.orientation < 1e-14 && through.followed.breaks.is_empty());
+
+            let stopped = cross(&robot, &path, Crossing::Error);
+            tell("error", &stopped);
+            let index = stopped.followed.breaks[0].index;
+            assert!(matches!(stopped.followed.breaks[0].reason, BreakReason::Stopped { .. }));
+            assert!(stopped.followed.q[..index].iter().all(Option::is_some) && stopped.followed.q[index..].iter().all(Option::is_none));
+
+            let wrist = cross(&robot, &path, Crossing::Wrist);
+            tell("wrist", &wrist);
+            // Three wrist angles that go straight between two ends of the zone stay within it on both sides.
+            assert!(wrist.position < 1e-14 && wrist.orientation < 2.0 * thresholds::WRIST_ZONE && wrist.followed.breaks.is_empty());
+            assert!(wrist.step < 0.02, "{}", wrist.step);
+
+            let locked = cross(&robot, &path, Crossing::LockAxis4);
+            tell("lock_axis4", &locked);
+            assert!(locked.position < 1e-14 && locked.followed.breaks.is_empty() && locked.step < 0.02);
+            assert!(locked.followed.q.iter().flatten().all(|q| (q[3] / PI).fract() == 0.0));
+        }
+    }
+}
+
+#[test]
+fn axis_4_held_at_zero_keeps_the_orientation_in_the_arm_s_plane() {
+    let robot = robot();
+    let made = joint_path(|t| [0.3, 0.2 + 0.1 * t, 0.1, 0.0, 0.5 * t, 0.2]);
+    let path: Vec<Pose> = made.iter().map(|q| robot.fk(q)).collect();
+    let locked = cross(&robot, &path, Crossing::LockAxis4);
+    assert!(locked.position < 1e-14 && locked.orientation < 1e-14, "{:e}", locked.orientation);
+    assert!(locked.step <= 1.01 * largest_step(&made));
 }

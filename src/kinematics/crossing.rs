@@ -111,7 +111,6 @@ impl Walk<'_> {
     fn wrist(&mut self) -> Result<(), Error> {
         let mut index = 0;
         while index < self.path.len() {
-            let before = self.follower.clone();
             let (solution, broken) = self.follower.step(&self.path[index])?;
             let q = solution.map(|solution| solution.q);
             match q.filter(|q| self.in_zone(q)) {
@@ -119,14 +118,14 @@ impl Walk<'_> {
                     self.record(q, broken);
                     index += 1;
                 }
-                Some(entered) => index = self.cross(&before, index, entered)?,
+                Some(entered) => index = self.cross(index, entered)?,
             }
         }
         Ok(())
     }
 
     /// Records the poses of one zone, from `first` on; returns the index of the first pose behind it.
-    fn cross(&mut self, before: &Follower<'_>, first: usize, entered: [f64; 6]) -> Result<usize, Error> {
+    fn cross(&mut self, first: usize, entered: [f64; 6]) -> Result<usize, Error> {
         // Where the zone ends, on whatever wrist branch: sin q5 has the same size on both.
         let mut behind = first + 1;
         while behind < self.path.len() {
@@ -135,7 +134,10 @@ impl Walk<'_> {
                 _ => break,
             }
         }
-        let (from, start) = if first > 0 && before.pose().is_some() { (before.joints(), first - 1) } else { (entered, first) };
+        let (from, start) = match self.followed.q.last() {
+            Some(Some(before)) => (*before, first - 1),
+            _ => (entered, first),
+        };
         let last = behind.min(self.path.len() - 1);
         let to = match self.robot.ik_nearest(&self.path[last], &from, &self.options.weights) {
             Ok(solution) => solution.q,
@@ -157,7 +159,7 @@ impl Walk<'_> {
                 None => self.record(None, Some(BreakReason::Unreachable(self.robot.ik(&self.path[index])?.explain()))),
             }
         }
-        self.follower.stand_at(&self.path[behind - 1], q);
+        self.follower.stand_at(q);
         Ok(behind)
     }
 

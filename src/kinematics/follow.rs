@@ -94,21 +94,9 @@ impl<'a> Follower<'a> {
         Ok(Self { robot, weights: *weights, last: None, q: *seed, velocity: [0.0; 6] })
     }
 
-    /// Where the joints stand [rad].
-    #[must_use]
-    pub fn joints(&self) -> [f64; 6] {
-        self.q
-    }
-
-    /// The pose that the joints were last brought to; `None` before the first and behind one that was not met.
-    #[must_use]
-    pub fn pose(&self) -> Option<&Pose> {
-        self.last.as_ref()
-    }
-
-    /// Goes on from `q` [rad], at `pose`.
-    pub(crate) fn stand_at(&mut self, pose: &Pose, q: [f64; 6]) {
-        (self.last, self.q, self.velocity) = (Some(*pose), q, [0.0; 6]);
+    /// Goes on from `q` [rad], which need not meet a pose of the path.
+    pub(crate) fn stand_at(&mut self, q: [f64; 6]) {
+        (self.last, self.q, self.velocity) = (None, q, [0.0; 6]);
     }
 
     /// The joints of the next pose of the path [rad], and why they jumped when they did; without joints when there are none.
