@@ -10,7 +10,7 @@ RUST_SOURCES := $(shell find src -name '*.rs') Cargo.toml
 BUILT := $(VENV)/.irbkin-built
 NO_STD := --no-default-features --features libm
 
-.PHONY: help run test check bench million wheel clean toolchains
+.PHONY: help run test check bench million hardsets wheel clean toolchains
 
 help: ## List the targets
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -51,6 +51,7 @@ check: $(BUILT) $(VENV)/.groups ## Format, lints for each feature set, types, st
 	cargo clippy --quiet --lib $(NO_STD) -- -D warnings
 	RUSTDOCFLAGS='-D warnings' cargo doc --quiet --no-deps --features serde
 	cargo bench --quiet --bench one_pose -- --test
+	$(BIN)/python benches/python_calls.py >/dev/null
 	for example in examples/*.rs; do cargo run --quiet --release --example "$$(basename "$$example" .rs)" >/dev/null; done
 	$(BIN)/ruff check --quiet .
 	$(BIN)/ruff format --check --quiet .
@@ -58,11 +59,15 @@ check: $(BUILT) $(VENV)/.groups ## Format, lints for each feature set, types, st
 	$(BIN)/python -m mypy.stubtest irbkin --concise
 	for example in examples/*.py; do $(BIN)/python "$$example" >/dev/null; done
 
-bench: | toolchains ## Time forward kinematics, Jacobian, inverse and singularity of one pose
+bench: $(BUILT) ## Time one pose in Rust, and Python's calls as ratios to a matrix product
 	cargo bench --bench one_pose
+	$(BIN)/python benches/python_calls.py
 
 million: | toolchains ## Solve a million random poses of each of seven arms and count what is lost, wrong or twice
 	IRBKIN_POSES=1000000 cargo test --quiet --release --test recall -- --nocapture --test-threads=1
+
+hardsets: | toolchains ## Solve poses at and next to every singularity, pairs and triples of them, and follow paths through
+	IRBKIN_POSES=2000 cargo test --quiet --release --test hardsets --test follow -- --nocapture --test-threads=1
 
 wheel: $(VENV)/.made ## Build the wheel and try it in an environment of its own
 	$(BIN)/maturin build --release --quiet --out dist

@@ -122,7 +122,7 @@ fn jump(followed: &Followed) -> (usize, usize, f64, Status) {
     let broken = followed.breaks[0];
     println!("{broken}");
     let BreakReason::Jump { joint, by, kinds } = broken.reason else { unreachable!("{broken}") };
-    (broken.index, joint, by, kinds)
+    (broken.pose_index, joint, by, kinds)
 }
 
 #[test]
@@ -155,7 +155,7 @@ fn a_pose_out_of_reach_is_a_break_and_the_path_goes_on() {
     let mut poses: Vec<Pose> = made.iter().map(|q| robot.fk(q)).collect();
     poses[50].translation.vector.x += 5.0;
     let followed = robot.follow(&poses, &made[0], &FollowOptions::default()).unwrap();
-    assert_eq!((followed.breaks.len(), followed.breaks[0].index), (1, 50));
+    assert_eq!((followed.breaks.len(), followed.breaks[0].pose_index), (1, 50));
     assert!(followed.breaks[0].to_string().starts_with("pose 50: wrist centre "));
     assert!(followed.q[50].is_none() && followed.q[51].is_some());
 }
@@ -210,7 +210,7 @@ fn crossing_policies_keep_what_they_promise() {
 
             let stopped = cross(&robot, &path, Crossing::Error);
             tell("error", &stopped);
-            let index = stopped.followed.breaks[0].index;
+            let index = stopped.followed.breaks[0].pose_index;
             assert!(matches!(stopped.followed.breaks[0].reason, BreakReason::Stopped { .. }));
             assert!(stopped.followed.q[..index].iter().all(Option::is_some) && stopped.followed.q[index..].iter().all(Option::is_none));
 

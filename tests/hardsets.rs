@@ -291,6 +291,12 @@ fn run_beyond(arm: &Arm, rng: &mut Rng) -> String {
 fn run(arm: &Arm) -> String {
     let mut rng = Rng::new(7);
     let mut report = run_beyond(arm, &mut rng);
+    let mut home = Tally::default();
+    for _ in 0..poses() {
+        let q = [rng.between(-PI, PI), 0.0, 0.0, rng.between(-PI, PI), 0.0, rng.between(-PI, PI)];
+        judge(arm, &q, &arm.robot.fk(&q), Place { wrist: Some(0.0), ..Place::default() }, 0.0, &mut home);
+    }
+    report += &home.tell(arm, "J2 = J3 = J5 = 0");
     for (name, set) in sets() {
         let mut tally = Tally::default();
         for _ in 0..poses() {

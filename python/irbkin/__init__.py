@@ -10,9 +10,7 @@ poses are 4x4 homogeneous matrices.
     8
 """
 
-from importlib.metadata import version
-
-from irbkin._core import Robot, Solution, Solutions, catalog, pose, to_xyz_euler_zyx, to_xyz_quaternion
+from irbkin._core import Robot, Solution, Solutions, __version__, catalog, pose, to_xyz_euler_zyx, to_xyz_quaternion
 from irbkin.errors import (
     InvalidJointsError,
     InvalidModelError,
@@ -22,8 +20,6 @@ from irbkin.errors import (
     UnreachableError,
 )
 from irbkin.records import Break, FollowResult, FreeJoint, IkBatch, Kind, PoseCheck, Reach, Singularity, Status
-
-__version__ = version("irbkin")
 
 __all__ = [
     "Break",

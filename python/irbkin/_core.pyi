@@ -9,6 +9,20 @@ from irbkin.records import FollowResult, FreeJoint, IkBatch, Kind, PoseCheck, Re
 _Floats = npt.NDArray[np.float64]
 _State = tuple[str, str, list[float], list[float], list[float], list[float], list[float] | None]
 
+__all__ = [
+    "Robot",
+    "Solution",
+    "Solutions",
+    "__version__",
+    "_restore_robot",
+    "catalog",
+    "pose",
+    "to_xyz_euler_zyx",
+    "to_xyz_quaternion",
+]
+
+__version__: str
+
 def catalog() -> tuple[str, ...]: ...
 def pose(
     xyz: npt.ArrayLike, quaternion: npt.ArrayLike | None = None, euler_zyx: npt.ArrayLike | None = None
@@ -16,6 +30,7 @@ def pose(
 def to_xyz_quaternion(T: npt.ArrayLike) -> tuple[_Floats, _Floats]: ...
 def to_xyz_euler_zyx(T: npt.ArrayLike) -> tuple[_Floats, _Floats]: ...
 def _restore_robot(state: _State) -> Robot: ...
+
 @final
 class Robot:
     def __new__(cls, name: str) -> Robot: ...
@@ -80,7 +95,7 @@ class Robot:
         weights: npt.ArrayLike | None = None,
         *,
         singular: Literal["through", "error", "wrist", "lock_axis4"] = "through",
-        zone: float = 0.0175,
+        zone: float | None = None,
     ) -> FollowResult: ...
     def check_pose(self, T: npt.ArrayLike) -> PoseCheck: ...
     def __eq__(self, other: object, /) -> bool: ...

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import enum
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
@@ -74,14 +73,13 @@ class FreeJoint(NamedTuple):
 class Break(NamedTuple):
     """A place where the joints cannot follow a path without a jump."""
 
-    index: int
+    pose_index: int
     """Index of the pose that is not met, or at which the joints arrive by a jump."""
     reason: str
     """Where and why, in a sentence."""
 
 
-@dataclass(frozen=True, slots=True)
-class FollowResult:
+class FollowResult(NamedTuple):
     """A joint path along a path of poses."""
 
     q: npt.NDArray[np.float64]
@@ -92,8 +90,7 @@ class FollowResult:
     """Where the joints cannot follow, and why."""
 
 
-@dataclass(frozen=True, slots=True)
-class Singularity:
+class Singularity(NamedTuple):
     """How far joint vectors are from the singularities; numbers for one, arrays for many."""
 
     wrist: Any
@@ -101,7 +98,7 @@ class Singularity:
     elbow: Any
     """Angle between upper arm and forearm from stretched or folded [rad]."""
     shoulder: Any
-    """Distance of the wrist centre from axis 1 [m]; with a lateral offset b, from the plane through axis 1 along axis 2."""
+    """Distance of the wrist centre from axis 1 [m]; with a lateral offset, from the plane through it along axis 2."""
     min_singular_value: Any
     """Smallest singular value of the Jacobian at the tool, its rows in m and rad as they are."""
     manipulability: Any
@@ -110,8 +107,7 @@ class Singularity:
     """`Kind` of the singularities at which the joint vector stands; for many, an array of its values, uint8."""
 
 
-@dataclass(frozen=True, slots=True)
-class PoseCheck:
+class PoseCheck(NamedTuple):
     """Whether a pose can be reached."""
 
     reachable: bool

@@ -85,9 +85,9 @@ impl Walk<'_> {
     }
 
     fn record(&mut self, q: Option<[f64; 6]>, broken: Option<BreakReason>) {
-        let index = self.followed.q.len();
+        let pose_index = self.followed.q.len();
         self.followed.q.push(q);
-        self.followed.breaks.extend(broken.map(|reason| Break { index, reason }));
+        self.followed.breaks.extend(broken.map(|reason| Break { pose_index, reason }));
     }
 
     /// Pose by pose; with [`Crossing::Error`] up to the zone or a jump.

@@ -24,7 +24,7 @@ const HALVINGS: u32 = 40;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Break {
     /// Index of the pose that is not met, or at which the joints arrive by a jump.
-    pub index: usize,
+    pub pose_index: usize,
     /// Why.
     pub reason: BreakReason,
 }
@@ -53,7 +53,7 @@ pub enum BreakReason {
 
 impl fmt::Display for Break {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "pose {}: ", self.index)?;
+        write!(f, "pose {}: ", self.pose_index)?;
         match self.reason {
             BreakReason::Unreachable(explanation) => explanation.fmt(f),
             BreakReason::Jump { joint, by, kinds } => {

@@ -27,7 +27,7 @@ pub use pose::{
 };
 pub use robot::{Definition, Robot};
 #[cfg(feature = "python")]
-pub(crate) use select::{check_joints, check_weights};
+pub(crate) use select::{Cost, check_joints, check_weights};
 pub use singularity::Singularity;
 pub use solutions::{FreeJoint, SLOTS, Solution, Solutions};
 pub use spherical_wrist::{Condition, NotRecognised, OpwParameters, Relation, SingularDistances, SphericalWrist};

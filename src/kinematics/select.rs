@@ -56,18 +56,18 @@ impl<const N: usize> Solutions<N> {
     /// `weights * difference^2`.
     #[must_use]
     pub fn nearest(&self, seed: &[f64; N], weights: &[f64; N]) -> Option<Solution<N>> {
-        self.cheapest(seed, |joint, step| weights[joint] * step * step)
+        self.cheapest(seed, weights, Cost::Distance)
     }
 
     /// The solution inside the limits that moves the joints the least from `seed` [rad], turns considered: the least sum of
     /// `weights * |difference|`.
     #[must_use]
     pub fn least_motion(&self, seed: &[f64; N], weights: &[f64; N]) -> Option<Solution<N>> {
-        self.cheapest(seed, |joint, step| weights[joint] * step.abs())
+        self.cheapest(seed, weights, Cost::Travel)
     }
 
     /// The cost is a sum over the joints, so each joint takes its own nearest turn.
-    fn cheapest(&self, seed: &[f64; N], cost: impl Fn(usize, f64) -> f64) -> Option<Solution<N>> {
+    pub(crate) fn cheapest(&self, seed: &[f64; N], weights: &[f64; N], cost: Cost) -> Option<Solution<N>> {
         let mut best: Option<(f64, Solution<N>)> = None;
         for solution in self {
             let mut turned = *solution;
@@ -77,7 +77,7 @@ impl<const N: usize> Solutions<N> {
                 match self.limits.turn_nearest(joint, solution.q[joint], *seed) {
                     Some(angle) => {
                         turned.q[joint] = angle;
-                        total += cost(joint, angle - seed);
+                        total += weights[joint] * cost.of(angle - seed);
                     }
                     None => inside = false,
                 }
@@ -88,6 +88,24 @@ impl<const N: usize> Solutions<N> {
             }
         }
         best.map(|(_, solution)| solution)
+    }
+}
+
+/// What moving a joint costs.
+#[derive(Clone, Copy)]
+pub(crate) enum Cost {
+    /// The square of the difference.
+    Distance,
+    /// Its size.
+    Travel,
+}
+
+impl Cost {
+    pub(crate) fn of(self, difference: f64) -> f64 {
+        match self {
+            Self::Distance => difference * difference,
+            Self::Travel => difference.abs(),
+        }
     }
 }
 

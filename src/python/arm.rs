@@ -100,7 +100,7 @@ impl Arm {
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let rows = self.joints(q)?;
         let answer = output(q.py(), out, &rows.shape_with(tail))?;
-        let (data, mut view) = (rows.data()?, writable(&answer)?);
+        let (data, mut view) = (rows.data()?, writable(&answer, &[rows.addresses()])?);
         let slice = view.as_slice_mut()?;
         q.py().detach(|| compute(data, slice));
         Ok(answer)

@@ -1,5 +1,7 @@
 //! NumPy arrays in and out: any number array is taken, a C-contiguous float64 one without a copy.
 
+use std::ops::Range;
+
 use numpy::{PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyReadwriteArrayDyn, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::intern;
@@ -16,19 +18,24 @@ pub(super) struct Rows<'py> {
 impl<'py> Rows<'py> {
     /// Reads `value`, of shape (..., `tail`), as the argument `field`.
     pub(super) fn read(value: &Bound<'py, PyAny>, tail: &[usize], field: &str, fault: Fault) -> PyResult<Self> {
-        let array = contiguous(value, field, fault)?;
+        let array = readable(value, field, fault)?;
         let shape = array.shape();
         let Some(lead) = shape.strip_suffix(tail) else {
             let wanted = tail.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
             return Err(fault.error(value.py(), format!("{field} must have shape (..., {wanted}), got {shape:?}")));
         };
         let lead = lead.to_vec();
-        Ok(Self { array: readable(&array, field)?, lead })
+        Ok(Self { array, lead })
     }
 
     /// The numbers in row-major order.
     pub(super) fn data(&self) -> PyResult<&[f64]> {
         Ok(self.array.as_slice()?)
+    }
+
+    /// The addresses of its memory.
+    pub(super) fn addresses(&self) -> Range<usize> {
+        addresses(&self.array)
     }
 
     /// Whether it is one row without leading dimensions.
@@ -49,24 +56,25 @@ pub(super) fn vector<const N: usize>(value: &Bound<'_, PyAny>, field: &str, faul
 
 /// One array of exactly the shape `shape`, of `N` elements.
 pub(super) fn exactly<const N: usize>(value: &Bound<'_, PyAny>, shape: &[usize], field: &str, fault: Fault) -> PyResult<[f64; N]> {
-    let array = contiguous(value, field, fault)?;
+    let array = readable(value, field, fault)?;
     if array.shape() != shape {
         return Err(fault.error(value.py(), format!("{field} must have shape {shape:?}, got {:?}", array.shape())));
     }
-    let array = readable(&array, field)?;
     Ok(array.as_slice()?.try_into().map_or([f64::NAN; N], |numbers: &[f64; N]| *numbers))
 }
 
-/// `value` as a C-contiguous float64 array: itself where it is one.
-fn contiguous<'py>(value: &Bound<'py, PyAny>, field: &str, fault: Fault) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-    match value.cast::<PyArrayDyn<f64>>() {
-        Ok(array) if array.is_c_contiguous() => Ok(array.clone()),
-        _ => converted(value, field, fault),
+/// `value` as an aligned C-contiguous float64 array, seen for reading: itself where it is one.
+fn readable<'py>(value: &Bound<'py, PyAny>, field: &str, fault: Fault) -> PyResult<PyReadonlyArrayDyn<'py, f64>> {
+    let read = |array: &Bound<'py, PyArrayDyn<f64>>| {
+        array.try_readonly().map_err(|_| PyValueError::new_err(format!("{field} is being written by another call")))
+    };
+    if let Ok(array) = value.cast::<PyArrayDyn<f64>>() {
+        let array = read(array)?;
+        if array.is_c_contiguous() && array.as_slice().is_ok() {
+            return Ok(array);
+        }
     }
-}
-
-fn readable<'py>(array: &Bound<'py, PyArrayDyn<f64>>, field: &str) -> PyResult<PyReadonlyArrayDyn<'py, f64>> {
-    array.try_readonly().map_err(|_| PyValueError::new_err(format!("{field} is being written by another call")))
+    read(&converted(value, field, fault)?)
 }
 
 fn converted<'py>(value: &Bound<'py, PyAny>, field: &str, fault: Fault) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
@@ -81,7 +89,7 @@ fn converted<'py>(value: &Bound<'py, PyAny>, field: &str, fault: Fault) -> PyRes
     if !matches!(kind.as_str(), "f" | "i" | "u") {
         return Err(PyTypeError::new_err(format!("{field} must be real numbers, got an array of dtype {dtype}")));
     }
-    let contiguous = numpy.call_method1(intern!(py, "require"), (array, intern!(py, "float64"), intern!(py, "C")))?;
+    let contiguous = numpy.call_method1(intern!(py, "require"), (array, intern!(py, "float64"), ["C", "A"]))?;
     Ok(contiguous.cast_into::<PyArrayDyn<f64>>()?)
 }
 
@@ -108,9 +116,25 @@ pub(super) fn checked_out<'py, T: numpy::Element>(
     Ok(array.clone())
 }
 
-/// A view to write through; refused for a read-only array and for one that overlaps the input.
-pub(super) fn writable<'py, T: numpy::Element>(array: &Bound<'py, PyArrayDyn<T>>) -> PyResult<PyReadwriteArrayDyn<'py, T>> {
+/// A view to write through; refused for a read-only array and for one that overlaps the memory of `others`.
+///
+/// NumPy's own bookkeeping of borrows knows arrays by the array that owns their memory; two views of one buffer have none, so the
+/// addresses are compared too.
+pub(super) fn writable<'py, T: numpy::Element>(
+    array: &Bound<'py, PyArrayDyn<T>>,
+    others: &[Range<usize>],
+) -> PyResult<PyReadwriteArrayDyn<'py, T>> {
+    let own = addresses(array);
+    if others.iter().any(|other| own.start < other.end && other.start < own.end) {
+        return Err(PyValueError::new_err("out must be writable and must not overlap the input"));
+    }
     array.try_readwrite().map_err(|cause| PyValueError::new_err(format!("out must be writable and must not overlap the input: {cause}")))
+}
+
+/// The addresses of a C-contiguous array's memory.
+pub(super) fn addresses<T: numpy::Element>(array: &Bound<'_, PyArrayDyn<T>>) -> Range<usize> {
+    let start = array.data().addr();
+    start..start + array.len() * size_of::<T>()
 }
 
 fn describe(value: &Bound<'_, PyAny>) -> String {

@@ -77,6 +77,10 @@ fn named_and_limited(py: Python<'_>, arm: &Arm, limits: Option<&Bound<'_, PyAny>
 /// The arm with limits of shape (n, 2).
 pub(super) fn with_limits(arm: &Arm, limits: &Bound<'_, PyAny>) -> PyResult<Arm> {
     let rows = Rows::read(limits, &[arm.dof(), 2], "limits", Fault::Model)?;
+    if !rows.is_single() {
+        let shape = rows.shape_with(&[arm.dof(), 2]);
+        return Err(Fault::Model.error(limits.py(), format!("limits must have shape [{}, 2], got {shape:?}", arm.dof())));
+    }
     arm.changed(limits.py(), &Limits(rows.data()?.as_chunks::<2>().0))
 }
 

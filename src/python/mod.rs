@@ -1,5 +1,6 @@
 //! The Python module `irbkin._core`: convert, call, convert.
 
+mod answers;
 mod arm;
 mod arrays;
 mod build;
@@ -21,6 +22,7 @@ fn catalog(py: Python<'_>) -> PyResult<Bound<'_, PyTuple>> {
 
 #[pymodule(gil_used = false)]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<robot::PyRobot>()?;
     module.add_class::<solutions::PySolutions>()?;
     module.add_class::<solutions::PySolution>()?;

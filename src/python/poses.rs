@@ -4,7 +4,7 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
-use super::arrays::{exactly, vector};
+use super::arrays::{Rows, exactly, vector};
 use super::errors::{Fault, to_py};
 use crate::error::Error;
 use crate::kinematics::{
@@ -15,6 +15,18 @@ use crate::kinematics::{
 pub(super) fn read_pose(value: &Bound<'_, PyAny>, field: &str) -> PyResult<Pose> {
     let rows = exactly::<16>(value, &[4, 4], field, Fault::Pose)?;
     pose_from_rows(&rows).map_err(|error| to_py(value.py(), &error))
+}
+
+/// A path of poses, shape (m, 4, 4).
+pub(super) fn read_path(value: &Bound<'_, PyAny>) -> PyResult<Vec<Pose>> {
+    let py = value.py();
+    let rows = Rows::read(value, &[4, 4], "T", Fault::Pose)?;
+    if rows.lead.len() != 1 {
+        return Err(Fault::Pose.error(py, format!("T must have shape (m, 4, 4), got {:?}", rows.shape_with(&[4, 4]))));
+    }
+    let poses = rows.data()?.as_chunks::<16>().0.iter().enumerate();
+    let pose = |(index, rows)| pose_from_rows(rows).map_err(|error| Fault::Pose.error(py, format!("T[{index}]: {error}")));
+    poses.map(pose).collect()
 }
 
 /// A pose as a (4, 4) array.

@@ -3,22 +3,20 @@
 use std::sync::Arc;
 
 use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods};
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
 
+use super::answers::{batch_output, follow_result, singularity_record};
 use super::arm::{Arm, on_robot};
-use super::arrays::{Rows, checked_out, output, vector, writable};
+use super::arrays::{Rows, addresses, vector, writable};
 use super::build::{self, Convention, State};
 use super::errors::{self, Fault, to_py};
-use super::poses::{pose_array, read_pose};
+use super::poses::{pose_array, read_path, read_pose};
 use super::solutions::{PySolutions, read_seed};
 use crate::batch;
 use crate::catalogue;
 use crate::kinematics::thresholds::WRIST_ZONE;
-use crate::kinematics::{
-    Crossing, Explanation, FollowOptions, Followed, JacobianFrame, OpwParameters, Pose, Robot, SLOTS, Singularity, Status, pose_from_rows,
-};
+use crate::kinematics::{Crossing, Explanation, FollowOptions, JacobianFrame, OpwParameters, Robot};
 
 /// A robot arm: `Robot("IRB 2600-12/1.65")`. Frozen, hashable, equal by value, picklable.
 ///
@@ -298,13 +296,14 @@ impl PyRobot {
     ///     InvalidPoseError: T has a wrong shape.
     ///     InvalidModelError: The arm has no closed form.
     #[pyo3(signature = (T, out=None, threads=1))]
-    fn ik_batch<'py>(&self, T: &Bound<'py, PyAny>, out: Option<&Bound<'py, PyAny>>, threads: usize) -> PyResult<Bound<'py, PyAny>> {
+    fn ik_batch<'py>(&self, T: &Bound<'py, PyAny>, out: Option<&Bound<'py, PyAny>>, threads: isize) -> PyResult<Bound<'py, PyAny>> {
         let py = T.py();
         let robot = self.arm.solvable(py)?;
         let poses = Rows::read(T, &[4, 4], "T", Fault::Pose)?;
         let (q, status) = batch_output(py, out, &poses)?;
-        let threads = if threads == 0 { std::thread::available_parallelism().map_or(1, usize::from) } else { threads };
-        let (data, mut q_view, mut status_view) = (poses.data()?, writable(&q)?, writable(&status)?);
+        let threads = thread_count(threads)?;
+        let (data, mut q_view, mut status_view) =
+            (poses.data()?, writable(&q, &[poses.addresses()])?, writable(&status, &[poses.addresses(), addresses(&q)])?);
         let (q_slice, status_slice) = (q_view.as_slice_mut()?, status_view.as_slice_mut()?);
         py.detach(|| batch::ik(robot, data, q_slice, status_slice, threads)).map_err(|error| to_py(py, &error))?;
         errors::ik_batch_class(py)?.call1((q, status))
@@ -347,7 +346,7 @@ impl PyRobot {
     ///         where joint 5 comes into the zone, and where a joint must jump, as SingArea \Off. "wrist": inside the zone axes 4, 5, 6 go
     ///         straight from where they enter to where they leave, position exact, as SingArea \Wrist. "lock_axis4": axis 4 stays at 0 or
     ///         +-180 deg all along, position exact, orientation where it can be, as SingArea \LockAxis4.
-    ///     zone: |sin q5| below which `singular` acts.
+    ///     zone: |sin q5| below which `singular` acts; 0.0175, that is one degree, when not given.
     ///
     /// Returns:
     ///     FollowResult: joints [rad], shape (m, n), NaN where a pose is not met; orientation error [rad], shape (m,); the breaks.
@@ -357,17 +356,17 @@ impl PyRobot {
     ///     InvalidJointsError: A seed, weight or zone that is not finite.
     ///     InvalidModelError: The arm has no closed form.
     ///     ValueError: Another `singular`.
-    #[pyo3(signature = (T, seed, weights=None, *, singular="through", zone=WRIST_ZONE))]
+    #[pyo3(signature = (T, seed, weights=None, *, singular="through", zone=None))]
     fn follow<'py>(
         &self,
         T: &Bound<'py, PyAny>,
         seed: &Bound<'py, PyAny>,
         weights: Option<&Bound<'py, PyAny>>,
         singular: &str,
-        zone: f64,
+        zone: Option<f64>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (robot, (seed, weights)) = (self.arm.solvable(T.py())?, read_seed(seed, weights)?);
-        let options = FollowOptions { weights, crossing: read_crossing(singular)?, zone };
+        let options = FollowOptions { weights, crossing: read_crossing(singular)?, zone: zone.unwrap_or(WRIST_ZONE) };
         let path = read_path(T)?;
         let followed = T.py().detach(|| robot.follow(&path, &seed, &options)).map_err(|error| to_py(T.py(), &error))?;
         follow_result(T.py(), &followed)
@@ -411,46 +410,6 @@ impl PyRobot {
     }
 }
 
-/// `irbkin.Singularity` of one record, or of records with the leading dimensions `lead`.
-fn singularity_record<'py>(py: Python<'py>, records: &[Option<Singularity>], lead: Option<&Vec<usize>>) -> PyResult<Bound<'py, PyAny>> {
-    let number = |of: fn(&Singularity) -> Option<f64>| records.iter().map(move |record| record.as_ref().and_then(of).unwrap_or(f64::NAN));
-    let columns = [
-        number(|s| s.distances.map(|d| d.wrist)),
-        number(|s| s.distances.map(|d| d.elbow)),
-        number(|s| s.distances.map(|d| d.shoulder)),
-        number(|s| Some(s.min_singular_value)),
-        number(|s| Some(s.manipulability)),
-    ];
-    let kinds = |record: &Option<Singularity>| record.map_or(Status::empty(), |record| record.kinds);
-    let mut fields: Vec<Bound<'py, PyAny>> = Vec::with_capacity(6);
-    for mut column in columns {
-        fields.push(match lead {
-            Some(lead) => PyArray1::from_iter(py, column).reshape(lead.clone())?.into_any(),
-            None => column.next().into_pyobject(py)?.into_any(),
-        });
-    }
-    fields.push(match lead {
-        Some(lead) => PyArray1::from_iter(py, records.iter().map(|record| kinds(record).bits())).reshape(lead.clone())?.into_any(),
-        None => errors::kinds(py, records.first().map_or(Status::empty(), kinds))?,
-    });
-    errors::singularity_class(py)?.call1(PyTuple::new(py, fields)?)
-}
-
-type BatchArrays<'py> = (Bound<'py, PyArrayDyn<f64>>, Bound<'py, PyArrayDyn<u8>>);
-
-/// The arrays that a batch is written to.
-fn batch_output<'py>(py: Python<'py>, out: Option<&Bound<'py, PyAny>>, poses: &Rows<'_>) -> PyResult<BatchArrays<'py>> {
-    let (q_shape, status_shape) = (poses.shape_with(&[SLOTS, 6]), poses.shape_with(&[SLOTS]));
-    let pair = out.and_then(|out| out.cast::<PyTuple>().ok());
-    match pair {
-        Some(pair) if pair.len() == 2 => {
-            Ok((output(py, Some(&pair.get_item(0)?), &q_shape)?, checked_out(&pair.get_item(1)?, &status_shape, "uint8")?))
-        }
-        Some(pair) => Err(PyTypeError::new_err(format!("out must be (q, status), got a tuple of {}", pair.len()))),
-        None => Ok((output(py, out, &q_shape)?, PyArrayDyn::zeros(py, status_shape, false))),
-    }
-}
-
 fn read_crossing(singular: &str) -> PyResult<Crossing> {
     match singular {
         "through" => Ok(Crossing::Through),
@@ -463,24 +422,11 @@ fn read_crossing(singular: &str) -> PyResult<Crossing> {
     }
 }
 
-/// A path of poses, shape (m, 4, 4).
-fn read_path(value: &Bound<'_, PyAny>) -> PyResult<Vec<Pose>> {
-    let py = value.py();
-    let rows = Rows::read(value, &[4, 4], "T", Fault::Pose)?;
-    if rows.lead.len() != 1 {
-        return Err(Fault::Pose.error(py, format!("T must have shape (m, 4, 4), got {:?}", rows.shape_with(&[4, 4]))));
+/// A number of threads; 0 is one a core.
+fn thread_count(threads: isize) -> PyResult<usize> {
+    match usize::try_from(threads) {
+        Ok(0) => Ok(std::thread::available_parallelism().map_or(1, usize::from)),
+        Ok(count) => Ok(count),
+        Err(_) => Err(PyValueError::new_err(format!("threads must be 0 (one a core) or more, got {threads}"))),
     }
-    let poses = rows.data()?.as_chunks::<16>().0.iter().enumerate();
-    let pose = |(index, rows)| pose_from_rows(rows).map_err(|error| Fault::Pose.error(py, format!("T[{index}]: {error}")));
-    poses.map(pose).collect()
-}
-
-/// `irbkin.FollowResult` of a followed path.
-fn follow_result<'py>(py: Python<'py>, followed: &Followed) -> PyResult<Bound<'py, PyAny>> {
-    let joints: Vec<f64> = followed.q.iter().flat_map(|q| q.unwrap_or([f64::NAN; 6])).collect();
-    let joints = PyArray1::from_vec(py, joints).reshape([followed.q.len(), 6])?;
-    let errors = PyArray1::from_iter(py, followed.orientation_error.iter().map(|error| error.unwrap_or(f64::NAN)));
-    let breaks = followed.breaks.iter().map(|broken| errors::break_class(py)?.call1((broken.index, broken.to_string())));
-    let breaks = PyTuple::new(py, breaks.collect::<PyResult<Vec<_>>>()?)?;
-    errors::follow_result_class(py)?.call1((joints, errors, breaks))
 }

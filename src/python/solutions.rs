@@ -10,7 +10,7 @@ use pyo3::types::{PyIterator, PyList};
 use super::arrays::vector;
 use super::errors::{self, Fault, to_py};
 use crate::error::Error;
-use crate::kinematics::{Pose, Robot, SLOTS, Solution, Solutions, Status, check_joints, check_weights};
+use crate::kinematics::{Cost, Pose, Robot, SLOTS, Solution, Solutions, Status, check_joints, check_weights};
 
 /// More turns than any robot has inside its limits: a list this long means limits in degrees, or none.
 const MOST_TURNS: f64 = 1e6;
@@ -135,17 +135,16 @@ impl PySolutions {
         PySolution { robot: Arc::clone(&self.robot), pose: *self.solutions.pose(), solution }
     }
 
-    /// Reads seed and weights, and hands the chosen solution back or says why there is none.
-    fn chosen(
-        &self,
-        seed: &Bound<'_, PyAny>,
-        weights: Option<&Bound<'_, PyAny>>,
-        choose: impl Fn(&Solutions<6>, &[f64; 6], &[f64; 6]) -> Option<Solution<6>>,
-    ) -> PyResult<PySolution> {
+    /// The cheapest solution inside the limits from `seed`, or why there is none. Solutions that were turned stand as they are.
+    fn cheapest(&self, seed: &Bound<'_, PyAny>, weights: Option<&Bound<'_, PyAny>>, cost: Cost) -> PyResult<PySolution> {
         let py = seed.py();
         let (seed, weights) = read_seed(seed, weights)?;
-        let chosen = choose(&self.solutions, &seed, &weights);
-        chosen.map(|solution| self.wrap(solution)).ok_or_else(|| to_py(py, &Error::Unreachable(self.solutions.explain())))
+        let total = |solution: &Solution<6>| -> f64 { (0..6).map(|i| weights[i] * cost.of(solution.q[i] - seed[i])).sum() };
+        let cheapest = match &self.turned {
+            Some(turned) => turned.iter().copied().min_by(|a, b| total(a).total_cmp(&total(b))),
+            None => self.solutions.cheapest(&seed, &weights, cost),
+        };
+        cheapest.map(|solution| self.wrap(solution)).ok_or_else(|| to_py(py, &Error::Unreachable(self.solutions.explain())))
     }
 }
 
@@ -217,7 +216,7 @@ impl PySolutions {
     ///     UnreachableError: None is inside the limits; the message is `explain()`.
     #[pyo3(signature = (seed, weights=None))]
     fn nearest(&self, seed: &Bound<'_, PyAny>, weights: Option<&Bound<'_, PyAny>>) -> PyResult<PySolution> {
-        self.chosen(seed, weights, Solutions::nearest)
+        self.cheapest(seed, weights, Cost::Distance)
     }
 
     /// The solution inside the limits that moves the joints the least from `seed`, turns considered: least sum of weights * |difference|.
@@ -230,7 +229,7 @@ impl PySolutions {
     ///     UnreachableError: None is inside the limits; the message is `explain()`.
     #[pyo3(signature = (seed, weights=None))]
     fn least_motion(&self, seed: &Bound<'_, PyAny>, weights: Option<&Bound<'_, PyAny>>) -> PyResult<PySolution> {
-        self.chosen(seed, weights, Solutions::least_motion)
+        self.cheapest(seed, weights, Cost::Travel)
     }
 
     /// Those for which `accept(solution)` is true; a solution is also the sequence of its joint angles.

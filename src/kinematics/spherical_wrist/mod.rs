@@ -2,9 +2,12 @@
 //!
 //! `docs/ik_derivation.md` has the derivation; its equation numbers stand beside the code.
 
+mod arm;
+mod held;
 mod opw;
 mod recognise;
 mod solve;
+mod wrist;
 
 pub use opw::OpwParameters;
 pub(crate) use recognise::recognise;

@@ -1,0 +1,57 @@
+//! The wrist: the angles of joints 4, 5 and 6 that give the flange its rotation in the forearm.
+
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+use nalgebra::{Matrix3, Rotation3, Vector3};
+
+use super::arm::{Elbow, Shoulder};
+use super::solve::Target;
+use crate::kinematics::thresholds::{WRIST_FREE_SIN, WRIST_MERGE_SIN};
+
+/// One branch of the wrist, with theta_5 in 0 ..= pi unless theta_4 was given; the other one is its flip.
+pub(super) struct Wrist {
+    pub(super) theta: [f64; 3],
+    pub(super) merged: bool,
+    /// Singular by its own angle, whatever is known of the forearm.
+    pub(super) free: bool,
+}
+
+/// The wrist angles (eq. 15 to 18). Taking theta_6 and theta_5 with the sine and cosine of the theta_4 that was chosen keeps the
+/// residual at rounding next to theta_5 = 0, whatever theta_4 is. `error` is how far rounding may turn the forearm: a theta_5 below it
+/// is none.
+pub(super) fn wrist(m: &Matrix3<f64>, target: &Target<'_>, error: f64) -> Wrist {
+    let column: Vector3<f64> = m.column(2).into();
+    let sin_5 = column.x.hypot(column.y);
+    let merged = sin_5 <= WRIST_MERGE_SIN.max(error);
+    let silent = target.free.forced == Some(4) || sin_5 <= target.free.radius.max(WRIST_FREE_SIN);
+    let (free_sin, free_cos) = target.free_theta[3].sin_cos();
+    let (sin_4, cos_4) = if silent {
+        (free_sin, free_cos)
+    } else {
+        // Of merged branches, the one nearer to the seed is kept.
+        let flips = merged && target.free.radius > 0.0 && free_sin * column.y + free_cos * column.x < 0.0;
+        let sign = if flips { -1.0 } else { 1.0 };
+        (sign * column.y / sin_5, sign * column.x / sin_5)
+    };
+    let theta_4 = if silent { target.free_theta[3] } else { sin_4.atan2(cos_4) };
+    let projected = cos_4 * column.x + sin_4 * column.y;
+    let sin_5_signed = if projected.abs() <= WRIST_FREE_SIN { projected.max(0.0) } else { projected };
+    let theta_5 = sin_5_signed.atan2(column.z);
+    let theta_6 = (cos_4 * m[(1, 0)] - sin_4 * m[(0, 0)]).atan2(cos_4 * m[(1, 1)] - sin_4 * m[(0, 1)]);
+    Wrist { theta: [theta_4, theta_5, theta_6], merged, free: sin_5 <= WRIST_MERGE_SIN }
+}
+
+/// `Ry(-theta_23) Rz(-theta_1) R`, which is `Rz(theta_4) Ry(theta_5) Rz(theta_6)` (eq. 14).
+pub(super) fn forearm_to_flange(shoulder: &Shoulder, elbow: &Elbow, rotation: &Matrix3<f64>) -> Matrix3<f64> {
+    let (r0, r1, r2) = (rotation.row(0), rotation.row(1), rotation.row(2));
+    let n0 = r0 * shoulder.cos_1 + r1 * shoulder.sin_1;
+    let n1 = r1 * shoulder.cos_1 - r0 * shoulder.sin_1;
+    Matrix3::from_rows(&[n0 * elbow.cos_23 - r2 * elbow.sin_23, n1, n0 * elbow.sin_23 + r2 * elbow.cos_23])
+}
+
+/// `Rz(theta_4) Ry(theta_5) Rz(theta_6)`.
+pub(super) fn wrist_rotation(theta_4: f64, theta_5: f64, theta_6: f64) -> Matrix3<f64> {
+    let about = |axis, angle| Rotation3::from_axis_angle(&axis, angle);
+    let rotation = about(Vector3::z_axis(), theta_4) * about(Vector3::y_axis(), theta_5) * about(Vector3::z_axis(), theta_6);
+    rotation.into_inner()
+}

@@ -1,0 +1,64 @@
+//! Records and arrays that answers are handed over in.
+
+use numpy::{PyArray1, PyArrayDyn, PyArrayMethods};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+
+use super::arrays::{Rows, checked_out, output};
+use super::errors;
+use crate::kinematics::{Followed, SLOTS, Singularity, Status};
+
+/// `irbkin.Singularity` of one record, or of records with the leading dimensions `lead`.
+pub(super) fn singularity_record<'py>(
+    py: Python<'py>,
+    records: &[Option<Singularity>],
+    lead: Option<&Vec<usize>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let number = |of: fn(&Singularity) -> Option<f64>| records.iter().map(move |record| record.as_ref().and_then(of).unwrap_or(f64::NAN));
+    let columns = [
+        number(|s| s.distances.map(|d| d.wrist)),
+        number(|s| s.distances.map(|d| d.elbow)),
+        number(|s| s.distances.map(|d| d.shoulder)),
+        number(|s| Some(s.min_singular_value)),
+        number(|s| Some(s.manipulability)),
+    ];
+    let kinds = |record: &Option<Singularity>| record.map_or(Status::empty(), |record| record.kinds);
+    let mut fields: Vec<Bound<'py, PyAny>> = Vec::with_capacity(6);
+    for mut column in columns {
+        fields.push(match lead {
+            Some(lead) => PyArray1::from_iter(py, column).reshape(lead.clone())?.into_any(),
+            None => column.next().into_pyobject(py)?.into_any(),
+        });
+    }
+    fields.push(match lead {
+        Some(lead) => PyArray1::from_iter(py, records.iter().map(|record| kinds(record).bits())).reshape(lead.clone())?.into_any(),
+        None => errors::kinds(py, records.first().map_or(Status::empty(), kinds))?,
+    });
+    errors::singularity_class(py)?.call1(PyTuple::new(py, fields)?)
+}
+
+pub(super) type BatchArrays<'py> = (Bound<'py, PyArrayDyn<f64>>, Bound<'py, PyArrayDyn<u8>>);
+
+/// The arrays that a batch is written to.
+pub(super) fn batch_output<'py>(py: Python<'py>, out: Option<&Bound<'py, PyAny>>, poses: &Rows<'_>) -> PyResult<BatchArrays<'py>> {
+    let (q_shape, status_shape) = (poses.shape_with(&[SLOTS, 6]), poses.shape_with(&[SLOTS]));
+    let pair = out.and_then(|out| out.cast::<PyTuple>().ok());
+    match pair {
+        Some(pair) if pair.len() == 2 => {
+            Ok((output(py, Some(&pair.get_item(0)?), &q_shape)?, checked_out(&pair.get_item(1)?, &status_shape, "uint8")?))
+        }
+        Some(pair) => Err(PyTypeError::new_err(format!("out must be (q, status), got a tuple of {}", pair.len()))),
+        None => Ok((output(py, out, &q_shape)?, PyArrayDyn::zeros(py, status_shape, false))),
+    }
+}
+
+/// `irbkin.FollowResult` of a followed path.
+pub(super) fn follow_result<'py>(py: Python<'py>, followed: &Followed) -> PyResult<Bound<'py, PyAny>> {
+    let joints: Vec<f64> = followed.q.iter().flat_map(|q| q.unwrap_or([f64::NAN; 6])).collect();
+    let joints = PyArray1::from_vec(py, joints).reshape([followed.q.len(), 6])?;
+    let errors = PyArray1::from_iter(py, followed.orientation_error.iter().map(|error| error.unwrap_or(f64::NAN)));
+    let breaks = followed.breaks.iter().map(|broken| errors::break_class(py)?.call1((broken.pose_index, broken.to_string())));
+    let breaks = PyTuple::new(py, breaks.collect::<PyResult<Vec<_>>>()?)?;
+    errors::follow_result_class(py)?.call1((joints, errors, breaks))
+}

@@ -1,0 +1,169 @@
+"""Many poses at once give what each gives alone."""
+
+import threading
+
+import irbkin
+import numpy as np
+import pytest
+from arms import ABB, KUKA_KR6
+from irbkin import IkBatch, Status
+from reference import apart, random_pose
+from strategies import subjects
+
+MANY = 1003  # no multiple of any lane count
+
+
+@pytest.fixture(scope="module", params=["IRB 2600-12/1.65", "IRB 120-3/0.58", "KUKA KR 6 R700", "lateral offset"])
+def subject(request):
+    return subjects()[request.param]
+
+
+@pytest.fixture(scope="module")
+def robot(subject):
+    return subject.robot
+
+
+@pytest.fixture(scope="module")
+def poses(robot, subject):
+    """Reachable poses, poses out of reach, wrist-singular ones."""
+    rng = np.random.default_rng(5)
+    low, high = robot.limits.T
+    q = rng.uniform(low, high, (MANY, 6))
+    q[::10, 4] = subject.straight
+    made = robot.fk(q)
+    made[1::10] = [random_pose(rng, 2.0) for _ in made[1::10]]
+    return made
+
+
+def test_batch_equals_single(robot, poses):
+    batch = robot.ik_batch(poses)
+    assert isinstance(batch, IkBatch)
+    assert (batch.q.shape, batch.status.shape, batch.status.dtype) == ((MANY, 8, 6), (MANY, 8), np.uint8)
+    for pose, q, status in zip(poses, *batch, strict=True):
+        single = robot.ik(pose)
+        np.testing.assert_array_equal(status, single.status)
+        np.testing.assert_array_equal(np.isnan(q), np.isnan(single.slots))
+        filled = ~np.isnan(q[:, 0])
+        clear = [robot.singularity(angles).min_singular_value > 1e-3 for angles in q[filled]]
+        assert not filled.any() or np.abs(q[filled] - single.slots[filled])[clear].max(initial=0.0) <= 1e-12
+    assert 0 < (batch.status == 0).all(axis=1).sum() < MANY
+    assert (batch.status & Status.WRIST).any()
+
+
+@pytest.mark.parametrize("threads", [1, 2, 3, 7, 0, 5000])
+def test_threads_and_chunks_change_no_bit(robot, poses, threads):
+    whole = robot.ik_batch(poses)
+    for part, first in ((poses, 0), (poses[501:], 501), (poses[3:4], 3)):
+        batch = robot.ik_batch(part, threads=threads)
+        np.testing.assert_array_equal(batch.q, whole.q[first : first + len(part)])
+        np.testing.assert_array_equal(batch.status, whole.status[first : first + len(part)])
+
+
+@pytest.mark.parametrize("lead", [(), (1,), (0,), (2, 3), (2, 0, 3), (2, 3, 4, 1)])
+def test_leading_dimensions_come_back(lead):
+    robot = irbkin.Robot("IRB 140-6/0.81")
+    q = np.random.default_rng(1).uniform(-0.5, 0.5, (*lead, 6))
+    poses = robot.fk(q)
+    assert poses.shape == (*lead, 4, 4)
+    assert robot.jacobian(q).shape == (*lead, 6, 6)
+    assert robot.link_frames(q).shape == (*lead, 7, 4, 4)
+    batch = robot.ik_batch(poses)
+    assert (batch.q.shape, batch.status.shape) == ((*lead, 8, 6), (*lead, 8))
+    if 0 not in lead:
+        assert np.nanmin(apart(batch.q, q[..., None, :]), axis=-1).max(initial=0.0) <= 1e-9
+    if lead:
+        record = robot.singularity(q)
+        for field in ("wrist", "elbow", "shoulder", "min_singular_value", "manipulability", "kinds"):
+            assert getattr(record, field).shape == lead
+
+
+def test_out_takes_both_arrays_or_the_angles_alone():
+    robot = irbkin.Robot("IRB 140-6/0.81")
+    poses = robot.fk(np.random.default_rng(2).uniform(-0.5, 0.5, (5, 6)))
+    wanted = robot.ik_batch(poses)
+    q, status = np.empty((5, 8, 6)), np.empty((5, 8), dtype=np.uint8)
+    for out in ((q, status), IkBatch(q, status)):
+        q[:], status[:] = -1, 255
+        batch = robot.ik_batch(poses, out=out)
+        assert batch.q is q
+        assert batch.status is status
+        np.testing.assert_array_equal(q, wanted.q)
+        np.testing.assert_array_equal(status, wanted.status)
+    q[:] = -1
+    batch = robot.ik_batch(poses, out=q)
+    assert batch.q is q
+    np.testing.assert_array_equal(q, wanted.q)
+    np.testing.assert_array_equal(batch.status, wanted.status)
+
+
+def bad_poses():
+    """One pose for each fault, by name."""
+    good = irbkin.Robot("IRB 140-6/0.81").fk([0.1] * 6)
+    faults = {
+        "nan": (0, 0, np.nan),
+        "inf": (1, 3, np.inf),
+        "last row": (3, 0, 0.5),
+        "sheared": (0, 1, good[0, 1] + 2e-5),
+    }
+    found = {"mirrored": good @ np.diag([1, 1, -1, 1]), "scaled": good @ np.diag([2, 2, 2, 1])}
+    for name, (i, j, value) in faults.items():
+        found[name] = good.copy()
+        found[name][i, j] = value
+    return found
+
+
+@pytest.mark.parametrize("name", bad_poses())
+@pytest.mark.parametrize("threads", [1, 2])
+def test_an_invalid_row_is_told_and_leaves_the_others_alone(name, threads):
+    robot = irbkin.Robot("IRB 140-6/0.81")
+    poses = robot.fk(np.random.default_rng(3).uniform(-0.5, 0.5, (9, 6)))
+    wanted = robot.ik_batch(poses)
+    spoiled = poses.copy()
+    spoiled[4] = bad_poses()[name]
+    batch = robot.ik_batch(spoiled, threads=threads)
+    assert (batch.status[4] == Status.INVALID).all()
+    assert np.isnan(batch.q[4]).all()
+    others = [0, 1, 2, 3, 5, 6, 7, 8]
+    np.testing.assert_array_equal(batch.q[others], wanted.q[others])
+    np.testing.assert_array_equal(batch.status[others], wanted.status[others])
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+def test_joints_that_are_not_finite_give_nan_rows(value):
+    robot = irbkin.Robot("Panda")
+    q = np.random.default_rng(4).uniform(-0.5, 0.5, (3, 7))
+    spoiled = q.copy()
+    spoiled[1, 6] = value
+    for method in (robot.fk, robot.link_frames, robot.jacobian):
+        answer = method(spoiled)
+        assert np.isnan(answer[1]).all()
+        np.testing.assert_array_equal(answer[[0, 2]], method(q[[0, 2]]))
+    record = robot.singularity(spoiled)
+    assert np.isnan([record.min_singular_value[1], record.manipulability[1]]).all()
+    assert record.kinds[1] == 0
+
+
+def test_a_pose_beyond_reach_has_status_zero():
+    robot = irbkin.Robot("IRB 140-6/0.81")
+    batch = robot.ik_batch(irbkin.pose([[5.0, 0, 0]][0]))
+    assert (batch.status == 0).all()
+    assert np.isnan(batch.q).all()
+
+
+def test_calls_from_many_threads_do_not_disturb_each_other():
+    robots = [irbkin.Robot(name) for name in ABB] + [irbkin.Robot.from_opw(**KUKA_KR6)]
+    poses = [robot.fk(np.random.default_rng(6).uniform(-0.5, 0.5, (500, 6))) for robot in robots]
+    wanted = [robot.ik_batch(made).q for robot, made in zip(robots, poses, strict=True)]
+    found = [None] * len(robots)
+
+    def work(i):
+        for _ in range(5):
+            found[i] = robots[i].ik_batch(poses[i]).q
+
+    workers = [threading.Thread(target=work, args=(i,)) for i in range(len(robots))]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+    for one, other in zip(found, wanted, strict=True):
+        np.testing.assert_array_equal(one, other)

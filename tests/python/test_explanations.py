@@ -1,0 +1,121 @@
+"""Why there is no solution: reach, shortfall, limits, and the sentences that say so."""
+
+import irbkin
+import numpy as np
+import pytest
+from arms import ABB
+from irbkin import Reach, UnreachableError
+from reference import move, turn
+
+
+def at_distance(name, r, angle):
+    """A pose whose wrist centre stands `r` from the shoulder, `angle` above the horizontal, its flange forward."""
+    a1, _, height, _, _, flange = ABB[name].lengths
+    return move(a1 + r * np.cos(angle) + flange, 0, height + r * np.sin(angle)) @ turn("y", np.pi / 2)
+
+
+def reaches(name):
+    """Shortest and longest distance of the wrist centre from the shoulder."""
+    _, elbow, _, upper, forearm, _ = ABB[name].lengths
+    k = np.hypot(elbow, forearm)
+    return abs(upper - k), upper + k
+
+
+@pytest.mark.parametrize("beyond", [1.1e-9, 1e-6, 0.012, 3.0])
+@pytest.mark.parametrize("name", ABB)
+def test_shortfall_is_the_distance_beyond_the_stretched_arm(name, beyond):
+    robot = irbkin.Robot(name)
+    solutions = robot.ik(at_distance(name, reaches(name)[1] + beyond, 0.3))
+    assert (len(solutions), solutions.reach) == (0, Reach.TOO_FAR)
+    assert solutions.shortfall == pytest.approx(beyond, abs=1e-14, rel=1e-14)
+    assert not solutions.status.any()
+    assert solutions.explain().endswith(" mm beyond reach")
+
+
+@pytest.mark.parametrize("name", ABB)
+def test_the_side_of_axis_1_that_comes_nearer_counts(name):
+    """Straight above axis 1 a pose is equally far for both; behind it, the arm that turned round is the nearer."""
+    a1, _, height, *_, flange = ABB[name].lengths
+    robot, longest = irbkin.Robot(name), reaches(name)[1]
+    for x in (2.0, -2.0):
+        pose = move(x + np.copysign(flange, x), 0, height + 3) @ turn("y", np.copysign(np.pi / 2, x))
+        shortfall = np.hypot(abs(x) - a1, 3) - longest
+        if shortfall > 0:
+            assert robot.ik(pose).shortfall == pytest.approx(shortfall, abs=1e-14)
+
+
+@pytest.mark.parametrize("inside", [1.1e-9, 1e-4])
+@pytest.mark.parametrize("name", ABB)
+def test_shortfall_is_the_distance_within_the_folded_arm(name, inside):
+    shortest = reaches(name)[0]
+    a1 = ABB[name].lengths[0]
+    pose = at_distance(name, shortest - inside, 0.3)
+    solutions = irbkin.Robot(name).ik(pose)
+    if a1 == 0:
+        assert solutions.reach is Reach.TOO_NEAR
+        assert solutions.shortfall == pytest.approx(inside, abs=1e-14)
+        assert solutions.explain().endswith(" mm too near to be reached")
+    else:
+        # The arm that turned round stands twice a1 further and gets there.
+        assert (len(solutions), solutions.reach) == (4, Reach.REACHED)
+        assert all(solution.slot >= 4 for solution in solutions)
+
+
+def test_sentences():
+    robot = irbkin.Robot("IRB 2600-12/1.65")
+    q = np.deg2rad([10, -20, 30, 40, 50, 60])
+    inside = len(robot.ik(robot.fk(q)).within_limits())
+    assert robot.ik(robot.fk(q)).explain() == f"8 solutions, {inside} inside limits"
+    longest = reaches(robot.name)[1]
+    assert robot.ik(at_distance(robot.name, longest + 0.012, 0.3)).explain() == "wrist centre 12.0 mm beyond reach"
+    assert robot.ik(at_distance(robot.name, longest + 2e-6, 0.3)).explain() == "wrist centre 2.0e-3 mm beyond reach"
+
+
+def test_the_sentence_names_the_joint_that_is_outside_and_by_how_much():
+    limits = np.deg2rad([[-180, 180]] * 6)
+    robot = irbkin.Robot("IRB 2600-12/1.65")
+    q = np.deg2rad([10, -20, 30, 40, 50, 60])
+    # Axis 1 is 10 deg or -170 deg in every solution: limits from 13.1 deg on leave it outside by 3.1 deg.
+    limits[0] = np.deg2rad([13.1, 20])
+    solutions = robot.with_limits(limits).ik(robot.fk(q))
+    assert solutions.explain() == "all 8 outside limits; nearest: J1 by 3.1 deg"
+    for choose in (solutions.nearest, solutions.least_motion):
+        with pytest.raises(UnreachableError, match=r"all 8 outside limits; nearest: J1 by 3\.1 deg"):
+            choose(q)
+    with pytest.raises(UnreachableError, match=r"J1 by 3\.1 deg"):
+        robot.with_limits(limits).ik_nearest(robot.fk(q), q)
+    assert solutions.within_limits().explain() == "all 8 outside limits; nearest: J1 by 3.1 deg"
+
+
+def test_check_pose_answers_the_three_questions():
+    robot = irbkin.Robot("IRB 2600-12/1.65")
+    q = np.deg2rad([10, -20, 30, 40, 50, 60])
+    good = robot.check_pose(robot.fk(q))
+    assert (good.reachable, good.within_limits) == (True, True)
+    assert good.reason == robot.ik(robot.fk(q)).explain()
+    limits = np.deg2rad([[13.1, 20], *[[-180, 180]] * 5])
+    outside = robot.with_limits(limits).check_pose(robot.fk(q))
+    assert (outside.reachable, outside.within_limits) == (True, False)
+    assert outside.reason == "all 8 outside limits; nearest: J1 by 3.1 deg"
+    far = robot.check_pose(move(9, 0, 0))
+    assert (far.reachable, far.within_limits) == (False, False)
+    assert far.reason.endswith(" mm beyond reach")
+
+
+def test_an_unreachable_pose_says_why():
+    robot = irbkin.Robot("IRB 2600-12/1.65")
+    with pytest.raises(UnreachableError, match=r"wrist centre .* mm beyond reach"):
+        robot.ik_nearest(move(9, 0, 0), np.zeros(6))
+    with pytest.raises(IndexError, match=r"solution 0 of 0: wrist centre .* mm beyond reach"):
+        robot.ik(move(9, 0, 0))[0]
+    assert robot.ik(move(9, 0, 0)).q.shape == (0, 6)
+    assert list(robot.ik(move(9, 0, 0))) == []
+
+
+def test_a_pose_at_a_limit_is_inside():
+    """A target taught at the stop is not lost to rounding, one beyond it is not taken in."""
+    robot = irbkin.Robot("IRB 2600-12/1.65")
+    for off, inside in ((0.5e-9, True), (1e-6, False)):
+        q = np.array([0.3, robot.limits[1, 1] + off, 0.2, 0.4, 0.5, 0.6])
+        found = min(robot.ik(robot.fk(q)), key=lambda solution: np.abs(solution.q - q).max())
+        assert found.within_limits is inside

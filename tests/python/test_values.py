@@ -1,0 +1,204 @@
+"""A robot is a value; the package is light and its names are all there."""
+
+import copy
+import pickle
+import re
+import subprocess
+import sys
+
+import irbkin
+import numpy as np
+import pytest
+from arms import ABB, CATALOGUE, IRB2400, KUKA_KR6, LATERAL
+from irbkin import Kind, Robot, Status
+from reference import move, random_pose
+
+
+def variants():
+    """Robots that differ from one another in one thing each."""
+    plain = Robot("IRB 2600-12/1.65")
+    rows = ABB["IRB 140-6/0.81"].rows
+    return {
+        "catalogue": plain,
+        "other arm": Robot("IRB 2600-12/1.85"),
+        "Panda": Robot("Panda"),
+        "tool": plain.with_tool(move(0, 0, 0.1)),
+        "base": plain.with_base(move(0, 0, 0.1)),
+        "limits": plain.with_limits(np.array([[-1.0, 1.0]] * 6)),
+        "infinite limits": plain.with_limits([[-np.inf, np.inf]] * 6),
+        "opw": Robot.from_opw(**LATERAL),
+        "opw, named": Robot.from_opw(**LATERAL, name="mine"),
+        "opw, signs": Robot.from_opw(**KUKA_KR6),
+        "mdh": Robot.from_mdh(rows),
+        "mdh, limits": Robot.from_mdh(rows, limits=np.array([[-1.0, 1.0]] * 6), name="mine"),
+        "sdh": Robot.from_sdh(rows, closed_form=False),
+        "seven": Robot.from_mdh(CATALOGUE["Panda"].rows),
+        "everything": Robot.from_opw(**KUKA_KR6, name="ü")
+        .with_tool(random_pose(np.random.default_rng(1)))
+        .with_base(move(1, 2, 3)),
+    }
+
+
+VARIANTS = variants()
+NAMES = list(VARIANTS)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_equal_robots_are_equal_and_have_one_hash(name):
+    robot, same = VARIANTS[name], variants()[name]
+    assert robot is not same
+    assert robot == same
+    assert hash(robot) == hash(same)
+    assert len({robot, same}) == 1
+
+
+def test_robots_that_differ_are_not_equal():
+    for first in NAMES:
+        assert [VARIANTS[first] == VARIANTS[second] for second in NAMES] == [first == second for second in NAMES]
+    assert len(set(VARIANTS.values())) == len(VARIANTS)
+    assert (VARIANTS["catalogue"] == "IRB 2600-12/1.65") is False
+    assert (VARIANTS["catalogue"] != object()) is True
+
+
+@pytest.mark.parametrize(
+    "duplicate",
+    [
+        copy.copy,
+        copy.deepcopy,
+        *(lambda robot, p=p: pickle.loads(pickle.dumps(robot, p)) for p in range(pickle.HIGHEST_PROTOCOL + 1)),
+    ],
+)
+@pytest.mark.parametrize("name", NAMES)
+def test_copies_and_pickles_are_equal_and_compute_the_same_bits(name, duplicate):
+    robot = VARIANTS[name]
+    twin = duplicate(robot)
+    assert twin == robot
+    assert hash(twin) == hash(robot)
+    assert (twin.name, twin.family, twin.dof, repr(twin)) == (robot.name, robot.family, robot.dof, repr(robot))
+    np.testing.assert_array_equal(twin.limits, robot.limits)
+    np.testing.assert_array_equal(twin.max_velocity, robot.max_velocity)
+    q = np.linspace(-0.3, 0.6, robot.dof)
+    np.testing.assert_array_equal(twin.fk(q), robot.fk(q))
+    if robot.family == "spherical wrist":
+        np.testing.assert_array_equal(twin.ik(robot.fk(q)).slots, robot.ik(robot.fk(q)).slots)
+
+
+def test_a_damaged_pickle_is_refused():
+    restore, (state,) = VARIANTS["catalogue"].__reduce__()
+    for i in (2, 3, 4):
+        damaged = list(state)
+        damaged[i] = damaged[i][:-1]
+        with pytest.raises(irbkin.IrbkinError):
+            restore(tuple(damaged))
+    with pytest.raises(irbkin.InvalidModelError, match="the pickled robot is damaged"):
+        restore((state[0], "other", *state[2:]))
+
+
+@pytest.mark.parametrize("attribute", ["name", "dof", "family", "mdh", "limits", "max_velocity", "base", "tool", "new"])
+def test_a_robot_is_frozen(attribute):
+    with pytest.raises(AttributeError):
+        setattr(Robot("Panda"), attribute, None)
+
+
+def test_what_a_robot_shows_is_a_copy():
+    robot = Robot("IRB 120-3/0.58")
+    for show in ("mdh", "limits", "max_velocity", "base", "tool", "flange"):
+        getattr(robot, show)[...] = 9
+        assert not (getattr(robot, show) == 9).all()
+
+
+def test_a_new_robot_leaves_the_old_one_as_it_was():
+    robot = Robot("IRB 120-3/0.58")
+    robot.with_tool(move(1, 0, 0)), robot.with_base(move(1, 0, 0)), robot.with_limits([[0, 1]] * 6)
+    assert robot == Robot("IRB 120-3/0.58")
+    changed = robot.with_tool(move(1, 0, 0)).with_base(move(2, 0, 0)).with_limits([[0, 1]] * 6)
+    assert changed.name == "IRB 120-3/0.58"
+    np.testing.assert_array_equal(changed.max_velocity, robot.max_velocity)
+
+
+def test_representations():
+    robot = Robot("IRB 2600-12/1.65")
+    assert repr(robot) == 'Robot("IRB 2600-12/1.65")'
+    assert eval(repr(robot), {"Robot": Robot}) == robot
+    assert repr(Robot.from_opw(**IRB2400)) == "Robot(6 joints, spherical wrist)"
+    assert repr(Robot.from_opw(**IRB2400, name="mine")) == 'Robot("mine")'
+    solutions = robot.ik(robot.fk(np.deg2rad([10, -20, 30, 40, 50, 60])))
+    assert repr(solutions) == "Solutions(8 solutions, 4 inside limits)"
+    assert (
+        repr(solutions[0]) == "Solution(slot 0: [10.000, -20.000, 30.000, 40.000, 50.000, 60.000] deg, inside limits)"
+    )
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_what_does_not_matter_in_a_name_does_not(name):
+    for spelt in (
+        name.lower(),
+        name.upper(),
+        name.replace(" ", ""),
+        re.sub("[-/ ]", "_", name),
+        f" {name} ",
+        name.replace("-", " - "),
+    ):
+        assert Robot(spelt) == Robot(name)
+        assert Robot(spelt).name == name
+
+
+def test_the_catalogue_is_a_tuple_of_names_without_doubles():
+    names = irbkin.catalog()
+    assert isinstance(names, tuple)
+    assert len(set(names)) == len(names) > 0
+    assert all(Robot(name).name == name for name in names)
+
+
+def test_status_and_kind_have_their_documented_values():
+    named = {"FOUND": 1, "WITHIN_LIMITS": 2, "WRIST": 4, "ELBOW": 8, "SHOULDER": 16, "MERGED": 32, "INVALID": 64}
+    assert {flag.name: flag.value for flag in Status} == named
+    assert {flag.name: flag.value for flag in Kind} == {"WRIST": 4, "ELBOW": 8, "SHOULDER": 16}
+
+
+@pytest.mark.parametrize("module", ["irbkin", "irbkin.errors", "irbkin.records"])
+def test_every_exported_name_is_there(module):
+    __import__(module)
+    exported = sys.modules[module].__all__
+    assert len(set(exported)) == len(exported)
+    for name in exported:
+        assert getattr(sys.modules[module], name) is not None
+    assert set(sys.modules["irbkin.errors"].__all__ + sys.modules["irbkin.records"].__all__) <= set(irbkin.__all__)
+
+
+def test_every_public_thing_has_a_docstring():
+    for name in irbkin.__all__:
+        thing = getattr(irbkin, name)
+        if callable(thing):
+            assert thing.__doc__, name
+    for owner in (Robot, irbkin.Solution, irbkin.Solutions):
+        for name in dir(owner):
+            assert name.startswith("_") or getattr(owner, name).__doc__, f"{owner.__name__}.{name}"
+
+
+def test_the_version_is_that_of_the_distribution():
+    from importlib.metadata import version
+
+    assert irbkin.__version__ == version("irbkin")
+
+
+def fresh(code):
+    """What a new interpreter prints."""
+    return subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout
+
+
+def test_importing_brings_nothing_but_numpy():
+    code = """
+import sys
+before = set(sys.modules)
+import irbkin
+print(*sorted({name.partition(".")[0] for name in set(sys.modules) - before}))
+"""
+    brought = set(fresh(code).split())
+    assert brought - set(sys.stdlib_module_names) - {"numpy"} == {"irbkin"}
+
+
+def test_importing_can_be_done_in_5_ms_beyond_numpy():
+    """A busy machine is given ten tries."""
+    code = "import numpy, time; start = time.perf_counter(); import irbkin; print(time.perf_counter() - start)"
+    assert any(float(fresh(code)) <= 5e-3 for _ in range(10))
