@@ -14,7 +14,7 @@ use super::select::{check_joints, check_weights};
 use super::solutions::{FreeJoint, Solution};
 use super::spherical_wrist::FreeChoice;
 use super::status::{Explanation, Status};
-use super::thresholds::{JUMP_GROWTH, JUMP_LEAST, SEEDED_FREE};
+use super::thresholds::{JUMP_GROWTH, JUMP_LEAST, SEEDED_FREE, STEADY_STEP};
 use crate::error::Error;
 
 /// How often a segment of the path is halved in search of a continuous way through it: to a trillionth of it.
@@ -106,7 +106,7 @@ impl<'a> Follower<'a> {
     /// As [`Robot::ik`].
     pub fn step(&mut self, pose: &Pose) -> Result<(Option<Solution<6>>, Option<BreakReason>), Error> {
         let pose = checked_pose(pose)?;
-        let mut next = match self.nearest(&pose)? {
+        let next = match self.nearest(&pose)? {
             Ok(next) => next,
             Err(explanation) => {
                 (self.last, self.velocity) = (None, [0.0; 6]);
@@ -117,7 +117,7 @@ impl<'a> Follower<'a> {
         if let Some(last_pose) = self.last {
             let usual = largest(&self.velocity).max(JUMP_LEAST / JUMP_GROWTH);
             if largest(&difference(&next.q, &self.q)) > JUMP_GROWTH * usual {
-                (next, jump) = self.through(&last_pose, &pose, next)?;
+                jump = self.jump_between(&last_pose, &pose, &next)?;
             }
         }
         self.velocity = if self.last.is_none() || jump.is_some() { [0.0; 6] } else { difference(&next.q, &self.q) };
@@ -126,11 +126,13 @@ impl<'a> Follower<'a> {
         Ok((Some(next), jump))
     }
 
-    /// The solution nearest to where the joints stand; where the pose leaves joints free, nearest to where they are heading.
+    /// The solution nearest to where the joints are heading.
     fn nearest(&self, pose: &Pose) -> Result<Result<Solution<6>, Explanation>, Error> {
-        let heading = core::array::from_fn(|i| self.q[i] + self.velocity[i]);
-        let solutions = self.robot.solve(*pose, &FreeChoice::seed(heading))?;
-        let Some(mut next) = solutions.nearest(&self.q, &self.weights) else { return Ok(Err(solutions.explain())) };
+        // A joint that swings as it passes a singularity will not swing on.
+        let steady = largest(&self.velocity) <= STEADY_STEP;
+        let heading = if steady { core::array::from_fn(|i| self.q[i] + self.velocity[i]) } else { self.q };
+        let solutions = self.robot.solve(*pose, &FreeChoice::path(heading))?;
+        let Some(mut next) = solutions.nearest(&heading, &self.weights) else { return Ok(Err(solutions.explain())) };
         self.balance(&mut next, &heading);
         Ok(Ok(next))
     }
@@ -156,36 +158,28 @@ impl<'a> Follower<'a> {
     }
 
     /// Goes from the last pose to the next one by halving: a step that is only large shrinks with the segment, a jump does not.
-    fn through(&self, from: &Pose, to: &Pose, direct: Solution<6>) -> Result<(Solution<6>, Option<BreakReason>), Error> {
+    fn jump_between(&self, from: &Pose, to: &Pose, direct: &Solution<6>) -> Result<Option<BreakReason>, Error> {
         let mut scout = Self { velocity: [0.0; 6], ..self.clone() };
         let whole = largest(&difference(&direct.q, &self.q));
         let (mut done, mut width, mut depth) = (0.0, 1.0, 0);
-        let mut arrived = direct;
         while done < 1.0 {
             let end = if done + width >= 1.0 { 1.0 } else { done + width };
             let pose = if end < 1.0 { between(from, to, end) } else { *to };
-            let step = match scout.nearest(&pose)? {
-                Ok(next) => {
-                    arrived = next;
-                    largest(&difference(&next.q, &scout.q))
+            // The straight line between two poses may leave reach where the path does not.
+            let Ok(next) = scout.nearest(&pose)? else { return Ok(None) };
+            if largest(&difference(&next.q, &scout.q)) > whole / 4.0 {
+                if depth == HALVINGS {
+                    return self.jump(direct, &pose, &scout.q).map(Some);
                 }
-                // The straight line between two poses may leave reach where the path does not.
-                Err(_) => return Ok((direct, None)),
-            };
-            if step > whole / 4.0 && depth < HALVINGS {
                 (width, depth) = (width / 2.0, depth + 1);
                 continue;
             }
-            if step > whole / 4.0 {
-                return Ok((direct, Some(self.jump(&direct, &pose, &scout.q)?)));
-            }
-            scout.q = arrived.q;
-            done = end;
+            (scout.q, done) = (next.q, end);
             if depth > 0 {
                 (width, depth) = (width * 2.0, depth - 1);
             }
         }
-        Ok((arrived, None))
+        Ok(None)
     }
 
     /// The jump from where the joints stand to `to`, at the pose where it cannot be avoided.

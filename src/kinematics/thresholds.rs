@@ -40,6 +40,9 @@ pub const LATERAL_MERGE: f64 = 1e-14;
 /// How close to a singularity a seeded solve may keep the seed's free joint [rad, m]: the precision of the best poses met in practice.
 pub const SEEDED_FREE: f64 = 1e-12;
 
+/// |sin q5| below which a path may keep the q4 that it is heading for [1], where what is known of the forearm does not contradict it.
+pub const PATH_WRIST_SIN: f64 = 1e-3;
+
 /// How far an angle may pass a joint limit and still be inside [rad]: a pose taught at the limit must not be lost to rounding.
 pub const LIMIT_TOLERANCE: f64 = 1e-9;
 
@@ -52,8 +55,11 @@ pub const FORM_TOLERANCE: f64 = 1e-9;
 /// How much a joint step must grow over the one before it to be looked into as a jump [1].
 pub const JUMP_GROWTH: f64 = 3.0;
 
-/// Joint step that is never looked into as a jump [rad]: a third of a degree.
-pub const JUMP_LEAST: f64 = 6e-3;
+/// Joint step that is never looked into as a jump [rad]: two degrees.
+pub const JUMP_LEAST: f64 = 0.035;
+
+/// Joint step up to which a path is taken to go on as it did [rad].
+pub const STEADY_STEP: f64 = 0.1;
 
 /// |sin q5| below which a crossing policy acts [1]: one degree, as far as the orientation may then deviate.
 pub const WRIST_ZONE: f64 = 0.0175;

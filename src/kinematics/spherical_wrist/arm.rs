@@ -4,9 +4,9 @@
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::SphericalWrist;
-use super::solve::Target;
+use super::solve::{Target, Trust};
 use crate::kinematics::status::Reach;
-use crate::kinematics::thresholds::REACH_TOLERANCE;
+use crate::kinematics::thresholds::{REACH_TOLERANCE, SEEDED_FREE};
 
 /// One way for axis 1 to face the wrist centre.
 #[derive(Clone, Copy)]
@@ -64,8 +64,9 @@ impl SphericalWrist {
             return Err(Reach::TooNear { shortfall: -outside });
         }
         let (sin_1, cos_1) = target.free_theta[0].sin_cos();
-        if self.b == 0.0 && (target.free.forced == Some(1) || rho <= target.free.radius.max(rounding)) {
-            let keep_behind = target.free.behind;
+        let trust = target.free.trust;
+        if self.b == 0.0 && (trust.forces(1) || rho <= trust.radius().max(rounding)) {
+            let keep_behind = matches!(trust, Trust::Forced { behind: true, .. });
             let kept = Shoulder { sin_1, cos_1, x: if keep_behind { -rho } else { rho }, error: 0.0 };
             let (front, behind) = if keep_behind { (kept.turned(), kept) } else { (kept, kept.turned()) };
             return Ok(Shoulders { front, behind, merged: true, keep_behind });
@@ -77,7 +78,7 @@ impl SphericalWrist {
         let front = self.shoulder(wx, wy, x, error);
         // With b != 0 the two are not opposite: theta_1 differs by pi - 2 atan2(b, x) (eq. 4).
         let behind = if self.b == 0.0 { front.turned() } else { self.shoulder(wx, wy, -x, error) };
-        let keep_behind = target.free.radius > 0.0 && front.sin_1 * sin_1 + front.cos_1 * cos_1 < 0.0;
+        let keep_behind = trust != Trust::Pose && front.sin_1 * sin_1 + front.cos_1 * cos_1 < 0.0;
         Ok(Shoulders { front, behind, merged, keep_behind })
     }
 
@@ -119,7 +120,7 @@ impl SphericalWrist {
         if shortest - r > target.tolerance {
             return Err(Reach::TooNear { shortfall: shortest - r });
         }
-        if r <= target.free.radius.max(self.position_rounding()) {
+        if r <= target.free.trust.radius().max(self.position_rounding()) {
             let (sin_2, cos_2) = target.free_theta[1].sin_cos();
             return Ok(Elbows { front: self.elbow([sin_2, cos_2], [-sin_2, -cos_2]), behind: None, error: 0.0, free: true });
         }
@@ -153,5 +154,35 @@ impl SphericalWrist {
         let cos_23 = forearm[1] * cos_psi + forearm[0] * sin_psi;
         let theta_2 = upper[0].atan2(upper[1]);
         Elbow { theta_2, theta_3: sin_23.atan2(cos_23) - theta_2, sin_23, cos_23 }
+    }
+
+    /// On a path, a shoulder whose angle the pose leaves open, turned so that the wrist can keep the joint 4 that it is heading for.
+    ///
+    /// With theta_23 and theta_4 known, `R = Rz(theta_1) A Ry(theta_5) Rz(theta_6)` has the height of the approach axis on both sides:
+    /// `A20 sin theta_5 + A22 cos theta_5 = R22` (eq. 19), and theta_1 from its direction.
+    pub(super) fn turned_for_wrist(&self, shoulder: &Shoulder, elbow: &Elbow, target: &Target<'_>) -> Shoulder {
+        if target.free.trust != Trust::Path || self.b != 0.0 {
+            return *shoulder;
+        }
+        let [_, _, _, theta_4, theta_5, _] = target.free_theta;
+        let (sin_4, cos_4) = theta_4.sin_cos();
+        let (a20, a22) = (-elbow.sin_23 * cos_4, elbow.cos_23);
+        let height = target.rotation[(2, 2)] / a20.hypot(a22);
+        if height.abs() > 1.0 {
+            return *shoulder;
+        }
+        let (middle, spread) = (a20.atan2(a22), height.acos());
+        let nearer = |a: f64, b: f64| if (theta_5 - a).cos() > (theta_5 - b).cos() { a } else { b };
+        let (sin_5, cos_5) = nearer(middle + spread, middle - spread).sin_cos();
+        let (x, y) = (elbow.cos_23 * cos_4 * sin_5 + elbow.sin_23 * cos_5, sin_4 * sin_5);
+        let (to_x, to_y) = (target.rotation[(0, 2)], target.rotation[(1, 2)]);
+        let (sin, cos) = (to_y * x - to_x * y, to_x * x + to_y * y);
+        let norm = sin.hypot(cos);
+        let turned = Shoulder { sin_1: sin / norm, cos_1: cos / norm, ..*shoulder };
+        let turn = (turned.sin_1 * shoulder.cos_1 - turned.cos_1 * shoulder.sin_1)
+            .hypot(1.0 - turned.sin_1 * shoulder.sin_1 - turned.cos_1 * shoulder.cos_1);
+        // The wrist centre must not move by more than rounding or, where q1 is free, than the seed's radius.
+        let open = if shoulder.x.abs() <= SEEDED_FREE { SEEDED_FREE } else { self.position_rounding() };
+        if norm > 0.0 && turn < 0.1 && turn * shoulder.x.abs() <= open { turned } else { *shoulder }
     }
 }

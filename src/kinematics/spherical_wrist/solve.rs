@@ -20,26 +20,57 @@ use crate::kinematics::thresholds::{REACH_TOLERANCE, SEEDED_FREE};
 pub(crate) struct FreeChoice {
     /// Joint angles [rad], of which the free one's is taken.
     pub(super) q: [f64; 6],
-    /// How close to a singularity the pose counts as silent, beyond rounding [rad, m]; above zero, the merged branch nearer to q is kept.
-    pub(super) radius: f64,
-    /// A joint that is taken from q whatever the pose says, from 1.
-    pub(super) forced: Option<usize>,
-    /// Whether a free q1 is that of the shoulder that has the wrist centre behind it.
-    pub(super) behind: bool,
+    pub(super) trust: Trust,
+}
+
+/// How far the pose is trusted next to a singularity, against the joint angles that were given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Trust {
+    /// To rounding.
+    Pose,
+    /// To [`SEEDED_FREE`]; of merged branches the one nearer to the seed is kept.
+    Seed,
+    /// As far as it says anything: what it does not contradict is taken from the seed. For poses that follow one another.
+    Path,
+    /// One joint, from 1, is taken from the angles whatever the pose says.
+    Forced {
+        joint: usize,
+        /// Whether a free q1 is that of the shoulder that has the wrist centre behind it.
+        behind: bool,
+    },
+}
+
+impl Trust {
+    /// How close to a singularity the pose counts as silent, beyond rounding [rad, m].
+    pub(super) fn radius(self) -> f64 {
+        match self {
+            Self::Pose | Self::Forced { .. } => 0.0,
+            Self::Seed | Self::Path => SEEDED_FREE,
+        }
+    }
+
+    pub(super) fn forces(self, joint: usize) -> bool {
+        matches!(self, Self::Forced { joint: forced, .. } if forced == joint)
+    }
 }
 
 impl FreeChoice {
     /// Zero for a free joint, only where rounding hides it.
-    pub(crate) const ZERO: Self = Self { q: [0.0; 6], radius: 0.0, forced: None, behind: false };
+    pub(crate) const ZERO: Self = Self { q: [0.0; 6], trust: Trust::Pose };
 
     /// The seed's angle for a free joint.
     pub(crate) fn seed(q: [f64; 6]) -> Self {
-        Self { q, radius: SEEDED_FREE, forced: None, behind: false }
+        Self { q, trust: Trust::Seed }
+    }
+
+    /// The angle that continues a path, wherever the pose does not contradict it.
+    pub(crate) fn path(q: [f64; 6]) -> Self {
+        Self { q, trust: Trust::Path }
     }
 
     /// The angle that `q` has for joint `joint`, from 1; for another one only where rounding hides it.
     pub(crate) fn forced(q: [f64; 6], joint: usize, behind: bool) -> Self {
-        Self { q, radius: f64::MIN_POSITIVE, forced: Some(joint), behind }
+        Self { q, trust: Trust::Forced { joint, behind } }
     }
 }
 
@@ -113,7 +144,6 @@ impl SphericalWrist {
             Ok(elbows) => elbows,
             Err(missed) => return missed,
         };
-        let theta_1 = shoulder.sin_1.atan2(shoulder.cos_1);
         let merged = if elbows.behind.is_none() { Status::ELBOW } else { Status::empty() };
         let error = shoulder.error + elbows.error;
         for (elbow, slot) in [(Some(elbows.front), base), (elbows.behind, base + 2)] {
@@ -124,7 +154,9 @@ impl SphericalWrist {
                 continue;
             };
             let Elbow { theta_2, theta_3, .. } = elbow;
-            let wrist = wrist(&forearm_to_flange(shoulder, &elbow, target.rotation), target, error);
+            let shoulder = self.turned_for_wrist(shoulder, &elbow, target);
+            let theta_1 = shoulder.sin_1.atan2(shoulder.cos_1);
+            let wrist = wrist(&forearm_to_flange(&shoulder, &elbow, target.rotation), target, error);
             let [theta_4, theta_5, theta_6] = wrist.theta;
             let flags = if wrist.merged { merged | Status::WRIST } else { merged };
             // A free theta_4 that was given may leave theta_5 negative: then the flipped slot is the one that is kept.

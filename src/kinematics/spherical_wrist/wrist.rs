@@ -5,8 +5,8 @@ use nalgebra::{ComplexField as _, RealField as _};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::arm::{Elbow, Shoulder};
-use super::solve::Target;
-use crate::kinematics::thresholds::{WRIST_FREE_SIN, WRIST_MERGE_SIN};
+use super::solve::{Target, Trust};
+use crate::kinematics::thresholds::{PATH_WRIST_SIN, SEEDED_FREE, WRIST_FREE_SIN, WRIST_MERGE_SIN};
 
 /// One branch of the wrist, with theta_5 in 0 ..= pi unless theta_4 was given; the other one is its flip.
 pub(super) struct Wrist {
@@ -23,13 +23,17 @@ pub(super) fn wrist(m: &Matrix3<f64>, target: &Target<'_>, error: f64) -> Wrist 
     let column: Vector3<f64> = m.column(2).into();
     let sin_5 = column.x.hypot(column.y);
     let merged = sin_5 <= WRIST_MERGE_SIN.max(error);
-    let silent = target.free.forced == Some(4) || sin_5 <= target.free.radius.max(WRIST_FREE_SIN);
+    let trust = target.free.trust;
     let (free_sin, free_cos) = target.free_theta[3].sin_cos();
+    // How far the pose is from having theta_4 where it is heading: what it knows of the forearm may not contradict that.
+    let contradiction = (free_cos * column.y - free_sin * column.x).abs();
+    let open = trust == Trust::Path && sin_5 <= PATH_WRIST_SIN && contradiction <= error.max(SEEDED_FREE);
+    let silent = trust.forces(4) || sin_5 <= trust.radius().max(WRIST_FREE_SIN) || open;
     let (sin_4, cos_4) = if silent {
         (free_sin, free_cos)
     } else {
         // Of merged branches, the one nearer to the seed is kept.
-        let flips = merged && target.free.radius > 0.0 && free_sin * column.y + free_cos * column.x < 0.0;
+        let flips = merged && trust != Trust::Pose && free_sin * column.y + free_cos * column.x < 0.0;
         let sign = if flips { -1.0 } else { 1.0 };
         (sign * column.y / sin_5, sign * column.x / sin_5)
     };
