@@ -190,7 +190,7 @@ impl Walk<'_> {
         let mut held = *q;
         for _ in 0..ROUNDS {
             let m = arm.rotation_in_forearm(rotation.matrix(), &held);
-            let wrist = nearest_turns(self.robot, arm.with_axis_4_held(&m, &held), &held);
+            let wrist = self.robot.limits().turned_to(&arm.with_axis_4_held(&m, &held), &held);
             let Some(next) = wrist.map(|wrist| self.to_point(&pose, &wrist)).transpose()?.flatten() else { return Ok(None) };
             let moved = next.iter().zip(&held).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             held = next;
@@ -206,7 +206,7 @@ impl Walk<'_> {
         let (point, lever) = self.robot.tool_point(pose)?;
         let Some(arm) = self.robot.spherical_wrist() else { return Ok(None) };
         let distance = |found: &[f64; 6]| found.iter().zip(q).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
-        let found = arm.to_point(&point, &lever, q).filter_map(|found| nearest_turns(self.robot, found, q));
+        let found = arm.to_point(&point, &lever, q).filter_map(|found| self.robot.limits().turned_to(&found, q));
         Ok(found.min_by(|a, b| distance(a).total_cmp(&distance(b))))
     }
 
@@ -220,13 +220,4 @@ impl Walk<'_> {
         self.followed.orientation_error.resize(self.path.len(), None);
         self.followed
     }
-}
-
-/// Every joint at its turn inside the limits that is nearest to `seed`.
-fn nearest_turns(robot: &Robot<6>, q: [f64; 6], seed: &[f64; 6]) -> Option<[f64; 6]> {
-    let mut turned = q;
-    for (joint, angle) in turned.iter_mut().enumerate() {
-        *angle = robot.limits().turn_nearest(joint, *angle, seed[joint])?;
-    }
-    Some(turned)
 }

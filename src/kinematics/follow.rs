@@ -132,7 +132,7 @@ impl<'a> Follower<'a> {
         let steady = largest(&self.velocity) <= STEADY_STEP;
         let heading = if steady { core::array::from_fn(|i| self.q[i] + self.velocity[i]) } else { self.q };
         let solutions = self.robot.solve(*pose, &FreeChoice::path(heading))?;
-        let Some(mut next) = solutions.nearest(&heading, &self.weights) else { return Ok(Err(solutions.explain())) };
+        let Some(mut next) = self.robot.nearest_of(&solutions, &heading, &self.weights)? else { return Ok(Err(solutions.explain())) };
         self.balance(&mut next, &heading);
         Ok(Ok(next))
     }

@@ -73,6 +73,23 @@ impl<const N: usize> JointLimits<N> {
         Some(if turn == 0.0 { angle } else { angle + TAU * turn })
     }
 
+    /// Zero where the limits hold it, and the middle of them where they do not [rad]: what a free joint takes by itself.
+    pub(crate) fn rest(&self) -> [f64; N] {
+        core::array::from_fn(|joint| {
+            let middle = 0.5 * (self.lower[joint] + self.upper[joint]);
+            if self.excess(joint, 0.0) > 0.0 && middle.is_finite() { middle } else { 0.0 }
+        })
+    }
+
+    /// Every angle at its turn inside the limits that is nearest to `seed`; `None` where one has no such turn.
+    pub(crate) fn turned_to(&self, q: &[f64; N], seed: &[f64; N]) -> Option<[f64; N]> {
+        let mut turned = *q;
+        for (joint, angle) in turned.iter_mut().enumerate() {
+            *angle = self.turn_nearest(joint, *angle, seed[joint])?;
+        }
+        Some(turned)
+    }
+
     /// First and last number of turns that, added to `angle`, keep it inside the limits; `None` where no number does.
     pub(crate) fn turns(&self, joint: usize, angle: f64) -> Option<(f64, f64)> {
         let first = ((self.lower[joint] - LIMIT_TOLERANCE - angle) / TAU).ceil();

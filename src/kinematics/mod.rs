@@ -4,6 +4,7 @@ mod angles;
 mod chain;
 mod crossing;
 mod dh;
+mod family;
 mod follow;
 mod jacobian;
 mod limits;

@@ -9,9 +9,8 @@ use super::dh::{DhRow, Mdh, Sdh};
 use super::jacobian::JacobianFrame;
 use super::limits::JointLimits;
 use super::pose::{Pose, PoseError, checked_pose};
-use super::select::{check_joints, check_weights};
 use super::singularity::{Singularity, singular_values};
-use super::solutions::{SLOTS, Solution, Solutions};
+use super::solutions::{Solution, Solutions};
 use super::spherical_wrist::{FreeChoice, NotRecognised, OpwParameters, SphericalWrist, recognise};
 use super::status::Status;
 use crate::error::{Error, ModelFault};
@@ -78,56 +77,19 @@ impl Robot<6> {
     /// Every joint vector that brings the tool to `pose`.
     ///
     /// A pose out of reach has no solutions and tells so by [`Solutions::reach`]; at a singularity a joint that the pose leaves free
-    /// reads zero. Derivation: docs/ik_derivation.md.
+    /// reads zero, or the middle of its limits where zero is outside them. Derivation: docs/ik_derivation.md.
     ///
     /// # Errors
     ///
     /// [`Error::InvalidPose`] when the pose is not finite or no rigid transform; [`Error::InvalidModel`] when the arm has no closed form.
     pub fn ik(&self, pose: &Pose) -> Result<Solutions<6>, Error> {
-        self.solve(checked_pose(pose)?, &FreeChoice::ZERO)
+        self.solve(checked_pose(pose)?, &FreeChoice::rest(self.limits.rest()))
     }
 
     #[cfg(feature = "std")]
     /// [`Robot::ik`] for a pose that was checked where it came in.
     pub(crate) fn ik_checked(&self, pose: Pose) -> Result<Solutions<6>, Error> {
-        self.solve(pose, &FreeChoice::ZERO)
-    }
-
-    /// The solution inside the limits that is nearest to `seed` [rad], turns considered; free joints keep the seed's angle.
-    ///
-    /// # Errors
-    ///
-    /// As [`Robot::ik`], [`Error::InvalidJoints`] for a seed or weight that is not finite, and [`Error::Unreachable`] when no solution
-    /// is inside the limits.
-    pub fn ik_nearest(&self, pose: &Pose, seed: &[f64; 6], weights: &[f64; 6]) -> Result<Solution<6>, Error> {
-        check_joints("seed", seed)?;
-        check_weights(weights)?;
-        let solutions = self.solve(checked_pose(pose)?, &FreeChoice::seed(*seed))?;
-        solutions.nearest(seed, weights).ok_or_else(|| Error::Unreachable(solutions.explain()))
-    }
-
-    /// The solution of the same pose whose free joint stands at `value` [rad]; `None` where no joint is free.
-    ///
-    /// The tool stays to rounding at the singularity, and by the pose's distance from it next to it: at most 1.5e-9 rad or m.
-    ///
-    /// # Errors
-    ///
-    /// As [`Robot::ik`], and [`Error::InvalidJoints`] when the value is not finite.
-    pub fn with_free(&self, pose: &Pose, solution: &Solution<6>, value: f64) -> Result<Option<Solution<6>>, Error> {
-        let Some(free) = solution.free else { return Ok(None) };
-        let joint = free.joint();
-        let mut q = solution.q;
-        q[joint - 1] = value;
-        check_joints("value", &q)?;
-        let slot = usize::from(solution.slot);
-        let solutions = self.solve(checked_pose(pose)?, &FreeChoice::forced(q, joint, slot >= SLOTS / 2))?;
-        let moved = solutions.slot(slot).or_else(|| solutions.slot(slot ^ 1));
-        Ok(moved.map(|moved| {
-            let mut moved = *moved;
-            moved.q[joint - 1] = value;
-            moved.status.set(Status::WITHIN_LIMITS, self.limits.contain(&moved.q));
-            moved
-        }))
+        self.solve(pose, &FreeChoice::rest(self.limits.rest()))
     }
 
     fn solver(&self) -> Result<&WristSolver, Error> {

@@ -70,21 +70,11 @@ impl<const N: usize> Solutions<N> {
     pub(crate) fn cheapest(&self, seed: &[f64; N], weights: &[f64; N], cost: Cost) -> Option<Solution<N>> {
         let mut best: Option<(f64, Solution<N>)> = None;
         for solution in self {
-            let mut turned = *solution;
-            let mut total = 0.0;
-            let mut inside = true;
-            for (joint, seed) in seed.iter().enumerate() {
-                match self.limits.turn_nearest(joint, solution.q[joint], *seed) {
-                    Some(angle) => {
-                        turned.q[joint] = angle;
-                        total += weights[joint] * cost.of(angle - seed);
-                    }
-                    None => inside = false,
+            if let Some(q) = self.limits.turned_to(&solution.q, seed) {
+                let total = cost.total(&q, seed, weights);
+                if best.as_ref().is_none_or(|(least, _)| total < *least) {
+                    best = Some((total, Solution { q, status: solution.status | Status::WITHIN_LIMITS, ..*solution }));
                 }
-            }
-            if inside && best.as_ref().is_none_or(|(least, _)| total < *least) {
-                turned.status |= Status::WITHIN_LIMITS;
-                best = Some((total, turned));
             }
         }
         best.map(|(_, solution)| solution)
@@ -101,11 +91,13 @@ pub(crate) enum Cost {
 }
 
 impl Cost {
-    pub(crate) fn of(self, difference: f64) -> f64 {
-        match self {
+    /// What going from `seed` to `q` costs.
+    pub(crate) fn total<const N: usize>(self, q: &[f64; N], seed: &[f64; N], weights: &[f64; N]) -> f64 {
+        let cost = |difference: f64| match self {
             Self::Distance => difference * difference,
             Self::Travel => difference.abs(),
-        }
+        };
+        (0..N).map(|joint| weights[joint] * cost(q[joint] - seed[joint])).sum()
     }
 }
 

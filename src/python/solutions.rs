@@ -139,7 +139,7 @@ impl PySolutions {
     fn cheapest(&self, seed: &Bound<'_, PyAny>, weights: Option<&Bound<'_, PyAny>>, cost: Cost) -> PyResult<PySolution> {
         let py = seed.py();
         let (seed, weights) = read_seed(seed, weights)?;
-        let total = |solution: &Solution<6>| -> f64 { (0..6).map(|i| weights[i] * cost.of(solution.q[i] - seed[i])).sum() };
+        let total = |solution: &Solution<6>| cost.total(&solution.q, &seed, &weights);
         let cheapest = match &self.turned {
             Some(turned) => turned.iter().copied().min_by(|a, b| total(a).total_cmp(&total(b))),
             None => self.solutions.cheapest(&seed, &weights, cost),

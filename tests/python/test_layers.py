@@ -21,6 +21,7 @@ LAYERS = [
     "spherical_wrist",
     "singularity",
     "robot",
+    "family",
     "follow",
     "crossing",
 ]

@@ -18,7 +18,7 @@ use crate::kinematics::thresholds::{REACH_TOLERANCE, SEEDED_FREE};
 /// What to take for a joint that the pose does not determine.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FreeChoice {
-    /// Joint angles [rad], of which the free one's is taken.
+    /// Joint angles [rad], of which the free one's is taken; of the merged branches of a wrist, the one nearer to them.
     pub(super) q: [f64; 6],
     pub(super) trust: Trust,
 }
@@ -28,7 +28,7 @@ pub(crate) struct FreeChoice {
 pub(super) enum Trust {
     /// To rounding.
     Pose,
-    /// To [`SEEDED_FREE`]; of merged branches the one nearer to the seed is kept.
+    /// To [`SEEDED_FREE`].
     Seed,
     /// As far as it says anything: what it does not contradict is taken from the seed. For poses that follow one another.
     Path,
@@ -55,8 +55,10 @@ impl Trust {
 }
 
 impl FreeChoice {
-    /// Zero for a free joint, only where rounding hides it.
-    pub(crate) const ZERO: Self = Self { q: [0.0; 6], trust: Trust::Pose };
+    /// The angle where a joint rests, for a free joint and only where rounding hides it.
+    pub(crate) fn rest(q: [f64; 6]) -> Self {
+        Self { q, trust: Trust::Pose }
+    }
 
     /// The seed's angle for a free joint.
     pub(crate) fn seed(q: [f64; 6]) -> Self {

@@ -32,8 +32,8 @@ pub(super) fn wrist(m: &Matrix3<f64>, target: &Target<'_>, error: f64) -> Wrist 
     let (sin_4, cos_4) = if silent {
         (free_sin, free_cos)
     } else {
-        // Of merged branches, the one nearer to the seed is kept.
-        let flips = merged && trust != Trust::Pose && free_sin * column.y + free_cos * column.x < 0.0;
+        // Of merged branches, the one nearer to the seed or to zero is kept: half a turn away it may be outside a limit.
+        let flips = merged && free_sin * column.y + free_cos * column.x < 0.0;
         let sign = if flips { -1.0 } else { 1.0 };
         (sign * column.y / sin_5, sign * column.x / sin_5)
     };
