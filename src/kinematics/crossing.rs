@@ -2,10 +2,11 @@
 
 use alloc::vec::Vec;
 
-use super::follow::{Break, BreakReason, Followed, Follower};
+use super::follow::{Break, BreakReason, Followed, Follower, largest_step};
 use super::pose::{Pose, PoseError, checked_pose};
 use super::robot::Robot;
-use super::thresholds::WRIST_ZONE;
+use super::status::Status;
+use super::thresholds::{HELD_STILL, JUMP_BLIND, WRIST_ZONE};
 use crate::error::{Error, JointFault};
 
 /// What a path does at the wrist singularity.
@@ -153,10 +154,10 @@ impl Walk<'_> {
             }
             match self.to_point(&self.path[index], &q)? {
                 Some(found) => {
+                    self.record(Some(found), jump(&q, &found));
                     q = found;
-                    self.record(Some(q), None);
                 }
-                None => self.record(None, Some(BreakReason::Unreachable(self.robot.ik(&self.path[index])?.explain()))),
+                None => self.record(None, Some(BreakReason::Held)),
             }
         }
         self.follower.stand_at(q);
@@ -165,21 +166,37 @@ impl Walk<'_> {
 
     /// Axis 4 at the nearest of 0 and +-180 deg all along.
     fn lock_axis_4(&mut self) -> Result<(), Error> {
-        let Some(first) = self.path.first() else { return Ok(()) };
-        let (Some(start), _) = self.follower.step(first)? else { return self.through() };
-        let Some(arm) = self.robot.spherical_wrist() else { return self.through() };
-        let mut q = start.q;
-        q[3] = arm.axis_4_in_plane(&start.q);
+        let mut standing: Option<[f64; 6]> = None;
         for pose in self.path {
-            let found = self.held(pose, &q)?;
-            q = found.unwrap_or(q);
-            let broken = match found {
-                Some(_) => None,
-                None => Some(BreakReason::Unreachable(self.robot.ik(pose)?.explain())),
+            let from = match standing {
+                Some(q) => q,
+                // Up to the first pose that is met, the path stands at the seed.
+                None => match self.follower.step(pose)? {
+                    (Some(start), _) => self.locked(start.q),
+                    (None, broken) => {
+                        self.record(None, broken);
+                        continue;
+                    }
+                },
             };
-            self.record(found, broken);
+            let held = self.held(pose, &from)?;
+            let broken = match (held, standing) {
+                (None, _) => Some(BreakReason::Held),
+                (Some(q), Some(before)) => jump(&before, &q),
+                (Some(_), None) => None,
+            };
+            standing = held.or(standing);
+            self.record(held, broken);
         }
         Ok(())
+    }
+
+    /// `q` with axis 4 in the plane of the arm.
+    fn locked(&self, mut q: [f64; 6]) -> [f64; 6] {
+        if let Some(arm) = self.robot.spherical_wrist() {
+            q[3] = arm.axis_4_in_plane(&q);
+        }
+        q
     }
 
     /// The joints for a pose with axis 4 as in `q`: arm and wrist solved in turn until both stand.
@@ -194,7 +211,7 @@ impl Walk<'_> {
             let Some(next) = wrist.map(|wrist| self.to_point(&pose, &wrist)).transpose()?.flatten() else { return Ok(None) };
             let moved = next.iter().zip(&held).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             held = next;
-            if moved < 1e-15 {
+            if moved < HELD_STILL {
                 break;
             }
         }
@@ -220,4 +237,10 @@ impl Walk<'_> {
         self.followed.orientation_error.resize(self.path.len(), None);
         self.followed
     }
+}
+
+/// A step of the held arm that is too large to be the path's.
+fn jump(from: &[f64; 6], to: &[f64; 6]) -> Option<BreakReason> {
+    let (joint, by) = largest_step(from, to);
+    (by.abs() > JUMP_BLIND).then_some(BreakReason::Jump { joint, by, kinds: Status::empty() })
 }

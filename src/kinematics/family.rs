@@ -31,7 +31,7 @@ impl Robot<6> {
 
     /// The solution of the same pose whose free joint stands at `value` [rad]; `None` where no joint is free.
     ///
-    /// The tool stays to rounding at the singularity, and by the pose's distance from it next to it: at most 1.5e-9 rad or m.
+    /// The tool stays to rounding at the singularity, and next to it within twice the pose's distance from it: at most 3e-9 rad or m.
     ///
     /// # Errors
     ///

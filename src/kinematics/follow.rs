@@ -14,7 +14,7 @@ use super::select::{check_joints, check_weights};
 use super::solutions::{FreeJoint, Solution};
 use super::spherical_wrist::FreeChoice;
 use super::status::{Explanation, Status};
-use super::thresholds::{JUMP_GROWTH, JUMP_LEAST, SEEDED_FREE, STEADY_STEP};
+use super::thresholds::{JUMP_BLIND, JUMP_GROWTH, JUMP_LEAST, SEEDED_FREE, STEADY_STEP};
 use crate::error::Error;
 
 /// How often a segment of the path is halved in search of a continuous way through it: to a trillionth of it.
@@ -44,6 +44,8 @@ pub enum BreakReason {
         /// The singularities at which it does; empty where a joint limit is the cause.
         kinds: Status,
     },
+    /// No joints inside the limits bring the tool's centre point there with the wrist, or axis 4, held as the policy holds it.
+    Held,
     /// The policy stops at a wrist singularity.
     Stopped {
         /// Joint 5 [rad].
@@ -65,6 +67,7 @@ impl fmt::Display for Break {
                     _ => write!(f, "the branch ends at a joint limit or at the edge of reach"),
                 }
             }
+            BreakReason::Held => write!(f, "out of reach or of the limits with the wrist held"),
             BreakReason::Stopped { q5 } => write!(f, "stopped at the wrist singularity, J5 is {:.4} deg", q5.to_degrees()),
         }
     }
@@ -165,8 +168,10 @@ impl<'a> Follower<'a> {
         while done < 1.0 {
             let end = if done + width >= 1.0 { 1.0 } else { done + width };
             let pose = if end < 1.0 { between(from, to, end) } else { *to };
-            // The straight line between two poses may leave reach where the path does not.
-            let Ok(next) = scout.nearest(&pose)? else { return Ok(None) };
+            let Ok(next) = scout.nearest(&pose)? else {
+                // The straight line between two poses leaves reach, where the path need not: only the size of the step can tell.
+                return if whole > JUMP_BLIND { self.jump(direct, from, &scout.q).map(Some) } else { Ok(None) };
+            };
             if largest(&difference(&next.q, &scout.q)) > whole / 4.0 {
                 if depth == HALVINGS {
                     return self.jump(direct, &pose, &scout.q).map(Some);
@@ -184,11 +189,10 @@ impl<'a> Follower<'a> {
 
     /// The jump from where the joints stand to `to`, at the pose where it cannot be avoided.
     fn jump(&self, to: &Solution<6>, pose: &Pose, at: &[f64; 6]) -> Result<BreakReason, Error> {
-        let steps = difference(&to.q, &self.q);
-        let joint = (0..6).fold(0, |most, i| if steps[i].abs() > steps[most].abs() { i } else { most });
+        let (joint, by) = largest_step(&self.q, &to.q);
         let solutions = self.robot.solve(*pose, &FreeChoice::seed(*at))?;
         let kinds = solutions.iter().fold(self.robot.singularity(at).kinds, |kinds, solution| kinds | solution.kinds());
-        Ok(BreakReason::Jump { joint: joint + 1, by: steps[joint], kinds })
+        Ok(BreakReason::Jump { joint, by, kinds })
     }
 }
 
@@ -208,6 +212,13 @@ fn between(from: &Pose, to: &Pose, part: f64) -> Pose {
     let turn = (from.rotation.inverse() * to.rotation).scaled_axis() * part;
     let position = from.translation.vector.lerp(&to.translation.vector, part);
     IsometryMatrix3::from_parts(Translation3::from(position), from.rotation * Rotation3::new(turn))
+}
+
+/// The joint, from 1, that moves the most from one joint vector to another, and by how much [rad].
+pub(super) fn largest_step(from: &[f64; 6], to: &[f64; 6]) -> (usize, f64) {
+    let steps = difference(to, from);
+    let joint = (0..6).fold(0, |most, i| if steps[i].abs() > steps[most].abs() { i } else { most });
+    (joint + 1, steps[joint])
 }
 
 fn difference(a: &[f64; 6], b: &[f64; 6]) -> [f64; 6] {

@@ -1,7 +1,7 @@
 //! Every threshold of the library, with its unit and its reason. `docs/accuracy.md` derives them.
 
 /// How far a rotation's columns may be from orthonormal and still be repaired: the largest element of `R^T R - I` [1].
-/// Single precision (6e-8) and text with six digits (1e-6) are inside, a scaled or sheared matrix is not.
+/// Elements in single precision (6e-8 off) and in text with six digits (1e-6 off) are inside, a scaled or sheared matrix is not.
 pub const ROTATION_REPAIR_BOUND: f64 = 1e-5;
 
 /// Deviation below which a rotation is taken as it is [1]: a product of seven rotations in float64 is this far off, a repair gains nothing.
@@ -57,6 +57,12 @@ pub const JUMP_GROWTH: f64 = 3.0;
 
 /// Joint step that is never looked into as a jump [rad]: two degrees.
 pub const JUMP_LEAST: f64 = 0.035;
+
+/// Joint step that is told as a jump where nothing between the two poses can be looked at [rad]: 20 degrees.
+pub const JUMP_BLIND: f64 = 0.35;
+
+/// Joint step below which an arm with axis 4 held stands still [rad]: rounding.
+pub const HELD_STILL: f64 = 1e-15;
 
 /// Joint step up to which a path is taken to go on as it did [rad].
 pub const STEADY_STEP: f64 = 0.1;

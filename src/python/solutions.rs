@@ -63,7 +63,7 @@ impl PySolution {
     ///     value: Angle of the free joint [rad].
     ///
     /// Returns:
-    ///     The solution; the tool stays to rounding at the singularity, and within 1.5e-9 rad or m next to it.
+    ///     The solution; the tool stays to rounding at the singularity, and within 3e-9 rad or m next to it.
     ///
     /// Raises:
     ///     InvalidJointsError: No joint is free, or the value is not finite.

@@ -159,7 +159,7 @@ impl SphericalWrist {
     /// On a path, a shoulder whose angle the pose leaves open, turned so that the wrist can keep the joint 4 that it is heading for.
     ///
     /// With theta_23 and theta_4 known, `R = Rz(theta_1) A Ry(theta_5) Rz(theta_6)` has the height of the approach axis on both sides:
-    /// `A20 sin theta_5 + A22 cos theta_5 = R22` (eq. 19), and theta_1 from its direction.
+    /// `A20 sin theta_5 + A22 cos theta_5 = R22` (eq. 24), and theta_1 from its direction.
     pub(super) fn turned_for_wrist(&self, shoulder: &Shoulder, elbow: &Elbow, target: &Target<'_>) -> Shoulder {
         if target.free.trust != Trust::Path || self.b != 0.0 {
             return *shoulder;

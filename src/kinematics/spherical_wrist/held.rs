@@ -13,7 +13,7 @@ use crate::kinematics::pose::Pose;
 impl SphericalWrist {
     /// The joint vectors that bring a point of the tool to `point` with the wrist angles of `q`: up to four, the wrist's as they are.
     ///
-    /// With the wrist held, forearm and tool are one link that ends at the point: the same arm with other a2, b and c3 (eq. 20).
+    /// With the wrist held, forearm and tool are one link that ends at the point: the same arm with other a2, b and c3 (eq. 22).
     pub(crate) fn to_point(&self, point: &Vector3<f64>, tool_in_wrist: &Vector3<f64>, q: &[f64; 6]) -> impl Iterator<Item = [f64; 6]> {
         let theta = self.theta(q);
         let lever = wrist_rotation(theta[3], theta[4], theta[5]) * tool_in_wrist;
@@ -30,7 +30,7 @@ impl SphericalWrist {
     }
 
     /// The wrist angles with which the tool comes nearest to the rotation `m` of the flange in the forearm, theta_4 held: the approach axis
-    /// in the plane that theta_5 moves it in, then the best turn about it. They are exact where the plane holds that axis.
+    /// in the plane that theta_5 moves it in, then the best turn about it (eq. 23). They are exact where the plane holds that axis.
     pub(crate) fn with_axis_4_held(&self, m: &Matrix3<f64>, q: &[f64; 6]) -> [f64; 6] {
         let mut theta = self.theta(q);
         let n = wrist_rotation(-theta[3], 0.0, 0.0) * m;

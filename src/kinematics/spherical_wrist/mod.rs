@@ -130,7 +130,8 @@ impl SphericalWrist {
         }
     }
 
-    /// The singularities at which `q` stands, by the thresholds that also merge the branches of a solve.
+    /// The singularities at which `q` stands, by the thresholds that merge the branches of a solve. A solve, which does not know `q`, also
+    /// merges a wrist by what the pose leaves open of the forearm.
     #[must_use]
     pub fn kinds(&self, q: &[f64; 6]) -> Status {
         let [elbow, x, wrist] = self.factors(q);
