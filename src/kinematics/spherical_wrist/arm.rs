@@ -4,7 +4,7 @@
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::SphericalWrist;
-use super::solve::{Target, Trust};
+use super::target::{Target, Trust};
 use crate::kinematics::status::Reach;
 use crate::kinematics::thresholds::{REACH_TOLERANCE, SEEDED_FREE};
 
@@ -83,7 +83,7 @@ impl SphericalWrist {
     }
 
     /// theta_1 from `Rz(theta_1) (x, b) = (wx, wy)` (eq. 4).
-    pub(super) fn shoulder(&self, wx: f64, wy: f64, x: f64, error: f64) -> Shoulder {
+    fn shoulder(&self, wx: f64, wy: f64, x: f64, error: f64) -> Shoulder {
         let (sin, cos) = (wy * x - wx * self.b, wx * x + wy * self.b);
         let norm = sin.hypot(cos);
         Shoulder { sin_1: sin / norm, cos_1: cos / norm, x, error }
@@ -148,7 +148,7 @@ impl SphericalWrist {
     }
 
     /// The angles of an elbow from the direction of the upper arm, of any length, and that of the forearm, of length one (eq. 10 to 12).
-    pub(super) fn elbow(&self, upper: [f64; 2], forearm: [f64; 2]) -> Elbow {
+    fn elbow(&self, upper: [f64; 2], forearm: [f64; 2]) -> Elbow {
         let (sin_psi, cos_psi) = (self.a2 / self.k, self.c3 / self.k);
         let sin_23 = forearm[0] * cos_psi - forearm[1] * sin_psi;
         let cos_23 = forearm[1] * cos_psi + forearm[0] * sin_psi;

@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::SphericalWrist;
 use super::arm::{Elbow, Shoulder};
-use super::solve::FreeChoice;
+use super::target::FreeChoice;
 use super::wrist::{forearm_to_flange, wrist_rotation};
 use crate::kinematics::pose::Pose;
 

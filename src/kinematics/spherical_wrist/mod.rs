@@ -7,12 +7,13 @@ mod held;
 mod opw;
 mod recognise;
 mod solve;
+mod target;
 mod wrist;
 
 pub use opw::OpwParameters;
 pub(crate) use recognise::recognise;
 pub use recognise::{Condition, NotRecognised, Relation};
-pub(crate) use solve::FreeChoice;
+pub(crate) use target::FreeChoice;
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};

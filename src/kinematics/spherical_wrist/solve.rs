@@ -2,79 +2,18 @@
 
 use core::f64::consts::PI;
 
-use nalgebra::Matrix3;
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::SphericalWrist;
 use super::arm::{Elbow, Shoulder, Shoulders};
+use super::target::{FreeChoice, Target};
 use super::wrist::{forearm_to_flange, wrist};
 use crate::kinematics::angles::wrap;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::solutions::{FreeJoint, SLOTS};
 use crate::kinematics::status::{Reach, Status};
-use crate::kinematics::thresholds::{REACH_TOLERANCE, SEEDED_FREE};
-
-/// What to take for a joint that the pose does not determine.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct FreeChoice {
-    /// Joint angles [rad], of which the free one's is taken; of the merged branches of a wrist, the one nearer to them.
-    pub(super) q: [f64; 6],
-    pub(super) trust: Trust,
-}
-
-/// How far the pose is trusted next to a singularity, against the joint angles that were given.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Trust {
-    /// To rounding.
-    Pose,
-    /// To [`SEEDED_FREE`].
-    Seed,
-    /// As far as it says anything: what it does not contradict is taken from the seed. For poses that follow one another.
-    Path,
-    /// One joint, from 1, is taken from the angles whatever the pose says.
-    Forced {
-        joint: usize,
-        /// Whether a free q1 is that of the shoulder that has the wrist centre behind it.
-        behind: bool,
-    },
-}
-
-impl Trust {
-    /// How close to a singularity the pose counts as silent, beyond rounding [rad, m].
-    pub(super) fn radius(self) -> f64 {
-        match self {
-            Self::Pose | Self::Forced { .. } => 0.0,
-            Self::Seed | Self::Path => SEEDED_FREE,
-        }
-    }
-
-    pub(super) fn forces(self, joint: usize) -> bool {
-        matches!(self, Self::Forced { joint: forced, .. } if forced == joint)
-    }
-}
-
-impl FreeChoice {
-    /// The angle where a joint rests, for a free joint and only where rounding hides it.
-    pub(crate) fn rest(q: [f64; 6]) -> Self {
-        Self { q, trust: Trust::Pose }
-    }
-
-    /// The seed's angle for a free joint.
-    pub(crate) fn seed(q: [f64; 6]) -> Self {
-        Self { q, trust: Trust::Seed }
-    }
-
-    /// The angle that continues a path, wherever the pose does not contradict it.
-    pub(crate) fn path(q: [f64; 6]) -> Self {
-        Self { q, trust: Trust::Path }
-    }
-
-    /// The angle that `q` has for joint `joint`, from 1; for another one only where rounding hides it.
-    pub(crate) fn forced(q: [f64; 6], joint: usize, behind: bool) -> Self {
-        Self { q, trust: Trust::Forced { joint, behind } }
-    }
-}
+use crate::kinematics::thresholds::REACH_TOLERANCE;
 
 /// The joint vectors of a wrist frame, in their slots.
 pub(crate) struct Branches {
@@ -84,17 +23,6 @@ pub(crate) struct Branches {
     /// The joint that the pose leaves free in each slot.
     pub(crate) free: [Option<FreeJoint>; SLOTS],
     pub(crate) reach: Reach,
-}
-
-/// What one shoulder's branches are made from.
-pub(super) struct Target<'a> {
-    pub(super) wxy: [f64; 2],
-    pub(super) wz: f64,
-    pub(super) rotation: &'a Matrix3<f64>,
-    pub(super) free: &'a FreeChoice,
-    pub(super) free_theta: [f64; 6],
-    /// How far beyond reach the wrist centre may be and still get the stretched or folded arm [m].
-    pub(super) tolerance: f64,
 }
 
 impl SphericalWrist {
@@ -123,7 +51,7 @@ impl SphericalWrist {
         self.branches(&shoulders, &target)
     }
 
-    pub(super) fn branches(&self, shoulders: &Shoulders, target: &Target<'_>) -> Branches {
+    fn branches(&self, shoulders: &Shoulders, target: &Target<'_>) -> Branches {
         let mut branches = Branches::empty(Reach::Reached);
         let mut fill = |base: usize, shoulder: &Shoulder| match self.fill(&mut branches, base, shoulder, target) {
             missed if missed == Reach::Reached || self.b == 0.0 => missed,
@@ -141,7 +69,7 @@ impl SphericalWrist {
     }
 
     /// Puts the four branches of one shoulder into slots `base` ..= `base` + 3.
-    pub(super) fn fill(&self, branches: &mut Branches, base: usize, shoulder: &Shoulder, target: &Target<'_>) -> Reach {
+    fn fill(&self, branches: &mut Branches, base: usize, shoulder: &Shoulder, target: &Target<'_>) -> Reach {
         let elbows = match self.elbows(shoulder.x - self.a1, target.wz, target) {
             Ok(elbows) => elbows,
             Err(missed) => return missed,
@@ -183,7 +111,7 @@ impl SphericalWrist {
     }
 
     /// What the pose leaves open at theta_5 = 0 or 180 deg, in terms of the joints.
-    pub(super) fn free_wrist(&self, theta_5: f64) -> FreeJoint {
+    fn free_wrist(&self, theta_5: f64) -> FreeJoint {
         let sum = (theta_5.cos() > 0.0) == (self.signs[3] * self.signs[5] > 0.0);
         if sum { FreeJoint::WristSum } else { FreeJoint::WristDifference }
     }
@@ -194,12 +122,12 @@ impl SphericalWrist {
 }
 
 impl Branches {
-    pub(super) fn empty(reach: Reach) -> Self {
+    fn empty(reach: Reach) -> Self {
         Self { q: [None; SLOTS], flags: [Status::empty(); SLOTS], free: [None; SLOTS], reach }
     }
 
     /// The wrist centre is on axis 1: an elbow that both shoulders have is one branch, turned. With b = 0, q1 is free.
-    pub(super) fn merge_shoulders(&mut self, keep_behind: bool, free: bool) {
+    fn merge_shoulders(&mut self, keep_behind: bool, free: bool) {
         for slot in 0..SLOTS {
             if self.q[slot].is_some() || self.flags[slot].contains(Status::MERGED) {
                 self.flags[slot] |= Status::SHOULDER;

@@ -5,7 +5,7 @@ use nalgebra::{ComplexField as _, RealField as _};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::arm::{Elbow, Shoulder};
-use super::solve::{Target, Trust};
+use super::target::{Target, Trust};
 use crate::kinematics::thresholds::{PATH_WRIST_SIN, SEEDED_FREE, WRIST_FREE_SIN, WRIST_MERGE_SIN};
 
 /// One branch of the wrist, with theta_5 in 0 ..= pi unless theta_4 was given; the other one is its flip.
