@@ -22,18 +22,21 @@ toolchains:
 	@$(PYTHON) -c 'import ensurepip, venv' || { echo "$(PYTHON) has no venv: install it (Debian: python3-venv)"; exit 1; }
 
 $(VENV)/.made: | toolchains
-	$(PYTHON) -m venv $(VENV)
-	$(BIN)/pip install --quiet --disable-pip-version-check --upgrade 'pip>=25.1'
-	$(BIN)/pip install --quiet 'maturin>=1.9,<2' 'numpy>=1.23'
-	touch $@
+	@echo "Setting up $(VENV)"
+	@$(PYTHON) -m venv $(VENV)
+	@$(BIN)/pip install --quiet --disable-pip-version-check --upgrade 'pip>=25.1'
+	@$(BIN)/pip install --quiet 'maturin>=1.9,<2' 'numpy>=1.23'
+	@touch $@
 
 $(BUILT): $(VENV)/.made $(RUST_SOURCES) pyproject.toml | toolchains
-	VIRTUAL_ENV=$(abspath $(VENV)) $(BIN)/maturin develop --release --quiet
-	touch $@
+	@echo "Building irbkin into $(VENV) (about a minute)"
+	@VIRTUAL_ENV=$(abspath $(VENV)) $(BIN)/maturin develop --release >$(VENV)/build.log 2>&1 || { cat $(VENV)/build.log; exit 1; }
+	@touch $@
 
 $(VENV)/.groups: $(VENV)/.made pyproject.toml
-	$(BIN)/pip install --quiet --group test --group check
-	touch $@
+	@echo "Installing the tests' tools and oracles into $(VENV)"
+	@$(BIN)/pip install --quiet --group test --group check
+	@touch $@
 
 run: $(BUILT) ## Solve a real IRB 2600 pose and show every solution
 	@$(BIN)/python examples/01_solve_a_pose.py

@@ -29,9 +29,7 @@ fn main() -> Result<(), Error> {
     }
     println!("(degrees; the slot is ABB's cfx; the residual is the larger of metres and radians)\n");
 
-    let Some(nearest) = solutions.nearest(&HOME.map(f64::to_radians), &[1.0; 6]) else {
-        return Err(Error::Unreachable(solutions.explain()));
-    };
+    let nearest = solutions.nearest(&HOME.map(f64::to_radians), &[1.0; 6])?;
     println!("nearest to home: slot {}", nearest.slot);
     if let Some(s) = robot.singularity(&nearest.q).distances {
         println!("  from the wrist singularity    {:6.1} deg", s.wrist.to_degrees());

@@ -4,8 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use irbkin::{Error, JointLimits, Robot, Solution, Solutions, pose_from_quaternion};
 
-fn show(what: &str, solution: Option<Solution<6>>) {
-    let Some(Solution { q, slot, .. }) = solution else { return println!("{what:28} none") };
+fn show(what: &str, Solution { q, slot, .. }: Solution<6>) {
     println!("{what:28} slot {slot}  {}", q.map(|angle| format!("{:7.1}", angle.to_degrees())).join(" "));
 }
 
@@ -25,13 +24,13 @@ fn main() -> Result<(), Error> {
 
     // The arm stands here, halfway between two wrist configurations.
     let seed = radians([20.0, 0.0, 40.0, 55.0, -25.0, 127.0]);
-    show("nearest (root of squares)", solutions.nearest(&seed, &[1.0; 6]));
-    show("least motion (sum)", solutions.least_motion(&seed, &[1.0; 6]));
-    show("nearest, J5 costs 9 times", solutions.nearest(&seed, &[1.0, 1.0, 1.0, 1.0, 9.0, 1.0]));
+    show("nearest (root of squares)", solutions.nearest(&seed, &[1.0; 6])?);
+    show("least motion (sum)", solutions.least_motion(&seed, &[1.0; 6])?);
+    show("nearest, J5 costs 9 times", solutions.nearest(&seed, &[1.0, 1.0, 1.0, 1.0, 9.0, 1.0])?);
 
     // J6 has been wound back by most of a turn: the answer stays there.
     let wound = radians([20.0, 0.0, 40.0, -30.0, 25.0, -300.0]);
-    show("nearest to J6 = -300", solutions.nearest(&wound, &[1.0; 6]));
+    show("nearest to J6 = -300", solutions.nearest(&wound, &[1.0; 6])?);
 
     // A test of your own, for a cable that must not twist or for collisions.
     let untwisted = solutions.within_limits().filter(|solution| solution.q[3].abs() < FRAC_PI_2);
@@ -48,7 +47,7 @@ fn main() -> Result<(), Error> {
     limits[4] = [-20.0_f64, 20.0].map(f64::to_radians);
     match robot.with_limits(JointLimits::new(limits)?).ik_nearest(&pose, &seed, &[1.0; 6]) {
         Err(error @ Error::Unreachable(_)) => println!("with J1 in +-90 and J5 in +-20: {error}"),
-        other => show("with J1 in +-90 and J5 in +-20", Some(other?)),
+        other => show("with J1 in +-90 and J5 in +-20", other?),
     }
     Ok(())
 }

@@ -9,16 +9,27 @@ use crate::error::{Error, ModelFault};
 use crate::kinematics::{JacobianFrame, Robot, SLOTS, Singularity, Status, pose_from_rows, pose_to_rows};
 
 /// Forward kinematics: rows of `N` joint angles to rows of 16 pose elements.
-pub fn fk<const N: usize>(robot: &Robot<N>, q: &[f64], poses: &mut [f64]) {
-    for (q, pose) in q.as_chunks::<N>().0.iter().zip(poses.as_chunks_mut::<16>().0) {
+///
+/// # Errors
+///
+/// [`Error::WrongLength`] when a slice does not hold as many rows as `q`.
+pub fn fk<const N: usize>(robot: &Robot<N>, q: &[f64], poses: &mut [f64]) -> Result<(), Error> {
+    let q = rows::<N>("q", q)?;
+    for (q, pose) in q.iter().zip(rows_out::<16, f64>("poses", poses, q.len())?) {
         *pose = if is_finite(q) { pose_to_rows(&robot.fk(q)) } else { [f64::NAN; 16] };
     }
+    Ok(())
 }
 
 /// Link frames: rows of `N` joint angles to `N + 1` times 16 pose elements a row.
-pub fn link_frames<const N: usize>(robot: &Robot<N>, q: &[f64], frames: &mut [f64]) {
-    for (q, frames) in q.as_chunks::<N>().0.iter().zip(frames.chunks_exact_mut(16 * (N + 1))) {
-        let frames = frames.as_chunks_mut::<16>().0;
+///
+/// # Errors
+///
+/// As [`fk`].
+pub fn link_frames<const N: usize>(robot: &Robot<N>, q: &[f64], frames: &mut [f64]) -> Result<(), Error> {
+    let q = rows::<N>("q", q)?;
+    let frames = rows_out::<16, f64>("frames", frames, q.len() * (N + 1))?;
+    for (q, frames) in q.iter().zip(frames.chunks_exact_mut(N + 1)) {
         if !is_finite(q) {
             frames.fill([f64::NAN; 16]);
             continue;
@@ -28,43 +39,58 @@ pub fn link_frames<const N: usize>(robot: &Robot<N>, q: &[f64], frames: &mut [f6
             *to = pose_to_rows(from);
         }
     }
+    Ok(())
 }
 
 /// Geometric Jacobians: rows of `N` joint angles to rows of 6 times `N` elements.
-pub fn jacobian<const N: usize>(robot: &Robot<N>, q: &[f64], frame: JacobianFrame, jacobians: &mut [f64]) {
-    for (q, out) in q.as_chunks::<N>().0.iter().zip(jacobians.chunks_exact_mut(6 * N)) {
-        let jacobian = if is_finite(q) { robot.jacobian(q, frame) } else { SMatrix::repeat(f64::NAN) };
-        // The transpose in nalgebra's column-major order is the matrix in row-major order.
-        out.copy_from_slice(jacobian.transpose().as_slice());
-    }
-}
-
-/// Distances from the singularities, one record a row of `N` joint angles; `None` for a row that is not finite.
-pub fn singularity<'a, const N: usize>(robot: &'a Robot<N>, q: &'a [f64]) -> impl Iterator<Item = Option<Singularity>> + 'a {
-    q.as_chunks::<N>().0.iter().map(|q| is_finite(q).then(|| robot.singularity(q)))
-}
-
-/// Inverse kinematics: rows of 16 pose elements to eight slots of six joint angles and eight [`Status`] bytes a row, on up to `threads`
-/// threads. Empty slots are NaN.
 ///
 /// # Errors
 ///
-/// [`Error::InvalidModel`] when the arm has no closed form.
+/// As [`fk`].
+pub fn jacobian<const N: usize>(robot: &Robot<N>, q: &[f64], frame: JacobianFrame, jacobians: &mut [f64]) -> Result<(), Error> {
+    let q = rows::<N>("q", q)?;
+    let jacobians = rows_out::<N, f64>("jacobians", jacobians, q.len() * 6)?;
+    for (q, out) in q.iter().zip(jacobians.chunks_exact_mut(6)) {
+        let jacobian = if is_finite(q) { robot.jacobian(q, frame) } else { SMatrix::repeat(f64::NAN) };
+        for (to, from) in out.iter_mut().zip(jacobian.row_iter()) {
+            *to = core::array::from_fn(|joint| from[joint]);
+        }
+    }
+    Ok(())
+}
+
+/// Distances from the singularities, one record a row of `N` joint angles; `None` for a row that is not finite.
+///
+/// # Errors
+///
+/// As [`fk`].
+pub fn singularity<'a, const N: usize>(robot: &'a Robot<N>, q: &'a [f64]) -> Result<impl Iterator<Item = Option<Singularity>> + 'a, Error> {
+    Ok(rows::<N>("q", q)?.iter().map(|q| is_finite(q).then(|| robot.singularity(q))))
+}
+
+/// Inverse kinematics: rows of 16 pose elements to eight slots of six joint angles and eight [`Status`] bytes a row, on up to `threads`
+/// threads, but no more than there are cores. Empty slots are NaN.
+///
+/// # Errors
+///
+/// [`Error::WrongLength`] when a slice does not hold as many rows as `poses`, [`Error::InvalidModel`] when the arm has no closed form.
 pub fn ik(robot: &Robot<6>, poses: &[f64], q: &mut [f64], status: &mut [u8], threads: usize) -> Result<(), Error> {
     if let Some(reason) = robot.no_closed_form() {
         return Err(ModelFault::NoClosedForm(reason).into());
     }
-    let poses = poses.as_chunks::<16>().0;
-    let q = q.as_chunks_mut::<{ SLOTS * 6 }>().0;
-    let status = status.as_chunks_mut::<SLOTS>().0;
-    let share = poses.len().div_ceil(threads.max(1)).max(1);
-    if share >= poses.len() {
-        ik_rows(robot, poses, q, status);
-        return Ok(());
-    }
+    let poses = rows::<16>("poses", poses)?;
+    let q = rows_out::<{ SLOTS * 6 }, f64>("q", q, poses.len())?;
+    let status = rows_out::<SLOTS, u8>("status", status, poses.len())?;
+    let threads = threads.clamp(1, std::thread::available_parallelism().map_or(1, usize::from));
+    let share = poses.len().div_ceil(threads).max(1);
     std::thread::scope(|scope| {
-        for ((poses, q), status) in poses.chunks(share).zip(q.chunks_mut(share)).zip(status.chunks_mut(share)) {
+        let mut parts = poses.chunks(share).zip(q.chunks_mut(share)).zip(status.chunks_mut(share));
+        let own = parts.next();
+        for ((poses, q), status) in parts {
             scope.spawn(|| ik_rows(robot, poses, q, status));
+        }
+        if let Some(((poses, q), status)) = own {
+            ik_rows(robot, poses, q, status);
         }
     });
     Ok(())
@@ -82,6 +108,22 @@ fn ik_rows(robot: &Robot<6>, poses: &[[f64; 16]], q: &mut [[f64; SLOTS * 6]], st
             q.as_chunks_mut::<6>().0[usize::from(solution.slot)] = solution.q;
         }
     }
+}
+
+/// The whole rows of an input.
+fn rows<'a, const R: usize>(field: &'static str, numbers: &'a [f64]) -> Result<&'a [[f64; R]], Error> {
+    match numbers.as_chunks::<R>() {
+        (rows, []) => Ok(rows),
+        _ => Err(Error::WrongLength { field, found: numbers.len(), wanted: numbers.len().div_ceil(R) * R }),
+    }
+}
+
+/// The rows of an output for `count` answers.
+fn rows_out<'a, const R: usize, T>(field: &'static str, out: &'a mut [T], count: usize) -> Result<&'a mut [[T; R]], Error> {
+    if out.len() != count * R {
+        return Err(Error::WrongLength { field, found: out.len(), wanted: count * R });
+    }
+    Ok(out.as_chunks_mut::<R>().0)
 }
 
 fn is_finite(q: &[f64]) -> bool {

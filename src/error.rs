@@ -21,6 +21,15 @@ pub enum Error {
     UnknownRobot(UnknownRobot),
     /// No solution inside the limits.
     Unreachable(Explanation),
+    /// A slice of a batch does not hold the rows that it should.
+    WrongLength {
+        /// Name of the argument.
+        field: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length that it should have.
+        wanted: usize,
+    },
 }
 
 /// What is wrong with a pose.
@@ -83,6 +92,11 @@ pub enum JointFault {
         joint: usize,
         /// The angle.
         value: f64,
+    },
+    /// A solution was passed with a pose that it does not meet.
+    NotOfPose {
+        /// How far its tool is from the pose, the larger of metres and radians.
+        off: f64,
     },
     /// The zone of a crossing policy is negative, NaN or infinite.
     Zone {
@@ -171,6 +185,7 @@ impl fmt::Display for Error {
             Self::InvalidModel(fault) => fault.fmt(f),
             Self::UnknownRobot(fault) => fault.fmt(f),
             Self::Unreachable(explanation) => explanation.fmt(f),
+            Self::WrongLength { field, found, wanted } => write!(f, "{field} has {found} elements, it must have {wanted}"),
         }
     }
 }
@@ -200,6 +215,7 @@ impl fmt::Display for JointFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotFinite { field, joint, value } => write!(f, "{field}: joint {joint} is {value}, every angle must be finite [rad]"),
+            Self::NotOfPose { off } => write!(f, "solution: its tool is {off:.1e} (m, rad) off the pose, it is none of it"),
             Self::Zone { value } => write!(f, "zone is {value}, it must be finite and not negative"),
             Self::Weight { joint, value } => write!(f, "weights: joint {joint} is {value}, a weight must be finite and not negative"),
         }

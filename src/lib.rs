@@ -34,6 +34,9 @@
 // Where another crate of the build links std, its own float methods come before those imported for no_std.
 #![cfg_attr(not(feature = "std"), allow(unused_imports))]
 
+#[cfg(not(any(feature = "std", feature = "libm")))]
+compile_error!("irbkin needs the feature `std` or, without the standard library, `libm`");
+
 extern crate alloc;
 #[cfg(test)]
 extern crate std;

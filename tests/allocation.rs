@@ -4,7 +4,7 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use irbkin::{JacobianFrame, Robot};
+use irbkin::{Follower, JacobianFrame, Robot};
 
 /// The system's allocator, counting what the test's own thread asks for.
 struct Counting;
@@ -51,7 +51,7 @@ fn solve_allocates_nothing() {
         let solutions = std::hint::black_box(robot.ik(&pose).unwrap());
         assert_eq!(solutions.len(), 8);
         assert!(solutions.turns().count() > 8);
-        std::hint::black_box(solutions.within_limits().filter(|s| s.q[0] > 0.0).least_motion(&q, &[1.0; 6]));
+        std::hint::black_box(solutions.within_limits().filter(|s| s.q[0] > 0.0).least_motion(&q, &[1.0; 6]).is_ok());
         std::hint::black_box(robot.ik_nearest(&pose, &q, &[1.0; 6]).unwrap());
         // Singular poses and poses out of reach go the same way.
         std::hint::black_box(robot.ik(&robot.fk(&[0.0; 6])).unwrap());
@@ -60,6 +60,13 @@ fn solve_allocates_nothing() {
         std::hint::black_box(robot.ik(&far).unwrap().explain());
         std::hint::black_box(robot.jacobian(&q, JacobianFrame::Tool));
         std::hint::black_box(robot.singularity(&q));
+        let free = robot.ik(&robot.fk(&[0.0; 6])).unwrap().slot(0).copied().unwrap();
+        std::hint::black_box(robot.with_free(&robot.fk(&[0.0; 6]), &free, 0.3).unwrap().unwrap());
+        let mut follower = Follower::new(&robot, &q, &[1.0; 6]).unwrap();
+        for step in 0..20 {
+            let pose = robot.fk(&[0.3, -0.2, 0.4, 0.5, 0.05 * f64::from(step) - 0.6, 0.7]);
+            assert!(std::hint::black_box(follower.step(&pose).unwrap()).0.is_some());
+        }
         std::hint::black_box(robot.link_frames(&q));
         std::hint::black_box(panda.fk(&[0.1; 7]));
         std::hint::black_box(panda.singularity(&[0.1; 7]));

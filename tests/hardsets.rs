@@ -214,7 +214,16 @@ fn judge(arm: &Arm, q: &[f64; 6], pose: &Pose, place: Place, allowed: f64, tally
             let moved = arm.robot.with_free(pose, solution, 0.7).unwrap().unwrap();
             let residual = arm.robot.residual(&moved.q, pose);
             let distances = arm.robot.singularity(&solution.q).distances.unwrap();
-            let distance = if free == FreeJoint::Base { distances.shoulder } else { distances.wrist };
+            let [w2, w4] = {
+                let (frames, _) = arm.robot.link_frames(&solution.q);
+                [frames[1].translation.vector, frames[3].translation.vector]
+            };
+            let distance = match free {
+                FreeJoint::Base => distances.shoulder,
+                // From axis 2 to the wrist centre, in the plane of the arm.
+                FreeJoint::Upper => (w4 - w2).norm(),
+                FreeJoint::WristSum | FreeJoint::WristDifference => distances.wrist,
+            };
             let distance = 2.0 * distance + 1e-14 * (1.0 + reach);
             tally.wrong += usize::from(residual.largest() > allowed + distance);
         }

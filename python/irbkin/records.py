@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import enum
+import operator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
@@ -12,7 +13,16 @@ if TYPE_CHECKING:
 __all__ = ["Break", "FollowResult", "FreeJoint", "IkBatch", "Kind", "PoseCheck", "Reach", "Singularity", "Status"]
 
 
-class Status(enum.IntFlag):
+class Flags(enum.IntFlag):
+    """Flags that NumPy's integers are taken for, too."""
+
+    @classmethod
+    def _missing_(cls, value: object) -> Any:
+        """An integer of another type, as the elements of a status array are."""
+        return super()._missing_(operator.index(value))  # type: ignore[arg-type]
+
+
+class Status(Flags):
     """What a solve says of one slot."""
 
     FOUND = 1
@@ -31,7 +41,7 @@ class Status(enum.IntFlag):
     """The input of this row was invalid."""
 
 
-class Kind(enum.IntFlag):
+class Kind(Flags):
     """Kinds of singularity, with the values that they have in `Status`."""
 
     WRIST = 4

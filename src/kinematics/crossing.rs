@@ -17,8 +17,8 @@ pub enum Crossing {
     Through,
     /// Stops where joint 5 comes into the zone, and where a joint must jump. As `SingArea \Off`.
     Error,
-    /// Inside the zone axes 4, 5 and 6 go straight from where they enter it to where they leave it; the tool's position stays exact, its
-    /// orientation deviates. As `SingArea \Wrist`.
+    /// Inside the zone axes 4 and 5 go straight from the first pose to the last; the tool's position stays exact, its orientation deviates
+    /// by two zones at most. As `SingArea \Wrist`.
     Wrist,
     /// Axis 4 stays at 0 or +-180 deg all along; the tool's position stays exact, its orientation is met where the pose can be reached
     /// with axis 4 there. As `SingArea \LockAxis4`.
@@ -71,6 +71,13 @@ impl Robot<6> {
     }
 }
 
+/// What of the wrist is held; the rest comes as near to the pose as it can.
+#[derive(Clone, Copy)]
+enum Held {
+    Axis4,
+    Axes4And5,
+}
+
 /// A path on its way.
 struct Walk<'a> {
     robot: &'a Robot<6>,
@@ -108,7 +115,7 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// Axes 4, 5 and 6 straight through the zone, position by the other three.
+    /// The wrist straight through the zone, position by the other three axes.
     fn wrist(&mut self) -> Result<(), Error> {
         let mut index = 0;
         while index < self.path.len() {
@@ -119,14 +126,17 @@ impl Walk<'_> {
                     self.record(q, broken);
                     index += 1;
                 }
-                Some(entered) => index = self.cross(index, entered)?,
+                Some(entered) => index = self.cross(index, entered, broken)?,
             }
         }
         Ok(())
     }
 
     /// Records the poses of one zone, from `first` on; returns the index of the first pose behind it.
-    fn cross(&mut self, first: usize, entered: [f64; 6]) -> Result<usize, Error> {
+    ///
+    /// The first and the last pose of the zone are met exactly. Between them axes 4 and 5 go straight and axis 6 turns the tool as near as it
+    /// can: q5 and the pose's own tilt both stay in the zone, so the tool deviates by two zones at most.
+    fn cross(&mut self, first: usize, entered: [f64; 6], broken: Option<BreakReason>) -> Result<usize, Error> {
         // Where the zone ends, on whatever wrist branch: sin q5 has the same size on both.
         let mut behind = first + 1;
         while behind < self.path.len() {
@@ -135,32 +145,24 @@ impl Walk<'_> {
                 _ => break,
             }
         }
-        let (from, start) = match self.followed.q.last() {
-            Some(Some(before)) => (*before, first - 1),
-            _ => (entered, first),
-        };
-        let last = behind.min(self.path.len() - 1);
-        let to = match self.robot.ik_nearest(&self.path[last], &from, &self.options.weights) {
+        self.record(Some(entered), broken);
+        let left = match self.robot.ik_nearest(&self.path[behind - 1], &entered, &self.options.weights) {
             Ok(solution) => solution.q,
-            Err(Error::Unreachable(_)) => from,
+            Err(Error::Unreachable(_)) => entered,
             Err(error) => return Err(error),
         };
-        let mut q = from;
-        for index in first..behind {
+        let mut q = entered;
+        for index in first + 1..behind {
             #[expect(clippy::cast_precision_loss, reason = "a part of the way")]
-            let part = (index - start) as f64 / (last - start).max(1) as f64;
-            for joint in 3..6 {
-                q[joint] = from[joint] + (to[joint] - from[joint]) * part;
-            }
-            match self.to_point(&self.path[index], &q)? {
-                Some(found) => {
-                    self.record(Some(found), jump(&q, &found));
-                    q = found;
-                }
-                None => self.record(None, Some(BreakReason::Held)),
-            }
+            let part = (index - first) as f64 / (behind - 1 - first) as f64;
+            let mut wanted = q;
+            (wanted[3], wanted[4]) = (entered[3] + (left[3] - entered[3]) * part, entered[4] + (left[4] - entered[4]) * part);
+            let found = if index + 1 == behind { Some(left) } else { self.held(&self.path[index], &wanted, Held::Axes4And5)? };
+            let broken = found.map_or(Some(BreakReason::Held), |found| jump(&q, &found));
+            q = found.unwrap_or(q);
+            self.record(found, broken);
         }
-        self.follower.stand_at(q);
+        self.follower.stand_at(&self.path[behind - 1], q);
         Ok(behind)
     }
 
@@ -179,7 +181,7 @@ impl Walk<'_> {
                     }
                 },
             };
-            let held = self.held(pose, &from)?;
+            let held = self.held(pose, &from, Held::Axis4)?;
             let broken = match (held, standing) {
                 (None, _) => Some(BreakReason::Held),
                 (Some(q), Some(before)) => jump(&before, &q),
@@ -199,15 +201,19 @@ impl Walk<'_> {
         q
     }
 
-    /// The joints for a pose with axis 4 as in `q`: arm and wrist solved in turn until both stand.
-    fn held(&self, pose: &Pose, q: &[f64; 6]) -> Result<Option<[f64; 6]>, Error> {
+    /// The joints for a pose with the wrist held as in `q`: arm and wrist solved in turn until both stand.
+    fn held(&self, pose: &Pose, q: &[f64; 6], how: Held) -> Result<Option<[f64; 6]>, Error> {
         let pose = checked_pose(pose)?;
         let Some(arm) = self.robot.spherical_wrist() else { return Ok(None) };
         let rotation = self.robot.wrist_pose(&pose)?.rotation;
         let mut held = *q;
         for _ in 0..ROUNDS {
             let m = arm.rotation_in_forearm(rotation.matrix(), &held);
-            let wrist = self.robot.limits().turned_to(&arm.with_axis_4_held(&m, &held), &held);
+            let wrist = match how {
+                Held::Axis4 => arm.with_axis_4_held(&m, &held),
+                Held::Axes4And5 => arm.with_axes_4_and_5_held(&m, &held),
+            };
+            let wrist = self.robot.limits().turned_to(&wrist, &held);
             let Some(next) = wrist.map(|wrist| self.to_point(&pose, &wrist)).transpose()?.flatten() else { return Ok(None) };
             let moved = next.iter().zip(&held).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             held = next;

@@ -9,7 +9,8 @@ use super::select::{Cost, check_joints, check_weights};
 use super::solutions::{FreeJoint, SLOTS, Solution, Solutions};
 use super::spherical_wrist::FreeChoice;
 use super::status::Status;
-use crate::error::Error;
+use super::thresholds::SOLUTION_OFF;
+use crate::error::{Error, JointFault};
 
 /// Steps of a turn in which a free joint that moves the whole wrist is searched for a place inside the limits.
 const STEPS: u32 = 360;
@@ -35,9 +36,13 @@ impl Robot<6> {
     ///
     /// # Errors
     ///
-    /// As [`Robot::ik`], and [`Error::InvalidJoints`] when the value is not finite.
+    /// As [`Robot::ik`], and [`Error::InvalidJoints`] when the value is not finite or the solution is none of the pose.
     pub fn with_free(&self, pose: &Pose, solution: &Solution<6>, value: f64) -> Result<Option<Solution<6>>, Error> {
         let Some(free) = solution.free else { return Ok(None) };
+        let off = self.residual(&solution.q, pose).largest();
+        if off > SOLUTION_OFF {
+            return Err(JointFault::NotOfPose { off }.into());
+        }
         let joint = free.joint();
         let mut q = solution.q;
         q[joint - 1] = value;
@@ -56,19 +61,46 @@ impl Robot<6> {
     /// The solution inside the limits that is nearest to `seed`; where the one with the seed's free joint has another joint outside them,
     /// the nearest of its family.
     pub(super) fn nearest_of(&self, solutions: &Solutions<6>, seed: &[f64; 6], weights: &[f64; 6]) -> Result<Option<Solution<6>>, Error> {
-        let nearest = solutions.nearest(seed, weights);
+        let nearest = solutions.cheapest(seed, weights, Cost::Distance);
         if nearest.is_some() {
             return Ok(nearest);
         }
+        self.nearest_in_families(solutions, solutions.into_iter(), seed, weights)
+    }
+
+    /// Where a solution of a family is outside the limits and another one of it is not, that one takes its slot.
+    pub(super) fn bring_families_inside(&self, solutions: &mut Solutions<6>) -> Result<(), Error> {
+        for slot in 0..SLOTS {
+            let Some(outside) = solutions.slots[slot].filter(|solution| solution.free.is_some() && !solution.within_limits()) else {
+                continue;
+            };
+            let rest = self.limits().rest();
+            if let Some(inside) = self.nearest_in_families(solutions, [&outside].into_iter(), &rest, &[1.0; 6])? {
+                let to = usize::from(inside.slot);
+                solutions.merged.swap(slot, to);
+                solutions.slots[slot] = None;
+                solutions.slots[to] = Some(inside);
+            }
+        }
+        Ok(())
+    }
+
+    fn nearest_in_families<'a>(
+        &self,
+        solutions: &Solutions<6>,
+        among: impl Iterator<Item = &'a Solution<6>> + Clone,
+        seed: &[f64; 6],
+        weights: &[f64; 6],
+    ) -> Result<Option<Solution<6>>, Error> {
         // A branch that was merged with another meets the pose as well; any other place in the family to its distance from the singularity.
-        let twins = self.nearest_among(solutions, seed, weights, |solution, free| match free {
+        let twins = self.nearest_among(solutions, among.clone(), seed, weights, |solution, free| match free {
             FreeJoint::WristSum | FreeJoint::WristDifference => Candidates::One(solution.q[3] + PI),
             FreeJoint::Base | FreeJoint::Upper => Candidates::None,
         })?;
         if twins.is_some() {
             return Ok(twins);
         }
-        self.nearest_among(solutions, seed, weights, |solution, free| match free {
+        self.nearest_among(solutions, among, seed, weights, |solution, free| match free {
             FreeJoint::WristSum => Candidates::Edges(edges(self.limits(), &solution.q, 1.0)),
             FreeJoint::WristDifference => Candidates::Edges(edges(self.limits(), &solution.q, -1.0)),
             FreeJoint::Base | FreeJoint::Upper => Candidates::Turn,
@@ -76,15 +108,16 @@ impl Robot<6> {
     }
 
     /// The nearest to `seed` inside the limits of the solutions that have their free joint at one of the candidates.
-    fn nearest_among(
+    fn nearest_among<'a>(
         &self,
         solutions: &Solutions<6>,
+        among: impl Iterator<Item = &'a Solution<6>>,
         seed: &[f64; 6],
         weights: &[f64; 6],
         candidates: impl Fn(&Solution<6>, FreeJoint) -> Candidates,
     ) -> Result<Option<Solution<6>>, Error> {
         let mut best: Option<(f64, Solution<6>)> = None;
-        for solution in solutions {
+        for solution in among {
             let Some(free) = solution.free else { continue };
             let candidates = candidates(solution, free);
             for value in (0..STEPS).map_while(|step| candidates.get(step)) {

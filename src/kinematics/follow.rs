@@ -17,8 +17,8 @@ use super::status::{Explanation, Status};
 use super::thresholds::{JUMP_BLIND, JUMP_GROWTH, JUMP_LEAST, SEEDED_FREE, STEADY_STEP};
 use crate::error::Error;
 
-/// How often a segment of the path is halved in search of a continuous way through it: to a trillionth of it.
-const HALVINGS: u32 = 40;
+/// How often a segment of the path is halved in search of a continuous way through it: to a millionth of it.
+const HALVINGS: u32 = 20;
 
 /// A place where the joints cannot follow the path without a jump.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,9 +97,9 @@ impl<'a> Follower<'a> {
         Ok(Self { robot, weights: *weights, last: None, q: *seed, velocity: [0.0; 6] })
     }
 
-    /// Goes on from `q` [rad], which need not meet a pose of the path.
-    pub(crate) fn stand_at(&mut self, q: [f64; 6]) {
-        (self.last, self.q, self.velocity) = (None, q, [0.0; 6]);
+    /// Goes on from `q` [rad] at `pose`.
+    pub(crate) fn stand_at(&mut self, pose: &Pose, q: [f64; 6]) {
+        (self.last, self.q, self.velocity) = (Some(*pose), q, [0.0; 6]);
     }
 
     /// The joints of the next pose of the path [rad], and why they jumped when they did; without joints when there are none.

@@ -27,7 +27,9 @@ impl<const N: usize> JointLimits<N> {
     pub fn new(limits: [[f64; 2]; N]) -> Result<Self, Error> {
         for (i, [lower, upper]) in limits.into_iter().enumerate() {
             for (field, value) in [("lower limit of joint", lower), ("upper limit of joint", upper)] {
-                if value.is_nan() {
+                let beyond_all =
+                    (field.starts_with("lower") && value == f64::INFINITY) || (field.starts_with("upper") && value == f64::NEG_INFINITY);
+                if value.is_nan() || beyond_all {
                     return Err(ModelFault::NotFinite { field, index: i + 1, value }.into());
                 }
             }

@@ -83,13 +83,14 @@ impl Robot<6> {
     ///
     /// [`Error::InvalidPose`] when the pose is not finite or no rigid transform; [`Error::InvalidModel`] when the arm has no closed form.
     pub fn ik(&self, pose: &Pose) -> Result<Solutions<6>, Error> {
-        self.solve(checked_pose(pose)?, &FreeChoice::rest(self.limits.rest()))
+        self.ik_checked(checked_pose(pose)?)
     }
 
-    #[cfg(feature = "std")]
     /// [`Robot::ik`] for a pose that was checked where it came in.
     pub(crate) fn ik_checked(&self, pose: Pose) -> Result<Solutions<6>, Error> {
-        self.solve(pose, &FreeChoice::rest(self.limits.rest()))
+        let mut solutions = self.solve(pose, &FreeChoice::rest(self.limits.rest()))?;
+        self.bring_families_inside(&mut solutions)?;
+        Ok(solutions)
     }
 
     fn solver(&self) -> Result<&WristSolver, Error> {

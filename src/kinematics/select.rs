@@ -54,16 +54,29 @@ impl<const N: usize> Solutions<N> {
 
     /// The solution inside the limits that is nearest to `seed` [rad], turns considered: the least root of the sum of
     /// `weights * difference^2`.
-    #[must_use]
-    pub fn nearest(&self, seed: &[f64; N], weights: &[f64; N]) -> Option<Solution<N>> {
-        self.cheapest(seed, weights, Cost::Distance)
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidJoints`] for a seed or weight that is not finite or a negative weight, [`Error::Unreachable`] when no solution is
+    /// inside the limits.
+    pub fn nearest(&self, seed: &[f64; N], weights: &[f64; N]) -> Result<Solution<N>, Error> {
+        self.chosen(seed, weights, Cost::Distance)
     }
 
     /// The solution inside the limits that moves the joints the least from `seed` [rad], turns considered: the least sum of
     /// `weights * |difference|`.
-    #[must_use]
-    pub fn least_motion(&self, seed: &[f64; N], weights: &[f64; N]) -> Option<Solution<N>> {
-        self.cheapest(seed, weights, Cost::Travel)
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::nearest`].
+    pub fn least_motion(&self, seed: &[f64; N], weights: &[f64; N]) -> Result<Solution<N>, Error> {
+        self.chosen(seed, weights, Cost::Travel)
+    }
+
+    fn chosen(&self, seed: &[f64; N], weights: &[f64; N], cost: Cost) -> Result<Solution<N>, Error> {
+        check_joints("seed", seed)?;
+        check_weights(weights)?;
+        self.cheapest(seed, weights, cost).ok_or_else(|| Error::Unreachable(self.explain()))
     }
 
     /// The cost is a sum over the joints, so each joint takes its own nearest turn.

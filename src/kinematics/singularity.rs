@@ -20,6 +20,9 @@ pub struct Singularity {
 
 /// The singular values of a Jacobian of 6 or 7 joints, the largest first.
 pub(crate) fn singular_values<const N: usize>(jacobian: &SMatrix<f64, 6, N>) -> [f64; 6] {
+    if !jacobian.iter().all(|element| element.is_finite()) {
+        return [f64::NAN; 6];
+    }
     // A column of zeros changes no singular value: one size serves every arm.
     let mut padded = SMatrix::<f64, 6, 7>::zeros();
     for (to, from) in padded.column_iter_mut().zip(jacobian.column_iter()) {

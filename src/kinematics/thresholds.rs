@@ -43,6 +43,9 @@ pub const SEEDED_FREE: f64 = 1e-12;
 /// |sin q5| below which a path may keep the q4 that it is heading for [1], where what is known of the forearm does not contradict it.
 pub const PATH_WRIST_SIN: f64 = 1e-3;
 
+/// How far a solution may be off its pose and still be one of it [m, rad]: more than any family or stretched arm, less than another pose.
+pub const SOLUTION_OFF: f64 = 1e-6;
+
 /// How far an angle may pass a joint limit and still be inside [rad]: a pose taught at the limit must not be lost to rounding.
 pub const LIMIT_TOLERANCE: f64 = 1e-9;
 
@@ -67,5 +70,5 @@ pub const HELD_STILL: f64 = 1e-15;
 /// Joint step up to which a path is taken to go on as it did [rad].
 pub const STEADY_STEP: f64 = 0.1;
 
-/// |sin q5| below which a crossing policy acts [1]: one degree, as far as the orientation may then deviate.
+/// |sin q5| below which a crossing policy acts [1]: one degree. "wrist" may then deviate by two in orientation.
 pub const WRIST_ZONE: f64 = 0.0175;

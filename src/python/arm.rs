@@ -86,8 +86,9 @@ impl Arm {
         self.mapped(q, out, &[6, self.dof()], |q, rows| on_robot!(self, robot => batch::jacobian(robot, q, frame, rows)))
     }
 
-    pub(super) fn singularity(&self, py: Python<'_>, q: &[f64]) -> Vec<Option<Singularity>> {
-        py.detach(|| on_robot!(self, robot => batch::singularity(robot, q).collect()))
+    pub(super) fn singularity(&self, py: Python<'_>, q: &[f64]) -> PyResult<Vec<Option<Singularity>>> {
+        let records = py.detach(|| on_robot!(self, robot => batch::singularity(robot, q).map(Iterator::collect)));
+        records.map_err(|error| to_py(py, &error))
     }
 
     /// An answer of shape (..., `tail`) for joint vectors (..., n), computed without the interpreter's lock.
@@ -96,13 +97,13 @@ impl Arm {
         q: &Bound<'py, PyAny>,
         out: Option<&Bound<'py, PyAny>>,
         tail: &[usize],
-        compute: impl FnOnce(&[f64], &mut [f64]) + Send,
+        compute: impl FnOnce(&[f64], &mut [f64]) -> Result<(), Error> + Send,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let rows = self.joints(q)?;
         let answer = output(q.py(), out, &rows.shape_with(tail))?;
         let (data, mut view) = (rows.data()?, writable(&answer, &[rows.addresses()])?);
         let slice = view.as_slice_mut()?;
-        q.py().detach(|| compute(data, slice));
+        q.py().detach(|| compute(data, slice)).map_err(|error| to_py(q.py(), &error))?;
         Ok(answer)
     }
 

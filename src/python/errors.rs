@@ -60,7 +60,7 @@ pub(super) fn to_py(py: Python<'_>, error: &Error) -> PyErr {
     let class = match error {
         Error::InvalidPose(_) => invalid_pose_error(py),
         Error::InvalidJoints(_) => invalid_joints_error(py),
-        Error::InvalidModel(_) => invalid_model_error(py),
+        Error::InvalidModel(_) | Error::WrongLength { .. } => invalid_model_error(py),
         Error::UnknownRobot(_) => unknown_robot_error(py),
         Error::Unreachable(_) => unreachable_error(py),
     };

@@ -259,7 +259,7 @@ impl PyRobot {
     ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
     fn singularity<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let rows = self.arm.joints(q)?;
-        let records = self.arm.singularity(q.py(), rows.data()?);
+        let records = self.arm.singularity(q.py(), rows.data()?)?;
         singularity_record(q.py(), &records, (!rows.is_single()).then_some(&rows.lead))
     }
 

@@ -27,7 +27,7 @@ impl Rng {
         low + (high - low) * self.unit()
     }
 
-    /// Uniform inside the limits; in one turn where a joint has none.
+    /// Uniform inside the limits; in two turns either way where a joint has none.
     pub fn inside<const N: usize>(&mut self, limits: &JointLimits<N>) -> [f64; N] {
         limits.to_array().map(|[low, high]| self.between(low.max(-TAU * 2.0), high.min(TAU * 2.0)))
     }

@@ -63,12 +63,12 @@ def sheared(by):
 @pytest.mark.parametrize("value", NO_NUMBERS.values(), ids=NO_NUMBERS)
 def test_what_is_no_number_is_a_type_error(value):
     calls = {**TAKING_JOINTS, **TAKING_A_POSE, "ik_batch": ROBOT.ik_batch, "with_limits": ROBOT.with_limits}
-    calls |= {
-        name: call
-        for name, (call, _, _) in TAKING_A_VECTOR.items()
-        if name not in ("quaternion", "euler_zyx", "weights")
-    }
+    calls["follow"] = lambda T: ROBOT.follow(T, Q)
+    # None is an answer to the others: they have a default.
+    calls |= {name: TAKING_A_VECTOR[name][0] for name in ("seed", "xyz")}
     calls |= {"from_mdh": irbkin.Robot.from_mdh, "from_sdh": irbkin.Robot.from_sdh}
+    if value is not None:
+        calls |= {name: call for name, (call, _, _) in TAKING_A_VECTOR.items()}
     for call in calls.values():
         with pytest.raises(TypeError, match=r"^\w+ must be real numbers, got an array of dtype"):
             call(value)
@@ -124,6 +124,7 @@ FAULTS = {
     "NaN": (spoiled(0, 1, np.nan), r"^pose\[0, 1\] is NaN: every element must be finite$"),
     "inf": (spoiled(2, 3, -np.inf), r"^pose\[2, 3\] is -inf: every element must be finite$"),
     "last row": (spoiled(3, 0, 0.5), r"^pose row 3 must be \[0, 0, 0, 1\], got \[0\.5, 0, 0, 1\]$"),
+    "last row by little": (spoiled(3, 2, 2e-9), r"^pose row 3 must be \[0, 0, 0, 1\], got \[0, 0, 0\.000000002, 1\]$"),
     "transposed": (POSE.T.copy(), r"^pose row 3 must be \[0, 0, 0, 1\], got \["),
     "mirrored": (POSE @ np.diag([1, 1, -1, 1]), r"^pose rotation mirrors: its determinant is -1\.000000, it must be 1"),
     "scaled": (POSE @ np.diag([2, 2, 2, 1]), r"^pose rotation is off orthonormal by 3\.000e0, more than the 1e-5"),
@@ -140,7 +141,9 @@ def test_a_pose_that_is_no_rigid_transform_is_told_with_the_figure(name, fault):
         TAKING_A_POSE[name](pose)
 
 
-def test_off_orthonormal_by_less_is_repaired():
+def test_off_by_less_is_repaired():
+    inverted = spoiled(3, 2, 0.5e-9)
+    np.testing.assert_array_equal(ROBOT.ik(inverted).q, ROBOT.ik(POSE).q)
     assert max(solution.residual for solution in ROBOT.ik(sheared(0.9e-5))) <= 1e-14
 
 
@@ -169,6 +172,7 @@ def test_a_vector_of_another_length_is_told_the_length(name):
             [1.1, 0, 0, 0],
             r"quaternion norm is 1\.100000, it must be 1 within 2e-3 \(order is w, x, y, z\)",
         ),
+        ("quaternion", [1.0021, 0, 0, 0], r"quaternion norm is 1\.002100, it must be 1 within 2e-3"),
         ("quaternion", [0, 0, 0, 0], r"quaternion norm is 0\.000000"),
         ("euler_zyx", [0, 0, np.inf], r"euler_zyx\[2\] is inf: every element must be finite"),
     ],
@@ -220,6 +224,7 @@ def test_arguments_have_the_names_of_the_documentation():
         ROBOT.ik: "T",
         ROBOT.ik_batch: "T out threads",
         ROBOT.ik_nearest: "T seed weights",
+        ROBOT.follow: "T seed weights singular zone",
         ROBOT.check_pose: "T",
         ROBOT.with_tool: "T",
         ROBOT.with_base: "T",

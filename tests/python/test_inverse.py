@@ -1,9 +1,11 @@
 """Every solution, in its slot: laws on drawn poses. Singular poses have a file of their own."""
 
+from itertools import product
+
 import irbkin
 import numpy as np
 import pytest
-from arms import ABB, LATERAL
+from arms import ABB, IRB2400, KUKA_KR6, LATERAL
 from hypothesis import assume, given
 from irbkin import Reach, Status
 from reference import UNIT, apart, fk_opw, random_pose, reach_opw, rotation_apart, rounding
@@ -183,6 +185,15 @@ def test_angles_are_in_one_turn_unless_the_limits_ask_for_another(name):
         turned = np.abs(limited - unlimited) > 1
         assert (settled[turned]).all()
         assert apart(limited, unlimited).max() <= 8 * UNIT
+
+
+@pytest.mark.parametrize("opw", [KUKA_KR6, IRB2400], ids=["KUKA KR 6 R700", "IRB 2400"])
+def test_half_turns_are_plus_pi(opw):
+    robot = irbkin.Robot.from_opw(**opw)
+    for q in product([-np.pi, np.pi], [0.2], [0.4], [-np.pi, 0.0, np.pi], [0.5, np.pi], [-np.pi, np.pi]):
+        for solution in robot.ik(robot.fk(q)):
+            assert (solution.q > -np.pi).all()
+            assert (solution.q <= np.pi).all()
 
 
 def test_axis_3_of_a_1600_is_given_beyond_half_a_turn():

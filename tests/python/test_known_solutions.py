@@ -97,7 +97,7 @@ def test_every_taught_target_was_compared():
     assert {int(row["cfx"]) for row in TARGETS} == {0, 1}
 
 
-SINGLE_MOVES = [tuple(10.0 * row) for row in np.eye(6)]
+SINGLE_MOVES = [tuple((10 * row).tolist()) for row in np.eye(6, dtype=int)]
 
 
 @pytest.mark.parametrize("deg", [(0,) * 6, (90, 0, 0, 0, 0, 0), (0, 45, -30, 0, 0, 0), *SINGLE_MOVES], ids=str)

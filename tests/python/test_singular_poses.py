@@ -3,7 +3,7 @@
 import irbkin
 import numpy as np
 import pytest
-from arms import ABB
+from arms import ABB, LATERAL
 from irbkin import Kind, Status
 from reference import apart
 from strategies import subjects
@@ -142,6 +142,34 @@ def test_shoulder_branches(name, off):
             check_generating(robot, solutions, q)
 
 
+@pytest.mark.parametrize(("off", "count"), [(0.0, 4), (1e-6, 8), (-1e-6, 8)])
+def test_shoulder_branches_with_a_lateral_offset(off, count):
+    """The wrist centre comes no nearer to axis 1 than b; there the two shoulders are one, and q1 is determined."""
+    subject = subjects()["lateral offset"]
+    a1, a2, upper, forearm = (LATERAL[length] for length in ("a1", "a2", "c2", "c3"))
+    robot, rng = subject.robot, np.random.default_rng(RNG_SEED)
+    for _ in range(TRIALS):
+        t2 = rng.uniform(-0.5, 0.5)
+        # x = a1 + c2 sin t2 + hypot(a2, c3) sin(t2 + t3 + atan2(a2, c3))
+        sine = (off - a1 - upper * np.sin(t2)) / np.hypot(a2, forearm)
+        t3 = np.arcsin(sine) - np.arctan2(a2, forearm) - t2
+        theta = np.array([rng.uniform(-3, 3), t2, t3, rng.uniform(-3, 3), rng.uniform(0.3, 1.5), rng.uniform(-3, 3)])
+        q = np.array(LATERAL["signs"]) * (theta + LATERAL["offsets"])
+        assert robot.singularity(q).shoulder == pytest.approx(abs(off), abs=1e-15)
+        solutions = robot.ik(robot.fk(q))
+        check_closed(solutions, subject.reach)
+        assert len(solutions) == count
+        # x^2 = rho^2 - b^2: the rounding of rho makes sqrt(2 b drho) of x, and x / b of q1.
+        if off == 0:
+            assert all(solution.kinds == Kind.SHOULDER for solution in solutions)
+            assert (
+                apart(solutions.q[:, :1], q[:1]).min()
+                <= np.sqrt(2 * LATERAL["b"] * 1e-15 * (1 + subject.reach)) / LATERAL["b"]
+            )
+        else:
+            check_generating(robot, solutions, q)
+
+
 @pytest.mark.parametrize("name", ABB)
 def test_a_free_axis_1_carries_the_generating_arm_to_any_angle(name):
     """At the shoulder singularity the given vector, turned to q1 = 0, is one of the family's representatives."""
@@ -161,23 +189,27 @@ def test_all_three_at_once_leave_one_solution():
     solutions = robot.ik(robot.fk([0.4, 0, 0, 0.3, 0, 0.2]))
     every = Kind.WRIST | Kind.ELBOW | Kind.SHOULDER
     assert [(solution.slot, solution.kinds) for solution in solutions] == [(0, every)]
-    assert (solutions.status[1:] == Status.MERGED | Status(every)).all()
+    assert (solutions.status[1:] & MERGED).all()
+    for slot, met_at in ((1, Status.WRIST), (2, Status.ELBOW), (4, Status.SHOULDER)):
+        assert solutions.status[slot] & met_at
     assert apart(solutions.q, [0, 0, 0, 0, 0, 0.9]).max() <= elbow_bound("IRB 1200-5/0.9", 0.0, False)
 
 
-@pytest.mark.parametrize("folded", [False, True])
+@pytest.mark.parametrize(("off", "folded"), [(0.0, False), (0.0, True), (3e-8, False), (-3e-8, False)])
 @pytest.mark.parametrize("name", ABB)
-def test_wrist_and_elbow_at_once_are_both_declared(name, folded):
+def test_wrist_and_elbow_at_once_are_both_declared(name, off, folded):
+    """An elbow that counts as straight leaves the forearm open by as much as it was bent, and axis 5 with it."""
     robot, rng = free(name), np.random.default_rng(RNG_SEED)
     for _ in range(TRIALS):
         q = ordinary(rng)
-        q[2], q[4] = angle_at_elbow(name, 0.0, folded), 0.0
+        q[2], q[4] = angle_at_elbow(name, off, folded), 0.0
         pose = robot.fk(q)
         solutions = robot.ik(pose)
         check_closed(solutions, subjects()[name].reach)
         (solution,) = [solution for solution in solutions if apart(solution.q[:1], q[:1]) < 1e-6]
         assert solution.kinds == Kind.WRIST | Kind.ELBOW
-        assert apart(robot.ik_nearest(pose, seed=q), q) <= elbow_bound(name, 0.0, folded)
+        if off == 0:
+            assert apart(robot.ik_nearest(pose, seed=q), q) <= elbow_bound(name, off, folded)
 
 
 @pytest.mark.parametrize("beyond", [0.5e-9, 0.95e-9])

@@ -99,6 +99,20 @@ def test_kinds_change_at_the_threshold(joint, kind):
         assert record.kinds & ~kind == Kind(0)
 
 
+@pytest.mark.parametrize("name", ABB)
+def test_kinds_of_joints_are_those_of_their_solution(name):
+    _, elbow, _, _, forearm, _ = ABB[name].lengths
+    robot = irbkin.Robot(name)
+    stretched = np.array([0.1, 0.3, np.arctan2(elbow, forearm) - np.pi / 2, 0.2, 0.6, 0.3])
+    straight = np.array([0.1, 0.3, 0.2, 0.4, 0.0, 0.3])
+    for q, kind in ((stretched, Kind.ELBOW), (straight, Kind.WRIST)):
+        assert robot.singularity(q).kinds == kind
+        solutions = robot.ik(robot.fk(q))
+        assert kind in {solution.kinds for solution in solutions}
+        for solution in solutions:
+            assert robot.singularity(solution.q).kinds == solution.kinds
+
+
 @pytest.mark.parametrize("opw", [LATERAL, KUKA_KR6], ids=["lateral offset", "KUKA KR 6 R700"])
 def test_signs_and_offsets_do_not_change_the_law_of_the_determinant(opw):
     robot = irbkin.Robot.from_opw(**opw)

@@ -187,6 +187,11 @@ def fresh(code):
     return subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout
 
 
+def test_a_status_is_made_from_an_element_of_a_status_array():
+    """In a new interpreter: once a combination has been made from an int, it is found for any number."""
+    assert fresh("import numpy, irbkin; print(int(irbkin.Status(numpy.uint8(44))))") == "44\n"
+
+
 def test_importing_brings_nothing_but_numpy():
     code = """
 import sys

@@ -9,6 +9,7 @@ use super::arm::{Elbow, Shoulder};
 use super::target::FreeChoice;
 use super::wrist::{forearm_to_flange, wrist_rotation};
 use crate::kinematics::pose::Pose;
+use crate::kinematics::thresholds::LEAST_LINK;
 
 impl SphericalWrist {
     /// The joint vectors that bring a point of the tool to `point` with the wrist angles of `q`: up to four, the wrist's as they are.
@@ -18,7 +19,9 @@ impl SphericalWrist {
         let theta = self.theta(q);
         let lever = wrist_rotation(theta[3], theta[4], theta[5]) * tool_in_wrist;
         let (a2, c3) = (self.a2 + lever.x, self.c3 + lever.z);
-        let arm = Self { a2, b: self.b + lever.y, c3, k: a2.hypot(c3), ..self.clone() };
+        // An offset of rounding is none: it would make another kind of shoulder.
+        let b = if (self.b + lever.y).abs() <= self.position_rounding() { 0.0 } else { self.b + lever.y };
+        let arm = Self { a2, b, c3, k: a2.hypot(c3).max(LEAST_LINK), ..self.clone() };
         let still = Pose::from_parts((*point).into(), Rotation3::identity());
         let branches = arm.solve(&still, &FreeChoice::seed(*q));
         // Slots that differ in their last bit differ in the wrist of the point, which is not looked at.
@@ -34,11 +37,22 @@ impl SphericalWrist {
     pub(crate) fn with_axis_4_held(&self, m: &Matrix3<f64>, q: &[f64; 6]) -> [f64; 6] {
         let mut theta = self.theta(q);
         let n = wrist_rotation(-theta[3], 0.0, 0.0) * m;
-        let theta_5 = n[(0, 2)].atan2(n[(2, 2)]);
-        let (sin_5, cos_5) = theta_5.sin_cos();
+        theta[4] = n[(0, 2)].atan2(n[(2, 2)]);
+        self.with_best_turn(theta, &n, q)
+    }
+
+    /// The same with theta_5 held too: the best turn alone.
+    pub(crate) fn with_axes_4_and_5_held(&self, m: &Matrix3<f64>, q: &[f64; 6]) -> [f64; 6] {
+        let theta = self.theta(q);
+        self.with_best_turn(theta, &(wrist_rotation(-theta[3], 0.0, 0.0) * m), q)
+    }
+
+    /// The turn about the approach axis that comes nearest to `n` with theta_5 as it is (eq. 23).
+    fn with_best_turn(&self, mut theta: [f64; 6], n: &Matrix3<f64>, q: &[f64; 6]) -> [f64; 6] {
+        let (sin_5, cos_5) = theta[4].sin_cos();
         let cosine = n[(0, 0)] * cos_5 + n[(1, 1)] - n[(2, 0)] * sin_5;
         let sine = n[(1, 0)] - n[(0, 1)] * cos_5 + n[(2, 1)] * sin_5;
-        (theta[4], theta[5]) = (theta_5, sine.atan2(cosine));
+        theta[5] = sine.atan2(cosine);
         let [_, _, _, _, q5, q6] = self.joints(theta);
         [q[0], q[1], q[2], q[3], q5, q6]
     }

@@ -1,11 +1,14 @@
 //! The wrist: the angles of joints 4, 5 and 6 that give the flange its rotation in the forearm.
 
+use core::f64::consts::PI;
+
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 use super::arm::{Elbow, Shoulder};
 use super::target::{Target, Trust};
+use crate::kinematics::angles::{constant_sin_cos, wrap};
 use crate::kinematics::thresholds::{PATH_WRIST_SIN, SEEDED_FREE, WRIST_FREE_SIN, WRIST_MERGE_SIN};
 
 /// One branch of the wrist, with theta_5 in 0 ..= pi unless theta_4 was given; the other one is its flip.
@@ -24,25 +27,40 @@ pub(super) fn wrist(m: &Matrix3<f64>, target: &Target<'_>, error: f64) -> Wrist 
     let sin_5 = column.x.hypot(column.y);
     let merged = sin_5 <= WRIST_MERGE_SIN.max(error);
     let trust = target.free.trust;
-    let (free_sin, free_cos) = target.free_theta[3].sin_cos();
-    // How far the pose is from having theta_4 where it is heading: what it knows of the forearm may not contradict that.
-    let contradiction = (free_cos * column.y - free_sin * column.x).abs();
-    let open = trust == Trust::Path && sin_5 <= PATH_WRIST_SIN && contradiction <= error.max(SEEDED_FREE);
-    let silent = trust.forces(4) || sin_5 <= trust.radius().max(WRIST_FREE_SIN) || open;
-    let (sin_4, cos_4) = if silent {
-        (free_sin, free_cos)
+    let free_theta_4 = target.free_theta[3];
+    let silent = trust.forces(4) || sin_5 <= trust.radius().max(WRIST_FREE_SIN);
+    let theta_4 = if silent { free_theta_4 } else { told_theta_4(&column, sin_5, merged, error, target) };
+    let (sin_4, cos_4) = if silent || trust == Trust::Path {
+        theta_4.sin_cos()
     } else {
-        // Of merged branches, the one nearer to the seed or to zero is kept: half a turn away it may be outside a limit.
-        let flips = merged && free_sin * column.y + free_cos * column.x < 0.0;
-        let sign = if flips { -1.0 } else { 1.0 };
+        let sign = if (column.y.atan2(column.x) - theta_4).cos() < 0.0 { -1.0 } else { 1.0 };
         (sign * column.y / sin_5, sign * column.x / sin_5)
     };
-    let theta_4 = if silent { target.free_theta[3] } else { sin_4.atan2(cos_4) };
     let projected = cos_4 * column.x + sin_4 * column.y;
     let sin_5_signed = if projected.abs() <= WRIST_FREE_SIN { projected.max(0.0) } else { projected };
     let theta_5 = sin_5_signed.atan2(column.z);
     let theta_6 = (cos_4 * m[(1, 0)] - sin_4 * m[(0, 0)]).atan2(cos_4 * m[(1, 1)] - sin_4 * m[(0, 1)]);
     Wrist { theta: [theta_4, theta_5, theta_6], merged, free: sin_5 <= WRIST_MERGE_SIN }
+}
+
+/// theta_4 as the pose tells it. Of merged branches, the one nearer to the seed or to zero is kept: half a turn away it may be outside a
+/// limit. A path keeps the theta_4 that it is heading for as far as what the pose knows of the forearm does not contradict it.
+fn told_theta_4(column: &Vector3<f64>, sin_5: f64, merged: bool, error: f64, target: &Target<'_>) -> f64 {
+    let told = column.y.atan2(column.x);
+    let ahead = target.free_theta[3] - told;
+    let told = if merged && ahead.cos() < 0.0 { told + PI } else { told };
+    if target.free.trust != Trust::Path || sin_5 > PATH_WRIST_SIN {
+        return told;
+    }
+    let ahead = wrap(target.free_theta[3] - told);
+    if sin_5 > WRIST_MERGE_SIN {
+        // The one that is heading there may be the flip, half a turn away.
+        let ahead = ahead - PI * (ahead / PI).round();
+        return if sin_5 * ahead.sin().abs() <= error { told + ahead } else { told };
+    }
+    // Where the pose begins to tell, it pulls: no leap from what a silent one left open.
+    let open = (error.max(SEEDED_FREE) / sin_5).min(1.0).asin();
+    told + ahead.clamp(-open, open)
 }
 
 /// `Ry(-theta_23) Rz(-theta_1) R`, which is `Rz(theta_4) Ry(theta_5) Rz(theta_6)` (eq. 14).
@@ -53,9 +71,10 @@ pub(super) fn forearm_to_flange(shoulder: &Shoulder, elbow: &Elbow, rotation: &M
     Matrix3::from_rows(&[n0 * elbow.cos_23 - r2 * elbow.sin_23, n1, n0 * elbow.sin_23 + r2 * elbow.cos_23])
 }
 
-/// `Rz(theta_4) Ry(theta_5) Rz(theta_6)`.
+/// `Rz(theta_4) Ry(theta_5) Rz(theta_6)`; exact where theta_4 is held at a quarter turn.
 pub(super) fn wrist_rotation(theta_4: f64, theta_5: f64, theta_6: f64) -> Matrix3<f64> {
-    let about = |axis, angle| Rotation3::from_axis_angle(&axis, angle);
-    let rotation = about(Vector3::z_axis(), theta_4) * about(Vector3::y_axis(), theta_5) * about(Vector3::z_axis(), theta_6);
-    rotation.into_inner()
+    let about_z = |(sin, cos): (f64, f64)| Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
+    let (sin_5, cos_5) = theta_5.sin_cos();
+    let about_y = Matrix3::new(cos_5, 0.0, sin_5, 0.0, 1.0, 0.0, -sin_5, 0.0, cos_5);
+    about_z(constant_sin_cos(theta_4)) * about_y * about_z(theta_6.sin_cos())
 }

@@ -1,0 +1,116 @@
+"""What a singular pose leaves free: the solution names the joint and moves along its family."""
+
+import irbkin
+import numpy as np
+import pytest
+from arms import ABB
+from irbkin import FreeJoint, InvalidJointsError
+from reference import apart, fk, rotation_apart, rounding
+from strategies import subjects
+from test_singular_poses import RNG_SEED, TRIALS, at_shoulder, free, ordinary
+
+VALUES = (-3.0, -0.4, 0.0, 1.1, 3.1)
+
+
+def check_family(solution, name, pose):
+    """Every member has the free joint where it was put, and the tool where the pose has it."""
+    reach = subjects()[name].reach
+    for value in VALUES:
+        member = solution.with_free(value)
+        assert member.q[solution.free.joint - 1] == value
+        assert member.free == solution.free
+        assert member.residual <= max(1e-14, 3e-15 * reach)
+        by_hand = fk(ABB[name].rows, member.q)
+        assert np.abs(by_hand - pose)[:3, 3].max() <= 1e-14 + rounding(reach)
+        assert rotation_apart(by_hand, pose) <= 1e-14 + 3 * rounding(0)
+
+
+@pytest.mark.parametrize(("straight", "fixed"), [(0.0, "q4 + q6"), (np.pi, "q4 - q6")])
+@pytest.mark.parametrize("name", ABB)
+def test_at_the_wrist_q4_is_free_and_its_sum_with_q6_is_not(name, straight, fixed):
+    robot, rng = free(name), np.random.default_rng(RNG_SEED)
+    for _ in range(TRIALS):
+        q = ordinary(rng)
+        q[4] = straight
+        pose = robot.fk(q)
+        (solution,) = [solution for solution in robot.ik(pose) if solution.free]
+        assert solution.free == FreeJoint(4, fixed)
+        check_family(solution, name, pose)
+        # The vector that made the pose is a member.
+        assert apart(solution.with_free(q[3]).q, q) <= 1e-9
+
+
+@pytest.mark.parametrize("name", ABB)
+def test_at_the_shoulder_q1_is_free_and_the_arm_is_not(name):
+    robot, rng = free(name), np.random.default_rng(RNG_SEED)
+    for _ in range(TRIALS):
+        q = at_shoulder(name, 0.0, rng)
+        pose = robot.fk(q)
+        solutions = robot.ik(pose)
+        assert {solution.free for solution in solutions} == {FreeJoint(1, "q2, q3")}
+        for solution in solutions:
+            check_family(solution, name, pose)
+            assert apart(solution.with_free(1.0).q[1:3], solution.q[1:3]) <= 1e-12
+        # The vector that made the pose is a member of one of the families.
+        assert min(apart(solution.with_free(q[0]).q, q) for solution in solutions) <= 1e-9
+
+
+def test_folded_onto_axis_2_q2_is_free():
+    robot = irbkin.Robot.from_opw(0.15, 0, 0, 0.4, 0.3, 0.3, 0.1)
+    q = np.array([0.4, 0.5, np.pi, 0.3, 0.8, 0.2])
+    solutions = robot.ik(robot.fk(q))
+    front = [solution for solution in solutions if apart(solution.q[:1], q[:1]) < 1e-9]
+    assert [solution.free for solution in front] == [FreeJoint(2, "q1, q3")] * 2
+    for solution in front:
+        for value in VALUES:
+            assert solution.with_free(value).q[1] == value
+            assert solution.with_free(value).residual <= 1e-14
+    assert min(apart(solution.with_free(0.5).q, q) for solution in front) <= 1e-9
+
+
+@pytest.mark.parametrize("name", ABB)
+def test_next_to_the_singularity_the_residual_tells_how_far_the_tool_turns(name):
+    """At q5 = 1e-9 the branches are one, and a member of the family is off by up to twice that."""
+    robot, rng = free(name), np.random.default_rng(RNG_SEED)
+    for _ in range(TRIALS):
+        q = ordinary(rng)
+        q[4] = 1e-9
+        pose = robot.fk(q)
+        (solution,) = [solution for solution in robot.ik(pose) if solution.free]
+        half_turned = solution.with_free(solution.q[3] + np.pi / 2)
+        off = rotation_apart(robot.fk(half_turned.q), pose)
+        assert 0.5e-9 <= off <= 2e-9
+        assert half_turned.residual == pytest.approx(off, abs=1e-14)
+        # Turned on, axis 5 stands on the other side, and that is the other slot.
+        flipped = solution.with_free(solution.q[3] + np.pi)
+        assert flipped.q[4] == pytest.approx(-solution.q[4], abs=1e-14)
+        assert flipped.slot == solution.slot ^ 1
+        assert flipped.residual <= 1e-14
+
+
+@pytest.mark.parametrize("name", ABB)
+def test_elsewhere_nothing_is_free(name):
+    robot, rng = free(name), np.random.default_rng(RNG_SEED)
+    for _ in range(TRIALS):
+        for solution in robot.ik(robot.fk(ordinary(rng))):
+            assert solution.free is None
+            with pytest.raises(InvalidJointsError, match=r"no joint is free: Solution\(slot "):
+                solution.with_free(0.0)
+
+
+def test_a_member_knows_whether_it_is_inside_the_limits():
+    robot = irbkin.Robot("IRB 140-6/0.81")
+    (solution,) = [found for found in robot.ik(robot.fk([0.1, 0.2, 0.3, 0.4, 0, 0.6])) if found.free]
+    assert solution.within_limits
+    assert not solution.with_free(np.deg2rad(201)).within_limits
+    assert solution.with_free(np.deg2rad(199)).within_limits
+
+
+@pytest.mark.parametrize(
+    ("value", "error"), [(np.nan, InvalidJointsError), (np.inf, InvalidJointsError), ("x", TypeError)]
+)
+def test_a_value_that_is_no_angle_is_refused(value, error):
+    robot = irbkin.Robot("IRB 140-6/0.81")
+    (solution,) = [found for found in robot.ik(robot.fk([0.1, 0.2, 0.3, 0.4, 0, 0.6])) if found.free]
+    with pytest.raises(error):
+        solution.with_free(value)
