@@ -134,6 +134,17 @@ pub enum ModelFault {
         /// The least length [m].
         bound: f64,
     },
+    /// A length or an angle is too large to calculate with.
+    TooLarge {
+        /// Name of the parameter.
+        field: &'static str,
+        /// Index into it, from 1 (joint or row); 0 for a parameter by itself.
+        index: usize,
+        /// The value.
+        value: f64,
+        /// The largest size.
+        bound: f64,
+    },
     /// A joint sign is neither 1 nor -1.
     Sign {
         /// The joint, from 1.
@@ -227,6 +238,8 @@ impl fmt::Display for ModelFault {
         match self {
             Self::NotFinite { field, index: 0, value } => write!(f, "{field} is {value}, it must be finite"),
             Self::NotFinite { field, index, value } => write!(f, "{field} {index} is {value}, it must be finite"),
+            Self::TooLarge { field, index: 0, value, bound } => write!(f, "{field} is {value:e}, its size must be at most {bound:e}"),
+            Self::TooLarge { field, index, value, bound } => write!(f, "{field} {index} is {value:e}, its size must be at most {bound:e}"),
             Self::TooShort { field, value, bound } => write!(f, "{field} is {value} m, it must be at least {bound:e} m"),
             Self::Sign { joint, value } => write!(f, "joint {joint} sign is {value}, it must be 1 or -1"),
             Self::EmptyLimit { joint, lower, upper } => {
@@ -247,6 +260,19 @@ impl fmt::Display for UnknownRobot {
         }
         for (i, name) in self.close.iter().enumerate() {
             write!(f, "{}\"{name}\"", if i == 0 { "; close names: " } else { ", " })?;
+        }
+        Ok(())
+    }
+}
+
+impl ModelFault {
+    /// Checks that a number of a model is finite and not too large to calculate with.
+    pub(crate) fn check(field: &'static str, index: usize, value: f64, bound: f64) -> Result<(), Error> {
+        if !value.is_finite() {
+            return Err(Self::NotFinite { field, index, value }.into());
+        }
+        if value.abs() > bound {
+            return Err(Self::TooLarge { field, index, value, bound }.into());
         }
         Ok(())
     }

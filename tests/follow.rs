@@ -292,3 +292,23 @@ fn random_paths_through_several_singularities_are_followed() {
     assert!(orientation < 4e-7);
     assert!(followed_smoothly * 100 >= paths * 99);
 }
+
+#[test]
+fn a_crossing_of_few_uneven_poses_stays_within_two_zones() {
+    let robot = robot();
+    let made: Vec<[f64; 6]> = [0.5, 0.016, 0.01, -0.001, -0.015, -0.1].map(|q5| [0.3, 0.2, 0.1, 0.5, q5, 0.4]).to_vec();
+    let path: Vec<Pose> = made.iter().map(|q| robot.fk(q)).collect();
+    let wrist = cross(&robot, &path, Crossing::Wrist);
+    assert!(wrist.orientation < 2.0 * thresholds::WRIST_ZONE && wrist.position < 1e-14, "{:e}", wrist.orientation);
+    assert!(wrist.followed.breaks.is_empty());
+}
+
+#[test]
+fn axis_4_held_at_half_a_turn_is_as_good_over_the_base() {
+    let robot = robot();
+    let path: Vec<Pose> = (0..20).map(|i| robot.fk(&[0.3, over_the_base(-0.6) + 1e-3 * f64::from(i), -0.6, PI, 0.8, 0.2])).collect();
+    let seed = [0.3, over_the_base(-0.6), -0.6, PI, 0.8, 0.2];
+    let followed = robot.follow(&path, &seed, &FollowOptions { crossing: Crossing::LockAxis4, ..FollowOptions::default() }).unwrap();
+    assert!(followed.breaks.is_empty(), "{}", followed.breaks[0]);
+    assert!(followed.orientation_error.iter().flatten().all(|error| *error < 1e-12), "{:?}", followed.orientation_error);
+}

@@ -265,3 +265,48 @@ fn a_lateral_offset_of_rounding_is_none() {
         }
     }
 }
+
+#[test]
+fn numbers_too_large_to_calculate_with_are_refused_by_name() {
+    let opw = OpwParameters::abb(0.15, -0.115, 0.445, 0.7, 0.795, 0.085);
+    let refused = |opw| Robot::from_opw(opw).unwrap_err().to_string();
+    assert_eq!(refused(OpwParameters { c2: 1e100, ..opw }), "c2 is 1e100, its size must be at most 1e6");
+    assert_eq!(
+        refused(OpwParameters { offsets: [0.0, 1e17, 0.0, 0.0, 0.0, 0.0], ..opw }),
+        "offset of joint 2 is 1e17, its size must be at most 1e5"
+    );
+    let limits = |limit| JointLimits::new([limit]).unwrap_err().to_string();
+    assert_eq!(limits([1e16, 1e16 + 4.0]), "lower limit of joint 1 is 1e16, its size must be at most 1e5");
+    assert_eq!(limits([f64::INFINITY; 2]), "lower limit of joint 1 is inf, it must be finite");
+    assert!(JointLimits::new([[f64::NEG_INFINITY, f64::INFINITY]]).is_ok());
+}
+
+#[test]
+fn a_solution_of_another_pose_has_no_family_here() {
+    let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
+    let home = robot.fk(&[0.0; 6]);
+    let free = *robot.ik(&home).unwrap().slot(0).unwrap();
+    let other = robot.fk(&[0.3, -0.2, 0.4, 0.5, -0.6, 0.7]);
+    assert!(robot.with_free(&home, &free, 0.4).unwrap().is_some());
+    assert!(robot.with_free(&other, &free, 0.4).unwrap_err().to_string().starts_with("solution: its tool is "));
+}
+
+#[test]
+fn the_choice_refuses_what_is_no_seed() {
+    let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
+    let solutions = robot.ik(&robot.fk(&[0.1; 6])).unwrap();
+    assert_eq!(
+        solutions.nearest(&[f64::NAN; 6], &[1.0; 6]).unwrap_err().to_string(),
+        "seed: joint 1 is NaN, every angle must be finite [rad]"
+    );
+    assert!(solutions.least_motion(&[0.0; 6], &[-1.0; 6]).is_err());
+    assert!(robot.singularity(&[f64::NAN; 6]).min_singular_value.is_nan());
+}
+
+#[cfg(feature = "std")]
+#[test]
+fn a_batch_of_another_length_is_refused() {
+    let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
+    let refused = irbkin::batch::fk(&robot, &[0.0; 12], &mut [0.0; 16]).unwrap_err();
+    assert_eq!(refused.to_string(), "poses has 16 elements, it must have 32");
+}

@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
-use super::thresholds::LIMIT_TOLERANCE;
+use super::thresholds::{LIMIT_TOLERANCE, MOST_ANGLE};
 use crate::error::{Error, ModelFault};
 
 /// Lower and upper limit of each joint [rad]; infinite where a joint has none.
@@ -26,11 +26,11 @@ impl<const N: usize> JointLimits<N> {
     /// [`Error::InvalidModel`] when a limit is NaN or a lower limit is above its upper limit.
     pub fn new(limits: [[f64; 2]; N]) -> Result<Self, Error> {
         for (i, [lower, upper]) in limits.into_iter().enumerate() {
-            for (field, value) in [("lower limit of joint", lower), ("upper limit of joint", upper)] {
-                let beyond_all =
-                    (field.starts_with("lower") && value == f64::INFINITY) || (field.starts_with("upper") && value == f64::NEG_INFINITY);
-                if value.is_nan() || beyond_all {
-                    return Err(ModelFault::NotFinite { field, index: i + 1, value }.into());
+            // No limit is minus infinity below and infinity above.
+            for (field, value, none) in [("lower limit of joint", lower, f64::NEG_INFINITY), ("upper limit of joint", upper, f64::INFINITY)]
+            {
+                if value.total_cmp(&none).is_ne() {
+                    ModelFault::check(field, i + 1, value, MOST_ANGLE)?;
                 }
             }
             if lower > upper {
@@ -57,7 +57,7 @@ impl<const N: usize> JointLimits<N> {
         (self.lower[joint] - angle).max(angle - self.upper[joint]).max(0.0)
     }
 
-    /// The turn of each angle that stands for it in a solution: the angle in (-pi, pi], or, where that is outside the limits
+    /// The turn of each angle that stands for it in a solution (eq. 20): the angle in (-pi, pi], or, where that is outside the limits
     /// and a full turn of it is not, the first such turn.
     pub(crate) fn settle(&self, q: [f64; N]) -> [f64; N] {
         core::array::from_fn(|joint| {

@@ -13,6 +13,7 @@ use super::singularity::{Singularity, singular_values};
 use super::solutions::{Solution, Solutions};
 use super::spherical_wrist::{FreeChoice, NotRecognised, OpwParameters, SphericalWrist, recognise};
 use super::status::Status;
+use super::thresholds::{MOST_ANGLE, MOST_LENGTH};
 use crate::error::{Error, ModelFault};
 
 /// A robot arm of `N` revolute joints.
@@ -100,7 +101,7 @@ impl Robot<6> {
         }
     }
 
-    /// The wrist frame of a pose, seen from the shoulder.
+    /// The wrist frame of a pose, seen from the shoulder (eq. 1).
     pub(super) fn wrist_pose(&self, pose: &Pose) -> Result<Pose, Error> {
         let solver = self.solver()?;
         Ok(solver.t_shoulder_world * pose * solver.t_tool_wrist)
@@ -114,9 +115,7 @@ impl Robot<6> {
     }
 
     pub(super) fn solve(&self, pose: Pose, free: &FreeChoice) -> Result<Solutions<6>, Error> {
-        let solver = self.solver()?;
-        let t_shoulder_wrist = solver.t_shoulder_world * pose * solver.t_tool_wrist;
-        let branches = solver.arm.solve(&t_shoulder_wrist, free);
+        let branches = self.solver()?.arm.solve(&self.wrist_pose(&pose)?, free);
         let slots = core::array::from_fn(|slot| {
             branches.q[slot].map(|q| {
                 let q = self.limits.settle(q);
@@ -364,11 +363,10 @@ impl<const N: usize> Robot<N> {
 
 fn check_rows(rows: &[DhRow]) -> Result<(), Error> {
     for (i, row) in rows.iter().enumerate() {
-        for (field, value) in [("alpha of row", row.alpha), ("a of row", row.a), ("d of row", row.d), ("theta of row", row.theta)] {
-            if !value.is_finite() {
-                return Err(ModelFault::NotFinite { field, index: i + 1, value }.into());
-            }
-        }
+        ModelFault::check("alpha of row", i + 1, row.alpha, MOST_ANGLE)?;
+        ModelFault::check("a of row", i + 1, row.a, MOST_LENGTH)?;
+        ModelFault::check("d of row", i + 1, row.d, MOST_LENGTH)?;
+        ModelFault::check("theta of row", i + 1, row.theta, MOST_ANGLE)?;
     }
     Ok(())
 }

@@ -52,6 +52,12 @@ pub const LIMIT_TOLERANCE: f64 = 1e-9;
 /// Least length of an upper arm or forearm [m].
 pub const LEAST_LINK: f64 = 1e-6;
 
+/// Greatest length of a model [m]: squares and sums of it stay exact to rounding, and no arm is longer.
+pub const MOST_LENGTH: f64 = 1e6;
+
+/// Greatest angle of a model and greatest joint limit [rad], apart from no limit: beyond, full turns lose the angle's digits.
+pub const MOST_ANGLE: f64 = 1e5;
+
 /// How far a Denavit-Hartenberg table may be from a known form and still be it [rad, m]: the rounding of a table in text. It is squared up.
 pub const FORM_TOLERANCE: f64 = 1e-9;
 

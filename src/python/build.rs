@@ -172,7 +172,11 @@ pub(super) fn hash(py: Python<'_>, arm: &Arm) -> PyResult<isize> {
 /// The arm of a state, for pickle.
 pub(super) fn restored(py: Python<'_>, state: &State) -> PyResult<Arm> {
     let (name, definition, numbers, limits, base, tool, velocity) = state;
+    let (limit_rows, rest) = limits.as_chunks::<2>();
     let broken = || Fault::Model.error(py, "the pickled robot is damaged".to_owned());
+    if !rest.is_empty() {
+        return Err(broken());
+    }
     let built = match (definition.as_str(), numbers.len()) {
         ("opw", 19) => opw_of(numbers).ok_or_else(broken)?.map(Arm::from),
         ("mdh", 56) => mdh_of::<6>(numbers).ok_or_else(broken)?.map(Arm::from),
@@ -186,7 +190,7 @@ pub(super) fn restored(py: Python<'_>, state: &State) -> PyResult<Arm> {
     built
         .map_err(|error| to_py(py, &error))?
         .changed(py, &Name(name))?
-        .changed(py, &Limits(limits.as_chunks::<2>().0))?
+        .changed(py, &Limits(limit_rows))?
         .changed(py, &Base(pose(base)?))?
         .changed(py, &Tool(pose(tool)?))?
         .changed(py, &MaxVelocity(velocity.as_deref()))
@@ -195,7 +199,11 @@ pub(super) fn restored(py: Python<'_>, state: &State) -> PyResult<Arm> {
 fn opw_of(numbers: &[f64]) -> Option<Result<Robot<6>, Error>> {
     let &[a1, a2, b, c1, c2, c3, c4, ref rest @ ..] = numbers else { return None };
     let (offsets, signs) = rest.split_first_chunk::<6>()?;
-    let signs = <[f64; 6]>::try_from(signs).ok()?.map(|sign| if sign < 0.0 { -1 } else { 1 });
+    let signs = <[f64; 6]>::try_from(signs).ok()?;
+    if signs.iter().any(|sign| sign.abs().total_cmp(&1.0).is_ne()) {
+        return None;
+    }
+    let signs = signs.map(|sign| if sign < 0.0 { -1 } else { 1 });
     Some(Robot::from_opw(OpwParameters { a1, a2, b, c1, c2, c3, c4, offsets: *offsets, signs }))
 }
 

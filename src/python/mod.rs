@@ -1,6 +1,7 @@
 //! The Python module `irbkin._core`: convert, call, convert.
 
 mod answers;
+mod arguments;
 mod arm;
 mod arrays;
 mod build;

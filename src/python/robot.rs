@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use super::answers::{batch_output, follow_result, singularity_record};
+use super::arguments::{read_crossing, read_frame, thread_count};
 use super::arm::{Arm, on_robot};
 use super::arrays::{Rows, addresses, vector, writable};
 use super::build::{self, Convention, State};
@@ -16,7 +16,7 @@ use super::solutions::{PySolutions, read_seed};
 use crate::batch;
 use crate::catalogue;
 use crate::kinematics::thresholds::WRIST_ZONE;
-use crate::kinematics::{Crossing, Explanation, FollowOptions, JacobianFrame, OpwParameters, Robot};
+use crate::kinematics::{Explanation, FollowOptions, OpwParameters, Robot};
 
 /// A robot arm: `Robot("IRB 2600-12/1.65")`. Frozen, hashable, equal by value, picklable.
 ///
@@ -239,11 +239,7 @@ impl PyRobot {
     ///     ValueError: Another frame.
     #[pyo3(signature = (q, frame="base", out=None))]
     fn jacobian<'py>(&self, q: &Bound<'py, PyAny>, frame: &str, out: Option<&Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let frame = match frame {
-            "base" => JacobianFrame::Base,
-            "tool" => JacobianFrame::Tool,
-            _ => return Err(PyValueError::new_err(format!("frame must be \"base\" or \"tool\", got \"{frame}\""))),
-        };
+        let frame = read_frame(frame)?;
         self.arm.jacobian(q, frame, out)
     }
 
@@ -407,26 +403,5 @@ impl PyRobot {
             "" => format!("Robot({} joints, {})", self.arm.dof(), self.family()),
             name => format!("Robot(\"{name}\")"),
         }
-    }
-}
-
-fn read_crossing(singular: &str) -> PyResult<Crossing> {
-    match singular {
-        "through" => Ok(Crossing::Through),
-        "error" => Ok(Crossing::Error),
-        "wrist" => Ok(Crossing::Wrist),
-        "lock_axis4" => Ok(Crossing::LockAxis4),
-        _ => {
-            Err(PyValueError::new_err(format!("singular must be \"through\", \"error\", \"wrist\" or \"lock_axis4\", got \"{singular}\"")))
-        }
-    }
-}
-
-/// A number of threads; 0 is one a core.
-fn thread_count(threads: isize) -> PyResult<usize> {
-    match usize::try_from(threads) {
-        Ok(0) => Ok(std::thread::available_parallelism().map_or(1, usize::from)),
-        Ok(count) => Ok(count),
-        Err(_) => Err(PyValueError::new_err(format!("threads must be 0 (one a core) or more, got {threads}"))),
     }
 }

@@ -199,6 +199,9 @@ impl PySolutions {
     /// Raises:
     ///     ValueError: There are more than a million.
     fn turns(&self) -> PyResult<Self> {
+        if self.turned.is_some() {
+            return Ok(self.with(self.solutions.clone(), self.turned.clone()));
+        }
         let count = self.solutions.turn_count();
         if count > MOST_TURNS {
             return Err(PyValueError::new_err(format!("the limits leave {count:.1e} turns, more than 1e6 (are they in radians?)")));
@@ -235,12 +238,15 @@ impl PySolutions {
     /// Those for which `accept(solution)` is true; a solution is also the sequence of its joint angles.
     fn filter(&self, accept: &Bound<'_, PyAny>) -> PyResult<Self> {
         let mut failure = None;
-        let mut keep = |solution: &Solution<6>| match accept.call1((self.wrap(*solution),)).and_then(|answer| answer.is_truthy()) {
-            Ok(accepted) => accepted,
-            Err(error) => {
-                failure.get_or_insert(error);
-                false
-            }
+        let mut keep = |solution: &Solution<6>| {
+            failure.is_none()
+                && match accept.call1((self.wrap(*solution),)).and_then(|answer| answer.is_truthy()) {
+                    Ok(accepted) => accepted,
+                    Err(error) => {
+                        failure = Some(error);
+                        false
+                    }
+                }
         };
         let kept = match &self.turned {
             Some(turned) => {

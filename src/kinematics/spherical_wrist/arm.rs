@@ -109,7 +109,7 @@ impl SphericalWrist {
         self.shoulder(wx, wy, sign * x, shoulder.error)
     }
 
-    /// Both elbows (eq. 6 to 12).
+    /// Both elbows of the wrist centre (x, z) in the plane of the arm (eq. 5 to 12).
     pub(super) fn elbows(&self, x: f64, z: f64, target: &Target<'_>) -> Result<Elbows, Reach> {
         let r2 = x * x + z * z;
         let r = r2.sqrt();

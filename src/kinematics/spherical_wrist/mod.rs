@@ -140,7 +140,8 @@ impl SphericalWrist {
         let mut kinds = Status::empty();
         kinds.set(Status::WRIST, wrist.abs() <= WRIST_MERGE_SIN);
         let r = (self.c2 * self.c2 + self.k * self.k + 2.0 * self.c2 * self.k * cos_elbow).max(0.0).sqrt();
-        kinds.set(Status::ELBOW, (self.c2 * self.k * elbow).powi(2) <= self.straight_m2(r));
+        let folded_onto_axis_2 = r <= self.position_rounding();
+        kinds.set(Status::ELBOW, folded_onto_axis_2 || (self.c2 * self.k * elbow).powi(2) <= self.straight_m2(r));
         kinds.set(Status::SHOULDER, x.abs() <= self.shoulder_merge());
         kinds
     }

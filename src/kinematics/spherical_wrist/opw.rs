@@ -6,7 +6,7 @@ use crate::error::{Error, ModelFault};
 use crate::kinematics::angles::wrap;
 use crate::kinematics::dh::{DhRow, Mdh, screw_x};
 use crate::kinematics::pose::Pose;
-use crate::kinematics::thresholds::{FORM_TOLERANCE, LEAST_LINK};
+use crate::kinematics::thresholds::{FORM_TOLERANCE, LEAST_LINK, MOST_ANGLE, MOST_LENGTH};
 
 /// Brandstoetter's parameters of an ortho-parallel basis with a spherical wrist.
 ///
@@ -59,14 +59,10 @@ impl OpwParameters {
     fn check(&self) -> Result<(), Error> {
         let lengths = [("a1", self.a1), ("a2", self.a2), ("b", self.b), ("c1", self.c1), ("c2", self.c2), ("c3", self.c3), ("c4", self.c4)];
         for (field, value) in lengths {
-            if !value.is_finite() {
-                return Err(ModelFault::NotFinite { field, index: 0, value }.into());
-            }
+            ModelFault::check(field, 0, value, MOST_LENGTH)?;
         }
         for (i, value) in self.offsets.into_iter().enumerate() {
-            if !value.is_finite() {
-                return Err(ModelFault::NotFinite { field: "offset of joint", index: i + 1, value }.into());
-            }
+            ModelFault::check("offset of joint", i + 1, value, MOST_ANGLE)?;
         }
         for (i, sign) in self.signs.into_iter().enumerate() {
             if sign != 1 && sign != -1 {

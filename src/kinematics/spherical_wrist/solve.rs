@@ -68,7 +68,7 @@ impl SphericalWrist {
         branches
     }
 
-    /// Puts the four branches of one shoulder into slots `base` ..= `base` + 3.
+    /// Puts the four branches of one shoulder into slots `base` ..= `base` + 3 (eq. 13 and 18).
     fn fill(&self, branches: &mut Branches, base: usize, shoulder: &Shoulder, target: &Target<'_>) -> Reach {
         let elbows = match self.elbows(shoulder.x - self.a1, target.wz, target) {
             Ok(elbows) => elbows,
@@ -116,6 +116,7 @@ impl SphericalWrist {
         if sum { FreeJoint::WristSum } else { FreeJoint::WristDifference }
     }
 
+    /// The joint angles of theta, in (-pi, pi] (eq. 19).
     pub(super) fn joints(&self, theta: [f64; 6]) -> [f64; 6] {
         core::array::from_fn(|i| wrap(self.signs[i] * (theta[i] + self.offsets[i])))
     }
@@ -128,6 +129,10 @@ impl Branches {
 
     /// The wrist centre is on axis 1: an elbow that both shoulders have is one branch, turned. With b = 0, q1 is free.
     fn merge_shoulders(&mut self, keep_behind: bool, free: bool) {
+        // Of two that differ by twice the distance from axis 1, one may be straight and the other bent by the root of that: the straight one
+        // is the branch that declares its singularity.
+        let straight = |slot: usize| self.flags[slot].contains(Status::ELBOW);
+        let keep_behind = if straight(0) == straight(4) { keep_behind } else { straight(4) };
         for slot in 0..SLOTS {
             if self.q[slot].is_some() || self.flags[slot].contains(Status::MERGED) {
                 self.flags[slot] |= Status::SHOULDER;

@@ -19,7 +19,7 @@ pub(super) struct Wrist {
     pub(super) free: bool,
 }
 
-/// The wrist angles (eq. 15 to 18). Taking theta_6 and theta_5 with the sine and cosine of the theta_4 that was chosen keeps the
+/// The wrist angles (eq. 15 to 17). Taking theta_6 and theta_5 with the sine and cosine of the theta_4 that was chosen keeps the
 /// residual at rounding next to theta_5 = 0, whatever theta_4 is. `error` is how far rounding may turn the forearm: a theta_5 below it
 /// is none.
 pub(super) fn wrist(m: &Matrix3<f64>, target: &Target<'_>, error: f64) -> Wrist {

@@ -1,0 +1,37 @@
+//! Arguments that are one of a few words, or a count.
+
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::kinematics::{Crossing, JacobianFrame};
+
+/// The frame of a Jacobian.
+pub(super) fn read_frame(frame: &str) -> PyResult<JacobianFrame> {
+    match frame {
+        "base" => Ok(JacobianFrame::Base),
+        "tool" => Ok(JacobianFrame::Tool),
+        _ => Err(PyValueError::new_err(format!("frame must be \"base\" or \"tool\", got \"{frame}\""))),
+    }
+}
+
+/// What a path does at the wrist singularity.
+pub(super) fn read_crossing(singular: &str) -> PyResult<Crossing> {
+    match singular {
+        "through" => Ok(Crossing::Through),
+        "error" => Ok(Crossing::Error),
+        "wrist" => Ok(Crossing::Wrist),
+        "lock_axis4" => Ok(Crossing::LockAxis4),
+        _ => {
+            Err(PyValueError::new_err(format!("singular must be \"through\", \"error\", \"wrist\" or \"lock_axis4\", got \"{singular}\"")))
+        }
+    }
+}
+
+/// A number of threads; 0 is one a core.
+pub(super) fn thread_count(threads: isize) -> PyResult<usize> {
+    match usize::try_from(threads) {
+        Ok(0) => Ok(std::thread::available_parallelism().map_or(1, usize::from)),
+        Ok(count) => Ok(count),
+        Err(_) => Err(PyValueError::new_err(format!("threads must be 0 (one a core) or more, got {threads}"))),
+    }
+}
