@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import statistics
+import subprocess
+import sys
 import timeit
 from collections.abc import Callable
 
@@ -49,6 +51,11 @@ def main() -> None:
         ratio = statistics.median(a / b for a, b in zip(times[name], times[yardstick], strict=True))
         goal = f"  (goal {GOALS[name]:.0f} x)" if name in GOALS else ""
         print(f"{name:34} {statistics.median(times[name]) * 1e6:12.3f} us {ratio:8.2f} x  {yardstick}{goal}")
+    code = "import numpy, time; start = time.perf_counter(); import irbkin; print(time.perf_counter() - start)"
+    imports = [
+        float(subprocess.run([sys.executable, "-c", code], capture_output=True, check=True).stdout) for _ in range(5)
+    ]
+    print(f"{'import irbkin, numpy loaded':34} {statistics.median(imports) * 1e6:12.0f} us           (goal 5000 us)")
     print(f"Goals of the Rust figures. {RUST_GOALS}")
 
 
