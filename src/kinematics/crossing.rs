@@ -2,9 +2,12 @@
 
 use alloc::vec::Vec;
 
+use nalgebra::Vector3;
+
 use super::follow::{Break, BreakReason, Followed, Follower, largest_step};
 use super::pose::{Pose, PoseError, checked_pose};
 use super::robot::Robot;
+use super::spherical_wrist::SphericalWrist;
 use super::status::Status;
 use super::thresholds::{HELD_STILL, JUMP_BLIND, WRIST_ZONE};
 use crate::error::{Error, JointFault};
@@ -206,6 +209,7 @@ impl Walk<'_> {
         let pose = checked_pose(pose)?;
         let Some(arm) = self.robot.spherical_wrist() else { return Ok(None) };
         let rotation = self.robot.wrist_pose(&pose)?.rotation;
+        let (point, lever) = self.robot.tool_point(&pose)?;
         let mut held = *q;
         for _ in 0..ROUNDS {
             let m = arm.rotation_in_forearm(rotation.matrix(), &held);
@@ -214,7 +218,7 @@ impl Walk<'_> {
                 Held::Axes4And5 => arm.with_axes_4_and_5_held(&m, &held),
             };
             let wrist = self.robot.limits().turned_to(&wrist, &held);
-            let Some(next) = wrist.map(|wrist| self.to_point(&pose, &wrist)).transpose()?.flatten() else { return Ok(None) };
+            let Some(next) = wrist.and_then(|wrist| self.to_point(arm, &point, &lever, &wrist)) else { return Ok(None) };
             let moved = next.iter().zip(&held).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             held = next;
             if moved < HELD_STILL {
@@ -224,13 +228,11 @@ impl Walk<'_> {
         Ok(Some(held))
     }
 
-    /// The joints inside the limits, nearest to `q`, that bring the tool's centre point to that of `pose` with the wrist of `q`.
-    fn to_point(&self, pose: &Pose, q: &[f64; 6]) -> Result<Option<[f64; 6]>, Error> {
-        let (point, lever) = self.robot.tool_point(pose)?;
-        let Some(arm) = self.robot.spherical_wrist() else { return Ok(None) };
+    /// The joints inside the limits, nearest to `q`, that bring `lever` in the wrist frame to `point` with the wrist of `q`.
+    fn to_point(&self, arm: &SphericalWrist, point: &Vector3<f64>, lever: &Vector3<f64>, q: &[f64; 6]) -> Option<[f64; 6]> {
         let distance = |found: &[f64; 6]| found.iter().zip(q).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
-        let found = arm.to_point(&point, &lever, q).filter_map(|found| self.robot.limits().turned_to(&found, q));
-        Ok(found.min_by(|a, b| distance(a).total_cmp(&distance(b))))
+        let found = arm.to_point(point, lever, q).filter_map(|found| self.robot.limits().turned_to(&found, q));
+        found.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 
     /// Measures the orientation of every pose.

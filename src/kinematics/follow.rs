@@ -81,7 +81,7 @@ pub struct Follower<'a> {
     /// The pose of the last step.
     last: Option<Pose>,
     q: [f64; 6],
-    /// The joints' step before, continued where a pose leaves a joint free.
+    /// The joints' step before: where the path is heading.
     velocity: [f64; 6],
 }
 

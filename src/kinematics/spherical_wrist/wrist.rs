@@ -27,14 +27,12 @@ pub(super) fn wrist(m: &Matrix3<f64>, target: &Target<'_>, error: f64) -> Wrist 
     let sin_5 = column.x.hypot(column.y);
     let merged = sin_5 <= WRIST_MERGE_SIN.max(error);
     let trust = target.free.trust;
-    let free_theta_4 = target.free_theta[3];
     let silent = trust.forces(4) || sin_5 <= trust.radius().max(WRIST_FREE_SIN);
-    let theta_4 = if silent { free_theta_4 } else { told_theta_4(&column, sin_5, merged, error, target) };
-    let (sin_4, cos_4) = if silent || trust == Trust::Path {
-        theta_4.sin_cos()
+    let (theta_4, (sin_4, cos_4)) = if silent {
+        let free = target.free_theta[3];
+        (free, free.sin_cos())
     } else {
-        let sign = if (column.y.atan2(column.x) - theta_4).cos() < 0.0 { -1.0 } else { 1.0 };
-        (sign * column.y / sin_5, sign * column.x / sin_5)
+        told_theta_4(&column, sin_5, merged, error, target)
     };
     let projected = cos_4 * column.x + sin_4 * column.y;
     let sin_5_signed = if projected.abs() <= WRIST_FREE_SIN { projected.max(0.0) } else { projected };
@@ -43,24 +41,27 @@ pub(super) fn wrist(m: &Matrix3<f64>, target: &Target<'_>, error: f64) -> Wrist 
     Wrist { theta: [theta_4, theta_5, theta_6], merged, free: sin_5 <= WRIST_MERGE_SIN }
 }
 
-/// theta_4 as the pose tells it. Of merged branches, the one nearer to the seed or to zero is kept: half a turn away it may be outside a
-/// limit. A path keeps the theta_4 that it is heading for as far as what the pose knows of the forearm does not contradict it.
-fn told_theta_4(column: &Vector3<f64>, sin_5: f64, merged: bool, error: f64, target: &Target<'_>) -> f64 {
+/// theta_4 as the pose tells it, and its sine and cosine. Of merged branches, the one nearer to the seed or to zero is kept: half a turn
+/// away it may be outside a limit. A path keeps the theta_4 that it is heading for as far as what the pose knows of the forearm does not
+/// contradict it.
+fn told_theta_4(column: &Vector3<f64>, sin_5: f64, merged: bool, error: f64, target: &Target<'_>) -> (f64, (f64, f64)) {
     let told = column.y.atan2(column.x);
-    let ahead = target.free_theta[3] - told;
-    let told = if merged && ahead.cos() < 0.0 { told + PI } else { told };
+    let flips = merged && (target.free_theta[3] - told).cos() < 0.0;
+    let (told, sign) = if flips { (told + PI, -1.0) } else { (told, 1.0) };
     if target.free.trust != Trust::Path || sin_5 > PATH_WRIST_SIN {
-        return told;
+        return (told, (sign * column.y / sin_5, sign * column.x / sin_5));
     }
     let ahead = wrap(target.free_theta[3] - told);
-    if sin_5 > WRIST_MERGE_SIN {
+    let kept = if sin_5 > WRIST_MERGE_SIN {
         // The one that is heading there may be the flip, half a turn away.
         let ahead = ahead - PI * (ahead / PI).round();
-        return if sin_5 * ahead.sin().abs() <= error { told + ahead } else { told };
-    }
-    // Where the pose begins to tell, it pulls: no leap from what a silent one left open.
-    let open = (error.max(SEEDED_FREE) / sin_5).min(1.0).asin();
-    told + ahead.clamp(-open, open)
+        if sin_5 * ahead.sin().abs() <= error { told + ahead } else { told }
+    } else {
+        // Where the pose begins to tell, it pulls: no leap from what a silent one left open.
+        let open = (error.max(SEEDED_FREE) / sin_5).min(1.0).asin();
+        told + ahead.clamp(-open, open)
+    };
+    (kept, kept.sin_cos())
 }
 
 /// `Ry(-theta_23) Rz(-theta_1) R`, which is `Rz(theta_4) Ry(theta_5) Rz(theta_6)` (eq. 14).
