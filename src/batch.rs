@@ -3,10 +3,11 @@
 //! The seam to arrays: a row that is not finite gives a row of NaN, and where the answer has a status, [`Status::INVALID`]. A row's answer
 //! does not depend on its neighbours.
 
-use nalgebra::SMatrix;
+#[cfg(feature = "std")]
+use rayon::prelude::*;
 
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{JacobianFrame, Robot, SLOTS, Singularity, Status, pose_from_rows, pose_to_rows};
+use crate::kinematics::{JacobianFrame, Robot, SLOTS, Singularity, check_weights, pose_from_rows, pose_to_rows};
 
 /// Forward kinematics: rows of `N` joint angles to rows of 16 pose elements.
 ///
@@ -15,9 +16,7 @@ use crate::kinematics::{JacobianFrame, Robot, SLOTS, Singularity, Status, pose_f
 /// [`Error::WrongLength`] when a slice does not hold as many rows as `q`.
 pub fn fk<const N: usize>(robot: &Robot<N>, q: &[f64], poses: &mut [f64]) -> Result<(), Error> {
     let q = rows::<N>("q", q)?;
-    for (q, pose) in q.iter().zip(rows_out::<16, f64>("poses", poses, q.len())?) {
-        *pose = if is_finite(q) { pose_to_rows(&robot.fk(q)) } else { [f64::NAN; 16] };
-    }
+    robot.fk_rows(q, rows_out::<16, f64>("poses", poses, q.len())?);
     Ok(())
 }
 
@@ -50,12 +49,7 @@ pub fn link_frames<const N: usize>(robot: &Robot<N>, q: &[f64], frames: &mut [f6
 pub fn jacobian<const N: usize>(robot: &Robot<N>, q: &[f64], frame: JacobianFrame, jacobians: &mut [f64]) -> Result<(), Error> {
     let q = rows::<N>("q", q)?;
     let jacobians = rows_out::<N, f64>("jacobians", jacobians, q.len() * 6)?;
-    for (q, out) in q.iter().zip(jacobians.chunks_exact_mut(6)) {
-        let jacobian = if is_finite(q) { robot.jacobian(q, frame) } else { SMatrix::repeat(f64::NAN) };
-        for (to, from) in out.iter_mut().zip(jacobian.row_iter()) {
-            *to = core::array::from_fn(|joint| from[joint]);
-        }
-    }
+    robot.jacobians(q, frame, jacobians.as_chunks_mut::<6>().0);
     Ok(())
 }
 
@@ -69,7 +63,7 @@ pub fn singularity<'a, const N: usize>(robot: &'a Robot<N>, q: &'a [f64]) -> Res
 }
 
 /// Inverse kinematics: rows of 16 pose elements to eight slots of six joint angles and eight [`Status`] bytes a row, on up to `threads`
-/// threads, but no more than there are cores. Empty slots are NaN.
+/// threads, but no more than there are cores; without the feature `std`, on the caller's. Empty slots are NaN.
 ///
 /// # Errors
 ///
@@ -81,33 +75,50 @@ pub fn ik(robot: &Robot<6>, poses: &[f64], q: &mut [f64], status: &mut [u8], thr
     let poses = rows::<16>("poses", poses)?;
     let q = rows_out::<{ SLOTS * 6 }, f64>("q", q, poses.len())?;
     let status = rows_out::<SLOTS, u8>("status", status, poses.len())?;
-    let threads = threads.clamp(1, std::thread::available_parallelism().map_or(1, usize::from));
-    let share = poses.len().div_ceil(threads).max(1);
-    std::thread::scope(|scope| {
-        let mut parts = poses.chunks(share).zip(q.chunks_mut(share)).zip(status.chunks_mut(share));
-        let own = parts.next();
-        for ((poses, q), status) in parts {
-            scope.spawn(|| ik_rows(robot, poses, q, status));
-        }
-        if let Some(((poses, q), status)) = own {
-            ik_rows(robot, poses, q, status);
-        }
-    });
+    #[cfg(feature = "std")]
+    if let Some(pool) = pool(threads, poses.len()) {
+        let parts = poses.par_chunks(PART).zip(q.par_chunks_mut(PART)).zip(status.par_chunks_mut(PART));
+        return pool.install(|| parts.try_for_each(|((poses, q), status)| robot.ik_rows(poses, q, status)));
+    }
+    #[cfg(not(feature = "std"))]
+    let _ = threads;
+    robot.ik_rows(poses, q, status)
+}
+
+/// Inverse kinematics next to seeds: rows of 16 pose elements and of six joint angles to rows of six joint angles, those of
+/// [`Robot::ik_nearest`]. A row that has none, or whose pose or seed is invalid, is NaN.
+///
+/// # Errors
+///
+/// As [`ik`], and [`Error::InvalidJoints`] for a weight that is negative or not finite.
+pub fn ik_nearest(robot: &Robot<6>, poses: &[f64], seeds: &[f64], weights: &[f64; 6], q: &mut [f64]) -> Result<(), Error> {
+    if let Some(reason) = robot.no_closed_form() {
+        return Err(ModelFault::NoClosedForm(reason).into());
+    }
+    check_weights(weights)?;
+    let poses = rows::<16>("poses", poses)?;
+    let seeds = rows_for::<6>("seeds", seeds, poses.len())?;
+    for ((pose, seed), q) in poses.iter().zip(seeds).zip(rows_out::<6, f64>("q", q, poses.len())?) {
+        let nearest = pose_from_rows(pose).and_then(|pose| robot.ik_nearest(&pose, seed, weights));
+        *q = nearest.map_or([f64::NAN; 6], |nearest| nearest.q);
+    }
     Ok(())
 }
 
-fn ik_rows(robot: &Robot<6>, poses: &[[f64; 16]], q: &mut [[f64; SLOTS * 6]], status: &mut [[u8; SLOTS]]) {
-    for ((rows, q), status) in poses.iter().zip(q).zip(status) {
-        q.fill(f64::NAN);
-        let Ok(solutions) = pose_from_rows(rows).and_then(|pose| robot.ik_checked(pose)) else {
-            status.fill(Status::INVALID.bits());
-            continue;
-        };
-        *status = solutions.status().map(|status| status.bits());
-        for solution in &solutions {
-            q.as_chunks_mut::<6>().0[usize::from(solution.slot)] = solution.q;
-        }
+/// Poses that a thread takes at a time.
+#[cfg(feature = "std")]
+const PART: usize = 1024;
+
+/// Threads for a call, as many as are asked for, worth their start and not more than there are cores; `None` for the caller's own.
+///
+/// A pool lives no longer than the call: it leaves nothing behind that a forked process would wait for.
+#[cfg(feature = "std")]
+fn pool(threads: usize, poses: usize) -> Option<rayon::ThreadPool> {
+    if threads <= 1 || poses <= PART {
+        return None;
     }
+    let threads = threads.min(poses.div_ceil(PART)).min(std::thread::available_parallelism().map_or(1, usize::from));
+    if threads <= 1 { None } else { rayon::ThreadPoolBuilder::new().num_threads(threads).build().ok() }
 }
 
 /// The whole rows of an input.
@@ -116,6 +127,14 @@ fn rows<'a, const R: usize>(field: &'static str, numbers: &'a [f64]) -> Result<&
         (rows, []) => Ok(rows),
         _ => Err(Error::WrongLength { field, found: numbers.len(), wanted: numbers.len().div_ceil(R) * R }),
     }
+}
+
+/// The rows of an input of which there must be `count`.
+fn rows_for<'a, const R: usize>(field: &'static str, numbers: &'a [f64], count: usize) -> Result<&'a [[f64; R]], Error> {
+    if numbers.len() != count * R {
+        return Err(Error::WrongLength { field, found: numbers.len(), wanted: count * R });
+    }
+    Ok(numbers.as_chunks::<R>().0)
 }
 
 /// The rows of an output for `count` answers.

@@ -21,6 +21,11 @@ pub enum Error {
     UnknownRobot(UnknownRobot),
     /// No solution inside the limits.
     Unreachable(Explanation),
+    /// The processor does not have these instructions.
+    NoInstructionSet {
+        /// Name of the set.
+        name: &'static str,
+    },
     /// A slice of a batch does not hold the rows that it should.
     WrongLength {
         /// Name of the argument.
@@ -196,6 +201,7 @@ impl fmt::Display for Error {
             Self::InvalidModel(fault) => fault.fmt(f),
             Self::UnknownRobot(fault) => fault.fmt(f),
             Self::Unreachable(explanation) => explanation.fmt(f),
+            Self::NoInstructionSet { name } => write!(f, "this processor does not have the instruction set \"{name}\""),
             Self::WrongLength { field, found, wanted } => write!(f, "{field} has {found} elements, it must have {wanted}"),
         }
     }

@@ -41,11 +41,11 @@ extern crate alloc;
 #[cfg(test)]
 extern crate std;
 
-#[cfg(feature = "std")]
 pub mod batch;
 mod catalogue;
 mod error;
 mod kinematics;
+mod lanes;
 #[cfg(feature = "python")]
 mod python;
 
@@ -57,6 +57,7 @@ pub use kinematics::{
     Singularity, Solution, Solutions, SphericalWrist, Status, pose_from_euler_zyx, pose_from_quaternion, pose_from_rows, pose_to_euler_zyx,
     pose_to_quaternion, pose_to_rows, thresholds,
 };
+pub use lanes::InstructionSet;
 
 /// The Rust blocks of the README, run as documentation tests.
 #[cfg(doctest)]

@@ -8,20 +8,17 @@ use nalgebra::ComplexField as _;
 /// How far a constant may stand from a quarter turn and still be one [rad]: the rounding of `90_f64.to_radians()` and of sums of it.
 const QUARTER_TURN_ROUNDING: f64 = 4e-15;
 
+/// 1.5 * 2^52: added and taken away again, it rounds a number to the nearest whole one.
+const ROUND: f64 = 6_755_399_441_055_744.0;
+
 /// The same angle in (-pi, pi] [rad].
 #[must_use]
+#[inline(always)]
 pub(crate) fn wrap(angle: f64) -> f64 {
-    if angle > -PI && angle <= PI {
-        return angle;
-    }
-    let wrapped = angle - TAU * (angle / TAU).round();
-    if wrapped <= -PI {
-        wrapped + TAU
-    } else if wrapped > PI {
-        wrapped - TAU
-    } else {
-        wrapped
-    }
+    let turns = (angle * (1.0 / TAU) + ROUND) - ROUND;
+    let wrapped = angle - TAU * turns;
+    let wrapped = if wrapped <= -PI { wrapped + TAU } else { wrapped };
+    if wrapped > PI { wrapped - TAU } else { wrapped }
 }
 
 /// Distance of an angle from the nearest multiple of pi [rad], in 0 ..= pi / 2.

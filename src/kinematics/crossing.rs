@@ -208,8 +208,8 @@ impl Walk<'_> {
     fn held(&self, pose: &Pose, q: &[f64; 6], how: Held) -> Result<Option<[f64; 6]>, Error> {
         let pose = checked_pose(pose)?;
         let Some(arm) = self.robot.spherical_wrist() else { return Ok(None) };
-        let rotation = self.robot.wrist_pose(&pose)?.rotation;
-        let (point, lever) = self.robot.tool_point(&pose)?;
+        let rotation = self.robot.solver()?.wrist_pose(&pose).rotation;
+        let (point, lever) = self.robot.solver()?.tool_point(&pose);
         let mut held = *q;
         for _ in 0..ROUNDS {
             let m = arm.rotation_in_forearm(rotation.matrix(), &held);

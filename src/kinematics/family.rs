@@ -25,7 +25,12 @@ impl Robot<6> {
     pub fn ik_nearest(&self, pose: &Pose, seed: &[f64; 6], weights: &[f64; 6]) -> Result<Solution<6>, Error> {
         check_joints("seed", seed)?;
         check_weights(weights)?;
-        let solutions = self.solve(checked_pose(pose)?, &FreeChoice::seed(*seed))?;
+        self.ik_nearest_checked(checked_pose(pose)?, seed, weights)
+    }
+
+    /// [`Robot::ik_nearest`] for arguments that were checked where they came in.
+    pub(crate) fn ik_nearest_checked(&self, pose: Pose, seed: &[f64; 6], weights: &[f64; 6]) -> Result<Solution<6>, Error> {
+        let solutions = self.solve(pose, &FreeChoice::seed(*seed))?;
         let nearest = self.nearest_of(&solutions, seed, weights)?;
         nearest.ok_or_else(|| Error::Unreachable(solutions.explain()))
     }

@@ -1,15 +1,19 @@
 //! The kinematics of serial arms.
 
 mod angles;
+mod axes;
 mod chain;
 mod crossing;
 mod dh;
 mod family;
 mod follow;
+mod forward;
+mod inverse;
 mod jacobian;
 mod limits;
 mod pose;
 mod robot;
+mod rotation;
 mod select;
 mod singularity;
 mod solutions;
@@ -27,8 +31,9 @@ pub use pose::{
     Pose, PoseError, pose_from_euler_zyx, pose_from_quaternion, pose_from_rows, pose_to_euler_zyx, pose_to_quaternion, pose_to_rows,
 };
 pub use robot::{Definition, Robot};
+pub(crate) use select::check_weights;
 #[cfg(feature = "python")]
-pub(crate) use select::{Cost, check_joints, check_weights};
+pub(crate) use select::{Cost, check_joints};
 pub use singularity::Singularity;
 pub use solutions::{FreeJoint, SLOTS, Solution, Solutions};
 pub use spherical_wrist::{Condition, NotRecognised, OpwParameters, Relation, SingularDistances, SphericalWrist};

@@ -5,6 +5,7 @@ use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Translation3, Vector3};
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
+use super::rotation::{Rows3, determinant, gram_excess, nearest_rotation};
 use super::thresholds::{GIMBAL_COS, LAST_ROW_BOUND, QUATERNION_NORM_BOUND, ROTATION_REPAIR_BOUND, ROTATION_ROUNDING};
 use crate::error::{Error, PoseFault};
 
@@ -50,7 +51,7 @@ pub fn pose_from_rows(rows: &[f64; 16]) -> Result<Pose, Error> {
     if [l0, l1, l2, l3 - 1.0].iter().any(|element| element.abs() > LAST_ROW_BOUND) {
         return Err(PoseFault::LastRow { row: [l0, l1, l2, l3] }.into());
     }
-    let rotation = checked_rotation(Matrix3::new(r00, r01, r02, r10, r11, r12, r20, r21, r22))?;
+    let rotation = checked_rotation([[r00, r01, r02], [r10, r11, r12], [r20, r21, r22]])?;
     Ok(IsometryMatrix3::from_parts(Translation3::new(x, y, z), rotation))
 }
 
@@ -80,21 +81,17 @@ pub fn pose_to_rows(pose: &Pose) -> [f64; 16] {
 }
 
 /// A rotation that is finite, does not mirror and is orthonormal to rounding.
-pub(crate) fn checked_rotation(matrix: Matrix3<f64>) -> Result<Rotation3<f64>, Error> {
-    let deviation = (matrix.transpose() * matrix - Matrix3::identity()).amax();
-    if deviation <= ROTATION_ROUNDING && matrix.determinant() > 0.0 {
-        return Ok(Rotation3::from_matrix_unchecked(matrix));
-    }
+fn checked_rotation(rows: Rows3) -> Result<Rotation3<f64>, Error> {
+    let deviation = gram_excess(&rows).into_iter().fold(0.0, |most: f64, element| most.max(element.abs()));
+    let determinant = determinant(&rows);
     if !deviation.is_finite() || deviation > ROTATION_REPAIR_BOUND {
         return Err(PoseFault::NotOrthonormal { deviation, bound: ROTATION_REPAIR_BOUND }.into());
     }
-    let determinant = matrix.determinant();
     if determinant < 0.0 {
         return Err(PoseFault::Mirrored { determinant }.into());
     }
-    // Newton's iteration for the orthogonal polar factor: the deviation is squared by each step, 1e-5 -> 1e-10 -> 1e-20.
-    let step = |r: Matrix3<f64>| r * (Matrix3::identity() * 3.0 - r.transpose() * r) * 0.5;
-    Ok(Rotation3::from_matrix_unchecked(step(step(matrix))))
+    let [[a, b, c], [d, e, f], [g, h, i]] = if deviation <= ROTATION_ROUNDING { rows } else { nearest_rotation(&rows) };
+    Ok(Rotation3::from_matrix_unchecked(Matrix3::new(a, b, c, d, e, f, g, h, i)))
 }
 
 /// A pose that another program made: finite, and its rotation orthonormal, repaired like that of [`pose_from_rows`].

@@ -2,19 +2,20 @@
 
 use alloc::borrow::Cow;
 
-use nalgebra::{SMatrix, Vector3};
+use nalgebra::SMatrix;
 
 use super::chain::Chain;
 use super::dh::{DhRow, Mdh, Sdh};
-use super::jacobian::JacobianFrame;
+use super::forward::Poses;
+use super::jacobian::{JacobianFrame, Jacobians};
 use super::limits::JointLimits;
 use super::pose::{Pose, PoseError, checked_pose};
 use super::singularity::{Singularity, singular_values};
-use super::solutions::{Solution, Solutions};
-use super::spherical_wrist::{FreeChoice, NotRecognised, OpwParameters, SphericalWrist, recognise};
+use super::spherical_wrist::{NotRecognised, OpwParameters, SphericalWrist, WristSolver, recognise};
 use super::status::Status;
 use super::thresholds::{MOST_ANGLE, MOST_LENGTH};
 use crate::error::{Error, ModelFault};
+use crate::lanes::run;
 
 /// A robot arm of `N` revolute joints.
 ///
@@ -47,23 +48,7 @@ enum Geometry {
     Serial(NotRecognised),
 }
 
-/// The geometry between the frames in which poses are given: what a solve needs.
-#[derive(Clone, Debug, PartialEq)]
-struct WristSolver {
-    arm: SphericalWrist,
-    t_shoulder_world: Pose,
-    t_tool_wrist: Pose,
-}
-
-impl WristSolver {
-    fn new<const N: usize>(arm: SphericalWrist, chain: &Chain<N>) -> Self {
-        Self {
-            t_shoulder_world: (chain.base() * arm.t_base_shoulder()).inverse(),
-            t_tool_wrist: (arm.t_wrist_flange() * chain.tool()).inverse(),
-            arm: arm.standing_between(chain.base(), chain.tool()),
-        }
-    }
-}
+const NO_LIMITS: [[f64; 2]; 6] = [[f64::NEG_INFINITY, f64::INFINITY]; 6];
 
 impl Robot<6> {
     /// A robot from the parameters of an ortho-parallel arm with a spherical wrist.
@@ -75,58 +60,11 @@ impl Robot<6> {
         Self::of_opw(opw)
     }
 
-    /// Every joint vector that brings the tool to `pose`.
-    ///
-    /// A pose out of reach has no solutions and tells so by [`Solutions::reach`]; at a singularity a joint that the pose leaves free
-    /// reads zero, or the middle of its limits where zero is outside them. Derivation: docs/ik_derivation.md.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::InvalidPose`] when the pose is not finite or no rigid transform; [`Error::InvalidModel`] when the arm has no closed form.
-    pub fn ik(&self, pose: &Pose) -> Result<Solutions<6>, Error> {
-        self.ik_checked(checked_pose(pose)?)
-    }
-
-    /// [`Robot::ik`] for a pose that was checked where it came in.
-    pub(crate) fn ik_checked(&self, pose: Pose) -> Result<Solutions<6>, Error> {
-        let mut solutions = self.solve(pose, &FreeChoice::rest(self.limits.rest()))?;
-        self.bring_families_inside(&mut solutions)?;
-        Ok(solutions)
-    }
-
-    fn solver(&self) -> Result<&WristSolver, Error> {
+    pub(super) fn solver(&self) -> Result<&WristSolver, Error> {
         match &self.geometry {
             Geometry::SphericalWrist(solver) => Ok(solver),
             Geometry::Serial(reason) => Err(ModelFault::NoClosedForm(*reason).into()),
         }
-    }
-
-    /// The wrist frame of a pose, seen from the shoulder (eq. 1).
-    pub(super) fn wrist_pose(&self, pose: &Pose) -> Result<Pose, Error> {
-        let solver = self.solver()?;
-        Ok(solver.t_shoulder_world * pose * solver.t_tool_wrist)
-    }
-
-    /// The tool's centre point of a pose, seen from the shoulder, and the same point in the wrist frame.
-    pub(super) fn tool_point(&self, pose: &Pose) -> Result<(Vector3<f64>, Vector3<f64>), Error> {
-        let solver = self.solver()?;
-        let point = solver.t_shoulder_world.transform_point(&pose.translation.vector.into());
-        Ok((point.coords, solver.t_tool_wrist.inverse().translation.vector))
-    }
-
-    pub(super) fn solve(&self, pose: Pose, free: &FreeChoice) -> Result<Solutions<6>, Error> {
-        let branches = self.solver()?.arm.solve(&self.wrist_pose(&pose)?, free);
-        let slots = core::array::from_fn(|slot| {
-            branches.q[slot].map(|q| {
-                let q = self.limits.settle(q);
-                let mut status = branches.flags[slot] | Status::FOUND;
-                status.set(Status::WITHIN_LIMITS, self.limits.contain(&q));
-                #[expect(clippy::cast_possible_truncation, reason = "eight slots")]
-                Solution { q, slot: slot as u8, status, free: branches.free[slot] }
-            })
-        });
-        let merged = branches.flags.map(|flags| if flags.contains(Status::MERGED) { flags } else { Status::empty() });
-        Ok(Solutions { slots, merged, reach: branches.reach, pose, limits: self.limits, emptied: None })
     }
 
     /// The spherical-wrist geometry, for an arm that has one.
@@ -180,7 +118,7 @@ impl<const N: usize> Robot<N> {
                 // The squared table has N = 6 rows: this is the same array under its generic name.
                 let rows = core::array::from_fn(|i| squared.rows[i]);
                 let chain = Chain::new(Mdh { rows, ..mdh.clone() });
-                let solver = WristSolver::new(arm, &chain);
+                let solver = WristSolver::new(arm, &chain, &NO_LIMITS);
                 (chain, Geometry::SphericalWrist(solver))
             }
             Some(Err(Error::InvalidModel(ModelFault::NoClosedForm(reason)))) => (Chain::new(mdh.clone()), Geometry::Serial(reason)),
@@ -196,7 +134,7 @@ impl<const N: usize> Robot<N> {
         let Mdh { base, rows, flange } = opw.mdh();
         let rows = <[DhRow; N]>::try_from(&rows[..]).map_err(|_| ModelFault::JointCount { found: 6, wanted: N })?;
         let chain = Chain::new(Mdh { base, rows, flange });
-        let geometry = Geometry::SphericalWrist(WristSolver::new(SphericalWrist::from_opw(&opw), &chain));
+        let geometry = Geometry::SphericalWrist(WristSolver::new(SphericalWrist::from_opw(&opw), &chain, &NO_LIMITS));
         Ok(Self::new(Definition::Opw(opw), chain, geometry))
     }
 
@@ -215,7 +153,7 @@ impl<const N: usize> Robot<N> {
     #[must_use]
     pub fn with_limits(mut self, limits: JointLimits<N>) -> Self {
         self.limits = limits;
-        self
+        self.joined()
     }
 
     /// The same robot with velocity limits [rad/s].
@@ -255,7 +193,7 @@ impl<const N: usize> Robot<N> {
 
     fn joined(mut self) -> Self {
         if let Geometry::SphericalWrist(solver) = self.geometry {
-            self.geometry = Geometry::SphericalWrist(WristSolver::new(solver.arm, &self.chain));
+            self.geometry = Geometry::SphericalWrist(WristSolver::new(solver.arm, &self.chain, &self.limits.to_array()));
         }
         self
     }
@@ -336,6 +274,22 @@ impl<const N: usize> Robot<N> {
     #[must_use]
     pub fn jacobian(&self, q: &[f64; N], frame: JacobianFrame) -> SMatrix<f64, 6, N> {
         self.chain.jacobian(q, frame)
+    }
+
+    /// The rows of [`Self::jacobian`].
+    #[cfg(feature = "python")]
+    pub(crate) fn jacobian_rows(&self, q: &[f64; N], frame: JacobianFrame) -> [[f64; N]; 6] {
+        self.chain.jacobian_rows(q, frame)
+    }
+
+    /// [`Self::fk`] of many, in lanes: rows of joint angles in, rows of pose elements out.
+    pub(crate) fn fk_rows(&self, q: &[[f64; N]], poses: &mut [[f64; 16]]) {
+        run(Poses { chain: &self.chain, q, out: poses });
+    }
+
+    /// [`Self::jacobian`] of many, in lanes.
+    pub(crate) fn jacobians(&self, q: &[[f64; N]], frame: JacobianFrame, jacobians: &mut [[[f64; N]; 6]]) {
+        run(Jacobians { chain: &self.chain, frame, q, out: jacobians });
     }
 
     /// How far `q` [rad] is from the singularities.

@@ -43,6 +43,16 @@ pub const SEEDED_FREE: f64 = 1e-12;
 /// |sin q5| below which a path may keep the q4 that it is heading for [1], where what is known of the forearm does not contradict it.
 pub const PATH_WRIST_SIN: f64 = 1e-3;
 
+/// Distance of the wrist centre from axis 1, as a part of the lengths of the arm, from which a branch is plain [1]: all that decides there
+/// stands far from every threshold, so that it is solved in lanes. Nearer, the careful solve decides; both agree to rounding.
+pub const PLAIN_SHOULDER: f64 = 1e-6;
+
+/// Distance of the wrist centre from the edge of reach, as a part of the lengths of the arm, from which a branch is plain [1].
+pub const PLAIN_REACH: f64 = 1e-7;
+
+/// |sin q5| from which a branch is plain [1].
+pub const PLAIN_WRIST_SIN: f64 = 1e-6;
+
 /// How far a solution may be off its pose and still be one of it [m, rad]: more than any family or stretched arm, less than another pose.
 pub const SOLUTION_OFF: f64 = 1e-6;
 

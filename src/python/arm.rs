@@ -5,11 +5,11 @@ use std::sync::Arc;
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 
-use super::arrays::{Rows, output, writable};
+use super::arrays::{Rows, answer, copied_vector, detached, output, writable};
 use super::errors::{Fault, to_py};
 use crate::batch;
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{JacobianFrame, Robot, Singularity, check_joints};
+use crate::kinematics::{JacobianFrame, Robot, Singularity, check_joints, pose_to_rows};
 
 /// A robot of six or seven joints.
 #[derive(Clone, PartialEq)]
@@ -69,8 +69,11 @@ impl Arm {
         Ok(rows)
     }
 
-    pub(super) fn fk<'py>(&self, q: &Bound<'py, PyAny>, out: Option<&Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.mapped(q, out, &[4, 4], |q, poses| on_robot!(self, robot => batch::fk(robot, q, poses)))
+    pub(super) fn fk<'py>(&self, q: &Bound<'py, PyAny>, out: Option<&Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyAny>> {
+        on_robot!(self, robot => if let Some(joints) = one(q)? {
+            return answer(q, out, pose_to_rows(&robot.fk(&joints)).as_chunks::<4>().0);
+        });
+        Ok(self.mapped(q, out, &[4, 4], |q, poses| on_robot!(self, robot => batch::fk(robot, q, poses)))?.into_any())
     }
 
     pub(super) fn link_frames<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
@@ -82,8 +85,12 @@ impl Arm {
         q: &Bound<'py, PyAny>,
         frame: JacobianFrame,
         out: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.mapped(q, out, &[6, self.dof()], |q, rows| on_robot!(self, robot => batch::jacobian(robot, q, frame, rows)))
+    ) -> PyResult<Bound<'py, PyAny>> {
+        on_robot!(self, robot => if let Some(joints) = one(q)? {
+            return answer(q, out, &robot.jacobian_rows(&joints, frame));
+        });
+        let rows = self.mapped(q, out, &[6, self.dof()], |q, rows| on_robot!(self, robot => batch::jacobian(robot, q, frame, rows)));
+        Ok(rows?.into_any())
     }
 
     pub(super) fn singularity(&self, py: Python<'_>, q: &[f64]) -> PyResult<Vec<Option<Singularity>>> {
@@ -103,7 +110,7 @@ impl Arm {
         let answer = output(q.py(), out, &rows.shape_with(tail))?;
         let (data, mut view) = (rows.data()?, writable(&answer, &[rows.addresses()])?);
         let slice = view.as_slice_mut()?;
-        q.py().detach(|| compute(data, slice)).map_err(|error| to_py(q.py(), &error))?;
+        detached(q.py(), || compute(data, slice)).map_err(|error| to_py(q.py(), &error))?;
         Ok(answer)
     }
 
@@ -115,6 +122,14 @@ impl Arm {
         };
         changed.map_err(|error: Error| to_py(py, &error))
     }
+}
+
+/// A single joint vector that can be read the short way; it must be finite.
+#[inline]
+fn one<const N: usize>(q: &Bound<'_, PyAny>) -> PyResult<Option<[f64; N]>> {
+    let Some(joints) = copied_vector::<N>(q) else { return Ok(None) };
+    check_joints("q", &joints).map_err(|error| to_py(q.py(), &error))?;
+    Ok(Some(joints))
 }
 
 /// A change of a robot that is the same for any number of joints.

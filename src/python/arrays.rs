@@ -1,8 +1,13 @@
 //! NumPy arrays in and out: any number array is taken, a C-contiguous float64 one without a copy.
 
+use std::array;
 use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-use numpy::{PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyReadwriteArrayDyn, PyUntypedArray, PyUntypedArrayMethods};
+use numpy::ndarray::aview2;
+use numpy::{
+    PyArray1, PyArray2, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyReadwriteArrayDyn, PyUntypedArray, PyUntypedArrayMethods,
+};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::intern;
 use pyo3::prelude::*;
@@ -49,13 +54,94 @@ impl<'py> Rows<'py> {
     }
 }
 
+/// How many calls write to arrays with the interpreter's lock released.
+static DETACHED_WRITES: AtomicUsize = AtomicUsize::new(0);
+
+/// Runs `write` without the interpreter's lock; meanwhile no other call takes the short way of reading.
+pub(super) fn detached<R: Send>(py: Python<'_>, write: impl FnOnce() -> R + Send) -> R {
+    struct Finished;
+    impl Drop for Finished {
+        fn drop(&mut self) {
+            DETACHED_WRITES.fetch_sub(1, Ordering::Release);
+        }
+    }
+    DETACHED_WRITES.fetch_add(1, Ordering::Relaxed);
+    let _finished = Finished;
+    py.detach(write)
+}
+
+/// The short way of reading: a copy of a float64 array of shape (`N`,), any strides. None for everything else.
+///
+/// The elements are copied under the interpreter's lock, without NumPy's bookkeeping of borrows: with 50 ns that costs more than the rest
+/// of the call. Who else could write, holds the lock, or is counted.
+#[inline]
+pub(super) fn copied_vector<const N: usize>(value: &Bound<'_, PyAny>) -> Option<[f64; N]> {
+    let array = value.cast::<PyArray1<f64>>().ok()?;
+    if array.shape() != [N] || !array.is_aligned() || DETACHED_WRITES.load(Ordering::Acquire) != 0 {
+        return None;
+    }
+    Some(array::from_fn(|index| array.get_owned([index]).unwrap_or(f64::NAN)))
+}
+
+/// As [`copied_vector`], of an array of shape (4, 4), in row-major order.
+#[inline]
+fn copied_matrix<const R: usize, const C: usize>(value: &Bound<'_, PyAny>) -> Option<[[f64; C]; R]> {
+    let array = value.cast::<PyArray2<f64>>().ok()?;
+    if array.shape() != [R, C] || !array.is_aligned() || DETACHED_WRITES.load(Ordering::Acquire) != 0 {
+        return None;
+    }
+    // Every index is inside the shape. Nested so that it unrolls.
+    let element = |row, column| array.get_owned([row, column]).unwrap_or(f64::NAN);
+    Some(array::from_fn(|row| array::from_fn(|column| element(row, column))))
+}
+
+/// A new array with `rows`: one NumPy object, its memory written once.
+#[inline]
+pub(super) fn matrix<'py, const C: usize>(py: Python<'py>, rows: &[[f64; C]]) -> Bound<'py, PyArray2<f64>> {
+    PyArray2::from_array(py, &aview2(rows))
+}
+
+/// `rows` in `out` where it was given, in a new array where not. `input` is what they were calculated from: `out` may not overlap it.
+#[inline]
+pub(super) fn answer<'py, const C: usize>(
+    input: &Bound<'py, PyAny>,
+    out: Option<&Bound<'py, PyAny>>,
+    rows: &[[f64; C]],
+) -> PyResult<Bound<'py, PyAny>> {
+    match out {
+        None => Ok(matrix(input.py(), rows).into_any()),
+        Some(out) => write_out(input, out, &[rows.len(), C], rows.as_flattened()),
+    }
+}
+
+fn write_out<'py>(input: &Bound<'py, PyAny>, out: &Bound<'py, PyAny>, shape: &[usize], numbers: &[f64]) -> PyResult<Bound<'py, PyAny>> {
+    let array = checked_out::<f64>(out, shape, "float64")?;
+    let memory = input.cast::<PyArrayDyn<f64>>().ok().filter(|input| input.is_c_contiguous()).map(addresses);
+    writable(&array, memory.as_slice())?.as_slice_mut()?.copy_from_slice(numbers);
+    Ok(array.into_any())
+}
+
 /// Exactly `N` numbers, as the argument `field`.
+#[inline]
 pub(super) fn vector<const N: usize>(value: &Bound<'_, PyAny>, field: &str, fault: Fault) -> PyResult<[f64; N]> {
-    exactly::<N>(value, &[N], field, fault)
+    copied_vector(value).map_or_else(|| exactly::<N>(value, &[N], field, fault), Ok)
+}
+
+/// Exactly 4 rows of 4 numbers in row-major order, as the argument `field`.
+#[inline]
+pub(super) fn matrix4(value: &Bound<'_, PyAny>, field: &str, fault: Fault) -> PyResult<[f64; 16]> {
+    let Some(rows) = copied_matrix::<4, 4>(value) else {
+        return exactly::<16>(value, &[4, 4], field, fault);
+    };
+    let mut numbers = [0.0; 16];
+    numbers.as_chunks_mut::<4>().0.copy_from_slice(&rows);
+    Ok(numbers)
 }
 
 /// One array of exactly the shape `shape`, of `N` elements.
-pub(super) fn exactly<const N: usize>(value: &Bound<'_, PyAny>, shape: &[usize], field: &str, fault: Fault) -> PyResult<[f64; N]> {
+#[cold]
+#[inline(never)]
+fn exactly<const N: usize>(value: &Bound<'_, PyAny>, shape: &[usize], field: &str, fault: Fault) -> PyResult<[f64; N]> {
     let array = readable(value, field, fault)?;
     if array.shape() != shape {
         return Err(fault.error(value.py(), format!("{field} must have shape {shape:?}, got {:?}", array.shape())));

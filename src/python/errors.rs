@@ -1,5 +1,6 @@
 //! The exceptions, enumerations and records that `irbkin` defines in Python, raised and made from here.
 
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 
@@ -63,6 +64,7 @@ pub(super) fn to_py(py: Python<'_>, error: &Error) -> PyErr {
         Error::InvalidModel(_) | Error::WrongLength { .. } => invalid_model_error(py),
         Error::UnknownRobot(_) => unknown_robot_error(py),
         Error::Unreachable(_) => unreachable_error(py),
+        Error::NoInstructionSet { .. } => return PyValueError::new_err(error.to_string()),
     };
     raised(class, error.to_string())
 }

@@ -1,10 +1,10 @@
 //! Poses from and to translations with quaternions or Euler angles.
 
-use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
-use super::arrays::{Rows, exactly, vector};
+use super::arrays::{Rows, matrix, matrix4, vector};
 use super::errors::{Fault, to_py};
 use crate::error::Error;
 use crate::kinematics::{
@@ -13,7 +13,7 @@ use crate::kinematics::{
 
 /// The argument `field` as a checked pose.
 pub(super) fn read_pose(value: &Bound<'_, PyAny>, field: &str) -> PyResult<Pose> {
-    let rows = exactly::<16>(value, &[4, 4], field, Fault::Pose)?;
+    let rows = matrix4(value, field, Fault::Pose)?;
     pose_from_rows(&rows).map_err(|error| to_py(value.py(), &error))
 }
 
@@ -30,8 +30,8 @@ pub(super) fn read_path(value: &Bound<'_, PyAny>) -> PyResult<Vec<Pose>> {
 }
 
 /// A pose as a (4, 4) array.
-pub(super) fn pose_array<'py>(py: Python<'py>, pose: &Pose) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    PyArray1::from_slice(py, &pose_to_rows(pose)).reshape([4, 4])
+pub(super) fn pose_array<'py>(py: Python<'py>, pose: &Pose) -> Bound<'py, PyArray2<f64>> {
+    matrix(py, pose_to_rows(pose).as_chunks::<4>().0)
 }
 
 /// Pose from a translation and an orientation.
@@ -62,7 +62,7 @@ pub(super) fn pose<'py>(
         (None, Some(euler)) => pose_from_euler_zyx(xyz, vector(euler, "euler_zyx", Fault::Pose)?),
         (None, None) => pose_from_euler_zyx(xyz, [0.0; 3]),
     };
-    pose_array(py, &pose.map_err(|error| to_py(py, &error))?)
+    Ok(pose_array(py, &pose.map_err(|error| to_py(py, &error))?))
 }
 
 type TwoArrays<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);

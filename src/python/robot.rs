@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use super::answers::{batch_output, follow_result, singularity_record};
 use super::arguments::{read_crossing, read_frame, thread_count};
 use super::arm::{Arm, on_robot};
-use super::arrays::{Rows, addresses, vector, writable};
+use super::arrays::{Rows, addresses, detached, vector, writable};
 use super::build::{self, Convention, State};
 use super::errors::{self, Fault, to_py};
 use super::poses::{pose_array, read_path, read_pose};
@@ -150,19 +150,19 @@ impl PyRobot {
 
     /// Fixed transform from the last frame of `mdh` to the flange, shape (4, 4).
     #[getter]
-    fn flange<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    fn flange<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         on_robot!(&self.arm, robot => pose_array(py, &robot.mdh().flange))
     }
 
     /// The base in the world, shape (4, 4).
     #[getter]
-    fn base<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    fn base<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         on_robot!(&self.arm, robot => pose_array(py, robot.base()))
     }
 
     /// The tool centre point in the flange frame, shape (4, 4).
     #[getter]
-    fn tool<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    fn tool<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         on_robot!(&self.arm, robot => pose_array(py, robot.tool()))
     }
 
@@ -206,7 +206,7 @@ impl PyRobot {
     /// Raises:
     ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
     #[pyo3(signature = (q, out=None))]
-    fn fk<'py>(&self, q: &Bound<'py, PyAny>, out: Option<&Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    fn fk<'py>(&self, q: &Bound<'py, PyAny>, out: Option<&Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyAny>> {
         self.arm.fk(q, out)
     }
 
@@ -238,7 +238,7 @@ impl PyRobot {
     ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
     ///     ValueError: Another frame.
     #[pyo3(signature = (q, frame="base", out=None))]
-    fn jacobian<'py>(&self, q: &Bound<'py, PyAny>, frame: &str, out: Option<&Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    fn jacobian<'py>(&self, q: &Bound<'py, PyAny>, frame: &str, out: Option<&Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyAny>> {
         let frame = read_frame(frame)?;
         self.arm.jacobian(q, frame, out)
     }
@@ -271,10 +271,12 @@ impl PyRobot {
     ///     InvalidPoseError: T has a wrong shape, is not finite or is no rigid transform.
     ///     InvalidModelError: The arm has no closed form.
     #[pyo3(signature = (T))]
-    fn ik(&self, T: &Bound<'_, PyAny>) -> PyResult<PySolutions> {
-        let robot = self.arm.solvable(T.py())?;
-        let solutions = robot.ik(&read_pose(T, "T")?).map_err(|error| to_py(T.py(), &error))?;
-        Ok(PySolutions::new(Arc::clone(robot), solutions))
+    fn ik<'py>(&self, T: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PySolutions>> {
+        let py = T.py();
+        let robot = self.arm.solvable(py)?;
+        let mut answer = PySolutions::new(Arc::clone(robot), robot.unsolved(read_pose(T, "T")?));
+        robot.ik_into(answer.solutions_mut()).map_err(|error| to_py(py, &error))?;
+        Bound::new(py, answer)
     }
 
     /// Every joint vector of many poses.
@@ -301,7 +303,7 @@ impl PyRobot {
         let (data, mut q_view, mut status_view) =
             (poses.data()?, writable(&q, &[poses.addresses()])?, writable(&status, &[poses.addresses(), addresses(&q)])?);
         let (q_slice, status_slice) = (q_view.as_slice_mut()?, status_view.as_slice_mut()?);
-        py.detach(|| batch::ik(robot, data, q_slice, status_slice, threads)).map_err(|error| to_py(py, &error))?;
+        detached(py, || batch::ik(robot, data, q_slice, status_slice, threads)).map_err(|error| to_py(py, &error))?;
         errors::ik_batch_class(py)?.call1((q, status))
     }
 
@@ -327,7 +329,7 @@ impl PyRobot {
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let (robot, pose) = (self.arm.solvable(T.py())?, read_pose(T, "T")?);
         let (seed, weights) = read_seed(seed, weights)?;
-        let nearest = robot.ik_nearest(&pose, &seed, &weights).map_err(|error| to_py(T.py(), &error))?;
+        let nearest = robot.ik_nearest_checked(pose, &seed, &weights).map_err(|error| to_py(T.py(), &error))?;
         Ok(PyArray1::from_slice(T.py(), &nearest.q))
     }
 

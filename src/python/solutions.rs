@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyIterator, PyList};
 
-use super::arrays::vector;
+use super::arrays::{matrix, vector};
 use super::errors::{self, Fault, to_py};
 use crate::error::Error;
 use crate::kinematics::{Cost, Pose, Robot, SLOTS, Solution, Solutions, Status, check_joints, check_weights};
@@ -123,6 +123,10 @@ impl PySolutions {
         Self { robot, solutions, turned: None }
     }
 
+    pub(super) fn solutions_mut(&mut self) -> &mut Solutions<6> {
+        &mut self.solutions
+    }
+
     fn with(&self, solutions: Solutions<6>, turned: Option<Vec<Solution<6>>>) -> Self {
         Self { robot: Arc::clone(&self.robot), solutions, turned }
     }
@@ -152,17 +156,24 @@ impl PySolutions {
 impl PySolutions {
     /// Joint angles of every solution [rad], shape (k, n), limits not regarded.
     #[getter]
-    fn q<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let entries = self.entries();
-        let flat: Vec<f64> = entries.iter().flat_map(|solution| solution.q).collect();
-        PyArray1::from_vec(py, flat).reshape([entries.len(), 6])
+    fn q<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        if let Some(turned) = &self.turned {
+            return matrix(py, &turned.iter().map(|solution| solution.q).collect::<Vec<_>>());
+        }
+        let mut rows = [[0.0; 6]; SLOTS];
+        let mut found = 0;
+        for (row, solution) in rows.iter_mut().zip(&self.solutions) {
+            *row = solution.q;
+            found += 1;
+        }
+        matrix(py, &rows[..found])
     }
 
     /// Joint angles of each slot [rad], shape (8, n), NaN where the slot is empty.
     #[getter]
-    fn slots<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    fn slots<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         let rows: [[f64; 6]; SLOTS] = core::array::from_fn(|slot| self.solutions.slot(slot).map_or([f64::NAN; 6], |solution| solution.q));
-        PyArray1::from_slice(py, rows.as_flattened()).reshape([SLOTS, 6])
+        matrix(py, &rows)
     }
 
     /// `irbkin.Status` of each slot, shape (8,), uint8.
@@ -260,7 +271,7 @@ impl PySolutions {
 
     #[pyo3(signature = (dtype=None, copy=None))]
     fn __array__<'py>(&self, py: Python<'py>, dtype: Option<&Bound<'py, PyAny>>, copy: Option<bool>) -> PyResult<Bound<'py, PyAny>> {
-        as_array(self.q(py)?.into_any(), dtype, copy)
+        as_array(self.q(py).into_any(), dtype, copy)
     }
 
     fn __len__(&self) -> usize {

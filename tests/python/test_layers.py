@@ -10,9 +10,12 @@ SRC = Path(__file__).parents[2] / "src"
 LAYERS = [
     "thresholds",
     "angles",
+    "rotation",
     "pose",
     "dh",
+    "axes",
     "chain",
+    "forward",
     "jacobian",
     "limits",
     "status",
@@ -21,11 +24,12 @@ LAYERS = [
     "spherical_wrist",
     "singularity",
     "robot",
+    "inverse",
     "family",
     "follow",
     "crossing",
 ]
-OUTER = ["kinematics", "catalogue", "batch", "python"]
+OUTER = ["lanes", "kinematics", "catalogue", "batch", "python"]
 
 
 def modules_used(path: Path) -> set[str]:

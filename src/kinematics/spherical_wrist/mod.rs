@@ -3,16 +3,26 @@
 //! `docs/ik_derivation.md` has the derivation; its equation numbers stand beside the code.
 
 mod arm;
+mod block;
+mod branch;
+mod columns;
 mod held;
 mod opw;
+mod poses;
 mod recognise;
+mod single;
 mod solve;
+mod solver;
 mod target;
 mod wrist;
 
+pub(crate) use block::{AnswerRow, Blocks, StatusRow};
 pub use opw::OpwParameters;
+pub(crate) use poses::PoseRow;
 pub(crate) use recognise::recognise;
 pub use recognise::{Condition, NotRecognised, Relation};
+pub(crate) use single::Single;
+pub(crate) use solver::WristSolver;
 pub(crate) use target::FreeChoice;
 
 #[cfg(not(feature = "std"))]

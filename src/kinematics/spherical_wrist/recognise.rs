@@ -10,7 +10,7 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use super::SphericalWrist;
 use crate::error::{Error, ModelFault};
-use crate::kinematics::chain::{Chain, Frame};
+use crate::kinematics::chain::Chain;
 use crate::kinematics::dh::Mdh;
 use crate::kinematics::pose::{Pose, translation_z};
 use crate::kinematics::thresholds::{FORM_TOLERANCE, LEAST_LINK};
@@ -139,7 +139,7 @@ fn nearest_of(alpha: f64, base: f64) -> f64 {
 fn measure(mdh: &Mdh<6>) -> Result<SphericalWrist, Error> {
     let rows = &mdh.rows;
     let chain = Chain::new(Mdh { base: Pose::identity(), ..mdh.clone() });
-    let [f1, f2, f3, f4, f5, f6] = chain.frames(&[0.0; 6]).0;
+    let [f1, f2, f3, f4, f5, f6] = chain.link_frames(&[0.0; 6]).0.map(|pose| Frame::of(&pose));
 
     // The shoulder: z up, x to where the arm stands off axis 1, or to where it faces at q1 = 0 when it does not.
     let sign_1 = if f1.z.z < -FORM_TOLERANCE { -1.0 } else { 1.0 };
@@ -219,4 +219,19 @@ fn shoulder_pose(f1: &Frame, forward: &Vector3<f64>, side: &Vector3<f64>, up: &V
     let mut pose = rotation_pose(axes(forward, side, up));
     pose.translation.vector = f1.origin;
     pose
+}
+
+/// A frame as its axes and its origin.
+struct Frame {
+    x: Vector3<f64>,
+    y: Vector3<f64>,
+    z: Vector3<f64>,
+    origin: Vector3<f64>,
+}
+
+impl Frame {
+    fn of(pose: &Pose) -> Self {
+        let axes = pose.rotation.matrix();
+        Self { x: axes.column(0).into(), y: axes.column(1).into(), z: axes.column(2).into(), origin: pose.translation.vector }
+    }
 }

@@ -59,6 +59,11 @@ impl FreeChoice {
         Self { q, trust: Trust::Path }
     }
 
+    /// Whether only a pose next to a singularity is asked for more than it says by itself.
+    pub(crate) fn leaves_plain_poses_alone(&self) -> bool {
+        matches!(self.trust, Trust::Pose | Trust::Seed)
+    }
+
     /// The angle that `q` has for joint `joint`, from 1; for another one only where rounding hides it.
     pub(crate) fn forced(q: [f64; 6], joint: usize, behind: bool) -> Self {
         Self { q, trust: Trust::Forced { joint, behind } }

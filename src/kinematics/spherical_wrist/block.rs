@@ -1,0 +1,225 @@
+//! Poses in lanes: a block of rows in, the slots of each out.
+
+use core::f64::consts::PI;
+
+use super::branch::{Branch, Constants, Direction, branch};
+use super::columns::JointColumn;
+use super::poses::{PoseRow, Poses};
+use super::solver::WristSolver;
+use crate::kinematics::solutions::SLOTS;
+use crate::kinematics::status::Status;
+use crate::lanes::{Column, Flags, Kernel, LANES, atan2};
+
+/// The joint angles and the status of the slots of a pose.
+pub(crate) type AnswerRow = [f64; SLOTS * 6];
+pub(crate) type StatusRow = [u8; SLOTS];
+
+/// Rows to be solved; `careful` solves one by itself.
+pub(crate) struct Blocks<'a, F> {
+    pub(crate) solver: &'a WristSolver,
+    pub(crate) poses: &'a [PoseRow],
+    pub(crate) q: &'a mut [AnswerRow],
+    pub(crate) status: &'a mut [StatusRow],
+    pub(crate) careful: F,
+}
+
+impl<F: FnMut(&PoseRow, &mut AnswerRow, &mut StatusRow)> Kernel for Blocks<'_, F> {
+    type Answer = ();
+    const WIDE: bool = true;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(mut self) {
+        let Some(columns) = &self.solver.columns else {
+            for ((pose, q), status) in self.poses.iter().zip(self.q).zip(self.status) {
+                (self.careful)(pose, q, status);
+            }
+            return;
+        };
+        let (blocks, rest) = self.poses.as_chunks::<LANES>();
+        let (q_blocks, q_rest) = self.q.as_chunks_mut::<LANES>();
+        let (status_blocks, status_rest) = self.status.as_chunks_mut::<LANES>();
+        let (mut block, mut next) = (Block::NEW, Poses::NEW);
+        if let Some(first) = blocks.first() {
+            next.read(first);
+        }
+        for (i, (q, status)) in q_blocks.iter_mut().zip(status_blocks).enumerate() {
+            let mut poses = next;
+            // Read before the block at hand is solved: what is written number by number cannot be read at once in vectors.
+            if let Some(following) = blocks.get(i + 1) {
+                next.read(following);
+            }
+            block.solve::<FUSED>(self.solver, columns, &mut poses);
+            block.write(q, status);
+            for lane in (0..LANES).filter(|lane| !block.is_plain(*lane)) {
+                (self.careful)(&blocks[i][lane], &mut q[lane], &mut status[lane]);
+            }
+        }
+        if let Some(last) = rest.last() {
+            let mut rows = [*last; LANES];
+            rows[..rest.len()].copy_from_slice(rest);
+            next.read(&rows);
+            block.solve::<FUSED>(self.solver, columns, &mut next);
+            let (mut q, mut status) = ([[0.0; SLOTS * 6]; LANES], [[0; SLOTS]; LANES]);
+            block.write(&mut q, &mut status);
+            for lane in (0..rest.len()).filter(|lane| !block.is_plain(*lane)) {
+                (self.careful)(&rows[lane], &mut q[lane], &mut status[lane]);
+            }
+            q_rest.copy_from_slice(&q[..rest.len()]);
+            status_rest.copy_from_slice(&status[..rest.len()]);
+        }
+    }
+}
+
+/// Branches of the arm: two shoulders with two elbows each.
+pub(super) const BRANCHES: usize = SLOTS / 2;
+
+pub(super) const FOUND_INSIDE: u64 = Status::FOUND.union(Status::WITHIN_LIMITS).bits() as u64;
+
+/// Directions whose angles a block needs: one for each shoulder, five for each branch.
+const DIRECTIONS: usize = 2 + 5 * BRANCHES;
+
+/// A column for each branch.
+type Columns = [Column; BRANCHES];
+
+/// What becomes of a block of poses.
+struct Block {
+    /// Sine and cosine of theta_1, for each shoulder, and of theta_2, theta_23, theta_4, theta_5, theta_6, for each branch, of any length.
+    sin: [Column; DIRECTIONS],
+    cos: [Column; DIRECTIONS],
+    angle: [Column; DIRECTIONS],
+    /// theta, later q, of the unflipped slots.
+    q: [Columns; 6],
+    /// theta, later q, of joints 4 to 6 with the wrist flipped.
+    flipped: [Columns; 3],
+    /// Of the unflipped and of the flipped slots.
+    status: [[Flags; BRANCHES]; 2],
+    plain: Flags,
+}
+
+impl Block {
+    const NEW: Self = Self {
+        sin: [[0.0; LANES]; DIRECTIONS],
+        cos: [[0.0; LANES]; DIRECTIONS],
+        angle: [[0.0; LANES]; DIRECTIONS],
+        q: [[[0.0; LANES]; BRANCHES]; 6],
+        flipped: [[[0.0; LANES]; BRANCHES]; 3],
+        status: [[[0; LANES]; BRANCHES]; 2],
+        plain: [0; LANES],
+    };
+
+    #[inline(always)]
+    fn solve<const FUSED: bool>(&mut self, solver: &WristSolver, columns: &[JointColumn; 6], poses: &mut Poses) {
+        self.plain = poses.check();
+        poses.seen_from_shoulder::<FUSED>(solver);
+        if solver.arm.b == 0.0 {
+            self.branches::<FUSED, false>(solver.constants, poses);
+        } else {
+            self.branches::<FUSED, true>(solver.constants, poses);
+        }
+        self.angles::<FUSED>();
+        self.settle(columns);
+    }
+
+    #[inline(always)]
+    fn branches<const FUSED: bool, const LATERAL: bool>(&mut self, arm: Constants, poses: &Poses) {
+        for lane in 0..LANES {
+            let frame = poses.frame(lane);
+            self.put(lane, 0, &branch::<FUSED, LATERAL>(&arm, &frame, 1.0, 1.0));
+            self.put(lane, 1, &branch::<FUSED, LATERAL>(&arm, &frame, 1.0, -1.0));
+            self.put(lane, 2, &branch::<FUSED, LATERAL>(&arm, &frame, -1.0, 1.0));
+            self.put(lane, 3, &branch::<FUSED, LATERAL>(&arm, &frame, -1.0, -1.0));
+        }
+    }
+
+    #[inline(always)]
+    fn put(&mut self, lane: usize, number: usize, branch: &Branch) {
+        // The elbows of a shoulder share theta_1.
+        self.set(number / 2, lane, branch.theta_1);
+        self.set(2 + number, lane, branch.theta_2);
+        self.set(6 + number, lane, branch.theta_23);
+        self.set(10 + number, lane, branch.theta_4);
+        self.set(14 + number, lane, branch.theta_5);
+        self.set(18 + number, lane, branch.theta_6);
+        self.status[0][number][lane] = if branch.reached { FOUND_INSIDE } else { 0 };
+        self.plain[lane] &= u64::from(branch.plain);
+    }
+
+    #[inline(always)]
+    fn set(&mut self, column: usize, lane: usize, [sin, cos]: Direction) {
+        (self.sin[column][lane], self.cos[column][lane]) = (sin, cos);
+    }
+
+    /// One arc tangent after the other, none of which waits for another.
+    #[inline(always)]
+    fn angles<const FUSED: bool>(&mut self) {
+        let (sin, cos) = (self.sin.as_flattened(), self.cos.as_flattened());
+        for ((angle, sin), cos) in self.angle.as_flattened_mut().iter_mut().zip(sin).zip(cos) {
+            *angle = atan2::<FUSED>(*sin, *cos);
+        }
+    }
+
+    #[inline(always)]
+    fn settle(&mut self, columns: &[JointColumn; 6]) {
+        let angle = &self.angle;
+        for number in 0..BRANCHES {
+            self.q[0][number] = angle[number / 2];
+            self.q[1][number] = angle[2 + number];
+            for lane in 0..LANES {
+                self.q[2][number][lane] = angle[6 + number][lane] - angle[2 + number][lane];
+                self.flipped[0][number][lane] = half_turn(angle[10 + number][lane]);
+                self.flipped[1][number][lane] = -angle[14 + number][lane];
+                self.flipped[2][number][lane] = half_turn(angle[18 + number][lane]);
+            }
+            self.q[3][number] = angle[10 + number];
+            self.q[4][number] = angle[14 + number];
+            self.q[5][number] = angle[18 + number];
+        }
+        for joint in 0..3 {
+            columns[joint].settle(self.q[joint].as_flattened_mut(), self.status[0].as_flattened_mut());
+        }
+        self.status[1] = self.status[0];
+        for joint in 3..6 {
+            columns[joint].settle(self.q[joint].as_flattened_mut(), self.status[0].as_flattened_mut());
+            columns[joint].settle(self.flipped[joint - 3].as_flattened_mut(), self.status[1].as_flattened_mut());
+        }
+    }
+
+    #[inline(never)]
+    #[expect(clippy::cast_possible_truncation, reason = "flags of a byte")]
+    fn write(&self, q: &mut [AnswerRow; LANES], status: &mut [StatusRow; LANES]) {
+        for slot in 0..SLOTS {
+            let columns = self.columns_of(slot);
+            for k in 0..3 {
+                let (left, right) = (columns[2 * k], columns[2 * k + 1]);
+                for lane in 0..LANES {
+                    q[lane].as_chunks_mut::<2>().0[3 * slot + k] = [left[lane], right[lane]];
+                }
+            }
+            for lane in 0..LANES {
+                status[lane][slot] = self.status[slot % 2][slot / 2][lane] as u8;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn columns_of(&self, slot: usize) -> [&Column; 6] {
+        let (branch, flip) = (slot / 2, slot % 2);
+        let (q, flipped) = (&self.q, &self.flipped);
+        let wrist = if flip == 0 {
+            [&q[3][branch], &q[4][branch], &q[5][branch]]
+        } else {
+            [&flipped[0][branch], &flipped[1][branch], &flipped[2][branch]]
+        };
+        [&q[0][branch], &q[1][branch], &q[2][branch], wrist[0], wrist[1], wrist[2]]
+    }
+
+    fn is_plain(&self, lane: usize) -> bool {
+        self.plain[lane] != 0
+    }
+}
+
+/// The angle half a turn on.
+#[inline(always)]
+pub(super) fn half_turn(angle: f64) -> f64 {
+    angle + if angle > 0.0 { -PI } else { PI }
+}

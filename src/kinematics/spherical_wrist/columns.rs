@@ -1,0 +1,99 @@
+//! From theta to the joint's angle, a column of lanes at a time.
+
+use core::f64::consts::{PI, TAU};
+
+use crate::kinematics::angles::wrap;
+use crate::kinematics::status::Status;
+use crate::kinematics::thresholds::LIMIT_TOLERANCE;
+
+/// How the angle of one joint comes from theta, and what its limits ask of it: the same for every lane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct JointColumn {
+    sign: f64,
+    offset: f64,
+    low: f64,
+    high: f64,
+    /// Whether theta may have to be turned over, shifted or wrapped.
+    moves: bool,
+    /// Whether the limits leave anything out of (-pi, pi].
+    limits: bool,
+    /// Whether a full turn of an angle outside the limits may be inside them.
+    turns: bool,
+}
+
+impl JointColumn {
+    /// Of each joint; `None` where limits lie so far out that more than one full turn may be needed.
+    pub(super) fn of(signs: &[f64; 6], offsets: &[f64; 6], limits: &[[f64; 2]]) -> Option<[Self; 6]> {
+        let limits = <[[f64; 2]; 6]>::try_from(limits).ok()?;
+        if limits.iter().any(|[low, high]| *low > PI || *high < -PI) {
+            return None;
+        }
+        Some(core::array::from_fn(|joint| {
+            let (sign, offset) = (signs[joint], offsets[joint]);
+            let [low, high] = limits[joint];
+            let (low, high) = (low - LIMIT_TOLERANCE, high + LIMIT_TOLERANCE);
+            let limits = low > -PI || high < PI;
+            Self {
+                sign,
+                offset,
+                low,
+                high,
+                // theta_3 is a difference of two angles.
+                moves: joint == 2 || sign < 0.0 || offset != 0.0,
+                limits,
+                turns: limits && (low <= -PI || high >= PI),
+            }
+        }))
+    }
+
+    /// What is left of the status of a lane that is outside the limits.
+    pub(super) const OUTSIDE: u64 = !(Status::WITHIN_LIMITS.bits() as u64);
+
+    /// The angle of this joint in (-pi, pi], or the full turn inside the limits (eq. 19, 20), and whether it is inside.
+    #[inline(always)]
+    pub(super) fn settled(self, theta: f64) -> (f64, bool) {
+        let angle = self.turned(self.moved(theta));
+        (angle, self.holds(angle))
+    }
+
+    /// [`Self::settled`] for many, leaving out what this joint does not need. Takes `WITHIN_LIMITS` from the status of those outside.
+    #[inline(always)]
+    pub(super) fn settle(self, angles: &mut [f64], status: &mut [u64]) {
+        if self.moves {
+            for angle in angles.iter_mut() {
+                *angle = self.moved(*angle);
+            }
+        } else {
+            for angle in angles.iter_mut() {
+                *angle = if *angle <= -PI { PI } else { *angle };
+            }
+        }
+        if self.turns {
+            for angle in angles.iter_mut() {
+                *angle = self.turned(*angle);
+            }
+        }
+        if self.limits {
+            for (angle, status) in angles.iter().zip(status) {
+                *status &= if self.holds(*angle) { u64::MAX } else { Self::OUTSIDE };
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn moved(self, theta: f64) -> f64 {
+        wrap(self.sign * (theta + self.offset))
+    }
+
+    #[inline(always)]
+    fn turned(self, angle: f64) -> f64 {
+        let (up, down) = (angle + TAU, angle - TAU);
+        let raised = if (angle < self.low) & (up <= self.high) { up } else { angle };
+        if (angle > self.high) & (down >= self.low) { down } else { raised }
+    }
+
+    #[inline(always)]
+    fn holds(self, angle: f64) -> bool {
+        (angle >= self.low) & (angle <= self.high)
+    }
+}

@@ -1,0 +1,131 @@
+//! Which instruction set the kernels run on.
+
+use core::sync::atomic::{AtomicU8, Ordering};
+
+use crate::error::Error;
+
+/// The instructions that kernels are compiled for. The widest that the processor has is taken when the first kernel runs.
+///
+/// Answers are the same to the last bit on every set with fused multiplication and addition (AVX2, AVX-512, aarch64's baseline), and agree
+/// with those of the x86-64 baseline to rounding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum InstructionSet {
+    /// What the crate is compiled for: SSE2 on x86-64, NEON on aarch64.
+    Baseline,
+    /// AVX2 and FMA: four lanes.
+    Avx2,
+    /// AVX-512 (F, DQ, VL): eight lanes.
+    Avx512,
+}
+
+/// A calculation that is compiled for each instruction set.
+pub(crate) trait Kernel {
+    /// What comes out.
+    type Answer;
+
+    /// Whether there is enough to do at once for 512-bit registers to pay: the processor clocks down and joins ports for them.
+    #[cfg_attr(not(all(feature = "std", target_arch = "x86_64")), expect(dead_code, reason = "there is no choice of widths"))]
+    const WIDE: bool;
+
+    /// Calculates; `FUSED` where the instruction set multiplies and adds in one rounding. Must be `#[inline(always)]`.
+    fn run<const FUSED: bool>(self) -> Self::Answer;
+}
+
+/// Whether the baseline has fused multiplication and addition.
+const BASELINE_FUSED: bool = cfg!(all(feature = "std", any(target_arch = "aarch64", target_feature = "fma")));
+
+/// The set in use, as 1 + its number; 0 before it is known.
+static IN_USE: AtomicU8 = AtomicU8::new(0);
+
+impl InstructionSet {
+    const ALL: [Self; 3] = [Self::Baseline, Self::Avx2, Self::Avx512];
+
+    /// The set in use.
+    #[must_use]
+    pub fn in_use() -> Self {
+        match IN_USE.load(Ordering::Relaxed) {
+            1 => Self::Baseline,
+            2 => Self::Avx2,
+            3 => Self::Avx512,
+            _ => Self::detect(),
+        }
+    }
+
+    #[cold]
+    fn detect() -> Self {
+        let widest = Self::available().last().unwrap_or(Self::Baseline);
+        IN_USE.store(widest as u8 + 1, Ordering::Relaxed);
+        widest
+    }
+
+    /// The sets that this processor has, the narrowest first.
+    pub fn available() -> impl Iterator<Item = Self> {
+        Self::ALL.into_iter().filter(|set| set.is_available())
+    }
+
+    #[cfg(all(feature = "std", target_arch = "x86_64"))]
+    fn is_available(self) -> bool {
+        use std::arch::is_x86_feature_detected as has;
+        match self {
+            Self::Baseline => true,
+            Self::Avx2 => has!("avx2") && has!("fma"),
+            Self::Avx512 => has!("avx2") && has!("avx512f") && has!("avx512dq") && has!("avx512vl") && has!("fma"),
+        }
+    }
+
+    #[cfg(not(all(feature = "std", target_arch = "x86_64")))]
+    fn is_available(self) -> bool {
+        self == Self::Baseline
+    }
+
+    /// Takes this set from now on, in the whole process: for tests and measurements.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NoInstructionSet`] when the processor does not have it.
+    pub fn force(self) -> Result<(), Error> {
+        if !self.is_available() {
+            return Err(Error::NoInstructionSet { name: self.name() });
+        }
+        IN_USE.store(self as u8 + 1, Ordering::Relaxed);
+        Ok(())
+    }
+
+    /// Its name: "baseline", "avx2" or "avx512".
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Baseline => "baseline",
+            Self::Avx2 => "avx2",
+            Self::Avx512 => "avx512",
+        }
+    }
+}
+
+/// Runs a kernel on the instruction set in use.
+#[inline]
+#[cfg_attr(all(feature = "std", target_arch = "x86_64"), expect(unsafe_code, reason = "a function for instructions that were detected"))]
+pub(crate) fn run<K: Kernel>(kernel: K) -> K::Answer {
+    match InstructionSet::in_use() {
+        #[cfg(all(feature = "std", target_arch = "x86_64"))]
+        // SAFETY: the set in use is one that `is_available` found in this processor.
+        InstructionSet::Avx512 if K::WIDE => unsafe { with_avx512(kernel) },
+        #[cfg(all(feature = "std", target_arch = "x86_64"))]
+        // SAFETY: as above; a processor with AVX-512 has AVX2 and FMA.
+        InstructionSet::Avx512 | InstructionSet::Avx2 => unsafe { with_avx2(kernel) },
+        _ => kernel.run::<BASELINE_FUSED>(),
+    }
+}
+
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,fma")]
+fn with_avx512<K: Kernel>(kernel: K) -> K::Answer {
+    kernel.run::<true>()
+}
+
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+#[target_feature(enable = "avx2,fma")]
+fn with_avx2<K: Kernel>(kernel: K) -> K::Answer {
+    kernel.run::<true>()
+}
