@@ -10,7 +10,19 @@ poses are 4x4 homogeneous matrices.
     8
 """
 
-from irbkin._core import Robot, Solution, Solutions, __version__, catalog, pose, to_xyz_euler_zyx, to_xyz_quaternion
+from irbkin._core import (
+    Robot,
+    Solution,
+    Solutions,
+    __version__,
+    catalog,
+    instruction_set,
+    instruction_sets,
+    pose,
+    to_xyz_euler_zyx,
+    to_xyz_quaternion,
+    use_instruction_set,
+)
 from irbkin.errors import (
     InvalidJointsError,
     InvalidModelError,
@@ -42,7 +54,10 @@ __all__ = [
     "UnreachableError",
     "__version__",
     "catalog",
+    "instruction_set",
+    "instruction_sets",
     "pose",
     "to_xyz_euler_zyx",
     "to_xyz_quaternion",
+    "use_instruction_set",
 ]

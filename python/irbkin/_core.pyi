@@ -16,14 +16,20 @@ __all__ = [
     "__version__",
     "_restore_robot",
     "catalog",
+    "instruction_set",
+    "instruction_sets",
     "pose",
     "to_xyz_euler_zyx",
     "to_xyz_quaternion",
+    "use_instruction_set",
 ]
 
 __version__: str
 
 def catalog() -> tuple[str, ...]: ...
+def instruction_set() -> str: ...
+def instruction_sets() -> tuple[str, ...]: ...
+def use_instruction_set(name: str) -> None: ...
 def pose(
     xyz: npt.ArrayLike, quaternion: npt.ArrayLike | None = None, euler_zyx: npt.ArrayLike | None = None
 ) -> _Floats: ...

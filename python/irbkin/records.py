@@ -87,15 +87,17 @@ class Break(NamedTuple):
     """Index of the pose that is not met, or at which the joints arrive by a jump."""
     reason: str
     """Where and why, in a sentence."""
+    path: tuple[int, ...] = ()
+    """Index of the path among several; empty for one."""
 
 
 class FollowResult(NamedTuple):
     """A joint path along a path of poses."""
 
     q: npt.NDArray[np.float64]
-    """Joint angles [rad], shape (m, n), NaN where a pose is not met."""
+    """Joint angles [rad], shape (..., m, n), NaN where a pose is not met."""
     orientation_error: npt.NDArray[np.float64]
-    """How far the tool's orientation is from that of each pose [rad], shape (m,), NaN where a pose is not met."""
+    """How far the tool's orientation is from that of each pose [rad], shape (..., m), NaN where a pose is not met."""
     breaks: tuple[Break, ...]
     """Where the joints cannot follow, and why."""
 

@@ -53,12 +53,33 @@ pub(super) fn batch_output<'py>(py: Python<'py>, out: Option<&Bound<'py, PyAny>>
     }
 }
 
-/// `irbkin.FollowResult` of a followed path.
-pub(super) fn follow_result<'py>(py: Python<'py>, followed: &Followed) -> PyResult<Bound<'py, PyAny>> {
-    let joints: Vec<f64> = followed.q.iter().flat_map(|q| q.unwrap_or([f64::NAN; 6])).collect();
-    let joints = PyArray1::from_vec(py, joints).reshape([followed.q.len(), 6])?;
-    let errors = PyArray1::from_iter(py, followed.orientation_error.iter().map(|error| error.unwrap_or(f64::NAN)));
-    let breaks = followed.breaks.iter().map(|broken| errors::break_class(py)?.call1((broken.pose_index, broken.to_string())));
-    let breaks = PyTuple::new(py, breaks.collect::<PyResult<Vec<_>>>()?)?;
-    errors::follow_result_class(py)?.call1((joints, errors, breaks))
+/// `irbkin.FollowResult` of followed paths with the leading dimensions `lead`, of `poses` poses each.
+pub(super) fn follow_result<'py>(py: Python<'py>, followed: &[Followed], lead: &[usize], poses: usize) -> PyResult<Bound<'py, PyAny>> {
+    let joints: Vec<f64> = followed.iter().flat_map(|path| &path.q).flat_map(|q| q.unwrap_or([f64::NAN; 6])).collect();
+    let joints = PyArray1::from_vec(py, joints).reshape([lead, &[poses, 6]].concat())?;
+    let errors: Vec<f64> = followed.iter().flat_map(|path| &path.orientation_error).map(|error| error.unwrap_or(f64::NAN)).collect();
+    let errors = PyArray1::from_vec(py, errors).reshape([lead, &[poses]].concat())?;
+    let mut breaks = Vec::new();
+    for (path, followed) in followed.iter().enumerate() {
+        for broken in &followed.breaks {
+            let place = PyTuple::new(py, index_in(lead, path))?;
+            breaks.push(errors::break_class(py)?.call1((broken.pose_index, broken.to_string(), place))?);
+        }
+    }
+    errors::follow_result_class(py)?.call1((joints, errors, PyTuple::new(py, breaks)?))
+}
+
+/// The index of an element by its number in row-major order.
+pub(super) fn index_in(shape: &[usize], mut number: usize) -> Vec<usize> {
+    let mut index: Vec<usize> = shape
+        .iter()
+        .rev()
+        .map(|size| {
+            let at = number % size;
+            number /= size;
+            at
+        })
+        .collect();
+    index.reverse();
+    index
 }

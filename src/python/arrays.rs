@@ -85,14 +85,17 @@ pub(super) fn copied_vector<const N: usize>(value: &Bound<'_, PyAny>) -> Option<
 
 /// As [`copied_vector`], of an array of shape (4, 4), in row-major order.
 #[inline]
-fn copied_matrix<const R: usize, const C: usize>(value: &Bound<'_, PyAny>) -> Option<[[f64; C]; R]> {
+pub(super) fn copied_matrix4(value: &Bound<'_, PyAny>) -> Option<[f64; 16]> {
     let array = value.cast::<PyArray2<f64>>().ok()?;
-    if array.shape() != [R, C] || !array.is_aligned() || DETACHED_WRITES.load(Ordering::Acquire) != 0 {
+    if array.shape() != [4, 4] || !array.is_aligned() || DETACHED_WRITES.load(Ordering::Acquire) != 0 {
         return None;
     }
-    // Every index is inside the shape. Nested so that it unrolls.
-    let element = |row, column| array.get_owned([row, column]).unwrap_or(f64::NAN);
-    Some(array::from_fn(|row| array::from_fn(|column| element(row, column))))
+    // Every index is inside the shape. Row by row, so that it unrolls.
+    let mut numbers = [0.0; 16];
+    for (row, to) in numbers.as_chunks_mut::<4>().0.iter_mut().enumerate() {
+        *to = array::from_fn(|column| array.get_owned([row, column]).unwrap_or(f64::NAN));
+    }
+    Some(numbers)
 }
 
 /// A new array with `rows`: one NumPy object, its memory written once.
@@ -130,12 +133,7 @@ pub(super) fn vector<const N: usize>(value: &Bound<'_, PyAny>, field: &str, faul
 /// Exactly 4 rows of 4 numbers in row-major order, as the argument `field`.
 #[inline]
 pub(super) fn matrix4(value: &Bound<'_, PyAny>, field: &str, fault: Fault) -> PyResult<[f64; 16]> {
-    let Some(rows) = copied_matrix::<4, 4>(value) else {
-        return exactly::<16>(value, &[4, 4], field, fault);
-    };
-    let mut numbers = [0.0; 16];
-    numbers.as_chunks_mut::<4>().0.copy_from_slice(&rows);
-    Ok(numbers)
+    copied_matrix4(value).map_or_else(|| exactly::<16>(value, &[4, 4], field, fault), Ok)
 }
 
 /// One array of exactly the shape `shape`, of `N` elements.

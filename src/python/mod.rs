@@ -6,19 +6,51 @@ mod arm;
 mod arrays;
 mod build;
 mod errors;
+mod paths;
 mod poses;
 mod robot;
 mod solutions;
 
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use crate::catalogue;
+use crate::lanes::InstructionSet;
 
 /// Names of every robot in the catalogue.
 #[pyfunction]
 fn catalog(py: Python<'_>) -> PyResult<Bound<'_, PyTuple>> {
     PyTuple::new(py, catalogue::catalogue().map(|arm| arm.name).collect::<Vec<_>>())
+}
+
+/// Name of the instruction set that calculates: "avx512", "avx2" or "baseline".
+#[pyfunction]
+fn instruction_set() -> &'static str {
+    InstructionSet::in_use().name()
+}
+
+/// Names of the instruction sets that this processor has, the narrowest first.
+#[pyfunction]
+fn instruction_sets(py: Python<'_>) -> PyResult<Bound<'_, PyTuple>> {
+    PyTuple::new(py, InstructionSet::available().map(InstructionSet::name).collect::<Vec<_>>())
+}
+
+/// Calculates with another instruction set from now on, in the whole process: for tests and measurements.
+///
+/// Args:
+///     name: One of `instruction_sets()`.
+///
+/// Raises:
+///     ValueError: This processor does not have it.
+#[pyfunction]
+fn use_instruction_set(name: &str) -> PyResult<()> {
+    let available = || InstructionSet::available().map(InstructionSet::name).collect::<Vec<_>>();
+    let set = InstructionSet::available().find(|set| set.name() == name);
+    let set = set.ok_or_else(|| {
+        PyValueError::new_err(format!("instruction set \"{name}\" is none of this processor's: {available:?}", available = available()))
+    })?;
+    set.force().map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
 #[pymodule(gil_used = false)]
@@ -28,6 +60,9 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<solutions::PySolutions>()?;
     module.add_class::<solutions::PySolution>()?;
     module.add_function(wrap_pyfunction!(catalog, module)?)?;
+    module.add_function(wrap_pyfunction!(instruction_set, module)?)?;
+    module.add_function(wrap_pyfunction!(instruction_sets, module)?)?;
+    module.add_function(wrap_pyfunction!(use_instruction_set, module)?)?;
     module.add_function(wrap_pyfunction!(robot::restore_robot, module)?)?;
     module.add_function(wrap_pyfunction!(poses::pose, module)?)?;
     module.add_function(wrap_pyfunction!(poses::to_xyz_quaternion, module)?)?;

@@ -4,7 +4,7 @@ use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
-use super::arrays::{Rows, matrix, matrix4, vector};
+use super::arrays::{Rows, copied_matrix4, matrix, matrix4, vector};
 use super::errors::{Fault, to_py};
 use crate::error::Error;
 use crate::kinematics::{
@@ -17,16 +17,24 @@ pub(super) fn read_pose(value: &Bound<'_, PyAny>, field: &str) -> PyResult<Pose>
     pose_from_rows(&rows).map_err(|error| to_py(value.py(), &error))
 }
 
-/// A path of poses, shape (m, 4, 4).
-pub(super) fn read_path(value: &Bound<'_, PyAny>) -> PyResult<Vec<Pose>> {
-    let py = value.py();
-    let rows = Rows::read(value, &[4, 4], "T", Fault::Pose)?;
-    if rows.lead.len() != 1 {
-        return Err(Fault::Pose.error(py, format!("T must have shape (m, 4, 4), got {:?}", rows.shape_with(&[4, 4]))));
+/// A pose, or many.
+pub(super) enum PoseArgument<'py> {
+    One(Pose),
+    Many(Rows<'py>),
+}
+
+/// The argument T, of shape (..., 4, 4); a single pose is checked.
+#[inline]
+pub(super) fn read_poses<'py>(value: &Bound<'py, PyAny>) -> PyResult<PoseArgument<'py>> {
+    let checked = |rows: &[f64; 16]| pose_from_rows(rows).map(PoseArgument::One).map_err(|error| to_py(value.py(), &error));
+    if let Some(rows) = copied_matrix4(value) {
+        return checked(&rows);
     }
-    let poses = rows.data()?.as_chunks::<16>().0.iter().enumerate();
-    let pose = |(index, rows)| pose_from_rows(rows).map_err(|error| Fault::Pose.error(py, format!("T[{index}]: {error}")));
-    poses.map(pose).collect()
+    let rows = Rows::read(value, &[4, 4], "T", Fault::Pose)?;
+    match rows.data()?.as_chunks::<16>().0 {
+        [row] if rows.is_single() => checked(row),
+        _ => Ok(PoseArgument::Many(rows)),
+    }
 }
 
 /// A pose as a (4, 4) array.

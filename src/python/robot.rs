@@ -5,14 +5,15 @@ use std::sync::Arc;
 use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods};
 use pyo3::prelude::*;
 
-use super::answers::{batch_output, follow_result, singularity_record};
+use super::answers::{batch_output, singularity_record};
 use super::arguments::{read_crossing, read_frame, thread_count};
 use super::arm::{Arm, on_robot};
 use super::arrays::{Rows, addresses, detached, vector, writable};
 use super::build::{self, Convention, State};
 use super::errors::{self, Fault, to_py};
-use super::poses::{pose_array, read_path, read_pose};
-use super::solutions::{PySolutions, read_seed};
+use super::paths;
+use super::poses::{PoseArgument, pose_array, read_pose, read_poses};
+use super::solutions::{PySolutions, read_seed, read_weights};
 use crate::batch;
 use crate::catalogue;
 use crate::kinematics::thresholds::WRIST_ZONE;
@@ -310,15 +311,15 @@ impl PyRobot {
     /// The solution inside the limits that is nearest to `seed`, turns considered.
     ///
     /// Args:
-    ///     T: Pose of the tool, shape (4, 4), translation [m].
-    ///     seed: Joint vector [rad], shape (n,). A joint that the pose leaves free keeps its angle.
+    ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
+    ///     seed: Joint vectors [rad], shape (..., n), or one for all poses, shape (n,). A joint that the pose leaves free keeps its angle.
     ///     weights: Cost of moving each joint, shape (n,); ones when not given.
     ///
     /// Returns:
-    ///     Joint vector [rad], shape (n,).
+    ///     Joint vectors [rad], shape (..., n). In a batch, a row without a solution, or whose pose or seed is invalid, is NaN.
     ///
     /// Raises:
-    ///     UnreachableError: No solution inside the limits; the message says what is missing.
+    ///     UnreachableError: A single pose has no solution inside the limits; the message says what is missing.
     ///     InvalidPoseError, InvalidJointsError, InvalidModelError: As `ik`; a seed or weight that is not finite.
     #[pyo3(signature = (T, seed, weights=None))]
     fn ik_nearest<'py>(
@@ -326,19 +327,23 @@ impl PyRobot {
         T: &Bound<'py, PyAny>,
         seed: &Bound<'py, PyAny>,
         weights: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let (robot, pose) = (self.arm.solvable(T.py())?, read_pose(T, "T")?);
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let robot = self.arm.solvable(T.py())?;
+        let pose = match read_poses(T)? {
+            PoseArgument::One(pose) => pose,
+            PoseArgument::Many(poses) => return Ok(paths::nearest(robot, &poses, seed, weights)?.into_any()),
+        };
         let (seed, weights) = read_seed(seed, weights)?;
         let nearest = robot.ik_nearest_checked(pose, &seed, &weights).map_err(|error| to_py(T.py(), &error))?;
-        Ok(PyArray1::from_slice(T.py(), &nearest.q))
+        Ok(PyArray1::from_slice(T.py(), &nearest.q).into_any())
     }
 
     /// One continuous joint path along a path of poses: inside the limits, turns considered, through singularities without a jump where
     /// there is a way.
     ///
     /// Args:
-    ///     T: Poses of the tool, shape (m, 4, 4), translation [m].
-    ///     seed: Joint vector from which the path starts [rad], shape (n,).
+    ///     T: Poses of the tool, shape (m, 4, 4), or several paths, shape (..., m, 4, 4), translation [m].
+    ///     seed: Joint vector from which a path starts [rad], shape (n,), or one for each path, shape (..., n).
     ///     weights: Cost of moving each joint, shape (n,); ones when not given.
     ///     singular: What to do at the wrist singularity. "through": meet every pose exactly, however fast axes 4 and 6 turn. "error": stop
     ///         where joint 5 comes into the zone, and where a joint must jump, as SingArea \Off. "wrist": inside the zone axes 4, 5, 6 go
@@ -347,7 +352,7 @@ impl PyRobot {
     ///     zone: |sin q5| below which `singular` acts; 0.0175, that is one degree, when not given.
     ///
     /// Returns:
-    ///     FollowResult: joints [rad], shape (m, n), NaN where a pose is not met; orientation error [rad], shape (m,); the breaks.
+    ///     FollowResult: joints [rad], shape (..., m, n), NaN where a pose is not met; orientation error [rad], shape (..., m); the breaks.
     ///
     /// Raises:
     ///     InvalidPoseError: T has a wrong shape or holds a matrix that is no pose; the message has its index.
@@ -363,11 +368,9 @@ impl PyRobot {
         singular: &str,
         zone: Option<f64>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let (robot, (seed, weights)) = (self.arm.solvable(T.py())?, read_seed(seed, weights)?);
-        let options = FollowOptions { weights, crossing: read_crossing(singular)?, zone: zone.unwrap_or(WRIST_ZONE) };
-        let path = read_path(T)?;
-        let followed = T.py().detach(|| robot.follow(&path, &seed, &options)).map_err(|error| to_py(T.py(), &error))?;
-        follow_result(T.py(), &followed)
+        let options =
+            FollowOptions { weights: read_weights(weights)?, crossing: read_crossing(singular)?, zone: zone.unwrap_or(WRIST_ZONE) };
+        paths::follow(self.arm.solvable(T.py())?, T, seed, &options)
     }
 
     /// Whether a pose can be reached, inside the limits or not, and why not.

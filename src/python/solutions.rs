@@ -300,9 +300,16 @@ impl PySolutions {
 pub(super) fn read_seed(seed: &Bound<'_, PyAny>, weights: Option<&Bound<'_, PyAny>>) -> PyResult<([f64; 6], [f64; 6])> {
     let py = seed.py();
     let seed = vector::<6>(seed, "seed", Fault::Joints)?;
-    let weights = weights.map_or(Ok([1.0; 6]), |weights| vector::<6>(weights, "weights", Fault::Joints))?;
-    check_joints("seed", &seed).and_then(|()| check_weights(&weights)).map_err(|error| to_py(py, &error))?;
-    Ok((seed, weights))
+    check_joints("seed", &seed).map_err(|error| to_py(py, &error))?;
+    Ok((seed, read_weights(weights)?))
+}
+
+/// Weights, checked; ones where none were given.
+pub(super) fn read_weights(weights: Option<&Bound<'_, PyAny>>) -> PyResult<[f64; 6]> {
+    let Some(given) = weights else { return Ok([1.0; 6]) };
+    let weights = vector::<6>(given, "weights", Fault::Joints)?;
+    check_weights(&weights).map_err(|error| to_py(given.py(), &error))?;
+    Ok(weights)
 }
 
 /// What NumPy's array protocol wants of `__array__`.

@@ -167,3 +167,51 @@ def test_calls_from_many_threads_do_not_disturb_each_other():
         worker.join()
     for one, other in zip(found, wanted, strict=True):
         np.testing.assert_array_equal(one, other)
+
+
+def test_nearest_of_many_is_the_nearest_of_each(robot, poses):
+    seeds = np.random.default_rng(6).uniform(*robot.limits.T, (MANY, 6))
+    nearest = robot.ik_nearest(poses, seeds)
+    found = 0
+    for pose, seed, q in zip(poses, seeds, nearest, strict=True):
+        try:
+            np.testing.assert_array_equal(q, robot.ik_nearest(pose, seed))
+            found += 1
+        except irbkin.UnreachableError:
+            assert np.isnan(q).all()
+    assert 0 < found < MANY
+
+
+def test_nearest_takes_any_leading_shape_and_one_seed_for_all(robot, poses):
+    few = poses[:12].reshape(3, 4, 4, 4)
+    seed, weights = np.full(6, 0.1), [1, 1, 1, 0.1, 0.1, 0.1]
+    nearest = robot.ik_nearest(few, seed, weights)
+    assert nearest.shape == (3, 4, 6)
+    np.testing.assert_array_equal(nearest, robot.ik_nearest(few, np.broadcast_to(seed, (3, 4, 6)), weights))
+    assert robot.ik_nearest(poses[:0], seed).shape == (0, 6)
+
+
+def test_invalid_rows_of_a_nearest_batch_are_nan(robot):
+    poses, seeds = robot.fk(np.full((4, 6), 0.2)), np.zeros((4, 6))
+    poses[1, 0, 0] = np.nan
+    seeds[2, 3] = np.inf
+    nearest = robot.ik_nearest(poses, seeds)
+    np.testing.assert_array_equal(np.isnan(nearest).all(axis=1), [False, True, True, False])
+    with pytest.raises(irbkin.InvalidJointsError, match=r"seed must have shape \[6\] or \[4, 6\], got \[3, 6\]"):
+        robot.ik_nearest(poses, seeds[:3])
+    with pytest.raises(irbkin.InvalidJointsError, match="weights: joint 2 is -1"):
+        robot.ik_nearest(poses, seeds, [1, -1, 1, 1, 1, 1])
+
+
+def test_instruction_sets_are_named_and_chosen():
+    before = irbkin.instruction_set()
+    assert irbkin.instruction_sets()[0] == "baseline"
+    assert before in irbkin.instruction_sets()
+    try:
+        for name in irbkin.instruction_sets():
+            irbkin.use_instruction_set(name)
+            assert irbkin.instruction_set() == name
+    finally:
+        irbkin.use_instruction_set(before)
+    with pytest.raises(ValueError, match='instruction set "mmx" is none of this processor\'s'):
+        irbkin.use_instruction_set("mmx")

@@ -160,6 +160,42 @@ def test_weights_choose_where_the_path_starts(robot):
     assert differ > 0
 
 
+@pytest.mark.parametrize("lead", [(3,), (2, 3), (0,)])
+def test_several_paths_are_each_followed_alone(robot, lead):
+    rng = np.random.default_rng(3)
+    made = rng.uniform(-0.5, 0.5, (*lead, 1, 6)) + 0.3 * np.sin(np.arange(20)[:, None] * np.linspace(0.05, 0.1, 6))
+    poses = robot.fk(made)
+    # A pose that no arm reaches breaks the path that it belongs to, and no other.
+    if poses.size:
+        poses[(*(size - 1 for size in lead), 7, 0, 3)] += 10.0
+    seeds = made[..., 0, :]
+    together = robot.follow(poses, seeds)
+    assert (together.q.shape, together.orientation_error.shape) == ((*lead, 20, 6), (*lead, 20))
+    breaks = []
+    for path in np.ndindex(lead):
+        alone = robot.follow(poses[path], seeds[path])
+        np.testing.assert_array_equal(together.q[path], alone.q)
+        np.testing.assert_array_equal(together.orientation_error[path], alone.orientation_error)
+        breaks += [broken._replace(path=path) for broken in alone.breaks]
+    assert together.breaks == tuple(breaks)
+    assert bool(breaks) == bool(poses.size)
+
+
+def test_one_seed_serves_several_paths(robot):
+    poses = robot.fk(np.linspace([0.1] * 6, [0.3] * 6, 10))
+    together = robot.follow(np.stack([poses, poses]), np.full(6, 0.1))
+    np.testing.assert_array_equal(together.q[0], together.q[1])
+
+
+def test_bad_seed_among_several_is_named(robot):
+    seeds = np.zeros((2, 6))
+    seeds[1, 2] = np.nan
+    with pytest.raises(InvalidJointsError, match=r"seed\[1\]: seed: joint 3 is NaN"):
+        robot.follow(robot.fk(np.zeros((2, 3, 6))), seeds)
+    with pytest.raises(InvalidJointsError, match=r"seed must have shape \[6\] or \[2, 6\], got \[3, 6\]"):
+        robot.follow(robot.fk(np.zeros((2, 3, 6))), np.zeros((3, 6)))
+
+
 def test_an_empty_path_has_an_empty_answer(robot):
     result = robot.follow(np.zeros((0, 4, 4)), np.zeros(6))
     assert (result.q.shape, result.orientation_error.shape, result.breaks) == ((0, 6), (0,), ())
@@ -168,12 +204,13 @@ def test_an_empty_path_has_an_empty_answer(robot):
 @pytest.mark.parametrize(
     ("change", "error", "words"),
     [
-        ({"T": np.eye(4)}, InvalidPoseError, r"T must have shape \(m, 4, 4\), got \[4, 4\]"),
-        ({"T": np.zeros((1, 2, 4, 4))}, InvalidPoseError, r"T must have shape \(m, 4, 4\), got \[1, 2, 4, 4\]"),
+        ({"T": np.eye(4)}, InvalidPoseError, r"T must have shape \(\.\.\., m, 4, 4\), got \[4, 4\]"),
+        ({"T": np.zeros((1, 2, 4, 4))}, InvalidPoseError, r"T\[0, 0\]: pose row 3 must be"),
+        ({"seed": np.zeros((2, 6))}, InvalidJointsError, r"seed must have shape \[6\] or \[6\], got \[2, 6\]"),
         ({"T": [np.eye(4), np.eye(4) * np.nan]}, InvalidPoseError, r"T\[1\]: pose\[0, 0\] is NaN"),
         ({"T": [np.eye(4), 2 * np.eye(4)]}, InvalidPoseError, r"T\[1\]: pose row 3 must be"),
         ({"seed": [np.nan] * 6}, InvalidJointsError, "seed: joint 1 is NaN"),
-        ({"seed": [0.0] * 5}, InvalidJointsError, r"seed must have shape \[6\], got \[5\]"),
+        ({"seed": [0.0] * 5}, InvalidJointsError, r"seed must have shape \(\.\.\., 6\), got \[5\]"),
         ({"weights": [-1] * 6}, InvalidJointsError, "weights: joint 1 is -1"),
         ({"zone": np.nan}, InvalidJointsError, "zone is NaN, it must be finite and not negative"),
         ({"zone": -1}, InvalidJointsError, "zone is -1, it must be finite and not negative"),
