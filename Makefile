@@ -8,9 +8,10 @@ VENV := .venv
 BIN := $(VENV)/bin
 RUST_SOURCES := $(shell find src -name '*.rs') Cargo.toml
 BUILT := $(VENV)/.irbkin-built
+PEERS := .venv-peers
 NO_STD := --no-default-features --features libm
 
-.PHONY: help run test check bench million hardsets wheel clean toolchains
+.PHONY: help run test check bench bench-peers million hardsets wheel clean toolchains
 
 help: ## List the targets
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -55,6 +56,7 @@ check: $(BUILT) $(VENV)/.groups ## Format, lints for each feature set, types, st
 	RUSTDOCFLAGS='-D warnings' cargo doc --quiet --no-deps --features serde
 	cargo bench --quiet --bench one_pose -- --test
 	$(BIN)/python benches/python_calls.py >/dev/null
+	$(BIN)/python -m benches.peers --quick >/dev/null
 	for example in examples/*.rs; do cargo run --quiet --release --example "$$(basename "$$example" .rs)" >/dev/null; done
 	$(BIN)/ruff check --quiet .
 	$(BIN)/ruff format --check --quiet .
@@ -65,6 +67,27 @@ check: $(BUILT) $(VENV)/.groups ## Format, lints for each feature set, types, st
 bench: $(BUILT) ## Time one pose in Rust, and Python's calls as ratios to a matrix product
 	cargo bench --bench one_pose
 	$(BIN)/python benches/python_calls.py
+
+# One at a time: a peer that has no wheel for this Python does not keep the others out.
+$(PEERS)/.made: benches/peers/requirements.txt | toolchains
+	@echo "Installing the peers into $(PEERS)"
+	@$(PYTHON) -m venv --clear $(PEERS)
+	@$(PEERS)/bin/pip install --quiet --disable-pip-version-check --upgrade 'pip>=25.1'
+	@$(PEERS)/bin/pip install --quiet 'maturin>=1.9,<2' 'numpy>=1.23'
+	@while read -r peer; do \
+		$(PEERS)/bin/pip install --quiet "$$peer" </dev/null || echo "$$peer does not install: left out"; \
+	done <$<
+	@touch $@
+
+$(PEERS)/.irbkin-built: $(PEERS)/.made $(RUST_SOURCES) $(wildcard python/irbkin/*) pyproject.toml | toolchains
+	@echo "Building irbkin's wheel for $(PEERS) (about a minute)"
+	@rm -rf $(PEERS)/wheel
+	@$(PEERS)/bin/maturin build --release --quiet --out $(PEERS)/wheel
+	@$(PEERS)/bin/pip install --quiet --force-reinstall --no-deps $(PEERS)/wheel/irbkin-*.whl
+	@touch $@
+
+bench-peers: $(PEERS)/.irbkin-built ## Compare with other packages: solutions lost, times; WRITE=1 writes docs/benchmarks.md
+	$(PEERS)/bin/python -m benches.peers $(if $(QUICK),--quick) $(if $(WRITE),--write)
 
 million: | toolchains ## Solve a million random poses of each of seven arms and count what is lost, wrong or twice
 	IRBKIN_POSES=1000000 cargo test --quiet --release --test recall -- --nocapture --test-threads=1
@@ -80,4 +103,4 @@ wheel: $(VENV)/.made ## Build the wheel and try it in an environment of its own
 	ls -l dist/*.whl
 
 clean: ## Remove what was built
-	rm -rf $(VENV) target dist
+	rm -rf $(VENV) $(PEERS) target dist

@@ -1,0 +1,56 @@
+"""Compare irbkin with its peers: `python -m benches.peers [--quick] [--write]`, from the repository's root."""
+
+from __future__ import annotations
+
+import argparse
+import warnings
+from pathlib import Path
+
+from . import machine, plot, report
+from .arms import IRB2600
+from .contenders import BUILDERS
+from .measure import QUICK, Effort
+from .recall import recall, sets_of
+from .rows import ROWS, gather, run
+
+ROOT = Path(__file__).parents[2]
+PAGE, PICTURE = ROOT / "docs" / "benchmarks.md", ROOT / "docs" / "pictures" / "peers.svg"
+
+
+def main() -> None:
+    """Count, time and print; write the page and the picture when asked to."""
+    parser = argparse.ArgumentParser(prog="python -m benches.peers", description=__doc__)
+    parser.add_argument("--quick", action="store_true", help="tiny counts: shows that it runs, measures nothing")
+    parser.add_argument("--write", action="store_true", help=f"write {PAGE.name} and {PICTURE.name}, too")
+    arguments = parser.parse_args()
+    if arguments.quick and arguments.write:
+        parser.error("--quick measures nothing that is worth writing")
+    effort = QUICK if arguments.quick else Effort()
+    # What a package warns of at its import is no part of the table.
+    warnings.simplefilter("ignore")
+
+    about = machine.describe(BUILDERS)
+    print(*about, sep="\n")
+    missing: dict[str, str] = {}
+    built, _ = gather(IRB2600, missing)
+    for package, word in missing.items():
+        print(f"{package}: skipped ({word})")
+
+    solvers = [contender for contender in built if contender.task == "ik"]
+    recalls = [recall(IRB2600, solvers, poses) for poses in sets_of(IRB2600, effort.recall, effort.singular)]
+    print("\nSolutions lost, IRB 2600", report.plain(report.losses(recalls)), sep="\n", flush=True)
+
+    results = []
+    for row in ROWS:
+        result = run(row, effort, missing)
+        results.append(result)
+        print(f"\n{row.title}", report.plain(report.times(result)), *result.absent, sep="\n", flush=True)
+
+    if arguments.write:
+        report.write(PAGE, report.document(about, recalls, results, missing))
+        plot.draw(results, PICTURE)
+        print(f"\nWrote {PAGE.relative_to(ROOT)} and {PICTURE.relative_to(ROOT)}")
+
+
+if __name__ == "__main__":
+    main()

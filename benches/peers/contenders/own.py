@@ -1,0 +1,53 @@
+"""irbkin itself, from its catalogue: what it cannot do yet shows when it is called."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..arms import Arm, Floats
+from .contender import Contender, from_both, from_joints, from_pose
+
+
+def irbkin(arm: Arm) -> list[Contender]:
+    """`ik` of an arm of seven joints takes q7; batches write into arrays made beforehand."""
+    import irbkin
+
+    robot = irbkin.Robot(arm.name)
+
+    # Untyped: whether this irbkin takes q7 shows in the call.
+    solve: Any = robot.ik
+
+    def ik_given_q7(pose: Floats, q7: float) -> Any:
+        return solve(pose, q7=q7).q
+
+    def for_batch(poses: Floats, joints: Floats) -> tuple[Floats, irbkin.IkBatch]:
+        return poses, irbkin.IkBatch(np.empty((len(poses), 8, arm.dof)), np.empty((len(poses), 8), np.uint8))
+
+    def with_room(*shape: int) -> Any:
+        return lambda poses, joints: (joints, np.empty((len(joints), *shape)))
+
+    single = (
+        Contender("ik", "irbkin", lambda pose: robot.ik(pose).q, from_pose)
+        if arm.dof == 6
+        else Contender("ik", "irbkin", ik_given_q7, lambda pose, joints: (pose, float(joints[6])))
+    )
+    return [
+        single,
+        Contender("ik_nearest", "irbkin", robot.ik_nearest, from_both),
+        Contender("fk", "irbkin", robot.fk, from_joints),
+        Contender("jacobian", "irbkin", robot.jacobian, from_joints),
+        *(
+            Contender(
+                "ik_batch",
+                f"irbkin, {threads} thread{plural}",
+                lambda poses, out, threads=threads: robot.ik_batch(poses, out=out, threads=threads),
+                for_batch,
+                read=lambda answer: answer.q,
+            )
+            for threads, plural in ((1, ""), (2, "s"))
+        ),
+        Contender("fk_batch", "irbkin", lambda q, out: robot.fk(q, out=out), with_room(4, 4)),
+        Contender("jacobian_batch", "irbkin", lambda q, out: robot.jacobian(q, out=out), with_room(6, arm.dof)),
+    ]
