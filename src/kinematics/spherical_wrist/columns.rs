@@ -29,7 +29,7 @@ impl JointColumn {
             return None;
         }
         Some(core::array::from_fn(|joint| {
-            let (sign, offset) = (signs[joint], offsets[joint]);
+            let (sign, offset) = (signs[joint], wrap(offsets[joint]));
             let [low, high] = limits[joint];
             let (low, high) = (low - LIMIT_TOLERANCE, high + LIMIT_TOLERANCE);
             let limits = low > -PI || high < PI;
@@ -80,9 +80,12 @@ impl JointColumn {
         }
     }
 
+    /// In (-pi, pi]. Theta is within a turn of zero and the offset within half a turn, so that one turn is enough.
     #[inline(always)]
     fn moved(self, theta: f64) -> f64 {
-        wrap(self.sign * (theta + self.offset))
+        let angle = self.sign * (theta + self.offset);
+        let angle = if angle > PI { angle - TAU } else { angle };
+        if angle <= -PI { angle + TAU } else { angle }
     }
 
     #[inline(always)]
