@@ -2,9 +2,7 @@
 
 use core::f64::consts::TAU;
 
-#[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
-
+use super::angles::{nearest_whole, whole_above, whole_below};
 use super::thresholds::{LIMIT_TOLERANCE, MOST_ANGLE};
 use crate::error::{Error, ModelFault};
 
@@ -71,7 +69,7 @@ impl<const N: usize> JointLimits<N> {
     /// The turn of `angle` inside the limits that is nearest to `seed`.
     pub(crate) fn turn_nearest(&self, joint: usize, angle: f64, seed: f64) -> Option<f64> {
         let (first, last) = self.turns(joint, angle)?;
-        let turn = ((seed - angle) / TAU).round().clamp(first, last);
+        let turn = nearest_whole((seed - angle) / TAU).clamp(first, last);
         Some(if turn == 0.0 { angle } else { angle + TAU * turn })
     }
 
@@ -94,8 +92,8 @@ impl<const N: usize> JointLimits<N> {
 
     /// First and last number of turns that, added to `angle`, keep it inside the limits; `None` where no number does.
     pub(crate) fn turns(&self, joint: usize, angle: f64) -> Option<(f64, f64)> {
-        let first = ((self.lower[joint] - LIMIT_TOLERANCE - angle) / TAU).ceil();
-        let last = ((self.upper[joint] + LIMIT_TOLERANCE - angle) / TAU).floor();
+        let first = whole_above((self.lower[joint] - LIMIT_TOLERANCE - angle) / TAU);
+        let last = whole_below((self.upper[joint] + LIMIT_TOLERANCE - angle) / TAU);
         (first <= last).then_some((first, last))
     }
 
