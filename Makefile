@@ -11,7 +11,7 @@ BUILT := $(VENV)/.irbkin-built
 PEERS := .venv-peers
 NO_STD := --no-default-features --features libm
 
-.PHONY: help run test check bench bench-peers million hardsets wheel clean toolchains
+.PHONY: help run test check bench bench-peers ulp million hardsets wheel clean toolchains
 
 help: ## List the targets
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -88,6 +88,8 @@ $(PEERS)/.irbkin-built: $(PEERS)/.made $(RUST_SOURCES) $(wildcard python/irbkin/
 
 bench-peers: $(PEERS)/.irbkin-built ## Compare with other packages: solutions lost, times; WRITE=1 writes docs/benchmarks.md
 	$(PEERS)/bin/python -m benches.peers $(if $(QUICK),--quick) $(if $(WRITE),--write)
+ulp: | toolchains ## Hold the lanes' arc tangent, sine and cosine against correctly rounded ones, at ten million points
+	IRBKIN_POINTS=10000000 cargo test --quiet --release --lib lanes::functions -- --nocapture --test-threads=1
 
 million: | toolchains ## Solve a million random poses of each of seven arms and count what is lost, wrong or twice
 	IRBKIN_POSES=1000000 cargo test --quiet --release --test recall -- --nocapture --test-threads=1

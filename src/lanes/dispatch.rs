@@ -129,3 +129,32 @@ fn with_avx512<K: Kernel>(kernel: K) -> K::Answer {
 fn with_avx2<K: Kernel>(kernel: K) -> K::Answer {
     kernel.run::<true>()
 }
+
+/// Works on each set of this processor in turn, one caller at a time, and goes back to the widest.
+#[cfg(test)]
+pub(crate) fn on_each_set(work: impl Fn(InstructionSet)) {
+    static FORCED: std::sync::Mutex<()> = std::sync::Mutex::new(());
+    // A test that failed while it held the lock has said why.
+    let _one_at_a_time = FORCED.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    for set in InstructionSet::available() {
+        set.force().unwrap();
+        work(set);
+    }
+    InstructionSet::detect();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_widest_set_is_taken_and_only_what_the_processor_has() {
+        let available = || InstructionSet::available();
+        assert_eq!(available().next(), Some(InstructionSet::Baseline));
+        on_each_set(|set| assert_eq!(InstructionSet::in_use(), set));
+        for set in InstructionSet::ALL.into_iter().filter(|set| !available().any(|has| has == *set)) {
+            let refused = std::string::ToString::to_string(&set.force().unwrap_err());
+            assert!(refused.contains(set.name()), "{refused}");
+        }
+    }
+}

@@ -143,3 +143,7 @@ fn six<const FUSED: bool>(c: &[f64; 6], z: f64, z2: f64) -> f64 {
     let high = mul_add::<FUSED>(mul_add::<FUSED>(c[5], z, c[4]), z2, mul_add::<FUSED>(c[3], z, c[2]));
     mul_add::<FUSED>(high, z2, mul_add::<FUSED>(c[1], z, c[0]))
 }
+
+#[cfg(test)]
+#[path = "functions_tests.rs"]
+mod tests;

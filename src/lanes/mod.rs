@@ -9,6 +9,8 @@ mod dispatch;
 mod functions;
 
 pub use dispatch::InstructionSet;
+#[cfg(test)]
+pub(crate) use dispatch::on_each_set;
 pub(crate) use dispatch::{Kernel, run};
 pub(crate) use functions::{MOST_SIN_COS, atan2, mul_add, sin_cos};
 

@@ -1,0 +1,306 @@
+//! The functions against correctly rounded ones (crate `pxfm`), with fused multiplication and addition and without.
+//!
+//! `make ulp` takes ten million points and prints the worst; `make test` takes fewer.
+
+use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
+use std::{println, vec::Vec};
+
+use super::*;
+use crate::lanes::{Column, Kernel, LANES, on_each_set, run};
+
+/// Distance from the correctly rounded value that is promised [ulp].
+const BOUND: u64 = 2;
+
+/// Quarter turns up to the largest angle.
+const QUARTERS: u32 = 63_661;
+
+fn points() -> u64 {
+    std::env::var("IRBKIN_POINTS").map_or(300_000, |count| count.parse().unwrap())
+}
+
+/// Random numbers of every size (splitmix64: any seed will do, and every bit is random).
+struct Random(u64);
+
+impl Random {
+    fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        mixed ^ (mixed >> 31)
+    }
+
+    /// Uniform in 0 .. 1.
+    #[expect(clippy::cast_precision_loss, reason = "53 bits")]
+    fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / 2.0_f64.powi(53)
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    fn signed(&mut self, number: f64) -> f64 {
+        if self.bits() & 1 == 0 { number } else { -number }
+    }
+
+    /// Any size from 2^low to 2^high.
+    fn sized(&mut self, low: f64, high: f64) -> f64 {
+        let exponent = self.between(low, high).floor();
+        (1.0 + self.unit()) * exponent.exp2()
+    }
+
+    /// Two numbers of either sign, either of which comes first.
+    fn direction(&mut self, a: f64, b: f64) -> (f64, f64) {
+        let (a, b) = (self.signed(a), self.signed(b));
+        if self.bits() & 1 == 0 { (a, b) } else { (b, a) }
+    }
+
+    /// Sine and cosine of an angle, times a length.
+    fn on_circle(&mut self, length: f64) -> (f64, f64) {
+        let (sin, cos) = self.between(-PI, PI).sin_cos();
+        (sin * length, cos * length)
+    }
+
+    /// y and x, of a kind for each `kind`.
+    fn y_and_x(&mut self, kind: u64) -> (f64, f64) {
+        let (wide, near_one, middling) = (self.sized(-1000.0, 1000.0), self.sized(-20.0, 20.0), self.sized(-3.0, 3.0));
+        let (tiny, other_tiny) = (self.sized(-1074.0, -1000.0), self.sized(-1074.0, -1000.0));
+        match kind % 8 {
+            0 => self.on_circle(1.0),
+            1 => self.on_circle(wide.min(1e300)),
+            2 => {
+                let (a, b) = (self.sized(-1074.0, 1024.0), self.sized(-1074.0, 1024.0));
+                self.direction(a, b)
+            }
+            // Next to a diagonal, and next to an axis.
+            3 => {
+                let off = self.sized(-53.0, -20.0);
+                self.direction(wide, wide * (1.0 + off))
+            }
+            4 => {
+                let off = self.sized(-1074.0, 0.0);
+                self.direction(near_one, near_one * off)
+            }
+            5 => self.direction(tiny, other_tiny),
+            6 => {
+                let part = self.unit();
+                self.direction(near_one, near_one * part)
+            }
+            // Where the rounding of the quotient weighs most.
+            _ => {
+                let part = self.between(0.5, 0.6);
+                self.direction(middling, middling * part)
+            }
+        }
+    }
+
+    /// An angle, of a kind for each `kind`.
+    fn angle(&mut self, kind: u64) -> f64 {
+        let quarters = self.between(0.0, f64::from(QUARTERS)).floor();
+        let size = match kind % 6 {
+            0 => self.between(0.0, MOST_SIN_COS),
+            1 => self.sized(-1074.0, 16.6),
+            2 => self.between(0.0, TAU),
+            3 => self.between(0.0, FRAC_PI_4),
+            // Next to a quarter turn, and next to where the quadrants change.
+            4 => quarters * FRAC_PI_2 + self.sized(-50.0, -1.0),
+            _ => (quarters + 0.5) * FRAC_PI_2 + self.between(-0.1, 0.1),
+        };
+        self.signed(size.min(MOST_SIN_COS))
+    }
+}
+
+/// How many doubles apart; two that are not numbers are together, zeros of different sign are not.
+fn ulps(a: f64, b: f64) -> u64 {
+    // The bits of doubles, minus those of zero, count them on each side of zero.
+    let place = |number: f64| {
+        let size = (number.to_bits() & !SIGN).cast_signed();
+        if number.is_sign_negative() { -1 - size } else { size }
+    };
+    match (a.is_nan(), b.is_nan()) {
+        (true, true) => 0,
+        (false, false) => place(a).abs_diff(place(b)),
+        _ => u64::MAX,
+    }
+}
+
+fn stepped(number: f64, steps: i64) -> f64 {
+    f64::from_bits(number.to_bits().wrapping_add_signed(steps))
+}
+
+/// pxfm 0.1.30 gives +0 for an arc tangent that underflows below zero.
+fn exact_atan2(y: f64, x: f64) -> f64 {
+    let angle = pxfm::f_atan2(y, x);
+    if angle == 0.0 { angle.copysign(y) } else { angle }
+}
+
+/// The worst of many points, and how many were off by 0, 1, 2 and more.
+struct Worst {
+    name: &'static str,
+    ulps: u64,
+    at: (f64, f64),
+    counts: [u64; 4],
+}
+
+impl Worst {
+    fn of(name: &'static str) -> Self {
+        Self { name, ulps: 0, at: (0.0, 0.0), counts: [0; 4] }
+    }
+
+    fn take(&mut self, found: f64, exact: f64, at: (f64, f64)) {
+        let off = ulps(found, exact);
+        self.counts[usize::try_from(off.min(3)).unwrap()] += 1;
+        if off > self.ulps {
+            (self.ulps, self.at) = (off, at);
+        }
+    }
+
+    fn check(&self) {
+        let Self { name, ulps, at, counts } = self;
+        println!("{name:16} worst {ulps} ulp at {at:?}  points off by 0, 1, 2 and more ulp: {counts:?}");
+        assert!(*ulps <= BOUND, "{name}: {ulps} ulp at {at:?}");
+    }
+}
+
+#[test]
+fn the_arc_tangent_is_within_two_ulp() {
+    let mut random = Random(42);
+    let (mut fused, mut unfused) = (Worst::of("atan2, fused"), Worst::of("atan2, unfused"));
+    for kind in 0..points() / 2 {
+        let (y, x) = random.y_and_x(kind);
+        let exact = exact_atan2(y, x);
+        fused.take(atan2::<true>(y, x), exact, (y, x));
+        unfused.take(atan2::<false>(y, x), exact, (y, x));
+    }
+    [fused, unfused].iter().for_each(Worst::check);
+}
+
+#[test]
+fn sine_and_cosine_are_within_two_ulp() {
+    let mut random = Random(43);
+    let mut worst = ["sin, fused", "cos, fused", "sin, unfused", "cos, unfused"].map(Worst::of);
+    let mut take = |angle: f64| {
+        let (sin, cos) = (pxfm::f_sin(angle), pxfm::f_cos(angle));
+        let (fused, unfused) = (sin_cos::<true>(angle), sin_cos::<false>(angle));
+        for (worst, (found, exact)) in worst.iter_mut().zip([(fused.0, sin), (fused.1, cos), (unfused.0, sin), (unfused.1, cos)]) {
+            worst.take(found, exact, (angle, 0.0));
+        }
+    };
+    for kind in 0..points() / 2 {
+        take(random.angle(kind));
+    }
+    // A double times a whole number below 2^16 is at most one double beside the one next to the true multiple.
+    for quarter in 1..=QUARTERS {
+        for steps in -4..=4 {
+            let angle = stepped(f64::from(quarter) * FRAC_PI_2, steps).min(MOST_SIN_COS);
+            take(angle);
+            take(-angle);
+        }
+    }
+    worst.iter().for_each(Worst::check);
+}
+
+/// Sizes of every kind: none, the least, those that round off, ordinary ones, the greatest, infinite, not a number.
+const SIZES: [f64; 19] = [
+    0.0,
+    5e-324,
+    1e-320,
+    f64::MIN_POSITIVE,
+    1e-300,
+    1e-17,
+    0.5,
+    1.0 - f64::EPSILON / 2.0,
+    1.0,
+    1.0 + f64::EPSILON,
+    2.0,
+    3.7,
+    1e5,
+    1e17,
+    1e300,
+    f64::MAX / 2.0,
+    f64::MAX,
+    f64::INFINITY,
+    f64::NAN,
+];
+
+#[test]
+fn the_arc_tangent_of_special_values_is_that_of_the_standard_library() {
+    for (a, b) in SIZES.iter().flat_map(|a| SIZES.map(|b| (*a, b))) {
+        // Directions along an axis or a diagonal have the correctly rounded angle, with its sign; of the others the sign is right.
+        let special = a == b || [a, b].iter().any(|size| *size == 0.0 || !size.is_finite());
+        let bound = if special { 0 } else { BOUND };
+        for (y, x) in [(a, b), (-a, b), (a, -b), (-a, -b)] {
+            for found in [atan2::<true>(y, x), atan2::<false>(y, x)] {
+                assert!(ulps(found, y.atan2(x)) <= bound, "atan2({y:e}, {x:e}) is {found:e}");
+                assert!(ulps(found, exact_atan2(y, x)) <= bound, "atan2({y:e}, {x:e}) is {found:e}");
+                assert!(found.is_nan() || found.is_sign_negative() == y.is_sign_negative(), "atan2({y:e}, {x:e}) is {found:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn sine_and_cosine_of_special_values_are_those_of_the_standard_library() {
+    for size in SIZES.into_iter().filter(|size| *size <= MOST_SIN_COS || !size.is_finite()) {
+        for angle in [size, -size] {
+            for (sin, cos) in [sin_cos::<true>(angle), sin_cos::<false>(angle)] {
+                // So small an angle is its own sine.
+                let bound = if size <= 1e-17 || !size.is_finite() { 0 } else { BOUND };
+                assert!(ulps(sin, angle.sin()) <= bound, "sin({angle:e}) is {sin:e}");
+                assert!(ulps(cos, angle.cos()) <= bound, "cos({angle:e}) is {cos:e}");
+            }
+        }
+    }
+}
+
+/// Arc tangents and sines of columns, as kernels take them.
+struct InLanes<'a> {
+    y: &'a [Column],
+    x: &'a [Column],
+    out: &'a mut [[Column; 3]],
+}
+
+impl Kernel for InLanes<'_> {
+    /// Whether multiplication and addition were fused.
+    type Answer = bool;
+    const WIDE: bool = true;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> bool {
+        for ((y, x), [angle, sin, cos]) in self.y.iter().zip(self.x).zip(self.out) {
+            for lane in 0..LANES {
+                angle[lane] = atan2::<FUSED>(y[lane], x[lane]);
+                (sin[lane], cos[lane]) = sin_cos::<FUSED>(x[lane]);
+            }
+        }
+        FUSED
+    }
+}
+
+#[test]
+fn vector_instructions_give_the_bits_of_single_ones() {
+    const COLUMNS: usize = 2000;
+    let mut random = Random(44);
+    let (mut y, mut x) = (Vec::new(), Vec::new());
+    for kind in 0..COLUMNS as u64 {
+        let directions: [(f64, f64); LANES] = core::array::from_fn(|lane| random.y_and_x(kind + lane as u64));
+        y.push(directions.map(|direction| direction.0));
+        // Half of the columns for sines, some of which are next to quarter turns.
+        x.push(if kind % 2 == 0 { directions.map(|direction| direction.1) } else { core::array::from_fn(|_| random.angle(kind / 2)) });
+    }
+    y.push(SIZES[..LANES].try_into().unwrap());
+    x.push(SIZES[SIZES.len() - LANES..].try_into().unwrap());
+    on_each_set(|set| {
+        let mut out = std::vec![[[0.0; LANES]; 3]; y.len()];
+        let fused = run(InLanes { y: &y, x: &x, out: &mut out });
+        for ((y, x), [angle, sin, cos]) in y.iter().zip(&x).zip(&out) {
+            for lane in 0..LANES {
+                let (y, x) = (y[lane], x[lane]);
+                let wanted = if fused { atan2::<true>(y, x) } else { atan2::<false>(y, x) };
+                assert_eq!(ulps(angle[lane], wanted), 0, "atan2({y:e}, {x:e}), {}", set.name());
+                let wanted = if fused { sin_cos::<true>(x) } else { sin_cos::<false>(x) };
+                assert_eq!((ulps(sin[lane], wanted.0), ulps(cos[lane], wanted.1)), (0, 0), "sin_cos({x:e}), {}", set.name());
+            }
+        }
+    });
+}
