@@ -65,7 +65,9 @@ impl JointColumn {
             }
         } else {
             for angle in angles.iter_mut() {
-                *angle = if *angle <= -PI { PI } else { *angle };
+                // The offset is zero: as in `moved`, it makes a plus of a zero's minus.
+                let theta = *angle + self.offset;
+                *angle = if theta <= -PI { PI } else { theta };
             }
         }
         if self.turns {
