@@ -1,9 +1,32 @@
 //! What several law tests need: random numbers, arms, distances.
-#![allow(dead_code, unreachable_pub, missing_docs, clippy::unwrap_used)]
+#![allow(dead_code, unreachable_pub, missing_docs, clippy::unwrap_used, clippy::panic)]
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::sync::{Mutex, PoisonError};
 
-use irbkin::{Definition, Error, JointLimits, OpwParameters, Robot};
+use irbkin::{Definition, Error, InstructionSet, JointLimits, OpwParameters, Robot};
+
+/// Takes the instruction set that `IRBKIN_INSTRUCTION_SET` asks for, by its name; without it, the widest. Fails where the processor does not
+/// have it: a run on another set would tell nothing of this one.
+pub fn asked_set() -> InstructionSet {
+    if let Ok(name) = std::env::var("IRBKIN_INSTRUCTION_SET") {
+        let names: Vec<_> = InstructionSet::available().map(InstructionSet::name).collect();
+        let set = InstructionSet::available().find(|set| set.name() == name);
+        set.unwrap_or_else(|| panic!("IRBKIN_INSTRUCTION_SET is {name:?}, this processor has {names:?}")).force().unwrap();
+    }
+    InstructionSet::in_use()
+}
+
+/// Works on each instruction set of this processor in turn; one test at a time, for a set is forced in the whole process.
+pub fn on_each_set(mut work: impl FnMut(InstructionSet)) {
+    static FORCED: Mutex<()> = Mutex::new(());
+    // A test that failed while it held the lock has said why.
+    let _one_at_a_time = FORCED.lock().unwrap_or_else(PoisonError::into_inner);
+    for set in InstructionSet::available() {
+        set.force().unwrap();
+        work(set);
+    }
+}
 
 /// A small generator, so that a run gives the same poses everywhere (xorshift64*).
 pub struct Rng(u64);

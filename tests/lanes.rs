@@ -1,0 +1,337 @@
+//! What a kernel in lanes must not change: an answer does not depend on the row's place, on its neighbours, on the number of threads, on
+//! whether it was asked for alone, nor, but for rounding where there is no fused multiplication and addition, on the instruction set.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+mod common;
+#[path = "lanes/subjects.rs"]
+#[allow(unreachable_pub)]
+mod subjects;
+
+use std::array;
+
+use common::{Rng, on_each_set};
+use irbkin::{InstructionSet, JacobianFrame, Pose, Robot, SLOTS, Status, batch, pose_from_rows, pose_to_rows};
+use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Vector3};
+use subjects::{PoseRow, Subject, joint_rows, subjects};
+
+/// No multiple of any lane count; every kind of row in every lane.
+const ROWS: usize = 24 * 18 + 5;
+
+const FRAMES: [JacobianFrame; 2] = [JacobianFrame::Base, JacobianFrame::Tool];
+
+type AnswerRow = [f64; 6 * SLOTS];
+
+/// The slots and their status of each row.
+#[derive(Clone, Debug)]
+struct Answers {
+    q: Vec<AnswerRow>,
+    status: Vec<[u8; SLOTS]>,
+}
+
+impl Answers {
+    fn in_a_batch(robot: &Robot<6>, rows: &[PoseRow], threads: usize) -> Self {
+        let mut answers = Self { q: vec![[7.0; 6 * SLOTS]; rows.len()], status: vec![[255; SLOTS]; rows.len()] };
+        let (q, status) = (answers.q.as_flattened_mut(), answers.status.as_flattened_mut());
+        batch::ik(robot, rows.as_flattened(), q, status, threads).unwrap();
+        answers
+    }
+
+    fn one_by_one(robot: &Robot<6>, rows: &[PoseRow]) -> Self {
+        let (q, status) = rows.iter().map(|row| alone(robot, row)).unzip();
+        Self { q, status }
+    }
+
+    #[track_caller]
+    fn assert_same(&self, other: &Self, what: &str) {
+        assert_eq!(self.q.len(), other.q.len(), "{what}");
+        for (i, ((a, b), (flags, others))) in self.q.iter().zip(&other.q).zip(self.status.iter().zip(&other.status)).enumerate() {
+            assert_eq!(flags, others, "{what}, row {i}");
+            assert!(same_bits(a, b), "{what}, row {i}:\n{a:?}\n{b:?}");
+        }
+    }
+}
+
+/// The answer to one row as a batch has it.
+fn alone(robot: &Robot<6>, row: &PoseRow) -> (AnswerRow, [u8; SLOTS]) {
+    let mut q = [f64::NAN; 6 * SLOTS];
+    let Ok(solutions) = pose_from_rows(row).and_then(|pose| robot.ik(&pose)) else {
+        return (q, [Status::INVALID.bits(); SLOTS]);
+    };
+    for solution in &solutions {
+        q.as_chunks_mut::<6>().0[usize::from(solution.slot)] = solution.q;
+    }
+    (q, solutions.status().map(|status| status.bits()))
+}
+
+/// Not numbers are one like the other: their bits mean nothing.
+fn same_bits(a: &[f64], b: &[f64]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan()))
+}
+
+fn fk_of<const N: usize>(robot: &Robot<N>, q: &[[f64; N]]) -> Vec<PoseRow> {
+    let mut poses = vec![[7.0; 16]; q.len()];
+    batch::fk(robot, q.as_flattened(), poses.as_flattened_mut()).unwrap();
+    poses
+}
+
+fn jacobians_of<const N: usize>(robot: &Robot<N>, q: &[[f64; N]], frame: JacobianFrame) -> Vec<[[f64; N]; 6]> {
+    let mut jacobians = vec![[[7.0; N]; 6]; q.len()];
+    batch::jacobian(robot, q.as_flattened(), frame, jacobians.as_flattened_mut().as_flattened_mut()).unwrap();
+    jacobians
+}
+
+fn is_finite(row: &[f64]) -> bool {
+    row.iter().all(|number| number.is_finite())
+}
+
+#[test]
+fn the_rows_are_of_every_kind() {
+    let mut halves = 0;
+    for subject in subjects() {
+        let rows = subject.rows(ROWS);
+        let answers = Answers::in_a_batch(&subject.robot, &rows, 1);
+        let has = |kind: Status| answers.status.as_flattened().iter().any(|flags| Status::from_bits_retain(*flags).contains(kind));
+        assert!(Status::all().iter().filter(|kind| *kind != Status::WITHIN_LIMITS).all(has), "{}", subject.name);
+        let full = answers.status.iter().filter(|row| row.iter().all(|flags| flags & Status::FOUND.bits() != 0)).count();
+        let none = answers.status.iter().filter(|row| **row == [0; SLOTS]).count();
+        assert!(full > ROWS / 4 && none > 10, "{}: {full} full, {none} out of reach", subject.name);
+        let empty = |row: &[u8; SLOTS]| row.iter().map(|flags| usize::from(*flags == 0)).sum::<usize>();
+        halves += answers.status.iter().filter(|row| empty(row) == SLOTS / 2).count();
+    }
+    // Without a shoulder offset both shoulders reach or none does.
+    assert!(halves > 100, "{halves} with one shoulder");
+}
+
+#[test]
+fn batch_equals_single_bit_for_bit() {
+    on_each_set(|set| {
+        for subject in &subjects() {
+            let (robot, what) = (&subject.robot, format!("{}, {}", subject.name, set.name()));
+            let rows = subject.rows(ROWS);
+            Answers::in_a_batch(robot, &rows, 1).assert_same(&Answers::one_by_one(robot, &rows), &what);
+            forward_in_a_batch_equals_single(robot, &what);
+        }
+        forward_in_a_batch_equals_single(&Robot::<7>::named("Panda").unwrap(), &format!("Panda, {}", set.name()));
+    });
+}
+
+fn forward_in_a_batch_equals_single<const N: usize>(robot: &Robot<N>, what: &str) {
+    let joints = joint_rows::<N>(77 * 3 + 5);
+    for (q, pose) in joints.iter().zip(fk_of(robot, &joints)) {
+        let wanted = if is_finite(q) { pose_to_rows(&robot.fk(q)) } else { [f64::NAN; 16] };
+        assert!(same_bits(&pose, &wanted), "{what}, fk of {q:?}:\n{pose:?}\n{wanted:?}");
+    }
+    for frame in FRAMES {
+        for (q, found) in joints.iter().zip(jacobians_of(robot, &joints, frame)) {
+            let single = robot.jacobian(q, frame);
+            let wanted: [[f64; N]; 6] = array::from_fn(|i| array::from_fn(|j| if is_finite(q) { single[(i, j)] } else { f64::NAN }));
+            assert!(same_bits(found.as_flattened(), wanted.as_flattened()), "{what}, {frame:?} Jacobian of {q:?}");
+        }
+    }
+}
+
+#[test]
+fn a_row_does_not_depend_on_its_neighbours() {
+    on_each_set(|set| {
+        for subject in &subjects() {
+            let what = format!("{}, {}", subject.name, set.name());
+            let rows = subject.rows(ROWS);
+            let whole = Answers::in_a_batch(&subject.robot, &rows, 1);
+            let part = |first: usize, past: usize| Answers { q: whole.q[first..past].to_vec(), status: whole.status[first..past].to_vec() };
+            for cut in 0..=17 {
+                for (first, past) in [(0, cut), (cut, ROWS), (100 + 3 * cut, 100 + 4 * cut), (cut, 2 * cut)] {
+                    Answers::in_a_batch(&subject.robot, &rows[first..past], 1).assert_same(&part(first, past), &what);
+                }
+            }
+            let order = shuffled(ROWS);
+            let mixed: Vec<_> = order.iter().map(|i| rows[*i]).collect();
+            let wanted =
+                Answers { q: order.iter().map(|i| whole.q[*i]).collect(), status: order.iter().map(|i| whole.status[*i]).collect() };
+            Answers::in_a_batch(&subject.robot, &mixed, 1).assert_same(&wanted, &what);
+        }
+        forward_rows_do_not_depend_on_their_neighbours(&Robot::<6>::named("IRB 2600-12/1.65").unwrap(), set);
+        forward_rows_do_not_depend_on_their_neighbours(&Robot::<7>::named("Panda").unwrap(), set);
+    });
+}
+
+fn forward_rows_do_not_depend_on_their_neighbours<const N: usize>(robot: &Robot<N>, set: InstructionSet) {
+    let joints = joint_rows::<N>(ROWS);
+    let (poses, jacobians) = (fk_of(robot, &joints), jacobians_of(robot, &joints, JacobianFrame::Tool));
+    for cut in 0..=17 {
+        for (first, past) in [(0, cut), (cut, ROWS), (cut, 2 * cut), (100 + 3 * cut, 100 + 4 * cut)] {
+            let q = &joints[first..past];
+            assert!(same_bits(fk_of(robot, q).as_flattened(), poses[first..past].as_flattened()), "{first}..{past}, {}", set.name());
+            let found = jacobians_of(robot, q, JacobianFrame::Tool);
+            let wanted = jacobians[first..past].as_flattened().as_flattened();
+            assert!(same_bits(found.as_flattened().as_flattened(), wanted), "{first}..{past}, {}", set.name());
+        }
+    }
+}
+
+/// The numbers below `count` in another order.
+fn shuffled(count: usize) -> Vec<usize> {
+    let mut rng = Rng::new(3);
+    let mut order: Vec<_> = (0..count).map(|i| (rng.unit(), i)).collect();
+    order.sort_by(|a, b| a.0.total_cmp(&b.0));
+    order.into_iter().map(|(_, i)| i).collect()
+}
+
+#[test]
+fn threads_change_no_bit() {
+    on_each_set(|set| {
+        for subject in subjects().iter().step_by(4) {
+            // The parts of four threads, the last one not whole.
+            let rows: Vec<_> = subject.rows(ROWS).into_iter().cycle().take(4001).collect();
+            let whole = Answers::in_a_batch(&subject.robot, &rows, 1);
+            for threads in [2, 3, 4, 0] {
+                Answers::in_a_batch(&subject.robot, &rows, threads).assert_same(&whole, &format!("{}, {}", subject.name, set.name()));
+            }
+        }
+    });
+}
+
+type Spoil = fn(&mut PoseRow);
+
+#[test]
+fn an_invalid_row_is_told_and_leaves_the_others_alone() {
+    let spoils: [(&str, Spoil); 6] = [
+        ("not a number", |row| row[6] = f64::NAN),
+        ("infinite", |row| row[3] = f64::INFINITY),
+        ("mirrored", |row| [row[0], row[4], row[8]] = [-row[0], -row[4], -row[8]]),
+        ("sheared", |row| row[1] += 3e-5),
+        ("scaled", |row| [row[0], row[4], row[8]] = [2.0 * row[0], 2.0 * row[4], 2.0 * row[8]]),
+        ("last row", |row| row[15] = 1.0 + 1e-8),
+    ];
+    let subject = &subjects()[0];
+    let rows: Vec<_> = subject.rows(24 * 2).into_iter().step_by(2).take(19).collect();
+    on_each_set(|set| {
+        let whole = Answers::in_a_batch(&subject.robot, &rows, 1);
+        assert!(whole.status.as_flattened().iter().all(|flags| *flags != Status::INVALID.bits()));
+        for (name, spoil) in spoils {
+            for place in 0..rows.len() {
+                let (mut spoiled, mut wanted) = (rows.clone(), whole.clone());
+                spoil(&mut spoiled[place]);
+                (wanted.q[place], wanted.status[place]) = ([f64::NAN; 6 * SLOTS], [Status::INVALID.bits(); SLOTS]);
+                Answers::in_a_batch(&subject.robot, &spoiled, 1).assert_same(&wanted, &format!("{name}, {}", set.name()));
+            }
+        }
+    });
+}
+
+/// What every set gives for an arm.
+struct OnEachSet {
+    set: InstructionSet,
+    answers: Answers,
+    poses: Vec<PoseRow>,
+    jacobians: Vec<[[f64; 6]; 6]>,
+}
+
+fn solved_on_each_set(subject: &Subject, rows: &[PoseRow]) -> Vec<OnEachSet> {
+    let joints = joint_rows::<6>(ROWS);
+    let mut solved = Vec::new();
+    on_each_set(|set| {
+        solved.push(OnEachSet {
+            set,
+            answers: Answers::in_a_batch(&subject.robot, rows, 1),
+            poses: fk_of(&subject.robot, &joints),
+            jacobians: jacobians_of(&subject.robot, &joints, JacobianFrame::Tool),
+        });
+    });
+    solved
+}
+
+#[test]
+fn avx2_and_avx512_agree_to_the_bit() {
+    for subject in &subjects() {
+        let solved = solved_on_each_set(subject, &subject.rows(ROWS));
+        let [_, narrow, wide] = &solved[..] else {
+            println!("this processor has only {:?}", InstructionSet::available().map(InstructionSet::name).collect::<Vec<_>>());
+            return;
+        };
+        assert_eq!((narrow.set, wide.set), (InstructionSet::Avx2, InstructionSet::Avx512));
+        narrow.answers.assert_same(&wide.answers, subject.name);
+        assert!(same_bits(narrow.poses.as_flattened(), wide.poses.as_flattened()), "{}", subject.name);
+        assert!(
+            same_bits(narrow.jacobians.as_flattened().as_flattened(), wide.jacobians.as_flattened().as_flattened()),
+            "{}",
+            subject.name
+        );
+    }
+}
+
+#[test]
+fn baseline_agrees_to_rounding() {
+    let mut worst: f64 = 0.0;
+    for subject in &subjects() {
+        let solved = solved_on_each_set(subject, &subject.rows(ROWS));
+        let [baseline, others @ ..] = &solved[..] else { unreachable!("every processor has the baseline") };
+        for other in others {
+            worst = worst.max(rounding_between(subject, &baseline.answers, &other.answers));
+            // A frame is the product of eight, each element of which is a sum of three products: 24 roundings either way, and as many of
+            // the Jacobian's cross product and turn into the tool.
+            let bound = 2.0 * 48.0 * f64::EPSILON * (1.0 + subject.extent());
+            let numbers = |solved: &OnEachSet| [solved.poses.as_flattened(), solved.jacobians.as_flattened().as_flattened()].concat();
+            for (a, b) in numbers(baseline).iter().zip(numbers(other)) {
+                assert!((a - b).abs() <= bound || (a.is_nan() && b.is_nan()), "{}: {a} and {b}", subject.name);
+            }
+        }
+    }
+    println!("farthest apart away from singularities: {worst:.1e} rad");
+}
+
+/// The largest difference of the joints away from singularities; there the slots have the same status.
+///
+/// A solve closes to 3e-15 of the extent and 1e-14 rad, so that two are apart by twice that over the least singular value. Where that is
+/// below 1e-12 rad, the pose is away from singularities.
+fn rounding_between(subject: &Subject, ours: &Answers, theirs: &Answers) -> f64 {
+    let mut worst: f64 = 0.0;
+    let mut compared = 0;
+    for (i, (a, b)) in ours.q.iter().zip(&theirs.q).enumerate() {
+        for (slot, (a, b)) in a.as_chunks::<6>().0.iter().zip(b.as_chunks::<6>().0).enumerate() {
+            assert_eq!(ours.status[i][slot], theirs.status[i][slot], "{}, row {i}", subject.name);
+            let closed = 2.0 * (3e-15 * subject.extent()).hypot(1e-14);
+            if !is_finite(a) || closed / subject.robot.singularity(a).min_singular_value > 1e-12 {
+                continue;
+            }
+            compared += 1;
+            let apart = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(apart <= 1e-12, "{}, row {i}, slot {slot}: {a:?} and {b:?}", subject.name);
+            worst = worst.max(apart);
+        }
+    }
+    assert!(compared > ROWS, "{}: {compared} slots away from singularities", subject.name);
+    worst
+}
+
+#[test]
+fn poses_of_many_turns_are_those_of_the_table() {
+    on_each_set(|set| {
+        for Subject { name, robot } in &subjects() {
+            table_poses(robot, &format!("{name}, {}", set.name()));
+        }
+        table_poses(&Robot::<7>::named("Panda").unwrap(), &format!("Panda, {}", set.name()));
+    });
+}
+
+fn table_poses<const N: usize>(robot: &Robot<N>, what: &str) {
+    let joints: Vec<[f64; N]> = joint_rows(200).into_iter().filter(|q| is_finite(q)).collect();
+    let mdh = robot.mdh();
+    let lengths: f64 = mdh.rows.iter().map(|row| row.a.abs() + row.d.abs()).sum();
+    let ends = robot.base().translation.vector.norm() + robot.tool().translation.vector.norm() + mdh.flange.translation.vector.norm();
+    for (q, row) in joints.iter().zip(fk_of(robot, &joints)) {
+        let mut wanted: Pose = robot.base() * mdh.base;
+        for (row, angle) in mdh.rows.iter().zip(q) {
+            // The two turns about z one after the other: their sum would lose digits of an angle of many turns.
+            let along = Translation3::new(row.a, 0.0, row.d) * Rotation3::identity();
+            let [x, z, q] = [(Vector3::x_axis(), row.alpha), (Vector3::z_axis(), row.theta), (Vector3::z_axis(), *angle)]
+                .map(|(axis, angle)| IsometryMatrix3::from_parts(Translation3::identity(), Rotation3::from_axis_angle(&axis, angle)));
+            wanted = wanted * x * along * z * q;
+        }
+        wanted = wanted * mdh.flange * robot.tool();
+        // Ten products either way, of which each element is a sum of three products.
+        let bound = 2.0 * 30.0 * f64::EPSILON * (1.0 + lengths + ends);
+        for (a, b) in row.iter().zip(pose_to_rows(&wanted)) {
+            assert!((a - b).abs() <= bound, "{what}, fk of {q:?}: {a} and {b}");
+        }
+    }
+}
