@@ -88,6 +88,7 @@ $(PEERS)/.irbkin-built: $(PEERS)/.made $(RUST_SOURCES) $(wildcard python/irbkin/
 
 bench-peers: $(PEERS)/.irbkin-built ## Compare with other packages: solutions lost, times; WRITE=1 writes docs/benchmarks.md
 	$(PEERS)/bin/python -m benches.peers $(if $(QUICK),--quick) $(if $(WRITE),--write)
+
 ulp: | toolchains ## Hold the lanes' arc tangent, sine and cosine against correctly rounded ones, at ten million points
 	IRBKIN_POINTS=10000000 cargo test --quiet --release --lib lanes::functions -- --nocapture --test-threads=1
 
