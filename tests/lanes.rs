@@ -294,7 +294,8 @@ fn rounding_between(subject: &Subject, ours: &Answers, theirs: &Answers) -> f64 
                 continue;
             }
             compared += 1;
-            let apart = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            // Half a turn is +pi or, with the last bit otherwise, -pi.
+            let apart = common::apart(a, b);
             assert!(apart <= 1e-12, "{}, row {i}, slot {slot}: {a:?} and {b:?}", subject.name);
             worst = worst.max(apart);
         }
