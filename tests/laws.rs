@@ -1,12 +1,12 @@
 //! Laws of the kinematics, on random arms and random joint vectors.
-#![allow(clippy::unwrap_used, clippy::float_cmp, missing_docs)]
+#![allow(clippy::unwrap_used, clippy::float_cmp, clippy::cast_precision_loss, missing_docs)]
 
 mod common;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use common::{apart, reach_of};
-use irbkin::{JacobianFrame, JointLimits, Mdh, OpwParameters, Pose, PoseError, Robot, Sdh, Status, pose_from_euler_zyx};
+use irbkin::{DhRow, JacobianFrame, JointLimits, Mdh, OpwParameters, Pose, PoseError, Robot, Sdh, Status, pose_from_euler_zyx};
 use proptest::prelude::*;
 
 const SLACK: f64 = 0.05;
@@ -303,10 +303,42 @@ fn the_choice_refuses_what_is_no_seed() {
     assert!(robot.singularity(&[f64::NAN; 6]).min_singular_value.is_nan());
 }
 
-#[cfg(feature = "std")]
 #[test]
 fn a_batch_of_another_length_is_refused() {
     let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
     let refused = irbkin::batch::fk(&robot, &[0.0; 12], &mut [0.0; 16]).unwrap_err();
     assert_eq!(refused.to_string(), "poses has 16 elements, it must have 32");
+}
+
+#[test]
+fn arms_of_more_joints_than_lanes_have_forward_kinematics() {
+    let rows = std::array::from_fn(|i| DhRow::new(0.3 * (i as f64 - 4.0), 0.1, 0.2, 0.5));
+    let robot: Robot<9> = Robot::serial_chain(Mdh { base: Pose::identity(), rows, flange: Pose::identity() }).unwrap();
+    let q = std::array::from_fn(|i| 0.4 * i as f64 - 1.0);
+    let (frames, tool) = robot.link_frames(&q);
+    let mut poses = [0.0; 16];
+    irbkin::batch::fk(&robot, &q, &mut poses).unwrap();
+    assert_eq!(irbkin::pose_to_rows(&robot.fk(&q)), poses);
+    assert_eq!(robot.fk(&q), tool);
+    assert_eq!(robot.jacobian(&q, JacobianFrame::Base).column(8).fixed_rows::<3>(3), frames[8].rotation.matrix().column(2));
+}
+
+#[test]
+fn a_short_forearm_and_far_offsets_cost_no_digit() {
+    let short = OpwParameters { a2: 0.0, c3: 1e-3, ..OpwParameters::abb(0.0, 0.0, 0.3, 1.0, 0.0, 0.1) };
+    let turned = OpwParameters { offsets: [100.0, -50.0, 1e4, 7.0, -7.0, 1e5], ..OpwParameters::abb(0.15, -0.11, 0.45, 0.7, 0.8, 0.1) };
+    for opw in [short, turned] {
+        let robot = Robot::from_opw(opw).unwrap();
+        let mut rng = common::Rng::new(7);
+        for _ in 0..2000 {
+            let pose = robot.fk(&std::array::from_fn(|_| rng.between(-PI, PI)));
+            let solutions = robot.ik(&pose).unwrap();
+            assert!(!solutions.is_empty());
+            for solution in &solutions {
+                let residual = robot.residual(&solution.q, &pose);
+                assert!(residual.position <= 3e-15 * (1.0 + reach_of(&robot)), "{residual:?}");
+                assert!(residual.rotation <= 1e-14, "{residual:?}");
+            }
+        }
+    }
 }

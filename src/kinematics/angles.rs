@@ -5,31 +5,10 @@ use core::f64::consts::{FRAC_PI_2, PI, TAU};
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
+use crate::lanes::nearest_whole;
+
 /// How far a constant may stand from a quarter turn and still be one [rad]: the rounding of `90_f64.to_radians()` and of sums of it.
 const QUARTER_TURN_ROUNDING: f64 = 4e-15;
-
-/// 1.5 * 2^52: added and taken away again, it rounds a number to the nearest whole one.
-const ROUND: f64 = 6_755_399_441_055_744.0;
-
-/// The nearest whole number, of a number below 2^51 in size or infinite; an even one from the middle. Without a call on any processor.
-#[inline(always)]
-pub(crate) fn nearest_whole(number: f64) -> f64 {
-    (number + ROUND) - ROUND
-}
-
-/// The nearest whole number that is not above.
-#[inline(always)]
-pub(crate) fn whole_below(number: f64) -> f64 {
-    let nearest = nearest_whole(number);
-    if nearest > number { nearest - 1.0 } else { nearest }
-}
-
-/// The nearest whole number that is not below.
-#[inline(always)]
-pub(crate) fn whole_above(number: f64) -> f64 {
-    let nearest = nearest_whole(number);
-    if nearest < number { nearest + 1.0 } else { nearest }
-}
 
 /// The same angle in (-pi, pi] [rad].
 #[must_use]
@@ -73,15 +52,6 @@ mod tests {
         assert_eq!(wrap(0.25), 0.25);
         assert!((wrap(7.0) - (7.0 - TAU)).abs() < 1e-15);
         assert!((wrap(-100.0) - (-100.0 + 16.0 * TAU)).abs() < 1e-13);
-    }
-
-    #[test]
-    fn whole_numbers_are_those_of_the_standard_library() {
-        for number in [0.0, -0.0, 0.25, 0.75, -0.25, -0.75, 1.0, -1.0, 7.5, -7.5, 1e6 + 0.1, -1e6 - 0.1, f64::INFINITY, f64::NEG_INFINITY] {
-            assert_eq!(nearest_whole(number), number.round_ties_even(), "{number}");
-            assert_eq!(whole_below(number), number.floor(), "{number}");
-            assert_eq!(whole_above(number), number.ceil(), "{number}");
-        }
     }
 
     #[test]

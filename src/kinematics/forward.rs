@@ -111,10 +111,15 @@ pub(super) fn sines_of_rows<const N: usize, const FUSED: bool>(rows: &[[f64; N]]
 
 /// Sines and cosines of the joint angles of one arm, which stand in the lanes.
 #[inline(always)]
-pub(super) fn sines_of_joints<const N: usize, const FUSED: bool>(q: &[f64; N]) -> (Column, Column) {
-    let mut angles = [0.0; LANES];
-    angles[..N].copy_from_slice(q);
-    let ([sin], [cos]) = sines::<1, FUSED>(&[angles]);
+pub(super) fn sines_of_joints<const N: usize, const FUSED: bool>(q: &[f64; N]) -> ([f64; N], [f64; N]) {
+    let (mut sin, mut cos) = ([0.0; N], [0.0; N]);
+    for ((q, sin), cos) in q.chunks(LANES).zip(sin.chunks_mut(LANES)).zip(cos.chunks_mut(LANES)) {
+        let mut angles = [0.0; LANES];
+        angles[..q.len()].copy_from_slice(q);
+        let ([sines], [cosines]) = sines::<1, FUSED>(&[angles]);
+        sin.copy_from_slice(&sines[..q.len()]);
+        cos.copy_from_slice(&cosines[..q.len()]);
+    }
     (sin, cos)
 }
 

@@ -58,31 +58,20 @@ impl Robot<6> {
 
     /// [`Robot::ik_checked`] of an unsolved answer's pose, without moving the answer about.
     pub(crate) fn ik_into(&self, solutions: &mut Solutions<6>) -> Result<(), Error> {
-        self.solve_into(solutions, &FreeChoice::rest(self.limits().rest()))?;
+        let solver = self.solver()?;
+        if solve_in_lanes(solver, solutions) {
+            return Ok(());
+        }
+        self.solve_carefully(solver, solutions, &FreeChoice::rest(self.limits().rest()));
         self.bring_families_inside(solutions)
     }
 
     pub(super) fn solve(&self, pose: Pose, free: &FreeChoice) -> Result<Solutions<6>, Error> {
-        let mut solutions = self.unsolved(pose);
-        self.solve_into(&mut solutions, free)?;
-        Ok(solutions)
-    }
-
-    pub(super) fn solve_into(&self, solutions: &mut Solutions<6>, free: &FreeChoice) -> Result<(), Error> {
-        let solver = self.solver()?;
-        if free.leaves_plain_poses_alone()
-            && let Some(plain) = run(Single { solver, pose: &solutions.pose })
-        {
-            for (slot, place) in solutions.slots.iter_mut().enumerate() {
-                let Some((q, status)) = plain.slot(slot) else { continue };
-                #[expect(clippy::cast_possible_truncation, reason = "eight slots")]
-                let solution = Solution { q, slot: slot as u8, status: Status::from_bits_retain(status), free: None };
-                *place = Some(solution);
-            }
-            return Ok(());
+        let (solver, mut solutions) = (self.solver()?, self.unsolved(pose));
+        if !(free.leaves_plain_poses_alone() && solve_in_lanes(solver, &mut solutions)) {
+            self.solve_carefully(solver, &mut solutions, free);
         }
-        self.solve_carefully(solver, solutions, free);
-        Ok(())
+        Ok(solutions)
     }
 
     /// Whatever the pose, one branch after the other.
@@ -101,4 +90,17 @@ impl Robot<6> {
         solutions.merged = branches.flags.map(|flags| if flags.contains(Status::MERGED) { flags } else { Status::empty() });
         solutions.reach = branches.reach;
     }
+}
+
+/// Solves a pose that is plain, and tells whether it was.
+#[inline]
+fn solve_in_lanes(solver: &WristSolver, solutions: &mut Solutions<6>) -> bool {
+    let Some(plain) = run(Single { solver, pose: &solutions.pose }) else { return false };
+    for (slot, place) in solutions.slots.iter_mut().enumerate() {
+        let Some((q, status)) = plain.slot(slot) else { continue };
+        #[expect(clippy::cast_possible_truncation, reason = "eight slots")]
+        let solution = Solution { q, slot: slot as u8, status: Status::from_bits_retain(status), free: None };
+        *place = Some(solution);
+    }
+    true
 }

@@ -2,9 +2,9 @@
 
 use core::f64::consts::TAU;
 
-use super::angles::{nearest_whole, whole_above, whole_below};
 use super::thresholds::{LIMIT_TOLERANCE, MOST_ANGLE};
 use crate::error::{Error, ModelFault};
+use crate::lanes::{nearest_whole, whole_above, whole_below};
 
 /// Lower and upper limit of each joint [rad]; infinite where a joint has none.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,7 +47,12 @@ impl<const N: usize> JointLimits<N> {
     /// Whether every joint is inside its limits, within [`LIMIT_TOLERANCE`].
     #[must_use]
     pub fn contain(&self, q: &[f64; N]) -> bool {
-        q.iter().enumerate().all(|(joint, angle)| angle.is_finite() && self.excess(joint, *angle) <= LIMIT_TOLERANCE)
+        q.iter().enumerate().all(|(joint, angle)| angle.is_finite() && self.holds(joint, *angle))
+    }
+
+    /// Whether an angle of joint `joint` (from 0) is inside its limits, within [`LIMIT_TOLERANCE`]. Lanes compare in the same way.
+    fn holds(&self, joint: usize, angle: f64) -> bool {
+        angle >= self.lower[joint] - LIMIT_TOLERANCE && angle <= self.upper[joint] + LIMIT_TOLERANCE
     }
 
     /// How far an angle of joint `joint` (from 0) is outside its limits [rad]; zero inside.
@@ -59,7 +64,7 @@ impl<const N: usize> JointLimits<N> {
     /// and a full turn of it is not, the first such turn.
     pub(crate) fn settle(&self, q: [f64; N]) -> [f64; N] {
         core::array::from_fn(|joint| {
-            if self.excess(joint, q[joint]) <= LIMIT_TOLERANCE {
+            if self.holds(joint, q[joint]) {
                 return q[joint];
             }
             self.turn_nearest(joint, q[joint], q[joint]).unwrap_or(q[joint])

@@ -20,6 +20,7 @@ pub struct Singularity {
 
 /// The singular values of a Jacobian of 6 or 7 joints, the largest first.
 pub(crate) fn singular_values<const N: usize>(jacobian: &SMatrix<f64, 6, N>) -> [f64; 6] {
+    const { assert!(N <= 7, "singular values are calculated for arms of up to seven joints") };
     if !jacobian.iter().all(|element| element.is_finite()) {
         return [f64::NAN; 6];
     }

@@ -50,6 +50,9 @@ pub const PLAIN_SHOULDER: f64 = 1e-6;
 /// Distance of the wrist centre from the edge of reach, as a part of the lengths of the arm, from which a branch is plain [1].
 pub const PLAIN_REACH: f64 = 1e-7;
 
+/// Length of the forearm, as a part of the upper arm, from which a branch is plain [1]: below, its direction is a small difference.
+pub const PLAIN_FOREARM: f64 = 0.25;
+
 /// |sin q5| from which a branch is plain [1].
 pub const PLAIN_WRIST_SIN: f64 = 1e-6;
 

@@ -73,6 +73,26 @@ pub(crate) fn mul_add<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
     a * b + c
 }
 
+/// The nearest whole number, of a number below 2^51 in size or infinite; an even one from the middle. Without a call on any processor.
+#[inline(always)]
+pub(crate) fn nearest_whole(number: f64) -> f64 {
+    (number + ROUND) - ROUND
+}
+
+/// The nearest whole number that is not above.
+#[inline(always)]
+pub(crate) fn whole_below(number: f64) -> f64 {
+    let nearest = nearest_whole(number);
+    if nearest > number { nearest - 1.0 } else { nearest }
+}
+
+/// The nearest whole number that is not below.
+#[inline(always)]
+pub(crate) fn whole_above(number: f64) -> f64 {
+    let nearest = nearest_whole(number);
+    if nearest < number { nearest + 1.0 } else { nearest }
+}
+
 /// The angle of the direction (x, y) [rad], for every argument as [`f64::atan2`] has it.
 #[inline(always)]
 #[expect(clippy::float_cmp, reason = "both infinite")]

@@ -304,3 +304,12 @@ fn vector_instructions_give_the_bits_of_single_ones() {
         }
     });
 }
+
+#[test]
+fn whole_numbers_are_those_of_the_standard_library() {
+    for number in [0.0, -0.0, 0.25, 0.75, -0.25, -0.75, 1.0, -1.0, 7.5, -7.5, 1e6 + 0.1, -1e6 - 0.1, f64::INFINITY, f64::NEG_INFINITY] {
+        assert_eq!(nearest_whole(number), number.round_ties_even(), "{number}");
+        assert_eq!(whole_below(number), number.floor(), "{number}");
+        assert_eq!(whole_above(number), number.ceil(), "{number}");
+    }
+}

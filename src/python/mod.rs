@@ -53,7 +53,8 @@ fn use_instruction_set(name: &str) -> PyResult<()> {
     set.force().map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
-#[pymodule(gil_used = false)]
+// Single calls read arrays under the interpreter's lock (`arrays::copied_vector`).
+#[pymodule(gil_used = true)]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<robot::PyRobot>()?;

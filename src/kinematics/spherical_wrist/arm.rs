@@ -147,11 +147,13 @@ impl SphericalWrist {
         Ok(Elbows { front: elbow(m), behind: Some(elbow(-m)), error: self.direction_rounding() * (self.c2 / m + 1.0 / r), free: false })
     }
 
-    /// The angles of an elbow from the direction of the upper arm, of any length, and that of the forearm, of length one (eq. 10 to 12).
+    /// The angles of an elbow from the direction of the upper arm, of any length, and that of the forearm, of length one to rounding (eq. 10 to 12).
     fn elbow(&self, upper: [f64; 2], forearm: [f64; 2]) -> Elbow {
         let (sin_psi, cos_psi) = (self.a2 / self.k, self.c3 / self.k);
-        let sin_23 = forearm[0] * cos_psi - forearm[1] * sin_psi;
-        let cos_23 = forearm[1] * cos_psi + forearm[0] * sin_psi;
+        // The direction of a forearm that is much shorter than the upper arm is a small difference: it may have lost its length of one.
+        let length = forearm[0].hypot(forearm[1]);
+        let sin_23 = (forearm[0] * cos_psi - forearm[1] * sin_psi) / length;
+        let cos_23 = (forearm[1] * cos_psi + forearm[0] * sin_psi) / length;
         let theta_2 = upper[0].atan2(upper[1]);
         Elbow { theta_2, theta_3: sin_23.atan2(cos_23) - theta_2, sin_23, cos_23 }
     }

@@ -8,7 +8,7 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use super::SphericalWrist;
 use super::solver::Frame;
-use crate::kinematics::thresholds::{PLAIN_REACH, PLAIN_SHOULDER, PLAIN_WRIST_SIN, REACH_TOLERANCE, SHOULDER_MERGE};
+use crate::kinematics::thresholds::{PLAIN_FOREARM, PLAIN_REACH, PLAIN_SHOULDER, PLAIN_WRIST_SIN, REACH_TOLERANCE, SHOULDER_MERGE};
 use crate::lanes::mul_add;
 
 /// The constants of an arm that a branch is calculated with.
@@ -45,8 +45,9 @@ impl Constants {
             difference: (c2 - k) * (c2 + k),
             sin_psi: arm.a2 / k,
             cos_psi: arm.c3 / k,
-            // Where that could hide a wrist's branches, the arm being minute in its surroundings, nothing is plain.
-            plain_x: if error <= 0.1 * PLAIN_WRIST_SIN { plain_x } else { f64::INFINITY },
+            // Where that could hide a wrist's branches, the arm being minute in its surroundings, nothing is plain; nor where the forearm is
+            // so short that eq. 10 loses its length.
+            plain_x: if error <= 0.1 * PLAIN_WRIST_SIN && k >= PLAIN_FOREARM * c2 { plain_x } else { f64::INFINITY },
             plain_m2,
         }
     }

@@ -46,14 +46,16 @@ impl OpwParameters {
         Self { a1, a2, b: 0.0, c1, c2, c3, c4, offsets: [0.0, 0.0, -FRAC_PI_2, 0.0, 0.0, 0.0], signs: [1; 6] }
     }
 
-    /// The parameters, checked; a lateral offset within [`FORM_TOLERANCE`] of zero is zero, for it changes how the shoulder's branches meet.
+    /// The parameters, checked; offsets in (-pi, pi]; a lateral offset within [`FORM_TOLERANCE`] of zero is zero, for it changes how the shoulder's branches meet.
     ///
     /// # Errors
     ///
     /// [`Error::InvalidModel`] when a parameter is not finite, a sign is not 1 or -1, or the upper arm or forearm has no length.
     pub(crate) fn squared_up(self) -> Result<Self, Error> {
         self.check()?;
-        Ok(Self { b: if self.b.abs() <= FORM_TOLERANCE { 0.0 } else { self.b }, ..self })
+        // Turns of an offset would cost digits of every angle.
+        let offsets = self.offsets.map(|offset| if offset.abs() > PI { wrap(offset) } else { offset });
+        Ok(Self { b: if self.b.abs() <= FORM_TOLERANCE { 0.0 } else { self.b }, offsets, ..self })
     }
 
     fn check(&self) -> Result<(), Error> {

@@ -89,7 +89,7 @@ impl Poses {
     /// From the tool in the world to the wrist in the shoulder's frame (eq. 1).
     #[inline(always)]
     pub(super) fn seen_from_shoulder<const FUSED: bool>(&mut self, solver: &WristSolver) {
-        let seen = solver.seen_from_shoulder();
+        let seen = solver.seen;
         if seen.turns {
             for lane in 0..LANES {
                 let frame = seen.turned::<FUSED>(&self.frame(lane));

@@ -45,7 +45,7 @@ impl Kernel for Single<'_> {
         if pose.translation.vector.iter().any(|coordinate| coordinate.abs() > MOST_LENGTH) {
             return None;
         }
-        let frame = solver.seen_from_shoulder().of::<FUSED>(&Frame::of(pose));
+        let frame = solver.seen.of::<FUSED>(&Frame::of(pose));
         let mut lanes = if solver.arm.b == 0.0 {
             Lanes::of::<FUSED, false>(&solver.constants, &frame)
         } else {

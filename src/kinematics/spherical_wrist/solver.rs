@@ -16,6 +16,7 @@ pub(crate) struct WristSolver {
     pub(crate) arm: SphericalWrist,
     t_shoulder_world: Pose,
     t_tool_wrist: Pose,
+    pub(super) seen: Seen,
     pub(super) constants: Constants,
     /// `None` where the limits ask for more than what lanes do.
     pub(super) columns: Option<[JointColumn; 6]>,
@@ -25,9 +26,12 @@ impl WristSolver {
     /// The solver of `arm` between the base and the tool of its chain, with limits (lower, upper) of six joints [rad].
     pub(crate) fn new<const N: usize>(arm: SphericalWrist, chain: &Chain<N>, limits: &[[f64; 2]]) -> Self {
         let arm = arm.standing_between(chain.base(), chain.tool());
+        let t_shoulder_world = (chain.base() * arm.t_base_shoulder()).inverse();
+        let t_tool_wrist = (arm.t_wrist_flange() * chain.tool()).inverse();
         Self {
-            t_shoulder_world: (chain.base() * arm.t_base_shoulder()).inverse(),
-            t_tool_wrist: (arm.t_wrist_flange() * chain.tool()).inverse(),
+            t_shoulder_world,
+            t_tool_wrist,
+            seen: Seen::new(&t_shoulder_world, &t_tool_wrist),
             constants: Constants::of(&arm),
             columns: JointColumn::of(&arm.signs, &arm.offsets, limits),
             arm,
@@ -46,19 +50,12 @@ impl WristSolver {
         let point = self.t_shoulder_world.transform_point(&pose.translation.vector.into());
         (point.coords, self.t_tool_wrist.inverse().translation.vector)
     }
-
-    /// What peels base, shoulder height, flange and tool off a pose.
-    #[inline(always)]
-    pub(super) fn seen_from_shoulder(&self) -> Seen {
-        let (before, behind) = (Frame::of(&self.t_shoulder_world), Frame::of(&self.t_tool_wrist));
-        Seen { before, behind, turns: before.rotation != UNTURNED || behind.rotation != UNTURNED }
-    }
 }
 
 const UNTURNED: Rows3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// The constant factors of eq. 1.
-#[derive(Clone, Copy)]
+/// What peels base, shoulder height, flange and tool off a pose: the constant factors of eq. 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Seen {
     before: Frame,
     behind: Frame,
@@ -67,6 +64,11 @@ pub(super) struct Seen {
 }
 
 impl Seen {
+    fn new(t_shoulder_world: &Pose, t_tool_wrist: &Pose) -> Self {
+        let (before, behind) = (Frame::of(t_shoulder_world), Frame::of(t_tool_wrist));
+        Self { before, behind, turns: before.rotation != UNTURNED || behind.rotation != UNTURNED }
+    }
+
     /// The wrist in the shoulder's frame, of the tool in the world.
     #[inline(always)]
     pub(super) fn of<const FUSED: bool>(&self, t_world_tool: &Frame) -> Frame {
@@ -97,7 +99,7 @@ impl Seen {
 }
 
 /// A transform as kernels take it: the rows of its rotation, and its origin.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Frame {
     pub(super) rotation: Rows3,
     pub(super) origin: [f64; 3],
