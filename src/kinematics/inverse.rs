@@ -104,3 +104,7 @@ fn solve_in_lanes(solver: &WristSolver, solutions: &mut Solutions<6>) -> bool {
     }
     true
 }
+
+#[cfg(test)]
+#[path = "inverse_tests.rs"]
+mod tests;

@@ -132,7 +132,7 @@ fn with_avx2<K: Kernel>(kernel: K) -> K::Answer {
 
 /// Works on each set of this processor in turn, one caller at a time, and goes back to the widest.
 #[cfg(test)]
-pub(crate) fn on_each_set(work: impl Fn(InstructionSet)) {
+pub(crate) fn on_each_set(mut work: impl FnMut(InstructionSet)) {
     static FORCED: std::sync::Mutex<()> = std::sync::Mutex::new(());
     // A test that failed while it held the lock has said why.
     let _one_at_a_time = FORCED.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
