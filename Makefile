@@ -10,6 +10,8 @@ RUST_SOURCES := $(shell find src -name '*.rs') Cargo.toml
 BUILT := $(VENV)/.irbkin-built
 PEERS := .venv-peers
 NO_STD := --no-default-features --features libm
+# A recipe for each instruction set of this processor; ends with `; done`. The shell's -e stops at the first that fails.
+ON_EACH_SET := sets=$$(cargo run --quiet --example instruction_sets); for set in $$sets; do export IRBKIN_INSTRUCTION_SET=$$set;
 
 .PHONY: help run test check bench bench-peers ulp million hardsets wheel clean toolchains
 
@@ -44,6 +46,7 @@ run: $(BUILT) ## Solve a real IRB 2600 pose and show every solution
 
 test: $(BUILT) $(VENV)/.groups ## Run all tests, Rust's and Python's
 	cargo test --quiet
+	$(ON_EACH_SET) cargo test --quiet --test laws --test recall --test hardsets; done
 	cargo test --quiet $(NO_STD) --lib --test laws --test allocation
 	$(BIN)/python -m pytest --quiet
 
@@ -92,11 +95,11 @@ bench-peers: $(PEERS)/.irbkin-built ## Compare with other packages: solutions lo
 ulp: | toolchains ## Hold the lanes' arc tangent, sine and cosine against correctly rounded ones, at ten million points
 	IRBKIN_POINTS=10000000 cargo test --quiet --release --lib lanes::functions -- --nocapture --test-threads=1
 
-million: | toolchains ## Solve a million random poses of each of seven arms and count what is lost, wrong or twice
-	IRBKIN_POSES=1000000 cargo test --quiet --release --test recall -- --nocapture --test-threads=1
+million: | toolchains ## Solve a million random poses of each of seven arms on each instruction set; count what is lost, wrong or twice
+	$(ON_EACH_SET) IRBKIN_POSES=1000000 cargo test --quiet --release --test recall -- --nocapture --test-threads=1; done
 
 hardsets: | toolchains ## Solve poses at and next to every singularity, pairs and triples of them, and follow paths through
-	IRBKIN_POSES=2000 cargo test --quiet --release --test hardsets --test follow -- --nocapture --test-threads=1
+	$(ON_EACH_SET) IRBKIN_POSES=2000 cargo test --quiet --release --test hardsets --test follow -- --nocapture --test-threads=1; done
 
 wheel: $(VENV)/.made ## Build the wheel and try it in an environment of its own
 	$(BIN)/maturin build --release --quiet --out dist

@@ -7,7 +7,7 @@ mod common;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use common::Rng;
+use common::{Rng, asked_set};
 
 use nalgebra::Vector3;
 
@@ -15,7 +15,9 @@ use irbkin::{BreakReason, Crossing, FollowOptions, Followed, JointLimits, OpwPar
 
 const SAMPLES: usize = 201;
 
+/// The robot of every path, solved on the instruction set that was asked for.
 fn robot() -> Robot<6> {
+    asked_set();
     Robot::named("IRB 2600-12/1.65").unwrap()
 }
 

@@ -7,7 +7,7 @@ mod common;
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use common::{Rng, reach_of};
+use common::{Rng, asked_set, reach_of};
 use nalgebra::Vector3;
 
 use irbkin::{FreeJoint, OpwParameters, Pose, Robot, Solution, Status, thresholds};
@@ -184,8 +184,14 @@ impl Tally {
         #[expect(clippy::cast_precision_loss, reason = "a mean")]
         let (found, mean) = (100.0 * self.found as f64 / self.poses as f64, self.solutions as f64 / self.poses as f64);
         let row = format!(
-            "{:22} {set:34} {:7} poses  found {found:6.2} %  wrong {}  twice {}  worst {:.1e} m {:.1e} rad  {mean:.2} solutions",
-            arm.name, self.poses, self.wrong, self.twice, self.position, self.rotation
+            "{:22} {:8} {set:34} {:7} poses  found {found:6.2} %  wrong {}  twice {}  worst {:.1e} m {:.1e} rad  {mean:.2} solutions",
+            arm.name,
+            asked_set().name(),
+            self.poses,
+            self.wrong,
+            self.twice,
+            self.position,
+            self.rotation
         );
         println!("{row}");
         let amiss = self.found != self.poses || self.wrong + self.twice + self.flags > 0;
@@ -318,6 +324,7 @@ fn run(arm: &Arm) -> String {
 }
 
 fn check(name: &'static str, opw: OpwParameters) {
+    asked_set();
     let report = run(&Arm::new(name, opw));
     assert!(report.is_empty(), "\n{report}");
 }

@@ -1,0 +1,9 @@
+//! The instruction sets of this processor that irbkin has kernels for, the narrowest first.
+
+use irbkin::InstructionSet;
+
+fn main() {
+    for set in InstructionSet::available() {
+        println!("{}", set.name());
+    }
+}
