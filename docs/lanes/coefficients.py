@@ -1,10 +1,10 @@
-"""The constants of src/lanes/functions.rs, as the Rust literals that stand there, in the order in which they stand there.
+"""The constants of src/lanes/functions.rs: the Rust literals that stand there, in their order.
 
 Needs mpmath only: `python3 docs/lanes/coefficients.py`.
 
-Polynomials are fitted by the Remez exchange on a dense Chebyshev grid, with a weight that makes the relative error of the
-function itself the one that is least, not that of the polynomial. The coefficients are rounded to float64 one at a time,
-lowest power first; after each the remaining ones are fitted again, and so take up what the rounding left.
+Polynomials are fitted by the Remez exchange on a dense Chebyshev grid, with a weight that makes the relative error of
+the function itself the one that is least, not that of the polynomial. The coefficients are rounded to float64 one at a
+time, lowest power first; after each the remaining ones are fitted again, and so take up what the rounding left.
 """
 
 from mpmath import atan, cos, floor, frexp, ldexp, log, lu_solve, matrix, mp, mpf, pi, sin, sqrt
@@ -30,7 +30,7 @@ def horner(coefficients, u):
 
 
 def levelled(us, fs, weights, shift, count, reference):
-    """Coefficients whose weighted error is the same, in turn up and down, at the points of the reference, and that error."""
+    """Coefficients whose weighted error at the reference is equal, in turn up and down; and that error."""
     system, right = matrix(count + 1, count + 1), matrix(count + 1, 1)
     for i, j in enumerate(reference):
         power = us[j] ** shift
@@ -54,7 +54,7 @@ def extremes(errors):
 
 
 def remez(us, fs, weights, shift, count):
-    """Largest error and coefficients c that make it least: the largest |weight (f - u^shift sum c_k u^k)| of the grid us."""
+    """Coefficients c that make the largest |weight (f - u^shift sum c_k u^k)| of the grid least; first, that error."""
     grid = len(us)
     reference = [(2 * i + 1) * grid // (2 * (count + 1)) for i in range(count + 1)]
     best = (mpf("inf"), None)

@@ -13,6 +13,13 @@ from strategies import subjects
 MANY = 1003  # no multiple of any lane count
 
 
+def assert_same_bits(found, wanted):
+    """Equal with the signs of zeros; not numbers are one like the other."""
+    found, wanted = np.asarray(found), np.asarray(wanted)
+    np.testing.assert_array_equal(found, wanted)
+    np.testing.assert_array_equal(np.signbit(found) & ~np.isnan(found), np.signbit(wanted) & ~np.isnan(wanted))
+
+
 @pytest.fixture(scope="module", params=["IRB 2600-12/1.65", "IRB 120-3/0.58", "KUKA KR 6 R700", "lateral offset"])
 def subject(request):
     return subjects()[request.param]
@@ -42,12 +49,61 @@ def test_batch_equals_single(robot, poses):
     for pose, q, status in zip(poses, *batch, strict=True):
         single = robot.ik(pose)
         np.testing.assert_array_equal(status, single.status)
-        np.testing.assert_array_equal(np.isnan(q), np.isnan(single.slots))
-        filled = ~np.isnan(q[:, 0])
-        clear = [robot.singularity(angles).min_singular_value > 1e-3 for angles in q[filled]]
-        assert not filled.any() or np.abs(q[filled] - single.slots[filled])[clear].max(initial=0.0) <= 1e-12
+        assert_same_bits(q, single.slots)
     assert 0 < (batch.status == 0).all(axis=1).sum() < MANY
     assert (batch.status & Status.WRIST).any()
+
+
+def strided(values):
+    """The same numbers with other numbers between them."""
+    wide = np.full((*values.shape[:-1], 2 * values.shape[-1]), 99.0, values.dtype)
+    wide[..., ::2] = values
+    return wide[..., ::2]
+
+
+KINDS = {
+    "strided": strided,
+    "reversed": lambda values: values[::-1],
+    "Fortran order": np.asfortranarray,
+    "float32": lambda values: values.astype(np.float32),
+    "strided float32": lambda values: strided(values.astype(np.float32)),
+    "big-endian": lambda values: values.astype(">f8"),
+}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_batch_of_every_kind_of_array_equals_single(robot, poses, kind):
+    """A rotation in single precision is repaired: the same in a batch and alone."""
+    given = KINDS[kind](poses[:101])
+    for pose, q, status in zip(given, *robot.ik_batch(given), strict=True):
+        single = robot.ik(pose)
+        np.testing.assert_array_equal(status, single.status)
+        assert_same_bits(q, single.slots)
+
+
+@pytest.mark.parametrize("name", ["IRB 2600-12/1.65", "Panda"])
+@pytest.mark.parametrize("kind", [None, *KINDS])
+def test_forward_batches_equal_single(name, kind):
+    robot = irbkin.Robot(name)
+    most = np.repeat([0.0, 3.0, 400.0, 9e4, 2e5], 21)[:, None]  # the lanes count turns up to 1e5 rad
+    q = most * np.random.default_rng(7).uniform(-1, 1, (most.size, robot.dof))
+    given = KINDS[kind](q) if kind else q
+    for found, wanted in (
+        (robot.fk(given), [robot.fk(row) for row in given]),
+        (robot.link_frames(given), [robot.link_frames(row) for row in given]),
+        (robot.jacobian(given), [robot.jacobian(row) for row in given]),
+        (robot.jacobian(given, frame="tool"), [robot.jacobian(row, frame="tool") for row in given]),
+    ):
+        assert_same_bits(found, wanted)
+
+
+@pytest.mark.parametrize("threads", [2, 3, 4])
+def test_threads_that_share_the_work_change_no_bit(robot, poses, threads):
+    """A thread takes 1024 poses at a time: fewer are not shared."""
+    many = np.concatenate([poses] * 5)
+    whole, shared = robot.ik_batch(many), robot.ik_batch(many, threads=threads)
+    assert_same_bits(shared.q, whole.q)
+    np.testing.assert_array_equal(shared.status, whole.status)
 
 
 @pytest.mark.parametrize("threads", [1, 2, 3, 7, 0, 5000])
