@@ -57,7 +57,7 @@ check: $(BUILT) $(VENV)/.groups ## Format, lints for each feature set, types, st
 	cargo clippy --quiet --lib --features python -- -D warnings
 	cargo clippy --quiet --lib $(NO_STD) -- -D warnings
 	RUSTDOCFLAGS='-D warnings' cargo doc --quiet --no-deps --features serde
-	cargo bench --quiet --bench one_pose -- --test
+	cargo bench --quiet --bench one_pose --bench batch --bench instructions -- --test
 	$(BIN)/python benches/python_calls.py >/dev/null
 	$(BIN)/python -m benches.peers --quick >/dev/null
 	for example in examples/*.rs; do cargo run --quiet --release --example "$$(basename "$$example" .rs)" >/dev/null; done
@@ -67,8 +67,8 @@ check: $(BUILT) $(VENV)/.groups ## Format, lints for each feature set, types, st
 	$(BIN)/python -m mypy.stubtest irbkin --concise
 	for example in examples/*.py; do $(BIN)/python "$$example" >/dev/null; done
 
-bench: $(BUILT) ## Time one pose in Rust, and Python's calls as ratios to a matrix product
-	cargo bench --bench one_pose
+bench: $(BUILT) ## Time one pose and batches in Rust on each instruction set, and Python's calls against yardsticks
+	cargo bench --bench one_pose --bench batch
 	$(BIN)/python benches/python_calls.py
 
 # One at a time: a peer that has no wheel for this Python does not keep the others out.

@@ -1,0 +1,47 @@
+//! Many poses of an IRB 2600 on one thread, on every instruction set, a pose at a time, against filling the answers with zeros.
+//!
+//! 512 poses and their answers stay in the second-level cache; 100,000 do not.
+#![allow(missing_docs, clippy::unwrap_used)]
+
+use std::hint::black_box;
+use std::time::Duration;
+
+use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main, measurement::WallTime};
+use irbkin::{JacobianFrame, batch};
+
+mod poses;
+
+/// Times `calculate` on every instruction set, and the filling of its `answers`.
+fn measure(mut group: BenchmarkGroup<'_, WallTime>, count: u32, answers: &mut [f64], mut calculate: impl FnMut(&mut [f64])) {
+    group.throughput(Throughput::Elements(u64::from(count)));
+    group.bench_function("fill", |b| b.iter(|| black_box(&mut *answers).fill(0.0)));
+    poses::with_each_set(|set| {
+        group.bench_function(set, |b| b.iter(|| calculate(black_box(&mut *answers))));
+    });
+    group.finish();
+}
+
+fn many_poses(criterion: &mut Criterion) {
+    let robot = poses::robot();
+    for count in [512, 100_000] {
+        let rows = usize::try_from(count).unwrap();
+        let q = poses::joints(&robot, count);
+        let poses = poses::poses(&robot, &q);
+        let mut status = vec![0; rows * 8];
+        let mut answers = vec![0.0; rows * 48];
+
+        let group = criterion.benchmark_group(format!("ik, {count} poses"));
+        measure(group, count, &mut answers, |q| batch::ik(&robot, &poses, q, &mut status, 1).unwrap());
+        let group = criterion.benchmark_group(format!("fk, {count} poses"));
+        measure(group, count, &mut answers[..rows * 16], |poses| batch::fk(&robot, &q, poses).unwrap());
+        let group = criterion.benchmark_group(format!("jacobian, {count} poses"));
+        measure(group, count, &mut answers[..rows * 36], |rows| batch::jacobian(&robot, &q, JacobianFrame::Base, rows).unwrap());
+    }
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default().sample_size(50).warm_up_time(Duration::from_millis(500)).measurement_time(Duration::from_secs(2));
+    targets = many_poses
+}
+criterion_main!(benches);

@@ -1,0 +1,38 @@
+//! The arm that is measured, and what it is asked.
+#![allow(dead_code, reason = "each bench uses its part")]
+
+use irbkin::{InstructionSet, Robot, batch};
+
+/// A joint vector whose pose has all eight solutions.
+pub(crate) const Q: [f64; 6] = [0.3, -0.2, 0.4, 0.5, -0.6, 0.7];
+
+/// The same with axes 4 and 6 in one line: a pose for the careful solve.
+pub(crate) const Q_SINGULAR: [f64; 6] = [0.3, -0.2, 0.4, 0.5, 0.0, 0.7];
+
+pub(crate) fn robot() -> Robot<6> {
+    Robot::named("IRB 2600-12/1.65").unwrap()
+}
+
+/// Joint vectors spread evenly inside the limits: multiples of six irrational numbers.
+pub(crate) fn joints(robot: &Robot<6>, count: u32) -> Vec<f64> {
+    let steps = [2.0_f64, 3.0, 5.0, 7.0, 11.0, 13.0].map(f64::sqrt);
+    let limits = robot.limits().to_array();
+    let vector =
+        |i| (0..6).map(move |joint| limits[joint][0] + (limits[joint][1] - limits[joint][0]) * (f64::from(i) * steps[joint]).fract());
+    (1..=count).flat_map(vector).collect()
+}
+
+/// Their poses, 16 elements each.
+pub(crate) fn poses(robot: &Robot<6>, q: &[f64]) -> Vec<f64> {
+    let mut poses = vec![0.0; q.len() / 6 * 16];
+    batch::fk(robot, q, &mut poses).unwrap();
+    poses
+}
+
+/// Does it once for every instruction set of this processor, with that set in use.
+pub(crate) fn with_each_set(mut measure: impl FnMut(&'static str)) {
+    for set in InstructionSet::available() {
+        set.force().unwrap();
+        measure(set.name());
+    }
+}
