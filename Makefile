@@ -13,7 +13,7 @@ NO_STD := --no-default-features --features libm
 # A recipe for each instruction set of this processor; ends with `; done`. The shell's -e stops at the first that fails.
 ON_EACH_SET := sets=$$(cargo run --quiet --example instruction_sets); for set in $$sets; do export IRBKIN_INSTRUCTION_SET=$$set;
 
-.PHONY: help run test check bench bench-peers ulp million hardsets wheel clean toolchains
+.PHONY: help run test check bench bench-peers instructions stages ulp million hardsets wheel clean toolchains
 
 help: ## List the targets
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -60,6 +60,7 @@ check: $(BUILT) $(VENV)/.groups ## Format, lints for each feature set, types, st
 	cargo bench --quiet --bench one_pose --bench batch --bench instructions -- --test
 	$(BIN)/python benches/python_calls.py >/dev/null
 	$(BIN)/python -m benches.peers --quick >/dev/null
+	$(BIN)/python benches/instructions.py >/dev/null
 	for example in examples/*.rs; do cargo run --quiet --release --example "$$(basename "$$example" .rs)" >/dev/null; done
 	$(BIN)/ruff check --quiet .
 	$(BIN)/ruff format --check --quiet .
@@ -91,6 +92,12 @@ $(PEERS)/.irbkin-built: $(PEERS)/.made $(RUST_SOURCES) $(wildcard python/irbkin/
 
 bench-peers: $(PEERS)/.irbkin-built ## Compare with other packages: solutions lost, times; WRITE=1 writes docs/benchmarks.md
 	$(PEERS)/bin/python -m benches.peers $(if $(QUICK),--quick) $(if $(WRITE),--write)
+
+instructions: | toolchains ## Count a call's instructions with valgrind, against benches/instructions.md; WRITE=1 records them there
+	@$(PYTHON) benches/instructions.py $(if $(WRITE),--write)
+
+stages: | toolchains ## Show where the time of a pose goes, by stages, with Linux's perf; SETS="avx2 avx512" chooses
+	@$(PYTHON) benches/stages.py $(SETS)
 
 ulp: | toolchains ## Hold the lanes' arc tangent, sine and cosine against correctly rounded ones, at ten million points
 	IRBKIN_POINTS=10000000 cargo test --quiet --release --lib lanes::functions -- --nocapture --test-threads=1

@@ -1,6 +1,6 @@
 //! What `make instructions` counts and `make stages` samples: `instructions WHAT SET TIMES` does one thing that many times.
 //!
-//! Without these three it does everything once on every instruction set: a proof that it runs.
+//! `instructions sets` lists the instruction sets of this processor. Without arguments it does everything once on each: a proof that it runs.
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use std::hint::black_box;
@@ -18,11 +18,13 @@ const ALL: [&str; 9] =
 fn main() {
     let robot = poses::robot();
     let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with("--")).collect();
-    if let [what, set, times] = &arguments[..] {
-        InstructionSet::available().find(|available| available.name() == set).unwrap().force().unwrap();
-        repeat(&robot, what, times.parse().unwrap());
-    } else {
-        poses::with_each_set(|_| ALL.iter().for_each(|what| repeat(&robot, what, 1)));
+    match &arguments[..] {
+        [what, set, times] => {
+            InstructionSet::available().find(|available| available.name() == set).unwrap().force().unwrap();
+            repeat(&robot, what, times.parse().unwrap());
+        }
+        [sets] if sets == "sets" => InstructionSet::available().for_each(|set| println!("{}", set.name())),
+        _ => poses::with_each_set(|_| ALL.iter().for_each(|what| repeat(&robot, what, 1))),
     }
 }
 

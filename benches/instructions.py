@@ -1,0 +1,86 @@
+"""Count the instructions of a call and show them beside the recorded ones: `make instructions`, WRITE=1 records."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from built import executable, toolchain
+
+PAGE = Path(__file__).with_suffix(".md")
+# valgrind has no AVX-512: programs that ask it for the processor's features are told that there is none.
+SETS = ("avx2", "baseline")
+# What is done, and how many poses that are.
+WHAT = {
+    "fk": 1,
+    "jacobian": 1,
+    "ik, 8 solutions": 1,
+    "ik, wrist singular": 1,
+    "ik_nearest": 1,
+    "singularity": 1,
+    "batch fk": 512,
+    "batch jacobian": 512,
+    "batch ik": 512,
+}
+# The difference of two counts leaves start and preparation out.
+FEW, MANY = 2, 12
+
+
+def counted(program: str, what: str, instructions: str, times: int) -> int:
+    """Instructions of the whole program."""
+    valgrind = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null"]
+    run = subprocess.run([*valgrind, program, what, instructions, str(times)], capture_output=True, text=True)
+    found = re.search(r"Collected : (\d+)", run.stderr)
+    if run.returncode != 0 or found is None:
+        sys.exit(f"valgrind cannot run {what} on {instructions}:\n{run.stderr}")
+    return int(found[1])
+
+
+def recorded() -> dict[str, list[int]]:
+    """The table of the page: a row's counts by its name."""
+    rows = re.findall(r"^\| (.+?) \| (\d+) \| (\d+) \|$", PAGE.read_text(), re.MULTILINE) if PAGE.exists() else []
+    return {name: [int(count) for count in counts] for name, *counts in rows}
+
+
+def page(counts: dict[str, list[int]]) -> str:
+    """The page with these counts."""
+    rows = "\n".join(f"| {name} | {' | '.join(map(str, row))} |" for name, row in counts.items())
+    return f"""# Instructions of one pose
+
+Counted by callgrind, start and preparation left out; a batch's are those of one of its 512 poses. They depend on the
+compiler, not on how busy the machine is. valgrind does not run AVX-512.
+
+`make instructions` counts again and shows the difference; `make instructions WRITE=1` writes this page.
+Recorded with {toolchain()}.
+
+| IRB 2600-12/1.65 | {" | ".join(SETS)} |
+|---|---:|---:|
+{rows}
+"""
+
+
+def main() -> None:
+    """Count, compare and, where asked to, record."""
+    if shutil.which("valgrind") is None:
+        print("valgrind is missing: nothing is counted (Debian: apt-get install valgrind)")
+        return
+    program, before, now = executable(), recorded(), {}
+    print(f"{toolchain()}\n{'instructions a pose':22}{'set':10}{'recorded':>10}{'now':>10}{'change':>10}")
+    for what, poses in WHAT.items():
+        now[what] = []
+        for number, instructions in enumerate(SETS):
+            difference = counted(program, what, instructions, MANY) - counted(program, what, instructions, FEW)
+            count = round(difference / (MANY - FEW) / poses)
+            now[what].append(count)
+            old = before[what][number] if what in before else None
+            change = f"{(count / old - 1) * 100:+9.1f}%" if old else "new"
+            print(f"{what:22}{instructions:10}{old or '':>10}{count:10}{change:>10}", flush=True)
+    if "--write" in sys.argv:
+        PAGE.write_text(page(now))
+
+
+if __name__ == "__main__":
+    main()
