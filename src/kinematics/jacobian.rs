@@ -114,6 +114,10 @@ fn jacobian_rows<const N: usize, const W: usize, const FUSED: bool>(
     let tool = frame.times::<FUSED>(chain.last());
     let mut rows = [[[0.0; W]; N]; 6];
     for (joint, frame) in frames.iter().enumerate() {
+        if W > 1 {
+            // No joint waits for another here: without this the compiler takes them for the lanes, and gathers and scatters.
+            core::hint::black_box(());
+        }
         let mut linear = cross::<W, FUSED>(&frame.z, &tool.origin, &frame.origin);
         let mut angular = frame.z;
         if in_frame == JacobianFrame::Tool {
