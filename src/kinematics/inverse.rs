@@ -106,5 +106,4 @@ fn solve_in_lanes(solver: &WristSolver, solutions: &mut Solutions<6>) -> bool {
 }
 
 #[cfg(test)]
-#[path = "inverse_tests.rs"]
 mod tests;

@@ -165,5 +165,4 @@ fn six<const FUSED: bool>(c: &[f64; 6], z: f64, z2: f64) -> f64 {
 }
 
 #[cfg(test)]
-#[path = "functions_tests.rs"]
 mod tests;
