@@ -16,7 +16,7 @@ ON_EACH_SET := sets=$$(cargo run --quiet --example instruction_sets); for set in
 .PHONY: help run test check bench bench-peers instructions stages ulp million hardsets wheel clean toolchains
 
 help: ## List the targets
-	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
+	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
 
 toolchains:
 	@command -v cargo >/dev/null || { echo "cargo is missing: install a Rust toolchain (1.89 or newer), https://rustup.rs"; exit 1; }
