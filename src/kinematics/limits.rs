@@ -1,6 +1,6 @@
 //! Joint limits, and the full turns of an angle inside them.
 
-use core::f64::consts::TAU;
+use core::f64::consts::{PI, TAU};
 
 use super::thresholds::{LIMIT_TOLERANCE, MOST_ANGLE};
 use crate::error::{Error, ModelFault};
@@ -73,6 +73,10 @@ impl<const N: usize> JointLimits<N> {
 
     /// The turn of `angle` inside the limits that is nearest to `seed`.
     pub(crate) fn turn_nearest(&self, joint: usize, angle: f64, seed: f64) -> Option<f64> {
+        // Without a division where most angles are.
+        if (seed - angle).abs() < PI && self.holds(joint, angle) {
+            return Some(angle);
+        }
         let (first, last) = self.turns(joint, angle)?;
         let turn = nearest_whole((seed - angle) / TAU).clamp(first, last);
         Some(if turn == 0.0 { angle } else { angle + TAU * turn })
