@@ -109,15 +109,19 @@ pub fn ik_nearest(robot: &Robot<6>, poses: &[f64], seeds: &[f64], weights: &[f64
 #[cfg(feature = "std")]
 const PART: usize = 1024;
 
+/// Fewest poses for which a second thread pays: its start takes as long as half a thousand of them.
+#[cfg(feature = "std")]
+const WORTH_A_THREAD: usize = 8 * PART;
+
 /// Threads for a call, as many as are asked for, worth their start and not more than there are cores; `None` for the caller's own.
 ///
 /// A pool lives no longer than the call: it leaves nothing behind that a forked process would wait for.
 #[cfg(feature = "std")]
 fn pool(threads: usize, poses: usize) -> Option<rayon::ThreadPool> {
-    if threads <= 1 || poses <= PART {
+    if threads <= 1 || poses < WORTH_A_THREAD {
         return None;
     }
-    let threads = threads.min(poses.div_ceil(PART)).min(std::thread::available_parallelism().map_or(1, usize::from));
+    let threads = threads.min(2 * poses / WORTH_A_THREAD).min(std::thread::available_parallelism().map_or(1, usize::from));
     if threads <= 1 { None } else { rayon::ThreadPoolBuilder::new().num_threads(threads).build().ok() }
 }
 

@@ -180,8 +180,8 @@ fn shuffled(count: usize) -> Vec<usize> {
 fn threads_change_no_bit() {
     on_each_set(|set| {
         for subject in subjects().iter().step_by(4) {
-            // The parts of four threads, the last one not whole.
-            let rows: Vec<_> = subject.rows(ROWS).into_iter().cycle().take(4001).collect();
+            // Enough for four threads, the last part not whole.
+            let rows: Vec<_> = subject.rows(ROWS).into_iter().cycle().take(17_001).collect();
             let whole = Answers::in_a_batch(&subject.robot, &rows, 1);
             for threads in [2, 3, 4, 0] {
                 Answers::in_a_batch(&subject.robot, &rows, threads).assert_same(&whole, &format!("{}, {}", subject.name, set.name()));

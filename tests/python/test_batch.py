@@ -99,8 +99,8 @@ def test_forward_batches_equal_single(name, kind):
 
 @pytest.mark.parametrize("threads", [2, 3, 4])
 def test_threads_that_share_the_work_change_no_bit(robot, poses, threads):
-    """A thread takes 1024 poses at a time: fewer are not shared."""
-    many = np.concatenate([poses] * 5)
+    """Fewer than 8192 poses are not shared."""
+    many = np.concatenate([poses] * 17)
     whole, shared = robot.ik_batch(many), robot.ik_batch(many, threads=threads)
     assert_same_bits(shared.q, whole.q)
     np.testing.assert_array_equal(shared.status, whole.status)
