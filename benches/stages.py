@@ -30,7 +30,7 @@ class Work(NamedTuple):
 
 SINES = ("forward.rs sines",)
 WORK = (
-    Work("fk", 10_000_000, 1, {"sines": SINES, "frames": ("axes.rs", "forward.rs run")}),
+    Work("fk", 10_000_000, 1, {"sines": SINES, "frames": ("axes.rs", "forward.rs run", "forward.rs tool")}),
     Work("jacobian", 5_000_000, 1, {"sines": SINES, "frames, columns": ("axes.rs", "jacobian.rs")}),
     Work(
         "ik, 8 solutions",

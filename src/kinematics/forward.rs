@@ -50,11 +50,7 @@ impl<const N: usize> Kernel for Poses<'_, N> {
         let first = Axes::of(self.chain.first());
         for (q, poses) in self.q.chunks(LANES).zip(self.out.chunks_mut(LANES)) {
             let (sin, cos) = sines_of_rows::<N, FUSED>(q);
-            let mut frame = first;
-            for (joint, link) in self.chain.links().iter().enumerate() {
-                frame = frame.after::<FUSED>(*link, &sin[joint], &cos[joint]);
-            }
-            frame.times::<FUSED>(self.chain.last()).write(poses);
+            tool::<N, LANES, FUSED>(self.chain, first, &sin, &cos).write(poses);
             for (_, pose) in q.iter().zip(poses).filter(|(q, _)| !is_finite(q)) {
                 *pose = [f64::NAN; 16];
             }
@@ -69,11 +65,7 @@ impl<const N: usize> Kernel for OnePose<'_, N> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> Pose {
         let (sin, cos) = sines_of_joints::<N, FUSED>(self.q);
-        let mut frame = Axes::<1>::of(self.chain.first());
-        for (joint, link) in self.chain.links().iter().enumerate() {
-            frame = frame.after::<FUSED>(*link, &[sin[joint]], &[cos[joint]]);
-        }
-        frame.times::<FUSED>(self.chain.last()).pose(0)
+        tool::<N, 1, FUSED>(self.chain, Axes::of(self.chain.first()), &sin, &cos).pose(0)
     }
 }
 
@@ -87,11 +79,26 @@ impl<const N: usize> Kernel for OneFrames<'_, N> {
         let mut frame = Axes::<1>::of(self.chain.first());
         let mut frames = [Pose::identity(); N];
         for (joint, (link, pose)) in self.chain.links().iter().zip(&mut frames).enumerate() {
-            frame = frame.after::<FUSED>(*link, &[sin[joint]], &[cos[joint]]);
+            frame = frame.after::<FUSED>(*link, &sin[joint], &cos[joint]);
             *pose = frame.pose(0);
         }
         (frames, frame.times::<FUSED>(self.chain.last()).pose(0))
     }
+}
+
+/// The tool's frames, from the frame before the first link on.
+#[inline(always)]
+fn tool<const N: usize, const W: usize, const FUSED: bool>(
+    chain: &Chain<N>,
+    first: Axes<W>,
+    sin: &[[f64; W]; N],
+    cos: &[[f64; W]; N],
+) -> Axes<W> {
+    let mut frame = first;
+    for (joint, link) in chain.links().iter().enumerate() {
+        frame = frame.after::<FUSED>(*link, &sin[joint], &cos[joint]);
+    }
+    frame.times::<FUSED>(chain.last())
 }
 
 /// A column of lanes for each joint.
@@ -109,16 +116,16 @@ pub(super) fn sines_of_rows<const N: usize, const FUSED: bool>(rows: &[[f64; N]]
     sines::<N, FUSED>(&angles)
 }
 
-/// Sines and cosines of the joint angles of one arm, which stand in the lanes.
+/// Sines and cosines of the joint angles of one arm, calculated side by side; one lane of each comes out.
 #[inline(always)]
-pub(super) fn sines_of_joints<const N: usize, const FUSED: bool>(q: &[f64; N]) -> ([f64; N], [f64; N]) {
-    let (mut sin, mut cos) = ([0.0; N], [0.0; N]);
+pub(super) fn sines_of_joints<const N: usize, const FUSED: bool>(q: &[f64; N]) -> ([[f64; 1]; N], [[f64; 1]; N]) {
+    let (mut sin, mut cos) = ([[0.0]; N], [[0.0]; N]);
     for ((q, sin), cos) in q.chunks(LANES).zip(sin.chunks_mut(LANES)).zip(cos.chunks_mut(LANES)) {
         let mut angles = [0.0; LANES];
         angles[..q.len()].copy_from_slice(q);
         let ([sines], [cosines]) = sines::<1, FUSED>(&[angles]);
-        sin.copy_from_slice(&sines[..q.len()]);
-        cos.copy_from_slice(&cosines[..q.len()]);
+        sin.as_flattened_mut().copy_from_slice(&sines[..q.len()]);
+        cos.as_flattened_mut().copy_from_slice(&cosines[..q.len()]);
     }
     (sin, cos)
 }

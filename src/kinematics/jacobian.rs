@@ -82,11 +82,7 @@ impl<const N: usize> Kernel for OneJacobian<'_, N> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> [[f64; N]; 6] {
         let (sin, cos) = sines_of_joints::<N, FUSED>(self.q);
-        let (mut sines, mut cosines) = ([[0.0]; N], [[0.0]; N]);
-        for joint in 0..N {
-            (sines[joint], cosines[joint]) = ([sin[joint]], [cos[joint]]);
-        }
-        let rows = jacobian_rows::<N, 1, FUSED>(self.chain, self.frame, &sines, &cosines);
+        let rows = jacobian_rows::<N, 1, FUSED>(self.chain, self.frame, &sin, &cos);
         let mut jacobian = [[0.0; N]; 6];
         for (to, from) in jacobian.iter_mut().zip(&rows) {
             for (to, from) in to.iter_mut().zip(from) {

@@ -385,7 +385,7 @@ impl PyRobot {
     ///     InvalidPoseError, InvalidModelError: As `ik`.
     fn check_pose<'py>(&self, T: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let pose = read_pose(T, "T")?;
-        let solutions = self.arm.solvable(T.py())?.ik(&pose).map_err(|error| to_py(T.py(), &error))?;
+        let solutions = self.arm.solvable(T.py())?.ik_checked(pose).map_err(|error| to_py(T.py(), &error))?;
         let explanation = solutions.explain();
         let inside = matches!(explanation, Explanation::Found { .. });
         errors::pose_check_class(T.py())?.call1((!solutions.is_empty(), inside, explanation.to_string()))

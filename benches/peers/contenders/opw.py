@@ -21,23 +21,16 @@ def rows_of_16(poses: Floats, joints: Floats) -> tuple[Any, ...]:
     return (poses.reshape(-1, 16),)
 
 
-def py_opw_kinematics(arm: Arm) -> list[Contender]:
-    """Angles and tool frame are irbkin's; `reach` gives all eight solutions and margins, `batch_inverse` one."""
-    import py_opw_kinematics as opw
+def two_layers(name: str, robot: Any) -> list[Contender]:
+    """What the Python class and the private core of py-opw-kinematics and py-ikgeo-kinematics have in common."""
     from scipy.spatial.transform import RigidTransform
 
-    if not arm.opw:
-        return []
-    robot = opw.Robot(opw.KinematicModel(**arm.opw), degrees=False)
     core = robot._robot
-    name = "py-opw-kinematics"
     return [
         Contender(
             "ik", f"{name}, {PUBLIC}", lambda T: np.array(robot.inverse(RigidTransform.from_matrix(T))), from_pose
         ),
         Contender("ik", f"{name}, {CORE}", lambda T: np.array(core.inverse(T)), from_pose),
-        Contender("ik_nearest", f"{name}, {CORE}", lambda T, seed: np.array(core.inverse(T, seed)[0]), from_both),
-        Contender("fk", f"{name}, {PUBLIC}", lambda q: robot.forward(q).as_matrix(), from_joints),
         Contender("fk", f"{name}, {CORE}", lambda q: np.array(core.forward(q)), from_joints),
         Contender(
             "ik_batch",
@@ -48,19 +41,35 @@ def py_opw_kinematics(arm: Arm) -> list[Contender]:
             remark="gives margins and the smallest singular value, too",
         ),
         Contender(
+            "fk_batch",
+            f"{name}, {CORE}",
+            core.batch_forward,
+            from_joints,
+            read=lambda answer: answer.reshape(-1, 4, 4),
+        ),
+    ]
+
+
+def py_opw_kinematics(arm: Arm) -> list[Contender]:
+    """Angles and tool frame are irbkin's; `reach` gives all eight solutions and margins, `batch_inverse` one."""
+    import py_opw_kinematics as opw
+
+    if not arm.opw:
+        return []
+    robot = opw.Robot(opw.KinematicModel(**arm.opw), degrees=False)
+    core = robot._robot
+    name = "py-opw-kinematics"
+    return [
+        *two_layers(name, robot),
+        Contender("ik_nearest", f"{name}, {CORE}", lambda T, seed: np.array(core.inverse(T, seed)[0]), from_both),
+        Contender("fk", f"{name}, {PUBLIC}", lambda q: robot.forward(q).as_matrix(), from_joints),
+        Contender(
             "ik_batch",
             f"{name}, {CORE}, batch_inverse",
             core.batch_inverse,
             rows_of_16,
             read=lambda answer: answer[:, None, :],
             remark="one solution a pose",
-        ),
-        Contender(
-            "fk_batch",
-            f"{name}, {CORE}",
-            core.batch_forward,
-            from_joints,
-            read=lambda answer: answer.reshape(-1, 4, 4),
         ),
     ]
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from ..arms import Arm, Floats
 from .contender import Contender, from_both, from_joints, from_pose
-from .opw import CORE, PUBLIC, rows_of_16
+from .opw import two_layers
 
 
 def turned(poses: Floats, rotation: Floats) -> Floats:
@@ -87,36 +87,12 @@ def ik_geo(arm: Arm) -> list[Contender]:
 def py_ikgeo_kinematics(arm: Arm) -> list[Contender]:
     """Built from the same parameters and with the same two layers as py-opw-kinematics."""
     import py_ikgeo_kinematics as ikgeo
-    from scipy.spatial.transform import RigidTransform
 
     if not arm.opw:
         return []
     robot = ikgeo.Robot(ikgeo.KinematicModel.from_opw(**arm.opw), degrees=False)
-    core = robot._robot
     name = "py-ikgeo-kinematics"
-    return [
-        Contender(
-            "ik", f"{name}, {PUBLIC}", lambda T: np.array(robot.inverse(RigidTransform.from_matrix(T))), from_pose
-        ),
-        Contender("ik", f"{name}, {CORE}", lambda T: np.array(core.inverse(T)), from_pose),
-        Contender("fk", f"{name}, {CORE}", lambda q: np.array(core.forward(q)), from_joints),
-        Contender("jacobian", name, robot.jacobian, from_joints),
-        Contender(
-            "ik_batch",
-            f"{name}, {CORE}, reach",
-            lambda T: core.reach(T, None, None, 1),
-            rows_of_16,
-            read=lambda answer: answer[0],
-            remark="gives margins and the smallest singular value, too",
-        ),
-        Contender(
-            "fk_batch",
-            f"{name}, {CORE}",
-            core.batch_forward,
-            from_joints,
-            read=lambda answer: answer.reshape(-1, 4, 4),
-        ),
-    ]
+    return [*two_layers(name, robot), Contender("jacobian", name, robot.jacobian, from_joints)]
 
 
 def ssik(arm: Arm) -> list[Contender]:

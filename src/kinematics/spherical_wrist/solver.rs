@@ -37,9 +37,7 @@ impl WristSolver {
             arm,
         }
     }
-}
 
-impl WristSolver {
     /// The wrist frame of a pose, seen from the shoulder (eq. 1).
     pub(crate) fn wrist_pose(&self, pose: &Pose) -> Pose {
         self.t_shoulder_world * pose * self.t_tool_wrist
