@@ -2,12 +2,12 @@
 
 use core::f64::consts::{PI, TAU};
 
+use super::free_choice::FreeChoice;
 use super::limits::JointLimits;
 use super::pose::{Pose, checked_pose};
 use super::robot::Robot;
 use super::select::{Cost, check_joints, check_weights};
 use super::solutions::{FreeJoint, SLOTS, Solution, Solutions};
-use super::spherical_wrist::FreeChoice;
 use super::status::Status;
 use super::thresholds::SOLUTION_OFF;
 use crate::error::{Error, JointFault};

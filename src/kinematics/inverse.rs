@@ -1,9 +1,10 @@
 //! The inverse of a robot with a closed form: every joint vector of a pose, and of many.
 
+use super::free_choice::FreeChoice;
 use super::pose::{Pose, checked_pose, pose_from_rows};
 use super::robot::Robot;
 use super::solutions::{SLOTS, Solution, Solutions};
-use super::spherical_wrist::{AnswerRow, Blocks, FreeChoice, PoseRow, Single, StatusRow, WristSolver};
+use super::spherical_wrist::{AnswerRow, Blocks, PoseRow, Single, StatusRow, WristSolver};
 use super::status::{Reach, Status};
 use crate::error::Error;
 use crate::lanes::run;
@@ -66,7 +67,7 @@ impl Robot<6> {
         self.bring_families_inside(solutions)
     }
 
-    pub(super) fn solve(&self, pose: Pose, free: &FreeChoice) -> Result<Solutions<6>, Error> {
+    pub(super) fn solve(&self, pose: Pose, free: &FreeChoice<6>) -> Result<Solutions<6>, Error> {
         let (solver, mut solutions) = (self.solver()?, self.unsolved(pose));
         if !(free.leaves_plain_poses_alone() && solve_in_lanes(solver, &mut solutions)) {
             self.solve_carefully(solver, &mut solutions, free);
@@ -76,7 +77,7 @@ impl Robot<6> {
 
     /// Whatever the pose, one branch after the other.
     #[cold]
-    fn solve_carefully(&self, solver: &WristSolver, solutions: &mut Solutions<6>, free: &FreeChoice) {
+    fn solve_carefully(&self, solver: &WristSolver, solutions: &mut Solutions<6>, free: &FreeChoice<6>) {
         let branches = solver.arm.solve(&solver.wrist_pose(&solutions.pose), free);
         for (slot, place) in solutions.slots.iter_mut().enumerate() {
             let Some(q) = branches.q[slot] else { continue };

@@ -2,16 +2,21 @@
 
 mod angles;
 mod axes;
+mod branches;
 mod chain;
 mod crossing;
 mod dh;
 mod family;
 mod follow;
 mod forward;
+mod free_choice;
 mod inverse;
 mod jacobian;
 mod limits;
+mod placement;
+mod planar_arm;
 mod pose;
+mod recognition;
 mod robot;
 mod rotation;
 mod select;
@@ -30,11 +35,12 @@ pub use limits::JointLimits;
 pub use pose::{
     Pose, PoseError, pose_from_euler_zyx, pose_from_quaternion, pose_from_rows, pose_to_euler_zyx, pose_to_quaternion, pose_to_rows,
 };
+pub use recognition::{Condition, NotRecognised, Relation};
 pub use robot::{Definition, Robot};
 pub(crate) use select::check_weights;
 #[cfg(feature = "python")]
 pub(crate) use select::{Cost, check_joints};
 pub use singularity::Singularity;
 pub use solutions::{FreeJoint, SLOTS, Solution, Solutions};
-pub use spherical_wrist::{Condition, NotRecognised, OpwParameters, Relation, SingularDistances, SphericalWrist};
+pub use spherical_wrist::{OpwParameters, SingularDistances, SphericalWrist};
 pub use status::{Explanation, Reach, Status};

@@ -111,7 +111,7 @@ impl Block {
     fn solve<const FUSED: bool>(&mut self, solver: &WristSolver, columns: &[JointColumn; 6], poses: &mut Poses) {
         self.plain = poses.check();
         poses.seen_from_shoulder::<FUSED>(solver);
-        if solver.arm.b == 0.0 {
+        if solver.arm.planar.b == 0.0 {
             self.branches::<FUSED, false>(solver.constants, poses);
         } else {
             self.branches::<FUSED, true>(solver.constants, poses);

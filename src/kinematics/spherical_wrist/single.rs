@@ -46,7 +46,7 @@ impl Kernel for Single<'_> {
             return None;
         }
         let frame = solver.seen.of::<FUSED>(&Frame::of(pose));
-        let mut lanes = if solver.arm.b == 0.0 {
+        let mut lanes = if solver.arm.planar.b == 0.0 {
             Lanes::of::<FUSED, false>(&solver.constants, &frame)
         } else {
             Lanes::of::<FUSED, true>(&solver.constants, &frame)

@@ -26,14 +26,14 @@ impl WristSolver {
     /// The solver of `arm` between the base and the tool of its chain, with limits (lower, upper) of six joints [rad].
     pub(crate) fn new<const N: usize>(arm: SphericalWrist, chain: &Chain<N>, limits: &[[f64; 2]]) -> Self {
         let arm = arm.standing_between(chain.base(), chain.tool());
-        let t_shoulder_world = (chain.base() * arm.t_base_shoulder()).inverse();
-        let t_tool_wrist = (arm.t_wrist_flange() * chain.tool()).inverse();
+        let t_shoulder_world = (chain.base() * arm.placement.t_base_shoulder).inverse();
+        let t_tool_wrist = (arm.placement.t_wrist_flange * chain.tool()).inverse();
         Self {
             t_shoulder_world,
             t_tool_wrist,
             seen: Seen::new(&t_shoulder_world, &t_tool_wrist),
-            constants: Constants::of(&arm),
-            columns: JointColumn::of(&arm.signs, &arm.offsets, limits),
+            constants: Constants::of(&arm.planar),
+            columns: JointColumn::of(&arm.placement.signs, &arm.placement.offsets, limits),
             arm,
         }
     }
