@@ -2,6 +2,7 @@
 
 mod angles;
 mod axes;
+mod block;
 mod branches;
 mod chain;
 mod crossing;
@@ -10,6 +11,7 @@ mod family;
 mod follow;
 mod forward;
 mod free_choice;
+mod geometry;
 mod inverse;
 mod jacobian;
 mod limits;
@@ -17,6 +19,7 @@ mod placement;
 mod planar_arm;
 mod pose;
 mod recognition;
+mod redundancy;
 mod robot;
 mod rotation;
 mod select;
@@ -24,12 +27,15 @@ mod singularity;
 mod solutions;
 mod spherical_wrist;
 mod status;
+mod surroundings;
+mod three_parallel;
 pub mod thresholds;
 
 pub use chain::Chain;
 pub use crossing::{Crossing, FollowOptions};
 pub use dh::{DhRow, Mdh, Sdh};
 pub use follow::{Break, BreakReason, Followed, Follower};
+pub(crate) use inverse::Inverse;
 pub use jacobian::JacobianFrame;
 pub use limits::JointLimits;
 pub use pose::{
@@ -37,10 +43,11 @@ pub use pose::{
 };
 pub use recognition::{Condition, NotRecognised, Relation};
 pub use robot::{Definition, Robot};
-pub(crate) use select::check_weights;
 #[cfg(feature = "python")]
-pub(crate) use select::{Cost, check_joints};
-pub use singularity::Singularity;
+pub(crate) use select::Cost;
+pub(crate) use select::{check_joints, check_weights};
+pub use singularity::{SingularDistances, Singularity};
 pub use solutions::{FreeJoint, SLOTS, Solution, Solutions};
-pub use spherical_wrist::{OpwParameters, SingularDistances, SphericalWrist};
+pub use spherical_wrist::{OpwParameters, SphericalWrist};
 pub use status::{Explanation, Reach, Status};
+pub use three_parallel::ThreeParallel;

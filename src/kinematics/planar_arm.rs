@@ -166,8 +166,8 @@ impl PlanarArm {
     }
 
     /// The shoulder with x moved towards reach as far as rounding leaves it open: next to the cylinder of radius b (eq. 3) a rounding of
-    /// the pose is a large part of x, and a pose at the edge of reach says by that edge which x it has.
-    pub(crate) fn eased(&self, shoulder: &Shoulder, [wx, wy]: [f64; 2], wz: f64) -> Shoulder {
+    /// the pose is a large part of x, and a pose at the edge of reach says by that edge which x it has. The arm's end is at `x - a1`, `wz`.
+    pub(crate) fn eased(&self, shoulder: &Shoulder, [wx, wy]: [f64; 2], a1: f64, wz: f64) -> Shoulder {
         let (b, rounding) = (self.b.abs(), self.position_rounding());
         let x_of = |outside: f64| (outside.max(0.0) * (outside + 2.0 * b)).sqrt();
         let outside = wx.hypot(wy) - b;
@@ -175,7 +175,7 @@ impl PlanarArm {
         let mut nearest = f64::INFINITY;
         for length in [self.c2 + self.k, self.c2 - self.k] {
             let across = (length * length - wz * wz).max(0.0).sqrt();
-            for x in [self.a1 - across, self.a1 + across] {
+            for x in [a1 - across, a1 + across] {
                 if (x - shoulder.x).abs() < (nearest - shoulder.x).abs() {
                     nearest = x;
                 }

@@ -10,7 +10,7 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use super::dh::Mdh;
 use super::pose::Pose;
-use super::thresholds::FORM_TOLERANCE;
+use super::thresholds::{FORM_TOLERANCE, LEAST_LINK};
 
 /// How two axes of a known form stand to one another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,15 +55,17 @@ pub struct NotRecognised {
     form: Option<&'static Form>,
     /// How far each condition of the form is off; zero where it is met.
     off: [f64; MOST_CONDITIONS],
+    /// A length that the form needs and the arm does not have.
+    too_short: Option<(&'static str, f64)>,
 }
 
 impl NotRecognised {
     /// An arm whose number of joints alone rules a closed form out.
     pub(crate) fn joint_count(joints: usize) -> Self {
-        Self { joints, form: None, off: [0.0; MOST_CONDITIONS] }
+        Self { joints, form: None, off: [0.0; MOST_CONDITIONS], too_short: None }
     }
 
-    /// The conditions that are not met.
+    /// The conditions that are not met. None is off where the arm has the form but a link without length.
     pub fn conditions(&self) -> impl Iterator<Item = Condition> {
         let conditions = self.form.map_or(&[][..], |form| form.conditions);
         let off = conditions.iter().zip(self.off).filter(|(_, off)| *off > 0.0);
@@ -88,6 +90,9 @@ impl fmt::Display for NotRecognised {
         let Some(form) = self.form else {
             return write!(f, "{} joints, the known forms have 6 or 7", self.joints);
         };
+        if let Some((field, value)) = self.too_short {
+            return write!(f, "for {}, {field} is {value} m, it must be at least {LEAST_LINK:e} m", form.name);
+        }
         for (i, condition) in self.conditions().enumerate() {
             if i == 0 {
                 write!(f, "for {}, {condition}", form.name)?;
@@ -100,6 +105,18 @@ impl fmt::Display for NotRecognised {
 }
 
 impl Form {
+    /// Checks that each of the lengths (name and meaning, value [m]) is one.
+    pub(crate) fn check_lengths<const N: usize>(
+        &'static self,
+        lengths: [(&'static str, f64); N],
+        joints: usize,
+    ) -> Result<(), NotRecognised> {
+        match lengths.into_iter().find(|(_, value)| *value < LEAST_LINK) {
+            Some(short) => Err(NotRecognised { form: Some(self), too_short: Some(short), ..NotRecognised::joint_count(joints) }),
+            None => Ok(()),
+        }
+    }
+
     /// The table with what is within [`FORM_TOLERANCE`] of the form made exactly so: row `i + 1` holds the angle and the distance between
     /// axes `i` and `i + 1`.
     pub(crate) fn square_up<const N: usize>(&'static self, mdh: &Mdh<N>) -> Result<Mdh<N>, NotRecognised> {

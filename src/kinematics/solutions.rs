@@ -43,6 +43,17 @@ impl FreeJoint {
         }
     }
 
+    /// The joint whose sum with the free one, or difference from it (a sign of -1), is all that is fixed: its number, from 1, and the sign.
+    pub(crate) fn partner(self) -> Option<(usize, f64)> {
+        match self {
+            Self::WristSum => Some((6, 1.0)),
+            Self::WristDifference => Some((6, -1.0)),
+            Self::ShoulderSum => Some((3, 1.0)),
+            Self::ShoulderDifference => Some((3, -1.0)),
+            Self::Base | Self::Upper | Self::Parallel | Self::Forearm | Self::Hand => None,
+        }
+    }
+
     /// What stays fixed along the family.
     #[must_use]
     pub fn fixed(self) -> &'static str {

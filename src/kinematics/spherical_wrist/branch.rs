@@ -6,8 +6,8 @@
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use super::solver::Frame;
 use crate::kinematics::planar_arm::PlanarArm;
+use crate::kinematics::surroundings::Frame;
 use crate::kinematics::thresholds::{PLAIN_FOREARM, PLAIN_REACH, PLAIN_SHOULDER, PLAIN_WRIST_SIN, REACH_TOLERANCE, SHOULDER_MERGE};
 use crate::lanes::mul_add;
 

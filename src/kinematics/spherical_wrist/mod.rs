@@ -5,10 +5,8 @@
 mod arm;
 mod block;
 mod branch;
-mod columns;
 mod held;
 mod opw;
-mod poses;
 mod recognise;
 mod single;
 mod solve;
@@ -16,9 +14,7 @@ mod solver;
 mod target;
 mod wrist;
 
-pub(crate) use block::{AnswerRow, Blocks, StatusRow};
 pub use opw::OpwParameters;
-pub(crate) use poses::PoseRow;
 pub(crate) use recognise::recognise;
 pub(crate) use single::Single;
 pub(crate) use solver::WristSolver;
@@ -32,6 +28,7 @@ use super::angles::distance_from_half_turns;
 use super::placement::Placement;
 use super::planar_arm::PlanarArm;
 use super::pose::{Pose, translation_z};
+use super::singularity::SingularDistances;
 use super::status::Status;
 use super::thresholds::WRIST_MERGE_SIN;
 
@@ -40,17 +37,6 @@ use super::thresholds::WRIST_MERGE_SIN;
 pub struct SphericalWrist {
     planar: PlanarArm,
     placement: Placement<6>,
-}
-
-/// How far a joint vector is from each singularity of a spherical-wrist arm.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SingularDistances {
-    /// Angle of joint 5 from 0 or 180 deg [rad].
-    pub wrist: f64,
-    /// Angle between upper arm and forearm from stretched or folded [rad].
-    pub elbow: f64,
-    /// Distance of the wrist centre from the plane through axis 1 that holds axis 2's direction [m]; from axis 1 itself where b = 0.
-    pub shoulder: f64,
 }
 
 impl SphericalWrist {

@@ -6,14 +6,13 @@ use nalgebra::Vector3;
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::SphericalWrist;
-use crate::error::{Error, ModelFault};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::dh::Mdh;
 use crate::kinematics::placement::Placement;
 use crate::kinematics::planar_arm::PlanarArm;
 use crate::kinematics::pose::{Pose, translation_z};
-use crate::kinematics::recognition::{Form, Frame, Relation, angle, axes, rotation_pose, sign_of};
-use crate::kinematics::thresholds::{FORM_TOLERANCE, LEAST_LINK};
+use crate::kinematics::recognition::{Form, Frame, NotRecognised, Relation, angle, axes, rotation_pose, sign_of};
+use crate::kinematics::thresholds::FORM_TOLERANCE;
 
 /// The conditions of an ortho-parallel basis with a spherical wrist. Axes 4 and 6 meet axis 5 in one point.
 pub(crate) static FORM: Form = Form {
@@ -31,8 +30,8 @@ pub(crate) static FORM: Form = Form {
 };
 
 /// The table with what is within [`FORM_TOLERANCE`] of the form made exactly so, and the geometry of the arm.
-pub(crate) fn recognise(mdh: &Mdh<6>) -> Result<(Mdh<6>, SphericalWrist), Error> {
-    let mut squared = FORM.square_up(mdh).map_err(ModelFault::NoClosedForm)?;
+pub(crate) fn recognise(mdh: &Mdh<6>) -> Result<(Mdh<6>, SphericalWrist), NotRecognised> {
+    let mut squared = FORM.square_up(mdh)?;
     let mut geometry = measure(&squared)?;
     if geometry.planar.b.abs() <= FORM_TOLERANCE {
         // The offsets of rows 2 and 3 along the parallel axes cancel.
@@ -44,7 +43,7 @@ pub(crate) fn recognise(mdh: &Mdh<6>) -> Result<(Mdh<6>, SphericalWrist), Error>
 
 /// Reads the geometry off the frames at q = 0 (docs/ik_derivation.md, section 7). Lengths come from the rows, so that none is lost to
 /// rounding; the frames give the directions.
-fn measure(mdh: &Mdh<6>) -> Result<SphericalWrist, Error> {
+fn measure(mdh: &Mdh<6>) -> Result<SphericalWrist, NotRecognised> {
     let rows = &mdh.rows;
     let chain = Chain::new(Mdh { base: Pose::identity(), ..mdh.clone() });
     let [f1, f2, f3, f4, f5, f6] = chain.link_frames(&[0.0; 6]).0.map(|pose| Frame::of(&pose));
@@ -73,13 +72,10 @@ fn measure(mdh: &Mdh<6>) -> Result<SphericalWrist, Error> {
     let approach = f6.z * sign_6;
     let theta_5 = angle(&approach, &forearm, &axis_5.cross(&forearm));
 
-    for (field, value) in
-        [("upper arm (distance of axes 2 and 3)", c2), ("forearm (distance of the wrist centre from axis 3)", a2.hypot(c3))]
-    {
-        if value < LEAST_LINK {
-            return Err(ModelFault::TooShort { field, value, bound: LEAST_LINK }.into());
-        }
-    }
+    FORM.check_lengths(
+        [("upper arm (distance of axes 2 and 3)", c2), ("forearm (distance of the wrist centre from axis 3)", a2.hypot(c3))],
+        6,
+    )?;
     let wrist_at_zero = axes(&axis_5.cross(&approach), &axis_5, &approach);
     let t_wrist_last = rotation_pose(wrist_at_zero.transpose() * axes(&f6.x, &f6.y, &f6.z)) * translation_z(rows[5].d);
     Ok(SphericalWrist {

@@ -46,7 +46,7 @@ impl SphericalWrist {
         let mut branches = Branches::empty(Reach::Reached);
         let mut fill = |base: usize, shoulder: &Shoulder| match self.fill(&mut branches, base, shoulder, target) {
             missed if missed == Reach::Reached || self.planar.b == 0.0 => missed,
-            missed => match self.fill(&mut branches, base, &self.planar.eased(shoulder, target.wxy, target.wz), target) {
+            missed => match self.fill(&mut branches, base, &self.planar.eased(shoulder, target.wxy, self.planar.a1, target.wz), target) {
                 Reach::Reached => Reach::Reached,
                 _ => missed,
             },
