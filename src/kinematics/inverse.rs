@@ -8,10 +8,11 @@ use super::pose::{Pose, checked_pose, pose_from_rows};
 use super::robot::Robot;
 use super::select::{check_joints, check_weights};
 use super::solutions::{SLOTS, Solution, Solutions};
-use super::spherical_wrist::Single;
+use super::spherical_wrist;
 #[cfg(feature = "python")]
 use super::status::Explanation;
 use super::status::{Reach, Status};
+use super::three_parallel;
 use crate::error::{Error, ModelFault};
 use crate::lanes::run;
 
@@ -76,7 +77,8 @@ impl Inverse<6> for Robot<6> {
         let careful = |row: usize, q: &mut AnswerRow<6>, status: &mut StatusRow| self.ik_row(&poses[row], 0.0, q, status);
         match self.geometry() {
             Geometry::SphericalWrist(solver) => run(Blocks { solver, poses, given, q, status, careful }),
-            _ => self.ik_rows_carefully(poses, given, q, status),
+            Geometry::ThreeParallel(solver) => run(Blocks { solver, poses, given, q, status, careful }),
+            Geometry::Serial(_) => self.ik_rows_carefully(poses, given, q, status),
         }
     }
 
@@ -180,15 +182,30 @@ impl<const N: usize> Robot<N> {
     /// Solves a pose that is plain, and tells whether it was.
     #[inline]
     fn solve_in_lanes(&self, solutions: &mut Solutions<N>) -> bool {
-        let Geometry::SphericalWrist(solver) = self.geometry() else { return false };
-        let Some(plain) = run(Single { solver, pose: &solutions.pose }) else { return false };
-        for (slot, place) in solutions.slots.iter_mut().enumerate() {
-            let Some((q, status)) = plain.slot(slot) else { continue };
-            #[expect(clippy::cast_possible_truncation, reason = "eight slots")]
-            let solution = Solution { q: resized(&q), slot: slot as u8, status: Status::from_bits_retain(status), free: None };
-            *place = Some(solution);
+        let pose = &solutions.pose;
+        match self.geometry() {
+            Geometry::SphericalWrist(solver) => match run(spherical_wrist::Single { solver, pose }) {
+                Some(plain) => put(&mut solutions.slots, |slot| plain.slot(slot)),
+                None => return false,
+            },
+            Geometry::ThreeParallel(solver) => match run(three_parallel::Single { solver, pose }) {
+                Some(plain) => put(&mut solutions.slots, |slot| plain.slot(slot)),
+                None => return false,
+            },
+            Geometry::Serial(_) => return false,
         }
         true
+    }
+}
+
+/// Puts the joint angles and flags of plain slots where they belong.
+#[inline]
+fn put<const M: usize, const N: usize>(slots: &mut [Option<Solution<N>>; SLOTS], plain: impl Fn(usize) -> Option<([f64; M], u8)>) {
+    for (slot, place) in slots.iter_mut().enumerate() {
+        let Some((q, status)) = plain(slot) else { continue };
+        #[expect(clippy::cast_possible_truncation, reason = "eight slots")]
+        let solution = Solution { q: resized(&q), slot: slot as u8, status: Status::from_bits_retain(status), free: None };
+        *place = Some(solution);
     }
 }
 

@@ -22,8 +22,13 @@ pub(crate) struct JointColumn {
 }
 
 impl JointColumn {
-    /// Of each joint; `None` where limits lie so far out that more than one full turn may be needed.
-    pub(crate) fn of<const N: usize>(signs: &[f64; N], offsets: &[f64; N], limits: &[[f64; 2]]) -> Option<[Self; N]> {
+    /// Of each joint; `differences` are those whose theta is a difference of two angles, from 0. `None` where limits lie so far out that more than one full turn may be needed.
+    pub(crate) fn of<const N: usize>(
+        signs: &[f64; N],
+        offsets: &[f64; N],
+        limits: &[[f64; 2]],
+        differences: &[usize],
+    ) -> Option<[Self; N]> {
         let limits = <[[f64; 2]; N]>::try_from(limits).ok()?;
         if limits.iter().any(|[low, high]| *low > PI || *high < -PI) {
             return None;
@@ -38,8 +43,7 @@ impl JointColumn {
                 offset,
                 low,
                 high,
-                // theta_3 is a difference of two angles.
-                moves: joint == 2 || sign < 0.0 || offset != 0.0,
+                moves: differences.contains(&joint) || sign < 0.0 || offset != 0.0,
                 limits,
                 turns: limits && (low <= -PI || high >= PI),
             }

@@ -2,9 +2,11 @@
 
 mod columns;
 mod poses;
+mod slots;
 
 pub(crate) use columns::JointColumn;
 pub(crate) use poses::{PoseRow, Poses};
+pub(crate) use slots::{PlainSlots, SlotColumns};
 
 use super::solutions::SLOTS;
 use super::status::Status;

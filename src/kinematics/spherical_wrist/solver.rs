@@ -23,7 +23,7 @@ impl WristSolver {
         Self {
             surroundings: Surroundings::new(&arm.placement, chain),
             constants: Constants::of(&arm.planar),
-            columns: JointColumn::of(&arm.placement.signs, &arm.placement.offsets, limits),
+            columns: JointColumn::of(&arm.placement.signs, &arm.placement.offsets, limits, &[2]),
             arm,
         }
     }

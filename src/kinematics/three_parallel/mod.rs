@@ -3,13 +3,17 @@
 //!
 //! `docs/three_parallel.md` has the derivation; its equation numbers, from 31 on, stand beside the code.
 
+mod block;
+mod branch;
 mod reaching;
 mod recognise;
+mod single;
 mod solve;
 mod solver;
 mod wrist;
 
 pub(crate) use recognise::recognise;
+pub(crate) use single::Single;
 pub(crate) use solver::ParallelSolver;
 
 #[cfg(not(feature = "std"))]
