@@ -108,9 +108,7 @@ fn the_reach_in_the_type_name_is_that_of_the_geometry() {
 #[test]
 fn every_arm_closes_and_has_sane_limits() {
     for arm in catalogue() {
-        // Universal Robots publishes its tables itself.
-        let own = matches!(arm.geometry, CatalogueGeometry::ThreeParallel { .. });
-        assert!(arm.sources >= if own { 1 } else { 2 }, "{}", arm.name);
+        assert!(arm.sources >= 2, "{}", arm.name);
         assert!(!arm.provenance.is_empty());
         for [lower, upper] in arm.limits {
             assert!(lower < upper);

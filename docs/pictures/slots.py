@@ -70,7 +70,12 @@ def main() -> None:
     """Both pictures."""
     mpl.rcParams.update(STYLE)
     ur3 = np.array([0.4, -1.9, 1.5, -0.6, 1.1, 0.3])
-    picture("slots_three_parallel.svg", irbkin.Robot("UR3"), ur3, (("left", "right"), ("q3 > 0", "q3 < 0"), ("q5 > 0", "q5 < 0")))
+    picture(
+        "slots_three_parallel.svg",
+        irbkin.Robot("UR3"),
+        ur3,
+        (("left", "right"), ("q3 > 0", "q3 < 0"), ("q5 > 0", "q5 < 0")),
+    )
 
 
 if __name__ == "__main__":

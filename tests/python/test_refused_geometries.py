@@ -97,7 +97,10 @@ def test_every_solve_of_an_arm_without_closed_form_says_why_it_has_none(name, so
 def test_a_seven_axis_arm_says_that_it_has_no_closed_form(solve):
     rows = CATALOGUE["Panda"].rows + 1e-3
     robot = irbkin.Robot.from_mdh(rows)
-    with pytest.raises(irbkin.InvalidModelError, match=r"for a spherical shoulder and an offset elbow, axes 1 and 2 must be at right angles, they are 0\.057296 deg"):
+    with pytest.raises(
+        irbkin.InvalidModelError,
+        match=r"for a spherical shoulder and an offset elbow, axes 1 and 2 must be at right angles, they are 0\.057296 deg",
+    ):
         solve(robot, robot.fk(np.zeros(7)))
 
 
