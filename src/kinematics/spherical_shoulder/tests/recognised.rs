@@ -1,0 +1,1 @@
+//! Tables with their frames and their zero pose anywhere.
