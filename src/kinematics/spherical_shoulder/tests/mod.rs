@@ -61,6 +61,13 @@ impl Arm {
         worst
     }
 
+    /// How well a joint vector is known from its pose: rounding over the smallest singular value of the Jacobian [rad].
+    fn recall(&self, q: &[f64; 7]) -> f64 {
+        let jacobian = self.chain.jacobian(q, crate::kinematics::JacobianFrame::Base);
+        let sigma = jacobian.fixed_columns::<6>(0).into_owned().singular_values()[5];
+        (8e-15 / sigma).max(1e-9)
+    }
+
     /// The slot of a joint vector by its own angles.
     fn slot_of(&self, q: &[f64; 7]) -> usize {
         let theta = self.geometry().theta(q);

@@ -21,9 +21,7 @@ fn run(arm: &Arm, count: u32, mut q_of: impl FnMut() -> [f64; 7]) -> Worst {
         let slot = arm.slot_of(&q);
         let found = branches.q[slot].unwrap_or_else(|| panic!("{}: {q:?} lost\n{branches:#?}", arm.name));
         let off = apart(&found, &q);
-        let distances = arm.geometry().singular_distances(&q);
-        let sigma = (distances.wrist * distances.elbow * distances.shoulder).min(1.0);
-        assert!(off < 1e-9 || off < 1e-14 / sigma.max(1e-9), "{}: {q:?} found {off:e} off\n{branches:#?}", arm.name);
+        assert!(off < arm.recall(&q), "{}: {q:?} found {off:e} off\n{branches:#?}", arm.name);
         worst.coarse += u32::from(off > 1e-9);
         worst.recall = worst.recall.max(off);
         assert_eq!(branches.reach, crate::kinematics::Reach::Reached);
