@@ -64,6 +64,11 @@ impl<const N: usize> FreeChoice<N> {
         FreeChoice { q: resized(&self.q), trust: self.trust }
     }
 
+    /// Joint 7 of an arm of seven joints, which every pose leaves open; nothing for one of six.
+    pub(crate) fn given(&self) -> f64 {
+        self.q.get(6).copied().unwrap_or(0.0)
+    }
+
     /// Whether only a pose next to a singularity is asked for more than it says by itself.
     pub(crate) fn leaves_plain_poses_alone(&self) -> bool {
         matches!(self.trust, Trust::Pose | Trust::Seed)

@@ -1,5 +1,6 @@
 //! The closed forms that an arm may have, and one way through them.
 
+use super::angles::resized;
 use super::branches::Branches;
 use super::chain::Chain;
 use super::dh::{DhRow, Mdh};
@@ -7,6 +8,7 @@ use super::free_choice::FreeChoice;
 use super::pose::Pose;
 use super::recognition::NotRecognised;
 use super::singularity::SingularDistances;
+use super::spherical_shoulder::{self, SevenSolver};
 use super::spherical_wrist::{self, OpwParameters, SphericalWrist, WristSolver};
 use super::status::Status;
 use super::three_parallel::{self, ParallelSolver};
@@ -17,6 +19,7 @@ use super::three_parallel::{self, ParallelSolver};
 pub(crate) enum Geometry {
     SphericalWrist(WristSolver),
     ThreeParallel(ParallelSolver),
+    SphericalShoulder(SevenSolver),
     Serial(NotRecognised),
 }
 
@@ -25,14 +28,15 @@ const NO_LIMITS: [[f64; 2]; 7] = [[f64::NEG_INFINITY, f64::INFINITY]; 7];
 impl Geometry {
     /// The closed form of a table, and the table with what is within rounding of that form made exactly so.
     pub(crate) fn of<const N: usize>(mdh: &Mdh<N>) -> (Chain<N>, Self) {
-        let found = match <&[DhRow; 6]>::try_from(&mdh.rows[..]) {
-            Ok(rows) => Self::of_six(&Mdh { base: mdh.base, rows: *rows, flange: mdh.flange }),
-            Err(_) => Err(NotRecognised::joint_count(N)),
+        let (base, flange) = (mdh.base, mdh.flange);
+        let found = match (<&[DhRow; 6]>::try_from(&mdh.rows[..]), <&[DhRow; 7]>::try_from(&mdh.rows[..])) {
+            (Ok(rows), _) => Self::of_six(&Mdh { base, rows: *rows, flange }).map(|(rows, geometry)| (resized_rows(&rows), geometry)),
+            (_, Ok(rows)) => Self::of_seven(&Mdh { base, rows: *rows, flange }).map(|(rows, geometry)| (resized_rows(&rows), geometry)),
+            _ => Err(NotRecognised::joint_count(N)),
         };
         match found {
             Ok((rows, geometry)) => {
-                // As many rows as N: the same array under its generic name.
-                let chain = Chain::new(Mdh { rows: core::array::from_fn(|i| rows[i]), ..mdh.clone() });
+                let chain = Chain::new(Mdh { base, rows, flange });
                 let geometry = geometry.between(&chain, &NO_LIMITS[..N.min(NO_LIMITS.len())]);
                 (chain, geometry)
             }
@@ -51,6 +55,11 @@ impl Geometry {
         Ok((squared.rows, Self::SphericalWrist(WristSolver::new(arm, &chain, &NO_LIMITS[..6]))))
     }
 
+    fn of_seven(mdh: &Mdh<7>) -> Result<([DhRow; 7], Self), NotRecognised> {
+        let (squared, arm) = spherical_shoulder::recognise(mdh)?;
+        Ok((squared.rows, Self::SphericalShoulder(SevenSolver::new(arm, &Chain::new(mdh.clone()), &NO_LIMITS))))
+    }
+
     /// That of an ortho-parallel arm with a spherical wrist.
     pub(crate) fn of_opw<const N: usize>(opw: &OpwParameters, chain: &Chain<N>) -> Self {
         Self::SphericalWrist(WristSolver::new(SphericalWrist::from_opw(opw), chain, &NO_LIMITS[..6]))
@@ -61,15 +70,17 @@ impl Geometry {
         match self {
             Self::SphericalWrist(solver) => Self::SphericalWrist(WristSolver::new(solver.arm, chain, limits)),
             Self::ThreeParallel(solver) => Self::ThreeParallel(ParallelSolver::new(solver.arm, chain, limits)),
+            Self::SphericalShoulder(solver) => Self::SphericalShoulder(SevenSolver::new(solver.arm, chain, limits)),
             Self::Serial(reason) => Self::Serial(reason),
         }
     }
 
-    /// Its name: "spherical wrist", "three parallel axes", or "serial" where there is none.
+    /// Its name: "spherical wrist", "three parallel axes", "spherical shoulder", or "serial" where there is none.
     pub(crate) fn name(&self) -> &'static str {
         match self {
             Self::SphericalWrist(_) => "spherical wrist",
             Self::ThreeParallel(_) => "three parallel axes",
+            Self::SphericalShoulder(_) => "spherical shoulder",
             Self::Serial(_) => "serial",
         }
     }
@@ -79,16 +90,19 @@ impl Geometry {
         match self {
             Self::SphericalWrist(solver) => Ok(solver.arm.solve(&solver.surroundings.wrist_pose(pose), &free.resized()).resized()),
             Self::ThreeParallel(solver) => Ok(solver.arm.solve(&solver.surroundings.wrist_pose(pose), &free.resized()).resized()),
+            Self::SphericalShoulder(solver) => Ok(solver.solve(pose, &free.resized()).resized()),
             Self::Serial(reason) => Err(*reason),
         }
     }
 
     /// How far a joint vector is from each singularity, and at which of them it stands.
     pub(crate) fn singular<const N: usize>(&self, q: &[f64; N]) -> Option<(SingularDistances, Status)> {
-        match (self, <&[f64; 6]>::try_from(&q[..])) {
-            (Self::SphericalWrist(solver), Ok(q)) => Some((solver.arm.singular_distances(q), solver.arm.kinds(q))),
-            (Self::ThreeParallel(solver), Ok(q)) => Some((solver.arm.singular_distances(q), solver.arm.kinds(q))),
-            _ => None,
+        let (six, seven) = (resized(q), resized(q));
+        match self {
+            Self::SphericalWrist(solver) => Some((solver.arm.singular_distances(&six), solver.arm.kinds(&six))),
+            Self::ThreeParallel(solver) => Some((solver.arm.singular_distances(&six), solver.arm.kinds(&six))),
+            Self::SphericalShoulder(solver) => Some((solver.arm.singular_distances(&seven), solver.arm.kinds(&seven))),
+            Self::Serial(_) => None,
         }
     }
 
@@ -97,7 +111,12 @@ impl Geometry {
         match self {
             Self::SphericalWrist(solver) => Some(solver.arm.sin_5(q)),
             Self::ThreeParallel(solver) => Some(solver.arm.sin_5(q)),
-            Self::Serial(_) => None,
+            Self::SphericalShoulder(_) | Self::Serial(_) => None,
         }
     }
+}
+
+/// Rows of a table, of which there are as many as joints: the same array under its generic name.
+fn resized_rows<const M: usize, const N: usize>(rows: &[DhRow; M]) -> [DhRow; N] {
+    core::array::from_fn(|i| rows.get(i).copied().unwrap_or_default())
 }

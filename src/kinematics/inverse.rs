@@ -8,12 +8,13 @@ use super::pose::{Pose, checked_pose, pose_from_rows};
 use super::robot::Robot;
 use super::select::{check_joints, check_weights};
 use super::solutions::{SLOTS, Solution, Solutions};
+use super::spherical_shoulder;
 use super::spherical_wrist;
 #[cfg(feature = "python")]
 use super::status::Explanation;
 use super::status::{Reach, Status};
 use super::three_parallel;
-use crate::error::{Error, ModelFault};
+use crate::error::{Error, JointFault, ModelFault};
 use crate::lanes::run;
 
 impl Robot<6> {
@@ -78,7 +79,7 @@ impl Inverse<6> for Robot<6> {
         match self.geometry() {
             Geometry::SphericalWrist(solver) => run(Blocks { solver, poses, given, q, status, careful }),
             Geometry::ThreeParallel(solver) => run(Blocks { solver, poses, given, q, status, careful }),
-            Geometry::Serial(_) => self.ik_rows_carefully(poses, given, q, status),
+            _ => self.ik_rows_carefully(poses, given, q, status),
         }
     }
 
@@ -91,7 +92,11 @@ impl Inverse<6> for Robot<6> {
 
 impl Inverse<7> for Robot<7> {
     fn ik_rows(&self, poses: &[PoseRow], given: &[f64], q: &mut [AnswerRow<7>], status: &mut [StatusRow]) {
-        self.ik_rows_carefully(poses, given, q, status);
+        let careful = |row: usize, q: &mut AnswerRow<7>, status: &mut StatusRow| self.ik_row(&poses[row], given[row], q, status);
+        match self.geometry() {
+            Geometry::SphericalShoulder(solver) => run(Blocks { solver, poses, given, q, status, careful }),
+            _ => self.ik_rows_carefully(poses, given, q, status),
+        }
     }
 
     fn ik_nearest_checked(&self, pose: Pose, seed: &[f64; 7], weights: &[f64; 7]) -> Result<Solution<7>, Error> {
@@ -137,7 +142,7 @@ impl<const N: usize> Robot<N> {
 
     /// [`Robot::ik_checked`] of an unsolved answer's pose, without moving the answer about. An arm of seven joints has joint 7 at `given`.
     pub(crate) fn ik_into(&self, solutions: &mut Solutions<N>, given: f64) -> Result<(), Error> {
-        if self.solve_in_lanes(solutions) {
+        if self.solve_in_lanes(solutions, given) {
             return Ok(());
         }
         self.solve_carefully(solutions, &FreeChoice::rest(self.resting(given)))?;
@@ -155,7 +160,7 @@ impl<const N: usize> Robot<N> {
 
     pub(super) fn solve(&self, pose: Pose, free: &FreeChoice<N>) -> Result<Solutions<N>, Error> {
         let mut solutions = self.unsolved(pose);
-        if !(free.leaves_plain_poses_alone() && self.solve_in_lanes(&mut solutions)) {
+        if !(free.leaves_plain_poses_alone() && self.solve_in_lanes(&mut solutions, free.given())) {
             self.solve_carefully(&mut solutions, free)?;
         }
         Ok(solutions)
@@ -167,7 +172,11 @@ impl<const N: usize> Robot<N> {
         let branches = self.geometry().branches(&solutions.pose, free).map_err(ModelFault::NoClosedForm)?;
         for (slot, place) in solutions.slots.iter_mut().enumerate() {
             let Some(q) = branches.q[slot] else { continue };
-            let q = self.limits().settle(q);
+            let mut q = self.limits().settle(q);
+            // A joint that was told its angle keeps it.
+            if let Some(last) = q.get_mut(6) {
+                *last = free.given();
+            }
             let mut status = branches.flags[slot] | Status::FOUND;
             status.set(Status::WITHIN_LIMITS, self.limits().contain(&q));
             #[expect(clippy::cast_possible_truncation, reason = "eight slots")]
@@ -181,7 +190,7 @@ impl<const N: usize> Robot<N> {
 
     /// Solves a pose that is plain, and tells whether it was.
     #[inline]
-    fn solve_in_lanes(&self, solutions: &mut Solutions<N>) -> bool {
+    fn solve_in_lanes(&self, solutions: &mut Solutions<N>, given: f64) -> bool {
         let pose = &solutions.pose;
         match self.geometry() {
             Geometry::SphericalWrist(solver) => match run(spherical_wrist::Single { solver, pose }) {
@@ -189,6 +198,10 @@ impl<const N: usize> Robot<N> {
                 None => return false,
             },
             Geometry::ThreeParallel(solver) => match run(three_parallel::Single { solver, pose }) {
+                Some(plain) => put(&mut solutions.slots, |slot| plain.slot(slot)),
+                None => return false,
+            },
+            Geometry::SphericalShoulder(solver) => match run(spherical_shoulder::Single { solver, pose, q7: given }) {
                 Some(plain) => put(&mut solutions.slots, |slot| plain.slot(slot)),
                 None => return false,
             },
@@ -211,7 +224,7 @@ fn put<const M: usize, const N: usize>(slots: &mut [Option<Solution<N>>; SLOTS],
 
 /// Joint 7 of an arm of seven joints must be an angle.
 pub(crate) fn check_given(q7: f64) -> Result<(), Error> {
-    check_joints("q7", &[q7])
+    if q7.is_finite() { Ok(()) } else { Err(JointFault::NotFinite { field: "q7", joint: 7, value: q7 }.into()) }
 }
 
 #[cfg(test)]

@@ -50,6 +50,7 @@ pub(crate) use select::Cost;
 pub(crate) use select::{check_joints, check_weights};
 pub use singularity::{SingularDistances, Singularity};
 pub use solutions::{FreeJoint, SLOTS, Solution, Solutions};
+pub use spherical_shoulder::SphericalShoulder;
 pub use spherical_wrist::{OpwParameters, SphericalWrist};
 pub use status::{Explanation, Reach, Status};
 pub use three_parallel::ThreeParallel;

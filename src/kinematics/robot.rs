@@ -13,6 +13,7 @@ use super::limits::JointLimits;
 use super::pose::{Pose, PoseError, checked_pose};
 use super::recognition::NotRecognised;
 use super::singularity::{Singularity, singular_values};
+use super::spherical_shoulder::SphericalShoulder;
 use super::spherical_wrist::{OpwParameters, SphericalWrist, WristSolver};
 use super::status::Status;
 use super::three_parallel::ThreeParallel;
@@ -76,11 +77,22 @@ impl Robot<6> {
     }
 }
 
+impl Robot<7> {
+    /// The geometry of an arm with a spherical shoulder, for one that has it.
+    #[must_use]
+    pub fn spherical_shoulder(&self) -> Option<&SphericalShoulder> {
+        match &self.geometry {
+            Geometry::SphericalShoulder(solver) => Some(&solver.arm),
+            _ => None,
+        }
+    }
+}
+
 impl<const N: usize> Robot<N> {
     /// A robot from a modified (Craig) Denavit-Hartenberg table, with the closed form of its geometry.
     ///
     /// A six-axis table may have its frames and its zero pose anywhere; what is within 1e-9 rad or m of the form is made exactly so.
-    /// Seven-axis arms have forward kinematics and the Jacobian.
+    /// A seven-axis arm of no known form has forward kinematics and the Jacobian.
     ///
     /// # Errors
     ///

@@ -95,6 +95,25 @@ impl Frame {
     }
 }
 
+impl Frame {
+    /// This frame, turned back by an angle about its z axis.
+    #[inline(always)]
+    pub(crate) fn unturned<const FUSED: bool>(&self, sin: f64, cos: f64) -> Self {
+        let [a, b, c] = self.rotation;
+        let row = |[x, y, z]: [f64; 3]| [mul_add::<FUSED>(x, cos, -(y * sin)), mul_add::<FUSED>(x, sin, y * cos), z];
+        Self { rotation: [row(a), row(b), row(c)], origin: self.origin }
+    }
+
+    /// This frame times a constant one.
+    #[inline(always)]
+    pub(crate) fn times<const FUSED: bool>(&self, behind: &Self) -> Self {
+        Self {
+            rotation: product::<FUSED>(&self.rotation, &behind.rotation),
+            origin: moved::<FUSED>(&self.rotation, behind.origin, self.origin),
+        }
+    }
+}
+
 #[inline(always)]
 fn product<const FUSED: bool>(a: &Rows3, b: &Rows3) -> Rows3 {
     [row_times::<FUSED>(a[0], b), row_times::<FUSED>(a[1], b), row_times::<FUSED>(a[2], b)]

@@ -56,6 +56,13 @@ pub const PLAIN_FOREARM: f64 = 0.25;
 /// |sin q5| from which a branch is plain [1].
 pub const PLAIN_WRIST_SIN: f64 = 1e-6;
 
+/// |sin| of the elbow angle from which a branch of a seven-axis arm is plain [1]: what rounding leaves open of the elbow turns the upper arm.
+pub const PLAIN_ELBOW_SIN: f64 = 1e-2;
+
+/// Distance of the shoulder from the plane of axes 5 and 6, as a part of the lengths of the arm, from which a branch of a seven-axis arm is
+/// plain [1].
+pub const PLAIN_ASIDE: f64 = 3e-3;
+
 /// How far a solution may be off its pose and still be one of it [m, rad]: more than any family or stretched arm, less than another pose.
 pub const SOLUTION_OFF: f64 = 1e-6;
 

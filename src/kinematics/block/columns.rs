@@ -53,6 +53,12 @@ impl JointColumn {
     /// What is left of the status of a lane that is outside the limits.
     pub(crate) const OUTSIDE: u64 = !(Status::WITHIN_LIMITS.bits() as u64);
 
+    /// What is left of the status of a lane whose angle of this joint is `angle`, as it is.
+    #[inline(always)]
+    pub(crate) fn limited(self, angle: f64) -> u64 {
+        if self.holds(angle) { u64::MAX } else { Self::OUTSIDE }
+    }
+
     /// The angle of this joint in (-pi, pi], or the full turn inside the limits (eq. 19, 20), and whether it is inside.
     #[inline(always)]
     pub(crate) fn settled(self, theta: f64) -> (f64, bool) {

@@ -22,6 +22,21 @@ impl<const N: usize> SlotColumns<N> {
         }
     }
 
+    /// The same, with the last joint where it was `given`: of every slot that is found, it is that angle.
+    #[inline(always)]
+    pub(crate) fn settle_given(&mut self, columns: &[JointColumn; N], given: &Column) {
+        for joint in 0..N - 1 {
+            columns[joint].settle(self.q[joint].as_flattened_mut(), self.status.as_flattened_mut());
+        }
+        let last = columns[N - 1];
+        for slot in 0..SLOTS {
+            for lane in 0..LANES {
+                self.q[N - 1][slot][lane] = if self.status[slot][lane] == 0 { f64::NAN } else { given[lane] };
+                self.status[slot][lane] &= last.limited(given[lane]);
+            }
+        }
+    }
+
     /// Writes them as rows, two numbers at a time.
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "flags of a byte")]

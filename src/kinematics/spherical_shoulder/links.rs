@@ -11,21 +11,21 @@ use crate::kinematics::thresholds::{POSITION_ROUNDING, SHOULDER_MERGE};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Links {
     /// Distance of axis 4 from axis 3 [m].
-    a3: f64,
+    pub(super) a3: f64,
     /// Upper arm, along axis 3 [m].
-    c3: f64,
+    pub(super) c3: f64,
     /// Distance of axis 5 from axis 4 [m]; negative towards axis 3 where a3 is positive.
-    a4: f64,
+    pub(super) a4: f64,
     /// Forearm, along axis 5 [m].
-    c5: f64,
+    pub(super) c5: f64,
     /// Length of the upper arm, hypot(a3, c3) [m].
     pub(super) upper: f64,
     /// Length of the forearm, hypot(a4, c5) [m].
     pub(super) forearm: f64,
     /// The angle of joint 4 of the stretched arm: its sine and cosine.
-    psi: [f64; 2],
+    pub(super) psi: [f64; 2],
     /// The lengths that a position of the tool is summed from [m].
-    extent: f64,
+    pub(super) extent: f64,
 }
 
 impl Links {

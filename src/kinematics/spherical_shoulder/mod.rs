@@ -2,19 +2,22 @@
 //! axes 5 and 6 meeting, axis 7 anywhere.
 //!
 //! `docs/seven_axes.md` has the derivation; its equation numbers stand beside the code.
-#![expect(dead_code, unused_imports, reason = "robots of seven axes do not solve yet")]
 
+mod block;
+mod branch;
 mod elbow;
 mod links;
 mod recognise;
 mod shoulder;
+mod single;
 mod solve;
 mod solver;
 mod target;
 mod turn;
 mod wrist;
 
-pub(crate) use recognise::{FORM, recognise};
+pub(crate) use recognise::recognise;
+pub(crate) use single::Single;
 pub(crate) use solver::SevenSolver;
 
 #[cfg(not(feature = "std"))]
@@ -25,6 +28,7 @@ use links::Links;
 use super::angles::distance_from_half_turns;
 use super::placement::Placement;
 use super::pose::Pose;
+use super::singularity::SingularDistances;
 use super::status::Status;
 use super::thresholds::WRIST_MERGE_SIN;
 
@@ -36,17 +40,6 @@ pub struct SphericalShoulder {
     placement: Placement<7>,
     /// From where axes 5 and 6 meet to the frame of joint 7 at theta_7 = 0.
     t_hand_seven: Pose,
-}
-
-/// How far a joint vector is from each singularity of an arm of this form, joint 7 standing still.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SevenDistances {
-    /// Distance of the shoulder from the plane of axes 5 and 6 [m].
-    pub wrist: f64,
-    /// Angle between upper arm and forearm from stretched or folded [rad].
-    pub elbow: f64,
-    /// Angle of axes 1 and 3 from one line [rad].
-    pub shoulder: f64,
 }
 
 impl SphericalShoulder {
@@ -71,9 +64,9 @@ impl SphericalShoulder {
 
     /// How far `q` is from each singularity.
     #[must_use]
-    pub fn singular_distances(&self, q: &[f64; 7]) -> SevenDistances {
+    pub fn singular_distances(&self, q: &[f64; 7]) -> SingularDistances {
         let [_, theta_2, _, theta_4, theta_5, ..] = self.theta(q);
-        SevenDistances {
+        SingularDistances {
             wrist: (self.links.elbow_at(theta_4).across * theta_5.cos()).abs(),
             elbow: distance_from_half_turns(self.links.elbow_angle(theta_4)),
             shoulder: distance_from_half_turns(theta_2),

@@ -5,13 +5,12 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use super::SphericalShoulder;
 use super::links::Links;
-use crate::error::{Error, ModelFault};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::dh::{Mdh, screw_x};
 use crate::kinematics::placement::Placement;
 use crate::kinematics::pose::{Pose, translation_z};
-use crate::kinematics::recognition::{Form, Frame, Relation, angle, axes, rotation_pose, sign_of};
-use crate::kinematics::thresholds::{FORM_TOLERANCE, LEAST_LINK};
+use crate::kinematics::recognition::{Form, Frame, NotRecognised, Relation, angle, axes, rotation_pose, sign_of};
+use crate::kinematics::thresholds::FORM_TOLERANCE;
 
 /// The conditions of a spherical shoulder, an elbow that may be offset either way, and a forearm that ends where axis 6 meets it.
 pub(crate) static FORM: Form = Form {
@@ -31,15 +30,15 @@ pub(crate) static FORM: Form = Form {
 };
 
 /// The table with what is within [`FORM_TOLERANCE`] of the form made exactly so, and the geometry of the arm.
-pub(crate) fn recognise(mdh: &Mdh<7>) -> Result<(Mdh<7>, SphericalShoulder), Error> {
-    let squared = FORM.square_up(mdh).map_err(ModelFault::NoClosedForm)?;
+pub(crate) fn recognise(mdh: &Mdh<7>) -> Result<(Mdh<7>, SphericalShoulder), NotRecognised> {
+    let squared = FORM.square_up(mdh)?;
     let geometry = measure(&squared)?;
     Ok((squared, geometry))
 }
 
 /// Reads the geometry off the frames at q = 0 (docs/seven_axes.md, section 8). Lengths come from the rows, so that none is lost to
 /// rounding; the frames give the directions.
-fn measure(mdh: &Mdh<7>) -> Result<SphericalShoulder, Error> {
+fn measure(mdh: &Mdh<7>) -> Result<SphericalShoulder, NotRecognised> {
     let rows = &mdh.rows;
     let chain = Chain::new(Mdh { base: Pose::identity(), ..mdh.clone() });
     let [f1, f2, f3, f4, f5, f6, _] = chain.link_frames(&[0.0; 7]).0.map(|pose| Frame::of(&pose));
@@ -69,13 +68,9 @@ fn measure(mdh: &Mdh<7>) -> Result<SphericalShoulder, Error> {
     let theta_5 = angle(&axis_6, &axis_4, &forearm.cross(&axis_4));
 
     let links = Links::new([rows[3].a * f3.x.dot(&front), c3, a4, c5]);
-    for (field, value) in
-        [("upper arm (distance of axis 4 from the shoulder)", links.upper), ("forearm (distance of axis 6 from axis 4)", links.forearm)]
-    {
-        if value < LEAST_LINK {
-            return Err(ModelFault::TooShort { field, value, bound: LEAST_LINK }.into());
-        }
-    }
+    let lengths =
+        [("upper arm (distance of axis 4 from the shoulder)", links.upper), ("forearm (distance of axis 6 from axis 4)", links.forearm)];
+    FORM.check_lengths(lengths, 7)?;
     let hand_at_zero = axes(&axis_6.cross(&forearm), &axis_6, &forearm);
     let t_hand_six = rotation_pose(hand_at_zero.transpose() * axes(&f6.x, &f6.y, &f6.z)) * translation_z(rows[5].d);
     let mut t_base_shoulder = rotation_pose(axes(&forward, &side, &up));

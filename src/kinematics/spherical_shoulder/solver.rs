@@ -3,37 +3,59 @@
 use nalgebra::{Rotation3, Vector3};
 
 use super::SphericalShoulder;
+use super::branch::Constants;
+use crate::kinematics::block::JointColumn;
 use crate::kinematics::branches::Branches;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::free_choice::FreeChoice;
 use crate::kinematics::pose::Pose;
+use crate::kinematics::surroundings::{Frame, Surroundings};
+use crate::lanes::sin_cos;
 
-/// The geometry, with what stands before and behind it.
+/// The geometry, with what stands before and behind it and what is asked of its joints.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct SevenSolver {
     pub(crate) arm: SphericalShoulder,
-    t_shoulder_world: Pose,
-    t_tool_seven: Pose,
+    /// Up to the frame of joint 7 after its turn.
+    pub(super) surroundings: Surroundings,
     t_seven_hand: Pose,
+    hand: Frame,
+    pub(super) constants: Constants,
+    /// `None` where the limits ask for more than what lanes do.
+    pub(super) columns: Option<[JointColumn; 7]>,
 }
 
 impl SevenSolver {
-    /// The solver of `arm` between the base and the tool of its chain.
-    pub(crate) fn new(arm: SphericalShoulder, chain: &Chain<7>) -> Self {
+    /// The solver of `arm` between the base and the tool of its chain, with limits (lower, upper) of seven joints [rad].
+    pub(crate) fn new<const N: usize>(arm: SphericalShoulder, chain: &Chain<N>, limits: &[[f64; 2]]) -> Self {
         let arm = arm.standing_between(chain.base(), chain.tool());
+        let t_seven_hand = arm.t_hand_seven.inverse();
         Self {
-            t_shoulder_world: (chain.base() * arm.placement.t_base_shoulder).inverse(),
-            t_tool_seven: (arm.placement.t_wrist_flange * chain.tool()).inverse(),
-            t_seven_hand: arm.t_hand_seven.inverse(),
+            surroundings: Surroundings::new(&arm.placement, chain),
+            t_seven_hand,
+            hand: Frame::of(&t_seven_hand),
+            constants: Constants::of(&arm.links),
+            columns: JointColumn::of(&arm.placement.signs, &arm.placement.offsets, limits, &[]),
             arm,
         }
     }
 
     /// The hand of a tool pose, seen from the shoulder, with joint 7 at `q7` (eq. 1).
     pub(crate) fn hand_pose(&self, pose: &Pose, q7: f64) -> Pose {
-        let theta_7 = self.arm.theta(&[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, q7])[6];
-        let unturned = Rotation3::from_axis_angle(&Vector3::z_axis(), -theta_7);
-        self.t_shoulder_world * pose * self.t_tool_seven * unturned * self.t_seven_hand
+        let unturned = Rotation3::from_axis_angle(&Vector3::z_axis(), -self.theta_7(q7));
+        self.surroundings.wrist_pose(pose) * unturned * self.t_seven_hand
+    }
+
+    /// The same for a frame of joint 7 that was seen from the shoulder.
+    #[inline(always)]
+    pub(super) fn hand_frame<const FUSED: bool>(&self, seven: &Frame, q7: f64) -> Frame {
+        let (sin_7, cos_7) = sin_cos::<FUSED>(self.theta_7(q7));
+        seven.unturned::<FUSED>(sin_7, cos_7).times::<FUSED>(&self.hand)
+    }
+
+    #[inline(always)]
+    fn theta_7(&self, q7: f64) -> f64 {
+        self.arm.placement.signs[6] * q7 - self.arm.placement.offsets[6]
     }
 
     /// Every joint vector that brings the tool to `pose`, with joint 7 at `free.q[6]`; limits are not regarded.
