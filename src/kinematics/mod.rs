@@ -38,6 +38,8 @@ pub use crossing::{Crossing, FollowOptions};
 pub use dh::{DhRow, Mdh, Sdh};
 pub use follow::{Break, BreakReason, Followed, Follower};
 pub(crate) use inverse::Inverse;
+#[cfg(feature = "python")]
+pub(crate) use inverse::check_given;
 pub use jacobian::JacobianFrame;
 pub use limits::JointLimits;
 pub use pose::{

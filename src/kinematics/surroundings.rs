@@ -100,8 +100,10 @@ impl Frame {
     #[inline(always)]
     pub(crate) fn unturned<const FUSED: bool>(&self, sin: f64, cos: f64) -> Self {
         let [a, b, c] = self.rotation;
-        let row = |[x, y, z]: [f64; 3]| [mul_add::<FUSED>(x, cos, -(y * sin)), mul_add::<FUSED>(x, sin, y * cos), z];
-        Self { rotation: [row(a), row(b), row(c)], origin: self.origin }
+        Self {
+            rotation: [turned_back::<FUSED>(a, sin, cos), turned_back::<FUSED>(b, sin, cos), turned_back::<FUSED>(c, sin, cos)],
+            ..*self
+        }
     }
 
     /// This frame times a constant one.
@@ -112,6 +114,11 @@ impl Frame {
             origin: moved::<FUSED>(&self.rotation, behind.origin, self.origin),
         }
     }
+}
+
+#[inline(always)]
+fn turned_back<const FUSED: bool>([x, y, z]: [f64; 3], sin: f64, cos: f64) -> [f64; 3] {
+    [mul_add::<FUSED>(x, cos, -(y * sin)), mul_add::<FUSED>(x, sin, y * cos), z]
 }
 
 #[inline(always)]

@@ -18,7 +18,7 @@ use super::poses::{PoseArgument, pose_array, read_pose, read_poses};
 use super::solutions::PySolutions;
 use crate::catalogue;
 use crate::kinematics::thresholds::WRIST_ZONE;
-use crate::kinematics::{Explanation, FollowOptions, Inverse, OpwParameters, Robot};
+use crate::kinematics::{Explanation, FollowOptions, Inverse, OpwParameters, Robot, check_given};
 
 /// A robot arm: `Robot("IRB 2600-12/1.65")`. Frozen, hashable, equal by value, picklable.
 ///
@@ -287,8 +287,9 @@ impl PyRobot {
             }
             Arm::Seven(robot) => {
                 let q7 = needed_q7(py, robot, q7)?;
-                let solutions = robot.ik(&read_pose(T, "T")?, q7).map_err(|error| to_py(py, &error))?;
-                Bound::new(py, PySolutions::from(Found::new(Arc::clone(robot), solutions)))
+                let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_pose(T, "T")?));
+                check_given(q7).and_then(|()| robot.ik_into(&mut found.solutions, q7)).map_err(|error| to_py(py, &error))?;
+                Bound::new(py, PySolutions::from(found))
             }
         }
     }

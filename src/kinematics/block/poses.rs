@@ -49,6 +49,12 @@ impl Poses {
     }
 
     #[inline(always)]
+    pub(crate) fn set_frame(&mut self, lane: usize, frame: Frame) {
+        self.set_rotation(lane, frame.rotation);
+        self.set_origin(lane, frame.origin);
+    }
+
+    #[inline(always)]
     fn set_rotation(&mut self, lane: usize, [x, y, z]: Rows3) {
         let r = &mut self.rotation;
         [r[0][0][lane], r[0][1][lane], r[0][2][lane]] = x;

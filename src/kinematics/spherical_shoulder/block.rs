@@ -1,7 +1,7 @@
 //! A block of poses in lanes.
 
 use super::branch::{Branch, Direction, branch};
-use super::solver::SevenSolver;
+use super::solver::{SevenSolver, hand_frame};
 use crate::kinematics::block::{AnswerRow, Block, BlockSolver, FOUND_INSIDE, Poses, SlotColumns, StatusRow, half_turn};
 use crate::kinematics::solutions::SLOTS;
 use crate::kinematics::thresholds::MOST_ANGLE;
@@ -47,10 +47,13 @@ impl Block<7> for SevenBlock {
         let Some(columns) = &solver.columns else { return };
         self.plain = poses.check();
         poses.seen_from_shoulder::<FUSED>(solver.surroundings.seen);
-        let constants = solver.constants;
+        let (constants, hands, joint_7) = (solver.constants, solver.hand, solver.joint_7());
         for lane in 0..LANES {
-            let hand = solver.hand_frame::<FUSED>(&poses.frame(lane), given[lane]);
+            poses.set_frame(lane, hand_frame::<FUSED>(&poses.frame(lane), joint_7, given[lane], &hands));
             self.plain[lane] &= u64::from(given[lane].abs() <= MOST_ANGLE);
+        }
+        for lane in 0..LANES {
+            let hand = poses.frame(lane);
             self.put(lane, 0, &branch::<FUSED>(&constants, &hand, 1.0, 1.0));
             self.put(lane, 1, &branch::<FUSED>(&constants, &hand, 1.0, -1.0));
             self.put(lane, 2, &branch::<FUSED>(&constants, &hand, -1.0, 1.0));

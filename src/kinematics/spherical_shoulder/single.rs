@@ -2,7 +2,7 @@
 
 use super::block::BRANCHES;
 use super::branch::branch;
-use super::solver::SevenSolver;
+use super::solver::{SevenSolver, hand_frame};
 use crate::kinematics::block::{FOUND_INSIDE, JointColumn, PlainSlots, half_turn};
 use crate::kinematics::pose::Pose;
 use crate::kinematics::surroundings::Frame;
@@ -32,7 +32,8 @@ impl Kernel for Single<'_> {
         if far || !(q7.abs() <= MOST_ANGLE) {
             return None;
         }
-        let hand = solver.hand_frame::<FUSED>(&solver.surroundings.seen.of::<FUSED>(&Frame::of(pose)), q7);
+        let seven = solver.surroundings.seen.of::<FUSED>(&Frame::of(pose));
+        let hand = hand_frame::<FUSED>(&seven, solver.joint_7(), q7, &solver.hand);
         let constants = solver.constants;
         let (mut sin, mut cos, mut angle) = ([[0.0; BRANCHES]; 6], [[0.0; BRANCHES]; 6], [[0.0; BRANCHES]; 6]);
         let (mut status, mut plain) = ([0; BRANCHES], [0; BRANCHES]);

@@ -19,7 +19,7 @@ pub(crate) struct SevenSolver {
     /// Up to the frame of joint 7 after its turn.
     pub(super) surroundings: Surroundings,
     t_seven_hand: Pose,
-    hand: Frame,
+    pub(super) hand: Frame,
     pub(super) constants: Constants,
     /// `None` where the limits ask for more than what lanes do.
     pub(super) columns: Option<[JointColumn; 7]>,
@@ -46,20 +46,25 @@ impl SevenSolver {
         self.surroundings.wrist_pose(pose) * unturned * self.t_seven_hand
     }
 
-    /// The same for a frame of joint 7 that was seen from the shoulder.
-    #[inline(always)]
-    pub(super) fn hand_frame<const FUSED: bool>(&self, seven: &Frame, q7: f64) -> Frame {
-        let (sin_7, cos_7) = sin_cos::<FUSED>(self.theta_7(q7));
-        seven.unturned::<FUSED>(sin_7, cos_7).times::<FUSED>(&self.hand)
+    /// Sign and offset of joint 7.
+    pub(super) fn joint_7(&self) -> (f64, f64) {
+        (self.arm.placement.signs[6], self.arm.placement.offsets[6])
     }
 
-    #[inline(always)]
     fn theta_7(&self, q7: f64) -> f64 {
-        self.arm.placement.signs[6] * q7 - self.arm.placement.offsets[6]
+        let (sign, offset) = self.joint_7();
+        sign * q7 - offset
     }
 
     /// Every joint vector that brings the tool to `pose`, with joint 7 at `free.q[6]`; limits are not regarded.
     pub(crate) fn solve(&self, pose: &Pose, free: &FreeChoice<7>) -> Branches<7> {
         self.arm.solve_hand(&self.hand_pose(pose, free.q[6]), free)
     }
+}
+
+/// The hand (eq. 1) of a frame of joint 7 that was seen from the shoulder.
+#[inline(always)]
+pub(super) fn hand_frame<const FUSED: bool>(seven: &Frame, (sign, offset): (f64, f64), q7: f64, hand: &Frame) -> Frame {
+    let (sin_7, cos_7) = sin_cos::<FUSED>(sign * q7 - offset);
+    seven.unturned::<FUSED>(sin_7, cos_7).times::<FUSED>(hand)
 }
