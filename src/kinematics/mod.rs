@@ -10,6 +10,7 @@ mod follow;
 mod forward;
 mod inverse;
 mod jacobian;
+mod joint_axes;
 mod limits;
 mod pose;
 mod robot;
@@ -26,7 +27,12 @@ pub use crossing::{Crossing, FollowOptions};
 pub use dh::{DhRow, Mdh, Sdh};
 pub use follow::{Break, BreakReason, Followed, Follower};
 pub use jacobian::JacobianFrame;
+pub use joint_axes::JointAxis;
+#[cfg(feature = "urdf")]
+pub(crate) use joint_axes::unit;
 pub use limits::JointLimits;
+#[cfg(feature = "urdf")]
+pub(crate) use pose::constant_pose;
 pub use pose::{
     Pose, PoseError, pose_from_euler_zyx, pose_from_quaternion, pose_from_rows, pose_to_euler_zyx, pose_to_quaternion, pose_to_rows,
 };
