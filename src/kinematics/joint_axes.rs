@@ -119,7 +119,7 @@ impl Line {
         (base, Normal { to, a: nearly(foot.x), alpha: if z.z < 0.0 { PI } else { 0.0 }, ..Normal::NONE })
     }
 
-    /// The common normal to the next axis, `before` being the one that comes from the axis before.
+    /// The common normal to the next axis, `before` being the one that comes from the axis before. A sum with zero has no minus zero.
     fn normal_to(&self, next: &Self, before: &Normal) -> Normal {
         let between = next.point - self.point;
         let cross = self.z.cross(&next.z);
@@ -134,7 +134,7 @@ impl Line {
             x: square_to(&self.z, &(normal * sign)),
             from: between.cross(&next.z).dot(&normal) / sin,
             to: between.cross(&self.z).dot(&normal) / sin,
-            a: distance * sign,
+            a: distance * sign + 0.0,
             alpha: (sin * sign).atan2(cos),
         }
     }
@@ -150,7 +150,7 @@ impl Line {
             x: square_to(&self.z, &(normal * sign)),
             from,
             to: (self.z * from - between).dot(&next.z),
-            a: distance * sign,
+            a: distance * sign + 0.0,
             alpha: if cos < 0.0 { PI } else { 0.0 },
         }
     }
