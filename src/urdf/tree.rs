@@ -39,7 +39,7 @@ fn not_xml(error: &roxmltree::Error, skipped: usize, body: &str) -> UrdfFault {
     let (mut line, mut column) = (position.row as usize, position.col as usize);
     let what = match error {
         roxmltree::Error::UnknownNamespace(prefix, _) if prefix == "xacro" => {
-            return UrdfFault::Xacro { line: line + skipped, element: "xacro:".to_owned() };
+            return UrdfFault::Xacro { line: line + skipped, element: "xacro:...".to_owned() };
         }
         roxmltree::Error::UnclosedRootNode | roxmltree::Error::UnexpectedEndOfStream | roxmltree::Error::NoRootNode => {
             line = body.lines().count().max(1);
