@@ -1,5 +1,5 @@
 //! Robots from URDF: what arrives, and what is refused in which words.
-#![allow(clippy::unwrap_used, clippy::float_cmp, missing_docs)]
+#![allow(clippy::unwrap_used, clippy::float_cmp, clippy::cast_possible_truncation, clippy::cast_sign_loss, missing_docs)]
 
 mod common;
 
@@ -313,6 +313,44 @@ fn hostile_text_is_refused_without_a_panic() {
     for end in 0..IRB2600.len() {
         assert!(six(&IRB2600[..end], None, None).is_err() || IRB2600[end..].trim().is_empty());
     }
+}
+
+#[test]
+fn damaged_text_never_panics() {
+    let mut rng = Rng::new(3);
+    let mut below = |bound: usize| (rng.unit() * f64::from(u32::try_from(bound).unwrap())) as usize;
+    let pieces = ["<", ">", "\"", "/", "0", "-", "e9", ".", " ", "nan", "&", "<joint", "link=", "\u{0}", "é", "<axis/>", "base_link"];
+    let mut taken = 0;
+    for _ in 0..5000 {
+        let mut text = IRB2600.to_owned();
+        for _ in 0..=below(4) {
+            let (at, piece) = (below(text.len()), pieces[below(pieces.len())]);
+            let end = (at + below(12)).min(text.len());
+            if text.is_char_boundary(at) && text.is_char_boundary(end) {
+                text.replace_range(at..end, piece);
+            }
+        }
+        match six(&text, None, None) {
+            Ok(robot) => taken += usize::from(robot.fk(&[0.1; 6]).translation.vector.norm().is_finite()),
+            Err(error) => assert!(matches!(error, Error::InvalidModel(_)), "{error}"),
+        }
+    }
+    // A name, a comment or a digit can be changed without harm.
+    assert!((100..4900).contains(&taken), "{taken}");
+}
+
+#[test]
+fn nearly_parallel_axes_are_told_apart_from_parallel_ones() {
+    // Nine decimals: 2e-10 off, taken as parallel. Seven: 5e-8 off, the common normal is too far away. One: two axes like any other.
+    let of =
+        |roll: &str| six(&third("<origin xyz=\"0 0 0.7\"/>", &format!("<origin xyz=\"0.1 0.02 0.7\" rpy=\"{roll} 0 0\"/>")), None, None);
+    assert_eq!(of("3.141592654").unwrap().mdh().rows[2].alpha, PI);
+    assert_eq!(
+        refused(of("3.1415927")),
+        "axes 2 and 3 are 4.6e-8 rad off parallel, their common normal stands 1.5e7 m away, it must be at most 1e6 m (are the angles \
+         written with all their digits?)"
+    );
+    assert!((of("3.1").unwrap().mdh().rows[2].alpha.abs() - 3.1).abs() < 1e-12);
 }
 
 #[test]
