@@ -7,7 +7,7 @@
 use rayon::prelude::*;
 
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{JacobianFrame, Robot, SLOTS, Singularity, check_weights, pose_from_rows, pose_to_rows};
+use crate::kinematics::{Inverse, JacobianFrame, Robot, SLOTS, Singularity, check_joints, check_weights, pose_from_rows, pose_to_rows};
 
 /// Forward kinematics: rows of `N` joint angles to rows of 16 pose elements.
 ///
@@ -69,38 +69,76 @@ pub fn singularity<'a, const N: usize>(robot: &'a Robot<N>, q: &'a [f64]) -> Res
 ///
 /// [`Error::WrongLength`] when a slice does not hold as many rows as `poses`, [`Error::InvalidModel`] when the arm has no closed form.
 pub fn ik(robot: &Robot<6>, poses: &[f64], q: &mut [f64], status: &mut [u8], threads: usize) -> Result<(), Error> {
+    solved(robot, poses, &[], q, status, threads)
+}
+
+/// [`ik`] of an arm of seven joints, with the angle of joint 7 [rad] for each pose, to eight slots of seven joint angles.
+///
+/// # Errors
+///
+/// As [`ik`].
+pub fn ik_with_q7(robot: &Robot<7>, poses: &[f64], q7: &[f64], q: &mut [f64], status: &mut [u8], threads: usize) -> Result<(), Error> {
+    if q7.len() != poses.len() / 16 {
+        return Err(Error::WrongLength { field: "q7", found: q7.len(), wanted: poses.len() / 16 });
+    }
+    solved(robot, poses, q7, q, status, threads)
+}
+
+fn solved<const N: usize>(
+    robot: &Robot<N>,
+    poses: &[f64],
+    given: &[f64],
+    q: &mut [f64],
+    status: &mut [u8],
+    threads: usize,
+) -> Result<(), Error>
+where
+    Robot<N>: Inverse<N>,
+{
     if let Some(reason) = robot.no_closed_form() {
         return Err(ModelFault::NoClosedForm(reason).into());
     }
     let poses = rows::<16>("poses", poses)?;
-    let q = rows_out::<{ SLOTS * 6 }, f64>("q", q, poses.len())?;
+    let q = rows_out::<N, f64>("q", q, SLOTS * poses.len())?.as_chunks_mut::<SLOTS>().0;
     let status = rows_out::<SLOTS, u8>("status", status, poses.len())?;
     #[cfg(feature = "std")]
     if let Some(pool) = pool(threads, poses.len()) {
-        let parts = poses.par_chunks(PART).zip(q.par_chunks_mut(PART)).zip(status.par_chunks_mut(PART));
-        return pool.install(|| parts.try_for_each(|((poses, q), status)| robot.ik_rows(poses, q, status)));
+        let parts = poses.par_chunks(PART).zip(q.par_chunks_mut(PART)).zip(status.par_chunks_mut(PART)).enumerate();
+        return pool.install(|| {
+            parts.for_each(|(part, ((poses, q), status))| {
+                let given = given.get(part * PART..).map_or(&[][..], |given| &given[..poses.len().min(given.len())]);
+                robot.ik_rows(poses, given, q, status);
+            });
+            Ok(())
+        });
     }
     #[cfg(not(feature = "std"))]
     let _ = threads;
-    robot.ik_rows(poses, q, status)
+    robot.ik_rows(poses, given, q, status);
+    Ok(())
 }
 
-/// Inverse kinematics next to seeds: rows of 16 pose elements and of six joint angles to rows of six joint angles, those of
-/// [`Robot::ik_nearest`]. A row that has none, or whose pose or seed is invalid, is NaN.
+/// Inverse kinematics next to seeds: rows of 16 pose elements and of joint angles to rows of joint angles, those of [`Robot::ik_nearest`].
+/// A row that has none, or whose pose or seed is invalid, is NaN.
 ///
 /// # Errors
 ///
 /// As [`ik`], and [`Error::InvalidJoints`] for a weight that is negative or not finite.
-pub fn ik_nearest(robot: &Robot<6>, poses: &[f64], seeds: &[f64], weights: &[f64; 6], q: &mut [f64]) -> Result<(), Error> {
+#[expect(private_bounds, reason = "robots of six and of seven joints")]
+pub fn ik_nearest<const N: usize>(robot: &Robot<N>, poses: &[f64], seeds: &[f64], weights: &[f64; N], q: &mut [f64]) -> Result<(), Error>
+where
+    Robot<N>: Inverse<N>,
+{
     if let Some(reason) = robot.no_closed_form() {
         return Err(ModelFault::NoClosedForm(reason).into());
     }
     check_weights(weights)?;
     let poses = rows::<16>("poses", poses)?;
-    let seeds = rows_for::<6>("seeds", seeds, poses.len())?;
-    for ((pose, seed), q) in poses.iter().zip(seeds).zip(rows_out::<6, f64>("q", q, poses.len())?) {
-        let nearest = pose_from_rows(pose).and_then(|pose| robot.ik_nearest(&pose, seed, weights));
-        *q = nearest.map_or([f64::NAN; 6], |nearest| nearest.q);
+    let seeds = rows_for::<N>("seeds", seeds, poses.len())?;
+    for ((pose, seed), q) in poses.iter().zip(seeds).zip(rows_out::<N, f64>("q", q, poses.len())?) {
+        let checked = check_joints("seed", seed).and_then(|()| pose_from_rows(pose));
+        let nearest = checked.and_then(|pose| robot.ik_nearest_checked(pose, seed, weights));
+        *q = nearest.map_or([f64::NAN; N], |nearest| nearest.q);
     }
     Ok(())
 }

@@ -5,17 +5,21 @@
 
 use super::{AngleUnit, CatalogueArm, CatalogueGeometry};
 
-pub(super) const ARMS: &[CatalogueArm] = &[CatalogueArm {
+const GEOMETRY: CatalogueGeometry = CatalogueGeometry::Mdh(&[
+    [0.0, 0.0, 333.0, 0.0],
+    [-90.0, 0.0, 0.0, 0.0],
+    [90.0, 0.0, 316.0, 0.0],
+    [90.0, 82.5, 0.0, 0.0],
+    [-90.0, -82.5, 384.0, 0.0],
+    [90.0, 0.0, 0.0, 0.0],
+    [90.0, 88.0, 107.0, 0.0],
+]);
+
+pub(super) const ARMS: &[CatalogueArm] = &[PANDA, FR3];
+
+const PANDA: CatalogueArm = CatalogueArm {
     name: "Panda",
-    geometry: CatalogueGeometry::Mdh(&[
-        [0.0, 0.0, 333.0, 0.0],
-        [-90.0, 0.0, 0.0, 0.0],
-        [90.0, 0.0, 316.0, 0.0],
-        [90.0, 82.5, 0.0, 0.0],
-        [-90.0, -82.5, 384.0, 0.0],
-        [90.0, 0.0, 0.0, 0.0],
-        [90.0, 88.0, 107.0, 0.0],
-    ]),
+    geometry: GEOMETRY,
     angles: AngleUnit::Radians,
     limits: &[
         [-2.8973, 2.8973],
@@ -29,4 +33,22 @@ pub(super) const ARMS: &[CatalogueArm] = &[CatalogueArm {
     max_velocity: Some(&[2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61]),
     sources: 2,
     provenance: "Franka control parameters; limits are general knowledge of the data sheet",
-}];
+};
+
+const FR3: CatalogueArm = CatalogueArm {
+    name: "FR3",
+    geometry: GEOMETRY,
+    angles: AngleUnit::Radians,
+    limits: &[
+        [-2.7437, 2.7437],
+        [-1.7837, 1.7837],
+        [-2.9007, 2.9007],
+        [-3.0421, -0.1518],
+        [-2.8065, 2.8065],
+        [0.5445, 4.5169],
+        [-3.0159, 3.0159],
+    ],
+    max_velocity: None,
+    sources: 2,
+    provenance: "Franka control parameters: the Panda's geometry; limits are general knowledge of the data sheet",
+};

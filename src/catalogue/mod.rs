@@ -2,13 +2,14 @@
 
 mod abb;
 mod franka;
+mod universal_robots;
 
 use alloc::borrow::ToOwned;
 use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::error::{Error, ModelFault, UnknownRobot};
-use crate::kinematics::{DhRow, JointLimits, Mdh, OpwParameters, Pose, Robot};
+use crate::kinematics::{DhRow, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh};
 
 /// One arm of the catalogue, with the numbers as its maker prints them.
 #[derive(Clone, Copy, Debug)]
@@ -65,11 +66,26 @@ pub enum CatalogueGeometry {
         /// Wrist centre to flange.
         c4: f64,
     },
+    /// Three parallel axes, in Universal Robots' standard Denavit-Hartenberg figures [mm]: twists of 90, 0, 0, 90, -90 and 0 deg.
+    ThreeParallel {
+        /// Height of axis 2.
+        d1: f64,
+        /// Upper arm, negative: it points to -x at zero.
+        a2: f64,
+        /// Forearm, negative too.
+        a3: f64,
+        /// Distance of the wrist from the plane through axis 1.
+        d4: f64,
+        /// Distance of the wrist from axis 4.
+        d5: f64,
+        /// Wrist to flange.
+        d6: f64,
+    },
     /// Modified Denavit-Hartenberg rows: alpha [deg], a [mm], d [mm], theta offset [deg].
     Mdh(&'static [[f64; 4]]),
 }
 
-const MAKERS: [&[CatalogueArm]; 2] = [abb::ARMS, franka::ARMS];
+const MAKERS: [&[CatalogueArm]; 3] = [abb::ARMS, universal_robots::ARMS, franka::ARMS];
 
 /// Every arm of the catalogue.
 pub fn catalogue() -> impl Iterator<Item = &'static CatalogueArm> {
@@ -145,6 +161,12 @@ impl<const N: usize> Robot<N> {
             CatalogueGeometry::Abb { a1, a2, c1, c2, c3, c4 } => {
                 let [a1, a2, c1, c2, c3, c4] = [a1, a2, c1, c2, c3, c4].map(|mm| mm / 1e3);
                 Self::of_opw(OpwParameters::abb(a1, a2, c1, c2, c3, c4))?
+            }
+            CatalogueGeometry::ThreeParallel { d1, a2, a3, d4, d5, d6 } => {
+                let rows = [(90.0, 0.0, d1), (0.0, a2, 0.0), (0.0, a3, 0.0), (90.0, 0.0, d4), (-90.0, 0.0, d5), (0.0, 0.0, d6)];
+                let rows = rows.map(|(alpha, a, d): (f64, f64, f64)| DhRow::new(alpha.to_radians(), a / 1e3, d / 1e3, 0.0));
+                let rows = <[DhRow; N]>::try_from(&rows[..]).map_err(|_| wrong_count())?;
+                Self::from_sdh(Sdh { base: Pose::identity(), rows, flange: Pose::identity() })?
             }
             CatalogueGeometry::Mdh(rows) => {
                 let rows = <[[f64; 4]; N]>::try_from(rows).map_err(|_| wrong_count())?;

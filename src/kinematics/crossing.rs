@@ -7,10 +7,10 @@ use nalgebra::Vector3;
 use super::follow::{Break, BreakReason, Followed, Follower, largest_step};
 use super::pose::{Pose, PoseError, checked_pose};
 use super::robot::Robot;
-use super::spherical_wrist::SphericalWrist;
+use super::spherical_wrist::{SphericalWrist, WristSolver};
 use super::status::Status;
 use super::thresholds::{HELD_STILL, JUMP_BLIND, WRIST_ZONE};
-use crate::error::{Error, JointFault};
+use crate::error::{Error, JointFault, ModelFault};
 
 /// What a path does at the wrist singularity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -53,10 +53,14 @@ impl Robot<6> {
     ///
     /// # Errors
     ///
-    /// As [`Robot::ik_nearest`]; a pose that cannot be reached is no error but a break.
+    /// As [`Robot::ik_nearest`]; a pose that cannot be reached is no error but a break. [`Error::InvalidModel`] where [`Crossing::Wrist`] or
+    /// [`Crossing::LockAxis4`] is asked of an arm without a spherical wrist.
     pub fn follow(&self, path: &[Pose], seed: &[f64; 6], options: &FollowOptions) -> Result<Followed, Error> {
         if !(options.zone.is_finite() && options.zone >= 0.0) {
             return Err(JointFault::Zone { value: options.zone }.into());
+        }
+        if matches!(options.crossing, Crossing::Wrist | Crossing::LockAxis4) && self.spherical_wrist().is_none() {
+            return Err(ModelFault::NoSphericalWrist.into());
         }
         let mut walk = Walk {
             robot: self,
@@ -92,7 +96,7 @@ struct Walk<'a> {
 
 impl Walk<'_> {
     fn in_zone(&self, q: &[f64; 6]) -> bool {
-        self.robot.spherical_wrist().is_some_and(|arm| arm.sin_5(q).abs() < self.options.zone)
+        self.robot.geometry().sin_5(q).is_some_and(|sin_5| sin_5.abs() < self.options.zone)
     }
 
     fn record(&mut self, q: Option<[f64; 6]>, broken: Option<BreakReason>) {
@@ -207,9 +211,9 @@ impl Walk<'_> {
     /// The joints for a pose with the wrist held as in `q`: arm and wrist solved in turn until both stand.
     fn held(&self, pose: &Pose, q: &[f64; 6], how: Held) -> Result<Option<[f64; 6]>, Error> {
         let pose = checked_pose(pose)?;
-        let Some(arm) = self.robot.spherical_wrist() else { return Ok(None) };
-        let rotation = self.robot.solver()?.wrist_pose(&pose).rotation;
-        let (point, lever) = self.robot.solver()?.tool_point(&pose);
+        let Some(WristSolver { arm, surroundings, .. }) = self.robot.wrist_solver() else { return Ok(None) };
+        let rotation = surroundings.wrist_pose(&pose).rotation;
+        let (point, lever) = surroundings.tool_point(&pose);
         let mut held = *q;
         for _ in 0..ROUNDS {
             let m = arm.rotation_in_forearm(rotation.matrix(), &held);

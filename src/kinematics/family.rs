@@ -2,59 +2,48 @@
 
 use core::f64::consts::{PI, TAU};
 
+use super::free_choice::FreeChoice;
 use super::limits::JointLimits;
 use super::pose::{Pose, checked_pose};
 use super::robot::Robot;
-use super::select::{Cost, check_joints, check_weights};
+use super::select::{Cost, check_joints};
 use super::solutions::{FreeJoint, SLOTS, Solution, Solutions};
-use super::spherical_wrist::FreeChoice;
-use super::status::Status;
+use super::status::{Explanation, Status};
 use super::thresholds::SOLUTION_OFF;
 use crate::error::{Error, JointFault};
 
 /// Steps of a turn in which a free joint that moves the whole wrist is searched for a place inside the limits.
 const STEPS: u32 = 360;
 
-impl Robot<6> {
-    /// The solution inside the limits that is nearest to `seed` [rad], turns considered; free joints keep the seed's angle.
-    ///
-    /// # Errors
-    ///
-    /// As [`Robot::ik`], [`Error::InvalidJoints`] for a seed or weight that is not finite, and [`Error::Unreachable`] when no solution
-    /// is inside the limits.
-    pub fn ik_nearest(&self, pose: &Pose, seed: &[f64; 6], weights: &[f64; 6]) -> Result<Solution<6>, Error> {
-        check_joints("seed", seed)?;
-        check_weights(weights)?;
-        self.ik_nearest_checked(checked_pose(pose)?, seed, weights)
-    }
-
-    /// [`Robot::ik_nearest`] for arguments that were checked where they came in.
-    pub(crate) fn ik_nearest_checked(&self, pose: Pose, seed: &[f64; 6], weights: &[f64; 6]) -> Result<Solution<6>, Error> {
-        let solutions = self.solve(pose, &FreeChoice::seed(*seed))?;
-        let nearest = self.nearest_of(&solutions, seed, weights)?;
-        nearest.ok_or_else(|| Error::Unreachable(solutions.explain()))
-    }
-
+impl<const N: usize> Robot<N> {
     /// The solution of the same pose whose free joint stands at `value` [rad]; `None` where no joint is free.
     ///
     /// The tool stays to rounding at the singularity, and next to it within twice the pose's distance from it: at most 3e-9 rad or m.
     ///
     /// # Errors
     ///
-    /// As [`Robot::ik`], and [`Error::InvalidJoints`] when the value is not finite or the solution is none of the pose.
-    pub fn with_free(&self, pose: &Pose, solution: &Solution<6>, value: f64) -> Result<Option<Solution<6>>, Error> {
+    /// As [`Robot::ik`], [`Error::InvalidJoints`] when the value is not finite or the solution is none of the pose, and
+    /// [`Error::Unreachable`] when the arm does not reach with the free joint there.
+    pub fn with_free(&self, pose: &Pose, solution: &Solution<N>, value: f64) -> Result<Option<Solution<N>>, Error> {
         let Some(free) = solution.free else { return Ok(None) };
         let off = self.residual(&solution.q, pose).largest();
         if off > SOLUTION_OFF {
             return Err(JointFault::NotOfPose { off }.into());
         }
-        let joint = free.joint();
+        check_joints("value", &[value]).map_err(|_| JointFault::NotFinite { field: "value", joint: free.joint(), value })?;
+        let moved = self.with_free_at(&checked_pose(pose)?, solution, free, value)?;
+        moved.map(Some).ok_or(Error::Unreachable(Explanation::FreeOutOfReach { joint: free.joint(), value }))
+    }
+
+    /// [`Self::with_free`] for a pose and a solution of it that were checked; `None` where the arm does not reach.
+    fn with_free_at(&self, pose: &Pose, solution: &Solution<N>, free: FreeJoint, value: f64) -> Result<Option<Solution<N>>, Error> {
+        let (joint, slot) = (free.joint(), usize::from(solution.slot));
         let mut q = solution.q;
         q[joint - 1] = value;
-        check_joints("value", &q)?;
-        let slot = usize::from(solution.slot);
-        let solutions = self.solve(checked_pose(pose)?, &FreeChoice::forced(q, joint, slot >= SLOTS / 2))?;
-        let moved = solutions.slot(slot).or_else(|| solutions.slot(slot ^ 1));
+        let solutions = self.solve(*pose, &FreeChoice::forced(q, joint, slot >= SLOTS / 2))?;
+        // Joint by joint the same branch; the free joint may flip what turns with it, and straighten the elbow.
+        let flip = if matches!(free, FreeJoint::ShoulderSum | FreeJoint::ShoulderDifference) { 4 } else { 1 };
+        let moved = [slot, slot ^ flip, slot ^ 2, slot ^ 2 ^ flip].into_iter().find_map(|slot| solutions.slot(slot));
         Ok(moved.map(|moved| {
             let mut moved = *moved;
             moved.q[joint - 1] = value;
@@ -65,7 +54,7 @@ impl Robot<6> {
 
     /// The solution inside the limits that is nearest to `seed`; where the one with the seed's free joint has another joint outside them,
     /// the nearest of its family.
-    pub(super) fn nearest_of(&self, solutions: &Solutions<6>, seed: &[f64; 6], weights: &[f64; 6]) -> Result<Option<Solution<6>>, Error> {
+    pub(super) fn nearest_of(&self, solutions: &Solutions<N>, seed: &[f64; N], weights: &[f64; N]) -> Result<Option<Solution<N>>, Error> {
         let nearest = solutions.cheapest(seed, weights, Cost::Distance);
         if nearest.is_some() {
             return Ok(nearest);
@@ -74,13 +63,13 @@ impl Robot<6> {
     }
 
     /// Where a solution of a family is outside the limits and another one of it is not, that one takes its slot.
-    pub(super) fn bring_families_inside(&self, solutions: &mut Solutions<6>) -> Result<(), Error> {
+    pub(super) fn bring_families_inside(&self, solutions: &mut Solutions<N>) -> Result<(), Error> {
         for slot in 0..SLOTS {
             let Some(outside) = solutions.slots[slot].filter(|solution| solution.free.is_some() && !solution.within_limits()) else {
                 continue;
             };
-            let rest = self.limits().rest();
-            if let Some(inside) = self.nearest_in_families(solutions, [&outside].into_iter(), &rest, &[1.0; 6])? {
+            let rest = self.resting(outside.q[N - 1]);
+            if let Some(inside) = self.nearest_in_families(solutions, [&outside].into_iter(), &rest, &[1.0; N])? {
                 let to = usize::from(inside.slot);
                 solutions.merged.swap(slot, to);
                 solutions.slots[slot] = None;
@@ -92,41 +81,35 @@ impl Robot<6> {
 
     fn nearest_in_families<'a>(
         &self,
-        solutions: &Solutions<6>,
-        among: impl Iterator<Item = &'a Solution<6>> + Clone,
-        seed: &[f64; 6],
-        weights: &[f64; 6],
-    ) -> Result<Option<Solution<6>>, Error> {
+        solutions: &Solutions<N>,
+        among: impl Iterator<Item = &'a Solution<N>> + Clone,
+        seed: &[f64; N],
+        weights: &[f64; N],
+    ) -> Result<Option<Solution<N>>, Error> {
         // A branch that was merged with another meets the pose as well; any other place in the family to its distance from the singularity.
-        let twins = self.nearest_among(solutions, among.clone(), seed, weights, |solution, free| match free {
-            FreeJoint::WristSum | FreeJoint::WristDifference => Candidates::One(solution.q[3] + PI),
-            FreeJoint::Base | FreeJoint::Upper => Candidates::None,
-        })?;
+        let twins = self.nearest_among(solutions, among.clone(), seed, weights, twin)?;
         if twins.is_some() {
             return Ok(twins);
         }
-        self.nearest_among(solutions, among, seed, weights, |solution, free| match free {
-            FreeJoint::WristSum => Candidates::Edges(edges(self.limits(), &solution.q, 1.0)),
-            FreeJoint::WristDifference => Candidates::Edges(edges(self.limits(), &solution.q, -1.0)),
-            FreeJoint::Base | FreeJoint::Upper => Candidates::Turn,
+        self.nearest_among(solutions, among, seed, weights, |solution, free| {
+            edges(self.limits(), &solution.q, free).into_iter().flatten().chain(steps(free))
         })
     }
 
-    /// The nearest to `seed` inside the limits of the solutions that have their free joint at one of the candidates.
-    fn nearest_among<'a>(
+    /// The nearest to `seed` inside the limits of the solutions that have their free joint at one of the values.
+    fn nearest_among<'a, I: IntoIterator<Item = f64>>(
         &self,
-        solutions: &Solutions<6>,
-        among: impl Iterator<Item = &'a Solution<6>>,
-        seed: &[f64; 6],
-        weights: &[f64; 6],
-        candidates: impl Fn(&Solution<6>, FreeJoint) -> Candidates,
-    ) -> Result<Option<Solution<6>>, Error> {
-        let mut best: Option<(f64, Solution<6>)> = None;
+        solutions: &Solutions<N>,
+        among: impl Iterator<Item = &'a Solution<N>>,
+        seed: &[f64; N],
+        weights: &[f64; N],
+        values: impl Fn(&Solution<N>, FreeJoint) -> I,
+    ) -> Result<Option<Solution<N>>, Error> {
+        let mut best: Option<(f64, Solution<N>)> = None;
         for solution in among {
             let Some(free) = solution.free else { continue };
-            let candidates = candidates(solution, free);
-            for value in (0..STEPS).map_while(|step| candidates.get(step)) {
-                let Some(moved) = self.with_free(solutions.pose(), solution, value)? else { continue };
+            for value in values(solution, free) {
+                let Some(moved) = self.with_free_at(solutions.pose(), solution, free, value)? else { continue };
                 let Some(q) = self.limits().turned_to(&moved.q, seed) else { continue };
                 let cost = Cost::Distance.total(&q, seed, weights);
                 if best.as_ref().is_none_or(|(least, _)| cost < *least) {
@@ -138,29 +121,24 @@ impl Robot<6> {
     }
 }
 
-/// Where a free joint is tried.
-enum Candidates {
-    None,
-    One(f64),
-    Edges([f64; 4]),
-    Turn,
+/// The angle of the free joint at which the branch stands that was merged with this one, where it is of the same family.
+fn twin<const N: usize>(solution: &Solution<N>, free: FreeJoint) -> Option<f64> {
+    let turned = free.partner().is_some() || free == FreeJoint::Parallel;
+    turned.then(|| solution.q[free.joint() - 1] + PI)
 }
 
-impl Candidates {
-    fn get(&self, step: u32) -> Option<f64> {
-        match self {
-            Self::None => None,
-            Self::One(angle) => (step == 0).then_some(*angle),
-            Self::Edges(angles) => angles.get(step as usize).copied(),
-            Self::Turn => Some(TAU * f64::from(step) / f64::from(STEPS)),
-        }
-    }
+/// The angles of a free joint at which it or its partner comes to a limit. Where any angle keeps both inside, one of these does: the angles
+/// inside are intervals, and these are their ends.
+fn edges<const N: usize>(limits: &JointLimits<N>, q: &[f64; N], free: FreeJoint) -> Option<[f64; 4]> {
+    let (partner, sign) = free.partner()?;
+    let (own, other) = (free.joint() - 1, partner - 1);
+    let ([low, high], [other_low, other_high]) = (limits.to_array()[own], limits.to_array()[other]);
+    let fixed = q[own] + sign * q[other];
+    Some([low, high, fixed - sign * other_low, fixed - sign * other_high].map(|edge| if edge.is_finite() { edge } else { q[own] }))
 }
 
-/// The angles of joint 4 at which it or joint 6 comes to a limit, q4 + `sign` q6 being fixed. Where any angle keeps both inside, one of
-/// these does: the angles inside are intervals, and these are their ends.
-fn edges(limits: &JointLimits<6>, q: &[f64; 6], sign: f64) -> [f64; 4] {
-    let [_, _, _, [low_4, high_4], _, [low_6, high_6]] = limits.to_array();
-    let fixed = q[3] + sign * q[5];
-    [low_4, high_4, fixed - sign * low_6, fixed - sign * high_6].map(|edge| if edge.is_finite() { edge } else { q[3] })
+/// The angles at which a free joint is tried whose family moves more than a partner.
+fn steps(free: FreeJoint) -> impl Iterator<Item = f64> {
+    let steps = if free.partner().is_some() { 0 } else { STEPS };
+    (0..steps).map(|step| TAU * f64::from(step) / f64::from(STEPS))
 }

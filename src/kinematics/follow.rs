@@ -8,11 +8,11 @@ use core::fmt;
 use nalgebra::ComplexField as _;
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3};
 
+use super::free_choice::FreeChoice;
 use super::pose::{Pose, checked_pose};
 use super::robot::Robot;
 use super::select::{check_joints, check_weights};
 use super::solutions::{FreeJoint, Solution};
-use super::spherical_wrist::FreeChoice;
 use super::status::{Explanation, Status};
 use super::thresholds::{JUMP_BLIND, JUMP_GROWTH, JUMP_LEAST, SEEDED_FREE, STEADY_STEP};
 use crate::error::Error;

@@ -1,11 +1,19 @@
 //! The inverse of a robot with a closed form: every joint vector of a pose, and of many.
 
+use super::block::{AnswerRow, Blocks, PoseRow, StatusRow};
+use super::branches::resized;
+use super::free_choice::FreeChoice;
+use super::geometry::Geometry;
 use super::pose::{Pose, checked_pose, pose_from_rows};
 use super::robot::Robot;
+use super::select::{check_joints, check_weights};
 use super::solutions::{SLOTS, Solution, Solutions};
-use super::spherical_wrist::{AnswerRow, Blocks, FreeChoice, PoseRow, Single, StatusRow, WristSolver};
+use super::spherical_wrist;
+#[cfg(feature = "python")]
+use super::status::Explanation;
 use super::status::{Reach, Status};
-use crate::error::Error;
+use super::three_parallel;
+use crate::error::{Error, ModelFault};
 use crate::lanes::run;
 
 impl Robot<6> {
@@ -18,66 +26,145 @@ impl Robot<6> {
     ///
     /// [`Error::InvalidPose`] when the pose is not finite or no rigid transform; [`Error::InvalidModel`] when the arm has no closed form.
     pub fn ik(&self, pose: &Pose) -> Result<Solutions<6>, Error> {
-        self.ik_checked(checked_pose(pose)?)
+        self.ik_checked(checked_pose(pose)?, 0.0)
     }
 
-    /// [`Robot::ik`] for a pose that was checked where it came in.
-    pub(crate) fn ik_checked(&self, pose: Pose) -> Result<Solutions<6>, Error> {
+    /// The solution inside the limits that is nearest to `seed` [rad], turns considered; free joints keep the seed's angle.
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::ik`], [`Error::InvalidJoints`] for a seed or weight that is not finite, and [`Error::Unreachable`] when no solution
+    /// is inside the limits.
+    pub fn ik_nearest(&self, pose: &Pose, seed: &[f64; 6], weights: &[f64; 6]) -> Result<Solution<6>, Error> {
+        check_joints("seed", seed)?;
+        check_weights(weights)?;
+        self.ik_nearest_checked(checked_pose(pose)?, seed, weights)
+    }
+
+    /// The outcome of [`Robot::ik`] in a sentence, for a pose that was checked.
+    #[cfg(feature = "python")]
+    pub(crate) fn explain(&self, pose: &Pose) -> Result<Explanation, Error> {
+        Ok(self.ik_checked(*pose, 0.0)?.explain())
+    }
+}
+
+impl Robot<7> {
+    /// Every joint vector that brings the tool to `pose` with joint 7 at `q7` [rad].
+    ///
+    /// Otherwise as [`Robot::<6>::ik`]. Derivation: docs/seven_axes.md.
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::<6>::ik`], and [`Error::InvalidJoints`] when `q7` is not finite.
+    pub fn ik(&self, pose: &Pose, q7: f64) -> Result<Solutions<7>, Error> {
+        check_given(q7)?;
+        self.ik_checked(checked_pose(pose)?, q7)
+    }
+}
+
+/// What arms of six and of seven joints both do, each in its way.
+pub(crate) trait Inverse<const N: usize> {
+    /// Every joint vector of many poses, in lanes: rows of pose elements in, and joint 7 of each for an arm of seven joints; slots and
+    /// their status out.
+    fn ik_rows(&self, poses: &[PoseRow], given: &[f64], q: &mut [AnswerRow<N>], status: &mut [StatusRow]);
+
+    /// [`Robot::ik_nearest`] for arguments that were checked where they came in.
+    fn ik_nearest_checked(&self, pose: Pose, seed: &[f64; N], weights: &[f64; N]) -> Result<Solution<N>, Error>;
+}
+
+impl Inverse<6> for Robot<6> {
+    fn ik_rows(&self, poses: &[PoseRow], given: &[f64], q: &mut [AnswerRow<6>], status: &mut [StatusRow]) {
+        let careful = |row: usize, q: &mut AnswerRow<6>, status: &mut StatusRow| self.ik_row(&poses[row], 0.0, q, status);
+        match self.geometry() {
+            Geometry::SphericalWrist(solver) => run(Blocks { solver, poses, given, q, status, careful }),
+            Geometry::ThreeParallel(solver) => run(Blocks { solver, poses, given, q, status, careful }),
+            Geometry::Serial(_) => self.ik_rows_carefully(poses, given, q, status),
+        }
+    }
+
+    fn ik_nearest_checked(&self, pose: Pose, seed: &[f64; 6], weights: &[f64; 6]) -> Result<Solution<6>, Error> {
+        let solutions = self.solve(pose, &FreeChoice::seed(*seed))?;
+        let nearest = self.nearest_of(&solutions, seed, weights)?;
+        nearest.ok_or_else(|| Error::Unreachable(solutions.explain()))
+    }
+}
+
+impl Inverse<7> for Robot<7> {
+    fn ik_rows(&self, poses: &[PoseRow], given: &[f64], q: &mut [AnswerRow<7>], status: &mut [StatusRow]) {
+        self.ik_rows_carefully(poses, given, q, status);
+    }
+
+    fn ik_nearest_checked(&self, pose: Pose, seed: &[f64; 7], weights: &[f64; 7]) -> Result<Solution<7>, Error> {
+        self.nearest_along_redundancy(&pose, seed, weights)
+    }
+}
+
+impl<const N: usize> Robot<N> {
+    /// [`Robot::ik`] for arguments that were checked where they came in.
+    pub(crate) fn ik_checked(&self, pose: Pose, given: f64) -> Result<Solutions<N>, Error> {
         let mut solutions = self.unsolved(pose);
-        self.ik_into(&mut solutions)?;
+        self.ik_into(&mut solutions, given)?;
         Ok(solutions)
     }
 
-    /// Every joint vector of many poses, in lanes: rows of pose elements in, slots and their status out.
-    pub(crate) fn ik_rows(&self, poses: &[PoseRow], q: &mut [AnswerRow], status: &mut [StatusRow]) -> Result<(), Error> {
-        let careful = |pose: &PoseRow, q: &mut AnswerRow, status: &mut StatusRow| self.ik_row(pose, q, status);
-        run(Blocks { solver: self.solver()?, poses, q, status, careful });
-        Ok(())
+    fn ik_rows_carefully(&self, poses: &[PoseRow], given: &[f64], q: &mut [AnswerRow<N>], status: &mut [StatusRow]) {
+        for (row, (q, status)) in q.iter_mut().zip(status).enumerate() {
+            self.ik_row(&poses[row], given.get(row).copied().unwrap_or(0.0), q, status);
+        }
     }
 
     /// One row by itself.
     #[cold]
-    fn ik_row(&self, pose: &PoseRow, q: &mut AnswerRow, status: &mut StatusRow) {
-        q.fill(f64::NAN);
-        let Ok(solutions) = pose_from_rows(pose).and_then(|pose| self.ik_checked(pose)) else {
+    fn ik_row(&self, pose: &PoseRow, given: f64, q: &mut AnswerRow<N>, status: &mut StatusRow) {
+        q.fill([f64::NAN; N]);
+        let pose = check_given(given).and_then(|()| pose_from_rows(pose));
+        let Ok(solutions) = pose.and_then(|pose| self.ik_checked(pose, given)) else {
             status.fill(Status::INVALID.bits());
             return;
         };
         *status = solutions.status().map(|status| status.bits());
         for solution in &solutions {
-            q.as_chunks_mut::<6>().0[usize::from(solution.slot)] = solution.q;
+            q[usize::from(solution.slot)] = solution.q;
         }
     }
 
     /// An answer without solutions, to solve in the place where it stands.
     #[inline]
-    pub(crate) fn unsolved(&self, pose: Pose) -> Solutions<6> {
+    pub(crate) fn unsolved(&self, pose: Pose) -> Solutions<N> {
         let empty = [Status::empty(); SLOTS];
         Solutions { slots: [None; SLOTS], merged: empty, reach: Reach::Reached, pose, limits: *self.limits(), emptied: None }
     }
 
-    /// [`Robot::ik_checked`] of an unsolved answer's pose, without moving the answer about.
-    pub(crate) fn ik_into(&self, solutions: &mut Solutions<6>) -> Result<(), Error> {
-        let solver = self.solver()?;
-        if solve_in_lanes(solver, solutions) {
+    /// [`Robot::ik_checked`] of an unsolved answer's pose, without moving the answer about. An arm of seven joints has joint 7 at `given`.
+    pub(crate) fn ik_into(&self, solutions: &mut Solutions<N>, given: f64) -> Result<(), Error> {
+        if self.solve_in_lanes(solutions) {
             return Ok(());
         }
-        self.solve_carefully(solver, solutions, &FreeChoice::rest(self.limits().rest()));
+        self.solve_carefully(solutions, &FreeChoice::rest(self.resting(given)))?;
         self.bring_families_inside(solutions)
     }
 
-    pub(super) fn solve(&self, pose: Pose, free: &FreeChoice) -> Result<Solutions<6>, Error> {
-        let (solver, mut solutions) = (self.solver()?, self.unsolved(pose));
-        if !(free.leaves_plain_poses_alone() && solve_in_lanes(solver, &mut solutions)) {
-            self.solve_carefully(solver, &mut solutions, free);
+    /// Where joints rest, joint 7 of an arm of seven joints at `given`.
+    pub(super) fn resting(&self, given: f64) -> [f64; N] {
+        let mut rest = self.limits().rest();
+        if let Some(last) = rest.get_mut(6) {
+            *last = given;
+        }
+        rest
+    }
+
+    pub(super) fn solve(&self, pose: Pose, free: &FreeChoice<N>) -> Result<Solutions<N>, Error> {
+        let mut solutions = self.unsolved(pose);
+        if !(free.leaves_plain_poses_alone() && self.solve_in_lanes(&mut solutions)) {
+            self.solve_carefully(&mut solutions, free)?;
         }
         Ok(solutions)
     }
 
     /// Whatever the pose, one branch after the other.
     #[cold]
-    fn solve_carefully(&self, solver: &WristSolver, solutions: &mut Solutions<6>, free: &FreeChoice) {
-        let branches = solver.arm.solve(&solver.wrist_pose(&solutions.pose), free);
+    fn solve_carefully(&self, solutions: &mut Solutions<N>, free: &FreeChoice<N>) -> Result<(), Error> {
+        let branches = self.geometry().branches(&solutions.pose, free).map_err(ModelFault::NoClosedForm)?;
         for (slot, place) in solutions.slots.iter_mut().enumerate() {
             let Some(q) = branches.q[slot] else { continue };
             let q = self.limits().settle(q);
@@ -89,20 +176,42 @@ impl Robot<6> {
         }
         solutions.merged = branches.flags.map(|flags| if flags.contains(Status::MERGED) { flags } else { Status::empty() });
         solutions.reach = branches.reach;
+        Ok(())
+    }
+
+    /// Solves a pose that is plain, and tells whether it was.
+    #[inline]
+    fn solve_in_lanes(&self, solutions: &mut Solutions<N>) -> bool {
+        let pose = &solutions.pose;
+        match self.geometry() {
+            Geometry::SphericalWrist(solver) => match run(spherical_wrist::Single { solver, pose }) {
+                Some(plain) => put(&mut solutions.slots, |slot| plain.slot(slot)),
+                None => return false,
+            },
+            Geometry::ThreeParallel(solver) => match run(three_parallel::Single { solver, pose }) {
+                Some(plain) => put(&mut solutions.slots, |slot| plain.slot(slot)),
+                None => return false,
+            },
+            Geometry::Serial(_) => return false,
+        }
+        true
     }
 }
 
-/// Solves a pose that is plain, and tells whether it was.
+/// Puts the joint angles and flags of plain slots where they belong.
 #[inline]
-fn solve_in_lanes(solver: &WristSolver, solutions: &mut Solutions<6>) -> bool {
-    let Some(plain) = run(Single { solver, pose: &solutions.pose }) else { return false };
-    for (slot, place) in solutions.slots.iter_mut().enumerate() {
-        let Some((q, status)) = plain.slot(slot) else { continue };
+fn put<const M: usize, const N: usize>(slots: &mut [Option<Solution<N>>; SLOTS], plain: impl Fn(usize) -> Option<([f64; M], u8)>) {
+    for (slot, place) in slots.iter_mut().enumerate() {
+        let Some((q, status)) = plain(slot) else { continue };
         #[expect(clippy::cast_possible_truncation, reason = "eight slots")]
-        let solution = Solution { q, slot: slot as u8, status: Status::from_bits_retain(status), free: None };
+        let solution = Solution { q: resized(&q), slot: slot as u8, status: Status::from_bits_retain(status), free: None };
         *place = Some(solution);
     }
-    true
+}
+
+/// Joint 7 of an arm of seven joints must be an angle.
+pub(crate) fn check_given(q7: f64) -> Result<(), Error> {
+    check_joints("q7", &[q7])
 }
 
 #[cfg(test)]

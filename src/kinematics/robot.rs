@@ -7,12 +7,15 @@ use nalgebra::SMatrix;
 use super::chain::Chain;
 use super::dh::{DhRow, Mdh, Sdh};
 use super::forward::Poses;
+use super::geometry::Geometry;
 use super::jacobian::{JacobianFrame, Jacobians};
 use super::limits::JointLimits;
 use super::pose::{Pose, PoseError, checked_pose};
+use super::recognition::NotRecognised;
 use super::singularity::{Singularity, singular_values};
-use super::spherical_wrist::{NotRecognised, OpwParameters, SphericalWrist, WristSolver, recognise};
+use super::spherical_wrist::{OpwParameters, SphericalWrist, WristSolver};
 use super::status::Status;
+use super::three_parallel::ThreeParallel;
 use super::thresholds::{MOST_ANGLE, MOST_LENGTH};
 use crate::error::{Error, ModelFault};
 use crate::lanes::run;
@@ -40,16 +43,6 @@ pub enum Definition<const N: usize> {
     Mdh(Mdh<N>),
 }
 
-/// The closed form that an arm has.
-#[derive(Clone, Debug, PartialEq)]
-#[expect(clippy::large_enum_variant, reason = "a robot is built once and borrowed from then on; a box would need the heap")]
-enum Geometry {
-    SphericalWrist(WristSolver),
-    Serial(NotRecognised),
-}
-
-const NO_LIMITS: [[f64; 2]; 6] = [[f64::NEG_INFINITY, f64::INFINITY]; 6];
-
 impl Robot<6> {
     /// A robot from the parameters of an ortho-parallel arm with a spherical wrist.
     ///
@@ -60,19 +53,25 @@ impl Robot<6> {
         Self::of_opw(opw)
     }
 
-    pub(super) fn solver(&self) -> Result<&WristSolver, Error> {
+    pub(super) fn wrist_solver(&self) -> Option<&WristSolver> {
         match &self.geometry {
-            Geometry::SphericalWrist(solver) => Ok(solver),
-            Geometry::Serial(reason) => Err(ModelFault::NoClosedForm(*reason).into()),
+            Geometry::SphericalWrist(solver) => Some(solver),
+            _ => None,
         }
     }
 
     /// The spherical-wrist geometry, for an arm that has one.
     #[must_use]
     pub fn spherical_wrist(&self) -> Option<&SphericalWrist> {
+        self.wrist_solver().map(|solver| &solver.arm)
+    }
+
+    /// The geometry of an arm with three parallel axes, for one that has them.
+    #[must_use]
+    pub fn three_parallel(&self) -> Option<&ThreeParallel> {
         match &self.geometry {
-            Geometry::SphericalWrist(solver) => Some(&solver.arm),
-            Geometry::Serial(_) => None,
+            Geometry::ThreeParallel(solver) => Some(&solver.arm),
+            _ => None,
         }
     }
 }
@@ -112,19 +111,7 @@ impl<const N: usize> Robot<N> {
     pub fn serial_chain(mut mdh: Mdh<N>) -> Result<Self, Error> {
         check_rows(&mdh.rows)?;
         (mdh.base, mdh.flange) = (checked_pose(&mdh.base)?, checked_pose(&mdh.flange)?);
-        let six = <&[DhRow; 6]>::try_from(&mdh.rows[..]).ok().map(|rows| Mdh { base: mdh.base, rows: *rows, flange: mdh.flange });
-        let (chain, geometry) = match six.as_ref().map(recognise) {
-            Some(Ok((squared, arm))) => {
-                // The squared table has N = 6 rows: this is the same array under its generic name.
-                let rows = core::array::from_fn(|i| squared.rows[i]);
-                let chain = Chain::new(Mdh { rows, ..mdh.clone() });
-                let solver = WristSolver::new(arm, &chain, &NO_LIMITS);
-                (chain, Geometry::SphericalWrist(solver))
-            }
-            Some(Err(Error::InvalidModel(ModelFault::NoClosedForm(reason)))) => (Chain::new(mdh.clone()), Geometry::Serial(reason)),
-            Some(Err(fault)) => return Err(fault),
-            None => (Chain::new(mdh.clone()), Geometry::Serial(NotRecognised::joint_count(N))),
-        };
+        let (chain, geometry) = Geometry::of(&mdh);
         Ok(Self::new(Definition::Mdh(mdh), chain, geometry))
     }
 
@@ -134,7 +121,7 @@ impl<const N: usize> Robot<N> {
         let Mdh { base, rows, flange } = opw.mdh();
         let rows = <[DhRow; N]>::try_from(&rows[..]).map_err(|_| ModelFault::JointCount { found: 6, wanted: N })?;
         let chain = Chain::new(Mdh { base, rows, flange });
-        let geometry = Geometry::SphericalWrist(WristSolver::new(SphericalWrist::from_opw(&opw), &chain, &NO_LIMITS));
+        let geometry = Geometry::of_opw(&opw, &chain);
         Ok(Self::new(Definition::Opw(opw), chain, geometry))
     }
 
@@ -192,9 +179,7 @@ impl<const N: usize> Robot<N> {
     }
 
     fn joined(mut self) -> Self {
-        if let Geometry::SphericalWrist(solver) = self.geometry {
-            self.geometry = Geometry::SphericalWrist(WristSolver::new(solver.arm, &self.chain, &self.limits.to_array()));
-        }
+        self.geometry = self.geometry.between(&self.chain, &self.limits.to_array());
         self
     }
 
@@ -204,22 +189,23 @@ impl<const N: usize> Robot<N> {
         &self.name
     }
 
-    /// Name of the closed form: "spherical wrist", or "serial" where there is none.
+    /// Name of the closed form: "spherical wrist", "three parallel axes", "spherical shoulder", or "serial" where there is none.
     #[must_use]
     pub fn family(&self) -> &'static str {
-        match self.geometry {
-            Geometry::SphericalWrist(_) => "spherical wrist",
-            Geometry::Serial(_) => "serial",
-        }
+        self.geometry.name()
     }
 
     /// Why the arm has no closed form, where it has none.
     #[must_use]
     pub fn no_closed_form(&self) -> Option<NotRecognised> {
         match self.geometry {
-            Geometry::SphericalWrist(_) => None,
             Geometry::Serial(reason) => Some(reason),
+            _ => None,
         }
+    }
+
+    pub(super) fn geometry(&self) -> &Geometry {
+        &self.geometry
     }
 
     /// What the robot was built from.
@@ -296,10 +282,7 @@ impl<const N: usize> Robot<N> {
     #[must_use]
     pub fn singularity(&self, q: &[f64; N]) -> Singularity {
         let values = singular_values(&self.jacobian(q, JacobianFrame::Base));
-        let arm = match (&self.geometry, <&[f64; 6]>::try_from(&q[..])) {
-            (Geometry::SphericalWrist(solver), Ok(q)) => Some((solver.arm.singular_distances(q), solver.arm.kinds(q))),
-            _ => None,
-        };
+        let arm = self.geometry.singular(q);
         Singularity {
             distances: arm.map(|(distances, _)| distances),
             min_singular_value: values[5],

@@ -2,8 +2,18 @@
 
 use nalgebra::SMatrix;
 
-use super::spherical_wrist::SingularDistances;
 use super::status::Status;
+
+/// How far a joint vector is from each singularity of an arm with a closed form.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SingularDistances {
+    /// Angle of joint 5 from 0 or 180 deg [rad].
+    pub wrist: f64,
+    /// Angle between upper arm and forearm from stretched or folded [rad].
+    pub elbow: f64,
+    /// Distance of the wrist centre from the plane through axis 1 that holds axis 2's direction [m]; from axis 1 itself where b = 0.
+    pub shoulder: f64,
+}
 
 /// How far a joint vector is from the singularities of its arm.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -18,6 +18,16 @@ pub enum FreeJoint {
     WristSum,
     /// Axes 4 and 6 are one: q4 is free, q4 - q6 is fixed.
     WristDifference,
+    /// Axes 2, 3, 4 and 6 of a three-parallel arm are parallel: q6 is free, q1 and q5 are fixed, the arm follows.
+    Parallel,
+    /// Axes 1 and 3 of a seven-axis arm are one: q1 is free, q1 + q3 is fixed.
+    ShoulderSum,
+    /// Axes 1 and 3 of a seven-axis arm are one: q1 is free, q1 - q3 is fixed.
+    ShoulderDifference,
+    /// The shoulder of a seven-axis arm is on axis 5: q5 is free, q4 and q6 are fixed, the shoulder's joints follow.
+    Forearm,
+    /// The shoulder of a seven-axis arm is on axis 6: q6 is free, q4 and q5 are fixed, the shoulder's joints follow.
+    Hand,
 }
 
 impl FreeJoint {
@@ -25,9 +35,22 @@ impl FreeJoint {
     #[must_use]
     pub fn joint(self) -> usize {
         match self {
-            Self::Base => 1,
+            Self::Base | Self::ShoulderSum | Self::ShoulderDifference => 1,
             Self::Upper => 2,
             Self::WristSum | Self::WristDifference => 4,
+            Self::Forearm => 5,
+            Self::Parallel | Self::Hand => 6,
+        }
+    }
+
+    /// The joint whose sum with the free one, or difference from it (a sign of -1), is all that is fixed: its number, from 1, and the sign.
+    pub(crate) fn partner(self) -> Option<(usize, f64)> {
+        match self {
+            Self::WristSum => Some((6, 1.0)),
+            Self::WristDifference => Some((6, -1.0)),
+            Self::ShoulderSum => Some((3, 1.0)),
+            Self::ShoulderDifference => Some((3, -1.0)),
+            Self::Base | Self::Upper | Self::Parallel | Self::Forearm | Self::Hand => None,
         }
     }
 
@@ -39,6 +62,11 @@ impl FreeJoint {
             Self::Upper => "q1, q3",
             Self::WristSum => "q4 + q6",
             Self::WristDifference => "q4 - q6",
+            Self::Parallel => "q1, q5",
+            Self::ShoulderSum => "q1 + q3",
+            Self::ShoulderDifference => "q1 - q3",
+            Self::Forearm => "q4, q6",
+            Self::Hand => "q4, q5",
         }
     }
 }

@@ -81,6 +81,13 @@ pub enum Explanation {
         /// On which side, and by how much.
         Reach,
     ),
+    /// The pose leaves a joint free, but the arm does not reach with it at this angle.
+    FreeOutOfReach {
+        /// The free joint, from 1.
+        joint: usize,
+        /// The angle [rad].
+        value: f64,
+    },
     /// The caller's own condition turned every solution away.
     FilteredOut,
 }
@@ -97,6 +104,9 @@ impl fmt::Display for Explanation {
                 write!(f, "wrist centre {} too near to be reached", Millimetres(shortfall))
             }
             Self::OutOfReach(reach) => write!(f, "wrist centre {} beyond reach", Millimetres(reach.shortfall())),
+            Self::FreeOutOfReach { joint, value } => {
+                write!(f, "the arm does not reach with J{joint} at {:.3} deg", value.to_degrees())
+            }
             Self::FilteredOut => write!(f, "no solution is left by the filter"),
         }
     }

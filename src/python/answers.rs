@@ -41,8 +41,13 @@ pub(super) fn singularity_record<'py>(
 pub(super) type BatchArrays<'py> = (Bound<'py, PyArrayDyn<f64>>, Bound<'py, PyArrayDyn<u8>>);
 
 /// The arrays that a batch is written to.
-pub(super) fn batch_output<'py>(py: Python<'py>, out: Option<&Bound<'py, PyAny>>, poses: &Rows<'_>) -> PyResult<BatchArrays<'py>> {
-    let (q_shape, status_shape) = (poses.shape_with(&[SLOTS, 6]), poses.shape_with(&[SLOTS]));
+pub(super) fn batch_output<'py>(
+    py: Python<'py>,
+    out: Option<&Bound<'py, PyAny>>,
+    poses: &Rows<'_>,
+    dof: usize,
+) -> PyResult<BatchArrays<'py>> {
+    let (q_shape, status_shape) = (poses.shape_with(&[SLOTS, dof]), poses.shape_with(&[SLOTS]));
     let pair = out.and_then(|out| out.cast::<PyTuple>().ok());
     match pair {
         Some(pair) if pair.len() == 2 => {

@@ -6,20 +6,23 @@ use pyo3::prelude::*;
 use super::answers::{follow_result, index_in};
 use super::arrays::{Rows, detached, output, writable};
 use super::errors::{Fault, to_py};
-use super::solutions::read_weights;
+use super::found::read_weights;
 use crate::batch;
-use crate::kinematics::{FollowOptions, Pose, Robot, check_joints, pose_from_rows};
+use crate::kinematics::{FollowOptions, Inverse, Pose, Robot, check_joints, pose_from_rows};
 
 /// The solutions nearest to seeds, a row for each pose.
-pub(super) fn nearest<'py>(
-    robot: &Robot<6>,
+pub(super) fn nearest<'py, const N: usize>(
+    robot: &Robot<N>,
     poses: &Rows<'py>,
     seeds: &Bound<'py, PyAny>,
     weights: Option<&Bound<'py, PyAny>>,
-) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+) -> PyResult<Bound<'py, PyArrayDyn<f64>>>
+where
+    Robot<N>: Inverse<N>,
+{
     let py = seeds.py();
-    let (weights, numbers) = (read_weights(weights)?, read_seeds(seeds, &poses.lead)?);
-    let answer = output(py, None, &poses.shape_with(&[6]))?;
+    let (weights, numbers) = (read_weights::<N>(weights)?, read_seeds::<N>(seeds, &poses.lead)?);
+    let answer = output(py, None, &poses.shape_with(&[N]))?;
     let (data, mut view) = (poses.data()?, writable(&answer, &[])?);
     let q = view.as_slice_mut()?;
     detached(py, || batch::ik_nearest(robot, data, &numbers, &weights, q)).map_err(|error| to_py(py, &error))?;
@@ -38,7 +41,7 @@ pub(super) fn follow<'py>(
     let [lead @ .., length] = &rows.lead[..] else {
         return Err(Fault::Pose.error(py, format!("T must have shape (..., m, 4, 4), got {:?}", rows.shape_with(&[4, 4]))));
     };
-    let seeds = read_seeds(seeds, lead)?;
+    let seeds = read_seeds::<6>(seeds, lead)?;
     let seeds = seeds.as_chunks::<6>().0;
     if let Some((path, error)) = seeds.iter().enumerate().find_map(|(path, seed)| Some((path, check_joints("seed", seed).err()?))) {
         return Err(if lead.is_empty() {
@@ -59,14 +62,14 @@ pub(super) fn follow<'py>(
 }
 
 /// A seed for each row with the leading dimensions `lead`, or one for all.
-fn read_seeds(seeds: &Bound<'_, PyAny>, lead: &[usize]) -> PyResult<Vec<f64>> {
-    let rows = Rows::read(seeds, &[6], "seed", Fault::Joints)?;
+fn read_seeds<const N: usize>(seeds: &Bound<'_, PyAny>, lead: &[usize]) -> PyResult<Vec<f64>> {
+    let rows = Rows::read(seeds, &[N], "seed", Fault::Joints)?;
     if rows.lead == lead {
         return Ok(rows.data()?.to_vec());
     }
     if !rows.is_single() {
-        let (wanted, got) = ([lead, &[6]].concat(), rows.shape_with(&[6]));
-        return Err(Fault::Joints.error(seeds.py(), format!("seed must have shape [6] or {wanted:?}, got {got:?}")));
+        let (wanted, got) = ([lead, &[N]].concat(), rows.shape_with(&[N]));
+        return Err(Fault::Joints.error(seeds.py(), format!("seed must have shape [{N}] or {wanted:?}, got {got:?}")));
     }
     check_joints("seed", rows.data()?).map_err(|error| to_py(seeds.py(), &error))?;
     Ok(rows.data()?.repeat(lead.iter().product()))

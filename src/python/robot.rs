@@ -5,20 +5,21 @@ use std::sync::Arc;
 use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods};
 use pyo3::prelude::*;
 
-use super::answers::{batch_output, singularity_record};
+use super::answers::singularity_record;
 use super::arguments::{read_crossing, read_frame, thread_count};
 use super::arm::{Arm, on_robot};
-use super::arrays::{Rows, addresses, detached, vector, writable};
+use super::arrays::vector;
+use super::batches::{self, needed_q7, no_q7};
 use super::build::{self, Convention, State};
 use super::errors::{self, Fault, to_py};
+use super::found::{Found, read_seed, read_weights};
 use super::paths;
 use super::poses::{PoseArgument, pose_array, read_pose, read_poses};
-use super::solutions::{PySolutions, read_seed, read_weights};
+use super::solutions::PySolutions;
 use super::urdf;
-use crate::batch;
 use crate::catalogue;
 use crate::kinematics::thresholds::WRIST_ZONE;
-use crate::kinematics::{Explanation, FollowOptions, OpwParameters, Robot};
+use crate::kinematics::{Explanation, FollowOptions, Inverse, OpwParameters, Robot};
 
 /// A robot arm: `Robot("IRB 2600-12/1.65")`. Frozen, hashable, equal by value, picklable.
 ///
@@ -290,48 +291,60 @@ impl PyRobot {
     ///
     /// Args:
     ///     T: Pose of the tool, shape (4, 4), translation [m].
+    ///     q7: Angle of joint 7 [rad], of an arm of seven joints.
     ///
     /// Returns:
     ///     Solutions, each in its slot, limits not regarded; empty with `reach` and `shortfall` when out of reach.
     ///
     /// Raises:
     ///     InvalidPoseError: T has a wrong shape, is not finite or is no rigid transform.
+    ///     InvalidJointsError: q7 is not finite.
     ///     InvalidModelError: The arm has no closed form.
-    #[pyo3(signature = (T))]
-    fn ik<'py>(&self, T: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PySolutions>> {
+    ///     TypeError: q7 is missing, or the arm has six joints and it is not.
+    #[pyo3(signature = (T, q7=None))]
+    fn ik<'py>(&self, T: &Bound<'py, PyAny>, q7: Option<f64>) -> PyResult<Bound<'py, PySolutions>> {
         let py = T.py();
-        let robot = self.arm.solvable(py)?;
-        let mut answer = PySolutions::new(Arc::clone(robot), robot.unsolved(read_pose(T, "T")?));
-        robot.ik_into(answer.solutions_mut()).map_err(|error| to_py(py, &error))?;
-        Bound::new(py, answer)
+        match &self.arm {
+            Arm::Six(robot) => {
+                no_q7(q7.is_some())?;
+                let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_pose(T, "T")?));
+                robot.ik_into(&mut found.solutions, 0.0).map_err(|error| to_py(py, &error))?;
+                Bound::new(py, PySolutions::from(found))
+            }
+            Arm::Seven(robot) => {
+                let q7 = needed_q7(py, robot, q7)?;
+                let solutions = robot.ik(&read_pose(T, "T")?, q7).map_err(|error| to_py(py, &error))?;
+                Bound::new(py, PySolutions::from(Found::new(Arc::clone(robot), solutions)))
+            }
+        }
     }
 
     /// Every joint vector of many poses.
     ///
     /// Args:
     ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
+    ///     q7: Angles of joint 7 [rad] of an arm of seven joints, shape (...), or one for all.
     ///     out: Where to write: an IkBatch or tuple of arrays (..., 8, n) float64 and (..., 8) uint8, or the first of them alone.
     ///     threads: Number of threads; 0 for one a core.
     ///
     /// Returns:
     ///     IkBatch(q, status): joint angles [rad], shape (..., 8, n), NaN where a slot is empty, and `irbkin.Status` of each slot, shape
-    ///     (..., 8), uint8. A row that is no pose has status INVALID, the others are not touched by it.
+    ///     (..., 8), uint8. A row that is no pose, or whose q7 is none, has status INVALID; the others are not touched by it.
     ///
     /// Raises:
     ///     InvalidPoseError: T has a wrong shape.
+    ///     InvalidJointsError: q7 has a wrong shape.
     ///     InvalidModelError: The arm has no closed form.
-    #[pyo3(signature = (T, out=None, threads=1))]
-    fn ik_batch<'py>(&self, T: &Bound<'py, PyAny>, out: Option<&Bound<'py, PyAny>>, threads: isize) -> PyResult<Bound<'py, PyAny>> {
-        let py = T.py();
-        let robot = self.arm.solvable(py)?;
-        let poses = Rows::read(T, &[4, 4], "T", Fault::Pose)?;
-        let (q, status) = batch_output(py, out, &poses)?;
-        let threads = thread_count(threads)?;
-        let (data, mut q_view, mut status_view) =
-            (poses.data()?, writable(&q, &[poses.addresses()])?, writable(&status, &[poses.addresses(), addresses(&q)])?);
-        let (q_slice, status_slice) = (q_view.as_slice_mut()?, status_view.as_slice_mut()?);
-        detached(py, || batch::ik(robot, data, q_slice, status_slice, threads)).map_err(|error| to_py(py, &error))?;
-        errors::ik_batch_class(py)?.call1((q, status))
+    ///     TypeError: q7 is missing, or the arm has six joints and it is not.
+    #[pyo3(signature = (T, q7=None, *, out=None, threads=1))]
+    fn ik_batch<'py>(
+        &self,
+        T: &Bound<'py, PyAny>,
+        q7: Option<&Bound<'py, PyAny>>,
+        out: Option<&Bound<'py, PyAny>>,
+        threads: isize,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        batches::ik(&self.arm, T, q7, out, thread_count(threads)?)
     }
 
     /// The solution inside the limits that is nearest to `seed`, turns considered.
@@ -354,14 +367,15 @@ impl PyRobot {
         seed: &Bound<'py, PyAny>,
         weights: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let robot = self.arm.solvable(T.py())?;
-        let pose = match read_poses(T)? {
-            PoseArgument::One(pose) => pose,
-            PoseArgument::Many(poses) => return Ok(paths::nearest(robot, &poses, seed, weights)?.into_any()),
-        };
-        let (seed, weights) = read_seed(seed, weights)?;
-        let nearest = robot.ik_nearest_checked(pose, &seed, &weights).map_err(|error| to_py(T.py(), &error))?;
-        Ok(PyArray1::from_slice(T.py(), &nearest.q).into_any())
+        on_robot!(&self.arm, robot => {
+            let pose = match read_poses(T)? {
+                PoseArgument::One(pose) => pose,
+                PoseArgument::Many(poses) => return Ok(paths::nearest(robot, &poses, seed, weights)?.into_any()),
+            };
+            let (seed, weights) = read_seed(seed, weights)?;
+            let nearest = robot.ik_nearest_checked(pose, &seed, &weights).map_err(|error| to_py(T.py(), &error))?;
+            Ok(PyArray1::from_slice(T.py(), &nearest.q).into_any())
+        })
     }
 
     /// One continuous joint path along a path of poses: inside the limits, turns considered, through singularities without a jump where
@@ -411,10 +425,10 @@ impl PyRobot {
     ///     InvalidPoseError, InvalidModelError: As `ik`.
     fn check_pose<'py>(&self, T: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let pose = read_pose(T, "T")?;
-        let solutions = self.arm.solvable(T.py())?.ik_checked(pose).map_err(|error| to_py(T.py(), &error))?;
-        let explanation = solutions.explain();
+        let explanation = on_robot!(&self.arm, robot => robot.explain(&pose)).map_err(|error| to_py(T.py(), &error))?;
         let inside = matches!(explanation, Explanation::Found { .. });
-        errors::pose_check_class(T.py())?.call1((!solutions.is_empty(), inside, explanation.to_string()))
+        let reachable = inside || matches!(explanation, Explanation::OutsideLimits { .. });
+        errors::pose_check_class(T.py())?.call1((reachable, inside, explanation.to_string()))
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {

@@ -1,79 +1,13 @@
-//! Poses in lanes: a block of rows in, the slots of each out.
-
-use core::f64::consts::PI;
+//! A block of poses in lanes.
 
 use super::branch::{Branch, Constants, Direction, branch};
-use super::columns::JointColumn;
-use super::poses::{PoseRow, Poses};
 use super::solver::WristSolver;
+use crate::kinematics::block::{AnswerRow, Block, BlockSolver, FOUND_INSIDE, JointColumn, Poses, StatusRow, half_turn};
 use crate::kinematics::solutions::SLOTS;
-use crate::kinematics::status::Status;
-use crate::lanes::{Column, Flags, Kernel, LANES, atan2};
-
-/// The joint angles and the status of the slots of a pose.
-pub(crate) type AnswerRow = [f64; SLOTS * 6];
-pub(crate) type StatusRow = [u8; SLOTS];
-
-/// Rows to be solved; `careful` solves one by itself.
-pub(crate) struct Blocks<'a, F> {
-    pub(crate) solver: &'a WristSolver,
-    pub(crate) poses: &'a [PoseRow],
-    pub(crate) q: &'a mut [AnswerRow],
-    pub(crate) status: &'a mut [StatusRow],
-    pub(crate) careful: F,
-}
-
-impl<F: FnMut(&PoseRow, &mut AnswerRow, &mut StatusRow)> Kernel for Blocks<'_, F> {
-    type Answer = ();
-    const WIDE: bool = true;
-
-    #[inline(always)]
-    fn run<const FUSED: bool>(mut self) {
-        let Some(columns) = &self.solver.columns else {
-            for ((pose, q), status) in self.poses.iter().zip(self.q).zip(self.status) {
-                (self.careful)(pose, q, status);
-            }
-            return;
-        };
-        let (blocks, rest) = self.poses.as_chunks::<LANES>();
-        let (q_blocks, q_rest) = self.q.as_chunks_mut::<LANES>();
-        let (status_blocks, status_rest) = self.status.as_chunks_mut::<LANES>();
-        let (mut block, mut next) = (Block::NEW, Poses::NEW);
-        if let Some(first) = blocks.first() {
-            next.read(first);
-        }
-        for (i, (q, status)) in q_blocks.iter_mut().zip(status_blocks).enumerate() {
-            let mut poses = next;
-            // Read before the block at hand is solved: what is written number by number cannot be read at once in vectors.
-            if let Some(following) = blocks.get(i + 1) {
-                next.read(following);
-            }
-            block.solve::<FUSED>(self.solver, columns, &mut poses);
-            block.write(q, status);
-            for lane in (0..LANES).filter(|lane| !block.is_plain(*lane)) {
-                (self.careful)(&blocks[i][lane], &mut q[lane], &mut status[lane]);
-            }
-        }
-        if let Some(last) = rest.last() {
-            let mut rows = [*last; LANES];
-            rows[..rest.len()].copy_from_slice(rest);
-            next.read(&rows);
-            block.solve::<FUSED>(self.solver, columns, &mut next);
-            let (mut q, mut status) = ([[0.0; SLOTS * 6]; LANES], [[0; SLOTS]; LANES]);
-            block.write(&mut q, &mut status);
-            for lane in (0..rest.len()).filter(|lane| !block.is_plain(*lane)) {
-                (self.careful)(&rows[lane], &mut q[lane], &mut status[lane]);
-            }
-            q_rest.copy_from_slice(&q[..rest.len()]);
-            status_rest.copy_from_slice(&status[..rest.len()]);
-        }
-    }
-}
+use crate::lanes::{Column, Flags, LANES, atan2};
 
 /// Branches of the arm: two shoulders with two elbows each.
 pub(super) const BRANCHES: usize = SLOTS / 2;
-
-pub(super) const FOUND_INSIDE: u64 = Status::FOUND.union(Status::WITHIN_LIMITS).bits() as u64;
 
 /// Directions whose angles a block needs: one for each shoulder, five for each branch.
 const DIRECTIONS: usize = 2 + 5 * BRANCHES;
@@ -82,7 +16,7 @@ const DIRECTIONS: usize = 2 + 5 * BRANCHES;
 type Columns = [Column; BRANCHES];
 
 /// What becomes of a block of poses.
-struct Block {
+pub(crate) struct WristBlock {
     /// Sine and cosine of theta_1, for each shoulder, and of theta_2, theta_23, theta_4, theta_5, theta_6, for each branch, of any length.
     sin: [Column; DIRECTIONS],
     cos: [Column; DIRECTIONS],
@@ -96,7 +30,17 @@ struct Block {
     plain: Flags,
 }
 
-impl Block {
+impl BlockSolver<6> for WristSolver {
+    type Block = WristBlock;
+
+    fn in_lanes(&self) -> bool {
+        self.columns.is_some()
+    }
+}
+
+impl Block<6> for WristBlock {
+    type Solver = WristSolver;
+
     const NEW: Self = Self {
         sin: [[0.0; LANES]; DIRECTIONS],
         cos: [[0.0; LANES]; DIRECTIONS],
@@ -108,10 +52,11 @@ impl Block {
     };
 
     #[inline(always)]
-    fn solve<const FUSED: bool>(&mut self, solver: &WristSolver, columns: &[JointColumn; 6], poses: &mut Poses) {
+    fn solve<const FUSED: bool>(&mut self, solver: &WristSolver, poses: &mut Poses, _given: &Column) {
+        let Some(columns) = &solver.columns else { return };
         self.plain = poses.check();
-        poses.seen_from_shoulder::<FUSED>(solver);
-        if solver.arm.b == 0.0 {
+        poses.seen_from_shoulder::<FUSED>(solver.surroundings.seen);
+        if solver.arm.planar.b == 0.0 {
             self.branches::<FUSED, false>(solver.constants, poses);
         } else {
             self.branches::<FUSED, true>(solver.constants, poses);
@@ -120,6 +65,29 @@ impl Block {
         self.settle(columns);
     }
 
+    #[inline(never)]
+    #[expect(clippy::cast_possible_truncation, reason = "flags of a byte")]
+    fn write(&self, q: &mut [AnswerRow<6>; LANES], status: &mut [StatusRow; LANES]) {
+        for slot in 0..SLOTS {
+            let columns = self.columns_of(slot);
+            for k in 0..3 {
+                let (left, right) = (columns[2 * k], columns[2 * k + 1]);
+                for lane in 0..LANES {
+                    q[lane].as_flattened_mut().as_chunks_mut::<2>().0[3 * slot + k] = [left[lane], right[lane]];
+                }
+            }
+            for lane in 0..LANES {
+                status[lane][slot] = self.status[slot % 2][slot / 2][lane] as u8;
+            }
+        }
+    }
+
+    fn is_plain(&self, lane: usize) -> bool {
+        self.plain[lane] != 0
+    }
+}
+
+impl WristBlock {
     #[inline(always)]
     fn branches<const FUSED: bool, const LATERAL: bool>(&mut self, arm: Constants, poses: &Poses) {
         for lane in 0..LANES {
@@ -184,23 +152,6 @@ impl Block {
         }
     }
 
-    #[inline(never)]
-    #[expect(clippy::cast_possible_truncation, reason = "flags of a byte")]
-    fn write(&self, q: &mut [AnswerRow; LANES], status: &mut [StatusRow; LANES]) {
-        for slot in 0..SLOTS {
-            let columns = self.columns_of(slot);
-            for k in 0..3 {
-                let (left, right) = (columns[2 * k], columns[2 * k + 1]);
-                for lane in 0..LANES {
-                    q[lane].as_chunks_mut::<2>().0[3 * slot + k] = [left[lane], right[lane]];
-                }
-            }
-            for lane in 0..LANES {
-                status[lane][slot] = self.status[slot % 2][slot / 2][lane] as u8;
-            }
-        }
-    }
-
     #[inline(always)]
     fn columns_of(&self, slot: usize) -> [&Column; 6] {
         let (branch, flip) = (slot / 2, slot % 2);
@@ -212,14 +163,4 @@ impl Block {
         };
         [&q[0][branch], &q[1][branch], &q[2][branch], wrist[0], wrist[1], wrist[2]]
     }
-
-    fn is_plain(&self, lane: usize) -> bool {
-        self.plain[lane] != 0
-    }
-}
-
-/// The angle half a turn on.
-#[inline(always)]
-pub(super) fn half_turn(angle: f64) -> f64 {
-    angle + if angle > 0.0 { -PI } else { PI }
 }

@@ -6,8 +6,8 @@
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use super::SphericalWrist;
-use super::solver::Frame;
+use crate::kinematics::planar_arm::PlanarArm;
+use crate::kinematics::surroundings::Frame;
 use crate::kinematics::thresholds::{PLAIN_FOREARM, PLAIN_REACH, PLAIN_SHOULDER, PLAIN_WRIST_SIN, REACH_TOLERANCE, SHOULDER_MERGE};
 use crate::lanes::mul_add;
 
@@ -29,7 +29,7 @@ pub(super) struct Constants {
 }
 
 impl Constants {
-    pub(super) fn of(arm: &SphericalWrist) -> Self {
+    pub(super) fn of(arm: &PlanarArm) -> Self {
         let (c2, k, extent) = (arm.c2, arm.k, arm.extent);
         let plain_x = (PLAIN_SHOULDER * extent).max(10.0 * SHOULDER_MERGE);
         let plain_m2 = 2.0 * (PLAIN_REACH * extent).max(10.0 * REACH_TOLERANCE) * extent * c2 * k;

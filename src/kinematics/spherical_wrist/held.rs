@@ -5,9 +5,9 @@ use nalgebra::{ComplexField as _, RealField as _};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::SphericalWrist;
-use super::arm::{Elbow, Shoulder};
-use super::target::FreeChoice;
 use super::wrist::{forearm_to_flange, wrist_rotation};
+use crate::kinematics::free_choice::FreeChoice;
+use crate::kinematics::planar_arm::{Elbow, PlanarArm, Shoulder};
 use crate::kinematics::pose::Pose;
 use crate::kinematics::thresholds::LEAST_LINK;
 
@@ -18,10 +18,11 @@ impl SphericalWrist {
     pub(crate) fn to_point(&self, point: &Vector3<f64>, tool_in_wrist: &Vector3<f64>, q: &[f64; 6]) -> impl Iterator<Item = [f64; 6]> {
         let theta = self.theta(q);
         let lever = wrist_rotation(theta[3], theta[4], theta[5]) * tool_in_wrist;
-        let (a2, c3) = (self.a2 + lever.x, self.c3 + lever.z);
+        let (a2, c3) = (self.planar.a2 + lever.x, self.planar.c3 + lever.z);
         // An offset of rounding is none: it would make another kind of shoulder.
-        let b = if (self.b + lever.y).abs() <= self.position_rounding() { 0.0 } else { self.b + lever.y };
-        let arm = Self { a2, b, c3, k: a2.hypot(c3).max(LEAST_LINK), ..self.clone() };
+        let b = self.planar.b + lever.y;
+        let b = if b.abs() <= self.planar.position_rounding() { 0.0 } else { b };
+        let arm = Self { planar: PlanarArm { a2, b, c3, k: a2.hypot(c3).max(LEAST_LINK), ..self.planar }, ..self.clone() };
         let still = Pose::from_parts((*point).into(), Rotation3::identity());
         let branches = arm.solve(&still, &FreeChoice::seed(*q));
         // Slots that differ in their last bit differ in the wrist of the point, which is not looked at.
@@ -53,7 +54,7 @@ impl SphericalWrist {
         let cosine = n[(0, 0)] * cos_5 + n[(1, 1)] - n[(2, 0)] * sin_5;
         let sine = n[(1, 0)] - n[(0, 1)] * cos_5 + n[(2, 1)] * sin_5;
         theta[5] = sine.atan2(cosine);
-        let [_, _, _, _, q5, q6] = self.joints(theta);
+        let [_, _, _, _, q5, q6] = self.placement.joints(theta);
         [q[0], q[1], q[2], q[3], q5, q6]
     }
 

@@ -1,10 +1,11 @@
 //! One pose in lanes: its four branches of the arm side by side.
 
-use super::block::{BRANCHES, FOUND_INSIDE, half_turn};
+use super::block::BRANCHES;
 use super::branch::{Constants, branch};
-use super::columns::JointColumn;
-use super::solver::{Frame, WristSolver};
+use super::solver::WristSolver;
+use crate::kinematics::block::{FOUND_INSIDE, JointColumn, half_turn};
 use crate::kinematics::pose::Pose;
+use crate::kinematics::surroundings::Frame;
 use crate::kinematics::thresholds::MOST_LENGTH;
 use crate::lanes::{Kernel, atan2};
 
@@ -45,8 +46,8 @@ impl Kernel for Single<'_> {
         if pose.translation.vector.iter().any(|coordinate| coordinate.abs() > MOST_LENGTH) {
             return None;
         }
-        let frame = solver.seen.of::<FUSED>(&Frame::of(pose));
-        let mut lanes = if solver.arm.b == 0.0 {
+        let frame = solver.surroundings.seen.of::<FUSED>(&Frame::of(pose));
+        let mut lanes = if solver.arm.planar.b == 0.0 {
             Lanes::of::<FUSED, false>(&solver.constants, &frame)
         } else {
             Lanes::of::<FUSED, true>(&solver.constants, &frame)

@@ -2,80 +2,14 @@
 
 use nalgebra::Matrix3;
 
-use crate::kinematics::thresholds::SEEDED_FREE;
-
-/// What to take for a joint that the pose does not determine.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct FreeChoice {
-    /// Joint angles [rad], of which the free one's is taken; of the merged branches of a wrist, the one nearer to them.
-    pub(super) q: [f64; 6],
-    pub(super) trust: Trust,
-}
-
-/// How far the pose is trusted next to a singularity, against the joint angles that were given.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Trust {
-    /// To rounding.
-    Pose,
-    /// To [`SEEDED_FREE`].
-    Seed,
-    /// As far as it says anything: what it does not contradict is taken from the seed. For poses that follow one another.
-    Path,
-    /// One joint, from 1, is taken from the angles whatever the pose says.
-    Forced {
-        joint: usize,
-        /// Whether a free q1 is that of the shoulder that has the wrist centre behind it.
-        behind: bool,
-    },
-}
-
-impl Trust {
-    /// How close to a singularity the pose counts as silent, beyond rounding [rad, m].
-    pub(super) fn radius(self) -> f64 {
-        match self {
-            Self::Pose | Self::Forced { .. } => 0.0,
-            Self::Seed | Self::Path => SEEDED_FREE,
-        }
-    }
-
-    pub(super) fn forces(self, joint: usize) -> bool {
-        matches!(self, Self::Forced { joint: forced, .. } if forced == joint)
-    }
-}
-
-impl FreeChoice {
-    /// The angle where a joint rests, for a free joint and only where rounding hides it.
-    pub(crate) fn rest(q: [f64; 6]) -> Self {
-        Self { q, trust: Trust::Pose }
-    }
-
-    /// The seed's angle for a free joint.
-    pub(crate) fn seed(q: [f64; 6]) -> Self {
-        Self { q, trust: Trust::Seed }
-    }
-
-    /// The angle that continues a path, wherever the pose does not contradict it.
-    pub(crate) fn path(q: [f64; 6]) -> Self {
-        Self { q, trust: Trust::Path }
-    }
-
-    /// Whether only a pose next to a singularity is asked for more than it says by itself.
-    pub(crate) fn leaves_plain_poses_alone(&self) -> bool {
-        matches!(self.trust, Trust::Pose | Trust::Seed)
-    }
-
-    /// The angle that `q` has for joint `joint`, from 1; for another one only where rounding hides it.
-    pub(crate) fn forced(q: [f64; 6], joint: usize, behind: bool) -> Self {
-        Self { q, trust: Trust::Forced { joint, behind } }
-    }
-}
+use crate::kinematics::free_choice::FreeChoice;
 
 /// What one shoulder's branches are made from.
 pub(super) struct Target<'a> {
     pub(super) wxy: [f64; 2],
     pub(super) wz: f64,
     pub(super) rotation: &'a Matrix3<f64>,
-    pub(super) free: &'a FreeChoice,
+    pub(super) free: &'a FreeChoice<6>,
     pub(super) free_theta: [f64; 6],
     /// How far beyond reach the wrist centre may be and still get the stretched or folded arm [m].
     pub(super) tolerance: f64,

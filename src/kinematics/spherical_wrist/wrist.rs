@@ -6,9 +6,10 @@ use core::f64::consts::PI;
 use nalgebra::{ComplexField as _, RealField as _};
 use nalgebra::{Matrix3, Vector3};
 
-use super::arm::{Elbow, Shoulder};
-use super::target::{Target, Trust};
+use super::target::Target;
 use crate::kinematics::angles::{constant_sin_cos, wrap};
+use crate::kinematics::free_choice::Trust;
+use crate::kinematics::planar_arm::{Elbow, Shoulder};
 use crate::kinematics::thresholds::{PATH_WRIST_SIN, SEEDED_FREE, WRIST_FREE_SIN, WRIST_MERGE_SIN};
 
 /// One branch of the wrist, with theta_5 in 0 ..= pi unless theta_4 was given; the other one is its flip.

@@ -8,7 +8,7 @@ use crate::kinematics::thresholds::LIMIT_TOLERANCE;
 
 /// How the angle of one joint comes from theta, and what its limits ask of it: the same for every lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct JointColumn {
+pub(crate) struct JointColumn {
     sign: f64,
     offset: f64,
     low: f64,
@@ -22,9 +22,14 @@ pub(super) struct JointColumn {
 }
 
 impl JointColumn {
-    /// Of each joint; `None` where limits lie so far out that more than one full turn may be needed.
-    pub(super) fn of(signs: &[f64; 6], offsets: &[f64; 6], limits: &[[f64; 2]]) -> Option<[Self; 6]> {
-        let limits = <[[f64; 2]; 6]>::try_from(limits).ok()?;
+    /// Of each joint; `differences` are those whose theta is a difference of two angles, from 0. `None` where limits lie so far out that more than one full turn may be needed.
+    pub(crate) fn of<const N: usize>(
+        signs: &[f64; N],
+        offsets: &[f64; N],
+        limits: &[[f64; 2]],
+        differences: &[usize],
+    ) -> Option<[Self; N]> {
+        let limits = <[[f64; 2]; N]>::try_from(limits).ok()?;
         if limits.iter().any(|[low, high]| *low > PI || *high < -PI) {
             return None;
         }
@@ -38,8 +43,7 @@ impl JointColumn {
                 offset,
                 low,
                 high,
-                // theta_3 is a difference of two angles.
-                moves: joint == 2 || sign < 0.0 || offset != 0.0,
+                moves: differences.contains(&joint) || sign < 0.0 || offset != 0.0,
                 limits,
                 turns: limits && (low <= -PI || high >= PI),
             }
@@ -47,18 +51,18 @@ impl JointColumn {
     }
 
     /// What is left of the status of a lane that is outside the limits.
-    pub(super) const OUTSIDE: u64 = !(Status::WITHIN_LIMITS.bits() as u64);
+    pub(crate) const OUTSIDE: u64 = !(Status::WITHIN_LIMITS.bits() as u64);
 
     /// The angle of this joint in (-pi, pi], or the full turn inside the limits (eq. 19, 20), and whether it is inside.
     #[inline(always)]
-    pub(super) fn settled(self, theta: f64) -> (f64, bool) {
+    pub(crate) fn settled(self, theta: f64) -> (f64, bool) {
         let angle = self.turned(self.moved(theta));
         (angle, self.holds(angle))
     }
 
     /// [`Self::settled`] for many, leaving out what this joint does not need. Takes `WITHIN_LIMITS` from the status of those outside.
     #[inline(always)]
-    pub(super) fn settle(self, angles: &mut [f64], status: &mut [u64]) {
+    pub(crate) fn settle(self, angles: &mut [f64], status: &mut [u64]) {
         if self.moves {
             for angle in angles.iter_mut() {
                 *angle = self.moved(*angle);

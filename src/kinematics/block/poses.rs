@@ -1,7 +1,7 @@
 //! A block of poses in lanes: read, checked, and seen as the arm sees them.
 
-use super::solver::{Frame, WristSolver};
 use crate::kinematics::rotation::{Rows3, determinant, gram_excess, nearest_rotation};
+use crate::kinematics::surroundings::{Frame, Seen};
 use crate::kinematics::thresholds::{MOST_LENGTH, ROTATION_REPAIR_BOUND, ROTATION_ROUNDING};
 use crate::lanes::{Column, Flags, LANES};
 
@@ -10,17 +10,17 @@ pub(crate) type PoseRow = [f64; 16];
 
 /// The poses of a block, element by element.
 #[derive(Clone, Copy)]
-pub(super) struct Poses {
+pub(crate) struct Poses {
     rotation: [[Column; 3]; 3],
     origin: [Column; 3],
     last_row: [Column; 4],
 }
 
 impl Poses {
-    pub(super) const NEW: Self = Self { rotation: [[[0.0; LANES]; 3]; 3], origin: [[0.0; LANES]; 3], last_row: [[0.0; LANES]; 4] };
+    pub(crate) const NEW: Self = Self { rotation: [[[0.0; LANES]; 3]; 3], origin: [[0.0; LANES]; 3], last_row: [[0.0; LANES]; 4] };
 
     #[inline(never)]
-    pub(super) fn read(&mut self, rows: &[PoseRow; LANES]) {
+    pub(crate) fn read(&mut self, rows: &[PoseRow; LANES]) {
         // Two lanes at a time: half the stores.
         for (pair, [left, right]) in rows.as_chunks::<2>().0.iter().enumerate() {
             for i in 0..3 {
@@ -36,7 +36,7 @@ impl Poses {
     }
 
     #[inline(always)]
-    pub(super) fn frame(&self, lane: usize) -> Frame {
+    pub(crate) fn frame(&self, lane: usize) -> Frame {
         let (r, p) = (&self.rotation, &self.origin);
         Frame {
             rotation: [
@@ -65,7 +65,7 @@ impl Poses {
     /// The lanes that hold a pose; a rotation that is off by little is repaired.
     #[inline(always)]
     #[expect(clippy::float_cmp, reason = "another last row goes the careful way, which has room for rounding")]
-    pub(super) fn check(&mut self) -> Flags {
+    pub(crate) fn check(&mut self) -> Flags {
         let (mut sound, mut off) = ([0; LANES], [0; LANES]);
         for lane in 0..LANES {
             let Frame { rotation, origin: [x, y, z] } = self.frame(lane);
@@ -88,8 +88,7 @@ impl Poses {
 
     /// From the tool in the world to the wrist in the shoulder's frame (eq. 1).
     #[inline(always)]
-    pub(super) fn seen_from_shoulder<const FUSED: bool>(&mut self, solver: &WristSolver) {
-        let seen = solver.seen;
+    pub(crate) fn seen_from_shoulder<const FUSED: bool>(&mut self, seen: Seen) {
         if seen.turns {
             for lane in 0..LANES {
                 let frame = seen.turned::<FUSED>(&self.frame(lane));

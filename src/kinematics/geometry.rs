@@ -1,0 +1,103 @@
+//! The closed forms that an arm may have, and one way through them.
+
+use super::branches::Branches;
+use super::chain::Chain;
+use super::dh::{DhRow, Mdh};
+use super::free_choice::FreeChoice;
+use super::pose::Pose;
+use super::recognition::NotRecognised;
+use super::singularity::SingularDistances;
+use super::spherical_wrist::{self, OpwParameters, SphericalWrist, WristSolver};
+use super::status::Status;
+use super::three_parallel::{self, ParallelSolver};
+
+/// The closed form of an arm.
+#[derive(Clone, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "a robot is built once and borrowed from then on; a box would need the heap")]
+pub(crate) enum Geometry {
+    SphericalWrist(WristSolver),
+    ThreeParallel(ParallelSolver),
+    Serial(NotRecognised),
+}
+
+const NO_LIMITS: [[f64; 2]; 7] = [[f64::NEG_INFINITY, f64::INFINITY]; 7];
+
+impl Geometry {
+    /// The closed form of a table, and the table with what is within rounding of that form made exactly so.
+    pub(crate) fn of<const N: usize>(mdh: &Mdh<N>) -> (Chain<N>, Self) {
+        let found = match <&[DhRow; 6]>::try_from(&mdh.rows[..]) {
+            Ok(rows) => Self::of_six(&Mdh { base: mdh.base, rows: *rows, flange: mdh.flange }),
+            Err(_) => Err(NotRecognised::joint_count(N)),
+        };
+        match found {
+            Ok((rows, geometry)) => {
+                // As many rows as N: the same array under its generic name.
+                let chain = Chain::new(Mdh { rows: core::array::from_fn(|i| rows[i]), ..mdh.clone() });
+                let geometry = geometry.between(&chain, &NO_LIMITS[..N.min(NO_LIMITS.len())]);
+                (chain, geometry)
+            }
+            Err(reason) => (Chain::new(mdh.clone()), Self::Serial(reason)),
+        }
+    }
+
+    fn of_six(mdh: &Mdh<6>) -> Result<([DhRow; 6], Self), NotRecognised> {
+        let chain = Chain::new(mdh.clone());
+        // A third and a fourth axis that are nearer to parallel than to square belong to the one form, others to the other.
+        if mdh.rows[3].alpha.sin().abs() < mdh.rows[3].alpha.cos().abs() {
+            let (squared, arm) = three_parallel::recognise(mdh)?;
+            return Ok((squared.rows, Self::ThreeParallel(ParallelSolver::new(arm, &chain, &NO_LIMITS[..6]))));
+        }
+        let (squared, arm) = spherical_wrist::recognise(mdh)?;
+        Ok((squared.rows, Self::SphericalWrist(WristSolver::new(arm, &chain, &NO_LIMITS[..6]))))
+    }
+
+    /// That of an ortho-parallel arm with a spherical wrist.
+    pub(crate) fn of_opw<const N: usize>(opw: &OpwParameters, chain: &Chain<N>) -> Self {
+        Self::SphericalWrist(WristSolver::new(SphericalWrist::from_opw(opw), chain, &NO_LIMITS[..6]))
+    }
+
+    /// The same form between the base and the tool of `chain`, with limits (lower, upper) of its joints [rad].
+    pub(crate) fn between<const N: usize>(self, chain: &Chain<N>, limits: &[[f64; 2]]) -> Self {
+        match self {
+            Self::SphericalWrist(solver) => Self::SphericalWrist(WristSolver::new(solver.arm, chain, limits)),
+            Self::ThreeParallel(solver) => Self::ThreeParallel(ParallelSolver::new(solver.arm, chain, limits)),
+            Self::Serial(reason) => Self::Serial(reason),
+        }
+    }
+
+    /// Its name: "spherical wrist", "three parallel axes", or "serial" where there is none.
+    pub(crate) fn name(&self) -> &'static str {
+        match self {
+            Self::SphericalWrist(_) => "spherical wrist",
+            Self::ThreeParallel(_) => "three parallel axes",
+            Self::Serial(_) => "serial",
+        }
+    }
+
+    /// Every branch of a pose, one after the other.
+    pub(crate) fn branches<const N: usize>(&self, pose: &Pose, free: &FreeChoice<N>) -> Result<Branches<N>, NotRecognised> {
+        match self {
+            Self::SphericalWrist(solver) => Ok(solver.arm.solve(&solver.surroundings.wrist_pose(pose), &free.resized()).resized()),
+            Self::ThreeParallel(solver) => Ok(solver.arm.solve(&solver.surroundings.wrist_pose(pose), &free.resized()).resized()),
+            Self::Serial(reason) => Err(*reason),
+        }
+    }
+
+    /// How far a joint vector is from each singularity, and at which of them it stands.
+    pub(crate) fn singular<const N: usize>(&self, q: &[f64; N]) -> Option<(SingularDistances, Status)> {
+        match (self, <&[f64; 6]>::try_from(&q[..])) {
+            (Self::SphericalWrist(solver), Ok(q)) => Some((solver.arm.singular_distances(q), solver.arm.kinds(q))),
+            (Self::ThreeParallel(solver), Ok(q)) => Some((solver.arm.singular_distances(q), solver.arm.kinds(q))),
+            _ => None,
+        }
+    }
+
+    /// sin q5, signed, of a six-axis arm: zero at its wrist singularity.
+    pub(crate) fn sin_5(&self, q: &[f64; 6]) -> Option<f64> {
+        match self {
+            Self::SphericalWrist(solver) => Some(solver.arm.sin_5(q)),
+            Self::ThreeParallel(solver) => Some(solver.arm.sin_5(q)),
+            Self::Serial(_) => None,
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! The inverse: up to eight joint vectors of a wrist frame.
+
+use core::f64::consts::PI;
+
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
+use super::ThreeParallel;
+use super::reaching::{Reaching, Target};
+use super::wrist::{Turn, Wrist, seen_from_plane, sin_5};
+use crate::kinematics::branches::Branches;
+use crate::kinematics::free_choice::FreeChoice;
+use crate::kinematics::planar_arm::{Elbow, Shoulder, Shoulders};
+use crate::kinematics::pose::Pose;
+use crate::kinematics::solutions::FreeJoint;
+use crate::kinematics::status::{Reach, Status};
+use crate::kinematics::thresholds::{REACH_TOLERANCE, WRIST_FREE_SIN, WRIST_MERGE_SIN};
+
+impl ThreeParallel {
+    /// Every branch of the wrist frame `t_shoulder_wrist`.
+    pub(crate) fn solve(&self, t_shoulder_wrist: &Pose, free: &FreeChoice<6>) -> Branches<6> {
+        let w = t_shoulder_wrist.translation.vector;
+        let mut target = Target {
+            wxy: [w.x, w.y],
+            wz: w.z,
+            rotation: t_shoulder_wrist.rotation.matrix(),
+            free,
+            free_theta: self.placement.theta(&free.q),
+            tolerance: self.planar.position_rounding(),
+        };
+        let shoulders = match self.planar.shoulders(target.wxy, target.free_theta[0], free.trust) {
+            Ok(shoulders) => shoulders,
+            Err(missed) => return Branches::empty(missed),
+        };
+        let branches = self.branches(&shoulders, &target);
+        let shortfall = branches.reach.shortfall();
+        if shortfall == 0.0 || shortfall > REACH_TOLERANCE {
+            return branches;
+        }
+        // No branch reaches, the nearest one by less than anyone could see: it gets the stretched or folded arm.
+        target.tolerance = shortfall;
+        self.branches(&shoulders, &target)
+    }
+
+    fn branches(&self, shoulders: &Shoulders, target: &Target<'_>) -> Branches<6> {
+        let mut branches = Branches::empty(Reach::Reached);
+        let front = self.fill(&mut branches, 0, &shoulders.front, target);
+        let behind = self.fill(&mut branches, 4, &shoulders.behind, target);
+        branches.reach = if behind.shortfall() < front.shortfall() { behind } else { front };
+        if shoulders.merged {
+            branches.merge_shoulders(shoulders.keep_behind, false);
+        }
+        branches
+    }
+
+    /// Puts the four branches of one shoulder into slots `base` ..= `base` + 3.
+    fn fill(&self, branches: &mut Branches<6>, base: usize, shoulder: &Shoulder, target: &Target<'_>) -> Reach {
+        let m = seen_from_plane(shoulder, target.rotation);
+        let (sin_5, trust, free_6) = (sin_5(&m), target.free.trust, target.free_theta[5]);
+        let [told, flipped] = [false, true].map(|flipped| Turn::Told { flipped });
+        if trust.forces(6) {
+            return self.put_merged(branches, base, sin_5, self.reaching(shoulder, Turn::Taken(free_6), 0.0, target));
+        }
+        if sin_5 <= trust.radius().max(WRIST_FREE_SIN) {
+            return self.put_merged(branches, base, sin_5, self.reaching(shoulder, Turn::Taken(free_6), PI, target));
+        }
+        let open = Self::open(shoulder, &m);
+        if sin_5 <= WRIST_MERGE_SIN.max(shoulder.error) {
+            // One family: of its two members that the pose tells, the one nearer to the free angle, if it reaches.
+            let away = (m[(1, 2)].atan2(m[(1, 0)]) - free_6).cos() < 0.0;
+            let (near, far) = if away { (flipped, told) } else { (told, flipped) };
+            let reaching = self.reaching(shoulder, near, open, target).or_else(|missed| {
+                let nearer = |other: Reach| if other.shortfall() < missed.shortfall() { other } else { missed };
+                self.reaching(shoulder, far, open, target).map_err(nearer)
+            });
+            return self.put_merged(branches, base, sin_5, reaching);
+        }
+        let missed = [(told, base), (flipped, base + 1)].map(|(turn, slot)| match self.reaching(shoulder, turn, open, target) {
+            Ok(reaching) => {
+                self.put(branches, slot, &reaching, Status::empty());
+                Reach::Reached
+            }
+            Err(missed) => missed,
+        });
+        if missed[1].shortfall() < missed[0].shortfall() { missed[1] } else { missed[0] }
+    }
+
+    /// The branches of a wrist whose flip is the same family.
+    fn put_merged(&self, branches: &mut Branches<6>, base: usize, sin_5: f64, reaching: Result<Reaching, Reach>) -> Reach {
+        let reaching = match reaching {
+            Ok(reaching) => reaching,
+            Err(missed) => return missed,
+        };
+        let (kept, flipped) = if reaching.wrist.theta_5 < 0.0 { (base + 1, base) } else { (base, base + 1) };
+        self.put(branches, kept, &reaching, Status::WRIST);
+        for elbow in [0, 2] {
+            branches.flags[flipped + elbow] = branches.flags[kept + elbow] | Status::MERGED;
+            if sin_5 <= WRIST_MERGE_SIN {
+                for slot in [kept, flipped] {
+                    branches.free[slot + elbow] = Some(FreeJoint::Parallel);
+                }
+            }
+        }
+        Reach::Reached
+    }
+
+    /// Both elbows of an arm, into `slot` and `slot` + 2.
+    fn put(&self, branches: &mut Branches<6>, slot: usize, reaching: &Reaching, flags: Status) {
+        let Reaching { shoulder, wrist, elbows } = reaching;
+        let flags = if elbows.behind.is_none() { flags | Status::ELBOW } else { flags };
+        (branches.flags[slot], branches.flags[slot + 2]) = (flags, flags);
+        branches.q[slot] = Some(self.joints(shoulder, &elbows.front, wrist));
+        match &elbows.behind {
+            Some(behind) => branches.q[slot + 2] = Some(self.joints(shoulder, behind, wrist)),
+            None => branches.flags[slot + 2] |= Status::MERGED,
+        }
+        if elbows.free {
+            (branches.free[slot], branches.free[slot + 2]) = (Some(FreeJoint::Upper), Some(FreeJoint::Upper));
+        }
+    }
+
+    fn joints(&self, shoulder: &Shoulder, elbow: &Elbow, wrist: &Wrist) -> [f64; 6] {
+        let theta_1 = shoulder.sin_1.atan2(shoulder.cos_1);
+        // phi - theta_23 (eq. 40)
+        let sin_4 = wrist.sin_phi * elbow.cos_23 - wrist.cos_phi * elbow.sin_23;
+        let cos_4 = wrist.cos_phi * elbow.cos_23 + wrist.sin_phi * elbow.sin_23;
+        self.placement.joints([theta_1, elbow.theta_2, elbow.theta_3, sin_4.atan2(cos_4), wrist.theta_5, wrist.theta_6])
+    }
+}

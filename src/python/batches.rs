@@ -1,0 +1,65 @@
+//! Every joint vector of many poses.
+
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+
+use super::answers::batch_output;
+use super::arm::Arm;
+use super::arrays::{Rows, addresses, detached, writable};
+use super::errors::{self, Fault, to_py};
+use crate::batch;
+use crate::error::ModelFault;
+use crate::kinematics::Robot;
+
+/// `irbkin.IkBatch` of poses, shape (..., 4, 4), and of joint 7 for each where the arm has seven.
+pub(super) fn ik<'py>(
+    arm: &Arm,
+    poses: &Bound<'py, PyAny>,
+    q7: Option<&Bound<'py, PyAny>>,
+    out: Option<&Bound<'py, PyAny>>,
+    threads: usize,
+) -> PyResult<Bound<'py, PyAny>> {
+    let py = poses.py();
+    let given = match arm {
+        Arm::Six(_) => no_q7(q7.is_some()).map(|()| None)?,
+        Arm::Seven(robot) => Some(needed_q7(py, robot, q7)?),
+    };
+    let poses = Rows::read(poses, &[4, 4], "T", Fault::Pose)?;
+    let given = given.map_or(Ok(Vec::new()), |q7| read_q7(q7, &poses))?;
+    let (q, status) = batch_output(py, out, &poses, arm.dof())?;
+    let (data, mut q_view, mut status_view) =
+        (poses.data()?, writable(&q, &[poses.addresses()])?, writable(&status, &[poses.addresses(), addresses(&q)])?);
+    let (q_slice, status_slice) = (q_view.as_slice_mut()?, status_view.as_slice_mut()?);
+    let solved = detached(py, || match arm {
+        Arm::Six(robot) => batch::ik(robot, data, q_slice, status_slice, threads),
+        Arm::Seven(robot) => batch::ik_with_q7(robot, data, &given, q_slice, status_slice, threads),
+    });
+    solved.map_err(|error| to_py(py, &error))?;
+    errors::ik_batch_class(py)?.call1((q, status))
+}
+
+/// An angle of joint 7 for each pose, or one for all.
+fn read_q7(q7: &Bound<'_, PyAny>, poses: &Rows<'_>) -> PyResult<Vec<f64>> {
+    let rows = Rows::read(q7, &[], "q7", Fault::Joints)?;
+    if rows.is_single() {
+        return Ok(rows.data()?.repeat(poses.lead.iter().product()));
+    }
+    if rows.lead != poses.lead {
+        let (wanted, got) = (&poses.lead, &rows.lead);
+        return Err(Fault::Joints.error(q7.py(), format!("q7 must be a number or have shape {wanted:?}, got {got:?}")));
+    }
+    Ok(rows.data()?.to_vec())
+}
+
+/// An arm of six joints has no joint 7.
+pub(super) fn no_q7(given: bool) -> PyResult<()> {
+    if given { Err(PyTypeError::new_err("q7 is joint 7 of an arm of seven joints: this one has six")) } else { Ok(()) }
+}
+
+/// Joint 7, without which an arm of seven joints has no finite number of solutions.
+pub(super) fn needed_q7<T>(py: Python<'_>, robot: &Robot<7>, q7: Option<T>) -> PyResult<T> {
+    if let Some(reason) = robot.no_closed_form() {
+        return Err(to_py(py, &ModelFault::NoClosedForm(reason).into()));
+    }
+    q7.ok_or_else(|| PyTypeError::new_err("an arm of seven joints needs q7, the angle of joint 7 [rad]; or take ik_nearest"))
+}
