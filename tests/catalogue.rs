@@ -9,11 +9,13 @@ use irbkin::{CatalogueGeometry, Error, Robot, catalogue, pose_to_quaternion};
 type Golden = (&'static str, [f64; 6], [f64; 3], [f64; 4], &'static str);
 
 const UP: [f64; 4] = [std::f64::consts::FRAC_1_SQRT_2, 0.0, std::f64::consts::FRAC_1_SQRT_2, 0.0];
+/// Universal Robots' flange at zero: its z along -y of the base.
+const TO_THE_SIDE: [f64; 4] = [std::f64::consts::FRAC_1_SQRT_2, std::f64::consts::FRAC_1_SQRT_2, 0.0, 0.0];
 const HOME: [f64; 4] = [0.5, 0.0, 0.866_025_404, 0.0];
 const HOME_JOINTS: [f64; 6] = [0.0, 0.0, 0.0, 0.0, 30.0, 0.0];
 
 #[rustfmt::skip]
-const GOLDEN: [Golden; 12] = [
+const GOLDEN: [Golden; 27] = [
     ("IRB 120-3/0.58", HOME_JOINTS, [364.353829, 0.0, 594.0], HOME, "RobotStudio home robtarget"),
     ("IRB 140-6/0.81", HOME_JOINTS, [506.291651, 0.0, 679.5], HOME, "RobotStudio home robtarget"),
     ("IRB 140-6/0.81", [0.0; 6], [515.0, 0.0, 712.0], UP, "Robot Web Services reference, robtarget and jointtarget pages"),
@@ -28,6 +30,21 @@ const GOLDEN: [Golden; 12] = [
     // No taught pose is public for these: the zero pose is the sum of the drawing's lengths.
     ("IRB 2600-12/1.65", [0.0; 6], [150.0 + 795.0 + 85.0, 0.0, 445.0 + 700.0 + 115.0], UP, "drawing"),
     ("IRB 1600-6/1.45", [0.0; 6], [150.0 + 600.0 + 65.0, 0.0, 486.5 + 700.0], UP, "drawing"),
+    ("UR3", [0.0; 6], [-456.9, -194.25, 66.55], TO_THE_SIDE, "py_ur_kin test_ur3, its base_link turned half a turn"),
+    ("UR3", [0.0; 6], [-243.65 - 213.25, -112.35 - 81.9, 151.9 - 85.35], TO_THE_SIDE, "published figures"),
+    ("UR3e", [0.0; 6], [-243.55 - 213.2, -131.05 - 92.1, 151.85 - 85.35], TO_THE_SIDE, "published figures"),
+    ("UR5", [0.0; 6], [-425.0 - 392.25, -109.15 - 82.3, 89.159 - 94.65], TO_THE_SIDE, "published figures"),
+    ("UR5e", [0.0; 6], [-425.0 - 392.2, -133.3 - 99.6, 162.5 - 99.7], TO_THE_SIDE, "published figures"),
+    ("UR7e", [0.0; 6], [-425.0 - 392.2, -133.3 - 99.6, 162.5 - 99.7], TO_THE_SIDE, "published figures"),
+    ("UR8 Long", [0.0; 6], [-898.9 - 714.9, -182.4 - 143.4, 218.6 - 136.1], TO_THE_SIDE, "published figures"),
+    ("UR10", [0.0; 6], [-612.0 - 572.3, -163.941 - 92.2, 127.3 - 115.7], TO_THE_SIDE, "published figures"),
+    ("UR10e", [0.0; 6], [-612.7 - 571.55, -174.15 - 116.55, 180.7 - 119.85], TO_THE_SIDE, "published figures"),
+    ("UR12e", [0.0; 6], [-612.7 - 571.55, -174.15 - 116.55, 180.7 - 119.85], TO_THE_SIDE, "published figures"),
+    ("UR15", [0.0; 6], [-647.5 - 516.4, -182.4 - 143.4, 218.6 - 136.1], TO_THE_SIDE, "published figures"),
+    ("UR16e", [0.0; 6], [-478.4 - 360.0, -174.15 - 116.55, 180.7 - 119.85], TO_THE_SIDE, "published figures"),
+    ("UR18", [0.0; 6], [-475.0 - 338.9, -182.4 - 143.4, 218.6 - 136.1], TO_THE_SIDE, "published figures"),
+    ("UR20", [0.0; 6], [-862.0 - 728.7, -201.0 - 154.3, 236.3 - 159.3], TO_THE_SIDE, "published figures"),
+    ("UR30", [0.0; 6], [-637.0 - 503.7, -201.0 - 154.3, 236.3 - 159.3], TO_THE_SIDE, "published figures"),
     ("IRB 6700-150/3.2", [0.0; 6], [320.0 + 1592.5 + 200.0, 0.0, 780.0 + 1280.0 + 200.0], UP, "drawing"),
 ];
 
@@ -48,16 +65,19 @@ fn golden_poses_are_met() {
 
 #[test]
 fn every_arm_has_a_golden_pose() {
-    let held = |name| GOLDEN.iter().any(|golden| golden.0 == name) || name == "Panda";
+    let held = |name| GOLDEN.iter().any(|golden| golden.0 == name) || SEVEN_AXES.contains(&name);
     for arm in catalogue() {
         assert!(held(arm.name), "{} has none", arm.name);
     }
 }
 
+/// Held against a recorded pose by themselves.
+const SEVEN_AXES: [&str; 2] = ["Panda", "FR3"];
+
 #[test]
-fn panda_meets_the_pose_recorded_on_a_machine() {
+fn panda_and_fr3_meet_the_pose_recorded_on_a_machine() {
     // petercorke/robotics-toolbox-matlab#107, recorded from franka_ros.
-    let panda: Robot<7> = Robot::named("Panda").unwrap();
+    let [panda, fr3] = SEVEN_AXES.map(|name| Robot::<7>::named(name).unwrap());
     let q = [
         0.179_407_110_277_025,
         0.461_810_428_811_432,
@@ -68,6 +88,7 @@ fn panda_meets_the_pose_recorded_on_a_machine() {
         0.809_489_307_880_827,
     ];
     let pose = panda.fk(&q);
+    assert_eq!(pose, fr3.fk(&q));
     let recorded = [0.695_139_562_452_754, 0.081_864_847_706_614, 0.477_587_109_804_965];
     assert!((pose.translation.vector - Vector3::from(recorded)).amax() < 1e-9);
     assert!((pose.rotation[(0, 0)] - 0.768_176_030_504_295_6).abs() < 1e-9);

@@ -41,6 +41,12 @@ pub(crate) fn constant_sin_cos(angle: f64) -> (f64, f64) {
     }
 }
 
+/// The first `M` of `N` joint angles; zeros behind the last.
+#[inline(always)]
+pub(crate) fn resized<const N: usize, const M: usize>(q: &[f64; N]) -> [f64; M] {
+    core::array::from_fn(|i| q.get(i).copied().unwrap_or(0.0))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,5 +1,6 @@
 //! The joint vectors of a pose as a closed form gives them: without limits, in their slots.
 
+use super::angles::resized;
 use super::solutions::{FreeJoint, SLOTS};
 use super::status::{Reach, Status};
 
@@ -52,10 +53,4 @@ impl<const N: usize> Branches<N> {
         let Self { q, flags, free, reach } = *self;
         Branches { q: q.map(|q| q.map(|q| resized(&q))), flags, free, reach }
     }
-}
-
-/// The first of `M` numbers; zeros behind the last of `N`.
-#[inline(always)]
-pub(crate) fn resized<const N: usize, const M: usize>(q: &[f64; N]) -> [f64; M] {
-    core::array::from_fn(|i| q.get(i).copied().unwrap_or(0.0))
 }

@@ -1,6 +1,6 @@
 //! What a solve takes for a joint that the pose leaves open.
 
-use super::branches::resized;
+use super::angles::resized;
 use super::thresholds::SEEDED_FREE;
 
 /// What to take for a joint that the pose does not determine.

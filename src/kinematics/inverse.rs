@@ -1,7 +1,7 @@
 //! The inverse of a robot with a closed form: every joint vector of a pose, and of many.
 
+use super::angles::resized;
 use super::block::{AnswerRow, Blocks, PoseRow, StatusRow};
-use super::branches::resized;
 use super::free_choice::FreeChoice;
 use super::geometry::Geometry;
 use super::pose::{Pose, checked_pose, pose_from_rows};

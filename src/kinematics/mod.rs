@@ -26,11 +26,13 @@ mod rotation;
 mod select;
 mod singularity;
 mod solutions;
+mod spherical_shoulder;
 mod spherical_wrist;
 mod status;
 mod surroundings;
 mod three_parallel;
 pub mod thresholds;
+mod zyz;
 
 pub use chain::Chain;
 pub use crossing::{Crossing, FollowOptions};

@@ -87,13 +87,50 @@ PANDA = Arm(
     tuple(np.rad2deg([2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61])),
 )  # fmt: skip
 
-CATALOGUE = {**ABB, "Panda": PANDA}
+# Franka Research 3: the Panda's geometry between other limits; no source has its speeds.
+FR3 = Arm(
+    "FR3",
+    PANDA.rows_mm_deg,
+    tuple(np.rad2deg([(-2.7437, 2.7437), (-1.7837, 1.7837), (-2.9007, 2.9007), (-3.0421, -0.1518), (-2.8065, 2.8065),
+                      (0.5445, 4.5169), (-3.0159, 3.0159)])),
+    None,
+)  # fmt: skip
 
 # Universal Robots' figures in standard Denavit-Hartenberg form: d1, a2, a3, d4, d5, d6 [m].
-UR = {
-    "ur3": (0.1519, -0.24365, -0.21325, 0.11235, 0.08535, 0.0819),
-    "ur5e": (0.1625, -0.425, -0.3922, 0.1333, 0.0997, 0.0996),
+UR_FIGURES = {
+    "UR3": (0.1519, -0.24365, -0.21325, 0.11235, 0.08535, 0.0819),
+    "UR3e": (0.15185, -0.24355, -0.2132, 0.13105, 0.08535, 0.0921),
+    "UR5": (0.089159, -0.425, -0.39225, 0.10915, 0.09465, 0.0823),
+    "UR5e": (0.1625, -0.425, -0.3922, 0.1333, 0.0997, 0.0996),
+    "UR7e": (0.1625, -0.425, -0.3922, 0.1333, 0.0997, 0.0996),
+    "UR8 Long": (0.2186, -0.8989, -0.7149, 0.1824, 0.1361, 0.1434),
+    "UR10": (0.1273, -0.612, -0.5723, 0.163941, 0.1157, 0.0922),
+    "UR10e": (0.1807, -0.6127, -0.57155, 0.17415, 0.11985, 0.11655),
+    "UR12e": (0.1807, -0.6127, -0.57155, 0.17415, 0.11985, 0.11655),
+    "UR15": (0.2186, -0.6475, -0.5164, 0.1824, 0.1361, 0.1434),
+    "UR16e": (0.1807, -0.4784, -0.36, 0.17415, 0.11985, 0.11655),
+    "UR18": (0.2186, -0.475, -0.3389, 0.1824, 0.1361, 0.1434),
+    "UR20": (0.2363, -0.8620, -0.7287, 0.2010, 0.1593, 0.1543),
+    "UR30": (0.2363, -0.6370, -0.5037, 0.2010, 0.1593, 0.1543),
 }
+UR_TWISTS_DEG = (90, 0, 0, 90, -90, 0)
+
+
+def ur_rows(name):
+    """Standard rows of a Universal Robots arm [rad, m]."""
+    d1, a2, a3, d4, d5, d6 = {key.lower(): figures for key, figures in UR_FIGURES.items()}[name.lower()]
+    return np.column_stack([np.deg2rad(UR_TWISTS_DEG), [0, a2, a3, 0, 0, 0], [d1, 0, 0, d4, d5, d6], np.zeros(6)])
+
+
+def ur_arm(name):
+    """The same as modified rows: twist and length move on by one row."""
+    d1, a2, a3, d4, d5, d6 = (1e3 * length for length in UR_FIGURES[name])
+    rows = ((0, 0, d1, 0), (90, 0, 0, 0), (0, a2, 0, 0), (0, a3, d4, 0), (90, 0, d5, 0), (-90, 0, d6, 0))
+    return Arm(name, rows, ((-360, 360),) * 6, None)
+
+
+UR = {name: ur_arm(name) for name in UR_FIGURES}
+CATALOGUE = {**ABB, **UR, "Panda": PANDA, "FR3": FR3}
 
 # CRB 15000-5/0.95: axes 5 and 6 pass 80 mm apart.
 GOFA_ROWS_MM_DEG = (
@@ -109,14 +146,6 @@ IRB1410 = Arm(
 )
 
 QUARTER = np.pi / 2
-
-
-def ur_rows(name):
-    """Standard rows of a Universal Robots arm [rad, m]."""
-    d1, a2, a3, d4, d5, d6 = UR[name]
-    twists = np.deg2rad([90, 0, 0, 90, -90, 0])
-    return np.column_stack([twists, [0, a2, a3, 0, 0, 0], [d1, 0, 0, d4, d5, d6], np.zeros(6)])
-
 
 # Arms by Brandstoetter's parameters [m, rad].
 IRB2400 = {

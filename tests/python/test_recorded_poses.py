@@ -3,7 +3,7 @@
 import irbkin
 import numpy as np
 import pytest
-from arms import ABB, CATALOGUE, COMAU_NJ165, IRB2400, ur_rows
+from arms import ABB, CATALOGUE, COMAU_NJ165, IRB2400
 from cases import RAX, XYZ, half_digit, matrix, numbers, pose_mm, read
 from reference import move, pose_of, reach, rotation_apart, rounding, turn
 
@@ -63,7 +63,7 @@ def test_joint_signs_of_a_comau(row):
 
 @pytest.mark.parametrize("row", UR, ids=ids(UR, "robot", "q3"))
 def test_universal_robots_in_the_frames_of_their_sources(row):
-    robot = irbkin.Robot.from_sdh(ur_rows(row["robot"]), closed_form=False)
+    robot = irbkin.Robot(row["robot"])
     if row["base_frame"] == "base_link":
         robot = robot.with_base(turn("z", np.pi))
     if row["tip_frame"] == "ee_link":

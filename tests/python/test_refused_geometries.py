@@ -48,21 +48,27 @@ def gofa_rows():
     return np.column_stack([np.deg2rad(rows[:, 0]), rows[:, 1:3] / 1e3, np.deg2rad(rows[:, 3])])
 
 
+def tilted_ur5e():
+    rows = ur_rows("ur5e")
+    rows[2, 0] += np.deg2rad(1)
+    return rows
+
+
 # Arms that engineers have and that are of other forms: (how to build, what is said).
 OTHERS = {
     "GoFa": (
         lambda **more: irbkin.Robot.from_mdh(gofa_rows(), **more),
         r"axes 5 and 6 must meet, they pass 80\.000000 mm apart",
     ),
-    "UR5e": (
-        lambda **more: irbkin.Robot.from_sdh(ur_rows("ur5e"), **more),
-        r"axes 3 and 4 must be at right angles, they are 90\.000000 deg off",
+    "UR5e with axis 4 tilted": (
+        lambda **more: irbkin.Robot.from_sdh(tilted_ur5e(), **more),
+        r"for three parallel axes, axes 3 and 4 must be parallel, they are 1\.000000 deg off",
     ),
 }
 SOLVES = {
     "ik": lambda robot, pose: robot.ik(pose),
     "ik_batch": lambda robot, pose: robot.ik_batch(pose),
-    "ik_nearest": lambda robot, pose: robot.ik_nearest(pose, np.zeros(6)),
+    "ik_nearest": lambda robot, pose: robot.ik_nearest(pose, np.zeros(robot.dof)),
     "check_pose": lambda robot, pose: robot.check_pose(pose),
 }
 
@@ -91,7 +97,10 @@ def test_every_solve_of_an_arm_without_closed_form_says_why_it_has_none(name, so
 def test_a_seven_axis_arm_says_that_it_has_no_closed_form(solve):
     rows = CATALOGUE["Panda"].rows + 1e-3
     robot = irbkin.Robot.from_mdh(rows)
-    with pytest.raises(irbkin.InvalidModelError, match="no closed-form inverse kinematics for this arm: 7 joints"):
+    with pytest.raises(
+        irbkin.InvalidModelError,
+        match=r"for a spherical shoulder and an offset elbow, axes 1 and 2 must be at right angles, they are 0\.057296 deg",
+    ):
         solve(robot, robot.fk(np.zeros(7)))
 
 

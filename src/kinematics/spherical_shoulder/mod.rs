@@ -1,0 +1,97 @@
+//! Arms of seven axes with a spherical shoulder and an offset elbow, the angle of the last joint being told: axes 1, 2, 3 through one point,
+//! axes 5 and 6 meeting, axis 7 anywhere.
+//!
+//! `docs/seven_axes.md` has the derivation; its equation numbers stand beside the code.
+#![expect(dead_code, unused_imports, reason = "robots of seven axes do not solve yet")]
+
+mod elbow;
+mod links;
+mod recognise;
+mod shoulder;
+mod solve;
+mod solver;
+mod target;
+mod turn;
+mod wrist;
+
+pub(crate) use recognise::{FORM, recognise};
+pub(crate) use solver::SevenSolver;
+
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
+use links::Links;
+
+use super::angles::distance_from_half_turns;
+use super::placement::Placement;
+use super::pose::Pose;
+use super::status::Status;
+use super::thresholds::WRIST_MERGE_SIN;
+
+/// The geometry between the shoulder, where axes 1, 2 and 3 meet, and the flange.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SphericalShoulder {
+    links: Links,
+    /// Its last frame is that of joint 7: what stands behind it is constant.
+    placement: Placement<7>,
+    /// From where axes 5 and 6 meet to the frame of joint 7 at theta_7 = 0.
+    t_hand_seven: Pose,
+}
+
+/// How far a joint vector is from each singularity of an arm of this form, joint 7 standing still.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SevenDistances {
+    /// Distance of the shoulder from the plane of axes 5 and 6 [m].
+    pub wrist: f64,
+    /// Angle between upper arm and forearm from stretched or folded [rad].
+    pub elbow: f64,
+    /// Angle of axes 1 and 3 from one line [rad].
+    pub shoulder: f64,
+}
+
+impl SphericalShoulder {
+    /// The same arm between a base and a tool, which add to what a pose's rounding grows with.
+    pub(crate) fn standing_between(self, base: &Pose, tool: &Pose) -> Self {
+        let fixed = [base, &self.placement.t_base_shoulder, &self.t_hand_seven, &self.placement.t_wrist_flange, tool];
+        Self { links: self.links.between(fixed), ..self }
+    }
+
+    fn theta(&self, q: &[f64; 7]) -> [f64; 7] {
+        self.placement.theta(q)
+    }
+
+    /// The determinant of the geometric Jacobian of joints 1 to 6 (eq. 17).
+    #[must_use]
+    pub fn jacobian_determinant(&self, q: &[f64; 7]) -> f64 {
+        let [_, theta_2, _, theta_4, theta_5, ..] = self.theta(q);
+        let aside = self.links.elbow_at(theta_4).across * theta_5.cos();
+        let signs = self.placement.signs[..6].iter().product::<f64>();
+        -signs * self.links.product() * self.links.elbow_angle(theta_4).sin() * aside * theta_2.sin()
+    }
+
+    /// How far `q` is from each singularity.
+    #[must_use]
+    pub fn singular_distances(&self, q: &[f64; 7]) -> SevenDistances {
+        let [_, theta_2, _, theta_4, theta_5, ..] = self.theta(q);
+        SevenDistances {
+            wrist: (self.links.elbow_at(theta_4).across * theta_5.cos()).abs(),
+            elbow: distance_from_half_turns(self.links.elbow_angle(theta_4)),
+            shoulder: distance_from_half_turns(theta_2),
+        }
+    }
+
+    /// The singularities at which `q` stands, by the thresholds that merge the branches of a solve. A solve, which does not know `q`, also
+    /// merges a shoulder by what the pose leaves open of elbow and wrist.
+    #[must_use]
+    pub fn kinds(&self, q: &[f64; 7]) -> Status {
+        let [_, theta_2, _, theta_4, theta_5, ..] = self.theta(q);
+        let mut kinds = Status::empty();
+        kinds.set(Status::WRIST, self.links.wrist_is_one(&self.links.elbow_at(theta_4), theta_5));
+        kinds.set(Status::ELBOW, self.links.is_straight(theta_4));
+        kinds.set(Status::SHOULDER, theta_2.sin().abs() <= WRIST_MERGE_SIN);
+        kinds
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,1 @@
+//! At and next to every singularity.
