@@ -1,10 +1,13 @@
 //! What can be wrong with an input, each fault with the field, the value and the bound.
 
+mod urdf;
+
 use core::fmt;
 
 use alloc::string::String;
 use alloc::vec::Vec;
 
+pub use self::urdf::{Names, UrdfFault};
 use crate::kinematics::{Explanation, NotRecognised};
 
 /// Why a call was refused.
@@ -184,6 +187,24 @@ pub enum ModelFault {
     NoClosedForm(NotRecognised),
     /// A crossing policy holds a wrist that the arm does not have.
     NoSphericalWrist,
+    /// The direction of an axis has no length.
+    AxisDirection {
+        /// The axis, from 1.
+        axis: usize,
+    },
+    /// Two axes are so nearly parallel that a table cannot hold their common normal.
+    NearlyParallel {
+        /// The axes, from 1.
+        axes: (usize, usize),
+        /// How far they are off parallel [rad].
+        off: f64,
+        /// How far away their common normal stands [m].
+        distance: f64,
+        /// The farthest that a table holds [m].
+        bound: f64,
+    },
+    /// The URDF describes no arm that can be taken.
+    Urdf(UrdfFault),
 }
 
 /// A name that the catalogue does not have.
@@ -257,6 +278,13 @@ impl fmt::Display for ModelFault {
             Self::JointCount { found, wanted } => write!(f, "the arm has {found} joints, {wanted} were asked for"),
             Self::NoSphericalWrist => write!(f, "this policy holds a spherical wrist, and the arm has none: take \"through\" or \"error\""),
             Self::NoClosedForm(reason) => write!(f, "no closed-form inverse kinematics for this arm: {reason}"),
+            Self::AxisDirection { axis } => write!(f, "direction of axis {axis} has no length"),
+            Self::NearlyParallel { axes: (i, j), off, distance, bound } => write!(
+                f,
+                "axes {i} and {j} are {off:.1e} rad off parallel, their common normal stands {distance:.1e} m away, it must be at most \
+                 {bound:.0e} m (are the angles written with all their digits?)"
+            ),
+            Self::Urdf(fault) => write!(f, "URDF: {fault}"),
         }
     }
 }
@@ -296,6 +324,12 @@ impl From<PoseFault> for Error {
 impl From<JointFault> for Error {
     fn from(fault: JointFault) -> Self {
         Self::InvalidJoints(fault)
+    }
+}
+
+impl From<UrdfFault> for Error {
+    fn from(fault: UrdfFault) -> Self {
+        Self::InvalidModel(ModelFault::Urdf(fault))
     }
 }
 

@@ -1,4 +1,5 @@
 from collections.abc import Callable, Iterator, Sequence
+from os import PathLike
 from typing import Any, Literal, final, overload
 
 import numpy as np
@@ -62,6 +63,15 @@ class Robot:
         limits: npt.ArrayLike | None = None,
         name: str = "",
     ) -> Robot: ...
+    @staticmethod
+    def from_urdf(
+        text_or_path: str | bytes | PathLike[str],
+        base: str | None = None,
+        tip: str | None = None,
+        name: str = "",
+        *,
+        closed_form: bool = True,
+    ) -> Robot: ...
     @property
     def name(self) -> str: ...
     @property
@@ -70,6 +80,8 @@ class Robot:
     def family(self) -> str: ...
     @property
     def mdh(self) -> _Floats: ...
+    @property
+    def root(self) -> _Floats: ...
     @property
     def flange(self) -> _Floats: ...
     @property

@@ -14,6 +14,7 @@ mod free_choice;
 mod geometry;
 mod inverse;
 mod jacobian;
+mod joint_axes;
 mod limits;
 mod placement;
 mod planar_arm;
@@ -41,7 +42,12 @@ pub(crate) use inverse::Inverse;
 #[cfg(feature = "python")]
 pub(crate) use inverse::check_given;
 pub use jacobian::JacobianFrame;
+pub use joint_axes::JointAxis;
+#[cfg(feature = "urdf")]
+pub(crate) use joint_axes::unit;
 pub use limits::JointLimits;
+#[cfg(feature = "urdf")]
+pub(crate) use pose::constant_pose;
 pub use pose::{
     Pose, PoseError, pose_from_euler_zyx, pose_from_quaternion, pose_from_rows, pose_to_euler_zyx, pose_to_quaternion, pose_to_rows,
 };

@@ -5,6 +5,8 @@ use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Translation3, Vector3};
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
+#[cfg(feature = "urdf")]
+use super::angles::constant_sin_cos;
 use super::rotation::{Rows3, determinant, gram_excess, nearest_rotation};
 use super::thresholds::{GIMBAL_COS, LAST_ROW_BOUND, QUATERNION_NORM_BOUND, ROTATION_REPAIR_BOUND, ROTATION_ROUNDING};
 use crate::error::{Error, PoseFault};
@@ -134,7 +136,17 @@ pub fn pose_from_quaternion(xyz: [f64; 3], wxyz: [f64; 4]) -> Result<Pose, Error
 pub fn pose_from_euler_zyx(xyz: [f64; 3], zyx: [f64; 3]) -> Result<Pose, Error> {
     check_finite("xyz", &xyz)?;
     check_finite("euler_zyx", &zyx)?;
-    let [(sz, cz), (sy, cy), (sx, cx)] = zyx.map(f64::sin_cos);
+    Ok(pose_of_zyx(xyz, zyx.map(f64::sin_cos)))
+}
+
+/// The pose of a model's constants, as [`pose_from_euler_zyx`] of finite ones: a quarter turn in text is one exactly.
+#[cfg(feature = "urdf")]
+pub(crate) fn constant_pose(xyz: [f64; 3], zyx: [f64; 3]) -> Pose {
+    pose_of_zyx(xyz, zyx.map(constant_sin_cos))
+}
+
+/// The pose of a translation [m] and the sines and cosines of rz, ry, rx.
+fn pose_of_zyx(xyz: [f64; 3], [(sz, cz), (sy, cy), (sx, cx)]: [(f64, f64); 3]) -> Pose {
     let rotation = Matrix3::new(
         cz * cy,
         cz * sy * sx - sz * cx,
@@ -146,7 +158,7 @@ pub fn pose_from_euler_zyx(xyz: [f64; 3], zyx: [f64; 3]) -> Result<Pose, Error> 
         cy * sx,
         cy * cx,
     );
-    Ok(IsometryMatrix3::from_parts(Translation3::from(xyz), Rotation3::from_matrix_unchecked(rotation)))
+    IsometryMatrix3::from_parts(Translation3::from(xyz), Rotation3::from_matrix_unchecked(rotation))
 }
 
 /// Translation [m] and quaternion w, x, y, z of a pose; w is not negative.

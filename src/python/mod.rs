@@ -12,6 +12,7 @@ mod paths;
 mod poses;
 mod robot;
 mod solutions;
+mod urdf;
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

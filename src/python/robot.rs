@@ -16,6 +16,7 @@ use super::found::{Found, read_seed, read_weights};
 use super::paths;
 use super::poses::{PoseArgument, pose_array, read_pose, read_poses};
 use super::solutions::PySolutions;
+use super::urdf;
 use crate::catalogue;
 use crate::kinematics::thresholds::WRIST_ZONE;
 use crate::kinematics::{Explanation, FollowOptions, Inverse, OpwParameters, Robot, check_given};
@@ -125,6 +126,25 @@ impl PyRobot {
         build::from_opw(py, opw, signs, limits, name).map(Self::from)
     }
 
+    /// Robot from a URDF: the revolute and continuous joints between two links, with their limits and velocities.
+    ///
+    /// Args:
+    ///     text_or_path: The text, str that begins with "<" or bytes, or the path of a file. Xacro must be expanded first.
+    ///     base: Link in whose frame poses are given; the one without a parent when not given.
+    ///     tip: Link that poses are of; when not given, the only one at the end of a chain of six or seven joints.
+    ///     name: A name of your own; the URDF's when not given.
+    ///     closed_form: With False, a six-axis arm of no known form is taken too: forward kinematics and Jacobian work, `ik` refuses.
+    ///
+    /// Raises:
+    ///     InvalidModelError: The text is no URDF, several links could be meant, there are not six or seven joints, a joint between base
+    ///         and tip is not revolute, continuous or fixed, or no closed form is known; the message names what is wrong.
+    ///     OSError: The file cannot be read.
+    #[staticmethod]
+    #[pyo3(signature = (text_or_path, base=None, tip=None, name="", *, closed_form=true))]
+    fn from_urdf(text_or_path: &Bound<'_, PyAny>, base: Option<&str>, tip: Option<&str>, name: &str, closed_form: bool) -> PyResult<Self> {
+        urdf::from_urdf(text_or_path, base, tip, name, closed_form).map(Self::from)
+    }
+
     /// Catalogue name, or the name that was given.
     #[getter]
     fn name(&self) -> &str {
@@ -148,6 +168,12 @@ impl PyRobot {
     fn mdh<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let rows: Vec<f64> = on_robot!(&self.arm, robot => robot.mdh().rows.iter().flat_map(|row| row.to_array()).collect());
         PyArray1::from_vec(py, rows).reshape([self.arm.dof(), 4])
+    }
+
+    /// Fixed transform from the base to the frame before the first row of `mdh`, shape (4, 4).
+    #[getter]
+    fn root<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        on_robot!(&self.arm, robot => pose_array(py, &robot.mdh().base))
     }
 
     /// Fixed transform from the last frame of `mdh` to the flange, shape (4, 4).

@@ -13,6 +13,7 @@ LAYERS = [
     "rotation",
     "pose",
     "dh",
+    "joint_axes",
     "axes",
     "chain",
     "forward",
@@ -41,7 +42,7 @@ LAYERS = [
     "follow",
     "crossing",
 ]
-OUTER = ["lanes", "kinematics", "catalogue", "batch", "python"]
+OUTER = ["lanes", "kinematics", "catalogue", "batch", "urdf", "python"]
 
 
 def modules_used(path: Path) -> set[str]:

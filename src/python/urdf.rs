@@ -1,0 +1,55 @@
+//! `Robot.from_urdf`: the text of a URDF, given as it is or by its path.
+
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyString};
+
+use super::arm::Arm;
+use super::errors::to_py;
+use crate::error::{Error, UrdfFault};
+use crate::kinematics::Robot;
+use crate::urdf::UrdfArm;
+
+/// The arm between two links of a URDF, of six or seven joints.
+pub(super) fn from_urdf(
+    text_or_path: &Bound<'_, PyAny>,
+    base: Option<&str>,
+    tip: Option<&str>,
+    name: &str,
+    closed_form: bool,
+) -> PyResult<Arm> {
+    let py = text_or_path.py();
+    let bytes = bytes_of(text_or_path)?;
+    py.detach(|| arm_of(&bytes, base, tip, name, closed_form)).map_err(|error| to_py(py, &error))
+}
+
+fn arm_of(bytes: &[u8], base: Option<&str>, tip: Option<&str>, name: &str, closed_form: bool) -> Result<Arm, Error> {
+    let text = str::from_utf8(bytes).map_err(|error| UrdfFault::NotUtf8 { byte: error.valid_up_to() })?;
+    let read = UrdfArm::read(text, base, tip, &[6, 7])?;
+    let seven = read.dof() == 7;
+    if seven { robot::<7>(read, name, closed_form).map(Arm::from) } else { robot::<6>(read, name, closed_form).map(Arm::from) }
+}
+
+fn robot<const N: usize>(read: UrdfArm, name: &str, closed_form: bool) -> Result<Robot<N>, Error> {
+    let robot = read.robot::<N>(closed_form)?;
+    Ok(if name.is_empty() { robot } else { robot.with_name(name.to_owned()) })
+}
+
+/// The bytes of a text, or of the file at a path. A str that begins with `<`, blanks aside, is a text.
+fn bytes_of(text_or_path: &Bound<'_, PyAny>) -> PyResult<Vec<u8>> {
+    if let Ok(bytes) = text_or_path.cast::<PyBytes>() {
+        return Ok(bytes.as_bytes().to_vec());
+    }
+    if let Ok(text) = text_or_path.cast::<PyString>() {
+        // A half of a surrogate pair is kept as the bytes that it would be, which are no UTF-8.
+        let bytes = text.call_method1("encode", ("utf-8", "surrogatepass"))?.cast_into::<PyBytes>()?.as_bytes().to_vec();
+        if String::from_utf8_lossy(&bytes).trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}').starts_with('<') {
+            return Ok(bytes);
+        }
+    }
+    let py = text_or_path.py();
+    let path = py.import("os")?.call_method1("fspath", (text_or_path,))?;
+    let file = py.import("builtins")?.call_method1("open", (path, "rb"))?;
+    let read = file.call_method0("read");
+    file.call_method0("close")?;
+    Ok(read?.cast::<PyBytes>()?.as_bytes().to_vec())
+}

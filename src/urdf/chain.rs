@@ -1,0 +1,135 @@
+//! The joints between two links.
+
+use alloc::borrow::ToOwned;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::joint::Joint;
+use super::tree::{Tree, quoted};
+use crate::error::{Names, UrdfFault};
+
+/// Number of links up to which all their names are told, where one was not known.
+const FEW: usize = 12;
+
+/// The joints from base to tip, and nothing but joints that turn or are fixed; those that turn are as many as one of `wanted`.
+pub(super) fn chain_between<'t, 'a>(
+    tree: &'t Tree<'a>,
+    base: Option<&str>,
+    tip: Option<&str>,
+    wanted: &[usize],
+) -> Result<Vec<&'t Joint<'a>>, UrdfFault> {
+    let base = match base {
+        Some(name) => named(tree, "base", name)?,
+        None => only_root(tree)?,
+    };
+    let tip = match tip {
+        Some(name) => named(tree, "tip", name)?,
+        None => only_tip(tree, base, wanted)?,
+    };
+    let mut chain = Vec::new();
+    let mut link = tip;
+    while link != base {
+        let names = || UrdfFault::NotBelow { tip: tree.links[tip].to_owned(), base: tree.links[base].to_owned() };
+        let joint = &tree.joints[tree.above[link].ok_or_else(names)?];
+        chain.push(joint);
+        link = joint.parent;
+    }
+    chain.reverse();
+    for joint in &chain {
+        joint.fault()?;
+    }
+    let found = chain.iter().filter(|joint| joint.turns()).count();
+    if wanted.contains(&found) {
+        return Ok(chain);
+    }
+    let [base, tip] = [base, tip].map(|link| tree.links[link].to_owned());
+    Err(UrdfFault::JointCount { base, tip, found, wanted: wanted.to_vec() })
+}
+
+fn named(tree: &Tree<'_>, field: &'static str, name: &str) -> Result<usize, UrdfFault> {
+    tree.link(name).ok_or_else(|| {
+        let links = if tree.links.len() <= FEW { tree.quoted(0..tree.links.len()) } else { close_to(tree, name) };
+        UrdfFault::NoSuchLink { field, name: name.to_owned(), links }
+    })
+}
+
+/// Links whose names hold the wanted one or are spelled like it, the closest first.
+#[cfg(feature = "std")]
+fn close_to(tree: &Tree<'_>, wanted: &str) -> Names {
+    const LEAST_SIMILARITY: f64 = 0.7;
+    const LONGEST: usize = 200;
+    let similarity = |name: &str| match name {
+        _ if !wanted.is_empty() && name.contains(wanted) => 1.0,
+        // The comparison takes the product of both lengths.
+        _ if name.len().max(wanted.len()) > LONGEST => 0.0,
+        _ => strsim::jaro_winkler(name, wanted),
+    };
+    let mut ranked: Vec<_> = tree.links.iter().map(|name| (similarity(name), name)).filter(|(s, _)| *s >= LEAST_SIMILARITY).collect();
+    ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
+    ranked.into_iter().map(|(_, name)| quoted(name)).collect()
+}
+
+#[cfg(not(feature = "std"))]
+fn close_to(tree: &Tree<'_>, wanted: &str) -> Names {
+    tree.links.iter().filter(|name| !wanted.is_empty() && name.contains(wanted)).map(|name| quoted(name)).collect()
+}
+
+fn only_root(tree: &Tree<'_>) -> Result<usize, UrdfFault> {
+    let mut roots = tree.roots();
+    match (roots.next(), roots.next()) {
+        (Some(root), None) => Ok(root),
+        _ => Err(UrdfFault::Roots { links: tree.quoted(tree.roots()) }),
+    }
+}
+
+/// What leads from the base to a link.
+#[derive(Clone, Copy, Default)]
+struct Way {
+    /// Joints that turn.
+    turning: usize,
+    /// The first joint that must not be on the way.
+    barred_by: Option<usize>,
+}
+
+/// The only link at the end of a chain whose joints are as many as one of `wanted`. A frame is never guessed: of several none is taken.
+fn only_tip(tree: &Tree<'_>, base: usize, wanted: &[usize]) -> Result<usize, UrdfFault> {
+    let mut ways = vec![Way::default(); tree.links.len()];
+    let mut ends = Vec::new();
+    for link in tree.hanging_on([base].into_iter()) {
+        for &index in &tree.below[link] {
+            let joint = &tree.joints[index];
+            ways[joint.child] = Way {
+                turning: ways[link].turning + usize::from(joint.turns()),
+                barred_by: ways[link].barred_by.or_else(|| joint.fault().is_err().then_some(index)),
+            };
+        }
+        if tree.below[link].is_empty() {
+            ends.push(link);
+        }
+    }
+    let can_be = |link: &&usize| ways[**link].barred_by.is_none() && wanted.contains(&ways[**link].turning);
+    let (base, wanted_counts) = (tree.links[base].to_owned(), wanted.to_vec());
+    match (ends.iter().find(can_be), ends.iter().filter(can_be).count()) {
+        (Some(&tip), 1) => Ok(tip),
+        (Some(_), _) => {
+            let tips = tree.quoted(ends.iter().filter(can_be).copied());
+            Err(UrdfFault::SeveralTips { base, wanted: wanted_counts, tips })
+        }
+        (None, _) => {
+            let ends = ends.iter().map(|&link| remark(tree, link, ways[link])).collect();
+            Err(UrdfFault::NoTip { base, wanted: wanted_counts, ends })
+        }
+    }
+}
+
+/// A link at the end of a chain, and what keeps it from being the tip.
+fn remark(tree: &Tree<'_>, link: usize, way: Way) -> String {
+    let name = tree.links[link];
+    match way.barred_by.map(|joint| &tree.joints[joint]) {
+        Some(joint) if joint.turns() => format!("{name:?} (behind joint {:?}, a mimic)", joint.name),
+        Some(joint) => format!("{name:?} (behind joint {:?}, {})", joint.name, joint.kind),
+        None => format!("{name:?} ({})", way.turning),
+    }
+}

@@ -1,0 +1,236 @@
+"""Robots from URDF: Pinocchio reads the same text, and what is refused says why."""
+
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pinocchio
+import pytest
+from arms import KUKA_KR6
+from irbkin import InvalidModelError, Robot
+from reference import rounding
+
+DATA = Path(__file__).parents[1] / "data"
+TEXTS = {path.stem: path.read_text() for path in DATA.glob("*.urdf")}
+# (base, tip) of each; the tip is given where there are several.
+CHAINS = {
+    "irb2600": (None, None, "tool0"),
+    "irb2600_rounded": (None, None, "link_6"),
+    "kr6_r700": (None, None, "tool0"),
+    "ur5e": (None, "tool0", "tool0"),
+    "panda_hand": (None, None, "panda_hand_tcp"),
+    "tilted": (None, None, "tip"),
+    "iiwa14": (None, None, "link_ee"),
+}
+SAMPLES = 200
+
+
+def by_pinocchio(text, base, tip):
+    """Forward kinematics from base to tip of the model that Pinocchio makes of the same text."""
+    model = pinocchio.buildModelFromXML(text)
+    data = model.createData()
+    frames = [model.getFrameId(link, pinocchio.FrameType.BODY) for link in (base or model.frames[1].name, tip)]
+
+    def fk(q):
+        configuration = pinocchio.neutral(model)
+        for joint, angle in zip(list(model.joints)[1:], q, strict=False):
+            # A continuous joint has the cosine and sine of its angle.
+            values = [angle] if joint.nq == 1 else [np.cos(angle), np.sin(angle)]
+            configuration[joint.idx_q : joint.idx_q + joint.nq] = values
+        pinocchio.framesForwardKinematics(model, data, configuration)
+        t_base, t_tip = (data.oMf[frame].homogeneous for frame in frames)
+        return np.linalg.inv(t_base) @ t_tip
+
+    return fk
+
+
+def reach(robot):
+    """Lengths that a pose is summed from [m]."""
+    ends = np.linalg.norm(robot.root[:3, 3]) + np.linalg.norm(robot.flange[:3, 3])
+    return ends + np.hypot(robot.mdh[:, 1], robot.mdh[:, 2]).sum()
+
+
+def assert_agrees(robot, fk, bound):
+    for q in np.random.default_rng(1).uniform(-np.pi, np.pi, (SAMPLES, robot.dof)):
+        np.testing.assert_allclose(robot.fk(q), fk(q), rtol=0, atol=bound)
+
+
+def test_every_description_is_tried():
+    assert TEXTS.keys() == CHAINS.keys()
+
+
+@pytest.mark.parametrize("name", CHAINS)
+def test_poses_are_those_of_pinocchio(name):
+    base, tip, last = CHAINS[name]
+    robot = Robot.from_urdf(TEXTS[name], base, tip, closed_form=False)
+    # Right angles with nine decimals are 2e-10 off, and are taken as such: for six joints, on the way there and back.
+    bound = 12 * 2.1e-10 * reach(robot) if name == "irb2600_rounded" else 2 * rounding(reach(robot) + 1)
+    assert_agrees(robot, by_pinocchio(TEXTS[name], base, last), bound)
+
+
+@pytest.mark.parametrize(("base", "tip"), [("base_link", "tip"), ("world", "link_6"), ("base_link", "link_6")])
+def test_poses_from_and_to_other_links(base, tip):
+    text = TEXTS["tilted"]
+    robot = Robot.from_urdf(text, base, tip, closed_form=False)
+    assert_agrees(robot, by_pinocchio(text, base, tip), 2 * rounding(reach(robot) + 1))
+
+
+def test_a_chain_of_too_few_joints_is_counted():
+    with pytest.raises(InvalidModelError) as refused:
+        Robot.from_urdf(TEXTS["tilted"], "link_1", "tip")
+    assert str(refused.value) == 'URDF: 5 revolute joints lead from "link_1" to "tip", there must be 6 or 7'
+
+
+def test_the_table_with_both_ends_is_the_arm():
+    robot = Robot.from_urdf(TEXTS["tilted"], closed_form=False)
+    assert np.abs(robot.root - np.eye(4)).max() > 0.1
+    rows = Robot.from_mdh(robot.mdh, closed_form=False)
+    q = np.linspace(-1, 1, 6)
+    np.testing.assert_allclose(robot.root @ rows.fk(q) @ robot.flange, robot.fk(q), atol=1e-14)
+    for other in ("irb2600", "kr6_r700", "iiwa14"):
+        np.testing.assert_array_equal(Robot.from_urdf(TEXTS[other]).root, np.eye(4))
+    np.testing.assert_array_equal(Robot("IRB 2600-12/1.65").root, np.eye(4))
+
+
+@pytest.mark.parametrize(
+    ("name", "other"),
+    [
+        ("irb2600", Robot("IRB 2600-12/1.65")),
+        ("kr6_r700", Robot.from_opw(**KUKA_KR6)),
+    ],
+)
+def test_a_known_form_has_the_same_slots(name, other):
+    robot = Robot.from_urdf(TEXTS[name])
+    assert robot.family == "spherical wrist"
+    for q in np.random.default_rng(2).uniform(-1.5, 1.5, (SAMPLES, 6)):
+        pose = other.fk(q)
+        np.testing.assert_allclose(robot.fk(q), pose, atol=1e-14)
+        if min(abs(np.sin(q[4])), robot.singularity(q).min_singular_value) < 1e-2:
+            continue
+        found, wanted = robot.with_limits(other.limits).ik(pose), other.ik(pose)
+        np.testing.assert_allclose(found.slots, wanted.slots, atol=1e-11)
+
+
+def test_limits_velocities_and_names_arrive():
+    robot = Robot.from_urdf(TEXTS["irb2600"])
+    catalogue = Robot("IRB 2600-12/1.65")
+    np.testing.assert_array_equal(robot.limits, catalogue.limits)
+    np.testing.assert_array_equal(robot.max_velocity, catalogue.max_velocity)
+    assert robot.name == "irb2600"
+    assert Robot.from_urdf(TEXTS["irb2600"], name="mine").name == "mine"
+    tilted = Robot.from_urdf(TEXTS["tilted"], closed_form=False)
+    np.testing.assert_array_equal(tilted.limits, [[-np.inf, np.inf], *[[-2.0, 2.5]] * 4, [-np.inf, np.inf]])
+    assert tilted.max_velocity is None
+
+
+def test_a_robot_of_a_urdf_is_a_value():
+    robot = Robot.from_urdf(TEXTS["tilted"], closed_form=False)
+    assert pickle.loads(pickle.dumps(robot)) == robot == Robot.from_urdf(TEXTS["tilted"], closed_form=False)
+    assert hash(robot) == hash(pickle.loads(pickle.dumps(robot)))
+
+
+def test_text_bytes_and_paths_are_taken(tmp_path):
+    text = TEXTS["irb2600"]
+    path = DATA / "irb2600.urdf"
+    robot = Robot.from_urdf(text)
+    for given in (text.encode(), "\n \ufeff" + text, b"\xef\xbb\xbf" + text.encode(), path, str(path)):
+        assert Robot.from_urdf(given) == robot
+    # A path may hold what is no UTF-8.
+    odd = tmp_path / "arm\udcff.urdf"
+    odd.write_text(text)
+    assert Robot.from_urdf(odd) == Robot.from_urdf(str(odd)) == robot
+
+
+@pytest.mark.parametrize("given", ["missing.urdf", Path("missing.urdf"), "", " "])
+def test_a_missing_file_is_pythons_error(given):
+    with pytest.raises(FileNotFoundError):
+        Robot.from_urdf(given)
+
+
+def test_what_is_neither_text_nor_path_is_no_argument(tmp_path):
+    with pytest.raises(IsADirectoryError):
+        Robot.from_urdf(tmp_path)
+    for given in (5, None, 1.5, ["<robot/>"], 0):
+        with pytest.raises(TypeError):
+            Robot.from_urdf(given)
+    with pytest.raises(ValueError, match="null byte"):
+        Robot.from_urdf("arm\0.urdf")
+
+
+def chain(kinds, extra=""):
+    """A chain of joints of these types, about z and x in turn."""
+    links = "".join(f'<link name="l{i}"/>' for i in range(len(kinds) + 1))
+    joints = "".join(
+        f'<joint name="j{i}" type="{kind}"><parent link="l{i}"/><child link="l{i + 1}"/><origin xyz="0 0 0.2"/>'
+        f'<axis xyz="{i % 2} 0 {1 - i % 2}"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>'
+        for i, kind in enumerate(kinds)
+    )
+    return f'<robot name="chain">{links}{joints}{extra}</robot>'
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("<robot", "line 1, column 7 is no XML: the text ends before the robot does"),
+        ("<robot>\n<link>\n</robot>", "line 3, column 1 is no XML: expected 'link' tag, not 'robot'"),
+        ("<mujoco/>", "the first element is <mujoco>, it must be <robot>"),
+        (b"<robot name='\xff'/>", "byte 13 is no UTF-8"),
+        ("<robot name='\ud800'/>", "byte 13 is no UTF-8"),
+        ("<robot a='1' a='2'/>", "line 1, column 14 is no XML: attribute 'a' is already defined"),
+        (chain(["revolute"] * 5), '6 or 7 revolute joints lead from "l0" to no end of a chain: "l5" (5)'),
+        (
+            chain(
+                ["revolute"] * 6 + ["fixed"],
+                '<link name="x"/><joint name="k" type="fixed"><parent link="l6"/><child link="x"/></joint>',
+            ),
+            '6 or 7 revolute joints lead from "l0" to several ends: "l7", "x"; tip must name the one to take',
+        ),
+        (
+            chain(["revolute"] * 6, "<link name='x'/>"),
+            'several links have no parent: "l0", "x"; base must name the one to begin at',
+        ),
+        (
+            chain(["revolute"] * 3 + ["planar"] + ["revolute"] * 3),
+            '6 or 7 revolute joints lead from "l0" to no end of a chain: "l7" (behind joint "j3", planar)',
+        ),
+        (chain(["revolute"] * 6).replace("0.2", "nan", 1), 'joint "j0" origin xyz is NaN, it must be finite'),
+        (
+            chain(["revolute"] * 6).replace("0.2", "1e300", 1),
+            'joint "j0" origin xyz is 1e300, its size must be at most 1e6',
+        ),
+    ],
+)
+def test_what_is_refused_says_why(text, words):
+    with pytest.raises(InvalidModelError) as refused:
+        Robot.from_urdf(text, closed_form=False)
+    assert str(refused.value) == f"URDF: {words}"
+
+
+def test_a_link_that_is_none_is_named():
+    with pytest.raises(InvalidModelError) as refused:
+        Robot.from_urdf(TEXTS["kr6_r700"], tip="tool")
+    links = ["base_link", *(f"link_{i}" for i in range(1, 7)), "tool0"]
+    words = 'URDF: tip "tool" is no link; there are ' + ", ".join(f'"{link}"' for link in links)
+    assert str(refused.value) == words
+    with pytest.raises(InvalidModelError, match=r'^URDF: tip "base" does not hang on base "link_1"$'):
+        Robot.from_urdf(TEXTS["irb2600"], "link_1", "base")
+
+
+def test_without_closed_form_an_arm_of_no_form_is_taken():
+    text = chain(["revolute", "continuous"] * 3)
+    with pytest.raises(InvalidModelError, match="no closed-form inverse kinematics"):
+        Robot.from_urdf(text)
+    robot = Robot.from_urdf(text, closed_form=False)
+    assert_agrees(robot, by_pinocchio(text, None, "l6"), 2 * rounding(reach(robot) + 1))
+
+
+def test_hostile_text_is_an_invalid_model():
+    deep = "<robot>" + "<a>" * 100_000 + "</a>" * 100_000 + "</robot>"
+    entities = "".join(f'<!ENTITY e{i} "{f"&e{i - 1};" * 10}">' for i in range(1, 10))
+    bomb = f'<!DOCTYPE r [<!ENTITY e0 "lol">{entities}]><robot name="&e9;"/>'
+    wide = chain(["fixed"] * 100_000)
+    for text in (deep, deep[: len(deep) // 2], bomb, wide, "<" * 100_000, "<robot>\0</robot>", "<\U0001f916/>"):
+        with pytest.raises(InvalidModelError, match=r"^URDF: "):
+            Robot.from_urdf(text)
+        with pytest.raises(InvalidModelError, match=r"^URDF: "):
+            Robot.from_urdf(text.encode())
