@@ -50,25 +50,32 @@ pub(crate) struct Form {
 /// Every condition that keeps an arm from having a closed form here.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NotRecognised {
-    joints: usize,
-    /// The form that the arm is held against; none for a number of joints that no form has.
-    form: Option<&'static Form>,
+    reason: Reason,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Reason {
+    /// No form has this number of joints.
+    JointCount(usize),
     /// How far each condition of the form is off; zero where it is met.
-    off: [f64; MOST_CONDITIONS],
-    /// A length that the form needs and the arm does not have.
-    too_short: Option<(&'static str, f64)>,
+    Off { form: &'static Form, off: [f64; MOST_CONDITIONS] },
+    /// A length that the form needs and the arm does not have [m].
+    TooShort { form: &'static Form, field: &'static str, value: f64 },
 }
 
 impl NotRecognised {
     /// An arm whose number of joints alone rules a closed form out.
     pub(crate) fn joint_count(joints: usize) -> Self {
-        Self { joints, form: None, off: [0.0; MOST_CONDITIONS], too_short: None }
+        Self { reason: Reason::JointCount(joints) }
     }
 
-    /// The conditions that are not met. None is off where the arm has the form but a link without length.
+    /// The conditions that are not met. None is off where the arm has a form but a link without length, or another number of joints.
     pub fn conditions(&self) -> impl Iterator<Item = Condition> {
-        let conditions = self.form.map_or(&[][..], |form| form.conditions);
-        let off = conditions.iter().zip(self.off).filter(|(_, off)| *off > 0.0);
+        let (conditions, off) = match self.reason {
+            Reason::Off { form, off } => (form.conditions, off),
+            Reason::JointCount(_) | Reason::TooShort { .. } => (&[][..], [0.0; MOST_CONDITIONS]),
+        };
+        let off = conditions.iter().zip(off).filter(|(_, off)| *off > 0.0);
         off.map(|((relation, axes), off)| Condition { relation: *relation, axes: *axes, off })
     }
 }
@@ -87,32 +94,24 @@ impl fmt::Display for Condition {
 
 impl fmt::Display for NotRecognised {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Some(form) = self.form else {
-            return write!(f, "{} joints, the known forms have 6 or 7", self.joints);
-        };
-        if let Some((field, value)) = self.too_short {
-            return write!(f, "for {}, {field} is {value} m, it must be at least {LEAST_LINK:e} m", form.name);
-        }
-        for (i, condition) in self.conditions().enumerate() {
-            if i == 0 {
-                write!(f, "for {}, {condition}", form.name)?;
-            } else {
-                write!(f, "; {condition}")?;
+        match self.reason {
+            Reason::JointCount(joints) => write!(f, "{joints} joints, the known forms have 6 or 7"),
+            Reason::TooShort { form, field, value } => {
+                write!(f, "for {}, {field} is {value} m, it must be at least {LEAST_LINK:e} m", form.name)
+            }
+            Reason::Off { form, .. } => {
+                write!(f, "for {}", form.name)?;
+                self.conditions().enumerate().try_for_each(|(i, condition)| write!(f, "{} {condition}", if i == 0 { "," } else { ";" }))
             }
         }
-        Ok(())
     }
 }
 
 impl Form {
     /// Checks that each of the lengths (name and meaning, value [m]) is one.
-    pub(crate) fn check_lengths<const N: usize>(
-        &'static self,
-        lengths: [(&'static str, f64); N],
-        joints: usize,
-    ) -> Result<(), NotRecognised> {
+    pub(crate) fn check_lengths<const N: usize>(&'static self, lengths: [(&'static str, f64); N]) -> Result<(), NotRecognised> {
         match lengths.into_iter().find(|(_, value)| *value < LEAST_LINK) {
-            Some(short) => Err(NotRecognised { form: Some(self), too_short: Some(short), ..NotRecognised::joint_count(joints) }),
+            Some((field, value)) => Err(NotRecognised { reason: Reason::TooShort { form: self, field, value } }),
             None => Ok(()),
         }
     }
@@ -121,8 +120,8 @@ impl Form {
     /// axes `i` and `i + 1`.
     pub(crate) fn square_up<const N: usize>(&'static self, mdh: &Mdh<N>) -> Result<Mdh<N>, NotRecognised> {
         let mut squared = mdh.clone();
-        let mut failed = NotRecognised { form: Some(self), ..NotRecognised::joint_count(N) };
-        for ((relation, axes), failed) in self.conditions.iter().zip(&mut failed.off) {
+        let mut failed = [0.0; MOST_CONDITIONS];
+        for ((relation, axes), failed) in self.conditions.iter().zip(&mut failed) {
             let row = &mut squared.rows[axes.0];
             let alpha = row.alpha;
             let (value, exact) = match relation {
@@ -139,7 +138,8 @@ impl Form {
                 *value = exact;
             }
         }
-        if failed.conditions().next().is_none() { Ok(squared) } else { Err(failed) }
+        let met = failed.iter().all(|off| *off <= FORM_TOLERANCE);
+        if met { Ok(squared) } else { Err(NotRecognised { reason: Reason::Off { form: self, off: failed } }) }
     }
 }
 

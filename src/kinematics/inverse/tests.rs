@@ -8,7 +8,7 @@ use crate::kinematics::pose::{pose_from_euler_zyx, translation_z};
 use crate::kinematics::robot::Definition;
 use crate::kinematics::spherical_wrist::OpwParameters;
 use crate::kinematics::thresholds::{PLAIN_REACH, PLAIN_SHOULDER, PLAIN_WRIST_SIN, REACH_TOLERANCE, SHOULDER_MERGE};
-use crate::kinematics::{JointLimits, PoseError};
+use crate::kinematics::{JacobianFrame, JointLimits, PoseError};
 use crate::lanes::on_each_set;
 
 /// Poses of each set.
@@ -108,21 +108,30 @@ impl Arm {
     }
 
     /// The slots by the lanes; `None` where the pose is not plain or has no solution.
-    fn by_lanes(&self, pose: &Pose) -> Option<PlainAnswer> {
-        let plain = run(Single { solver: self.robot.solver().unwrap(), pose })?;
-        Some(core::array::from_fn(|slot| plain.slot(slot).map(|(q, status)| (q, Status::from_bits_retain(status)))))
+    fn by_lanes(&self, pose: &Pose) -> Option<PlainAnswer<6>> {
+        by_lanes(&self.robot, pose, 0.0)
     }
 
     fn carefully(&self, pose: Pose) -> Solutions<6> {
-        let mut solutions = self.robot.unsolved(pose);
-        let free = FreeChoice::rest(self.robot.limits().rest());
-        self.robot.solve_carefully(self.robot.solver().unwrap(), &mut solutions, &free);
-        solutions
+        carefully(&self.robot, pose, 0.0)
     }
 }
 
+/// The slots by the lanes; `None` where the pose is not plain or has no solution.
+fn by_lanes<const N: usize>(robot: &Robot<N>, pose: &Pose, given: f64) -> Option<PlainAnswer<N>> {
+    let mut solutions = robot.unsolved(*pose);
+    let plain = robot.solve_in_lanes(&mut solutions, given);
+    plain.then(|| solutions.slots.map(|slot| slot.map(|solution| (solution.q, solution.status))))
+}
+
+fn carefully<const N: usize>(robot: &Robot<N>, pose: Pose, given: f64) -> Solutions<N> {
+    let mut solutions = robot.unsolved(pose);
+    robot.solve_carefully(&mut solutions, &FreeChoice::rest(robot.resting(given))).unwrap();
+    solutions
+}
+
 /// Joint angles and status of each slot that has a solution.
-type PlainAnswer = [Option<([f64; 6], Status)>; SLOTS];
+type PlainAnswer<const N: usize> = [Option<([f64; N], Status)>; SLOTS];
 
 #[derive(Default)]
 struct Tally {
@@ -230,6 +239,66 @@ fn in_the_lanes_no_arm_is_plain_that_is_minute_in_its_surroundings() {
         for _ in 0..POSES {
             let pose = arm.anywhere(&mut random);
             assert!(arm.by_lanes(&checked_pose(&pose).unwrap()).is_none());
+        }
+    });
+}
+
+/// Joint vectors all around, some of them next to where a family's branches meet: each joint by chance at a quarter turn and `off` from it.
+fn joints<const N: usize>(random: &mut Random, off: f64) -> [f64; N] {
+    core::array::from_fn(|_| {
+        let angle = random.between(-PI, PI);
+        if random.between(0.0, 1.0) < 0.2 { FRAC_PI_2 * (angle / FRAC_PI_2).round() + off } else { angle }
+    })
+}
+
+/// How many poses were plain, after both ways were held against one another for each.
+fn agreeing<const N: usize>(robot: &Robot<N>, reach: f64, random: &mut Random) -> usize {
+    let mut plain_poses = 0;
+    for off in [0.0, 1e-8, 9e-7, 1.1e-6, 1e-5, 3e-3, 1e-2, 1.1e-2] {
+        for _ in 0..POSES {
+            let q: [f64; N] = joints(random, off);
+            let (pose, given) = (robot.fk(&q), q.get(6).copied().unwrap_or(0.0));
+            let Some(plain) = by_lanes(robot, &pose, given) else { continue };
+            let careful = carefully(robot, pose, given);
+            plain_poses += 1;
+            assert_eq!(plain.map(|slot| slot.map_or(Status::empty(), |(_, status)| status)), careful.status(), "{q:?}");
+            for (slot, solution) in plain.into_iter().zip(&careful.slots) {
+                let Some(((q, _), careful)) = slot.zip(solution.as_ref()) else { continue };
+                let PoseError { position, rotation } = robot.residual(&q, &pose);
+                assert!(position <= 3e-15 * reach && rotation <= 1e-14, "{position:e} m, {rotation:e} rad at {q:?}");
+                // As above; of seven joints, the one that is told counts as fixed.
+                let jacobian = robot.jacobian(&q, JacobianFrame::Base).fixed_columns::<6>(0).into_owned();
+                let bound = 2.0 * (3e-15 * reach).hypot(1e-14) / jacobian.singular_values()[5];
+                let apart = q.iter().zip(&careful.q).map(|(a, b)| (a - b - TAU * ((a - b) / TAU).round()).abs()).fold(0.0, f64::max);
+                assert!(apart <= bound, "{apart:e} rad apart, bound {bound:e}: {q:?} and {:?}", careful.q);
+            }
+        }
+    }
+    plain_poses
+}
+
+#[test]
+fn plain_and_careful_agree_in_every_family() {
+    let tool = pose_from_euler_zyx([0.03, -0.02, 0.2], [0.3, -0.7, 1.1]).unwrap();
+    let base = pose_from_euler_zyx([0.8, -0.5, 0.3], [-1.9, 0.4, 0.2]).unwrap();
+    let limits = [[-7.0, 1.0], [-1.0, 4.5], [-4.7, -0.2], [-9.0, 9.0], [-PI, 0.3], [-0.3, PI]];
+    on_each_set(|_| {
+        let mut random = Random(7);
+        for name in ["UR3", "UR10e"] {
+            let robot = Robot::<6>::named(name).unwrap();
+            let turned = robot.clone().with_base(&base).unwrap().with_tool(&tool).unwrap();
+            for robot in [robot.clone(), turned, robot.with_limits(JointLimits::new(limits).unwrap())] {
+                let plain = agreeing(&robot, 3.0, &mut random);
+                assert!(plain > 2 * POSES, "{name}: {plain} of {} poses are plain", 8 * POSES);
+            }
+        }
+        for name in ["Panda", "FR3"] {
+            let robot = Robot::<7>::named(name).unwrap();
+            let turned = robot.clone().with_base(&base).unwrap().with_tool(&tool).unwrap();
+            for robot in [robot, turned] {
+                let plain = agreeing(&robot, 3.0, &mut random);
+                assert!(plain > 2 * POSES, "{name}: {plain} of {} poses are plain", 8 * POSES);
+            }
         }
     });
 }

@@ -70,7 +70,7 @@ fn measure(mdh: &Mdh<7>) -> Result<SphericalShoulder, NotRecognised> {
     let links = Links::new([rows[3].a * f3.x.dot(&front), c3, a4, c5]);
     let lengths =
         [("upper arm (distance of axis 4 from the shoulder)", links.upper), ("forearm (distance of axis 6 from axis 4)", links.forearm)];
-    FORM.check_lengths(lengths, 7)?;
+    FORM.check_lengths(lengths)?;
     let hand_at_zero = axes(&axis_6.cross(&forearm), &axis_6, &forearm);
     let t_hand_six = rotation_pose(hand_at_zero.transpose() * axes(&f6.x, &f6.y, &f6.z)) * translation_z(rows[5].d);
     let mut t_base_shoulder = rotation_pose(axes(&forward, &side, &up));

@@ -72,10 +72,10 @@ fn measure(mdh: &Mdh<6>) -> Result<SphericalWrist, NotRecognised> {
     let approach = f6.z * sign_6;
     let theta_5 = angle(&approach, &forearm, &axis_5.cross(&forearm));
 
-    FORM.check_lengths(
-        [("upper arm (distance of axes 2 and 3)", c2), ("forearm (distance of the wrist centre from axis 3)", a2.hypot(c3))],
-        6,
-    )?;
+    FORM.check_lengths([
+        ("upper arm (distance of axes 2 and 3)", c2),
+        ("forearm (distance of the wrist centre from axis 3)", a2.hypot(c3)),
+    ])?;
     let wrist_at_zero = axes(&axis_5.cross(&approach), &axis_5, &approach);
     let t_wrist_last = rotation_pose(wrist_at_zero.transpose() * axes(&f6.x, &f6.y, &f6.z)) * translation_z(rows[5].d);
     Ok(SphericalWrist {

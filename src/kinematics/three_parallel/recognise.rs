@@ -54,14 +54,11 @@ fn measure(mdh: &Mdh<6>) -> Result<ThreeParallel, NotRecognised> {
     let theta_5 = angle(&approach, &side, &axis_5.cross(&side));
 
     let (b, c2, c3) = (lateral.abs(), rows[2].a.abs(), rows[3].a.abs());
-    FORM.check_lengths(
-        [
-            ("upper arm (distance of axes 2 and 3)", c2),
-            ("forearm (distance of axes 3 and 4)", c3),
-            ("lateral offset (of the wrist from the plane through axis 1 that is square to axis 2)", b),
-        ],
-        6,
-    )?;
+    FORM.check_lengths([
+        ("upper arm (distance of axes 2 and 3)", c2),
+        ("forearm (distance of axes 3 and 4)", c3),
+        ("lateral offset (of the wrist from the plane through axis 1 that is square to axis 2)", b),
+    ])?;
     let wrist_at_zero = axes(&approach.cross(&axis_5), &approach, &axis_5);
     let t_wrist_last = rotation_pose(wrist_at_zero.transpose() * axes(&f6.x, &f6.y, &f6.z)) * translation_z(rows[5].d);
     let mut t_base_shoulder = rotation_pose(axes(&forward, &side, &up));
