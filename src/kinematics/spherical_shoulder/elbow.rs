@@ -61,27 +61,45 @@ impl Links {
     /// The elbow turned as far as its rounding leaves it open, so that the wrist just reaches (eq. 15): next to a straight arm a rounding of
     /// the pose is a large part of joint 4, and a pose at the edge of the wrist's reach says by that edge which joint 4 it has.
     pub(super) fn eased(&self, elbow: &Elbow, target: &Target<'_>) -> Option<Elbow> {
-        let high = target.seen[1].abs();
-        let side = sign_of(self.sin_elbow([elbow.sin_4, elbow.cos_4]));
-        let mut eased = *elbow;
-        for _ in 0..3 {
-            let [across, along] = self.speeds(&eased);
-            let turn = if high < target.rho {
-                (high - eased.across.abs()) / (across * sign_of(eased.across))
+        let (high, rho) = (target.seen[1].abs(), target.rho);
+        let to_edge = |elbow: &Elbow| {
+            let [across, along] = self.speeds(elbow);
+            if high < rho {
+                (high - elbow.across.abs()) / (across * sign_of(elbow.across))
             } else {
-                (target.rho - eased.along.abs()) / (along * sign_of(eased.along))
-            };
+                (rho - elbow.along.abs()) / (along * sign_of(elbow.along))
+            }
+        };
+        self.turned(elbow, to_edge, target)
+    }
+
+    /// The straight elbow bent as far as its rounding leaves it open, so that joint 5 keeps the angle of a seed: a shoulder that is on axis
+    /// 5 to rounding says no more of it.
+    pub(super) fn bent_for_seed(&self, elbow: &Elbow, target: &Target<'_>) -> Option<Elbow> {
+        let open = self.speeds(elbow)[0].abs() * elbow.error;
+        if !elbow.straight || target.free.trust.radius() == 0.0 || elbow.across.abs() > open {
+            return None;
+        }
+        let across = -target.seen[1] / target.free_theta[4].sin();
+        self.turned(elbow, |elbow| (across - elbow.across) / self.speeds(elbow)[0], target)
+    }
+
+    /// The elbow after three steps of joint 4, where that leaves it the same to rounding.
+    fn turned(&self, elbow: &Elbow, step: impl Fn(&Elbow) -> f64, target: &Target<'_>) -> Option<Elbow> {
+        let mut turned = *elbow;
+        for _ in 0..3 {
+            let turn = step(&turned);
             // Not finite where joint 4 does not move the shoulder that way.
-            if !(turn.abs() <= MOST_EASING) {
+            if turn.is_nan() || turn.abs() > MOST_EASING {
                 return None;
             }
-            let [sin_4, cos_4] = [eased.sin_4 + eased.cos_4 * turn, eased.cos_4 - eased.sin_4 * turn];
+            let [sin_4, cos_4] = [turned.sin_4 + turned.cos_4 * turn, turned.cos_4 - turned.sin_4 * turn];
             let norm = sin_4.hypot(cos_4);
-            eased = Elbow { straight: elbow.straight, error: elbow.error, ..self.elbow([sin_4 / norm, cos_4 / norm]) };
+            turned = Elbow { straight: elbow.straight, error: elbow.error, ..self.elbow([sin_4 / norm, cos_4 / norm]) };
         }
-        let off = (eased.across.hypot(eased.along) - target.r).abs();
-        let same_branch = elbow.straight || sign_of(self.sin_elbow([eased.sin_4, eased.cos_4])) == side;
-        (same_branch && off <= target.tolerance).then_some(eased)
+        let side = |elbow: &Elbow| sign_of(self.sin_elbow([elbow.sin_4, elbow.cos_4]));
+        let off = (turned.across.hypot(turned.along) - target.r).abs();
+        ((elbow.straight || side(&turned) == side(elbow)) && off <= target.tolerance).then_some(turned)
     }
 }
 

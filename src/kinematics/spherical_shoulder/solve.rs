@@ -80,11 +80,12 @@ impl SphericalShoulder {
 
     /// Both branches of the wrist, with the elbow that they were found for.
     fn wrists(&self, elbow: &Elbow, target: &Target<'_>) -> Result<(Elbow, Wrists), f64> {
-        let missed = match self.links.wrists(elbow, target) {
-            Ok(wrists) => return Ok((*elbow, wrists)),
+        let elbow = self.links.bent_for_seed(elbow, target).unwrap_or(*elbow);
+        let missed = match self.links.wrists(&elbow, target) {
+            Ok(wrists) => return Ok((elbow, wrists)),
             Err(missed) => missed,
         };
-        let eased = self.links.eased(elbow, target).ok_or(missed)?;
+        let eased = self.links.eased(&elbow, target).ok_or(missed)?;
         let wrists = self.links.wrists(&eased, target).map_err(|_| missed)?;
         Ok((eased, wrists))
     }

@@ -3,6 +3,7 @@
 
 mod complete;
 mod random;
+mod reach;
 mod recognised;
 mod singular;
 
