@@ -30,7 +30,7 @@ pub(super) struct Elbows {
 }
 
 impl Links {
-    /// Both elbows for a shoulder at distance r, or up to the tolerance beyond reach (eq. 3 to 7).
+    /// Both elbows for a shoulder at distance r, or up to the tolerance beyond reach (eq. 54 to 57).
     pub(super) fn elbows(&self, target: &Target<'_>) -> Result<Elbows, Reach> {
         let (r, r2) = (target.r, target.r * target.r);
         let (longest, shortest) = (self.upper + self.forearm, (self.upper - self.forearm).abs());
@@ -58,7 +58,7 @@ impl Links {
         Ok(Elbows { forwards: bent(m), backwards: Some(bent(-m)) })
     }
 
-    /// The elbow turned as far as its rounding leaves it open, so that the wrist just reaches (eq. 15): next to a straight arm a rounding of
+    /// The elbow turned as far as its rounding leaves it open, so that the wrist just reaches (eq. 67): next to a straight arm a rounding of
     /// the pose is a large part of joint 4, and a pose at the edge of the wrist's reach says by that edge which joint 4 it has.
     pub(super) fn eased(&self, elbow: &Elbow, target: &Target<'_>) -> Option<Elbow> {
         let (high, rho) = (target.seen[1].abs(), target.rho);
@@ -97,9 +97,9 @@ impl Links {
             let norm = sin_4.hypot(cos_4);
             turned = Elbow { straight: elbow.straight, error: elbow.error, ..self.elbow([sin_4 / norm, cos_4 / norm]) };
         }
-        let side = |elbow: &Elbow| sign_of(self.sin_elbow([elbow.sin_4, elbow.cos_4]));
+        let bent = |elbow: &Elbow| self.sin_elbow([elbow.sin_4, elbow.cos_4]) < 0.0;
         let off = (turned.across.hypot(turned.along) - target.r).abs();
-        ((elbow.straight || side(&turned) == side(elbow)) && off <= target.tolerance).then_some(turned)
+        ((elbow.straight || bent(&turned) == bent(elbow)) && off <= target.tolerance).then_some(turned)
     }
 }
 

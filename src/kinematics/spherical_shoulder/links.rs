@@ -56,7 +56,7 @@ impl Links {
         self.upper * self.forearm
     }
 
-    /// The square of m (eq. 5) below which a straight arm reaches the shoulder too, to half the rounding of a position.
+    /// The square of m (eq. 55) below which a straight arm reaches the shoulder too, to half the rounding of a position.
     pub(super) fn straight_m2(&self, r: f64) -> f64 {
         self.position_rounding() * r * self.product()
     }
@@ -66,7 +66,7 @@ impl Links {
         theta_4 - self.psi[0].atan2(self.psi[1])
     }
 
-    /// Sine and cosine of joint 4 for those of the elbow angle (eq. 7).
+    /// Sine and cosine of joint 4 for those of the elbow angle (eq. 57).
     pub(super) fn joint_4(&self, [sin_e, cos_e]: [f64; 2]) -> [f64; 2] {
         let [sin_psi, cos_psi] = self.psi;
         [sin_e * cos_psi + cos_e * sin_psi, cos_e * cos_psi - sin_e * sin_psi]
@@ -77,7 +77,7 @@ impl Links {
         sin_4 * self.psi[1] - cos_4 * self.psi[0]
     }
 
-    /// Where the shoulder stands, seen from the forearm (eq. 8), for sine and cosine of joint 4.
+    /// Where the shoulder stands, seen from the forearm (eq. 58), for sine and cosine of joint 4.
     pub(super) fn elbow(&self, [sin_4, cos_4]: [f64; 2]) -> Elbow {
         Elbow {
             sin_4,

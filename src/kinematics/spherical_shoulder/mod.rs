@@ -53,7 +53,7 @@ impl SphericalShoulder {
         self.placement.theta(q)
     }
 
-    /// The determinant of the geometric Jacobian of joints 1 to 6 (eq. 17).
+    /// The determinant of the geometric Jacobian of joints 1 to 6 (eq. 66).
     #[must_use]
     pub fn jacobian_determinant(&self, q: &[f64; 7]) -> f64 {
         let [_, theta_2, _, theta_4, theta_5, ..] = self.theta(q);

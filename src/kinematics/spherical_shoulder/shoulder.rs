@@ -8,7 +8,7 @@ use super::wrist::Wrist;
 use crate::kinematics::thresholds::PLAIN_WRIST_SIN;
 use crate::kinematics::zyz::{First, Zyz, zyz};
 
-/// The angles of the shoulder (eq. 13 and 14). `error` is how far rounding may turn the upper arm.
+/// The angles of the shoulder (eq. 63 and 64). `error` is how far rounding may turn the upper arm.
 pub(super) fn shoulder(elbow: &Elbow, wrist: &Wrist, target: &Target<'_>, error: f64) -> Zyz {
     let upper_arm = target.rotation * upper_arm_to_hand(elbow, wrist).transpose();
     let first = First { joint: 1, theta: target.free_theta[0], trust: target.free.trust };

@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 
 #[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
+use nalgebra::{ComplexField as _, RealField as _};
 
 use super::SphericalShoulder;
 use super::elbow::Elbow;
@@ -17,7 +17,7 @@ use crate::kinematics::solutions::FreeJoint;
 use crate::kinematics::status::{Reach, Status};
 use crate::kinematics::thresholds::REACH_TOLERANCE;
 
-/// The bits of a slot (eq. 16).
+/// The bits of a slot (eq. 65).
 const SHOULDER: usize = 4;
 const ELBOW: usize = 2;
 const WRIST: usize = 1;

@@ -40,7 +40,7 @@ impl SevenSolver {
         }
     }
 
-    /// The hand of a tool pose, seen from the shoulder, with joint 7 at `q7` (eq. 1).
+    /// The hand of a tool pose, seen from the shoulder, with joint 7 at `q7` (eq. 52).
     pub(crate) fn hand_pose(&self, pose: &Pose, q7: f64) -> Pose {
         let unturned = Rotation3::from_axis_angle(&Vector3::z_axis(), -self.theta_7(q7));
         self.surroundings.wrist_pose(pose) * unturned * self.t_seven_hand

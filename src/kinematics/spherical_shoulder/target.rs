@@ -11,7 +11,7 @@ use crate::kinematics::pose::Pose;
 pub(super) struct Target<'a> {
     /// The hand in the shoulder's frame.
     pub(super) rotation: &'a Matrix3<f64>,
-    /// The shoulder in the hand's frame (eq. 2) [m].
+    /// The shoulder in the hand's frame (eq. 53) [m].
     pub(super) seen: [f64; 3],
     /// Distance of the shoulder from axis 6 [m].
     pub(super) rho: f64,

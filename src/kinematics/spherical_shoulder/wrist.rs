@@ -30,7 +30,7 @@ pub(super) struct Wrists {
 }
 
 impl Links {
-    /// Both branches of the wrist (eq. 9 to 12), or how far the shoulder is from where this elbow can bring it [m].
+    /// Both branches of the wrist (eq. 60 to 62), or how far the shoulder is from where this elbow can bring it [m].
     pub(super) fn wrists(&self, elbow: &Elbow, target: &Target<'_>) -> Result<Wrists, f64> {
         let (across, along, rho, high) = (elbow.across.abs(), elbow.along.abs(), target.rho, target.seen[1].abs());
         // Both are the same number; each is accurate where the distance that it is made from is the larger one.
@@ -69,13 +69,13 @@ impl Links {
     }
 }
 
-/// Joint 5 from how far aside of the plane of axes 5 and 6 the shoulder stands (eq. 10).
+/// Joint 5 from how far aside of the plane of axes 5 and 6 the shoulder stands (eq. 61).
 fn fifth(elbow: &Elbow, target: &Target<'_>, aside: f64) -> Turn {
     let side = sign_of(elbow.across);
     Turn::towards(-target.seen[1] * side, aside * side)
 }
 
-/// Joint 6 from the same (eq. 11).
+/// Joint 6 from the same (eq. 62).
 fn sixth(elbow: &Elbow, target: &Target<'_>, aside: f64) -> Turn {
     let [x, _, z] = target.seen;
     Turn::towards(aside * z - elbow.along * x, aside * x + elbow.along * z)

@@ -164,19 +164,6 @@ impl Found {
     }
 }
 
-/// The wrist and the elbow where they are about as far from singular as still merges: rounding decides.
-fn edge_of_merging(arm: &Arm, q: &[f64; 7]) -> Status {
-    let theta = arm.geometry().theta(q);
-    let links = arm.geometry().links;
-    let (across, aside) = (links.elbow_at(theta[3]).across.abs(), arm.geometry().singular_distances(q).wrist);
-    let rho = aside.hypot(links.elbow_at(theta[3]).along);
-    let ratio = aside * aside / (2.0 * links.position_rounding() * across.min(rho));
-    let mut edge = Status::empty();
-    edge.set(Status::WRIST, (0.1..10.0).contains(&ratio));
-    edge.set(Status::ELBOW, (1e-8..1e-6).contains(&arm.geometry().singular_distances(q).elbow));
-    edge
-}
-
 /// Whether a solution whose free joint is given another angle is one of the pose, to twice the distance from the singularity.
 fn family_closes(arm: &Arm, pose: &Pose, found: &[f64; 7], slot: usize, joint: usize) -> bool {
     let mut q = *found;
