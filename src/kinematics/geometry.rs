@@ -1,5 +1,8 @@
 //! The closed forms that an arm may have, and one way through them.
 
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
 use super::angles::resized;
 use super::branches::Branches;
 use super::chain::Chain;

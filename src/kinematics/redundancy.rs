@@ -93,10 +93,7 @@ impl Search<'_> {
         let window = if first.rank.outside > 0.0 || first.rank.shortfall > 0.0 { f64::INFINITY } else { first.rank.cost };
         let window = (window / self.weights[6]).sqrt();
         let (low, high) = (low.max(self.seed[6] - window), high.min(self.seed[6] + window));
-        if !(high - low > SPACING) {
-            return Ok(first);
-        }
-        self.best_of_grid(first, low, high)
+        if high - low <= SPACING { Ok(first) } else { self.best_of_grid(first, low, high) }
     }
 
     /// The best of the minima that a grid of angles of joint 7 shows, and of `best`.
@@ -124,7 +121,7 @@ impl Search<'_> {
     fn descend(&self, mut best: Candidate, mut step: f64, low: f64, high: f64) -> Result<Candidate, Error> {
         while step > LEAST_STEP {
             let (left, right) = (self.at((best.q7 - step).max(low))?, self.at((best.q7 + step).min(high))?);
-            let valley = self.bottom(&left, &best, &right, step).map(|q7| self.at(q7.clamp(low, high))).transpose()?;
+            let valley = bottom(&left, &best, &right, step).map(|q7| self.at(q7.clamp(low, high))).transpose()?;
             let before = best.q7;
             for candidate in [Some(left), Some(right), valley].into_iter().flatten() {
                 if candidate.is_better_than(&best) {
@@ -136,13 +133,6 @@ impl Search<'_> {
             step = if moved >= step { step } else { (0.25 * step).min((4.0 * moved).max(0.01 * step)) };
         }
         Ok(best)
-    }
-
-    /// Where the parabola through the costs of three angles has its bottom.
-    fn bottom(&self, left: &Candidate, here: &Candidate, right: &Candidate, step: f64) -> Option<f64> {
-        let inside = |candidate: &Candidate| candidate.rank.outside == 0.0 && candidate.rank.shortfall == 0.0;
-        let (slope, bend) = (right.rank.cost - left.rank.cost, left.rank.cost + right.rank.cost - 2.0 * here.rank.cost);
-        (inside(left) && inside(here) && inside(right) && bend > 0.0).then(|| here.q7 - 0.5 * step * slope / bend)
     }
 
     /// The best solution with joint 7 at an angle.
@@ -177,4 +167,11 @@ impl Search<'_> {
         let low = if low.is_finite() { low } else { self.seed[6].min(high) - PI };
         (low, if high.is_finite() { high } else { self.seed[6].max(low) + PI })
     }
+}
+
+/// Where the parabola through the costs of three angles has its bottom.
+fn bottom(left: &Candidate, here: &Candidate, right: &Candidate, step: f64) -> Option<f64> {
+    let inside = |candidate: &Candidate| candidate.rank.outside == 0.0 && candidate.rank.shortfall == 0.0;
+    let (slope, bend) = (right.rank.cost - left.rank.cost, left.rank.cost + right.rank.cost - 2.0 * here.rank.cost);
+    (inside(left) && inside(here) && inside(right) && bend > 0.0).then(|| here.q7 - 0.5 * step * slope / bend)
 }

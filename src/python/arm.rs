@@ -49,13 +49,12 @@ impl Arm {
         }
     }
 
-    /// The robot for a solve; a seven-axis arm says that it has no closed form.
-    pub(super) fn solvable(&self, py: Python<'_>) -> PyResult<&Arc<Robot<6>>> {
+    /// The robot that follows paths.
+    pub(super) fn follower(&self, py: Python<'_>) -> PyResult<&Arc<Robot<6>>> {
         match self {
             Self::Six(robot) => Ok(robot),
             Self::Seven(robot) => {
-                let fault = robot.no_closed_form().map_or(ModelFault::JointCount { found: 7, wanted: 6 }, ModelFault::NoClosedForm);
-                Err(to_py(py, &fault.into()))
+                Err(to_py(py, &robot.no_closed_form().map_or(ModelFault::FollowOfSeven, ModelFault::NoClosedForm).into()))
             }
         }
     }

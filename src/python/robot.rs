@@ -411,7 +411,7 @@ impl PyRobot {
     ) -> PyResult<Bound<'py, PyAny>> {
         let options =
             FollowOptions { weights: read_weights(weights)?, crossing: read_crossing(singular)?, zone: zone.unwrap_or(WRIST_ZONE) };
-        paths::follow(self.arm.solvable(T.py())?, T, seed, &options)
+        paths::follow(self.arm.follower(T.py())?, T, seed, &options)
     }
 
     /// Whether a pose can be reached, inside the limits or not, and why not.

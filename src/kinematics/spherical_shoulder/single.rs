@@ -29,7 +29,7 @@ impl Kernel for Single<'_> {
         let Self { solver, pose, q7 } = self;
         let columns = *solver.columns.as_ref()?;
         let far = pose.translation.vector.iter().any(|coordinate| coordinate.abs() > MOST_LENGTH);
-        if far || !(q7.abs() <= MOST_ANGLE) {
+        if far || q7.is_nan() || q7.abs() > MOST_ANGLE {
             return None;
         }
         let seven = solver.surroundings.seen.of::<FUSED>(&Frame::of(pose));
