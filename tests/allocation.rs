@@ -45,6 +45,7 @@ fn the_counter_counts() {
 fn solve_allocates_nothing() {
     let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
     let panda: Robot<7> = Robot::named("Panda").unwrap();
+    let ur3: Robot<6> = Robot::named("UR3").unwrap();
     let q = [0.3, -0.2, 0.4, 0.5, -0.6, 0.7];
     let pose = robot.fk(&q);
     let count = allocations_of(|| {
@@ -70,6 +71,14 @@ fn solve_allocates_nothing() {
         std::hint::black_box(robot.link_frames(&q));
         std::hint::black_box(panda.fk(&[0.1; 7]));
         std::hint::black_box(panda.singularity(&[0.1; 7]));
+        let (bent, told) = ([0.1, -0.7, 0.2, -2.2, 0.1, 1.7, 0.6], 0.6);
+        assert!(std::hint::black_box(panda.ik(&panda.fk(&bent), told).unwrap()).len() > 1);
+        assert!(std::hint::black_box(panda.ik(&panda.fk(&[0.0; 7]), 0.0).unwrap()).len() > 1);
+        std::hint::black_box(panda.ik_nearest(&panda.fk(&bent), &[0.0, -0.6, 0.1, -2.0, 0.0, 1.5, 0.5], &[1.0; 7]).unwrap());
+        for q in [q, [0.0; 6]] {
+            assert!(!std::hint::black_box(ur3.ik(&ur3.fk(&q)).unwrap()).is_empty());
+            std::hint::black_box(ur3.ik_nearest(&ur3.fk(&q), &q, &[1.0; 6]).unwrap());
+        }
     });
     assert_eq!(count, 0);
 }

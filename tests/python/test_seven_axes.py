@@ -1,0 +1,231 @@
+"""The Panda and the FR3: every solution for a told joint 7, the nearest one along the redundancy, other packages' answers."""
+
+import irbkin
+import numpy as np
+import pytest
+from arms import CATALOGUE
+from irbkin import Kind, Status
+from reference import fk, move, reach, turn
+
+NAMES = ("Panda", "FR3")
+# The hand as Franka mounts it.
+HAND = turn("z", -np.pi / 4) @ move(0, 0, 0.1034)
+
+
+@pytest.fixture(params=NAMES, scope="module")
+def robot(request):
+    return irbkin.Robot(request.param)
+
+
+def inside(robot, count, seed=3):
+    low, high = robot.limits.T
+    return np.random.default_rng(seed).uniform(low, high, (count, 7))
+
+
+def wrapped(angles):
+    return np.abs((np.asarray(angles) + np.pi) % (2 * np.pi) - np.pi)
+
+
+def test_the_family_is_recognised_by_name_and_by_table(robot):
+    again = irbkin.Robot.from_mdh(CATALOGUE[robot.name].rows)
+    assert robot.family == again.family == "spherical shoulder"
+    q = inside(robot, 1)[0]
+    np.testing.assert_allclose(again.ik(robot.fk(q), q7=q[6]).q, robot.ik(robot.fk(q), q7=q[6]).q, rtol=0, atol=1e-12)
+
+
+def test_every_solution_closes_and_the_generating_one_is_among_them(robot):
+    most = 0
+    for q in inside(robot, 1000):
+        solutions = robot.ik(robot.fk(q), q7=q[6])
+        assert max(solution.residual for solution in solutions) <= 1e-14
+        assert np.abs(solutions.q - q).max(axis=1).min() <= 1e-9
+        assert (solutions.q[:, 6] == q[6]).all()
+        assert len(np.unique(solutions.q.round(6), axis=0)) == len(solutions)
+        most = max(most, len(solutions))
+    assert most == 8
+
+
+def test_the_slot_is_the_sign_of_q2_the_elbow_and_the_cosine_of_q5():
+    panda = irbkin.Robot("Panda")
+    # The stretched arm: axis 4 stands 82.5 mm off the lines of 316 mm and 384 mm.
+    stretched = -np.arctan2(0.0825, 0.316) - np.arctan2(0.0825, 0.384)
+    seen = set()
+    for q in inside(panda, 300):
+        for solution in panda.ik(panda.fk(q), q7=q[6]):
+            _, q2, _, q4, q5, _, _ = solution.q
+            backwards = np.sin(q4 - stretched) > 0
+            assert solution.slot == 4 * (q2 < 0) + 2 * backwards + (np.cos(q5) < 0)
+            seen.add(solution.slot)
+    assert seen == set(range(8))
+    ready = [0, -np.pi / 4, 0, -3 * np.pi / 4, 0, np.pi / 2, np.pi / 4]
+    assert [s.slot for s in panda.ik(panda.fk(ready), q7=ready[6]) if np.allclose(s.q, ready)] == [4]
+
+
+def test_the_hand_is_a_tool(robot):
+    q = inside(robot, 1)[0]
+    with_hand = robot.with_tool(HAND)
+    rows = CATALOGUE[robot.name].rows
+    np.testing.assert_allclose(with_hand.fk(q), fk(rows, q) @ HAND, rtol=0, atol=4e-15 * reach(rows))
+    np.testing.assert_allclose(
+        with_hand.ik(with_hand.fk(q), q7=q[6]).q, robot.ik(robot.fk(q), q7=q[6]).q, rtol=0, atol=1e-9
+    )
+
+
+def test_a_batch_has_the_single_answers(robot):
+    q = inside(robot, 300)
+    poses, q7 = robot.fk(q), q[:, 6]
+    batch = robot.ik_batch(poses, q7)
+    assert batch.q.shape == (300, 8, 7)
+    for i in range(300):
+        solutions = robot.ik(poses[i], q7=q7[i])
+        np.testing.assert_array_equal(batch.q[i], solutions.slots)
+        np.testing.assert_array_equal(batch.status[i], solutions.status)
+    np.testing.assert_array_equal(robot.ik_batch(poses[:5], 0.3).q, robot.ik_batch(poses[:5], np.full(5, 0.3)).q)
+    out = irbkin.IkBatch(np.empty((300, 8, 7)), np.empty((300, 8), np.uint8))
+    assert robot.ik_batch(poses, q7, out=out, threads=2).q is out.q
+    np.testing.assert_array_equal(out.q, batch.q)
+
+
+def test_a_broken_row_of_a_batch_is_told_and_the_others_are_not_touched(robot):
+    q = inside(robot, 20)
+    poses, q7 = robot.fk(q), q[:, 6].copy()
+    good = robot.ik_batch(poses, q7)
+    q7[3] = np.nan
+    q7[4] = np.inf
+    poses[7, 0, 0] = np.nan
+    found = robot.ik_batch(poses, q7)
+    for row in range(20):
+        if row in (3, 4, 7):
+            assert (found.status[row] == Status.INVALID).all()
+            assert np.isnan(found.q[row]).all()
+        else:
+            np.testing.assert_array_equal(found.q[row], good.q[row])
+
+
+def test_joint_7_is_needed_by_seven_joints_and_refused_by_six(robot):
+    pose = robot.fk(np.zeros(7))
+    for call in (lambda: robot.ik(pose), lambda: robot.ik_batch(pose[None])):
+        with pytest.raises(TypeError, match="needs q7, the angle of joint 7"):
+            call()
+    with pytest.raises(TypeError, match="this one has six"):
+        irbkin.Robot("UR3").ik(pose, q7=0.1)
+    with pytest.raises(irbkin.InvalidJointsError, match="q7: joint 7 is NaN"):
+        robot.ik(pose, q7=np.nan)
+    with pytest.raises(irbkin.InvalidJointsError, match=r"q7 must be a number or have shape \[2\], got \[3\]"):
+        robot.ik_batch(np.stack([pose, pose]), np.zeros(3))
+    with pytest.raises(irbkin.InvalidModelError, match="give ik_nearest the joints before"):
+        robot.follow(np.stack([pose, pose]), np.zeros(7))
+
+
+def test_joint_7_stays_where_it_was_told_and_counts_for_the_limits(robot):
+    q = inside(robot, 1)[0]
+    beyond = robot.limits[6, 1] + 0.5
+    solutions = robot.ik(robot.fk([*q[:6], beyond]), q7=beyond)
+    assert (solutions.q[:, 6] == beyond).all()
+    assert not any(solution.within_limits for solution in solutions)
+
+
+@pytest.mark.parametrize("q2", [0.0, 1e-12, 1e-9, 1e-7, 1e-6, 1e-4])
+def test_next_to_q2_zero_nothing_is_lost(q2):
+    panda = irbkin.Robot("Panda")
+    rng = np.random.default_rng(11)
+    for _ in range(50):
+        q = inside(panda, 1, rng.integers(1 << 30))[0]
+        q[1] = q2 * rng.choice([-1, 1])
+        solutions = panda.ik(panda.fk(q), q7=q[6])
+        assert max(solution.residual for solution in solutions) <= 1e-14
+        if q2 < 1.5e-9:
+            found = [s for s in solutions if s.free and np.abs(s.q[3:] - q[3:]).max() < 1e-6]
+            assert found
+            assert all((s.free.joint, s.free.fixed) == (1, "q1 + q3") and s.kinds & Kind.SHOULDER for s in found)
+            assert min(wrapped(s.with_free(q[0]).q - q).max() for s in found) < 1e-6
+        else:
+            # Rounding of the pose, over the least singular value with joint 7 standing still.
+            off = 4e-15 * (1 + 1.2) / np.linalg.svd(panda.jacobian(q)[:, :6], compute_uv=False)[-1]
+            assert np.abs(solutions.q - q).max(axis=1).min() <= 1e-9 + off
+
+
+def brute_force(robot, pose, seed, count=2001):
+    """The least distance from the seed inside the limits, on a grid of angles of joint 7."""
+    q7 = np.linspace(*robot.limits[6], count)
+    found = robot.ik_batch(np.broadcast_to(pose, (count, 4, 4)), q7)
+    good = (found.status & Status.WITHIN_LIMITS) != 0
+    return np.linalg.norm(found.q - seed, axis=2)[good].min(initial=np.inf)
+
+
+def test_ik_nearest_chooses_joint_7_too(robot):
+    q, seeds = inside(robot, 40), inside(robot, 40, seed=4)
+    for pose, seed in zip(robot.fk(q), seeds, strict=True):
+        nearest = robot.ik_nearest(pose, seed)
+        assert np.abs(robot.fk(nearest) - pose).max() <= 1e-14
+        assert (nearest >= robot.limits[:, 0] - 1e-9).all()
+        assert (nearest <= robot.limits[:, 1] + 1e-9).all()
+        assert np.linalg.norm(nearest - seed) <= brute_force(robot, pose, seed) + 1e-12
+
+
+def test_ik_nearest_of_where_the_arm_stands_is_where_it_stands(robot):
+    q = inside(robot, 50)
+    np.testing.assert_allclose(robot.ik_nearest(robot.fk(q), q), q, rtol=0, atol=1e-7)
+
+
+def test_ik_nearest_is_continuous_along_a_path(robot):
+    start = np.array([0.1, -0.7, 0.2, -2.2, 0.1, 1.7, 0.6])
+    pose = robot.fk(start)
+    path = np.repeat(pose[None], 400, axis=0)
+    angle = np.linspace(0, 2 * np.pi, 400)
+    path[:, 1, 3] += 0.15 * np.sin(angle)
+    path[:, 2, 3] += 0.1 * (np.cos(angle) - 1)
+    q, joints = start, []
+    for target in path:
+        q = robot.ik_nearest(target, q)
+        joints.append(q)
+    joints = np.array(joints)
+    assert np.abs(robot.fk(joints) - path).max() <= 1e-14
+    # A step of the path of 2.4 mm; the arm is nowhere near singular.
+    assert np.abs(np.diff(joints, axis=0)).max() < 0.02
+    np.testing.assert_allclose(np.diff(joints, n=2, axis=0), 0, atol=5e-4)
+
+
+def test_weights_move_the_choice(robot):
+    q, seed = inside(robot, 2)
+    pose = robot.fk(q)
+    free, held = robot.ik_nearest(pose, seed), robot.ik_nearest(pose, seed, weights=[1, 1, 1, 1, 1, 1, 1e6])
+    assert abs(held[6] - seed[6]) <= abs(free[6] - seed[6])
+    with pytest.raises(irbkin.InvalidJointsError, match="weights must have shape"):
+        robot.ik_nearest(pose, seed, weights=np.ones(6))
+
+
+def test_what_cannot_be_reached_is_told(robot):
+    far = irbkin.pose([2, 0, 0.5])
+    with pytest.raises(irbkin.UnreachableError, match="beyond reach"):
+        robot.ik_nearest(far, np.zeros(7))
+    assert robot.ik(far, q7=0.1).shortfall > 0.5
+    check = robot.check_pose(far)
+    assert not check.reachable
+    q = inside(robot, 1)[0]
+    assert robot.check_pose(robot.fk(q))[:2] == (True, True)
+    assert np.isnan(robot.ik_nearest(far[None], np.zeros(7))).all()
+
+
+def test_the_printed_jacobian_of_the_panda():
+    """The columns z x (p_end - p) with the frames of the modified table."""
+    panda = irbkin.Robot("Panda")
+    q = inside(panda, 1)[0]
+    frames = panda.link_frames(q)
+    columns = [np.r_[np.cross(f[:3, 2], frames[-1, :3, 3] - f[:3, 3]), f[:3, 2]] for f in frames[:-1]]
+    np.testing.assert_allclose(panda.jacobian(q), np.array(columns).T, rtol=0, atol=1e-14)
+
+
+def test_frankik_finds_no_solution_more():
+    """It lists solutions inside its limits, and not all of them."""
+    frankik = pytest.importorskip("frankik")
+    panda = irbkin.Robot("Panda")
+    found = 0
+    for q in inside(panda, 300):
+        pose = panda.fk(q)
+        ours = panda.ik(pose, q7=q[6]).q
+        for theirs in np.atleast_2d(np.array(frankik.ik_full(pose, q7=q[6]))):
+            if theirs.size and np.isfinite(theirs).all() and np.abs(panda.fk(theirs) - pose).max() < 1e-9:
+                assert wrapped(ours - theirs).max(axis=1).min() < 1e-5
+                found += 1
+    assert found > 300
