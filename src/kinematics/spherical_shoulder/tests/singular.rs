@@ -229,6 +229,14 @@ fn every_branch_is_found_at_and_next_to_singularities() {
                 }
                 tell(&arm, &format!("{one:?} {two:?}"), &pair, &mut amiss);
             }
+            if matches!(one, At::Shoulder | At::Wrist) {
+                continue;
+            }
+            let mut three = Found::default();
+            for (off, other) in OFF.iter().flat_map(|off| OFF.map(|other| (*off, other))) {
+                three.join(&set(&arm, &[(one, off), (At::Wrist, other), (At::Shoulder, off)], count / 4, &mut rng));
+            }
+            tell(&arm, &format!("{one:?} Wrist Shoulder"), &three, &mut amiss);
         }
     }
     assert_eq!(amiss, 0);
@@ -237,7 +245,7 @@ fn every_branch_is_found_at_and_next_to_singularities() {
 fn tell(arm: &Arm, set: &str, found: &Found, amiss: &mut u32) {
     let Found { count, differing, lost, twice, flags, wrong, position, rotation, .. } = found;
     std::println!(
-        "{:12} {set:20} {count:7} poses, differing {differing} lost {lost} twice {twice} flags {flags} wrong {wrong}  {position:.1e} m {rotation:.1e} rad",
+        "{:12} {set:24} {count:7} poses, differing {differing} lost {lost} twice {twice} flags {flags} wrong {wrong}  {position:.1e} m {rotation:.1e} rad",
         arm.name
     );
     *amiss += found.amiss();
