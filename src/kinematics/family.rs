@@ -41,9 +41,15 @@ impl<const N: usize> Robot<N> {
         let mut q = solution.q;
         q[joint - 1] = value;
         let solutions = self.solve(*pose, &FreeChoice::forced(q, joint, slot >= SLOTS / 2))?;
-        // Joint by joint the same branch; the free joint may flip what turns with it, and straighten the elbow.
-        let flip = if matches!(free, FreeJoint::ShoulderSum | FreeJoint::ShoulderDifference) { 4 } else { 1 };
-        let moved = [slot, slot ^ flip, slot ^ 2, slot ^ 2 ^ flip].into_iter().find_map(|slot| solutions.slot(slot));
+        // The same branch, or the one that it becomes: the free joint may flip what turns with it, straighten the elbow or bring another
+        // singularity.
+        let others: &[usize] = match free {
+            FreeJoint::ShoulderSum | FreeJoint::ShoulderDifference => &[0, 4],
+            FreeJoint::Forearm | FreeJoint::Hand => &[0, 1, 4, 5],
+            FreeJoint::Parallel => &[0, 1, 2, 3],
+            FreeJoint::Base | FreeJoint::Upper | FreeJoint::WristSum | FreeJoint::WristDifference => &[0, 1],
+        };
+        let moved = others.iter().find_map(|other| solutions.slot(slot ^ other));
         Ok(moved.map(|moved| {
             let mut moved = *moved;
             moved.q[joint - 1] = value;

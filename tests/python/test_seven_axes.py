@@ -1,4 +1,4 @@
-"""The Panda and the FR3: every solution for a told joint 7, the nearest one along the redundancy, other packages' answers."""
+"""The Panda and the FR3: every solution for a told joint 7, the nearest one along the redundancy, frankik's answers."""
 
 import irbkin
 import numpy as np

@@ -104,7 +104,7 @@ impl SevenBlock {
         }
     }
 
-    /// theta of every slot (eq. 14). Where an arm does not reach, none is a number.
+    /// theta of every slot (eq. 64). Where an arm does not reach, none is a number.
     #[inline(always)]
     fn thetas(&mut self) {
         let (angle, q) = (&self.angle, &mut self.slots.q);

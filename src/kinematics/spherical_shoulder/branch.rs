@@ -24,7 +24,7 @@ pub(super) struct Constants {
     squares: f64,
     sin_psi: f64,
     cos_psi: f64,
-    /// Least size of m^2 (eq. 5) [m^4] and of the square of `aside` (eq. 9) [m^2] of a plain branch.
+    /// Least size of m^2 (eq. 55) [m^4] and of the square of `aside` (eq. 60) [m^2] of a plain branch.
     plain_m2: f64,
     plain_aside2: f64,
 }
@@ -60,7 +60,7 @@ pub(super) type Direction = [f64; 2];
 /// One branch of elbow and wrist: the directions of its angles, not a number where it does not reach.
 pub(super) struct Branch {
     pub(super) theta_1: Direction,
-    /// With theta_2 in 0 ..= pi; the flipped shoulder follows by eq. 14.
+    /// With theta_2 in 0 ..= pi; the flipped shoulder follows by eq. 64.
     pub(super) theta_2: Direction,
     pub(super) theta_3: Direction,
     pub(super) theta_4: Direction,
@@ -75,11 +75,11 @@ pub(super) struct Branch {
 #[inline(always)]
 pub(super) fn branch<const FUSED: bool>(arm: &Constants, t_shoulder_hand: &Frame, elbow: f64, wrist: f64) -> Branch {
     let Frame { rotation: r, origin: w } = t_shoulder_hand;
-    // The shoulder seen from the hand (eq. 2).
+    // The shoulder seen from the hand (eq. 53).
     let (x, y, z) = (-along::<FUSED>(r, w, 0), -along::<FUSED>(r, w, 1), -along::<FUSED>(r, w, 2));
     let rho2 = mul_add::<FUSED>(x, x, z * z);
     let (rho, high, r2) = (rho2.sqrt(), y.abs(), mul_add::<FUSED>(y, y, rho2));
-    // The elbow (eq. 3 to 8).
+    // The elbow (eq. 54 to 58).
     let m2 = 0.25 * ((arm.longest2 - r2) * (r2 - arm.shortest2));
     let (m, cosine) = (elbow * m2.sqrt(), 0.5 * (r2 - arm.squares));
     let scale = 1.0 / mul_add::<FUSED>(m, m, cosine * cosine).sqrt();
@@ -88,14 +88,14 @@ pub(super) fn branch<const FUSED: bool>(arm: &Constants, t_shoulder_hand: &Frame
     let cos_4 = mul_add::<FUSED>(cos_e, arm.cos_psi, -(sin_e * arm.sin_psi));
     let across = mul_add::<FUSED>(arm.c3, sin_4, -mul_add::<FUSED>(arm.a3, cos_4, arm.a4));
     let forward = -mul_add::<FUSED>(arm.a3, sin_4, mul_add::<FUSED>(arm.c3, cos_4, arm.c5));
-    // The wrist (eq. 9 to 12).
+    // The wrist (eq. 60 to 62).
     let (wide, long) = (across.abs(), forward.abs());
     let aside2 = if high < rho { (wide - high) * (wide + high) } else { (rho - long) * (rho + long) };
     let side = if across < 0.0 { -1.0 } else { 1.0 };
     let aside = wrist * side * aside2.sqrt();
     let (sin_5, cos_5) = unit::<FUSED>(-y * side, aside * side);
     let (sin_6, cos_6) = unit::<FUSED>(mul_add::<FUSED>(aside, z, -(forward * x)), mul_add::<FUSED>(aside, x, forward * z));
-    // The shoulder (eq. 13 and 14): the rotation of the hand times the transpose of Ry(theta_4) Rz(theta_5) Ry(theta_6).
+    // The shoulder (eq. 63): the rotation of the hand times the transpose of Ry(theta_4) Rz(theta_5) Ry(theta_6).
     let (c56, s56) = (cos_5 * cos_6, cos_5 * sin_6);
     let first = [mul_add::<FUSED>(cos_4, c56, -(sin_4 * sin_6)), -(cos_4 * sin_5), mul_add::<FUSED>(cos_4, s56, sin_4 * cos_6)];
     let second = [sin_5 * cos_6, cos_5, sin_5 * sin_6];

@@ -62,7 +62,7 @@ impl SevenSolver {
     }
 }
 
-/// The hand (eq. 1) of a frame of joint 7 that was seen from the shoulder.
+/// The hand (eq. 52) of a frame of joint 7 that was seen from the shoulder.
 #[inline(always)]
 pub(super) fn hand_frame<const FUSED: bool>(seven: &Frame, (sign, offset): (f64, f64), q7: f64, hand: &Frame) -> Frame {
     let (sin_7, cos_7) = sin_cos::<FUSED>(sign * q7 - offset);
