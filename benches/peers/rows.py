@@ -34,9 +34,10 @@ ROWS = (
     Row("FK of a batch, IRB 2600", "fk_batch", IRB2600),
     Row("Jacobian of a batch, IRB 2600", "jacobian_batch", IRB2600),
     Row("IK of one pose, every solution, UR3", "ik", UR3),
+    Row("IK of a batch, every solution, UR3", "ik_batch", UR3),
     Row("IK of one pose with q7 given, Panda", "ik", PANDA),
+    Row("IK of a batch with q7 given, Panda", "ik_batch", PANDA),
 )
-ANSWERS: dict[Task, tuple[int, ...]] = {"ik_batch": (8, 6), "fk_batch": (4, 4), "jacobian_batch": (6, 6)}
 # How far from the joints a seed is drawn, in each joint [rad].
 SEED_OFF = 0.05
 
@@ -88,10 +89,12 @@ def excuse(name: str, error: Exception) -> str:
     return f"{name}: {words} ({type(error).__name__}: {str(error).splitlines()[0] if str(error) else 'no message'})"
 
 
-def yardstick(task: Task) -> Contender:
+def yardstick(row: Row) -> Contender:
     """The product of two 4x4 arrays, or filling the array of a batch's answers."""
-    if task in BATCHES:
-        shape = ANSWERS[task]
+    task, dof = row.task, row.arm.dof
+    shapes: dict[Task, tuple[int, ...]] = {"ik_batch": (8, dof), "fk_batch": (4, 4), "jacobian_batch": (6, dof)}
+    if task in shapes:
+        shape = shapes[task]
         return Contender(
             task,
             "out.fill(0.0)",
@@ -140,7 +143,7 @@ def check(row: Row, contender: Contender, poses: Floats, joints: Floats, seeds: 
 
 def run(row: Row, effort: Effort, missing: dict[str, str]) -> Result:
     """Check and time a row."""
-    stick = yardstick(row.task)
+    stick = yardstick(row)
     result = Result(row, stick.name)
     built, result.absent = gather(row.arm, missing)
     rng = np.random.default_rng(2)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -16,14 +17,15 @@ def irbkin(arm: Arm) -> list[Contender]:
 
     robot = irbkin.Robot(arm.name)
 
-    # Untyped: whether this irbkin takes q7 shows in the call.
-    solve: Any = robot.ik
+    def ik_given_q7(pose: Floats, q7: float) -> Floats:
+        return robot.ik(pose, q7=q7).q
 
-    def ik_given_q7(pose: Floats, q7: float) -> Any:
-        return solve(pose, q7=q7).q
+    def batch(poses: Floats, q7: Floats | None, out: irbkin.IkBatch, threads: int) -> irbkin.IkBatch:
+        return robot.ik_batch(poses, q7, out=out, threads=threads)
 
-    def for_batch(poses: Floats, joints: Floats) -> tuple[Floats, irbkin.IkBatch]:
-        return poses, irbkin.IkBatch(np.empty((len(poses), 8, arm.dof)), np.empty((len(poses), 8), np.uint8))
+    def for_batch(poses: Floats, joints: Floats) -> tuple[Floats, Floats | None, irbkin.IkBatch]:
+        out = irbkin.IkBatch(np.empty((len(poses), 8, arm.dof)), np.empty((len(poses), 8), np.uint8))
+        return poses, np.ascontiguousarray(joints[..., 6]) if arm.dof == 7 else None, out
 
     def with_room(*shape: int) -> Any:
         return lambda poses, joints: (joints, np.empty((len(joints), *shape)))
@@ -42,7 +44,7 @@ def irbkin(arm: Arm) -> list[Contender]:
             Contender(
                 "ik_batch",
                 f"irbkin, {threads} thread{plural}",
-                lambda poses, out, threads=threads: robot.ik_batch(poses, out=out, threads=threads),
+                partial(batch, threads=threads),
                 for_batch,
                 read=lambda answer: answer.q,
             )
