@@ -30,11 +30,13 @@ class Status(Flags):
     WITHIN_LIMITS = 2
     """The solution is inside the joint limits."""
     WRIST = 4
-    """sin q5 = 0: axes 4 and 6 are one, only q4 + q6 or q4 - q6 is determined."""
+    """sin q5 = 0: axes 4 and 6 of a spherical wrist are one, only q4 + q6 or q4 - q6 is determined; axis 6 of a
+    three-parallel arm is parallel to axes 2 to 4. Of seven axes: the shoulder is in the plane of axes 5 and 6."""
     ELBOW = 8
     """The arm is stretched or folded: both elbow branches coincide."""
     SHOULDER = 16
-    """The wrist centre is on axis 1: q1 is not determined. With a lateral offset: front and back meet."""
+    """The wrist centre is on axis 1: q1 is not determined. With a lateral offset: front and back meet. Of seven axes:
+    axes 1 and 3 are one."""
     MERGED = 32
     """The slot is empty because its solution coincides with that of another slot at a singularity."""
     INVALID = 64
@@ -45,11 +47,11 @@ class Kind(Flags):
     """Kinds of singularity, with the values that they have in `Status`."""
 
     WRIST = 4
-    """sin q5 = 0."""
+    """sin q5 = 0; of seven axes, the shoulder in the plane of axes 5 and 6."""
     ELBOW = 8
     """The arm is stretched or folded."""
     SHOULDER = 16
-    """The wrist centre is on axis 1."""
+    """The wrist centre is on axis 1; of seven axes, axes 1 and 3 are one."""
 
 
 class Reach(enum.Enum):
@@ -77,7 +79,8 @@ class FreeJoint(NamedTuple):
     joint: int
     """Its number, from 1."""
     fixed: str
-    """What stays fixed along the family: "q4 + q6", "q4 - q6", "q2, q3" or "q1, q3"."""
+    """What stays fixed along the family: "q4 + q6", "q4 - q6", "q2, q3" or "q1, q3"; "q1, q5" of three parallel axes;
+    "q1 + q3", "q1 - q3", "q4, q6" or "q4, q5" of seven axes."""
 
 
 class Break(NamedTuple):
@@ -106,11 +109,12 @@ class Singularity(NamedTuple):
     """How far joint vectors are from the singularities; numbers for one, arrays for many."""
 
     wrist: Any
-    """Angle of joint 5 from 0 or 180 deg [rad]."""
+    """Angle of joint 5 from 0 or 180 deg [rad]; of seven axes, between the plane of axes 5 and 6 and the line to the shoulder."""
     elbow: Any
     """Angle between upper arm and forearm from stretched or folded [rad]."""
     shoulder: Any
-    """Distance of the wrist centre from axis 1 [m]; with a lateral offset, from the plane through it along axis 2."""
+    """Distance of the wrist centre from axis 1 [m]; with a lateral offset, from the plane through it along axis 2; of
+    seven axes, distance of the upper arm's end from axis 1."""
     min_singular_value: Any
     """Smallest singular value of the Jacobian at the tool, its rows in m and rad as they are."""
     manipulability: Any

@@ -7,12 +7,13 @@ use super::status::Status;
 /// How far a joint vector is from each singularity of an arm with a closed form.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SingularDistances {
-    /// Angle of joint 5 from 0 or 180 deg [rad]; of a seven-axis arm, the distance of its shoulder from the plane of axes 5 and 6 [m].
+    /// Angle of joint 5 from 0 or 180 deg [rad]; of a seven-axis arm, that between the plane of
+    /// axes 5 and 6 and the line from where they meet to the shoulder.
     pub wrist: f64,
     /// Angle between upper arm and forearm from stretched or folded [rad].
     pub elbow: f64,
     /// Distance of the wrist centre from the plane through axis 1 that holds axis 2's direction [m]; from axis 1 itself where b = 0. Of a
-    /// seven-axis arm, the angle of axes 1 and 3 from one line [rad].
+    /// seven-axis arm, that of the upper arm's end on axis 3 from axis 1.
     pub shoulder: f64,
 }
 

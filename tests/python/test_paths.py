@@ -229,6 +229,6 @@ def test_bad_input_is_named(robot, change, error, words):
         robot.follow(**given)
 
 
-def test_an_arm_without_closed_form_cannot_follow():
-    with pytest.raises(irbkin.InvalidModelError, match="7 joints"):
+def test_an_arm_of_seven_joints_cannot_follow():
+    with pytest.raises(irbkin.InvalidModelError, match="follow is for arms of six joints"):
         irbkin.Robot("Panda").follow(np.zeros((2, 4, 4)), np.zeros(6))

@@ -3,7 +3,7 @@
 import irbkin
 import numpy as np
 import pytest
-from arms import ABB, KUKA_KR6, LATERAL
+from arms import ABB, CATALOGUE, KUKA_KR6, LATERAL
 from hypothesis import given
 from irbkin import Kind
 from reference import UNIT, move, reach, turn
@@ -28,7 +28,7 @@ def test_singular_values_are_those_of_numpy(drawn):
     assert record.manipulability == pytest.approx(product, abs=6 * 64 * UNIT * largest**6)
 
 
-def test_a_seven_axis_arm_has_the_figures_and_no_names():
+def test_a_seven_axis_arm_has_the_figures_and_the_distances():
     robot = irbkin.Robot("Panda")
     for q in np.random.default_rng(1).uniform(*robot.limits.T, (50, 7)):
         jacobian, record = robot.jacobian(q), robot.singularity(q)
@@ -36,8 +36,23 @@ def test_a_seven_axis_arm_has_the_figures_and_no_names():
         assert record.min_singular_value == pytest.approx(least, abs=1e-14)
         assert record.manipulability == pytest.approx(product, abs=1e-13)
         assert record.manipulability == pytest.approx(np.sqrt(np.linalg.det(jacobian @ jacobian.T)), rel=1e-6)
-        assert np.isnan([record.wrist, record.elbow, record.shoulder]).all()
+        frames = robot.link_frames(q)
+        # Axis 3 carries the upper arm; axes 5 and 6 meet in the origin of frame 5, the shoulder is that of frame 1.
+        upper = frames[2, :3, 2]
+        assert record.shoulder == pytest.approx(0.316 * np.hypot(upper[0], upper[1]), abs=1e-15)
+        normal, line = np.cross(frames[4, :3, 2], frames[5, :3, 2]), frames[0, :3, 3] - frames[5, :3, 3]
+        assert np.sin(record.wrist) == pytest.approx(abs(normal @ line) / np.linalg.norm(line), abs=1e-14)
+        stretched = -np.arctan2(0.0825, 0.316) - np.arctan2(0.0825, 0.384)
+        assert np.sin(record.elbow) == pytest.approx(abs(np.sin(q[3] - stretched)), abs=1e-15)
         assert record.kinds == Kind(0)
+
+
+def test_an_arm_of_no_known_form_has_the_figures_and_no_names():
+    rows = CATALOGUE["Panda"].rows + 1e-3
+    record = irbkin.Robot.from_mdh(rows).singularity(np.full(7, 0.4))
+    assert record.min_singular_value > 0
+    assert np.isnan([record.wrist, record.elbow, record.shoulder]).all()
+    assert record.kinds == Kind(0)
 
 
 @pytest.mark.parametrize("name", ABB)

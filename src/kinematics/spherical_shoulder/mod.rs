@@ -53,23 +53,29 @@ impl SphericalShoulder {
         self.placement.theta(q)
     }
 
+    /// Distance of the shoulder from the plane of axes 5 and 6 (eq. 60), signed [m].
+    fn aside(&self, q: &[f64; 7]) -> f64 {
+        let [_, _, _, theta_4, theta_5, ..] = self.theta(q);
+        self.links.elbow_at(theta_4).across * theta_5.cos()
+    }
+
     /// The determinant of the geometric Jacobian of joints 1 to 6 (eq. 66).
     #[must_use]
     pub fn jacobian_determinant(&self, q: &[f64; 7]) -> f64 {
-        let [_, theta_2, _, theta_4, theta_5, ..] = self.theta(q);
-        let aside = self.links.elbow_at(theta_4).across * theta_5.cos();
+        let [_, theta_2, _, theta_4, ..] = self.theta(q);
         let signs = self.placement.signs[..6].iter().product::<f64>();
-        -signs * self.links.product() * self.links.elbow_angle(theta_4).sin() * aside * theta_2.sin()
+        -signs * self.links.product() * self.links.elbow_angle(theta_4).sin() * self.aside(q) * theta_2.sin()
     }
 
     /// How far `q` is from each singularity.
     #[must_use]
     pub fn singular_distances(&self, q: &[f64; 7]) -> SingularDistances {
         let [_, theta_2, _, theta_4, theta_5, ..] = self.theta(q);
+        let elbow = self.links.elbow_at(theta_4);
         SingularDistances {
-            wrist: (self.links.elbow_at(theta_4).across * theta_5.cos()).abs(),
+            wrist: self.aside(q).abs().atan2((elbow.across * theta_5.sin()).hypot(elbow.along)),
             elbow: distance_from_half_turns(self.links.elbow_angle(theta_4)),
-            shoulder: distance_from_half_turns(theta_2),
+            shoulder: self.links.c3 * theta_2.sin().abs(),
         }
     }
 

@@ -190,7 +190,7 @@ impl Rng {
 fn edge_of_merging(arm: &Arm, q: &[f64; 7]) -> Status {
     let theta = arm.geometry().theta(q);
     let links = arm.geometry().links;
-    let (across, aside) = (links.elbow_at(theta[3]).across.abs(), arm.geometry().singular_distances(q).wrist);
+    let (across, aside) = (links.elbow_at(theta[3]).across.abs(), arm.geometry().aside(q).abs());
     let rho = aside.hypot(links.elbow_at(theta[3]).along);
     let ratio = aside * aside / (2.0 * links.position_rounding() * across.min(rho));
     let mut edge = Status::empty();

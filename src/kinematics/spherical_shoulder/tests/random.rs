@@ -94,7 +94,7 @@ fn slots_are_stable_along_a_path() {
             let along = f64::from(step) / 1000.0;
             let q = core::array::from_fn(|i| from[i] + along * (to[i] - from[i]));
             let (branches, distances) = (arm.ik(&q), arm.geometry().singular_distances(&q));
-            if distances.wrist < 0.02 || distances.elbow < 0.02 || distances.shoulder < 0.02 {
+            if arm.geometry().aside(&q).abs() < 0.02 || distances.elbow < 0.02 || distances.shoulder < 0.02 {
                 before = None;
                 continue;
             }

@@ -183,10 +183,10 @@ fn differ(arm: &Arm, q: &[f64; 7], here: &Branches<7>, beside: &Branches<7>) -> 
         let edge = [here, beside].iter().any(|branches| {
             branches.q.iter().enumerate().any(|(other, q)| {
                 let same_elbow = (other ^ slot) & 2 == 0;
-                same_elbow && q.is_some_and(|q| arm.geometry().singular_distances(&q).wrist < 0.02)
+                same_elbow && q.is_some_and(|q| arm.geometry().aside(&q).abs() < 0.02)
             })
         });
-        let excused = edge && slot & 2 != own || distances.elbow < 0.01 && distances.wrist < 0.02;
+        let excused = edge && slot & 2 != own || distances.elbow < 0.01 && arm.geometry().aside(q).abs() < 0.02;
         here.exists(slot) != beside.exists(slot) && !excused
     })
 }
