@@ -1,0 +1,82 @@
+"""Arms that are not ABB's: three parallel axes, seven axes, and what a table or a URDF turns out to be."""
+
+from pathlib import Path
+
+import irbkin
+import numpy as np
+
+URDF = Path(__file__).parents[1] / "tests" / "data" / "ur5e.urdf"
+SLOT = (("left", "right"), ("q3 >= 0", "q3 < 0"), ("q5 >= 0", "q5 < 0"))
+
+
+def degrees(q: irbkin.Solution) -> str:
+    # Adding zero takes the sign off a zero.
+    return " ".join(f"{round(np.degrees(angle), 2) + 0.0:8.2f}" for angle in q)
+
+
+def three_parallel_axes() -> None:
+    robot = irbkin.Robot("UR3")
+    T = robot.fk(np.radians([25, -105, 85, -35, 65, 15]))
+    solutions = robot.ik(T)
+    print(f"{robot.name}: {robot.family}, {solutions.explain()}")
+    for solution in solutions:
+        words = ", ".join(word[bool(solution.slot & bit)] for word, bit in zip(SLOT, (4, 2, 1), strict=True))
+        print(f"  {solution.slot} {degrees(solution)}   {words}")
+
+    # Axis 6 parallel to axes 2, 3 and 4: joint 6 is free.
+    singular = robot.ik(robot.fk(np.radians([25, -80, 75, -45, 0, 40])))[0]
+    assert singular.free is not None
+    print(f"  with q5 = 0: J{singular.free.joint} is free, {singular.free.fixed} stay")
+    print(f"  {singular.slot} {degrees(singular)}")
+    print(f"  {singular.slot} {degrees(singular.with_free(np.radians(40)))}\n")
+
+
+def seven_axes() -> None:
+    robot = irbkin.Robot("Panda")
+    here = np.radians([5, -40, 10, -130, 5, 95, 35])
+    T = robot.fk(here)
+    solutions = robot.ik(T, q7=here[6])
+    print(f"{robot.name}: {robot.family}, q7 = 35 deg: {solutions.explain()}")
+    for solution in solutions:
+        print(f"  {solution.slot} {degrees(solution)}   {'inside' if solution.within_limits else 'outside'}")
+    T[2, 3] += 0.050
+    print("  50 mm higher, q7 chosen too:")
+    print(f"    {' '.join(f'{angle:8.2f}' for angle in np.degrees(robot.ik_nearest(T, here)))}\n")
+
+
+def recognised() -> None:
+    robot = irbkin.Robot.from_urdf(URDF, tip="tool0")
+    print(f"{URDF.name}: {robot.family}")
+    # An IRB 2600 in standard form, with frames and a zero pose of its own.
+    rows = np.array(
+        [
+            [90, 0.150, 0.445, 0],
+            [0, 0.700, 0, 60],
+            [90, 0.115, 0, 20],
+            [-90, 0, 0.795, 0],
+            [90, 0, 0, 45],
+            [0, 0, 0.085, 0],
+        ]
+    )
+    rows[:, [0, 3]] = np.radians(rows[:, [0, 3]])
+    robot = irbkin.Robot.from_sdh(rows)
+    solutions = robot.ik(robot.fk(np.radians([10, 20, 30, 40, 50, 60])))
+    print(f"a standard table with odd frames: {robot.family}, {len(solutions)} solutions")
+
+    tilted = rows.copy()
+    tilted[1, 0] += np.radians(0.2)
+    tilted[4, 1] = 0.002
+    try:
+        irbkin.Robot.from_sdh(tilted)
+    except irbkin.InvalidModelError as error:
+        print(f"the same, badly made:\n  {error}")
+
+
+def main() -> None:
+    three_parallel_axes()
+    seven_axes()
+    recognised()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,83 @@
+//! Arms that are not ABB's: three parallel axes, seven axes, and what a table or a URDF turns out to be.
+
+use irbkin::{DhRow, Error, Pose, Robot, Sdh, Solution};
+
+const URDF: &str = include_str!("../tests/data/ur5e.urdf");
+const SLOT: [[&str; 2]; 3] = [["left", "right"], ["q3 >= 0", "q3 < 0"], ["q5 >= 0", "q5 < 0"]];
+
+fn degrees<const N: usize>(solution: &Solution<N>) -> String {
+    // Adding zero takes the sign off a zero.
+    solution.q.map(|angle| format!("{:8.2}", (100.0 * angle.to_degrees()).round() / 100.0 + 0.0)).join(" ")
+}
+
+fn three_parallel_axes() -> Result<(), Error> {
+    let robot: Robot<6> = Robot::named("UR3")?;
+    let pose = robot.fk(&[25.0, -105.0, 85.0, -35.0, 65.0, 15.0].map(f64::to_radians));
+    let solutions = robot.ik(&pose)?;
+    println!("{}: {}, {}", robot.name(), robot.family(), solutions.explain());
+    for solution in &solutions {
+        let words: Vec<_> = SLOT.iter().zip([4, 2, 1]).map(|(word, bit)| word[usize::from(solution.slot & bit != 0)]).collect();
+        println!("  {} {}   {}", solution.slot, degrees(solution), words.join(", "));
+    }
+
+    // Axis 6 parallel to axes 2, 3 and 4: joint 6 is free.
+    let pose = robot.fk(&[25.0, -80.0, 75.0, -45.0, 0.0, 40.0].map(f64::to_radians));
+    let solutions = robot.ik(&pose)?;
+    let families = solutions.iter().find_map(|solution| solution.free.map(|free| (solution, free)));
+    if let Some((singular, free)) = families {
+        println!("  with q5 = 0: J{} is free, {} stay", free.joint(), free.fixed());
+        println!("  {} {}", singular.slot, degrees(singular));
+        if let Some(moved) = robot.with_free(&pose, singular, 40.0_f64.to_radians())? {
+            println!("  {} {}\n", moved.slot, degrees(&moved));
+        }
+    }
+    Ok(())
+}
+
+fn seven_axes() -> Result<(), Error> {
+    let robot: Robot<7> = Robot::named("Panda")?;
+    let here = [5.0, -40.0, 10.0, -130.0, 5.0, 95.0, 35.0].map(f64::to_radians);
+    let mut pose = robot.fk(&here);
+    let solutions = robot.ik(&pose, here[6])?;
+    println!("{}: {}, q7 = 35 deg: {}", robot.name(), robot.family(), solutions.explain());
+    for solution in &solutions {
+        println!("  {} {}   {}", solution.slot, degrees(solution), if solution.within_limits() { "inside" } else { "outside" });
+    }
+    pose.translation.z += 0.050;
+    println!("  50 mm higher, q7 chosen too:");
+    println!("    {}\n", degrees(&robot.ik_nearest(&pose, &here, &[1.0; 7])?));
+    Ok(())
+}
+
+fn recognised() -> Result<(), Error> {
+    let robot: Robot<6> = Robot::from_urdf(URDF, None, Some("tool0"))?;
+    println!("ur5e.urdf: {}", robot.family());
+    // An IRB 2600 in standard form, with frames and a zero pose of its own.
+    let rows = [
+        [90.0, 0.150, 0.445, 0.0],
+        [0.0, 0.700, 0.0, 60.0],
+        [90.0, 0.115, 0.0, 20.0],
+        [-90.0, 0.0, 0.795, 0.0],
+        [90.0, 0.0, 0.0, 45.0],
+        [0.0, 0.0, 0.085, 0.0_f64],
+    ];
+    let rows = rows.map(|[alpha, a, d, theta]| DhRow::new(alpha.to_radians(), a, d, theta.to_radians()));
+    let table = Sdh { base: Pose::identity(), rows, flange: Pose::identity() };
+    let robot = Robot::from_sdh(table.clone())?;
+    let solutions = robot.ik(&robot.fk(&[10.0, 20.0, 30.0, 40.0, 50.0, 60.0].map(f64::to_radians)))?;
+    println!("a standard table with odd frames: {}, {} solutions", robot.family(), solutions.len());
+
+    let mut tilted = table;
+    tilted.rows[1].alpha += 0.2_f64.to_radians();
+    tilted.rows[4].a = 0.002;
+    if let Err(error) = Robot::from_sdh(tilted) {
+        println!("the same, badly made:\n  {error}");
+    }
+    Ok(())
+}
+
+fn main() -> Result<(), Error> {
+    three_parallel_axes()?;
+    seven_axes()?;
+    recognised()
+}
