@@ -1,4 +1,4 @@
-//! Many poses of an IRB 2600 on one thread, on every instruction set, a pose at a time, against filling the answers with zeros.
+//! Many poses of an IRB 2600, a UR3 and a Panda on one thread, on every instruction set, a pose at a time, against filling the answers with zeros.
 //!
 //! 512 poses and their answers stay in the second-level cache; 100,000 do not.
 #![allow(missing_docs, clippy::unwrap_used)]
@@ -7,7 +7,7 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main, measurement::WallTime};
-use irbkin::{JacobianFrame, batch};
+use irbkin::{JacobianFrame, Robot, batch};
 
 mod poses;
 
@@ -39,9 +39,24 @@ fn many_poses(criterion: &mut Criterion) {
     }
 }
 
+fn other_families(criterion: &mut Criterion) {
+    let (ur3, panda) = (Robot::<6>::named("UR3").unwrap(), Robot::<7>::named("Panda").unwrap());
+    for count in [512, 100_000] {
+        let rows = usize::try_from(count).unwrap();
+        let mut status = vec![0; rows * 8];
+        let poses_ur3 = poses::poses(&ur3, &poses::joints(&ur3, count));
+        let group = criterion.benchmark_group(format!("UR3: ik, {count} poses"));
+        measure(group, count, &mut vec![0.0; rows * 48], |q| batch::ik(&ur3, &poses_ur3, q, &mut status, 1).unwrap());
+        let q = poses::joints(&panda, count);
+        let (poses_panda, q7): (_, Vec<f64>) = (poses::poses(&panda, &q), q.iter().skip(6).step_by(7).copied().collect());
+        let group = criterion.benchmark_group(format!("Panda: ik, {count} poses"));
+        measure(group, count, &mut vec![0.0; rows * 56], |q| batch::ik_with_q7(&panda, &poses_panda, &q7, q, &mut status, 1).unwrap());
+    }
+}
+
 criterion_group! {
     name = benches;
     config = Criterion::default().sample_size(50).warm_up_time(Duration::from_millis(500)).measurement_time(Duration::from_secs(2));
-    targets = many_poses
+    targets = many_poses, other_families
 }
 criterion_main!(benches);

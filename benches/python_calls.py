@@ -7,6 +7,7 @@ import subprocess
 import sys
 import timeit
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 import irbkin
@@ -50,6 +51,34 @@ def single_calls(robot: irbkin.Robot) -> list[Row]:
         Row("pose(xyz, quaternion)", lambda: irbkin.pose(xyz, quaternion), product),
         Row("to_xyz_quaternion(T)", lambda: irbkin.to_xyz_quaternion(T), product),
     ]
+
+
+def other_families() -> list[Row]:
+    """One pose of eight solutions of a UR3 and a Panda; the goals are fractions of eaik's and frankik's times."""
+    ur3, panda = irbkin.Robot("UR3"), irbkin.Robot("Panda")
+    T, q = ur3.fk([0.4, -1.9, 1.5, -0.6, 1.1, 0.3]), np.array([0.1, -0.7, 0.2, -2.2, 0.1, 1.7, 0.6])
+    T_panda, above = panda.fk(q), panda.fk(q + 0.01)
+    product = "A @ B"
+    return [
+        Row("A @ B", lambda: T @ T, product),
+        Row("UR3: ik(T).q", lambda: ur3.ik(T).q, product, "1.59 x"),
+        Row("Panda: ik(T, q7).q", lambda: panda.ik(T_panda, 0.6).q, product, "1.27 x"),
+        Row("Panda: ik_nearest(T, q)", lambda: panda.ik_nearest(above, q), product),
+    ]
+
+
+def other_batches() -> list[list[Row]]:
+    """Many poses of a UR3, whose goal is a fraction of eaik's time, and of a Panda."""
+    tables = []
+    for name, goal in (("UR3", "190 ns"), ("Panda", "")):
+        robot = irbkin.Robot(name)
+        q = np.random.default_rng(1).uniform(*robot.limits.T, size=(POSES, robot.dof))
+        T, q7 = robot.fk(q), q[:, 6].copy() if robot.dof == 7 else None
+        out = irbkin.IkBatch(np.empty((POSES, 8, robot.dof)), np.empty((POSES, 8), np.uint8))
+        solve = partial(robot.ik_batch, T, q7, out=out)
+        zeros = "joints.fill(0.0)"
+        tables.append([Row(zeros, partial(out.q.fill, 0.0), zeros), Row(f"{name}: ik_batch", solve, zeros, goal)])
+    return tables
 
 
 def batches(robot: irbkin.Robot) -> list[list[Row]]:
@@ -107,8 +136,9 @@ def main() -> None:
     columns = f"{'ratio':>9}  {'against':20}goal"
     print(f"\n{'One pose':24}{'ns a call':>12}{columns}")
     measure(single_calls(robot), CALLS, 1)
+    measure(other_families(), CALLS, 1)
     print(f"\n{f'{POSES} poses, out=':24}{'ns a pose':>12}{columns}")
-    for rows in batches(robot):
+    for rows in (*batches(robot), *other_batches()):
         measure(rows, 1, POSES)
     print(f"\nimport irbkin, NumPy loaded: {import_time() * 1e3:.1f} ms (goal 5 ms)")
     print("Goals in Rust, one thread: 150 ns a pose of 8 solutions (AVX2 up), 30 ns in a batch (AVX-512), 60 ns (AVX2)")

@@ -13,18 +13,21 @@ pub(crate) fn robot() -> Robot<6> {
     Robot::named("IRB 2600-12/1.65").unwrap()
 }
 
-/// Joint vectors spread evenly inside the limits: multiples of six irrational numbers.
-pub(crate) fn joints(robot: &Robot<6>, count: u32) -> Vec<f64> {
-    let steps = [2.0_f64, 3.0, 5.0, 7.0, 11.0, 13.0].map(f64::sqrt);
+/// A joint vector of the Panda whose pose has all eight solutions with joint 7 there.
+pub(crate) const Q_PANDA: [f64; 7] = [0.1, -0.7, 0.2, -2.2, 0.1, 1.7, 0.6];
+
+/// Joint vectors spread evenly inside the limits: multiples of irrational numbers.
+pub(crate) fn joints<const N: usize>(robot: &Robot<N>, count: u32) -> Vec<f64> {
+    let steps = [2.0_f64, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0].map(f64::sqrt);
     let limits = robot.limits().to_array();
     let vector =
-        |i| (0..6).map(move |joint| limits[joint][0] + (limits[joint][1] - limits[joint][0]) * (f64::from(i) * steps[joint]).fract());
+        |i| (0..N).map(move |joint| limits[joint][0] + (limits[joint][1] - limits[joint][0]) * (f64::from(i) * steps[joint]).fract());
     (1..=count).flat_map(vector).collect()
 }
 
 /// Their poses, 16 elements each.
-pub(crate) fn poses(robot: &Robot<6>, q: &[f64]) -> Vec<f64> {
-    let mut poses = vec![0.0; q.len() / 6 * 16];
+pub(crate) fn poses<const N: usize>(robot: &Robot<N>, q: &[f64]) -> Vec<f64> {
+    let mut poses = vec![0.0; q.len() / N * 16];
     batch::fk(robot, q, &mut poses).unwrap();
     poses
 }
