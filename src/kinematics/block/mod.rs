@@ -1,10 +1,12 @@
 //! Poses in lanes: a block of rows in, the slots of each out, whatever the form of the arm.
 
 mod columns;
+mod directions;
 mod poses;
 mod slots;
 
 pub(crate) use columns::JointColumn;
+pub(crate) use directions::{Direction, Directions};
 pub(crate) use poses::{PoseRow, Poses};
 pub(crate) use slots::{PlainSlots, SlotColumns};
 

@@ -1,11 +1,11 @@
 //! A block of poses in lanes.
 
-use super::branch::{Branch, Direction, branch};
+use super::branch::{Branch, branch};
 use super::solver::{SevenSolver, hand_frame};
-use crate::kinematics::block::{AnswerRow, Block, BlockSolver, FOUND_INSIDE, Poses, SlotColumns, StatusRow, half_turn};
+use crate::kinematics::block::{AnswerRow, Block, BlockSolver, Directions, FOUND_INSIDE, Poses, SlotColumns, StatusRow, half_turn};
 use crate::kinematics::solutions::SLOTS;
 use crate::kinematics::thresholds::MOST_ANGLE;
-use crate::lanes::{Column, Flags, LANES, atan2};
+use crate::lanes::{Column, Flags, LANES};
 
 /// Branches of elbow and wrist; the shoulder flips each.
 pub(super) const BRANCHES: usize = SLOTS / 2;
@@ -16,9 +16,7 @@ const DIRECTIONS: usize = 2 + 5 * BRANCHES;
 /// What becomes of a block of poses.
 pub(crate) struct SevenBlock {
     /// Sine and cosine of theta_4, for each elbow, and of theta_1, theta_2, theta_3, theta_5, theta_6, for each branch, of any length.
-    sin: [Column; DIRECTIONS],
-    cos: [Column; DIRECTIONS],
-    angle: [Column; DIRECTIONS],
+    directions: Directions<DIRECTIONS, LANES>,
     slots: SlotColumns<7>,
     plain: Flags,
 }
@@ -34,13 +32,7 @@ impl BlockSolver<7> for SevenSolver {
 impl Block<7> for SevenBlock {
     type Solver = SevenSolver;
 
-    const NEW: Self = Self {
-        sin: [[0.0; LANES]; DIRECTIONS],
-        cos: [[0.0; LANES]; DIRECTIONS],
-        angle: [[0.0; LANES]; DIRECTIONS],
-        slots: SlotColumns::NEW,
-        plain: [0; LANES],
-    };
+    const NEW: Self = Self { directions: Directions::NEW, slots: SlotColumns::NEW, plain: [0; LANES] };
 
     #[inline(always)]
     fn solve<const FUSED: bool>(&mut self, solver: &SevenSolver, poses: &mut Poses, given: &Column) {
@@ -59,7 +51,7 @@ impl Block<7> for SevenBlock {
             self.put(lane, 2, &branch::<FUSED>(&constants, &hand, -1.0, 1.0));
             self.put(lane, 3, &branch::<FUSED>(&constants, &hand, -1.0, -1.0));
         }
-        self.angles::<FUSED>();
+        self.directions.angles::<FUSED>();
         self.thetas();
         self.slots.settle_given(columns, given);
     }
@@ -78,36 +70,22 @@ impl SevenBlock {
     #[inline(always)]
     fn put(&mut self, lane: usize, number: usize, branch: &Branch) {
         // The wrists of an elbow share theta_4.
-        self.set(number / 2, lane, branch.theta_4);
-        self.set(2 + number, lane, branch.theta_1);
-        self.set(6 + number, lane, branch.theta_2);
-        self.set(10 + number, lane, branch.theta_3);
-        self.set(14 + number, lane, branch.theta_5);
-        self.set(18 + number, lane, branch.theta_6);
+        self.directions.set(number / 2, lane, branch.theta_4);
+        self.directions.set(2 + number, lane, branch.theta_1);
+        self.directions.set(6 + number, lane, branch.theta_2);
+        self.directions.set(10 + number, lane, branch.theta_3);
+        self.directions.set(14 + number, lane, branch.theta_5);
+        self.directions.set(18 + number, lane, branch.theta_6);
         let status = if branch.reached { FOUND_INSIDE } else { 0 };
         self.slots.status[number][lane] = status;
         self.slots.status[number + BRANCHES][lane] = status;
         self.plain[lane] &= u64::from(branch.plain);
     }
 
-    #[inline(always)]
-    fn set(&mut self, column: usize, lane: usize, [sin, cos]: Direction) {
-        (self.sin[column][lane], self.cos[column][lane]) = (sin, cos);
-    }
-
-    /// One arc tangent after the other, none of which waits for another.
-    #[inline(always)]
-    fn angles<const FUSED: bool>(&mut self) {
-        let (sin, cos) = (self.sin.as_flattened(), self.cos.as_flattened());
-        for ((angle, sin), cos) in self.angle.as_flattened_mut().iter_mut().zip(sin).zip(cos) {
-            *angle = atan2::<FUSED>(*sin, *cos);
-        }
-    }
-
     /// theta of every slot (eq. 64). Where an arm does not reach, none is a number.
     #[inline(always)]
     fn thetas(&mut self) {
-        let (angle, q) = (&self.angle, &mut self.slots.q);
+        let (angle, q) = (&self.directions.angle, &mut self.slots.q);
         for number in 0..BRANCHES {
             let flipped = number + BRANCHES;
             for lane in 0..LANES {

@@ -7,6 +7,7 @@
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::links::Links;
+use crate::kinematics::block::Direction;
 use crate::kinematics::surroundings::Frame;
 use crate::kinematics::thresholds::{PLAIN_ASIDE, PLAIN_ELBOW_SIN, PLAIN_WRIST_SIN};
 use crate::lanes::mul_add;
@@ -53,9 +54,6 @@ impl Constants {
         }
     }
 }
-
-/// A direction in a plane, of any length: its sine and its cosine.
-pub(super) type Direction = [f64; 2];
 
 /// One branch of elbow and wrist: the directions of its angles, not a number where it does not reach.
 pub(super) struct Branch {

@@ -3,11 +3,11 @@
 use super::block::BRANCHES;
 use super::branch::branch;
 use super::solver::{SevenSolver, hand_frame};
-use crate::kinematics::block::{FOUND_INSIDE, JointColumn, PlainSlots, half_turn};
+use crate::kinematics::block::{Directions, FOUND_INSIDE, JointColumn, PlainSlots, half_turn};
 use crate::kinematics::pose::Pose;
 use crate::kinematics::surroundings::Frame;
 use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH};
-use crate::lanes::{Kernel, atan2};
+use crate::lanes::Kernel;
 
 /// A pose to be solved, with the angle of joint 7.
 pub(crate) struct Single<'a> {
@@ -35,26 +35,23 @@ impl Kernel for Single<'_> {
         let seven = solver.surroundings.seen.of::<FUSED>(&Frame::of(pose));
         let hand = hand_frame::<FUSED>(&seven, solver.joint_7(), q7, &solver.hand);
         let constants = solver.constants;
-        let (mut sin, mut cos, mut angle) = ([[0.0; BRANCHES]; 6], [[0.0; BRANCHES]; 6], [[0.0; BRANCHES]; 6]);
-        let (mut status, mut plain) = ([0; BRANCHES], [0; BRANCHES]);
+        let (mut directions, mut status, mut plain) = (Directions::<6, BRANCHES>::NEW, [0; BRANCHES], [0; BRANCHES]);
         for lane in 0..BRANCHES {
             let branch = branch::<FUSED>(&constants, &hand, ELBOW[lane], WRIST[lane]);
-            [sin[0][lane], cos[0][lane]] = branch.theta_1;
-            [sin[1][lane], cos[1][lane]] = branch.theta_2;
-            [sin[2][lane], cos[2][lane]] = branch.theta_3;
-            [sin[3][lane], cos[3][lane]] = branch.theta_4;
-            [sin[4][lane], cos[4][lane]] = branch.theta_5;
-            [sin[5][lane], cos[5][lane]] = branch.theta_6;
+            directions.set(0, lane, branch.theta_1);
+            directions.set(1, lane, branch.theta_2);
+            directions.set(2, lane, branch.theta_3);
+            directions.set(3, lane, branch.theta_4);
+            directions.set(4, lane, branch.theta_5);
+            directions.set(5, lane, branch.theta_6);
             status[lane] = if branch.reached { FOUND_INSIDE } else { 0 };
             plain[lane] = u64::from(branch.plain);
         }
         if plain != [1; BRANCHES] || status == [0; BRANCHES] {
             return None;
         }
-        for ((angle, sin), cos) in angle.as_flattened_mut().iter_mut().zip(sin.as_flattened()).zip(cos.as_flattened()) {
-            *angle = atan2::<FUSED>(*sin, *cos);
-        }
-        Some(settled(&columns, &angle, status, q7))
+        directions.angles::<FUSED>();
+        Some(settled(&columns, &directions.angle, status, q7))
     }
 }
 

@@ -1,10 +1,10 @@
 //! A block of poses in lanes.
 
-use super::branch::{Branch, Constants, Direction, branch};
+use super::branch::{Branch, Constants, branch};
 use super::solver::WristSolver;
-use crate::kinematics::block::{AnswerRow, Block, BlockSolver, FOUND_INSIDE, JointColumn, Poses, StatusRow, half_turn};
+use crate::kinematics::block::{AnswerRow, Block, BlockSolver, Directions, FOUND_INSIDE, JointColumn, Poses, StatusRow, half_turn};
 use crate::kinematics::solutions::SLOTS;
-use crate::lanes::{Column, Flags, LANES, atan2};
+use crate::lanes::{Column, Flags, LANES};
 
 /// Branches of the arm: two shoulders with two elbows each.
 pub(super) const BRANCHES: usize = SLOTS / 2;
@@ -18,9 +18,7 @@ type Columns = [Column; BRANCHES];
 /// What becomes of a block of poses.
 pub(crate) struct WristBlock {
     /// Sine and cosine of theta_1, for each shoulder, and of theta_2, theta_23, theta_4, theta_5, theta_6, for each branch, of any length.
-    sin: [Column; DIRECTIONS],
-    cos: [Column; DIRECTIONS],
-    angle: [Column; DIRECTIONS],
+    directions: Directions<DIRECTIONS, LANES>,
     /// theta, later q, of the unflipped slots.
     q: [Columns; 6],
     /// theta, later q, of joints 4 to 6 with the wrist flipped.
@@ -42,9 +40,7 @@ impl Block<6> for WristBlock {
     type Solver = WristSolver;
 
     const NEW: Self = Self {
-        sin: [[0.0; LANES]; DIRECTIONS],
-        cos: [[0.0; LANES]; DIRECTIONS],
-        angle: [[0.0; LANES]; DIRECTIONS],
+        directions: Directions::NEW,
         q: [[[0.0; LANES]; BRANCHES]; 6],
         flipped: [[[0.0; LANES]; BRANCHES]; 3],
         status: [[[0; LANES]; BRANCHES]; 2],
@@ -61,7 +57,7 @@ impl Block<6> for WristBlock {
         } else {
             self.branches::<FUSED, true>(solver.constants, poses);
         }
-        self.angles::<FUSED>();
+        self.directions.angles::<FUSED>();
         self.settle(columns);
     }
 
@@ -102,33 +98,19 @@ impl WristBlock {
     #[inline(always)]
     fn put(&mut self, lane: usize, number: usize, branch: &Branch) {
         // The elbows of a shoulder share theta_1.
-        self.set(number / 2, lane, branch.theta_1);
-        self.set(2 + number, lane, branch.theta_2);
-        self.set(6 + number, lane, branch.theta_23);
-        self.set(10 + number, lane, branch.theta_4);
-        self.set(14 + number, lane, branch.theta_5);
-        self.set(18 + number, lane, branch.theta_6);
+        self.directions.set(number / 2, lane, branch.theta_1);
+        self.directions.set(2 + number, lane, branch.theta_2);
+        self.directions.set(6 + number, lane, branch.theta_23);
+        self.directions.set(10 + number, lane, branch.theta_4);
+        self.directions.set(14 + number, lane, branch.theta_5);
+        self.directions.set(18 + number, lane, branch.theta_6);
         self.status[0][number][lane] = if branch.reached { FOUND_INSIDE } else { 0 };
         self.plain[lane] &= u64::from(branch.plain);
     }
 
     #[inline(always)]
-    fn set(&mut self, column: usize, lane: usize, [sin, cos]: Direction) {
-        (self.sin[column][lane], self.cos[column][lane]) = (sin, cos);
-    }
-
-    /// One arc tangent after the other, none of which waits for another.
-    #[inline(always)]
-    fn angles<const FUSED: bool>(&mut self) {
-        let (sin, cos) = (self.sin.as_flattened(), self.cos.as_flattened());
-        for ((angle, sin), cos) in self.angle.as_flattened_mut().iter_mut().zip(sin).zip(cos) {
-            *angle = atan2::<FUSED>(*sin, *cos);
-        }
-    }
-
-    #[inline(always)]
     fn settle(&mut self, columns: &[JointColumn; 6]) {
-        let angle = &self.angle;
+        let angle = &self.directions.angle;
         for number in 0..BRANCHES {
             self.q[0][number] = angle[number / 2];
             self.q[1][number] = angle[2 + number];

@@ -6,6 +6,7 @@
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
+use crate::kinematics::block::Direction;
 use crate::kinematics::planar_arm::PlanarArm;
 use crate::kinematics::surroundings::Frame;
 use crate::kinematics::thresholds::{PLAIN_FOREARM, PLAIN_REACH, PLAIN_SHOULDER, PLAIN_WRIST_SIN, REACH_TOLERANCE, SHOULDER_MERGE};
@@ -52,9 +53,6 @@ impl Constants {
         }
     }
 }
-
-/// A direction in a plane, of any length: its sine and its cosine.
-pub(super) type Direction = [f64; 2];
 
 /// One branch of the arm: the directions of its angles, not a number where it does not reach.
 pub(super) struct Branch {

@@ -3,11 +3,11 @@
 use super::block::BRANCHES;
 use super::branch::{Constants, branch};
 use super::solver::WristSolver;
-use crate::kinematics::block::{FOUND_INSIDE, JointColumn, half_turn};
+use crate::kinematics::block::{Directions, FOUND_INSIDE, JointColumn, half_turn};
 use crate::kinematics::pose::Pose;
 use crate::kinematics::surroundings::Frame;
 use crate::kinematics::thresholds::MOST_LENGTH;
-use crate::lanes::{Kernel, atan2};
+use crate::lanes::Kernel;
 
 /// A pose to be solved.
 pub(crate) struct Single<'a> {
@@ -52,7 +52,7 @@ impl Kernel for Single<'_> {
         } else {
             Lanes::of::<FUSED, true>(&solver.constants, &frame)
         }?;
-        lanes.angles::<FUSED>();
+        lanes.directions.angles::<FUSED>();
         Some(lanes.settled(columns))
     }
 }
@@ -62,9 +62,7 @@ const ELBOW: [f64; BRANCHES] = [1.0, -1.0, 1.0, -1.0];
 
 /// The branches of a pose: theta_1, theta_2, theta_23, theta_4, theta_5, theta_6.
 struct Lanes {
-    sin: [[f64; BRANCHES]; 6],
-    cos: [[f64; BRANCHES]; 6],
-    angle: [[f64; BRANCHES]; 6],
+    directions: Directions<6, BRANCHES>,
     status: [u64; BRANCHES],
 }
 
@@ -72,17 +70,16 @@ impl Lanes {
     #[inline(always)]
     fn of<const FUSED: bool, const LATERAL: bool>(arm: &Constants, frame: &Frame) -> Option<Self> {
         let (arm, frame) = (*arm, *frame);
-        let mut lanes = Self { sin: [[0.0; BRANCHES]; 6], cos: [[0.0; BRANCHES]; 6], angle: [[0.0; BRANCHES]; 6], status: [0; BRANCHES] };
+        let mut lanes = Self { directions: Directions::NEW, status: [0; BRANCHES] };
         let mut plain = [0; BRANCHES];
         for lane in 0..BRANCHES {
             let branch = branch::<FUSED, LATERAL>(&arm, &frame, SHOULDER[lane], ELBOW[lane]);
-            let (sin, cos) = (&mut lanes.sin, &mut lanes.cos);
-            [sin[0][lane], cos[0][lane]] = branch.theta_1;
-            [sin[1][lane], cos[1][lane]] = branch.theta_2;
-            [sin[2][lane], cos[2][lane]] = branch.theta_23;
-            [sin[3][lane], cos[3][lane]] = branch.theta_4;
-            [sin[4][lane], cos[4][lane]] = branch.theta_5;
-            [sin[5][lane], cos[5][lane]] = branch.theta_6;
+            lanes.directions.set(0, lane, branch.theta_1);
+            lanes.directions.set(1, lane, branch.theta_2);
+            lanes.directions.set(2, lane, branch.theta_23);
+            lanes.directions.set(3, lane, branch.theta_4);
+            lanes.directions.set(4, lane, branch.theta_5);
+            lanes.directions.set(5, lane, branch.theta_6);
             lanes.status[lane] = if branch.reached { FOUND_INSIDE } else { 0 };
             plain[lane] = u64::from(branch.plain);
         }
@@ -90,16 +87,8 @@ impl Lanes {
     }
 
     #[inline(always)]
-    fn angles<const FUSED: bool>(&mut self) {
-        let (sin, cos) = (self.sin.as_flattened(), self.cos.as_flattened());
-        for ((angle, sin), cos) in self.angle.as_flattened_mut().iter_mut().zip(sin).zip(cos) {
-            *angle = atan2::<FUSED>(*sin, *cos);
-        }
-    }
-
-    #[inline(always)]
     fn settled(&self, columns: &[JointColumn; 6]) -> PlainSlots {
-        let (columns, angle) = (*columns, &self.angle);
+        let (columns, angle) = (*columns, &self.directions.angle);
         let mut slots = PlainSlots { arm: [[0.0; BRANCHES]; 3], wrist: [[[0.0; BRANCHES]; 3]; 2], status: [[0; BRANCHES]; 2] };
         for lane in 0..BRANCHES {
             let (theta_2, theta_4, theta_5, theta_6) = (angle[1][lane], angle[3][lane], angle[4][lane], angle[5][lane]);

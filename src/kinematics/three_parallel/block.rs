@@ -1,19 +1,19 @@
 //! A block of poses in lanes.
 
-use super::branch::{Direction, branch, facing};
+use super::branch::{branch, facing};
 use super::solver::ParallelSolver;
-use crate::kinematics::block::{AnswerRow, Block, BlockSolver, FOUND_INSIDE, Poses, SlotColumns, StatusRow, half_turn};
+use crate::kinematics::block::{
+    AnswerRow, Block, BlockSolver, Direction, Directions, FOUND_INSIDE, Poses, SlotColumns, StatusRow, half_turn,
+};
 use crate::kinematics::solutions::SLOTS;
-use crate::lanes::{Column, Flags, LANES, atan2};
+use crate::lanes::{Column, Flags, LANES};
 
 /// Directions whose angles a block needs: theta_1, theta_5, theta_6 and phi of each shoulder, theta_2 and theta_23 of each slot.
 const DIRECTIONS: usize = 4 * 2 + 2 * SLOTS;
 
 /// What becomes of a block of poses.
 pub(crate) struct ParallelBlock {
-    sin: [Column; DIRECTIONS],
-    cos: [Column; DIRECTIONS],
-    angle: [Column; DIRECTIONS],
+    directions: Directions<DIRECTIONS, LANES>,
     slots: SlotColumns<6>,
     plain: Flags,
 }
@@ -29,13 +29,7 @@ impl BlockSolver<6> for ParallelSolver {
 impl Block<6> for ParallelBlock {
     type Solver = ParallelSolver;
 
-    const NEW: Self = Self {
-        sin: [[0.0; LANES]; DIRECTIONS],
-        cos: [[0.0; LANES]; DIRECTIONS],
-        angle: [[0.0; LANES]; DIRECTIONS],
-        slots: SlotColumns::NEW,
-        plain: [0; LANES],
-    };
+    const NEW: Self = Self { directions: Directions::NEW, slots: SlotColumns::NEW, plain: [0; LANES] };
 
     #[inline(always)]
     fn solve<const FUSED: bool>(&mut self, solver: &ParallelSolver, poses: &mut Poses, _given: &Column) {
@@ -58,7 +52,7 @@ impl Block<6> for ParallelBlock {
             self.put(lane, 6, &branch::<FUSED>(&constants, &behind, wz, 1.0, -1.0));
             self.put(lane, 7, &branch::<FUSED>(&constants, &behind, wz, -1.0, -1.0));
         }
-        self.angles::<FUSED>();
+        self.directions.angles::<FUSED>();
         self.thetas();
         self.slots.settle(columns);
     }
@@ -76,38 +70,24 @@ impl Block<6> for ParallelBlock {
 impl ParallelBlock {
     #[inline(always)]
     fn put_shoulder(&mut self, lane: usize, shoulder: usize, [theta_1, theta_5, theta_6, phi]: [Direction; 4]) {
-        self.set(shoulder, lane, theta_1);
-        self.set(2 + shoulder, lane, theta_5);
-        self.set(4 + shoulder, lane, theta_6);
-        self.set(6 + shoulder, lane, phi);
+        self.directions.set(shoulder, lane, theta_1);
+        self.directions.set(2 + shoulder, lane, theta_5);
+        self.directions.set(4 + shoulder, lane, theta_6);
+        self.directions.set(6 + shoulder, lane, phi);
     }
 
     #[inline(always)]
     fn put(&mut self, lane: usize, slot: usize, branch: &super::branch::Branch) {
-        self.set(8 + slot, lane, branch.theta_2);
-        self.set(8 + SLOTS + slot, lane, branch.theta_23);
+        self.directions.set(8 + slot, lane, branch.theta_2);
+        self.directions.set(8 + SLOTS + slot, lane, branch.theta_23);
         self.slots.status[slot][lane] = if branch.reached { FOUND_INSIDE } else { 0 };
         self.plain[lane] &= u64::from(branch.plain);
-    }
-
-    #[inline(always)]
-    fn set(&mut self, column: usize, lane: usize, [sin, cos]: Direction) {
-        (self.sin[column][lane], self.cos[column][lane]) = (sin, cos);
-    }
-
-    /// One arc tangent after the other, none of which waits for another.
-    #[inline(always)]
-    fn angles<const FUSED: bool>(&mut self) {
-        let (sin, cos) = (self.sin.as_flattened(), self.cos.as_flattened());
-        for ((angle, sin), cos) in self.angle.as_flattened_mut().iter_mut().zip(sin).zip(cos) {
-            *angle = atan2::<FUSED>(*sin, *cos);
-        }
     }
 
     /// theta of every slot (eq. 40). Where an arm does not reach, none is a number.
     #[inline(always)]
     fn thetas(&mut self) {
-        let (angle, q) = (&self.angle, &mut self.slots.q);
+        let (angle, q) = (&self.directions.angle, &mut self.slots.q);
         for slot in 0..SLOTS {
             let (shoulder, flipped) = (slot / 4, slot % 2 == 1);
             for lane in 0..LANES {

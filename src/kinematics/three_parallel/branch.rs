@@ -7,6 +7,7 @@
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::ThreeParallel;
+use crate::kinematics::block::Direction;
 use crate::kinematics::surroundings::Frame;
 use crate::kinematics::thresholds::{PLAIN_FOREARM, PLAIN_REACH, PLAIN_SHOULDER, PLAIN_WRIST_SIN, REACH_TOLERANCE, SHOULDER_MERGE};
 use crate::lanes::mul_add;
@@ -44,9 +45,6 @@ impl Constants {
         }
     }
 }
-
-/// A direction in a plane, of any length: its sine and its cosine.
-pub(super) type Direction = [f64; 2];
 
 /// One shoulder with its wrist unflipped: the directions of its angles.
 #[derive(Clone, Copy)]

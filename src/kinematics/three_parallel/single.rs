@@ -2,12 +2,12 @@
 
 use super::branch::{branch, facing};
 use super::solver::ParallelSolver;
-use crate::kinematics::block::{FOUND_INSIDE, PlainSlots, half_turn};
+use crate::kinematics::block::{Directions, FOUND_INSIDE, PlainSlots, half_turn};
 use crate::kinematics::pose::Pose;
 use crate::kinematics::solutions::SLOTS;
 use crate::kinematics::surroundings::Frame;
 use crate::kinematics::thresholds::MOST_LENGTH;
-use crate::lanes::{Kernel, atan2};
+use crate::lanes::Kernel;
 
 /// A pose to be solved.
 pub(crate) struct Single<'a> {
@@ -33,26 +33,24 @@ impl Kernel for Single<'_> {
         }
         let frame = solver.surroundings.seen.of::<FUSED>(&Frame::of(pose));
         let (constants, wz) = (solver.constants, frame.origin[2]);
-        let (mut sin, mut cos, mut angle) = ([[0.0; SLOTS]; 6], [[0.0; SLOTS]; 6], [[0.0; SLOTS]; 6]);
-        let (mut slots, mut plain) = (PlainSlots::NEW, [0; SLOTS]);
+        let (mut directions, mut slots, mut plain) = (Directions::<6, SLOTS>::NEW, PlainSlots::NEW, [0; SLOTS]);
         for slot in 0..SLOTS {
             let facing = facing::<FUSED>(&constants, &frame, SHOULDER[slot]);
             let branch = branch::<FUSED>(&constants, &facing, wz, WRIST[slot], ELBOW[slot]);
-            [sin[0][slot], cos[0][slot]] = facing.theta_1;
-            [sin[1][slot], cos[1][slot]] = branch.theta_2;
-            [sin[2][slot], cos[2][slot]] = branch.theta_23;
-            [sin[3][slot], cos[3][slot]] = facing.phi;
-            [sin[4][slot], cos[4][slot]] = facing.theta_5;
-            [sin[5][slot], cos[5][slot]] = facing.theta_6;
+            directions.set(0, slot, facing.theta_1);
+            directions.set(1, slot, branch.theta_2);
+            directions.set(2, slot, branch.theta_23);
+            directions.set(3, slot, facing.phi);
+            directions.set(4, slot, facing.theta_5);
+            directions.set(5, slot, facing.theta_6);
             slots.status[slot] = if branch.reached { FOUND_INSIDE } else { 0 };
             plain[slot] = u64::from(branch.plain);
         }
         if plain != [1; SLOTS] || slots.status == [0; SLOTS] {
             return None;
         }
-        for ((angle, sin), cos) in angle.as_flattened_mut().iter_mut().zip(sin.as_flattened()).zip(cos.as_flattened()) {
-            *angle = atan2::<FUSED>(*sin, *cos);
-        }
+        directions.angles::<FUSED>();
+        let angle = &directions.angle;
         for slot in 0..SLOTS {
             let flipped = WRIST[slot] < 0.0;
             let (theta_2, theta_23, phi, theta_6) = (angle[1][slot], angle[2][slot], angle[3][slot], angle[5][slot]);
