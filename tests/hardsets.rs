@@ -229,6 +229,7 @@ fn judge(arm: &Arm, q: &[f64; 6], pose: &Pose, place: Place, allowed: f64, tally
                 // From axis 2 to the wrist centre, in the plane of the arm.
                 FreeJoint::Upper => (w4 - w2).norm(),
                 FreeJoint::WristSum | FreeJoint::WristDifference => distances.wrist,
+                other => unreachable!("{other:?} is no joint that a spherical wrist leaves free"),
             };
             let distance = 2.0 * distance + 1e-14 * (1.0 + reach);
             tally.wrong += usize::from(residual.largest() > allowed + distance);

@@ -6,7 +6,7 @@ use std::{format, println, string::String, vec::Vec};
 use super::*;
 use crate::kinematics::pose::{pose_from_euler_zyx, translation_z};
 use crate::kinematics::robot::Definition;
-use crate::kinematics::spherical_wrist::OpwParameters;
+use crate::kinematics::spherical_wrist::{OpwParameters, Single};
 use crate::kinematics::thresholds::{PLAIN_REACH, PLAIN_SHOULDER, PLAIN_WRIST_SIN, REACH_TOLERANCE, SHOULDER_MERGE};
 use crate::kinematics::{JointLimits, PoseError};
 use crate::lanes::on_each_set;
@@ -109,14 +109,14 @@ impl Arm {
 
     /// The slots by the lanes; `None` where the pose is not plain or has no solution.
     fn by_lanes(&self, pose: &Pose) -> Option<PlainAnswer> {
-        let plain = run(Single { solver: self.robot.solver().unwrap(), pose })?;
+        let plain = run(Single { solver: self.robot.wrist_solver().unwrap(), pose })?;
         Some(core::array::from_fn(|slot| plain.slot(slot).map(|(q, status)| (q, Status::from_bits_retain(status)))))
     }
 
     fn carefully(&self, pose: Pose) -> Solutions<6> {
         let mut solutions = self.robot.unsolved(pose);
         let free = FreeChoice::rest(self.robot.limits().rest());
-        self.robot.solve_carefully(self.robot.solver().unwrap(), &mut solutions, &free);
+        self.robot.solve_carefully(&mut solutions, &free).unwrap();
         solutions
     }
 }
