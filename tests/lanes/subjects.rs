@@ -19,7 +19,7 @@ pub struct Subject {
 /// What poses of an arm are made from.
 enum Form {
     Wrist(OpwParameters),
-    Parallel(ParallelArm),
+    Parallel(Box<ParallelArm>),
 }
 
 /// No maker's: every parameter plays a part.
@@ -122,7 +122,7 @@ fn parallel_subjects([tool, straight_tool]: [Pose; 2], base: Pose) -> Vec<Subjec
             limited(odd(), [[-infinite, 1.0], [-1.0, infinite], [-PI, PI], [-3.5, 3.5], [-2.0, 2.0], [-9.0, 1.0]]),
         ),
     ];
-    arms.into_iter().map(|(name, (arm, robot))| Subject { name, robot, form: Form::Parallel(arm) }).collect()
+    arms.into_iter().map(|(name, (arm, robot))| Subject { name, robot, form: Form::Parallel(Box::new(arm)) }).collect()
 }
 
 impl Subject {
