@@ -46,8 +46,8 @@ run: $(BUILT) ## Solve a real IRB 2600 pose and show every solution
 
 test: $(BUILT) $(VENV)/.groups ## Run all tests, Rust's and Python's
 	cargo test --quiet
-	$(ON_EACH_SET) cargo test --quiet --test laws --test recall --test hardsets; done
-	cargo test --quiet $(NO_STD) --lib --test laws --test allocation
+	$(ON_EACH_SET) cargo test --quiet --test laws --test laws_three_parallel --test recall --test hardsets --test hardsets_three_parallel; done
+	cargo test --quiet $(NO_STD) --lib --test laws --test laws_three_parallel --test allocation
 	$(BIN)/python -m pytest --quiet
 
 check: $(BUILT) $(VENV)/.groups ## Format, lints for each feature set, types, stubs, docs, benches that run
@@ -102,11 +102,11 @@ stages: | toolchains ## Show where the time of a pose goes, by stages, with Linu
 ulp: | toolchains ## Hold the lanes' arc tangent, sine and cosine against correctly rounded ones, at ten million points
 	IRBKIN_POINTS=10000000 cargo test --quiet --release --lib lanes::functions -- --nocapture --test-threads=1
 
-million: | toolchains ## Solve a million random poses of each of seven arms on each instruction set; count what is lost, wrong or twice
+million: | toolchains ## Solve a million random poses of each of eleven arms on each instruction set; count what is lost, wrong or twice
 	$(ON_EACH_SET) IRBKIN_POSES=1000000 cargo test --quiet --release --test recall -- --nocapture --test-threads=1; done
 
 hardsets: | toolchains ## Solve poses at and next to every singularity, pairs and triples of them, and follow paths through
-	$(ON_EACH_SET) IRBKIN_POSES=2000 cargo test --quiet --release --test hardsets --test follow -- --nocapture --test-threads=1; done
+	$(ON_EACH_SET) IRBKIN_POSES=2000 cargo test --quiet --release --test hardsets --test hardsets_three_parallel --test follow -- --nocapture --test-threads=1; done
 
 wheel: $(VENV)/.made ## Build the wheel and try it in an environment of its own
 	$(BIN)/maturin build --release --quiet --out dist

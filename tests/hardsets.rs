@@ -7,6 +7,7 @@ mod common;
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use common::tally::Tally;
 use common::{Rng, asked_set, reach_of};
 use nalgebra::Vector3;
 
@@ -166,39 +167,6 @@ fn found_bound(arm: &Arm, place: Place) -> (f64, f64) {
     (FOUND + turned, FOUND + turned / sin_5)
 }
 
-#[derive(Default)]
-struct Tally {
-    poses: usize,
-    found: usize,
-    wrong: usize,
-    twice: usize,
-    position: f64,
-    rotation: f64,
-    solutions: usize,
-    flags: usize,
-}
-
-impl Tally {
-    /// Prints the row; returns it when something is amiss.
-    fn tell(&self, arm: &Arm, set: &str) -> String {
-        #[expect(clippy::cast_precision_loss, reason = "a mean")]
-        let (found, mean) = (100.0 * self.found as f64 / self.poses as f64, self.solutions as f64 / self.poses as f64);
-        let row = format!(
-            "{:22} {:8} {set:34} {:7} poses  found {found:6.2} %  wrong {}  twice {}  worst {:.1e} m {:.1e} rad  {mean:.2} solutions",
-            arm.name,
-            asked_set().name(),
-            self.poses,
-            self.wrong,
-            self.twice,
-            self.position,
-            self.rotation
-        );
-        println!("{row}");
-        let amiss = self.found != self.poses || self.wrong + self.twice + self.flags > 0;
-        if amiss { format!("{row} (flags missing: {})\n", self.flags) } else { String::new() }
-    }
-}
-
 /// Holds the answers for one pose against the joint vector that made it.
 fn judge(arm: &Arm, q: &[f64; 6], pose: &Pose, place: Place, allowed: f64, tally: &mut Tally) {
     let reach = reach_of(&arm.robot);
@@ -299,7 +267,7 @@ fn run_beyond(arm: &Arm, rng: &mut Rng) -> String {
             tally.solutions += solutions.len();
             tally.wrong += solutions.len();
         }
-        report += &tally.tell(arm, &format!("beyond reach by {beyond:e} m"));
+        report += &tally.tell(arm.name, &format!("beyond reach by {beyond:e} m"));
     }
     report
 }
@@ -312,14 +280,14 @@ fn run(arm: &Arm) -> String {
         let q = [rng.between(-PI, PI), 0.0, 0.0, rng.between(-PI, PI), 0.0, rng.between(-PI, PI)];
         judge(arm, &q, &arm.robot.fk(&q), Place { wrist: Some(0.0), ..Place::default() }, 0.0, &mut home);
     }
-    report += &home.tell(arm, "J2 = J3 = J5 = 0");
+    report += &home.tell(arm.name, "J2 = J3 = J5 = 0");
     for (name, set) in sets() {
         let mut tally = Tally::default();
         for _ in 0..poses() {
             let q = arm.q(place(arm, set, &mut rng));
             judge(arm, &q, &arm.robot.fk(&q), set, 0.0, &mut tally);
         }
-        report += &tally.tell(arm, &name);
+        report += &tally.tell(arm.name, &name);
     }
     report
 }

@@ -202,14 +202,20 @@ fn an_invalid_row_is_told_and_leaves_the_others_alone() {
         ("scaled", |row| [row[0], row[4], row[8]] = [2.0 * row[0], 2.0 * row[4], 2.0 * row[8]]),
         ("last row", |row| row[15] = 1.0 + 1e-8),
     ];
-    let subject = &subjects()[0];
-    let rows: Vec<_> = subject.rows(24 * 2).into_iter().step_by(2).take(19).collect();
+    let subjects = subjects();
+    for subject in ["IRB 2600-12/1.65", "UR3"].map(|name| subjects.iter().find(|subject| subject.name == name).unwrap()) {
+        let rows: Vec<_> = subject.rows(24 * 2).into_iter().step_by(2).take(19).collect();
+        an_invalid_row_leaves_alone(subject, &rows, &spoils);
+    }
+}
+
+fn an_invalid_row_leaves_alone(subject: &Subject, rows: &[PoseRow], spoils: &[(&str, Spoil)]) {
     on_each_set(|set| {
-        let whole = Answers::in_a_batch(&subject.robot, &rows, 1);
+        let whole = Answers::in_a_batch(&subject.robot, rows, 1);
         assert!(whole.status.as_flattened().iter().all(|flags| *flags != Status::INVALID.bits()));
         for (name, spoil) in spoils {
             for place in 0..rows.len() {
-                let (mut spoiled, mut wanted) = (rows.clone(), whole.clone());
+                let (mut spoiled, mut wanted) = (rows.to_vec(), whole.clone());
                 spoil(&mut spoiled[place]);
                 (wanted.q[place], wanted.status[place]) = ([f64::NAN; 6 * SLOTS], [Status::INVALID.bits(); SLOTS]);
                 Answers::in_a_batch(&subject.robot, &spoiled, 1).assert_same(&wanted, &format!("{name}, {}", set.name()));
@@ -307,7 +313,7 @@ fn rounding_between(subject: &Subject, ours: &Answers, theirs: &Answers) -> f64 
 #[test]
 fn poses_of_many_turns_are_those_of_the_table() {
     on_each_set(|set| {
-        for Subject { name, robot } in &subjects() {
+        for Subject { name, robot, .. } in &subjects() {
             table_poses(robot, &format!("{name}, {}", set.name()));
         }
         table_poses(&Robot::<7>::named("Panda").unwrap(), &format!("Panda, {}", set.name()));

@@ -5,8 +5,10 @@
 
 mod common;
 
+use std::f64::consts::PI;
+
 use common::{Rng, apart, asked_set, reach_of};
-use irbkin::{Error, OpwParameters, Pose, Robot, SLOTS, Status, batch, pose_to_rows};
+use irbkin::{Error, JointLimits, OpwParameters, Pose, Robot, SLOTS, Status, batch, pose_to_rows};
 
 #[derive(Default)]
 struct Tally {
@@ -109,4 +111,13 @@ fn arms_of_other_makers_lose_nothing() -> Result<(), Error> {
     let lateral = OpwParameters { b: 0.05, ..OpwParameters::abb(0.15, -0.11, 0.45, 0.6, 0.64, 0.1) };
     check("lateral offset 50 mm", &Robot::from_opw(lateral)?);
     Ok(())
+}
+
+#[test]
+fn arms_with_three_parallel_axes_lose_nothing() {
+    for name in ["UR3", "UR5e", "UR10e", "UR20"] {
+        // Their joints turn twice: each pose would be drawn as often with full turns as without.
+        let robot = Robot::named(name).unwrap().with_limits(JointLimits::new([[-PI, PI]; 6]).unwrap());
+        check(name, &robot);
+    }
 }

@@ -1,6 +1,9 @@
 //! What several law tests need: random numbers, arms, distances.
 #![allow(dead_code, unreachable_pub, missing_docs, clippy::unwrap_used, clippy::panic)]
 
+pub mod parallel_arm;
+pub mod tally;
+
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::{Mutex, PoisonError};
 

@@ -5,6 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use irbkin::{Definition, JointLimits, OpwParameters, Pose, Robot, pose_from_euler_zyx, pose_to_rows};
 use nalgebra::Translation3;
 
+use crate::common::parallel_arm::ParallelArm;
 use crate::common::{Rng, kuka_kr6};
 
 pub type PoseRow = [f64; 16];
@@ -12,6 +13,30 @@ pub type PoseRow = [f64; 16];
 pub struct Subject {
     pub name: &'static str,
     pub robot: Robot<6>,
+    form: Form,
+}
+
+/// What poses of an arm are made from.
+enum Form {
+    Wrist(OpwParameters),
+    Parallel(Box<ParallelArm>),
+}
+
+/// No maker's: every parameter plays a part.
+fn odd_parallel() -> ParallelArm {
+    ParallelArm {
+        a1: 0.07,
+        b: [0.2, -0.13, 0.04],
+        c1: 0.3,
+        c2: 0.5,
+        c3: 0.43,
+        d5: 0.08,
+        d6: 0.11,
+        signs: [1.0, -1.0, 1.0, 1.0, -1.0, -1.0],
+        offsets: [0.3, -0.2, -FRAC_PI_2, 0.1, -0.4, 0.5],
+        base: pose_from_euler_zyx([0.1, -0.2, 0.05], [0.4, 0.1, -0.3]).unwrap(),
+        flange: pose_from_euler_zyx([0.02, 0.01, 0.03], [-0.7, 0.2, 0.5]).unwrap(),
+    }
 }
 
 /// No maker's: every parameter plays a part.
@@ -58,35 +83,87 @@ pub fn subjects() -> Vec<Subject> {
             limited(lateral(LATERAL.offsets), [[-infinite, 1.0], [-1.0, infinite], [-PI, PI], [-3.5, 3.5], [-2.0, 2.0], [-9.0, 1.0]]),
         ),
     ];
-    robots.into_iter().map(|(name, robot)| Subject { name, robot }).collect()
+    let wrists = robots.into_iter().map(|(name, robot)| {
+        let Definition::Opw(opw) = *robot.definition() else { unreachable!("{name} is built from its parameters") };
+        Subject { name, robot, form: Form::Wrist(opw) }
+    });
+    wrists.chain(parallel_subjects([tool, straight_tool], base)).collect()
+}
+
+/// The same of arms with three parallel axes.
+fn parallel_subjects([tool, straight_tool]: [Pose; 2], base: Pose) -> Vec<Subject> {
+    let limited = |(arm, robot): (_, Robot<6>), limits| (arm, robot.with_limits(JointLimits::new(limits).unwrap()));
+    let universal = ParallelArm::universal;
+    let odd = || (odd_parallel(), odd_parallel().robot());
+    let many_turns = ParallelArm { offsets: [50.0, -49.0, 31.4, -3.2, 12.5, 7.0], ..odd_parallel() };
+    let (ur3, ur3_robot) = universal("UR3");
+    let (bare, bare_robot) = odd();
+    let infinite = f64::INFINITY;
+    let arms = vec![
+        ("UR3", universal("UR3")),
+        ("UR10e", universal("UR10e")),
+        ("odd frames", odd()),
+        ("odd frames, offsets of many turns", (many_turns.clone(), many_turns.robot())),
+        ("UR3 with a straight tool", (ur3.clone(), ur3_robot.clone().with_tool(&straight_tool).unwrap())),
+        ("UR3, tool and base", (ur3, ur3_robot.with_tool(&tool).unwrap().with_base(&base).unwrap())),
+        ("odd frames, tool and base", (bare, bare_robot.with_tool(&tool).unwrap().with_base(&base).unwrap())),
+        ("UR3, no limits", limited(universal("UR3"), [[-infinite, infinite]; 6])),
+        ("UR3, narrow limits", limited(universal("UR3"), [[-0.4, 0.9]; 6])),
+        (
+            "odd frames, limits beyond half a turn",
+            limited(odd(), [[-7.0, 1.0], [-1.0, 4.5], [-4.7, -0.2], [-9.0, 9.0], [-PI, 0.3], [-0.3, PI]]),
+        ),
+        (
+            "UR3, limits more than a turn away",
+            limited(universal("UR3"), [[4.0, 7.0], [-PI, PI], [-PI, PI], [-7.0, -4.0], [-PI, PI], [9.0, 16.0]]),
+        ),
+        (
+            "odd frames, limits on one side",
+            limited(odd(), [[-infinite, 1.0], [-1.0, infinite], [-PI, PI], [-3.5, 3.5], [-2.0, 2.0], [-9.0, 1.0]]),
+        ),
+    ];
+    arms.into_iter().map(|(name, (arm, robot))| Subject { name, robot, form: Form::Parallel(Box::new(arm)) }).collect()
 }
 
 impl Subject {
-    fn opw(&self) -> OpwParameters {
-        match self.robot.definition() {
-            Definition::Opw(opw) => *opw,
-            Definition::Mdh(_) => unreachable!("{} is built from its parameters", self.name),
-        }
-    }
-
     fn q(&self, theta: [f64; 6]) -> [f64; 6] {
-        let opw = self.opw();
-        std::array::from_fn(|i| f64::from(opw.signs[i]) * (theta[i] + opw.offsets[i]))
+        match &self.form {
+            Form::Wrist(opw) => std::array::from_fn(|i| f64::from(opw.signs[i]) * (theta[i] + opw.offsets[i])),
+            Form::Parallel(arm) => arm.q(theta),
+        }
     }
 
     /// The lengths that a position of the tool is summed from [m].
     pub fn extent(&self) -> f64 {
-        let OpwParameters { a1, a2, b, c1, c2, c3, c4, .. } = self.opw();
         let ends = self.robot.base().translation.vector.norm() + self.robot.tool().translation.vector.norm();
-        a1.abs() + b.abs() + c1 + c2 + a2.hypot(c3) + c4 + ends
+        let arm = match &self.form {
+            Form::Wrist(OpwParameters { a1, a2, b, c1, c2, c3, c4, .. }) => a1.abs() + b.abs() + c1 + c2 + a2.hypot(*c3) + c4,
+            Form::Parallel(arm) => arm.reach() + arm.base.translation.vector.norm() + arm.flange.translation.vector.norm(),
+        };
+        arm + ends
     }
 
-    /// A pose that has the wrist centre `x` from axis 1 at the height of the upper arm's end, seen past base and tool.
+    /// theta_3 of the stretched arm.
+    fn straight(&self) -> f64 {
+        match &self.form {
+            Form::Wrist(opw) => -opw.a2.atan2(opw.c3),
+            Form::Parallel(_) => 0.0,
+        }
+    }
+
+    /// A pose that has the wrist `x` from axis 1 at the height of the upper arm's end, seen past base and tool.
     fn above_the_shoulder(&self, x: f64, rng: &mut Rng) -> Pose {
-        let opw = self.opw();
-        let wrist =
-            pose_from_euler_zyx([x, opw.b, opw.c1 + 0.9 * opw.c2], [rng.between(-PI, PI), rng.between(-1.5, 1.5), rng.between(-PI, PI)]);
-        self.robot.base() * wrist.unwrap() * Translation3::new(0.0, 0.0, opw.c4) * self.robot.tool()
+        let turned = [rng.between(-PI, PI), rng.between(-1.5, 1.5), rng.between(-PI, PI)];
+        let flange = match &self.form {
+            Form::Wrist(opw) => {
+                pose_from_euler_zyx([x, opw.b, opw.c1 + 0.9 * opw.c2], turned).unwrap() * Translation3::new(0.0, 0.0, opw.c4)
+            }
+            Form::Parallel(arm) => {
+                let wrist = pose_from_euler_zyx([x, arm.b(), arm.c1 + 0.9 * arm.c2], turned).unwrap();
+                arm.base * wrist * Translation3::new(0.0, arm.d6, 0.0) * arm.flange
+            }
+        };
+        self.robot.base() * flange * self.robot.tool()
     }
 
     /// Rows of all kinds, of which each stands in a block with the others.
@@ -102,7 +179,7 @@ impl Subject {
         let made = |theta| pose_to_rows(&self.robot.fk(&self.q(theta)));
         let mut row = made(theta);
         let [_, t2, _, t4, _, t6] = theta;
-        let straight = -self.opw().a2.atan2(self.opw().c3);
+        let straight = self.straight();
         match kind % 24 {
             1 => row = made([theta[0], t2, theta[2], t4, near, t6]),
             3 => row = made([theta[0], t2, straight + near, t4, theta[4], t6]),

@@ -8,7 +8,7 @@ use crate::kinematics::pose::{pose_from_euler_zyx, translation_z};
 use crate::kinematics::robot::Definition;
 use crate::kinematics::spherical_wrist::OpwParameters;
 use crate::kinematics::thresholds::{PLAIN_REACH, PLAIN_SHOULDER, PLAIN_WRIST_SIN, REACH_TOLERANCE, SHOULDER_MERGE};
-use crate::kinematics::{JacobianFrame, JointLimits, PoseError};
+use crate::kinematics::{DhRow, JacobianFrame, JointLimits, Mdh, PoseError};
 use crate::lanes::on_each_set;
 
 /// Poses of each set.
@@ -43,30 +43,64 @@ impl Random {
 struct Arm {
     name: &'static str,
     robot: Robot<6>,
-    opw: OpwParameters,
+    a1: f64,
+    b: f64,
+    c1: f64,
+    c2: f64,
     k: f64,
+    /// From the end of the planar arm to the wrist: nothing where the wrist is spherical.
+    d5: f64,
+    /// From the wrist to the flange.
+    t_wrist_flange: Pose,
+    signs: [f64; 6],
+    offsets: [f64; 6],
     extent: f64,
 }
 
 impl Arm {
     fn new(name: &'static str, robot: Robot<6>) -> Self {
-        let Definition::Opw(opw) = *robot.definition() else { unreachable!("every arm here is built from its parameters") };
-        let k = opw.a2.hypot(opw.c3);
         let ends = robot.base().translation.vector.norm() + robot.tool().translation.vector.norm();
-        let extent = opw.a1.abs() + opw.b.abs() + opw.c1 + opw.c2 + k + opw.c4 + ends;
-        Self { name, robot, opw, k, extent }
+        match *robot.definition() {
+            Definition::Opw(OpwParameters { a1, a2, b, c1, c2, c3, c4, signs, offsets }) => {
+                let k = a2.hypot(c3);
+                let extent = a1.abs() + b.abs() + c1 + c2 + k + c4 + ends;
+                let (t_wrist_flange, signs) = (translation_z(c4), signs.map(f64::from));
+                Self { name, robot, a1, b, c1, c2, k, d5: 0.0, t_wrist_flange, signs, offsets, extent }
+            }
+            // As `parallel_arm` draws it, or the maker draws his.
+            Definition::Mdh(ref mdh) => {
+                let rows = mdh.rows;
+                let ([a1, c2, k], [c1, b, d5, d6]) = ([1, 2, 3].map(|i| rows[i].a.abs()), [0, 3, 4, 5].map(|i| rows[i].d));
+                let extent = a1 + b + c1 + c2 + k + d5 + d6 + ends;
+                // Of an arm of Universal Robots joint 2 and joint 4 read zero a quarter turn from upright.
+                let quarter = if rows[2].a < 0.0 { -FRAC_PI_2 } else { 0.0 };
+                let offsets = [0.0, quarter, 0.0, quarter, 0.0, 0.0];
+                let t_wrist_flange = pose_from_euler_zyx([0.0, d6, 0.0], [0.0, 0.0, -FRAC_PI_2]).unwrap() * mdh.flange;
+                Self { name, robot, a1, b, c1, c2, k, d5, t_wrist_flange, signs: [1.0; 6], offsets, extent }
+            }
+        }
     }
 
     /// The pose of angles theta.
     fn at(&self, theta: [f64; 6]) -> Pose {
-        self.robot.fk(&core::array::from_fn(|i| f64::from(self.opw.signs[i]) * (theta[i] + self.opw.offsets[i])))
+        self.robot.fk(&core::array::from_fn(|i| self.signs[i] * (theta[i] + self.offsets[i])))
     }
 
-    /// A pose, turned at random, with its wrist centre `x` along the plane of the arm that faces it and `z` above the shoulder.
-    fn with_wrist_centre(&self, x: f64, z: f64, random: &mut Random) -> Pose {
+    /// A pose, turned at random, with the end of the planar arm `x` from axis 1 along the plane of the arm and `z` above the shoulder.
+    fn with_end_of_planar_arm(&self, x: f64, z: f64, random: &mut Random) -> Pose {
+        let phi = random.angle();
+        let wrist = [x + self.d5 * phi.sin(), self.b, self.c1 + z + self.d5 * phi.cos()];
+        // Axis 5 in the plane, along phi.
+        let turned =
+            [[0.0, phi, 0.0], [random.angle(), 0.0, 0.0], [0.0, random.angle(), 0.0]].map(|zyx| pose_from_euler_zyx([0.0; 3], zyx));
+        let rotation = turned.into_iter().fold(Pose::identity(), |product, turn| product * turn.unwrap());
+        self.with_wrist(wrist, rotation, random)
+    }
+
+    fn with_wrist(&self, wrist: [f64; 3], rotation: Pose, random: &mut Random) -> Pose {
         let heading = pose_from_euler_zyx([0.0; 3], [random.angle(), 0.0, 0.0]).unwrap();
-        let wrist = pose_from_euler_zyx([x, self.opw.b, self.opw.c1 + z], [random.angle(), random.angle(), random.angle()]).unwrap();
-        self.robot.base() * heading * wrist * translation_z(self.opw.c4) * self.robot.tool()
+        let wrist = pose_from_euler_zyx(wrist, [0.0; 3]).unwrap() * rotation;
+        self.robot.base() * heading * wrist * self.t_wrist_flange * self.robot.tool()
     }
 
     fn anywhere(&self, random: &mut Random) -> Pose {
@@ -82,15 +116,17 @@ impl Arm {
     fn next_to_the_shoulder_margin(&self, part: f64, random: &mut Random) -> Pose {
         let x = part * (PLAIN_SHOULDER * self.extent).max(10.0 * SHOULDER_MERGE);
         // Somewhere between folded and stretched, for both shoulders.
-        let [shortest, longest] = [(self.opw.c2 - self.k).abs() + 0.02, self.opw.c2 + self.k - 0.02];
-        let across = self.opw.a1.abs() + x;
+        let [shortest, longest] = [(self.c2 - self.k).abs() + self.d5 + 0.02, self.c2 + self.k - self.d5 - 0.02];
+        let across = self.a1.abs() + x;
         let (least, most) = ((shortest * shortest - across * across).max(0.0).sqrt(), (longest * longest - across * across).sqrt());
-        self.with_wrist_centre(x, random.sign() * random.between(least, most), random)
+        let wrist = [x, self.b, self.c1 + random.sign() * random.between(least, most)];
+        let rotation = pose_from_euler_zyx([0.0; 3], [random.angle(), random.angle(), random.angle()]).unwrap();
+        self.with_wrist(wrist, rotation, random)
     }
 
     /// Inside or outside the edge of reach, stretched or folded, of either shoulder.
     fn next_to_the_edge_of_reach(&self, part: f64, random: &mut Random) -> Pose {
-        let (c2, k) = (self.opw.c2, self.k);
+        let (c2, k) = (self.c2, self.k);
         let m2 = random.sign() * part * 2.0 * (PLAIN_REACH * self.extent).max(10.0 * REACH_TOLERANCE) * self.extent * c2 * k;
         let (longest2, shortest2) = ((c2 + k).powi(2), (c2 - k).powi(2));
         let middle = c2 * c2 + k * k;
@@ -100,9 +136,9 @@ impl Arm {
         let r = if random.sign() > 0.0 || folded <= 0.0 { middle + half } else { folded }.sqrt();
         loop {
             let (sin, cos) = random.angle().sin_cos();
-            let x = self.opw.a1 + r * sin;
+            let x = self.a1 + r * sin;
             if x.abs() > 20.0 * PLAIN_SHOULDER * self.extent {
-                return self.with_wrist_centre(x.abs(), r * cos, random);
+                return self.with_end_of_planar_arm(x, r * cos, random);
             }
         }
     }
@@ -154,7 +190,7 @@ impl Tally {
             assert_eq!(careful.free, None, "{what}");
             // A solution closes to 3e-15 of the arm's lengths and to 1e-14 rad, and to what an offset's digits round off theta; so two are
             // apart by twice that at most, in the pose, and in the joints by that over the least singular value.
-            let rounded_off = f64::EPSILON * arm.opw.offsets.iter().map(|offset| offset.abs()).sum::<f64>();
+            let rounded_off = f64::EPSILON * arm.offsets.iter().map(|offset| offset.abs()).sum::<f64>();
             let closed = [(3e-15 + rounded_off) * arm.extent, 1e-14 + rounded_off];
             let PoseError { position, rotation } = arm.robot.residual(&q, &pose);
             assert!(position <= closed[0] && rotation <= closed[1], "{what}: {position:e} m, {rotation:e} rad");
@@ -179,6 +215,7 @@ fn arms() -> Vec<Arm> {
     let equal = Robot::from_opw(OpwParameters::abb(0.0, 0.0, 0.19, 0.185, 0.185, 0.045)).unwrap();
     let behind = Robot::from_opw(OpwParameters { a1: -0.1, ..opw }).unwrap();
     let lateral = Robot::from_opw(lateral).unwrap();
+    let ur3 = || Robot::<6>::named("UR3").unwrap().with_limits(JointLimits::UNLIMITED);
     let robots = std::vec![
         ("IRB 2600-12/1.65", abb_2600()),
         ("IRB 120-3/0.58", Robot::named("IRB 120-3/0.58").unwrap()),
@@ -189,16 +226,36 @@ fn arms() -> Vec<Arm> {
         ("limits with turns", abb_2600().with_limits(JointLimits::new(limits).unwrap())),
         ("tool and base", abb_2600().with_base(&base).unwrap().with_tool(&tool).unwrap()),
         ("lateral, tool and base", lateral.with_base(&base).unwrap().with_tool(&tool).unwrap()),
+        ("UR3", ur3()),
+        ("UR3, tool and base", ur3().with_base(&base).unwrap().with_tool(&tool).unwrap()),
+        ("UR10e", Robot::named("UR10e").unwrap()),
+        ("parallel axes, axis 2 off axis 1", parallel_arm(0.1, [0.5, 0.43])),
+        ("parallel axes, equal links", parallel_arm(0.0, [0.4, 0.4])),
     ];
     robots.into_iter().map(|(name, robot)| Arm::new(name, robot)).collect()
+}
+
+/// An arm with three parallel axes that counts its angles from upright.
+fn parallel_arm(a1: f64, [c2, c3]: [f64; 2]) -> Robot<6> {
+    let rows = [
+        (0.0, 0.0, 0.3, 0.0),
+        (-1.0, a1, 0.0, -1.0),
+        (0.0, c2, 0.0, 0.0),
+        (0.0, c3, 0.11, 1.0),
+        (1.0, 0.0, 0.08, 0.0),
+        (-1.0, 0.0, 0.09, 0.0),
+    ];
+    let rows = rows.map(|(alpha, a, d, theta)| DhRow::new(alpha * FRAC_PI_2, a, d, theta * FRAC_PI_2));
+    let flange = pose_from_euler_zyx([0.0; 3], [0.0, 0.0, FRAC_PI_2]).unwrap();
+    Robot::from_mdh(Mdh { base: Pose::identity(), rows, flange }).unwrap()
 }
 
 type Place = fn(&Arm, f64, &mut Random) -> Pose;
 
 /// The margins by name, and the least part of their poses that must be plain: at the edge of reach, half of the arms reach with neither
-/// shoulder.
+/// shoulder; and next to the wrist's, arms with three parallel axes must stand 1.5e-7 d5 / 1e-6, two centimetres, from the shoulder's singularity.
 const MARGINS: [(&str, Place, f64); 3] = [
-    ("wrist", Arm::next_to_the_wrist_margin, 0.95),
+    ("wrist", Arm::next_to_the_wrist_margin, 0.9),
     ("shoulder", Arm::next_to_the_shoulder_margin, 0.95),
     ("reach", Arm::next_to_the_edge_of_reach, 0.3),
 ];

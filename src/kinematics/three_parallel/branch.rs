@@ -25,12 +25,15 @@ pub(super) struct Constants {
     /// Least x of the shoulder [m] and least size of m^2 (eq. 8) [m^4] of a plain branch.
     plain_x: f64,
     plain_m2: f64,
+    /// Least x sin theta_5 of a plain branch [m]: a rounding of the pose over this turns joint 6, and moves the end of the planar arm.
+    plain_turn: f64,
 }
 
 impl Constants {
     pub(super) fn of(arm: &ThreeParallel) -> Self {
         let (planar, c2, k, extent) = (arm.planar, arm.planar.c2, arm.planar.k, arm.planar.extent);
         let plain_x = (PLAIN_SHOULDER * extent).max(10.0 * SHOULDER_MERGE);
+        let plain_reach = (PLAIN_REACH * extent).max(10.0 * REACH_TOLERANCE);
         // How far rounding may turn the plane of a plain branch; a forearm that is short loses its length in eq. 10.
         let sound = planar.direction_rounding() / plain_x <= 0.1 * PLAIN_WRIST_SIN && k >= PLAIN_FOREARM * c2;
         Self {
@@ -41,7 +44,8 @@ impl Constants {
             shortest2: (c2 - k) * (c2 - k),
             difference: (c2 - k) * (c2 + k),
             plain_x: if sound { plain_x } else { f64::INFINITY },
-            plain_m2: 2.0 * (PLAIN_REACH * extent).max(10.0 * REACH_TOLERANCE) * extent * c2 * k,
+            plain_m2: 2.0 * plain_reach * extent * c2 * k,
+            plain_turn: 10.0 * planar.position_rounding() * arm.d5 / plain_reach,
         }
     }
 }
@@ -83,7 +87,7 @@ pub(super) fn facing<const FUSED: bool>(arm: &Constants, t_shoulder_wrist: &Fram
         theta_6: [m12, m10],
         phi: [sin_phi, cos_phi],
         x,
-        plain: (size >= arm.plain_x) & (sin_5 >= PLAIN_WRIST_SIN * rho2),
+        plain: (size >= arm.plain_x) & (sin_5 >= PLAIN_WRIST_SIN * rho2) & (size * sin_5 >= arm.plain_turn * rho2),
     }
 }
 

@@ -5,6 +5,7 @@
 
 mod block;
 mod branch;
+mod plane;
 mod reaching;
 mod recognise;
 mod single;

@@ -1,13 +1,12 @@
 //! An arm that brings its wrist to where the pose wants it, and what rounding leaves open of that.
 
-use core::f64::consts::PI;
-
 use nalgebra::Matrix3;
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::ThreeParallel;
-use super::wrist::{Turn, Wrist, seen_from_plane, sin_5};
+use super::plane::OpenPlane;
+use super::wrist::{Turn, Wrist, seen_from_plane};
 use crate::kinematics::angles::wrap;
 use crate::kinematics::free_choice::FreeChoice;
 use crate::kinematics::planar_arm::{Elbows, PlanarArm, Shoulder};
@@ -32,32 +31,48 @@ pub(super) struct Reaching {
     pub(super) elbows: Elbows,
 }
 
+/// Halvings of the way between a plane in which the arm reaches and one in which it does not: to rounding.
+const HALVINGS: u32 = 50;
+
 impl ThreeParallel {
-    /// The arm with this shoulder and joint 6 there; where that is out of reach, with both moved towards reach as far as the pose leaves
-    /// them open: joint 6 by `open` [rad], the shoulder by rounding.
-    pub(super) fn reaching(&self, shoulder: &Shoulder, turn: Turn, open: f64, target: &Target<'_>) -> Result<Reaching, Reach> {
-        let missed = match self.at(*shoulder, turn, target) {
+    /// The arm with this shoulder and joint 6 there; where that is out of reach, with what the pose leaves open moved towards reach: joint 6
+    /// or, where joint 6 is told by it, the plane of the arm.
+    pub(super) fn reaching(&self, shoulder: &Shoulder, turn: Turn, target: &Target<'_>) -> Result<Reaching, Reach> {
+        let missed = match self.turned_or_not(shoulder, turn, target) {
             Ok(reaching) => return Ok(reaching),
-            Err((missed, wrist)) => (missed, wrist),
+            Err(missed) => missed,
         };
-        let nearer = |a: (Reach, Wrist), b: (Reach, Wrist)| if b.0.shortfall() < a.0.shortfall() { b } else { a };
-        let m = seen_from_plane(shoulder, target.rotation);
-        let missed = match self.turned_into_reach(shoulder, &m, &missed.1, open, target) {
-            None => missed,
-            Some(theta_6) => match self.at(*shoulder, Turn::Taken(theta_6), target) {
-                Ok(reaching) => return Ok(reaching),
-                Err(turned) => nearer(missed, turned),
-            },
+        let plane = OpenPlane::of(self, shoulder, target);
+        if !matches!(turn, Turn::Told { .. }) || missed.shortfall() > plane.lever(self) {
+            return Err(missed);
+        }
+        let at = |angle: f64| self.turned_or_not(&plane.turned(angle), turn, target);
+        let nearest = |reaches: f64| {
+            let (mut misses, mut reaches, mut reaching) = (0.0, reaches, at(reaches).ok()?);
+            for _ in 0..HALVINGS {
+                let middle = 0.5 * (misses + reaches);
+                match at(middle) {
+                    Ok(nearer) => (reaching, reaches) = (nearer, middle),
+                    Err(_) => misses = middle,
+                }
+            }
+            Some(reaching)
         };
-        let Wrist { sin_phi, cos_phi, .. } = missed.1;
-        let (behind, above) = (self.planar.a1 + self.d5 * sin_phi, target.wz - self.d5 * cos_phi);
-        let eased = self.planar.eased(shoulder, target.wxy, behind, above);
-        self.at(eased, turn, target).map_err(|eased| nearer(missed, eased).0)
+        let ends = [plane.open, -plane.open].into_iter();
+        let told = self.middles_of_reach(shoulder, turn, target).into_iter().flatten().filter_map(|theta_6| plane.telling(theta_6));
+        ends.chain(told).find_map(nearest).ok_or(missed)
     }
 
-    /// How far joint 6 may be turned without the tool's leaving the pose by more than rounding [rad].
-    pub(super) fn open(shoulder: &Shoulder, m: &Matrix3<f64>) -> f64 {
-        ((WRIST_FREE_SIN + shoulder.error) / sin_5(m)).min(PI)
+    /// The arm with this shoulder and joint 6 there or, where that is out of reach, turned from there as far as the pose leaves it open.
+    fn turned_or_not(&self, shoulder: &Shoulder, turn: Turn, target: &Target<'_>) -> Result<Reaching, Reach> {
+        let (missed, wrist) = match self.at(*shoulder, turn, target) {
+            Ok(reaching) => return Ok(reaching),
+            Err(missed) => missed,
+        };
+        let m = seen_from_plane(shoulder, target.rotation);
+        let Some(theta_6) = self.turned_into_reach(shoulder, &m, &wrist, turn.open(&m), target) else { return Err(missed) };
+        let nearer = |turned: Reach| if turned.shortfall() < missed.shortfall() { turned } else { missed };
+        self.at(*shoulder, Turn::Taken(theta_6), target).map_err(|(turned, _)| nearer(turned))
     }
 
     /// The elbows of the end of the planar arm (eq. 37, 38), or how far it is out of reach.
@@ -71,21 +86,42 @@ impl ThreeParallel {
         }
     }
 
-    /// theta_6 moved by `open` at most to where the end of the planar arm is in reach, or nearest to it: at sin theta_5 = 0 it runs on a
-    /// circle about the wrist (eq. 39).
+    /// theta_6 moved by `open` at most to where the end of the planar arm is in reach, or nearest to it.
     fn turned_into_reach(&self, shoulder: &Shoulder, m: &Matrix3<f64>, wrist: &Wrist, open: f64, target: &Target<'_>) -> Option<f64> {
+        let Circle { from_line, least, most } = self.circle(shoulder, wrist, target)?;
+        let turned = from_line.abs().clamp(least, most).copysign(from_line) - from_line;
+        (turned.abs() <= open).then_some(wrist.theta_6 + turned_with_phi(turned, m))
+    }
+
+    /// theta_6 in the middle of what is in reach on either side of the line to the wrist.
+    fn middles_of_reach(&self, shoulder: &Shoulder, turn: Turn, target: &Target<'_>) -> Option<[f64; 2]> {
+        let m = seen_from_plane(shoulder, target.rotation);
+        let wrist = turn.wrist(&m, target.free, target.free_theta[5], WRIST_FREE_SIN);
+        let Circle { from_line, least, most } = self.circle(shoulder, &wrist, target)?;
+        let middle = 0.5 * (least + most);
+        Some([middle, -middle].map(|middle| wrist.theta_6 + turned_with_phi(middle - from_line, &m)))
+    }
+
+    /// At sin theta_5 = 0 the end of the planar arm runs on a circle about the wrist (eq. 39).
+    fn circle(&self, shoulder: &Shoulder, wrist: &Wrist, target: &Target<'_>) -> Option<Circle> {
         let PlanarArm { a1, c2, k, .. } = self.planar;
         let (x, z) = (shoulder.x - a1, target.wz);
         let (size, both) = (x.hypot(z), 2.0 * self.d5 * x.hypot(z));
-        if both == 0.0 {
-            return None;
-        }
         let cosine = |r: f64| ((size * size + self.d5 * self.d5 - r * r) / both).clamp(-1.0, 1.0);
-        let (least, most) = (cosine(c2 - k).acos(), cosine(c2 + k).acos());
         let from_line = wrap(wrist.sin_phi.atan2(wrist.cos_phi) - x.atan2(z));
-        let turned = from_line.abs().clamp(least, most).copysign(from_line) - from_line;
-        // phi + theta_6 is fixed at theta_5 = 0, phi - theta_6 at 180 deg.
-        let turned = if m[(1, 1)] > 0.0 { -turned } else { turned };
-        (turned.abs() <= open).then_some(wrist.theta_6 + turned)
+        (both > 0.0).then(|| Circle { from_line, least: cosine(c2 - k).acos(), most: cosine(c2 + k).acos() })
     }
+}
+
+/// Axis 5 on its way about the wrist: its angle from the line between axis 2 and the wrist, and between which angles, on either side of the
+/// line, the end of the planar arm is in reach [rad].
+struct Circle {
+    from_line: f64,
+    least: f64,
+    most: f64,
+}
+
+/// How far theta_6 turns where phi turns by this: phi + theta_6 is fixed at theta_5 = 0, phi - theta_6 at 180 deg.
+fn turned_with_phi(turned: f64, m: &Matrix3<f64>) -> f64 {
+    if m[(1, 1)] > 0.0 { -turned } else { turned }
 }

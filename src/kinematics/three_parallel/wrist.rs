@@ -28,6 +28,8 @@ pub(super) enum Turn {
     Told { flipped: bool },
     /// At this theta_6.
     Taken(f64),
+    /// At this theta_6 or, since the pose says nothing of it, at the nearest to it that the arm reaches with.
+    Free(f64),
 }
 
 /// `Rz(-theta_1) R`, which is `Ry(phi) Rz(theta_5) Ry(theta_6)` (eq. 33).
@@ -42,11 +44,20 @@ pub(super) fn sin_5(m: &Matrix3<f64>) -> f64 {
 }
 
 impl Turn {
+    /// How far joint 6 may be turned from there without the tool's leaving the pose by more than rounding [rad].
+    pub(super) fn open(self, m: &Matrix3<f64>) -> f64 {
+        match self {
+            Self::Told { .. } => (WRIST_FREE_SIN / sin_5(m)).min(PI),
+            Self::Taken(_) => 0.0,
+            Self::Free(_) => PI,
+        }
+    }
+
     /// theta_6 with its sine and cosine. `error` is how far rounding may turn the plane of the arm: a path keeps the theta_6 that it is
     /// heading for where the pose does not contradict it.
     fn theta_6(self, m: &Matrix3<f64>, free: &FreeChoice<6>, heading: f64, error: f64) -> (f64, (f64, f64)) {
         let flipped = match self {
-            Self::Taken(theta_6) => return (theta_6, theta_6.sin_cos()),
+            Self::Taken(theta_6) | Self::Free(theta_6) => return (theta_6, theta_6.sin_cos()),
             Self::Told { flipped } => flipped,
         };
         let sin_5 = sin_5(m);
