@@ -102,11 +102,12 @@ stages: | toolchains ## Show where the time of a pose goes, by stages, with Linu
 ulp: | toolchains ## Hold the lanes' arc tangent, sine and cosine against correctly rounded ones, at ten million points
 	IRBKIN_POINTS=10000000 cargo test --quiet --release --lib lanes::functions -- --nocapture --test-threads=1
 
-million: | toolchains ## Solve a million random poses of each of eleven arms on each instruction set; count what is lost, wrong or twice
+million: | toolchains ## Solve a million random poses of each of thirteen arms on each instruction set; count what is lost, wrong or twice
 	$(ON_EACH_SET) IRBKIN_POSES=1000000 cargo test --quiet --release --test recall -- --nocapture --test-threads=1; done
 
 hardsets: | toolchains ## Solve poses at and next to every singularity, pairs and triples of them, and follow paths through
 	$(ON_EACH_SET) IRBKIN_POSES=2000 cargo test --quiet --release --test hardsets --test hardsets_three_parallel --test follow -- --nocapture --test-threads=1; done
+	IRBKIN_POSES=200000 cargo test --quiet --release --lib spherical_shoulder -- --nocapture --test-threads=1
 
 wheel: $(VENV)/.made ## Build the wheel and try it in an environment of its own
 	$(BIN)/maturin build --release --quiet --out dist

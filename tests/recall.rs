@@ -8,7 +8,7 @@ mod common;
 use std::f64::consts::PI;
 
 use common::{Rng, apart, asked_set, reach_of};
-use irbkin::{Error, JointLimits, OpwParameters, Pose, Robot, SLOTS, Status, batch, pose_to_rows};
+use irbkin::{Error, JacobianFrame, JointLimits, OpwParameters, Pose, Robot, SLOTS, Status, batch, pose_to_rows};
 
 #[derive(Default)]
 struct Tally {
@@ -32,7 +32,7 @@ fn poses() -> usize {
 
 impl Tally {
     /// Holds the answers for a pose against forward kinematics and against the joint vector that made it.
-    fn take(&mut self, robot: &Robot<6>, reach: f64, q: &[f64; 6], pose: &Pose, answers: &[[f64; 6]]) {
+    fn take<const N: usize>(&mut self, robot: &Robot<N>, reach: f64, q: &[f64; N], pose: &Pose, answers: &[[f64; N]]) {
         self.poses += 1;
         self.solutions += answers.len();
         let nearest = answers.iter().map(|answer| apart(answer, q)).fold(f64::INFINITY, f64::min);
@@ -49,17 +49,46 @@ impl Tally {
     }
 }
 
+/// A robot that solves one pose and many, of seven joints with joint 7 as in the joint vectors that made them.
+trait Solves<const N: usize> {
+    fn alone(&self, pose: &Pose, q: &[f64; N]) -> Vec<[f64; N]>;
+    fn together(&self, rows: &[f64], joints: &[[f64; N]], q: &mut [f64], status: &mut [u8]);
+}
+
+impl Solves<6> for Robot<6> {
+    fn alone(&self, pose: &Pose, _: &[f64; 6]) -> Vec<[f64; 6]> {
+        self.ik(pose).unwrap().iter().map(|solution| solution.q).collect()
+    }
+
+    fn together(&self, rows: &[f64], _: &[[f64; 6]], q: &mut [f64], status: &mut [u8]) {
+        batch::ik(self, rows, q, status, 1).unwrap();
+    }
+}
+
+impl Solves<7> for Robot<7> {
+    fn alone(&self, pose: &Pose, q: &[f64; 7]) -> Vec<[f64; 7]> {
+        self.ik(pose, q[6]).unwrap().iter().map(|solution| solution.q).collect()
+    }
+
+    fn together(&self, rows: &[f64], joints: &[[f64; 7]], q: &mut [f64], status: &mut [u8]) {
+        let told: Vec<f64> = joints.iter().map(|q| q[6]).collect();
+        batch::ik_with_q7(self, rows, &told, q, status, 1).unwrap();
+    }
+}
+
 /// Solves random poses inside the limits, one by one and in batches.
-fn tally(robot: &Robot<6>, reach: f64) -> [Tally; 2] {
+fn tally<const N: usize>(robot: &Robot<N>, reach: f64) -> [Tally; 2]
+where
+    Robot<N>: Solves<N>,
+{
     let mut rng = Rng::new(0x5eed);
     let [mut alone, mut together] = [Tally::default(), Tally::default()];
     let mut left = poses();
     while left > 0 {
         let joints: Vec<_> = (0..left.min(PART)).map(|_| rng.inside(robot.limits())).collect();
         let poses: Vec<_> = joints.iter().map(|q| robot.fk(q)).collect();
-        for ((q, pose), answers) in joints.iter().zip(&poses).zip(solved_together(robot, &poses)) {
-            let one: Vec<_> = robot.ik(pose).unwrap().iter().map(|solution| solution.q).collect();
-            alone.take(robot, reach, q, pose, &one);
+        for ((q, pose), answers) in joints.iter().zip(&poses).zip(solved_together(robot, &poses, &joints)) {
+            alone.take(robot, reach, q, pose, &robot.alone(pose, q));
             together.take(robot, reach, q, pose, &answers);
         }
         left -= joints.len();
@@ -68,22 +97,29 @@ fn tally(robot: &Robot<6>, reach: f64) -> [Tally; 2] {
 }
 
 /// The solutions of each pose of a batch.
-fn solved_together(robot: &Robot<6>, poses: &[Pose]) -> Vec<Vec<[f64; 6]>> {
+fn solved_together<const N: usize>(robot: &Robot<N>, poses: &[Pose], joints: &[[f64; N]]) -> Vec<Vec<[f64; N]>>
+where
+    Robot<N>: Solves<N>,
+{
     let rows: Vec<f64> = poses.iter().flat_map(pose_to_rows).collect();
-    let (mut q, mut status) = (vec![[0.0; 6]; SLOTS * poses.len()], vec![0; SLOTS * poses.len()]);
-    batch::ik(robot, &rows, q.as_flattened_mut(), &mut status, 1).unwrap();
-    let found = |(q, flags): (&[f64; 6], &u8)| (flags & Status::FOUND.bits() != 0).then_some(*q);
-    let of_a_pose = |(q, status): (&[[f64; 6]], &[u8])| q.iter().zip(status).filter_map(found).collect();
+    let (mut q, mut status) = (vec![[0.0; N]; SLOTS * poses.len()], vec![0; SLOTS * poses.len()]);
+    robot.together(&rows, joints, q.as_flattened_mut(), &mut status);
+    let found = |(q, flags): (&[f64; N], &u8)| (flags & Status::FOUND.bits() != 0).then_some(*q);
+    let of_a_pose = |(q, status): (&[[f64; N]], &[u8])| q.iter().zip(status).filter_map(found).collect();
     q.chunks(SLOTS).zip(status.chunks(SLOTS)).map(of_a_pose).collect()
 }
 
 /// How far rounding of the pose may move the joints: a pose is rounded by its forward kinematics (measured: 1e-15 x reach, 2e-15 rad) and
-/// the inverse of the Jacobian turns that into joint angles. Only next to a singularity is this above 1e-9.
-fn rounding_bound(robot: &Robot<6>, reach: f64, q: &[f64; 6]) -> f64 {
-    4e-15 * (1.0 + reach) / robot.singularity(q).min_singular_value
+/// the inverse of the Jacobian of the joints that are solved for turns that into joint angles. Only next to a singularity is this above 1e-9.
+fn rounding_bound<const N: usize>(robot: &Robot<N>, reach: f64, q: &[f64; N]) -> f64 {
+    let solved = robot.jacobian(q, JacobianFrame::Base).fixed_columns::<6>(0).into_owned();
+    4e-15 * (1.0 + reach) / solved.singular_values()[5]
 }
 
-fn check(name: &str, robot: &Robot<6>) {
+fn check<const N: usize>(name: &str, robot: &Robot<N>)
+where
+    Robot<N>: Solves<N>,
+{
     let (set, reach) = (asked_set().name(), reach_of(robot));
     for (way, tally) in ["one by one", "in a batch"].iter().zip(tally(robot, reach)) {
         let Tally { poses, lost, coarse, wrong, twice, solutions, position, rotation, recall } = tally;
@@ -101,7 +137,7 @@ fn check(name: &str, robot: &Robot<6>) {
 #[test]
 fn every_generating_joint_vector_is_found() {
     for name in ["IRB 2600-12/1.65", "IRB 120-3/0.58", "IRB 140-6/0.81", "IRB 1600-6/1.45", "IRB 6700-150/3.2"] {
-        check(name, &Robot::named(name).unwrap());
+        check(name, &Robot::<6>::named(name).unwrap());
     }
 }
 
@@ -119,5 +155,12 @@ fn arms_with_three_parallel_axes_lose_nothing() {
         // Their joints turn twice: each pose would be drawn as often with full turns as without.
         let robot = Robot::named(name).unwrap().with_limits(JointLimits::new([[-PI, PI]; 6]).unwrap());
         check(name, &robot);
+    }
+}
+
+#[test]
+fn arms_of_seven_axes_lose_nothing() {
+    for name in ["Panda", "FR3"] {
+        check(name, &Robot::<7>::named(name).unwrap());
     }
 }

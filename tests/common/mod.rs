@@ -60,12 +60,12 @@ impl Rng {
 }
 
 /// Largest difference of two joint vectors, full turns not counted [rad].
-pub fn apart(a: &[f64; 6], b: &[f64; 6]) -> f64 {
+pub fn apart<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b - TAU * ((a - b) / TAU).round()).abs()).fold(0.0, f64::max)
 }
 
 /// Distance of the stretched arm's flange from axis 1, at the height of the shoulder [m].
-pub fn reach_of(robot: &Robot<6>) -> f64 {
+pub fn reach_of<const N: usize>(robot: &Robot<N>) -> f64 {
     match robot.definition() {
         Definition::Opw(opw) => opw.a1.abs() + opw.c2 + opw.a2.hypot(opw.c3) + opw.c4,
         Definition::Mdh(mdh) => mdh.rows.iter().map(|row| row.a.hypot(row.d)).sum(),
