@@ -24,6 +24,7 @@ mod redundancy;
 mod robot;
 mod rotation;
 mod select;
+mod self_motion;
 mod singularity;
 mod solutions;
 mod spherical_shoulder;

@@ -38,6 +38,7 @@ LAYERS = [
     "robot",
     "family",
     "inverse",
+    "self_motion",
     "redundancy",
     "follow",
     "crossing",

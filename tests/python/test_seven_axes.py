@@ -160,7 +160,52 @@ def test_ik_nearest_chooses_joint_7_too(robot):
         assert np.abs(robot.fk(nearest) - pose).max() <= 1e-14
         assert (nearest >= robot.limits[:, 0] - 1e-9).all()
         assert (nearest <= robot.limits[:, 1] + 1e-9).all()
-        assert np.linalg.norm(nearest - seed) <= brute_force(robot, pose, seed) + 1e-12
+        assert np.linalg.norm(nearest - seed) <= brute_force(robot, pose, seed) + 1e-9
+
+
+@pytest.mark.parametrize("spread", [0.01, 0.3, 9.0])
+def test_ik_nearest_is_no_farther_than_the_joints_that_made_the_pose(robot, spread):
+    rng, (low, high) = np.random.default_rng(6), robot.limits.T
+    q = inside(robot, 300)
+    seeds = np.clip(q + rng.normal(0, spread, q.shape), low, high)
+    nearest = robot.ik_nearest(robot.fk(q), seeds)
+    assert (np.linalg.norm(nearest - seeds, axis=1) <= np.linalg.norm(q - seeds, axis=1) + 1e-9).all()
+
+
+@pytest.mark.parametrize(
+    ("q", "seed"),
+    [
+        # Slot 3 is inside the limits for joint 7 between 1.2528 and 1.2651 only.
+        ([-1.36, 0.83, -0.26, -0.07, -2.17, 1.63, 1.26], [-1.13, 0.86, -0.21, -0.2, -2.13, 1.62, 1.14]),
+        # Joint 6 is next to its limit.
+        (
+            [-0.4074, -0.9391, -2.8126, -1.2658, -1.5946, 0.0007, -0.7242],
+            [-0.5, -1.125, -2.766, -1.389, -1.688, -0.018, -1.185],
+        ),
+        # A valley 1e-5 rad wide in joint 7, next to q2 = 0.
+        (
+            [-0.4421365, -0.0020093, 0.502814, -2.0948726, 1.4011852, 1.7055283, -0.9175759],
+            [-0.4417741, -0.0008555, 0.5045441, -2.0943622, 1.3988604, 1.7069522, -0.9168968],
+        ),
+    ],
+)
+def test_narrow_windows_and_valleys_are_found(q, seed):
+    panda = irbkin.Robot("Panda")
+    nearest = panda.ik_nearest(panda.fk(q), seed)
+    assert np.linalg.norm(np.subtract(nearest, seed)) <= np.linalg.norm(np.subtract(q, seed)) + 1e-9
+
+
+def test_ik_nearest_goes_through_q2_zero(robot):
+    rng = np.random.default_rng(8)
+    for _ in range(20):
+        middle = inside(robot, 1, rng.integers(1 << 30))[0] * 0.5 + 0.5 * robot.limits.mean(axis=1)
+        change = rng.uniform(-0.05, 0.05, 7)
+        middle[1], change[1] = 0.0, 0.05
+        joints = middle + np.linspace(-1, 1, 101)[:, None] * change
+        q = joints[0]
+        for pose, wanted in zip(robot.fk(joints), joints, strict=True):
+            before, q = q, robot.ik_nearest(pose, q)
+            assert np.linalg.norm(q - before) <= np.linalg.norm(wanted - before) + 1e-9
 
 
 def test_ik_nearest_of_where_the_arm_stands_is_where_it_stands(robot):
@@ -190,7 +235,7 @@ def test_weights_move_the_choice(robot):
     q, seed = inside(robot, 2)
     pose = robot.fk(q)
     free, held = robot.ik_nearest(pose, seed), robot.ik_nearest(pose, seed, weights=[1, 1, 1, 1, 1, 1, 1e6])
-    assert abs(held[6] - seed[6]) <= abs(free[6] - seed[6])
+    assert abs(held[6] - seed[6]) < abs(free[6] - seed[6])
     with pytest.raises(irbkin.InvalidJointsError, match="weights must have shape"):
         robot.ik_nearest(pose, seed, weights=np.ones(6))
 

@@ -53,6 +53,13 @@ impl SphericalShoulder {
         self.placement.theta(q)
     }
 
+    /// The slot of a joint vector (eq. 65).
+    pub(crate) fn slot(&self, q: &[f64; 7]) -> u8 {
+        let [_, theta_2, _, theta_4, theta_5, ..] = self.theta(q);
+        let bits = [theta_2.sin() < 0.0, self.links.elbow_angle(theta_4).sin() < 0.0, theta_5.cos() < 0.0];
+        4 * u8::from(bits[0]) + 2 * u8::from(bits[1]) + u8::from(bits[2])
+    }
+
     /// Distance of the shoulder from the plane of axes 5 and 6 (eq. 60), signed [m].
     fn aside(&self, q: &[f64; 7]) -> f64 {
         let [_, _, _, theta_4, theta_5, ..] = self.theta(q);
