@@ -68,14 +68,16 @@ impl<const N: usize> Robot<N> {
         self.nearest_in_families(solutions, solutions.into_iter(), seed, weights)
     }
 
-    /// Where a solution of a family is outside the limits and another one of it is not, that one takes its slot.
-    pub(super) fn bring_families_inside(&self, solutions: &mut Solutions<N>) -> Result<(), Error> {
+    /// Where a solution of a family is outside the limits and another one of it, which is `allowed` [rad, m] off the pose at most, is not,
+    /// that one takes its slot.
+    pub(super) fn bring_families_inside(&self, solutions: &mut Solutions<N>, allowed: f64) -> Result<(), Error> {
         for slot in 0..SLOTS {
             let Some(outside) = solutions.slots[slot].filter(|solution| solution.free.is_some() && !solution.within_limits()) else {
                 continue;
             };
             let rest = self.resting(outside.q[N - 1]);
-            if let Some(inside) = self.nearest_in_families(solutions, [&outside].into_iter(), &rest, &[1.0; N])? {
+            let inside = self.nearest_in_families(solutions, [&outside].into_iter(), &rest, &[1.0; N])?;
+            if let Some(inside) = inside.filter(|inside| self.residual(&inside.q, solutions.pose()).largest() <= allowed) {
                 let to = usize::from(inside.slot);
                 solutions.merged.swap(slot, to);
                 solutions.slots[slot] = None;

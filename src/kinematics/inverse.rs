@@ -14,6 +14,9 @@ use super::spherical_wrist;
 use super::status::Explanation;
 use super::status::{Reach, Status};
 use super::three_parallel;
+#[cfg(feature = "python")]
+use super::thresholds::SOLUTION_OFF;
+use super::thresholds::{POSITION_ROUNDING, SEEDED_FREE};
 use crate::error::{Error, JointFault, ModelFault};
 use crate::lanes::run;
 
@@ -42,10 +45,14 @@ impl Robot<6> {
         self.ik_nearest_checked(checked_pose(pose)?, seed, weights)
     }
 
-    /// The outcome of [`Robot::ik`] in a sentence, for a pose that was checked.
+    /// The outcome of [`Robot::ik_nearest`] in a sentence, for a pose that was checked.
     #[cfg(feature = "python")]
     pub(crate) fn explain(&self, pose: &Pose) -> Result<Explanation, Error> {
-        Ok(self.ik_checked(*pose, 0.0)?.explain())
+        let mut solutions = self.ik_checked(*pose, 0.0)?;
+        if !solutions.iter().any(Solution::within_limits) {
+            self.bring_families_inside(&mut solutions, SOLUTION_OFF)?;
+        }
+        Ok(solutions.explain())
     }
 }
 
@@ -146,7 +153,9 @@ impl<const N: usize> Robot<N> {
             return Ok(());
         }
         self.solve_carefully(solutions, &FreeChoice::rest(self.resting(given)))?;
-        self.bring_families_inside(solutions)
+        // To rounding; of lengths so great that theirs is more than what a seed may cost, to theirs.
+        let rounding = 4.0 * POSITION_ROUNDING * solutions.pose.translation.vector.norm();
+        self.bring_families_inside(solutions, rounding.max(SEEDED_FREE))
     }
 
     /// Where joints rest, joint 7 of an arm of seven joints at `given`.

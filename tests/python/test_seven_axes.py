@@ -145,6 +145,17 @@ def test_next_to_q2_zero_nothing_is_lost(q2):
             assert np.abs(solutions.q - q).max(axis=1).min() <= 1e-9 + off
 
 
+@pytest.mark.parametrize("off", [1e-12, 1e-9, 2e-9, 1e-8])
+def test_a_stretched_arm_next_to_q2_zero_stays_at_rounding_whatever_the_limits_leave_of_its_families(robot, off):
+    a3, c3, c5 = 0.0825, 0.316, 0.384
+    stretched = -np.arctan2(a3, c3) - np.arctan2(a3, c5)
+    rng = np.random.default_rng(12)
+    for q in inside(robot, 1500):
+        q[1], q[3] = off * rng.choice([-1, 1]), stretched + off * rng.choice([-1, 1])
+        solutions = robot.ik(robot.fk(q), q7=q[6])
+        assert max(solution.residual for solution in solutions) <= 1e-12
+
+
 def brute_force(robot, pose, seed, count=2001):
     """The least distance from the seed inside the limits, on a grid of angles of joint 7."""
     q7 = np.linspace(*robot.limits[6], count)
