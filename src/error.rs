@@ -185,8 +185,6 @@ pub enum ModelFault {
     },
     /// The geometry has no closed-form inverse here.
     NoClosedForm(NotRecognised),
-    /// An arm of seven joints was asked to follow a path.
-    FollowOfSeven,
     /// A crossing policy holds a wrist that the arm does not have.
     NoSphericalWrist,
     /// The direction of an axis has no length.
@@ -278,12 +276,6 @@ impl fmt::Display for ModelFault {
             }
             Self::Velocity { joint, value } => write!(f, "joint {joint} velocity is {value} rad/s, it must be positive"),
             Self::JointCount { found, wanted } => write!(f, "the arm has {found} joints, {wanted} were asked for"),
-            Self::FollowOfSeven => {
-                write!(
-                    f,
-                    "follow is for arms of six joints: along a path of a seven-axis arm, give ik_nearest the joints before as the seed"
-                )
-            }
             Self::NoSphericalWrist => write!(f, "this policy holds a spherical wrist, and the arm has none: take \"through\" or \"error\""),
             Self::NoClosedForm(reason) => write!(f, "no closed-form inverse kinematics for this arm: {reason}"),
             Self::AxisDirection { axis } => write!(f, "direction of axis {axis} has no length"),

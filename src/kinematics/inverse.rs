@@ -24,7 +24,8 @@ impl Robot<6> {
     /// Every joint vector that brings the tool to `pose`.
     ///
     /// A pose out of reach has no solutions and tells so by [`Solutions::reach`]; at a singularity a joint that the pose leaves free
-    /// reads zero, or the middle of its limits where zero is outside them. Derivation: docs/ik_derivation.md.
+    /// reads zero, or the middle of its limits where zero is outside them; joint 6 of three parallel axes the angle nearest to that with which
+    /// the arm reaches. Derivations: docs/ik_derivation.md, docs/three_parallel.md.
     ///
     /// # Errors
     ///

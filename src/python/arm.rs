@@ -53,9 +53,14 @@ impl Arm {
     pub(super) fn follower(&self, py: Python<'_>) -> PyResult<&Arc<Robot<6>>> {
         match self {
             Self::Six(robot) => Ok(robot),
-            Self::Seven(robot) => {
-                Err(to_py(py, &robot.no_closed_form().map_or(ModelFault::FollowOfSeven, ModelFault::NoClosedForm).into()))
-            }
+            Self::Seven(robot) => Err(match robot.no_closed_form() {
+                Some(reason) => to_py(py, &ModelFault::NoClosedForm(reason).into()),
+                None => Fault::Model.error(
+                    py,
+                    "follow is for arms of six joints: along a path of a seven-axis arm, give ik_nearest the joints before as the seed"
+                        .to_owned(),
+                ),
+            }),
         }
     }
 

@@ -38,6 +38,11 @@ impl<'py> Rows<'py> {
         Ok(self.array.as_slice()?)
     }
 
+    /// The array that is seen.
+    pub(super) fn array(&self) -> &Bound<'py, PyAny> {
+        self.array.as_any()
+    }
+
     /// The addresses of its memory.
     pub(super) fn addresses(&self) -> Range<usize> {
         addresses(&self.array)

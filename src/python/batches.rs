@@ -1,7 +1,9 @@
 //! Every joint vector of many poses.
 
 use pyo3::exceptions::PyTypeError;
+use pyo3::intern;
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 
 use super::answers::batch_output;
 use super::arm::Arm;
@@ -24,8 +26,11 @@ pub(super) fn ik<'py>(
         Arm::Six(_) => no_q7(q7.is_some()).map(|()| None)?,
         Arm::Seven(robot) => Some(needed_q7(py, robot, q7)?),
     };
-    let poses = Rows::read(poses, &[4, 4], "T", Fault::Pose)?;
-    let given = given.map_or(Ok(Vec::new()), |q7| read_q7(q7, &poses))?;
+    let mut poses = Rows::read(poses, &[4, 4], "T", Fault::Pose)?;
+    let given = match given {
+        Some(q7) => read_q7(q7, &mut poses)?,
+        None => Vec::new(),
+    };
     let (q, status) = batch_output(py, out, &poses, arm.dof())?;
     let (data, mut q_view, mut status_view) =
         (poses.data()?, writable(&q, &[poses.addresses()])?, writable(&status, &[poses.addresses(), addresses(&q)])?);
@@ -38,17 +43,26 @@ pub(super) fn ik<'py>(
     errors::ik_batch_class(py)?.call1((q, status))
 }
 
-/// An angle of joint 7 for each pose, or one for all.
-fn read_q7(q7: &Bound<'_, PyAny>, poses: &Rows<'_>) -> PyResult<Vec<f64>> {
+/// An angle of joint 7 for each pose; both are broadcast.
+fn read_q7<'py>(q7: &Bound<'py, PyAny>, poses: &mut Rows<'py>) -> PyResult<Vec<f64>> {
     let rows = Rows::read(q7, &[], "q7", Fault::Joints)?;
+    if rows.lead == poses.lead {
+        return Ok(rows.data()?.to_vec());
+    }
     if rows.is_single() {
         return Ok(rows.data()?.repeat(poses.lead.iter().product()));
     }
-    if rows.lead != poses.lead {
-        let (wanted, got) = (&poses.lead, &rows.lead);
-        return Err(Fault::Joints.error(q7.py(), format!("q7 must be a number or have shape {wanted:?}, got {got:?}")));
-    }
-    Ok(rows.data()?.to_vec())
+    let (py, numpy) = (q7.py(), q7.py().import(intern!(q7.py(), "numpy"))?);
+    let shapes = (PyTuple::new(py, &poses.lead)?, PyTuple::new(py, &rows.lead)?);
+    let unlike =
+        |_| Fault::Joints.error(py, format!("q7 of shape {:?} does not go with T of shape {:?}", rows.lead, poses.shape_with(&[4, 4])));
+    let shape: Vec<usize> = numpy.call_method1(intern!(py, "broadcast_shapes"), shapes).map_err(unlike)?.extract()?;
+    let broadcast =
+        |array: &Bound<'py, PyAny>, shape: &[usize]| numpy.call_method1(intern!(py, "broadcast_to"), (array, PyTuple::new(py, shape)?));
+    let told = Rows::read(&broadcast(q7, &shape)?, &[], "q7", Fault::Joints)?.data()?.to_vec();
+    let all_poses = broadcast(poses.array(), &[&shape[..], &[4, 4]].concat())?;
+    *poses = Rows::read(&all_poses, &[4, 4], "T", Fault::Pose)?;
+    Ok(told)
 }
 
 /// An arm of six joints has no joint 7.

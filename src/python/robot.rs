@@ -65,7 +65,8 @@ impl PyRobot {
     ///     rows: alpha [rad], a [m], d [m], theta offset [rad] of each joint, shape (6, 4) or (7, 4).
     ///     limits: Lower and upper limit of each joint [rad], shape (n, 2); none when not given.
     ///     name: A name of your own.
-    ///     closed_form: With False, a six-axis arm of no known form is taken too: forward kinematics and Jacobian work, `ik` refuses.
+    ///     closed_form: With False, a six-axis arm of no known form is taken too: forward kinematics and Jacobian work, `ik` refuses. A
+    ///         seven-axis one is always taken.
     ///
     /// Raises:
     ///     InvalidModelError: A number is not finite, a limit is empty, a link has no length, or no closed form is known: the message
@@ -82,7 +83,8 @@ impl PyRobot {
     ///     rows: alpha [rad], a [m], d [m], theta offset [rad] of each joint, in this order too, shape (6, 4) or (7, 4).
     ///     limits: Lower and upper limit of each joint [rad], shape (n, 2); none when not given.
     ///     name: A name of your own.
-    ///     closed_form: With False, a six-axis arm of no known form is taken too: forward kinematics and Jacobian work, `ik` refuses.
+    ///     closed_form: With False, a six-axis arm of no known form is taken too: forward kinematics and Jacobian work, `ik` refuses. A
+    ///         seven-axis one is always taken.
     ///
     /// Raises:
     ///     InvalidModelError: As `from_mdh`.
@@ -133,7 +135,8 @@ impl PyRobot {
     ///     base: Link in whose frame poses are given; the one without a parent when not given.
     ///     tip: Link that poses are of; when not given, the only one at the end of a chain of six or seven joints.
     ///     name: A name of your own; the URDF's when not given.
-    ///     closed_form: With False, a six-axis arm of no known form is taken too: forward kinematics and Jacobian work, `ik` refuses.
+    ///     closed_form: With False, a six-axis arm of no known form is taken too: forward kinematics and Jacobian work, `ik` refuses. A
+    ///         seven-axis one is always taken.
     ///
     /// Raises:
     ///     InvalidModelError: The text is no URDF, several links could be meant, there are not six or seven joints, a joint between base
@@ -157,7 +160,7 @@ impl PyRobot {
         self.arm.dof()
     }
 
-    /// Name of the closed form: "spherical wrist", or "serial" where there is none.
+    /// Name of the closed form: "spherical wrist", "three parallel axes", "spherical shoulder", or "serial" where there is none.
     #[getter]
     fn family(&self) -> &'static str {
         on_robot!(&self.arm, robot => robot.family())
@@ -324,7 +327,7 @@ impl PyRobot {
     ///
     /// Args:
     ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
-    ///     q7: Angles of joint 7 [rad] of an arm of seven joints, shape (...), or one for all.
+    ///     q7: Angles of joint 7 [rad] of an arm of seven joints, of a shape that goes with (...): T and q7 are broadcast.
     ///     out: Where to write: an IkBatch or tuple of arrays (..., 8, n) float64 and (..., 8) uint8, or the first of them alone.
     ///     threads: Number of threads; 0 for one a core.
     ///
@@ -384,8 +387,8 @@ impl PyRobot {
     ///
     /// Args:
     ///     T: Poses of the tool, shape (m, 4, 4), or several paths, shape (..., m, 4, 4), translation [m].
-    ///     seed: Joint vector from which a path starts [rad], shape (n,), or one for each path, shape (..., n).
-    ///     weights: Cost of moving each joint, shape (n,); ones when not given.
+    ///     seed: Joint vector from which a path starts [rad], shape (6,), or one for each path, shape (..., 6).
+    ///     weights: Cost of moving each joint, shape (6,); ones when not given.
     ///     singular: What to do at the wrist singularity. "through": meet every pose exactly, however fast axes 4 and 6 turn. "error": stop
     ///         where joint 5 comes into the zone, and where a joint must jump, as SingArea \Off. "wrist": inside the zone axes 4, 5, 6 go
     ///         straight from where they enter to where they leave, position exact, as SingArea \Wrist. "lock_axis4": axis 4 stays at 0 or
@@ -393,12 +396,12 @@ impl PyRobot {
     ///     zone: |sin q5| below which `singular` acts; 0.0175, that is one degree, when not given.
     ///
     /// Returns:
-    ///     FollowResult: joints [rad], shape (..., m, n), NaN where a pose is not met; orientation error [rad], shape (..., m); the breaks.
+    ///     FollowResult: joints [rad], shape (..., m, 6), NaN where a pose is not met; orientation error [rad], shape (..., m); the breaks.
     ///
     /// Raises:
     ///     InvalidPoseError: T has a wrong shape or holds a matrix that is no pose; the message has its index.
     ///     InvalidJointsError: A seed, weight or zone that is not finite.
-    ///     InvalidModelError: The arm has no closed form.
+    ///     InvalidModelError: The arm has no closed form or seven joints; "wrist" or "lock_axis4" for an arm without a spherical wrist.
     ///     ValueError: Another `singular`.
     #[pyo3(signature = (T, seed, weights=None, *, singular="through", zone=None))]
     fn follow<'py>(
@@ -414,7 +417,7 @@ impl PyRobot {
         paths::follow(self.arm.follower(T.py())?, T, seed, &options)
     }
 
-    /// Whether a pose can be reached, inside the limits or not, and why not.
+    /// Whether a pose can be reached, inside the limits or not, and why not; with seven joints, with any angle of joint 7 inside its limits.
     ///
     /// Args:
     ///     T: Pose of the tool, shape (4, 4), translation [m].

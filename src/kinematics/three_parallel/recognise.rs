@@ -30,7 +30,7 @@ pub(crate) fn recognise(mdh: &Mdh<6>) -> Result<(Mdh<6>, ThreeParallel), NotReco
     Ok((squared, geometry))
 }
 
-/// Reads the geometry off the frames at q = 0 (docs/three_parallel.md, section 5). Lengths come from the rows, so that none is lost to
+/// Reads the geometry off the frames at q = 0 (docs/three_parallel.md, section 6). Lengths come from the rows, so that none is lost to
 /// rounding; the frames give the directions.
 fn measure(mdh: &Mdh<6>) -> Result<ThreeParallel, NotRecognised> {
     let rows = &mdh.rows;
