@@ -2,6 +2,7 @@
 
 use super::angles::resized;
 use super::block::{AnswerRow, Blocks, PoseRow, StatusRow};
+use super::family::meets;
 use super::free_choice::FreeChoice;
 use super::geometry::Geometry;
 use super::pose::{Pose, checked_pose, pose_from_rows};
@@ -16,7 +17,6 @@ use super::status::{Reach, Status};
 use super::three_parallel;
 #[cfg(feature = "python")]
 use super::thresholds::SOLUTION_OFF;
-use super::thresholds::{POSITION_ROUNDING, SEEDED_FREE};
 use crate::error::{Error, JointFault, ModelFault};
 use crate::lanes::run;
 
@@ -154,9 +154,7 @@ impl<const N: usize> Robot<N> {
             return Ok(());
         }
         self.solve_carefully(solutions, &FreeChoice::rest(self.resting(given)))?;
-        // To rounding; of lengths so great that theirs is more than what a seed may cost, to theirs.
-        let rounding = 4.0 * POSITION_ROUNDING * solutions.pose.translation.vector.norm();
-        self.bring_families_inside(solutions, rounding.max(SEEDED_FREE))
+        self.bring_families_inside(solutions, meets(&solutions.pose))
     }
 
     /// Where joints rest, joint 7 of an arm of seven joints at `given`.

@@ -60,6 +60,22 @@ impl<const N: usize> JointLimits<N> {
         (self.lower[joint] - angle).max(angle - self.upper[joint]).max(0.0)
     }
 
+    /// How far an angle of joint `joint` (from 0), at its best turn, is outside its limits [rad]; negative inside.
+    pub(crate) fn overrun(&self, joint: usize, angle: f64) -> f64 {
+        let middle = 0.5 * (self.lower[joint] + self.upper[joint]);
+        // A turn is always inside where one side has no limit.
+        if !middle.is_finite() {
+            return f64::NEG_INFINITY;
+        }
+        let angle = angle + TAU * nearest_whole((middle - angle) / TAU);
+        (self.lower[joint] - angle).max(angle - self.upper[joint])
+    }
+
+    /// [`Self::overrun`] of the joint that is outside the most.
+    pub(crate) fn worst_overrun(&self, q: &[f64; N]) -> f64 {
+        q.iter().enumerate().map(|(joint, angle)| self.overrun(joint, *angle)).fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// The turn of each angle that stands for it in a solution (eq. 20): the angle in (-pi, pi], or, where that is outside the limits
     /// and a full turn of it is not, the first such turn.
     pub(crate) fn settle(&self, q: [f64; N]) -> [f64; N] {

@@ -54,6 +54,29 @@ impl FreeJoint {
         }
     }
 
+    /// Numbers of the joints, from 1, that stand still along a family that moves more than a partner.
+    pub(crate) fn still(self) -> &'static [usize] {
+        match self {
+            Self::Base => &[2, 3],
+            Self::Upper => &[1, 3],
+            Self::Parallel => &[1, 5],
+            Self::Forearm => &[4, 6],
+            Self::Hand => &[4, 5],
+            Self::WristSum | Self::WristDifference | Self::ShoulderSum | Self::ShoulderDifference => &[],
+        }
+    }
+
+    /// The branches on which a family goes on, each by what its slots differ in from that of a solution of it. The free joint may flip what
+    /// turns with it or bring another singularity; the two elbows of a stretched arm are one solution and go apart along the family.
+    pub(crate) fn branches(self) -> &'static [&'static [usize]] {
+        match self {
+            Self::ShoulderSum | Self::ShoulderDifference => &[&[0, 4]],
+            Self::Forearm | Self::Hand => &[&[0, 1, 4, 5]],
+            Self::Parallel => &[&[0, 1], &[2, 3]],
+            Self::Base | Self::Upper | Self::WristSum | Self::WristDifference => &[&[0, 1]],
+        }
+    }
+
     /// What stays fixed along the family.
     #[must_use]
     pub fn fixed(self) -> &'static str {

@@ -118,6 +118,22 @@ def test_a_free_joint_6_goes_to_the_reachable_angle_nearest_to_zero():
         assert abs(abs(solution.q[5]) - np.abs(reachable).min()) < 0.004
 
 
+@pytest.mark.parametrize("name", ["UR3", "UR5e", "UR10"])
+@pytest.mark.parametrize("q5", [0.0, np.pi])
+@pytest.mark.parametrize("most_q3", [np.pi, 0.15])
+def test_tight_limits_around_joints_at_the_wrist_singularity_are_met(name, q5, most_q3):
+    """Also next to the stretched arm, where the two elbows are one in `ik` and go apart along joint 6."""
+    rng = np.random.default_rng(9)
+    for q in rng.uniform(-np.pi, np.pi, (100, 6)):
+        q[2:5:2] = q[2] * most_q3 / np.pi, q5
+        robot = irbkin.Robot(name).with_limits(np.column_stack([q - 0.05, q + 0.05]))
+        pose = robot.fk(q)
+        found = robot.ik_nearest(pose, q + rng.uniform(-0.05, 0.05, 6))
+        assert np.abs(found - q).max() <= 0.05 + 1.1e-9
+        assert np.abs(robot.fk(found) - pose).max() <= 1e-13
+        assert robot.check_pose(pose).within_limits
+
+
 def test_a_stretched_arm_at_the_wrist_singularity_is_found():
     robot = irbkin.Robot("UR3")
     solution = robot.ik(robot.fk(STRETCHED_AND_SINGULAR))[0]
