@@ -41,6 +41,11 @@ struct Place {
     elbow: Option<f64>,
 }
 
+/// Distance of the wrist from the shoulder's singularity where a set does not ask for it [m].
+fn clear_of_axis_1(arm: &ParallelArm) -> f64 {
+    0.2 * arm.c2
+}
+
 /// A joint vector of the set, as theta.
 fn place(arm: &ParallelArm, place: Place, rng: &mut Rng) -> [f64; 6] {
     loop {
@@ -58,7 +63,7 @@ fn place(arm: &ParallelArm, place: Place, rng: &mut Rng) -> [f64; 6] {
                 Some(theta_2) => theta[1] = theta_2,
                 None => continue,
             }
-        } else if arm.x(&theta).abs() < 0.05 {
+        } else if arm.x(&theta).abs() < clear_of_axis_1(arm) {
             continue;
         }
         return theta;
@@ -92,7 +97,7 @@ impl Bounds {
         let position = 8.0 * f64::EPSILON * (1.0 + arm.reach());
         // x^2 = rho^2 - b^2; below the merge threshold one x stands for both.
         let x = match place.shoulder {
-            None => position * (1.0 + b / 0.05),
+            None => position * (1.0 + b / clear_of_axis_1(arm)),
             Some(off) => {
                 let merged = (b * thresholds::LATERAL_MERGE).sqrt().max(thresholds::SHOULDER_MERGE);
                 let root = (2.0 * b * position).sqrt().min(2.0 * b * position / off.max(1e-300)) + position;
@@ -223,20 +228,22 @@ impl<'a> Made<'a> {
         let kept = self.place.shoulder.is_none() && self.place.wrist.is_none_or(|off| off < thresholds::SEEDED_FREE);
         let bounds = if kept { self.bounds_with_six() } else { self.bounds };
         let is_open = !kept && (bounds.six > OPEN || bounds.arm[0] > OPEN);
-        let closes = residual <= self.beyond + 3.0 * thresholds::SEEDED_FREE;
+        let closes = residual <= self.beyond + 3.0 * thresholds::SEEDED_FREE * (1.0 + self.subject.arm.reach());
         Some((nearest, closes && (is_open || bounds.hold(&self.theta_of(&nearest.q), &self.theta))))
     }
 
     /// Counts solutions that do not close, by themselves or with their free joint elsewhere, or that are in another slot than they should.
     fn count_wrong(&self, solutions: &Solutions<6>, tally: &mut Tally) {
         let (robot, arm, reach) = (&self.subject.robot, &self.subject.arm, self.subject.arm.reach());
+        // Rounding of the pose moves x by the root of it, next to zero.
+        let clear = 1e-7 + 2.0 * (2.0 * arm.b() * self.rounding()).sqrt();
         for solution in solutions {
             let residual = robot.residual(&solution.q, &self.pose);
             tally.position = tally.position.max(residual.position);
             tally.rotation = tally.rotation.max(residual.rotation);
             tally.wrong += usize::from(residual.position > self.beyond + 3e-15 * reach || residual.rotation > 1e-14);
             let theta = self.theta_of(&solution.q);
-            let told = 4 * usize::from(arm.x(&theta).abs() > 1e-7)
+            let told = 4 * usize::from(arm.x(&theta).abs() > clear)
                 + 2 * usize::from(theta[2].sin().abs() > 1e-7)
                 + usize::from(theta[4].sin().abs() > 1e-8);
             tally.wrong += usize::from((usize::from(solution.slot) ^ arm.slot(&theta)) & told != 0);
@@ -262,7 +269,7 @@ impl<'a> Made<'a> {
                 Ok(Some(moved)) => {
                     let residual = robot.residual(&moved.q, &self.pose).largest();
                     // Up to a nanometre beyond reach the arm is stretched or folded there too.
-                    let bound = self.beyond.max(missing) + 2.0 * off + 1e-14 * (1.0 + arm.reach());
+                    let bound = self.beyond.max(missing) + (2.0 * off + 1e-14) * (1.0 + arm.reach());
                     wrong += usize::from(
                         residual > bound || missing > thresholds::REACH_TOLERANCE + bound || moved.q[5].to_bits() != value.to_bits(),
                     );
@@ -309,10 +316,12 @@ impl<'a> Made<'a> {
                     || (status[slot ^ bit].contains(Status::MERGED | *kind) && solutions.slot(slot ^ bit).is_none())
             })
         };
-        // Joint 6 that is off by rounding over sin theta_5 bends the arm; folded onto axis 2, rounding itself does.
+        // Joint 6 that is off by rounding over sin theta_5 bends the arm, and so does x that is off by rounding times b over x; folded onto
+        // axis 2, rounding itself does.
+        let x_is_known = self.subject.arm.b() < self.subject.arm.x(&self.theta).abs();
         let straight = if self.is_folding_onto_axis_2() { 0.0 } else { 1e-8 };
         let six_is_known = wrist.is_none_or(|off| off == 0.0);
-        let is_elbow = elbow.is_some_and(|off| off <= straight) && six_is_known && plane < 1e-12;
+        let is_elbow = elbow.is_some_and(|off| off <= straight) && six_is_known && x_is_known;
         let is_shoulder = shoulder.is_some_and(|off| off <= 0.5 * (self.subject.arm.b() * thresholds::LATERAL_MERGE).sqrt());
         mine.iter().all(|solution| wrist_told(solution))
             && solutions.iter().all(merged_told)
@@ -401,7 +410,7 @@ fn beyond_reach<'a>(subject: &'a Subject, beyond: f64, rng: &mut Rng) -> Option<
     let missing = arm.asked(&pose).ok()?.map(|wrists| wrists.map(|asked| asked.missing.abs()));
     let mut sorted = missing.concat();
     sorted.sort_by(f64::total_cmp);
-    (r > 0.01 && sorted[1] > 0.01).then_some((made, pose))
+    (r.min(sorted[1]) > 0.04 * arm.c2).then_some((made, pose))
 }
 
 /// Up to a nanometre beyond reach the arm is stretched or folded, off by no more than that; farther out there is nothing, and the right
@@ -436,7 +445,9 @@ fn run_along_the_line(subject: &Subject, rng: &mut Rng) -> String {
         let mut theta = place(&subject.arm, set, rng);
         theta[3] = if rng.unit() < 0.5 { 0.0 } else { PI };
         // Folded onto axis 2, no line is the arm's.
-        if subject.arm.x(&theta).abs() > 0.05 && subject.arm.end(&theta)[0].hypot(subject.arm.end(&theta)[1]) > 0.01 {
+        if subject.arm.x(&theta).abs() > clear_of_axis_1(&subject.arm)
+            && subject.arm.end(&theta)[0].hypot(subject.arm.end(&theta)[1]) > 0.04 * subject.arm.c2
+        {
             Made::new(subject, set, theta).judge(&mut tally, rng);
         }
     }

@@ -75,9 +75,11 @@ impl ParallelArm {
         std::array::from_fn(|i| self.signs[i] * q[i] - self.offsets[i])
     }
 
-    /// The lengths that a position of the flange is summed from [m].
+    /// The lengths that a position is summed from [m].
     pub fn reach(&self) -> f64 {
-        self.a1.abs() + self.b().abs() + self.c1 + self.c2 + self.c3 + self.d5 + self.d6
+        let along_axis_2: f64 = self.b.iter().map(|b| b.abs()).sum();
+        let ends = self.base.translation.vector.norm() + self.flange.translation.vector.norm();
+        self.a1.abs() + along_axis_2 + self.c1 + self.c2 + self.c3 + self.d5.abs() + self.d6.abs() + ends
     }
 
     pub fn b(&self) -> f64 {

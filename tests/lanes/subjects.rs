@@ -138,7 +138,7 @@ impl Subject {
         let ends = self.robot.base().translation.vector.norm() + self.robot.tool().translation.vector.norm();
         let arm = match &self.form {
             Form::Wrist(OpwParameters { a1, a2, b, c1, c2, c3, c4, .. }) => a1.abs() + b.abs() + c1 + c2 + a2.hypot(*c3) + c4,
-            Form::Parallel(arm) => arm.reach() + arm.base.translation.vector.norm() + arm.flange.translation.vector.norm(),
+            Form::Parallel(arm) => arm.reach(),
         };
         arm + ends
     }

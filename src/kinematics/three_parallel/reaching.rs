@@ -35,18 +35,36 @@ pub(super) struct Reaching {
 const HALVINGS: u32 = 50;
 
 impl ThreeParallel {
-    /// The arm with this shoulder and joint 6 there; where that is out of reach, with what the pose leaves open moved towards reach: joint 6
-    /// or, where joint 6 is told by it, the plane of the arm.
+    /// The arm with this shoulder and joint 6 there; where that is out of reach, with what the pose leaves open moved towards reach: the plane
+    /// of the arm, where joint 6 is told by the pose, and joint 6.
     pub(super) fn reaching(&self, shoulder: &Shoulder, turn: Turn, target: &Target<'_>) -> Result<Reaching, Reach> {
-        let missed = match self.turned_or_not(shoulder, turn, target) {
+        let (missed, wrist) = match self.at(*shoulder, turn, target) {
             Ok(reaching) => return Ok(reaching),
             Err(missed) => missed,
         };
+        let m = seen_from_plane(shoulder, target.rotation);
+        if let Some(reaching) = self.in_another_plane(shoulder, turn, &m, (missed, wrist), target) {
+            return Ok(reaching);
+        }
+        let Some(theta_6) = self.turned_into_reach(shoulder, turn, &m, &wrist, target) else { return Err(missed) };
+        let nearer = |turned: Reach| if turned.shortfall() < missed.shortfall() { turned } else { missed };
+        self.at(*shoulder, Turn::Taken(theta_6), target).map_err(|(turned, _)| nearer(turned))
+    }
+
+    /// The arm that is just out of reach with this shoulder, in the nearest of the planes that rounding leaves open in which it reaches.
+    fn in_another_plane(
+        &self,
+        shoulder: &Shoulder,
+        turn: Turn,
+        m: &Matrix3<f64>,
+        (missed, wrist): (Reach, Wrist),
+        target: &Target<'_>,
+    ) -> Option<Reaching> {
         let plane = OpenPlane::of(self, shoulder, target);
         if !matches!(turn, Turn::Told { .. }) || missed.shortfall() > plane.lever(self) {
-            return Err(missed);
+            return None;
         }
-        let at = |angle: f64| self.turned_or_not(&plane.turned(angle), turn, target);
+        let at = |angle: f64| self.at(plane.turned(angle), turn, target);
         let nearest = |reaches: f64| {
             let (mut misses, mut reaches, mut reaching) = (0.0, reaches, at(reaches).ok()?);
             for _ in 0..HALVINGS {
@@ -59,20 +77,8 @@ impl ThreeParallel {
             Some(reaching)
         };
         let ends = [plane.open, -plane.open].into_iter();
-        let told = self.middles_of_reach(shoulder, turn, target).into_iter().flatten().filter_map(|theta_6| plane.telling(theta_6));
-        ends.chain(told).find_map(nearest).ok_or(missed)
-    }
-
-    /// The arm with this shoulder and joint 6 there or, where that is out of reach, turned from there as far as the pose leaves it open.
-    fn turned_or_not(&self, shoulder: &Shoulder, turn: Turn, target: &Target<'_>) -> Result<Reaching, Reach> {
-        let (missed, wrist) = match self.at(*shoulder, turn, target) {
-            Ok(reaching) => return Ok(reaching),
-            Err(missed) => missed,
-        };
-        let m = seen_from_plane(shoulder, target.rotation);
-        let Some(theta_6) = self.turned_into_reach(shoulder, &m, &wrist, turn.open(&m), target) else { return Err(missed) };
-        let nearer = |turned: Reach| if turned.shortfall() < missed.shortfall() { turned } else { missed };
-        self.at(*shoulder, Turn::Taken(theta_6), target).map_err(|(turned, _)| nearer(turned))
+        let told = self.middles_of_reach(shoulder, m, &wrist, target).into_iter().flatten().filter_map(|theta_6| plane.telling(theta_6));
+        ends.chain(told).find_map(nearest)
     }
 
     /// The elbows of the end of the planar arm (eq. 37, 38), or how far it is out of reach.
@@ -86,20 +92,18 @@ impl ThreeParallel {
         }
     }
 
-    /// theta_6 moved by `open` at most to where the end of the planar arm is in reach, or nearest to it.
-    fn turned_into_reach(&self, shoulder: &Shoulder, m: &Matrix3<f64>, wrist: &Wrist, open: f64, target: &Target<'_>) -> Option<f64> {
+    /// theta_6 moved to where the end of the planar arm is in reach, or nearest to it; none where the pose does not leave it open so far.
+    fn turned_into_reach(&self, shoulder: &Shoulder, turn: Turn, m: &Matrix3<f64>, wrist: &Wrist, target: &Target<'_>) -> Option<f64> {
         let Circle { from_line, least, most } = self.circle(shoulder, wrist, target)?;
         let turned = from_line.abs().clamp(least, most).copysign(from_line) - from_line;
-        (turned.abs() <= open).then_some(wrist.theta_6 + turned_with_phi(turned, m))
+        (turned.abs() <= turn.open(m)).then_some(wrist.theta_6 + turned_with_phi(turned, m))
     }
 
     /// theta_6 in the middle of what is in reach on either side of the line to the wrist.
-    fn middles_of_reach(&self, shoulder: &Shoulder, turn: Turn, target: &Target<'_>) -> Option<[f64; 2]> {
-        let m = seen_from_plane(shoulder, target.rotation);
-        let wrist = turn.wrist(&m, target.free, target.free_theta[5], WRIST_FREE_SIN);
-        let Circle { from_line, least, most } = self.circle(shoulder, &wrist, target)?;
+    fn middles_of_reach(&self, shoulder: &Shoulder, m: &Matrix3<f64>, wrist: &Wrist, target: &Target<'_>) -> Option<[f64; 2]> {
+        let Circle { from_line, least, most } = self.circle(shoulder, wrist, target)?;
         let middle = 0.5 * (least + most);
-        Some([middle, -middle].map(|middle| wrist.theta_6 + turned_with_phi(middle - from_line, &m)))
+        Some([middle, -middle].map(|middle| wrist.theta_6 + turned_with_phi(middle - from_line, m)))
     }
 
     /// At sin theta_5 = 0 the end of the planar arm runs on a circle about the wrist (eq. 39).
