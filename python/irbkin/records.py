@@ -109,7 +109,8 @@ class Singularity(NamedTuple):
     """How far joint vectors are from the singularities; numbers for one, arrays for many."""
 
     wrist: Any
-    """Angle of joint 5 from 0 or 180 deg [rad]; of seven axes, between the plane of axes 5 and 6 and the line to the shoulder."""
+    """Angle of joint 5 from 0 or 180 deg [rad]; of seven axes, between the plane of axes 5 and 6 and the line to the
+    shoulder."""
     elbow: Any
     """Angle between upper arm and forearm from stretched or folded [rad]."""
     shoulder: Any

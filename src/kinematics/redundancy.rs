@@ -246,7 +246,7 @@ impl Search<'_> {
             let q = self.robot.limits().turned_to(&solution.q, &self.seed).unwrap_or(solution.q);
             Some(Sample { q, joints_outside: self.joints_outside(&q), outside: self.outside(&q), cost: self.cost(&q) })
         });
-        for sample in slots.iter().flatten().filter(|sample: &&Sample| sample.joints_outside == 0) {
+        for sample in slots.iter().flatten().filter(|sample: &&Sample| sample.outside == 0.0) {
             self.keep(&sample.q);
         }
         let shortfall = solutions.reach().shortfall();

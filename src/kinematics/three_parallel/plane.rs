@@ -11,7 +11,7 @@ use super::reaching::Target;
 use super::wrist::{seen_from_plane, sin_5};
 use crate::kinematics::planar_arm::Shoulder;
 
-/// The planes that rounding leaves open: those turned from the shoulder's by up to `open` either way [rad].
+/// The planes that rounding leaves open: those turned from the shoulder's by up to `open` either way [rad] (eq. 42).
 pub(super) struct OpenPlane<'a> {
     shoulder: &'a Shoulder,
     wxy: [f64; 2],
@@ -36,7 +36,7 @@ impl<'a> OpenPlane<'a> {
         Shoulder { sin_1, cos_1, x: self.wxy[0] * cos_1 + self.wxy[1] * sin_1, ..*self.shoulder }
     }
 
-    /// The shoulder turned to where the wrist is nearest to its singularity, and sin theta_5 there.
+    /// The shoulder turned to where the wrist is nearest to its singularity, and sin theta_5 there (eq. 43).
     pub(super) fn nearest_to_wrist(&self, target: &Target<'_>) -> (Shoulder, f64) {
         let Self { told: [m10, m12], moved: [m00, m02], open, .. } = *self;
         let to_wrist = (m10 * m00 + m12 * m02) / (m00 * m00 + m02 * m02);
@@ -45,7 +45,7 @@ impl<'a> OpenPlane<'a> {
         (nearest, sin_5)
     }
 
-    /// The angle to turn by so that the pose tells `theta_6`, or half a turn from there; none where it is not open so far.
+    /// The angle to turn by so that the pose tells `theta_6`, or half a turn from there; none where it is not open so far (eq. 44).
     pub(super) fn telling(&self, theta_6: f64) -> Option<f64> {
         let (sin_6, cos_6) = theta_6.sin_cos();
         let Self { told: [m10, m12], moved: [m00, m02], .. } = self;
