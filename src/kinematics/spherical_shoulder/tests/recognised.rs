@@ -1,5 +1,7 @@
 //! Tables with their frames and their zero pose anywhere.
 
+use std::string::ToString;
+
 use super::*;
 use crate::kinematics::dh::{Sdh, screw_x};
 
