@@ -261,11 +261,7 @@ fn run_beyond(arm: &Arm, rng: &mut Rng) -> String {
                 judge(arm, &q, &pose, Place { elbow: Some(0.0), ..Place::default() }, beyond, &mut tally);
                 continue;
             }
-            let solutions = arm.robot.ik(&pose).unwrap();
-            tally.poses += 1;
-            tally.found += usize::from((solutions.reach().shortfall() - beyond).abs() < 1e-9);
-            tally.solutions += solutions.len();
-            tally.wrong += solutions.len();
+            tally.take_missed(&arm.robot.ik(&pose).unwrap(), beyond);
         }
         report += &tally.tell(arm.name, &format!("beyond reach by {beyond:e} m"));
     }

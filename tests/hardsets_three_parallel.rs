@@ -305,11 +305,7 @@ fn run_beyond(subject: &Subject, rng: &mut Rng) -> String {
                 Made { pose, beyond, ..made }.judge(&mut tally, rng);
                 continue;
             }
-            let solutions = subject.robot.ik(&pose).unwrap();
-            tally.poses += 1;
-            tally.found += usize::from((solutions.reach().shortfall() - beyond).abs() < 1e-9);
-            tally.solutions += solutions.len();
-            tally.wrong += solutions.len();
+            tally.take_missed(&subject.robot.ik(&pose).unwrap(), beyond);
         }
         report += &tally.tell(subject.name, &format!("beyond reach by {beyond:e} m"));
     }

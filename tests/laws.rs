@@ -5,7 +5,7 @@ mod common;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use common::{apart, asked_set, reach_of};
+use common::{apart, profile, reach_of};
 use irbkin::{DhRow, JacobianFrame, JointLimits, Mdh, OpwParameters, Pose, PoseError, Robot, Sdh, Status, pose_from_euler_zyx};
 use proptest::prelude::*;
 
@@ -49,12 +49,6 @@ fn cfx(opw: &OpwParameters, q: &[f64; 6]) -> u8 {
     let behind_axis_1 = opw.a1 + opw.c2 * t2.sin() + opw.c3 * (t2 + t3).sin() + opw.a2 * (t2 + t3).cos() < 0.0;
     let behind_lower_arm = opw.c3 * t3.sin() + opw.a2 * t3.cos() < 0.0;
     4 * u8::from(behind_axis_1) + 2 * u8::from(behind_lower_arm) + u8::from(t5.sin() < 0.0)
-}
-
-/// The same cases everywhere, on the instruction set that was asked for.
-fn profile() -> ProptestConfig {
-    asked_set();
-    ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() }
 }
 
 proptest! {

@@ -6,7 +6,7 @@ mod common;
 use std::f64::consts::PI;
 
 use common::parallel_arm::{ParallelArm, turn, wrapped};
-use common::{Rng, apart, asked_set};
+use common::{Rng, apart, profile};
 use irbkin::{JacobianFrame, Mdh, Pose, PoseError, Reach, Robot, Sdh, pose_from_euler_zyx};
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
@@ -45,12 +45,6 @@ fn is_regular(arm: &ParallelArm, theta: &[f64; 6]) -> bool {
 /// How far rounding of the pose moves the joints: 40 roundings over the least singular value.
 fn joint_bound(arm: &ParallelArm, robot: &Robot<6>, q: &[f64; 6]) -> f64 {
     40.0 * f64::EPSILON * lengths(arm) / robot.singularity(q).min_singular_value
-}
-
-/// The same cases everywhere, on the instruction set that was asked for.
-fn profile() -> ProptestConfig {
-    asked_set();
-    ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() }
 }
 
 proptest! {

@@ -33,34 +33,32 @@ impl Geometry {
     pub(crate) fn of<const N: usize>(mdh: &Mdh<N>) -> (Chain<N>, Self) {
         let (base, flange) = (mdh.base, mdh.flange);
         let found = match (<&[DhRow; 6]>::try_from(&mdh.rows[..]), <&[DhRow; 7]>::try_from(&mdh.rows[..])) {
-            (Ok(rows), _) => Self::of_six(&Mdh { base, rows: *rows, flange }).map(|(rows, geometry)| (resized_rows(&rows), geometry)),
-            (_, Ok(rows)) => Self::of_seven(&Mdh { base, rows: *rows, flange }).map(|(rows, geometry)| (resized_rows(&rows), geometry)),
+            (Ok(rows), _) => Self::of_six(&Mdh { base, rows: *rows, flange }),
+            (_, Ok(rows)) => Self::of_seven(&Mdh { base, rows: *rows, flange }),
             _ => Err(NotRecognised::joint_count(N)),
         };
-        match found {
-            Ok((rows, geometry)) => {
-                let chain = Chain::new(Mdh { base, rows, flange });
-                let geometry = geometry.between(&chain, &NO_LIMITS[..N.min(NO_LIMITS.len())]);
-                (chain, geometry)
-            }
-            Err(reason) => (Chain::new(mdh.clone()), Self::Serial(reason)),
-        }
+        found.unwrap_or_else(|reason| (Chain::new(mdh.clone()), Self::Serial(reason)))
     }
 
-    fn of_six(mdh: &Mdh<6>) -> Result<([DhRow; 6], Self), NotRecognised> {
-        let chain = Chain::new(mdh.clone());
+    fn of_six<const N: usize>(mdh: &Mdh<6>) -> Result<(Chain<N>, Self), NotRecognised> {
         // A third and a fourth axis that are nearer to parallel than to square belong to the one form, others to the other.
         if mdh.rows[3].alpha.sin().abs() < mdh.rows[3].alpha.cos().abs() {
             let (squared, arm) = three_parallel::recognise(mdh)?;
-            return Ok((squared.rows, Self::ThreeParallel(ParallelSolver::new(arm, &chain, &NO_LIMITS[..6]))));
+            let chain = resized_chain(&squared);
+            let solver = ParallelSolver::new(arm, &chain, &NO_LIMITS[..6]);
+            return Ok((chain, Self::ThreeParallel(solver)));
         }
         let (squared, arm) = spherical_wrist::recognise(mdh)?;
-        Ok((squared.rows, Self::SphericalWrist(WristSolver::new(arm, &chain, &NO_LIMITS[..6]))))
+        let chain = resized_chain(&squared);
+        let solver = WristSolver::new(arm, &chain, &NO_LIMITS[..6]);
+        Ok((chain, Self::SphericalWrist(solver)))
     }
 
-    fn of_seven(mdh: &Mdh<7>) -> Result<([DhRow; 7], Self), NotRecognised> {
+    fn of_seven<const N: usize>(mdh: &Mdh<7>) -> Result<(Chain<N>, Self), NotRecognised> {
         let (squared, arm) = spherical_shoulder::recognise(mdh)?;
-        Ok((squared.rows, Self::SphericalShoulder(SevenSolver::new(arm, &Chain::new(mdh.clone()), &NO_LIMITS))))
+        let chain = resized_chain(&squared);
+        let solver = SevenSolver::new(arm, &chain, &NO_LIMITS);
+        Ok((chain, Self::SphericalShoulder(solver)))
     }
 
     /// That of an ortho-parallel arm with a spherical wrist.
@@ -119,7 +117,8 @@ impl Geometry {
     }
 }
 
-/// Rows of a table, of which there are as many as joints: the same array under its generic name.
-fn resized_rows<const M: usize, const N: usize>(rows: &[DhRow; M]) -> [DhRow; N] {
-    core::array::from_fn(|i| rows.get(i).copied().unwrap_or_default())
+/// The chain of a table, of which there are as many rows as joints: the same array under its generic name.
+fn resized_chain<const M: usize, const N: usize>(mdh: &Mdh<M>) -> Chain<N> {
+    let rows = core::array::from_fn(|i| mdh.rows.get(i).copied().unwrap_or_default());
+    Chain::new(Mdh { base: mdh.base, rows, flange: mdh.flange })
 }

@@ -15,6 +15,7 @@ use super::spherical_wrist;
 use super::status::Explanation;
 use super::status::{Reach, Status};
 use super::three_parallel;
+use super::thresholds::MOST_LENGTH;
 #[cfg(feature = "python")]
 use super::thresholds::SOLUTION_OFF;
 use crate::error::{Error, JointFault, ModelFault};
@@ -200,6 +201,9 @@ impl<const N: usize> Robot<N> {
     #[inline]
     fn solve_in_lanes(&self, solutions: &mut Solutions<N>, given: f64) -> bool {
         let pose = &solutions.pose;
+        if pose.translation.vector.iter().any(|coordinate| coordinate.abs() > MOST_LENGTH) {
+            return false;
+        }
         match self.geometry() {
             Geometry::SphericalWrist(solver) => match run(spherical_wrist::Single { solver, pose }) {
                 Some(plain) => put(&mut solutions.slots, |slot| plain.slot(slot)),

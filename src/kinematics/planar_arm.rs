@@ -2,10 +2,12 @@
 //!
 //! Both families of six-axis arms stand on it. The equation numbers are those of docs/ik_derivation.md.
 
+use nalgebra::Matrix3;
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use super::free_choice::Trust;
+use super::branches::Branches;
+use super::free_choice::{FreeChoice, Trust};
 use super::pose::Pose;
 use super::status::Reach;
 use super::thresholds::{LATERAL_MERGE, POSITION_ROUNDING, REACH_TOLERANCE, SHOULDER_MERGE};
@@ -66,6 +68,17 @@ pub(crate) struct Elbows {
     pub(crate) error: f64,
     /// The wrist centre is on axis 2: the upper arm may point anywhere.
     pub(crate) free: bool,
+}
+
+/// What a solve on this arm is asked.
+pub(crate) struct Target<'a> {
+    pub(crate) wxy: [f64; 2],
+    pub(crate) wz: f64,
+    pub(crate) rotation: &'a Matrix3<f64>,
+    pub(crate) free: &'a FreeChoice<6>,
+    pub(crate) free_theta: [f64; 6],
+    /// How far beyond reach the arm's end may be and still get the stretched or folded arm [m].
+    pub(crate) tolerance: f64,
 }
 
 impl Shoulder {
@@ -131,6 +144,31 @@ impl PlanarArm {
         let r = (c2 * c2 + k * k + 2.0 * c2 * k * self.elbow_angle(theta_3).cos()).max(0.0).sqrt();
         let folded_onto_axis_2 = r <= self.position_rounding();
         folded_onto_axis_2 || (c2 * k * self.sin_elbow(theta_3)).powi(2) <= self.straight_m2(r)
+    }
+
+    /// The branches of the frame `t_shoulder_wrist` as `fill` makes them from its shoulders; where none reaches, and the nearest one misses by
+    /// less than anyone could see, once more with that forgiven: it gets the stretched or folded arm.
+    pub(crate) fn solve(
+        &self,
+        t_shoulder_wrist: &Pose,
+        free: &FreeChoice<6>,
+        free_theta: [f64; 6],
+        fill: impl Fn(&Shoulders, &Target<'_>) -> Branches<6>,
+    ) -> Branches<6> {
+        let w = t_shoulder_wrist.translation.vector;
+        let rotation = t_shoulder_wrist.rotation.matrix();
+        let mut target = Target { wxy: [w.x, w.y], wz: w.z, rotation, free, free_theta, tolerance: self.position_rounding() };
+        let shoulders = match self.shoulders(target.wxy, free_theta[0], free.trust) {
+            Ok(shoulders) => shoulders,
+            Err(missed) => return Branches::empty(missed),
+        };
+        let branches = fill(&shoulders, &target);
+        let shortfall = branches.reach.shortfall();
+        if shortfall == 0.0 || shortfall > REACH_TOLERANCE {
+            return branches;
+        }
+        target.tolerance = shortfall;
+        fill(&shoulders, &target)
     }
 
     /// Both shoulders that face the point (eq. 2 to 4), with the angle of axis 1 to take where it is free.

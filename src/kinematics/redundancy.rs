@@ -246,9 +246,7 @@ impl Search<'_> {
             let q = self.robot.limits().turned_to(&solution.q, &self.seed).unwrap_or(solution.q);
             Some(Sample { q, joints_outside: self.joints_outside(&q), outside: self.outside(&q), cost: self.cost(&q) })
         });
-        for sample in slots.iter().flatten().filter(|sample: &&Sample| sample.outside == 0.0) {
-            self.keep(&sample.q);
-        }
+        slots.iter().flatten().for_each(|sample: &Sample| self.keep(&sample.q));
         let shortfall = solutions.reach().shortfall();
         let outside = slots.iter().flatten().map(|sample: &Sample| sample.outside).fold(f64::INFINITY, f64::min);
         if (shortfall, outside).partial_cmp(&(self.missed.shortfall, self.missed.outside)) == Some(Ordering::Less) {
@@ -318,8 +316,9 @@ impl Search<'_> {
                     self.edges(curve, end).iter().flatten().for_each(|edge| self.keep(&edge.q.data.0[0]));
                 }
             }
-            if self.slope(&next) * slope <= 0.0 {
-                self.bottom(curve, &point, ahead);
+            let slope_ahead = self.slope(&next);
+            if slope_ahead * slope <= 0.0 {
+                self.bottom(curve, &point, ahead, [slope, slope_ahead]);
                 return;
             }
             self.keep(&next.q.data.0[0]);
@@ -327,10 +326,10 @@ impl Search<'_> {
         }
     }
 
-    /// The bottom of a valley between a point and one that is ahead of it: where the slope is zero, by false position.
-    fn bottom(&mut self, curve: &SelfMotion<'_>, point: &Point, ahead: f64) {
+    /// The bottom of a valley between a point and one that is ahead of it, with the slopes at both: where the slope is zero, by false position.
+    fn bottom(&mut self, curve: &SelfMotion<'_>, point: &Point, ahead: f64, slopes: [f64; 2]) {
         let at = |part: f64| curve.across(&(point.q + part * ahead * point.along), &point.along);
-        let (mut low, mut high) = ((0.0, self.slope(point)), (1.0, at(1.0).map_or(0.0, |end| self.slope(&end))));
+        let (mut low, mut high) = ((0.0, slopes[0]), (1.0, slopes[1]));
         for _ in 0..ROUNDS {
             let part = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
             let Some(middle) = at(part) else { return };

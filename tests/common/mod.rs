@@ -8,6 +8,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::{Mutex, PoisonError};
 
 use irbkin::{Definition, Error, InstructionSet, JointLimits, OpwParameters, Robot};
+use proptest::test_runner::Config as ProptestConfig;
 
 /// Takes the instruction set that `IRBKIN_INSTRUCTION_SET` asks for, by its name; without it, the widest. Fails where the processor does not
 /// have it: a run on another set would tell nothing of this one.
@@ -18,6 +19,12 @@ pub fn asked_set() -> InstructionSet {
         set.unwrap_or_else(|| panic!("IRBKIN_INSTRUCTION_SET is {name:?}, this processor has {names:?}")).force().unwrap();
     }
     InstructionSet::in_use()
+}
+
+/// The same cases everywhere, on the instruction set that was asked for.
+pub fn profile() -> ProptestConfig {
+    asked_set();
+    ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() }
 }
 
 /// Works on each instruction set of this processor in turn; one test at a time, for a set is forced in the whole process.

@@ -1,5 +1,7 @@
 //! Counts of a hard set, and its row.
 
+use irbkin::Solutions;
+
 use super::asked_set;
 
 /// What became of the poses of a set.
@@ -16,6 +18,14 @@ pub struct Tally {
 }
 
 impl Tally {
+    /// Counts the answer to a pose that is out of reach: nothing, and how far.
+    pub fn take_missed(&mut self, solutions: &Solutions<6>, beyond: f64) {
+        self.poses += 1;
+        self.found += usize::from((solutions.reach().shortfall() - beyond).abs() < 1e-9);
+        self.solutions += solutions.len();
+        self.wrong += solutions.len();
+    }
+
     /// Prints the row; returns it when something is amiss.
     pub fn tell(&self, name: &str, set: &str) -> String {
         #[expect(clippy::cast_precision_loss, reason = "a mean")]

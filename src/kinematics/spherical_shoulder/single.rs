@@ -6,7 +6,7 @@ use super::solver::{SevenSolver, hand_frame};
 use crate::kinematics::block::{Directions, FOUND_INSIDE, JointColumn, PlainSlots, half_turn};
 use crate::kinematics::pose::Pose;
 use crate::kinematics::surroundings::Frame;
-use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH};
+use crate::kinematics::thresholds::MOST_ANGLE;
 use crate::lanes::Kernel;
 
 /// A pose to be solved, with the angle of joint 7.
@@ -28,8 +28,7 @@ impl Kernel for Single<'_> {
     fn run<const FUSED: bool>(self) -> Self::Answer {
         let Self { solver, pose, q7 } = self;
         let columns = *solver.columns.as_ref()?;
-        let far = pose.translation.vector.iter().any(|coordinate| coordinate.abs() > MOST_LENGTH);
-        if far || q7.is_nan() || q7.abs() > MOST_ANGLE {
+        if q7.is_nan() || q7.abs() > MOST_ANGLE {
             return None;
         }
         let seven = solver.surroundings.seen.of::<FUSED>(&Frame::of(pose));

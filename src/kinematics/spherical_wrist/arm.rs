@@ -4,9 +4,8 @@
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::SphericalWrist;
-use super::target::Target;
 use crate::kinematics::free_choice::Trust;
-use crate::kinematics::planar_arm::{Elbow, Shoulder};
+use crate::kinematics::planar_arm::{Elbow, Shoulder, Target};
 use crate::kinematics::thresholds::SEEDED_FREE;
 
 impl SphericalWrist {

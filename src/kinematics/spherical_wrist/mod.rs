@@ -11,7 +11,6 @@ mod recognise;
 mod single;
 mod solve;
 mod solver;
-mod target;
 mod wrist;
 
 pub use opw::OpwParameters;

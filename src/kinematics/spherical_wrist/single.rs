@@ -6,7 +6,6 @@ use super::solver::WristSolver;
 use crate::kinematics::block::{Directions, FOUND_INSIDE, JointColumn, half_turn};
 use crate::kinematics::pose::Pose;
 use crate::kinematics::surroundings::Frame;
-use crate::kinematics::thresholds::MOST_LENGTH;
 use crate::lanes::Kernel;
 
 /// A pose to be solved.
@@ -43,9 +42,6 @@ impl Kernel for Single<'_> {
     fn run<const FUSED: bool>(self) -> Self::Answer {
         let Self { solver, pose } = self;
         let columns = solver.columns.as_ref()?;
-        if pose.translation.vector.iter().any(|coordinate| coordinate.abs() > MOST_LENGTH) {
-            return None;
-        }
         let frame = solver.surroundings.seen.of::<FUSED>(&Frame::of(pose));
         let mut lanes = if solver.arm.planar.b == 0.0 {
             Lanes::of::<FUSED, false>(&solver.constants, &frame)

@@ -4,9 +4,8 @@
 use nalgebra::ComplexField as _;
 use nalgebra::Matrix3;
 
-use super::target::Target;
 use crate::kinematics::angles::constant_sin_cos;
-use crate::kinematics::planar_arm::{Elbow, Shoulder};
+use crate::kinematics::planar_arm::{Elbow, Shoulder, Target};
 use crate::kinematics::zyz::{First, Zyz, zyz};
 
 /// The wrist angles (eq. 15 to 17). `error` is how far rounding may turn the forearm: a theta_5 below it is none.

@@ -7,9 +7,8 @@
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::ThreeParallel;
-use super::reaching::Target;
 use super::wrist::{seen_from_plane, sin_5};
-use crate::kinematics::planar_arm::Shoulder;
+use crate::kinematics::planar_arm::{Shoulder, Target};
 
 /// The planes that rounding leaves open: those turned from the shoulder's by up to `open` either way [rad] (eq. 42).
 pub(super) struct OpenPlane<'a> {

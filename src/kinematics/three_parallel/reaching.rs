@@ -8,21 +8,9 @@ use super::ThreeParallel;
 use super::plane::OpenPlane;
 use super::wrist::{Turn, Wrist, seen_from_plane};
 use crate::kinematics::angles::wrap;
-use crate::kinematics::free_choice::FreeChoice;
-use crate::kinematics::planar_arm::{Elbows, PlanarArm, Shoulder};
+use crate::kinematics::planar_arm::{Elbows, PlanarArm, Shoulder, Target};
 use crate::kinematics::status::Reach;
 use crate::kinematics::thresholds::WRIST_FREE_SIN;
-
-/// What a solve is asked.
-pub(super) struct Target<'a> {
-    pub(super) wxy: [f64; 2],
-    pub(super) wz: f64,
-    pub(super) rotation: &'a Matrix3<f64>,
-    pub(super) free: &'a FreeChoice<6>,
-    pub(super) free_theta: [f64; 6],
-    /// How far beyond reach the arm's end may be and still get the stretched or folded arm [m].
-    pub(super) tolerance: f64,
-}
 
 /// A shoulder and a wrist with the elbows between them.
 pub(super) struct Reaching {

@@ -6,7 +6,6 @@ use crate::kinematics::block::{Directions, FOUND_INSIDE, PlainSlots, half_turn};
 use crate::kinematics::pose::Pose;
 use crate::kinematics::solutions::SLOTS;
 use crate::kinematics::surroundings::Frame;
-use crate::kinematics::thresholds::MOST_LENGTH;
 use crate::lanes::Kernel;
 
 /// A pose to be solved.
@@ -28,9 +27,6 @@ impl Kernel for Single<'_> {
     fn run<const FUSED: bool>(self) -> Self::Answer {
         let Self { solver, pose } = self;
         let columns = *solver.columns.as_ref()?;
-        if pose.translation.vector.iter().any(|coordinate| coordinate.abs() > MOST_LENGTH) {
-            return None;
-        }
         let frame = solver.surroundings.seen.of::<FUSED>(&Frame::of(pose));
         let (constants, wz) = (solver.constants, frame.origin[2]);
         let (mut directions, mut slots, mut plain) = (Directions::<6, SLOTS>::NEW, PlainSlots::NEW, [0; SLOTS]);

@@ -5,40 +5,21 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use super::ThreeParallel;
 use super::plane::OpenPlane;
-use super::reaching::{Reaching, Target};
+use super::reaching::Reaching;
 use super::wrist::{Turn, Wrist, seen_from_plane, sin_5};
 use crate::kinematics::branches::Branches;
 use crate::kinematics::free_choice::{FreeChoice, Trust};
-use crate::kinematics::planar_arm::{Elbow, Shoulder, Shoulders};
+use crate::kinematics::planar_arm::{Elbow, Shoulder, Shoulders, Target};
 use crate::kinematics::pose::Pose;
 use crate::kinematics::solutions::FreeJoint;
 use crate::kinematics::status::{Reach, Status};
-use crate::kinematics::thresholds::{REACH_TOLERANCE, WRIST_FREE_SIN, WRIST_MERGE_SIN};
+use crate::kinematics::thresholds::{WRIST_FREE_SIN, WRIST_MERGE_SIN};
 
 impl ThreeParallel {
     /// Every branch of the wrist frame `t_shoulder_wrist`.
     pub(crate) fn solve(&self, t_shoulder_wrist: &Pose, free: &FreeChoice<6>) -> Branches<6> {
-        let w = t_shoulder_wrist.translation.vector;
-        let mut target = Target {
-            wxy: [w.x, w.y],
-            wz: w.z,
-            rotation: t_shoulder_wrist.rotation.matrix(),
-            free,
-            free_theta: self.placement.theta(&free.q),
-            tolerance: self.planar.position_rounding(),
-        };
-        let shoulders = match self.planar.shoulders(target.wxy, target.free_theta[0], free.trust) {
-            Ok(shoulders) => shoulders,
-            Err(missed) => return Branches::empty(missed),
-        };
-        let branches = self.branches(&shoulders, &target);
-        let shortfall = branches.reach.shortfall();
-        if shortfall == 0.0 || shortfall > REACH_TOLERANCE {
-            return branches;
-        }
-        // No branch reaches, the nearest one by less than anyone could see: it gets the stretched or folded arm.
-        target.tolerance = shortfall;
-        self.branches(&shoulders, &target)
+        let free_theta = self.placement.theta(&free.q);
+        self.planar.solve(t_shoulder_wrist, free, free_theta, |shoulders, target| self.branches(shoulders, target))
     }
 
     fn branches(&self, shoulders: &Shoulders, target: &Target<'_>) -> Branches<6> {
