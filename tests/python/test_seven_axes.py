@@ -91,6 +91,13 @@ def test_a_batch_has_the_single_answers(robot):
     np.testing.assert_array_equal(out.q, batch.q)
 
 
+def test_an_empty_batch_is_empty(robot):
+    none = np.empty((0, 4, 4))
+    for batch in (robot.ik_batch(none, np.empty(0)), robot.ik_batch(none, 0.3), robot.ik_batch(np.eye(4), np.empty(0))):
+        assert (batch.q.shape, batch.status.shape) == ((0, 8, 7), (0, 8))
+    assert robot.ik_nearest(none, np.zeros(7)).shape == (0, 7)
+
+
 def test_a_broken_row_of_a_batch_is_told_and_the_others_are_not_touched(robot):
     q = inside(robot, 20)
     poses, q7 = robot.fk(q), q[:, 6].copy()
