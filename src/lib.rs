@@ -54,10 +54,10 @@ mod urdf;
 pub use catalogue::{AngleUnit, CatalogueArm, CatalogueGeometry, catalogue, find};
 pub use error::{Error, JointFault, ModelFault, Names, PoseFault, UnknownRobot, UrdfFault};
 pub use kinematics::{
-    Break, BreakReason, Chain, Condition, Crossing, Definition, DhRow, Explanation, FollowOptions, Followed, Follower, FreeJoint,
-    JacobianFrame, JointAxis, JointLimits, Mdh, NotRecognised, OpwParameters, Pose, PoseError, Reach, Relation, Robot, SLOTS, Sdh,
-    SingularDistances, Singularity, Solution, Solutions, SphericalShoulder, SphericalWrist, Status, ThreeParallel, pose_from_euler_zyx,
-    pose_from_quaternion, pose_from_rows, pose_to_euler_zyx, pose_to_quaternion, pose_to_rows, thresholds,
+    Break, BreakReason, Chain, Condition, Configuration, Crossing, Definition, DhRow, Explanation, FollowOptions, Followed, Follower,
+    FreeJoint, JacobianFrame, JointAxis, JointLimits, Mdh, NotRecognised, OpwParameters, Pose, PoseError, Reach, Relation, Robot, SLOTS,
+    Sdh, SingularDistances, Singularity, Solution, Solutions, SphericalShoulder, SphericalWrist, Status, ThreeParallel,
+    pose_from_euler_zyx, pose_from_quaternion, pose_from_rows, pose_to_euler_zyx, pose_to_quaternion, pose_to_rows, thresholds,
 };
 pub use lanes::InstructionSet;
 

@@ -5,6 +5,7 @@ mod axes;
 mod block;
 mod branches;
 mod chain;
+mod configuration;
 mod crossing;
 mod dh;
 mod family;
@@ -36,6 +37,7 @@ pub mod thresholds;
 mod zyz;
 
 pub use chain::Chain;
+pub use configuration::Configuration;
 pub use crossing::{Crossing, FollowOptions};
 pub use dh::{DhRow, Mdh, Sdh};
 pub use follow::{Break, BreakReason, Followed, Follower};
