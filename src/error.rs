@@ -169,6 +169,20 @@ pub enum ModelFault {
         /// Upper limit [rad].
         upper: f64,
     },
+    /// The lower limit of the rod of coupled axes is above its upper limit.
+    EmptyRodLimit {
+        /// Lower limit of q3 - q2 [rad].
+        lower: f64,
+        /// Upper limit of q3 - q2 [rad].
+        upper: f64,
+    },
+    /// Limits of a rod were given for an arm whose axes 2 and 3 are not coupled.
+    NoRod,
+    /// Axes 2 and 3 of the arm cannot be coupled.
+    NotCoupled {
+        /// Why not.
+        reason: &'static str,
+    },
     /// A velocity limit is not positive.
     Velocity {
         /// The joint, from 1.
@@ -274,6 +288,9 @@ impl fmt::Display for ModelFault {
             Self::EmptyLimit { joint, lower, upper } => {
                 write!(f, "joint {joint} limit is empty: lower {lower} rad > upper {upper} rad")
             }
+            Self::EmptyRodLimit { lower, upper } => write!(f, "rod limit is empty: lower {lower} rad > upper {upper} rad"),
+            Self::NoRod => write!(f, "rod limits are those of q3 - q2 of an arm with coupled axes 2 and 3: this arm's are not coupled"),
+            Self::NotCoupled { reason } => write!(f, "axes 2 and 3 cannot be coupled: {reason}"),
             Self::Velocity { joint, value } => write!(f, "joint {joint} velocity is {value} rad/s, it must be positive"),
             Self::JointCount { found, wanted } => write!(f, "the arm has {found} joints, {wanted} were asked for"),
             Self::NoSphericalWrist => write!(f, "this policy holds a spherical wrist, and the arm has none: take \"through\" or \"error\""),

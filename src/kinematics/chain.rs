@@ -1,6 +1,7 @@
 //! A serial chain of revolute joints.
 
 use super::axes::Link;
+use super::coupling::serial;
 use super::dh::Mdh;
 use super::pose::Pose;
 
@@ -11,6 +12,7 @@ pub struct Chain<const N: usize> {
     t_world_base: Pose,
     t_flange_tool: Pose,
     links: [Link; N],
+    coupled: bool,
     t_world_first: Pose,
     t_last_tool: Pose,
 }
@@ -25,6 +27,7 @@ impl<const N: usize> Chain<N> {
             t_world_base: Pose::identity(),
             t_flange_tool: Pose::identity(),
             links,
+            coupled: false,
             t_world_first: Pose::identity(),
             t_last_tool: Pose::identity(),
         };
@@ -45,6 +48,13 @@ impl<const N: usize> Chain<N> {
     pub fn with_tool(mut self, t_flange_tool: Pose) -> Self {
         self.t_flange_tool = t_flange_tool;
         self.join();
+        self
+    }
+
+    /// The same chain with the joint angles of a controller that couples axes 2 and 3, or with its own.
+    #[must_use]
+    pub fn with_coupling(mut self, coupled: bool) -> Self {
+        self.coupled = coupled;
         self
     }
 
@@ -69,6 +79,18 @@ impl<const N: usize> Chain<N> {
     #[must_use]
     pub fn tool(&self) -> &Pose {
         &self.t_flange_tool
+    }
+
+    /// Whether axes 2 and 3 are coupled: then joint 3 is that of the table plus joint 2.
+    #[must_use]
+    pub fn is_coupled(&self) -> bool {
+        self.coupled
+    }
+
+    /// The table's joint angles.
+    #[inline(always)]
+    pub(super) fn serial(&self, q: &[f64; N]) -> [f64; N] {
+        if self.coupled { serial(*q) } else { *q }
     }
 
     pub(super) fn links(&self) -> &[Link; N] {

@@ -49,7 +49,7 @@ impl<const N: usize> Kernel for Poses<'_, N> {
     fn run<const FUSED: bool>(self) {
         let first = Axes::of(self.chain.first());
         for (q, poses) in self.q.chunks(LANES).zip(self.out.chunks_mut(LANES)) {
-            let (sin, cos) = sines_of_rows::<N, FUSED>(q);
+            let (sin, cos) = sines_of_rows::<N, FUSED>(self.chain, q);
             tool::<N, LANES, FUSED>(self.chain, first, &sin, &cos).write(poses);
             for (_, pose) in q.iter().zip(poses).filter(|(q, _)| !is_finite(q)) {
                 *pose = [f64::NAN; 16];
@@ -64,7 +64,7 @@ impl<const N: usize> Kernel for OnePose<'_, N> {
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> Pose {
-        let (sin, cos) = sines_of_joints::<N, FUSED>(self.q);
+        let (sin, cos) = sines_of_joints::<N, FUSED>(&self.chain.serial(self.q));
         tool::<N, 1, FUSED>(self.chain, Axes::of(self.chain.first()), &sin, &cos).pose(0)
     }
 }
@@ -75,7 +75,7 @@ impl<const N: usize> Kernel for OneFrames<'_, N> {
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> ([Pose; N], Pose) {
-        let (sin, cos) = sines_of_joints::<N, FUSED>(self.q);
+        let (sin, cos) = sines_of_joints::<N, FUSED>(&self.chain.serial(self.q));
         let mut frame = Axes::<1>::of(self.chain.first());
         let mut frames = [Pose::identity(); N];
         for (joint, (link, pose)) in self.chain.links().iter().zip(&mut frames).enumerate() {
@@ -104,13 +104,13 @@ fn tool<const N: usize, const W: usize, const FUSED: bool>(
 /// A column of lanes for each joint.
 pub(super) type Joints<const N: usize> = [Column; N];
 
-/// Sines and cosines of the joint angles of up to a block of rows, which stand in the lanes.
+/// Sines and cosines of the table's angles of up to a block of rows, which stand in the lanes.
 #[inline(always)]
-pub(super) fn sines_of_rows<const N: usize, const FUSED: bool>(rows: &[[f64; N]]) -> (Joints<N>, Joints<N>) {
+pub(super) fn sines_of_rows<const N: usize, const FUSED: bool>(chain: &Chain<N>, rows: &[[f64; N]]) -> (Joints<N>, Joints<N>) {
     let mut angles = [[0.0; LANES]; N];
     for (lane, row) in rows.iter().enumerate() {
-        for (column, angle) in angles.iter_mut().zip(row) {
-            column[lane] = *angle;
+        for (column, angle) in angles.iter_mut().zip(chain.serial(row)) {
+            column[lane] = angle;
         }
     }
     sines::<N, FUSED>(&angles)

@@ -8,6 +8,7 @@ use super::branches::Branches;
 use super::chain::Chain;
 use super::dh::{DhRow, Mdh};
 use super::free_choice::FreeChoice;
+use super::limits::JointLimits;
 use super::pose::Pose;
 use super::recognition::NotRecognised;
 use super::singularity::SingularDistances;
@@ -26,8 +27,6 @@ pub(crate) enum Geometry {
     Serial(NotRecognised),
 }
 
-const NO_LIMITS: [[f64; 2]; 7] = [[f64::NEG_INFINITY, f64::INFINITY]; 7];
-
 impl Geometry {
     /// The closed form of a table, and the table with what is within rounding of that form made exactly so.
     pub(crate) fn of<const N: usize>(mdh: &Mdh<N>) -> (Chain<N>, Self) {
@@ -45,29 +44,29 @@ impl Geometry {
         if mdh.rows[3].alpha.sin().abs() < mdh.rows[3].alpha.cos().abs() {
             let (squared, arm) = three_parallel::recognise(mdh)?;
             let chain = resized_chain(&squared);
-            let solver = ParallelSolver::new(arm, &chain, &NO_LIMITS[..6]);
+            let solver = ParallelSolver::new(arm, &chain, &JointLimits::UNLIMITED);
             return Ok((chain, Self::ThreeParallel(solver)));
         }
         let (squared, arm) = spherical_wrist::recognise(mdh)?;
         let chain = resized_chain(&squared);
-        let solver = WristSolver::new(arm, &chain, &NO_LIMITS[..6]);
+        let solver = WristSolver::new(arm, &chain, &JointLimits::UNLIMITED);
         Ok((chain, Self::SphericalWrist(solver)))
     }
 
     fn of_seven<const N: usize>(mdh: &Mdh<7>) -> Result<(Chain<N>, Self), NotRecognised> {
         let (squared, arm) = spherical_shoulder::recognise(mdh)?;
         let chain = resized_chain(&squared);
-        let solver = SevenSolver::new(arm, &chain, &NO_LIMITS);
+        let solver = SevenSolver::new(arm, &chain, &JointLimits::UNLIMITED);
         Ok((chain, Self::SphericalShoulder(solver)))
     }
 
     /// That of an ortho-parallel arm with a spherical wrist.
     pub(crate) fn of_opw<const N: usize>(opw: &OpwParameters, chain: &Chain<N>) -> Self {
-        Self::SphericalWrist(WristSolver::new(SphericalWrist::from_opw(opw), chain, &NO_LIMITS[..6]))
+        Self::SphericalWrist(WristSolver::new(SphericalWrist::from_opw(opw), chain, &JointLimits::UNLIMITED))
     }
 
-    /// The same form between the base and the tool of `chain`, with limits (lower, upper) of its joints [rad].
-    pub(crate) fn between<const N: usize>(self, chain: &Chain<N>, limits: &[[f64; 2]]) -> Self {
+    /// The same form between the base and the tool of `chain`, with its coupling and limits.
+    pub(crate) fn between<const N: usize>(self, chain: &Chain<N>, limits: &JointLimits<N>) -> Self {
         match self {
             Self::SphericalWrist(solver) => Self::SphericalWrist(WristSolver::new(solver.arm, chain, limits)),
             Self::ThreeParallel(solver) => Self::ThreeParallel(ParallelSolver::new(solver.arm, chain, limits)),

@@ -59,7 +59,7 @@ impl<const N: usize> Kernel for Jacobians<'_, N> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) {
         for (q, jacobians) in self.q.chunks(LANES).zip(self.out.chunks_mut(LANES)) {
-            let (sin, cos) = sines_of_rows::<N, FUSED>(q);
+            let (sin, cos) = sines_of_rows::<N, FUSED>(self.chain, q);
             let rows = jacobian_rows::<N, LANES, FUSED>(self.chain, self.frame, &sin, &cos);
             for (lane, jacobian) in jacobians.iter_mut().enumerate() {
                 for (to, from) in jacobian.iter_mut().zip(&rows) {
@@ -81,7 +81,7 @@ impl<const N: usize> Kernel for OneJacobian<'_, N> {
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> [[f64; N]; 6] {
-        let (sin, cos) = sines_of_joints::<N, FUSED>(self.q);
+        let (sin, cos) = sines_of_joints::<N, FUSED>(&self.chain.serial(self.q));
         let rows = jacobian_rows::<N, 1, FUSED>(self.chain, self.frame, &sin, &cos);
         let mut jacobian = [[0.0; N]; 6];
         for (to, from) in jacobian.iter_mut().zip(&rows) {
@@ -123,7 +123,22 @@ fn jacobian_rows<const N: usize, const W: usize, const FUSED: bool>(
             (rows[i][joint], rows[3 + i][joint]) = (linear[i], angular[i]);
         }
     }
+    if chain.is_coupled() {
+        take_coupling_back(&mut rows);
+    }
     rows
+}
+
+/// Where q3 is told from the base, q2 turns the serial joint 3 back: its column loses that of joint 3 (eq. 25).
+#[inline(always)]
+fn take_coupling_back<const N: usize, const W: usize>(rows: &mut [[[f64; W]; N]; 6]) {
+    for row in rows {
+        if let [_, second, third, ..] = &mut row[..] {
+            for (second, third) in second.iter_mut().zip(third) {
+                *second -= *third;
+            }
+        }
+    }
 }
 
 /// `axis x (to - from)`

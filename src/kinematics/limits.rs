@@ -11,11 +11,12 @@ use crate::lanes::{nearest_whole, whole_above, whole_below};
 pub struct JointLimits<const N: usize> {
     lower: [f64; N],
     upper: [f64; N],
+    rod: Option<[f64; 2]>,
 }
 
 impl<const N: usize> JointLimits<N> {
     /// No limits at all.
-    pub const UNLIMITED: Self = Self { lower: [f64::NEG_INFINITY; N], upper: [f64::INFINITY; N] };
+    pub const UNLIMITED: Self = Self { lower: [f64::NEG_INFINITY; N], upper: [f64::INFINITY; N], rod: None };
 
     /// Limits from (lower, upper) of each joint [rad].
     ///
@@ -24,18 +25,34 @@ impl<const N: usize> JointLimits<N> {
     /// [`Error::InvalidModel`] when a limit is NaN or a lower limit is above its upper limit.
     pub fn new(limits: [[f64; 2]; N]) -> Result<Self, Error> {
         for (i, [lower, upper]) in limits.into_iter().enumerate() {
-            // No limit is minus infinity below and infinity above.
-            for (field, value, none) in [("lower limit of joint", lower, f64::NEG_INFINITY), ("upper limit of joint", upper, f64::INFINITY)]
-            {
-                if value.total_cmp(&none).is_ne() {
-                    ModelFault::check(field, i + 1, value, MOST_ANGLE)?;
-                }
-            }
+            check(["lower limit of joint", "upper limit of joint"], i + 1, [lower, upper])?;
             if lower > upper {
                 return Err(ModelFault::EmptyLimit { joint: i + 1, lower, upper }.into());
             }
         }
-        Ok(Self { lower: limits.map(|limit| limit[0]), upper: limits.map(|limit| limit[1]) })
+        Ok(Self { lower: limits.map(|limit| limit[0]), upper: limits.map(|limit| limit[1]), rod: None })
+    }
+
+    /// The same limits with those of the rod of coupled axes 2 and 3: (lower, upper) of q3 - q2 [rad], at whatever turn.
+    pub(crate) fn with_rod(self, rod: Option<[f64; 2]>) -> Result<Self, Error> {
+        if let Some([lower, upper]) = rod {
+            check(["lower limit of the rod", "upper limit of the rod"], 0, [lower, upper])?;
+            if lower > upper {
+                return Err(ModelFault::EmptyRodLimit { lower, upper }.into());
+            }
+        }
+        Ok(Self { rod, ..self })
+    }
+
+    /// The same limits with the rod's of others.
+    pub(crate) fn with_rod_of(self, others: &Self) -> Self {
+        Self { rod: others.rod, ..self }
+    }
+
+    /// (lower, upper) of q3 - q2 [rad], for an arm whose rod has limits that are known.
+    #[must_use]
+    pub fn rod(&self) -> Option<[f64; 2]> {
+        self.rod
     }
 
     /// (lower, upper) of each joint [rad].
@@ -44,10 +61,38 @@ impl<const N: usize> JointLimits<N> {
         core::array::from_fn(|i| [self.lower[i], self.upper[i]])
     }
 
+    /// Those of the coupled twin: the limit of joint 3 is the rod's.
+    pub(crate) fn coupled(self) -> Self {
+        self.twin(1.0, Some([self.lower[2], self.upper[2]]).filter(|rod| rod.iter().any(|limit| limit.is_finite())))
+    }
+
+    /// Those of the serial twin: the limit of joint 3 is the rod's, where that is known.
+    pub(crate) fn serial(self) -> Self {
+        let mut twin = self.twin(-1.0, None);
+        if let Some([lower, upper]) = self.rod {
+            (twin.lower[2], twin.upper[2]) = (lower, upper);
+        }
+        twin
+    }
+
+    /// With joint 3 wherever `q3 + sign * q2` may be.
+    fn twin(mut self, sign: f64, rod: Option<[f64; 2]>) -> Self {
+        let (low, high) = (sign * self.lower[1], sign * self.upper[1]);
+        (self.lower[2], self.upper[2]) = (self.lower[2] + low.min(high), self.upper[2] + low.max(high));
+        Self { rod, ..self }
+    }
+
     /// Whether every joint is inside its limits, within [`LIMIT_TOLERANCE`].
     #[must_use]
     pub fn contain(&self, q: &[f64; N]) -> bool {
-        q.iter().enumerate().all(|(joint, angle)| angle.is_finite() && self.holds(joint, *angle))
+        q.iter().enumerate().all(|(joint, angle)| angle.is_finite() && self.holds(joint, *angle)) && self.rod_excess(q) == 0.0
+    }
+
+    /// How far q3 - q2, at its best turn, is outside the limits of the rod, beyond [`LIMIT_TOLERANCE`] [rad]; zero inside.
+    pub(crate) fn rod_excess(&self, q: &[f64; N]) -> f64 {
+        let (Some([lower, upper]), [_, q2, q3, ..]) = (self.rod, &q[..]) else { return 0.0 };
+        let excess = overrun(lower, upper, q3 - q2);
+        if excess <= LIMIT_TOLERANCE { 0.0 } else { excess }
     }
 
     /// Whether an angle of joint `joint` (from 0) is inside its limits, within [`LIMIT_TOLERANCE`]. Lanes compare in the same way.
@@ -62,18 +107,13 @@ impl<const N: usize> JointLimits<N> {
 
     /// How far an angle of joint `joint` (from 0), at its best turn, is outside its limits [rad]; negative inside.
     pub(crate) fn overrun(&self, joint: usize, angle: f64) -> f64 {
-        let middle = 0.5 * (self.lower[joint] + self.upper[joint]);
-        // A turn is always inside where one side has no limit.
-        if !middle.is_finite() {
-            return f64::NEG_INFINITY;
-        }
-        let angle = angle + TAU * nearest_whole((middle - angle) / TAU);
-        (self.lower[joint] - angle).max(angle - self.upper[joint])
+        overrun(self.lower[joint], self.upper[joint], angle)
     }
 
     /// [`Self::overrun`] of the joint that is outside the most.
     pub(crate) fn worst_overrun(&self, q: &[f64; N]) -> f64 {
-        q.iter().enumerate().map(|(joint, angle)| self.overrun(joint, *angle)).fold(f64::NEG_INFINITY, f64::max)
+        let rod = if self.rod.is_some() { self.rod_excess(q) } else { f64::NEG_INFINITY };
+        q.iter().enumerate().map(|(joint, angle)| self.overrun(joint, *angle)).fold(rod, f64::max)
     }
 
     /// The turn of each angle that stands for it in a solution (eq. 20): the angle in (-pi, pi], or, where that is outside the limits
@@ -106,8 +146,12 @@ impl<const N: usize> JointLimits<N> {
         })
     }
 
-    /// Every angle at its turn inside the limits that is nearest to `seed`; `None` where one has no such turn.
+    /// Every angle at its turn inside the limits that is nearest to `seed`; `None` where one has no such turn, or the rod is outside its
+    /// limits, which no turn changes.
     pub(crate) fn turned_to(&self, q: &[f64; N], seed: &[f64; N]) -> Option<[f64; N]> {
+        if self.rod_excess(q) > 0.0 {
+            return None;
+        }
         let mut turned = *q;
         for (joint, angle) in turned.iter_mut().enumerate() {
             *angle = self.turn_nearest(joint, *angle, seed[joint])?;
@@ -126,6 +170,27 @@ impl<const N: usize> JointLimits<N> {
     pub(crate) fn countable_turns(&self, joint: usize, angle: f64) -> Option<(f64, f64)> {
         self.turns(joint, angle).map(|(first, last)| if first.is_finite() && last.is_finite() { (first, last) } else { (0.0, 0.0) })
     }
+}
+
+/// Limits that are numbers, or none: minus infinity below, infinity above.
+fn check(fields: [&'static str; 2], index: usize, limits: [f64; 2]) -> Result<(), Error> {
+    for ((field, value), none) in fields.into_iter().zip(limits).zip([f64::NEG_INFINITY, f64::INFINITY]) {
+        if value.total_cmp(&none).is_ne() {
+            ModelFault::check(field, index, value, MOST_ANGLE)?;
+        }
+    }
+    Ok(())
+}
+
+/// How far an angle, at its best turn, is outside limits [rad]; negative inside.
+fn overrun(lower: f64, upper: f64, angle: f64) -> f64 {
+    let middle = 0.5 * (lower + upper);
+    // A turn is always inside where one side has no limit.
+    if !middle.is_finite() {
+        return f64::NEG_INFINITY;
+    }
+    let angle = angle + TAU * nearest_whole((middle - angle) / TAU);
+    (lower - angle).max(angle - upper)
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ mod block;
 mod branches;
 mod chain;
 mod configuration;
+mod coupling;
 mod crossing;
 mod dh;
 mod family;

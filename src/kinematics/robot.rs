@@ -148,11 +148,24 @@ impl<const N: usize> Robot<N> {
         self
     }
 
-    /// The same robot with other joint limits.
+    /// The same robot with other joint limits; those of its rod stay.
     #[must_use]
     pub fn with_limits(mut self, limits: JointLimits<N>) -> Self {
-        self.limits = limits;
+        self.limits = limits.with_rod_of(&self.limits);
         self.joined()
+    }
+
+    /// The same robot with limits of the rod that couples axes 2 and 3: (lower, upper) of q3 - q2 [rad], at whatever turn; `None` for none.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidModel`] when a limit is NaN, the lower one is above the upper one, or axes 2 and 3 are not coupled.
+    pub fn with_rod_limits(mut self, rod: Option<[f64; 2]>) -> Result<Self, Error> {
+        if rod.is_some() && !self.is_coupled() {
+            return Err(ModelFault::NoRod.into());
+        }
+        self.limits = self.limits.with_rod(rod)?;
+        Ok(self.joined())
     }
 
     /// The same robot with velocity limits [rad/s].
@@ -191,8 +204,56 @@ impl<const N: usize> Robot<N> {
     }
 
     fn joined(mut self) -> Self {
-        self.geometry = self.geometry.between(&self.chain, &self.limits.to_array());
+        self.geometry = self.geometry.between(&self.chain, &self.limits);
         self
+    }
+
+    /// The twin of this arm whose axes 2 and 3 a parallelogram couples: its joint 3 is this one's plus joint 2, as its controller tells it.
+    ///
+    /// What was the limit of joint 3 is that of the rod; joint 3 may stand wherever axes 2 and the rod let it.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidModel`] for an arm without a spherical wrist, or whose axes 2 and 3 turn in opposite senses.
+    pub fn coupled(mut self) -> Result<Self, Error> {
+        if self.is_coupled() {
+            return Ok(self);
+        }
+        match &self.geometry {
+            Geometry::SphericalWrist(solver) if solver.arm.may_be_coupled() => {}
+            Geometry::SphericalWrist(_) => {
+                return Err(ModelFault::NotCoupled { reason: "they turn in opposite senses" }.into());
+            }
+            _ => return Err(ModelFault::NotCoupled { reason: "the arm has no spherical wrist" }.into()),
+        }
+        self.chain = self.chain.with_coupling(true);
+        self.limits = self.limits.coupled();
+        Ok(self.joined())
+    }
+
+    /// The twin of this arm without the coupling of axes 2 and 3: its joint 3 is this one's minus joint 2. The arm itself where it has none.
+    ///
+    /// Its joint 3 is limited as the rod is or, where that is unknown, may stand wherever axes 2 and 3 let it.
+    #[must_use]
+    pub fn serial(mut self) -> Self {
+        if !self.is_coupled() {
+            return self;
+        }
+        self.chain = self.chain.with_coupling(false);
+        self.limits = self.limits.serial();
+        self.joined()
+    }
+
+    /// Whether a parallelogram couples axes 2 and 3: then joint 3 is told from the base, not from the upper arm.
+    #[must_use]
+    pub fn is_coupled(&self) -> bool {
+        self.chain.is_coupled()
+    }
+
+    /// The same arm, coupled, with the limits as they are: those of its controller.
+    pub(crate) fn with_coupling(mut self, coupled: bool) -> Self {
+        self.chain = self.chain.with_coupling(coupled);
+        self.joined()
     }
 
     /// Catalogue name, or the name that was given.

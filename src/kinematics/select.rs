@@ -44,6 +44,7 @@ impl<const N: usize> Solutions<N> {
     #[must_use]
     pub fn turn_count(&self) -> f64 {
         self.iter()
+            .filter(|solution| self.limits.rod_excess(&solution.q) == 0.0)
             .map(|solution| {
                 (0..N)
                     .map(|joint| self.limits.countable_turns(joint, solution.q[joint]).map_or(0.0, |(first, last)| last - first + 1.0))
@@ -125,6 +126,9 @@ struct Turns<const N: usize> {
 impl<const N: usize> Turns<N> {
     fn of(solutions: &Solutions<N>, solution: &Solution<N>) -> Self {
         let mut turns = Self { base: *solution, first: [0.0; N], last: [0.0; N], next: None };
+        if solutions.limits.rod_excess(&solution.q) > 0.0 {
+            return turns;
+        }
         for joint in 0..N {
             let Some((first, last)) = solutions.limits.countable_turns(joint, solution.q[joint]) else {
                 return turns;

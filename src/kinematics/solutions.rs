@@ -14,6 +14,8 @@ pub enum FreeJoint {
     Base,
     /// The wrist centre is on axis 2: q2 is free, q1 and q3 are fixed, the wrist follows.
     Upper,
+    /// The same of an arm with coupled axes 2 and 3: q3 goes with q2.
+    UpperCoupled,
     /// Axes 4 and 6 are one: q4 is free, q4 + q6 is fixed.
     WristSum,
     /// Axes 4 and 6 are one: q4 is free, q4 - q6 is fixed.
@@ -36,7 +38,7 @@ impl FreeJoint {
     pub fn joint(self) -> usize {
         match self {
             Self::Base | Self::ShoulderSum | Self::ShoulderDifference => 1,
-            Self::Upper => 2,
+            Self::Upper | Self::UpperCoupled => 2,
             Self::WristSum | Self::WristDifference => 4,
             Self::Forearm => 5,
             Self::Parallel | Self::Hand => 6,
@@ -50,7 +52,7 @@ impl FreeJoint {
             Self::WristDifference => Some((6, -1.0)),
             Self::ShoulderSum => Some((3, 1.0)),
             Self::ShoulderDifference => Some((3, -1.0)),
-            Self::Base | Self::Upper | Self::Parallel | Self::Forearm | Self::Hand => None,
+            Self::Base | Self::Upper | Self::UpperCoupled | Self::Parallel | Self::Forearm | Self::Hand => None,
         }
     }
 
@@ -59,6 +61,7 @@ impl FreeJoint {
         match self {
             Self::Base => &[2, 3],
             Self::Upper => &[1, 3],
+            Self::UpperCoupled => &[1],
             Self::Parallel => &[1, 5],
             Self::Forearm => &[4, 6],
             Self::Hand => &[4, 5],
@@ -73,7 +76,7 @@ impl FreeJoint {
             Self::ShoulderSum | Self::ShoulderDifference => &[&[0, 4]],
             Self::Forearm | Self::Hand => &[&[0, 1, 4, 5]],
             Self::Parallel => &[&[0, 1], &[2, 3]],
-            Self::Base | Self::Upper | Self::WristSum | Self::WristDifference => &[&[0, 1]],
+            Self::Base | Self::Upper | Self::UpperCoupled | Self::WristSum | Self::WristDifference => &[&[0, 1]],
         }
     }
 
@@ -83,6 +86,7 @@ impl FreeJoint {
         match self {
             Self::Base => "q2, q3",
             Self::Upper => "q1, q3",
+            Self::UpperCoupled => "q1, q3 - q2",
             Self::WristSum => "q4 + q6",
             Self::WristDifference => "q4 - q6",
             Self::Parallel => "q1, q5",
@@ -195,14 +199,16 @@ impl<const N: usize> Solutions<N> {
         if inside > 0 {
             return Explanation::Found { solutions, inside };
         }
-        // The solution whose worst joint is the least outside.
+        // The solution whose worst joint, or rod, is the least outside.
         let worst = |solution: &Solution<N>| {
             (0..N)
-                .map(|joint| (joint + 1, self.limits.excess(joint, solution.q[joint])))
-                .fold((1, 0.0), |worst, joint| if joint.1 > worst.1 { joint } else { worst })
+                .map(|joint| (Some(joint + 1), self.limits.excess(joint, solution.q[joint])))
+                .fold((None, self.limits.rod_excess(&solution.q)), |worst, joint| if joint.1 > worst.1 { joint } else { worst })
         };
         match self.iter().map(worst).min_by(|a, b| a.1.total_cmp(&b.1)) {
-            Some((joint, excess)) => Explanation::OutsideLimits { solutions, joint, excess },
+            Some((Some(joint), excess)) => Explanation::OutsideLimits { solutions, joint, excess },
+            Some((None, excess)) if excess > 0.0 => Explanation::OutsideRod { solutions, excess },
+            Some((None, excess)) => Explanation::OutsideLimits { solutions, joint: 1, excess },
             None => Explanation::FilteredOut,
         }
     }

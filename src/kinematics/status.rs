@@ -78,6 +78,13 @@ pub enum Explanation {
         /// How far that joint is outside [rad].
         excess: f64,
     },
+    /// Solutions exist, none inside the limits: all that keeps the best of them out is the rod of coupled axes 2 and 3.
+    OutsideRod {
+        /// Solutions, limits not regarded.
+        solutions: usize,
+        /// How far q3 - q2 is outside the rod's limits [rad].
+        excess: f64,
+    },
     /// The wrist centre is out of reach.
     OutOfReach(
         /// On which side, and by how much.
@@ -101,6 +108,9 @@ impl fmt::Display for Explanation {
             Self::Found { solutions, inside } => write!(f, "{solutions} solutions, {inside} inside limits"),
             Self::OutsideLimits { solutions, joint, excess } => {
                 write!(f, "all {solutions} outside limits; nearest: J{joint} by {:.1} deg", excess.to_degrees())
+            }
+            Self::OutsideRod { solutions, excess } => {
+                write!(f, "all {solutions} outside limits; nearest: the rod (q3 - q2) by {:.1} deg", excess.to_degrees())
             }
             Self::OutOfReach(Reach::TooNear { shortfall }) => {
                 write!(f, "wrist centre {} too near to be reached", Millimetres(shortfall))

@@ -8,6 +8,7 @@ use crate::kinematics::block::JointColumn;
 use crate::kinematics::branches::Branches;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::free_choice::FreeChoice;
+use crate::kinematics::limits::JointLimits;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::surroundings::{Frame, Surroundings};
 use crate::lanes::sin_cos;
@@ -27,7 +28,7 @@ pub(crate) struct SevenSolver {
 
 impl SevenSolver {
     /// The solver of `arm` between the base and the tool of its chain, with limits (lower, upper) of seven joints [rad].
-    pub(crate) fn new<const N: usize>(arm: SphericalShoulder, chain: &Chain<N>, limits: &[[f64; 2]]) -> Self {
+    pub(crate) fn new<const N: usize>(arm: SphericalShoulder, chain: &Chain<N>, limits: &JointLimits<N>) -> Self {
         let arm = arm.standing_between(chain.base(), chain.tool());
         let t_seven_hand = arm.t_hand_seven.inverse();
         Self {
@@ -35,7 +36,7 @@ impl SevenSolver {
             t_seven_hand,
             hand: Frame::of(&t_seven_hand),
             constants: Constants::of(&arm.links),
-            columns: JointColumn::of(&arm.placement.signs, &arm.placement.offsets, limits, &[]),
+            columns: JointColumn::of(&arm.placement.signs, &arm.placement.offsets, &limits.to_array(), &[]),
             arm,
         }
     }

@@ -1,10 +1,10 @@
 //! A block of poses in lanes.
 
 use super::branch::{Branch, Constants, branch};
-use super::solver::WristSolver;
+use super::solver::{Columns, WristSolver};
 use crate::kinematics::block::{AnswerRow, Block, BlockSolver, Directions, FOUND_INSIDE, JointColumn, Poses, StatusRow, half_turn};
 use crate::kinematics::solutions::SLOTS;
-use crate::lanes::{Column, Flags, LANES};
+use crate::lanes::{Column, Flags, LANES, mul_add};
 
 /// Branches of the arm: two shoulders with two elbows each.
 pub(super) const BRANCHES: usize = SLOTS / 2;
@@ -13,16 +13,16 @@ pub(super) const BRANCHES: usize = SLOTS / 2;
 const DIRECTIONS: usize = 2 + 5 * BRANCHES;
 
 /// A column for each branch.
-type Columns = [Column; BRANCHES];
+type Branches = [Column; BRANCHES];
 
 /// What becomes of a block of poses.
 pub(crate) struct WristBlock {
     /// Sine and cosine of theta_1, for each shoulder, and of theta_2, theta_23, theta_4, theta_5, theta_6, for each branch, of any length.
     directions: Directions<DIRECTIONS, LANES>,
     /// theta, later q, of the unflipped slots.
-    q: [Columns; 6],
+    q: [Branches; 6],
     /// theta, later q, of joints 4 to 6 with the wrist flipped.
-    flipped: [Columns; 3],
+    flipped: [Branches; 3],
     /// Of the unflipped and of the flipped slots.
     status: [[Flags; BRANCHES]; 2],
     plain: Flags,
@@ -58,7 +58,7 @@ impl Block<6> for WristBlock {
             self.branches::<FUSED, true>(solver.constants, poses);
         }
         self.directions.angles::<FUSED>();
-        self.settle(columns);
+        self.settle::<FUSED>(columns);
     }
 
     #[inline(never)]
@@ -109,13 +109,14 @@ impl WristBlock {
     }
 
     #[inline(always)]
-    fn settle(&mut self, columns: &[JointColumn; 6]) {
+    fn settle<const FUSED: bool>(&mut self, columns: &Columns) {
+        let Columns { joints: columns, serial, rod } = columns;
         let angle = &self.directions.angle;
         for number in 0..BRANCHES {
             self.q[0][number] = angle[number / 2];
             self.q[1][number] = angle[2 + number];
             for lane in 0..LANES {
-                self.q[2][number][lane] = angle[6 + number][lane] - angle[2 + number][lane];
+                self.q[2][number][lane] = mul_add::<FUSED>(-serial, angle[2 + number][lane], angle[6 + number][lane]);
                 self.flipped[0][number][lane] = half_turn(angle[10 + number][lane]);
                 self.flipped[1][number][lane] = -angle[14 + number][lane];
                 self.flipped[2][number][lane] = half_turn(angle[18 + number][lane]);
@@ -126,6 +127,14 @@ impl WristBlock {
         }
         for joint in 0..3 {
             columns[joint].settle(self.q[joint].as_flattened_mut(), self.status[0].as_flattened_mut());
+        }
+        if let Some(rod) = rod {
+            for number in 0..BRANCHES {
+                for lane in 0..LANES {
+                    let inside = rod.settled(angle[6 + number][lane] - angle[2 + number][lane]).1;
+                    self.status[0][number][lane] &= if inside { u64::MAX } else { JointColumn::OUTSIDE };
+                }
+            }
         }
         self.status[1] = self.status[0];
         for joint in 3..6 {

@@ -45,6 +45,7 @@ impl SphericalWrist {
             placement: Placement {
                 signs: opw.signs.map(f64::from),
                 offsets: opw.offsets,
+                coupled: false,
                 t_base_shoulder: translation_z(opw.c1),
                 t_wrist_flange: translation_z(opw.c4),
             },
@@ -56,6 +57,17 @@ impl SphericalWrist {
     pub(crate) fn standing_between(self, base: &Pose, tool: &Pose) -> Self {
         let fixed = [base, &self.placement.t_base_shoulder, &self.placement.t_wrist_flange, tool];
         Self { planar: self.planar.between(fixed), ..self }
+    }
+
+    /// The same arm with the joint angles of a controller that couples axes 2 and 3, or with its own.
+    fn with_coupling(mut self, coupled: bool) -> Self {
+        self.placement.coupled = coupled;
+        self
+    }
+
+    /// Whether axes 2 and 3 turn in the same sense, so that q2 + q3 is a pitch.
+    pub(crate) fn may_be_coupled(&self) -> bool {
+        self.placement.signs[1].total_cmp(&self.placement.signs[2]).is_eq()
     }
 
     fn theta(&self, q: &[f64; 6]) -> [f64; 6] {

@@ -83,6 +83,7 @@ fn measure(mdh: &Mdh<6>) -> Result<SphericalWrist, NotRecognised> {
         placement: Placement {
             signs: [sign_1, sign_2, sign_3, sign_4, sign_5, sign_6],
             offsets: [0.0, -theta_2, -theta_3, -theta_4, -theta_5, 0.0],
+            coupled: false,
             t_base_shoulder: mdh.base * shoulder_pose(&f1, &forward, &side, &up),
             t_wrist_flange: t_wrist_last * mdh.flange,
         },

@@ -2,11 +2,11 @@
 
 use super::block::BRANCHES;
 use super::branch::{Constants, branch};
-use super::solver::WristSolver;
+use super::solver::{Columns, WristSolver};
 use crate::kinematics::block::{Directions, FOUND_INSIDE, JointColumn, half_turn};
 use crate::kinematics::pose::Pose;
 use crate::kinematics::surroundings::Frame;
-use crate::lanes::Kernel;
+use crate::lanes::{Kernel, mul_add};
 
 /// A pose to be solved.
 pub(crate) struct Single<'a> {
@@ -49,7 +49,7 @@ impl Kernel for Single<'_> {
             Lanes::of::<FUSED, true>(&solver.constants, &frame)
         }?;
         lanes.directions.angles::<FUSED>();
-        Some(lanes.settled(columns))
+        Some(lanes.settled::<FUSED>(columns))
     }
 }
 
@@ -83,14 +83,14 @@ impl Lanes {
     }
 
     #[inline(always)]
-    fn settled(&self, columns: &[JointColumn; 6]) -> PlainSlots {
-        let (columns, angle) = (*columns, &self.directions.angle);
+    fn settled<const FUSED: bool>(&self, columns: &Columns) -> PlainSlots {
+        let (Columns { joints: columns, serial, rod }, angle) = (*columns, &self.directions.angle);
         let mut slots = PlainSlots { arm: [[0.0; BRANCHES]; 3], wrist: [[[0.0; BRANCHES]; 3]; 2], status: [[0; BRANCHES]; 2] };
         for lane in 0..BRANCHES {
             let (theta_2, theta_4, theta_5, theta_6) = (angle[1][lane], angle[3][lane], angle[4][lane], angle[5][lane]);
             let (q1, in_1) = columns[0].settled(angle[0][lane]);
             let (q2, in_2) = columns[1].settled(theta_2);
-            let (q3, in_3) = columns[2].settled(angle[2][lane] - theta_2);
+            let (q3, in_3) = columns[2].settled(mul_add::<FUSED>(-serial, theta_2, angle[2][lane]));
             let arm = &mut slots.arm;
             [arm[0][lane], arm[1][lane], arm[2][lane]] = [q1, q2, q3];
             let reached = self.status[lane] & if in_1 & in_2 & in_3 { u64::MAX } else { JointColumn::OUTSIDE };
@@ -105,6 +105,13 @@ impl Lanes {
             let (q6, in_6) = columns[5].settled(half_turn(theta_6));
             [flipped[0][lane], flipped[1][lane], flipped[2][lane]] = [q4, q5, q6];
             slots.status[1][lane] = reached & if in_4 & in_5 & in_6 { u64::MAX } else { JointColumn::OUTSIDE };
+        }
+        if let Some(rod) = rod {
+            for lane in 0..BRANCHES {
+                let left = if rod.settled(angle[2][lane] - angle[1][lane]).1 { u64::MAX } else { JointColumn::OUTSIDE };
+                slots.status[0][lane] &= left;
+                slots.status[1][lane] &= left;
+            }
         }
         slots
     }

@@ -66,8 +66,8 @@ impl SphericalWrist {
             branches.flags[kept] = flags;
             branches.flags[flipped] = flags;
             if elbows.free {
-                branches.free[kept] = Some(FreeJoint::Upper);
-                branches.free[flipped] = Some(FreeJoint::Upper);
+                let upper = if self.placement.coupled { FreeJoint::UpperCoupled } else { FreeJoint::Upper };
+                (branches.free[kept], branches.free[flipped]) = (Some(upper), Some(upper));
             }
             if wrist.free {
                 branches.free[kept] = Some(self.free_wrist(theta_5));

@@ -4,6 +4,9 @@ use super::SphericalWrist;
 use super::branch::Constants;
 use crate::kinematics::block::JointColumn;
 use crate::kinematics::chain::Chain;
+use crate::kinematics::coupling::coupled;
+use crate::kinematics::limits::JointLimits;
+use crate::kinematics::placement::Placement;
 use crate::kinematics::surroundings::Surroundings;
 
 /// The geometry, with what stands before and behind it and what is asked of its joints.
@@ -13,17 +16,40 @@ pub(crate) struct WristSolver {
     pub(crate) surroundings: Surroundings,
     pub(super) constants: Constants,
     /// `None` where the limits ask for more than what lanes do.
-    pub(super) columns: Option<[JointColumn; 6]>,
+    pub(super) columns: Option<Columns>,
+}
+
+/// How joint angles come from the angles that lanes calculate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Columns {
+    pub(super) joints: [JointColumn; 6],
+    /// How much of theta_2 is taken off theta_23 for joint 3: one, or nothing of an arm with coupled axes (eq. 24).
+    pub(super) serial: f64,
+    /// The serial joint 3, of an arm whose rod has limits.
+    pub(super) rod: Option<JointColumn>,
+}
+
+impl Columns {
+    fn of(placement: &Placement<6>, limits: &[[f64; 2]], rod: Option<[f64; 2]>) -> Option<Self> {
+        let (signs, offsets) = (&placement.signs, &placement.offsets);
+        let column = |offsets: &[f64; 6], limits: &[[f64; 2]]| JointColumn::of(signs, offsets, limits, &[2]);
+        let told = if placement.coupled { coupled(*offsets) } else { *offsets };
+        let rod = match rod {
+            Some(rod) => Some(column(offsets, &[rod; 6])?[2]),
+            None => None,
+        };
+        Some(Self { joints: column(&told, limits)?, serial: if placement.coupled { 0.0 } else { 1.0 }, rod })
+    }
 }
 
 impl WristSolver {
-    /// The solver of `arm` between the base and the tool of its chain, with limits (lower, upper) of six joints [rad].
-    pub(crate) fn new<const N: usize>(arm: SphericalWrist, chain: &Chain<N>, limits: &[[f64; 2]]) -> Self {
-        let arm = arm.standing_between(chain.base(), chain.tool());
+    /// The solver of `arm` between the base and the tool of its chain, coupled as it is, with limits.
+    pub(crate) fn new<const N: usize>(arm: SphericalWrist, chain: &Chain<N>, limits: &JointLimits<N>) -> Self {
+        let arm = arm.standing_between(chain.base(), chain.tool()).with_coupling(chain.is_coupled());
         Self {
             surroundings: Surroundings::new(&arm.placement, chain),
             constants: Constants::of(&arm.planar),
-            columns: JointColumn::of(&arm.placement.signs, &arm.placement.offsets, limits, &[2]),
+            columns: Columns::of(&arm.placement, &limits.to_array(), limits.rod()),
             arm,
         }
     }

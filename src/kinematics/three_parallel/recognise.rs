@@ -69,6 +69,7 @@ fn measure(mdh: &Mdh<6>) -> Result<ThreeParallel, NotRecognised> {
         placement: Placement {
             signs: [sign_1, sign_2, sign_3, sign_4, sign_5, sign_6],
             offsets: [0.0, -theta_2, theta_2 - theta_23, -theta_4, -theta_5, 0.0],
+            coupled: false,
             t_base_shoulder: mdh.base * t_base_shoulder,
             t_wrist_flange: t_wrist_last * mdh.flange,
         },

@@ -4,6 +4,7 @@ use super::ThreeParallel;
 use super::branch::Constants;
 use crate::kinematics::block::JointColumn;
 use crate::kinematics::chain::Chain;
+use crate::kinematics::limits::JointLimits;
 use crate::kinematics::surroundings::Surroundings;
 
 /// The geometry, with what stands before and behind it and what is asked of its joints.
@@ -18,12 +19,12 @@ pub(crate) struct ParallelSolver {
 
 impl ParallelSolver {
     /// The solver of `arm` between the base and the tool of its chain, with limits (lower, upper) of six joints [rad].
-    pub(crate) fn new<const N: usize>(arm: ThreeParallel, chain: &Chain<N>, limits: &[[f64; 2]]) -> Self {
+    pub(crate) fn new<const N: usize>(arm: ThreeParallel, chain: &Chain<N>, limits: &JointLimits<N>) -> Self {
         let arm = arm.standing_between(chain.base(), chain.tool());
         Self {
             surroundings: Surroundings::new(&arm.placement, chain),
             constants: Constants::of(&arm),
-            columns: JointColumn::of(&arm.placement.signs, &arm.placement.offsets, limits, &[2, 3]),
+            columns: JointColumn::of(&arm.placement.signs, &arm.placement.offsets, &limits.to_array(), &[2, 3]),
             arm,
         }
     }

@@ -34,12 +34,12 @@ impl Arm {
     fn new(name: &'static str, mdh: &Mdh<7>) -> Self {
         let (mdh, arm) = recognise(mdh).unwrap();
         let chain = Chain::new(mdh);
-        Self { name, solver: SevenSolver::new(arm, &chain, &[[f64::NEG_INFINITY, f64::INFINITY]; 7]), chain }
+        Self { name, solver: SevenSolver::new(arm, &chain, &JointLimits::UNLIMITED), chain }
     }
 
     fn between(self, base: Pose, tool: Pose) -> Self {
         let chain = self.chain.with_base(base).with_tool(tool);
-        Self { solver: SevenSolver::new(self.solver.arm, &chain, &[[f64::NEG_INFINITY, f64::INFINITY]; 7]), chain, name: self.name }
+        Self { solver: SevenSolver::new(self.solver.arm, &chain, &JointLimits::UNLIMITED), chain, name: self.name }
     }
 
     fn geometry(&self) -> &SphericalShoulder {

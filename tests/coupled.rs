@@ -1,0 +1,269 @@
+//! Laws of arms whose axes 2 and 3 a parallelogram couples: their joint vectors are the controller's, with axis 3 told from the base.
+#![allow(clippy::unwrap_used, clippy::float_cmp, missing_docs)]
+
+mod common;
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use common::{Rng, apart, on_each_set, reach_of};
+use irbkin::{Error, Explanation, FreeJoint, JacobianFrame, JointLimits, OpwParameters, Robot, SLOTS, Status, batch, pose_to_rows};
+use nalgebra::Matrix6;
+
+/// The figures of an IRB 2400-10/1.55.
+fn opw() -> OpwParameters {
+    OpwParameters::abb(0.1, -0.135, 0.615, 0.705, 0.755, 0.085)
+}
+
+fn unlimited() -> Robot<6> {
+    Robot::from_opw(opw()).unwrap().coupled().unwrap()
+}
+
+/// With the controller's limits.
+fn limited() -> Robot<6> {
+    let degrees = [[-180.0, 180.0], [-100.0, 110.0], [-60.0, 65.0], [-200.0, 200.0], [-120.0, 120.0], [-400.0, 400.0]];
+    unlimited().with_limits(JointLimits::new(degrees.map(|limit| limit.map(f64::to_radians))).unwrap())
+}
+
+/// An arm with signs, offsets and a lateral offset.
+fn odd() -> Robot<6> {
+    let odd = OpwParameters { b: 0.04, offsets: [0.1, -0.7, 2.0, 0.3, -0.2, 0.5], signs: [-1, -1, -1, 1, -1, 1], ..opw() };
+    Robot::from_opw(odd).unwrap().coupled().unwrap()
+}
+
+fn with_rod() -> Robot<6> {
+    limited().with_rod_limits(Some([-100.0_f64.to_radians(), 40.0_f64.to_radians()])).unwrap()
+}
+
+fn serial(mut q: [f64; 6]) -> [f64; 6] {
+    q[2] -= q[1];
+    q
+}
+
+const CASES: usize = 2000;
+
+#[test]
+fn forward_kinematics_are_those_of_the_serial_twin() {
+    let mut rng = Rng::new(1);
+    for robot in [unlimited(), odd()] {
+        let twin = robot.clone().serial();
+        assert!(robot.is_coupled() && !twin.is_coupled());
+        for _ in 0..CASES {
+            let q = rng.inside(robot.limits());
+            assert_eq!(robot.fk(&q), twin.fk(&serial(q)));
+            assert_eq!(robot.link_frames(&q), twin.link_frames(&serial(q)));
+            assert_eq!(robot.singularity(&q).distances, twin.singularity(&serial(q)).distances);
+        }
+    }
+}
+
+#[test]
+fn axis_3_keeps_the_forearm_level_while_axis_2_turns() {
+    let robot = unlimited();
+    let level = robot.fk(&[0.0; 6]).rotation;
+    for q2 in [-1.0, -0.3, 0.4, 1.2] {
+        let turned = robot.fk(&[0.0, q2, 0.0, 0.0, 0.0, 0.0]).rotation;
+        assert!(level.angle_to(&turned) < 1e-15, "{q2}");
+    }
+}
+
+/// J of the controller's joints is J of the serial ones times their derivative: in it q2 turns the serial q3 back.
+#[test]
+fn the_jacobian_is_the_serial_one_by_the_chain_rule() {
+    let mut derivative = Matrix6::identity();
+    derivative[(2, 1)] = -1.0;
+    let mut rng = Rng::new(2);
+    for robot in [unlimited(), odd()] {
+        let twin = robot.clone().serial();
+        for _ in 0..CASES {
+            let q = rng.inside(robot.limits());
+            for frame in [JacobianFrame::Base, JacobianFrame::Tool] {
+                let expected = twin.jacobian(&serial(q), frame) * derivative;
+                assert!((robot.jacobian(&q, frame) - expected).amax() <= 4.0 * f64::EPSILON * reach_of(&robot));
+            }
+        }
+    }
+}
+
+#[test]
+fn the_jacobian_matches_central_differences() {
+    let (robot, step) = (odd(), 1e-5);
+    let mut rng = Rng::new(3);
+    for _ in 0..200 {
+        let q = rng.inside(robot.limits());
+        let jacobian = robot.jacobian(&q, JacobianFrame::Base);
+        for joint in 0..6 {
+            let (mut before, mut after) = (q, q);
+            before[joint] -= step;
+            after[joint] += step;
+            let (before, after) = (robot.fk(&before), robot.fk(&after));
+            let linear = (after.translation.vector - before.translation.vector) / (2.0 * step);
+            let spin = (after.rotation.matrix() - before.rotation.matrix()) / (2.0 * step) * robot.fk(&q).rotation.matrix().transpose();
+            let bound = 10.0 * (step * step + f64::EPSILON / step) * (1.0 + reach_of(&robot));
+            for (row, wanted) in [linear.x, linear.y, linear.z, spin[(2, 1)], spin[(0, 2)], spin[(1, 0)]].into_iter().enumerate() {
+                assert!((jacobian[(row, joint)] - wanted).abs() < bound);
+            }
+        }
+    }
+}
+
+#[test]
+fn solutions_are_those_of_the_serial_twin_slot_for_slot() {
+    let mut rng = Rng::new(4);
+    for robot in [unlimited(), odd()] {
+        let twin = robot.clone().serial();
+        for _ in 0..CASES {
+            let q = rng.inside(robot.limits());
+            let pose = robot.fk(&q);
+            let (solutions, serials) = (robot.ik(&pose).unwrap(), twin.ik(&pose).unwrap());
+            assert!(solutions.iter().any(|solution| apart(&solution.q, &q) < 1e-9));
+            for slot in 0..SLOTS {
+                let (Some(solution), Some(other)) = (solutions.slot(slot), serials.slot(slot)) else {
+                    assert_eq!(solutions.slot(slot).is_none(), serials.slot(slot).is_none());
+                    continue;
+                };
+                assert!(apart(&serial(solution.q), &other.q) < 1e-14);
+                assert!(solution.q.iter().all(|angle| *angle > -PI && *angle <= PI));
+                let residual = robot.residual(&solution.q, &pose);
+                assert!(residual.position <= 3e-15 * reach_of(&robot) && residual.rotation <= 1e-14, "{residual:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn limits_are_those_of_the_controllers_angles() {
+    let mut rng = Rng::new(5);
+    for robot in [limited(), with_rod()] {
+        let limits = *robot.limits();
+        for _ in 0..CASES {
+            let q = rng.inside(&limits);
+            for solution in &robot.ik(&robot.fk(&q)).unwrap() {
+                let rod = solution.q[2] - solution.q[1];
+                let holds = |[low, high]: [f64; 2], angle: f64| angle >= low - 1e-9 && angle <= high + 1e-9;
+                let inside = limits.to_array().into_iter().zip(solution.q).all(|(limit, angle)| holds(limit, angle))
+                    && limits.rod().is_none_or(|limit| [-TAU, 0.0, TAU].iter().any(|turn| holds(limit, rod + turn)));
+                assert_eq!(solution.within_limits(), inside, "{solution:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn batch_equals_single_and_the_careful_solve() {
+    let mut rng = Rng::new(6);
+    // Limits so far out that lanes do not take them: the careful solve, of the same postures.
+    let careful = |robot: &Robot<6>| {
+        let mut far = robot.limits().to_array();
+        far[0] = far[0].map(|limit| limit + TAU);
+        robot.clone().with_limits(JointLimits::new(far).unwrap())
+    };
+    on_each_set(|set| {
+        for robot in [limited(), with_rod(), odd()] {
+            let slow = careful(&limited()).with_rod_limits(robot.limits().rod()).unwrap();
+            let joints: Vec<_> = (0..101).map(|_| rng.inside(robot.limits())).collect();
+            let poses: Vec<_> = joints.iter().map(|q| robot.fk(q)).collect();
+            let rows: Vec<f64> = poses.iter().flat_map(pose_to_rows).collect();
+            let (mut q, mut status) = (vec![[[0.0; 6]; SLOTS]; 101], vec![[0; SLOTS]; 101]);
+            batch::ik(&robot, &rows, q.as_flattened_mut().as_flattened_mut(), status.as_flattened_mut(), 1).unwrap();
+            for (row, pose) in poses.iter().enumerate() {
+                let single = robot.ik(pose).unwrap();
+                assert_eq!(status[row], single.status().map(|status| status.bits()), "{}", set.name());
+                for solution in &single {
+                    assert!(apart(&q[row][usize::from(solution.slot)], &solution.q) < 1e-12);
+                }
+                if robot.limits().to_array()[0][0].is_finite() {
+                    let slowly = slow.ik(pose).unwrap();
+                    assert_eq!(slowly.status(), single.status());
+                    for (one, other) in slowly.iter().zip(&single) {
+                        assert!(apart(&one.q, &other.q) < 1e-12);
+                    }
+                }
+            }
+        }
+    });
+}
+
+#[test]
+fn forward_kinematics_and_jacobian_of_rows_are_those_of_one() {
+    let (robot, mut rng) = (odd(), Rng::new(7));
+    let joints: Vec<_> = (0..13).map(|_| rng.inside(robot.limits())).collect();
+    let (mut poses, mut jacobians) = (vec![[0.0; 16]; 13], vec![[[0.0; 6]; 6]; 13]);
+    batch::fk(&robot, joints.as_flattened(), poses.as_flattened_mut()).unwrap();
+    batch::jacobian(&robot, joints.as_flattened(), JacobianFrame::Tool, jacobians.as_flattened_mut().as_flattened_mut()).unwrap();
+    for (row, q) in joints.iter().enumerate() {
+        assert_eq!(poses[row], pose_to_rows(&robot.fk(q)));
+        let one = robot.jacobian(q, JacobianFrame::Tool);
+        assert_eq!(jacobians[row], std::array::from_fn(|i| std::array::from_fn(|j| one[(i, j)])));
+    }
+}
+
+#[test]
+fn turns_and_the_nearest_keep_the_rod_inside() {
+    let (robot, mut rng) = (with_rod(), Rng::new(8));
+    let mut kept_out = 0;
+    for _ in 0..CASES {
+        let q = rng.inside(robot.limits());
+        let solutions = robot.ik(&robot.fk(&q)).unwrap();
+        let turns: Vec<_> = solutions.turns().collect();
+        assert!(turns.iter().all(|turn| robot.limits().contain(&turn.q)));
+        #[expect(clippy::cast_precision_loss, reason = "a small count")]
+        let count = turns.len() as f64;
+        assert_eq!(count, solutions.turn_count());
+        match solutions.nearest(&q, &[1.0; 6]) {
+            Ok(nearest) => assert!(robot.limits().contain(&nearest.q)),
+            Err(Error::Unreachable(Explanation::OutsideRod { excess, .. })) => {
+                kept_out += 1;
+                assert!(excess > 0.0);
+                assert!(turns.is_empty());
+            }
+            Err(error) => assert!(matches!(error, Error::Unreachable(Explanation::OutsideLimits { .. })), "{error}"),
+        }
+    }
+    assert!(kept_out > 100, "{kept_out}");
+}
+
+#[test]
+fn twins_lose_no_posture() {
+    let mut rng = Rng::new(9);
+    for robot in [limited(), with_rod()] {
+        let twin = robot.clone().serial();
+        let back = twin.clone().coupled().unwrap();
+        for _ in 0..CASES {
+            let q = rng.inside(robot.limits());
+            if robot.limits().contain(&q) {
+                assert!(twin.limits().contain(&serial(q)));
+                assert!(back.limits().contain(&q));
+            }
+        }
+        assert_eq!(robot.limits().rod().is_some(), twin.limits().to_array()[2] == [-100.0, 40.0].map(f64::to_radians));
+    }
+    assert_eq!(unlimited().serial(), Robot::from_opw(opw()).unwrap());
+    assert_eq!(unlimited().serial().coupled().unwrap(), unlimited());
+    assert_eq!(unlimited().coupled().unwrap(), unlimited());
+}
+
+#[test]
+fn limits_that_are_none_are_told() {
+    let message = |result: Result<Robot<6>, Error>| result.unwrap_err().to_string();
+    assert_eq!(message(limited().with_rod_limits(Some([0.5, -0.5]))), "rod limit is empty: lower 0.5 rad > upper -0.5 rad");
+    assert_eq!(message(limited().with_rod_limits(Some([f64::NAN, 0.0]))), "lower limit of the rod is NaN, it must be finite");
+    let serial = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
+    assert!(message(serial.with_rod_limits(Some([0.0, 1.0]))).contains("not coupled"));
+    let senses = OpwParameters { signs: [1, 1, -1, 1, 1, 1], ..opw() };
+    assert_eq!(message(Robot::from_opw(senses).unwrap().coupled()), "axes 2 and 3 cannot be coupled: they turn in opposite senses");
+    assert_eq!(message(Robot::named("UR3").unwrap().coupled()), "axes 2 and 3 cannot be coupled: the arm has no spherical wrist");
+}
+
+#[test]
+fn where_the_wrist_is_on_axis_2_the_coupled_axis_3_goes_with_axis_2() {
+    let robot = Robot::from_opw(OpwParameters::abb(0.1, 0.0, 0.5, 0.7, 0.7, 0.1)).unwrap().coupled().unwrap();
+    // Folded: the serial axis 3 at 90 deg.
+    let q = [0.2, 0.3, FRAC_PI_2 + 0.3, 0.4, 0.5, 0.6];
+    let pose = robot.fk(&q);
+    let solutions = robot.ik(&pose).unwrap();
+    let free = solutions.iter().find(|solution| solution.free == Some(FreeJoint::UpperCoupled)).unwrap();
+    assert_eq!(free.free.unwrap().fixed(), "q1, q3 - q2");
+    let moved = robot.with_free(&pose, free, 0.3).unwrap().unwrap();
+    assert!((moved.q[2] - moved.q[1] - FRAC_PI_2).abs() < 1e-12);
+    assert!(robot.residual(&moved.q, &pose).largest() < 1e-12);
+}
