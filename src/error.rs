@@ -8,7 +8,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 pub use self::urdf::{Names, UrdfFault};
-use crate::kinematics::{Explanation, NotRecognised};
+use crate::kinematics::{Configuration, Explanation, NotRecognised};
 
 /// Why a call was refused.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +24,8 @@ pub enum Error {
     UnknownRobot(UnknownRobot),
     /// No solution inside the limits.
     Unreachable(Explanation),
+    /// Solutions inside the limits, none with the configuration that was asked for.
+    NoConfiguration(NoConfiguration),
     /// The processor does not have these instructions.
     NoInstructionSet {
         /// Name of the set.
@@ -38,6 +40,22 @@ pub enum Error {
         /// The length that it should have.
         wanted: usize,
     },
+}
+
+/// A configuration that no solution inside the limits has.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NoConfiguration {
+    /// The one that was asked for.
+    pub wanted: Configuration,
+    /// Those that exist, of every full turn inside the limits; the first [`NoConfiguration::MOST`] of them.
+    pub existing: Vec<Configuration>,
+    /// Whether there are more.
+    pub more: bool,
+}
+
+impl NoConfiguration {
+    /// How many configurations are listed at most.
+    pub const MOST: usize = 64;
 }
 
 /// What is wrong with a pose.
@@ -110,6 +128,15 @@ pub enum JointFault {
     Zone {
         /// The zone.
         value: f64,
+    },
+    /// A number of a configuration that no configuration of the arm has.
+    Configuration {
+        /// Its name.
+        field: &'static str,
+        /// The number.
+        value: i32,
+        /// The least and the largest that it may be.
+        bounds: [i32; 2],
     },
     /// A weight is negative, NaN or infinite.
     Weight {
@@ -199,6 +226,11 @@ pub enum ModelFault {
     },
     /// The geometry has no closed-form inverse here.
     NoClosedForm(NotRecognised),
+    /// ABB's confdata means nothing, or something else, for arms of this form.
+    NoConfiguration {
+        /// Name of the form.
+        family: &'static str,
+    },
     /// A crossing policy holds a wrist that the arm does not have.
     NoSphericalWrist,
     /// The direction of an axis has no length.
@@ -238,6 +270,7 @@ impl fmt::Display for Error {
             Self::InvalidModel(fault) => fault.fmt(f),
             Self::UnknownRobot(fault) => fault.fmt(f),
             Self::Unreachable(explanation) => explanation.fmt(f),
+            Self::NoConfiguration(fault) => fault.fmt(f),
             Self::NoInstructionSet { name } => write!(f, "this processor does not have the instruction set \"{name}\""),
             Self::WrongLength { field, found, wanted } => write!(f, "{field} has {found} elements, it must have {wanted}"),
         }
@@ -271,6 +304,12 @@ impl fmt::Display for JointFault {
             Self::NotFinite { field, joint, value } => write!(f, "{field}: joint {joint} is {value}, every angle must be finite [rad]"),
             Self::NotOfPose { off } => write!(f, "solution: its tool is {off:.1e} (m, rad) off the pose, it is none of it"),
             Self::Zone { value } => write!(f, "zone is {value}, it must be finite and not negative"),
+            Self::Configuration { field, value, bounds: [0, 0] } => {
+                write!(f, "configuration: {field} is {value}, it is 0 for an arm with coupled axes 2 and 3")
+            }
+            Self::Configuration { field, value, bounds: [least, most] } => {
+                write!(f, "configuration: {field} is {value}, it must be {least} to {most}")
+            }
             Self::Weight { joint, value } => write!(f, "weights: joint {joint} is {value}, a weight must be finite and not negative"),
         }
     }
@@ -293,6 +332,9 @@ impl fmt::Display for ModelFault {
             Self::NotCoupled { reason } => write!(f, "axes 2 and 3 cannot be coupled: {reason}"),
             Self::Velocity { joint, value } => write!(f, "joint {joint} velocity is {value} rad/s, it must be positive"),
             Self::JointCount { found, wanted } => write!(f, "the arm has {found} joints, {wanted} were asked for"),
+            Self::NoConfiguration { family } => {
+                write!(f, "configurations are those of ABB's six-axis arms with a spherical wrist: this arm's form is \"{family}\"")
+            }
             Self::NoSphericalWrist => write!(f, "this policy holds a spherical wrist, and the arm has none: take \"through\" or \"error\""),
             Self::NoClosedForm(reason) => write!(f, "no closed-form inverse kinematics for this arm: {reason}"),
             Self::AxisDirection { axis } => write!(f, "direction of axis {axis} has no length"),
@@ -316,6 +358,16 @@ impl fmt::Display for UnknownRobot {
             write!(f, "{}\"{name}\"", if i == 0 { "; close names: " } else { ", " })?;
         }
         Ok(())
+    }
+}
+
+impl fmt::Display for NoConfiguration {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "no solution inside the limits has the configuration {}; there are ", self.wanted)?;
+        for (i, existing) in self.existing.iter().enumerate() {
+            write!(f, "{}{existing}", if i == 0 { "" } else { ", " })?;
+        }
+        if self.more { write!(f, " and more") } else { Ok(()) }
     }
 }
 

@@ -52,7 +52,7 @@ mod python;
 mod urdf;
 
 pub use catalogue::{AngleUnit, CatalogueArm, CatalogueGeometry, catalogue, find};
-pub use error::{Error, JointFault, ModelFault, Names, PoseFault, UnknownRobot, UrdfFault};
+pub use error::{Error, JointFault, ModelFault, Names, NoConfiguration, PoseFault, UnknownRobot, UrdfFault};
 pub use kinematics::{
     Break, BreakReason, Chain, Condition, Configuration, Crossing, Definition, DhRow, Explanation, FollowOptions, Followed, Follower,
     FreeJoint, JacobianFrame, JointAxis, JointLimits, Mdh, NotRecognised, OpwParameters, Pose, PoseError, Reach, Relation, Robot, SLOTS,

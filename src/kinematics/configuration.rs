@@ -1,6 +1,22 @@
 //! ABB's confdata: which of the solutions of a pose, and which turn of it.
 
+use core::f64::consts::FRAC_PI_2;
 use core::fmt;
+
+use alloc::vec::Vec;
+
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
+use super::limits::JointLimits;
+use super::pose::{Pose, checked_pose};
+use super::robot::Robot;
+use super::select::check_joints;
+use super::solutions::{SLOTS, Solution, Solutions};
+use super::spherical_wrist::SphericalWrist;
+use super::status::Status;
+use super::thresholds::CONFIGURATION_EDGE;
+use crate::error::{Error, JointFault, ModelFault, NoConfiguration};
 
 /// ABB's confdata `[cf1, cf4, cf6, cfx]`: quarter turns of axes 1, 4 and 6, and the slot.
 ///
@@ -21,5 +37,136 @@ impl fmt::Display for Configuration {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { cf1, cf4, cf6, cfx } = self;
         write!(f, "[{cf1}, {cf4}, {cf6}, {cfx}]")
+    }
+}
+
+/// The axes that a configuration counts quarter turns of, from 0.
+const COUNTED: [usize; 3] = [0, 3, 5];
+
+impl Configuration {
+    /// Of a joint vector, with the slot of its branch.
+    fn of(q: &[f64; 6], slot: u8) -> Self {
+        #[expect(clippy::cast_possible_truncation, reason = "saturates where no controller counts")]
+        let [cf1, cf4, cf6] = COUNTED.map(|joint| (q[joint] / FRAC_PI_2).floor() as i32);
+        Self { cf1, cf4, cf6, cfx: slot.into() }
+    }
+
+    /// The ranges [rad] that it leaves axes 1, 4 and 6, widened by `edge` [rad].
+    fn ranges(&self, edge: f64) -> [(usize, [f64; 2]); 3] {
+        let quarters = [self.cf1, self.cf4, self.cf6].map(f64::from);
+        core::array::from_fn(|i| (COUNTED[i], [quarters[i] * FRAC_PI_2 - edge, (quarters[i] + 1.0) * FRAC_PI_2 + edge]))
+    }
+}
+
+impl Robot<6> {
+    /// ABB's confdata of a joint vector [rad]: on the edge of a quarter turn, that of the one which begins there.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidJoints`] when an angle is not finite, [`Error::InvalidModel`] for an arm without a spherical wrist, whose
+    /// controller counts otherwise.
+    pub fn configuration(&self, q: &[f64; 6]) -> Result<Configuration, Error> {
+        let arm = self.counted()?;
+        check_joints("q", q)?;
+        Ok(self.configuration_of(arm, q))
+    }
+
+    fn configuration_of(&self, arm: &SphericalWrist, q: &[f64; 6]) -> Configuration {
+        Configuration::of(q, if self.is_coupled() { 0 } else { arm.slot(q) })
+    }
+
+    /// The solution inside the limits that has the configuration `wanted`, which chooses the turns of axes 1, 4 and 6, too.
+    ///
+    /// An angle within [`CONFIGURATION_EDGE`] of the edge of a quarter turn is taken for either side of it, and axis 5 next to zero or a
+    /// straight elbow for either slot. Where the pose leaves a joint free, it takes the configuration's side. Of an arm with coupled axes the
+    /// branches in front of the lower arm are looked at first.
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::ik_nearest`]; [`Error::NoConfiguration`], which lists those that exist; [`Error::InvalidJoints`] for a `cfx` that the arm
+    /// does not have; [`Error::InvalidModel`] as [`Robot::configuration`].
+    pub fn ik_configured(&self, pose: &Pose, wanted: Configuration) -> Result<Solution<6>, Error> {
+        self.ik_configured_checked(checked_pose(pose)?, wanted)
+    }
+
+    /// [`Robot::ik_configured`] or, where no solution has that configuration, the one nearest to `seed` [rad].
+    ///
+    /// Many programs write `[0, 0, 0, 0]` without having calculated it.
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::ik_configured`] and [`Robot::ik_nearest`]; never [`Error::NoConfiguration`].
+    pub fn ik_configured_or_nearest(&self, pose: &Pose, wanted: Configuration, seed: &[f64; 6]) -> Result<Solution<6>, Error> {
+        check_joints("seed", seed)?;
+        match self.ik_configured(pose, wanted) {
+            Err(Error::NoConfiguration(_)) => self.ik_nearest(pose, seed, &[1.0; 6]),
+            answer => answer,
+        }
+    }
+
+    /// [`Robot::ik_configured`] for a pose that was checked.
+    pub(crate) fn ik_configured_checked(&self, pose: Pose, wanted: Configuration) -> Result<Solution<6>, Error> {
+        let arm = self.counted()?;
+        let bounds = if self.is_coupled() { [0, 0] } else { [0, 7] };
+        if wanted.cfx < bounds[0] || wanted.cfx > bounds[1] {
+            return Err(JointFault::Configuration { field: "cfx", value: wanted.cfx, bounds }.into());
+        }
+        let solutions = self.ik_checked(pose, 0.0)?;
+        for edge in [0.0, CONFIGURATION_EDGE] {
+            let Some(limits) = self.limits().narrowed(&wanted.ranges(edge)) else { continue };
+            for candidates in self.candidates(arm, &solutions, wanted, edge) {
+                if let Some(found) = self.configured(&solutions, candidates, limits)? {
+                    return Ok(found);
+                }
+            }
+        }
+        Err(self.no_configuration(arm, &solutions, wanted))
+    }
+
+    /// The slots of which a solution may have the configuration, those to be looked at first before others.
+    fn candidates(&self, arm: &SphericalWrist, solutions: &Solutions<6>, wanted: Configuration, edge: f64) -> [[bool; SLOTS]; 2] {
+        if self.is_coupled() {
+            return [core::array::from_fn(|slot| slot & 2 == 0), core::array::from_fn(|slot| slot & 2 != 0)];
+        }
+        let cfx = usize::try_from(wanted.cfx).unwrap_or(0);
+        let merged = solutions.status()[cfx];
+        let merged = if merged.contains(Status::MERGED) { merged } else { Status::empty() };
+        let may_be = |slot: usize| {
+            let Some(solution) = solutions.slot(slot) else { return false };
+            let distances = arm.singular_distances(&solution.q);
+            let open =
+                [(Status::WRIST, 1, distances.wrist <= edge), (Status::ELBOW, 2, distances.elbow <= edge), (Status::SHOULDER, 4, false)];
+            let open = open.iter().filter(|(kind, _, near)| *near || merged.contains(*kind)).map(|(_, bit, _)| bit).sum::<usize>();
+            (slot ^ cfx) & !open == 0
+        };
+        let (exact, others): ([bool; SLOTS], [bool; SLOTS]) =
+            (core::array::from_fn(|slot| slot == cfx), core::array::from_fn(|slot| slot != cfx && may_be(slot)));
+        [exact, others]
+    }
+
+    /// The solution in one of the slots that is inside `limits`, at some turn or with another angle of a free joint.
+    fn configured(&self, solutions: &Solutions<6>, slots: [bool; SLOTS], limits: JointLimits<6>) -> Result<Option<Solution<6>>, Error> {
+        let mut within = Solutions { limits, ..solutions.clone() };
+        for (slot, taken) in within.slots.iter_mut().zip(slots) {
+            *slot = slot.filter(|_| taken);
+        }
+        if within.is_empty() {
+            return Ok(None);
+        }
+        self.nearest_of(&within, &limits.rest(), &[1.0; 6])
+    }
+
+    fn no_configuration(&self, arm: &SphericalWrist, solutions: &Solutions<6>, wanted: Configuration) -> Error {
+        let mut turns = solutions.turns().map(|turn| self.configuration_of(arm, &turn.q));
+        let existing: Vec<_> = turns.by_ref().take(NoConfiguration::MOST).collect();
+        if existing.is_empty() {
+            return Error::Unreachable(solutions.explain());
+        }
+        Error::NoConfiguration(NoConfiguration { wanted, existing, more: turns.next().is_some() })
+    }
+
+    /// The geometry whose branches a configuration tells apart.
+    fn counted(&self) -> Result<&SphericalWrist, Error> {
+        self.spherical_wrist().ok_or_else(|| ModelFault::NoConfiguration { family: self.family() }.into())
     }
 }

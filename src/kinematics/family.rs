@@ -77,7 +77,7 @@ impl<const N: usize> Robot<N> {
         Some(moved)
     }
 
-    /// The solution inside the limits that is nearest to `seed`; where the one with the seed's free joint has another joint outside them,
+    /// The solution inside the limits of `solutions` that is nearest to `seed`; where the one with the seed's free joint has another joint outside them,
     /// the nearest of its family.
     pub(super) fn nearest_of(&self, solutions: &Solutions<N>, seed: &[f64; N], weights: &[f64; N]) -> Result<Option<Solution<N>>, Error> {
         let nearest = solutions.cheapest(seed, weights, Cost::Distance);
@@ -121,11 +121,11 @@ impl<const N: usize> Robot<N> {
         allowed: f64,
     ) -> Result<Option<Solution<N>>, Error> {
         // What stands still along a family may be outside the limits for good.
-        let inside = |joint: usize, angle: f64| self.limits().overrun(joint, angle) <= SOLUTION_OFF;
+        let inside = |joint: usize, angle: f64| solutions.limits().overrun(joint, angle) <= SOLUTION_OFF;
         let families = among
             .filter_map(|solution| Some(Family { robot: self, solutions, solution, free: solution.free?, allowed }))
             .filter(|family| family.free.still().iter().all(|joint| inside(joint - 1, family.solution.q[joint - 1])));
-        let mut nearest = Nearest { limits: self.limits(), seed, weights, best: None };
+        let mut nearest = Nearest { limits: solutions.limits(), seed, weights, best: None };
         // A branch that was merged with another meets the pose as well.
         for family in families.clone() {
             nearest.look_at(&family, family.twin())?;
@@ -188,7 +188,7 @@ impl<const N: usize> Family<'_, N> {
     /// angles inside are intervals, and these are their ends.
     fn edges(&self) -> Option<[f64; 4]> {
         let (partner, sign) = self.free.partner()?;
-        let limits = self.robot.limits().to_array();
+        let limits = self.solutions.limits().to_array();
         let ([low, high], [other_low, other_high]) = (limits[self.free.joint() - 1], limits[partner - 1]);
         let own = self.own();
         let fixed = own + sign * self.solution.q[partner - 1];

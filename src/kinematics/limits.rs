@@ -82,6 +82,18 @@ impl<const N: usize> JointLimits<N> {
         Self { rod, ..self }
     }
 
+    /// These limits, and a narrower range (lower, upper) of some joints, from 0 [rad]; `None` where they leave a joint nothing.
+    pub(crate) fn narrowed(mut self, ranges: &[(usize, [f64; 2])]) -> Option<Self> {
+        for (joint, [lower, upper]) in ranges {
+            let (low, high) = (self.lower[*joint].max(*lower), self.upper[*joint].min(*upper));
+            if low > high + LIMIT_TOLERANCE {
+                return None;
+            }
+            (self.lower[*joint], self.upper[*joint]) = (low, high.max(low));
+        }
+        Some(self)
+    }
+
     /// Whether every joint is inside its limits, within [`LIMIT_TOLERANCE`].
     #[must_use]
     pub fn contain(&self, q: &[f64; N]) -> bool {

@@ -98,3 +98,7 @@ pub const STEADY_STEP: f64 = 0.1;
 
 /// |sin q5| below which a crossing policy acts [1]: one degree. "wrist" may then deviate by two in orientation.
 pub const WRIST_ZONE: f64 = 0.0175;
+
+/// How close to the edge of a quarter turn an angle is taken for either side of it when a configuration is matched [rad]: 0.01 deg, what
+/// the rounding of a robtarget's printed digits leaves open.
+pub const CONFIGURATION_EDGE: f64 = 0.01 * core::f64::consts::PI / 180.0;

@@ -91,6 +91,15 @@ impl SphericalWrist {
         q[3] + self.placement.signs[3] * (PI * (theta_4 / PI).round() - theta_4)
     }
 
+    /// The slot of the branch that `q` is on (eq. 13); of two that meet at a singularity of the arm, the one in front.
+    pub(crate) fn slot(&self, q: &[f64; 6]) -> u8 {
+        let [elbow, x, wrist] = self.factors(q);
+        let met = self.kinds(q);
+        let behind_axis_1 = x < 0.0 && !met.contains(Status::SHOULDER);
+        let behind_lower_arm = elbow < 0.0 && !met.contains(Status::ELBOW);
+        4 * u8::from(behind_axis_1) + 2 * u8::from(behind_lower_arm) + u8::from(wrist < 0.0)
+    }
+
     /// The determinant of the geometric Jacobian at the wrist centre, which is that of the tool's (eq. 21).
     #[must_use]
     pub fn jacobian_determinant(&self, q: &[f64; 6]) -> f64 {

@@ -1,0 +1,215 @@
+//! Laws of ABB's confdata. `IRBKIN_POSES` sets the number of poses of each arm; `make configurations` runs a hundred thousand.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+mod common;
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use common::{Rng, apart, asked_set};
+use irbkin::{
+    CatalogueGeometry, Configuration, Error, JointLimits, OpwParameters, Robot, SLOTS, Status, catalogue, thresholds::CONFIGURATION_EDGE,
+};
+
+fn poses() -> usize {
+    std::env::var("IRBKIN_POSES").ok().map_or(300, |count| count.parse().unwrap())
+}
+
+fn irb2600() -> Robot<6> {
+    Robot::named("IRB 2600-12/1.65").unwrap()
+}
+
+fn configuration(cf1: i32, cf4: i32, cf6: i32, cfx: i32) -> Configuration {
+    Configuration { cf1, cf4, cf6, cfx }
+}
+
+/// Whether a joint vector has a configuration, an angle next to an edge on either side of it.
+fn has(robot: &Robot<6>, q: &[f64; 6], wanted: Configuration) -> bool {
+    let near = |angle: f64, cf: i32| {
+        let quarters = f64::from(cf) * FRAC_PI_2;
+        angle >= quarters - CONFIGURATION_EDGE - 1e-9 && angle <= quarters + FRAC_PI_2 + CONFIGURATION_EDGE + 1e-9
+    };
+    let found = robot.configuration(q).unwrap();
+    near(q[0], wanted.cf1) && near(q[3], wanted.cf4) && near(q[5], wanted.cf6) && found.cfx == wanted.cfx
+}
+
+#[test]
+fn eight_solutions_have_eight_slots_and_each_joint_vector_is_found_by_its_configuration() {
+    let mut arms = 0;
+    for arm in catalogue().filter(|arm| matches!(arm.geometry, CatalogueGeometry::Abb { .. })) {
+        let robot: Robot<6> = Robot::from_catalogue(arm).unwrap();
+        let (mut rng, mut eights, mut ambiguous) = (Rng::new(11), 0, 0);
+        for _ in 0..poses() {
+            let q = rng.inside(robot.limits());
+            let (pose, wanted) = (robot.fk(&q), robot.configuration(&q).unwrap());
+            let solutions = robot.ik(&pose).unwrap();
+            if !robot.is_coupled() {
+                for solution in &solutions {
+                    assert_eq!(robot.configuration(&solution.q).unwrap().cfx, i32::from(solution.slot), "{}: {q:?}", arm.name);
+                }
+                eights += usize::from(solutions.len() == SLOTS);
+            }
+            let named = solutions.turns().filter(|turn| robot.configuration(&turn.q).unwrap() == wanted).count();
+            let found = robot.ik_configured(&pose, wanted).unwrap();
+            assert!(found.within_limits() && has(&robot, &found.q, wanted), "{}: {q:?} {found:?}", arm.name);
+            if named == 1 {
+                // Next to a singularity rounding of the pose is seen in the joints.
+                let bound = 1e-9_f64.max(4e-15 * 5.0 / robot.singularity(&q).min_singular_value);
+                assert!(apart(&found.q, &q) < bound && (found.q[5] - q[5]).abs() < 1.0, "{}: {q:?} {found:?}", arm.name);
+            } else {
+                ambiguous += 1;
+            }
+        }
+        assert!(robot.is_coupled() || ambiguous == 0, "{}: {ambiguous} joint vectors share pose and configuration with another", arm.name);
+        arms += 1;
+        println!("{:32} {:8} {} poses, {eights} of eight solutions, {ambiguous} ambiguous", arm.name, asked_set().name(), poses());
+    }
+    assert!(arms > 0);
+}
+
+#[test]
+fn quarter_turns_are_counted_from_below() {
+    let robot = irb2600();
+    let degrees = |q1: f64, q4: f64, q5: f64, q6: f64| [q1, 10.0, 20.0, q4, q5, q6].map(f64::to_radians);
+    for (q, wanted) in [
+        (degrees(0.0, 0.0, 30.0, 0.0), configuration(0, 0, 0, 0)),
+        (degrees(-10.0, 89.9, 30.0, 90.0), configuration(-1, 0, 1, 0)),
+        (degrees(180.0, -90.0, -30.0, -180.0), configuration(2, -1, -2, 1)),
+        (degrees(-180.0, 270.0, 30.0, 399.0), configuration(-2, 3, 4, 0)),
+        (degrees(-0.001, -271.0, -30.0, -399.0), configuration(-1, -4, -5, 1)),
+    ] {
+        assert_eq!(robot.configuration(&q).unwrap(), wanted, "{q:?}");
+    }
+    // Behind the lower arm from -(90 - atan(115 / 795)) deg on: -81.8 deg.
+    let bent = |q3: f64| robot.configuration(&[0.1, 0.2, q3.to_radians(), 0.3, 0.4, 0.5]).unwrap().cfx;
+    assert_eq!((bent(-81.7), bent(-81.9)), (0, 2));
+}
+
+#[test]
+fn an_angle_on_an_edge_has_both_neighbours() {
+    let robot = irb2600();
+    let off = 0.009_f64.to_radians();
+    for edge in [-2, -1, 0, 1] {
+        for (shift, found) in [(-off, true), (0.0, true), (off, true), (0.02_f64.to_radians(), false)] {
+            let q4 = f64::from(edge) * FRAC_PI_2 + shift;
+            let q = [0.3, 0.2, 0.1, q4, 0.5, 0.7];
+            let answer = robot.ik_configured(&robot.fk(&q), configuration(0, edge - 1, 0, 0));
+            assert_eq!(answer.is_ok(), found, "{edge} {shift}");
+            if let Ok(answer) = answer {
+                assert!((answer.q[3] - q4).abs() < 1e-9);
+            }
+            assert!(robot.ik_configured(&robot.fk(&q), configuration(0, edge, 0, 0)).is_ok() == (shift > -CONFIGURATION_EDGE));
+        }
+    }
+}
+
+#[test]
+fn axis_5_next_to_zero_has_both_slots() {
+    let robot = irb2600();
+    for (q5, found) in [(0.005_f64, true), (-0.005, true), (0.02, false)] {
+        let q = [0.3, 0.2, 0.1, 0.4, q5.to_radians(), 0.7];
+        let other = i32::from(q5 > 0.0);
+        let answer = robot.ik_configured(&robot.fk(&q), configuration(0, 0, 0, other));
+        assert_eq!(answer.is_ok(), found, "{q5}");
+        if let Ok(answer) = answer {
+            assert!(apart(&answer.q, &q) < 1e-9);
+        }
+    }
+}
+
+#[test]
+fn turns_are_chosen_by_the_configuration() {
+    let robot = irb2600();
+    for q6 in [-370.0_f64, -300.0, -10.0, 60.0, 350.0] {
+        let q = [0.3, 0.2, 0.1, 0.4, 0.5, q6.to_radians()];
+        let found = robot.ik_configured(&robot.fk(&q), robot.configuration(&q).unwrap()).unwrap();
+        assert!((found.q[5] - q[5]).abs() < 1e-9, "{q6}: {:?}", found.q);
+    }
+    // Without limits, too.
+    let free = robot.with_limits(JointLimits::UNLIMITED);
+    let q = [0.3, 0.2, 0.1, 40.0, 0.5, -70.0];
+    let found = free.ik_configured(&free.fk(&q), free.configuration(&q).unwrap()).unwrap();
+    assert!((found.q[3] - 40.0).abs() < 1e-9 && (found.q[5] + 70.0).abs() < 1e-9, "{:?}", found.q);
+}
+
+#[test]
+fn where_the_wrist_is_singular_axes_4_and_6_take_their_quarters() {
+    let robot = irb2600();
+    for (q4, q6) in [(0.4, 0.7), (2.0, -1.2), (-2.5, 3.3), (-0.2, -4.0)] {
+        let q = [0.3, 0.2, 0.1, q4, 0.0, q6];
+        let pose = robot.fk(&q);
+        let wanted = robot.configuration(&q).unwrap();
+        // At the singularity the slot with q5 < 0 is the same solution.
+        for cfx in [0, 1] {
+            let found = robot.ik_configured(&pose, Configuration { cfx, ..wanted }).unwrap();
+            assert!(has(&robot, &found.q, wanted), "{found:?}");
+            assert!(found.status.contains(Status::WRIST));
+            assert!(robot.residual(&found.q, &pose).largest() < 1e-14);
+        }
+    }
+}
+
+#[test]
+fn where_the_shoulder_is_singular_axis_1_takes_its_quarter() {
+    let arm = OpwParameters::abb(0.0, -0.07, 0.29, 0.27, 0.302, 0.072);
+    let robot = Robot::from_opw(arm).unwrap();
+    // The wrist centre above axis 1.
+    let pose = irbkin::pose_from_quaternion([0.0, 0.0, 0.7 + 0.072], [1.0, 0.0, 0.0, 0.0]).unwrap();
+    for cf1 in [-2, -1, 0, 1] {
+        let existing = robot.ik(&pose).unwrap();
+        assert!(existing.iter().all(|solution| solution.status.contains(Status::SHOULDER)));
+        let quarters = [-2, -1, 0, 1];
+        let reached = quarters.iter().flat_map(|cf4| quarters.map(|cf6| configuration(cf1, *cf4, cf6, 0)));
+        let found: Vec<_> = reached.filter_map(|wanted| robot.ik_configured(&pose, wanted).ok().map(|found| (wanted, found))).collect();
+        assert!(!found.is_empty(), "{cf1}");
+        for (wanted, found) in found {
+            assert!(has(&robot, &found.q, wanted), "{wanted} {found:?}");
+            assert!(robot.residual(&found.q, &pose).largest() < 1e-14);
+        }
+    }
+}
+
+#[test]
+fn the_error_lists_what_exists() {
+    let robot = irb2600();
+    let q = [0.3, 0.2, 0.1, 0.4, 0.5, 0.7];
+    let Err(Error::NoConfiguration(none)) = robot.ik_configured(&robot.fk(&q), configuration(3, 0, 0, 0)) else { unreachable!() };
+    assert!(none.existing.contains(&configuration(0, 0, 0, 0)) && !none.more);
+    let turns = robot.ik(&robot.fk(&q)).unwrap().turns().count();
+    assert_eq!(none.existing.len(), turns);
+    assert!(
+        Error::NoConfiguration(none)
+            .to_string()
+            .starts_with("no solution inside the limits has the configuration [3, 0, 0, 0]; there are [0, -4, ")
+    );
+    let nearest = robot.ik_configured_or_nearest(&robot.fk(&q), configuration(3, 0, 0, 0), &q).unwrap();
+    assert!(apart(&nearest.q, &q) < 1e-9);
+    let far = irbkin::pose_from_quaternion([9.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]).unwrap();
+    assert!(matches!(robot.ik_configured(&far, configuration(0, 0, 0, 0)), Err(Error::Unreachable(_))));
+    assert!(matches!(robot.ik_configured_or_nearest(&far, configuration(0, 0, 0, 0), &q), Err(Error::Unreachable(_))));
+}
+
+#[test]
+fn what_is_no_configuration_of_the_arm_is_refused() {
+    let robot = irb2600();
+    let message = |answer: Result<Configuration, Error>| answer.unwrap_err().to_string();
+    let refused = |robot: &Robot<6>, cfx| robot.ik_configured(&robot.fk(&[0.1; 6]), configuration(0, 0, 0, cfx)).unwrap_err().to_string();
+    assert_eq!(refused(&robot, 11), "configuration: cfx is 11, it must be 0 to 7");
+    assert_eq!(refused(&robot, -1), "configuration: cfx is -1, it must be 0 to 7");
+    let coupled = Robot::from_opw(OpwParameters::abb(0.1, -0.135, 0.615, 0.705, 0.755, 0.085)).unwrap().coupled().unwrap();
+    assert_eq!(refused(&coupled, 2), "configuration: cfx is 2, it is 0 for an arm with coupled axes 2 and 3");
+    let ur3 = Robot::named("UR3").unwrap();
+    assert_eq!(
+        message(ur3.configuration(&[0.1; 6])),
+        "configurations are those of ABB's six-axis arms with a spherical wrist: this arm's form is \"three parallel axes\""
+    );
+    assert_eq!(message(robot.configuration(&[f64::NAN; 6])), "q: joint 1 is NaN, every angle must be finite [rad]");
+}
+
+#[test]
+fn a_coupled_arm_does_not_count_its_slot() {
+    let robot = Robot::from_opw(OpwParameters::abb(0.1, -0.135, 0.615, 0.705, 0.755, 0.085)).unwrap().coupled().unwrap();
+    let robot = robot.with_limits(JointLimits::new([[-PI, PI]; 6]).unwrap());
+    let q = [0.3, 0.4, 0.2, 0.5, -0.6, 0.7];
+    assert_eq!(robot.configuration(&q).unwrap(), configuration(0, 0, 0, 0));
+    assert!(apart(&robot.ik_configured(&robot.fk(&q), configuration(0, 0, 0, 0)).unwrap().q, &q) < 1e-12);
+}
