@@ -7,7 +7,9 @@
 use rayon::prelude::*;
 
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{Inverse, JacobianFrame, Robot, SLOTS, Singularity, check_joints, check_weights, pose_from_rows, pose_to_rows};
+use crate::kinematics::{
+    Configuration, Inverse, JacobianFrame, Robot, SLOTS, Singularity, check_joints, check_weights, pose_from_rows, pose_to_rows,
+};
 
 /// Forward kinematics: rows of `N` joint angles to rows of 16 pose elements.
 ///
@@ -139,6 +141,40 @@ where
         let checked = check_joints("seed", seed).and_then(|()| pose_from_rows(pose));
         let nearest = checked.and_then(|pose| robot.ik_nearest_checked(pose, seed, weights));
         *q = nearest.map_or([f64::NAN; N], |nearest| nearest.q);
+    }
+    Ok(())
+}
+
+/// Inverse kinematics by configurations: rows of 16 pose elements, and a configuration for each, to rows of joint angles, those of
+/// [`Robot::ik_configured`] or, with `seeds`, of [`Robot::ik_configured_or_nearest`]. A row that has none, or whose pose is invalid, is NaN.
+///
+/// # Errors
+///
+/// As [`ik`], and [`Error::InvalidModel`] for an arm without a spherical wrist.
+pub fn ik_configured(
+    robot: &Robot<6>,
+    poses: &[f64],
+    configurations: &[Configuration],
+    seeds: Option<&[f64]>,
+    q: &mut [f64],
+) -> Result<(), Error> {
+    if robot.spherical_wrist().is_none() {
+        return Err(ModelFault::NoConfiguration { family: robot.family() }.into());
+    }
+    let poses = rows::<16>("poses", poses)?;
+    if configurations.len() != poses.len() {
+        return Err(Error::WrongLength { field: "configurations", found: configurations.len(), wanted: poses.len() });
+    }
+    let seeds = match seeds {
+        Some(seeds) => Some(rows_for::<6>("seeds", seeds, poses.len())?),
+        None => None,
+    };
+    for (row, q) in rows_out::<6, f64>("q", q, poses.len())?.iter_mut().enumerate() {
+        let configured = pose_from_rows(&poses[row]).and_then(|pose| match seeds {
+            Some(seeds) => robot.ik_configured_or_nearest(&pose, configurations[row], &seeds[row]),
+            None => robot.ik_configured(&pose, configurations[row]),
+        });
+        *q = configured.map_or([f64::NAN; 6], |configured| configured.q);
     }
     Ok(())
 }

@@ -31,10 +31,22 @@ from irbkin.errors import (
     UnknownRobotError,
     UnreachableError,
 )
-from irbkin.records import Break, FollowResult, FreeJoint, IkBatch, Kind, PoseCheck, Reach, Singularity, Status
+from irbkin.records import (
+    Break,
+    Configuration,
+    FollowResult,
+    FreeJoint,
+    IkBatch,
+    Kind,
+    PoseCheck,
+    Reach,
+    Singularity,
+    Status,
+)
 
 __all__ = [
     "Break",
+    "Configuration",
     "FollowResult",
     "FreeJoint",
     "IkBatch",

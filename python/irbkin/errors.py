@@ -1,5 +1,12 @@
 """What irbkin raises. Every message names the field, the value and the bound."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from irbkin.records import Configuration
+
 __all__ = [
     "InvalidJointsError",
     "InvalidModelError",
@@ -27,7 +34,10 @@ class InvalidModelError(IrbkinError):
 
 
 class UnreachableError(IrbkinError):
-    """No solution inside the limits."""
+    """No solution inside the limits, or none with the configuration that was asked for."""
+
+    configurations: tuple[Configuration, ...] = ()
+    """Those that exist, where another one was asked for."""
 
 
 class UnknownRobotError(IrbkinError, KeyError):

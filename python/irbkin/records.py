@@ -10,7 +10,18 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
-__all__ = ["Break", "FollowResult", "FreeJoint", "IkBatch", "Kind", "PoseCheck", "Reach", "Singularity", "Status"]
+__all__ = [
+    "Break",
+    "Configuration",
+    "FollowResult",
+    "FreeJoint",
+    "IkBatch",
+    "Kind",
+    "PoseCheck",
+    "Reach",
+    "Singularity",
+    "Status",
+]
 
 
 class Flags(enum.IntFlag):
@@ -73,14 +84,27 @@ class IkBatch(NamedTuple):
     """`Status` of each slot, shape (..., 8)."""
 
 
+class Configuration(NamedTuple):
+    """ABB's confdata: integers for one joint vector, arrays for many."""
+
+    cf1: Any
+    """Quarter turn of axis 1: floor(q1 / 90 deg)."""
+    cf4: Any
+    """Quarter turn of axis 4."""
+    cf6: Any
+    """Quarter turn of axis 6."""
+    cfx: Any
+    """The slot: 4 (wrist centre behind axis 1) + 2 (behind the lower arm) + 1 (q5 < 0); 0 with coupled axes 2 and 3."""
+
+
 class FreeJoint(NamedTuple):
     """The joint that a singular pose leaves free."""
 
     joint: int
     """Its number, from 1."""
     fixed: str
-    """What stays fixed along the family: "q4 + q6", "q4 - q6", "q2, q3" or "q1, q3"; "q1, q5" of three parallel axes;
-    "q1 + q3", "q1 - q3", "q4, q6" or "q4, q5" of seven axes."""
+    """What stays fixed along the family: "q4 + q6", "q4 - q6", "q2, q3", "q1, q3" or, with coupled axes 2 and 3,
+    "q1, q3 - q2"; "q1, q5" of three parallel axes; "q1 + q3", "q1 - q3", "q4, q6" or "q4, q5" of seven axes."""
 
 
 class Break(NamedTuple):

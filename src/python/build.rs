@@ -90,6 +90,12 @@ struct Limits<'a>(&'a [[f64; 2]]);
 pub(super) struct Base(pub(super) Pose);
 /// Another tool.
 pub(super) struct Tool(pub(super) Pose);
+/// Nothing, or limits of the rod, which may be no numbers.
+struct Coupling<'a>(Option<&'a [f64]>);
+/// Other limits of the rod, or none.
+pub(super) struct RodLimits(pub(super) Option<[f64; 2]>);
+/// The coupled twin, or the serial one.
+pub(super) struct Coupled(pub(super) bool);
 struct MaxVelocity<'a>(Option<&'a [f64]>);
 
 impl Change for Name<'_> {
@@ -102,6 +108,25 @@ impl Change for Limits<'_> {
     fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error> {
         let limits = <[[f64; 2]; N]>::try_from(self.0).map_err(|_| ModelFault::JointCount { found: N, wanted: self.0.len() })?;
         Ok(robot.with_limits(JointLimits::new(limits)?))
+    }
+}
+
+impl Change for Coupling<'_> {
+    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error> {
+        let Some(rod) = self.0 else { return Ok(robot) };
+        robot.coupled()?.with_rod_limits(<[f64; 2]>::try_from(rod).ok())
+    }
+}
+
+impl Change for RodLimits {
+    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error> {
+        robot.with_rod_limits(self.0)
+    }
+}
+
+impl Change for Coupled {
+    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error> {
+        if self.0 { robot.coupled() } else { Ok(robot.serial()) }
     }
 }
 
@@ -129,8 +154,9 @@ impl Change for MaxVelocity<'_> {
     }
 }
 
-/// Everything that a robot was built from: (name, definition, numbers of it, limits, base, tool, velocities).
-pub(super) type State = (String, String, Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>, Option<Vec<f64>>);
+/// Everything that a robot was built from: (name, definition, numbers of it, limits, base, tool, velocities, rod). The last is of coupled
+/// arms alone: limits of the rod, or no numbers.
+pub(super) type State = (String, String, Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>, Option<Vec<f64>>, Option<Vec<f64>>);
 
 /// The state of an arm. Equal robots have equal states.
 pub(super) fn state(arm: &Arm) -> State {
@@ -147,6 +173,7 @@ pub(super) fn state(arm: &Arm) -> State {
             pose_to_rows(robot.base()).to_vec(),
             pose_to_rows(robot.tool()).to_vec(),
             robot.max_velocity().map(|velocity| velocity.to_vec()),
+            robot.is_coupled().then(|| robot.limits().rod().map_or_else(Vec::new, Vec::from)),
         )
     })
 }
@@ -163,15 +190,16 @@ fn mdh_numbers<const N: usize>(mdh: &Mdh<N>) -> Vec<f64> {
 
 /// Hash of a robot's value.
 pub(super) fn hash(py: Python<'_>, arm: &Arm) -> PyResult<isize> {
-    let (name, definition, numbers, limits, base, tool, velocity) = state(arm);
-    let numbers = [numbers, limits, base, tool, velocity.unwrap_or_default()].concat();
+    let (name, definition, numbers, limits, base, tool, velocity, rod) = state(arm);
+    let coupled = rod.is_some();
+    let numbers = [numbers, limits, base, tool, velocity.unwrap_or_default(), rod.unwrap_or_default()].concat();
     // Python's own hash of floats holds 0.0 and -0.0 for one, as the comparison does.
-    (name, definition, PyTuple::new(py, numbers)?).into_pyobject(py)?.hash()
+    (name, definition, coupled, PyTuple::new(py, numbers)?).into_pyobject(py)?.hash()
 }
 
 /// The arm of a state, for pickle.
 pub(super) fn restored(py: Python<'_>, state: &State) -> PyResult<Arm> {
-    let (name, definition, numbers, limits, base, tool, velocity) = state;
+    let (name, definition, numbers, limits, base, tool, velocity, rod) = state;
     let (limit_rows, rest) = limits.as_chunks::<2>();
     let broken = || Fault::Model.error(py, "the pickled robot is damaged".to_owned());
     if !rest.is_empty() {
@@ -190,6 +218,7 @@ pub(super) fn restored(py: Python<'_>, state: &State) -> PyResult<Arm> {
     built
         .map_err(|error| to_py(py, &error))?
         .changed(py, &Name(name))?
+        .changed(py, &Coupling(rod.as_deref()))?
         .changed(py, &Limits(limit_rows))?
         .changed(py, &Base(pose(base)?))?
         .changed(py, &Tool(pose(tool)?))?

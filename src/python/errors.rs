@@ -3,8 +3,10 @@
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
+use pyo3::types::PyTuple;
 
-use crate::error::Error;
+use super::configurations::record;
+use crate::error::{Error, NoConfiguration};
 use crate::kinematics::{Reach, Status};
 
 /// An attribute of a Python module of the package, looked up once.
@@ -22,6 +24,7 @@ package_object!(invalid_joints_error, "irbkin.errors", "InvalidJointsError");
 package_object!(invalid_model_error, "irbkin.errors", "InvalidModelError");
 package_object!(unknown_robot_error, "irbkin.errors", "UnknownRobotError");
 package_object!(unreachable_error, "irbkin.errors", "UnreachableError");
+package_object!(configuration_class, "irbkin.records", "Configuration");
 package_object!(kind_class, "irbkin.records", "Kind");
 package_object!(status_class, "irbkin.records", "Status");
 package_object!(reach_class, "irbkin.records", "Reach");
@@ -64,9 +67,18 @@ pub(super) fn to_py(py: Python<'_>, error: &Error) -> PyErr {
         Error::InvalidModel(_) | Error::WrongLength { .. } => invalid_model_error(py),
         Error::UnknownRobot(_) => unknown_robot_error(py),
         Error::Unreachable(_) => unreachable_error(py),
+        Error::NoConfiguration(fault) => return no_configuration(py, fault),
         Error::NoInstructionSet { .. } => return PyValueError::new_err(error.to_string()),
     };
     raised(class, error.to_string())
+}
+
+/// With the configurations that exist as an attribute.
+fn no_configuration(py: Python<'_>, fault: &NoConfiguration) -> PyErr {
+    let error = raised(unreachable_error(py), fault.to_string());
+    let existing = fault.existing.iter().map(|existing| record(py, existing)).collect::<PyResult<Vec<_>>>();
+    let told = existing.and_then(|existing| error.value(py).setattr("configurations", PyTuple::new(py, existing)?));
+    told.map_or_else(|failure| failure, |()| error)
 }
 
 pub(super) fn kinds(py: Python<'_>, status: Status) -> PyResult<Bound<'_, PyAny>> {

@@ -6,6 +6,7 @@ mod arm;
 mod arrays;
 mod batches;
 mod build;
+mod configurations;
 mod errors;
 mod found;
 mod paths;

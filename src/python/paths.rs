@@ -62,7 +62,7 @@ pub(super) fn follow<'py>(
 }
 
 /// A seed for each row with the leading dimensions `lead`, or one for all.
-fn read_seeds<const N: usize>(seeds: &Bound<'_, PyAny>, lead: &[usize]) -> PyResult<Vec<f64>> {
+pub(super) fn read_seeds<const N: usize>(seeds: &Bound<'_, PyAny>, lead: &[usize]) -> PyResult<Vec<f64>> {
     let rows = Rows::read(seeds, &[N], "seed", Fault::Joints)?;
     if rows.lead == lead {
         return Ok(rows.data()?.to_vec());

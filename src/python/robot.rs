@@ -11,6 +11,7 @@ use super::arm::{Arm, on_robot};
 use super::arrays::vector;
 use super::batches::{self, needed_q7, no_q7};
 use super::build::{self, Convention, State};
+use super::configurations::{self, Fallback};
 use super::errors::{self, Fault, to_py};
 use super::found::{Found, read_seed, read_weights};
 use super::paths;
@@ -220,9 +221,47 @@ impl PyRobot {
         self.arm.changed(T.py(), &build::Base(read_pose(T, "T")?)).map(Self::from)
     }
 
-    /// The same robot with other joint limits [rad], shape (n, 2).
+    /// The same robot with other joint limits [rad], shape (n, 2); those of a rod stay.
     fn with_limits(&self, limits: &Bound<'_, PyAny>) -> PyResult<Self> {
         build::with_limits(&self.arm, limits).map(Self::from)
+    }
+
+    /// Whether a parallelogram couples axes 2 and 3: joint 3 is then told from the base, as the controller tells it.
+    #[getter]
+    fn is_coupled(&self) -> bool {
+        on_robot!(&self.arm, robot => robot.is_coupled())
+    }
+
+    /// Lower and upper limit of q3 - q2 [rad], shape (2,), of the rod that couples axes 2 and 3; None where none are known.
+    #[getter]
+    fn rod_limits<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
+        on_robot!(&self.arm, robot => robot.limits().rod()).map(|rod| PyArray1::from_slice(py, &rod))
+    }
+
+    /// The same robot with limits of q3 - q2 [rad], shape (2,), at whatever turn, for the rod that couples axes 2 and 3; None for none.
+    ///
+    /// Raises:
+    ///     InvalidModelError: A limit is NaN, the lower one is above the upper one, or axes 2 and 3 are not coupled.
+    fn with_rod_limits(&self, py: Python<'_>, limits: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        let limits = limits.map(|limits| vector(limits, "limits", Fault::Model)).transpose()?;
+        self.arm.changed(py, &build::RodLimits(limits)).map(Self::from)
+    }
+
+    /// The twin without the coupling of axes 2 and 3: its joint 3 is this one's minus joint 2. The arm itself where it has none.
+    ///
+    /// Its joint 3 is limited as the rod is or, where that is unknown, may stand wherever axes 2 and 3 let it.
+    fn serial(&self, py: Python<'_>) -> PyResult<Self> {
+        self.arm.changed(py, &build::Coupled(false)).map(Self::from)
+    }
+
+    /// The twin whose axes 2 and 3 a parallelogram couples: its joint 3 is this one's plus joint 2, as its controller tells it.
+    ///
+    /// What was the limit of joint 3 is that of the rod; joint 3 may stand wherever axes 2 and the rod let it.
+    ///
+    /// Raises:
+    ///     InvalidModelError: The arm has no spherical wrist, or its axes 2 and 3 turn in opposite senses.
+    fn coupled(&self, py: Python<'_>) -> PyResult<Self> {
+        self.arm.changed(py, &build::Coupled(true)).map(Self::from)
     }
 
     /// Forward kinematics: the pose of the tool.
@@ -417,6 +456,54 @@ impl PyRobot {
         paths::follow(self.arm.follower(T.py())?, T, seed, &options)
     }
 
+    /// ABB's confdata of joint vectors: quarter turns of axes 1, 4 and 6, and the slot.
+    ///
+    /// Args:
+    ///     q: Joint angles [rad], shape (..., 6).
+    ///
+    /// Returns:
+    ///     Configuration(cf1, cf4, cf6, cfx): integers for one joint vector, int32 arrays of shape (...) for many. cf is
+    ///     floor(angle / 90 deg). cfx is the slot, 0 for an arm with coupled axes 2 and 3, whose controller does not use it.
+    ///
+    /// Raises:
+    ///     InvalidJointsError: A wrong shape, or an angle that is not finite.
+    ///     InvalidModelError: The arm has no spherical wrist: its controller counts otherwise.
+    fn configuration<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        configurations::configuration(&self.arm, q)
+    }
+
+    /// The solution inside the limits that has a configuration, which chooses the turns of axes 1, 4 and 6, too.
+    ///
+    /// An angle within 0.01 deg of the edge of a quarter turn is taken for either side of it.
+    ///
+    /// Args:
+    ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
+    ///     configuration: (cf1, cf4, cf6, cfx): an `irbkin.Configuration`, or whole numbers of shape (4,) or (..., 4).
+    ///     fallback: With "nearest", the solution nearest to `seed` where none has the configuration: many programs write [0, 0, 0, 0]
+    ///         without having calculated it.
+    ///     seed: Joint vector [rad] of the fallback, shape (6,) or (..., 6).
+    ///
+    /// Returns:
+    ///     Joint vectors [rad], shape (..., 6). In a batch, a row without such a solution, or whose pose is invalid, is NaN.
+    ///
+    /// Raises:
+    ///     UnreachableError: A single pose has no solution inside the limits with that configuration; the message, and its attribute
+    ///         `configurations`, have those that exist.
+    ///     InvalidPoseError, InvalidJointsError: A wrong shape, a pose that is none, a number of the configuration that is not whole or that
+    ///         the arm does not have.
+    ///     InvalidModelError: As `configuration`.
+    ///     TypeError, ValueError: Another fallback, or one without a seed.
+    #[pyo3(signature = (T, configuration, *, fallback=None, seed=None))]
+    fn ik_configured<'py>(
+        &self,
+        T: &Bound<'py, PyAny>,
+        configuration: &Bound<'py, PyAny>,
+        fallback: Option<&str>,
+        seed: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        configurations::ik(&self.arm, T, configuration, &Fallback { name: fallback, seed })
+    }
+
     /// Whether a pose can be reached, inside the limits or not, and why not; with seven joints, with any angle of joint 7 inside its limits.
     ///
     /// Args:
@@ -431,7 +518,7 @@ impl PyRobot {
         let pose = read_pose(T, "T")?;
         let explanation = on_robot!(&self.arm, robot => robot.explain(&pose)).map_err(|error| to_py(T.py(), &error))?;
         let inside = matches!(explanation, Explanation::Found { .. });
-        let reachable = inside || matches!(explanation, Explanation::OutsideLimits { .. });
+        let reachable = inside || matches!(explanation, Explanation::OutsideLimits { .. } | Explanation::OutsideRod { .. });
         errors::pose_check_class(T.py())?.call1((reachable, inside, explanation.to_string()))
     }
 

@@ -90,6 +90,8 @@ def test_exactly_one_solution_has_the_taught_configuration(row):
     # The text of a derived angle is rounded, its own computation to a hundredth of that.
     bound = np.deg2rad(1.01 * half_digit(row, derived))
     assert np.abs(matching[0].q - np.deg2rad(numbers(row, derived))).max() <= bound
+    taught = [int(row[field]) for field in ("cf1", "cf4", "cf6", "cfx")]
+    np.testing.assert_allclose(robot_of(row).ik_configured(target, taught), matching[0].q, rtol=0, atol=1e-12)
 
 
 def test_every_taught_target_was_compared():

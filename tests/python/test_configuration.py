@@ -1,0 +1,102 @@
+"""ABB's confdata through Python: shapes, the batch, what is refused, and taught targets."""
+
+import irbkin
+import numpy as np
+import pytest
+from irbkin import Configuration
+
+ROBOT = irbkin.Robot("IRB 2600-12/1.65")
+Q = np.array([0.3, 0.2, 0.1, 0.4, 0.5, 0.7])
+
+
+def random_joints(count, seed=1):
+    low, high = ROBOT.limits.T
+    return np.random.default_rng(seed).uniform(low, high, (count, 6))
+
+
+def test_a_configuration_is_four_integers():
+    configuration = ROBOT.configuration(np.deg2rad([-10, 20, -85, 100, -30, -280]))
+    assert configuration == Configuration(cf1=-1, cf4=1, cf6=-4, cfx=3)
+    assert all(type(number) is int for number in configuration)
+
+
+def test_configurations_of_many_are_arrays_of_their_shape():
+    q = random_joints(12).reshape(3, 4, 6)
+    configurations = ROBOT.configuration(q)
+    for number in configurations:
+        assert number.shape == (3, 4)
+        assert number.dtype == np.int32
+    assert ROBOT.configuration(q[2, 1]) == tuple(int(number[2, 1]) for number in configurations)
+    np.testing.assert_array_equal(configurations.cf4, np.floor(q[..., 3] / (np.pi / 2)))
+
+
+def test_joint_vectors_are_found_again_by_their_configuration():
+    q = random_joints(500)
+    poses, configurations = ROBOT.fk(q), ROBOT.configuration(q)
+    np.testing.assert_allclose(ROBOT.ik_configured(poses, configurations), q, rtol=0, atol=1e-8)
+    for one, pose, *configuration in zip(q[:50], poses[:50], *configurations, strict=False):
+        np.testing.assert_allclose(ROBOT.ik_configured(pose, configuration), one, rtol=0, atol=1e-8)
+
+
+def test_one_configuration_goes_for_many_poses_and_rows_without_it_are_nan():
+    poses = np.stack([ROBOT.fk(Q), np.full((4, 4), np.nan), ROBOT.fk([2.0, *Q[1:]])])
+    found = ROBOT.ik_configured(poses, (0, 0, 0, 0))
+    np.testing.assert_allclose(found[0], Q, rtol=0, atol=1e-12)
+    assert np.isnan(found[1:]).all()
+    found = ROBOT.ik_configured(poses, (0, 0, 0, 0), fallback="nearest", seed=Q)
+    np.testing.assert_allclose(found[2], [2.0, *Q[1:]], rtol=0, atol=1e-12)
+    assert np.isnan(found[1]).all()
+
+
+def test_a_single_pose_without_it_tells_what_exists():
+    with pytest.raises(
+        irbkin.UnreachableError, match=r"has the configuration \[2, 0, 0, 0\]; there are \[0, -4,"
+    ) as caught:
+        ROBOT.ik_configured(ROBOT.fk(Q), (2, 0, 0, 0))
+    existing = caught.value.configurations
+    assert Configuration(0, 0, 0, 0) in existing
+    assert set(existing) == {ROBOT.configuration(turn.q) for turn in ROBOT.ik(ROBOT.fk(Q)).turns()}
+    nearest = ROBOT.ik_configured(ROBOT.fk(Q), (2, 0, 0, 0), fallback="nearest", seed=Q)
+    np.testing.assert_allclose(nearest, Q, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("configuration", "message"),
+    [
+        ((0, 0, 0, 8), "cfx is 8, it must be 0 to 7"),
+        ((0, 0.5, 0, 0), "cf4 is 0.5, it must be a whole number"),
+        ((0, 0, np.nan, 0), "cf6 is NaN, it must be a whole number"),
+        ((0, 0, 0), r"configuration must have shape \(..., 4\), got \[3\]"),
+        (np.zeros((2, 4)), r"configuration must have shape \[4\], got \[2, 4\]"),
+    ],
+)
+def test_what_is_no_configuration_is_refused(configuration, message):
+    with pytest.raises(irbkin.InvalidJointsError, match=message):
+        ROBOT.ik_configured(ROBOT.fk(Q), configuration)
+
+
+def test_a_fallback_that_is_none_is_refused():
+    pose = ROBOT.fk(Q)
+    with pytest.raises(TypeError, match="needs a seed"):
+        ROBOT.ik_configured(pose, (0, 0, 0, 0), fallback="nearest")
+    with pytest.raises(TypeError, match="a seed is for fallback"):
+        ROBOT.ik_configured(pose, (0, 0, 0, 0), seed=Q)
+    with pytest.raises(ValueError, match='must be "nearest" or None, got "first"'):
+        ROBOT.ik_configured(pose, (0, 0, 0, 0), fallback="first", seed=Q)
+
+
+@pytest.mark.parametrize("name", ["UR3", "Panda"])
+def test_other_families_are_refused_not_guessed(name):
+    robot = irbkin.Robot(name)
+    q = np.full(robot.dof, 0.3)
+    with pytest.raises(irbkin.InvalidModelError, match=f'this arm\'s form is "{robot.family}"'):
+        robot.configuration(q)
+    with pytest.raises(irbkin.InvalidModelError, match="configurations are those of ABB"):
+        robot.ik_configured(robot.fk(q), (0, 0, 0, 0))
+
+
+def test_a_joint_vector_that_is_not_finite_is_refused_by_its_index():
+    q = random_joints(4).reshape(2, 2, 6)
+    q[1, 0, 3] = np.inf
+    with pytest.raises(irbkin.InvalidJointsError, match=r"q\[1, 0\]: q: joint 4 is inf"):
+        ROBOT.configuration(q)
