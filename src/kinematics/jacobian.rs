@@ -129,7 +129,7 @@ fn jacobian_rows<const N: usize, const W: usize, const FUSED: bool>(
     rows
 }
 
-/// Where q3 is told from the base, q2 turns the serial joint 3 back: its column loses that of joint 3 (eq. 25).
+/// Where q3 is told from the base, q2 turns the serial joint 3 back: its column loses that of joint 3 (eq. 26).
 #[inline(always)]
 fn take_coupling_back<const N: usize, const W: usize>(rows: &mut [[[f64; W]; N]; 6]) {
     for row in rows {

@@ -22,7 +22,7 @@ impl<const N: usize> Placement<N> {
         core::array::from_fn(|i| self.signs[i] * q[i] - self.offsets[i])
     }
 
-    /// The joint angles of theta, in (-pi, pi] (eq. 19, 24).
+    /// The joint angles of theta, in (-pi, pi] (eq. 19, 25).
     pub(crate) fn joints(&self, theta: [f64; N]) -> [f64; N] {
         let q = core::array::from_fn(|i| self.signs[i] * (theta[i] + self.offsets[i]));
         if self.coupled { coupled(q) } else { q }.map(wrap)

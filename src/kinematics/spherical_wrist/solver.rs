@@ -23,7 +23,7 @@ pub(crate) struct WristSolver {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Columns {
     pub(super) joints: [JointColumn; 6],
-    /// How much of theta_2 is taken off theta_23 for joint 3: one, or nothing of an arm with coupled axes (eq. 24).
+    /// How much of theta_2 is taken off theta_23 for joint 3: one, or nothing of an arm with coupled axes (eq. 25).
     pub(super) serial: f64,
     /// The serial joint 3, of an arm whose rod has limits.
     pub(super) rod: Option<JointColumn>,
