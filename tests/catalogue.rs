@@ -295,8 +295,9 @@ fn an_unknown_name_tells_the_close_ones_and_nothing_is_guessed() {
     assert_eq!(close("IRB 5710-70/2.7"), ["IRB 5710-70/2.7 LID"]);
     assert_eq!(close("1300-10/1.15"), ["IRB 1300-10/1.15", "CRB 1300-10/1.15"]);
     assert_eq!(close("IRB 6700").len(), 6);
+    assert_eq!(close("IRB 2601")[..5], all_2600);
     assert_eq!(close("UR3f")[..2], ["UR3", "UR3e"]);
-    for unlike in ["", "?", "KUKA KR 6 R700", "IRB 9999"] {
+    for unlike in ["", "?", "KUKA KR 6 R700", "IRB 9999", "CRB 15000-5/0.95"] {
         assert_eq!(close(unlike), [""; 0], "{unlike}");
     }
 }

@@ -56,7 +56,10 @@ fn trim_decimals(text: &mut String, point: Option<usize>) {
 
 /// Names that hold the wanted one, the earlier in the name the closer; where there are none, those that are spelled like it.
 fn close_to(wanted: &str) -> Vec<&'static str> {
-    let place = |arm: &CatalogueArm| squeezed(arm.name).find(wanted).filter(|_| !wanted.is_empty());
+    if wanted.is_empty() {
+        return Vec::new();
+    }
+    let place = |arm: &CatalogueArm| squeezed(arm.name).find(wanted);
     let mut holding: Vec<_> = catalogue().filter_map(|arm| Some((place(arm)?, arm.name))).collect();
     if holding.is_empty() {
         return spelled_like(wanted);
@@ -65,11 +68,17 @@ fn close_to(wanted: &str) -> Vec<&'static str> {
     holding.into_iter().map(|(_, name)| name).take(MOST_CLOSE).collect()
 }
 
+/// Names that are spelled like the wanted one, or begin like it.
 #[cfg(feature = "std")]
 fn spelled_like(wanted: &str) -> Vec<&'static str> {
-    /// Share of the letters that must be right [1]: with less, names of two digits in common would be close.
-    const LEAST_SIMILARITY: f64 = 0.6;
-    let similarity = |arm: &CatalogueArm| strsim::normalized_damerau_levenshtein(&squeezed(arm.name), wanted);
+    /// Share of the letters that must be right [1]: with less, an arm of another series and maker would be close.
+    const LEAST_SIMILARITY: f64 = 0.7;
+    let similarity = |arm: &CatalogueArm| {
+        let name = squeezed(arm.name);
+        let start: String = name.chars().take(wanted.chars().count()).collect();
+        let [whole, start] = [name, start].map(|name| strsim::normalized_damerau_levenshtein(&name, wanted));
+        whole.max(start)
+    };
     let mut ranked: Vec<_> = catalogue().map(|arm| (similarity(arm), arm.name)).filter(|(s, _)| *s >= LEAST_SIMILARITY).collect();
     ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
     ranked.into_iter().map(|(_, name)| name).take(MOST_CLOSE).collect()

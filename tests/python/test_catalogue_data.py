@@ -51,7 +51,10 @@ def test_filters_take_a_least_figure_or_a_pair():
 @pytest.mark.parametrize(
     ("filters", "message"),
     [
-        ({"reach": "far"}, r"^reach must be a number \(at least that much\) or a pair \(least, most\) \[m\], got 'far'$"),
+        (
+            {"reach": "far"},
+            r"^reach must be a number \(at least that much\) or a pair \(least, most\) \[m\], got 'far'$",
+        ),
         ({"payload": (1, 2, 3)}, r"^payload must be a number .* \[kg\], got \(1, 2, 3\)$"),
         ({"payload": -1}, "^payload is -1 kg, it must be 0 or more$"),
         ({"reach": np.nan}, "^reach is NaN m, it must be 0 or more$"),

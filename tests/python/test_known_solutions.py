@@ -119,6 +119,8 @@ def test_the_article_s_poses_come_back_through_the_inverse(deg):
 def test_the_article_s_table_is_that_of_a_1410_with_abb_s_angles():
     robot = irbkin.Robot.from_mdh(IRB1410.rows)
     np.testing.assert_allclose(robot.fk(np.zeros(6))[:3, 3], [0.955, 0, 1.195], rtol=0, atol=rounding(2))
-    np.testing.assert_allclose(irbkin.Robot("IRB 1410-4/1.45").fk(np.zeros(6)), robot.fk(np.zeros(6)), rtol=0, atol=rounding(2))
+    np.testing.assert_allclose(
+        irbkin.Robot("IRB 1410-4/1.45").fk(np.zeros(6)), robot.fk(np.zeros(6)), rtol=0, atol=rounding(2)
+    )
     assert "IRB 1600-6/1.45" in ABB
     assert not np.allclose(robot.fk(np.zeros(6)), irbkin.Robot("IRB 1600-6/1.45").fk(np.zeros(6)), atol=0.01)
