@@ -19,6 +19,8 @@ pub(super) const ARMS: &[CatalogueArm] = &[PANDA, FR3];
 
 const PANDA: CatalogueArm = CatalogueArm {
     name: "Panda",
+    payload: Some(3.0),
+    reach: Some(0.855),
     geometry: GEOMETRY,
     angles: AngleUnit::Radians,
     limits: &[
@@ -37,6 +39,8 @@ const PANDA: CatalogueArm = CatalogueArm {
 
 const FR3: CatalogueArm = CatalogueArm {
     name: "FR3",
+    payload: Some(3.0),
+    reach: Some(0.855),
     geometry: GEOMETRY,
     angles: AngleUnit::Radians,
     limits: &[

@@ -2,20 +2,23 @@
 
 mod abb;
 mod franka;
+mod names;
 mod universal_robots;
 
-use alloc::borrow::ToOwned;
-use alloc::string::String;
-use alloc::vec::Vec;
-
-use crate::error::{Error, ModelFault, UnknownRobot};
+use crate::error::{Error, ModelFault};
 use crate::kinematics::{DhRow, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh};
+
+pub use names::find;
 
 /// One arm of the catalogue, with the numbers as its maker prints them.
 #[derive(Clone, Copy, Debug)]
 pub struct CatalogueArm {
     /// The maker's type name.
     pub name: &'static str,
+    /// What it carries [kg], as its type name or the maker's data sheet has it; of several generations the least.
+    pub payload: Option<f64>,
+    /// How far it reaches [m], as its type name or the maker's data sheet has it: rounded, of ABB's arms to the wrist centre.
+    pub reach: Option<f64>,
     /// Its geometry.
     pub geometry: CatalogueGeometry,
     /// Unit of the limits and velocities.
@@ -65,6 +68,9 @@ pub enum CatalogueGeometry {
         c3: f64,
         /// Wrist centre to flange.
         c4: f64,
+        /// Axes 2 and 3 are coupled by a parallelogram: the controller's angle of axis 3 counts from the room, q3_serial = q3 - q2, and so
+        /// do its limits.
+        coupled: bool,
     },
     /// Three parallel axes, in Universal Robots' standard Denavit-Hartenberg figures [mm]: twists of 90, 0, 0, 90, -90 and 0 deg.
     ThreeParallel {
@@ -85,46 +91,9 @@ pub enum CatalogueGeometry {
     Mdh(&'static [[f64; 4]]),
 }
 
-const MAKERS: [&[CatalogueArm]; 3] = [abb::ARMS, universal_robots::ARMS, franka::ARMS];
-
-/// Every arm of the catalogue.
+/// Every arm of the catalogue: ABB's by type number, then the other makers'.
 pub fn catalogue() -> impl Iterator<Item = &'static CatalogueArm> {
-    MAKERS.into_iter().flatten()
-}
-
-/// Finds an arm by its name; case, blanks, `-`, `_` and `/` do not matter.
-///
-/// # Errors
-///
-/// [`Error::UnknownRobot`] with the names that are close.
-pub fn find(name: &str) -> Result<&'static CatalogueArm, Error> {
-    let wanted = squeezed(name);
-    catalogue()
-        .find(|arm| squeezed(arm.name) == wanted)
-        .ok_or_else(|| Error::UnknownRobot(UnknownRobot { name: name.to_owned(), close: close_to(&wanted) }))
-}
-
-/// A name without what does not matter in it.
-fn squeezed(name: &str) -> String {
-    name.chars().filter(|c| !c.is_whitespace() && !matches!(c, '-' | '_' | '/')).flat_map(char::to_lowercase).collect()
-}
-
-/// Up to four names that hold the wanted one or are spelled like it.
-#[cfg(feature = "std")]
-fn close_to(wanted: &str) -> Vec<&'static str> {
-    const LEAST_SIMILARITY: f64 = 0.7;
-    let similarity = |arm: &CatalogueArm| {
-        let name = squeezed(arm.name);
-        if !wanted.is_empty() && name.contains(wanted) { 1.0 } else { strsim::jaro_winkler(&name, wanted) }
-    };
-    let mut ranked: Vec<_> = catalogue().map(|arm| (similarity(arm), arm.name)).filter(|(s, _)| *s >= LEAST_SIMILARITY).collect();
-    ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
-    ranked.into_iter().take(4).map(|(_, name)| name).collect()
-}
-
-#[cfg(not(feature = "std"))]
-fn close_to(wanted: &str) -> Vec<&'static str> {
-    catalogue().map(|arm| arm.name).filter(|name| !wanted.is_empty() && squeezed(name).contains(wanted)).take(4).collect()
+    abb::SERIES.into_iter().chain([universal_robots::ARMS, franka::ARMS]).flatten()
 }
 
 impl CatalogueArm {
@@ -136,11 +105,11 @@ impl CatalogueArm {
 }
 
 impl<const N: usize> Robot<N> {
-    /// The arm of that name from the catalogue; case, blanks, `-`, `_` and `/` do not matter.
+    /// The arm of that name from the catalogue, as [`find`] finds it.
     ///
     /// # Errors
     ///
-    /// [`Error::UnknownRobot`] with the names that are close; [`Error::InvalidModel`] when the arm does not have `N` joints.
+    /// [`Error::UnknownRobot`] with up to six close names; [`Error::InvalidModel`] when the arm does not have `N` joints.
     pub fn named(name: &str) -> Result<Self, Error> {
         Self::from_catalogue(find(name)?)
     }
@@ -158,9 +127,9 @@ impl<const N: usize> Robot<N> {
             None => None,
         };
         let robot = match arm.geometry {
-            CatalogueGeometry::Abb { a1, a2, c1, c2, c3, c4 } => {
+            CatalogueGeometry::Abb { a1, a2, c1, c2, c3, c4, coupled } => {
                 let [a1, a2, c1, c2, c3, c4] = [a1, a2, c1, c2, c3, c4].map(|mm| mm / 1e3);
-                Self::of_opw(OpwParameters::abb(a1, a2, c1, c2, c3, c4))?
+                Self::of_opw(OpwParameters::abb(a1, a2, c1, c2, c3, c4))?.with_coupling(coupled)
             }
             CatalogueGeometry::ThreeParallel { d1, a2, a3, d4, d5, d6 } => {
                 let rows = [(90.0, 0.0, d1), (0.0, a2, 0.0), (0.0, a3, 0.0), (90.0, 0.0, d4), (-90.0, 0.0, d5), (0.0, 0.0, d6)];

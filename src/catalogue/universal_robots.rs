@@ -2,7 +2,7 @@
 //!
 //! Standard Denavit-Hartenberg figures as Universal Robots publishes them (article "DH parameters for calculations of kinematics and dynamics"),
 //! held against ur-analytic-ik 0.1.0. Base and flange are frames 0 and 6 of that table. A machine's own calibration moves its tool by 1 to 2 mm
-//! from them. Planners usually hold joint 3 to +-180 deg; the machine does not.
+//! from them. Payload and reach are general knowledge of the data sheets. Planners usually hold joint 3 to +-180 deg; the machine does not.
 
 use super::{AngleUnit, CatalogueArm, CatalogueGeometry};
 
@@ -11,6 +11,8 @@ const LIMITS: &[[f64; 2]] = &[[-360.0, 360.0]; 6];
 pub(super) const ARMS: &[CatalogueArm] = &[
     CatalogueArm {
         name: "UR3",
+        payload: Some(3.0),
+        reach: Some(0.5),
         geometry: CatalogueGeometry::ThreeParallel { d1: 151.9, a2: -243.65, a3: -213.25, d4: 112.35, d5: 85.35, d6: 81.9 },
         angles: AngleUnit::Degrees,
         limits: LIMITS,
@@ -20,6 +22,8 @@ pub(super) const ARMS: &[CatalogueArm] = &[
     },
     CatalogueArm {
         name: "UR3e",
+        payload: Some(3.0),
+        reach: Some(0.5),
         geometry: CatalogueGeometry::ThreeParallel { d1: 151.85, a2: -243.55, a3: -213.2, d4: 131.05, d5: 85.35, d6: 92.1 },
         angles: AngleUnit::Degrees,
         limits: LIMITS,
@@ -29,6 +33,8 @@ pub(super) const ARMS: &[CatalogueArm] = &[
     },
     CatalogueArm {
         name: "UR5",
+        payload: Some(5.0),
+        reach: Some(0.85),
         geometry: CatalogueGeometry::ThreeParallel { d1: 89.159, a2: -425.0, a3: -392.25, d4: 109.15, d5: 94.65, d6: 82.3 },
         angles: AngleUnit::Degrees,
         limits: LIMITS,
@@ -38,6 +44,8 @@ pub(super) const ARMS: &[CatalogueArm] = &[
     },
     CatalogueArm {
         name: "UR5e",
+        payload: Some(5.0),
+        reach: Some(0.85),
         geometry: CatalogueGeometry::ThreeParallel { d1: 162.5, a2: -425.0, a3: -392.2, d4: 133.3, d5: 99.7, d6: 99.6 },
         angles: AngleUnit::Degrees,
         limits: LIMITS,
@@ -47,6 +55,8 @@ pub(super) const ARMS: &[CatalogueArm] = &[
     },
     CatalogueArm {
         name: "UR7e",
+        payload: Some(7.5),
+        reach: Some(0.85),
         geometry: CatalogueGeometry::ThreeParallel { d1: 162.5, a2: -425.0, a3: -392.2, d4: 133.3, d5: 99.7, d6: 99.6 },
         angles: AngleUnit::Degrees,
         limits: LIMITS,
@@ -56,6 +66,8 @@ pub(super) const ARMS: &[CatalogueArm] = &[
     },
     CatalogueArm {
         name: "UR8 Long",
+        payload: Some(8.0),
+        reach: Some(1.75),
         geometry: CatalogueGeometry::ThreeParallel { d1: 218.6, a2: -898.9, a3: -714.9, d4: 182.4, d5: 136.1, d6: 143.4 },
         angles: AngleUnit::Degrees,
         limits: LIMITS,
@@ -65,6 +77,8 @@ pub(super) const ARMS: &[CatalogueArm] = &[
     },
     CatalogueArm {
         name: "UR10",
+        payload: Some(10.0),
+        reach: Some(1.3),
         geometry: CatalogueGeometry::ThreeParallel { d1: 127.3, a2: -612.0, a3: -572.3, d4: 163.941, d5: 115.7, d6: 92.2 },
         angles: AngleUnit::Degrees,
         limits: LIMITS,
@@ -74,6 +88,8 @@ pub(super) const ARMS: &[CatalogueArm] = &[
     },
     CatalogueArm {
         name: "UR10e",
+        payload: Some(10.0),
+        reach: Some(1.3),
         geometry: CatalogueGeometry::ThreeParallel { d1: 180.7, a2: -612.7, a3: -571.55, d4: 174.15, d5: 119.85, d6: 116.55 },
         angles: AngleUnit::Degrees,
         limits: LIMITS,
@@ -83,6 +99,8 @@ pub(super) const ARMS: &[CatalogueArm] = &[
     },
     CatalogueArm {
         name: "UR12e",
+        payload: Some(12.5),
+        reach: Some(1.3),
         geometry: CatalogueGeometry::ThreeParallel { d1: 180.7, a2: -612.7, a3: -571.55, d4: 174.15, d5: 119.85, d6: 116.55 },
         angles: AngleUnit::Degrees,
         limits: LIMITS,
@@ -92,6 +110,8 @@ pub(super) const ARMS: &[CatalogueArm] = &[
     },
     CatalogueArm {
         name: "UR15",
+        payload: Some(15.0),
+        reach: Some(1.3),
         geometry: CatalogueGeometry::ThreeParallel { d1: 218.6, a2: -647.5, a3: -516.4, d4: 182.4, d5: 136.1, d6: 143.4 },
         angles: AngleUnit::Degrees,
         limits: LIMITS,
@@ -101,6 +121,8 @@ pub(super) const ARMS: &[CatalogueArm] = &[
     },
     CatalogueArm {
         name: "UR16e",
+        payload: Some(16.0),
+        reach: Some(0.9),
         geometry: CatalogueGeometry::ThreeParallel { d1: 180.7, a2: -478.4, a3: -360.0, d4: 174.15, d5: 119.85, d6: 116.55 },
         angles: AngleUnit::Degrees,
         limits: LIMITS,
@@ -110,6 +132,8 @@ pub(super) const ARMS: &[CatalogueArm] = &[
     },
     CatalogueArm {
         name: "UR18",
+        payload: Some(18.0),
+        reach: Some(0.95),
         geometry: CatalogueGeometry::ThreeParallel { d1: 218.6, a2: -475.0, a3: -338.9, d4: 182.4, d5: 136.1, d6: 143.4 },
         angles: AngleUnit::Degrees,
         limits: LIMITS,
@@ -119,6 +143,8 @@ pub(super) const ARMS: &[CatalogueArm] = &[
     },
     CatalogueArm {
         name: "UR20",
+        payload: Some(20.0),
+        reach: Some(1.75),
         geometry: CatalogueGeometry::ThreeParallel { d1: 236.3, a2: -862.0, a3: -728.7, d4: 201.0, d5: 159.3, d6: 154.3 },
         angles: AngleUnit::Degrees,
         limits: LIMITS,
@@ -128,6 +154,8 @@ pub(super) const ARMS: &[CatalogueArm] = &[
     },
     CatalogueArm {
         name: "UR30",
+        payload: Some(30.0),
+        reach: Some(1.3),
         geometry: CatalogueGeometry::ThreeParallel { d1: 236.3, a2: -637.0, a3: -503.7, d4: 201.0, d5: 159.3, d6: 154.3 },
         angles: AngleUnit::Degrees,
         limits: LIMITS,

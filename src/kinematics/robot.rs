@@ -250,7 +250,7 @@ impl<const N: usize> Robot<N> {
         self.chain.is_coupled()
     }
 
-    /// The same arm, coupled, with the limits as they are: those of its controller.
+    /// The same arm, coupled or not, with the limits as they are: those of its controller.
     pub(crate) fn with_coupling(mut self, coupled: bool) -> Self {
         self.chain = self.chain.with_coupling(coupled);
         self.joined()

@@ -6,6 +6,7 @@ mod arm;
 mod arrays;
 mod batches;
 mod build;
+mod catalog;
 mod configurations;
 mod errors;
 mod found;
@@ -19,14 +20,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use crate::catalogue;
 use crate::lanes::InstructionSet;
-
-/// Names of every robot in the catalogue.
-#[pyfunction]
-fn catalog(py: Python<'_>) -> PyResult<Bound<'_, PyTuple>> {
-    PyTuple::new(py, catalogue::catalogue().map(|arm| arm.name).collect::<Vec<_>>())
-}
 
 /// Name of the instruction set that calculates: "avx512", "avx2" or "baseline".
 #[pyfunction]
@@ -64,7 +58,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<robot::PyRobot>()?;
     module.add_class::<solutions::PySolutions>()?;
     module.add_class::<solutions::PySolution>()?;
-    module.add_function(wrap_pyfunction!(catalog, module)?)?;
+    module.add_function(wrap_pyfunction!(catalog::catalog, module)?)?;
     module.add_function(wrap_pyfunction!(instruction_set, module)?)?;
     module.add_function(wrap_pyfunction!(instruction_sets, module)?)?;
     module.add_function(wrap_pyfunction!(use_instruction_set, module)?)?;

@@ -25,10 +25,10 @@ use crate::kinematics::{Explanation, FollowOptions, Inverse, OpwParameters, Robo
 /// A robot arm: `Robot("IRB 2600-12/1.65")`. Frozen, hashable, equal by value, picklable.
 ///
 /// Args:
-///     name: Catalogue name; case, blanks, -, _ and / do not matter. `irbkin.catalog()` lists them.
+///     name: Catalogue name; case, blanks, -, _, /, commas and parentheses do not matter. `irbkin.catalog()` lists them.
 ///
 /// Raises:
-///     UnknownRobotError: No arm of that name; the message has the close ones.
+///     UnknownRobotError: No arm of that name; the message has up to six close ones, the closest first.
 #[pyclass(name = "Robot", module = "irbkin", frozen)]
 pub(super) struct PyRobot {
     arm: Arm,

@@ -71,12 +71,13 @@ def frame(row, name):
 
 def robot_of(row):
     """The robot that a target was taught with, holding its tool."""
-    shortened = {"IRB140": "IRB 140-6/0.81", "IRB120": "IRB 120-3/0.58", "IRB1200-5/0.9": "IRB 1200-5/0.9"}
-    if row["robot"] == "IRB2400":
-        limits = np.deg2rad([(-180, 180), (-100, 110), (-60, 65), (-200, 200), (-120, 120), (-400, 400)])
-        robot = irbkin.Robot.from_opw(**IRB2400, limits=limits)
-    else:
-        robot = irbkin.Robot(shortened.get(row["robot"], row["robot"]))
+    shortened = {
+        "IRB140": "IRB 140-6/0.81",
+        "IRB120": "IRB 120-3/0.58",
+        "IRB1200-5/0.9": "IRB 1200-5/0.9",
+        "IRB2400": "IRB 2400-10/1.55",
+    }
+    robot = irbkin.Robot(shortened.get(row["robot"], row["robot"]))
     return robot.with_tool(frame(row, "tool"))
 
 
@@ -121,5 +122,8 @@ def test_the_article_s_poses_come_back_through_the_inverse(deg):
 def test_the_article_s_table_is_that_of_a_1410_with_abb_s_angles():
     robot = irbkin.Robot.from_mdh(IRB1410.rows)
     np.testing.assert_allclose(robot.fk(np.zeros(6))[:3, 3], [0.955, 0, 1.195], rtol=0, atol=rounding(2))
+    np.testing.assert_allclose(
+        irbkin.Robot("IRB 1410-4/1.45").fk(np.zeros(6)), robot.fk(np.zeros(6)), rtol=0, atol=rounding(2)
+    )
     assert "IRB 1600-6/1.45" in ABB
     assert not np.allclose(robot.fk(np.zeros(6)), irbkin.Robot("IRB 1600-6/1.45").fk(np.zeros(6)), atol=0.01)

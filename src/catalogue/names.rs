@@ -1,0 +1,121 @@
+//! Arms by name: what does not matter in a name, and which names are close to an unknown one.
+
+use alloc::borrow::ToOwned;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::{CatalogueArm, catalogue};
+use crate::error::{Error, UnknownRobot};
+
+/// How many close names an unknown one is told.
+const MOST_CLOSE: usize = 6;
+
+/// Finds an arm by its name; case, blanks, `-`, `_`, `/`, `,`, parentheses and the last zeros of a decimal (2.50) do not matter.
+///
+/// Nothing is guessed: a name that lacks a part is unknown, even where one arm alone has it.
+///
+/// # Errors
+///
+/// [`Error::UnknownRobot`] with up to six names that are close, the closest first.
+pub fn find(name: &str) -> Result<&'static CatalogueArm, Error> {
+    let wanted = squeezed(name);
+    catalogue()
+        .find(|arm| squeezed(arm.name) == wanted)
+        .ok_or_else(|| Error::UnknownRobot(UnknownRobot { name: name.to_owned(), close: close_to(&wanted) }))
+}
+
+/// A name without what does not matter in it.
+fn squeezed(name: &str) -> String {
+    let mut squeezed = String::new();
+    let mut point = None;
+    for c in name.chars() {
+        if !c.is_ascii_digit() {
+            trim_decimals(&mut squeezed, point.take());
+        }
+        if c == '.' {
+            point = Some(squeezed.len());
+        }
+        if !c.is_whitespace() && !matches!(c, '-' | '_' | '/' | ',' | '(' | ')') {
+            squeezed.extend(c.to_lowercase());
+        }
+    }
+    trim_decimals(&mut squeezed, point);
+    squeezed
+}
+
+/// Takes the last zeros of a number away, and its decimal point when nothing stands behind it.
+fn trim_decimals(text: &mut String, point: Option<usize>) {
+    if let Some(point) = point {
+        let zeros = text[point..].len() - text[point..].trim_end_matches('0').len();
+        text.truncate(text.len() - zeros);
+        if text.len() == point + 1 {
+            text.truncate(point);
+        }
+    }
+}
+
+/// Names that hold the wanted one, the earlier in the name the closer; where there are none, those that are spelled like it.
+fn close_to(wanted: &str) -> Vec<&'static str> {
+    if wanted.is_empty() {
+        return Vec::new();
+    }
+    let place = |arm: &CatalogueArm| squeezed(arm.name).find(wanted);
+    let mut holding: Vec<_> = catalogue().filter_map(|arm| Some((place(arm)?, arm.name))).collect();
+    if holding.is_empty() {
+        return spelled_like(wanted);
+    }
+    holding.sort_by_key(|&(place, _)| place);
+    holding.into_iter().map(|(_, name)| name).take(MOST_CLOSE).collect()
+}
+
+/// Names that are spelled like the wanted one, or begin like it.
+#[cfg(feature = "std")]
+fn spelled_like(wanted: &str) -> Vec<&'static str> {
+    /// Share of the letters that must be right [1]: with less, an arm of another series and maker would be close.
+    const LEAST_SIMILARITY: f64 = 0.7;
+    let similarity = |arm: &CatalogueArm| {
+        let name = squeezed(arm.name);
+        let start: String = name.chars().take(wanted.chars().count()).collect();
+        let [whole, start] = [name, start].map(|name| strsim::normalized_damerau_levenshtein(&name, wanted));
+        whole.max(start)
+    };
+    let mut ranked: Vec<_> = catalogue().map(|arm| (similarity(arm), arm.name)).filter(|(s, _)| *s >= LEAST_SIMILARITY).collect();
+    ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
+    ranked.into_iter().map(|(_, name)| name).take(MOST_CLOSE).collect()
+}
+
+#[cfg(not(feature = "std"))]
+fn spelled_like(_: &str) -> Vec<&'static str> {
+    Vec::new()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_does_not_matter_is_squeezed_out() {
+        for (name, wanted) in [
+            ("IRB 2600-12/1.65", "irb2600121.65"),
+            ("IRB 4600-20/2.50", "irb4600202.5"),
+            ("IRB5720-90/3.00LID", "irb5720903lid"),
+            ("irb 6700-220/2.65 (MH6, LeanID)", "irb67002202.65mh6leanid"),
+            ("IRB 100", "irb100"),
+            ("0.0", "0"),
+            ("1.0.0", "1"),
+            (".", ""),
+            (" ", ""),
+        ] {
+            assert_eq!(squeezed(name), wanted, "{name}");
+        }
+    }
+
+    #[test]
+    fn no_two_arms_have_the_same_name() {
+        let mut names: Vec<_> = catalogue().map(|arm| squeezed(arm.name)).collect();
+        let count = names.len();
+        names.sort();
+        names.dedup();
+        assert_eq!(names.len(), count);
+    }
+}

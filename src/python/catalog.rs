@@ -1,0 +1,61 @@
+//! `irbkin.catalog`.
+
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+
+use crate::catalogue::catalogue;
+
+/// Names of the robots in the catalogue, ABB's by type number first; of all, or of those that reach and carry what is asked for.
+///
+/// Args:
+///     reach: Reach as the type name or the data sheet has it [m]: a number for at least that much, a pair for (least, most).
+///     payload: Payload [kg], in the same way.
+///
+/// Returns:
+///     Names in catalogue order. An arm whose reach or payload is not known is in no answer that asks for it.
+///
+/// Raises:
+///     ValueError: A filter is neither a number nor a pair, is NaN or negative, or its least is more than its most.
+#[pyfunction]
+#[pyo3(signature = (*, reach=None, payload=None))]
+pub(super) fn catalog<'py>(
+    py: Python<'py>,
+    reach: Option<&Bound<'py, PyAny>>,
+    payload: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyTuple>> {
+    let [reach, payload] = [Range::read("reach", "m", reach)?, Range::read("payload", "kg", payload)?];
+    let fitting = catalogue().filter(|arm| Range::holds(reach.as_ref(), arm.reach) && Range::holds(payload.as_ref(), arm.payload));
+    PyTuple::new(py, fitting.map(|arm| arm.name).collect::<Vec<_>>())
+}
+
+/// What a filter lets through.
+struct Range {
+    least: f64,
+    most: f64,
+}
+
+impl Range {
+    fn read(field: &str, unit: &str, filter: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Self>> {
+        let Some(filter) = filter else { return Ok(None) };
+        let pair = filter.extract::<f64>().map(|least| [least, f64::INFINITY]).or_else(|_| filter.extract::<[f64; 2]>());
+        let [least, most] = pair.map_err(|_| {
+            let got = filter.repr().map_or_else(|_| "something else".into(), |repr| repr.to_string());
+            PyValueError::new_err(format!("{field} must be a number (at least that much) or a pair (least, most) [{unit}], got {got}"))
+        })?;
+        for value in [least, most] {
+            if value.is_nan() || value < 0.0 {
+                return Err(PyValueError::new_err(format!("{field} is {value} {unit}, it must be 0 or more")));
+            }
+        }
+        if least > most {
+            return Err(PyValueError::new_err(format!("{field} is empty: least {least} {unit} > most {most} {unit}")));
+        }
+        Ok(Some(Self { least, most }))
+    }
+
+    /// Whether a figure of an arm goes through a filter that may not be there.
+    fn holds(filter: Option<&Self>, figure: Option<f64>) -> bool {
+        filter.is_none_or(|range| figure.is_some_and(|figure| (range.least..=range.most).contains(&figure)))
+    }
+}

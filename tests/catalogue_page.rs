@@ -1,0 +1,81 @@
+//! The tables of docs/catalogue.md are those of the catalogue. With IRBKIN_WRITE=1 (`make catalogue`) they are written.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+use std::fs;
+use std::path::Path;
+
+use irbkin::{CatalogueArm, CatalogueGeometry, catalogue};
+
+const COMMON_HEAD: [&str; 3] = ["arm", "payload [kg]", "reach [m]"];
+const COMMON_TAIL: [&str; 4] = ["limits of axes 1 to n", "speeds", "sources", "disagreements and remarks"];
+
+/// Name of a table in the page, the columns that describe its geometry.
+const TABLES: [(&str, &[&str]); 3] = [
+    ("abb", &["a1", "a2", "c1", "c2", "c3", "c4", "coupled"]),
+    ("universal robots", &["d1", "a2", "a3", "d4", "d5", "d6"]),
+    ("franka", &[]),
+];
+
+/// The table that an arm stands in, and its cells there.
+fn geometry(arm: &CatalogueArm) -> (&'static str, Vec<String>) {
+    let lengths = |mm: [f64; 6]| mm.map(|length| length.to_string()).to_vec();
+    match arm.geometry {
+        CatalogueGeometry::Abb { a1, a2, c1, c2, c3, c4, coupled } => {
+            let mut cells = lengths([a1, a2, c1, c2, c3, c4]);
+            cells.push(if coupled { "yes" } else { "" }.to_owned());
+            ("abb", cells)
+        }
+        CatalogueGeometry::ThreeParallel { d1, a2, a3, d4, d5, d6 } => ("universal robots", lengths([d1, a2, a3, d4, d5, d6])),
+        CatalogueGeometry::Mdh(_) => ("franka", Vec::new()),
+    }
+}
+
+fn limit(&[lower, upper]: &[f64; 2]) -> String {
+    #[expect(clippy::float_cmp, reason = "printed numbers")]
+    let symmetric = lower == -upper;
+    if symmetric { format!("+-{upper}") } else { format!("{lower}..{upper}") }
+}
+
+fn row(cells: impl IntoIterator<Item = String>) -> String {
+    format!("| {} |\n", cells.into_iter().collect::<Vec<_>>().join(" | "))
+}
+
+fn row_of(arm: &CatalogueArm, geometry: Vec<String>) -> String {
+    let known = |figure: Option<f64>| figure.map_or_else(|| "-".to_owned(), |figure| figure.to_string());
+    let limits = arm.limits.iter().map(limit).collect::<Vec<_>>().join(", ");
+    let speeds = arm.max_velocity.map_or_else(|| "-".to_owned(), |speeds| speeds.iter().map(f64::to_string).collect::<Vec<_>>().join(", "));
+    // The sources come first in the provenance.
+    let remarks = arm.provenance.split_once("; ").map_or("", |(_, remarks)| remarks).to_owned();
+    let head = [arm.name.to_owned(), known(arm.payload), known(arm.reach)];
+    row(head.into_iter().chain(geometry).chain([limits, speeds, arm.sources.to_string(), remarks]))
+}
+
+fn table(name: &str, columns: &[&str]) -> String {
+    let heads = || COMMON_HEAD.iter().chain(columns).chain(&COMMON_TAIL);
+    let mut table = row(heads().map(|&head| head.to_owned())) + &format!("|{}\n", "---|".repeat(heads().count()));
+    for arm in catalogue() {
+        let (place, cells) = geometry(arm);
+        if place == name {
+            table += &row_of(arm, cells);
+        }
+    }
+    table
+}
+
+#[test]
+fn the_tables_of_the_page_are_those_of_the_catalogue() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/catalogue.md");
+    let page = fs::read_to_string(&path).unwrap();
+    let mut made = page.clone();
+    for (name, columns) in TABLES {
+        let start = format!("<!-- {name}: written by make catalogue -->\n");
+        let (before, rest) = made.split_once(&start).unwrap();
+        let (_, after) = rest.split_once("<!-- end -->").unwrap();
+        made = format!("{before}{start}\n{table}\n<!-- end -->{after}", table = table(name, columns));
+    }
+    if std::env::var("IRBKIN_WRITE").is_ok_and(|write| write == "1") {
+        fs::write(&path, made).unwrap();
+    } else {
+        assert!(page == made, "docs/catalogue.md is not what the catalogue says: make catalogue writes it");
+    }
+}
