@@ -13,7 +13,7 @@ NO_STD := --no-default-features --features libm
 # A recipe for each instruction set of this processor; ends with `; done`. The shell's -e stops at the first that fails.
 ON_EACH_SET := sets=$$(cargo run --quiet --example instruction_sets); for set in $$sets; do export IRBKIN_INSTRUCTION_SET=$$set;
 
-.PHONY: help run test check catalogue bench bench-peers instructions stages ulp million hardsets wheel clean toolchains
+.PHONY: help run test check catalogue bench bench-peers instructions stages ulp million configurations hardsets wheel clean toolchains
 
 help: ## List the targets
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -47,7 +47,7 @@ run: $(BUILT) ## Solve a real IRB 2600 pose and show every solution
 test: $(BUILT) $(VENV)/.groups ## Run all tests, Rust's and Python's
 	cargo test --quiet
 	$(ON_EACH_SET) cargo test --quiet --test laws --test laws_three_parallel --test recall --test hardsets --test hardsets_three_parallel; done
-	cargo test --quiet $(NO_STD) --lib --test laws --test laws_three_parallel --test allocation
+	cargo test --quiet $(NO_STD) --lib --test laws --test laws_three_parallel --test coupled --test configuration --test allocation
 	$(BIN)/python -m pytest --quiet
 
 check: $(BUILT) $(VENV)/.groups ## Format, lints for each feature set, types, stubs, docs, benches that run
@@ -104,6 +104,9 @@ ulp: | toolchains ## Hold the lanes' arc tangent, sine and cosine against correc
 
 million: | toolchains ## Solve a million random poses of each of thirteen arms on each instruction set; count what is lost, wrong or twice
 	$(ON_EACH_SET) IRBKIN_POSES=1000000 cargo test --quiet --release --test recall -- --nocapture --test-threads=1; done
+
+configurations: | toolchains ## Hold a hundred thousand poses of every ABB arm against the rules of its confdata
+	IRBKIN_POSES=100000 cargo test --quiet --release --test configuration -- --nocapture --test-threads=1
 
 hardsets: | toolchains ## Solve poses at and next to every singularity, pairs and triples of them, and follow paths through
 	$(ON_EACH_SET) IRBKIN_POSES=2000 cargo test --quiet --release --test hardsets --test hardsets_three_parallel --test follow -- --nocapture --test-threads=1; done
