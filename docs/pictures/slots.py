@@ -1,4 +1,4 @@
-"""Makes the pictures of the eight slots: the arms that bring the tool of a UR3 and of a Panda to one pose.
+"""Makes the pictures of the eight slots: the arms that bring the tool of an IRB 2600 and of a UR3 to one pose.
 
 Run without arguments: it writes the SVG files beside itself and prints their names. The same irbkin and matplotlib give
 the same files.
@@ -52,14 +52,14 @@ def draw(axes: Axes, robot: irbkin.Robot, q: Floats, title: str) -> None:
     axes.axis("off")
 
 
-def picture(name: str, robot: irbkin.Robot, q: Floats, words: tuple[tuple[str, str], ...]) -> None:
-    """The eight slots of the pose of `q`, written to `name`."""
+def picture(name: str, robot: irbkin.Robot, q: Floats, words: tuple[tuple[str, str], ...], title: str = "{}: ") -> None:
+    """The eight slots of the pose of `q`, written to `name`; `title` takes a slot's number, and its words follow."""
     pose = robot.fk(q)
     slots = (robot.ik(pose) if robot.dof == 6 else robot.ik(pose, q7=float(q[6]))).slots
     figure, grid = plt.subplots(2, 4, figsize=(9, 5.2), sharex=True, sharey=True)
     for slot, (axes, arm) in enumerate(zip(grid.flat, slots, strict=True)):
         bits = [word[bool(slot & bit)] for word, bit in zip(words, (4, 2, 1), strict=True)]
-        draw(axes, robot, arm, f"{slot}: " + ", ".join(bits))
+        draw(axes, robot, arm, title.format(slot) + ", ".join(bits))
     figure.tight_layout()
     figure.savefig(HERE / name, metadata={"Date": None})
     plt.close(figure)
@@ -69,6 +69,13 @@ def picture(name: str, robot: irbkin.Robot, q: Floats, words: tuple[tuple[str, s
 def main() -> None:
     """Both pictures."""
     mpl.rcParams.update(STYLE)
+    picture(
+        "slots_abb.svg",
+        irbkin.Robot("IRB 2600-12/1.65"),
+        np.array([0.5, -0.1, 0.35, 0.9, 1.0, 0.2]),
+        (("front of 1", "behind 1"), ("front of arm", "behind arm"), ("q5 > 0", "q5 < 0")),
+        "cfx {}\n",
+    )
     ur3 = np.array([0.4, -1.9, 1.5, -0.6, 1.1, 0.3])
     picture(
         "slots_three_parallel.svg",
