@@ -1,5 +1,7 @@
 //! What can be wrong with an input, each fault with the field, the value and the bound.
 
+mod frame;
+mod rapid;
 mod urdf;
 
 use core::fmt;
@@ -7,6 +9,8 @@ use core::fmt;
 use alloc::string::String;
 use alloc::vec::Vec;
 
+pub use self::frame::FrameFault;
+pub use self::rapid::{RapidFault, RapidFaultKind};
 pub use self::urdf::{Names, UrdfFault};
 use crate::kinematics::{Configuration, Explanation, NotRecognised};
 
@@ -22,6 +26,10 @@ pub enum Error {
     InvalidModel(ModelFault),
     /// The catalogue has no arm of that name.
     UnknownRobot(UnknownRobot),
+    /// The RAPID text is broken.
+    Rapid(RapidFault),
+    /// A tool and a work object do not go together, or are no poses.
+    Frame(FrameFault),
     /// No solution inside the limits.
     Unreachable(Explanation),
     /// Solutions inside the limits, none with the configuration that was asked for.
@@ -269,6 +277,8 @@ impl fmt::Display for Error {
             Self::InvalidJoints(fault) => fault.fmt(f),
             Self::InvalidModel(fault) => fault.fmt(f),
             Self::UnknownRobot(fault) => fault.fmt(f),
+            Self::Rapid(fault) => fault.fmt(f),
+            Self::Frame(fault) => fault.fmt(f),
             Self::Unreachable(explanation) => explanation.fmt(f),
             Self::NoConfiguration(fault) => fault.fmt(f),
             Self::NoInstructionSet { name } => write!(f, "this processor does not have the instruction set \"{name}\""),
@@ -399,6 +409,18 @@ impl From<JointFault> for Error {
 impl From<UrdfFault> for Error {
     fn from(fault: UrdfFault) -> Self {
         Self::InvalidModel(ModelFault::Urdf(fault))
+    }
+}
+
+impl From<RapidFault> for Error {
+    fn from(fault: RapidFault) -> Self {
+        Self::Rapid(fault)
+    }
+}
+
+impl From<FrameFault> for Error {
+    fn from(fault: FrameFault) -> Self {
+        Self::Frame(fault)
     }
 }
 

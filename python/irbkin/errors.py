@@ -12,6 +12,7 @@ __all__ = [
     "InvalidModelError",
     "InvalidPoseError",
     "IrbkinError",
+    "RapidError",
     "UnknownRobotError",
     "UnreachableError",
 ]
@@ -38,6 +39,17 @@ class UnreachableError(IrbkinError):
 
     configurations: tuple[Configuration, ...] = ()
     """Those that exist, where another one was asked for."""
+    rapid_error: str | None = None
+    """RAPID's name of the error, where `irbkin.rapid` calculated: ERR_OUTSIDE_REACH or ERR_ROBLIMIT."""
+
+
+class RapidError(IrbkinError):
+    """A RAPID text is broken, or RAPID data do not go together."""
+
+    line: int = 0
+    """Line of the text, from 1; 0 where it has none."""
+    column: int = 0
+    """Column of the text, from 1; 0 where it has none."""
 
 
 class UnknownRobotError(IrbkinError, KeyError):

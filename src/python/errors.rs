@@ -6,7 +6,7 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::PyTuple;
 
 use super::configurations::record;
-use crate::error::{Error, NoConfiguration};
+use crate::error::{Error, FrameFault, NoConfiguration, RapidFault};
 use crate::kinematics::{Reach, Status};
 
 /// An attribute of a Python module of the package, looked up once.
@@ -25,6 +25,18 @@ package_object!(invalid_model_error, "irbkin.errors", "InvalidModelError");
 package_object!(unknown_robot_error, "irbkin.errors", "UnknownRobotError");
 package_object!(unreachable_error, "irbkin.errors", "UnreachableError");
 package_object!(configuration_class, "irbkin.records", "Configuration");
+package_object!(rapid_error, "irbkin.errors", "RapidError");
+package_object!(rob_target_class, "irbkin.rapid.records", "RobTarget");
+package_object!(joint_target_class, "irbkin.rapid.records", "JointTarget");
+package_object!(tool_data_class, "irbkin.rapid.records", "ToolData");
+package_object!(wobj_data_class, "irbkin.rapid.records", "WobjData");
+package_object!(rapid_pose_class, "irbkin.rapid.records", "Pose");
+package_object!(load_data_class, "irbkin.rapid.records", "LoadData");
+package_object!(declaration_class, "irbkin.rapid.program", "Declaration");
+package_object!(argument_class, "irbkin.rapid.program", "Argument");
+package_object!(move_class, "irbkin.rapid.program", "Move");
+package_object!(skipped_class, "irbkin.rapid.program", "Skipped");
+package_object!(target_table_class, "irbkin.rapid.program", "TargetTable");
 package_object!(kind_class, "irbkin.records", "Kind");
 package_object!(status_class, "irbkin.records", "Status");
 package_object!(reach_class, "irbkin.records", "Reach");
@@ -62,15 +74,30 @@ fn raised(class: PyResult<&Bound<'_, PyAny>>, message: String) -> PyErr {
 /// The Python exception of a core error.
 pub(super) fn to_py(py: Python<'_>, error: &Error) -> PyErr {
     let class = match error {
-        Error::InvalidPose(_) => invalid_pose_error(py),
+        Error::InvalidPose(_) | Error::Frame(FrameFault::Pose { .. }) => invalid_pose_error(py),
         Error::InvalidJoints(_) => invalid_joints_error(py),
         Error::InvalidModel(_) | Error::WrongLength { .. } => invalid_model_error(py),
         Error::UnknownRobot(_) => unknown_robot_error(py),
         Error::Unreachable(_) => unreachable_error(py),
         Error::NoConfiguration(fault) => return no_configuration(py, fault),
+        Error::Rapid(fault) => return broken_text(py, fault),
+        Error::Frame(_) => rapid_error(py),
         Error::NoInstructionSet { .. } => return PyValueError::new_err(error.to_string()),
     };
     raised(class, error.to_string())
+}
+
+/// A `RapidError` that has no place in a text.
+pub(super) fn rapid_fault(py: Python<'_>, message: String) -> PyErr {
+    raised(rapid_error(py), message)
+}
+
+/// With the line and the column as attributes.
+fn broken_text(py: Python<'_>, fault: &RapidFault) -> PyErr {
+    let error = rapid_fault(py, fault.to_string());
+    let value = error.value(py);
+    let told = value.setattr("line", fault.line).and_then(|()| value.setattr("column", fault.column));
+    told.map_or_else(|failure| failure, |()| error)
 }
 
 /// With the configurations that exist as an attribute.

@@ -12,6 +12,7 @@ mod errors;
 mod found;
 mod paths;
 mod poses;
+mod rapid;
 mod robot;
 mod solutions;
 mod urdf;
@@ -66,5 +67,13 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(poses::pose, module)?)?;
     module.add_function(wrap_pyfunction!(poses::to_xyz_quaternion, module)?)?;
     module.add_function(wrap_pyfunction!(poses::to_xyz_euler_zyx, module)?)?;
+    module.add_class::<rapid::RapidModule>()?;
+    module.add_function(wrap_pyfunction!(rapid::parse, module)?)?;
+    module.add_function(wrap_pyfunction!(rapid::parse_record, module)?)?;
+    module.add_function(wrap_pyfunction!(rapid::dump, module)?)?;
+    module.add_function(wrap_pyfunction!(rapid::calc_joint_t, module)?)?;
+    module.add_function(wrap_pyfunction!(rapid::calc_rob_t, module)?)?;
+    module.add_function(wrap_pyfunction!(rapid::calc_moves, module)?)?;
+    module.add_function(wrap_pyfunction!(rapid::calc_targets, module)?)?;
     Ok(())
 }

@@ -34,6 +34,12 @@ pub(super) struct PyRobot {
     arm: Arm,
 }
 
+impl PyRobot {
+    pub(super) fn arm(&self) -> &Arm {
+        &self.arm
+    }
+}
+
 impl From<Arm> for PyRobot {
     fn from(arm: Arm) -> Self {
         Self { arm }

@@ -1,0 +1,289 @@
+//! `irbkin.rapid`: modules read and written, `CalcJointT` and `CalcRobT`.
+
+mod module;
+mod records;
+
+use std::fmt::Write as _;
+
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict, PyList, PyTuple};
+
+pub(super) use self::module::RapidModule;
+use self::records::{joint_target, read_content, read_joint_target, read_rob_target, read_tool, read_value, read_wobj, record, rob_target};
+use super::configurations::{Fallback, counted};
+use super::errors::{self, rapid_fault, to_py};
+use super::found::read_seed;
+use super::robot::PyRobot;
+use crate::error::Error;
+use crate::kinematics::{Configuration, Robot};
+use crate::rapid::{self, Content, DataType, Module, TableRow, ToolData, WobjData};
+
+/// The module of a text.
+///
+/// Args:
+///     text: RAPID text, or the bytes of a file: UTF-8, else Latin-1.
+///     context: Modules in which names that the text does not declare are looked for: their data that are not LOCAL.
+///
+/// Raises:
+///     RapidError: The text is broken; the message has the line and the column, `line` and `column` of the error too.
+#[pyfunction]
+#[pyo3(signature = (text, context=None))]
+pub(super) fn parse(text: &Bound<'_, PyAny>, context: Option<&Bound<'_, PyAny>>) -> PyResult<RapidModule> {
+    let py = text.py();
+    let source = match text.cast::<PyBytes>() {
+        Ok(bytes) => rapid::decode(bytes.as_bytes()).into_owned(),
+        Err(_) => text.extract()?,
+    };
+    let mut others = Vec::new();
+    if let Some(context) = context {
+        for other in context.try_iter()? {
+            others.push(other?.cast_into::<RapidModule>()?);
+        }
+    }
+    let context: Vec<&Module> = others.iter().map(|other| &other.get().module).collect();
+    let module = py.detach(|| rapid::parse(&source, &context)).map_err(|error| to_py(py, &error))?;
+    Ok(RapidModule::new(module, source))
+}
+
+/// The record of a value that stands by itself: a robtarget, jointtarget, tooldata, wobjdata, pose or loaddata, which its shape tells.
+#[pyfunction]
+pub(super) fn parse_record<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
+    use DataType::{JointTarget, LoadData, Pose, RobTarget, ToolData, WobjData};
+    let mut refused = None;
+    for data_type in [RobTarget, JointTarget, ToolData, WobjData, Pose, LoadData] {
+        match rapid::parse(&format!("VAR {} value:={text};", data_type.name()), &[]) {
+            Ok(module) => {
+                if let Some(Content::Single(value)) = module.find("value").map(|datum| &datum.content) {
+                    return record(py, value);
+                }
+            }
+            Err(error) => refused = refused.or(Some(error)),
+        }
+    }
+    let reason = refused.map_or_else(String::new, |error| format!(" ({error})"));
+    Err(rapid_fault(py, format!("{text} is no robtarget, jointtarget, tooldata, wobjdata, pose or loaddata{reason}")))
+}
+
+/// RAPID text of a record, of a module, or of a module with data by their names.
+#[pyfunction]
+pub(super) fn dump(value: &Bound<'_, PyAny>, name: &str) -> PyResult<String> {
+    let py = value.py();
+    if let Ok(module) = value.cast::<RapidModule>() {
+        return Ok(module.get().module.to_string());
+    }
+    let Ok(data) = value.cast::<PyDict>() else {
+        return Ok(if value.is_instance_of::<PyList>() { array(value)? } else { finite(value)? });
+    };
+    let mut text = format!("MODULE {name}\n");
+    for (datum, value) in data {
+        let datum: String = datum.extract()?;
+        let given = read_content(&value, &datum)?;
+        let data_type = given.values.first().map_or(DataType::Num, rapid::Value::data_type);
+        // A controller keeps tools and work objects where it can change them.
+        let storage = if matches!(data_type, DataType::ToolData | DataType::WobjData) { "PERS" } else { "CONST" };
+        let sizes = match &given.sizes[..] {
+            [] => String::new(),
+            sizes => format!("{{{}}}", sizes.iter().map(usize::to_string).collect::<Vec<_>>().join(",")),
+        };
+        let value = if given.sizes.is_empty() { finite(&value)? } else { array(&value)? };
+        writeln!(text, "    {storage} {} {datum}{sizes}:={value};", data_type.name())
+            .map_err(|error| rapid_fault(py, error.to_string()))?;
+    }
+    text.push_str("ENDMODULE\n");
+    // What cannot be read back, a name that is none for instance, is no module.
+    rapid::parse(&text, &[]).map_err(|error| rapid_fault(py, format!("this is no module: {error}")))?;
+    Ok(text)
+}
+
+/// Nested lists of records.
+fn array(value: &Bound<'_, PyAny>) -> PyResult<String> {
+    let Ok(list) = value.cast::<PyList>() else { return finite(value) };
+    let parts = list.iter().map(|part| array(&part)).collect::<PyResult<Vec<_>>>()?;
+    Ok(format!("[{}]", parts.join(",")))
+}
+
+/// A record of finite numbers.
+fn finite(value: &Bound<'_, PyAny>) -> PyResult<String> {
+    let text = read_value(value, "value")?.to_string();
+    if text.contains("inf") || text.contains("NaN") {
+        return Err(rapid_fault(value.py(), format!("{text} is not finite, every number must be")));
+    }
+    Ok(text)
+}
+
+/// The jointtarget of a robtarget, as RAPID's CalcJointT: the joint angles with its configuration, inside the limits.
+///
+/// Args:
+///     robot: The arm. Its base counts: poses of work objects are seen from the world.
+///     target: RobTarget.
+///     tool: ToolData; the robot's own tool where not given.
+///     wobj: WobjData; the world where not given.
+///     fallback: With "nearest", the solution nearest to `seed` where none has the configuration.
+///     seed: Joint vector [rad] of the fallback, shape (6,).
+///
+/// Returns:
+///     JointTarget, with the target's external axes.
+///
+/// Raises:
+///     UnreachableError: Its `rapid_error` is "ERR_OUTSIDE_REACH" where the arm is too short or too long, "ERR_ROBLIMIT" where solutions exist
+///         but none inside the limits with the configuration; `configurations` has those that exist.
+///     InvalidPoseError: A quaternion's norm is off one by more than 2e-3.
+///     RapidError: The robot holds both tool and work object or neither, or a mechanical unit moves the work object.
+///     InvalidModelError: The arm has no configurations.
+#[pyfunction]
+#[pyo3(signature = (robot, target, tool=None, wobj=None, *, fallback=None, seed=None))]
+pub(super) fn calc_joint_t<'py>(
+    robot: &Bound<'py, PyRobot>,
+    target: &Bound<'py, PyAny>,
+    tool: Option<&Bound<'py, PyAny>>,
+    wobj: Option<&Bound<'py, PyAny>>,
+    fallback: Option<&str>,
+    seed: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let py = robot.py();
+    let (target, Cell { robot, tool, wobj }) = (read_rob_target(target)?, Cell::read(robot, tool, wobj)?);
+    let joints = match (Fallback { name: fallback, seed }).checked()? {
+        Some(seed) => rapid::calc_joint_t_or_nearest(robot, &target, tool.as_ref(), wobj.as_ref(), &read_seed(seed, None)?.0),
+        None => rapid::calc_joint_t(robot, &target, tool.as_ref(), wobj.as_ref()),
+    };
+    joint_target(py, &joints.map_err(|error| named(py, &error))?)
+}
+
+/// The robtarget of a jointtarget, with its configuration, as RAPID's CalcRobT. Limits are not asked.
+///
+/// Args:
+///     robot: The arm. Its base counts: poses of work objects are seen from the world.
+///     joints: JointTarget.
+///     tool: ToolData; the robot's own tool where not given.
+///     wobj: WobjData; the world where not given.
+///
+/// Returns:
+///     RobTarget, with the external axes of `joints`.
+///
+/// Raises:
+///     InvalidPoseError, RapidError, InvalidModelError: As `calc_joint_t`.
+#[pyfunction]
+#[pyo3(signature = (robot, joints, tool=None, wobj=None))]
+pub(super) fn calc_rob_t<'py>(
+    robot: &Bound<'py, PyRobot>,
+    joints: &Bound<'py, PyAny>,
+    tool: Option<&Bound<'py, PyAny>>,
+    wobj: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let py = robot.py();
+    let (joints, Cell { robot, tool, wobj }) = (read_joint_target(joints)?, Cell::read(robot, tool, wobj)?);
+    let target = rapid::calc_rob_t(robot, &joints, tool.as_ref(), wobj.as_ref());
+    rob_target(py, &target.map_err(|error| to_py(py, &error))?)
+}
+
+/// The joint angles of every target of a module's moves, in their order, each with its own tool and work object; a MoveC has two.
+///
+/// Args:
+///     robot: The arm.
+///     module: Module.
+///     fallback: With "nearest", a target whose configuration no solution has gets the one nearest to the joints before it.
+///     seed: Joint vector [rad] before the first target, shape (6,).
+///
+/// Returns:
+///     TargetTable. What is wrong with a target is told in its row.
+///
+/// Raises:
+///     InvalidModelError: The arm has no configurations.
+#[pyfunction]
+#[pyo3(signature = (robot, module, *, fallback=None, seed=None))]
+pub(super) fn calc_moves<'py>(
+    robot: &Bound<'py, PyRobot>,
+    module: &Bound<'py, RapidModule>,
+    fallback: Option<&str>,
+    seed: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let py = robot.py();
+    let (Cell { robot, .. }, fallback) = (Cell::read(robot, None, None)?, read_fallback(fallback, seed)?);
+    let module = &module.get().module;
+    table(py, &py.detach(|| rapid::calc_moves(robot, module, fallback)).map_err(|error| to_py(py, &error))?)
+}
+
+/// The joint angles of every robtarget that a module declares, in the order of the text, all with one tool and work object.
+///
+/// Args:
+///     robot: The arm.
+///     module: Module.
+///     tool: ToolData; the robot's own tool where not given.
+///     wobj: WobjData; the world where not given.
+///     fallback: With "nearest", a target whose configuration no solution has gets the one nearest to the joints before it.
+///     seed: Joint vector [rad] before the first target, shape (6,).
+///
+/// Returns:
+///     TargetTable. What is wrong with a target is told in its row.
+///
+/// Raises:
+///     InvalidPoseError, RapidError, InvalidModelError: As `calc_joint_t`, of the tool and the work object.
+#[pyfunction]
+#[pyo3(signature = (robot, module, tool=None, wobj=None, *, fallback=None, seed=None))]
+pub(super) fn calc_targets<'py>(
+    robot: &Bound<'py, PyRobot>,
+    module: &Bound<'py, RapidModule>,
+    tool: Option<&Bound<'py, PyAny>>,
+    wobj: Option<&Bound<'py, PyAny>>,
+    fallback: Option<&str>,
+    seed: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let py = robot.py();
+    let (Cell { robot, tool, wobj }, fallback) = (Cell::read(robot, tool, wobj)?, read_fallback(fallback, seed)?);
+    let module = &module.get().module;
+    let rows = py.detach(|| rapid::calc_targets(robot, module, tool.as_ref(), wobj.as_ref(), fallback));
+    table(py, &rows.map_err(|error| to_py(py, &error))?)
+}
+
+/// An arm that has configurations, a tool and a work object.
+struct Cell<'a> {
+    robot: &'a Robot<6>,
+    tool: Option<ToolData>,
+    wobj: Option<WobjData>,
+}
+
+impl<'a> Cell<'a> {
+    fn read(robot: &'a Bound<'_, PyRobot>, tool: Option<&Bound<'_, PyAny>>, wobj: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        let (tool, wobj) = (tool.map(read_tool).transpose()?, wobj.map(read_wobj).transpose()?);
+        Ok(Self { robot: counted(robot.py(), robot.get().arm())?, tool, wobj })
+    }
+}
+
+fn read_fallback(name: Option<&str>, seed: Option<&Bound<'_, PyAny>>) -> PyResult<rapid::Fallback> {
+    match (Fallback { name, seed }).checked()? {
+        Some(seed) => Ok(rapid::Fallback::Nearest(read_seed(seed, None)?.0)),
+        None => Ok(rapid::Fallback::None),
+    }
+}
+
+/// With RAPID's name of the error.
+fn named(py: Python<'_>, error: &Error) -> PyErr {
+    let raised = to_py(py, error);
+    let Some(name) = rapid::error_name(error) else { return raised };
+    let value = raised.value(py);
+    let told = value.setattr("rapid_error", name).and_then(|()| value.setattr("args", (format!("{name}: {error}"),)));
+    told.map_or_else(|failure| failure, |()| raised)
+}
+
+/// `irbkin.rapid.TargetTable`.
+fn table<'py>(py: Python<'py>, rows: &[TableRow]) -> PyResult<Bound<'py, PyAny>> {
+    let joints: Vec<f64> = rows.iter().flat_map(|row| row.q.unwrap_or([f64::NAN; 6])).collect();
+    let integers = |of: fn(&Configuration) -> i32| PyArray1::from_iter(py, rows.iter().map(move |row| of(&row.configuration)));
+    let (cf1, cf4, cf6, cfx) = (integers(|c| c.cf1), integers(|c| c.cf4), integers(|c| c.cf6), integers(|c| c.cfx));
+    let distance = |of: fn(&crate::kinematics::SingularDistances) -> f64| {
+        PyArray1::from_iter(py, rows.iter().map(move |row| row.distances.as_ref().map_or(f64::NAN, of)))
+    };
+    let fields = [
+        PyTuple::new(py, rows.iter().map(|row| row.kind))?.into_any(),
+        PyTuple::new(py, rows.iter().map(|row| &row.text))?.into_any(),
+        PyArray1::from_iter(py, rows.iter().map(|row| i64::try_from(row.line).unwrap_or(0))).into_any(),
+        (PyArray1::from_vec(py, joints).reshape([rows.len(), 6])? as Bound<'_, PyArray2<f64>>).into_any(),
+        errors::configuration_class(py)?.call1((cf1, cf4, cf6, cfx))?,
+        distance(|d| d.wrist).into_any(),
+        distance(|d| d.elbow).into_any(),
+        distance(|d| d.shoulder).into_any(),
+        PyTuple::new(py, rows.iter().map(|row| &row.problem))?.into_any(),
+    ];
+    errors::target_table_class(py)?.call1(PyTuple::new(py, fields)?)
+}

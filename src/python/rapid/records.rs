@@ -1,0 +1,225 @@
+//! RAPID's records from and to Python's.
+
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
+
+use crate::kinematics::Configuration;
+use crate::python::configurations;
+use crate::python::errors::{self, rapid_fault};
+use crate::rapid::{Content, JointTarget, LoadData, RapidPose, RobTarget, ToolData, Value, WobjData};
+
+/// The Python record of a value.
+pub(super) fn record<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
+    match value {
+        Value::RobTarget(target) => rob_target(py, target),
+        Value::JointTarget(target) => joint_target(py, target),
+        Value::ToolData(tool) => {
+            let (tframe, tload) = (pose(py, &tool.tframe)?, load(py, &tool.tload)?);
+            errors::tool_data_class(py)?.call1((tool.robhold, tframe, tload))
+        }
+        Value::WobjData(WobjData { robhold, ufprog, ufmec, uframe, oframe }) => {
+            let (uframe, oframe) = (pose(py, uframe)?, pose(py, oframe)?);
+            errors::wobj_data_class(py)?.call1((robhold, ufprog, ufmec, uframe, oframe))
+        }
+        Value::Pose(frame) => pose(py, frame),
+        Value::Pos(numbers) => Ok(PyTuple::new(py, numbers)?.into_any()),
+        Value::Orient(numbers) => Ok(PyTuple::new(py, numbers)?.into_any()),
+        Value::ConfData(configuration) => configurations::record(py, configuration),
+        Value::ExtJoint(numbers) => Ok(PyTuple::new(py, numbers)?.into_any()),
+        Value::LoadData(data) => load(py, data),
+        Value::Num(number) => Ok(PyFloat::new(py, *number).into_any()),
+    }
+}
+
+pub(super) fn rob_target<'py>(py: Python<'py>, target: &RobTarget) -> PyResult<Bound<'py, PyAny>> {
+    let robconf = configurations::record(py, &target.robconf)?;
+    errors::rob_target_class(py)?.call1((tuple(py, target.trans_mm)?, tuple(py, target.rot)?, robconf, tuple(py, target.extax)?))
+}
+
+pub(super) fn joint_target<'py>(py: Python<'py>, target: &JointTarget) -> PyResult<Bound<'py, PyAny>> {
+    errors::joint_target_class(py)?.call1((tuple(py, target.robax_deg)?, tuple(py, target.extax)?))
+}
+
+fn pose<'py>(py: Python<'py>, pose: &RapidPose) -> PyResult<Bound<'py, PyAny>> {
+    errors::rapid_pose_class(py)?.call1((tuple(py, pose.trans_mm)?, tuple(py, pose.rot)?))
+}
+
+fn load<'py>(py: Python<'py>, load: &LoadData) -> PyResult<Bound<'py, PyAny>> {
+    let LoadData { mass_kg, cog_mm, aom, inertia } = load;
+    errors::load_data_class(py)?.call1((mass_kg, tuple(py, *cog_mm)?, tuple(py, *aom)?, tuple(py, *inertia)?))
+}
+
+fn tuple<const N: usize>(py: Python<'_>, numbers: [f64; N]) -> PyResult<Bound<'_, PyTuple>> {
+    PyTuple::new(py, numbers)
+}
+
+/// What a datum holds: a record, nested lists of records for an array, None without a value.
+pub(super) fn content<'py>(py: Python<'py>, content: &Content) -> PyResult<Bound<'py, PyAny>> {
+    match content {
+        Content::Uninitialised { .. } => Ok(py.None().into_bound(py)),
+        Content::Single(value) => record(py, value),
+        Content::Array { sizes, values } => nested(py, sizes, values),
+    }
+}
+
+fn nested<'py>(py: Python<'py>, sizes: &[usize], values: &[Value]) -> PyResult<Bound<'py, PyAny>> {
+    let [size, inner @ ..] = sizes else {
+        return values.first().map_or_else(|| Ok(py.None().into_bound(py)), |value| record(py, value));
+    };
+    let parts = values.chunks((values.len() / size).max(1)).map(|part| nested(py, inner, part));
+    Ok(PyList::new(py, parts.collect::<PyResult<Vec<_>>>()?)?.into_any())
+}
+
+/// A value, or the elements of an array in nested lists, with the sizes of the array.
+pub(super) struct Given {
+    pub(super) sizes: Vec<usize>,
+    pub(super) values: Vec<Value>,
+}
+
+/// What a Python object says that a datum holds; `thing` names it in errors.
+pub(super) fn read_content(given: &Bound<'_, PyAny>, thing: &str) -> PyResult<Given> {
+    let Ok(list) = given.cast::<PyList>() else {
+        return Ok(Given { sizes: Vec::new(), values: vec![read_value(given, thing)?] });
+    };
+    let mut all = Given { sizes: vec![list.len()], values: Vec::new() };
+    for (number, element) in list.iter().enumerate() {
+        let Given { sizes, values } = read_content(&element, thing)?;
+        if number > 0 && all.sizes[1..] != sizes {
+            return Err(rapid_fault(given.py(), format!("{thing}: its lists have different lengths")));
+        }
+        all.sizes.truncate(1);
+        all.sizes.extend(sizes);
+        all.values.extend(values);
+    }
+    if all.sizes.len() > 3 || all.values.is_empty() {
+        return Err(rapid_fault(given.py(), format!("{thing}: an array has one to three dimensions and at least one element")));
+    }
+    Ok(all)
+}
+
+#[derive(FromPyObject)]
+struct PoseFields {
+    trans_mm: [f64; 3],
+    rot: [f64; 4],
+}
+
+#[derive(FromPyObject)]
+struct RobTargetFields {
+    trans_mm: [f64; 3],
+    rot: [f64; 4],
+    robconf: [i32; 4],
+    extax: [f64; 6],
+}
+
+#[derive(FromPyObject)]
+struct JointTargetFields {
+    robax_deg: [f64; 6],
+    extax: [f64; 6],
+}
+
+#[derive(FromPyObject)]
+struct LoadFields {
+    mass_kg: f64,
+    cog_mm: [f64; 3],
+    aom: [f64; 4],
+    inertia: [f64; 3],
+}
+
+#[derive(FromPyObject)]
+struct ToolFields {
+    robhold: bool,
+    tframe: PoseFields,
+    tload: LoadFields,
+}
+
+#[derive(FromPyObject)]
+struct WobjFields {
+    robhold: bool,
+    ufprog: bool,
+    ufmec: String,
+    uframe: PoseFields,
+    oframe: PoseFields,
+}
+
+impl From<PoseFields> for RapidPose {
+    fn from(PoseFields { trans_mm, rot }: PoseFields) -> Self {
+        Self { trans_mm, rot }
+    }
+}
+
+impl From<LoadFields> for LoadData {
+    fn from(LoadFields { mass_kg, cog_mm, aom, inertia }: LoadFields) -> Self {
+        Self { mass_kg, cog_mm, aom, inertia }
+    }
+}
+
+pub(super) fn read_rob_target(given: &Bound<'_, PyAny>) -> PyResult<RobTarget> {
+    demand(given, errors::rob_target_class(given.py())?, "target", "a RobTarget")?;
+    let RobTargetFields { trans_mm, rot, robconf: [cf1, cf4, cf6, cfx], extax } = given.extract()?;
+    Ok(RobTarget { trans_mm, rot, robconf: Configuration { cf1, cf4, cf6, cfx }, extax })
+}
+
+pub(super) fn read_joint_target(given: &Bound<'_, PyAny>) -> PyResult<JointTarget> {
+    demand(given, errors::joint_target_class(given.py())?, "joints", "a JointTarget")?;
+    let JointTargetFields { robax_deg, extax } = given.extract()?;
+    Ok(JointTarget { robax_deg, extax })
+}
+
+pub(super) fn read_tool(given: &Bound<'_, PyAny>) -> PyResult<ToolData> {
+    demand(given, errors::tool_data_class(given.py())?, "tool", "a ToolData")?;
+    let ToolFields { robhold, tframe, tload } = given.extract()?;
+    Ok(ToolData { robhold, tframe: tframe.into(), tload: tload.into() })
+}
+
+pub(super) fn read_wobj(given: &Bound<'_, PyAny>) -> PyResult<WobjData> {
+    demand(given, errors::wobj_data_class(given.py())?, "wobj", "a WobjData")?;
+    let WobjFields { robhold, ufprog, ufmec, uframe, oframe } = given.extract()?;
+    Ok(WobjData { robhold, ufprog, ufmec, uframe: uframe.into(), oframe: oframe.into() })
+}
+
+fn demand(given: &Bound<'_, PyAny>, class: &Bound<'_, PyAny>, field: &str, wanted: &str) -> PyResult<()> {
+    if given.is_instance(class)? {
+        return Ok(());
+    }
+    Err(rapid_fault(given.py(), format!("{field} must be {wanted}, got {}", given.get_type().name()?)))
+}
+
+/// The value of a Python record; a tuple of 3 numbers is a pos, of 4 an orient, of 6 an extjoint.
+pub(super) fn read_value(given: &Bound<'_, PyAny>, thing: &str) -> PyResult<Value> {
+    let py = given.py();
+    let is = |class: PyResult<&Bound<'_, PyAny>>| given.is_instance(class?);
+    let value = if is(errors::rob_target_class(py))? {
+        Value::RobTarget(read_rob_target(given)?)
+    } else if is(errors::joint_target_class(py))? {
+        Value::JointTarget(read_joint_target(given)?)
+    } else if is(errors::tool_data_class(py))? {
+        Value::ToolData(read_tool(given)?)
+    } else if is(errors::wobj_data_class(py))? {
+        Value::WobjData(read_wobj(given)?)
+    } else if is(errors::rapid_pose_class(py))? {
+        Value::Pose(given.extract::<PoseFields>()?.into())
+    } else if is(errors::load_data_class(py))? {
+        Value::LoadData(given.extract::<LoadFields>()?.into())
+    } else if is(errors::configuration_class(py))? {
+        let [cf1, cf4, cf6, cfx] = given.extract()?;
+        Value::ConfData(Configuration { cf1, cf4, cf6, cfx })
+    } else if given.is_instance_of::<PyFloat>() || given.is_instance_of::<PyInt>() {
+        Value::Num(given.extract()?)
+    } else {
+        numbers(given, thing)?
+    };
+    Ok(value)
+}
+
+fn numbers(given: &Bound<'_, PyAny>, thing: &str) -> PyResult<Value> {
+    let no_text = !given.is_instance_of::<PyString>() && !given.is_instance_of::<PyDict>();
+    match given.extract::<Vec<f64>>().ok().filter(|_| no_text).as_deref() {
+        Some(&[x, y, z]) => Ok(Value::Pos([x, y, z])),
+        Some(&[w, x, y, z]) => Ok(Value::Orient([w, x, y, z])),
+        Some(&[a, b, c, d, e, f]) => Ok(Value::ExtJoint([a, b, c, d, e, f])),
+        _ => {
+            let message = format!("{thing}: {} is no RAPID data", given.repr()?);
+            Err(rapid_fault(given.py(), message))
+        }
+    }
+}
