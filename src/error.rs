@@ -1,5 +1,6 @@
 //! What can be wrong with an input, each fault with the field, the value and the bound.
 
+mod rapid;
 mod urdf;
 
 use core::fmt;
@@ -7,6 +8,7 @@ use core::fmt;
 use alloc::string::String;
 use alloc::vec::Vec;
 
+pub use self::rapid::{RapidFault, RapidFaultKind};
 pub use self::urdf::{Names, UrdfFault};
 use crate::kinematics::{Explanation, NotRecognised};
 
@@ -22,6 +24,8 @@ pub enum Error {
     InvalidModel(ModelFault),
     /// The catalogue has no arm of that name.
     UnknownRobot(UnknownRobot),
+    /// The RAPID text is broken.
+    Rapid(RapidFault),
     /// No solution inside the limits.
     Unreachable(Explanation),
     /// The processor does not have these instructions.
@@ -223,6 +227,7 @@ impl fmt::Display for Error {
             Self::InvalidJoints(fault) => fault.fmt(f),
             Self::InvalidModel(fault) => fault.fmt(f),
             Self::UnknownRobot(fault) => fault.fmt(f),
+            Self::Rapid(fault) => fault.fmt(f),
             Self::Unreachable(explanation) => explanation.fmt(f),
             Self::NoInstructionSet { name } => write!(f, "this processor does not have the instruction set \"{name}\""),
             Self::WrongLength { field, found, wanted } => write!(f, "{field} has {found} elements, it must have {wanted}"),
@@ -330,6 +335,12 @@ impl From<JointFault> for Error {
 impl From<UrdfFault> for Error {
     fn from(fault: UrdfFault) -> Self {
         Self::InvalidModel(ModelFault::Urdf(fault))
+    }
+}
+
+impl From<RapidFault> for Error {
+    fn from(fault: RapidFault) -> Self {
+        Self::Rapid(fault)
     }
 }
 

@@ -48,11 +48,12 @@ mod kinematics;
 mod lanes;
 #[cfg(feature = "python")]
 mod python;
+pub mod rapid;
 #[cfg(feature = "urdf")]
 mod urdf;
 
 pub use catalogue::{AngleUnit, CatalogueArm, CatalogueGeometry, catalogue, find};
-pub use error::{Error, JointFault, ModelFault, Names, PoseFault, UnknownRobot, UrdfFault};
+pub use error::{Error, JointFault, ModelFault, Names, PoseFault, RapidFault, RapidFaultKind, UnknownRobot, UrdfFault};
 pub use kinematics::{
     Break, BreakReason, Chain, Condition, Configuration, Crossing, Definition, DhRow, Explanation, FollowOptions, Followed, Follower,
     FreeJoint, JacobianFrame, JointAxis, JointLimits, Mdh, NotRecognised, OpwParameters, Pose, PoseError, Reach, Relation, Robot, SLOTS,

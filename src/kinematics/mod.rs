@@ -36,6 +36,7 @@ mod three_parallel;
 pub mod thresholds;
 mod zyz;
 
+pub(crate) use angles::constant_sin_cos;
 pub use chain::Chain;
 pub use configuration::Configuration;
 pub use crossing::{Crossing, FollowOptions};

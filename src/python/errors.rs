@@ -64,7 +64,7 @@ pub(super) fn to_py(py: Python<'_>, error: &Error) -> PyErr {
         Error::InvalidModel(_) | Error::WrongLength { .. } => invalid_model_error(py),
         Error::UnknownRobot(_) => unknown_robot_error(py),
         Error::Unreachable(_) => unreachable_error(py),
-        Error::NoInstructionSet { .. } => return PyValueError::new_err(error.to_string()),
+        Error::Rapid(_) | Error::NoInstructionSet { .. } => return PyValueError::new_err(error.to_string()),
     };
     raised(class, error.to_string())
 }

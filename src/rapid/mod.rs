@@ -1,0 +1,75 @@
+//! ABB's RAPID: targets, tools, work objects and moves of a module, read and written.
+//!
+//! ```
+//! use irbkin::rapid::{self, Content, Value};
+//!
+//! let text = "MODULE Weld
+//!     CONST robtarget p10 := [[600,0,800],[0,0,1,0],[0,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+//!     PROC main()
+//!         MoveL Offs(p10,0,0,50), v100, fine, tool0;
+//!     ENDPROC
+//! ENDMODULE";
+//! let module = rapid::parse(text, &[])?;
+//! let Content::Single(Value::RobTarget(p10)) = &module.find("P10").unwrap().content else { unreachable!() };
+//! assert_eq!(p10.trans_mm, [600.0, 0.0, 800.0]);
+//! assert_eq!(module.moves()[0].target.text, "Offs(p10,0,0,50)");
+//! assert_eq!(rapid::parse(&module.to_string(), &[])?.without_positions(), module.without_positions());
+//! # Ok::<(), irbkin::Error>(())
+//! ```
+//!
+//! What is not known is skipped and told ([`Module::skipped`]), never guessed; a broken text is an error with its line and column. Values are those
+//! of the declarations: what a program assigns is not followed. A negative zero is read as zero.
+
+mod blocks;
+mod declarations;
+mod displaced;
+mod evaluate;
+mod expression;
+mod kind;
+mod module;
+mod moves;
+mod resolve;
+mod rewrite;
+mod skipping;
+mod statements;
+#[cfg(test)]
+mod tests;
+mod tokens;
+mod values;
+mod words;
+mod write;
+
+use alloc::borrow::Cow;
+use alloc::string::String;
+
+pub use self::expression::DEEPEST_NESTING;
+pub use self::kind::DataType;
+pub use self::module::{Content, Datum, Module, Routine, RoutineKind, Scope, Skipped, Storage};
+pub use self::moves::{Argument, Move, MoveKind, MoveOption, Target};
+pub use self::rewrite::{NewValue, rewrite};
+use self::statements::StatementReader;
+pub use self::values::{JointTarget, LoadData, RapidPose, RobTarget, ToolData, Value, WobjData};
+use crate::error::Error;
+
+/// Reads the text of a module, or of declarations and moves without one.
+///
+/// Names that it does not declare are looked for in `context`: the data of these modules that are not `LOCAL`, those of the first module first.
+/// The time is linear in the size of the text, but for the search of names, which takes its logarithm.
+///
+/// # Errors
+///
+/// [`Error::Rapid`] when the text is broken.
+pub fn parse(text: &str, context: &[&Module]) -> Result<Module, Error> {
+    let written = StatementReader::read(text)?;
+    Ok(resolve::resolved(written, context)?)
+}
+
+/// The text of a file: UTF-8, else Latin-1; without its byte order mark.
+#[must_use]
+pub fn decode(bytes: &[u8]) -> Cow<'_, str> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    match core::str::from_utf8(bytes) {
+        Ok(text) => Cow::Borrowed(text),
+        Err(_) => Cow::Owned(bytes.iter().map(|byte| char::from(*byte)).collect::<String>()),
+    }
+}

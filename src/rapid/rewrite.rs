@@ -1,0 +1,84 @@
+//! New values in an old text, of which nothing else changes.
+
+use core::fmt::Write as _;
+use core::ops::Range;
+
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use super::module::{Content, Module};
+use super::values::Value;
+use crate::error::{Error, RapidFault, RapidFaultKind};
+
+/// A value to be put in the place of another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NewValue {
+    /// Index of the datum in [`Module::data`].
+    pub datum: usize,
+    /// Index of the element of an array in its values, from 0; none for a single value.
+    pub element: Option<usize>,
+    /// The new value, of the datum's type.
+    pub value: Value,
+}
+
+/// The text of which `module` was read, with new values; comments, blanks and everything else stay as they are, byte for byte.
+///
+/// A declaration without a value gets one.
+///
+/// # Errors
+///
+/// [`Error::Rapid`] when there is no such datum or element, a value is of another type or not finite, one place gets two values, or
+/// `source` is not the text.
+pub fn rewrite(source: &str, module: &Module, new_values: &[NewValue]) -> Result<String, Error> {
+    if source.len() != module.text_length {
+        return Err(missing(format!("text of {} bytes of which the module was read", module.text_length)));
+    }
+    let mut places = Vec::with_capacity(new_values.len());
+    for new in new_values {
+        places.push((place(module, new)?, new));
+    }
+    places.sort_by_key(|(span, _)| span.start);
+    let mut text = String::with_capacity(source.len());
+    let mut copied = 0;
+    let mut last_start = None;
+    for (span, new) in places {
+        let between = source.get(copied..span.start).filter(|_| last_start != Some(span.start));
+        text.push_str(between.ok_or_else(|| missing(format!("second place for datum {} in the text", new.datum)))?);
+        let assign = if span.is_empty() { " := " } else { "" };
+        write!(text, "{assign}{}", new.value).map_err(|_| missing("room for the text".to_string()))?;
+        (copied, last_start) = (span.end, Some(span.start));
+    }
+    text.push_str(source.get(copied..).ok_or_else(|| missing("end of the text where the module has it".to_string()))?);
+    Ok(text)
+}
+
+fn missing(what: String) -> Error {
+    RapidFault::nowhere(RapidFaultKind::NoSuchValue { what }).into()
+}
+
+/// The bytes that a new value takes the place of.
+fn place(module: &Module, new: &NewValue) -> Result<Range<usize>, Error> {
+    let Some(datum) = module.data.get(new.datum) else {
+        return Err(missing(format!("datum {}, the module has {}", new.datum, module.data.len())));
+    };
+    let thing = format!("{} {}", datum.data_type.name(), datum.name);
+    let fault = |kind| RapidFault { line: datum.line, column: datum.column, kind }.into();
+    if new.value.data_type() != datum.data_type {
+        let (found, wanted) = (new.value.type_name().to_string(), datum.data_type.name());
+        return Err(fault(RapidFaultKind::ComponentType { thing, part: String::new(), found, wanted }));
+    }
+    if new.value.scalars().numbers().iter().any(|number| !number.is_finite()) {
+        return Err(fault(RapidFaultKind::NotFinite { text: format!("{}", new.value) }));
+    }
+    match (&datum.content, new.element) {
+        (Content::Single(_), None) => Ok(datum.value_span.clone()),
+        (Content::Uninitialised { sizes }, None) if sizes.is_empty() => Ok(datum.value_span.clone()),
+        (Content::Array { .. }, Some(element)) => {
+            let span = datum.element_spans.get(element).cloned();
+            span.ok_or_else(|| fault(RapidFaultKind::NoSuchValue { what: format!("element {element} of {thing}") }))
+        }
+        (_, None) => Err(fault(RapidFaultKind::NoSuchValue { what: format!("single value in the array {thing}") })),
+        (_, Some(element)) => Err(fault(RapidFaultKind::NoSuchValue { what: format!("element {element} of {thing}") })),
+    }
+}

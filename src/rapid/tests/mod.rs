@@ -1,0 +1,44 @@
+//! What is read, construct by construct.
+
+mod functions;
+mod moves;
+mod names;
+mod texts;
+
+use super::{Content, Module, Skipped, Value, parse};
+
+fn read(text: &str) -> Module {
+    parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+/// The words of the fault of a broken text.
+fn fault(text: &str) -> String {
+    parse(text, &[]).map(|module| panic!("no fault: {module}")).unwrap_err().to_string()
+}
+
+fn single(module: &Module, name: &str) -> Value {
+    match &module.find(name).unwrap_or_else(|| panic!("no {name}: {:?}", module.skipped())).content {
+        Content::Single(value) => value.clone(),
+        other => panic!("{name} is {other:?}"),
+    }
+}
+
+fn number(module: &Module, name: &str) -> f64 {
+    let Value::Num(number) = single(module, name) else { panic!("{name} is no num") };
+    number
+}
+
+fn told(module: &Module) -> Vec<&str> {
+    module.skipped().iter().map(|Skipped { what, .. }| what.as_str()).collect()
+}
+
+use std::prelude::rust_2024::*;
+use std::vec::Vec;
+
+/// The module written and read again, which must be the same.
+fn again(module: &Module, context: &[&Module]) -> Module {
+    let text = module.to_string();
+    let again = parse(&text, context).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    assert_eq!(again.clone().without_positions(), module.clone().without_positions(), "{text}");
+    again
+}

@@ -1,0 +1,97 @@
+//! Move instructions.
+
+use std::format;
+use std::prelude::rust_2024::*;
+use std::string::String;
+
+use super::*;
+use crate::rapid::{MoveKind, MoveOption, Target, ToolData, WobjData};
+
+const DATA: &str = "CONST robtarget p:=[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+    CONST jointtarget j:=[[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]; CONST robtarget pts{1}:=[p]; PERS wobjdata w:=wobj0;";
+
+fn module(steps: &str) -> Module {
+    read(&format!("MODULE M\n{DATA}\nPROC main()\n{steps}\nENDPROC\nENDMODULE"))
+}
+
+#[test]
+fn moves_are_read_with_all_their_arguments() {
+    let module = module(
+        "MoveJ \\Conc, p\\ID:=10, v100 \\V:=500,z10\\Z:=5\\Inpos:=inpos20, tool0\\Corr\\wobj:= w \\TLoad:=load0;
+         movel Offs(p,0,0,50), v100, fine, tool0;
+         MoveC p, pts{1}, vmax, z1, tool0\\WObj:=wobj0;
+         MoveAbsJ j\\NoEOffs, v1000\\T:=5, z50, tool0;
+         MoveAbsJ [[1,2,3,4,5,6], [9E9,9E9,9E9,9E9,9E9,9E9]], v5, fine, tool0;",
+    );
+    let [first, second, circle, joints, inline] = module.moves() else { panic!() };
+    assert_eq!((first.kind, first.line, first.column, first.routine.as_deref()), (MoveKind::MoveJ, 5, 1, Some("main")));
+    assert_eq!((first.target.text.as_str(), first.speed.as_str(), first.zone.as_str()), ("p", "v100", "z10"));
+    assert_eq!(first.tool.value, Ok(ToolData::TOOL0));
+    assert_eq!(first.wobj.as_ref().unwrap().value, Ok(WobjData::WOBJ0));
+    let option = |after, name: &str, text: Option<&str>| MoveOption { after, name: name.into(), text: text.map(String::from) };
+    assert_eq!(
+        first.options,
+        [
+            option(0, "Conc", None),
+            option(1, "ID", Some("10")),
+            option(2, "V", Some("500")),
+            option(3, "Z", Some("5")),
+            option(3, "Inpos", Some("inpos20")),
+            option(4, "Corr", None),
+            option(4, "TLoad", Some("load0")),
+        ]
+    );
+    let written = "MoveJ \\Conc, p\\ID:=10,v100\\V:=500,z10\\Z:=5\\Inpos:=inpos20,tool0\\WObj:=w\\Corr\\TLoad:=load0;";
+    assert_eq!(first.to_string(), written);
+    let Ok(Target::RobTarget(target)) = &second.target.value else { panic!() };
+    assert_eq!((target.trans_mm, second.wobj.is_none()), ([1.0, 2.0, 53.0], true));
+    assert_eq!((circle.via.as_ref().unwrap().text.as_str(), circle.target.text.as_str()), ("p", "pts{1}"));
+    assert!(circle.via.as_ref().unwrap().value.is_ok());
+    let Ok(Target::JointTarget(target)) = &joints.target.value else { panic!() };
+    assert_eq!(target.robax_deg[4], 30.0);
+    assert_eq!(inline.target.text, "[[1,2,3,4,5,6], [9E9,9E9,9E9,9E9,9E9,9E9]]");
+    again(&module, &[]);
+}
+
+#[test]
+fn moves_in_branches_and_loops_are_listed_in_order() {
+    let module = module(
+        "VAR num i:=1;
+         IF a=1 OR NOT b MoveL p, v1, fine, tool0;
+         IF a THEN MoveJ p, v2, fine, tool0; ELSE MoveJ p, v3, fine, tool0; ENDIF
+         FOR i FROM 1 TO 1 DO MoveL pts{i}, v4, fine, tool0; ENDFOR
+         MoveL Offs(p,i,0,0), v5, fine, tool0;
+         ERROR MoveL p, v6, fine, tool0;",
+    );
+    let speeds: Vec<_> = module.moves().iter().map(|step| step.speed.as_str()).collect();
+    assert_eq!(speeds, ["v1", "v2", "v3", "v4", "v5", "v6"]);
+    assert_eq!(module.moves()[3].target.value, Err("refers to i, the variable of a loop".into()));
+    assert!(module.moves()[4].target.value.is_ok());
+    again(&module, &[]);
+}
+
+#[test]
+fn moves_that_cannot_be_resolved_say_why() {
+    let module = read(
+        "MODULE M VAR robtarget q; PROC go(robtarget r, \\num T)
+         MoveL *, v100, z10, tGripper\\WObj:=wTable;
+         MoveL r, v100\\T?:=T, z10, tool0; MoveL q, v100, z10, tool0; MoveJDO q, v1, fine, tool0, do1, 1; ENDPROC ENDMODULE",
+    );
+    let [taught, parameter, empty] = module.moves() else { panic!() };
+    assert_eq!(taught.target.value, Err("* is taught on the controller, its value is not in the text".into()));
+    assert_eq!(taught.tool.value, Err("refers to tGripper, which is not in this module".into()));
+    assert_eq!(taught.wobj.as_ref().unwrap().value, Err("refers to wTable, which is not in this module".into()));
+    assert_eq!(parameter.target.value, Err("refers to r, a parameter of go".into()));
+    assert_eq!(parameter.to_string(), "MoveL r,v100\\T?:=T,z10,tool0;");
+    assert_eq!(empty.target.value, Err("refers to q, whose declaration has no value".into()));
+    assert_eq!(told(&module), ["MoveJDO is no instruction that is read"]);
+    again(&module, &[]);
+}
+
+#[test]
+fn moves_stand_by_themselves_too() {
+    let module = read("MoveL [[1,2,3],[1,0,0,0],[0,0,0,0],[0,0,0,0,0,0]], v100, z10, tool0;");
+    assert_eq!(module.moves()[0].routine, None);
+    assert!(module.moves()[0].target.value.is_ok());
+    again(&module, &[]);
+}

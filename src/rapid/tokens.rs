@@ -1,0 +1,274 @@
+//! RAPID text as tokens: names, numbers, strings and symbols, without blanks and comments.
+
+use alloc::string::{String, ToString};
+
+use crate::error::{RapidFault, RapidFaultKind};
+
+/// Characters of the text that a message repeats at most.
+const REPEATED: usize = 40;
+
+/// What a token is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum TokenKind {
+    /// An identifier or a reserved word.
+    Name,
+    /// A number, without a sign.
+    Number(f64),
+    /// A string with its quotes.
+    Text,
+    /// `:=`.
+    Assign,
+    /// A character of RAPID's punctuation.
+    Symbol(u8),
+    /// Behind the last token.
+    End,
+}
+
+/// A token and the bytes that it takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Token {
+    pub(super) kind: TokenKind,
+    pub(super) start: usize,
+    pub(super) end: usize,
+}
+
+impl Token {
+    pub(super) fn is(&self, symbol: u8) -> bool {
+        self.kind == TokenKind::Symbol(symbol)
+    }
+}
+
+/// Reads tokens one after the other, with the next one in sight.
+pub(super) struct Tokens<'a> {
+    pub(super) text: &'a str,
+    next: Token,
+    /// End of the token before.
+    pub(super) last_end: usize,
+    place: Place,
+}
+
+/// A byte with its line and column.
+#[derive(Clone, Copy)]
+struct Place {
+    byte: usize,
+    line: usize,
+    column: usize,
+}
+
+const BEGINNING: Place = Place { byte: 0, line: 1, column: 1 };
+
+/// The first characters of a piece of text, for a message.
+pub(super) fn excerpt(text: &str) -> String {
+    let mut short: String = text.chars().take(REPEATED).collect();
+    if short.len() < text.len() {
+        short.push_str("...");
+    }
+    short
+}
+
+impl<'a> Tokens<'a> {
+    /// Begins at a text, behind its `%%% ... %%%`.
+    pub(super) fn new(text: &'a str) -> Result<Self, RapidFault> {
+        let next = Token { kind: TokenKind::End, start: 0, end: 0 };
+        let mut tokens = Self { text, next, last_end: 0, place: BEGINNING };
+        let bom = text.len() - text.trim_start_matches('\u{feff}').len();
+        let start = tokens.skip_blanks(bom);
+        let begin = if text[start..].starts_with("%%%") {
+            let length = text[start + 3..].find("%%%");
+            let inside = || RapidFaultKind::UnexpectedEnd { inside: "the header".to_string(), missing: "%%%" };
+            start + 6 + length.ok_or_else(|| tokens.fault(start, inside()))?
+        } else {
+            start
+        };
+        tokens.next = tokens.read(begin)?;
+        Ok(tokens)
+    }
+
+    /// The next token, which stays the next.
+    pub(super) fn peek(&self) -> Token {
+        self.next
+    }
+
+    /// The next token, and goes on behind it.
+    pub(super) fn take(&mut self) -> Result<Token, RapidFault> {
+        let token = self.next;
+        self.last_end = token.end;
+        self.next = self.read(token.end)?;
+        Ok(token)
+    }
+
+    /// Takes the next token where it is this symbol.
+    pub(super) fn take_if(&mut self, symbol: u8) -> Result<bool, RapidFault> {
+        let is = self.next.is(symbol);
+        if is {
+            self.take()?;
+        }
+        Ok(is)
+    }
+
+    /// Takes the symbol, or says what stands in its place.
+    pub(super) fn demand(&mut self, symbol: u8, wanted: &str) -> Result<(), RapidFault> {
+        if self.take_if(symbol)? { Ok(()) } else { Err(self.unexpected(wanted)) }
+    }
+
+    /// The text of a token.
+    pub(super) fn text_of(&self, token: Token) -> &'a str {
+        &self.text[token.start..token.end]
+    }
+
+    /// Whether the next token is this word, in any case.
+    pub(super) fn at_word(&self, word: &str) -> bool {
+        self.next.kind == TokenKind::Name && self.text_of(self.next).eq_ignore_ascii_case(word)
+    }
+
+    /// Takes the next token where it is this word.
+    pub(super) fn take_word(&mut self, word: &str) -> Result<bool, RapidFault> {
+        let is = self.at_word(word);
+        if is {
+            self.take()?;
+        }
+        Ok(is)
+    }
+
+    /// The fault that the next token is not what must stand there.
+    pub(super) fn unexpected(&mut self, wanted: &str) -> RapidFault {
+        let found = match self.next.kind {
+            TokenKind::End => "the end of the text".to_string(),
+            _ => excerpt(self.text_of(self.next)),
+        };
+        self.fault(self.next.start, RapidFaultKind::Unexpected { found, wanted: wanted.to_string() })
+    }
+
+    /// A fault at a byte.
+    pub(super) fn fault(&self, byte: usize, kind: RapidFaultKind) -> RapidFault {
+        fault_at(self.text, byte, kind)
+    }
+
+    /// Line and column of a byte, from 1; counts from the byte asked for before, so that asking in order takes linear time.
+    pub(super) fn line_and_column(&mut self, byte: usize) -> (usize, usize) {
+        if byte < self.place.byte {
+            self.place = BEGINNING;
+        }
+        self.place = advanced(self.text, self.place, byte);
+        (self.place.line, self.place.column)
+    }
+
+    /// The first byte behind blanks and comments.
+    fn skip_blanks(&self, mut at: usize) -> usize {
+        let bytes = self.text.as_bytes();
+        while let Some(&byte) = bytes.get(at) {
+            match byte {
+                b'!' => at += bytes[at..].iter().position(|&b| b == b'\n' || b == b'\r').unwrap_or(bytes.len() - at),
+                b' ' | b'\t' | b'\r' | b'\n' | 0x0b | 0x0c => at += 1,
+                // A no-break space, in UTF-8.
+                0xc2 if bytes.get(at + 1) == Some(&0xa0) => at += 2,
+                _ => break,
+            }
+        }
+        at
+    }
+
+    fn read(&self, from: usize) -> Result<Token, RapidFault> {
+        let start = self.skip_blanks(from);
+        let bytes = self.text.as_bytes();
+        let second = bytes.get(start + 1).copied().unwrap_or(0);
+        let (kind, end) = match bytes.get(start).copied() {
+            None => (TokenKind::End, start),
+            Some(b'0'..=b'9') => self.read_number(start)?,
+            Some(b'.') if second.is_ascii_digit() => self.read_number(start)?,
+            Some(b'"') => (TokenKind::Text, self.end_of_string(start)?),
+            Some(b':') if second == b'=' => (TokenKind::Assign, start + 2),
+            Some(symbol) if b"[](){},;.:\\*+-/=<>|%?".contains(&symbol) => (TokenKind::Symbol(symbol), start + 1),
+            Some(_) => (TokenKind::Name, self.end_of_name(start)?),
+        };
+        Ok(Token { kind, start, end })
+    }
+
+    fn end_of_name(&self, start: usize) -> Result<usize, RapidFault> {
+        let end = end_of_word(self.text, start);
+        let first = self.text[start..].chars().next().unwrap_or('\0');
+        if end > start && first != '_' {
+            return Ok(end);
+        }
+        Err(self.fault(start, RapidFaultKind::UnexpectedCharacter { character: first }))
+    }
+
+    fn end_of_string(&self, start: usize) -> Result<usize, RapidFault> {
+        let bytes = self.text.as_bytes();
+        let mut at = start + 1;
+        loop {
+            match (bytes.get(at), bytes.get(at + 1)) {
+                (Some(b'"'), Some(b'"')) => at += 2,
+                (Some(b'"'), _) => return Ok(at + 1),
+                (None | Some(b'\n' | b'\r'), _) => return Err(self.fault(start, RapidFaultKind::UnterminatedString)),
+                _ => at += 1,
+            }
+        }
+    }
+
+    /// A number with its end: decimal, or whole with the prefix 0x, 0o or 0b.
+    fn read_number(&self, start: usize) -> Result<(TokenKind, usize), RapidFault> {
+        let bytes = self.text.as_bytes();
+        let mut end = start;
+        while bytes.get(end).is_some_and(|&b| b.is_ascii_digit() || b == b'.') {
+            end += 1;
+        }
+        if matches!(bytes.get(end), Some(b'e' | b'E')) {
+            end += if matches!(bytes.get(end + 1), Some(b'+' | b'-')) { 2 } else { 1 };
+        }
+        // Letters and digits belong to it, so that 12abc is one wrong number and not a number and a name.
+        end = end_of_word(self.text, end);
+        let text = &self.text[start..end];
+        let fault = |kind| self.fault(start, kind);
+        let value = number(text).ok_or_else(|| fault(RapidFaultKind::BadNumber { text: excerpt(text) }))?;
+        if !value.is_finite() {
+            return Err(fault(RapidFaultKind::NotFinite { text: excerpt(text) }));
+        }
+        Ok((TokenKind::Number(value), end))
+    }
+}
+
+/// A number as RAPID writes it, without a sign; infinite where it is too large.
+fn number(text: &str) -> Option<f64> {
+    let radix = match text.as_bytes() {
+        [b'0', b'x' | b'X', ..] => 16,
+        [b'0', b'o' | b'O', ..] => 8,
+        [b'0', b'b' | b'B', ..] => 2,
+        // Digits are there, and letters other than an exponent's are not: "inf" and "nan" do not come here.
+        _ => return text.parse().ok(),
+    };
+    let digits = text.get(2..).filter(|digits| digits.bytes().all(|b| b.is_ascii_alphanumeric()))?;
+    #[expect(clippy::cast_precision_loss, reason = "rounded as any other number is")]
+    u64::from_str_radix(digits, radix).ok().map(|value| value as f64)
+}
+
+/// The end of the letters, digits and underscores from a byte on.
+pub(super) fn end_of_word(text: &str, start: usize) -> usize {
+    let mut end = start;
+    for (offset, character) in text[start..].char_indices() {
+        if !character.is_alphanumeric() && character != '_' {
+            break;
+        }
+        end = start + offset + character.len_utf8();
+    }
+    end
+}
+
+fn advanced(text: &str, from: Place, byte: usize) -> Place {
+    let mut place = Place { byte, ..from };
+    for character in text.get(from.byte..byte).unwrap_or_default().chars() {
+        if character == '\n' {
+            place.line += 1;
+            place.column = 1;
+        } else if character != '\u{feff}' {
+            place.column += 1;
+        }
+    }
+    place
+}
+
+/// A fault at a byte of a text.
+pub(super) fn fault_at(text: &str, byte: usize, kind: RapidFaultKind) -> RapidFault {
+    let Place { line, column, .. } = advanced(text, BEGINNING, byte);
+    RapidFault { line, column, kind }
+}

@@ -1,0 +1,238 @@
+//! Values and modules as RAPID text.
+
+use core::fmt::{self, Write as _};
+
+use alloc::collections::BTreeMap;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::kind::{Kind, Scalars};
+use super::module::{Content, Datum, Module, Routine, Scope, Skipped, Storage};
+use super::moves::Move;
+
+/// The size from which a number is written with an exponent.
+const LARGE: f64 = 1e7;
+
+/// The size below which a number is written with an exponent.
+const SMALL: f64 = 1e-4;
+
+/// Writes a number with the fewest digits that read back as the same, an exponent as ABB writes it: `9E+09`.
+///
+/// RAPID has no negative zero, and nothing that is not finite: such a number is written as Rust writes it.
+fn write_number(f: &mut impl fmt::Write, number: f64) -> fmt::Result {
+    let size = number.abs();
+    if size == 0.0 {
+        return f.write_str("0");
+    }
+    if !number.is_finite() || (SMALL..LARGE).contains(&size) {
+        return write!(f, "{number}");
+    }
+    let scientific = format!("{number:e}");
+    let (digits, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    let (sign, exponent) = exponent.strip_prefix('-').map_or(('+', exponent), |exponent| ('-', exponent));
+    write!(f, "{digits}E{sign}{exponent:0>2}")
+}
+
+/// Writes a string in quotes.
+fn write_text(f: &mut impl fmt::Write, text: &str) -> fmt::Result {
+    f.write_char('"')?;
+    for character in text.chars() {
+        match character {
+            '"' => f.write_str("\"\"")?,
+            '\\' => f.write_str("\\\\")?,
+            '\0'..='\x1f' | '\x7f' => write!(f, "\\{:02X}", u32::from(character))?,
+            _ => f.write_char(character)?,
+        }
+    }
+    f.write_char('"')
+}
+
+/// Writes a value of a kind.
+pub(super) fn write_scalars(f: &mut impl fmt::Write, kind: Kind, scalars: &Scalars) -> fmt::Result {
+    write_part(f, kind, scalars, 0)
+}
+
+fn write_part(f: &mut impl fmt::Write, kind: Kind, scalars: &Scalars, from: usize) -> fmt::Result {
+    let [number] = scalars.at(from);
+    match kind {
+        Kind::Num | Kind::Whole => return write_number(f, number),
+        Kind::Bool => return f.write_str(if number == 0.0 { "FALSE" } else { "TRUE" }),
+        Kind::Text => return write_text(f, &scalars.text),
+        _ => {}
+    }
+    let mut from = from;
+    for (i, (_, component)) in kind.components().iter().enumerate() {
+        f.write_char(if i == 0 { '[' } else { ',' })?;
+        write_part(f, *component, scalars, from)?;
+        from += component.width();
+    }
+    f.write_char(']')
+}
+
+impl fmt::Display for Content {
+    /// The value as RAPID writes it, with an array's brackets; nothing where there is none.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Uninitialised { .. } => Ok(()),
+            Self::Single(value) => value.fmt(f),
+            Self::Array { sizes, values } => {
+                for (i, value) in values.iter().enumerate() {
+                    let begins = |products: usize| i % products == 0;
+                    let opened = products(sizes).filter(|size| begins(*size)).count();
+                    f.write_str(if i == 0 { "" } else { "," })?;
+                    (0..opened).try_for_each(|_| f.write_char('['))?;
+                    value.fmt(f)?;
+                    let closed = products(sizes).filter(|size| (i + 1) % size == 0).count();
+                    (0..closed).try_for_each(|_| f.write_char(']'))?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+/// Elements of the whole array, of an element of its first dimension, and so on; never zero.
+fn products(sizes: &[usize]) -> impl Iterator<Item = usize> {
+    (0..sizes.len()).map(|i| sizes[i..].iter().fold(1_usize, |product, size| product.saturating_mul(*size)).max(1))
+}
+
+impl fmt::Display for Datum {
+    /// The declaration with its semicolon.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let scope = match self.scope {
+            Scope::Global => "",
+            Scope::Local => "LOCAL ",
+            Scope::Task => "TASK ",
+        };
+        let storage = match self.storage {
+            Storage::Const => "CONST",
+            Storage::Pers => "PERS",
+            Storage::Var => "VAR",
+        };
+        write!(f, "{scope}{storage} {} {}", self.data_type.name(), self.name)?;
+        if let Content::Array { sizes, .. } | Content::Uninitialised { sizes } = &self.content {
+            for (i, size) in sizes.iter().enumerate() {
+                write!(f, "{}{size}", if i == 0 { '{' } else { ',' })?;
+            }
+            f.write_str(if sizes.is_empty() { "" } else { "}" })?;
+        }
+        if !matches!(self.content, Content::Uninitialised { .. }) {
+            write!(f, ":={}", self.content)?;
+        }
+        f.write_char(';')
+    }
+}
+
+impl Move {
+    /// Writes the options that stand behind a number of required arguments.
+    fn write_options(&self, f: &mut fmt::Formatter<'_>, after: usize) -> fmt::Result {
+        for option in self.options.iter().filter(|option| option.after == after) {
+            write!(f, "\\{}", option.name)?;
+            if let Some(text) = &option.text {
+                // A value that asks whether the caller's own argument is there has its name in it.
+                if text.starts_with(&option.name) && text[option.name.len()..].trim_start().starts_with('?') {
+                    f.write_str(&text[option.name.len()..])?;
+                } else {
+                    write!(f, ":={text}")?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Display for Move {
+    /// The instruction with its semicolon, each argument as it was written.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} ", self.kind.name())?;
+        self.write_options(f, 0)?;
+        if self.options.iter().any(|option| option.after == 0) {
+            f.write_str(", ")?;
+        }
+        let via = self.via.as_ref().map(|via| via.text.as_str());
+        let required = via.into_iter().chain([self.target.text.as_str(), &self.speed, &self.zone, &self.tool.text]);
+        let last = if via.is_some() { 5 } else { 4 };
+        for (i, text) in required.enumerate() {
+            write!(f, "{}{text}", if i == 0 { "" } else { "," })?;
+            if let (Some(wobj), true) = (&self.wobj, i + 1 == last) {
+                write!(f, "\\WObj:={}", wobj.text)?;
+            }
+            self.write_options(f, i + 1)?;
+        }
+        f.write_char(';')
+    }
+}
+
+/// What stands in a module or in a routine.
+enum Item<'m> {
+    Datum(&'m Datum),
+    Move(&'m Move),
+    Skipped(&'m Skipped),
+    Routine(&'m Routine),
+}
+
+impl Item<'_> {
+    /// Line and column; behind all others what stands in no text. Data of a routine come before everything else.
+    fn key(&self, in_routine: bool) -> (bool, usize, usize) {
+        let (first, line, column) = match self {
+            Self::Datum(datum) => (in_routine, datum.line, datum.column),
+            Self::Move(step) => (false, step.line, step.column),
+            Self::Skipped(skipped) => (false, skipped.line, skipped.column),
+            Self::Routine(routine) => (false, routine.line, routine.column),
+        };
+        (!first, if line == 0 { usize::MAX } else { line }, column)
+    }
+}
+
+/// What stands in each routine, by its name in lower case; in the module by the empty name.
+fn items(module: &Module) -> BTreeMap<String, Vec<Item<'_>>> {
+    let mut items: BTreeMap<String, Vec<Item<'_>>> = BTreeMap::new();
+    let mut add = |routine: Option<&String>, item| {
+        items.entry(routine.map(|routine| routine.to_lowercase()).unwrap_or_default()).or_default().push(item);
+    };
+    module.data.iter().for_each(|datum| add(datum.routine.as_ref(), Item::Datum(datum)));
+    module.skipped.iter().for_each(|skipped| add(skipped.routine.as_ref(), Item::Skipped(skipped)));
+    module.moves.iter().for_each(|step| add(step.routine.as_ref(), Item::Move(step)));
+    module.routines.iter().for_each(|routine| add(None, Item::Routine(routine)));
+    for (name, items) in &mut items {
+        items.sort_by_key(|item| item.key(!name.is_empty()));
+    }
+    items
+}
+
+impl fmt::Display for Module {
+    /// The module as a text that reads back as the same: values as they are, without comments; what was skipped as it was written.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let items = items(self);
+        if let Some(name) = &self.name {
+            write!(f, "MODULE {name}")?;
+            if !self.attributes.is_empty() {
+                write!(f, "({})", self.attributes.join(","))?;
+            }
+            writeln!(f)?;
+        }
+        let margin = if self.name.is_some() { "    " } else { "" };
+        for item in items.get("").into_iter().flatten() {
+            let Item::Routine(routine) = item else {
+                write_item(f, margin, item)?;
+                continue;
+            };
+            writeln!(f, "{margin}{}", routine.header)?;
+            for item in items.get(&routine.name.to_lowercase()).into_iter().flatten() {
+                write_item(f, &format!("{margin}    "), item)?;
+            }
+            writeln!(f, "{margin}{}", routine.kind.end())?;
+        }
+        if self.name.is_some() { writeln!(f, "ENDMODULE") } else { Ok(()) }
+    }
+}
+
+fn write_item(f: &mut fmt::Formatter<'_>, margin: &str, item: &Item<'_>) -> fmt::Result {
+    match item {
+        Item::Datum(datum) => writeln!(f, "{margin}{datum}"),
+        Item::Move(step) => writeln!(f, "{margin}{step}"),
+        Item::Skipped(skipped) => writeln!(f, "{margin}{}", skipped.text),
+        Item::Routine(_) => Ok(()),
+    }
+}
