@@ -13,7 +13,7 @@ NO_STD := --no-default-features --features libm
 # A recipe for each instruction set of this processor; ends with `; done`. The shell's -e stops at the first that fails.
 ON_EACH_SET := sets=$$(cargo run --quiet --example instruction_sets); for set in $$sets; do export IRBKIN_INSTRUCTION_SET=$$set;
 
-.PHONY: help run test check catalogue bench bench-peers instructions stages ulp million configurations hardsets wheel clean toolchains
+.PHONY: help run test check catalogue bench bench-peers instructions stages ulp million configurations hardsets fuzz wheel clean toolchains
 
 help: ## List the targets
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -114,6 +114,9 @@ hardsets: | toolchains ## Solve poses at and next to every singularity, pairs an
 
 catalogue: | toolchains ## Write the tables of docs/catalogue.md from the catalogue
 	IRBKIN_WRITE=1 cargo test --quiet --test catalogue_page
+
+fuzz: | toolchains ## Read millions of broken RAPID texts: none panics, what is read is written and read again, in linear time
+	IRBKIN_INPUTS=1000000 cargo test --quiet --release --test rapid_fuzz -- --nocapture --test-threads=1
 
 wheel: $(VENV)/.made ## Build the wheel and try it in an environment of its own
 	$(BIN)/maturin build --release --quiet --out dist

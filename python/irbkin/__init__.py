@@ -10,6 +10,10 @@ poses are 4x4 homogeneous matrices.
     8
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 from irbkin._core import (
     Robot,
     Solution,
@@ -28,6 +32,7 @@ from irbkin.errors import (
     InvalidModelError,
     InvalidPoseError,
     IrbkinError,
+    RapidError,
     UnknownRobotError,
     UnreachableError,
 )
@@ -44,6 +49,9 @@ from irbkin.records import (
     Status,
 )
 
+if TYPE_CHECKING:
+    from irbkin import rapid as rapid
+
 __all__ = [
     "Break",
     "Configuration",
@@ -56,6 +64,7 @@ __all__ = [
     "IrbkinError",
     "Kind",
     "PoseCheck",
+    "RapidError",
     "Reach",
     "Robot",
     "Singularity",
@@ -69,7 +78,17 @@ __all__ = [
     "instruction_set",
     "instruction_sets",
     "pose",
+    "rapid",
     "to_xyz_euler_zyx",
     "to_xyz_quaternion",
     "use_instruction_set",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """`irbkin.rapid` is imported when it is first asked for."""
+    if name == "rapid":
+        import importlib
+
+        return importlib.import_module("irbkin.rapid")
+    raise AttributeError(f"module 'irbkin' has no attribute {name!r}")

@@ -1,24 +1,34 @@
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from os import PathLike
-from typing import Any, Literal, final, overload
+from typing import Any, ClassVar, Literal, final, overload
 
 import numpy as np
 import numpy.typing as npt
 
+from irbkin.rapid.program import Declaration, Move, Skipped, TargetTable
+from irbkin.rapid.records import JointTarget, RobTarget, ToolData, WobjData
 from irbkin.records import Configuration, FollowResult, FreeJoint, IkBatch, Kind, PoseCheck, Reach, Singularity, Status
 
 _Floats = npt.NDArray[np.float64]
 _State = tuple[str, str, list[float], list[float], list[float], list[float], list[float] | None, list[float] | None]
 
 __all__ = [
+    "Module",
     "Robot",
     "Solution",
     "Solutions",
     "__version__",
     "_restore_robot",
+    "calc_joint_t",
+    "calc_moves",
+    "calc_rob_t",
+    "calc_targets",
     "catalog",
+    "dump",
     "instruction_set",
     "instruction_sets",
+    "parse",
+    "parse_record",
     "pose",
     "to_xyz_euler_zyx",
     "to_xyz_quaternion",
@@ -190,3 +200,57 @@ class Solutions:
     def __len__(self) -> int: ...
     def __getitem__(self, index: int, /) -> Solution: ...
     def __iter__(self) -> Iterator[Solution]: ...
+
+@final
+class Module:
+    @property
+    def name(self) -> str | None: ...
+    @property
+    def attributes(self) -> tuple[str, ...]: ...
+    @property
+    def source(self) -> str: ...
+    @property
+    def data(self) -> Mapping[str, Any]: ...
+    @property
+    def declarations(self) -> tuple[Declaration, ...]: ...
+    @property
+    def moves(self) -> tuple[Move, ...]: ...
+    @property
+    def skipped(self) -> tuple[Skipped, ...]: ...
+    def rewritten(self, values: Mapping[str, Any]) -> str: ...
+    def __getitem__(self, name: str, /) -> Any: ...
+    def __contains__(self, name: str, /) -> bool: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+def parse(text: str | bytes, context: Iterable[Module] | None = None) -> Module: ...
+def parse_record(text: str) -> Any: ...
+def dump(value: Any, name: str) -> str: ...
+def calc_joint_t(
+    robot: Robot,
+    target: RobTarget,
+    tool: ToolData | None = None,
+    wobj: WobjData | None = None,
+    *,
+    fallback: Literal["nearest"] | None = None,
+    seed: npt.ArrayLike | None = None,
+) -> JointTarget: ...
+def calc_rob_t(
+    robot: Robot, joints: JointTarget, tool: ToolData | None = None, wobj: WobjData | None = None
+) -> RobTarget: ...
+def calc_moves(
+    robot: Robot,
+    module: Module,
+    *,
+    fallback: Literal["nearest"] | None = None,
+    seed: npt.ArrayLike | None = None,
+) -> TargetTable: ...
+def calc_targets(
+    robot: Robot,
+    module: Module,
+    tool: ToolData | None = None,
+    wobj: WobjData | None = None,
+    *,
+    fallback: Literal["nearest"] | None = None,
+    seed: npt.ArrayLike | None = None,
+) -> TargetTable: ...

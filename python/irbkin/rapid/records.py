@@ -20,6 +20,7 @@ __all__ = ["JointTarget", "LoadData", "Pose", "RobTarget", "ToolData", "WobjData
 Vector = tuple[float, ...]
 NOT_THERE = 9e9
 """RAPID's value of an external axis that is not there."""
+ZEROS = Configuration(0, 0, 0, 0)
 
 
 def _set_numbers(record: object, field: str, count: int) -> None:
@@ -74,7 +75,7 @@ class RobTarget:
     """Position [mm]."""
     rot: Vector = (1.0, 0.0, 0.0, 0.0)
     """Quaternion w, x, y, z."""
-    robconf: Configuration = Configuration(0, 0, 0, 0)
+    robconf: Configuration = ZEROS
     """Quarter turns of axes 1, 4 and 6, and the slot."""
     extax: Vector = (NOT_THERE,) * 6
     """External axes [deg or mm]; 9e9 is one that is not there."""

@@ -34,8 +34,9 @@ fn components_and_elements_are_values() {
 #[test]
 fn long_chains_of_names_are_read_from_both_ends() {
     let count = 50_000;
-    let forward: String = (0..count).map(|i| format!("CONST num p{i}:=p{};\n", i + 1)).collect();
-    let backward: String = (0..count).rev().map(|i| format!("CONST num p{i}:=p{};\n", i + 1)).collect();
+    let line = |i: usize| format!("CONST num p{i}:=p{};", i + 1);
+    let forward = (0..count).map(line).collect::<Vec<_>>().join("\n");
+    let backward = (0..count).rev().map(line).collect::<Vec<_>>().join("\n");
     for text in [format!("{forward}CONST num p{count}:=7;"), format!("CONST num p{count}:=7;{backward}")] {
         assert_eq!(number(&read(&text), "p0"), 7.0);
     }

@@ -1,0 +1,95 @@
+"""ABB's RAPID: modules read and written, robtargets to joint angles and back.
+
+    >>> from irbkin import Robot, rapid
+    >>> p10 = rapid.parse("[[1018.6,0,1417.5],[0.5,0,0.866025,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]")
+    >>> joints = rapid.calc_joint_t(Robot("IRB 2600-12/1.85"), p10)
+    >>> abs(round(joints.robax_deg[4], 1))
+    30.0
+
+Millimetres and degrees, as the names of fields say; the robot's own numbers stay in metres and radians.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from irbkin import _core
+from irbkin._core import Module, calc_joint_t, calc_moves, calc_rob_t, calc_targets
+from irbkin.errors import RapidError
+from irbkin.rapid.program import Argument, Declaration, Move, Skipped, TargetTable
+from irbkin.rapid.records import JointTarget, LoadData, Pose, RobTarget, ToolData, WobjData
+
+__all__ = [
+    "Argument",
+    "Declaration",
+    "JointTarget",
+    "LoadData",
+    "Module",
+    "Move",
+    "Pose",
+    "RobTarget",
+    "Skipped",
+    "TargetTable",
+    "ToolData",
+    "WobjData",
+    "calc_joint_t",
+    "calc_moves",
+    "calc_rob_t",
+    "calc_targets",
+    "dump",
+    "load",
+    "parse",
+]
+
+
+def parse(text: str | bytes, context: Iterable[Module] = ()) -> Any:
+    """The module of a text, with or without MODULE around it; of a record that stands by itself, the record.
+
+    Args:
+        text: RAPID text, or the bytes of a file: UTF-8, else Latin-1. Text that begins with a bracket is one robtarget,
+            jointtarget, tooldata, wobjdata, pose or loaddata, as `dump` writes them: their shapes differ.
+        context: Modules in which names that the text does not declare are looked for: their data that are not LOCAL.
+
+    Returns:
+        Module; or RobTarget, JointTarget, ToolData, WobjData, Pose or LoadData.
+
+    Raises:
+        RapidError: The text is broken; the message has the line and the column. What is not known is no error: it is
+            skipped and listed in `Module.skipped`.
+    """
+    if isinstance(text, str) and text.lstrip().startswith("["):
+        return _core.parse_record(text)
+    return _core.parse(text, context)
+
+
+def load(path: str | PathLike[str], context: Iterable[Module] = ()) -> Module:
+    """The module of a file (.mod, .sys, .prg); otherwise as `parse`.
+
+    Raises:
+        RapidError: As `parse`; the message begins with the path.
+        OSError: The file cannot be read.
+    """
+    content = Path(path).read_bytes()
+    try:
+        return _core.parse(content, context)
+    except RapidError as error:
+        error.args = (f"{path}: {error}",)
+        raise
+
+
+def dump(value: Any, name: str = "Data") -> str:
+    """RAPID text of a record, of a module, or of data by their names: `parse` gives back what was dumped.
+
+    Args:
+        value: RobTarget, JointTarget, ToolData, WobjData, Pose, LoadData, Configuration, a number, a tuple of 3 (pos),
+            4 (orient) or 6 (extjoint) numbers, nested lists of these for an array: the text of the value. A Module, or
+            a mapping from names to values: the text of a module; tools and work objects as PERS, others as CONST.
+        name: Name of the module that is made of a mapping.
+
+    Raises:
+        RapidError: A value is no RAPID data or not finite, or a name is none.
+    """
+    return _core.dump(dict(value) if isinstance(value, Mapping) else value, name)

@@ -1,0 +1,96 @@
+"""What a RAPID module says, and what became of its targets."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from irbkin.rapid.records import JointTarget, RobTarget, ToolData, WobjData
+from irbkin.records import Configuration
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+__all__ = ["Argument", "Declaration", "Move", "Skipped", "TargetTable"]
+
+
+class Declaration(NamedTuple):
+    """A data declaration. Values are those of the text: what a program assigns is not followed."""
+
+    name: str
+    type: str
+    """RAPID's name of it."""
+    scope: str
+    """"LOCAL", "TASK" or nothing."""
+    storage: str
+    """"CONST", "PERS" or "VAR"."""
+    routine: str | None
+    """The routine that it is declared in; None for the module."""
+    value: Any
+    """A record; nested lists of records for an array; None without a value."""
+    line: int
+    column: int
+
+
+class Argument(NamedTuple):
+    """An argument as it is written, and what it is by the declarations."""
+
+    text: str
+    value: RobTarget | JointTarget | ToolData | WobjData | None
+    reason: str | None
+    """Why the value is not known, where it is None."""
+
+
+class Move(NamedTuple):
+    """A move instruction."""
+
+    kind: str
+    """"MoveJ", "MoveL", "MoveC" or "MoveAbsJ"."""
+    routine: str | None
+    """The routine that it stands in."""
+    target: Argument
+    via: Argument | None
+    """The point on the circle of a MoveC."""
+    speed: str
+    zone: str
+    tool: Argument
+    wobj: Argument | None
+    r"""The work object of \WObj; wobj0 is meant without one."""
+    options: tuple[tuple[str, str | None], ...]
+    """The other optional arguments: name and text; no text for a switch."""
+    line: int
+    column: int
+
+
+class Skipped(NamedTuple):
+    """A part of the text that is not read."""
+
+    line: int
+    column: int
+    routine: str | None
+    what: str
+    """What it is and, of a datum, why it is not read."""
+    text: str
+
+
+class TargetTable(NamedTuple):
+    """The joint angles of m targets."""
+
+    kinds: tuple[str, ...]
+    """"MoveL" and the like, or "robtarget"."""
+    names: tuple[str, ...]
+    """Each target as it is written, or the name of its declaration."""
+    lines: npt.NDArray[np.int64]
+    """Line of the instruction or of the declaration, shape (m,)."""
+    q: npt.NDArray[np.float64]
+    """Joint angles [rad], shape (m, 6), NaN where there are none."""
+    configuration: Configuration
+    """That of the joint angles, int32 arrays of shape (m,); where there are none, that of the target."""
+    wrist: npt.NDArray[np.float64]
+    """Angle of joint 5 from 0 or 180 deg [rad], shape (m,)."""
+    elbow: npt.NDArray[np.float64]
+    """Angle between upper arm and forearm from stretched or folded [rad], shape (m,)."""
+    shoulder: npt.NDArray[np.float64]
+    """Distance of the wrist centre from axis 1 [m], shape (m,)."""
+    problems: tuple[str | None, ...]
+    """Why there are no joint angles, or why they are others than the target asks for."""

@@ -1,0 +1,16 @@
+%%%
+  VERSION:1
+  LANGUAGE:ENGLISH
+%%%
+
+MODULE Taught
+PROC main()
+MoveJ *,v1000,z50,tool0;
+MoveL [[515.00,0.00,712.00],[0.707107,0.000000,0.707107,0.000000],[0,0,-1,0],[9E+09,9E+09,9E+09,9E+09,9E+09,9E+09]],v1000,z50,tool0;
+MoveL [[364.35,0,594],[0.5,0,0.866025404,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]\ID:=20,v200,fine,tool0\WObj:=wobj0;
+MoveAbsJ *\NoEOffs,v1000,z50,tool0;
+MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]\NoEOffs,v1000,z50,tool0;
+WaitTime 0.5;
+<SMT>
+ENDPROC
+ENDMODULE

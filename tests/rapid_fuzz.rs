@@ -1,0 +1,335 @@
+//! RAPID texts that nobody would write: none makes the reader panic, and what it reads it writes and reads again.
+//!
+//! `IRBKIN_INPUTS` is the number of inputs of each kind; `make fuzz` reads a million.
+#![allow(clippy::unwrap_used, clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, missing_docs)]
+
+mod common;
+
+use std::time::{Duration, Instant};
+
+use common::Rng;
+use irbkin::rapid::{Content, Module, NewValue, Value, decode, parse, rewrite};
+
+const CORPUS: [&[u8]; 3] =
+    [include_bytes!("data/rapid/weld.mod"), include_bytes!("data/rapid/tools.sys"), include_bytes!("data/rapid/pendant.prg")];
+
+/// Pieces of RAPID, and of what is none.
+const PIECES: &[&str] = &[
+    "MODULE M",
+    "ENDMODULE",
+    "PROC p()",
+    "ENDPROC",
+    "FUNC num f(num a)",
+    "ENDFUNC",
+    "TRAP t",
+    "ENDTRAP",
+    "RECORD r",
+    "ENDRECORD",
+    "LOCAL ",
+    "TASK ",
+    "CONST ",
+    "PERS ",
+    "VAR ",
+    "CONST num a:=",
+    "VAR pos b:=",
+    "PERS robtarget p:=",
+    "CONST num c{2}:=",
+    "VAR bool d;",
+    "num ",
+    "pos ",
+    "robtarget ",
+    "tooldata ",
+    "wobjdata ",
+    "bool ",
+    "a",
+    "b",
+    "p",
+    "c{1}",
+    "c{",
+    "[1,2,3]",
+    "[1,0,0,0]",
+    "[0,0,0,0]",
+    "[9E9,9E9,9E9,9E9,9E9,9E9]",
+    "[",
+    "]",
+    "(",
+    ")",
+    "{",
+    "}",
+    ",",
+    ";",
+    ";\n",
+    ":=",
+    ":",
+    ".",
+    ".x",
+    "\\",
+    "\\WObj:=",
+    "\\Conc",
+    "*",
+    "+",
+    "-",
+    "/",
+    "<",
+    ">",
+    "=",
+    "%",
+    "?",
+    "1",
+    "0",
+    "-2.5",
+    "9E9",
+    "1e999",
+    ".5",
+    "5.",
+    "0x1F",
+    "12ab",
+    "\"x\"",
+    "\"",
+    "\"\"",
+    "TRUE",
+    "FALSE",
+    "NOT ",
+    "AND ",
+    "DIV ",
+    "IF ",
+    "THEN ",
+    "ELSE ",
+    "ENDIF ",
+    "FOR i FROM 1 TO 2 DO ",
+    "ENDFOR ",
+    "WHILE ",
+    "DO ",
+    "ENDWHILE ",
+    "TEST ",
+    "CASE ",
+    "ENDTEST ",
+    "ERROR ",
+    "RETURN ",
+    "MoveL ",
+    "MoveJ p,v1,z1,tool0;",
+    "MoveC p,p,v1,z1,tool0;",
+    "MoveAbsJ ",
+    "MoveL Offs(p,0,0,1),v1,z1,tool0\\WObj:=wobj0;",
+    "v100,",
+    "z10,",
+    "tool0",
+    "wobj0",
+    "load0",
+    "Offs(",
+    "RelTool(",
+    "! note\n",
+    "\n",
+    " ",
+    "\t",
+    "%%%",
+    "<SMT>",
+    "é",
+    "\u{a0}",
+    "#",
+    "_",
+    "i",
+    "x y;",
+    "x:=1;",
+];
+
+fn inputs() -> usize {
+    std::env::var("IRBKIN_INPUTS").ok().map_or(2000, |count| count.parse().unwrap())
+}
+
+fn below(rng: &mut Rng, count: usize) -> usize {
+    (rng.between(0.0, count as f64) as usize).min(count.saturating_sub(1))
+}
+
+fn random_bytes(rng: &mut Rng) -> Vec<u8> {
+    (0..below(rng, 200)).map(|_| below(rng, 256) as u8).collect()
+}
+
+fn token_soup(rng: &mut Rng) -> Vec<u8> {
+    (0..below(rng, 40)).flat_map(|_| PIECES[below(rng, PIECES.len())].bytes()).collect()
+}
+
+/// Declarations and moves most of which are right, in any order.
+fn statements(rng: &mut Rng) -> Vec<u8> {
+    let mut text = String::new();
+    for _ in 0..below(rng, 12) {
+        let name = ["a", "b", "c", "p", "q", "r"][below(rng, 6)];
+        let other = ["a", "b", "c", "p", "q", "r", "tool0", "1", "p.trans.x", "c{2}"][below(rng, 10)];
+        text += &match below(rng, 10) {
+            0 => format!("CONST num {name}:=-({other}+2)*.5;\n"),
+            1 => format!("VAR num {name}{{2}}:=[{other},7];\n"),
+            2 => format!("PERS robtarget {name}:=[[1,{other},3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"),
+            3 => format!("CONST robtarget {name}:=RelTool({other},1,2,3\\Rz:=30);\n"),
+            4 => format!("MoveL {other},v1,z1,tool0\\WObj:=wobj0;\n"),
+            5 => format!("PROC {name}(num {other}) ! note\n"),
+            6 => "ENDPROC\n".into(),
+            7 => format!("IF {name}>{other} THEN ENDIF FOR {name} FROM 1 TO {other} DO ENDFOR\n"),
+            8 => format!("VAR string {name}; {other}:={name};\n"),
+            _ => format!("IF {name} MoveJ Offs({name},0,{other},0),v1,z1,{other};\n"),
+        };
+    }
+    text.into_bytes()
+}
+
+/// A module with bytes changed, left out, doubled, or with pieces put in.
+fn mutation(rng: &mut Rng) -> Vec<u8> {
+    let mut text = CORPUS[below(rng, CORPUS.len())].to_vec();
+    for _ in 0..=below(rng, 6) {
+        let at = below(rng, text.len());
+        let until = (at + below(rng, 30)).min(text.len());
+        match below(rng, 5) {
+            0 => text[at] = below(rng, 256) as u8,
+            1 => drop(text.drain(at..until)),
+            2 => {
+                let doubled = text[at..until].to_vec();
+                text.splice(at..at, doubled);
+            }
+            3 => drop(text.splice(at..at, PIECES[below(rng, PIECES.len())].bytes())),
+            _ => drop(text.splice(at..until, PIECES[below(rng, PIECES.len())].bytes())),
+        }
+        if text.is_empty() {
+            break;
+        }
+    }
+    text
+}
+
+/// Writes a module, reads it again, and puts its own values back into its text.
+fn check(text: &str, module: &Module) {
+    let written = module.to_string();
+    let again = parse(&written, &[]).unwrap_or_else(|error| panic!("{error}\n--- from\n{text}\n--- written\n{written}"));
+    assert_eq!(again.without_positions(), module.clone().without_positions(), "\n--- from\n{text}\n--- written\n{written}");
+    let own: Vec<_> = module.data().iter().enumerate().flat_map(|(datum, it)| own_values(datum, &it.content)).collect();
+    let rewritten = rewrite(text, module, &own).unwrap();
+    let same = parse(&rewritten, &[]).unwrap_or_else(|error| panic!("{error}\n--- from\n{text}\n--- rewritten\n{rewritten}"));
+    assert!(same.data().iter().zip(module.data()).all(|(a, b)| a.content == b.content), "\n--- from\n{text}");
+}
+
+fn own_values(datum: usize, content: &Content) -> Vec<NewValue> {
+    let value = |element, value: &Value| NewValue { datum, element, value: value.clone() };
+    match content {
+        Content::Uninitialised { .. } => Vec::new(),
+        Content::Single(single) => vec![value(None, single)],
+        Content::Array { values, .. } => values.iter().enumerate().map(|(element, it)| value(Some(element), it)).collect(),
+    }
+}
+
+/// Reads inputs of a kind: how many were refused, and the longest time for a byte.
+fn read_all(kind: &str, make: fn(&mut Rng) -> Vec<u8>) -> usize {
+    let count = inputs();
+    let mut rng = Rng::new(kind.len() as u64);
+    let (mut refused, mut bytes, mut longest) = (0, 0, Duration::ZERO);
+    for _ in 0..count {
+        let input = make(&mut rng);
+        let text = decode(&input);
+        let start = Instant::now();
+        let module = parse(&text, &[]);
+        // A text of a few bytes takes the time of one call.
+        longest = longest.max(start.elapsed() / text.len().max(100) as u32);
+        bytes += text.len();
+        match module {
+            Ok(module) => check(&text, &module),
+            Err(error) => {
+                assert!(!error.to_string().is_empty());
+                refused += 1;
+            }
+        }
+    }
+    println!("{kind}: {count} inputs of {bytes} bytes, {refused} refused, at most {longest:?} a byte");
+    count - refused
+}
+
+#[test]
+fn random_bytes_do_not_panic() {
+    read_all("random bytes", random_bytes);
+}
+
+#[test]
+fn token_soups_do_not_panic() {
+    assert!(read_all("token soups", token_soup) > 0);
+}
+
+#[test]
+fn statements_in_any_order_do_not_panic() {
+    assert!(read_all("statements in any order", statements) > 0);
+}
+
+#[test]
+fn mutations_do_not_panic() {
+    assert!(read_all("mutations", mutation) > 0);
+}
+
+/// Texts that grow with their size in one way each.
+fn pathological(size: usize) -> Vec<(&'static str, String)> {
+    let target = "[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]";
+    let lines = |line: &dyn Fn(usize) -> String| (0..size).map(line).collect::<Vec<_>>().join("");
+    let chain = |i: usize| format!("CONST num p{i}:=p{};", i + 1);
+    vec![
+        ("open brackets", format!("CONST num a:={}", "[".repeat(size))),
+        ("open brackets that are skipped", format!("foo {}", "[(".repeat(size))),
+        ("brackets that are skipped", format!("foo {}{};", "[".repeat(size), "]".repeat(size))),
+        ("forward references", lines(&chain) + &format!("CONST num p{size}:=1;")),
+        ("forward references to what is unknown", lines(&chain)),
+        ("a circle of references", lines(&chain) + &format!("CONST num p{size}:=p0;")),
+        ("duplicate names", lines(&|i| format!("VAR num a{};", i / 2))),
+        ("names in different routines", lines(&|i| format!("PROC r{i}()VAR num a:=1;VAR num b:=a;ENDPROC "))),
+        ("an unclosed string", format!("foo \"{}", "a".repeat(10 * size))),
+        ("quotes", "\"\"".repeat(5 * size)),
+        ("comments", "! foo\n".repeat(size)),
+        ("a long name", format!("VAR num {}:=1;", "a".repeat(10 * size))),
+        ("a long number", format!("VAR num a:={};", "1".repeat(10 * size))),
+        ("a long sum", format!("CONST num a:=0{};", "+1".repeat(5 * size))),
+        ("signs", format!("CONST num a:={}1;", "-".repeat(10 * size))),
+        ("components", format!("CONST num a:=b{};", ".x".repeat(5 * size))),
+        ("moves on one line", lines(&|_| "MoveL p,v1,z1,tool0;".into())),
+        ("declarations on one line", lines(&|i| format!("VAR pos p{i}:=[1,2,3];"))),
+        ("an array", format!("CONST num a{{{size}}}:=[{}1];", "1,".repeat(size - 1))),
+        (
+            "references to one array",
+            format!("CONST robtarget a{{2}}:=[{target},{target}];") + &lines(&|i| format!("CONST num b{i}:=a{{2}}.trans.z;")),
+        ),
+        ("loops in loops", lines(&|i| if i % 64 < 32 { "FOR i FROM 1 TO 2 DO MoveL p,v,z,tool0; ".into() } else { "ENDFOR ".into() })),
+        ("statements without an end", "foo ".repeat(size)),
+    ]
+}
+
+/// The time of reading a text, the least of three.
+fn time(text: &str) -> f64 {
+    let once = || {
+        let start = Instant::now();
+        let _ = std::hint::black_box(parse(std::hint::black_box(text), &[]));
+        start.elapsed().as_secs_f64()
+    };
+    (0..3).map(|_| once()).fold(f64::INFINITY, f64::min)
+}
+
+/// Twice the text takes about twice the time: ratios are printed, and a quadratic reader, whose ratio of sixteen sizes is 256, is not let through.
+#[test]
+fn reading_time_is_linear() {
+    let size = if inputs() > 100_000 { 20_000 } else { 2000 };
+    let texts = [1, 2, 4, 16].map(|times| pathological(times * size));
+    for i in 0..texts[0].len() {
+        let [one, two, four, sixteen] = [0, 1, 2, 3].map(|times: usize| time(&texts[times][i].1));
+        println!("{}: {:.1} ms, ratios {:.1} {:.1} {:.1}", texts[0][i].0, 1e3 * one, two / one, four / one, sixteen / one);
+        // Sizes below a tenth of a millisecond tell nothing of a ratio.
+        assert!(sixteen / one.max(1e-4) < 100.0, "{}: {:.1}", texts[0][i].0, sixteen / one);
+    }
+}
+
+/// A program of 50,000 targets and as many moves.
+#[test]
+fn large_modules_are_read_at_once() {
+    let count = if inputs() > 100_000 { 50_000 } else { 1000 };
+    let target: fn(usize) -> String = |i| {
+        format!("  CONST robtarget p{i}:=[[{i}.125,-20.5,300.75],[0.5,0.5,-0.5,0.5],[0,-1,0,1],[9E+09,9E+09,9E+09,9E+09,9E+09,9E+09]];\n")
+    };
+    let step: fn(usize) -> String = |i| format!("    MoveL p{i},v100,z10,tGripper\\WObj:=wTable;\n");
+    let [targets, steps] = ([target, step].map(|line| (0..count).map(line).collect::<Vec<_>>().join("")));
+    let tool = "PERS tooldata tGripper:=[TRUE,[[0,0,100],[1,0,0,0]],load0];PERS wobjdata wTable:=wobj0;";
+    let text = format!("MODULE Large\n{tool}\n{targets}  PROC main()\n{steps}  ENDPROC\nENDMODULE\n");
+    let seconds = time(&text);
+    let module = parse(&text, &[]).unwrap();
+    assert_eq!((module.data().len(), module.moves().len()), (count + 2, count));
+    assert!(module.moves().iter().all(|step| step.target.value.is_ok() && step.wobj.as_ref().unwrap().value.is_ok()));
+    println!("{count} targets and {count} moves, {} bytes: {:.0} ms", text.len(), 1e3 * seconds);
+}
