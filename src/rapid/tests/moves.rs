@@ -75,15 +75,16 @@ fn moves_that_cannot_be_resolved_say_why() {
     let module = read(
         "MODULE M VAR robtarget q; PROC go(robtarget r, \\num T)
          MoveL *, v100, z10, tGripper\\WObj:=wTable;
-         MoveL r, v100\\T?:=T, z10, tool0; MoveL q, v100, z10, tool0; MoveJDO q, v1, fine, tool0, do1, 1; ENDPROC ENDMODULE",
+         MoveL r, v100\\T?T, z10, tool0; MoveL q, v100, z10, tool0\\WObj ?w; MoveJDO q, v1, fine, tool0, do1, 1; ENDPROC ENDMODULE",
     );
     let [taught, parameter, empty] = module.moves() else { panic!() };
     assert_eq!(taught.target.value, Err("* is taught on the controller, its value is not in the text".into()));
     assert_eq!(taught.tool.value, Err("refers to tGripper, which is not in this module".into()));
     assert_eq!(taught.wobj.as_ref().unwrap().value, Err("refers to wTable, which is not in this module".into()));
     assert_eq!(parameter.target.value, Err("refers to r, a parameter of go".into()));
-    assert_eq!(parameter.to_string(), "MoveL r,v100\\T?:=T,z10,tool0;");
+    assert_eq!(parameter.to_string(), "MoveL r,v100\\T?T,z10,tool0;");
     assert_eq!(empty.target.value, Err("refers to q, whose declaration has no value".into()));
+    assert_eq!(empty.wobj.as_ref().unwrap().value, Err("it depends on whether an optional argument is there".into()));
     assert_eq!(told(&module), ["MoveJDO is no instruction that is read"]);
     again(&module, &[]);
 }
