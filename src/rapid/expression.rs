@@ -285,21 +285,19 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         Ok(call)
     }
 
-    /// `Name` or `Name:=value`; the backslash was taken.
+    /// `Name`, `Name:=value` or `Name?parameter`; the backslash was taken.
     pub(super) fn optional(&mut self) -> Result<(&'a str, Option<Expression<'a>>), RapidFault> {
         if self.tokens.peek().kind != TokenKind::Name {
             return Err(self.tokens.unexpected("the name of an optional argument"));
         }
         let token = self.tokens.take()?;
         let name = self.tokens.text_of(token);
-        // \Name? passes on whether the caller's own argument is there.
+        // \Name?parameter passes the caller's own argument on, if there is one; the question mark belongs to the value.
+        let mark = self.tokens.peek();
         if self.tokens.take_if(b'?')? {
-            let what = "it depends on whether an optional argument is there";
-            if self.tokens.peek().kind == TokenKind::Assign {
-                self.tokens.take()?;
-                self.expression()?;
-            }
-            return Ok((name, Some(self.made(token.start, Form::Unread(what)))));
+            self.expression()?;
+            let form = Form::Unread("it depends on whether an optional argument is there");
+            return Ok((name, Some(self.made(mark.start, form))));
         }
         if self.tokens.peek().kind != TokenKind::Assign {
             return Ok((name, None));

@@ -72,7 +72,7 @@ pub struct MoveOption {
     pub after: usize,
     /// Name, as it is written.
     pub name: String,
-    /// Source text of its value; none of a switch.
+    /// Source text of its value; none of a switch. It begins with `?` where a routine passes its own optional argument on.
     pub text: Option<String>,
 }
 

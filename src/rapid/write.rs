@@ -124,21 +124,20 @@ impl fmt::Display for Datum {
     }
 }
 
+/// Writes an optional argument; a text that begins with a question mark passes the caller's own argument on.
+fn write_option(f: &mut fmt::Formatter<'_>, name: &str, text: Option<&str>) -> fmt::Result {
+    match text {
+        None => write!(f, "\\{name}"),
+        Some(text) if text.starts_with('?') => write!(f, "\\{name}{text}"),
+        Some(text) => write!(f, "\\{name}:={text}"),
+    }
+}
+
 impl Move {
     /// Writes the options that stand behind a number of required arguments.
     fn write_options(&self, f: &mut fmt::Formatter<'_>, after: usize) -> fmt::Result {
-        for option in self.options.iter().filter(|option| option.after == after) {
-            write!(f, "\\{}", option.name)?;
-            if let Some(text) = &option.text {
-                // A value that asks whether the caller's own argument is there has its name in it.
-                if text.starts_with(&option.name) && text[option.name.len()..].trim_start().starts_with('?') {
-                    f.write_str(&text[option.name.len()..])?;
-                } else {
-                    write!(f, ":={text}")?;
-                }
-            }
-        }
-        Ok(())
+        let mut options = self.options.iter().filter(|option| option.after == after);
+        options.try_for_each(|option| write_option(f, &option.name, option.text.as_deref()))
     }
 }
 
@@ -156,7 +155,7 @@ impl fmt::Display for Move {
         for (i, text) in required.enumerate() {
             write!(f, "{}{text}", if i == 0 { "" } else { "," })?;
             if let (Some(wobj), true) = (&self.wobj, i + 1 == last) {
-                write!(f, "\\WObj:={}", wobj.text)?;
+                write_option(f, "WObj", Some(&wobj.text))?;
             }
             self.write_options(f, i + 1)?;
         }
