@@ -6,7 +6,7 @@ mod common;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use common::{Rng, apart, on_each_set, reach_of};
-use irbkin::{Error, Explanation, FreeJoint, JacobianFrame, JointLimits, OpwParameters, Robot, SLOTS, Status, batch, pose_to_rows};
+use irbkin::{Error, Explanation, FreeJoint, JacobianFrame, JointLimits, OpwParameters, Robot, SLOTS, batch, pose_to_rows};
 use nalgebra::Matrix6;
 
 /// The figures of an IRB 2400-10/1.55.

@@ -15,6 +15,7 @@ use crate::kinematics::branches::Branches;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::dh::{DhRow, Mdh};
 use crate::kinematics::free_choice::FreeChoice;
+use crate::kinematics::limits::JointLimits;
 use crate::kinematics::pose::PoseError;
 use crate::kinematics::solutions::SLOTS;
 
