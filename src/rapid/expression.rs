@@ -68,7 +68,7 @@ pub(super) enum Operator {
 /// Reads expressions and collects the names that they refer to.
 pub(super) struct ExpressionReader<'t, 'a> {
     tokens: &'t mut Tokens<'a>,
-    /// Names in the expressions read, in order.
+    /// Names in the expressions read, those of functions too, in order.
     pub(super) names: Vec<&'a str>,
     depth: usize,
 }
@@ -255,11 +255,11 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         }
         self.tokens.take()?;
         let next = self.tokens.peek();
+        self.names.push(name);
         if next.is(b'(') {
             self.tokens.take()?;
             return Ok(Form::Call(Box::new(self.call(name, next)?)));
         }
-        self.names.push(name);
         let indices = if next.is(b'{') {
             self.tokens.take()?;
             self.list(next, b'}')?
