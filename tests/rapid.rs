@@ -160,6 +160,7 @@ const BROKEN: &[(&str, &str)] = &[
     ("ENDIF", "line 1, column 1: ENDIF stands where a declaration or an instruction (no such block is open) must"),
     ("FOR i FROM 1 TO 2 DO\nENDWHILE", "line 2, column 1: ENDWHILE stands where ENDFOR must"),
     ("FOR i FROM 1 TO 2;", "line 1, column 18: ; stands where DO must"),
+    ("TEST x; CASE 1: ENDTEST", "line 1, column 7: ; stands where CASE must"),
     ("IF x VAR num a;", "line 1, column 6: VAR stands where THEN or an instruction must"),
     ("ENDPROC", "line 1, column 1: ENDPROC stands where a declaration or an instruction (no routine is open) must"),
     ("RECORD r\nnum a;", "line 2, column 7: the text ends inside RECORD r: ENDRECORD is missing"),

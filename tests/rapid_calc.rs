@@ -1,5 +1,5 @@
 //! `CalcJointT`, `CalcRobT` and the tables of whole modules.
-#![allow(clippy::unwrap_used, missing_docs)]
+#![allow(clippy::unwrap_used, clippy::float_cmp, missing_docs)]
 
 mod common;
 

@@ -101,8 +101,9 @@ impl<'a> Blocks<'a> {
                 self.begin(tokens, 2, None, token)
             }
             "TEST" => {
-                skip_balanced(tokens, |tokens, _| ["CASE", "DEFAULT", "ENDTEST"].iter().any(|word| tokens.at_word(word)))?;
-                self.begin(tokens, 3, None, token)
+                let at_case = |tokens: &Tokens<'_>| ["CASE", "DEFAULT", "ENDTEST"].iter().any(|word| tokens.at_word(word));
+                skip_balanced(tokens, |tokens, _| at_case(tokens))?;
+                if at_case(tokens) { self.begin(tokens, 3, None, token) } else { Err(tokens.unexpected("CASE")) }
             }
             "CASE" | "DEFAULT" => {
                 skip_balanced(tokens, |tokens, _| tokens.peek().is(b':'))?;

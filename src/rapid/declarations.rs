@@ -1,12 +1,15 @@
 //! Declarations of data and the names of a scope.
 
+use core::ops::Range;
+
+use alloc::boxed::Box;
 use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use super::expression::{Expression, ExpressionReader};
 use super::kind::DataType;
-use super::module::{Scope, Storage};
+use super::module::{Content, Scope, Storage};
 use super::skipping::skip_balanced;
 use super::tokens::{TokenKind, Tokens};
 use super::words::is_name;
@@ -31,7 +34,12 @@ pub(super) struct Declared<'a> {
     pub(super) value_place: usize,
     pub(super) line: usize,
     pub(super) column: usize,
+    /// What it holds, where that was known without any name.
+    pub(super) content: Option<Box<Placed>>,
 }
+
+/// A content with the bytes of its value and of its elements.
+pub(super) type Placed = (Content, Range<usize>, Vec<Range<usize>>);
 
 /// What was declared.
 pub(super) enum Declaration<'a> {
@@ -77,8 +85,22 @@ pub(super) fn read_declaration<'a>(
     let (line, column) = tokens.line_and_column(start);
     let (sizes, names) = ExpressionReader::new(tokens).sizes()?;
     let value_place = tokens.last_end;
-    let mut declared =
-        Declared { name, data_type, scope, storage, routine: 0, sizes, value: None, names, start, end: start, value_place, line, column };
+    let mut declared = Declared {
+        name,
+        data_type,
+        scope,
+        storage,
+        routine: 0,
+        sizes,
+        value: None,
+        names,
+        start,
+        end: start,
+        value_place,
+        line,
+        column,
+        content: None,
+    };
     if tokens.peek().kind == TokenKind::Assign {
         tokens.take()?;
         let mut reader = ExpressionReader::new(tokens);

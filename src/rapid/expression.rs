@@ -12,6 +12,9 @@ use crate::error::{RapidFault, RapidFaultKind};
 /// The deepest nesting of brackets and of blocks that is read.
 pub const DEEPEST_NESTING: usize = 64;
 
+/// Room that is made at first for the components of an aggregate: most have four or six.
+const USUAL_COMPONENTS: usize = 6;
+
 /// An expression and the bytes that it takes.
 #[derive(Debug)]
 pub(super) struct Expression<'a> {
@@ -27,7 +30,7 @@ pub(super) enum Form<'a> {
     Text(&'a str),
     Bool(bool),
     Aggregate(Vec<Expression<'a>>),
-    Reference(Reference<'a>),
+    Reference(Box<Reference<'a>>),
     Call(Box<Call<'a>>),
     Negated(Box<Expression<'a>>),
     /// Numbers that are added or multiplied, from left to right.
@@ -65,7 +68,7 @@ pub(super) enum Operator {
 /// Reads expressions and collects the names that they refer to.
 pub(super) struct ExpressionReader<'t, 'a> {
     tokens: &'t mut Tokens<'a>,
-    /// Names in the expressions read, in order.
+    /// Names in the expressions read, those of functions too, in order.
     pub(super) names: Vec<&'a str>,
     depth: usize,
 }
@@ -77,7 +80,16 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
 
     /// The expression that begins at the next token.
     pub(super) fn expression(&mut self) -> Result<Expression<'a>, RapidFault> {
-        let start = self.tokens.peek().start;
+        let first = self.tokens.peek();
+        if let TokenKind::Number(value) = first.kind {
+            // Most of a module: a number by itself.
+            self.tokens.take()?;
+            if matches!(self.tokens.peek().kind, TokenKind::Symbol(b',' | b']')) {
+                return Ok(self.made(first.start, Form::Number(value)));
+            }
+            self.tokens.step_back(first);
+        }
+        let start = first.start;
         let sum = self.sum()?;
         if self.at_end_of_expression() {
             return Ok(sum);
@@ -113,6 +125,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         }
         let mut expressions = Vec::new();
         if !self.tokens.peek().is(close) {
+            expressions.reserve_exact(USUAL_COMPONENTS);
             expressions.push(self.expression()?);
             while self.tokens.take_if(b',')? {
                 expressions.push(self.expression()?);
@@ -242,11 +255,11 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         }
         self.tokens.take()?;
         let next = self.tokens.peek();
+        self.names.push(name);
         if next.is(b'(') {
             self.tokens.take()?;
             return Ok(Form::Call(Box::new(self.call(name, next)?)));
         }
-        self.names.push(name);
         let indices = if next.is(b'{') {
             self.tokens.take()?;
             self.list(next, b'}')?
@@ -261,7 +274,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
             let component = self.tokens.take()?;
             components.push(self.tokens.text_of(component));
         }
-        Ok(Form::Reference(Reference { name, indices, components }))
+        Ok(Form::Reference(Box::new(Reference { name, indices, components })))
     }
 
     fn call(&mut self, name: &'a str, open: Token) -> Result<Call<'a>, RapidFault> {

@@ -21,6 +21,7 @@
 //! of the declarations: what a program assigns is not followed. A negative zero is read as zero.
 
 mod blocks;
+mod build;
 mod calc;
 mod declarations;
 mod displaced;

@@ -76,6 +76,25 @@ pub struct Datum {
     pub element_spans: Vec<Range<usize>>,
 }
 
+impl Datum {
+    /// A single value that is declared for the whole module, of global scope.
+    #[must_use]
+    pub fn single(name: String, storage: Storage, value: Value) -> Self {
+        Self {
+            name,
+            data_type: value.data_type(),
+            scope: Scope::Global,
+            storage,
+            routine: None,
+            content: Content::Single(value),
+            line: 0,
+            column: 0,
+            value_span: 0..0,
+            element_spans: Vec::new(),
+        }
+    }
+}
+
 /// What is declared as `PROC`, `FUNC` or `TRAP`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RoutineKind {

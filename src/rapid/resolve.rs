@@ -1,5 +1,6 @@
 //! From names to values: data after those that they refer to, then the moves.
 
+use alloc::boxed::Box;
 use alloc::collections::BTreeMap;
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -8,7 +9,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::blocks::Blocks;
-use super::declarations::{Declared, Named, Scopes};
+use super::declarations::{Declared, Named, Placed, Scopes};
 use super::evaluate::{Evaluator, Stop, positive_whole};
 use super::expression::{Expression, Form};
 use super::kind::DataType;
@@ -35,9 +36,6 @@ pub(super) enum Found<'r> {
     /// Why it has no value.
     Unknown(String),
 }
-
-/// A content with the bytes of its value and of its elements.
-type Placed = (Content, Range<usize>, Vec<Range<usize>>);
 
 /// Looks names up.
 pub(super) struct Resolver<'a> {
@@ -122,6 +120,9 @@ impl<'a> Resolver<'a> {
     }
 
     fn resolve(&mut self, index: usize) -> Result<(), RapidFault> {
+        if self.contents[index].is_some() {
+            return Ok(());
+        }
         match self.content(&self.declared[index]) {
             Ok(placed) => self.contents[index] = Some(placed),
             Err(Stop::Fault(fault)) => return Err(fault),
@@ -312,10 +313,28 @@ fn routine_name(routines: &[Routine], routine: usize) -> Option<String> {
     routines.get(routine.checked_sub(1)?).map(|routine| routine.name.clone())
 }
 
+/// Gives a declaration without names what it holds and lets go of its expression, most of the memory of a large text.
+pub(super) fn resolve_at_once(text: &str, declared: &mut Declared<'_>) -> Result<(), RapidFault> {
+    if !declared.names.is_empty() {
+        return Ok(());
+    }
+    let (scopes, blocks) = (Scopes::new(), Blocks::new());
+    let resolver =
+        Resolver { text, declared: &[], scopes: &scopes, blocks: &blocks, context: &[], contents: Vec::new(), reasons: BTreeMap::new() };
+    match resolver.content(declared) {
+        Ok(placed) => declared.content = Some(Box::new(placed)),
+        Err(Stop::Fault(fault)) => return Err(fault),
+        // It is told when all names are known.
+        Err(Stop::Unknown(_)) => return Ok(()),
+    }
+    declared.value = None;
+    Ok(())
+}
+
 /// The module of a text with every name looked up.
 pub(super) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Module, RapidFault> {
-    let Written { text, name, attributes, routines, declared, mut moves, mut skipped, scopes, blocks } = written;
-    let contents = declared.iter().map(|_| None).collect();
+    let Written { text, name, attributes, routines, mut declared, mut moves, mut skipped, scopes, blocks } = written;
+    let contents = declared.iter_mut().map(|datum| datum.content.take().map(|placed| *placed)).collect();
     let (declared_data, blocks, all_scopes) = (&declared, &blocks, &scopes);
     let mut resolver = Resolver { text, declared: declared_data, scopes: all_scopes, blocks, context, contents, reasons: BTreeMap::new() };
     resolver.resolve_all()?;

@@ -8,6 +8,7 @@ use super::blocks::Blocks;
 use super::declarations::{Declaration, Declared, Named, Scopes, read_declaration, read_name, storage_at};
 use super::module::{Routine, RoutineKind, Scope, Skipped};
 use super::moves::{MoveKind, WrittenMove, read_move};
+use super::resolve::resolve_at_once;
 use super::skipping::skip_balanced;
 use super::tokens::{Token, TokenKind, Tokens};
 use crate::error::{RapidFault, RapidFaultKind};
@@ -192,6 +193,7 @@ impl<'a> StatementReader<'a> {
         let (name, named) = match declaration {
             Declaration::Read(mut declared) => {
                 declared.routine = self.routine;
+                resolve_at_once(self.written.text, &mut declared)?;
                 let name = declared.name;
                 self.written.declared.push(declared);
                 (name, Named::Datum(self.written.declared.len() - 1))

@@ -97,6 +97,11 @@ impl<'a> Tokens<'a> {
         Ok(token)
     }
 
+    /// Makes a token that was taken the next one again.
+    pub(super) fn step_back(&mut self, token: Token) {
+        self.next = token;
+    }
+
     /// Takes the next token where it is this symbol.
     pub(super) fn take_if(&mut self, symbol: u8) -> Result<bool, RapidFault> {
         let is = self.next.is(symbol);

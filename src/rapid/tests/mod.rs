@@ -1,5 +1,6 @@
 //! What is read, construct by construct.
 
+mod build;
 mod functions;
 mod moves;
 mod names;
