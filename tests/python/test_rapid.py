@@ -251,6 +251,7 @@ def test_an_empty_module_is_an_empty_table():
 
 
 def test_rapid_is_imported_when_it_is_asked_for():
-    code = "import irbkin, sys; print('irbkin.rapid' in sys.modules); irbkin.rapid.parse; print('irbkin.rapid' in sys.modules)"
+    loaded = "print('irbkin.rapid' in sys.modules)"
+    code = f"import irbkin, sys; {loaded}; irbkin.rapid.parse; {loaded}"
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert run.stdout.split() == ["False", "True"]

@@ -6,7 +6,6 @@ use core::f64::consts::PI;
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::SphericalWrist;
-use super::wrist::{forearm_to_flange, wrist};
 use crate::kinematics::branches::Branches;
 use crate::kinematics::free_choice::FreeChoice;
 use crate::kinematics::planar_arm::{Elbow, Shoulder, Shoulders, Target};
@@ -55,9 +54,8 @@ impl SphericalWrist {
                 continue;
             };
             let Elbow { theta_2, theta_3, .. } = elbow;
-            let shoulder = self.turned_for_wrist(shoulder, &elbow, target);
+            let (shoulder, wrist) = self.shoulder_and_wrist(shoulder, &elbow, target, error);
             let theta_1 = shoulder.sin_1.atan2(shoulder.cos_1);
-            let wrist = wrist(&forearm_to_flange(&shoulder, &elbow, target.rotation), target, error);
             let [theta_4, theta_5, theta_6] = wrist.theta;
             let flags = if wrist.merged { merged | Status::WRIST } else { merged };
             // A free theta_4 that was given may leave theta_5 negative: then the flipped slot is the one that is kept.
