@@ -165,6 +165,7 @@ const BROKEN: &[(&str, &str)] = &[
     ("ENDPROC", "line 1, column 1: ENDPROC stands where a declaration or an instruction (no routine is open) must"),
     ("RECORD r\nnum a;", "line 2, column 7: the text ends inside RECORD r: ENDRECORD is missing"),
     ("%%% VERSION:1", "line 1, column 1: the text ends inside the header: %%% is missing"),
+    ("x;\n%%% VERSION:1 %%%", "line 2, column 2: % stands where the name of a procedure must"),
     ("MODULE A ENDMODULE\nMODULE B ENDMODULE", "line 2, column 1: a second module begins, a text must hold one"),
     ("MODULE A\n MODULE B", "line 2, column 2: a second module begins, a text must hold one"),
     ("MODULE A ENDMODULE x;", "line 1, column 20: x stands where the end of the text must"),

@@ -316,7 +316,7 @@ fn time(text: &str) -> f64 {
 #[test]
 fn reading_time_is_linear() {
     let is_long = inputs() > 100_000;
-    let size = if is_long { 20_000 } else { 2000 };
+    let size = if is_long { 20_480 } else { 2048 };
     let texts = [1, 2, 4, 16].map(|times| pathological(times * size));
     for i in 0..texts[0].len() {
         let [one, two, four, sixteen] = [0, 1, 2, 3].map(|times: usize| time(&texts[times][i].1));

@@ -321,6 +321,10 @@ impl<'a> StatementReader<'a> {
         if first.is(b'<') {
             return self.placeholder(first);
         }
+        // Two of them begin a header, which stands at the beginning only.
+        if first.is(b'%') && next.is(b'%') {
+            return Err(self.tokens.unexpected("the name of a procedure"));
+        }
         let is_assignment = next.kind == TokenKind::Assign || next.is(b'{') || next.is(b'.');
         skip_balanced(&mut self.tokens, |tokens, _| super::blocks::begins_another(tokens))?;
         self.tokens.demand(b';', "a semicolon")?;
