@@ -59,6 +59,7 @@ check: $(BUILT) $(VENV)/.groups ## Format, lints for each feature set, types, st
 	RUSTDOCFLAGS='-D warnings' cargo doc --quiet --no-deps --features serde
 	cargo bench --quiet --bench one_pose --bench batch --bench instructions -- --test
 	$(BIN)/python benches/python_calls.py >/dev/null
+	TARGETS=1000 $(BIN)/python benches/rapid_module.py >/dev/null
 	$(BIN)/python -m benches.peers --quick >/dev/null
 	$(BIN)/python benches/instructions.py >/dev/null
 	for example in examples/*.rs; do cargo run --quiet --release --example "$$(basename "$$example" .rs)" >/dev/null; done
@@ -68,9 +69,10 @@ check: $(BUILT) $(VENV)/.groups ## Format, lints for each feature set, types, st
 	$(BIN)/python -m mypy.stubtest irbkin --concise
 	for example in examples/*.py; do $(BIN)/python "$$example" >/dev/null; done
 
-bench: $(BUILT) ## Time one pose and batches in Rust on each instruction set, and Python's calls against yardsticks
+bench: $(BUILT) ## Time one pose and batches in Rust on each instruction set, Python's calls and a RAPID module against yardsticks
 	cargo bench --bench one_pose --bench batch
 	$(BIN)/python benches/python_calls.py
+	$(BIN)/python benches/rapid_module.py
 
 # One at a time: a peer that has no wheel for this Python does not keep the others out.
 $(PEERS)/.made: benches/peers/requirements.txt | toolchains

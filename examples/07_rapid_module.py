@@ -1,0 +1,54 @@
+"""A RAPID module: the joint angles of its moves, and the module written back with confdata that exists."""
+
+import dataclasses
+from pathlib import Path
+
+import irbkin
+import numpy as np
+from irbkin import rapid
+
+MODULE = Path(__file__).parent / "pick_and_place.mod"
+
+
+def degrees(q: np.ndarray) -> str:
+    # Adding zero takes the sign off a zero.
+    return " ".join(f"{round(np.degrees(angle), 2) + 0.0:8.2f}" for angle in q)
+
+
+def show(table: rapid.TargetTable) -> None:
+    for row, (kind, name, problem) in enumerate(zip(table.kinds, table.names, table.problems, strict=True)):
+        confdata = [int(numbers[row]) for numbers in table.configuration]
+        joints = degrees(table.q[row]) if np.isfinite(table.q[row]).all() else " " * 53
+        print(f"  {kind:8} {name[:22]:22} {joints}  {confdata}  {(problem or '')[:60]}")
+
+
+def main() -> None:
+    robot = irbkin.Robot("IRB 2600-12/1.65")
+    module = rapid.load(MODULE)
+    print(f"{MODULE.name}: {len(module.data)} data, {len(module.moves)} moves")
+    for part in module.skipped:
+        print(f"  line {part.line}: {part.what}")
+
+    print("\nas it is, CalcJointT of every target")
+    show(rapid.calc_moves(robot, module))
+
+    # Where nobody calculated confdata, the solution nearest to the joints before is meant. Poses stay as written.
+    home = np.radians([0, 0, 0, 0, 30, 0])
+    table = rapid.calc_targets(robot, module, module["tGripper"], module["wTray"], fallback="nearest", seed=home)
+    corrected = {
+        name: dataclasses.replace(module[name], robconf=[numbers[row] for numbers in table.configuration])
+        for row, (name, problem) in enumerate(zip(table.names, table.problems, strict=True))
+        if problem is not None and np.isfinite(table.q[row]).all()
+    }
+    text = module.rewritten(corrected)
+    print(f"\nwritten back with {len(corrected)} configurations")
+    for before, after in zip(module.source.splitlines(), text.splitlines(), strict=True):
+        if before != after:
+            print(f"  {after.strip()[:96]}")
+
+    print("\nread again")
+    show(rapid.calc_moves(robot, rapid.parse(text)))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,64 @@
+//! A RAPID module: the joint angles of its moves, and the module written back with confdata that exists.
+
+use irbkin::rapid::{self, Content, Fallback, NewValue, RobTarget, TableRow, ToolData, Value, WobjData};
+use irbkin::{Error, Robot};
+
+const MODULE: &str = include_str!("pick_and_place.mod");
+
+fn degrees(q: &[f64; 6]) -> String {
+    // Adding zero takes the sign off a zero.
+    q.map(|angle| format!("{:8.2}", (100.0 * angle.to_degrees()).round() / 100.0 + 0.0)).join(" ")
+}
+
+fn show(rows: &[TableRow]) {
+    for TableRow { kind, text, q, configuration, problem, .. } in rows {
+        let (joints, problem) = (q.as_ref().map_or_else(|| " ".repeat(53), degrees), problem.as_deref().unwrap_or(""));
+        println!("  {kind:8} {text:22.22} {joints}  {configuration}  {problem:.60}");
+    }
+}
+
+fn tool_and_wobj(module: &rapid::Module) -> Option<(ToolData, WobjData)> {
+    let (tool, wobj) = (module.find("tGripper")?, module.find("wTray")?);
+    match (&tool.content, &wobj.content) {
+        (Content::Single(Value::ToolData(tool)), Content::Single(Value::WobjData(wobj))) => Some((*tool, wobj.clone())),
+        _ => None,
+    }
+}
+
+/// Where nobody calculated confdata, the solution nearest to the joints before is meant. The poses stay as they are written.
+fn corrected(robot: &Robot<6>, module: &rapid::Module) -> Result<Vec<NewValue>, Error> {
+    let Some((tool, wobj)) = tool_and_wobj(module) else { return Ok(Vec::new()) };
+    let home = [0.0, 0.0, 0.0, 0.0, 30.0, 0.0].map(f64::to_radians);
+    let rows = rapid::calc_targets(robot, module, Some(&tool), Some(&wobj), Fallback::Nearest(home))?;
+    let wrong = |row: &&TableRow| row.problem.is_some() && row.q.is_some();
+    let new_value = |row: &TableRow| {
+        let datum = module.data().iter().position(|datum| datum.name == row.text)?;
+        let Content::Single(Value::RobTarget(target)) = module.data()[datum].content else { return None };
+        let value = Value::RobTarget(RobTarget { robconf: row.configuration, ..target });
+        Some(NewValue { datum, element: None, value })
+    };
+    Ok(rows.iter().filter(wrong).filter_map(new_value).collect())
+}
+
+fn main() -> Result<(), Error> {
+    let robot: Robot<6> = Robot::named("IRB 2600-12/1.65")?;
+    let module = rapid::parse(MODULE, &[])?;
+    println!("pick_and_place.mod: {} data, {} moves", module.data().len(), module.moves().len());
+    for part in module.skipped() {
+        println!("  line {}: {}", part.line, part.what);
+    }
+
+    println!("\nas it is, CalcJointT of every target");
+    show(&rapid::calc_moves(&robot, &module, Fallback::None)?);
+
+    let corrected = corrected(&robot, &module)?;
+    let text = rapid::rewrite(MODULE, &module, &corrected)?;
+    println!("\nwritten back with {} configurations", corrected.len());
+    for (_, after) in MODULE.lines().zip(text.lines()).filter(|(before, after)| before != after) {
+        println!("  {:.96}", after.trim());
+    }
+
+    println!("\nread again");
+    show(&rapid::calc_moves(&robot, &rapid::parse(&text, &[])?, Fallback::None)?);
+    Ok(())
+}
