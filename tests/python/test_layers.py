@@ -45,7 +45,7 @@ LAYERS = [
     "follow",
     "crossing",
 ]
-OUTER = ["lanes", "kinematics", "catalogue", "batch", "urdf", "python"]
+OUTER = ["lanes", "kinematics", "catalogue", "batch", "urdf", "rapid", "python"]
 
 
 def modules_used(path: Path) -> set[str]:
