@@ -46,6 +46,8 @@ fn solve_allocates_nothing() {
     let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
     let panda: Robot<7> = Robot::named("Panda").unwrap();
     let ur3: Robot<6> = Robot::named("UR3").unwrap();
+    let coupled: Robot<6> = Robot::named("IRB 2400-10/1.55").unwrap();
+    let coupled = coupled.with_rod_limits(Some([-2.0, 1.0])).unwrap();
     let q = [0.3, -0.2, 0.4, 0.5, -0.6, 0.7];
     let pose = robot.fk(&q);
     let count = allocations_of(|| {
@@ -75,6 +77,11 @@ fn solve_allocates_nothing() {
         assert!(std::hint::black_box(panda.ik(&panda.fk(&bent), told).unwrap()).len() > 1);
         assert!(std::hint::black_box(panda.ik(&panda.fk(&[0.0; 7]), 0.0).unwrap()).len() > 1);
         std::hint::black_box(panda.ik_nearest(&panda.fk(&bent), &[0.0, -0.6, 0.1, -2.0, 0.0, 1.5, 0.5], &[1.0; 7]).unwrap());
+        // By configuration, a free joint's and a coupled arm's too.
+        for (arm, q) in [(&robot, q), (&robot, [0.1, 0.2, 0.3, -2.0, 0.0, 1.0]), (&coupled, q)] {
+            let configuration = arm.configuration(&q).unwrap();
+            std::hint::black_box(arm.ik_configured(&arm.fk(&q), configuration).unwrap());
+        }
         for q in [q, [0.0; 6]] {
             assert!(!std::hint::black_box(ur3.ik(&ur3.fk(&q)).unwrap()).is_empty());
             std::hint::black_box(ur3.ik_nearest(&ur3.fk(&q), &q, &[1.0; 6]).unwrap());

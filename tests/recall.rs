@@ -136,7 +136,7 @@ where
 
 #[test]
 fn every_generating_joint_vector_is_found() {
-    for name in ["IRB 2600-12/1.65", "IRB 120-3/0.58", "IRB 140-6/0.81", "IRB 1600-6/1.45", "IRB 6700-150/3.2"] {
+    for name in ["IRB 2600-12/1.65", "IRB 120-3/0.58", "IRB 140-6/0.81", "IRB 1600-6/1.45", "IRB 6700-150/3.2", "IRB 2400-10/1.55"] {
         check(name, &Robot::<6>::named(name).unwrap());
     }
 }
