@@ -123,6 +123,11 @@ def test_new_values_change_nothing_else_in_the_text():
         module.rewritten({"p10": JointTarget((0,) * 6)})
 
 
+def test_words_of_numbers_may_stand_in_strings():
+    wobj = WobjData(ufmec="infeed NaN")
+    assert rapid.parse(rapid.dump(wobj)) == wobj
+
+
 def test_names_are_looked_for_in_the_context():
     tools = rapid.parse("MODULE Tools(SYSMODULE)\nPERS tooldata tPin:=[TRUE,[[0,0,200],[1,0,0,0]],load0];\nENDMODULE")
     target = rapid.dump(RobTarget((1, 2, 3)))
@@ -164,7 +169,8 @@ def test_a_broken_file_is_told_with_its_path_line_and_column(tmp_path):
         (lambda: JointTarget("abcdef"), "robax_deg must be 6 finite numbers"),
         (lambda: rapid.dump(object()), "is no RAPID data"),
         (lambda: rapid.dump(float("inf")), "not finite"),
-        (lambda: rapid.dump({"no name": 1.0}), "this is no module"),
+        (lambda: rapid.dump({"no name": 1.0}), '"no name" is no name that RAPID could read'),
+        (lambda: rapid.dump(LoadData(mass_kg=np.inf)), "not finite"),
         (lambda: rapid.dump({"a": [[1.0], [1.0, 2.0]]}), "its lists have different lengths"),
         (lambda: rapid.dump({"a": []}), "at least one element"),
         (lambda: rapid.parse("[[1,2,3]]"), "is no robtarget, jointtarget, tooldata, wobjdata, pose or loaddata"),

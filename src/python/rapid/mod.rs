@@ -3,21 +3,19 @@
 mod module;
 mod records;
 
-use std::fmt::Write as _;
-
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict, PyList, PyTuple};
+use pyo3::types::{PyBytes, PyDict, PyTuple};
 
 pub(super) use self::module::RapidModule;
-use self::records::{joint_target, read_content, read_joint_target, read_rob_target, read_tool, read_value, read_wobj, record, rob_target};
+use self::records::{Given, joint_target, read_content, read_joint_target, read_rob_target, read_tool, read_wobj, record, rob_target};
 use super::configurations::{Fallback, counted};
 use super::errors::{self, rapid_fault, to_py};
 use super::found::read_seed;
 use super::robot::PyRobot;
 use crate::error::Error;
 use crate::kinematics::{Configuration, Robot};
-use crate::rapid::{self, Content, DataType, Module, TableRow, ToolData, WobjData};
+use crate::rapid::{self, Content, DataType, Datum, Module, Scope, Storage, TableRow, ToolData, Value, WobjData};
 
 /// The module of a text.
 ///
@@ -72,44 +70,29 @@ pub(super) fn dump(value: &Bound<'_, PyAny>, name: &str) -> PyResult<String> {
     if let Ok(module) = value.cast::<RapidModule>() {
         return Ok(module.get().module.to_string());
     }
+    let module = |name: &str, data| Module::new(Some(name.to_owned()), data, Vec::new(), &[]).map_err(|error| to_py(py, &error));
     let Ok(data) = value.cast::<PyDict>() else {
-        return Ok(if value.is_instance_of::<PyList>() { array(value)? } else { finite(value)? });
+        let datum = datum("value".to_owned(), value)?;
+        let text = datum.content.to_string();
+        // A module takes only what can be read again.
+        return module("Value", vec![datum]).map(|_| text);
     };
-    let mut text = format!("MODULE {name}\n");
-    for (datum, value) in data {
-        let datum: String = datum.extract()?;
-        let given = read_content(&value, &datum)?;
-        let data_type = given.values.first().map_or(DataType::Num, rapid::Value::data_type);
-        // A controller keeps tools and work objects where it can change them.
-        let storage = if matches!(data_type, DataType::ToolData | DataType::WobjData) { "PERS" } else { "CONST" };
-        let sizes = match &given.sizes[..] {
-            [] => String::new(),
-            sizes => format!("{{{}}}", sizes.iter().map(usize::to_string).collect::<Vec<_>>().join(",")),
-        };
-        let value = if given.sizes.is_empty() { finite(&value)? } else { array(&value)? };
-        writeln!(text, "    {storage} {} {datum}{sizes}:={value};", data_type.name())
-            .map_err(|error| rapid_fault(py, error.to_string()))?;
-    }
-    text.push_str("ENDMODULE\n");
-    // What cannot be read back, a name that is none for instance, is no module.
-    rapid::parse(&text, &[]).map_err(|error| rapid_fault(py, format!("this is no module: {error}")))?;
-    Ok(text)
+    let data = data.iter().map(|(name, value)| datum(name.extract()?, &value)).collect::<PyResult<Vec<_>>>()?;
+    Ok(module(name, data)?.to_string())
 }
 
-/// Nested lists of records.
-fn array(value: &Bound<'_, PyAny>) -> PyResult<String> {
-    let Ok(list) = value.cast::<PyList>() else { return finite(value) };
-    let parts = list.iter().map(|part| array(&part)).collect::<PyResult<Vec<_>>>()?;
-    Ok(format!("[{}]", parts.join(",")))
-}
-
-/// A record of finite numbers.
-fn finite(value: &Bound<'_, PyAny>) -> PyResult<String> {
-    let text = read_value(value, "value")?.to_string();
-    if text.contains("inf") || text.contains("NaN") {
-        return Err(rapid_fault(value.py(), format!("{text} is not finite, every number must be")));
-    }
-    Ok(text)
+/// The declaration of a Python record, or of nested lists of records.
+fn datum(name: String, value: &Bound<'_, PyAny>) -> PyResult<Datum> {
+    let Given { sizes, values } = read_content(value, &name)?;
+    let data_type = values.first().map_or(DataType::Num, Value::data_type);
+    // A controller keeps tools and work objects where it can change them.
+    let storage = if matches!(data_type, DataType::ToolData | DataType::WobjData) { Storage::Pers } else { Storage::Const };
+    let content = match (sizes.is_empty(), values.first()) {
+        (true, Some(value)) => Content::Single(value.clone()),
+        _ => Content::Array { sizes, values },
+    };
+    let (line, column, value_span, element_spans) = (0, 0, 0..0, Vec::new());
+    Ok(Datum { name, data_type, scope: Scope::Global, storage, routine: None, content, line, column, value_span, element_spans })
 }
 
 /// The jointtarget of a robtarget, as RAPID's CalcJointT: the joint angles with its configuration, inside the limits.

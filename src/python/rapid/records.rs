@@ -185,7 +185,7 @@ fn demand(given: &Bound<'_, PyAny>, class: &Bound<'_, PyAny>, field: &str, wante
 }
 
 /// The value of a Python record; a tuple of 3 numbers is a pos, of 4 an orient, of 6 an extjoint.
-pub(super) fn read_value(given: &Bound<'_, PyAny>, thing: &str) -> PyResult<Value> {
+fn read_value(given: &Bound<'_, PyAny>, thing: &str) -> PyResult<Value> {
     let py = given.py();
     let is = |class: PyResult<&Bound<'_, PyAny>>| given.is_instance(class?);
     let value = if is(errors::rob_target_class(py))? {
