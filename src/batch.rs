@@ -150,7 +150,8 @@ where
 ///
 /// # Errors
 ///
-/// As [`ik`], and [`Error::InvalidModel`] for an arm without a spherical wrist.
+/// As [`ik`], [`Error::InvalidModel`] for an arm without a spherical wrist, and [`Error::InvalidJoints`] for a number of a configuration
+/// that no configuration of the arm has.
 pub fn ik_configured(
     robot: &Robot<6>,
     poses: &[f64],
@@ -165,6 +166,7 @@ pub fn ik_configured(
     if configurations.len() != poses.len() {
         return Err(Error::WrongLength { field: "configurations", found: configurations.len(), wanted: poses.len() });
     }
+    configurations.iter().try_for_each(|configuration| configuration.check(robot.is_coupled()))?;
     let seeds = match seeds {
         Some(seeds) => Some(rows_for::<6>("seeds", seeds, poses.len())?),
         None => None,

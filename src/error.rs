@@ -12,7 +12,7 @@ use alloc::vec::Vec;
 pub use self::frame::FrameFault;
 pub use self::rapid::{RapidFault, RapidFaultKind};
 pub use self::urdf::{Names, UrdfFault};
-use crate::kinematics::{Configuration, Explanation, NotRecognised};
+use crate::kinematics::{Configuration, Explanation, FreeJoint, NotRecognised};
 
 /// Why a call was refused.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,6 +59,8 @@ pub struct NoConfiguration {
     pub existing: Vec<Configuration>,
     /// Whether there are more.
     pub more: bool,
+    /// The joint that the pose leaves free, at a singularity: with another angle of it there are other configurations.
+    pub free: Option<FreeJoint>,
 }
 
 impl NoConfiguration {
@@ -377,7 +379,10 @@ impl fmt::Display for NoConfiguration {
         for (i, existing) in self.existing.iter().enumerate() {
             write!(f, "{}{existing}", if i == 0 { "" } else { ", " })?;
         }
-        if self.more { write!(f, " and more") } else { Ok(()) }
+        if self.more {
+            write!(f, " and more")?;
+        }
+        self.free.map_or(Ok(()), |free| write!(f, ", and others, for J{} is free there", free.joint()))
     }
 }
 

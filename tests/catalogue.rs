@@ -265,7 +265,15 @@ fn every_arm_closes_on_random_poses_and_finds_the_joints_that_made_them() {
 
 #[test]
 fn names_forgive_spelling() {
-    for spelling in ["IRB 2600-12/1.65", "irb2600-12/1.65", "IRB_2600_12_1.65", " irb 2600 12 1.65 ", "IRB 2600-12/1.650"] {
+    for spelling in [
+        "IRB 2600-12/1,65",
+        "IRB 2600\u{2013}12/1.65",
+        "IRB 2600-12/1.65",
+        "irb2600-12/1.65",
+        "IRB_2600_12_1.65",
+        " irb 2600 12 1.65 ",
+        "IRB 2600-12/1.650",
+    ] {
         assert_eq!(Robot::<6>::named(spelling).unwrap().name(), "IRB 2600-12/1.65");
     }
     for spelling in ["IRB 6700-220/2.65 (MH6, LeanID)", "irb 6700-220/2.65 mh6 leanid"] {

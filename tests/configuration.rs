@@ -207,6 +207,50 @@ fn the_error_lists_what_exists() {
 }
 
 #[test]
+fn the_list_has_each_configuration_once_and_tells_of_a_free_joint() {
+    let wide = irb2600().with_limits(JointLimits::new([[-7.0, 7.0]; 6]).unwrap());
+    let q = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
+    let listed = |robot: &Robot<6>, q: &[f64; 6]| match robot.ik_configured(&robot.fk(q), configuration(9, 0, 0, 0)) {
+        Err(Error::NoConfiguration(none)) => none,
+        other => unreachable!("{other:?}"),
+    };
+    let none = listed(&wide, &q);
+    let once = |of: &[Configuration]| of.iter().enumerate().all(|(i, one)| !of[..i].contains(one));
+    assert!(none.more && none.free.is_none() && none.existing.len() == irbkin::NoConfiguration::MOST && once(&none.existing));
+    let by_turns: Vec<_> = wide.ik(&wide.fk(&q)).unwrap().turns().map(|turn| wide.configuration(&turn.q).unwrap()).collect();
+    assert!(none.existing.iter().all(|one| by_turns.contains(one)));
+    let singular = listed(&irb2600(), &[0.1, 0.2, 0.3, 1.0, 0.0, 0.5]);
+    assert_eq!(singular.free, Some(irbkin::FreeJoint::WristSum));
+    assert!(Error::NoConfiguration(singular).to_string().ends_with(", and others, for J4 is free there"));
+}
+
+/// Next to the singularity, where only another member of the family is inside the limits.
+#[test]
+fn a_family_that_has_members_inside_the_limits_is_not_unreachable() {
+    let mut limits = irb2600().limits().to_array();
+    (limits[3], limits[5]) = ([2.0, 2.1], [-0.6, -0.5]);
+    let robot = irb2600().with_limits(JointLimits::new(limits).unwrap());
+    for q5 in [0.0, 1e-11, 1e-9, -1e-9] {
+        let pose = irb2600().fk(&[0.1, 0.2, 0.3, 1.0, q5, 0.5]);
+        let seed = [0.1, 0.2, 0.3, 2.05, 0.0, -0.55];
+        let Err(Error::NoConfiguration(none)) = robot.ik_configured(&pose, configuration(3, 0, 0, 0)) else { unreachable!("{q5}") };
+        assert_eq!((none.existing[0].cf4, none.existing[0].cf6), (1, -1));
+        assert!(robot.ik_configured_or_nearest(&pose, configuration(3, 0, 0, 0), &seed).is_ok());
+    }
+}
+
+#[test]
+fn far_multiples_of_a_quarter_turn_begin_theirs() {
+    let robot = irb2600().with_limits(JointLimits::UNLIMITED);
+    for quarters in -400..=400 {
+        let q = [(f64::from(quarters) * 90.0).to_radians(), 0.0, 0.0, 0.0, 0.0, 0.0];
+        assert_eq!(robot.configuration(&q).unwrap().cf1, quarters);
+    }
+    let far = robot.ik_configured(&robot.fk(&[0.1; 6]), configuration(0, 0, 2_000_000_000, 0)).unwrap_err();
+    assert_eq!(far.to_string(), "configuration: cf6 is 2000000000, it must be -63661 to 63661");
+}
+
+#[test]
 fn what_is_no_configuration_of_the_arm_is_refused() {
     let robot = irb2600();
     let message = |answer: Result<Configuration, Error>| answer.unwrap_err().to_string();

@@ -240,6 +240,15 @@ fn twins_lose_no_posture() {
     assert_eq!(unlimited().serial(), Robot::from_opw(opw()).unwrap());
     assert_eq!(unlimited().serial().coupled().unwrap(), unlimited());
     assert_eq!(unlimited().coupled().unwrap(), unlimited());
+    let far = unlimited().with_limits(JointLimits::new([[-1e5, 1e5]; 6]).unwrap()).serial();
+    assert_eq!(far.limits().to_array()[2], [f64::NEG_INFINITY, f64::INFINITY]);
+}
+
+#[test]
+fn joint_3_of_a_twin_is_as_fast_as_joints_2_and_3_together() {
+    let robot = unlimited().with_max_velocity(Some([1.0, 2.0, 3.0, 4.0, 5.0, 6.0])).unwrap();
+    assert_eq!(robot.max_velocity(), Some(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]));
+    assert_eq!(robot.serial().max_velocity(), Some(&[1.0, 2.0, 5.0, 4.0, 5.0, 6.0]));
 }
 
 #[test]

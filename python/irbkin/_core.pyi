@@ -24,6 +24,7 @@ __all__ = [
     "calc_rob_t",
     "calc_targets",
     "catalog",
+    "decode",
     "dump",
     "instruction_set",
     "instruction_sets",
@@ -224,6 +225,7 @@ class Module:
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 def parse(text: str | bytes, context: Iterable[Module] | None = None) -> Module: ...
+def decode(text: str | bytes) -> str: ...
 def parse_record(text: str) -> Any: ...
 def dump(value: Any, name: str) -> str: ...
 def calc_joint_t(

@@ -10,7 +10,7 @@ use crate::error::{Error, UnknownRobot};
 /// How many close names an unknown one is told.
 const MOST_CLOSE: usize = 6;
 
-/// Finds an arm by its name; case, blanks, `-`, `_`, `/`, `,`, parentheses and the last zeros of a decimal (2.50) do not matter.
+/// Finds an arm by its name; case, blanks, dashes, `_`, `/`, `,`, parentheses and the last zeros of a decimal (2.50, 2,5) do not matter.
 ///
 /// Nothing is guessed: a name that lacks a part is unknown, even where one arm alone has it.
 ///
@@ -28,14 +28,19 @@ pub fn find(name: &str) -> Result<&'static CatalogueArm, Error> {
 fn squeezed(name: &str) -> String {
     let mut squeezed = String::new();
     let mut point = None;
-    for c in name.chars() {
+    let mut before = ' ';
+    let mut characters = name.chars().peekable();
+    while let Some(c) = characters.next() {
+        // A decimal comma.
+        let c = if c == ',' && before.is_ascii_digit() && characters.peek().is_some_and(char::is_ascii_digit) { '.' } else { c };
+        before = c;
         if !c.is_ascii_digit() {
             trim_decimals(&mut squeezed, point.take());
         }
         if c == '.' {
             point = Some(squeezed.len());
         }
-        if !c.is_whitespace() && !matches!(c, '-' | '_' | '/' | ',' | '(' | ')') {
+        if !c.is_whitespace() && !matches!(c, '-' | '\u{2010}'..='\u{2015}' | '\u{2212}' | '_' | '/' | ',' | '(' | ')') {
             squeezed.extend(c.to_lowercase());
         }
     }

@@ -184,6 +184,14 @@ pub enum RapidFaultKind {
     },
 }
 
+impl RapidFaultKind {
+    /// Whether the text would be read as a value of another type.
+    #[cfg(feature = "python")]
+    pub(crate) fn is_of_type(&self) -> bool {
+        matches!(self, Self::ComponentCount { .. } | Self::ComponentType { .. } | Self::NotWhole { .. })
+    }
+}
+
 impl RapidFault {
     /// A fault of something that stands in no text.
     pub(crate) fn nowhere(kind: RapidFaultKind) -> Self {

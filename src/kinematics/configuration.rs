@@ -1,6 +1,6 @@
 //! ABB's confdata: which of the solutions of a pose, and which turn of it.
 
-use core::f64::consts::FRAC_PI_2;
+use core::f64::consts::{FRAC_PI_2, TAU};
 use core::fmt;
 
 use alloc::vec::Vec;
@@ -15,7 +15,7 @@ use super::select::check_joints;
 use super::solutions::{SLOTS, Solution, Solutions};
 use super::spherical_wrist::SphericalWrist;
 use super::status::Status;
-use super::thresholds::CONFIGURATION_EDGE;
+use super::thresholds::{CONFIGURATION_EDGE, MOST_ANGLE};
 use crate::error::{Error, JointFault, ModelFault, NoConfiguration};
 
 /// ABB's confdata `[cf1, cf4, cf6, cfx]`: quarter turns of axes 1, 4 and 6, and the slot.
@@ -43,12 +43,29 @@ impl fmt::Display for Configuration {
 /// The axes that a configuration counts quarter turns of, from 0.
 const COUNTED: [usize; 3] = [0, 3, 5];
 
+/// Most quarter turns that an angle can have that is not too large to calculate with.
+#[expect(clippy::cast_possible_truncation, reason = "some ten thousands")]
+const MOST_QUARTERS: i32 = (MOST_ANGLE / FRAC_PI_2) as i32;
+
 impl Configuration {
     /// Of a joint vector, with the slot of its branch.
     fn of(q: &[f64; 6], slot: u8) -> Self {
-        #[expect(clippy::cast_possible_truncation, reason = "saturates where no controller counts")]
-        let [cf1, cf4, cf6] = COUNTED.map(|joint| (q[joint] / FRAC_PI_2).floor() as i32);
+        let [cf1, cf4, cf6] = COUNTED.map(|joint| quarter(q[joint]));
         Self { cf1, cf4, cf6, cfx: slot.into() }
+    }
+
+    /// Numbers that a configuration of the arm can have.
+    pub(crate) fn check(&self, coupled: bool) -> Result<(), Error> {
+        let quarters = [-MOST_QUARTERS, MOST_QUARTERS];
+        let slots = if coupled { [0, 0] } else { [0, 7] };
+        for (field, value, bounds) in
+            [("cf1", self.cf1, quarters), ("cf4", self.cf4, quarters), ("cf6", self.cf6, quarters), ("cfx", self.cfx, slots)]
+        {
+            if value < bounds[0] || value > bounds[1] {
+                return Err(JointFault::Configuration { field, value, bounds }.into());
+            }
+        }
+        Ok(())
     }
 
     /// The ranges [rad] that it leaves axes 1, 4 and 6, widened by `edge` [rad].
@@ -56,6 +73,14 @@ impl Configuration {
         let quarters = [self.cf1, self.cf4, self.cf6].map(f64::from);
         core::array::from_fn(|i| (COUNTED[i], [quarters[i] * FRAC_PI_2 - edge, (quarters[i] + 1.0) * FRAC_PI_2 + edge]))
     }
+}
+
+/// The number of an angle's quarter turn: its floor, an angle that is an edge but for the rounding of degrees to radians being one.
+#[expect(clippy::cast_possible_truncation, reason = "saturates where no controller counts")]
+fn quarter(angle: f64) -> i32 {
+    let quarters = angle / FRAC_PI_2;
+    let edge = quarters.round();
+    if (quarters - edge).abs() <= 2.0 * f64::EPSILON * edge.abs() { edge as i32 } else { quarters.floor() as i32 }
 }
 
 impl Robot<6> {
@@ -107,10 +132,7 @@ impl Robot<6> {
     /// [`Robot::ik_configured`] for a pose that was checked.
     pub(crate) fn ik_configured_checked(&self, pose: Pose, wanted: Configuration) -> Result<Solution<6>, Error> {
         let arm = self.counted()?;
-        let bounds = if self.is_coupled() { [0, 0] } else { [0, 7] };
-        if wanted.cfx < bounds[0] || wanted.cfx > bounds[1] {
-            return Err(JointFault::Configuration { field: "cfx", value: wanted.cfx, bounds }.into());
-        }
+        wanted.check(self.is_coupled())?;
         let solutions = self.ik_checked(pose, 0.0)?;
         for edge in [0.0, CONFIGURATION_EDGE] {
             let Some(limits) = self.limits().narrowed(&wanted.ranges(edge)) else { continue };
@@ -120,7 +142,7 @@ impl Robot<6> {
                 }
             }
         }
-        Err(self.no_configuration(arm, &solutions, wanted))
+        Err(self.no_configuration(arm, &solutions, wanted)?)
     }
 
     /// The slots of which a solution may have the configuration, those to be looked at first before others.
@@ -156,13 +178,49 @@ impl Robot<6> {
         self.nearest_of(&within, &limits.rest(), &[1.0; 6])
     }
 
-    fn no_configuration(&self, arm: &SphericalWrist, solutions: &Solutions<6>, wanted: Configuration) -> Error {
-        let mut turns = solutions.turns().map(|turn| self.configuration_of(arm, &turn.q));
-        let existing: Vec<_> = turns.by_ref().take(NoConfiguration::MOST).collect();
-        if existing.is_empty() {
-            return Error::Unreachable(solutions.explain());
+    /// Why no solution has a configuration: which others there are, or that no solution is inside the limits.
+    fn no_configuration(&self, arm: &SphericalWrist, solutions: &Solutions<6>, wanted: Configuration) -> Result<Error, Error> {
+        let mut none = NoConfiguration { wanted, existing: Vec::new(), more: false, free: solutions.iter().find_map(|found| found.free) };
+        for solution in solutions {
+            self.list_turns(arm, solutions, &solution.q, &mut none);
         }
-        Error::NoConfiguration(NoConfiguration { wanted, existing, more: turns.next().is_some() })
+        if none.existing.is_empty() {
+            // Of a family, another one than that which stands for it may be inside.
+            let Some(inside) = self.nearest_of(solutions, &self.limits().rest(), &[1.0; 6])? else {
+                return Ok(Error::Unreachable(solutions.explain()));
+            };
+            self.list_turns(arm, solutions, &inside.q, &mut none);
+        }
+        Ok(Error::NoConfiguration(none))
+    }
+
+    /// Adds the configurations of a solution's turns inside the limits, each once, as long as there is room.
+    fn list_turns(&self, arm: &SphericalWrist, solutions: &Solutions<6>, q: &[f64; 6], none: &mut NoConfiguration) {
+        let limits = solutions.limits();
+        let Some(inside) = limits.turned_to(q, q) else { return };
+        let turns = COUNTED.map(|joint| limits.countable_turns(joint, inside[joint]).unwrap_or((0.0, 0.0)));
+        let mut turned = inside;
+        let mut added = [turns[0].0, turns[1].0, turns[2].0];
+        while added[0] <= turns[0].1 {
+            for (i, joint) in COUNTED.into_iter().enumerate() {
+                turned[joint] = inside[joint] + TAU * added[i];
+            }
+            let configuration = self.configuration_of(arm, &turned);
+            if !none.existing.contains(&configuration) {
+                if none.existing.len() == NoConfiguration::MOST {
+                    none.more = true;
+                    return;
+                }
+                none.existing.push(configuration);
+            }
+            added[2] += 1.0;
+            for i in [2, 1] {
+                if added[i] > turns[i].1 {
+                    added[i] = turns[i].0;
+                    added[i - 1] += 1.0;
+                }
+            }
+        }
     }
 
     /// The geometry whose branches a configuration tells apart.

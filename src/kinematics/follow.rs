@@ -14,7 +14,7 @@ use super::robot::Robot;
 use super::select::{check_joints, check_weights};
 use super::solutions::{FreeJoint, Solution};
 use super::status::{Explanation, Status};
-use super::thresholds::{JUMP_BLIND, JUMP_GROWTH, JUMP_LEAST, SEEDED_FREE, STEADY_STEP};
+use super::thresholds::{JUMP_BLIND, JUMP_GROWTH, JUMP_LEAST, PATH_WRIST_SIN, SEEDED_FREE, STEADY_STEP};
 use crate::error::Error;
 
 /// How often a segment of the path is halved in search of a continuous way through it: to a millionth of it.
@@ -136,26 +136,25 @@ impl<'a> Follower<'a> {
         let heading = if steady { core::array::from_fn(|i| self.q[i] + self.velocity[i]) } else { self.q };
         let solutions = self.robot.solve(*pose, &FreeChoice::path(heading))?;
         let Some(mut next) = self.robot.nearest_of(&solutions, &heading, &self.weights)? else { return Ok(Err(solutions.explain())) };
-        self.balance(&mut next, &heading);
+        self.balance(&mut next, &heading, pose);
         Ok(Ok(next))
     }
 
-    /// At a silent wrist the whole of what is left over went to joint 6: half of it belongs to joint 4.
-    fn balance(&self, next: &mut Solution<6>, heading: &[f64; 6]) {
-        let sign = match next.free {
-            Some(FreeJoint::WristSum) => 1.0,
-            Some(FreeJoint::WristDifference) => -1.0,
+    /// At a wrist of which the pose says little the whole of what is left over went to joint 6: half of it belongs to joint 4, as far as the
+    /// pose does not contradict.
+    fn balance(&self, next: &mut Solution<6>, heading: &[f64; 6], pose: &Pose) {
+        let Some(arm) = self.robot.spherical_wrist().filter(|arm| arm.sin_5(&next.q).abs() <= PATH_WRIST_SIN) else { return };
+        let sign = match next.free.unwrap_or_else(|| arm.wrist_pair(&next.q)) {
+            FreeJoint::WristSum => 1.0,
+            FreeJoint::WristDifference => -1.0,
             _ => return,
         };
-        if next.q[4].sin().abs() > SEEDED_FREE {
-            return;
-        }
         let over = next.q[5] - heading[5];
         let over = over - TAU * (over / TAU).round();
         let mut balanced = next.q;
         balanced[3] += sign * over / 2.0;
         balanced[5] -= over / 2.0;
-        if self.robot.limits().contain(&balanced) {
+        if self.robot.limits().contain(&balanced) && self.robot.residual(&balanced, pose).largest() <= SEEDED_FREE {
             next.q = balanced;
         }
     }

@@ -78,7 +78,10 @@ impl<const N: usize> JointLimits<N> {
     /// With joint 3 wherever `q3 + sign * q2` may be.
     fn twin(mut self, sign: f64, rod: Option<[f64; 2]>) -> Self {
         let (low, high) = (sign * self.lower[1], sign * self.upper[1]);
-        (self.lower[2], self.upper[2]) = (self.lower[2] + low.min(high), self.upper[2] + low.max(high));
+        let (lower, upper) = (self.lower[2] + low.min(high), self.upper[2] + low.max(high));
+        // What is too large to calculate with is no limit.
+        self.lower[2] = if lower < -MOST_ANGLE { f64::NEG_INFINITY } else { lower };
+        self.upper[2] = if upper > MOST_ANGLE { f64::INFINITY } else { upper };
         Self { rod, ..self }
     }
 

@@ -210,7 +210,8 @@ impl<const N: usize> Robot<N> {
 
     /// The twin of this arm whose axes 2 and 3 a parallelogram couples: its joint 3 is this one's plus joint 2, as its controller tells it.
     ///
-    /// What was the limit of joint 3 is that of the rod; joint 3 may stand wherever axes 2 and the rod let it.
+    /// What was the limit of joint 3 is that of the rod; joint 3 may stand wherever axes 2 and the rod let it, and turns as fast as both
+    /// together.
     ///
     /// # Errors
     ///
@@ -228,12 +229,13 @@ impl<const N: usize> Robot<N> {
         }
         self.chain = self.chain.with_coupling(true);
         self.limits = self.limits.coupled();
-        Ok(self.joined())
+        Ok(self.with_twins_velocity().joined())
     }
 
     /// The twin of this arm without the coupling of axes 2 and 3: its joint 3 is this one's minus joint 2. The arm itself where it has none.
     ///
-    /// Its joint 3 is limited as the rod is or, where that is unknown, may stand wherever axes 2 and 3 let it.
+    /// Its joint 3 is limited as the rod is or, where that is unknown, may stand wherever axes 2 and 3 let it, and turns as fast as both
+    /// together.
     #[must_use]
     pub fn serial(mut self) -> Self {
         if !self.is_coupled() {
@@ -241,7 +243,15 @@ impl<const N: usize> Robot<N> {
         }
         self.chain = self.chain.with_coupling(false);
         self.limits = self.limits.serial();
-        self.joined()
+        self.with_twins_velocity().joined()
+    }
+
+    /// Joint 3 of a twin turns as fast as joints 2 and 3 of the arm together.
+    fn with_twins_velocity(mut self) -> Self {
+        if let Some([_, second, third, ..]) = self.max_velocity.as_mut().map(|velocity| &mut velocity[..]) {
+            *third += *second;
+        }
+        self
     }
 
     /// Whether a parallelogram couples axes 2 and 3: then joint 3 is told from the base, not from the upper arm.

@@ -6,6 +6,7 @@ use pyo3::types::PyTuple;
 use super::arm::{Arm, Change, on_robot};
 use super::arrays::Rows;
 use super::errors::{Fault, to_py};
+use crate::catalogue::CatalogueGeometry;
 use crate::error::{Error, ModelFault};
 use crate::kinematics::{Definition, DhRow, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh, pose_from_rows, pose_to_rows};
 
@@ -114,7 +115,14 @@ impl Change for Limits<'_> {
 impl Change for Coupling<'_> {
     fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error> {
         let Some(rod) = self.0 else { return Ok(robot) };
-        robot.coupled()?.with_rod_limits(<[f64; 2]>::try_from(rod).ok())
+        let robot = robot.coupled()?;
+        match rod {
+            [] => Ok(robot),
+            rod => {
+                let damaged = || Error::WrongLength { field: "rod limits", found: rod.len(), wanted: 2 };
+                robot.with_rod_limits(Some(<[f64; 2]>::try_from(rod).map_err(|_| damaged())?))
+            }
+        }
     }
 }
 
@@ -186,6 +194,14 @@ fn opw_numbers(opw: &OpwParameters) -> Vec<f64> {
 fn mdh_numbers<const N: usize>(mdh: &Mdh<N>) -> Vec<f64> {
     let rows = mdh.rows.iter().flat_map(|row| row.to_array());
     rows.chain(pose_to_rows(&mdh.base)).chain(pose_to_rows(&mdh.flange)).collect()
+}
+
+/// Whether the catalogue's arm of a name is coupled.
+pub(super) fn is_coupled_in_catalogue(name: &str) -> Option<bool> {
+    match crate::catalogue::find(name).ok()?.geometry {
+        CatalogueGeometry::Abb { coupled, .. } => Some(coupled),
+        _ => None,
+    }
 }
 
 /// Hash of a robot's value.

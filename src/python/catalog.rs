@@ -2,7 +2,7 @@
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use pyo3::types::{PyBool, PyBytes, PyTuple};
 
 use crate::catalogue::catalogue;
 
@@ -38,8 +38,10 @@ struct Range {
 impl Range {
     fn read(field: &str, unit: &str, filter: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Self>> {
         let Some(filter) = filter else { return Ok(None) };
+        // Python's bytes are pairs of numbers, and its truth values numbers, to those who ask.
+        let no_number = filter.is_instance_of::<PyBytes>() || filter.is_instance_of::<PyBool>();
         let pair = filter.extract::<f64>().map(|least| [least, f64::INFINITY]).or_else(|_| filter.extract::<[f64; 2]>());
-        let [least, most] = pair.map_err(|_| {
+        let [least, most] = pair.ok().filter(|_| !no_number).ok_or_else(|| {
             let got = filter.repr().map_or_else(|_| "something else".into(), |repr| repr.to_string());
             PyValueError::new_err(format!("{field} must be a number (at least that much) or a pair (least, most) [{unit}], got {got}"))
         })?;

@@ -124,7 +124,8 @@ fn read_configurations(value: &Bound<'_, PyAny>) -> PyResult<Configurations> {
     let py = value.py();
     let stacked = if value.is_instance(errors::configuration_class(py)?)? {
         let numpy = py.import(intern!(py, "numpy"))?;
-        &numpy.call_method1(intern!(py, "stack"), (value, -1))?
+        let unlike = |_| Fault::Joints.error(py, "configuration: its four numbers have different shapes".to_owned());
+        &numpy.call_method1(intern!(py, "stack"), (value, -1)).map_err(unlike)?
     } else {
         value
     };
@@ -134,7 +135,8 @@ fn read_configurations(value: &Bound<'_, PyAny>) -> PyResult<Configurations> {
         if number.fract() == 0.0 && number.abs() <= f64::from(i32::MAX) {
             Ok(number as i32)
         } else {
-            Err(Fault::Joints.error(py, format!("configuration: {field} is {number}, it must be a whole number")))
+            let bound = i32::MAX;
+            Err(Fault::Joints.error(py, format!("configuration: {field} is {number}, it must be a whole number of at most {bound}")))
         }
     };
     let configuration = |[cf1, cf4, cf6, cfx]: &[f64; 4]| {

@@ -69,6 +69,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(poses::to_xyz_euler_zyx, module)?)?;
     module.add_class::<rapid::RapidModule>()?;
     module.add_function(wrap_pyfunction!(rapid::parse, module)?)?;
+    module.add_function(wrap_pyfunction!(rapid::decode, module)?)?;
     module.add_function(wrap_pyfunction!(rapid::parse_record, module)?)?;
     module.add_function(wrap_pyfunction!(rapid::dump, module)?)?;
     module.add_function(wrap_pyfunction!(rapid::calc_joint_t, module)?)?;

@@ -75,6 +75,18 @@ def test_what_is_no_configuration_is_refused(configuration, message):
         ROBOT.ik_configured(ROBOT.fk(Q), configuration)
 
 
+@pytest.mark.parametrize("seed", [None, Q])
+def test_a_slot_that_the_arm_does_not_have_is_refused_in_a_batch_too(seed):
+    pose = np.stack([ROBOT.fk(Q)] * 2)
+    fallback = None if seed is None else "nearest"
+    with pytest.raises(irbkin.InvalidJointsError, match="cfx is 9, it must be 0 to 7"):
+        ROBOT.ik_configured(pose, [(0, 0, 0, 0), (0, 0, 0, 9)], fallback=fallback, seed=seed)
+    with pytest.raises(irbkin.InvalidJointsError, match="its four numbers have different shapes"):
+        ROBOT.ik_configured(pose, Configuration(np.zeros(2), 0, 0, 0))
+    with pytest.raises(irbkin.InvalidJointsError, match="it must be a whole number of at most 2147483647"):
+        ROBOT.ik_configured(pose, (2**31, 0, 0, 0))
+
+
 def test_a_fallback_that_is_none_is_refused():
     pose = ROBOT.fk(Q)
     with pytest.raises(TypeError, match="needs a seed"):

@@ -75,6 +75,21 @@ def test_the_coupling_belongs_to_the_value(robot):
     assert robot not in others
 
 
+def test_a_twin_says_what_it_is():
+    named = irbkin.Robot("IRB 2400-10/1.55")
+    assert repr(named) == 'Robot("IRB 2400-10/1.55")'
+    assert repr(named.serial()) == 'Robot("IRB 2400-10/1.55").serial()'
+    assert repr(irbkin.Robot("IRB 2600-12/1.65").coupled()) == 'Robot("IRB 2600-12/1.65").coupled()'
+    assert eval(repr(named.serial()), {"Robot": irbkin.Robot}) == named.serial()
+
+
+def test_a_damaged_state_of_the_rod_is_refused():
+    restore, (state,) = ROBOT.with_rod_limits(ROD).__reduce__()
+    assert restore(state) == ROBOT.with_rod_limits(ROD)
+    with pytest.raises(irbkin.InvalidModelError, match="rod limits has 1 elements, it must have 2"):
+        restore((*state[:-1], [1.0]))
+
+
 def test_configurations_do_not_count_the_slot():
     q = random_joints(300)
     assert not np.any(ROBOT.configuration(q).cfx)

@@ -123,6 +123,13 @@ def test_new_values_change_nothing_else_in_the_text():
         module.rewritten({"p10": JointTarget((0,) * 6)})
 
 
+def test_numpy_s_numbers_and_truths_are_taken():
+    assert RobTarget(np.array([1, 2, 3]), robconf=np.array([0, 1, 2, 3])) == RobTarget((1, 2, 3), robconf=(0, 1, 2, 3))
+    assert ToolData(robhold=np.bool_(False)).robhold is False
+    assert (rapid.dump(np.int64(3)), rapid.dump(np.array([1.0, 2.0, 3.0]))) == ("3", "[1,2,3]")
+    assert rapid.parse(b"[[1,2,3],[1,0,0,0]]") == Pose((1, 2, 3))
+
+
 def test_words_of_numbers_may_stand_in_strings():
     wobj = WobjData(ufmec="infeed NaN")
     assert rapid.parse(rapid.dump(wobj)) == wobj
@@ -170,10 +177,26 @@ def test_a_broken_file_is_told_with_its_path_line_and_column(tmp_path):
         (lambda: rapid.dump(object()), "is no RAPID data"),
         (lambda: rapid.dump(float("inf")), "not finite"),
         (lambda: rapid.dump({"no name": 1.0}), '"no name" is no name that RAPID could read'),
-        (lambda: rapid.dump(LoadData(mass_kg=np.inf)), "not finite"),
+        (lambda: LoadData(mass_kg=np.inf), "mass_kg must be a finite number"),
         (lambda: rapid.dump({"a": [[1.0], [1.0, 2.0]]}), "its lists have different lengths"),
         (lambda: rapid.dump({"a": []}), "at least one element"),
         (lambda: rapid.parse("[[1,2,3]]"), "is no robtarget, jointtarget, tooldata, wobjdata, pose or loaddata"),
+        (lambda: rapid.dump({"a:=1;\nVAR num b": 2.0}), "is no name that RAPID could read"),
+        (lambda: rapid.dump({"a": 1.0}, name="M(SYSMODULE)"), "is no name that RAPID could read"),
+        (lambda: rapid.dump({1: 1.0}), "1 is no name"),
+        (lambda: rapid.dump(b"abc"), "is no RAPID data"),
+        (lambda: rapid.dump(True), "is no RAPID data"),
+        (lambda: rapid.dump([1.0, [2.0]]), "its lists have different lengths"),
+        (lambda: rapid.parse("[[1,2,3],[1,0,0,0]]; VAR num y:=5"), "no robtarget, jointtarget|stands where"),
+        (lambda: rapid.parse("[[1,2,3],[1,0,0,0]"), r"line 1, column 1: \[ is not closed"),
+        (lambda: RobTarget("123"), "trans_mm must be 3 finite numbers, got '123'"),
+        (lambda: RobTarget((1, 2, 3), robconf=(2**40, 0, 0, 0)), "4 whole numbers of at most 2147483647"),
+        (lambda: ToolData(tframe=np.eye(4)), r"ToolData: tframe must be a Pose \(Pose.of\(T\) makes one"),
+        (lambda: ToolData(Pose((1, 2, 3))), "ToolData: robhold must be True or False"),
+        (lambda: WobjData(ufmec=None), "WobjData: ufmec must be a str, got None"),
+        (lambda: LoadData(mass_kg="abc"), "LoadData: mass_kg must be a finite number, got 'abc'"),
+        (lambda: JointTarget.of("abcdef"), "robax_deg must be 6 finite numbers"),
+        (lambda: RobTarget.of(np.eye(4), None), "robconf must be 4 whole numbers"),
         (lambda: rapid.calc_joint_t(irbkin.Robot("UR3"), RobTarget((1, 2, 3))), "configurations are those of ABB"),
         (lambda: rapid.calc_joint_t(irbkin.Robot("IRB 140-6/0.81"), "p10"), "target must be a RobTarget, got str"),
         (

@@ -60,9 +60,8 @@ def parse(text: str | bytes, context: Iterable[Module] = ()) -> Any:
         RapidError: The text is broken; the message has the line and the column. What is not known is no error: it is
             skipped and listed in `Module.skipped`.
     """
-    if isinstance(text, str) and text.lstrip().startswith("["):
-        return _core.parse_record(text)
-    return _core.parse(text, context)
+    source = _core.decode(text)
+    return _core.parse_record(source) if source.lstrip().startswith("[") else _core.parse(source, context)
 
 
 def load(path: str | PathLike[str], context: Iterable[Module] = ()) -> Module:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -21,18 +22,36 @@ Vector = tuple[float, ...]
 NOT_THERE = 9e9
 """RAPID's value of an external axis that is not there."""
 ZEROS = Configuration(0, 0, 0, 0)
+MOST_WHOLE = 2**31 - 1
 
 
 def _set_numbers(record: object, field: str, count: int) -> None:
     """Makes a field a tuple of floats; anything iterable is taken."""
     value: Any = getattr(record, field)
-    try:
-        numbers = tuple(map(float, value))
-    except (TypeError, ValueError):
-        numbers = ()
+    numbers: Vector = ()
+    # Texts and sets can be gone through, too.
+    if not isinstance(value, (str, bytes, bytearray, set, frozenset, dict)):
+        with contextlib.suppress(TypeError, ValueError, OverflowError):
+            numbers = tuple(map(float, value))
     if len(numbers) != count or not all(map(math.isfinite, numbers)):
         raise RapidError(f"{type(record).__name__}: {field} must be {count} finite numbers, got {value!r}")
     object.__setattr__(record, field, numbers)
+
+
+def _demand(record: object, field: str, of: type, words: str) -> None:
+    """Refuses a field of another type."""
+    value = getattr(record, field)
+    if type(value) is not of:
+        raise RapidError(f"{type(record).__name__}: {field} must be {words}, got {value!r}")
+
+
+def _set_truth(record: object, field: str) -> None:
+    """Makes a field True or False; NumPy's are taken, too."""
+    value = getattr(record, field)
+    truth = getattr(value, "item", lambda: value)()
+    if not isinstance(truth, bool):
+        raise RapidError(f"{type(record).__name__}: {field} must be True or False, got {value!r}")
+    object.__setattr__(record, field, truth)
 
 
 def _matrix(trans_mm: Vector, rot: Vector) -> npt.NDArray[np.float64]:
@@ -89,8 +108,7 @@ class RobTarget:
     @classmethod
     def of(cls, T: npt.ArrayLike, robconf: Iterable[int], extax: Iterable[float] = (NOT_THERE,) * 6) -> RobTarget:
         """The target of a homogeneous matrix, shape (4, 4), translation [m]."""
-        trans_mm, rot = _of_matrix(T)
-        return cls(trans_mm, rot, Configuration(*robconf), tuple(extax))
+        return cls(*_of_matrix(T), robconf, extax)  # type: ignore[arg-type]
 
     def matrix(self) -> npt.NDArray[np.float64]:
         """Homogeneous matrix of the tool in the work object, shape (4, 4), translation [m]."""
@@ -113,7 +131,8 @@ class JointTarget:
     @classmethod
     def of(cls, q: Iterable[float], extax: Iterable[float] = (NOT_THERE,) * 6) -> JointTarget:
         """The target of joint angles [rad], shape (6,)."""
-        return cls(tuple(map(math.degrees, q)), tuple(extax))
+        radians = cls(q, extax)  # type: ignore[arg-type]
+        return cls(tuple(map(math.degrees, radians.robax_deg)), radians.extax)
 
     @property
     def q(self) -> npt.NDArray[np.float64]:
@@ -140,7 +159,13 @@ class LoadData:
         _set_numbers(self, "cog_mm", 3)
         _set_numbers(self, "aom", 4)
         _set_numbers(self, "inertia", 3)
-        object.__setattr__(self, "mass_kg", float(self.mass_kg))
+        try:
+            mass_kg = float(self.mass_kg)
+        except (TypeError, ValueError, OverflowError):
+            mass_kg = math.nan
+        if not math.isfinite(mass_kg):
+            raise RapidError(f"LoadData: mass_kg must be a finite number, got {self.mass_kg!r}")
+        object.__setattr__(self, "mass_kg", mass_kg)
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,6 +178,11 @@ class ToolData:
     """The tool's frame in that of the flange; in the world where it is stationary."""
     tload: LoadData = LoadData()
     """Its load."""
+
+    def __post_init__(self) -> None:
+        _set_truth(self, "robhold")
+        _demand(self, "tframe", Pose, "a Pose (Pose.of(T) makes one of a matrix)")
+        _demand(self, "tload", LoadData, "a LoadData")
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,6 +200,13 @@ class WobjData:
     oframe: Pose = Pose()
     """Object frame in the user frame."""
 
+    def __post_init__(self) -> None:
+        _set_truth(self, "robhold")
+        _set_truth(self, "ufprog")
+        _demand(self, "ufmec", str, "a str")
+        for field in ("uframe", "oframe"):
+            _demand(self, field, Pose, "a Pose (Pose.of(T) makes one of a matrix)")
+
 
 def _set_configuration(target: RobTarget) -> None:
     """Makes a target's `robconf` a Configuration of integers."""
@@ -178,6 +215,6 @@ def _set_configuration(target: RobTarget) -> None:
         whole = tuple(int(number) for number in numbers)
     except (TypeError, ValueError, OverflowError):
         numbers, whole = (), ()
-    if len(whole) != 4 or whole != numbers:
-        raise RapidError(f"RobTarget: robconf must be 4 whole numbers, got {target.robconf!r}")
+    if len(whole) != 4 or whole != numbers or any(abs(number) > MOST_WHOLE for number in whole):
+        raise RapidError(f"RobTarget: robconf must be 4 whole numbers of at most {MOST_WHOLE}, got {target.robconf!r}")
     object.__setattr__(target, "robconf", Configuration(*whole))

@@ -79,6 +79,11 @@ impl SphericalWrist {
         Reach::Reached
     }
 
+    /// What stays fixed where axes 4 and 6 act as one, as they nearly do next to a joint 5 like that of `q`.
+    pub(crate) fn wrist_pair(&self, q: &[f64; 6]) -> FreeJoint {
+        self.free_wrist(self.theta(q)[4])
+    }
+
     /// What the pose leaves open at theta_5 = 0 or 180 deg, in terms of the joints.
     fn free_wrist(&self, theta_5: f64) -> FreeJoint {
         let sum = (theta_5.cos() > 0.0) == (self.placement.signs[3] * self.placement.signs[5] > 0.0);

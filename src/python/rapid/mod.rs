@@ -13,7 +13,7 @@ use super::configurations::{Fallback, counted};
 use super::errors::{self, rapid_fault, to_py};
 use super::found::read_seed;
 use super::robot::PyRobot;
-use crate::error::Error;
+use crate::error::{Error, RapidFault};
 use crate::kinematics::{Configuration, Robot};
 use crate::rapid::{self, Content, DataType, Datum, Module, Scope, Storage, TableRow, ToolData, Value, WobjData};
 
@@ -29,10 +29,7 @@ use crate::rapid::{self, Content, DataType, Datum, Module, Scope, Storage, Table
 #[pyo3(signature = (text, context=None))]
 pub(super) fn parse(text: &Bound<'_, PyAny>, context: Option<&Bound<'_, PyAny>>) -> PyResult<RapidModule> {
     let py = text.py();
-    let source = match text.cast::<PyBytes>() {
-        Ok(bytes) => rapid::decode(bytes.as_bytes()).into_owned(),
-        Err(_) => text.extract()?,
-    };
+    let source = decode(text)?;
     let mut others = Vec::new();
     if let Some(context) = context {
         for other in context.try_iter()? {
@@ -44,23 +41,38 @@ pub(super) fn parse(text: &Bound<'_, PyAny>, context: Option<&Bound<'_, PyAny>>)
     Ok(RapidModule::new(module, source))
 }
 
+/// RAPID text of a str, or of the bytes of a file.
+#[pyfunction]
+pub(super) fn decode(text: &Bound<'_, PyAny>) -> PyResult<String> {
+    match text.cast::<PyBytes>() {
+        Ok(bytes) => Ok(rapid::decode(bytes.as_bytes()).into_owned()),
+        Err(_) => text.extract(),
+    }
+}
+
 /// The record of a value that stands by itself: a robtarget, jointtarget, tooldata, wobjdata, pose or loaddata, which its shape tells.
 #[pyfunction]
 pub(super) fn parse_record<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
     use DataType::{JointTarget, LoadData, Pose, RobTarget, ToolData, WobjData};
     let mut refused = None;
     for data_type in [RobTarget, JointTarget, ToolData, WobjData, Pose, LoadData] {
-        match rapid::parse(&format!("VAR {} value:={text};", data_type.name()), &[]) {
+        // The text has lines of its own, behind one that is not told of.
+        match rapid::parse(&format!("VAR {} value:=\n{text}\n;", data_type.name()), &[]) {
             Ok(module) => {
-                if let Some(Content::Single(value)) = module.find("value").map(|datum| &datum.content) {
+                let alone = module.data().len() == 1 && module.moves().is_empty() && module.skipped().is_empty();
+                if let (true, Some(Content::Single(value))) = (alone, module.data().first().map(|datum| &datum.content)) {
                     return record(py, value);
                 }
             }
-            Err(error) => refused = refused.or(Some(error)),
+            Err(Error::Rapid(fault)) if fault.kind.is_of_type() => {}
+            Err(Error::Rapid(fault)) => refused = Some(RapidFault { line: fault.line.saturating_sub(1), ..fault }),
+            Err(error) => return Err(to_py(py, &error)),
         }
     }
-    let reason = refused.map_or_else(String::new, |error| format!(" ({error})"));
-    Err(rapid_fault(py, format!("{text} is no robtarget, jointtarget, tooldata, wobjdata, pose or loaddata{reason}")))
+    match refused {
+        Some(fault) => Err(to_py(py, &fault.into())),
+        None => Err(rapid_fault(py, format!("{text} is no robtarget, jointtarget, tooldata, wobjdata, pose or loaddata"))),
+    }
 }
 
 /// RAPID text of a record, of a module, or of a module with data by their names.
@@ -77,7 +89,8 @@ pub(super) fn dump(value: &Bound<'_, PyAny>, name: &str) -> PyResult<String> {
         // A module takes only what can be read again.
         return module("Value", vec![datum]).map(|_| text);
     };
-    let data = data.iter().map(|(name, value)| datum(name.extract()?, &value)).collect::<PyResult<Vec<_>>>()?;
+    let name_of = |name: &Bound<'_, PyAny>| name.extract().map_err(|_| rapid_fault(py, format!("{name} is no name that RAPID could read")));
+    let data = data.iter().map(|(name, value)| datum(name_of(&name)?, &value)).collect::<PyResult<Vec<_>>>()?;
     Ok(module(name, data)?.to_string())
 }
 

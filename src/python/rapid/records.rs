@@ -1,7 +1,7 @@
 //! RAPID's records from and to Python's.
 
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
+use pyo3::types::{PyBool, PyBytes, PyFloat, PyList, PyString, PyTuple};
 
 use crate::kinematics::Configuration;
 use crate::python::configurations;
@@ -201,25 +201,28 @@ fn read_value(given: &Bound<'_, PyAny>, thing: &str) -> PyResult<Value> {
     } else if is(errors::load_data_class(py))? {
         Value::LoadData(given.extract::<LoadFields>()?.into())
     } else if is(errors::configuration_class(py))? {
-        let [cf1, cf4, cf6, cfx] = given.extract()?;
+        let whole = given.extract::<[i32; 4]>();
+        let [cf1, cf4, cf6, cfx] = whole.map_err(|_| rapid_fault(py, format!("{thing}: {given} is no confdata of four whole numbers")))?;
         Value::ConfData(Configuration { cf1, cf4, cf6, cfx })
-    } else if given.is_instance_of::<PyFloat>() || given.is_instance_of::<PyInt>() {
-        Value::Num(given.extract()?)
     } else {
         numbers(given, thing)?
     };
     Ok(value)
 }
 
+/// A number, or a tuple or an array of numbers.
 fn numbers(given: &Bound<'_, PyAny>, thing: &str) -> PyResult<Value> {
-    let no_text = !given.is_instance_of::<PyString>() && !given.is_instance_of::<PyDict>();
-    match given.extract::<Vec<f64>>().ok().filter(|_| no_text).as_deref() {
+    let refused = || Ok(rapid_fault(given.py(), format!("{thing}: {} is no RAPID data", given.repr()?)));
+    if given.is_instance_of::<PyBool>() || given.is_instance_of::<PyString>() || given.is_instance_of::<PyBytes>() {
+        return refused().and_then(Err);
+    }
+    if let Ok(number) = given.extract::<f64>() {
+        return Ok(Value::Num(number));
+    }
+    match given.extract::<Vec<f64>>().ok().as_deref() {
         Some(&[x, y, z]) => Ok(Value::Pos([x, y, z])),
         Some(&[w, x, y, z]) => Ok(Value::Orient([w, x, y, z])),
         Some(&[a, b, c, d, e, f]) => Ok(Value::ExtJoint([a, b, c, d, e, f])),
-        _ => {
-            let message = format!("{thing}: {} is no RAPID data", given.repr()?);
-            Err(rapid_fault(given.py(), message))
-        }
+        _ => refused().and_then(Err),
     }
 }
