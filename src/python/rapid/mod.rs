@@ -125,6 +125,7 @@ fn datum(name: String, value: &Bound<'_, PyAny>) -> PyResult<Datum> {
 ///     UnreachableError: Its `rapid_error` is "ERR_OUTSIDE_REACH" where the arm is too short or too long, "ERR_ROBLIMIT" where solutions exist
 ///         but none inside the limits with the configuration; `configurations` has those that exist.
 ///     InvalidPoseError: A quaternion's norm is off one by more than 2e-3.
+///     InvalidJointsError: The arm has no such cfx.
 ///     RapidError: The robot holds both tool and work object or neither, or a mechanical unit moves the work object.
 ///     InvalidModelError: The arm has no configurations.
 #[pyfunction]
