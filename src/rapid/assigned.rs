@@ -80,7 +80,7 @@ impl<'a> Causes<'a> {
             let cause = Cause { name, by: By::Line(*line) };
             match scopes.find(*routine, &lower) {
                 Some(Named::Datum(datum)) if declared.get(*datum).is_some_and(|it| it.storage != Storage::Const) => {
-                    causes.add(*datum, cause)
+                    causes.add(*datum, cause);
                 }
                 Some(_) => {}
                 None => {
