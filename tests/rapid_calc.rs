@@ -215,3 +215,26 @@ fn declared_targets_have_a_row_each_by_their_names() {
     assert_eq!(said, [("p10", 5, true), ("pZero", 6, false), ("row{1}", 7, true), ("row{2}", 7, false), ("pFar", 8, false)]);
     assert!(matches!(calc_targets(&Robot::named("UR3").unwrap(), &module, None, None, Fallback::None), Err(Error::InvalidModel(_))));
 }
+
+#[test]
+fn displaced_moves_and_axes_that_are_not_there_have_no_joints() {
+    let robot: Robot<6> = Robot::named("IRB 140-6/0.81").unwrap();
+    let text = "CONST jointtarget j:=[[0,0,9E9,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+        MoveAbsJ j,v100,fine,tool0;
+        MoveAbsJ [[0,0,0,0,-2E6,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;
+        VAR robtarget p:=[[500,0,500],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+        MoveL p,v100,fine,tool0;
+        PDispSet x;
+        MoveC p,p,v100,fine,tool0;
+        PDispOff;
+        MoveL q,v100,fine,tool0;
+        VAR robtarget q:=p; q:=CRobT();";
+    let rows = calc_moves(&robot, &parse(text, &[]).unwrap(), Fallback::None).unwrap();
+    let problems: Vec<_> = rows.iter().map(|row| row.problem.as_deref().unwrap_or("")).collect();
+    assert_eq!(problems[0], "axis 3 is 9E9: it is not there");
+    assert_eq!(problems[1], "axis 5 is -2000000: it is not there");
+    assert_eq!(problems[3..5], ["line 6 displaces it, which is not followed"; 2]);
+    assert_eq!(problems[5], "refers to q, which line 10 assigns");
+    let has_joints: Vec<_> = rows.iter().map(|row| row.q.is_some()).collect();
+    assert_eq!(has_joints, [false, false, problems[2].is_empty(), false, false, false]);
+}

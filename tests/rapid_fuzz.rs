@@ -138,6 +138,31 @@ const PIECES: &[&str] = &[
     "i",
     "x y;",
     "x:=1;",
+    "a:=1;",
+    "p.trans.x:=1;",
+    "Incr a;",
+    "Add a,1;",
+    "SearchL\\Stop,d,p,p,v1,tool0;",
+    "SearchL ",
+    "PDispOn p,tool0;",
+    "PDispOff;",
+    "EOffsSet ",
+    "MoveLDO p,",
+    ",\\ID:=1,",
+    "ToPoint:=",
+    "Offs(Point:=p,XOffset:=",
+    "<EXP>",
+    "<ID>",
+    "<TYP> ",
+    "<VAR>:=",
+    "<B",
+    "C>",
+    "PROC <ID>()",
+    "MODULE <ID>",
+    "ALIAS num l;",
+    "ALIAS ",
+    "\0",
+    "\u{1a}",
 ];
 
 fn inputs() -> usize {
@@ -162,7 +187,7 @@ fn statements(rng: &mut Rng) -> Vec<u8> {
     for _ in 0..below(rng, 12) {
         let name = ["a", "b", "c", "p", "q", "r"][below(rng, 6)];
         let other = ["a", "b", "c", "p", "q", "r", "tool0", "1", "p.trans.x", "c{2}"][below(rng, 10)];
-        let statement = match below(rng, 10) {
+        let statement = match below(rng, 15) {
             0 => format!("CONST num {name}:=-({other}+2)*.5;\n"),
             1 => format!("VAR num {name}{{2}}:=[{other},7];\n"),
             2 => format!("PERS robtarget {name}:=[[1,{other},3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"),
@@ -171,7 +196,12 @@ fn statements(rng: &mut Rng) -> Vec<u8> {
             5 => format!("PROC {name}(num {other}) ! note\n"),
             6 => "ENDPROC\n".into(),
             7 => format!("IF {name}>{other} THEN ENDIF FOR {name} FROM 1 TO {other} DO ENDFOR\n"),
-            8 => format!("VAR string {name}; {other}:={name};\n"),
+            8 => format!("{name}:=1; Incr {other};\n"),
+            9 => format!("PDispOn {name},tool0; SearchL d,{name},{other},v1,tool0;\n"),
+            10 => format!("MoveL ToPoint:=Offs(Point:={name},0,0,{other}),\\ID:=1,v1,Zone:=z1,tool0,\\WObj:=wobj0;\n"),
+            11 => format!("VAR <TYP> {name}; IF <EXP> <SMT> {other}:=<EXP>; VAR num <ID>;\n"),
+            12 => format!("PERS robtarget {name}:={other};\n"),
+            13 => format!("VAR string {name}; {other}:={name};\n"),
             _ => format!("IF {name} MoveJ Offs({name},0,{other},0),v1,z1,{other};\n"),
         };
         text.push_str(&statement);
@@ -298,6 +328,12 @@ fn pathological(size: usize) -> Vec<(&'static str, String)> {
         ),
         ("loops in loops", lines(&|i| if i % 64 < 32 { "FOR i FROM 1 TO 2 DO MoveL p,v,z,tool0; ".into() } else { "ENDFOR ".into() })),
         ("statements without an end", "foo ".repeat(size)),
+        ("assigned data", lines(&|i| format!("VAR num a{i}:=1; a{i}:=2; MoveL Offs(p,a{i},0,0),v,z,tool0;"))),
+        ("references to what is assigned", lines(&chain) + &format!("VAR num p{size}:=1; p{size}:=2; MoveL Offs(p0,p0,p0,p0),v,z,tool0;")),
+        ("arguments that are written", format!("SearchL {};", "\\a,".repeat(size))),
+        ("placeholders", "<SMT>".repeat(size)),
+        ("routines without names", "PROC <ID>() <SMT> ENDPROC ".repeat(size)),
+        ("ends of files", "\0\u{1a} ".repeat(size)),
     ]
 }
 

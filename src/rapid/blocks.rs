@@ -141,10 +141,10 @@ fn skip_condition(tokens: &mut Tokens<'_>) -> Result<(), RapidFault> {
         let is_operator = |token: Token| OPERATORS.iter().any(|word| word.eq_ignore_ascii_case(tokens.text_of(token)));
         let after_operand = last.is_some_and(|last| match last.kind {
             TokenKind::Name => !is_operator(last),
-            TokenKind::Number(_) | TokenKind::Text | TokenKind::Symbol(b']' | b')' | b'}') => true,
+            TokenKind::Number(_) | TokenKind::Text | TokenKind::Placeholder | TokenKind::Symbol(b']' | b')' | b'}') => true,
             _ => false,
         });
-        after_operand && (next.is(b'%') || next.kind == TokenKind::Name && !is_operator(next))
+        after_operand && (next.is(b'%') || next.kind == TokenKind::Placeholder || next.kind == TokenKind::Name && !is_operator(next))
     })
 }
 
@@ -156,6 +156,7 @@ fn check_instruction(tokens: &mut Tokens<'_>) -> Result<(), RapidFault> {
         TokenKind::Name if word.eq_ignore_ascii_case("TASK") => false,
         TokenKind::Name => !is_reserved(word) || INSTRUCTIONS.iter().any(|instruction| instruction.eq_ignore_ascii_case(word)),
         TokenKind::Symbol(symbol) => symbol == b'%',
+        TokenKind::Placeholder => true,
         _ => false,
     };
     if may { Ok(()) } else { Err(tokens.unexpected("THEN or an instruction")) }

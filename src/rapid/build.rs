@@ -25,7 +25,9 @@ impl Module {
         data.iter().try_for_each(check_numbers)?;
         let routines = routines(&data, &moves);
         let (attributes, skipped, index) = (Vec::new(), Vec::new(), BTreeMap::new());
-        let module = Self { name, attributes, routines, data, moves, skipped, index, text_length: 0 }.without_positions();
+        let (assigned, expressions) = (BTreeSet::new(), BTreeMap::new());
+        let module =
+            Self { name, attributes, routines, data, moves, skipped, index, assigned, expressions, text_length: 0 }.without_positions();
         let read = parse(&module.to_string(), context)?;
         let texts = |module: &Module| module.moves.iter().map(ToString::to_string).collect::<Vec<_>>();
         let says_the_same = read.clone().without_positions().data.len() == module.data.len() && texts(&read) == texts(&module);

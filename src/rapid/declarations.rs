@@ -27,6 +27,8 @@ pub(super) struct Declared<'a> {
     pub(super) value: Option<Expression<'a>>,
     /// Names that its sizes and its value refer to.
     pub(super) names: Vec<&'a str>,
+    /// How many of the names, the first, are those of the sizes.
+    pub(super) size_names: usize,
     /// Bytes of the statement with its semicolon.
     pub(super) start: usize,
     pub(super) end: usize,
@@ -49,6 +51,10 @@ pub(super) enum Declaration<'a> {
         name: &'a str,
         type_name: &'a str,
     },
+    /// With a placeholder, perhaps for its name.
+    Unfinished {
+        name: &'a str,
+    },
 }
 
 /// Storage of the next token, where it is one's word.
@@ -57,14 +63,23 @@ pub(super) fn storage_at(tokens: &Tokens<'_>) -> Option<Storage> {
     words.into_iter().find(|(word, _)| tokens.at_word(word)).map(|(_, storage)| storage)
 }
 
-/// A name of something declared, which begins at the next token.
+/// A name of something declared, or the placeholder of one, which is the next token.
 pub(super) fn read_name<'a>(tokens: &mut Tokens<'a>, wanted: &str) -> Result<&'a str, RapidFault> {
     let token = tokens.peek();
-    if token.kind != TokenKind::Name || !is_name(tokens.text_of(token)) {
+    let may = match token.kind {
+        TokenKind::Name => is_name(tokens.text_of(token)),
+        kind => kind == TokenKind::Placeholder,
+    };
+    if !may {
         return Err(tokens.unexpected(wanted));
     }
     tokens.take()?;
     Ok(tokens.text_of(token))
+}
+
+/// Whether it stands for a name that the program does not have yet.
+pub(super) fn is_placeholder(name: &str) -> bool {
+    name.starts_with('<')
 }
 
 /// Reads a declaration from its storage to its semicolon; it begins, perhaps with LOCAL or TASK, at byte `start`.
@@ -74,13 +89,14 @@ pub(super) fn read_declaration<'a>(
     scope: Scope,
     storage: Storage,
 ) -> Result<Declaration<'a>, RapidFault> {
-    tokens.take()?;
+    let from = tokens.take()?.start;
     let type_name = read_name(tokens, "a type")?;
     let name = read_name(tokens, "a name")?;
     let Some(data_type) = DataType::named(type_name) else {
         skip_balanced(tokens, |_, _| false)?;
         tokens.demand(b';', "a semicolon")?;
-        return Ok(Declaration::Unread { name, type_name });
+        let unfinished = tokens.unfinished_since(from);
+        return Ok(if unfinished { Declaration::Unfinished { name } } else { Declaration::Unread { name, type_name } });
     };
     let (line, column) = tokens.line_and_column(start);
     let (sizes, names) = ExpressionReader::new(tokens).sizes()?;
@@ -93,6 +109,7 @@ pub(super) fn read_declaration<'a>(
         routine: 0,
         sizes,
         value: None,
+        size_names: names.len(),
         names,
         start,
         end: start,
@@ -109,6 +126,9 @@ pub(super) fn read_declaration<'a>(
     }
     tokens.demand(b';', "a semicolon")?;
     declared.end = tokens.last_end;
+    if tokens.unfinished_since(from) {
+        return Ok(Declaration::Unfinished { name });
+    }
     Ok(Declaration::Read(declared))
 }
 
@@ -137,9 +157,9 @@ impl Scopes {
         self.names.push(BTreeMap::new());
     }
 
-    /// Declares a name, which must not be there yet; `routine_name` is for the message.
+    /// Declares a name, which must not be there yet; `routine_name` is for the message. A placeholder declares nothing.
     pub(super) fn declare(&mut self, routine: usize, routine_name: Option<&str>, name: &str, named: Named) -> Result<(), RapidFaultKind> {
-        let Some(scope) = self.names.get_mut(routine) else { return Ok(()) };
+        let Some(scope) = self.names.get_mut(routine).filter(|_| !is_placeholder(name)) else { return Ok(()) };
         match scope.insert(name.to_lowercase(), named) {
             None => Ok(()),
             Some(_) => Err(RapidFaultKind::SameName { name: name.to_string(), routine: routine_name.map(ToString::to_string) }),

@@ -38,6 +38,8 @@ pub(super) struct Evaluator<'r, 'a> {
     pub(super) thing: (&'static str, &'a str),
     /// Whether only what never changes may be referred to: sizes and indices.
     pub(super) constant: bool,
+    /// Whether it counts what the program assigns: where it moves.
+    pub(super) at_move: bool,
 }
 
 /// A component of a thing, for messages.
@@ -224,6 +226,7 @@ impl Evaluator<'_, '_> {
             Found::Predefined(_) if !reference.indices.is_empty() => return Err(count(0)),
             Found::Predefined(value) => return Ok((value.scalars(), Kind::from(value.data_type()))),
             Found::Datum { can_change: true, .. } if self.constant => return Err(unknown("which can change")),
+            Found::Datum { cause: Some(cause), .. } if self.at_move => return Err(unknown(&cause.words(name))),
             Found::Datum { content: Content::Uninitialised { .. }, .. } => return Err(unknown("whose declaration has no value")),
             Found::Datum { content: Content::Single(_), .. } if !reference.indices.is_empty() => return Err(count(0)),
             Found::Datum { content: Content::Single(value), .. } => value,

@@ -216,13 +216,9 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
                 Form::Aggregate(self.list(token, b']')?)
             }
             TokenKind::Symbol(b'(') => return self.parenthesis(token),
-            TokenKind::Symbol(b'<') => {
+            TokenKind::Placeholder => {
                 self.tokens.take()?;
-                let name = self.tokens.take()?;
-                if name.kind != TokenKind::Name || !self.tokens.take_if(b'>')? {
-                    return Err(self.tokens.fault(token.start, expected_value("<")));
-                }
-                Form::Unread("a placeholder has no value")
+                Form::Unread("it is not finished")
             }
             TokenKind::Name => self.name(token)?,
             _ => return Err(self.tokens.unexpected("a value")),
@@ -287,7 +283,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
             if self.tokens.take_if(b'\\')? {
                 call.optional.push(self.optional()?);
             } else {
-                call.required.push(self.expression()?);
+                call.required.push(self.argument()?);
             }
             let more = self.tokens.take_if(b',')? || self.tokens.peek().is(b'\\');
             if !more {
@@ -296,6 +292,15 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         }
         self.close(open, b')')?;
         Ok(call)
+    }
+
+    /// A required argument: its value, perhaps after its name and `:=`. The name is not kept: RAPID has them in their order.
+    pub(super) fn argument(&mut self) -> Result<Expression<'a>, RapidFault> {
+        if self.tokens.at_assigned_name() {
+            self.tokens.take()?;
+            self.tokens.take()?;
+        }
+        self.expression()
     }
 
     /// `Name`, `Name:=value` or `Name?parameter`; the backslash was taken.

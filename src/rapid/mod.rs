@@ -17,9 +17,10 @@
 //! # Ok::<(), irbkin::Error>(())
 //! ```
 //!
-//! What is not known is skipped and told ([`Module::skipped`]), never guessed; a broken text is an error with its line and column. Values are those
-//! of the declarations: what a program assigns is not followed. A negative zero is read as zero.
+//! What is not known is skipped and told ([`Module::skipped`]), never guessed; a broken text is an error with its line and column. Data have
+//! the values of their declarations; those that the module assigns have none where it moves. A negative zero is read as zero.
 
+mod assigned;
 mod blocks;
 mod build;
 mod calc;
@@ -28,11 +29,13 @@ mod displaced;
 mod evaluate;
 mod expression;
 mod frames;
+mod instructions;
 mod kind;
 mod module;
 mod moves;
 mod resolve;
 mod rewrite;
+mod routines;
 mod skipping;
 mod statements;
 mod table;
@@ -59,7 +62,13 @@ use crate::error::Error;
 
 /// Reads the text of a module, or of declarations and moves without one.
 ///
-/// Names that it does not declare are looked for in `context`: the data of these modules that are not `LOCAL`, those of the first module first.
+/// Names that it does not declare are RAPID's own `tool0`, `wobj0` and `load0`; else they are looked for in `context`: the data of these modules
+/// that are not `LOCAL`, those of the first module first.
+///
+/// A datum that a statement of the module assigns, wherever the statement stands, has no known value in moves, and no datum that refers to it
+/// has; all others have there what they are declared with. `name:=` is followed so far, and instructions such as `Incr` and `SearchL` that write to an
+/// argument: data handed to another routine as `INOUT` are not, nor what modules assign that are not in `context`.
+///
 /// The time is linear in the size of the text, but for the search of names, which takes its logarithm.
 ///
 /// # Errors
@@ -70,12 +79,24 @@ pub fn parse(text: &str, context: &[&Module]) -> Result<Module, Error> {
     Ok(resolve::resolved(written, context)?)
 }
 
-/// The text of a file: UTF-8, else Latin-1; without its byte order mark.
+/// The text of a file: UTF-16 with a byte order mark, UTF-8, else Latin-1; without its byte order mark.
 #[must_use]
 pub fn decode(bytes: &[u8]) -> Cow<'_, str> {
+    match bytes {
+        [0xff, 0xfe, units @ ..] => return Cow::Owned(decode_units(units, u16::from_le_bytes)),
+        [0xfe, 0xff, units @ ..] => return Cow::Owned(decode_units(units, u16::from_be_bytes)),
+        _ => {}
+    }
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     match core::str::from_utf8(bytes) {
         Ok(text) => Cow::Borrowed(text),
         Err(_) => Cow::Owned(bytes.iter().map(|byte| char::from(*byte)).collect::<String>()),
     }
+}
+
+/// UTF-16; what is none becomes a replacement character, also a byte too many.
+fn decode_units(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> String {
+    let (pairs, rest) = bytes.as_chunks::<2>();
+    let characters = char::decode_utf16(pairs.iter().map(|pair| unit(*pair))).map(|it| it.unwrap_or(char::REPLACEMENT_CHARACTER));
+    characters.chain(rest.iter().map(|_| char::REPLACEMENT_CHARACTER)).collect()
 }

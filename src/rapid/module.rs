@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use alloc::collections::BTreeMap;
+use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::string::String;
 use alloc::vec::Vec;
 
@@ -147,12 +147,16 @@ pub struct Module {
     pub(super) skipped: Vec<Skipped>,
     /// Data of the module itself by their names in lower case.
     pub(super) index: BTreeMap<String, usize>,
+    /// Names in lower case that it assigns: of its own data, with those that refer to them, and of data that it does not declare.
+    pub(super) assigned: BTreeSet<String>,
+    /// Values that refer to what is assigned, as they are written, by the index of the datum: as numbers they would not.
+    pub(super) expressions: BTreeMap<usize, String>,
     /// Bytes of the text that it was read from.
     pub(super) text_length: usize,
 }
 
 impl Module {
-    /// Its name; none for declarations without a module around them.
+    /// Its name, or the placeholder of an unfinished one; none for declarations without a module around them.
     #[must_use]
     pub fn name(&self) -> Option<&str> {
         self.name.as_deref()
@@ -203,7 +207,7 @@ impl Module {
             datum.element_spans.clear();
         }
         for step in &mut self.moves {
-            (step.line, step.column) = (0, 0);
+            step.clear_lines();
         }
         for routine in &mut self.routines {
             (routine.line, routine.column) = (0, 0);

@@ -3,6 +3,7 @@
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
+use super::assigned::without_line;
 use super::expression::{Expression, ExpressionReader};
 use super::tokens::Tokens;
 use super::values::{JointTarget, RobTarget, ToolData, WobjData};
@@ -47,7 +48,7 @@ impl MoveKind {
     }
 }
 
-/// An argument as it is written, and what it is by the declarations.
+/// An argument as it is written, without its name, and what it is by the declarations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Argument<T> {
     /// Source text.
@@ -78,7 +79,7 @@ pub struct MoveOption {
 
 /// A move instruction.
 ///
-/// Values are those of the declarations: what a program assigns before it moves is not followed.
+/// Values are those of the declarations; data that the module assigns have none here.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Move {
     /// How it moves.
@@ -103,6 +104,23 @@ pub struct Move {
     pub wobj: Option<Argument<WobjData>>,
     /// The other optional arguments, in order.
     pub options: Vec<MoveOption>,
+    /// Line of the `PDispOn` or `PDispSet` that stands before it in its routine and that no `PDispOff` between them ends: the robot goes
+    /// elsewhere than `via` and `target` say. Joint angles are not displaced.
+    pub displaced: Option<usize>,
+}
+
+impl Move {
+    /// Makes it one that stands in no text.
+    pub(super) fn clear_lines(&mut self) {
+        (self.line, self.column, self.displaced) = (0, 0, self.displaced.map(|_| 0));
+        let reasons = [
+            self.via.as_mut().and_then(|via| via.value.as_mut().err()),
+            self.target.value.as_mut().err(),
+            self.tool.value.as_mut().err(),
+            self.wobj.as_mut().and_then(|wobj| wobj.value.as_mut().err()),
+        ];
+        reasons.into_iter().flatten().for_each(without_line);
+    }
 }
 
 /// A move before its names are looked up.
@@ -114,16 +132,21 @@ pub(super) struct WrittenMove<'a> {
     pub(super) inside_loop: Option<usize>,
     pub(super) line: usize,
     pub(super) column: usize,
+    /// Line of the instruction that displaces it.
+    pub(super) displaced: Option<usize>,
     pub(super) required: Vec<Expression<'a>>,
     pub(super) wobj: Option<Expression<'a>>,
     pub(super) options: Vec<MoveOption>,
 }
 
-/// Reads the arguments of a move up to its semicolon; the instruction's name was taken at byte `start`.
-pub(super) fn read_move<'a>(tokens: &mut Tokens<'a>, kind: MoveKind, start: usize) -> Result<WrittenMove<'a>, RapidFault> {
+/// Reads the arguments of a move up to its semicolon; the instruction's name was taken at byte `start`. None for one that is not finished.
+pub(super) fn read_move<'a>(tokens: &mut Tokens<'a>, kind: MoveKind, start: usize) -> Result<Option<WrittenMove<'a>>, RapidFault> {
     let (line, column) = tokens.line_and_column(start);
-    let (mut required, mut options, mut wobj): (Vec<Expression<'a>>, _, _) = (Vec::new(), Vec::new(), None);
+    let (mut required, mut options, mut wobj): (Vec<Expression<'a>>, Vec<MoveOption>, _) = (Vec::new(), Vec::new(), None);
     loop {
+        // A comma may stand before an optional argument too.
+        let is_first = required.is_empty() && options.is_empty() && wobj.is_none();
+        let after_comma = !is_first && tokens.take_if(b',')?;
         if tokens.take_if(b'\\')? {
             let (name, value) = ExpressionReader::new(tokens).optional()?;
             match value {
@@ -133,22 +156,21 @@ pub(super) fn read_move<'a>(tokens: &mut Tokens<'a>, kind: MoveKind, start: usiz
                     options.push(MoveOption { after: required.len(), name: name.to_string(), text });
                 }
             }
-            if required.is_empty() {
-                tokens.take_if(b',')?;
-            }
-        } else if tokens.peek().is(b';') {
+        } else if !after_comma && tokens.peek().is(b';') {
             break;
+        } else if !after_comma && !required.is_empty() {
+            return Err(tokens.unexpected("a comma or a semicolon"));
         } else {
-            if !required.is_empty() {
-                tokens.demand(b',', "a comma or a semicolon")?;
-            }
-            required.push(ExpressionReader::new(tokens).expression()?);
+            required.push(ExpressionReader::new(tokens).argument()?);
         }
     }
     tokens.take()?;
+    if tokens.unfinished_since(start) {
+        return Ok(None);
+    }
     if required.len() != kind.arguments() {
         let kind = RapidFaultKind::ArgumentCount { instruction: kind.name(), found: required.len(), wanted: kind.arguments() };
         return Err(tokens.fault(start, kind));
     }
-    Ok(WrittenMove { kind, routine: 0, inside_loop: None, line, column, required, wobj, options })
+    Ok(Some(WrittenMove { kind, routine: 0, inside_loop: None, line, column, displaced: None, required, wobj, options }))
 }

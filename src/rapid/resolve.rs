@@ -8,12 +8,13 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
 
+use super::assigned::{Cause, Causes, found_elsewhere};
 use super::blocks::Blocks;
 use super::declarations::{Declared, Named, Placed, Scopes};
 use super::evaluate::{Evaluator, Stop, positive_whole};
 use super::expression::{Expression, Form};
 use super::kind::DataType;
-use super::module::{Content, Datum, Module, Routine, Scope, Skipped, Storage};
+use super::module::{Content, Datum, Module, Routine, Skipped, Storage};
 use super::moves::{Argument, Move, MoveKind, Target, WrittenMove};
 use super::statements::Written;
 use super::tokens::fault_at;
@@ -31,6 +32,8 @@ pub(super) enum Found<'r> {
     Datum {
         content: &'r Content,
         can_change: bool,
+        /// Why it need not hold that where the program moves.
+        cause: Option<Cause<'r>>,
     },
     Predefined(Value),
     /// Why it has no value.
@@ -48,6 +51,8 @@ pub(super) struct Resolver<'a> {
     contents: Vec<Option<Placed>>,
     /// Why data are not known.
     reasons: BTreeMap<usize, String>,
+    /// Why data are not known where the program moves.
+    causes: Causes<'a>,
 }
 
 impl<'a> Resolver<'a> {
@@ -62,7 +67,7 @@ impl<'a> Resolver<'a> {
             Some(Named::Datum(index)) => {
                 let can_change = self.declared.get(*index).is_none_or(|declared| declared.storage != Storage::Const);
                 return match self.contents.get(*index) {
-                    Some(Some((content, ..))) => Found::Datum { content, can_change },
+                    Some(Some((content, ..))) => Found::Datum { content, can_change, cause: self.causes.of_datum(*index) },
                     _ => Found::Unknown("whose value is not known".to_string()),
                 };
             }
@@ -71,9 +76,11 @@ impl<'a> Resolver<'a> {
         if let Some(value) = predefined(&lower) {
             return Found::Predefined(value);
         }
-        let elsewhere = self.context.iter().filter_map(|module| module.find(&lower)).find(|datum| datum.scope != Scope::Local);
-        match elsewhere {
-            Some(datum) => Found::Datum { content: &datum.content, can_change: datum.storage != Storage::Const },
+        match found_elsewhere(&lower, self.context) {
+            Some((datum, home)) => {
+                let cause = self.causes.of_other(&lower, home, self.context);
+                Found::Datum { content: &datum.content, can_change: datum.storage != Storage::Const, cause }
+            }
             None => Found::Unknown(NOT_HERE.to_string()),
         }
     }
@@ -95,21 +102,51 @@ impl<'a> Resolver<'a> {
                     self.resolve(current)?;
                     state[current] = State::Done;
                     open.pop();
+                    // What refers to it changes with it.
+                    if let Some((above, gone_through)) = open.last() {
+                        self.add_cause(*above, *gone_through, current);
+                    }
                     continue;
                 };
                 *gone_through += 1;
-                let Some(Named::Datum(other)) = self.scopes.find(declared.routine, &name.to_lowercase()) else { continue };
+                let gone_through = *gone_through;
+                let lower = name.to_lowercase();
+                let other = match self.scopes.find(declared.routine, &lower) {
+                    Some(Named::Datum(other)) => other,
+                    Some(Named::Other(_)) => continue,
+                    None => {
+                        if gone_through > declared.size_names {
+                            self.add_cause_elsewhere(current, &lower);
+                        }
+                        continue;
+                    }
+                };
                 match state[*other] {
                     State::New => {
                         state[*other] = State::Open;
                         open.push((*other, 0));
                     }
                     State::Open => return Err(self.circle(&open, *other)),
-                    State::Done => {}
+                    State::Done => self.add_cause(current, gone_through, *other),
                 }
             }
         }
         Ok(())
+    }
+
+    /// Notes that a datum changes with what a name of it stands for; sizes, the names that come first, do not change.
+    fn add_cause(&mut self, datum: usize, gone_through: usize, other: usize) {
+        if let Some(cause) = self.causes.of_datum(other).filter(|_| gone_through > self.declared[datum].size_names) {
+            self.causes.add(datum, cause);
+        }
+    }
+
+    /// Notes that a datum changes with one of another module, where that does.
+    fn add_cause_elsewhere(&mut self, datum: usize, lower: &str) {
+        let found = found_elsewhere(lower, self.context).filter(|_| predefined(lower).is_none());
+        if let Some(cause) = found.and_then(|(_, home)| self.causes.of_other(lower, home, self.context)) {
+            self.causes.add(datum, cause);
+        }
     }
 
     fn circle(&self, open: &[(usize, usize)], again: usize) -> RapidFault {
@@ -135,7 +172,7 @@ impl<'a> Resolver<'a> {
 
     fn evaluator(&self, declared: &Declared<'a>) -> Evaluator<'_, 'a> {
         let thing = (declared.data_type.name(), declared.name);
-        Evaluator { resolver: self, routine: declared.routine, inside_loop: None, thing, constant: false }
+        Evaluator { resolver: self, routine: declared.routine, inside_loop: None, thing, constant: false, at_move: false }
     }
 
     fn content(&self, declared: &Declared<'a>) -> Result<Placed, Stop> {
@@ -180,7 +217,8 @@ impl<'a> Resolver<'a> {
         take: impl Fn(Value) -> Option<T>,
     ) -> Result<Argument<T>, RapidFault> {
         let thing = (step.kind.name(), role);
-        let evaluator = Evaluator { resolver: self, routine: step.routine, inside_loop: step.inside_loop, thing, constant: false };
+        let evaluator =
+            Evaluator { resolver: self, routine: step.routine, inside_loop: step.inside_loop, thing, constant: false, at_move: true };
         let value = match evaluator.value(expression, data_type).map(take) {
             Ok(Some(value)) => Ok(value),
             Ok(None) => Err(format!("it is no {}", data_type.name())),
@@ -249,6 +287,7 @@ impl<'a> Resolver<'a> {
             tool: self.tool(step, tool)?,
             wobj: step.wobj.as_ref().map(|wobj| self.wobj(step, wobj)).transpose()?,
             options,
+            displaced: step.displaced,
         }))
     }
 }
@@ -319,8 +358,8 @@ pub(super) fn resolve_at_once(text: &str, declared: &mut Declared<'_>) -> Result
         return Ok(());
     }
     let (scopes, blocks) = (Scopes::new(), Blocks::new());
-    let resolver =
-        Resolver { text, declared: &[], scopes: &scopes, blocks: &blocks, context: &[], contents: Vec::new(), reasons: BTreeMap::new() };
+    let (contents, reasons, causes) = (Vec::new(), BTreeMap::new(), Causes::none());
+    let resolver = Resolver { text, declared: &[], scopes: &scopes, blocks: &blocks, context: &[], contents, reasons, causes };
     match resolver.content(declared) {
         Ok(placed) => declared.content = Some(Box::new(placed)),
         Err(Stop::Fault(fault)) => return Err(fault),
@@ -333,18 +372,20 @@ pub(super) fn resolve_at_once(text: &str, declared: &mut Declared<'_>) -> Result
 
 /// The module of a text with every name looked up.
 pub(super) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Module, RapidFault> {
-    let Written { text, name, attributes, routines, mut declared, mut moves, mut skipped, scopes, blocks } = written;
+    let Written { text, name, attributes, routines, mut declared, mut moves, mut skipped, assignments, scopes, blocks } = written;
     let contents = declared.iter_mut().map(|datum| datum.content.take().map(|placed| *placed)).collect();
     let (declared_data, blocks, all_scopes) = (&declared, &blocks, &scopes);
-    let mut resolver = Resolver { text, declared: declared_data, scopes: all_scopes, blocks, context, contents, reasons: BTreeMap::new() };
+    let (reasons, causes) = (BTreeMap::new(), Causes::new(&assignments, declared_data, all_scopes, blocks));
+    let mut resolver = Resolver { text, declared: declared_data, scopes: all_scopes, blocks, context, contents, reasons, causes };
     resolver.resolve_all()?;
     let mut resolved_moves = Vec::with_capacity(moves.len());
     for step in &mut moves {
         resolved_moves.extend(resolver.step(step, &routines)?);
     }
-    let Resolver { contents, mut reasons, .. } = resolver;
+    let Resolver { contents, mut reasons, causes, .. } = resolver;
     let mut data = Vec::with_capacity(declared.len());
     let mut places = Vec::with_capacity(declared.len());
+    let mut expressions = BTreeMap::new();
     for (i, (datum, placed)) in declared.iter().zip(contents).enumerate() {
         let routine = routine_name(&routines, datum.routine);
         places.push(placed.is_some().then_some(data.len()));
@@ -356,10 +397,14 @@ pub(super) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         };
         let Declared { data_type, scope, storage, line, column, .. } = *datum;
         let name = datum.name.to_string();
+        if causes.of_datum(i).is_some() && !datum.names.is_empty() {
+            expressions.insert(data.len(), text.get(value_span.clone()).unwrap_or_default().to_string());
+        }
         data.push(Datum { name, data_type, scope, storage, routine, content, line, column, value_span, element_spans });
     }
     skipped.sort_by_key(|skipped| (skipped.line, skipped.column));
+    let assigned = causes.names(&declared);
     let index = scopes.module_data().filter_map(|(name, declared)| Some((name, places.get(declared).copied()??))).collect();
     let name = name.map(ToString::to_string);
-    Ok(Module { name, attributes, routines, data, moves: resolved_moves, skipped, index, text_length: text.len() })
+    Ok(Module { name, attributes, routines, data, moves: resolved_moves, skipped, index, assigned, expressions, text_length: text.len() })
 }

@@ -33,7 +33,8 @@ pub(super) fn not_closed(tokens: &mut Tokens<'_>, open: Token, close: u8) -> Rap
 /// Whether the next token is an operator that is not calculated.
 pub(super) fn is_unread_operator(tokens: &Tokens<'_>) -> bool {
     let word = |word: &&str| tokens.at_word(word);
-    matches!(tokens.peek().kind, TokenKind::Symbol(b'=' | b'<' | b'>')) || ["AND", "OR", "XOR", "DIV", "MOD"].iter().any(word)
+    matches!(tokens.peek().kind, TokenKind::Symbol(b'=' | b'<' | b'>') | TokenKind::Placeholder)
+        || ["AND", "OR", "XOR", "DIV", "MOD"].iter().any(word)
 }
 
 /// Words that end a statement wherever they stand: one that is not closed before them is broken.

@@ -4,12 +4,13 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
+use super::assigned::Assignment;
 use super::blocks::Blocks;
 use super::declarations::{Declaration, Declared, Named, Scopes, read_declaration, read_name, storage_at};
+use super::instructions::DisplacedBy;
 use super::module::{Routine, RoutineKind, Scope, Skipped};
 use super::moves::{MoveKind, WrittenMove, read_move};
 use super::resolve::resolve_at_once;
-use super::skipping::skip_balanced;
 use super::tokens::{Token, TokenKind, Tokens};
 use crate::error::{RapidFault, RapidFaultKind};
 
@@ -22,6 +23,7 @@ pub(super) struct Written<'a> {
     pub(super) declared: Vec<Declared<'a>>,
     pub(super) moves: Vec<WrittenMove<'a>>,
     pub(super) skipped: Vec<Skipped>,
+    pub(super) assignments: Vec<Assignment<'a>>,
     pub(super) scopes: Scopes,
     pub(super) blocks: Blocks<'a>,
 }
@@ -45,7 +47,8 @@ pub(super) struct StatementReader<'a> {
     pub(super) written: Written<'a>,
     stage: Stage,
     /// Index of the routine, from 1; 0 outside routines.
-    routine: usize,
+    pub(super) routine: usize,
+    pub(super) displaced_by: DisplacedBy,
 }
 
 impl<'a> StatementReader<'a> {
@@ -59,10 +62,12 @@ impl<'a> StatementReader<'a> {
             declared: Vec::new(),
             moves: Vec::new(),
             skipped: Vec::new(),
+            assignments: Vec::new(),
             scopes: Scopes::new(),
             blocks: Blocks::new(),
         };
-        let mut reader = Self { tokens: Tokens::new(text)?, written, stage: Stage::Beginning, routine: 0 };
+        let (tokens, displaced_by) = (Tokens::new(text)?, DisplacedBy::default());
+        let mut reader = Self { tokens, written, stage: Stage::Beginning, routine: 0, displaced_by };
         while reader.tokens.peek().kind != TokenKind::End {
             reader.statement()?;
         }
@@ -84,12 +89,12 @@ impl<'a> StatementReader<'a> {
         Err(self.tokens.fault(self.written.text.len(), RapidFaultKind::UnexpectedEnd { inside, missing }))
     }
 
-    fn current_routine(&self) -> Option<&Routine> {
+    pub(super) fn current_routine(&self) -> Option<&Routine> {
         self.written.routines.get(self.routine.checked_sub(1)?)
     }
 
     /// The word that ends the innermost block or else the routine.
-    fn open_end(&self) -> Option<&'static str> {
+    pub(super) fn open_end(&self) -> Option<&'static str> {
         let block = self.written.blocks.innermost().map(|(_, end)| end);
         block.or_else(|| self.current_routine().map(|routine| routine.kind.end()))
     }
@@ -101,7 +106,7 @@ impl<'a> StatementReader<'a> {
         }
         let word = match token.kind {
             TokenKind::Name => self.tokens.text_of(token).to_ascii_uppercase(),
-            TokenKind::Symbol(b'%' | b'<') => String::new(),
+            TokenKind::Placeholder | TokenKind::Symbol(b'%') => String::new(),
             _ => return Err(self.tokens.unexpected("a declaration or an instruction")),
         };
         if word == "MODULE" {
@@ -120,6 +125,7 @@ impl<'a> StatementReader<'a> {
             "ENDFUNC" => self.end_routine(RoutineKind::Func),
             "ENDTRAP" => self.end_routine(RoutineKind::Trap),
             "RECORD" => self.record(token),
+            "ALIAS" => self.alias(token),
             _ => match MoveKind::named(&word) {
                 Some(kind) => self.move_instruction(kind, token),
                 None if super::blocks::is_flow(&word) => self.flow(&word, token),
@@ -142,7 +148,7 @@ impl<'a> StatementReader<'a> {
         }
         loop {
             let attribute = self.tokens.peek();
-            if attribute.kind != TokenKind::Name {
+            if !matches!(attribute.kind, TokenKind::Name | TokenKind::Placeholder) {
                 return Err(self.tokens.unexpected("an attribute of the module"));
             }
             self.tokens.take()?;
@@ -181,10 +187,10 @@ impl<'a> StatementReader<'a> {
         let kinds = [RoutineKind::Proc, RoutineKind::Func, RoutineKind::Trap];
         match kinds.into_iter().find(|kind| self.tokens.at_word(kind.word())) {
             Some(kind) if scope != Scope::Task => self.begin_routine(kind, first),
+            _ if self.tokens.at_word("ALIAS") => self.alias(first),
             // A procedure may be named Task.
             _ if scope == Scope::Task => self.rest_of_other(first),
             _ if self.tokens.at_word("RECORD") => self.record(first),
-            _ if self.tokens.at_word("ALIAS") => self.rest_of_other(first),
             _ => Err(self.tokens.unexpected("CONST, PERS, VAR, PROC, FUNC or TRAP")),
         }
     }
@@ -202,77 +208,18 @@ impl<'a> StatementReader<'a> {
                 self.skip(first, format!("{name}: type {type_name} is not read"));
                 (name, Named::Other(format!("of type {type_name}, which is not read")))
             }
+            Declaration::Unfinished { name } => {
+                self.skip(first, String::new());
+                (name, Named::Other("whose declaration is not finished".to_string()))
+            }
         };
         self.declare(first, name, named)
     }
 
-    fn declare(&mut self, at: Token, name: &str, named: Named) -> Result<(), RapidFault> {
+    pub(super) fn declare(&mut self, at: Token, name: &str, named: Named) -> Result<(), RapidFault> {
         let routine = self.routine.checked_sub(1).and_then(|index| self.written.routines.get(index));
         let declared = self.written.scopes.declare(self.routine, routine.map(|routine| routine.name.as_str()), name, named);
         declared.map_err(|kind| self.tokens.fault(at.start, kind))
-    }
-
-    fn begin_routine(&mut self, kind: RoutineKind, first: Token) -> Result<(), RapidFault> {
-        if let Some(end) = self.open_end() {
-            return Err(self.tokens.unexpected(end));
-        }
-        self.tokens.take()?;
-        if kind == RoutineKind::Func {
-            read_name(&mut self.tokens, "the type of the function")?;
-        }
-        let name = read_name(&mut self.tokens, "the name of the routine")?;
-        self.declare(first, name, Named::Other("a routine".to_string()))?;
-        let (line, column) = self.tokens.line_and_column(first.start);
-        self.written.scopes.add_routine();
-        self.written.routines.push(Routine { kind, name: name.to_string(), header: String::new(), line, column });
-        self.routine = self.written.routines.len();
-        if self.tokens.peek().is(b'(') {
-            self.parameters(name)?;
-        }
-        let header = self.written.text[first.start..self.tokens.last_end].to_string();
-        if let Some(routine) = self.written.routines.last_mut() {
-            routine.header = header;
-        }
-        Ok(())
-    }
-
-    /// The parameters in their parentheses: each one's name is the last word before a comma, a bar or a backslash.
-    fn parameters(&mut self, routine: &str) -> Result<(), RapidFault> {
-        let open = self.tokens.take()?;
-        let mut last = None;
-        loop {
-            let token = self.tokens.peek();
-            match token.kind {
-                TokenKind::End | TokenKind::Symbol(b';') => {
-                    return Err(self.tokens.fault(open.start, RapidFaultKind::Unclosed { bracket: '(' }));
-                }
-                TokenKind::Name => last = Some(token),
-                TokenKind::Symbol(b',' | b'|' | b'\\' | b')') => {
-                    if let Some(name) = last.take() {
-                        let text = self.tokens.text_of(name);
-                        self.declare(name, text, Named::Other(format!("a parameter of {routine}")))?;
-                    }
-                }
-                _ => {}
-            }
-            self.tokens.take()?;
-            if token.is(b')') {
-                return Ok(());
-            }
-        }
-    }
-
-    fn end_routine(&mut self, kind: RoutineKind) -> Result<(), RapidFault> {
-        if let Some((_, end)) = self.written.blocks.innermost() {
-            return Err(self.tokens.unexpected(end));
-        }
-        match self.current_routine().map(|routine| routine.kind) {
-            Some(open) if open == kind => {}
-            Some(open) => return Err(self.tokens.unexpected(open.end())),
-            None => return Err(self.tokens.unexpected("a declaration or an instruction (no routine is open)")),
-        }
-        self.routine = 0;
-        self.tokens.take().map(|_| ())
     }
 
     fn record(&mut self, first: Token) -> Result<(), RapidFault> {
@@ -289,11 +236,24 @@ impl<'a> StatementReader<'a> {
         self.declare(first, name, Named::Other("a type".to_string()))
     }
 
+    /// Another name of a type, which hides no name of data.
+    fn alias(&mut self, first: Token) -> Result<(), RapidFault> {
+        self.tokens.take()?;
+        read_name(&mut self.tokens, "a type")?;
+        let name = read_name(&mut self.tokens, "the name of the type")?;
+        self.tokens.demand(b';', "a semicolon")?;
+        self.skip(first, format!("ALIAS {name} is not read"));
+        Ok(())
+    }
+
     fn move_instruction(&mut self, kind: MoveKind, token: Token) -> Result<(), RapidFault> {
         self.tokens.take()?;
-        let step = read_move(&mut self.tokens, kind, token.start)?;
-        let inside_loop = self.written.blocks.innermost_loop();
-        self.written.moves.push(WrittenMove { routine: self.routine, inside_loop, ..step });
+        let Some(step) = read_move(&mut self.tokens, kind, token.start)? else {
+            self.skip(token, String::new());
+            return Ok(());
+        };
+        let (routine, inside_loop, displaced) = (self.routine, self.written.blocks.innermost_loop(), self.displaced_by.line(kind));
+        self.written.moves.push(WrittenMove { routine, inside_loop, displaced, ..step });
         Ok(())
     }
 
@@ -304,75 +264,15 @@ impl<'a> StatementReader<'a> {
         Ok(())
     }
 
-    /// An instruction that is not read, a call, an assignment or a label.
-    fn other(&mut self, first: Token) -> Result<(), RapidFault> {
-        self.tokens.take()?;
-        self.rest_of_other(first)
-    }
-
-    fn rest_of_other(&mut self, first: Token) -> Result<(), RapidFault> {
-        let name = self.tokens.text_of(first);
-        let next = self.tokens.peek();
-        if next.is(b':') {
-            self.tokens.take()?;
-            self.skip(first, format!("label {name} is not read"));
-            return Ok(());
-        }
-        if first.is(b'<') {
-            return self.placeholder(first);
-        }
-        // Two of them begin a header, which stands at the beginning only.
-        if first.is(b'%') && next.is(b'%') {
-            return Err(self.tokens.unexpected("the name of a procedure"));
-        }
-        let is_assignment = next.kind == TokenKind::Assign || next.is(b'{') || next.is(b'.');
-        skip_balanced(&mut self.tokens, |tokens, _| super::blocks::begins_another(tokens))?;
-        self.tokens.demand(b';', "a semicolon")?;
-        let what = if is_assignment { "is assigned a value, which is not followed" } else { "is no instruction that is read" };
-        self.skip(first, format!("{name} {what}"));
-        Ok(())
-    }
-
-    /// `<SMT>` and its like in an unfinished program, with or without a semicolon; its `<` was taken.
-    fn placeholder(&mut self, first: Token) -> Result<(), RapidFault> {
-        read_placeholder(&mut self.tokens)?;
-        self.tokens.take_if(b';')?;
-        self.skip(first, "a placeholder is not read".to_string());
-        Ok(())
-    }
-
-    /// Tells that what stands from a token to here is not read.
-    fn skip(&mut self, from: Token, what: String) {
+    /// Tells that what stands from a token to here is not read, because it is not finished where a placeholder stands in it; its line.
+    pub(super) fn skip(&mut self, from: Token, mut what: String) -> usize {
         let (line, column) = self.tokens.line_and_column(from.start);
+        if self.tokens.unfinished_since(from.start) {
+            what = format!("{} is not finished", self.tokens.text_of(from));
+        }
         let text = self.written.text[from.start..self.tokens.last_end].to_string();
         let routine = self.current_routine().map(|routine| routine.name.clone());
         self.written.skipped.push(Skipped { line, column, routine, what, text });
-    }
-}
-
-/// The name and the `>` of a placeholder.
-fn read_placeholder(tokens: &mut Tokens<'_>) -> Result<(), RapidFault> {
-    if tokens.peek().kind != TokenKind::Name {
-        return Err(tokens.unexpected("the name of a placeholder"));
-    }
-    tokens.take()?;
-    tokens.demand(b'>', ">")
-}
-
-impl RoutineKind {
-    pub(super) fn word(self) -> &'static str {
-        match self {
-            Self::Proc => "PROC",
-            Self::Func => "FUNC",
-            Self::Trap => "TRAP",
-        }
-    }
-
-    pub(super) fn end(self) -> &'static str {
-        match self {
-            Self::Proc => "ENDPROC",
-            Self::Func => "ENDFUNC",
-            Self::Trap => "ENDTRAP",
-        }
+        line
     }
 }

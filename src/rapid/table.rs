@@ -12,6 +12,12 @@ use super::values::{RobTarget, ToolData, Value, WobjData};
 use crate::error::Error;
 use crate::kinematics::{Configuration, Robot, SingularDistances};
 
+/// |joint angle| above which a jointtarget means that the axis is not there [deg]: no joint turns so far, and RAPID writes 9E9.
+const MOST_DEGREES: f64 = 1e6;
+
+/// RAPID's value of an axis that is not there.
+const NOT_THERE: f64 = 9e9;
+
 /// What became of one target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TableRow {
@@ -42,7 +48,8 @@ pub enum Fallback {
 
 /// The joint angles of every target of the module's moves, in their order; a `MoveC` has two.
 ///
-/// Each is seen with its own tool and work object. A `MoveAbsJ` has the joint angles that it names.
+/// Each is seen with its own tool and work object. A `MoveAbsJ` has the joint angles that it names, none where one of them is more than
+/// 1E6 degrees, as the 9E9 of an axis that is not there. A move that is displaced has none.
 ///
 /// # Errors
 ///
@@ -55,7 +62,7 @@ pub fn calc_moves(robot: &Robot<6>, module: &Module, fallback: Fallback) -> Resu
         }
         table.add_move(step, &step.target, |target| match target {
             Target::RobTarget(target) => Ok(*target),
-            Target::JointTarget(joints) => Err(joints.robax_deg.map(f64::to_radians)),
+            Target::JointTarget(joints) => Err(joints.robax_deg),
         });
     }
     Ok(table.rows)
@@ -92,6 +99,14 @@ pub fn calc_targets(
     Ok(table.rows)
 }
 
+/// What is said of the first axis that is not there, by the joint angles [deg].
+fn absent_axis(robax_deg: &[f64; 6]) -> Option<String> {
+    let axis = robax_deg.iter().position(|degrees| degrees.abs() > MOST_DEGREES)?;
+    let written =
+        if robax_deg[axis].to_bits() == NOT_THERE.to_bits() { "9E9".to_string() } else { Value::Num(robax_deg[axis]).to_string() };
+    Some(format!("axis {} is {written}: it is not there", axis + 1))
+}
+
 /// The name of an element of an array by its number in the order of the values.
 fn element(name: &str, sizes: &[usize], mut number: usize) -> String {
     let mut indices = Vec::with_capacity(sizes.len());
@@ -117,15 +132,22 @@ impl<'a> Table<'a> {
         Ok(Self { robot, flange: with_flange(robot)?, fallback, rows: Vec::new() })
     }
 
-    /// A row for an argument of a move, which `read` takes for a robtarget or for joint angles.
+    /// A row for an argument of a move, which `read` takes for a robtarget or for joint angles [deg].
     fn add_move<T>(&mut self, step: &Move, argument: &Argument<T>, read: impl Fn(&T) -> Result<RobTarget, [f64; 6]>) {
         let (kind, text) = (step.kind.name(), argument.text.clone());
+        if let Some(line) = step.displaced {
+            let problem = format!("line {line} displaces it, which is not followed");
+            return self.add(kind, text, step.line, Err(problem), Err(String::new()));
+        }
         match argument.value.as_ref().map(read) {
             Ok(Ok(target)) => {
                 let frames = self.frames_of(step);
                 self.add(kind, text, step.line, Ok(target), frames);
             }
-            Ok(Err(q)) => self.add_joints(kind, text, step.line, q),
+            Ok(Err(joints)) => match absent_axis(&joints) {
+                Some(problem) => self.add(kind, text, step.line, Err(problem), Err(String::new())),
+                None => self.add_joints(kind, text, step.line, joints.map(f64::to_radians)),
+            },
             Err(reason) => self.add(kind, text, step.line, Err(reason.clone()), Err(String::new())),
         }
     }

@@ -7,6 +7,12 @@ use crate::error::{RapidFault, RapidFaultKind};
 /// Characters of the text that a message repeats at most.
 const REPEATED: usize = 40;
 
+/// Letters of a placeholder at most; RAPID's own have two or three.
+const LONGEST_PLACEHOLDER: usize = 16;
+
+/// Characters that end a file: blanks, and what some systems put behind the text.
+const END_OF_FILE: [char; 8] = ['\0', '\u{1a}', ' ', '\t', '\r', '\n', '\u{b}', '\u{c}'];
+
 /// What a token is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum TokenKind {
@@ -18,6 +24,8 @@ pub(super) enum TokenKind {
     Text,
     /// `:=`.
     Assign,
+    /// `<SMT>` and its like: what an unfinished program does not have yet.
+    Placeholder,
     /// A character of RAPID's punctuation.
     Symbol(u8),
     /// Behind the last token.
@@ -44,6 +52,10 @@ pub(super) struct Tokens<'a> {
     next: Token,
     /// End of the token before.
     pub(super) last_end: usize,
+    /// Beginning of the last placeholder that was taken.
+    last_placeholder: Option<usize>,
+    /// End of what is read: what may follow are blanks, NUL and Ctrl-Z.
+    end: usize,
     place: Place,
 }
 
@@ -70,7 +82,8 @@ impl<'a> Tokens<'a> {
     /// Begins at a text, behind its `%%% ... %%%`.
     pub(super) fn new(text: &'a str) -> Result<Self, RapidFault> {
         let next = Token { kind: TokenKind::End, start: 0, end: 0 };
-        let mut tokens = Self { text, next, last_end: 0, place: BEGINNING };
+        let end = text.trim_end_matches(END_OF_FILE).len();
+        let mut tokens = Self { text, next, last_end: 0, last_placeholder: None, end, place: BEGINNING };
         let bom = text.len() - text.trim_start_matches('\u{feff}').len();
         let start = tokens.skip_blanks(bom);
         let begin = if text[start..].starts_with("%%%") {
@@ -93,8 +106,21 @@ impl<'a> Tokens<'a> {
     pub(super) fn take(&mut self) -> Result<Token, RapidFault> {
         let token = self.next;
         self.last_end = token.end;
+        if token.kind == TokenKind::Placeholder {
+            self.last_placeholder = Some(token.start);
+        }
         self.next = self.read(token.end)?;
         Ok(token)
+    }
+
+    /// Whether a placeholder was taken from a byte on.
+    pub(super) fn unfinished_since(&self, byte: usize) -> bool {
+        self.last_placeholder.is_some_and(|placeholder| placeholder >= byte)
+    }
+
+    /// Whether the next token is a name and `:=` follows it.
+    pub(super) fn at_assigned_name(&self) -> bool {
+        self.next.kind == TokenKind::Name && self.text[self.skip_blanks(self.next.end)..].starts_with(":=")
     }
 
     /// Makes a token that was taken the next one again.
@@ -162,6 +188,9 @@ impl<'a> Tokens<'a> {
     fn skip_blanks(&self, mut at: usize) -> usize {
         let bytes = self.text.as_bytes();
         while let Some(&byte) = bytes.get(at) {
+            if at >= self.end {
+                return bytes.len();
+            }
             match byte {
                 b'!' => at += bytes[at..].iter().position(|&b| b == b'\n' || b == b'\r').unwrap_or(bytes.len() - at),
                 b' ' | b'\t' | b'\r' | b'\n' | 0x0b | 0x0c => at += 1,
@@ -177,6 +206,9 @@ impl<'a> Tokens<'a> {
         let start = self.skip_blanks(from);
         let bytes = self.text.as_bytes();
         let second = bytes.get(start + 1).copied().unwrap_or(0);
+        if let Some(end) = placeholder_end(bytes, start) {
+            return Ok(Token { kind: TokenKind::Placeholder, start, end });
+        }
         let (kind, end) = match bytes.get(start).copied() {
             None => (TokenKind::End, start),
             Some(b'0'..=b'9') => self.read_number(start)?,
@@ -231,6 +263,18 @@ impl<'a> Tokens<'a> {
         }
         Ok((TokenKind::Number(value), end))
     }
+}
+
+/// The end of the placeholder that begins at a byte: capital letters between `<` and `>`, without blanks.
+///
+/// It is no comparison: RAPID has none of three operands, as `a<B>c` would be.
+fn placeholder_end(bytes: &[u8], start: usize) -> Option<usize> {
+    if bytes.get(start) != Some(&b'<') {
+        return None;
+    }
+    let letters = bytes[start + 1..].iter().take(LONGEST_PLACEHOLDER + 1).take_while(|byte| byte.is_ascii_uppercase()).count();
+    let end = start + 1 + letters;
+    ((1..=LONGEST_PLACEHOLDER).contains(&letters) && bytes.get(end) == Some(&b'>')).then_some(end + 1)
 }
 
 /// A number as RAPID writes it, without a sign; infinite where it is too large.

@@ -100,6 +100,13 @@ fn products(sizes: &[usize]) -> impl Iterator<Item = usize> {
 impl fmt::Display for Datum {
     /// The declaration with its semicolon.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.write(f, None)
+    }
+}
+
+impl Datum {
+    /// Writes the declaration with its semicolon; an expression may stand for the value.
+    fn write(&self, f: &mut fmt::Formatter<'_>, expression: Option<&str>) -> fmt::Result {
         let scope = match self.scope {
             Scope::Global => "",
             Scope::Local => "LOCAL ",
@@ -117,8 +124,10 @@ impl fmt::Display for Datum {
             }
             f.write_str(if sizes.is_empty() { "" } else { "}" })?;
         }
-        if !matches!(self.content, Content::Uninitialised { .. }) {
-            write!(f, ":={}", self.content)?;
+        match (&self.content, expression) {
+            (Content::Uninitialised { .. }, _) => {}
+            (_, Some(expression)) => write!(f, ":={expression}")?,
+            (content, None) => write!(f, ":={content}")?,
         }
         f.write_char(';')
     }
@@ -165,7 +174,8 @@ impl fmt::Display for Move {
 
 /// What stands in a module or in a routine.
 enum Item<'m> {
-    Datum(&'m Datum),
+    /// Perhaps with the expression that it is written with.
+    Datum(&'m Datum, Option<&'m str>),
     Move(&'m Move),
     Skipped(&'m Skipped),
     Routine(&'m Routine),
@@ -175,7 +185,7 @@ impl Item<'_> {
     /// Line and column; behind all others what stands in no text. Data of a routine come before everything else.
     fn key(&self, in_routine: bool) -> (bool, usize, usize) {
         let (first, line, column) = match self {
-            Self::Datum(datum) => (in_routine, datum.line, datum.column),
+            Self::Datum(datum, _) => (in_routine, datum.line, datum.column),
             Self::Move(step) => (false, step.line, step.column),
             Self::Skipped(skipped) => (false, skipped.line, skipped.column),
             Self::Routine(routine) => (false, routine.line, routine.column),
@@ -190,7 +200,9 @@ fn items(module: &Module) -> BTreeMap<String, Vec<Item<'_>>> {
     let mut add = |routine: Option<&String>, item| {
         items.entry(routine.map(|routine| routine.to_lowercase()).unwrap_or_default()).or_default().push(item);
     };
-    module.data.iter().for_each(|datum| add(datum.routine.as_ref(), Item::Datum(datum)));
+    for (i, datum) in module.data.iter().enumerate() {
+        add(datum.routine.as_ref(), Item::Datum(datum, module.expressions.get(&i).map(String::as_str)));
+    }
     module.skipped.iter().for_each(|skipped| add(skipped.routine.as_ref(), Item::Skipped(skipped)));
     module.moves.iter().for_each(|step| add(step.routine.as_ref(), Item::Move(step)));
     module.routines.iter().for_each(|routine| add(None, Item::Routine(routine)));
@@ -201,7 +213,8 @@ fn items(module: &Module) -> BTreeMap<String, Vec<Item<'_>>> {
 }
 
 impl fmt::Display for Module {
-    /// The module as a text that reads back as the same: values as they are, without comments; what was skipped as it was written.
+    /// The module as a text that reads back as the same: values as they are, without comments, but those that refer to data that are
+    /// assigned, and what was skipped, as they were written.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let items = items(self);
         if let Some(name) = &self.name {
@@ -229,7 +242,11 @@ impl fmt::Display for Module {
 
 fn write_item(f: &mut fmt::Formatter<'_>, margin: &str, item: &Item<'_>) -> fmt::Result {
     match item {
-        Item::Datum(datum) => writeln!(f, "{margin}{datum}"),
+        Item::Datum(datum, expression) => {
+            f.write_str(margin)?;
+            datum.write(f, *expression)?;
+            writeln!(f)
+        }
         Item::Move(step) => writeln!(f, "{margin}{step}"),
         Item::Skipped(skipped) => writeln!(f, "{margin}{}", skipped.text),
         Item::Routine(_) => Ok(()),

@@ -33,7 +33,10 @@ class Declaration(NamedTuple):
 
 
 class Argument(NamedTuple):
-    """An argument as it is written, and what it is by the declarations."""
+    """An argument as it is written, without its name, and what it is by the declarations.
+
+    What the module assigns has no value.
+    """
 
     text: str
     value: RobTarget | JointTarget | ToolData | WobjData | None
@@ -60,6 +63,8 @@ class Move(NamedTuple):
     """The other optional arguments: name and text; no text for a switch."""
     line: int
     column: int
+    displaced: int | None
+    """Line of the instruction that displaces it, which is not followed: PDispOn or PDispSet."""
 
 
 class Skipped(NamedTuple):

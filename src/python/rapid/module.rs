@@ -195,6 +195,7 @@ fn move_record<'py>(py: Python<'py>, step: &Move) -> PyResult<Bound<'py, PyAny>>
         options.into_any(),
         step.line.into_pyobject(py)?.into_any(),
         step.column.into_pyobject(py)?.into_any(),
+        step.displaced.into_pyobject(py)?.into_any(),
     ];
     errors::move_class(py)?.call1(PyTuple::new(py, fields)?)
 }

@@ -1,10 +1,12 @@
 //! What is read, construct by construct.
 
+mod assigned;
 mod build;
 mod functions;
 mod moves;
 mod names;
 mod texts;
+mod unfinished;
 
 use super::{Content, Module, Skipped, Value, parse};
 

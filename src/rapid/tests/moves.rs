@@ -54,6 +54,40 @@ fn moves_are_read_with_all_their_arguments() {
 }
 
 #[test]
+fn a_comma_may_stand_before_an_optional_argument() {
+    let module = module(
+        "MoveAbsJ j, v100, \\T:=5, fine, tool0; MoveL p, v1, fine, tool0, \\WObj:=w; MoveL p, \\ID:=10, v1, fine, tool0, \\WObj:=w, \\Corr;
+         MoveJ \\Conc, \\NoX, p, v1, fine, tool0;",
+    );
+    let written = module.moves().iter().map(ToString::to_string).collect::<Vec<_>>();
+    let expected = [
+        "MoveAbsJ j,v100\\T:=5,fine,tool0;",
+        "MoveL p,v1,fine,tool0\\WObj:=w;",
+        "MoveL p\\ID:=10,v1,fine,tool0\\WObj:=w\\Corr;",
+        "MoveJ \\Conc\\NoX, p,v1,fine,tool0;",
+    ];
+    assert_eq!(written, expected);
+    again(&module, &[]);
+    assert_eq!(fault("MoveL p,v1,z1,tool0,;"), "line 1, column 21: ; stands where a value must");
+}
+
+#[test]
+fn required_arguments_may_be_named() {
+    let module = module(
+        "MoveL ToPoint:=p, Speed := v100, Zone:=z1, Tool:=tool0 \\WObj:=w;
+         MoveC CirPoint:=p, ToPoint:=RelTool(Point:=p,Dx:=1,Dy:=0,Dz:=0\\Rz:=0), Speed:=v1, Zone:=fine, Tool:=tool0;
+         MoveAbsJ ToJointPos:=j\\NoEOffs, Speed:=v1, Zone:=fine, Tool:=tool0;
+         MoveL Offs(Point:=p, XOffset:=0, YOffset:=0, ZOffset:=5), v1, fine, tool0;",
+    );
+    assert!(module.moves().iter().all(|step| step.target.value.is_ok() && step.tool.value.is_ok()));
+    assert_eq!(module.moves()[0].to_string(), "MoveL p,v100,z1,tool0\\WObj:=w;");
+    assert_eq!(module.moves()[1].via.as_ref().unwrap().text, "p");
+    let Ok(Target::RobTarget(shifted)) = module.moves()[3].target.value else { panic!() };
+    assert_eq!(shifted.trans_mm, [1.0, 2.0, 8.0]);
+    again(&module, &[]);
+}
+
+#[test]
 fn moves_in_branches_and_loops_are_listed_in_order() {
     let module = module(
         "VAR num i:=1;
@@ -85,7 +119,7 @@ fn moves_that_cannot_be_resolved_say_why() {
     assert_eq!(parameter.to_string(), "MoveL r,v100\\T?T,z10,tool0;");
     assert_eq!(empty.target.value, Err("refers to q, whose declaration has no value".into()));
     assert_eq!(empty.wobj.as_ref().unwrap().value, Err("it depends on whether an optional argument is there".into()));
-    assert_eq!(told(&module), ["MoveJDO is no instruction that is read"]);
+    assert_eq!(told(&module), ["MoveJDO moves the robot, but is not read"]);
     again(&module, &[]);
 }
 

@@ -86,6 +86,30 @@ fn bytes_are_utf_8_or_latin_1() {
     assert_eq!(decode(b"\xef\xbb\xbfa"), "a");
     assert!(matches!(decode("é".as_bytes()), Cow::Borrowed("é")));
     assert_eq!(decode(b"\xe9"), "é");
+    assert_eq!(decode(b"\xff\xfea\x00\xe9\x00\x3d\xd8\x00\xde"), "aé😀");
+    assert_eq!(decode(b"\xfe\xff\x00a\x00\xe9"), "aé");
+    assert_eq!(decode(b"\xff\xfea\x00\x00\xd8b"), "a\u{fffd}\u{fffd}");
+}
+
+#[test]
+fn what_ends_a_file_is_no_text() {
+    for end in ["\0", "\u{1a}", "\r\n\u{1a}\n\0\0 \u{1a}"] {
+        let text = format!("MODULE M\nVAR num a:=1;\nENDMODULE{end}");
+        let module = read(&text);
+        assert_eq!(rewrite(&text, &module, &[]).unwrap(), text);
+        again(&module, &[]);
+        read(&format!("VAR num a; ! note{end}"));
+    }
+    assert_eq!(fault("VAR num\u{1a} a;"), "line 1, column 8: '\\u{1a}' has no place outside a string or a comment");
+    assert_eq!(fault("VAR num a\0"), "line 1, column 11: the end of the text stands where a semicolon must");
+}
+
+#[test]
+fn names_of_types_hide_no_names() {
+    let module = read("ALIAS num length; LOCAL ALIAS num width; TASK ALIAS num depth; VAR num length:=1; CONST num a:=length;");
+    assert_eq!(told(&module), ["ALIAS length is not read", "ALIAS width is not read", "ALIAS depth is not read"]);
+    assert_eq!(number(&module, "a"), 1.0);
+    again(&module, &[]);
 }
 
 #[test]
@@ -132,7 +156,7 @@ fn what_is_not_known_is_skipped_and_told() {
     let module = read(text);
     let expected = [
         "RECORD r is not read",
-        "ALIAS is no instruction that is read",
+        "ALIAS length is not read",
         "b: type bool is not read",
         "p: CRobT is not calculated",
         "b is assigned a value, which is not followed",
@@ -153,7 +177,7 @@ fn what_is_not_known_is_skipped_and_told() {
         "label again is not read",
         "GOTO is no instruction that is read",
         "% is no instruction that is read",
-        "a placeholder is not read",
+        "<SMT> is not finished",
         "WaitTime is no instruction that is read",
         "ERROR is not carried out",
         "RETRY is no instruction that is read",
