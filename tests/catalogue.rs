@@ -6,7 +6,7 @@ mod common;
 use std::f64::consts::PI;
 
 use common::{Rng, apart, reach_of};
-use irbkin::{CatalogueArm, CatalogueGeometry, Error, JointLimits, OpwParameters, Pose, Robot, catalogue, pose_to_quaternion};
+use irbkin::{CatalogueGeometry, Error, JointLimits, Pose, Robot, catalogue, pose_to_quaternion};
 use nalgebra::Vector3;
 
 /// Arm, joint angles [deg], position of tool0 [mm], quaternion w x y z, source.
@@ -79,19 +79,10 @@ fn products_of_rows() -> Vec<Product> {
     text.lines().skip(1).map(row).collect()
 }
 
-/// An ABB arm without what couples its axes 2 and 3.
-fn serial(arm: &CatalogueArm) -> Robot<6> {
-    let CatalogueGeometry::Abb { a1, a2, c1, c2, c3, c4, .. } = arm.geometry else { unreachable!("{}", arm.name) };
-    let [a1, a2, c1, c2, c3, c4] = [a1, a2, c1, c2, c3, c4].map(|mm| mm / 1e3);
-    Robot::from_opw(OpwParameters::abb(a1, a2, c1, c2, c3, c4)).unwrap()
-}
-
 #[test]
 fn products_of_table_rows_are_met() {
     for (name, degrees, xyz_mm, wxyz) in products_of_rows() {
-        let arm = irbkin::find(&name).unwrap();
-        let CatalogueGeometry::Abb { coupled, .. } = arm.geometry else { unreachable!("{name}") };
-        let robot = if coupled { serial(arm) } else { Robot::from_catalogue(arm).unwrap() };
+        let robot: Robot<6> = Robot::named(&name).unwrap().serial();
         let (xyz, found) = pose_to_quaternion(&robot.fk(&degrees.map(f64::to_radians)));
         // Half a unit of the last digit of the file, and what rounding adds.
         for (axis, mm) in xyz_mm.into_iter().enumerate() {

@@ -238,7 +238,7 @@ def calc_joint_t(
     seed: npt.ArrayLike | None = None,
 ) -> JointTarget: ...
 def calc_rob_t(
-    robot: Robot, joints: JointTarget, tool: ToolData | None = None, wobj: WobjData | None = None
+    robot: Robot, joints: JointTarget | npt.ArrayLike, tool: ToolData | None = None, wobj: WobjData | None = None
 ) -> RobTarget: ...
 def calc_moves(
     robot: Robot,

@@ -68,7 +68,7 @@ pub enum CatalogueGeometry {
         c3: f64,
         /// Wrist centre to flange.
         c4: f64,
-        /// Axes 2 and 3 are coupled by a parallelogram: the controller's angle of axis 3 counts from the room, q3_serial = q3 - q2, and so
+        /// Axes 2 and 3 are coupled by a parallelogram: the controller's angle of axis 3 counts from the base, q3_serial = q3 - q2, and so
         /// do its limits.
         coupled: bool,
     },

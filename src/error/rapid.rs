@@ -156,6 +156,15 @@ pub enum RapidFaultKind {
         /// The circle.
         names: Names,
     },
+    /// A name or a string is so long that what tells of it often would not be read in linear time; RAPID's own are far shorter.
+    TooLong {
+        /// What it is.
+        what: &'static str,
+        /// Its bytes.
+        found: usize,
+        /// Most bytes.
+        bound: usize,
+    },
     /// Brackets or blocks are nested too deep.
     TooDeep {
         /// The deepest that is read.
@@ -261,6 +270,7 @@ impl fmt::Display for RapidFaultKind {
             Self::SameName { name, routine: None } => write!(f, "{name} is declared twice in the module"),
             Self::SameName { name, routine: Some(routine) } => write!(f, "{name} is declared twice in {routine}"),
             Self::Circular { names } => write!(f, "values refer to one another in a circle: {names}"),
+            Self::TooLong { what, found, bound } => write!(f, "a {what} has {found} bytes, it must have at most {bound}"),
             Self::TooDeep { bound } => write!(f, "nested deeper than {bound}, the deepest that is read"),
             Self::SecondModule => write!(f, "a second module begins, a text must hold one"),
             Self::ArgumentCount { instruction, found, wanted } => {

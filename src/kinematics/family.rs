@@ -124,6 +124,8 @@ impl<const N: usize> Robot<N> {
         let inside = |joint: usize, angle: f64| solutions.limits().overrun(joint, angle) <= SOLUTION_OFF;
         let families = among
             .filter_map(|solution| Some(Family { robot: self, solutions, solution, free: solution.free?, allowed }))
+            // No member of a family moves the rod.
+            .filter(|family| solutions.limits().rod_overrun(&family.solution.q) <= SOLUTION_OFF)
             .filter(|family| family.free.still().iter().all(|joint| inside(joint - 1, family.solution.q[joint - 1])));
         let mut nearest = Nearest { limits: solutions.limits(), seed, weights, best: None };
         // A branch that was merged with another meets the pose as well.

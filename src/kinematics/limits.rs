@@ -105,9 +105,14 @@ impl<const N: usize> JointLimits<N> {
 
     /// How far q3 - q2, at its best turn, is outside the limits of the rod, beyond [`LIMIT_TOLERANCE`] [rad]; zero inside.
     pub(crate) fn rod_excess(&self, q: &[f64; N]) -> f64 {
-        let (Some([lower, upper]), [_, q2, q3, ..]) = (self.rod, &q[..]) else { return 0.0 };
-        let excess = overrun(lower, upper, q3 - q2);
+        let excess = self.rod_overrun(q);
         if excess <= LIMIT_TOLERANCE { 0.0 } else { excess }
+    }
+
+    /// How far q3 - q2, at its best turn, is outside the limits of the rod [rad]; negative inside.
+    pub(crate) fn rod_overrun(&self, q: &[f64; N]) -> f64 {
+        let (Some([lower, upper]), [_, q2, q3, ..]) = (self.rod, &q[..]) else { return f64::NEG_INFINITY };
+        overrun(lower, upper, q3 - q2)
     }
 
     /// Whether an angle of joint `joint` (from 0) is inside its limits, within [`LIMIT_TOLERANCE`]. Lanes compare in the same way.
@@ -127,7 +132,7 @@ impl<const N: usize> JointLimits<N> {
 
     /// [`Self::overrun`] of the joint that is outside the most.
     pub(crate) fn worst_overrun(&self, q: &[f64; N]) -> f64 {
-        let rod = if self.rod.is_some() { self.rod_excess(q) } else { f64::NEG_INFINITY };
+        let rod = self.rod_overrun(q);
         q.iter().enumerate().map(|(joint, angle)| self.overrun(joint, *angle)).fold(rod, f64::max)
     }
 

@@ -211,7 +211,7 @@ impl<const N: usize> Robot<N> {
     /// The twin of this arm whose axes 2 and 3 a parallelogram couples: its joint 3 is this one's plus joint 2, as its controller tells it.
     ///
     /// What was the limit of joint 3 is that of the rod; joint 3 may stand wherever axes 2 and the rod let it, and turns as fast as both
-    /// together.
+    /// together: there and back again widens both.
     ///
     /// # Errors
     ///
@@ -235,7 +235,7 @@ impl<const N: usize> Robot<N> {
     /// The twin of this arm without the coupling of axes 2 and 3: its joint 3 is this one's minus joint 2. The arm itself where it has none.
     ///
     /// Its joint 3 is limited as the rod is or, where that is unknown, may stand wherever axes 2 and 3 let it, and turns as fast as both
-    /// together.
+    /// together: there and back again widens both.
     #[must_use]
     pub fn serial(mut self) -> Self {
         if !self.is_coupled() {

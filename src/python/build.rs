@@ -197,11 +197,8 @@ fn mdh_numbers<const N: usize>(mdh: &Mdh<N>) -> Vec<f64> {
 }
 
 /// Whether the catalogue's arm of a name is coupled.
-pub(super) fn is_coupled_in_catalogue(name: &str) -> Option<bool> {
-    match crate::catalogue::find(name).ok()?.geometry {
-        CatalogueGeometry::Abb { coupled, .. } => Some(coupled),
-        _ => None,
-    }
+pub(super) fn is_coupled_in_catalogue(name: &str) -> bool {
+    crate::catalogue::find(name).is_ok_and(|arm| matches!(arm.geometry, CatalogueGeometry::Abb { coupled: true, .. }))
 }
 
 /// Hash of a robot's value.

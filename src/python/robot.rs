@@ -256,7 +256,7 @@ impl PyRobot {
     /// The twin without the coupling of axes 2 and 3: its joint 3 is this one's minus joint 2. The arm itself where it has none.
     ///
     /// Its joint 3 is limited as the rod is or, where that is unknown, may stand wherever axes 2 and 3 let it, and turns as fast as both
-    /// together.
+    /// together: there and back again widens both.
     fn serial(&self, py: Python<'_>) -> PyResult<Self> {
         self.arm.changed(py, &build::Coupled(false)).map(Self::from)
     }
@@ -264,7 +264,7 @@ impl PyRobot {
     /// The twin whose axes 2 and 3 a parallelogram couples: its joint 3 is this one's plus joint 2, as its controller tells it.
     ///
     /// What was the limit of joint 3 is that of the rod; joint 3 may stand wherever axes 2 and the rod let it, and turns as fast as both
-    /// together.
+    /// together: there and back again widens both.
     ///
     /// Raises:
     ///     InvalidModelError: The arm has no spherical wrist, or its axes 2 and 3 turn in opposite senses.
@@ -547,8 +547,8 @@ impl PyRobot {
             "" => format!("Robot({} joints, {})", self.arm.dof(), self.family()),
             name => {
                 let twin = match (build::is_coupled_in_catalogue(name), self.is_coupled()) {
-                    (Some(true), false) => ".serial()",
-                    (Some(false), true) => ".coupled()",
+                    (true, false) => ".serial()",
+                    (false, true) => ".coupled()",
                     _ => "",
                 };
                 format!("Robot(\"{name}\"){twin}")

@@ -48,17 +48,24 @@ const MOVING: [&str; 32] = [
 ];
 
 /// Instructions that write to a required argument, with its number.
-const WRITING: [(&str, usize); 10] = [
+const WRITING: [(&str, usize); 17] = [
     ("Incr", 1),
     ("Decr", 1),
     ("Add", 1),
     ("Clear", 1),
     ("TPReadNum", 1),
+    ("TPReadDnum", 1),
     ("TPReadFK", 1),
     ("GetSysData", 1),
     ("SearchL", 2),
     ("SearchC", 2),
     ("SearchExtJ", 2),
+    ("GetDataVal", 2),
+    ("MToolRotCalib", 3),
+    ("UnpackRawBytes", 3),
+    ("SToolRotCalib", 4),
+    ("MToolTCPCalib", 5),
+    ("SToolTCPCalib", 5),
 ];
 
 /// Whether an instruction moves the robot: behind its beginning another word begins, so that `DisplayText` is not `DispL`.

@@ -57,7 +57,7 @@ pub use self::moves::{Argument, Move, MoveKind, MoveOption, Target};
 pub use self::rewrite::{NewValue, rewrite};
 use self::statements::StatementReader;
 pub use self::table::{Fallback, TableRow, calc_moves, calc_targets};
-pub use self::values::{JointTarget, LoadData, RapidPose, RobTarget, ToolData, Value, WobjData};
+pub use self::values::{JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, ToolData, Value, WobjData};
 use crate::error::Error;
 
 /// Reads the text of a module, or of declarations and moves without one.

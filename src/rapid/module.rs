@@ -195,7 +195,13 @@ impl Module {
     /// The datum of the module of a name in any case; data of routines are not looked through.
     #[must_use]
     pub fn find(&self, name: &str) -> Option<&Datum> {
-        self.index.get(&name.to_lowercase()).and_then(|&index| self.data.get(index))
+        self.position(name).and_then(|index| self.data.get(index))
+    }
+
+    /// The index in [`Self::data`] of what [`Self::find`] gives.
+    #[must_use]
+    pub fn position(&self, name: &str) -> Option<usize> {
+        self.index.get(&name.to_lowercase()).copied()
     }
 
     /// The module without lines, columns and spans: two that are equal so say the same.

@@ -8,15 +8,12 @@ use super::calc::{error_name, target_pose, with_flange};
 use super::frames::Frames;
 use super::module::{Content, Module};
 use super::moves::{Argument, Move, Target};
-use super::values::{RobTarget, ToolData, Value, WobjData};
+use super::values::{NOT_THERE, RobTarget, ToolData, Value, WobjData};
 use crate::error::Error;
 use crate::kinematics::{Configuration, Robot, SingularDistances};
 
 /// |joint angle| above which a jointtarget means that the axis is not there [deg]: no joint turns so far, and RAPID writes 9E9.
 const MOST_DEGREES: f64 = 1e6;
-
-/// RAPID's value of an axis that is not there.
-const NOT_THERE: f64 = 9e9;
 
 /// What became of one target.
 #[derive(Clone, Debug, PartialEq)]
@@ -171,9 +168,23 @@ impl<'a> Table<'a> {
 
     fn add_joints(&mut self, kind: &'static str, text: String, line: usize, q: [f64; 6]) {
         let (configuration, distances) = self.seen(&q);
-        let limits = self.robot.limits();
-        let problem = (!limits.contain(&q)).then(|| "ERR_ROBLIMIT: the joint angles are outside the limits".to_string());
+        let problem = self.outside(&q).map(|outside| format!("ERR_ROBLIMIT: {outside}"));
         self.rows.push(TableRow { kind, text, line, q: Some(q), configuration, distances, problem });
+    }
+
+    /// What is outside the limits, and by how much.
+    fn outside(&self, q: &[f64; 6]) -> Option<String> {
+        let limits = self.robot.limits();
+        if limits.contain(q) {
+            return None;
+        }
+        let farthest = (0..6).max_by(|a, b| limits.excess(*a, q[*a]).total_cmp(&limits.excess(*b, q[*b])))?;
+        let (excess, rod) = (limits.excess(farthest, q[farthest]), limits.rod_excess(q));
+        Some(if excess > 0.0 {
+            format!("J{} is outside its limits by {:.1} deg", farthest + 1, excess.to_degrees())
+        } else {
+            format!("the rod (q3 - q2) is outside its limits by {:.1} deg", rod.to_degrees())
+        })
     }
 
     /// The joint angles of a target, and what is wrong with them.

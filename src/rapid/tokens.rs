@@ -10,6 +10,11 @@ const REPEATED: usize = 40;
 /// Letters of a placeholder at most; RAPID's own have two or three.
 const LONGEST_PLACEHOLDER: usize = 16;
 
+/// Most bytes of a name and of a string. RAPID's own bounds are 32 and 80 characters; what tells of a name often, the routine of each statement for
+/// instance, stays linear in the text so.
+const LONGEST_NAME: usize = 256;
+const LONGEST_STRING: usize = 2048;
+
 /// Characters that end a file: blanks, and what some systems put behind the text.
 const END_OF_FILE: [char; 8] = ['\0', '\u{1a}', ' ', '\t', '\r', '\n', '\u{b}', '\u{c}'];
 
@@ -225,7 +230,7 @@ impl<'a> Tokens<'a> {
         let end = end_of_word(self.text, start);
         let first = self.text[start..].chars().next().unwrap_or('\0');
         if end > start && first != '_' {
-            return Ok(end);
+            return self.short(start, end, "name", LONGEST_NAME);
         }
         Err(self.fault(start, RapidFaultKind::UnexpectedCharacter { character: first }))
     }
@@ -236,11 +241,16 @@ impl<'a> Tokens<'a> {
         loop {
             match (bytes.get(at), bytes.get(at + 1)) {
                 (Some(b'"'), Some(b'"')) => at += 2,
-                (Some(b'"'), _) => return Ok(at + 1),
+                (Some(b'"'), _) => return self.short(start, at + 1, "string", LONGEST_STRING),
                 (None | Some(b'\n' | b'\r'), _) => return Err(self.fault(start, RapidFaultKind::UnterminatedString)),
                 _ => at += 1,
             }
         }
+    }
+
+    /// The end of a name or a string, where it is not too long.
+    fn short(&self, start: usize, end: usize, what: &'static str, bound: usize) -> Result<usize, RapidFault> {
+        if end - start <= bound { Ok(end) } else { Err(self.fault(start, RapidFaultKind::TooLong { what, found: end - start, bound })) }
     }
 
     /// A number with its end: decimal, or whole with the prefix 0x, 0o or 0b.

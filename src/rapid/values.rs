@@ -8,6 +8,9 @@ use super::kind::{DataType, Kind, Scalars};
 use super::write::write_scalars;
 use crate::kinematics::Configuration;
 
+/// What stands for an external axis that is not there.
+pub const NOT_THERE: f64 = 9e9;
+
 /// `pose`: a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RapidPose {

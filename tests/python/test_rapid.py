@@ -123,6 +123,13 @@ def test_new_values_change_nothing_else_in_the_text():
         module.rewritten({"p10": JointTarget((0,) * 6)})
 
 
+def test_frames_may_be_written_as_rapid_writes_them():
+    assert ToolData(True, [[1, 2, 3], [1, 0, 0, 0]]) == ToolData(tframe=Pose((1, 2, 3)))
+    assert WobjData(uframe=((1, 2, 3), (0, 1, 0, 0))).uframe == Pose((1, 2, 3), (0, 1, 0, 0))
+    with pytest.raises(RapidError, match="Pose: trans_mm must be 3 finite numbers"):
+        WobjData(oframe=((1, 2), (0, 1, 0, 0)))
+
+
 def test_numpy_s_numbers_and_truths_are_taken():
     assert RobTarget(np.array([1, 2, 3]), robconf=np.array([0, 1, 2, 3])) == RobTarget((1, 2, 3), robconf=(0, 1, 2, 3))
     assert ToolData(robhold=np.bool_(False)).robhold is False
@@ -167,6 +174,10 @@ def test_a_broken_file_is_told_with_its_path_line_and_column(tmp_path):
         rapid.load(tmp_path / "nothing.mod")
 
 
+HOLDS_ITSELF = []
+HOLDS_ITSELF.append(HOLDS_ITSELF)
+
+
 @pytest.mark.parametrize(
     ("make", "message"),
     [
@@ -180,6 +191,7 @@ def test_a_broken_file_is_told_with_its_path_line_and_column(tmp_path):
         (lambda: LoadData(mass_kg=np.inf), "mass_kg must be a finite number"),
         (lambda: rapid.dump({"a": [[1.0], [1.0, 2.0]]}), "its lists have different lengths"),
         (lambda: rapid.dump({"a": []}), "at least one element"),
+        (lambda: rapid.dump(HOLDS_ITSELF), "an array has one to 3 dimensions"),
         (lambda: rapid.parse("[[1,2,3]]"), "is no robtarget, jointtarget, tooldata, wobjdata, pose or loaddata"),
         (lambda: rapid.dump({"a:=1;\nVAR num b": 2.0}), "is no name that RAPID could read"),
         (lambda: rapid.dump({"a": 1.0}, name="M(SYSMODULE)"), "is no name that RAPID could read"),
@@ -236,6 +248,9 @@ def test_taught_targets_have_the_joints_that_they_were_taught_with(robot, target
     again = rapid.calc_rob_t(robot, joints, tool, wobj)
     np.testing.assert_allclose(again.trans_mm, target.trans_mm, rtol=0, atol=1e-3)
     assert again.extax == target.extax
+    of_angles = rapid.calc_rob_t(robot, joints.q, tool, wobj)
+    np.testing.assert_allclose(of_angles.trans_mm, again.trans_mm, rtol=0, atol=1e-9)
+    assert of_angles.robconf == again.robconf
 
 
 def test_what_a_controller_would_refuse_is_refused_by_its_name():

@@ -45,6 +45,14 @@ def _demand(record: object, field: str, of: type, words: str) -> None:
         raise RapidError(f"{type(record).__name__}: {field} must be {words}, got {value!r}")
 
 
+def _set_pose(record: object, field: str) -> None:
+    """Makes a field a Pose; the position and quaternion of one are taken, as RAPID writes them."""
+    value = getattr(record, field)
+    if isinstance(value, (tuple, list)) and len(value) == 2:
+        object.__setattr__(record, field, Pose(*value))
+    _demand(record, field, Pose, "a Pose (Pose.of(T) makes one of a matrix)")
+
+
 def _set_truth(record: object, field: str) -> None:
     """Makes a field True or False; NumPy's are taken, too."""
     value = getattr(record, field)
@@ -181,7 +189,7 @@ class ToolData:
 
     def __post_init__(self) -> None:
         _set_truth(self, "robhold")
-        _demand(self, "tframe", Pose, "a Pose (Pose.of(T) makes one of a matrix)")
+        _set_pose(self, "tframe")
         _demand(self, "tload", LoadData, "a LoadData")
 
 
@@ -204,8 +212,8 @@ class WobjData:
         _set_truth(self, "robhold")
         _set_truth(self, "ufprog")
         _demand(self, "ufmec", str, "a str")
-        for field in ("uframe", "oframe"):
-            _demand(self, field, Pose, "a Pose (Pose.of(T) makes one of a matrix)")
+        _set_pose(self, "uframe")
+        _set_pose(self, "oframe")
 
 
 def _set_configuration(target: RobTarget) -> None:

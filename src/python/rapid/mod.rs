@@ -20,7 +20,7 @@ use crate::rapid::{self, Content, DataType, Datum, Module, Scope, Storage, Table
 /// The module of a text.
 ///
 /// Args:
-///     text: RAPID text, or the bytes of a file: UTF-8, else Latin-1.
+///     text: RAPID text, or the bytes of a file: UTF-8, UTF-16 with its mark, else Latin-1.
 ///     context: Modules in which names that the text does not declare are looked for: their data that are not LOCAL.
 ///
 /// Raises:
@@ -151,7 +151,7 @@ pub(super) fn calc_joint_t<'py>(
 ///
 /// Args:
 ///     robot: The arm. Its base counts: poses of work objects are seen from the world.
-///     joints: JointTarget.
+///     joints: JointTarget, or joint angles [rad], shape (6,).
 ///     tool: ToolData; the robot's own tool where not given.
 ///     wobj: WobjData; the world where not given.
 ///

@@ -89,7 +89,7 @@ impl RapidModule {
         PyTuple::new(py, skipped.collect::<PyResult<Vec<_>>>()?)
     }
 
-    /// The source with other values for some data: everything else, comments too, stays as it is, byte for byte.
+    /// The source with other values for some data: everything else, comments too, stays as it is, character for character.
     ///
     /// Args:
     ///     values: Names of the module's data to records of their type, to nested lists of as many for arrays.
@@ -152,9 +152,8 @@ impl RapidModule {
 impl RapidModule {
     /// A datum of the module itself, and its index.
     fn found(&self, py: Python<'_>, name: &str) -> PyResult<(usize, &Datum)> {
-        let datum = self.module.find(name);
-        let index = datum.and_then(|datum| self.module.data().iter().position(|other| std::ptr::eq(other, datum)));
-        index.zip(datum).ok_or_else(|| rapid_fault(py, format!("the module has no data of the name {name:?}")))
+        let found = self.module.position(name).zip(self.module.find(name));
+        found.ok_or_else(|| rapid_fault(py, format!("the module has no data of the name {name:?}")))
     }
 }
 

@@ -3,10 +3,14 @@
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyBytes, PyFloat, PyList, PyString, PyTuple};
 
-use crate::kinematics::Configuration;
+use crate::kinematics::{Configuration, check_joints};
+use crate::python::arrays::vector;
 use crate::python::configurations;
-use crate::python::errors::{self, rapid_fault};
-use crate::rapid::{Content, JointTarget, LoadData, RapidPose, RobTarget, ToolData, Value, WobjData};
+use crate::python::errors::{self, Fault, rapid_fault, to_py};
+use crate::rapid::{Content, JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, ToolData, Value, WobjData};
+
+/// Most dimensions of an array.
+const MOST_DIMENSIONS: usize = 3;
 
 /// The Python record of a value.
 pub(super) fn record<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
@@ -78,21 +82,28 @@ pub(super) struct Given {
 
 /// What a Python object says that a datum holds; `thing` names it in errors.
 pub(super) fn read_content(given: &Bound<'_, PyAny>, thing: &str) -> PyResult<Given> {
+    read_array(given, thing, MOST_DIMENSIONS)
+}
+
+/// A value, or nested lists of at most so many dimensions.
+fn read_array(given: &Bound<'_, PyAny>, thing: &str, dimensions: usize) -> PyResult<Given> {
     let Ok(list) = given.cast::<PyList>() else {
         return Ok(Given { sizes: Vec::new(), values: vec![read_value(given, thing)?] });
     };
+    if dimensions == 0 || list.is_empty() {
+        let message = format!("{thing}: an array has one to {MOST_DIMENSIONS} dimensions and at least one element in each");
+        return Err(rapid_fault(given.py(), message));
+    }
     let mut all = Given { sizes: vec![list.len()], values: Vec::new() };
     for (number, element) in list.iter().enumerate() {
-        let Given { sizes, values } = read_content(&element, thing)?;
+        let Given { sizes, values } = read_array(&element, thing, dimensions - 1)?;
         if number > 0 && all.sizes[1..] != sizes {
-            return Err(rapid_fault(given.py(), format!("{thing}: its lists have different lengths")));
+            let message = format!("{thing}: its lists have different lengths, {:?} and {sizes:?}", &all.sizes[1..]);
+            return Err(rapid_fault(given.py(), message));
         }
         all.sizes.truncate(1);
         all.sizes.extend(sizes);
         all.values.extend(values);
-    }
-    if all.sizes.len() > 3 || all.values.is_empty() {
-        return Err(rapid_fault(given.py(), format!("{thing}: an array has one to three dimensions and at least one element")));
     }
     Ok(all)
 }
@@ -159,10 +170,15 @@ pub(super) fn read_rob_target(given: &Bound<'_, PyAny>) -> PyResult<RobTarget> {
     Ok(RobTarget { trans_mm, rot, robconf: Configuration { cf1, cf4, cf6, cfx }, extax })
 }
 
+/// A jointtarget, or joint angles [rad].
 pub(super) fn read_joint_target(given: &Bound<'_, PyAny>) -> PyResult<JointTarget> {
-    demand(given, errors::joint_target_class(given.py())?, "joints", "a JointTarget")?;
-    let JointTargetFields { robax_deg, extax } = given.extract()?;
-    Ok(JointTarget { robax_deg, extax })
+    if given.is_instance(errors::joint_target_class(given.py())?)? {
+        let JointTargetFields { robax_deg, extax } = given.extract()?;
+        return Ok(JointTarget { robax_deg, extax });
+    }
+    let q = vector::<6>(given, "joints", Fault::Joints)?;
+    check_joints("joints", &q).map_err(|error| to_py(given.py(), &error))?;
+    Ok(JointTarget { robax_deg: q.map(f64::to_degrees), extax: [NOT_THERE; 6] })
 }
 
 pub(super) fn read_tool(given: &Bound<'_, PyAny>) -> PyResult<ToolData> {

@@ -1,8 +1,9 @@
 //! Data that a program assigns, and displacements: what moves do not know.
 
 use std::format;
-use std::prelude::rust_2024::*;
 use std::string::String;
+use std::string::ToString;
+use std::vec::Vec;
 
 use super::*;
 

@@ -1,8 +1,9 @@
 //! Modules from data that stand in no text.
 
-use std::prelude::rust_2024::*;
 use std::string::String;
+use std::string::ToString;
 use std::vec;
+use std::vec::Vec;
 
 use super::*;
 use crate::rapid::{Datum, Storage, ToolData};

@@ -1,7 +1,7 @@
 //! Offs and RelTool.
 
 use std::format;
-use std::prelude::rust_2024::*;
+use std::string::ToString;
 
 use super::*;
 use crate::rapid::RobTarget;

@@ -8,6 +8,10 @@ mod names;
 mod texts;
 mod unfinished;
 
+use std::string::String;
+use std::string::ToString;
+use std::vec::Vec;
+
 use super::{Content, Module, Skipped, Value, parse};
 
 fn read(text: &str) -> Module {
@@ -34,9 +38,6 @@ fn number(module: &Module, name: &str) -> f64 {
 fn told(module: &Module) -> Vec<&str> {
     module.skipped().iter().map(|Skipped { what, .. }| what.as_str()).collect()
 }
-
-use std::prelude::rust_2024::*;
-use std::vec::Vec;
 
 /// The module written and read again, which must be the same.
 fn again(module: &Module, context: &[&Module]) -> Module {

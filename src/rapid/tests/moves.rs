@@ -1,8 +1,9 @@
 //! Move instructions.
 
 use std::format;
-use std::prelude::rust_2024::*;
 use std::string::String;
+use std::string::ToString;
+use std::vec::Vec;
 
 use super::*;
 use crate::rapid::{MoveKind, MoveOption, Target, ToolData, WobjData};

@@ -1,8 +1,9 @@
 //! Names: references, components, elements, scopes, other modules.
 
 use std::format;
-use std::prelude::rust_2024::*;
 use std::string::String;
+use std::string::ToString;
+use std::vec::Vec;
 
 use super::*;
 

@@ -2,8 +2,9 @@
 
 use std::borrow::Cow;
 use std::format;
-use std::prelude::rust_2024::*;
+use std::string::ToString;
 use std::vec;
+use std::vec::Vec;
 
 use super::*;
 use crate::rapid::{DataType, NewValue, RapidPose, RobTarget, Scope, Storage, ToolData, WobjData, decode, rewrite};

@@ -1,7 +1,8 @@
 //! Placeholders of unfinished programs.
 
 use std::format;
-use std::prelude::rust_2024::*;
+use std::string::String;
+use std::vec::Vec;
 
 use super::*;
 
