@@ -186,19 +186,16 @@ pub enum RapidFaultKind {
         /// The name.
         name: String,
     },
+    /// A text that should be a record is none.
+    NoRecord {
+        /// As it is written, its beginning.
+        text: String,
+    },
     /// A value is to be put where there is none.
     NoSuchValue {
         /// What there is not.
         what: String,
     },
-}
-
-impl RapidFaultKind {
-    /// Whether the text would be read as a value of another type.
-    #[cfg(feature = "python")]
-    pub(crate) fn is_of_type(&self) -> bool {
-        matches!(self, Self::ComponentCount { .. } | Self::ComponentType { .. } | Self::NotWhole { .. })
-    }
 }
 
 impl RapidFault {
@@ -277,6 +274,7 @@ impl fmt::Display for RapidFaultKind {
                 write!(f, "{instruction} has {}, it must have {wanted}", Count(*found, "argument"))
             }
             Self::NotAName { name } => write!(f, "{name:?} is no name that RAPID could read"),
+            Self::NoRecord { text } => write!(f, "{text} is no robtarget, jointtarget, tooldata, wobjdata, pose or loaddata"),
             Self::NoSuchValue { what } => write!(f, "there is no {what}"),
         }
     }

@@ -49,8 +49,9 @@ def parse(text: str | bytes, context: Iterable[Module] = ()) -> Any:
     """The module of a text, with or without MODULE around it; of a record that stands by itself, the record.
 
     Args:
-        text: RAPID text, or the bytes of a file: UTF-8, UTF-16 with its mark, else Latin-1. Text that begins with a bracket is one robtarget,
-            jointtarget, tooldata, wobjdata, pose or loaddata, as `dump` writes them: their shapes differ.
+        text: RAPID text, or the bytes of a file: UTF-8, UTF-16 with its mark, else Latin-1. Text that begins with a
+            bracket is one robtarget, jointtarget, tooldata, wobjdata, pose or loaddata, as `dump` writes them: their
+            shapes differ.
         context: Modules in which names that the text does not declare are looked for: their data that are not LOCAL.
 
     Returns:

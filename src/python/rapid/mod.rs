@@ -13,7 +13,7 @@ use super::configurations::{Fallback, counted};
 use super::errors::{self, rapid_fault, to_py};
 use super::found::read_seed;
 use super::robot::PyRobot;
-use crate::error::{Error, RapidFault};
+use crate::error::Error;
 use crate::kinematics::{Configuration, Robot};
 use crate::rapid::{self, Content, DataType, Datum, Module, Scope, Storage, TableRow, ToolData, Value, WobjData};
 
@@ -53,26 +53,7 @@ pub(super) fn decode(text: &Bound<'_, PyAny>) -> PyResult<String> {
 /// The record of a value that stands by itself: a robtarget, jointtarget, tooldata, wobjdata, pose or loaddata, which its shape tells.
 #[pyfunction]
 pub(super) fn parse_record<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
-    use DataType::{JointTarget, LoadData, Pose, RobTarget, ToolData, WobjData};
-    let mut refused = None;
-    for data_type in [RobTarget, JointTarget, ToolData, WobjData, Pose, LoadData] {
-        // The text has lines of its own, behind one that is not told of.
-        match rapid::parse(&format!("VAR {} value:=\n{text}\n;", data_type.name()), &[]) {
-            Ok(module) => {
-                let alone = module.data().len() == 1 && module.moves().is_empty() && module.skipped().is_empty();
-                if let (true, Some(Content::Single(value))) = (alone, module.data().first().map(|datum| &datum.content)) {
-                    return record(py, value);
-                }
-            }
-            Err(Error::Rapid(fault)) if fault.kind.is_of_type() => {}
-            Err(Error::Rapid(fault)) => refused = Some(RapidFault { line: fault.line.saturating_sub(1), ..fault }),
-            Err(error) => return Err(to_py(py, &error)),
-        }
-    }
-    match refused {
-        Some(fault) => Err(to_py(py, &fault.into())),
-        None => Err(rapid_fault(py, format!("{text} is no robtarget, jointtarget, tooldata, wobjdata, pose or loaddata"))),
-    }
+    record(py, &rapid::parse_record(text).map_err(|error| to_py(py, &error))?)
 }
 
 /// RAPID text of a record, of a module, or of a module with data by their names.

@@ -193,3 +193,27 @@ fn what_is_not_known_is_skipped_and_told() {
     assert_eq!(headers, ["PROC p1()", "FUNC bool f(num x)", "TRAP t"]);
     again(&module, &[]);
 }
+
+#[test]
+fn names_and_strings_have_a_bound() {
+    let name = |length: usize| std::format!("VAR num {}:=1;", "a".repeat(length));
+    assert_eq!(read(&name(256)).data().len(), 1);
+    assert_eq!(fault(&name(257)), "line 1, column 9: a name has 257 bytes, it must have at most 256");
+    let text = |length: usize| std::format!("PROC main() TPWrite \"{}\"; ENDPROC", "a".repeat(length));
+    assert_eq!(read(&text(2046)).skipped().len(), 1);
+    assert_eq!(fault(&text(2047)), "line 1, column 21: a string has 2049 bytes, it must have at most 2048");
+}
+
+#[test]
+fn a_record_by_itself_is_told_by_its_shape() {
+    let record = |text: &str| crate::rapid::parse_record(text).map(|value| value.type_name()).map_err(|error| error.to_string());
+    assert_eq!(record(" [[1,2,3],[1,0,0,0]] "), Ok("pose"));
+    assert_eq!(record("[[1,2,3,4,5,6],[9E9,9E9,9E9,9E9,9E9,9E9]]"), Ok("jointtarget"));
+    assert_eq!(record("[TRUE,[[0,0,1],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]]"), Ok("tooldata"));
+    let none = "[1,2,3] is no robtarget, jointtarget, tooldata, wobjdata, pose or loaddata";
+    assert_eq!(record("[1,2,3]"), Err(none.to_string()));
+    assert_eq!(record("[[1,2,3],\n[1,0,0,0]"), Err("line 1, column 1: [ is not closed".to_string()));
+    for more in ["[[1,2,3],[1,0,0,0]]; VAR num y:=5", "[[1,2,3],[1,0,0,0]]; MoveL p,v,z,t", "[[n,2,3],[1,0,0,0]]; CONST num n:=7"] {
+        assert!(record(more).is_err(), "{more}");
+    }
+}
