@@ -152,8 +152,8 @@ def test_names_are_looked_for_in_the_context():
     assert known.tool.value == tools["tPin"]
 
 
-@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "latin-1"])
-def test_files_are_utf_8_or_latin_1(tmp_path, encoding):
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "latin-1"])
+def test_files_are_of_any_usual_encoding(tmp_path, encoding):
     path = tmp_path / "Modul.mod"
     frames = "[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]"
     text = f'MODULE M\n! größe\nCONST wobjdata w:=[FALSE,FALSE,"STÄTION",{frames}];\nENDMODULE'
