@@ -191,6 +191,18 @@ pub enum RapidFaultKind {
         /// As it is written, its beginning.
         text: String,
     },
+    /// A text to be written anew is not the one of which the module was read.
+    OtherText {
+        /// Its bytes.
+        found: usize,
+        /// Bytes of the one that was read.
+        wanted: usize,
+    },
+    /// One place of a text is to get two values.
+    TwoValues {
+        /// Whose place.
+        thing: String,
+    },
     /// A value is to be put where there is none.
     NoSuchValue {
         /// What there is not.
@@ -275,6 +287,10 @@ impl fmt::Display for RapidFaultKind {
             }
             Self::NotAName { name } => write!(f, "{name:?} is no name that RAPID could read"),
             Self::NoRecord { text } => write!(f, "{text} is no robtarget, jointtarget, tooldata, wobjdata, pose or loaddata"),
+            Self::OtherText { found, wanted } => {
+                write!(f, "this is not the text of the module: it has {found} bytes, it must have {wanted}")
+            }
+            Self::TwoValues { thing } => write!(f, "{thing} is to get two values"),
             Self::NoSuchValue { what } => write!(f, "there is no {what}"),
         }
     }

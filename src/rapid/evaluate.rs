@@ -251,7 +251,7 @@ impl Evaluator<'_, '_> {
         for (index, size) in reference.indices.iter().zip(sizes) {
             let value = constant.number(index)?;
             let Some(from_one) = positive_whole(value).filter(|from_one| from_one <= size) else {
-                let text = written(self.resolver.text, index);
+                let text = format!("{}{{{}}}", reference.name, written(self.resolver.text, index));
                 return Err(self.fault(index, RapidFaultKind::Index { text, value, size: *size }));
             };
             element = element * size + from_one - 1;

@@ -1,6 +1,5 @@
 //! New values in an old text, of which nothing else changes.
 
-use core::fmt::Write as _;
 use core::ops::Range;
 
 use alloc::format;
@@ -31,8 +30,10 @@ pub struct NewValue {
 /// [`Error::Rapid`] when there is no such datum or element, a value is of another type or not finite, one place gets two values, or
 /// `source` is not the text.
 pub fn rewrite(source: &str, module: &Module, new_values: &[NewValue]) -> Result<String, Error> {
+    // Of a text as long as that of the module, but another one, a place may lie inside a character.
+    let other_text = || nowhere(RapidFaultKind::OtherText { found: source.len(), wanted: module.text_length });
     if source.len() != module.text_length {
-        return Err(missing(format!("text of {} bytes of which the module was read", module.text_length)));
+        return Err(other_text());
     }
     let mut places = Vec::with_capacity(new_values.len());
     for new in new_values {
@@ -43,24 +44,28 @@ pub fn rewrite(source: &str, module: &Module, new_values: &[NewValue]) -> Result
     let mut copied = 0;
     let mut last_start = None;
     for (span, new) in places {
-        let between = source.get(copied..span.start).filter(|_| last_start != Some(span.start));
-        text.push_str(between.ok_or_else(|| missing(format!("second place for datum {} in the text", new.datum)))?);
-        let assign = if span.is_empty() { " := " } else { "" };
-        write!(text, "{assign}{}", new.value).map_err(|_| missing("room for the text".to_string()))?;
+        if last_start == Some(span.start) || span.start < copied {
+            let thing = module.data.get(new.datum).map_or_else(String::new, |datum| format!("{} {}", datum.data_type.name(), datum.name));
+            return Err(nowhere(RapidFaultKind::TwoValues { thing }));
+        }
+        text.push_str(source.get(copied..span.start).ok_or_else(other_text)?);
+        text.push_str(if span.is_empty() { " := " } else { "" });
+        text.push_str(&new.value.to_string());
         (copied, last_start) = (span.end, Some(span.start));
     }
-    text.push_str(source.get(copied..).ok_or_else(|| missing("end of the text where the module has it".to_string()))?);
+    text.push_str(source.get(copied..).ok_or_else(other_text)?);
     Ok(text)
 }
 
-fn missing(what: String) -> Error {
-    RapidFault::nowhere(RapidFaultKind::NoSuchValue { what }).into()
+fn nowhere(kind: RapidFaultKind) -> Error {
+    RapidFault::nowhere(kind).into()
 }
 
 /// The bytes that a new value takes the place of.
 fn place(module: &Module, new: &NewValue) -> Result<Range<usize>, Error> {
     let Some(datum) = module.data.get(new.datum) else {
-        return Err(missing(format!("datum {}, the module has {}", new.datum, module.data.len())));
+        let what = format!("datum {}, the module has {}", new.datum, module.data.len());
+        return Err(nowhere(RapidFaultKind::NoSuchValue { what }));
     };
     let thing = format!("{} {}", datum.data_type.name(), datum.name);
     let fault = |kind| RapidFault { line: datum.line, column: datum.column, kind }.into();

@@ -143,9 +143,9 @@ fn new_values_leave_everything_else_as_it_was() {
     assert_eq!(words(&[new(1, Some(2), Value::Pos([0.0; 3]))]), "line 3, column 2: there is no element 2 of pos b");
     assert_eq!(words(&[new(1, None, Value::Pos([0.0; 3]))]), "line 3, column 2: there is no single value in the array pos b");
     let twice = [new(2, None, Value::Num(3.0)), new(2, None, Value::Num(4.0))];
-    assert_eq!(words(&twice), "there is no second place for datum 2 in the text");
+    assert_eq!(words(&twice), "num c is to get two values");
     let shorter = rewrite("", &module, &[]).unwrap_err().to_string();
-    assert_eq!(shorter, format!("there is no text of {} bytes of which the module was read", text.len()));
+    assert_eq!(shorter, format!("this is not the text of the module: it has 0 bytes, it must have {}", text.len()));
 }
 
 #[test]
