@@ -145,8 +145,19 @@ where
     Ok(())
 }
 
+/// Configurations, one a row of six joint angles; an error for a row that is not finite.
+///
+/// # Errors
+///
+/// As [`fk`], and [`Error::InvalidModel`] for an arm without a spherical wrist.
+pub fn configuration<'a>(robot: &'a Robot<6>, q: &'a [f64]) -> Result<impl Iterator<Item = Result<Configuration, Error>> + 'a, Error> {
+    robot.counted()?;
+    Ok(rows::<6>("q", q)?.iter().map(|q| robot.configuration(q)))
+}
+
 /// Inverse kinematics by configurations: rows of 16 pose elements, and a configuration for each, to rows of joint angles, those of
-/// [`Robot::ik_configured`] or, with `seeds`, of [`Robot::ik_configured_or_nearest`]. A row that has none, or whose pose is invalid, is NaN.
+/// [`Robot::ik_configured`] or, with `seeds`, of [`Robot::ik_configured_or_nearest`]. A row that has none, or whose pose or seed is
+/// invalid, is NaN.
 ///
 /// # Errors
 ///
@@ -159,9 +170,7 @@ pub fn ik_configured(
     seeds: Option<&[f64]>,
     q: &mut [f64],
 ) -> Result<(), Error> {
-    if robot.spherical_wrist().is_none() {
-        return Err(ModelFault::NoConfiguration { family: robot.family() }.into());
-    }
+    robot.counted()?;
     let poses = rows::<16>("poses", poses)?;
     if configurations.len() != poses.len() {
         return Err(Error::WrongLength { field: "configurations", found: configurations.len(), wanted: poses.len() });
@@ -173,8 +182,11 @@ pub fn ik_configured(
     };
     for (row, q) in rows_out::<6, f64>("q", q, poses.len())?.iter_mut().enumerate() {
         let configured = pose_from_rows(&poses[row]).and_then(|pose| match seeds {
-            Some(seeds) => robot.ik_configured_or_nearest(&pose, configurations[row], &seeds[row]),
-            None => robot.ik_configured(&pose, configurations[row]),
+            Some(seeds) => {
+                check_joints("seed", &seeds[row])?;
+                robot.ik_configured_or_nearest_checked(pose, configurations[row], &seeds[row])
+            }
+            None => robot.ik_configured_checked(pose, configurations[row]),
         });
         *q = configured.map_or([f64::NAN; 6], |configured| configured.q);
     }

@@ -5,7 +5,7 @@ mod common;
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use common::{Rng, apart, on_each_set, reach_of};
+use common::{Rng, apart, central_difference, difference_bound, on_each_set, reach_of};
 use irbkin::{Error, Explanation, FreeJoint, JacobianFrame, JointLimits, OpwParameters, Robot, SLOTS, batch, pose_to_rows};
 use nalgebra::Matrix6;
 
@@ -86,21 +86,14 @@ fn the_jacobian_is_the_serial_one_by_the_chain_rule() {
 
 #[test]
 fn the_jacobian_matches_central_differences() {
-    let (robot, step) = (odd(), 1e-5);
+    let robot = odd();
     let mut rng = Rng::new(3);
     for _ in 0..200 {
         let q = rng.inside(robot.limits());
         let jacobian = robot.jacobian(&q, JacobianFrame::Base);
         for joint in 0..6 {
-            let (mut before, mut after) = (q, q);
-            before[joint] -= step;
-            after[joint] += step;
-            let (before, after) = (robot.fk(&before), robot.fk(&after));
-            let linear = (after.translation.vector - before.translation.vector) / (2.0 * step);
-            let spin = (after.rotation.matrix() - before.rotation.matrix()) / (2.0 * step) * robot.fk(&q).rotation.matrix().transpose();
-            let bound = 10.0 * (step * step + f64::EPSILON / step) * (1.0 + reach_of(&robot));
-            for (row, wanted) in [linear.x, linear.y, linear.z, spin[(2, 1)], spin[(0, 2)], spin[(1, 0)]].into_iter().enumerate() {
-                assert!((jacobian[(row, joint)] - wanted).abs() < bound);
+            for (row, wanted) in central_difference(&robot, &q, joint).into_iter().enumerate() {
+                assert!((jacobian[(row, joint)] - wanted).abs() < difference_bound(reach_of(&robot)));
             }
         }
     }

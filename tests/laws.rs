@@ -5,7 +5,7 @@ mod common;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use common::{apart, profile, reach_of};
+use common::{apart, central_difference, difference_bound, profile, reach_of};
 use irbkin::{DhRow, JacobianFrame, JointLimits, Mdh, OpwParameters, Pose, PoseError, Robot, Sdh, Status, pose_from_euler_zyx};
 use proptest::prelude::*;
 
@@ -105,21 +105,10 @@ proptest! {
     fn jacobian_matches_central_differences(opw in arms(), q in angles(), tool in poses()) {
         let robot = Robot::from_opw(opw).unwrap().with_tool(&tool).unwrap();
         let jacobian = robot.jacobian(&q, JacobianFrame::Base);
-        let step = 1e-5;
+        let bound = difference_bound(reach_of(&robot) + tool.translation.vector.norm());
         for joint in 0..6 {
-            let (mut before, mut after) = (q, q);
-            before[joint] -= step;
-            after[joint] += step;
-            let (before, after) = (robot.fk(&before), robot.fk(&after));
-            let linear = (after.translation.vector - before.translation.vector) / (2.0 * step);
-            // dR/dq R^T is the cross-product matrix of the angular velocity.
-            let spin = (after.rotation.matrix() - before.rotation.matrix()) / (2.0 * step) * robot.fk(&q).rotation.matrix().transpose();
-            let angular = [spin[(2, 1)], spin[(0, 2)], spin[(1, 0)]];
-            // The difference's own error: a sixth of step^2 times the third derivative (one lever), and rounding over the step.
-            let bound = 10.0 * (step * step + f64::EPSILON / step) * (1.0 + reach_of(&robot) + tool.translation.vector.norm());
-            for row in 0..3 {
-                prop_assert!((jacobian[(row, joint)] - linear[row]).abs() < bound);
-                prop_assert!((jacobian[(row + 3, joint)] - angular[row]).abs() < bound);
+            for (row, wanted) in central_difference(&robot, &q, joint).into_iter().enumerate() {
+                prop_assert!((jacobian[(row, joint)] - wanted).abs() < bound);
             }
         }
     }

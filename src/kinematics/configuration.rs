@@ -1,6 +1,6 @@
 //! ABB's confdata: which of the solutions of a pose, and which turn of it.
 
-use core::f64::consts::{FRAC_PI_2, TAU};
+use core::f64::consts::FRAC_PI_2;
 use core::fmt;
 
 use alloc::vec::Vec;
@@ -8,10 +8,11 @@ use alloc::vec::Vec;
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
+use super::inverse::Inverse as _;
 use super::limits::JointLimits;
 use super::pose::{Pose, checked_pose};
 use super::robot::Robot;
-use super::select::check_joints;
+use super::select::{Turns, check_joints};
 use super::solutions::{SLOTS, Solution, Solutions};
 use super::spherical_wrist::SphericalWrist;
 use super::status::Status;
@@ -42,6 +43,9 @@ impl fmt::Display for Configuration {
 
 /// The axes that a configuration counts quarter turns of, from 0.
 const COUNTED: [usize; 3] = [0, 3, 5];
+
+/// The others.
+const UNCOUNTED: [usize; 3] = [1, 2, 4];
 
 /// Most quarter turns that an angle can have that is not too large to calculate with.
 #[expect(clippy::cast_possible_truncation, reason = "some ten thousands")]
@@ -123,8 +127,18 @@ impl Robot<6> {
     /// As [`Robot::ik_configured`] and [`Robot::ik_nearest`]; never [`Error::NoConfiguration`].
     pub fn ik_configured_or_nearest(&self, pose: &Pose, wanted: Configuration, seed: &[f64; 6]) -> Result<Solution<6>, Error> {
         check_joints("seed", seed)?;
-        match self.ik_configured(pose, wanted) {
-            Err(Error::NoConfiguration(_)) => self.ik_nearest(pose, seed, &[1.0; 6]),
+        self.ik_configured_or_nearest_checked(checked_pose(pose)?, wanted, seed)
+    }
+
+    /// [`Robot::ik_configured_or_nearest`] for arguments that were checked where they came in.
+    pub(crate) fn ik_configured_or_nearest_checked(
+        &self,
+        pose: Pose,
+        wanted: Configuration,
+        seed: &[f64; 6],
+    ) -> Result<Solution<6>, Error> {
+        match self.ik_configured_checked(pose, wanted) {
+            Err(Error::NoConfiguration(_)) => self.ik_nearest_checked(pose, seed, &[1.0; 6]),
             answer => answer,
         }
     }
@@ -182,49 +196,38 @@ impl Robot<6> {
     fn no_configuration(&self, arm: &SphericalWrist, solutions: &Solutions<6>, wanted: Configuration) -> Result<Error, Error> {
         let mut none = NoConfiguration { wanted, existing: Vec::new(), more: false, free: solutions.iter().find_map(|found| found.free) };
         for solution in solutions {
-            self.list_turns(arm, solutions, &solution.q, &mut none);
+            self.list_turns(arm, solutions.limits(), solution, &mut none);
         }
         if none.existing.is_empty() {
             // Of a family, another one than that which stands for it may be inside.
             let Some(inside) = self.nearest_of(solutions, &self.limits().rest(), &[1.0; 6])? else {
                 return Ok(Error::Unreachable(solutions.explain()));
             };
-            self.list_turns(arm, solutions, &inside.q, &mut none);
+            self.list_turns(arm, solutions.limits(), &inside, &mut none);
         }
         Ok(Error::NoConfiguration(none))
     }
 
     /// Adds the configurations of a solution's turns inside the limits, each once, as long as there is room.
-    fn list_turns(&self, arm: &SphericalWrist, solutions: &Solutions<6>, q: &[f64; 6], none: &mut NoConfiguration) {
-        let limits = solutions.limits();
-        let Some(inside) = limits.turned_to(q, q) else { return };
-        let turns = COUNTED.map(|joint| limits.countable_turns(joint, inside[joint]).unwrap_or((0.0, 0.0)));
-        let mut turned = inside;
-        let mut added = [turns[0].0, turns[1].0, turns[2].0];
-        while added[0] <= turns[0].1 {
-            for (i, joint) in COUNTED.into_iter().enumerate() {
-                turned[joint] = inside[joint] + TAU * added[i];
+    fn list_turns(&self, arm: &SphericalWrist, limits: &JointLimits<6>, solution: &Solution<6>, none: &mut NoConfiguration) {
+        let Some(q) = limits.turned_to(&solution.q, &solution.q) else { return };
+        // Turns of the other axes have the same configurations.
+        let Some(limits) = limits.narrowed(&UNCOUNTED.map(|joint| (joint, [q[joint]; 2]))) else { return };
+        for turn in Turns::of(&limits, &Solution { q, ..*solution }) {
+            let configuration = self.configuration_of(arm, &turn.q);
+            if none.existing.contains(&configuration) {
+                continue;
             }
-            let configuration = self.configuration_of(arm, &turned);
-            if !none.existing.contains(&configuration) {
-                if none.existing.len() == NoConfiguration::MOST {
-                    none.more = true;
-                    return;
-                }
-                none.existing.push(configuration);
+            if none.existing.len() == NoConfiguration::MOST {
+                none.more = true;
+                return;
             }
-            added[2] += 1.0;
-            for i in [2, 1] {
-                if added[i] > turns[i].1 {
-                    added[i] = turns[i].0;
-                    added[i - 1] += 1.0;
-                }
-            }
+            none.existing.push(configuration);
         }
     }
 
     /// The geometry whose branches a configuration tells apart.
-    fn counted(&self) -> Result<&SphericalWrist, Error> {
+    pub(crate) fn counted(&self) -> Result<&SphericalWrist, Error> {
         self.spherical_wrist().ok_or_else(|| ModelFault::NoConfiguration { family: self.family() }.into())
     }
 }

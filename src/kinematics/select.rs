@@ -5,6 +5,7 @@ use core::f64::consts::TAU;
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
+use super::limits::JointLimits;
 use super::solutions::{Solution, Solutions};
 use super::status::{Explanation, Status};
 use crate::error::{Error, JointFault};
@@ -37,7 +38,7 @@ impl<const N: usize> Solutions<N> {
 
     /// Every full turn of every joint of every solution that is inside the limits. A joint without limits has only its own angle.
     pub fn turns(&self) -> impl Iterator<Item = Solution<N>> + '_ {
-        self.iter().flat_map(|solution| Turns::of(self, solution))
+        self.iter().flat_map(|solution| Turns::of(&self.limits, solution))
     }
 
     /// How many [`Self::turns`] lists.
@@ -116,7 +117,7 @@ impl Cost {
 }
 
 /// Counts through the turns of one solution, the last joint fastest.
-struct Turns<const N: usize> {
+pub(crate) struct Turns<const N: usize> {
     base: Solution<N>,
     first: [f64; N],
     last: [f64; N],
@@ -124,13 +125,13 @@ struct Turns<const N: usize> {
 }
 
 impl<const N: usize> Turns<N> {
-    fn of(solutions: &Solutions<N>, solution: &Solution<N>) -> Self {
+    pub(crate) fn of(limits: &JointLimits<N>, solution: &Solution<N>) -> Self {
         let mut turns = Self { base: *solution, first: [0.0; N], last: [0.0; N], next: None };
-        if solutions.limits.rod_excess(&solution.q) > 0.0 {
+        if limits.rod_excess(&solution.q) > 0.0 {
             return turns;
         }
         for joint in 0..N {
-            let Some((first, last)) = solutions.limits.countable_turns(joint, solution.q[joint]) else {
+            let Some((first, last)) = limits.countable_turns(joint, solution.q[joint]) else {
                 return turns;
             };
             (turns.first[joint], turns.last[joint]) = (first, last);

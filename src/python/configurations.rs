@@ -21,8 +21,10 @@ pub(super) fn configuration<'py>(arm: &Arm, q: &Bound<'py, PyAny>) -> PyResult<B
     let py = q.py();
     let robot = counted(py, arm)?;
     let rows = arm.joints(q)?;
-    let configurations = rows.data()?.as_chunks::<6>().0.iter().enumerate().map(|(number, q)| {
-        robot.configuration(q).map_err(|error| match rows.lead[..] {
+    let data = rows.data()?;
+    let answers: Result<Vec<_>, _> = py.detach(|| batch::configuration(robot, data).map(Iterator::collect));
+    let configurations = answers.map_err(|error| to_py(py, &error))?.into_iter().enumerate().map(|(number, configuration)| {
+        configuration.map_err(|error| match rows.lead[..] {
             [] => to_py(py, &error),
             _ => Fault::Joints.error(py, format!("q{:?}: {error}", index_in(&rows.lead, number))),
         })
@@ -78,8 +80,8 @@ pub(super) fn ik<'py>(
         PoseArgument::One(pose) => {
             let one = wanted.one(py)?;
             let found = match seed {
-                Some(seed) => robot.ik_configured_or_nearest(&pose, one, &read_seed(seed, None)?.0),
-                None => robot.ik_configured(&pose, one),
+                Some(seed) => robot.ik_configured_or_nearest_checked(pose, one, &read_seed(seed, None)?.0),
+                None => robot.ik_configured_checked(pose, one),
             };
             return Ok(PyArray1::from_slice(py, &found.map_err(|error| to_py(py, &error))?.q).into_any());
         }
@@ -148,10 +150,12 @@ fn read_configurations(value: &Bound<'_, PyAny>) -> PyResult<Configurations> {
 
 /// The robot that has configurations.
 pub(super) fn counted<'a>(py: Python<'_>, arm: &'a Arm) -> PyResult<&'a Robot<6>> {
-    let refused = |family| Err(to_py(py, &ModelFault::NoConfiguration { family }.into()));
-    match arm {
-        Arm::Six(robot) if robot.spherical_wrist().is_some() => Ok(robot),
-        Arm::Six(robot) => refused(robot.family()),
-        Arm::Seven(robot) => refused(robot.family()),
-    }
+    let refused = match arm {
+        Arm::Six(robot) => match robot.counted() {
+            Ok(_) => return Ok(robot),
+            Err(error) => error,
+        },
+        Arm::Seven(robot) => ModelFault::NoConfiguration { family: robot.family() }.into(),
+    };
+    Err(to_py(py, &refused))
 }

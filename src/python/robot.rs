@@ -492,7 +492,7 @@ impl PyRobot {
     ///     seed: Joint vector [rad] of the fallback, shape (6,) or (..., 6).
     ///
     /// Returns:
-    ///     Joint vectors [rad], shape (..., 6). In a batch, a row without such a solution, or whose pose is invalid, is NaN.
+    ///     Joint vectors [rad], shape (..., 6). In a batch, a row without such a solution, or whose pose or seed is invalid, is NaN.
     ///
     /// Raises:
     ///     UnreachableError: A single pose has no solution inside the limits with that configuration; the message, and its attribute

@@ -222,6 +222,7 @@ impl Evaluator<'_, '_> {
             self.fault(expression, RapidFaultKind::IndexCount { text, found, wanted })
         };
         let value = match self.resolver.find(self.routine, self.inside_loop, name) {
+            Found::NotHere => return Err(unknown("which is not in this module")),
             Found::Unknown(why) => return Err(unknown(&why)),
             Found::Predefined(_) if !reference.indices.is_empty() => return Err(count(0)),
             Found::Predefined(value) => return Ok((value.scalars(), Kind::from(value.data_type()))),
@@ -271,8 +272,7 @@ impl Evaluator<'_, '_> {
             return Err(Stop::Unknown(format!("{} is not calculated", call.name)));
         };
         // A routine or a datum may have taken the name.
-        if !matches!(self.resolver.find(self.routine, self.inside_loop, call.name), Found::Unknown(why) if why == super::resolve::NOT_HERE)
-        {
+        if !matches!(self.resolver.find(self.routine, self.inside_loop, call.name), Found::NotHere) {
             return Err(Stop::Unknown(format!("{} is declared in this module, it is not calculated", call.name)));
         }
         if kind != Kind::RobTarget {

@@ -18,14 +18,11 @@ use super::module::{Content, Datum, Module, Routine, Skipped, Storage};
 use super::moves::{Argument, Move, MoveKind, Target, WrittenMove};
 use super::statements::Written;
 use super::tokens::fault_at;
-use super::values::{JointTarget, LoadData, RobTarget, ToolData, Value, WobjData};
+use super::values::{LoadData, Record, ToolData, Value, WobjData};
 use crate::error::{Names, RapidFault, RapidFaultKind};
 
 /// Most dimensions of an array.
 const MOST_DIMENSIONS: usize = 3;
-
-/// What is said of a name that nothing declares.
-pub(super) const NOT_HERE: &str = "which is not in this module";
 
 /// What a name stands for, where it is used.
 pub(super) enum Found<'r> {
@@ -36,6 +33,8 @@ pub(super) enum Found<'r> {
         cause: Option<Cause<'r>>,
     },
     Predefined(Value),
+    /// Nothing declares it.
+    NotHere,
     /// Why it has no value.
     Unknown(String),
 }
@@ -81,7 +80,7 @@ impl<'a> Resolver<'a> {
                 let cause = self.causes.of_other(&lower, home, self.context);
                 Found::Datum { content: &datum.content, can_change: datum.storage != Storage::Const, cause }
             }
-            None => Found::Unknown(NOT_HERE.to_string()),
+            None => Found::NotHere,
         }
     }
 
@@ -208,20 +207,18 @@ impl<'a> Resolver<'a> {
     }
 
     /// An argument of a move, of a type.
-    fn argument<T>(
+    fn argument<T: Record>(
         &self,
         step: &WrittenMove<'a>,
         role: &'static str,
         expression: &Expression<'a>,
-        data_type: DataType,
-        take: impl Fn(Value) -> Option<T>,
     ) -> Result<Argument<T>, RapidFault> {
         let thing = (step.kind.name(), role);
         let evaluator =
             Evaluator { resolver: self, routine: step.routine, inside_loop: step.inside_loop, thing, constant: false, at_move: true };
-        let value = match evaluator.value(expression, data_type).map(take) {
+        let value = match evaluator.value(expression, T::DATA_TYPE).map(T::of) {
             Ok(Some(value)) => Ok(value),
-            Ok(None) => Err(format!("it is no {}", data_type.name())),
+            Ok(None) => Err(format!("it is no {}", T::DATA_TYPE.name())),
             Err(Stop::Fault(fault)) => return Err(fault),
             Err(Stop::Unknown(why)) => Err(why),
         };
@@ -232,47 +229,19 @@ impl<'a> Resolver<'a> {
         self.text.get(expression.start..expression.end).unwrap_or_default().to_string()
     }
 
-    fn robtarget(&self, step: &WrittenMove<'a>, role: &'static str, at: &Expression<'a>) -> Result<Argument<RobTarget>, RapidFault> {
-        self.argument(step, role, at, DataType::RobTarget, |value| match value {
-            Value::RobTarget(target) => Some(target),
-            _ => None,
-        })
-    }
-
-    fn jointtarget(&self, step: &WrittenMove<'a>, role: &'static str, at: &Expression<'a>) -> Result<Argument<JointTarget>, RapidFault> {
-        self.argument(step, role, at, DataType::JointTarget, |value| match value {
-            Value::JointTarget(target) => Some(target),
-            _ => None,
-        })
-    }
-
-    fn tool(&self, step: &WrittenMove<'a>, at: &Expression<'a>) -> Result<Argument<ToolData>, RapidFault> {
-        self.argument(step, "tool", at, DataType::ToolData, |value| match value {
-            Value::ToolData(tool) => Some(tool),
-            _ => None,
-        })
-    }
-
-    fn wobj(&self, step: &WrittenMove<'a>, at: &Expression<'a>) -> Result<Argument<WobjData>, RapidFault> {
-        self.argument(step, "work object", at, DataType::WobjData, |value| match value {
-            Value::WobjData(wobj) => Some(wobj),
-            _ => None,
-        })
-    }
-
     fn step(&self, written: &mut WrittenMove<'a>, routines: &[Routine]) -> Result<Option<Move>, RapidFault> {
         let options = core::mem::take(&mut written.options);
         let step = &*written;
         let (via, rest) = match (step.kind, step.required.split_first()) {
-            (MoveKind::MoveC, Some((via, rest))) => (Some(self.robtarget(step, "circle point", via)?), rest),
+            (MoveKind::MoveC, Some((via, rest))) => (Some(self.argument(step, "circle point", via)?), rest),
             _ => (None, step.required.as_slice()),
         };
         let [target, speed, zone, tool] = rest else { return Ok(None) };
         let target = if step.kind == MoveKind::MoveAbsJ {
-            let Argument { text, value } = self.jointtarget(step, "target", target)?;
+            let Argument { text, value } = self.argument(step, "target", target)?;
             Argument { text, value: value.map(Target::JointTarget) }
         } else {
-            let Argument { text, value } = self.robtarget(step, "target", target)?;
+            let Argument { text, value } = self.argument(step, "target", target)?;
             Argument { text, value: value.map(Target::RobTarget) }
         };
         Ok(Some(Move {
@@ -284,8 +253,8 @@ impl<'a> Resolver<'a> {
             target,
             speed: self.source(speed),
             zone: self.source(zone),
-            tool: self.tool(step, tool)?,
-            wobj: step.wobj.as_ref().map(|wobj| self.wobj(step, wobj)).transpose()?,
+            tool: self.argument(step, "tool", tool)?,
+            wobj: step.wobj.as_ref().map(|wobj| self.argument(step, "work object", wobj)).transpose()?,
             options,
             displaced: step.displaced,
         }))

@@ -82,11 +82,11 @@ pub fn calc_targets(
     let mut table = Table::new(robot, fallback)?;
     for datum in module.data().iter().filter(|datum| datum.routine.is_none()) {
         match &datum.content {
-            Content::Single(Value::RobTarget(target)) => table.add("robtarget", datum.name.clone(), datum.line, Ok(*target), Ok(frames)),
+            Content::Single(Value::RobTarget(target)) => table.add("robtarget", datum.name.clone(), datum.line, target, Ok(frames)),
             Content::Array { sizes, values } => {
                 for (number, value) in values.iter().enumerate() {
                     if let Value::RobTarget(target) = value {
-                        table.add("robtarget", element(&datum.name, sizes, number), datum.line, Ok(*target), Ok(frames));
+                        table.add("robtarget", element(&datum.name, sizes, number), datum.line, target, Ok(frames));
                     }
                 }
             }
@@ -125,7 +125,7 @@ struct Table<'a> {
 
 impl<'a> Table<'a> {
     fn new(robot: &'a Robot<6>, fallback: Fallback) -> Result<Self, Error> {
-        robot.configuration(&[0.0; 6])?;
+        robot.counted()?;
         Ok(Self { robot, flange: with_flange(robot)?, fallback, rows: Vec::new() })
     }
 
@@ -134,18 +134,18 @@ impl<'a> Table<'a> {
         let (kind, text) = (step.kind.name(), argument.text.clone());
         if let Some(line) = step.displaced {
             let problem = format!("line {line} displaces it, which is not followed");
-            return self.add(kind, text, step.line, Err(problem), Err(String::new()));
+            return self.add_problem(kind, text, step.line, problem);
         }
         match argument.value.as_ref().map(read) {
             Ok(Ok(target)) => {
                 let frames = self.frames_of(step);
-                self.add(kind, text, step.line, Ok(target), frames);
+                self.add(kind, text, step.line, &target, frames);
             }
             Ok(Err(joints)) => match absent_axis(&joints) {
-                Some(problem) => self.add(kind, text, step.line, Err(problem), Err(String::new())),
+                Some(problem) => self.add_problem(kind, text, step.line, problem),
                 None => self.add_joints(kind, text, step.line, joints.map(f64::to_radians)),
             },
-            Err(reason) => self.add(kind, text, step.line, Err(reason.clone()), Err(String::new())),
+            Err(reason) => self.add_problem(kind, text, step.line, reason.clone()),
         }
     }
 
@@ -155,14 +155,17 @@ impl<'a> Table<'a> {
         Frames::new(self.robot, Some(tool), wobj.transpose()?).map_err(|error| error.to_string())
     }
 
-    fn add(&mut self, kind: &'static str, text: String, line: usize, target: Result<RobTarget, String>, frames: Result<Frames, String>) {
-        let configuration = target.as_ref().map_or_else(|_| Configuration::default(), |target| target.robconf);
-        let solved = target.and_then(|target| self.solved(&target, &frames?));
-        let (q, problem) = match solved {
+    fn add_problem(&mut self, kind: &'static str, text: String, line: usize, problem: String) {
+        let configuration = Configuration::default();
+        self.rows.push(TableRow { kind, text, line, q: None, configuration, distances: None, problem: Some(problem) });
+    }
+
+    fn add(&mut self, kind: &'static str, text: String, line: usize, target: &RobTarget, frames: Result<Frames, String>) {
+        let (q, problem) = match frames.and_then(|frames| self.solved(target, &frames)) {
             Ok((q, problem)) => (Some(q), problem),
             Err(problem) => (None, Some(problem)),
         };
-        let (configuration, distances) = q.map_or((configuration, None), |q| self.seen(&q));
+        let (configuration, distances) = q.map_or((target.robconf, None), |q| self.seen(&q));
         self.rows.push(TableRow { kind, text, line, q, configuration, distances, problem });
     }
 

@@ -283,9 +283,26 @@ impl fmt::Display for Value {
     }
 }
 
-/// Gives a record the words of its value.
+/// A record that is a value of its own type.
+pub(super) trait Record: Sized {
+    /// That type.
+    const DATA_TYPE: DataType;
+
+    /// The record of a value; nothing of a value of another type.
+    fn of(value: Value) -> Option<Self>;
+}
+
+/// Gives a record its type and the words of its value.
 macro_rules! written_as_value {
     ($($record:ident => $variant:ident),*) => {$(
+        impl Record for $record {
+            const DATA_TYPE: DataType = DataType::$variant;
+
+            fn of(value: Value) -> Option<Self> {
+                if let Value::$variant(record) = value { Some(record) } else { None }
+            }
+        }
+
         impl fmt::Display for $record {
             /// As RAPID writes it, without blanks.
             fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

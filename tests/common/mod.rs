@@ -71,6 +71,27 @@ pub fn apart<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b - TAU * ((a - b) / TAU).round()).abs()).fold(0.0, f64::max)
 }
 
+/// Step of the central differences [rad].
+pub const DIFFERENCE_STEP: f64 = 1e-5;
+
+/// The column of a joint, from 0, of the Jacobian of the tool in the base, by central differences.
+pub fn central_difference(robot: &Robot<6>, q: &[f64; 6], joint: usize) -> [f64; 6] {
+    let (mut before, mut after) = (*q, *q);
+    before[joint] -= DIFFERENCE_STEP;
+    after[joint] += DIFFERENCE_STEP;
+    let (before, after) = (robot.fk(&before), robot.fk(&after));
+    let linear = (after.translation.vector - before.translation.vector) / (2.0 * DIFFERENCE_STEP);
+    // dR/dq R^T is the cross-product matrix of the angular velocity.
+    let rate = (after.rotation.matrix() - before.rotation.matrix()) / (2.0 * DIFFERENCE_STEP);
+    let spin = rate * robot.fk(q).rotation.matrix().transpose();
+    [linear.x, linear.y, linear.z, spin[(2, 1)], spin[(0, 2)], spin[(1, 0)]]
+}
+
+/// How far they may be off, the arm reaching so far [m]: a sixth of step^2 times the third derivative (one lever), and rounding over the step.
+pub fn difference_bound(reach: f64) -> f64 {
+    10.0 * (DIFFERENCE_STEP * DIFFERENCE_STEP + f64::EPSILON / DIFFERENCE_STEP) * (1.0 + reach)
+}
+
 /// Distance of the stretched arm's flange from axis 1, at the height of the shoulder [m].
 pub fn reach_of<const N: usize>(robot: &Robot<N>) -> f64 {
     match robot.definition() {

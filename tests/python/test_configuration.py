@@ -48,6 +48,29 @@ def test_one_configuration_goes_for_many_poses_and_rows_without_it_are_nan():
     assert np.isnan(found[1]).all()
 
 
+def test_an_empty_batch_is_an_empty_answer():
+    configurations = ROBOT.configuration(np.zeros((0, 6)))
+    assert [number.shape for number in configurations] == [(0,)] * 4
+    for configuration in ((0, 0, 0, 0), np.zeros((0, 4)), configurations):
+        assert ROBOT.ik_configured(np.zeros((0, 4, 4)), configuration).shape == (0, 6)
+
+
+def test_a_broken_row_of_a_batch_is_nan_and_a_broken_pose_an_error():
+    skew, mirrored = ROBOT.fk(Q), ROBOT.fk(Q)
+    skew[0, 0] += 0.1
+    mirrored[:3, 0] *= -1
+    found = ROBOT.ik_configured(np.stack([skew, ROBOT.fk(Q), mirrored]), (0, 0, 0, 0))
+    assert np.isnan(found[[0, 2]]).all()
+    np.testing.assert_allclose(found[1], Q, rtol=0, atol=1e-12)
+    for broken in (skew, mirrored, np.full((4, 4), np.nan)):
+        with pytest.raises(irbkin.InvalidPoseError):
+            ROBOT.ik_configured(broken, (0, 0, 0, 0))
+    seeds = np.stack([Q, np.full(6, np.nan)])
+    found = ROBOT.ik_configured(np.stack([ROBOT.fk(Q)] * 2), (2, 0, 0, 0), fallback="nearest", seed=seeds)
+    np.testing.assert_allclose(found[0], Q, rtol=0, atol=1e-12)
+    assert np.isnan(found[1]).all()
+
+
 def test_a_single_pose_without_it_tells_what_exists():
     with pytest.raises(
         irbkin.UnreachableError, match=r"has the configuration \[2, 0, 0, 0\]; there are \[0, -4,"

@@ -61,7 +61,7 @@ def parse(text: str | bytes, context: Iterable[Module] = ()) -> Any:
         RapidError: The text is broken; the message has the line and the column. What is not known is no error: it is
             skipped and listed in `Module.skipped`.
     """
-    source = _core.decode(text)
+    source = text if isinstance(text, str) else _core.decode(text)
     return _core.parse_record(source) if source.lstrip().startswith("[") else _core.parse(source, context)
 
 

@@ -66,6 +66,12 @@ impl JointColumn {
         (angle, self.holds(angle))
     }
 
+    /// What is left of the status of a lane with this theta, at whatever turn.
+    #[inline(always)]
+    pub(crate) fn left_of(self, theta: f64) -> u64 {
+        if self.settled(theta).1 { u64::MAX } else { Self::OUTSIDE }
+    }
+
     /// [`Self::settled`] for many, leaving out what this joint does not need. Takes `WITHIN_LIMITS` from the status of those outside.
     #[inline(always)]
     pub(crate) fn settle(self, angles: &mut [f64], status: &mut [u64]) {

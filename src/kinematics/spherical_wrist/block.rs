@@ -2,7 +2,7 @@
 
 use super::branch::{Branch, Constants, branch};
 use super::solver::{Columns, WristSolver};
-use crate::kinematics::block::{AnswerRow, Block, BlockSolver, Directions, FOUND_INSIDE, JointColumn, Poses, StatusRow, half_turn};
+use crate::kinematics::block::{AnswerRow, Block, BlockSolver, Directions, FOUND_INSIDE, Poses, StatusRow, half_turn};
 use crate::kinematics::solutions::SLOTS;
 use crate::lanes::{Column, Flags, LANES, mul_add};
 
@@ -131,8 +131,7 @@ impl WristBlock {
         if let Some(rod) = rod {
             for number in 0..BRANCHES {
                 for lane in 0..LANES {
-                    let inside = rod.settled(angle[6 + number][lane] - angle[2 + number][lane]).1;
-                    self.status[0][number][lane] &= if inside { u64::MAX } else { JointColumn::OUTSIDE };
+                    self.status[0][number][lane] &= rod.left_of(angle[6 + number][lane] - angle[2 + number][lane]);
                 }
             }
         }

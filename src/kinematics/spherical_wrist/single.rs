@@ -108,7 +108,7 @@ impl Lanes {
         }
         if let Some(rod) = rod {
             for lane in 0..BRANCHES {
-                let left = if rod.settled(angle[2][lane] - angle[1][lane]).1 { u64::MAX } else { JointColumn::OUTSIDE };
+                let left = rod.left_of(angle[2][lane] - angle[1][lane]);
                 slots.status[0][lane] &= left;
                 slots.status[1][lane] &= left;
             }
