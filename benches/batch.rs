@@ -6,13 +6,20 @@
 use std::hint::black_box;
 use std::time::Duration;
 
-use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main, measurement::WallTime};
+use criterion::{
+    BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main, measurement::WallTime,
+};
 use irbkin::{JacobianFrame, Robot, batch};
 
 mod poses;
 
 /// Times `calculate` on every instruction set, and the filling of its `answers`.
-fn measure(mut group: BenchmarkGroup<'_, WallTime>, count: u32, answers: &mut [f64], mut calculate: impl FnMut(&mut [f64])) {
+fn measure(
+    mut group: BenchmarkGroup<'_, WallTime>,
+    count: u32,
+    answers: &mut [f64],
+    mut calculate: impl FnMut(&mut [f64]),
+) {
     group.throughput(Throughput::Elements(u64::from(count)));
     group.bench_function("fill", |b| b.iter(|| black_box(&mut *answers).fill(0.0)));
     poses::with_each_set(|set| {
@@ -31,11 +38,17 @@ fn many_poses(criterion: &mut Criterion) {
         let mut answers = vec![0.0; rows * 48];
 
         let group = criterion.benchmark_group(format!("ik, {count} poses"));
-        measure(group, count, &mut answers, |q| batch::ik(&robot, &poses, q, &mut status, 1).unwrap());
+        measure(group, count, &mut answers, |q| {
+            batch::ik(&robot, &poses, q, &mut status, 1).unwrap()
+        });
         let group = criterion.benchmark_group(format!("fk, {count} poses"));
-        measure(group, count, &mut answers[..rows * 16], |poses| batch::fk(&robot, &q, poses).unwrap());
+        measure(group, count, &mut answers[..rows * 16], |poses| {
+            batch::fk(&robot, &q, poses).unwrap()
+        });
         let group = criterion.benchmark_group(format!("jacobian, {count} poses"));
-        measure(group, count, &mut answers[..rows * 36], |rows| batch::jacobian(&robot, &q, JacobianFrame::Base, rows).unwrap());
+        measure(group, count, &mut answers[..rows * 36], |rows| {
+            batch::jacobian(&robot, &q, JacobianFrame::Base, rows).unwrap()
+        });
     }
 }
 
@@ -46,11 +59,16 @@ fn other_families(criterion: &mut Criterion) {
         let mut status = vec![0; rows * 8];
         let poses_ur3 = poses::poses(&ur3, &poses::joints(&ur3, count));
         let group = criterion.benchmark_group(format!("UR3: ik, {count} poses"));
-        measure(group, count, &mut vec![0.0; rows * 48], |q| batch::ik(&ur3, &poses_ur3, q, &mut status, 1).unwrap());
+        measure(group, count, &mut vec![0.0; rows * 48], |q| {
+            batch::ik(&ur3, &poses_ur3, q, &mut status, 1).unwrap()
+        });
         let q = poses::joints(&panda, count);
-        let (poses_panda, q7): (_, Vec<f64>) = (poses::poses(&panda, &q), q.iter().skip(6).step_by(7).copied().collect());
+        let (poses_panda, q7): (_, Vec<f64>) =
+            (poses::poses(&panda, &q), q.iter().skip(6).step_by(7).copied().collect());
         let group = criterion.benchmark_group(format!("Panda: ik, {count} poses"));
-        measure(group, count, &mut vec![0.0; rows * 56], |q| batch::ik_with_q7(&panda, &poses_panda, &q7, q, &mut status, 1).unwrap());
+        measure(group, count, &mut vec![0.0; rows * 56], |q| {
+            batch::ik_with_q7(&panda, &poses_panda, &q7, q, &mut status, 1).unwrap()
+        });
     }
 }
 

@@ -12,18 +12,34 @@ mod poses;
 /// Poses of a batch.
 const POSES: u32 = 512;
 
-const ALL: [&str; 9] =
-    ["fk", "jacobian", "ik, 8 solutions", "ik, wrist singular", "ik_nearest", "singularity", "batch fk", "batch jacobian", "batch ik"];
+const ALL: [&str; 9] = [
+    "fk",
+    "jacobian",
+    "ik, 8 solutions",
+    "ik, wrist singular",
+    "ik_nearest",
+    "singularity",
+    "batch fk",
+    "batch jacobian",
+    "batch ik",
+];
 
 fn main() {
     let robot = poses::robot();
-    let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with("--")).collect();
+    let arguments: Vec<String> =
+        std::env::args().skip(1).filter(|argument| !argument.starts_with("--")).collect();
     match &arguments[..] {
         [what, set, times] => {
-            InstructionSet::available().find(|available| available.name() == set).unwrap().force().unwrap();
+            InstructionSet::available()
+                .find(|available| available.name() == set)
+                .unwrap()
+                .force()
+                .unwrap();
             repeat(&robot, what, times.parse().unwrap());
         }
-        [sets] if sets == "sets" => InstructionSet::available().for_each(|set| println!("{}", set.name())),
+        [sets] if sets == "sets" => {
+            InstructionSet::available().for_each(|set| println!("{}", set.name()))
+        }
         _ => poses::with_each_set(|_| ALL.iter().for_each(|what| repeat(&robot, what, 1))),
     }
 }
@@ -36,7 +52,9 @@ fn repeat(robot: &Robot<6>, what: &str, times: u32) {
         "jacobian" => again(times, || robot.jacobian(black_box(&q), JacobianFrame::Base)),
         "ik, 8 solutions" => again(times, || robot.ik(black_box(&pose))),
         "ik, wrist singular" => again(times, || robot.ik(black_box(&singular))),
-        "ik_nearest" => again(times, || robot.ik_nearest(black_box(&pose), black_box(&q), &[1.0; 6])),
+        "ik_nearest" => {
+            again(times, || robot.ik_nearest(black_box(&pose), black_box(&q), &[1.0; 6]))
+        }
         "singularity" => again(times, || robot.singularity(black_box(&q))),
         _ => repeat_batch(robot, what, times),
     }
@@ -48,11 +66,23 @@ fn repeat_batch(robot: &Robot<6>, what: &str, times: u32) {
     let poses = poses::poses(robot, &q);
     let (mut answers, mut status) = (vec![0.0; rows * 48], vec![0; rows * 8]);
     match what {
-        "batch fk" => again(times, || batch::fk(robot, &q, black_box(&mut answers[..rows * 16])).unwrap()),
-        "batch jacobian" => {
-            again(times, || batch::jacobian(robot, &q, JacobianFrame::Base, black_box(&mut answers[..rows * 36])).unwrap());
+        "batch fk" => {
+            again(times, || batch::fk(robot, &q, black_box(&mut answers[..rows * 16])).unwrap())
         }
-        "batch ik" => again(times, || batch::ik(robot, &poses, black_box(&mut answers), &mut status, 1).unwrap()),
+        "batch jacobian" => {
+            again(times, || {
+                batch::jacobian(
+                    robot,
+                    &q,
+                    JacobianFrame::Base,
+                    black_box(&mut answers[..rows * 36]),
+                )
+                .unwrap()
+            });
+        }
+        "batch ik" => again(times, || {
+            batch::ik(robot, &poses, black_box(&mut answers), &mut status, 1).unwrap()
+        }),
         _ => eprintln!("{what} is none of {ALL:?}"),
     }
 }

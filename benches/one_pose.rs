@@ -15,10 +15,14 @@ fn one_pose(criterion: &mut Criterion) {
     poses::with_each_set(|set| {
         let mut group = criterion.benchmark_group(format!("one pose, {set}"));
         group.bench_function("fk", |b| b.iter(|| robot.fk(black_box(&q))));
-        group.bench_function("jacobian", |b| b.iter(|| robot.jacobian(black_box(&q), JacobianFrame::Base)));
+        group.bench_function("jacobian", |b| {
+            b.iter(|| robot.jacobian(black_box(&q), JacobianFrame::Base))
+        });
         group.bench_function("ik, 8 solutions", |b| b.iter(|| robot.ik(black_box(&pose))));
         group.bench_function("ik, wrist singular", |b| b.iter(|| robot.ik(black_box(&singular))));
-        group.bench_function("ik_nearest", |b| b.iter(|| robot.ik_nearest(black_box(&pose), black_box(&q), &[1.0; 6])));
+        group.bench_function("ik_nearest", |b| {
+            b.iter(|| robot.ik_nearest(black_box(&pose), black_box(&q), &[1.0; 6]))
+        });
         group.bench_function("singularity", |b| b.iter(|| robot.singularity(black_box(&q))));
         group.finish();
     });
@@ -27,16 +31,27 @@ fn one_pose(criterion: &mut Criterion) {
 fn other_families(criterion: &mut Criterion) {
     let (ur3, panda) = (Robot::<6>::named("UR3").unwrap(), Robot::<7>::named("Panda").unwrap());
     let (q_ur3, q_panda) = ([0.4, -1.9, 1.5, -0.6, 1.1, 0.3], poses::Q_PANDA);
-    let (pose_ur3, pose_panda, above) = (ur3.fk(&q_ur3), panda.fk(&q_panda), panda.fk(&q_panda.map(|angle| angle + 0.01)));
+    let (pose_ur3, pose_panda, above) =
+        (ur3.fk(&q_ur3), panda.fk(&q_panda), panda.fk(&q_panda.map(|angle| angle + 0.01)));
     let singular = ur3.fk(&[0.4, -1.9, 1.5, -0.6, 0.0, 0.3]);
-    assert_eq!((ur3.ik(&pose_ur3).unwrap().len(), panda.ik(&pose_panda, q_panda[6]).unwrap().len()), (8, 8));
+    assert_eq!(
+        (ur3.ik(&pose_ur3).unwrap().len(), panda.ik(&pose_panda, q_panda[6]).unwrap().len()),
+        (8, 8)
+    );
     poses::with_each_set(|set| {
         let mut group = criterion.benchmark_group(format!("one pose, other families, {set}"));
         group.bench_function("UR3: ik, 8 solutions", |b| b.iter(|| ur3.ik(black_box(&pose_ur3))));
-        group.bench_function("UR3: ik, wrist singular", |b| b.iter(|| ur3.ik(black_box(&singular))));
-        group.bench_function("UR3: ik_nearest", |b| b.iter(|| ur3.ik_nearest(black_box(&pose_ur3), black_box(&q_ur3), &[1.0; 6])));
-        group.bench_function("Panda: ik, 8 solutions", |b| b.iter(|| panda.ik(black_box(&pose_panda), q_panda[6])));
-        group.bench_function("Panda: ik_nearest", |b| b.iter(|| panda.ik_nearest(black_box(&above), black_box(&q_panda), &[1.0; 7])));
+        group
+            .bench_function("UR3: ik, wrist singular", |b| b.iter(|| ur3.ik(black_box(&singular))));
+        group.bench_function("UR3: ik_nearest", |b| {
+            b.iter(|| ur3.ik_nearest(black_box(&pose_ur3), black_box(&q_ur3), &[1.0; 6]))
+        });
+        group.bench_function("Panda: ik, 8 solutions", |b| {
+            b.iter(|| panda.ik(black_box(&pose_panda), q_panda[6]))
+        });
+        group.bench_function("Panda: ik_nearest", |b| {
+            b.iter(|| panda.ik_nearest(black_box(&above), black_box(&q_panda), &[1.0; 7]))
+        });
         group.finish();
     });
 }

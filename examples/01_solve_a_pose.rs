@@ -5,14 +5,18 @@ use irbkin::{Error, Robot, pose_from_quaternion, pose_to_quaternion};
 const HOME: [f64; 6] = [0.0, 0.0, 0.0, 0.0, 30.0, 0.0];
 
 fn outside(limits: &[[f64; 2]; 6], q: &[f64; 6]) -> String {
-    let joints: Vec<_> = (0..6).filter(|&i| !(limits[i][0]..=limits[i][1]).contains(&q[i])).map(|i| format!("J{}", i + 1)).collect();
+    let joints: Vec<_> = (0..6)
+        .filter(|&i| !(limits[i][0]..=limits[i][1]).contains(&q[i]))
+        .map(|i| format!("J{}", i + 1))
+        .collect();
     if joints.is_empty() { "inside".to_owned() } else { format!("outside: {}", joints.join(" ")) }
 }
 
 fn main() -> Result<(), Error> {
     let robot: Robot<6> = Robot::named("IRB 2600-12/1.65")?;
     // 850, 320, 640 mm from the base; the tool points forward and down, 60 deg below the horizon.
-    let mut pose = pose_from_quaternion([0.850, 0.320, 0.640], [0.258_819_0, 0.0, 0.965_925_8, 0.0])?;
+    let mut pose =
+        pose_from_quaternion([0.850, 0.320, 0.640], [0.258_819_0, 0.0, 0.965_925_8, 0.0])?;
     let (xyz, wxyz) = pose_to_quaternion(&pose);
     let solutions = robot.ik(&pose)?;
 
@@ -25,9 +29,15 @@ fn main() -> Result<(), Error> {
     for solution in &solutions {
         let angles = solution.q.map(|angle| format!("{:7.2}", angle.to_degrees())).join(" ");
         let residual = robot.residual(&solution.q, &pose).largest();
-        println!("   {} {angles}     {residual:.0e}  {}", solution.slot, outside(&robot.limits().to_array(), &solution.q));
+        println!(
+            "   {} {angles}     {residual:.0e}  {}",
+            solution.slot,
+            outside(&robot.limits().to_array(), &solution.q)
+        );
     }
-    println!("(degrees; the slot is ABB's cfx; the residual is the larger of metres and radians)\n");
+    println!(
+        "(degrees; the slot is ABB's cfx; the residual is the larger of metres and radians)\n"
+    );
 
     let nearest = solutions.nearest(&HOME.map(f64::to_radians), &[1.0; 6])?;
     println!("nearest to home: slot {}", nearest.slot);

@@ -5,7 +5,10 @@ use std::f64::consts::FRAC_PI_2;
 use irbkin::{Error, JointLimits, Robot, Solution, Solutions, pose_from_quaternion};
 
 fn show(what: &str, Solution { q, slot, .. }: Solution<6>) {
-    println!("{what:28} slot {slot}  {}", q.map(|angle| format!("{:7.1}", angle.to_degrees())).join(" "));
+    println!(
+        "{what:28} slot {slot}  {}",
+        q.map(|angle| format!("{:7.1}", angle.to_degrees())).join(" ")
+    );
 }
 
 fn slots(solutions: &Solutions<6>) -> Vec<u8> {
@@ -20,7 +23,11 @@ fn main() -> Result<(), Error> {
     let robot: Robot<6> = Robot::named("IRB 2600-12/1.65")?;
     let pose = pose_from_quaternion([0.850, 0.320, 0.640], [0.258_819_0, 0.0, 0.965_925_8, 0.0])?;
     let solutions = robot.ik(&pose)?;
-    println!("{}; with every full turn inside them: {}\n", solutions.explain(), solutions.turns().count());
+    println!(
+        "{}; with every full turn inside them: {}\n",
+        solutions.explain(),
+        solutions.turns().count()
+    );
 
     // The arm stands here, halfway between two wrist configurations.
     let seed = radians([20.0, 0.0, 40.0, 55.0, -25.0, 127.0]);

@@ -33,7 +33,10 @@ fn main() -> Result<(), Error> {
     // Forward kinematics answers in the pallet's frame, too.
     let (xyz, _) = pose_to_quaternion(&on_pallet.fk(&q));
     println!("tool in the pallet's frame  {} mm", xyz.map(|v| format!("{:.1}", 1e3 * v)).join(" "));
-    println!("flange in the base          {:.1} mm above the floor\n", 1e3 * arm.fk(&q).translation.z);
+    println!(
+        "flange in the base          {:.1} mm above the floor\n",
+        1e3 * arm.fk(&q).translation.z
+    );
 
     // The pallet was measured again: the program stays, the joints follow.
     let t_base_pallet = turned([0.712, -0.488, 0.351], [16.5, 0.0, 0.0])?;
@@ -42,6 +45,9 @@ fn main() -> Result<(), Error> {
 
     // A robot never changes: with_ gives a new one, and equal robots are equal.
     let equal = arm.with_tool(&t_flange_tool)? == gripper;
-    println!("\nthe same tool on the same arm is an equal robot: {}", if equal { "yes" } else { "no" });
+    println!(
+        "\nthe same tool on the same arm is an equal robot: {}",
+        if equal { "yes" } else { "no" }
+    );
     Ok(())
 }

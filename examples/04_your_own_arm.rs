@@ -2,7 +2,10 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use irbkin::{DhRow, Error, JointLimits, Mdh, OpwParameters, Pose, Robot, pose_from_quaternion, pose_from_rows};
+use irbkin::{
+    DhRow, Error, JointLimits, Mdh, OpwParameters, Pose, Robot, pose_from_quaternion,
+    pose_from_rows,
+};
 
 /// The name that the Python package gives the error, and its message.
 fn refused<T>(what: &str, result: Result<T, Error>) {
@@ -26,7 +29,8 @@ fn main() -> Result<(), Error> {
         [90.0, 0.0, 0.0, 0.0],
         [-90.0, 0.0, 0.085, 180.0_f64],
     ];
-    let rows = table.map(|[alpha, a, d, theta]| DhRow::new(alpha.to_radians(), a, d, theta.to_radians()));
+    let rows =
+        table.map(|[alpha, a, d, theta]| DhRow::new(alpha.to_radians(), a, d, theta.to_radians()));
     let mdh = Mdh { base: Pose::identity(), rows, flange: Pose::identity() };
     let arm = Robot::from_mdh(mdh.clone())?.with_name("from a table");
     let pose = pose_from_quaternion([0.850, 0.320, 0.640], [0.258_819_0, 0.0, 0.965_925_8, 0.0])?;
@@ -53,12 +57,26 @@ fn main() -> Result<(), Error> {
     offset_wrist.rows[5].a = 0.080;
     refused("axes 5 and 6 apart", Robot::from_mdh(offset_wrist.clone()));
     let arm = Robot::serial_chain(offset_wrist)?;
-    println!("  without its inverse: {}, tool at z = {:.1} mm\n", arm.family(), 1e3 * arm.fk(&[0.0; 6]).translation.z);
+    println!(
+        "  without its inverse: {}, tool at z = {:.1} mm\n",
+        arm.family(),
+        1e3 * arm.fk(&[0.0; 6]).translation.z
+    );
 
     let mut mirrored = [0.0; 16];
     (mirrored[0], mirrored[5], mirrored[10], mirrored[15]) = (1.0, 1.0, -1.0, 1.0);
     refused("a left-handed pose", pose_from_rows(&mirrored));
-    refused("limits that are exchanged", JointLimits::new([[-3.0, 3.0], [0.5, -2.0], [-3.0, 3.0], [-3.0, 3.0], [-2.0, 2.0], [-6.0, 6.0]]));
+    refused(
+        "limits that are exchanged",
+        JointLimits::new([
+            [-3.0, 3.0],
+            [0.5, -2.0],
+            [-3.0, 3.0],
+            [-3.0, 3.0],
+            [-2.0, 2.0],
+            [-6.0, 6.0],
+        ]),
+    );
     refused("a slip of the pen", Robot::<6>::named("IRB 2600-12/1.56"));
     Ok(())
 }

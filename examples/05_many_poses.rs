@@ -36,18 +36,27 @@ fn main() -> Result<(), Error> {
     };
     let q: Vec<[f64; 6]> = (1..=POSES).map(vector).collect();
     let q = q.as_flattened();
-    let (mut poses, mut solved, mut status) = (vec![0.0; POSES * 16], vec![0.0; POSES * SLOTS * 6], vec![0; POSES * SLOTS]);
+    let (mut poses, mut solved, mut status) =
+        (vec![0.0; POSES * 16], vec![0.0; POSES * SLOTS * 6], vec![0; POSES * SLOTS]);
     batch::fk(&robot, q, &mut poses)?;
     batch::ik(&robot, &poses, &mut solved, &mut status, 1)?;
-    println!("q ({POSES}, 6) -> T ({POSES}, 4, 4) -> q ({POSES}, {SLOTS}, 6), status ({POSES}, {SLOTS})");
+    println!(
+        "q ({POSES}, 6) -> T ({POSES}, 4, 4) -> q ({POSES}, {SLOTS}, 6), status ({POSES}, {SLOTS})"
+    );
 
     let count = |flag: Status| status.iter().filter(|status| **status & flag.bits() != 0).count();
     let (found, inside) = (count(Status::FOUND), count(Status::WITHIN_LIMITS));
-    println!("solutions: {found}, {:.2} a pose; inside the limits: {inside}", found as f64 / POSES as f64);
+    println!(
+        "solutions: {found}, {:.2} a pose; inside the limits: {inside}",
+        found as f64 / POSES as f64
+    );
 
     // The vector that made each pose is among its solutions, full turns aside; empty slots are NaN.
-    let own = |q: &[f64], slots: &[f64]| slots.chunks(6).any(|slot| !slot[0].is_nan() && apart(slot, q) < 1e-7);
-    let missing = q.chunks(6).zip(solved.chunks(SLOTS * 6)).filter(|(q, slots)| !own(q, slots)).count();
+    let own = |q: &[f64], slots: &[f64]| {
+        slots.chunks(6).any(|slot| !slot[0].is_nan() && apart(slot, q) < 1e-7)
+    };
+    let missing =
+        q.chunks(6).zip(solved.chunks(SLOTS * 6)).filter(|(q, slots)| !own(q, slots)).count();
     println!("poses whose own joint vector is missing: {missing}");
 
     // A row that is no pose, and one out of reach, leave the others as they are.
@@ -62,7 +71,8 @@ fn main() -> Result<(), Error> {
         println!("row {row}: {solutions} solutions, {}", if invalid { "invalid" } else { "valid" });
     }
 
-    let one_call = seconds(|| drop(black_box(batch::ik(&robot, &poses, &mut solved, &mut status, 1))));
+    let one_call =
+        seconds(|| drop(black_box(batch::ik(&robot, &poses, &mut solved, &mut status, 1))));
     let one_by_one = seconds(|| {
         for rows in poses.as_chunks::<16>().0 {
             let _ = black_box(pose_from_rows(rows).and_then(|pose| robot.ik(&pose)));
@@ -70,7 +80,13 @@ fn main() -> Result<(), Error> {
     });
     let mut again = vec![0.0; POSES * 16];
     let forward = seconds(|| drop(black_box(batch::fk(&robot, q, &mut again))));
-    println!("\none call takes {:.2} times as long as a call for each pose,", one_call / one_by_one);
-    println!("eight solutions take {:.1} times as long as one forward kinematics", one_call / forward);
+    println!(
+        "\none call takes {:.2} times as long as a call for each pose,",
+        one_call / one_by_one
+    );
+    println!(
+        "eight solutions take {:.1} times as long as one forward kinematics",
+        one_call / forward
+    );
     Ok(())
 }

@@ -7,7 +7,10 @@ const SLOT: [[&str; 2]; 3] = [["left", "right"], ["q3 >= 0", "q3 < 0"], ["q5 >= 
 
 fn degrees<const N: usize>(solution: &Solution<N>) -> String {
     // Adding zero takes the sign off a zero.
-    solution.q.map(|angle| format!("{:8.2}", (100.0 * angle.to_degrees()).round() / 100.0 + 0.0)).join(" ")
+    solution
+        .q
+        .map(|angle| format!("{:8.2}", (100.0 * angle.to_degrees()).round() / 100.0 + 0.0))
+        .join(" ")
 }
 
 fn three_parallel_axes() -> Result<(), Error> {
@@ -16,7 +19,11 @@ fn three_parallel_axes() -> Result<(), Error> {
     let solutions = robot.ik(&pose)?;
     println!("{}: {}, {}", robot.name(), robot.family(), solutions.explain());
     for solution in &solutions {
-        let words: Vec<_> = SLOT.iter().zip([4, 2, 1]).map(|(word, bit)| word[usize::from(solution.slot & bit != 0)]).collect();
+        let words: Vec<_> = SLOT
+            .iter()
+            .zip([4, 2, 1])
+            .map(|(word, bit)| word[usize::from(solution.slot & bit != 0)])
+            .collect();
         println!("  {} {}   {}", solution.slot, degrees(solution), words.join(", "));
     }
 
@@ -41,7 +48,12 @@ fn seven_axes() -> Result<(), Error> {
     let solutions = robot.ik(&pose, here[6])?;
     println!("{}: {}, q7 = 35 deg: {}", robot.name(), robot.family(), solutions.explain());
     for solution in &solutions {
-        println!("  {} {}   {}", solution.slot, degrees(solution), if solution.within_limits() { "inside" } else { "outside" });
+        println!(
+            "  {} {}   {}",
+            solution.slot,
+            degrees(solution),
+            if solution.within_limits() { "inside" } else { "outside" }
+        );
     }
     pose.translation.z += 0.050;
     println!("  50 mm higher, q7 chosen too:");
@@ -61,10 +73,12 @@ fn recognised() -> Result<(), Error> {
         [90.0, 0.0, 0.0, 45.0],
         [0.0, 0.0, 0.085, 0.0_f64],
     ];
-    let rows = rows.map(|[alpha, a, d, theta]| DhRow::new(alpha.to_radians(), a, d, theta.to_radians()));
+    let rows =
+        rows.map(|[alpha, a, d, theta]| DhRow::new(alpha.to_radians(), a, d, theta.to_radians()));
     let table = Sdh { base: Pose::identity(), rows, flange: Pose::identity() };
     let robot = Robot::from_sdh(table.clone())?;
-    let solutions = robot.ik(&robot.fk(&[10.0, 20.0, 30.0, 40.0, 50.0, 60.0].map(f64::to_radians)))?;
+    let solutions =
+        robot.ik(&robot.fk(&[10.0, 20.0, 30.0, 40.0, 50.0, 60.0].map(f64::to_radians)))?;
     println!("a standard table with odd frames: {}, {} solutions", robot.family(), solutions.len());
 
     let mut tilted = table;

@@ -1,6 +1,8 @@
 //! A RAPID module: the joint angles of its moves, and the module written back with confdata that exists.
 
-use irbkin::rapid::{self, Content, Fallback, NewValue, RobTarget, TableRow, ToolData, Value, WobjData};
+use irbkin::rapid::{
+    self, Content, Fallback, NewValue, RobTarget, TableRow, ToolData, Value, WobjData,
+};
 use irbkin::{Error, Robot};
 
 const MODULE: &str = include_str!("pick_and_place.mod");
@@ -12,7 +14,8 @@ fn degrees(q: &[f64; 6]) -> String {
 
 fn show(rows: &[TableRow]) {
     for TableRow { kind, text, q, configuration, problem, .. } in rows {
-        let (joints, problem) = (q.as_ref().map_or_else(|| " ".repeat(53), degrees), problem.as_deref().unwrap_or(""));
+        let (joints, problem) =
+            (q.as_ref().map_or_else(|| " ".repeat(53), degrees), problem.as_deref().unwrap_or(""));
         println!("  {kind:8} {text:22.22} {joints}  {configuration}  {problem:.60}");
     }
 }
@@ -20,7 +23,9 @@ fn show(rows: &[TableRow]) {
 fn tool_and_wobj(module: &rapid::Module) -> Option<(ToolData, WobjData)> {
     let (tool, wobj) = (module.find("tGripper")?, module.find("wTray")?);
     match (&tool.content, &wobj.content) {
-        (Content::Single(Value::ToolData(tool)), Content::Single(Value::WobjData(wobj))) => Some((*tool, wobj.clone())),
+        (Content::Single(Value::ToolData(tool)), Content::Single(Value::WobjData(wobj))) => {
+            Some((*tool, wobj.clone()))
+        }
         _ => None,
     }
 }
@@ -29,11 +34,14 @@ fn tool_and_wobj(module: &rapid::Module) -> Option<(ToolData, WobjData)> {
 fn corrected(robot: &Robot<6>, module: &rapid::Module) -> Result<Vec<NewValue>, Error> {
     let Some((tool, wobj)) = tool_and_wobj(module) else { return Ok(Vec::new()) };
     let home = [0.0, 0.0, 0.0, 0.0, 30.0, 0.0].map(f64::to_radians);
-    let rows = rapid::calc_targets(robot, module, Some(&tool), Some(&wobj), Fallback::Nearest(home))?;
+    let rows =
+        rapid::calc_targets(robot, module, Some(&tool), Some(&wobj), Fallback::Nearest(home))?;
     let wrong = |row: &&TableRow| row.problem.is_some() && row.q.is_some();
     let new_value = |row: &TableRow| {
         let datum = module.data().iter().position(|datum| datum.name == row.text)?;
-        let Content::Single(Value::RobTarget(target)) = module.data()[datum].content else { return None };
+        let Content::Single(Value::RobTarget(target)) = module.data()[datum].content else {
+            return None;
+        };
         let value = Value::RobTarget(RobTarget { robconf: row.configuration, ..target });
         Some(NewValue { datum, element: None, value })
     };

@@ -8,7 +8,8 @@ use rayon::prelude::*;
 
 use crate::error::{Error, ModelFault};
 use crate::kinematics::{
-    Configuration, Inverse, JacobianFrame, Robot, SLOTS, Singularity, check_joints, check_weights, pose_from_rows, pose_to_rows,
+    Configuration, Inverse, JacobianFrame, Robot, SLOTS, Singularity, check_joints, check_weights,
+    pose_from_rows, pose_to_rows,
 };
 
 /// Forward kinematics: rows of `N` joint angles to rows of 16 pose elements.
@@ -27,7 +28,11 @@ pub fn fk<const N: usize>(robot: &Robot<N>, q: &[f64], poses: &mut [f64]) -> Res
 /// # Errors
 ///
 /// As [`fk`].
-pub fn link_frames<const N: usize>(robot: &Robot<N>, q: &[f64], frames: &mut [f64]) -> Result<(), Error> {
+pub fn link_frames<const N: usize>(
+    robot: &Robot<N>,
+    q: &[f64],
+    frames: &mut [f64],
+) -> Result<(), Error> {
     let q = rows::<N>("q", q)?;
     let frames = rows_out::<16, f64>("frames", frames, q.len() * (N + 1))?;
     for (q, frames) in q.iter().zip(frames.chunks_exact_mut(N + 1)) {
@@ -48,7 +53,12 @@ pub fn link_frames<const N: usize>(robot: &Robot<N>, q: &[f64], frames: &mut [f6
 /// # Errors
 ///
 /// As [`fk`].
-pub fn jacobian<const N: usize>(robot: &Robot<N>, q: &[f64], frame: JacobianFrame, jacobians: &mut [f64]) -> Result<(), Error> {
+pub fn jacobian<const N: usize>(
+    robot: &Robot<N>,
+    q: &[f64],
+    frame: JacobianFrame,
+    jacobians: &mut [f64],
+) -> Result<(), Error> {
     let q = rows::<N>("q", q)?;
     let jacobians = rows_out::<N, f64>("jacobians", jacobians, q.len() * 6)?;
     robot.jacobians(q, frame, jacobians.as_chunks_mut::<6>().0);
@@ -60,7 +70,10 @@ pub fn jacobian<const N: usize>(robot: &Robot<N>, q: &[f64], frame: JacobianFram
 /// # Errors
 ///
 /// As [`fk`].
-pub fn singularity<'a, const N: usize>(robot: &'a Robot<N>, q: &'a [f64]) -> Result<impl Iterator<Item = Option<Singularity>> + 'a, Error> {
+pub fn singularity<'a, const N: usize>(
+    robot: &'a Robot<N>,
+    q: &'a [f64],
+) -> Result<impl Iterator<Item = Option<Singularity>> + 'a, Error> {
     Ok(rows::<N>("q", q)?.iter().map(|q| is_finite(q).then(|| robot.singularity(q))))
 }
 
@@ -70,7 +83,13 @@ pub fn singularity<'a, const N: usize>(robot: &'a Robot<N>, q: &'a [f64]) -> Res
 /// # Errors
 ///
 /// [`Error::WrongLength`] when a slice does not hold as many rows as `poses`, [`Error::InvalidModel`] when the arm has no closed form.
-pub fn ik(robot: &Robot<6>, poses: &[f64], q: &mut [f64], status: &mut [u8], threads: usize) -> Result<(), Error> {
+pub fn ik(
+    robot: &Robot<6>,
+    poses: &[f64],
+    q: &mut [f64],
+    status: &mut [u8],
+    threads: usize,
+) -> Result<(), Error> {
     solved(robot, poses, &[], q, status, threads)
 }
 
@@ -79,7 +98,14 @@ pub fn ik(robot: &Robot<6>, poses: &[f64], q: &mut [f64], status: &mut [u8], thr
 /// # Errors
 ///
 /// As [`ik`].
-pub fn ik_with_q7(robot: &Robot<7>, poses: &[f64], q7: &[f64], q: &mut [f64], status: &mut [u8], threads: usize) -> Result<(), Error> {
+pub fn ik_with_q7(
+    robot: &Robot<7>,
+    poses: &[f64],
+    q7: &[f64],
+    q: &mut [f64],
+    status: &mut [u8],
+    threads: usize,
+) -> Result<(), Error> {
     if q7.len() != poses.len() / 16 {
         return Err(Error::WrongLength { field: "q7", found: q7.len(), wanted: poses.len() / 16 });
     }
@@ -105,10 +131,16 @@ where
     let status = rows_out::<SLOTS, u8>("status", status, poses.len())?;
     #[cfg(feature = "std")]
     if let Some(pool) = pool(threads, poses.len()) {
-        let parts = poses.par_chunks(PART).zip(q.par_chunks_mut(PART)).zip(status.par_chunks_mut(PART)).enumerate();
+        let parts = poses
+            .par_chunks(PART)
+            .zip(q.par_chunks_mut(PART))
+            .zip(status.par_chunks_mut(PART))
+            .enumerate();
         return pool.install(|| {
             parts.for_each(|(part, ((poses, q), status))| {
-                let given = given.get(part * PART..).map_or(&[][..], |given| &given[..poses.len().min(given.len())]);
+                let given = given
+                    .get(part * PART..)
+                    .map_or(&[][..], |given| &given[..poses.len().min(given.len())]);
                 robot.ik_rows(poses, given, q, status);
             });
             Ok(())
@@ -127,7 +159,13 @@ where
 ///
 /// As [`ik`], and [`Error::InvalidJoints`] for a weight that is negative or not finite.
 #[expect(private_bounds, reason = "robots of six and of seven joints")]
-pub fn ik_nearest<const N: usize>(robot: &Robot<N>, poses: &[f64], seeds: &[f64], weights: &[f64; N], q: &mut [f64]) -> Result<(), Error>
+pub fn ik_nearest<const N: usize>(
+    robot: &Robot<N>,
+    poses: &[f64],
+    seeds: &[f64],
+    weights: &[f64; N],
+    q: &mut [f64],
+) -> Result<(), Error>
 where
     Robot<N>: Inverse<N>,
 {
@@ -150,7 +188,10 @@ where
 /// # Errors
 ///
 /// As [`fk`], and [`Error::InvalidModel`] for an arm without a spherical wrist.
-pub fn configuration<'a>(robot: &'a Robot<6>, q: &'a [f64]) -> Result<impl Iterator<Item = Result<Configuration, Error>> + 'a, Error> {
+pub fn configuration<'a>(
+    robot: &'a Robot<6>,
+    q: &'a [f64],
+) -> Result<impl Iterator<Item = Result<Configuration, Error>> + 'a, Error> {
     robot.counted()?;
     Ok(rows::<6>("q", q)?.iter().map(|q| robot.configuration(q)))
 }
@@ -173,7 +214,11 @@ pub fn ik_configured(
     robot.counted()?;
     let poses = rows::<16>("poses", poses)?;
     if configurations.len() != poses.len() {
-        return Err(Error::WrongLength { field: "configurations", found: configurations.len(), wanted: poses.len() });
+        return Err(Error::WrongLength {
+            field: "configurations",
+            found: configurations.len(),
+            wanted: poses.len(),
+        });
     }
     configurations.iter().try_for_each(|configuration| configuration.check(robot.is_coupled()))?;
     let seeds = match seeds {
@@ -209,20 +254,37 @@ fn pool(threads: usize, poses: usize) -> Option<rayon::ThreadPool> {
     if threads <= 1 || poses < WORTH_A_THREAD {
         return None;
     }
-    let threads = threads.min(2 * poses / WORTH_A_THREAD).min(std::thread::available_parallelism().map_or(1, usize::from));
-    if threads <= 1 { None } else { rayon::ThreadPoolBuilder::new().num_threads(threads).build().ok() }
+    let threads = threads
+        .min(2 * poses / WORTH_A_THREAD)
+        .min(std::thread::available_parallelism().map_or(1, usize::from));
+    if threads <= 1 {
+        None
+    } else {
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build().ok()
+    }
 }
 
 /// The whole rows of an input.
-fn rows<'a, const R: usize>(field: &'static str, numbers: &'a [f64]) -> Result<&'a [[f64; R]], Error> {
+fn rows<'a, const R: usize>(
+    field: &'static str,
+    numbers: &'a [f64],
+) -> Result<&'a [[f64; R]], Error> {
     match numbers.as_chunks::<R>() {
         (rows, []) => Ok(rows),
-        _ => Err(Error::WrongLength { field, found: numbers.len(), wanted: numbers.len().div_ceil(R) * R }),
+        _ => Err(Error::WrongLength {
+            field,
+            found: numbers.len(),
+            wanted: numbers.len().div_ceil(R) * R,
+        }),
     }
 }
 
 /// The rows of an input of which there must be `count`.
-fn rows_for<'a, const R: usize>(field: &'static str, numbers: &'a [f64], count: usize) -> Result<&'a [[f64; R]], Error> {
+fn rows_for<'a, const R: usize>(
+    field: &'static str,
+    numbers: &'a [f64],
+    count: usize,
+) -> Result<&'a [[f64; R]], Error> {
     if numbers.len() != count * R {
         return Err(Error::WrongLength { field, found: numbers.len(), wanted: count * R });
     }
@@ -230,7 +292,11 @@ fn rows_for<'a, const R: usize>(field: &'static str, numbers: &'a [f64], count: 
 }
 
 /// The rows of an output for `count` answers.
-fn rows_out<'a, const R: usize, T>(field: &'static str, out: &'a mut [T], count: usize) -> Result<&'a mut [[T; R]], Error> {
+fn rows_out<'a, const R: usize, T>(
+    field: &'static str,
+    out: &'a mut [T],
+    count: usize,
+) -> Result<&'a mut [[T; R]], Error> {
     if out.len() != count * R {
         return Err(Error::WrongLength { field, found: out.len(), wanted: count * R });
     }

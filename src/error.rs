@@ -283,8 +283,12 @@ impl fmt::Display for Error {
             Self::Frame(fault) => fault.fmt(f),
             Self::Unreachable(explanation) => explanation.fmt(f),
             Self::NoConfiguration(fault) => fault.fmt(f),
-            Self::NoInstructionSet { name } => write!(f, "this processor does not have the instruction set \"{name}\""),
-            Self::WrongLength { field, found, wanted } => write!(f, "{field} has {found} elements, it must have {wanted}"),
+            Self::NoInstructionSet { name } => {
+                write!(f, "this processor does not have the instruction set \"{name}\"")
+            }
+            Self::WrongLength { field, found, wanted } => {
+                write!(f, "{field} has {found} elements, it must have {wanted}")
+            }
         }
     }
 }
@@ -294,18 +298,33 @@ impl core::error::Error for Error {}
 impl fmt::Display for PoseFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NotFinite { row, column, value } => write!(f, "pose[{row}, {column}] is {value}: every element must be finite"),
-            Self::LastRow { row: [a, b, c, d] } => write!(f, "pose row 3 must be [0, 0, 0, 1], got [{a}, {b}, {c}, {d}]"),
+            Self::NotFinite { row, column, value } => {
+                write!(f, "pose[{row}, {column}] is {value}: every element must be finite")
+            }
+            Self::LastRow { row: [a, b, c, d] } => {
+                write!(f, "pose row 3 must be [0, 0, 0, 1], got [{a}, {b}, {c}, {d}]")
+            }
             Self::NotOrthonormal { deviation, bound } => {
-                write!(f, "pose rotation is off orthonormal by {deviation:.3e}, more than the {bound:.0e} that is repaired")
+                write!(
+                    f,
+                    "pose rotation is off orthonormal by {deviation:.3e}, more than the {bound:.0e} that is repaired"
+                )
             }
             Self::Mirrored { determinant } => {
-                write!(f, "pose rotation mirrors: its determinant is {determinant:.6}, it must be 1 (is an axis negated?)")
+                write!(
+                    f,
+                    "pose rotation mirrors: its determinant is {determinant:.6}, it must be 1 (is an axis negated?)"
+                )
             }
             Self::QuaternionNorm { norm, bound } => {
-                write!(f, "quaternion norm is {norm:.6}, it must be 1 within {bound:.0e} (order is w, x, y, z)")
+                write!(
+                    f,
+                    "quaternion norm is {norm:.6}, it must be 1 within {bound:.0e} (order is w, x, y, z)"
+                )
             }
-            Self::FieldNotFinite { field, index, value } => write!(f, "{field}[{index}] is {value}: every element must be finite"),
+            Self::FieldNotFinite { field, index, value } => {
+                write!(f, "{field}[{index}] is {value}: every element must be finite")
+            }
         }
     }
 }
@@ -313,16 +332,28 @@ impl fmt::Display for PoseFault {
 impl fmt::Display for JointFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NotFinite { field, joint, value } => write!(f, "{field}: joint {joint} is {value}, every angle must be finite [rad]"),
-            Self::NotOfPose { off } => write!(f, "solution: its tool is {off:.1e} (m, rad) off the pose, it is none of it"),
-            Self::Zone { value } => write!(f, "zone is {value}, it must be finite and not negative"),
+            Self::NotFinite { field, joint, value } => {
+                write!(f, "{field}: joint {joint} is {value}, every angle must be finite [rad]")
+            }
+            Self::NotOfPose { off } => {
+                write!(f, "solution: its tool is {off:.1e} (m, rad) off the pose, it is none of it")
+            }
+            Self::Zone { value } => {
+                write!(f, "zone is {value}, it must be finite and not negative")
+            }
             Self::Configuration { field, value, bounds: [0, 0] } => {
-                write!(f, "configuration: {field} is {value}, it is 0 for an arm with coupled axes 2 and 3")
+                write!(
+                    f,
+                    "configuration: {field} is {value}, it is 0 for an arm with coupled axes 2 and 3"
+                )
             }
             Self::Configuration { field, value, bounds: [least, most] } => {
                 write!(f, "configuration: {field} is {value}, it must be {least} to {most}")
             }
-            Self::Weight { joint, value } => write!(f, "weights: joint {joint} is {value}, a weight must be finite and not negative"),
+            Self::Weight { joint, value } => write!(
+                f,
+                "weights: joint {joint} is {value}, a weight must be finite and not negative"
+            ),
         }
     }
 }
@@ -330,25 +361,54 @@ impl fmt::Display for JointFault {
 impl fmt::Display for ModelFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NotFinite { field, index: 0, value } => write!(f, "{field} is {value}, it must be finite"),
-            Self::NotFinite { field, index, value } => write!(f, "{field} {index} is {value}, it must be finite"),
-            Self::TooLarge { field, index: 0, value, bound } => write!(f, "{field} is {value:e}, its size must be at most {bound:e}"),
-            Self::TooLarge { field, index, value, bound } => write!(f, "{field} {index} is {value:e}, its size must be at most {bound:e}"),
-            Self::TooShort { field, value, bound } => write!(f, "{field} is {value} m, it must be at least {bound:e} m"),
-            Self::Sign { joint, value } => write!(f, "joint {joint} sign is {value}, it must be 1 or -1"),
+            Self::NotFinite { field, index: 0, value } => {
+                write!(f, "{field} is {value}, it must be finite")
+            }
+            Self::NotFinite { field, index, value } => {
+                write!(f, "{field} {index} is {value}, it must be finite")
+            }
+            Self::TooLarge { field, index: 0, value, bound } => {
+                write!(f, "{field} is {value:e}, its size must be at most {bound:e}")
+            }
+            Self::TooLarge { field, index, value, bound } => {
+                write!(f, "{field} {index} is {value:e}, its size must be at most {bound:e}")
+            }
+            Self::TooShort { field, value, bound } => {
+                write!(f, "{field} is {value} m, it must be at least {bound:e} m")
+            }
+            Self::Sign { joint, value } => {
+                write!(f, "joint {joint} sign is {value}, it must be 1 or -1")
+            }
             Self::EmptyLimit { joint, lower, upper } => {
                 write!(f, "joint {joint} limit is empty: lower {lower} rad > upper {upper} rad")
             }
-            Self::EmptyRodLimit { lower, upper } => write!(f, "rod limit is empty: lower {lower} rad > upper {upper} rad"),
-            Self::NoRod => write!(f, "rod limits are those of q3 - q2 of an arm with coupled axes 2 and 3: this arm's are not coupled"),
-            Self::NotCoupled { reason } => write!(f, "axes 2 and 3 cannot be coupled: {reason}"),
-            Self::Velocity { joint, value } => write!(f, "joint {joint} velocity is {value} rad/s, it must be positive"),
-            Self::JointCount { found, wanted } => write!(f, "the arm has {found} joints, {wanted} were asked for"),
-            Self::NoConfiguration { family } => {
-                write!(f, "configurations are those of ABB's six-axis arms with a spherical wrist: this arm's form is \"{family}\"")
+            Self::EmptyRodLimit { lower, upper } => {
+                write!(f, "rod limit is empty: lower {lower} rad > upper {upper} rad")
             }
-            Self::NoSphericalWrist => write!(f, "this policy holds a spherical wrist, and the arm has none: take \"through\" or \"error\""),
-            Self::NoClosedForm(reason) => write!(f, "no closed-form inverse kinematics for this arm: {reason}"),
+            Self::NoRod => write!(
+                f,
+                "rod limits are those of q3 - q2 of an arm with coupled axes 2 and 3: this arm's are not coupled"
+            ),
+            Self::NotCoupled { reason } => write!(f, "axes 2 and 3 cannot be coupled: {reason}"),
+            Self::Velocity { joint, value } => {
+                write!(f, "joint {joint} velocity is {value} rad/s, it must be positive")
+            }
+            Self::JointCount { found, wanted } => {
+                write!(f, "the arm has {found} joints, {wanted} were asked for")
+            }
+            Self::NoConfiguration { family } => {
+                write!(
+                    f,
+                    "configurations are those of ABB's six-axis arms with a spherical wrist: this arm's form is \"{family}\""
+                )
+            }
+            Self::NoSphericalWrist => write!(
+                f,
+                "this policy holds a spherical wrist, and the arm has none: take \"through\" or \"error\""
+            ),
+            Self::NoClosedForm(reason) => {
+                write!(f, "no closed-form inverse kinematics for this arm: {reason}")
+            }
             Self::AxisDirection { axis } => write!(f, "direction of axis {axis} has no length"),
             Self::NearlyParallel { axes: (i, j), off, distance, bound } => write!(
                 f,
@@ -375,20 +435,30 @@ impl fmt::Display for UnknownRobot {
 
 impl fmt::Display for NoConfiguration {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "no solution inside the limits has the configuration {}; there are ", self.wanted)?;
+        write!(
+            f,
+            "no solution inside the limits has the configuration {}; there are ",
+            self.wanted
+        )?;
         for (i, existing) in self.existing.iter().enumerate() {
             write!(f, "{}{existing}", if i == 0 { "" } else { ", " })?;
         }
         if self.more {
             write!(f, " and more")?;
         }
-        self.free.map_or(Ok(()), |free| write!(f, ", and others, for J{} is free there", free.joint()))
+        self.free
+            .map_or(Ok(()), |free| write!(f, ", and others, for J{} is free there", free.joint()))
     }
 }
 
 impl ModelFault {
     /// Checks that a number of a model is finite and not too large to calculate with.
-    pub(crate) fn check(field: &'static str, index: usize, value: f64, bound: f64) -> Result<(), Error> {
+    pub(crate) fn check(
+        field: &'static str,
+        index: usize,
+        value: f64,
+        bound: f64,
+    ) -> Result<(), Error> {
         if !value.is_finite() {
             return Err(Self::NotFinite { field, index, value }.into());
         }

@@ -30,7 +30,10 @@
 //!
 //! Metres, radians, `f64`. `docs/` of the repository has the conventions, the derivation and the accuracy.
 #![cfg_attr(not(feature = "std"), no_std)]
-#![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::float_cmp))]
+#![cfg_attr(
+    test,
+    allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::float_cmp)
+)]
 // Where another crate of the build links std, its own float methods come before those imported for no_std.
 #![cfg_attr(not(feature = "std"), allow(unused_imports))]
 
@@ -54,13 +57,16 @@ mod urdf;
 
 pub use catalogue::{AngleUnit, CatalogueArm, CatalogueGeometry, catalogue, find};
 pub use error::{
-    Error, FrameFault, JointFault, ModelFault, Names, NoConfiguration, PoseFault, RapidFault, RapidFaultKind, UnknownRobot, UrdfFault,
+    Error, FrameFault, JointFault, ModelFault, Names, NoConfiguration, PoseFault, RapidFault,
+    RapidFaultKind, UnknownRobot, UrdfFault,
 };
 pub use kinematics::{
-    Break, BreakReason, Chain, Condition, Configuration, Crossing, Definition, DhRow, Explanation, FollowOptions, Followed, Follower,
-    FreeJoint, JacobianFrame, JointAxis, JointLimits, Mdh, NotRecognised, OpwParameters, Pose, PoseError, Reach, Relation, Robot, SLOTS,
-    Sdh, SingularDistances, Singularity, Solution, Solutions, SphericalShoulder, SphericalWrist, Status, ThreeParallel,
-    pose_from_euler_zyx, pose_from_quaternion, pose_from_rows, pose_to_euler_zyx, pose_to_quaternion, pose_to_rows, thresholds,
+    Break, BreakReason, Chain, Condition, Configuration, Crossing, Definition, DhRow, Explanation,
+    FollowOptions, Followed, Follower, FreeJoint, JacobianFrame, JointAxis, JointLimits, Mdh,
+    NotRecognised, OpwParameters, Pose, PoseError, Reach, Relation, Robot, SLOTS, Sdh,
+    SingularDistances, Singularity, Solution, Solutions, SphericalShoulder, SphericalWrist, Status,
+    ThreeParallel, pose_from_euler_zyx, pose_from_quaternion, pose_from_rows, pose_to_euler_zyx,
+    pose_to_quaternion, pose_to_rows, thresholds,
 };
 pub use lanes::InstructionSet;
 

@@ -54,7 +54,9 @@ fn solve_allocates_nothing() {
         let solutions = std::hint::black_box(robot.ik(&pose).unwrap());
         assert_eq!(solutions.len(), 8);
         assert!(solutions.turns().count() > 8);
-        std::hint::black_box(solutions.within_limits().filter(|s| s.q[0] > 0.0).least_motion(&q, &[1.0; 6]).is_ok());
+        std::hint::black_box(
+            solutions.within_limits().filter(|s| s.q[0] > 0.0).least_motion(&q, &[1.0; 6]).is_ok(),
+        );
         std::hint::black_box(robot.ik_nearest(&pose, &q, &[1.0; 6]).unwrap());
         // Singular poses and poses out of reach go the same way.
         std::hint::black_box(robot.ik(&robot.fk(&[0.0; 6])).unwrap());
@@ -76,7 +78,11 @@ fn solve_allocates_nothing() {
         let (bent, told) = ([0.1, -0.7, 0.2, -2.2, 0.1, 1.7, 0.6], 0.6);
         assert!(std::hint::black_box(panda.ik(&panda.fk(&bent), told).unwrap()).len() > 1);
         assert!(std::hint::black_box(panda.ik(&panda.fk(&[0.0; 7]), 0.0).unwrap()).len() > 1);
-        std::hint::black_box(panda.ik_nearest(&panda.fk(&bent), &[0.0, -0.6, 0.1, -2.0, 0.0, 1.5, 0.5], &[1.0; 7]).unwrap());
+        std::hint::black_box(
+            panda
+                .ik_nearest(&panda.fk(&bent), &[0.0, -0.6, 0.1, -2.0, 0.0, 1.5, 0.5], &[1.0; 7])
+                .unwrap(),
+        );
         // By configuration, a free joint's and a coupled arm's too.
         for (arm, q) in [(&robot, q), (&robot, [0.1, 0.2, 0.3, -2.0, 0.0, 1.0]), (&coupled, q)] {
             let configuration = arm.configuration(&q).unwrap();

@@ -14,7 +14,8 @@ type Golden = (&'static str, [f64; 6], [f64; 3], [f64; 4], &'static str);
 
 const UP: [f64; 4] = [std::f64::consts::FRAC_1_SQRT_2, 0.0, std::f64::consts::FRAC_1_SQRT_2, 0.0];
 /// Universal Robots' flange at zero: its z along -y of the base.
-const TO_THE_SIDE: [f64; 4] = [std::f64::consts::FRAC_1_SQRT_2, std::f64::consts::FRAC_1_SQRT_2, 0.0, 0.0];
+const TO_THE_SIDE: [f64; 4] =
+    [std::f64::consts::FRAC_1_SQRT_2, std::f64::consts::FRAC_1_SQRT_2, 0.0, 0.0];
 const HOME: [f64; 4] = [0.5, 0.0, 0.866_025_404, 0.0];
 const HOME_JOINTS: [f64; 6] = [0.0, 0.0, 0.0, 0.0, 30.0, 0.0];
 
@@ -56,7 +57,10 @@ fn golden_poses_are_met() {
         // The sources print two to nine decimals.
         let digits = if source.starts_with("Susta79") { (0.01, 2e-4) } else { (1e-6, 1e-8) };
         for (axis, mm) in xyz_mm.into_iter().enumerate() {
-            assert!((xyz[axis] * 1e3 - mm).abs() < digits.0, "{name} ({source}): {xyz:?} m, not {xyz_mm:?} mm");
+            assert!(
+                (xyz[axis] * 1e3 - mm).abs() < digits.0,
+                "{name} ({source}): {xyz:?} m, not {xyz_mm:?} mm"
+            );
         }
         let dot: f64 = found.iter().zip(&wxyz).map(|(a, b)| a * b).sum();
         assert!(1.0 - dot.abs() < digits.1, "{name} ({source}): {found:?}, not {wxyz:?}");
@@ -71,10 +75,16 @@ fn products_of_rows() -> Vec<Product> {
     let text = include_str!("data/abb_catalogue_poses.csv");
     let row = |line: &str| {
         // A name may hold a comma, the thirteen numbers behind it do not.
-        let mut numbers: Vec<f64> = line.rsplitn(14, ',').take(13).map(|number| number.parse().unwrap()).collect();
+        let mut numbers: Vec<f64> =
+            line.rsplitn(14, ',').take(13).map(|number| number.parse().unwrap()).collect();
         numbers.reverse();
         let name = line.rsplitn(14, ',').last().unwrap().trim_matches('"').to_owned();
-        (name, numbers[..6].try_into().unwrap(), numbers[6..9].try_into().unwrap(), numbers[9..].try_into().unwrap())
+        (
+            name,
+            numbers[..6].try_into().unwrap(),
+            numbers[6..9].try_into().unwrap(),
+            numbers[9..].try_into().unwrap(),
+        )
     };
     text.lines().skip(1).map(row).collect()
 }
@@ -86,7 +96,10 @@ fn products_of_table_rows_are_met() {
         let (xyz, found) = pose_to_quaternion(&robot.fk(&degrees.map(f64::to_radians)));
         // Half a unit of the last digit of the file, and what rounding adds.
         for (axis, mm) in xyz_mm.into_iter().enumerate() {
-            assert!((xyz[axis] * 1e3 - mm).abs() < 0.5e-6 + 1e-11, "{name}: {xyz:?} m, not {xyz_mm:?} mm");
+            assert!(
+                (xyz[axis] * 1e3 - mm).abs() < 0.5e-6 + 1e-11,
+                "{name}: {xyz:?} m, not {xyz_mm:?} mm"
+            );
         }
         for (found, wanted) in found.into_iter().zip(wxyz) {
             assert!((found - wanted).abs() < 0.5e-9 + 1e-14, "{name}: {found}, not {wanted}");
@@ -100,7 +113,11 @@ fn the_zero_pose_is_the_sum_of_the_drawings_lengths() {
         let CatalogueGeometry::Abb { a1, a2, c1, c2, c3, c4, .. } = arm.geometry else { continue };
         let pose: Pose = Robot::<6>::from_catalogue(arm).unwrap().fk(&[0.0; 6]);
         let wanted = Vector3::new(a1 + c3 + c4, 0.0, c1 + c2 - a2) / 1e3;
-        assert!((pose.translation.vector - wanted).amax() < 2e-15 * wanted.norm(), "{}: {pose}", arm.name);
+        assert!(
+            (pose.translation.vector - wanted).amax() < 2e-15 * wanted.norm(),
+            "{}: {pose}",
+            arm.name
+        );
     }
 }
 
@@ -109,7 +126,9 @@ fn every_arm_has_a_golden_pose() {
     let products = products_of_rows();
     for arm in catalogue() {
         let held = match arm.geometry {
-            CatalogueGeometry::Abb { .. } => products.iter().filter(|row| row.0 == arm.name).count() == 2,
+            CatalogueGeometry::Abb { .. } => {
+                products.iter().filter(|row| row.0 == arm.name).count() == 2
+            }
             _ => GOLDEN.iter().any(|golden| golden.0 == arm.name) || SEVEN_AXES.contains(&arm.name),
         };
         assert!(held, "{} has none", arm.name);
@@ -139,7 +158,8 @@ fn panda_and_fr3_meet_the_pose_recorded_on_a_machine() {
     assert!((pose.rotation[(0, 0)] - 0.768_176_030_504_295_6).abs() < 1e-9);
 }
 
-const ROD: &str = "coupled: its rods are likely to stop it before it is stretched; no source has that limit";
+const ROD: &str =
+    "coupled: its rods are likely to stop it before it is stretched; no source has that limit";
 const FIFTY: &str = "names of large arms are rounded to 50 mm";
 
 /// Arms whose name is off the reach of their lengths by more than the rounding to the last digit that it prints: that reach [m], why.
@@ -171,12 +191,22 @@ fn the_reach_in_the_type_name_is_that_of_the_geometry() {
         let printed = arm.reach.unwrap().to_string();
         let decimals = printed.split_once('.').map_or(1, |(_, decimals)| decimals.len());
         let half_digit = 0.5 * 10.0_f64.powi(-i32::try_from(decimals).unwrap());
-        if let Some((_, figure, why)) = OFF_THEIR_NAME.iter().find(|exception| exception.0 == arm.name) {
+        if let Some((_, figure, why)) =
+            OFF_THEIR_NAME.iter().find(|exception| exception.0 == arm.name)
+        {
             assert!((reach - figure).abs() < 5e-5, "{}: {reach} m ({why})", arm.name);
-            assert!((reach - arm.reach.unwrap()).abs() > half_digit, "{} is no exception", arm.name);
+            assert!(
+                (reach - arm.reach.unwrap()).abs() > half_digit,
+                "{} is no exception",
+                arm.name
+            );
             off.retain(|name| *name != arm.name);
         } else {
-            assert!((reach - arm.reach.unwrap()).abs() <= half_digit + 1e-12, "{}: {reach} m", arm.name);
+            assert!(
+                (reach - arm.reach.unwrap()).abs() <= half_digit + 1e-12,
+                "{}: {reach} m",
+                arm.name
+            );
         }
     }
     assert!(off.is_empty(), "{off:?} are not in the catalogue");
@@ -186,7 +216,8 @@ fn the_reach_in_the_type_name_is_that_of_the_geometry() {
 fn payload_and_reach_of_an_abb_arm_are_those_of_its_name() {
     for arm in catalogue().filter(|arm| matches!(arm.geometry, CatalogueGeometry::Abb { .. })) {
         // "2600-12/1.65", of the oldest "6400R/2.5-150".
-        let numbers: Vec<f64> = arm.name.split(['-', '/', ' ']).filter_map(|word| word.parse().ok()).collect();
+        let numbers: Vec<f64> =
+            arm.name.split(['-', '/', ' ']).filter_map(|word| word.parse().ok()).collect();
         assert!(
             numbers.ends_with(&[arm.payload.unwrap(), arm.reach.unwrap()])
                 || numbers.ends_with(&[arm.reach.unwrap(), arm.payload.unwrap()]),
@@ -201,8 +232,13 @@ fn every_arm_has_sane_limits() {
     for arm in catalogue() {
         assert!(arm.sources >= 1, "{}", arm.name);
         assert!(!arm.provenance.is_empty());
-        assert!(arm.payload.is_none_or(|kilograms| kilograms > 0.0) && arm.reach.is_none_or(|metres| metres > 0.0));
-        assert!(arm.max_velocity.is_none_or(|velocity| velocity.len() == arm.dof() && velocity.iter().all(|speed| *speed > 0.0)));
+        assert!(
+            arm.payload.is_none_or(|kilograms| kilograms > 0.0)
+                && arm.reach.is_none_or(|metres| metres > 0.0)
+        );
+        assert!(arm.max_velocity.is_none_or(
+            |velocity| velocity.len() == arm.dof() && velocity.iter().all(|speed| *speed > 0.0)
+        ));
         for [lower, upper] in arm.limits {
             assert!(lower < upper, "{}", arm.name);
             if matches!(arm.geometry, CatalogueGeometry::Abb { .. }) {
@@ -213,7 +249,11 @@ fn every_arm_has_sane_limits() {
             // The widest ranges that a source has: what goes past them is a slip.
             let most = [230.0, 180.0, 250.0, 400.0, 135.0, 400.0];
             for (limit, most) in arm.limits.iter().zip(most) {
-                assert!(limit.iter().all(|degrees| degrees.abs() <= most), "{}: {limit:?}", arm.name);
+                assert!(
+                    limit.iter().all(|degrees| degrees.abs() <= most),
+                    "{}: {limit:?}",
+                    arm.name
+                );
             }
         }
     }
@@ -222,7 +262,11 @@ fn every_arm_has_sane_limits() {
 const POSES: usize = 200;
 
 /// Holds the answers for random poses against forward kinematics and against the joints that made the poses.
-fn closes<const N: usize>(robot: &Robot<N>, rng: &mut Rng, solve: impl Fn(&Pose, &[f64; N]) -> Vec<[f64; N]>) {
+fn closes<const N: usize>(
+    robot: &Robot<N>,
+    rng: &mut Rng,
+    solve: impl Fn(&Pose, &[f64; N]) -> Vec<[f64; N]>,
+) {
     let (name, reach) = (robot.name(), reach_of(robot));
     for _ in 0..POSES {
         let q = rng.inside(robot.limits());
@@ -230,7 +274,10 @@ fn closes<const N: usize>(robot: &Robot<N>, rng: &mut Rng, solve: impl Fn(&Pose,
         let answers = solve(&pose, &q);
         for answer in &answers {
             let residual = robot.residual(answer, &pose);
-            assert!(residual.position <= 3e-15 * reach && residual.rotation <= 1e-14, "{name}: {residual:?} of {answer:?}");
+            assert!(
+                residual.position <= 3e-15 * reach && residual.rotation <= 1e-14,
+                "{name}: {residual:?} of {answer:?}"
+            );
         }
         assert!(answers.iter().any(|answer| apart(answer, &q) < 1e-9), "{name}: {q:?} is lost");
     }
@@ -242,7 +289,9 @@ fn every_arm_closes_on_random_poses_and_finds_the_joints_that_made_them() {
     for arm in catalogue() {
         if arm.dof() == 7 {
             let robot: Robot<7> = Robot::from_catalogue(arm).unwrap();
-            closes(&robot, &mut rng, |pose, q| robot.ik(pose, q[6]).unwrap().iter().map(|solution| solution.q).collect());
+            closes(&robot, &mut rng, |pose, q| {
+                robot.ik(pose, q[6]).unwrap().iter().map(|solution| solution.q).collect()
+            });
             continue;
         }
         let mut robot: Robot<6> = Robot::from_catalogue(arm).unwrap();
@@ -250,7 +299,9 @@ fn every_arm_closes_on_random_poses_and_finds_the_joints_that_made_them() {
             // Full turns make no new poses.
             robot = robot.with_limits(JointLimits::new([[-PI, PI]; 6]).unwrap());
         }
-        closes(&robot, &mut rng, |pose, _| robot.ik(pose).unwrap().iter().map(|solution| solution.q).collect());
+        closes(&robot, &mut rng, |pose, _| {
+            robot.ik(pose).unwrap().iter().map(|solution| solution.q).collect()
+        });
     }
 }
 
@@ -283,7 +334,13 @@ fn an_unknown_name_tells_the_close_ones_and_nothing_is_guessed() {
         Err(Error::UnknownRobot(unknown)) => unknown.close,
         other => unreachable!("{name}: {other:?}"),
     };
-    let all_2600 = ["IRB 2600-12/1.65", "IRB 2600-12/1.85", "IRB 2600-20/1.65", "IRB 2600ID-8/2.0", "IRB 2600ID-15/1.85"];
+    let all_2600 = [
+        "IRB 2600-12/1.65",
+        "IRB 2600-12/1.85",
+        "IRB 2600-20/1.65",
+        "IRB 2600ID-8/2.0",
+        "IRB 2600ID-15/1.85",
+    ];
     assert_eq!(close("IRB 2600"), all_2600);
     assert_eq!(close("2600"), all_2600);
     assert_eq!(close("IRB 1600-6"), ["IRB 1600-6/1.2", "IRB 1600-6/1.45"]);

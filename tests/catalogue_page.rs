@@ -7,7 +7,8 @@ use std::path::Path;
 use irbkin::{CatalogueArm, CatalogueGeometry, catalogue};
 
 const COMMON_HEAD: [&str; 3] = ["arm", "payload [kg]", "reach [m]"];
-const COMMON_TAIL: [&str; 4] = ["limits of axes 1 to n", "speeds", "sources", "disagreements and remarks"];
+const COMMON_TAIL: [&str; 4] =
+    ["limits of axes 1 to n", "speeds", "sources", "disagreements and remarks"];
 
 /// Name of a table in the page, the columns that describe its geometry.
 const TABLES: [(&str, &[&str]); 3] = [
@@ -25,7 +26,9 @@ fn geometry(arm: &CatalogueArm) -> (&'static str, Vec<String>) {
             cells.push(if coupled { "yes" } else { "" }.to_owned());
             ("abb", cells)
         }
-        CatalogueGeometry::ThreeParallel { d1, a2, a3, d4, d5, d6 } => ("universal robots", lengths([d1, a2, a3, d4, d5, d6])),
+        CatalogueGeometry::ThreeParallel { d1, a2, a3, d4, d5, d6 } => {
+            ("universal robots", lengths([d1, a2, a3, d4, d5, d6]))
+        }
         CatalogueGeometry::Mdh(_) => ("franka", Vec::new()),
     }
 }
@@ -41,9 +44,13 @@ fn row(cells: impl IntoIterator<Item = String>) -> String {
 }
 
 fn row_of(arm: &CatalogueArm, geometry: Vec<String>) -> String {
-    let known = |figure: Option<f64>| figure.map_or_else(|| "-".to_owned(), |figure| figure.to_string());
+    let known =
+        |figure: Option<f64>| figure.map_or_else(|| "-".to_owned(), |figure| figure.to_string());
     let limits = arm.limits.iter().map(limit).collect::<Vec<_>>().join(", ");
-    let speeds = arm.max_velocity.map_or_else(|| "-".to_owned(), |speeds| speeds.iter().map(f64::to_string).collect::<Vec<_>>().join(", "));
+    let speeds = arm.max_velocity.map_or_else(
+        || "-".to_owned(),
+        |speeds| speeds.iter().map(f64::to_string).collect::<Vec<_>>().join(", "),
+    );
     // The sources come first in the provenance.
     let remarks = arm.provenance.split_once("; ").map_or("", |(_, remarks)| remarks).to_owned();
     let head = [arm.name.to_owned(), known(arm.payload), known(arm.reach)];
@@ -52,7 +59,8 @@ fn row_of(arm: &CatalogueArm, geometry: Vec<String>) -> String {
 
 fn table(name: &str, columns: &[&str]) -> String {
     let heads = || COMMON_HEAD.iter().chain(columns).chain(&COMMON_TAIL);
-    let mut table = row(heads().map(|&head| head.to_owned())) + &format!("|{}\n", "---|".repeat(heads().count()));
+    let mut table = row(heads().map(|&head| head.to_owned()))
+        + &format!("|{}\n", "---|".repeat(heads().count()));
     for arm in catalogue() {
         let (place, cells) = geometry(arm);
         if place == name {
@@ -71,11 +79,15 @@ fn the_tables_of_the_page_are_those_of_the_catalogue() {
         let start = format!("<!-- {name}: written by make catalogue -->\n");
         let (before, rest) = made.split_once(&start).unwrap();
         let (_, after) = rest.split_once("<!-- end -->").unwrap();
-        made = format!("{before}{start}\n{table}\n<!-- end -->{after}", table = table(name, columns));
+        made =
+            format!("{before}{start}\n{table}\n<!-- end -->{after}", table = table(name, columns));
     }
     if std::env::var("IRBKIN_WRITE").is_ok_and(|write| write == "1") {
         fs::write(&path, made).unwrap();
     } else {
-        assert!(page == made, "docs/catalogue.md is not what the catalogue says: make catalogue writes it");
+        assert!(
+            page == made,
+            "docs/catalogue.md is not what the catalogue says: make catalogue writes it"
+        );
     }
 }

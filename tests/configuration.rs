@@ -7,8 +7,8 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use common::{Rng, apart, asked_set};
 use irbkin::{
-    CatalogueGeometry, Configuration, Error, JointLimits, OpwParameters, Robot, SLOTS, Solution, Status, catalogue,
-    thresholds::CONFIGURATION_EDGE,
+    CatalogueGeometry, Configuration, Error, JointLimits, OpwParameters, Robot, SLOTS, Solution,
+    Status, catalogue, thresholds::CONFIGURATION_EDGE,
 };
 
 fn poses() -> usize {
@@ -27,10 +27,14 @@ fn configuration(cf1: i32, cf4: i32, cf6: i32, cfx: i32) -> Configuration {
 fn has(robot: &Robot<6>, q: &[f64; 6], wanted: Configuration) -> bool {
     let near = |angle: f64, cf: i32| {
         let quarters = f64::from(cf) * FRAC_PI_2;
-        angle >= quarters - CONFIGURATION_EDGE - 1e-9 && angle <= quarters + FRAC_PI_2 + CONFIGURATION_EDGE + 1e-9
+        angle >= quarters - CONFIGURATION_EDGE - 1e-9
+            && angle <= quarters + FRAC_PI_2 + CONFIGURATION_EDGE + 1e-9
     };
     let found = robot.configuration(q).unwrap();
-    near(q[0], wanted.cf1) && near(q[3], wanted.cf4) && near(q[5], wanted.cf6) && found.cfx == wanted.cfx
+    near(q[0], wanted.cf1)
+        && near(q[3], wanted.cf4)
+        && near(q[5], wanted.cf6)
+        && found.cfx == wanted.cfx
 }
 
 /// Eight solutions have eight slots; a joint vector is the only one of its pose, turns included, with its configuration, and is found by it.
@@ -48,16 +52,27 @@ fn every_joint_vector_is_found_by_its_configuration() {
             let solutions = robot.ik(&pose).unwrap();
             eights += usize::from(solutions.len() == SLOTS);
             for solution in &solutions {
-                assert_eq!(slot(&twin, &robot, &solution.q), i32::from(solution.slot), "{}: {q:?}", arm.name);
+                assert_eq!(
+                    slot(&twin, &robot, &solution.q),
+                    i32::from(solution.slot),
+                    "{}: {q:?}",
+                    arm.name
+                );
             }
             let found = robot.ik_configured(&pose, wanted).unwrap();
-            assert!(found.within_limits() && has(&robot, &found.q, wanted), "{}: {q:?} {found:?}", arm.name);
+            assert!(
+                found.within_limits() && has(&robot, &found.q, wanted),
+                "{}: {q:?} {found:?}",
+                arm.name
+            );
             if robot.is_coupled() && slot(&twin, &robot, &q) & 2 != 0 {
                 behind += 1;
                 continue;
             }
-            let same =
-                |turn: &Solution<6>| robot.configuration(&turn.q).unwrap() == wanted && slot(&twin, &robot, &turn.q) & 2 == wanted.cfx & 2;
+            let same = |turn: &Solution<6>| {
+                robot.configuration(&turn.q).unwrap() == wanted
+                    && slot(&twin, &robot, &turn.q) & 2 == wanted.cfx & 2
+            };
             // No configuration counts axis 3, of which the IRB 8700 has a little more than a full turn.
             let [low, high] = robot.limits().to_array()[2];
             let turns_of_axis_3 = 1 + usize::from(high - low > TAU);
@@ -65,12 +80,21 @@ fn every_joint_vector_is_found_by_its_configuration() {
             assert!((1..=turns_of_axis_3).contains(&named), "{}: {q:?}", arm.name);
             // Next to a singularity rounding of the pose is seen in the joints.
             let bound = 1e-9_f64.max(4e-15 * 5.0 / robot.singularity(&q).min_singular_value);
-            assert!(apart(&found.q, &q) < bound && (found.q[5] - q[5]).abs() < 1.0, "{}: {q:?} {found:?}", arm.name);
+            assert!(
+                apart(&found.q, &q) < bound && (found.q[5] - q[5]).abs() < 1.0,
+                "{}: {q:?} {found:?}",
+                arm.name
+            );
         }
         assert!(robot.is_coupled() || behind == 0);
         assert!(eights > 0, "{}", arm.name);
         arms += 1;
-        println!("{:32} {:8} {} poses, {eights} of eight solutions, {behind} behind the elbow", arm.name, asked_set().name(), poses());
+        println!(
+            "{:32} {:8} {} poses, {eights} of eight solutions, {behind} behind the elbow",
+            arm.name,
+            asked_set().name(),
+            poses()
+        );
     }
     assert!(arms > 80);
 }
@@ -87,7 +111,8 @@ fn slot(twin: &Robot<6>, robot: &Robot<6>, q: &[f64; 6]) -> i32 {
 #[test]
 fn quarter_turns_are_counted_from_below() {
     let robot = irb2600();
-    let degrees = |q1: f64, q4: f64, q5: f64, q6: f64| [q1, 10.0, 20.0, q4, q5, q6].map(f64::to_radians);
+    let degrees =
+        |q1: f64, q4: f64, q5: f64, q6: f64| [q1, 10.0, 20.0, q4, q5, q6].map(f64::to_radians);
     for (q, wanted) in [
         (degrees(0.0, 0.0, 30.0, 0.0), configuration(0, 0, 0, 0)),
         (degrees(-10.0, 89.9, 30.0, 90.0), configuration(-1, 0, 1, 0)),
@@ -98,7 +123,8 @@ fn quarter_turns_are_counted_from_below() {
         assert_eq!(robot.configuration(&q).unwrap(), wanted, "{q:?}");
     }
     // Behind the lower arm from -(90 - atan(115 / 795)) deg on: -81.8 deg.
-    let bent = |q3: f64| robot.configuration(&[0.1, 0.2, q3.to_radians(), 0.3, 0.4, 0.5]).unwrap().cfx;
+    let bent =
+        |q3: f64| robot.configuration(&[0.1, 0.2, q3.to_radians(), 0.3, 0.4, 0.5]).unwrap().cfx;
     assert_eq!((bent(-81.7), bent(-81.9)), (0, 2));
 }
 
@@ -108,7 +134,13 @@ fn an_angle_on_an_edge_has_both_neighbours() {
     let off = 0.009_f64.to_radians();
     for edge in [-2, -1, 0, 1] {
         let far = 0.02_f64.to_radians();
-        for (shift, below, above) in [(-far, true, false), (-off, true, true), (0.0, true, true), (off, true, true), (far, false, true)] {
+        for (shift, below, above) in [
+            (-far, true, false),
+            (-off, true, true),
+            (0.0, true, true),
+            (off, true, true),
+            (far, false, true),
+        ] {
             let q4 = f64::from(edge) * FRAC_PI_2 + shift;
             let q = [0.3, 0.2, 0.1, q4, 0.5, 0.7];
             let answer = robot.ik_configured(&robot.fk(&q), configuration(0, edge - 1, 0, 0));
@@ -116,7 +148,11 @@ fn an_angle_on_an_edge_has_both_neighbours() {
             if let Ok(answer) = answer {
                 assert!((answer.q[3] - q4).abs() < 1e-9);
             }
-            assert_eq!(robot.ik_configured(&robot.fk(&q), configuration(0, edge, 0, 0)).is_ok(), above, "{edge} {shift}");
+            assert_eq!(
+                robot.ik_configured(&robot.fk(&q), configuration(0, edge, 0, 0)).is_ok(),
+                above,
+                "{edge} {shift}"
+            );
         }
     }
 }
@@ -177,8 +213,13 @@ fn where_the_shoulder_is_singular_axis_1_takes_its_quarter() {
         let existing = robot.ik(&pose).unwrap();
         assert!(existing.iter().all(|solution| solution.status.contains(Status::SHOULDER)));
         let quarters = [-2, -1, 0, 1];
-        let reached = quarters.iter().flat_map(|cf4| quarters.map(|cf6| configuration(cf1, *cf4, cf6, 0)));
-        let found: Vec<_> = reached.filter_map(|wanted| robot.ik_configured(&pose, wanted).ok().map(|found| (wanted, found))).collect();
+        let reached =
+            quarters.iter().flat_map(|cf4| quarters.map(|cf6| configuration(cf1, *cf4, cf6, 0)));
+        let found: Vec<_> = reached
+            .filter_map(|wanted| {
+                robot.ik_configured(&pose, wanted).ok().map(|found| (wanted, found))
+            })
+            .collect();
         assert!(!found.is_empty(), "{cf1}");
         for (wanted, found) in found {
             assert!(has(&robot, &found.q, wanted), "{wanted} {found:?}");
@@ -191,38 +232,63 @@ fn where_the_shoulder_is_singular_axis_1_takes_its_quarter() {
 fn the_error_lists_what_exists() {
     let robot = irb2600();
     let q = [0.3, 0.2, 0.1, 0.4, 0.5, 0.7];
-    let Err(Error::NoConfiguration(none)) = robot.ik_configured(&robot.fk(&q), configuration(3, 0, 0, 0)) else { unreachable!() };
+    let Err(Error::NoConfiguration(none)) =
+        robot.ik_configured(&robot.fk(&q), configuration(3, 0, 0, 0))
+    else {
+        unreachable!()
+    };
     assert!(none.existing.contains(&configuration(0, 0, 0, 0)) && !none.more);
     let turns = robot.ik(&robot.fk(&q)).unwrap().turns().count();
     assert_eq!(none.existing.len(), turns);
-    assert!(
-        Error::NoConfiguration(none)
-            .to_string()
-            .starts_with("no solution inside the limits has the configuration [3, 0, 0, 0]; there are [0, -4, ")
-    );
-    let nearest = robot.ik_configured_or_nearest(&robot.fk(&q), configuration(3, 0, 0, 0), &q).unwrap();
+    assert!(Error::NoConfiguration(none).to_string().starts_with(
+        "no solution inside the limits has the configuration [3, 0, 0, 0]; there are [0, -4, "
+    ));
+    let nearest =
+        robot.ik_configured_or_nearest(&robot.fk(&q), configuration(3, 0, 0, 0), &q).unwrap();
     assert!(apart(&nearest.q, &q) < 1e-9);
     let far = irbkin::pose_from_quaternion([9.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]).unwrap();
-    assert!(matches!(robot.ik_configured(&far, configuration(0, 0, 0, 0)), Err(Error::Unreachable(_))));
-    assert!(matches!(robot.ik_configured_or_nearest(&far, configuration(0, 0, 0, 0), &q), Err(Error::Unreachable(_))));
+    assert!(matches!(
+        robot.ik_configured(&far, configuration(0, 0, 0, 0)),
+        Err(Error::Unreachable(_))
+    ));
+    assert!(matches!(
+        robot.ik_configured_or_nearest(&far, configuration(0, 0, 0, 0), &q),
+        Err(Error::Unreachable(_))
+    ));
 }
 
 #[test]
 fn the_list_has_each_configuration_once_and_tells_of_a_free_joint() {
     let wide = irb2600().with_limits(JointLimits::new([[-7.0, 7.0]; 6]).unwrap());
     let q = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
-    let listed = |robot: &Robot<6>, q: &[f64; 6]| match robot.ik_configured(&robot.fk(q), configuration(9, 0, 0, 0)) {
+    let listed = |robot: &Robot<6>, q: &[f64; 6]| match robot
+        .ik_configured(&robot.fk(q), configuration(9, 0, 0, 0))
+    {
         Err(Error::NoConfiguration(none)) => none,
         other => unreachable!("{other:?}"),
     };
     let none = listed(&wide, &q);
     let once = |of: &[Configuration]| of.iter().enumerate().all(|(i, one)| !of[..i].contains(one));
-    assert!(none.more && none.free.is_none() && none.existing.len() == irbkin::NoConfiguration::MOST && once(&none.existing));
-    let by_turns: Vec<_> = wide.ik(&wide.fk(&q)).unwrap().turns().map(|turn| wide.configuration(&turn.q).unwrap()).collect();
+    assert!(
+        none.more
+            && none.free.is_none()
+            && none.existing.len() == irbkin::NoConfiguration::MOST
+            && once(&none.existing)
+    );
+    let by_turns: Vec<_> = wide
+        .ik(&wide.fk(&q))
+        .unwrap()
+        .turns()
+        .map(|turn| wide.configuration(&turn.q).unwrap())
+        .collect();
     assert!(none.existing.iter().all(|one| by_turns.contains(one)));
     let singular = listed(&irb2600(), &[0.1, 0.2, 0.3, 1.0, 0.0, 0.5]);
     assert_eq!(singular.free, Some(irbkin::FreeJoint::WristSum));
-    assert!(Error::NoConfiguration(singular).to_string().ends_with(", and others, for J4 is free there"));
+    assert!(
+        Error::NoConfiguration(singular)
+            .to_string()
+            .ends_with(", and others, for J4 is free there")
+    );
 }
 
 /// Next to the singularity, where only another member of the family is inside the limits.
@@ -234,7 +300,11 @@ fn a_family_that_has_members_inside_the_limits_is_not_unreachable() {
     for q5 in [0.0, 1e-11, 1e-9, -1e-9] {
         let pose = irb2600().fk(&[0.1, 0.2, 0.3, 1.0, q5, 0.5]);
         let seed = [0.1, 0.2, 0.3, 2.05, 0.0, -0.55];
-        let Err(Error::NoConfiguration(none)) = robot.ik_configured(&pose, configuration(3, 0, 0, 0)) else { unreachable!("{q5}") };
+        let Err(Error::NoConfiguration(none)) =
+            robot.ik_configured(&pose, configuration(3, 0, 0, 0))
+        else {
+            unreachable!("{q5}")
+        };
         assert_eq!((none.existing[0].cf4, none.existing[0].cf6), (1, -1));
         assert!(robot.ik_configured_or_nearest(&pose, configuration(3, 0, 0, 0), &seed).is_ok());
     }
@@ -247,7 +317,9 @@ fn far_multiples_of_a_quarter_turn_begin_theirs() {
         let q = [(f64::from(quarters) * 90.0).to_radians(), 0.0, 0.0, 0.0, 0.0, 0.0];
         assert_eq!(robot.configuration(&q).unwrap().cf1, quarters);
     }
-    let far = robot.ik_configured(&robot.fk(&[0.1; 6]), configuration(0, 0, 2_000_000_000, 0)).unwrap_err();
+    let far = robot
+        .ik_configured(&robot.fk(&[0.1; 6]), configuration(0, 0, 2_000_000_000, 0))
+        .unwrap_err();
     assert_eq!(far.to_string(), "configuration: cf6 is 2000000000, it must be -63661 to 63661");
 }
 
@@ -255,24 +327,44 @@ fn far_multiples_of_a_quarter_turn_begin_theirs() {
 fn what_is_no_configuration_of_the_arm_is_refused() {
     let robot = irb2600();
     let message = |answer: Result<Configuration, Error>| answer.unwrap_err().to_string();
-    let refused = |robot: &Robot<6>, cfx| robot.ik_configured(&robot.fk(&[0.1; 6]), configuration(0, 0, 0, cfx)).unwrap_err().to_string();
+    let refused = |robot: &Robot<6>, cfx| {
+        robot
+            .ik_configured(&robot.fk(&[0.1; 6]), configuration(0, 0, 0, cfx))
+            .unwrap_err()
+            .to_string()
+    };
     assert_eq!(refused(&robot, 11), "configuration: cfx is 11, it must be 0 to 7");
     assert_eq!(refused(&robot, -1), "configuration: cfx is -1, it must be 0 to 7");
-    let coupled = Robot::from_opw(OpwParameters::abb(0.1, -0.135, 0.615, 0.705, 0.755, 0.085)).unwrap().coupled().unwrap();
-    assert_eq!(refused(&coupled, 2), "configuration: cfx is 2, it is 0 for an arm with coupled axes 2 and 3");
+    let coupled = Robot::from_opw(OpwParameters::abb(0.1, -0.135, 0.615, 0.705, 0.755, 0.085))
+        .unwrap()
+        .coupled()
+        .unwrap();
+    assert_eq!(
+        refused(&coupled, 2),
+        "configuration: cfx is 2, it is 0 for an arm with coupled axes 2 and 3"
+    );
     let ur3 = Robot::named("UR3").unwrap();
     assert_eq!(
         message(ur3.configuration(&[0.1; 6])),
         "configurations are those of ABB's six-axis arms with a spherical wrist: this arm's form is \"three parallel axes\""
     );
-    assert_eq!(message(robot.configuration(&[f64::NAN; 6])), "q: joint 1 is NaN, every angle must be finite [rad]");
+    assert_eq!(
+        message(robot.configuration(&[f64::NAN; 6])),
+        "q: joint 1 is NaN, every angle must be finite [rad]"
+    );
 }
 
 #[test]
 fn a_coupled_arm_does_not_count_its_slot() {
-    let robot = Robot::from_opw(OpwParameters::abb(0.1, -0.135, 0.615, 0.705, 0.755, 0.085)).unwrap().coupled().unwrap();
+    let robot = Robot::from_opw(OpwParameters::abb(0.1, -0.135, 0.615, 0.705, 0.755, 0.085))
+        .unwrap()
+        .coupled()
+        .unwrap();
     let robot = robot.with_limits(JointLimits::new([[-PI, PI]; 6]).unwrap());
     let q = [0.3, 0.4, 0.2, 0.5, -0.6, 0.7];
     assert_eq!(robot.configuration(&q).unwrap(), configuration(0, 0, 0, 0));
-    assert!(apart(&robot.ik_configured(&robot.fk(&q), configuration(0, 0, 0, 0)).unwrap().q, &q) < 1e-12);
+    assert!(
+        apart(&robot.ik_configured(&robot.fk(&q), configuration(0, 0, 0, 0)).unwrap().q, &q)
+            < 1e-12
+    );
 }

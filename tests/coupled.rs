@@ -6,7 +6,10 @@ mod common;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use common::{Rng, apart, central_difference, difference_bound, on_each_set, reach_of};
-use irbkin::{Error, Explanation, FreeJoint, JacobianFrame, JointLimits, OpwParameters, Robot, SLOTS, batch, pose_to_rows};
+use irbkin::{
+    Error, Explanation, FreeJoint, JacobianFrame, JointLimits, OpwParameters, Robot, SLOTS, batch,
+    pose_to_rows,
+};
 use nalgebra::Matrix6;
 
 /// The figures of an IRB 2400-10/1.55.
@@ -20,13 +23,26 @@ fn unlimited() -> Robot<6> {
 
 /// With the controller's limits.
 fn limited() -> Robot<6> {
-    let degrees = [[-180.0, 180.0], [-100.0, 110.0], [-60.0, 65.0], [-200.0, 200.0], [-120.0, 120.0], [-400.0, 400.0]];
-    unlimited().with_limits(JointLimits::new(degrees.map(|limit| limit.map(f64::to_radians))).unwrap())
+    let degrees = [
+        [-180.0, 180.0],
+        [-100.0, 110.0],
+        [-60.0, 65.0],
+        [-200.0, 200.0],
+        [-120.0, 120.0],
+        [-400.0, 400.0],
+    ];
+    unlimited()
+        .with_limits(JointLimits::new(degrees.map(|limit| limit.map(f64::to_radians))).unwrap())
 }
 
 /// An arm with signs, offsets and a lateral offset.
 fn odd() -> Robot<6> {
-    let odd = OpwParameters { b: 0.04, offsets: [0.1, -0.7, 2.0, 0.3, -0.2, 0.5], signs: [-1, -1, -1, 1, -1, 1], ..opw() };
+    let odd = OpwParameters {
+        b: 0.04,
+        offsets: [0.1, -0.7, 2.0, 0.3, -0.2, 0.5],
+        signs: [-1, -1, -1, 1, -1, 1],
+        ..opw()
+    };
     Robot::from_opw(odd).unwrap().coupled().unwrap()
 }
 
@@ -78,7 +94,10 @@ fn the_jacobian_is_the_serial_one_by_the_chain_rule() {
             let q = rng.inside(robot.limits());
             for frame in [JacobianFrame::Base, JacobianFrame::Tool] {
                 let expected = twin.jacobian(&serial(q), frame) * derivative;
-                assert!((robot.jacobian(&q, frame) - expected).amax() <= 4.0 * f64::EPSILON * reach_of(&robot));
+                assert!(
+                    (robot.jacobian(&q, frame) - expected).amax()
+                        <= 4.0 * f64::EPSILON * reach_of(&robot)
+                );
             }
         }
     }
@@ -93,7 +112,9 @@ fn the_jacobian_matches_central_differences() {
         let jacobian = robot.jacobian(&q, JacobianFrame::Base);
         for joint in 0..6 {
             for (row, wanted) in central_difference(&robot, &q, joint).into_iter().enumerate() {
-                assert!((jacobian[(row, joint)] - wanted).abs() < difference_bound(reach_of(&robot)));
+                assert!(
+                    (jacobian[(row, joint)] - wanted).abs() < difference_bound(reach_of(&robot))
+                );
             }
         }
     }
@@ -110,14 +131,18 @@ fn solutions_are_those_of_the_serial_twin_slot_for_slot() {
             let (solutions, serials) = (robot.ik(&pose).unwrap(), twin.ik(&pose).unwrap());
             assert!(solutions.iter().any(|solution| apart(&solution.q, &q) < 1e-9));
             for slot in 0..SLOTS {
-                let (Some(solution), Some(other)) = (solutions.slot(slot), serials.slot(slot)) else {
+                let (Some(solution), Some(other)) = (solutions.slot(slot), serials.slot(slot))
+                else {
                     assert_eq!(solutions.slot(slot).is_none(), serials.slot(slot).is_none());
                     continue;
                 };
                 assert!(apart(&serial(solution.q), &other.q) < 1e-14);
                 assert!(solution.q.iter().all(|angle| *angle > -PI && *angle <= PI));
                 let residual = robot.residual(&solution.q, &pose);
-                assert!(residual.position <= 3e-15 * reach_of(&robot) && residual.rotation <= 1e-14, "{residual:?}");
+                assert!(
+                    residual.position <= 3e-15 * reach_of(&robot) && residual.rotation <= 1e-14,
+                    "{residual:?}"
+                );
             }
         }
     }
@@ -132,9 +157,16 @@ fn limits_are_those_of_the_controllers_angles() {
             let q = rng.inside(&limits);
             for solution in &robot.ik(&robot.fk(&q)).unwrap() {
                 let rod = solution.q[2] - solution.q[1];
-                let holds = |[low, high]: [f64; 2], angle: f64| angle >= low - 1e-9 && angle <= high + 1e-9;
-                let inside = limits.to_array().into_iter().zip(solution.q).all(|(limit, angle)| holds(limit, angle))
-                    && limits.rod().is_none_or(|limit| [-TAU, 0.0, TAU].iter().any(|turn| holds(limit, rod + turn)));
+                let holds =
+                    |[low, high]: [f64; 2], angle: f64| angle >= low - 1e-9 && angle <= high + 1e-9;
+                let inside = limits
+                    .to_array()
+                    .into_iter()
+                    .zip(solution.q)
+                    .all(|(limit, angle)| holds(limit, angle))
+                    && limits.rod().is_none_or(|limit| {
+                        [-TAU, 0.0, TAU].iter().any(|turn| holds(limit, rod + turn))
+                    });
                 assert_eq!(solution.within_limits(), inside, "{solution:?}");
             }
         }
@@ -157,10 +189,22 @@ fn batch_equals_single_and_the_careful_solve() {
             let poses: Vec<_> = joints.iter().map(|q| robot.fk(q)).collect();
             let rows: Vec<f64> = poses.iter().flat_map(pose_to_rows).collect();
             let (mut q, mut status) = (vec![[[0.0; 6]; SLOTS]; 101], vec![[0; SLOTS]; 101]);
-            batch::ik(&robot, &rows, q.as_flattened_mut().as_flattened_mut(), status.as_flattened_mut(), 1).unwrap();
+            batch::ik(
+                &robot,
+                &rows,
+                q.as_flattened_mut().as_flattened_mut(),
+                status.as_flattened_mut(),
+                1,
+            )
+            .unwrap();
             for (row, pose) in poses.iter().enumerate() {
                 let single = robot.ik(pose).unwrap();
-                assert_eq!(status[row], single.status().map(|status| status.bits()), "{}", set.name());
+                assert_eq!(
+                    status[row],
+                    single.status().map(|status| status.bits()),
+                    "{}",
+                    set.name()
+                );
                 for solution in &single {
                     assert!(apart(&q[row][usize::from(solution.slot)], &solution.q) < 1e-12);
                 }
@@ -182,7 +226,13 @@ fn forward_kinematics_and_jacobian_of_rows_are_those_of_one() {
     let joints: Vec<_> = (0..13).map(|_| rng.inside(robot.limits())).collect();
     let (mut poses, mut jacobians) = (vec![[0.0; 16]; 13], vec![[[0.0; 6]; 6]; 13]);
     batch::fk(&robot, joints.as_flattened(), poses.as_flattened_mut()).unwrap();
-    batch::jacobian(&robot, joints.as_flattened(), JacobianFrame::Tool, jacobians.as_flattened_mut().as_flattened_mut()).unwrap();
+    batch::jacobian(
+        &robot,
+        joints.as_flattened(),
+        JacobianFrame::Tool,
+        jacobians.as_flattened_mut().as_flattened_mut(),
+    )
+    .unwrap();
     for (row, q) in joints.iter().enumerate() {
         assert_eq!(poses[row], pose_to_rows(&robot.fk(q)));
         let one = robot.jacobian(q, JacobianFrame::Tool);
@@ -209,7 +259,10 @@ fn turns_and_the_nearest_keep_the_rod_inside() {
                 assert!(excess > 0.0);
                 assert!(turns.is_empty());
             }
-            Err(error) => assert!(matches!(error, Error::Unreachable(Explanation::OutsideLimits { .. })), "{error}"),
+            Err(error) => assert!(
+                matches!(error, Error::Unreachable(Explanation::OutsideLimits { .. })),
+                "{error}"
+            ),
         }
     }
     assert!(kept_out > 100, "{kept_out}");
@@ -228,7 +281,10 @@ fn twins_lose_no_posture() {
                 assert!(back.limits().contain(&q));
             }
         }
-        assert_eq!(robot.limits().rod().is_some(), twin.limits().to_array()[2] == [-100.0, 40.0].map(f64::to_radians));
+        assert_eq!(
+            robot.limits().rod().is_some(),
+            twin.limits().to_array()[2] == [-100.0, 40.0].map(f64::to_radians)
+        );
     }
     assert_eq!(unlimited().serial(), Robot::from_opw(opw()).unwrap());
     assert_eq!(unlimited().serial().coupled().unwrap(), unlimited());
@@ -247,23 +303,39 @@ fn joint_3_of_a_twin_is_as_fast_as_joints_2_and_3_together() {
 #[test]
 fn limits_that_are_none_are_told() {
     let message = |result: Result<Robot<6>, Error>| result.unwrap_err().to_string();
-    assert_eq!(message(limited().with_rod_limits(Some([0.5, -0.5]))), "rod limit is empty: lower 0.5 rad > upper -0.5 rad");
-    assert_eq!(message(limited().with_rod_limits(Some([f64::NAN, 0.0]))), "lower limit of the rod is NaN, it must be finite");
+    assert_eq!(
+        message(limited().with_rod_limits(Some([0.5, -0.5]))),
+        "rod limit is empty: lower 0.5 rad > upper -0.5 rad"
+    );
+    assert_eq!(
+        message(limited().with_rod_limits(Some([f64::NAN, 0.0]))),
+        "lower limit of the rod is NaN, it must be finite"
+    );
     let serial = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
     assert!(message(serial.with_rod_limits(Some([0.0, 1.0]))).contains("not coupled"));
     let senses = OpwParameters { signs: [1, 1, -1, 1, 1, 1], ..opw() };
-    assert_eq!(message(Robot::from_opw(senses).unwrap().coupled()), "axes 2 and 3 cannot be coupled: they turn in opposite senses");
-    assert_eq!(message(Robot::named("UR3").unwrap().coupled()), "axes 2 and 3 cannot be coupled: the arm has no spherical wrist");
+    assert_eq!(
+        message(Robot::from_opw(senses).unwrap().coupled()),
+        "axes 2 and 3 cannot be coupled: they turn in opposite senses"
+    );
+    assert_eq!(
+        message(Robot::named("UR3").unwrap().coupled()),
+        "axes 2 and 3 cannot be coupled: the arm has no spherical wrist"
+    );
 }
 
 #[test]
 fn where_the_wrist_is_on_axis_2_the_coupled_axis_3_goes_with_axis_2() {
-    let robot = Robot::from_opw(OpwParameters::abb(0.1, 0.0, 0.5, 0.7, 0.7, 0.1)).unwrap().coupled().unwrap();
+    let robot = Robot::from_opw(OpwParameters::abb(0.1, 0.0, 0.5, 0.7, 0.7, 0.1))
+        .unwrap()
+        .coupled()
+        .unwrap();
     // Folded: the serial axis 3 at 90 deg.
     let q = [0.2, 0.3, FRAC_PI_2 + 0.3, 0.4, 0.5, 0.6];
     let pose = robot.fk(&q);
     let solutions = robot.ik(&pose).unwrap();
-    let free = solutions.iter().find(|solution| solution.free == Some(FreeJoint::UpperCoupled)).unwrap();
+    let free =
+        solutions.iter().find(|solution| solution.free == Some(FreeJoint::UpperCoupled)).unwrap();
     assert_eq!(free.free.unwrap().fixed(), "q1, q3 - q2");
     let moved = robot.with_free(&pose, free, 0.3).unwrap().unwrap();
     assert!((moved.q[2] - moved.q[1] - FRAC_PI_2).abs() < 1e-12);

@@ -182,7 +182,8 @@ fn judge(arm: &Arm, q: &[f64; 6], pose: &Pose, place: Place, allowed: f64, tally
         let residual = arm.robot.residual(&solution.q, pose);
         tally.position = tally.position.max(residual.position);
         tally.rotation = tally.rotation.max(residual.rotation);
-        tally.wrong += usize::from(residual.position > allowed + 3e-15 * reach || residual.rotation > 1e-14);
+        tally.wrong +=
+            usize::from(residual.position > allowed + 3e-15 * reach || residual.rotation > 1e-14);
         // The tool stays where the free joint goes, to rounding or the distance from the singularity.
         if let Some(free) = solution.free {
             let moved = arm.robot.with_free(pose, solution, 0.7).unwrap().unwrap();
@@ -204,19 +205,29 @@ fn judge(arm: &Arm, q: &[f64; 6], pose: &Pose, place: Place, allowed: f64, tally
         }
         let again = |other: &&Solution<6>| {
             // Of the family that q1 is free in, two with the same q1 are two.
-            let apart = Apart::of(arm, &other.q, &solution.q, (other.kinds() | solution.kinds()) - Status::SHOULDER);
+            let apart = Apart::of(
+                arm,
+                &other.q,
+                &solution.q,
+                (other.kinds() | solution.kinds()) - Status::SHOULDER,
+            );
             apart.arm.max(apart.wrist).max(apart.split) < 1e-9
         };
         tally.twice += solutions.iter().skip(i + 1).filter(again).count();
     }
     // The flags of the branch that made the pose. Where q1 is not determined, neither is the singularity of the wrist, and the shoulders
     // that are merged differ in reach by twice their distance from axis 1.
-    let alone = place.shoulder.is_none_or(|off| arm.opw.b == 0.0 && off > thresholds::SHOULDER_MERGE);
+    let alone =
+        place.shoulder.is_none_or(|off| arm.opw.b == 0.0 && off > thresholds::SHOULDER_MERGE);
     let flagged = |kind: Status, off: Option<f64>, threshold: f64| {
-        off.is_none_or(|off| solutions.iter().any(|s| s.kinds().contains(kind)) || off > 0.5 * threshold)
+        off.is_none_or(|off| {
+            solutions.iter().any(|s| s.kinds().contains(kind)) || off > 0.5 * threshold
+        })
     };
-    let wrist_and_elbow = flagged(Status::WRIST, place.wrist, thresholds::WRIST_MERGE_SIN) && flagged(Status::ELBOW, place.elbow, 1e-8);
-    let flagged = (!alone || wrist_and_elbow) && flagged(Status::SHOULDER, place.shoulder, thresholds::SHOULDER_MERGE);
+    let wrist_and_elbow = flagged(Status::WRIST, place.wrist, thresholds::WRIST_MERGE_SIN)
+        && flagged(Status::ELBOW, place.elbow, 1e-8);
+    let flagged = (!alone || wrist_and_elbow)
+        && flagged(Status::SHOULDER, place.shoulder, thresholds::SHOULDER_MERGE);
     tally.flags += usize::from(!flagged);
 }
 
@@ -231,12 +242,24 @@ fn sets() -> Vec<(String, Place)> {
     for first in NEAR {
         for second in NEAR {
             let (a, b) = (Some(first), Some(second));
-            sets.push((format!("wrist {first:e}, shoulder {second:e}"), Place { wrist: a, shoulder: b, elbow: None }));
-            sets.push((format!("wrist {first:e}, elbow {second:e}"), Place { wrist: a, shoulder: None, elbow: b }));
-            sets.push((format!("shoulder {first:e}, elbow {second:e}"), Place { wrist: None, shoulder: a, elbow: b }));
+            sets.push((
+                format!("wrist {first:e}, shoulder {second:e}"),
+                Place { wrist: a, shoulder: b, elbow: None },
+            ));
+            sets.push((
+                format!("wrist {first:e}, elbow {second:e}"),
+                Place { wrist: a, shoulder: None, elbow: b },
+            ));
+            sets.push((
+                format!("shoulder {first:e}, elbow {second:e}"),
+                Place { wrist: None, shoulder: a, elbow: b },
+            ));
         }
         let all = Some(first);
-        sets.push((format!("all three {first:e}"), Place { wrist: all, shoulder: all, elbow: all }));
+        sets.push((
+            format!("all three {first:e}"),
+            Place { wrist: all, shoulder: all, elbow: all },
+        ));
     }
     sets
 }
@@ -254,11 +277,20 @@ fn run_beyond(arm: &Arm, rng: &mut Rng) -> String {
             theta[1] = rng.between(0.1, 1.4);
             let q = arm.q(theta);
             let t1 = theta[0];
-            let outward = Vector3::new(theta[1].sin() * t1.cos(), theta[1].sin() * t1.sin(), theta[1].cos()) * beyond;
+            let outward =
+                Vector3::new(theta[1].sin() * t1.cos(), theta[1].sin() * t1.sin(), theta[1].cos())
+                    * beyond;
             let mut pose = arm.robot.fk(&q);
             pose.translation.vector += outward;
             if beyond <= thresholds::REACH_TOLERANCE {
-                judge(arm, &q, &pose, Place { elbow: Some(0.0), ..Place::default() }, beyond, &mut tally);
+                judge(
+                    arm,
+                    &q,
+                    &pose,
+                    Place { elbow: Some(0.0), ..Place::default() },
+                    beyond,
+                    &mut tally,
+                );
                 continue;
             }
             tally.take_missed(&arm.robot.ik(&pose).unwrap(), beyond);
@@ -274,7 +306,14 @@ fn run(arm: &Arm) -> String {
     let mut home = Tally::default();
     for _ in 0..poses() {
         let q = [rng.between(-PI, PI), 0.0, 0.0, rng.between(-PI, PI), 0.0, rng.between(-PI, PI)];
-        judge(arm, &q, &arm.robot.fk(&q), Place { wrist: Some(0.0), ..Place::default() }, 0.0, &mut home);
+        judge(
+            arm,
+            &q,
+            &arm.robot.fk(&q),
+            Place { wrist: Some(0.0), ..Place::default() },
+            0.0,
+            &mut home,
+        );
     }
     report += &home.tell(arm.name, "J2 = J3 = J5 = 0");
     for (name, set) in sets() {
@@ -309,7 +348,20 @@ fn kuka_with_signs_and_offsets() {
     let mut offsets = [0.0; 6];
     offsets[1] = -FRAC_PI_2;
     let signs = [-1, 1, 1, -1, 1, -1];
-    check("KUKA KR 6 R700", OpwParameters { a1: 0.025, a2: -0.035, b: 0.0, c1: 0.4, c2: 0.315, c3: 0.365, c4: 0.08, offsets, signs });
+    check(
+        "KUKA KR 6 R700",
+        OpwParameters {
+            a1: 0.025,
+            a2: -0.035,
+            b: 0.0,
+            c1: 0.4,
+            c2: 0.315,
+            c3: 0.365,
+            c4: 0.08,
+            offsets,
+            signs,
+        },
+    );
 }
 
 #[test]

@@ -61,10 +61,15 @@ impl<'a> Made<'a> {
             if self.bounds.hold(&found, &self.theta) {
                 return true;
             }
-            let Some(free) = solution.free.filter(|_| self.bounds.hold_plane(&found, &self.theta)) else { return false };
+            let Some(free) = solution.free.filter(|_| self.bounds.hold_plane(&found, &self.theta))
+            else {
+                return false;
+            };
             let value = self.q[free.joint() - 1];
             let moved = self.subject.robot.with_free(&self.pose, solution, value);
-            moved.is_ok_and(|moved| moved.is_some_and(|moved| self.is_family_member(solution, &moved)))
+            moved.is_ok_and(|moved| {
+                moved.is_some_and(|moved| self.is_family_member(solution, &moved))
+            })
         })
     }
 
@@ -72,8 +77,11 @@ impl<'a> Made<'a> {
     /// and joint 2 of one that is folded onto axis 2 is free too: of those, the seeded solve has to find the right one.
     fn is_family_member(&self, from: &Solution<6>, moved: &Solution<6>) -> bool {
         let [mut from_theta, mut found] = [&from.q, &moved.q].map(|q| self.theta_of(q));
-        let folded =
-            self.is_folding_onto_axis_2() && self.place.elbow.is_some_and(|off| self.subject.arm.c2 * off <= 2.0 * self.rounding());
+        let folded = self.is_folding_onto_axis_2()
+            && self
+                .place
+                .elbow
+                .is_some_and(|off| self.subject.arm.c2 * off <= 2.0 * self.rounding());
         if from.kinds().contains(Status::ELBOW) || folded {
             [from_theta[1], from_theta[2]] = [self.theta[1], self.theta[2]];
             [found[1], found[2]] = [self.theta[1], self.theta[2]];
@@ -105,23 +113,28 @@ impl<'a> Made<'a> {
     fn seeded(&self) -> Option<(Solution<6>, bool)> {
         let nearest = self.subject.robot.ik_nearest(&self.pose, &self.q, &[1.0; 6]).ok()?;
         let residual = self.subject.robot.residual(&nearest.q, &self.pose).largest();
-        let kept = self.place.shoulder.is_none() && self.place.wrist.is_none_or(|off| off < thresholds::SEEDED_FREE);
+        let kept = self.place.shoulder.is_none()
+            && self.place.wrist.is_none_or(|off| off < thresholds::SEEDED_FREE);
         let bounds = if kept { self.bounds_with_six() } else { self.bounds };
         let is_open = !kept && (bounds.six > OPEN || bounds.arm[0] > OPEN);
-        let closes = residual <= self.beyond + 3.0 * thresholds::SEEDED_FREE * (1.0 + self.subject.arm.reach());
+        let closes = residual
+            <= self.beyond + 3.0 * thresholds::SEEDED_FREE * (1.0 + self.subject.arm.reach());
         Some((nearest, closes && (is_open || bounds.hold(&self.theta_of(&nearest.q), &self.theta))))
     }
 
     /// Counts solutions that do not close, by themselves or with their free joint elsewhere, or that are in another slot than they should.
     fn count_wrong(&self, solutions: &Solutions<6>, tally: &mut Tally) {
-        let (robot, arm, reach) = (&self.subject.robot, &self.subject.arm, self.subject.arm.reach());
+        let (robot, arm, reach) =
+            (&self.subject.robot, &self.subject.arm, self.subject.arm.reach());
         // Rounding of the pose moves x by the root of it, next to zero.
         let clear = 1e-7 + 2.0 * (2.0 * arm.b() * self.rounding()).sqrt();
         for solution in solutions {
             let residual = robot.residual(&solution.q, &self.pose);
             tally.position = tally.position.max(residual.position);
             tally.rotation = tally.rotation.max(residual.rotation);
-            tally.wrong += usize::from(residual.position > self.beyond + 3e-15 * reach || residual.rotation > 1e-14);
+            tally.wrong += usize::from(
+                residual.position > self.beyond + 3e-15 * reach || residual.rotation > 1e-14,
+            );
             let theta = self.theta_of(&solution.q);
             let told = 4 * usize::from(arm.x(&theta).abs() > clear)
                 + 2 * usize::from(theta[2].sin().abs() > 1e-7)
@@ -129,9 +142,11 @@ impl<'a> Made<'a> {
             tally.wrong += usize::from((usize::from(solution.slot) ^ arm.slot(&theta)) & told != 0);
             tally.wrong += match solution.free {
                 Some(FreeJoint::Parallel) => self.count_wrong_along_family(solution, &theta),
-                Some(free) => {
-                    usize::from(free != FreeJoint::Upper || arm.end(&theta).map(f64::abs).iter().sum::<f64>() > 2.0 * self.rounding())
-                }
+                Some(free) => usize::from(
+                    free != FreeJoint::Upper
+                        || arm.end(&theta).map(f64::abs).iter().sum::<f64>()
+                            > 2.0 * self.rounding(),
+                ),
                 None => 0,
             };
         }
@@ -149,13 +164,20 @@ impl<'a> Made<'a> {
                 Ok(Some(moved)) => {
                     let residual = robot.residual(&moved.q, &self.pose).largest();
                     // Up to a nanometre beyond reach the arm is stretched or folded there too.
-                    let bound = self.beyond.max(missing) + (2.0 * off + 1e-14) * (1.0 + arm.reach());
+                    let bound =
+                        self.beyond.max(missing) + (2.0 * off + 1e-14) * (1.0 + arm.reach());
                     wrong += usize::from(
-                        residual > bound || missing > thresholds::REACH_TOLERANCE + bound || moved.q[5].to_bits() != value.to_bits(),
+                        residual > bound
+                            || missing > thresholds::REACH_TOLERANCE + bound
+                            || moved.q[5].to_bits() != value.to_bits(),
                     );
                 }
                 Ok(None) => wrong += 1,
-                Err(_) => wrong += usize::from(arm.margin(arm.end_along_family(theta, theta_6)) > self.rounding()),
+                Err(_) => {
+                    wrong += usize::from(
+                        arm.margin(arm.end_along_family(theta, theta_6)) > self.rounding(),
+                    )
+                }
             }
         }
         wrong
@@ -169,7 +191,9 @@ impl<'a> Made<'a> {
                 let [a, b] = [one, other].map(|solution| self.theta_of(&solution.q));
                 let apart: [f64; 6] = std::array::from_fn(|joint| wrapped(a[joint] - b[joint]));
                 let same = apart.iter().all(|apart| *apart < 1e-9);
-                let family = one.free == Some(FreeJoint::Parallel) && other.free == one.free && one.slot & 2 == other.slot & 2;
+                let family = one.free == Some(FreeJoint::Parallel)
+                    && other.free == one.free
+                    && one.slot & 2 == other.slot & 2;
                 tally.twice += usize::from(same || (family && apart[0] < 1e-9));
             }
         }
@@ -179,13 +203,17 @@ impl<'a> Made<'a> {
     fn is_flagged(&self, solutions: &Solutions<6>, seeded: &Solution<6>) -> bool {
         let Place { wrist, shoulder, elbow } = self.place;
         let plane = self.bounds.plane - FOUND;
-        let mine: Vec<_> = solutions.iter().filter(|solution| self.bounds.hold_plane(&self.theta_of(&solution.q), &self.theta)).collect();
+        let mine: Vec<_> = solutions
+            .iter()
+            .filter(|solution| self.bounds.hold_plane(&self.theta_of(&solution.q), &self.theta))
+            .collect();
         let (is_wrist, is_none) = (
             wrist.is_some_and(|off| off + plane < thresholds::WRIST_MERGE_SIN),
             wrist.is_none_or(|off| off - plane > thresholds::WRIST_MERGE_SIN),
         );
         let wrist_told = |solution: &Solution<6>| {
-            let told = solution.kinds().contains(Status::WRIST) && solution.free == Some(FreeJoint::Parallel);
+            let told = solution.kinds().contains(Status::WRIST)
+                && solution.free == Some(FreeJoint::Parallel);
             (!is_wrist || told) && (!is_none || solution.free != Some(FreeJoint::Parallel))
         };
         let status = solutions.status();
@@ -193,7 +221,8 @@ impl<'a> Made<'a> {
             let slot = usize::from(solution.slot);
             [(Status::WRIST, 1), (Status::ELBOW, 2)].iter().all(|(kind, bit)| {
                 !solution.kinds().contains(*kind)
-                    || (status[slot ^ bit].contains(Status::MERGED | *kind) && solutions.slot(slot ^ bit).is_none())
+                    || (status[slot ^ bit].contains(Status::MERGED | *kind)
+                        && solutions.slot(slot ^ bit).is_none())
             })
         };
         // Joint 6 that is off by rounding over sin theta_5 bends the arm, and so does x that is off by rounding times b over x; folded onto
@@ -202,11 +231,14 @@ impl<'a> Made<'a> {
         let straight = if self.is_folding_onto_axis_2() { 0.0 } else { 1e-8 };
         let six_is_known = wrist.is_none_or(|off| off == 0.0);
         let is_elbow = elbow.is_some_and(|off| off <= straight) && six_is_known && x_is_known;
-        let is_shoulder = shoulder.is_some_and(|off| off <= 0.5 * (self.subject.arm.b() * thresholds::LATERAL_MERGE).sqrt());
+        let is_shoulder = shoulder.is_some_and(|off| {
+            off <= 0.5 * (self.subject.arm.b() * thresholds::LATERAL_MERGE).sqrt()
+        });
         mine.iter().all(|solution| wrist_told(solution))
             && solutions.iter().all(merged_told)
             && (!is_elbow || seeded.kinds().contains(Status::ELBOW))
-            && (!is_shoulder || mine.iter().all(|solution| solution.kinds().contains(Status::SHOULDER)))
+            && (!is_shoulder
+                || mine.iter().all(|solution| solution.kinds().contains(Status::SHOULDER)))
     }
 
     /// Whether the representative of the wrist's family has joint 6 at rest, or as near to it as the arm reaches, in both elbows; by trying
@@ -215,9 +247,14 @@ impl<'a> Made<'a> {
         let shoulder = 4 * usize::from(self.subject.arm.x(&self.theta) < 0.0);
         let told = [0, 2].map(|elbow| {
             let of_slots = [0, 1].map(|wrist| solutions.slot(shoulder + elbow + wrist));
-            let merged = [0, 1].iter().all(|wrist| solutions.status()[shoulder + elbow + wrist].contains(Status::MERGED | Status::ELBOW));
+            let merged = [0, 1].iter().all(|wrist| {
+                solutions.status()[shoulder + elbow + wrist]
+                    .contains(Status::MERGED | Status::ELBOW)
+            });
             match of_slots {
-                [Some(solution), None] | [None, Some(solution)] => self.is_nearest_reached(solution, 0.0),
+                [Some(solution), None] | [None, Some(solution)] => {
+                    self.is_nearest_reached(solution, 0.0)
+                }
                 [None, None] => merged,
                 _ => false,
             }
@@ -232,14 +269,18 @@ impl<'a> Made<'a> {
     /// Whether no angle of joint 6 that is nearer to `wanted` than the solution's is reached, and the solution's is.
     fn is_nearest_reached(&self, solution: &Solution<6>, wanted: f64) -> bool {
         let arm = &self.subject.arm;
-        let missing = |q6: f64| arm.missing(arm.end_along_family(&self.theta, arm.theta(&[q6; 6])[5])).abs();
+        let missing =
+            |q6: f64| arm.missing(arm.end_along_family(&self.theta, arm.theta(&[q6; 6])[5])).abs();
         let distance = wrapped(solution.q[5] - wanted);
         let steps = 720;
         // Where the circle touches the edge of reach, rounding opens an arc of this to either side.
         let open = 2.0 * (self.rounding() / arm.d5).sqrt();
-        let nearer = (0..steps).map(|step| PI * f64::from(step) / f64::from(steps)).take_while(|off| *off < distance - open);
+        let nearer = (0..steps)
+            .map(|step| PI * f64::from(step) / f64::from(steps))
+            .take_while(|off| *off < distance - open);
         let mut ways = nearer.flat_map(|off| [wanted - off, wanted + off]);
-        missing(solution.q[5]) <= 1e-12 + self.beyond && ways.all(|q6| missing(q6) > self.rounding())
+        missing(solution.q[5]) <= 1e-12 + self.beyond
+            && ways.all(|q6| missing(q6) > self.rounding())
     }
 
     fn judge(&self, tally: &mut Tally, rng: &mut Rng) {
@@ -249,9 +290,12 @@ impl<'a> Made<'a> {
         self.count_wrong(&solutions, tally);
         self.count_twice(&solutions, tally);
         let seeded = self.seeded();
-        tally.found += usize::from(self.is_found(&solutions) && seeded.is_some_and(|(_, found)| found));
-        tally.flags += usize::from(!seeded.is_some_and(|(seeded, _)| self.is_flagged(&solutions, &seeded)));
-        if self.place.wrist == Some(0.0) && self.bounds.plane < FOUND + 1e-12 && self.beyond == 0.0 {
+        tally.found +=
+            usize::from(self.is_found(&solutions) && seeded.is_some_and(|(_, found)| found));
+        tally.flags +=
+            usize::from(!seeded.is_some_and(|(seeded, _)| self.is_flagged(&solutions, &seeded)));
+        if self.place.wrist == Some(0.0) && self.bounds.plane < FOUND + 1e-12 && self.beyond == 0.0
+        {
             tally.flags += usize::from(!self.is_nearest_of_family(&solutions, rng));
         }
     }
@@ -269,9 +313,18 @@ fn sets() -> Vec<(String, Place)> {
     for first in NEAR {
         for second in NEAR {
             let (a, b) = (Some(first), Some(second));
-            sets.push((format!("wrist {first:e}, shoulder {second:e}"), Place { wrist: a, shoulder: b, elbow: None }));
-            sets.push((format!("wrist {first:e}, elbow {second:e}"), Place { wrist: a, shoulder: None, elbow: b }));
-            sets.push((format!("shoulder {first:e}, elbow {second:e}"), Place { wrist: None, shoulder: a, elbow: b }));
+            sets.push((
+                format!("wrist {first:e}, shoulder {second:e}"),
+                Place { wrist: a, shoulder: b, elbow: None },
+            ));
+            sets.push((
+                format!("wrist {first:e}, elbow {second:e}"),
+                Place { wrist: a, shoulder: None, elbow: b },
+            ));
+            sets.push((
+                format!("shoulder {first:e}, elbow {second:e}"),
+                Place { wrist: None, shoulder: a, elbow: b },
+            ));
         }
     }
     sets
@@ -284,7 +337,8 @@ fn beyond_reach<'a>(subject: &'a Subject, beyond: f64, rng: &mut Rng) -> Option<
     let [x, z] = arm.end(&made.theta);
     let r = x.hypot(z);
     let outward = if made.theta[2] == 0.0 { beyond } else { -beyond };
-    let in_plane = Vector3::new(x / r * made.theta[0].cos(), x / r * made.theta[0].sin(), z / r) * outward;
+    let in_plane =
+        Vector3::new(x / r * made.theta[0].cos(), x / r * made.theta[0].sin(), z / r) * outward;
     let mut pose = made.pose;
     pose.translation.vector += arm.base.rotation * in_plane;
     let missing = arm.asked(&pose).ok()?.map(|wrists| wrists.map(|asked| asked.missing.abs()));
@@ -330,7 +384,14 @@ fn run_along_the_line(subject: &Subject, rng: &mut Rng) -> String {
     let mut up = Tally::default();
     let set = Place { shoulder: Some(0.0), ..set };
     while up.poses < poses() && subject.arm.a1 == 0.0 {
-        let theta = [rng.between(-PI, PI), 0.0, 0.0, 0.0, if rng.unit() < 0.5 { 0.0 } else { PI }, rng.between(-PI, PI)];
+        let theta = [
+            rng.between(-PI, PI),
+            0.0,
+            0.0,
+            0.0,
+            if rng.unit() < 0.5 { 0.0 } else { PI },
+            rng.between(-PI, PI),
+        ];
         Made::new(subject, set, theta).judge(&mut up, rng);
     }
     let report = tally.tell(subject.name, "axis 5 along the straight arm");
@@ -340,7 +401,11 @@ fn run_along_the_line(subject: &Subject, rng: &mut Rng) -> String {
 fn run(subject: &Subject) -> String {
     let mut rng = Rng::new(7);
     let mut report = run_beyond(subject, &mut rng);
-    let zero = Made::new(subject, Place { wrist: Some(0.0), elbow: Some(0.0), shoulder: None }, subject.arm.theta(&[0.0; 6]));
+    let zero = Made::new(
+        subject,
+        Place { wrist: Some(0.0), elbow: Some(0.0), shoulder: None },
+        subject.arm.theta(&[0.0; 6]),
+    );
     // The zero pose of a Universal Robots arm: stretched, its wrist straight.
     if zero.theta[2] == 0.0 && zero.theta[4] == 0.0 {
         let mut home = Tally::default();
@@ -349,7 +414,8 @@ fn run(subject: &Subject) -> String {
         let mut level = Tally::default();
         let elbow = Place { elbow: Some(0.0), ..Place::default() };
         while level.poses < poses() {
-            let q = [rng.between(-PI, PI), 0.0, 0.0, 0.0, rng.between(0.2, 2.9), rng.between(-PI, PI)];
+            let q =
+                [rng.between(-PI, PI), 0.0, 0.0, 0.0, rng.between(0.2, 2.9), rng.between(-PI, PI)];
             Made::new(subject, elbow, subject.arm.theta(&q)).judge(&mut level, &mut rng);
         }
         report += &level.tell(subject.name, "J2 = J3 = J4 = 0");

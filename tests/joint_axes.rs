@@ -25,7 +25,8 @@ fn steps() -> impl Strategy<Value = Step> {
 type Drawn = (Step, [f64; 3], [f64; 3], f64);
 
 fn drawn() -> impl Strategy<Value = Drawn> {
-    let direction = prop::array::uniform3(-1.0..1.0).prop_filter("has a length", |d: &[f64; 3]| Vector3::from(*d).norm() > 0.1);
+    let direction = prop::array::uniform3(-1.0..1.0)
+        .prop_filter("has a length", |d: &[f64; 3]| Vector3::from(*d).norm() > 0.1);
     (steps(), direction, prop::array::uniform3(-1.0..1.0), -0.5..0.5)
 }
 
@@ -45,14 +46,16 @@ fn axes_of<const N: usize>(drawn: &[Drawn; N]) -> [JointAxis; N] {
 }
 
 fn tips() -> impl Strategy<Value = Pose> {
-    (prop::array::uniform3(-1.0..1.0), prop::array::uniform3(-PI..PI)).prop_map(|(xyz, zyx)| pose_from_euler_zyx(xyz, zyx).unwrap())
+    (prop::array::uniform3(-1.0..1.0), prop::array::uniform3(-PI..PI))
+        .prop_map(|(xyz, zyx)| pose_from_euler_zyx(xyz, zyx).unwrap())
 }
 
 /// Product of exponentials: the tip at zero, turned about each axis from the last to the first.
 fn fk_of_axes<const N: usize>(axes: &[JointAxis; N], tip: &Pose, q: &[f64; N]) -> Pose {
     axes.iter().zip(q).rev().fold(*tip, |pose, (axis, q)| {
         let point = Vector3::from(axis.point);
-        let turn = Rotation3::from_axis_angle(&Unit::new_normalize(Vector3::from(axis.direction)), *q);
+        let turn =
+            Rotation3::from_axis_angle(&Unit::new_normalize(Vector3::from(axis.direction)), *q);
         IsometryMatrix3::from_parts(Translation3::from(point - turn * point), turn) * pose
     })
 }
@@ -63,10 +66,15 @@ fn reach_of<const N: usize>(mdh: &Mdh<N>) -> f64 {
     1.0 + ends + mdh.rows.iter().map(|row| row.a.hypot(row.d)).sum::<f64>()
 }
 
-fn table_turns_as_the_axes<const N: usize>(drawn: &[Drawn; N], tip: &Pose, q: &[f64; N]) -> Result<(), TestCaseError> {
+fn table_turns_as_the_axes<const N: usize>(
+    drawn: &[Drawn; N],
+    tip: &Pose,
+    q: &[f64; N],
+) -> Result<(), TestCaseError> {
     let axes = axes_of(drawn);
     let mdh = Mdh::from_joint_axes(&axes, tip).unwrap();
-    let off = PoseError::between(&Chain::new(mdh.clone()).fk(q), &fk_of_axes(&axes, tip, q)).largest();
+    let off =
+        PoseError::between(&Chain::new(mdh.clone()).fk(q), &fk_of_axes(&axes, tip, q)).largest();
     let bound = 1e-14 * reach_of(&mdh);
     prop_assert!(off <= bound, "off by {off:e}, bound {bound:e}: {mdh:?}");
     for i in 1..N {
@@ -77,7 +85,9 @@ fn table_turns_as_the_axes<const N: usize>(drawn: &[Drawn; N], tip: &Pose, q: &[
         if let Step::Meeting | Step::Coincident(_) = drawn[i].0 {
             prop_assert!(mdh.rows[i].a == 0.0);
         }
-        prop_assert!(i == N - 1 || mdh.rows[i].theta.abs() <= FRAC_PI_2 + 1e-9 || mdh.rows[i + 1].a > 0.0);
+        prop_assert!(
+            i == N - 1 || mdh.rows[i].theta.abs() <= FRAC_PI_2 + 1e-9 || mdh.rows[i + 1].a > 0.0
+        );
     }
     if let Step::Meeting | Step::Anyhow = drawn[0].0 {
         return Ok(());
@@ -93,11 +103,13 @@ fn table_turns_as_the_axes<const N: usize>(drawn: &[Drawn; N], tip: &Pose, q: &[
 
 /// Axes along x, y and z at points with three decimals.
 fn square() -> impl Strategy<Value = [JointAxis; 6]> {
-    let axis = (0..3_usize, any::<bool>(), prop::array::uniform3(-4..5_i32)).prop_map(|(along, turned, point)| {
-        let mut direction = [0.0; 3];
-        direction[along] = if turned { -1.0 } else { 1.0 };
-        JointAxis { direction, point: point.map(|tenths| f64::from(tenths) / 10.0) }
-    });
+    let axis = (0..3_usize, any::<bool>(), prop::array::uniform3(-4..5_i32)).prop_map(
+        |(along, turned, point)| {
+            let mut direction = [0.0; 3];
+            direction[along] = if turned { -1.0 } else { 1.0 };
+            JointAxis { direction, point: point.map(|tenths| f64::from(tenths) / 10.0) }
+        },
+    );
     prop::array::uniform6(axis)
 }
 
@@ -147,12 +159,20 @@ proptest! {
 #[test]
 fn an_axis_without_direction_is_refused_and_so_is_a_normal_too_far_away() {
     let upright = JointAxis { direction: [0.0, 0.0, 1.0], point: [0.0; 3] };
-    let words = |axes: [JointAxis; 3]| Mdh::from_joint_axes(&axes, &Pose::identity()).unwrap_err().to_string();
-    assert_eq!(words([upright, JointAxis { direction: [0.0; 3], ..upright }, upright]), "direction of axis 2 has no length");
+    let words = |axes: [JointAxis; 3]| {
+        Mdh::from_joint_axes(&axes, &Pose::identity()).unwrap_err().to_string()
+    };
+    assert_eq!(
+        words([upright, JointAxis { direction: [0.0; 3], ..upright }, upright]),
+        "direction of axis 2 has no length"
+    );
     let axis = JointAxis { direction: [0.0, f64::NAN, 0.0], ..upright };
     assert_eq!(words([upright, upright, axis]), "direction of axis 3 is NaN, it must be finite");
     let axis = JointAxis { point: [0.0, 2e6, 0.0], ..upright };
-    assert_eq!(words([axis, upright, upright]), "point of axis 1 is 2e6, its size must be at most 1e6");
+    assert_eq!(
+        words([axis, upright, upright]),
+        "point of axis 1 is 2e6, its size must be at most 1e6"
+    );
     let axis = JointAxis { direction: [0.0, 1e-8, 1.0], point: [0.1, 0.2, 0.0] };
     assert_eq!(
         words([upright, axis, upright]),
@@ -164,7 +184,10 @@ fn an_axis_without_direction_is_refused_and_so_is_a_normal_too_far_away() {
 #[test]
 fn directions_of_any_size_are_taken() {
     let axis = |direction| JointAxis { direction, point: [0.1, 0.2, 0.3] };
-    let mdh = |size: f64| Mdh::from_joint_axes(&[axis([0.0, 0.0, size]), axis([size, 0.0, 0.0])], &Pose::identity()).unwrap();
+    let mdh = |size: f64| {
+        Mdh::from_joint_axes(&[axis([0.0, 0.0, size]), axis([size, 0.0, 0.0])], &Pose::identity())
+            .unwrap()
+    };
     for size in [1e-320, 1e-200, 3.0, 1e200, f64::MAX] {
         assert_eq!(mdh(size), mdh(1.0), "{size:e}");
     }

@@ -10,7 +10,9 @@ mod subjects;
 use std::array;
 
 use common::{Rng, on_each_set};
-use irbkin::{InstructionSet, JacobianFrame, Pose, Robot, SLOTS, Status, batch, pose_from_rows, pose_to_rows};
+use irbkin::{
+    InstructionSet, JacobianFrame, Pose, Robot, SLOTS, Status, batch, pose_from_rows, pose_to_rows,
+};
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Vector3};
 use subjects::{PoseRow, Subject, joint_rows, subjects};
 
@@ -30,7 +32,8 @@ struct Answers {
 
 impl Answers {
     fn in_a_batch(robot: &Robot<6>, rows: &[PoseRow], threads: usize) -> Self {
-        let mut answers = Self { q: vec![[7.0; 6 * SLOTS]; rows.len()], status: vec![[255; SLOTS]; rows.len()] };
+        let mut answers =
+            Self { q: vec![[7.0; 6 * SLOTS]; rows.len()], status: vec![[255; SLOTS]; rows.len()] };
         let (q, status) = (answers.q.as_flattened_mut(), answers.status.as_flattened_mut());
         batch::ik(robot, rows.as_flattened(), q, status, threads).unwrap();
         answers
@@ -44,7 +47,9 @@ impl Answers {
     #[track_caller]
     fn assert_same(&self, other: &Self, what: &str) {
         assert_eq!(self.q.len(), other.q.len(), "{what}");
-        for (i, ((a, b), (flags, others))) in self.q.iter().zip(&other.q).zip(self.status.iter().zip(&other.status)).enumerate() {
+        for (i, ((a, b), (flags, others))) in
+            self.q.iter().zip(&other.q).zip(self.status.iter().zip(&other.status)).enumerate()
+        {
             assert_eq!(flags, others, "{what}, row {i}");
             assert!(same_bits(a, b), "{what}, row {i}:\n{a:?}\n{b:?}");
         }
@@ -65,7 +70,8 @@ fn alone(robot: &Robot<6>, row: &PoseRow) -> (AnswerRow, [u8; SLOTS]) {
 
 /// Not numbers are one like the other: their bits mean nothing.
 fn same_bits(a: &[f64], b: &[f64]) -> bool {
-    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan()))
+    a.len() == b.len()
+        && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan()))
 }
 
 fn fk_of<const N: usize>(robot: &Robot<N>, q: &[[f64; N]]) -> Vec<PoseRow> {
@@ -74,9 +80,19 @@ fn fk_of<const N: usize>(robot: &Robot<N>, q: &[[f64; N]]) -> Vec<PoseRow> {
     poses
 }
 
-fn jacobians_of<const N: usize>(robot: &Robot<N>, q: &[[f64; N]], frame: JacobianFrame) -> Vec<[[f64; N]; 6]> {
+fn jacobians_of<const N: usize>(
+    robot: &Robot<N>,
+    q: &[[f64; N]],
+    frame: JacobianFrame,
+) -> Vec<[[f64; N]; 6]> {
     let mut jacobians = vec![[[7.0; N]; 6]; q.len()];
-    batch::jacobian(robot, q.as_flattened(), frame, jacobians.as_flattened_mut().as_flattened_mut()).unwrap();
+    batch::jacobian(
+        robot,
+        q.as_flattened(),
+        frame,
+        jacobians.as_flattened_mut().as_flattened_mut(),
+    )
+    .unwrap();
     jacobians
 }
 
@@ -90,12 +106,27 @@ fn the_rows_are_of_every_kind() {
     for subject in subjects() {
         let rows = subject.rows(ROWS);
         let answers = Answers::in_a_batch(&subject.robot, &rows, 1);
-        let has = |kind: Status| answers.status.as_flattened().iter().any(|flags| Status::from_bits_retain(*flags).contains(kind));
-        assert!(Status::all().iter().filter(|kind| *kind != Status::WITHIN_LIMITS).all(has), "{}", subject.name);
-        let full = answers.status.iter().filter(|row| row.iter().all(|flags| flags & Status::FOUND.bits() != 0)).count();
+        let has = |kind: Status| {
+            answers
+                .status
+                .as_flattened()
+                .iter()
+                .any(|flags| Status::from_bits_retain(*flags).contains(kind))
+        };
+        assert!(
+            Status::all().iter().filter(|kind| *kind != Status::WITHIN_LIMITS).all(has),
+            "{}",
+            subject.name
+        );
+        let full = answers
+            .status
+            .iter()
+            .filter(|row| row.iter().all(|flags| flags & Status::FOUND.bits() != 0))
+            .count();
         let none = answers.status.iter().filter(|row| **row == [0; SLOTS]).count();
         assert!(full > ROWS / 4 && none > 10, "{}: {full} full, {none} out of reach", subject.name);
-        let empty = |row: &[u8; SLOTS]| row.iter().map(|flags| usize::from(*flags == 0)).sum::<usize>();
+        let empty =
+            |row: &[u8; SLOTS]| row.iter().map(|flags| usize::from(*flags == 0)).sum::<usize>();
         halves += answers.status.iter().filter(|row| empty(row) == SLOTS / 2).count();
     }
     // Without a shoulder offset both shoulders reach or none does.
@@ -108,10 +139,14 @@ fn batch_equals_single_bit_for_bit() {
         for subject in &subjects() {
             let (robot, what) = (&subject.robot, format!("{}, {}", subject.name, set.name()));
             let rows = subject.rows(ROWS);
-            Answers::in_a_batch(robot, &rows, 1).assert_same(&Answers::one_by_one(robot, &rows), &what);
+            Answers::in_a_batch(robot, &rows, 1)
+                .assert_same(&Answers::one_by_one(robot, &rows), &what);
             forward_in_a_batch_equals_single(robot, &what);
         }
-        forward_in_a_batch_equals_single(&Robot::<7>::named("Panda").unwrap(), &format!("Panda, {}", set.name()));
+        forward_in_a_batch_equals_single(
+            &Robot::<7>::named("Panda").unwrap(),
+            &format!("Panda, {}", set.name()),
+        );
     });
 }
 
@@ -124,8 +159,13 @@ fn forward_in_a_batch_equals_single<const N: usize>(robot: &Robot<N>, what: &str
     for frame in FRAMES {
         for (q, found) in joints.iter().zip(jacobians_of(robot, &joints, frame)) {
             let single = robot.jacobian(q, frame);
-            let wanted: [[f64; N]; 6] = array::from_fn(|i| array::from_fn(|j| if is_finite(q) { single[(i, j)] } else { f64::NAN }));
-            assert!(same_bits(found.as_flattened(), wanted.as_flattened()), "{what}, {frame:?} Jacobian of {q:?}");
+            let wanted: [[f64; N]; 6] = array::from_fn(|i| {
+                array::from_fn(|j| if is_finite(q) { single[(i, j)] } else { f64::NAN })
+            });
+            assert!(
+                same_bits(found.as_flattened(), wanted.as_flattened()),
+                "{what}, {frame:?} Jacobian of {q:?}"
+            );
         }
     }
 }
@@ -137,33 +177,57 @@ fn a_row_does_not_depend_on_its_neighbours() {
             let what = format!("{}, {}", subject.name, set.name());
             let rows = subject.rows(ROWS);
             let whole = Answers::in_a_batch(&subject.robot, &rows, 1);
-            let part = |first: usize, past: usize| Answers { q: whole.q[first..past].to_vec(), status: whole.status[first..past].to_vec() };
+            let part = |first: usize, past: usize| Answers {
+                q: whole.q[first..past].to_vec(),
+                status: whole.status[first..past].to_vec(),
+            };
             for cut in 0..=17 {
-                for (first, past) in [(0, cut), (cut, ROWS), (100 + 3 * cut, 100 + 4 * cut), (cut, 2 * cut)] {
-                    Answers::in_a_batch(&subject.robot, &rows[first..past], 1).assert_same(&part(first, past), &what);
+                for (first, past) in
+                    [(0, cut), (cut, ROWS), (100 + 3 * cut, 100 + 4 * cut), (cut, 2 * cut)]
+                {
+                    Answers::in_a_batch(&subject.robot, &rows[first..past], 1)
+                        .assert_same(&part(first, past), &what);
                 }
             }
             let order = shuffled(ROWS);
             let mixed: Vec<_> = order.iter().map(|i| rows[*i]).collect();
-            let wanted =
-                Answers { q: order.iter().map(|i| whole.q[*i]).collect(), status: order.iter().map(|i| whole.status[*i]).collect() };
+            let wanted = Answers {
+                q: order.iter().map(|i| whole.q[*i]).collect(),
+                status: order.iter().map(|i| whole.status[*i]).collect(),
+            };
             Answers::in_a_batch(&subject.robot, &mixed, 1).assert_same(&wanted, &what);
         }
-        forward_rows_do_not_depend_on_their_neighbours(&Robot::<6>::named("IRB 2600-12/1.65").unwrap(), set);
+        forward_rows_do_not_depend_on_their_neighbours(
+            &Robot::<6>::named("IRB 2600-12/1.65").unwrap(),
+            set,
+        );
         forward_rows_do_not_depend_on_their_neighbours(&Robot::<7>::named("Panda").unwrap(), set);
     });
 }
 
-fn forward_rows_do_not_depend_on_their_neighbours<const N: usize>(robot: &Robot<N>, set: InstructionSet) {
+fn forward_rows_do_not_depend_on_their_neighbours<const N: usize>(
+    robot: &Robot<N>,
+    set: InstructionSet,
+) {
     let joints = joint_rows::<N>(ROWS);
-    let (poses, jacobians) = (fk_of(robot, &joints), jacobians_of(robot, &joints, JacobianFrame::Tool));
+    let (poses, jacobians) =
+        (fk_of(robot, &joints), jacobians_of(robot, &joints, JacobianFrame::Tool));
     for cut in 0..=17 {
-        for (first, past) in [(0, cut), (cut, ROWS), (cut, 2 * cut), (100 + 3 * cut, 100 + 4 * cut)] {
+        for (first, past) in [(0, cut), (cut, ROWS), (cut, 2 * cut), (100 + 3 * cut, 100 + 4 * cut)]
+        {
             let q = &joints[first..past];
-            assert!(same_bits(fk_of(robot, q).as_flattened(), poses[first..past].as_flattened()), "{first}..{past}, {}", set.name());
+            assert!(
+                same_bits(fk_of(robot, q).as_flattened(), poses[first..past].as_flattened()),
+                "{first}..{past}, {}",
+                set.name()
+            );
             let found = jacobians_of(robot, q, JacobianFrame::Tool);
             let wanted = jacobians[first..past].as_flattened().as_flattened();
-            assert!(same_bits(found.as_flattened().as_flattened(), wanted), "{first}..{past}, {}", set.name());
+            assert!(
+                same_bits(found.as_flattened().as_flattened(), wanted),
+                "{first}..{past}, {}",
+                set.name()
+            );
         }
     }
 }
@@ -184,7 +248,8 @@ fn threads_change_no_bit() {
             let rows: Vec<_> = subject.rows(ROWS).into_iter().cycle().take(17_001).collect();
             let whole = Answers::in_a_batch(&subject.robot, &rows, 1);
             for threads in [2, 3, 4, 0] {
-                Answers::in_a_batch(&subject.robot, &rows, threads).assert_same(&whole, &format!("{}, {}", subject.name, set.name()));
+                Answers::in_a_batch(&subject.robot, &rows, threads)
+                    .assert_same(&whole, &format!("{}, {}", subject.name, set.name()));
             }
         }
     });
@@ -203,7 +268,9 @@ fn an_invalid_row_is_told_and_leaves_the_others_alone() {
         ("last row", |row| row[15] = 1.0 + 1e-8),
     ];
     let subjects = subjects();
-    for subject in ["IRB 2600-12/1.65", "UR3"].map(|name| subjects.iter().find(|subject| subject.name == name).unwrap()) {
+    for subject in ["IRB 2600-12/1.65", "UR3"]
+        .map(|name| subjects.iter().find(|subject| subject.name == name).unwrap())
+    {
         let rows: Vec<_> = subject.rows(24 * 2).into_iter().step_by(2).take(19).collect();
         an_invalid_row_leaves_alone(subject, &rows, &spoils);
     }
@@ -217,8 +284,10 @@ fn an_invalid_row_leaves_alone(subject: &Subject, rows: &[PoseRow], spoils: &[(&
             for place in 0..rows.len() {
                 let (mut spoiled, mut wanted) = (rows.to_vec(), whole.clone());
                 spoil(&mut spoiled[place]);
-                (wanted.q[place], wanted.status[place]) = ([f64::NAN; 6 * SLOTS], [Status::INVALID.bits(); SLOTS]);
-                Answers::in_a_batch(&subject.robot, &spoiled, 1).assert_same(&wanted, &format!("{name}, {}", set.name()));
+                (wanted.q[place], wanted.status[place]) =
+                    ([f64::NAN; 6 * SLOTS], [Status::INVALID.bits(); SLOTS]);
+                Answers::in_a_batch(&subject.robot, &spoiled, 1)
+                    .assert_same(&wanted, &format!("{name}, {}", set.name()));
             }
         }
     });
@@ -251,14 +320,24 @@ fn avx2_and_avx512_agree_to_the_bit() {
     for subject in &subjects() {
         let solved = solved_on_each_set(subject, &subject.rows(ROWS));
         let [_, narrow, wide] = &solved[..] else {
-            println!("this processor has only {:?}", InstructionSet::available().map(InstructionSet::name).collect::<Vec<_>>());
+            println!(
+                "this processor has only {:?}",
+                InstructionSet::available().map(InstructionSet::name).collect::<Vec<_>>()
+            );
             return;
         };
         assert_eq!((narrow.set, wide.set), (InstructionSet::Avx2, InstructionSet::Avx512));
         narrow.answers.assert_same(&wide.answers, subject.name);
-        assert!(same_bits(narrow.poses.as_flattened(), wide.poses.as_flattened()), "{}", subject.name);
         assert!(
-            same_bits(narrow.jacobians.as_flattened().as_flattened(), wide.jacobians.as_flattened().as_flattened()),
+            same_bits(narrow.poses.as_flattened(), wide.poses.as_flattened()),
+            "{}",
+            subject.name
+        );
+        assert!(
+            same_bits(
+                narrow.jacobians.as_flattened().as_flattened(),
+                wide.jacobians.as_flattened().as_flattened()
+            ),
             "{}",
             subject.name
         );
@@ -270,15 +349,24 @@ fn baseline_agrees_to_rounding() {
     let mut worst: f64 = 0.0;
     for subject in &subjects() {
         let solved = solved_on_each_set(subject, &subject.rows(ROWS));
-        let [baseline, others @ ..] = &solved[..] else { unreachable!("every processor has the baseline") };
+        let [baseline, others @ ..] = &solved[..] else {
+            unreachable!("every processor has the baseline")
+        };
         for other in others {
             worst = worst.max(rounding_between(subject, &baseline.answers, &other.answers));
             // A frame is the product of eight, each element of which is a sum of three products: 24 roundings either way, and as many of
             // the Jacobian's cross product and turn into the tool.
             let bound = 2.0 * 48.0 * f64::EPSILON * (1.0 + subject.extent());
-            let numbers = |solved: &OnEachSet| [solved.poses.as_flattened(), solved.jacobians.as_flattened().as_flattened()].concat();
+            let numbers = |solved: &OnEachSet| {
+                [solved.poses.as_flattened(), solved.jacobians.as_flattened().as_flattened()]
+                    .concat()
+            };
             for (a, b) in numbers(baseline).iter().zip(numbers(other)) {
-                assert!((a - b).abs() <= bound || (a.is_nan() && b.is_nan()), "{}: {a} and {b}", subject.name);
+                assert!(
+                    (a - b).abs() <= bound || (a.is_nan() && b.is_nan()),
+                    "{}: {a} and {b}",
+                    subject.name
+                );
             }
         }
     }
@@ -324,14 +412,25 @@ fn table_poses<const N: usize>(robot: &Robot<N>, what: &str) {
     let joints: Vec<[f64; N]> = joint_rows(200).into_iter().filter(|q| is_finite(q)).collect();
     let mdh = robot.mdh();
     let lengths: f64 = mdh.rows.iter().map(|row| row.a.abs() + row.d.abs()).sum();
-    let ends = robot.base().translation.vector.norm() + robot.tool().translation.vector.norm() + mdh.flange.translation.vector.norm();
+    let ends = robot.base().translation.vector.norm()
+        + robot.tool().translation.vector.norm()
+        + mdh.flange.translation.vector.norm();
     for (q, row) in joints.iter().zip(fk_of(robot, &joints)) {
         let mut wanted: Pose = robot.base() * mdh.base;
         for (row, angle) in mdh.rows.iter().zip(q) {
             // The two turns about z one after the other: their sum would lose digits of an angle of many turns.
             let along = Translation3::new(row.a, 0.0, row.d) * Rotation3::identity();
-            let [x, z, q] = [(Vector3::x_axis(), row.alpha), (Vector3::z_axis(), row.theta), (Vector3::z_axis(), *angle)]
-                .map(|(axis, angle)| IsometryMatrix3::from_parts(Translation3::identity(), Rotation3::from_axis_angle(&axis, angle)));
+            let [x, z, q] = [
+                (Vector3::x_axis(), row.alpha),
+                (Vector3::z_axis(), row.theta),
+                (Vector3::z_axis(), *angle),
+            ]
+            .map(|(axis, angle)| {
+                IsometryMatrix3::from_parts(
+                    Translation3::identity(),
+                    Rotation3::from_axis_angle(&axis, angle),
+                )
+            });
             wanted = wanted * x * along * z * q;
         }
         wanted = wanted * mdh.flange * robot.tool();

@@ -6,7 +6,10 @@ mod common;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use common::{apart, central_difference, difference_bound, profile, reach_of};
-use irbkin::{DhRow, JacobianFrame, JointLimits, Mdh, OpwParameters, Pose, PoseError, Robot, Sdh, Status, pose_from_euler_zyx};
+use irbkin::{
+    DhRow, JacobianFrame, JointLimits, Mdh, OpwParameters, Pose, PoseError, Robot, Sdh, Status,
+    pose_from_euler_zyx,
+};
 use proptest::prelude::*;
 
 const SLACK: f64 = 0.05;
@@ -17,23 +20,24 @@ fn angles() -> impl Strategy<Value = [f64; 6]> {
 
 /// Arms of the form, with offsets, signs and a lateral offset.
 fn arms() -> impl Strategy<Value = OpwParameters> {
-    let lengths = (-0.3..0.5, -0.3..0.3, prop_oneof![Just(0.0), -0.2..0.2], 0.0..1.0, 0.2..1.5, 0.2..1.5, 0.0..0.3);
+    let lengths = (
+        -0.3..0.5,
+        -0.3..0.3,
+        prop_oneof![Just(0.0), -0.2..0.2],
+        0.0..1.0,
+        0.2..1.5,
+        0.2..1.5,
+        0.0..0.3,
+    );
     let signs = prop::array::uniform6(prop_oneof![Just(1_i8), Just(-1_i8)]);
-    (lengths, angles(), signs).prop_map(|((a1, a2, b, c1, c2, c3, c4), offsets, signs)| OpwParameters {
-        a1,
-        a2,
-        b,
-        c1,
-        c2,
-        c3,
-        c4,
-        offsets,
-        signs,
+    (lengths, angles(), signs).prop_map(|((a1, a2, b, c1, c2, c3, c4), offsets, signs)| {
+        OpwParameters { a1, a2, b, c1, c2, c3, c4, offsets, signs }
     })
 }
 
 fn poses() -> impl Strategy<Value = Pose> {
-    (prop::array::uniform3(-2.0..2.0), prop::array::uniform3(-PI..PI)).prop_map(|(xyz, zyx)| pose_from_euler_zyx(xyz, zyx).unwrap())
+    (prop::array::uniform3(-2.0..2.0), prop::array::uniform3(-PI..PI))
+        .prop_map(|(xyz, zyx)| pose_from_euler_zyx(xyz, zyx).unwrap())
 }
 
 /// A joint vector that is not next to a singularity, where rounding of the pose would be seen in the joints.
@@ -46,7 +50,8 @@ fn is_regular(robot: &Robot<6>, q: &[f64; 6]) -> bool {
 fn cfx(opw: &OpwParameters, q: &[f64; 6]) -> u8 {
     let theta: [f64; 6] = std::array::from_fn(|i| f64::from(opw.signs[i]) * q[i] - opw.offsets[i]);
     let [_, t2, t3, _, t5, _] = theta;
-    let behind_axis_1 = opw.a1 + opw.c2 * t2.sin() + opw.c3 * (t2 + t3).sin() + opw.a2 * (t2 + t3).cos() < 0.0;
+    let behind_axis_1 =
+        opw.a1 + opw.c2 * t2.sin() + opw.c3 * (t2 + t3).sin() + opw.a2 * (t2 + t3).cos() < 0.0;
     let behind_lower_arm = opw.c3 * t3.sin() + opw.a2 * t3.cos() < 0.0;
     4 * u8::from(behind_axis_1) + 2 * u8::from(behind_lower_arm) + u8::from(t5.sin() < 0.0)
 }
@@ -216,7 +221,11 @@ fn shortfall_is_the_way_back_to_reach() {
     // Stretched upwards: theta_3 makes upper arm and forearm one line.
     let stretched = [0.4, 0.3, (0.115_f64).atan2(0.795) - FRAC_PI_2, 0.0, 0.5, 0.0];
     let mut pose = robot.fk(&stretched);
-    let outward = nalgebra::Vector3::new(0.3_f64.sin() * 0.4_f64.cos(), 0.3_f64.sin() * 0.4_f64.sin(), 0.3_f64.cos());
+    let outward = nalgebra::Vector3::new(
+        0.3_f64.sin() * 0.4_f64.cos(),
+        0.3_f64.sin() * 0.4_f64.sin(),
+        0.3_f64.cos(),
+    );
     pose.translation.vector += outward * 0.012;
     let solutions = robot.ik(&pose).unwrap();
     assert!(solutions.is_empty());
@@ -244,7 +253,11 @@ fn a_lateral_offset_of_rounding_is_none() {
     let mut mdh = Robot::<6>::named("IRB 1200-5/0.9").unwrap().mdh().clone();
     (mdh.rows[1].d, mdh.rows[2].d) = (0.1 + 0.2, -0.3);
     let from_table = Robot::from_mdh(mdh).unwrap();
-    let from_opw = Robot::from_opw(OpwParameters { b: 1e-12, ..OpwParameters::abb(0.0, -0.042, 0.3991, 0.448, 0.451, 0.082) }).unwrap();
+    let from_opw = Robot::from_opw(OpwParameters {
+        b: 1e-12,
+        ..OpwParameters::abb(0.0, -0.042, 0.3991, 0.448, 0.451, 0.082)
+    })
+    .unwrap();
     let over_the_base = pose_from_euler_zyx([0.0, 0.0, 1.2], [0.0; 3]).unwrap();
     for robot in [from_table, from_opw] {
         let solutions = robot.ik(&over_the_base).unwrap();
@@ -259,13 +272,19 @@ fn a_lateral_offset_of_rounding_is_none() {
 fn numbers_too_large_to_calculate_with_are_refused_by_name() {
     let opw = OpwParameters::abb(0.15, -0.115, 0.445, 0.7, 0.795, 0.085);
     let refused = |opw| Robot::from_opw(opw).unwrap_err().to_string();
-    assert_eq!(refused(OpwParameters { c2: 1e100, ..opw }), "c2 is 1e100, its size must be at most 1e6");
+    assert_eq!(
+        refused(OpwParameters { c2: 1e100, ..opw }),
+        "c2 is 1e100, its size must be at most 1e6"
+    );
     assert_eq!(
         refused(OpwParameters { offsets: [0.0, 1e17, 0.0, 0.0, 0.0, 0.0], ..opw }),
         "offset of joint 2 is 1e17, its size must be at most 1e5"
     );
     let limits = |limit| JointLimits::new([limit]).unwrap_err().to_string();
-    assert_eq!(limits([1e16, 1e16 + 4.0]), "lower limit of joint 1 is 1e16, its size must be at most 1e5");
+    assert_eq!(
+        limits([1e16, 1e16 + 4.0]),
+        "lower limit of joint 1 is 1e16, its size must be at most 1e5"
+    );
     assert_eq!(limits([f64::INFINITY; 2]), "lower limit of joint 1 is inf, it must be finite");
     assert!(JointLimits::new([[f64::NEG_INFINITY, f64::INFINITY]]).is_ok());
 }
@@ -277,7 +296,13 @@ fn a_solution_of_another_pose_has_no_family_here() {
     let free = *robot.ik(&home).unwrap().slot(0).unwrap();
     let other = robot.fk(&[0.3, -0.2, 0.4, 0.5, -0.6, 0.7]);
     assert!(robot.with_free(&home, &free, 0.4).unwrap().is_some());
-    assert!(robot.with_free(&other, &free, 0.4).unwrap_err().to_string().starts_with("solution: its tool is "));
+    assert!(
+        robot
+            .with_free(&other, &free, 0.4)
+            .unwrap_err()
+            .to_string()
+            .starts_with("solution: its tool is ")
+    );
 }
 
 #[test]
@@ -302,20 +327,29 @@ fn a_batch_of_another_length_is_refused() {
 #[test]
 fn arms_of_more_joints_than_lanes_have_forward_kinematics() {
     let rows = std::array::from_fn(|i| DhRow::new(0.3 * (i as f64 - 4.0), 0.1, 0.2, 0.5));
-    let robot: Robot<9> = Robot::serial_chain(Mdh { base: Pose::identity(), rows, flange: Pose::identity() }).unwrap();
+    let robot: Robot<9> =
+        Robot::serial_chain(Mdh { base: Pose::identity(), rows, flange: Pose::identity() })
+            .unwrap();
     let q = std::array::from_fn(|i| 0.4 * i as f64 - 1.0);
     let (frames, tool) = robot.link_frames(&q);
     let mut poses = [0.0; 16];
     irbkin::batch::fk(&robot, &q, &mut poses).unwrap();
     assert_eq!(irbkin::pose_to_rows(&robot.fk(&q)), poses);
     assert_eq!(robot.fk(&q), tool);
-    assert_eq!(robot.jacobian(&q, JacobianFrame::Base).column(8).fixed_rows::<3>(3), frames[8].rotation.matrix().column(2));
+    assert_eq!(
+        robot.jacobian(&q, JacobianFrame::Base).column(8).fixed_rows::<3>(3),
+        frames[8].rotation.matrix().column(2)
+    );
 }
 
 #[test]
 fn a_short_forearm_and_far_offsets_cost_no_digit() {
-    let short = OpwParameters { a2: 0.0, c3: 1e-3, ..OpwParameters::abb(0.0, 0.0, 0.3, 1.0, 0.0, 0.1) };
-    let turned = OpwParameters { offsets: [100.0, -50.0, 1e4, 7.0, -7.0, 1e5], ..OpwParameters::abb(0.15, -0.11, 0.45, 0.7, 0.8, 0.1) };
+    let short =
+        OpwParameters { a2: 0.0, c3: 1e-3, ..OpwParameters::abb(0.0, 0.0, 0.3, 1.0, 0.0, 0.1) };
+    let turned = OpwParameters {
+        offsets: [100.0, -50.0, 1e4, 7.0, -7.0, 1e5],
+        ..OpwParameters::abb(0.15, -0.11, 0.45, 0.7, 0.8, 0.1)
+    };
     for opw in [short, turned] {
         let robot = Robot::from_opw(opw).unwrap();
         let mut rng = common::Rng::new(7);

@@ -18,17 +18,38 @@ fn angles() -> impl Strategy<Value = [f64; 6]> {
 }
 
 fn poses() -> impl Strategy<Value = Pose> {
-    (prop::array::uniform3(-2.0..2.0), prop::array::uniform3(-PI..PI)).prop_map(|(xyz, zyx)| pose_from_euler_zyx(xyz, zyx).unwrap())
+    (prop::array::uniform3(-2.0..2.0), prop::array::uniform3(-PI..PI))
+        .prop_map(|(xyz, zyx)| pose_from_euler_zyx(xyz, zyx).unwrap())
 }
 
 /// Arms of the form, with signs, offsets, a base and a flange; the parallel axes drawn at any places along themselves.
 fn arms() -> impl Strategy<Value = ParallelArm> {
     let wrist = prop_oneof![Just(0.0), 0.01..0.3];
-    let lengths = (-0.3..0.5, (0.02..0.3, -0.5..0.5, -0.5..0.5), 0.0..1.0, 0.2..1.5, 0.2..1.5, wrist, 0.01..0.3);
+    let lengths = (
+        -0.3..0.5,
+        (0.02..0.3, -0.5..0.5, -0.5..0.5),
+        0.0..1.0,
+        0.2..1.5,
+        0.2..1.5,
+        wrist,
+        0.01..0.3,
+    );
     let signs = prop::array::uniform6(prop_oneof![Just(1.0), Just(-1.0)]);
-    (lengths, signs, angles(), poses(), poses()).prop_map(|((a1, (b, b2, b3), c1, c2, c3, d5, d6), signs, offsets, base, flange)| {
-        ParallelArm { a1, b: [b2, b3, b - b2 - b3], c1, c2, c3, d5, d6, signs, offsets, base, flange }
-    })
+    (lengths, signs, angles(), poses(), poses()).prop_map(
+        |((a1, (b, b2, b3), c1, c2, c3, d5, d6), signs, offsets, base, flange)| ParallelArm {
+            a1,
+            b: [b2, b3, b - b2 - b3],
+            c1,
+            c2,
+            c3,
+            d5,
+            d6,
+            signs,
+            offsets,
+            base,
+            flange,
+        },
+    )
 }
 
 /// How much of a pose's rounding there is: what it is summed from [m].
@@ -259,12 +280,27 @@ fn what_is_not_the_form_is_refused_by_the_axes_that_are_off() {
         let mut mdh = Robot::<6>::named("UR3").unwrap().mdh().clone();
         spoil(&mut mdh);
         let words = Robot::from_mdh(mdh).unwrap_err().to_string();
-        words.strip_prefix("no closed-form inverse kinematics for this arm: for three parallel axes, ").unwrap().to_owned()
+        words
+            .strip_prefix(
+                "no closed-form inverse kinematics for this arm: for three parallel axes, ",
+            )
+            .unwrap()
+            .to_owned()
     };
-    let two = |mdh: &mut Mdh<6>| (mdh.rows[2].alpha, mdh.rows[4].a) = (-0.02_f64.to_radians(), -2e-3);
-    assert_eq!(refused(|mdh| mdh.rows[3].alpha += 0.01_f64.to_radians()), "axes 3 and 4 must be parallel, they are 0.010000 deg off");
-    assert_eq!(refused(|mdh| mdh.rows[1].alpha += 1e-3), "axes 1 and 2 must be at right angles, they are 0.057296 deg off");
-    assert_eq!(refused(|mdh| mdh.rows[5].a = 1e-3), "axes 5 and 6 must meet, they pass 1.000000 mm apart");
+    let two =
+        |mdh: &mut Mdh<6>| (mdh.rows[2].alpha, mdh.rows[4].a) = (-0.02_f64.to_radians(), -2e-3);
+    assert_eq!(
+        refused(|mdh| mdh.rows[3].alpha += 0.01_f64.to_radians()),
+        "axes 3 and 4 must be parallel, they are 0.010000 deg off"
+    );
+    assert_eq!(
+        refused(|mdh| mdh.rows[1].alpha += 1e-3),
+        "axes 1 and 2 must be at right angles, they are 0.057296 deg off"
+    );
+    assert_eq!(
+        refused(|mdh| mdh.rows[5].a = 1e-3),
+        "axes 5 and 6 must meet, they pass 1.000000 mm apart"
+    );
     assert_eq!(
         refused(two),
         "axes 2 and 3 must be parallel, they are 0.020000 deg off; axes 4 and 5 must meet, they pass 2.000000 mm apart"
@@ -272,7 +308,8 @@ fn what_is_not_the_form_is_refused_by_the_axes_that_are_off() {
     let short = |field: &str| format!("{field} is 0 m, it must be at least 1e-6 m");
     assert_eq!(refused(|mdh| mdh.rows[2].a = 0.0), short("upper arm (distance of axes 2 and 3)"));
     assert_eq!(refused(|mdh| mdh.rows[3].a = 0.0), short("forearm (distance of axes 3 and 4)"));
-    let lateral = "lateral offset (of the wrist from the plane through axis 1 that is square to axis 2)";
+    let lateral =
+        "lateral offset (of the wrist from the plane through axis 1 that is square to axis 2)";
     assert_eq!(refused(|mdh| mdh.rows[3].d = 0.0), short(lateral));
 }
 
@@ -290,6 +327,9 @@ fn a_table_in_text_is_made_exactly_the_form() {
     let pose = robot.fk(&q);
     for solution in &robot.ik(&pose).unwrap() {
         let residual = robot.residual(&solution.q, &pose);
-        assert!(residual.position <= 3e-15 * lengths(&arm) && residual.rotation <= 1e-14, "{residual:?}");
+        assert!(
+            residual.position <= 3e-15 * lengths(&arm) && residual.rotation <= 1e-14,
+            "{residual:?}"
+        );
     }
 }

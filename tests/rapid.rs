@@ -5,7 +5,10 @@ mod common;
 
 use std::fmt::Write;
 
-use irbkin::rapid::{Content, JointTarget, LoadData, Module, RapidPose, RobTarget, ToolData, Value, WobjData, decode, parse};
+use irbkin::rapid::{
+    Content, JointTarget, LoadData, Module, RapidPose, RobTarget, ToolData, Value, WobjData,
+    decode, parse,
+};
 use irbkin::{Configuration, Error};
 use proptest::prelude::*;
 use proptest::test_runner::Config as ProptestConfig;
@@ -39,7 +42,12 @@ fn poses() -> impl Strategy<Value = RapidPose> {
 }
 
 fn configurations() -> impl Strategy<Value = Configuration> {
-    prop::array::uniform4(any::<i32>()).prop_map(|[cf1, cf4, cf6, cfx]| Configuration { cf1, cf4, cf6, cfx })
+    prop::array::uniform4(any::<i32>()).prop_map(|[cf1, cf4, cf6, cfx]| Configuration {
+        cf1,
+        cf4,
+        cf6,
+        cfx,
+    })
 }
 
 fn robtargets() -> impl Strategy<Value = RobTarget> {
@@ -54,15 +62,24 @@ fn loads() -> impl Strategy<Value = LoadData> {
 
 fn wobjs() -> impl Strategy<Value = WobjData> {
     let parts = (any::<bool>(), any::<bool>(), any::<String>(), poses(), poses());
-    parts.prop_map(|(robhold, ufprog, ufmec, uframe, oframe)| WobjData { robhold, ufprog, ufmec, uframe, oframe })
+    parts.prop_map(|(robhold, ufprog, ufmec, uframe, oframe)| WobjData {
+        robhold,
+        ufprog,
+        ufmec,
+        uframe,
+        oframe,
+    })
 }
 
 fn values() -> impl Strategy<Value = Value> {
     let six = || prop::array::uniform6(numbers());
     prop_oneof![
         robtargets().prop_map(Value::RobTarget),
-        (six(), six()).prop_map(|(robax_deg, extax)| Value::JointTarget(JointTarget { robax_deg, extax })),
-        (any::<bool>(), poses(), loads()).prop_map(|(robhold, tframe, tload)| Value::ToolData(ToolData { robhold, tframe, tload })),
+        (six(), six())
+            .prop_map(|(robax_deg, extax)| Value::JointTarget(JointTarget { robax_deg, extax })),
+        (any::<bool>(), poses(), loads()).prop_map(|(robhold, tframe, tload)| Value::ToolData(
+            ToolData { robhold, tframe, tload }
+        )),
         wobjs().prop_map(Value::WobjData),
         poses().prop_map(Value::Pose),
         triples().prop_map(Value::Pos),
@@ -108,16 +125,29 @@ proptest! {
 #[test]
 fn real_looking_modules_are_read() {
     let tools = parse(&decode(TOOLS), &[]).unwrap();
-    assert_eq!((tools.name(), tools.attributes().len(), tools.data().len()), (Some("CalibData"), 1, 5));
+    assert_eq!(
+        (tools.name(), tools.attributes().len(), tools.data().len()),
+        (Some("CalibData"), 1, 5)
+    );
     let alone = parse(WELD, &[]).unwrap();
     assert!(alone.moves().iter().all(|step| step.tool.value.is_err()));
     let weld = parse(WELD, &[&tools]).unwrap();
     assert_eq!((weld.data().len(), weld.moves().len()), (10, 9));
     for step in weld.moves() {
-        assert!(step.target.value.is_ok() && step.tool.value.is_ok(), "{step}: {:?}", step.target.value);
+        assert!(
+            step.target.value.is_ok() && step.tool.value.is_ok(),
+            "{step}: {:?}",
+            step.target.value
+        );
     }
     let pendant = parse(PENDANT, &[]).unwrap();
-    assert_eq!((pendant.moves().len(), pendant.moves().iter().filter(|step| step.target.value.is_err()).count()), (5, 2));
+    assert_eq!(
+        (
+            pendant.moves().len(),
+            pendant.moves().iter().filter(|step| step.target.value.is_err()).count()
+        ),
+        (5, 2)
+    );
     for module in [&tools, &alone, &pendant] {
         holds(module, &[]);
     }
@@ -126,14 +156,20 @@ fn real_looking_modules_are_read() {
 
 /// A fault in a text, with the words that tell it.
 const BROKEN: &[(&str, &str)] = &[
-    ("MODULE M\n  CONST string s:=\"abc;\nENDMODULE", "line 2, column 19: the string has no closing quote on its line"),
+    (
+        "MODULE M\n  CONST string s:=\"abc;\nENDMODULE",
+        "line 2, column 19: the string has no closing quote on its line",
+    ),
     ("CONST num a:=12abc;", "line 1, column 14: 12abc is no number"),
     ("CONST num a:=1.2.3;", "line 1, column 14: 1.2.3 is no number"),
     ("CONST num a:=1e;", "line 1, column 14: 1e is no number"),
     ("CONST num a:=0xZZ;", "line 1, column 14: 0xZZ is no number"),
     ("CONST num a:=1E999;", "line 1, column 14: 1E999 is not finite, every number must be"),
     ("CONST num a:=1+1/0;", "line 1, column 16: 1/0 is not finite, every number must be"),
-    ("CONST num b:=-9E300*9E300;", "line 1, column 14: -9E300*9E300 is not finite, every number must be"),
+    (
+        "CONST num b:=-9E300*9E300;",
+        "line 1, column 14: -9E300*9E300 is not finite, every number must be",
+    ),
     ("é := 1;\n\n  # foo;", "line 3, column 3: '#' has no place outside a string or a comment"),
     ("CONST pos p:=[1,2,3;", "line 1, column 14: [ is not closed"),
     ("CONST num p:=(1+2;", "line 1, column 14: ( is not closed"),
@@ -144,77 +180,164 @@ const BROKEN: &[(&str, &str)] = &[
     ("foo 1);", "line 1, column 6: ) stands where a semicolon must"),
     ("CONST pos p:=[1,2,3);", "line 1, column 20: ) stands where a comma or ] must"),
     ("CONST num a:=;", "line 1, column 14: ; stands where a value must"),
-    ("CONST num a:=1 2;", "line 1, column 16: 2 stands where an operator, a comma or the end of the expression must"),
+    (
+        "CONST num a:=1 2;",
+        "line 1, column 16: 2 stands where an operator, a comma or the end of the expression must",
+    ),
     ("CONST num a:=1", "line 1, column 15: the end of the text stands where a semicolon must"),
     ("CONST num if:=1;", "line 1, column 11: if stands where a name must"),
     ("LOCAL p:=1;", "line 1, column 7: p stands where CONST, PERS, VAR, PROC, FUNC or TRAP must"),
     ("foo\nMoveL p,v1,z1,tool0;", "line 2, column 1: MoveL stands where a semicolon must"),
     ("]", "line 1, column 1: ] stands where a declaration or an instruction must"),
-    ("MODULE M\nVAR num a;", "line 2, column 11: the text ends inside MODULE M: ENDMODULE is missing"),
+    (
+        "MODULE M\nVAR num a;",
+        "line 2, column 11: the text ends inside MODULE M: ENDMODULE is missing",
+    ),
     ("MODULE M\nPROC a()\nENDMODULE", "line 3, column 1: ENDMODULE stands where ENDPROC must"),
     ("PROC a()\nfoo;", "line 2, column 5: the text ends inside PROC a: ENDPROC is missing"),
     ("PROC a()\nENDFUNC", "line 2, column 1: ENDFUNC stands where ENDPROC must"),
     ("PROC a()\nPROC b()", "line 2, column 1: PROC stands where ENDPROC must"),
     ("PROC a()\nIF x THEN\nENDPROC", "line 3, column 1: ENDPROC stands where ENDIF must"),
     ("WHILE x DO", "line 1, column 11: the text ends inside WHILE: ENDWHILE is missing"),
-    ("ENDIF", "line 1, column 1: ENDIF stands where a declaration or an instruction (no such block is open) must"),
+    (
+        "ENDIF",
+        "line 1, column 1: ENDIF stands where a declaration or an instruction (no such block is open) must",
+    ),
     ("FOR i FROM 1 TO 2 DO\nENDWHILE", "line 2, column 1: ENDWHILE stands where ENDFOR must"),
     ("FOR i FROM 1 TO 2;", "line 1, column 18: ; stands where DO must"),
     ("TEST x; CASE 1: ENDTEST", "line 1, column 7: ; stands where CASE must"),
     ("IF x VAR num a;", "line 1, column 6: VAR stands where THEN or an instruction must"),
-    ("ENDPROC", "line 1, column 1: ENDPROC stands where a declaration or an instruction (no routine is open) must"),
+    (
+        "ENDPROC",
+        "line 1, column 1: ENDPROC stands where a declaration or an instruction (no routine is open) must",
+    ),
     ("RECORD r\nnum a;", "line 2, column 7: the text ends inside RECORD r: ENDRECORD is missing"),
     ("%%% VERSION:1", "line 1, column 1: the text ends inside the header: %%% is missing"),
     ("x;\n%%% VERSION:1 %%%", "line 2, column 2: % stands where the name of a procedure must"),
-    ("MODULE A ENDMODULE\nMODULE B ENDMODULE", "line 2, column 1: a second module begins, a text must hold one"),
+    (
+        "MODULE A ENDMODULE\nMODULE B ENDMODULE",
+        "line 2, column 1: a second module begins, a text must hold one",
+    ),
     ("MODULE A\n MODULE B", "line 2, column 2: a second module begins, a text must hold one"),
     ("MODULE A ENDMODULE x;", "line 1, column 20: x stands where the end of the text must"),
-    ("x; MODULE A", "line 1, column 4: MODULE stands where a declaration or an instruction (MODULE begins a text) must"),
+    (
+        "x; MODULE A",
+        "line 1, column 4: MODULE stands where a declaration or an instruction (MODULE begins a text) must",
+    ),
     (
         "CONST robtarget p10:=[[0,0,0],[1,0,0,0],[0,0,0],[0,0,0,0,0,0]];",
         "line 1, column 41: robtarget p10: robconf has 3 components, it must have 4",
     ),
     ("CONST pos p:=[1];", "line 1, column 14: pos p has 1 component, it must have 3"),
-    ("CONST tooldata t:=[TRUE,5,load0];", "line 1, column 25: tooldata t: tframe is a number, it must be pose"),
+    (
+        "CONST tooldata t:=[TRUE,5,load0];",
+        "line 1, column 25: tooldata t: tframe is a number, it must be pose",
+    ),
     (
         "CONST tooldata t:=[TRUE,[[0,0,\"a\"],[1,0,0,0]],load0];",
         "line 1, column 31: tooldata t: tframe.trans.z is a string, it must be a number",
     ),
     ("CONST num a:=TRUE;", "line 1, column 14: num a is TRUE, it must be a number"),
     ("CONST num a:=[1];", "line 1, column 14: num a is an aggregate, it must be a number"),
-    ("CONST num a:=tool0;", "line 1, column 14: num a is tool0, of type tooldata, it must be a number"),
+    (
+        "CONST num a:=tool0;",
+        "line 1, column 14: num a is tool0, of type tooldata, it must be a number",
+    ),
     (
         "CONST wobjdata w:=[1,TRUE,\"\",tool0.tframe,tool0.tframe];",
         "line 1, column 20: wobjdata w: robhold is a number, it must be TRUE or FALSE",
     ),
-    ("CONST num a:=tool0.trans.x;", "line 1, column 14: tool0.trans.x: tooldata has no component trans"),
-    ("CONST num a:=tool0.tframe.trans.w;", "line 1, column 14: tool0.tframe.trans.w: pos has no component w"),
-    ("CONST confdata c:=[0,0.5,0,0];", "line 1, column 22: confdata c: cf4 is 0.5, it must be a whole number"),
-    ("CONST confdata c:=[0,0,9E9,0];", "line 1, column 24: confdata c: cf6 is 9000000000, it must be a whole number"),
-    ("CONST num a{2}:=[1,2,3];", "line 1, column 17: num a: dimension 1 has 3 elements, it must have 2"),
-    ("CONST num a{1,2}:=[[1]];", "line 1, column 20: num a: dimension 2 has 1 element, it must have 2"),
+    (
+        "CONST num a:=tool0.trans.x;",
+        "line 1, column 14: tool0.trans.x: tooldata has no component trans",
+    ),
+    (
+        "CONST num a:=tool0.tframe.trans.w;",
+        "line 1, column 14: tool0.tframe.trans.w: pos has no component w",
+    ),
+    (
+        "CONST confdata c:=[0,0.5,0,0];",
+        "line 1, column 22: confdata c: cf4 is 0.5, it must be a whole number",
+    ),
+    (
+        "CONST confdata c:=[0,0,9E9,0];",
+        "line 1, column 24: confdata c: cf6 is 9000000000, it must be a whole number",
+    ),
+    (
+        "CONST num a{2}:=[1,2,3];",
+        "line 1, column 17: num a: dimension 1 has 3 elements, it must have 2",
+    ),
+    (
+        "CONST num a{1,2}:=[[1]];",
+        "line 1, column 20: num a: dimension 2 has 1 element, it must have 2",
+    ),
     ("CONST num a{2}:=5;", "line 1, column 17: num a is a number, it must be an array"),
-    ("CONST num a{0}:=[];", "line 1, column 13: num a: size of dimension 1 is 0, it must be a positive whole number"),
-    ("CONST num a{1,1.5}:=[[1]];", "line 1, column 15: num a: size of dimension 2 is 1.5, it must be a positive whole number"),
-    ("VAR num a{-1};", "line 1, column 11: num a: size of dimension 1 is -1, it must be a positive whole number"),
+    (
+        "CONST num a{0}:=[];",
+        "line 1, column 13: num a: size of dimension 1 is 0, it must be a positive whole number",
+    ),
+    (
+        "CONST num a{1,1.5}:=[[1]];",
+        "line 1, column 15: num a: size of dimension 2 is 1.5, it must be a positive whole number",
+    ),
+    (
+        "VAR num a{-1};",
+        "line 1, column 11: num a: size of dimension 1 is -1, it must be a positive whole number",
+    ),
     ("VAR num a{};", "line 1, column 10: {} stands where a size must"),
     ("VAR num a{1,1,1,1};", "line 1, column 17: num a has 4 dimensions, it must have at most 3"),
-    ("CONST num a{2}:=[1,2];CONST num b:=a{3};", "line 1, column 38: a{3}: index 3 must be a whole number from 1 to 2"),
-    ("CONST num a{2}:=[1,2];CONST num b:=a{0};", "line 1, column 38: a{0}: index 0 must be a whole number from 1 to 2"),
-    ("CONST num a{2}:=[1,2];CONST num b:=a{1,1};", "line 1, column 36: a{1,1} has 2 indices, it must have 1"),
-    ("CONST num a:=1;CONST num b:=a{1};", "line 1, column 29: a{1} has 1 index, and it is no array"),
+    (
+        "CONST num a{2}:=[1,2];CONST num b:=a{3};",
+        "line 1, column 38: a{3}: index 3 must be a whole number from 1 to 2",
+    ),
+    (
+        "CONST num a{2}:=[1,2];CONST num b:=a{0};",
+        "line 1, column 38: a{0}: index 0 must be a whole number from 1 to 2",
+    ),
+    (
+        "CONST num a{2}:=[1,2];CONST num b:=a{1,1};",
+        "line 1, column 36: a{1,1} has 2 indices, it must have 1",
+    ),
+    (
+        "CONST num a:=1;CONST num b:=a{1};",
+        "line 1, column 29: a{1} has 1 index, and it is no array",
+    ),
     ("VAR num a;\nVAR pos A;", "line 2, column 1: A is declared twice in the module"),
     ("PROC p(num a)\nVAR bool A;\nENDPROC", "line 2, column 1: A is declared twice in p"),
-    ("CONST num a:=b; CONST num b:=a+1;", "line 1, column 1: values refer to one another in a circle: a, b, a"),
-    ("CONST num a{2}:=[1,a{1}];", "line 1, column 1: values refer to one another in a circle: a, a"),
+    (
+        "CONST num a:=b; CONST num b:=a+1;",
+        "line 1, column 1: values refer to one another in a circle: a, b, a",
+    ),
+    (
+        "CONST num a{2}:=[1,a{1}];",
+        "line 1, column 1: values refer to one another in a circle: a, a",
+    ),
     ("MoveL p, v1, z1;", "line 1, column 1: MoveL has 3 arguments, it must have 4"),
     ("MoveC p, v1, z1, tool0;", "line 1, column 1: MoveC has 4 arguments, it must have 5"),
-    ("MoveL load0, v1, z1, tool0;", "line 1, column 7: MoveL target is load0, of type loaddata, it must be robtarget"),
-    ("MoveL *, v1, z1, wobj0;", "line 1, column 18: MoveL tool is wobj0, of type wobjdata, it must be tooldata"),
-    ("MoveL *, v1, z1, tool0\\WObj:=tool0;", "line 1, column 30: MoveL work object is tool0, of type tooldata, it must be wobjdata"),
-    ("MoveAbsJ [[1,2,3],[0,0,0,0,0,0]], v1, z1, tool0;", "line 1, column 11: MoveAbsJ target: robax has 3 components, it must have 6"),
-    ("MoveL p, v1, z1, tool0", "line 1, column 23: the end of the text stands where a comma or a semicolon must"),
-    ("MoveL p, v1, z1, tool0\\;", "line 1, column 24: ; stands where the name of an optional argument must"),
+    (
+        "MoveL load0, v1, z1, tool0;",
+        "line 1, column 7: MoveL target is load0, of type loaddata, it must be robtarget",
+    ),
+    (
+        "MoveL *, v1, z1, wobj0;",
+        "line 1, column 18: MoveL tool is wobj0, of type wobjdata, it must be tooldata",
+    ),
+    (
+        "MoveL *, v1, z1, tool0\\WObj:=tool0;",
+        "line 1, column 30: MoveL work object is tool0, of type tooldata, it must be wobjdata",
+    ),
+    (
+        "MoveAbsJ [[1,2,3],[0,0,0,0,0,0]], v1, z1, tool0;",
+        "line 1, column 11: MoveAbsJ target: robax has 3 components, it must have 6",
+    ),
+    (
+        "MoveL p, v1, z1, tool0",
+        "line 1, column 23: the end of the text stands where a comma or a semicolon must",
+    ),
+    (
+        "MoveL p, v1, z1, tool0\\;",
+        "line 1, column 24: ; stands where the name of an optional argument must",
+    ),
 ];
 
 #[test]
@@ -229,7 +352,8 @@ fn broken_input_is_told() {
 
 #[test]
 fn nesting_is_bounded() {
-    let nested = |depth: usize| format!("CONST num a:={}1{};", "(".repeat(depth), ")".repeat(depth));
+    let nested =
+        |depth: usize| format!("CONST num a:={}1{};", "(".repeat(depth), ")".repeat(depth));
     assert!(parse(&nested(64), &[]).is_ok());
     let words = "line 1, column 78: nested deeper than 64, the deepest that is read";
     assert_eq!(parse(&nested(65), &[]).unwrap_err().to_string(), words);

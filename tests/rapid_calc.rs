@@ -5,8 +5,8 @@ mod common;
 
 use common::{Rng, apart};
 use irbkin::rapid::{
-    Fallback, JointTarget, LoadData, RapidPose, RobTarget, ToolData, WobjData, calc_joint_t, calc_joint_t_or_nearest, calc_moves,
-    calc_rob_t, calc_targets, error_name, parse,
+    Fallback, JointTarget, LoadData, RapidPose, RobTarget, ToolData, WobjData, calc_joint_t,
+    calc_joint_t_or_nearest, calc_moves, calc_rob_t, calc_targets, error_name, parse,
 };
 use irbkin::{Configuration, Error, Pose, Robot, pose_from_quaternion};
 
@@ -18,11 +18,18 @@ fn frame(trans_mm: [f64; 3], rot: [f64; 4]) -> RapidPose {
 
 fn gun(robhold: bool) -> ToolData {
     let half = 0.5_f64.sqrt();
-    ToolData { robhold, tframe: frame([30.0, -20.0, 250.0], [half, 0.0, half, 0.0]), tload: LoadData::LOAD0 }
+    ToolData {
+        robhold,
+        tframe: frame([30.0, -20.0, 250.0], [half, 0.0, half, 0.0]),
+        tload: LoadData::LOAD0,
+    }
 }
 
 fn fixture(robhold: bool) -> WobjData {
-    let (uframe, oframe) = (frame([900.0, -200.0, 400.0], [0.8, 0.0, 0.0, 0.6]), frame([10.0, 20.0, 30.0], [0.0, 0.6, 0.8, 0.0]));
+    let (uframe, oframe) = (
+        frame([900.0, -200.0, 400.0], [0.8, 0.0, 0.0, 0.6]),
+        frame([10.0, 20.0, 30.0], [0.0, 0.6, 0.8, 0.0]),
+    );
     WobjData { robhold, ufprog: true, ufmec: String::new(), uframe, oframe }
 }
 
@@ -32,7 +39,10 @@ fn pose(frame: &RapidPose) -> Pose {
 
 fn arms() -> [Robot<6>; 3] {
     let standing = Robot::named("IRB 2600-12/1.65").unwrap();
-    let hanging = standing.clone().with_base(&pose(&frame([100.0, 200.0, 3000.0], [0.0, 1.0, 0.0, 0.0]))).unwrap();
+    let hanging = standing
+        .clone()
+        .with_base(&pose(&frame([100.0, 200.0, 3000.0], [0.0, 1.0, 0.0, 0.0])))
+        .unwrap();
     [standing, hanging, Robot::named("IRB 2400-10/1.55").unwrap()]
 }
 
@@ -46,10 +56,14 @@ fn the_tool_is_in_the_work_object_as_the_world_sees_both() {
                 let q = rng.inside(robot.limits());
                 let joints = JointTarget { robax_deg: q.map(f64::to_degrees), extax: EXTAX };
                 let target = calc_rob_t(&robot, &joints, Some(&tool), Some(&wobj)).unwrap();
-                let (t_tool, t_wobj) = (pose(&tool.tframe), pose(&wobj.uframe) * pose(&wobj.oframe));
+                let (t_tool, t_wobj) =
+                    (pose(&tool.tframe), pose(&wobj.uframe) * pose(&wobj.oframe));
                 let t_world_flange = robot.fk(&q);
-                let (t_world_tool, t_world_wobj) =
-                    if tool.robhold { (t_world_flange * t_tool, t_wobj) } else { (t_tool, t_world_flange * t_wobj) };
+                let (t_world_tool, t_world_wobj) = if tool.robhold {
+                    (t_world_flange * t_tool, t_wobj)
+                } else {
+                    (t_tool, t_world_flange * t_wobj)
+                };
                 let seen = t_world_wobj * pose(&frame(target.trans_mm, target.rot));
                 assert!((seen.translation.vector - t_world_tool.translation.vector).norm() < 1e-14);
                 assert!((seen.rotation.matrix() - t_world_tool.rotation.matrix()).amax() < 1e-14);
@@ -73,7 +87,12 @@ fn joint_angles_come_back_from_their_robtarget() {
                 let joints = JointTarget { robax_deg: q.map(f64::to_degrees), extax: EXTAX };
                 let target = calc_rob_t(&robot, &joints, Some(&tool), Some(&wobj)).unwrap();
                 let back = calc_joint_t(&robot, &target, Some(&tool), Some(&wobj)).unwrap();
-                let off = back.robax_deg.iter().zip(joints.robax_deg).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                let off = back
+                    .robax_deg
+                    .iter()
+                    .zip(joints.robax_deg)
+                    .map(|(a, b)| (a - b).abs())
+                    .fold(0.0, f64::max);
                 // Behind the elbow a coupled arm's configuration names another posture.
                 if !(robot.is_coupled() && off > 1.0) {
                     assert!(off < 1e-9, "{off} deg");
@@ -95,7 +114,10 @@ fn without_tool_and_work_object_the_robots_own_count() {
     let seen = pose(&frame(target.trans_mm, target.rot));
     let q = joints.robax_deg.map(f64::to_radians);
     assert!((seen.translation.vector - robot.fk(&q).translation.vector).norm() < 1e-15);
-    assert_eq!(calc_rob_t(&robot, &joints, Some(&ToolData::TOOL0), Some(&WobjData::WOBJ0)), calc_rob_t(&arms()[1], &joints, None, None));
+    assert_eq!(
+        calc_rob_t(&robot, &joints, Some(&ToolData::TOOL0), Some(&WobjData::WOBJ0)),
+        calc_rob_t(&arms()[1], &joints, None, None)
+    );
 }
 
 #[test]
@@ -114,7 +136,9 @@ fn errors_have_the_names_of_rapid() {
     assert_eq!(error_name(&unmet), Some("ERR_ROBLIMIT"));
     assert_eq!(error_name(&refused(&target([900.0, 200.0, 600.0], 8))), None);
     let seed = [0.2, 0.0, 0.0, 0.0, 0.5, 0.0];
-    let nearest = calc_joint_t_or_nearest(robot, &target([900.0, 200.0, 600.0], 7), None, None, &seed).unwrap();
+    let nearest =
+        calc_joint_t_or_nearest(robot, &target([900.0, 200.0, 600.0], 7), None, None, &seed)
+            .unwrap();
     let q = nearest.robax_deg.map(f64::to_radians);
     assert!(apart(&q, &robot.ik_nearest(&robot.fk(&q), &seed, &[1.0; 6]).unwrap().q) < 1e-12);
 }
@@ -123,16 +147,27 @@ fn errors_have_the_names_of_rapid() {
 fn frames_that_do_not_go_together_are_refused() {
     let robot = &arms()[0];
     let joints = JointTarget { robax_deg: [0.0; 6], extax: EXTAX };
-    let message = |tool: &ToolData, wobj: &WobjData| calc_rob_t(robot, &joints, Some(tool), Some(wobj)).unwrap_err().to_string();
-    assert_eq!(message(&gun(true), &fixture(true)), "the robot holds the tool and the work object: robhold must be TRUE for one of them");
+    let message = |tool: &ToolData, wobj: &WobjData| {
+        calc_rob_t(robot, &joints, Some(tool), Some(wobj)).unwrap_err().to_string()
+    };
+    assert_eq!(
+        message(&gun(true), &fixture(true)),
+        "the robot holds the tool and the work object: robhold must be TRUE for one of them"
+    );
     assert_eq!(
         message(&gun(false), &fixture(false)),
         "the robot holds neither the tool nor the work object: robhold must be TRUE for one of them"
     );
     let moved = WobjData { ufprog: false, ufmec: "STN_1".to_string(), ..fixture(false) };
-    assert!(message(&gun(true), &moved).contains("moved (ufprog FALSE) by the mechanical unit \"STN_1\""));
+    assert!(
+        message(&gun(true), &moved)
+            .contains("moved (ufprog FALSE) by the mechanical unit \"STN_1\"")
+    );
     let skew = WobjData { oframe: frame([0.0; 3], [0.5, 0.0, 0.0, 0.0]), ..fixture(false) };
-    assert_eq!(message(&gun(true), &skew), "oframe: quaternion norm is 0.500000, it must be 1 within 2e-3 (order is w, x, y, z)");
+    assert_eq!(
+        message(&gun(true), &skew),
+        "oframe: quaternion norm is 0.500000, it must be 1 within 2e-3 (order is w, x, y, z)"
+    );
 }
 
 const PROGRAM: &str = r#"
@@ -159,7 +194,8 @@ fn a_table_has_a_row_for_each_target_of_the_moves() {
     let robot: Robot<6> = Robot::named("IRB 140-6/0.81").unwrap();
     let module = parse(PROGRAM, &[]).unwrap();
     let rows = calc_moves(&robot, &module, Fallback::None).unwrap();
-    let said: Vec<_> = rows.iter().map(|row| (row.kind, row.text.as_str(), row.line, row.q.is_some())).collect();
+    let said: Vec<_> =
+        rows.iter().map(|row| (row.kind, row.text.as_str(), row.line, row.q.is_some())).collect();
     let absolute = "[[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]";
     assert_eq!(
         said,
@@ -187,7 +223,9 @@ fn a_table_has_a_row_for_each_target_of_the_moves() {
     }
     // As the controller has it.
     let degrees = rows[0].q.unwrap().map(f64::to_degrees);
-    for (found, derived) in degrees.into_iter().zip([11.6894, 55.6175, -44.8034, 0.0, 79.1858, -78.3106]) {
+    for (found, derived) in
+        degrees.into_iter().zip([11.6894, 55.6175, -44.8034, 0.0, 79.1858, -78.3106])
+    {
         assert!((found - derived).abs() < 1e-4);
     }
 }
@@ -199,8 +237,12 @@ fn a_configuration_that_nobody_calculated_can_fall_back_to_the_joints_before() {
     let rows = calc_moves(&robot, &module, Fallback::Nearest([0.0; 6])).unwrap();
     let (before, row) = (rows[0].q.unwrap(), &rows[1]);
     let flange = robot.fk(&row.q.unwrap());
-    assert!(apart(&row.q.unwrap(), &robot.ik_nearest(&flange, &before, &[1.0; 6]).unwrap().q) < 1e-12);
-    assert!(row.problem.as_deref().unwrap().ends_with("; the nearest to the joints before is taken"));
+    assert!(
+        apart(&row.q.unwrap(), &robot.ik_nearest(&flange, &before, &[1.0; 6]).unwrap().q) < 1e-12
+    );
+    assert!(
+        row.problem.as_deref().unwrap().ends_with("; the nearest to the joints before is taken")
+    );
     assert!(rows[4].q.is_none(), "out of reach stays so");
 }
 
@@ -208,12 +250,27 @@ fn a_configuration_that_nobody_calculated_can_fall_back_to_the_joints_before() {
 fn declared_targets_have_a_row_each_by_their_names() {
     let robot: Robot<6> = Robot::named("IRB 140-6/0.81").unwrap();
     let module = parse(PROGRAM, &[]).unwrap();
-    let gun = ToolData { tframe: frame([0.0, 0.0, 110.0], [1.0, 0.0, 0.0, 0.0]), ..ToolData::TOOL0 };
-    let wobj = WobjData { uframe: frame([300.0, -175.0, 1.0], [1.0, 0.0, 0.0, 0.0]), ..WobjData::WOBJ0 };
+    let gun =
+        ToolData { tframe: frame([0.0, 0.0, 110.0], [1.0, 0.0, 0.0, 0.0]), ..ToolData::TOOL0 };
+    let wobj =
+        WobjData { uframe: frame([300.0, -175.0, 1.0], [1.0, 0.0, 0.0, 0.0]), ..WobjData::WOBJ0 };
     let rows = calc_targets(&robot, &module, Some(&gun), Some(&wobj), Fallback::None).unwrap();
-    let said: Vec<_> = rows.iter().map(|row| (row.text.as_str(), row.line, row.q.is_some())).collect();
-    assert_eq!(said, [("p10", 5, true), ("pZero", 6, false), ("row{1}", 7, true), ("row{2}", 7, false), ("pFar", 8, false)]);
-    assert!(matches!(calc_targets(&Robot::named("UR3").unwrap(), &module, None, None, Fallback::None), Err(Error::InvalidModel(_))));
+    let said: Vec<_> =
+        rows.iter().map(|row| (row.text.as_str(), row.line, row.q.is_some())).collect();
+    assert_eq!(
+        said,
+        [
+            ("p10", 5, true),
+            ("pZero", 6, false),
+            ("row{1}", 7, true),
+            ("row{2}", 7, false),
+            ("pFar", 8, false)
+        ]
+    );
+    assert!(matches!(
+        calc_targets(&Robot::named("UR3").unwrap(), &module, None, None, Fallback::None),
+        Err(Error::InvalidModel(_))
+    ));
 }
 
 #[test]

@@ -17,8 +17,11 @@ use std::time::{Duration, Instant};
 use common::Rng;
 use irbkin::rapid::{Content, Module, Move, NewValue, Value, decode, parse, rewrite};
 
-const CORPUS: [&[u8]; 3] =
-    [include_bytes!("data/rapid/weld.mod"), include_bytes!("data/rapid/tools.sys"), include_bytes!("data/rapid/pendant.prg")];
+const CORPUS: [&[u8]; 3] = [
+    include_bytes!("data/rapid/weld.mod"),
+    include_bytes!("data/rapid/tools.sys"),
+    include_bytes!("data/rapid/pendant.prg"),
+];
 
 /// Pieces of RAPID, and of what is none.
 const PIECES: &[&str] = &[
@@ -186,11 +189,14 @@ fn statements(rng: &mut Rng) -> Vec<u8> {
     let mut text = String::new();
     for _ in 0..below(rng, 12) {
         let name = ["a", "b", "c", "p", "q", "r"][below(rng, 6)];
-        let other = ["a", "b", "c", "p", "q", "r", "tool0", "1", "p.trans.x", "c{2}"][below(rng, 10)];
+        let other =
+            ["a", "b", "c", "p", "q", "r", "tool0", "1", "p.trans.x", "c{2}"][below(rng, 10)];
         let statement = match below(rng, 15) {
             0 => format!("CONST num {name}:=-({other}+2)*.5;\n"),
             1 => format!("VAR num {name}{{2}}:=[{other},7];\n"),
-            2 => format!("PERS robtarget {name}:=[[1,{other},3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"),
+            2 => format!(
+                "PERS robtarget {name}:=[[1,{other},3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+            ),
             3 => format!("CONST robtarget {name}:=RelTool({other},1,2,3\\Rz:=30);\n"),
             4 => format!("MoveL {other},v1,z1,tool0\\WObj:=wobj0;\n"),
             5 => format!("PROC {name}(num {other}) ! note\n"),
@@ -198,7 +204,9 @@ fn statements(rng: &mut Rng) -> Vec<u8> {
             7 => format!("IF {name}>{other} THEN ENDIF FOR {name} FROM 1 TO {other} DO ENDFOR\n"),
             8 => format!("{name}:=1; Incr {other};\n"),
             9 => format!("PDispOn {name},tool0; SearchL d,{name},{other},v1,tool0;\n"),
-            10 => format!("MoveL ToPoint:=Offs(Point:={name},0,0,{other}),\\ID:=1,v1,Zone:=z1,tool0,\\WObj:=wobj0;\n"),
+            10 => format!(
+                "MoveL ToPoint:=Offs(Point:={name},0,0,{other}),\\ID:=1,v1,Zone:=z1,tool0,\\WObj:=wobj0;\n"
+            ),
             11 => format!("VAR <TYP> {name}; IF <EXP> <SMT> {other}:=<EXP>; VAR num <ID>;\n"),
             12 => format!("PERS robtarget {name}:={other};\n"),
             13 => format!("VAR string {name}; {other}:={name};\n"),
@@ -235,9 +243,18 @@ fn mutation(rng: &mut Rng) -> Vec<u8> {
 /// Writes a module, reads it again, and puts its own values back into its text.
 fn check(text: &str, module: &Module) {
     let written = module.to_string();
-    let again = parse(&written, &[]).unwrap_or_else(|error| panic!("{error}\n--- from\n{text}\n--- written\n{written}"));
-    assert!(again.without_positions() == module.clone().without_positions(), "\n--- from\n{text}\n--- written\n{written}");
-    let own: Vec<_> = module.data().iter().enumerate().flat_map(|(datum, it)| own_values(datum, &it.content)).collect();
+    let again = parse(&written, &[])
+        .unwrap_or_else(|error| panic!("{error}\n--- from\n{text}\n--- written\n{written}"));
+    assert!(
+        again.without_positions() == module.clone().without_positions(),
+        "\n--- from\n{text}\n--- written\n{written}"
+    );
+    let own: Vec<_> = module
+        .data()
+        .iter()
+        .enumerate()
+        .flat_map(|(datum, it)| own_values(datum, &it.content))
+        .collect();
     let rewritten = rewrite(text, module, &own).unwrap();
     // A datum that referred to another one, which is assigned, stands by itself now: what was unknown in a move is looked at, and may be broken.
     let unknown = |step: &Move| {
@@ -249,8 +266,12 @@ fn check(text: &str, module: &Module) {
     if module.moves().iter().any(unknown) {
         return;
     }
-    let same = parse(&rewritten, &[]).unwrap_or_else(|error| panic!("{error}\n--- from\n{text}\n--- rewritten\n{rewritten}"));
-    assert!(same.data().iter().zip(module.data()).all(|(a, b)| a.content == b.content), "\n--- from\n{text}");
+    let same = parse(&rewritten, &[])
+        .unwrap_or_else(|error| panic!("{error}\n--- from\n{text}\n--- rewritten\n{rewritten}"));
+    assert!(
+        same.data().iter().zip(module.data()).all(|(a, b)| a.content == b.content),
+        "\n--- from\n{text}"
+    );
 }
 
 fn own_values(datum: usize, content: &Content) -> Vec<NewValue> {
@@ -258,7 +279,9 @@ fn own_values(datum: usize, content: &Content) -> Vec<NewValue> {
     match content {
         Content::Uninitialised { .. } => Vec::new(),
         Content::Single(single) => vec![value(None, single)],
-        Content::Array { values, .. } => values.iter().enumerate().map(|(element, it)| value(Some(element), it)).collect(),
+        Content::Array { values, .. } => {
+            values.iter().enumerate().map(|(element, it)| value(Some(element), it)).collect()
+        }
     }
 }
 
@@ -283,7 +306,9 @@ fn read_all(kind: &str, make: fn(&mut Rng) -> Vec<u8>) -> usize {
             }
         }
     }
-    println!("{kind}: {count} inputs of {bytes} bytes, {refused} refused, at most {longest:?} a byte");
+    println!(
+        "{kind}: {count} inputs of {bytes} bytes, {refused} refused, at most {longest:?} a byte"
+    );
     count - refused
 }
 
@@ -320,7 +345,10 @@ fn pathological(size: usize) -> Vec<(&'static str, String)> {
         ("forward references to what is unknown", lines(&chain)),
         ("a circle of references", lines(&chain) + &format!("CONST num p{size}:=p0;")),
         ("duplicate names", lines(&|i| format!("VAR num a{};", if i + 1 == size { 0 } else { i }))),
-        ("names in different routines", lines(&|i| format!("PROC r{i}()VAR num a:=1;VAR num b:=a;ENDPROC "))),
+        (
+            "names in different routines",
+            lines(&|i| format!("PROC r{i}()VAR num a:=1;VAR num b:=a;ENDPROC ")),
+        ),
         ("an unclosed string", format!("foo \"{}", "a".repeat(10 * size))),
         ("quotes", "\"\"".repeat(5 * size)),
         ("comments", "! foo\n".repeat(size)),
@@ -334,12 +362,29 @@ fn pathological(size: usize) -> Vec<(&'static str, String)> {
         ("an array", format!("CONST num a{{{size}}}:=[{}1];", "1,".repeat(size - 1))),
         (
             "references to one array",
-            format!("CONST robtarget a{{2}}:=[{target},{target}];") + &lines(&|i| format!("CONST num b{i}:=a{{2}}.trans.z;")),
+            format!("CONST robtarget a{{2}}:=[{target},{target}];")
+                + &lines(&|i| format!("CONST num b{i}:=a{{2}}.trans.z;")),
         ),
-        ("loops in loops", lines(&|i| if i % 64 < 32 { "FOR i FROM 1 TO 2 DO MoveL p,v,z,tool0; ".into() } else { "ENDFOR ".into() })),
+        (
+            "loops in loops",
+            lines(&|i| {
+                if i % 64 < 32 {
+                    "FOR i FROM 1 TO 2 DO MoveL p,v,z,tool0; ".into()
+                } else {
+                    "ENDFOR ".into()
+                }
+            }),
+        ),
         ("statements without an end", "foo ".repeat(size)),
-        ("assigned data", lines(&|i| format!("VAR num a{i}:=1; a{i}:=2; MoveL Offs(p,a{i},0,0),v,z,tool0;"))),
-        ("references to what is assigned", lines(&chain) + &format!("VAR num p{size}:=1; p{size}:=2; MoveL Offs(p0,p0,p0,p0),v,z,tool0;")),
+        (
+            "assigned data",
+            lines(&|i| format!("VAR num a{i}:=1; a{i}:=2; MoveL Offs(p,a{i},0,0),v,z,tool0;")),
+        ),
+        (
+            "references to what is assigned",
+            lines(&chain)
+                + &format!("VAR num p{size}:=1; p{size}:=2; MoveL Offs(p0,p0,p0,p0),v,z,tool0;"),
+        ),
         ("arguments that are written", format!("SearchL {};", "\\a,".repeat(size))),
         ("placeholders", "<SMT>".repeat(size)),
         ("routines without names", "PROC <ID>() <SMT> ENDPROC ".repeat(size)),
@@ -366,9 +411,21 @@ fn reading_time_is_linear() {
     let texts = [1, 2, 4, 16].map(|times| pathological(times * size));
     for i in 0..texts[0].len() {
         let [one, two, four, sixteen] = [0, 1, 2, 3].map(|times: usize| time(&texts[times][i].1));
-        println!("{}: {:.1} ms, ratios {:.1} {:.1} {:.1}", texts[0][i].0, 1e3 * one, two / one, four / one, sixteen / one);
+        println!(
+            "{}: {:.1} ms, ratios {:.1} {:.1} {:.1}",
+            texts[0][i].0,
+            1e3 * one,
+            two / one,
+            four / one,
+            sixteen / one
+        );
         // Sizes below a tenth of a millisecond tell nothing of a ratio.
-        assert!(!is_long || sixteen / one.max(1e-4) < 64.0, "{}: {:.1}", texts[0][i].0, sixteen / one);
+        assert!(
+            !is_long || sixteen / one.max(1e-4) < 64.0,
+            "{}: {:.1}",
+            texts[0][i].0,
+            sixteen / one
+        );
     }
 }
 
@@ -377,15 +434,26 @@ fn reading_time_is_linear() {
 fn large_modules_are_read_at_once() {
     let count = if inputs() > 100_000 { 50_000 } else { 1000 };
     let target: fn(usize) -> String = |i| {
-        format!("  CONST robtarget p{i}:=[[{i}.125,-20.5,300.75],[0.5,0.5,-0.5,0.5],[0,-1,0,1],[9E+09,9E+09,9E+09,9E+09,9E+09,9E+09]];\n")
+        format!(
+            "  CONST robtarget p{i}:=[[{i}.125,-20.5,300.75],[0.5,0.5,-0.5,0.5],[0,-1,0,1],[9E+09,9E+09,9E+09,9E+09,9E+09,9E+09]];\n"
+        )
     };
-    let step: fn(usize) -> String = |i| format!("    MoveL p{i},v100,z10,tGripper\\WObj:=wTable;\n");
-    let [targets, steps] = [target, step].map(|line| (0..count).map(line).collect::<Vec<_>>().concat());
-    let tool = "PERS tooldata tGripper:=[TRUE,[[0,0,100],[1,0,0,0]],load0];PERS wobjdata wTable:=wobj0;";
-    let text = format!("MODULE Large\n{tool}\n{targets}  PROC main()\n{steps}  ENDPROC\nENDMODULE\n");
+    let step: fn(usize) -> String =
+        |i| format!("    MoveL p{i},v100,z10,tGripper\\WObj:=wTable;\n");
+    let [targets, steps] =
+        [target, step].map(|line| (0..count).map(line).collect::<Vec<_>>().concat());
+    let tool =
+        "PERS tooldata tGripper:=[TRUE,[[0,0,100],[1,0,0,0]],load0];PERS wobjdata wTable:=wobj0;";
+    let text =
+        format!("MODULE Large\n{tool}\n{targets}  PROC main()\n{steps}  ENDPROC\nENDMODULE\n");
     let seconds = time(&text);
     let module = parse(&text, &[]).unwrap();
     assert_eq!((module.data().len(), module.moves().len()), (count + 2, count));
-    assert!(module.moves().iter().all(|step| step.target.value.is_ok() && step.wobj.as_ref().unwrap().value.is_ok()));
+    assert!(
+        module
+            .moves()
+            .iter()
+            .all(|step| step.target.value.is_ok() && step.wobj.as_ref().unwrap().value.is_ok())
+    );
     println!("{count} targets and {count} moves, {} bytes: {:.0} ms", text.len(), 1e3 * seconds);
 }

@@ -8,7 +8,10 @@ mod common;
 use std::f64::consts::PI;
 
 use common::{Rng, apart, asked_set, reach_of};
-use irbkin::{Error, JacobianFrame, JointLimits, OpwParameters, Pose, Robot, SLOTS, Status, batch, pose_to_rows};
+use irbkin::{
+    Error, JacobianFrame, JointLimits, OpwParameters, Pose, Robot, SLOTS, Status, batch,
+    pose_to_rows,
+};
 
 #[derive(Default)]
 struct Tally {
@@ -32,7 +35,14 @@ fn poses() -> usize {
 
 impl Tally {
     /// Holds the answers for a pose against forward kinematics and against the joint vector that made it.
-    fn take<const N: usize>(&mut self, robot: &Robot<N>, reach: f64, q: &[f64; N], pose: &Pose, answers: &[[f64; N]]) {
+    fn take<const N: usize>(
+        &mut self,
+        robot: &Robot<N>,
+        reach: f64,
+        q: &[f64; N],
+        pose: &Pose,
+        answers: &[[f64; N]],
+    ) {
         self.poses += 1;
         self.solutions += answers.len();
         let nearest = answers.iter().map(|answer| apart(answer, q)).fold(f64::INFINITY, f64::min);
@@ -43,8 +53,10 @@ impl Tally {
             let residual = robot.residual(answer, pose);
             self.position = self.position.max(residual.position);
             self.rotation = self.rotation.max(residual.rotation);
-            self.wrong += usize::from(residual.position > 3e-15 * reach || residual.rotation > 1e-14);
-            self.twice += answers.iter().skip(i + 1).filter(|other| apart(other, answer) < 1e-9).count();
+            self.wrong +=
+                usize::from(residual.position > 3e-15 * reach || residual.rotation > 1e-14);
+            self.twice +=
+                answers.iter().skip(i + 1).filter(|other| apart(other, answer) < 1e-9).count();
         }
     }
 }
@@ -87,7 +99,9 @@ where
     while left > 0 {
         let joints: Vec<_> = (0..left.min(PART)).map(|_| rng.inside(robot.limits())).collect();
         let poses: Vec<_> = joints.iter().map(|q| robot.fk(q)).collect();
-        for ((q, pose), answers) in joints.iter().zip(&poses).zip(solved_together(robot, &poses, &joints)) {
+        for ((q, pose), answers) in
+            joints.iter().zip(&poses).zip(solved_together(robot, &poses, &joints))
+        {
             alone.take(robot, reach, q, pose, &robot.alone(pose, q));
             together.take(robot, reach, q, pose, &answers);
         }
@@ -97,7 +111,11 @@ where
 }
 
 /// The solutions of each pose of a batch.
-fn solved_together<const N: usize>(robot: &Robot<N>, poses: &[Pose], joints: &[[f64; N]]) -> Vec<Vec<[f64; N]>>
+fn solved_together<const N: usize>(
+    robot: &Robot<N>,
+    poses: &[Pose],
+    joints: &[[f64; N]],
+) -> Vec<Vec<[f64; N]>>
 where
     Robot<N>: Solves<N>,
 {
@@ -105,7 +123,8 @@ where
     let (mut q, mut status) = (vec![[0.0; N]; SLOTS * poses.len()], vec![0; SLOTS * poses.len()]);
     robot.together(&rows, joints, q.as_flattened_mut(), &mut status);
     let found = |(q, flags): (&[f64; N], &u8)| (flags & Status::FOUND.bits() != 0).then_some(*q);
-    let of_a_pose = |(q, status): (&[[f64; N]], &[u8])| q.iter().zip(status).filter_map(found).collect();
+    let of_a_pose =
+        |(q, status): (&[[f64; N]], &[u8])| q.iter().zip(status).filter_map(found).collect();
     q.chunks(SLOTS).zip(status.chunks(SLOTS)).map(of_a_pose).collect()
 }
 
@@ -122,7 +141,8 @@ where
 {
     let (set, reach) = (asked_set().name(), reach_of(robot));
     for (way, tally) in ["one by one", "in a batch"].iter().zip(tally(robot, reach)) {
-        let Tally { poses, lost, coarse, wrong, twice, solutions, position, rotation, recall } = tally;
+        let Tally { poses, lost, coarse, wrong, twice, solutions, position, rotation, recall } =
+            tally;
         #[expect(clippy::cast_precision_loss, reason = "a mean")]
         let mean = solutions as f64 / poses as f64;
         println!(
@@ -136,7 +156,14 @@ where
 
 #[test]
 fn every_generating_joint_vector_is_found() {
-    for name in ["IRB 2600-12/1.65", "IRB 120-3/0.58", "IRB 140-6/0.81", "IRB 1600-6/1.45", "IRB 6700-150/3.2", "IRB 2400-10/1.55"] {
+    for name in [
+        "IRB 2600-12/1.65",
+        "IRB 120-3/0.58",
+        "IRB 140-6/0.81",
+        "IRB 1600-6/1.45",
+        "IRB 6700-150/3.2",
+        "IRB 2400-10/1.55",
+    ] {
         check(name, &Robot::<6>::named(name).unwrap());
     }
 }
@@ -144,7 +171,8 @@ fn every_generating_joint_vector_is_found() {
 #[test]
 fn arms_of_other_makers_lose_nothing() -> Result<(), Error> {
     check("KUKA KR 6 R700", &common::kuka_kr6()?);
-    let lateral = OpwParameters { b: 0.05, ..OpwParameters::abb(0.15, -0.11, 0.45, 0.6, 0.64, 0.1) };
+    let lateral =
+        OpwParameters { b: 0.05, ..OpwParameters::abb(0.15, -0.11, 0.45, 0.6, 0.64, 0.1) };
     check("lateral offset 50 mm", &Robot::from_opw(lateral)?);
     Ok(())
 }
@@ -153,7 +181,8 @@ fn arms_of_other_makers_lose_nothing() -> Result<(), Error> {
 fn arms_with_three_parallel_axes_lose_nothing() {
     for name in ["UR3", "UR5e", "UR10e", "UR20"] {
         // Their joints turn twice: each pose would be drawn as often with full turns as without.
-        let robot = Robot::named(name).unwrap().with_limits(JointLimits::new([[-PI, PI]; 6]).unwrap());
+        let robot =
+            Robot::named(name).unwrap().with_limits(JointLimits::new([[-PI, PI]; 6]).unwrap());
         check(name, &robot);
     }
 }

@@ -1,5 +1,11 @@
 //! Robots from URDF: what arrives, and what is refused in which words.
-#![allow(clippy::unwrap_used, clippy::float_cmp, clippy::cast_possible_truncation, clippy::cast_sign_loss, missing_docs)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::float_cmp,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    missing_docs
+)]
 
 mod common;
 
@@ -43,7 +49,8 @@ fn agrees(text: &str, other: &Robot<6>, bound: f64) {
             continue;
         }
         let (found, wanted) = (robot.ik(&pose).unwrap(), other.ik(&pose).unwrap());
-        let slots = |solutions: &irbkin::Solutions<6>| solutions.iter().map(|s| s.slot).collect::<Vec<_>>();
+        let slots =
+            |solutions: &irbkin::Solutions<6>| solutions.iter().map(|s| s.slot).collect::<Vec<_>>();
         assert_eq!(slots(&found), slots(&wanted), "{q:?}");
         for (a, b) in found.iter().zip(wanted.iter()) {
             assert!(common::apart(&a.q, &b.q) <= 1e5 * bound, "{:?} {:?}", a.q, b.q);
@@ -64,7 +71,13 @@ fn arms_of_a_known_form_have_their_inverse_and_their_slots() {
         // Their tips stand turned to one another.
         let (a, b) = (upright.fk(&q).translation.vector, rounded.fk(&q).translation.vector);
         assert!((a - b).norm() <= 3e-9);
-        assert!(rounded.ik(&rounded.fk(&q)).unwrap().iter().all(|s| rounded.residual(&s.q, &rounded.fk(&q)).largest() < 1e-13));
+        assert!(
+            rounded
+                .ik(&rounded.fk(&q))
+                .unwrap()
+                .iter()
+                .all(|s| rounded.residual(&s.q, &rounded.fk(&q)).largest() < 1e-13)
+        );
     }
 }
 
@@ -83,7 +96,8 @@ fn names_limits_and_velocities_arrive() {
 #[test]
 fn a_continuous_joint_has_no_limits_and_an_absent_limit_is_zero() {
     let change = |from: &str, to: &str| six(&IRB2600.replace(from, to), None, None).unwrap();
-    let robot = change("name=\"joint_1\" type=\"revolute\"", "name=\"joint_1\" type=\"continuous\"");
+    let robot =
+        change("name=\"joint_1\" type=\"revolute\"", "name=\"joint_1\" type=\"continuous\"");
     assert_eq!(robot.limits().to_array()[0], [f64::NEG_INFINITY, f64::INFINITY]);
     assert!(robot.max_velocity().is_some());
     let robot = change("lower=\"-3.141592653589793\" ", "");
@@ -96,9 +110,15 @@ fn a_velocity_that_is_absent_or_zero_is_unknown() {
     let velocity = "velocity=\"8.726646259971648\"";
     assert!(IRB2600.contains(velocity));
     for unknown in ["", "velocity=\"0\"", "velocity=\"-0.0\""] {
-        assert_eq!(six(&IRB2600.replace(velocity, unknown), None, None).unwrap().max_velocity(), None);
+        assert_eq!(
+            six(&IRB2600.replace(velocity, unknown), None, None).unwrap().max_velocity(),
+            None
+        );
     }
-    assert_eq!(words(&IRB2600.replace(velocity, "velocity=\"-2\"")), "joint 6 velocity is -2 rad/s, it must be positive");
+    assert_eq!(
+        words(&IRB2600.replace(velocity, "velocity=\"-2\"")),
+        "joint 6 velocity is -2 rad/s, it must be positive"
+    );
 }
 
 #[test]
@@ -110,7 +130,9 @@ fn base_and_tip_choose_the_chain() {
     let off = PoseError::between(&tool.fk(&q), &(half_turn * inner.fk(&q)));
     // The tool frame of the description is the last link's.
     assert!(off.largest() <= 1e-14, "{off:?}");
-    assert!((Robot::<7>::from_urdf(PANDA, None, None).unwrap().mdh().rows[6].d - 0.2104).abs() <= 1e-15);
+    assert!(
+        (Robot::<7>::from_urdf(PANDA, None, None).unwrap().mdh().rows[6].d - 0.2104).abs() <= 1e-15
+    );
 }
 
 #[test]
@@ -119,17 +141,29 @@ fn a_tip_is_never_guessed() {
         words(UR5E),
         "URDF: 6 revolute joints lead from \"base_link\" to several ends: \"ft_frame\", \"tool0\"; tip must name the one to take"
     );
-    assert_eq!(words(SEVEN), "URDF: 6 revolute joints lead from \"link_0\" to no end of a chain: \"link_ee\" (7)");
+    assert_eq!(
+        words(SEVEN),
+        "URDF: 6 revolute joints lead from \"link_0\" to no end of a chain: \"link_ee\" (7)"
+    );
     let ends = "\"panda_hand_tcp\" (7), \"panda_leftfinger\" (behind joint \"panda_finger_joint1\", prismatic), \"panda_rightfinger\" (behind \
                 joint \"panda_finger_joint2\", prismatic)";
-    assert_eq!(words(PANDA), format!("URDF: 6 revolute joints lead from \"panda_link0\" to no end of a chain: {ends}"));
+    assert_eq!(
+        words(PANDA),
+        format!("URDF: 6 revolute joints lead from \"panda_link0\" to no end of a chain: {ends}")
+    );
 }
 
 #[test]
 fn base_and_tip_must_be_links_one_below_the_other() {
     let of = |base, tip| refused(six(UR5E, base, tip));
-    assert_eq!(of(Some("tool0"), Some("base")), "URDF: tip \"base\" does not hang on base \"tool0\"");
-    assert_eq!(of(None, Some("base_link")), "URDF: 0 revolute joints lead from \"base_link\" to \"base_link\", there must be 6");
+    assert_eq!(
+        of(Some("tool0"), Some("base")),
+        "URDF: tip \"base\" does not hang on base \"tool0\""
+    );
+    assert_eq!(
+        of(None, Some("base_link")),
+        "URDF: 0 revolute joints lead from \"base_link\" to \"base_link\", there must be 6"
+    );
     let all = "\"base_link\", \"base\", \"base_link_inertia\", \"shoulder_link\", \"upper_arm_link\", \"forearm_link\", \"wrist_1_link\", \
                \"wrist_2_link\", \"wrist_3_link\", \"ft_frame\", \"flange\", \"tool0\"";
     assert_eq!(of(None, Some("tool")), format!("URDF: tip \"tool\" is no link; there are {all}"));
@@ -138,20 +172,38 @@ fn base_and_tip_must_be_links_one_below_the_other() {
         refused(six(&many, Some("wrist"), None)),
         "URDF: base \"wrist\" is no link; there are \"wrist_1_link\", \"wrist_2_link\", \"wrist_3_link\""
     );
-    assert_eq!(refused(six(&many, Some("zz"), None)), "URDF: base \"zz\" is no link, and no link's name is close to it");
-    assert_eq!(words(&many), "URDF: several links have no parent: \"base_link\", \"a\"; base must name the one to begin at");
+    assert_eq!(
+        refused(six(&many, Some("zz"), None)),
+        "URDF: base \"zz\" is no link, and no link's name is close to it"
+    );
+    assert_eq!(
+        words(&many),
+        "URDF: several links have no parent: \"base_link\", \"a\"; base must name the one to begin at"
+    );
     assert!(six(&many, Some("base_link"), Some("tool0")).is_ok());
 }
 
 #[test]
 fn what_is_no_urdf_is_told_with_its_place() {
     let of = words;
-    assert_eq!(of("<robot>\n <link name='a'>\n</robot>"), "URDF: line 3, column 1 is no XML: expected 'link' tag, not 'robot'");
-    assert_eq!(of("\n\n<robot>\n <link name='a' name='b'/>"), "URDF: line 4, column 17 is no XML: attribute 'name' is already defined");
-    assert_eq!(of("<robot>\n <link name='a'/>"), "URDF: line 2, column 18 is no XML: the text ends before the robot does");
+    assert_eq!(
+        of("<robot>\n <link name='a'>\n</robot>"),
+        "URDF: line 3, column 1 is no XML: expected 'link' tag, not 'robot'"
+    );
+    assert_eq!(
+        of("\n\n<robot>\n <link name='a' name='b'/>"),
+        "URDF: line 4, column 17 is no XML: attribute 'name' is already defined"
+    );
+    assert_eq!(
+        of("<robot>\n <link name='a'/>"),
+        "URDF: line 2, column 18 is no XML: the text ends before the robot does"
+    );
     assert_eq!(of(""), "URDF: line 1, column 1 is no XML: the text ends before the robot does");
     assert_eq!(of("arm.urdf"), "URDF: line 1, column 1 is no XML: unknown token");
-    assert_eq!(of("<!DOCTYPE r [<!ENTITY a 'b'>]><robot/>"), "URDF: line 1, column 1 is no XML: it has a document type, which is not read");
+    assert_eq!(
+        of("<!DOCTYPE r [<!ENTITY a 'b'>]><robot/>"),
+        "URDF: line 1, column 1 is no XML: it has a document type, which is not read"
+    );
     assert_eq!(of("<sdf version='1.6'/>"), "URDF: the first element is <sdf>, it must be <robot>");
     assert_eq!(of("<robot name='a'/>"), "URDF: the robot has no links");
     assert_eq!(of("<robot>\n<link/></robot>"), "URDF: line 2: <link> has no name");
@@ -159,7 +211,10 @@ fn what_is_no_urdf_is_told_with_its_place() {
     let expand = "it must be expanded first (xacro arm.urdf.xacro > arm.urdf)";
     let declared = "<robot xmlns:xacro='http://www.ros.org/wiki/xacro'>\n\n<link name='a'><xacro:box/></link></robot>";
     assert_eq!(of(declared), format!("URDF: line 3 is xacro, <xacro:box>: {expand}"));
-    assert_eq!(of("<robot>\n<xacro:arm/></robot>"), format!("URDF: line 2 is xacro, <xacro:...>: {expand}"));
+    assert_eq!(
+        of("<robot>\n<xacro:arm/></robot>"),
+        format!("URDF: line 2 is xacro, <xacro:...>: {expand}")
+    );
 }
 
 #[test]
@@ -171,24 +226,51 @@ fn a_blank_or_a_mark_before_the_text_does_not_matter() {
 
 #[test]
 fn links_and_joints_must_form_a_tree() {
-    let robot = |inside: &str| words(&format!("<robot name='r'><link name='a'/><link name='b'/><link name='c'/>{inside}</robot>"));
-    let joint = |name: &str, parent: &str, child: &str| {
-        format!("<joint name='{name}' type='fixed'><parent link='{parent}'/><child link='{child}'/></joint>")
+    let robot = |inside: &str| {
+        words(&format!(
+            "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>{inside}</robot>"
+        ))
     };
-    assert_eq!(robot("<link name='b'/>"), "URDF: two links are named \"b\", each must have a name of its own");
+    let joint = |name: &str, parent: &str, child: &str| {
+        format!(
+            "<joint name='{name}' type='fixed'><parent link='{parent}'/><child link='{child}'/></joint>"
+        )
+    };
+    assert_eq!(
+        robot("<link name='b'/>"),
+        "URDF: two links are named \"b\", each must have a name of its own"
+    );
     let twice = joint("j", "a", "b") + &joint("j", "b", "c");
     assert_eq!(robot(&twice), "URDF: two joints are named \"j\", each must have a name of its own");
-    assert_eq!(robot(&joint("j", "a", "x")), "URDF: joint \"j\" has the child \"x\", which is no link");
-    assert_eq!(robot(&joint("j", "y", "a")), "URDF: joint \"j\" has the parent \"y\", which is no link");
+    assert_eq!(
+        robot(&joint("j", "a", "x")),
+        "URDF: joint \"j\" has the child \"x\", which is no link"
+    );
+    assert_eq!(
+        robot(&joint("j", "y", "a")),
+        "URDF: joint \"j\" has the parent \"y\", which is no link"
+    );
     let two = joint("i", "a", "c") + &joint("j", "b", "c");
-    assert_eq!(robot(&two), "URDF: link \"c\" is the child of joints \"i\" and \"j\", it must be that of one");
+    assert_eq!(
+        robot(&two),
+        "URDF: link \"c\" is the child of joints \"i\" and \"j\", it must be that of one"
+    );
     let ring = joint("i", "a", "b") + &joint("j", "b", "c") + &joint("k", "c", "a");
-    assert_eq!(robot(&ring), "URDF: the links \"b\", \"c\", \"a\" form a loop, they must form a tree");
+    assert_eq!(
+        robot(&ring),
+        "URDF: the links \"b\", \"c\", \"a\" form a loop, they must form a tree"
+    );
     let apart = joint("i", "b", "c") + &joint("j", "c", "b");
     assert!(robot(&apart).contains("form a loop, they must form a tree"));
-    assert_eq!(robot(&joint("j", "a", "a")), "URDF: the links \"a\" form a loop, they must form a tree");
+    assert_eq!(
+        robot(&joint("j", "a", "a")),
+        "URDF: the links \"a\" form a loop, they must form a tree"
+    );
     assert_eq!(robot("<joint name='j'/>"), "URDF: line 1: <joint> has no type");
-    assert_eq!(robot("<joint name='j' type='fixed'><child link='a'/></joint>"), "URDF: line 1: <joint> has no <parent link=\"...\">");
+    assert_eq!(
+        robot("<joint name='j' type='fixed'><child link='a'/></joint>"),
+        "URDF: line 1: <joint> has no <parent link=\"...\">"
+    );
     assert_eq!(
         robot("<joint name='j' type='fixed'><parent link='a'/><child/></joint>"),
         "URDF: line 1: <joint> has no <child link=\"...\">"
@@ -209,19 +291,29 @@ fn third(from: &str, to: &str) -> String {
 fn only_joints_that_turn_by_themselves_are_between_base_and_tip() {
     let tool = |text: &str| refused(six(text, None, Some("tool0")));
     for kind in ["prismatic", "planar", "floating", "revolut", "Revolute", ""] {
-        let wanted = format!("URDF: joint \"joint_3\" is {kind:?}, between base and tip it must be revolute, continuous or fixed");
+        let wanted = format!(
+            "URDF: joint \"joint_3\" is {kind:?}, between base and tip it must be revolute, continuous or fixed"
+        );
         assert_eq!(tool(&third("revolute", kind)), wanted);
     }
     let mimic = third("<axis", "<mimic joint=\"joint_2\"/><axis");
-    assert_eq!(tool(&mimic), "URDF: joint \"joint_3\" mimics \"joint_2\", between base and tip each joint must turn by itself");
-    let behind =
-        "URDF: 6 revolute joints lead from \"base_link\" to no end of a chain: \"base\" (0), \"tool0\" (behind joint \"joint_3\", ";
+    assert_eq!(
+        tool(&mimic),
+        "URDF: joint \"joint_3\" mimics \"joint_2\", between base and tip each joint must turn by itself"
+    );
+    let behind = "URDF: 6 revolute joints lead from \"base_link\" to no end of a chain: \"base\" (0), \"tool0\" (behind joint \"joint_3\", ";
     assert_eq!(words(&mimic), format!("{behind}a mimic)"));
     assert_eq!(words(&third("revolute", "prismatic")), format!("{behind}prismatic)"));
     let fixed = third("revolute", "fixed");
-    assert_eq!(tool(&fixed), "URDF: 5 revolute joints lead from \"base_link\" to \"tool0\", there must be 6");
+    assert_eq!(
+        tool(&fixed),
+        "URDF: 5 revolute joints lead from \"base_link\" to \"tool0\", there must be 6"
+    );
     // What is not between them does not matter.
-    let aside = IRB2600.replace("name=\"base_link-base\" type=\"fixed\"", "name=\"base_link-base\" type=\"floating\"");
+    let aside = IRB2600.replace(
+        "name=\"base_link-base\" type=\"fixed\"",
+        "name=\"base_link-base\" type=\"floating\"",
+    );
     assert!(six(&aside, None, None).is_ok());
 }
 
@@ -230,32 +322,81 @@ fn numbers_are_named_with_their_joint() {
     let of = |from, to| words(&third(from, to));
     let xyz = "xyz=\"0 0 0.7\"";
     let joint = "URDF: joint \"joint_3\"";
-    assert_eq!(of(xyz, "xyz=\"0 0\""), format!("{joint} origin xyz is \"0 0\", it must be three numbers"));
-    assert_eq!(of(xyz, "xyz=\"0 0 0.7 1\""), format!("{joint} origin xyz is \"0 0 0.7 1\", it must be three numbers"));
-    assert_eq!(of(xyz, "xyz=\"0 0 0,7\""), format!("{joint} origin xyz is \"0 0 0,7\", it must be three numbers"));
+    assert_eq!(
+        of(xyz, "xyz=\"0 0\""),
+        format!("{joint} origin xyz is \"0 0\", it must be three numbers")
+    );
+    assert_eq!(
+        of(xyz, "xyz=\"0 0 0.7 1\""),
+        format!("{joint} origin xyz is \"0 0 0.7 1\", it must be three numbers")
+    );
+    assert_eq!(
+        of(xyz, "xyz=\"0 0 0,7\""),
+        format!("{joint} origin xyz is \"0 0 0,7\", it must be three numbers")
+    );
     let xacro = "it must be three numbers (is it xacro that was not expanded?)";
-    assert_eq!(of(xyz, "xyz=\"0 0 ${a}\""), format!("{joint} origin xyz is \"0 0 ${{a}}\", {xacro}"));
+    assert_eq!(
+        of(xyz, "xyz=\"0 0 ${a}\""),
+        format!("{joint} origin xyz is \"0 0 ${{a}}\", {xacro}")
+    );
     assert_eq!(of(xyz, "xyz=\"0 0 nan\""), format!("{joint} origin xyz is NaN, it must be finite"));
-    assert_eq!(of(xyz, "xyz=\"0 0 1e999\""), format!("{joint} origin xyz is inf, it must be finite"));
-    assert_eq!(of(xyz, "xyz=\"0 0 1e7\""), format!("{joint} origin xyz is 1e7, its size must be at most 1e6"));
-    assert_eq!(of(xyz, "rpy=\"0 0 1e9\""), format!("{joint} origin rpy is 1e9, its size must be at most 1e5"));
-    assert_eq!(of("xyz=\"0 1 0\"", "xyz=\"0 0 0\""), format!("{joint} axis is 0 0 0, it must have a length"));
-    assert_eq!(of("xyz=\"0 1 0\"", "xyz=\"0 inf 0\""), format!("{joint} axis is inf, it must be finite"));
-    assert_eq!(of("lower=\"-3", "lower=\"x-3"), format!("{joint} limit lower is \"x-3.141592653589793\", it must be a number"));
-    assert_eq!(of("velocity=\"3", "velocity=\"1 3"), format!("{joint} limit velocity is \"1 3.0543261909900767\", it must be a number"));
-    assert_eq!(of("lower=\"-", "lower=\"9"), "joint 3 limit is empty: lower 93.1415926535898 rad > upper 1.3089969389957472 rad");
-    assert_eq!(of("<limit", "<limits"), format!("{joint} is revolute and has no <limit>; a joint without limits is continuous"));
-    assert_eq!(of("<axis", "<axis/><axis"), format!("{joint} has two <axis>, it must have at most one"));
+    assert_eq!(
+        of(xyz, "xyz=\"0 0 1e999\""),
+        format!("{joint} origin xyz is inf, it must be finite")
+    );
+    assert_eq!(
+        of(xyz, "xyz=\"0 0 1e7\""),
+        format!("{joint} origin xyz is 1e7, its size must be at most 1e6")
+    );
+    assert_eq!(
+        of(xyz, "rpy=\"0 0 1e9\""),
+        format!("{joint} origin rpy is 1e9, its size must be at most 1e5")
+    );
+    assert_eq!(
+        of("xyz=\"0 1 0\"", "xyz=\"0 0 0\""),
+        format!("{joint} axis is 0 0 0, it must have a length")
+    );
+    assert_eq!(
+        of("xyz=\"0 1 0\"", "xyz=\"0 inf 0\""),
+        format!("{joint} axis is inf, it must be finite")
+    );
+    assert_eq!(
+        of("lower=\"-3", "lower=\"x-3"),
+        format!("{joint} limit lower is \"x-3.141592653589793\", it must be a number")
+    );
+    assert_eq!(
+        of("velocity=\"3", "velocity=\"1 3"),
+        format!("{joint} limit velocity is \"1 3.0543261909900767\", it must be a number")
+    );
+    assert_eq!(
+        of("lower=\"-", "lower=\"9"),
+        "joint 3 limit is empty: lower 93.1415926535898 rad > upper 1.3089969389957472 rad"
+    );
+    assert_eq!(
+        of("<limit", "<limits"),
+        format!("{joint} is revolute and has no <limit>; a joint without limits is continuous")
+    );
+    assert_eq!(
+        of("<axis", "<axis/><axis"),
+        format!("{joint} has two <axis>, it must have at most one")
+    );
 }
 
 #[test]
 fn absent_numbers_have_the_values_of_the_format() {
     // Axis 1 0 0, origin at rest.
     let robot = six(&third("<axis xyz=\"0 1 0\"/>", ""), None, None).unwrap();
-    let along_x = six(&third("<axis xyz=\"0 1 0\"/>", "<axis xyz=\"1 0 0\"/>"), None, None).unwrap();
+    let along_x =
+        six(&third("<axis xyz=\"0 1 0\"/>", "<axis xyz=\"1 0 0\"/>"), None, None).unwrap();
     assert_eq!(robot, along_x);
-    assert_eq!(six(&third("<origin xyz=\"0 0 0.7\"/>", ""), None, None), six(&third("xyz=\"0 0 0.7\"", ""), None, None));
-    assert_eq!(six(&third("xyz=\"0 0 0.7\"", "xyz=\" \t0\n0  .7 \""), None, None), six(IRB2600, None, None));
+    assert_eq!(
+        six(&third("<origin xyz=\"0 0 0.7\"/>", ""), None, None),
+        six(&third("xyz=\"0 0 0.7\"", ""), None, None)
+    );
+    assert_eq!(
+        six(&third("xyz=\"0 0 0.7\"", "xyz=\" \t0\n0  .7 \""), None, None),
+        six(IRB2600, None, None)
+    );
 }
 
 #[test]
@@ -287,26 +428,47 @@ fn a_hundred_thousand_links_are_read() {
     assert!(message.ends_with("\"l12\" (0) and 99988 more"), "{message}");
     // A spine with a rib on each vertebra: every rib is an end.
     let message = words(&long(100_000, |i| if i % 2 == 0 { i - 1 } else { i.saturating_sub(2) }));
-    assert!(message.starts_with("URDF: 6 revolute joints lead from \"l0\" to no end of a chain: "), "{message}");
+    assert!(
+        message.starts_with("URDF: 6 revolute joints lead from \"l0\" to no end of a chain: "),
+        "{message}"
+    );
     let mut ring = long(100_000, |i| i - 1);
-    ring.insert_str(ring.len() - 8, "<joint name='j' type='fixed'><parent link='l100000'/><child link='l0'/></joint>");
+    ring.insert_str(
+        ring.len() - 8,
+        "<joint name='j' type='fixed'><parent link='l100000'/><child link='l0'/></joint>",
+    );
     assert!(words(&ring).ends_with("and 99989 more form a loop, they must form a tree"));
 }
 
 #[test]
 fn hostile_text_is_refused_without_a_panic() {
-    let nested = "<robot><link name='a'>".to_owned() + &"<x>".repeat(200_000) + &"</x>".repeat(200_000) + "</link></robot>";
-    assert_eq!(words(&nested), "URDF: 6 revolute joints lead from \"a\" to no end of a chain: \"a\" (0)");
+    let nested = "<robot><link name='a'>".to_owned()
+        + &"<x>".repeat(200_000)
+        + &"</x>".repeat(200_000)
+        + "</link></robot>";
+    assert_eq!(
+        words(&nested),
+        "URDF: 6 revolute joints lead from \"a\" to no end of a chain: \"a\" (0)"
+    );
     words(&"<x>".repeat(500_000));
     let mut bomb = String::from("<!DOCTYPE r [<!ENTITY e0 'lol'>");
     for i in 1..10 {
         write!(bomb, "<!ENTITY e{i} '{}'>", format!("&e{};", i - 1).repeat(10)).unwrap();
     }
     bomb += "]><robot name='&e9;'/>";
-    assert_eq!(words(&bomb), "URDF: line 1, column 1 is no XML: it has a document type, which is not read");
-    assert_eq!(words("<robot name='&lol;'/>"), "URDF: line 1, column 14 is no XML: unknown entity reference 'lol'");
+    assert_eq!(
+        words(&bomb),
+        "URDF: line 1, column 1 is no XML: it has a document type, which is not read"
+    );
+    assert_eq!(
+        words("<robot name='&lol;'/>"),
+        "URDF: line 1, column 14 is no XML: unknown entity reference 'lol'"
+    );
     let huge = format!("xyz=\"0 0 {}\"", "9".repeat(400));
-    assert_eq!(words(&third("xyz=\"0 0 0.7\"", &huge)), "URDF: joint \"joint_3\" origin xyz is inf, it must be finite");
+    assert_eq!(
+        words(&third("xyz=\"0 0 0.7\"", &huge)),
+        "URDF: joint \"joint_3\" origin xyz is inf, it must be finite"
+    );
     let endless = format!("xyz=\"{}\"", "x".repeat(1_000_000));
     assert!(words(&third("xyz=\"0 0 0.7\"", &endless)).len() < 200);
     assert!(words("<robot><link name='a&#10;\u{1b}[31m'/></robot>").contains("is no XML"));
@@ -319,7 +481,25 @@ fn hostile_text_is_refused_without_a_panic() {
 fn damaged_text_never_panics() {
     let mut rng = Rng::new(3);
     let mut below = |bound: usize| (rng.unit() * f64::from(u32::try_from(bound).unwrap())) as usize;
-    let pieces = ["<", ">", "\"", "/", "0", "-", "e9", ".", " ", "nan", "&", "<joint", "link=", "\u{0}", "é", "<axis/>", "base_link"];
+    let pieces = [
+        "<",
+        ">",
+        "\"",
+        "/",
+        "0",
+        "-",
+        "e9",
+        ".",
+        " ",
+        "nan",
+        "&",
+        "<joint",
+        "link=",
+        "\u{0}",
+        "é",
+        "<axis/>",
+        "base_link",
+    ];
     let mut taken = 0;
     for _ in 0..5000 {
         let mut text = IRB2600.to_owned();
@@ -331,7 +511,9 @@ fn damaged_text_never_panics() {
             }
         }
         match six(&text, None, None) {
-            Ok(robot) => taken += usize::from(robot.fk(&[0.1; 6]).translation.vector.norm().is_finite()),
+            Ok(robot) => {
+                taken += usize::from(robot.fk(&[0.1; 6]).translation.vector.norm().is_finite())
+            }
             Err(error) => assert!(matches!(error, Error::InvalidModel(_)), "{error}"),
         }
     }
@@ -342,8 +524,16 @@ fn damaged_text_never_panics() {
 #[test]
 fn nearly_parallel_axes_are_told_apart_from_parallel_ones() {
     // Nine decimals: 2e-10 off, taken as parallel. Seven: 5e-8 off, the common normal is too far away. One: two axes like any other.
-    let of =
-        |roll: &str| six(&third("<origin xyz=\"0 0 0.7\"/>", &format!("<origin xyz=\"0.1 0.02 0.7\" rpy=\"{roll} 0 0\"/>")), None, None);
+    let of = |roll: &str| {
+        six(
+            &third(
+                "<origin xyz=\"0 0 0.7\"/>",
+                &format!("<origin xyz=\"0.1 0.02 0.7\" rpy=\"{roll} 0 0\"/>"),
+            ),
+            None,
+            None,
+        )
+    };
     assert_eq!(of("3.141592654").unwrap().mdh().rows[2].alpha, PI);
     assert_eq!(
         refused(of("3.1415927")),

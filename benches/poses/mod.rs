@@ -20,8 +20,12 @@ pub(crate) const Q_PANDA: [f64; 7] = [0.1, -0.7, 0.2, -2.2, 0.1, 1.7, 0.6];
 pub(crate) fn joints<const N: usize>(robot: &Robot<N>, count: u32) -> Vec<f64> {
     let steps = [2.0_f64, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0].map(f64::sqrt);
     let limits = robot.limits().to_array();
-    let vector =
-        |i| (0..N).map(move |joint| limits[joint][0] + (limits[joint][1] - limits[joint][0]) * (f64::from(i) * steps[joint]).fract());
+    let vector = |i| {
+        (0..N).map(move |joint| {
+            limits[joint][0]
+                + (limits[joint][1] - limits[joint][0]) * (f64::from(i) * steps[joint]).fract()
+        })
+    };
     (1..=count).flat_map(vector).collect()
 }
 

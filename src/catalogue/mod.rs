@@ -123,7 +123,11 @@ impl<const N: usize> Robot<N> {
         let wrong_count = || Error::from(ModelFault::JointCount { found: arm.dof(), wanted: N });
         let limits: &[[f64; 2]; N] = arm.limits.try_into().map_err(|_| wrong_count())?;
         let velocity = match arm.max_velocity {
-            Some(velocity) => Some(<[f64; N]>::try_from(velocity).map_err(|_| wrong_count())?.map(|v| arm.angles.to_radians(v))),
+            Some(velocity) => Some(
+                <[f64; N]>::try_from(velocity)
+                    .map_err(|_| wrong_count())?
+                    .map(|v| arm.angles.to_radians(v)),
+            ),
             None => None,
         };
         let robot = match arm.geometry {
@@ -132,18 +136,30 @@ impl<const N: usize> Robot<N> {
                 Self::of_opw(OpwParameters::abb(a1, a2, c1, c2, c3, c4))?.with_coupling(coupled)
             }
             CatalogueGeometry::ThreeParallel { d1, a2, a3, d4, d5, d6 } => {
-                let rows = [(90.0, 0.0, d1), (0.0, a2, 0.0), (0.0, a3, 0.0), (90.0, 0.0, d4), (-90.0, 0.0, d5), (0.0, 0.0, d6)];
-                let rows = rows.map(|(alpha, a, d): (f64, f64, f64)| DhRow::new(alpha.to_radians(), a / 1e3, d / 1e3, 0.0));
+                let rows = [
+                    (90.0, 0.0, d1),
+                    (0.0, a2, 0.0),
+                    (0.0, a3, 0.0),
+                    (90.0, 0.0, d4),
+                    (-90.0, 0.0, d5),
+                    (0.0, 0.0, d6),
+                ];
+                let rows = rows.map(|(alpha, a, d): (f64, f64, f64)| {
+                    DhRow::new(alpha.to_radians(), a / 1e3, d / 1e3, 0.0)
+                });
                 let rows = <[DhRow; N]>::try_from(&rows[..]).map_err(|_| wrong_count())?;
                 Self::from_sdh(Sdh { base: Pose::identity(), rows, flange: Pose::identity() })?
             }
             CatalogueGeometry::Mdh(rows) => {
                 let rows = <[[f64; 4]; N]>::try_from(rows).map_err(|_| wrong_count())?;
-                let rows = rows.map(|[alpha, a, d, theta]| DhRow::new(alpha.to_radians(), a / 1e3, d / 1e3, theta.to_radians()));
+                let rows = rows.map(|[alpha, a, d, theta]| {
+                    DhRow::new(alpha.to_radians(), a / 1e3, d / 1e3, theta.to_radians())
+                });
                 Self::from_mdh(Mdh { base: Pose::identity(), rows, flange: Pose::identity() })?
             }
         };
-        let limits = JointLimits::new(limits.map(|limit| limit.map(|angle| arm.angles.to_radians(angle))))?;
+        let limits =
+            JointLimits::new(limits.map(|limit| limit.map(|angle| arm.angles.to_radians(angle))))?;
         robot.with_name(arm.name).with_limits(limits).with_max_velocity(velocity)
     }
 }

@@ -19,9 +19,9 @@ const MOST_CLOSE: usize = 6;
 /// [`Error::UnknownRobot`] with up to six names that are close, the closest first.
 pub fn find(name: &str) -> Result<&'static CatalogueArm, Error> {
     let wanted = squeezed(name);
-    catalogue()
-        .find(|arm| squeezed(arm.name) == wanted)
-        .ok_or_else(|| Error::UnknownRobot(UnknownRobot { name: name.to_owned(), close: close_to(&wanted) }))
+    catalogue().find(|arm| squeezed(arm.name) == wanted).ok_or_else(|| {
+        Error::UnknownRobot(UnknownRobot { name: name.to_owned(), close: close_to(&wanted) })
+    })
 }
 
 /// A name without what does not matter in it.
@@ -32,7 +32,14 @@ fn squeezed(name: &str) -> String {
     let mut characters = name.chars().peekable();
     while let Some(c) = characters.next() {
         // A decimal comma.
-        let c = if c == ',' && before.is_ascii_digit() && characters.peek().is_some_and(char::is_ascii_digit) { '.' } else { c };
+        let c = if c == ','
+            && before.is_ascii_digit()
+            && characters.peek().is_some_and(char::is_ascii_digit)
+        {
+            '.'
+        } else {
+            c
+        };
         before = c;
         if !c.is_ascii_digit() {
             trim_decimals(&mut squeezed, point.take());
@@ -40,7 +47,12 @@ fn squeezed(name: &str) -> String {
         if c == '.' {
             point = Some(squeezed.len());
         }
-        if !c.is_whitespace() && !matches!(c, '-' | '\u{2010}'..='\u{2015}' | '\u{2212}' | '_' | '/' | ',' | '(' | ')') {
+        if !c.is_whitespace()
+            && !matches!(
+                c,
+                '-' | '\u{2010}'..='\u{2015}' | '\u{2212}' | '_' | '/' | ',' | '(' | ')'
+            )
+        {
             squeezed.extend(c.to_lowercase());
         }
     }
@@ -81,10 +93,14 @@ fn spelled_like(wanted: &str) -> Vec<&'static str> {
     let similarity = |arm: &CatalogueArm| {
         let name = squeezed(arm.name);
         let start: String = name.chars().take(wanted.chars().count()).collect();
-        let [whole, start] = [name, start].map(|name| strsim::normalized_damerau_levenshtein(&name, wanted));
+        let [whole, start] =
+            [name, start].map(|name| strsim::normalized_damerau_levenshtein(&name, wanted));
         whole.max(start)
     };
-    let mut ranked: Vec<_> = catalogue().map(|arm| (similarity(arm), arm.name)).filter(|(s, _)| *s >= LEAST_SIMILARITY).collect();
+    let mut ranked: Vec<_> = catalogue()
+        .map(|arm| (similarity(arm), arm.name))
+        .filter(|(s, _)| *s >= LEAST_SIMILARITY)
+        .collect();
     ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
     ranked.into_iter().map(|(_, name)| name).take(MOST_CLOSE).collect()
 }

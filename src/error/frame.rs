@@ -33,10 +33,16 @@ impl fmt::Display for FrameFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Held { both: true } => {
-                write!(f, "the robot holds the tool and the work object: robhold must be TRUE for one of them")
+                write!(
+                    f,
+                    "the robot holds the tool and the work object: robhold must be TRUE for one of them"
+                )
             }
             Self::Held { both: false } => {
-                write!(f, "the robot holds neither the tool nor the work object: robhold must be TRUE for one of them")
+                write!(
+                    f,
+                    "the robot holds neither the tool nor the work object: robhold must be TRUE for one of them"
+                )
             }
             Self::Moved { unit } => write!(
                 f,

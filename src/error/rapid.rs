@@ -251,44 +251,92 @@ impl fmt::Display for RapidFaultKind {
             Self::UnterminatedString => write!(f, "the string has no closing quote on its line"),
             Self::BadNumber { text } => write!(f, "{text} is no number"),
             Self::NotFinite { text } => write!(f, "{text} is not finite, every number must be"),
-            Self::UnexpectedCharacter { character } => write!(f, "{character:?} has no place outside a string or a comment"),
+            Self::UnexpectedCharacter { character } => {
+                write!(f, "{character:?} has no place outside a string or a comment")
+            }
             Self::Unclosed { bracket } => write!(f, "{bracket} is not closed"),
             Self::Unexpected { found, wanted } => write!(f, "{found} stands where {wanted} must"),
-            Self::UnexpectedEnd { inside, missing } => write!(f, "the text ends inside {inside}: {missing} is missing"),
-            Self::ComponentCount { thing, part, found, wanted } => {
-                write!(f, "{} has {}, it must have {wanted}", Part(thing, part), Count(*found, "component"))
+            Self::UnexpectedEnd { inside, missing } => {
+                write!(f, "the text ends inside {inside}: {missing} is missing")
             }
-            Self::ComponentType { thing, part, found, wanted } => write!(f, "{} is {found}, it must be {wanted}", Part(thing, part)),
-            Self::NotWhole { thing, part, value } => write!(f, "{} is {value}, it must be a whole number", Part(thing, part)),
-            Self::NoSuchComponent { text, of, component } => write!(f, "{text}: {of} has no component {component}"),
+            Self::ComponentCount { thing, part, found, wanted } => {
+                write!(
+                    f,
+                    "{} has {}, it must have {wanted}",
+                    Part(thing, part),
+                    Count(*found, "component")
+                )
+            }
+            Self::ComponentType { thing, part, found, wanted } => {
+                write!(f, "{} is {found}, it must be {wanted}", Part(thing, part))
+            }
+            Self::NotWhole { thing, part, value } => {
+                write!(f, "{} is {value}, it must be a whole number", Part(thing, part))
+            }
+            Self::NoSuchComponent { text, of, component } => {
+                write!(f, "{text}: {of} has no component {component}")
+            }
             Self::ArraySize { thing, dimension, found, wanted } => {
-                write!(f, "{thing}: dimension {dimension} has {}, it must have {wanted}", Count(*found, "element"))
+                write!(
+                    f,
+                    "{thing}: dimension {dimension} has {}, it must have {wanted}",
+                    Count(*found, "element")
+                )
             }
             Self::ArrayDimension { thing, dimension, value } => {
-                write!(f, "{thing}: size of dimension {dimension} is {value}, it must be a positive whole number")
+                write!(
+                    f,
+                    "{thing}: size of dimension {dimension} is {value}, it must be a positive whole number"
+                )
             }
             Self::Dimensions { thing, found, bound } => {
-                write!(f, "{thing} has {}, it must have at most {bound}", Count(*found, "dimension"))
+                write!(
+                    f,
+                    "{thing} has {}, it must have at most {bound}",
+                    Count(*found, "dimension")
+                )
             }
-            Self::Index { text, value, size } => write!(f, "{text}: index {value} must be a whole number from 1 to {size}"),
+            Self::Index { text, value, size } => {
+                write!(f, "{text}: index {value} must be a whole number from 1 to {size}")
+            }
             Self::IndexCount { text, found, wanted } => {
                 let indices = if *found == 1 { "index" } else { "indices" };
                 write!(f, "{text} has {found} {indices}, ")?;
-                if *wanted == 0 { write!(f, "and it is no array") } else { write!(f, "it must have {wanted}") }
+                if *wanted == 0 {
+                    write!(f, "and it is no array")
+                } else {
+                    write!(f, "it must have {wanted}")
+                }
             }
-            Self::SameName { name, routine: None } => write!(f, "{name} is declared twice in the module"),
-            Self::SameName { name, routine: Some(routine) } => write!(f, "{name} is declared twice in {routine}"),
-            Self::Circular { names } => write!(f, "values refer to one another in a circle: {names}"),
-            Self::TooLong { what, found, bound } => write!(f, "a {what} has {found} bytes, it must have at most {bound}"),
-            Self::TooDeep { bound } => write!(f, "nested deeper than {bound}, the deepest that is read"),
+            Self::SameName { name, routine: None } => {
+                write!(f, "{name} is declared twice in the module")
+            }
+            Self::SameName { name, routine: Some(routine) } => {
+                write!(f, "{name} is declared twice in {routine}")
+            }
+            Self::Circular { names } => {
+                write!(f, "values refer to one another in a circle: {names}")
+            }
+            Self::TooLong { what, found, bound } => {
+                write!(f, "a {what} has {found} bytes, it must have at most {bound}")
+            }
+            Self::TooDeep { bound } => {
+                write!(f, "nested deeper than {bound}, the deepest that is read")
+            }
             Self::SecondModule => write!(f, "a second module begins, a text must hold one"),
             Self::ArgumentCount { instruction, found, wanted } => {
                 write!(f, "{instruction} has {}, it must have {wanted}", Count(*found, "argument"))
             }
             Self::NotAName { name } => write!(f, "{name:?} is no name that RAPID could read"),
-            Self::NoRecord { text } => write!(f, "{text} is no robtarget, jointtarget, tooldata, wobjdata, pose or loaddata"),
+            Self::NoRecord { text } => write!(
+                f,
+                "{text} is no robtarget, jointtarget, tooldata, wobjdata, pose or loaddata"
+            ),
             Self::OtherText { found, wanted } => {
-                write!(f, "this is not the text of the module: it has {found} bytes, it must have {wanted}")
+                write!(
+                    f,
+                    "this is not the text of the module: it has {found} bytes, it must have {wanted}"
+                )
             }
             Self::TwoValues { thing } => write!(f, "{thing} is to get two values"),
             Self::NoSuchValue { what } => write!(f, "there is no {what}"),

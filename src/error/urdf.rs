@@ -229,51 +229,107 @@ impl fmt::Display for UrdfFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotUtf8 { byte } => write!(f, "byte {byte} is no UTF-8"),
-            Self::NotXml { line, column, what } => write!(f, "line {line}, column {column} is no XML: {what}"),
-            Self::NotRobot { found } => write!(f, "the first element is <{found}>, it must be <robot>"),
+            Self::NotXml { line, column, what } => {
+                write!(f, "line {line}, column {column} is no XML: {what}")
+            }
+            Self::NotRobot { found } => {
+                write!(f, "the first element is <{found}>, it must be <robot>")
+            }
             Self::Xacro { line, element } => {
-                write!(f, "line {line} is xacro, <{element}>: it must be expanded first (xacro arm.urdf.xacro > arm.urdf)")
+                write!(
+                    f,
+                    "line {line} is xacro, <{element}>: it must be expanded first (xacro arm.urdf.xacro > arm.urdf)"
+                )
             }
-            Self::Missing { line, element, missing } => write!(f, "line {line}: <{element}> has no {missing}"),
-            Self::SameName { element, name } => write!(f, "two {element}s are named {name:?}, each must have a name of its own"),
-            Self::Twice { joint, element } => write!(f, "joint {joint:?} has two <{element}>, it must have at most one"),
-            Self::UnknownLink { joint, role, link } => write!(f, "joint {joint:?} has the {role} {link:?}, which is no link"),
+            Self::Missing { line, element, missing } => {
+                write!(f, "line {line}: <{element}> has no {missing}")
+            }
+            Self::SameName { element, name } => {
+                write!(f, "two {element}s are named {name:?}, each must have a name of its own")
+            }
+            Self::Twice { joint, element } => {
+                write!(f, "joint {joint:?} has two <{element}>, it must have at most one")
+            }
+            Self::UnknownLink { joint, role, link } => {
+                write!(f, "joint {joint:?} has the {role} {link:?}, which is no link")
+            }
             Self::TwoParents { link, joints: [one, two] } => {
-                write!(f, "link {link:?} is the child of joints {one:?} and {two:?}, it must be that of one")
+                write!(
+                    f,
+                    "link {link:?} is the child of joints {one:?} and {two:?}, it must be that of one"
+                )
             }
-            Self::Loop { links } => write!(f, "the links {links} form a loop, they must form a tree"),
+            Self::Loop { links } => {
+                write!(f, "the links {links} form a loop, they must form a tree")
+            }
             Self::Roots { links } if links.listed.is_empty() => write!(f, "the robot has no links"),
-            Self::Roots { links } => write!(f, "several links have no parent: {links}; base must name the one to begin at"),
+            Self::Roots { links } => write!(
+                f,
+                "several links have no parent: {links}; base must name the one to begin at"
+            ),
             Self::NoSuchLink { field, name, links } if links.listed.is_empty() => {
                 write!(f, "{field} {name:?} is no link, and no link's name is close to it")
             }
-            Self::NoSuchLink { field, name, links } => write!(f, "{field} {name:?} is no link; there are {links}"),
+            Self::NoSuchLink { field, name, links } => {
+                write!(f, "{field} {name:?} is no link; there are {links}")
+            }
             Self::NotBelow { tip, base } => write!(f, "tip {tip:?} does not hang on base {base:?}"),
             Self::SeveralTips { base, wanted, tips } => {
                 let wanted = Counts(wanted);
-                write!(f, "{wanted} revolute joints lead from {base:?} to several ends: {tips}; tip must name the one to take")
+                write!(
+                    f,
+                    "{wanted} revolute joints lead from {base:?} to several ends: {tips}; tip must name the one to take"
+                )
             }
             Self::NoTip { base, wanted, ends } => {
-                write!(f, "{} revolute joints lead from {base:?} to no end of a chain: {ends}", Counts(wanted))
+                write!(
+                    f,
+                    "{} revolute joints lead from {base:?} to no end of a chain: {ends}",
+                    Counts(wanted)
+                )
             }
             Self::JointType { joint, kind } => {
-                write!(f, "joint {joint:?} is {kind:?}, between base and tip it must be revolute, continuous or fixed")
+                write!(
+                    f,
+                    "joint {joint:?} is {kind:?}, between base and tip it must be revolute, continuous or fixed"
+                )
             }
-            Self::Mimic { joint, of } => write!(f, "joint {joint:?} mimics {of:?}, between base and tip each joint must turn by itself"),
+            Self::Mimic { joint, of } => write!(
+                f,
+                "joint {joint:?} mimics {of:?}, between base and tip each joint must turn by itself"
+            ),
             Self::JointCount { base, tip, found, wanted } => {
-                write!(f, "{found} revolute joints lead from {base:?} to {tip:?}, there must be {}", Counts(wanted))
+                write!(
+                    f,
+                    "{found} revolute joints lead from {base:?} to {tip:?}, there must be {}",
+                    Counts(wanted)
+                )
             }
-            Self::NoLimit { joint } => write!(f, "joint {joint:?} is revolute and has no <limit>; a joint without limits is continuous"),
+            Self::NoLimit { joint } => write!(
+                f,
+                "joint {joint:?} is revolute and has no <limit>; a joint without limits is continuous"
+            ),
             Self::NotNumbers { joint, field, text, wanted } => {
                 let of = if *wanted == 1 { "a number" } else { "three numbers" };
                 write!(f, "joint {joint:?} {field} is {text:?}, it must be {of}")?;
-                if text.contains('$') { write!(f, " (is it xacro that was not expanded?)") } else { Ok(()) }
+                if text.contains('$') {
+                    write!(f, " (is it xacro that was not expanded?)")
+                } else {
+                    Ok(())
+                }
             }
-            Self::NotFinite { joint, field, value } => write!(f, "joint {joint:?} {field} is {value}, it must be finite"),
+            Self::NotFinite { joint, field, value } => {
+                write!(f, "joint {joint:?} {field} is {value}, it must be finite")
+            }
             Self::TooLarge { joint, field, value, bound } => {
-                write!(f, "joint {joint:?} {field} is {value:e}, its size must be at most {bound:e}")
+                write!(
+                    f,
+                    "joint {joint:?} {field} is {value:e}, its size must be at most {bound:e}"
+                )
             }
-            Self::NoAxis { joint } => write!(f, "joint {joint:?} axis is 0 0 0, it must have a length"),
+            Self::NoAxis { joint } => {
+                write!(f, "joint {joint:?} axis is 0 0 0, it must have a length")
+            }
         }
     }
 }

@@ -1,69 +1,42 @@
 //! The kinematics of serial arms.
 
-mod angles;
-mod axes;
-mod block;
-mod branches;
+mod answer;
 mod chain;
-mod configuration;
-mod coupling;
-mod crossing;
-mod dh;
-mod family;
-mod follow;
-mod forward;
-mod free_choice;
-mod geometry;
-mod inverse;
-mod jacobian;
-mod joint_axes;
-mod limits;
-mod placement;
-mod planar_arm;
+mod path;
 mod pose;
-mod recognition;
-mod redundancy;
 mod robot;
-mod rotation;
-mod select;
-mod self_motion;
-mod singularity;
-mod solutions;
-mod spherical_shoulder;
-mod spherical_wrist;
-mod status;
-mod surroundings;
-mod three_parallel;
+mod solve;
+mod structure;
 pub mod thresholds;
-mod zyz;
 
-pub(crate) use angles::constant_sin_cos;
-pub use chain::Chain;
-pub use configuration::Configuration;
-pub use crossing::{Crossing, FollowOptions};
-pub use dh::{DhRow, Mdh, Sdh};
-pub use follow::{Break, BreakReason, Followed, Follower};
-pub(crate) use inverse::Inverse;
 #[cfg(feature = "python")]
-pub(crate) use inverse::check_given;
-pub use jacobian::JacobianFrame;
-pub use joint_axes::JointAxis;
+pub(crate) use answer::select::Cost;
+pub(crate) use answer::select::{check_joints, check_weights};
+pub use answer::singularity::{SingularDistances, Singularity};
+pub use answer::solutions::{FreeJoint, SLOTS, Solution, Solutions};
+pub use answer::status::{Explanation, Reach, Status};
+pub use chain::Chain;
+pub use chain::dh::{DhRow, Mdh, Sdh};
+pub use chain::jacobian::JacobianFrame;
+pub use chain::joint_axes::JointAxis;
 #[cfg(feature = "urdf")]
-pub(crate) use joint_axes::unit;
-pub use limits::JointLimits;
+pub(crate) use chain::joint_axes::unit;
+pub use chain::limits::JointLimits;
+pub use path::crossing::{Crossing, FollowOptions};
+pub use path::follow::{Break, BreakReason, Followed, Follower};
+pub(crate) use pose::angles::constant_sin_cos;
 #[cfg(feature = "urdf")]
 pub(crate) use pose::constant_pose;
 pub use pose::{
-    Pose, PoseError, pose_from_euler_zyx, pose_from_quaternion, pose_from_rows, pose_to_euler_zyx, pose_to_quaternion, pose_to_rows,
+    Pose, PoseError, pose_from_euler_zyx, pose_from_quaternion, pose_from_rows, pose_to_euler_zyx,
+    pose_to_quaternion, pose_to_rows,
 };
-pub use recognition::{Condition, NotRecognised, Relation};
 pub use robot::{Definition, Robot};
+pub use solve::configuration::Configuration;
+pub(crate) use solve::inverse::Inverse;
 #[cfg(feature = "python")]
-pub(crate) use select::Cost;
-pub(crate) use select::{check_joints, check_weights};
-pub use singularity::{SingularDistances, Singularity};
-pub use solutions::{FreeJoint, SLOTS, Solution, Solutions};
-pub use spherical_shoulder::SphericalShoulder;
-pub use spherical_wrist::{OpwParameters, SphericalWrist};
-pub use status::{Explanation, Reach, Status};
-pub use three_parallel::ThreeParallel;
+pub(crate) use solve::inverse::check_given;
+pub use structure::recognition::{Condition, NotRecognised, Relation};
+pub use structure::spherical_shoulder::SphericalShoulder;
+pub use structure::spherical_wrist::{OpwParameters, SphericalWrist};
+pub use structure::three_parallel::ThreeParallel;

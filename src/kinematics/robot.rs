@@ -4,21 +4,21 @@ use alloc::borrow::Cow;
 
 use nalgebra::SMatrix;
 
-use super::chain::Chain;
-use super::dh::{DhRow, Mdh, Sdh};
-use super::forward::Poses;
-use super::geometry::Geometry;
-use super::jacobian::{JacobianFrame, Jacobians};
-use super::limits::JointLimits;
-use super::pose::{Pose, PoseError, checked_pose};
-use super::recognition::NotRecognised;
-use super::singularity::{Singularity, singular_values};
-use super::spherical_shoulder::SphericalShoulder;
-use super::spherical_wrist::{OpwParameters, SphericalWrist, WristSolver};
-use super::status::Status;
-use super::three_parallel::ThreeParallel;
-use super::thresholds::{MOST_ANGLE, MOST_LENGTH};
 use crate::error::{Error, ModelFault};
+use crate::kinematics::answer::singularity::{Singularity, singular_values};
+use crate::kinematics::answer::status::Status;
+use crate::kinematics::chain::Chain;
+use crate::kinematics::chain::dh::{DhRow, Mdh, Sdh};
+use crate::kinematics::chain::forward::Poses;
+use crate::kinematics::chain::jacobian::{JacobianFrame, Jacobians};
+use crate::kinematics::chain::limits::JointLimits;
+use crate::kinematics::pose::{Pose, PoseError, checked_pose};
+use crate::kinematics::structure::any::Geometry;
+use crate::kinematics::structure::recognition::NotRecognised;
+use crate::kinematics::structure::spherical_shoulder::SphericalShoulder;
+use crate::kinematics::structure::spherical_wrist::{OpwParameters, SphericalWrist, WristSolver};
+use crate::kinematics::structure::three_parallel::ThreeParallel;
+use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH};
 use crate::lanes::run;
 
 /// A robot arm of `N` revolute joints.
@@ -54,7 +54,7 @@ impl Robot<6> {
         Self::of_opw(opw)
     }
 
-    pub(super) fn wrist_solver(&self) -> Option<&WristSolver> {
+    pub(in crate::kinematics) fn wrist_solver(&self) -> Option<&WristSolver> {
         match &self.geometry {
             Geometry::SphericalWrist(solver) => Some(solver),
             _ => None,
@@ -131,14 +131,22 @@ impl<const N: usize> Robot<N> {
     pub(crate) fn of_opw(opw: OpwParameters) -> Result<Self, Error> {
         let opw = opw.squared_up()?;
         let Mdh { base, rows, flange } = opw.mdh();
-        let rows = <[DhRow; N]>::try_from(&rows[..]).map_err(|_| ModelFault::JointCount { found: 6, wanted: N })?;
+        let rows = <[DhRow; N]>::try_from(&rows[..])
+            .map_err(|_| ModelFault::JointCount { found: 6, wanted: N })?;
         let chain = Chain::new(Mdh { base, rows, flange });
         let geometry = Geometry::of_opw(&opw, &chain);
         Ok(Self::new(Definition::Opw(opw), chain, geometry))
     }
 
     fn new(definition: Definition<N>, chain: Chain<N>, geometry: Geometry) -> Self {
-        Self { name: Cow::Borrowed(""), definition, chain, geometry, limits: JointLimits::UNLIMITED, max_velocity: None }
+        Self {
+            name: Cow::Borrowed(""),
+            definition,
+            chain,
+            geometry,
+            limits: JointLimits::UNLIMITED,
+            max_velocity: None,
+        }
     }
 
     /// The same robot under another name.
@@ -223,9 +231,15 @@ impl<const N: usize> Robot<N> {
         match &self.geometry {
             Geometry::SphericalWrist(solver) if solver.arm.may_be_coupled() => {}
             Geometry::SphericalWrist(_) => {
-                return Err(ModelFault::NotCoupled { reason: "they turn in opposite senses" }.into());
+                return Err(
+                    ModelFault::NotCoupled { reason: "they turn in opposite senses" }.into()
+                );
             }
-            _ => return Err(ModelFault::NotCoupled { reason: "the arm has no spherical wrist" }.into()),
+            _ => {
+                return Err(
+                    ModelFault::NotCoupled { reason: "the arm has no spherical wrist" }.into()
+                );
+            }
         }
         self.chain = self.chain.with_coupling(true);
         self.limits = self.limits.coupled();
@@ -248,7 +262,9 @@ impl<const N: usize> Robot<N> {
 
     /// Joint 3 of a twin turns as fast as joints 2 and 3 of the arm together.
     fn with_twins_velocity(mut self) -> Self {
-        if let Some([_, second, third, ..]) = self.max_velocity.as_mut().map(|velocity| &mut velocity[..]) {
+        if let Some([_, second, third, ..]) =
+            self.max_velocity.as_mut().map(|velocity| &mut velocity[..])
+        {
             *third += *second;
         }
         self
@@ -287,7 +303,7 @@ impl<const N: usize> Robot<N> {
         }
     }
 
-    pub(super) fn geometry(&self) -> &Geometry {
+    pub(in crate::kinematics) fn geometry(&self) -> &Geometry {
         &self.geometry
     }
 
@@ -357,7 +373,12 @@ impl<const N: usize> Robot<N> {
     }
 
     /// [`Self::jacobian`] of many, in lanes.
-    pub(crate) fn jacobians(&self, q: &[[f64; N]], frame: JacobianFrame, jacobians: &mut [[[f64; N]; 6]]) {
+    pub(crate) fn jacobians(
+        &self,
+        q: &[[f64; N]],
+        frame: JacobianFrame,
+        jacobians: &mut [[[f64; N]; 6]],
+    ) {
         run(Jacobians { chain: &self.chain, frame, q, out: jacobians });
     }
 

@@ -25,7 +25,10 @@ pub(crate) trait Kernel {
     type Answer;
 
     /// Whether there is enough to do at once for 512-bit registers to pay: the processor clocks down and joins ports for them.
-    #[cfg_attr(not(all(feature = "std", target_arch = "x86_64")), expect(dead_code, reason = "there is no choice of widths"))]
+    #[cfg_attr(
+        not(all(feature = "std", target_arch = "x86_64")),
+        expect(dead_code, reason = "there is no choice of widths")
+    )]
     const WIDE: bool;
 
     /// Calculates; `FUSED` where the instruction set multiplies and adds in one rounding. Must be `#[inline(always)]`.
@@ -33,7 +36,8 @@ pub(crate) trait Kernel {
 }
 
 /// Whether the baseline has fused multiplication and addition.
-const BASELINE_FUSED: bool = cfg!(all(feature = "std", any(target_arch = "aarch64", target_feature = "fma")));
+const BASELINE_FUSED: bool =
+    cfg!(all(feature = "std", any(target_arch = "aarch64", target_feature = "fma")));
 
 /// The set in use, as 1 + its number; 0 before it is known.
 static IN_USE: AtomicU8 = AtomicU8::new(0);
@@ -70,7 +74,13 @@ impl InstructionSet {
         match self {
             Self::Baseline => true,
             Self::Avx2 => has!("avx2") && has!("fma"),
-            Self::Avx512 => has!("avx2") && has!("avx512f") && has!("avx512dq") && has!("avx512vl") && has!("fma"),
+            Self::Avx512 => {
+                has!("avx2")
+                    && has!("avx512f")
+                    && has!("avx512dq")
+                    && has!("avx512vl")
+                    && has!("fma")
+            }
         }
     }
 
@@ -105,7 +115,10 @@ impl InstructionSet {
 
 /// Runs a kernel on the instruction set in use.
 #[inline]
-#[cfg_attr(all(feature = "std", target_arch = "x86_64"), expect(unsafe_code, reason = "a function for instructions that were detected"))]
+#[cfg_attr(
+    all(feature = "std", target_arch = "x86_64"),
+    expect(unsafe_code, reason = "a function for instructions that were detected")
+)]
 pub(crate) fn run<K: Kernel>(kernel: K) -> K::Answer {
     match InstructionSet::in_use() {
         #[cfg(all(feature = "std", target_arch = "x86_64"))]
@@ -152,7 +165,8 @@ mod tests {
         let available = || InstructionSet::available();
         assert_eq!(available().next(), Some(InstructionSet::Baseline));
         on_each_set(|set| assert_eq!(InstructionSet::in_use(), set));
-        for set in InstructionSet::ALL.into_iter().filter(|set| !available().any(|has| has == *set)) {
+        for set in InstructionSet::ALL.into_iter().filter(|set| !available().any(|has| has == *set))
+        {
             let refused = std::string::ToString::to_string(&set.force().unwrap_err());
             assert!(refused.contains(set.name()), "{refused}");
         }

@@ -53,7 +53,8 @@ const COS: [f64; 6] = [
 ];
 
 /// pi/2 in three parts, of which the first two have 37 bits: times a whole number below 2^16 they are exact. The sum is off by 2^-130.5.
-const PI_2_PARTS: [f64; 3] = [1.570_796_326_792_333_3, 2.563_344_151_583_955_8e-12, 1.056_299_906_698_742_8e-23];
+const PI_2_PARTS: [f64; 3] =
+    [1.570_796_326_792_333_3, 2.563_344_151_583_955_8e-12, 1.056_299_906_698_742_8e-23];
 
 /// 1.5 * 2^52: added to a number it rounds it to a whole one, whose low bits are then those of the sum.
 const ROUND: f64 = 6_755_399_441_055_744.0;
@@ -148,7 +149,8 @@ pub(crate) fn sin_cos<const FUSED: bool>(angle: f64) -> (f64, f64) {
     let z = high * high;
     let z2 = z * z;
     let sin = high + mul_add::<FUSED>(high * z, six::<FUSED>(&SIN, z, z2), low);
-    let cos = 1.0 + mul_add::<FUSED>(z, -0.5, mul_add::<FUSED>(z2, six::<FUSED>(&COS, z, z2), -(high * low)));
+    let cos = 1.0
+        + mul_add::<FUSED>(z, -0.5, mul_add::<FUSED>(z2, six::<FUSED>(&COS, z, z2), -(high * low)));
     // The two lowest bits are the quadrant.
     let quadrant = sum.to_bits();
     let odd = quadrant & 1 != 0;
@@ -160,7 +162,8 @@ pub(crate) fn sin_cos<const FUSED: bool>(angle: f64) -> (f64, f64) {
 
 #[inline(always)]
 fn six<const FUSED: bool>(c: &[f64; 6], z: f64, z2: f64) -> f64 {
-    let high = mul_add::<FUSED>(mul_add::<FUSED>(c[5], z, c[4]), z2, mul_add::<FUSED>(c[3], z, c[2]));
+    let high =
+        mul_add::<FUSED>(mul_add::<FUSED>(c[5], z, c[4]), z2, mul_add::<FUSED>(c[3], z, c[2]));
     mul_add::<FUSED>(high, z2, mul_add::<FUSED>(c[1], z, c[0]))
 }
 

@@ -12,7 +12,9 @@ pub use dispatch::InstructionSet;
 #[cfg(test)]
 pub(crate) use dispatch::on_each_set;
 pub(crate) use dispatch::{Kernel, run};
-pub(crate) use functions::{MOST_SIN_COS, atan2, mul_add, nearest_whole, sin_cos, whole_above, whole_below};
+pub(crate) use functions::{
+    MOST_SIN_COS, atan2, mul_add, nearest_whole, sin_cos, whole_above, whole_below,
+};
 
 /// Lanes of a block: the widest vector of any instruction set, in `f64`.
 pub(crate) const LANES: usize = 8;

@@ -15,7 +15,9 @@ pub(super) fn singularity_record<'py>(
     records: &[Option<Singularity>],
     lead: Option<&Vec<usize>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let number = |of: fn(&Singularity) -> Option<f64>| records.iter().map(move |record| record.as_ref().and_then(of).unwrap_or(f64::NAN));
+    let number = |of: fn(&Singularity) -> Option<f64>| {
+        records.iter().map(move |record| record.as_ref().and_then(of).unwrap_or(f64::NAN))
+    };
     let columns = [
         number(|s| s.distances.map(|d| d.wrist)),
         number(|s| s.distances.map(|d| d.elbow)),
@@ -23,7 +25,8 @@ pub(super) fn singularity_record<'py>(
         number(|s| Some(s.min_singular_value)),
         number(|s| Some(s.manipulability)),
     ];
-    let kinds = |record: &Option<Singularity>| record.map_or(Status::empty(), |record| record.kinds);
+    let kinds =
+        |record: &Option<Singularity>| record.map_or(Status::empty(), |record| record.kinds);
     let mut fields: Vec<Bound<'py, PyAny>> = Vec::with_capacity(6);
     for mut column in columns {
         fields.push(match lead {
@@ -32,7 +35,9 @@ pub(super) fn singularity_record<'py>(
         });
     }
     fields.push(match lead {
-        Some(lead) => PyArray1::from_iter(py, records.iter().map(|record| kinds(record).bits())).reshape(lead.clone())?.into_any(),
+        Some(lead) => PyArray1::from_iter(py, records.iter().map(|record| kinds(record).bits()))
+            .reshape(lead.clone())?
+            .into_any(),
         None => errors::kinds(py, records.first().map_or(Status::empty(), kinds))?,
     });
     errors::singularity_class(py)?.call1(PyTuple::new(py, fields)?)
@@ -50,25 +55,43 @@ pub(super) fn batch_output<'py>(
     let (q_shape, status_shape) = (poses.shape_with(&[SLOTS, dof]), poses.shape_with(&[SLOTS]));
     let pair = out.and_then(|out| out.cast::<PyTuple>().ok());
     match pair {
-        Some(pair) if pair.len() == 2 => {
-            Ok((output(py, Some(&pair.get_item(0)?), &q_shape)?, checked_out(&pair.get_item(1)?, &status_shape, "uint8")?))
-        }
-        Some(pair) => Err(PyTypeError::new_err(format!("out must be (q, status), got a tuple of {}", pair.len()))),
+        Some(pair) if pair.len() == 2 => Ok((
+            output(py, Some(&pair.get_item(0)?), &q_shape)?,
+            checked_out(&pair.get_item(1)?, &status_shape, "uint8")?,
+        )),
+        Some(pair) => Err(PyTypeError::new_err(format!(
+            "out must be (q, status), got a tuple of {}",
+            pair.len()
+        ))),
         None => Ok((output(py, out, &q_shape)?, PyArrayDyn::zeros(py, status_shape, false))),
     }
 }
 
 /// `irbkin.FollowResult` of followed paths with the leading dimensions `lead`, of `poses` poses each.
-pub(super) fn follow_result<'py>(py: Python<'py>, followed: &[Followed], lead: &[usize], poses: usize) -> PyResult<Bound<'py, PyAny>> {
-    let joints: Vec<f64> = followed.iter().flat_map(|path| &path.q).flat_map(|q| q.unwrap_or([f64::NAN; 6])).collect();
+pub(super) fn follow_result<'py>(
+    py: Python<'py>,
+    followed: &[Followed],
+    lead: &[usize],
+    poses: usize,
+) -> PyResult<Bound<'py, PyAny>> {
+    let joints: Vec<f64> =
+        followed.iter().flat_map(|path| &path.q).flat_map(|q| q.unwrap_or([f64::NAN; 6])).collect();
     let joints = PyArray1::from_vec(py, joints).reshape([lead, &[poses, 6]].concat())?;
-    let errors: Vec<f64> = followed.iter().flat_map(|path| &path.orientation_error).map(|error| error.unwrap_or(f64::NAN)).collect();
+    let errors: Vec<f64> = followed
+        .iter()
+        .flat_map(|path| &path.orientation_error)
+        .map(|error| error.unwrap_or(f64::NAN))
+        .collect();
     let errors = PyArray1::from_vec(py, errors).reshape([lead, &[poses]].concat())?;
     let mut breaks = Vec::new();
     for (path, followed) in followed.iter().enumerate() {
         for broken in &followed.breaks {
             let place = PyTuple::new(py, index_in(lead, path))?;
-            breaks.push(errors::break_class(py)?.call1((broken.pose_index, broken.to_string(), place))?);
+            breaks.push(errors::break_class(py)?.call1((
+                broken.pose_index,
+                broken.to_string(),
+                place,
+            ))?);
         }
     }
     errors::follow_result_class(py)?.call1((joints, errors, PyTuple::new(py, breaks)?))

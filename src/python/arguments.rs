@@ -10,7 +10,9 @@ pub(super) fn read_frame(frame: &str) -> PyResult<JacobianFrame> {
     match frame {
         "base" => Ok(JacobianFrame::Base),
         "tool" => Ok(JacobianFrame::Tool),
-        _ => Err(PyValueError::new_err(format!("frame must be \"base\" or \"tool\", got \"{frame}\""))),
+        _ => Err(PyValueError::new_err(format!(
+            "frame must be \"base\" or \"tool\", got \"{frame}\""
+        ))),
     }
 }
 
@@ -21,9 +23,9 @@ pub(super) fn read_crossing(singular: &str) -> PyResult<Crossing> {
         "error" => Ok(Crossing::Error),
         "wrist" => Ok(Crossing::Wrist),
         "lock_axis4" => Ok(Crossing::LockAxis4),
-        _ => {
-            Err(PyValueError::new_err(format!("singular must be \"through\", \"error\", \"wrist\" or \"lock_axis4\", got \"{singular}\"")))
-        }
+        _ => Err(PyValueError::new_err(format!(
+            "singular must be \"through\", \"error\", \"wrist\" or \"lock_axis4\", got \"{singular}\""
+        ))),
     }
 }
 
@@ -32,6 +34,8 @@ pub(super) fn thread_count(threads: isize) -> PyResult<usize> {
     match usize::try_from(threads) {
         Ok(0) => Ok(std::thread::available_parallelism().map_or(1, usize::from)),
         Ok(count) => Ok(count),
-        Err(_) => Err(PyValueError::new_err(format!("threads must be 0 (one a core) or more, got {threads}"))),
+        Err(_) => Err(PyValueError::new_err(format!(
+            "threads must be 0 (one a core) or more, got {threads}"
+        ))),
     }
 }

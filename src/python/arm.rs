@@ -73,15 +73,34 @@ impl Arm {
         Ok(rows)
     }
 
-    pub(super) fn fk<'py>(&self, q: &Bound<'py, PyAny>, out: Option<&Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyAny>> {
+    pub(super) fn fk<'py>(
+        &self,
+        q: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         on_robot!(self, robot => if let Some(joints) = one(q)? {
             return answer(q, out, pose_to_rows(&robot.fk(&joints)).as_chunks::<4>().0);
         });
-        Ok(self.mapped(q, out, &[4, 4], |q, poses| on_robot!(self, robot => batch::fk(robot, q, poses)))?.into_any())
+        Ok(self
+            .mapped(
+                q,
+                out,
+                &[4, 4],
+                |q, poses| on_robot!(self, robot => batch::fk(robot, q, poses)),
+            )?
+            .into_any())
     }
 
-    pub(super) fn link_frames<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.mapped(q, None, &[self.dof() + 1, 4, 4], |q, frames| on_robot!(self, robot => batch::link_frames(robot, q, frames)))
+    pub(super) fn link_frames<'py>(
+        &self,
+        q: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.mapped(
+            q,
+            None,
+            &[self.dof() + 1, 4, 4],
+            |q, frames| on_robot!(self, robot => batch::link_frames(robot, q, frames)),
+        )
     }
 
     pub(super) fn jacobian<'py>(
@@ -93,12 +112,23 @@ impl Arm {
         on_robot!(self, robot => if let Some(joints) = one(q)? {
             return answer(q, out, &robot.jacobian_rows(&joints, frame));
         });
-        let rows = self.mapped(q, out, &[6, self.dof()], |q, rows| on_robot!(self, robot => batch::jacobian(robot, q, frame, rows)));
+        let rows = self.mapped(
+            q,
+            out,
+            &[6, self.dof()],
+            |q, rows| on_robot!(self, robot => batch::jacobian(robot, q, frame, rows)),
+        );
         Ok(rows?.into_any())
     }
 
-    pub(super) fn singularity(&self, py: Python<'_>, q: &[f64]) -> PyResult<Vec<Option<Singularity>>> {
-        let records = py.detach(|| on_robot!(self, robot => batch::singularity(robot, q).map(Iterator::collect)));
+    pub(super) fn singularity(
+        &self,
+        py: Python<'_>,
+        q: &[f64],
+    ) -> PyResult<Vec<Option<Singularity>>> {
+        let records = py.detach(
+            || on_robot!(self, robot => batch::singularity(robot, q).map(Iterator::collect)),
+        );
         records.map_err(|error| to_py(py, &error))
     }
 

@@ -6,7 +6,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use numpy::ndarray::aview2;
 use numpy::{
-    PyArray1, PyArray2, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyReadwriteArrayDyn, PyUntypedArray, PyUntypedArrayMethods,
+    PyArray1, PyArray2, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyReadwriteArrayDyn,
+    PyUntypedArray, PyUntypedArrayMethods,
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::intern;
@@ -22,12 +23,20 @@ pub(super) struct Rows<'py> {
 
 impl<'py> Rows<'py> {
     /// Reads `value`, of shape (..., `tail`), as the argument `field`.
-    pub(super) fn read(value: &Bound<'py, PyAny>, tail: &[usize], field: &str, fault: Fault) -> PyResult<Self> {
+    pub(super) fn read(
+        value: &Bound<'py, PyAny>,
+        tail: &[usize],
+        field: &str,
+        fault: Fault,
+    ) -> PyResult<Self> {
         let array = readable(value, field, fault)?;
         let shape = array.shape();
         let Some(lead) = shape.strip_suffix(tail) else {
             let wanted = tail.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
-            return Err(fault.error(value.py(), format!("{field} must have shape (..., {wanted}), got {shape:?}")));
+            return Err(fault.error(
+                value.py(),
+                format!("{field} must have shape (..., {wanted}), got {shape:?}"),
+            ));
         };
         let lead = lead.to_vec();
         Ok(Self { array, lead })
@@ -92,7 +101,10 @@ pub(super) fn copied_vector<const N: usize>(value: &Bound<'_, PyAny>) -> Option<
 #[inline]
 pub(super) fn copied_matrix4(value: &Bound<'_, PyAny>) -> Option<[f64; 16]> {
     let array = value.cast::<PyArray2<f64>>().ok()?;
-    if array.shape() != [4, 4] || !array.is_aligned() || DETACHED_WRITES.load(Ordering::Acquire) != 0 {
+    if array.shape() != [4, 4]
+        || !array.is_aligned()
+        || DETACHED_WRITES.load(Ordering::Acquire) != 0
+    {
         return None;
     }
     // Every index is inside the shape. Row by row, so that it unrolls.
@@ -105,7 +117,10 @@ pub(super) fn copied_matrix4(value: &Bound<'_, PyAny>) -> Option<[f64; 16]> {
 
 /// A new array with `rows`: one NumPy object, its memory written once.
 #[inline]
-pub(super) fn matrix<'py, const C: usize>(py: Python<'py>, rows: &[[f64; C]]) -> Bound<'py, PyArray2<f64>> {
+pub(super) fn matrix<'py, const C: usize>(
+    py: Python<'py>,
+    rows: &[[f64; C]],
+) -> Bound<'py, PyArray2<f64>> {
     PyArray2::from_array(py, &aview2(rows))
 }
 
@@ -122,16 +137,26 @@ pub(super) fn answer<'py, const C: usize>(
     }
 }
 
-fn write_out<'py>(input: &Bound<'py, PyAny>, out: &Bound<'py, PyAny>, shape: &[usize], numbers: &[f64]) -> PyResult<Bound<'py, PyAny>> {
+fn write_out<'py>(
+    input: &Bound<'py, PyAny>,
+    out: &Bound<'py, PyAny>,
+    shape: &[usize],
+    numbers: &[f64],
+) -> PyResult<Bound<'py, PyAny>> {
     let array = checked_out::<f64>(out, shape, "float64")?;
-    let memory = input.cast::<PyArrayDyn<f64>>().ok().filter(|input| input.is_c_contiguous()).map(addresses);
+    let memory =
+        input.cast::<PyArrayDyn<f64>>().ok().filter(|input| input.is_c_contiguous()).map(addresses);
     writable(&array, memory.as_slice())?.as_slice_mut()?.copy_from_slice(numbers);
     Ok(array.into_any())
 }
 
 /// Exactly `N` numbers, as the argument `field`.
 #[inline]
-pub(super) fn vector<const N: usize>(value: &Bound<'_, PyAny>, field: &str, fault: Fault) -> PyResult<[f64; N]> {
+pub(super) fn vector<const N: usize>(
+    value: &Bound<'_, PyAny>,
+    field: &str,
+    fault: Fault,
+) -> PyResult<[f64; N]> {
     copied_vector(value).map_or_else(|| exactly::<N>(value, &[N], field, fault), Ok)
 }
 
@@ -144,18 +169,32 @@ pub(super) fn matrix4(value: &Bound<'_, PyAny>, field: &str, fault: Fault) -> Py
 /// One array of exactly the shape `shape`, of `N` elements.
 #[cold]
 #[inline(never)]
-fn exactly<const N: usize>(value: &Bound<'_, PyAny>, shape: &[usize], field: &str, fault: Fault) -> PyResult<[f64; N]> {
+fn exactly<const N: usize>(
+    value: &Bound<'_, PyAny>,
+    shape: &[usize],
+    field: &str,
+    fault: Fault,
+) -> PyResult<[f64; N]> {
     let array = readable(value, field, fault)?;
     if array.shape() != shape {
-        return Err(fault.error(value.py(), format!("{field} must have shape {shape:?}, got {:?}", array.shape())));
+        return Err(fault.error(
+            value.py(),
+            format!("{field} must have shape {shape:?}, got {:?}", array.shape()),
+        ));
     }
     Ok(array.as_slice()?.try_into().map_or([f64::NAN; N], |numbers: &[f64; N]| *numbers))
 }
 
 /// `value` as an aligned C-contiguous float64 array, seen for reading: itself where it is one.
-fn readable<'py>(value: &Bound<'py, PyAny>, field: &str, fault: Fault) -> PyResult<PyReadonlyArrayDyn<'py, f64>> {
+fn readable<'py>(
+    value: &Bound<'py, PyAny>,
+    field: &str,
+    fault: Fault,
+) -> PyResult<PyReadonlyArrayDyn<'py, f64>> {
     let read = |array: &Bound<'py, PyArrayDyn<f64>>| {
-        array.try_readonly().map_err(|_| PyValueError::new_err(format!("{field} is being written by another call")))
+        array
+            .try_readonly()
+            .map_err(|_| PyValueError::new_err(format!("{field} is being written by another call")))
     };
     if let Ok(array) = value.cast::<PyArrayDyn<f64>>() {
         let array = read(array)?;
@@ -166,24 +205,35 @@ fn readable<'py>(value: &Bound<'py, PyAny>, field: &str, fault: Fault) -> PyResu
     read(&converted(value, field, fault)?)
 }
 
-fn converted<'py>(value: &Bound<'py, PyAny>, field: &str, fault: Fault) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+fn converted<'py>(
+    value: &Bound<'py, PyAny>,
+    field: &str,
+    fault: Fault,
+) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let py = value.py();
     let numpy = py.import(intern!(py, "numpy"))?;
-    let array = numpy
-        .call_method1(intern!(py, "asarray"), (value,))
-        .map_err(|cause| fault.error(py, format!("{field} must be an array of numbers: {}", cause.value(py))))?;
+    let array = numpy.call_method1(intern!(py, "asarray"), (value,)).map_err(|cause| {
+        fault.error(py, format!("{field} must be an array of numbers: {}", cause.value(py)))
+    })?;
     let array = array.cast::<PyUntypedArray>()?;
     let dtype = array.dtype();
     let kind: String = dtype.getattr(intern!(py, "kind"))?.extract()?;
     if !matches!(kind.as_str(), "f" | "i" | "u") {
-        return Err(PyTypeError::new_err(format!("{field} must be real numbers, got an array of dtype {dtype}")));
+        return Err(PyTypeError::new_err(format!(
+            "{field} must be real numbers, got an array of dtype {dtype}"
+        )));
     }
-    let contiguous = numpy.call_method1(intern!(py, "require"), (array, intern!(py, "float64"), ["C", "A"]))?;
+    let contiguous =
+        numpy.call_method1(intern!(py, "require"), (array, intern!(py, "float64"), ["C", "A"]))?;
     Ok(contiguous.cast_into::<PyArrayDyn<f64>>()?)
 }
 
 /// The array to write an answer to: `out` where it was given, a new one where not.
-pub(super) fn output<'py>(py: Python<'py>, out: Option<&Bound<'py, PyAny>>, shape: &[usize]) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+pub(super) fn output<'py>(
+    py: Python<'py>,
+    out: Option<&Bound<'py, PyAny>>,
+    shape: &[usize],
+) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let Some(out) = out else {
         return Ok(PyArrayDyn::zeros(py, shape, false));
     };
@@ -196,11 +246,17 @@ pub(super) fn checked_out<'py, T: numpy::Element>(
     shape: &[usize],
     dtype: &str,
 ) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
-    let array = out
-        .cast::<PyArrayDyn<T>>()
-        .map_err(|_| PyTypeError::new_err(format!("out must be an array of dtype {dtype}, got {}", describe(out))))?;
+    let array = out.cast::<PyArrayDyn<T>>().map_err(|_| {
+        PyTypeError::new_err(format!(
+            "out must be an array of dtype {dtype}, got {}",
+            describe(out)
+        ))
+    })?;
     if array.shape() != shape || !array.is_c_contiguous() {
-        return Err(PyValueError::new_err(format!("out must be C-contiguous with shape {shape:?}, got {}", describe(out))));
+        return Err(PyValueError::new_err(format!(
+            "out must be C-contiguous with shape {shape:?}, got {}",
+            describe(out)
+        )));
     }
     Ok(array.clone())
 }
@@ -217,7 +273,11 @@ pub(super) fn writable<'py, T: numpy::Element>(
     if others.iter().any(|other| own.start < other.end && other.start < own.end) {
         return Err(PyValueError::new_err("out must be writable and must not overlap the input"));
     }
-    array.try_readwrite().map_err(|cause| PyValueError::new_err(format!("out must be writable and must not overlap the input: {cause}")))
+    array.try_readwrite().map_err(|cause| {
+        PyValueError::new_err(format!(
+            "out must be writable and must not overlap the input: {cause}"
+        ))
+    })
 }
 
 /// The addresses of a C-contiguous array's memory.
@@ -232,6 +292,9 @@ fn describe(value: &Bound<'_, PyAny>) -> String {
             let order = if array.is_c_contiguous() { "" } else { ", not C-contiguous" };
             format!("an array of dtype {} and shape {:?}{order}", array.dtype(), array.shape())
         }
-        Err(_) => value.get_type().name().map_or_else(|_| "another object".to_owned(), |name| name.to_string()),
+        Err(_) => value
+            .get_type()
+            .name()
+            .map_or_else(|_| "another object".to_owned(), |name| name.to_string()),
     }
 }

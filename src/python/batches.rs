@@ -32,8 +32,11 @@ pub(super) fn ik<'py>(
         None => Vec::new(),
     };
     let (q, status) = batch_output(py, out, &poses, arm.dof())?;
-    let (data, mut q_view, mut status_view) =
-        (poses.data()?, writable(&q, &[poses.addresses()])?, writable(&status, &[poses.addresses(), addresses(&q)])?);
+    let (data, mut q_view, mut status_view) = (
+        poses.data()?,
+        writable(&q, &[poses.addresses()])?,
+        writable(&status, &[poses.addresses(), addresses(&q)])?,
+    );
     let (q_slice, status_slice) = (q_view.as_slice_mut()?, status_view.as_slice_mut()?);
     let solved = detached(py, || match arm {
         Arm::Six(robot) => batch::ik(robot, data, q_slice, status_slice, threads),
@@ -54,11 +57,21 @@ fn read_q7<'py>(q7: &Bound<'py, PyAny>, poses: &mut Rows<'py>) -> PyResult<Vec<f
     }
     let (py, numpy) = (q7.py(), q7.py().import(intern!(q7.py(), "numpy"))?);
     let shapes = (PyTuple::new(py, &poses.lead)?, PyTuple::new(py, &rows.lead)?);
-    let unlike =
-        |_| Fault::Joints.error(py, format!("q7 of shape {:?} does not go with T of shape {:?}", rows.lead, poses.shape_with(&[4, 4])));
-    let shape: Vec<usize> = numpy.call_method1(intern!(py, "broadcast_shapes"), shapes).map_err(unlike)?.extract()?;
-    let broadcast =
-        |array: &Bound<'py, PyAny>, shape: &[usize]| numpy.call_method1(intern!(py, "broadcast_to"), (array, PyTuple::new(py, shape)?));
+    let unlike = |_| {
+        Fault::Joints.error(
+            py,
+            format!(
+                "q7 of shape {:?} does not go with T of shape {:?}",
+                rows.lead,
+                poses.shape_with(&[4, 4])
+            ),
+        )
+    };
+    let shape: Vec<usize> =
+        numpy.call_method1(intern!(py, "broadcast_shapes"), shapes).map_err(unlike)?.extract()?;
+    let broadcast = |array: &Bound<'py, PyAny>, shape: &[usize]| {
+        numpy.call_method1(intern!(py, "broadcast_to"), (array, PyTuple::new(py, shape)?))
+    };
     let told = Rows::read(&broadcast(q7, &shape)?, &[], "q7", Fault::Joints)?.data()?.to_vec();
     let all_poses = broadcast(poses.array(), &[&shape[..], &[4, 4]].concat())?;
     *poses = Rows::read(&all_poses, &[4, 4], "T", Fault::Pose)?;
@@ -67,7 +80,11 @@ fn read_q7<'py>(q7: &Bound<'py, PyAny>, poses: &mut Rows<'py>) -> PyResult<Vec<f
 
 /// An arm of six joints has no joint 7.
 pub(super) fn no_q7(given: bool) -> PyResult<()> {
-    if given { Err(PyTypeError::new_err("q7 is joint 7 of an arm of seven joints: this one has six")) } else { Ok(()) }
+    if given {
+        Err(PyTypeError::new_err("q7 is joint 7 of an arm of seven joints: this one has six"))
+    } else {
+        Ok(())
+    }
 }
 
 /// Joint 7, without which an arm of seven joints has no finite number of solutions.
@@ -75,5 +92,9 @@ pub(super) fn needed_q7<T>(py: Python<'_>, robot: &Robot<7>, q7: Option<T>) -> P
     if let Some(reason) = robot.no_closed_form() {
         return Err(to_py(py, &ModelFault::NoClosedForm(reason).into()));
     }
-    q7.ok_or_else(|| PyTypeError::new_err("an arm of seven joints needs q7, the angle of joint 7 [rad]; or take ik_nearest"))
+    q7.ok_or_else(|| {
+        PyTypeError::new_err(
+            "an arm of seven joints needs q7, the angle of joint 7 [rad]; or take ik_nearest",
+        )
+    })
 }

@@ -8,7 +8,10 @@ use super::arrays::Rows;
 use super::errors::{Fault, to_py};
 use crate::catalogue::CatalogueGeometry;
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{Definition, DhRow, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh, pose_from_rows, pose_to_rows};
+use crate::kinematics::{
+    Definition, DhRow, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh, pose_from_rows,
+    pose_to_rows,
+};
 
 /// Which Denavit-Hartenberg convention a table has.
 #[derive(Clone, Copy)]
@@ -31,13 +34,23 @@ pub(super) fn from_table(
     let arm = match rows.lead[..] {
         [6] => robot_of_table::<6>(table, closed_form, convention).map(Arm::from),
         [7] => robot_of_table::<7>(table, closed_form, convention).map(Arm::from),
-        _ => return Err(Fault::Model.error(py, format!("rows must have shape (6, 4) or (7, 4), got {:?}", rows.shape_with(&[4])))),
+        _ => {
+            return Err(Fault::Model.error(
+                py,
+                format!("rows must have shape (6, 4) or (7, 4), got {:?}", rows.shape_with(&[4])),
+            ));
+        }
     };
     named_and_limited(py, &arm.map_err(|error| to_py(py, &error))?, limits, name)
 }
 
-fn robot_of_table<const N: usize>(table: &[[f64; 4]], closed_form: bool, convention: Convention) -> Result<Robot<N>, Error> {
-    let table: &[[f64; 4]; N] = table.try_into().map_err(|_| ModelFault::JointCount { found: table.len(), wanted: N })?;
+fn robot_of_table<const N: usize>(
+    table: &[[f64; 4]],
+    closed_form: bool,
+    convention: Convention,
+) -> Result<Robot<N>, Error> {
+    let table: &[[f64; 4]; N] =
+        table.try_into().map_err(|_| ModelFault::JointCount { found: table.len(), wanted: N })?;
     let rows = table.map(|[alpha, a, d, theta]| DhRow::new(alpha, a, d, theta));
     let (base, flange) = (Pose::identity(), Pose::identity());
     let mdh = match convention {
@@ -67,7 +80,12 @@ pub(super) fn from_opw(
 }
 
 /// The arm under a name, with limits where they were given.
-fn named_and_limited(py: Python<'_>, arm: &Arm, limits: Option<&Bound<'_, PyAny>>, name: &str) -> PyResult<Arm> {
+fn named_and_limited(
+    py: Python<'_>,
+    arm: &Arm,
+    limits: Option<&Bound<'_, PyAny>>,
+    name: &str,
+) -> PyResult<Arm> {
     let arm = arm.changed(py, &Name(name))?;
     match limits {
         Some(limits) => with_limits(&arm, limits),
@@ -80,7 +98,10 @@ pub(super) fn with_limits(arm: &Arm, limits: &Bound<'_, PyAny>) -> PyResult<Arm>
     let rows = Rows::read(limits, &[arm.dof(), 2], "limits", Fault::Model)?;
     if !rows.is_single() {
         let shape = rows.shape_with(&[arm.dof(), 2]);
-        return Err(Fault::Model.error(limits.py(), format!("limits must have shape [{}, 2], got {shape:?}", arm.dof())));
+        return Err(Fault::Model.error(
+            limits.py(),
+            format!("limits must have shape [{}, 2], got {shape:?}", arm.dof()),
+        ));
     }
     arm.changed(limits.py(), &Limits(rows.data()?.as_chunks::<2>().0))
 }
@@ -107,7 +128,8 @@ impl Change for Name<'_> {
 
 impl Change for Limits<'_> {
     fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error> {
-        let limits = <[[f64; 2]; N]>::try_from(self.0).map_err(|_| ModelFault::JointCount { found: N, wanted: self.0.len() })?;
+        let limits = <[[f64; 2]; N]>::try_from(self.0)
+            .map_err(|_| ModelFault::JointCount { found: N, wanted: self.0.len() })?;
         Ok(robot.with_limits(JointLimits::new(limits)?))
     }
 }
@@ -119,7 +141,8 @@ impl Change for Coupling<'_> {
         match rod {
             [] => Ok(robot),
             rod => {
-                let damaged = || Error::WrongLength { field: "rod limits", found: rod.len(), wanted: 2 };
+                let damaged =
+                    || Error::WrongLength { field: "rod limits", found: rod.len(), wanted: 2 };
                 robot.with_rod_limits(Some(<[f64; 2]>::try_from(rod).map_err(|_| damaged())?))
             }
         }
@@ -153,9 +176,10 @@ impl Change for Tool {
 impl Change for MaxVelocity<'_> {
     fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error> {
         let velocity = match self.0 {
-            Some(velocity) => {
-                Some(<[f64; N]>::try_from(velocity).map_err(|_| ModelFault::JointCount { found: N, wanted: velocity.len() })?)
-            }
+            Some(velocity) => Some(
+                <[f64; N]>::try_from(velocity)
+                    .map_err(|_| ModelFault::JointCount { found: N, wanted: velocity.len() })?,
+            ),
             None => None,
         };
         robot.with_max_velocity(velocity)
@@ -164,7 +188,8 @@ impl Change for MaxVelocity<'_> {
 
 /// Everything that a robot was built from: (name, definition, numbers of it, limits, base, tool, velocities, rod). The last is of coupled
 /// arms alone: limits of the rod, or no numbers.
-pub(super) type State = (String, String, Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>, Option<Vec<f64>>, Option<Vec<f64>>);
+pub(super) type State =
+    (String, String, Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>, Option<Vec<f64>>, Option<Vec<f64>>);
 
 /// The state of an arm. Equal robots have equal states.
 pub(super) fn state(arm: &Arm) -> State {
@@ -198,14 +223,17 @@ fn mdh_numbers<const N: usize>(mdh: &Mdh<N>) -> Vec<f64> {
 
 /// Whether the catalogue's arm of a name is coupled.
 pub(super) fn is_coupled_in_catalogue(name: &str) -> bool {
-    crate::catalogue::find(name).is_ok_and(|arm| matches!(arm.geometry, CatalogueGeometry::Abb { coupled: true, .. }))
+    crate::catalogue::find(name)
+        .is_ok_and(|arm| matches!(arm.geometry, CatalogueGeometry::Abb { coupled: true, .. }))
 }
 
 /// Hash of a robot's value.
 pub(super) fn hash(py: Python<'_>, arm: &Arm) -> PyResult<isize> {
     let (name, definition, numbers, limits, base, tool, velocity, rod) = state(arm);
     let coupled = rod.is_some();
-    let numbers = [numbers, limits, base, tool, velocity.unwrap_or_default(), rod.unwrap_or_default()].concat();
+    let numbers =
+        [numbers, limits, base, tool, velocity.unwrap_or_default(), rod.unwrap_or_default()]
+            .concat();
     // Python's own hash of floats holds 0.0 and -0.0 for one, as the comparison does.
     (name, definition, coupled, PyTuple::new(py, numbers)?).into_pyobject(py)?.hash()
 }
@@ -255,7 +283,13 @@ fn mdh_of<const N: usize>(numbers: &[f64]) -> Option<Result<Robot<N>, Error>> {
     let rows = <[[f64; 4]; N]>::try_from(rows.as_chunks::<4>().0).ok()?;
     let rows = rows.map(|[alpha, a, d, theta]| DhRow::new(alpha, a, d, theta));
     let built = pose_from_rows(base)
-        .and_then(|base| Ok(Mdh { base, rows, flange: pose_from_rows(flange.try_into().unwrap_or(&[f64::NAN; 16]))? }))
+        .and_then(|base| {
+            Ok(Mdh {
+                base,
+                rows,
+                flange: pose_from_rows(flange.try_into().unwrap_or(&[f64::NAN; 16]))?,
+            })
+        })
         .and_then(Robot::serial_chain);
     Some(built)
 }

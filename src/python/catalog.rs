@@ -24,8 +24,11 @@ pub(super) fn catalog<'py>(
     reach: Option<&Bound<'py, PyAny>>,
     payload: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyTuple>> {
-    let [reach, payload] = [Range::read("reach", "m", reach)?, Range::read("payload", "kg", payload)?];
-    let fitting = catalogue().filter(|arm| Range::holds(reach.as_ref(), arm.reach) && Range::holds(payload.as_ref(), arm.payload));
+    let [reach, payload] =
+        [Range::read("reach", "m", reach)?, Range::read("payload", "kg", payload)?];
+    let fitting = catalogue().filter(|arm| {
+        Range::holds(reach.as_ref(), arm.reach) && Range::holds(payload.as_ref(), arm.payload)
+    });
     PyTuple::new(py, fitting.map(|arm| arm.name).collect::<Vec<_>>())
 }
 
@@ -40,24 +43,33 @@ impl Range {
         let Some(filter) = filter else { return Ok(None) };
         // Python's bytes are pairs of numbers, and its truth values numbers, to those who ask.
         let no_number = filter.is_instance_of::<PyBytes>() || filter.is_instance_of::<PyBool>();
-        let pair = filter.extract::<f64>().map(|least| [least, f64::INFINITY]).or_else(|_| filter.extract::<[f64; 2]>());
+        let pair = filter
+            .extract::<f64>()
+            .map(|least| [least, f64::INFINITY])
+            .or_else(|_| filter.extract::<[f64; 2]>());
         let [least, most] = pair.ok().filter(|_| !no_number).ok_or_else(|| {
             let got = filter.repr().map_or_else(|_| "something else".into(), |repr| repr.to_string());
             PyValueError::new_err(format!("{field} must be a number (at least that much) or a pair (least, most) [{unit}], got {got}"))
         })?;
         for value in [least, most] {
             if value.is_nan() || value < 0.0 {
-                return Err(PyValueError::new_err(format!("{field} is {value} {unit}, it must be 0 or more")));
+                return Err(PyValueError::new_err(format!(
+                    "{field} is {value} {unit}, it must be 0 or more"
+                )));
             }
         }
         if least > most {
-            return Err(PyValueError::new_err(format!("{field} is empty: least {least} {unit} > most {most} {unit}")));
+            return Err(PyValueError::new_err(format!(
+                "{field} is empty: least {least} {unit} > most {most} {unit}"
+            )));
         }
         Ok(Some(Self { least, most }))
     }
 
     /// Whether a figure of an arm goes through a filter that may not be there.
     fn holds(filter: Option<&Self>, figure: Option<f64>) -> bool {
-        filter.is_none_or(|range| figure.is_some_and(|figure| (range.least..=range.most).contains(&figure)))
+        filter.is_none_or(|range| {
+            figure.is_some_and(|figure| (range.least..=range.most).contains(&figure))
+        })
     }
 }

@@ -22,26 +22,37 @@ pub(super) fn configuration<'py>(arm: &Arm, q: &Bound<'py, PyAny>) -> PyResult<B
     let robot = counted(py, arm)?;
     let rows = arm.joints(q)?;
     let data = rows.data()?;
-    let answers: Result<Vec<_>, _> = py.detach(|| batch::configuration(robot, data).map(Iterator::collect));
-    let configurations = answers.map_err(|error| to_py(py, &error))?.into_iter().enumerate().map(|(number, configuration)| {
-        configuration.map_err(|error| match rows.lead[..] {
-            [] => to_py(py, &error),
-            _ => Fault::Joints.error(py, format!("q{:?}: {error}", index_in(&rows.lead, number))),
-        })
-    });
+    let answers: Result<Vec<_>, _> =
+        py.detach(|| batch::configuration(robot, data).map(Iterator::collect));
+    let configurations = answers.map_err(|error| to_py(py, &error))?.into_iter().enumerate().map(
+        |(number, configuration)| {
+            configuration.map_err(|error| match rows.lead[..] {
+                [] => to_py(py, &error),
+                _ => {
+                    Fault::Joints.error(py, format!("q{:?}: {error}", index_in(&rows.lead, number)))
+                }
+            })
+        },
+    );
     let configurations = configurations.collect::<PyResult<Vec<_>>>()?;
     match &configurations[..] {
         [one] if rows.is_single() => record(py, one),
         many => {
-            let column = |of: fn(&Configuration) -> i32| PyArray1::from_iter(py, many.iter().map(of)).reshape(rows.lead.clone());
-            let columns = (column(|c| c.cf1)?, column(|c| c.cf4)?, column(|c| c.cf6)?, column(|c| c.cfx)?);
+            let column = |of: fn(&Configuration) -> i32| {
+                PyArray1::from_iter(py, many.iter().map(of)).reshape(rows.lead.clone())
+            };
+            let columns =
+                (column(|c| c.cf1)?, column(|c| c.cf4)?, column(|c| c.cf6)?, column(|c| c.cfx)?);
             errors::configuration_class(py)?.call1(columns)
         }
     }
 }
 
 /// `irbkin.Configuration` of one.
-pub(super) fn record<'py>(py: Python<'py>, configuration: &Configuration) -> PyResult<Bound<'py, PyAny>> {
+pub(super) fn record<'py>(
+    py: Python<'py>,
+    configuration: &Configuration,
+) -> PyResult<Bound<'py, PyAny>> {
     let Configuration { cf1, cf4, cf6, cfx } = *configuration;
     errors::configuration_class(py)?.call1((cf1, cf4, cf6, cfx))
 }
@@ -58,9 +69,13 @@ impl<'a, 'py> Fallback<'a, 'py> {
         match (self.name, self.seed) {
             (None, None) => Ok(None),
             (None, Some(_)) => Err(PyTypeError::new_err("a seed is for fallback=\"nearest\"")),
-            (Some("nearest"), None) => Err(PyTypeError::new_err("fallback=\"nearest\" needs a seed")),
+            (Some("nearest"), None) => {
+                Err(PyTypeError::new_err("fallback=\"nearest\" needs a seed"))
+            }
             (Some("nearest"), seed) => Ok(seed),
-            (Some(other), _) => Err(PyValueError::new_err(format!("fallback must be \"nearest\" or None, got \"{other}\""))),
+            (Some(other), _) => Err(PyValueError::new_err(format!(
+                "fallback must be \"nearest\" or None, got \"{other}\""
+            ))),
         }
     }
 }
@@ -80,10 +95,14 @@ pub(super) fn ik<'py>(
         PoseArgument::One(pose) => {
             let one = wanted.one(py)?;
             let found = match seed {
-                Some(seed) => robot.ik_configured_or_nearest_checked(pose, one, &read_seed(seed, None)?.0),
+                Some(seed) => {
+                    robot.ik_configured_or_nearest_checked(pose, one, &read_seed(seed, None)?.0)
+                }
                 None => robot.ik_configured_checked(pose, one),
             };
-            return Ok(PyArray1::from_slice(py, &found.map_err(|error| to_py(py, &error))?.q).into_any());
+            return Ok(
+                PyArray1::from_slice(py, &found.map_err(|error| to_py(py, &error))?.q).into_any()
+            );
         }
     };
     let wanted = wanted.many(py, &poses.lead)?;
@@ -91,7 +110,8 @@ pub(super) fn ik<'py>(
     let answer = output(py, None, &poses.shape_with(&[6]))?;
     let (data, mut view) = (poses.data()?, writable(&answer, &[])?);
     let q = view.as_slice_mut()?;
-    detached(py, || batch::ik_configured(robot, data, &wanted, seeds.as_deref(), q)).map_err(|error| to_py(py, &error))?;
+    detached(py, || batch::ik_configured(robot, data, &wanted, seeds.as_deref(), q))
+        .map_err(|error| to_py(py, &error))?;
     Ok(answer.into_any())
 }
 
@@ -105,7 +125,13 @@ impl Configurations {
     fn one(&self, py: Python<'_>) -> PyResult<Configuration> {
         match self.all[..] {
             [one] if self.lead.is_empty() => Ok(one),
-            _ => Err(Fault::Joints.error(py, format!("configuration must have shape [4], got {:?}", [&self.lead[..], &[4]].concat()))),
+            _ => Err(Fault::Joints.error(
+                py,
+                format!(
+                    "configuration must have shape [4], got {:?}",
+                    [&self.lead[..], &[4]].concat()
+                ),
+            )),
         }
     }
 
@@ -116,7 +142,10 @@ impl Configurations {
         let (wanted, got) = ([lead, &[4]].concat(), [&self.lead[..], &[4]].concat());
         match self.all[..] {
             [one] if self.lead.is_empty() => Ok(vec![one; lead.iter().product()]),
-            _ => Err(Fault::Joints.error(py, format!("configuration must have shape [4] or {wanted:?}, got {got:?}"))),
+            _ => Err(Fault::Joints.error(
+                py,
+                format!("configuration must have shape [4] or {wanted:?}, got {got:?}"),
+            )),
         }
     }
 }
@@ -126,14 +155,20 @@ fn read_configurations(value: &Bound<'_, PyAny>) -> PyResult<Configurations> {
     let py = value.py();
     let stacked = if value.is_instance(errors::configuration_class(py)?)? {
         let numpy = py.import(intern!(py, "numpy"))?;
-        let unlike = |_| Fault::Joints.error(py, "configuration: its four numbers have different shapes".to_owned());
+        let unlike = |_| {
+            Fault::Joints
+                .error(py, "configuration: its four numbers have different shapes".to_owned())
+        };
         &numpy.call_method1(intern!(py, "stack"), (value, -1)).map_err(unlike)?
     } else {
         value
     };
     let rows = Rows::read(stacked, &[4], "configuration", Fault::Joints)?;
     let whole = |field: &str, number: f64| {
-        #[expect(clippy::cast_possible_truncation, reason = "checked to be a whole number of that size")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "checked to be a whole number of that size"
+        )]
         if number.fract() == 0.0 && number.abs() <= f64::from(i32::MAX) {
             Ok(number as i32)
         } else {
@@ -142,7 +177,12 @@ fn read_configurations(value: &Bound<'_, PyAny>) -> PyResult<Configurations> {
         }
     };
     let configuration = |[cf1, cf4, cf6, cfx]: &[f64; 4]| {
-        Ok(Configuration { cf1: whole("cf1", *cf1)?, cf4: whole("cf4", *cf4)?, cf6: whole("cf6", *cf6)?, cfx: whole("cfx", *cfx)? })
+        Ok(Configuration {
+            cf1: whole("cf1", *cf1)?,
+            cf4: whole("cf4", *cf4)?,
+            cf6: whole("cf6", *cf6)?,
+            cfx: whole("cfx", *cfx)?,
+        })
     };
     let all = rows.data()?.as_chunks::<4>().0.iter().map(configuration).collect::<PyResult<_>>()?;
     Ok(Configurations { all, lead: rows.lead.clone() })

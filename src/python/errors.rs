@@ -14,7 +14,9 @@ macro_rules! package_object {
     ($name:ident, $module:literal, $attribute:literal) => {
         pub(super) fn $name(py: Python<'_>) -> PyResult<&Bound<'_, PyAny>> {
             static OBJECT: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
-            OBJECT.get_or_try_init(py, || Ok(py.import($module)?.getattr($attribute)?.unbind())).map(|object| object.bind(py))
+            OBJECT
+                .get_or_try_init(py, || Ok(py.import($module)?.getattr($attribute)?.unbind()))
+                .map(|object| object.bind(py))
         }
     };
 }
@@ -68,7 +70,9 @@ impl Fault {
 }
 
 fn raised(class: PyResult<&Bound<'_, PyAny>>, message: String) -> PyErr {
-    class.and_then(|class| class.call1((message,))).map_or_else(|failure| failure, PyErr::from_value)
+    class
+        .and_then(|class| class.call1((message,)))
+        .map_or_else(|failure| failure, PyErr::from_value)
 }
 
 /// The Python exception of a core error.
@@ -96,15 +100,19 @@ pub(super) fn rapid_fault(py: Python<'_>, message: String) -> PyErr {
 fn broken_text(py: Python<'_>, fault: &RapidFault) -> PyErr {
     let error = rapid_fault(py, fault.to_string());
     let value = error.value(py);
-    let told = value.setattr("line", fault.line).and_then(|()| value.setattr("column", fault.column));
+    let told =
+        value.setattr("line", fault.line).and_then(|()| value.setattr("column", fault.column));
     told.map_or_else(|failure| failure, |()| error)
 }
 
 /// With the configurations that exist as an attribute.
 fn no_configuration(py: Python<'_>, fault: &NoConfiguration) -> PyErr {
     let error = raised(unreachable_error(py), fault.to_string());
-    let existing = fault.existing.iter().map(|existing| record(py, existing)).collect::<PyResult<Vec<_>>>();
-    let told = existing.and_then(|existing| error.value(py).setattr("configurations", PyTuple::new(py, existing)?));
+    let existing =
+        fault.existing.iter().map(|existing| record(py, existing)).collect::<PyResult<Vec<_>>>();
+    let told = existing.and_then(|existing| {
+        error.value(py).setattr("configurations", PyTuple::new(py, existing)?)
+    });
     told.map_or_else(|failure| failure, |()| error)
 }
 

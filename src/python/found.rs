@@ -55,11 +55,16 @@ impl<const N: usize> Found<N> {
 
     /// Joint angles of each slot, NaN where it is empty.
     pub(super) fn slots(&self) -> [[f64; N]; SLOTS] {
-        core::array::from_fn(|slot| self.solutions.slot(slot).map_or([f64::NAN; N], |solution| solution.q))
+        core::array::from_fn(|slot| {
+            self.solutions.slot(slot).map_or([f64::NAN; N], |solution| solution.q)
+        })
     }
 
     pub(super) fn within_limits(&self) -> Self {
-        let inside = self.turned.as_ref().map(|turned| turned.iter().copied().filter(Solution::within_limits).collect());
+        let inside = self
+            .turned
+            .as_ref()
+            .map(|turned| turned.iter().copied().filter(Solution::within_limits).collect());
         self.with(self.solutions.within_limits(), inside)
     }
 
@@ -69,13 +74,20 @@ impl<const N: usize> Found<N> {
         }
         let count = self.solutions.turn_count();
         if count > MOST_TURNS {
-            return Err(format!("the limits leave {count:.1e} turns, more than 1e6 (are they in radians?)"));
+            return Err(format!(
+                "the limits leave {count:.1e} turns, more than 1e6 (are they in radians?)"
+            ));
         }
         Ok(self.with(self.solutions.clone(), Some(self.solutions.turns().collect())))
     }
 
     /// The cheapest solution inside the limits from `seed`, or why there is none. Solutions that were turned stand as they are.
-    pub(super) fn cheapest(&self, seed: &Bound<'_, PyAny>, weights: Option<&Bound<'_, PyAny>>, cost: Cost) -> PyResult<Solution<N>> {
+    pub(super) fn cheapest(
+        &self,
+        seed: &Bound<'_, PyAny>,
+        weights: Option<&Bound<'_, PyAny>>,
+        cost: Cost,
+    ) -> PyResult<Solution<N>> {
         let py = seed.py();
         let (seed, weights) = read_seed(seed, weights)?;
         let total = |solution: &Solution<N>| cost.total(&solution.q, &seed, &weights);
@@ -87,7 +99,10 @@ impl<const N: usize> Found<N> {
     }
 
     /// Those that `accept` takes; an error of it ends the search.
-    pub(super) fn filter(&self, mut accept: impl FnMut(&Solution<N>) -> PyResult<bool>) -> PyResult<Self> {
+    pub(super) fn filter(
+        &self,
+        mut accept: impl FnMut(&Solution<N>) -> PyResult<bool>,
+    ) -> PyResult<Self> {
         let mut failure = None;
         let mut keep = |solution: &Solution<N>| {
             failure.is_none()
@@ -98,8 +113,13 @@ impl<const N: usize> Found<N> {
         };
         let kept = match &self.turned {
             Some(turned) => {
-                let turned: Vec<_> = turned.iter().copied().filter(|solution| keep(solution)).collect();
-                self.with(self.solutions.filter(|solution| turned.iter().any(|kept| kept.slot == solution.slot)), Some(turned))
+                let turned: Vec<_> =
+                    turned.iter().copied().filter(|solution| keep(solution)).collect();
+                self.with(
+                    self.solutions
+                        .filter(|solution| turned.iter().any(|kept| kept.slot == solution.slot)),
+                    Some(turned),
+                )
             }
             None => self.with(self.solutions.filter(keep), None),
         };
@@ -108,7 +128,10 @@ impl<const N: usize> Found<N> {
 }
 
 /// A seed and weights, checked.
-pub(super) fn read_seed<const N: usize>(seed: &Bound<'_, PyAny>, weights: Option<&Bound<'_, PyAny>>) -> PyResult<([f64; N], [f64; N])> {
+pub(super) fn read_seed<const N: usize>(
+    seed: &Bound<'_, PyAny>,
+    weights: Option<&Bound<'_, PyAny>>,
+) -> PyResult<([f64; N], [f64; N])> {
     let py = seed.py();
     let seed = vector::<N>(seed, "seed", Fault::Joints)?;
     check_joints("seed", &seed).map_err(|error| to_py(py, &error))?;
@@ -116,7 +139,9 @@ pub(super) fn read_seed<const N: usize>(seed: &Bound<'_, PyAny>, weights: Option
 }
 
 /// Weights, checked; ones where none were given.
-pub(super) fn read_weights<const N: usize>(weights: Option<&Bound<'_, PyAny>>) -> PyResult<[f64; N]> {
+pub(super) fn read_weights<const N: usize>(
+    weights: Option<&Bound<'_, PyAny>>,
+) -> PyResult<[f64; N]> {
     let Some(given) = weights else { return Ok([1.0; N]) };
     let weights = vector::<N>(given, "weights", Fault::Joints)?;
     check_weights(&weights).map_err(|error| to_py(given.py(), &error))?;

@@ -47,7 +47,10 @@ fn use_instruction_set(name: &str) -> PyResult<()> {
     let available = || InstructionSet::available().map(InstructionSet::name).collect::<Vec<_>>();
     let set = InstructionSet::available().find(|set| set.name() == name);
     let set = set.ok_or_else(|| {
-        PyValueError::new_err(format!("instruction set \"{name}\" is none of this processor's: {available:?}", available = available()))
+        PyValueError::new_err(format!(
+            "instruction set \"{name}\" is none of this processor's: {available:?}",
+            available = available()
+        ))
     })?;
     set.force().map_err(|error| PyValueError::new_err(error.to_string()))
 }

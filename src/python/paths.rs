@@ -25,7 +25,8 @@ where
     let answer = output(py, None, &poses.shape_with(&[N]))?;
     let (data, mut view) = (poses.data()?, writable(&answer, &[])?);
     let q = view.as_slice_mut()?;
-    detached(py, || batch::ik_nearest(robot, data, &numbers, &weights, q)).map_err(|error| to_py(py, &error))?;
+    detached(py, || batch::ik_nearest(robot, data, &numbers, &weights, q))
+        .map_err(|error| to_py(py, &error))?;
     Ok(answer)
 }
 
@@ -39,11 +40,18 @@ pub(super) fn follow<'py>(
     let py = paths.py();
     let rows = Rows::read(paths, &[4, 4], "T", Fault::Pose)?;
     let [lead @ .., length] = &rows.lead[..] else {
-        return Err(Fault::Pose.error(py, format!("T must have shape (..., m, 4, 4), got {:?}", rows.shape_with(&[4, 4]))));
+        return Err(Fault::Pose.error(
+            py,
+            format!("T must have shape (..., m, 4, 4), got {:?}", rows.shape_with(&[4, 4])),
+        ));
     };
     let seeds = read_seeds::<6>(seeds, lead)?;
     let seeds = seeds.as_chunks::<6>().0;
-    if let Some((path, error)) = seeds.iter().enumerate().find_map(|(path, seed)| Some((path, check_joints("seed", seed).err()?))) {
+    if let Some((path, error)) = seeds
+        .iter()
+        .enumerate()
+        .find_map(|(path, seed)| Some((path, check_joints("seed", seed).err()?)))
+    {
         return Err(if lead.is_empty() {
             to_py(py, &error)
         } else {
@@ -51,25 +59,34 @@ pub(super) fn follow<'py>(
         });
     }
     let poses = rows.data()?.as_chunks::<16>().0.iter().enumerate();
-    let pose =
-        |(number, row)| pose_from_rows(row).map_err(|error| Fault::Pose.error(py, format!("T{:?}: {error}", index_in(&rows.lead, number))));
+    let pose = |(number, row)| {
+        pose_from_rows(row).map_err(|error| {
+            Fault::Pose.error(py, format!("T{:?}: {error}", index_in(&rows.lead, number)))
+        })
+    };
     let poses = poses.map(pose).collect::<PyResult<Vec<Pose>>>()?;
     let followed = py.detach(|| {
-        let path = |(number, seed)| robot.follow(&poses[number * length..(number + 1) * length], seed, options);
+        let path = |(number, seed)| {
+            robot.follow(&poses[number * length..(number + 1) * length], seed, options)
+        };
         seeds.iter().enumerate().map(path).collect::<Result<Vec<_>, _>>()
     });
     follow_result(py, &followed.map_err(|error| to_py(py, &error))?, lead, *length)
 }
 
 /// A seed for each row with the leading dimensions `lead`, or one for all.
-pub(super) fn read_seeds<const N: usize>(seeds: &Bound<'_, PyAny>, lead: &[usize]) -> PyResult<Vec<f64>> {
+pub(super) fn read_seeds<const N: usize>(
+    seeds: &Bound<'_, PyAny>,
+    lead: &[usize],
+) -> PyResult<Vec<f64>> {
     let rows = Rows::read(seeds, &[N], "seed", Fault::Joints)?;
     if rows.lead == lead {
         return Ok(rows.data()?.to_vec());
     }
     if !rows.is_single() {
         let (wanted, got) = ([lead, &[N]].concat(), rows.shape_with(&[N]));
-        return Err(Fault::Joints.error(seeds.py(), format!("seed must have shape [{N}] or {wanted:?}, got {got:?}")));
+        return Err(Fault::Joints
+            .error(seeds.py(), format!("seed must have shape [{N}] or {wanted:?}, got {got:?}")));
     }
     check_joints("seed", rows.data()?).map_err(|error| to_py(seeds.py(), &error))?;
     Ok(rows.data()?.repeat(lead.iter().product()))

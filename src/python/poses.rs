@@ -8,7 +8,8 @@ use super::arrays::{Rows, copied_matrix4, matrix, matrix4, vector};
 use super::errors::{Fault, to_py};
 use crate::error::Error;
 use crate::kinematics::{
-    Pose, pose_from_euler_zyx, pose_from_quaternion, pose_from_rows, pose_to_euler_zyx, pose_to_quaternion, pose_to_rows,
+    Pose, pose_from_euler_zyx, pose_from_quaternion, pose_from_rows, pose_to_euler_zyx,
+    pose_to_quaternion, pose_to_rows,
 };
 
 /// The argument `field` as a checked pose.
@@ -26,7 +27,9 @@ pub(super) enum PoseArgument<'py> {
 /// The argument T, of shape (..., 4, 4); a single pose is checked.
 #[inline]
 pub(super) fn read_poses<'py>(value: &Bound<'py, PyAny>) -> PyResult<PoseArgument<'py>> {
-    let checked = |rows: &[f64; 16]| pose_from_rows(rows).map(PoseArgument::One).map_err(|error| to_py(value.py(), &error));
+    let checked = |rows: &[f64; 16]| {
+        pose_from_rows(rows).map(PoseArgument::One).map_err(|error| to_py(value.py(), &error))
+    };
     if let Some(rows) = copied_matrix4(value) {
         return checked(&rows);
     }
@@ -65,8 +68,12 @@ pub(super) fn pose<'py>(
     let py = xyz.py();
     let xyz = vector::<3>(xyz, "xyz", Fault::Pose)?;
     let pose: Result<Pose, Error> = match (quaternion, euler_zyx) {
-        (Some(_), Some(_)) => return Err(PyTypeError::new_err("give quaternion or euler_zyx, not both")),
-        (Some(quaternion), None) => pose_from_quaternion(xyz, vector(quaternion, "quaternion", Fault::Pose)?),
+        (Some(_), Some(_)) => {
+            return Err(PyTypeError::new_err("give quaternion or euler_zyx, not both"));
+        }
+        (Some(quaternion), None) => {
+            pose_from_quaternion(xyz, vector(quaternion, "quaternion", Fault::Pose)?)
+        }
         (None, Some(euler)) => pose_from_euler_zyx(xyz, vector(euler, "euler_zyx", Fault::Pose)?),
         (None, None) => pose_from_euler_zyx(xyz, [0.0; 3]),
     };

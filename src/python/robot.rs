@@ -80,7 +80,12 @@ impl PyRobot {
     ///         names the axes that do not meet or are not parallel, and by how much.
     #[staticmethod]
     #[pyo3(signature = (rows, limits=None, name="", *, closed_form=true))]
-    fn from_mdh(rows: &Bound<'_, PyAny>, limits: Option<&Bound<'_, PyAny>>, name: &str, closed_form: bool) -> PyResult<Self> {
+    fn from_mdh(
+        rows: &Bound<'_, PyAny>,
+        limits: Option<&Bound<'_, PyAny>>,
+        name: &str,
+        closed_form: bool,
+    ) -> PyResult<Self> {
         build::from_table(rows, limits, name, closed_form, Convention::Modified).map(Self::from)
     }
 
@@ -97,7 +102,12 @@ impl PyRobot {
     ///     InvalidModelError: As `from_mdh`.
     #[staticmethod]
     #[pyo3(signature = (rows, limits=None, name="", *, closed_form=true))]
-    fn from_sdh(rows: &Bound<'_, PyAny>, limits: Option<&Bound<'_, PyAny>>, name: &str, closed_form: bool) -> PyResult<Self> {
+    fn from_sdh(
+        rows: &Bound<'_, PyAny>,
+        limits: Option<&Bound<'_, PyAny>>,
+        name: &str,
+        closed_form: bool,
+    ) -> PyResult<Self> {
         build::from_table(rows, limits, name, closed_form, Convention::Standard).map(Self::from)
     }
 
@@ -129,7 +139,8 @@ impl PyRobot {
         limits: Option<&Bound<'_, PyAny>>,
         name: &str,
     ) -> PyResult<Self> {
-        let offsets = offsets.map_or(Ok([0.0; 6]), |offsets| vector(offsets, "offsets", Fault::Model))?;
+        let offsets =
+            offsets.map_or(Ok([0.0; 6]), |offsets| vector(offsets, "offsets", Fault::Model))?;
         let signs = signs.map_or(Ok([1.0; 6]), |signs| vector(signs, "signs", Fault::Model))?;
         let opw = OpwParameters { a1, a2, b, c1, c2, c3, c4, offsets, signs: [1; 6] };
         build::from_opw(py, opw, signs, limits, name).map(Self::from)
@@ -151,7 +162,13 @@ impl PyRobot {
     ///     OSError: The file cannot be read.
     #[staticmethod]
     #[pyo3(signature = (text_or_path, base=None, tip=None, name="", *, closed_form=true))]
-    fn from_urdf(text_or_path: &Bound<'_, PyAny>, base: Option<&str>, tip: Option<&str>, name: &str, closed_form: bool) -> PyResult<Self> {
+    fn from_urdf(
+        text_or_path: &Bound<'_, PyAny>,
+        base: Option<&str>,
+        tip: Option<&str>,
+        name: &str,
+        closed_form: bool,
+    ) -> PyResult<Self> {
         urdf::from_urdf(text_or_path, base, tip, name, closed_form).map(Self::from)
     }
 
@@ -241,7 +258,8 @@ impl PyRobot {
     /// Lower and upper limit of q3 - q2 [rad], shape (2,), of the rod that couples axes 2 and 3; None where none are known.
     #[getter]
     fn rod_limits<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
-        on_robot!(&self.arm, robot => robot.limits().rod()).map(|rod| PyArray1::from_slice(py, &rod))
+        on_robot!(&self.arm, robot => robot.limits().rod())
+            .map(|rod| PyArray1::from_slice(py, &rod))
     }
 
     /// The same robot with limits of q3 - q2 [rad], shape (2,), at whatever turn, for the rod that couples axes 2 and 3; None for none.
@@ -284,7 +302,11 @@ impl PyRobot {
     /// Raises:
     ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
     #[pyo3(signature = (q, out=None))]
-    fn fk<'py>(&self, q: &Bound<'py, PyAny>, out: Option<&Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyAny>> {
+    fn fk<'py>(
+        &self,
+        q: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         self.arm.fk(q, out)
     }
 
@@ -316,7 +338,12 @@ impl PyRobot {
     ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
     ///     ValueError: Another frame.
     #[pyo3(signature = (q, frame="base", out=None))]
-    fn jacobian<'py>(&self, q: &Bound<'py, PyAny>, frame: &str, out: Option<&Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyAny>> {
+    fn jacobian<'py>(
+        &self,
+        q: &Bound<'py, PyAny>,
+        frame: &str,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         let frame = read_frame(frame)?;
         self.arm.jacobian(q, frame, out)
     }
@@ -364,7 +391,9 @@ impl PyRobot {
             Arm::Seven(robot) => {
                 let q7 = needed_q7(py, robot, q7)?;
                 let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_pose(T, "T")?));
-                check_given(q7).and_then(|()| robot.ik_into(&mut found.solutions, q7)).map_err(|error| to_py(py, &error))?;
+                check_given(q7)
+                    .and_then(|()| robot.ik_into(&mut found.solutions, q7))
+                    .map_err(|error| to_py(py, &error))?;
                 Bound::new(py, PySolutions::from(found))
             }
         }
@@ -459,8 +488,11 @@ impl PyRobot {
         singular: &str,
         zone: Option<f64>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let options =
-            FollowOptions { weights: read_weights(weights)?, crossing: read_crossing(singular)?, zone: zone.unwrap_or(WRIST_ZONE) };
+        let options = FollowOptions {
+            weights: read_weights(weights)?,
+            crossing: read_crossing(singular)?,
+            zone: zone.unwrap_or(WRIST_ZONE),
+        };
         paths::follow(self.arm.follower(T.py())?, T, seed, &options)
     }
 
@@ -524,9 +556,14 @@ impl PyRobot {
     ///     InvalidPoseError, InvalidModelError: As `ik`.
     fn check_pose<'py>(&self, T: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let pose = read_pose(T, "T")?;
-        let explanation = on_robot!(&self.arm, robot => robot.explain(&pose)).map_err(|error| to_py(T.py(), &error))?;
+        let explanation = on_robot!(&self.arm, robot => robot.explain(&pose))
+            .map_err(|error| to_py(T.py(), &error))?;
         let inside = matches!(explanation, Explanation::Found { .. });
-        let reachable = inside || matches!(explanation, Explanation::OutsideLimits { .. } | Explanation::OutsideRod { .. });
+        let reachable = inside
+            || matches!(
+                explanation,
+                Explanation::OutsideLimits { .. } | Explanation::OutsideRod { .. }
+            );
         errors::pose_check_class(T.py())?.call1((reachable, inside, explanation.to_string()))
     }
 

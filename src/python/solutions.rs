@@ -25,8 +25,13 @@ impl<const N: usize> Member<N> {
     }
 
     fn with_free(&self, py: Python<'_>, value: f64) -> PyResult<Self> {
-        let moved = self.robot.with_free(&self.pose, &self.solution, value).map_err(|error| to_py(py, &error))?;
-        let moved = moved.ok_or_else(|| Fault::Joints.error(py, format!("no joint is free: {}", self.sentence())))?;
+        let moved = self
+            .robot
+            .with_free(&self.pose, &self.solution, value)
+            .map_err(|error| to_py(py, &error))?;
+        let moved = moved.ok_or_else(|| {
+            Fault::Joints.error(py, format!("no joint is free: {}", self.sentence()))
+        })?;
         Ok(Self { robot: Arc::clone(&self.robot), pose: self.pose, solution: moved })
     }
 
@@ -125,7 +130,8 @@ impl PySolution {
     #[getter]
     fn free<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         let free = on!(AnyMember, &self.of, member => member.solution.free);
-        free.map(|free| errors::free_joint_class(py)?.call1((free.joint(), free.fixed()))).transpose()
+        free.map(|free| errors::free_joint_class(py)?.call1((free.joint(), free.fixed())))
+            .transpose()
     }
 
     /// The solution of the same pose with the free joint at another angle.
@@ -156,7 +162,12 @@ impl PySolution {
     }
 
     #[pyo3(signature = (dtype=None, copy=None))]
-    fn __array__<'py>(&self, py: Python<'py>, dtype: Option<&Bound<'py, PyAny>>, copy: Option<bool>) -> PyResult<Bound<'py, PyAny>> {
+    fn __array__<'py>(
+        &self,
+        py: Python<'py>,
+        dtype: Option<&Bound<'py, PyAny>>,
+        copy: Option<bool>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         as_array(self.q(py).into_any(), dtype, copy)
     }
 
@@ -164,7 +175,11 @@ impl PySolution {
         on!(AnyMember, &self.of, member => member.solution.q.len())
     }
 
-    fn __getitem__<'py>(&self, py: Python<'py>, index: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    fn __getitem__<'py>(
+        &self,
+        py: Python<'py>,
+        index: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         self.q(py).get_item(index)
     }
 
@@ -243,7 +258,11 @@ impl PySolutions {
     /// Raises:
     ///     UnreachableError: None is inside the limits; the message is `explain()`.
     #[pyo3(signature = (seed, weights=None))]
-    fn nearest(&self, seed: &Bound<'_, PyAny>, weights: Option<&Bound<'_, PyAny>>) -> PyResult<PySolution> {
+    fn nearest(
+        &self,
+        seed: &Bound<'_, PyAny>,
+        weights: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<PySolution> {
         on!(AnyFound, &self.found, found => Ok(Member::of(found, found.cheapest(seed, weights, Cost::Distance)?).into()))
     }
 
@@ -256,7 +275,11 @@ impl PySolutions {
     /// Raises:
     ///     UnreachableError: None is inside the limits; the message is `explain()`.
     #[pyo3(signature = (seed, weights=None))]
-    fn least_motion(&self, seed: &Bound<'_, PyAny>, weights: Option<&Bound<'_, PyAny>>) -> PyResult<PySolution> {
+    fn least_motion(
+        &self,
+        seed: &Bound<'_, PyAny>,
+        weights: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<PySolution> {
         on!(AnyFound, &self.found, found => Ok(Member::of(found, found.cheapest(seed, weights, Cost::Travel)?).into()))
     }
 
@@ -269,7 +292,12 @@ impl PySolutions {
     }
 
     #[pyo3(signature = (dtype=None, copy=None))]
-    fn __array__<'py>(&self, py: Python<'py>, dtype: Option<&Bound<'py, PyAny>>, copy: Option<bool>) -> PyResult<Bound<'py, PyAny>> {
+    fn __array__<'py>(
+        &self,
+        py: Python<'py>,
+        dtype: Option<&Bound<'py, PyAny>>,
+        copy: Option<bool>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         as_array(self.q(py).into_any(), dtype, copy)
     }
 
@@ -289,8 +317,7 @@ impl PySolutions {
     }
 
     fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyIterator>> {
-        let members: Vec<PySolution> =
-            on!(AnyFound, &self.found, found => found.entries().into_iter().map(|solution| Member::of(found, solution).into()).collect());
+        let members: Vec<PySolution> = on!(AnyFound, &self.found, found => found.entries().into_iter().map(|solution| Member::of(found, solution).into()).collect());
         PyList::new(py, members)?.try_iter()
     }
 
@@ -300,7 +327,11 @@ impl PySolutions {
 }
 
 /// What NumPy's array protocol wants of `__array__`.
-fn as_array<'py>(array: Bound<'py, PyAny>, dtype: Option<&Bound<'py, PyAny>>, copy: Option<bool>) -> PyResult<Bound<'py, PyAny>> {
+fn as_array<'py>(
+    array: Bound<'py, PyAny>,
+    dtype: Option<&Bound<'py, PyAny>>,
+    copy: Option<bool>,
+) -> PyResult<Bound<'py, PyAny>> {
     if copy == Some(false) {
         return Err(PyValueError::new_err("the joint angles cannot be seen without a copy"));
     }

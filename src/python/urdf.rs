@@ -22,11 +22,22 @@ pub(super) fn from_urdf(
     py.detach(|| arm_of(&bytes, base, tip, name, closed_form)).map_err(|error| to_py(py, &error))
 }
 
-fn arm_of(bytes: &[u8], base: Option<&str>, tip: Option<&str>, name: &str, closed_form: bool) -> Result<Arm, Error> {
-    let text = str::from_utf8(bytes).map_err(|error| UrdfFault::NotUtf8 { byte: error.valid_up_to() })?;
+fn arm_of(
+    bytes: &[u8],
+    base: Option<&str>,
+    tip: Option<&str>,
+    name: &str,
+    closed_form: bool,
+) -> Result<Arm, Error> {
+    let text =
+        str::from_utf8(bytes).map_err(|error| UrdfFault::NotUtf8 { byte: error.valid_up_to() })?;
     let read = UrdfArm::read(text, base, tip, &[6, 7])?;
     let seven = read.dof() == 7;
-    if seven { robot::<7>(read, name, closed_form).map(Arm::from) } else { robot::<6>(read, name, closed_form).map(Arm::from) }
+    if seven {
+        robot::<7>(read, name, closed_form).map(Arm::from)
+    } else {
+        robot::<6>(read, name, closed_form).map(Arm::from)
+    }
 }
 
 fn robot<const N: usize>(read: UrdfArm, name: &str, closed_form: bool) -> Result<Robot<N>, Error> {
@@ -41,8 +52,15 @@ fn bytes_of(text_or_path: &Bound<'_, PyAny>) -> PyResult<Vec<u8>> {
     }
     if let Ok(text) = text_or_path.cast::<PyString>() {
         // A half of a surrogate pair is kept as the bytes that it would be, which are no UTF-8.
-        let bytes = text.call_method1("encode", ("utf-8", "surrogatepass"))?.cast_into::<PyBytes>()?.as_bytes().to_vec();
-        if String::from_utf8_lossy(&bytes).trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}').starts_with('<') {
+        let bytes = text
+            .call_method1("encode", ("utf-8", "surrogatepass"))?
+            .cast_into::<PyBytes>()?
+            .as_bytes()
+            .to_vec();
+        if String::from_utf8_lossy(&bytes)
+            .trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}')
+            .starts_with('<')
+        {
             return Ok(bytes);
         }
     }

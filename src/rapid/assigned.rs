@@ -44,7 +44,11 @@ impl Cause<'_> {
             By::Module(Some(module)) => format!("which module {module} assigns"),
             By::Module(None) => "which another module assigns".to_string(),
         };
-        if self.name.to_lowercase() == referred.to_lowercase() { by } else { format!("which depends on {}, {by}", self.name) }
+        if self.name.to_lowercase() == referred.to_lowercase() {
+            by
+        } else {
+            format!("which depends on {}, {by}", self.name)
+        }
     }
 }
 
@@ -70,7 +74,12 @@ impl<'a> Causes<'a> {
     }
 
     /// Those of assignments: each goes to the datum that its name stands for where it stands. A CONST cannot be assigned.
-    pub(super) fn new(assignments: &[Assignment<'a>], declared: &[Declared<'_>], scopes: &Scopes, blocks: &Blocks<'_>) -> Self {
+    pub(super) fn new(
+        assignments: &[Assignment<'a>],
+        declared: &[Declared<'_>],
+        scopes: &Scopes,
+        blocks: &Blocks<'_>,
+    ) -> Self {
         let mut causes = Self::none();
         for Assignment { routine, inside_loop, name, line } in assignments {
             let lower = name.to_lowercase();
@@ -79,7 +88,9 @@ impl<'a> Causes<'a> {
             }
             let cause = Cause { name, by: By::Line(*line) };
             match scopes.find(*routine, &lower) {
-                Some(Named::Datum(datum)) if declared.get(*datum).is_some_and(|it| it.storage != Storage::Const) => {
+                Some(Named::Datum(datum))
+                    if declared.get(*datum).is_some_and(|it| it.storage != Storage::Const) =>
+                {
                     causes.add(*datum, cause);
                 }
                 Some(_) => {}
@@ -100,9 +111,16 @@ impl<'a> Causes<'a> {
     }
 
     /// That of a datum of another module, by its name in lower case: this module assigns it, its own does, or one that does not mean its own.
-    pub(super) fn of_other(&self, lower: &str, home: &'a Module, context: &[&'a Module]) -> Option<Cause<'a>> {
-        let assigns =
-            |module: &&&Module| module.assigned.contains(lower) && (core::ptr::eq(**module, home) || module.find(lower).is_none());
+    pub(super) fn of_other(
+        &self,
+        lower: &str,
+        home: &'a Module,
+        context: &[&'a Module],
+    ) -> Option<Cause<'a>> {
+        let assigns = |module: &&&Module| {
+            module.assigned.contains(lower)
+                && (core::ptr::eq(**module, home) || module.find(lower).is_none())
+        };
         let of_context = || {
             let module = context.iter().find(assigns)?;
             let name = home.find(lower)?.name.as_str();
@@ -113,13 +131,20 @@ impl<'a> Causes<'a> {
 
     /// The names in lower case of what other modules could see that it is assigned.
     pub(super) fn names(self, declared: &[Declared<'_>]) -> BTreeSet<String> {
-        let data = self.of_data.keys().filter_map(|datum| declared.get(*datum)).filter(|datum| datum.routine == 0);
+        let data = self
+            .of_data
+            .keys()
+            .filter_map(|datum| declared.get(*datum))
+            .filter(|datum| datum.routine == 0);
         data.map(|datum| datum.name.to_lowercase()).chain(self.of_others.into_keys()).collect()
     }
 }
 
 /// The datum of other modules that a name in lower case means, with its module.
-pub(super) fn found_elsewhere<'a>(lower: &str, context: &[&'a Module]) -> Option<(&'a Datum, &'a Module)> {
+pub(super) fn found_elsewhere<'a>(
+    lower: &str,
+    context: &[&'a Module],
+) -> Option<(&'a Datum, &'a Module)> {
     let mut found = context.iter().filter_map(|module| Some((module.find(lower)?, *module)));
     found.find(|(datum, _)| datum.scope != Scope::Local)
 }

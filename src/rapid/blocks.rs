@@ -12,7 +12,8 @@ use super::words::is_reserved;
 use crate::error::{RapidFault, RapidFaultKind};
 
 /// Words that begin a block, with those that end it.
-const BLOCKS: [(&str, &str); 4] = [("IF", "ENDIF"), ("FOR", "ENDFOR"), ("WHILE", "ENDWHILE"), ("TEST", "ENDTEST")];
+const BLOCKS: [(&str, &str); 4] =
+    [("IF", "ENDIF"), ("FOR", "ENDFOR"), ("WHILE", "ENDWHILE"), ("TEST", "ENDTEST")];
 
 /// Words that stand between the beginning and the end of a block or of a routine.
 const PARTS: [&str; 7] = ["ELSEIF", "ELSE", "CASE", "DEFAULT", "ERROR", "UNDO", "BACKWARD"];
@@ -21,7 +22,9 @@ const PARTS: [&str; 7] = ["ELSEIF", "ELSE", "CASE", "DEFAULT", "ERROR", "UNDO", 
 const OPERATORS: [&str; 6] = ["AND", "OR", "XOR", "NOT", "DIV", "MOD"];
 
 /// Reserved words with which an instruction begins.
-const INSTRUCTIONS: [&str; 11] = ["IF", "FOR", "WHILE", "TEST", "RETURN", "EXIT", "GOTO", "RAISE", "RETRY", "TRYNEXT", "CONNECT"];
+const INSTRUCTIONS: [&str; 11] = [
+    "IF", "FOR", "WHILE", "TEST", "RETURN", "EXIT", "GOTO", "RAISE", "RETRY", "TRYNEXT", "CONNECT",
+];
 
 /// Whether a word in capitals begins, parts or ends a block.
 pub(super) fn is_flow(word: &str) -> bool {
@@ -76,7 +79,12 @@ impl<'a> Blocks<'a> {
     }
 
     /// Reads the line that begins with a word in capitals, which was taken.
-    pub(super) fn read(&mut self, tokens: &mut Tokens<'a>, word: &str, token: Token) -> Result<(), RapidFault> {
+    pub(super) fn read(
+        &mut self,
+        tokens: &mut Tokens<'a>,
+        word: &str,
+        token: Token,
+    ) -> Result<(), RapidFault> {
         if let Some(block) = BLOCKS.iter().position(|(_, end)| *end == word) {
             return self.close(tokens, block, token);
         }
@@ -84,7 +92,11 @@ impl<'a> Blocks<'a> {
             "IF" => {
                 skip_condition(tokens)?;
                 // Without THEN it is one instruction, which follows.
-                if tokens.take_word("THEN")? { self.begin(tokens, 0, None, token) } else { check_instruction(tokens) }
+                if tokens.take_word("THEN")? {
+                    self.begin(tokens, 0, None, token)
+                } else {
+                    check_instruction(tokens)
+                }
             }
             "ELSEIF" => {
                 skip_condition(tokens)?;
@@ -101,23 +113,39 @@ impl<'a> Blocks<'a> {
                 self.begin(tokens, 2, None, token)
             }
             "TEST" => {
-                let at_case = |tokens: &Tokens<'_>| ["CASE", "DEFAULT", "ENDTEST"].iter().any(|word| tokens.at_word(word));
+                let at_case = |tokens: &Tokens<'_>| {
+                    ["CASE", "DEFAULT", "ENDTEST"].iter().any(|word| tokens.at_word(word))
+                };
                 skip_balanced(tokens, |tokens, _| at_case(tokens))?;
-                if at_case(tokens) { self.begin(tokens, 3, None, token) } else { Err(tokens.unexpected("CASE")) }
+                if at_case(tokens) {
+                    self.begin(tokens, 3, None, token)
+                } else {
+                    Err(tokens.unexpected("CASE"))
+                }
             }
             "CASE" | "DEFAULT" => {
                 skip_balanced(tokens, |tokens, _| tokens.peek().is(b':'))?;
                 tokens.demand(b':', "a colon")
             }
             // A handler may name the errors that it handles.
-            "ERROR" if tokens.peek().is(b'(') => skip_balanced(tokens, |_, last| last.is_some_and(|last| last.is(b')'))),
+            "ERROR" if tokens.peek().is(b'(') => {
+                skip_balanced(tokens, |_, last| last.is_some_and(|last| last.is(b')')))
+            }
             _ => Ok(()),
         }
     }
 
-    fn begin(&mut self, tokens: &Tokens<'_>, block: usize, inside: Option<usize>, token: Token) -> Result<(), RapidFault> {
+    fn begin(
+        &mut self,
+        tokens: &Tokens<'_>,
+        block: usize,
+        inside: Option<usize>,
+        token: Token,
+    ) -> Result<(), RapidFault> {
         if self.open.len() == DEEPEST_NESTING {
-            return Err(tokens.fault(token.start, RapidFaultKind::TooDeep { bound: DEEPEST_NESTING }));
+            return Err(
+                tokens.fault(token.start, RapidFaultKind::TooDeep { bound: DEEPEST_NESTING })
+            );
         }
         self.open.push((block, inside));
         Ok(())
@@ -138,13 +166,21 @@ impl<'a> Blocks<'a> {
 fn skip_condition(tokens: &mut Tokens<'_>) -> Result<(), RapidFault> {
     skip_balanced(tokens, |tokens, last| {
         let next = tokens.peek();
-        let is_operator = |token: Token| OPERATORS.iter().any(|word| word.eq_ignore_ascii_case(tokens.text_of(token)));
+        let is_operator = |token: Token| {
+            OPERATORS.iter().any(|word| word.eq_ignore_ascii_case(tokens.text_of(token)))
+        };
         let after_operand = last.is_some_and(|last| match last.kind {
             TokenKind::Name => !is_operator(last),
-            TokenKind::Number(_) | TokenKind::Text | TokenKind::Placeholder | TokenKind::Symbol(b']' | b')' | b'}') => true,
+            TokenKind::Number(_)
+            | TokenKind::Text
+            | TokenKind::Placeholder
+            | TokenKind::Symbol(b']' | b')' | b'}') => true,
             _ => false,
         });
-        after_operand && (next.is(b'%') || next.kind == TokenKind::Placeholder || next.kind == TokenKind::Name && !is_operator(next))
+        after_operand
+            && (next.is(b'%')
+                || next.kind == TokenKind::Placeholder
+                || next.kind == TokenKind::Name && !is_operator(next))
     })
 }
 
@@ -154,7 +190,10 @@ fn check_instruction(tokens: &mut Tokens<'_>) -> Result<(), RapidFault> {
     let word = tokens.text_of(token);
     let may = match token.kind {
         TokenKind::Name if word.eq_ignore_ascii_case("TASK") => false,
-        TokenKind::Name => !is_reserved(word) || INSTRUCTIONS.iter().any(|instruction| instruction.eq_ignore_ascii_case(word)),
+        TokenKind::Name => {
+            !is_reserved(word)
+                || INSTRUCTIONS.iter().any(|instruction| instruction.eq_ignore_ascii_case(word))
+        }
         TokenKind::Symbol(symbol) => symbol == b'%',
         TokenKind::Placeholder => true,
         _ => false,

@@ -14,9 +14,15 @@ use crate::kinematics::{Explanation, Pose, Robot};
 ///
 /// As [`Robot::ik_configured`]: RAPID's names of them are given by [`error_name`]. [`Error::Frame`] for a tool and a work object that do not go
 /// together or are no poses.
-pub fn calc_joint_t(robot: &Robot<6>, target: &RobTarget, tool: Option<&ToolData>, wobj: Option<&WobjData>) -> Result<JointTarget, Error> {
+pub fn calc_joint_t(
+    robot: &Robot<6>,
+    target: &RobTarget,
+    tool: Option<&ToolData>,
+    wobj: Option<&WobjData>,
+) -> Result<JointTarget, Error> {
     let frames = Frames::new(robot, tool, wobj)?;
-    let q = with_flange(robot)?.ik_configured(&frames.flange(&target_pose(target)?), target.robconf)?.q;
+    let q =
+        with_flange(robot)?.ik_configured(&frames.flange(&target_pose(target)?), target.robconf)?.q;
     Ok(joint_target(&q, target.extax))
 }
 
@@ -33,7 +39,9 @@ pub fn calc_joint_t_or_nearest(
     seed: &[f64; 6],
 ) -> Result<JointTarget, Error> {
     let frames = Frames::new(robot, tool, wobj)?;
-    let q = with_flange(robot)?.ik_configured_or_nearest(&frames.flange(&target_pose(target)?), target.robconf, seed)?.q;
+    let q = with_flange(robot)?
+        .ik_configured_or_nearest(&frames.flange(&target_pose(target)?), target.robconf, seed)?
+        .q;
     Ok(joint_target(&q, target.extax))
 }
 
@@ -42,7 +50,12 @@ pub fn calc_joint_t_or_nearest(
 /// # Errors
 ///
 /// As [`Robot::configuration`], and [`Error::Frame`] as [`calc_joint_t`]. Limits are not asked.
-pub fn calc_rob_t(robot: &Robot<6>, joints: &JointTarget, tool: Option<&ToolData>, wobj: Option<&WobjData>) -> Result<RobTarget, Error> {
+pub fn calc_rob_t(
+    robot: &Robot<6>,
+    joints: &JointTarget,
+    tool: Option<&ToolData>,
+    wobj: Option<&WobjData>,
+) -> Result<RobTarget, Error> {
     let frames = Frames::new(robot, tool, wobj)?;
     let q = joints.robax_deg.map(f64::to_radians);
     let robconf = robot.configuration(&q)?;

@@ -96,7 +96,11 @@ pub(super) fn read_declaration<'a>(
         skip_balanced(tokens, |_, _| false)?;
         tokens.demand(b';', "a semicolon")?;
         let unfinished = tokens.unfinished_since(from);
-        return Ok(if unfinished { Declaration::Unfinished { name } } else { Declaration::Unread { name, type_name } });
+        return Ok(if unfinished {
+            Declaration::Unfinished { name }
+        } else {
+            Declaration::Unread { name, type_name }
+        });
     };
     let (line, column) = tokens.line_and_column(start);
     let (sizes, names) = ExpressionReader::new(tokens).sizes()?;
@@ -158,17 +162,32 @@ impl Scopes {
     }
 
     /// Declares a name, which must not be there yet; `routine_name` is for the message. A placeholder declares nothing.
-    pub(super) fn declare(&mut self, routine: usize, routine_name: Option<&str>, name: &str, named: Named) -> Result<(), RapidFaultKind> {
-        let Some(scope) = self.names.get_mut(routine).filter(|_| !is_placeholder(name)) else { return Ok(()) };
+    pub(super) fn declare(
+        &mut self,
+        routine: usize,
+        routine_name: Option<&str>,
+        name: &str,
+        named: Named,
+    ) -> Result<(), RapidFaultKind> {
+        let Some(scope) = self.names.get_mut(routine).filter(|_| !is_placeholder(name)) else {
+            return Ok(());
+        };
         match scope.insert(name.to_lowercase(), named) {
             None => Ok(()),
-            Some(_) => Err(RapidFaultKind::SameName { name: name.to_string(), routine: routine_name.map(ToString::to_string) }),
+            Some(_) => Err(RapidFaultKind::SameName {
+                name: name.to_string(),
+                routine: routine_name.map(ToString::to_string),
+            }),
         }
     }
 
     /// What a name in lower case stands for, in a routine or else in the module.
     pub(super) fn find(&self, routine: usize, lower: &str) -> Option<&Named> {
-        let local = if routine > 0 { self.names.get(routine).and_then(|scope| scope.get(lower)) } else { None };
+        let local = if routine > 0 {
+            self.names.get(routine).and_then(|scope| scope.get(lower))
+        } else {
+            None
+        };
         local.or_else(|| self.names.first().and_then(|scope| scope.get(lower)))
     }
 

@@ -21,14 +21,21 @@ impl Displacement {
     }
 
     pub(super) fn named(name: &str) -> Option<Self> {
-        [Self::Offs, Self::RelTool].into_iter().find(|function| function.name().eq_ignore_ascii_case(name))
+        [Self::Offs, Self::RelTool]
+            .into_iter()
+            .find(|function| function.name().eq_ignore_ascii_case(name))
     }
 }
 
 /// A target displaced by `shift` [mm] and, by RelTool, turned by `turns` [deg]: about x, then about the new y, then about the new z.
 ///
 /// The order of the turns is general knowledge of RAPID's reference, not checked on a controller.
-pub(super) fn displaced(function: Displacement, target: &RobTarget, shift: [f64; 3], turns: [f64; 3]) -> RobTarget {
+pub(super) fn displaced(
+    function: Displacement,
+    target: &RobTarget,
+    shift: [f64; 3],
+    turns: [f64; 3],
+) -> RobTarget {
     let mut displaced = *target;
     let shift = if function == Displacement::Offs { shift } else { rotated(target.rot, shift) };
     for (position, shift) in displaced.trans_mm.iter_mut().zip(shift) {

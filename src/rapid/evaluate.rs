@@ -62,7 +62,11 @@ const WHOLE_THING: Part<'_> = Part { name: "", of: None };
 
 impl Evaluator<'_, '_> {
     /// The value of a type.
-    pub(super) fn value(&self, expression: &Expression<'_>, data_type: DataType) -> Result<Value, Stop> {
+    pub(super) fn value(
+        &self,
+        expression: &Expression<'_>,
+        data_type: DataType,
+    ) -> Result<Value, Stop> {
         let scalars = self.scalars(expression, Kind::from(data_type))?;
         Ok(Value::from_scalars(data_type, &scalars))
     }
@@ -87,12 +91,32 @@ impl Evaluator<'_, '_> {
         Stop::Fault(fault_at(self.resolver.text, expression.start, kind))
     }
 
-    fn wrong_type(&self, expression: &Expression<'_>, kind: Kind, part: &Part<'_>, found: &str) -> Stop {
+    fn wrong_type(
+        &self,
+        expression: &Expression<'_>,
+        kind: Kind,
+        part: &Part<'_>,
+        found: &str,
+    ) -> Stop {
         let (thing, part) = (self.thing(), part.path());
-        self.fault(expression, RapidFaultKind::ComponentType { thing, part, found: found.to_string(), wanted: kind.wanted() })
+        self.fault(
+            expression,
+            RapidFaultKind::ComponentType {
+                thing,
+                part,
+                found: found.to_string(),
+                wanted: kind.wanted(),
+            },
+        )
     }
 
-    fn fill(&self, expression: &Expression<'_>, kind: Kind, part: &Part<'_>, scalars: &mut Scalars) -> Result<(), Stop> {
+    fn fill(
+        &self,
+        expression: &Expression<'_>,
+        kind: Kind,
+        part: &Part<'_>,
+        scalars: &mut Scalars,
+    ) -> Result<(), Stop> {
         match &expression.form {
             Form::Number(value) => match kind {
                 Kind::Num => scalars.push(*value),
@@ -101,21 +125,43 @@ impl Evaluator<'_, '_> {
             },
             Form::Bool(value) => match kind {
                 Kind::Bool => scalars.push(f64::from(u8::from(*value))),
-                _ => return Err(self.wrong_type(expression, kind, part, if *value { "TRUE" } else { "FALSE" })),
+                _ => {
+                    return Err(self.wrong_type(
+                        expression,
+                        kind,
+                        part,
+                        if *value { "TRUE" } else { "FALSE" },
+                    ));
+                }
             },
             Form::Text(text) => match kind {
                 Kind::Text => scalars.text = unquoted(text),
                 _ => return Err(self.wrong_type(expression, kind, part, "a string")),
             },
-            Form::Aggregate(components) => self.fill_aggregate(expression, components, kind, part, scalars)?,
-            Form::Reference(reference) => self.fill_reference(expression, reference, kind, part, scalars)?,
+            Form::Aggregate(components) => {
+                self.fill_aggregate(expression, components, kind, part, scalars)?
+            }
+            Form::Reference(reference) => {
+                self.fill_reference(expression, reference, kind, part, scalars)?
+            }
             Form::Call(call) => self.fill_call(expression, call, kind, part, scalars)?,
             Form::Negated(_) | Form::Chain(..) => match kind {
                 Kind::Num => scalars.push(self.arithmetic(expression)?),
-                Kind::Whole => scalars.push(self.whole(expression, part, self.arithmetic(expression)?)?),
-                _ => return Err(Stop::Unknown(format!("arithmetic of {} is not calculated", kind.name()))),
+                Kind::Whole => {
+                    scalars.push(self.whole(expression, part, self.arithmetic(expression)?)?)
+                }
+                _ => {
+                    return Err(Stop::Unknown(format!(
+                        "arithmetic of {} is not calculated",
+                        kind.name()
+                    )));
+                }
             },
-            Form::Star => return Err(Stop::Unknown("* is taught on the controller, its value is not in the text".to_string())),
+            Form::Star => {
+                return Err(Stop::Unknown(
+                    "* is taught on the controller, its value is not in the text".to_string(),
+                ));
+            }
             Form::Unread(what) => return Err(Stop::Unknown((*what).to_string())),
         }
         Ok(())
@@ -127,7 +173,10 @@ impl Evaluator<'_, '_> {
         if is_whole {
             return Ok(value);
         }
-        Err(self.fault(expression, RapidFaultKind::NotWhole { thing: self.thing(), part: part.path(), value }))
+        Err(self.fault(
+            expression,
+            RapidFaultKind::NotWhole { thing: self.thing(), part: part.path(), value },
+        ))
     }
 
     fn fill_aggregate(
@@ -144,7 +193,12 @@ impl Evaluator<'_, '_> {
         }
         if table.len() != components.len() {
             let (thing, part) = (self.thing(), part.path());
-            let kind = RapidFaultKind::ComponentCount { thing, part, found: components.len(), wanted: table.len() };
+            let kind = RapidFaultKind::ComponentCount {
+                thing,
+                part,
+                found: components.len(),
+                wanted: table.len(),
+            };
             return Err(self.fault(expression, kind));
         }
         for ((name, kind), component) in table.iter().zip(components) {
@@ -179,7 +233,10 @@ impl Evaluator<'_, '_> {
         if value.is_finite() {
             return Ok(value);
         }
-        Err(self.fault(expression, RapidFaultKind::NotFinite { text: written(self.resolver.text, expression) }))
+        Err(self.fault(
+            expression,
+            RapidFaultKind::NotFinite { text: written(self.resolver.text, expression) },
+        ))
     }
 
     fn fill_reference(
@@ -195,17 +252,30 @@ impl Evaluator<'_, '_> {
         let mut from = 0;
         for component in &reference.components {
             let Some((before, inner)) = kind.component(component) else {
-                let fault = RapidFaultKind::NoSuchComponent { text: text(), of: kind.name(), component: (*component).to_string() };
+                let fault = RapidFaultKind::NoSuchComponent {
+                    text: text(),
+                    of: kind.name(),
+                    component: (*component).to_string(),
+                };
                 return Err(self.fault(expression, fault));
             };
             from += before;
             kind = inner;
         }
         if !wanted.takes(kind) {
-            return Err(self.wrong_type(expression, wanted, part, &format!("{}, of type {}", text(), kind.name())));
+            return Err(self.wrong_type(
+                expression,
+                wanted,
+                part,
+                &format!("{}, of type {}", text(), kind.name()),
+            ));
         }
         for number in &whole.numbers()[from..from + kind.width()] {
-            scalars.push(if wanted == Kind::Whole { self.whole(expression, part, *number)? } else { *number });
+            scalars.push(if wanted == Kind::Whole {
+                self.whole(expression, part, *number)?
+            } else {
+                *number
+            });
         }
         if matches!(kind, Kind::Text | Kind::WobjData) {
             scalars.text = whole.text;
@@ -214,7 +284,11 @@ impl Evaluator<'_, '_> {
     }
 
     /// The datum or the element that a reference begins with.
-    fn referred(&self, expression: &Expression<'_>, reference: &Reference<'_>) -> Result<(Scalars, Kind), Stop> {
+    fn referred(
+        &self,
+        expression: &Expression<'_>,
+        reference: &Reference<'_>,
+    ) -> Result<(Scalars, Kind), Stop> {
         let name = reference.name;
         let unknown = |why: &str| Stop::Unknown(format!("refers to {name}, {why}"));
         let count = |wanted| {
@@ -225,16 +299,28 @@ impl Evaluator<'_, '_> {
             Found::NotHere => return Err(unknown("which is not in this module")),
             Found::Unknown(why) => return Err(unknown(&why)),
             Found::Predefined(_) if !reference.indices.is_empty() => return Err(count(0)),
-            Found::Predefined(value) => return Ok((value.scalars(), Kind::from(value.data_type()))),
-            Found::Datum { can_change: true, .. } if self.constant => return Err(unknown("which can change")),
-            Found::Datum { cause: Some(cause), .. } if self.at_move => return Err(unknown(&cause.words(name))),
-            Found::Datum { content: Content::Uninitialised { .. }, .. } => return Err(unknown("whose declaration has no value")),
-            Found::Datum { content: Content::Single(_), .. } if !reference.indices.is_empty() => return Err(count(0)),
+            Found::Predefined(value) => {
+                return Ok((value.scalars(), Kind::from(value.data_type())));
+            }
+            Found::Datum { can_change: true, .. } if self.constant => {
+                return Err(unknown("which can change"));
+            }
+            Found::Datum { cause: Some(cause), .. } if self.at_move => {
+                return Err(unknown(&cause.words(name)));
+            }
+            Found::Datum { content: Content::Uninitialised { .. }, .. } => {
+                return Err(unknown("whose declaration has no value"));
+            }
+            Found::Datum { content: Content::Single(_), .. } if !reference.indices.is_empty() => {
+                return Err(count(0));
+            }
             Found::Datum { content: Content::Single(value), .. } => value,
             Found::Datum { content: Content::Array { .. }, .. } if reference.indices.is_empty() => {
                 return Err(unknown("which is a whole array"));
             }
-            Found::Datum { content: Content::Array { sizes, .. }, .. } if sizes.len() != reference.indices.len() => {
+            Found::Datum { content: Content::Array { sizes, .. }, .. }
+                if sizes.len() != reference.indices.len() =>
+            {
                 return Err(count(sizes.len()));
             }
             Found::Datum { content: Content::Array { sizes, values }, .. } => {
@@ -272,15 +358,27 @@ impl Evaluator<'_, '_> {
             return Err(Stop::Unknown(format!("{} is not calculated", call.name)));
         };
         // A routine or a datum may have taken the name.
-        if !matches!(self.resolver.find(self.routine, self.inside_loop, call.name), Found::NotHere) {
-            return Err(Stop::Unknown(format!("{} is declared in this module, it is not calculated", call.name)));
+        if !matches!(self.resolver.find(self.routine, self.inside_loop, call.name), Found::NotHere)
+        {
+            return Err(Stop::Unknown(format!(
+                "{} is declared in this module, it is not calculated",
+                call.name
+            )));
         }
         if kind != Kind::RobTarget {
-            return Err(self.wrong_type(expression, kind, part, &format!("{}, of type robtarget", function.name())));
+            return Err(self.wrong_type(
+                expression,
+                kind,
+                part,
+                &format!("{}, of type robtarget", function.name()),
+            ));
         }
         let [point, x, y, z] = call.required.as_slice() else {
             let (instruction, found) = (function.name(), call.required.len());
-            return Err(self.fault(expression, RapidFaultKind::ArgumentCount { instruction, found, wanted: 4 }));
+            return Err(self.fault(
+                expression,
+                RapidFaultKind::ArgumentCount { instruction, found, wanted: 4 },
+            ));
         };
         let mut target = RobTarget::from_scalars(&self.scalars(point, Kind::RobTarget)?);
         let shift = [self.number(x)?, self.number(y)?, self.number(z)?];
@@ -288,8 +386,15 @@ impl Evaluator<'_, '_> {
         for (name, value) in &call.optional {
             let axis = ["Rx", "Ry", "Rz"].iter().position(|axis| axis.eq_ignore_ascii_case(name));
             match (function, axis, value) {
-                (Displacement::RelTool, Some(axis), Some(angle)) => turns[axis] = self.number(angle)?,
-                _ => return Err(Stop::Unknown(format!("{} with {name} is not calculated", call.name))),
+                (Displacement::RelTool, Some(axis), Some(angle)) => {
+                    turns[axis] = self.number(angle)?
+                }
+                _ => {
+                    return Err(Stop::Unknown(format!(
+                        "{} with {name} is not calculated",
+                        call.name
+                    )));
+                }
             }
         }
         target = displaced(function, &target, shift, turns);
@@ -307,7 +412,11 @@ pub(super) fn positive_whole(value: f64) -> Option<usize> {
     if !(1.0..=MOST).contains(&value) {
         return None;
     }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 1 and 2^53; what is lost shows")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "between 1 and 2^53; what is lost shows"
+    )]
     let whole = value as u64;
     #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
     let is_whole = value - whole as f64 == 0.0;

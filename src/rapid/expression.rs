@@ -95,7 +95,9 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
             return Ok(sum);
         }
         if !is_unread_operator(self.tokens) {
-            return Err(self.tokens.unexpected("an operator, a comma or the end of the expression"));
+            return Err(self
+                .tokens
+                .unexpected("an operator, a comma or the end of the expression"));
         }
         skip_to_end_of_argument(self.tokens)?;
         Ok(self.made(start, Form::Unread("this operator is not calculated")))
@@ -109,19 +111,29 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
             self.tokens.take()?;
             sizes = self.list(open, b'}')?;
             if sizes.is_empty() {
-                return Err(self
-                    .tokens
-                    .fault(open.start, RapidFaultKind::Unexpected { found: "{}".to_string(), wanted: "a size".to_string() }));
+                return Err(self.tokens.fault(
+                    open.start,
+                    RapidFaultKind::Unexpected {
+                        found: "{}".to_string(),
+                        wanted: "a size".to_string(),
+                    },
+                ));
             }
         }
         Ok((sizes, self.names))
     }
 
     /// Expressions between commas, up to the closing symbol; the opening one was taken.
-    pub(super) fn list(&mut self, open: Token, close: u8) -> Result<Vec<Expression<'a>>, RapidFault> {
+    pub(super) fn list(
+        &mut self,
+        open: Token,
+        close: u8,
+    ) -> Result<Vec<Expression<'a>>, RapidFault> {
         self.depth += 1;
         if self.depth > DEEPEST_NESTING {
-            return Err(self.tokens.fault(open.start, RapidFaultKind::TooDeep { bound: DEEPEST_NESTING }));
+            return Err(self
+                .tokens
+                .fault(open.start, RapidFaultKind::TooDeep { bound: DEEPEST_NESTING }));
         }
         let mut expressions = Vec::new();
         if !self.tokens.peek().is(close) {
@@ -163,7 +175,9 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
     ) -> Result<Expression<'a>, RapidFault> {
         let first = operand(self)?;
         let mut rest = Vec::new();
-        while let Some((_, operator)) = operators.iter().find(|(symbol, _)| self.tokens.peek().is(*symbol)) {
+        while let Some((_, operator)) =
+            operators.iter().find(|(symbol, _)| self.tokens.peek().is(*symbol))
+        {
             self.tokens.take()?;
             rest.push((*operator, operand(self)?));
         }
@@ -276,7 +290,9 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
     fn call(&mut self, name: &'a str, open: Token) -> Result<Call<'a>, RapidFault> {
         self.depth += 1;
         if self.depth > DEEPEST_NESTING {
-            return Err(self.tokens.fault(open.start, RapidFaultKind::TooDeep { bound: DEEPEST_NESTING }));
+            return Err(self
+                .tokens
+                .fault(open.start, RapidFaultKind::TooDeep { bound: DEEPEST_NESTING }));
         }
         let mut call = Call { name, required: Vec::new(), optional: Vec::new() };
         while !self.tokens.peek().is(b')') {

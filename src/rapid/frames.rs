@@ -15,7 +15,11 @@ pub(super) enum Frames {
 
 impl Frames {
     /// Those of a tool, the robot's own where none is given, and a work object, the world where none is given.
-    pub(super) fn new(robot: &Robot<6>, tool: Option<&ToolData>, wobj: Option<&WobjData>) -> Result<Self, Error> {
+    pub(super) fn new(
+        robot: &Robot<6>,
+        tool: Option<&ToolData>,
+        wobj: Option<&WobjData>,
+    ) -> Result<Self, Error> {
         let tool_carried = tool.is_none_or(|tool| tool.robhold);
         let wobj_carried = wobj.is_some_and(|wobj| wobj.robhold);
         if tool_carried == wobj_carried {
@@ -26,7 +30,9 @@ impl Frames {
             None => *robot.tool(),
         };
         let t_wobj = match wobj {
-            Some(wobj) if !wobj.ufprog => return Err(FrameFault::Moved { unit: wobj.ufmec.clone() }.into()),
+            Some(wobj) if !wobj.ufprog => {
+                return Err(FrameFault::Moved { unit: wobj.ufmec.clone() }.into());
+            }
             Some(wobj) => pose_in(&wobj.uframe, "uframe")? * pose_in(&wobj.oframe, "oframe")?,
             None => Pose::identity(),
         };
@@ -40,16 +46,24 @@ impl Frames {
     /// The flange in the world, of the tool in the work object.
     pub(super) fn flange(&self, t_wobj_tool: &Pose) -> Pose {
         match self {
-            Self::Carried { t_flange_tool, t_world_wobj } => t_world_wobj * t_wobj_tool * t_flange_tool.inverse(),
-            Self::Stationary { t_world_tool, t_flange_wobj } => t_world_tool * (t_flange_wobj * t_wobj_tool).inverse(),
+            Self::Carried { t_flange_tool, t_world_wobj } => {
+                t_world_wobj * t_wobj_tool * t_flange_tool.inverse()
+            }
+            Self::Stationary { t_world_tool, t_flange_wobj } => {
+                t_world_tool * (t_flange_wobj * t_wobj_tool).inverse()
+            }
         }
     }
 
     /// The tool in the work object, of the flange in the world.
     pub(super) fn tool(&self, t_world_flange: &Pose) -> Pose {
         match self {
-            Self::Carried { t_flange_tool, t_world_wobj } => t_world_wobj.inverse() * t_world_flange * t_flange_tool,
-            Self::Stationary { t_world_tool, t_flange_wobj } => (t_world_flange * t_flange_wobj).inverse() * t_world_tool,
+            Self::Carried { t_flange_tool, t_world_wobj } => {
+                t_world_wobj.inverse() * t_world_flange * t_flange_tool
+            }
+            Self::Stationary { t_world_tool, t_flange_wobj } => {
+                (t_world_flange * t_flange_wobj).inverse() * t_world_tool
+            }
         }
     }
 }

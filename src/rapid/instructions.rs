@@ -71,8 +71,10 @@ const WRITING: [(&str, usize); 17] = [
 /// Whether an instruction moves the robot: behind its beginning another word begins, so that `DisplayText` is not `DispL`.
 fn moves_the_robot(name: &str) -> bool {
     MOVING.iter().any(|beginning| {
-        let is_it = name.get(..beginning.len()).is_some_and(|it| it.eq_ignore_ascii_case(beginning));
-        is_it && !name[beginning.len()..].starts_with(|next: char| next.is_lowercase() || next == '_')
+        let is_it =
+            name.get(..beginning.len()).is_some_and(|it| it.eq_ignore_ascii_case(beginning));
+        is_it
+            && !name[beginning.len()..].starts_with(|next: char| next.is_lowercase() || next == '_')
     })
 }
 
@@ -144,7 +146,11 @@ impl<'a> StatementReader<'a> {
 
     /// The name in the argument that an instruction writes to; goes on up to it.
     fn written_argument(&mut self, instruction: &str) -> Result<Option<&'a str>, RapidFault> {
-        let Some((_, place)) = WRITING.iter().find(|(name, _)| name.eq_ignore_ascii_case(instruction)) else { return Ok(None) };
+        let Some((_, place)) =
+            WRITING.iter().find(|(name, _)| name.eq_ignore_ascii_case(instruction))
+        else {
+            return Ok(None);
+        };
         let mut required = 0;
         loop {
             if !self.tokens.peek().is(b'\\') && self.tokens.peek().kind != TokenKind::End {
@@ -158,7 +164,9 @@ impl<'a> StatementReader<'a> {
                 let token = self.tokens.peek();
                 return Ok((token.kind == TokenKind::Name).then(|| self.tokens.text_of(token)));
             }
-            skip_balanced(&mut self.tokens, |tokens, _| tokens.peek().is(b',') || begins_another(tokens))?;
+            skip_balanced(&mut self.tokens, |tokens, _| {
+                tokens.peek().is(b',') || begins_another(tokens)
+            })?;
             if !self.tokens.take_if(b',')? {
                 return Ok(None);
             }
@@ -172,10 +180,23 @@ mod tests {
 
     #[test]
     fn instructions_that_move_are_told_from_those_that_only_sound_so() {
-        for name in ["MoveLDO", "movejdo", "TriggLIOs", "ArcLStart", "ArcL", "EGMMoveL", "EGMMoveC", "SpotL", "DispL", "ArcL1"] {
+        for name in [
+            "MoveLDO",
+            "movejdo",
+            "TriggLIOs",
+            "ArcLStart",
+            "ArcL",
+            "EGMMoveL",
+            "EGMMoveC",
+            "SpotL",
+            "DispL",
+            "ArcL1",
+        ] {
             assert!(moves_the_robot(name), "{name}");
         }
-        for name in ["DisplayText", "PaintColor", "ArcCheck", "Set", "MoveHome", "SearchLine", "searchl_1"] {
+        for name in
+            ["DisplayText", "PaintColor", "ArcCheck", "Set", "MoveHome", "SearchLine", "searchl_1"]
+        {
             assert!(!moves_the_robot(name), "{name}");
         }
     }

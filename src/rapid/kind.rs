@@ -129,14 +129,43 @@ impl Kind {
             Pos => &[("x", Num), ("y", Num), ("z", Num)],
             Orient => &[("q1", Num), ("q2", Num), ("q3", Num), ("q4", Num)],
             ConfData => &[("cf1", Whole), ("cf4", Whole), ("cf6", Whole), ("cfx", Whole)],
-            ExtJoint => &[("eax_a", Num), ("eax_b", Num), ("eax_c", Num), ("eax_d", Num), ("eax_e", Num), ("eax_f", Num)],
-            RobJoint => &[("rax_1", Num), ("rax_2", Num), ("rax_3", Num), ("rax_4", Num), ("rax_5", Num), ("rax_6", Num)],
+            ExtJoint => &[
+                ("eax_a", Num),
+                ("eax_b", Num),
+                ("eax_c", Num),
+                ("eax_d", Num),
+                ("eax_e", Num),
+                ("eax_f", Num),
+            ],
+            RobJoint => &[
+                ("rax_1", Num),
+                ("rax_2", Num),
+                ("rax_3", Num),
+                ("rax_4", Num),
+                ("rax_5", Num),
+                ("rax_6", Num),
+            ],
             Pose => &[("trans", Pos), ("rot", Orient)],
-            LoadData => &[("mass", Num), ("cog", Pos), ("aom", Orient), ("ix", Num), ("iy", Num), ("iz", Num)],
-            Self::RobTarget => &[("trans", Pos), ("rot", Orient), ("robconf", ConfData), ("extax", ExtJoint)],
+            LoadData => &[
+                ("mass", Num),
+                ("cog", Pos),
+                ("aom", Orient),
+                ("ix", Num),
+                ("iy", Num),
+                ("iz", Num),
+            ],
+            Self::RobTarget => {
+                &[("trans", Pos), ("rot", Orient), ("robconf", ConfData), ("extax", ExtJoint)]
+            }
             Self::JointTarget => &[("robax", RobJoint), ("extax", ExtJoint)],
             Self::ToolData => &[("robhold", Bool), ("tframe", Pose), ("tload", LoadData)],
-            Self::WobjData => &[("robhold", Bool), ("ufprog", Bool), ("ufmec", Text), ("uframe", Pose), ("oframe", Pose)],
+            Self::WobjData => &[
+                ("robhold", Bool),
+                ("ufprog", Bool),
+                ("ufmec", Text),
+                ("uframe", Pose),
+                ("oframe", Pose),
+            ],
         }
     }
 

@@ -59,7 +59,9 @@ pub use self::record::parse_record;
 pub use self::rewrite::{NewValue, rewrite};
 use self::statements::StatementReader;
 pub use self::table::{Fallback, TableRow, calc_moves, calc_targets};
-pub use self::values::{JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, ToolData, Value, WobjData};
+pub use self::values::{
+    JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, ToolData, Value, WobjData,
+};
 use crate::error::Error;
 
 /// Reads the text of a module, or of declarations and moves without one.
@@ -99,6 +101,7 @@ pub fn decode(bytes: &[u8]) -> Cow<'_, str> {
 /// UTF-16; what is none becomes a replacement character, also a byte too many.
 fn decode_units(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> String {
     let (pairs, rest) = bytes.as_chunks::<2>();
-    let characters = char::decode_utf16(pairs.iter().map(|pair| unit(*pair))).map(|it| it.unwrap_or(char::REPLACEMENT_CHARACTER));
+    let characters = char::decode_utf16(pairs.iter().map(|pair| unit(*pair)))
+        .map(|it| it.unwrap_or(char::REPLACEMENT_CHARACTER));
     characters.chain(rest.iter().map(|_| char::REPLACEMENT_CHARACTER)).collect()
 }

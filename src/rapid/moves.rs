@@ -140,9 +140,14 @@ pub(super) struct WrittenMove<'a> {
 }
 
 /// Reads the arguments of a move up to its semicolon; the instruction's name was taken at byte `start`. None for one that is not finished.
-pub(super) fn read_move<'a>(tokens: &mut Tokens<'a>, kind: MoveKind, start: usize) -> Result<Option<WrittenMove<'a>>, RapidFault> {
+pub(super) fn read_move<'a>(
+    tokens: &mut Tokens<'a>,
+    kind: MoveKind,
+    start: usize,
+) -> Result<Option<WrittenMove<'a>>, RapidFault> {
     let (line, column) = tokens.line_and_column(start);
-    let (mut required, mut options, mut wobj): (Vec<Expression<'a>>, Vec<MoveOption>, _) = (Vec::new(), Vec::new(), None);
+    let (mut required, mut options, mut wobj): (Vec<Expression<'a>>, Vec<MoveOption>, _) =
+        (Vec::new(), Vec::new(), None);
     loop {
         // A comma may stand before an optional argument too.
         let is_first = required.is_empty() && options.is_empty() && wobj.is_none();
@@ -150,10 +155,16 @@ pub(super) fn read_move<'a>(tokens: &mut Tokens<'a>, kind: MoveKind, start: usiz
         if tokens.take_if(b'\\')? {
             let (name, value) = ExpressionReader::new(tokens).optional()?;
             match value {
-                Some(value) if wobj.is_none() && name.eq_ignore_ascii_case("WObj") => wobj = Some(value),
+                Some(value) if wobj.is_none() && name.eq_ignore_ascii_case("WObj") => {
+                    wobj = Some(value)
+                }
                 value => {
                     let text = value.map(|value| tokens.text[value.start..value.end].to_string());
-                    options.push(MoveOption { after: required.len(), name: name.to_string(), text });
+                    options.push(MoveOption {
+                        after: required.len(),
+                        name: name.to_string(),
+                        text,
+                    });
                 }
             }
         } else if !after_comma && tokens.peek().is(b';') {
@@ -169,8 +180,22 @@ pub(super) fn read_move<'a>(tokens: &mut Tokens<'a>, kind: MoveKind, start: usiz
         return Ok(None);
     }
     if required.len() != kind.arguments() {
-        let kind = RapidFaultKind::ArgumentCount { instruction: kind.name(), found: required.len(), wanted: kind.arguments() };
+        let kind = RapidFaultKind::ArgumentCount {
+            instruction: kind.name(),
+            found: required.len(),
+            wanted: kind.arguments(),
+        };
         return Err(tokens.fault(start, kind));
     }
-    Ok(Some(WrittenMove { kind, routine: 0, inside_loop: None, line, column, displaced: None, required, wobj, options }))
+    Ok(Some(WrittenMove {
+        kind,
+        routine: 0,
+        inside_loop: None,
+        line,
+        column,
+        displaced: None,
+        required,
+        wobj,
+        options,
+    }))
 }

@@ -10,8 +10,14 @@ use super::values::Value;
 use crate::error::{Error, RapidFault, RapidFaultKind};
 
 /// Types whose shapes differ from those of all others.
-const BY_SHAPE: [DataType; 6] =
-    [DataType::RobTarget, DataType::JointTarget, DataType::ToolData, DataType::WobjData, DataType::Pose, DataType::LoadData];
+const BY_SHAPE: [DataType; 6] = [
+    DataType::RobTarget,
+    DataType::JointTarget,
+    DataType::ToolData,
+    DataType::WobjData,
+    DataType::Pose,
+    DataType::LoadData,
+];
 
 /// The value of a text that is one robtarget, jointtarget, tooldata, wobjdata, pose or loaddata, which its shape tells.
 ///
@@ -32,7 +38,9 @@ pub fn parse_record(text: &str) -> Result<Value, Error> {
                 }
             }
             Err(Error::Rapid(fault)) if is_of_another_type(&fault.kind) => {}
-            Err(Error::Rapid(fault)) => broken = Some(RapidFault { line: fault.line.saturating_sub(1), ..fault }),
+            Err(Error::Rapid(fault)) => {
+                broken = Some(RapidFault { line: fault.line.saturating_sub(1), ..fault })
+            }
             Err(error) => return Err(error),
         }
     }

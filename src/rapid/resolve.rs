@@ -64,9 +64,14 @@ impl<'a> Resolver<'a> {
         match self.scopes.find(routine, &lower) {
             Some(Named::Other(what)) => return Found::Unknown(what.clone()),
             Some(Named::Datum(index)) => {
-                let can_change = self.declared.get(*index).is_none_or(|declared| declared.storage != Storage::Const);
+                let can_change = self
+                    .declared
+                    .get(*index)
+                    .is_none_or(|declared| declared.storage != Storage::Const);
                 return match self.contents.get(*index) {
-                    Some(Some((content, ..))) => Found::Datum { content, can_change, cause: self.causes.of_datum(*index) },
+                    Some(Some((content, ..))) => {
+                        Found::Datum { content, can_change, cause: self.causes.of_datum(*index) }
+                    }
                     _ => Found::Unknown("whose value is not known".to_string()),
                 };
             }
@@ -78,7 +83,11 @@ impl<'a> Resolver<'a> {
         match found_elsewhere(&lower, self.context) {
             Some((datum, home)) => {
                 let cause = self.causes.of_other(&lower, home, self.context);
-                Found::Datum { content: &datum.content, can_change: datum.storage != Storage::Const, cause }
+                Found::Datum {
+                    content: &datum.content,
+                    can_change: datum.storage != Storage::Const,
+                    cause,
+                }
             }
             None => Found::NotHere,
         }
@@ -135,7 +144,9 @@ impl<'a> Resolver<'a> {
 
     /// Notes that a datum changes with what a name of it stands for; sizes, the names that come first, do not change.
     fn add_cause(&mut self, datum: usize, gone_through: usize, other: usize) {
-        if let Some(cause) = self.causes.of_datum(other).filter(|_| gone_through > self.declared[datum].size_names) {
+        if let Some(cause) =
+            self.causes.of_datum(other).filter(|_| gone_through > self.declared[datum].size_names)
+        {
             self.causes.add(datum, cause);
         }
     }
@@ -143,7 +154,9 @@ impl<'a> Resolver<'a> {
     /// Notes that a datum changes with one of another module, where that does.
     fn add_cause_elsewhere(&mut self, datum: usize, lower: &str) {
         let found = found_elsewhere(lower, self.context).filter(|_| predefined(lower).is_none());
-        if let Some(cause) = found.and_then(|(_, home)| self.causes.of_other(lower, home, self.context)) {
+        if let Some(cause) =
+            found.and_then(|(_, home)| self.causes.of_other(lower, home, self.context))
+        {
             self.causes.add(datum, cause);
         }
     }
@@ -171,20 +184,41 @@ impl<'a> Resolver<'a> {
 
     fn evaluator(&self, declared: &Declared<'a>) -> Evaluator<'_, 'a> {
         let thing = (declared.data_type.name(), declared.name);
-        Evaluator { resolver: self, routine: declared.routine, inside_loop: None, thing, constant: false, at_move: false }
+        Evaluator {
+            resolver: self,
+            routine: declared.routine,
+            inside_loop: None,
+            thing,
+            constant: false,
+            at_move: false,
+        }
     }
 
     fn content(&self, declared: &Declared<'a>) -> Result<Placed, Stop> {
         let evaluator = self.evaluator(declared);
         let sizes = self.sizes(declared)?;
         let Some(expression) = &declared.value else {
-            return Ok((Content::Uninitialised { sizes }, declared.value_place..declared.value_place, Vec::new()));
+            return Ok((
+                Content::Uninitialised { sizes },
+                declared.value_place..declared.value_place,
+                Vec::new(),
+            ));
         };
         let span = expression.start..expression.end;
         if sizes.is_empty() {
-            return Ok((Content::Single(evaluator.value(expression, declared.data_type)?), span, Vec::new()));
+            return Ok((
+                Content::Single(evaluator.value(expression, declared.data_type)?),
+                span,
+                Vec::new(),
+            ));
         }
-        let mut elements = Elements { evaluator, data_type: declared.data_type, sizes: &sizes, values: Vec::new(), spans: Vec::new() };
+        let mut elements = Elements {
+            evaluator,
+            data_type: declared.data_type,
+            sizes: &sizes,
+            values: Vec::new(),
+            spans: Vec::new(),
+        };
         elements.add(expression, 0)?;
         let (values, spans) = (elements.values, elements.spans);
         Ok((Content::Array { sizes, values }, span, spans))
@@ -194,13 +228,22 @@ impl<'a> Resolver<'a> {
         let evaluator = Evaluator { constant: true, ..self.evaluator(declared) };
         let thing = || evaluator.thing();
         if let Some(fourth) = declared.sizes.get(MOST_DIMENSIONS) {
-            let kind = RapidFaultKind::Dimensions { thing: thing(), found: declared.sizes.len(), bound: MOST_DIMENSIONS };
+            let kind = RapidFaultKind::Dimensions {
+                thing: thing(),
+                found: declared.sizes.len(),
+                bound: MOST_DIMENSIONS,
+            };
             return Err(evaluator.fault(fourth, kind));
         }
         let mut sizes = Vec::with_capacity(declared.sizes.len());
         for (i, size) in declared.sizes.iter().enumerate() {
             let value = evaluator.number(size)?;
-            let fault = || evaluator.fault(size, RapidFaultKind::ArrayDimension { thing: thing(), dimension: i + 1, value });
+            let fault = || {
+                evaluator.fault(
+                    size,
+                    RapidFaultKind::ArrayDimension { thing: thing(), dimension: i + 1, value },
+                )
+            };
             sizes.push(positive_whole(value).ok_or_else(fault)?);
         }
         Ok(sizes)
@@ -214,8 +257,14 @@ impl<'a> Resolver<'a> {
         expression: &Expression<'a>,
     ) -> Result<Argument<T>, RapidFault> {
         let thing = (step.kind.name(), role);
-        let evaluator =
-            Evaluator { resolver: self, routine: step.routine, inside_loop: step.inside_loop, thing, constant: false, at_move: true };
+        let evaluator = Evaluator {
+            resolver: self,
+            routine: step.routine,
+            inside_loop: step.inside_loop,
+            thing,
+            constant: false,
+            at_move: true,
+        };
         let value = match evaluator.value(expression, T::DATA_TYPE).map(T::of) {
             Ok(Some(value)) => Ok(value),
             Ok(None) => Err(format!("it is no {}", T::DATA_TYPE.name())),
@@ -229,11 +278,17 @@ impl<'a> Resolver<'a> {
         self.text.get(expression.start..expression.end).unwrap_or_default().to_string()
     }
 
-    fn step(&self, written: &mut WrittenMove<'a>, routines: &[Routine]) -> Result<Option<Move>, RapidFault> {
+    fn step(
+        &self,
+        written: &mut WrittenMove<'a>,
+        routines: &[Routine],
+    ) -> Result<Option<Move>, RapidFault> {
         let options = core::mem::take(&mut written.options);
         let step = &*written;
         let (via, rest) = match (step.kind, step.required.split_first()) {
-            (MoveKind::MoveC, Some((via, rest))) => (Some(self.argument(step, "circle point", via)?), rest),
+            (MoveKind::MoveC, Some((via, rest))) => {
+                (Some(self.argument(step, "circle point", via)?), rest)
+            }
             _ => (None, step.required.as_slice()),
         };
         let [target, speed, zone, tool] = rest else { return Ok(None) };
@@ -254,7 +309,11 @@ impl<'a> Resolver<'a> {
             speed: self.source(speed),
             zone: self.source(zone),
             tool: self.argument(step, "tool", tool)?,
-            wobj: step.wobj.as_ref().map(|wobj| self.argument(step, "work object", wobj)).transpose()?,
+            wobj: step
+                .wobj
+                .as_ref()
+                .map(|wobj| self.argument(step, "work object", wobj))
+                .transpose()?,
             options,
             displaced: step.displaced,
         }))
@@ -290,18 +349,29 @@ impl Elements<'_, '_, '_> {
             Form::Aggregate(elements) if elements.len() == wanted => {
                 elements.iter().try_for_each(|element| self.add(element, dimension + 1))
             }
-            Form::Aggregate(elements) => {
-                fault(RapidFaultKind::ArraySize { thing: thing(), dimension: dimension + 1, found: elements.len(), wanted })
-            }
+            Form::Aggregate(elements) => fault(RapidFaultKind::ArraySize {
+                thing: thing(),
+                dimension: dimension + 1,
+                found: elements.len(),
+                wanted,
+            }),
             Form::Number(_) | Form::Bool(_) | Form::Text(_) => {
                 let found = match &expression.form {
                     Form::Number(_) => "a number",
                     Form::Text(_) => "a string",
                     _ => "a truth value",
                 };
-                fault(RapidFaultKind::ComponentType { thing: thing(), part: String::new(), found: found.to_string(), wanted: "an array" })
+                fault(RapidFaultKind::ComponentType {
+                    thing: thing(),
+                    part: String::new(),
+                    found: found.to_string(),
+                    wanted: "an array",
+                })
             }
-            Form::Reference(reference) => Err(Stop::Unknown(format!("refers to {}, and arrays are not copied", reference.name))),
+            Form::Reference(reference) => Err(Stop::Unknown(format!(
+                "refers to {}, and arrays are not copied",
+                reference.name
+            ))),
             _ => Err(Stop::Unknown("the value of an array is written as no aggregate".to_string())),
         }
     }
@@ -328,7 +398,16 @@ pub(super) fn resolve_at_once(text: &str, declared: &mut Declared<'_>) -> Result
     }
     let (scopes, blocks) = (Scopes::new(), Blocks::new());
     let (contents, reasons, causes) = (Vec::new(), BTreeMap::new(), Causes::none());
-    let resolver = Resolver { text, declared: &[], scopes: &scopes, blocks: &blocks, context: &[], contents, reasons, causes };
+    let resolver = Resolver {
+        text,
+        declared: &[],
+        scopes: &scopes,
+        blocks: &blocks,
+        context: &[],
+        contents,
+        reasons,
+        causes,
+    };
     match resolver.content(declared) {
         Ok(placed) => declared.content = Some(Box::new(placed)),
         Err(Stop::Fault(fault)) => return Err(fault),
@@ -341,11 +420,33 @@ pub(super) fn resolve_at_once(text: &str, declared: &mut Declared<'_>) -> Result
 
 /// The module of a text with every name looked up.
 pub(super) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Module, RapidFault> {
-    let Written { text, name, attributes, routines, mut declared, mut moves, mut skipped, assignments, scopes, blocks } = written;
-    let contents = declared.iter_mut().map(|datum| datum.content.take().map(|placed| *placed)).collect();
+    let Written {
+        text,
+        name,
+        attributes,
+        routines,
+        mut declared,
+        mut moves,
+        mut skipped,
+        assignments,
+        scopes,
+        blocks,
+    } = written;
+    let contents =
+        declared.iter_mut().map(|datum| datum.content.take().map(|placed| *placed)).collect();
     let (declared_data, blocks, all_scopes) = (&declared, &blocks, &scopes);
-    let (reasons, causes) = (BTreeMap::new(), Causes::new(&assignments, declared_data, all_scopes, blocks));
-    let mut resolver = Resolver { text, declared: declared_data, scopes: all_scopes, blocks, context, contents, reasons, causes };
+    let (reasons, causes) =
+        (BTreeMap::new(), Causes::new(&assignments, declared_data, all_scopes, blocks));
+    let mut resolver = Resolver {
+        text,
+        declared: declared_data,
+        scopes: all_scopes,
+        blocks,
+        context,
+        contents,
+        reasons,
+        causes,
+    };
     resolver.resolve_all()?;
     let mut resolved_moves = Vec::with_capacity(moves.len());
     for step in &mut moves {
@@ -367,13 +468,39 @@ pub(super) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         let Declared { data_type, scope, storage, line, column, .. } = *datum;
         let name = datum.name.to_string();
         if causes.of_datum(i).is_some() && !datum.names.is_empty() {
-            expressions.insert(data.len(), text.get(value_span.clone()).unwrap_or_default().to_string());
+            expressions
+                .insert(data.len(), text.get(value_span.clone()).unwrap_or_default().to_string());
         }
-        data.push(Datum { name, data_type, scope, storage, routine, content, line, column, value_span, element_spans });
+        data.push(Datum {
+            name,
+            data_type,
+            scope,
+            storage,
+            routine,
+            content,
+            line,
+            column,
+            value_span,
+            element_spans,
+        });
     }
     skipped.sort_by_key(|skipped| (skipped.line, skipped.column));
     let assigned = causes.names(&declared);
-    let index = scopes.module_data().filter_map(|(name, declared)| Some((name, places.get(declared).copied()??))).collect();
+    let index = scopes
+        .module_data()
+        .filter_map(|(name, declared)| Some((name, places.get(declared).copied()??)))
+        .collect();
     let name = name.map(ToString::to_string);
-    Ok(Module { name, attributes, routines, data, moves: resolved_moves, skipped, index, assigned, expressions, text_length: text.len() })
+    Ok(Module {
+        name,
+        attributes,
+        routines,
+        data,
+        moves: resolved_moves,
+        skipped,
+        index,
+        assigned,
+        expressions,
+        text_length: text.len(),
+    })
 }

@@ -31,7 +31,8 @@ pub struct NewValue {
 /// `source` is not the text.
 pub fn rewrite(source: &str, module: &Module, new_values: &[NewValue]) -> Result<String, Error> {
     // Of a text as long as that of the module, but another one, a place may lie inside a character.
-    let other_text = || nowhere(RapidFaultKind::OtherText { found: source.len(), wanted: module.text_length });
+    let other_text =
+        || nowhere(RapidFaultKind::OtherText { found: source.len(), wanted: module.text_length });
     if source.len() != module.text_length {
         return Err(other_text());
     }
@@ -45,7 +46,9 @@ pub fn rewrite(source: &str, module: &Module, new_values: &[NewValue]) -> Result
     let mut last_start = None;
     for (span, new) in places {
         if last_start == Some(span.start) || span.start < copied {
-            let thing = module.data.get(new.datum).map_or_else(String::new, |datum| format!("{} {}", datum.data_type.name(), datum.name));
+            let thing = module.data.get(new.datum).map_or_else(String::new, |datum| {
+                format!("{} {}", datum.data_type.name(), datum.name)
+            });
             return Err(nowhere(RapidFaultKind::TwoValues { thing }));
         }
         text.push_str(source.get(copied..span.start).ok_or_else(other_text)?);
@@ -71,19 +74,32 @@ fn place(module: &Module, new: &NewValue) -> Result<Range<usize>, Error> {
     let fault = |kind| RapidFault { line: datum.line, column: datum.column, kind }.into();
     if new.value.data_type() != datum.data_type {
         let (found, wanted) = (new.value.type_name().to_string(), datum.data_type.name());
-        return Err(fault(RapidFaultKind::ComponentType { thing, part: String::new(), found, wanted }));
+        return Err(fault(RapidFaultKind::ComponentType {
+            thing,
+            part: String::new(),
+            found,
+            wanted,
+        }));
     }
     if new.value.scalars().numbers().iter().any(|number| !number.is_finite()) {
         return Err(fault(RapidFaultKind::NotFinite { text: format!("{}", new.value) }));
     }
     match (&datum.content, new.element) {
         (Content::Single(_), None) => Ok(datum.value_span.clone()),
-        (Content::Uninitialised { sizes }, None) if sizes.is_empty() => Ok(datum.value_span.clone()),
+        (Content::Uninitialised { sizes }, None) if sizes.is_empty() => {
+            Ok(datum.value_span.clone())
+        }
         (Content::Array { .. }, Some(element)) => {
             let span = datum.element_spans.get(element).cloned();
-            span.ok_or_else(|| fault(RapidFaultKind::NoSuchValue { what: format!("element {element} of {thing}") }))
+            span.ok_or_else(|| {
+                fault(RapidFaultKind::NoSuchValue { what: format!("element {element} of {thing}") })
+            })
         }
-        (_, None) => Err(fault(RapidFaultKind::NoSuchValue { what: format!("single value in the array {thing}") })),
-        (_, Some(element)) => Err(fault(RapidFaultKind::NoSuchValue { what: format!("element {element} of {thing}") })),
+        (_, None) => Err(fault(RapidFaultKind::NoSuchValue {
+            what: format!("single value in the array {thing}"),
+        })),
+        (_, Some(element)) => Err(fault(RapidFaultKind::NoSuchValue {
+            what: format!("element {element} of {thing}"),
+        })),
     }
 }

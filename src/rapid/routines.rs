@@ -11,7 +11,11 @@ use super::tokens::{Token, TokenKind};
 use crate::error::{RapidFault, RapidFaultKind};
 
 impl StatementReader<'_> {
-    pub(super) fn begin_routine(&mut self, kind: RoutineKind, first: Token) -> Result<(), RapidFault> {
+    pub(super) fn begin_routine(
+        &mut self,
+        kind: RoutineKind,
+        first: Token,
+    ) -> Result<(), RapidFault> {
         if let Some(end) = self.open_end() {
             return Err(self.tokens.unexpected(end));
         }
@@ -26,7 +30,13 @@ impl StatementReader<'_> {
         self.declare(first, name, Named::Other("a routine".to_string()))?;
         let (line, column) = self.tokens.line_and_column(first.start);
         self.written.scopes.add_routine();
-        self.written.routines.push(Routine { kind, name: name.to_string(), header: String::new(), line, column });
+        self.written.routines.push(Routine {
+            kind,
+            name: name.to_string(),
+            header: String::new(),
+            line,
+            column,
+        });
         self.routine = self.written.routines.len();
         self.displaced_by = DisplacedBy::default();
         if self.tokens.peek().is(b'(') {
@@ -40,10 +50,18 @@ impl StatementReader<'_> {
     }
 
     /// A routine without a name, up to its end: what stands in it could not be told from what stands in another one.
-    fn unfinished_routine(&mut self, kind: RoutineKind, name: &str, first: Token) -> Result<(), RapidFault> {
+    fn unfinished_routine(
+        &mut self,
+        kind: RoutineKind,
+        name: &str,
+        first: Token,
+    ) -> Result<(), RapidFault> {
         while !self.tokens.take_word(kind.end())? {
             if self.tokens.peek().kind == TokenKind::End {
-                let kind = RapidFaultKind::UnexpectedEnd { inside: format!("{} {name}", kind.word()), missing: kind.end() };
+                let kind = RapidFaultKind::UnexpectedEnd {
+                    inside: format!("{} {name}", kind.word()),
+                    missing: kind.end(),
+                };
                 return Err(self.tokens.fault(self.tokens.peek().start, kind));
             }
             self.tokens.take()?;
@@ -60,13 +78,19 @@ impl StatementReader<'_> {
             let token = self.tokens.peek();
             match token.kind {
                 TokenKind::End | TokenKind::Symbol(b';') => {
-                    return Err(self.tokens.fault(open.start, RapidFaultKind::Unclosed { bracket: '(' }));
+                    return Err(self
+                        .tokens
+                        .fault(open.start, RapidFaultKind::Unclosed { bracket: '(' }));
                 }
                 TokenKind::Name => last = Some(token),
                 TokenKind::Symbol(b',' | b'|' | b'\\' | b')') => {
                     if let Some(name) = last.take() {
                         let text = self.tokens.text_of(name);
-                        self.declare(name, text, Named::Other(format!("a parameter of {routine}")))?;
+                        self.declare(
+                            name,
+                            text,
+                            Named::Other(format!("a parameter of {routine}")),
+                        )?;
                     }
                 }
                 TokenKind::Placeholder => last = None,
@@ -86,7 +110,11 @@ impl StatementReader<'_> {
         match self.current_routine().map(|routine| routine.kind) {
             Some(open) if open == kind => {}
             Some(open) => return Err(self.tokens.unexpected(open.end())),
-            None => return Err(self.tokens.unexpected("a declaration or an instruction (no routine is open)")),
+            None => {
+                return Err(self
+                    .tokens
+                    .unexpected("a declaration or an instruction (no routine is open)"));
+            }
         }
         self.routine = 0;
         self.displaced_by = DisplacedBy::default();

@@ -39,7 +39,9 @@ pub(super) fn is_unread_operator(tokens: &Tokens<'_>) -> bool {
 
 /// Words that end a statement wherever they stand: one that is not closed before them is broken.
 fn is_end_of_routine(word: &str) -> bool {
-    ["ENDPROC", "ENDFUNC", "ENDTRAP", "ENDMODULE", "PROC", "FUNC", "TRAP", "MODULE"].iter().any(|end| end.eq_ignore_ascii_case(word))
+    ["ENDPROC", "ENDFUNC", "ENDTRAP", "ENDMODULE", "PROC", "FUNC", "TRAP", "MODULE"]
+        .iter()
+        .any(|end| end.eq_ignore_ascii_case(word))
 }
 
 /// Goes on to the comma, semicolon or closing bracket that ends the argument.
@@ -50,7 +52,10 @@ pub(super) fn skip_to_end_of_argument(tokens: &mut Tokens<'_>) -> Result<(), Rap
 /// Goes on over balanced brackets to where `ends` says, to a semicolon, a closing bracket or the end; none of these is taken.
 ///
 /// `ends` is told the last token that was taken, and asked outside brackets only.
-pub(super) fn skip_balanced(tokens: &mut Tokens<'_>, ends: impl Fn(&Tokens<'_>, Option<Token>) -> bool) -> Result<(), RapidFault> {
+pub(super) fn skip_balanced(
+    tokens: &mut Tokens<'_>,
+    ends: impl Fn(&Tokens<'_>, Option<Token>) -> bool,
+) -> Result<(), RapidFault> {
     let mut open: Vec<Token> = Vec::new();
     let mut last = None;
     loop {
@@ -64,17 +69,23 @@ pub(super) fn skip_balanced(tokens: &mut Tokens<'_>, ends: impl Fn(&Tokens<'_>, 
             None if ended || ends(tokens, last) => return Ok(()),
             Some(bracket) if ended => {
                 let character = tokens.text_of(bracket).chars().next().unwrap_or('[');
-                return Err(tokens.fault(bracket.start, RapidFaultKind::Unclosed { bracket: character }));
+                return Err(
+                    tokens.fault(bracket.start, RapidFaultKind::Unclosed { bracket: character })
+                );
             }
             _ => {}
         }
         match token.kind {
             TokenKind::Symbol(b'[' | b'(' | b'{') => open.push(token),
-            TokenKind::Symbol(symbol @ (b']' | b')' | b'}')) => match open.pop().map(|bracket| tokens.text_of(bracket).as_bytes()[0]) {
-                None => return Ok(()),
-                Some(bracket) if closing(bracket) == symbol => {}
-                Some(bracket) => return Err(tokens.unexpected(&String::from(char::from(closing(bracket))))),
-            },
+            TokenKind::Symbol(symbol @ (b']' | b')' | b'}')) => {
+                match open.pop().map(|bracket| tokens.text_of(bracket).as_bytes()[0]) {
+                    None => return Ok(()),
+                    Some(bracket) if closing(bracket) == symbol => {}
+                    Some(bracket) => {
+                        return Err(tokens.unexpected(&String::from(char::from(closing(bracket)))));
+                    }
+                }
+            }
             _ => {}
         }
         last = Some(tokens.take()?);

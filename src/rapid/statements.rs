@@ -6,7 +6,9 @@ use alloc::vec::Vec;
 
 use super::assigned::Assignment;
 use super::blocks::Blocks;
-use super::declarations::{Declaration, Declared, Named, Scopes, read_declaration, read_name, storage_at};
+use super::declarations::{
+    Declaration, Declared, Named, Scopes, read_declaration, read_name, storage_at,
+};
 use super::instructions::DisplacedBy;
 use super::module::{Routine, RoutineKind, Scope, Skipped};
 use super::moves::{MoveKind, WrittenMove, read_move};
@@ -67,7 +69,8 @@ impl<'a> StatementReader<'a> {
             blocks: Blocks::new(),
         };
         let (tokens, displaced_by) = (Tokens::new(text)?, DisplacedBy::default());
-        let mut reader = Self { tokens, written, stage: Stage::Beginning, routine: 0, displaced_by };
+        let mut reader =
+            Self { tokens, written, stage: Stage::Beginning, routine: 0, displaced_by };
         while reader.tokens.peek().kind != TokenKind::End {
             reader.statement()?;
         }
@@ -86,7 +89,9 @@ impl<'a> StatementReader<'a> {
         } else {
             return Ok(());
         };
-        Err(self.tokens.fault(self.written.text.len(), RapidFaultKind::UnexpectedEnd { inside, missing }))
+        Err(self
+            .tokens
+            .fault(self.written.text.len(), RapidFaultKind::UnexpectedEnd { inside, missing }))
     }
 
     pub(super) fn current_routine(&self) -> Option<&Routine> {
@@ -120,7 +125,9 @@ impl<'a> StatementReader<'a> {
         }
         match word.as_str() {
             "ENDMODULE" => self.end_module(),
-            "LOCAL" | "TASK" | "CONST" | "PERS" | "VAR" | "PROC" | "FUNC" | "TRAP" => self.declaration(token),
+            "LOCAL" | "TASK" | "CONST" | "PERS" | "VAR" | "PROC" | "FUNC" | "TRAP" => {
+                self.declaration(token)
+            }
             "ENDPROC" => self.end_routine(RoutineKind::Proc),
             "ENDFUNC" => self.end_routine(RoutineKind::Func),
             "ENDTRAP" => self.end_routine(RoutineKind::Trap),
@@ -137,8 +144,14 @@ impl<'a> StatementReader<'a> {
     fn begin_module(&mut self, token: Token) -> Result<(), RapidFault> {
         match self.stage {
             Stage::Beginning => {}
-            Stage::Bare => return Err(self.tokens.unexpected("a declaration or an instruction (MODULE begins a text)")),
-            Stage::Module | Stage::Ended => return Err(self.tokens.fault(token.start, RapidFaultKind::SecondModule)),
+            Stage::Bare => {
+                return Err(self
+                    .tokens
+                    .unexpected("a declaration or an instruction (MODULE begins a text)"));
+            }
+            Stage::Module | Stage::Ended => {
+                return Err(self.tokens.fault(token.start, RapidFaultKind::SecondModule));
+            }
         }
         self.tokens.take()?;
         self.stage = Stage::Module;
@@ -164,7 +177,9 @@ impl<'a> StatementReader<'a> {
             return Err(self.tokens.unexpected(end));
         }
         if self.stage != Stage::Module {
-            return Err(self.tokens.unexpected("a declaration or an instruction (no MODULE is open)"));
+            return Err(self
+                .tokens
+                .unexpected("a declaration or an instruction (no MODULE is open)"));
         }
         self.stage = Stage::Ended;
         self.tokens.take().map(|_| ())
@@ -195,7 +210,11 @@ impl<'a> StatementReader<'a> {
         }
     }
 
-    fn add_declaration(&mut self, first: Token, declaration: Declaration<'a>) -> Result<(), RapidFault> {
+    fn add_declaration(
+        &mut self,
+        first: Token,
+        declaration: Declaration<'a>,
+    ) -> Result<(), RapidFault> {
         let (name, named) = match declaration {
             Declaration::Read(mut declared) => {
                 declared.routine = self.routine;
@@ -216,9 +235,20 @@ impl<'a> StatementReader<'a> {
         self.declare(first, name, named)
     }
 
-    pub(super) fn declare(&mut self, at: Token, name: &str, named: Named) -> Result<(), RapidFault> {
-        let routine = self.routine.checked_sub(1).and_then(|index| self.written.routines.get(index));
-        let declared = self.written.scopes.declare(self.routine, routine.map(|routine| routine.name.as_str()), name, named);
+    pub(super) fn declare(
+        &mut self,
+        at: Token,
+        name: &str,
+        named: Named,
+    ) -> Result<(), RapidFault> {
+        let routine =
+            self.routine.checked_sub(1).and_then(|index| self.written.routines.get(index));
+        let declared = self.written.scopes.declare(
+            self.routine,
+            routine.map(|routine| routine.name.as_str()),
+            name,
+            named,
+        );
         declared.map_err(|kind| self.tokens.fault(at.start, kind))
     }
 
@@ -227,7 +257,10 @@ impl<'a> StatementReader<'a> {
         let name = read_name(&mut self.tokens, "the name of the record")?;
         while !self.tokens.take_word("ENDRECORD")? {
             if self.tokens.peek().kind == TokenKind::End {
-                let kind = RapidFaultKind::UnexpectedEnd { inside: format!("RECORD {name}"), missing: "ENDRECORD" };
+                let kind = RapidFaultKind::UnexpectedEnd {
+                    inside: format!("RECORD {name}"),
+                    missing: "ENDRECORD",
+                };
                 return Err(self.tokens.fault(self.tokens.peek().start, kind));
             }
             self.tokens.take()?;
@@ -252,7 +285,8 @@ impl<'a> StatementReader<'a> {
             self.skip(token, String::new());
             return Ok(());
         };
-        let (routine, inside_loop, displaced) = (self.routine, self.written.blocks.innermost_loop(), self.displaced_by.line(kind));
+        let (routine, inside_loop, displaced) =
+            (self.routine, self.written.blocks.innermost_loop(), self.displaced_by.line(kind));
         self.written.moves.push(WrittenMove { routine, inside_loop, displaced, ..step });
         Ok(())
     }

@@ -51,7 +51,11 @@ pub enum Fallback {
 /// # Errors
 ///
 /// [`Error::InvalidModel`] for an arm without configurations. What is wrong with one target is told in its row.
-pub fn calc_moves(robot: &Robot<6>, module: &Module, fallback: Fallback) -> Result<Vec<TableRow>, Error> {
+pub fn calc_moves(
+    robot: &Robot<6>,
+    module: &Module,
+    fallback: Fallback,
+) -> Result<Vec<TableRow>, Error> {
     let mut table = Table::new(robot, fallback)?;
     for step in module.moves() {
         if let Some(via) = &step.via {
@@ -82,11 +86,19 @@ pub fn calc_targets(
     let mut table = Table::new(robot, fallback)?;
     for datum in module.data().iter().filter(|datum| datum.routine.is_none()) {
         match &datum.content {
-            Content::Single(Value::RobTarget(target)) => table.add("robtarget", datum.name.clone(), datum.line, target, Ok(frames)),
+            Content::Single(Value::RobTarget(target)) => {
+                table.add("robtarget", datum.name.clone(), datum.line, target, Ok(frames))
+            }
             Content::Array { sizes, values } => {
                 for (number, value) in values.iter().enumerate() {
                     if let Value::RobTarget(target) = value {
-                        table.add("robtarget", element(&datum.name, sizes, number), datum.line, target, Ok(frames));
+                        table.add(
+                            "robtarget",
+                            element(&datum.name, sizes, number),
+                            datum.line,
+                            target,
+                            Ok(frames),
+                        );
                     }
                 }
             }
@@ -99,8 +111,11 @@ pub fn calc_targets(
 /// What is said of the first axis that is not there, by the joint angles [deg].
 fn absent_axis(robax_deg: &[f64; 6]) -> Option<String> {
     let axis = robax_deg.iter().position(|degrees| degrees.abs() > MOST_DEGREES)?;
-    let written =
-        if robax_deg[axis].to_bits() == NOT_THERE.to_bits() { "9E9".to_string() } else { Value::Num(robax_deg[axis]).to_string() };
+    let written = if robax_deg[axis].to_bits() == NOT_THERE.to_bits() {
+        "9E9".to_string()
+    } else {
+        Value::Num(robax_deg[axis]).to_string()
+    };
     Some(format!("axis {} is {written}: it is not there", axis + 1))
 }
 
@@ -130,7 +145,12 @@ impl<'a> Table<'a> {
     }
 
     /// A row for an argument of a move, which `read` takes for a robtarget or for joint angles [deg].
-    fn add_move<T>(&mut self, step: &Move, argument: &Argument<T>, read: impl Fn(&T) -> Result<RobTarget, [f64; 6]>) {
+    fn add_move<T>(
+        &mut self,
+        step: &Move,
+        argument: &Argument<T>,
+        read: impl Fn(&T) -> Result<RobTarget, [f64; 6]>,
+    ) {
         let (kind, text) = (step.kind.name(), argument.text.clone());
         if let Some(line) = step.displaced {
             let problem = format!("line {line} displaces it, which is not followed");
@@ -150,17 +170,38 @@ impl<'a> Table<'a> {
     }
 
     fn frames_of(&self, step: &Move) -> Result<Frames, String> {
-        let tool = step.tool.value.as_ref().map_err(|reason| format!("tool {}: {reason}", step.tool.text))?;
-        let wobj = step.wobj.as_ref().map(|wobj| wobj.value.as_ref().map_err(|reason| format!("work object {}: {reason}", wobj.text)));
+        let tool = step
+            .tool
+            .value
+            .as_ref()
+            .map_err(|reason| format!("tool {}: {reason}", step.tool.text))?;
+        let wobj = step.wobj.as_ref().map(|wobj| {
+            wobj.value.as_ref().map_err(|reason| format!("work object {}: {reason}", wobj.text))
+        });
         Frames::new(self.robot, Some(tool), wobj.transpose()?).map_err(|error| error.to_string())
     }
 
     fn add_problem(&mut self, kind: &'static str, text: String, line: usize, problem: String) {
         let configuration = Configuration::default();
-        self.rows.push(TableRow { kind, text, line, q: None, configuration, distances: None, problem: Some(problem) });
+        self.rows.push(TableRow {
+            kind,
+            text,
+            line,
+            q: None,
+            configuration,
+            distances: None,
+            problem: Some(problem),
+        });
     }
 
-    fn add(&mut self, kind: &'static str, text: String, line: usize, target: &RobTarget, frames: Result<Frames, String>) {
+    fn add(
+        &mut self,
+        kind: &'static str,
+        text: String,
+        line: usize,
+        target: &RobTarget,
+        frames: Result<Frames, String>,
+    ) {
         let (q, problem) = match frames.and_then(|frames| self.solved(target, &frames)) {
             Ok((q, problem)) => (Some(q), problem),
             Err(problem) => (None, Some(problem)),
@@ -172,7 +213,15 @@ impl<'a> Table<'a> {
     fn add_joints(&mut self, kind: &'static str, text: String, line: usize, q: [f64; 6]) {
         let (configuration, distances) = self.seen(&q);
         let problem = self.outside(&q).map(|outside| format!("ERR_ROBLIMIT: {outside}"));
-        self.rows.push(TableRow { kind, text, line, q: Some(q), configuration, distances, problem });
+        self.rows.push(TableRow {
+            kind,
+            text,
+            line,
+            q: Some(q),
+            configuration,
+            distances,
+            problem,
+        });
     }
 
     /// What is outside the limits, and by how much.
@@ -181,7 +230,8 @@ impl<'a> Table<'a> {
         if limits.contain(q) {
             return None;
         }
-        let farthest = (0..6).max_by(|a, b| limits.excess(*a, q[*a]).total_cmp(&limits.excess(*b, q[*b])))?;
+        let farthest =
+            (0..6).max_by(|a, b| limits.excess(*a, q[*a]).total_cmp(&limits.excess(*b, q[*b])))?;
         let (excess, rod) = (limits.excess(farthest, q[farthest]), limits.rod_excess(q));
         Some(if excess > 0.0 {
             format!("J{} is outside its limits by {:.1} deg", farthest + 1, excess.to_degrees())
@@ -191,7 +241,11 @@ impl<'a> Table<'a> {
     }
 
     /// The joint angles of a target, and what is wrong with them.
-    fn solved(&self, target: &RobTarget, frames: &Frames) -> Result<([f64; 6], Option<String>), String> {
+    fn solved(
+        &self,
+        target: &RobTarget,
+        frames: &Frames,
+    ) -> Result<([f64; 6], Option<String>), String> {
         let told = |error: &Error| match error_name(error) {
             Some(name) => format!("{name}: {error}"),
             None => error.to_string(),
@@ -202,9 +256,12 @@ impl<'a> Table<'a> {
             Err(error) => error,
         };
         let problem = told(&missed);
-        let (Error::NoConfiguration(_), Fallback::Nearest(first)) = (missed, self.fallback) else { return Err(problem) };
+        let (Error::NoConfiguration(_), Fallback::Nearest(first)) = (missed, self.fallback) else {
+            return Err(problem);
+        };
         let before = self.rows.iter().rev().find_map(|row| row.q).unwrap_or(first);
-        let nearest = self.flange.ik_nearest(&pose, &before, &[1.0; 6]).map_err(|error| told(&error))?;
+        let nearest =
+            self.flange.ik_nearest(&pose, &before, &[1.0; 6]).map_err(|error| told(&error))?;
         Ok((nearest.q, Some(format!("{problem}; the nearest to the joints before is taken"))))
     }
 

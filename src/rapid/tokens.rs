@@ -88,12 +88,16 @@ impl<'a> Tokens<'a> {
     pub(super) fn new(text: &'a str) -> Result<Self, RapidFault> {
         let next = Token { kind: TokenKind::End, start: 0, end: 0 };
         let end = text.trim_end_matches(END_OF_FILE).len();
-        let mut tokens = Self { text, next, last_end: 0, last_placeholder: None, end, place: BEGINNING };
+        let mut tokens =
+            Self { text, next, last_end: 0, last_placeholder: None, end, place: BEGINNING };
         let bom = text.len() - text.trim_start_matches('\u{feff}').len();
         let start = tokens.skip_blanks(bom);
         let begin = if text[start..].starts_with("%%%") {
             let length = text[start + 3..].find("%%%");
-            let inside = || RapidFaultKind::UnexpectedEnd { inside: "the header".to_string(), missing: "%%%" };
+            let inside = || RapidFaultKind::UnexpectedEnd {
+                inside: "the header".to_string(),
+                missing: "%%%",
+            };
             start + 6 + length.ok_or_else(|| tokens.fault(start, inside()))?
         } else {
             start
@@ -125,7 +129,8 @@ impl<'a> Tokens<'a> {
 
     /// Whether the next token is a name and `:=` follows it.
     pub(super) fn at_assigned_name(&self) -> bool {
-        self.next.kind == TokenKind::Name && self.text[self.skip_blanks(self.next.end)..].starts_with(":=")
+        self.next.kind == TokenKind::Name
+            && self.text[self.skip_blanks(self.next.end)..].starts_with(":=")
     }
 
     /// Makes a token that was taken the next one again.
@@ -172,7 +177,10 @@ impl<'a> Tokens<'a> {
             TokenKind::End => "the end of the text".to_string(),
             _ => excerpt(self.text_of(self.next)),
         };
-        self.fault(self.next.start, RapidFaultKind::Unexpected { found, wanted: wanted.to_string() })
+        self.fault(
+            self.next.start,
+            RapidFaultKind::Unexpected { found, wanted: wanted.to_string() },
+        )
     }
 
     /// A fault at a byte.
@@ -197,7 +205,12 @@ impl<'a> Tokens<'a> {
                 return bytes.len();
             }
             match byte {
-                b'!' => at += bytes[at..].iter().position(|&b| b == b'\n' || b == b'\r').unwrap_or(bytes.len() - at),
+                b'!' => {
+                    at += bytes[at..]
+                        .iter()
+                        .position(|&b| b == b'\n' || b == b'\r')
+                        .unwrap_or(bytes.len() - at)
+                }
                 b' ' | b'\t' | b'\r' | b'\n' | 0x0b | 0x0c => at += 1,
                 // A no-break space, in UTF-8.
                 0xc2 if bytes.get(at + 1) == Some(&0xa0) => at += 2,
@@ -220,7 +233,9 @@ impl<'a> Tokens<'a> {
             Some(b'.') if second.is_ascii_digit() => self.read_number(start)?,
             Some(b'"') => (TokenKind::Text, self.end_of_string(start)?),
             Some(b':') if second == b'=' => (TokenKind::Assign, start + 2),
-            Some(symbol) if b"[](){},;.:\\*+-/=<>|%?".contains(&symbol) => (TokenKind::Symbol(symbol), start + 1),
+            Some(symbol) if b"[](){},;.:\\*+-/=<>|%?".contains(&symbol) => {
+                (TokenKind::Symbol(symbol), start + 1)
+            }
             Some(_) => (TokenKind::Name, self.end_of_name(start)?),
         };
         Ok(Token { kind, start, end })
@@ -242,15 +257,27 @@ impl<'a> Tokens<'a> {
             match (bytes.get(at), bytes.get(at + 1)) {
                 (Some(b'"'), Some(b'"')) => at += 2,
                 (Some(b'"'), _) => return self.short(start, at + 1, "string", LONGEST_STRING),
-                (None | Some(b'\n' | b'\r'), _) => return Err(self.fault(start, RapidFaultKind::UnterminatedString)),
+                (None | Some(b'\n' | b'\r'), _) => {
+                    return Err(self.fault(start, RapidFaultKind::UnterminatedString));
+                }
                 _ => at += 1,
             }
         }
     }
 
     /// The end of a name or a string, where it is not too long.
-    fn short(&self, start: usize, end: usize, what: &'static str, bound: usize) -> Result<usize, RapidFault> {
-        if end - start <= bound { Ok(end) } else { Err(self.fault(start, RapidFaultKind::TooLong { what, found: end - start, bound })) }
+    fn short(
+        &self,
+        start: usize,
+        end: usize,
+        what: &'static str,
+        bound: usize,
+    ) -> Result<usize, RapidFault> {
+        if end - start <= bound {
+            Ok(end)
+        } else {
+            Err(self.fault(start, RapidFaultKind::TooLong { what, found: end - start, bound }))
+        }
     }
 
     /// A number with its end: decimal, or whole with the prefix 0x, 0o or 0b.
@@ -267,7 +294,8 @@ impl<'a> Tokens<'a> {
         end = end_of_word(self.text, end);
         let text = &self.text[start..end];
         let fault = |kind| self.fault(start, kind);
-        let value = number(text).ok_or_else(|| fault(RapidFaultKind::BadNumber { text: excerpt(text) }))?;
+        let value =
+            number(text).ok_or_else(|| fault(RapidFaultKind::BadNumber { text: excerpt(text) }))?;
         if !value.is_finite() {
             return Err(fault(RapidFaultKind::NotFinite { text: excerpt(text) }));
         }
@@ -282,9 +310,14 @@ fn placeholder_end(bytes: &[u8], start: usize) -> Option<usize> {
     if bytes.get(start) != Some(&b'<') {
         return None;
     }
-    let letters = bytes[start + 1..].iter().take(LONGEST_PLACEHOLDER + 1).take_while(|byte| byte.is_ascii_uppercase()).count();
+    let letters = bytes[start + 1..]
+        .iter()
+        .take(LONGEST_PLACEHOLDER + 1)
+        .take_while(|byte| byte.is_ascii_uppercase())
+        .count();
     let end = start + 1 + letters;
-    ((1..=LONGEST_PLACEHOLDER).contains(&letters) && bytes.get(end) == Some(&b'>')).then_some(end + 1)
+    ((1..=LONGEST_PLACEHOLDER).contains(&letters) && bytes.get(end) == Some(&b'>'))
+        .then_some(end + 1)
 }
 
 /// A number as RAPID writes it, without a sign; infinite where it is too large.
@@ -296,7 +329,8 @@ fn number(text: &str) -> Option<f64> {
         // Digits are there, and letters other than an exponent's are not: "inf" and "nan" do not come here.
         _ => return text.parse().ok(),
     };
-    let digits = text.get(2..).filter(|digits| digits.bytes().all(|b| b.is_ascii_alphanumeric()))?;
+    let digits =
+        text.get(2..).filter(|digits| digits.bytes().all(|b| b.is_ascii_alphanumeric()))?;
     #[expect(clippy::cast_precision_loss, reason = "rounded as any other number is")]
     u64::from_str_radix(digits, radix).ok().map(|value| value as f64)
 }

@@ -88,18 +88,29 @@ impl RapidPose {
 
 impl LoadData {
     /// RAPID's `load0`, the least load.
-    pub const LOAD0: Self = Self { mass_kg: 0.001, cog_mm: [0.0, 0.0, 0.001], aom: [1.0, 0.0, 0.0, 0.0], inertia: [0.0; 3] };
+    pub const LOAD0: Self = Self {
+        mass_kg: 0.001,
+        cog_mm: [0.0, 0.0, 0.001],
+        aom: [1.0, 0.0, 0.0, 0.0],
+        inertia: [0.0; 3],
+    };
 }
 
 impl ToolData {
     /// RAPID's `tool0`, the flange.
-    pub const TOOL0: Self = Self { robhold: true, tframe: RapidPose::IDENTITY, tload: LoadData::LOAD0 };
+    pub const TOOL0: Self =
+        Self { robhold: true, tframe: RapidPose::IDENTITY, tload: LoadData::LOAD0 };
 }
 
 impl WobjData {
     /// RAPID's `wobj0`, the world.
-    pub const WOBJ0: Self =
-        Self { robhold: false, ufprog: true, ufmec: String::new(), uframe: RapidPose::IDENTITY, oframe: RapidPose::IDENTITY };
+    pub const WOBJ0: Self = Self {
+        robhold: false,
+        ufprog: true,
+        ufmec: String::new(),
+        uframe: RapidPose::IDENTITY,
+        oframe: RapidPose::IDENTITY,
+    };
 }
 
 /// A value of any type that is read.
@@ -196,11 +207,19 @@ fn pose_at(scalars: &Scalars, from: usize) -> RapidPose {
 
 fn load_at(scalars: &Scalars, from: usize) -> LoadData {
     let [mass_kg] = scalars.at(from);
-    LoadData { mass_kg, cog_mm: scalars.at(from + 1), aom: scalars.at(from + 4), inertia: scalars.at(from + 8) }
+    LoadData {
+        mass_kg,
+        cog_mm: scalars.at(from + 1),
+        aom: scalars.at(from + 4),
+        inertia: scalars.at(from + 8),
+    }
 }
 
 fn configuration_at(scalars: &Scalars, from: usize) -> Configuration {
-    #[expect(clippy::cast_possible_truncation, reason = "the numbers of confdata are whole and in range where they are read")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the numbers of confdata are whole and in range where they are read"
+    )]
     let [cf1, cf4, cf6, cfx] = scalars.at(from).map(|number: f64| number as i32);
     Configuration { cf1, cf4, cf6, cfx }
 }
@@ -265,7 +284,13 @@ impl ToolData {
 impl WobjData {
     pub(super) fn from_scalars(scalars: &Scalars) -> Self {
         let [robhold, ufprog] = scalars.at(0).map(|number: f64| number != 0.0);
-        Self { robhold, ufprog, ufmec: scalars.text.clone(), uframe: pose_at(scalars, 2), oframe: pose_at(scalars, 9) }
+        Self {
+            robhold,
+            ufprog,
+            ufmec: scalars.text.clone(),
+            uframe: pose_at(scalars, 2),
+            oframe: pose_at(scalars, 9),
+        }
     }
 
     fn add_to(&self, scalars: &mut Scalars) {

@@ -4,7 +4,9 @@ use super::tokens::end_of_word;
 
 /// Whether RAPID could read it as the name of something declared.
 pub(super) fn is_name(text: &str) -> bool {
-    text.chars().next().is_some_and(char::is_alphabetic) && end_of_word(text, 0) == text.len() && !is_reserved(text)
+    text.chars().next().is_some_and(char::is_alphabetic)
+        && end_of_word(text, 0) == text.len()
+        && !is_reserved(text)
 }
 
 /// RAPID's reserved words.

@@ -30,7 +30,8 @@ fn write_number(f: &mut impl fmt::Write, number: f64) -> fmt::Result {
     }
     let scientific = format!("{number:e}");
     let (digits, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
-    let (sign, exponent) = exponent.strip_prefix('-').map_or(('+', exponent), |exponent| ('-', exponent));
+    let (sign, exponent) =
+        exponent.strip_prefix('-').map_or(('+', exponent), |exponent| ('-', exponent));
     write!(f, "{digits}E{sign}{exponent:0>2}")
 }
 
@@ -94,7 +95,9 @@ impl fmt::Display for Content {
 
 /// Elements of the whole array, of an element of its first dimension, and so on; never zero.
 fn products(sizes: &[usize]) -> impl Iterator<Item = usize> {
-    (0..sizes.len()).map(|i| sizes[i..].iter().fold(1_usize, |product, size| product.saturating_mul(*size)).max(1))
+    (0..sizes.len()).map(|i| {
+        sizes[i..].iter().fold(1_usize, |product, size| product.saturating_mul(*size)).max(1)
+    })
 }
 
 impl fmt::Display for Datum {
@@ -159,7 +162,12 @@ impl fmt::Display for Move {
             f.write_str(", ")?;
         }
         let via = self.via.as_ref().map(|via| via.text.as_str());
-        let required = via.into_iter().chain([self.target.text.as_str(), &self.speed, &self.zone, &self.tool.text]);
+        let required = via.into_iter().chain([
+            self.target.text.as_str(),
+            &self.speed,
+            &self.zone,
+            &self.tool.text,
+        ]);
         let last = if via.is_some() { 5 } else { 4 };
         for (i, text) in required.enumerate() {
             write!(f, "{}{text}", if i == 0 { "" } else { "," })?;
@@ -198,10 +206,16 @@ impl Item<'_> {
 fn items(module: &Module) -> BTreeMap<String, Vec<Item<'_>>> {
     let mut items: BTreeMap<String, Vec<Item<'_>>> = BTreeMap::new();
     let mut add = |routine: Option<&String>, item| {
-        items.entry(routine.map(|routine| routine.to_lowercase()).unwrap_or_default()).or_default().push(item);
+        items
+            .entry(routine.map(|routine| routine.to_lowercase()).unwrap_or_default())
+            .or_default()
+            .push(item);
     };
     for (i, datum) in module.data.iter().enumerate() {
-        add(datum.routine.as_ref(), Item::Datum(datum, module.expressions.get(&i).map(String::as_str)));
+        add(
+            datum.routine.as_ref(),
+            Item::Datum(datum, module.expressions.get(&i).map(String::as_str)),
+        );
     }
     module.skipped.iter().for_each(|skipped| add(skipped.routine.as_ref(), Item::Skipped(skipped)));
     module.moves.iter().for_each(|step| add(step.routine.as_ref(), Item::Move(step)));

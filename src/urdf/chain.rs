@@ -31,7 +31,10 @@ pub(super) fn chain_between<'t, 'a>(
     let mut chain = Vec::new();
     let mut link = tip;
     while link != base {
-        let names = || UrdfFault::NotBelow { tip: tree.links[tip].to_owned(), base: tree.links[base].to_owned() };
+        let names = || UrdfFault::NotBelow {
+            tip: tree.links[tip].to_owned(),
+            base: tree.links[base].to_owned(),
+        };
         let joint = &tree.joints[tree.above[link].ok_or_else(names)?];
         chain.push(joint);
         link = joint.parent;
@@ -50,7 +53,11 @@ pub(super) fn chain_between<'t, 'a>(
 
 fn named(tree: &Tree<'_>, field: &'static str, name: &str) -> Result<usize, UrdfFault> {
     tree.link(name).ok_or_else(|| {
-        let links = if tree.links.len() <= FEW { tree.quoted(0..tree.links.len()) } else { close_to(tree, name) };
+        let links = if tree.links.len() <= FEW {
+            tree.quoted(0..tree.links.len())
+        } else {
+            close_to(tree, name)
+        };
         UrdfFault::NoSuchLink { field, name: name.to_owned(), links }
     })
 }
@@ -66,14 +73,23 @@ fn close_to(tree: &Tree<'_>, wanted: &str) -> Names {
         _ if name.len().max(wanted.len()) > LONGEST => 0.0,
         _ => strsim::jaro_winkler(name, wanted),
     };
-    let mut ranked: Vec<_> = tree.links.iter().map(|name| (similarity(name), name)).filter(|(s, _)| *s >= LEAST_SIMILARITY).collect();
+    let mut ranked: Vec<_> = tree
+        .links
+        .iter()
+        .map(|name| (similarity(name), name))
+        .filter(|(s, _)| *s >= LEAST_SIMILARITY)
+        .collect();
     ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
     ranked.into_iter().map(|(_, name)| quoted(name)).collect()
 }
 
 #[cfg(not(feature = "std"))]
 fn close_to(tree: &Tree<'_>, wanted: &str) -> Names {
-    tree.links.iter().filter(|name| !wanted.is_empty() && name.contains(wanted)).map(|name| quoted(name)).collect()
+    tree.links
+        .iter()
+        .filter(|name| !wanted.is_empty() && name.contains(wanted))
+        .map(|name| quoted(name))
+        .collect()
 }
 
 fn only_root(tree: &Tree<'_>) -> Result<usize, UrdfFault> {
@@ -109,7 +125,8 @@ fn only_tip(tree: &Tree<'_>, base: usize, wanted: &[usize]) -> Result<usize, Urd
             ends.push(link);
         }
     }
-    let can_be = |link: &&usize| ways[**link].barred_by.is_none() && wanted.contains(&ways[**link].turning);
+    let can_be =
+        |link: &&usize| ways[**link].barred_by.is_none() && wanted.contains(&ways[**link].turning);
     let (base, wanted_counts) = (tree.links[base].to_owned(), wanted.to_vec());
     match (ends.iter().find(can_be), ends.iter().filter(can_be).count()) {
         (Some(&tip), 1) => Ok(tip),
@@ -128,7 +145,9 @@ fn only_tip(tree: &Tree<'_>, base: usize, wanted: &[usize]) -> Result<usize, Urd
 fn remark(tree: &Tree<'_>, link: usize, way: Way) -> String {
     let name = tree.links[link];
     match way.barred_by.map(|joint| &tree.joints[joint]) {
-        Some(joint) if joint.turns() => format!("{name:?} (behind joint {:?}, a mimic)", joint.name),
+        Some(joint) if joint.turns() => {
+            format!("{name:?} (behind joint {:?}, a mimic)", joint.name)
+        }
         Some(joint) => format!("{name:?} (behind joint {:?}, {})", joint.name, joint.kind),
         None => format!("{name:?} ({})", way.turning),
     }

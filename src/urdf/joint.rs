@@ -30,13 +30,18 @@ pub(super) struct Motion {
 
 impl<'a> Joint<'a> {
     pub(super) fn new(node: Node<'a, 'a>, tree: &Tree<'a>) -> Result<Self, UrdfFault> {
-        let missing = |missing| UrdfFault::Missing { line: tree.line(node), element: "joint", missing };
+        let missing =
+            |missing| UrdfFault::Missing { line: tree.line(node), element: "joint", missing };
         let name = node.attribute("name").ok_or_else(|| missing("name"))?;
         let kind = node.attribute("type").ok_or_else(|| missing("type"))?;
         let link = |role, lacking| {
             let element = element(node, name, role)?.and_then(|element| element.attribute("link"));
             let link = element.ok_or_else(|| missing(lacking))?;
-            tree.link(link).ok_or_else(|| UrdfFault::UnknownLink { joint: name.to_owned(), role, link: link.to_owned() })
+            tree.link(link).ok_or_else(|| UrdfFault::UnknownLink {
+                joint: name.to_owned(),
+                role,
+                link: link.to_owned(),
+            })
         };
         let parent = link("parent", "<parent link=\"...\">")?;
         Ok(Self { name, kind, parent, child: link("child", "<child link=\"...\">")?, node })
@@ -50,7 +55,10 @@ impl<'a> Joint<'a> {
     /// What keeps the joint from being between base and tip.
     pub(super) fn fault(&self) -> Result<(), UrdfFault> {
         if !self.turns() && self.kind != "fixed" {
-            return Err(UrdfFault::JointType { joint: self.name.to_owned(), kind: self.kind.to_owned() });
+            return Err(UrdfFault::JointType {
+                joint: self.name.to_owned(),
+                kind: self.kind.to_owned(),
+            });
         }
         match self.element("mimic")? {
             Some(mimic) => {
@@ -65,7 +73,8 @@ impl<'a> Joint<'a> {
     pub(super) fn origin(&self) -> Result<Pose, UrdfFault> {
         let Some(origin) = self.element("origin")? else { return Ok(Pose::identity()) };
         let xyz = self.three(origin, "xyz", "origin xyz", MOST_LENGTH)?.unwrap_or([0.0; 3]);
-        let [roll, pitch, yaw] = self.three(origin, "rpy", "origin rpy", MOST_ANGLE)?.unwrap_or([0.0; 3]);
+        let [roll, pitch, yaw] =
+            self.three(origin, "rpy", "origin rpy", MOST_ANGLE)?.unwrap_or([0.0; 3]);
         Ok(constant_pose(xyz, [yaw, pitch, roll]))
     }
 
@@ -78,9 +87,13 @@ impl<'a> Joint<'a> {
             Some(axis) => self.three(axis, "xyz", "axis", f64::MAX)?,
             None => None,
         };
-        let direction = unit(axis.unwrap_or([1.0, 0.0, 0.0])).ok_or_else(|| UrdfFault::NoAxis { joint: self.name.to_owned() })?;
+        let direction = unit(axis.unwrap_or([1.0, 0.0, 0.0]))
+            .ok_or_else(|| UrdfFault::NoAxis { joint: self.name.to_owned() })?;
         let direction = t_base_child.rotation * direction;
-        let axis = JointAxis { direction: direction.into(), point: t_base_child.translation.vector.into() };
+        let axis = JointAxis {
+            direction: direction.into(),
+            point: t_base_child.translation.vector.into(),
+        };
         let (limits, velocity) = self.limit()?;
         Ok(Some(Motion { axis, limits, velocity }))
     }
@@ -93,27 +106,52 @@ impl<'a> Joint<'a> {
             return if self.kind == "continuous" { Ok((unlimited, None)) } else { Err(fault) };
         };
         let number = |attribute, field, bound| {
-            let numbers = limit.attribute(attribute).map(|text| self.numbers::<1>(field, text, bound));
+            let numbers =
+                limit.attribute(attribute).map(|text| self.numbers::<1>(field, text, bound));
             numbers.transpose().map(|number| number.map_or(0.0, |[value]| value))
         };
-        let velocity = Some(number("velocity", "limit velocity", f64::MAX)?).filter(|velocity| *velocity != 0.0);
+        let velocity = Some(number("velocity", "limit velocity", f64::MAX)?)
+            .filter(|velocity| *velocity != 0.0);
         if self.kind == "continuous" {
             return Ok((unlimited, velocity));
         }
-        Ok(([number("lower", "limit lower", MOST_ANGLE)?, number("upper", "limit upper", MOST_ANGLE)?], velocity))
+        Ok((
+            [
+                number("lower", "limit lower", MOST_ANGLE)?,
+                number("upper", "limit upper", MOST_ANGLE)?,
+            ],
+            velocity,
+        ))
     }
 
-    fn three(&self, node: Node<'_, '_>, attribute: &str, field: &'static str, bound: f64) -> Result<Option<[f64; 3]>, UrdfFault> {
+    fn three(
+        &self,
+        node: Node<'_, '_>,
+        attribute: &str,
+        field: &'static str,
+        bound: f64,
+    ) -> Result<Option<[f64; 3]>, UrdfFault> {
         node.attribute(attribute).map(|text| self.numbers(field, text, bound)).transpose()
     }
 
-    fn numbers<const K: usize>(&self, field: &'static str, text: &str, bound: f64) -> Result<[f64; K], UrdfFault> {
+    fn numbers<const K: usize>(
+        &self,
+        field: &'static str,
+        text: &str,
+        bound: f64,
+    ) -> Result<[f64; K], UrdfFault> {
         let joint = || self.name.to_owned();
-        let not_numbers = || UrdfFault::NotNumbers { joint: joint(), field, text: text.chars().take(REPEATED).collect(), wanted: K };
+        let not_numbers = || UrdfFault::NotNumbers {
+            joint: joint(),
+            field,
+            text: text.chars().take(REPEATED).collect(),
+            wanted: K,
+        };
         let mut words = text.split_whitespace();
         let mut values = [0.0; K];
         for value in &mut values {
-            *value = words.next().and_then(|word| word.parse::<f64>().ok()).ok_or_else(not_numbers)?;
+            *value =
+                words.next().and_then(|word| word.parse::<f64>().ok()).ok_or_else(not_numbers)?;
         }
         if words.next().is_some() {
             return Err(not_numbers());
@@ -135,8 +173,13 @@ impl<'a> Joint<'a> {
 }
 
 /// The only element of that name in a joint.
-fn element<'a>(node: Node<'a, 'a>, joint: &str, name: &'static str) -> Result<Option<Node<'a, 'a>>, UrdfFault> {
-    let mut found = node.children().filter(|child| child.is_element() && child.tag_name().name() == name);
+fn element<'a>(
+    node: Node<'a, 'a>,
+    joint: &str,
+    name: &'static str,
+) -> Result<Option<Node<'a, 'a>>, UrdfFault> {
+    let mut found =
+        node.children().filter(|child| child.is_element() && child.tag_name().name() == name);
     match (found.next(), found.next()) {
         (_, Some(_)) => Err(UrdfFault::Twice { joint: joint.to_owned(), element: name }),
         (first, None) => Ok(first),

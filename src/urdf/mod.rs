@@ -36,7 +36,11 @@ impl<const N: usize> Robot<N> {
     /// # Errors
     ///
     /// As [`Robot::from_urdf`], but for an arm that has no known form.
-    pub fn serial_chain_from_urdf(text: &str, base: Option<&str>, tip: Option<&str>) -> Result<Self, Error> {
+    pub fn serial_chain_from_urdf(
+        text: &str,
+        base: Option<&str>,
+        tip: Option<&str>,
+    ) -> Result<Self, Error> {
         UrdfArm::read(text, base, tip, &[N])?.robot(false)
     }
 }
@@ -50,7 +54,12 @@ pub(crate) struct UrdfArm {
 
 impl UrdfArm {
     /// Reads the chain between two links; its number of joints must be one of `wanted`.
-    pub(crate) fn read(text: &str, base: Option<&str>, tip: Option<&str>, wanted: &[usize]) -> Result<Self, Error> {
+    pub(crate) fn read(
+        text: &str,
+        base: Option<&str>,
+        tip: Option<&str>,
+        wanted: &[usize],
+    ) -> Result<Self, Error> {
         let (document, skipped) = parsed(text)?;
         let tree = Tree::new(&document, skipped)?;
         let mut t_base_tip = Pose::identity();
@@ -71,7 +80,8 @@ impl UrdfArm {
     /// The robot, which must have `N` joints; without `closed_form` an arm of no known form is taken too.
     pub(crate) fn robot<const N: usize>(self, closed_form: bool) -> Result<Robot<N>, Error> {
         let found = self.motions.len();
-        let motions = <[Motion; N]>::try_from(self.motions).map_err(|_| ModelFault::JointCount { found, wanted: N })?;
+        let motions = <[Motion; N]>::try_from(self.motions)
+            .map_err(|_| ModelFault::JointCount { found, wanted: N })?;
         let axes: [JointAxis; N] = core::array::from_fn(|i| motions[i].axis);
         let mdh = Mdh::from_joint_axes(&axes, &self.t_base_tip)?;
         let robot = if closed_form { Robot::from_mdh(mdh)? } else { Robot::serial_chain(mdh)? };

@@ -41,7 +41,9 @@ fn not_xml(error: &roxmltree::Error, skipped: usize, body: &str) -> UrdfFault {
         roxmltree::Error::UnknownNamespace(prefix, _) if prefix == "xacro" => {
             return UrdfFault::Xacro { line: line + skipped, element: "xacro:...".to_owned() };
         }
-        roxmltree::Error::UnclosedRootNode | roxmltree::Error::UnexpectedEndOfStream | roxmltree::Error::NoRootNode => {
+        roxmltree::Error::UnclosedRootNode
+        | roxmltree::Error::UnexpectedEndOfStream
+        | roxmltree::Error::NoRootNode => {
             line = body.lines().count().max(1);
             column = body.lines().next_back().unwrap_or_default().chars().count() + 1;
             "the text ends before the robot does".to_owned()
@@ -56,7 +58,9 @@ impl<'a> Tree<'a> {
     /// Reads names and connections; the numbers of a joint are read when it is between base and tip.
     pub(super) fn new(document: &'a Document<'a>, skipped: usize) -> Result<Self, UrdfFault> {
         let robot = document.root_element();
-        let elements = |name| robot.children().filter(move |node| node.is_element() && node.tag_name().name() == name);
+        let elements = |name| {
+            robot.children().filter(move |node| node.is_element() && node.tag_name().name() == name)
+        };
         let mut tree = Self {
             skipped,
             name: robot.attribute("name").unwrap_or_default(),
@@ -86,7 +90,8 @@ impl<'a> Tree<'a> {
     }
 
     fn add_link(&mut self, node: Node<'a, 'a>) -> Result<(), UrdfFault> {
-        let missing = || UrdfFault::Missing { line: self.line(node), element: "link", missing: "name" };
+        let missing =
+            || UrdfFault::Missing { line: self.line(node), element: "link", missing: "name" };
         let name = node.attribute("name").ok_or_else(missing)?;
         if self.index.insert(name, self.links.len()).is_some() {
             return Err(UrdfFault::SameName { element: "link", name: name.to_owned() });
@@ -135,9 +140,14 @@ impl<'a> Tree<'a> {
     }
 
     fn refuse_xacro(&self, robot: Node<'_, '_>) -> Result<(), UrdfFault> {
-        let is_xacro = |node: &Node<'_, '_>| node.tag_name().namespace().is_some_and(|uri| uri.contains("xacro"));
+        let is_xacro = |node: &Node<'_, '_>| {
+            node.tag_name().namespace().is_some_and(|uri| uri.contains("xacro"))
+        };
         match robot.descendants().find(is_xacro) {
-            Some(node) => Err(UrdfFault::Xacro { line: self.line(node), element: format!("xacro:{}", node.tag_name().name()) }),
+            Some(node) => Err(UrdfFault::Xacro {
+                line: self.line(node),
+                element: format!("xacro:{}", node.tag_name().name()),
+            }),
             None => Ok(()),
         }
     }

@@ -16,7 +16,11 @@ pub fn asked_set() -> InstructionSet {
     if let Ok(name) = std::env::var("IRBKIN_INSTRUCTION_SET") {
         let names: Vec<_> = InstructionSet::available().map(InstructionSet::name).collect();
         let set = InstructionSet::available().find(|set| set.name() == name);
-        set.unwrap_or_else(|| panic!("IRBKIN_INSTRUCTION_SET is {name:?}, this processor has {names:?}")).force().unwrap();
+        set.unwrap_or_else(|| {
+            panic!("IRBKIN_INSTRUCTION_SET is {name:?}, this processor has {names:?}")
+        })
+        .force()
+        .unwrap();
     }
     InstructionSet::in_use()
 }

@@ -79,7 +79,14 @@ impl ParallelArm {
     pub fn reach(&self) -> f64 {
         let along_axis_2: f64 = self.b.iter().map(|b| b.abs()).sum();
         let ends = self.base.translation.vector.norm() + self.flange.translation.vector.norm();
-        self.a1.abs() + along_axis_2 + self.c1 + self.c2 + self.c3 + self.d5.abs() + self.d6.abs() + ends
+        self.a1.abs()
+            + along_axis_2
+            + self.c1
+            + self.c2
+            + self.c3
+            + self.d5.abs()
+            + self.d6.abs()
+            + ends
     }
 
     pub fn b(&self) -> f64 {
@@ -110,7 +117,11 @@ impl ParallelArm {
             }
             turned = turns;
         }
-        Mdh { base: self.base, rows, flange: turn(quarters_about_x(if turned { 3 } else { 1 })) * self.flange }
+        Mdh {
+            base: self.base,
+            rows,
+            flange: turn(quarters_about_x(if turned { 3 } else { 1 })) * self.flange,
+        }
     }
 
     /// The wrist of joint angles from axis 1, along the plane of the arm [m].
@@ -122,13 +133,17 @@ impl ParallelArm {
     /// The end of the planar arm, on axis 4, from axis 2 [m].
     pub fn end(&self, theta: &[f64; 6]) -> [f64; 2] {
         let [_, t2, t3, ..] = *theta;
-        [self.c2 * t2.sin() + self.c3 * (t2 + t3).sin(), self.c2 * t2.cos() + self.c3 * (t2 + t3).cos()]
+        [
+            self.c2 * t2.sin() + self.c3 * (t2 + t3).sin(),
+            self.c2 * t2.cos() + self.c3 * (t2 + t3).cos(),
+        ]
     }
 
     /// The end of the planar arm where joint 6 of a pose with sin theta_5 = 0 is turned to `theta_6`: on a circle about the wrist.
     pub fn end_along_family(&self, theta: &[f64; 6], theta_6: f64) -> [f64; 2] {
         let phi = theta[1] + theta[2] + theta[3];
-        let turned = if theta[4].cos() > 0.0 { phi + theta[5] - theta_6 } else { phi - theta[5] + theta_6 };
+        let turned =
+            if theta[4].cos() > 0.0 { phi + theta[5] - theta_6 } else { phi - theta[5] + theta_6 };
         let [x, z] = self.end(theta);
         [x + self.d5 * (phi.sin() - turned.sin()), z + self.d5 * (phi.cos() - turned.cos())]
     }
@@ -147,7 +162,9 @@ impl ParallelArm {
 
     /// Slot of joint angles: the signs of x, sin theta_3 and sin theta_5.
     pub fn slot(&self, theta: &[f64; 6]) -> usize {
-        4 * usize::from(self.x(theta) < 0.0) + 2 * usize::from(theta[2].sin() < 0.0) + usize::from(theta[4].sin() < 0.0)
+        4 * usize::from(self.x(theta) < 0.0)
+            + 2 * usize::from(theta[2].sin() < 0.0)
+            + usize::from(theta[4].sin() < 0.0)
     }
 
     /// The wrist seen from the shoulder, of the flange's pose.
@@ -174,7 +191,10 @@ impl ParallelArm {
             let (sin_phi, cos_phi) = (m[(2, 1)], -m[(0, 1)]);
             let sin_5 = sin_phi.hypot(cos_phi);
             [1.0, -1.0].map(|wrist| {
-                let end = [x - self.a1 - wrist * self.d5 * sin_phi / sin_5, w.z - wrist * self.d5 * cos_phi / sin_5];
+                let end = [
+                    x - self.a1 - wrist * self.d5 * sin_phi / sin_5,
+                    w.z - wrist * self.d5 * cos_phi / sin_5,
+                ];
                 Asked { end, missing: self.missing(end) }
             })
         }))
@@ -183,12 +203,16 @@ impl ParallelArm {
 
 /// A turn on the spot.
 pub fn turn(rotation: Matrix3<f64>) -> Pose {
-    IsometryMatrix3::from_parts(Translation3::identity(), Rotation3::from_matrix_unchecked(rotation))
+    IsometryMatrix3::from_parts(
+        Translation3::identity(),
+        Rotation3::from_matrix_unchecked(rotation),
+    )
 }
 
 /// A turn about x by quarters, to the bit.
 pub fn quarters_about_x(quarters: i32) -> Matrix3<f64> {
-    let (sin, cos) = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)][quarters.rem_euclid(4).unsigned_abs() as usize];
+    let (sin, cos) = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)]
+        [quarters.rem_euclid(4).unsigned_abs() as usize];
     Matrix3::new(1.0, 0.0, 0.0, 0.0, cos, -sin, 0.0, sin, cos)
 }
 

@@ -29,7 +29,10 @@ impl Tally {
     /// Prints the row; returns it when something is amiss.
     pub fn tell(&self, name: &str, set: &str) -> String {
         #[expect(clippy::cast_precision_loss, reason = "a mean")]
-        let (found, mean) = (100.0 * self.found as f64 / self.poses as f64, self.solutions as f64 / self.poses as f64);
+        let (found, mean) = (
+            100.0 * self.found as f64 / self.poses as f64,
+            self.solutions as f64 / self.poses as f64,
+        );
         let row = format!(
             "{name:22} {:8} {set:34} {:7} poses  found {found:6.2} %  wrong {}  twice {}  worst {:.1e} m {:.1e} rad  {mean:.2} solutions",
             asked_set().name(),

@@ -81,7 +81,8 @@ impl Bounds {
             None => position * (1.0 + b / clear_of_axis_1(arm)),
             Some(off) => {
                 let merged = (b * thresholds::LATERAL_MERGE).sqrt().max(thresholds::SHOULDER_MERGE);
-                let root = (2.0 * b * position).sqrt().min(2.0 * b * position / off.max(1e-300)) + position;
+                let root = (2.0 * b * position).sqrt().min(2.0 * b * position / off.max(1e-300))
+                    + position;
                 root + if off <= 2.0 * merged { 2.0 * (off + merged) } else { 0.0 }
             }
         };
@@ -89,7 +90,11 @@ impl Bounds {
         let six = (plane / place.wrist.unwrap_or(0.19).max(1e-300)).min(PI);
         let end = x + position + arm.d5 * (plane + six);
         let elbow = |elbows: [f64; 2]| elbows.map(|angle| FOUND + angle.min(PI));
-        Self { plane: FOUND + plane, six: FOUND + six, arm: elbow(Self::elbow(arm, theta[2], place.elbow, end)) }
+        Self {
+            plane: FOUND + plane,
+            six: FOUND + six,
+            arm: elbow(Self::elbow(arm, theta[2], place.elbow, end)),
+        }
     }
 
     /// How far theta_2 and theta_3 may be off where the end of the planar arm is off by `end` [m].
@@ -117,7 +122,8 @@ impl Bounds {
     pub fn hold(&self, found: &[f64; 6], made: &[f64; 6]) -> bool {
         let off = |joint: usize| wrapped(found[joint] - made[joint]);
         self.hold_plane(found, made)
-            && (self.six > OPEN || (off(5) <= self.six && off(1) <= self.arm[0] && off(2) <= self.arm[1]))
+            && (self.six > OPEN
+                || (off(5) <= self.six && off(1) <= self.arm[0] && off(2) <= self.arm[1]))
             && (self.six > OPEN || wrapped(phi(found) - phi(made)) <= self.plane + self.six)
     }
 

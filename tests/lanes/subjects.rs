@@ -2,7 +2,9 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use irbkin::{Definition, JointLimits, OpwParameters, Pose, Robot, pose_from_euler_zyx, pose_to_rows};
+use irbkin::{
+    Definition, JointLimits, OpwParameters, Pose, Robot, pose_from_euler_zyx, pose_to_rows,
+};
 use nalgebra::Translation3;
 
 use crate::common::parallel_arm::ParallelArm;
@@ -73,18 +75,45 @@ pub fn subjects() -> Vec<Subject> {
         ("offsets of many turns", lateral([50.0, -49.0, 31.4, -3.2, 12.5, 7.0])),
         ("straight tool", irb_2600().with_tool(&straight_tool).unwrap()),
         ("tool and base", irb_2600().with_tool(&tool).unwrap().with_base(&base).unwrap()),
-        ("lateral, tool and base", lateral(LATERAL.offsets).with_tool(&tool).unwrap().with_base(&base).unwrap()),
+        (
+            "lateral, tool and base",
+            lateral(LATERAL.offsets).with_tool(&tool).unwrap().with_base(&base).unwrap(),
+        ),
         ("no limits", limited(irb_2600(), [[-infinite, infinite]; 6])),
         ("narrow limits", limited(irb_2600(), [[-0.4, 0.9]; 6])),
-        ("limits beyond half a turn", limited(irb_2600(), [[-7.0, 1.0], [-1.0, 4.5], [-4.7, -0.2], [-9.0, 9.0], [-PI, 0.3], [-0.3, PI]])),
-        ("limits more than a turn away", limited(irb_2600(), [[4.0, 7.0], [-PI, PI], [-PI, PI], [-7.0, -4.0], [-PI, PI], [9.0, 16.0]])),
+        (
+            "limits beyond half a turn",
+            limited(
+                irb_2600(),
+                [[-7.0, 1.0], [-1.0, 4.5], [-4.7, -0.2], [-9.0, 9.0], [-PI, 0.3], [-0.3, PI]],
+            ),
+        ),
+        (
+            "limits more than a turn away",
+            limited(
+                irb_2600(),
+                [[4.0, 7.0], [-PI, PI], [-PI, PI], [-7.0, -4.0], [-PI, PI], [9.0, 16.0]],
+            ),
+        ),
         (
             "limits on one side",
-            limited(lateral(LATERAL.offsets), [[-infinite, 1.0], [-1.0, infinite], [-PI, PI], [-3.5, 3.5], [-2.0, 2.0], [-9.0, 1.0]]),
+            limited(
+                lateral(LATERAL.offsets),
+                [
+                    [-infinite, 1.0],
+                    [-1.0, infinite],
+                    [-PI, PI],
+                    [-3.5, 3.5],
+                    [-2.0, 2.0],
+                    [-9.0, 1.0],
+                ],
+            ),
         ),
     ];
     let wrists = robots.into_iter().map(|(name, robot)| {
-        let Definition::Opw(opw) = *robot.definition() else { unreachable!("{name} is built from its parameters") };
+        let Definition::Opw(opw) = *robot.definition() else {
+            unreachable!("{name} is built from its parameters")
+        };
         Subject { name, robot, form: Form::Wrist(opw) }
     });
     wrists.chain(parallel_subjects([tool, straight_tool], base)).collect()
@@ -92,10 +121,13 @@ pub fn subjects() -> Vec<Subject> {
 
 /// The same of arms with three parallel axes.
 fn parallel_subjects([tool, straight_tool]: [Pose; 2], base: Pose) -> Vec<Subject> {
-    let limited = |(arm, robot): (_, Robot<6>), limits| (arm, robot.with_limits(JointLimits::new(limits).unwrap()));
+    let limited = |(arm, robot): (_, Robot<6>), limits| {
+        (arm, robot.with_limits(JointLimits::new(limits).unwrap()))
+    };
     let universal = ParallelArm::universal;
     let odd = || (odd_parallel(), odd_parallel().robot());
-    let many_turns = ParallelArm { offsets: [50.0, -49.0, 31.4, -3.2, 12.5, 7.0], ..odd_parallel() };
+    let many_turns =
+        ParallelArm { offsets: [50.0, -49.0, 31.4, -3.2, 12.5, 7.0], ..odd_parallel() };
     let (ur3, ur3_robot) = universal("UR3");
     let (bare, bare_robot) = odd();
     let infinite = f64::INFINITY;
@@ -104,40 +136,72 @@ fn parallel_subjects([tool, straight_tool]: [Pose; 2], base: Pose) -> Vec<Subjec
         ("UR10e", universal("UR10e")),
         ("odd frames", odd()),
         ("odd frames, offsets of many turns", (many_turns.clone(), many_turns.robot())),
-        ("UR3 with a straight tool", (ur3.clone(), ur3_robot.clone().with_tool(&straight_tool).unwrap())),
-        ("UR3, tool and base", (ur3, ur3_robot.with_tool(&tool).unwrap().with_base(&base).unwrap())),
-        ("odd frames, tool and base", (bare, bare_robot.with_tool(&tool).unwrap().with_base(&base).unwrap())),
+        (
+            "UR3 with a straight tool",
+            (ur3.clone(), ur3_robot.clone().with_tool(&straight_tool).unwrap()),
+        ),
+        (
+            "UR3, tool and base",
+            (ur3, ur3_robot.with_tool(&tool).unwrap().with_base(&base).unwrap()),
+        ),
+        (
+            "odd frames, tool and base",
+            (bare, bare_robot.with_tool(&tool).unwrap().with_base(&base).unwrap()),
+        ),
         ("UR3, no limits", limited(universal("UR3"), [[-infinite, infinite]; 6])),
         ("UR3, narrow limits", limited(universal("UR3"), [[-0.4, 0.9]; 6])),
         (
             "odd frames, limits beyond half a turn",
-            limited(odd(), [[-7.0, 1.0], [-1.0, 4.5], [-4.7, -0.2], [-9.0, 9.0], [-PI, 0.3], [-0.3, PI]]),
+            limited(
+                odd(),
+                [[-7.0, 1.0], [-1.0, 4.5], [-4.7, -0.2], [-9.0, 9.0], [-PI, 0.3], [-0.3, PI]],
+            ),
         ),
         (
             "UR3, limits more than a turn away",
-            limited(universal("UR3"), [[4.0, 7.0], [-PI, PI], [-PI, PI], [-7.0, -4.0], [-PI, PI], [9.0, 16.0]]),
+            limited(
+                universal("UR3"),
+                [[4.0, 7.0], [-PI, PI], [-PI, PI], [-7.0, -4.0], [-PI, PI], [9.0, 16.0]],
+            ),
         ),
         (
             "odd frames, limits on one side",
-            limited(odd(), [[-infinite, 1.0], [-1.0, infinite], [-PI, PI], [-3.5, 3.5], [-2.0, 2.0], [-9.0, 1.0]]),
+            limited(
+                odd(),
+                [
+                    [-infinite, 1.0],
+                    [-1.0, infinite],
+                    [-PI, PI],
+                    [-3.5, 3.5],
+                    [-2.0, 2.0],
+                    [-9.0, 1.0],
+                ],
+            ),
         ),
     ];
-    arms.into_iter().map(|(name, (arm, robot))| Subject { name, robot, form: Form::Parallel(Box::new(arm)) }).collect()
+    arms.into_iter()
+        .map(|(name, (arm, robot))| Subject { name, robot, form: Form::Parallel(Box::new(arm)) })
+        .collect()
 }
 
 impl Subject {
     fn q(&self, theta: [f64; 6]) -> [f64; 6] {
         match &self.form {
-            Form::Wrist(opw) => std::array::from_fn(|i| f64::from(opw.signs[i]) * (theta[i] + opw.offsets[i])),
+            Form::Wrist(opw) => {
+                std::array::from_fn(|i| f64::from(opw.signs[i]) * (theta[i] + opw.offsets[i]))
+            }
             Form::Parallel(arm) => arm.q(theta),
         }
     }
 
     /// The lengths that a position of the tool is summed from [m].
     pub fn extent(&self) -> f64 {
-        let ends = self.robot.base().translation.vector.norm() + self.robot.tool().translation.vector.norm();
+        let ends = self.robot.base().translation.vector.norm()
+            + self.robot.tool().translation.vector.norm();
         let arm = match &self.form {
-            Form::Wrist(OpwParameters { a1, a2, b, c1, c2, c3, c4, .. }) => a1.abs() + b.abs() + c1 + c2 + a2.hypot(*c3) + c4,
+            Form::Wrist(OpwParameters { a1, a2, b, c1, c2, c3, c4, .. }) => {
+                a1.abs() + b.abs() + c1 + c2 + a2.hypot(*c3) + c4
+            }
             Form::Parallel(arm) => arm.reach(),
         };
         arm + ends
@@ -156,10 +220,12 @@ impl Subject {
         let turned = [rng.between(-PI, PI), rng.between(-1.5, 1.5), rng.between(-PI, PI)];
         let flange = match &self.form {
             Form::Wrist(opw) => {
-                pose_from_euler_zyx([x, opw.b, opw.c1 + 0.9 * opw.c2], turned).unwrap() * Translation3::new(0.0, 0.0, opw.c4)
+                pose_from_euler_zyx([x, opw.b, opw.c1 + 0.9 * opw.c2], turned).unwrap()
+                    * Translation3::new(0.0, 0.0, opw.c4)
             }
             Form::Parallel(arm) => {
-                let wrist = pose_from_euler_zyx([x, arm.b(), arm.c1 + 0.9 * arm.c2], turned).unwrap();
+                let wrist =
+                    pose_from_euler_zyx([x, arm.b(), arm.c1 + 0.9 * arm.c2], turned).unwrap();
                 arm.base * wrist * Translation3::new(0.0, arm.d6, 0.0) * arm.flange
             }
         };
@@ -184,7 +250,12 @@ impl Subject {
             1 => row = made([theta[0], t2, theta[2], t4, near, t6]),
             3 => row = made([theta[0], t2, straight + near, t4, theta[4], t6]),
             5 => row = pose_to_rows(&self.above_the_shoulder(near, rng)),
-            7 => row = made([0.0, 0.4, 0.0, 0.0, 0.5, 0.0].map(|angle: f64| if rng.unit() < 0.5 { angle } else { -angle })),
+            7 => {
+                row = made(
+                    [0.0, 0.4, 0.0, 0.0, 0.5, 0.0]
+                        .map(|angle: f64| if rng.unit() < 0.5 { angle } else { -angle }),
+                )
+            }
             9 => row = self.anywhere(rng),
             11 => row[3 + 4 * (kind / 24 % 3)] = [1e6, -1e7, 1e300][kind / 72 % 3],
             13 => row[kind / 24 % 12] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY][kind / 24 % 3],
@@ -195,7 +266,12 @@ impl Subject {
             // The last row, taken and not.
             21 => row[12 + kind / 24 % 4] += [1e-12, 9e-10, 1e-6][kind / 24 % 3],
             // Zeros of both signs.
-            23 => row = [0.0, 0.0, 1.0, 0.6, -0.0, 1.0, -0.0, -0.0, -1.0, 0.0, 0.0, 0.7, 0.0, -0.0, 0.0, 1.0],
+            23 => {
+                row = [
+                    0.0, 0.0, 1.0, 0.6, -0.0, 1.0, -0.0, -0.0, -1.0, 0.0, 0.0, 0.7, 0.0, -0.0, 0.0,
+                    1.0,
+                ]
+            }
             _ => {}
         }
         row
@@ -204,7 +280,10 @@ impl Subject {
     /// A pose in and around the reach.
     fn anywhere(&self, rng: &mut Rng) -> PoseRow {
         let far = 1.3 * self.extent();
-        let (xyz, zyx) = ([0.0; 3].map(|_: f64| rng.between(-far, far)), [0.0; 3].map(|_: f64| rng.between(-PI, PI)));
+        let (xyz, zyx) = (
+            [0.0; 3].map(|_: f64| rng.between(-far, far)),
+            [0.0; 3].map(|_: f64| rng.between(-PI, PI)),
+        );
         pose_to_rows(&pose_from_euler_zyx(xyz, zyx).unwrap())
     }
 }

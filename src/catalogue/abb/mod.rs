@@ -13,4 +13,5 @@ mod small;
 
 use super::CatalogueArm;
 
-pub(super) const SERIES: [&[CatalogueArm]; 4] = [small::ARMS, medium::ARMS, large::ARMS, heavy::ARMS];
+pub(super) const SERIES: [&[CatalogueArm]; 4] =
+    [small::ARMS, medium::ARMS, large::ARMS, heavy::ARMS];

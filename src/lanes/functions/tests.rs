@@ -63,7 +63,8 @@ impl Random {
 
     /// y and x, of a kind for each `kind`.
     fn y_and_x(&mut self, kind: u64) -> (f64, f64) {
-        let (wide, near_one, middling) = (self.sized(-1000.0, 1000.0), self.sized(-20.0, 20.0), self.sized(-3.0, 3.0));
+        let (wide, near_one, middling) =
+            (self.sized(-1000.0, 1000.0), self.sized(-20.0, 20.0), self.sized(-3.0, 3.0));
         let (tiny, other_tiny) = (self.sized(-1074.0, -1000.0), self.sized(-1074.0, -1000.0));
         match kind % 8 {
             0 => self.on_circle(1.0),
@@ -157,7 +158,9 @@ impl Worst {
 
     fn check(&self) {
         let Self { name, ulps, at, counts } = self;
-        println!("{name:16} worst {ulps} ulp at {at:?}  points off by 0, 1, 2 and more ulp: {counts:?}");
+        println!(
+            "{name:16} worst {ulps} ulp at {at:?}  points off by 0, 1, 2 and more ulp: {counts:?}"
+        );
         assert!(*ulps <= BOUND, "{name}: {ulps} ulp at {at:?}");
     }
 }
@@ -182,7 +185,12 @@ fn sine_and_cosine_are_within_two_ulp() {
     let mut take = |angle: f64| {
         let (sin, cos) = (pxfm::f_sin(angle), pxfm::f_cos(angle));
         let (fused, unfused) = (sin_cos::<true>(angle), sin_cos::<false>(angle));
-        for (worst, (found, exact)) in worst.iter_mut().zip([(fused.0, sin), (fused.1, cos), (unfused.0, sin), (unfused.1, cos)]) {
+        for (worst, (found, exact)) in worst.iter_mut().zip([
+            (fused.0, sin),
+            (fused.1, cos),
+            (unfused.0, sin),
+            (unfused.1, cos),
+        ]) {
             worst.take(found, exact, (angle, 0.0));
         }
     };
@@ -232,8 +240,14 @@ fn the_arc_tangent_of_special_values_is_that_of_the_standard_library() {
         for (y, x) in [(a, b), (-a, b), (a, -b), (-a, -b)] {
             for found in [atan2::<true>(y, x), atan2::<false>(y, x)] {
                 assert!(ulps(found, y.atan2(x)) <= bound, "atan2({y:e}, {x:e}) is {found:e}");
-                assert!(ulps(found, exact_atan2(y, x)) <= bound, "atan2({y:e}, {x:e}) is {found:e}");
-                assert!(found.is_nan() || found.is_sign_negative() == y.is_sign_negative(), "atan2({y:e}, {x:e}) is {found:e}");
+                assert!(
+                    ulps(found, exact_atan2(y, x)) <= bound,
+                    "atan2({y:e}, {x:e}) is {found:e}"
+                );
+                assert!(
+                    found.is_nan() || found.is_sign_negative() == y.is_sign_negative(),
+                    "atan2({y:e}, {x:e}) is {found:e}"
+                );
             }
         }
     }
@@ -283,10 +297,15 @@ fn vector_instructions_give_the_bits_of_single_ones() {
     let mut random = Random(44);
     let (mut y, mut x) = (Vec::new(), Vec::new());
     for kind in 0..COLUMNS as u64 {
-        let directions: [(f64, f64); LANES] = core::array::from_fn(|lane| random.y_and_x(kind + lane as u64));
+        let directions: [(f64, f64); LANES] =
+            core::array::from_fn(|lane| random.y_and_x(kind + lane as u64));
         y.push(directions.map(|direction| direction.0));
         // Half of the columns for sines, some of which are next to quarter turns.
-        x.push(if kind % 2 == 0 { directions.map(|direction| direction.1) } else { core::array::from_fn(|_| random.angle(kind / 2)) });
+        x.push(if kind % 2 == 0 {
+            directions.map(|direction| direction.1)
+        } else {
+            core::array::from_fn(|_| random.angle(kind / 2))
+        });
     }
     y.push(SIZES[..LANES].try_into().unwrap());
     x.push(SIZES[SIZES.len() - LANES..].try_into().unwrap());
@@ -299,7 +318,12 @@ fn vector_instructions_give_the_bits_of_single_ones() {
                 let wanted = if fused { atan2::<true>(y, x) } else { atan2::<false>(y, x) };
                 assert_eq!(ulps(angle[lane], wanted), 0, "atan2({y:e}, {x:e}), {}", set.name());
                 let wanted = if fused { sin_cos::<true>(x) } else { sin_cos::<false>(x) };
-                assert_eq!((ulps(sin[lane], wanted.0), ulps(cos[lane], wanted.1)), (0, 0), "sin_cos({x:e}), {}", set.name());
+                assert_eq!(
+                    (ulps(sin[lane], wanted.0), ulps(cos[lane], wanted.1)),
+                    (0, 0),
+                    "sin_cos({x:e}), {}",
+                    set.name()
+                );
             }
         }
     });
@@ -307,7 +331,22 @@ fn vector_instructions_give_the_bits_of_single_ones() {
 
 #[test]
 fn whole_numbers_are_those_of_the_standard_library() {
-    for number in [0.0, -0.0, 0.25, 0.75, -0.25, -0.75, 1.0, -1.0, 7.5, -7.5, 1e6 + 0.1, -1e6 - 0.1, f64::INFINITY, f64::NEG_INFINITY] {
+    for number in [
+        0.0,
+        -0.0,
+        0.25,
+        0.75,
+        -0.25,
+        -0.75,
+        1.0,
+        -1.0,
+        7.5,
+        -7.5,
+        1e6 + 0.1,
+        -1e6 - 0.1,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+    ] {
         assert_eq!(nearest_whole(number), number.round_ties_even(), "{number}");
         assert_eq!(whole_below(number), number.floor(), "{number}");
         assert_eq!(whole_above(number), number.ceil(), "{number}");

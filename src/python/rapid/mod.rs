@@ -8,14 +8,19 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
 
 pub(super) use self::module::RapidModule;
-use self::records::{Given, joint_target, read_content, read_joint_target, read_rob_target, read_tool, read_wobj, record, rob_target};
+use self::records::{
+    Given, joint_target, read_content, read_joint_target, read_rob_target, read_tool, read_wobj,
+    record, rob_target,
+};
 use super::configurations::{Fallback, counted};
 use super::errors::{self, rapid_fault, to_py};
 use super::found::read_seed;
 use super::robot::PyRobot;
 use crate::error::Error;
 use crate::kinematics::{Configuration, Robot};
-use crate::rapid::{self, Content, DataType, Datum, Module, Scope, Storage, TableRow, ToolData, Value, WobjData};
+use crate::rapid::{
+    self, Content, DataType, Datum, Module, Scope, Storage, TableRow, ToolData, Value, WobjData,
+};
 
 /// The module of a text.
 ///
@@ -27,7 +32,10 @@ use crate::rapid::{self, Content, DataType, Datum, Module, Scope, Storage, Table
 ///     RapidError: The text is broken; the message has the line and the column, `line` and `column` of the error too.
 #[pyfunction]
 #[pyo3(signature = (text, context=None))]
-pub(super) fn parse(text: &Bound<'_, PyAny>, context: Option<&Bound<'_, PyAny>>) -> PyResult<RapidModule> {
+pub(super) fn parse(
+    text: &Bound<'_, PyAny>,
+    context: Option<&Bound<'_, PyAny>>,
+) -> PyResult<RapidModule> {
     let py = text.py();
     let source = decode(text)?;
     let mut others = Vec::new();
@@ -37,7 +45,8 @@ pub(super) fn parse(text: &Bound<'_, PyAny>, context: Option<&Bound<'_, PyAny>>)
         }
     }
     let context: Vec<&Module> = others.iter().map(|other| &other.get().module).collect();
-    let module = py.detach(|| rapid::parse(&source, &context)).map_err(|error| to_py(py, &error))?;
+    let module =
+        py.detach(|| rapid::parse(&source, &context)).map_err(|error| to_py(py, &error))?;
     Ok(RapidModule::new(module, source))
 }
 
@@ -63,15 +72,23 @@ pub(super) fn dump(value: &Bound<'_, PyAny>, name: &str) -> PyResult<String> {
     if let Ok(module) = value.cast::<RapidModule>() {
         return Ok(module.get().module.to_string());
     }
-    let module = |name: &str, data| Module::new(Some(name.to_owned()), data, Vec::new(), &[]).map_err(|error| to_py(py, &error));
+    let module = |name: &str, data| {
+        Module::new(Some(name.to_owned()), data, Vec::new(), &[]).map_err(|error| to_py(py, &error))
+    };
     let Ok(data) = value.cast::<PyDict>() else {
         let datum = datum("value".to_owned(), value)?;
         let text = datum.content.to_string();
         // A module takes only what can be read again.
         return module("Value", vec![datum]).map(|_| text);
     };
-    let name_of = |name: &Bound<'_, PyAny>| name.extract().map_err(|_| rapid_fault(py, format!("{name} is no name that RAPID could read")));
-    let data = data.iter().map(|(name, value)| datum(name_of(&name)?, &value)).collect::<PyResult<Vec<_>>>()?;
+    let name_of = |name: &Bound<'_, PyAny>| {
+        name.extract()
+            .map_err(|_| rapid_fault(py, format!("{name} is no name that RAPID could read")))
+    };
+    let data = data
+        .iter()
+        .map(|(name, value)| datum(name_of(&name)?, &value))
+        .collect::<PyResult<Vec<_>>>()?;
     Ok(module(name, data)?.to_string())
 }
 
@@ -80,13 +97,28 @@ fn datum(name: String, value: &Bound<'_, PyAny>) -> PyResult<Datum> {
     let Given { sizes, values } = read_content(value, &name)?;
     let data_type = values.first().map_or(DataType::Num, Value::data_type);
     // A controller keeps tools and work objects where it can change them.
-    let storage = if matches!(data_type, DataType::ToolData | DataType::WobjData) { Storage::Pers } else { Storage::Const };
+    let storage = if matches!(data_type, DataType::ToolData | DataType::WobjData) {
+        Storage::Pers
+    } else {
+        Storage::Const
+    };
     let content = match (sizes.is_empty(), values.first()) {
         (true, Some(value)) => Content::Single(value.clone()),
         _ => Content::Array { sizes, values },
     };
     let (line, column, value_span, element_spans) = (0, 0, 0..0, Vec::new());
-    Ok(Datum { name, data_type, scope: Scope::Global, storage, routine: None, content, line, column, value_span, element_spans })
+    Ok(Datum {
+        name,
+        data_type,
+        scope: Scope::Global,
+        storage,
+        routine: None,
+        content,
+        line,
+        column,
+        value_span,
+        element_spans,
+    })
 }
 
 /// The jointtarget of a robtarget, as RAPID's CalcJointT: the joint angles with its configuration, inside the limits.
@@ -120,9 +152,16 @@ pub(super) fn calc_joint_t<'py>(
     seed: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = robot.py();
-    let (target, Cell { robot, tool, wobj }) = (read_rob_target(target)?, Cell::read(robot, tool, wobj)?);
+    let (target, Cell { robot, tool, wobj }) =
+        (read_rob_target(target)?, Cell::read(robot, tool, wobj)?);
     let joints = match (Fallback { name: fallback, seed }).checked()? {
-        Some(seed) => rapid::calc_joint_t_or_nearest(robot, &target, tool.as_ref(), wobj.as_ref(), &read_seed(seed, None)?.0),
+        Some(seed) => rapid::calc_joint_t_or_nearest(
+            robot,
+            &target,
+            tool.as_ref(),
+            wobj.as_ref(),
+            &read_seed(seed, None)?.0,
+        ),
         None => rapid::calc_joint_t(robot, &target, tool.as_ref(), wobj.as_ref()),
     };
     joint_target(py, &joints.map_err(|error| named(py, &error))?)
@@ -150,7 +189,8 @@ pub(super) fn calc_rob_t<'py>(
     wobj: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = robot.py();
-    let (joints, Cell { robot, tool, wobj }) = (read_joint_target(joints)?, Cell::read(robot, tool, wobj)?);
+    let (joints, Cell { robot, tool, wobj }) =
+        (read_joint_target(joints)?, Cell::read(robot, tool, wobj)?);
     let target = rapid::calc_rob_t(robot, &joints, tool.as_ref(), wobj.as_ref());
     rob_target(py, &target.map_err(|error| to_py(py, &error))?)
 }
@@ -177,9 +217,14 @@ pub(super) fn calc_moves<'py>(
     seed: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = robot.py();
-    let (Cell { robot, .. }, fallback) = (Cell::read(robot, None, None)?, read_fallback(fallback, seed)?);
+    let (Cell { robot, .. }, fallback) =
+        (Cell::read(robot, None, None)?, read_fallback(fallback, seed)?);
     let module = &module.get().module;
-    table(py, &py.detach(|| rapid::calc_moves(robot, module, fallback)).map_err(|error| to_py(py, &error))?)
+    table(
+        py,
+        &py.detach(|| rapid::calc_moves(robot, module, fallback))
+            .map_err(|error| to_py(py, &error))?,
+    )
 }
 
 /// The joint angles of every robtarget that a module declares, in the order of the text, all with one tool and work object.
@@ -208,9 +253,11 @@ pub(super) fn calc_targets<'py>(
     seed: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = robot.py();
-    let (Cell { robot, tool, wobj }, fallback) = (Cell::read(robot, tool, wobj)?, read_fallback(fallback, seed)?);
+    let (Cell { robot, tool, wobj }, fallback) =
+        (Cell::read(robot, tool, wobj)?, read_fallback(fallback, seed)?);
     let module = &module.get().module;
-    let rows = py.detach(|| rapid::calc_targets(robot, module, tool.as_ref(), wobj.as_ref(), fallback));
+    let rows =
+        py.detach(|| rapid::calc_targets(robot, module, tool.as_ref(), wobj.as_ref(), fallback));
     table(py, &rows.map_err(|error| to_py(py, &error))?)
 }
 
@@ -222,7 +269,11 @@ struct Cell<'a> {
 }
 
 impl<'a> Cell<'a> {
-    fn read(robot: &'a Bound<'_, PyRobot>, tool: Option<&Bound<'_, PyAny>>, wobj: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+    fn read(
+        robot: &'a Bound<'_, PyRobot>,
+        tool: Option<&Bound<'_, PyAny>>,
+        wobj: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
         let (tool, wobj) = (tool.map(read_tool).transpose()?, wobj.map(read_wobj).transpose()?);
         Ok(Self { robot: counted(robot.py(), robot.get().arm())?, tool, wobj })
     }
@@ -240,23 +291,33 @@ fn named(py: Python<'_>, error: &Error) -> PyErr {
     let raised = to_py(py, error);
     let Some(name) = rapid::error_name(error) else { return raised };
     let value = raised.value(py);
-    let told = value.setattr("rapid_error", name).and_then(|()| value.setattr("args", (format!("{name}: {error}"),)));
+    let told = value
+        .setattr("rapid_error", name)
+        .and_then(|()| value.setattr("args", (format!("{name}: {error}"),)));
     told.map_or_else(|failure| failure, |()| raised)
 }
 
 /// `irbkin.rapid.TargetTable`.
 fn table<'py>(py: Python<'py>, rows: &[TableRow]) -> PyResult<Bound<'py, PyAny>> {
     let joints: Vec<f64> = rows.iter().flat_map(|row| row.q.unwrap_or([f64::NAN; 6])).collect();
-    let integers = |of: fn(&Configuration) -> i32| PyArray1::from_iter(py, rows.iter().map(move |row| of(&row.configuration)));
-    let (cf1, cf4, cf6, cfx) = (integers(|c| c.cf1), integers(|c| c.cf4), integers(|c| c.cf6), integers(|c| c.cfx));
+    let integers = |of: fn(&Configuration) -> i32| {
+        PyArray1::from_iter(py, rows.iter().map(move |row| of(&row.configuration)))
+    };
+    let (cf1, cf4, cf6, cfx) =
+        (integers(|c| c.cf1), integers(|c| c.cf4), integers(|c| c.cf6), integers(|c| c.cfx));
     let distance = |of: fn(&crate::kinematics::SingularDistances) -> f64| {
-        PyArray1::from_iter(py, rows.iter().map(move |row| row.distances.as_ref().map_or(f64::NAN, of)))
+        PyArray1::from_iter(
+            py,
+            rows.iter().map(move |row| row.distances.as_ref().map_or(f64::NAN, of)),
+        )
     };
     let fields = [
         PyTuple::new(py, rows.iter().map(|row| row.kind))?.into_any(),
         PyTuple::new(py, rows.iter().map(|row| &row.text))?.into_any(),
-        PyArray1::from_iter(py, rows.iter().map(|row| i64::try_from(row.line).unwrap_or(0))).into_any(),
-        (PyArray1::from_vec(py, joints).reshape([rows.len(), 6])? as Bound<'_, PyArray2<f64>>).into_any(),
+        PyArray1::from_iter(py, rows.iter().map(|row| i64::try_from(row.line).unwrap_or(0)))
+            .into_any(),
+        (PyArray1::from_vec(py, joints).reshape([rows.len(), 6])? as Bound<'_, PyArray2<f64>>)
+            .into_any(),
         errors::configuration_class(py)?.call1((cf1, cf4, cf6, cfx))?,
         distance(|d| d.wrist).into_any(),
         distance(|d| d.elbow).into_any(),

@@ -7,7 +7,9 @@ use pyo3::types::{PyDict, PyMappingProxy, PyTuple};
 
 use super::records::{content, joint_target, read_content, record, rob_target};
 use crate::python::errors::{self, rapid_fault, to_py};
-use crate::rapid::{self, Argument, Content, Datum, Module, Move, NewValue, Scope, Storage, Target, Value};
+use crate::rapid::{
+    self, Argument, Content, Datum, Module, Move, NewValue, Scope, Storage, Target, Value,
+};
 
 /// A RAPID module: its data by name, its moves in order, what was skipped. Frozen; equal where it says the same, wherever that stands.
 ///
@@ -85,7 +87,9 @@ impl RapidModule {
     #[getter]
     fn skipped<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let class = errors::skipped_class(py)?;
-        let skipped = self.module.skipped().iter().map(|part| class.call1((part.line, part.column, &part.routine, &part.what, &part.text)));
+        let skipped = self.module.skipped().iter().map(|part| {
+            class.call1((part.line, part.column, &part.routine, &part.what, &part.text))
+        });
         PyTuple::new(py, skipped.collect::<PyResult<Vec<_>>>()?)
     }
 
@@ -111,13 +115,14 @@ impl RapidModule {
                 Content::Uninitialised { sizes } | Content::Array { sizes, .. } => sizes,
             };
             if given.sizes != sizes {
-                return Err(rapid_fault(py, format!("{name} has dimensions {sizes:?}, the new value has {:?}", given.sizes)));
+                return Err(rapid_fault(
+                    py,
+                    format!("{name} has dimensions {sizes:?}, the new value has {:?}", given.sizes),
+                ));
             }
             let single = sizes.is_empty();
-            new_values.extend(given.values.into_iter().enumerate().map(|(number, value)| NewValue {
-                datum: index,
-                element: (!single).then_some(number),
-                value,
+            new_values.extend(given.values.into_iter().enumerate().map(|(number, value)| {
+                NewValue { datum: index, element: (!single).then_some(number), value }
             }));
         }
         rapid::rewrite(&self.source, &self.module, &new_values).map_err(|error| to_py(py, &error))
@@ -133,7 +138,9 @@ impl RapidModule {
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
-        let same = |other: &Self| self.module.clone().without_positions() == other.module.clone().without_positions();
+        let same = |other: &Self| {
+            self.module.clone().without_positions() == other.module.clone().without_positions()
+        };
         other.cast::<Self>().is_ok_and(|other| same(other.get()))
     }
 
@@ -143,9 +150,15 @@ impl RapidModule {
     }
 
     fn __repr__(&self) -> String {
-        let count = |number: usize, what: &str| format!("{number} {what}{}", if number == 1 { "" } else { "s" });
+        let count = |number: usize, what: &str| {
+            format!("{number} {what}{}", if number == 1 { "" } else { "s" })
+        };
         let (data, moves) = (self.module.data().len(), count(self.module.moves().len(), "move"));
-        format!("Module({:?}: {data} data, {moves}, {} skipped)", self.module.name().unwrap_or(""), self.module.skipped().len())
+        format!(
+            "Module({:?}: {data} data, {moves}, {} skipped)",
+            self.module.name().unwrap_or(""),
+            self.module.skipped().len()
+        )
     }
 }
 
@@ -169,7 +182,16 @@ fn declaration<'py>(py: Python<'py>, datum: &Datum) -> PyResult<Bound<'py, PyAny
         Storage::Var => "VAR",
     };
     let value = content(py, &datum.content)?;
-    let fields = (&datum.name, datum.data_type.name(), scope, storage, &datum.routine, value, datum.line, datum.column);
+    let fields = (
+        &datum.name,
+        datum.data_type.name(),
+        scope,
+        storage,
+        &datum.routine,
+        value,
+        datum.line,
+        datum.column,
+    );
     errors::declaration_class(py)?.call1(fields)
 }
 
@@ -178,9 +200,14 @@ fn move_record<'py>(py: Python<'py>, step: &Move) -> PyResult<Bound<'py, PyAny>>
         Target::RobTarget(target) => rob_target(py, target),
         Target::JointTarget(target) => joint_target(py, target),
     })?;
-    let via = step.via.as_ref().map(|via| argument(py, via, |via| rob_target(py, via))).transpose()?;
+    let via =
+        step.via.as_ref().map(|via| argument(py, via, |via| rob_target(py, via))).transpose()?;
     let tool = argument(py, &step.tool, |tool| record(py, &Value::ToolData(*tool)))?;
-    let wobj = step.wobj.as_ref().map(|wobj| argument(py, wobj, |wobj| record(py, &Value::WobjData(wobj.clone())))).transpose()?;
+    let wobj = step
+        .wobj
+        .as_ref()
+        .map(|wobj| argument(py, wobj, |wobj| record(py, &Value::WobjData(wobj.clone()))))
+        .transpose()?;
     let options = PyTuple::new(py, step.options.iter().map(|option| (&option.name, &option.text)))?;
     let fields = [
         step.kind.name().into_pyobject(py)?.into_any(),

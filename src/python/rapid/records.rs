@@ -7,7 +7,9 @@ use crate::kinematics::{Configuration, check_joints};
 use crate::python::arrays::vector;
 use crate::python::configurations;
 use crate::python::errors::{self, Fault, rapid_fault, to_py};
-use crate::rapid::{Content, JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, ToolData, Value, WobjData};
+use crate::rapid::{
+    Content, JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, ToolData, Value, WobjData,
+};
 
 /// Most dimensions of an array.
 const MOST_DIMENSIONS: usize = 3;
@@ -37,10 +39,18 @@ pub(super) fn record<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py,
 
 pub(super) fn rob_target<'py>(py: Python<'py>, target: &RobTarget) -> PyResult<Bound<'py, PyAny>> {
     let robconf = configurations::record(py, &target.robconf)?;
-    errors::rob_target_class(py)?.call1((tuple(py, target.trans_mm)?, tuple(py, target.rot)?, robconf, tuple(py, target.extax)?))
+    errors::rob_target_class(py)?.call1((
+        tuple(py, target.trans_mm)?,
+        tuple(py, target.rot)?,
+        robconf,
+        tuple(py, target.extax)?,
+    ))
 }
 
-pub(super) fn joint_target<'py>(py: Python<'py>, target: &JointTarget) -> PyResult<Bound<'py, PyAny>> {
+pub(super) fn joint_target<'py>(
+    py: Python<'py>,
+    target: &JointTarget,
+) -> PyResult<Bound<'py, PyAny>> {
     errors::joint_target_class(py)?.call1((tuple(py, target.robax_deg)?, tuple(py, target.extax)?))
 }
 
@@ -50,7 +60,12 @@ fn pose<'py>(py: Python<'py>, pose: &RapidPose) -> PyResult<Bound<'py, PyAny>> {
 
 fn load<'py>(py: Python<'py>, load: &LoadData) -> PyResult<Bound<'py, PyAny>> {
     let LoadData { mass_kg, cog_mm, aom, inertia } = load;
-    errors::load_data_class(py)?.call1((mass_kg, tuple(py, *cog_mm)?, tuple(py, *aom)?, tuple(py, *inertia)?))
+    errors::load_data_class(py)?.call1((
+        mass_kg,
+        tuple(py, *cog_mm)?,
+        tuple(py, *aom)?,
+        tuple(py, *inertia)?,
+    ))
 }
 
 fn tuple<const N: usize>(py: Python<'_>, numbers: [f64; N]) -> PyResult<Bound<'_, PyTuple>> {
@@ -68,7 +83,9 @@ pub(super) fn content<'py>(py: Python<'py>, content: &Content) -> PyResult<Bound
 
 fn nested<'py>(py: Python<'py>, sizes: &[usize], values: &[Value]) -> PyResult<Bound<'py, PyAny>> {
     let [size, inner @ ..] = sizes else {
-        return values.first().map_or_else(|| Ok(py.None().into_bound(py)), |value| record(py, value));
+        return values
+            .first()
+            .map_or_else(|| Ok(py.None().into_bound(py)), |value| record(py, value));
     };
     let parts = values.chunks((values.len() / size).max(1)).map(|part| nested(py, inner, part));
     Ok(PyList::new(py, parts.collect::<PyResult<Vec<_>>>()?)?.into_any())
@@ -91,14 +108,19 @@ fn read_array(given: &Bound<'_, PyAny>, thing: &str, dimensions: usize) -> PyRes
         return Ok(Given { sizes: Vec::new(), values: vec![read_value(given, thing)?] });
     };
     if dimensions == 0 || list.is_empty() {
-        let message = format!("{thing}: an array has one to {MOST_DIMENSIONS} dimensions and at least one element in each");
+        let message = format!(
+            "{thing}: an array has one to {MOST_DIMENSIONS} dimensions and at least one element in each"
+        );
         return Err(rapid_fault(given.py(), message));
     }
     let mut all = Given { sizes: vec![list.len()], values: Vec::new() };
     for (number, element) in list.iter().enumerate() {
         let Given { sizes, values } = read_array(&element, thing, dimensions - 1)?;
         if number > 0 && all.sizes[1..] != sizes {
-            let message = format!("{thing}: its lists have different lengths, {:?} and {sizes:?}", &all.sizes[1..]);
+            let message = format!(
+                "{thing}: its lists have different lengths, {:?} and {sizes:?}",
+                &all.sizes[1..]
+            );
             return Err(rapid_fault(given.py(), message));
         }
         all.sizes.truncate(1);
@@ -166,7 +188,8 @@ impl From<LoadFields> for LoadData {
 
 pub(super) fn read_rob_target(given: &Bound<'_, PyAny>) -> PyResult<RobTarget> {
     demand(given, errors::rob_target_class(given.py())?, "target", "a RobTarget")?;
-    let RobTargetFields { trans_mm, rot, robconf: [cf1, cf4, cf6, cfx], extax } = given.extract()?;
+    let RobTargetFields { trans_mm, rot, robconf: [cf1, cf4, cf6, cfx], extax } =
+        given.extract()?;
     Ok(RobTarget { trans_mm, rot, robconf: Configuration { cf1, cf4, cf6, cfx }, extax })
 }
 
@@ -193,11 +216,19 @@ pub(super) fn read_wobj(given: &Bound<'_, PyAny>) -> PyResult<WobjData> {
     Ok(WobjData { robhold, ufprog, ufmec, uframe: uframe.into(), oframe: oframe.into() })
 }
 
-fn demand(given: &Bound<'_, PyAny>, class: &Bound<'_, PyAny>, field: &str, wanted: &str) -> PyResult<()> {
+fn demand(
+    given: &Bound<'_, PyAny>,
+    class: &Bound<'_, PyAny>,
+    field: &str,
+    wanted: &str,
+) -> PyResult<()> {
     if given.is_instance(class)? {
         return Ok(());
     }
-    Err(rapid_fault(given.py(), format!("{field} must be {wanted}, got {}", given.get_type().name()?)))
+    Err(rapid_fault(
+        given.py(),
+        format!("{field} must be {wanted}, got {}", given.get_type().name()?),
+    ))
 }
 
 /// The value of a Python record; a tuple of 3 numbers is a pos, of 4 an orient, of 6 an extjoint.
@@ -218,7 +249,9 @@ fn read_value(given: &Bound<'_, PyAny>, thing: &str) -> PyResult<Value> {
         Value::LoadData(given.extract::<LoadFields>()?.into())
     } else if is(errors::configuration_class(py))? {
         let whole = given.extract::<[i32; 4]>();
-        let [cf1, cf4, cf6, cfx] = whole.map_err(|_| rapid_fault(py, format!("{thing}: {given} is no confdata of four whole numbers")))?;
+        let [cf1, cf4, cf6, cfx] = whole.map_err(|_| {
+            rapid_fault(py, format!("{thing}: {given} is no confdata of four whole numbers"))
+        })?;
         Value::ConfData(Configuration { cf1, cf4, cf6, cfx })
     } else {
         numbers(given, thing)?
@@ -228,8 +261,12 @@ fn read_value(given: &Bound<'_, PyAny>, thing: &str) -> PyResult<Value> {
 
 /// A number, or a tuple or an array of numbers.
 fn numbers(given: &Bound<'_, PyAny>, thing: &str) -> PyResult<Value> {
-    let refused = || Ok(rapid_fault(given.py(), format!("{thing}: {} is no RAPID data", given.repr()?)));
-    if given.is_instance_of::<PyBool>() || given.is_instance_of::<PyString>() || given.is_instance_of::<PyBytes>() {
+    let refused =
+        || Ok(rapid_fault(given.py(), format!("{thing}: {} is no RAPID data", given.repr()?)));
+    if given.is_instance_of::<PyBool>()
+        || given.is_instance_of::<PyString>()
+        || given.is_instance_of::<PyBytes>()
+    {
         return refused().and_then(Err);
     }
     if let Ok(number) = given.extract::<f64>() {

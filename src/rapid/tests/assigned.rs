@@ -11,7 +11,9 @@ const TARGET: &str = "[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]";
 
 /// The module of data, each on a line from 2 on, and of statements of a routine.
 fn module(data: &str, statements: &str) -> Module {
-    let module = read(&format!("MODULE M CONST robtarget c:={TARGET};\n{data}\nPROC main()\n{statements}\nENDPROC\nENDMODULE"));
+    let module = read(&format!(
+        "MODULE M CONST robtarget c:={TARGET};\n{data}\nPROC main()\n{statements}\nENDPROC\nENDMODULE"
+    ));
     again(&module, &[]);
     module
 }
@@ -35,12 +37,16 @@ fn what_is_assigned_has_no_value_in_moves() {
     assert_eq!(line_4("a{2}:=1;"), "refers to a, which line 4 assigns");
     assert_eq!(line_4("p:=CRobT();"), "refers to p, which line 4 assigns");
     assert_eq!(line_4("IF TRUE x:=x+1;"), "refers to x, which line 4 assigns");
-    for instruction in ["Incr x;", "Decr x;", "Add x,5;", "Clear x;", "Incr Name:=x;", "TPReadNum x,\"?\";"] {
+    for instruction in
+        ["Incr x;", "Decr x;", "Add x,5;", "Clear x;", "Incr Name:=x;", "TPReadNum x,\"?\";"]
+    {
         assert_eq!(line_4(instruction), "refers to x, which line 4 assigns", "{instruction}");
     }
-    for instruction in
-        ["SearchL\\SStop,di1,p,c,v,tool0;", "SearchC di1\\Flanks, p, c, c, v, tool0;", "SearchExtJ \\Stop, di(1,2), p, c, v;"]
-    {
+    for instruction in [
+        "SearchL\\SStop,di1,p,c,v,tool0;",
+        "SearchC di1\\Flanks, p, c, c, v, tool0;",
+        "SearchExtJ \\Stop, di(1,2), p, c, v;",
+    ] {
         assert_eq!(line_4(instruction), "refers to p, which line 4 assigns", "{instruction}");
     }
     assert_eq!(line_4("SearchL di1,q,p,v,tool0; Add y,x; foo x; WHILE x=p DO ENDWHILE"), "");
@@ -50,14 +56,20 @@ fn what_is_assigned_has_no_value_in_moves() {
 
 #[test]
 fn assignments_count_wherever_they_stand() {
-    let text = format!("PERS robtarget p:={TARGET};\nPROC a() MoveL p,v,z,tool0; ENDPROC\n\n! note\nPROC b() p:=p; ENDPROC");
+    let text = format!(
+        "PERS robtarget p:={TARGET};\nPROC a() MoveL p,v,z,tool0; ENDPROC\n\n! note\nPROC b() p:=p; ENDPROC"
+    );
     let module = read(&text);
     assert_eq!(module.moves()[0].target.value, Err("refers to p, which line 5 assigns".into()));
     again(&module, &[]);
     // One that is local there is another.
-    let local = format!("PERS robtarget p:={TARGET};\nPROC a() MoveL p,v,z,tool0; ENDPROC\nPROC b() VAR robtarget p; p:=x; ENDPROC");
+    let local = format!(
+        "PERS robtarget p:={TARGET};\nPROC a() MoveL p,v,z,tool0; ENDPROC\nPROC b() VAR robtarget p; p:=x; ENDPROC"
+    );
     assert!(read(&local).moves()[0].target.value.is_ok());
-    let parameter = format!("PERS robtarget p:={TARGET};\nPROC a() MoveL p,v,z,tool0; ENDPROC\nPROC b(INOUT robtarget p) p:=x; ENDPROC");
+    let parameter = format!(
+        "PERS robtarget p:={TARGET};\nPROC a() MoveL p,v,z,tool0; ENDPROC\nPROC b(INOUT robtarget p) p:=x; ENDPROC"
+    );
     assert!(read(&parameter).moves()[0].target.value.is_ok());
 }
 
@@ -65,22 +77,41 @@ fn assignments_count_wherever_they_stand() {
 fn what_refers_to_assigned_data_has_no_value_either() {
     assert_eq!(why("VAR robtarget q:=c;", "MoveL q,v,z,tool0;"), "");
     let data = format!("VAR robtarget p:={TARGET}; VAR robtarget q:=p; VAR robtarget r:=q;");
-    assert_eq!(why(&data, "p:=c; MoveL r,v,z,tool0;"), "refers to r, which depends on p, which line 4 assigns");
+    assert_eq!(
+        why(&data, "p:=c; MoveL r,v,z,tool0;"),
+        "refers to r, which depends on p, which line 4 assigns"
+    );
     let data = format!("VAR robtarget r:=q; VAR robtarget q:=p; VAR robtarget p:={TARGET};");
-    assert_eq!(why(&data, "p:=c; MoveL r,v,z,tool0;"), "refers to r, which depends on p, which line 4 assigns");
-    let kept =
-        module("VAR num x:=1; VAR num a{2}:=[ x, 2 ]; CONST num n:=x; VAR num b{n}:=[4];", "x:=2; MoveL Offs(c,a{2},0,b{1}),v,z,tool0;");
+    assert_eq!(
+        why(&data, "p:=c; MoveL r,v,z,tool0;"),
+        "refers to r, which depends on p, which line 4 assigns"
+    );
+    let kept = module(
+        "VAR num x:=1; VAR num a{2}:=[ x, 2 ]; CONST num n:=x; VAR num b{n}:=[4];",
+        "x:=2; MoveL Offs(c,a{2},0,b{1}),v,z,tool0;",
+    );
     assert!(kept.to_string().contains("VAR num x:=1;\n    VAR num a{2}:=[ x, 2 ];\n    CONST num n:=x;\n    VAR num b{1}:=[4];"), "{kept}");
-    assert_eq!(kept.moves()[0].target.value, Err("refers to a, which depends on x, which line 4 assigns".into()));
+    assert_eq!(
+        kept.moves()[0].target.value,
+        Err("refers to a, which depends on x, which line 4 assigns".into())
+    );
     assert!(module("PERS tooldata t:=tool0;", "MoveL c,v,z,t;").moves()[0].tool.value.is_ok());
-    let moved = module("PERS tooldata t:=tool0; PERS wobjdata w:=wobj0;", "t.tframe.trans.z:=5; w:=x; MoveL c,v,z,t\\WObj:=w;");
+    let moved = module(
+        "PERS tooldata t:=tool0; PERS wobjdata w:=wobj0;",
+        "t.tframe.trans.z:=5; w:=x; MoveL c,v,z,t\\WObj:=w;",
+    );
     assert_eq!(moved.moves()[0].tool.value, Err("refers to t, which line 4 assigns".into()));
-    assert_eq!(moved.moves()[0].wobj.as_ref().unwrap().value, Err("refers to w, which line 4 assigns".into()));
+    assert_eq!(
+        moved.moves()[0].wobj.as_ref().unwrap().value,
+        Err("refers to w, which line 4 assigns".into())
+    );
 }
 
 #[test]
 fn other_modules_assign_too() {
-    let data = format!("MODULE Data PERS robtarget p:={TARGET}; PERS robtarget q:=p; PERS robtarget r:={TARGET};");
+    let data = format!(
+        "MODULE Data PERS robtarget p:={TARGET}; PERS robtarget q:=p; PERS robtarget r:={TARGET};"
+    );
     let still = read(&format!("{data} ENDMODULE"));
     let moving = read(&format!("{data} PROC a() VAR num r; p:=x; r:=1; ENDPROC ENDMODULE"));
     let why = |text: &str, context: &[&Module]| {
@@ -96,18 +127,28 @@ fn other_modules_assign_too() {
     let own = "VAR robtarget s:=p; MoveL s,v,z,tool0;\np.trans.x:=1;";
     assert_eq!(why(own, &[&still]), "refers to s, which depends on p, which line 2 assigns");
     let third = read("MODULE Third PROC b() p:=x; ENDPROC ENDMODULE");
-    assert_eq!(why("MoveL p,v,z,tool0;", &[&still, &third]), "refers to p, which module Third assigns");
+    assert_eq!(
+        why("MoveL p,v,z,tool0;", &[&still, &third]),
+        "refers to p, which module Third assigns"
+    );
 }
 
 #[test]
 fn displaced_moves_tell_the_line() {
     let step = "MoveL c,v,z,tool0;";
     let joints = "MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v,z,tool0;";
-    let text = format!("{step}\nPDispOn \\ExeP:=c, c, tool0;\n{step}\n{step} EOffsSet x;\n{joints} {step} PDispOff;\n{step}");
+    let text = format!(
+        "{step}\nPDispOn \\ExeP:=c, c, tool0;\n{step}\n{step} EOffsSet x;\n{joints} {step} PDispOff;\n{step}"
+    );
     let module = module("", &text);
     let lines: Vec<_> = module.moves().iter().map(|step| step.displaced).collect();
     assert_eq!(lines, [None, Some(5), Some(5), None, Some(5), None]);
-    let two = read(&format!("PROC a() PDispSet x; {step} ENDPROC PROC b() {step} ENDPROC PROC d() PDispOn c; {step} ENDPROC"));
-    assert_eq!(two.moves().iter().map(|step| step.displaced).collect::<Vec<_>>(), [Some(1), None, Some(1)]);
+    let two = read(&format!(
+        "PROC a() PDispSet x; {step} ENDPROC PROC b() {step} ENDPROC PROC d() PDispOn c; {step} ENDPROC"
+    ));
+    assert_eq!(
+        two.moves().iter().map(|step| step.displaced).collect::<Vec<_>>(),
+        [Some(1), None, Some(1)]
+    );
     again(&two, &[]);
 }

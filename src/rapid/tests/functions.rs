@@ -9,7 +9,8 @@ use crate::rapid::RobTarget;
 const ZEROS: &str = "[0,0,0,0],[0,0,0,0,0,0]";
 
 fn target(rot: &str, value: &str) -> RobTarget {
-    let module = read(&format!("CONST robtarget p:=[[1,2,3],{rot},{ZEROS}]; CONST robtarget r:={value};"));
+    let module =
+        read(&format!("CONST robtarget p:=[[1,2,3],{rot},{ZEROS}]; CONST robtarget r:={value};"));
     let Value::RobTarget(target) = single(&module, "r") else { panic!() };
     target
 }
@@ -46,12 +47,21 @@ fn functions_are_refused_in_words() {
     let p = format!("CONST robtarget p:=[[1,2,3],[0,0,0,0],{ZEROS}]; ");
     let fault = |rest: &str| super::fault(&format!("{p}\n{rest}"));
     let why = |rest: &str| told(&read(&format!("{p}{rest}")))[0].to_string();
-    assert_eq!(fault("CONST robtarget r:=Offs(p,1,2);"), "line 2, column 20: Offs has 3 arguments, it must have 4");
-    assert_eq!(fault("CONST pos r:=Offs(p,1,2,3);"), "line 2, column 14: pos r is Offs, of type robtarget, it must be pos");
+    assert_eq!(
+        fault("CONST robtarget r:=Offs(p,1,2);"),
+        "line 2, column 20: Offs has 3 arguments, it must have 4"
+    );
+    assert_eq!(
+        fault("CONST pos r:=Offs(p,1,2,3);"),
+        "line 2, column 14: pos r is Offs, of type robtarget, it must be pos"
+    );
     let words = "line 2, column 20: RelTool(p,1,0,0) is not finite, every number must be";
     assert_eq!(fault("CONST robtarget r:=RelTool(p,1,0,0);"), words);
     assert_eq!(why("CONST robtarget r:=Offs(p,0,0,f(2));"), "r: f is not calculated");
-    assert_eq!(why("CONST robtarget r:=RelTool(p,0,0,0\\Rq:=1);"), "r: RelTool with Rq is not calculated");
+    assert_eq!(
+        why("CONST robtarget r:=RelTool(p,0,0,0\\Rq:=1);"),
+        "r: RelTool with Rq is not calculated"
+    );
     let own = "FUNC robtarget Offs(robtarget p) ENDFUNC CONST robtarget r:=Offs(p,0,0,1);";
     assert_eq!(why(own), "r: Offs is declared in this module, it is not calculated");
 }

@@ -24,7 +24,8 @@ fn fault(text: &str) -> String {
 }
 
 fn single(module: &Module, name: &str) -> Value {
-    match &module.find(name).unwrap_or_else(|| panic!("no {name}: {:?}", module.skipped())).content {
+    match &module.find(name).unwrap_or_else(|| panic!("no {name}: {:?}", module.skipped())).content
+    {
         Content::Single(value) => value.clone(),
         other => panic!("{name} is {other:?}"),
     }

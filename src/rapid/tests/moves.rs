@@ -25,11 +25,21 @@ fn moves_are_read_with_all_their_arguments() {
          MoveAbsJ [[1,2,3,4,5,6], [9E9,9E9,9E9,9E9,9E9,9E9]], v5, fine, tool0;",
     );
     let [first, second, circle, joints, inline] = module.moves() else { panic!() };
-    assert_eq!((first.kind, first.line, first.column, first.routine.as_deref()), (MoveKind::MoveJ, 5, 1, Some("main")));
-    assert_eq!((first.target.text.as_str(), first.speed.as_str(), first.zone.as_str()), ("p", "v100", "z10"));
+    assert_eq!(
+        (first.kind, first.line, first.column, first.routine.as_deref()),
+        (MoveKind::MoveJ, 5, 1, Some("main"))
+    );
+    assert_eq!(
+        (first.target.text.as_str(), first.speed.as_str(), first.zone.as_str()),
+        ("p", "v100", "z10")
+    );
     assert_eq!(first.tool.value, Ok(ToolData::TOOL0));
     assert_eq!(first.wobj.as_ref().unwrap().value, Ok(WobjData::WOBJ0));
-    let option = |after, name: &str, text: Option<&str>| MoveOption { after, name: name.into(), text: text.map(String::from) };
+    let option = |after, name: &str, text: Option<&str>| MoveOption {
+        after,
+        name: name.into(),
+        text: text.map(String::from),
+    };
     assert_eq!(
         first.options,
         [
@@ -46,7 +56,10 @@ fn moves_are_read_with_all_their_arguments() {
     assert_eq!(first.to_string(), written);
     let Ok(Target::RobTarget(target)) = &second.target.value else { panic!() };
     assert_eq!((target.trans_mm, second.wobj.is_none()), ([1.0, 2.0, 53.0], true));
-    assert_eq!((circle.via.as_ref().unwrap().text.as_str(), circle.target.text.as_str()), ("p", "pts{1}"));
+    assert_eq!(
+        (circle.via.as_ref().unwrap().text.as_str(), circle.target.text.as_str()),
+        ("p", "pts{1}")
+    );
     assert!(circle.via.as_ref().unwrap().value.is_ok());
     let Ok(Target::JointTarget(target)) = &joints.target.value else { panic!() };
     assert_eq!(target.robax_deg[4], 30.0);
@@ -113,13 +126,22 @@ fn moves_that_cannot_be_resolved_say_why() {
          MoveL r, v100\\T?T, z10, tool0; MoveL q, v100, z10, tool0\\WObj ?w; MoveJDO q, v1, fine, tool0, do1, 1; ENDPROC ENDMODULE",
     );
     let [taught, parameter, empty] = module.moves() else { panic!() };
-    assert_eq!(taught.target.value, Err("* is taught on the controller, its value is not in the text".into()));
+    assert_eq!(
+        taught.target.value,
+        Err("* is taught on the controller, its value is not in the text".into())
+    );
     assert_eq!(taught.tool.value, Err("refers to tGripper, which is not in this module".into()));
-    assert_eq!(taught.wobj.as_ref().unwrap().value, Err("refers to wTable, which is not in this module".into()));
+    assert_eq!(
+        taught.wobj.as_ref().unwrap().value,
+        Err("refers to wTable, which is not in this module".into())
+    );
     assert_eq!(parameter.target.value, Err("refers to r, a parameter of go".into()));
     assert_eq!(parameter.to_string(), "MoveL r,v100\\T?T,z10,tool0;");
     assert_eq!(empty.target.value, Err("refers to q, whose declaration has no value".into()));
-    assert_eq!(empty.wobj.as_ref().unwrap().value, Err("it depends on whether an optional argument is there".into()));
+    assert_eq!(
+        empty.wobj.as_ref().unwrap().value,
+        Err("it depends on whether an optional argument is there".into())
+    );
     assert_eq!(told(&module), ["MoveJDO moves the robot, but is not read"]);
     again(&module, &[]);
 }

@@ -16,7 +16,10 @@ fn skipped(statements: &str) -> Vec<String> {
 #[test]
 fn statements_that_are_not_finished_are_skipped() {
     assert_eq!(skipped("<SMT>"), ["<SMT> is not finished"]);
-    assert_eq!(skipped("<SMT>; <SMT>\nfoo;"), ["<SMT> is not finished", "<SMT> is not finished", "foo is no instruction that is read"]);
+    assert_eq!(
+        skipped("<SMT>; <SMT>\nfoo;"),
+        ["<SMT> is not finished", "<SMT> is not finished", "foo is no instruction that is read"]
+    );
     assert_eq!(skipped("<VAR>:=<EXP>;"), ["<VAR> is not finished"]);
     assert_eq!(skipped("a:=<EXP>;"), ["a is not finished"]);
     assert_eq!(skipped("foo <ARG>;"), ["foo is not finished"]);
@@ -26,10 +29,21 @@ fn statements_that_are_not_finished_are_skipped() {
     assert_eq!(skipped("IF <EXP> THEN <SMT> ENDIF"), block);
     let words = ["FOR is not finished", "<SMT> is not finished", "ENDFOR is not carried out"];
     assert_eq!(skipped("FOR <ID> FROM <EXP> TO <EXP> DO <SMT> ENDFOR"), words);
-    assert_eq!(skipped("WHILE <EXP> DO ENDWHILE"), ["WHILE is not finished", "ENDWHILE is not carried out"]);
-    let words = ["TEST is not finished", "CASE is not finished", "<CSE> is not finished", "ENDTEST is not carried out"];
+    assert_eq!(
+        skipped("WHILE <EXP> DO ENDWHILE"),
+        ["WHILE is not finished", "ENDWHILE is not carried out"]
+    );
+    let words = [
+        "TEST is not finished",
+        "CASE is not finished",
+        "<CSE> is not finished",
+        "ENDTEST is not carried out",
+    ];
     assert_eq!(skipped("TEST <EXP> CASE <EXP>: <CSE> ENDTEST"), words);
-    assert_eq!(skipped("MoveL <ARG>; MoveJ p,v1,<EXP>,tool0;"), ["MoveL is not finished", "MoveJ is not finished"]);
+    assert_eq!(
+        skipped("MoveL <ARG>; MoveJ p,v1,<EXP>,tool0;"),
+        ["MoveL is not finished", "MoveJ is not finished"]
+    );
 }
 
 #[test]
@@ -41,22 +55,37 @@ fn declarations_that_are_not_finished_are_skipped() {
          ENDMODULE",
     );
     assert_eq!(module.name(), Some("<ID>"));
-    let words = ["<DDN>", "VAR", "VAR", "VAR", "CONST", "VAR", "CONST", "ALIAS", "RECORD"].map(|what| format!("{what} is not finished"));
-    let rest = ["z: refers to y, whose declaration is not finished", "LOCAL is not finished", "FUNC is not finished"].map(String::from);
+    let words = ["<DDN>", "VAR", "VAR", "VAR", "CONST", "VAR", "CONST", "ALIAS", "RECORD"]
+        .map(|what| format!("{what} is not finished"));
+    let rest = [
+        "z: refers to y, whose declaration is not finished",
+        "LOCAL is not finished",
+        "FUNC is not finished",
+    ]
+    .map(String::from);
     assert_eq!(told(&module), words.into_iter().chain(rest).collect::<Vec<_>>());
     let headers: Vec<_> = module.routines().iter().map(|routine| routine.header.as_str()).collect();
     assert_eq!(headers, ["FUNC <TYP> f(num <ID>)", "PROC main(<PAR>)"]);
     again(&module, &[]);
-    assert_eq!(fault("PROC <ID>() <SMT>"), "line 1, column 18: the text ends inside PROC <ID>: ENDPROC is missing");
+    assert_eq!(
+        fault("PROC <ID>() <SMT>"),
+        "line 1, column 18: the text ends inside PROC <ID>: ENDPROC is missing"
+    );
 }
 
 #[test]
 fn comparisons_are_no_placeholders() {
-    assert_eq!(skipped("IF a<B AND C>d foo;"), ["IF is not carried out", "foo is no instruction that is read"]);
+    assert_eq!(
+        skipped("IF a<B AND C>d foo;"),
+        ["IF is not carried out", "foo is no instruction that is read"]
+    );
     assert_eq!(skipped("IF a<B THEN ELSEIF C>d THEN ENDIF").len(), 3);
     assert_eq!(skipped("IF a <> B AND (c<D) OR (E>f) foo;").len(), 2);
     assert_eq!(
         skipped("b:=a<B; c:=(A<B)=(C>D);"),
-        ["b is assigned a value, which is not followed", "c is assigned a value, which is not followed"]
+        [
+            "b is assigned a value, which is not followed",
+            "c is assigned a value, which is not followed"
+        ]
     );
 }

@@ -1,0 +1,6 @@
+//! What a solve answers: flags, reach, solutions in their slots, and the choice among them.
+
+pub(crate) mod select;
+pub(crate) mod singularity;
+pub(crate) mod solutions;
+pub(crate) mod status;

@@ -1,0 +1,209 @@
+//! Choosing among the solutions of a pose.
+
+use core::f64::consts::TAU;
+
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
+use crate::error::{Error, JointFault};
+use crate::kinematics::answer::solutions::{Solution, Solutions};
+use crate::kinematics::answer::status::{Explanation, Status};
+use crate::kinematics::chain::limits::JointLimits;
+
+impl<const N: usize> Solutions<N> {
+    /// Those inside the joint limits.
+    #[must_use]
+    pub fn within_limits(&self) -> Self {
+        self.retain(self.explain(), Solution::within_limits)
+    }
+
+    /// Those that `accept` takes, a test for collisions for instance.
+    #[must_use]
+    pub fn filter(&self, accept: impl FnMut(&Solution<N>) -> bool) -> Self {
+        let explanation = if self.is_empty() { self.explain() } else { Explanation::FilteredOut };
+        self.retain(explanation, accept)
+    }
+
+    /// Those that `accept` takes; `explanation` is what a selection without any says of itself.
+    fn retain(
+        &self,
+        explanation: Explanation,
+        mut accept: impl FnMut(&Solution<N>) -> bool,
+    ) -> Self {
+        let mut kept = self.clone();
+        for slot in &mut kept.slots {
+            if slot.as_ref().is_some_and(|solution| !accept(solution)) {
+                *slot = None;
+            }
+        }
+        kept.emptied = kept.is_empty().then_some(explanation);
+        kept
+    }
+
+    /// Every full turn of every joint of every solution that is inside the limits. A joint without limits has only its own angle.
+    pub fn turns(&self) -> impl Iterator<Item = Solution<N>> + '_ {
+        self.iter().flat_map(|solution| Turns::of(&self.limits, solution))
+    }
+
+    /// How many [`Self::turns`] lists.
+    #[must_use]
+    pub fn turn_count(&self) -> f64 {
+        self.iter()
+            .filter(|solution| self.limits.rod_excess(&solution.q) == 0.0)
+            .map(|solution| {
+                (0..N)
+                    .map(|joint| {
+                        self.limits
+                            .countable_turns(joint, solution.q[joint])
+                            .map_or(0.0, |(first, last)| last - first + 1.0)
+                    })
+                    .product::<f64>()
+            })
+            .sum()
+    }
+
+    /// The solution inside the limits that is nearest to `seed` [rad], turns considered: the least root of the sum of
+    /// `weights * difference^2`.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidJoints`] for a seed or weight that is not finite or a negative weight, [`Error::Unreachable`] when no solution is
+    /// inside the limits.
+    pub fn nearest(&self, seed: &[f64; N], weights: &[f64; N]) -> Result<Solution<N>, Error> {
+        self.chosen(seed, weights, Cost::Distance)
+    }
+
+    /// The solution inside the limits that moves the joints the least from `seed` [rad], turns considered: the least sum of
+    /// `weights * |difference|`.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::nearest`].
+    pub fn least_motion(&self, seed: &[f64; N], weights: &[f64; N]) -> Result<Solution<N>, Error> {
+        self.chosen(seed, weights, Cost::Travel)
+    }
+
+    fn chosen(
+        &self,
+        seed: &[f64; N],
+        weights: &[f64; N],
+        cost: Cost,
+    ) -> Result<Solution<N>, Error> {
+        check_joints("seed", seed)?;
+        check_weights(weights)?;
+        self.cheapest(seed, weights, cost).ok_or_else(|| Error::Unreachable(self.explain()))
+    }
+
+    /// The cost is a sum over the joints, so each joint takes its own nearest turn.
+    pub(crate) fn cheapest(
+        &self,
+        seed: &[f64; N],
+        weights: &[f64; N],
+        cost: Cost,
+    ) -> Option<Solution<N>> {
+        let mut best: Option<(f64, Solution<N>)> = None;
+        for solution in self {
+            if let Some(q) = self.limits.turned_to(&solution.q, seed) {
+                let total = cost.total(&q, seed, weights);
+                if best.as_ref().is_none_or(|(least, _)| total < *least) {
+                    best = Some((
+                        total,
+                        Solution {
+                            q,
+                            status: solution.status | Status::WITHIN_LIMITS,
+                            ..*solution
+                        },
+                    ));
+                }
+            }
+        }
+        best.map(|(_, solution)| solution)
+    }
+}
+
+/// What moving a joint costs.
+#[derive(Clone, Copy)]
+pub(crate) enum Cost {
+    /// The square of the difference.
+    Distance,
+    /// Its size.
+    Travel,
+}
+
+impl Cost {
+    /// What going from `seed` to `q` costs.
+    pub(crate) fn total<const N: usize>(
+        self,
+        q: &[f64; N],
+        seed: &[f64; N],
+        weights: &[f64; N],
+    ) -> f64 {
+        let cost = |difference: f64| match self {
+            Self::Distance => difference * difference,
+            Self::Travel => difference.abs(),
+        };
+        (0..N).map(|joint| weights[joint] * cost(q[joint] - seed[joint])).sum()
+    }
+}
+
+/// Counts through the turns of one solution, the last joint fastest.
+pub(crate) struct Turns<const N: usize> {
+    base: Solution<N>,
+    first: [f64; N],
+    last: [f64; N],
+    next: Option<[f64; N]>,
+}
+
+impl<const N: usize> Turns<N> {
+    pub(crate) fn of(limits: &JointLimits<N>, solution: &Solution<N>) -> Self {
+        let mut turns = Self { base: *solution, first: [0.0; N], last: [0.0; N], next: None };
+        if limits.rod_excess(&solution.q) > 0.0 {
+            return turns;
+        }
+        for joint in 0..N {
+            let Some((first, last)) = limits.countable_turns(joint, solution.q[joint]) else {
+                return turns;
+            };
+            (turns.first[joint], turns.last[joint]) = (first, last);
+        }
+        turns.next = Some(turns.first);
+        turns
+    }
+}
+
+impl<const N: usize> Iterator for Turns<N> {
+    type Item = Solution<N>;
+
+    fn next(&mut self) -> Option<Solution<N>> {
+        let turns = self.next?;
+        let mut following = turns;
+        self.next = (0..N).rev().find_map(|joint| {
+            if following[joint] < self.last[joint] {
+                following[joint] += 1.0;
+                return Some(following);
+            }
+            following[joint] = self.first[joint];
+            None
+        });
+        let mut solution = self.base;
+        solution.q = core::array::from_fn(|joint| solution.q[joint] + TAU * turns[joint]);
+        solution.status |= Status::WITHIN_LIMITS;
+        Some(solution)
+    }
+}
+
+/// A joint vector of which every angle is finite.
+pub(crate) fn check_joints(field: &'static str, q: &[f64]) -> Result<(), Error> {
+    match q.iter().position(|angle| !angle.is_finite()) {
+        Some(i) => Err(JointFault::NotFinite { field, joint: i + 1, value: q[i] }.into()),
+        None => Ok(()),
+    }
+}
+
+/// Weights that are finite and not negative.
+pub(crate) fn check_weights(weights: &[f64]) -> Result<(), Error> {
+    match weights.iter().position(|weight| !(weight.is_finite() && *weight >= 0.0)) {
+        Some(i) => Err(JointFault::Weight { joint: i + 1, value: weights[i] }.into()),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,97 @@
+//! Denavit-Hartenberg tables, modified and standard, converted into one another and never mixed.
+//!
+//! Reference: Craig, Introduction to Robotics, 2005, section 3.4 (modified); Siciliano et al., Robotics, 2009, section 2.8.2 (standard).
+
+use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Translation3};
+
+use crate::kinematics::pose::Pose;
+use crate::kinematics::pose::angles::constant_sin_cos;
+
+/// One row of a Denavit-Hartenberg table; the convention is told by the table that holds it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct DhRow {
+    /// Twist about x [rad].
+    pub alpha: f64,
+    /// Length along x [m].
+    pub a: f64,
+    /// Offset along z [m].
+    pub d: f64,
+    /// Angle about z at which the joint reads zero [rad].
+    pub theta: f64,
+}
+
+impl DhRow {
+    /// A row from alpha [rad], a [m], d [m] and the theta offset [rad].
+    #[must_use]
+    pub const fn new(alpha: f64, a: f64, d: f64, theta: f64) -> Self {
+        Self { alpha, a, d, theta }
+    }
+
+    /// The row as alpha, a, d, theta.
+    #[must_use]
+    pub const fn to_array(self) -> [f64; 4] {
+        [self.alpha, self.a, self.d, self.theta]
+    }
+}
+
+/// Modified (Craig) table with its fixed end transforms:
+/// `base * prod(Rx(alpha) Tx(a) Rz(theta + q) Tz(d)) * flange`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mdh<const N: usize> {
+    /// Fixed transform before the first row.
+    pub base: Pose,
+    /// One row a joint.
+    pub rows: [DhRow; N],
+    /// Fixed transform behind the last row.
+    pub flange: Pose,
+}
+
+/// Standard table with its fixed end transforms:
+/// `base * prod(Rz(theta + q) Tz(d) Tx(a) Rx(alpha)) * flange`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sdh<const N: usize> {
+    /// Fixed transform before the first row.
+    pub base: Pose,
+    /// One row a joint.
+    pub rows: [DhRow; N],
+    /// Fixed transform behind the last row.
+    pub flange: Pose,
+}
+
+impl<const N: usize> From<Sdh<N>> for Mdh<N> {
+    /// The twist and length of a standard row stand behind its joint, those of a modified row before it: they move on by one row,
+    /// and what the last row leaves over joins the flange.
+    fn from(sdh: Sdh<N>) -> Self {
+        let (mut alpha, mut a) = (0.0, 0.0);
+        let rows = sdh.rows.map(|row| {
+            let shifted = DhRow { alpha, a, ..row };
+            (alpha, a) = (row.alpha, row.a);
+            shifted
+        });
+        Self { base: sdh.base, rows, flange: screw_x(alpha, a) * sdh.flange }
+    }
+}
+
+impl<const N: usize> From<Mdh<N>> for Sdh<N> {
+    /// The inverse shift: the first modified row's twist and length join the base.
+    fn from(mdh: Mdh<N>) -> Self {
+        let first = mdh.rows.first().copied().unwrap_or_default();
+        let mut rows = mdh.rows;
+        for (i, row) in rows.iter_mut().enumerate() {
+            let next = mdh.rows.get(i + 1).copied().unwrap_or_default();
+            (row.alpha, row.a) = (next.alpha, next.a);
+        }
+        Self { base: mdh.base * screw_x(first.alpha, first.a), rows, flange: mdh.flange }
+    }
+}
+
+/// `Rx(alpha) Tx(a)`: the part of a row that does not move.
+pub(crate) fn screw_x(alpha: f64, a: f64) -> Pose {
+    let (sin, cos) = constant_sin_cos(alpha);
+    let rotation = Matrix3::new(1.0, 0.0, 0.0, 0.0, cos, -sin, 0.0, sin, cos);
+    IsometryMatrix3::from_parts(
+        Translation3::new(a, 0.0, 0.0),
+        Rotation3::from_matrix_unchecked(rotation),
+    )
+}

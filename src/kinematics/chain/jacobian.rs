@@ -1,0 +1,181 @@
+//! The geometric Jacobian of a chain.
+
+use nalgebra::SMatrix;
+
+use crate::kinematics::chain::Chain;
+use crate::kinematics::chain::axes::{Axes, Vectors};
+use crate::kinematics::chain::forward::{is_finite, sines_of_joints, sines_of_rows};
+use crate::lanes::{Kernel, LANES, mul_add, run};
+
+/// The frame in which a Jacobian's rows are expressed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum JacobianFrame {
+    /// The frame in which poses are given.
+    #[default]
+    Base,
+    /// The tool's own frame.
+    Tool,
+}
+
+impl<const N: usize> Chain<N> {
+    /// Geometric Jacobian of the tool.
+    ///
+    /// Three linear rows [m/rad], then three angular [1]; column `i` belongs to joint `i + 1`. Column `i` is `z_i x (p_tool - p_i)` over
+    /// `z_i`, with axis and origin of frame `i` itself: in a modified table a joint turns about its own frame's z, in a standard one
+    /// about the frame's before it.
+    /// Reference: Siciliano et al., Robotics, 2009, eq. 3.30, with the modified-DH index shift of docs/conventions.md.
+    #[must_use]
+    pub fn jacobian(&self, q: &[f64; N], frame: JacobianFrame) -> SMatrix<f64, 6, N> {
+        let rows = self.jacobian_rows(q, frame);
+        SMatrix::from_fn(|i, joint| rows[i][joint])
+    }
+
+    /// The rows of [`Self::jacobian`].
+    pub(crate) fn jacobian_rows(&self, q: &[f64; N], frame: JacobianFrame) -> [[f64; N]; 6] {
+        run(OneJacobian { chain: self, frame, q })
+    }
+}
+
+/// The Jacobians of rows of joint vectors; rows of NaN where one is not finite.
+pub(crate) struct Jacobians<'a, const N: usize> {
+    pub(crate) chain: &'a Chain<N>,
+    pub(crate) frame: JacobianFrame,
+    pub(crate) q: &'a [[f64; N]],
+    /// Six rows of each.
+    pub(crate) out: &'a mut [[[f64; N]; 6]],
+}
+
+/// The Jacobian of one joint vector, in six rows.
+pub(crate) struct OneJacobian<'a, const N: usize> {
+    pub(crate) chain: &'a Chain<N>,
+    pub(crate) frame: JacobianFrame,
+    pub(crate) q: &'a [f64; N],
+}
+
+impl<const N: usize> Kernel for Jacobians<'_, N> {
+    type Answer = ();
+    const WIDE: bool = true;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) {
+        for (q, jacobians) in self.q.chunks(LANES).zip(self.out.chunks_mut(LANES)) {
+            let (sin, cos) = sines_of_rows::<N, FUSED>(self.chain, q);
+            let rows = jacobian_rows::<N, LANES, FUSED>(self.chain, self.frame, &sin, &cos);
+            for (lane, jacobian) in jacobians.iter_mut().enumerate() {
+                for (to, from) in jacobian.iter_mut().zip(&rows) {
+                    for (to, from) in to.iter_mut().zip(from) {
+                        *to = from[lane];
+                    }
+                }
+            }
+            for (_, jacobian) in q.iter().zip(jacobians).filter(|(q, _)| !is_finite(q)) {
+                *jacobian = [[f64::NAN; N]; 6];
+            }
+        }
+    }
+}
+
+impl<const N: usize> Kernel for OneJacobian<'_, N> {
+    type Answer = [[f64; N]; 6];
+    const WIDE: bool = false;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> [[f64; N]; 6] {
+        let (sin, cos) = sines_of_joints::<N, FUSED>(&self.chain.serial(self.q));
+        let rows = jacobian_rows::<N, 1, FUSED>(self.chain, self.frame, &sin, &cos);
+        let mut jacobian = [[0.0; N]; 6];
+        for (to, from) in jacobian.iter_mut().zip(&rows) {
+            for (to, from) in to.iter_mut().zip(from) {
+                *to = from[0];
+            }
+        }
+        jacobian
+    }
+}
+
+/// The Jacobian's rows, for each of them the joints' columns: `z_i x (p_tool - p_i)` over `z_i` in the base.
+#[inline(always)]
+fn jacobian_rows<const N: usize, const W: usize, const FUSED: bool>(
+    chain: &Chain<N>,
+    in_frame: JacobianFrame,
+    sin: &[[f64; W]; N],
+    cos: &[[f64; W]; N],
+) -> [[[f64; W]; N]; 6] {
+    let mut frame = Axes::of(chain.first());
+    let mut frames = [frame; N];
+    for (joint, (link, place)) in chain.links().iter().zip(&mut frames).enumerate() {
+        frame = frame.after::<FUSED>(*link, &sin[joint], &cos[joint]);
+        *place = frame;
+    }
+    let tool = frame.times::<FUSED>(chain.last());
+    let mut rows = [[[0.0; W]; N]; 6];
+    for (joint, frame) in frames.iter().enumerate() {
+        if W > 1 {
+            // No joint waits for another here: without this the compiler takes them for the lanes, and gathers and scatters.
+            core::hint::black_box(());
+        }
+        let mut linear = cross::<W, FUSED>(&frame.z, &tool.origin, &frame.origin);
+        let mut angular = frame.z;
+        if in_frame == JacobianFrame::Tool {
+            (linear, angular) =
+                (seen_from::<W, FUSED>(&tool, &linear), seen_from::<W, FUSED>(&tool, &angular));
+        }
+        for i in 0..3 {
+            (rows[i][joint], rows[3 + i][joint]) = (linear[i], angular[i]);
+        }
+    }
+    if chain.is_coupled() {
+        take_coupling_back(&mut rows);
+    }
+    rows
+}
+
+/// Where q3 is told from the base, q2 turns the serial joint 3 back: its column loses that of joint 3 (eq. 26).
+#[inline(always)]
+fn take_coupling_back<const N: usize, const W: usize>(rows: &mut [[[f64; W]; N]; 6]) {
+    for row in rows {
+        if let [_, second, third, ..] = &mut row[..] {
+            for (second, third) in second.iter_mut().zip(third) {
+                *second -= *third;
+            }
+        }
+    }
+}
+
+/// `axis x (to - from)`
+#[inline(always)]
+fn cross<const W: usize, const FUSED: bool>(
+    axis: &Vectors<W>,
+    to: &Vectors<W>,
+    from: &Vectors<W>,
+) -> Vectors<W> {
+    let mut product = [[0.0; W]; 3];
+    for lane in 0..W {
+        let (ax, ay, az) = (axis[0][lane], axis[1][lane], axis[2][lane]);
+        let (lx, ly, lz) =
+            (to[0][lane] - from[0][lane], to[1][lane] - from[1][lane], to[2][lane] - from[2][lane]);
+        product[0][lane] = mul_add::<FUSED>(ay, lz, -(az * ly));
+        product[1][lane] = mul_add::<FUSED>(az, lx, -(ax * lz));
+        product[2][lane] = mul_add::<FUSED>(ax, ly, -(ay * lx));
+    }
+    product
+}
+
+/// Vectors of the base as the tool sees them.
+#[inline(always)]
+fn seen_from<const W: usize, const FUSED: bool>(tool: &Axes<W>, v: &Vectors<W>) -> Vectors<W> {
+    [dot::<W, FUSED>(&tool.x, v), dot::<W, FUSED>(&tool.y, v), dot::<W, FUSED>(&tool.z, v)]
+}
+
+#[inline(always)]
+fn dot<const W: usize, const FUSED: bool>(a: &Vectors<W>, b: &Vectors<W>) -> [f64; W] {
+    let mut sum = [0.0; W];
+    for lane in 0..W {
+        sum[lane] = mul_add::<FUSED>(
+            a[0][lane],
+            b[0][lane],
+            mul_add::<FUSED>(a[1][lane], b[1][lane], a[2][lane] * b[2][lane]),
+        );
+    }
+    sum
+}

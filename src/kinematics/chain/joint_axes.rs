@@ -1,0 +1,244 @@
+//! A modified Denavit-Hartenberg table from where the joint axes stand.
+//!
+//! Reference: Craig, Introduction to Robotics, 2005, section 3.4: x of frame `i` runs along the common normal of axes `i` and `i + 1`.
+
+use core::f64::consts::PI;
+
+use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Translation3, Vector3};
+
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
+use crate::error::{Error, ModelFault};
+use crate::kinematics::chain::dh::{DhRow, Mdh};
+use crate::kinematics::pose::{Pose, checked_pose};
+use crate::kinematics::thresholds::{FORM_TOLERANCE, MOST_LENGTH};
+
+/// Cosine from which a direction is too near an axis to be turned square to it [1]: of two directions at right angles one is below.
+const ALONG: f64 = 0.9;
+
+/// Axis of a revolute joint at zero joint angles, in the base frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointAxis {
+    /// The direction about which the joint turns; its length does not matter.
+    pub direction: [f64; 3],
+    /// A point of the axis [m].
+    pub point: [f64; 3],
+}
+
+impl<const N: usize> Mdh<N> {
+    /// The table of an arm from its joint axes and the pose of its tip, all at zero joint angles and in the base frame.
+    ///
+    /// z of frame `i` is axis `i` with its direction, x runs along the common normal to the next axis, turned by less than a right angle
+    /// from the x before it where there is a choice. Between parallel axes `d` is zero. An axis 1 parallel to z of the base stands in the
+    /// first row, but for its distance along y; any other stands in `base`. The last row ends at the height of the tip, `flange` has the
+    /// rest.
+    ///
+    /// Axes within 1e-9 rad of parallel are taken as parallel, within 1e-9 m of meeting as meeting: the common normal of nearly parallel
+    /// axes is far away.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidModel`] when a number is not finite or too large, a direction has no length, or two axes are so nearly parallel that
+    /// their common normal is more than [`MOST_LENGTH`] away; [`Error::InvalidPose`] when the tip is no rigid transform.
+    pub fn from_joint_axes(axes: &[JointAxis; N], t_base_tip: &Pose) -> Result<Self, Error> {
+        let tip = checked_pose(t_base_tip)?;
+        let mut lines = [Line { z: Vector3::zeros(), point: Vector3::zeros() }; N];
+        for (i, (line, axis)) in lines.iter_mut().zip(axes).enumerate() {
+            *line = Line::new(i + 1, axis)?;
+        }
+        let (base, mut normal) = lines.first().map_or((Pose::identity(), Normal::NONE), Line::root);
+        let mut rows = [DhRow::default(); N];
+        for (i, row) in rows.iter_mut().enumerate() {
+            let next = match lines.get(i + 1) {
+                Some(next) => lines[i].normal_to(next, &normal),
+                None => lines[i].normal_to_tip(&tip),
+            };
+            let farthest = next.from.abs().max(next.to.abs());
+            if farthest > MOST_LENGTH {
+                let off = next.alpha.abs().min(PI - next.alpha.abs());
+                return Err(ModelFault::NearlyParallel {
+                    axes: (i + 1, i + 2),
+                    off,
+                    distance: farthest,
+                    bound: MOST_LENGTH,
+                }
+                .into());
+            }
+            *row = DhRow::new(
+                normal.alpha,
+                normal.a,
+                next.from - normal.to,
+                turn(&normal.x, &next.x, &lines[i].z),
+            );
+            normal = next;
+        }
+        let flange = lines.last().map_or(tip, |last| last.flange(&normal, &tip));
+        Ok(Self { base, rows, flange })
+    }
+}
+
+/// An axis as a line.
+#[derive(Clone, Copy)]
+struct Line {
+    /// Unit direction.
+    z: Vector3<f64>,
+    /// A point of it [m].
+    point: Vector3<f64>,
+}
+
+/// The common normal of an axis and the next: the part `Rx(alpha) Tx(a)` of the next row.
+struct Normal {
+    /// Unit direction.
+    x: Vector3<f64>,
+    /// Where it leaves the axis, from the axis' point [m].
+    from: f64,
+    /// Where it meets the next axis, from that axis' point [m].
+    to: f64,
+    a: f64,
+    alpha: f64,
+}
+
+impl Normal {
+    const NONE: Self =
+        Self { x: Vector3::new(1.0, 0.0, 0.0), from: 0.0, to: 0.0, a: 0.0, alpha: 0.0 };
+}
+
+impl Line {
+    fn new(axis: usize, given: &JointAxis) -> Result<Self, Error> {
+        for value in given.direction {
+            ModelFault::check("direction of axis", axis, value, f64::MAX)?;
+        }
+        for value in given.point {
+            ModelFault::check("point of axis", axis, value, MOST_LENGTH)?;
+        }
+        let z = unit(given.direction).ok_or(ModelFault::AxisDirection { axis })?;
+        Ok(Self { z, point: Vector3::from(given.point) })
+    }
+
+    /// What stands before the first row, and the twist and length of that row.
+    fn root(&self) -> (Pose, Normal) {
+        let Self { z, point } = self;
+        if z.x.hypot(z.y) > FORM_TOLERANCE {
+            let to = -point.dot(z);
+            let x = across(z, &Matrix3::identity());
+            let stand =
+                IsometryMatrix3::from_parts(Translation3::from(point + z * to), frame(&x, z));
+            return (stand, Normal { x, to, ..Normal::NONE });
+        }
+        let to = -point.z * z.z;
+        let foot = point + z * to;
+        let base = Pose::translation(0.0, nearly(foot.y), 0.0);
+        (
+            base,
+            Normal {
+                to,
+                a: nearly(foot.x),
+                alpha: if z.z < 0.0 { PI } else { 0.0 },
+                ..Normal::NONE
+            },
+        )
+    }
+
+    /// The common normal to the next axis, `before` being the one that comes from the axis before. A sum with zero has no minus zero.
+    fn normal_to(&self, next: &Self, before: &Normal) -> Normal {
+        let between = next.point - self.point;
+        let cross = self.z.cross(&next.z);
+        let (sin, cos) = (cross.norm(), self.z.dot(&next.z));
+        if sin <= FORM_TOLERANCE {
+            return self.normal_to_parallel(next, before, &between, cos);
+        }
+        let normal = cross / sin;
+        let distance = nearly(between.dot(&normal));
+        let sign = self.facing(&normal, distance, before);
+        Normal {
+            x: square_to(&self.z, &(normal * sign)),
+            from: between.cross(&next.z).dot(&normal) / sin,
+            to: between.cross(&self.z).dot(&normal) / sin,
+            a: distance * sign + 0.0,
+            alpha: (sin * sign).atan2(cos),
+        }
+    }
+
+    /// Of the many normals of parallel axes the one where the normal before it arrives: `d` is zero. Where both axes are one, x goes on.
+    fn normal_to_parallel(
+        &self,
+        next: &Self,
+        before: &Normal,
+        between: &Vector3<f64>,
+        cos: f64,
+    ) -> Normal {
+        let aside = between - self.z * between.dot(&self.z);
+        let distance = nearly(aside.norm());
+        let normal = if distance > 0.0 { aside / distance } else { before.x };
+        let sign = self.facing(&normal, distance, before);
+        let from = before.to;
+        Normal {
+            x: square_to(&self.z, &(normal * sign)),
+            from,
+            to: (self.z * from - between).dot(&next.z),
+            a: distance * sign + 0.0,
+            alpha: if cos < 0.0 { PI } else { 0.0 },
+        }
+    }
+
+    /// 1 or -1: which way x goes along a normal. Less than a right angle from the x before it; at a right angle towards the next axis; where
+    /// the axes meet, a right angle on.
+    fn facing(&self, normal: &Vector3<f64>, distance: f64, before: &Normal) -> f64 {
+        let choices = [normal.dot(&before.x), distance, before.x.cross(normal).dot(&self.z)];
+        let told = choices.into_iter().find(|choice| choice.abs() > FORM_TOLERANCE);
+        if told.is_some_and(|choice| choice < 0.0) { -1.0 } else { 1.0 }
+    }
+
+    /// The last frame stands at the height of the tip, with its x where that can be.
+    fn normal_to_tip(&self, tip: &Pose) -> Normal {
+        let from = (tip.translation.vector - self.point).dot(&self.z);
+        Normal { x: across(&self.z, tip.rotation.matrix()), from, ..Normal::NONE }
+    }
+
+    /// What the last row leaves over.
+    fn flange(&self, last: &Normal, tip: &Pose) -> Pose {
+        let t_base_last = frame(&last.x, &self.z);
+        let aside =
+            t_base_last.inverse() * (tip.translation.vector - self.point - self.z * last.from);
+        IsometryMatrix3::from_parts(
+            Translation3::new(aside.x, aside.y, 0.0),
+            t_base_last.inverse() * tip.rotation,
+        )
+    }
+}
+
+/// The direction with length one; exact along x, y and z.
+pub(crate) fn unit(direction: [f64; 3]) -> Option<Vector3<f64>> {
+    // Scaled first: squares of very small and very large numbers have no digits.
+    let largest = direction.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    let scaled = Vector3::from(direction.map(|value| value / largest));
+    (largest > 0.0).then(|| scaled / scaled.norm())
+}
+
+/// The length, or zero where it is none [m].
+fn nearly(length: f64) -> f64 {
+    if length.abs() > FORM_TOLERANCE { length } else { 0.0 }
+}
+
+/// The angle about `z` from one direction to another, in (-pi, pi] [rad].
+fn turn(from: &Vector3<f64>, to: &Vector3<f64>, z: &Vector3<f64>) -> f64 {
+    // Minus zero would make minus pi of a half turn.
+    (from.cross(to).dot(z) + 0.0).atan2(from.dot(to))
+}
+
+/// The unit direction next to `x` at right angles to `z`.
+fn square_to(z: &Vector3<f64>, x: &Vector3<f64>) -> Vector3<f64> {
+    let square = x - z * x.dot(z);
+    square / square.norm()
+}
+
+/// x of a rotation turned square to `z`; its y where x runs along `z`.
+fn across(z: &Vector3<f64>, rotation: &Matrix3<f64>) -> Vector3<f64> {
+    let [x, y] = [0, 1].map(|column| Vector3::from(rotation.column(column)));
+    square_to(z, if x.dot(z).abs() < ALONG { &x } else { &y })
+}
+
+fn frame(x: &Vector3<f64>, z: &Vector3<f64>) -> Rotation3<f64> {
+    Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[*x, z.cross(x), *z]))
+}

@@ -1,0 +1,117 @@
+//! A serial chain of revolute joints.
+
+pub(crate) mod axes;
+pub(crate) mod coupling;
+pub(crate) mod dh;
+pub(crate) mod forward;
+pub(crate) mod jacobian;
+pub(crate) mod joint_axes;
+pub(crate) mod limits;
+
+use crate::kinematics::chain::axes::Link;
+use crate::kinematics::chain::coupling::serial;
+use crate::kinematics::chain::dh::Mdh;
+use crate::kinematics::pose::Pose;
+
+/// `N` revolute joints between a base and a tool, described by a modified Denavit-Hartenberg table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chain<const N: usize> {
+    mdh: Mdh<N>,
+    t_world_base: Pose,
+    t_flange_tool: Pose,
+    links: [Link; N],
+    coupled: bool,
+    t_world_first: Pose,
+    t_last_tool: Pose,
+}
+
+impl<const N: usize> Chain<N> {
+    /// A chain with its base at the origin and its tool at the flange.
+    #[must_use]
+    pub fn new(mdh: Mdh<N>) -> Self {
+        let links = mdh.rows.map(Link::new);
+        let mut chain = Self {
+            mdh,
+            t_world_base: Pose::identity(),
+            t_flange_tool: Pose::identity(),
+            links,
+            coupled: false,
+            t_world_first: Pose::identity(),
+            t_last_tool: Pose::identity(),
+        };
+        chain.join();
+        chain
+    }
+
+    /// The same chain standing at `t_world_base`; poses and Jacobians are then in the world frame.
+    #[must_use]
+    pub fn with_base(mut self, t_world_base: Pose) -> Self {
+        self.t_world_base = t_world_base;
+        self.join();
+        self
+    }
+
+    /// The same chain carrying a tool whose centre point stands at `t_flange_tool`.
+    #[must_use]
+    pub fn with_tool(mut self, t_flange_tool: Pose) -> Self {
+        self.t_flange_tool = t_flange_tool;
+        self.join();
+        self
+    }
+
+    /// The same chain with the joint angles of a controller that couples axes 2 and 3, or with its own.
+    #[must_use]
+    pub fn with_coupling(mut self, coupled: bool) -> Self {
+        self.coupled = coupled;
+        self
+    }
+
+    fn join(&mut self) {
+        self.t_world_first = self.t_world_base * self.mdh.base;
+        self.t_last_tool = self.mdh.flange * self.t_flange_tool;
+    }
+
+    /// The modified Denavit-Hartenberg table with its fixed end transforms.
+    #[must_use]
+    pub fn mdh(&self) -> &Mdh<N> {
+        &self.mdh
+    }
+
+    /// The base in the world.
+    #[must_use]
+    pub fn base(&self) -> &Pose {
+        &self.t_world_base
+    }
+
+    /// The tool in the flange frame.
+    #[must_use]
+    pub fn tool(&self) -> &Pose {
+        &self.t_flange_tool
+    }
+
+    /// Whether axes 2 and 3 are coupled: then joint 3 is that of the table plus joint 2.
+    #[must_use]
+    pub fn is_coupled(&self) -> bool {
+        self.coupled
+    }
+
+    /// The table's joint angles.
+    #[inline(always)]
+    pub(in crate::kinematics) fn serial(&self, q: &[f64; N]) -> [f64; N] {
+        if self.coupled { serial(*q) } else { *q }
+    }
+
+    pub(in crate::kinematics) fn links(&self) -> &[Link; N] {
+        &self.links
+    }
+
+    /// What stands before the first link.
+    pub(in crate::kinematics) fn first(&self) -> &Pose {
+        &self.t_world_first
+    }
+
+    /// What stands behind the last link.
+    pub(in crate::kinematics) fn last(&self) -> &Pose {
+        &self.t_last_tool
+    }
+}

@@ -1,0 +1,299 @@
+//! What to do where a path crosses the wrist singularity, named as ABB names it.
+
+use alloc::vec::Vec;
+
+use nalgebra::Vector3;
+
+use crate::error::{Error, JointFault, ModelFault};
+use crate::kinematics::answer::status::Status;
+use crate::kinematics::path::follow::{Break, BreakReason, Followed, Follower, largest_step};
+use crate::kinematics::pose::{Pose, PoseError, checked_pose};
+use crate::kinematics::robot::Robot;
+use crate::kinematics::structure::spherical_wrist::{SphericalWrist, WristSolver};
+use crate::kinematics::thresholds::{HELD_STILL, JUMP_BLIND, WRIST_ZONE};
+
+/// What a path does at the wrist singularity.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Crossing {
+    /// Meets every pose exactly, however fast axes 4 and 6 must turn.
+    #[default]
+    Through,
+    /// Stops where joint 5 comes into the zone, and where a joint must jump. As `SingArea \Off`.
+    Error,
+    /// Inside the zone axes 4 and 5 go straight from the first pose to the last; the tool's position stays exact, its orientation deviates
+    /// by two zones at most. As `SingArea \Wrist`.
+    Wrist,
+    /// Axis 4 stays at 0 or +-180 deg all along; the tool's position stays exact, its orientation is met where the pose can be reached
+    /// with axis 4 there. As `SingArea \LockAxis4`.
+    LockAxis4,
+}
+
+/// How a path is followed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FollowOptions {
+    /// Cost of moving each joint, in the choice among solutions.
+    pub weights: [f64; 6],
+    /// What to do at the wrist singularity.
+    pub crossing: Crossing,
+    /// |sin q5| below which joint 5 is in the zone of `crossing` [1].
+    pub zone: f64,
+}
+
+impl Default for FollowOptions {
+    fn default() -> Self {
+        Self { weights: [1.0; 6], crossing: Crossing::Through, zone: WRIST_ZONE }
+    }
+}
+
+/// How often the arm and a wrist with axis 4 held are solved in turn: each round shrinks the error by the tool's length over the arm's.
+const ROUNDS: usize = 60;
+
+impl Robot<6> {
+    /// One continuous joint path along `path`, from the solution nearest to `seed` [rad] on: inside the limits, turns considered.
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::ik_nearest`]; a pose that cannot be reached is no error but a break. [`Error::InvalidModel`] where [`Crossing::Wrist`] or
+    /// [`Crossing::LockAxis4`] is asked of an arm without a spherical wrist.
+    pub fn follow(
+        &self,
+        path: &[Pose],
+        seed: &[f64; 6],
+        options: &FollowOptions,
+    ) -> Result<Followed, Error> {
+        if !(options.zone.is_finite() && options.zone >= 0.0) {
+            return Err(JointFault::Zone { value: options.zone }.into());
+        }
+        if matches!(options.crossing, Crossing::Wrist | Crossing::LockAxis4)
+            && self.spherical_wrist().is_none()
+        {
+            return Err(ModelFault::NoSphericalWrist.into());
+        }
+        let mut walk = Walk {
+            robot: self,
+            path,
+            options,
+            follower: Follower::new(self, seed, &options.weights)?,
+            followed: Followed {
+                q: Vec::with_capacity(path.len()),
+                orientation_error: Vec::new(),
+                breaks: Vec::new(),
+            },
+        };
+        match options.crossing {
+            Crossing::Through | Crossing::Error => walk.through()?,
+            Crossing::Wrist => walk.wrist()?,
+            Crossing::LockAxis4 => walk.lock_axis_4()?,
+        }
+        Ok(walk.finish())
+    }
+}
+
+/// What of the wrist is held; the rest comes as near to the pose as it can.
+#[derive(Clone, Copy)]
+enum Held {
+    Axis4,
+    Axes4And5,
+}
+
+/// A path on its way.
+struct Walk<'a> {
+    robot: &'a Robot<6>,
+    path: &'a [Pose],
+    options: &'a FollowOptions,
+    follower: Follower<'a>,
+    followed: Followed,
+}
+
+impl Walk<'_> {
+    fn in_zone(&self, q: &[f64; 6]) -> bool {
+        self.robot.geometry().sin_5(q).is_some_and(|sin_5| sin_5.abs() < self.options.zone)
+    }
+
+    fn record(&mut self, q: Option<[f64; 6]>, broken: Option<BreakReason>) {
+        let pose_index = self.followed.q.len();
+        self.followed.q.push(q);
+        self.followed.breaks.extend(broken.map(|reason| Break { pose_index, reason }));
+    }
+
+    /// Pose by pose; with [`Crossing::Error`] up to the zone or a jump.
+    fn through(&mut self) -> Result<(), Error> {
+        for pose in self.path {
+            let (solution, broken) = self.follower.step(pose)?;
+            let q = solution.map(|solution| solution.q);
+            if self.options.crossing == Crossing::Error {
+                let stopped =
+                    q.filter(|q| self.in_zone(q)).map(|q| BreakReason::Stopped { q5: q[4] });
+                if let Some(reason) = stopped.or(broken) {
+                    self.record(None, Some(reason));
+                    return Ok(());
+                }
+            }
+            self.record(q, broken);
+        }
+        Ok(())
+    }
+
+    /// The wrist straight through the zone, position by the other three axes.
+    fn wrist(&mut self) -> Result<(), Error> {
+        let mut index = 0;
+        while index < self.path.len() {
+            let (solution, broken) = self.follower.step(&self.path[index])?;
+            let q = solution.map(|solution| solution.q);
+            match q.filter(|q| self.in_zone(q)) {
+                None => {
+                    self.record(q, broken);
+                    index += 1;
+                }
+                Some(entered) => index = self.cross(index, entered, broken)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// Records the poses of one zone, from `first` on; returns the index of the first pose behind it.
+    ///
+    /// The first and the last pose of the zone are met exactly. Between them axes 4 and 5 go straight and axis 6 turns the tool as near as it
+    /// can: q5 and the pose's own tilt both stay in the zone, so the tool deviates by two zones at most.
+    fn cross(
+        &mut self,
+        first: usize,
+        entered: [f64; 6],
+        broken: Option<BreakReason>,
+    ) -> Result<usize, Error> {
+        // Where the zone ends, on whatever wrist branch: sin q5 has the same size on both.
+        let mut behind = first + 1;
+        while behind < self.path.len() {
+            match self.follower.step(&self.path[behind])?.0 {
+                Some(solution) if self.in_zone(&solution.q) => behind += 1,
+                _ => break,
+            }
+        }
+        self.record(Some(entered), broken);
+        let left =
+            match self.robot.ik_nearest(&self.path[behind - 1], &entered, &self.options.weights) {
+                Ok(solution) => solution.q,
+                Err(Error::Unreachable(_)) => entered,
+                Err(error) => return Err(error),
+            };
+        let mut q = entered;
+        for index in first + 1..behind {
+            #[expect(clippy::cast_precision_loss, reason = "a part of the way")]
+            let part = (index - first) as f64 / (behind - 1 - first) as f64;
+            let mut wanted = q;
+            (wanted[3], wanted[4]) = (
+                entered[3] + (left[3] - entered[3]) * part,
+                entered[4] + (left[4] - entered[4]) * part,
+            );
+            let found = if index + 1 == behind {
+                Some(left)
+            } else {
+                self.held(&self.path[index], &wanted, Held::Axes4And5)?
+            };
+            let broken = found.map_or(Some(BreakReason::Held), |found| jump(&q, &found));
+            q = found.unwrap_or(q);
+            self.record(found, broken);
+        }
+        self.follower.stand_at(&self.path[behind - 1], q);
+        Ok(behind)
+    }
+
+    /// Axis 4 at the nearest of 0 and +-180 deg all along.
+    fn lock_axis_4(&mut self) -> Result<(), Error> {
+        let mut standing: Option<[f64; 6]> = None;
+        for pose in self.path {
+            let from = match standing {
+                Some(q) => q,
+                // Up to the first pose that is met, the path stands at the seed.
+                None => match self.follower.step(pose)? {
+                    (Some(start), _) => self.locked(start.q),
+                    (None, broken) => {
+                        self.record(None, broken);
+                        continue;
+                    }
+                },
+            };
+            let held = self.held(pose, &from, Held::Axis4)?;
+            let broken = match (held, standing) {
+                (None, _) => Some(BreakReason::Held),
+                (Some(q), Some(before)) => jump(&before, &q),
+                (Some(_), None) => None,
+            };
+            standing = held.or(standing);
+            self.record(held, broken);
+        }
+        Ok(())
+    }
+
+    /// `q` with axis 4 in the plane of the arm.
+    fn locked(&self, mut q: [f64; 6]) -> [f64; 6] {
+        if let Some(arm) = self.robot.spherical_wrist() {
+            q[3] = arm.axis_4_in_plane(&q);
+        }
+        q
+    }
+
+    /// The joints for a pose with the wrist held as in `q`: arm and wrist solved in turn until both stand.
+    fn held(&self, pose: &Pose, q: &[f64; 6], how: Held) -> Result<Option<[f64; 6]>, Error> {
+        let pose = checked_pose(pose)?;
+        let Some(WristSolver { arm, surroundings, .. }) = self.robot.wrist_solver() else {
+            return Ok(None);
+        };
+        let rotation = surroundings.wrist_pose(&pose).rotation;
+        let (point, lever) = surroundings.tool_point(&pose);
+        let mut held = *q;
+        for _ in 0..ROUNDS {
+            let m = arm.rotation_in_forearm(rotation.matrix(), &held);
+            let wrist = match how {
+                Held::Axis4 => arm.with_axis_4_held(&m, &held),
+                Held::Axes4And5 => arm.with_axes_4_and_5_held(&m, &held),
+            };
+            let wrist = self.robot.limits().turned_to(&wrist, &held);
+            let Some(next) = wrist.and_then(|wrist| self.to_point(arm, &point, &lever, &wrist))
+            else {
+                return Ok(None);
+            };
+            let moved = next.iter().zip(&held).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            held = next;
+            if moved < HELD_STILL {
+                break;
+            }
+        }
+        Ok(Some(held))
+    }
+
+    /// The joints inside the limits, nearest to `q`, that bring `lever` in the wrist frame to `point` with the wrist of `q`.
+    fn to_point(
+        &self,
+        arm: &SphericalWrist,
+        point: &Vector3<f64>,
+        lever: &Vector3<f64>,
+        q: &[f64; 6],
+    ) -> Option<[f64; 6]> {
+        let distance =
+            |found: &[f64; 6]| found.iter().zip(q).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+        let found = arm
+            .to_point(point, lever, q)
+            .filter_map(|found| self.robot.limits().turned_to(&found, q));
+        found.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+
+    /// Measures the orientation of every pose.
+    fn finish(mut self) -> Followed {
+        let rows = self.followed.q.iter().zip(self.path);
+        let error = |(q, pose): (&Option<[f64; 6]>, &Pose)| {
+            q.map(|q| PoseError::between(&self.robot.fk(&q), pose).rotation)
+        };
+        self.followed.orientation_error = rows.map(error).collect();
+        // What was not come to, when the path stopped.
+        self.followed.q.resize(self.path.len(), None);
+        self.followed.orientation_error.resize(self.path.len(), None);
+        self.followed
+    }
+}
+
+/// A step of the held arm that is too large to be the path's.
+fn jump(from: &[f64; 6], to: &[f64; 6]) -> Option<BreakReason> {
+    let (joint, by) = largest_step(from, to);
+    (by.abs() > JUMP_BLIND).then_some(BreakReason::Jump { joint, by, kinds: Status::empty() })
+}

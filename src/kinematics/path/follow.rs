@@ -1,0 +1,262 @@
+//! One continuous joint path along a path of poses.
+
+use alloc::vec::Vec;
+use core::f64::consts::TAU;
+use core::fmt;
+
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+use nalgebra::{IsometryMatrix3, Rotation3, Translation3};
+
+use crate::error::Error;
+use crate::kinematics::answer::select::{check_joints, check_weights};
+use crate::kinematics::answer::solutions::{FreeJoint, Solution};
+use crate::kinematics::answer::status::{Explanation, Status};
+use crate::kinematics::pose::{Pose, checked_pose};
+use crate::kinematics::robot::Robot;
+use crate::kinematics::structure::free_choice::FreeChoice;
+use crate::kinematics::thresholds::{
+    JUMP_BLIND, JUMP_GROWTH, JUMP_LEAST, PATH_WRIST_SIN, SEEDED_FREE, STEADY_STEP,
+};
+
+/// How often a segment of the path is halved in search of a continuous way through it: to a millionth of it.
+const HALVINGS: u32 = 20;
+
+/// A place where the joints cannot follow the path without a jump.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Break {
+    /// Index of the pose that is not met, or at which the joints arrive by a jump.
+    pub pose_index: usize,
+    /// Why.
+    pub reason: BreakReason,
+}
+
+/// Why the joints cannot follow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum BreakReason {
+    /// No solution inside the limits.
+    Unreachable(Explanation),
+    /// A joint must turn while the tool stands still.
+    Jump {
+        /// The joint, from 1.
+        joint: usize,
+        /// By how much it turns [rad].
+        by: f64,
+        /// The singularities at which it does; empty where a joint limit is the cause.
+        kinds: Status,
+    },
+    /// No joints inside the limits bring the tool's centre point there with the wrist, or axis 4, held as the policy holds it.
+    Held,
+    /// The policy stops at a wrist singularity.
+    Stopped {
+        /// Joint 5 [rad].
+        q5: f64,
+    },
+}
+
+impl fmt::Display for Break {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "pose {}: ", self.pose_index)?;
+        match self.reason {
+            BreakReason::Unreachable(explanation) => explanation.fmt(f),
+            BreakReason::Jump { joint, by, kinds } => {
+                write!(f, "J{joint} must turn by {:.1} deg on the spot, ", by.to_degrees())?;
+                match kinds {
+                    kinds if kinds.contains(Status::WRIST) => write!(f, "at the wrist singularity"),
+                    kinds if kinds.contains(Status::SHOULDER) => {
+                        write!(f, "at the shoulder singularity")
+                    }
+                    kinds if kinds.contains(Status::ELBOW) => write!(f, "at the elbow singularity"),
+                    _ => write!(f, "the branch ends at a joint limit or at the edge of reach"),
+                }
+            }
+            BreakReason::Held => write!(f, "out of reach or of the limits with the wrist held"),
+            BreakReason::Stopped { q5 } => {
+                write!(f, "stopped at the wrist singularity, J5 is {:.4} deg", q5.to_degrees())
+            }
+        }
+    }
+}
+
+/// Follows a path pose by pose, each time with the solution that continues the last. Allocates nothing.
+#[derive(Clone, Debug)]
+pub struct Follower<'a> {
+    robot: &'a Robot<6>,
+    weights: [f64; 6],
+    /// The pose of the last step.
+    last: Option<Pose>,
+    q: [f64; 6],
+    /// The joints' step before: where the path is heading.
+    velocity: [f64; 6],
+}
+
+impl<'a> Follower<'a> {
+    /// A follower that stands at `seed` [rad].
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidJoints`] when the seed or a weight is not finite or a weight is negative.
+    pub fn new(robot: &'a Robot<6>, seed: &[f64; 6], weights: &[f64; 6]) -> Result<Self, Error> {
+        check_joints("seed", seed)?;
+        check_weights(weights)?;
+        Ok(Self { robot, weights: *weights, last: None, q: *seed, velocity: [0.0; 6] })
+    }
+
+    /// Goes on from `q` [rad] at `pose`.
+    pub(crate) fn stand_at(&mut self, pose: &Pose, q: [f64; 6]) {
+        (self.last, self.q, self.velocity) = (Some(*pose), q, [0.0; 6]);
+    }
+
+    /// The joints of the next pose of the path [rad], and why they jumped when they did; without joints when there are none.
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::ik`].
+    pub fn step(
+        &mut self,
+        pose: &Pose,
+    ) -> Result<(Option<Solution<6>>, Option<BreakReason>), Error> {
+        let pose = checked_pose(pose)?;
+        let next = match self.nearest(&pose)? {
+            Ok(next) => next,
+            Err(explanation) => {
+                (self.last, self.velocity) = (None, [0.0; 6]);
+                return Ok((None, Some(BreakReason::Unreachable(explanation))));
+            }
+        };
+        let mut jump = None;
+        if let Some(last_pose) = self.last {
+            let usual = largest(&self.velocity).max(JUMP_LEAST / JUMP_GROWTH);
+            if largest(&difference(&next.q, &self.q)) > JUMP_GROWTH * usual {
+                jump = self.jump_between(&last_pose, &pose, &next)?;
+            }
+        }
+        self.velocity = if self.last.is_none() || jump.is_some() {
+            [0.0; 6]
+        } else {
+            difference(&next.q, &self.q)
+        };
+        self.q = next.q;
+        self.last = Some(pose);
+        Ok((Some(next), jump))
+    }
+
+    /// The solution nearest to where the joints are heading.
+    fn nearest(&self, pose: &Pose) -> Result<Result<Solution<6>, Explanation>, Error> {
+        // A joint that swings as it passes a singularity will not swing on.
+        let steady = largest(&self.velocity) <= STEADY_STEP;
+        let heading =
+            if steady { core::array::from_fn(|i| self.q[i] + self.velocity[i]) } else { self.q };
+        let solutions = self.robot.solve(*pose, &FreeChoice::path(heading))?;
+        let Some(mut next) = self.robot.nearest_of(&solutions, &heading, &self.weights)? else {
+            return Ok(Err(solutions.explain()));
+        };
+        self.balance(&mut next, &heading, pose);
+        Ok(Ok(next))
+    }
+
+    /// At a wrist of which the pose says little the whole of what is left over went to joint 6: half of it belongs to joint 4, as far as the
+    /// pose does not contradict.
+    fn balance(&self, next: &mut Solution<6>, heading: &[f64; 6], pose: &Pose) {
+        let Some(arm) =
+            self.robot.spherical_wrist().filter(|arm| arm.sin_5(&next.q).abs() <= PATH_WRIST_SIN)
+        else {
+            return;
+        };
+        let sign = match next.free.unwrap_or_else(|| arm.wrist_pair(&next.q)) {
+            FreeJoint::WristSum => 1.0,
+            FreeJoint::WristDifference => -1.0,
+            _ => return,
+        };
+        let over = next.q[5] - heading[5];
+        let over = over - TAU * (over / TAU).round();
+        let mut balanced = next.q;
+        balanced[3] += sign * over / 2.0;
+        balanced[5] -= over / 2.0;
+        if self.robot.limits().contain(&balanced)
+            && self.robot.residual(&balanced, pose).largest() <= SEEDED_FREE
+        {
+            next.q = balanced;
+        }
+    }
+
+    /// Goes from the last pose to the next one by halving: a step that is only large shrinks with the segment, a jump does not.
+    fn jump_between(
+        &self,
+        from: &Pose,
+        to: &Pose,
+        direct: &Solution<6>,
+    ) -> Result<Option<BreakReason>, Error> {
+        let mut scout = Self { velocity: [0.0; 6], ..self.clone() };
+        let whole = largest(&difference(&direct.q, &self.q));
+        let (mut done, mut width, mut depth) = (0.0, 1.0, 0);
+        while done < 1.0 {
+            let end = if done + width >= 1.0 { 1.0 } else { done + width };
+            let pose = if end < 1.0 { between(from, to, end) } else { *to };
+            let Ok(next) = scout.nearest(&pose)? else {
+                // The straight line between two poses leaves reach, where the path need not: only the size of the step can tell.
+                return if whole > JUMP_BLIND {
+                    self.jump(direct, from, &scout.q).map(Some)
+                } else {
+                    Ok(None)
+                };
+            };
+            if largest(&difference(&next.q, &scout.q)) > whole / 4.0 {
+                if depth == HALVINGS {
+                    return self.jump(direct, &pose, &scout.q).map(Some);
+                }
+                (width, depth) = (width / 2.0, depth + 1);
+                continue;
+            }
+            (scout.q, done) = (next.q, end);
+            if depth > 0 {
+                (width, depth) = (width * 2.0, depth - 1);
+            }
+        }
+        Ok(None)
+    }
+
+    /// The jump from where the joints stand to `to`, at the pose where it cannot be avoided.
+    fn jump(&self, to: &Solution<6>, pose: &Pose, at: &[f64; 6]) -> Result<BreakReason, Error> {
+        let (joint, by) = largest_step(&self.q, &to.q);
+        let solutions = self.robot.solve(*pose, &FreeChoice::seed(*at))?;
+        let kinds = solutions
+            .iter()
+            .fold(self.robot.singularity(at).kinds, |kinds, solution| kinds | solution.kinds());
+        Ok(BreakReason::Jump { joint, by, kinds })
+    }
+}
+
+/// A joint path along a path of poses.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Followed {
+    /// Joint angles of each pose [rad]; `None` where the pose is not met.
+    pub q: Vec<Option<[f64; 6]>>,
+    /// How far the tool's orientation is from that of each pose [rad].
+    pub orientation_error: Vec<Option<f64>>,
+    /// Where the joints cannot follow, and why.
+    pub breaks: Vec<Break>,
+}
+
+/// The pose at a part of the way from one to another: straight, at a constant rate of turn.
+fn between(from: &Pose, to: &Pose, part: f64) -> Pose {
+    let turn = (from.rotation.inverse() * to.rotation).scaled_axis() * part;
+    let position = from.translation.vector.lerp(&to.translation.vector, part);
+    IsometryMatrix3::from_parts(Translation3::from(position), from.rotation * Rotation3::new(turn))
+}
+
+/// The joint, from 1, that moves the most from one joint vector to another, and by how much [rad].
+pub(in crate::kinematics) fn largest_step(from: &[f64; 6], to: &[f64; 6]) -> (usize, f64) {
+    let steps = difference(to, from);
+    let joint = (0..6).fold(0, |most, i| if steps[i].abs() > steps[most].abs() { i } else { most });
+    (joint + 1, steps[joint])
+}
+
+fn difference(a: &[f64; 6], b: &[f64; 6]) -> [f64; 6] {
+    core::array::from_fn(|i| a[i] - b[i])
+}
+
+fn largest(steps: &[f64; 6]) -> f64 {
+    steps.iter().fold(0.0, |most, step| most.max(step.abs()))
+}

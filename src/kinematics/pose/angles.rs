@@ -1,0 +1,80 @@
+//! Angles: wrapping, and the sines and cosines of constants.
+
+use core::f64::consts::{FRAC_PI_2, PI, TAU};
+
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
+use crate::lanes::nearest_whole;
+
+/// How far a constant may stand from a quarter turn and still be one [rad]: the rounding of `90_f64.to_radians()` and of sums of it.
+const QUARTER_TURN_ROUNDING: f64 = 4e-15;
+
+/// The same angle in (-pi, pi] [rad].
+#[must_use]
+#[inline(always)]
+pub(crate) fn wrap(angle: f64) -> f64 {
+    let turns = nearest_whole(angle * (1.0 / TAU));
+    let wrapped = angle - TAU * turns;
+    let wrapped = if wrapped <= -PI { wrapped + TAU } else { wrapped };
+    if wrapped > PI { wrapped - TAU } else { wrapped }
+}
+
+/// Distance of an angle from the nearest multiple of pi [rad], in 0 ..= pi / 2.
+#[must_use]
+pub(crate) fn distance_from_half_turns(angle: f64) -> f64 {
+    (angle - PI * (angle / PI).round()).abs()
+}
+
+/// Sine and cosine of a constant of a model: exact (0, 1, -1) where the constant is a quarter turn, so that square arms stay square.
+#[must_use]
+pub(crate) fn constant_sin_cos(angle: f64) -> (f64, f64) {
+    let quarters = (angle / FRAC_PI_2).round();
+    if (angle - quarters * FRAC_PI_2).abs() > QUARTER_TURN_ROUNDING {
+        return angle.sin_cos();
+    }
+    match quarters - 4.0 * (quarters / 4.0).floor() {
+        0.0 => (0.0, 1.0),
+        1.0 => (1.0, 0.0),
+        2.0 => (0.0, -1.0),
+        _ => (-1.0, 0.0),
+    }
+}
+
+/// The first `M` of `N` joint angles; zeros behind the last.
+#[inline(always)]
+pub(crate) fn resized<const N: usize, const M: usize>(q: &[f64; N]) -> [f64; M] {
+    core::array::from_fn(|i| q.get(i).copied().unwrap_or(0.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wrap_keeps_plus_pi_and_turns_minus_pi() {
+        assert_eq!(wrap(PI), PI);
+        assert_eq!(wrap(-PI), PI);
+        assert_eq!(wrap(0.25), 0.25);
+        assert!((wrap(7.0) - (7.0 - TAU)).abs() < 1e-15);
+        assert!((wrap(-100.0) - (-100.0 + 16.0 * TAU)).abs() < 1e-13);
+    }
+
+    #[test]
+    fn quarter_turns_are_exact() {
+        for quarter in -8_i32..=8 {
+            let (sin, cos) = constant_sin_cos((f64::from(quarter) * 90.0).to_radians());
+            let expected = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)]
+                [usize::try_from(quarter.rem_euclid(4)).unwrap()];
+            assert_eq!((sin, cos), expected, "{quarter} quarters");
+        }
+        assert_eq!(constant_sin_cos(0.3), 0.3_f64.sin_cos());
+    }
+
+    #[test]
+    fn half_turn_distance_is_even_and_periodic() {
+        assert!((distance_from_half_turns(PI - 0.1) - 0.1).abs() < 1e-15);
+        assert!((distance_from_half_turns(-0.1) - 0.1).abs() < 1e-15);
+        assert!((distance_from_half_turns(2.0 * PI + 0.2) - 0.2).abs() < 1e-15);
+    }
+}

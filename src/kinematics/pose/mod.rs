@@ -1,0 +1,233 @@
+//! Poses: checking and repairing a 4x4 matrix, quaternions and ZYX Euler angles.
+
+pub(crate) mod angles;
+pub(crate) mod rotation;
+
+use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Translation3, Vector3};
+
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
+use crate::error::{Error, PoseFault};
+#[cfg(feature = "urdf")]
+use crate::kinematics::pose::angles::constant_sin_cos;
+use crate::kinematics::pose::rotation::{Rows3, determinant, gram_excess, nearest_rotation};
+use crate::kinematics::thresholds::{
+    GIMBAL_COS, LAST_ROW_BOUND, QUATERNION_NORM_BOUND, ROTATION_REPAIR_BOUND, ROTATION_ROUNDING,
+};
+
+/// A rigid transform: a rotation matrix and a translation [m].
+pub type Pose = IsometryMatrix3<f64>;
+
+/// How far two poses are apart.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PoseError {
+    /// Distance of the origins [m].
+    pub position: f64,
+    /// Angle of the rotation between the two [rad].
+    pub rotation: f64,
+}
+
+impl PoseError {
+    /// The distance of `a` from `b`.
+    #[must_use]
+    pub fn between(a: &Pose, b: &Pose) -> Self {
+        // |Ra - Rb| (Frobenius) is 2 sqrt(2) sin(angle / 2): accurate for small angles, where the trace is not.
+        let chord = (a.rotation.matrix() - b.rotation.matrix()).norm() / 8.0_f64.sqrt();
+        Self {
+            position: (a.translation.vector - b.translation.vector).norm(),
+            rotation: 2.0 * chord.min(1.0).asin(),
+        }
+    }
+
+    /// The larger of the two numbers, metres against radians.
+    #[must_use]
+    pub fn largest(self) -> f64 {
+        self.position.max(self.rotation)
+    }
+}
+
+/// A pose from a homogeneous 4x4 matrix in row-major order, checked and, where it is a little off, repaired.
+///
+/// # Errors
+///
+/// [`Error::InvalidPose`] when an element is not finite, the last row is not 0 0 0 1, the rotation mirrors or is off orthonormal by
+/// more than [`ROTATION_REPAIR_BOUND`]. A rotation that is off by less becomes the nearest rotation.
+pub fn pose_from_rows(rows: &[f64; 16]) -> Result<Pose, Error> {
+    if let Some(index) = rows.iter().position(|element| !element.is_finite()) {
+        return Err(
+            PoseFault::NotFinite { row: index / 4, column: index % 4, value: rows[index] }.into()
+        );
+    }
+    let &[r00, r01, r02, x, r10, r11, r12, y, r20, r21, r22, z, l0, l1, l2, l3] = rows;
+    if [l0, l1, l2, l3 - 1.0].iter().any(|element| element.abs() > LAST_ROW_BOUND) {
+        return Err(PoseFault::LastRow { row: [l0, l1, l2, l3] }.into());
+    }
+    let rotation = checked_rotation([[r00, r01, r02], [r10, r11, r12], [r20, r21, r22]])?;
+    Ok(IsometryMatrix3::from_parts(Translation3::new(x, y, z), rotation))
+}
+
+/// The pose as a homogeneous 4x4 matrix in row-major order.
+#[must_use]
+pub fn pose_to_rows(pose: &Pose) -> [f64; 16] {
+    let r = pose.rotation.matrix();
+    let p = &pose.translation.vector;
+    [
+        r[(0, 0)],
+        r[(0, 1)],
+        r[(0, 2)],
+        p[0],
+        r[(1, 0)],
+        r[(1, 1)],
+        r[(1, 2)],
+        p[1],
+        r[(2, 0)],
+        r[(2, 1)],
+        r[(2, 2)],
+        p[2],
+        0.0,
+        0.0,
+        0.0,
+        1.0,
+    ]
+}
+
+/// A rotation that is finite, does not mirror and is orthonormal to rounding.
+fn checked_rotation(rows: Rows3) -> Result<Rotation3<f64>, Error> {
+    let deviation =
+        gram_excess(&rows).into_iter().fold(0.0, |most: f64, element| most.max(element.abs()));
+    let determinant = determinant(&rows);
+    if !deviation.is_finite() || deviation > ROTATION_REPAIR_BOUND {
+        return Err(PoseFault::NotOrthonormal { deviation, bound: ROTATION_REPAIR_BOUND }.into());
+    }
+    if determinant < 0.0 {
+        return Err(PoseFault::Mirrored { determinant }.into());
+    }
+    let [[a, b, c], [d, e, f], [g, h, i]] =
+        if deviation <= ROTATION_ROUNDING { rows } else { nearest_rotation(&rows) };
+    Ok(Rotation3::from_matrix_unchecked(Matrix3::new(a, b, c, d, e, f, g, h, i)))
+}
+
+/// A pose that another program made: finite, and its rotation orthonormal, repaired like that of [`pose_from_rows`].
+pub(crate) fn checked_pose(pose: &Pose) -> Result<Pose, Error> {
+    pose_from_rows(&pose_to_rows(pose))
+}
+
+/// A pose from a translation [m] and a quaternion in the order w, x, y, z, which is normalised.
+///
+/// # Errors
+///
+/// [`Error::InvalidPose`] when an element is not finite or the quaternion's norm is off one by more than [`QUATERNION_NORM_BOUND`].
+pub fn pose_from_quaternion(xyz: [f64; 3], wxyz: [f64; 4]) -> Result<Pose, Error> {
+    check_finite("xyz", &xyz)?;
+    check_finite("quaternion", &wxyz)?;
+    let norm = wxyz.iter().map(|element| element * element).sum::<f64>().sqrt();
+    if (norm - 1.0).abs() > QUATERNION_NORM_BOUND {
+        return Err(PoseFault::QuaternionNorm { norm, bound: QUATERNION_NORM_BOUND }.into());
+    }
+    let [w, x, y, z] = wxyz.map(|element| element / norm);
+    let rotation = Matrix3::new(
+        1.0 - 2.0 * (y * y + z * z),
+        2.0 * (x * y - w * z),
+        2.0 * (x * z + w * y),
+        2.0 * (x * y + w * z),
+        1.0 - 2.0 * (x * x + z * z),
+        2.0 * (y * z - w * x),
+        2.0 * (x * z - w * y),
+        2.0 * (y * z + w * x),
+        1.0 - 2.0 * (x * x + y * y),
+    );
+    Ok(IsometryMatrix3::from_parts(
+        Translation3::from(xyz),
+        Rotation3::from_matrix_unchecked(rotation),
+    ))
+}
+
+/// A pose from a translation [m] and ZYX Euler angles rz, ry, rx [rad]: `Rz(rz) Ry(ry) Rx(rx)`.
+///
+/// # Errors
+///
+/// [`Error::InvalidPose`] when an element is not finite.
+pub fn pose_from_euler_zyx(xyz: [f64; 3], zyx: [f64; 3]) -> Result<Pose, Error> {
+    check_finite("xyz", &xyz)?;
+    check_finite("euler_zyx", &zyx)?;
+    Ok(pose_of_zyx(xyz, zyx.map(f64::sin_cos)))
+}
+
+/// The pose of a model's constants, as [`pose_from_euler_zyx`] of finite ones: a quarter turn in text is one exactly.
+#[cfg(feature = "urdf")]
+pub(crate) fn constant_pose(xyz: [f64; 3], zyx: [f64; 3]) -> Pose {
+    pose_of_zyx(xyz, zyx.map(constant_sin_cos))
+}
+
+/// The pose of a translation [m] and the sines and cosines of rz, ry, rx.
+fn pose_of_zyx(xyz: [f64; 3], [(sz, cz), (sy, cy), (sx, cx)]: [(f64, f64); 3]) -> Pose {
+    let rotation = Matrix3::new(
+        cz * cy,
+        cz * sy * sx - sz * cx,
+        cz * sy * cx + sz * sx,
+        sz * cy,
+        sz * sy * sx + cz * cx,
+        sz * sy * cx - cz * sx,
+        -sy,
+        cy * sx,
+        cy * cx,
+    );
+    IsometryMatrix3::from_parts(Translation3::from(xyz), Rotation3::from_matrix_unchecked(rotation))
+}
+
+/// Translation [m] and quaternion w, x, y, z of a pose; w is not negative.
+#[must_use]
+pub fn pose_to_quaternion(pose: &Pose) -> ([f64; 3], [f64; 4]) {
+    let r = pose.rotation.matrix();
+    // Shepperd's method: the largest of the four squares is taken first, the others follow from it without cancellation.
+    let squares = [
+        1.0 + r[(0, 0)] + r[(1, 1)] + r[(2, 2)],
+        1.0 + r[(0, 0)] - r[(1, 1)] - r[(2, 2)],
+        1.0 - r[(0, 0)] + r[(1, 1)] - r[(2, 2)],
+        1.0 - r[(0, 0)] - r[(1, 1)] + r[(2, 2)],
+    ];
+    let (xy, xz, yz) = (r[(0, 1)] + r[(1, 0)], r[(0, 2)] + r[(2, 0)], r[(1, 2)] + r[(2, 1)]);
+    let (wx, wy, wz) = (r[(2, 1)] - r[(1, 2)], r[(0, 2)] - r[(2, 0)], r[(1, 0)] - r[(0, 1)]);
+    let largest = (0..4).fold(0, |best, i| if squares[i] > squares[best] { i } else { best });
+    let q = match largest {
+        0 => [squares[0], wx, wy, wz],
+        1 => [wx, squares[1], xy, xz],
+        2 => [wy, xy, squares[2], yz],
+        _ => [wz, xz, yz, squares[3]],
+    };
+    let norm = q.iter().map(|element| element * element).sum::<f64>().sqrt();
+    let sign = if q[0] < 0.0 { -1.0 } else { 1.0 };
+    (pose.translation.vector.into(), q.map(|element| element * sign / norm))
+}
+
+/// Translation [m] and ZYX Euler angles rz, ry, rx [rad] of a pose, ry in -pi/2 ..= pi/2.
+///
+/// At the gimbal pose (|ry| = pi/2) only `rz - rx` or `rz + rx` is determined: rz is zero there and rx takes all. Next to it the three
+/// angles are taken one from the other, so that they give the pose back to rounding.
+#[must_use]
+pub fn pose_to_euler_zyx(pose: &Pose) -> ([f64; 3], [f64; 3]) {
+    let r = pose.rotation.matrix();
+    let cos_y = r[(0, 0)].hypot(r[(1, 0)]);
+    let (sin_z, cos_z) =
+        if cos_y <= GIMBAL_COS { (0.0, 1.0) } else { (r[(1, 0)] / cos_y, r[(0, 0)] / cos_y) };
+    let rz = sin_z.atan2(cos_z);
+    let ry = (-r[(2, 0)]).atan2(cos_y);
+    let rx = (sin_z * r[(0, 2)] - cos_z * r[(1, 2)]).atan2(cos_z * r[(1, 1)] - sin_z * r[(0, 1)]);
+    (pose.translation.vector.into(), [rz, ry, rx])
+}
+
+fn check_finite(field: &'static str, values: &[f64]) -> Result<(), Error> {
+    match values.iter().position(|value| !value.is_finite()) {
+        Some(index) => Err(PoseFault::FieldNotFinite { field, index, value: values[index] }.into()),
+        None => Ok(()),
+    }
+}
+
+/// The translation by `z` along z.
+pub(crate) fn translation_z(z: f64) -> Pose {
+    IsometryMatrix3::from_parts(
+        Translation3::from(Vector3::new(0.0, 0.0, z)),
+        Rotation3::identity(),
+    )
+}

@@ -1,0 +1,48 @@
+//! How far a 3x3 matrix is from a rotation, and the rotation nearest to it. One matrix or a lane of many: the same arithmetic, the same bits.
+
+/// The rows of a 3x3 matrix.
+pub(crate) type Rows3 = [[f64; 3]; 3];
+
+/// The six different elements of `R^T R - I`.
+#[inline(always)]
+pub(crate) fn gram_excess(r: &Rows3) -> [f64; 6] {
+    let [[a, b, c], [d, e, f], [g, h, i]] = *r;
+    [
+        a * a + d * d + g * g - 1.0,
+        b * b + e * e + h * h - 1.0,
+        c * c + f * f + i * i - 1.0,
+        a * b + d * e + g * h,
+        a * c + d * f + g * i,
+        b * c + e * f + h * i,
+    ]
+}
+
+#[inline(always)]
+pub(crate) fn determinant(r: &Rows3) -> f64 {
+    let [[a, b, c], [d, e, f], [g, h, i]] = *r;
+    a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
+}
+
+/// The nearest rotation to a matrix that is off orthonormal by 1e-5 at most.
+///
+/// Newton's iteration for the orthogonal polar factor, `R <- R (3 I - R^T R) / 2`: the deviation is squared by each of two steps.
+#[inline(always)]
+pub(crate) fn nearest_rotation(r: &Rows3) -> Rows3 {
+    newton_step(&newton_step(r))
+}
+
+#[inline(always)]
+fn newton_step(r: &Rows3) -> Rows3 {
+    let excess = gram_excess(r);
+    [newton_row(r[0], excess), newton_row(r[1], excess), newton_row(r[2], excess)]
+}
+
+/// A row times `(3 I - R^T R) / 2`, which is `I - excess / 2`.
+#[inline(always)]
+fn newton_row([a, b, c]: [f64; 3], [xx, yy, zz, xy, xz, yz]: [f64; 6]) -> [f64; 3] {
+    [
+        a - 0.5 * (a * xx + b * xy + c * xz),
+        b - 0.5 * (a * xy + b * yy + c * yz),
+        c - 0.5 * (a * xz + b * yz + c * zz),
+    ]
+}

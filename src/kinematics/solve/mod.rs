@@ -1,0 +1,7 @@
+//! The inverse of a robot: of one pose, of rows, next to a seed, by configuration, along the redundancy.
+
+pub(crate) mod configuration;
+pub(crate) mod inverse;
+pub(crate) mod redundancy;
+pub(crate) mod self_motion;
+pub(crate) mod self_motion_curve;

@@ -1,0 +1,161 @@
+//! What stands before and behind an arm's geometry: base, shoulder, flange and tool.
+
+use nalgebra::Vector3;
+
+use crate::kinematics::chain::Chain;
+use crate::kinematics::pose::Pose;
+use crate::kinematics::pose::rotation::Rows3;
+use crate::kinematics::structure::joint_map::Placement;
+use crate::lanes::mul_add;
+
+/// The constant factors of eq. 1, which peel base, shoulder height, flange and tool off a pose.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Surroundings {
+    t_shoulder_world: Pose,
+    t_tool_wrist: Pose,
+    pub(crate) seen: Seen,
+}
+
+impl Surroundings {
+    /// Between the base and the tool of a chain.
+    pub(crate) fn new<const M: usize, const N: usize>(
+        placement: &Placement<M>,
+        chain: &Chain<N>,
+    ) -> Self {
+        let t_shoulder_world = (chain.base() * placement.t_base_shoulder).inverse();
+        let t_tool_wrist = (placement.t_wrist_flange * chain.tool()).inverse();
+        Self { t_shoulder_world, t_tool_wrist, seen: Seen::new(&t_shoulder_world, &t_tool_wrist) }
+    }
+
+    /// The wrist frame of a pose, seen from the shoulder (eq. 1).
+    pub(crate) fn wrist_pose(&self, pose: &Pose) -> Pose {
+        self.t_shoulder_world * pose * self.t_tool_wrist
+    }
+
+    /// The tool's centre point of a pose, seen from the shoulder, and the same point in the wrist frame.
+    pub(crate) fn tool_point(&self, pose: &Pose) -> (Vector3<f64>, Vector3<f64>) {
+        let point = self.t_shoulder_world.transform_point(&pose.translation.vector.into());
+        (point.coords, self.t_tool_wrist.inverse().translation.vector)
+    }
+}
+
+const UNTURNED: Rows3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// What peels base, shoulder height, flange and tool off a pose: the constant factors of eq. 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Seen {
+    before: Frame,
+    behind: Frame,
+    /// Whether either turns: turning by nothing changes no bit of what is not zero, and is left out.
+    pub(crate) turns: bool,
+}
+
+impl Seen {
+    fn new(t_shoulder_world: &Pose, t_tool_wrist: &Pose) -> Self {
+        let (before, behind) = (Frame::of(t_shoulder_world), Frame::of(t_tool_wrist));
+        Self { before, behind, turns: before.rotation != UNTURNED || behind.rotation != UNTURNED }
+    }
+
+    /// The wrist in the shoulder's frame, of the tool in the world.
+    #[inline(always)]
+    pub(crate) fn of<const FUSED: bool>(&self, t_world_tool: &Frame) -> Frame {
+        if self.turns {
+            self.turned::<FUSED>(t_world_tool)
+        } else {
+            Frame { rotation: t_world_tool.rotation, origin: self.shifted::<FUSED>(t_world_tool) }
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn turned<const FUSED: bool>(&self, t_world_tool: &Frame) -> Frame {
+        let before = &self.before.rotation;
+        let rotation = product::<FUSED>(before, &t_world_tool.rotation);
+        let origin = moved::<FUSED>(before, t_world_tool.origin, self.before.origin);
+        Frame {
+            rotation: product::<FUSED>(&rotation, &self.behind.rotation),
+            origin: moved::<FUSED>(&rotation, self.behind.origin, origin),
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn shifted<const FUSED: bool>(&self, t_world_tool: &Frame) -> [f64; 3] {
+        let [x, y, z] = t_world_tool.origin;
+        let [dx, dy, dz] = self.before.origin;
+        moved::<FUSED>(&t_world_tool.rotation, self.behind.origin, [x + dx, y + dy, z + dz])
+    }
+}
+
+/// A transform as kernels take it: the rows of its rotation, and its origin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Frame {
+    pub(crate) rotation: Rows3,
+    pub(crate) origin: [f64; 3],
+}
+
+impl Frame {
+    pub(crate) fn of(pose: &Pose) -> Self {
+        Self {
+            rotation: pose.rotation.matrix().transpose().into(),
+            origin: pose.translation.vector.into(),
+        }
+    }
+}
+
+impl Frame {
+    /// This frame, turned back by an angle about its z axis.
+    #[inline(always)]
+    pub(crate) fn unturned<const FUSED: bool>(&self, sin: f64, cos: f64) -> Self {
+        let [a, b, c] = self.rotation;
+        Self {
+            rotation: [
+                turned_back::<FUSED>(a, sin, cos),
+                turned_back::<FUSED>(b, sin, cos),
+                turned_back::<FUSED>(c, sin, cos),
+            ],
+            ..*self
+        }
+    }
+
+    /// This frame times a constant one.
+    #[inline(always)]
+    pub(crate) fn times<const FUSED: bool>(&self, behind: &Self) -> Self {
+        Self {
+            rotation: product::<FUSED>(&self.rotation, &behind.rotation),
+            origin: moved::<FUSED>(&self.rotation, behind.origin, self.origin),
+        }
+    }
+}
+
+#[inline(always)]
+fn turned_back<const FUSED: bool>([x, y, z]: [f64; 3], sin: f64, cos: f64) -> [f64; 3] {
+    [mul_add::<FUSED>(x, cos, -(y * sin)), mul_add::<FUSED>(x, sin, y * cos), z]
+}
+
+#[inline(always)]
+fn product<const FUSED: bool>(a: &Rows3, b: &Rows3) -> Rows3 {
+    [row_times::<FUSED>(a[0], b), row_times::<FUSED>(a[1], b), row_times::<FUSED>(a[2], b)]
+}
+
+/// `r v + p`
+#[inline(always)]
+fn moved<const FUSED: bool>(r: &Rows3, v: [f64; 3], p: [f64; 3]) -> [f64; 3] {
+    [
+        dot_plus::<FUSED>(r[0], v, p[0]),
+        dot_plus::<FUSED>(r[1], v, p[1]),
+        dot_plus::<FUSED>(r[2], v, p[2]),
+    ]
+}
+
+#[inline(always)]
+fn row_times<const FUSED: bool>(a: [f64; 3], b: &Rows3) -> [f64; 3] {
+    [
+        dot_plus::<FUSED>(a, [b[0][0], b[1][0], b[2][0]], 0.0),
+        dot_plus::<FUSED>(a, [b[0][1], b[1][1], b[2][1]], 0.0),
+        dot_plus::<FUSED>(a, [b[0][2], b[1][2], b[2][2]], 0.0),
+    ]
+}
+
+#[inline(always)]
+fn dot_plus<const FUSED: bool>(a: [f64; 3], b: [f64; 3], c: f64) -> f64 {
+    mul_add::<FUSED>(a[0], b[0], mul_add::<FUSED>(a[1], b[1], mul_add::<FUSED>(a[2], b[2], c)))
+}

@@ -1,0 +1,81 @@
+//! What a solve takes for a joint that the pose leaves open.
+
+use crate::kinematics::pose::angles::resized;
+use crate::kinematics::thresholds::SEEDED_FREE;
+
+/// What to take for a joint that the pose does not determine.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FreeChoice<const N: usize> {
+    /// Joint angles [rad], of which the free one's is taken; of the merged branches of a wrist, the one nearer to them. Of an arm of
+    /// seven joints every pose leaves the last one open.
+    pub(crate) q: [f64; N],
+    pub(crate) trust: Trust,
+}
+
+/// How far the pose is trusted next to a singularity, against the joint angles that were given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Trust {
+    /// To rounding.
+    Pose,
+    /// To [`SEEDED_FREE`].
+    Seed,
+    /// As far as it says anything: what it does not contradict is taken from the seed. For poses that follow one another.
+    Path,
+    /// One joint, from 1, is taken from the angles whatever the pose says.
+    Forced {
+        joint: usize,
+        /// Whether a free q1 is that of the shoulder that has the wrist centre behind it.
+        behind: bool,
+    },
+}
+
+impl Trust {
+    /// How close to a singularity the pose counts as silent, beyond rounding [rad, m].
+    pub(crate) fn radius(self) -> f64 {
+        match self {
+            Self::Pose | Self::Forced { .. } => 0.0,
+            Self::Seed | Self::Path => SEEDED_FREE,
+        }
+    }
+
+    pub(crate) fn forces(self, joint: usize) -> bool {
+        matches!(self, Self::Forced { joint: forced, .. } if forced == joint)
+    }
+}
+
+impl<const N: usize> FreeChoice<N> {
+    /// The angle where a joint rests, for a free joint and only where rounding hides it.
+    pub(crate) fn rest(q: [f64; N]) -> Self {
+        Self { q, trust: Trust::Pose }
+    }
+
+    /// The seed's angle for a free joint.
+    pub(crate) fn seed(q: [f64; N]) -> Self {
+        Self { q, trust: Trust::Seed }
+    }
+
+    /// The angle that continues a path, wherever the pose does not contradict it.
+    pub(crate) fn path(q: [f64; N]) -> Self {
+        Self { q, trust: Trust::Path }
+    }
+
+    /// The same choice for an arm of `M` joints, which the caller knows to be as many.
+    pub(crate) fn resized<const M: usize>(&self) -> FreeChoice<M> {
+        FreeChoice { q: resized(&self.q), trust: self.trust }
+    }
+
+    /// Joint 7 of an arm of seven joints, which every pose leaves open; nothing for one of six.
+    pub(crate) fn given(&self) -> f64 {
+        self.q.get(6).copied().unwrap_or(0.0)
+    }
+
+    /// Whether only a pose next to a singularity is asked for more than it says by itself.
+    pub(crate) fn leaves_plain_poses_alone(&self) -> bool {
+        matches!(self.trust, Trust::Pose | Trust::Seed)
+    }
+
+    /// The angle that `q` has for joint `joint`, from 1; for another one only where rounding hides it.
+    pub(crate) fn forced(q: [f64; N], joint: usize, behind: bool) -> Self {
+        Self { q, trust: Trust::Forced { joint, behind } }
+    }
+}

@@ -1,0 +1,30 @@
+//! How the joints and the end frames of an arm come from those of its derivation.
+
+use crate::kinematics::chain::coupling::{coupled, serial};
+use crate::kinematics::pose::Pose;
+use crate::kinematics::pose::angles::wrap;
+
+/// Signs and offsets of the joints, and what stands before and behind the frames of the derivation.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Placement<const N: usize> {
+    pub(crate) signs: [f64; N],
+    pub(crate) offsets: [f64; N],
+    /// Whether axes 2 and 3 are coupled.
+    pub(crate) coupled: bool,
+    pub(crate) t_base_shoulder: Pose,
+    pub(crate) t_wrist_flange: Pose,
+}
+
+impl<const N: usize> Placement<N> {
+    /// The derivation's angles of joint angles `q`.
+    pub(crate) fn theta(&self, q: &[f64; N]) -> [f64; N] {
+        let q = if self.coupled { serial(*q) } else { *q };
+        core::array::from_fn(|i| self.signs[i] * q[i] - self.offsets[i])
+    }
+
+    /// The joint angles of theta, in (-pi, pi] (eq. 19, 25).
+    pub(crate) fn joints(&self, theta: [f64; N]) -> [f64; N] {
+        let q = core::array::from_fn(|i| self.signs[i] * (theta[i] + self.offsets[i]));
+        if self.coupled { coupled(q) } else { q }.map(wrap)
+    }
+}

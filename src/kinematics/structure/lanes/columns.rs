@@ -1,0 +1,120 @@
+//! From theta to the joint's angle, a column of lanes at a time.
+
+use core::f64::consts::{PI, TAU};
+
+use crate::kinematics::answer::status::Status;
+use crate::kinematics::pose::angles::wrap;
+use crate::kinematics::thresholds::LIMIT_TOLERANCE;
+
+/// How the angle of one joint comes from theta, and what its limits ask of it: the same for every lane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct JointColumn {
+    sign: f64,
+    offset: f64,
+    low: f64,
+    high: f64,
+    /// Whether theta may have to be turned over, shifted or wrapped.
+    moves: bool,
+    /// Whether the limits leave anything out of (-pi, pi].
+    limits: bool,
+    /// Whether a full turn of an angle outside the limits may be inside them.
+    turns: bool,
+}
+
+impl JointColumn {
+    /// Of each joint; `differences` are those whose theta is a difference of two angles, from 0. `None` where limits lie so far out that more than one full turn may be needed.
+    pub(crate) fn of<const N: usize>(
+        signs: &[f64; N],
+        offsets: &[f64; N],
+        limits: &[[f64; 2]],
+        differences: &[usize],
+    ) -> Option<[Self; N]> {
+        let limits = <[[f64; 2]; N]>::try_from(limits).ok()?;
+        if limits.iter().any(|[low, high]| *low > PI || *high < -PI) {
+            return None;
+        }
+        Some(core::array::from_fn(|joint| {
+            let (sign, offset) = (signs[joint], wrap(offsets[joint]));
+            let [low, high] = limits[joint];
+            let (low, high) = (low - LIMIT_TOLERANCE, high + LIMIT_TOLERANCE);
+            let limits = low > -PI || high < PI;
+            Self {
+                sign,
+                offset,
+                low,
+                high,
+                moves: differences.contains(&joint) || sign < 0.0 || offset != 0.0,
+                limits,
+                turns: limits && (low <= -PI || high >= PI),
+            }
+        }))
+    }
+
+    /// What is left of the status of a lane that is outside the limits.
+    pub(crate) const OUTSIDE: u64 = !(Status::WITHIN_LIMITS.bits() as u64);
+
+    /// What is left of the status of a lane whose angle of this joint is `angle`, as it is.
+    #[inline(always)]
+    pub(crate) fn limited(self, angle: f64) -> u64 {
+        if self.holds(angle) { u64::MAX } else { Self::OUTSIDE }
+    }
+
+    /// The angle of this joint in (-pi, pi], or the full turn inside the limits (eq. 19, 20), and whether it is inside.
+    #[inline(always)]
+    pub(crate) fn settled(self, theta: f64) -> (f64, bool) {
+        let angle = self.turned(self.moved(theta));
+        (angle, self.holds(angle))
+    }
+
+    /// What is left of the status of a lane with this theta, at whatever turn.
+    #[inline(always)]
+    pub(crate) fn left_of(self, theta: f64) -> u64 {
+        if self.settled(theta).1 { u64::MAX } else { Self::OUTSIDE }
+    }
+
+    /// [`Self::settled`] for many, leaving out what this joint does not need. Takes `WITHIN_LIMITS` from the status of those outside.
+    #[inline(always)]
+    pub(crate) fn settle(self, angles: &mut [f64], status: &mut [u64]) {
+        if self.moves {
+            for angle in angles.iter_mut() {
+                *angle = self.moved(*angle);
+            }
+        } else {
+            for angle in angles.iter_mut() {
+                // The offset is zero: as in `moved`, it makes a plus of a zero's minus.
+                let theta = *angle + self.offset;
+                *angle = if theta <= -PI { PI } else { theta };
+            }
+        }
+        if self.turns {
+            for angle in angles.iter_mut() {
+                *angle = self.turned(*angle);
+            }
+        }
+        if self.limits {
+            for (angle, status) in angles.iter().zip(status) {
+                *status &= if self.holds(*angle) { u64::MAX } else { Self::OUTSIDE };
+            }
+        }
+    }
+
+    /// In (-pi, pi]. Theta is within a turn of zero and the offset within half a turn, so that one turn is enough.
+    #[inline(always)]
+    fn moved(self, theta: f64) -> f64 {
+        let angle = self.sign * (theta + self.offset);
+        let angle = if angle > PI { angle - TAU } else { angle };
+        if angle <= -PI { angle + TAU } else { angle }
+    }
+
+    #[inline(always)]
+    fn turned(self, angle: f64) -> f64 {
+        let (up, down) = (angle + TAU, angle - TAU);
+        let raised = if (angle < self.low) & (up <= self.high) { up } else { angle };
+        if (angle > self.high) & (down >= self.low) { down } else { raised }
+    }
+
+    #[inline(always)]
+    fn holds(self, angle: f64) -> bool {
+        (angle >= self.low) & (angle <= self.high)
+    }
+}

@@ -1,0 +1,313 @@
+//! The first three joints: a shoulder that turns about axis 1 and an elbow in the plane of axes 2 and 3, which are parallel.
+//!
+//! Both families of six-axis arms stand on it. The equation numbers are those of docs/ik_derivation.md.
+
+use nalgebra::Matrix3;
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
+use crate::kinematics::answer::status::Reach;
+use crate::kinematics::pose::Pose;
+use crate::kinematics::structure::branches::Branches;
+use crate::kinematics::structure::free_choice::{FreeChoice, Trust};
+use crate::kinematics::thresholds::{
+    LATERAL_MERGE, POSITION_ROUNDING, REACH_TOLERANCE, SHOULDER_MERGE,
+};
+
+/// The lengths from axis 1 to the end of the forearm, seen from the shoulder (on axis 1, at the height of axis 2).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct PlanarArm {
+    /// Distance of axis 2 from axis 1 [m].
+    pub(crate) a1: f64,
+    /// Elbow offset: distance of the forearm's line from axis 3 [m].
+    pub(crate) a2: f64,
+    /// Distance of the arm's end from the plane through axis 1 [m].
+    pub(crate) b: f64,
+    /// Upper arm [m].
+    pub(crate) c2: f64,
+    /// Forearm, along its line [m].
+    pub(crate) c3: f64,
+    /// Length of the forearm, hypot(a2, c3) [m].
+    pub(crate) k: f64,
+    /// The lengths that a position of the tool is summed from [m].
+    pub(crate) extent: f64,
+}
+
+/// One way for axis 1 to face the wrist centre.
+#[derive(Clone, Copy)]
+pub(crate) struct Shoulder {
+    pub(crate) sin_1: f64,
+    pub(crate) cos_1: f64,
+    /// Wrist centre from axis 1, along the arm's plane [m]; negative behind it.
+    pub(crate) x: f64,
+    /// How far rounding may turn it [rad].
+    pub(crate) error: f64,
+}
+
+/// The shoulder that faces the wrist centre, the one that has it behind, and whether they are one.
+pub(crate) struct Shoulders {
+    pub(crate) front: Shoulder,
+    pub(crate) behind: Shoulder,
+    pub(crate) merged: bool,
+    /// Where they are merged: whether the one behind is kept.
+    pub(crate) keep_behind: bool,
+}
+
+/// One way for the elbow to stand.
+#[derive(Clone, Copy)]
+pub(crate) struct Elbow {
+    pub(crate) theta_2: f64,
+    pub(crate) theta_3: f64,
+    pub(crate) sin_23: f64,
+    pub(crate) cos_23: f64,
+}
+
+/// The elbow in front of and behind the line to the wrist centre; without the second, they are one.
+pub(crate) struct Elbows {
+    pub(crate) front: Elbow,
+    pub(crate) behind: Option<Elbow>,
+    /// How far rounding may turn the forearm [rad].
+    pub(crate) error: f64,
+    /// The wrist centre is on axis 2: the upper arm may point anywhere.
+    pub(crate) free: bool,
+}
+
+/// What a solve on this arm is asked.
+pub(crate) struct Target<'a> {
+    pub(crate) wxy: [f64; 2],
+    pub(crate) wz: f64,
+    pub(crate) rotation: &'a Matrix3<f64>,
+    pub(crate) free: &'a FreeChoice<6>,
+    pub(crate) free_theta: [f64; 6],
+    /// How far beyond reach the arm's end may be and still get the stretched or folded arm [m].
+    pub(crate) tolerance: f64,
+}
+
+impl Shoulder {
+    /// Turned by half a turn: what was in front is behind.
+    pub(crate) fn turned(self) -> Self {
+        Self { sin_1: -self.sin_1, cos_1: -self.cos_1, x: -self.x, error: self.error }
+    }
+}
+
+impl PlanarArm {
+    /// From a1, a2, b, c2 and c3.
+    pub(crate) fn new([a1, a2, b, c2, c3]: [f64; 5]) -> Self {
+        Self { a1, a2, b, c2, c3, k: a2.hypot(c3), extent: 0.0 }
+    }
+
+    /// The same arm among fixed transforms, which add to what a position's rounding grows with.
+    pub(crate) fn between(self, fixed: [&Pose; 4]) -> Self {
+        let fixed: f64 = fixed.map(|pose| pose.translation.vector.norm()).iter().sum();
+        Self { extent: self.a1.abs() + self.b.abs() + self.c2 + self.k + fixed, ..self }
+    }
+
+    /// How far rounding moves a position of this arm at most [m].
+    pub(crate) fn position_rounding(&self) -> f64 {
+        POSITION_ROUNDING * self.extent
+    }
+
+    /// How far rounding commonly moves a position of this arm [m]: a link of lever l turns by this over l.
+    pub(crate) fn direction_rounding(&self) -> f64 {
+        2.0 * f64::EPSILON * self.extent
+    }
+
+    /// The square of m (eq. 8) below which a straight arm reaches the wrist centre too, to half the rounding of a position.
+    pub(crate) fn straight_m2(&self, r: f64) -> f64 {
+        self.position_rounding() * r * self.c2 * self.k
+    }
+
+    pub(crate) fn shoulder_merge(&self) -> f64 {
+        SHOULDER_MERGE.max((self.b.abs() * LATERAL_MERGE).sqrt())
+    }
+
+    /// Angle between upper arm and forearm from stretched, for the angle of axis 3 [rad].
+    pub(crate) fn elbow_angle(&self, theta_3: f64) -> f64 {
+        theta_3 + self.a2.atan2(self.c3)
+    }
+
+    /// Its sine.
+    pub(crate) fn sin_elbow(&self, theta_3: f64) -> f64 {
+        let (sin_3, cos_3) = theta_3.sin_cos();
+        (self.a2 * cos_3 + self.c3 * sin_3) / self.k
+    }
+
+    /// Distance of the arm's end from axis 1 along the plane of the arm [m]; negative behind it.
+    pub(crate) fn x_of_end(&self, theta_2: f64, theta_3: f64) -> f64 {
+        let (sin_2, cos_2) = theta_2.sin_cos();
+        let (sin_3, cos_3) = theta_3.sin_cos();
+        let (sin_23, cos_23) = (sin_2 * cos_3 + cos_2 * sin_3, cos_2 * cos_3 - sin_2 * sin_3);
+        self.a1 + self.c2 * sin_2 + self.c3 * sin_23 + self.a2 * cos_23
+    }
+
+    /// Whether the arm counts as stretched or folded (eq. 8).
+    pub(crate) fn is_straight(&self, theta_3: f64) -> bool {
+        let (c2, k) = (self.c2, self.k);
+        let r = (c2 * c2 + k * k + 2.0 * c2 * k * self.elbow_angle(theta_3).cos()).max(0.0).sqrt();
+        let folded_onto_axis_2 = r <= self.position_rounding();
+        folded_onto_axis_2 || (c2 * k * self.sin_elbow(theta_3)).powi(2) <= self.straight_m2(r)
+    }
+
+    /// The branches of the frame `t_shoulder_wrist` as `fill` makes them from its shoulders; where none reaches, and the nearest one misses by
+    /// less than anyone could see, once more with that forgiven: it gets the stretched or folded arm.
+    pub(crate) fn solve(
+        &self,
+        t_shoulder_wrist: &Pose,
+        free: &FreeChoice<6>,
+        free_theta: [f64; 6],
+        fill: impl Fn(&Shoulders, &Target<'_>) -> Branches<6>,
+    ) -> Branches<6> {
+        let w = t_shoulder_wrist.translation.vector;
+        let rotation = t_shoulder_wrist.rotation.matrix();
+        let mut target = Target {
+            wxy: [w.x, w.y],
+            wz: w.z,
+            rotation,
+            free,
+            free_theta,
+            tolerance: self.position_rounding(),
+        };
+        let shoulders = match self.shoulders(target.wxy, free_theta[0], free.trust) {
+            Ok(shoulders) => shoulders,
+            Err(missed) => return Branches::empty(missed),
+        };
+        let branches = fill(&shoulders, &target);
+        let shortfall = branches.reach.shortfall();
+        if shortfall == 0.0 || shortfall > REACH_TOLERANCE {
+            return branches;
+        }
+        target.tolerance = shortfall;
+        fill(&shoulders, &target)
+    }
+
+    /// Both shoulders that face the point (eq. 2 to 4), with the angle of axis 1 to take where it is free.
+    pub(crate) fn shoulders(
+        &self,
+        [wx, wy]: [f64; 2],
+        free_theta_1: f64,
+        trust: Trust,
+    ) -> Result<Shoulders, Reach> {
+        let (rho, rounding) = (wx.hypot(wy), self.position_rounding());
+        let outside = rho - self.b.abs();
+        if outside < -REACH_TOLERANCE {
+            return Err(Reach::TooNear { shortfall: -outside });
+        }
+        let (sin_1, cos_1) = free_theta_1.sin_cos();
+        if self.b == 0.0 && (trust.forces(1) || rho <= trust.radius().max(rounding)) {
+            let keep_behind = matches!(trust, Trust::Forced { behind: true, .. });
+            let kept =
+                Shoulder { sin_1, cos_1, x: if keep_behind { -rho } else { rho }, error: 0.0 };
+            let (front, behind) =
+                if keep_behind { (kept.turned(), kept) } else { (kept, kept.turned()) };
+            return Ok(Shoulders { front, behind, merged: true, keep_behind });
+        }
+        // With b != 0 a wrist centre on the cylinder of radius b is on it to rounding: x = 0, not the square root of that rounding.
+        let x = if outside <= rounding { 0.0 } else { (outside * (rho + self.b.abs())).sqrt() };
+        let merged = x <= self.shoulder_merge();
+        let error = if merged { 0.0 } else { self.direction_rounding() / x };
+        let front = self.shoulder(wx, wy, x, error);
+        // With b != 0 the two are not opposite: theta_1 differs by pi - 2 atan2(b, x) (eq. 4).
+        let behind = if self.b == 0.0 { front.turned() } else { self.shoulder(wx, wy, -x, error) };
+        let keep_behind = trust != Trust::Pose && front.sin_1 * sin_1 + front.cos_1 * cos_1 < 0.0;
+        Ok(Shoulders { front, behind, merged, keep_behind })
+    }
+
+    /// theta_1 from `Rz(theta_1) (x, b) = (wx, wy)` (eq. 4).
+    fn shoulder(&self, wx: f64, wy: f64, x: f64, error: f64) -> Shoulder {
+        let (sin, cos) = (wy * x - wx * self.b, wx * x + wy * self.b);
+        let norm = sin.hypot(cos);
+        Shoulder { sin_1: sin / norm, cos_1: cos / norm, x, error }
+    }
+
+    /// The shoulder with x moved towards reach as far as rounding leaves it open: next to the cylinder of radius b (eq. 3) a rounding of
+    /// the pose is a large part of x, and a pose at the edge of reach says by that edge which x it has. The arm's end is at `x - a1`, `wz`.
+    pub(crate) fn eased(
+        &self,
+        shoulder: &Shoulder,
+        [wx, wy]: [f64; 2],
+        a1: f64,
+        wz: f64,
+    ) -> Shoulder {
+        let (b, rounding) = (self.b.abs(), self.position_rounding());
+        let x_of = |outside: f64| (outside.max(0.0) * (outside + 2.0 * b)).sqrt();
+        let outside = wx.hypot(wy) - b;
+        let sign = if shoulder.x.is_sign_negative() { -1.0 } else { 1.0 };
+        let mut nearest = f64::INFINITY;
+        for length in [self.c2 + self.k, self.c2 - self.k] {
+            let across = (length * length - wz * wz).max(0.0).sqrt();
+            for x in [a1 - across, a1 + across] {
+                if (x - shoulder.x).abs() < (nearest - shoulder.x).abs() {
+                    nearest = x;
+                }
+            }
+        }
+        let x = (sign * nearest).clamp(x_of(outside - rounding), x_of(outside + rounding));
+        self.shoulder(wx, wy, sign * x, shoulder.error)
+    }
+
+    /// Both elbows of the arm's end at (x, z) from axis 2 in the plane of the arm, or up to `tolerance` beyond reach (eq. 5 to 12); with
+    /// the angle of axis 2 to take where it is free.
+    pub(crate) fn elbows(
+        &self,
+        [x, z]: [f64; 2],
+        tolerance: f64,
+        free_theta_2: f64,
+        trust: Trust,
+    ) -> Result<Elbows, Reach> {
+        let r2 = x * x + z * z;
+        let r = r2.sqrt();
+        let (longest, shortest) = (self.c2 + self.k, (self.c2 - self.k).abs());
+        if r - longest > tolerance {
+            return Err(Reach::TooFar { shortfall: r - longest });
+        }
+        if shortest - r > tolerance {
+            return Err(Reach::TooNear { shortfall: shortest - r });
+        }
+        if r <= trust.radius().max(self.position_rounding()) {
+            let (sin_2, cos_2) = free_theta_2.sin_cos();
+            return Ok(Elbows {
+                front: self.elbow([sin_2, cos_2], [-sin_2, -cos_2]),
+                behind: None,
+                error: 0.0,
+                free: true,
+            });
+        }
+        let (to_longest, to_shortest) = (longest * longest - r2, r2 - shortest * shortest);
+        let m2 = 0.25 * to_longest * to_shortest;
+        if m2 <= self.straight_m2(r) {
+            // Both links lie on the line to the wrist centre, to rounding or up to the tolerance beyond reach.
+            let [dx, dz] = [x / r, z / r];
+            let (upper, forearm) = match (to_longest < to_shortest, self.k > self.c2) {
+                (true, _) => (1.0, 1.0),
+                (false, true) => (-1.0, 1.0),
+                (false, false) => (1.0, -1.0),
+            };
+            let front = self.elbow([upper * dx, upper * dz], [forearm * dx, forearm * dz]);
+            // The arm that made the pose may have been bent by as much as counts as straight, and by rounding on top of that.
+            let error = 2.0 * self.straight_m2(r).sqrt() / (self.k * r);
+            return Ok(Elbows { front, behind: None, error, free: false });
+        }
+        let (m, h2) = (m2.sqrt(), 0.5 * (r2 + (self.c2 - self.k) * (self.c2 + self.k)));
+        let elbow = |m: f64| {
+            let upper = [(h2 * x - m * z) / r2, (h2 * z + m * x) / r2];
+            self.elbow(upper, [(x - upper[0]) / self.k, (z - upper[1]) / self.k])
+        };
+        Ok(Elbows {
+            front: elbow(m),
+            behind: Some(elbow(-m)),
+            error: self.direction_rounding() * (self.c2 / m + 1.0 / r),
+            free: false,
+        })
+    }
+
+    /// The angles of an elbow from the direction of the upper arm, of any length, and that of the forearm, of length one to rounding (eq. 10 to 12).
+    fn elbow(&self, upper: [f64; 2], forearm: [f64; 2]) -> Elbow {
+        let (sin_psi, cos_psi) = (self.a2 / self.k, self.c3 / self.k);
+        // The direction of a forearm that is much shorter than the upper arm is a small difference: it may have lost its length of one.
+        let length = forearm[0].hypot(forearm[1]);
+        let sin_23 = (forearm[0] * cos_psi - forearm[1] * sin_psi) / length;
+        let cos_23 = (forearm[1] * cos_psi + forearm[0] * sin_psi) / length;
+        let theta_2 = upper[0].atan2(upper[1]);
+        Elbow { theta_2, theta_3: sin_23.atan2(cos_23) - theta_2, sin_23, cos_23 }
+    }
+}

@@ -1,0 +1,119 @@
+//! Joint 4: the two triangles of upper arm, forearm and the line from the shoulder to where axes 5 and 6 meet.
+
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
+use super::links::Links;
+use super::target::Target;
+use crate::kinematics::answer::status::Reach;
+use crate::kinematics::structure::recognition::sign_of;
+
+/// One way for the elbow to stand, and where the shoulder is then, seen from the forearm: in the plane of axes 3 and 5.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Elbow {
+    pub(super) sin_4: f64,
+    pub(super) cos_4: f64,
+    /// From axis 5 to the shoulder [m].
+    pub(super) across: f64,
+    /// From axis 6 to the shoulder, along axis 5 [m].
+    pub(super) along: f64,
+    /// Stretched or folded: it stands for both.
+    pub(super) straight: bool,
+    /// How far rounding may turn joint 4 [rad].
+    pub(super) error: f64,
+}
+
+/// The elbow bent forwards and backwards; without the second, they are one.
+pub(super) struct Elbows {
+    pub(super) forwards: Elbow,
+    pub(super) backwards: Option<Elbow>,
+}
+
+impl Links {
+    /// Both elbows for a shoulder at distance r, or up to the tolerance beyond reach (eq. 54 to 57).
+    pub(super) fn elbows(&self, target: &Target<'_>) -> Result<Elbows, Reach> {
+        let (r, r2) = (target.r, target.r * target.r);
+        let (longest, shortest) = (self.upper + self.forearm, (self.upper - self.forearm).abs());
+        if r - longest > target.tolerance {
+            return Err(Reach::TooFar { shortfall: r - longest });
+        }
+        if shortest - r > target.tolerance {
+            return Err(Reach::TooNear { shortfall: shortest - r });
+        }
+        let (to_longest, to_shortest) = (longest * longest - r2, r2 - shortest * shortest);
+        let m2 = 0.25 * to_longest * to_shortest;
+        let onto_itself = r <= target.free.trust.radius().max(self.position_rounding());
+        if onto_itself || m2 <= self.straight_m2(r) {
+            let cos_e = if to_longest < to_shortest { 1.0 } else { -1.0 };
+            // The arm that made the pose may have been bent by as much as counts as straight, and by rounding on top of that.
+            let error = 2.0 * self.straight_m2(r).sqrt() / self.product();
+            let straight =
+                Elbow { straight: true, error, ..self.elbow(self.joint_4([0.0, cos_e])) };
+            return Ok(Elbows { forwards: straight, backwards: None });
+        }
+        let m = m2.sqrt();
+        let cosine = 0.5 * (r2 - self.upper * self.upper - self.forearm * self.forearm);
+        let norm = m.hypot(cosine);
+        let error = self.direction_rounding() * r / m;
+        let bent = |m: f64| Elbow { error, ..self.elbow(self.joint_4([m / norm, cosine / norm])) };
+        Ok(Elbows { forwards: bent(m), backwards: Some(bent(-m)) })
+    }
+
+    /// The elbow turned as far as its rounding leaves it open, so that the wrist just reaches (eq. 67): next to a straight arm a rounding of
+    /// the pose is a large part of joint 4, and a pose at the edge of the wrist's reach says by that edge which joint 4 it has.
+    pub(super) fn eased(&self, elbow: &Elbow, target: &Target<'_>) -> Option<Elbow> {
+        let (high, rho) = (target.seen[1].abs(), target.rho);
+        let to_edge = |elbow: &Elbow| {
+            let [across, along] = self.speeds(elbow);
+            if high < rho {
+                (high - elbow.across.abs()) / (across * sign_of(elbow.across))
+            } else {
+                (rho - elbow.along.abs()) / (along * sign_of(elbow.along))
+            }
+        };
+        self.turned(elbow, to_edge, target)
+    }
+
+    /// The straight elbow bent as far as its rounding leaves it open, so that joint 5 keeps the angle of a seed: a shoulder that is on axis
+    /// 5 to rounding says no more of it.
+    pub(super) fn bent_for_seed(&self, elbow: &Elbow, target: &Target<'_>) -> Option<Elbow> {
+        let open = self.speeds(elbow)[0].abs() * elbow.error;
+        if !elbow.straight || target.free.trust.radius() == 0.0 || elbow.across.abs() > open {
+            return None;
+        }
+        let across = -target.seen[1] / target.free_theta[4].sin();
+        self.turned(elbow, |elbow| (across - elbow.across) / self.speeds(elbow)[0], target)
+    }
+
+    /// The elbow after three steps of joint 4, where that leaves it the same to rounding.
+    fn turned(
+        &self,
+        elbow: &Elbow,
+        step: impl Fn(&Elbow) -> f64,
+        target: &Target<'_>,
+    ) -> Option<Elbow> {
+        let mut turned = *elbow;
+        for _ in 0..3 {
+            let turn = step(&turned);
+            // Not finite where joint 4 does not move the shoulder that way.
+            if turn.is_nan() || turn.abs() > MOST_EASING {
+                return None;
+            }
+            let [sin_4, cos_4] =
+                [turned.sin_4 + turned.cos_4 * turn, turned.cos_4 - turned.sin_4 * turn];
+            let norm = sin_4.hypot(cos_4);
+            turned = Elbow {
+                straight: elbow.straight,
+                error: elbow.error,
+                ..self.elbow([sin_4 / norm, cos_4 / norm])
+            };
+        }
+        let bent = |elbow: &Elbow| self.sin_elbow([elbow.sin_4, elbow.cos_4]) < 0.0;
+        let off = (turned.across.hypot(turned.along) - target.r).abs();
+        ((elbow.straight || bent(&turned) == bent(elbow)) && off <= target.tolerance)
+            .then_some(turned)
+    }
+}
+
+/// Greatest turn of joint 4 that may still be a rounding [rad]: the square root of that of a position, with room.
+const MOST_EASING: f64 = 1e-6;

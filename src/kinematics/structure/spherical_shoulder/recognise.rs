@@ -1,0 +1,95 @@
+//! Finding a spherical shoulder and an offset elbow in a modified Denavit-Hartenberg table.
+
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
+use super::SphericalShoulder;
+use super::links::Links;
+use crate::kinematics::chain::Chain;
+use crate::kinematics::chain::dh::{Mdh, screw_x};
+use crate::kinematics::pose::{Pose, translation_z};
+use crate::kinematics::structure::joint_map::Placement;
+use crate::kinematics::structure::recognition::{
+    Form, Frame, NotRecognised, Relation, angle, axes, rotation_pose, sign_of,
+};
+use crate::kinematics::thresholds::FORM_TOLERANCE;
+
+/// The conditions of a spherical shoulder, an elbow that may be offset either way, and a forearm that ends where axis 6 meets it.
+pub(crate) static FORM: Form = Form {
+    name: "a spherical shoulder and an offset elbow",
+    conditions: &[
+        (Relation::Perpendicular, (1, 2)),
+        (Relation::Perpendicular, (2, 3)),
+        (Relation::Perpendicular, (3, 4)),
+        (Relation::Perpendicular, (4, 5)),
+        (Relation::Perpendicular, (5, 6)),
+        (Relation::Meeting, (1, 2)),
+        (Relation::Meeting, (2, 3)),
+        (Relation::Meeting, (1, 3)),
+        (Relation::Meeting, (5, 6)),
+        (Relation::Coplanar, (3, 5)),
+    ],
+};
+
+/// The table with what is within [`FORM_TOLERANCE`] of the form made exactly so, and the geometry of the arm.
+pub(crate) fn recognise(mdh: &Mdh<7>) -> Result<(Mdh<7>, SphericalShoulder), NotRecognised> {
+    let squared = FORM.square_up(mdh)?;
+    let geometry = measure(&squared)?;
+    Ok((squared, geometry))
+}
+
+/// Reads the geometry off the frames at q = 0 (docs/seven_axes.md, section 8). Lengths come from the rows, so that none is lost to
+/// rounding; the frames give the directions.
+fn measure(mdh: &Mdh<7>) -> Result<SphericalShoulder, NotRecognised> {
+    let rows = &mdh.rows;
+    let chain = Chain::new(Mdh { base: Pose::identity(), ..mdh.clone() });
+    let [f1, f2, f3, f4, f5, f6, _] = chain.link_frames(&[0.0; 7]).0.map(|pose| Frame::of(&pose));
+
+    let sign_1 = if f1.z.z < -FORM_TOLERANCE { -1.0 } else { 1.0 };
+    let (up, side) = (f1.z * sign_1, f2.z);
+    let forward = side.cross(&up);
+
+    let (sign_3, c3) = (sign_of(rows[2].d), rows[2].d.abs());
+    let upper_arm = f3.z * sign_3;
+    let theta_2 = angle(&upper_arm, &up, &forward);
+
+    // Axis 4 stands in front of axis 3; where they meet, joint 4 bends the arm forwards.
+    let offset = rows[3].a.abs() > FORM_TOLERANCE;
+    let front = if offset { f3.x * sign_of(rows[3].a) } else { f4.z.cross(&upper_arm) };
+    let axis_4 = upper_arm.cross(&front);
+    let sign_4 = sign_of(f4.z.dot(&axis_4));
+    let theta_3 = angle(&axis_4, &side, &upper_arm.cross(&side));
+
+    let (sign_5, c5) = (sign_of(rows[4].d), rows[4].d.abs());
+    let forearm = f5.z * sign_5;
+    let theta_4 = angle(&forearm, &upper_arm, &front);
+    let a4 = rows[4].a * f4.x.dot(&axis_4.cross(&forearm));
+
+    let sign_6 = if f6.z.dot(&axis_4) < -FORM_TOLERANCE { -1.0 } else { 1.0 };
+    let axis_6 = f6.z * sign_6;
+    let theta_5 = angle(&axis_6, &axis_4, &forearm.cross(&axis_4));
+
+    let links = Links::new([rows[3].a * f3.x.dot(&front), c3, a4, c5]);
+    let lengths = [
+        ("upper arm (distance of axis 4 from the shoulder)", links.upper),
+        ("forearm (distance of axis 6 from axis 4)", links.forearm),
+    ];
+    FORM.check_lengths(lengths)?;
+    let hand_at_zero = axes(&axis_6.cross(&forearm), &axis_6, &forearm);
+    let t_hand_six = rotation_pose(hand_at_zero.transpose() * axes(&f6.x, &f6.y, &f6.z))
+        * translation_z(rows[5].d);
+    let mut t_base_shoulder = rotation_pose(axes(&forward, &side, &up));
+    t_base_shoulder.translation.vector = f1.origin;
+    Ok(SphericalShoulder {
+        links,
+        placement: Placement {
+            signs: [sign_1, 1.0, sign_3, sign_4, sign_5, sign_6, 1.0],
+            offsets: [0.0, -theta_2, -theta_3, -theta_4, -theta_5, 0.0, -rows[6].theta],
+            coupled: false,
+            t_base_shoulder: mdh.base * t_base_shoulder,
+            t_wrist_flange: mdh.flange,
+        },
+        t_hand_seven: t_hand_six * screw_x(rows[6].alpha, rows[6].a) * translation_z(rows[6].d),
+    }
+    .standing_between(&Pose::identity(), &Pose::identity()))
+}

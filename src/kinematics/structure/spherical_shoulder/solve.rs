@@ -1,0 +1,162 @@
+//! The inverse: up to eight joint vectors of a hand frame.
+
+use core::f64::consts::PI;
+
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
+use super::SphericalShoulder;
+use super::elbow::Elbow;
+use super::shoulder::shoulder;
+use super::target::Target;
+use super::wrist::{Wrist, Wrists};
+use crate::kinematics::answer::solutions::FreeJoint;
+use crate::kinematics::answer::status::{Reach, Status};
+use crate::kinematics::pose::Pose;
+use crate::kinematics::structure::branches::Branches;
+use crate::kinematics::structure::free_choice::FreeChoice;
+use crate::kinematics::thresholds::REACH_TOLERANCE;
+
+/// The bits of a slot (eq. 65).
+const SHOULDER: usize = 4;
+const ELBOW: usize = 2;
+const WRIST: usize = 1;
+
+impl SphericalShoulder {
+    /// Every branch of the hand frame `t_shoulder_hand`, with joint 7 at `free.q[6]`.
+    pub(crate) fn solve_hand(&self, t_shoulder_hand: &Pose, free: &FreeChoice<7>) -> Branches<7> {
+        let mut target =
+            Target::new(t_shoulder_hand, free, self.theta(&free.q), self.links.position_rounding());
+        let mut branches = self.branches(&target);
+        // No branch reaches, the nearest one by less than anyone could see: it gets the stretched or folded arm, or the wrist at its edge,
+        // or both.
+        for _ in 0..2 {
+            let shortfall = branches.reach.shortfall();
+            if shortfall == 0.0 || shortfall > REACH_TOLERANCE {
+                break;
+            }
+            target.tolerance = target.tolerance.max(shortfall);
+            branches = self.branches(&target);
+        }
+        branches
+    }
+
+    fn branches(&self, target: &Target<'_>) -> Branches<7> {
+        let mut branches = Branches::empty(Reach::Reached);
+        let elbows = match self.links.elbows(target) {
+            Ok(elbows) => elbows,
+            Err(missed) => return Branches::empty(missed),
+        };
+        branches.reach = self.fill(&mut branches, 0, &elbows.forwards, target);
+        if let Some(backwards) = &elbows.backwards {
+            let missed = self.fill(&mut branches, ELBOW, backwards, target);
+            if missed.shortfall() < branches.reach.shortfall() {
+                branches.reach = missed;
+            }
+        } else {
+            merge(
+                &mut branches,
+                [0, WRIST, SHOULDER, SHOULDER + WRIST].map(|slot| (slot, slot + ELBOW)),
+            );
+        }
+        branches
+    }
+
+    /// Puts the branches of one elbow into slots `base`, + 1, + 4 and + 5.
+    fn fill(
+        &self,
+        branches: &mut Branches<7>,
+        base: usize,
+        elbow: &Elbow,
+        target: &Target<'_>,
+    ) -> Reach {
+        let (elbow, wrists) = match self.wrists(elbow, target) {
+            Ok(reached) => reached,
+            Err(shortfall) => return Reach::TooFar { shortfall },
+        };
+        let mut flags = Status::empty();
+        flags.set(Status::ELBOW, elbow.straight);
+        flags.set(Status::WRIST, wrists.second.is_none());
+        for wrist in [Some(wrists.first), wrists.second].into_iter().flatten() {
+            let slot = if wrist.fifth.cos < 0.0 { base + WRIST } else { base };
+            self.place(branches, slot, flags, &elbow, (&wrist, &wrists), target);
+        }
+        if wrists.second.is_none() {
+            let kept = if branches.exists(base + WRIST) { base + WRIST } else { base };
+            merge(branches, [(kept, kept ^ WRIST), (kept + SHOULDER, (kept ^ WRIST) + SHOULDER)]);
+        }
+        Reach::Reached
+    }
+
+    /// Both branches of the wrist, with the elbow that they were found for.
+    fn wrists(&self, elbow: &Elbow, target: &Target<'_>) -> Result<(Elbow, Wrists), f64> {
+        let elbow = self.links.bent_for_seed(elbow, target).unwrap_or(*elbow);
+        let missed = match self.links.wrists(&elbow, target) {
+            Ok(wrists) => return Ok((elbow, wrists)),
+            Err(missed) => missed,
+        };
+        let eased = self.links.eased(&elbow, target).ok_or(missed)?;
+        let wrists = self.links.wrists(&eased, target).map_err(|_| missed)?;
+        Ok((eased, wrists))
+    }
+
+    /// Puts both shoulders of one elbow and wrist into slots `slot` and + 4.
+    fn place(
+        &self,
+        branches: &mut Branches<7>,
+        slot: usize,
+        mut flags: Status,
+        elbow: &Elbow,
+        (wrist, wrists): (&Wrist, &Wrists),
+        target: &Target<'_>,
+    ) {
+        let error = elbow.error * self.links.forearm / target.r.max(self.links.position_rounding())
+            + wrists.error;
+        let shoulder = shoulder(elbow, wrist, target, error);
+        flags.set(Status::SHOULDER, shoulder.merged);
+        let [theta_1, theta_2, theta_3] = shoulder.theta;
+        let joints = |theta_1, theta_2, theta_3| {
+            let hand = [elbow.sin_4.atan2(elbow.cos_4), wrist.fifth.theta, wrist.sixth.theta];
+            let mut q = self.placement.joints([
+                theta_1,
+                theta_2,
+                theta_3,
+                hand[0],
+                hand[1],
+                hand[2],
+                target.free_theta[6],
+            ]);
+            q[6] = target.free.q[6];
+            q
+        };
+        // A free theta_1 that was given may leave theta_2 negative: then the flipped slot is the one that is kept.
+        let (kept, flipped) =
+            if theta_2 < 0.0 { (slot + SHOULDER, slot) } else { (slot, slot + SHOULDER) };
+        branches.q[kept] = Some(joints(theta_1, theta_2, theta_3));
+        branches.free[kept] =
+            if shoulder.free { Some(self.free_shoulder(theta_2)) } else { wrists.free };
+        (branches.flags[kept], branches.flags[flipped]) = (flags, flags);
+        if shoulder.merged {
+            branches.flags[flipped] |= Status::MERGED;
+        } else {
+            branches.q[flipped] = Some(joints(theta_1 + PI, -theta_2, theta_3 + PI));
+            branches.free[flipped] = wrists.free;
+        }
+    }
+
+    /// What the pose leaves open at theta_2 = 0 or 180 deg, in terms of the joints.
+    fn free_shoulder(&self, theta_2: f64) -> FreeJoint {
+        let sum =
+            (theta_2.cos() > 0.0) == (self.placement.signs[0] * self.placement.signs[2] > 0.0);
+        if sum { FreeJoint::ShoulderSum } else { FreeJoint::ShoulderDifference }
+    }
+}
+
+/// Flags slots whose solution another slot holds.
+fn merge<const N: usize>(branches: &mut Branches<7>, pairs: [(usize, usize); N]) {
+    for (kept, merged) in pairs {
+        if branches.exists(kept) {
+            branches.flags[merged] = branches.flags[kept] | Status::MERGED;
+        }
+    }
+}

@@ -1,0 +1,39 @@
+//! What a solve is asked: where the hand stands, and what to take where it leaves a joint open.
+
+use nalgebra::Matrix3;
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
+use crate::kinematics::pose::Pose;
+use crate::kinematics::structure::free_choice::FreeChoice;
+
+/// What the branches of one pose are made from.
+pub(super) struct Target<'a> {
+    /// The hand in the shoulder's frame.
+    pub(super) rotation: &'a Matrix3<f64>,
+    /// The shoulder in the hand's frame (eq. 53) [m].
+    pub(super) seen: [f64; 3],
+    /// Distance of the shoulder from axis 6 [m].
+    pub(super) rho: f64,
+    /// Distance of the shoulder from where axes 5 and 6 meet [m].
+    pub(super) r: f64,
+    pub(super) free: &'a FreeChoice<7>,
+    pub(super) free_theta: [f64; 7],
+    /// How far from where the arm can bring it the shoulder may be and still be reached [m].
+    pub(super) tolerance: f64,
+}
+
+impl<'a> Target<'a> {
+    pub(super) fn new(
+        t_shoulder_hand: &'a Pose,
+        free: &'a FreeChoice<7>,
+        free_theta: [f64; 7],
+        tolerance: f64,
+    ) -> Self {
+        let rotation = t_shoulder_hand.rotation.matrix();
+        let w = t_shoulder_hand.translation.vector;
+        let [x, y, z] = (-rotation.tr_mul(&w)).into();
+        let rho: f64 = x.hypot(z);
+        Self { rotation, seen: [x, y, z], rho, r: w.norm(), free, free_theta, tolerance }
+    }
+}

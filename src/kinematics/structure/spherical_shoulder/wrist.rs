@@ -1,0 +1,133 @@
+//! Joints 5 and 6: two ways to turn the forearm until the shoulder stands where the hand sees it.
+
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
+use super::elbow::Elbow;
+use super::links::Links;
+use super::target::Target;
+use super::turn::Turn;
+use crate::kinematics::answer::solutions::FreeJoint;
+use crate::kinematics::structure::recognition::sign_of;
+use crate::kinematics::thresholds::SHOULDER_MERGE;
+
+/// One way to turn joints 5 and 6.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Wrist {
+    pub(super) fifth: Turn,
+    pub(super) sixth: Turn,
+}
+
+/// Both ways; without the second, they are one.
+#[derive(Debug)]
+pub(super) struct Wrists {
+    pub(super) first: Wrist,
+    pub(super) second: Option<Wrist>,
+    /// The joint that the pose leaves open.
+    pub(super) free: Option<FreeJoint>,
+    /// How far rounding may turn the upper arm [rad].
+    pub(super) error: f64,
+}
+
+impl Links {
+    /// Both branches of the wrist (eq. 60 to 62), or how far the shoulder is from where this elbow can bring it [m].
+    pub(super) fn wrists(&self, elbow: &Elbow, target: &Target<'_>) -> Result<Wrists, f64> {
+        let (across, along, rho, high) =
+            (elbow.across.abs(), elbow.along.abs(), target.rho, target.seen[1].abs());
+        // Both are the same number; each is accurate where the distance that it is made from is the larger one.
+        let aside_2 = if high < rho {
+            (across - high) * (across + high)
+        } else {
+            (rho - along) * (rho + along)
+        };
+        let off = (across - high).hypot(rho - along);
+        let rounding = self.position_rounding();
+        if aside_2 < 0.0 && off > target.tolerance.max(rounding) {
+            return Err(off);
+        }
+        let aside = if off <= rounding { 0.0 } else { aside_2.max(0.0).sqrt() };
+        let (on_axis_5, on_axis_6) = (across <= SHOULDER_MERGE, rho <= SHOULDER_MERGE);
+        let error = self.wrist_error(elbow, target, aside);
+        if on_axis_5 || on_axis_6 {
+            let first = if on_axis_5 {
+                on_5(elbow, target, aside, rounding, on_axis_6)
+            } else {
+                on_6(elbow, target, aside, rounding)
+            };
+            let free = Some(if on_axis_5 { FreeJoint::Forearm } else { FreeJoint::Hand });
+            return Ok(Wrists { first, second: None, free, error });
+        }
+        let both = |aside: f64| Wrist {
+            fifth: fifth(elbow, target, aside),
+            sixth: sixth(elbow, target, aside),
+        };
+        Ok(Wrists {
+            first: both(aside),
+            second: (aside > 0.0).then(|| both(-aside)),
+            free: None,
+            error,
+        })
+    }
+
+    /// How far rounding may turn the upper arm about the line from the shoulder to where axes 5 and 6 meet [rad].
+    fn wrist_error(&self, elbow: &Elbow, target: &Target<'_>, aside: f64) -> f64 {
+        let (across, rho) = (elbow.across.abs(), target.rho);
+        let [speed_across, speed_along] = self.speeds(elbow);
+        let (lever, speed) =
+            if target.seen[1].abs() < rho { (across, speed_across) } else { (rho, speed_along) };
+        let moved = self.direction_rounding() + speed.abs() * elbow.error;
+        // The root of what rounding adds to the square of `aside`, from zero or from where it stands.
+        let aside_error = (lever * moved / aside).min((2.0 * lever * moved).sqrt());
+        match (across <= SHOULDER_MERGE, rho <= SHOULDER_MERGE) {
+            (true, true) => 0.0,
+            (true, false) => moved / rho,
+            (false, true) => moved / across,
+            (false, false) => aside_error * (1.0 / across + 1.0 / rho),
+        }
+    }
+}
+
+/// Joint 5 from how far aside of the plane of axes 5 and 6 the shoulder stands (eq. 61).
+fn fifth(elbow: &Elbow, target: &Target<'_>, aside: f64) -> Turn {
+    let side = sign_of(elbow.across);
+    Turn::towards(-target.seen[1] * side, aside * side)
+}
+
+/// Joint 6 from the same (eq. 62).
+fn sixth(elbow: &Elbow, target: &Target<'_>, aside: f64) -> Turn {
+    let [x, _, z] = target.seen;
+    Turn::towards(aside * z - elbow.along * x, aside * x + elbow.along * z)
+}
+
+/// The shoulder is on axis 5: joint 5 is free, and joint 6 makes good for it.
+fn on_5(elbow: &Elbow, target: &Target<'_>, aside: f64, rounding: f64, on_axis_6: bool) -> Wrist {
+    let (trust, free, across) = (target.free.trust, target.free_theta[4], elbow.across.abs());
+    let fifth = if trust.forces(5) || across <= trust.radius().max(rounding) {
+        Turn::of(free)
+    } else {
+        Turn::told([fifth(elbow, target, aside), fifth(elbow, target, -aside)], free, across, trust)
+    };
+    let sixth = if on_axis_6 && (trust.forces(6) || target.rho <= trust.radius().max(rounding)) {
+        Turn::of(target.free_theta[5])
+    } else {
+        sixth(elbow, target, elbow.across * fifth.cos)
+    };
+    Wrist { fifth, sixth }
+}
+
+/// The shoulder is on axis 6: joint 6 is free, and joint 5 makes good for it.
+fn on_6(elbow: &Elbow, target: &Target<'_>, aside: f64, rounding: f64) -> Wrist {
+    let (trust, free) = (target.free.trust, target.free_theta[5]);
+    let sixth = if trust.forces(6) || target.rho <= trust.radius().max(rounding) {
+        Turn::of(free)
+    } else {
+        Turn::told(
+            [sixth(elbow, target, aside), sixth(elbow, target, -aside)],
+            free,
+            target.rho,
+            trust,
+        )
+    };
+    let [x, _, z] = target.seen;
+    Wrist { fifth: fifth(elbow, target, x * sixth.cos + z * sixth.sin), sixth }
+}

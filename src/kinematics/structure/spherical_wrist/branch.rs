@@ -1,0 +1,143 @@
+//! One branch of the arm with both of its wrists, in arithmetic alone: what runs in lanes.
+//!
+//! The equations are those of `arm` and `wrist`, without a division: directions stay as long as they come out, for an arc tangent does not
+//! mind. A branch that is next to a singularity or to the edge of reach is not plain, and those modules decide.
+
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
+use crate::kinematics::structure::end_frames::Frame;
+use crate::kinematics::structure::lanes::Direction;
+use crate::kinematics::structure::planar_arm::PlanarArm;
+use crate::kinematics::thresholds::{
+    PLAIN_FOREARM, PLAIN_REACH, PLAIN_SHOULDER, PLAIN_WRIST_SIN, REACH_TOLERANCE, SHOULDER_MERGE,
+};
+use crate::lanes::mul_add;
+
+/// The constants of an arm that a branch is calculated with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Constants {
+    a1: f64,
+    b: f64,
+    k: f64,
+    longest2: f64,
+    shortest2: f64,
+    /// (c2 - k) (c2 + k)
+    difference: f64,
+    sin_psi: f64,
+    cos_psi: f64,
+    /// Least x of the shoulder [m] and least size of m^2 (eq. 8) [m^4] of a plain branch.
+    plain_x: f64,
+    plain_m2: f64,
+}
+
+impl Constants {
+    pub(super) fn of(arm: &PlanarArm) -> Self {
+        let (c2, k, extent) = (arm.c2, arm.k, arm.extent);
+        let plain_x = (PLAIN_SHOULDER * extent).max(10.0 * SHOULDER_MERGE);
+        let plain_m2 = 2.0 * (PLAIN_REACH * extent).max(10.0 * REACH_TOLERANCE) * extent * c2 * k;
+        // How far rounding may turn the forearm of a plain branch, with the least r that such an m leaves (eq. 7 and 8).
+        let (least_m, least_r) = (plain_m2.sqrt(), 2.0 * plain_m2.sqrt() / (c2 + k));
+        let error = arm.direction_rounding() * (1.0 / plain_x + c2 / least_m + 1.0 / least_r);
+        Self {
+            a1: arm.a1,
+            b: arm.b,
+            k,
+            longest2: (c2 + k) * (c2 + k),
+            shortest2: (c2 - k) * (c2 - k),
+            difference: (c2 - k) * (c2 + k),
+            sin_psi: arm.a2 / k,
+            cos_psi: arm.c3 / k,
+            // Where that could hide a wrist's branches, the arm being minute in its surroundings, nothing is plain; nor where the forearm is
+            // so short that eq. 10 loses its length.
+            plain_x: if error <= 0.1 * PLAIN_WRIST_SIN && k >= PLAIN_FOREARM * c2 {
+                plain_x
+            } else {
+                f64::INFINITY
+            },
+            plain_m2,
+        }
+    }
+}
+
+/// One branch of the arm: the directions of its angles, not a number where it does not reach.
+pub(super) struct Branch {
+    pub(super) theta_1: Direction,
+    pub(super) theta_2: Direction,
+    pub(super) theta_23: Direction,
+    pub(super) theta_4: Direction,
+    /// With theta_5 in 0 ..= pi; the flipped wrist follows by eq. 18.
+    pub(super) theta_5: Direction,
+    pub(super) theta_6: Direction,
+    pub(super) reached: bool,
+    /// Whether this is all there is to say of the branch.
+    pub(super) plain: bool,
+}
+
+/// The branch with `shoulder` (1, or -1 with the wrist centre behind axis 1) and `elbow` (1, or -1 behind the lower arm) of a wrist frame;
+/// `LATERAL` where the arm has a lateral offset.
+#[inline(always)]
+pub(super) fn branch<const FUSED: bool, const LATERAL: bool>(
+    arm: &Constants,
+    t_shoulder_wrist: &Frame,
+    shoulder: f64,
+    elbow: f64,
+) -> Branch {
+    let Frame { rotation: r, origin: [wx, wy, wz] } = *t_shoulder_wrist;
+    // Axis 1 (eq. 2 to 4); sine and cosine times `length_1`.
+    let rho = mul_add::<FUSED>(wx, wx, wy * wy).sqrt();
+    let size = if LATERAL { ((rho - arm.b.abs()) * (rho + arm.b.abs())).sqrt() } else { rho };
+    let x = shoulder * size;
+    let (sin_1, cos_1, length_1) = if LATERAL {
+        (mul_add::<FUSED>(wy, x, -(wx * arm.b)), mul_add::<FUSED>(wx, x, wy * arm.b), rho * rho)
+    } else {
+        (shoulder * wy, shoulder * wx, rho)
+    };
+    // The elbow (eq. 5 to 12); upper arm times r2, forearm times `length_23`.
+    let x = x - arm.a1;
+    let r2 = mul_add::<FUSED>(x, x, wz * wz);
+    let m2 = 0.25 * ((arm.longest2 - r2) * (r2 - arm.shortest2));
+    let reached = m2 >= 0.0;
+    let m = elbow * m2.sqrt();
+    let h2 = 0.5 * (r2 + arm.difference);
+    let (upper_x, upper_z) = (mul_add::<FUSED>(h2, x, -(m * wz)), mul_add::<FUSED>(h2, wz, m * x));
+    let (forearm_x, forearm_z) =
+        (mul_add::<FUSED>(r2, x, -upper_x), mul_add::<FUSED>(r2, wz, -upper_z));
+    let sin_23 = mul_add::<FUSED>(forearm_x, arm.cos_psi, -(forearm_z * arm.sin_psi));
+    let cos_23 = mul_add::<FUSED>(forearm_z, arm.cos_psi, forearm_x * arm.sin_psi);
+    let length_23 = r2 * arm.k;
+    // The wrist (eq. 14 to 17); M times `length`.
+    let length = length_1 * length_23;
+    let (down, along) = (length_1 * sin_23, length_1 * cos_23);
+    let n0 = turned::<FUSED>(r[0], cos_1, r[1], sin_1);
+    let m0 = turned::<FUSED>(n0, cos_23, r[2], -down);
+    let n1 = turned::<FUSED>(r[1], cos_1, r[0], -sin_1);
+    let m1 = [n1[0] * length_23, n1[1] * length_23, n1[2] * length_23];
+    let m22 = mul_add::<FUSED>(n0[2], sin_23, r[2][2] * along);
+    let sin_5 = mul_add::<FUSED>(m0[2], m0[2], m1[2] * m1[2]).sqrt();
+    Branch {
+        theta_1: [sin_1, if reached { cos_1 } else { f64::NAN }],
+        theta_2: [upper_x, upper_z],
+        theta_23: [sin_23, cos_23],
+        theta_4: [m1[2], m0[2]],
+        theta_5: [sin_5, m22],
+        theta_6: [
+            mul_add::<FUSED>(m0[2], m1[0], -(m1[2] * m0[0])),
+            mul_add::<FUSED>(m0[2], m1[1], -(m1[2] * m0[1])),
+        ],
+        reached,
+        plain: (size >= arm.plain_x)
+            & (m2.abs() >= arm.plain_m2)
+            & (!reached | (sin_5 >= PLAIN_WRIST_SIN * length)),
+    }
+}
+
+/// `a p + b s`, element by element.
+#[inline(always)]
+fn turned<const FUSED: bool>(a: [f64; 3], p: f64, b: [f64; 3], s: f64) -> [f64; 3] {
+    [
+        mul_add::<FUSED>(a[0], p, b[0] * s),
+        mul_add::<FUSED>(a[1], p, b[1] * s),
+        mul_add::<FUSED>(a[2], p, b[2] * s),
+    ]
+}

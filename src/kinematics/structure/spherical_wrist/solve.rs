@@ -1,0 +1,125 @@
+//! The inverse: up to eight joint vectors of a wrist frame.
+
+use core::f64::consts::PI;
+
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
+use super::SphericalWrist;
+use crate::kinematics::answer::solutions::FreeJoint;
+use crate::kinematics::answer::status::{Reach, Status};
+use crate::kinematics::pose::Pose;
+use crate::kinematics::structure::branches::Branches;
+use crate::kinematics::structure::free_choice::FreeChoice;
+use crate::kinematics::structure::planar_arm::{Elbow, Shoulder, Shoulders, Target};
+
+impl SphericalWrist {
+    /// Every branch of the wrist frame `t_shoulder_wrist`.
+    pub(crate) fn solve(&self, t_shoulder_wrist: &Pose, free: &FreeChoice<6>) -> Branches<6> {
+        let free_theta = self.theta(&free.q);
+        self.planar.solve(t_shoulder_wrist, free, free_theta, |shoulders, target| {
+            self.branches(shoulders, target)
+        })
+    }
+
+    fn branches(&self, shoulders: &Shoulders, target: &Target<'_>) -> Branches<6> {
+        let mut branches = Branches::empty(Reach::Reached);
+        let mut fill = |base: usize, shoulder: &Shoulder| match self.fill(
+            &mut branches,
+            base,
+            shoulder,
+            target,
+        ) {
+            missed if missed == Reach::Reached || self.planar.b == 0.0 => missed,
+            missed => match self.fill(
+                &mut branches,
+                base,
+                &self.planar.eased(shoulder, target.wxy, self.planar.a1, target.wz),
+                target,
+            ) {
+                Reach::Reached => Reach::Reached,
+                _ => missed,
+            },
+        };
+        let (front, behind) = (fill(0, &shoulders.front), fill(4, &shoulders.behind));
+        branches.reach = if behind.shortfall() < front.shortfall() { behind } else { front };
+        if shoulders.merged {
+            branches.merge_shoulders(shoulders.keep_behind, self.planar.b == 0.0);
+        }
+        branches
+    }
+
+    /// Puts the four branches of one shoulder into slots `base` ..= `base` + 3 (eq. 13 and 18).
+    fn fill(
+        &self,
+        branches: &mut Branches<6>,
+        base: usize,
+        shoulder: &Shoulder,
+        target: &Target<'_>,
+    ) -> Reach {
+        let end = [shoulder.x - self.planar.a1, target.wz];
+        let elbows = match self.planar.elbows(
+            end,
+            target.tolerance,
+            target.free_theta[1],
+            target.free.trust,
+        ) {
+            Ok(elbows) => elbows,
+            Err(missed) => return missed,
+        };
+        let merged = if elbows.behind.is_none() { Status::ELBOW } else { Status::empty() };
+        let error = shoulder.error + elbows.error;
+        for (elbow, slot) in [(Some(elbows.front), base), (elbows.behind, base + 2)] {
+            let Some(elbow) = elbow else {
+                for twin in [slot, slot + 1] {
+                    branches.flags[twin] = branches.flags[base] | Status::MERGED;
+                }
+                continue;
+            };
+            let Elbow { theta_2, theta_3, .. } = elbow;
+            let (shoulder, wrist) = self.shoulder_and_wrist(shoulder, &elbow, target, error);
+            let theta_1 = shoulder.sin_1.atan2(shoulder.cos_1);
+            let [theta_4, theta_5, theta_6] = wrist.theta;
+            let flags = if wrist.merged { merged | Status::WRIST } else { merged };
+            // A free theta_4 that was given may leave theta_5 negative: then the flipped slot is the one that is kept.
+            let (kept, flipped) = if theta_5 < 0.0 { (slot + 1, slot) } else { (slot, slot + 1) };
+            branches.q[kept] =
+                Some(self.placement.joints([theta_1, theta_2, theta_3, theta_4, theta_5, theta_6]));
+            branches.flags[kept] = flags;
+            branches.flags[flipped] = flags;
+            if elbows.free {
+                let upper =
+                    if self.placement.coupled { FreeJoint::UpperCoupled } else { FreeJoint::Upper };
+                (branches.free[kept], branches.free[flipped]) = (Some(upper), Some(upper));
+            }
+            if wrist.free {
+                branches.free[kept] = Some(self.free_wrist(theta_5));
+            }
+            if wrist.merged {
+                branches.flags[flipped] |= Status::MERGED;
+            } else {
+                branches.q[flipped] = Some(self.placement.joints([
+                    theta_1,
+                    theta_2,
+                    theta_3,
+                    theta_4 + PI,
+                    -theta_5,
+                    theta_6 + PI,
+                ]));
+            }
+        }
+        Reach::Reached
+    }
+
+    /// What stays fixed where axes 4 and 6 act as one, as they nearly do next to a joint 5 like that of `q`.
+    pub(crate) fn wrist_pair(&self, q: &[f64; 6]) -> FreeJoint {
+        self.free_wrist(self.theta(q)[4])
+    }
+
+    /// What the pose leaves open at theta_5 = 0 or 180 deg, in terms of the joints.
+    fn free_wrist(&self, theta_5: f64) -> FreeJoint {
+        let sum =
+            (theta_5.cos() > 0.0) == (self.placement.signs[3] * self.placement.signs[5] > 0.0);
+        if sum { FreeJoint::WristSum } else { FreeJoint::WristDifference }
+    }
+}

@@ -1,0 +1,67 @@
+//! The plane of the arm, turned about axis 1 as far as rounding leaves it open.
+//!
+//! Next to the shoulder's singularity a rounding of the wrist's distance from axis 1 turns the plane by much more. A pose at the edge of reach
+//! or at the wrist's singularity says by that which plane it has.
+
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
+use super::ThreeParallel;
+use super::wrist::{seen_from_plane, sin_5};
+use crate::kinematics::structure::planar_arm::{Shoulder, Target};
+
+/// The planes that rounding leaves open: those turned from the shoulder's by up to `open` either way [rad] (eq. 42).
+pub(super) struct OpenPlane<'a> {
+    shoulder: &'a Shoulder,
+    wxy: [f64; 2],
+    pub(super) open: f64,
+    /// (m10, m12), and what a turn of the plane moves it along, (m00, m02).
+    told: [f64; 2],
+    moved: [f64; 2],
+}
+
+impl<'a> OpenPlane<'a> {
+    pub(super) fn of(arm: &ThreeParallel, shoulder: &'a Shoulder, target: &Target<'_>) -> Self {
+        let (x, rounding) = (shoulder.x.abs(), arm.planar.position_rounding());
+        let open = 2.0 * rounding / (x + (x * x + 2.0 * arm.planar.b * rounding).sqrt());
+        let m = seen_from_plane(shoulder, target.rotation);
+        Self {
+            shoulder,
+            wxy: target.wxy,
+            open,
+            told: [m[(1, 0)], m[(1, 2)]],
+            moved: [m[(0, 0)], m[(0, 2)]],
+        }
+    }
+
+    /// The shoulder turned by `angle` about axis 1, the wrist where it was.
+    pub(super) fn turned(&self, angle: f64) -> Shoulder {
+        let ((sin, cos), Shoulder { sin_1, cos_1, .. }) = (angle.sin_cos(), *self.shoulder);
+        let (sin_1, cos_1) = (sin_1 * cos + cos_1 * sin, cos_1 * cos - sin_1 * sin);
+        Shoulder { sin_1, cos_1, x: self.wxy[0] * cos_1 + self.wxy[1] * sin_1, ..*self.shoulder }
+    }
+
+    /// The shoulder turned to where the wrist is nearest to its singularity, and sin theta_5 there (eq. 43).
+    pub(super) fn nearest_to_wrist(&self, target: &Target<'_>) -> (Shoulder, f64) {
+        let Self { told: [m10, m12], moved: [m00, m02], open, .. } = *self;
+        let to_wrist = (m10 * m00 + m12 * m02) / (m00 * m00 + m02 * m02);
+        let nearest = self.turned(to_wrist.clamp(-open, open));
+        let sin_5 = sin_5(&seen_from_plane(&nearest, target.rotation));
+        (nearest, sin_5)
+    }
+
+    /// The angle to turn by so that the pose tells `theta_6`, or half a turn from there; none where it is not open so far (eq. 44).
+    pub(super) fn telling(&self, theta_6: f64) -> Option<f64> {
+        let (sin_6, cos_6) = theta_6.sin_cos();
+        let Self { told: [m10, m12], moved: [m00, m02], .. } = self;
+        let angle = (m12 * cos_6 - m10 * sin_6) / (m02 * cos_6 - m00 * sin_6);
+        (angle.abs() <= self.open).then_some(angle)
+    }
+
+    /// How far the end of the planar arm may move at most when the plane is turned as far as it is open [m].
+    pub(super) fn lever(&self, arm: &ThreeParallel) -> f64 {
+        let sin_5 = self.told[0].hypot(self.told[1]);
+        let phi = if sin_5 > 2.0 * self.open { 2.0 * self.open / sin_5 } else { 2.0 };
+        self.open * self.wxy[0].hypot(self.wxy[1]) + arm.d5 * phi
+    }
+}

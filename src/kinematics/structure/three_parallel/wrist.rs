@@ -1,0 +1,107 @@
+//! The wrist: the angles of joints 5 and 6, and the direction of axis 5 in the plane of the arm.
+
+use core::f64::consts::PI;
+
+use nalgebra::Matrix3;
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
+use crate::kinematics::pose::angles::wrap;
+use crate::kinematics::structure::free_choice::{FreeChoice, Trust};
+use crate::kinematics::structure::planar_arm::Shoulder;
+use crate::kinematics::thresholds::{PATH_WRIST_SIN, SEEDED_FREE, WRIST_FREE_SIN};
+
+/// One way for the wrist to stand.
+#[derive(Clone, Copy)]
+pub(super) struct Wrist {
+    pub(super) theta_5: f64,
+    pub(super) theta_6: f64,
+    /// Direction of axis 5 in the plane of the arm, phi = theta_2 + theta_3 + theta_4.
+    pub(super) sin_phi: f64,
+    pub(super) cos_phi: f64,
+}
+
+/// Where joint 6 stands.
+#[derive(Clone, Copy)]
+pub(super) enum Turn {
+    /// Where the pose has it, with theta_5 in 0 ..= pi, or half a turn from there.
+    Told { flipped: bool },
+    /// At this theta_6.
+    Taken(f64),
+    /// At this theta_6 or, since the pose says nothing of it, at the nearest to it that the arm reaches with.
+    Free(f64),
+}
+
+/// `Rz(-theta_1) R`, which is `Ry(phi) Rz(theta_5) Ry(theta_6)` (eq. 33).
+pub(super) fn seen_from_plane(shoulder: &Shoulder, rotation: &Matrix3<f64>) -> Matrix3<f64> {
+    let (r0, r1, r2) = (rotation.row(0), rotation.row(1), rotation.row(2));
+    Matrix3::from_rows(&[
+        r0 * shoulder.cos_1 + r1 * shoulder.sin_1,
+        r1 * shoulder.cos_1 - r0 * shoulder.sin_1,
+        r2.into_owned(),
+    ])
+}
+
+/// sin theta_5, not negative (eq. 34).
+pub(super) fn sin_5(m: &Matrix3<f64>) -> f64 {
+    m[(1, 0)].hypot(m[(1, 2)])
+}
+
+impl Turn {
+    /// How far joint 6 may be turned from there without the tool's leaving the pose by more than rounding [rad].
+    pub(super) fn open(self, m: &Matrix3<f64>) -> f64 {
+        match self {
+            Self::Told { .. } => (WRIST_FREE_SIN / sin_5(m)).min(PI),
+            Self::Taken(_) => 0.0,
+            Self::Free(_) => PI,
+        }
+    }
+
+    /// theta_6 with its sine and cosine. `error` is how far rounding may turn the plane of the arm: a path keeps the theta_6 that it is
+    /// heading for where the pose does not contradict it.
+    fn theta_6(
+        self,
+        m: &Matrix3<f64>,
+        free: &FreeChoice<6>,
+        heading: f64,
+        error: f64,
+    ) -> (f64, (f64, f64)) {
+        let flipped = match self {
+            Self::Taken(theta_6) | Self::Free(theta_6) => return (theta_6, theta_6.sin_cos()),
+            Self::Told { flipped } => flipped,
+        };
+        let sin_5 = sin_5(m);
+        let (told, sign) = (m[(1, 2)].atan2(m[(1, 0)]), if flipped { -1.0 } else { 1.0 });
+        let told = if flipped { told + PI } else { told };
+        if free.trust == Trust::Path && sin_5 <= PATH_WRIST_SIN {
+            let ahead = wrap(heading - told);
+            if sin_5 * ahead.sin().abs() <= error.max(SEEDED_FREE) && ahead.cos() > 0.0 {
+                return (told + ahead, heading.sin_cos());
+            }
+        }
+        (told, (sign * m[(1, 2)] / sin_5, sign * m[(1, 0)] / sin_5))
+    }
+
+    /// The wrist with joint 6 there (eq. 34 to 36). Taking theta_5 and phi with the sine and cosine of the theta_6 that was chosen keeps
+    /// the residual at rounding next to theta_5 = 0, whatever theta_6 is.
+    pub(super) fn wrist(
+        self,
+        m: &Matrix3<f64>,
+        free: &FreeChoice<6>,
+        heading: f64,
+        error: f64,
+    ) -> Wrist {
+        let (theta_6, (sin_6, cos_6)) = self.theta_6(m, free, heading, error);
+        let projected = cos_6 * m[(1, 0)] + sin_6 * m[(1, 2)];
+        let sin_5 = if projected.abs() <= WRIST_FREE_SIN { projected.max(0.0) } else { projected };
+        let (sin_phi, cos_phi) =
+            (cos_6 * m[(0, 2)] - sin_6 * m[(0, 0)], cos_6 * m[(2, 2)] - sin_6 * m[(2, 0)]);
+        let length = sin_phi.hypot(cos_phi);
+        Wrist {
+            theta_5: sin_5.atan2(m[(1, 1)]),
+            theta_6,
+            sin_phi: sin_phi / length,
+            cos_phi: cos_phi / length,
+        }
+    }
+}
