@@ -81,7 +81,7 @@ fn repeat_batch(robot: &Robot<6>, what: &str, times: u32) {
             });
         }
         "batch ik" => again(times, || {
-            batch::ik(robot, &poses, black_box(&mut answers), &mut status, 1).unwrap()
+            batch::ik(robot, &poses, black_box(&mut answers), &mut status, None).unwrap()
         }),
         _ => eprintln!("{what} is none of {ALL:?}"),
     }

@@ -12,7 +12,7 @@ fn show(what: &str, Solution { q, slot, .. }: Solution<6>) {
 }
 
 fn slots(solutions: &Solutions<6>) -> Vec<u8> {
-    solutions.iter().map(|solution| solution.slot).collect()
+    solutions.iter().map(|solution| solution.slot.into()).collect()
 }
 
 fn radians(degrees: [f64; 6]) -> [f64; 6] {

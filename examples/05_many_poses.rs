@@ -2,9 +2,10 @@
 
 use std::f64::consts::TAU;
 use std::hint::black_box;
+use std::num::NonZeroUsize;
 use std::time::Instant;
 
-use irbkin::{Error, Robot, SLOTS, Status, batch, pose_from_rows};
+use irbkin::{Error, Robot, Status, batch, pose_from_rows};
 
 const POSES: usize = 20_000;
 
@@ -36,12 +37,13 @@ fn main() -> Result<(), Error> {
     };
     let q: Vec<[f64; 6]> = (1..=POSES).map(vector).collect();
     let q = q.as_flattened();
+    let slots = robot.slot_count();
     let (mut poses, mut solved, mut status) =
-        (vec![0.0; POSES * 16], vec![0.0; POSES * SLOTS * 6], vec![0; POSES * SLOTS]);
+        (vec![0.0; POSES * 16], vec![0.0; POSES * slots * 6], vec![0; POSES * slots]);
     batch::fk(&robot, q, &mut poses)?;
-    batch::ik(&robot, &poses, &mut solved, &mut status, 1)?;
+    batch::ik(&robot, &poses, &mut solved, &mut status, None)?;
     println!(
-        "q ({POSES}, 6) -> T ({POSES}, 4, 4) -> q ({POSES}, {SLOTS}, 6), status ({POSES}, {SLOTS})"
+        "q ({POSES}, 6) -> T ({POSES}, 4, 4) -> q ({POSES}, {slots}, 6), status ({POSES}, {slots})"
     );
 
     let count = |flag: Status| status.iter().filter(|status| **status & flag.bits() != 0).count();
@@ -56,23 +58,23 @@ fn main() -> Result<(), Error> {
         slots.chunks(6).any(|slot| !slot[0].is_nan() && apart(slot, q) < 1e-7)
     };
     let missing =
-        q.chunks(6).zip(solved.chunks(SLOTS * 6)).filter(|(q, slots)| !own(q, slots)).count();
+        q.chunks(6).zip(solved.chunks(slots * 6)).filter(|(q, slots)| !own(q, slots)).count();
     println!("poses whose own joint vector is missing: {missing}");
 
     // A row that is no pose, and one out of reach, leave the others as they are.
     let mut broken = poses.clone();
     broken[16] = f64::NAN;
     broken[2 * 16 + 3] += 9.0;
-    batch::ik(&robot, &broken, &mut solved, &mut status, 2)?;
+    batch::ik(&robot, &broken, &mut solved, &mut status, NonZeroUsize::new(2))?;
     for row in 0..4 {
-        let status = &status[row * SLOTS..(row + 1) * SLOTS];
+        let status = &status[row * slots..(row + 1) * slots];
         let solutions = status.iter().filter(|status| **status & Status::FOUND.bits() != 0).count();
         let invalid = status.iter().any(|status| status & Status::INVALID.bits() != 0);
         println!("row {row}: {solutions} solutions, {}", if invalid { "invalid" } else { "valid" });
     }
 
     let one_call =
-        seconds(|| drop(black_box(batch::ik(&robot, &poses, &mut solved, &mut status, 1))));
+        seconds(|| drop(black_box(batch::ik(&robot, &poses, &mut solved, &mut status, None))));
     let one_by_one = seconds(|| {
         for rows in poses.as_chunks::<16>().0 {
             let _ = black_box(pose_from_rows(rows).and_then(|pose| robot.ik(&pose)));

@@ -22,7 +22,7 @@ fn three_parallel_axes() -> Result<(), Error> {
         let words: Vec<_> = SLOT
             .iter()
             .zip([4, 2, 1])
-            .map(|(word, bit)| word[usize::from(solution.slot & bit != 0)])
+            .map(|(word, bit)| word[usize::from(solution.slot.index() & bit != 0)])
             .collect();
         println!("  {} {}   {}", solution.slot, degrees(solution), words.join(", "));
     }

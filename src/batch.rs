@@ -6,18 +6,25 @@
 #[cfg(feature = "std")]
 use rayon::prelude::*;
 
+use alloc::vec;
+use core::num::NonZeroUsize;
+
 use crate::error::{Error, ModelFault};
 use crate::kinematics::{
-    Configuration, Inverse, JacobianFrame, Robot, SLOTS, Singularity, check_joints, check_weights,
-    pose_from_rows, pose_to_rows,
+    Arity, Inverse, JacobianFrame, Joints, RedundancyOf, Robot, Rows, Singularity, check_joints,
+    check_weights, pose_from_rows, pose_to_rows,
 };
+use crate::report::Configuration;
 
 /// Forward kinematics: rows of `N` joint angles to rows of 16 pose elements.
 ///
 /// # Errors
 ///
 /// [`Error::WrongLength`] when a slice does not hold as many rows as `q`.
-pub fn fk<const N: usize>(robot: &Robot<N>, q: &[f64], poses: &mut [f64]) -> Result<(), Error> {
+pub fn fk<const N: usize>(robot: &Robot<N>, q: &[f64], poses: &mut [f64]) -> Result<(), Error>
+where
+    Joints<N>: Arity<N>,
+{
     let q = rows::<N>("q", q)?;
     robot.fk_rows(q, rows_out::<16, f64>("poses", poses, q.len())?);
     Ok(())
@@ -32,7 +39,10 @@ pub fn link_frames<const N: usize>(
     robot: &Robot<N>,
     q: &[f64],
     frames: &mut [f64],
-) -> Result<(), Error> {
+) -> Result<(), Error>
+where
+    Joints<N>: Arity<N>,
+{
     let q = rows::<N>("q", q)?;
     let frames = rows_out::<16, f64>("frames", frames, q.len() * (N + 1))?;
     for (q, frames) in q.iter().zip(frames.chunks_exact_mut(N + 1)) {
@@ -58,7 +68,10 @@ pub fn jacobian<const N: usize>(
     q: &[f64],
     frame: JacobianFrame,
     jacobians: &mut [f64],
-) -> Result<(), Error> {
+) -> Result<(), Error>
+where
+    Joints<N>: Arity<N>,
+{
     let q = rows::<N>("q", q)?;
     let jacobians = rows_out::<N, f64>("jacobians", jacobians, q.len() * 6)?;
     robot.jacobians(q, frame, jacobians.as_chunks_mut::<6>().0);
@@ -73,83 +86,81 @@ pub fn jacobian<const N: usize>(
 pub fn singularity<'a, const N: usize>(
     robot: &'a Robot<N>,
     q: &'a [f64],
-) -> Result<impl Iterator<Item = Option<Singularity>> + 'a, Error> {
+) -> Result<impl Iterator<Item = Option<Singularity>> + 'a, Error>
+where
+    Joints<N>: Arity<N>,
+{
     Ok(rows::<N>("q", q)?.iter().map(|q| is_finite(q).then(|| robot.singularity(q))))
 }
 
-/// Inverse kinematics: rows of 16 pose elements to eight slots of six joint angles and eight [`Status`] bytes a row, on up to `threads`
-/// threads, but no more than there are cores; without the feature `std`, on the caller's. Empty slots are NaN.
+/// Inverse kinematics: rows of 16 pose elements, and what is given with each (`()` for six joints, the angle of joint 7 [rad] for seven), to
+/// [`Robot::slot_count`] slots of `N` joint angles and as many [`Status`](crate::Status) bytes a row. Empty slots are NaN.
+///
+/// On up to `threads` threads, but no more than there are cores; without the feature `std`, on the caller's.
 ///
 /// # Errors
 ///
-/// [`Error::WrongLength`] when a slice does not hold as many rows as `poses`, [`Error::InvalidModel`] when the arm has no closed form.
+/// [`Error::WrongLength`] when a slice does not hold as many rows as `poses`, [`Error::InvalidModel`] when the structure of the arm is
+/// unknown.
+pub fn ik_with<const N: usize>(
+    robot: &Robot<N>,
+    poses: &[f64],
+    redundancy: &[RedundancyOf<N>],
+    q: &mut [f64],
+    status: &mut [u8],
+    threads: Option<NonZeroUsize>,
+) -> Result<(), Error>
+where
+    Joints<N>: Arity<N>,
+{
+    check_structure(robot)?;
+    let poses = rows::<16>("poses", poses)?;
+    check_length("redundancy", redundancy.len(), poses.len())?;
+    check_length("q", q.len(), robot.slot_count() * N * poses.len())?;
+    check_length("status", status.len(), robot.slot_count() * poses.len())?;
+    #[cfg(feature = "std")]
+    if let Some(pool) = pool(threads, poses.len()) {
+        let slots = robot.slot_count() * PART;
+        let answers = q.par_chunks_mut(N * slots).zip(status.par_chunks_mut(slots));
+        let asked = poses.par_chunks(PART).zip(redundancy.par_chunks(PART));
+        pool.install(|| {
+            asked.zip(answers).for_each(|((poses, redundancy), (q, status))| {
+                robot.ik_rows(Rows { poses, redundancy, q, status });
+            });
+        });
+        return Ok(());
+    }
+    #[cfg(not(feature = "std"))]
+    let _ = threads;
+    robot.ik_rows(Rows { poses, redundancy, q, status });
+    Ok(())
+}
+
+/// [`ik_with`] of an arm of six joints.
+///
+/// # Errors
+///
+/// As [`ik_with`].
 pub fn ik(
     robot: &Robot<6>,
     poses: &[f64],
     q: &mut [f64],
     status: &mut [u8],
-    threads: usize,
+    threads: Option<NonZeroUsize>,
 ) -> Result<(), Error> {
-    solved(robot, poses, &[], q, status, threads)
+    // Nothing is given, and a list of nothing takes no memory.
+    ik_with(robot, poses, &vec![(); poses.len() / 16], q, status, threads)
 }
 
-/// [`ik`] of an arm of seven joints, with the angle of joint 7 [rad] for each pose, to eight slots of seven joint angles.
-///
-/// # Errors
-///
-/// As [`ik`].
-pub fn ik_with_q7(
-    robot: &Robot<7>,
-    poses: &[f64],
-    q7: &[f64],
-    q: &mut [f64],
-    status: &mut [u8],
-    threads: usize,
-) -> Result<(), Error> {
-    if q7.len() != poses.len() / 16 {
-        return Err(Error::WrongLength { field: "q7", found: q7.len(), wanted: poses.len() / 16 });
-    }
-    solved(robot, poses, q7, q, status, threads)
-}
-
-fn solved<const N: usize>(
-    robot: &Robot<N>,
-    poses: &[f64],
-    given: &[f64],
-    q: &mut [f64],
-    status: &mut [u8],
-    threads: usize,
-) -> Result<(), Error>
+/// Whether the structure of an arm is known.
+fn check_structure<const N: usize>(robot: &Robot<N>) -> Result<(), Error>
 where
-    Robot<N>: Inverse<N>,
+    Joints<N>: Arity<N>,
 {
-    if let Some(reason) = robot.no_closed_form() {
-        return Err(ModelFault::NoClosedForm(reason).into());
+    match robot.unknown_structure() {
+        Some(reason) => Err(ModelFault::UnknownStructure(reason).into()),
+        None => Ok(()),
     }
-    let poses = rows::<16>("poses", poses)?;
-    let q = rows_out::<N, f64>("q", q, SLOTS * poses.len())?.as_chunks_mut::<SLOTS>().0;
-    let status = rows_out::<SLOTS, u8>("status", status, poses.len())?;
-    #[cfg(feature = "std")]
-    if let Some(pool) = pool(threads, poses.len()) {
-        let parts = poses
-            .par_chunks(PART)
-            .zip(q.par_chunks_mut(PART))
-            .zip(status.par_chunks_mut(PART))
-            .enumerate();
-        return pool.install(|| {
-            parts.for_each(|(part, ((poses, q), status))| {
-                let given = given
-                    .get(part * PART..)
-                    .map_or(&[][..], |given| &given[..poses.len().min(given.len())]);
-                robot.ik_rows(poses, given, q, status);
-            });
-            Ok(())
-        });
-    }
-    #[cfg(not(feature = "std"))]
-    let _ = threads;
-    robot.ik_rows(poses, given, q, status);
-    Ok(())
 }
 
 /// Inverse kinematics next to seeds: rows of 16 pose elements and of joint angles to rows of joint angles, those of [`Robot::ik_nearest`].
@@ -158,7 +169,6 @@ where
 /// # Errors
 ///
 /// As [`ik`], and [`Error::InvalidJoints`] for a weight that is negative or not finite.
-#[expect(private_bounds, reason = "robots of six and of seven joints")]
 pub fn ik_nearest<const N: usize>(
     robot: &Robot<N>,
     poses: &[f64],
@@ -168,16 +178,15 @@ pub fn ik_nearest<const N: usize>(
 ) -> Result<(), Error>
 where
     Robot<N>: Inverse<N>,
+    Joints<N>: Arity<N>,
 {
-    if let Some(reason) = robot.no_closed_form() {
-        return Err(ModelFault::NoClosedForm(reason).into());
-    }
+    check_structure(robot)?;
     check_weights(weights)?;
     let poses = rows::<16>("poses", poses)?;
     let seeds = rows_for::<N>("seeds", seeds, poses.len())?;
     for ((pose, seed), q) in poses.iter().zip(seeds).zip(rows_out::<N, f64>("q", q, poses.len())?) {
         let checked = check_joints("seed", seed).and_then(|()| pose_from_rows(pose));
-        let nearest = checked.and_then(|pose| robot.ik_nearest_checked(pose, seed, weights));
+        let nearest = checked.and_then(|pose| robot.nearest_checked(pose, seed, weights));
         *q = nearest.map_or([f64::NAN; N], |nearest| nearest.q);
     }
     Ok(())
@@ -250,7 +259,8 @@ const WORTH_A_THREAD: usize = 8 * PART;
 ///
 /// A pool lives no longer than the call: it leaves nothing behind that a forked process would wait for.
 #[cfg(feature = "std")]
-fn pool(threads: usize, poses: usize) -> Option<rayon::ThreadPool> {
+fn pool(threads: Option<NonZeroUsize>, poses: usize) -> Option<rayon::ThreadPool> {
+    let threads = threads.map_or(1, NonZeroUsize::get);
     if threads <= 1 || poses < WORTH_A_THREAD {
         return None;
     }
@@ -285,9 +295,7 @@ fn rows_for<'a, const R: usize>(
     numbers: &'a [f64],
     count: usize,
 ) -> Result<&'a [[f64; R]], Error> {
-    if numbers.len() != count * R {
-        return Err(Error::WrongLength { field, found: numbers.len(), wanted: count * R });
-    }
+    check_length(field, numbers.len(), count * R)?;
     Ok(numbers.as_chunks::<R>().0)
 }
 
@@ -297,10 +305,12 @@ fn rows_out<'a, const R: usize, T>(
     out: &'a mut [T],
     count: usize,
 ) -> Result<&'a mut [[T; R]], Error> {
-    if out.len() != count * R {
-        return Err(Error::WrongLength { field, found: out.len(), wanted: count * R });
-    }
+    check_length(field, out.len(), count * R)?;
     Ok(out.as_chunks_mut::<R>().0)
+}
+
+fn check_length(field: &'static str, found: usize, wanted: usize) -> Result<(), Error> {
+    if found == wanted { Ok(()) } else { Err(Error::WrongLength { field, found, wanted }) }
 }
 
 fn is_finite(q: &[f64]) -> bool {

@@ -12,7 +12,7 @@ use alloc::vec::Vec;
 pub use self::frame::FrameFault;
 pub use self::rapid::{RapidFault, RapidFaultKind};
 pub use self::urdf::{Names, UrdfFault};
-use crate::kinematics::{Configuration, Explanation, FreeJoint, NotRecognised};
+use crate::report::{Configuration, Explanation, FreeJoint, UnknownStructure};
 
 /// Why a call was refused.
 #[derive(Clone, Debug, PartialEq)]
@@ -235,7 +235,7 @@ pub enum ModelFault {
         wanted: usize,
     },
     /// The geometry has no closed-form inverse here.
-    NoClosedForm(NotRecognised),
+    UnknownStructure(UnknownStructure),
     /// ABB's confdata means nothing, or something else, for arms of this form.
     NoConfiguration {
         /// Name of the form.
@@ -406,7 +406,7 @@ impl fmt::Display for ModelFault {
                 f,
                 "this policy holds a spherical wrist, and the arm has none: take \"through\" or \"error\""
             ),
-            Self::NoClosedForm(reason) => {
+            Self::UnknownStructure(reason) => {
                 write!(f, "no closed-form inverse kinematics for this arm: {reason}")
             }
             Self::AxisDirection { axis } => write!(f, "direction of axis {axis} has no length"),

@@ -52,6 +52,7 @@ mod lanes;
 #[cfg(feature = "python")]
 mod python;
 pub mod rapid;
+mod report;
 #[cfg(feature = "urdf")]
 mod urdf;
 
@@ -61,14 +62,16 @@ pub use error::{
     RapidFaultKind, UnknownRobot, UrdfFault,
 };
 pub use kinematics::{
-    Break, BreakReason, Chain, Condition, Configuration, Crossing, Definition, DhRow, Explanation,
-    FollowOptions, Followed, Follower, FreeJoint, JacobianFrame, JointAxis, JointLimits, Mdh,
-    NotRecognised, OpwParameters, Pose, PoseError, Reach, Relation, Robot, SLOTS, Sdh,
-    SingularDistances, Singularity, Solution, Solutions, SphericalShoulder, SphericalWrist, Status,
-    ThreeParallel, pose_from_euler_zyx, pose_from_quaternion, pose_from_rows, pose_to_euler_zyx,
-    pose_to_quaternion, pose_to_rows, thresholds,
+    Arity, Break, BreakReason, Crossing, Definition, DhRow, FollowOptions, Followed, Follower,
+    Inverse, JacobianFrame, JointAxis, JointLimits, Joints, MOST_SLOTS, Mdh, OpwParameters, Pose,
+    PoseError, Redundancy, RedundancyOf, Robot, Sdh, SingularDistances, Singularity, Slot,
+    SlotStatus, Solution, Solutions, Status, pose_from_euler_zyx, pose_from_quaternion,
+    pose_from_rows, pose_to_euler_zyx, pose_to_quaternion, pose_to_rows, thresholds,
 };
 pub use lanes::InstructionSet;
+pub use report::{
+    Condition, Configuration, Explanation, FreeJoint, Reach, Relation, UnknownStructure,
+};
 
 /// The Rust blocks of the README, run as documentation tests.
 #[cfg(doctest)]

@@ -7,9 +7,11 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use common::{Rng, apart, asked_set};
 use irbkin::{
-    CatalogueGeometry, Configuration, Error, JointLimits, OpwParameters, Robot, SLOTS, Solution,
-    Status, catalogue, thresholds::CONFIGURATION_EDGE,
+    CatalogueGeometry, Configuration, Error, JointLimits, OpwParameters, Robot, Solution, Status,
+    catalogue, thresholds::CONFIGURATION_EDGE,
 };
+
+const SLOTS: usize = 8;
 
 fn poses() -> usize {
     std::env::var("IRBKIN_POSES").ok().map_or(300, |count| count.parse().unwrap())
@@ -54,7 +56,7 @@ fn every_joint_vector_is_found_by_its_configuration() {
             for solution in &solutions {
                 assert_eq!(
                     slot(&twin, &robot, &solution.q),
-                    i32::from(solution.slot),
+                    i32::from(u8::from(solution.slot)),
                     "{}: {q:?}",
                     arm.name
                 );

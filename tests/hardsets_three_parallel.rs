@@ -139,7 +139,7 @@ impl<'a> Made<'a> {
             let told = 4 * usize::from(arm.x(&theta).abs() > clear)
                 + 2 * usize::from(theta[2].sin().abs() > 1e-7)
                 + usize::from(theta[4].sin().abs() > 1e-8);
-            tally.wrong += usize::from((usize::from(solution.slot) ^ arm.slot(&theta)) & told != 0);
+            tally.wrong += usize::from((solution.slot.index() ^ arm.slot(&theta)) & told != 0);
             tally.wrong += match solution.free {
                 Some(FreeJoint::Parallel) => self.count_wrong_along_family(solution, &theta),
                 Some(free) => usize::from(
@@ -193,7 +193,7 @@ impl<'a> Made<'a> {
                 let same = apart.iter().all(|apart| *apart < 1e-9);
                 let family = one.free == Some(FreeJoint::Parallel)
                     && other.free == one.free
-                    && one.slot & 2 == other.slot & 2;
+                    && one.slot.index() & 2 == other.slot.index() & 2;
                 tally.twice += usize::from(same || (family && apart[0] < 1e-9));
             }
         }
@@ -218,7 +218,7 @@ impl<'a> Made<'a> {
         };
         let status = solutions.status();
         let merged_told = |solution: &Solution<6>| {
-            let slot = usize::from(solution.slot);
+            let slot = solution.slot.index();
             [(Status::WRIST, 1), (Status::ELBOW, 2)].iter().all(|(kind, bit)| {
                 !solution.kinds().contains(*kind)
                     || (status[slot ^ bit].contains(Status::MERGED | *kind)

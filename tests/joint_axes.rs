@@ -3,7 +3,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use irbkin::{Chain, JointAxis, Mdh, Pose, PoseError, pose_from_euler_zyx};
+use irbkin::{JointAxis, Mdh, Pose, PoseError, Robot, pose_from_euler_zyx};
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Unit, Vector3};
 use proptest::prelude::*;
 
@@ -31,7 +31,10 @@ fn drawn() -> impl Strategy<Value = Drawn> {
 }
 
 /// The first axis stands to the base's z as each other one to the axis before it.
-fn axes_of<const N: usize>(drawn: &[Drawn; N]) -> [JointAxis; N] {
+fn axes_of<const N: usize>(drawn: &[Drawn; N]) -> [JointAxis; N]
+where
+    irbkin::Joints<N>: irbkin::Arity<N>,
+{
     let (mut z, mut p) = (Vector3::z(), Vector3::zeros());
     drawn.map(|(step, direction, point, length)| {
         let (direction, point) = (Vector3::from(direction), Vector3::from(point));
@@ -51,7 +54,10 @@ fn tips() -> impl Strategy<Value = Pose> {
 }
 
 /// Product of exponentials: the tip at zero, turned about each axis from the last to the first.
-fn fk_of_axes<const N: usize>(axes: &[JointAxis; N], tip: &Pose, q: &[f64; N]) -> Pose {
+fn fk_of_axes<const N: usize>(axes: &[JointAxis; N], tip: &Pose, q: &[f64; N]) -> Pose
+where
+    irbkin::Joints<N>: irbkin::Arity<N>,
+{
     axes.iter().zip(q).rev().fold(*tip, |pose, (axis, q)| {
         let point = Vector3::from(axis.point);
         let turn =
@@ -61,7 +67,10 @@ fn fk_of_axes<const N: usize>(axes: &[JointAxis; N], tip: &Pose, q: &[f64; N]) -
 }
 
 /// Lengths that a pose is summed from [m]: where two axes are nearly parallel they are long.
-fn reach_of<const N: usize>(mdh: &Mdh<N>) -> f64 {
+fn reach_of<const N: usize>(mdh: &Mdh<N>) -> f64
+where
+    irbkin::Joints<N>: irbkin::Arity<N>,
+{
     let ends = mdh.base.translation.vector.norm() + mdh.flange.translation.vector.norm();
     1.0 + ends + mdh.rows.iter().map(|row| row.a.hypot(row.d)).sum::<f64>()
 }
@@ -70,11 +79,17 @@ fn table_turns_as_the_axes<const N: usize>(
     drawn: &[Drawn; N],
     tip: &Pose,
     q: &[f64; N],
-) -> Result<(), TestCaseError> {
+) -> Result<(), TestCaseError>
+where
+    irbkin::Joints<N>: irbkin::Arity<N>,
+{
     let axes = axes_of(drawn);
     let mdh = Mdh::from_joint_axes(&axes, tip).unwrap();
-    let off =
-        PoseError::between(&Chain::new(mdh.clone()).fk(q), &fk_of_axes(&axes, tip, q)).largest();
+    let off = PoseError::between(
+        &Robot::serial_chain(mdh.clone()).unwrap().fk(q),
+        &fk_of_axes(&axes, tip, q),
+    )
+    .largest();
     let bound = 1e-14 * reach_of(&mdh);
     prop_assert!(off <= bound, "off by {off:e}, bound {bound:e}: {mdh:?}");
     for i in 1..N {
@@ -137,7 +152,7 @@ proptest! {
         // Between parallel axes x may run anywhere; a turn about them comes from it alone.
         let parallel = (1..6).any(|i| mdh.rows[i].alpha.sin().abs() < 0.5) || mdh.rows[0].alpha.sin().abs() > 0.5;
         prop_assert!(parallel || mdh.rows.iter().all(|row| is_quarter_turn(row.theta)), "{mdh:?}");
-        let off = PoseError::between(&Chain::new(mdh.clone()).fk(&q), &fk_of_axes(&axes, &Pose::identity(), &q)).largest();
+        let off = PoseError::between(&Robot::serial_chain(mdh.clone()).unwrap().fk(&q), &fk_of_axes(&axes, &Pose::identity(), &q)).largest();
         prop_assert!(off <= 1e-14 * reach_of(&mdh), "off by {off:e}");
     }
 
@@ -150,7 +165,7 @@ proptest! {
         let tip = Pose::identity();
         let mdh = Mdh::from_joint_axes(&axes, &tip).unwrap();
         prop_assert_eq!(mdh.rows[2].alpha, 0.0);
-        let found = PoseError::between(&Chain::new(mdh.clone()).fk(&q), &fk_of_axes(&axes, &tip, &q)).largest();
+        let found = PoseError::between(&Robot::serial_chain(mdh.clone()).unwrap().fk(&q), &fk_of_axes(&axes, &tip, &q)).largest();
         // Each of the two joints next to the deviation turns it by at most two.
         prop_assert!(found <= (4.0 * off + 1e-14) * reach_of(&mdh), "off by {found:e}");
     }

@@ -11,10 +11,12 @@ use std::array;
 
 use common::{Rng, on_each_set};
 use irbkin::{
-    InstructionSet, JacobianFrame, Pose, Robot, SLOTS, Status, batch, pose_from_rows, pose_to_rows,
+    InstructionSet, JacobianFrame, Pose, Robot, Status, batch, pose_from_rows, pose_to_rows,
 };
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Vector3};
 use subjects::{PoseRow, Subject, joint_rows, subjects};
+
+const SLOTS: usize = 8;
 
 /// No multiple of any lane count; every kind of row in every lane.
 const ROWS: usize = 24 * 18 + 5;
@@ -35,7 +37,8 @@ impl Answers {
         let mut answers =
             Self { q: vec![[7.0; 6 * SLOTS]; rows.len()], status: vec![[255; SLOTS]; rows.len()] };
         let (q, status) = (answers.q.as_flattened_mut(), answers.status.as_flattened_mut());
-        batch::ik(robot, rows.as_flattened(), q, status, threads).unwrap();
+        batch::ik(robot, rows.as_flattened(), q, status, std::num::NonZeroUsize::new(threads))
+            .unwrap();
         answers
     }
 
@@ -63,9 +66,10 @@ fn alone(robot: &Robot<6>, row: &PoseRow) -> (AnswerRow, [u8; SLOTS]) {
         return (q, [Status::INVALID.bits(); SLOTS]);
     };
     for solution in &solutions {
-        q.as_chunks_mut::<6>().0[usize::from(solution.slot)] = solution.q;
+        q.as_chunks_mut::<6>().0[solution.slot.index()] = solution.q;
     }
-    (q, solutions.status().map(|status| status.bits()))
+    let status = solutions.status();
+    (q, core::array::from_fn(|slot| status[slot].bits()))
 }
 
 /// Not numbers are one like the other: their bits mean nothing.
@@ -74,7 +78,10 @@ fn same_bits(a: &[f64], b: &[f64]) -> bool {
         && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan()))
 }
 
-fn fk_of<const N: usize>(robot: &Robot<N>, q: &[[f64; N]]) -> Vec<PoseRow> {
+fn fk_of<const N: usize>(robot: &Robot<N>, q: &[[f64; N]]) -> Vec<PoseRow>
+where
+    irbkin::Joints<N>: irbkin::Arity<N>,
+{
     let mut poses = vec![[7.0; 16]; q.len()];
     batch::fk(robot, q.as_flattened(), poses.as_flattened_mut()).unwrap();
     poses
@@ -84,7 +91,10 @@ fn jacobians_of<const N: usize>(
     robot: &Robot<N>,
     q: &[[f64; N]],
     frame: JacobianFrame,
-) -> Vec<[[f64; N]; 6]> {
+) -> Vec<[[f64; N]; 6]>
+where
+    irbkin::Joints<N>: irbkin::Arity<N>,
+{
     let mut jacobians = vec![[[7.0; N]; 6]; q.len()];
     batch::jacobian(
         robot,
@@ -150,7 +160,10 @@ fn batch_equals_single_bit_for_bit() {
     });
 }
 
-fn forward_in_a_batch_equals_single<const N: usize>(robot: &Robot<N>, what: &str) {
+fn forward_in_a_batch_equals_single<const N: usize>(robot: &Robot<N>, what: &str)
+where
+    irbkin::Joints<N>: irbkin::Arity<N>,
+{
     let joints = joint_rows::<N>(77 * 3 + 5);
     for (q, pose) in joints.iter().zip(fk_of(robot, &joints)) {
         let wanted = if is_finite(q) { pose_to_rows(&robot.fk(q)) } else { [f64::NAN; 16] };
@@ -208,7 +221,9 @@ fn a_row_does_not_depend_on_its_neighbours() {
 fn forward_rows_do_not_depend_on_their_neighbours<const N: usize>(
     robot: &Robot<N>,
     set: InstructionSet,
-) {
+) where
+    irbkin::Joints<N>: irbkin::Arity<N>,
+{
     let joints = joint_rows::<N>(ROWS);
     let (poses, jacobians) =
         (fk_of(robot, &joints), jacobians_of(robot, &joints, JacobianFrame::Tool));
@@ -408,7 +423,10 @@ fn poses_of_many_turns_are_those_of_the_table() {
     });
 }
 
-fn table_poses<const N: usize>(robot: &Robot<N>, what: &str) {
+fn table_poses<const N: usize>(robot: &Robot<N>, what: &str)
+where
+    irbkin::Joints<N>: irbkin::Arity<N>,
+{
     let joints: Vec<[f64; N]> = joint_rows(200).into_iter().filter(|q| is_finite(q)).collect();
     let mdh = robot.mdh();
     let lengths: f64 = mdh.rows.iter().map(|row| row.a.abs() + row.d.abs()).sum();

@@ -9,9 +9,10 @@ use std::f64::consts::PI;
 
 use common::{Rng, apart, asked_set, reach_of};
 use irbkin::{
-    Error, JacobianFrame, JointLimits, OpwParameters, Pose, Robot, SLOTS, Status, batch,
-    pose_to_rows,
+    Error, JacobianFrame, JointLimits, OpwParameters, Pose, Robot, Status, batch, pose_to_rows,
 };
+
+const SLOTS: usize = 8;
 
 #[derive(Default)]
 struct Tally {
@@ -42,7 +43,9 @@ impl Tally {
         q: &[f64; N],
         pose: &Pose,
         answers: &[[f64; N]],
-    ) {
+    ) where
+        irbkin::Joints<N>: irbkin::Arity<N>,
+    {
         self.poses += 1;
         self.solutions += answers.len();
         let nearest = answers.iter().map(|answer| apart(answer, q)).fold(f64::INFINITY, f64::min);
@@ -73,7 +76,7 @@ impl Solves<6> for Robot<6> {
     }
 
     fn together(&self, rows: &[f64], _: &[[f64; 6]], q: &mut [f64], status: &mut [u8]) {
-        batch::ik(self, rows, q, status, 1).unwrap();
+        batch::ik(self, rows, q, status, None).unwrap();
     }
 }
 
@@ -84,7 +87,7 @@ impl Solves<7> for Robot<7> {
 
     fn together(&self, rows: &[f64], joints: &[[f64; 7]], q: &mut [f64], status: &mut [u8]) {
         let told: Vec<f64> = joints.iter().map(|q| q[6]).collect();
-        batch::ik_with_q7(self, rows, &told, q, status, 1).unwrap();
+        batch::ik_with(self, rows, &told, q, status, None).unwrap();
     }
 }
 
@@ -92,6 +95,7 @@ impl Solves<7> for Robot<7> {
 fn tally<const N: usize>(robot: &Robot<N>, reach: f64) -> [Tally; 2]
 where
     Robot<N>: Solves<N>,
+    irbkin::Joints<N>: irbkin::Arity<N>,
 {
     let mut rng = Rng::new(0x5eed);
     let [mut alone, mut together] = [Tally::default(), Tally::default()];
@@ -118,6 +122,7 @@ fn solved_together<const N: usize>(
 ) -> Vec<Vec<[f64; N]>>
 where
     Robot<N>: Solves<N>,
+    irbkin::Joints<N>: irbkin::Arity<N>,
 {
     let rows: Vec<f64> = poses.iter().flat_map(pose_to_rows).collect();
     let (mut q, mut status) = (vec![[0.0; N]; SLOTS * poses.len()], vec![0; SLOTS * poses.len()]);
@@ -130,13 +135,17 @@ where
 
 /// How far rounding of the pose may move the joints: a pose is rounded by its forward kinematics (measured: 1e-15 x reach, 2e-15 rad) and
 /// the inverse of the Jacobian of the joints that are solved for turns that into joint angles. Only next to a singularity is this above 1e-9.
-fn rounding_bound<const N: usize>(robot: &Robot<N>, reach: f64, q: &[f64; N]) -> f64 {
+fn rounding_bound<const N: usize>(robot: &Robot<N>, reach: f64, q: &[f64; N]) -> f64
+where
+    irbkin::Joints<N>: irbkin::Arity<N>,
+{
     let solved = robot.jacobian(q, JacobianFrame::Base).fixed_columns::<6>(0).into_owned();
     4e-15 * (1.0 + reach) / solved.singular_values()[5]
 }
 
 fn check<const N: usize>(name: &str, robot: &Robot<N>)
 where
+    irbkin::Joints<N>: irbkin::Arity<N>,
     Robot<N>: Solves<N>,
 {
     let (set, reach) = (asked_set().name(), reach_of(robot));

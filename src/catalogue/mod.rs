@@ -6,6 +6,7 @@ mod names;
 mod universal_robots;
 
 use crate::error::{Error, ModelFault};
+use crate::kinematics::{Arity, Joints};
 use crate::kinematics::{DhRow, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh};
 
 pub use names::find;
@@ -104,7 +105,10 @@ impl CatalogueArm {
     }
 }
 
-impl<const N: usize> Robot<N> {
+impl<const N: usize> Robot<N>
+where
+    Joints<N>: Arity<N>,
+{
     /// The arm of that name from the catalogue, as [`find`] finds it.
     ///
     /// # Errors

@@ -9,13 +9,14 @@ mod solve;
 mod structure;
 pub mod thresholds;
 
+pub(crate) use crate::report::{Configuration, Explanation};
+pub(crate) use answer::check::{check_joints, check_weights};
 #[cfg(feature = "python")]
 pub(crate) use answer::select::Cost;
-pub(crate) use answer::select::{check_joints, check_weights};
 pub use answer::singularity::{SingularDistances, Singularity};
-pub use answer::solutions::{FreeJoint, SLOTS, Solution, Solutions};
-pub use answer::status::{Explanation, Reach, Status};
-pub use chain::Chain;
+pub use answer::slot::{MOST_SLOTS, Slot, SlotStatus};
+pub use answer::solutions::{Solution, Solutions};
+pub use answer::status::Status;
 pub use chain::dh::{DhRow, Mdh, Sdh};
 pub use chain::jacobian::JacobianFrame;
 pub use chain::joint_axes::JointAxis;
@@ -32,11 +33,8 @@ pub use pose::{
     pose_to_quaternion, pose_to_rows,
 };
 pub use robot::{Definition, Robot};
-pub use solve::configuration::Configuration;
-pub(crate) use solve::inverse::Inverse;
-#[cfg(feature = "python")]
-pub(crate) use solve::inverse::check_given;
-pub use structure::recognition::{Condition, NotRecognised, Relation};
-pub use structure::spherical_shoulder::SphericalShoulder;
-pub use structure::spherical_wrist::{OpwParameters, SphericalWrist};
-pub use structure::three_parallel::ThreeParallel;
+pub use solve::nearest::Inverse;
+pub(crate) use structure::any::Rows;
+pub use structure::arity::{Arity, Joints, RedundancyOf};
+pub use structure::redundancy::Redundancy;
+pub use structure::spherical_wrist::OpwParameters;

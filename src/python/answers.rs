@@ -7,7 +7,7 @@ use pyo3::types::PyTuple;
 
 use super::arrays::{Rows, checked_out, output};
 use super::errors;
-use crate::kinematics::{Followed, SLOTS, Singularity, Status};
+use crate::kinematics::{Followed, Singularity, Status};
 
 /// `irbkin.Singularity` of one record, or of records with the leading dimensions `lead`.
 pub(super) fn singularity_record<'py>(
@@ -50,9 +50,9 @@ pub(super) fn batch_output<'py>(
     py: Python<'py>,
     out: Option<&Bound<'py, PyAny>>,
     poses: &Rows<'_>,
-    dof: usize,
+    [slots, dof]: [usize; 2],
 ) -> PyResult<BatchArrays<'py>> {
-    let (q_shape, status_shape) = (poses.shape_with(&[SLOTS, dof]), poses.shape_with(&[SLOTS]));
+    let (q_shape, status_shape) = (poses.shape_with(&[slots, dof]), poses.shape_with(&[slots]));
     let pair = out.and_then(|out| out.cast::<PyTuple>().ok());
     match pair {
         Some(pair) if pair.len() == 2 => Ok((

@@ -1,5 +1,7 @@
 //! Arguments that are one of a few words, or a count.
 
+use std::num::NonZeroUsize;
+
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -30,10 +32,10 @@ pub(super) fn read_crossing(singular: &str) -> PyResult<Crossing> {
 }
 
 /// A number of threads; 0 is one a core.
-pub(super) fn thread_count(threads: isize) -> PyResult<usize> {
+pub(super) fn thread_count(threads: isize) -> PyResult<Option<NonZeroUsize>> {
     match usize::try_from(threads) {
-        Ok(0) => Ok(std::thread::available_parallelism().map_or(1, usize::from)),
-        Ok(count) => Ok(count),
+        Ok(0) => Ok(std::thread::available_parallelism().ok()),
+        Ok(count) => Ok(NonZeroUsize::new(count)),
         Err(_) => Err(PyValueError::new_err(format!(
             "threads must be 0 (one a core) or more, got {threads}"
         ))),

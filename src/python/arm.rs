@@ -9,7 +9,9 @@ use super::arrays::{Rows, answer, copied_vector, detached, output, writable};
 use super::errors::{Fault, to_py};
 use crate::batch;
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{JacobianFrame, Robot, Singularity, check_joints, pose_to_rows};
+use crate::kinematics::{
+    Arity, JacobianFrame, Joints, Robot, Singularity, check_joints, pose_to_rows,
+};
 
 /// A robot of six or seven joints.
 #[derive(Clone, PartialEq)]
@@ -53,8 +55,8 @@ impl Arm {
     pub(super) fn follower(&self, py: Python<'_>) -> PyResult<&Arc<Robot<6>>> {
         match self {
             Self::Six(robot) => Ok(robot),
-            Self::Seven(robot) => Err(match robot.no_closed_form() {
-                Some(reason) => to_py(py, &ModelFault::NoClosedForm(reason).into()),
+            Self::Seven(robot) => Err(match robot.unknown_structure() {
+                Some(reason) => to_py(py, &ModelFault::UnknownStructure(reason).into()),
                 None => Fault::Model.error(
                     py,
                     "follow is for arms of six joints: along a path of a seven-axis arm, give ik_nearest the joints before as the seed"
@@ -62,6 +64,10 @@ impl Arm {
                 ),
             }),
         }
+    }
+
+    pub(super) fn slot_count(&self) -> usize {
+        on_robot!(self, robot => robot.slot_count())
     }
 
     /// Joint vectors as an argument; a single one must be finite.
@@ -168,5 +174,7 @@ fn one<const N: usize>(q: &Bound<'_, PyAny>) -> PyResult<Option<[f64; N]>> {
 
 /// A change of a robot that is the same for any number of joints.
 pub(super) trait Change {
-    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>;
+    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>
+    where
+        Joints<N>: Arity<N>;
 }

@@ -1,5 +1,7 @@
 //! Every joint vector of many poses.
 
+use std::num::NonZeroUsize;
+
 use pyo3::exceptions::PyTypeError;
 use pyo3::intern;
 use pyo3::prelude::*;
@@ -11,7 +13,7 @@ use super::arrays::{Rows, addresses, detached, writable};
 use super::errors::{self, Fault, to_py};
 use crate::batch;
 use crate::error::ModelFault;
-use crate::kinematics::Robot;
+use crate::kinematics::{Arity, Joints, Robot};
 
 /// `irbkin.IkBatch` of poses, shape (..., 4, 4), and of joint 7 for each where the arm has seven.
 pub(super) fn ik<'py>(
@@ -19,11 +21,15 @@ pub(super) fn ik<'py>(
     poses: &Bound<'py, PyAny>,
     q7: Option<&Bound<'py, PyAny>>,
     out: Option<&Bound<'py, PyAny>>,
-    threads: usize,
+    threads: Option<NonZeroUsize>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = poses.py();
     let given = match arm {
-        Arm::Six(_) => no_q7(q7.is_some()).map(|()| None)?,
+        Arm::Six(robot) => {
+            no_q7(q7.is_some())?;
+            known_structure(py, robot)?;
+            None
+        }
         Arm::Seven(robot) => Some(needed_q7(py, robot, q7)?),
     };
     let mut poses = Rows::read(poses, &[4, 4], "T", Fault::Pose)?;
@@ -31,7 +37,7 @@ pub(super) fn ik<'py>(
         Some(q7) => read_q7(q7, &mut poses)?,
         None => Vec::new(),
     };
-    let (q, status) = batch_output(py, out, &poses, arm.dof())?;
+    let (q, status) = batch_output(py, out, &poses, [arm.slot_count(), arm.dof()])?;
     let (data, mut q_view, mut status_view) = (
         poses.data()?,
         writable(&q, &[poses.addresses()])?,
@@ -40,7 +46,7 @@ pub(super) fn ik<'py>(
     let (q_slice, status_slice) = (q_view.as_slice_mut()?, status_view.as_slice_mut()?);
     let solved = detached(py, || match arm {
         Arm::Six(robot) => batch::ik(robot, data, q_slice, status_slice, threads),
-        Arm::Seven(robot) => batch::ik_with_q7(robot, data, &given, q_slice, status_slice, threads),
+        Arm::Seven(robot) => batch::ik_with(robot, data, &given, q_slice, status_slice, threads),
     });
     solved.map_err(|error| to_py(py, &error))?;
     errors::ik_batch_class(py)?.call1((q, status))
@@ -87,11 +93,20 @@ pub(super) fn no_q7(given: bool) -> PyResult<()> {
     }
 }
 
+/// An arm whose structure is unknown has no inverse.
+fn known_structure<const N: usize>(py: Python<'_>, robot: &Robot<N>) -> PyResult<()>
+where
+    Joints<N>: Arity<N>,
+{
+    match robot.unknown_structure() {
+        Some(reason) => Err(to_py(py, &ModelFault::UnknownStructure(reason).into())),
+        None => Ok(()),
+    }
+}
+
 /// Joint 7, without which an arm of seven joints has no finite number of solutions.
 pub(super) fn needed_q7<T>(py: Python<'_>, robot: &Robot<7>, q7: Option<T>) -> PyResult<T> {
-    if let Some(reason) = robot.no_closed_form() {
-        return Err(to_py(py, &ModelFault::NoClosedForm(reason).into()));
-    }
+    known_structure(py, robot)?;
     q7.ok_or_else(|| {
         PyTypeError::new_err(
             "an arm of seven joints needs q7, the angle of joint 7 [rad]; or take ik_nearest",

@@ -9,8 +9,8 @@ use super::errors::{Fault, to_py};
 use crate::catalogue::CatalogueGeometry;
 use crate::error::{Error, ModelFault};
 use crate::kinematics::{
-    Definition, DhRow, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh, pose_from_rows,
-    pose_to_rows,
+    Arity, Definition, DhRow, JointLimits, Joints, Mdh, OpwParameters, Pose, Robot, Sdh,
+    pose_from_rows, pose_to_rows,
 };
 
 /// Which Denavit-Hartenberg convention a table has.
@@ -48,7 +48,10 @@ fn robot_of_table<const N: usize>(
     table: &[[f64; 4]],
     closed_form: bool,
     convention: Convention,
-) -> Result<Robot<N>, Error> {
+) -> Result<Robot<N>, Error>
+where
+    Joints<N>: Arity<N>,
+{
     let table: &[[f64; 4]; N] =
         table.try_into().map_err(|_| ModelFault::JointCount { found: table.len(), wanted: N })?;
     let rows = table.map(|[alpha, a, d, theta]| DhRow::new(alpha, a, d, theta));
@@ -121,13 +124,19 @@ pub(super) struct Coupled(pub(super) bool);
 struct MaxVelocity<'a>(Option<&'a [f64]>);
 
 impl Change for Name<'_> {
-    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error> {
+    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>
+    where
+        Joints<N>: Arity<N>,
+    {
         Ok(robot.with_name(self.0.to_owned()))
     }
 }
 
 impl Change for Limits<'_> {
-    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error> {
+    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>
+    where
+        Joints<N>: Arity<N>,
+    {
         let limits = <[[f64; 2]; N]>::try_from(self.0)
             .map_err(|_| ModelFault::JointCount { found: N, wanted: self.0.len() })?;
         Ok(robot.with_limits(JointLimits::new(limits)?))
@@ -135,7 +144,10 @@ impl Change for Limits<'_> {
 }
 
 impl Change for Coupling<'_> {
-    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error> {
+    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>
+    where
+        Joints<N>: Arity<N>,
+    {
         let Some(rod) = self.0 else { return Ok(robot) };
         let robot = robot.coupled()?;
         match rod {
@@ -150,31 +162,46 @@ impl Change for Coupling<'_> {
 }
 
 impl Change for RodLimits {
-    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error> {
+    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>
+    where
+        Joints<N>: Arity<N>,
+    {
         robot.with_rod_limits(self.0)
     }
 }
 
 impl Change for Coupled {
-    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error> {
+    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>
+    where
+        Joints<N>: Arity<N>,
+    {
         if self.0 { robot.coupled() } else { Ok(robot.serial()) }
     }
 }
 
 impl Change for Base {
-    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error> {
+    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>
+    where
+        Joints<N>: Arity<N>,
+    {
         robot.with_base(&self.0)
     }
 }
 
 impl Change for Tool {
-    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error> {
+    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>
+    where
+        Joints<N>: Arity<N>,
+    {
         robot.with_tool(&self.0)
     }
 }
 
 impl Change for MaxVelocity<'_> {
-    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error> {
+    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>
+    where
+        Joints<N>: Arity<N>,
+    {
         let velocity = match self.0 {
             Some(velocity) => Some(
                 <[f64; N]>::try_from(velocity)
@@ -277,7 +304,10 @@ fn opw_of(numbers: &[f64]) -> Option<Result<Robot<6>, Error>> {
     Some(Robot::from_opw(OpwParameters { a1, a2, b, c1, c2, c3, c4, offsets: *offsets, signs }))
 }
 
-fn mdh_of<const N: usize>(numbers: &[f64]) -> Option<Result<Robot<N>, Error>> {
+fn mdh_of<const N: usize>(numbers: &[f64]) -> Option<Result<Robot<N>, Error>>
+where
+    Joints<N>: Arity<N>,
+{
     let (rows, poses) = numbers.split_at_checked(4 * N)?;
     let (base, flange) = poses.split_first_chunk::<16>()?;
     let rows = <[[f64; 4]; N]>::try_from(rows.as_chunks::<4>().0).ok()?;

@@ -7,7 +7,8 @@ use pyo3::types::PyTuple;
 
 use super::configurations::record;
 use crate::error::{Error, FrameFault, NoConfiguration, RapidFault};
-use crate::kinematics::{Reach, Status};
+use crate::kinematics::Status;
+use crate::report::Reach;
 
 /// An attribute of a Python module of the package, looked up once.
 macro_rules! package_object {

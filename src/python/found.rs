@@ -7,21 +7,29 @@ use pyo3::prelude::*;
 use super::arrays::vector;
 use super::errors::{Fault, to_py};
 use crate::error::Error;
-use crate::kinematics::{Cost, Robot, SLOTS, Solution, Solutions, check_joints, check_weights};
+use crate::kinematics::{
+    Arity, Cost, Joints, MOST_SLOTS, Robot, Solution, Solutions, check_joints, check_weights,
+};
 
 /// More turns than any robot has inside its limits: a list this long means limits in degrees, or none.
 const MOST_TURNS: f64 = 1e6;
 
 /// The solutions of a pose, or the list of their turns.
 #[derive(Clone)]
-pub(super) struct Found<const N: usize> {
+pub(super) struct Found<const N: usize>
+where
+    Joints<N>: Arity<N>,
+{
     pub(super) robot: Arc<Robot<N>>,
     pub(super) solutions: Solutions<N>,
     /// The list of turns, where the solutions were turned.
     turned: Option<Vec<Solution<N>>>,
 }
 
-impl<const N: usize> Found<N> {
+impl<const N: usize> Found<N>
+where
+    Joints<N>: Arity<N>,
+{
     pub(super) fn new(robot: Arc<Robot<N>>, solutions: Solutions<N>) -> Self {
         Self { robot, solutions, turned: None }
     }
@@ -44,7 +52,7 @@ impl<const N: usize> Found<N> {
         if let Some(turned) = &self.turned {
             return take(&turned.iter().map(|solution| solution.q).collect::<Vec<_>>());
         }
-        let mut rows = [[0.0; N]; SLOTS];
+        let mut rows = [[0.0; N]; MOST_SLOTS];
         let mut found = 0;
         for (row, solution) in rows.iter_mut().zip(&self.solutions) {
             *row = solution.q;
@@ -54,10 +62,9 @@ impl<const N: usize> Found<N> {
     }
 
     /// Joint angles of each slot, NaN where it is empty.
-    pub(super) fn slots(&self) -> [[f64; N]; SLOTS] {
-        core::array::from_fn(|slot| {
-            self.solutions.slot(slot).map_or([f64::NAN; N], |solution| solution.q)
-        })
+    pub(super) fn slots(&self) -> Vec<[f64; N]> {
+        let row = |slot: usize| self.solutions.slot(slot).map_or([f64::NAN; N], |found| found.q);
+        (0..self.solutions.slot_count()).map(row).collect()
     }
 
     pub(super) fn within_limits(&self) -> Self {
@@ -72,7 +79,7 @@ impl<const N: usize> Found<N> {
         if self.turned.is_some() {
             return Ok(self.clone());
         }
-        let count = self.solutions.turn_count();
+        let count = self.solutions.turn_total();
         if count > MOST_TURNS {
             return Err(format!(
                 "the limits leave {count:.1e} turns, more than 1e6 (are they in radians?)"

@@ -8,7 +8,9 @@ use super::arrays::{Rows, detached, output, writable};
 use super::errors::{Fault, to_py};
 use super::found::read_weights;
 use crate::batch;
-use crate::kinematics::{FollowOptions, Inverse, Pose, Robot, check_joints, pose_from_rows};
+use crate::kinematics::{
+    Arity, FollowOptions, Inverse, Joints, Pose, Robot, check_joints, pose_from_rows,
+};
 
 /// The solutions nearest to seeds, a row for each pose.
 pub(super) fn nearest<'py, const N: usize>(
@@ -19,6 +21,7 @@ pub(super) fn nearest<'py, const N: usize>(
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>>
 where
     Robot<N>: Inverse<N>,
+    Joints<N>: Arity<N>,
 {
     let py = seeds.py();
     let (weights, numbers) = (read_weights::<N>(weights)?, read_seeds::<N>(seeds, &poses.lead)?);

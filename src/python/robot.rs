@@ -20,7 +20,7 @@ use super::solutions::PySolutions;
 use super::urdf;
 use crate::catalogue;
 use crate::kinematics::thresholds::WRIST_ZONE;
-use crate::kinematics::{Explanation, FollowOptions, Inverse, OpwParameters, Robot, check_given};
+use crate::kinematics::{Explanation, FollowOptions, Inverse, OpwParameters, Redundancy, Robot};
 
 /// A robot arm: `Robot("IRB 2600-12/1.65")`. Frozen, hashable, equal by value, picklable.
 ///
@@ -385,13 +385,13 @@ impl PyRobot {
             Arm::Six(robot) => {
                 no_q7(q7.is_some())?;
                 let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_pose(T, "T")?));
-                robot.ik_into(&mut found.solutions, 0.0).map_err(|error| to_py(py, &error))?;
+                robot.ik_into(&mut found.solutions, ()).map_err(|error| to_py(py, &error))?;
                 Bound::new(py, PySolutions::from(found))
             }
             Arm::Seven(robot) => {
                 let q7 = needed_q7(py, robot, q7)?;
                 let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_pose(T, "T")?));
-                check_given(q7)
+                q7.check()
                     .and_then(|()| robot.ik_into(&mut found.solutions, q7))
                     .map_err(|error| to_py(py, &error))?;
                 Bound::new(py, PySolutions::from(found))
@@ -453,7 +453,7 @@ impl PyRobot {
                 PoseArgument::Many(poses) => return Ok(paths::nearest(robot, &poses, seed, weights)?.into_any()),
             };
             let (seed, weights) = read_seed(seed, weights)?;
-            let nearest = robot.ik_nearest_checked(pose, &seed, &weights).map_err(|error| to_py(T.py(), &error))?;
+            let nearest = robot.nearest_checked(pose, &seed, &weights).map_err(|error| to_py(T.py(), &error))?;
             Ok(PyArray1::from_slice(T.py(), &nearest.q).into_any())
         })
     }

@@ -10,16 +10,22 @@ use pyo3::types::{PyIterator, PyList};
 use super::arrays::matrix;
 use super::errors::{self, Fault, to_py};
 use super::found::Found;
-use crate::kinematics::{Cost, Pose, Robot, Solution, Status};
+use crate::kinematics::{Arity, Cost, Joints, Pose, Robot, Solution, Status};
 
 /// A solution, with the robot and the pose that it is of.
-pub(super) struct Member<const N: usize> {
+pub(super) struct Member<const N: usize>
+where
+    Joints<N>: Arity<N>,
+{
     robot: Arc<Robot<N>>,
     pose: Pose,
     solution: Solution<N>,
 }
 
-impl<const N: usize> Member<N> {
+impl<const N: usize> Member<N>
+where
+    Joints<N>: Arity<N>,
+{
     fn of(found: &Found<N>, solution: Solution<N>) -> Self {
         Self { robot: Arc::clone(&found.robot), pose: *found.solutions.pose(), solution }
     }
@@ -110,8 +116,8 @@ impl PySolution {
 
     /// The slot, 0 .. 7; for spherical-wrist arms ABB's cfx.
     #[getter]
-    fn slot(&self) -> u8 {
-        on!(AnyMember, &self.of, member => member.solution.slot)
+    fn slot(&self) -> usize {
+        on!(AnyMember, &self.of, member => member.solution.slot.index())
     }
 
     /// Whether every joint is inside its limits.
@@ -216,7 +222,7 @@ impl PySolutions {
     #[getter]
     fn status<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u8>> {
         let status = on!(AnyFound, &self.found, found => found.solutions.status());
-        PyArray1::from_slice(py, &status.map(|status| status.bits()))
+        PyArray1::from_iter(py, status.iter().map(|status| status.bits()))
     }
 
     /// Whether the wrist centre gets to where the pose wants it.

@@ -6,7 +6,7 @@ use pyo3::types::{PyBytes, PyString};
 use super::arm::Arm;
 use super::errors::to_py;
 use crate::error::{Error, UrdfFault};
-use crate::kinematics::Robot;
+use crate::kinematics::{Arity, Joints, Robot};
 use crate::urdf::UrdfArm;
 
 /// The arm between two links of a URDF, of six or seven joints.
@@ -40,7 +40,10 @@ fn arm_of(
     }
 }
 
-fn robot<const N: usize>(read: UrdfArm, name: &str, closed_form: bool) -> Result<Robot<N>, Error> {
+fn robot<const N: usize>(read: UrdfArm, name: &str, closed_form: bool) -> Result<Robot<N>, Error>
+where
+    Joints<N>: Arity<N>,
+{
     let robot = read.robot::<N>(closed_form)?;
     Ok(if name.is_empty() { robot } else { robot.with_name(name.to_owned()) })
 }

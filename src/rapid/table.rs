@@ -267,6 +267,6 @@ impl<'a> Table<'a> {
 
     fn seen(&self, q: &[f64; 6]) -> (Configuration, Option<SingularDistances>) {
         let configuration = self.robot.configuration(q).unwrap_or_default();
-        (configuration, self.robot.spherical_wrist().map(|arm| arm.singular_distances(q)))
+        (configuration, self.robot.singular_distances(q))
     }
 }

@@ -6,6 +6,7 @@ mod chain;
 mod joint;
 mod tree;
 
+use crate::kinematics::{Arity, Joints};
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
@@ -15,7 +16,10 @@ use self::tree::{Tree, parsed};
 use crate::error::{Error, ModelFault};
 use crate::kinematics::{JointAxis, JointLimits, Mdh, Pose, Robot};
 
-impl<const N: usize> Robot<N> {
+impl<const N: usize> Robot<N>
+where
+    Joints<N>: Arity<N>,
+{
     /// A robot from the text of a URDF, with the closed form of its geometry.
     ///
     /// `base` is the link in whose frame poses are given: the one without a parent when not given. `tip` is the link that poses are of: when
@@ -78,7 +82,10 @@ impl UrdfArm {
     }
 
     /// The robot, which must have `N` joints; without `closed_form` an arm of no known form is taken too.
-    pub(crate) fn robot<const N: usize>(self, closed_form: bool) -> Result<Robot<N>, Error> {
+    pub(crate) fn robot<const N: usize>(self, closed_form: bool) -> Result<Robot<N>, Error>
+    where
+        Joints<N>: Arity<N>,
+    {
         let found = self.motions.len();
         let motions = <[Motion; N]>::try_from(self.motions)
             .map_err(|_| ModelFault::JointCount { found, wanted: N })?;

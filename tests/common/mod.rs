@@ -97,7 +97,10 @@ pub fn difference_bound(reach: f64) -> f64 {
 }
 
 /// Distance of the stretched arm's flange from axis 1, at the height of the shoulder [m].
-pub fn reach_of<const N: usize>(robot: &Robot<N>) -> f64 {
+pub fn reach_of<const N: usize>(robot: &Robot<N>) -> f64
+where
+    irbkin::Joints<N>: irbkin::Arity<N>,
+{
     match robot.definition() {
         Definition::Opw(opw) => opw.a1.abs() + opw.c2 + opw.a2.hypot(opw.c3) + opw.c4,
         Definition::Mdh(mdh) => mdh.rows.iter().map(|row| row.a.hypot(row.d)).sum(),

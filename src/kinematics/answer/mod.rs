@@ -1,6 +1,8 @@
 //! What a solve answers: flags, reach, solutions in their slots, and the choice among them.
 
+pub(crate) mod check;
 pub(crate) mod select;
 pub(crate) mod singularity;
+pub(crate) mod slot;
 pub(crate) mod solutions;
 pub(crate) mod status;

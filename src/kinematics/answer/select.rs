@@ -5,10 +5,15 @@ use core::f64::consts::TAU;
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
-use crate::error::{Error, JointFault};
-use crate::kinematics::answer::solutions::{Solution, Solutions};
-use crate::kinematics::answer::status::{Explanation, Status};
+use super::check::{check_joints, check_weights};
+use super::solutions::{Place, Solution, Solutions};
+use super::status::Status;
+use crate::error::Error;
 use crate::kinematics::chain::limits::JointLimits;
+use crate::report::Explanation;
+
+/// Above, not every whole number is a float.
+const MOST_EXACT: f64 = 9_007_199_254_740_992.0;
 
 impl<const N: usize> Solutions<N> {
     /// Those inside the joint limits.
@@ -31,9 +36,9 @@ impl<const N: usize> Solutions<N> {
         mut accept: impl FnMut(&Solution<N>) -> bool,
     ) -> Self {
         let mut kept = self.clone();
-        for slot in &mut kept.slots {
-            if slot.as_ref().is_some_and(|solution| !accept(solution)) {
-                *slot = None;
+        for place in kept.places_mut() {
+            if place.found().is_some_and(|solution| !accept(solution)) {
+                *place = Place::Empty;
             }
         }
         kept.emptied = kept.is_empty().then_some(explanation);
@@ -45,20 +50,30 @@ impl<const N: usize> Solutions<N> {
         self.iter().flat_map(|solution| Turns::of(&self.limits, solution))
     }
 
-    /// How many [`Self::turns`] lists.
+    /// How many [`Self::turns`] lists; `None` where they are too many for a `usize`.
     #[must_use]
-    pub fn turn_count(&self) -> f64 {
+    pub fn turn_count(&self) -> Option<usize> {
+        let count = self.turn_total();
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a whole number below 2^53"
+        )]
+        (count < MOST_EXACT && count <= usize::MAX as f64).then_some(count as usize)
+    }
+
+    /// The same as a number that may be too large to count.
+    pub(crate) fn turn_total(&self) -> f64 {
+        let of_solution = |solution: &Solution<N>| {
+            let turns = (0..N).map(|joint| {
+                let turns = self.limits.countable_turns(joint, solution.q[joint]);
+                turns.map_or(0.0, |(first, last)| last - first + 1.0)
+            });
+            turns.product::<f64>()
+        };
         self.iter()
             .filter(|solution| self.limits.rod_excess(&solution.q) == 0.0)
-            .map(|solution| {
-                (0..N)
-                    .map(|joint| {
-                        self.limits
-                            .countable_turns(joint, solution.q[joint])
-                            .map_or(0.0, |(first, last)| last - first + 1.0)
-                    })
-                    .product::<f64>()
-            })
+            .map(of_solution)
             .sum()
     }
 
@@ -189,21 +204,5 @@ impl<const N: usize> Iterator for Turns<N> {
         solution.q = core::array::from_fn(|joint| solution.q[joint] + TAU * turns[joint]);
         solution.status |= Status::WITHIN_LIMITS;
         Some(solution)
-    }
-}
-
-/// A joint vector of which every angle is finite.
-pub(crate) fn check_joints(field: &'static str, q: &[f64]) -> Result<(), Error> {
-    match q.iter().position(|angle| !angle.is_finite()) {
-        Some(i) => Err(JointFault::NotFinite { field, joint: i + 1, value: q[i] }.into()),
-        None => Ok(()),
-    }
-}
-
-/// Weights that are finite and not negative.
-pub(crate) fn check_weights(weights: &[f64]) -> Result<(), Error> {
-    match weights.iter().position(|weight| !(weight.is_finite() && *weight >= 0.0)) {
-        Some(i) => Err(JointFault::Weight { joint: i + 1, value: weights[i] }.into()),
-        None => Ok(()),
     }
 }

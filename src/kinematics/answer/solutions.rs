@@ -1,122 +1,18 @@
-//! The answer of a solve: up to eight solutions, each in its slot.
+//! The answer of a solve: solutions, each in its slot.
 
-use crate::kinematics::answer::status::{Explanation, Reach, Status};
+use super::slot::{MOST_SLOTS, Slot, SlotStatus};
+use super::status::Status;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::Pose;
-
-/// Number of slots of every closed-form arm.
-pub const SLOTS: usize = 8;
-
-/// A joint that a singular pose leaves free: the solution is one of a family.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FreeJoint {
-    /// The wrist centre is on axis 1: q1 is free, q2 and q3 are fixed, the wrist follows.
-    Base,
-    /// The wrist centre is on axis 2: q2 is free, q1 and q3 are fixed, the wrist follows.
-    Upper,
-    /// The same of an arm with coupled axes 2 and 3: q3 goes with q2.
-    UpperCoupled,
-    /// Axes 4 and 6 are one: q4 is free, q4 + q6 is fixed.
-    WristSum,
-    /// Axes 4 and 6 are one: q4 is free, q4 - q6 is fixed.
-    WristDifference,
-    /// Axes 2, 3, 4 and 6 of a three-parallel arm are parallel: q6 is free, q1 and q5 are fixed, the arm follows.
-    Parallel,
-    /// Axes 1 and 3 of a seven-axis arm are one: q1 is free, q1 + q3 is fixed.
-    ShoulderSum,
-    /// Axes 1 and 3 of a seven-axis arm are one: q1 is free, q1 - q3 is fixed.
-    ShoulderDifference,
-    /// The shoulder of a seven-axis arm is on axis 5: q5 is free, q4 and q6 are fixed, the shoulder's joints follow.
-    Forearm,
-    /// The shoulder of a seven-axis arm is on axis 6: q6 is free, q4 and q5 are fixed, the shoulder's joints follow.
-    Hand,
-}
-
-impl FreeJoint {
-    /// Number of the free joint, from 1.
-    #[must_use]
-    pub fn joint(self) -> usize {
-        match self {
-            Self::Base | Self::ShoulderSum | Self::ShoulderDifference => 1,
-            Self::Upper | Self::UpperCoupled => 2,
-            Self::WristSum | Self::WristDifference => 4,
-            Self::Forearm => 5,
-            Self::Parallel | Self::Hand => 6,
-        }
-    }
-
-    /// The joint whose sum with the free one, or difference from it (a sign of -1), is all that is fixed: its number, from 1, and the sign.
-    pub(crate) fn partner(self) -> Option<(usize, f64)> {
-        match self {
-            Self::WristSum => Some((6, 1.0)),
-            Self::WristDifference => Some((6, -1.0)),
-            Self::ShoulderSum => Some((3, 1.0)),
-            Self::ShoulderDifference => Some((3, -1.0)),
-            Self::Base
-            | Self::Upper
-            | Self::UpperCoupled
-            | Self::Parallel
-            | Self::Forearm
-            | Self::Hand => None,
-        }
-    }
-
-    /// Numbers of the joints, from 1, that stand still along a family that moves more than a partner.
-    pub(crate) fn still(self) -> &'static [usize] {
-        match self {
-            Self::Base => &[2, 3],
-            Self::Upper => &[1, 3],
-            Self::UpperCoupled => &[1],
-            Self::Parallel => &[1, 5],
-            Self::Forearm => &[4, 6],
-            Self::Hand => &[4, 5],
-            Self::WristSum
-            | Self::WristDifference
-            | Self::ShoulderSum
-            | Self::ShoulderDifference => &[],
-        }
-    }
-
-    /// The branches on which a family goes on, each by what its slots differ in from that of a solution of it. The free joint may flip what
-    /// turns with it or bring another singularity; the two elbows of a stretched arm are one solution and go apart along the family.
-    pub(crate) fn branches(self) -> &'static [&'static [usize]] {
-        match self {
-            Self::ShoulderSum | Self::ShoulderDifference => &[&[0, 4]],
-            Self::Forearm | Self::Hand => &[&[0, 1, 4, 5]],
-            Self::Parallel => &[&[0, 1], &[2, 3]],
-            Self::Base
-            | Self::Upper
-            | Self::UpperCoupled
-            | Self::WristSum
-            | Self::WristDifference => &[&[0, 1]],
-        }
-    }
-
-    /// What stays fixed along the family.
-    #[must_use]
-    pub fn fixed(self) -> &'static str {
-        match self {
-            Self::Base => "q2, q3",
-            Self::Upper => "q1, q3",
-            Self::UpperCoupled => "q1, q3 - q2",
-            Self::WristSum => "q4 + q6",
-            Self::WristDifference => "q4 - q6",
-            Self::Parallel => "q1, q5",
-            Self::ShoulderSum => "q1 + q3",
-            Self::ShoulderDifference => "q1 - q3",
-            Self::Forearm => "q4, q6",
-            Self::Hand => "q4, q5",
-        }
-    }
-}
+use crate::report::{Explanation, FreeJoint, Reach};
 
 /// One joint vector that brings the tool to the pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solution<const N: usize> {
     /// Joint angles [rad]: in (-pi, pi], or the full turn of it that is inside the limits.
     pub q: [f64; N],
-    /// The slot, 0 ..= 7. For spherical-wrist arms: 4 (wrist centre behind axis 1) + 2 (behind the lower arm) + 1 (q5 < 0).
-    pub slot: u8,
+    /// The slot.
+    pub slot: Slot,
     /// Found, inside the limits or not, and the singularities that the pose stands at.
     pub status: Status,
     /// The joint that the pose leaves free, at a singularity.
@@ -137,11 +33,39 @@ impl<const N: usize> Solution<N> {
     }
 }
 
+/// What a slot holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Place<const N: usize> {
+    /// The branch does not exist.
+    Empty,
+    /// The branch is that of another slot, which holds the solution; its singularities and MERGED.
+    Merged(Status),
+    Found(Solution<N>),
+}
+
+impl<const N: usize> Place<N> {
+    #[inline(always)]
+    pub(crate) fn found(&self) -> Option<&Solution<N>> {
+        match self {
+            Self::Found(solution) => Some(solution),
+            Self::Empty | Self::Merged(_) => None,
+        }
+    }
+
+    fn status(&self) -> Status {
+        match self {
+            Self::Empty => Status::empty(),
+            Self::Merged(flags) => *flags,
+            Self::Found(solution) => solution.status,
+        }
+    }
+}
+
 /// Every solution of a pose, and why there is none where there is none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solutions<const N: usize> {
-    pub(crate) slots: [Option<Solution<N>>; SLOTS],
-    pub(crate) merged: [Status; SLOTS],
+    places: [Place<N>; MOST_SLOTS],
+    slot_count: usize,
     pub(crate) reach: Reach,
     pub(crate) pose: Pose,
     pub(crate) limits: JointLimits<N>,
@@ -150,6 +74,13 @@ pub struct Solutions<const N: usize> {
 }
 
 impl<const N: usize> Solutions<N> {
+    /// An answer without solutions, for a structure of so many slots.
+    #[inline]
+    pub(crate) fn none(slot_count: usize, pose: Pose, limits: JointLimits<N>) -> Self {
+        let places = [Place::Empty; MOST_SLOTS];
+        Self { places, slot_count, reach: Reach::Reached, pose, limits, emptied: None }
+    }
+
     /// Number of solutions, limits not regarded.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -162,23 +93,39 @@ impl<const N: usize> Solutions<N> {
         self.len() == 0
     }
 
-    /// The solutions in the order of their slots.
-    pub fn iter(&self) -> impl Iterator<Item = &Solution<N>> {
-        self.slots.iter().flatten()
+    /// Number of slots: eight, of a general chain of six joints sixteen.
+    #[must_use]
+    pub fn slot_count(&self) -> usize {
+        self.slot_count
     }
 
-    /// The solution in a slot.
+    /// The solutions in the order of their slots.
+    #[must_use]
+    pub fn iter(&self) -> Iter<'_, N> {
+        Iter(self.places().iter())
+    }
+
+    /// The solution in a slot, from 0.
     #[must_use]
     pub fn slot(&self, slot: usize) -> Option<&Solution<N>> {
-        self.slots.get(slot)?.as_ref()
+        self.places().get(slot)?.found()
     }
 
     /// What the solve says of each slot; empty flags where the branch does not exist.
     #[must_use]
-    pub fn status(&self) -> [Status; SLOTS] {
-        core::array::from_fn(|i| {
-            self.slots[i].as_ref().map_or(self.merged[i], |solution| solution.status)
-        })
+    pub fn status(&self) -> SlotStatus {
+        SlotStatus::new(self.places.map(|place| place.status()), self.slot_count)
+    }
+
+    /// What each slot holds.
+    #[inline]
+    pub(crate) fn places(&self) -> &[Place<N>] {
+        &self.places[..self.slot_count]
+    }
+
+    #[inline]
+    pub(crate) fn places_mut(&mut self) -> &mut [Place<N>] {
+        &mut self.places[..self.slot_count]
     }
 
     /// Whether the wrist centre gets to where the pose wants it.
@@ -230,11 +177,28 @@ impl<const N: usize> Solutions<N> {
     }
 }
 
+/// The solutions of an answer in the order of their slots.
+#[derive(Clone, Debug)]
+pub struct Iter<'a, const N: usize>(core::slice::Iter<'a, Place<N>>);
+
+impl<'a, const N: usize> Iterator for Iter<'a, N> {
+    type Item = &'a Solution<N>;
+
+    #[inline]
+    fn next(&mut self) -> Option<Self::Item> {
+        self.0.by_ref().find_map(Place::found)
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        (0, self.0.size_hint().1)
+    }
+}
+
 impl<'a, const N: usize> IntoIterator for &'a Solutions<N> {
     type Item = &'a Solution<N>;
-    type IntoIter = core::iter::Flatten<core::slice::Iter<'a, Option<Solution<N>>>>;
+    type IntoIter = Iter<'a, N>;
 
     fn into_iter(self) -> Self::IntoIter {
-        self.slots.iter().flatten()
+        self.iter()
     }
 }

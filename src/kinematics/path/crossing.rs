@@ -9,7 +9,9 @@ use crate::kinematics::answer::status::Status;
 use crate::kinematics::path::follow::{Break, BreakReason, Followed, Follower, largest_step};
 use crate::kinematics::pose::{Pose, PoseError, checked_pose};
 use crate::kinematics::robot::Robot;
-use crate::kinematics::structure::spherical_wrist::{SphericalWrist, WristSolver};
+use crate::kinematics::structure::any::AnyStructure;
+use crate::kinematics::structure::solver::Solver;
+use crate::kinematics::structure::spherical_wrist::SphericalWrist;
 use crate::kinematics::thresholds::{HELD_STILL, JUMP_BLIND, WRIST_ZONE};
 
 /// What a path does at the wrist singularity.
@@ -107,7 +109,7 @@ struct Walk<'a> {
 
 impl Walk<'_> {
     fn in_zone(&self, q: &[f64; 6]) -> bool {
-        self.robot.geometry().sin_5(q).is_some_and(|sin_5| sin_5.abs() < self.options.zone)
+        self.robot.structure().arm().sin_5(q).is_some_and(|sin_5| sin_5.abs() < self.options.zone)
     }
 
     fn record(&mut self, q: Option<[f64; 6]>, broken: Option<BreakReason>) {
@@ -236,7 +238,7 @@ impl Walk<'_> {
     /// The joints for a pose with the wrist held as in `q`: arm and wrist solved in turn until both stand.
     fn held(&self, pose: &Pose, q: &[f64; 6], how: Held) -> Result<Option<[f64; 6]>, Error> {
         let pose = checked_pose(pose)?;
-        let Some(WristSolver { arm, surroundings, .. }) = self.robot.wrist_solver() else {
+        let Some(Solver { structure: arm, surroundings, .. }) = self.robot.wrist_solver() else {
             return Ok(None);
         };
         let rotation = surroundings.wrist_pose(&pose).rotation;

@@ -9,15 +9,18 @@ use nalgebra::ComplexField as _;
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3};
 
 use crate::error::Error;
-use crate::kinematics::answer::select::{check_joints, check_weights};
-use crate::kinematics::answer::solutions::{FreeJoint, Solution};
-use crate::kinematics::answer::status::{Explanation, Status};
+use crate::kinematics::answer::check::{check_joints, check_weights};
+use crate::kinematics::answer::solutions::Solution;
+use crate::kinematics::answer::status::Status;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
+use crate::kinematics::structure::Structure as _;
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::thresholds::{
     JUMP_BLIND, JUMP_GROWTH, JUMP_LEAST, PATH_WRIST_SIN, SEEDED_FREE, STEADY_STEP,
 };
+use crate::report::Explanation;
+use crate::report::FreeJoint;
 
 /// How often a segment of the path is halved in search of a continuous way through it: to a millionth of it.
 const HALVINGS: u32 = 20;
@@ -159,8 +162,10 @@ impl<'a> Follower<'a> {
     /// At a wrist of which the pose says little the whole of what is left over went to joint 6: half of it belongs to joint 4, as far as the
     /// pose does not contradict.
     fn balance(&self, next: &mut Solution<6>, heading: &[f64; 6], pose: &Pose) {
-        let Some(arm) =
-            self.robot.spherical_wrist().filter(|arm| arm.sin_5(&next.q).abs() <= PATH_WRIST_SIN)
+        let Some(arm) = self
+            .robot
+            .spherical_wrist()
+            .filter(|arm| arm.sin_5(&next.q).is_some_and(|sin_5| sin_5.abs() <= PATH_WRIST_SIN))
         else {
             return;
         };

@@ -20,6 +20,12 @@ pub(crate) fn wrap(angle: f64) -> f64 {
     if wrapped > PI { wrapped - TAU } else { wrapped }
 }
 
+/// 1, or -1 below zero.
+#[must_use]
+pub(crate) fn sign_of(value: f64) -> f64 {
+    if value < 0.0 { -1.0 } else { 1.0 }
+}
+
 /// Distance of an angle from the nearest multiple of pi [rad], in 0 ..= pi / 2.
 #[must_use]
 pub(crate) fn distance_from_half_turns(angle: f64) -> f64 {
@@ -39,12 +45,6 @@ pub(crate) fn constant_sin_cos(angle: f64) -> (f64, f64) {
         2.0 => (0.0, -1.0),
         _ => (-1.0, 0.0),
     }
-}
-
-/// The first `M` of `N` joint angles; zeros behind the last.
-#[inline(always)]
-pub(crate) fn resized<const N: usize, const M: usize>(q: &[f64; N]) -> [f64; M] {
-    core::array::from_fn(|i| q.get(i).copied().unwrap_or(0.0))
 }
 
 #[cfg(test)]

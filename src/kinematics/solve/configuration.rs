@@ -1,7 +1,6 @@
 //! ABB's confdata: which of the solutions of a pose, and which turn of it.
 
 use core::f64::consts::FRAC_PI_2;
-use core::fmt;
 
 use alloc::vec::Vec;
 
@@ -9,37 +8,22 @@ use alloc::vec::Vec;
 use nalgebra::ComplexField as _;
 
 use crate::error::{Error, JointFault, ModelFault, NoConfiguration};
-use crate::kinematics::answer::select::{Turns, check_joints};
-use crate::kinematics::answer::solutions::{SLOTS, Solution, Solutions};
+use crate::kinematics::answer::check::check_joints;
+use crate::kinematics::answer::select::Turns;
+use crate::kinematics::answer::slot::Slot;
+use crate::kinematics::answer::solutions::{Place, Solution, Solutions};
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
-use crate::kinematics::solve::inverse::Inverse as _;
+use crate::kinematics::solve::nearest::Inverse as _;
+use crate::kinematics::structure::Structure as _;
 use crate::kinematics::structure::spherical_wrist::SphericalWrist;
 use crate::kinematics::thresholds::{CONFIGURATION_EDGE, MOST_ANGLE};
+use crate::report::Configuration;
 
-/// ABB's confdata `[cf1, cf4, cf6, cfx]`: quarter turns of axes 1, 4 and 6, and the slot.
-///
-/// A quarter turn's number is `floor(angle / 90 deg)`. `cfx` is 4 (wrist centre behind axis 1) + 2 (behind the lower arm) + 1 (q5 < 0).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Configuration {
-    /// Quarter turn of axis 1.
-    pub cf1: i32,
-    /// Quarter turn of axis 4.
-    pub cf4: i32,
-    /// Quarter turn of axis 6.
-    pub cf6: i32,
-    /// The slot of an arm that bends backwards; zero for one with coupled axes 2 and 3.
-    pub cfx: i32,
-}
-
-impl fmt::Display for Configuration {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { cf1, cf4, cf6, cfx } = self;
-        write!(f, "[{cf1}, {cf4}, {cf6}, {cfx}]")
-    }
-}
+/// Slots of the arms that have configurations.
+const SLOTS: usize = 8;
 
 /// The axes that a configuration counts quarter turns of, from 0.
 const COUNTED: [usize; 3] = [0, 3, 5];
@@ -52,10 +36,10 @@ const UNCOUNTED: [usize; 3] = [1, 2, 4];
 const MOST_QUARTERS: i32 = (MOST_ANGLE / FRAC_PI_2) as i32;
 
 impl Configuration {
-    /// Of a joint vector, with the slot of its branch.
-    fn of(q: &[f64; 6], slot: u8) -> Self {
+    /// Of a joint vector, with the number of its slot.
+    fn of(q: &[f64; 6], cfx: i32) -> Self {
         let [cf1, cf4, cf6] = COUNTED.map(|joint| quarter(q[joint]));
-        Self { cf1, cf4, cf6, cfx: slot.into() }
+        Self { cf1, cf4, cf6, cfx }
     }
 
     /// Numbers that a configuration of the arm can have.
@@ -110,7 +94,8 @@ impl Robot<6> {
     }
 
     fn configuration_of(&self, arm: &SphericalWrist, q: &[f64; 6]) -> Configuration {
-        Configuration::of(q, if self.is_coupled() { 0 } else { arm.slot(q) })
+        let slot = arm.slot(q).filter(|_| !self.is_coupled());
+        Configuration::of(q, slot.map_or(0, Slot::number))
     }
 
     /// The solution inside the limits that has the configuration `wanted`, which chooses the turns of axes 1, 4 and 6, too.
@@ -152,7 +137,7 @@ impl Robot<6> {
         seed: &[f64; 6],
     ) -> Result<Solution<6>, Error> {
         match self.ik_configured_checked(pose, wanted) {
-            Err(Error::NoConfiguration(_)) => self.ik_nearest_checked(pose, seed, &[1.0; 6]),
+            Err(Error::NoConfiguration(_)) => self.nearest_checked(pose, seed, &[1.0; 6]),
             answer => answer,
         }
     }
@@ -165,7 +150,7 @@ impl Robot<6> {
     ) -> Result<Solution<6>, Error> {
         let arm = self.counted()?;
         wanted.check(self.is_coupled())?;
-        let solutions = self.ik_checked(pose, 0.0)?;
+        let solutions = self.ik_checked(pose, ())?;
         for edge in [0.0, CONFIGURATION_EDGE] {
             let Some(limits) = self.limits().narrowed(&wanted.ranges(edge)) else { continue };
             for candidates in self.candidates(arm, &solutions, wanted, edge) {
@@ -223,9 +208,12 @@ impl Robot<6> {
         slots: [bool; SLOTS],
         limits: JointLimits<6>,
     ) -> Result<Option<Solution<6>>, Error> {
-        let mut within = Solutions { limits, ..solutions.clone() };
-        for (slot, taken) in within.slots.iter_mut().zip(slots) {
-            *slot = slot.filter(|_| taken);
+        let mut within = solutions.clone();
+        within.limits = limits;
+        for (place, taken) in within.places_mut().iter_mut().zip(slots) {
+            if !taken {
+                *place = Place::Empty;
+            }
         }
         if within.is_empty() {
             return Ok(None);

@@ -2,6 +2,7 @@
 
 pub(crate) mod configuration;
 pub(crate) mod inverse;
+pub(crate) mod nearest;
 pub(crate) mod redundancy;
 pub(crate) mod self_motion;
 pub(crate) mod self_motion_curve;

@@ -9,13 +9,15 @@ use core::f64::consts::{PI, TAU};
 use nalgebra::{ComplexField as _, RealField as _};
 
 use crate::error::{Error, ModelFault};
-use crate::kinematics::answer::select::{Cost, check_joints, check_weights};
-use crate::kinematics::answer::solutions::{SLOTS, Solution};
-use crate::kinematics::answer::status::{Explanation, Status};
-use crate::kinematics::pose::{Pose, checked_pose};
+use crate::kinematics::answer::select::Cost;
+use crate::kinematics::answer::slot::{MOST_SLOTS, Slot};
+use crate::kinematics::answer::solutions::Solution;
+use crate::kinematics::answer::status::Status;
+use crate::kinematics::pose::Pose;
 use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::self_motion_curve::{Joints, Point, SelfMotion};
 use crate::kinematics::structure::free_choice::FreeChoice;
+use crate::report::Explanation;
 
 /// Distance of two angles of joint 7 at which all solutions are looked at [rad], at first and where none inside the limits was found.
 const SPACINGS: [f64; 2] = [0.06, 0.015];
@@ -42,22 +44,6 @@ const STEPS: u32 = 120;
 const ROUNDS: u32 = 40;
 
 impl Robot<7> {
-    /// The solution inside the limits that is nearest to `seed` [rad] along the redundancy: of every angle of joint 7, with turns considered.
-    ///
-    /// # Errors
-    ///
-    /// As [`Robot::<6>::ik_nearest`].
-    pub fn ik_nearest(
-        &self,
-        pose: &Pose,
-        seed: &[f64; 7],
-        weights: &[f64; 7],
-    ) -> Result<Solution<7>, Error> {
-        check_joints("seed", seed)?;
-        check_weights(weights)?;
-        self.nearest_along_redundancy(&checked_pose(pose)?, seed, weights)
-    }
-
     pub(in crate::kinematics) fn nearest_along_redundancy(
         &self,
         pose: &Pose,
@@ -72,8 +58,10 @@ impl Robot<7> {
     }
 
     /// The outcome of a solve over every angle of joint 7, in a sentence.
-    #[cfg(feature = "python")]
-    pub(crate) fn explain(&self, pose: &Pose) -> Result<Explanation, Error> {
+    pub(in crate::kinematics) fn explain_along_redundancy(
+        &self,
+        pose: &Pose,
+    ) -> Result<Explanation, Error> {
         let found = self.search(pose, &self.limits().rest(), &[1.0; 7])?;
         let Some((_, q)) = found.best else { return Ok(found.missed.explanation) };
         Ok(match self.ik_checked(*pose, q[6])?.explain() {
@@ -89,8 +77,8 @@ impl Robot<7> {
         seed: &[f64; 7],
         weights: &[f64; 7],
     ) -> Result<Search<'_>, Error> {
-        if let Some(reason) = self.no_closed_form() {
-            return Err(ModelFault::NoClosedForm(reason).into());
+        if let Some(reason) = self.unknown_structure() {
+            return Err(ModelFault::UnknownStructure(reason).into());
         }
         let pose = *pose;
         let mut search = Search {
@@ -107,10 +95,10 @@ impl Robot<7> {
 
     /// A joint vector of the pose, in its slot.
     fn solution_at(&self, pose: &Pose, q: [f64; 7]) -> Result<Solution<7>, Error> {
-        let slot = self.spherical_shoulder().map_or(0, |arm| arm.slot(&q));
+        let slot = self.slot_of(&q).unwrap_or(Slot::new(0));
         let free = self
             .solve(*pose, &FreeChoice::seed(q))?
-            .slot(usize::from(slot))
+            .slot(slot.index())
             .and_then(|solution| solution.free);
         let status = Status::FOUND | Status::WITHIN_LIMITS | self.singularity(&q).kinds;
         Ok(Solution { q, slot, status, free })
@@ -158,11 +146,11 @@ impl Sample {
 #[derive(Clone, Copy)]
 struct Samples {
     q7: f64,
-    slots: [Option<Sample>; SLOTS],
+    slots: [Option<Sample>; MOST_SLOTS],
 }
 
 impl Samples {
-    const NONE: Self = Self { q7: 0.0, slots: [None; SLOTS] };
+    const NONE: Self = Self { q7: 0.0, slots: [None; MOST_SLOTS] };
 
     /// Whether a joint of some slot goes so far to the other samples that something may be missed between, or a slot ends between.
     fn leaps_to(&self, other: &Self, depth: u32) -> bool {
@@ -252,7 +240,7 @@ impl Search<'_> {
     /// Goes down from the last samples that were seen, where they are better than those before and the next.
     fn look_at(&mut self, curve: &SelfMotion<'_>, seen: &mut [Samples; 2], next: &Samples) {
         let [before, here] = *seen;
-        for slot in 0..SLOTS {
+        for slot in 0..MOST_SLOTS {
             let Some(sample) = here.slots[slot] else { continue };
             let (before, next) = (before.slots[slot].as_ref(), next.slots[slot].as_ref());
             // Where other joints are outside than next to it, there may be none between.

@@ -1,16 +1,21 @@
 //! The solution next to a seed, and the family of solutions along a joint that a singular pose leaves free.
 
+use crate::kinematics::structure::arity::{Arity, Joints};
 use core::f64::consts::{PI, TAU};
 
 use crate::error::{Error, JointFault};
-use crate::kinematics::answer::select::{Cost, check_joints};
-use crate::kinematics::answer::solutions::{FreeJoint, SLOTS, Solution, Solutions};
-use crate::kinematics::answer::status::{Explanation, Status};
+use crate::kinematics::answer::check::check_joints;
+use crate::kinematics::answer::select::Cost;
+use crate::kinematics::answer::solutions::{Place, Solution, Solutions};
+use crate::kinematics::answer::status::Status;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
 use crate::kinematics::structure::free_choice::FreeChoice;
+use crate::kinematics::structure::redundancy::Redundancy;
 use crate::kinematics::thresholds::{POSITION_ROUNDING, SEEDED_FREE, SOLUTION_OFF};
+use crate::report::Explanation;
+use crate::report::FreeJoint;
 
 /// Steps of a turn in which a free joint that moves the whole wrist is searched for a place inside the limits.
 const STEPS: u32 = 360;
@@ -27,7 +32,10 @@ const GOLDEN: f64 = 0.381_966_011_250_105_1;
 /// Places between steps that are looked at in a family.
 const PLACES: usize = 16;
 
-impl<const N: usize> Robot<N> {
+impl<const N: usize> Robot<N>
+where
+    Joints<N>: Arity<N>,
+{
     /// The solution of the same pose whose free joint stands at `value` [rad]; `None` where no joint is free.
     ///
     /// The tool stays to rounding at the singularity, and next to it within twice the pose's distance from it: at most 3e-9 rad or m.
@@ -85,7 +93,7 @@ impl<const N: usize> Robot<N> {
         q[free.joint() - 1] = value;
         self.solve(
             *pose,
-            &FreeChoice::forced(q, free.joint(), usize::from(solution.slot) >= SLOTS / 2),
+            &FreeChoice::forced(q, free.joint(), solution.slot.index() >= self.slot_count() / 2),
         )
     }
 
@@ -99,7 +107,7 @@ impl<const N: usize> Robot<N> {
         branch: &[usize],
         may_take: impl Fn(usize) -> bool,
     ) -> Option<Solution<N>> {
-        let slots = branch.iter().map(|other| usize::from(solution.slot) ^ other);
+        let slots = branch.iter().map(|other| solution.slot.index() ^ other);
         let mut moved =
             *slots.filter(|slot| may_take(*slot)).find_map(|slot| solutions.slot(slot))?;
         moved.q[free.joint() - 1] = value;
@@ -137,13 +145,15 @@ impl<const N: usize> Robot<N> {
         solutions: &mut Solutions<N>,
         allowed: f64,
     ) -> Result<(), Error> {
-        for slot in 0..SLOTS {
-            let Some(outside) = solutions.slots[slot]
+        for slot in 0..solutions.slot_count() {
+            let Some(outside) = solutions
+                .slot(slot)
+                .copied()
                 .filter(|solution| solution.free.is_some() && !solution.within_limits())
             else {
                 continue;
             };
-            let rest = self.resting(outside.q[N - 1]);
+            let rest = self.resting(Redundancy::of(&outside.q));
             if let Some(inside) = self.nearest_in_families(
                 solutions,
                 [&outside].into_iter(),
@@ -151,10 +161,10 @@ impl<const N: usize> Robot<N> {
                 &[1.0; N],
                 allowed,
             )? {
-                let to = usize::from(inside.slot);
-                solutions.merged.swap(slot, to);
-                solutions.slots[slot] = None;
-                solutions.slots[to] = Some(inside);
+                let to = inside.slot.index();
+                let places = solutions.places_mut();
+                places.swap(slot, to);
+                places[to] = Place::Found(inside);
             }
         }
         Ok(())
@@ -211,7 +221,10 @@ pub(in crate::kinematics) fn meets(pose: &Pose) -> f64 {
 }
 
 /// The family of one of the solutions of a pose.
-struct Family<'a, const N: usize> {
+struct Family<'a, const N: usize>
+where
+    Joints<N>: Arity<N>,
+{
     robot: &'a Robot<N>,
     solutions: &'a Solutions<N>,
     solution: &'a Solution<N>,
@@ -220,13 +233,16 @@ struct Family<'a, const N: usize> {
     allowed: f64,
 }
 
-impl<const N: usize> Family<'_, N> {
+impl<const N: usize> Family<'_, N>
+where
+    Joints<N>: Arity<N>,
+{
     /// Its solutions with the free joint at `value`, one on each branch, in slots that no other solution of the pose has.
     fn at(&self, value: f64) -> Result<[Option<Solution<N>>; 2], Error> {
         let solutions =
             self.robot.solve_with_free(self.solutions.pose(), self.solution, self.free, value)?;
         let vacant =
-            |slot| slot == usize::from(self.solution.slot) || self.solutions.slot(slot).is_none();
+            |slot| slot == self.solution.slot.index() || self.solutions.slot(slot).is_none();
         let mut members = [None; 2];
         for (place, branch) in members.iter_mut().zip(self.free.branches()) {
             let member =
@@ -245,7 +261,7 @@ impl<const N: usize> Family<'_, N> {
 
     /// The angle of the free joint at which the branch stands that was merged with this one, where it is of the same family.
     fn twin(&self) -> Option<f64> {
-        let turned = self.free.partner().is_some() || self.free == FreeJoint::Parallel;
+        let turned = self.free.merged_half_a_turn_away();
         turned.then(|| self.own() + PI)
     }
 
@@ -281,7 +297,10 @@ struct Nearest<'a, const N: usize> {
     best: Option<(f64, Solution<N>)>,
 }
 
-impl<const N: usize> Nearest<'_, N> {
+impl<const N: usize> Nearest<'_, N>
+where
+    Joints<N>: Arity<N>,
+{
     fn look_at(
         &mut self,
         family: &Family<'_, N>,

@@ -1,160 +1,155 @@
-//! The closed forms that an arm may have, and one way through them.
+//! The structures that an arm of so many joints may have, and one way through them.
 
-#[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
+use core::fmt::Debug;
 
+use super::declare::structures;
+use super::free_choice::FreeChoice;
+use super::lanes::PoseRow;
+use super::redundancy::Redundancy;
+use super::solver::Solver;
+use super::spherical_shoulder::SphericalShoulder;
+use super::spherical_wrist::SphericalWrist;
+use super::three_parallel::ThreeParallel;
+use super::{NO_LINKAGE, Structure};
 use crate::kinematics::answer::singularity::SingularDistances;
+use crate::kinematics::answer::slot::Slot;
+use crate::kinematics::answer::solutions::Solutions;
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::chain::Chain;
-use crate::kinematics::chain::dh::{DhRow, Mdh};
+use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::chain::limits::JointLimits;
-use crate::kinematics::pose::Pose;
-use crate::kinematics::pose::angles::resized;
-use crate::kinematics::structure::branches::Branches;
-use crate::kinematics::structure::free_choice::FreeChoice;
-use crate::kinematics::structure::recognition::NotRecognised;
-use crate::kinematics::structure::spherical_shoulder::{self, SevenSolver};
-use crate::kinematics::structure::spherical_wrist::{
-    self, OpwParameters, SphericalWrist, WristSolver,
-};
-use crate::kinematics::structure::three_parallel::{self, ParallelSolver};
+use crate::report::UnknownStructure;
 
-/// The closed form of an arm.
-#[derive(Clone, Debug, PartialEq)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "a robot is built once and borrowed from then on; a box would need the heap"
-)]
-pub(crate) enum Geometry {
-    SphericalWrist(WristSolver),
-    ThreeParallel(ParallelSolver),
-    SphericalShoulder(SevenSolver),
-    Serial(NotRecognised),
+structures! {
+    /// Structures of six joints.
+    SixJoints, 6, (): SphericalWrist: 8, ThreeParallel: 8
 }
 
-impl Geometry {
-    /// The closed form of a table, and the table with what is within rounding of that form made exactly so.
-    pub(crate) fn of<const N: usize>(mdh: &Mdh<N>) -> (Chain<N>, Self) {
-        let (base, flange) = (mdh.base, mdh.flange);
-        let found = match (
-            <&[DhRow; 6]>::try_from(&mdh.rows[..]),
-            <&[DhRow; 7]>::try_from(&mdh.rows[..]),
-        ) {
-            (Ok(rows), _) => Self::of_six(&Mdh { base, rows: *rows, flange }),
-            (_, Ok(rows)) => Self::of_seven(&Mdh { base, rows: *rows, flange }),
-            _ => Err(NotRecognised::joint_count(N)),
-        };
-        found.unwrap_or_else(|reason| (Chain::new(mdh.clone()), Self::Serial(reason)))
+structures! {
+    /// Structures of seven joints, of which the caller gives the last.
+    SevenJoints, 7, f64: SphericalShoulder: 8
+}
+
+/// What any structure of `N` joints is asked: a [`Solver`] answers, or the reason why there is none.
+pub(crate) trait Arm<const N: usize, R> {
+    /// Why the arm has none of the known structures, if so.
+    fn unknown(&self) -> Option<UnknownStructure> {
+        None
     }
 
-    fn of_six<const N: usize>(mdh: &Mdh<6>) -> Result<(Chain<N>, Self), NotRecognised> {
-        // A third and a fourth axis that are nearer to parallel than to square belong to the one form, others to the other.
-        if mdh.rows[3].alpha.sin().abs() < mdh.rows[3].alpha.cos().abs() {
-            let (squared, arm) = three_parallel::recognise(mdh)?;
-            let chain = resized_chain(&squared);
-            let solver = ParallelSolver::new(arm, &chain, &JointLimits::UNLIMITED);
-            return Ok((chain, Self::ThreeParallel(solver)));
-        }
-        let (squared, arm) = spherical_wrist::recognise(mdh)?;
-        let chain = resized_chain(&squared);
-        let solver = WristSolver::new(arm, &chain, &JointLimits::UNLIMITED);
-        Ok((chain, Self::SphericalWrist(solver)))
+    /// Name of the structure.
+    fn name(&self) -> &'static str;
+
+    /// Number of slots; none where the structure is unknown.
+    fn slot_count(&self) -> usize {
+        0
     }
 
-    fn of_seven<const N: usize>(mdh: &Mdh<7>) -> Result<(Chain<N>, Self), NotRecognised> {
-        let (squared, arm) = spherical_shoulder::recognise(mdh)?;
-        let chain = resized_chain(&squared);
-        let solver = SevenSolver::new(arm, &chain, &JointLimits::UNLIMITED);
-        Ok((chain, Self::SphericalShoulder(solver)))
+    /// What each slot stands for, where branches have names.
+    fn slot_names(&self) -> Option<&'static [&'static str]> {
+        None
     }
 
-    /// That of an ortho-parallel arm with a spherical wrist.
-    pub(crate) fn of_opw<const N: usize>(opw: &OpwParameters, chain: &Chain<N>) -> Self {
-        Self::SphericalWrist(WristSolver::new(
-            SphericalWrist::from_opw(opw),
-            chain,
-            &JointLimits::UNLIMITED,
-        ))
-    }
-
-    /// The same form between the base and the tool of `chain`, with its coupling and limits.
-    pub(crate) fn between<const N: usize>(self, chain: &Chain<N>, limits: &JointLimits<N>) -> Self {
-        match self {
-            Self::SphericalWrist(solver) => {
-                Self::SphericalWrist(WristSolver::new(solver.arm, chain, limits))
-            }
-            Self::ThreeParallel(solver) => {
-                Self::ThreeParallel(ParallelSolver::new(solver.arm, chain, limits))
-            }
-            Self::SphericalShoulder(solver) => {
-                Self::SphericalShoulder(SevenSolver::new(solver.arm, chain, limits))
-            }
-            Self::Serial(reason) => Self::Serial(reason),
-        }
-    }
-
-    /// Its name: "spherical wrist", "three parallel axes", "spherical shoulder", or "serial" where there is none.
-    pub(crate) fn name(&self) -> &'static str {
-        match self {
-            Self::SphericalWrist(_) => "spherical wrist",
-            Self::ThreeParallel(_) => "three parallel axes",
-            Self::SphericalShoulder(_) => "spherical shoulder",
-            Self::Serial(_) => "serial",
-        }
-    }
-
-    /// Every branch of a pose, one after the other.
-    pub(crate) fn branches<const N: usize>(
+    /// Solves the answer's pose, whatever it is, one branch after the other.
+    ///
+    /// # Errors
+    ///
+    /// Why the structure is unknown.
+    fn solve(
         &self,
-        pose: &Pose,
+        solutions: &mut Solutions<N>,
+        redundancy: R,
         free: &FreeChoice<N>,
-    ) -> Result<Branches<N>, NotRecognised> {
-        match self {
-            Self::SphericalWrist(solver) => Ok(solver
-                .arm
-                .solve(&solver.surroundings.wrist_pose(pose), &free.resized())
-                .resized()),
-            Self::ThreeParallel(solver) => Ok(solver
-                .arm
-                .solve(&solver.surroundings.wrist_pose(pose), &free.resized())
-                .resized()),
-            Self::SphericalShoulder(solver) => Ok(solver.solve(pose, &free.resized()).resized()),
-            Self::Serial(reason) => Err(*reason),
-        }
-    }
+    ) -> Result<(), UnknownStructure>;
+
+    /// Solves rows of poses into rows of slots; `by_itself` solves one row, by its number, that is not regular.
+    fn solve_rows(&self, rows: Rows<'_, R>, by_itself: &mut RowSolve<'_, N>);
 
     /// How far a joint vector is from each singularity, and at which of them it stands.
-    pub(crate) fn singular<const N: usize>(
-        &self,
-        q: &[f64; N],
-    ) -> Option<(SingularDistances, Status)> {
-        let (six, seven) = (resized(q), resized(q));
-        match self {
-            Self::SphericalWrist(solver) => {
-                Some((solver.arm.singular_distances(&six), solver.arm.kinds(&six)))
-            }
-            Self::ThreeParallel(solver) => {
-                Some((solver.arm.singular_distances(&six), solver.arm.kinds(&six)))
-            }
-            Self::SphericalShoulder(solver) => {
-                Some((solver.arm.singular_distances(&seven), solver.arm.kinds(&seven)))
-            }
-            Self::Serial(_) => None,
-        }
+    fn singular(&self, _q: &[f64; N]) -> Option<(SingularDistances, Status)> {
+        None
     }
 
-    /// sin q5, signed, of a six-axis arm: zero at its wrist singularity.
-    pub(crate) fn sin_5(&self, q: &[f64; 6]) -> Option<f64> {
-        match self {
-            Self::SphericalWrist(solver) => Some(solver.arm.sin_5(q)),
-            Self::ThreeParallel(solver) => Some(solver.arm.sin_5(q)),
-            Self::SphericalShoulder(_) | Self::Serial(_) => None,
-        }
+    /// [`Structure::jacobian_determinant`]
+    fn jacobian_determinant(&self, _q: &[f64; N]) -> Option<f64> {
+        None
+    }
+
+    /// [`Structure::slot`]
+    fn slot(&self, _q: &[f64; N]) -> Option<Slot> {
+        None
+    }
+
+    /// [`Structure::sin_5`]
+    fn sin_5(&self, _q: &[f64; N]) -> Option<f64> {
+        None
+    }
+
+    /// [`Structure::may_be_coupled`]
+    ///
+    /// # Errors
+    ///
+    /// Why not.
+    fn may_be_coupled(&self) -> Result<(), &'static str> {
+        Err(NO_LINKAGE)
     }
 }
 
-/// The chain of a table, of which there are as many rows as joints: the same array under its generic name.
-fn resized_chain<const M: usize, const N: usize>(mdh: &Mdh<M>) -> Chain<N> {
-    let rows = core::array::from_fn(|i| mdh.rows.get(i).copied().unwrap_or_default());
-    Chain::new(Mdh { base: mdh.base, rows, flange: mdh.flange })
+/// Rows to be solved: poses, what a caller gives with each, and room for the slots and their status.
+pub(crate) struct Rows<'a, R> {
+    pub(crate) poses: &'a [PoseRow],
+    pub(crate) redundancy: &'a [R],
+    pub(crate) q: &'a mut [f64],
+    pub(crate) status: &'a mut [u8],
+}
+
+/// Solves the row of a number into its slots and their status.
+pub(crate) type RowSolve<'a, const N: usize> = dyn FnMut(usize, &mut [[f64; N]], &mut [u8]) + 'a;
+
+impl<const N: usize, R> Arm<N, R> for UnknownStructure {
+    fn unknown(&self) -> Option<UnknownStructure> {
+        Some(*self)
+    }
+
+    fn name(&self) -> &'static str {
+        "serial"
+    }
+
+    fn solve(&self, _: &mut Solutions<N>, _: R, _: &FreeChoice<N>) -> Result<(), UnknownStructure> {
+        Err(*self)
+    }
+
+    fn solve_rows(&self, _: Rows<'_, R>, _: &mut RowSolve<'_, N>) {}
+}
+
+/// The structure of an arm of `N` joints, whichever it is, between its base and its tool.
+pub(crate) trait AnyStructure<const N: usize>:
+    Clone + Debug + PartialEq + Send + Sync
+{
+    /// What a caller gives with a pose.
+    type Redundancy: Redundancy;
+
+    /// The structure of a table, and the table with what is within rounding of it made exactly so.
+    fn recognize(mdh: &Mdh<N>) -> (Chain<N>, Self);
+
+    /// The same structure between the base and the tool of `chain`, with its coupling and limits.
+    #[must_use]
+    fn between(self, chain: &Chain<N>, limits: &JointLimits<N>) -> Self;
+
+    /// The structure that is asked.
+    fn arm(&self) -> &dyn Arm<N, Self::Redundancy>;
+
+    /// [`Solver::solve_in_lanes`]; by itself, for it is what most time goes into.
+    fn solve_in_lanes(&self, solutions: &mut Solutions<N>, redundancy: Self::Redundancy) -> bool;
+}
+
+/// The solver of a structure that a table has, between no base and no tool, and its chain.
+pub(crate) fn recognized<T: Structure<N, S>, const N: usize, const S: usize>(
+    mdh: &Mdh<N>,
+) -> Result<(Chain<N>, Solver<T, N, S>), UnknownStructure> {
+    let mut squared = T::PATTERN.square_up(mdh)?;
+    let structure = T::measure(&mut squared)?;
+    let chain = Chain::new(squared);
+    let solver = Solver::new(structure, &chain, &JointLimits::UNLIMITED);
+    Ok((chain, solver))
 }

@@ -1,23 +1,26 @@
-//! The joint vectors of a pose as a closed form gives them: without limits, in their slots.
+//! The joint vectors of a pose as a structure gives them: without limits, in their slots.
 
-use crate::kinematics::answer::solutions::{FreeJoint, SLOTS};
-use crate::kinematics::answer::status::{Reach, Status};
-use crate::kinematics::pose::angles::resized;
+use super::redundancy::Redundancy;
+use crate::kinematics::answer::slot::Slot;
+use crate::kinematics::answer::solutions::{Place, Solution};
+use crate::kinematics::answer::status::Status;
+use crate::kinematics::chain::limits::JointLimits;
+use crate::report::{FreeJoint, Reach};
 
-/// The joint vectors of a pose, in their slots.
+/// The joint vectors of a pose, in the `S` slots of a structure.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Branches<const N: usize> {
-    pub(crate) q: [Option<[f64; N]>; SLOTS],
+pub(crate) struct Branches<const N: usize, const S: usize = 8> {
+    pub(crate) q: [Option<[f64; N]>; S],
     /// Singularities of each slot's branch, and MERGED where the slot gave its solution to another.
-    pub(crate) flags: [Status; SLOTS],
+    pub(crate) flags: [Status; S],
     /// The joint that the pose leaves free in each slot.
-    pub(crate) free: [Option<FreeJoint>; SLOTS],
+    pub(crate) free: [Option<FreeJoint>; S],
     pub(crate) reach: Reach,
 }
 
-impl<const N: usize> Branches<N> {
+impl<const N: usize, const S: usize> Branches<N, S> {
     pub(crate) fn empty(reach: Reach) -> Self {
-        Self { q: [None; SLOTS], flags: [Status::empty(); SLOTS], free: [None; SLOTS], reach }
+        Self { q: [None; S], flags: [Status::empty(); S], free: [None; S], reach }
     }
 
     /// Whether a slot holds a solution or gave it to another.
@@ -25,11 +28,34 @@ impl<const N: usize> Branches<N> {
         self.q[slot].is_some() || self.flags[slot].contains(Status::MERGED)
     }
 
+    /// What a slot of the answer holds: the joint vector at its turn inside the limits.
+    pub(crate) fn place(
+        &self,
+        slot: usize,
+        limits: &JointLimits<N>,
+        redundancy: impl Redundancy,
+    ) -> Place<N> {
+        let (flags, free) = (self.flags[slot], self.free[slot]);
+        let Some(q) = self.q[slot] else {
+            return if flags.contains(Status::MERGED) {
+                Place::Merged(flags)
+            } else {
+                Place::Empty
+            };
+        };
+        let mut q = limits.settle(q);
+        // A joint whose angle was given keeps it.
+        redundancy.put(&mut q);
+        let mut status = flags | Status::FOUND;
+        status.set(Status::WITHIN_LIMITS, limits.contain(&q));
+        Place::Found(Solution { q, slot: Slot::new(slot), status, free })
+    }
+
     /// The wrist centre is on axis 1, or on the edge of the cylinder about it: a branch that both shoulders have is one, turned. With
     /// `free`, q1 is free.
     pub(crate) fn merge_shoulders(&mut self, keep_behind: bool, free: bool) {
-        for front in 0..SLOTS / 2 {
-            let behind = front + SLOTS / 2;
+        for front in 0..S / 2 {
+            let behind = front + S / 2;
             // Of two that differ by twice the distance from axis 1, one may be straight and the other bent by the root of that: the
             // straight one is the branch that declares its singularity.
             let straight = |slot: usize| self.flags[slot].contains(Status::ELBOW);
@@ -47,11 +73,5 @@ impl<const N: usize> Branches<N> {
             (self.q[turned], self.free[turned]) = (None, self.free[kept]);
             self.flags[turned] = self.flags[kept] | Status::MERGED;
         }
-    }
-
-    /// The same branches of an arm of `M` joints, which the caller knows to be as many.
-    pub(crate) fn resized<const M: usize>(&self) -> Branches<M> {
-        let Self { q, flags, free, reach } = *self;
-        Branches { q: q.map(|q| q.map(|q| resized(&q))), flags, free, reach }
     }
 }

@@ -1,13 +1,11 @@
 //! What a solve takes for a joint that the pose leaves open.
 
-use crate::kinematics::pose::angles::resized;
 use crate::kinematics::thresholds::SEEDED_FREE;
 
 /// What to take for a joint that the pose does not determine.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FreeChoice<const N: usize> {
-    /// Joint angles [rad], of which the free one's is taken; of the merged branches of a wrist, the one nearer to them. Of an arm of
-    /// seven joints every pose leaves the last one open.
+    /// Joint angles [rad], of which the free one's is taken; of the merged branches of a wrist, the one nearer to them.
     pub(crate) q: [f64; N],
     pub(crate) trust: Trust,
 }
@@ -57,16 +55,6 @@ impl<const N: usize> FreeChoice<N> {
     /// The angle that continues a path, wherever the pose does not contradict it.
     pub(crate) fn path(q: [f64; N]) -> Self {
         Self { q, trust: Trust::Path }
-    }
-
-    /// The same choice for an arm of `M` joints, which the caller knows to be as many.
-    pub(crate) fn resized<const M: usize>(&self) -> FreeChoice<M> {
-        FreeChoice { q: resized(&self.q), trust: self.trust }
-    }
-
-    /// Joint 7 of an arm of seven joints, which every pose leaves open; nothing for one of six.
-    pub(crate) fn given(&self) -> f64 {
-        self.q.get(6).copied().unwrap_or(0.0)
     }
 
     /// Whether only a pose next to a singularity is asked for more than it says by itself.

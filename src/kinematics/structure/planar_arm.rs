@@ -6,13 +6,13 @@ use nalgebra::Matrix3;
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use crate::kinematics::answer::status::Reach;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::branches::Branches;
 use crate::kinematics::structure::free_choice::{FreeChoice, Trust};
 use crate::kinematics::thresholds::{
     LATERAL_MERGE, POSITION_ROUNDING, REACH_TOLERANCE, SHOULDER_MERGE,
 };
+use crate::report::Reach;
 
 /// The lengths from axis 1 to the end of the forearm, seen from the shoulder (on axis 1, at the height of axis 2).
 #[derive(Clone, Copy, Debug, PartialEq)]

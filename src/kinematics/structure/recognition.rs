@@ -1,7 +1,6 @@
-//! What a known form asks of the axes of an arm, and what keeps an arm from having it.
+//! Whether a table has a structure, and what reading its geometry takes.
 
 use core::f64::consts::{FRAC_PI_2, PI};
-use core::fmt;
 
 use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Translation3, Vector3};
 
@@ -11,142 +10,26 @@ use nalgebra::{ComplexField as _, RealField as _};
 use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::thresholds::{FORM_TOLERANCE, LEAST_LINK};
+use crate::report::{MOST_CONDITIONS, Pattern, Relation, UnknownStructure};
 
-/// How two axes of a known form stand to one another.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Relation {
-    /// At right angles.
-    Perpendicular,
-    /// Parallel.
-    Parallel,
-    /// Meeting in a point.
-    Meeting,
-    /// In one plane, at right angles to the axis between them.
-    Coplanar,
-}
-
-/// A condition that an arm does not meet.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Condition {
-    /// How the axes should stand.
-    pub relation: Relation,
-    /// The axes, from 1.
-    pub axes: (usize, usize),
-    /// How far they are off: an angle [rad] or, for axes that should meet or lie in one plane, a distance [m].
-    pub off: f64,
-}
-
-/// Most conditions that a form has.
-const MOST_CONDITIONS: usize = 10;
-
-/// A form of arm with a closed-form inverse.
-#[derive(Debug, PartialEq)]
-pub(crate) struct Form {
-    /// What an arm of this form is said to have.
-    pub(crate) name: &'static str,
-    pub(crate) conditions: &'static [(Relation, (usize, usize))],
-}
-
-/// Every condition that keeps an arm from having a closed form here.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NotRecognised {
-    reason: Reason,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Reason {
-    /// No form has this number of joints.
-    JointCount(usize),
-    /// How far each condition of the form is off; zero where it is met.
-    Off { form: &'static Form, off: [f64; MOST_CONDITIONS] },
-    /// A length that the form needs and the arm does not have [m].
-    TooShort { form: &'static Form, field: &'static str, value: f64 },
-}
-
-impl NotRecognised {
-    /// An arm whose number of joints alone rules a closed form out.
-    pub(crate) fn joint_count(joints: usize) -> Self {
-        Self { reason: Reason::JointCount(joints) }
-    }
-
-    /// The conditions that are not met. None is off where the arm has a form but a link without length, or another number of joints.
-    pub fn conditions(&self) -> impl Iterator<Item = Condition> {
-        let (conditions, off) = match self.reason {
-            Reason::Off { form, off } => (form.conditions, off),
-            Reason::JointCount(_) | Reason::TooShort { .. } => (&[][..], [0.0; MOST_CONDITIONS]),
-        };
-        let off = conditions.iter().zip(off).filter(|(_, off)| *off > 0.0);
-        off.map(|((relation, axes), off)| Condition { relation: *relation, axes: *axes, off })
-    }
-}
-
-impl fmt::Display for Condition {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { relation, axes: (i, j), off } = *self;
-        match relation {
-            Relation::Perpendicular => write!(
-                f,
-                "axes {i} and {j} must be at right angles, they are {:.6} deg off",
-                off.to_degrees()
-            ),
-            Relation::Parallel => write!(
-                f,
-                "axes {i} and {j} must be parallel, they are {:.6} deg off",
-                off.to_degrees()
-            ),
-            Relation::Meeting => {
-                write!(f, "axes {i} and {j} must meet, they pass {:.6} mm apart", off * 1e3)
-            }
-            Relation::Coplanar => write!(
-                f,
-                "axes {i} and {j} must lie in one plane, they pass {:.6} mm apart",
-                off * 1e3
-            ),
-        }
-    }
-}
-
-impl fmt::Display for NotRecognised {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.reason {
-            Reason::JointCount(joints) => write!(f, "{joints} joints, the known forms have 6 or 7"),
-            Reason::TooShort { form, field, value } => {
-                write!(
-                    f,
-                    "for {}, {field} is {value} m, it must be at least {LEAST_LINK:e} m",
-                    form.name
-                )
-            }
-            Reason::Off { form, .. } => {
-                write!(f, "for {}", form.name)?;
-                self.conditions().enumerate().try_for_each(|(i, condition)| {
-                    write!(f, "{} {condition}", if i == 0 { "," } else { ";" })
-                })
-            }
-        }
-    }
-}
-
-impl Form {
+impl Pattern {
     /// Checks that each of the lengths (name and meaning, value [m]) is one.
     pub(crate) fn check_lengths<const N: usize>(
         &'static self,
         lengths: [(&'static str, f64); N],
-    ) -> Result<(), NotRecognised> {
+    ) -> Result<(), UnknownStructure> {
         match lengths.into_iter().find(|(_, value)| *value < LEAST_LINK) {
-            Some((field, value)) => {
-                Err(NotRecognised { reason: Reason::TooShort { form: self, field, value } })
-            }
+            Some(length) => Err(UnknownStructure::too_short(self, length, LEAST_LINK)),
             None => Ok(()),
         }
     }
 
-    /// The table with what is within [`FORM_TOLERANCE`] of the form made exactly so: row `i + 1` holds the angle and the distance between
+    /// The table with what is within [`FORM_TOLERANCE`] of the structure made exactly so: row `i + 1` holds the angle and the distance between
     /// axes `i` and `i + 1`.
     pub(crate) fn square_up<const N: usize>(
         &'static self,
         mdh: &Mdh<N>,
-    ) -> Result<Mdh<N>, NotRecognised> {
+    ) -> Result<Mdh<N>, UnknownStructure> {
         let mut squared = mdh.clone();
         let mut failed = [0.0; MOST_CONDITIONS];
         for ((relation, axes), failed) in self.conditions.iter().zip(&mut failed) {
@@ -167,21 +50,13 @@ impl Form {
             }
         }
         let met = failed.iter().all(|off| *off <= FORM_TOLERANCE);
-        if met {
-            Ok(squared)
-        } else {
-            Err(NotRecognised { reason: Reason::Off { form: self, off: failed } })
-        }
+        if met { Ok(squared) } else { Err(UnknownStructure::off(self, failed)) }
     }
 }
 
 /// The angle nearest to `alpha` that is `base` and half turns.
 pub(crate) fn nearest_of(alpha: f64, base: f64) -> f64 {
     base + PI * ((alpha - base) / PI).round()
-}
-
-pub(crate) fn sign_of(value: f64) -> f64 {
-    if value < 0.0 { -1.0 } else { 1.0 }
 }
 
 /// The angle of a unit vector from `zero` towards `quarter`.
@@ -200,15 +75,15 @@ pub(crate) fn rotation_pose(rotation: Matrix3<f64>) -> Pose {
     )
 }
 
-/// A frame as its axes and its origin.
-pub(crate) struct Frame {
+/// The frame of a joint as its axes and its origin.
+pub(crate) struct JointFrame {
     pub(crate) x: Vector3<f64>,
     pub(crate) y: Vector3<f64>,
     pub(crate) z: Vector3<f64>,
     pub(crate) origin: Vector3<f64>,
 }
 
-impl Frame {
+impl JointFrame {
     pub(crate) fn of(pose: &Pose) -> Self {
         let axes = pose.rotation.matrix();
         Self {

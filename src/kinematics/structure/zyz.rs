@@ -8,7 +8,9 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::free_choice::Trust;
+use crate::kinematics::structure::lanes::Direction;
 use crate::kinematics::thresholds::{PATH_WRIST_SIN, SEEDED_FREE, WRIST_FREE_SIN, WRIST_MERGE_SIN};
+use crate::lanes::mul_add;
 
 /// One set of angles, the second in 0 ..= pi unless the first was given; the other set is its flip.
 pub(crate) struct Zyz {
@@ -78,4 +80,20 @@ fn told(
         told + ahead.clamp(-open, open)
     };
     (kept, kept.sin_cos())
+}
+
+/// The directions of the three angles of a rotation times any length, without a division: what lanes take the arc tangents of (eq. 15 to
+/// 17). `m0` and `m1` are the first two rows of the rotation, `m22` its last element; the second angle is in 0 ..= pi.
+#[inline(always)]
+pub(crate) fn zyz_directions<const FUSED: bool>(
+    m0: [f64; 3],
+    m1: [f64; 3],
+    m22: f64,
+) -> [Direction; 3] {
+    let sin_second = mul_add::<FUSED>(m0[2], m0[2], m1[2] * m1[2]).sqrt();
+    let last = [
+        mul_add::<FUSED>(m0[2], m1[0], -(m1[2] * m0[0])),
+        mul_add::<FUSED>(m0[2], m1[1], -(m1[2] * m0[1])),
+    ];
+    [[m1[2], m0[2]], [sin_second, m22], last]
 }

@@ -196,29 +196,40 @@ impl Arm {
 
     /// The slots by the lanes; `None` where the pose is not plain or has no solution.
     fn by_lanes(&self, pose: &Pose) -> Option<PlainAnswer<6>> {
-        by_lanes(&self.robot, pose, 0.0)
+        by_lanes(&self.robot, pose, ())
     }
 
     fn carefully(&self, pose: Pose) -> Solutions<6> {
-        carefully(&self.robot, pose, 0.0)
+        carefully(&self.robot, pose, ())
     }
 }
 
 /// The slots by the lanes; `None` where the pose is not plain or has no solution.
-fn by_lanes<const N: usize>(robot: &Robot<N>, pose: &Pose, given: f64) -> Option<PlainAnswer<N>> {
+fn by_lanes<const N: usize>(
+    robot: &Robot<N>,
+    pose: &Pose,
+    given: RedundancyOf<N>,
+) -> Option<PlainAnswer<N>>
+where
+    Joints<N>: Arity<N>,
+{
     let mut solutions = robot.unsolved(*pose);
     let plain = robot.solve_in_lanes(&mut solutions, given);
-    plain.then(|| solutions.slots.map(|slot| slot.map(|solution| (solution.q, solution.status))))
+    let slot = |slot: usize| Some(solutions.slot(slot)?).map(|found| (found.q, found.status));
+    plain.then(|| core::array::from_fn(slot))
 }
 
-fn carefully<const N: usize>(robot: &Robot<N>, pose: Pose, given: f64) -> Solutions<N> {
+fn carefully<const N: usize>(robot: &Robot<N>, pose: Pose, given: RedundancyOf<N>) -> Solutions<N>
+where
+    Joints<N>: Arity<N>,
+{
     let mut solutions = robot.unsolved(pose);
-    robot.solve_carefully(&mut solutions, &FreeChoice::rest(robot.resting(given))).unwrap();
+    robot.solve_scalar(&mut solutions, &FreeChoice::rest(robot.resting(given))).unwrap();
     solutions
 }
 
 /// Joint angles and status of each slot that has a solution.
-type PlainAnswer<const N: usize> = [Option<([f64; N], Status)>; SLOTS];
+type PlainAnswer<const N: usize> = [Option<([f64; N], Status)>; 8];
 
 #[derive(Default)]
 struct Tally {
@@ -237,11 +248,11 @@ impl Tally {
         self.plain += 1;
         assert_eq!(
             plain.map(|slot| slot.map_or(Status::empty(), |(_, status)| status)),
-            careful.status(),
+            *careful.status(),
             "{what}, {pose}"
         );
-        for (slot, solution) in plain.into_iter().zip(&careful.slots) {
-            let Some(((q, _), careful)) = slot.zip(solution.as_ref()) else { continue };
+        for (slot, found) in plain.into_iter().enumerate() {
+            let Some(((q, _), careful)) = found.zip(careful.slot(slot)) else { continue };
             assert_eq!(careful.free, None, "{what}");
             // A solution closes to 3e-15 of the arm's lengths and to 1e-14 rad, and to what an offset's digits round off theta; so two are
             // apart by twice that at most, in the pose, and in the joints by that over the least singular value.
@@ -405,22 +416,25 @@ fn joints<const N: usize>(random: &mut Random, off: f64) -> [f64; N] {
 }
 
 /// How many poses were plain, after both ways were held against one another for each.
-fn agreeing<const N: usize>(robot: &Robot<N>, reach: f64, random: &mut Random) -> usize {
+fn agreeing<const N: usize>(robot: &Robot<N>, reach: f64, random: &mut Random) -> usize
+where
+    Joints<N>: Arity<N>,
+{
     let mut plain_poses = 0;
     for off in [0.0, 1e-8, 9e-7, 1.1e-6, 1e-5, 3e-3, 1e-2, 1.1e-2] {
         for _ in 0..POSES {
             let q: [f64; N] = joints(random, off);
-            let (pose, given) = (robot.fk(&q), q.get(6).copied().unwrap_or(0.0));
+            let (pose, given) = (robot.fk(&q), Redundancy::of(&q));
             let Some(plain) = by_lanes(robot, &pose, given) else { continue };
             let careful = carefully(robot, pose, given);
             plain_poses += 1;
             assert_eq!(
                 plain.map(|slot| slot.map_or(Status::empty(), |(_, status)| status)),
-                careful.status(),
+                *careful.status(),
                 "{q:?}"
             );
-            for (slot, solution) in plain.into_iter().zip(&careful.slots) {
-                let Some(((q, _), careful)) = slot.zip(solution.as_ref()) else { continue };
+            for (slot, found) in plain.into_iter().enumerate() {
+                let Some(((q, _), careful)) = found.zip(careful.slot(slot)) else { continue };
                 let PoseError { position, rotation } = robot.residual(&q, &pose);
                 assert!(
                     position <= 3e-15 * reach && rotation <= 1e-14,

@@ -3,8 +3,43 @@
 use core::f64::consts::{PI, TAU};
 
 use crate::kinematics::answer::status::Status;
+use crate::kinematics::chain::coupling::coupled;
+use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::angles::wrap;
+use crate::kinematics::structure::joint_map::Placement;
 use crate::kinematics::thresholds::LIMIT_TOLERANCE;
+
+/// How joint angles come from the angles that lanes calculate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Columns<const N: usize> {
+    pub(crate) joints: [JointColumn; N],
+    /// How much of theta_2 is taken off theta_23 for joint 3: one, or nothing of an arm with coupled axes (eq. 25).
+    pub(crate) serial: f64,
+    /// The serial joint 3, of an arm whose rod has limits.
+    pub(crate) rod: Option<JointColumn>,
+}
+
+impl<const N: usize> Columns<N> {
+    /// `differences` are the joints, from 0, whose theta is a difference of two angles. `None` where
+    /// limits ask for more than what lanes do.
+    pub(crate) fn of(
+        map: &Placement<N>,
+        differences: &[usize],
+        limits: &JointLimits<N>,
+    ) -> Option<Self> {
+        let (signs, offsets) = (&map.signs, &map.offsets);
+        let column = |offsets: &[f64; N], limits: &[[f64; 2]; N]| {
+            JointColumn::of(signs, offsets, limits, differences)
+        };
+        let of_controller = if map.coupled { coupled(*offsets) } else { *offsets };
+        let rod = match limits.rod() {
+            Some(rod) => Some(column(offsets, &[rod; N])?[2]),
+            None => None,
+        };
+        let serial = if map.coupled { 0.0 } else { 1.0 };
+        Some(Self { joints: column(&of_controller, &limits.to_array())?, serial, rod })
+    }
+}
 
 /// How the angle of one joint comes from theta, and what its limits ask of it: the same for every lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,14 +57,14 @@ pub(crate) struct JointColumn {
 }
 
 impl JointColumn {
-    /// Of each joint; `differences` are those whose theta is a difference of two angles, from 0. `None` where limits lie so far out that more than one full turn may be needed.
-    pub(crate) fn of<const N: usize>(
+    /// Of each joint; `differences` are those whose theta is a difference of two angles, from 0.
+    /// `None` where limits lie so far out that more than one full turn may be needed.
+    fn of<const N: usize>(
         signs: &[f64; N],
         offsets: &[f64; N],
-        limits: &[[f64; 2]],
+        limits: &[[f64; 2]; N],
         differences: &[usize],
     ) -> Option<[Self; N]> {
-        let limits = <[[f64; 2]; N]>::try_from(limits).ok()?;
         if limits.iter().any(|[low, high]| *low > PI || *high < -PI) {
             return None;
         }

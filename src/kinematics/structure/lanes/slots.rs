@@ -1,19 +1,17 @@
 //! Joint angles in lanes, a column for each joint of each slot.
 
 use super::columns::JointColumn;
-use super::{AnswerRow, StatusRow};
-use crate::kinematics::answer::solutions::SLOTS;
+use super::{AnswerRow, RegularPose, StatusRow};
 use crate::lanes::{Column, Flags, LANES};
 
 /// The slots of a block of poses: theta, later the joint angles, and the status.
-pub(crate) struct SlotColumns<const N: usize> {
-    pub(crate) q: [[Column; SLOTS]; N],
-    pub(crate) status: [Flags; SLOTS],
+pub(crate) struct SlotColumns<const N: usize, const S: usize> {
+    pub(crate) q: [[Column; S]; N],
+    pub(crate) status: [Flags; S],
 }
 
-impl<const N: usize> SlotColumns<N> {
-    pub(crate) const NEW: Self =
-        Self { q: [[[0.0; LANES]; SLOTS]; N], status: [[0; LANES]; SLOTS] };
+impl<const N: usize, const S: usize> SlotColumns<N, S> {
+    pub(crate) const NEW: Self = Self { q: [[[0.0; LANES]; S]; N], status: [[0; LANES]; S] };
 
     /// From theta to the joint angles, held against the limits.
     #[inline(always)]
@@ -30,7 +28,7 @@ impl<const N: usize> SlotColumns<N> {
             columns[joint].settle(self.q[joint].as_flattened_mut(), self.status.as_flattened_mut());
         }
         let last = columns[N - 1];
-        for slot in 0..SLOTS {
+        for slot in 0..S {
             for lane in 0..LANES {
                 self.q[N - 1][slot][lane] =
                     if self.status[slot][lane] == 0 { f64::NAN } else { given[lane] };
@@ -42,14 +40,18 @@ impl<const N: usize> SlotColumns<N> {
     /// Writes them as rows, two numbers at a time.
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "flags of a byte")]
-    pub(crate) fn write(&self, q: &mut [AnswerRow<N>; LANES], status: &mut [StatusRow; LANES]) {
-        for pair in 0..SLOTS * N / 2 {
+    pub(crate) fn write(
+        &self,
+        q: &mut [AnswerRow<N, S>; LANES],
+        status: &mut [StatusRow<S>; LANES],
+    ) {
+        for pair in 0..S * N / 2 {
             let (left, right) = (self.column(2 * pair), self.column(2 * pair + 1));
             for lane in 0..LANES {
                 q[lane].as_flattened_mut().as_chunks_mut::<2>().0[pair] = [left[lane], right[lane]];
             }
         }
-        for slot in 0..SLOTS {
+        for slot in 0..S {
             for lane in 0..LANES {
                 status[lane][slot] = self.status[slot][lane] as u8;
             }
@@ -64,20 +66,13 @@ impl<const N: usize> SlotColumns<N> {
 }
 
 /// Joint angles and status of the slots of a plain pose.
-pub(crate) struct PlainSlots<const N: usize> {
-    pub(crate) q: [[f64; SLOTS]; N],
-    pub(crate) status: [u64; SLOTS],
+pub(crate) struct RegularSlots<const N: usize, const S: usize> {
+    pub(crate) q: [[f64; S]; N],
+    pub(crate) status: [u64; S],
 }
 
-impl<const N: usize> PlainSlots<N> {
-    pub(crate) const NEW: Self = Self { q: [[0.0; SLOTS]; N], status: [0; SLOTS] };
-
-    /// The joint angles and the flags of a slot, where there is a solution.
-    #[expect(clippy::cast_possible_truncation, reason = "flags of a byte")]
-    pub(crate) fn slot(&self, slot: usize) -> Option<([f64; N], u8)> {
-        let status = self.status[slot] as u8;
-        (status != 0).then(|| (core::array::from_fn(|joint| self.q[joint][slot]), status))
-    }
+impl<const N: usize, const S: usize> RegularSlots<N, S> {
+    pub(crate) const NEW: Self = Self { q: [[0.0; S]; N], status: [0; S] };
 
     /// Puts theta of joint `joint`, from 0, into a slot as the joint's angle.
     #[inline(always)]
@@ -85,5 +80,14 @@ impl<const N: usize> PlainSlots<N> {
         let (angle, inside) = column.settled(theta);
         self.q[joint][slot] = angle;
         self.status[slot] &= if inside { u64::MAX } else { JointColumn::OUTSIDE };
+    }
+}
+
+impl<const N: usize, const S: usize> RegularPose<N> for RegularSlots<N, S> {
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "flags of a byte")]
+    fn slot(&self, slot: usize) -> Option<([f64; N], u8)> {
+        let status = self.status[slot] as u8;
+        (status != 0).then(|| (core::array::from_fn(|joint| self.q[joint][slot]), status))
     }
 }

@@ -7,20 +7,23 @@
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::links::Links;
+use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::end_frames::Frame;
+use crate::kinematics::structure::joint_map::Placement;
 use crate::kinematics::structure::lanes::Direction;
+use crate::kinematics::structure::triangle::Triangle;
+use crate::kinematics::structure::zyz::zyz_directions;
 use crate::kinematics::thresholds::{PLAIN_ASIDE, PLAIN_ELBOW_SIN, PLAIN_WRIST_SIN};
-use crate::lanes::mul_add;
+use crate::lanes::{mul_add, sin_cos};
 
 /// The constants of an arm that a branch is calculated with.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Constants {
+pub(crate) struct Constants {
     a3: f64,
     c3: f64,
     a4: f64,
     c5: f64,
-    longest2: f64,
-    shortest2: f64,
+    triangle: Triangle,
     /// upper^2 + forearm^2
     squares: f64,
     sin_psi: f64,
@@ -28,10 +31,14 @@ pub(super) struct Constants {
     /// Least size of m^2 (eq. 55) [m^4] and of the square of `aside` (eq. 60) [m^2] of a plain branch.
     plain_m2: f64,
     plain_aside2: f64,
+    /// From the frame of joint 7 to the hand, and the sign and offset of joint 7.
+    t_seven_hand: Frame,
+    sign_7: f64,
+    offset_7: f64,
 }
 
 impl Constants {
-    pub(super) fn of(links: &Links) -> Self {
+    pub(super) fn of(links: &Links, map: &Placement<7>, t_seven_hand: &Pose) -> Self {
         let (upper, forearm, extent) = (links.upper, links.forearm, links.extent);
         let [sin_psi, cos_psi] = links.psi;
         let (least_m, least_aside) = (PLAIN_ELBOW_SIN * links.product(), PLAIN_ASIDE * extent);
@@ -43,8 +50,7 @@ impl Constants {
             c3: links.c3,
             a4: links.a4,
             c5: links.c5,
-            longest2: (upper + forearm) * (upper + forearm),
-            shortest2: (upper - forearm) * (upper - forearm),
+            triangle: Triangle::new(upper, forearm),
             squares: upper * upper + forearm * forearm,
             sin_psi,
             cos_psi,
@@ -55,7 +61,17 @@ impl Constants {
             } else {
                 f64::INFINITY
             },
+            t_seven_hand: Frame::of(t_seven_hand),
+            sign_7: map.signs[6],
+            offset_7: map.offsets[6],
         }
+    }
+
+    /// The hand of a frame of joint 7, with joint 7 at `q7` (eq. 52).
+    #[inline(always)]
+    pub(super) fn hand<const FUSED: bool>(&self, seven: &Frame, q7: f64) -> Frame {
+        let (sin_7, cos_7) = sin_cos::<FUSED>(self.sign_7 * q7 - self.offset_7);
+        seven.unturned::<FUSED>(sin_7, cos_7).times::<FUSED>(&self.t_seven_hand)
     }
 }
 
@@ -87,7 +103,7 @@ pub(super) fn branch<const FUSED: bool>(
     let rho2 = mul_add::<FUSED>(x, x, z * z);
     let (rho, high, r2) = (rho2.sqrt(), y.abs(), mul_add::<FUSED>(y, y, rho2));
     // The elbow (eq. 54 to 58).
-    let m2 = 0.25 * ((arm.longest2 - r2) * (r2 - arm.shortest2));
+    let m2 = arm.triangle.m2(r2);
     let (m, cosine) = (elbow * m2.sqrt(), 0.5 * (r2 - arm.squares));
     let scale = 1.0 / mul_add::<FUSED>(m, m, cosine * cosine).sqrt();
     let (sin_e, cos_e) = (scale * m, scale * cosine);
@@ -124,15 +140,14 @@ pub(super) fn branch<const FUSED: bool>(
     let (m10, m11, m12) =
         (dot::<FUSED>(r[1], first), dot::<FUSED>(r[1], second), dot::<FUSED>(r[1], third));
     let m22 = dot::<FUSED>(r[2], third);
-    let sin_2 = mul_add::<FUSED>(m02, m02, m12 * m12).sqrt();
+    let [theta_1, theta_2, theta_3] =
+        zyz_directions::<FUSED>([m00, m01, m02], [m10, m11, m12], m22);
+    let [sin_2, _] = theta_2;
     let reached = (m2 >= 0.0) & (aside2 >= 0.0);
     Branch {
-        theta_1: [m12, m02],
-        theta_2: [sin_2, m22],
-        theta_3: [
-            mul_add::<FUSED>(m02, m10, -(m12 * m00)),
-            mul_add::<FUSED>(m02, m11, -(m12 * m01)),
-        ],
+        theta_1,
+        theta_2,
+        theta_3,
         theta_4: [sin_4, cos_4],
         theta_5: [sin_5, cos_5],
         theta_6: [sin_6, cos_6],

@@ -5,8 +5,8 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use super::links::Links;
 use super::target::Target;
-use crate::kinematics::answer::status::Reach;
-use crate::kinematics::structure::recognition::sign_of;
+use crate::kinematics::pose::angles::sign_of;
+use crate::report::Reach;
 
 /// One way for the elbow to stand, and where the shoulder is then, seen from the forearm: in the plane of axes 3 and 5.
 #[derive(Clone, Copy, Debug)]

@@ -7,30 +7,35 @@ mod block;
 mod branch;
 mod elbow;
 mod links;
-mod recognise;
+mod measure;
+mod one_pose;
 mod shoulder;
-mod single;
 mod solve;
-mod solver;
 mod target;
 mod turn;
 mod wrist;
 
-pub(crate) use recognise::recognise;
-pub(crate) use single::Single;
-pub(crate) use solver::SevenSolver;
-
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use links::Links;
+use nalgebra::{Rotation3, Vector3};
 
+use branch::Constants;
+use links::Links;
+use measure::PATTERN;
+
+use super::Structure;
+use super::branches::Branches;
+use super::free_choice::FreeChoice;
 use crate::kinematics::answer::singularity::SingularDistances;
+use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::status::Status;
+use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::distance_from_half_turns;
 use crate::kinematics::structure::joint_map::Placement;
 use crate::kinematics::thresholds::WRIST_MERGE_SIN;
+use crate::report::{Pattern, UnknownStructure};
 
 /// The geometry between the shoulder, where axes 1, 2 and 3 meet, and the flange.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,33 +43,13 @@ pub struct SphericalShoulder {
     links: Links,
     /// Its last frame is that of joint 7: what stands behind it is constant.
     placement: Placement<7>,
-    /// From where axes 5 and 6 meet to the frame of joint 7 at theta_7 = 0.
-    t_hand_seven: Pose,
+    /// From the frame of joint 7 at theta_7 = 0 to the hand, where axes 5 and 6 meet.
+    t_seven_hand: Pose,
 }
 
 impl SphericalShoulder {
-    /// The same arm between a base and a tool, which add to what a pose's rounding grows with.
-    pub(crate) fn standing_between(self, base: &Pose, tool: &Pose) -> Self {
-        let fixed = [
-            base,
-            &self.placement.t_base_shoulder,
-            &self.t_hand_seven,
-            &self.placement.t_wrist_flange,
-            tool,
-        ];
-        Self { links: self.links.between(fixed), ..self }
-    }
-
     fn theta(&self, q: &[f64; 7]) -> [f64; 7] {
         self.placement.theta(q)
-    }
-
-    /// The slot of a joint vector (eq. 65).
-    pub(crate) fn slot(&self, q: &[f64; 7]) -> u8 {
-        let [_, theta_2, _, theta_4, theta_5, ..] = self.theta(q);
-        let bits =
-            [theta_2.sin() < 0.0, self.links.elbow_angle(theta_4).sin() < 0.0, theta_5.cos() < 0.0];
-        4 * u8::from(bits[0]) + 2 * u8::from(bits[1]) + u8::from(bits[2])
     }
 
     /// Distance of the shoulder from the plane of axes 5 and 6 (eq. 60), signed [m].
@@ -73,21 +58,54 @@ impl SphericalShoulder {
         self.links.elbow_at(theta_4).across * theta_5.cos()
     }
 
-    /// The determinant of the geometric Jacobian of joints 1 to 6 (eq. 66).
-    #[must_use]
-    pub fn jacobian_determinant(&self, q: &[f64; 7]) -> f64 {
-        let [_, theta_2, _, theta_4, ..] = self.theta(q);
-        let signs = self.placement.signs[..6].iter().product::<f64>();
-        -signs
-            * self.links.product()
-            * self.links.elbow_angle(theta_4).sin()
-            * self.aside(q)
-            * theta_2.sin()
+    /// The hand with joint 7 at `q7`, from the frame of joint 7 before its turn (eq. 52).
+    pub(crate) fn hand(&self, t_shoulder_seven: &Pose, q7: f64) -> Pose {
+        let theta_7 = self.placement.signs[6] * q7 - self.placement.offsets[6];
+        let unturned = Rotation3::from_axis_angle(&Vector3::z_axis(), -theta_7);
+        t_shoulder_seven * unturned * self.t_seven_hand
+    }
+}
+
+impl Structure<7, 8> for SphericalShoulder {
+    const PATTERN: &'static Pattern = &PATTERN;
+
+    const SLOT_NAMES: Option<&'static [&'static str; 8]> = Some(&[
+        "theta_2 >= 0, elbow forwards, cos theta_5 >= 0",
+        "theta_2 >= 0, elbow forwards, cos theta_5 < 0",
+        "theta_2 >= 0, elbow backwards, cos theta_5 >= 0",
+        "theta_2 >= 0, elbow backwards, cos theta_5 < 0",
+        "theta_2 < 0, elbow forwards, cos theta_5 >= 0",
+        "theta_2 < 0, elbow forwards, cos theta_5 < 0",
+        "theta_2 < 0, elbow backwards, cos theta_5 >= 0",
+        "theta_2 < 0, elbow backwards, cos theta_5 < 0",
+    ]);
+
+    type Redundancy = f64;
+    type Kernel = Constants;
+
+    fn measure(mdh: &mut Mdh<7>) -> Result<Self, UnknownStructure> {
+        measure::measure(mdh)
     }
 
-    /// How far `q` is from each singularity.
-    #[must_use]
-    pub fn singular_distances(&self, q: &[f64; 7]) -> SingularDistances {
+    fn joint_map(&self) -> &Placement<7> {
+        &self.placement
+    }
+
+    fn between(self, base: &Pose, tool: &Pose, _coupled: bool) -> Self {
+        let Placement { t_base_shoulder, t_wrist_flange, .. } = &self.placement;
+        let fixed = [base, t_base_shoulder, &self.t_seven_hand, t_wrist_flange, tool];
+        Self { links: self.links.between(fixed), ..self }
+    }
+
+    fn kernel(&self) -> Option<Constants> {
+        Some(Constants::of(&self.links, &self.placement, &self.t_seven_hand))
+    }
+
+    fn solve(&self, t_shoulder_seven: &Pose, q7: f64, free: &FreeChoice<7>) -> Branches<7> {
+        self.solve_hand(&self.hand(t_shoulder_seven, q7), free)
+    }
+
+    fn singular_distances(&self, q: &[f64; 7]) -> SingularDistances {
         let [_, theta_2, _, theta_4, theta_5, ..] = self.theta(q);
         let elbow = self.links.elbow_at(theta_4);
         SingularDistances {
@@ -97,16 +115,29 @@ impl SphericalShoulder {
         }
     }
 
-    /// The singularities at which `q` stands, by the thresholds that merge the branches of a solve. A solve, which does not know `q`, also
-    /// merges a shoulder by what the pose leaves open of elbow and wrist.
-    #[must_use]
-    pub fn kinds(&self, q: &[f64; 7]) -> Status {
+    /// A solve, which does not know `q`, also merges a shoulder by what the pose leaves open of elbow and wrist.
+    fn kinds(&self, q: &[f64; 7]) -> Status {
         let [_, theta_2, _, theta_4, theta_5, ..] = self.theta(q);
         let mut kinds = Status::empty();
         kinds.set(Status::WRIST, self.links.wrist_is_one(&self.links.elbow_at(theta_4), theta_5));
         kinds.set(Status::ELBOW, self.links.is_straight(theta_4));
         kinds.set(Status::SHOULDER, theta_2.sin().abs() <= WRIST_MERGE_SIN);
         kinds
+    }
+
+    /// Eq. 66.
+    fn jacobian_determinant(&self, q: &[f64; 7]) -> f64 {
+        let [_, theta_2, _, theta_4, ..] = self.theta(q);
+        let signs = self.placement.signs[..6].iter().product::<f64>();
+        let links = self.links.product() * self.links.elbow_angle(theta_4).sin();
+        -signs * links * self.aside(q) * theta_2.sin()
+    }
+
+    /// By the signs of eq. 65.
+    fn slot(&self, q: &[f64; 7]) -> Option<Slot> {
+        let [_, theta_2, _, theta_4, theta_5, ..] = self.theta(q);
+        let backwards = self.links.elbow_angle(theta_4).sin() < 0.0;
+        Some(Slot::of_bits([theta_2.sin() < 0.0, backwards, theta_5.cos() < 0.0]))
     }
 }
 

@@ -10,12 +10,13 @@ use super::elbow::Elbow;
 use super::shoulder::shoulder;
 use super::target::Target;
 use super::wrist::{Wrist, Wrists};
-use crate::kinematics::answer::solutions::FreeJoint;
-use crate::kinematics::answer::status::{Reach, Status};
+use crate::kinematics::answer::status::Status;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::branches::Branches;
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::thresholds::REACH_TOLERANCE;
+use crate::report::FreeJoint;
+use crate::report::Reach;
 
 /// The bits of a slot (eq. 65).
 const SHOULDER: usize = 4;

@@ -7,9 +7,9 @@ use super::elbow::Elbow;
 use super::links::Links;
 use super::target::Target;
 use super::turn::Turn;
-use crate::kinematics::answer::solutions::FreeJoint;
-use crate::kinematics::structure::recognition::sign_of;
+use crate::kinematics::pose::angles::sign_of;
 use crate::kinematics::thresholds::SHOULDER_MERGE;
+use crate::report::FreeJoint;
 
 /// One way to turn joints 5 and 6.
 #[derive(Clone, Copy, Debug)]

@@ -1,25 +1,32 @@
 //! A block of poses in lanes.
 
 use super::branch::{Branch, Constants, branch};
-use super::solver::{Columns, WristSolver};
-use crate::kinematics::answer::solutions::SLOTS;
 use crate::kinematics::structure::lanes::{
-    AnswerRow, Block, BlockSolver, Directions, FOUND_INSIDE, Poses, StatusRow, half_turn,
+    AnswerRow, Block, Columns, Directions, FOUND_INSIDE, Poses, StatusRow, half_turn,
 };
 use crate::lanes::{Column, Flags, LANES, mul_add};
 
-/// Branches of the arm: two shoulders with two elbows each.
+/// Slots of the structure.
+const SLOTS: usize = 8;
+
+/// Branches of the arm: two shoulders with two elbows each. Each has two wrists.
 pub(super) const BRANCHES: usize = SLOTS / 2;
 
-/// Directions whose angles a block needs: one for each shoulder, five for each branch.
-const DIRECTIONS: usize = 2 + 5 * BRANCHES;
+/// Columns of the directions: one for each shoulder, then five for each branch.
+const THETA_1: usize = 0;
+const THETA_2: usize = THETA_1 + 2;
+const THETA_23: usize = THETA_2 + BRANCHES;
+const THETA_4: usize = THETA_23 + BRANCHES;
+const THETA_5: usize = THETA_4 + BRANCHES;
+const THETA_6: usize = THETA_5 + BRANCHES;
+const DIRECTIONS: usize = THETA_6 + BRANCHES;
 
 /// A column for each branch.
 type Branches = [Column; BRANCHES];
 
 /// What becomes of a block of poses.
 pub(crate) struct WristBlock {
-    /// Sine and cosine of theta_1, for each shoulder, and of theta_2, theta_23, theta_4, theta_5, theta_6, for each branch, of any length.
+    /// Sines and cosines, of any length.
     directions: Directions<DIRECTIONS, LANES>,
     /// theta, later q, of the unflipped slots.
     q: [Branches; 6],
@@ -27,50 +34,40 @@ pub(crate) struct WristBlock {
     flipped: [Branches; 3],
     /// Of the unflipped and of the flipped slots.
     status: [[Flags; BRANCHES]; 2],
-    plain: Flags,
+    regular: Flags,
 }
 
-impl BlockSolver<6> for WristSolver {
-    type Block = WristBlock;
-
-    fn in_lanes(&self) -> bool {
-        self.columns.is_some()
-    }
-}
-
-impl Block<6> for WristBlock {
-    type Solver = WristSolver;
-
+impl Block<Constants, 6, SLOTS> for WristBlock {
     const NEW: Self = Self {
         directions: Directions::NEW,
         q: [[[0.0; LANES]; BRANCHES]; 6],
         flipped: [[[0.0; LANES]; BRANCHES]; 3],
         status: [[[0; LANES]; BRANCHES]; 2],
-        plain: [0; LANES],
+        regular: [0; LANES],
     };
 
     #[inline(always)]
     fn solve<const FUSED: bool>(
         &mut self,
-        solver: &WristSolver,
-        poses: &mut Poses,
-        _given: &Column,
-    ) {
-        let Some(columns) = &solver.columns else { return };
-        self.plain = poses.check();
-        poses.seen_from_shoulder::<FUSED>(solver.surroundings.seen);
-        if solver.arm.planar.b == 0.0 {
-            self.branches::<FUSED, false>(solver.constants, poses);
+        kernel: &Constants,
+        columns: &Columns<6>,
+        wrists: &mut Poses,
+        (): (),
+    ) -> Flags {
+        self.regular = [1; LANES];
+        if kernel.b == 0.0 {
+            self.branches::<FUSED, false>(*kernel, wrists);
         } else {
-            self.branches::<FUSED, true>(solver.constants, poses);
+            self.branches::<FUSED, true>(*kernel, wrists);
         }
         self.directions.angles::<FUSED>();
         self.settle::<FUSED>(columns);
+        self.regular
     }
 
     #[inline(never)]
     #[expect(clippy::cast_possible_truncation, reason = "flags of a byte")]
-    fn write(&self, q: &mut [AnswerRow<6>; LANES], status: &mut [StatusRow; LANES]) {
+    fn write(&self, q: &mut [AnswerRow<6, SLOTS>; LANES], status: &mut [StatusRow<SLOTS>; LANES]) {
         for slot in 0..SLOTS {
             let columns = self.columns_of(slot);
             for k in 0..3 {
@@ -85,17 +82,13 @@ impl Block<6> for WristBlock {
             }
         }
     }
-
-    fn is_plain(&self, lane: usize) -> bool {
-        self.plain[lane] != 0
-    }
 }
 
 impl WristBlock {
     #[inline(always)]
-    fn branches<const FUSED: bool, const LATERAL: bool>(&mut self, arm: Constants, poses: &Poses) {
+    fn branches<const FUSED: bool, const LATERAL: bool>(&mut self, arm: Constants, wrists: &Poses) {
         for lane in 0..LANES {
-            let frame = poses.frame(lane);
+            let frame = wrists.frame(lane);
             self.put(lane, 0, &branch::<FUSED, LATERAL>(&arm, &frame, 1.0, 1.0));
             self.put(lane, 1, &branch::<FUSED, LATERAL>(&arm, &frame, 1.0, -1.0));
             self.put(lane, 2, &branch::<FUSED, LATERAL>(&arm, &frame, -1.0, 1.0));
@@ -106,33 +99,34 @@ impl WristBlock {
     #[inline(always)]
     fn put(&mut self, lane: usize, number: usize, branch: &Branch) {
         // The elbows of a shoulder share theta_1.
-        self.directions.set(number / 2, lane, branch.theta_1);
-        self.directions.set(2 + number, lane, branch.theta_2);
-        self.directions.set(6 + number, lane, branch.theta_23);
-        self.directions.set(10 + number, lane, branch.theta_4);
-        self.directions.set(14 + number, lane, branch.theta_5);
-        self.directions.set(18 + number, lane, branch.theta_6);
+        self.directions.set(THETA_1 + number / 2, lane, branch.theta_1);
+        self.directions.set(THETA_2 + number, lane, branch.theta_2);
+        self.directions.set(THETA_23 + number, lane, branch.theta_23);
+        self.directions.set(THETA_4 + number, lane, branch.theta_4);
+        self.directions.set(THETA_5 + number, lane, branch.theta_5);
+        self.directions.set(THETA_6 + number, lane, branch.theta_6);
         self.status[0][number][lane] = if branch.reached { FOUND_INSIDE } else { 0 };
-        self.plain[lane] &= u64::from(branch.plain);
+        self.regular[lane] &= u64::from(branch.plain);
     }
 
+    /// Joint angles of the slots, with both wrists (eq. 18 to 20).
     #[inline(always)]
-    fn settle<const FUSED: bool>(&mut self, columns: &Columns) {
+    fn settle<const FUSED: bool>(&mut self, columns: &Columns<6>) {
         let Columns { joints: columns, serial, rod } = columns;
         let angle = &self.directions.angle;
         for number in 0..BRANCHES {
-            self.q[0][number] = angle[number / 2];
-            self.q[1][number] = angle[2 + number];
+            let (theta_2, theta_23) = (&angle[THETA_2 + number], &angle[THETA_23 + number]);
+            self.q[0][number] = angle[THETA_1 + number / 2];
+            self.q[1][number] = *theta_2;
             for lane in 0..LANES {
-                self.q[2][number][lane] =
-                    mul_add::<FUSED>(-serial, angle[2 + number][lane], angle[6 + number][lane]);
-                self.flipped[0][number][lane] = half_turn(angle[10 + number][lane]);
-                self.flipped[1][number][lane] = -angle[14 + number][lane];
-                self.flipped[2][number][lane] = half_turn(angle[18 + number][lane]);
+                self.q[2][number][lane] = mul_add::<FUSED>(-serial, theta_2[lane], theta_23[lane]);
+                self.flipped[0][number][lane] = half_turn(angle[THETA_4 + number][lane]);
+                self.flipped[1][number][lane] = -angle[THETA_5 + number][lane];
+                self.flipped[2][number][lane] = half_turn(angle[THETA_6 + number][lane]);
             }
-            self.q[3][number] = angle[10 + number];
-            self.q[4][number] = angle[14 + number];
-            self.q[5][number] = angle[18 + number];
+            self.q[3][number] = angle[THETA_4 + number];
+            self.q[4][number] = angle[THETA_5 + number];
+            self.q[5][number] = angle[THETA_6 + number];
         }
         for joint in 0..3 {
             columns[joint]
@@ -141,8 +135,8 @@ impl WristBlock {
         if let Some(rod) = rod {
             for number in 0..BRANCHES {
                 for lane in 0..LANES {
-                    self.status[0][number][lane] &=
-                        rod.left_of(angle[6 + number][lane] - angle[2 + number][lane]);
+                    let serial_3 = angle[THETA_23 + number][lane] - angle[THETA_2 + number][lane];
+                    self.status[0][number][lane] &= rod.left_of(serial_3);
                 }
             }
         }

@@ -9,6 +9,8 @@ use nalgebra::{ComplexField as _, RealField as _};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::lanes::Direction;
 use crate::kinematics::structure::planar_arm::PlanarArm;
+use crate::kinematics::structure::triangle::Triangle;
+use crate::kinematics::structure::zyz::zyz_directions;
 use crate::kinematics::thresholds::{
     PLAIN_FOREARM, PLAIN_REACH, PLAIN_SHOULDER, PLAIN_WRIST_SIN, REACH_TOLERANCE, SHOULDER_MERGE,
 };
@@ -16,14 +18,11 @@ use crate::lanes::mul_add;
 
 /// The constants of an arm that a branch is calculated with.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Constants {
+pub(crate) struct Constants {
     a1: f64,
-    b: f64,
+    pub(super) b: f64,
     k: f64,
-    longest2: f64,
-    shortest2: f64,
-    /// (c2 - k) (c2 + k)
-    difference: f64,
+    triangle: Triangle,
     sin_psi: f64,
     cos_psi: f64,
     /// Least x of the shoulder [m] and least size of m^2 (eq. 8) [m^4] of a plain branch.
@@ -43,9 +42,7 @@ impl Constants {
             a1: arm.a1,
             b: arm.b,
             k,
-            longest2: (c2 + k) * (c2 + k),
-            shortest2: (c2 - k) * (c2 - k),
-            difference: (c2 - k) * (c2 + k),
+            triangle: Triangle::new(c2, k),
             sin_psi: arm.a2 / k,
             cos_psi: arm.c3 / k,
             // Where that could hide a wrist's branches, the arm being minute in its surroundings, nothing is plain; nor where the forearm is
@@ -96,11 +93,9 @@ pub(super) fn branch<const FUSED: bool, const LATERAL: bool>(
     // The elbow (eq. 5 to 12); upper arm times r2, forearm times `length_23`.
     let x = x - arm.a1;
     let r2 = mul_add::<FUSED>(x, x, wz * wz);
-    let m2 = 0.25 * ((arm.longest2 - r2) * (r2 - arm.shortest2));
+    let m2 = arm.triangle.m2(r2);
     let reached = m2 >= 0.0;
-    let m = elbow * m2.sqrt();
-    let h2 = 0.5 * (r2 + arm.difference);
-    let (upper_x, upper_z) = (mul_add::<FUSED>(h2, x, -(m * wz)), mul_add::<FUSED>(h2, wz, m * x));
+    let [upper_x, upper_z] = arm.triangle.upper_arm::<FUSED>([x, wz], r2, elbow * m2.sqrt());
     let (forearm_x, forearm_z) =
         (mul_add::<FUSED>(r2, x, -upper_x), mul_add::<FUSED>(r2, wz, -upper_z));
     let sin_23 = mul_add::<FUSED>(forearm_x, arm.cos_psi, -(forearm_z * arm.sin_psi));
@@ -114,17 +109,15 @@ pub(super) fn branch<const FUSED: bool, const LATERAL: bool>(
     let n1 = turned::<FUSED>(r[1], cos_1, r[0], -sin_1);
     let m1 = [n1[0] * length_23, n1[1] * length_23, n1[2] * length_23];
     let m22 = mul_add::<FUSED>(n0[2], sin_23, r[2][2] * along);
-    let sin_5 = mul_add::<FUSED>(m0[2], m0[2], m1[2] * m1[2]).sqrt();
+    let [theta_4, theta_5, theta_6] = zyz_directions::<FUSED>(m0, m1, m22);
+    let [sin_5, _] = theta_5;
     Branch {
         theta_1: [sin_1, if reached { cos_1 } else { f64::NAN }],
         theta_2: [upper_x, upper_z],
         theta_23: [sin_23, cos_23],
-        theta_4: [m1[2], m0[2]],
-        theta_5: [sin_5, m22],
-        theta_6: [
-            mul_add::<FUSED>(m0[2], m1[0], -(m1[2] * m0[0])),
-            mul_add::<FUSED>(m0[2], m1[1], -(m1[2] * m0[1])),
-        ],
+        theta_4,
+        theta_5,
+        theta_6,
         reached,
         plain: (size >= arm.plain_x)
             & (m2.abs() >= arm.plain_m2)

@@ -32,7 +32,7 @@ impl SphericalWrist {
             ..self.clone()
         };
         let still = Pose::from_parts((*point).into(), Rotation3::identity());
-        let branches = arm.solve(&still, &FreeChoice::seed(*q));
+        let branches = arm.solve_wrist(&still, &FreeChoice::seed(*q));
         // Slots that differ in their last bit differ in the wrist of the point, which is not looked at.
         let wrist = [q[3], q[4], q[5]];
         [0, 2, 4, 6]

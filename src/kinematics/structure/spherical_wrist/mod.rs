@@ -6,30 +6,35 @@ mod arm;
 mod block;
 mod branch;
 mod held;
+mod measure;
+mod one_pose;
 mod opw;
-mod recognise;
-mod single;
 mod solve;
-mod solver;
 mod wrist;
 
 pub use opw::OpwParameters;
-pub(crate) use recognise::recognise;
-pub(crate) use single::Single;
-pub(crate) use solver::WristSolver;
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
 use core::f64::consts::PI;
 
+use branch::Constants;
+use measure::PATTERN;
+
+use super::Structure;
+use super::branches::Branches;
+use super::free_choice::FreeChoice;
 use crate::kinematics::answer::singularity::SingularDistances;
+use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::status::Status;
+use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::pose::angles::distance_from_half_turns;
 use crate::kinematics::pose::{Pose, translation_z};
 use crate::kinematics::structure::joint_map::Placement;
 use crate::kinematics::structure::planar_arm::PlanarArm;
 use crate::kinematics::thresholds::WRIST_MERGE_SIN;
+use crate::report::{Pattern, UnknownStructure};
 
 /// The geometry between the shoulder (on axis 1, at the height of axis 2) and the wrist centre.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,24 +55,6 @@ impl SphericalWrist {
                 t_wrist_flange: translation_z(opw.c4),
             },
         }
-        .standing_between(&Pose::identity(), &Pose::identity())
-    }
-
-    /// The same arm between a base and a tool, which add to what a pose's rounding grows with.
-    pub(crate) fn standing_between(self, base: &Pose, tool: &Pose) -> Self {
-        let fixed = [base, &self.placement.t_base_shoulder, &self.placement.t_wrist_flange, tool];
-        Self { planar: self.planar.between(fixed), ..self }
-    }
-
-    /// The same arm with the joint angles of a controller that couples axes 2 and 3, or with its own.
-    fn with_coupling(mut self, coupled: bool) -> Self {
-        self.placement.coupled = coupled;
-        self
-    }
-
-    /// Whether axes 2 and 3 turn in the same sense, so that q2 + q3 is a pitch.
-    pub(crate) fn may_be_coupled(&self) -> bool {
-        self.placement.signs[1].total_cmp(&self.placement.signs[2]).is_eq()
     }
 
     fn theta(&self, q: &[f64; 6]) -> [f64; 6] {
@@ -80,41 +67,53 @@ impl SphericalWrist {
         [self.planar.sin_elbow(theta_3), self.planar.x_of_end(theta_2, theta_3), theta_5.sin()]
     }
 
-    /// sin q5, signed.
-    pub(crate) fn sin_5(&self, q: &[f64; 6]) -> f64 {
-        self.theta(q)[4].sin()
-    }
-
     /// The angle of joint 4 nearest to that of `q` at which axis 5 is parallel to axes 2 and 3 [rad]: 0 or 180 deg for ABB's arms.
     pub(crate) fn axis_4_in_plane(&self, q: &[f64; 6]) -> f64 {
         let theta_4 = self.theta(q)[3];
         q[3] + self.placement.signs[3] * (PI * (theta_4 / PI).round() - theta_4)
     }
+}
 
-    /// The slot of the branch that `q` is on (eq. 13); of two that meet at a singularity of the arm, the one in front.
-    pub(crate) fn slot(&self, q: &[f64; 6]) -> u8 {
-        let [elbow, x, wrist] = self.factors(q);
-        let met = self.kinds(q);
-        let behind_axis_1 = x < 0.0 && !met.contains(Status::SHOULDER);
-        let behind_lower_arm = elbow < 0.0 && !met.contains(Status::ELBOW);
-        4 * u8::from(behind_axis_1) + 2 * u8::from(behind_lower_arm) + u8::from(wrist < 0.0)
+impl Structure<6, 8> for SphericalWrist {
+    const PATTERN: &'static Pattern = &PATTERN;
+
+    const SLOT_NAMES: Option<&'static [&'static str; 8]> = Some(&[
+        "facing, wrist centre in front of the lower arm, q5 >= 0",
+        "facing, wrist centre in front of the lower arm, q5 < 0",
+        "facing, wrist centre behind the lower arm, q5 >= 0",
+        "facing, wrist centre behind the lower arm, q5 < 0",
+        "reaching backwards, wrist centre in front of the lower arm, q5 >= 0",
+        "reaching backwards, wrist centre in front of the lower arm, q5 < 0",
+        "reaching backwards, wrist centre behind the lower arm, q5 >= 0",
+        "reaching backwards, wrist centre behind the lower arm, q5 < 0",
+    ]);
+
+    type Redundancy = ();
+    type Kernel = Constants;
+
+    fn measure(mdh: &mut Mdh<6>) -> Result<Self, UnknownStructure> {
+        measure::measure(mdh)
     }
 
-    /// The determinant of the geometric Jacobian at the wrist centre, which is that of the tool's (eq. 21).
-    #[must_use]
-    pub fn jacobian_determinant(&self, q: &[f64; 6]) -> f64 {
-        let [elbow, x, wrist] = self.factors(q);
-        -self.placement.signs.iter().product::<f64>()
-            * self.planar.c2
-            * self.planar.k
-            * elbow
-            * x
-            * wrist
+    fn joint_map(&self) -> &Placement<6> {
+        &self.placement
     }
 
-    /// How far `q` is from each singularity.
-    #[must_use]
-    pub fn singular_distances(&self, q: &[f64; 6]) -> SingularDistances {
+    fn between(mut self, base: &Pose, tool: &Pose, coupled: bool) -> Self {
+        self.placement.coupled = coupled;
+        let fixed = [base, &self.placement.t_base_shoulder, &self.placement.t_wrist_flange, tool];
+        Self { planar: self.planar.between(fixed), ..self }
+    }
+
+    fn kernel(&self) -> Option<Constants> {
+        Some(Constants::of(&self.planar))
+    }
+
+    fn solve(&self, t_shoulder_wrist: &Pose, (): (), free: &FreeChoice<6>) -> Branches<6> {
+        self.solve_wrist(t_shoulder_wrist, free)
+    }
+
+    fn singular_distances(&self, q: &[f64; 6]) -> SingularDistances {
         let [_, _, t3, _, t5, _] = self.theta(q);
         SingularDistances {
             wrist: distance_from_half_turns(t5),
@@ -123,15 +122,39 @@ impl SphericalWrist {
         }
     }
 
-    /// The singularities at which `q` stands, by the thresholds that merge the branches of a solve. A solve, which does not know `q`, also
-    /// merges a wrist by what the pose leaves open of the forearm.
-    #[must_use]
-    pub fn kinds(&self, q: &[f64; 6]) -> Status {
+    /// A solve, which does not know `q`, also merges a wrist by what the pose leaves open of the forearm.
+    fn kinds(&self, q: &[f64; 6]) -> Status {
         let [_, x, wrist] = self.factors(q);
         let mut kinds = Status::empty();
         kinds.set(Status::WRIST, wrist.abs() <= WRIST_MERGE_SIN);
         kinds.set(Status::ELBOW, self.planar.is_straight(self.theta(q)[2]));
         kinds.set(Status::SHOULDER, x.abs() <= self.planar.shoulder_merge());
         kinds
+    }
+
+    /// That at the wrist centre, which is that of the tool's (eq. 21).
+    fn jacobian_determinant(&self, q: &[f64; 6]) -> f64 {
+        let [elbow, x, wrist] = self.factors(q);
+        let links = self.planar.c2 * self.planar.k;
+        -self.placement.signs.iter().product::<f64>() * links * elbow * x * wrist
+    }
+
+    /// By the signs of eq. 13.
+    fn slot(&self, q: &[f64; 6]) -> Option<Slot> {
+        let [elbow, x, wrist] = self.factors(q);
+        let met = self.kinds(q);
+        let behind_axis_1 = x < 0.0 && !met.contains(Status::SHOULDER);
+        let behind_lower_arm = elbow < 0.0 && !met.contains(Status::ELBOW);
+        Some(Slot::of_bits([behind_axis_1, behind_lower_arm, wrist < 0.0]))
+    }
+
+    fn sin_5(&self, q: &[f64; 6]) -> Option<f64> {
+        Some(self.theta(q)[4].sin())
+    }
+
+    /// Where axes 2 and 3 turn in the same sense, q2 + q3 is a pitch.
+    fn may_be_coupled(&self) -> Result<(), &'static str> {
+        let same_sense = self.placement.signs[1].total_cmp(&self.placement.signs[2]).is_eq();
+        if same_sense { Ok(()) } else { Err("they turn in opposite senses") }
     }
 }

@@ -6,16 +6,17 @@ use core::f64::consts::PI;
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::SphericalWrist;
-use crate::kinematics::answer::solutions::FreeJoint;
-use crate::kinematics::answer::status::{Reach, Status};
+use crate::kinematics::answer::status::Status;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::branches::Branches;
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::structure::planar_arm::{Elbow, Shoulder, Shoulders, Target};
+use crate::report::FreeJoint;
+use crate::report::Reach;
 
 impl SphericalWrist {
     /// Every branch of the wrist frame `t_shoulder_wrist`.
-    pub(crate) fn solve(&self, t_shoulder_wrist: &Pose, free: &FreeChoice<6>) -> Branches<6> {
+    pub(super) fn solve_wrist(&self, t_shoulder_wrist: &Pose, free: &FreeChoice<6>) -> Branches<6> {
         let free_theta = self.theta(&free.q);
         self.planar.solve(t_shoulder_wrist, free, free_theta, |shoulders, target| {
             self.branches(shoulders, target)

@@ -9,6 +9,7 @@ use nalgebra::{ComplexField as _, RealField as _};
 use super::ThreeParallel;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::lanes::Direction;
+use crate::kinematics::structure::triangle::Triangle;
 use crate::kinematics::thresholds::{
     PLAIN_FOREARM, PLAIN_REACH, PLAIN_SHOULDER, PLAIN_WRIST_SIN, REACH_TOLERANCE, SHOULDER_MERGE,
 };
@@ -16,14 +17,11 @@ use crate::lanes::mul_add;
 
 /// The constants of an arm that a branch is calculated with.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Constants {
+pub(crate) struct Constants {
     a1: f64,
     b: f64,
     d5: f64,
-    longest2: f64,
-    shortest2: f64,
-    /// (c2 - c3) (c2 + c3)
-    difference: f64,
+    triangle: Triangle,
     /// Least x of the shoulder [m] and least size of m^2 (eq. 8) [m^4] of a plain branch.
     plain_x: f64,
     plain_m2: f64,
@@ -43,9 +41,7 @@ impl Constants {
             a1: planar.a1,
             b: planar.b,
             d5: arm.d5,
-            longest2: (c2 + k) * (c2 + k),
-            shortest2: (c2 - k) * (c2 - k),
-            difference: (c2 - k) * (c2 + k),
+            triangle: Triangle::new(c2, k),
             plain_x: if sound { plain_x } else { f64::INFINITY },
             plain_m2: 2.0 * plain_reach * extent * c2 * k,
             plain_turn: 10.0 * planar.position_rounding() * arm.d5 / plain_reach,
@@ -129,11 +125,9 @@ pub(super) fn branch<const FUSED: bool>(
         mul_add::<FUSED>(-reach, cos_phi, wz),
     );
     let r2 = mul_add::<FUSED>(x, x, z * z);
-    let m2 = 0.25 * ((arm.longest2 - r2) * (r2 - arm.shortest2));
+    let m2 = arm.triangle.m2(r2);
     let reached = m2 >= 0.0;
-    let m = elbow * m2.sqrt();
-    let h2 = 0.5 * (r2 + arm.difference);
-    let (upper_x, upper_z) = (mul_add::<FUSED>(h2, x, -(m * z)), mul_add::<FUSED>(h2, z, m * x));
+    let [upper_x, upper_z] = arm.triangle.upper_arm::<FUSED>([x, z], r2, elbow * m2.sqrt());
     Branch {
         theta_2: [upper_x, upper_z],
         theta_23: [mul_add::<FUSED>(r2, x, -upper_x), mul_add::<FUSED>(r2, z, -upper_z)],

@@ -5,28 +5,32 @@
 
 mod block;
 mod branch;
+mod measure;
+mod one_pose;
 mod plane;
 mod reaching;
-mod recognise;
-mod single;
 mod solve;
-mod solver;
 mod wrist;
-
-pub(crate) use recognise::recognise;
-pub(crate) use single::Single;
-pub(crate) use solver::ParallelSolver;
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
+use branch::Constants;
+use measure::PATTERN;
+
+use super::Structure;
+use super::branches::Branches;
+use super::free_choice::FreeChoice;
 use crate::kinematics::answer::singularity::SingularDistances;
+use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::status::Status;
+use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::distance_from_half_turns;
 use crate::kinematics::structure::joint_map::Placement;
 use crate::kinematics::structure::planar_arm::PlanarArm;
 use crate::kinematics::thresholds::WRIST_MERGE_SIN;
+use crate::report::{Pattern, UnknownStructure};
 
 /// The geometry between the shoulder (on axis 1, at the height of axis 2) and the wrist, where axes 5 and 6 meet.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,40 +43,53 @@ pub struct ThreeParallel {
 }
 
 impl ThreeParallel {
-    /// The same arm between a base and a tool, which add to what a pose's rounding grows with.
-    pub(crate) fn standing_between(self, base: &Pose, tool: &Pose) -> Self {
-        let fixed = [base, &self.placement.t_base_shoulder, &self.placement.t_wrist_flange, tool];
-        let planar = self.planar.between(fixed);
-        Self { planar: PlanarArm { extent: planar.extent + self.d5, ..planar }, ..self }
-    }
-
     /// x of the wrist in the plane of the arm (eq. 41) [m].
     fn x_of_wrist(&self, q: &[f64; 6]) -> f64 {
         let [_, theta_2, theta_3, theta_4, ..] = self.placement.theta(q);
         self.planar.x_of_end(theta_2, theta_3) + self.d5 * (theta_2 + theta_3 + theta_4).sin()
     }
+}
 
-    /// sin q5, signed.
-    pub(crate) fn sin_5(&self, q: &[f64; 6]) -> f64 {
-        self.placement.theta(q)[4].sin()
+impl Structure<6, 8> for ThreeParallel {
+    const PATTERN: &'static Pattern = &PATTERN;
+
+    const SLOT_NAMES: Option<&'static [&'static str; 8]> = Some(&[
+        "wrist in front of axis 1, q3 forwards, q5 >= 0",
+        "wrist in front of axis 1, q3 forwards, q5 < 0",
+        "wrist in front of axis 1, q3 backwards, q5 >= 0",
+        "wrist in front of axis 1, q3 backwards, q5 < 0",
+        "wrist behind axis 1, q3 forwards, q5 >= 0",
+        "wrist behind axis 1, q3 forwards, q5 < 0",
+        "wrist behind axis 1, q3 backwards, q5 >= 0",
+        "wrist behind axis 1, q3 backwards, q5 < 0",
+    ]);
+
+    type Redundancy = ();
+    type Kernel = Constants;
+
+    fn measure(mdh: &mut Mdh<6>) -> Result<Self, UnknownStructure> {
+        measure::measure(mdh)
     }
 
-    /// The determinant of the geometric Jacobian at the wrist, which is that of the tool's (eq. 41).
-    #[must_use]
-    pub fn jacobian_determinant(&self, q: &[f64; 6]) -> f64 {
-        let PlanarArm { c2, k, .. } = self.planar;
-        let elbow = self.planar.sin_elbow(self.placement.theta(q)[2]);
-        -self.placement.signs.iter().product::<f64>()
-            * c2
-            * k
-            * elbow
-            * self.x_of_wrist(q)
-            * self.sin_5(q)
+    fn joint_map(&self) -> &Placement<6> {
+        &self.placement
     }
 
-    /// How far `q` is from each singularity.
-    #[must_use]
-    pub fn singular_distances(&self, q: &[f64; 6]) -> SingularDistances {
+    fn between(self, base: &Pose, tool: &Pose, _coupled: bool) -> Self {
+        let fixed = [base, &self.placement.t_base_shoulder, &self.placement.t_wrist_flange, tool];
+        let planar = self.planar.between(fixed);
+        Self { planar: PlanarArm { extent: planar.extent + self.d5, ..planar }, ..self }
+    }
+
+    fn kernel(&self) -> Option<Constants> {
+        Some(Constants::of(self))
+    }
+
+    fn solve(&self, t_shoulder_wrist: &Pose, (): (), free: &FreeChoice<6>) -> Branches<6> {
+        self.solve_wrist(t_shoulder_wrist, free)
+    }
+
+    fn singular_distances(&self, q: &[f64; 6]) -> SingularDistances {
         let [_, _, theta_3, _, theta_5, _] = self.placement.theta(q);
         SingularDistances {
             wrist: distance_from_half_turns(theta_5),
@@ -81,14 +98,34 @@ impl ThreeParallel {
         }
     }
 
-    /// The singularities at which `q` stands, by the thresholds that merge the branches of a solve. A solve, which does not know `q`, also
-    /// merges a wrist by what the pose leaves open of axis 1.
-    #[must_use]
-    pub fn kinds(&self, q: &[f64; 6]) -> Status {
+    /// A solve, which does not know `q`, also merges a wrist by what the pose leaves open of axis 1.
+    fn kinds(&self, q: &[f64; 6]) -> Status {
+        let [_, _, theta_3, _, theta_5, _] = self.placement.theta(q);
         let mut kinds = Status::empty();
-        kinds.set(Status::WRIST, self.sin_5(q).abs() <= WRIST_MERGE_SIN);
-        kinds.set(Status::ELBOW, self.planar.is_straight(self.placement.theta(q)[2]));
+        kinds.set(Status::WRIST, theta_5.sin().abs() <= WRIST_MERGE_SIN);
+        kinds.set(Status::ELBOW, self.planar.is_straight(theta_3));
         kinds.set(Status::SHOULDER, self.x_of_wrist(q).abs() <= self.planar.shoulder_merge());
         kinds
+    }
+
+    /// That at the wrist, which is that of the tool's (eq. 41).
+    fn jacobian_determinant(&self, q: &[f64; 6]) -> f64 {
+        let [_, _, theta_3, _, theta_5, _] = self.placement.theta(q);
+        let links = self.planar.c2 * self.planar.k * self.planar.sin_elbow(theta_3);
+        let signs = self.placement.signs.iter().product::<f64>();
+        -signs * links * self.x_of_wrist(q) * theta_5.sin()
+    }
+
+    /// By the signs that the solve gives a slot: of x (eq. 32), of theta_3 and of sin theta_5.
+    fn slot(&self, q: &[f64; 6]) -> Option<Slot> {
+        let [_, _, theta_3, _, theta_5, _] = self.placement.theta(q);
+        let met = self.kinds(q);
+        let behind = self.x_of_wrist(q) < 0.0 && !met.contains(Status::SHOULDER);
+        let backwards = self.planar.sin_elbow(theta_3) < 0.0 && !met.contains(Status::ELBOW);
+        Some(Slot::of_bits([behind, backwards, theta_5.sin() < 0.0]))
+    }
+
+    fn sin_5(&self, q: &[f64; 6]) -> Option<f64> {
+        Some(self.placement.theta(q)[4].sin())
     }
 }

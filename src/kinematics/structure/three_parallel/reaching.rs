@@ -7,10 +7,10 @@ use nalgebra::{ComplexField as _, RealField as _};
 use super::ThreeParallel;
 use super::plane::OpenPlane;
 use super::wrist::{Turn, Wrist, seen_from_plane};
-use crate::kinematics::answer::status::Reach;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::planar_arm::{Elbows, PlanarArm, Shoulder, Target};
 use crate::kinematics::thresholds::WRIST_FREE_SIN;
+use crate::report::Reach;
 
 /// A shoulder and a wrist with the elbows between them.
 pub(super) struct Reaching {

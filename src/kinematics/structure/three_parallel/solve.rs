@@ -7,17 +7,18 @@ use super::ThreeParallel;
 use super::plane::OpenPlane;
 use super::reaching::Reaching;
 use super::wrist::{Turn, Wrist, seen_from_plane, sin_5};
-use crate::kinematics::answer::solutions::FreeJoint;
-use crate::kinematics::answer::status::{Reach, Status};
+use crate::kinematics::answer::status::Status;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::branches::Branches;
 use crate::kinematics::structure::free_choice::{FreeChoice, Trust};
 use crate::kinematics::structure::planar_arm::{Elbow, Shoulder, Shoulders, Target};
 use crate::kinematics::thresholds::{WRIST_FREE_SIN, WRIST_MERGE_SIN};
+use crate::report::FreeJoint;
+use crate::report::Reach;
 
 impl ThreeParallel {
     /// Every branch of the wrist frame `t_shoulder_wrist`.
-    pub(crate) fn solve(&self, t_shoulder_wrist: &Pose, free: &FreeChoice<6>) -> Branches<6> {
+    pub(super) fn solve_wrist(&self, t_shoulder_wrist: &Pose, free: &FreeChoice<6>) -> Branches<6> {
         let free_theta = self.placement.theta(&free.q);
         self.planar.solve(t_shoulder_wrist, free, free_theta, |shoulders, target| {
             self.branches(shoulders, target)

@@ -74,7 +74,7 @@ fn there_are_no_other_solutions() {
         for _ in 0..poses(20_000) / 20 {
             let q = rng.anywhere();
             let pose = arm.chain.fk(&q);
-            let branches = arm.solver.solve(&pose, &FreeChoice::rest(q));
+            let branches = arm.solve(&pose, &FreeChoice::rest(q));
             let Some(expected) = count(&arm, &arm.chain_hand(&pose, q[6])) else {
                 unsure += 1;
                 continue;

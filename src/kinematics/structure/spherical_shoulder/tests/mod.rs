@@ -11,13 +11,16 @@ use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::vec::Vec;
 
 use super::*;
-use crate::kinematics::answer::solutions::SLOTS;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::dh::{DhRow, Mdh};
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::PoseError;
+use crate::kinematics::structure::any::recognized;
 use crate::kinematics::structure::branches::Branches;
 use crate::kinematics::structure::free_choice::FreeChoice;
+use crate::kinematics::structure::solver::Solver;
+
+const SLOTS: usize = 8;
 
 const PANDA_LIMITS: [[f64; 2]; 7] = [
     [-2.8973, 2.8973],
@@ -42,33 +45,41 @@ const FR3_LIMITS: [[f64; 2]; 7] = [
 struct Arm {
     name: &'static str,
     chain: Chain<7>,
-    solver: SevenSolver,
+    solver: Solver<SphericalShoulder, 7, 8>,
 }
 
 impl Arm {
     fn new(name: &'static str, mdh: &Mdh<7>) -> Self {
-        let (mdh, arm) = recognise(mdh).unwrap();
-        let chain = Chain::new(mdh);
-        Self { name, solver: SevenSolver::new(arm, &chain, &JointLimits::UNLIMITED), chain }
+        let (chain, solver) = recognized(mdh).unwrap();
+        Self { name, solver, chain }
     }
 
     fn between(self, base: Pose, tool: Pose) -> Self {
         let chain = self.chain.with_base(base).with_tool(tool);
         Self {
-            solver: SevenSolver::new(self.solver.arm, &chain, &JointLimits::UNLIMITED),
+            solver: Solver::new(self.solver.structure, &chain, &JointLimits::UNLIMITED),
             chain,
             name: self.name,
         }
     }
 
     fn geometry(&self) -> &SphericalShoulder {
-        &self.solver.arm
+        &self.solver.structure
     }
 
     /// Solved from the pose of `q`, the free joints at rest.
     fn ik(&self, q: &[f64; 7]) -> Branches<7> {
-        self.solver
-            .solve(&self.chain.fk(q), &FreeChoice::rest([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, q[6]]))
+        self.solve(&self.chain.fk(q), &FreeChoice::rest([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, q[6]]))
+    }
+
+    fn solve(&self, pose: &Pose, free: &FreeChoice<7>) -> Branches<7> {
+        let seven = self.solver.surroundings.wrist_pose(pose);
+        self.geometry().solve(&seven, free.q[6], free)
+    }
+
+    /// The hand of a tool pose, seen from the shoulder.
+    fn hand_pose(&self, pose: &Pose, q7: f64) -> Pose {
+        self.geometry().hand(&self.solver.surroundings.wrist_pose(pose), q7)
     }
 
     /// The worst distance of a solution from the pose.

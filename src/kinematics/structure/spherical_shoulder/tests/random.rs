@@ -34,7 +34,7 @@ fn run(arm: &Arm, count: u32, mut q_of: impl FnMut() -> [f64; 7]) -> Worst {
         assert!(off < arm.recall(&q), "{}: {q:?} found {off:e} off\n{branches:#?}", arm.name);
         worst.coarse += u32::from(off > 1e-9);
         worst.recall = worst.recall.max(off);
-        assert_eq!(branches.reach, crate::kinematics::Reach::Reached);
+        assert_eq!(branches.reach, crate::report::Reach::Reached);
         let residual = arm.residual(&branches, &pose);
         worst.position = worst.position.max(residual.position);
         worst.rotation = worst.rotation.max(residual.rotation);

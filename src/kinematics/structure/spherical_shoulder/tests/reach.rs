@@ -3,7 +3,7 @@
 use nalgebra::{Rotation3, Unit, Vector3};
 
 use super::*;
-use crate::kinematics::answer::status::Reach;
+use crate::report::Reach;
 
 const BEYOND: [f64; 5] = [1e-15, 1e-12, 9e-10, 1e-6, 1e-3];
 
@@ -14,7 +14,7 @@ fn judge(arm: &Arm, hand: &Pose, beyond: f64, far: bool, worst: &mut f64) -> f64
     if beyond < 1e-9 {
         assert!(branches.q.iter().flatten().count() > 0, "{}: {beyond:e} {branches:?}", arm.name);
         for q in branches.q.iter().flatten() {
-            let off = PoseError::between(&arm.solver.hand_pose(&arm.chain.fk(q), q[6]), hand);
+            let off = PoseError::between(&arm.hand_pose(&arm.chain.fk(q), q[6]), hand);
             *worst = worst.max(off.position - 1.5 * beyond).max(off.rotation);
         }
         return beyond;
@@ -41,7 +41,7 @@ fn beyond_the_stretched_arm_and_inside_the_folded_one_the_shortfall_is_told() {
                     let mut theta = arm.geometry().theta(&rng.anywhere());
                     theta[3] += elbow - links.elbow_angle(theta[3]);
                     let q = arm.geometry().placement.joints(theta);
-                    let mut hand = arm.solver.hand_pose(&arm.chain.fk(&q), q[6]);
+                    let mut hand = arm.hand_pose(&arm.chain.fk(&q), q[6]);
                     hand.translation.vector *= 1.0 + sign * beyond / hand.translation.vector.norm();
                     let shortfall = judge(&arm, &hand, beyond, sign > 0.0, &mut worst);
                     assert!(
@@ -69,7 +69,7 @@ fn beyond_the_turn_of_the_wrist_the_shortfall_is_told() {
             let mut theta = arm.geometry().theta(&rng.anywhere());
             theta[4] = FRAC_PI_2 * rng.sign();
             let q = arm.geometry().placement.joints(theta);
-            let hand = arm.solver.hand_pose(&arm.chain.fk(&q), q[6]);
+            let hand = arm.hand_pose(&arm.chain.fk(&q), q[6]);
             let seen = -(hand.rotation.inverse() * hand.translation.vector);
             let Some(axis) = Unit::try_new(seen.cross(&(Vector3::y() * seen.y.signum())), 1e-2)
             else {

@@ -140,7 +140,7 @@ fn what_keeps_a_table_from_the_form_is_named() {
     table.rows[3].d = 0.002;
     table.rows[5].a = 0.0005;
     assert_eq!(
-        recognise(&table).unwrap_err().to_string(),
+        recognized::<SphericalShoulder, 7, 8>(&table).unwrap_err().to_string(),
         "for a spherical shoulder and an offset elbow, axes 2 and 3 must be at right angles, they are 0.010000 deg \
          off; axes 5 and 6 must meet, they pass 0.500000 mm apart; axes 3 and 5 must lie in one plane, they pass 2.000000 mm apart"
     );
@@ -151,7 +151,7 @@ fn links_without_length_are_refused() {
     let refusal = |change: fn(&mut Mdh<7>)| {
         let mut table = panda_table();
         change(&mut table);
-        recognise(&table).unwrap_err().to_string()
+        recognized::<SphericalShoulder, 7, 8>(&table).unwrap_err().to_string()
     };
     let upper = refusal(|table| (table.rows[2].d, table.rows[3].a) = (0.0, 0.0));
     assert!(upper.contains("upper arm (distance of axis 4 from the shoulder)"), "{upper}");

@@ -149,7 +149,7 @@ impl Found {
             core::array::from_fn(|i| if i == 6 { q[6] } else { q[i] + rng.between(-1e-4, 1e-4) });
         self.differing += u32::from(differ(arm, q, &branches, &arm.ik(&beside)));
         for (trust, radius) in [(Trust::Seed, 1e-12), (Trust::Path, 1e-12)] {
-            let kept = arm.solver.solve(&pose, &FreeChoice { q: *q, trust });
+            let kept = arm.solve(&pose, &FreeChoice { q: *q, trust });
             let bounds = bounds(arm, q, radius);
             self.lost += u32::from(!is_found(arm, &kept, q, &bounds));
             // A path goes on by itself as far as rounding leaves the upper arm open.
@@ -177,7 +177,7 @@ impl Found {
         }
         if self.amiss() > before && self.example.is_none() {
             let kept = [Trust::Seed, Trust::Path]
-                .map(|trust| arm.solver.solve(&pose, &FreeChoice { q: *q, trust }));
+                .map(|trust| arm.solve(&pose, &FreeChoice { q: *q, trust }));
             let residuals = [&kept[0], &kept[1]].map(|kept| arm.residual(kept, &pose));
             self.example = Some(format!(
                 "{q:?} slot {}\n{branches:?}\n{:?}\n{kept:?}\n{residuals:?}",
@@ -192,7 +192,7 @@ impl Found {
 fn family_closes(arm: &Arm, pose: &Pose, found: &[f64; 7], slot: usize, joint: usize) -> bool {
     let mut q = *found;
     q[joint - 1] = 0.7;
-    let family = arm.solver.solve(pose, &FreeChoice::forced(q, joint, false));
+    let family = arm.solve(pose, &FreeChoice::forced(q, joint, false));
     // The shoulder, or the wrist and with it the shoulder, may be kept in its other branch there.
     let bits = if joint == 1 { &[0, 4][..] } else { &[0, 1, 4, 5] };
     let moved = bits.iter().find_map(|bits| family.q[slot ^ bits]);

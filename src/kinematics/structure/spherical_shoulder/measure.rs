@@ -7,16 +7,17 @@ use super::SphericalShoulder;
 use super::links::Links;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::dh::{Mdh, screw_x};
+use crate::kinematics::pose::angles::sign_of;
 use crate::kinematics::pose::{Pose, translation_z};
 use crate::kinematics::structure::joint_map::Placement;
-use crate::kinematics::structure::recognition::{
-    Form, Frame, NotRecognised, Relation, angle, axes, rotation_pose, sign_of,
-};
+use crate::kinematics::structure::recognition::{JointFrame, angle, axes, rotation_pose};
 use crate::kinematics::thresholds::FORM_TOLERANCE;
+use crate::report::{Pattern, Relation, UnknownStructure};
 
 /// The conditions of a spherical shoulder, an elbow that may be offset either way, and a forearm that ends where axis 6 meets it.
-pub(crate) static FORM: Form = Form {
-    name: "a spherical shoulder and an offset elbow",
+pub(crate) static PATTERN: Pattern = Pattern {
+    name: "spherical shoulder",
+    title: "a spherical shoulder and an offset elbow",
     conditions: &[
         (Relation::Perpendicular, (1, 2)),
         (Relation::Perpendicular, (2, 3)),
@@ -31,19 +32,13 @@ pub(crate) static FORM: Form = Form {
     ],
 };
 
-/// The table with what is within [`FORM_TOLERANCE`] of the form made exactly so, and the geometry of the arm.
-pub(crate) fn recognise(mdh: &Mdh<7>) -> Result<(Mdh<7>, SphericalShoulder), NotRecognised> {
-    let squared = FORM.square_up(mdh)?;
-    let geometry = measure(&squared)?;
-    Ok((squared, geometry))
-}
-
 /// Reads the geometry off the frames at q = 0 (docs/seven_axes.md, section 8). Lengths come from the rows, so that none is lost to
 /// rounding; the frames give the directions.
-fn measure(mdh: &Mdh<7>) -> Result<SphericalShoulder, NotRecognised> {
+pub(super) fn measure(mdh: &Mdh<7>) -> Result<SphericalShoulder, UnknownStructure> {
     let rows = &mdh.rows;
     let chain = Chain::new(Mdh { base: Pose::identity(), ..mdh.clone() });
-    let [f1, f2, f3, f4, f5, f6, _] = chain.link_frames(&[0.0; 7]).0.map(|pose| Frame::of(&pose));
+    let [f1, f2, f3, f4, f5, f6, _] =
+        chain.link_frames(&[0.0; 7]).0.map(|pose| JointFrame::of(&pose));
 
     let sign_1 = if f1.z.z < -FORM_TOLERANCE { -1.0 } else { 1.0 };
     let (up, side) = (f1.z * sign_1, f2.z);
@@ -74,12 +69,13 @@ fn measure(mdh: &Mdh<7>) -> Result<SphericalShoulder, NotRecognised> {
         ("upper arm (distance of axis 4 from the shoulder)", links.upper),
         ("forearm (distance of axis 6 from axis 4)", links.forearm),
     ];
-    FORM.check_lengths(lengths)?;
+    PATTERN.check_lengths(lengths)?;
     let hand_at_zero = axes(&axis_6.cross(&forearm), &axis_6, &forearm);
     let t_hand_six = rotation_pose(hand_at_zero.transpose() * axes(&f6.x, &f6.y, &f6.z))
         * translation_z(rows[5].d);
     let mut t_base_shoulder = rotation_pose(axes(&forward, &side, &up));
     t_base_shoulder.translation.vector = f1.origin;
+    let t_hand_seven = t_hand_six * screw_x(rows[6].alpha, rows[6].a) * translation_z(rows[6].d);
     Ok(SphericalShoulder {
         links,
         placement: Placement {
@@ -89,7 +85,6 @@ fn measure(mdh: &Mdh<7>) -> Result<SphericalShoulder, NotRecognised> {
             t_base_shoulder: mdh.base * t_base_shoulder,
             t_wrist_flange: mdh.flange,
         },
-        t_hand_seven: t_hand_six * screw_x(rows[6].alpha, rows[6].a) * translation_z(rows[6].d),
-    }
-    .standing_between(&Pose::identity(), &Pose::identity()))
+        t_seven_hand: t_hand_seven.inverse(),
+    })
 }

@@ -1,31 +1,49 @@
 //! One pose in lanes: its four branches of the arm side by side.
 
-use super::block::BRANCHES;
+use super::block::{BRANCHES, WristBlock};
 use super::branch::{Constants, branch};
-use super::solver::{Columns, WristSolver};
-use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::end_frames::Frame;
-use crate::kinematics::structure::lanes::{Directions, FOUND_INSIDE, JointColumn, half_turn};
-use crate::lanes::{Kernel, mul_add};
+use crate::kinematics::structure::lanes::{
+    Columns, Directions, FOUND_INSIDE, JointColumn, LaneKernel, RegularPose, half_turn,
+};
+use crate::lanes::mul_add;
 
-/// A pose to be solved.
-pub(crate) struct Single<'a> {
-    pub(crate) solver: &'a WristSolver,
-    pub(crate) pose: &'a Pose,
+impl LaneKernel<6, 8> for Constants {
+    const DIFFERENCES: &'static [usize] = &[2];
+
+    type Redundancy = ();
+    type Regular = WristSlots;
+    type Block = WristBlock;
+
+    #[inline(always)]
+    fn solve_one<const FUSED: bool>(
+        &self,
+        columns: &Columns<6>,
+        t_shoulder_wrist: &Frame,
+        (): (),
+    ) -> Option<WristSlots> {
+        let mut branches = if self.b == 0.0 {
+            Branches::of::<FUSED, false>(self, t_shoulder_wrist)
+        } else {
+            Branches::of::<FUSED, true>(self, t_shoulder_wrist)
+        }?;
+        branches.directions.angles::<FUSED>();
+        Some(branches.settled::<FUSED>(columns))
+    }
 }
 
-/// Joint angles and status of the slots of a plain pose.
-pub(crate) struct PlainSlots {
+/// Joint angles and status of the slots of a regular pose.
+pub(crate) struct WristSlots {
     arm: [[f64; BRANCHES]; 3],
     /// With the wrist unflipped and flipped.
     wrist: [[[f64; BRANCHES]; 3]; 2],
     status: [[u64; BRANCHES]; 2],
 }
 
-impl PlainSlots {
-    /// The joint angles and the flags of a slot, where there is a solution.
+impl RegularPose<6> for WristSlots {
+    #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "flags of a byte")]
-    pub(crate) fn slot(&self, slot: usize) -> Option<([f64; 6], u8)> {
+    fn slot(&self, slot: usize) -> Option<([f64; 6], u8)> {
         let (branch, flip) = (slot / 2, slot % 2);
         let (arm, wrist, status) = (&self.arm, &self.wrist[flip], self.status[flip][branch]);
         let q = [
@@ -40,69 +58,59 @@ impl PlainSlots {
     }
 }
 
-impl Kernel for Single<'_> {
-    /// Nothing where a branch is not plain, or none reaches: another way has to say more.
-    type Answer = Option<PlainSlots>;
-    const WIDE: bool = true;
-
-    #[inline(always)]
-    fn run<const FUSED: bool>(self) -> Self::Answer {
-        let Self { solver, pose } = self;
-        let columns = solver.columns.as_ref()?;
-        let frame = solver.surroundings.seen.of::<FUSED>(&Frame::of(pose));
-        let mut lanes = if solver.arm.planar.b == 0.0 {
-            Lanes::of::<FUSED, false>(&solver.constants, &frame)
-        } else {
-            Lanes::of::<FUSED, true>(&solver.constants, &frame)
-        }?;
-        lanes.directions.angles::<FUSED>();
-        Some(lanes.settled::<FUSED>(columns))
-    }
-}
-
 const SHOULDER: [f64; BRANCHES] = [1.0, 1.0, -1.0, -1.0];
 const ELBOW: [f64; BRANCHES] = [1.0, -1.0, 1.0, -1.0];
 
-/// The branches of a pose: theta_1, theta_2, theta_23, theta_4, theta_5, theta_6.
-struct Lanes {
+/// Columns of the directions.
+const THETA_1: usize = 0;
+const THETA_2: usize = 1;
+const THETA_23: usize = 2;
+const THETA_4: usize = 3;
+const THETA_5: usize = 4;
+const THETA_6: usize = 5;
+
+/// The branches of a pose, a lane each.
+struct Branches {
     directions: Directions<6, BRANCHES>,
     status: [u64; BRANCHES],
 }
 
-impl Lanes {
+impl Branches {
     #[inline(always)]
     fn of<const FUSED: bool, const LATERAL: bool>(arm: &Constants, frame: &Frame) -> Option<Self> {
         let (arm, frame) = (*arm, *frame);
-        let mut lanes = Self { directions: Directions::NEW, status: [0; BRANCHES] };
-        let mut plain = [0; BRANCHES];
+        let mut branches = Self { directions: Directions::NEW, status: [0; BRANCHES] };
+        let mut regular = [0; BRANCHES];
         for lane in 0..BRANCHES {
             let branch = branch::<FUSED, LATERAL>(&arm, &frame, SHOULDER[lane], ELBOW[lane]);
-            lanes.directions.set(0, lane, branch.theta_1);
-            lanes.directions.set(1, lane, branch.theta_2);
-            lanes.directions.set(2, lane, branch.theta_23);
-            lanes.directions.set(3, lane, branch.theta_4);
-            lanes.directions.set(4, lane, branch.theta_5);
-            lanes.directions.set(5, lane, branch.theta_6);
-            lanes.status[lane] = if branch.reached { FOUND_INSIDE } else { 0 };
-            plain[lane] = u64::from(branch.plain);
+            branches.directions.set(THETA_1, lane, branch.theta_1);
+            branches.directions.set(THETA_2, lane, branch.theta_2);
+            branches.directions.set(THETA_23, lane, branch.theta_23);
+            branches.directions.set(THETA_4, lane, branch.theta_4);
+            branches.directions.set(THETA_5, lane, branch.theta_5);
+            branches.directions.set(THETA_6, lane, branch.theta_6);
+            branches.status[lane] = if branch.reached { FOUND_INSIDE } else { 0 };
+            regular[lane] = u64::from(branch.plain);
         }
-        (plain == [1; BRANCHES] && lanes.status != [0; BRANCHES]).then_some(lanes)
+        (regular == [1; BRANCHES] && branches.status != [0; BRANCHES]).then_some(branches)
     }
 
+    /// Joint angles of the slots, with both wrists (eq. 18 to 20).
     #[inline(always)]
-    fn settled<const FUSED: bool>(&self, columns: &Columns) -> PlainSlots {
+    fn settled<const FUSED: bool>(&self, columns: &Columns<6>) -> WristSlots {
         let (Columns { joints: columns, serial, rod }, angle) = (*columns, &self.directions.angle);
-        let mut slots = PlainSlots {
+        let mut slots = WristSlots {
             arm: [[0.0; BRANCHES]; 3],
             wrist: [[[0.0; BRANCHES]; 3]; 2],
             status: [[0; BRANCHES]; 2],
         };
         for lane in 0..BRANCHES {
-            let (theta_2, theta_4, theta_5, theta_6) =
-                (angle[1][lane], angle[3][lane], angle[4][lane], angle[5][lane]);
-            let (q1, in_1) = columns[0].settled(angle[0][lane]);
+            let (theta_2, theta_23) = (angle[THETA_2][lane], angle[THETA_23][lane]);
+            let (theta_4, theta_5, theta_6) =
+                (angle[THETA_4][lane], angle[THETA_5][lane], angle[THETA_6][lane]);
+            let (q1, in_1) = columns[0].settled(angle[THETA_1][lane]);
             let (q2, in_2) = columns[1].settled(theta_2);
-            let (q3, in_3) = columns[2].settled(mul_add::<FUSED>(-serial, theta_2, angle[2][lane]));
+            let (q3, in_3) = columns[2].settled(mul_add::<FUSED>(-serial, theta_2, theta_23));
             let arm = &mut slots.arm;
             [arm[0][lane], arm[1][lane], arm[2][lane]] = [q1, q2, q3];
             let reached = self.status[lane]
@@ -123,7 +131,7 @@ impl Lanes {
         }
         if let Some(rod) = rod {
             for lane in 0..BRANCHES {
-                let left = rod.left_of(angle[2][lane] - angle[1][lane]);
+                let left = rod.left_of(angle[THETA_23][lane] - angle[THETA_2][lane]);
                 slots.status[0][lane] &= left;
                 slots.status[1][lane] &= left;
             }

@@ -8,17 +8,18 @@ use nalgebra::{ComplexField as _, RealField as _};
 use super::SphericalWrist;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::dh::Mdh;
+use crate::kinematics::pose::angles::sign_of;
 use crate::kinematics::pose::{Pose, translation_z};
 use crate::kinematics::structure::joint_map::Placement;
 use crate::kinematics::structure::planar_arm::PlanarArm;
-use crate::kinematics::structure::recognition::{
-    Form, Frame, NotRecognised, Relation, angle, axes, rotation_pose, sign_of,
-};
+use crate::kinematics::structure::recognition::{JointFrame, angle, axes, rotation_pose};
 use crate::kinematics::thresholds::FORM_TOLERANCE;
+use crate::report::{Pattern, Relation, UnknownStructure};
 
 /// The conditions of an ortho-parallel basis with a spherical wrist. Axes 4 and 6 meet axis 5 in one point.
-pub(crate) static FORM: Form = Form {
-    name: "a spherical wrist on an ortho-parallel base",
+pub(crate) static PATTERN: Pattern = Pattern {
+    name: "spherical wrist",
+    title: "a spherical wrist on an ortho-parallel base",
     conditions: &[
         (Relation::Perpendicular, (1, 2)),
         (Relation::Parallel, (2, 3)),
@@ -31,25 +32,12 @@ pub(crate) static FORM: Form = Form {
     ],
 };
 
-/// The table with what is within [`FORM_TOLERANCE`] of the form made exactly so, and the geometry of the arm.
-pub(crate) fn recognise(mdh: &Mdh<6>) -> Result<(Mdh<6>, SphericalWrist), NotRecognised> {
-    let mut squared = FORM.square_up(mdh)?;
-    let mut geometry = measure(&squared)?;
-    if geometry.planar.b.abs() <= FORM_TOLERANCE {
-        // The offsets of rows 2 and 3 along the parallel axes cancel.
-        squared.rows[2].d =
-            -squared.rows[1].d * geometry.placement.signs[1] * geometry.placement.signs[2];
-        geometry.planar.b = 0.0;
-    }
-    Ok((squared, geometry))
-}
-
 /// Reads the geometry off the frames at q = 0 (docs/ik_derivation.md, section 7). Lengths come from the rows, so that none is lost to
 /// rounding; the frames give the directions.
-fn measure(mdh: &Mdh<6>) -> Result<SphericalWrist, NotRecognised> {
-    let rows = &mdh.rows;
+pub(super) fn measure(mdh: &mut Mdh<6>) -> Result<SphericalWrist, UnknownStructure> {
+    let rows = mdh.rows;
     let chain = Chain::new(Mdh { base: Pose::identity(), ..mdh.clone() });
-    let [f1, f2, f3, f4, f5, f6] = chain.link_frames(&[0.0; 6]).0.map(|pose| Frame::of(&pose));
+    let [f1, f2, f3, f4, f5, f6] = chain.link_frames(&[0.0; 6]).0.map(|pose| JointFrame::of(&pose));
 
     // The shoulder: z up, x to where the arm stands off axis 1, or to where it faces at q1 = 0 when it does not.
     let sign_1 = if f1.z.z < -FORM_TOLERANCE { -1.0 } else { 1.0 };
@@ -75,21 +63,23 @@ fn measure(mdh: &Mdh<6>) -> Result<SphericalWrist, NotRecognised> {
     let approach = f6.z * sign_6;
     let theta_5 = angle(&approach, &forearm, &axis_5.cross(&forearm));
 
-    FORM.check_lengths([
+    PATTERN.check_lengths([
         ("upper arm (distance of axes 2 and 3)", c2),
         ("forearm (distance of the wrist centre from axis 3)", a2.hypot(c3)),
     ])?;
     let wrist_at_zero = axes(&axis_5.cross(&approach), &axis_5, &approach);
     let t_wrist_last = rotation_pose(wrist_at_zero.transpose() * axes(&f6.x, &f6.y, &f6.z))
         * translation_z(rows[5].d);
+    let lateral = sign_2 * rows[1].d + sign_3 * rows[2].d;
+    let b = if lateral.abs() <= FORM_TOLERANCE {
+        // The offsets of rows 2 and 3 along the parallel axes cancel.
+        mdh.rows[2].d = -rows[1].d * sign_2 * sign_3;
+        0.0
+    } else {
+        lateral
+    };
     Ok(SphericalWrist {
-        planar: PlanarArm::new([
-            rows[1].a * f1.x.dot(&forward),
-            a2,
-            sign_2 * rows[1].d + sign_3 * rows[2].d,
-            c2,
-            c3,
-        ]),
+        planar: PlanarArm::new([rows[1].a * f1.x.dot(&forward), a2, b, c2, c3]),
         placement: Placement {
             signs: [sign_1, sign_2, sign_3, sign_4, sign_5, sign_6],
             offsets: [0.0, -theta_2, -theta_3, -theta_4, -theta_5, 0.0],
@@ -97,8 +87,7 @@ fn measure(mdh: &Mdh<6>) -> Result<SphericalWrist, NotRecognised> {
             t_base_shoulder: mdh.base * shoulder_pose(&f1, &forward, &side, &up),
             t_wrist_flange: t_wrist_last * mdh.flange,
         },
-    }
-    .standing_between(&Pose::identity(), &Pose::identity()))
+    })
 }
 
 /// 1 or -1: which way of axis x the arm faces.
@@ -110,7 +99,7 @@ fn facing(a1: f64, x: &Vector3<f64>) -> f64 {
 }
 
 fn shoulder_pose(
-    f1: &Frame,
+    f1: &JointFrame,
     forward: &Vector3<f64>,
     side: &Vector3<f64>,
     up: &Vector3<f64>,

@@ -3,17 +3,18 @@
 use super::ThreeParallel;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::dh::Mdh;
+use crate::kinematics::pose::angles::sign_of;
 use crate::kinematics::pose::{Pose, translation_z};
 use crate::kinematics::structure::joint_map::Placement;
 use crate::kinematics::structure::planar_arm::PlanarArm;
-use crate::kinematics::structure::recognition::{
-    Form, Frame, NotRecognised, Relation, angle, axes, rotation_pose, sign_of,
-};
+use crate::kinematics::structure::recognition::{JointFrame, angle, axes, rotation_pose};
 use crate::kinematics::thresholds::FORM_TOLERANCE;
+use crate::report::{Pattern, Relation, UnknownStructure};
 
 /// The conditions of three parallel axes between a base axis and two wrist axes, each square to the next.
-pub(crate) static FORM: Form = Form {
+pub(crate) static PATTERN: Pattern = Pattern {
     name: "three parallel axes",
+    title: "three parallel axes",
     conditions: &[
         (Relation::Perpendicular, (1, 2)),
         (Relation::Parallel, (2, 3)),
@@ -25,19 +26,12 @@ pub(crate) static FORM: Form = Form {
     ],
 };
 
-/// The table with what is within [`FORM_TOLERANCE`] of the form made exactly so, and the geometry of the arm.
-pub(crate) fn recognise(mdh: &Mdh<6>) -> Result<(Mdh<6>, ThreeParallel), NotRecognised> {
-    let squared = FORM.square_up(mdh)?;
-    let geometry = measure(&squared)?;
-    Ok((squared, geometry))
-}
-
 /// Reads the geometry off the frames at q = 0 (docs/three_parallel.md, section 6). Lengths come from the rows, so that none is lost to
 /// rounding; the frames give the directions.
-fn measure(mdh: &Mdh<6>) -> Result<ThreeParallel, NotRecognised> {
+pub(super) fn measure(mdh: &Mdh<6>) -> Result<ThreeParallel, UnknownStructure> {
     let rows = &mdh.rows;
     let chain = Chain::new(Mdh { base: Pose::identity(), ..mdh.clone() });
-    let [f1, f2, f3, f4, f5, f6] = chain.link_frames(&[0.0; 6]).0.map(|pose| Frame::of(&pose));
+    let [f1, f2, f3, f4, f5, f6] = chain.link_frames(&[0.0; 6]).0.map(|pose| JointFrame::of(&pose));
 
     // The shoulder: z up, y to the side on which the wrist stands.
     let sign_1 = if f1.z.z < -FORM_TOLERANCE { -1.0 } else { 1.0 };
@@ -57,7 +51,7 @@ fn measure(mdh: &Mdh<6>) -> Result<ThreeParallel, NotRecognised> {
     let theta_5 = angle(&approach, &side, &axis_5.cross(&side));
 
     let (b, c2, c3) = (lateral.abs(), rows[2].a.abs(), rows[3].a.abs());
-    FORM.check_lengths([
+    PATTERN.check_lengths([
         ("upper arm (distance of axes 2 and 3)", c2),
         ("forearm (distance of axes 3 and 4)", c3),
         ("lateral offset (of the wrist from the plane through axis 1 that is square to axis 2)", b),
@@ -77,6 +71,5 @@ fn measure(mdh: &Mdh<6>) -> Result<ThreeParallel, NotRecognised> {
             t_base_shoulder: mdh.base * t_base_shoulder,
             t_wrist_flange: t_wrist_last * mdh.flange,
         },
-    }
-    .standing_between(&Pose::identity(), &Pose::identity()))
+    })
 }

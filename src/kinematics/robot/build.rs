@@ -1,0 +1,144 @@
+//! Building a robot: from parameters, from tables, and from another one.
+
+use alloc::borrow::Cow;
+
+use super::{Definition, Robot};
+use crate::error::{Error, ModelFault};
+use crate::kinematics::chain::Chain;
+use crate::kinematics::chain::dh::{DhRow, Mdh, Sdh};
+use crate::kinematics::chain::limits::JointLimits;
+use crate::kinematics::pose::{Pose, checked_pose};
+use crate::kinematics::structure::any::AnyStructure;
+use crate::kinematics::structure::arity::{Arity, Joints, StructureOf};
+use crate::kinematics::structure::spherical_wrist::OpwParameters;
+use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH};
+
+impl Robot<6> {
+    /// A robot from the parameters of an ortho-parallel arm with a spherical wrist.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidModel`] when a parameter is not finite, a sign is not 1 or -1, or a link has no length.
+    pub fn from_opw(opw: OpwParameters) -> Result<Self, Error> {
+        Self::of_opw(opw)
+    }
+}
+
+impl<const N: usize> Robot<N>
+where
+    Joints<N>: Arity<N>,
+{
+    /// A robot from a modified (Craig) Denavit-Hartenberg table, with the closed form of its geometry.
+    ///
+    /// A six-axis table may have its frames and its zero pose anywhere; what is within 1e-9 rad or m of the form is made exactly so.
+    /// A seven-axis arm of no known form has forward kinematics and the Jacobian.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidModel`] when a number is not finite, a link has no length, or a six-axis arm has no known form: the message
+    /// names the axes and how far they are off. [`Robot::serial_chain`] takes such an arm without its inverse.
+    pub fn from_mdh(mdh: Mdh<N>) -> Result<Self, Error> {
+        let robot = Self::serial_chain(mdh)?;
+        match robot.unknown_structure() {
+            Some(reason) if N == 6 => Err(ModelFault::UnknownStructure(reason).into()),
+            _ => Ok(robot),
+        }
+    }
+
+    /// A robot from a standard Denavit-Hartenberg table; otherwise as [`Robot::from_mdh`].
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::from_mdh`].
+    pub fn from_sdh(sdh: Sdh<N>) -> Result<Self, Error> {
+        Self::from_mdh(sdh.into())
+    }
+
+    /// A robot from any modified Denavit-Hartenberg table: with the closed form where its geometry has one, without where not.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidModel`] when a number is not finite or a recognised arm's link has no length.
+    pub fn serial_chain(mut mdh: Mdh<N>) -> Result<Self, Error> {
+        check_rows(&mdh.rows)?;
+        (mdh.base, mdh.flange) = (checked_pose(&mdh.base)?, checked_pose(&mdh.flange)?);
+        let (chain, structure) = StructureOf::<N>::recognize(&mdh);
+        Ok(Self::new(Definition::Mdh(mdh), chain, structure))
+    }
+
+    /// [`Robot::from_opw`] for a caller that is generic over the number of joints.
+    pub(crate) fn of_opw(opw: OpwParameters) -> Result<Self, Error> {
+        let opw = opw.squared_up()?;
+        let Mdh { base, rows, flange } = opw.mdh();
+        let rows = <[DhRow; N]>::try_from(&rows[..])
+            .map_err(|_| ModelFault::JointCount { found: 6, wanted: N })?;
+        let chain = Chain::new(Mdh { base, rows, flange });
+        let structure = Joints::<N>::of_opw(&opw, &chain)
+            .ok_or(ModelFault::JointCount { found: 6, wanted: N })?;
+        Ok(Self::new(Definition::Opw(opw), chain, structure))
+    }
+
+    fn new(definition: Definition<N>, chain: Chain<N>, structure: StructureOf<N>) -> Self {
+        let limits = JointLimits::UNLIMITED;
+        Self { name: Cow::Borrowed(""), definition, chain, structure, limits, max_velocity: None }
+    }
+
+    /// The same robot under another name.
+    #[must_use]
+    pub fn with_name(mut self, name: impl Into<Cow<'static, str>>) -> Self {
+        self.name = name.into();
+        self
+    }
+
+    /// The same robot with other joint limits; those of its rod stay.
+    #[must_use]
+    pub fn with_limits(mut self, limits: JointLimits<N>) -> Self {
+        self.limits = limits.with_rod_of(&self.limits);
+        self.joined()
+    }
+
+    /// The same robot with velocity limits [rad/s].
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidModel`] when a velocity is not positive.
+    pub fn with_max_velocity(mut self, max_velocity: Option<[f64; N]>) -> Result<Self, Error> {
+        for (i, value) in max_velocity.iter().flatten().copied().enumerate() {
+            if value.is_nan() || value <= 0.0 {
+                return Err(ModelFault::Velocity { joint: i + 1, value }.into());
+            }
+        }
+        self.max_velocity = max_velocity;
+        Ok(self)
+    }
+
+    /// The same robot standing at `t_world_base`: poses and Jacobians are then in the world frame. A base that it had is replaced.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidPose`] when the base is no rigid transform.
+    pub fn with_base(mut self, t_world_base: &Pose) -> Result<Self, Error> {
+        self.chain = self.chain.with_base(checked_pose(t_world_base)?);
+        Ok(self.joined())
+    }
+
+    /// The same robot with its tool centre point at `t_flange_tool`. A tool that it had is replaced.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidPose`] when the tool is no rigid transform.
+    pub fn with_tool(mut self, t_flange_tool: &Pose) -> Result<Self, Error> {
+        self.chain = self.chain.with_tool(checked_pose(t_flange_tool)?);
+        Ok(self.joined())
+    }
+}
+
+fn check_rows(rows: &[DhRow]) -> Result<(), Error> {
+    for (i, row) in rows.iter().enumerate() {
+        ModelFault::check("alpha of row", i + 1, row.alpha, MOST_ANGLE)?;
+        ModelFault::check("a of row", i + 1, row.a, MOST_LENGTH)?;
+        ModelFault::check("d of row", i + 1, row.d, MOST_LENGTH)?;
+        ModelFault::check("theta of row", i + 1, row.theta, MOST_ANGLE)?;
+    }
+    Ok(())
+}

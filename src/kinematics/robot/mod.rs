@@ -1,0 +1,223 @@
+//! A robot: a chain, its limits and, where its structure is known, its inverse.
+
+mod build;
+mod linkage;
+
+use alloc::borrow::Cow;
+
+use nalgebra::SMatrix;
+
+use crate::kinematics::answer::singularity::{SingularDistances, Singularity, singular_values};
+use crate::kinematics::answer::slot::Slot;
+use crate::kinematics::answer::status::Status;
+use crate::kinematics::chain::Chain;
+use crate::kinematics::chain::dh::Mdh;
+use crate::kinematics::chain::forward::Poses;
+use crate::kinematics::chain::jacobian::{JacobianFrame, Jacobians};
+use crate::kinematics::chain::limits::JointLimits;
+use crate::kinematics::pose::{Pose, PoseError};
+use crate::kinematics::structure::any::{AnyStructure, SixJoints};
+use crate::kinematics::structure::arity::{Arity, Joints, StructureOf};
+use crate::kinematics::structure::solver::Solver;
+use crate::kinematics::structure::spherical_wrist::{OpwParameters, SphericalWrist};
+use crate::lanes::run;
+use crate::report::UnknownStructure;
+
+/// A robot arm of `N` revolute joints.
+///
+/// Build one from the catalogue ([`Robot::named`]), from parameters ([`Robot::from_opw`]) or from a Denavit-Hartenberg table
+/// ([`Robot::from_mdh`], [`Robot::from_sdh`]). A robot does not change: `with_` gives a new one. No solve allocates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Robot<const N: usize>
+where
+    Joints<N>: Arity<N>,
+{
+    name: Cow<'static, str>,
+    definition: Definition<N>,
+    chain: Chain<N>,
+    structure: StructureOf<N>,
+    limits: JointLimits<N>,
+    max_velocity: Option<[f64; N]>,
+}
+
+/// What a robot was built from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Definition<const N: usize> {
+    /// Parameters of an ortho-parallel arm with a spherical wrist.
+    Opw(OpwParameters),
+    /// A modified Denavit-Hartenberg table with its end transforms.
+    Mdh(Mdh<N>),
+}
+
+impl Robot<6> {
+    /// The solver of an arm with a spherical wrist.
+    pub(in crate::kinematics) fn wrist_solver(&self) -> Option<&Solver<SphericalWrist, 6, 8>> {
+        match &self.structure {
+            SixJoints::SphericalWrist(solver) => Some(solver),
+            _ => None,
+        }
+    }
+
+    /// The geometry of an arm with a spherical wrist.
+    pub(in crate::kinematics) fn spherical_wrist(&self) -> Option<&SphericalWrist> {
+        self.wrist_solver().map(|solver| &solver.structure)
+    }
+}
+
+impl<const N: usize> Robot<N>
+where
+    Joints<N>: Arity<N>,
+{
+    /// The same arm, with the solver that its base, tool, coupling and limits ask for.
+    fn joined(mut self) -> Self {
+        self.structure = self.structure.between(&self.chain, &self.limits);
+        self
+    }
+
+    pub(in crate::kinematics) fn structure(&self) -> &StructureOf<N> {
+        &self.structure
+    }
+
+    /// Catalogue name, or the name that was given.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Name of the kinematic structure: "spherical wrist", "three parallel axes", "spherical shoulder", or "serial" where it is unknown.
+    #[must_use]
+    pub fn family(&self) -> &'static str {
+        self.structure.arm().name()
+    }
+
+    /// Why the structure of the arm is unknown, where it is.
+    #[must_use]
+    pub fn unknown_structure(&self) -> Option<UnknownStructure> {
+        self.structure.arm().unknown()
+    }
+
+    /// Number of slots of an answer: none where the structure is unknown.
+    #[must_use]
+    pub fn slot_count(&self) -> usize {
+        self.structure.arm().slot_count()
+    }
+
+    /// What each slot stands for; `None` where slots are ordinals, or the structure is unknown.
+    #[must_use]
+    pub fn slot_names(&self) -> Option<&'static [&'static str]> {
+        self.structure.arm().slot_names()
+    }
+
+    /// The slot of the branch that `q` [rad] is on; of two that meet at a singularity, the one in front. `None` where slots are ordinals.
+    #[must_use]
+    pub fn slot_of(&self, q: &[f64; N]) -> Option<Slot> {
+        self.structure.arm().slot(q)
+    }
+
+    /// What the robot was built from.
+    #[must_use]
+    pub fn definition(&self) -> &Definition<N> {
+        &self.definition
+    }
+
+    /// The modified Denavit-Hartenberg table with its fixed end transforms.
+    #[must_use]
+    pub fn mdh(&self) -> &Mdh<N> {
+        self.chain.mdh()
+    }
+
+    /// The base in the world.
+    #[must_use]
+    pub fn base(&self) -> &Pose {
+        self.chain.base()
+    }
+
+    /// The tool centre point in the flange frame.
+    #[must_use]
+    pub fn tool(&self) -> &Pose {
+        self.chain.tool()
+    }
+
+    /// Joint limits.
+    #[must_use]
+    pub fn limits(&self) -> &JointLimits<N> {
+        &self.limits
+    }
+
+    /// Velocity limits [rad/s], where they are known.
+    #[must_use]
+    pub fn max_velocity(&self) -> Option<&[f64; N]> {
+        self.max_velocity.as_ref()
+    }
+
+    /// Pose of the tool for the joint angles `q` [rad].
+    #[must_use]
+    pub fn fk(&self, q: &[f64; N]) -> Pose {
+        self.chain.fk(q)
+    }
+
+    /// Every frame of the modified table after its joint, and the pose of the tool.
+    #[must_use]
+    pub fn link_frames(&self, q: &[f64; N]) -> ([Pose; N], Pose) {
+        self.chain.link_frames(q)
+    }
+
+    /// Geometric Jacobian of the tool: three linear rows [m/rad], three angular [1]; column `i` belongs to joint `i + 1`.
+    #[must_use]
+    pub fn jacobian(&self, q: &[f64; N], frame: JacobianFrame) -> SMatrix<f64, 6, N> {
+        self.chain.jacobian(q, frame)
+    }
+
+    /// The rows of [`Self::jacobian`].
+    #[cfg(feature = "python")]
+    pub(crate) fn jacobian_rows(&self, q: &[f64; N], frame: JacobianFrame) -> [[f64; N]; 6] {
+        self.chain.jacobian_rows(q, frame)
+    }
+
+    /// [`Self::fk`] of many, in lanes: rows of joint angles in, rows of pose elements out.
+    pub(crate) fn fk_rows(&self, q: &[[f64; N]], poses: &mut [[f64; 16]]) {
+        run(Poses { chain: &self.chain, q, out: poses });
+    }
+
+    /// [`Self::jacobian`] of many, in lanes.
+    pub(crate) fn jacobians(
+        &self,
+        q: &[[f64; N]],
+        frame: JacobianFrame,
+        jacobians: &mut [[[f64; N]; 6]],
+    ) {
+        run(Jacobians { chain: &self.chain, frame, q, out: jacobians });
+    }
+
+    /// How far `q` [rad] is from the singularities.
+    #[must_use]
+    pub fn singularity(&self, q: &[f64; N]) -> Singularity {
+        let values = singular_values(&self.jacobian(q, JacobianFrame::Base));
+        let arm = self.structure.arm().singular(q);
+        Singularity {
+            distances: arm.map(|(distances, _)| distances),
+            min_singular_value: values[5],
+            manipulability: values.iter().product(),
+            kinds: arm.map_or(Status::empty(), |(_, kinds)| kinds),
+        }
+    }
+
+    /// How far `q` [rad] is from each singularity of the structure; `None` where that is unknown.
+    #[must_use]
+    pub fn singular_distances(&self, q: &[f64; N]) -> Option<SingularDistances> {
+        self.structure.arm().singular(q).map(|(distances, _)| distances)
+    }
+
+    /// How far the tool at `q` [rad] is from `pose`.
+    #[must_use]
+    pub fn residual(&self, q: &[f64; N], pose: &Pose) -> PoseError {
+        PoseError::between(&self.fk(q), pose)
+    }
+
+    /// The determinant of the geometric Jacobian of joints 1 to 6 in closed form [m^3]: it is zero at singularities alone, and its factors are
+    /// those of the structure. `None` where the structure is unknown.
+    #[must_use]
+    pub fn jacobian_determinant(&self, q: &[f64; N]) -> Option<f64> {
+        self.structure.arm().jacobian_determinant(q)
+    }
+}

@@ -1,0 +1,94 @@
+//! Numbers of joints that an arm may have.
+
+use super::any::{AnyStructure, Arm, SevenJoints, SixJoints};
+use super::redundancy::Redundancy;
+use super::solver::Solver;
+use super::spherical_wrist::{OpwParameters, SphericalWrist};
+use crate::kinematics::answer::solutions::Solutions;
+use crate::kinematics::chain::Chain;
+use crate::kinematics::chain::dh::Mdh;
+use crate::kinematics::chain::limits::JointLimits;
+use crate::report::UnknownStructure;
+
+/// A number of joints, as a type: `Joints<6>` says what is special about six.
+#[derive(Clone, Copy, Debug)]
+pub struct Joints<const N: usize>;
+
+/// What depends on the number of joints. Implemented for [`Joints`] of 1 to 12; sealed.
+pub trait Arity<const N: usize>: sealed::Sealed {
+    /// What a caller gives with a pose: nothing for six joints, the angle of joint 7 [rad] for seven.
+    type Redundancy: Redundancy;
+
+    /// The structures that an arm may have.
+    #[doc(hidden)]
+    #[expect(private_bounds, reason = "sealed: no one outside implements it")]
+    type Structure: AnyStructure<N, Redundancy = Self::Redundancy>;
+
+    /// The structure of an ortho-parallel arm with a spherical wrist, where this is its number of joints.
+    #[doc(hidden)]
+    fn of_opw(_opw: &OpwParameters, _chain: &Chain<N>) -> Option<Self::Structure> {
+        None
+    }
+}
+
+/// The structure of an arm of `N` joints.
+pub(crate) type StructureOf<const N: usize> = <Joints<N> as Arity<N>>::Structure;
+
+/// What a caller gives with a pose of an arm of `N` joints.
+pub type RedundancyOf<const N: usize> = <Joints<N> as Arity<N>>::Redundancy;
+
+mod sealed {
+    pub trait Sealed {}
+
+    impl<const N: usize> Sealed for super::Joints<N> {}
+}
+
+impl Arity<6> for Joints<6> {
+    type Redundancy = ();
+    type Structure = SixJoints;
+
+    fn of_opw(opw: &OpwParameters, chain: &Chain<6>) -> Option<SixJoints> {
+        let structure = SphericalWrist::from_opw(opw);
+        let solver = Solver::new(structure, chain, &JointLimits::UNLIMITED);
+        Some(SixJoints::SphericalWrist(solver))
+    }
+}
+
+impl Arity<7> for Joints<7> {
+    type Redundancy = f64;
+    type Structure = SevenJoints;
+}
+
+macro_rules! without_structures {
+    ($($joints:literal)+) => {
+        $(impl Arity<$joints> for Joints<$joints> {
+            type Redundancy = ();
+            type Structure = NoStructure;
+        })+
+    };
+}
+without_structures!(1 2 3 4 5 8 9 10 11 12);
+
+/// The structure of an arm with a number of joints of which no structure is known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NoStructure(UnknownStructure);
+
+impl<const N: usize> AnyStructure<N> for NoStructure {
+    type Redundancy = ();
+
+    fn recognize(mdh: &Mdh<N>) -> (Chain<N>, Self) {
+        (Chain::new(mdh.clone()), Self(UnknownStructure::joint_count(N)))
+    }
+
+    fn between(self, _: &Chain<N>, _: &JointLimits<N>) -> Self {
+        self
+    }
+
+    fn arm(&self) -> &dyn Arm<N, ()> {
+        &self.0
+    }
+
+    fn solve_in_lanes(&self, _: &mut Solutions<N>, (): ()) -> bool {
+        false
+    }
+}

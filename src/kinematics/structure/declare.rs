@@ -1,0 +1,66 @@
+//! How the structures of arms with a number of joints are declared.
+
+/// An enum of structures, each with its number of slots: each is tried on a table in this order, and where none fits, the one that was
+/// missed by the least says why.
+macro_rules! structures {
+    ($(#[$doc:meta])* $name:ident, $joints:literal, $redundancy:ty: $($structure:ident: $slots:literal),+) => {
+        $(#[$doc])*
+        #[derive(Clone, Debug, PartialEq)]
+        #[allow(
+            clippy::large_enum_variant,
+            reason = "a robot is built once and borrowed from then on; a box would need the heap"
+        )]
+        #[allow(private_interfaces, reason = "part of a sealed trait: no one outside names it")]
+        pub enum $name {
+            $(
+                #[doc = concat!("[`", stringify!($structure), "`]")]
+                $structure(Solver<$structure, $joints, $slots>),
+            )+
+            /// None of them.
+            Unknown(UnknownStructure),
+        }
+
+        impl AnyStructure<$joints> for $name {
+            type Redundancy = $redundancy;
+
+            fn recognize(mdh: &Mdh<$joints>) -> (Chain<$joints>, Self) {
+                let mut nearest: Option<UnknownStructure> = None;
+                $(match recognized::<$structure, $joints, $slots>(mdh) {
+                    Ok((chain, solver)) => return (chain, Self::$structure(solver)),
+                    Err(missed) => nearest = Some(missed.nearer_of(nearest)),
+                })+
+                let missed = nearest.unwrap_or(UnknownStructure::joint_count($joints));
+                (Chain::new(mdh.clone()), Self::Unknown(missed))
+            }
+
+            fn between(self, chain: &Chain<$joints>, limits: &JointLimits<$joints>) -> Self {
+                match self {
+                    $(Self::$structure(solver) => {
+                        Self::$structure(Solver::new(solver.structure, chain, limits))
+                    })+
+                    Self::Unknown(reason) => Self::Unknown(reason),
+                }
+            }
+
+            fn arm(&self) -> &dyn Arm<$joints, $redundancy> {
+                match self {
+                    $(Self::$structure(solver) => solver,)+
+                    Self::Unknown(reason) => reason,
+                }
+            }
+
+            #[inline]
+            fn solve_in_lanes(
+                &self,
+                solutions: &mut Solutions<$joints>,
+                redundancy: $redundancy,
+            ) -> bool {
+                match self {
+                    $(Self::$structure(solver) => solver.solve_in_lanes(solutions, redundancy),)+
+                    Self::Unknown(_) => false,
+                }
+            }
+        }
+    };
+}
+pub(crate) use structures;

@@ -1,0 +1,93 @@
+//! Rows of poses through a kernel, a block of lanes at a time.
+
+use super::{AnswerRow, Columns, LaneKernel, PoseRow, Poses, StatusRow};
+use crate::kinematics::structure::end_frames::Seen;
+use crate::kinematics::structure::redundancy::Redundancy;
+use crate::lanes::{Flags, Kernel, LANES};
+
+/// What becomes of a block of poses.
+pub(crate) trait Block<K: LaneKernel<N, S>, const N: usize, const S: usize> {
+    /// Room for a block.
+    const NEW: Self;
+
+    /// Solves the last frames of the structure, seen from its first, and returns which are regular.
+    /// Must be `#[inline(always)]`.
+    fn solve<const FUSED: bool>(
+        &mut self,
+        kernel: &K,
+        columns: &Columns<N>,
+        frames: &mut Poses,
+        redundancy: <K::Redundancy as Redundancy>::Lanes,
+    ) -> Flags;
+
+    /// Writes the slots as rows.
+    fn write(&self, q: &mut [AnswerRow<N, S>; LANES], status: &mut [StatusRow<S>; LANES]);
+}
+
+/// Rows to be solved; `by_itself` solves one that is not regular, by its number.
+pub(crate) struct Blocks<'a, K: LaneKernel<N, S>, F, const N: usize, const S: usize> {
+    pub(crate) kernel: &'a K,
+    pub(crate) columns: &'a Columns<N>,
+    pub(crate) seen: Seen,
+    pub(crate) poses: &'a [PoseRow],
+    pub(crate) redundancy: &'a [K::Redundancy],
+    pub(crate) q: &'a mut [AnswerRow<N, S>],
+    pub(crate) status: &'a mut [StatusRow<S>],
+    pub(crate) by_itself: F,
+}
+
+impl<K, F, const N: usize, const S: usize> Kernel for Blocks<'_, K, F, N, S>
+where
+    K: LaneKernel<N, S>,
+    F: FnMut(usize, &mut [[f64; N]], &mut [u8]),
+{
+    type Answer = ();
+    const WIDE: bool = true;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) {
+        let Self { kernel, columns, seen, poses, redundancy, q, status, mut by_itself } = self;
+        let solve = |block: &mut K::Block, poses: &mut Poses, number: usize| {
+            let sound = poses.check();
+            poses.seen_from_shoulder::<FUSED>(seen);
+            let redundancy = K::Redundancy::lanes(redundancy, number);
+            let mut regular = block.solve::<FUSED>(kernel, columns, poses, redundancy);
+            for lane in 0..LANES {
+                regular[lane] &= sound[lane];
+            }
+            regular
+        };
+        let (blocks, rest) = poses.as_chunks::<LANES>();
+        let (q_blocks, q_rest) = q.as_chunks_mut::<LANES>();
+        let (status_blocks, status_rest) = status.as_chunks_mut::<LANES>();
+        let (mut block, mut next) = (K::Block::NEW, Poses::NEW);
+        if let Some(first) = blocks.first() {
+            next.read(first);
+        }
+        for (i, (q, status)) in q_blocks.iter_mut().zip(status_blocks).enumerate() {
+            let mut poses = next;
+            // Read before the block at hand is solved: what is written number by number cannot be read at once in vectors.
+            if let Some(following) = blocks.get(i + 1) {
+                next.read(following);
+            }
+            let regular = solve(&mut block, &mut poses, i);
+            block.write(q, status);
+            for lane in (0..LANES).filter(|lane| regular[*lane] == 0) {
+                by_itself(LANES * i + lane, &mut q[lane], &mut status[lane]);
+            }
+        }
+        if let Some(last) = rest.last() {
+            let mut rows = [*last; LANES];
+            rows[..rest.len()].copy_from_slice(rest);
+            next.read(&rows);
+            let regular = solve(&mut block, &mut next, blocks.len());
+            let (mut q, mut status) = ([[[0.0; N]; S]; LANES], [[0; S]; LANES]);
+            block.write(&mut q, &mut status);
+            for lane in (0..rest.len()).filter(|lane| regular[*lane] == 0) {
+                by_itself(LANES * blocks.len() + lane, &mut q[lane], &mut status[lane]);
+            }
+            q_rest.copy_from_slice(&q[..rest.len()]);
+            status_rest.copy_from_slice(&status[..rest.len()]);
+        }
+    }
+}

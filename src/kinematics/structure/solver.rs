@@ -1,0 +1,147 @@
+//! An arm between the frames in which poses are given, with its limits: the way through any structure.
+
+use super::Structure;
+use super::any::{Arm, RowSolve, Rows};
+use super::end_frames::{Frame, Seen, Surroundings};
+use super::free_choice::FreeChoice;
+use super::lanes::{Blocks, Columns, LaneKernel, RegularPose};
+use crate::kinematics::answer::singularity::SingularDistances;
+use crate::kinematics::answer::slot::Slot;
+use crate::kinematics::answer::solutions::{Place, Solution, Solutions};
+use crate::kinematics::answer::status::Status;
+use crate::kinematics::chain::Chain;
+use crate::kinematics::chain::limits::JointLimits;
+use crate::kinematics::pose::Pose;
+use crate::lanes::{Kernel, run};
+use crate::report::UnknownStructure;
+
+/// A structure, with what stands before and behind it and what is asked of its joints.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Solver<T: Structure<N, S>, const N: usize, const S: usize> {
+    pub(crate) structure: T,
+    pub(crate) surroundings: Surroundings,
+    /// `None` where the structure has no kernel, or the limits ask for more than what lanes do.
+    lanes: Option<(T::Kernel, Columns<N>)>,
+}
+
+impl<T: Structure<N, S>, const N: usize, const S: usize> Solver<T, N, S> {
+    /// The structure between the base and the tool of `chain`, coupled as it is, with limits.
+    pub(crate) fn new(structure: T, chain: &Chain<N>, limits: &JointLimits<N>) -> Self {
+        let structure = structure.between(chain.base(), chain.tool(), chain.is_coupled());
+        let map = structure.joint_map();
+        let columns = Columns::of(map, T::Kernel::DIFFERENCES, limits);
+        Self {
+            surroundings: Surroundings::new(map, chain),
+            lanes: structure.kernel().zip(columns),
+            structure,
+        }
+    }
+
+    /// Solves the answer's pose if it is regular, and reports whether it was.
+    #[inline]
+    pub(crate) fn solve_in_lanes(
+        &self,
+        solutions: &mut Solutions<N>,
+        redundancy: T::Redundancy,
+    ) -> bool {
+        let Some((kernel, columns)) = &self.lanes else { return false };
+        let (seen, pose) = (&self.surroundings.seen, &solutions.pose);
+        let Some(regular) = run(Single { kernel, columns, seen, pose, redundancy }) else {
+            return false;
+        };
+        for (index, place) in solutions.places_mut().iter_mut().enumerate() {
+            let Some((q, status)) = regular.slot(index) else { continue };
+            let status = Status::from_bits_retain(status);
+            *place = Place::Found(Solution { q, slot: Slot::new(index), status, free: None });
+        }
+        true
+    }
+}
+
+impl<T: Structure<N, S>, const N: usize, const S: usize> Arm<N, T::Redundancy> for Solver<T, N, S> {
+    fn name(&self) -> &'static str {
+        T::PATTERN.name
+    }
+
+    fn slot_count(&self) -> usize {
+        S
+    }
+
+    fn slot_names(&self) -> Option<&'static [&'static str]> {
+        T::SLOT_NAMES.map(|names| &names[..])
+    }
+
+    fn solve(
+        &self,
+        solutions: &mut Solutions<N>,
+        redundancy: T::Redundancy,
+        free: &FreeChoice<N>,
+    ) -> Result<(), UnknownStructure> {
+        let t_first_last = self.surroundings.wrist_pose(&solutions.pose);
+        let branches = self.structure.solve(&t_first_last, redundancy, free);
+        let limits = solutions.limits;
+        for (index, place) in solutions.places_mut().iter_mut().enumerate() {
+            *place = branches.place(index, &limits, redundancy);
+        }
+        solutions.reach = branches.reach;
+        Ok(())
+    }
+
+    fn solve_rows(&self, rows: Rows<'_, T::Redundancy>, by_itself: &mut RowSolve<'_, N>) {
+        let Rows { poses, redundancy, q, status } = rows;
+        let q = q.as_chunks_mut::<N>().0.as_chunks_mut::<S>().0;
+        let status = status.as_chunks_mut::<S>().0;
+        match &self.lanes {
+            Some((kernel, columns)) => {
+                let seen = self.surroundings.seen;
+                run(Blocks { kernel, columns, seen, poses, redundancy, q, status, by_itself });
+            }
+            None => {
+                for (row, (q, status)) in q.iter_mut().zip(status).enumerate() {
+                    by_itself(row, q, status);
+                }
+            }
+        }
+    }
+
+    fn singular(&self, q: &[f64; N]) -> Option<(SingularDistances, Status)> {
+        Some((self.structure.singular_distances(q), self.structure.kinds(q)))
+    }
+
+    fn jacobian_determinant(&self, q: &[f64; N]) -> Option<f64> {
+        Some(self.structure.jacobian_determinant(q))
+    }
+
+    fn slot(&self, q: &[f64; N]) -> Option<Slot> {
+        self.structure.slot(q)
+    }
+
+    fn sin_5(&self, q: &[f64; N]) -> Option<f64> {
+        self.structure.sin_5(q)
+    }
+
+    fn may_be_coupled(&self) -> Result<(), &'static str> {
+        self.structure.may_be_coupled()
+    }
+}
+
+/// One pose in lanes.
+struct Single<'a, K: LaneKernel<N, S>, const N: usize, const S: usize> {
+    kernel: &'a K,
+    columns: &'a Columns<N>,
+    seen: &'a Seen,
+    pose: &'a Pose,
+    redundancy: K::Redundancy,
+}
+
+impl<K: LaneKernel<N, S>, const N: usize, const S: usize> Kernel for Single<'_, K, N, S> {
+    /// Nothing where a branch is not regular, or none reaches: the scalar solver has to say more.
+    type Answer = Option<K::Regular>;
+    const WIDE: bool = true;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> Self::Answer {
+        let frame = self.seen.of::<FUSED>(&Frame::of(self.pose));
+        self.kernel.solve_one::<FUSED>(self.columns, &frame, self.redundancy)
+    }
+}

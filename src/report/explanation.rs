@@ -1,0 +1,135 @@
+//! The outcome of a solve: how far the pose is from reach, and a sentence on it.
+
+use core::fmt;
+
+/// Whether the arm's wrist centre gets to where the pose wants it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reach {
+    /// It does.
+    Reached,
+    /// It lies beyond the stretched arm.
+    TooFar {
+        /// How far beyond [m].
+        shortfall: f64,
+    },
+    /// It lies closer than the folded arm, or inside the cylinder of the lateral offset.
+    TooNear {
+        /// How far inside [m].
+        shortfall: f64,
+    },
+}
+
+impl Reach {
+    /// How far the wrist centre is from where the arm can bring it [m]; zero when reached.
+    #[must_use]
+    pub fn shortfall(self) -> f64 {
+        match self {
+            Self::Reached => 0.0,
+            Self::TooFar { shortfall } | Self::TooNear { shortfall } => shortfall,
+        }
+    }
+}
+
+/// One sentence on the outcome of a solve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Explanation {
+    /// Solutions inside the limits exist.
+    Found {
+        /// Solutions, limits not regarded.
+        solutions: usize,
+        /// Those inside the limits.
+        inside: usize,
+    },
+    /// Solutions exist, none inside the limits.
+    OutsideLimits {
+        /// Solutions, limits not regarded.
+        solutions: usize,
+        /// The joint that keeps the best of them out, from 1.
+        joint: usize,
+        /// How far that joint is outside [rad].
+        excess: f64,
+    },
+    /// Solutions exist, none inside the limits: all that keeps the best of them out is the rod of coupled axes 2 and 3.
+    OutsideRod {
+        /// Solutions, limits not regarded.
+        solutions: usize,
+        /// How far q3 - q2 is outside the rod's limits [rad].
+        excess: f64,
+    },
+    /// The wrist centre is out of reach.
+    OutOfReach(
+        /// On which side, and by how much.
+        Reach,
+    ),
+    /// The pose leaves a joint free, but the arm does not reach with it at this angle.
+    FreeOutOfReach {
+        /// The free joint, from 1.
+        joint: usize,
+        /// The angle [rad].
+        value: f64,
+    },
+    /// The caller's own condition turned every solution away.
+    FilteredOut,
+}
+
+impl fmt::Display for Explanation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Found { solutions: 1, inside: 1 } => write!(f, "1 solution, inside limits"),
+            Self::Found { solutions, inside } => {
+                write!(f, "{solutions} solutions, {inside} inside limits")
+            }
+            Self::OutsideLimits { solutions, joint, excess } => {
+                write!(
+                    f,
+                    "all {solutions} outside limits; nearest: J{joint} by {:.1} deg",
+                    excess.to_degrees()
+                )
+            }
+            Self::OutsideRod { solutions, excess } => {
+                write!(
+                    f,
+                    "all {solutions} outside limits; nearest: the rod (q3 - q2) by {:.1} deg",
+                    excess.to_degrees()
+                )
+            }
+            Self::OutOfReach(Reach::TooNear { shortfall }) => {
+                write!(f, "wrist centre {} too near to be reached", Millimetres(shortfall))
+            }
+            Self::OutOfReach(reach) => {
+                write!(f, "wrist centre {} beyond reach", Millimetres(reach.shortfall()))
+            }
+            Self::FreeOutOfReach { joint, value } => {
+                write!(f, "the arm does not reach with J{joint} at {:.3} deg", value.to_degrees())
+            }
+            Self::FilteredOut => write!(f, "no solution is left by the filter"),
+        }
+    }
+}
+
+/// A length in mm, with a decimal from 0.1 mm on and in scientific notation below.
+struct Millimetres(f64);
+
+impl fmt::Display for Millimetres {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mm = self.0 * 1e3;
+        if mm >= 0.1 { write!(f, "{mm:.1} mm") } else { write!(f, "{mm:.1e} mm") }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::string::ToString;
+
+    use super::*;
+
+    #[test]
+    fn sentences_name_the_figure_and_the_joint() {
+        let far = Explanation::OutOfReach(Reach::TooFar { shortfall: 0.012 });
+        assert_eq!(far.to_string(), "wrist centre 12.0 mm beyond reach");
+        let outside =
+            Explanation::OutsideLimits { solutions: 4, joint: 5, excess: 3.1_f64.to_radians() };
+        assert_eq!(outside.to_string(), "all 4 outside limits; nearest: J5 by 3.1 deg");
+    }
+}

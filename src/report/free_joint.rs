@@ -1,0 +1,121 @@
+//! Joints that singular poses leave undetermined.
+
+/// A joint that a singular pose leaves free: the solution is one of a self-motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum FreeJoint {
+    /// The wrist centre is on axis 1: q1 is free, q2 and q3 are fixed, the wrist follows.
+    Base,
+    /// The wrist centre is on axis 2: q2 is free, q1 and q3 are fixed, the wrist follows.
+    Upper,
+    /// The same of an arm with coupled axes 2 and 3: q3 goes with q2.
+    UpperCoupled,
+    /// Axes 4 and 6 are one: q4 is free, q4 + q6 is fixed.
+    WristSum,
+    /// Axes 4 and 6 are one: q4 is free, q4 - q6 is fixed.
+    WristDifference,
+    /// Axes 2, 3, 4 and 6 of a three-parallel arm are parallel: q6 is free, q1 and q5 are fixed, the
+    /// arm follows.
+    Parallel,
+    /// Axes 1 and 3 of a seven-axis arm are one: q1 is free, q1 + q3 is fixed.
+    ShoulderSum,
+    /// Axes 1 and 3 of a seven-axis arm are one: q1 is free, q1 - q3 is fixed.
+    ShoulderDifference,
+    /// The shoulder of a seven-axis arm is on axis 5: q5 is free, q4 and q6 are fixed, the shoulder's
+    /// joints follow.
+    Forearm,
+    /// The shoulder of a seven-axis arm is on axis 6: q6 is free, q4 and q5 are fixed, the shoulder's
+    /// joints follow.
+    Hand,
+}
+
+/// How the arm moves along a self-motion, the tool standing still.
+struct SelfMotion {
+    /// Number of the free joint, from 1.
+    joint: usize,
+    /// What stays fixed.
+    fixed: &'static str,
+    rest: Rest,
+    /// The branches that it runs through, each by what its slots differ in from that of a solution of
+    /// it. The free joint may flip what turns with it or bring another singularity; the two elbows of
+    /// a stretched arm are one solution and go apart along the self-motion.
+    branches: &'static [&'static [usize]],
+    /// Whether the branch that was merged with a solution is half a turn of the free joint away.
+    merged_half_a_turn_away: bool,
+}
+
+/// What the other joints do.
+enum Rest {
+    /// One of them moves: its number, from 1, and the sign with which its sum with the free one is fixed.
+    Partner(usize, f64),
+    /// All move but these, from 1.
+    Still(&'static [usize]),
+}
+
+const ONE_BRANCH: &[&[usize]] = &[&[0, 1]];
+
+impl FreeJoint {
+    const fn motion(self) -> SelfMotion {
+        let (joint, fixed, rest) = match self {
+            Self::Base => (1, "q2, q3", Rest::Still(&[2, 3])),
+            Self::Upper => (2, "q1, q3", Rest::Still(&[1, 3])),
+            Self::UpperCoupled => (2, "q1, q3 - q2", Rest::Still(&[1])),
+            Self::WristSum => (4, "q4 + q6", Rest::Partner(6, 1.0)),
+            Self::WristDifference => (4, "q4 - q6", Rest::Partner(6, -1.0)),
+            Self::Parallel => (6, "q1, q5", Rest::Still(&[1, 5])),
+            Self::ShoulderSum => (1, "q1 + q3", Rest::Partner(3, 1.0)),
+            Self::ShoulderDifference => (1, "q1 - q3", Rest::Partner(3, -1.0)),
+            Self::Forearm => (5, "q4, q6", Rest::Still(&[4, 6])),
+            Self::Hand => (6, "q4, q5", Rest::Still(&[4, 5])),
+        };
+        let branches: &[&[usize]] = match self {
+            Self::ShoulderSum | Self::ShoulderDifference => &[&[0, 4]],
+            Self::Forearm | Self::Hand => &[&[0, 1, 4, 5]],
+            Self::Parallel => &[&[0, 1], &[2, 3]],
+            _ => ONE_BRANCH,
+        };
+        let merged_half_a_turn_away =
+            matches!(rest, Rest::Partner(..)) || matches!(self, Self::Parallel);
+        SelfMotion { joint, fixed, rest, branches, merged_half_a_turn_away }
+    }
+
+    /// Number of the free joint, from 1.
+    #[must_use]
+    pub const fn joint(self) -> usize {
+        self.motion().joint
+    }
+
+    /// What stays fixed along the self-motion.
+    #[must_use]
+    pub const fn fixed(self) -> &'static str {
+        self.motion().fixed
+    }
+
+    /// The joint whose sum with the free one, or difference from it (a sign of -1), is all that is
+    /// fixed: its number, from 1, and the sign.
+    pub(crate) const fn partner(self) -> Option<(usize, f64)> {
+        match self.motion().rest {
+            Rest::Partner(joint, sign) => Some((joint, sign)),
+            Rest::Still(_) => None,
+        }
+    }
+
+    /// Numbers of the joints, from 1, that stand still along a self-motion of more than a partner.
+    pub(crate) const fn still(self) -> &'static [usize] {
+        match self.motion().rest {
+            Rest::Partner(..) => &[],
+            Rest::Still(joints) => joints,
+        }
+    }
+
+    /// The branches that the self-motion runs through, by what their slots differ in.
+    pub(crate) const fn branches(self) -> &'static [&'static [usize]] {
+        self.motion().branches
+    }
+
+    /// Whether the branch that was merged with a solution is half a turn of the free joint away.
+    pub(crate) const fn merged_half_a_turn_away(self) -> bool {
+        self.motion().merged_half_a_turn_away
+    }
+}

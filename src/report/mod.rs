@@ -1,0 +1,15 @@
+//! What irbkin reports, as data: the words that answers and errors have in common.
+//!
+//! Nothing here calculates. A structure, a solve and an error all speak of the same joints, reaches and conditions, so these stand below
+//! all of them.
+
+mod configuration;
+mod explanation;
+mod free_joint;
+mod unknown_structure;
+
+pub use configuration::Configuration;
+pub use explanation::{Explanation, Reach};
+pub use free_joint::FreeJoint;
+pub use unknown_structure::{Condition, Relation, UnknownStructure};
+pub(crate) use unknown_structure::{MOST_CONDITIONS, Pattern};

@@ -1,0 +1,150 @@
+//! What a kinematic structure asks of the axes of an arm, and what keeps an arm from having it.
+
+use core::fmt;
+
+/// How two axes of a known structure stand to one another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relation {
+    /// At right angles.
+    Perpendicular,
+    /// Parallel.
+    Parallel,
+    /// Meeting in a point.
+    Meeting,
+    /// In one plane, at right angles to the axis between them.
+    Coplanar,
+}
+
+/// A condition that an arm does not meet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Condition {
+    /// How the axes should stand.
+    pub relation: Relation,
+    /// The axes, from 1.
+    pub axes: (usize, usize),
+    /// How far they are off: an angle [rad] or, for axes that should meet or lie in one plane, a distance [m].
+    pub off: f64,
+}
+
+/// Most conditions that a structure has.
+pub(crate) const MOST_CONDITIONS: usize = 10;
+
+/// What a kinematic structure asks of the axes of an arm.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Pattern {
+    /// Name of the structure.
+    pub(crate) name: &'static str,
+    /// What an arm of this structure has, in words.
+    pub(crate) title: &'static str,
+    /// Relation of two axes, from 1.
+    pub(crate) conditions: &'static [(Relation, (usize, usize))],
+}
+
+/// Why an arm has none of the known structures: every condition that the nearest of them asks for and
+/// the arm does not meet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UnknownStructure {
+    reason: Reason,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Reason {
+    /// No structure has this number of joints.
+    JointCount(usize),
+    /// How far each condition of the structure is off; zero where it is met.
+    Off { pattern: &'static Pattern, off: [f64; MOST_CONDITIONS] },
+    /// A length that the structure needs and the arm does not have [m].
+    TooShort { pattern: &'static Pattern, field: &'static str, value: f64, bound: f64 },
+}
+
+impl UnknownStructure {
+    /// An arm whose number of joints alone rules a closed form out.
+    pub(crate) fn joint_count(joints: usize) -> Self {
+        Self { reason: Reason::JointCount(joints) }
+    }
+
+    /// An arm that is off these conditions of a structure by so much; zero where one is met.
+    pub(crate) fn off(pattern: &'static Pattern, off: [f64; MOST_CONDITIONS]) -> Self {
+        Self { reason: Reason::Off { pattern, off } }
+    }
+
+    /// An arm with a link shorter than `bound` [m].
+    pub(crate) fn too_short(
+        pattern: &'static Pattern,
+        (field, value): (&'static str, f64),
+        bound: f64,
+    ) -> Self {
+        Self { reason: Reason::TooShort { pattern, field, value, bound } }
+    }
+
+    /// This, or another that was missed by less: by fewer conditions, then by less of them.
+    pub(crate) fn nearer_of(self, other: Option<Self>) -> Self {
+        let miss = |reason: &Self| {
+            (
+                reason.conditions().count(),
+                reason.conditions().map(|condition| condition.off).sum::<f64>(),
+            )
+        };
+        match other {
+            Some(other) if miss(&other) <= miss(&self) => other,
+            _ => self,
+        }
+    }
+
+    /// The conditions that are not met. None is off where the arm has a structure but a link without length, or another number of joints.
+    pub fn conditions(&self) -> impl Iterator<Item = Condition> {
+        let (conditions, off) = match self.reason {
+            Reason::Off { pattern, off } => (pattern.conditions, off),
+            Reason::JointCount(_) | Reason::TooShort { .. } => (&[][..], [0.0; MOST_CONDITIONS]),
+        };
+        let off = conditions.iter().zip(off).filter(|(_, off)| *off > 0.0);
+        off.map(|((relation, axes), off)| Condition { relation: *relation, axes: *axes, off })
+    }
+}
+
+impl fmt::Display for Condition {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { relation, axes: (i, j), off } = *self;
+        match relation {
+            Relation::Perpendicular => write!(
+                f,
+                "axes {i} and {j} must be at right angles, they are {:.6} deg off",
+                off.to_degrees()
+            ),
+            Relation::Parallel => write!(
+                f,
+                "axes {i} and {j} must be parallel, they are {:.6} deg off",
+                off.to_degrees()
+            ),
+            Relation::Meeting => {
+                write!(f, "axes {i} and {j} must meet, they pass {:.6} mm apart", off * 1e3)
+            }
+            Relation::Coplanar => write!(
+                f,
+                "axes {i} and {j} must lie in one plane, they pass {:.6} mm apart",
+                off * 1e3
+            ),
+        }
+    }
+}
+
+impl fmt::Display for UnknownStructure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.reason {
+            Reason::JointCount(joints) => write!(f, "{joints} joints, the known forms have 6 or 7"),
+            Reason::TooShort { pattern, field, value, bound } => {
+                write!(
+                    f,
+                    "for {}, {field} is {value} m, it must be at least {bound:e} m",
+                    pattern.title
+                )
+            }
+            Reason::Off { pattern, .. } => {
+                write!(f, "for {}", pattern.title)?;
+                self.conditions().enumerate().try_for_each(|(i, condition)| {
+                    write!(f, "{} {condition}", if i == 0 { "," } else { ";" })
+                })
+            }
+        }
+    }
+}
