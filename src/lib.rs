@@ -65,10 +65,13 @@ pub use kinematics::{
     Arity, Break, BreakReason, Crossing, Definition, DhRow, FollowOptions, Followed, Follower,
     Inverse, JacobianFrame, JointAxis, JointLimits, Joints, MOST_SLOTS, Mdh, OpwParameters, Pose,
     PoseError, Redundancy, RedundancyOf, Robot, Sdh, SingularDistances, Singularity, Slot,
-    SlotStatus, Solution, Solutions, Status, pose_from_euler_zyx, pose_from_quaternion,
-    pose_from_rows, pose_to_euler_zyx, pose_to_quaternion, pose_to_rows, thresholds,
+    SlotStatus, Solution, Solutions, Status, pose_from_euler_zyx, pose_from_isometry,
+    pose_from_matrix, pose_from_quaternion, pose_from_rows, pose_to_euler_zyx, pose_to_isometry,
+    pose_to_matrix, pose_to_quaternion, pose_to_rows, thresholds,
 };
 pub use lanes::InstructionSet;
+/// The linear algebra of poses and matrices, in the version that this crate has.
+pub use nalgebra;
 pub use report::{
     Condition, Configuration, Explanation, FreeJoint, Reach, Relation, UnknownStructure,
 };

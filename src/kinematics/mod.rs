@@ -28,6 +28,7 @@ pub use path::follow::{Break, BreakReason, Followed, Follower};
 pub(crate) use pose::angles::constant_sin_cos;
 #[cfg(feature = "urdf")]
 pub(crate) use pose::constant_pose;
+pub use pose::matrix::{pose_from_isometry, pose_from_matrix, pose_to_isometry, pose_to_matrix};
 pub use pose::{
     Pose, PoseError, pose_from_euler_zyx, pose_from_quaternion, pose_from_rows, pose_to_euler_zyx,
     pose_to_quaternion, pose_to_rows,

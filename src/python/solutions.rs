@@ -62,7 +62,7 @@ enum AnyMember {
 }
 
 /// Every solution of a pose, in the order of the slots, and why there is none where there is none.
-#[pyclass(name = "Solutions", module = "irbkin", frozen)]
+#[pyclass(name = "Solutions", module = "irbkin", frozen, freelist = 8)]
 pub(super) struct PySolutions {
     found: AnyFound,
 }

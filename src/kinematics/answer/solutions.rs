@@ -123,6 +123,13 @@ impl<const N: usize> Solutions<N> {
         &self.places[..self.slot_count]
     }
 
+    /// What the first `S` slots hold, `S` being known to the compiler.
+    #[inline]
+    pub(crate) fn first_places<const S: usize>(&mut self) -> &mut [Place<N>] {
+        const { assert!(S <= MOST_SLOTS, "an answer has room for every slot of a structure") };
+        &mut self.places[..S]
+    }
+
     #[inline]
     pub(crate) fn places_mut(&mut self) -> &mut [Place<N>] {
         &mut self.places[..self.slot_count]

@@ -1,6 +1,7 @@
 //! Poses: checking and repairing a 4x4 matrix, quaternions and ZYX Euler angles.
 
 pub(crate) mod angles;
+pub(crate) mod matrix;
 pub(crate) mod rotation;
 
 use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Translation3, Vector3};

@@ -99,7 +99,7 @@ where
     /// Number of slots of an answer: none where the structure is unknown.
     #[must_use]
     pub fn slot_count(&self) -> usize {
-        self.structure.arm().slot_count()
+        self.structure.slot_count()
     }
 
     /// What each slot stands for; `None` where slots are ordinals, or the structure is unknown.

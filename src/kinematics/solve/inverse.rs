@@ -63,9 +63,14 @@ where
         pose: Pose,
         redundancy: RedundancyOf<N>,
     ) -> Result<Solutions<N>, Error> {
-        let mut solutions = self.unsolved(pose);
-        self.ik_into(&mut solutions, redundancy)?;
-        Ok(solutions)
+        // Solved where it is returned: an answer is a thousand bytes.
+        let mut answer = Ok(self.unsolved(pose));
+        if let Ok(solutions) = &mut answer
+            && let Err(error) = self.ik_into(solutions, redundancy)
+        {
+            answer = Err(error);
+        }
+        answer
     }
 
     /// Every joint vector of many poses: rows of pose elements in, slots and their status out.
@@ -102,7 +107,7 @@ where
     /// An answer without solutions, to solve in the place where it stands.
     #[inline]
     pub(crate) fn unsolved(&self, pose: Pose) -> Solutions<N> {
-        Solutions::none(self.structure().arm().slot_count(), pose, *self.limits())
+        Solutions::none(self.structure().slot_count(), pose, *self.limits())
     }
 
     /// [`Robot::ik_checked`] of an unsolved answer's pose, without moving the answer about.

@@ -40,11 +40,6 @@ pub(crate) trait Arm<const N: usize, R> {
     /// Name of the structure.
     fn name(&self) -> &'static str;
 
-    /// Number of slots; none where the structure is unknown.
-    fn slot_count(&self) -> usize {
-        0
-    }
-
     /// What each slot stands for, where branches have names.
     fn slot_names(&self) -> Option<&'static [&'static str]> {
         None
@@ -135,6 +130,9 @@ pub(crate) trait AnyStructure<const N: usize>:
     /// The same structure between the base and the tool of `chain`, with its coupling and limits.
     #[must_use]
     fn between(self, chain: &Chain<N>, limits: &JointLimits<N>) -> Self;
+
+    /// Number of slots; none where the structure is unknown.
+    fn slot_count(&self) -> usize;
 
     /// The structure that is asked.
     fn arm(&self) -> &dyn Arm<N, Self::Redundancy>;

@@ -84,6 +84,10 @@ impl<const N: usize> AnyStructure<N> for NoStructure {
         self
     }
 
+    fn slot_count(&self) -> usize {
+        0
+    }
+
     fn arm(&self) -> &dyn Arm<N, ()> {
         &self.0
     }

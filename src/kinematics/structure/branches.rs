@@ -29,6 +29,7 @@ impl<const N: usize, const S: usize> Branches<N, S> {
     }
 
     /// What a slot of the answer holds: the joint vector at its turn inside the limits.
+    #[inline]
     pub(crate) fn place(
         &self,
         slot: usize,

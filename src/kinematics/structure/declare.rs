@@ -42,6 +42,14 @@ macro_rules! structures {
                 }
             }
 
+            #[inline]
+            fn slot_count(&self) -> usize {
+                match self {
+                    $(Self::$structure(_) => $slots,)+
+                    Self::Unknown(_) => 0,
+                }
+            }
+
             fn arm(&self) -> &dyn Arm<$joints, $redundancy> {
                 match self {
                     $(Self::$structure(solver) => solver,)+

@@ -49,7 +49,7 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Solver<T, N, S> {
         let Some(regular) = run(Single { kernel, columns, seen, pose, redundancy }) else {
             return false;
         };
-        for (index, place) in solutions.places_mut().iter_mut().enumerate() {
+        for (index, place) in solutions.first_places::<S>().iter_mut().enumerate() {
             let Some((q, status)) = regular.slot(index) else { continue };
             let status = Status::from_bits_retain(status);
             *place = Place::Found(Solution { q, slot: Slot::new(index), status, free: None });
@@ -61,10 +61,6 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Solver<T, N, S> {
 impl<T: Structure<N, S>, const N: usize, const S: usize> Arm<N, T::Redundancy> for Solver<T, N, S> {
     fn name(&self) -> &'static str {
         T::PATTERN.name
-    }
-
-    fn slot_count(&self) -> usize {
-        S
     }
 
     fn slot_names(&self) -> Option<&'static [&'static str]> {
@@ -80,7 +76,7 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Arm<N, T::Redundancy> f
         let t_first_last = self.surroundings.wrist_pose(&solutions.pose);
         let branches = self.structure.solve(&t_first_last, redundancy, free);
         let limits = solutions.limits;
-        for (index, place) in solutions.places_mut().iter_mut().enumerate() {
+        for (index, place) in solutions.first_places::<S>().iter_mut().enumerate() {
             *place = branches.place(index, &limits, redundancy);
         }
         solutions.reach = branches.reach;

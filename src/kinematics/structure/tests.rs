@@ -75,7 +75,7 @@ fn a_structure_of_sixteen_ordinals_without_a_kernel_fits() {
     let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
     let (chain, solver) = recognized::<Ordinals, 6, 16>(robot.mdh()).unwrap();
     let solver = Solver::new(solver.structure, &chain, robot.limits());
-    assert_eq!((solver.slot_count(), solver.slot_names()), (16, None));
+    assert_eq!(solver.slot_names(), None);
     let joints = [[0.3, -0.2, 0.4, 0.5, -0.6, 0.7], [-0.9, 0.5, -0.1, 1.5, 0.8, -2.0]];
     let poses = joints.map(|q| pose_to_rows(&chain.fk(&q)));
     let (mut q, mut status) = ([f64::NAN; 2 * 16 * 6], [0; 2 * 16]);

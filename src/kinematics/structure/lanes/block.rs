@@ -47,16 +47,7 @@ where
     #[inline(always)]
     fn run<const FUSED: bool>(self) {
         let Self { kernel, columns, seen, poses, redundancy, q, status, mut by_itself } = self;
-        let solve = |block: &mut K::Block, poses: &mut Poses, number: usize| {
-            let sound = poses.check();
-            poses.seen_from_shoulder::<FUSED>(seen);
-            let redundancy = K::Redundancy::lanes(redundancy, number);
-            let mut regular = block.solve::<FUSED>(kernel, columns, poses, redundancy);
-            for lane in 0..LANES {
-                regular[lane] &= sound[lane];
-            }
-            regular
-        };
+        let arm = Lanes { kernel, columns, seen, redundancy };
         let (blocks, rest) = poses.as_chunks::<LANES>();
         let (q_blocks, q_rest) = q.as_chunks_mut::<LANES>();
         let (status_blocks, status_rest) = status.as_chunks_mut::<LANES>();
@@ -70,7 +61,7 @@ where
             if let Some(following) = blocks.get(i + 1) {
                 next.read(following);
             }
-            let regular = solve(&mut block, &mut poses, i);
+            let regular = arm.solve::<FUSED>(&mut block, &mut poses, i);
             block.write(q, status);
             for lane in (0..LANES).filter(|lane| regular[*lane] == 0) {
                 by_itself(LANES * i + lane, &mut q[lane], &mut status[lane]);
@@ -80,7 +71,7 @@ where
             let mut rows = [*last; LANES];
             rows[..rest.len()].copy_from_slice(rest);
             next.read(&rows);
-            let regular = solve(&mut block, &mut next, blocks.len());
+            let regular = arm.solve::<FUSED>(&mut block, &mut next, blocks.len());
             let (mut q, mut status) = ([[[0.0; N]; S]; LANES], [[0; S]; LANES]);
             block.write(&mut q, &mut status);
             for lane in (0..rest.len()).filter(|lane| regular[*lane] == 0) {
@@ -89,5 +80,33 @@ where
             q_rest.copy_from_slice(&q[..rest.len()]);
             status_rest.copy_from_slice(&status[..rest.len()]);
         }
+    }
+}
+
+/// What a block is solved with. A type, because a closure is not inlined into a kernel for certain, and then not compiled for its instructions.
+struct Lanes<'a, K: LaneKernel<N, S>, const N: usize, const S: usize> {
+    kernel: &'a K,
+    columns: &'a Columns<N>,
+    seen: Seen,
+    redundancy: &'a [K::Redundancy],
+}
+
+impl<K: LaneKernel<N, S>, const N: usize, const S: usize> Lanes<'_, K, N, S> {
+    /// Checks block number `number` of the poses and solves it; returns which poses are regular.
+    #[inline(always)]
+    fn solve<const FUSED: bool>(
+        &self,
+        block: &mut K::Block,
+        poses: &mut Poses,
+        number: usize,
+    ) -> Flags {
+        let sound = poses.check();
+        poses.seen_from_shoulder::<FUSED>(self.seen);
+        let redundancy = K::Redundancy::lanes(self.redundancy, number);
+        let mut regular = block.solve::<FUSED>(self.kernel, self.columns, poses, redundancy);
+        for lane in 0..LANES {
+            regular[lane] &= sound[lane];
+        }
+        regular
     }
 }

@@ -101,10 +101,12 @@ impl Structure<7, 8> for SphericalShoulder {
         Some(Constants::of(&self.links, &self.placement, &self.t_seven_hand))
     }
 
+    #[inline]
     fn solve(&self, t_shoulder_seven: &Pose, q7: f64, free: &FreeChoice<7>) -> Branches<7> {
         self.solve_hand(&self.hand(t_shoulder_seven, q7), free)
     }
 
+    #[inline]
     fn singular_distances(&self, q: &[f64; 7]) -> SingularDistances {
         let [_, theta_2, _, theta_4, theta_5, ..] = self.theta(q);
         let elbow = self.links.elbow_at(theta_4);
@@ -116,6 +118,7 @@ impl Structure<7, 8> for SphericalShoulder {
     }
 
     /// A solve, which does not know `q`, also merges a shoulder by what the pose leaves open of elbow and wrist.
+    #[inline]
     fn kinds(&self, q: &[f64; 7]) -> Status {
         let [_, theta_2, _, theta_4, theta_5, ..] = self.theta(q);
         let mut kinds = Status::empty();

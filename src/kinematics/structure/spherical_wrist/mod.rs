@@ -109,10 +109,12 @@ impl Structure<6, 8> for SphericalWrist {
         Some(Constants::of(&self.planar))
     }
 
+    #[inline]
     fn solve(&self, t_shoulder_wrist: &Pose, (): (), free: &FreeChoice<6>) -> Branches<6> {
         self.solve_wrist(t_shoulder_wrist, free)
     }
 
+    #[inline]
     fn singular_distances(&self, q: &[f64; 6]) -> SingularDistances {
         let [_, _, t3, _, t5, _] = self.theta(q);
         SingularDistances {
@@ -123,6 +125,7 @@ impl Structure<6, 8> for SphericalWrist {
     }
 
     /// A solve, which does not know `q`, also merges a wrist by what the pose leaves open of the forearm.
+    #[inline]
     fn kinds(&self, q: &[f64; 6]) -> Status {
         let [_, x, wrist] = self.factors(q);
         let mut kinds = Status::empty();

@@ -85,10 +85,12 @@ impl Structure<6, 8> for ThreeParallel {
         Some(Constants::of(self))
     }
 
+    #[inline]
     fn solve(&self, t_shoulder_wrist: &Pose, (): (), free: &FreeChoice<6>) -> Branches<6> {
         self.solve_wrist(t_shoulder_wrist, free)
     }
 
+    #[inline]
     fn singular_distances(&self, q: &[f64; 6]) -> SingularDistances {
         let [_, _, theta_3, _, theta_5, _] = self.placement.theta(q);
         SingularDistances {
@@ -99,6 +101,7 @@ impl Structure<6, 8> for ThreeParallel {
     }
 
     /// A solve, which does not know `q`, also merges a wrist by what the pose leaves open of axis 1.
+    #[inline]
     fn kinds(&self, q: &[f64; 6]) -> Status {
         let [_, _, theta_3, _, theta_5, _] = self.placement.theta(q);
         let mut kinds = Status::empty();
