@@ -81,6 +81,17 @@ pub enum PoseFault {
         /// The element.
         value: f64,
     },
+    /// A position is too far away to calculate with.
+    TooFar {
+        /// Name of the argument.
+        field: &'static str,
+        /// Index of the coordinate, from 0.
+        index: usize,
+        /// The coordinate [m].
+        value: f64,
+        /// The largest size of a coordinate [m].
+        bound: f64,
+    },
     /// The last row is not 0 0 0 1.
     LastRow {
         /// The row that came.
@@ -128,6 +139,17 @@ pub enum JointFault {
         joint: usize,
         /// The angle.
         value: f64,
+    },
+    /// An angle is too large to be given: its whole turns leave too few digits for the rest.
+    TooLarge {
+        /// Name of the argument.
+        field: &'static str,
+        /// The joint, from 1.
+        joint: usize,
+        /// The angle [rad].
+        value: f64,
+        /// The largest size of an angle [rad].
+        bound: f64,
     },
     /// A solution was passed with a pose that it does not meet.
     NotOfPose {
@@ -301,6 +323,12 @@ impl fmt::Display for PoseFault {
             Self::NotFinite { row, column, value } => {
                 write!(f, "pose[{row}, {column}] is {value}: every element must be finite")
             }
+            Self::TooFar { field: "pose", index, value, bound } => {
+                write!(f, "pose[{index}, 3] is {value:e} m, its size must be at most {bound:e} m")
+            }
+            Self::TooFar { field, index, value, bound } => {
+                write!(f, "{field}[{index}] is {value:e} m, its size must be at most {bound:e} m")
+            }
             Self::LastRow { row: [a, b, c, d] } => {
                 write!(f, "pose row 3 must be [0, 0, 0, 1], got [{a}, {b}, {c}, {d}]")
             }
@@ -334,6 +362,13 @@ impl fmt::Display for JointFault {
         match self {
             Self::NotFinite { field, joint, value } => {
                 write!(f, "{field}: joint {joint} is {value}, every angle must be finite [rad]")
+            }
+            Self::TooLarge { field, joint, value, bound } => {
+                write!(
+                    f,
+                    "{field}: joint {joint} is {value:e} rad, its size must be at most {bound:e} \
+                     rad (remove whole turns)"
+                )
             }
             Self::NotOfPose { off } => {
                 write!(f, "solution: its tool is {off:.1e} (m, rad) off the pose, it is none of it")

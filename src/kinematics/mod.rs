@@ -11,7 +11,9 @@ pub mod thresholds;
 
 #[cfg(feature = "python")]
 pub(crate) use answer::select::Cost;
-pub(crate) use answer::select::{check_joints, check_weights};
+#[cfg(feature = "python")]
+pub(crate) use answer::select::check_joints;
+pub(crate) use answer::select::{check_seed, check_weights};
 pub use answer::singularity::{SingularDistances, Singularity};
 pub use answer::solutions::{FreeJoint, SLOTS, Solution, Solutions};
 pub use answer::status::{Explanation, Reach, Status};

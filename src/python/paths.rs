@@ -8,7 +8,7 @@ use super::arrays::{Rows, detached, output, writable};
 use super::errors::{Fault, to_py};
 use super::found::read_weights;
 use crate::batch;
-use crate::kinematics::{FollowOptions, Inverse, Pose, Robot, check_joints, pose_from_rows};
+use crate::kinematics::{FollowOptions, Inverse, Pose, Robot, check_seed, pose_from_rows};
 
 /// The solutions nearest to seeds, a row for each pose.
 pub(super) fn nearest<'py, const N: usize>(
@@ -50,7 +50,7 @@ pub(super) fn follow<'py>(
     if let Some((path, error)) = seeds
         .iter()
         .enumerate()
-        .find_map(|(path, seed)| Some((path, check_joints("seed", seed).err()?)))
+        .find_map(|(path, seed)| Some((path, check_seed("seed", seed).err()?)))
     {
         return Err(if lead.is_empty() {
             to_py(py, &error)
@@ -88,6 +88,6 @@ pub(super) fn read_seeds<const N: usize>(
         return Err(Fault::Joints
             .error(seeds.py(), format!("seed must have shape [{N}] or {wanted:?}, got {got:?}")));
     }
-    check_joints("seed", rows.data()?).map_err(|error| to_py(seeds.py(), &error))?;
+    check_seed("seed", rows.data()?).map_err(|error| to_py(seeds.py(), &error))?;
     Ok(rows.data()?.repeat(lead.iter().product()))
 }

@@ -9,6 +9,7 @@ use crate::error::{Error, JointFault};
 use crate::kinematics::answer::solutions::{Solution, Solutions};
 use crate::kinematics::answer::status::{Explanation, Status};
 use crate::kinematics::chain::limits::JointLimits;
+use crate::kinematics::thresholds::MOST_ANGLE;
 
 impl<const N: usize> Solutions<N> {
     /// Those inside the joint limits.
@@ -89,7 +90,7 @@ impl<const N: usize> Solutions<N> {
         weights: &[f64; N],
         cost: Cost,
     ) -> Result<Solution<N>, Error> {
-        check_joints("seed", seed)?;
+        check_seed("seed", seed)?;
         check_weights(weights)?;
         self.cheapest(seed, weights, cost).ok_or_else(|| Error::Unreachable(self.explain()))
     }
@@ -193,11 +194,28 @@ impl<const N: usize> Iterator for Turns<N> {
 }
 
 /// A joint vector of which every angle is finite.
+#[cfg(feature = "python")]
 pub(crate) fn check_joints(field: &'static str, q: &[f64]) -> Result<(), Error> {
     match q.iter().position(|angle| !angle.is_finite()) {
         Some(i) => Err(JointFault::NotFinite { field, joint: i + 1, value: q[i] }.into()),
         None => Ok(()),
     }
+}
+
+/// A joint vector that answers are counted from: finite, and each angle at most [`MOST_ANGLE`].
+pub(crate) fn check_seed(field: &'static str, q: &[f64]) -> Result<(), Error> {
+    q.iter().enumerate().try_for_each(|(i, angle)| check_angle(field, i + 1, *angle))
+}
+
+/// The angle of a joint, from 1, that an answer takes over: beyond [`MOST_ANGLE`], whole turns would cost the answer its digits.
+pub(crate) fn check_angle(field: &'static str, joint: usize, value: f64) -> Result<(), Error> {
+    if !value.is_finite() {
+        return Err(JointFault::NotFinite { field, joint, value }.into());
+    }
+    if value.abs() > MOST_ANGLE {
+        return Err(JointFault::TooLarge { field, joint, value, bound: MOST_ANGLE }.into());
+    }
+    Ok(())
 }
 
 /// Weights that are finite and not negative.

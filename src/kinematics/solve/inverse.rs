@@ -1,7 +1,7 @@
 //! The inverse of a robot with a closed form: every joint vector of a pose, and of many.
 
-use crate::error::{Error, JointFault, ModelFault};
-use crate::kinematics::answer::select::{check_joints, check_weights};
+use crate::error::{Error, ModelFault};
+use crate::kinematics::answer::select::{check_angle, check_seed, check_weights};
 use crate::kinematics::answer::solutions::{SLOTS, Solution, Solutions};
 #[cfg(feature = "python")]
 use crate::kinematics::answer::status::Explanation;
@@ -30,7 +30,7 @@ impl Robot<6> {
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidPose`] when the pose is not finite or no rigid transform; [`Error::InvalidModel`] when the arm has no closed form.
+    /// [`Error::InvalidPose`] when the pose is not finite, too far away or no rigid transform; [`Error::InvalidModel`] when the arm has no closed form.
     pub fn ik(&self, pose: &Pose) -> Result<Solutions<6>, Error> {
         self.ik_checked(checked_pose(pose)?, 0.0)
     }
@@ -39,7 +39,7 @@ impl Robot<6> {
     ///
     /// # Errors
     ///
-    /// As [`Robot::ik`], [`Error::InvalidJoints`] for a seed or weight that is not finite, and [`Error::Unreachable`] when no solution
+    /// As [`Robot::ik`], [`Error::InvalidJoints`] for a seed or weight that is not finite or too large, and [`Error::Unreachable`] when no solution
     /// is inside the limits.
     pub fn ik_nearest(
         &self,
@@ -47,7 +47,7 @@ impl Robot<6> {
         seed: &[f64; 6],
         weights: &[f64; 6],
     ) -> Result<Solution<6>, Error> {
-        check_joints("seed", seed)?;
+        check_seed("seed", seed)?;
         check_weights(weights)?;
         self.ik_nearest_checked(checked_pose(pose)?, seed, weights)
     }
@@ -70,7 +70,7 @@ impl Robot<7> {
     ///
     /// # Errors
     ///
-    /// As [`Robot::<6>::ik`], and [`Error::InvalidJoints`] when `q7` is not finite.
+    /// As [`Robot::<6>::ik`], and [`Error::InvalidJoints`] when `q7` is not finite or exceeds [`MOST_ANGLE`].
     pub fn ik(&self, pose: &Pose, q7: f64) -> Result<Solutions<7>, Error> {
         check_given(q7)?;
         self.ik_checked(checked_pose(pose)?, q7)
@@ -317,13 +317,9 @@ fn put<const M: usize, const N: usize>(
     }
 }
 
-/// Joint 7 of an arm of seven joints must be an angle.
+/// Joint 7 of an arm of seven joints must be an angle that is not too large to calculate with.
 pub(crate) fn check_given(q7: f64) -> Result<(), Error> {
-    if q7.is_finite() {
-        Ok(())
-    } else {
-        Err(JointFault::NotFinite { field: "q7", joint: 7, value: q7 }.into())
-    }
+    check_angle("q7", 7, q7)
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use core::f64::consts::{PI, TAU};
 use nalgebra::{ComplexField as _, RealField as _};
 
 use crate::error::{Error, ModelFault};
-use crate::kinematics::answer::select::{Cost, check_joints, check_weights};
+use crate::kinematics::answer::select::{Cost, check_seed, check_weights};
 use crate::kinematics::answer::solutions::{SLOTS, Solution};
 use crate::kinematics::answer::status::{Explanation, Status};
 use crate::kinematics::pose::{Pose, checked_pose};
@@ -53,7 +53,7 @@ impl Robot<7> {
         seed: &[f64; 7],
         weights: &[f64; 7],
     ) -> Result<Solution<7>, Error> {
-        check_joints("seed", seed)?;
+        check_seed("seed", seed)?;
         check_weights(weights)?;
         self.nearest_along_redundancy(&checked_pose(pose)?, seed, weights)
     }
