@@ -283,7 +283,10 @@ fn forward_kinematics_of_large_angles_is_that_of_what_is_left_of_the_turn() {
             let off = robot.residual(&rest, &robot.fk(&q)).largest();
             // Up to 1e5 rad a linkage's difference is rounded to a part of its size.
             let rounding = if robot.is_coupled() { f64::EPSILON * size.min(1e5) } else { 0.0 };
-            assert!(off <= bound + 2.0 * rounding * reach_of(&robot), "{name} at {size:e}: {off:e}");
+            assert!(
+                off <= bound + 2.0 * rounding * reach_of(&robot),
+                "{name} at {size:e}: {off:e}"
+            );
             let [large, small] = [q, rest].map(|q| robot.jacobian(&q, JacobianFrame::Base));
             assert!((large - small).amax() <= bound + 2.0 * rounding * reach_of(&robot), "{name}");
             let (mut rows, mut one) = ([0.0; 16], [0.0; 16]);

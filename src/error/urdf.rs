@@ -26,6 +26,22 @@ pub enum UrdfFault {
         /// What the parser says.
         what: String,
     },
+    /// The text declares more namespaces than can be read in linear time.
+    Namespaces {
+        /// Line of the first that is one too many, from 1.
+        line: usize,
+        /// The most that are read.
+        bound: usize,
+    },
+    /// An element has more attributes than can be read in linear time.
+    Attributes {
+        /// Line of the element, from 1.
+        line: usize,
+        /// Name of the element.
+        element: String,
+        /// The most that are read.
+        bound: usize,
+    },
     /// The first element is no robot.
     NotRobot {
         /// Name of the first element.
@@ -231,6 +247,18 @@ impl fmt::Display for UrdfFault {
             Self::NotUtf8 { byte } => write!(f, "byte {byte} is no UTF-8"),
             Self::NotXml { line, column, what } => {
                 write!(f, "line {line}, column {column} is no XML: {what}")
+            }
+            Self::Namespaces { line, bound } => {
+                write!(
+                    f,
+                    "line {line} declares one namespace (xmlns) too many: at most {bound} are read"
+                )
+            }
+            Self::Attributes { line, element, bound } => {
+                write!(
+                    f,
+                    "line {line}: <{element}> has too many attributes: at most {bound} are read"
+                )
             }
             Self::NotRobot { found } => {
                 write!(f, "the first element is <{found}>, it must be <robot>")

@@ -4,6 +4,7 @@
 
 mod chain;
 mod joint;
+mod shape;
 mod tree;
 
 use alloc::string::{String, ToString};

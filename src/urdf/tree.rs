@@ -10,6 +10,7 @@ use alloc::vec::Vec;
 use roxmltree::{Document, Node};
 
 use super::joint::Joint;
+use super::shape::check_shape;
 use crate::error::{Names, UrdfFault};
 
 /// Links and joints by their index, each link with the joint above it and those below.
@@ -30,6 +31,7 @@ pub(super) struct Tree<'a> {
 pub(super) fn parsed(text: &str) -> Result<(Document<'_>, usize), UrdfFault> {
     let body = text.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}');
     let skipped = text[..text.len() - body.len()].matches('\n').count();
+    check_shape(text)?;
     Ok((Document::parse(body).map_err(|error| not_xml(&error, skipped, body))?, skipped))
 }
 

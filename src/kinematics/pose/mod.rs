@@ -13,7 +13,8 @@ use crate::error::{Error, PoseFault};
 use crate::kinematics::pose::angles::constant_sin_cos;
 use crate::kinematics::pose::rotation::{Rows3, determinant, gram_excess, nearest_rotation};
 use crate::kinematics::thresholds::{
-    GIMBAL_COS, LAST_ROW_BOUND, MOST_LENGTH, QUATERNION_NORM_BOUND, ROTATION_REPAIR_BOUND, ROTATION_ROUNDING,
+    GIMBAL_COS, LAST_ROW_BOUND, MOST_LENGTH, QUATERNION_NORM_BOUND, ROTATION_REPAIR_BOUND,
+    ROTATION_ROUNDING,
 };
 
 /// A rigid transform: a rotation matrix and a translation [m].
