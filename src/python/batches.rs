@@ -7,7 +7,7 @@ use pyo3::types::PyTuple;
 
 use super::answers::batch_output;
 use super::arm::Arm;
-use super::arrays::{Rows, addresses, detached, writable};
+use super::arrays::{Rows, addresses, writable};
 use super::errors::{self, Fault, to_py};
 use crate::batch;
 use crate::error::ModelFault;
@@ -38,7 +38,7 @@ pub(super) fn ik<'py>(
         writable(&status, &[poses.addresses(), addresses(&q)])?,
     );
     let (q_slice, status_slice) = (q_view.as_slice_mut()?, status_view.as_slice_mut()?);
-    let solved = detached(py, || match arm {
+    let solved = py.detach(|| match arm {
         Arm::Six(robot) => batch::ik(robot, data, q_slice, status_slice, threads),
         Arm::Seven(robot) => batch::ik_with_q7(robot, data, &given, q_slice, status_slice, threads),
     });

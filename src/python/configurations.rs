@@ -7,9 +7,10 @@ use pyo3::prelude::*;
 
 use super::answers::index_in;
 use super::arm::Arm;
-use super::arrays::{Rows, detached, output, writable};
+use super::arrays::{Rows, output, writable};
 use super::errors::{self, Fault, to_py};
 use super::found::read_seed;
+use super::masked::Masked;
 use super::paths::read_seeds;
 use super::poses::{PoseArgument, read_poses};
 use crate::batch;
@@ -110,7 +111,7 @@ pub(super) fn ik<'py>(
     let answer = output(py, None, &poses.shape_with(&[6]))?;
     let (data, mut view) = (poses.data()?, writable(&answer, &[])?);
     let q = view.as_slice_mut()?;
-    detached(py, || batch::ik_configured(robot, data, &wanted, seeds.as_deref(), q))
+    py.detach(|| batch::ik_configured(robot, data, &wanted, seeds.as_deref(), q))
         .map_err(|error| to_py(py, &error))?;
     Ok(answer.into_any())
 }
@@ -153,6 +154,9 @@ impl Configurations {
 /// Configurations of shape (..., 4), or a record of four arrays.
 fn read_configurations(value: &Bound<'_, PyAny>) -> PyResult<Configurations> {
     let py = value.py();
+    if let Some(masked) = Masked::of(value)? {
+        return Err(masked.refused(py, "configuration", Fault::Joints));
+    }
     let stacked = if value.is_instance(errors::configuration_class(py)?)? {
         let numpy = py.import(intern!(py, "numpy"))?;
         let unlike = |_| {

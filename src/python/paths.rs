@@ -4,7 +4,7 @@ use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 
 use super::answers::{follow_result, index_in};
-use super::arrays::{Rows, detached, output, writable};
+use super::arrays::{Rows, output, writable};
 use super::errors::{Fault, to_py};
 use super::found::read_weights;
 use crate::batch;
@@ -25,7 +25,7 @@ where
     let answer = output(py, None, &poses.shape_with(&[N]))?;
     let (data, mut view) = (poses.data()?, writable(&answer, &[])?);
     let q = view.as_slice_mut()?;
-    detached(py, || batch::ik_nearest(robot, data, &numbers, &weights, q))
+    py.detach(|| batch::ik_nearest(robot, data, &numbers, &weights, q))
         .map_err(|error| to_py(py, &error))?;
     Ok(answer)
 }

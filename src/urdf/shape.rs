@@ -20,14 +20,13 @@ pub(super) fn check_shape(text: &str) -> Result<(), UrdfFault> {
     let mut rest = text;
     while let Some(start) = rest.find('<') {
         rest = &rest[start..];
-        let end = match end_of_text(rest) {
-            Some(terminator) => end_of(rest, terminator),
-            None => {
-                let tag = Tag::read(rest);
-                namespaces += tag.namespaces;
-                check_tag(&tag, namespaces, || line(text, rest))?;
-                tag.length
-            }
+        let end = if let Some(terminator) = end_of_text(rest) {
+            end_of(rest, terminator)
+        } else {
+            let tag = Tag::read(rest);
+            namespaces += tag.namespaces;
+            check_tag(&tag, namespaces, || line(text, rest))?;
+            tag.length
         };
         rest = &rest[end..];
     }
@@ -82,7 +81,6 @@ impl<'a> Tag<'a> {
         for (at, byte) in text.bytes().enumerate().skip(word) {
             match (quote, byte) {
                 (Some(open), _) if byte == open => (quote, word) = (None, at + 1),
-                (Some(_), _) => {}
                 (None, b'"' | b'\'') => quote = Some(byte),
                 (None, b'=') => {
                     let declares = text[word..at].trim_start().starts_with("xmlns");
@@ -94,7 +92,7 @@ impl<'a> Tag<'a> {
                     tag.length = at + 1;
                     break;
                 }
-                (None, _) => {}
+                _ => {}
             }
         }
         tag
