@@ -212,6 +212,13 @@ pub enum ModelFault {
         /// The largest size.
         bound: f64,
     },
+    /// `snap` is negative, NaN or too large.
+    Snap {
+        /// What was given [rad].
+        value: f64,
+        /// The largest [rad].
+        bound: f64,
+    },
     /// A joint sign is neither 1 nor -1.
     Sign {
         /// The joint, from 1.
@@ -280,6 +287,8 @@ pub enum ModelFault {
         distance: f64,
         /// The farthest that a table holds [m].
         bound: f64,
+        /// The least power of ten [rad] that, given as `snap`, makes an arm of a known form of it; none where none does.
+        snap: Option<f64>,
     },
     /// The URDF describes no arm that can be taken.
     Urdf(UrdfFault),
@@ -411,6 +420,9 @@ impl fmt::Display for ModelFault {
             Self::TooShort { field, value, bound } => {
                 write!(f, "{field} is {value} m, it must be at least {bound:e} m")
             }
+            Self::Snap { value, bound } => {
+                write!(f, "snap is {value} rad, it must be 0 to {bound:e} rad")
+            }
             Self::Sign { joint, value } => {
                 write!(f, "joint {joint} sign is {value}, it must be 1 or -1")
             }
@@ -445,11 +457,17 @@ impl fmt::Display for ModelFault {
                 write!(f, "no closed-form inverse kinematics for this arm: {reason}")
             }
             Self::AxisDirection { axis } => write!(f, "direction of axis {axis} has no length"),
-            Self::NearlyParallel { axes: (i, j), off, distance, bound } => write!(
-                f,
-                "axes {i} and {j} are {off:.1e} rad off parallel, their common normal stands {distance:.1e} m away, it must be at most \
-                 {bound:.0e} m (are the angles written with all their digits?)"
-            ),
+            Self::NearlyParallel { axes: (i, j), off, distance, bound, snap } => {
+                write!(
+                    f,
+                    "axes {i} and {j} are {off:.1e} rad off parallel, their common normal stands {distance:.1e} m away, it must be at most \
+                     {bound:.0e} m"
+                )?;
+                match snap {
+                    Some(snap) => write!(f, "; snap={snap:e} would take it"),
+                    None => write!(f, " (are the angles written with all their digits?)"),
+                }
+            }
             Self::Urdf(fault) => write!(f, "URDF: {fault}"),
         }
     }

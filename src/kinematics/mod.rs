@@ -18,6 +18,8 @@ pub use answer::singularity::{SingularDistances, Singularity};
 pub use answer::solutions::{FreeJoint, SLOTS, Solution, Solutions};
 pub use answer::status::{Explanation, Reach, Status};
 pub use chain::Chain;
+#[cfg(feature = "urdf")]
+pub(crate) use chain::dh::check_snap;
 pub use chain::dh::{DhRow, Mdh, Sdh};
 pub use chain::jacobian::JacobianFrame;
 pub use chain::joint_axes::JointAxis;
@@ -28,11 +30,15 @@ pub use path::crossing::{Crossing, FollowOptions};
 pub use path::follow::{Break, BreakReason, Followed, Follower};
 pub(crate) use pose::angles::constant_sin_cos;
 #[cfg(feature = "urdf")]
+pub(crate) use pose::angles::snapped;
+#[cfg(feature = "urdf")]
 pub(crate) use pose::constant_pose;
 pub use pose::{
     Pose, PoseError, pose_from_euler_zyx, pose_from_quaternion, pose_from_rows, pose_to_euler_zyx,
     pose_to_quaternion, pose_to_rows,
 };
+#[cfg(feature = "urdf")]
+pub(crate) use robot::SNAPS;
 pub use robot::{Definition, Robot};
 pub use solve::configuration::Configuration;
 pub(crate) use solve::inverse::Inverse;

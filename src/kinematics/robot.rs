@@ -18,8 +18,11 @@ use crate::kinematics::structure::recognition::NotRecognised;
 use crate::kinematics::structure::spherical_shoulder::SphericalShoulder;
 use crate::kinematics::structure::spherical_wrist::{OpwParameters, SphericalWrist, WristSolver};
 use crate::kinematics::structure::three_parallel::ThreeParallel;
-use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH};
+use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH, MOST_SNAP};
 use crate::lanes::run;
+
+/// What is proposed as a `snap` to an arm that it would help [rad]: the least of these.
+pub(crate) const SNAPS: [f64; 6] = [1e-8, 1e-7, 1e-6, 1e-5, 1e-4, MOST_SNAP];
 
 /// A robot arm of `N` revolute joints.
 ///
@@ -92,7 +95,7 @@ impl<const N: usize> Robot<N> {
     /// A robot from a modified (Craig) Denavit-Hartenberg table, with the closed form of its geometry.
     ///
     /// A six-axis table may have its frames and its zero pose anywhere; what is within 1e-9 rad or m of the form is made exactly so.
-    /// A seven-axis arm of no known form has forward kinematics and the Jacobian.
+    /// A seven-axis arm of no known form has forward kinematics and the Jacobian. For angles written with few digits, see [`Mdh::snapped`].
     ///
     /// # Errors
     ///
@@ -123,8 +126,24 @@ impl<const N: usize> Robot<N> {
     pub fn serial_chain(mut mdh: Mdh<N>) -> Result<Self, Error> {
         check_rows(&mdh.rows)?;
         (mdh.base, mdh.flange) = (checked_pose(&mdh.base)?, checked_pose(&mdh.flange)?);
-        let (chain, geometry) = Geometry::of(&mdh);
+        let (chain, mut geometry) = Geometry::of(&mdh);
+        if let Geometry::Serial(reason) = &mut geometry {
+            let is_taken = |snap| {
+                let snapped = mdh.clone().snapped(snap);
+                snapped.is_ok_and(|mdh| !matches!(Geometry::of(&mdh).1, Geometry::Serial(_)))
+            };
+            *reason = reason.proposing(SNAPS.into_iter().find(|snap| is_taken(*snap)));
+        }
         Ok(Self::new(Definition::Mdh(mdh), chain, geometry))
+    }
+
+    /// The same robot with another proposal of a `snap`, where it has no closed form.
+    #[cfg(feature = "urdf")]
+    pub(crate) fn proposing(mut self, snap: Option<f64>) -> Self {
+        if let Geometry::Serial(reason) = &mut self.geometry {
+            *reason = reason.proposing(snap);
+        }
+        self
     }
 
     /// [`Robot::from_opw`] for a caller that is generic over the number of joints.

@@ -8,7 +8,8 @@ use pyo3::types::PyTuple;
 use super::answers::batch_output;
 use super::arm::Arm;
 use super::arrays::{Rows, addresses, writable};
-use super::errors::{self, Fault, to_py};
+use super::classes;
+use super::errors::{Fault, to_py};
 use crate::batch;
 use crate::error::ModelFault;
 use crate::kinematics::Robot;
@@ -43,7 +44,7 @@ pub(super) fn ik<'py>(
         Arm::Seven(robot) => batch::ik_with_q7(robot, data, &given, q_slice, status_slice, threads),
     });
     solved.map_err(|error| to_py(py, &error))?;
-    errors::ik_batch_class(py)?.call1((q, status))
+    classes::ik_batch_class(py)?.call1((q, status))
 }
 
 /// An angle of joint 7 for each pose; both are broadcast.

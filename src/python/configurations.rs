@@ -8,11 +8,13 @@ use pyo3::prelude::*;
 use super::answers::index_in;
 use super::arm::Arm;
 use super::arrays::{Rows, output, writable};
-use super::errors::{self, Fault, to_py};
+use super::classes;
+use super::errors::{Fault, to_py};
 use super::found::read_seed;
 use super::masked::Masked;
 use super::paths::read_seeds;
 use super::poses::{PoseArgument, read_poses};
+use super::records;
 use crate::batch;
 use crate::error::ModelFault;
 use crate::kinematics::{Configuration, Robot};
@@ -37,25 +39,16 @@ pub(super) fn configuration<'py>(arm: &Arm, q: &Bound<'py, PyAny>) -> PyResult<B
     );
     let configurations = configurations.collect::<PyResult<Vec<_>>>()?;
     match &configurations[..] {
-        [one] if rows.is_single() => record(py, one),
+        [one] if rows.is_single() => records::configuration(py, one),
         many => {
             let column = |of: fn(&Configuration) -> i32| {
                 PyArray1::from_iter(py, many.iter().map(of)).reshape(rows.lead.clone())
             };
             let columns =
                 (column(|c| c.cf1)?, column(|c| c.cf4)?, column(|c| c.cf6)?, column(|c| c.cfx)?);
-            errors::configuration_class(py)?.call1(columns)
+            classes::configuration_class(py)?.call1(columns)
         }
     }
-}
-
-/// `irbkin.Configuration` of one.
-pub(super) fn record<'py>(
-    py: Python<'py>,
-    configuration: &Configuration,
-) -> PyResult<Bound<'py, PyAny>> {
-    let Configuration { cf1, cf4, cf6, cfx } = *configuration;
-    errors::configuration_class(py)?.call1((cf1, cf4, cf6, cfx))
 }
 
 /// What to do with a pose that no solution reaches in the configuration that was asked for.
@@ -157,7 +150,7 @@ fn read_configurations(value: &Bound<'_, PyAny>) -> PyResult<Configurations> {
     if let Some(masked) = Masked::of(value)? {
         return Err(masked.refused(py, "configuration", Fault::Joints));
     }
-    let stacked = if value.is_instance(errors::configuration_class(py)?)? {
+    let stacked = if value.is_instance(classes::configuration_class(py)?)? {
         let numpy = py.import(intern!(py, "numpy"))?;
         let unlike = |_| {
             Fault::Joints

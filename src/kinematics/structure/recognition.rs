@@ -48,9 +48,17 @@ pub(crate) struct Form {
 }
 
 /// Every condition that keeps an arm from having a closed form here.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct NotRecognised {
     reason: Reason,
+    snap: Option<f64>,
+}
+
+/// What an arm lacks is the same whether it was read from text, which could be snapped, or from the table of it.
+impl PartialEq for NotRecognised {
+    fn eq(&self, other: &Self) -> bool {
+        self.reason == other.reason
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,7 +74,22 @@ enum Reason {
 impl NotRecognised {
     /// An arm whose number of joints alone rules a closed form out.
     pub(crate) fn joint_count(joints: usize) -> Self {
-        Self { reason: Reason::JointCount(joints) }
+        Self::new(Reason::JointCount(joints))
+    }
+
+    fn new(reason: Reason) -> Self {
+        Self { reason, snap: None }
+    }
+
+    /// The same, proposing a `snap` with which the arm would be taken, or none.
+    pub(crate) fn proposing(self, snap: Option<f64>) -> Self {
+        Self { snap, ..self }
+    }
+
+    /// The least power of ten [rad] that, given as `snap`, makes the arm one of a known form; none where none does.
+    #[must_use]
+    pub fn snap(&self) -> Option<f64> {
+        self.snap
     }
 
     /// The conditions that are not met. None is off where the arm has a form but a link without length, or another number of joints.
@@ -86,23 +109,33 @@ impl fmt::Display for Condition {
         match relation {
             Relation::Perpendicular => write!(
                 f,
-                "axes {i} and {j} must be at right angles, they are {:.6} deg off",
-                off.to_degrees()
+                "axes {i} and {j} must be at right angles, they are {} deg off",
+                Figure(off.to_degrees())
             ),
             Relation::Parallel => write!(
                 f,
-                "axes {i} and {j} must be parallel, they are {:.6} deg off",
-                off.to_degrees()
+                "axes {i} and {j} must be parallel, they are {} deg off",
+                Figure(off.to_degrees())
             ),
             Relation::Meeting => {
-                write!(f, "axes {i} and {j} must meet, they pass {:.6} mm apart", off * 1e3)
+                write!(f, "axes {i} and {j} must meet, they pass {} mm apart", Figure(off * 1e3))
             }
             Relation::Coplanar => write!(
                 f,
-                "axes {i} and {j} must lie in one plane, they pass {:.6} mm apart",
-                off * 1e3
+                "axes {i} and {j} must lie in one plane, they pass {} mm apart",
+                Figure(off * 1e3)
             ),
         }
+    }
+}
+
+/// A size with six decimals, or with its exponent where they would all be zeros.
+struct Figure(f64);
+
+impl fmt::Display for Figure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(size) = *self;
+        if size < 1e-6 { write!(f, "{size:.2e}") } else { write!(f, "{size:.6}") }
     }
 }
 
@@ -123,7 +156,8 @@ impl fmt::Display for NotRecognised {
                     write!(f, "{} {condition}", if i == 0 { "," } else { ";" })
                 })
             }
-        }
+        }?;
+        self.snap.map_or(Ok(()), |snap| write!(f, "; snap={snap:e} would take it"))
     }
 }
 
@@ -135,7 +169,7 @@ impl Form {
     ) -> Result<(), NotRecognised> {
         match lengths.into_iter().find(|(_, value)| *value < LEAST_LINK) {
             Some((field, value)) => {
-                Err(NotRecognised { reason: Reason::TooShort { form: self, field, value } })
+                Err(NotRecognised::new(Reason::TooShort { form: self, field, value }))
             }
             None => Ok(()),
         }
@@ -170,7 +204,7 @@ impl Form {
         if met {
             Ok(squared)
         } else {
-            Err(NotRecognised { reason: Reason::Off { form: self, off: failed } })
+            Err(NotRecognised::new(Reason::Off { form: self, off: failed }))
         }
     }
 }
