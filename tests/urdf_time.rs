@@ -1,53 +1,54 @@
 //! Reading a URDF takes time in proportion to its text, whatever its shape: what would take longer is refused before it is parsed.
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::format_collect)]
 
 use std::fmt::Write as _;
 use std::time::Instant;
 
 use irbkin::Robot;
 
-/// Texts of about `size` bytes that grow in one way each.
-fn hostile(size: usize) -> Vec<(&'static str, String)> {
-    let robot = |inside: String| format!("<robot name=\"r\">{inside}</robot>");
-    let filled = |piece: &dyn Fn(usize) -> String| {
-        let mut text = String::new();
-        for i in 0.. {
-            if text.len() >= size {
-                break;
-            }
-            text += &piece(i);
+/// Pieces by their numbers, until they are `size` bytes.
+fn filled(size: usize, piece: &dyn Fn(usize) -> String) -> String {
+    let mut text = String::new();
+    for i in 0.. {
+        if text.len() >= size {
+            break;
         }
-        text
-    };
-    let nested = |open: &dyn Fn(usize) -> String| {
-        let inside = filled(open);
-        let depth = inside.matches('<').count();
-        robot(inside + &"</a>".repeat(depth))
-    };
-    let attributes =
-        |piece: &dyn Fn(usize) -> String| format!("<robot name=\"r\"{}/>", filled(piece));
-    let links = |extra: &str| {
-        let chain = |i: usize| {
-            let j = i + 1;
-            format!(
-                "<link name=\"l{j}\"/><joint name=\"j{i}\" type=\"{extra}\"><parent link=\"l{i}\"/>\
-                 <child link=\"l{j}\"/><limit lower=\"-1\" upper=\"1\"/></joint>"
-            )
-        };
-        robot("<link name=\"l0\"/>".to_owned() + &filled(&chain))
-    };
-    let star = |i: usize| {
-        format!(
-            "<link name=\"k{i}\"/><joint name=\"j{i}\" type=\"fixed\"><parent link=\"l0\"/>\
-             <child link=\"k{i}\"/></joint>"
-        )
-    };
-    let doctype = |inside: String| format!("<!DOCTYPE r [{inside}]><robot name=\"&e9;\"/>");
+        text += &piece(i);
+    }
+    text
+}
+
+fn robot(inside: &str) -> String {
+    format!("<robot name=\"r\">{inside}</robot>")
+}
+
+/// Elements in elements.
+fn nested(size: usize, open: &dyn Fn(usize) -> String) -> String {
+    let inside = filled(size, open);
+    let depth = inside.matches('<').count();
+    robot(&(inside + &"</a>".repeat(depth)))
+}
+
+fn attributes(size: usize, piece: &dyn Fn(usize) -> String) -> String {
+    format!("<robot name=\"r\"{}/>", filled(size, piece))
+}
+
+type Shape = (&'static str, String);
+
+/// Texts of about `size` bytes that grow in one way each.
+fn hostile(size: usize) -> Vec<Shape> {
+    [namespaces(size), markup(size), chains(size)].concat()
+}
+
+fn namespaces(size: usize) -> Vec<Shape> {
     vec![
-        ("namespaces, nested", nested(&|i| format!("<a xmlns:n{i}=\"{i}\">"))),
-        ("one namespace, nested", nested(&|i| format!("<a xmlns=\"{i}\">"))),
-        ("namespaces, nested and used", nested(&|i| format!("<a xmlns:n{i}=\"{i}\" n0:b=\"\">"))),
-        ("namespaces of one element", attributes(&|i| format!(" xmlns:n{i}=\"{i}\""))),
+        ("namespaces, nested", nested(size, &|i| format!("<a xmlns:n{i}=\"{i}\">"))),
+        ("one namespace, nested", nested(size, &|i| format!("<a xmlns=\"{i}\">"))),
+        (
+            "namespaces, nested and used",
+            nested(size, &|i| format!("<a xmlns:n{i}=\"{i}\" n0:b=\"\">")),
+        ),
+        ("namespaces of one element", attributes(size, &|i| format!(" xmlns:n{i}=\"{i}\""))),
         (
             "namespaces of one element and of each below",
             format!(
@@ -56,67 +57,97 @@ fn hostile(size: usize) -> Vec<(&'static str, String)> {
                     let _ = write!(all, "xmlns:n{i}=\"{i}\" ");
                     all
                 }),
-                filled(&|i| format!("<n249:a n24{}:b=\"\"/>", i % 10)),
+                filled(size, &|i| format!("<n249:a n24{}:b=\"\"/>", i % 10)),
             ),
         ),
-        ("namespaces, side by side", robot(filled(&|i| format!("<a xmlns:n{i}=\"{i}\"/>")))),
-        ("attributes of one element", attributes(&|i| format!(" a{i}=\"\""))),
-        ("attributes of a joint", robot(format!("<joint{}/>", filled(&|i| format!(" a{i}=\"\""))))),
+        ("namespaces, side by side", robot(&filled(size, &|i| format!("<a xmlns:n{i}=\"{i}\"/>")))),
+        ("attributes of one element", attributes(size, &|i| format!(" a{i}=\"\""))),
+        (
+            "attributes of a joint",
+            robot(&format!("<joint{}/>", filled(size, &|i| format!(" a{i}=\"\"")))),
+        ),
         (
             "attributes of many elements",
-            robot(filled(&|_| {
+            robot(&filled(size, &|_| {
                 format!("<a{}/>", (0..250).map(|i| format!(" a{i}=\"\"")).collect::<String>())
             })),
         ),
-        ("elements, nested", nested(&|_| "<a>".to_owned())),
-        ("elements, never closed", filled(&|_| "<a>".to_owned())),
-        ("tags, never closed", filled(&|_| "<a ".to_owned())),
-        ("quotes, never closed", robot(filled(&|i| format!("<a b{i}=\"'")))),
-        ("closing tags", robot(filled(&|_| "</a>".to_owned()))),
-        ("comments", robot(filled(&|_| "<!---->".to_owned()))),
-        ("a comment, never closed", filled(&|_| "<!-- -".to_owned())),
-        ("character data", robot(filled(&|_| "<![CDATA[x]]>&lt;".to_owned()))),
-        ("processing instructions", robot(filled(&|_| "<?a b?>".to_owned()))),
-        ("references", robot(filled(&|_| "&amp;".to_owned()))),
+    ]
+}
+
+fn markup(size: usize) -> Vec<Shape> {
+    let doctype = |inside: String| format!("<!DOCTYPE r [{inside}]><robot name=\"&e9;\"/>");
+    vec![
+        ("elements, nested", nested(size, &|_| "<a>".to_owned())),
+        ("elements, never closed", filled(size, &|_| "<a>".to_owned())),
+        ("tags, never closed", filled(size, &|_| "<a ".to_owned())),
+        ("quotes, never closed", robot(&filled(size, &|i| format!("<a b{i}=\"'")))),
+        ("closing tags", robot(&filled(size, &|_| "</a>".to_owned()))),
+        ("comments", robot(&filled(size, &|_| "<!---->".to_owned()))),
+        ("a comment, never closed", filled(size, &|_| "<!-- -".to_owned())),
+        ("character data", robot(&filled(size, &|_| "<![CDATA[x]]>&lt;".to_owned()))),
+        ("processing instructions", robot(&filled(size, &|_| "<?a b?>".to_owned()))),
+        ("references", robot(&filled(size, &|_| "&amp;".to_owned()))),
         (
             "references in an attribute",
-            attributes(&|i| {
+            attributes(size, &|i| {
                 if i == 0 { " a=\"".to_owned() } else { "&amp;".to_owned() }
             }),
         ),
-        ("entities", doctype(filled(&|i| format!("<!ENTITY e{} \"&e{i};&e{i};\">", i + 1)))),
-        ("a chain of links that turn", links("revolute")),
-        ("a chain of fixed links", links("fixed")),
-        ("a chain of links of another kind", links("floating")),
-        ("a star of links", robot("<link name=\"l0\"/>".to_owned() + &filled(&star))),
-        ("links of one name", robot(filled(&|_| "<link name=\"l\"/>".to_owned()))),
-        ("links without joints", robot(filled(&|i| format!("<link name=\"l{i}\"/>")))),
-        ("a long name", robot(format!("<link name=\"{}\"/>", "l".repeat(size)))),
-        (
-            "joints of one link",
-            robot(
-                "<link name=\"l\"/>".to_owned()
-                    + &filled(&|i| {
-                        format!(
-                            "<joint name=\"j{i}\" type=\"fixed\"><parent link=\"l\"/><child link=\"l\"/></joint>"
-                        )
-                    }),
-            ),
-        ),
-        (
-            "elements of one joint",
-            robot(format!(
-                "<link name=\"l\"/><joint name=\"j\" type=\"fixed\">{}</joint>",
-                filled(&|_| "<origin/>".to_owned())
-            )),
-        ),
+        ("entities", doctype(filled(size, &|i| format!("<!ENTITY e{} \"&e{i};&e{i};\">", i + 1)))),
         ("lines", "\n".repeat(size) + "<robot/>"),
         (
             "blanks and equals signs",
             format!("<robot{}{}/>", " ".repeat(size / 2), "=".repeat(size / 2)),
         ),
-        ("openings", filled(&|_| "<".to_owned())),
-        ("instructions, never closed", filled(&|_| "<?a ".to_owned())),
+        ("openings", filled(size, &|_| "<".to_owned())),
+        ("instructions, never closed", filled(size, &|_| "<?a ".to_owned())),
+    ]
+}
+
+fn chains(size: usize) -> Vec<Shape> {
+    let links = |extra: &str| {
+        let chain = |i: usize| {
+            let j = i + 1;
+            format!(
+                "<link name=\"l{j}\"/><joint name=\"j{i}\" type=\"{extra}\"><parent link=\"l{i}\"/>\
+                 <child link=\"l{j}\"/><limit lower=\"-1\" upper=\"1\"/></joint>"
+            )
+        };
+        robot(&("<link name=\"l0\"/>".to_owned() + &filled(size, &chain)))
+    };
+    let star = |i: usize| {
+        format!(
+            "<link name=\"k{i}\"/><joint name=\"j{i}\" type=\"fixed\"><parent link=\"l0\"/>\
+             <child link=\"k{i}\"/></joint>"
+        )
+    };
+    vec![
+        ("a chain of links that turn", links("revolute")),
+        ("a chain of fixed links", links("fixed")),
+        ("a chain of links of another kind", links("floating")),
+        ("a star of links", robot(&("<link name=\"l0\"/>".to_owned() + &filled(size, &star)))),
+        ("links of one name", robot(&filled(size, &|_| "<link name=\"l\"/>".to_owned()))),
+        ("links without joints", robot(&filled(size, &|i| format!("<link name=\"l{i}\"/>")))),
+        ("a long name", robot(&format!("<link name=\"{}\"/>", "l".repeat(size)))),
+        (
+            "joints of one link",
+            robot(
+                &("<link name=\"l\"/>".to_owned()
+                    + &filled(size, &|i| {
+                        format!(
+                            "<joint name=\"j{i}\" type=\"fixed\"><parent link=\"l\"/><child link=\"l\"/></joint>"
+                        )
+                    })),
+            ),
+        ),
+        (
+            "elements of one joint",
+            robot(&format!(
+                "<link name=\"l\"/><joint name=\"j\" type=\"fixed\">{}</joint>",
+                filled(size, &|_| "<origin/>".to_owned())
+            )),
+        ),
     ]
 }
 

@@ -7,7 +7,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyDict, PyList, PyTuple};
+use pyo3::types::{PyDict, PyFloat, PyList, PyTuple};
 
 use super::errors::Fault;
 
@@ -72,6 +72,9 @@ pub(super) fn check_out(out: &Bound<'_, PyAny>) -> PyResult<()> {
 
 /// Whether a value is a masked array, or holds one in a list or tuple.
 fn holds(value: &Bound<'_, PyAny>, class: &Bound<'_, PyAny>, depth: usize) -> PyResult<bool> {
+    if value.is_exact_instance_of::<PyFloat>() {
+        return Ok(false);
+    }
     let holding = |item: &Bound<'_, PyAny>| holds(item, class, depth - 1);
     if let Ok(list) = value.cast::<PyList>() {
         return Ok(depth > 0 && any(list.iter(), holding)?);
