@@ -1,6 +1,7 @@
 //! What can be wrong with an input, each fault with the field, the value and the bound.
 
 mod frame;
+mod names;
 mod rapid;
 mod urdf;
 
