@@ -11,7 +11,7 @@ use core::num::NonZeroUsize;
 
 use crate::error::{Error, ModelFault};
 use crate::kinematics::{
-    Arity, Inverse, JacobianFrame, Joints, RedundancyOf, Robot, Rows, Singularity, check_joints,
+    Arity, Inverse, JacobianFrame, Joints, RedundancyOf, Robot, Rows, Singularity, check_seed,
     check_weights, pose_from_rows, pose_to_rows,
 };
 use crate::report::Configuration;
@@ -185,7 +185,7 @@ where
     let poses = rows::<16>("poses", poses)?;
     let seeds = rows_for::<N>("seeds", seeds, poses.len())?;
     for ((pose, seed), q) in poses.iter().zip(seeds).zip(rows_out::<N, f64>("q", q, poses.len())?) {
-        let checked = check_joints("seed", seed).and_then(|()| pose_from_rows(pose));
+        let checked = check_seed("seed", seed).and_then(|()| pose_from_rows(pose));
         let nearest = checked.and_then(|pose| robot.nearest_checked(pose, seed, weights));
         *q = nearest.map_or([f64::NAN; N], |nearest| nearest.q);
     }
@@ -237,7 +237,7 @@ pub fn ik_configured(
     for (row, q) in rows_out::<6, f64>("q", q, poses.len())?.iter_mut().enumerate() {
         let configured = pose_from_rows(&poses[row]).and_then(|pose| match seeds {
             Some(seeds) => {
-                check_joints("seed", &seeds[row])?;
+                check_seed("seed", &seeds[row])?;
                 robot.ik_configured_or_nearest_checked(pose, configurations[row], &seeds[row])
             }
             None => robot.ik_configured_checked(pose, configurations[row]),

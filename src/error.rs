@@ -1,6 +1,7 @@
 //! What can be wrong with an input, each fault with the field, the value and the bound.
 
 mod frame;
+mod names;
 mod rapid;
 mod urdf;
 
@@ -81,6 +82,17 @@ pub enum PoseFault {
         /// The element.
         value: f64,
     },
+    /// A position is too far away to calculate with.
+    TooFar {
+        /// Name of the argument.
+        field: &'static str,
+        /// Index of the coordinate, from 0.
+        index: usize,
+        /// The coordinate [m].
+        value: f64,
+        /// The largest size of a coordinate [m].
+        bound: f64,
+    },
     /// The last row is not 0 0 0 1.
     LastRow {
         /// The row that came.
@@ -128,6 +140,17 @@ pub enum JointFault {
         joint: usize,
         /// The angle.
         value: f64,
+    },
+    /// An angle is too large to be given: its whole turns leave too few digits for the rest.
+    TooLarge {
+        /// Name of the argument.
+        field: &'static str,
+        /// The joint, from 1.
+        joint: usize,
+        /// The angle [rad].
+        value: f64,
+        /// The largest size of an angle [rad].
+        bound: f64,
     },
     /// A solution was passed with a pose that it does not meet.
     NotOfPose {
@@ -188,6 +211,13 @@ pub enum ModelFault {
         /// The value.
         value: f64,
         /// The largest size.
+        bound: f64,
+    },
+    /// `snap` is negative, NaN or too large.
+    Snap {
+        /// What was given [rad].
+        value: f64,
+        /// The largest [rad].
         bound: f64,
     },
     /// A joint sign is neither 1 nor -1.
@@ -258,6 +288,8 @@ pub enum ModelFault {
         distance: f64,
         /// The farthest that a table holds [m].
         bound: f64,
+        /// The least power of ten [rad] that, given as `snap`, makes an arm of a known form of it; none where none does.
+        snap: Option<f64>,
     },
     /// The URDF describes no arm that can be taken.
     Urdf(UrdfFault),
@@ -301,6 +333,12 @@ impl fmt::Display for PoseFault {
             Self::NotFinite { row, column, value } => {
                 write!(f, "pose[{row}, {column}] is {value}: every element must be finite")
             }
+            Self::TooFar { field: "pose", index, value, bound } => {
+                write!(f, "pose[{index}, 3] is {value:e} m, its size must be at most {bound:e} m")
+            }
+            Self::TooFar { field, index, value, bound } => {
+                write!(f, "{field}[{index}] is {value:e} m, its size must be at most {bound:e} m")
+            }
             Self::LastRow { row: [a, b, c, d] } => {
                 write!(f, "pose row 3 must be [0, 0, 0, 1], got [{a}, {b}, {c}, {d}]")
             }
@@ -334,6 +372,13 @@ impl fmt::Display for JointFault {
         match self {
             Self::NotFinite { field, joint, value } => {
                 write!(f, "{field}: joint {joint} is {value}, every angle must be finite [rad]")
+            }
+            Self::TooLarge { field, joint, value, bound } => {
+                write!(
+                    f,
+                    "{field}: joint {joint} is {value:e} rad, its size must be at most {bound:e} \
+                     rad (remove whole turns)"
+                )
             }
             Self::NotOfPose { off } => {
                 write!(f, "solution: its tool is {off:.1e} (m, rad) off the pose, it is none of it")
@@ -376,6 +421,9 @@ impl fmt::Display for ModelFault {
             Self::TooShort { field, value, bound } => {
                 write!(f, "{field} is {value} m, it must be at least {bound:e} m")
             }
+            Self::Snap { value, bound } => {
+                write!(f, "snap is {value} rad, it must be 0 to {bound:e} rad")
+            }
             Self::Sign { joint, value } => {
                 write!(f, "joint {joint} sign is {value}, it must be 1 or -1")
             }
@@ -410,11 +458,17 @@ impl fmt::Display for ModelFault {
                 write!(f, "no closed-form inverse kinematics for this arm: {reason}")
             }
             Self::AxisDirection { axis } => write!(f, "direction of axis {axis} has no length"),
-            Self::NearlyParallel { axes: (i, j), off, distance, bound } => write!(
-                f,
-                "axes {i} and {j} are {off:.1e} rad off parallel, their common normal stands {distance:.1e} m away, it must be at most \
-                 {bound:.0e} m (are the angles written with all their digits?)"
-            ),
+            Self::NearlyParallel { axes: (i, j), off, distance, bound, snap } => {
+                write!(
+                    f,
+                    "axes {i} and {j} are {off:.1e} rad off parallel, their common normal stands {distance:.1e} m away, it must be at most \
+                     {bound:.0e} m"
+                )?;
+                match snap {
+                    Some(snap) => write!(f, "; snap={snap:e} would take it"),
+                    None => write!(f, " (are the angles written with all their digits?)"),
+                }
+            }
             Self::Urdf(fault) => write!(f, "URDF: {fault}"),
         }
     }

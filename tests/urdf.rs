@@ -540,8 +540,8 @@ fn nearly_parallel_axes_are_told_apart_from_parallel_ones() {
     assert_eq!(of("3.141592654").unwrap().mdh().rows[2].alpha, PI);
     assert_eq!(
         refused(of("3.1415927")),
-        "axes 2 and 3 are 4.6e-8 rad off parallel, their common normal stands 1.5e7 m away, it must be at most 1e6 m (are the angles \
-         written with all their digits?)"
+        "axes 2 and 3 are 4.6e-8 rad off parallel, their common normal stands 1.5e7 m away, it must be at most 1e6 m; snap=1e-7 \
+         would take it"
     );
     assert!((of("3.1").unwrap().mdh().rows[2].alpha.abs() - 3.1).abs() < 1e-12);
 }

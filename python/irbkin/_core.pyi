@@ -56,11 +56,21 @@ class Robot:
     def __new__(cls, name: str) -> Robot: ...
     @staticmethod
     def from_mdh(
-        rows: npt.ArrayLike, limits: npt.ArrayLike | None = None, name: str = "", *, closed_form: bool = True
+        rows: npt.ArrayLike,
+        limits: npt.ArrayLike | None = None,
+        name: str = "",
+        *,
+        closed_form: bool = True,
+        snap: float = 0.0,
     ) -> Robot: ...
     @staticmethod
     def from_sdh(
-        rows: npt.ArrayLike, limits: npt.ArrayLike | None = None, name: str = "", *, closed_form: bool = True
+        rows: npt.ArrayLike,
+        limits: npt.ArrayLike | None = None,
+        name: str = "",
+        *,
+        closed_form: bool = True,
+        snap: float = 0.0,
     ) -> Robot: ...
     @staticmethod
     def from_opw(
@@ -84,6 +94,7 @@ class Robot:
         name: str = "",
         *,
         closed_form: bool = True,
+        snap: float = 0.0,
     ) -> Robot: ...
     @property
     def name(self) -> str: ...

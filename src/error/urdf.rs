@@ -2,11 +2,11 @@
 
 use core::fmt;
 
-use alloc::string::{String, ToString};
+use alloc::string::String;
 use alloc::vec::Vec;
 
-/// Most names that a message lists.
-const LISTED: usize = 12;
+use super::names::Counts;
+pub use super::names::Names;
 
 /// What is wrong with a URDF.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +25,22 @@ pub enum UrdfFault {
         column: usize,
         /// What the parser says.
         what: String,
+    },
+    /// The text declares more namespaces than can be read in linear time.
+    Namespaces {
+        /// Line of the first that is one too many, from 1.
+        line: usize,
+        /// The most that are read.
+        bound: usize,
+    },
+    /// An element has more attributes than can be read in linear time.
+    Attributes {
+        /// Line of the element, from 1.
+        line: usize,
+        /// Name of the element.
+        element: String,
+        /// The most that are read.
+        bound: usize,
     },
     /// The first element is no robot.
     NotRobot {
@@ -189,48 +205,57 @@ pub enum UrdfFault {
     },
 }
 
-/// Names for a message: the first of them, and how many more there are.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Names {
-    /// The first names, quoted, each with a remark where there is one.
-    pub listed: Vec<String>,
-    /// How many more there are.
-    pub more: usize,
-}
-
-impl<T: fmt::Display> FromIterator<T> for Names {
-    fn from_iter<I: IntoIterator<Item = T>>(names: I) -> Self {
-        let mut names = names.into_iter();
-        let listed = names.by_ref().take(LISTED).map(|name| name.to_string()).collect();
-        Self { listed, more: names.count() }
-    }
-}
-
-impl fmt::Display for Names {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.listed.join(", "))?;
-        if self.more > 0 { write!(f, " and {} more", self.more) } else { Ok(()) }
-    }
-}
-
-/// "6", "6 or 7".
-struct Counts<'a>(&'a [usize]);
-
-impl fmt::Display for Counts<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (i, count) in self.0.iter().enumerate() {
-            write!(f, "{}{count}", if i == 0 { "" } else { " or " })?;
-        }
-        Ok(())
-    }
-}
-
 impl fmt::Display for UrdfFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotUtf8 { .. }
+            | Self::NotXml { .. }
+            | Self::Namespaces { .. }
+            | Self::Attributes { .. }
+            | Self::NotRobot { .. }
+            | Self::Xacro { .. }
+            | Self::Missing { .. } => self.fmt_text(f),
+            Self::SameName { .. }
+            | Self::Twice { .. }
+            | Self::UnknownLink { .. }
+            | Self::TwoParents { .. }
+            | Self::Loop { .. }
+            | Self::Roots { .. }
+            | Self::NoSuchLink { .. }
+            | Self::NotBelow { .. }
+            | Self::SeveralTips { .. }
+            | Self::NoTip { .. } => self.fmt_tree(f),
+            Self::JointType { .. }
+            | Self::Mimic { .. }
+            | Self::JointCount { .. }
+            | Self::NoLimit { .. }
+            | Self::NotNumbers { .. }
+            | Self::NotFinite { .. }
+            | Self::TooLarge { .. }
+            | Self::NoAxis { .. } => self.fmt_joint(f),
+        }
+    }
+}
+
+impl UrdfFault {
+    /// Of a text, and of an element of it.
+    fn fmt_text(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotUtf8 { byte } => write!(f, "byte {byte} is no UTF-8"),
             Self::NotXml { line, column, what } => {
                 write!(f, "line {line}, column {column} is no XML: {what}")
+            }
+            Self::Namespaces { line, bound } => {
+                write!(
+                    f,
+                    "line {line} declares one namespace (xmlns) too many: at most {bound} are read"
+                )
+            }
+            Self::Attributes { line, element, bound } => {
+                write!(
+                    f,
+                    "line {line}: <{element}> has too many attributes: at most {bound} are read"
+                )
             }
             Self::NotRobot { found } => {
                 write!(f, "the first element is <{found}>, it must be <robot>")
@@ -244,6 +269,13 @@ impl fmt::Display for UrdfFault {
             Self::Missing { line, element, missing } => {
                 write!(f, "line {line}: <{element}> has no {missing}")
             }
+            _ => Ok(()),
+        }
+    }
+
+    /// Of links and of how joints connect them.
+    fn fmt_tree(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
             Self::SameName { element, name } => {
                 write!(f, "two {element}s are named {name:?}, each must have a name of its own")
             }
@@ -288,6 +320,13 @@ impl fmt::Display for UrdfFault {
                     Counts(wanted)
                 )
             }
+            _ => Ok(()),
+        }
+    }
+
+    /// Of a joint between base and tip.
+    fn fmt_joint(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
             Self::JointType { joint, kind } => {
                 write!(
                     f,
@@ -330,6 +369,7 @@ impl fmt::Display for UrdfFault {
             Self::NoAxis { joint } => {
                 write!(f, "joint {joint:?} axis is 0 0 0, it must have a length")
             }
+            _ => Ok(()),
         }
     }
 }

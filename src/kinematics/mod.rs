@@ -10,13 +10,17 @@ mod structure;
 pub mod thresholds;
 
 pub(crate) use crate::report::{Configuration, Explanation};
-pub(crate) use answer::check::{check_joints, check_weights};
+#[cfg(feature = "python")]
+pub(crate) use answer::check::check_joints;
+pub(crate) use answer::check::{check_seed, check_weights};
 #[cfg(feature = "python")]
 pub(crate) use answer::select::Cost;
 pub use answer::singularity::{SingularDistances, Singularity};
 pub use answer::slot::{MOST_SLOTS, Slot, SlotStatus};
 pub use answer::solutions::{Solution, Solutions};
 pub use answer::status::Status;
+#[cfg(feature = "urdf")]
+pub(crate) use chain::dh::check_snap;
 pub use chain::dh::{DhRow, Mdh, Sdh};
 pub use chain::jacobian::JacobianFrame;
 pub use chain::joint_axes::JointAxis;
@@ -27,12 +31,16 @@ pub use path::crossing::{Crossing, FollowOptions};
 pub use path::follow::{Break, BreakReason, Followed, Follower};
 pub(crate) use pose::angles::constant_sin_cos;
 #[cfg(feature = "urdf")]
+pub(crate) use pose::angles::snapped;
+#[cfg(feature = "urdf")]
 pub(crate) use pose::constant_pose;
 pub use pose::matrix::{pose_from_isometry, pose_from_matrix, pose_to_isometry, pose_to_matrix};
 pub use pose::{
     Pose, PoseError, pose_from_euler_zyx, pose_from_quaternion, pose_from_rows, pose_to_euler_zyx,
     pose_to_quaternion, pose_to_rows,
 };
+#[cfg(feature = "urdf")]
+pub(crate) use robot::SNAPS;
 pub use robot::{Definition, Robot};
 pub use solve::nearest::Inverse;
 pub(crate) use structure::any::Rows;

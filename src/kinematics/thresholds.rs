@@ -81,6 +81,10 @@ pub const MOST_ANGLE: f64 = 1e5;
 /// How far a Denavit-Hartenberg table may be from a known form and still be it [rad, m]: the rounding of a table in text. It is squared up.
 pub const FORM_TOLERANCE: f64 = 1e-9;
 
+/// Greatest `snap` [rad]: how far an angle may be from a multiple of 90 deg and still be made one on request. Text with three digits is inside;
+/// beyond, an arm would be another one: a tenth of a degree moves the tool of a long arm by millimeters.
+pub const MOST_SNAP: f64 = 1e-3;
+
 /// How much a joint step must grow over the one before it to be looked into as a jump [1].
 pub const JUMP_GROWTH: f64 = 3.0;
 

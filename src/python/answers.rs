@@ -6,7 +6,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use super::arrays::{Rows, checked_out, output};
-use super::errors;
+use super::classes;
+use super::records;
 use crate::kinematics::{Followed, Singularity, Status};
 
 /// `irbkin.Singularity` of one record, or of records with the leading dimensions `lead`.
@@ -38,9 +39,9 @@ pub(super) fn singularity_record<'py>(
         Some(lead) => PyArray1::from_iter(py, records.iter().map(|record| kinds(record).bits()))
             .reshape(lead.clone())?
             .into_any(),
-        None => errors::kinds(py, records.first().map_or(Status::empty(), kinds))?,
+        None => records::kinds(py, records.first().map_or(Status::empty(), kinds))?,
     });
-    errors::singularity_class(py)?.call1(PyTuple::new(py, fields)?)
+    classes::singularity_class(py)?.call1(PyTuple::new(py, fields)?)
 }
 
 pub(super) type BatchArrays<'py> = (Bound<'py, PyArrayDyn<f64>>, Bound<'py, PyArrayDyn<u8>>);
@@ -87,14 +88,14 @@ pub(super) fn follow_result<'py>(
     for (path, followed) in followed.iter().enumerate() {
         for broken in &followed.breaks {
             let place = PyTuple::new(py, index_in(lead, path))?;
-            breaks.push(errors::break_class(py)?.call1((
+            breaks.push(classes::break_class(py)?.call1((
                 broken.pose_index,
                 broken.to_string(),
                 place,
             ))?);
         }
     }
-    errors::follow_result_class(py)?.call1((joints, errors, PyTuple::new(py, breaks)?))
+    classes::follow_result_class(py)?.call1((joints, errors, PyTuple::new(py, breaks)?))
 }
 
 /// The index of an element by its number in row-major order.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 
-use super::arrays::{Rows, answer, copied_vector, detached, output, writable};
+use super::arrays::{Rows, answer, copied_vector, output, writable};
 use super::errors::{Fault, to_py};
 use crate::batch;
 use crate::error::{Error, ModelFault};
@@ -150,7 +150,7 @@ impl Arm {
         let answer = output(q.py(), out, &rows.shape_with(tail))?;
         let (data, mut view) = (rows.data()?, writable(&answer, &[rows.addresses()])?);
         let slice = view.as_slice_mut()?;
-        detached(q.py(), || compute(data, slice)).map_err(|error| to_py(q.py(), &error))?;
+        q.py().detach(|| compute(data, slice)).map_err(|error| to_py(q.py(), &error))?;
         Ok(answer)
     }
 

@@ -1,35 +1,40 @@
 //! NumPy arrays in and out: any number array is taken, a C-contiguous float64 one without a copy.
 
 use std::array;
+use std::fmt;
 use std::ops::Range;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use numpy::ndarray::aview2;
 use numpy::{
-    PyArray1, PyArray2, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyReadwriteArrayDyn,
-    PyUntypedArray, PyUntypedArrayMethods,
+    PyArray1, PyArray2, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn,
+    PyReadwriteArrayDyn, PyUntypedArray, PyUntypedArrayMethods,
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::intern;
 use pyo3::prelude::*;
+use pyo3::type_object::PyTypeInfo;
 
+use super::borrows::{Access, Borrow, is_any_written, is_free, overlap};
 use super::errors::Fault;
+use super::masked::{self, Masked};
 
 /// An input array whose last dimensions are known, and the leading ones that came before them.
 pub(super) struct Rows<'py> {
     array: PyReadonlyArrayDyn<'py, f64>,
     pub(super) lead: Vec<usize>,
+    _borrow: Borrow,
 }
 
 impl<'py> Rows<'py> {
-    /// Reads `value`, of shape (..., `tail`), as the argument `field`.
+    /// Reads `value`, of shape (..., `tail`), as the argument `field`. Of a batch, masked elements are NaN.
     pub(super) fn read(
         value: &Bound<'py, PyAny>,
         tail: &[usize],
         field: &str,
         fault: Fault,
     ) -> PyResult<Self> {
-        let array = readable(value, field, fault)?;
+        let masked = masked_elements(value)?;
+        let array = readable(masked.as_ref().map_or(value, |masked| &masked.filled), field, fault)?;
         let shape = array.shape();
         let Some(lead) = shape.strip_suffix(tail) else {
             let wanted = tail.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
@@ -38,8 +43,12 @@ impl<'py> Rows<'py> {
                 format!("{field} must have shape (..., {wanted}), got {shape:?}"),
             ));
         };
+        if let Some(masked) = masked.filter(|_| lead.is_empty() || matches!(fault, Fault::Model)) {
+            return Err(masked.refused(value.py(), field, fault));
+        }
         let lead = lead.to_vec();
-        Ok(Self { array, lead })
+        let borrow = Borrow::new(addresses(&array), Access::Read);
+        Ok(Self { array, lead, _borrow: borrow })
     }
 
     /// The numbers in row-major order.
@@ -68,30 +77,18 @@ impl<'py> Rows<'py> {
     }
 }
 
-/// How many calls write to arrays with the interpreter's lock released.
-static DETACHED_WRITES: AtomicUsize = AtomicUsize::new(0);
-
-/// Runs `write` without the interpreter's lock; meanwhile no other call takes the short way of reading.
-pub(super) fn detached<R: Send>(py: Python<'_>, write: impl FnOnce() -> R + Send) -> R {
-    struct Finished;
-    impl Drop for Finished {
-        fn drop(&mut self) {
-            DETACHED_WRITES.fetch_sub(1, Ordering::Release);
-        }
-    }
-    DETACHED_WRITES.fetch_add(1, Ordering::Relaxed);
-    let _finished = Finished;
-    py.detach(write)
-}
-
-/// The short way of reading: a copy of a float64 array of shape (`N`,), any strides. None for everything else.
+/// The short way of reading: a copy of a float64 array of shape (`N`,), any strides. None for everything else, also for
+/// arrays of a class of their own.
 ///
 /// The elements are copied under the interpreter's lock, without NumPy's bookkeeping of borrows: with 50 ns that costs more than the rest
-/// of the call. Who else could write, holds the lock, or is counted.
+/// of the call. Who else could write holds the lock, or has a borrow.
 #[inline]
 pub(super) fn copied_vector<const N: usize>(value: &Bound<'_, PyAny>) -> Option<[f64; N]> {
+    if !PyUntypedArray::is_exact_type_of(value) {
+        return None;
+    }
     let array = value.cast::<PyArray1<f64>>().ok()?;
-    if array.shape() != [N] || !array.is_aligned() || DETACHED_WRITES.load(Ordering::Acquire) != 0 {
+    if array.shape() != [N] || !array.is_aligned() || is_any_written() {
         return None;
     }
     Some(array::from_fn(|index| array.get_owned([index]).unwrap_or(f64::NAN)))
@@ -100,11 +97,11 @@ pub(super) fn copied_vector<const N: usize>(value: &Bound<'_, PyAny>) -> Option<
 /// As [`copied_vector`], of an array of shape (4, 4), in row-major order.
 #[inline]
 pub(super) fn copied_matrix4(value: &Bound<'_, PyAny>) -> Option<[f64; 16]> {
+    if !PyUntypedArray::is_exact_type_of(value) {
+        return None;
+    }
     let array = value.cast::<PyArray2<f64>>().ok()?;
-    if array.shape() != [4, 4]
-        || !array.is_aligned()
-        || DETACHED_WRITES.load(Ordering::Acquire) != 0
-    {
+    if array.shape() != [4, 4] || !array.is_aligned() || is_any_written() {
         return None;
     }
     // Every index is inside the shape. Row by row, so that it unrolls.
@@ -146,7 +143,7 @@ fn write_out<'py>(
     let array = checked_out::<f64>(out, shape, "float64")?;
     let memory =
         input.cast::<PyArrayDyn<f64>>().ok().filter(|input| input.is_c_contiguous()).map(addresses);
-    writable(&array, memory.as_slice())?.as_slice_mut()?.copy_from_slice(numbers);
+    checked_writable(&array, memory.as_slice())?.as_slice_mut()?.copy_from_slice(numbers);
     Ok(array.into_any())
 }
 
@@ -175,6 +172,9 @@ fn exactly<const N: usize>(
     field: &str,
     fault: Fault,
 ) -> PyResult<[f64; N]> {
+    if let Some(masked) = masked_elements(value)? {
+        return Err(masked.refused(value.py(), field, fault));
+    }
     let array = readable(value, field, fault)?;
     if array.shape() != shape {
         return Err(fault.error(
@@ -185,37 +185,55 @@ fn exactly<const N: usize>(
     Ok(array.as_slice()?.try_into().map_or([f64::NAN; N], |numbers: &[f64; N]| *numbers))
 }
 
+/// The masked elements of an argument: a plain array has none.
+fn masked_elements<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Masked<'py>>> {
+    if PyUntypedArray::is_exact_type_of(value) { Ok(None) } else { Masked::of(value) }
+}
+
 /// `value` as an aligned C-contiguous float64 array, seen for reading: itself where it is one.
 fn readable<'py>(
     value: &Bound<'py, PyAny>,
     field: &str,
     fault: Fault,
 ) -> PyResult<PyReadonlyArrayDyn<'py, f64>> {
-    let read = |array: &Bound<'py, PyArrayDyn<f64>>| {
-        array
-            .try_readonly()
-            .map_err(|_| PyValueError::new_err(format!("{field} is being written by another call")))
-    };
+    let written = || PyValueError::new_err(format!("{field} is being written by another call"));
     if let Ok(array) = value.cast::<PyArrayDyn<f64>>() {
-        let array = read(array)?;
+        let array = array.try_readonly().map_err(|_| written())?;
         if array.is_c_contiguous() && array.as_slice().is_ok() {
-            return Ok(array);
+            return if is_free(&addresses(&array), Access::Read) {
+                Ok(array)
+            } else {
+                Err(written())
+            };
         }
     }
-    read(&converted(value, field, fault)?)
+    let array = as_array(value, field, fault)?;
+    if is_any_written() && !is_free(&extent(&array)?, Access::Read) {
+        return Err(written());
+    }
+    converted(&array, field)?.try_readonly().map_err(|_| written())
 }
 
-fn converted<'py>(
+/// Whatever NumPy makes an array of, as the array that it makes.
+fn as_array<'py>(
     value: &Bound<'py, PyAny>,
     field: &str,
     fault: Fault,
-) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+) -> PyResult<Bound<'py, PyUntypedArray>> {
     let py = value.py();
     let numpy = py.import(intern!(py, "numpy"))?;
     let array = numpy.call_method1(intern!(py, "asarray"), (value,)).map_err(|cause| {
         fault.error(py, format!("{field} must be an array of numbers: {}", cause.value(py)))
     })?;
-    let array = array.cast::<PyUntypedArray>()?;
+    Ok(array.cast_into::<PyUntypedArray>()?)
+}
+
+/// A real array as an aligned C-contiguous one of float64.
+fn converted<'py>(
+    array: &Bound<'py, PyUntypedArray>,
+    field: &str,
+) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    let py = array.py();
     let dtype = array.dtype();
     let kind: String = dtype.getattr(intern!(py, "kind"))?.extract()?;
     if !matches!(kind.as_str(), "f" | "i" | "u") {
@@ -223,6 +241,7 @@ fn converted<'py>(
             "{field} must be real numbers, got an array of dtype {dtype}"
         )));
     }
+    let numpy = py.import(intern!(py, "numpy"))?;
     let contiguous =
         numpy.call_method1(intern!(py, "require"), (array, intern!(py, "float64"), ["C", "A"]))?;
     Ok(contiguous.cast_into::<PyArrayDyn<f64>>()?)
@@ -252,6 +271,9 @@ pub(super) fn checked_out<'py, T: numpy::Element>(
             describe(out)
         ))
     })?;
+    if !PyUntypedArray::is_exact_type_of(out) {
+        masked::check_out(out)?;
+    }
     if array.shape() != shape || !array.is_c_contiguous() {
         return Err(PyValueError::new_err(format!(
             "out must be C-contiguous with shape {shape:?}, got {}",
@@ -261,29 +283,66 @@ pub(super) fn checked_out<'py, T: numpy::Element>(
     Ok(array.clone())
 }
 
-/// A view to write through; refused for a read-only array and for one that overlaps the memory of `others`.
-///
-/// NumPy's own bookkeeping of borrows knows arrays by the array that owns their memory; two views of one buffer have none, so the
-/// addresses are compared too.
+/// An array that an answer is written to, with the interpreter's lock or without.
+pub(super) struct Writable<'py, T: numpy::Element> {
+    view: PyReadwriteArrayDyn<'py, T>,
+    _borrow: Borrow,
+}
+
+impl<T: numpy::Element> Writable<'_, T> {
+    /// The elements in row-major order.
+    pub(super) fn as_slice_mut(&mut self) -> PyResult<&mut [T]> {
+        Ok(self.view.as_slice_mut()?)
+    }
+}
+
+/// A view to write through; refused for a read-only array, for one that overlaps the memory of `others` and for memory that another call
+/// uses.
 pub(super) fn writable<'py, T: numpy::Element>(
     array: &Bound<'py, PyArrayDyn<T>>,
     others: &[Range<usize>],
+) -> PyResult<Writable<'py, T>> {
+    let view = checked_writable(array, others)?;
+    Ok(Writable { view, _borrow: Borrow::new(addresses(array), Access::Write) })
+}
+
+fn checked_writable<'py, T: numpy::Element>(
+    array: &Bound<'py, PyArrayDyn<T>>,
+    others: &[Range<usize>],
 ) -> PyResult<PyReadwriteArrayDyn<'py, T>> {
+    let refused = |cause: &dyn fmt::Display| {
+        PyValueError::new_err(format!("out must be writable and must not overlap the input{cause}"))
+    };
     let own = addresses(array);
-    if others.iter().any(|other| own.start < other.end && other.start < own.end) {
-        return Err(PyValueError::new_err("out must be writable and must not overlap the input"));
+    if others.iter().any(|other| overlap(&own, other)) {
+        return Err(refused(&""));
     }
-    array.try_readwrite().map_err(|cause| {
-        PyValueError::new_err(format!(
-            "out must be writable and must not overlap the input: {cause}"
-        ))
-    })
+    if !is_free(&own, Access::Write) {
+        return Err(refused(&": another call uses its memory"));
+    }
+    array.try_readwrite().map_err(|cause| refused(&format_args!(": {cause}")))
 }
 
 /// The addresses of a C-contiguous array's memory.
 pub(super) fn addresses<T: numpy::Element>(array: &Bound<'_, PyArrayDyn<T>>) -> Range<usize> {
     let start = array.data().addr();
     start..start + array.len() * size_of::<T>()
+}
+
+/// The addresses from the lowest to the highest of an array with any strides.
+fn extent(array: &Bound<'_, PyUntypedArray>) -> PyResult<Range<usize>> {
+    let py = array.py();
+    let interface = array.getattr(intern!(py, "__array_interface__"))?;
+    let (data, _): (usize, bool) = interface.get_item(intern!(py, "data"))?.extract()?;
+    if array.is_empty() {
+        return Ok(data..data);
+    }
+    let (mut lowest, mut highest) = (data, data + array.dtype().itemsize());
+    for (count, stride) in array.shape().iter().zip(array.strides()) {
+        let length = (count - 1) * stride.unsigned_abs();
+        if *stride < 0 { lowest -= length } else { highest += length }
+    }
+    Ok(lowest..highest)
 }
 
 fn describe(value: &Bound<'_, PyAny>) -> String {

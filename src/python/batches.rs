@@ -9,8 +9,9 @@ use pyo3::types::PyTuple;
 
 use super::answers::batch_output;
 use super::arm::Arm;
-use super::arrays::{Rows, addresses, detached, writable};
-use super::errors::{self, Fault, to_py};
+use super::arrays::{Rows, addresses, writable};
+use super::classes;
+use super::errors::{Fault, to_py};
 use crate::batch;
 use crate::error::ModelFault;
 use crate::kinematics::{Arity, Joints, Robot};
@@ -44,12 +45,12 @@ pub(super) fn ik<'py>(
         writable(&status, &[poses.addresses(), addresses(&q)])?,
     );
     let (q_slice, status_slice) = (q_view.as_slice_mut()?, status_view.as_slice_mut()?);
-    let solved = detached(py, || match arm {
+    let solved = py.detach(|| match arm {
         Arm::Six(robot) => batch::ik(robot, data, q_slice, status_slice, threads),
         Arm::Seven(robot) => batch::ik_with(robot, data, &given, q_slice, status_slice, threads),
     });
     solved.map_err(|error| to_py(py, &error))?;
-    errors::ik_batch_class(py)?.call1((q, status))
+    classes::ik_batch_class(py)?.call1((q, status))
 }
 
 /// An angle of joint 7 for each pose; both are broadcast.

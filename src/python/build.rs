@@ -3,14 +3,15 @@
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use super::arm::{Arm, Change, on_robot};
+use super::arm::{Arm, on_robot};
 use super::arrays::Rows;
+use super::edits::Edit;
 use super::errors::{Fault, to_py};
 use crate::catalogue::CatalogueGeometry;
 use crate::error::{Error, ModelFault};
 use crate::kinematics::{
-    Arity, Definition, DhRow, JointLimits, Joints, Mdh, OpwParameters, Pose, Robot, Sdh,
-    pose_from_rows, pose_to_rows,
+    Arity, Definition, DhRow, Joints, Mdh, OpwParameters, Pose, Robot, Sdh, pose_from_rows,
+    pose_to_rows,
 };
 
 /// Which Denavit-Hartenberg convention a table has.
@@ -20,20 +21,29 @@ pub(super) enum Convention {
     Standard,
 }
 
+/// How a Denavit-Hartenberg table is to be read.
+#[derive(Clone, Copy)]
+pub(super) struct Table {
+    pub(super) convention: Convention,
+    /// Whether an arm of no known form is refused.
+    pub(super) closed_form: bool,
+    /// How far an angle may be from a multiple of 90 deg and still be made one [rad].
+    pub(super) snap: f64,
+}
+
 /// A robot from a Denavit-Hartenberg table of 6 or 7 rows.
 pub(super) fn from_table(
     rows: &Bound<'_, PyAny>,
     limits: Option<&Bound<'_, PyAny>>,
     name: &str,
-    closed_form: bool,
-    convention: Convention,
+    table: Table,
 ) -> PyResult<Arm> {
     let py = rows.py();
     let rows = Rows::read(rows, &[4], "rows", Fault::Model)?;
-    let table = rows.data()?.as_chunks::<4>().0;
+    let numbers = rows.data()?.as_chunks::<4>().0;
     let arm = match rows.lead[..] {
-        [6] => robot_of_table::<6>(table, closed_form, convention).map(Arm::from),
-        [7] => robot_of_table::<7>(table, closed_form, convention).map(Arm::from),
+        [6] => robot_of_table::<6>(numbers, table).map(Arm::from),
+        [7] => robot_of_table::<7>(numbers, table).map(Arm::from),
         _ => {
             return Err(Fault::Model.error(
                 py,
@@ -45,20 +55,20 @@ pub(super) fn from_table(
 }
 
 fn robot_of_table<const N: usize>(
-    table: &[[f64; 4]],
-    closed_form: bool,
-    convention: Convention,
+    numbers: &[[f64; 4]],
+    Table { convention, closed_form, snap }: Table,
 ) -> Result<Robot<N>, Error>
 where
     Joints<N>: Arity<N>,
 {
-    let table: &[[f64; 4]; N] =
-        table.try_into().map_err(|_| ModelFault::JointCount { found: table.len(), wanted: N })?;
-    let rows = table.map(|[alpha, a, d, theta]| DhRow::new(alpha, a, d, theta));
+    let found = numbers.len();
+    let numbers: &[[f64; 4]; N] =
+        numbers.try_into().map_err(|_| ModelFault::JointCount { found, wanted: N })?;
+    let rows = numbers.map(|[alpha, a, d, theta]| DhRow::new(alpha, a, d, theta));
     let (base, flange) = (Pose::identity(), Pose::identity());
     let mdh = match convention {
-        Convention::Modified => Mdh { base, rows, flange },
-        Convention::Standard => Sdh { base, rows, flange }.into(),
+        Convention::Modified => Mdh { base, rows, flange }.snapped(snap)?,
+        Convention::Standard => Sdh { base, rows, flange }.snapped(snap)?.into(),
     };
     if closed_form { Robot::from_mdh(mdh) } else { Robot::serial_chain(mdh) }
 }
@@ -89,7 +99,7 @@ fn named_and_limited(
     limits: Option<&Bound<'_, PyAny>>,
     name: &str,
 ) -> PyResult<Arm> {
-    let arm = arm.changed(py, &Name(name))?;
+    let arm = arm.changed(py, &Edit::Name(name))?;
     match limits {
         Some(limits) => with_limits(&arm, limits),
         None => Ok(arm),
@@ -106,111 +116,7 @@ pub(super) fn with_limits(arm: &Arm, limits: &Bound<'_, PyAny>) -> PyResult<Arm>
             format!("limits must have shape [{}, 2], got {shape:?}", arm.dof()),
         ));
     }
-    arm.changed(limits.py(), &Limits(rows.data()?.as_chunks::<2>().0))
-}
-
-struct Name<'a>(&'a str);
-struct Limits<'a>(&'a [[f64; 2]]);
-/// Another base.
-pub(super) struct Base(pub(super) Pose);
-/// Another tool.
-pub(super) struct Tool(pub(super) Pose);
-/// Nothing, or limits of the rod, which may be no numbers.
-struct Coupling<'a>(Option<&'a [f64]>);
-/// Other limits of the rod, or none.
-pub(super) struct RodLimits(pub(super) Option<[f64; 2]>);
-/// The coupled twin, or the serial one.
-pub(super) struct Coupled(pub(super) bool);
-struct MaxVelocity<'a>(Option<&'a [f64]>);
-
-impl Change for Name<'_> {
-    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>
-    where
-        Joints<N>: Arity<N>,
-    {
-        Ok(robot.with_name(self.0.to_owned()))
-    }
-}
-
-impl Change for Limits<'_> {
-    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>
-    where
-        Joints<N>: Arity<N>,
-    {
-        let limits = <[[f64; 2]; N]>::try_from(self.0)
-            .map_err(|_| ModelFault::JointCount { found: N, wanted: self.0.len() })?;
-        Ok(robot.with_limits(JointLimits::new(limits)?))
-    }
-}
-
-impl Change for Coupling<'_> {
-    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>
-    where
-        Joints<N>: Arity<N>,
-    {
-        let Some(rod) = self.0 else { return Ok(robot) };
-        let robot = robot.coupled()?;
-        match rod {
-            [] => Ok(robot),
-            rod => {
-                let damaged =
-                    || Error::WrongLength { field: "rod limits", found: rod.len(), wanted: 2 };
-                robot.with_rod_limits(Some(<[f64; 2]>::try_from(rod).map_err(|_| damaged())?))
-            }
-        }
-    }
-}
-
-impl Change for RodLimits {
-    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>
-    where
-        Joints<N>: Arity<N>,
-    {
-        robot.with_rod_limits(self.0)
-    }
-}
-
-impl Change for Coupled {
-    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>
-    where
-        Joints<N>: Arity<N>,
-    {
-        if self.0 { robot.coupled() } else { Ok(robot.serial()) }
-    }
-}
-
-impl Change for Base {
-    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>
-    where
-        Joints<N>: Arity<N>,
-    {
-        robot.with_base(&self.0)
-    }
-}
-
-impl Change for Tool {
-    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>
-    where
-        Joints<N>: Arity<N>,
-    {
-        robot.with_tool(&self.0)
-    }
-}
-
-impl Change for MaxVelocity<'_> {
-    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>
-    where
-        Joints<N>: Arity<N>,
-    {
-        let velocity = match self.0 {
-            Some(velocity) => Some(
-                <[f64; N]>::try_from(velocity)
-                    .map_err(|_| ModelFault::JointCount { found: N, wanted: velocity.len() })?,
-            ),
-            None => None,
-        };
-        robot.with_max_velocity(velocity)
-    }
+    arm.changed(limits.py(), &Edit::Limits(rows.data()?.as_chunks::<2>().0))
 }
 
 /// Everything that a robot was built from: (name, definition, numbers of it, limits, base, tool, velocities, rod). The last is of coupled
@@ -285,12 +191,12 @@ pub(super) fn restored(py: Python<'_>, state: &State) -> PyResult<Arm> {
     };
     built
         .map_err(|error| to_py(py, &error))?
-        .changed(py, &Name(name))?
-        .changed(py, &Coupling(rod.as_deref()))?
-        .changed(py, &Limits(limit_rows))?
-        .changed(py, &Base(pose(base)?))?
-        .changed(py, &Tool(pose(tool)?))?
-        .changed(py, &MaxVelocity(velocity.as_deref()))
+        .changed(py, &Edit::Name(name))?
+        .changed(py, &Edit::Coupling(rod.as_deref()))?
+        .changed(py, &Edit::Limits(limit_rows))?
+        .changed(py, &Edit::Base(pose(base)?))?
+        .changed(py, &Edit::Tool(pose(tool)?))?
+        .changed(py, &Edit::MaxVelocity(velocity.as_deref()))
 }
 
 fn opw_of(numbers: &[f64]) -> Option<Result<Robot<6>, Error>> {

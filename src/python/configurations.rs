@@ -7,11 +7,14 @@ use pyo3::prelude::*;
 
 use super::answers::index_in;
 use super::arm::Arm;
-use super::arrays::{Rows, detached, output, writable};
-use super::errors::{self, Fault, to_py};
+use super::arrays::{Rows, output, writable};
+use super::classes;
+use super::errors::{Fault, to_py};
 use super::found::read_seed;
+use super::masked::Masked;
 use super::paths::read_seeds;
 use super::poses::{PoseArgument, read_poses};
+use super::records;
 use crate::batch;
 use crate::error::ModelFault;
 use crate::kinematics::{Configuration, Robot};
@@ -36,25 +39,16 @@ pub(super) fn configuration<'py>(arm: &Arm, q: &Bound<'py, PyAny>) -> PyResult<B
     );
     let configurations = configurations.collect::<PyResult<Vec<_>>>()?;
     match &configurations[..] {
-        [one] if rows.is_single() => record(py, one),
+        [one] if rows.is_single() => records::configuration(py, one),
         many => {
             let column = |of: fn(&Configuration) -> i32| {
                 PyArray1::from_iter(py, many.iter().map(of)).reshape(rows.lead.clone())
             };
             let columns =
                 (column(|c| c.cf1)?, column(|c| c.cf4)?, column(|c| c.cf6)?, column(|c| c.cfx)?);
-            errors::configuration_class(py)?.call1(columns)
+            classes::configuration_class(py)?.call1(columns)
         }
     }
-}
-
-/// `irbkin.Configuration` of one.
-pub(super) fn record<'py>(
-    py: Python<'py>,
-    configuration: &Configuration,
-) -> PyResult<Bound<'py, PyAny>> {
-    let Configuration { cf1, cf4, cf6, cfx } = *configuration;
-    errors::configuration_class(py)?.call1((cf1, cf4, cf6, cfx))
 }
 
 /// What to do with a pose that no solution reaches in the configuration that was asked for.
@@ -110,7 +104,7 @@ pub(super) fn ik<'py>(
     let answer = output(py, None, &poses.shape_with(&[6]))?;
     let (data, mut view) = (poses.data()?, writable(&answer, &[])?);
     let q = view.as_slice_mut()?;
-    detached(py, || batch::ik_configured(robot, data, &wanted, seeds.as_deref(), q))
+    py.detach(|| batch::ik_configured(robot, data, &wanted, seeds.as_deref(), q))
         .map_err(|error| to_py(py, &error))?;
     Ok(answer.into_any())
 }
@@ -153,7 +147,10 @@ impl Configurations {
 /// Configurations of shape (..., 4), or a record of four arrays.
 fn read_configurations(value: &Bound<'_, PyAny>) -> PyResult<Configurations> {
     let py = value.py();
-    let stacked = if value.is_instance(errors::configuration_class(py)?)? {
+    if let Some(masked) = Masked::of(value)? {
+        return Err(masked.refused(py, "configuration", Fault::Joints));
+    }
+    let stacked = if value.is_instance(classes::configuration_class(py)?)? {
         let numpy = py.import(intern!(py, "numpy"))?;
         let unlike = |_| {
             Fault::Joints

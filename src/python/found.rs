@@ -8,7 +8,7 @@ use super::arrays::vector;
 use super::errors::{Fault, to_py};
 use crate::error::Error;
 use crate::kinematics::{
-    Arity, Cost, Joints, MOST_SLOTS, Robot, Solution, Solutions, check_joints, check_weights,
+    Arity, Cost, Joints, MOST_SLOTS, Robot, Solution, Solutions, check_seed, check_weights,
 };
 
 /// More turns than any robot has inside its limits: a list this long means limits in degrees, or none.
@@ -141,7 +141,7 @@ pub(super) fn read_seed<const N: usize>(
 ) -> PyResult<([f64; N], [f64; N])> {
     let py = seed.py();
     let seed = vector::<N>(seed, "seed", Fault::Joints)?;
-    check_joints("seed", &seed).map_err(|error| to_py(py, &error))?;
+    check_seed("seed", &seed).map_err(|error| to_py(py, &error))?;
     Ok((seed, read_weights(weights)?))
 }
 

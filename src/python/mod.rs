@@ -5,14 +5,22 @@ mod arguments;
 mod arm;
 mod arrays;
 mod batches;
+mod borrows;
 mod build;
 mod catalog;
+mod classes;
 mod configurations;
+mod edits;
 mod errors;
 mod found;
+mod inverse;
+mod masked;
+mod models;
 mod paths;
 mod poses;
+mod queries;
 mod rapid;
+mod records;
 mod robot;
 mod solutions;
 mod urdf;
@@ -55,7 +63,7 @@ fn use_instruction_set(name: &str) -> PyResult<()> {
     set.force().map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
-// Single calls read arrays under the interpreter's lock (`arrays::copied_vector`).
+// Single calls read arrays under the interpreter's lock (`arrays::copied_vector`), and `borrows` relies on it.
 #[pymodule(gil_used = true)]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;

@@ -4,12 +4,12 @@ use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 
 use super::answers::{follow_result, index_in};
-use super::arrays::{Rows, detached, output, writable};
+use super::arrays::{Rows, output, writable};
 use super::errors::{Fault, to_py};
 use super::found::read_weights;
 use crate::batch;
 use crate::kinematics::{
-    Arity, FollowOptions, Inverse, Joints, Pose, Robot, check_joints, pose_from_rows,
+    Arity, FollowOptions, Inverse, Joints, Pose, Robot, check_seed, pose_from_rows,
 };
 
 /// The solutions nearest to seeds, a row for each pose.
@@ -28,7 +28,7 @@ where
     let answer = output(py, None, &poses.shape_with(&[N]))?;
     let (data, mut view) = (poses.data()?, writable(&answer, &[])?);
     let q = view.as_slice_mut()?;
-    detached(py, || batch::ik_nearest(robot, data, &numbers, &weights, q))
+    py.detach(|| batch::ik_nearest(robot, data, &numbers, &weights, q))
         .map_err(|error| to_py(py, &error))?;
     Ok(answer)
 }
@@ -53,7 +53,7 @@ pub(super) fn follow<'py>(
     if let Some((path, error)) = seeds
         .iter()
         .enumerate()
-        .find_map(|(path, seed)| Some((path, check_joints("seed", seed).err()?)))
+        .find_map(|(path, seed)| Some((path, check_seed("seed", seed).err()?)))
     {
         return Err(if lead.is_empty() {
             to_py(py, &error)
@@ -91,6 +91,6 @@ pub(super) fn read_seeds<const N: usize>(
         return Err(Fault::Joints
             .error(seeds.py(), format!("seed must have shape [{N}] or {wanted:?}, got {got:?}")));
     }
-    check_joints("seed", rows.data()?).map_err(|error| to_py(seeds.py(), &error))?;
+    check_seed("seed", rows.data()?).map_err(|error| to_py(seeds.py(), &error))?;
     Ok(rows.data()?.repeat(lead.iter().product()))
 }

@@ -8,8 +8,10 @@ use pyo3::prelude::*;
 use pyo3::types::{PyIterator, PyList};
 
 use super::arrays::matrix;
-use super::errors::{self, Fault, to_py};
+use super::classes;
+use super::errors::{Fault, to_py};
 use super::found::Found;
+use super::records;
 use crate::kinematics::{Arity, Cost, Joints, Pose, Robot, Solution, Status};
 
 /// A solution, with the robot and the pose that it is of.
@@ -129,14 +131,14 @@ impl PySolution {
     /// The singularities at which the pose stands.
     #[getter]
     fn kinds<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        errors::kinds(py, self.flags())
+        records::kinds(py, self.flags())
     }
 
     /// The joint that the pose leaves free, at a singularity, and what stays fixed: FreeJoint(joint, fixed), or None.
     #[getter]
     fn free<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         let free = on!(AnyMember, &self.of, member => member.solution.free);
-        free.map(|free| errors::free_joint_class(py)?.call1((free.joint(), free.fixed())))
+        free.map(|free| classes::free_joint_class(py)?.call1((free.joint(), free.fixed())))
             .transpose()
     }
 
@@ -158,7 +160,7 @@ impl PySolution {
     /// All flags of the slot.
     #[getter]
     fn status<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        errors::status(py, self.flags())
+        records::status(py, self.flags())
     }
 
     /// Distance of the tool from the pose: the larger of the position's [m] and the rotation's [rad].
@@ -228,7 +230,7 @@ impl PySolutions {
     /// Whether the wrist centre gets to where the pose wants it.
     #[getter]
     fn reach<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        errors::reach(py, on!(AnyFound, &self.found, found => found.solutions.reach()))
+        records::reach(py, on!(AnyFound, &self.found, found => found.solutions.reach()))
     }
 
     /// How far the wrist centre is from where the arm can bring it [m]; 0 when it is reached.

@@ -9,42 +9,45 @@ use crate::error::{Error, UrdfFault};
 use crate::kinematics::{Arity, Joints, Robot};
 use crate::urdf::UrdfArm;
 
-/// The arm between two links of a URDF, of six or seven joints.
-pub(super) fn from_urdf(
-    text_or_path: &Bound<'_, PyAny>,
-    base: Option<&str>,
-    tip: Option<&str>,
-    name: &str,
-    closed_form: bool,
-) -> PyResult<Arm> {
-    let py = text_or_path.py();
-    let bytes = bytes_of(text_or_path)?;
-    py.detach(|| arm_of(&bytes, base, tip, name, closed_form)).map_err(|error| to_py(py, &error))
+/// What is taken of a URDF, and how.
+#[derive(Clone, Copy)]
+pub(super) struct Wanted<'a> {
+    pub(super) base: Option<&'a str>,
+    pub(super) tip: Option<&'a str>,
+    /// The robot's name; that of the URDF where it is empty.
+    pub(super) name: &'a str,
+    /// Whether an arm of no known form is refused.
+    pub(super) closed_form: bool,
+    /// How far an angle may be from a multiple of 90 deg and still be made one [rad].
+    pub(super) snap: f64,
 }
 
-fn arm_of(
-    bytes: &[u8],
-    base: Option<&str>,
-    tip: Option<&str>,
-    name: &str,
-    closed_form: bool,
-) -> Result<Arm, Error> {
+/// The arm between two links of a URDF, of six or seven joints.
+pub(super) fn from_urdf(text_or_path: &Bound<'_, PyAny>, wanted: Wanted<'_>) -> PyResult<Arm> {
+    let py = text_or_path.py();
+    let bytes = bytes_of(text_or_path)?;
+    py.detach(|| arm_of(&bytes, wanted)).map_err(|error| to_py(py, &error))
+}
+
+fn arm_of(bytes: &[u8], wanted: Wanted<'_>) -> Result<Arm, Error> {
     let text =
         str::from_utf8(bytes).map_err(|error| UrdfFault::NotUtf8 { byte: error.valid_up_to() })?;
-    let read = UrdfArm::read(text, base, tip, &[6, 7])?;
-    let seven = read.dof() == 7;
-    if seven {
-        robot::<7>(read, name, closed_form).map(Arm::from)
+    let read = UrdfArm::read(text, wanted.base, wanted.tip, &[6, 7])?;
+    if read.dof() == 7 {
+        robot::<7>(&read, wanted).map(Arm::from)
     } else {
-        robot::<6>(read, name, closed_form).map(Arm::from)
+        robot::<6>(&read, wanted).map(Arm::from)
     }
 }
 
-fn robot<const N: usize>(read: UrdfArm, name: &str, closed_form: bool) -> Result<Robot<N>, Error>
+fn robot<const N: usize>(
+    read: &UrdfArm,
+    Wanted { name, closed_form, snap, .. }: Wanted<'_>,
+) -> Result<Robot<N>, Error>
 where
     Joints<N>: Arity<N>,
 {
-    let robot = read.robot::<N>(closed_form)?;
+    let robot = read.robot::<N>(closed_form, snap)?;
     Ok(if name.is_empty() { robot } else { robot.with_name(name.to_owned()) })
 }
 

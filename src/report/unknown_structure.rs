@@ -42,9 +42,17 @@ pub(crate) struct Pattern {
 
 /// Why an arm has none of the known structures: every condition that the nearest of them asks for and
 /// the arm does not meet.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct UnknownStructure {
     reason: Reason,
+    snap: Option<f64>,
+}
+
+/// What an arm lacks is the same whether it was read from text, which could be snapped, or from the table of it.
+impl PartialEq for UnknownStructure {
+    fn eq(&self, other: &Self) -> bool {
+        self.reason == other.reason
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,12 +68,27 @@ enum Reason {
 impl UnknownStructure {
     /// An arm whose number of joints alone rules a closed form out.
     pub(crate) fn joint_count(joints: usize) -> Self {
-        Self { reason: Reason::JointCount(joints) }
+        Self::new(Reason::JointCount(joints))
+    }
+
+    fn new(reason: Reason) -> Self {
+        Self { reason, snap: None }
+    }
+
+    /// The same, proposing a `snap` with which the arm would be taken, or none.
+    pub(crate) fn proposing(self, snap: Option<f64>) -> Self {
+        Self { snap, ..self }
+    }
+
+    /// The least power of ten [rad] that, given as `snap`, gives the arm a known structure; none where none does.
+    #[must_use]
+    pub fn snap(&self) -> Option<f64> {
+        self.snap
     }
 
     /// An arm that is off these conditions of a structure by so much; zero where one is met.
     pub(crate) fn off(pattern: &'static Pattern, off: [f64; MOST_CONDITIONS]) -> Self {
-        Self { reason: Reason::Off { pattern, off } }
+        Self::new(Reason::Off { pattern, off })
     }
 
     /// An arm with a link shorter than `bound` [m].
@@ -74,7 +97,7 @@ impl UnknownStructure {
         (field, value): (&'static str, f64),
         bound: f64,
     ) -> Self {
-        Self { reason: Reason::TooShort { pattern, field, value, bound } }
+        Self::new(Reason::TooShort { pattern, field, value, bound })
     }
 
     /// This, or another that was missed by less: by fewer conditions, then by less of them.
@@ -108,23 +131,33 @@ impl fmt::Display for Condition {
         match relation {
             Relation::Perpendicular => write!(
                 f,
-                "axes {i} and {j} must be at right angles, they are {:.6} deg off",
-                off.to_degrees()
+                "axes {i} and {j} must be at right angles, they are {} deg off",
+                Figure(off.to_degrees())
             ),
             Relation::Parallel => write!(
                 f,
-                "axes {i} and {j} must be parallel, they are {:.6} deg off",
-                off.to_degrees()
+                "axes {i} and {j} must be parallel, they are {} deg off",
+                Figure(off.to_degrees())
             ),
             Relation::Meeting => {
-                write!(f, "axes {i} and {j} must meet, they pass {:.6} mm apart", off * 1e3)
+                write!(f, "axes {i} and {j} must meet, they pass {} mm apart", Figure(off * 1e3))
             }
             Relation::Coplanar => write!(
                 f,
-                "axes {i} and {j} must lie in one plane, they pass {:.6} mm apart",
-                off * 1e3
+                "axes {i} and {j} must lie in one plane, they pass {} mm apart",
+                Figure(off * 1e3)
             ),
         }
+    }
+}
+
+/// A size with six decimals, or with its exponent where they would all be zeros.
+struct Figure(f64);
+
+impl fmt::Display for Figure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(size) = *self;
+        if size < 1e-6 { write!(f, "{size:.2e}") } else { write!(f, "{size:.6}") }
     }
 }
 
@@ -145,6 +178,7 @@ impl fmt::Display for UnknownStructure {
                     write!(f, "{} {condition}", if i == 0 { "," } else { ";" })
                 })
             }
-        }
+        }?;
+        self.snap.map_or(Ok(()), |snap| write!(f, "; snap={snap:e} would take it"))
     }
 }

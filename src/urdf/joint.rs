@@ -2,12 +2,12 @@
 
 use alloc::borrow::ToOwned;
 
+use nalgebra::Vector3;
 use roxmltree::Node;
 
-use super::tree::Tree;
 use crate::error::UrdfFault;
 use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH};
-use crate::kinematics::{JointAxis, Pose, constant_pose, unit};
+use crate::kinematics::{JointAxis, Pose, constant_pose, snapped, unit};
 
 /// Most characters of an attribute that a message repeats.
 const REPEATED: usize = 60;
@@ -21,23 +21,59 @@ pub(super) struct Joint<'a> {
     node: Node<'a, 'a>,
 }
 
-/// A joint that turns: its axis in the base frame at zero joint angles, limits [rad] and velocity [rad/s].
+/// The numbers of a joint, as the text has them.
+pub(super) struct Placed {
+    /// The child's origin in the parent [m].
+    xyz: [f64; 3],
+    /// Roll, pitch and yaw of the child in the parent [rad].
+    rpy: [f64; 3],
+    /// What turns; nothing of a fixed joint.
+    pub(super) motion: Option<Motion>,
+}
+
+/// A joint that turns: its axis in the child's frame, limits [rad] and velocity [rad/s].
 pub(super) struct Motion {
-    pub(super) axis: JointAxis,
+    direction: Vector3<f64>,
     pub(super) limits: [f64; 2],
     pub(super) velocity: Option<f64>,
 }
 
+impl Placed {
+    /// The child's frame in the parent's at a joint angle of zero, angles within `snap` of a multiple of 90 deg [rad] being one.
+    pub(super) fn origin(&self, snap: f64) -> Pose {
+        let [roll, pitch, yaw] = self.rpy.map(|angle| snapped(angle, snap));
+        constant_pose(self.xyz, [yaw, pitch, roll])
+    }
+}
+
+impl Motion {
+    /// The axis in the base frame, the child's frame being where it is at zero joint angles.
+    pub(super) fn axis(&self, t_base_child: &Pose, snap: f64) -> JointAxis {
+        let direction = t_base_child.rotation * snapped_direction(self.direction, snap);
+        JointAxis { direction: direction.into(), point: t_base_child.translation.vector.into() }
+    }
+}
+
+/// The coordinate axis within `snap` of a unit direction [rad], or the direction.
+fn snapped_direction(direction: Vector3<f64>, snap: f64) -> Vector3<f64> {
+    let rest = direction.map(|component| if component.abs() <= snap { 0.0 } else { component });
+    let along = rest.map(|component| if component == 0.0 { 0.0 } else { component.signum() });
+    if along.norm_squared() < 1.5 && (direction - along).norm() <= snap { along } else { direction }
+}
+
 impl<'a> Joint<'a> {
-    pub(super) fn new(node: Node<'a, 'a>, tree: &Tree<'a>) -> Result<Self, UrdfFault> {
-        let missing =
-            |missing| UrdfFault::Missing { line: tree.line(node), element: "joint", missing };
+    /// The joint of an element. `missing` tells what the element lacks, `link_of` the index of a link by its name.
+    pub(super) fn new(
+        node: Node<'a, 'a>,
+        missing: impl Fn(&'static str) -> UrdfFault,
+        link_of: impl Fn(&str) -> Option<usize>,
+    ) -> Result<Self, UrdfFault> {
         let name = node.attribute("name").ok_or_else(|| missing("name"))?;
         let kind = node.attribute("type").ok_or_else(|| missing("type"))?;
         let link = |role, lacking| {
             let element = element(node, name, role)?.and_then(|element| element.attribute("link"));
             let link = element.ok_or_else(|| missing(lacking))?;
-            tree.link(link).ok_or_else(|| UrdfFault::UnknownLink {
+            link_of(link).ok_or_else(|| UrdfFault::UnknownLink {
                 joint: name.to_owned(),
                 role,
                 link: link.to_owned(),
@@ -69,17 +105,18 @@ impl<'a> Joint<'a> {
         }
     }
 
-    /// The child's frame in the parent's at a joint angle of zero.
-    pub(super) fn origin(&self) -> Result<Pose, UrdfFault> {
-        let Some(origin) = self.element("origin")? else { return Ok(Pose::identity()) };
-        let xyz = self.three(origin, "xyz", "origin xyz", MOST_LENGTH)?.unwrap_or([0.0; 3]);
-        let [roll, pitch, yaw] =
-            self.three(origin, "rpy", "origin rpy", MOST_ANGLE)?.unwrap_or([0.0; 3]);
-        Ok(constant_pose(xyz, [yaw, pitch, roll]))
+    /// The numbers of the joint.
+    pub(super) fn placed(&self) -> Result<Placed, UrdfFault> {
+        let (mut xyz, mut rpy) = ([0.0; 3], [0.0; 3]);
+        if let Some(origin) = self.element("origin")? {
+            xyz = self.three(origin, "xyz", "origin xyz", MOST_LENGTH)?.unwrap_or(xyz);
+            rpy = self.three(origin, "rpy", "origin rpy", MOST_ANGLE)?.unwrap_or(rpy);
+        }
+        Ok(Placed { xyz, rpy, motion: self.motion()? })
     }
 
-    /// What turns, the child's frame being where it is at zero joint angles; nothing for a fixed joint.
-    pub(super) fn motion(&self, t_base_child: &Pose) -> Result<Option<Motion>, UrdfFault> {
+    /// What turns; nothing for a fixed joint.
+    fn motion(&self) -> Result<Option<Motion>, UrdfFault> {
         if !self.turns() {
             return Ok(None);
         }
@@ -89,13 +126,8 @@ impl<'a> Joint<'a> {
         };
         let direction = unit(axis.unwrap_or([1.0, 0.0, 0.0]))
             .ok_or_else(|| UrdfFault::NoAxis { joint: self.name.to_owned() })?;
-        let direction = t_base_child.rotation * direction;
-        let axis = JointAxis {
-            direction: direction.into(),
-            point: t_base_child.translation.vector.into(),
-        };
         let (limits, velocity) = self.limit()?;
-        Ok(Some(Motion { axis, limits, velocity }))
+        Ok(Some(Motion { direction, limits, velocity }))
     }
 
     /// Limits, infinite for a continuous joint, and velocity. A limit that is absent is zero, as the format has it.

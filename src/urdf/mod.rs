@@ -4,6 +4,7 @@
 
 mod chain;
 mod joint;
+mod shape;
 mod tree;
 
 use crate::kinematics::{Arity, Joints};
@@ -11,10 +12,10 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use self::chain::chain_between;
-use self::joint::Motion;
+use self::joint::{Joint, Motion, Placed};
 use self::tree::{Tree, parsed};
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{JointAxis, JointLimits, Mdh, Pose, Robot};
+use crate::kinematics::{JointAxis, JointLimits, Mdh, Pose, Robot, SNAPS, check_snap};
 
 impl<const N: usize> Robot<N>
 where
@@ -32,7 +33,22 @@ where
     /// [`Error::InvalidModel`] when the text is no URDF, `base` or `tip` are no links of a chain of `N` revolute joints or several links
     /// could be meant, or, for six axes, the arm has no known form. [`Robot::serial_chain_from_urdf`] takes such an arm without its inverse.
     pub fn from_urdf(text: &str, base: Option<&str>, tip: Option<&str>) -> Result<Self, Error> {
-        UrdfArm::read(text, base, tip, &[N])?.robot(true)
+        UrdfArm::read(text, base, tip, &[N])?.robot(true, 0.0)
+    }
+
+    /// As [`Robot::from_urdf`], with each angle of an origin, and each axis, that is within `snap` of a multiple of 90 deg [rad] made exact:
+    /// 1.5708 is a right angle then.
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::from_urdf`], and when `snap` is not 0 to [`MOST_SNAP`](crate::thresholds::MOST_SNAP).
+    pub fn from_urdf_snapped(
+        text: &str,
+        base: Option<&str>,
+        tip: Option<&str>,
+        snap: f64,
+    ) -> Result<Self, Error> {
+        UrdfArm::read(text, base, tip, &[N])?.robot(true, snap)
     }
 
     /// As [`Robot::from_urdf`]: with the closed form where the geometry has one, without where not.
@@ -45,15 +61,14 @@ where
         base: Option<&str>,
         tip: Option<&str>,
     ) -> Result<Self, Error> {
-        UrdfArm::read(text, base, tip, &[N])?.robot(false)
+        UrdfArm::read(text, base, tip, &[N])?.robot(false, 0.0)
     }
 }
 
 /// An arm as a URDF has it, with however many joints.
 pub(crate) struct UrdfArm {
     name: String,
-    motions: Vec<Motion>,
-    t_base_tip: Pose,
+    joints: Vec<Placed>,
 }
 
 impl UrdfArm {
@@ -66,41 +81,89 @@ impl UrdfArm {
     ) -> Result<Self, Error> {
         let (document, skipped) = parsed(text)?;
         let tree = Tree::new(&document, skipped)?;
-        let mut t_base_tip = Pose::identity();
-        let mut motions = Vec::new();
-        for joint in chain_between(&tree, base, tip, wanted)? {
-            t_base_tip *= joint.origin()?;
-            motions.extend(joint.motion(&t_base_tip)?);
-        }
-        Ok(Self { name: tree.name.to_string(), motions, t_base_tip })
+        let chain = chain_between(&tree, base, tip, wanted)?;
+        let joints = chain.into_iter().map(Joint::placed).collect::<Result<_, _>>()?;
+        Ok(Self { name: tree.name.to_string(), joints })
     }
 
-    /// Number of joints.
+    fn motions(&self) -> impl Iterator<Item = &Motion> {
+        self.joints.iter().filter_map(|joint| joint.motion.as_ref())
+    }
+
+    /// Number of joints that turn.
     #[cfg(feature = "python")]
     pub(crate) fn dof(&self) -> usize {
-        self.motions.len()
+        self.motions().count()
     }
 
-    /// The robot, which must have `N` joints; without `closed_form` an arm of no known form is taken too.
-    pub(crate) fn robot<const N: usize>(self, closed_form: bool) -> Result<Robot<N>, Error>
+    /// The robot, which must have `N` joints; without `closed_form` an arm of no known form is taken too. Angles within `snap` of a multiple of
+    /// 90 deg [rad] are one. Where the arm has no known form, or no table, and would have one with more snap, that is proposed.
+    pub(crate) fn robot<const N: usize>(
+        &self,
+        closed_form: bool,
+        snap: f64,
+    ) -> Result<Robot<N>, Error>
     where
         Joints<N>: Arity<N>,
     {
-        let found = self.motions.len();
-        let motions = <[Motion; N]>::try_from(self.motions)
-            .map_err(|_| ModelFault::JointCount { found, wanted: N })?;
-        let axes: [JointAxis; N] = core::array::from_fn(|i| motions[i].axis);
-        let mdh = Mdh::from_joint_axes(&axes, &self.t_base_tip)?;
-        let robot = if closed_form { Robot::from_mdh(mdh)? } else { Robot::serial_chain(mdh)? };
-        let mut velocities = [0.0; N];
-        let mut all_known = true;
-        for (velocity, motion) in velocities.iter_mut().zip(&motions) {
+        check_snap(snap)?;
+        let proposal = || {
+            let is_taken =
+                |snap| self.chain::<N>(snap).is_ok_and(|robot| robot.unknown_structure().is_none());
+            SNAPS.into_iter().find(|snap| is_taken(*snap))
+        };
+        let robot = match self.chain::<N>(snap) {
+            Ok(robot) if robot.unknown_structure().is_some() => robot.proposing(proposal()),
+            Err(Error::InvalidModel(ModelFault::NearlyParallel {
+                axes,
+                off,
+                distance,
+                bound,
+                ..
+            })) => {
+                let snap = proposal();
+                return Err(ModelFault::NearlyParallel { axes, off, distance, bound, snap }.into());
+            }
+            other => other?,
+        };
+        match robot.unknown_structure() {
+            Some(reason) if closed_form && N == 6 => {
+                Err(ModelFault::UnknownStructure(reason).into())
+            }
+            _ => self.limited(robot),
+        }
+    }
+
+    /// The chain, with the closed form where it has one.
+    fn chain<const N: usize>(&self, snap: f64) -> Result<Robot<N>, Error>
+    where
+        Joints<N>: Arity<N>,
+    {
+        let mut t_base_tip = Pose::identity();
+        let mut axes = Vec::with_capacity(N);
+        for joint in &self.joints {
+            t_base_tip *= joint.origin(snap);
+            axes.extend(joint.motion.as_ref().map(|motion| motion.axis(&t_base_tip, snap)));
+        }
+        let axes = <[JointAxis; N]>::try_from(axes)
+            .map_err(|axes| ModelFault::JointCount { found: axes.len(), wanted: N })?;
+        Robot::serial_chain(Mdh::from_joint_axes(&axes, &t_base_tip)?)
+    }
+
+    /// The robot under its name, with limits and velocities.
+    fn limited<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>
+    where
+        Joints<N>: Arity<N>,
+    {
+        let (mut limits, mut velocities, mut all_known) = ([[0.0; 2]; N], [0.0; N], true);
+        for (i, motion) in self.motions().enumerate().take(N) {
+            limits[i] = motion.limits;
+            velocities[i] = motion.velocity.unwrap_or(f64::INFINITY);
             all_known &= motion.velocity.is_some();
-            *velocity = motion.velocity.unwrap_or(f64::INFINITY);
         }
         robot
-            .with_name(self.name)
-            .with_limits(JointLimits::new(core::array::from_fn(|i| motions[i].limits))?)
+            .with_name(self.name.clone())
+            .with_limits(JointLimits::new(limits)?)
             .with_max_velocity(all_known.then_some(velocities))
     }
 }

@@ -10,6 +10,7 @@ use alloc::vec::Vec;
 use roxmltree::{Document, Node};
 
 use super::joint::Joint;
+use super::shape::check_shape;
 use crate::error::{Names, UrdfFault};
 
 /// Links and joints by their index, each link with the joint above it and those below.
@@ -30,6 +31,7 @@ pub(super) struct Tree<'a> {
 pub(super) fn parsed(text: &str) -> Result<(Document<'_>, usize), UrdfFault> {
     let body = text.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}');
     let skipped = text[..text.len() - body.len()].matches('\n').count();
+    check_shape(text)?;
     Ok((Document::parse(body).map_err(|error| not_xml(&error, skipped, body))?, skipped))
 }
 
@@ -79,7 +81,8 @@ impl<'a> Tree<'a> {
         }
         let mut names = BTreeSet::new();
         for node in elements("joint") {
-            let joint = Joint::new(node, &tree)?;
+            let missing = |missing| tree.missing(node, "joint", missing);
+            let joint = Joint::new(node, missing, |name| tree.link(name))?;
             if !names.insert(joint.name) {
                 return Err(UrdfFault::SameName { element: "joint", name: joint.name.to_owned() });
             }
@@ -90,9 +93,7 @@ impl<'a> Tree<'a> {
     }
 
     fn add_link(&mut self, node: Node<'a, 'a>) -> Result<(), UrdfFault> {
-        let missing =
-            || UrdfFault::Missing { line: self.line(node), element: "link", missing: "name" };
-        let name = node.attribute("name").ok_or_else(missing)?;
+        let name = node.attribute("name").ok_or_else(|| self.missing(node, "link", "name"))?;
         if self.index.insert(name, self.links.len()).is_some() {
             return Err(UrdfFault::SameName { element: "link", name: name.to_owned() });
         }
@@ -134,8 +135,17 @@ impl<'a> Tree<'a> {
         found
     }
 
+    fn missing(
+        &self,
+        node: Node<'_, '_>,
+        element: &'static str,
+        missing: &'static str,
+    ) -> UrdfFault {
+        UrdfFault::Missing { line: self.line(node), element, missing }
+    }
+
     /// The line on which an element begins, from 1.
-    pub(super) fn line(&self, node: Node<'_, '_>) -> usize {
+    fn line(&self, node: Node<'_, '_>) -> usize {
         node.document().text_pos_at(node.range().start).row as usize + self.skipped
     }
 

@@ -130,6 +130,8 @@ def test_batches_of_another_shape(shape):
 FAULTS = {
     "NaN": (spoiled(0, 1, np.nan), r"^pose\[0, 1\] is NaN: every element must be finite$"),
     "inf": (spoiled(2, 3, -np.inf), r"^pose\[2, 3\] is -inf: every element must be finite$"),
+    "far": (spoiled(0, 3, 1e155), r"^pose\[0, 3\] is 1e155 m, its size must be at most 1e6 m$"),
+    "far the other way": (spoiled(2, 3, -1.1e6), r"^pose\[2, 3\] is -1\.1e6 m, its size must be at most 1e6 m$"),
     "last row": (spoiled(3, 0, 0.5), r"^pose row 3 must be \[0, 0, 0, 1\], got \[0\.5, 0, 0, 1\]$"),
     "last row by little": (spoiled(3, 2, 2e-9), r"^pose row 3 must be \[0, 0, 0, 1\], got \[0, 0, 0\.000000002, 1\]$"),
     "transposed": (POSE.T.copy(), r"^pose row 3 must be \[0, 0, 0, 1\], got \["),
@@ -170,6 +172,12 @@ def test_a_vector_of_another_length_is_told_the_length(name):
     ("name", "value", "words"),
     [
         ("seed", [0, np.nan, 0, 0, 0, 0], "seed: joint 2 is NaN, every angle must be finite"),
+        (
+            "seed",
+            [0, 0, 0, -1e15, 0, 0],
+            r"^seed: joint 4 is -1e15 rad, its size must be at most 1e5 rad \(remove whole turns\)$",
+        ),
+        ("xyz", [0, 0, 2e6], r"^xyz\[2\] is 2e6 m, its size must be at most 1e6 m$"),
         ("weights", [1, 1, 1, 1, 1, -2], "weights: joint 6 is -2, a weight must be finite and not negative"),
         ("weights", [np.inf, 1, 1, 1, 1, 1], "weights: joint 1 is inf, a weight must be finite and not negative"),
         ("xyz", [0, np.nan, 0], r"xyz\[1\] is NaN: every element must be finite"),
@@ -197,6 +205,36 @@ def test_selection_checks_its_seed_like_the_solve():
             choose([np.nan] * 6)
         with pytest.raises(InvalidJointsError, match="weights: joint 1 is -1"):
             choose(Q, weights=[-1] * 6)
+
+
+@pytest.mark.parametrize("angle", [1.01e5, -3.4e9, 1e15, 1e300])
+def test_angles_of_too_many_turns_are_refused_where_an_answer_is_counted_from_them(angle):
+    q = Q.copy()
+    q[3] = angle
+    words = r"joint 4 is .* rad, its size must be at most 1e5 rad \(remove whole turns\)$"
+    for call in (
+        lambda: ROBOT.ik(POSE).nearest(q),
+        lambda: ROBOT.ik(POSE).least_motion(q),
+        lambda: ROBOT.follow(POSE[None], q),
+        lambda: ROBOT.ik_configured(POSE, [0, 0, 0, 0], fallback="nearest", seed=q),
+        lambda: ROBOT.ik_nearest(np.array([POSE] * 2), q),
+    ):
+        with pytest.raises(InvalidJointsError, match=f"^seed: {words}"):
+            call()
+    with pytest.raises(InvalidJointsError, match=f"^q: {words}"):
+        ROBOT.configuration(q)
+    with pytest.raises(InvalidJointsError, match=rf"^q\[1\]: q: {words}"):
+        ROBOT.configuration([Q, q])
+    panda = irbkin.Robot("Panda")
+    with pytest.raises(InvalidJointsError, match=r"^q7: joint 7 is .* rad, its size must be at most 1e5 rad"):
+        panda.ik(POSE, angle)
+    assert (panda.ik_batch(POSE, [0.1, angle]).status[1] == irbkin.Status.INVALID).all()
+    nearest = ROBOT.ik_nearest(np.array([POSE] * 2), [Q, q])
+    assert np.isfinite(nearest[0]).all()
+    assert np.isnan(nearest[1]).all()
+    # Forward kinematics is that of the very number.
+    rest = np.arctan2(np.sin(q), np.cos(q))
+    np.testing.assert_allclose(ROBOT.fk(q), ROBOT.fk(rest), rtol=0, atol=1e-14)
 
 
 def test_two_orientations_are_one_too_many():

@@ -4,8 +4,10 @@
 
 use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Translation3};
 
+use crate::error::{Error, ModelFault};
 use crate::kinematics::pose::Pose;
-use crate::kinematics::pose::angles::constant_sin_cos;
+use crate::kinematics::pose::angles::{constant_sin_cos, snapped};
+use crate::kinematics::thresholds::MOST_SNAP;
 
 /// One row of a Denavit-Hartenberg table; the convention is told by the table that holds it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -33,6 +35,11 @@ impl DhRow {
     pub const fn to_array(self) -> [f64; 4] {
         [self.alpha, self.a, self.d, self.theta]
     }
+
+    /// Lengths stay: text holds them exactly, and no right angle.
+    fn snapped(self, snap: f64) -> Self {
+        Self { alpha: snapped(self.alpha, snap), theta: snapped(self.theta, snap), ..self }
+    }
 }
 
 /// Modified (Craig) table with its fixed end transforms:
@@ -57,6 +64,41 @@ pub struct Sdh<const N: usize> {
     pub rows: [DhRow; N],
     /// Fixed transform behind the last row.
     pub flange: Pose,
+}
+
+impl<const N: usize> Mdh<N> {
+    /// The table with each alpha and theta that is within `snap` of a multiple of 90 deg [rad] made exact: 1.5708 is a right angle then.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidModel`] when `snap` is not 0 to [`MOST_SNAP`].
+    pub fn snapped(mut self, snap: f64) -> Result<Self, Error> {
+        check_snap(snap)?;
+        self.rows = self.rows.map(|row| row.snapped(snap));
+        Ok(self)
+    }
+}
+
+impl<const N: usize> Sdh<N> {
+    /// As [`Mdh::snapped`].
+    ///
+    /// # Errors
+    ///
+    /// As [`Mdh::snapped`].
+    pub fn snapped(mut self, snap: f64) -> Result<Self, Error> {
+        check_snap(snap)?;
+        self.rows = self.rows.map(|row| row.snapped(snap));
+        Ok(self)
+    }
+}
+
+/// How far an angle may be from a multiple of 90 deg and still be made one: 0 to [`MOST_SNAP`].
+pub(crate) fn check_snap(value: f64) -> Result<(), Error> {
+    if (0.0..=MOST_SNAP).contains(&value) {
+        Ok(())
+    } else {
+        Err(ModelFault::Snap { value, bound: MOST_SNAP }.into())
+    }
 }
 
 impl<const N: usize> From<Sdh<N>> for Mdh<N> {

@@ -62,6 +62,7 @@ impl<const N: usize> Mdh<N> {
                     off,
                     distance: farthest,
                     bound: MOST_LENGTH,
+                    snap: None,
                 }
                 .into());
             }

@@ -47,6 +47,13 @@ pub(crate) fn constant_sin_cos(angle: f64) -> (f64, f64) {
     }
 }
 
+/// The multiple of 90 deg within `snap` of an angle [rad], or the angle.
+#[must_use]
+pub(crate) fn snapped(angle: f64, snap: f64) -> f64 {
+    let nearest = (angle / FRAC_PI_2).round() * FRAC_PI_2;
+    if (angle - nearest).abs() <= snap { nearest } else { angle }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -69,6 +76,20 @@ mod tests {
             assert_eq!((sin, cos), expected, "{quarter} quarters");
         }
         assert_eq!(constant_sin_cos(0.3), 0.3_f64.sin_cos());
+    }
+
+    #[test]
+    fn an_angle_is_snapped_within_the_bound_and_left_alone_beyond() {
+        for quarters in -8..=8 {
+            let exact = f64::from(quarters) * FRAC_PI_2;
+            for (snap, off) in [(1e-5, 0.99e-5), (1e-5, -3.7e-6), (1e-3, 0.9e-3), (0.0, 0.0)] {
+                assert_eq!(snapped(exact + off, snap), exact);
+            }
+            for (snap, off) in [(1e-5, 1.01e-5), (0.0, 1e-9), (1e-3, -1.1e-3), (1e-3, 0.5)] {
+                assert_eq!(snapped(exact + off, snap), exact + off);
+            }
+        }
+        assert!(snapped(f64::NAN, 1e-3).is_nan() && snapped(f64::INFINITY, 1e-3).is_infinite());
     }
 
     #[test]

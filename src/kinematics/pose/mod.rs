@@ -14,7 +14,8 @@ use crate::error::{Error, PoseFault};
 use crate::kinematics::pose::angles::constant_sin_cos;
 use crate::kinematics::pose::rotation::{Rows3, determinant, gram_excess, nearest_rotation};
 use crate::kinematics::thresholds::{
-    GIMBAL_COS, LAST_ROW_BOUND, QUATERNION_NORM_BOUND, ROTATION_REPAIR_BOUND, ROTATION_ROUNDING,
+    GIMBAL_COS, LAST_ROW_BOUND, MOST_LENGTH, QUATERNION_NORM_BOUND, ROTATION_REPAIR_BOUND,
+    ROTATION_ROUNDING,
 };
 
 /// A rigid transform: a rotation matrix and a translation [m].
@@ -52,8 +53,8 @@ impl PoseError {
 ///
 /// # Errors
 ///
-/// [`Error::InvalidPose`] when an element is not finite, the last row is not 0 0 0 1, the rotation mirrors or is off orthonormal by
-/// more than [`ROTATION_REPAIR_BOUND`]. A rotation that is off by less becomes the nearest rotation.
+/// [`Error::InvalidPose`] when an element is not finite, a coordinate of the position exceeds [`MOST_LENGTH`], the last row is not
+/// 0 0 0 1, the rotation mirrors or is off orthonormal by more than [`ROTATION_REPAIR_BOUND`]. A rotation that is off by less becomes the nearest rotation.
 pub fn pose_from_rows(rows: &[f64; 16]) -> Result<Pose, Error> {
     if let Some(index) = rows.iter().position(|element| !element.is_finite()) {
         return Err(
@@ -61,6 +62,7 @@ pub fn pose_from_rows(rows: &[f64; 16]) -> Result<Pose, Error> {
         );
     }
     let &[r00, r01, r02, x, r10, r11, r12, y, r20, r21, r22, z, l0, l1, l2, l3] = rows;
+    check_near("pose", [x, y, z])?;
     if [l0, l1, l2, l3 - 1.0].iter().any(|element| element.abs() > LAST_ROW_BOUND) {
         return Err(PoseFault::LastRow { row: [l0, l1, l2, l3] }.into());
     }
@@ -118,9 +120,11 @@ pub(crate) fn checked_pose(pose: &Pose) -> Result<Pose, Error> {
 ///
 /// # Errors
 ///
-/// [`Error::InvalidPose`] when an element is not finite or the quaternion's norm is off one by more than [`QUATERNION_NORM_BOUND`].
+/// [`Error::InvalidPose`] when an element is not finite, a coordinate exceeds [`MOST_LENGTH`] or the quaternion's norm is off one by
+/// more than [`QUATERNION_NORM_BOUND`].
 pub fn pose_from_quaternion(xyz: [f64; 3], wxyz: [f64; 4]) -> Result<Pose, Error> {
     check_finite("xyz", &xyz)?;
+    check_near("xyz", xyz)?;
     check_finite("quaternion", &wxyz)?;
     let norm = wxyz.iter().map(|element| element * element).sum::<f64>().sqrt();
     if (norm - 1.0).abs() > QUATERNION_NORM_BOUND {
@@ -148,9 +152,10 @@ pub fn pose_from_quaternion(xyz: [f64; 3], wxyz: [f64; 4]) -> Result<Pose, Error
 ///
 /// # Errors
 ///
-/// [`Error::InvalidPose`] when an element is not finite.
+/// [`Error::InvalidPose`] when an element is not finite or a coordinate exceeds [`MOST_LENGTH`].
 pub fn pose_from_euler_zyx(xyz: [f64; 3], zyx: [f64; 3]) -> Result<Pose, Error> {
     check_finite("xyz", &xyz)?;
+    check_near("xyz", xyz)?;
     check_finite("euler_zyx", &zyx)?;
     Ok(pose_of_zyx(xyz, zyx.map(f64::sin_cos)))
 }
@@ -221,6 +226,16 @@ pub fn pose_to_euler_zyx(pose: &Pose) -> ([f64; 3], [f64; 3]) {
 fn check_finite(field: &'static str, values: &[f64]) -> Result<(), Error> {
     match values.iter().position(|value| !value.is_finite()) {
         Some(index) => Err(PoseFault::FieldNotFinite { field, index, value: values[index] }.into()),
+        None => Ok(()),
+    }
+}
+
+/// A position that is near enough for squares of its coordinates to keep their digits.
+fn check_near(field: &'static str, xyz: [f64; 3]) -> Result<(), Error> {
+    match xyz.iter().position(|coordinate| coordinate.abs() > MOST_LENGTH) {
+        Some(index) => {
+            Err(PoseFault::TooFar { field, index, value: xyz[index], bound: MOST_LENGTH }.into())
+        }
         None => Ok(()),
     }
 }

@@ -11,7 +11,10 @@ use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::structure::any::AnyStructure;
 use crate::kinematics::structure::arity::{Arity, Joints, StructureOf};
 use crate::kinematics::structure::spherical_wrist::OpwParameters;
-use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH};
+use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH, MOST_SNAP};
+
+/// What is proposed as a `snap` to an arm that it would help [rad]: the least of these.
+pub(crate) const SNAPS: [f64; 6] = [1e-8, 1e-7, 1e-6, 1e-5, 1e-4, MOST_SNAP];
 
 impl Robot<6> {
     /// A robot from the parameters of an ortho-parallel arm with a spherical wrist.
@@ -31,7 +34,7 @@ where
     /// A robot from a modified (Craig) Denavit-Hartenberg table, with the closed form of its geometry.
     ///
     /// A six-axis table may have its frames and its zero pose anywhere; what is within 1e-9 rad or m of the form is made exactly so.
-    /// A seven-axis arm of no known form has forward kinematics and the Jacobian.
+    /// A seven-axis arm of no known form has forward kinematics and the Jacobian. For angles written with few digits, see [`Mdh::snapped`].
     ///
     /// # Errors
     ///
@@ -63,7 +66,28 @@ where
         check_rows(&mdh.rows)?;
         (mdh.base, mdh.flange) = (checked_pose(&mdh.base)?, checked_pose(&mdh.flange)?);
         let (chain, structure) = StructureOf::<N>::recognize(&mdh);
-        Ok(Self::new(Definition::Mdh(mdh), chain, structure))
+        let mut robot = Self::new(Definition::Mdh(mdh), chain, structure);
+        if robot.unknown_structure().is_some() {
+            let snap = robot.helpful_snap();
+            robot.structure = robot.structure.proposing(snap);
+        }
+        Ok(robot)
+    }
+
+    /// The least of the snaps that are proposed with which a table has a known structure.
+    fn helpful_snap(&self) -> Option<f64> {
+        let Definition::Mdh(mdh) = &self.definition else { return None };
+        SNAPS.into_iter().find(|snap| {
+            let snapped = mdh.clone().snapped(*snap);
+            snapped.is_ok_and(|mdh| StructureOf::<N>::recognize(&mdh).1.arm().unknown().is_none())
+        })
+    }
+
+    /// The same robot with another proposal of a `snap`, where its structure is unknown.
+    #[cfg(feature = "urdf")]
+    pub(crate) fn proposing(mut self, snap: Option<f64>) -> Self {
+        self.structure = self.structure.proposing(snap);
+        self
     }
 
     /// [`Robot::from_opw`] for a caller that is generic over the number of joints.

@@ -3,6 +3,9 @@
 mod build;
 mod linkage;
 
+#[cfg(feature = "urdf")]
+pub(crate) use build::SNAPS;
+
 use alloc::borrow::Cow;
 
 use nalgebra::SMatrix;

@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 use nalgebra::ComplexField as _;
 
 use crate::error::{Error, JointFault, ModelFault, NoConfiguration};
-use crate::kinematics::answer::check::check_joints;
+use crate::kinematics::answer::check::check_seed;
 use crate::kinematics::answer::select::Turns;
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::solutions::{Place, Solution, Solutions};
@@ -69,7 +69,7 @@ impl Configuration {
 }
 
 /// The number of an angle's quarter turn: its floor, an angle that is an edge but for the rounding of degrees to radians being one.
-#[expect(clippy::cast_possible_truncation, reason = "saturates where no controller counts")]
+#[expect(clippy::cast_possible_truncation, reason = "no more than MOST_QUARTERS")]
 fn quarter(angle: f64) -> i32 {
     let quarters = angle / FRAC_PI_2;
     let edge = quarters.round();
@@ -85,11 +85,11 @@ impl Robot<6> {
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidJoints`] when an angle is not finite, [`Error::InvalidModel`] for an arm without a spherical wrist, whose
+    /// [`Error::InvalidJoints`] when an angle is not finite or exceeds [`MOST_ANGLE`], [`Error::InvalidModel`] for an arm without a spherical wrist, whose
     /// controller counts otherwise.
     pub fn configuration(&self, q: &[f64; 6]) -> Result<Configuration, Error> {
         let arm = self.counted()?;
-        check_joints("q", q)?;
+        check_seed("q", q)?;
         Ok(self.configuration_of(arm, q))
     }
 
@@ -125,7 +125,7 @@ impl Robot<6> {
         wanted: Configuration,
         seed: &[f64; 6],
     ) -> Result<Solution<6>, Error> {
-        check_joints("seed", seed)?;
+        check_seed("seed", seed)?;
         self.ik_configured_or_nearest_checked(checked_pose(pose)?, wanted, seed)
     }
 

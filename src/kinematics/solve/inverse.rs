@@ -36,7 +36,7 @@ impl Robot<7> {
     ///
     /// # Errors
     ///
-    /// As [`Robot::<6>::ik`], and [`Error::InvalidJoints`] when `q7` is not finite.
+    /// As [`Robot::<6>::ik`], and [`Error::InvalidJoints`] when `q7` is not finite or exceeds [`MOST_ANGLE`].
     pub fn ik(&self, pose: &Pose, q7: f64) -> Result<Solutions<7>, Error> {
         self.ik_with(pose, q7)
     }

@@ -1,7 +1,7 @@
 //! The solution next to a seed, for every number of joints that has an inverse.
 
 use crate::error::Error;
-use crate::kinematics::answer::check::{check_joints, check_weights};
+use crate::kinematics::answer::check::{check_seed, check_weights};
 use crate::kinematics::answer::solutions::Solution;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
@@ -87,7 +87,7 @@ where
         seed: &[f64; N],
         weights: &[f64; N],
     ) -> Result<Solution<N>, Error> {
-        check_joints("seed", seed)?;
+        check_seed("seed", seed)?;
         check_weights(weights)?;
         self.nearest_checked(checked_pose(pose)?, seed, weights)
     }

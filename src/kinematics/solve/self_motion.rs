@@ -4,7 +4,7 @@ use crate::kinematics::structure::arity::{Arity, Joints};
 use core::f64::consts::{PI, TAU};
 
 use crate::error::{Error, JointFault};
-use crate::kinematics::answer::check::check_joints;
+use crate::kinematics::answer::check::check_angle;
 use crate::kinematics::answer::select::Cost;
 use crate::kinematics::answer::solutions::{Place, Solution, Solutions};
 use crate::kinematics::answer::status::Status;
@@ -42,7 +42,7 @@ where
     ///
     /// # Errors
     ///
-    /// As [`Robot::ik`], [`Error::InvalidJoints`] when the value is not finite or the solution is none of the pose, and
+    /// As [`Robot::ik`], [`Error::InvalidJoints`] when the value is not finite or too large or the solution is none of the pose, and
     /// [`Error::Unreachable`] when the arm does not reach with the free joint there.
     pub fn with_free(
         &self,
@@ -55,11 +55,7 @@ where
         if off > SOLUTION_OFF {
             return Err(JointFault::NotOfPose { off }.into());
         }
-        check_joints("value", &[value]).map_err(|_| JointFault::NotFinite {
-            field: "value",
-            joint: free.joint(),
-            value,
-        })?;
+        check_angle("value", free.joint(), value)?;
         let moved = self.with_free_at(&checked_pose(pose)?, solution, free, value)?;
         moved
             .map(Some)

@@ -131,6 +131,10 @@ pub(crate) trait AnyStructure<const N: usize>:
     #[must_use]
     fn between(self, chain: &Chain<N>, limits: &JointLimits<N>) -> Self;
 
+    /// Unknown as it is, with the `snap` that would help; the same where it is known.
+    #[must_use]
+    fn proposing(self, snap: Option<f64>) -> Self;
+
     /// Number of slots; none where the structure is unknown.
     fn slot_count(&self) -> usize;
 

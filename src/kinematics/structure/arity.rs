@@ -84,6 +84,10 @@ impl<const N: usize> AnyStructure<N> for NoStructure {
         self
     }
 
+    fn proposing(self, _: Option<f64>) -> Self {
+        self
+    }
+
     fn slot_count(&self) -> usize {
         0
     }

@@ -42,6 +42,13 @@ macro_rules! structures {
                 }
             }
 
+            fn proposing(self, snap: Option<f64>) -> Self {
+                match self {
+                    Self::Unknown(reason) => Self::Unknown(reason.proposing(snap)),
+                    known => known,
+                }
+            }
+
             #[inline]
             fn slot_count(&self) -> usize {
                 match self {

@@ -1,6 +1,7 @@
 //! What a pose leaves open of every arm with a number of joints, and a caller gives.
 
-use crate::error::{Error, JointFault};
+use crate::error::Error;
+use crate::kinematics::answer::check::check_angle;
 use crate::lanes::{Column, LANES};
 
 /// What a caller gives with a pose: nothing, `()`, for six joints; the angle of joint 7 [rad], an `f64`, for seven.
@@ -69,10 +70,6 @@ impl Redundancy for f64 {
     }
 
     fn check(self) -> Result<(), Error> {
-        if self.is_finite() {
-            Ok(())
-        } else {
-            Err(JointFault::NotFinite { field: "q7", joint: 7, value: self }.into())
-        }
+        check_angle("q7", 7, self)
     }
 }

@@ -12,8 +12,9 @@ use self::records::{
     Given, joint_target, read_content, read_joint_target, read_rob_target, read_tool, read_wobj,
     record, rob_target,
 };
+use super::classes;
 use super::configurations::{Fallback, counted};
-use super::errors::{self, rapid_fault, to_py};
+use super::errors::{rapid_fault, to_py};
 use super::found::read_seed;
 use super::robot::PyRobot;
 use crate::error::Error;
@@ -318,11 +319,11 @@ fn table<'py>(py: Python<'py>, rows: &[TableRow]) -> PyResult<Bound<'py, PyAny>>
             .into_any(),
         (PyArray1::from_vec(py, joints).reshape([rows.len(), 6])? as Bound<'_, PyArray2<f64>>)
             .into_any(),
-        errors::configuration_class(py)?.call1((cf1, cf4, cf6, cfx))?,
+        classes::configuration_class(py)?.call1((cf1, cf4, cf6, cfx))?,
         distance(|d| d.wrist).into_any(),
         distance(|d| d.elbow).into_any(),
         distance(|d| d.shoulder).into_any(),
         PyTuple::new(py, rows.iter().map(|row| &row.problem))?.into_any(),
     ];
-    errors::target_table_class(py)?.call1(PyTuple::new(py, fields)?)
+    classes::target_table_class(py)?.call1(PyTuple::new(py, fields)?)
 }

@@ -6,7 +6,8 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyMappingProxy, PyTuple};
 
 use super::records::{content, joint_target, read_content, record, rob_target};
-use crate::python::errors::{self, rapid_fault, to_py};
+use crate::python::classes;
+use crate::python::errors::{rapid_fault, to_py};
 use crate::rapid::{
     self, Argument, Content, Datum, Module, Move, NewValue, Scope, Storage, Target, Value,
 };
@@ -86,7 +87,7 @@ impl RapidModule {
     /// What was not read, in the order of the text: (line, column, routine, what, text).
     #[getter]
     fn skipped<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let class = errors::skipped_class(py)?;
+        let class = classes::skipped_class(py)?;
         let skipped = self.module.skipped().iter().map(|part| {
             class.call1((part.line, part.column, &part.routine, &part.what, &part.text))
         });
@@ -192,7 +193,7 @@ fn declaration<'py>(py: Python<'py>, datum: &Datum) -> PyResult<Bound<'py, PyAny
         datum.line,
         datum.column,
     );
-    errors::declaration_class(py)?.call1(fields)
+    classes::declaration_class(py)?.call1(fields)
 }
 
 fn move_record<'py>(py: Python<'py>, step: &Move) -> PyResult<Bound<'py, PyAny>> {
@@ -223,7 +224,7 @@ fn move_record<'py>(py: Python<'py>, step: &Move) -> PyResult<Bound<'py, PyAny>>
         step.column.into_pyobject(py)?.into_any(),
         step.displaced.into_pyobject(py)?.into_any(),
     ];
-    errors::move_class(py)?.call1(PyTuple::new(py, fields)?)
+    classes::move_class(py)?.call1(PyTuple::new(py, fields)?)
 }
 
 fn argument<'py, T>(
@@ -235,5 +236,5 @@ fn argument<'py, T>(
         Ok(value) => (Some(record(value)?), None),
         Err(reason) => (None, Some(reason)),
     };
-    errors::argument_class(py)?.call1((&argument.text, value, reason))
+    classes::argument_class(py)?.call1((&argument.text, value, reason))
 }

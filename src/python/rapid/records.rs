@@ -5,8 +5,9 @@ use pyo3::types::{PyBool, PyBytes, PyFloat, PyList, PyString, PyTuple};
 
 use crate::kinematics::{Configuration, check_joints};
 use crate::python::arrays::vector;
-use crate::python::configurations;
-use crate::python::errors::{self, Fault, rapid_fault, to_py};
+use crate::python::classes;
+use crate::python::errors::{Fault, rapid_fault, to_py};
+use crate::python::records as python_records;
 use crate::rapid::{
     Content, JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, ToolData, Value, WobjData,
 };
@@ -21,16 +22,16 @@ pub(super) fn record<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py,
         Value::JointTarget(target) => joint_target(py, target),
         Value::ToolData(tool) => {
             let (tframe, tload) = (pose(py, &tool.tframe)?, load(py, &tool.tload)?);
-            errors::tool_data_class(py)?.call1((tool.robhold, tframe, tload))
+            classes::tool_data_class(py)?.call1((tool.robhold, tframe, tload))
         }
         Value::WobjData(WobjData { robhold, ufprog, ufmec, uframe, oframe }) => {
             let (uframe, oframe) = (pose(py, uframe)?, pose(py, oframe)?);
-            errors::wobj_data_class(py)?.call1((robhold, ufprog, ufmec, uframe, oframe))
+            classes::wobj_data_class(py)?.call1((robhold, ufprog, ufmec, uframe, oframe))
         }
         Value::Pose(frame) => pose(py, frame),
         Value::Pos(numbers) => Ok(PyTuple::new(py, numbers)?.into_any()),
         Value::Orient(numbers) => Ok(PyTuple::new(py, numbers)?.into_any()),
-        Value::ConfData(configuration) => configurations::record(py, configuration),
+        Value::ConfData(configuration) => python_records::configuration(py, configuration),
         Value::ExtJoint(numbers) => Ok(PyTuple::new(py, numbers)?.into_any()),
         Value::LoadData(data) => load(py, data),
         Value::Num(number) => Ok(PyFloat::new(py, *number).into_any()),
@@ -38,8 +39,8 @@ pub(super) fn record<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py,
 }
 
 pub(super) fn rob_target<'py>(py: Python<'py>, target: &RobTarget) -> PyResult<Bound<'py, PyAny>> {
-    let robconf = configurations::record(py, &target.robconf)?;
-    errors::rob_target_class(py)?.call1((
+    let robconf = python_records::configuration(py, &target.robconf)?;
+    classes::rob_target_class(py)?.call1((
         tuple(py, target.trans_mm)?,
         tuple(py, target.rot)?,
         robconf,
@@ -51,16 +52,16 @@ pub(super) fn joint_target<'py>(
     py: Python<'py>,
     target: &JointTarget,
 ) -> PyResult<Bound<'py, PyAny>> {
-    errors::joint_target_class(py)?.call1((tuple(py, target.robax_deg)?, tuple(py, target.extax)?))
+    classes::joint_target_class(py)?.call1((tuple(py, target.robax_deg)?, tuple(py, target.extax)?))
 }
 
 fn pose<'py>(py: Python<'py>, pose: &RapidPose) -> PyResult<Bound<'py, PyAny>> {
-    errors::rapid_pose_class(py)?.call1((tuple(py, pose.trans_mm)?, tuple(py, pose.rot)?))
+    classes::rapid_pose_class(py)?.call1((tuple(py, pose.trans_mm)?, tuple(py, pose.rot)?))
 }
 
 fn load<'py>(py: Python<'py>, load: &LoadData) -> PyResult<Bound<'py, PyAny>> {
     let LoadData { mass_kg, cog_mm, aom, inertia } = load;
-    errors::load_data_class(py)?.call1((
+    classes::load_data_class(py)?.call1((
         mass_kg,
         tuple(py, *cog_mm)?,
         tuple(py, *aom)?,
@@ -187,7 +188,7 @@ impl From<LoadFields> for LoadData {
 }
 
 pub(super) fn read_rob_target(given: &Bound<'_, PyAny>) -> PyResult<RobTarget> {
-    demand(given, errors::rob_target_class(given.py())?, "target", "a RobTarget")?;
+    demand(given, classes::rob_target_class(given.py())?, "target", "a RobTarget")?;
     let RobTargetFields { trans_mm, rot, robconf: [cf1, cf4, cf6, cfx], extax } =
         given.extract()?;
     Ok(RobTarget { trans_mm, rot, robconf: Configuration { cf1, cf4, cf6, cfx }, extax })
@@ -195,7 +196,7 @@ pub(super) fn read_rob_target(given: &Bound<'_, PyAny>) -> PyResult<RobTarget> {
 
 /// A jointtarget, or joint angles [rad].
 pub(super) fn read_joint_target(given: &Bound<'_, PyAny>) -> PyResult<JointTarget> {
-    if given.is_instance(errors::joint_target_class(given.py())?)? {
+    if given.is_instance(classes::joint_target_class(given.py())?)? {
         let JointTargetFields { robax_deg, extax } = given.extract()?;
         return Ok(JointTarget { robax_deg, extax });
     }
@@ -205,13 +206,13 @@ pub(super) fn read_joint_target(given: &Bound<'_, PyAny>) -> PyResult<JointTarge
 }
 
 pub(super) fn read_tool(given: &Bound<'_, PyAny>) -> PyResult<ToolData> {
-    demand(given, errors::tool_data_class(given.py())?, "tool", "a ToolData")?;
+    demand(given, classes::tool_data_class(given.py())?, "tool", "a ToolData")?;
     let ToolFields { robhold, tframe, tload } = given.extract()?;
     Ok(ToolData { robhold, tframe: tframe.into(), tload: tload.into() })
 }
 
 pub(super) fn read_wobj(given: &Bound<'_, PyAny>) -> PyResult<WobjData> {
-    demand(given, errors::wobj_data_class(given.py())?, "wobj", "a WobjData")?;
+    demand(given, classes::wobj_data_class(given.py())?, "wobj", "a WobjData")?;
     let WobjFields { robhold, ufprog, ufmec, uframe, oframe } = given.extract()?;
     Ok(WobjData { robhold, ufprog, ufmec, uframe: uframe.into(), oframe: oframe.into() })
 }
@@ -235,19 +236,19 @@ fn demand(
 fn read_value(given: &Bound<'_, PyAny>, thing: &str) -> PyResult<Value> {
     let py = given.py();
     let is = |class: PyResult<&Bound<'_, PyAny>>| given.is_instance(class?);
-    let value = if is(errors::rob_target_class(py))? {
+    let value = if is(classes::rob_target_class(py))? {
         Value::RobTarget(read_rob_target(given)?)
-    } else if is(errors::joint_target_class(py))? {
+    } else if is(classes::joint_target_class(py))? {
         Value::JointTarget(read_joint_target(given)?)
-    } else if is(errors::tool_data_class(py))? {
+    } else if is(classes::tool_data_class(py))? {
         Value::ToolData(read_tool(given)?)
-    } else if is(errors::wobj_data_class(py))? {
+    } else if is(classes::wobj_data_class(py))? {
         Value::WobjData(read_wobj(given)?)
-    } else if is(errors::rapid_pose_class(py))? {
+    } else if is(classes::rapid_pose_class(py))? {
         Value::Pose(given.extract::<PoseFields>()?.into())
-    } else if is(errors::load_data_class(py))? {
+    } else if is(classes::load_data_class(py))? {
         Value::LoadData(given.extract::<LoadFields>()?.into())
-    } else if is(errors::configuration_class(py))? {
+    } else if is(classes::configuration_class(py))? {
         let whole = given.extract::<[i32; 4]>();
         let [cf1, cf4, cf6, cfx] = whole.map_err(|_| {
             rapid_fault(py, format!("{thing}: {given} is no confdata of four whole numbers"))

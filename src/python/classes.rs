@@ -1,0 +1,44 @@
+//! The exceptions, enumerations and records that `irbkin` defines in Python, looked up once.
+
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+
+/// An attribute of a Python module of the package, looked up once.
+macro_rules! package_object {
+    ($name:ident, $module:literal, $attribute:literal) => {
+        pub(super) fn $name(py: Python<'_>) -> PyResult<&Bound<'_, PyAny>> {
+            static OBJECT: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
+            OBJECT
+                .get_or_try_init(py, || Ok(py.import($module)?.getattr($attribute)?.unbind()))
+                .map(|object| object.bind(py))
+        }
+    };
+}
+
+package_object!(invalid_pose_error, "irbkin.errors", "InvalidPoseError");
+package_object!(invalid_joints_error, "irbkin.errors", "InvalidJointsError");
+package_object!(invalid_model_error, "irbkin.errors", "InvalidModelError");
+package_object!(unknown_robot_error, "irbkin.errors", "UnknownRobotError");
+package_object!(unreachable_error, "irbkin.errors", "UnreachableError");
+package_object!(rapid_error, "irbkin.errors", "RapidError");
+package_object!(configuration_class, "irbkin.records", "Configuration");
+package_object!(rob_target_class, "irbkin.rapid.records", "RobTarget");
+package_object!(joint_target_class, "irbkin.rapid.records", "JointTarget");
+package_object!(tool_data_class, "irbkin.rapid.records", "ToolData");
+package_object!(wobj_data_class, "irbkin.rapid.records", "WobjData");
+package_object!(rapid_pose_class, "irbkin.rapid.records", "Pose");
+package_object!(load_data_class, "irbkin.rapid.records", "LoadData");
+package_object!(declaration_class, "irbkin.rapid.program", "Declaration");
+package_object!(argument_class, "irbkin.rapid.program", "Argument");
+package_object!(move_class, "irbkin.rapid.program", "Move");
+package_object!(skipped_class, "irbkin.rapid.program", "Skipped");
+package_object!(target_table_class, "irbkin.rapid.program", "TargetTable");
+package_object!(kind_class, "irbkin.records", "Kind");
+package_object!(status_class, "irbkin.records", "Status");
+package_object!(reach_class, "irbkin.records", "Reach");
+package_object!(ik_batch_class, "irbkin.records", "IkBatch");
+package_object!(singularity_class, "irbkin.records", "Singularity");
+package_object!(free_joint_class, "irbkin.records", "FreeJoint");
+package_object!(break_class, "irbkin.records", "Break");
+package_object!(follow_result_class, "irbkin.records", "FollowResult");
+package_object!(pose_check_class, "irbkin.records", "PoseCheck");

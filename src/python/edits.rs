@@ -1,0 +1,58 @@
+//! What a robot is changed in, whatever its number of joints.
+
+use super::arm::Change;
+use crate::error::{Error, ModelFault};
+use crate::kinematics::{Arity, JointLimits, Joints, Pose, Robot};
+
+/// A change of a robot.
+pub(super) enum Edit<'a> {
+    /// Another name.
+    Name(&'a str),
+    /// Other joint limits, as many as joints [rad].
+    Limits(&'a [[f64; 2]]),
+    /// Another base.
+    Base(Pose),
+    /// Another tool.
+    Tool(Pose),
+    /// The coupled twin, or the serial one.
+    Coupled(bool),
+    /// Other limits of the rod [rad], or none.
+    RodLimits(Option<[f64; 2]>),
+    /// The coupling of a pickled robot: none, or the limits of its rod, which may be no numbers.
+    Coupling(Option<&'a [f64]>),
+    /// Other velocities, as many as joints [rad/s], or none.
+    MaxVelocity(Option<&'a [f64]>),
+}
+
+impl Change for Edit<'_> {
+    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>
+    where
+        Joints<N>: Arity<N>,
+    {
+        match self {
+            Self::Name(name) => Ok(robot.with_name((*name).to_owned())),
+            Self::Limits(limits) => Ok(robot.with_limits(JointLimits::new(of_joints(limits)?)?)),
+            Self::Base(base) => robot.with_base(base),
+            Self::Tool(tool) => robot.with_tool(tool),
+            Self::Coupled(true) | Self::Coupling(Some([])) => robot.coupled(),
+            Self::Coupled(false) => Ok(robot.serial()),
+            Self::RodLimits(rod) => robot.with_rod_limits(*rod),
+            Self::Coupling(None) => Ok(robot),
+            Self::Coupling(Some(rod)) => {
+                let damaged =
+                    |_| Error::WrongLength { field: "rod limits", found: rod.len(), wanted: 2 };
+                let rod = <[f64; 2]>::try_from(*rod).map_err(damaged)?;
+                robot.coupled()?.with_rod_limits(Some(rod))
+            }
+            Self::MaxVelocity(velocity) => {
+                robot.with_max_velocity(velocity.map(of_joints).transpose()?)
+            }
+        }
+    }
+}
+
+/// One element a joint.
+fn of_joints<T: Copy, const N: usize>(elements: &[T]) -> Result<[T; N], Error> {
+    let unlike = |_| ModelFault::JointCount { found: N, wanted: elements.len() }.into();
+    <[T; N]>::try_from(elements).map_err(unlike)
+}

@@ -1,0 +1,211 @@
+//! Methods of `irbkin.Robot` that take poses.
+
+use std::sync::Arc;
+
+use numpy::PyArray1;
+use pyo3::prelude::*;
+
+use super::arguments::{read_crossing, thread_count};
+use super::arm::{Arm, on_robot};
+use super::batches::{self, needed_q7, no_q7};
+use super::classes::pose_check_class;
+use super::configurations::{self, Fallback};
+use super::errors::to_py;
+use super::found::{Found, read_seed, read_weights};
+use super::paths;
+use super::poses::{PoseArgument, read_pose, read_poses};
+use super::robot::PyRobot;
+use super::solutions::PySolutions;
+use crate::kinematics::thresholds::WRIST_ZONE;
+use crate::kinematics::{Explanation, FollowOptions, Inverse, Redundancy};
+
+#[pymethods]
+#[expect(non_snake_case, reason = "T is the name that users pass")]
+impl PyRobot {
+    /// Every joint vector that brings the tool to a pose.
+    ///
+    /// Args:
+    ///     T: Pose of the tool, shape (4, 4), translation [m].
+    ///     q7: Angle of joint 7 [rad], of an arm of seven joints.
+    ///
+    /// Returns:
+    ///     Solutions, each in its slot, limits not regarded; empty with `reach` and `shortfall` when out of reach.
+    ///
+    /// Raises:
+    ///     InvalidPoseError: T has a wrong shape, is not finite or is no rigid transform.
+    ///     InvalidJointsError: q7 is not finite.
+    ///     InvalidModelError: The arm has no closed form.
+    ///     TypeError: q7 is missing, or the arm has six joints and it is not.
+    #[pyo3(signature = (T, q7=None))]
+    fn ik<'py>(&self, T: &Bound<'py, PyAny>, q7: Option<f64>) -> PyResult<Bound<'py, PySolutions>> {
+        let py = T.py();
+        match self.arm() {
+            Arm::Six(robot) => {
+                no_q7(q7.is_some())?;
+                let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_pose(T, "T")?));
+                robot.ik_into(&mut found.solutions, ()).map_err(|error| to_py(py, &error))?;
+                Bound::new(py, PySolutions::from(found))
+            }
+            Arm::Seven(robot) => {
+                let q7 = needed_q7(py, robot, q7)?;
+                let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_pose(T, "T")?));
+                q7.check()
+                    .and_then(|()| robot.ik_into(&mut found.solutions, q7))
+                    .map_err(|error| to_py(py, &error))?;
+                Bound::new(py, PySolutions::from(found))
+            }
+        }
+    }
+
+    /// Every joint vector of many poses.
+    ///
+    /// Args:
+    ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
+    ///     q7: Angles of joint 7 [rad] of an arm of seven joints, of a shape that goes with (...): T and q7 are broadcast.
+    ///     out: Where to write: an IkBatch or tuple of arrays (..., 8, n) float64 and (..., 8) uint8, or the first of them alone.
+    ///     threads: Number of threads; 0 for one a core.
+    ///
+    /// Returns:
+    ///     IkBatch(q, status): joint angles [rad], shape (..., 8, n), NaN where a slot is empty, and `irbkin.Status` of each slot, shape
+    ///     (..., 8), uint8. A row that is no pose, or whose q7 is none, has status INVALID; the others are not touched by it.
+    ///
+    /// Raises:
+    ///     InvalidPoseError: T has a wrong shape.
+    ///     InvalidJointsError: q7 has a wrong shape.
+    ///     InvalidModelError: The arm has no closed form.
+    ///     TypeError: q7 is missing, or the arm has six joints and it is not.
+    #[pyo3(signature = (T, q7=None, *, out=None, threads=1))]
+    fn ik_batch<'py>(
+        &self,
+        T: &Bound<'py, PyAny>,
+        q7: Option<&Bound<'py, PyAny>>,
+        out: Option<&Bound<'py, PyAny>>,
+        threads: isize,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        batches::ik(self.arm(), T, q7, out, thread_count(threads)?)
+    }
+
+    /// The solution inside the limits that is nearest to `seed`, turns considered.
+    ///
+    /// Args:
+    ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
+    ///     seed: Joint vectors [rad], shape (..., n), or one for all poses, shape (n,). A joint that the pose leaves free keeps its angle.
+    ///     weights: Cost of moving each joint, shape (n,); ones when not given.
+    ///
+    /// Returns:
+    ///     Joint vectors [rad], shape (..., n). In a batch, a row without a solution, or whose pose or seed is invalid, is NaN.
+    ///
+    /// Raises:
+    ///     UnreachableError: A single pose has no solution inside the limits; the message says what is missing.
+    ///     InvalidPoseError, InvalidJointsError, InvalidModelError: As `ik`; a seed or weight that is not finite.
+    #[pyo3(signature = (T, seed, weights=None))]
+    fn ik_nearest<'py>(
+        &self,
+        T: &Bound<'py, PyAny>,
+        seed: &Bound<'py, PyAny>,
+        weights: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        on_robot!(self.arm(), robot => {
+            let pose = match read_poses(T)? {
+                PoseArgument::One(pose) => pose,
+                PoseArgument::Many(poses) => return Ok(paths::nearest(robot, &poses, seed, weights)?.into_any()),
+            };
+            let (seed, weights) = read_seed(seed, weights)?;
+            let nearest = robot.nearest_checked(pose, &seed, &weights).map_err(|error| to_py(T.py(), &error))?;
+            Ok(PyArray1::from_slice(T.py(), &nearest.q).into_any())
+        })
+    }
+
+    /// One continuous joint path along a path of poses: inside the limits, turns considered, through singularities without a jump where
+    /// there is a way.
+    ///
+    /// Args:
+    ///     T: Poses of the tool, shape (m, 4, 4), or several paths, shape (..., m, 4, 4), translation [m].
+    ///     seed: Joint vector from which a path starts [rad], shape (6,), or one for each path, shape (..., 6).
+    ///     weights: Cost of moving each joint, shape (6,); ones when not given.
+    ///     singular: What to do at the wrist singularity. "through": meet every pose exactly, however fast axes 4 and 6 turn. "error": stop
+    ///         where joint 5 comes into the zone, and where a joint must jump, as SingArea \Off. "wrist": inside the zone axes 4, 5, 6 go
+    ///         straight from where they enter to where they leave, position exact, as SingArea \Wrist. "lock_axis4": axis 4 stays at 0 or
+    ///         +-180 deg all along, position exact, orientation where it can be, as SingArea \LockAxis4.
+    ///     zone: |sin q5| below which `singular` acts; 0.0175, that is one degree, when not given.
+    ///
+    /// Returns:
+    ///     FollowResult: joints [rad], shape (..., m, 6), NaN where a pose is not met; orientation error [rad], shape (..., m); the breaks.
+    ///
+    /// Raises:
+    ///     InvalidPoseError: T has a wrong shape or holds a matrix that is no pose; the message has its index.
+    ///     InvalidJointsError: A seed, weight or zone that is not finite.
+    ///     InvalidModelError: The arm has no closed form or seven joints; "wrist" or "lock_axis4" for an arm without a spherical wrist.
+    ///     ValueError: Another `singular`.
+    #[pyo3(signature = (T, seed, weights=None, *, singular="through", zone=None))]
+    fn follow<'py>(
+        &self,
+        T: &Bound<'py, PyAny>,
+        seed: &Bound<'py, PyAny>,
+        weights: Option<&Bound<'py, PyAny>>,
+        singular: &str,
+        zone: Option<f64>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let options = FollowOptions {
+            weights: read_weights(weights)?,
+            crossing: read_crossing(singular)?,
+            zone: zone.unwrap_or(WRIST_ZONE),
+        };
+        paths::follow(self.arm().follower(T.py())?, T, seed, &options)
+    }
+
+    /// The solution inside the limits that has a configuration, which chooses the turns of axes 1, 4 and 6, too.
+    ///
+    /// An angle within 0.01 deg of the edge of a quarter turn is taken for either side of it.
+    ///
+    /// Args:
+    ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
+    ///     configuration: (cf1, cf4, cf6, cfx): an `irbkin.Configuration`, or whole numbers of shape (4,) or (..., 4).
+    ///     fallback: With "nearest", the solution nearest to `seed` where none has the configuration: many programs write [0, 0, 0, 0]
+    ///         without having calculated it.
+    ///     seed: Joint vector [rad] of the fallback, shape (6,) or (..., 6).
+    ///
+    /// Returns:
+    ///     Joint vectors [rad], shape (..., 6). In a batch, a row without such a solution, or whose pose or seed is invalid, is NaN.
+    ///
+    /// Raises:
+    ///     UnreachableError: A single pose has no solution inside the limits with that configuration; the message, and its attribute
+    ///         `configurations`, have those that exist.
+    ///     InvalidPoseError, InvalidJointsError: A wrong shape, a pose that is none, a number of the configuration that is not whole or that
+    ///         the arm does not have.
+    ///     InvalidModelError: As `configuration`.
+    ///     TypeError, ValueError: Another fallback, or one without a seed.
+    #[pyo3(signature = (T, configuration, *, fallback=None, seed=None))]
+    fn ik_configured<'py>(
+        &self,
+        T: &Bound<'py, PyAny>,
+        configuration: &Bound<'py, PyAny>,
+        fallback: Option<&str>,
+        seed: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        configurations::ik(self.arm(), T, configuration, &Fallback { name: fallback, seed })
+    }
+
+    /// Whether a pose can be reached, inside the limits or not, and why not; with seven joints, with any angle of joint 7 inside its limits.
+    ///
+    /// Args:
+    ///     T: Pose of the tool, shape (4, 4), translation [m].
+    ///
+    /// Returns:
+    ///     PoseCheck(reachable, within_limits, reason).
+    ///
+    /// Raises:
+    ///     InvalidPoseError, InvalidModelError: As `ik`.
+    fn check_pose<'py>(&self, T: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let pose = read_pose(T, "T")?;
+        let explanation = on_robot!(self.arm(), robot => robot.explain(&pose))
+            .map_err(|error| to_py(T.py(), &error))?;
+        let inside = matches!(explanation, Explanation::Found { .. });
+        let reachable = inside
+            || matches!(
+                explanation,
+                Explanation::OutsideLimits { .. } | Explanation::OutsideRod { .. }
+            );
+        pose_check_class(T.py())?.call1((reachable, inside, explanation.to_string()))
+    }
+}

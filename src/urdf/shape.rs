@@ -1,0 +1,100 @@
+//! The shape of a text before it is parsed: what would take the parser longer than in proportion to the text is refused.
+//!
+//! The parser compares each attribute of an element with those before it, and each namespace with all that are in scope: 100 kB of nested
+//! declarations take seconds. This scan is one pass without memory. It reads tags, quotes, comments and character data as the parser does; where a
+//! text is no XML, the parser stops no later than where the two could part.
+
+use alloc::borrow::ToOwned;
+
+use crate::error::UrdfFault;
+
+/// Most namespaces that a text declares [1]: real ones declare about ten. Each name is looked up among all of them.
+const MOST_NAMESPACES: usize = 256;
+
+/// Most attributes of an element [1]: real ones have at most ten. Each is compared with all others.
+const MOST_ATTRIBUTES: usize = 256;
+
+/// Refuses a text with more namespaces, or more attributes of an element, than can be read in linear time.
+pub(super) fn check_shape(text: &str) -> Result<(), UrdfFault> {
+    let mut namespaces = 0;
+    let mut rest = text;
+    while let Some(start) = rest.find('<') {
+        rest = &rest[start..];
+        let end = if let Some(terminator) = end_of_text(rest) {
+            end_of(rest, terminator)
+        } else {
+            let tag = Tag::read(rest);
+            namespaces += tag.namespaces;
+            check_tag(&tag, namespaces, || line(text, rest))?;
+            tag.length
+        };
+        rest = &rest[end..];
+    }
+    Ok(())
+}
+
+/// What ends a markup that is no tag.
+fn end_of_text(markup: &str) -> Option<&'static str> {
+    let markups = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>"), ("</", ">"), ("<!", ">")];
+    markups.into_iter().find(|(start, _)| markup.starts_with(start)).map(|(_, end)| end)
+}
+
+fn end_of(markup: &str, terminator: &str) -> usize {
+    markup.find(terminator).map_or(markup.len(), |at| at + terminator.len())
+}
+
+fn check_tag(tag: &Tag<'_>, namespaces: usize, line: impl Fn() -> usize) -> Result<(), UrdfFault> {
+    if namespaces > MOST_NAMESPACES {
+        return Err(UrdfFault::Namespaces { line: line(), bound: MOST_NAMESPACES });
+    }
+    if tag.attributes > MOST_ATTRIBUTES {
+        let (line, element) = (line(), tag.name.to_owned());
+        return Err(UrdfFault::Attributes { line, element, bound: MOST_ATTRIBUTES });
+    }
+    Ok(())
+}
+
+/// The line on which `rest`, the end of `text`, begins, from 1.
+fn line(text: &str, rest: &str) -> usize {
+    text[..text.len() - rest.len()].matches('\n').count() + 1
+}
+
+/// An opening tag.
+struct Tag<'a> {
+    name: &'a str,
+    /// Length with its brackets.
+    length: usize,
+    /// Attributes that declare a namespace.
+    namespaces: usize,
+    /// The others.
+    attributes: usize,
+}
+
+impl<'a> Tag<'a> {
+    /// The tag at the beginning of a text. An attribute is one for its equals sign outside quotes.
+    fn read(text: &'a str) -> Self {
+        let is_name = |c: char| !(c.is_ascii_whitespace() || matches!(c, '>' | '/' | '='));
+        let name = text[1..].split(|c| !is_name(c)).next().unwrap_or_default();
+        let mut tag = Tag { name, length: text.len(), namespaces: 0, attributes: 0 };
+        let mut word = 1 + name.len();
+        let mut quote = None;
+        for (at, byte) in text.bytes().enumerate().skip(word) {
+            match (quote, byte) {
+                (Some(open), _) if byte == open => (quote, word) = (None, at + 1),
+                (None, b'"' | b'\'') => quote = Some(byte),
+                (None, b'=') => {
+                    let declares = text[word..at].trim_start().starts_with("xmlns");
+                    let count = if declares { &mut tag.namespaces } else { &mut tag.attributes };
+                    *count += 1;
+                    word = at + 1;
+                }
+                (None, b'>') => {
+                    tag.length = at + 1;
+                    break;
+                }
+                _ => {}
+            }
+        }
+        tag
+    }
+}

@@ -1,0 +1,92 @@
+"""Right angles that were written with few digits are made exact where that is asked for, and the refusal says how."""
+
+import pickle
+from pathlib import Path
+
+import irbkin
+import numpy as np
+import pytest
+from irbkin import InvalidModelError, Robot
+
+DATA = Path(__file__).parents[1] / "data" / "few_digits"
+# PUMA 560 as textbooks print it, standard rows: alpha, a, d, theta. Right angles with four decimals.
+PUMA = [
+    [1.5708, 0, 0.6718, 0],
+    [0, 0.4318, 0, 0],
+    [-1.5708, 0.0203, 0.15005, 0],
+    [1.5708, 0, 0.4318, 0],
+    [-1.5708, 0, 0, 0],
+    [0, 0, 0, 0],
+]
+
+
+def test_a_table_is_taken_with_the_snap_that_its_refusal_proposes():
+    for build, rows in ((Robot.from_sdh, PUMA), (Robot.from_mdh, Robot.from_sdh(PUMA, closed_form=False).mdh)):
+        with pytest.raises(InvalidModelError, match=r"they are 0\.000210 deg off.*; snap=1e-5 would take it$"):
+            build(rows)
+        with pytest.raises(InvalidModelError, match="snap=1e-5 would take it"):
+            build(rows, snap=1e-6)
+        robot = build(rows, snap=1e-5)
+        assert robot.family == "spherical wrist"
+        text = build(rows, closed_form=False)
+        assert text.family == "serial"
+        q = np.random.default_rng(3).uniform(-np.pi, np.pi, (500, 6))
+        # Four right angles, each at most 1e-5 rad off; the arm is 1.6 m long.
+        assert 0 < np.abs(robot.fk(q) - text.fk(q)).max() <= 4 * 1e-5 * 1.6
+        poses = robot.fk(q)
+        counts = []
+        for pose, joints in zip(poses, q, strict=True):
+            solutions = robot.ik(pose)
+            assert max(solution.residual for solution in solutions) <= 1e-14
+            difference = solutions.q - joints
+            assert np.abs(difference - 2 * np.pi * np.round(difference / 2 / np.pi)).max(axis=1).min() <= 1e-8
+            counts.append(len(solutions))
+        assert counts.count(8) > 200
+        assert pickle.loads(pickle.dumps(robot)) == robot
+        assert pickle.loads(pickle.dumps(text)) == text
+
+
+@pytest.mark.parametrize(
+    ("name", "snap", "family"), [("puma560", "1e-8", "spherical wrist"), ("xarm7", "1e-5", "spherical shoulder")]
+)
+def test_a_published_urdf_is_taken_with_the_snap_that_its_refusal_proposes(name, snap, family):
+    path = DATA / f"{name}.urdf"
+    text = Robot.from_urdf(path, closed_form=False)
+    with pytest.raises(InvalidModelError, match=f"; snap={snap} would take it$") as refused:
+        text.ik(text.fk([0.3] * text.dof), *[0.3] * (text.dof - 6))
+    assert "0.000000" not in str(refused.value)
+    robot = Robot.from_urdf(path, snap=float(snap))
+    assert robot.family == family
+    assert Robot.from_urdf(path, snap=1e-3).mdh.tolist() == robot.mdh.tolist()
+    q = np.random.default_rng(4).uniform(-1, 1, (200, robot.dof))
+    assert np.abs(robot.fk(q) - text.fk(q)).max() <= 6 * float(snap) * 1.5
+    for joints, pose in zip(q, robot.fk(q), strict=True):
+        solutions = robot.ik(pose, *joints[6:])
+        assert max(solution.residual for solution in solutions) <= 1e-14
+        assert np.abs(solutions.q - joints).max(axis=1).min() <= 1e-8
+    for arm in (text, robot):
+        assert pickle.loads(pickle.dumps(arm)) == arm
+
+
+@pytest.mark.parametrize("snap", [-1e-9, 2e-3, np.nan, np.inf])
+def test_a_snap_has_bounds(snap):
+    for build in (
+        lambda: Robot.from_mdh(PUMA, snap=snap),
+        lambda: Robot.from_sdh(PUMA, snap=snap),
+        lambda: Robot.from_urdf(DATA / "puma560.urdf", snap=snap),
+    ):
+        with pytest.raises(InvalidModelError, match=r"^snap is .* rad, it must be 0 to 1e-3 rad$"):
+            build()
+
+
+def test_a_snap_is_a_keyword_and_a_number():
+    with pytest.raises(TypeError):
+        Robot.from_mdh(PUMA, None, "", 1e-5)
+    with pytest.raises(TypeError, match="must be real number, not str"):
+        Robot.from_mdh(PUMA, snap="1e-5")
+
+
+def test_an_exact_arm_is_the_same_with_any_snap():
+    robot = irbkin.Robot("IRB 2600-12/1.65")
+    for snap in (0.0, 1e-9, 1e-3):
+        np.testing.assert_array_equal(Robot.from_mdh(robot.mdh, snap=snap).mdh, robot.mdh)
