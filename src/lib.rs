@@ -51,15 +51,17 @@ mod kinematics;
 mod lanes;
 #[cfg(feature = "python")]
 mod python;
+#[cfg(feature = "rapid")]
 pub mod rapid;
 #[cfg(feature = "urdf")]
 mod urdf;
 
 pub use catalogue::{AngleUnit, CatalogueArm, CatalogueGeometry, catalogue, find};
 pub use error::{
-    Error, FrameFault, JointFault, ModelFault, Names, NoConfiguration, PoseFault, RapidFault,
-    RapidFaultKind, UnknownRobot, UrdfFault,
+    Error, JointFault, ModelFault, Names, NoConfiguration, PoseFault, UnknownRobot, UrdfFault,
 };
+#[cfg(feature = "rapid")]
+pub use error::{FrameFault, RapidFault, RapidFaultKind};
 pub use kinematics::{
     Break, BreakReason, Chain, Condition, Configuration, Crossing, Definition, DhRow, Explanation,
     FollowOptions, Followed, Follower, FreeJoint, JacobianFrame, JointAxis, JointLimits, Mdh,

@@ -48,7 +48,7 @@ pub enum RapidFaultKind {
         /// What stands there.
         found: String,
         /// What must.
-        wanted: String,
+        wanted: &'static str,
     },
     /// The text ends too early.
     UnexpectedEnd {
