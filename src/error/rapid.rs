@@ -203,9 +203,28 @@ pub enum RapidFaultKind {
         /// Whose place.
         thing: String,
     },
-    /// A value is to be put where there is none.
-    NoSuchValue {
-        /// What there is not.
+    /// A value is to be put into a datum that the module does not have.
+    NoSuchDatum {
+        /// Its index.
+        index: usize,
+        /// Data that the module has.
+        count: usize,
+    },
+    /// A value is to be put into an element that a datum does not have.
+    NoSuchElement {
+        /// The datum.
+        thing: String,
+        /// The element, from 0.
+        element: usize,
+    },
+    /// A single value is to be put into an array.
+    NoSingleValue {
+        /// The array.
+        thing: String,
+    },
+    /// The text of a module made of data and moves does not say the same as they do.
+    NoSuchModule {
+        /// What of it is not read.
         what: String,
     },
 }
@@ -339,7 +358,18 @@ impl fmt::Display for RapidFaultKind {
                 )
             }
             Self::TwoValues { thing } => write!(f, "{thing} is to get two values"),
-            Self::NoSuchValue { what } => write!(f, "there is no {what}"),
+            Self::NoSuchDatum { index, count } => {
+                write!(f, "there is no datum {index}, the module has {count}")
+            }
+            Self::NoSuchElement { thing, element } => {
+                write!(f, "there is no element {element} of {thing}")
+            }
+            Self::NoSingleValue { thing } => {
+                write!(f, "there is no single value in the array {thing}")
+            }
+            Self::NoSuchModule { what } => {
+                write!(f, "there is no module of these data: {what}")
+            }
         }
     }
 }

@@ -89,7 +89,7 @@ pub fn calc_targets(
     for datum in module.data().iter().filter(|datum| datum.routine.is_none()) {
         match &datum.content {
             Content::Single(Value::RobTarget(target)) => {
-                table.add("robtarget", datum.name.clone(), datum.line, target, Ok(frames))
+                table.add("robtarget", datum.name.clone(), datum.line, target, Ok(frames));
             }
             Content::Array { sizes, values } => {
                 for (number, value) in values.iter().enumerate() {

@@ -164,6 +164,11 @@ pub struct Routine {
     pub column: usize,
 }
 
+/// The name of a routine by its index, from 1; none for 0, the module itself.
+pub(crate) fn routine_name(routines: &[Routine], index: usize) -> Option<String> {
+    routines.get(index.checked_sub(1)?).map(|routine| routine.name.clone())
+}
+
 /// A module, or a text without one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Module {

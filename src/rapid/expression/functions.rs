@@ -43,15 +43,12 @@ impl Evaluator<'_, '_> {
         let mut turns = [0.0; 3];
         for (argument, value) in &call.optional {
             let is = |axis: &&str| axis.eq_ignore_ascii_case(argument);
-            match (function, ["Rx", "Ry", "Rz"].iter().position(is), value) {
-                (Displacement::RelTool, Some(axis), Some(angle)) => {
-                    turns[axis] = self.number(angle)?
-                }
-                _ => {
-                    let argument = (*argument).to_string();
-                    return Err(Reason::FunctionArgument { name: name(), argument }.into());
-                }
-            }
+            let axis = ["Rx", "Ry", "Rz"].iter().position(is);
+            let (Displacement::RelTool, Some(axis), Some(angle)) = (function, axis, value) else {
+                let argument = (*argument).to_string();
+                return Err(Reason::FunctionArgument { name: name(), argument }.into());
+            };
+            turns[axis] = self.number(angle)?;
         }
         *place = displaced(function, &target, shift, turns);
         for number in place.trans_mm.iter_mut().chain(&mut place.rot) {

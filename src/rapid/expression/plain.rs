@@ -77,8 +77,8 @@ impl PlainReader<'_> {
             self.at += 1;
             self.peek()?;
         }
-        let is_digit = |at| self.bytes.get(at).is_some_and(u8::is_ascii_digit);
-        if !is_digit(self.at) && !(self.bytes[self.at] == b'.' && is_digit(self.at + 1)) {
+        let first_digit = self.at + usize::from(self.bytes[self.at] == b'.');
+        if !self.bytes.get(first_digit)?.is_ascii_digit() {
             return None;
         }
         let value;

@@ -56,7 +56,7 @@ impl Module {
             || "datum or move for each that was given".to_string(),
             |it| it.what.to_string(),
         );
-        Err(fault(RapidFaultKind::NoSuchValue { what: format!("module of these data: {what}") }))
+        Err(fault(RapidFaultKind::NoSuchModule { what }))
     }
 }
 

@@ -39,7 +39,7 @@ pub fn parse_record(text: &str) -> Result<Value, Error> {
             }
             Err(Error::Rapid(fault)) if is_of_another_type(&fault.kind) => {}
             Err(Error::Rapid(fault)) => {
-                broken = Some(RapidFault { line: fault.line.saturating_sub(1), ..fault })
+                broken = Some(RapidFault { line: fault.line.saturating_sub(1), ..fault });
             }
             Err(error) => return Err(error),
         }

@@ -67,8 +67,8 @@ fn nowhere(kind: RapidFaultKind) -> Error {
 /// The bytes that a new value takes the place of.
 fn place(module: &Module, new: &NewValue) -> Result<Range<usize>, Error> {
     let Some(datum) = module.data.get(new.datum) else {
-        let what = format!("datum {}, the module has {}", new.datum, module.data.len());
-        return Err(nowhere(RapidFaultKind::NoSuchValue { what }));
+        let (index, count) = (new.datum, module.data.len());
+        return Err(nowhere(RapidFaultKind::NoSuchDatum { index, count }));
     };
     let thing = format!("{} {}", datum.data_type.name(), datum.name);
     let fault = |kind| RapidFault { line: datum.line, column: datum.column, kind }.into();
@@ -91,15 +91,9 @@ fn place(module: &Module, new: &NewValue) -> Result<Range<usize>, Error> {
         }
         (Content::Array { .. }, Some(element)) => {
             let span = datum.element_spans.get(element).cloned();
-            span.ok_or_else(|| {
-                fault(RapidFaultKind::NoSuchValue { what: format!("element {element} of {thing}") })
-            })
+            span.ok_or_else(|| fault(RapidFaultKind::NoSuchElement { thing, element }))
         }
-        (_, None) => Err(fault(RapidFaultKind::NoSuchValue {
-            what: format!("single value in the array {thing}"),
-        })),
-        (_, Some(element)) => Err(fault(RapidFaultKind::NoSuchValue {
-            what: format!("element {element} of {thing}"),
-        })),
+        (_, None) => Err(fault(RapidFaultKind::NoSingleValue { thing })),
+        (_, Some(element)) => Err(fault(RapidFaultKind::NoSuchElement { thing, element })),
     }
 }

@@ -5,13 +5,13 @@ mod moves;
 mod resolver;
 
 use alloc::collections::BTreeMap;
-use alloc::string::{String, ToString};
+use alloc::string::ToString;
 use alloc::vec::Vec;
 
 use self::assigned::Causes;
 use self::resolver::Resolver;
 use crate::error::RapidFault;
-use crate::rapid::data::module::{Datum, Module, Routine};
+use crate::rapid::data::module::{Datum, Module, routine_name};
 use crate::rapid::data::reason::Reason;
 use crate::rapid::data::skipped::{NotRead, Skipped};
 use crate::rapid::expression::content::Placed;
@@ -104,8 +104,4 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         expressions,
         text_length: text.len(),
     })
-}
-
-fn routine_name(routines: &[Routine], routine: usize) -> Option<String> {
-    routines.get(routine.checked_sub(1)?).map(|routine| routine.name.clone())
 }

@@ -3,9 +3,8 @@
 use alloc::string::{String, ToString};
 
 use super::resolver::Resolver;
-use super::routine_name;
 use crate::error::RapidFault;
-use crate::rapid::data::module::Routine;
+use crate::rapid::data::module::{Routine, routine_name};
 use crate::rapid::data::moves::{Argument, Move, MoveKind, Target};
 use crate::rapid::data::value::Record;
 use crate::rapid::expression::evaluate::{Evaluator, Stop};

@@ -52,6 +52,7 @@ impl<'a> Declared<'a> {
 }
 
 /// What was declared.
+#[expect(clippy::large_enum_variant, reason = "the large one is nearly every one of a large text")]
 pub(crate) enum Declaration<'a> {
     /// With what it holds, where that is known without looking up a name.
     Read(Declared<'a>, Option<Placed>),

@@ -43,7 +43,7 @@ pub(crate) fn read_move<'a>(
             let (name, value) = ExpressionReader::new(tokens).optional()?;
             match value {
                 Some(value) if wobj.is_none() && name.eq_ignore_ascii_case("WObj") => {
-                    wobj = Some(value)
+                    wobj = Some(value);
                 }
                 value => {
                     let text = value.map(|value| tokens.text[value.start..value.end].to_string());

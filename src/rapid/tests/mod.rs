@@ -5,6 +5,7 @@ mod build;
 mod functions;
 mod moves;
 mod names;
+mod plain;
 mod texts;
 mod unfinished;
 

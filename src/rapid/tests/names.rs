@@ -1,7 +1,6 @@
 //! Names: references, components, elements, scopes, other modules.
 
 use std::format;
-use std::string::String;
 use std::string::ToString;
 use std::vec::Vec;
 

@@ -107,3 +107,42 @@ pub(crate) fn unquoted(quoted: &str) -> String {
     }
     text
 }
+
+#[cfg(test)]
+mod tests {
+    use std::format;
+
+    use super::*;
+
+    /// Digits, point and exponent of every length around the bounds of what is exact.
+    #[test]
+    fn decimals_are_the_nearest_numbers() {
+        let digits = "9876543210987654321098765";
+        let mut compared = 0;
+        for (first, count) in (0..5).flat_map(|first| (1..=20).map(move |count| (first, count))) {
+            let digits = &digits[first..first + count];
+            for point in 0..=count {
+                for exponent in ["", "e0", "E5", "E+07", "e-7", "E22", "E23", "e-22", "E-23", "E99"]
+                {
+                    let (whole, decimals) = digits.split_at(point);
+                    let text = format!("{whole}.{decimals}{exponent}");
+                    let (value, end) = decimal(&text, 0).unwrap();
+                    let nearest: f64 = text.parse().unwrap();
+                    assert_eq!((value.to_bits(), end), (nearest.to_bits(), text.len()), "{text}");
+                    compared += 1;
+                }
+            }
+        }
+        assert_eq!(compared, 5 * 230 * 10);
+    }
+
+    #[test]
+    fn other_numbers_are_left_alone() {
+        for text in
+            ["0x1F", "1.5.2", "12abc", "1_", "1E", "1E+", "1E100", "1e400", "1\u{e9}", "1."].iter()
+        {
+            assert_eq!(decimal(text, 0).is_some(), *text == "1.", "{text}");
+        }
+        assert_eq!(decimal("[12,3]", 1), Some((12.0, 3)));
+    }
+}
