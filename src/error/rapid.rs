@@ -17,7 +17,8 @@ pub struct RapidFault {
     pub kind: RapidFaultKind,
 }
 
-/// The ways in which a RAPID text can be broken. `thing` is a type and a name, or an instruction and its argument.
+/// The ways in which a RAPID text can be broken. `thing` is a type and a name, or an instruction
+/// and its argument.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum RapidFaultKind {
@@ -156,7 +157,8 @@ pub enum RapidFaultKind {
         /// The circle.
         names: Names,
     },
-    /// A name or a string is so long that what tells of it often would not be read in linear time; RAPID's own are far shorter.
+    /// A name or a string is so long that what tells of it often would not be read in linear time;
+    /// RAPID's own are far shorter.
     TooLong {
         /// What it is.
         what: &'static str,

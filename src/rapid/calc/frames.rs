@@ -1,4 +1,5 @@
-//! Where the flange stands when a tool is somewhere in a work object: the frames of tooldata and wobjdata.
+//! Where the flange stands when a tool is somewhere in a work object: the frames of tooldata and
+//! wobjdata.
 
 use crate::error::{Error, FrameFault};
 use crate::kinematics::{Pose, Robot, pose_from_quaternion, pose_to_quaternion};
@@ -14,7 +15,8 @@ pub(super) enum Frames {
 }
 
 impl Frames {
-    /// Those of a tool, the robot's own where none is given, and a work object, the world where none is given.
+    /// Those of a tool, the robot's own where none is given, and a work object, the world where
+    /// none is given.
     pub(super) fn new(
         robot: &Robot<6>,
         tool: Option<&ToolData>,

@@ -10,7 +10,8 @@ use crate::rapid::data::reason::Reason;
 use crate::rapid::data::records::NOT_THERE;
 use crate::rapid::data::value::Value;
 
-/// Why a target has no joint angles, or why they are others than it asks for. `Display` gives the words.
+/// Why a target has no joint angles, or why they are others than it asks for. `Display` gives the
+/// words.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Problem {
@@ -42,14 +43,16 @@ pub enum Problem {
         /// Its angle [deg].
         degrees: f64,
     },
-    /// The joint angles of a jointtarget are outside the limits: the joint that is farthest outside.
+    /// The joint angles of a jointtarget are outside the limits: the joint that is farthest
+    /// outside.
     OutsideLimits {
         /// The joint, from 1.
         joint: usize,
         /// How far outside [rad].
         excess: f64,
     },
-    /// The joint angles of a jointtarget are outside the limits of the parallelogram linkage, q3 - q2.
+    /// The joint angles of a jointtarget are outside the limits of the parallelogram linkage, q3 -
+    /// q2.
     OutsideLinkageLimits {
         /// How far outside [rad].
         excess: f64,

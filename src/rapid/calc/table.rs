@@ -28,11 +28,13 @@ pub struct TableRow {
     pub line: usize,
     /// Joint angles [rad]; `None` where there are none.
     pub q: Option<[f64; 6]>,
-    /// The configuration of the joint angles; that of the target where there are none, zeros where that is not known either.
+    /// The configuration of the joint angles; that of the target where there are none, zeros where
+    /// that is not known either.
     pub configuration: Configuration,
     /// How far the joint angles are from the singularities.
     pub distances: Option<SingularDistances>,
-    /// What is wrong: why there are no joint angles, or why they are others than the target asks for.
+    /// What is wrong: why there are no joint angles, or why they are others than the target asks
+    /// for.
     pub problem: Option<Problem>,
 }
 
@@ -41,18 +43,21 @@ pub struct TableRow {
 pub enum Fallback {
     /// It has no joint angles.
     None,
-    /// It gets the solution nearest to the joint angles before it, of the first target to these [rad], and the problem says so.
+    /// It gets the solution nearest to the joint angles before it, of the first target to these
+    /// [rad], and the problem says so.
     Nearest([f64; 6]),
 }
 
 /// The joint angles of every target of the module's moves, in their order; a `MoveC` has two.
 ///
-/// Each is seen with its own tool and work object. A `MoveAbsJ` has the joint angles that it names, none where one of them is more than
-/// 1E6 degrees, as the 9E9 of an axis that is not there. A move that is displaced has none.
+/// Each is seen with its own tool and work object. A `MoveAbsJ` has the joint angles that it names,
+/// none where one of them is more than 1E6 degrees, as the 9E9 of an axis that is not there. A move
+/// that is displaced has none.
 ///
 /// # Errors
 ///
-/// [`Error::InvalidModel`] for an arm without configurations. What is wrong with one target is told in its row.
+/// [`Error::InvalidModel`] for an arm without configurations. What is wrong with one target is told
+/// in its row.
 pub fn calc_moves(
     robot: &Robot<6>,
     module: &Module,
@@ -71,8 +76,8 @@ pub fn calc_moves(
     Ok(table.rows)
 }
 
-/// The joint angles of every robtarget that the module itself declares, element by element of arrays, in the order of the text, all with one
-/// tool and one work object.
+/// The joint angles of every robtarget that the module itself declares, element by element of
+/// arrays, in the order of the text, all with one tool and one work object.
 ///
 /// # Errors
 ///
@@ -141,7 +146,8 @@ impl<'a> Table<'a> {
         Ok(Self { robot, flange: with_flange(robot)?, fallback, rows: Vec::new() })
     }
 
-    /// A row for an argument of a move, which `read` takes for a robtarget or for joint angles [deg].
+    /// A row for an argument of a move, which `read` takes for a robtarget or for joint angles
+    /// [deg].
     fn add_move<T>(
         &mut self,
         step: &Move,

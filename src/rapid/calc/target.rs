@@ -5,15 +5,16 @@ use crate::error::Error;
 use crate::kinematics::{Explanation, Pose, Robot};
 use crate::rapid::data::records::{JointTarget, RapidPose, RobTarget, ToolData, WobjData};
 
-/// Joint angles of a robtarget, as RAPID's `CalcJointT`: those with the target's configuration, inside the limits.
+/// Joint angles of a robtarget, as RAPID's `CalcJointT`: those with the target's configuration,
+/// inside the limits.
 ///
-/// A tool replaces the robot's own, which counts where none is given; a work object stands in the world that [`Robot::with_base`] sets. External
-/// axes are taken over as they are.
+/// A tool replaces the robot's own, which counts where none is given; a work object stands in the
+/// world that [`Robot::with_base`] sets. External axes are taken over as they are.
 ///
 /// # Errors
 ///
-/// As [`Robot::ik_configured`]: RAPID's names of them are given by [`error_name`]. [`Error::Frame`] for a tool and a work object that do not go
-/// together or are no poses.
+/// As [`Robot::ik_configured`]: RAPID's names of them are given by [`error_name`]. [`Error::Frame`]
+/// for a tool and a work object that do not go together or are no poses.
 pub fn calc_joint_t(
     robot: &Robot<6>,
     target: &RobTarget,
@@ -26,7 +27,8 @@ pub fn calc_joint_t(
     Ok(joint_target(&q, target.extax))
 }
 
-/// [`calc_joint_t`] or, where no solution has the target's configuration, the one nearest to `seed` [rad].
+/// [`calc_joint_t`] or, where no solution has the target's configuration, the one nearest to `seed`
+/// [rad].
 ///
 /// # Errors
 ///
@@ -63,8 +65,9 @@ pub fn calc_rob_t(
     Ok(RobTarget { trans_mm, rot, robconf, extax: joints.extax })
 }
 
-/// What RAPID calls an error of [`calc_joint_t`]: `ERR_OUTSIDE_REACH` where the arm is too short or too long, `ERR_ROBLIMIT` where solutions
-/// exist, but none inside the limits with the configuration that was asked for. `None` for what no controller gets to calculate.
+/// What RAPID calls an error of [`calc_joint_t`]: `ERR_OUTSIDE_REACH` where the arm is too short or
+/// too long, `ERR_ROBLIMIT` where solutions exist, but none inside the limits with the
+/// configuration that was asked for. `None` for what no controller gets to calculate.
 #[must_use]
 pub fn error_name(error: &Error) -> Option<&'static str> {
     match error {

@@ -1,4 +1,5 @@
-//! What a module is made of: types, records, values, data, moves, and reasons why something is not read.
+//! What a module is made of: types, records, values, data, moves, and reasons why something is not
+//! read.
 
 pub(crate) mod data_type;
 pub(crate) mod literals;

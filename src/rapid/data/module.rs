@@ -180,16 +180,19 @@ pub struct Module {
     pub(crate) skipped: Vec<Skipped>,
     /// Data of the module itself by their names in lower case.
     pub(crate) index: BTreeMap<String, usize>,
-    /// Names in lower case that it assigns: of its own data, with those that refer to them, and of data that it does not declare.
+    /// Names in lower case that it assigns: of its own data, with those that refer to them, and of
+    /// data that it does not declare.
     pub(crate) assigned: BTreeSet<String>,
-    /// Values that refer to what is assigned, as they are written, by the index of the datum: as numbers they would not.
+    /// Values that refer to what is assigned, as they are written, by the index of the datum: as
+    /// numbers they would not.
     pub(crate) expressions: BTreeMap<usize, String>,
     /// Bytes of the text that it was read from.
     pub(crate) text_length: usize,
 }
 
 impl Module {
-    /// Its name, or the placeholder of an unfinished one; none for declarations without a module around them.
+    /// Its name, or the placeholder of an unfinished one; none for declarations without a module
+    /// around them.
     #[must_use]
     pub fn name(&self) -> Option<&str> {
         self.name.as_deref()

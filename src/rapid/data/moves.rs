@@ -70,7 +70,8 @@ pub struct MoveOption {
     pub after: usize,
     /// Name, as it is written.
     pub name: String,
-    /// Source text of its value; none of a switch. It begins with `?` where a routine passes its own optional argument on.
+    /// Source text of its value; none of a switch. It begins with `?` where a routine passes its
+    /// own optional argument on.
     pub text: Option<String>,
 }
 
@@ -101,8 +102,9 @@ pub struct Move {
     pub wobj: Option<Argument<WobjData>>,
     /// The other optional arguments, in order.
     pub options: Vec<MoveOption>,
-    /// Line of the `PDispOn` or `PDispSet` that stands before it in its routine and that no `PDispOff` between them ends: the robot goes
-    /// elsewhere than `via` and `target` say. Joint angles are not displaced.
+    /// Line of the `PDispOn` or `PDispSet` that stands before it in its routine and that no
+    /// `PDispOff` between them ends: the robot goes elsewhere than `via` and `target` say. Joint
+    /// angles are not displaced.
     pub displaced: Option<usize>,
 }
 

@@ -27,7 +27,8 @@ impl Displacement {
     }
 }
 
-/// A target displaced by `shift` [mm] and, by RelTool, turned by `turns` [deg]: about x, then about the new y, then about the new z.
+/// A target displaced by `shift` [mm] and, by RelTool, turned by `turns` [deg]: about x, then about
+/// the new y, then about the new z.
 ///
 /// The order of the turns is general knowledge of RAPID's reference, not checked on a controller.
 pub(crate) fn displaced(
@@ -62,7 +63,8 @@ fn product([aw, ax, ay, az]: [f64; 4], [bw, bx, by, bz]: [f64; 4]) -> [f64; 4] {
     ]
 }
 
-/// A vector turned by a quaternion of any norm; not finite where the norm is zero and the vector is not.
+/// A vector turned by a quaternion of any norm; not finite where the norm is zero and the vector is
+/// not.
 fn rotated(rot: [f64; 4], vector: [f64; 3]) -> [f64; 3] {
     if vector.iter().all(|component| *component == 0.0) {
         return vector;

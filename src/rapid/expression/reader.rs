@@ -286,7 +286,8 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         Ok(call)
     }
 
-    /// A required argument: its value, perhaps after its name and `:=`. The name is not kept: RAPID has them in their order.
+    /// A required argument: its value, perhaps after its name and `:=`. The name is not kept: RAPID
+    /// has them in their order.
     pub(crate) fn argument(&mut self) -> Result<Expression<'a>, RapidFault> {
         if self.tokens.at_assigned_name() {
             self.tokens.take()?;
@@ -302,7 +303,8 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         }
         let token = self.tokens.take()?;
         let name = self.tokens.text_of(token);
-        // \Name?parameter passes the caller's own argument on, if there is one; the question mark belongs to the value.
+        // \Name?parameter passes the caller's own argument on, if there is one; the question mark
+        // belongs to the value.
         let mark = self.tokens.peek();
         if self.tokens.take_if(b'?')? {
             self.expression()?;

@@ -1,4 +1,5 @@
-//! Expressions as they are written: a tree with the bytes of each part, before anything is looked up.
+//! Expressions as they are written: a tree with the bytes of each part, before anything is looked
+//! up.
 
 use alloc::boxed::Box;
 use alloc::string::String;

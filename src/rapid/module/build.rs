@@ -12,14 +12,16 @@ use crate::rapid::data::moves::Move;
 use crate::rapid::text::words::is_name;
 
 impl Module {
-    /// A module of data and moves, with a procedure without parameters for each routine that they name.
+    /// A module of data and moves, with a procedure without parameters for each routine that they
+    /// name.
     ///
-    /// It is the module that its text says: the values of moves are looked up by their texts, in the module and in `context`, and what
-    /// `moves` bring as values is not used.
+    /// It is the module that its text says: the values of moves are looked up by their texts, in
+    /// the module and in `context`, and what `moves` bring as values is not used.
     ///
     /// # Errors
     ///
-    /// [`Error::Rapid`] when a name is none, a name is there twice, a number is not finite or the text of an argument is no expression.
+    /// [`Error::Rapid`] when a name is none, a name is there twice, a number is not finite or the
+    /// text of an argument is no expression.
     pub fn new(
         name: Option<String>,
         data: Vec<Datum>,

@@ -10,14 +10,18 @@ use crate::rapid::statements::reader::StatementReader;
 
 /// Reads the text of a module, or of declarations and moves without one.
 ///
-/// Names that it does not declare are RAPID's own `tool0`, `wobj0` and `load0`; else they are looked for in `context`: the data of these modules
-/// that are not `LOCAL`, those of the first module first.
+/// Names that it does not declare are RAPID's own `tool0`, `wobj0` and `load0`; else they are
+/// looked for in `context`: the data of these modules that are not `LOCAL`, those of the first
+/// module first.
 ///
-/// A datum that a statement of the module assigns, wherever the statement stands, has no known value in moves, and no datum that refers to it
-/// has; all others have there what they are declared with. `name:=` is followed so far, and instructions such as `Incr` and `SearchL` that write to an
-/// argument: data handed to another routine as `INOUT` are not, nor what modules assign that are not in `context`.
+/// A datum that a statement of the module assigns, wherever the statement stands, has no known
+/// value in moves, and no datum that refers to it has; all others have there what they are declared
+/// with. `name:=` is followed so far, and instructions such as `Incr` and `SearchL` that write to
+/// an argument: data handed to another routine as `INOUT` are not, nor what modules assign that are
+/// not in `context`.
 ///
-/// The time is linear in the size of the text, but for the search of names, which takes its logarithm.
+/// The time is linear in the size of the text, but for the search of names, which takes its
+/// logarithm.
 ///
 /// # Errors
 ///
@@ -27,7 +31,8 @@ pub fn parse(text: &str, context: &[&Module]) -> Result<Module, Error> {
     Ok(resolved(written, context)?)
 }
 
-/// The text of a file: UTF-16 with a byte order mark, UTF-8, else Latin-1; without its byte order mark.
+/// The text of a file: UTF-16 with a byte order mark, UTF-8, else Latin-1; without its byte order
+/// mark.
 #[must_use]
 pub fn decode(bytes: &[u8]) -> Cow<'_, str> {
     match bytes {

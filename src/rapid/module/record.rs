@@ -19,7 +19,8 @@ const BY_SHAPE: [DataType; 6] = [
     DataType::LoadData,
 ];
 
-/// The value of a text that is one robtarget, jointtarget, tooldata, wobjdata, pose or loaddata, which its shape tells.
+/// The value of a text that is one robtarget, jointtarget, tooldata, wobjdata, pose or loaddata,
+/// which its shape tells.
 ///
 /// # Errors
 ///

@@ -21,14 +21,15 @@ pub struct NewValue {
     pub value: Value,
 }
 
-/// The text of which `module` was read, with new values; comments, blanks and everything else stay as they are, byte for byte.
+/// The text of which `module` was read, with new values; comments, blanks and everything else stay
+/// as they are, byte for byte.
 ///
 /// A declaration without a value gets one.
 ///
 /// # Errors
 ///
-/// [`Error::Rapid`] when there is no such datum or element, a value is of another type or not finite, one place gets two values, or
-/// `source` is not the text.
+/// [`Error::Rapid`] when there is no such datum or element, a value is of another type or not
+/// finite, one place gets two values, or `source` is not the text.
 pub fn rewrite(source: &str, module: &Module, new_values: &[NewValue]) -> Result<String, Error> {
     // Of a text as long as that of the module, but another one, a place may lie inside a character.
     let other_text =

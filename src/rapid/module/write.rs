@@ -69,7 +69,8 @@ impl Datum {
     }
 }
 
-/// Writes an optional argument; a text that begins with a question mark passes the caller's own argument on.
+/// Writes an optional argument; a text that begins with a question mark passes the caller's own
+/// argument on.
 fn write_option(f: &mut fmt::Formatter<'_>, name: &str, text: Option<&str>) -> fmt::Result {
     match text {
         None => write!(f, "\\{name}"),
@@ -123,7 +124,8 @@ enum Item<'m> {
 }
 
 impl Item<'_> {
-    /// Line and column; behind all others what stands in no text. Data of a routine come before everything else.
+    /// Line and column; behind all others what stands in no text. Data of a routine come before
+    /// everything else.
     fn key(&self, in_routine: bool) -> (bool, usize, usize) {
         let (first, line, column) = match self {
             Self::Datum(datum, _) => (in_routine, datum.line, datum.column),
@@ -160,8 +162,8 @@ fn items(module: &Module) -> BTreeMap<String, Vec<Item<'_>>> {
 }
 
 impl fmt::Display for Module {
-    /// The module as a text that reads back as the same: values as they are, without comments, but those that refer to data that are
-    /// assigned, and what was skipped, as they were written.
+    /// The module as a text that reads back as the same: values as they are, without comments, but
+    /// those that refer to data that are assigned, and what was skipped, as they were written.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let items = items(self);
         if let Some(name) = &self.name {

@@ -23,7 +23,8 @@ impl<'a> Causes<'a> {
         Self { of_data: BTreeMap::new(), of_others: BTreeMap::new() }
     }
 
-    /// Those of assignments: each goes to the datum that its name stands for where it stands. A CONST cannot be assigned.
+    /// Those of assignments: each goes to the datum that its name stands for where it stands. A
+    /// CONST cannot be assigned.
     pub(crate) fn new(
         assignments: &[Assignment<'a>],
         declared: &[Declared<'_>],
@@ -60,7 +61,8 @@ impl<'a> Causes<'a> {
         self.of_data.get(&datum).copied()
     }
 
-    /// That of a datum of another module, by its name in lower case: this module assigns it, its own does, or one that does not mean its own.
+    /// That of a datum of another module, by its name in lower case: this module assigns it, its
+    /// own does, or one that does not mean its own.
     pub(crate) fn of_other(
         &self,
         lower: &str,

@@ -5,8 +5,9 @@ mod moves;
 mod resolver;
 
 use alloc::collections::BTreeMap;
-use alloc::string::ToString;
+use alloc::string::{String, ToString};
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use self::assigned::Causes;
 use self::resolver::Resolver;
@@ -28,7 +29,7 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         declared,
         contents,
         mut moves,
-        mut skipped,
+        skipped,
         assignments,
         scopes,
         blocks,
@@ -51,40 +52,13 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         resolved_moves.extend(resolver.step(step, &routines)?);
     }
     let Resolver { contents, causes, .. } = resolver;
-    let mut data = Vec::with_capacity(declared.len());
-    let mut places = Vec::with_capacity(declared.len());
-    let mut expressions = BTreeMap::new();
+    let mut all = ResolvedData { skipped, ..ResolvedData::default() };
+    all.data.reserve_exact(declared.len());
     for (i, (datum, content)) in declared.iter().zip(contents).enumerate() {
         let routine = routine_name(&routines, datum.routine);
-        let Declared { data_type, scope, storage, line, column, .. } = *datum;
-        let name = datum.name.to_string();
-        places.push(content.is_ok().then_some(data.len()));
-        let Placed { content, value_span, element_spans } = match content {
-            Ok(placed) => placed,
-            Err(reason) => {
-                let what = NotRead::Datum { name, reason };
-                let text = text.get(datum.start..datum.end).unwrap_or_default().to_string();
-                skipped.push(Skipped { line, column, routine, what, text });
-                continue;
-            }
-        };
-        if causes.of_datum(i).is_some() && !datum.names.is_empty() {
-            let expression = text.get(value_span.clone()).unwrap_or_default().to_string();
-            expressions.insert(data.len(), expression);
-        }
-        data.push(Datum {
-            name,
-            data_type,
-            scope,
-            storage,
-            routine,
-            content,
-            line,
-            column,
-            value_span,
-            element_spans,
-        });
+        all.add(text, datum, routine, content, causes.of_datum(i).is_some());
     }
+    let ResolvedData { data, places, mut skipped, expressions } = all;
     skipped.sort_by_key(|skipped| (skipped.line, skipped.column));
     let assigned = causes.names(&declared);
     let index = scopes
@@ -104,4 +78,56 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         expressions,
         text_length: text.len(),
     })
+}
+
+/// The data of a module, and what is not read.
+#[derive(Default)]
+struct ResolvedData {
+    data: Vec<Datum>,
+    /// The place of each declaration among the data.
+    places: Vec<Option<usize>>,
+    skipped: Vec<Skipped>,
+    /// The values that refer to what is assigned, as they are written, by the place of the datum.
+    expressions: BTreeMap<usize, String>,
+}
+
+impl ResolvedData {
+    /// Adds a declaration, which may refer to what is assigned.
+    fn add(
+        &mut self,
+        text: &str,
+        declared: &Declared<'_>,
+        routine: Option<String>,
+        content: Result<Placed, Reason>,
+        is_assigned: bool,
+    ) {
+        let source = |span: Range<usize>| text.get(span).unwrap_or_default().to_string();
+        let Declared { data_type, scope, storage, line, column, .. } = *declared;
+        let name = declared.name.to_string();
+        self.places.push(content.is_ok().then_some(self.data.len()));
+        let Placed { content, value_span, element_spans } = match content {
+            Ok(placed) => placed,
+            Err(reason) => {
+                let what = NotRead::Datum { name, reason };
+                let text = source(declared.start..declared.end);
+                self.skipped.push(Skipped { line, column, routine, what, text });
+                return;
+            }
+        };
+        if is_assigned && !declared.names.is_empty() {
+            self.expressions.insert(self.data.len(), source(value_span.clone()));
+        }
+        self.data.push(Datum {
+            name,
+            data_type,
+            scope,
+            storage,
+            routine,
+            content,
+            line,
+            column,
+            value_span,
+            element_spans,
+        });
+    }
 }

@@ -39,7 +39,8 @@ impl<'a> Resolver<'a> {
         self.text.get(expression.start..expression.end).unwrap_or_default().to_string()
     }
 
-    /// A move with the values of its arguments; none where it has another number of them than it must.
+    /// A move with the values of its arguments; none where it has another number of them than it
+    /// must.
     pub(super) fn step(
         &self,
         written: &mut WrittenMove<'a>,

@@ -116,7 +116,8 @@ impl Resolver<'_> {
         Ok(())
     }
 
-    /// Notes that a datum changes with what a name of it stands for; sizes, the names that come first, do not change.
+    /// Notes that a datum changes with what a name of it stands for; sizes, the names that come
+    /// first, do not change.
     fn add_cause(&mut self, datum: usize, gone_through: usize, other: usize) {
         if let Some(cause) =
             self.causes.of_datum(other).filter(|_| gone_through > self.declared[datum].size_names)

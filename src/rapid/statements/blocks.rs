@@ -162,7 +162,8 @@ impl<'a> Blocks<'a> {
     }
 }
 
-/// Goes on to where a condition ends: a word that follows an operand and is no operator begins what comes behind.
+/// Goes on to where a condition ends: a word that follows an operand and is no operator begins what
+/// comes behind.
 fn skip_condition(tokens: &mut Tokens<'_>) -> Result<(), RapidFault> {
     skip_balanced(tokens, |tokens, last| {
         let next = tokens.peek();

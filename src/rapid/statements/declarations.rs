@@ -32,8 +32,8 @@ pub(crate) struct Declared<'a> {
     pub(crate) end: usize,
     pub(crate) line: usize,
     pub(crate) column: usize,
-    /// Its sizes and its value, unless what it holds is known without looking up a name: they are most of
-    /// the memory that a large text takes.
+    /// Its sizes and its value, unless what it holds is known without looking up a name: they are
+    /// most of the memory that a large text takes.
     pub(crate) written: Option<Box<WrittenContent<'a>>>,
 }
 
@@ -85,7 +85,8 @@ pub(crate) fn read_name<'a>(
     Ok(tokens.text_of(token))
 }
 
-/// Reads a declaration from its storage to its semicolon; it begins, perhaps with LOCAL or TASK, at byte `start`.
+/// Reads a declaration from its storage to its semicolon; it begins, perhaps with LOCAL or TASK, at
+/// byte `start`.
 pub(crate) fn read_declaration<'a>(
     tokens: &mut Tokens<'a>,
     start: usize,
@@ -120,8 +121,7 @@ pub(crate) fn read_declaration<'a>(
     if tokens.unfinished_since(from) {
         return Ok(Declaration::Unfinished { name });
     }
-    let end = tokens.last_end;
-    let mut declared = Declared {
+    let declared = Declared {
         name,
         data_type,
         scope,
@@ -130,7 +130,7 @@ pub(crate) fn read_declaration<'a>(
         size_names,
         names,
         start,
-        end,
+        end: tokens.last_end,
         line,
         column,
         written: None,
@@ -139,27 +139,23 @@ pub(crate) fn read_declaration<'a>(
         let placed = Placed::new(Content::Single(value), span);
         return Ok(Declaration::Read(declared, Some(placed)));
     }
-    let written = WrittenContent { data_type, sizes, value, value_place };
-    let known = known_at_once(tokens.text, &declared, &written)?;
-    if known.is_none() {
-        declared.written = Some(Box::new(written));
-    }
-    Ok(Declaration::Read(declared, known))
+    known_at_once(tokens.text, declared, WrittenContent { data_type, sizes, value, value_place })
 }
 
-/// What a declaration without names holds.
+/// A declaration with what it holds, where it has no names.
 fn known_at_once<'a>(
     text: &'a str,
-    declared: &Declared<'a>,
-    written: &WrittenContent<'a>,
-) -> Result<Option<Placed>, RapidFault> {
-    if !declared.names.is_empty() {
-        return Ok(None);
+    mut declared: Declared<'a>,
+    written: WrittenContent<'a>,
+) -> Result<Declaration<'a>, RapidFault> {
+    if declared.names.is_empty() {
+        match written.evaluate(&declared.evaluator(text, &NoNames)) {
+            Ok(placed) => return Ok(Declaration::Read(declared, Some(placed))),
+            Err(Stop::Fault(fault)) => return Err(fault),
+            // The reason is asked for when all names are known.
+            Err(Stop::Unknown(_)) => {}
+        }
     }
-    match written.evaluate(&declared.evaluator(text, &NoNames)) {
-        Ok(placed) => Ok(Some(placed)),
-        Err(Stop::Fault(fault)) => Err(fault),
-        // The reason is asked for when all names are known.
-        Err(Stop::Unknown(_)) => Ok(None),
-    }
+    declared.written = Some(Box::new(written));
+    Ok(Declaration::Read(declared, None))
 }

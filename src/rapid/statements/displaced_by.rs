@@ -2,8 +2,8 @@
 
 use crate::rapid::data::moves::MoveKind;
 
-/// Line of the instruction that displaces the moves to poses which follow it in a routine. `MoveAbsJ` is not displaced, and external axes are no
-/// matter of the arm's.
+/// Line of the instruction that displaces the moves to poses which follow it in a routine.
+/// `MoveAbsJ` is not displaced, and external axes are no matter of the arm's.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct DisplacedBy {
     line: Option<usize>,

@@ -1,4 +1,5 @@
-//! Instructions that are not read: which move the robot, which displace its targets, which write to their arguments.
+//! Instructions that are not read: which move the robot, which displace its targets, which write to
+//! their arguments.
 
 use alloc::string::ToString;
 
@@ -66,7 +67,8 @@ const WRITING: [(&str, usize); 17] = [
     ("SToolTCPCalib", 5),
 ];
 
-/// Whether an instruction moves the robot: behind its beginning another word begins, so that `DisplayText` is not `DispL`.
+/// Whether an instruction moves the robot: behind its beginning another word begins, so that
+/// `DisplayText` is not `DispL`.
 fn moves_the_robot(name: &str) -> bool {
     MOVING.iter().any(|beginning| {
         let is_it =

@@ -26,7 +26,8 @@ pub(crate) struct WrittenMove<'a> {
     pub(crate) options: Vec<MoveOption>,
 }
 
-/// Reads the arguments of a move up to its semicolon; the instruction's name was taken at byte `start`. None for one that is not finished.
+/// Reads the arguments of a move up to its semicolon; the instruction's name was taken at byte
+/// `start`. None for one that is not finished.
 pub(crate) fn read_move<'a>(
     tokens: &mut Tokens<'a>,
     kind: MoveKind,

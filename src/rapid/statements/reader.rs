@@ -114,7 +114,8 @@ impl<'a> StatementReader<'a> {
         declared.map_err(|kind| self.tokens.fault(at.start, kind))
     }
 
-    /// Lists what is between a token and here as not read; as not finished where a placeholder is in it. Its line.
+    /// Lists what is between a token and here as not read; as not finished where a placeholder is
+    /// in it. Its line.
     pub(super) fn skip(&mut self, from: Token, what: NotRead) -> usize {
         let (line, column) = self.tokens.line_and_column(from.start);
         let what = if self.tokens.unfinished_since(from.start) {

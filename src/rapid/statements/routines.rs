@@ -51,7 +51,8 @@ impl StatementReader<'_> {
         Ok(())
     }
 
-    /// A routine without a name, up to its end: what stands in it could not be told from what stands in another one.
+    /// A routine without a name, up to its end: what stands in it could not be told from what
+    /// stands in another one.
     fn unfinished_routine(
         &mut self,
         kind: RoutineKind,
@@ -72,7 +73,8 @@ impl StatementReader<'_> {
         Ok(())
     }
 
-    /// The parameters in their parentheses: each one's name is the last word before a comma, a bar or a backslash.
+    /// The parameters in their parentheses: each one's name is the last word before a comma, a bar
+    /// or a backslash.
     fn parameters(&mut self, routine: &str) -> Result<(), RapidFault> {
         let open = self.tokens.take()?;
         let mut last = None;

@@ -37,7 +37,8 @@ impl Scopes {
         self.names.push(BTreeMap::new());
     }
 
-    /// Declares a name, which must not be there yet; `routine_name` is for the message. A placeholder declares nothing.
+    /// Declares a name, which must not be there yet; `routine_name` is for the message. A
+    /// placeholder declares nothing.
     pub(crate) fn declare(
         &mut self,
         routine: usize,

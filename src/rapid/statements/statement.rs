@@ -1,4 +1,5 @@
-//! A module's statements, one after the other: declarations and moves are read, everything else is listed as not read.
+//! A module's statements, one after the other: declarations and moves are read, everything else is
+//! listed as not read.
 
 use alloc::format;
 use alloc::string::ToString;

@@ -8,8 +8,8 @@ use super::*;
 use crate::error::{Error, RapidFaultKind};
 use crate::rapid::NotRead;
 
-/// The types with the shapes of their values: `n` a number, `w` a whole one, `b` a truth value, `s` a
-/// string.
+/// The types with the shapes of their values: `n` a number, `w` a whole one, `b` a truth value, `s`
+/// a string.
 const SHAPES: [(&str, &str); 12] = [
     ("robtarget", "[[n,n,n],[n,n,n,n],[w,w,w,w],[n,n,n,n,n,n]]"),
     ("jointtarget", "[[n,n,n,n,n,n],[n,n,n,n,n,n]]"),

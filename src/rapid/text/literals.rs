@@ -54,8 +54,8 @@ pub(crate) fn decimal(text: &str, start: usize) -> Option<(f64, usize)> {
     value.is_finite().then_some((value, end))
 }
 
-/// The number of a row of digits that continue `before`, and the end of the row. More than 19 digits
-/// overflow: the caller counts them.
+/// The number of a row of digits that continue `before`, and the end of the row. More than 19
+/// digits overflow: the caller counts them.
 fn digits(bytes: &[u8], start: usize, before: u64) -> (u64, usize) {
     let (mut number, mut at) = (before, start);
     for byte in bytes.get(start..).unwrap_or_default() {
@@ -84,7 +84,8 @@ pub(crate) fn number(text: &str) -> Option<f64> {
     u64::from_str_radix(digits, radix).ok().map(|value| value as f64)
 }
 
-/// A string without its quotes: "" is a quote, \\ a backslash and \ with two hexadecimal digits the character of that number.
+/// A string without its quotes: "" is a quote, \\ a backslash and \ with two hexadecimal digits the
+/// character of that number.
 pub(crate) fn unquoted(quoted: &str) -> String {
     let inner = quoted.get(1..quoted.len().saturating_sub(1)).unwrap_or_default();
     let mut text = String::new();

@@ -14,7 +14,8 @@ fn closing(open: u8) -> (u8, &'static str) {
     }
 }
 
-/// What a closing symbol that does not come tells: the bracket is open where the statement ends, and else something stands in its place.
+/// What a closing symbol that does not come tells: the bracket is open where the statement ends,
+/// and else something stands in its place.
 pub(crate) fn not_closed(tokens: &Tokens<'_>, open: Token, close: u8) -> RapidFault {
     match tokens.peek().kind {
         TokenKind::End | TokenKind::Symbol(b';') => {
@@ -48,7 +49,8 @@ pub(crate) fn skip_to_end_of_argument(tokens: &mut Tokens<'_>) -> Result<(), Rap
     skip_balanced(tokens, |tokens, _| tokens.peek().is(b',') || tokens.peek().is(b'\\'))
 }
 
-/// Goes on over balanced brackets to where `ends` says, to a semicolon, a closing bracket or the end; none of these is taken.
+/// Goes on over balanced brackets to where `ends` says, to a semicolon, a closing bracket or the
+/// end; none of these is taken.
 ///
 /// `ends` is told the last token that was taken, and asked outside brackets only.
 pub(crate) fn skip_balanced(

@@ -10,8 +10,8 @@ use crate::error::{RapidFault, RapidFaultKind};
 /// Most letters of a placeholder; RAPID's own have two or three.
 const LONGEST_PLACEHOLDER: usize = 16;
 
-/// Most bytes of a name and of a string. RAPID's own bounds are 32 and 80 characters; what repeats a name often, the routine of each statement for
-/// instance, stays linear in the text so.
+/// Most bytes of a name and of a string. RAPID's own bounds are 32 and 80 characters; what repeats
+/// a name often, the routine of each statement for instance, stays linear in the text so.
 const LONGEST_NAME: usize = 256;
 pub(crate) const LONGEST_STRING: usize = 2048;
 
@@ -178,7 +178,8 @@ impl<'a> Tokens<'a> {
         fault_at(self.text, byte, kind)
     }
 
-    /// Line and column of a byte, from 1; counts from the byte asked for before, so that asking in order takes linear time.
+    /// Line and column of a byte, from 1; counts from the byte asked for before, so that asking in
+    /// order takes linear time.
     pub(crate) fn line_and_column(&mut self, byte: usize) -> (usize, usize) {
         if byte < self.place.byte {
             self.place = Place::BEGINNING;
@@ -277,7 +278,8 @@ impl<'a> Tokens<'a> {
         if matches!(bytes.get(end), Some(b'e' | b'E')) {
             end += if matches!(bytes.get(end + 1), Some(b'+' | b'-')) { 2 } else { 1 };
         }
-        // Letters and digits belong to it, so that 12abc is one wrong number and not a number and a name.
+        // Letters and digits belong to it, so that 12abc is one wrong number and not a number and a
+        // name.
         end = end_of_word(self.text, end);
         let text = &self.text[start..end];
         let fault = |kind| self.fault(start, kind);
@@ -335,7 +337,8 @@ fn is_symbol(byte: u8) -> bool {
     )
 }
 
-/// The end of the placeholder that begins at a byte: capital letters between `<` and `>`, without blanks.
+/// The end of the placeholder that begins at a byte: capital letters between `<` and `>`, without
+/// blanks.
 ///
 /// It is no comparison: RAPID has none of three operands, as `a<B>c` would be.
 fn placeholder_end(bytes: &[u8], start: usize) -> Option<usize> {

@@ -1,6 +1,7 @@
 //! RAPID's reserved words, and what may be a name.
 
-/// Whether a byte belongs to a word wherever it is in it: an ASCII letter, a digit or an underscore.
+/// Whether a byte belongs to a word wherever it is in it: an ASCII letter, a digit or an
+/// underscore.
 pub(crate) fn is_word_byte(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_'
 }
