@@ -14,7 +14,7 @@ use alloc::vec::Vec;
 #[cfg(feature = "rapid")]
 pub use self::frame::FrameFault;
 #[cfg(feature = "rapid")]
-pub use self::rapid::{RapidFault, RapidFaultKind};
+pub use self::rapid::{Missing, RapidFault, RapidFaultKind};
 pub use self::urdf::{Names, UrdfFault};
 use crate::kinematics::{Configuration, Explanation, FreeJoint, NotRecognised};
 

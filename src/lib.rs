@@ -61,7 +61,7 @@ pub use error::{
     Error, JointFault, ModelFault, Names, NoConfiguration, PoseFault, UnknownRobot, UrdfFault,
 };
 #[cfg(feature = "rapid")]
-pub use error::{FrameFault, RapidFault, RapidFaultKind};
+pub use error::{FrameFault, Missing, RapidFault, RapidFaultKind};
 pub use kinematics::{
     Break, BreakReason, Chain, Condition, Configuration, Crossing, Definition, DhRow, Explanation,
     FollowOptions, Followed, Follower, FreeJoint, JacobianFrame, JointAxis, JointLimits, Mdh,

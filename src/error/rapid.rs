@@ -205,28 +205,39 @@ pub enum RapidFaultKind {
         /// Whose place.
         thing: String,
     },
-    /// A value is to be put into a datum that the module does not have.
-    NoSuchDatum {
-        /// Its index.
+    /// A value is to be put where there is none.
+    NoSuchValue {
+        /// What there is not.
+        missing: Missing,
+    },
+}
+
+/// What a module does not have. `thing` is a type and a name.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Missing {
+    /// A datum of an index.
+    Datum {
+        /// The index.
         index: usize,
         /// Data that the module has.
         count: usize,
     },
-    /// A value is to be put into an element that a datum does not have.
-    NoSuchElement {
+    /// An element of a datum.
+    Element {
         /// The datum.
         thing: String,
         /// The element, from 0.
         element: usize,
     },
-    /// A single value is to be put into an array.
-    NoSingleValue {
+    /// A single value in an array.
+    Single {
         /// The array.
         thing: String,
     },
-    /// The text of a module made of data and moves does not say the same as they do.
-    NoSuchModule {
-        /// What of it is not read.
+    /// A text that says the same as the data and moves that a module is made of.
+    Module {
+        /// What of them is not read.
         what: String,
     },
 }
@@ -307,7 +318,8 @@ impl fmt::Display for RapidFaultKind {
             Self::ArrayDimension { thing, dimension, value } => {
                 write!(
                     f,
-                    "{thing}: size of dimension {dimension} is {value}, it must be a positive whole number"
+                    "{thing}: size of dimension {dimension} is {value}, it must be a positive \
+                     whole number"
                 )
             }
             Self::Dimensions { thing, found, bound } => {
@@ -356,22 +368,23 @@ impl fmt::Display for RapidFaultKind {
             Self::OtherText { found, wanted } => {
                 write!(
                     f,
-                    "this is not the text of the module: it has {found} bytes, it must have {wanted}"
+                    "this is not the text of the module: it has {found} bytes, it must have \
+                     {wanted}"
                 )
             }
             Self::TwoValues { thing } => write!(f, "{thing} is to get two values"),
-            Self::NoSuchDatum { index, count } => {
-                write!(f, "there is no datum {index}, the module has {count}")
-            }
-            Self::NoSuchElement { thing, element } => {
-                write!(f, "there is no element {element} of {thing}")
-            }
-            Self::NoSingleValue { thing } => {
-                write!(f, "there is no single value in the array {thing}")
-            }
-            Self::NoSuchModule { what } => {
-                write!(f, "there is no module of these data: {what}")
-            }
+            Self::NoSuchValue { missing } => write!(f, "there is no {missing}"),
+        }
+    }
+}
+
+impl fmt::Display for Missing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Datum { index, count } => write!(f, "datum {index}, the module has {count}"),
+            Self::Element { thing, element } => write!(f, "element {element} of {thing}"),
+            Self::Single { thing } => write!(f, "single value in the array {thing}"),
+            Self::Module { what } => write!(f, "module of these data: {what}"),
         }
     }
 }

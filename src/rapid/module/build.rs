@@ -6,7 +6,7 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use super::parse::parse;
-use crate::error::{Error, RapidFault, RapidFaultKind};
+use crate::error::{Error, Missing, RapidFault, RapidFaultKind};
 use crate::rapid::data::module::{Content, Datum, Module, Routine, RoutineKind};
 use crate::rapid::data::moves::Move;
 use crate::rapid::text::words::is_name;
@@ -58,7 +58,7 @@ impl Module {
             || "datum or move for each that was given".to_string(),
             |it| it.what.to_string(),
         );
-        Err(fault(RapidFaultKind::NoSuchModule { what }))
+        Err(fault(RapidFaultKind::NoSuchValue { missing: Missing::Module { what } }))
     }
 }
 

@@ -6,7 +6,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use crate::error::{Error, RapidFault, RapidFaultKind};
+use crate::error::{Error, Missing, RapidFault, RapidFaultKind};
 use crate::rapid::data::module::{Content, Module};
 use crate::rapid::data::value::Value;
 
@@ -69,7 +69,8 @@ fn nowhere(kind: RapidFaultKind) -> Error {
 fn place(module: &Module, new: &NewValue) -> Result<Range<usize>, Error> {
     let Some(datum) = module.data.get(new.datum) else {
         let (index, count) = (new.datum, module.data.len());
-        return Err(nowhere(RapidFaultKind::NoSuchDatum { index, count }));
+        let missing = Missing::Datum { index, count };
+        return Err(nowhere(RapidFaultKind::NoSuchValue { missing }));
     };
     let thing = format!("{} {}", datum.data_type.name(), datum.name);
     let fault = |kind| RapidFault { line: datum.line, column: datum.column, kind }.into();
@@ -85,16 +86,17 @@ fn place(module: &Module, new: &NewValue) -> Result<Range<usize>, Error> {
     if !new.value.part().is_finite() {
         return Err(fault(RapidFaultKind::NotFinite { text: format!("{}", new.value) }));
     }
+    let missing = |missing| Err(fault(RapidFaultKind::NoSuchValue { missing }));
     match (&datum.content, new.element) {
         (Content::Single(_), None) => Ok(datum.value_span.clone()),
         (Content::Uninitialised { sizes }, None) if sizes.is_empty() => {
             Ok(datum.value_span.clone())
         }
-        (Content::Array { .. }, Some(element)) => {
-            let span = datum.element_spans.get(element).cloned();
-            span.ok_or_else(|| fault(RapidFaultKind::NoSuchElement { thing, element }))
-        }
-        (_, None) => Err(fault(RapidFaultKind::NoSingleValue { thing })),
-        (_, Some(element)) => Err(fault(RapidFaultKind::NoSuchElement { thing, element })),
+        (Content::Array { .. }, Some(element)) => match datum.element_spans.get(element) {
+            Some(span) => Ok(span.clone()),
+            None => missing(Missing::Element { thing, element }),
+        },
+        (_, None) => missing(Missing::Single { thing }),
+        (_, Some(element)) => missing(Missing::Element { thing, element }),
     }
 }

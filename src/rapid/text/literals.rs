@@ -139,10 +139,8 @@ mod tests {
 
     #[test]
     fn other_numbers_are_left_alone() {
-        for text in
-            ["0x1F", "1.5.2", "12abc", "1_", "1E", "1E+", "1E100", "1e400", "1\u{e9}", "1."].iter()
-        {
-            assert_eq!(decimal(text, 0).is_some(), *text == "1.", "{text}");
+        for text in ["0x1F", "1.5.2", "12abc", "1_", "1E", "1E+", "1E100", "1e400", "1\u{e9}"] {
+            assert_eq!(decimal(text, 0), None, "{text}");
         }
         assert_eq!(decimal("[12,3]", 1), Some((12.0, 3)));
     }
