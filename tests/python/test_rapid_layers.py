@@ -16,7 +16,9 @@ def uses(path: Path) -> set[str]:
     layer = path.parent.name
     text = path.read_text().split("#[cfg(test)]")[0]
     used = set()
-    for root, rest in re.findall(r"^\s*(?:pub(?:\([^)]*\))? )?use (crate::rapid|super|self)::([\w:]+)", text, re.MULTILINE):
+    for root, rest in re.findall(
+        r"^\s*(?:pub(?:\([^)]*\))? )?use (crate::rapid|super|self)::([\w:]+)", text, re.MULTILINE
+    ):
         names = rest.split("::")
         if root != "crate::rapid":
             names.insert(0, layer)
