@@ -47,6 +47,7 @@ run: $(BUILT) ## Solve a real IRB 2600 pose and show every solution
 test: $(BUILT) $(VENV)/.groups ## Run all tests, Rust's and Python's
 	cargo test --quiet
 	$(ON_EACH_SET) cargo test --quiet --test laws --test laws_three_parallel --test recall --test hardsets --test hardsets_three_parallel; done
+	cargo test --quiet $(NO_STD),rapid --lib --test rapid --test rapid_calc
 	cargo test --quiet $(NO_STD) --lib --test laws --test laws_three_parallel --test coupled --test configuration --test allocation
 	$(BIN)/python -m pytest --quiet
 
@@ -56,6 +57,8 @@ check: $(BUILT) $(VENV)/.groups ## Format, lints for each feature set, types, st
 	cargo clippy --quiet --all-targets --features serde -- -D warnings
 	cargo clippy --quiet --lib --features python -- -D warnings
 	cargo clippy --quiet --lib $(NO_STD) -- -D warnings
+	cargo clippy --quiet --lib $(NO_STD),rapid -- -D warnings
+	cargo clippy --quiet --all-targets --no-default-features --features std,urdf -- -D warnings
 	RUSTDOCFLAGS='-D warnings' cargo doc --quiet --no-deps --features serde
 	cargo bench --quiet --bench one_pose --bench batch --bench instructions -- --test
 	$(BIN)/python benches/python_calls.py >/dev/null

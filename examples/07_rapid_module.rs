@@ -14,8 +14,8 @@ fn degrees(q: &[f64; 6]) -> String {
 
 fn show(rows: &[TableRow]) {
     for TableRow { kind, text, q, configuration, problem, .. } in rows {
-        let (joints, problem) =
-            (q.as_ref().map_or_else(|| " ".repeat(53), degrees), problem.as_deref().unwrap_or(""));
+        let joints = q.as_ref().map_or_else(|| " ".repeat(53), degrees);
+        let problem = problem.as_ref().map(ToString::to_string).unwrap_or_default();
         println!("  {kind:8} {text:22.22} {joints}  {configuration}  {problem:.60}");
     }
 }

@@ -1,7 +1,9 @@
 //! What can be wrong with an input, each fault with the field, the value and the bound.
 
+#[cfg(feature = "rapid")]
 mod frame;
 mod names;
+#[cfg(feature = "rapid")]
 mod rapid;
 mod urdf;
 
@@ -10,8 +12,10 @@ use core::fmt;
 use alloc::string::String;
 use alloc::vec::Vec;
 
+#[cfg(feature = "rapid")]
 pub use self::frame::FrameFault;
-pub use self::rapid::{RapidFault, RapidFaultKind};
+#[cfg(feature = "rapid")]
+pub use self::rapid::{Missing, RapidFault, RapidFaultKind};
 pub use self::urdf::{Names, UrdfFault};
 use crate::report::{Configuration, Explanation, FreeJoint, UnknownStructure};
 
@@ -28,8 +32,10 @@ pub enum Error {
     /// The catalogue has no arm of that name.
     UnknownRobot(UnknownRobot),
     /// The RAPID text is broken.
+    #[cfg(feature = "rapid")]
     Rapid(RapidFault),
     /// A tool and a work object do not go together, or are no poses.
+    #[cfg(feature = "rapid")]
     Frame(FrameFault),
     /// No solution inside the limits.
     Unreachable(Explanation),
@@ -311,7 +317,9 @@ impl fmt::Display for Error {
             Self::InvalidJoints(fault) => fault.fmt(f),
             Self::InvalidModel(fault) => fault.fmt(f),
             Self::UnknownRobot(fault) => fault.fmt(f),
+            #[cfg(feature = "rapid")]
             Self::Rapid(fault) => fault.fmt(f),
+            #[cfg(feature = "rapid")]
             Self::Frame(fault) => fault.fmt(f),
             Self::Unreachable(explanation) => explanation.fmt(f),
             Self::NoConfiguration(fault) => fault.fmt(f),
@@ -541,12 +549,14 @@ impl From<UrdfFault> for Error {
     }
 }
 
+#[cfg(feature = "rapid")]
 impl From<RapidFault> for Error {
     fn from(fault: RapidFault) -> Self {
         Self::Rapid(fault)
     }
 }
 
+#[cfg(feature = "rapid")]
 impl From<FrameFault> for Error {
     fn from(fault: FrameFault) -> Self {
         Self::Frame(fault)

@@ -51,6 +51,7 @@ mod kinematics;
 mod lanes;
 #[cfg(feature = "python")]
 mod python;
+#[cfg(feature = "rapid")]
 pub mod rapid;
 mod report;
 #[cfg(feature = "urdf")]
@@ -58,9 +59,10 @@ mod urdf;
 
 pub use catalogue::{AngleUnit, CatalogueArm, CatalogueGeometry, catalogue, find};
 pub use error::{
-    Error, FrameFault, JointFault, ModelFault, Names, NoConfiguration, PoseFault, RapidFault,
-    RapidFaultKind, UnknownRobot, UrdfFault,
+    Error, JointFault, ModelFault, Names, NoConfiguration, PoseFault, UnknownRobot, UrdfFault,
 };
+#[cfg(feature = "rapid")]
+pub use error::{FrameFault, Missing, RapidFault, RapidFaultKind};
 pub use kinematics::{
     Arity, Break, BreakReason, Crossing, Definition, DhRow, FollowOptions, Followed, Follower,
     Inverse, JacobianFrame, JointAxis, JointLimits, Joints, MOST_SLOTS, Mdh, OpwParameters, Pose,

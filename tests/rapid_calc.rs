@@ -5,8 +5,8 @@ mod common;
 
 use common::{Rng, apart};
 use irbkin::rapid::{
-    Fallback, JointTarget, LoadData, RapidPose, RobTarget, ToolData, WobjData, calc_joint_t,
-    calc_joint_t_or_nearest, calc_moves, calc_rob_t, calc_targets, error_name, parse,
+    Fallback, JointTarget, LoadData, Problem, RapidPose, RobTarget, TableRow, ToolData, WobjData,
+    calc_joint_t, calc_joint_t_or_nearest, calc_moves, calc_rob_t, calc_targets, error_name, parse,
 };
 use irbkin::{Configuration, Error, Pose, Robot, pose_from_quaternion};
 
@@ -31,6 +31,11 @@ fn fixture(robhold: bool) -> WobjData {
         frame([10.0, 20.0, 30.0], [0.0, 0.6, 0.8, 0.0]),
     );
     WobjData { robhold, ufprog: true, ufmec: String::new(), uframe, oframe }
+}
+
+/// The words of what is wrong with a target; the empty text where nothing is.
+fn words(row: &TableRow) -> String {
+    row.problem.as_ref().map(ToString::to_string).unwrap_or_default()
 }
 
 fn pose(frame: &RapidPose) -> Pose {
@@ -209,7 +214,7 @@ fn a_table_has_a_row_for_each_target_of_the_moves() {
             ("MoveAbsJ", "[[0,0,99,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]", 15, true),
         ]
     );
-    let problem = |row: usize| rows[row].problem.as_deref().unwrap_or("");
+    let problem = |row: usize| words(&rows[row]);
     assert!(
         problem(1).starts_with("ERR_ROBLIMIT: no solution inside the limits has the configuration [0, 0, 0, 0]; there are [-1, 0, -2, 0]")
     );
@@ -240,9 +245,8 @@ fn a_configuration_that_nobody_calculated_can_fall_back_to_the_joints_before() {
     assert!(
         apart(&row.q.unwrap(), &robot.ik_nearest(&flange, &before, &[1.0; 6]).unwrap().q) < 1e-12
     );
-    assert!(
-        row.problem.as_deref().unwrap().ends_with("; the nearest to the joints before is taken")
-    );
+    assert!(words(row).ends_with("; the nearest to the joints before is taken"));
+    assert!(matches!(row.problem, Some(Problem::Nearest(Error::NoConfiguration(_)))));
     assert!(rows[4].q.is_none(), "out of reach stays so");
 }
 
@@ -287,7 +291,7 @@ fn displaced_moves_and_axes_that_are_not_there_have_no_joints() {
         MoveL q,v100,fine,tool0;
         VAR robtarget q:=p; q:=CRobT();";
     let rows = calc_moves(&robot, &parse(text, &[]).unwrap(), Fallback::None).unwrap();
-    let problems: Vec<_> = rows.iter().map(|row| row.problem.as_deref().unwrap_or("")).collect();
+    let problems: Vec<_> = rows.iter().map(words).collect();
     assert_eq!(problems[0], "axis 3 is 9E9: it is not there");
     assert_eq!(problems[1], "axis 5 is -2000000: it is not there");
     assert_eq!(problems[3..5], ["line 6 displaces it, which is not followed"; 2]);

@@ -15,7 +15,9 @@ mod common;
 use std::time::{Duration, Instant};
 
 use common::Rng;
-use irbkin::rapid::{Content, Module, Move, NewValue, Value, decode, parse, rewrite};
+use irbkin::rapid::{
+    Content, Module, Move, NewValue, Reason, Unresolved, Value, decode, parse, rewrite,
+};
 
 const CORPUS: [&[u8]; 3] = [
     include_bytes!("data/rapid/weld.mod"),
@@ -261,7 +263,11 @@ fn check(text: &str, module: &Module) {
         let via = step.via.as_ref().and_then(|via| via.value.as_ref().err());
         let wobj = step.wobj.as_ref().and_then(|wobj| wobj.value.as_ref().err());
         let reasons = [via, step.target.value.as_ref().err(), step.tool.value.as_ref().err(), wobj];
-        reasons.into_iter().flatten().any(|why| why.contains("depends on"))
+        let through_another = |reason: &Reason| {
+            let Reason::Reference { why, .. } = reason else { return false };
+            matches!(why, Unresolved::Assigned { through: Some(_), .. })
+        };
+        reasons.into_iter().flatten().any(through_another)
     };
     if module.moves().iter().any(unknown) {
         return;

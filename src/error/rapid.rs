@@ -17,7 +17,8 @@ pub struct RapidFault {
     pub kind: RapidFaultKind,
 }
 
-/// The ways in which a RAPID text can be broken. `thing` is a type and a name, or an instruction and its argument.
+/// The ways in which a RAPID text can be broken. `thing` is a type and a name, or an instruction
+/// and its argument.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum RapidFaultKind {
@@ -48,7 +49,7 @@ pub enum RapidFaultKind {
         /// What stands there.
         found: String,
         /// What must.
-        wanted: String,
+        wanted: &'static str,
     },
     /// The text ends too early.
     UnexpectedEnd {
@@ -156,7 +157,8 @@ pub enum RapidFaultKind {
         /// The circle.
         names: Names,
     },
-    /// A name or a string is so long that what tells of it often would not be read in linear time; RAPID's own are far shorter.
+    /// A name or a string is so long that what tells of it often would not be read in linear time;
+    /// RAPID's own are far shorter.
     TooLong {
         /// What it is.
         what: &'static str,
@@ -206,6 +208,36 @@ pub enum RapidFaultKind {
     /// A value is to be put where there is none.
     NoSuchValue {
         /// What there is not.
+        missing: Missing,
+    },
+}
+
+/// What a module does not have. `thing` is a type and a name.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Missing {
+    /// A datum of an index.
+    Datum {
+        /// The index.
+        index: usize,
+        /// Data that the module has.
+        count: usize,
+    },
+    /// An element of a datum.
+    Element {
+        /// The datum.
+        thing: String,
+        /// The element, from 0.
+        element: usize,
+    },
+    /// A single value in an array.
+    Single {
+        /// The array.
+        thing: String,
+    },
+    /// A text that says the same as the data and moves that a module is made of.
+    Module {
+        /// What of them is not read.
         what: String,
     },
 }
@@ -286,7 +318,8 @@ impl fmt::Display for RapidFaultKind {
             Self::ArrayDimension { thing, dimension, value } => {
                 write!(
                     f,
-                    "{thing}: size of dimension {dimension} is {value}, it must be a positive whole number"
+                    "{thing}: size of dimension {dimension} is {value}, it must be a positive \
+                     whole number"
                 )
             }
             Self::Dimensions { thing, found, bound } => {
@@ -335,11 +368,23 @@ impl fmt::Display for RapidFaultKind {
             Self::OtherText { found, wanted } => {
                 write!(
                     f,
-                    "this is not the text of the module: it has {found} bytes, it must have {wanted}"
+                    "this is not the text of the module: it has {found} bytes, it must have \
+                     {wanted}"
                 )
             }
             Self::TwoValues { thing } => write!(f, "{thing} is to get two values"),
-            Self::NoSuchValue { what } => write!(f, "there is no {what}"),
+            Self::NoSuchValue { missing } => write!(f, "there is no {missing}"),
+        }
+    }
+}
+
+impl fmt::Display for Missing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Datum { index, count } => write!(f, "datum {index}, the module has {count}"),
+            Self::Element { thing, element } => write!(f, "element {element} of {thing}"),
+            Self::Single { thing } => write!(f, "single value in the array {thing}"),
+            Self::Module { what } => write!(f, "module of these data: {what}"),
         }
     }
 }

@@ -29,6 +29,7 @@ pub(crate) use chain::joint_axes::unit;
 pub use chain::limits::JointLimits;
 pub use path::crossing::{Crossing, FollowOptions};
 pub use path::follow::{Break, BreakReason, Followed, Follower};
+#[cfg(feature = "rapid")]
 pub(crate) use pose::angles::constant_sin_cos;
 #[cfg(feature = "urdf")]
 pub(crate) use pose::angles::snapped;

@@ -17,91 +17,46 @@
 //! # Ok::<(), irbkin::Error>(())
 //! ```
 //!
-//! What is not known is skipped and told ([`Module::skipped`]), never guessed; a broken text is an error with its line and column. Data have
-//! the values of their declarations; those that the module assigns have none where it moves. A negative zero is read as zero.
+//! What is not known is skipped and listed ([`Module::skipped`]), never guessed; a broken text is
+//! an error with its line and column. Data have the values of their declarations; those that the
+//! module assigns have none where it moves, and the [`Reason`] says why. A negative zero is read as
+//! zero.
+//!
+//! The layers, each of which uses only those before it:
+//!
+//! 1. `text`: places, tokens, literals and reserved words of a text.
+//! 2. `data`: types, records, values, declarations, moves, modules, and reasons why something is
+//!    not read.
+//! 3. `expression`: expressions as they are written, and what they are worth.
+//! 4. `statements`: declarations, moves, routines and blocks as they are written, and what is not
+//!    read.
+//! 5. `resolve`: names looked up, data in the order of their references, then moves.
+//! 6. `module`: whole modules read, made, written, and rewritten in place.
+//! 7. `calc`: joint angles of targets and back, one by one and in tables.
 
-mod assigned;
-mod blocks;
-mod build;
 mod calc;
-mod declarations;
-mod displaced;
-mod evaluate;
+mod data;
 mod expression;
-mod frames;
-mod instructions;
-mod kind;
 mod module;
-mod moves;
-mod record;
 mod resolve;
-mod rewrite;
-mod routines;
-mod skipping;
 mod statements;
-mod table;
 #[cfg(test)]
 mod tests;
-mod tokens;
-mod values;
-mod words;
-mod write;
+mod text;
 
-use alloc::borrow::Cow;
-use alloc::string::String;
-
-pub use self::calc::{calc_joint_t, calc_joint_t_or_nearest, calc_rob_t, error_name};
-pub use self::expression::DEEPEST_NESTING;
-pub use self::kind::DataType;
-pub use self::module::{Content, Datum, Module, Routine, RoutineKind, Scope, Skipped, Storage};
-pub use self::moves::{Argument, Move, MoveKind, MoveOption, Target};
-pub use self::record::parse_record;
-pub use self::rewrite::{NewValue, rewrite};
-use self::statements::StatementReader;
-pub use self::table::{Fallback, TableRow, calc_moves, calc_targets};
-pub use self::values::{
-    JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, ToolData, Value, WobjData,
+pub use self::calc::problem::Problem;
+pub use self::calc::table::{Fallback, TableRow, calc_moves, calc_targets};
+pub use self::calc::target::{calc_joint_t, calc_joint_t_or_nearest, calc_rob_t, error_name};
+pub use self::data::data_type::DataType;
+pub use self::data::module::{Content, Datum, Module, Routine, RoutineKind, Scope, Storage};
+pub use self::data::moves::{Argument, Move, MoveKind, MoveOption, Target};
+pub use self::data::reason::{AssignedBy, Reason, Unresolved};
+pub use self::data::records::{
+    JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, ToolData, WobjData,
 };
-use crate::error::Error;
-
-/// Reads the text of a module, or of declarations and moves without one.
-///
-/// Names that it does not declare are RAPID's own `tool0`, `wobj0` and `load0`; else they are looked for in `context`: the data of these modules
-/// that are not `LOCAL`, those of the first module first.
-///
-/// A datum that a statement of the module assigns, wherever the statement stands, has no known value in moves, and no datum that refers to it
-/// has; all others have there what they are declared with. `name:=` is followed so far, and instructions such as `Incr` and `SearchL` that write to an
-/// argument: data handed to another routine as `INOUT` are not, nor what modules assign that are not in `context`.
-///
-/// The time is linear in the size of the text, but for the search of names, which takes its logarithm.
-///
-/// # Errors
-///
-/// [`Error::Rapid`] when the text is broken.
-pub fn parse(text: &str, context: &[&Module]) -> Result<Module, Error> {
-    let written = StatementReader::read(text)?;
-    Ok(resolve::resolved(written, context)?)
-}
-
-/// The text of a file: UTF-16 with a byte order mark, UTF-8, else Latin-1; without its byte order mark.
-#[must_use]
-pub fn decode(bytes: &[u8]) -> Cow<'_, str> {
-    match bytes {
-        [0xff, 0xfe, units @ ..] => return Cow::Owned(decode_units(units, u16::from_le_bytes)),
-        [0xfe, 0xff, units @ ..] => return Cow::Owned(decode_units(units, u16::from_be_bytes)),
-        _ => {}
-    }
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    match core::str::from_utf8(bytes) {
-        Ok(text) => Cow::Borrowed(text),
-        Err(_) => Cow::Owned(bytes.iter().map(|byte| char::from(*byte)).collect::<String>()),
-    }
-}
-
-/// UTF-16; what is none becomes a replacement character, also a byte too many.
-fn decode_units(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> String {
-    let (pairs, rest) = bytes.as_chunks::<2>();
-    let characters = char::decode_utf16(pairs.iter().map(|pair| unit(*pair)))
-        .map(|it| it.unwrap_or(char::REPLACEMENT_CHARACTER));
-    characters.chain(rest.iter().map(|_| char::REPLACEMENT_CHARACTER)).collect()
-}
+pub use self::data::skipped::{NotRead, Skipped};
+pub use self::data::value::Value;
+pub use self::expression::reader::DEEPEST_NESTING;
+pub use self::module::parse::{decode, parse};
+pub use self::module::record::parse_record;
+pub use self::module::rewrite::{NewValue, rewrite};

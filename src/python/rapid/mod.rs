@@ -19,9 +19,7 @@ use super::found::read_seed;
 use super::robot::PyRobot;
 use crate::error::Error;
 use crate::kinematics::{Configuration, Robot};
-use crate::rapid::{
-    self, Content, DataType, Datum, Module, Scope, Storage, TableRow, ToolData, Value, WobjData,
-};
+use crate::rapid::{self, Content, Datum, Module, Storage, TableRow, ToolData, Value, WobjData};
 
 /// The module of a text.
 ///
@@ -96,30 +94,15 @@ pub(super) fn dump(value: &Bound<'_, PyAny>, name: &str) -> PyResult<String> {
 /// The declaration of a Python record, or of nested lists of records.
 fn datum(name: String, value: &Bound<'_, PyAny>) -> PyResult<Datum> {
     let Given { sizes, values } = read_content(value, &name)?;
-    let data_type = values.first().map_or(DataType::Num, Value::data_type);
+    let first = values.first().cloned().unwrap_or(Value::Num(0.0));
     // A controller keeps tools and work objects where it can change them.
-    let storage = if matches!(data_type, DataType::ToolData | DataType::WobjData) {
-        Storage::Pers
-    } else {
-        Storage::Const
+    let storage = match first {
+        Value::ToolData(_) | Value::WobjData(_) => Storage::Pers,
+        _ => Storage::Const,
     };
-    let content = match (sizes.is_empty(), values.first()) {
-        (true, Some(value)) => Content::Single(value.clone()),
-        _ => Content::Array { sizes, values },
-    };
-    let (line, column, value_span, element_spans) = (0, 0, 0..0, Vec::new());
-    Ok(Datum {
-        name,
-        data_type,
-        scope: Scope::Global,
-        storage,
-        routine: None,
-        content,
-        line,
-        column,
-        value_span,
-        element_spans,
-    })
+    let datum = Datum::single(name, storage, first);
+    let is_single = sizes.is_empty();
+    Ok(if is_single { datum } else { Datum { content: Content::Array { sizes, values }, ..datum } })
 }
 
 /// The jointtarget of a robtarget, as RAPID's CalcJointT: the joint angles with its configuration, inside the limits.
@@ -155,15 +138,12 @@ pub(super) fn calc_joint_t<'py>(
     let py = robot.py();
     let (target, Cell { robot, tool, wobj }) =
         (read_rob_target(target)?, Cell::read(robot, tool, wobj)?);
-    let joints = match (Fallback { name: fallback, seed }).checked()? {
-        Some(seed) => rapid::calc_joint_t_or_nearest(
-            robot,
-            &target,
-            tool.as_ref(),
-            wobj.as_ref(),
-            &read_seed(seed, None)?.0,
-        ),
-        None => rapid::calc_joint_t(robot, &target, tool.as_ref(), wobj.as_ref()),
+    let (tool, wobj) = (tool.as_ref(), wobj.as_ref());
+    let joints = match read_fallback(fallback, seed)? {
+        rapid::Fallback::Nearest(seed) => {
+            rapid::calc_joint_t_or_nearest(robot, &target, tool, wobj, &seed)
+        }
+        rapid::Fallback::None => rapid::calc_joint_t(robot, &target, tool, wobj),
     };
     joint_target(py, &joints.map_err(|error| named(py, &error))?)
 }
@@ -323,7 +303,8 @@ fn table<'py>(py: Python<'py>, rows: &[TableRow]) -> PyResult<Bound<'py, PyAny>>
         distance(|d| d.wrist).into_any(),
         distance(|d| d.elbow).into_any(),
         distance(|d| d.shoulder).into_any(),
-        PyTuple::new(py, rows.iter().map(|row| &row.problem))?.into_any(),
+        PyTuple::new(py, rows.iter().map(|row| row.problem.as_ref().map(ToString::to_string)))?
+            .into_any(),
     ];
     classes::target_table_class(py)?.call1(PyTuple::new(py, fields)?)
 }

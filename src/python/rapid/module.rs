@@ -8,9 +8,7 @@ use pyo3::types::{PyDict, PyMappingProxy, PyTuple};
 use super::records::{content, joint_target, read_content, record, rob_target};
 use crate::python::classes;
 use crate::python::errors::{rapid_fault, to_py};
-use crate::rapid::{
-    self, Argument, Content, Datum, Module, Move, NewValue, Scope, Storage, Target, Value,
-};
+use crate::rapid::{self, Argument, Content, Datum, Module, Move, NewValue, Target, Value};
 
 /// A RAPID module: its data by name, its moves in order, what was skipped. Frozen; equal where it says the same, wherever that stands.
 ///
@@ -89,7 +87,8 @@ impl RapidModule {
     fn skipped<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let class = classes::skipped_class(py)?;
         let skipped = self.module.skipped().iter().map(|part| {
-            class.call1((part.line, part.column, &part.routine, &part.what, &part.text))
+            let what = part.what.to_string();
+            class.call1((part.line, part.column, &part.routine, what, &part.text))
         });
         PyTuple::new(py, skipped.collect::<PyResult<Vec<_>>>()?)
     }
@@ -172,22 +171,12 @@ impl RapidModule {
 }
 
 fn declaration<'py>(py: Python<'py>, datum: &Datum) -> PyResult<Bound<'py, PyAny>> {
-    let scope = match datum.scope {
-        Scope::Global => "",
-        Scope::Local => "LOCAL",
-        Scope::Task => "TASK",
-    };
-    let storage = match datum.storage {
-        Storage::Const => "CONST",
-        Storage::Pers => "PERS",
-        Storage::Var => "VAR",
-    };
     let value = content(py, &datum.content)?;
     let fields = (
         &datum.name,
         datum.data_type.name(),
-        scope,
-        storage,
+        datum.scope.word(),
+        datum.storage.word(),
         &datum.routine,
         value,
         datum.line,
@@ -234,7 +223,7 @@ fn argument<'py, T>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let (value, reason) = match &argument.value {
         Ok(value) => (Some(record(value)?), None),
-        Err(reason) => (None, Some(reason)),
+        Err(reason) => (None, Some(reason.to_string())),
     };
     classes::argument_class(py)?.call1((&argument.text, value, reason))
 }

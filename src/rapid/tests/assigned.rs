@@ -20,7 +20,7 @@ fn module(data: &str, statements: &str) -> Module {
 
 /// Why the last move has no target; the empty text where it has one.
 fn why(data: &str, statements: &str) -> String {
-    module(data, statements).moves().last().unwrap().target.value.clone().err().unwrap_or_default()
+    words(&module(data, statements).moves().last().unwrap().target.value)
 }
 
 fn line_4(statement: &str) -> String {
@@ -60,7 +60,7 @@ fn assignments_count_wherever_they_stand() {
         "PERS robtarget p:={TARGET};\nPROC a() MoveL p,v,z,tool0; ENDPROC\n\n! note\nPROC b() p:=p; ENDPROC"
     );
     let module = read(&text);
-    assert_eq!(module.moves()[0].target.value, Err("refers to p, which line 5 assigns".into()));
+    assert_eq!(words(&module.moves()[0].target.value), "refers to p, which line 5 assigns");
     again(&module, &[]);
     // One that is local there is another.
     let local = format!(
@@ -92,18 +92,18 @@ fn what_refers_to_assigned_data_has_no_value_either() {
     );
     assert!(kept.to_string().contains("VAR num x:=1;\n    VAR num a{2}:=[ x, 2 ];\n    CONST num n:=x;\n    VAR num b{1}:=[4];"), "{kept}");
     assert_eq!(
-        kept.moves()[0].target.value,
-        Err("refers to a, which depends on x, which line 4 assigns".into())
+        words(&kept.moves()[0].target.value),
+        "refers to a, which depends on x, which line 4 assigns"
     );
     assert!(module("PERS tooldata t:=tool0;", "MoveL c,v,z,t;").moves()[0].tool.value.is_ok());
     let moved = module(
         "PERS tooldata t:=tool0; PERS wobjdata w:=wobj0;",
         "t.tframe.trans.z:=5; w:=x; MoveL c,v,z,t\\WObj:=w;",
     );
-    assert_eq!(moved.moves()[0].tool.value, Err("refers to t, which line 4 assigns".into()));
+    assert_eq!(words(&moved.moves()[0].tool.value), "refers to t, which line 4 assigns");
     assert_eq!(
-        moved.moves()[0].wobj.as_ref().unwrap().value,
-        Err("refers to w, which line 4 assigns".into())
+        words(&moved.moves()[0].wobj.as_ref().unwrap().value),
+        "refers to w, which line 4 assigns"
     );
 }
 
@@ -117,7 +117,7 @@ fn other_modules_assign_too() {
     let why = |text: &str, context: &[&Module]| {
         let module = parse(text, context).unwrap();
         again(&module, context);
-        module.moves()[0].target.value.clone().err().unwrap_or_default()
+        words(&module.moves()[0].target.value)
     };
     assert_eq!(why("MoveL p,v,z,tool0;", &[&still]), "");
     assert_eq!(why("MoveL r,v,z,tool0;", &[&moving]), "");

@@ -1,7 +1,6 @@
 //! Offs and RelTool.
 
 use std::format;
-use std::string::ToString;
 
 use super::*;
 use crate::rapid::RobTarget;
@@ -46,7 +45,7 @@ fn reltool_shifts_and_turns_in_the_tool() {
 fn functions_are_refused_in_words() {
     let p = format!("CONST robtarget p:=[[1,2,3],[0,0,0,0],{ZEROS}]; ");
     let fault = |rest: &str| super::fault(&format!("{p}\n{rest}"));
-    let why = |rest: &str| told(&read(&format!("{p}{rest}")))[0].to_string();
+    let why = |rest: &str| told(&read(&format!("{p}{rest}")))[0].clone();
     assert_eq!(
         fault("CONST robtarget r:=Offs(p,1,2);"),
         "line 2, column 20: Offs has 3 arguments, it must have 4"

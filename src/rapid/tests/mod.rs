@@ -5,6 +5,7 @@ mod build;
 mod functions;
 mod moves;
 mod names;
+mod plain;
 mod texts;
 mod unfinished;
 
@@ -12,7 +13,7 @@ use std::string::String;
 use std::string::ToString;
 use std::vec::Vec;
 
-use super::{Content, Module, Skipped, Value, parse};
+use super::{Content, Module, Reason, Skipped, Value, parse};
 
 fn read(text: &str) -> Module {
     parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"))
@@ -36,8 +37,13 @@ fn number(module: &Module, name: &str) -> f64 {
     number
 }
 
-fn told(module: &Module) -> Vec<&str> {
-    module.skipped().iter().map(|Skipped { what, .. }| what.as_str()).collect()
+fn told(module: &Module) -> Vec<String> {
+    module.skipped().iter().map(|Skipped { what, .. }| what.to_string()).collect()
+}
+
+/// The words of the reason why a value is not known; the empty text where it is.
+fn words<T>(value: &Result<T, Reason>) -> String {
+    value.as_ref().err().map(ToString::to_string).unwrap_or_default()
 }
 
 /// The module written and read again, which must be the same.

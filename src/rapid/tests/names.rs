@@ -1,7 +1,6 @@
 //! Names: references, components, elements, scopes, other modules.
 
 use std::format;
-use std::string::String;
 use std::string::ToString;
 use std::vec::Vec;
 
@@ -59,7 +58,7 @@ fn long_chains_of_names_are_read_from_both_ends() {
 
 #[test]
 fn what_has_no_value_says_why() {
-    let why = |text: &str| String::from(*told(&read(text)).last().unwrap());
+    let why = |text: &str| told(&read(text)).pop().unwrap();
     assert_eq!(why("CONST num a:=b;"), "a: refers to b, which is not in this module");
     assert_eq!(why("VAR num b; CONST num a:=b;"), "a: refers to b, whose declaration has no value");
     assert_eq!(

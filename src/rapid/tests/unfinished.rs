@@ -10,7 +10,7 @@ use super::*;
 fn skipped(statements: &str) -> Vec<String> {
     let module = read(&format!("MODULE M\nPROC main()\n{statements}\nENDPROC\nENDMODULE"));
     again(&module, &[]);
-    told(&module).into_iter().map(String::from).collect()
+    told(&module)
 }
 
 #[test]

@@ -1,0 +1,85 @@
+//! Where the flange stands when a tool is somewhere in a work object: the frames of tooldata and
+//! wobjdata.
+
+use crate::error::{Error, FrameFault};
+use crate::kinematics::{Pose, Robot, pose_from_quaternion, pose_to_quaternion};
+use crate::rapid::data::records::{RapidPose, ToolData, WobjData};
+
+/// A tool and a work object, one of which the robot carries while the other stands in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Frames {
+    /// The robot carries the tool.
+    Carried { t_flange_tool: Pose, t_world_wobj: Pose },
+    /// The tool is stationary: the robot carries the work object.
+    Stationary { t_world_tool: Pose, t_flange_wobj: Pose },
+}
+
+impl Frames {
+    /// Those of a tool, the robot's own where none is given, and a work object, the world where
+    /// none is given.
+    pub(super) fn new(
+        robot: &Robot<6>,
+        tool: Option<&ToolData>,
+        wobj: Option<&WobjData>,
+    ) -> Result<Self, Error> {
+        let tool_carried = tool.is_none_or(|tool| tool.robhold);
+        let wobj_carried = wobj.is_some_and(|wobj| wobj.robhold);
+        if tool_carried == wobj_carried {
+            return Err(FrameFault::Held { both: tool_carried }.into());
+        }
+        let t_tool = match tool {
+            Some(tool) => pose_in(&tool.tframe, "tframe")?,
+            None => *robot.tool(),
+        };
+        let t_wobj = match wobj {
+            Some(wobj) if !wobj.ufprog => {
+                return Err(FrameFault::Moved { unit: wobj.ufmec.clone() }.into());
+            }
+            Some(wobj) => pose_in(&wobj.uframe, "uframe")? * pose_in(&wobj.oframe, "oframe")?,
+            None => Pose::identity(),
+        };
+        Ok(if tool_carried {
+            Self::Carried { t_flange_tool: t_tool, t_world_wobj: t_wobj }
+        } else {
+            Self::Stationary { t_world_tool: t_tool, t_flange_wobj: t_wobj }
+        })
+    }
+
+    /// The flange in the world, of the tool in the work object.
+    pub(super) fn flange(&self, t_wobj_tool: &Pose) -> Pose {
+        match self {
+            Self::Carried { t_flange_tool, t_world_wobj } => {
+                t_world_wobj * t_wobj_tool * t_flange_tool.inverse()
+            }
+            Self::Stationary { t_world_tool, t_flange_wobj } => {
+                t_world_tool * (t_flange_wobj * t_wobj_tool).inverse()
+            }
+        }
+    }
+
+    /// The tool in the work object, of the flange in the world.
+    pub(super) fn tool(&self, t_world_flange: &Pose) -> Pose {
+        match self {
+            Self::Carried { t_flange_tool, t_world_wobj } => {
+                t_world_wobj.inverse() * t_world_flange * t_flange_tool
+            }
+            Self::Stationary { t_world_tool, t_flange_wobj } => {
+                (t_world_flange * t_flange_wobj).inverse() * t_world_tool
+            }
+        }
+    }
+}
+
+/// A pose in metres of one in millimetres.
+pub(super) fn pose_in(pose: &RapidPose, field: &'static str) -> Result<Pose, Error> {
+    pose_from_quaternion(pose.trans_mm.map(|mm| mm / 1e3), pose.rot).map_err(|error| match error {
+        Error::InvalidPose(fault) => FrameFault::Pose { field, fault }.into(),
+        other => other,
+    })
+}
+
+/// A pose in millimetres of one in metres.
+pub(super) fn rapid_pose(pose: &Pose) -> RapidPose {
+    let (xyz, rot) = pose_to_quaternion(pose);
+    RapidPose { trans_mm: xyz.map(|m| m * 1e3), rot }
+}

@@ -1,0 +1,111 @@
+//! What is wrong with a target of a table.
+
+use core::fmt;
+
+use alloc::string::{String, ToString};
+
+use super::target::error_name;
+use crate::error::Error;
+use crate::rapid::data::reason::Reason;
+use crate::rapid::data::records::NOT_THERE;
+use crate::rapid::data::value::Value;
+
+/// Why a target has no joint angles, or why they are others than it asks for. `Display` gives the
+/// words.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Problem {
+    /// The target is not known.
+    Target(Reason),
+    /// The tool is not known.
+    Tool {
+        /// Its source text.
+        text: String,
+        /// Why it is not known.
+        reason: Reason,
+    },
+    /// The work object is not known.
+    WorkObject {
+        /// Its source text.
+        text: String,
+        /// Why it is not known.
+        reason: Reason,
+    },
+    /// An instruction displaces the move.
+    Displaced {
+        /// Line of the instruction, from 1; 0 where it is in no text.
+        line: usize,
+    },
+    /// A jointtarget has the angle of an axis that is not there.
+    AbsentAxis {
+        /// The axis, from 1.
+        axis: usize,
+        /// Its angle [deg].
+        degrees: f64,
+    },
+    /// The joint angles of a jointtarget are outside the limits: the joint that is farthest
+    /// outside.
+    OutsideLimits {
+        /// The joint, from 1.
+        joint: usize,
+        /// How far outside [rad].
+        excess: f64,
+    },
+    /// The joint angles of a jointtarget are outside the limits of the parallelogram linkage, q3 -
+    /// q2.
+    OutsideLinkageLimits {
+        /// How far outside [rad].
+        excess: f64,
+    },
+    /// No joint angles were found, and why.
+    NotSolved(Error),
+    /// No solution has the configuration: the joint angles are those nearest to the ones before.
+    Nearest(Error),
+}
+
+/// An error with RAPID's name of it, if it has one.
+struct Named<'a>(&'a Error);
+
+impl fmt::Display for Named<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(name) = error_name(self.0) {
+            write!(f, "{name}: ")?;
+        }
+        self.0.fmt(f)
+    }
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Target(reason) => reason.fmt(f),
+            Self::Tool { text, reason } => write!(f, "tool {text}: {reason}"),
+            Self::WorkObject { text, reason } => write!(f, "work object {text}: {reason}"),
+            Self::Displaced { line } => {
+                write!(f, "line {line} displaces it, which is not followed")
+            }
+            Self::AbsentAxis { axis, degrees } => {
+                let written = if degrees.to_bits() == NOT_THERE.to_bits() {
+                    "9E9".to_string()
+                } else {
+                    Value::Num(*degrees).to_string()
+                };
+                write!(f, "axis {axis} is {written}: it is not there")
+            }
+            Self::OutsideLimits { joint, excess } => write!(
+                f,
+                "ERR_ROBLIMIT: J{joint} is outside its limits by {:.1} deg",
+                excess.to_degrees()
+            ),
+            Self::OutsideLinkageLimits { excess } => write!(
+                f,
+                "ERR_ROBLIMIT: the rod (q3 - q2) is outside its limits by {:.1} deg",
+                excess.to_degrees()
+            ),
+            Self::NotSolved(error) => Named(error).fmt(f),
+            Self::Nearest(error) => {
+                write!(f, "{}; the nearest to the joints before is taken", Named(error))
+            }
+        }
+    }
+}

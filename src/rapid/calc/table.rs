@@ -1,0 +1,270 @@
+//! The joint angles of every target of a module.
+
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use super::frames::Frames;
+use super::problem::Problem;
+use super::target::{target_pose, with_flange};
+use crate::error::Error;
+use crate::kinematics::{Configuration, Robot, SingularDistances};
+use crate::rapid::data::module::{Content, Module};
+use crate::rapid::data::moves::{Argument, Move, Target};
+use crate::rapid::data::records::{RobTarget, ToolData, WobjData};
+use crate::rapid::data::value::Value;
+
+/// |joint angle| above which a jointtarget means that the axis is not there [deg]: no joint turns so far, and RAPID writes 9E9.
+const MOST_DEGREES: f64 = 1e6;
+
+/// What became of one target.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TableRow {
+    /// What it is: `MoveL` and the like, or `robtarget`.
+    pub kind: &'static str,
+    /// The target as it is written, or the name of its declaration.
+    pub text: String,
+    /// Line of the instruction or of the declaration.
+    pub line: usize,
+    /// Joint angles [rad]; `None` where there are none.
+    pub q: Option<[f64; 6]>,
+    /// The configuration of the joint angles; that of the target where there are none, zeros where
+    /// that is not known either.
+    pub configuration: Configuration,
+    /// How far the joint angles are from the singularities.
+    pub distances: Option<SingularDistances>,
+    /// What is wrong: why there are no joint angles, or why they are others than the target asks
+    /// for.
+    pub problem: Option<Problem>,
+}
+
+/// What to do with a target whose configuration no solution has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fallback {
+    /// It has no joint angles.
+    None,
+    /// It gets the solution nearest to the joint angles before it, of the first target to these
+    /// [rad], and the problem says so.
+    Nearest([f64; 6]),
+}
+
+/// The joint angles of every target of the module's moves, in their order; a `MoveC` has two.
+///
+/// Each is seen with its own tool and work object. A `MoveAbsJ` has the joint angles that it names,
+/// none where one of them is more than 1E6 degrees, as the 9E9 of an axis that is not there. A move
+/// that is displaced has none.
+///
+/// # Errors
+///
+/// [`Error::InvalidModel`] for an arm without configurations. What is wrong with one target is told
+/// in its row.
+pub fn calc_moves(
+    robot: &Robot<6>,
+    module: &Module,
+    fallback: Fallback,
+) -> Result<Vec<TableRow>, Error> {
+    let mut table = Table::new(robot, fallback)?;
+    for step in module.moves() {
+        if let Some(via) = &step.via {
+            table.add_move(step, via, |via| Ok(*via));
+        }
+        table.add_move(step, &step.target, |target| match target {
+            Target::RobTarget(target) => Ok(*target),
+            Target::JointTarget(joints) => Err(joints.robax_deg),
+        });
+    }
+    Ok(table.rows)
+}
+
+/// The joint angles of every robtarget that the module itself declares, element by element of
+/// arrays, in the order of the text, all with one tool and one work object.
+///
+/// # Errors
+///
+/// As [`calc_moves`], and [`Error::Frame`] as [`calc_joint_t`](crate::rapid::calc_joint_t).
+pub fn calc_targets(
+    robot: &Robot<6>,
+    module: &Module,
+    tool: Option<&ToolData>,
+    wobj: Option<&WobjData>,
+    fallback: Fallback,
+) -> Result<Vec<TableRow>, Error> {
+    let frames = Frames::new(robot, tool, wobj)?;
+    let mut table = Table::new(robot, fallback)?;
+    for datum in module.data().iter().filter(|datum| datum.routine.is_none()) {
+        match &datum.content {
+            Content::Single(Value::RobTarget(target)) => {
+                table.add("robtarget", datum.name.clone(), datum.line, target, Ok(frames));
+            }
+            Content::Array { sizes, values } => {
+                for (number, value) in values.iter().enumerate() {
+                    if let Value::RobTarget(target) = value {
+                        table.add(
+                            "robtarget",
+                            element(&datum.name, sizes, number),
+                            datum.line,
+                            target,
+                            Ok(frames),
+                        );
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+    Ok(table.rows)
+}
+
+/// The first axis that is not there, by the joint angles [deg].
+fn absent_axis(robax_deg: &[f64; 6]) -> Option<Problem> {
+    let axis = robax_deg.iter().position(|degrees| degrees.abs() > MOST_DEGREES)?;
+    Some(Problem::AbsentAxis { axis: axis + 1, degrees: robax_deg[axis] })
+}
+
+/// The name of an element of an array by its number in the order of the values.
+fn element(name: &str, sizes: &[usize], mut number: usize) -> String {
+    let mut indices = Vec::with_capacity(sizes.len());
+    for size in sizes.iter().rev() {
+        indices.push((number % size + 1).to_string());
+        number /= size;
+    }
+    indices.reverse();
+    format!("{name}{{{}}}", indices.join(","))
+}
+
+struct Table<'a> {
+    robot: &'a Robot<6>,
+    /// The same robot with its flange for a tool.
+    flange: Robot<6>,
+    fallback: Fallback,
+    rows: Vec<TableRow>,
+}
+
+impl<'a> Table<'a> {
+    fn new(robot: &'a Robot<6>, fallback: Fallback) -> Result<Self, Error> {
+        robot.counted()?;
+        Ok(Self { robot, flange: with_flange(robot)?, fallback, rows: Vec::new() })
+    }
+
+    /// A row for an argument of a move, which `read` takes for a robtarget or for joint angles
+    /// [deg].
+    fn add_move<T>(
+        &mut self,
+        step: &Move,
+        argument: &Argument<T>,
+        read: impl Fn(&T) -> Result<RobTarget, [f64; 6]>,
+    ) {
+        let (kind, text) = (step.kind.name(), argument.text.clone());
+        if let Some(line) = step.displaced {
+            return self.add_problem(kind, text, step.line, Problem::Displaced { line });
+        }
+        match argument.value.as_ref().map(read) {
+            Ok(Ok(target)) => {
+                let frames = self.frames_of(step);
+                self.add(kind, text, step.line, &target, frames);
+            }
+            Ok(Err(joints)) => match absent_axis(&joints) {
+                Some(problem) => self.add_problem(kind, text, step.line, problem),
+                None => self.add_joints(kind, text, step.line, joints.map(f64::to_radians)),
+            },
+            Err(reason) => self.add_problem(kind, text, step.line, Problem::Target(reason.clone())),
+        }
+    }
+
+    fn frames_of(&self, step: &Move) -> Result<Frames, Problem> {
+        let Argument { text, value } = &step.tool;
+        let tool = value
+            .as_ref()
+            .map_err(|reason| Problem::Tool { text: text.clone(), reason: reason.clone() })?;
+        let wobj = step.wobj.as_ref().map(|Argument { text, value }| {
+            value.as_ref().map_err(|reason| Problem::WorkObject {
+                text: text.clone(),
+                reason: reason.clone(),
+            })
+        });
+        Frames::new(self.robot, Some(tool), wobj.transpose()?).map_err(Problem::NotSolved)
+    }
+
+    fn add_problem(&mut self, kind: &'static str, text: String, line: usize, problem: Problem) {
+        let configuration = Configuration::default();
+        self.rows.push(TableRow {
+            kind,
+            text,
+            line,
+            q: None,
+            configuration,
+            distances: None,
+            problem: Some(problem),
+        });
+    }
+
+    fn add(
+        &mut self,
+        kind: &'static str,
+        text: String,
+        line: usize,
+        target: &RobTarget,
+        frames: Result<Frames, Problem>,
+    ) {
+        let (q, problem) = match frames.and_then(|frames| self.solved(target, &frames)) {
+            Ok((q, problem)) => (Some(q), problem),
+            Err(problem) => (None, Some(problem)),
+        };
+        let (configuration, distances) = q.map_or((target.robconf, None), |q| self.seen(&q));
+        self.rows.push(TableRow { kind, text, line, q, configuration, distances, problem });
+    }
+
+    fn add_joints(&mut self, kind: &'static str, text: String, line: usize, q: [f64; 6]) {
+        let (configuration, distances) = self.seen(&q);
+        let problem = self.outside(&q);
+        self.rows.push(TableRow {
+            kind,
+            text,
+            line,
+            q: Some(q),
+            configuration,
+            distances,
+            problem,
+        });
+    }
+
+    /// What is outside the limits, and by how much.
+    fn outside(&self, q: &[f64; 6]) -> Option<Problem> {
+        let limits = self.robot.limits();
+        if limits.contain(q) {
+            return None;
+        }
+        let farthest =
+            (0..6).max_by(|a, b| limits.excess(*a, q[*a]).total_cmp(&limits.excess(*b, q[*b])))?;
+        let excess = limits.excess(farthest, q[farthest]);
+        Some(if excess > 0.0 {
+            Problem::OutsideLimits { joint: farthest + 1, excess }
+        } else {
+            Problem::OutsideLinkageLimits { excess: limits.rod_excess(q) }
+        })
+    }
+
+    /// The joint angles of a target, and what is wrong with them.
+    fn solved(
+        &self,
+        target: &RobTarget,
+        frames: &Frames,
+    ) -> Result<([f64; 6], Option<Problem>), Problem> {
+        let pose = frames.flange(&target_pose(target).map_err(Problem::NotSolved)?);
+        let missed = match self.flange.ik_configured(&pose, target.robconf) {
+            Ok(solution) => return Ok((solution.q, None)),
+            Err(error) => error,
+        };
+        let (Error::NoConfiguration(_), Fallback::Nearest(first)) = (&missed, self.fallback) else {
+            return Err(Problem::NotSolved(missed));
+        };
+        let before = self.rows.iter().rev().find_map(|row| row.q).unwrap_or(first);
+        let nearest = self.flange.ik_nearest(&pose, &before, &[1.0; 6]);
+        Ok((nearest.map_err(Problem::NotSolved)?.q, Some(Problem::Nearest(missed))))
+    }
+
+    fn seen(&self, q: &[f64; 6]) -> (Configuration, Option<SingularDistances>) {
+        let configuration = self.robot.configuration(q).unwrap_or_default();
+        (configuration, self.robot.singular_distances(q))
+    }
+}

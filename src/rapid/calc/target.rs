@@ -1,0 +1,92 @@
+//! `CalcJointT` and `CalcRobT`.
+
+use super::frames::{Frames, pose_in, rapid_pose};
+use crate::error::Error;
+use crate::kinematics::{Explanation, Pose, Robot};
+use crate::rapid::data::records::{JointTarget, RapidPose, RobTarget, ToolData, WobjData};
+
+/// Joint angles of a robtarget, as RAPID's `CalcJointT`: those with the target's configuration,
+/// inside the limits.
+///
+/// A tool replaces the robot's own, which counts where none is given; a work object stands in the
+/// world that [`Robot::with_base`] sets. External axes are taken over as they are.
+///
+/// # Errors
+///
+/// As [`Robot::ik_configured`]: RAPID's names of them are given by [`error_name`]. [`Error::Frame`]
+/// for a tool and a work object that do not go together or are no poses.
+pub fn calc_joint_t(
+    robot: &Robot<6>,
+    target: &RobTarget,
+    tool: Option<&ToolData>,
+    wobj: Option<&WobjData>,
+) -> Result<JointTarget, Error> {
+    let frames = Frames::new(robot, tool, wobj)?;
+    let q =
+        with_flange(robot)?.ik_configured(&frames.flange(&target_pose(target)?), target.robconf)?.q;
+    Ok(joint_target(&q, target.extax))
+}
+
+/// [`calc_joint_t`] or, where no solution has the target's configuration, the one nearest to `seed`
+/// [rad].
+///
+/// # Errors
+///
+/// As [`calc_joint_t`], and never [`Error::NoConfiguration`].
+pub fn calc_joint_t_or_nearest(
+    robot: &Robot<6>,
+    target: &RobTarget,
+    tool: Option<&ToolData>,
+    wobj: Option<&WobjData>,
+    seed: &[f64; 6],
+) -> Result<JointTarget, Error> {
+    let frames = Frames::new(robot, tool, wobj)?;
+    let q = with_flange(robot)?
+        .ik_configured_or_nearest(&frames.flange(&target_pose(target)?), target.robconf, seed)?
+        .q;
+    Ok(joint_target(&q, target.extax))
+}
+
+/// The robtarget of joint angles, with its configuration, as RAPID's `CalcRobT`.
+///
+/// # Errors
+///
+/// As [`Robot::configuration`], and [`Error::Frame`] as [`calc_joint_t`]. Limits are not asked.
+pub fn calc_rob_t(
+    robot: &Robot<6>,
+    joints: &JointTarget,
+    tool: Option<&ToolData>,
+    wobj: Option<&WobjData>,
+) -> Result<RobTarget, Error> {
+    let frames = Frames::new(robot, tool, wobj)?;
+    let q = joints.robax_deg.map(f64::to_radians);
+    let robconf = robot.configuration(&q)?;
+    let RapidPose { trans_mm, rot } = rapid_pose(&frames.tool(&with_flange(robot)?.fk(&q)));
+    Ok(RobTarget { trans_mm, rot, robconf, extax: joints.extax })
+}
+
+/// What RAPID calls an error of [`calc_joint_t`]: `ERR_OUTSIDE_REACH` where the arm is too short or
+/// too long, `ERR_ROBLIMIT` where solutions exist, but none inside the limits with the
+/// configuration that was asked for. `None` for what no controller gets to calculate.
+#[must_use]
+pub fn error_name(error: &Error) -> Option<&'static str> {
+    match error {
+        Error::Unreachable(Explanation::OutOfReach(_)) => Some("ERR_OUTSIDE_REACH"),
+        Error::Unreachable(_) | Error::NoConfiguration(_) => Some("ERR_ROBLIMIT"),
+        _ => None,
+    }
+}
+
+/// The same robot with its flange for a tool.
+pub(super) fn with_flange(robot: &Robot<6>) -> Result<Robot<6>, Error> {
+    robot.clone().with_tool(&Pose::identity())
+}
+
+/// The tool in the work object [m].
+pub(super) fn target_pose(target: &RobTarget) -> Result<Pose, Error> {
+    pose_in(&RapidPose { trans_mm: target.trans_mm, rot: target.rot }, "robtarget")
+}
+
+pub(super) fn joint_target(q: &[f64; 6], extax: [f64; 6]) -> JointTarget {
+    JointTarget { robax_deg: q.map(f64::to_degrees), extax }
+}

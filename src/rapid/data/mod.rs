@@ -1,0 +1,12 @@
+//! What a module is made of: types, records, values, data, moves, and reasons why something is not
+//! read.
+
+pub(crate) mod data_type;
+pub(crate) mod literals;
+pub(crate) mod module;
+pub(crate) mod moves;
+pub(crate) mod parts;
+pub(crate) mod reason;
+pub(crate) mod records;
+pub(crate) mod skipped;
+pub(crate) mod value;

@@ -1,0 +1,262 @@
+//! A RAPID module as data: what is declared, how it moves, what was skipped.
+
+use core::ops::Range;
+
+use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::data_type::DataType;
+use super::moves::Move;
+use super::skipped::Skipped;
+use super::value::Value;
+
+/// From where a datum is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// From every module; inside a routine, from the routine.
+    Global,
+    /// `LOCAL`: from its module.
+    Local,
+    /// `TASK`: from the modules of its task.
+    Task,
+}
+
+/// How a datum is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Storage {
+    /// `CONST`: never changes.
+    Const,
+    /// `PERS`: a program may change it, and the text with it.
+    Pers,
+    /// `VAR`: a program may change it.
+    Var,
+}
+
+impl Scope {
+    /// Its word in RAPID; empty for a global one, which has none.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::Global => "",
+            Self::Local => "LOCAL",
+            Self::Task => "TASK",
+        }
+    }
+}
+
+impl Storage {
+    /// Its word in RAPID.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::Const => "CONST",
+            Self::Pers => "PERS",
+            Self::Var => "VAR",
+        }
+    }
+}
+
+/// What a datum holds by its declaration; a program may change it afterwards.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Content {
+    /// The declaration has no value.
+    Uninitialised {
+        /// Sizes of an array; none of a single value.
+        sizes: Vec<usize>,
+    },
+    /// One value.
+    Single(Value),
+    /// An array, the last index running fastest.
+    Array {
+        /// One to three sizes.
+        sizes: Vec<usize>,
+        /// As many values as the product of the sizes.
+        values: Vec<Value>,
+    },
+}
+
+/// A data declaration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Datum {
+    /// Name, as it is written.
+    pub name: String,
+    /// Type of its values.
+    pub data_type: DataType,
+    /// From where it is seen.
+    pub scope: Scope,
+    /// How it is kept.
+    pub storage: Storage,
+    /// The routine that it is declared in; none for the module.
+    pub routine: Option<String>,
+    /// What it holds.
+    pub content: Content,
+    /// Line of the declaration, from 1; 0 where it stands in no text.
+    pub line: usize,
+    /// Column of the declaration, from 1, in characters; 0 where it stands in no text.
+    pub column: usize,
+    /// Bytes of the value in the text; empty, where a value would stand, without one.
+    pub value_span: Range<usize>,
+    /// Bytes of each element of an array, in the order of its values.
+    pub element_spans: Vec<Range<usize>>,
+}
+
+impl Datum {
+    /// A single value that is declared for the whole module, of global scope.
+    #[must_use]
+    pub fn single(name: String, storage: Storage, value: Value) -> Self {
+        Self {
+            name,
+            data_type: value.data_type(),
+            scope: Scope::Global,
+            storage,
+            routine: None,
+            content: Content::Single(value),
+            line: 0,
+            column: 0,
+            value_span: 0..0,
+            element_spans: Vec::new(),
+        }
+    }
+}
+
+/// What is declared as `PROC`, `FUNC` or `TRAP`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RoutineKind {
+    /// Procedure.
+    Proc,
+    /// Function.
+    Func,
+    /// Trap routine.
+    Trap,
+}
+
+impl RoutineKind {
+    /// The word that begins it.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::Proc => "PROC",
+            Self::Func => "FUNC",
+            Self::Trap => "TRAP",
+        }
+    }
+
+    /// The word that ends it.
+    pub(crate) fn end(self) -> &'static str {
+        match self {
+            Self::Proc => "ENDPROC",
+            Self::Func => "ENDFUNC",
+            Self::Trap => "ENDTRAP",
+        }
+    }
+}
+
+/// A routine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Routine {
+    /// What it is.
+    pub kind: RoutineKind,
+    /// Name, as it is written.
+    pub name: String,
+    /// Its first line, from `LOCAL` or `PROC` to the parameters.
+    pub header: String,
+    /// Line, from 1; 0 where it stands in no text.
+    pub line: usize,
+    /// Column, from 1, in characters; 0 where it stands in no text.
+    pub column: usize,
+}
+
+/// The name of a routine by its index, from 1; none for 0, the module itself.
+pub(crate) fn routine_name(routines: &[Routine], index: usize) -> Option<String> {
+    routines.get(index.checked_sub(1)?).map(|routine| routine.name.clone())
+}
+
+/// A module, or a text without one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Module {
+    pub(crate) name: Option<String>,
+    pub(crate) attributes: Vec<String>,
+    pub(crate) routines: Vec<Routine>,
+    pub(crate) data: Vec<Datum>,
+    pub(crate) moves: Vec<Move>,
+    pub(crate) skipped: Vec<Skipped>,
+    /// Data of the module itself by their names in lower case.
+    pub(crate) index: BTreeMap<String, usize>,
+    /// Names in lower case that it assigns: of its own data, with those that refer to them, and of
+    /// data that it does not declare.
+    pub(crate) assigned: BTreeSet<String>,
+    /// Values that refer to what is assigned, as they are written, by the index of the datum: as
+    /// numbers they would not.
+    pub(crate) expressions: BTreeMap<usize, String>,
+    /// Bytes of the text that it was read from.
+    pub(crate) text_length: usize,
+}
+
+impl Module {
+    /// Its name, or the placeholder of an unfinished one; none for declarations without a module
+    /// around them.
+    #[must_use]
+    pub fn name(&self) -> Option<&str> {
+        self.name.as_deref()
+    }
+
+    /// Its attributes, such as `SYSMODULE`.
+    #[must_use]
+    pub fn attributes(&self) -> &[String] {
+        &self.attributes
+    }
+
+    /// Its routines, in the order of the text.
+    #[must_use]
+    pub fn routines(&self) -> &[Routine] {
+        &self.routines
+    }
+
+    /// Its data, in the order of the text, those of routines among them.
+    #[must_use]
+    pub fn data(&self) -> &[Datum] {
+        &self.data
+    }
+
+    /// Its moves, in the order of the text, whatever branch or loop they stand in.
+    #[must_use]
+    pub fn moves(&self) -> &[Move] {
+        &self.moves
+    }
+
+    /// What was not read, in the order of the text.
+    #[must_use]
+    pub fn skipped(&self) -> &[Skipped] {
+        &self.skipped
+    }
+
+    /// The datum of the module of a name in any case; data of routines are not looked through.
+    #[must_use]
+    pub fn find(&self, name: &str) -> Option<&Datum> {
+        self.position(name).and_then(|index| self.data.get(index))
+    }
+
+    /// The index in [`Self::data`] of what [`Self::find`] gives.
+    #[must_use]
+    pub fn position(&self, name: &str) -> Option<usize> {
+        self.index.get(&name.to_lowercase()).copied()
+    }
+
+    /// The module without lines, columns and spans: two that are equal so say the same.
+    #[must_use]
+    pub fn without_positions(mut self) -> Self {
+        self.text_length = 0;
+        for datum in &mut self.data {
+            (datum.line, datum.column, datum.value_span) = (0, 0, 0..0);
+            datum.element_spans.clear();
+        }
+        for step in &mut self.moves {
+            step.clear_lines();
+        }
+        for routine in &mut self.routines {
+            (routine.line, routine.column) = (0, 0);
+        }
+        for skipped in &mut self.skipped {
+            (skipped.line, skipped.column) = (0, 0);
+        }
+        self
+    }
+}

@@ -1,0 +1,123 @@
+//! Move instructions.
+
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::reason::Reason;
+use super::records::{JointTarget, RobTarget, ToolData, WobjData};
+
+/// How the robot gets to the target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MoveKind {
+    /// `MoveJ`: joints, to a pose.
+    MoveJ,
+    /// `MoveL`: a straight line.
+    MoveL,
+    /// `MoveC`: a circle through a point.
+    MoveC,
+    /// `MoveAbsJ`: joints, to joint angles.
+    MoveAbsJ,
+}
+
+impl MoveKind {
+    /// Every kind.
+    pub const ALL: [Self; 4] = [Self::MoveJ, Self::MoveL, Self::MoveC, Self::MoveAbsJ];
+
+    /// The instruction's name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::MoveJ => "MoveJ",
+            Self::MoveL => "MoveL",
+            Self::MoveC => "MoveC",
+            Self::MoveAbsJ => "MoveAbsJ",
+        }
+    }
+
+    /// The kind of an instruction in any case.
+    pub(crate) fn named(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.name().eq_ignore_ascii_case(word))
+    }
+
+    /// How many arguments it must have.
+    pub(crate) fn arguments(self) -> usize {
+        if self == Self::MoveC { 5 } else { 4 }
+    }
+}
+
+/// An argument as it is written, without its name, and what it is by the declarations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Argument<T> {
+    /// Source text.
+    pub text: String,
+    /// The value, or why it is not known.
+    pub value: Result<T, Reason>,
+}
+
+/// Where a move goes.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Target {
+    /// A pose.
+    RobTarget(RobTarget),
+    /// Joint angles, for `MoveAbsJ`.
+    JointTarget(JointTarget),
+}
+
+/// An optional argument other than `\WObj`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MoveOption {
+    /// How many of the required arguments stand before it.
+    pub after: usize,
+    /// Name, as it is written.
+    pub name: String,
+    /// Source text of its value; none of a switch. It begins with `?` where a routine passes its
+    /// own optional argument on.
+    pub text: Option<String>,
+}
+
+/// A move instruction.
+///
+/// Values are those of the declarations; data that the module assigns have none here.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Move {
+    /// How it moves.
+    pub kind: MoveKind,
+    /// The routine that it stands in; none outside routines.
+    pub routine: Option<String>,
+    /// Line, from 1; 0 where it stands in no text.
+    pub line: usize,
+    /// Column, from 1, in characters; 0 where it stands in no text.
+    pub column: usize,
+    /// The point on the circle of a `MoveC`.
+    pub via: Option<Argument<RobTarget>>,
+    /// Where it goes.
+    pub target: Argument<Target>,
+    /// Source text of the speed.
+    pub speed: String,
+    /// Source text of the zone.
+    pub zone: String,
+    /// The tool.
+    pub tool: Argument<ToolData>,
+    /// The work object of `\WObj:=`; `wobj0` is meant without one.
+    pub wobj: Option<Argument<WobjData>>,
+    /// The other optional arguments, in order.
+    pub options: Vec<MoveOption>,
+    /// Line of the `PDispOn` or `PDispSet` that stands before it in its routine and that no
+    /// `PDispOff` between them ends: the robot goes elsewhere than `via` and `target` say. Joint
+    /// angles are not displaced.
+    pub displaced: Option<usize>,
+}
+
+impl Move {
+    /// Makes it one that stands in no text.
+    pub(crate) fn clear_lines(&mut self) {
+        (self.line, self.column, self.displaced) = (0, 0, self.displaced.map(|_| 0));
+        let reasons = [
+            self.via.as_mut().and_then(|via| via.value.as_mut().err()),
+            self.target.value.as_mut().err(),
+            self.tool.value.as_mut().err(),
+            self.wobj.as_mut().and_then(|wobj| wobj.value.as_mut().err()),
+        ];
+        reasons.into_iter().flatten().for_each(Reason::clear_line);
+    }
+}

@@ -1,0 +1,219 @@
+//! Values and their components: one table, which reading, writing and component access go by.
+
+use core::fmt;
+
+use alloc::string::String;
+
+use super::literals::{write_number, write_text};
+use super::records::{JointTarget, LoadData, RapidPose, RobTarget, ToolData, WobjData};
+use crate::kinematics::Configuration;
+
+/// Most components of a type: those of loaddata.
+const MOST_COMPONENTS: usize = 6;
+
+/// Components with their names, in order.
+type Components<P> = [Option<(&'static str, P)>; MOST_COMPONENTS];
+
+fn in_order<P, const N: usize>(components: [(&'static str, P); N]) -> Components<P> {
+    let mut components = components.into_iter();
+    core::array::from_fn(|_| components.next())
+}
+
+/// The table, for parts that are read and for parts that are written to.
+macro_rules! parts {
+    ($(#[$documentation:meta])* $Part:ident $(, $mutable:ident)?) => {
+        $(#[$documentation])*
+        pub(crate) enum $Part<'v> {
+            Num(&'v $($mutable)? f64),
+            /// A number of confdata.
+            Whole(&'v $($mutable)? i32),
+            Bool(&'v $($mutable)? bool),
+            Text(&'v $($mutable)? String),
+            Pos(&'v $($mutable)? [f64; 3]),
+            Orient(&'v $($mutable)? [f64; 4]),
+            ConfData(&'v $($mutable)? Configuration),
+            ExtJoint(&'v $($mutable)? [f64; 6]),
+            RobJoint(&'v $($mutable)? [f64; 6]),
+            Pose(&'v $($mutable)? RapidPose),
+            LoadData(&'v $($mutable)? LoadData),
+            RobTarget(&'v $($mutable)? RobTarget),
+            JointTarget(&'v $($mutable)? JointTarget),
+            ToolData(&'v $($mutable)? ToolData),
+            WobjData(&'v $($mutable)? WobjData),
+        }
+
+        impl<'v> $Part<'v> {
+            /// Its type in RAPID.
+            pub(crate) fn type_name(&self) -> &'static str {
+                match self {
+                    Self::Num(_) | Self::Whole(_) => "num",
+                    Self::Bool(_) => "bool",
+                    Self::Text(_) => "string",
+                    Self::Pos(_) => "pos",
+                    Self::Orient(_) => "orient",
+                    Self::ConfData(_) => "confdata",
+                    Self::ExtJoint(_) => "extjoint",
+                    Self::RobJoint(_) => "robjoint",
+                    Self::Pose(_) => "pose",
+                    Self::LoadData(_) => "loaddata",
+                    Self::RobTarget(_) => "robtarget",
+                    Self::JointTarget(_) => "jointtarget",
+                    Self::ToolData(_) => "tooldata",
+                    Self::WobjData(_) => "wobjdata",
+                }
+            }
+
+            /// Its components; none of an atomic type.
+            pub(crate) fn components(self) -> Components<$Part<'v>> {
+                use $Part::{
+                    Bool, ConfData, ExtJoint, Num, Orient, Pos, Pose, RobJoint, Text, Whole,
+                };
+                match self {
+                    Num(_) | Whole(_) | Bool(_) | Text(_) => in_order([]),
+                    Pos([x, y, z]) => in_order([("x", Num(x)), ("y", Num(y)), ("z", Num(z))]),
+                    Orient([w, x, y, z]) => {
+                        in_order([("q1", Num(w)), ("q2", Num(x)), ("q3", Num(y)), ("q4", Num(z))])
+                    }
+                    ConfData(Configuration { cf1, cf4, cf6, cfx }) => in_order([
+                        ("cf1", Whole(cf1)),
+                        ("cf4", Whole(cf4)),
+                        ("cf6", Whole(cf6)),
+                        ("cfx", Whole(cfx)),
+                    ]),
+                    ExtJoint([a, b, c, d, e, f]) => in_order([
+                        ("eax_a", Num(a)),
+                        ("eax_b", Num(b)),
+                        ("eax_c", Num(c)),
+                        ("eax_d", Num(d)),
+                        ("eax_e", Num(e)),
+                        ("eax_f", Num(f)),
+                    ]),
+                    RobJoint([q1, q2, q3, q4, q5, q6]) => in_order([
+                        ("rax_1", Num(q1)),
+                        ("rax_2", Num(q2)),
+                        ("rax_3", Num(q3)),
+                        ("rax_4", Num(q4)),
+                        ("rax_5", Num(q5)),
+                        ("rax_6", Num(q6)),
+                    ]),
+                    Pose(RapidPose { trans_mm, rot }) => {
+                        in_order([("trans", Pos(trans_mm)), ("rot", Orient(rot))])
+                    }
+                    Self::LoadData(LoadData { mass_kg, cog_mm, aom, inertia: [ix, iy, iz] }) => {
+                        in_order([
+                            ("mass", Num(mass_kg)),
+                            ("cog", Pos(cog_mm)),
+                            ("aom", Orient(aom)),
+                            ("ix", Num(ix)),
+                            ("iy", Num(iy)),
+                            ("iz", Num(iz)),
+                        ])
+                    }
+                    Self::RobTarget(RobTarget { trans_mm, rot, robconf, extax }) => in_order([
+                        ("trans", Pos(trans_mm)),
+                        ("rot", Orient(rot)),
+                        ("robconf", ConfData(robconf)),
+                        ("extax", ExtJoint(extax)),
+                    ]),
+                    Self::JointTarget(JointTarget { robax_deg, extax }) => {
+                        in_order([("robax", RobJoint(robax_deg)), ("extax", ExtJoint(extax))])
+                    }
+                    Self::ToolData(ToolData { robhold, tframe, tload }) => in_order([
+                        ("robhold", Bool(robhold)),
+                        ("tframe", Pose(tframe)),
+                        ("tload", Self::LoadData(tload)),
+                    ]),
+                    Self::WobjData(WobjData { robhold, ufprog, ufmec, uframe, oframe }) => {
+                        in_order([
+                            ("robhold", Bool(robhold)),
+                            ("ufprog", Bool(ufprog)),
+                            ("ufmec", Text(ufmec)),
+                            ("uframe", Pose(uframe)),
+                            ("oframe", Pose(oframe)),
+                        ])
+                    }
+                }
+            }
+        }
+    };
+}
+
+parts!(
+    /// A value or a component of one.
+    #[derive(Clone, Copy, Debug)]
+    Part
+);
+
+parts!(
+    /// A value or a component of one, to be read from a text.
+    #[derive(Debug)]
+    PartMut,
+    mut
+);
+
+impl<'v> Part<'v> {
+    /// The component of a name in any case.
+    pub(crate) fn component(self, wanted: &str) -> Option<Part<'v>> {
+        let mut components = self.components().into_iter().flatten();
+        components.find(|(name, _)| name.eq_ignore_ascii_case(wanted)).map(|(_, part)| part)
+    }
+
+    /// Whether every number of it is finite.
+    pub(crate) fn is_finite(self) -> bool {
+        match self {
+            Part::Num(number) => number.is_finite(),
+            _ => self.components().into_iter().flatten().all(|(_, part)| part.is_finite()),
+        }
+    }
+
+    /// Writes it as RAPID does, without blanks.
+    pub(crate) fn write(self, f: &mut impl fmt::Write) -> fmt::Result {
+        match self {
+            Part::Num(number) => return write_number(f, *number),
+            Part::Whole(number) => return write_number(f, f64::from(*number)),
+            Part::Bool(is) => return f.write_str(if *is { "TRUE" } else { "FALSE" }),
+            Part::Text(text) => return write_text(f, text),
+            _ => {}
+        }
+        for (i, (_, part)) in self.components().into_iter().flatten().enumerate() {
+            f.write_char(if i == 0 { '[' } else { ',' })?;
+            part.write(f)?;
+        }
+        f.write_char(']')
+    }
+}
+
+impl PartMut<'_> {
+    /// What must be there, for a message.
+    pub(crate) fn wanted(&self) -> &'static str {
+        match self {
+            PartMut::Num(_) | PartMut::Whole(_) => "a number",
+            PartMut::Bool(_) => "TRUE or FALSE",
+            PartMut::Text(_) => "a string",
+            _ => self.type_name(),
+        }
+    }
+
+    /// Takes over a part of the same type; whether it was of the same type.
+    pub(crate) fn assign(self, from: Part<'_>) -> bool {
+        match (self, from) {
+            (PartMut::Num(to), Part::Num(from)) => to.clone_from(from),
+            (PartMut::Whole(to), Part::Whole(from)) => to.clone_from(from),
+            (PartMut::Bool(to), Part::Bool(from)) => to.clone_from(from),
+            (PartMut::Text(to), Part::Text(from)) => to.clone_from(from),
+            (PartMut::Pos(to), Part::Pos(from)) => to.clone_from(from),
+            (PartMut::Orient(to), Part::Orient(from)) => to.clone_from(from),
+            (PartMut::ConfData(to), Part::ConfData(from)) => to.clone_from(from),
+            (PartMut::ExtJoint(to), Part::ExtJoint(from))
+            | (PartMut::RobJoint(to), Part::RobJoint(from)) => to.clone_from(from),
+            (PartMut::Pose(to), Part::Pose(from)) => to.clone_from(from),
+            (PartMut::LoadData(to), Part::LoadData(from)) => to.clone_from(from),
+            (PartMut::RobTarget(to), Part::RobTarget(from)) => to.clone_from(from),
+            (PartMut::JointTarget(to), Part::JointTarget(from)) => to.clone_from(from),
+            (PartMut::ToolData(to), Part::ToolData(from)) => to.clone_from(from),
+            (PartMut::WobjData(to), Part::WobjData(from)) => to.clone_from(from),
+            _ => return false,
+        }
+        true
+    }
+}

@@ -1,0 +1,110 @@
+//! RAPID's records, as they are written: nothing is normalised.
+
+use alloc::string::String;
+
+use crate::kinematics::Configuration;
+
+/// What stands for an external axis that is not there.
+pub const NOT_THERE: f64 = 9e9;
+
+/// `pose`: a frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RapidPose {
+    /// Position [mm].
+    pub trans_mm: [f64; 3],
+    /// Quaternion w, x, y, z.
+    pub rot: [f64; 4],
+}
+
+/// `robtarget`: a pose of the tool in the work object, which solution, and external axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RobTarget {
+    /// Position [mm].
+    pub trans_mm: [f64; 3],
+    /// Quaternion w, x, y, z.
+    pub rot: [f64; 4],
+    /// Quarter turns and slot.
+    pub robconf: Configuration,
+    /// External axes [deg or mm]; 9e9 is one that is not there.
+    pub extax: [f64; 6],
+}
+
+/// `jointtarget`: angles of the robot's axes and external axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointTarget {
+    /// The controller's angles [deg].
+    pub robax_deg: [f64; 6],
+    /// External axes [deg or mm]; 9e9 is one that is not there.
+    pub extax: [f64; 6],
+}
+
+/// `loaddata`: mass and inertia of a load.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoadData {
+    /// Mass [kg].
+    pub mass_kg: f64,
+    /// Centre of gravity [mm].
+    pub cog_mm: [f64; 3],
+    /// Axes of moment, a quaternion w, x, y, z.
+    pub aom: [f64; 4],
+    /// Moments of inertia ix, iy, iz [kg m^2].
+    pub inertia: [f64; 3],
+}
+
+/// `tooldata`: a tool in the frame of the flange.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ToolData {
+    /// Whether the robot holds the tool.
+    pub robhold: bool,
+    /// The tool in the frame of the flange; in the world where the robot does not hold it.
+    pub tframe: RapidPose,
+    /// The tool's load.
+    pub tload: LoadData,
+}
+
+/// `wobjdata`: a work object, `uframe * oframe` in the world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WobjData {
+    /// Whether the robot holds the work object.
+    pub robhold: bool,
+    /// Whether the user frame is fixed; a mechanical unit moves it where it is not.
+    pub ufprog: bool,
+    /// Name of the mechanical unit that moves the user frame.
+    pub ufmec: String,
+    /// User frame.
+    pub uframe: RapidPose,
+    /// Object frame, in the user frame.
+    pub oframe: RapidPose,
+}
+
+impl RapidPose {
+    /// No displacement and no rotation.
+    pub const IDENTITY: Self = Self { trans_mm: [0.0; 3], rot: [1.0, 0.0, 0.0, 0.0] };
+}
+
+impl LoadData {
+    /// RAPID's `load0`, the least load.
+    pub const LOAD0: Self = Self {
+        mass_kg: 0.001,
+        cog_mm: [0.0, 0.0, 0.001],
+        aom: [1.0, 0.0, 0.0, 0.0],
+        inertia: [0.0; 3],
+    };
+}
+
+impl ToolData {
+    /// RAPID's `tool0`, the flange.
+    pub const TOOL0: Self =
+        Self { robhold: true, tframe: RapidPose::IDENTITY, tload: LoadData::LOAD0 };
+}
+
+impl WobjData {
+    /// RAPID's `wobj0`, the world.
+    pub const WOBJ0: Self = Self {
+        robhold: false,
+        ufprog: true,
+        ufmec: String::new(),
+        uframe: RapidPose::IDENTITY,
+        oframe: RapidPose::IDENTITY,
+    };
+}

@@ -1,0 +1,110 @@
+//! Values that are written without names and operators, most of a large module: read straight into
+//! their records, without tokens and trees.
+
+use core::ops::Range;
+
+use alloc::string::String;
+
+use super::evaluate::whole;
+use crate::rapid::data::data_type::DataType;
+use crate::rapid::data::parts::PartMut;
+use crate::rapid::data::value::Value;
+use crate::rapid::text::literals::{decimal, unquoted};
+use crate::rapid::text::tokens::{LONGEST_STRING, Tokens, behind_blanks};
+use crate::rapid::text::words::end_of_word;
+
+/// A value of a type up to its semicolon, with the bytes that it takes.
+///
+/// None for anything that is not plainly one, a broken text too: the tokens are where they were, to
+/// be read as an expression, which says what is wrong.
+pub(crate) fn read_plain(
+    tokens: &mut Tokens<'_>,
+    data_type: DataType,
+) -> Option<(Value, Range<usize>)> {
+    let start = tokens.peek().start;
+    let mut reader = PlainReader { text: tokens.text, bytes: tokens.content(), at: start };
+    let mut value = Value::zero(data_type);
+    reader.fill(value.part_mut())?;
+    let end = reader.at;
+    reader.take(b';')?;
+    tokens.resume(end).ok()?;
+    Some((value, start..end))
+}
+
+struct PlainReader<'a> {
+    text: &'a str,
+    /// The text up to what may be at its end.
+    bytes: &'a [u8],
+    /// The end of what was taken.
+    at: usize,
+}
+
+impl PlainReader<'_> {
+    /// The next byte that is not blank, which stays the next.
+    fn peek(&mut self) -> Option<u8> {
+        self.at = behind_blanks(self.bytes, self.at);
+        self.bytes.get(self.at).copied()
+    }
+
+    fn take(&mut self, symbol: u8) -> Option<()> {
+        let is = self.peek()? == symbol;
+        self.at += usize::from(is);
+        is.then_some(())
+    }
+
+    fn fill(&mut self, part: PartMut<'_>) -> Option<()> {
+        match part {
+            // RAPID has no negative zero.
+            PartMut::Num(place) => *place = self.number()? + 0.0,
+            PartMut::Whole(place) => *place = whole(self.number()?)?,
+            PartMut::Bool(place) => *place = self.truth()?,
+            PartMut::Text(place) => *place = self.string()?,
+            record => {
+                for (i, (_, component)) in record.components().into_iter().flatten().enumerate() {
+                    self.take(if i == 0 { b'[' } else { b',' })?;
+                    self.fill(component)?;
+                }
+                self.take(b']')?;
+            }
+        }
+        Some(())
+    }
+
+    /// A number with at most one sign.
+    fn number(&mut self) -> Option<f64> {
+        let is_negative = self.peek()? == b'-';
+        if is_negative || self.bytes[self.at] == b'+' {
+            self.at += 1;
+            self.peek()?;
+        }
+        let first_digit = self.at + usize::from(self.bytes[self.at] == b'.');
+        if !self.bytes.get(first_digit)?.is_ascii_digit() {
+            return None;
+        }
+        let value;
+        (value, self.at) = decimal(self.text, self.at)?;
+        Some(if is_negative { -value } else { value })
+    }
+
+    fn truth(&mut self) -> Option<bool> {
+        self.peek()?;
+        let word = self.text.get(self.at..end_of_word(self.text, self.at))?;
+        self.at += word.len();
+        let is_true = word.eq_ignore_ascii_case("TRUE");
+        (is_true || word.eq_ignore_ascii_case("FALSE")).then_some(is_true)
+    }
+
+    /// A string without a quote in it.
+    fn string(&mut self) -> Option<String> {
+        self.take(b'"')?;
+        let inside = self.bytes.get(self.at..)?.iter().take(LONGEST_STRING - 1);
+        let length = inside.into_iter().position(|byte| matches!(byte, b'"' | b'\n' | b'\r'))?;
+        let end = self.at + length + 1;
+        if self.bytes[end - 1] != b'"' || self.bytes.get(end) == Some(&b'"') {
+            return None;
+        }
+        let quoted = self.text.get(self.at - 1..end)?;
+        self.at = end;
+        Some(unquoted(quoted))
+    }
+}

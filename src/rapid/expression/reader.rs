@@ -1,0 +1,328 @@
+//! Reads expressions.
+
+use alloc::boxed::Box;
+use alloc::string::ToString;
+use alloc::vec::Vec;
+
+use super::tree::{Call, Expression, Form, Operator, Reference, Unread};
+use crate::error::{RapidFault, RapidFaultKind};
+use crate::rapid::text::skipping::{is_unread_operator, not_closed, skip_to_end_of_argument};
+use crate::rapid::text::tokens::{Token, TokenKind, Tokens};
+use crate::rapid::text::words::is_reserved;
+
+/// The deepest nesting of brackets and of blocks that is read.
+pub const DEEPEST_NESTING: usize = 64;
+
+/// Room that is made at first for the components of an aggregate: most have four or six.
+const USUAL_COMPONENTS: usize = 6;
+
+/// Reads expressions and perhaps collects the names that they refer to.
+pub(crate) struct ExpressionReader<'t, 'a> {
+    tokens: &'t mut Tokens<'a>,
+    /// Names in the expressions read, those of functions too, in order.
+    names: Option<&'t mut Vec<&'a str>>,
+    depth: usize,
+}
+
+impl<'t, 'a> ExpressionReader<'t, 'a> {
+    pub(crate) fn new(tokens: &'t mut Tokens<'a>) -> Self {
+        Self { tokens, names: None, depth: 0 }
+    }
+
+    pub(crate) fn collecting(tokens: &'t mut Tokens<'a>, names: &'t mut Vec<&'a str>) -> Self {
+        Self { tokens, names: Some(names), depth: 0 }
+    }
+
+    /// The expression that begins at the next token.
+    pub(crate) fn expression(&mut self) -> Result<Expression<'a>, RapidFault> {
+        if let Some(alone) = self.alone()? {
+            return Ok(alone);
+        }
+        let start = self.tokens.peek().start;
+        let sum = self.sum()?;
+        if self.at_end_of_expression() {
+            return Ok(sum);
+        }
+        if !is_unread_operator(self.tokens) {
+            return Err(self
+                .tokens
+                .unexpected("an operator, a comma or the end of the expression"));
+        }
+        skip_to_end_of_argument(self.tokens)?;
+        Ok(self.made(start, Form::Unread(Unread::Operator)))
+    }
+
+    /// A number or a name by itself, most of a module: read without going through the operators.
+    fn alone(&mut self) -> Result<Option<Expression<'a>>, RapidFault> {
+        let (first, mark) = (self.tokens.peek(), self.tokens.mark());
+        let form = match first.kind {
+            TokenKind::Number(value) => Form::Number(value),
+            TokenKind::Name if !is_reserved(self.tokens.text_of(first)) => {
+                Form::Name(self.tokens.text_of(first))
+            }
+            _ => return Ok(None),
+        };
+        self.tokens.take()?;
+        let TokenKind::Symbol(b',' | b';' | b']' | b')' | b'\\') = self.tokens.peek().kind else {
+            self.tokens.rewind(mark);
+            return Ok(None);
+        };
+        if let Form::Name(name) = form {
+            self.collect(name);
+        }
+        Ok(Some(self.made(first.start, form)))
+    }
+
+    fn collect(&mut self, name: &'a str) {
+        if let Some(names) = &mut self.names {
+            names.push(name);
+        }
+    }
+
+    /// The sizes of an array in braces, none without braces.
+    pub(crate) fn sizes(&mut self) -> Result<Vec<Expression<'a>>, RapidFault> {
+        let open = self.tokens.peek();
+        let mut sizes = Vec::new();
+        if open.is(b'{') {
+            self.tokens.take()?;
+            sizes = self.list(open, b'}')?;
+            if sizes.is_empty() {
+                return Err(self.tokens.fault(
+                    open.start,
+                    RapidFaultKind::Unexpected { found: "{}".to_string(), wanted: "a size" },
+                ));
+            }
+        }
+        Ok(sizes)
+    }
+
+    /// Expressions between commas, up to the closing symbol; the opening one was taken.
+    pub(crate) fn list(
+        &mut self,
+        open: Token,
+        close: u8,
+    ) -> Result<Vec<Expression<'a>>, RapidFault> {
+        self.depth += 1;
+        if self.depth > DEEPEST_NESTING {
+            return Err(self
+                .tokens
+                .fault(open.start, RapidFaultKind::TooDeep { bound: DEEPEST_NESTING }));
+        }
+        let mut expressions = Vec::new();
+        if !self.tokens.peek().is(close) {
+            expressions.reserve_exact(USUAL_COMPONENTS);
+            expressions.push(self.expression()?);
+            while self.tokens.take_if(b',')? {
+                expressions.push(self.expression()?);
+            }
+        }
+        self.close(open, close)?;
+        Ok(expressions)
+    }
+
+    fn close(&mut self, open: Token, close: u8) -> Result<(), RapidFault> {
+        self.depth -= 1;
+        if self.tokens.take_if(close)? { Ok(()) } else { Err(not_closed(self.tokens, open, close)) }
+    }
+
+    fn at_end_of_expression(&self) -> bool {
+        match self.tokens.peek().kind {
+            TokenKind::Symbol(symbol) => b",;])}\\:(".contains(&symbol),
+            TokenKind::End | TokenKind::Assign => true,
+            _ => false,
+        }
+    }
+
+    fn sum(&mut self) -> Result<Expression<'a>, RapidFault> {
+        self.chain([(b'+', Operator::Plus), (b'-', Operator::Minus)], Self::product)
+    }
+
+    fn product(&mut self) -> Result<Expression<'a>, RapidFault> {
+        self.chain([(b'*', Operator::Times), (b'/', Operator::Over)], Self::factor)
+    }
+
+    fn chain(
+        &mut self,
+        operators: [(u8, Operator); 2],
+        operand: fn(&mut Self) -> Result<Expression<'a>, RapidFault>,
+    ) -> Result<Expression<'a>, RapidFault> {
+        let first = operand(self)?;
+        let mut rest = Vec::new();
+        while let Some((_, operator)) =
+            operators.iter().find(|(symbol, _)| self.tokens.peek().is(*symbol))
+        {
+            self.tokens.take()?;
+            rest.push((*operator, operand(self)?));
+        }
+        if rest.is_empty() {
+            return Ok(first);
+        }
+        Ok(self.made(first.start, Form::Chain(Box::new(first), rest)))
+    }
+
+    fn factor(&mut self) -> Result<Expression<'a>, RapidFault> {
+        let start = self.tokens.peek().start;
+        let mut negative = false;
+        loop {
+            match self.tokens.peek().kind {
+                TokenKind::Symbol(b'-') => negative = !negative,
+                TokenKind::Symbol(b'+') => {}
+                _ => break,
+            }
+            self.tokens.take()?;
+        }
+        let mut operand = self.operand()?;
+        operand.start = start;
+        if !negative {
+            return Ok(operand);
+        }
+        let form = match operand.form {
+            Form::Number(value) => Form::Number(-value),
+            _ => Form::Negated(Box::new(operand)),
+        };
+        Ok(self.made(start, form))
+    }
+
+    fn operand(&mut self) -> Result<Expression<'a>, RapidFault> {
+        let token = self.tokens.peek();
+        let form = match token.kind {
+            TokenKind::Number(value) => {
+                self.tokens.take()?;
+                Form::Number(value)
+            }
+            TokenKind::Text => {
+                self.tokens.take()?;
+                Form::Text(self.tokens.text_of(token))
+            }
+            TokenKind::Symbol(b'*') => {
+                self.tokens.take()?;
+                Form::Star
+            }
+            TokenKind::Symbol(b'[') => {
+                self.tokens.take()?;
+                Form::Aggregate(self.list(token, b']')?)
+            }
+            TokenKind::Symbol(b'(') => return self.parenthesis(token),
+            TokenKind::Placeholder => {
+                self.tokens.take()?;
+                Form::Unread(Unread::Unfinished)
+            }
+            TokenKind::Name => self.name(token)?,
+            _ => return Err(self.tokens.unexpected("a value")),
+        };
+        Ok(self.made(token.start, form))
+    }
+
+    fn parenthesis(&mut self, open: Token) -> Result<Expression<'a>, RapidFault> {
+        self.tokens.take()?;
+        let mut inside = self.list(open, b')')?;
+        match (inside.pop(), inside.is_empty()) {
+            (Some(only), true) => Ok(self.made(open.start, only.form)),
+            _ => Err(self.tokens.fault(open.start, expected_value("()"))),
+        }
+    }
+
+    /// TRUE, FALSE, a function or a reference.
+    fn name(&mut self, token: Token) -> Result<Form<'a>, RapidFault> {
+        let name = self.tokens.text_of(token);
+        if name.eq_ignore_ascii_case("TRUE") || name.eq_ignore_ascii_case("FALSE") {
+            self.tokens.take()?;
+            return Ok(Form::Bool(name.eq_ignore_ascii_case("TRUE")));
+        }
+        if name.eq_ignore_ascii_case("NOT") {
+            skip_to_end_of_argument(self.tokens)?;
+            return Ok(Form::Unread(Unread::Negation));
+        }
+        if is_reserved(name) {
+            return Err(self.tokens.unexpected("a value"));
+        }
+        self.tokens.take()?;
+        let next = self.tokens.peek();
+        self.collect(name);
+        if next.is(b'(') {
+            self.tokens.take()?;
+            return Ok(Form::Call(Box::new(self.call(name, next)?)));
+        }
+        if !next.is(b'{') && !next.is(b'.') {
+            return Ok(Form::Name(name));
+        }
+        let indices = if next.is(b'{') {
+            self.tokens.take()?;
+            self.list(next, b'}')?
+        } else {
+            Vec::new()
+        };
+        let mut components = Vec::new();
+        while self.tokens.take_if(b'.')? {
+            if self.tokens.peek().kind != TokenKind::Name {
+                return Err(self.tokens.unexpected("the name of a component"));
+            }
+            let component = self.tokens.take()?;
+            components.push(self.tokens.text_of(component));
+        }
+        Ok(Form::Reference(Box::new(Reference { name, indices, components })))
+    }
+
+    fn call(&mut self, name: &'a str, open: Token) -> Result<Call<'a>, RapidFault> {
+        self.depth += 1;
+        if self.depth > DEEPEST_NESTING {
+            return Err(self
+                .tokens
+                .fault(open.start, RapidFaultKind::TooDeep { bound: DEEPEST_NESTING }));
+        }
+        let mut call = Call { name, required: Vec::new(), optional: Vec::new() };
+        while !self.tokens.peek().is(b')') {
+            if self.tokens.take_if(b'\\')? {
+                call.optional.push(self.optional()?);
+            } else {
+                call.required.push(self.argument()?);
+            }
+            let more = self.tokens.take_if(b',')? || self.tokens.peek().is(b'\\');
+            if !more {
+                break;
+            }
+        }
+        self.close(open, b')')?;
+        Ok(call)
+    }
+
+    /// A required argument: its value, perhaps after its name and `:=`. The name is not kept: RAPID
+    /// has them in their order.
+    pub(crate) fn argument(&mut self) -> Result<Expression<'a>, RapidFault> {
+        if self.tokens.at_assigned_name() {
+            self.tokens.take()?;
+            self.tokens.take()?;
+        }
+        self.expression()
+    }
+
+    /// `Name`, `Name:=value` or `Name?parameter`; the backslash was taken.
+    pub(crate) fn optional(&mut self) -> Result<(&'a str, Option<Expression<'a>>), RapidFault> {
+        if self.tokens.peek().kind != TokenKind::Name {
+            return Err(self.tokens.unexpected("the name of an optional argument"));
+        }
+        let token = self.tokens.take()?;
+        let name = self.tokens.text_of(token);
+        // \Name?parameter passes the caller's own argument on, if there is one; the question mark
+        // belongs to the value.
+        let mark = self.tokens.peek();
+        if self.tokens.take_if(b'?')? {
+            self.expression()?;
+            let form = Form::Unread(Unread::OptionalArgument);
+            return Ok((name, Some(self.made(mark.start, form))));
+        }
+        if self.tokens.peek().kind != TokenKind::Assign {
+            return Ok((name, None));
+        }
+        self.tokens.take()?;
+        Ok((name, Some(self.expression()?)))
+    }
+
+    fn made(&self, start: usize, form: Form<'a>) -> Expression<'a> {
+        Expression { start, end: self.tokens.last_end, form }
+    }
+}
+
+fn expected_value(found: &str) -> RapidFaultKind {
+    RapidFaultKind::Unexpected { found: found.to_string(), wanted: "a value" }
+}

@@ -1,0 +1,75 @@
+//! Expressions as they are written: a tree with the bytes of each part, before anything is looked
+//! up.
+
+use alloc::boxed::Box;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use crate::rapid::text::place::excerpt;
+
+/// An expression and the bytes that it takes.
+#[derive(Debug)]
+pub(crate) struct Expression<'a> {
+    pub(crate) start: usize,
+    pub(crate) end: usize,
+    pub(crate) form: Form<'a>,
+}
+
+/// What an expression is.
+#[derive(Debug)]
+pub(crate) enum Form<'a> {
+    Number(f64),
+    /// With its quotes.
+    Text(&'a str),
+    Bool(bool),
+    Aggregate(Vec<Expression<'a>>),
+    /// A name by itself, the most frequent reference.
+    Name(&'a str),
+    Reference(Box<Reference<'a>>),
+    Call(Box<Call<'a>>),
+    Negated(Box<Expression<'a>>),
+    /// Numbers that are added or multiplied, from left to right.
+    Chain(Box<Expression<'a>>, Vec<(Operator, Expression<'a>)>),
+    /// The teach pendant's `*`.
+    Star,
+    /// What is not calculated, and why.
+    Unread(Unread),
+}
+
+/// A name, perhaps with indices, perhaps with components.
+#[derive(Debug)]
+pub(crate) struct Reference<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) indices: Vec<Expression<'a>>,
+    pub(crate) components: Vec<&'a str>,
+}
+
+/// A function with its arguments.
+#[derive(Debug)]
+pub(crate) struct Call<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) required: Vec<Expression<'a>>,
+    pub(crate) optional: Vec<(&'a str, Option<Expression<'a>>)>,
+}
+
+/// Why an expression is not calculated, whatever its names refer to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Unread {
+    Unfinished,
+    OptionalArgument,
+    Operator,
+    Negation,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Operator {
+    Plus,
+    Minus,
+    Times,
+    Over,
+}
+
+/// The text of an expression, short.
+pub(crate) fn written(text: &str, expression: &Expression<'_>) -> String {
+    excerpt(text.get(expression.start..expression.end).unwrap_or_default())
+}

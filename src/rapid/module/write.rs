@@ -1,0 +1,203 @@
+//! Modules as RAPID text.
+
+use core::fmt::{self, Write as _};
+
+use alloc::collections::BTreeMap;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use crate::rapid::data::module::{Content, Datum, Module, Routine, Scope};
+use crate::rapid::data::moves::Move;
+use crate::rapid::data::skipped::Skipped;
+
+impl fmt::Display for Content {
+    /// The value as RAPID writes it, with an array's brackets; nothing where there is none.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Uninitialised { .. } => Ok(()),
+            Self::Single(value) => value.fmt(f),
+            Self::Array { sizes, values } => {
+                for (i, value) in values.iter().enumerate() {
+                    let begins = |products: usize| i % products == 0;
+                    let opened = products(sizes).filter(|size| begins(*size)).count();
+                    f.write_str(if i == 0 { "" } else { "," })?;
+                    (0..opened).try_for_each(|_| f.write_char('['))?;
+                    value.fmt(f)?;
+                    let closed = products(sizes).filter(|size| (i + 1) % size == 0).count();
+                    (0..closed).try_for_each(|_| f.write_char(']'))?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+/// Elements of the whole array, of an element of its first dimension, and so on; never zero.
+fn products(sizes: &[usize]) -> impl Iterator<Item = usize> {
+    (0..sizes.len()).map(|i| {
+        sizes[i..].iter().fold(1_usize, |product, size| product.saturating_mul(*size)).max(1)
+    })
+}
+
+impl fmt::Display for Datum {
+    /// The declaration with its semicolon.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.write(f, None)
+    }
+}
+
+impl Datum {
+    /// Writes the declaration with its semicolon; an expression may stand for the value.
+    fn write(&self, f: &mut fmt::Formatter<'_>, expression: Option<&str>) -> fmt::Result {
+        if self.scope != Scope::Global {
+            write!(f, "{} ", self.scope.word())?;
+        }
+        write!(f, "{} {} {}", self.storage.word(), self.data_type.name(), self.name)?;
+        if let Content::Array { sizes, .. } | Content::Uninitialised { sizes } = &self.content {
+            for (i, size) in sizes.iter().enumerate() {
+                write!(f, "{}{size}", if i == 0 { '{' } else { ',' })?;
+            }
+            f.write_str(if sizes.is_empty() { "" } else { "}" })?;
+        }
+        match (&self.content, expression) {
+            (Content::Uninitialised { .. }, _) => {}
+            (_, Some(expression)) => write!(f, ":={expression}")?,
+            (content, None) => write!(f, ":={content}")?,
+        }
+        f.write_char(';')
+    }
+}
+
+/// Writes an optional argument; a text that begins with a question mark passes the caller's own
+/// argument on.
+fn write_option(f: &mut fmt::Formatter<'_>, name: &str, text: Option<&str>) -> fmt::Result {
+    match text {
+        None => write!(f, "\\{name}"),
+        Some(text) if text.starts_with('?') => write!(f, "\\{name}{text}"),
+        Some(text) => write!(f, "\\{name}:={text}"),
+    }
+}
+
+impl Move {
+    /// Writes the options that stand behind a number of required arguments.
+    fn write_options(&self, f: &mut fmt::Formatter<'_>, after: usize) -> fmt::Result {
+        let mut options = self.options.iter().filter(|option| option.after == after);
+        options.try_for_each(|option| write_option(f, &option.name, option.text.as_deref()))
+    }
+}
+
+impl fmt::Display for Move {
+    /// The instruction with its semicolon, each argument as it was written.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} ", self.kind.name())?;
+        self.write_options(f, 0)?;
+        if self.options.iter().any(|option| option.after == 0) {
+            f.write_str(", ")?;
+        }
+        let via = self.via.as_ref().map(|via| via.text.as_str());
+        let required = via.into_iter().chain([
+            self.target.text.as_str(),
+            &self.speed,
+            &self.zone,
+            &self.tool.text,
+        ]);
+        let last = if via.is_some() { 5 } else { 4 };
+        for (i, text) in required.enumerate() {
+            write!(f, "{}{text}", if i == 0 { "" } else { "," })?;
+            if let (Some(wobj), true) = (&self.wobj, i + 1 == last) {
+                write_option(f, "WObj", Some(&wobj.text))?;
+            }
+            self.write_options(f, i + 1)?;
+        }
+        f.write_char(';')
+    }
+}
+
+/// What stands in a module or in a routine.
+enum Item<'m> {
+    /// Perhaps with the expression that it is written with.
+    Datum(&'m Datum, Option<&'m str>),
+    Move(&'m Move),
+    Skipped(&'m Skipped),
+    Routine(&'m Routine),
+}
+
+impl Item<'_> {
+    /// Line and column; behind all others what stands in no text. Data of a routine come before
+    /// everything else.
+    fn key(&self, in_routine: bool) -> (bool, usize, usize) {
+        let (first, line, column) = match self {
+            Self::Datum(datum, _) => (in_routine, datum.line, datum.column),
+            Self::Move(step) => (false, step.line, step.column),
+            Self::Skipped(skipped) => (false, skipped.line, skipped.column),
+            Self::Routine(routine) => (false, routine.line, routine.column),
+        };
+        (!first, if line == 0 { usize::MAX } else { line }, column)
+    }
+}
+
+/// What stands in each routine, by its name in lower case; in the module by the empty name.
+fn items(module: &Module) -> BTreeMap<String, Vec<Item<'_>>> {
+    let mut items: BTreeMap<String, Vec<Item<'_>>> = BTreeMap::new();
+    let mut add = |routine: Option<&String>, item| {
+        items
+            .entry(routine.map(|routine| routine.to_lowercase()).unwrap_or_default())
+            .or_default()
+            .push(item);
+    };
+    for (i, datum) in module.data.iter().enumerate() {
+        add(
+            datum.routine.as_ref(),
+            Item::Datum(datum, module.expressions.get(&i).map(String::as_str)),
+        );
+    }
+    module.skipped.iter().for_each(|skipped| add(skipped.routine.as_ref(), Item::Skipped(skipped)));
+    module.moves.iter().for_each(|step| add(step.routine.as_ref(), Item::Move(step)));
+    module.routines.iter().for_each(|routine| add(None, Item::Routine(routine)));
+    for (name, items) in &mut items {
+        items.sort_by_key(|item| item.key(!name.is_empty()));
+    }
+    items
+}
+
+impl fmt::Display for Module {
+    /// The module as a text that reads back as the same: values as they are, without comments, but
+    /// those that refer to data that are assigned, and what was skipped, as they were written.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let items = items(self);
+        if let Some(name) = &self.name {
+            write!(f, "MODULE {name}")?;
+            if !self.attributes.is_empty() {
+                write!(f, "({})", self.attributes.join(","))?;
+            }
+            writeln!(f)?;
+        }
+        let margin = if self.name.is_some() { "    " } else { "" };
+        for item in items.get("").into_iter().flatten() {
+            let Item::Routine(routine) = item else {
+                write_item(f, margin, item)?;
+                continue;
+            };
+            writeln!(f, "{margin}{}", routine.header)?;
+            for item in items.get(&routine.name.to_lowercase()).into_iter().flatten() {
+                write_item(f, &format!("{margin}    "), item)?;
+            }
+            writeln!(f, "{margin}{}", routine.kind.end())?;
+        }
+        if self.name.is_some() { writeln!(f, "ENDMODULE") } else { Ok(()) }
+    }
+}
+
+fn write_item(f: &mut fmt::Formatter<'_>, margin: &str, item: &Item<'_>) -> fmt::Result {
+    match item {
+        Item::Datum(datum, expression) => {
+            f.write_str(margin)?;
+            datum.write(f, *expression)?;
+            writeln!(f)
+        }
+        Item::Move(step) => writeln!(f, "{margin}{step}"),
+        Item::Skipped(skipped) => writeln!(f, "{margin}{}", skipped.text),
+        Item::Routine(_) => Ok(()),
+    }
+}

@@ -1,0 +1,133 @@
+//! From names to values: data after those that they refer to, then the moves.
+
+mod assigned;
+mod moves;
+mod resolver;
+
+use alloc::collections::BTreeMap;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use self::assigned::Causes;
+use self::resolver::Resolver;
+use crate::error::RapidFault;
+use crate::rapid::data::module::{Datum, Module, routine_name};
+use crate::rapid::data::reason::Reason;
+use crate::rapid::data::skipped::{NotRead, Skipped};
+use crate::rapid::expression::content::Placed;
+use crate::rapid::statements::declarations::Declared;
+use crate::rapid::statements::reader::Written;
+
+/// The module of a text with every name looked up.
+pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Module, RapidFault> {
+    let Written {
+        text,
+        name,
+        attributes,
+        routines,
+        declared,
+        contents,
+        mut moves,
+        skipped,
+        assignments,
+        scopes,
+        blocks,
+    } = written;
+    // Those that hold something unknown are not resolved yet: no reason of theirs is seen before.
+    let contents = contents.into_iter().map(|known| known.ok_or(Reason::Unfinished)).collect();
+    let causes = Causes::new(&assignments, &declared, &scopes, &blocks);
+    let mut resolver = Resolver {
+        text,
+        declared: &declared,
+        scopes: &scopes,
+        blocks: &blocks,
+        context,
+        contents,
+        causes,
+    };
+    resolver.resolve_all()?;
+    let mut resolved_moves = Vec::with_capacity(moves.len());
+    for step in &mut moves {
+        resolved_moves.extend(resolver.step(step, &routines)?);
+    }
+    let Resolver { contents, causes, .. } = resolver;
+    let mut all = ResolvedData { skipped, ..ResolvedData::default() };
+    all.data.reserve_exact(declared.len());
+    for (i, (datum, content)) in declared.iter().zip(contents).enumerate() {
+        let routine = routine_name(&routines, datum.routine);
+        all.add(text, datum, routine, content, causes.of_datum(i).is_some());
+    }
+    let ResolvedData { data, places, mut skipped, expressions } = all;
+    skipped.sort_by_key(|skipped| (skipped.line, skipped.column));
+    let assigned = causes.names(&declared);
+    let index = scopes
+        .module_data()
+        .filter_map(|(name, declared)| Some((name, places.get(declared).copied()??)))
+        .collect();
+    let name = name.map(ToString::to_string);
+    Ok(Module {
+        name,
+        attributes,
+        routines,
+        data,
+        moves: resolved_moves,
+        skipped,
+        index,
+        assigned,
+        expressions,
+        text_length: text.len(),
+    })
+}
+
+/// The data of a module, and what is not read.
+#[derive(Default)]
+struct ResolvedData {
+    data: Vec<Datum>,
+    /// The place of each declaration among the data.
+    places: Vec<Option<usize>>,
+    skipped: Vec<Skipped>,
+    /// The values that refer to what is assigned, as they are written, by the place of the datum.
+    expressions: BTreeMap<usize, String>,
+}
+
+impl ResolvedData {
+    /// Adds a declaration, which may refer to what is assigned.
+    fn add(
+        &mut self,
+        text: &str,
+        declared: &Declared<'_>,
+        routine: Option<String>,
+        content: Result<Placed, Reason>,
+        is_assigned: bool,
+    ) {
+        let source = |span: Range<usize>| text.get(span).unwrap_or_default().to_string();
+        let Declared { data_type, scope, storage, line, column, .. } = *declared;
+        let name = declared.name.to_string();
+        self.places.push(content.is_ok().then_some(self.data.len()));
+        let Placed { content, value_span, element_spans } = match content {
+            Ok(placed) => placed,
+            Err(reason) => {
+                let what = NotRead::Datum { name, reason };
+                let text = source(declared.start..declared.end);
+                self.skipped.push(Skipped { line, column, routine, what, text });
+                return;
+            }
+        };
+        if is_assigned && !declared.names.is_empty() {
+            self.expressions.insert(self.data.len(), source(value_span.clone()));
+        }
+        self.data.push(Datum {
+            name,
+            data_type,
+            scope,
+            storage,
+            routine,
+            content,
+            line,
+            column,
+            value_span,
+            element_spans,
+        });
+    }
+}

@@ -1,0 +1,176 @@
+//! Data resolved, each after those that it refers to.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::assigned::{Causes, found_elsewhere};
+use crate::error::{Names as NamesOf, RapidFault, RapidFaultKind};
+use crate::rapid::data::module::{Module, Storage};
+use crate::rapid::data::reason::{Reason, Unresolved};
+use crate::rapid::data::records::{LoadData, ToolData, WobjData};
+use crate::rapid::data::value::Value;
+use crate::rapid::expression::content::Placed;
+use crate::rapid::expression::evaluate::Stop;
+use crate::rapid::expression::names::{At, Found, Names, lower};
+use crate::rapid::statements::blocks::Blocks;
+use crate::rapid::statements::declarations::Declared;
+use crate::rapid::statements::scopes::{Named, Scopes};
+use crate::rapid::text::place::fault_at;
+
+/// Looks names up.
+pub(super) struct Resolver<'a> {
+    pub(super) text: &'a str,
+    pub(super) declared: &'a [Declared<'a>],
+    pub(super) scopes: &'a Scopes,
+    pub(super) blocks: &'a Blocks<'a>,
+    pub(super) context: &'a [&'a Module],
+    /// What each datum holds, or why that is not known, or not yet.
+    pub(super) contents: Vec<Result<Placed, Reason>>,
+    /// Why data are not known where the program moves.
+    pub(super) causes: Causes<'a>,
+}
+
+impl Names for Resolver<'_> {
+    fn find(&self, at: At, name: &str) -> Found<'_> {
+        let lower = lower(name);
+        if self.blocks.is_variable(at.inside_loop, &lower) {
+            return Found::Unknown(Unresolved::LoopVariable);
+        }
+        match self.scopes.find(at.routine, &lower) {
+            Some(Named::Other(why)) => return Found::Unknown(why.clone()),
+            Some(Named::Datum(index)) => return self.datum(*index),
+            None => {}
+        }
+        if let Some(value) = predefined(&lower) {
+            return Found::Predefined(value);
+        }
+        match found_elsewhere(&lower, self.context) {
+            Some((datum, home)) => Found::Datum {
+                content: &datum.content,
+                can_change: datum.storage != Storage::Const,
+                cause: self.causes.of_other(&lower, home, self.context),
+            },
+            None => Found::NotHere,
+        }
+    }
+}
+
+impl Resolver<'_> {
+    /// A datum of the module.
+    fn datum(&self, index: usize) -> Found<'_> {
+        let (Some(declared), Some(Ok(Placed { content, .. }))) =
+            (self.declared.get(index), self.contents.get(index))
+        else {
+            return Found::Unknown(Unresolved::ValueNotKnown);
+        };
+        let can_change = declared.storage != Storage::Const;
+        Found::Datum { content, can_change, cause: self.causes.of_datum(index) }
+    }
+
+    /// Resolves every datum, each after those that it refers to, without recursion.
+    pub(super) fn resolve_all(&mut self) -> Result<(), RapidFault> {
+        let mut state = vec![State::New; self.declared.len()];
+        // A datum with the number of its names that were gone through.
+        let mut open: Vec<(usize, usize)> = Vec::new();
+        for datum in 0..self.declared.len() {
+            if state[datum] == State::New {
+                state[datum] = State::Open;
+                open.push((datum, 0));
+            }
+            while let Some((current, gone_through)) = open.last_mut() {
+                let current = *current;
+                let declared = &self.declared[current];
+                let Some(name) = declared.names.get(*gone_through) else {
+                    self.resolve(current)?;
+                    state[current] = State::Done;
+                    open.pop();
+                    // What refers to it changes with it.
+                    if let Some((above, gone_through)) = open.last() {
+                        self.add_cause(*above, *gone_through, current);
+                    }
+                    continue;
+                };
+                *gone_through += 1;
+                let gone_through = *gone_through;
+                let lower = lower(name);
+                let other = match self.scopes.find(declared.routine, &lower) {
+                    Some(Named::Datum(other)) => other,
+                    Some(Named::Other(_)) => continue,
+                    None => {
+                        if gone_through > declared.size_names {
+                            self.add_cause_elsewhere(current, &lower);
+                        }
+                        continue;
+                    }
+                };
+                match state[*other] {
+                    State::New => {
+                        state[*other] = State::Open;
+                        open.push((*other, 0));
+                    }
+                    State::Open => return Err(self.circle(&open, *other)),
+                    State::Done => self.add_cause(current, gone_through, *other),
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Notes that a datum changes with what a name of it stands for; sizes, the names that come
+    /// first, do not change.
+    fn add_cause(&mut self, datum: usize, gone_through: usize, other: usize) {
+        if let Some(cause) =
+            self.causes.of_datum(other).filter(|_| gone_through > self.declared[datum].size_names)
+        {
+            self.causes.add(datum, cause);
+        }
+    }
+
+    /// Notes that a datum changes with one of another module, where that does.
+    fn add_cause_elsewhere(&mut self, datum: usize, lower: &str) {
+        let found = found_elsewhere(lower, self.context).filter(|_| predefined(lower).is_none());
+        if let Some(cause) =
+            found.and_then(|(_, home)| self.causes.of_other(lower, home, self.context))
+        {
+            self.causes.add(datum, cause);
+        }
+    }
+
+    fn circle(&self, open: &[(usize, usize)], again: usize) -> RapidFault {
+        let from = open.iter().position(|(datum, _)| *datum == again).unwrap_or(0);
+        let circle = open[from..].iter().map(|(datum, _)| *datum).chain([again]);
+        let names: NamesOf = circle.map(|datum| self.declared[datum].name).collect();
+        fault_at(self.text, self.declared[again].start, RapidFaultKind::Circular { names })
+    }
+
+    fn resolve(&mut self, index: usize) -> Result<(), RapidFault> {
+        let declared = &self.declared[index];
+        let Some(written) = &declared.written else { return Ok(()) };
+        self.contents[index] = match written.evaluate(&declared.evaluator(self.text, self)) {
+            Ok(placed) => Ok(placed),
+            Err(Stop::Unknown(reason)) => Err(reason),
+            Err(Stop::Fault(fault)) => return Err(fault),
+        };
+        Ok(())
+    }
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum State {
+    New,
+    Open,
+    Done,
+}
+
+/// RAPID's own data that are read.
+fn predefined(lower: &str) -> Option<&'static Value> {
+    static TOOL0: Value = Value::ToolData(ToolData::TOOL0);
+    static WOBJ0: Value = Value::WobjData(WobjData::WOBJ0);
+    static LOAD0: Value = Value::LoadData(LoadData::LOAD0);
+    match lower {
+        "tool0" => Some(&TOOL0),
+        "wobj0" => Some(&WOBJ0),
+        "load0" => Some(&LOAD0),
+        _ => None,
+    }
+}

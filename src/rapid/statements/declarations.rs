@@ -1,0 +1,161 @@
+//! Declarations of data.
+
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+
+use crate::error::RapidFault;
+use crate::rapid::data::data_type::DataType;
+use crate::rapid::data::module::{Content, Scope, Storage};
+use crate::rapid::expression::content::{Placed, WrittenContent};
+use crate::rapid::expression::evaluate::{Evaluator, Stop};
+use crate::rapid::expression::names::{At, Names, NoNames};
+use crate::rapid::expression::plain::read_plain;
+use crate::rapid::expression::reader::ExpressionReader;
+use crate::rapid::text::skipping::skip_balanced;
+use crate::rapid::text::tokens::{TokenKind, Tokens};
+use crate::rapid::text::words::is_name_token;
+
+/// A declaration of a type that is read, before its names are looked up.
+pub(crate) struct Declared<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) data_type: DataType,
+    pub(crate) scope: Scope,
+    pub(crate) storage: Storage,
+    /// Index of the routine, from 1; 0 for the module.
+    pub(crate) routine: usize,
+    /// Names that its sizes and its value refer to.
+    pub(crate) names: Vec<&'a str>,
+    /// How many of the names, the first, are those of the sizes.
+    pub(crate) size_names: usize,
+    /// Bytes of the statement with its semicolon.
+    pub(crate) start: usize,
+    pub(crate) end: usize,
+    pub(crate) line: usize,
+    pub(crate) column: usize,
+    /// Its sizes and its value, unless what it holds is known without looking up a name: they are
+    /// most of the memory that a large text takes.
+    pub(crate) written: Option<Box<WrittenContent<'a>>>,
+}
+
+impl<'a> Declared<'a> {
+    /// What evaluates its sizes and its value.
+    pub(crate) fn evaluator<'r>(&self, text: &'a str, names: &'r dyn Names) -> Evaluator<'r, 'a> {
+        Evaluator {
+            text,
+            names,
+            at: At { routine: self.routine, inside_loop: None },
+            thing: (self.data_type.name(), self.name),
+            constant: false,
+            at_move: false,
+        }
+    }
+}
+
+/// What was declared.
+#[expect(clippy::large_enum_variant, reason = "the large one is nearly every one of a large text")]
+pub(crate) enum Declaration<'a> {
+    /// With what it holds, where that is known without looking up a name.
+    Read(Declared<'a>, Option<Placed>),
+    /// Of a type that is not read.
+    Unread { name: &'a str, type_name: &'a str },
+    /// With a placeholder, perhaps for its name.
+    Unfinished { name: &'a str },
+}
+
+/// Storage of the next token, where it is one's word.
+pub(crate) fn storage_at(tokens: &Tokens<'_>) -> Option<Storage> {
+    let all = [Storage::Const, Storage::Pers, Storage::Var];
+    all.into_iter().find(|storage| tokens.at_word(storage.word()))
+}
+
+/// A name of something declared, or the placeholder of one, which is the next token.
+pub(crate) fn read_name<'a>(
+    tokens: &mut Tokens<'a>,
+    wanted: &'static str,
+) -> Result<&'a str, RapidFault> {
+    let token = tokens.peek();
+    let may = match token.kind {
+        TokenKind::Name => is_name_token(tokens.text_of(token)),
+        kind => kind == TokenKind::Placeholder,
+    };
+    if !may {
+        return Err(tokens.unexpected(wanted));
+    }
+    tokens.take()?;
+    Ok(tokens.text_of(token))
+}
+
+/// Reads a declaration from its storage to its semicolon; it begins, perhaps with LOCAL or TASK, at
+/// byte `start`.
+pub(crate) fn read_declaration<'a>(
+    tokens: &mut Tokens<'a>,
+    start: usize,
+    (routine, scope, storage): (usize, Scope, Storage),
+) -> Result<Declaration<'a>, RapidFault> {
+    let from = tokens.take()?.start;
+    let type_name = read_name(tokens, "a type")?;
+    let name = read_name(tokens, "a name")?;
+    let Some(data_type) = DataType::named(type_name) else {
+        skip_balanced(tokens, |_, _| false)?;
+        tokens.demand(b';', "a semicolon")?;
+        let unfinished = tokens.unfinished_since(from);
+        return Ok(if unfinished {
+            Declaration::Unfinished { name }
+        } else {
+            Declaration::Unread { name, type_name }
+        });
+    };
+    let (line, column) = tokens.line_and_column(start);
+    let mut names = Vec::new();
+    let sizes = ExpressionReader::collecting(tokens, &mut names).sizes()?;
+    let size_names = names.len();
+    let (value_place, mut value, mut plain) = (tokens.last_end, None, None);
+    if tokens.peek().kind == TokenKind::Assign {
+        tokens.take()?;
+        plain = if sizes.is_empty() { read_plain(tokens, data_type) } else { None };
+        if plain.is_none() {
+            value = Some(ExpressionReader::collecting(tokens, &mut names).expression()?);
+        }
+    }
+    tokens.demand(b';', "a semicolon")?;
+    if tokens.unfinished_since(from) {
+        return Ok(Declaration::Unfinished { name });
+    }
+    let declared = Declared {
+        name,
+        data_type,
+        scope,
+        storage,
+        routine,
+        size_names,
+        names,
+        start,
+        end: tokens.last_end,
+        line,
+        column,
+        written: None,
+    };
+    if let Some((value, span)) = plain {
+        let placed = Placed::new(Content::Single(value), span);
+        return Ok(Declaration::Read(declared, Some(placed)));
+    }
+    known_at_once(tokens.text, declared, WrittenContent { data_type, sizes, value, value_place })
+}
+
+/// A declaration with what it holds, where it has no names.
+fn known_at_once<'a>(
+    text: &'a str,
+    mut declared: Declared<'a>,
+    written: WrittenContent<'a>,
+) -> Result<Declaration<'a>, RapidFault> {
+    if declared.names.is_empty() {
+        match written.evaluate(&declared.evaluator(text, &NoNames)) {
+            Ok(placed) => return Ok(Declaration::Read(declared, Some(placed))),
+            Err(Stop::Fault(fault)) => return Err(fault),
+            // The reason is asked for when all names are known.
+            Err(Stop::Unknown(_)) => {}
+        }
+    }
+    declared.written = Some(Box::new(written));
+    Ok(Declaration::Read(declared, None))
+}

@@ -1,0 +1,11 @@
+//! Statements, as they are written: declarations, moves, routines, blocks, and what is not read.
+
+pub(crate) mod blocks;
+pub(crate) mod declarations;
+mod displaced_by;
+mod instructions;
+pub(crate) mod moves;
+pub(crate) mod reader;
+mod routines;
+pub(crate) mod scopes;
+mod statement;

@@ -1,0 +1,88 @@
+//! Move instructions as they are written.
+
+use alloc::string::ToString;
+use alloc::vec::Vec;
+
+use crate::error::{RapidFault, RapidFaultKind};
+use crate::rapid::data::moves::{MoveKind, MoveOption};
+use crate::rapid::expression::names::At;
+use crate::rapid::expression::reader::ExpressionReader;
+use crate::rapid::expression::tree::Expression;
+use crate::rapid::text::tokens::Tokens;
+
+/// Most required arguments of a move.
+const MOST_ARGUMENTS: usize = 5;
+
+/// A move before its names are looked up.
+pub(crate) struct WrittenMove<'a> {
+    pub(crate) kind: MoveKind,
+    pub(crate) at: At,
+    pub(crate) line: usize,
+    pub(crate) column: usize,
+    /// Line of the instruction that displaces it.
+    pub(crate) displaced: Option<usize>,
+    pub(crate) required: Vec<Expression<'a>>,
+    pub(crate) wobj: Option<Expression<'a>>,
+    pub(crate) options: Vec<MoveOption>,
+}
+
+/// Reads the arguments of a move up to its semicolon; the instruction's name was taken at byte
+/// `start`. None for one that is not finished.
+pub(crate) fn read_move<'a>(
+    tokens: &mut Tokens<'a>,
+    kind: MoveKind,
+    start: usize,
+) -> Result<Option<WrittenMove<'a>>, RapidFault> {
+    let (line, column) = tokens.line_and_column(start);
+    let (mut required, mut options, mut wobj): (Vec<Expression<'a>>, Vec<MoveOption>, _) =
+        (Vec::with_capacity(MOST_ARGUMENTS), Vec::new(), None);
+    loop {
+        // A comma may stand before an optional argument too.
+        let is_first = required.is_empty() && options.is_empty() && wobj.is_none();
+        let after_comma = !is_first && tokens.take_if(b',')?;
+        if tokens.take_if(b'\\')? {
+            let (name, value) = ExpressionReader::new(tokens).optional()?;
+            match value {
+                Some(value) if wobj.is_none() && name.eq_ignore_ascii_case("WObj") => {
+                    wobj = Some(value);
+                }
+                value => {
+                    let text = value.map(|value| tokens.text[value.start..value.end].to_string());
+                    options.push(MoveOption {
+                        after: required.len(),
+                        name: name.to_string(),
+                        text,
+                    });
+                }
+            }
+        } else if !after_comma && tokens.peek().is(b';') {
+            break;
+        } else if !after_comma && !required.is_empty() {
+            return Err(tokens.unexpected("a comma or a semicolon"));
+        } else {
+            required.push(ExpressionReader::new(tokens).argument()?);
+        }
+    }
+    tokens.take()?;
+    if tokens.unfinished_since(start) {
+        return Ok(None);
+    }
+    if required.len() != kind.arguments() {
+        let kind = RapidFaultKind::ArgumentCount {
+            instruction: kind.name(),
+            found: required.len(),
+            wanted: kind.arguments(),
+        };
+        return Err(tokens.fault(start, kind));
+    }
+    Ok(Some(WrittenMove {
+        kind,
+        at: At::default(),
+        line,
+        column,
+        displaced: None,
+        required,
+        wobj,
+        options,
+    }))
+}

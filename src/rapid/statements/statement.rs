@@ -1,0 +1,226 @@
+//! A module's statements, one after the other: declarations and moves are read, everything else is
+//! listed as not read.
+
+use alloc::format;
+use alloc::string::ToString;
+
+use super::blocks::is_flow;
+use super::declarations::{Declaration, read_declaration, read_name, storage_at};
+use super::moves::{WrittenMove, read_move};
+use super::reader::{Stage, StatementReader, Written};
+use super::scopes::Named;
+use crate::error::{RapidFault, RapidFaultKind};
+use crate::rapid::data::module::{RoutineKind, Scope};
+use crate::rapid::data::moves::MoveKind;
+use crate::rapid::data::reason::Unresolved;
+use crate::rapid::data::skipped::NotRead;
+use crate::rapid::text::tokens::{Token, TokenKind};
+use crate::rapid::text::words::Capitals;
+
+impl<'a> StatementReader<'a> {
+    /// Reads a whole text.
+    pub(crate) fn read(text: &'a str) -> Result<Written<'a>, RapidFault> {
+        let mut reader = Self::new(text)?;
+        while reader.tokens.peek().kind != TokenKind::End {
+            reader.statement()?;
+        }
+        reader.check_end()?;
+        Ok(reader.written)
+    }
+
+    /// That nothing is open where the text ends.
+    fn check_end(&self) -> Result<(), RapidFault> {
+        let (inside, missing) = if let Some((word, end)) = self.written.blocks.innermost() {
+            (word.to_string(), end)
+        } else if let Some(routine) = self.current_routine() {
+            (format!("{} {}", routine.kind.word(), routine.name), routine.kind.end())
+        } else if self.stage == Stage::Module {
+            (format!("MODULE {}", self.written.name.unwrap_or_default()), "ENDMODULE")
+        } else {
+            return Ok(());
+        };
+        Err(self
+            .tokens
+            .fault(self.written.text.len(), RapidFaultKind::UnexpectedEnd { inside, missing }))
+    }
+
+    fn statement(&mut self) -> Result<(), RapidFault> {
+        let token = self.tokens.peek();
+        if token.is(b';') {
+            return self.tokens.take().map(|_| ());
+        }
+        let capitals = match token.kind {
+            TokenKind::Name => Capitals::of(self.tokens.text_of(token)),
+            TokenKind::Placeholder | TokenKind::Symbol(b'%') => Capitals::of(""),
+            _ => return Err(self.tokens.unexpected("a declaration or an instruction")),
+        };
+        let word = capitals.as_str();
+        if word == "MODULE" {
+            return self.begin_module(token);
+        }
+        if self.stage == Stage::Ended {
+            return Err(self.tokens.unexpected("the end of the text"));
+        }
+        if self.stage == Stage::Beginning {
+            self.stage = Stage::Bare;
+        }
+        match word {
+            "ENDMODULE" => self.end_module(),
+            "LOCAL" | "TASK" | "CONST" | "PERS" | "VAR" | "PROC" | "FUNC" | "TRAP" => {
+                self.declaration(token)
+            }
+            "ENDPROC" => self.end_routine(RoutineKind::Proc),
+            "ENDFUNC" => self.end_routine(RoutineKind::Func),
+            "ENDTRAP" => self.end_routine(RoutineKind::Trap),
+            "RECORD" => self.record(token),
+            "ALIAS" => self.alias(token),
+            _ => match MoveKind::named(word) {
+                Some(kind) => self.move_instruction(kind, token),
+                None if is_flow(word) => self.flow(word, token),
+                None => self.other(token),
+            },
+        }
+    }
+
+    fn begin_module(&mut self, token: Token) -> Result<(), RapidFault> {
+        match self.stage {
+            Stage::Beginning => {}
+            Stage::Bare => {
+                return Err(self
+                    .tokens
+                    .unexpected("a declaration or an instruction (MODULE begins a text)"));
+            }
+            Stage::Module | Stage::Ended => {
+                return Err(self.tokens.fault(token.start, RapidFaultKind::SecondModule));
+            }
+        }
+        self.tokens.take()?;
+        self.stage = Stage::Module;
+        self.written.name = Some(read_name(&mut self.tokens, "the module's name")?);
+        if !self.tokens.take_if(b'(')? {
+            return Ok(());
+        }
+        loop {
+            let attribute = self.tokens.peek();
+            if !matches!(attribute.kind, TokenKind::Name | TokenKind::Placeholder) {
+                return Err(self.tokens.unexpected("an attribute of the module"));
+            }
+            self.tokens.take()?;
+            self.written.attributes.push(self.tokens.text_of(attribute).to_string());
+            if !self.tokens.take_if(b',')? {
+                return self.tokens.demand(b')', "a comma or )");
+            }
+        }
+    }
+
+    fn end_module(&mut self) -> Result<(), RapidFault> {
+        if let Some(end) = self.open_end() {
+            return Err(self.tokens.unexpected(end));
+        }
+        if self.stage != Stage::Module {
+            return Err(self
+                .tokens
+                .unexpected("a declaration or an instruction (no MODULE is open)"));
+        }
+        self.stage = Stage::Ended;
+        self.tokens.take().map(|_| ())
+    }
+
+    /// A datum or a routine, perhaps after LOCAL or TASK.
+    fn declaration(&mut self, first: Token) -> Result<(), RapidFault> {
+        let scope = match (self.tokens.take_word("LOCAL")?, self.tokens.at_word("TASK")) {
+            (true, _) => Scope::Local,
+            (false, true) => {
+                self.tokens.take()?;
+                Scope::Task
+            }
+            (false, false) => Scope::Global,
+        };
+        if let Some(storage) = storage_at(&self.tokens) {
+            let place = (self.routine, scope, storage);
+            let declaration = read_declaration(&mut self.tokens, first.start, place)?;
+            return self.add_declaration(first, declaration);
+        }
+        let kinds = [RoutineKind::Proc, RoutineKind::Func, RoutineKind::Trap];
+        match kinds.into_iter().find(|kind| self.tokens.at_word(kind.word())) {
+            Some(kind) if scope != Scope::Task => self.begin_routine(kind, first),
+            _ if self.tokens.at_word("ALIAS") => self.alias(first),
+            // A procedure may be named Task.
+            _ if scope == Scope::Task => self.rest_of_other(first),
+            _ if self.tokens.at_word("RECORD") => self.record(first),
+            _ => Err(self.tokens.unexpected("CONST, PERS, VAR, PROC, FUNC or TRAP")),
+        }
+    }
+
+    fn add_declaration(
+        &mut self,
+        first: Token,
+        declaration: Declaration<'a>,
+    ) -> Result<(), RapidFault> {
+        let (name, named) = match declaration {
+            Declaration::Read(declared, content) => {
+                let name = declared.name;
+                self.written.declared.push(declared);
+                self.written.contents.push(content);
+                (name, Named::Datum(self.written.declared.len() - 1))
+            }
+            Declaration::Unread { name, type_name } => {
+                let type_name = type_name.to_string();
+                let what =
+                    NotRead::DatumOfType { name: name.to_string(), type_name: type_name.clone() };
+                self.skip(first, what);
+                (name, Named::Other(Unresolved::OtherType { type_name }))
+            }
+            Declaration::Unfinished { name } => {
+                self.skip_unfinished(first);
+                (name, Named::Other(Unresolved::Unfinished))
+            }
+        };
+        self.declare(first, name, named)
+    }
+
+    fn record(&mut self, first: Token) -> Result<(), RapidFault> {
+        self.tokens.take()?;
+        let name = read_name(&mut self.tokens, "the name of the record")?;
+        while !self.tokens.take_word("ENDRECORD")? {
+            if self.tokens.peek().kind == TokenKind::End {
+                let kind = RapidFaultKind::UnexpectedEnd {
+                    inside: format!("RECORD {name}"),
+                    missing: "ENDRECORD",
+                };
+                return Err(self.tokens.fault(self.tokens.peek().start, kind));
+            }
+            self.tokens.take()?;
+        }
+        self.skip(first, NotRead::Record { name: name.to_string() });
+        self.declare(first, name, Named::Other(Unresolved::Type))
+    }
+
+    /// Another name of a type, which hides no name of data.
+    fn alias(&mut self, first: Token) -> Result<(), RapidFault> {
+        self.tokens.take()?;
+        read_name(&mut self.tokens, "a type")?;
+        let name = read_name(&mut self.tokens, "the name of the type")?;
+        self.tokens.demand(b';', "a semicolon")?;
+        self.skip(first, NotRead::Alias { name: name.to_string() });
+        Ok(())
+    }
+
+    fn move_instruction(&mut self, kind: MoveKind, token: Token) -> Result<(), RapidFault> {
+        self.tokens.take()?;
+        let Some(step) = read_move(&mut self.tokens, kind, token.start)? else {
+            self.skip_unfinished(token);
+            return Ok(());
+        };
+        let (at, displaced) = (self.at(), self.displaced_by.line(kind));
+        self.written.moves.push(WrittenMove { at, displaced, ..step });
+        Ok(())
+    }
+
+    fn flow(&mut self, word: &str, token: Token) -> Result<(), RapidFault> {
+        self.tokens.take()?;
+        self.written.blocks.read(&mut self.tokens, word, token)?;
+        self.skip(token, NotRead::Flow { word: word.to_string() });
+        Ok(())
+    }
+}

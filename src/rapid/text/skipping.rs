@@ -1,0 +1,92 @@
+//! Going on over what is not read, with its brackets in pairs.
+
+use alloc::vec::Vec;
+
+use super::tokens::{Token, TokenKind, Tokens};
+use crate::error::{RapidFault, RapidFaultKind};
+
+/// What closes an opening symbol, and as it is named in a message.
+fn closing(open: u8) -> (u8, &'static str) {
+    match open {
+        b'[' => (b']', "]"),
+        b'(' => (b')', ")"),
+        _ => (b'}', "}"),
+    }
+}
+
+/// What a closing symbol that does not come tells: the bracket is open where the statement ends,
+/// and else something stands in its place.
+pub(crate) fn not_closed(tokens: &Tokens<'_>, open: Token, close: u8) -> RapidFault {
+    match tokens.peek().kind {
+        TokenKind::End | TokenKind::Symbol(b';') => {
+            let bracket = tokens.text_of(open).chars().next().unwrap_or('[');
+            tokens.fault(open.start, RapidFaultKind::Unclosed { bracket })
+        }
+        _ => tokens.unexpected(match close {
+            b']' => "a comma or ]",
+            b')' => "a comma or )",
+            _ => "a comma or }",
+        }),
+    }
+}
+
+/// Whether the next token is an operator that is not calculated.
+pub(crate) fn is_unread_operator(tokens: &Tokens<'_>) -> bool {
+    let word = |word: &&str| tokens.at_word(word);
+    matches!(tokens.peek().kind, TokenKind::Symbol(b'=' | b'<' | b'>') | TokenKind::Placeholder)
+        || ["AND", "OR", "XOR", "DIV", "MOD"].iter().any(word)
+}
+
+/// Words that end a statement wherever they stand: one that is not closed before them is broken.
+fn is_end_of_routine(word: &str) -> bool {
+    ["ENDPROC", "ENDFUNC", "ENDTRAP", "ENDMODULE", "PROC", "FUNC", "TRAP", "MODULE"]
+        .iter()
+        .any(|end| end.eq_ignore_ascii_case(word))
+}
+
+/// Goes on to the comma, semicolon or closing bracket that ends the argument.
+pub(crate) fn skip_to_end_of_argument(tokens: &mut Tokens<'_>) -> Result<(), RapidFault> {
+    skip_balanced(tokens, |tokens, _| tokens.peek().is(b',') || tokens.peek().is(b'\\'))
+}
+
+/// Goes on over balanced brackets to where `ends` says, to a semicolon, a closing bracket or the
+/// end; none of these is taken.
+///
+/// `ends` is told the last token that was taken, and asked outside brackets only.
+pub(crate) fn skip_balanced(
+    tokens: &mut Tokens<'_>,
+    ends: impl Fn(&Tokens<'_>, Option<Token>) -> bool,
+) -> Result<(), RapidFault> {
+    let mut open: Vec<Token> = Vec::new();
+    let mut last = None;
+    loop {
+        let token = tokens.peek();
+        let ended = match token.kind {
+            TokenKind::End | TokenKind::Symbol(b';') => true,
+            TokenKind::Name => is_end_of_routine(tokens.text_of(token)),
+            _ => false,
+        };
+        match open.last().copied() {
+            None if ended || ends(tokens, last) => return Ok(()),
+            Some(bracket) if ended => {
+                let character = tokens.text_of(bracket).chars().next().unwrap_or('[');
+                return Err(
+                    tokens.fault(bracket.start, RapidFaultKind::Unclosed { bracket: character })
+                );
+            }
+            _ => {}
+        }
+        match token.kind {
+            TokenKind::Symbol(b'[' | b'(' | b'{') => open.push(token),
+            TokenKind::Symbol(symbol @ (b']' | b')' | b'}')) => {
+                match open.pop().map(|bracket| closing(tokens.text_of(bracket).as_bytes()[0])) {
+                    None => return Ok(()),
+                    Some((wanted, _)) if wanted == symbol => {}
+                    Some((_, wanted)) => return Err(tokens.unexpected(wanted)),
+                }
+            }
+            _ => {}
+        }
+        last = Some(tokens.take()?);
+    }
+}

@@ -1,0 +1,356 @@
+//! RAPID text as tokens: names, numbers, strings and symbols, without blanks and comments.
+
+use alloc::string::ToString;
+
+use super::literals::{decimal, number};
+use super::place::{Place, excerpt, fault_at};
+use super::words::end_of_word;
+use crate::error::{RapidFault, RapidFaultKind};
+
+/// Most letters of a placeholder; RAPID's own have two or three.
+const LONGEST_PLACEHOLDER: usize = 16;
+
+/// Most bytes of a name and of a string. RAPID's own bounds are 32 and 80 characters; what repeats
+/// a name often, the routine of each statement for instance, stays linear in the text so.
+const LONGEST_NAME: usize = 256;
+pub(crate) const LONGEST_STRING: usize = 2048;
+
+/// Characters that end a file: blanks, and what some systems put behind the text.
+const END_OF_FILE: [char; 8] = ['\0', '\u{1a}', ' ', '\t', '\r', '\n', '\u{b}', '\u{c}'];
+
+/// What a token is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum TokenKind {
+    /// An identifier or a reserved word.
+    Name,
+    /// A number, without a sign.
+    Number(f64),
+    /// A string with its quotes.
+    Text,
+    /// `:=`.
+    Assign,
+    /// `<SMT>` and its like: what an unfinished program does not have yet.
+    Placeholder,
+    /// A character of RAPID's punctuation.
+    Symbol(u8),
+    /// Behind the last token.
+    End,
+}
+
+/// A token and the bytes that it takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Token {
+    pub(crate) kind: TokenKind,
+    pub(crate) start: usize,
+    pub(crate) end: usize,
+}
+
+impl Token {
+    pub(crate) fn is(&self, symbol: u8) -> bool {
+        self.kind == TokenKind::Symbol(symbol)
+    }
+}
+
+/// Reads tokens one after the other, with the next one in sight.
+pub(crate) struct Tokens<'a> {
+    pub(crate) text: &'a str,
+    next: Token,
+    /// End of the token before.
+    pub(crate) last_end: usize,
+    /// Beginning of the last placeholder that was taken.
+    last_placeholder: Option<usize>,
+    /// End of what is read: what may follow are blanks, NUL and Ctrl-Z.
+    end: usize,
+    place: Place,
+}
+
+/// Where a reader of tokens was, to go back to.
+#[derive(Clone, Copy)]
+pub(crate) struct Mark {
+    next: Token,
+    last_end: usize,
+}
+
+impl<'a> Tokens<'a> {
+    /// Begins at a text, behind its `%%% ... %%%`.
+    pub(crate) fn new(text: &'a str) -> Result<Self, RapidFault> {
+        let next = Token { kind: TokenKind::End, start: 0, end: 0 };
+        let end = text.trim_end_matches(END_OF_FILE).len();
+        let mut tokens =
+            Self { text, next, last_end: 0, last_placeholder: None, end, place: Place::BEGINNING };
+        let bom = text.len() - text.trim_start_matches('\u{feff}').len();
+        let start = tokens.skip_blanks(bom);
+        let begin = if text[start..].starts_with("%%%") {
+            let length = text[start + 3..].find("%%%");
+            let inside = || RapidFaultKind::UnexpectedEnd {
+                inside: "the header".to_string(),
+                missing: "%%%",
+            };
+            start + 6 + length.ok_or_else(|| tokens.fault(start, inside()))?
+        } else {
+            start
+        };
+        tokens.next = tokens.read(begin)?;
+        Ok(tokens)
+    }
+
+    /// The next token, which stays the next.
+    pub(crate) fn peek(&self) -> Token {
+        self.next
+    }
+
+    /// The next token, and goes on behind it.
+    pub(crate) fn take(&mut self) -> Result<Token, RapidFault> {
+        let token = self.next;
+        self.last_end = token.end;
+        if token.kind == TokenKind::Placeholder {
+            self.last_placeholder = Some(token.start);
+        }
+        self.next = self.read(token.end)?;
+        Ok(token)
+    }
+
+    /// Whether a placeholder was taken from a byte on.
+    pub(crate) fn unfinished_since(&self, byte: usize) -> bool {
+        self.last_placeholder.is_some_and(|placeholder| placeholder >= byte)
+    }
+
+    /// Whether the next token is a name and `:=` follows it.
+    pub(crate) fn at_assigned_name(&self) -> bool {
+        self.next.kind == TokenKind::Name
+            && self.text[self.skip_blanks(self.next.end)..].starts_with(":=")
+    }
+
+    /// Where it is.
+    pub(crate) fn mark(&self) -> Mark {
+        Mark { next: self.next, last_end: self.last_end }
+    }
+
+    /// Goes back to where it was. No placeholder was taken since.
+    pub(crate) fn rewind(&mut self, Mark { next, last_end }: Mark) {
+        (self.next, self.last_end) = (next, last_end);
+    }
+
+    /// Takes the next token where it is this symbol.
+    pub(crate) fn take_if(&mut self, symbol: u8) -> Result<bool, RapidFault> {
+        let is = self.next.is(symbol);
+        if is {
+            self.take()?;
+        }
+        Ok(is)
+    }
+
+    /// Takes the symbol, or says what is in its place.
+    pub(crate) fn demand(&mut self, symbol: u8, wanted: &'static str) -> Result<(), RapidFault> {
+        if self.take_if(symbol)? { Ok(()) } else { Err(self.unexpected(wanted)) }
+    }
+
+    /// The text of a token.
+    pub(crate) fn text_of(&self, token: Token) -> &'a str {
+        &self.text[token.start..token.end]
+    }
+
+    /// Whether the next token is this word, in any case.
+    pub(crate) fn at_word(&self, word: &str) -> bool {
+        self.next.kind == TokenKind::Name && self.text_of(self.next).eq_ignore_ascii_case(word)
+    }
+
+    /// Takes the next token where it is this word.
+    pub(crate) fn take_word(&mut self, word: &str) -> Result<bool, RapidFault> {
+        let is = self.at_word(word);
+        if is {
+            self.take()?;
+        }
+        Ok(is)
+    }
+
+    /// The fault that the next token is not what must stand there.
+    pub(crate) fn unexpected(&self, wanted: &'static str) -> RapidFault {
+        let found = match self.next.kind {
+            TokenKind::End => "the end of the text".to_string(),
+            _ => excerpt(self.text_of(self.next)),
+        };
+        self.fault(self.next.start, RapidFaultKind::Unexpected { found, wanted })
+    }
+
+    /// A fault at a byte.
+    pub(crate) fn fault(&self, byte: usize, kind: RapidFaultKind) -> RapidFault {
+        fault_at(self.text, byte, kind)
+    }
+
+    /// Line and column of a byte, from 1; counts from the byte asked for before, so that asking in
+    /// order takes linear time.
+    pub(crate) fn line_and_column(&mut self, byte: usize) -> (usize, usize) {
+        if byte < self.place.byte {
+            self.place = Place::BEGINNING;
+        }
+        self.place = self.place.advanced(self.text, byte);
+        (self.place.line, self.place.column)
+    }
+
+    /// What is read of the text, without the blanks, NUL and Ctrl-Z at its end.
+    pub(crate) fn content(&self) -> &'a [u8] {
+        &self.text.as_bytes()[..self.end]
+    }
+
+    /// Goes on behind a byte that begins or ends a token.
+    pub(crate) fn resume(&mut self, byte: usize) -> Result<(), RapidFault> {
+        self.last_end = byte;
+        self.next = self.read(byte)?;
+        Ok(())
+    }
+
+    /// The first byte behind blanks and comments.
+    fn skip_blanks(&self, at: usize) -> usize {
+        let at = behind_blanks(self.content(), at);
+        if at < self.end { at } else { self.text.len() }
+    }
+
+    fn read(&self, from: usize) -> Result<Token, RapidFault> {
+        let start = self.skip_blanks(from);
+        let bytes = self.text.as_bytes();
+        let second = bytes.get(start + 1).copied().unwrap_or(0);
+        let (kind, end) = match bytes.get(start).copied() {
+            None => (TokenKind::End, start),
+            Some(b'0'..=b'9') => self.read_number(start)?,
+            Some(b'.') if second.is_ascii_digit() => self.read_number(start)?,
+            Some(b'"') => (TokenKind::Text, self.end_of_string(start)?),
+            Some(b':') if second == b'=' => (TokenKind::Assign, start + 2),
+            Some(b'<') => match placeholder_end(bytes, start) {
+                Some(end) => (TokenKind::Placeholder, end),
+                None => (TokenKind::Symbol(b'<'), start + 1),
+            },
+            Some(symbol) if is_symbol(symbol) => (TokenKind::Symbol(symbol), start + 1),
+            Some(_) => (TokenKind::Name, self.end_of_name(start)?),
+        };
+        Ok(Token { kind, start, end })
+    }
+
+    fn end_of_name(&self, start: usize) -> Result<usize, RapidFault> {
+        let end = end_of_word(self.text, start);
+        let first = self.text[start..].chars().next().unwrap_or('\0');
+        if end > start && first != '_' {
+            return self.short(start, end, "name", LONGEST_NAME);
+        }
+        Err(self.fault(start, RapidFaultKind::UnexpectedCharacter { character: first }))
+    }
+
+    fn end_of_string(&self, start: usize) -> Result<usize, RapidFault> {
+        let bytes = self.text.as_bytes();
+        let mut at = start + 1;
+        loop {
+            match (bytes.get(at), bytes.get(at + 1)) {
+                (Some(b'"'), Some(b'"')) => at += 2,
+                (Some(b'"'), _) => return self.short(start, at + 1, "string", LONGEST_STRING),
+                (None | Some(b'\n' | b'\r'), _) => {
+                    return Err(self.fault(start, RapidFaultKind::UnterminatedString));
+                }
+                _ => at += 1,
+            }
+        }
+    }
+
+    /// The end of a name or a string, where it is not too long.
+    fn short(
+        &self,
+        start: usize,
+        end: usize,
+        what: &'static str,
+        bound: usize,
+    ) -> Result<usize, RapidFault> {
+        if end - start <= bound {
+            Ok(end)
+        } else {
+            Err(self.fault(start, RapidFaultKind::TooLong { what, found: end - start, bound }))
+        }
+    }
+
+    /// A number with its end: decimal, or whole with the prefix 0x, 0o or 0b.
+    fn read_number(&self, start: usize) -> Result<(TokenKind, usize), RapidFault> {
+        let bytes = self.text.as_bytes();
+        if let Some((value, end)) = decimal(self.text, start) {
+            return Ok((TokenKind::Number(value), end));
+        }
+        let mut end = start;
+        while bytes.get(end).is_some_and(|&b| b.is_ascii_digit() || b == b'.') {
+            end += 1;
+        }
+        if matches!(bytes.get(end), Some(b'e' | b'E')) {
+            end += if matches!(bytes.get(end + 1), Some(b'+' | b'-')) { 2 } else { 1 };
+        }
+        // Letters and digits belong to it, so that 12abc is one wrong number and not a number and a
+        // name.
+        end = end_of_word(self.text, end);
+        let text = &self.text[start..end];
+        let fault = |kind| self.fault(start, kind);
+        let value =
+            number(text).ok_or_else(|| fault(RapidFaultKind::BadNumber { text: excerpt(text) }))?;
+        if !value.is_finite() {
+            return Err(fault(RapidFaultKind::NotFinite { text: excerpt(text) }));
+        }
+        Ok((TokenKind::Number(value), end))
+    }
+}
+
+/// The first byte behind blanks and comments.
+pub(crate) fn behind_blanks(bytes: &[u8], mut at: usize) -> usize {
+    while let Some(&byte) = bytes.get(at) {
+        match byte {
+            b' ' | b'\t' | b'\r' | b'\n' | 0x0b | 0x0c => at += 1,
+            b'!' => {
+                let line = &bytes[at..];
+                let length = line.iter().position(|&b| b == b'\n' || b == b'\r');
+                at += length.unwrap_or(line.len());
+            }
+            // A no-break space, in UTF-8.
+            0xc2 if bytes.get(at + 1) == Some(&0xa0) => at += 2,
+            _ => break,
+        }
+    }
+    at
+}
+
+/// Whether a byte is one of RAPID's punctuation.
+fn is_symbol(byte: u8) -> bool {
+    matches!(
+        byte,
+        b'[' | b']'
+            | b'('
+            | b')'
+            | b'{'
+            | b'}'
+            | b','
+            | b';'
+            | b'.'
+            | b':'
+            | b'\\'
+            | b'*'
+            | b'+'
+            | b'-'
+            | b'/'
+            | b'='
+            | b'<'
+            | b'>'
+            | b'|'
+            | b'%'
+            | b'?'
+    )
+}
+
+/// The end of the placeholder that begins at a byte: capital letters between `<` and `>`, without
+/// blanks.
+///
+/// It is no comparison: RAPID has none of three operands, as `a<B>c` would be.
+fn placeholder_end(bytes: &[u8], start: usize) -> Option<usize> {
+    if bytes.get(start) != Some(&b'<') {
+        return None;
+    }
+    let letters = bytes[start + 1..]
+        .iter()
+        .take(LONGEST_PLACEHOLDER + 1)
+        .take_while(|byte| byte.is_ascii_uppercase())
+        .count();
+    let end = start + 1 + letters;
+    ((1..=LONGEST_PLACEHOLDER).contains(&letters) && bytes.get(end) == Some(&b'>'))
+        .then_some(end + 1)
+}

@@ -1,0 +1,168 @@
+//! RAPID's reserved words, and what may be a name.
+
+/// Whether a byte belongs to a word wherever it is in it: an ASCII letter, a digit or an
+/// underscore.
+pub(crate) fn is_word_byte(byte: u8) -> bool {
+    byte.is_ascii_alphanumeric() || byte == b'_'
+}
+
+/// The end of the letters, digits and underscores from a byte on.
+pub(crate) fn end_of_word(text: &str, start: usize) -> usize {
+    let bytes = text.as_bytes();
+    let mut end = start;
+    while bytes.get(end).is_some_and(|byte| is_word_byte(*byte)) {
+        end += 1;
+    }
+    if bytes.get(end).is_none_or(u8::is_ascii) {
+        return end;
+    }
+    let belongs = |character: &char| character.is_alphanumeric() || *character == '_';
+    end + text[end..].chars().take_while(belongs).map(char::len_utf8).sum::<usize>()
+}
+
+/// Whether RAPID could read it as the name of something declared.
+pub(crate) fn is_name(text: &str) -> bool {
+    end_of_word(text, 0) == text.len() && is_name_token(text)
+}
+
+/// Whether a word, letters, digits and underscores, may be the name of something declared.
+pub(crate) fn is_name_token(word: &str) -> bool {
+    word.chars().next().is_some_and(char::is_alphabetic) && !is_reserved(word)
+}
+
+/// Room for a word: more than the longest of RAPID's own takes.
+const ROOM: usize = 16;
+
+/// A word in capitals; one that is longer than any of RAPID's own is empty.
+#[derive(Clone, Copy)]
+pub(crate) struct Capitals {
+    bytes: [u8; ROOM],
+    length: usize,
+}
+
+impl Capitals {
+    pub(crate) const fn of(word: &str) -> Self {
+        let mut capitals = Self { bytes: [0; ROOM], length: 0 };
+        if word.len() <= ROOM {
+            while capitals.length < word.len() {
+                let byte = word.as_bytes()[capitals.length];
+                capitals.bytes[capitals.length] = byte.to_ascii_uppercase();
+                capitals.length += 1;
+            }
+        }
+        capitals
+    }
+
+    /// It as a number, in the order of words.
+    const fn number(&self) -> u128 {
+        u128::from_be_bytes(self.bytes)
+    }
+
+    pub(crate) fn as_str(&self) -> &str {
+        core::str::from_utf8(&self.bytes[..self.length]).unwrap_or_default()
+    }
+}
+
+/// RAPID's reserved words, sorted.
+const RESERVED: [&str; 55] = [
+    "ALIAS",
+    "AND",
+    "BACKWARD",
+    "CASE",
+    "CONNECT",
+    "CONST",
+    "DEFAULT",
+    "DIV",
+    "DO",
+    "ELSE",
+    "ELSEIF",
+    "ENDFOR",
+    "ENDFUNC",
+    "ENDIF",
+    "ENDMODULE",
+    "ENDPROC",
+    "ENDRECORD",
+    "ENDTEST",
+    "ENDTRAP",
+    "ENDWHILE",
+    "ERROR",
+    "EXIT",
+    "FALSE",
+    "FOR",
+    "FROM",
+    "FUNC",
+    "GOTO",
+    "IF",
+    "INOUT",
+    "LOCAL",
+    "MOD",
+    "MODULE",
+    "NOSTEPIN",
+    "NOT",
+    "OR",
+    "PERS",
+    "PROC",
+    "RAISE",
+    "RECORD",
+    "RETRY",
+    "RETURN",
+    "STEP",
+    "SYSMODULE",
+    "TEST",
+    "THEN",
+    "TO",
+    "TRAP",
+    "TRUE",
+    "TRYNEXT",
+    "UNDO",
+    "VAR",
+    "VIEWONLY",
+    "WHILE",
+    "WITH",
+    "XOR",
+];
+
+/// The reserved words as numbers.
+const RESERVED_NUMBERS: [u128; RESERVED.len()] = {
+    let mut numbers = [0; RESERVED.len()];
+    let mut i = 0;
+    while i < RESERVED.len() {
+        numbers[i] = Capitals::of(RESERVED[i]).number();
+        i += 1;
+    }
+    numbers
+};
+
+/// Whether a word is one of RAPID's own.
+pub(crate) fn is_reserved(word: &str) -> bool {
+    RESERVED_NUMBERS.binary_search(&Capitals::of(word).number()).is_ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reserved_words_are_sorted_and_short() {
+        assert!(RESERVED.is_sorted());
+        assert!(RESERVED_NUMBERS.is_sorted());
+        assert!(RESERVED.iter().all(|word| word.len() < ROOM));
+    }
+
+    #[test]
+    fn reserved_words_are_found_in_any_case() {
+        assert!(RESERVED.iter().all(|word| is_reserved(word) && is_reserved(&word.to_lowercase())));
+        for word in ["", "p10", "endmodules", "tool0", "Modul", "\u{e9}\u{e9}"] {
+            assert!(!is_reserved(word), "{word}");
+        }
+    }
+
+    #[test]
+    fn words_end_where_their_letters_end() {
+        for (text, end) in
+            [("p10;", 3), ("_a b", 2), ("\u{e9}t\u{e9}1,", 6), ("a\u{a0}b", 1), ("", 0)]
+        {
+            assert_eq!(end_of_word(text, 0), end, "{text}");
+        }
+    }
+}
