@@ -6,7 +6,9 @@
 mod block;
 mod branch;
 mod elbow;
+mod joint_7;
 mod links;
+mod quartic;
 mod recognise;
 mod shoulder;
 mod single;
@@ -16,6 +18,7 @@ mod target;
 mod turn;
 mod wrist;
 
+pub(crate) use joint_7::EDGES;
 pub(crate) use recognise::recognise;
 pub(crate) use single::Single;
 pub(crate) use solver::SevenSolver;
@@ -30,7 +33,7 @@ use crate::kinematics::answer::status::Status;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::distance_from_half_turns;
 use crate::kinematics::structure::joint_map::Placement;
-use crate::kinematics::thresholds::WRIST_MERGE_SIN;
+use crate::kinematics::thresholds::{ROTATION_ROUNDING, WRIST_MERGE_SIN};
 
 /// The geometry between the shoulder, where axes 1, 2 and 3 meet, and the flange.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,6 +56,11 @@ impl SphericalShoulder {
             tool,
         ];
         Self { links: self.links.between(fixed), ..self }
+    }
+
+    /// How far rounding moves a pose of this arm at most [m, rad].
+    pub(crate) fn rounding(&self) -> f64 {
+        self.links.position_rounding().max(ROTATION_ROUNDING)
     }
 
     fn theta(&self, q: &[f64; 7]) -> [f64; 7] {
