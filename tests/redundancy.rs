@@ -2,7 +2,7 @@
 //! are an interval narrower than any grid.
 //!
 //! `IRBKIN_POSES` is the number of poses for each arm and distance; `make hardsets` prints one row an arm with more.
-#![allow(clippy::unwrap_used, missing_docs)]
+#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 mod common;
 
@@ -196,18 +196,17 @@ impl Tally {
     }
 }
 
-#[test]
-fn nearest_is_never_farther_than_the_maker() {
-    let mut rng = Rng::new(1);
-    let mut amiss = String::new();
-    for arm in arms() {
-        for off in OFF {
+/// Asks for each distance of `off` and each arm: `place` puts joints that far from a singularity.
+fn sweep(arms: &[Arm], off: &[f64], seed: u64, place: impl Fn(&Arm, f64, &mut Rng) -> [f64; 7]) {
+    let (mut rng, mut amiss) = (Rng::new(seed), String::new());
+    for arm in arms {
+        for &off in off {
             let mut tally = Tally::default();
             for _ in 0..poses() {
-                let q = arm.next_to_stretched(off, &mut rng);
+                let q = place(arm, off, &mut rng);
                 let slack = if off < 1e-6 { STRAIGHT } else { ROUNDING };
                 for seed in arm.seeds(&q, &mut rng) {
-                    tally.take(&arm, &q, &seed, slack);
+                    tally.take(arm, &q, &seed, slack);
                 }
             }
             assert_eq!(tally.asked, 4 * poses());
@@ -215,4 +214,199 @@ fn nearest_is_never_farther_than_the_maker() {
         }
     }
     assert!(amiss.is_empty(), "\n{amiss}");
+}
+
+#[test]
+fn next_to_the_stretched_arm_nearest_is_never_farther_than_the_maker() {
+    sweep(&arms(), &OFF, 1, |arm, off, rng| arm.next_to_stretched(off, rng));
+}
+
+#[test]
+fn anywhere_nearest_is_never_farther_than_the_maker() {
+    sweep(&arms(), &[1.0; 5], 2, |arm, _, rng| arm.anywhere(rng));
+}
+
+/// Joints, from 1, that bring an iiwa to a singularity of all seven, and their angles there [rad].
+const PLACES: [(&str, &[(usize, f64)]); 8] = [
+    ("stretched, axis 7 along", &[(4, 0.0), (6, 0.0)]),
+    ("stretched, axis 1 along", &[(4, 0.0), (2, 0.0)]),
+    ("candle", &[(2, 0.0), (4, 0.0), (6, 0.0)]),
+    ("shoulder", &[(2, 0.0), (3, FRAC_PI_2)]),
+    ("wrist", &[(5, FRAC_PI_2), (6, 0.0)]),
+    ("wrist, the other way", &[(5, -FRAC_PI_2), (6, 0.0)]),
+    ("shoulder and wrist", &[(2, 0.0), (6, 0.0)]),
+    ("shoulder and wrist, twice", &[(2, 0.0), (3, -FRAC_PI_2), (5, FRAC_PI_2), (6, 0.0)]),
+];
+
+#[test]
+fn at_pairs_of_singularities_nearest_is_never_farther_than_the_maker() {
+    let arms = arms();
+    for (name, place) in PLACES {
+        println!("{name}");
+        sweep(&arms[..2], &OFF, 3, |arm, off, rng| {
+            let mut q = arm.anywhere(rng);
+            for (joint, angle) in place {
+                q[joint - 1] = angle + rng.between(-off, off);
+            }
+            q
+        });
+    }
+}
+
+/// The pose of joints by another way of summing than the robot's: both are a rounding off.
+fn other_rounding(robot: &Robot<7>, q: &[f64; 7]) -> Pose {
+    let turned = Pose::rotation(nalgebra::Vector3::new(0.3, -0.2, 0.5));
+    let moved = robot.clone().with_base(&turned).unwrap();
+    turned.inverse() * moved.fk(q)
+}
+
+#[test]
+fn own_seed_comes_back() {
+    let (mut rng, mut asked) = (Rng::new(4), 0);
+    for arm in arms() {
+        for off in OFF {
+            for _ in 0..poses() {
+                let mut q = arm.next_to_stretched(off, &mut rng);
+                if arm.name.starts_with("iiwa") && rng.unit() < 0.3 {
+                    (q[1], q[5]) = (0.0, 0.0);
+                }
+                for pose in [arm.robot.fk(&q), other_rounding(&arm.robot, &q)] {
+                    let nearest = arm.robot.ik_nearest(&pose, &q, &WEIGHTS).unwrap();
+                    let moved = distance(&nearest.q, &q);
+                    assert!(moved <= 1e-9, "{} at {off:e}: {moved:e} {q:?}", arm.name);
+                    asked += 1;
+                }
+            }
+        }
+    }
+    assert_eq!(asked, 6 * OFF.len() * poses() * 2);
+}
+
+#[test]
+fn nearest_is_never_farther_than_a_solution_with_any_joint_7() {
+    let (mut rng, mut compared) = (Rng::new(6), 0);
+    for arm in arms() {
+        for off in OFF.into_iter().chain([1.0]) {
+            for _ in 0..poses() {
+                let q = arm.next_to_stretched(off.min(0.2), &mut rng);
+                let (pose, seed) = (arm.robot.fk(&q), arm.anywhere(&mut rng));
+                let nearest = arm.robot.ik_nearest(&pose, &seed, &WEIGHTS).unwrap();
+                let slack = if off < 1e-6 { STRAIGHT } else { ROUNDING };
+                for spread in [off, off, 0.1, 1.0, 3.0, 3.0] {
+                    let solutions =
+                        arm.robot.ik(&pose, q[6] + rng.between(-spread, spread)).unwrap();
+                    let exact = solutions.filter(|other| {
+                        other.within_limits()
+                            && arm.robot.residual(&other.q, &pose).largest() < 1e-14
+                    });
+                    let Ok(other) = exact.nearest(&seed, &WEIGHTS) else { continue };
+                    compared += 1;
+                    let farther = distance(&nearest.q, &seed) - distance(&other.q, &seed);
+                    assert!(farther <= slack, "{} {off:e}: {farther:e} {q:?} {seed:?}", arm.name);
+                }
+            }
+        }
+    }
+    assert!(compared > 60 * poses(), "{compared}");
+}
+
+#[test]
+fn smooth_paths_through_the_stretched_arm_neither_end_nor_jump() {
+    let (mut rng, mut steps, mut worst) = (Rng::new(7), 0, 0.0_f64);
+    for arm in arms() {
+        for path in 0..2 * poses() {
+            let mut middle = arm.next_to_stretched(0.0, &mut rng);
+            // Room inside the limits for what the arm does by itself.
+            for (angle, [low, high]) in middle.iter_mut().zip(arm.robot.limits().to_array()) {
+                *angle = angle.clamp(low.max(-9.0) + 0.35, high.min(9.0) - 0.35);
+            }
+            middle[3] = arm.stretched;
+            let mut speed = [0.0; 7].map(|_: f64| rng.between(-0.01, 0.01));
+            speed[3] = 0.01;
+            // Exactly through, or past by less than a step.
+            let past = if path % 2 == 0 { 0.0 } else { rng.unit() };
+            let joints = |step: i32| -> [f64; 7] {
+                std::array::from_fn(|i| middle[i] + speed[i] * (f64::from(step) + past))
+            };
+            let (mut before, mut made_before) = (joints(-30), joints(-30));
+            for step in -29..=30 {
+                let made = joints(step);
+                let pose = arm.robot.fk(&made);
+                let next = arm.robot.ik_nearest(&pose, &before, &WEIGHTS);
+                let next = next.unwrap_or_else(|e| panic!("{} {step}: {e} {made:?}", arm.name)).q;
+                let ratio = distance(&next, &before) / distance(&made, &made_before);
+                if ratio > 3.0 {
+                    println!(
+                        "{} {step} {past} ratio {ratio} {made:?} {before:?} {next:?} {}",
+                        arm.name,
+                        distance(&made, &before)
+                    );
+                }
+                worst = worst.max(ratio);
+                (before, made_before) = (next, made);
+                steps += 1;
+            }
+        }
+    }
+    println!("{steps} steps, the largest {worst:.3} times that of the joints");
+    assert!(worst < 3.0, "{worst}");
+    assert_eq!(steps, 6 * 2 * poses() * 60);
+}
+
+/// Folded links of the same length, with offsets: the shoulder comes to where axes 5 and 6 meet.
+fn folding() -> Arm {
+    Arm::of(
+        "folding",
+        [
+            [0.0, 0.0, 0.333, 0.0],
+            [-90.0, 0.0, 0.0, 0.0],
+            [90.0, 0.0, 0.3, 0.0],
+            [90.0, 0.08, 0.0, 0.0],
+            [-90.0, -0.08, 0.3, 0.0],
+            [90.0, 0.0, 0.0, 0.0],
+            [90.0, 0.088, 0.0, 0.0],
+        ],
+        0.107,
+    )
+}
+
+/// Largest difference of two joint vectors, full turns not counted [rad].
+fn apart(a: &[f64; 7], b: &[f64; 7]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b - TAU * ((a - b) / TAU).round()).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn no_duplicates_folded() {
+    let arm = folding();
+    let folded: f64 = 2.620_387_870_095_105_8;
+    let (mut rng, mut pairs) = (Rng::new(5), 0);
+    let ulp = folded.next_up() - folded;
+    let mut amiss = String::new();
+    for off in [0.0, ulp, 2.0 * ulp, 4.0 * ulp, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7]
+    {
+        let mut twice = 0;
+        for pose in 0..50 * poses() {
+            let mut q = arm.anywhere(&mut rng);
+            q[3] = if pose % 2 == 0 { folded + off } else { folded - off };
+            let solutions = arm.robot.ik(&arm.robot.fk(&q), q[6]).unwrap();
+            let found: Vec<_> = solutions.iter().collect();
+            assert!(!found.is_empty(), "{q:?}");
+            for (i, a) in found.iter().enumerate() {
+                for b in &found[..i] {
+                    pairs += 1;
+                    let same = apart(&a.q, &b.q) < 1e-10;
+                    if same && twice == 0 {
+                        println!("{off:e} {a:?} {b:?}");
+                    }
+                    twice += usize::from(same);
+                }
+            }
+        }
+        println!("folded {off:e}: {twice} twice");
+        if twice > 0 {
+            amiss += &format!("{twice} twice at {off:e}\n");
+        }
+    }
+    assert!(amiss.is_empty(), "{amiss}");
+    assert!(pairs > 1000, "{pairs}");
 }

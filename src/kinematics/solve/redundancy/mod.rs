@@ -13,8 +13,6 @@ use core::cmp::Ordering;
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use samples::Samples;
-
 use crate::error::{Error, ModelFault};
 use crate::kinematics::answer::select::{Cost, check_joints, check_weights};
 use crate::kinematics::answer::solutions::Solution;
@@ -155,12 +153,11 @@ impl Search<'_> {
         if self.best.is_some() {
             return Ok(());
         }
-        // The solution that goes on from the seed.
-        let own = self.samples(&self.seed.clone())?;
+        // The solution that goes on from the seed, with its joint 7 and along the curve.
+        self.samples(&self.seed.clone())?;
         if let Some(start) = self.curve.nearest(&Joints::from(self.seed)) {
             self.descend(start);
         }
-        self.look_at(&own, [&Samples::NONE; 2])?;
         self.between_edges(JOINT_7_SPACING)?;
         if self.best.is_none() && self.missed.shortfall == 0.0 {
             self.between_edges(JOINT_7_FINER_SPACING)?;

@@ -9,6 +9,7 @@ use nalgebra::{ComplexField as _, RealField as _};
 use super::Search;
 use crate::error::Error;
 use crate::kinematics::answer::solutions::SLOTS;
+use crate::kinematics::answer::status::Status;
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::thresholds::SAMPLE_LEAP;
 
@@ -20,7 +21,8 @@ pub(super) struct Sample {
     pub(super) joints_outside: u8,
     pub(super) outside: f64,
     pub(super) cost: f64,
-    /// Whether the pose leaves another joint open than joint 7.
+    /// Whether the pose may leave another joint open than joint 7: a straight elbow may leave the shoulder on axis 5 to
+    /// rounding.
     pub(super) is_free: bool,
 }
 
@@ -78,7 +80,7 @@ impl Search<'_> {
                 joints_outside: self.joints_outside(&q),
                 outside: self.outside(&q),
                 cost: self.cost(&q),
-                is_free: solution.free.is_some(),
+                is_free: solution.free.is_some() || solution.status.contains(Status::ELBOW),
             })
         });
         slots.iter().flatten().for_each(|sample: &Sample| self.keep(&sample.q));

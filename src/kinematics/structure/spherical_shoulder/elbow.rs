@@ -42,8 +42,7 @@ impl Links {
         }
         let (to_longest, to_shortest) = (longest * longest - r2, r2 - shortest * shortest);
         let m2 = 0.25 * to_longest * to_shortest;
-        let onto_itself = r <= target.free.trust.radius().max(self.position_rounding());
-        if onto_itself || m2 <= self.straight_m2(r) {
+        if self.is_onto_itself(r, target.free.trust.radius()) || m2 <= self.straight_m2(r) {
             let cos_e = if to_longest < to_shortest { 1.0 } else { -1.0 };
             // The arm that made the pose may have been bent by as much as counts as straight, and by rounding on top of that.
             let error = 2.0 * self.straight_m2(r).sqrt() / self.product();

@@ -62,6 +62,13 @@ impl Links {
         self.position_rounding() * r * self.product()
     }
 
+    /// Whether the shoulder, at distance `r` from where axes 5 and 6 meet, counts as being there, what is below `radius`
+    /// being no distance [m]. Then neither elbow says anything of joints 5 and 6: the shoulder may be that far from each
+    /// of their axes, at a right angle, and the rounding of eq. 58 is a tenth of it at most.
+    pub(super) fn is_onto_itself(&self, r: f64, radius: f64) -> bool {
+        r <= 1.5 * radius.max(self.position_rounding())
+    }
+
     /// Angle between upper arm and forearm from stretched, for the angle of axis 4 [rad].
     pub(super) fn elbow_angle(&self, theta_4: f64) -> f64 {
         theta_4 - self.psi[0].atan2(self.psi[1])
@@ -104,7 +111,7 @@ impl Links {
     pub(super) fn is_straight(&self, theta_4: f64) -> bool {
         let elbow = self.elbow_at(theta_4);
         let (r, sin_e) = (elbow.across.hypot(elbow.along), self.elbow_angle(theta_4).sin());
-        r <= self.position_rounding() || (self.product() * sin_e).powi(2) <= self.straight_m2(r)
+        self.is_onto_itself(r, 0.0) || (self.product() * sin_e).powi(2) <= self.straight_m2(r)
     }
 
     /// Whether both branches of the wrist count as one: on axis 5, on axis 6, or where the two meet.
