@@ -99,7 +99,7 @@ impl Search<'_> {
         right: &Samples,
         depth: u32,
     ) -> Result<(), Error> {
-        if depth < DEPTH && left.leaps_to(right) {
+        if depth < DEPTH && left.leap_to(right) {
             let middle = self.samples_at(0.5 * (left.q7 + right.q7))?;
             self.between(seen, left, &middle, depth + 1)?;
             return self.between(seen, &middle, right, depth + 1);

@@ -27,6 +27,14 @@ pub(super) struct Sample {
 }
 
 impl Sample {
+    fn leaps_to(&self, other: &Self) -> bool {
+        let leaps = |(a, b): (&f64, &f64)| {
+            let turned = a - b;
+            (turned - TAU * (turned / TAU).round()).abs() > SAMPLE_LEAP
+        };
+        self.q.iter().zip(&other.q).any(leaps)
+    }
+
     pub(super) fn is_better_than(&self, other: Option<&Self>) -> bool {
         let better = |other: &Self| {
             (self.outside, self.cost).partial_cmp(&(other.outside, other.cost))
@@ -49,13 +57,19 @@ impl Samples {
         self.slots.iter().all(Option::is_none)
     }
 
-    /// Whether a joint of some slot goes so far to the other samples that something may be missed between.
-    pub(super) fn leaps_to(&self, other: &Self) -> bool {
-        let leaps =
-            |(a, b): (&f64, &f64)| (a - b - TAU * ((a - b) / TAU).round()).abs() > SAMPLE_LEAP;
-        self.slots.iter().zip(&other.slots).any(|pair| match pair {
-            (Some(from), Some(to)) => from.q.iter().zip(&to.q).any(leaps),
-            _ => false,
+    /// Whether a joint of some slot goes so far to the other samples that something may be missed between. At an edge of
+    /// reach a slot goes on in a twin, of another elbow or wrist but the same shoulder.
+    pub(super) fn leap_to(&self, other: &Self) -> bool {
+        let ends = |slot: usize, end: &Sample, others: &Self| {
+            let shoulder = slot / 4 * 4;
+            let mut twins = others.slots[shoulder..shoulder + 4].iter().flatten();
+            twins.all(|twin| end.leaps_to(twin))
+        };
+        self.slots.iter().zip(&other.slots).enumerate().any(|(slot, pair)| match pair {
+            (Some(from), Some(to)) => from.leaps_to(to),
+            (Some(from), None) => ends(slot, from, other),
+            (None, Some(to)) => ends(slot, to, self),
+            (None, None) => false,
         })
     }
 
