@@ -61,7 +61,7 @@ impl Search<'_> {
                 self.step(&mut seen, &Samples::NONE)?;
                 seen = [Samples::NONE, right];
             } else {
-                self.interval(&mut seen, left, right, spacing)?;
+                self.interval(&mut seen, &left, &right, spacing)?;
             }
             left = right;
         }
@@ -73,11 +73,11 @@ impl Search<'_> {
     fn interval(
         &mut self,
         seen: &mut [Samples; 2],
-        mut left: Samples,
-        last: Samples,
+        first: &Samples,
+        last: &Samples,
         spacing: f64,
     ) -> Result<(), Error> {
-        let (from, length) = (left.q7, last.q7 - left.q7);
+        let (from, length, mut left) = (first.q7, last.q7 - first.q7, *first);
         let intervals = (2.0 * (0.75 * length / spacing).ceil()).max(LEAST_INTERVALS);
         let mut number = 1.0;
         while number < intervals {
@@ -87,7 +87,7 @@ impl Search<'_> {
             left = right;
             number += 1.0;
         }
-        self.between(seen, &left, &last, 0)
+        self.between(seen, &left, last, 0)
     }
 
     /// Looks at the samples between two angles of joint 7, and at the one on the right: the more, the farther the joints
@@ -180,7 +180,8 @@ impl Search<'_> {
             return None;
         }
         let mut marks = Marks { angles: [0.0; EDGES + 2], count: 0 };
-        [low, high].into_iter().for_each(|angle| marks.put(angle));
+        marks.put(low);
+        marks.put(high);
         for edge in self.robot.edges_of_joint_7(self.pose).into_iter().flatten() {
             let edge = edge + TAU * ((low - edge) / TAU).ceil();
             if edge < high {
