@@ -17,8 +17,12 @@ use crate::kinematics::thresholds::SAMPLE_LEAP;
 /// How often the distance of two samples is halved where a joint goes far between them.
 const DEPTH: u32 = 12;
 
-/// Intervals between two edges at least: half a turn of joint 5 in steps below [`SAMPLE_LEAP`].
+/// Intervals at least where edges are among the marks: half a turn of joint 5 in steps far below [`SAMPLE_LEAP`], so
+/// that two valleys next to an edge are told apart.
 const LEAST_INTERVALS: f64 = 16.0;
+
+/// Intervals at least where no edge is near.
+const LEAST_REGULAR_INTERVALS: f64 = 4.0;
 
 /// Angles of joint 7 in ascending order.
 struct Marks {
@@ -49,6 +53,7 @@ impl Search<'_> {
     /// from each slot's minima.
     pub(super) fn between_edges(&mut self, spacing: f64) -> Result<(), Error> {
         let Some(marks) = self.marks() else { return Ok(()) };
+        let least = if marks.count > 2 { LEAST_INTERVALS } else { LEAST_REGULAR_INTERVALS };
         let mut left = self.samples_at(marks.angles[0])?;
         let mut seen = [Samples::NONE, left];
         for (low, high) in marks.pairs() {
@@ -61,7 +66,7 @@ impl Search<'_> {
                 self.step(&mut seen, &Samples::NONE)?;
                 seen = [Samples::NONE, right];
             } else {
-                self.interval(&mut seen, &left, &right, spacing)?;
+                self.interval(&mut seen, &left, &right, [spacing, least])?;
             }
             left = right;
         }
@@ -75,10 +80,10 @@ impl Search<'_> {
         seen: &mut [Samples; 2],
         first: &Samples,
         last: &Samples,
-        spacing: f64,
+        [spacing, least]: [f64; 2],
     ) -> Result<(), Error> {
         let (from, length, mut left) = (first.q7, last.q7 - first.q7, *first);
-        let intervals = (2.0 * (0.75 * length / spacing).ceil()).max(LEAST_INTERVALS);
+        let intervals = (2.0 * (0.75 * length / spacing).ceil()).max(least);
         let mut number = 1.0;
         while number < intervals {
             let part: f64 = number / intervals;
