@@ -63,6 +63,28 @@ pub const PLAIN_ELBOW_SIN: f64 = 1e-2;
 /// plain [1].
 pub const PLAIN_ASIDE: f64 = 3e-3;
 
+/// Distance of two angles of joint 7 at which all solutions are looked at [rad].
+pub const JOINT_7_SPACING: f64 = 0.06;
+/// The distance at which they are looked at again where none inside the limits was found [rad].
+pub const JOINT_7_FINER_SPACING: f64 = 0.015;
+
+/// Angle by which a joint may differ between two neighbors of those [rad]: valleys of the cost are wider.
+pub const SAMPLE_LEAP: f64 = 0.5;
+
+/// First step along a curve of self-motion [rad].
+pub const FIRST_CURVE_STEP: f64 = 0.05;
+
+/// Largest step along a curve of self-motion [rad]: a tenth of what it takes to turn by half a radian and back.
+pub const LARGEST_CURVE_STEP: f64 = 0.2;
+
+/// Step below which a curve of self-motion is taken to end, and a valley to be at its bottom [rad]: its square is the
+/// rounding of a cost.
+pub const LEAST_CURVE_STEP: f64 = 1e-8;
+
+/// How little the two sides of an edge of joint 7 may differ, as a part of their size, and still be taken to touch [1]:
+/// what rounding leaves of a double zero, with room. An angle that is taken in vain costs one solve.
+pub const TOUCHING: f64 = 1e-12;
+
 /// How far a solution may be off its pose and still be one of it [m, rad]: more than any family or stretched arm, less than another pose.
 pub const SOLUTION_OFF: f64 = 1e-6;
 

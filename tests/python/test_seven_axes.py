@@ -275,6 +275,40 @@ def test_what_cannot_be_reached_is_told(robot):
     assert np.isnan(robot.ik_nearest(far[None], np.zeros(7))).all()
 
 
+IIWA = [
+    [0, 0, 0.36, 0],
+    [-np.pi / 2, 0, 0, 0],
+    [np.pi / 2, 0, 0.42, 0],
+    [np.pi / 2, 0, 0, 0],
+    [-np.pi / 2, 0, 0.4, 0],
+    [-np.pi / 2, 0, 0, 0],
+    [np.pi / 2, 0, 0.126, 0],
+]
+IIWA_LIMITS = np.deg2rad([170, 120, 170, 120, 170, 120, 175])
+STRETCHED = -np.arctan2(0.0825, 0.316) - np.arctan2(0.0825, 0.384)
+
+
+@pytest.mark.parametrize("off", [0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2])
+@pytest.mark.parametrize("name", ["iiwa", *NAMES])
+def test_any_pose_of_the_arm_is_reachable_next_to_the_stretched_arm(name, off):
+    if name == "iiwa":
+        robot = irbkin.Robot.from_mdh(IIWA).with_limits(np.stack([-IIWA_LIMITS, IIWA_LIMITS], axis=1))
+        straight = 0.0
+    else:
+        robot, straight = irbkin.Robot(name), STRETCHED
+    asked = 0
+    for number, q in enumerate(inside(robot, 20, seed=9)):
+        q[3] = straight + (off if number % 2 else -off)
+        # Where axis 6 is square to the plane of a Panda, joint 7 alone does not change its reach.
+        q[4] = q[4] if number % 4 < 2 else 0.0
+        pose = robot.fk(q)
+        assert robot.check_pose(pose)[:2] == (True, True), q
+        assert np.abs(robot.ik_nearest(pose, q) - q).max() <= 1e-9
+        assert np.abs(robot.fk(robot.ik_nearest(pose, np.zeros(7))) - pose).max() <= 1e-12
+        asked += 1
+    assert asked == 20
+
+
 def test_frankik_finds_no_solution_more():
     """It lists solutions inside its limits, and not all of them."""
     frankik = pytest.importorskip("frankik")

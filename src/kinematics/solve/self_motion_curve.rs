@@ -26,6 +26,8 @@ const AT_REST: f64 = 1e-11;
 pub(in crate::kinematics) struct SelfMotion<'a> {
     pub(in crate::kinematics) robot: &'a Robot<7>,
     pub(in crate::kinematics) pose: &'a Pose,
+    /// How far rounding moves a pose of the arm at most [m, rad].
+    pub(in crate::kinematics) rounding: f64,
 }
 
 /// A point of the curve, and the direction of the curve there, of length one.
@@ -33,6 +35,12 @@ pub(in crate::kinematics) struct SelfMotion<'a> {
 pub(in crate::kinematics) struct Point {
     pub(in crate::kinematics) q: Joints,
     pub(in crate::kinematics) along: Joints,
+}
+
+impl Point {
+    pub(in crate::kinematics) fn joints(&self) -> [f64; 7] {
+        self.q.into()
+    }
 }
 
 impl SelfMotion<'_> {
@@ -70,6 +78,10 @@ impl SelfMotion<'_> {
             let bordered = self.bordered(&q, border).lu();
             let correction = bordered.solve(&wanted)?;
             let size = correction.amax();
+            // Next to a singularity of the curve rounding keeps corrections large that change nothing of the pose.
+            if wanted.amax() <= self.rounding && size >= 0.5 * rest {
+                return Some(Point { q, along: unit(bordered.solve(&Joints::ith(6, 1.0))?)? });
+            }
             if size.is_nan() || size > LARGEST_CORRECTION {
                 return None;
             }
@@ -93,14 +105,14 @@ impl SelfMotion<'_> {
         let mut matrix = SMatrix::<f64, 7, 7>::zeros();
         matrix
             .fixed_rows_mut::<6>(0)
-            .copy_from(&self.robot.jacobian(&q.data.0[0], JacobianFrame::Base));
+            .copy_from(&self.robot.jacobian(&(*q).into(), JacobianFrame::Base));
         matrix.row_mut(6).copy_from(&border.transpose());
         matrix
     }
 
     /// From the tool at `q` to the pose: translation [m] and, for small angles, turn [rad].
     fn off(&self, q: &Joints) -> SVector<f64, 6> {
-        let at = self.robot.fk(&q.data.0[0]);
+        let at = self.robot.fk(&(*q).into());
         let turn = (self.pose.rotation * at.rotation.inverse()).into_inner();
         let turn = 0.5
             * Vector3::new(

@@ -3,25 +3,10 @@
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use super::links::Links;
+use super::links::{Elbow, Links};
 use super::target::Target;
 use crate::kinematics::pose::angles::sign_of;
 use crate::report::Reach;
-
-/// One way for the elbow to stand, and where the shoulder is then, seen from the forearm: in the plane of axes 3 and 5.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Elbow {
-    pub(super) sin_4: f64,
-    pub(super) cos_4: f64,
-    /// From axis 5 to the shoulder [m].
-    pub(super) across: f64,
-    /// From axis 6 to the shoulder, along axis 5 [m].
-    pub(super) along: f64,
-    /// Stretched or folded: it stands for both.
-    pub(super) straight: bool,
-    /// How far rounding may turn joint 4 [rad].
-    pub(super) error: f64,
-}
 
 /// The elbow bent forwards and backwards; without the second, they are one.
 pub(super) struct Elbows {
@@ -42,8 +27,7 @@ impl Links {
         }
         let (to_longest, to_shortest) = (longest * longest - r2, r2 - shortest * shortest);
         let m2 = 0.25 * to_longest * to_shortest;
-        let onto_itself = r <= target.free.trust.radius().max(self.position_rounding());
-        if onto_itself || m2 <= self.straight_m2(r) {
+        if self.is_onto_itself(r, target.free.trust.radius()) || m2 <= self.straight_m2(r) {
             let cos_e = if to_longest < to_shortest { 1.0 } else { -1.0 };
             // The arm that made the pose may have been bent by as much as counts as straight, and by rounding on top of that.
             let error = 2.0 * self.straight_m2(r).sqrt() / self.product();

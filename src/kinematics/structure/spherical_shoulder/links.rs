@@ -3,7 +3,6 @@
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use super::elbow::Elbow;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::thresholds::{POSITION_ROUNDING, SHOULDER_MERGE};
 
@@ -26,6 +25,21 @@ pub(super) struct Links {
     pub(super) psi: [f64; 2],
     /// The lengths that a position of the tool is summed from [m].
     pub(super) extent: f64,
+}
+
+/// One way for the elbow to stand, and where the shoulder is then, seen from the forearm: in the plane of axes 3 and 5.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Elbow {
+    pub(super) sin_4: f64,
+    pub(super) cos_4: f64,
+    /// From axis 5 to the shoulder [m].
+    pub(super) across: f64,
+    /// From axis 6 to the shoulder, along axis 5 [m].
+    pub(super) along: f64,
+    /// Stretched or folded: it stands for both.
+    pub(super) straight: bool,
+    /// How far rounding may turn joint 4 [rad].
+    pub(super) error: f64,
 }
 
 impl Links {
@@ -60,6 +74,13 @@ impl Links {
     /// The square of m (eq. 55) below which a straight arm reaches the shoulder too, to half the rounding of a position.
     pub(super) fn straight_m2(&self, r: f64) -> f64 {
         self.position_rounding() * r * self.product()
+    }
+
+    /// Whether the shoulder, at distance `r` from where axes 5 and 6 meet, counts as being there, what is below `radius`
+    /// being no distance [m]. Then neither elbow says anything of joints 5 and 6: the shoulder may be that far from each
+    /// of their axes, at a right angle, and the rounding of eq. 58 is a tenth of it at most.
+    pub(super) fn is_onto_itself(&self, r: f64, radius: f64) -> bool {
+        r <= 1.5 * radius.max(self.position_rounding())
     }
 
     /// Angle between upper arm and forearm from stretched, for the angle of axis 4 [rad].
@@ -104,7 +125,7 @@ impl Links {
     pub(super) fn is_straight(&self, theta_4: f64) -> bool {
         let elbow = self.elbow_at(theta_4);
         let (r, sin_e) = (elbow.across.hypot(elbow.along), self.elbow_angle(theta_4).sin());
-        r <= self.position_rounding() || (self.product() * sin_e).powi(2) <= self.straight_m2(r)
+        self.is_onto_itself(r, 0.0) || (self.product() * sin_e).powi(2) <= self.straight_m2(r)
     }
 
     /// Whether both branches of the wrist count as one: on axis 5, on axis 6, or where the two meet.

@@ -6,14 +6,18 @@
 mod block;
 mod branch;
 mod elbow;
+mod joint_7;
 mod links;
 mod measure;
 mod one_pose;
+mod quartic;
 mod shoulder;
 mod solve;
 mod target;
 mod turn;
 mod wrist;
+
+pub(crate) use joint_7::EDGES;
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -34,7 +38,7 @@ use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::distance_from_half_turns;
 use crate::kinematics::structure::joint_map::Placement;
-use crate::kinematics::thresholds::WRIST_MERGE_SIN;
+use crate::kinematics::thresholds::{ROTATION_ROUNDING, WRIST_MERGE_SIN};
 use crate::report::{Pattern, UnknownStructure};
 
 /// The geometry between the shoulder, where axes 1, 2 and 3 meet, and the flange.
@@ -48,6 +52,11 @@ pub struct SphericalShoulder {
 }
 
 impl SphericalShoulder {
+    /// How far rounding moves a pose of this arm at most [m, rad].
+    pub(crate) fn rounding(&self) -> f64 {
+        self.links.position_rounding().max(ROTATION_ROUNDING)
+    }
+
     fn theta(&self, q: &[f64; 7]) -> [f64; 7] {
         self.placement.theta(q)
     }

@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix3;
 
-use super::elbow::Elbow;
+use super::links::Elbow;
 use super::target::Target;
 use super::wrist::Wrist;
 use crate::kinematics::structure::zyz::{First, Zyz, zyz};

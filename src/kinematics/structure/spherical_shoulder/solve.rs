@@ -6,7 +6,7 @@ use core::f64::consts::PI;
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::SphericalShoulder;
-use super::elbow::Elbow;
+use super::links::Elbow;
 use super::shoulder::shoulder;
 use super::target::Target;
 use super::wrist::{Wrist, Wrists};

@@ -3,7 +3,7 @@
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use super::elbow::Elbow;
+use super::links::Elbow;
 use super::links::Links;
 use super::target::Target;
 use super::turn::Turn;

@@ -1,0 +1,98 @@
+//! Down the valleys of the cost, along the curve of self-motion.
+
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
+use super::Search;
+use crate::kinematics::solve::self_motion_curve::Point;
+use crate::kinematics::thresholds::{FIRST_CURVE_STEP, LARGEST_CURVE_STEP, LEAST_CURVE_STEP};
+
+/// Steps along one curve, and rounds in which the bottom of a valley is found between two of them.
+const STEPS: u32 = 120;
+const ROUNDS: u32 = 40;
+
+impl Search<'_> {
+    /// How the cost changes along the curve.
+    fn slope(&self, point: &Point) -> f64 {
+        (0..7)
+            .map(|joint| {
+                self.weights[joint] * (point.q[joint] - self.seed[joint]) * point.along[joint]
+            })
+            .sum()
+    }
+
+    /// Down from a point of the curve; from where the curve comes back inside the limits too, if the point is outside.
+    pub(super) fn descend(&mut self, start: Point) {
+        for edge in self.edges(&start).into_iter().flatten() {
+            self.downhill(edge);
+        }
+        self.downhill(start);
+    }
+
+    /// Where the curve comes back inside the limits: a joint that is outside them stands at its limit, and none is outside.
+    fn edges(&self, point: &Point) -> [Option<Point>; 7] {
+        let limits = self.robot.limits().to_array();
+        core::array::from_fn(|joint| {
+            let angle = point.q[joint];
+            let [low, high] = limits[joint];
+            let limit = if angle < low { low } else { high };
+            let edge = (self.robot.limits().excess(joint, angle) > 0.0)
+                .then(|| self.curve.with_joint_at(&point.q, joint, limit))??;
+            (self.outside(&edge.joints()) == 0.0).then_some(edge)
+        })
+    }
+
+    /// Down to the bottom of the valley that a point of the curve lies in, inside the limits or not; keeps what is inside.
+    fn downhill(&mut self, start: Point) {
+        let (mut point, mut step) = (start, FIRST_CURVE_STEP);
+        self.keep(&point.joints());
+        for _ in 0..STEPS {
+            let slope = self.slope(&point);
+            if slope == 0.0 || step < LEAST_CURVE_STEP {
+                return;
+            }
+            let ahead = -step.copysign(slope);
+            let next = self.curve.across(&(point.q + ahead * point.along), &point.along);
+            let Some(next) = next.filter(|next| next.along.dot(&point.along) > 0.5) else {
+                step *= 0.5;
+                continue;
+            };
+            if self.joints_outside(&next.joints()) != self.joints_outside(&point.joints()) {
+                for end in [&point, &next] {
+                    self.edges(end).iter().flatten().for_each(|edge| self.keep(&edge.joints()));
+                }
+            }
+            let slope_ahead = self.slope(&next);
+            if slope_ahead * slope <= 0.0 {
+                self.bottom(&point, ahead, [slope, slope_ahead]);
+                return;
+            }
+            self.keep(&next.joints());
+            (point, step) = (next, (2.0 * step).min(LARGEST_CURVE_STEP));
+        }
+    }
+
+    /// The bottom of a valley between a point and one that is ahead of it, with the slopes at both: where the slope is zero, by false position.
+    fn bottom(&mut self, point: &Point, ahead: f64, slopes: [f64; 2]) {
+        let curve = self.curve;
+        let at = |part: f64| curve.across(&(point.q + part * ahead * point.along), &point.along);
+        let (mut low, mut high) = ((0.0, slopes[0]), (1.0, slopes[1]));
+        for _ in 0..ROUNDS {
+            let part = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
+            let Some(middle) = at(part) else { return };
+            self.keep(&middle.joints());
+            let slope = self.slope(&middle);
+            // The cost is a square: what a step this small changes of it is below rounding.
+            if slope == 0.0 || ((part - high.0) * ahead).abs() < LEAST_CURVE_STEP {
+                return;
+            }
+            // The end that stays twice weighs half (Illinois).
+            if slope * high.1 < 0.0 {
+                low = high;
+            } else {
+                low.1 *= 0.5;
+            }
+            high = (part, slope);
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! What a pose leaves open besides joint 7: at a singularity whole families of joint vectors meet it.
+
+use core::f64::consts::TAU;
+
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
+use super::Search;
+use super::samples::{Sample, Samples};
+use crate::error::Error;
+use crate::kinematics::chain::jacobian::JacobianFrame;
+use crate::kinematics::solve::self_motion_curve::Joints;
+
+/// The joints, from 0, of which a solve takes the angle that it is given where the pose leaves them open.
+const OPEN: [usize; 3] = [0, 4, 5];
+
+/// Angles of a joint that are looked at in a turn; between the best one's neighbors its valley is narrowed.
+const PLACES: u32 = 32;
+
+/// Probes: each leaves 62 % of the way, all of them 1e-9 rad.
+const NARROWINGS: u32 = 42;
+
+/// Where an interval is cut so that the larger part is cut alike: the golden section.
+const GOLDEN: f64 = 0.381_966_011_250_105_1;
+
+/// Steps to the nearest place that the tool does not see: each of the seven joints may come to a limit.
+const SLIDES: u32 = 16;
+
+/// Sweeps of the singular value decomposition of a Jacobian.
+const SWEEPS: usize = 100;
+
+/// What a step must gain of the cost to be followed by another [1].
+const LEAST_GAIN: f64 = 1e-12;
+
+/// Singular values of the Jacobian below which joints do not move the tool, as a part of the greatest [1]: what is
+/// between rounding and this is a curve that descents follow.
+const STILL: f64 = 1e-6;
+
+/// Weight of a joint as a part of the greatest, at the least [1]: one of no weight has no measure.
+const LEAST_WEIGHT: f64 = 1e-8;
+
+/// Weight of a joint that is held at its limit [1].
+const HELD: f64 = 1e24;
+
+impl Search<'_> {
+    /// Looks for the nearest of the joint vectors among which the open joints choose, from those of a sample on.
+    pub(super) fn choose_free_joints(&mut self, sample: &Sample) -> Result<(), Error> {
+        let mut best = *sample;
+        for joint in OPEN {
+            if let Some(found) = self.choose(&best.q, joint)?
+                && found.is_better_than(Some(&best))
+            {
+                best = found;
+            }
+        }
+        self.slide(best)
+    }
+
+    /// Goes to the point nearest to the seed of what does not move the tool, and on from there. Several open joints at
+    /// once, joint 7 among them, turn about one line, so that the sum of their angles is all that the pose says: the
+    /// first step is the last. A joint that comes to a limit is held there.
+    fn slide(&mut self, from: Sample) -> Result<(), Error> {
+        let (mut best, mut weights) = (from, self.weights);
+        for _ in 0..SLIDES {
+            let Some(way) = self.still_tool(&best.q, &weights) else { return Ok(()) };
+            let (part, blocked) = self.inside_part(&best.q, &way, &weights);
+            let rest = core::array::from_fn(|joint| best.q[joint] + part * way[joint]);
+            let found = self.samples(&rest)?.best();
+            let gains = found.is_some_and(|found| {
+                (found.outside, found.cost) < (best.outside, best.cost * (1.0 - LEAST_GAIN))
+            });
+            if let Some(found) = found.filter(|_| gains) {
+                best = found;
+            }
+            match blocked {
+                Some(joint) => weights[joint] = HELD,
+                None if gains => {}
+                None => return Ok(()),
+            }
+        }
+        Ok(())
+    }
+
+    /// The way to the seed as far as it does not move the tool, small moves of it left out: in the measure of `weights`
+    /// the nearest place of the seed's linear neighborhood.
+    fn still_tool(&self, q: &[f64; 7], weights: &[f64; 7]) -> Option<[f64; 7]> {
+        let most = weights.iter().copied().fold(0.0, f64::max);
+        let roots = Joints::from(weights.map(|weight| weight.max(LEAST_WEIGHT * most).sqrt()));
+        let mut way = (Joints::from(self.seed) - Joints::from(*q)).component_mul(&roots);
+        let mut jacobian = self.robot.jacobian(q, JacobianFrame::Base);
+        for mut row in jacobian.row_iter_mut() {
+            row.component_div_assign(&roots.transpose());
+        }
+        let svd = jacobian.try_svd(false, true, f64::EPSILON, SWEEPS)?;
+        let greatest = svd.singular_values.max();
+        let rows = svd.v_t?;
+        for (row, size) in rows.row_iter().zip(&svd.singular_values) {
+            if *size > STILL * greatest {
+                way -= row.transpose() * (row * way)[0];
+            }
+        }
+        Some(way.component_div(&roots).into())
+    }
+
+    /// The part of a way that stays inside the limits, and the joint that ends it.
+    fn inside_part(
+        &self,
+        q: &[f64; 7],
+        way: &[f64; 7],
+        weights: &[f64; 7],
+    ) -> (f64, Option<usize>) {
+        let mut first = (1.0, None);
+        for (joint, [low, high]) in self.robot.limits().to_array().into_iter().enumerate() {
+            let limit = if way[joint] < 0.0 { low } else { high };
+            let part = ((limit - q[joint]) / way[joint]).max(0.0);
+            if part < first.0 && weights[joint] != HELD {
+                first = (part, Some(joint));
+            }
+        }
+        first
+    }
+
+    /// The best solution of every angle of one joint; `None` where the pose determines it.
+    fn choose(&mut self, rest: &[f64; 7], joint: usize) -> Result<Option<Sample>, Error> {
+        let step = TAU / f64::from(PLACES);
+        let (here, next) = (self.with(rest, joint, 0.0)?, self.with(rest, joint, step)?);
+        if here.slots.iter().flatten().map(|sample| sample.q).eq(next
+            .slots
+            .iter()
+            .flatten()
+            .map(|sample| sample.q))
+        {
+            return Ok(None);
+        }
+        let (mut middle, mut best) = (0.0, here.best());
+        for place in 1..PLACES {
+            let turn = f64::from(place) * step;
+            let found = self.with(rest, joint, turn)?.best();
+            if found
+                .is_some_and(|found| !best.is_some_and(|best| best.is_better_than(Some(&found))))
+            {
+                (middle, best) = (turn, found);
+            }
+        }
+        let (mut low, mut high) = (middle - step, middle + step);
+        for _ in 0..NARROWINGS {
+            let probe = if high - middle > middle - low {
+                middle + GOLDEN * (high - middle)
+            } else {
+                middle - GOLDEN * (middle - low)
+            };
+            let found = self.with(rest, joint, probe)?.best();
+            if found.is_some_and(|found| found.is_better_than(best.as_ref())) {
+                *(if probe > middle { &mut low } else { &mut high }) = middle;
+                (middle, best) = (probe, found);
+            } else {
+                *(if probe > middle { &mut high } else { &mut low }) = probe;
+            }
+        }
+        Ok(best)
+    }
+
+    fn with(&mut self, rest: &[f64; 7], joint: usize, turn: f64) -> Result<Samples, Error> {
+        let mut rest = *rest;
+        rest[joint] += turn;
+        self.samples(&rest)
+    }
+}

@@ -1,0 +1,209 @@
+//! Joint 7 from one edge of reach to the next.
+
+use core::f64::consts::{PI, TAU};
+
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
+use super::Search;
+use super::samples::{Sample, Samples};
+use crate::error::Error;
+use crate::kinematics::answer::select::Cost;
+use crate::kinematics::answer::slot::MOST_SLOTS;
+use crate::kinematics::solve::self_motion_curve::Joints;
+use crate::kinematics::structure::spherical_shoulder::EDGES;
+use crate::kinematics::thresholds::SAMPLE_LEAP;
+
+/// How often the distance of two samples is halved where a joint goes far between them.
+const DEPTH: u32 = 12;
+
+/// Intervals at least where edges are among the marks: half a turn of joint 5 in steps far below [`SAMPLE_LEAP`], so
+/// that two valleys next to an edge are told apart.
+const LEAST_INTERVALS: f64 = 16.0;
+
+/// Intervals at least where no edge is near.
+const LEAST_REGULAR_INTERVALS: f64 = 4.0;
+
+/// Angles of joint 7 in ascending order.
+struct Marks {
+    angles: [f64; EDGES + 2],
+    count: usize,
+}
+
+impl Marks {
+    fn sort(&mut self) {
+        let angles = &mut self.angles[..self.count];
+        angles.sort_unstable_by(f64::total_cmp);
+    }
+
+    fn put(&mut self, angle: f64) {
+        if let Some(place) = self.angles.get_mut(self.count) {
+            *place = angle;
+            self.count += 1;
+        }
+    }
+
+    fn pairs(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.angles[..self.count].windows(2).map(|pair| (pair[0], pair[1]))
+    }
+}
+
+impl Search<'_> {
+    /// Looks at every slot between the edges of reach, at angles that are `spacing` [rad] apart at most, and goes down
+    /// from each slot's minima.
+    pub(super) fn between_edges(&mut self, spacing: f64) -> Result<(), Error> {
+        let Some(marks) = self.marks() else { return Ok(()) };
+        let least = if marks.count > 2 { LEAST_INTERVALS } else { LEAST_REGULAR_INTERVALS };
+        let mut left = self.samples_at(marks.angles[0])?;
+        let mut seen = [Samples::NONE, left];
+        for (low, high) in marks.pairs() {
+            if high <= low {
+                continue;
+            }
+            let right = self.samples_at(high)?;
+            if self.samples_at(0.5 * (low + high))?.are_none() {
+                // The edges may touch: all that is reached is at the mark itself.
+                self.step(&mut seen, &Samples::NONE)?;
+                seen = [Samples::NONE, right];
+            } else {
+                self.interval(&mut seen, &left, &right, [spacing, least])?;
+            }
+            left = right;
+        }
+        self.step(&mut seen, &Samples::NONE)
+    }
+
+    /// Looks at the samples from one edge to the next, the closer together the nearer to an edge: there the other joints
+    /// move by the root of what joint 7 does.
+    fn interval(
+        &mut self,
+        seen: &mut [Samples; 2],
+        first: &Samples,
+        last: &Samples,
+        [spacing, least]: [f64; 2],
+    ) -> Result<(), Error> {
+        let (from, length, mut left) = (first.q7, last.q7 - first.q7, *first);
+        let intervals = (2.0 * (0.75 * length / spacing).ceil()).max(least);
+        let mut number = 1.0;
+        while number < intervals {
+            let part: f64 = number / intervals;
+            let right = self.samples_at(from + length * part * part * (3.0 - 2.0 * part))?;
+            self.between(seen, &left, &right, 0)?;
+            left = right;
+            number += 1.0;
+        }
+        self.between(seen, &left, last, 0)
+    }
+
+    /// Looks at the samples between two angles of joint 7, and at the one on the right: the more, the farther the joints
+    /// go between them.
+    fn between(
+        &mut self,
+        seen: &mut [Samples; 2],
+        left: &Samples,
+        right: &Samples,
+        depth: u32,
+    ) -> Result<(), Error> {
+        if depth < DEPTH && left.leap_to(right) {
+            let middle = self.samples_at(0.5 * (left.q7 + right.q7))?;
+            self.between(seen, left, &middle, depth + 1)?;
+            return self.between(seen, &middle, right, depth + 1);
+        }
+        self.step(seen, right)
+    }
+
+    /// One sample on: the last one has both its neighbors then.
+    fn step(&mut self, seen: &mut [Samples; 2], next: &Samples) -> Result<(), Error> {
+        let [before, here] = *seen;
+        *seen = [here, *next];
+        self.look_at(&here, [&before, next])
+    }
+
+    /// Goes down from samples where they are better than both neighbors.
+    pub(super) fn look_at(
+        &mut self,
+        here: &Samples,
+        neighbors: [&Samples; 2],
+    ) -> Result<(), Error> {
+        let mut free: Option<Sample> = None;
+        for slot in 0..MOST_SLOTS {
+            let Some(sample) = here.slots[slot] else { continue };
+            let neighbors = neighbors.map(|samples| samples.slots[slot].as_ref());
+            // Where other joints are outside than next to it, there may be none between.
+            let edge = |other: Option<&Sample>| {
+                other.is_none_or(|other| other.joints_outside != sample.joints_outside)
+            };
+            let at_edge = sample.outside > 0.0 && neighbors.into_iter().any(edge);
+            let in_valley = neighbors.into_iter().all(|other| sample.is_better_than(other));
+            if !(at_edge || in_valley) {
+                continue;
+            }
+            if sample.is_free && sample.is_better_than(free.as_ref()) {
+                free = Some(sample);
+            }
+            if self.may_gain(&sample, neighbors)
+                && let Some(start) = self.curve.nearest(&Joints::from(sample.q))
+            {
+                self.descend(start);
+            }
+        }
+        free.map_or(Ok(()), |sample| self.choose_free_joints(&sample))
+    }
+
+    /// Whether something between a sample and its neighbors may cost less than what was found.
+    fn may_gain(&self, sample: &Sample, neighbors: [Option<&Sample>; 2]) -> bool {
+        let Some((least, _)) = self.best else { return true };
+        // Where a slot ends, it may go as far again.
+        let end = SAMPLE_LEAP * self.weights.iter().sum::<f64>().sqrt();
+        let apart = |other: Option<&Sample>| {
+            other.map_or(end, |other| {
+                Cost::Distance.total(&other.q, &sample.q, &self.weights).sqrt()
+            })
+        };
+        let farthest = neighbors.map(apart).into_iter().fold(0.0, f64::max);
+        sample.cost.sqrt() - 2.0 * farthest < least.sqrt()
+    }
+
+    /// How far a pose that is reached by no angle of joint 7 is out of reach.
+    pub(super) fn least_shortfall(&mut self, spacing: f64) -> Result<(), Error> {
+        let (low, high) = self.range();
+        let intervals = ((high - low) / spacing).ceil().max(2.0);
+        let mut number = 0.0;
+        while number <= intervals {
+            self.samples_at((low + (high - low) * number / intervals).min(high))?;
+            number += 1.0;
+        }
+        Ok(())
+    }
+
+    /// The edges of reach between the angles that joint 7 alone makes no dearer than what was found, and these.
+    fn marks(&self) -> Option<Marks> {
+        let window = self.best.map_or(f64::INFINITY, |(cost, _)| (cost / self.weights[6]).sqrt());
+        let (low, high) = self.range();
+        let (low, high) = (low.max(self.seed[6] - window), high.min(self.seed[6] + window));
+        if low > high {
+            return None;
+        }
+        let mut marks = Marks { angles: [0.0; EDGES + 2], count: 0 };
+        marks.put(low);
+        marks.put(high);
+        for edge in self.robot.edges_of_joint_7(self.pose).into_iter().flatten() {
+            let edge = edge + TAU * ((low - edge) / TAU).ceil();
+            if edge < high {
+                marks.put(edge);
+            }
+        }
+        marks.sort();
+        Some(marks)
+    }
+
+    /// Between which angles joint 7 is looked for: its limits, or the full turn inside them that is nearest to the seed.
+    fn range(&self) -> (f64, f64) {
+        let [low, high] = self.robot.limits().to_array()[6];
+        if high - low <= TAU {
+            return (low, high);
+        }
+        let middle = self.seed[6].max(low + PI).min(high - PI);
+        (middle - PI, middle + PI)
+    }
+}

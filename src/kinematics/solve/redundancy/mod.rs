@@ -1,0 +1,214 @@
+//! An arm of seven joints has one more than a pose needs: which of the joint vectors of a pose is nearest to a seed.
+//!
+//! docs/seven_axes.md, section 5, has the method and what it promises. [`grid`] looks at joint 7 between the edges of
+//! reach, [`descent`] goes down the valleys of the cost that it shows, [`free_joints`] chooses what a pose leaves open.
+
+mod descent;
+mod free_joints;
+mod grid;
+mod samples;
+
+use core::cmp::Ordering;
+
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
+use crate::error::{Error, ModelFault};
+use crate::kinematics::answer::select::Cost;
+use crate::kinematics::answer::slot::Slot;
+use crate::kinematics::answer::solutions::Solution;
+use crate::kinematics::answer::status::Status;
+use crate::kinematics::pose::Pose;
+use crate::kinematics::robot::Robot;
+use crate::kinematics::solve::self_motion::meets;
+use crate::kinematics::solve::self_motion_curve::{Joints, SelfMotion};
+use crate::kinematics::structure::any::SevenJoints;
+use crate::kinematics::structure::free_choice::FreeChoice;
+use crate::kinematics::structure::solver::Solver;
+use crate::kinematics::structure::spherical_shoulder::{EDGES, SphericalShoulder};
+use crate::kinematics::thresholds::{JOINT_7_FINER_SPACING, JOINT_7_SPACING};
+use crate::report::Explanation;
+
+impl Robot<7> {
+    pub(in crate::kinematics) fn nearest_along_redundancy(
+        &self,
+        pose: &Pose,
+        seed: &[f64; 7],
+        weights: &[f64; 7],
+    ) -> Result<Solution<7>, Error> {
+        let found = self.search(pose, seed, weights)?;
+        found
+            .nearest()
+            .map(|q| self.solution_at(pose, q))
+            .ok_or(Error::Unreachable(found.missed.explanation))?
+    }
+
+    /// The outcome of a solve over every angle of joint 7, in a sentence.
+    pub(in crate::kinematics) fn explain_along_redundancy(
+        &self,
+        pose: &Pose,
+    ) -> Result<Explanation, Error> {
+        let found = self.search(pose, &self.limits().rest(), &[1.0; 7])?;
+        let Some(q) = found.nearest() else { return Ok(found.missed.explanation) };
+        Ok(match self.ik_checked(*pose, q[6])?.explain() {
+            found @ Explanation::Found { .. } => found,
+            // Inside only to the tolerance of the limits.
+            _ => Explanation::Found { solutions: 1, inside: 1 },
+        })
+    }
+
+    fn search<'a>(
+        &'a self,
+        pose: &'a Pose,
+        seed: &[f64; 7],
+        weights: &[f64; 7],
+    ) -> Result<Search<'a>, Error> {
+        if let Some(reason) = self.unknown_structure() {
+            return Err(ModelFault::UnknownStructure(reason).into());
+        }
+        let rounding = self.shoulder_solver().map_or(0.0, |solver| solver.structure.rounding());
+        let mut search = Search {
+            robot: self,
+            curve: SelfMotion { robot: self, pose, rounding },
+            pose,
+            seed: *seed,
+            weights: *weights,
+            best: None,
+            nearly: None,
+            missed: Missed::NOTHING,
+        };
+        search.run()?;
+        Ok(search)
+    }
+
+    /// The angles of joint 7 at which branches of the pose begin or end [rad].
+    fn edges_of_joint_7(&self, pose: &Pose) -> [Option<f64>; EDGES] {
+        let edges = |solver: &Solver<SphericalShoulder, 7, 8>| {
+            solver.structure.edges_of_joint_7(&solver.surroundings.wrist_pose(pose))
+        };
+        self.shoulder_solver().map_or([None; EDGES], edges)
+    }
+
+    fn shoulder_solver(&self) -> Option<&Solver<SphericalShoulder, 7, 8>> {
+        match self.structure() {
+            SevenJoints::SphericalShoulder(solver) => Some(solver),
+            SevenJoints::Unknown(_) => None,
+        }
+    }
+
+    /// A joint vector of the pose, in its slot.
+    fn solution_at(&self, pose: &Pose, q: [f64; 7]) -> Result<Solution<7>, Error> {
+        let slot = self.slot_of(&q).unwrap_or(Slot::new(0));
+        let free = self
+            .solve(*pose, &FreeChoice::seed(q))?
+            .slot(slot.index())
+            .and_then(|solution| solution.free);
+        let status = Status::FOUND | Status::WITHIN_LIMITS | self.singularity(&q).kinds;
+        Ok(Solution { q, slot, status, free })
+    }
+}
+
+/// What comes the nearest to a solution inside the limits.
+struct Missed {
+    /// How far the pose is out of reach [m].
+    shortfall: f64,
+    /// How far the joint that is outside its limits the most is outside them [rad].
+    outside: f64,
+    explanation: Explanation,
+}
+
+impl Missed {
+    const NOTHING: Self = Self {
+        shortfall: f64::INFINITY,
+        outside: f64::INFINITY,
+        explanation: Explanation::FilteredOut,
+    };
+}
+
+/// A search along the redundancy, and what it has found.
+struct Search<'a> {
+    robot: &'a Robot<7>,
+    curve: SelfMotion<'a>,
+    pose: &'a Pose,
+    seed: [f64; 7],
+    weights: [f64; 7],
+    /// The cost of the joint vector that costs the least, and it.
+    best: Option<(f64, [f64; 7])>,
+    /// The same of those that are off the pose by more than they may be: the pose is a hair beyond reach.
+    nearly: Option<(f64, [f64; 7])>,
+    missed: Missed,
+}
+
+impl Search<'_> {
+    fn run(&mut self) -> Result<(), Error> {
+        // Nothing costs less than nothing, and next to a singularity no solve says as much as joints that are known.
+        if self.closes(&self.seed) {
+            self.keep(&self.seed.clone());
+        }
+        if self.best.is_some() {
+            return Ok(());
+        }
+        // The solution that goes on from the seed, with its joint 7 and along the curve.
+        self.samples(&self.seed.clone())?;
+        if let Some(start) = self.curve.nearest(&Joints::from(self.seed)) {
+            self.descend(start);
+        }
+        self.between_edges(JOINT_7_SPACING)?;
+        if self.best.is_none() && self.missed.shortfall == 0.0 {
+            self.between_edges(JOINT_7_FINER_SPACING)?;
+        }
+        if self.nearest().is_none() && self.missed.shortfall > 0.0 {
+            self.least_shortfall(JOINT_7_SPACING)?;
+        }
+        Ok(())
+    }
+
+    fn nearest(&self) -> Option<[f64; 7]> {
+        self.best.or(self.nearly).map(|(_, q)| q)
+    }
+
+    /// Keeps a joint vector inside the limits that costs less than what was found.
+    fn keep(&mut self, q: &[f64; 7]) {
+        let cost = self.cost(q);
+        let cheaper = |found: Option<(f64, [f64; 7])>| found.is_none_or(|(least, _)| cost < least);
+        if !cheaper(self.best) || self.outside(q) > 0.0 {
+            return;
+        }
+        if self.robot.residual(q, self.pose).largest() <= meets(self.pose) {
+            self.best = Some((cost, *q));
+        } else if cheaper(self.nearly) {
+            self.nearly = Some((cost, *q));
+        }
+    }
+
+    fn miss(&mut self, shortfall: f64, outside: f64, explanation: Explanation) {
+        let missed = (self.missed.shortfall, self.missed.outside);
+        if (shortfall, outside).partial_cmp(&missed) == Some(Ordering::Less) {
+            self.missed = Missed { shortfall, outside, explanation };
+        }
+    }
+
+    /// Whether a joint vector meets the pose to rounding.
+    fn closes(&self, q: &[f64; 7]) -> bool {
+        self.robot.residual(q, self.pose).largest() <= self.curve.rounding
+    }
+
+    fn cost(&self, q: &[f64; 7]) -> f64 {
+        Cost::Distance.total(q, &self.seed, &self.weights)
+    }
+
+    fn outside(&self, q: &[f64; 7]) -> f64 {
+        if self.robot.limits().contain(q) {
+            0.0
+        } else {
+            (0..7).map(|joint| self.robot.limits().excess(joint, q[joint])).fold(0.0, f64::max)
+        }
+    }
+
+    fn joints_outside(&self, q: &[f64; 7]) -> u8 {
+        (0..7)
+            .filter(|joint| self.robot.limits().excess(*joint, q[*joint]) > 0.0)
+            .map(|joint| 1 << joint)
+            .sum()
+    }
+}

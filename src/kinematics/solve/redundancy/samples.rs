@@ -1,0 +1,116 @@
+//! The solutions of all slots with joint 7 at an angle.
+
+use core::cmp::Ordering;
+use core::f64::consts::TAU;
+
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
+use super::Search;
+use crate::error::Error;
+use crate::kinematics::answer::slot::MOST_SLOTS;
+use crate::kinematics::answer::status::Status;
+use crate::kinematics::structure::free_choice::FreeChoice;
+use crate::kinematics::thresholds::SAMPLE_LEAP;
+
+/// A solution, at its turns nearest to the seed where those are inside the limits.
+#[derive(Clone, Copy)]
+pub(super) struct Sample {
+    pub(super) q: [f64; 7],
+    /// The joints that are outside their limits, a bit each, and by how much the farthest is [rad].
+    pub(super) joints_outside: u8,
+    pub(super) outside: f64,
+    pub(super) cost: f64,
+    /// Whether the pose may leave another joint open than joint 7: a straight elbow may leave the shoulder on axis 5 to
+    /// rounding.
+    pub(super) is_free: bool,
+}
+
+impl Sample {
+    fn leaps_to(&self, other: &Self) -> bool {
+        let leaps = |(a, b): (&f64, &f64)| {
+            let turned = a - b;
+            (turned - TAU * (turned / TAU).round()).abs() > SAMPLE_LEAP
+        };
+        self.q.iter().zip(&other.q).any(leaps)
+    }
+
+    pub(super) fn is_better_than(&self, other: Option<&Self>) -> bool {
+        let better = |other: &Self| {
+            (self.outside, self.cost).partial_cmp(&(other.outside, other.cost))
+                != Some(Ordering::Greater)
+        };
+        other.is_none_or(better)
+    }
+}
+
+#[derive(Clone, Copy)]
+pub(super) struct Samples {
+    pub(super) q7: f64,
+    pub(super) slots: [Option<Sample>; MOST_SLOTS],
+}
+
+impl Samples {
+    pub(super) const NONE: Self = Self { q7: 0.0, slots: [None; MOST_SLOTS] };
+
+    pub(super) fn are_none(&self) -> bool {
+        self.slots.iter().all(Option::is_none)
+    }
+
+    /// Whether a joint of some slot goes so far to the other samples that something may be missed between. At an edge of
+    /// reach a slot goes on in a twin, of another elbow or wrist but the same shoulder.
+    pub(super) fn leap_to(&self, other: &Self) -> bool {
+        let ends = |slot: usize, end: &Sample, others: &Self| {
+            let shoulder = slot / 4 * 4;
+            let mut twins = others.slots[shoulder..shoulder + 4].iter().flatten();
+            twins.all(|twin| end.leaps_to(twin))
+        };
+        self.slots.iter().zip(&other.slots).enumerate().any(|(slot, pair)| match pair {
+            (Some(from), Some(to)) => from.leaps_to(to),
+            (Some(from), None) => ends(slot, from, other),
+            (None, Some(to)) => ends(slot, to, self),
+            (None, None) => false,
+        })
+    }
+
+    /// The best of all slots.
+    pub(super) fn best(&self) -> Option<Sample> {
+        let better = |best: Option<Sample>, sample: &Sample| {
+            if sample.is_better_than(best.as_ref()) { Some(*sample) } else { best }
+        };
+        self.slots.iter().flatten().fold(None, better)
+    }
+}
+
+impl Search<'_> {
+    /// The solutions with joint 7, and what else the pose leaves open, as `rest` has them.
+    pub(super) fn samples(&mut self, rest: &[f64; 7]) -> Result<Samples, Error> {
+        let solutions = self.robot.solve(*self.pose, &FreeChoice::seed(*rest))?;
+        let slots = core::array::from_fn(|slot| {
+            let solution = solutions.slot(slot)?;
+            let q = self.robot.limits().turned_to(&solution.q, &self.seed).unwrap_or(solution.q);
+            Some(Sample {
+                q,
+                joints_outside: self.joints_outside(&q),
+                outside: self.outside(&q),
+                cost: self.cost(&q),
+                is_free: solution.free.is_some() || solution.status.contains(Status::ELBOW),
+            })
+        });
+        slots.iter().flatten().for_each(|sample: &Sample| self.keep(&sample.q));
+        let outside = slots
+            .iter()
+            .flatten()
+            .map(|sample: &Sample| sample.outside)
+            .fold(f64::INFINITY, f64::min);
+        self.miss(solutions.reach().shortfall(), outside, solutions.explain());
+        Ok(Samples { q7: rest[6], slots })
+    }
+
+    /// The solutions with joint 7 at an angle, the others that are open as the seed has them.
+    pub(super) fn samples_at(&mut self, q7: f64) -> Result<Samples, Error> {
+        let mut rest = self.seed;
+        rest[6] = q7;
+        self.samples(&rest)
+    }
+}

@@ -1,0 +1,157 @@
+//! Joint 7: the angles at which an elbow or a wrist comes to the edge of its reach (docs/seven_axes.md, section 5).
+
+use core::f64::consts::{FRAC_PI_4, PI};
+
+use nalgebra::Vector3;
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
+use super::SphericalShoulder;
+use super::quartic::places;
+use crate::kinematics::pose::Pose;
+use crate::kinematics::pose::angles::wrap;
+use crate::kinematics::thresholds::TOUCHING;
+
+/// Edges at most: four of the elbow, four zeros and three stationary points for each sign of the wrist.
+pub(crate) const EDGES: usize = 4 + 2 * (4 + 3);
+
+/// A length, or the square of one, that changes with joint 7: `mean + cos cos(theta_7) + sin sin(theta_7)` (eq. 69, 70).
+#[derive(Clone, Copy)]
+struct Wave {
+    mean: f64,
+    cos: f64,
+    sin: f64,
+}
+
+impl Wave {
+    /// `direction . Rz(theta_7) point + constant`
+    fn of(direction: &Vector3<f64>, point: &Vector3<f64>, constant: f64) -> Self {
+        Self {
+            mean: direction.z * point.z + constant,
+            cos: direction.x * point.x + direction.y * point.y,
+            sin: direction.y * point.x - direction.x * point.y,
+        }
+    }
+
+    fn at(&self, theta: f64) -> f64 {
+        let (sin, cos) = theta.sin_cos();
+        self.mean + self.cos * cos + self.sin * sin
+    }
+
+    fn plus(&self, factor: f64, other: &Self) -> Self {
+        Self {
+            mean: self.mean + factor * other.mean,
+            cos: self.cos + factor * other.cos,
+            sin: self.sin + factor * other.sin,
+        }
+    }
+
+    /// The same with angles counted from `start`.
+    fn from(&self, start: f64) -> Self {
+        let (sin, cos) = start.sin_cos();
+        Self {
+            mean: self.mean,
+            cos: self.cos * cos + self.sin * sin,
+            sin: self.sin * cos - self.cos * sin,
+        }
+    }
+
+    /// Over `(1 + t^2)`, with `t = tan(theta_7 / 2)`: the coefficients of a parabola, constant first.
+    fn parabola(&self) -> [f64; 3] {
+        [self.mean + self.cos, 2.0 * self.sin, self.mean - self.cos]
+    }
+
+    /// The two angles at which it has a value (eq. 71); one twice where it just misses it.
+    fn angles_at(&self, value: f64) -> [Option<f64>; 2] {
+        let (size, phase) = (self.cos.hypot(self.sin), self.sin.atan2(self.cos));
+        // The square of the sine of half the angle from the phase: next to it a cosine says little.
+        let part = (self.mean + size - value) / (2.0 * size);
+        if !(-TOUCHING..=1.0 + TOUCHING).contains(&part) {
+            return [None; 2];
+        }
+        let part = part.clamp(0.0, 1.0);
+        let half = part.sqrt().atan2((1.0 - part).sqrt());
+        [Some(phase + 2.0 * half), Some(phase - 2.0 * half)]
+    }
+}
+
+impl SphericalShoulder {
+    /// The angles of joint 7 [rad], in (-pi, pi], between which no branch begins or ends, for the frame of joint 7 before
+    /// its turn.
+    pub(crate) fn edges_of_joint_7(&self, t_shoulder_seven: &Pose) -> [Option<f64>; EDGES] {
+        let links = &self.links;
+        let (upper2, forearm2) = (links.upper * links.upper, links.forearm * links.forearm);
+        let (reach2, along_6) = self.waves(t_shoulder_seven);
+        let mut edges = [None; EDGES];
+        let (of_elbow, of_wrist) = edges.split_at_mut(4);
+        // Stretched and folded.
+        for (edges, reach) in
+            of_elbow.chunks_mut(2).zip([links.upper + links.forearm, links.upper - links.forearm])
+        {
+            edges.copy_from_slice(&reach2.angles_at(reach * reach));
+        }
+        // Both wrists are one (eq. 73).
+        let cosine = reach2.plus(-1.0, &Wave { mean: upper2 + forearm2, cos: 0.0, sin: 0.0 });
+        let zero = Wave { mean: 0.0, cos: 0.0, sin: 0.0 };
+        let cosine = zero.plus(0.5 / (links.upper * links.forearm), &cosine);
+        let tilt = Wave { mean: links.a4, cos: 0.0, sin: 0.0 }
+            .plus(links.a4 * links.upper / links.forearm, &cosine);
+        for (edges, side) in of_wrist.chunks_mut(7).zip([1.0, -1.0]) {
+            let [first, second] = [
+                zero.plus(links.forearm / links.upper, &tilt.plus(side, &along_6)),
+                zero.plus(links.c5, &cosine),
+            ];
+            edges.copy_from_slice(&circle(&first, &second, links.c5));
+        }
+        let (sign, offset) = (self.placement.signs[6], self.placement.offsets[6]);
+        edges.map(|theta| theta.map(|theta| wrap(sign * (theta + offset))))
+    }
+
+    /// The square of the distance of the shoulder from where axes 5 and 6 meet (eq. 69) [m^2], and how far along axis 6
+    /// it is (eq. 70) [m].
+    fn waves(&self, t_shoulder_seven: &Pose) -> (Wave, Wave) {
+        let shoulder = -t_shoulder_seven
+            .rotation
+            .inverse_transform_vector(&t_shoulder_seven.translation.vector);
+        let t_hand_seven = self.t_seven_hand.inverse();
+        let (turn, shift) = (t_hand_seven.rotation.matrix(), t_hand_seven.translation.vector);
+        let reach2 = Wave::of(
+            &(2.0 * turn.tr_mul(&shift)),
+            &shoulder,
+            shoulder.norm_squared() + shift.norm_squared(),
+        );
+        (reach2, Wave::of(&turn.row(1).transpose(), &shoulder, shift.y))
+    }
+}
+
+/// The angles at which `first^2 + second^2 = radius^2`, and those at which the two sides just touch.
+fn circle(first: &Wave, second: &Wave, radius: f64) -> [Option<f64>; 7] {
+    let off = |theta: f64| first.at(theta).powi(2) + second.at(theta).powi(2) - radius * radius;
+    // Angles are counted from opposite to where the sides differ the most: the tangent of half of one stays small.
+    let far = (0..8)
+        .map(|eighth| f64::from(eighth) * FRAC_PI_4)
+        .max_by(|a, b| off(*a).abs().total_cmp(&off(*b).abs()))
+        .unwrap_or(0.0);
+    let start = far + PI;
+    let [a, b] = [first.from(start).parabola(), second.from(start).parabola()];
+    let square = |[low, middle, high]: [f64; 3]| {
+        [
+            low * low,
+            2.0 * low * middle,
+            2.0 * low * high + middle * middle,
+            2.0 * middle * high,
+            high * high,
+        ]
+    };
+    let (a, b, c) = (square(a), square(b), square([radius, 0.0, radius]));
+    let places = places(&core::array::from_fn(|power| a[power] + b[power] - c[power]));
+    let angle = |t: f64| start + 2.0 * t.atan();
+    let size = off(far).abs() + radius * radius;
+    let mut found = [None; 7];
+    let (zeros, touching) = found.split_at_mut(4);
+    zeros.copy_from_slice(&places.zeros.map(|t| t.map(angle)));
+    touching.copy_from_slice(
+        &places.stationary.map(|t| t.map(angle).filter(|at| off(*at).abs() <= TOUCHING * size)),
+    );
+    found
+}
