@@ -9,15 +9,19 @@ use alloc::vec::Vec;
 use nalgebra::ComplexField as _;
 
 use crate::error::{Error, JointFault, ModelFault, NoConfiguration};
-use crate::kinematics::answer::select::{Turns, check_joints};
-use crate::kinematics::answer::solutions::{SLOTS, Solution, Solutions};
+use crate::kinematics::answer::select::{Cost, Turns, check_joints};
+use crate::kinematics::answer::solutions::{Solution, Solutions};
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::inverse::Inverse as _;
+use crate::kinematics::solve::nearest::Wanted;
+use crate::kinematics::solve::self_motion::meets;
 use crate::kinematics::structure::spherical_wrist::SphericalWrist;
-use crate::kinematics::thresholds::{CONFIGURATION_EDGE, MOST_ANGLE};
+use crate::kinematics::thresholds::{
+    CONFIGURATION_EDGE, MOST_ANGLE, SOLUTION_OFF, WRIST_FREE_SIN,
+};
 
 /// ABB's confdata `[cf1, cf4, cf6, cfx]`: quarter turns of axes 1, 4 and 6, and the slot.
 ///
@@ -165,72 +169,121 @@ impl Robot<6> {
     ) -> Result<Solution<6>, Error> {
         let arm = self.counted()?;
         wanted.check(self.is_coupled())?;
-        let solutions = self.ik_checked(pose, 0.0)?;
-        for edge in [0.0, CONFIGURATION_EDGE] {
-            let Some(limits) = self.limits().narrowed(&wanted.ranges(edge)) else { continue };
-            for candidates in self.candidates(arm, &solutions, wanted, edge) {
-                if let Some(found) = self.configured(&solutions, candidates, limits)? {
-                    return Ok(found);
-                }
-            }
+        let mut solutions = self.unsolved(pose);
+        let found = if self.solve_in_lanes(&mut solutions, 0.0) {
+            self.configured_regular(arm, &solutions, wanted)
+        } else {
+            self.solve_at_rest(&mut solutions, 0.0)?;
+            self.configured_singular(arm, &solutions, wanted)?
+        };
+        if let Some(found) = found {
+            return Ok(found);
         }
         Err(self.no_configuration(arm, &solutions, wanted)?)
     }
 
-    /// The slots of which a solution may have the configuration, those to be looked at first before others.
-    fn candidates(
+    /// The solution of a regular pose that has the configuration, at some turn.
+    fn configured_regular(
         &self,
         arm: &SphericalWrist,
         solutions: &Solutions<6>,
         wanted: Configuration,
-        edge: f64,
-    ) -> [[bool; SLOTS]; 2] {
-        if self.is_coupled() {
-            return [
-                core::array::from_fn(|slot| slot & 2 == 0),
-                core::array::from_fn(|slot| slot & 2 != 0),
-            ];
+    ) -> Option<Solution<6>> {
+        for edge in [0.0, CONFIGURATION_EDGE] {
+            let Some(limits) = self.limits().narrowed(&wanted.ranges(edge)) else { continue };
+            let within = Solutions { limits, ..solutions.clone() };
+            for strict in [true, false] {
+                let has = |solution: &Solution<6>| self.has_slot(arm, solution, wanted, edge, strict);
+                let mut candidates = within.clone();
+                for slot in &mut candidates.slots {
+                    *slot = slot.filter(has);
+                }
+                let found = candidates.cheapest(&limits.rest(), &[1.0; 6], Cost::Distance);
+                if found.is_some() {
+                    return found;
+                }
+            }
         }
-        let cfx = usize::try_from(wanted.cfx).unwrap_or(0);
-        let merged = solutions.status()[cfx];
-        let merged = if merged.contains(Status::MERGED) { merged } else { Status::empty() };
-        let may_be = |slot: usize| {
-            let Some(solution) = solutions.slot(slot) else { return false };
-            let distances = arm.singular_distances(&solution.q);
-            let open = [
-                (Status::WRIST, 1, distances.wrist <= edge),
-                (Status::ELBOW, 2, distances.elbow <= edge),
-                (Status::SHOULDER, 4, false),
-            ];
-            let open = open
-                .iter()
-                .filter(|(kind, _, near)| *near || merged.contains(*kind))
-                .map(|(_, bit, _)| bit)
-                .sum::<usize>();
-            (slot ^ cfx) & !open == 0
-        };
-        let (exact, others): ([bool; SLOTS], [bool; SLOTS]) = (
-            core::array::from_fn(|slot| slot == cfx),
-            core::array::from_fn(|slot| slot != cfx && may_be(slot)),
-        );
-        [exact, others]
+        None
     }
 
-    /// The solution in one of the slots that is inside `limits`, at some turn or with another angle of a free joint.
-    fn configured(
+    /// The solution of a singular pose that has the configuration, with whatever angles of the joints that the pose leaves open.
+    fn configured_singular(
         &self,
+        arm: &SphericalWrist,
         solutions: &Solutions<6>,
-        slots: [bool; SLOTS],
-        limits: JointLimits<6>,
+        wanted: Configuration,
     ) -> Result<Option<Solution<6>>, Error> {
-        let mut within = Solutions { limits, ..solutions.clone() };
-        for (slot, taken) in within.slots.iter_mut().zip(slots) {
-            *slot = slot.filter(|_| taken);
+        for allowed in [meets(solutions.pose()), SOLUTION_OFF] {
+            for edge in [0.0, CONFIGURATION_EDGE] {
+                let Some(limits) = self.limits().narrowed(&wanted.ranges(edge)) else { continue };
+                for strict in [true, false] {
+                    let accepts = &|solution: &Solution<6>| {
+                        self.has_slot(arm, solution, wanted, edge, strict)
+                    };
+                    let (seed, weights) = (&limits.rest(), &[1.0; 6]);
+                    let asked = Wanted { limits, seed, weights, accepts };
+                    if let Some((_, found)) = self.nearest_within(solutions, &asked, allowed)? {
+                        return Ok(Some(self.on_side(arm, found, wanted)));
+                    }
+                }
+            }
         }
-        if within.is_empty() {
-            return Ok(None);
+        Ok(None)
+    }
+
+    /// Whether a solution is in the slot of a configuration; if not `strict`, also in one that it meets within `edge` [rad].
+    ///
+    /// An axis 5 that is zero to rounding is on either side. A coupled arm has no slot: the branches in front of the lower arm are the strict
+    /// ones.
+    fn has_slot(
+        &self,
+        arm: &SphericalWrist,
+        solution: &Solution<6>,
+        wanted: Configuration,
+        edge: f64,
+        strict: bool,
+    ) -> bool {
+        let slot = i32::from(arm.slot(&solution.q));
+        if self.is_coupled() {
+            return (slot & 2 == 0) == strict;
         }
-        self.nearest_of(&within, &limits.rest(), &[1.0; 6])
+        let near = arm.singular_distances(&solution.q);
+        let mut open = if arm.sin_5(&solution.q).abs() <= WRIST_FREE_SIN { 1 } else { 0 };
+        if !strict {
+            let kinds = solution.kinds();
+            let bits = [
+                (1, near.wrist <= edge || kinds.contains(Status::WRIST)),
+                (2, near.elbow <= edge || kinds.contains(Status::ELBOW)),
+                (4, kinds.contains(Status::SHOULDER)),
+            ];
+            open |= bits.iter().filter(|(_, met)| *met).map(|(bit, _)| bit).sum::<i32>();
+        }
+        (slot ^ wanted.cfx) & !open == 0
+    }
+
+    /// The solution with an axis 5 that is zero to rounding on the side that the configuration names.
+    fn on_side(
+        &self,
+        arm: &SphericalWrist,
+        solution: Solution<6>,
+        wanted: Configuration,
+    ) -> Solution<6> {
+        let sin_5 = arm.sin_5(&solution.q);
+        if self.is_coupled() || sin_5.abs() > WRIST_FREE_SIN {
+            return solution;
+        }
+        // As far to the other side, or by the least that is seen next to half a turn.
+        let across = (2.0 * sin_5.abs()).max(2.0 * f64::EPSILON);
+        [0.0, across, -across]
+            .into_iter()
+            .map(|by| {
+                let mut moved = solution;
+                moved.q[4] += by;
+                moved
+            })
+            .find(|moved| i32::from(arm.slot(&moved.q)) == wanted.cfx)
+            .unwrap_or(solution)
     }
 
     /// Why no solution has a configuration: which others there are, or that no solution is inside the limits.

@@ -1,7 +1,7 @@
 //! The inverse of a robot with a closed form: every joint vector of a pose, and of many.
 
 use crate::error::{Error, JointFault, ModelFault};
-use crate::kinematics::answer::select::{check_joints, check_weights};
+use crate::kinematics::answer::select::{Cost, check_joints, check_weights};
 use crate::kinematics::answer::solutions::{SLOTS, Solution, Solutions};
 #[cfg(feature = "python")]
 use crate::kinematics::answer::status::Explanation;
@@ -9,6 +9,7 @@ use crate::kinematics::answer::status::{Reach, Status};
 use crate::kinematics::pose::angles::resized;
 use crate::kinematics::pose::{Pose, checked_pose, pose_from_rows};
 use crate::kinematics::robot::Robot;
+use crate::kinematics::solve::nearest::Wanted;
 use crate::kinematics::solve::self_motion::meets;
 use crate::kinematics::structure::any::Geometry;
 use crate::kinematics::structure::free_choice::FreeChoice;
@@ -17,8 +18,6 @@ use crate::kinematics::structure::spherical_shoulder;
 use crate::kinematics::structure::spherical_wrist;
 use crate::kinematics::structure::three_parallel;
 use crate::kinematics::thresholds::MOST_LENGTH;
-#[cfg(feature = "python")]
-use crate::kinematics::thresholds::SOLUTION_OFF;
 use crate::lanes::run;
 
 impl Robot<6> {
@@ -55,9 +54,11 @@ impl Robot<6> {
     /// The outcome of [`Robot::ik_nearest`] in a sentence, for a pose that was checked.
     #[cfg(feature = "python")]
     pub(crate) fn explain(&self, pose: &Pose) -> Result<Explanation, Error> {
-        let mut solutions = self.ik_checked(*pose, 0.0)?;
-        if !solutions.iter().any(Solution::within_limits) {
-            self.bring_families_inside(&mut solutions, SOLUTION_OFF)?;
+        let solutions = self.ik_checked(*pose, 0.0)?;
+        if !solutions.iter().any(Solution::within_limits)
+            && self.nearest_of(&solutions, &self.resting(0.0), &[1.0; 6])?.is_some()
+        {
+            return Ok(Explanation::Found { solutions: solutions.len(), inside: 1 });
         }
         Ok(solutions.explain())
     }
@@ -126,8 +127,14 @@ impl Inverse<6> for Robot<6> {
         seed: &[f64; 6],
         weights: &[f64; 6],
     ) -> Result<Solution<6>, Error> {
-        let solutions = self.solve(pose, &FreeChoice::seed(*seed))?;
-        let nearest = self.nearest_of(&solutions, seed, weights)?;
+        let mut solutions = self.unsolved(pose);
+        let nearest = if self.solve_in_lanes(&mut solutions, 0.0) {
+            solutions.cheapest(seed, weights, Cost::Distance)
+        } else {
+            self.solve_at_rest(&mut solutions, 0.0)?;
+            let wanted = Wanted { limits: solutions.limits, seed, weights, accepts: &|_| true };
+            self.nearest_at_singularity(&solutions, &wanted)?
+        };
         nearest.ok_or_else(|| Error::Unreachable(solutions.explain()))
     }
 }
@@ -215,8 +222,24 @@ impl<const N: usize> Robot<N> {
         if self.solve_in_lanes(solutions, given) {
             return Ok(());
         }
+        self.solve_at_rest(solutions, given)
+    }
+
+    /// [`Self::ik_into`] of a pose that is not regular.
+    #[cold]
+    pub(in crate::kinematics) fn solve_at_rest(
+        &self,
+        solutions: &mut Solutions<N>,
+        given: f64,
+    ) -> Result<(), Error> {
         self.solve_carefully(solutions, &FreeChoice::rest(self.resting(given)))?;
-        self.bring_families_inside(solutions, meets(&solutions.pose))
+        self.bring_families_inside(solutions, meets(&solutions.pose))?;
+        self.bring_one_inside(solutions)
+    }
+
+    /// Whether a pose is far enough from every singularity for the lanes to solve it.
+    pub(in crate::kinematics) fn is_regular(&self, pose: &Pose) -> bool {
+        self.solve_in_lanes(&mut self.unsolved(*pose), 0.0)
     }
 
     /// Where joints rest, joint 7 of an arm of seven joints at `given`.
@@ -271,7 +294,7 @@ impl<const N: usize> Robot<N> {
 
     /// Solves a pose that is plain, and tells whether it was.
     #[inline]
-    fn solve_in_lanes(&self, solutions: &mut Solutions<N>, given: f64) -> bool {
+    pub(in crate::kinematics) fn solve_in_lanes(&self, solutions: &mut Solutions<N>, given: f64) -> bool {
         let pose = &solutions.pose;
         if pose.translation.vector.iter().any(|coordinate| coordinate.abs() > MOST_LENGTH) {
             return false;

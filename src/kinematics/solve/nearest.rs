@@ -1,0 +1,379 @@
+//! The solution inside the limits that is nearest to a seed, where the pose is next to a singularity.
+//!
+//! A regular pose has at most eight solutions, and the cheapest is the answer. A singular one has families of them, twins half a turn apart
+//! of which a solve keeps one, and, next to two singularities at once, joints that rounding leaves open. Each of these gives candidates; one
+//! that meets the pose inside the limits may be the answer, and the cheapest is (docs/singularities.md, section 3).
+
+use core::f64::consts::PI;
+
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
+use crate::error::Error;
+use crate::kinematics::answer::select::Cost;
+use crate::kinematics::answer::solutions::{SLOTS, Solution, Solutions};
+use crate::kinematics::answer::status::Status;
+use crate::kinematics::chain::limits::JointLimits;
+use crate::kinematics::pose::angles::{resized, wrap};
+use crate::kinematics::robot::Robot;
+use crate::kinematics::solve::pair::Pair;
+use crate::kinematics::solve::self_motion::meets;
+use crate::kinematics::structure::any::Geometry;
+use crate::kinematics::structure::free_choice::FreeChoice;
+use crate::kinematics::thresholds::{LIMIT_SLACK, PATH_WRIST_SIN, SOLUTION_OFF};
+
+/// Arms of a pose whose wrists are looked at: those of the choices of [`NearestSearch::choices`], four each at most.
+const ARMS: usize = 24;
+
+/// How far apart the joints of two arms are that are one [rad].
+const SAME_ARM: f64 = 1e-9;
+
+/// How far the tool of a seed may be off the pose for its joints to be moved onto it [m, rad].
+const SEED_OFF: f64 = 1e-2;
+
+/// What is asked of a solution.
+pub(in crate::kinematics) struct Wanted<'a, const N: usize> {
+    /// The robot's limits, or narrower ones.
+    pub(in crate::kinematics) limits: JointLimits<N>,
+    pub(in crate::kinematics) seed: &'a [f64; N],
+    pub(in crate::kinematics) weights: &'a [f64; N],
+    /// What it must be besides.
+    pub(in crate::kinematics) accepts: &'a dyn Fn(&Solution<N>) -> bool,
+}
+
+impl<const N: usize> Robot<N> {
+    /// The solution inside the limits that is nearest to `seed`: of `solutions` or, where none of them is inside and the pose is singular, of
+    /// all that it has.
+    pub(in crate::kinematics) fn nearest_of(
+        &self,
+        solutions: &Solutions<N>,
+        seed: &[f64; N],
+        weights: &[f64; N],
+    ) -> Result<Option<Solution<N>>, Error> {
+        let nearest = solutions.cheapest(seed, weights, Cost::Distance);
+        if nearest.is_some() || self.is_regular(solutions.pose()) {
+            return Ok(nearest);
+        }
+        let wanted = Wanted { limits: *self.limits(), seed, weights, accepts: &|_| true };
+        self.nearest_at_singularity(solutions, &wanted)
+    }
+
+    /// What is wanted, of a pose that is not regular and has `known` solutions among others. One that meets the pose, or else one that meets
+    /// it to its distance from the singularity.
+    pub(in crate::kinematics) fn nearest_at_singularity(
+        &self,
+        known: &Solutions<N>,
+        wanted: &Wanted<'_, N>,
+    ) -> Result<Option<Solution<N>>, Error> {
+        for allowed in [meets(known.pose()), SOLUTION_OFF] {
+            let nearest = self.nearest_within(known, wanted, allowed)?;
+            if nearest.is_some() {
+                return Ok(nearest.map(|(_, solution)| solution));
+            }
+        }
+        Ok(None)
+    }
+
+    /// What is wanted, at most `allowed` [rad, m] off the pose, and the slot of the solution that it came from.
+    pub(in crate::kinematics) fn nearest_within(
+        &self,
+        known: &Solutions<N>,
+        wanted: &Wanted<'_, N>,
+        allowed: f64,
+    ) -> Result<Option<(u8, Solution<N>)>, Error> {
+        let mut search = NearestSearch::new(self, known, wanted, allowed);
+        search.run()?;
+        Ok(search.best.map(|best| (best.from, best.solution)))
+    }
+
+    /// Where a solution is outside the limits and another one of its family, which is `allowed` [rad, m] off the pose at most, is not, that
+    /// one takes its slot.
+    pub(in crate::kinematics) fn bring_families_inside(
+        &self,
+        solutions: &mut Solutions<N>,
+        allowed: f64,
+    ) -> Result<(), Error> {
+        for slot in 0..SLOTS {
+            let Some(outside) = solutions.slots[slot]
+                .filter(|solution| solution.free.is_some() && !solution.within_limits())
+            else {
+                continue;
+            };
+            let rest = self.resting(outside.q[N - 1]);
+            // A slot that another solution has is that one's.
+            let vacant = |to: usize| to == slot || solutions.slots[to].is_none();
+            let family = outside.free.map_or(&[][..], |free| free.branches());
+            let accepts = |member: &Solution<N>| {
+                let to = usize::from(member.slot);
+                vacant(to) && family.iter().copied().flatten().any(|branch| to == slot ^ branch)
+            };
+            let wanted = Wanted {
+                limits: solutions.limits,
+                seed: &rest,
+                weights: &[1.0; N],
+                accepts: &accepts,
+            };
+            let mut search = NearestSearch::new(self, solutions, &wanted, allowed);
+            search.look_along(&outside)?;
+            if let Some(inside) = search.best.map(|best| best.solution) {
+                solutions.replace(slot, inside);
+            }
+        }
+        Ok(())
+    }
+
+    /// Where no solution is inside the limits and another one of the pose is, that one takes the slot of the one that it came from.
+    pub(in crate::kinematics) fn bring_one_inside(
+        &self,
+        solutions: &mut Solutions<N>,
+    ) -> Result<(), Error> {
+        // Of seven axes, one is looked for along the redundancy.
+        if N != 6 || solutions.is_empty() || solutions.iter().any(Solution::within_limits) {
+            return Ok(());
+        }
+        let wanted = Wanted {
+            limits: solutions.limits,
+            seed: &self.resting(0.0),
+            weights: &[1.0; N],
+            accepts: &|_| true,
+        };
+        let found = self.nearest_within(solutions, &wanted, meets(solutions.pose()))?;
+        if let Some((from, inside)) = found {
+            solutions.replace(usize::from(from), inside);
+        }
+        Ok(())
+    }
+}
+
+impl<const N: usize> Solutions<N> {
+    /// Puts another solution of the same branch, or of its twin, in the place of the one in `slot`.
+    fn replace(&mut self, slot: usize, solution: Solution<N>) {
+        let to = usize::from(solution.slot);
+        if self.slots[to].is_none() {
+            self.merged.swap(slot, to);
+            self.slots[slot] = None;
+        }
+        self.slots[to] = Some(solution);
+    }
+}
+
+/// A solution that was found, what it costs, and the slot of the one that it came from.
+#[derive(Clone, Copy)]
+pub(super) struct Candidate<const N: usize> {
+    pub(super) cost: f64,
+    solution: Solution<N>,
+    from: u8,
+}
+
+/// A search through the solutions of a singular pose.
+pub(super) struct NearestSearch<'a, const N: usize> {
+    pub(super) robot: &'a Robot<N>,
+    pub(super) known: &'a Solutions<N>,
+    pub(super) wanted: &'a Wanted<'a, N>,
+    /// How far a solution may be off the pose [rad, m].
+    pub(super) allowed: f64,
+    pub(super) best: Option<Candidate<N>>,
+    /// The arms whose wrists were looked at, and on which side axis 5 stood.
+    arms: [Option<([f64; 3], u8)>; ARMS],
+    /// The free joints whose families were looked at, a bit each, of either shoulder.
+    families: [u8; 2],
+}
+
+impl<'a, const N: usize> NearestSearch<'a, N> {
+    fn new(
+        robot: &'a Robot<N>,
+        known: &'a Solutions<N>,
+        wanted: &'a Wanted<'a, N>,
+        allowed: f64,
+    ) -> Self {
+        // Beyond reach no solution meets the pose better than those that are known.
+        let off = |solution: &Solution<N>| robot.residual(&solution.q, known.pose()).largest();
+        let off = known.iter().map(off).fold(0.0, f64::max);
+        Self {
+            robot,
+            known,
+            wanted,
+            allowed: allowed.max(if off <= SOLUTION_OFF { 1.1 * off } else { 0.0 }),
+            best: None,
+            arms: [None; ARMS],
+            families: [0; 2],
+        }
+    }
+
+    fn run(&mut self) -> Result<(), Error> {
+        let known = self.known;
+        known.iter().for_each(|solution| self.take(solution, solution));
+        for choice in self.choices() {
+            let solutions = self.robot.solve(*known.pose(), &choice)?;
+            for solution in &solutions {
+                self.take(solution, solution);
+            }
+            self.start_from_seed(&solutions);
+            for solution in &solutions {
+                self.look_along(solution)?;
+            }
+        }
+        for solution in known {
+            self.look_along(solution)?;
+            if self.best.is_none() && self.allowed < SOLUTION_OFF {
+                self.move_onto_pose(&solution.q, LIMIT_SLACK, solution);
+            }
+        }
+        Ok(())
+    }
+
+    /// The seed for joints that the pose leaves open, and half a turn from it: of two branches that are one the nearer is kept, so that every
+    /// pair of twins comes with one or the other.
+    fn choices(&self) -> [FreeChoice<N>; 4] {
+        [[0.0, 0.0], [0.0, PI], [PI, 0.0], [PI, PI]].map(|[shoulder, wrist]| {
+            let mut q = *self.wanted.seed;
+            for (joint, angle) in q.iter_mut().enumerate().filter(|(joint, _)| *joint != 6) {
+                *angle += if joint < 3 { shoulder } else { wrist };
+            }
+            FreeChoice::seed(q)
+        })
+    }
+
+    /// Whether nothing can be nearer than what was found.
+    fn is_done(&self) -> bool {
+        self.best.is_some_and(|best| best.cost == 0.0)
+    }
+
+    /// Takes a solution if it is wanted and the nearest.
+    fn take(&mut self, solution: &Solution<N>, from: &Solution<N>) {
+        let Wanted { limits, seed, weights, accepts } = self.wanted;
+        let Some(q) = limits.turned_to(&solution.q, seed) else { return };
+        let cost = Cost::Distance.total(&q, seed, weights);
+        if self.best.is_some_and(|best| best.cost <= cost) {
+            return;
+        }
+        let status = solution.status | Status::WITHIN_LIMITS;
+        let solution = Solution { q, status, ..*solution };
+        if accepts(&solution) {
+            self.best = Some(Candidate { cost, solution, from: from.slot });
+        }
+    }
+
+    /// Takes a solution that is on the pose.
+    pub(super) fn take_if_met(&mut self, solution: &Solution<N>, from: &Solution<N>) {
+        if self.robot.residual(&solution.q, self.known.pose()).largest() <= self.allowed {
+            self.take(solution, from);
+        }
+    }
+
+    /// Takes the joints nearest to `q` that meet the pose, of the branch of `from`; `q` may be outside its limits by `slack` [rad]. Tells
+    /// whether `q` itself meets the pose.
+    fn move_onto_pose(&mut self, q: &[f64; N], slack: f64, from: &Solution<N>) -> bool {
+        let limits = &self.wanted.limits;
+        let Some(q) = limits.clamped_to(q, self.wanted.seed, slack) else { return false };
+        let pose = self.known.pose();
+        if self.robot.residual(&q, pose).largest() <= self.allowed {
+            self.take(&self.at(q, from), from);
+            return true;
+        }
+        let (q, off) = self.robot.corrected(pose, q, limits);
+        if off <= self.allowed {
+            self.take(&self.at(q, from), from);
+        }
+        false
+    }
+
+    /// The branch of `from` with other joints.
+    fn at(&self, q: [f64; N], from: &Solution<N>) -> Solution<N> {
+        let sin_5 = match self.robot.geometry() {
+            Geometry::SphericalWrist(_) => self.robot.geometry().sin_5(&resized(&q)),
+            _ => None,
+        };
+        let slot = sin_5.map_or(from.slot, |sin_5| from.slot & !1 | u8::from(sin_5 < 0.0));
+        Solution { q, slot, ..*from }
+    }
+
+    /// Looks at the joints next to the seed that meet the pose.
+    fn start_from_seed(&mut self, solutions: &Solutions<N>) {
+        let seed = *self.wanted.seed;
+        if self.is_done() || self.robot.residual(&seed, self.known.pose()).largest() > SEED_OFF {
+            return;
+        }
+        let apart = |solution: &&Solution<N>| {
+            (0..N).map(|joint| wrap(solution.q[joint] - seed[joint]).powi(2)).sum::<f64>()
+        };
+        if let Some(next) = solutions.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))) {
+            self.move_onto_pose(&seed, LIMIT_SLACK, next);
+        }
+    }
+
+    /// Looks at the solutions that belong to one: along the joint that it leaves free, along the wrist, and its twin.
+    fn look_along(&mut self, solution: &Solution<N>) -> Result<(), Error> {
+        if self.is_done() {
+            return Ok(());
+        }
+        self.look_at_wrist(solution);
+        let Some(free) = solution.free.filter(|free| free.partner().is_none()) else {
+            return Ok(());
+        };
+        let limits = &self.wanted.limits;
+        // What stands still along a family may be outside the limits for good; no member of one moves the rod.
+        let stuck = |joint: &usize| limits.overrun(joint - 1, solution.q[joint - 1]) > SOLUTION_OFF;
+        if free.still().iter().any(stuck) || limits.rod_overrun(&solution.q) > SOLUTION_OFF {
+            return Ok(());
+        }
+        let (family, bit) = (usize::from(solution.slot) / (SLOTS / 2), 1 << free.joint());
+        if self.families[family] & bit == 0 {
+            self.families[family] |= bit;
+            self.look_along_family(solution, free)?;
+        }
+        Ok(())
+    }
+
+    /// Looks at the angles of two joints of which the pose fixes only the sum, or next to another singularity not much more.
+    pub(super) fn look_at_wrist(&mut self, solution: &Solution<N>) {
+        let Some(pair) = self.pair(solution) else { return };
+        if !self.is_new(solution) {
+            return;
+        }
+        let Wanted { limits, seed, weights, .. } = self.wanted;
+        let own = solution.q[pair.first];
+        if let Some(nearest) = pair.nearest(limits, seed, weights)
+            && self.move_onto_pose(&pair.put(&solution.q, nearest), 0.0, solution)
+            && self.best.is_some()
+        {
+            return;
+        }
+        // Where rounding leaves a part of the turn open, that part holds one of the twins, and ends inside the limits or at one of their ends.
+        let ends = pair.edges(limits).map(|edge| if edge.is_finite() { edge } else { own });
+        for angle in [seed[pair.first], own, own + PI].into_iter().chain(ends) {
+            self.move_onto_pose(&pair.put(&solution.q, angle), LIMIT_SLACK, solution);
+        }
+    }
+
+    /// The pair of joints that a solution leaves open, or that may be open next to another singularity.
+    fn pair(&self, solution: &Solution<N>) -> Option<Pair> {
+        let declared = solution.free.and_then(|free| Pair::of(free, &solution.q));
+        if declared.is_some() || (solution.kinds() - Status::WRIST).is_empty() {
+            return declared;
+        }
+        let Geometry::SphericalWrist(solver) = self.robot.geometry() else { return None };
+        let q = resized(&solution.q);
+        // Off the pose by more than rounding, it must be a wrist whose branches are one.
+        let may_be_open =
+            self.allowed < SOLUTION_OFF || solution.kinds().contains(Status::WRIST);
+        (may_be_open && solver.arm.sin_5(&q).abs() <= PATH_WRIST_SIN)
+            .then(|| Pair::of(solver.arm.wrist_pair(&q), &solution.q))?
+    }
+
+    /// Whether the wrist of this arm was not looked at before.
+    fn is_new(&mut self, solution: &Solution<N>) -> bool {
+        let (arm, side): ([f64; 3], u8) = (resized(&solution.q), solution.slot & 1);
+        let same = |(other, other_side): &([f64; 3], u8)| {
+            side == *other_side
+                && arm.iter().zip(other).all(|(a, b)| wrap(a - b).abs() <= SAME_ARM)
+        };
+        if N == 6 && self.arms.iter().flatten().any(same) {
+            return false;
+        }
+        if let Some(place) = self.arms.iter_mut().find(|place| place.is_none()) {
+            *place = Some((arm, side));
+        }
+        true
+    }
+}
