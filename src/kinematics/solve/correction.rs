@@ -14,12 +14,15 @@ use crate::kinematics::pose::Pose;
 use crate::kinematics::robot::Robot;
 
 /// Steps of Newton's method: next to the pose each squares the distance, and a joint may come to its limit in some of them.
-const ROUNDS: u32 = 12;
+const ROUNDS: u32 = 20;
+
+/// Part of the distance that a step must leave behind at least, to be followed by another.
+const GAIN: f64 = 0.8;
 
 /// Square of the singular value below which a step is damped [1]: joints that the pose leaves open to 1e-5 stay where they are.
 const DAMPING: f64 = 1e-10;
 
-/// Step beyond which the start was not next to a solution [rad].
+/// Largest step of a joint [rad]: farther, the Jacobian is another one.
 const LARGEST_STEP: f64 = 0.5;
 
 impl<const N: usize> Robot<N> {
@@ -35,9 +38,7 @@ impl<const N: usize> Robot<N> {
         let mut locked: [bool; N] = core::array::from_fn(|joint| joint == 6);
         for _ in 0..ROUNDS {
             let Some(step) = self.step_towards(pose, &q, &locked) else { break };
-            if step.amax() > LARGEST_STEP {
-                break;
-            }
+            let step = step * (LARGEST_STEP / step.amax()).min(1.0);
             let mut at_limit = false;
             for joint in 0..N {
                 if locked[joint] {
@@ -53,7 +54,7 @@ impl<const N: usize> Robot<N> {
                 q[joint] = inside;
             }
             let off = self.residual(&q, pose).largest();
-            let gain = off < 0.5 * least;
+            let gain = off < GAIN * least;
             if off < least {
                 (best, least) = (q, off);
             }

@@ -215,11 +215,29 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
         }
         for solution in known {
             self.look_along(solution)?;
-            if self.best.is_none() && self.allowed < SOLUTION_OFF {
-                self.move_onto_pose(&solution.q, LIMIT_SLACK, solution);
+        }
+        if self.best.is_none() && self.allowed < SOLUTION_OFF {
+            for solution in known {
+                self.start_from_limits(solution);
             }
         }
         Ok(())
+    }
+
+    /// Looks where several joints that are open at once may be inside narrow limits: at the limits, or next to the seed inside them.
+    fn start_from_limits(&mut self, solution: &Solution<N>) {
+        self.move_onto_pose(&solution.q, LIMIT_SLACK, solution);
+        let limits = self.wanted.limits.to_array();
+        let seed = core::array::from_fn(|joint| {
+            let [low, high] = limits[joint];
+            self.wanted.seed[joint].max(low).min(high)
+        });
+        self.move_onto_pose(&seed, 0.0, solution);
+        let middle = core::array::from_fn(|joint| {
+            let middle = 0.5 * (limits[joint][0] + limits[joint][1]);
+            if middle.is_finite() { middle } else { seed[joint] }
+        });
+        self.move_onto_pose(&middle, 0.0, solution);
     }
 
     /// The seed for joints that the pose leaves open, and half a turn from it: of two branches that are one the nearer is kept, so that every
@@ -349,7 +367,7 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
     /// The pair of joints that a solution leaves open, or that may be open next to another singularity.
     fn pair(&self, solution: &Solution<N>) -> Option<Pair> {
         let declared = solution.free.and_then(|free| Pair::of(free, &solution.q));
-        if declared.is_some() || (solution.kinds() - Status::WRIST).is_empty() {
+        if declared.is_some() {
             return declared;
         }
         let Geometry::SphericalWrist(solver) = self.robot.geometry() else { return None };
