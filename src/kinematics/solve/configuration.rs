@@ -20,7 +20,7 @@ use crate::kinematics::solve::nearest::Wanted;
 use crate::kinematics::solve::self_motion::meets;
 use crate::kinematics::structure::spherical_wrist::SphericalWrist;
 use crate::kinematics::thresholds::{
-    CONFIGURATION_EDGE, MOST_ANGLE, SOLUTION_OFF, WRIST_FREE_SIN,
+    CONFIGURATION_EDGE, MOST_ANGLE, SEEDED_FREE, SOLUTION_OFF,
 };
 
 /// ABB's confdata `[cf1, cf4, cf6, cfx]`: quarter turns of axes 1, 4 and 6, and the slot.
@@ -223,8 +223,11 @@ impl Robot<6> {
                     };
                     let (seed, weights) = (&limits.rest(), &[1.0; 6]);
                     let asked = Wanted { limits, seed, weights, accepts };
-                    if let Some((_, found)) = self.nearest_within(solutions, &asked, allowed)? {
-                        return Ok(Some(self.on_side(arm, found, wanted)));
+                    let found = self.nearest_within(solutions, &asked, allowed)?;
+                    let Some((_, found)) = found else { continue };
+                    let found = self.on_side(arm, solutions, found, wanted);
+                    if !strict || self.configuration_of(arm, &found.q).cfx == wanted.cfx {
+                        return Ok(Some(found));
                     }
                 }
             }
@@ -232,10 +235,10 @@ impl Robot<6> {
         Ok(None)
     }
 
-    /// Whether a solution is in the slot of a configuration; if not `strict`, also in one that it meets within `edge` [rad].
+    /// Whether a solution is in the slot of a configuration, or can be brought there by rounding; if not `strict`, also in one that it meets
+    /// within `edge` [rad].
     ///
-    /// An axis 5 that is zero to rounding is on either side. A coupled arm has no slot: the branches in front of the lower arm are the strict
-    /// ones.
+    /// A coupled arm has no slot: the branches in front of the lower arm are the strict ones.
     fn has_slot(
         &self,
         arm: &SphericalWrist,
@@ -248,42 +251,44 @@ impl Robot<6> {
         if self.is_coupled() {
             return (slot & 2 == 0) == strict;
         }
-        let near = arm.singular_distances(&solution.q);
-        let mut open = if arm.sin_5(&solution.q).abs() <= WRIST_FREE_SIN { 1 } else { 0 };
-        if !strict {
-            let kinds = solution.kinds();
-            let bits = [
-                (1, near.wrist <= edge || kinds.contains(Status::WRIST)),
-                (2, near.elbow <= edge || kinds.contains(Status::ELBOW)),
-                (4, kinds.contains(Status::SHOULDER)),
-            ];
-            open |= bits.iter().filter(|(_, met)| *met).map(|(bit, _)| bit).sum::<i32>();
-        }
+        let (near, kinds) = (arm.singular_distances(&solution.q), solution.kinds());
+        let slack = if strict { 0.0 } else { edge };
+        let open = [
+            (1, near.wrist <= slack.max(SEEDED_FREE) || !strict && kinds.contains(Status::WRIST)),
+            (2, near.elbow <= slack || kinds.contains(Status::ELBOW)),
+            (4, !strict && kinds.contains(Status::SHOULDER)),
+        ];
+        let open = open.iter().filter(|(_, met)| *met).map(|(bit, _)| bit).sum::<i32>();
         (slot ^ wanted.cfx) & !open == 0
     }
 
-    /// The solution with an axis 5 that is zero to rounding on the side that the configuration names.
+    /// The solution with an axis 5 that is zero to rounding, or an elbow that is straight to rounding, on the side that the configuration names.
     fn on_side(
         &self,
         arm: &SphericalWrist,
+        solutions: &Solutions<6>,
         solution: Solution<6>,
         wanted: Configuration,
     ) -> Solution<6> {
-        let sin_5 = arm.sin_5(&solution.q);
-        if self.is_coupled() || sin_5.abs() > WRIST_FREE_SIN {
+        let moved_onto_pose = |start: [f64; 6], kept: usize| {
+            let limits = self.limits();
+            let (q, off) = self.corrected(solutions.pose(), start, limits, Some(kept));
+            (off <= meets(solutions.pose()) && limits.contain(&q)).then_some(q)
+        };
+        let mut q = solution.q;
+        if self.is_coupled() || i32::from(arm.slot(&q)) == wanted.cfx {
             return solution;
         }
-        // As far to the other side, or by the least that is seen next to half a turn.
-        let across = (2.0 * sin_5.abs()).max(2.0 * f64::EPSILON);
-        [0.0, across, -across]
-            .into_iter()
-            .map(|by| {
-                let mut moved = solution;
-                moved.q[4] += by;
-                moved
-            })
-            .find(|moved| i32::from(arm.slot(&moved.q)) == wanted.cfx)
-            .unwrap_or(solution)
+        if (i32::from(arm.slot(&q)) ^ wanted.cfx) & 2 != 0 && arm.kinds(&q).contains(Status::ELBOW) {
+            let bent = arm.with_bent_elbow(&q, wanted.cfx & 2 != 0);
+            q = moved_onto_pose(bent, 2).unwrap_or(q);
+        }
+        if (i32::from(arm.slot(&q)) ^ wanted.cfx) & 1 != 0 {
+            let sides = [1.0, -1.0].map(|side| arm.with_straight_wrist(&q, side));
+            let there = |q: &[f64; 6]| (i32::from(arm.slot(q)) ^ wanted.cfx) & 1 == 0;
+            q = sides.into_iter().filter(there).find_map(|q| moved_onto_pose(q, 4)).unwrap_or(q);
+        }
+        if i32::from(arm.slot(&q)) == wanted.cfx { Solution { q, ..solution } } else { solution }
     }
 
     /// Why no solution has a configuration: which others there are, or that no solution is inside the limits.

@@ -289,7 +289,7 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
             self.take(&self.at(q, from), from);
             return true;
         }
-        let (q, off) = self.robot.corrected(pose, q, limits);
+        let (q, off) = self.robot.corrected(pose, q, limits, None);
         if off <= self.allowed {
             self.take(&self.at(q, from), from);
         }
@@ -360,7 +360,21 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
         // Where rounding leaves a part of the turn open, that part holds one of the twins, and ends inside the limits or at one of their ends.
         let ends = pair.edges(limits).map(|edge| if edge.is_finite() { edge } else { own });
         for angle in [seed[pair.first], own, own + PI].into_iter().chain(ends) {
-            self.move_onto_pose(&pair.put(&solution.q, angle), LIMIT_SLACK, solution);
+            let q = pair.put(&solution.q, angle);
+            self.move_with_straight_wrist(&q, solution);
+            self.move_onto_pose(&q, LIMIT_SLACK, solution);
+        }
+    }
+
+    /// [`Self::move_onto_pose`] with joint 5 at its singularity, which another one may leave open.
+    fn move_with_straight_wrist(&mut self, q: &[f64; N], from: &Solution<N>) {
+        let Geometry::SphericalWrist(solver) = self.robot.geometry() else { return };
+        let limits = &self.wanted.limits;
+        let q = resized(&solver.arm.with_straight_wrist(&resized(q), 0.0));
+        let Some(q) = limits.clamped_to(&q, self.wanted.seed, LIMIT_SLACK) else { return };
+        let (q, off) = self.robot.corrected(self.known.pose(), q, limits, Some(4));
+        if off <= self.allowed {
+            self.take(&self.at(q, from), from);
         }
     }
 

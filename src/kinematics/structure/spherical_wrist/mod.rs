@@ -91,6 +91,28 @@ impl SphericalWrist {
         q[3] + self.placement.signs[3] * (PI * (theta_4 / PI).round() - theta_4)
     }
 
+    /// `q` with joint 5 at its singularity, to one or the other side of it by the least that is seen of it.
+    pub(crate) fn with_straight_wrist(&self, q: &[f64; 6], side: f64) -> [f64; 6] {
+        let theta_5 = self.theta(q)[4];
+        let straight = PI * (theta_5 / PI).round();
+        let mut q = *q;
+        q[4] += self.placement.signs[4] * (straight + side * 2.0 * f64::EPSILON - theta_5);
+        q
+    }
+
+    /// `q` with an elbow that is just not straight any more, behind the lower arm or in front of it.
+    pub(crate) fn with_bent_elbow(&self, q: &[f64; 6], behind: bool) -> [f64; 6] {
+        let PlanarArm { c2, k, .. } = self.planar;
+        let elbow = self.planar.elbow_angle(self.theta(q)[2]);
+        let straight = PI * (elbow / PI).round();
+        let r = (c2 + k * straight.cos()).abs();
+        let bend = 1.1 * (self.planar.straight_m2(r).sqrt() / (c2 * k));
+        let side = if behind { -straight.cos() } else { straight.cos() };
+        let mut q = *q;
+        q[2] += self.placement.signs[2] * (straight + side * bend - elbow);
+        q
+    }
+
     /// The slot of the branch that `q` is on (eq. 13); of two that meet at a singularity of the arm, the one in front.
     pub(crate) fn slot(&self, q: &[f64; 6]) -> u8 {
         let [elbow, x, wrist] = self.factors(q);
