@@ -251,7 +251,10 @@ impl Robot<6> {
         if self.is_coupled() {
             return (slot & 2 == 0) == strict;
         }
-        let (near, kinds) = (arm.singular_distances(&solution.q), solution.kinds());
+        let (near, mut kinds) = (arm.singular_distances(&solution.q), arm.kinds(&solution.q));
+        if !strict {
+            kinds |= solution.kinds();
+        }
         let slack = if strict { 0.0 } else { edge };
         let open = [
             (1, near.wrist <= slack.max(SEEDED_FREE) || !strict && kinds.contains(Status::WRIST)),
@@ -272,7 +275,7 @@ impl Robot<6> {
     ) -> Solution<6> {
         let moved_onto_pose = |start: [f64; 6], kept: usize| {
             let limits = self.limits();
-            let (q, off) = self.corrected(solutions.pose(), start, limits, Some(kept));
+            let (q, off) = self.corrected(solutions.pose(), start, limits, &[kept]);
             (off <= meets(solutions.pose()) && limits.contain(&q)).then_some(q)
         };
         let mut q = solution.q;

@@ -26,19 +26,19 @@ const DAMPING: f64 = 1e-10;
 const LARGEST_STEP: f64 = 0.5;
 
 impl<const N: usize> Robot<N> {
-    /// The joint vector next to `q`, inside `limits` as `q` is, that meets the pose best, and how far it is off [rad, m]. Joint `kept`, from 0,
-    /// stays where it is, and so does joint 7.
+    /// The joint vector next to `q`, inside `limits` as `q` is, that meets the pose best, and how far it is off [rad, m]. The joints `kept`, from
+    /// 0, stay where they are, and so does joint 7.
     pub(in crate::kinematics) fn corrected(
         &self,
         pose: &Pose,
         mut q: [f64; N],
         limits: &JointLimits<N>,
-        kept: Option<usize>,
+        kept: &[usize],
     ) -> ([f64; N], f64) {
         let limits = limits.to_array();
         let (mut best, mut least) = (q, self.residual(&q, pose).largest());
         let mut locked: [bool; N] = 
-            core::array::from_fn(|joint| joint == 6 || Some(joint) == kept);
+            core::array::from_fn(|joint| joint == 6 || kept.contains(&joint));
         for _ in 0..ROUNDS {
             let Some(step) = self.step_towards(pose, &q, &locked) else { break };
             let step = step * (LARGEST_STEP / step.amax()).min(1.0);

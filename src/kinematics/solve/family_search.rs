@@ -13,8 +13,6 @@ use crate::kinematics::pose::angles::resized;
 use crate::kinematics::solve::golden_section::golden_section;
 use crate::kinematics::solve::nearest::{NearestSearch, Wanted};
 use crate::kinematics::structure::any::Geometry;
-use crate::kinematics::structure::free_choice::FreeChoice;
-use crate::kinematics::thresholds::SOLUTION_OFF;
 
 /// Steps of a turn in which a family is searched for a place inside the limits.
 const STEPS: u32 = 360;
@@ -61,6 +59,9 @@ impl<const N: usize> NearestSearch<'_, N> {
                 self.members(from, free, turned)?;
             }
         }
+        if !self.is_open(from, free)? {
+            return Ok(());
+        }
         let Window { low, step, steps } = self.window(from, free);
         let mut before = self.sample(from, free, low - step)?;
         let mut here = self.sample(from, free, low)?;
@@ -87,6 +88,18 @@ impl<const N: usize> NearestSearch<'_, N> {
             (before, here) = (here, next);
         }
         Ok(())
+    }
+
+    /// Whether the free joint leaves its angle with the tool on the pose: next to the singularity it does not.
+    fn is_open(&mut self, from: &Solution<N>, free: FreeJoint) -> Result<bool, Error> {
+        let own = from.q[free.joint() - 1];
+        for part in [0.05, -0.05, 0.8, -0.8, 1.6, -1.6, 2.4, -2.4] {
+            let solutions = self.members(from, free, own + part)?;
+            if (0..SLOTS).any(|slot| self.height(&solutions, slot).is_finite()) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     /// The angles of the free joint that may cost less than what was found.
@@ -116,18 +129,12 @@ impl<const N: usize> NearestSearch<'_, N> {
         free: FreeJoint,
         angle: f64,
     ) -> Result<Solutions<N>, Error> {
-        let pose = self.known.pose();
         let mut q = *self.wanted.seed;
         if let (Some(last), Some(given)) = (q.get_mut(6), from.q.get(6)) {
             *last = *given;
         }
         let seeded = Solution { q, ..*from };
-        let solutions = if N == 6 && self.allowed < SOLUTION_OFF {
-            q[free.joint() - 1] = angle;
-            self.robot.solve(*pose, &FreeChoice::seed(q))?
-        } else {
-            self.robot.solve_with_free(pose, &seeded, free, angle)?
-        };
+        let solutions = self.robot.solve_with_free(self.known.pose(), &seeded, free, angle)?;
         for solution in &solutions {
             self.take_if_met(solution, from);
         }

@@ -4,7 +4,7 @@
 //! of which a solve keeps one, and, next to two singularities at once, joints that rounding leaves open. Each of these gives candidates; one
 //! that meets the pose inside the limits may be the answer, and the cheapest is (docs/singularities.md, section 3).
 
-use core::f64::consts::PI;
+use core::f64::consts::{PI, TAU};
 
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
@@ -24,6 +24,9 @@ use crate::kinematics::thresholds::{LIMIT_SLACK, PATH_WRIST_SIN, SOLUTION_OFF};
 
 /// Arms of a pose whose wrists are looked at: those of the choices of [`NearestSearch::choices`], four each at most.
 const ARMS: usize = 24;
+
+/// Steps of a turn in which a wrist is searched that is open next to another singularity.
+const WRIST_STEPS: u32 = 24;
 
 /// How far apart the joints of two arms are that are one [rad].
 const SAME_ARM: f64 = 1e-9;
@@ -289,7 +292,7 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
             self.take(&self.at(q, from), from);
             return true;
         }
-        let (q, off) = self.robot.corrected(pose, q, limits, None);
+        let (q, off) = self.robot.corrected(pose, q, limits, &[]);
         if off <= self.allowed {
             self.take(&self.at(q, from), from);
         }
@@ -360,19 +363,34 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
         // Where rounding leaves a part of the turn open, that part holds one of the twins, and ends inside the limits or at one of their ends.
         let ends = pair.edges(limits).map(|edge| if edge.is_finite() { edge } else { own });
         for angle in [seed[pair.first], own, own + PI].into_iter().chain(ends) {
-            let q = pair.put(&solution.q, angle);
-            self.move_with_straight_wrist(&q, solution);
-            self.move_onto_pose(&q, LIMIT_SLACK, solution);
+            self.move_with_wrist_at(&pair, angle, solution);
+        }
+        // What else is wanted may keep those parts out of which an angle is known.
+        if self.best.is_none() && self.allowed < SOLUTION_OFF && solution.free.is_none() {
+            for step in 0..WRIST_STEPS {
+                let angle = own + f64::from(step) * TAU / f64::from(WRIST_STEPS);
+                self.move_with_wrist_at(&pair, angle, solution);
+            }
         }
     }
 
-    /// [`Self::move_onto_pose`] with joint 5 at its singularity, which another one may leave open.
-    fn move_with_straight_wrist(&mut self, q: &[f64; N], from: &Solution<N>) {
-        let Geometry::SphericalWrist(solver) = self.robot.geometry() else { return };
+    /// Looks where the first joint of a pair is at an angle, and joint 5 or the elbow, which another singularity may leave open, at its own.
+    fn move_with_wrist_at(&mut self, pair: &Pair, angle: f64, from: &Solution<N>) {
+        let q = pair.put(&from.q, angle);
+        self.move_onto_pose(&q, LIMIT_SLACK, from);
+        self.move_keeping(&q, &[2], from);
+        if let Geometry::SphericalWrist(solver) = self.robot.geometry() {
+            let straight = resized(&solver.arm.with_straight_wrist(&resized(&q), 0.0));
+            self.move_keeping(&straight, &[4], from);
+            self.move_keeping(&straight, &[2, 4], from);
+        }
+    }
+
+    /// [`Self::move_onto_pose`] with joints that stay where they are, from 0.
+    fn move_keeping(&mut self, q: &[f64; N], kept: &[usize], from: &Solution<N>) {
         let limits = &self.wanted.limits;
-        let q = resized(&solver.arm.with_straight_wrist(&resized(q), 0.0));
-        let Some(q) = limits.clamped_to(&q, self.wanted.seed, LIMIT_SLACK) else { return };
-        let (q, off) = self.robot.corrected(self.known.pose(), q, limits, Some(4));
+        let Some(q) = limits.clamped_to(q, self.wanted.seed, LIMIT_SLACK) else { return };
+        let (q, off) = self.robot.corrected(self.known.pose(), q, limits, kept);
         if off <= self.allowed {
             self.take(&self.at(q, from), from);
         }
