@@ -15,6 +15,7 @@ use crate::kinematics::answer::status::Status;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
+use crate::kinematics::solve::correction::DAMPED;
 use crate::kinematics::solve::inverse::Inverse as _;
 use crate::kinematics::solve::nearest::Wanted;
 use crate::kinematics::solve::self_motion::meets;
@@ -43,6 +44,17 @@ impl fmt::Display for Configuration {
         let Self { cf1, cf4, cf6, cfx } = self;
         write!(f, "[{cf1}, {cf4}, {cf6}, {cfx}]")
     }
+}
+
+/// How closely the slot of a solution must be that of a configuration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Closeness {
+    /// The same, an axis 5 that is zero to rounding on either side.
+    Same,
+    /// The same once an elbow that is straight to rounding is bent.
+    Bent,
+    /// Either of two that meet at a singularity, or within the edge.
+    Met,
 }
 
 /// The axes that a configuration counts quarter turns of, from 0.
@@ -192,8 +204,9 @@ impl Robot<6> {
         for edge in [0.0, CONFIGURATION_EDGE] {
             let Some(limits) = self.limits().narrowed(&wanted.ranges(edge)) else { continue };
             let within = Solutions { limits, ..solutions.clone() };
-            for strict in [true, false] {
-                let has = |solution: &Solution<6>| self.has_slot(arm, solution, wanted, edge, strict);
+            for closeness in [Closeness::Same, Closeness::Met] {
+                let has =
+                    |solution: &Solution<6>| self.has_slot(arm, solution, wanted, edge, closeness);
                 let mut candidates = within.clone();
                 for slot in &mut candidates.slots {
                     *slot = slot.filter(has);
@@ -217,16 +230,17 @@ impl Robot<6> {
         for allowed in [meets(solutions.pose()), SOLUTION_OFF] {
             for edge in [0.0, CONFIGURATION_EDGE] {
                 let Some(limits) = self.limits().narrowed(&wanted.ranges(edge)) else { continue };
-                for strict in [true, false] {
+                for closeness in [Closeness::Same, Closeness::Bent, Closeness::Met] {
                     let accepts = &|solution: &Solution<6>| {
-                        self.has_slot(arm, solution, wanted, edge, strict)
+                        self.has_slot(arm, solution, wanted, edge, closeness)
                     };
                     let (seed, weights) = (&limits.rest(), &[1.0; 6]);
                     let asked = Wanted { limits, seed, weights, accepts };
                     let found = self.nearest_within(solutions, &asked, allowed)?;
                     let Some((_, found)) = found else { continue };
                     let found = self.on_side(arm, solutions, found, wanted);
-                    if !strict || self.configuration_of(arm, &found.q).cfx == wanted.cfx {
+                    let same = self.configuration_of(arm, &found.q).cfx == wanted.cfx;
+                    if same || closeness == Closeness::Met {
                         return Ok(Some(found));
                     }
                 }
@@ -235,34 +249,36 @@ impl Robot<6> {
         Ok(None)
     }
 
-    /// Whether a solution is in the slot of a configuration, or can be brought there by rounding; if not `strict`, also in one that it meets
-    /// within `edge` [rad].
+    /// Whether a solution is in the slot of a configuration; with `Closeness::Met` also in one that it meets within `edge` [rad].
     ///
-    /// A coupled arm has no slot: the branches in front of the lower arm are the strict ones.
+    /// A coupled arm has no slot: the branches in front of the lower arm are looked at first.
     fn has_slot(
         &self,
         arm: &SphericalWrist,
         solution: &Solution<6>,
         wanted: Configuration,
         edge: f64,
-        strict: bool,
+        closeness: Closeness,
     ) -> bool {
         let slot = i32::from(arm.slot(&solution.q));
         if self.is_coupled() {
-            return (slot & 2 == 0) == strict;
+            return (slot & 2 == 0) == (closeness == Closeness::Same);
         }
-        let (near, mut kinds) = (arm.singular_distances(&solution.q), arm.kinds(&solution.q));
-        if !strict {
-            kinds |= solution.kinds();
-        }
-        let slack = if strict { 0.0 } else { edge };
-        let open = [
-            (1, near.wrist <= slack.max(SEEDED_FREE) || !strict && kinds.contains(Status::WRIST)),
-            (2, near.elbow <= slack || kinds.contains(Status::ELBOW)),
-            (4, !strict && kinds.contains(Status::SHOULDER)),
-        ];
-        let open = open.iter().filter(|(_, met)| *met).map(|(bit, _)| bit).sum::<i32>();
-        (slot ^ wanted.cfx) & !open == 0
+        let (near, kinds) = (arm.singular_distances(&solution.q), arm.kinds(&solution.q));
+        let open = match closeness {
+            Closeness::Same => [near.wrist <= SEEDED_FREE, false, false],
+            Closeness::Bent => [near.wrist <= SEEDED_FREE, kinds.contains(Status::ELBOW), false],
+            Closeness::Met => {
+                let kinds = kinds | solution.kinds();
+                [
+                    near.wrist <= edge || kinds.contains(Status::WRIST),
+                    near.elbow <= edge || kinds.contains(Status::ELBOW),
+                    kinds.contains(Status::SHOULDER),
+                ]
+            }
+        };
+        let open = [1, 2, 4].iter().zip(open).filter(|(_, open)| *open).map(|(bit, _)| bit);
+        (slot ^ wanted.cfx) & !open.sum::<i32>() == 0
     }
 
     /// The solution with an axis 5 that is zero to rounding, or an elbow that is straight to rounding, on the side that the configuration names.
@@ -275,7 +291,7 @@ impl Robot<6> {
     ) -> Solution<6> {
         let moved_onto_pose = |start: [f64; 6], kept: usize| {
             let limits = self.limits();
-            let (q, off) = self.corrected(solutions.pose(), start, limits, &[kept]);
+            let (q, off) = self.corrected(solutions.pose(), start, limits, &[kept], DAMPED);
             (off <= meets(solutions.pose()) && limits.contain(&q)).then_some(q)
         };
         let mut q = solution.q;

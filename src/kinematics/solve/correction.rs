@@ -20,27 +20,31 @@ const ROUNDS: u32 = 20;
 const GAIN: f64 = 0.8;
 
 /// Square of the singular value below which a step is damped [1]: joints that the pose leaves open to 1e-5 stay where they are.
-const DAMPING: f64 = 1e-10;
+pub(super) const DAMPED: f64 = 1e-10;
+
+/// The same where the joints that are kept leave nothing open: only what no joint moves is damped.
+pub(super) const DETERMINED: f64 = 1e-18;
 
 /// Largest step of a joint [rad]: farther, the Jacobian is another one.
 const LARGEST_STEP: f64 = 0.5;
 
 impl<const N: usize> Robot<N> {
     /// The joint vector next to `q`, inside `limits` as `q` is, that meets the pose best, and how far it is off [rad, m]. The joints `kept`, from
-    /// 0, stay where they are, and so does joint 7.
+    /// 0, stay where they are, and so does joint 7; `damping` is [`DAMPED`] or [`DETERMINED`].
     pub(in crate::kinematics) fn corrected(
         &self,
         pose: &Pose,
         mut q: [f64; N],
         limits: &JointLimits<N>,
         kept: &[usize],
+        damping: f64,
     ) -> ([f64; N], f64) {
         let limits = limits.to_array();
         let (mut best, mut least) = (q, self.residual(&q, pose).largest());
         let mut locked: [bool; N] = 
             core::array::from_fn(|joint| joint == 6 || kept.contains(&joint));
         for _ in 0..ROUNDS {
-            let Some(step) = self.step_towards(pose, &q, &locked) else { break };
+            let Some(step) = self.step_towards(pose, &q, &locked, damping) else { break };
             let step = step * (LARGEST_STEP / step.amax()).min(1.0);
             let mut at_limit = false;
             for joint in 0..N {
@@ -74,12 +78,13 @@ impl<const N: usize> Robot<N> {
         pose: &Pose,
         q: &[f64; N],
         locked: &[bool; N],
+        damping: f64,
     ) -> Option<SVector<f64, N>> {
         let mut jacobian = self.jacobian(q, JacobianFrame::Base);
         for joint in (0..N).filter(|joint| locked[*joint]) {
             jacobian.column_mut(joint).fill(0.0);
         }
-        let damping = SMatrix::<f64, 6, 6>::identity() * DAMPING;
+        let damping = SMatrix::<f64, 6, 6>::identity() * damping;
         let factor = (jacobian * jacobian.transpose() + damping).cholesky()?;
         let step = jacobian.tr_mul(&factor.solve(&self.off(pose, q)));
         step.iter().all(|angle| angle.is_finite()).then_some(step)

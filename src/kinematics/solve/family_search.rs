@@ -13,12 +13,16 @@ use crate::kinematics::pose::angles::resized;
 use crate::kinematics::solve::golden_section::golden_section;
 use crate::kinematics::solve::nearest::{NearestSearch, Wanted};
 use crate::kinematics::structure::any::Geometry;
+use crate::kinematics::thresholds::LIMIT_SLACK;
 
 /// Steps of a turn in which a family is searched for a place inside the limits.
 const STEPS: u32 = 360;
 
 /// Steps of a turn in which it is searched for one that is nearer than what was found.
 const COARSE_STEPS: u32 = 72;
+
+/// Steps of a turn of joint 6 at which a plane of the arm is tried that rounding leaves open.
+const PLANE_STEPS: u32 = 72;
 
 /// Least number of steps in which a part of a turn is searched.
 const LEAST_STEPS: u32 = 8;
@@ -122,6 +126,26 @@ impl<const N: usize> NearestSearch<'_, N> {
         Window { low: from.q[joint], step: TAU / f64::from(steps), steps }
     }
 
+    /// Looks at three parallel axes with joint 6 at several angles, where rounding of the shoulder leaves the plane of the arm open, and with it
+    /// a wrist that is nearly singular.
+    pub(super) fn look_at_open_plane(&mut self, from: &Solution<N>) -> Result<(), Error> {
+        let free = FreeJoint::Parallel;
+        let [low, high] = self.wanted.limits.to_array()[5];
+        let own = from.q[5];
+        let known = [self.wanted.seed[5], low, high].map(|at| if at.is_finite() { at } else { own });
+        let steps = if self.best.is_none() { PLANE_STEPS } else { 0 };
+        let others = (0..steps).map(|step| own + f64::from(step) * TAU / f64::from(PLANE_STEPS));
+        for angle in known.into_iter().chain(others) {
+            let seeded = Solution { q: self.others, ..*from };
+            let solutions =
+                self.robot.solve_with_free(self.known.pose(), &seeded, free, angle)?;
+            for solution in &solutions {
+                self.move_onto_pose(&solution.q, LIMIT_SLACK, solution);
+            }
+        }
+        Ok(())
+    }
+
     /// The solutions with the free joint at `angle`, of which the nearest is taken.
     fn members(
         &mut self,
@@ -129,7 +153,7 @@ impl<const N: usize> NearestSearch<'_, N> {
         free: FreeJoint,
         angle: f64,
     ) -> Result<Solutions<N>, Error> {
-        let mut q = *self.wanted.seed;
+        let mut q = self.others;
         if let (Some(last), Some(given)) = (q.get_mut(6), from.q.get(6)) {
             *last = *given;
         }

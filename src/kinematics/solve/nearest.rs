@@ -16,6 +16,7 @@ use crate::kinematics::answer::status::Status;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::angles::{resized, wrap};
 use crate::kinematics::robot::Robot;
+use crate::kinematics::solve::correction::{DAMPED, DETERMINED};
 use crate::kinematics::solve::pair::Pair;
 use crate::kinematics::solve::self_motion::meets;
 use crate::kinematics::structure::any::Geometry;
@@ -27,6 +28,12 @@ const ARMS: usize = 24;
 
 /// Steps of a turn in which a wrist is searched that is open next to another singularity.
 const WRIST_STEPS: u32 = 24;
+
+/// |sin q5| up to which the wrist of three parallel axes may be open because the plane of the arm is [1]: that is open by 1e-7 or less.
+const OPEN_PLANE_SIN: f64 = 1e-6;
+
+/// Steps of axis 1 where two joints of the arm are free.
+const OTHER_STEPS: u32 = 12;
 
 /// How far apart the joints of two arms are that are one [rad].
 const SAME_ARM: f64 = 1e-9;
@@ -176,6 +183,8 @@ pub(super) struct NearestSearch<'a, const N: usize> {
     /// How far a solution may be off the pose [rad, m].
     pub(super) allowed: f64,
     pub(super) best: Option<Candidate<N>>,
+    /// What other joints take that the pose leaves open, along a family.
+    pub(super) others: [f64; N],
     /// The arms whose wrists were looked at, and on which side axis 5 stood.
     arms: [Option<([f64; 3], u8)>; ARMS],
     /// The free joints whose families were looked at, a bit each, of either shoulder.
@@ -198,6 +207,7 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
             wanted,
             allowed: allowed.max(if off <= SOLUTION_OFF { 1.1 * off } else { 0.0 }),
             best: None,
+            others: *wanted.seed,
             arms: [None; ARMS],
             families: [0; 2],
         }
@@ -222,8 +232,29 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
         if self.best.is_none() && self.allowed < SOLUTION_OFF {
             for solution in known {
                 self.start_from_limits(solution);
+                self.bend_elbow(solution);
+                self.turn_other_joints(solution)?;
             }
         }
+        Ok(())
+    }
+
+    /// Looks along the family of a solution with axis 1 at several angles, where the wrist centre is on that as well.
+    fn turn_other_joints(&mut self, solution: &Solution<N>) -> Result<(), Error> {
+        let Some(free) = solution.free.filter(|free| free.joint() == 2) else { return Ok(()) };
+        if !solution.kinds().contains(Status::SHOULDER) {
+            return Ok(());
+        }
+        let [low, high] = self.wanted.limits.to_array()[0];
+        let (low, high) = (low.max(-PI), high.min(PI).max(low));
+        for step in 0..=OTHER_STEPS {
+            if self.best.is_some() {
+                break;
+            }
+            self.others[0] = low + (high - low) * f64::from(step) / f64::from(OTHER_STEPS);
+            self.look_along_family(solution, free)?;
+        }
+        self.others = *self.wanted.seed;
         Ok(())
     }
 
@@ -284,7 +315,7 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
 
     /// Takes the joints nearest to `q` that meet the pose, of the branch of `from`; `q` may be outside its limits by `slack` [rad]. Tells
     /// whether `q` itself meets the pose.
-    fn move_onto_pose(&mut self, q: &[f64; N], slack: f64, from: &Solution<N>) -> bool {
+    pub(super) fn move_onto_pose(&mut self, q: &[f64; N], slack: f64, from: &Solution<N>) -> bool {
         let limits = &self.wanted.limits;
         let Some(q) = limits.clamped_to(q, self.wanted.seed, slack) else { return false };
         let pose = self.known.pose();
@@ -292,7 +323,7 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
             self.take(&self.at(q, from), from);
             return true;
         }
-        let (q, off) = self.robot.corrected(pose, q, limits, &[]);
+        let (q, off) = self.robot.corrected(pose, q, limits, &[], DAMPED);
         if off <= self.allowed {
             self.take(&self.at(q, from), from);
         }
@@ -329,6 +360,12 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
             return Ok(());
         }
         self.look_at_wrist(solution);
+        if let Geometry::ThreeParallel(solver) = self.robot.geometry()
+            && solver.arm.sin_5(&resized(&solution.q)).abs() <= OPEN_PLANE_SIN
+            && self.is_first_of(solution, 0)
+        {
+            self.look_at_open_plane(solution)?;
+        }
         let Some(free) = solution.free.filter(|free| free.partner().is_none()) else {
             return Ok(());
         };
@@ -338,12 +375,19 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
         if free.still().iter().any(stuck) || limits.rod_overrun(&solution.q) > SOLUTION_OFF {
             return Ok(());
         }
-        let (family, bit) = (usize::from(solution.slot) / (SLOTS / 2), 1 << free.joint());
-        if self.families[family] & bit == 0 {
-            self.families[family] |= bit;
+        if self.is_first_of(solution, free.joint()) {
             self.look_along_family(solution, free)?;
         }
         Ok(())
+    }
+
+    /// Whether no solution of the same shoulder was looked at along this joint before.
+    fn is_first_of(&mut self, solution: &Solution<N>, joint: usize) -> bool {
+        let (families, bit) =
+            (&mut self.families[usize::from(solution.slot) / (SLOTS / 2)], 1 << joint);
+        let first = *families & bit == 0;
+        *families |= bit;
+        first
     }
 
     /// Looks at the angles of two joints of which the pose fixes only the sum, or next to another singularity not much more.
@@ -378,19 +422,31 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
     fn move_with_wrist_at(&mut self, pair: &Pair, angle: f64, from: &Solution<N>) {
         let q = pair.put(&from.q, angle);
         self.move_onto_pose(&q, LIMIT_SLACK, from);
-        self.move_keeping(&q, &[2], from);
+        self.move_keeping(&q, &[2], DAMPED, from);
         if let Geometry::SphericalWrist(solver) = self.robot.geometry() {
             let straight = resized(&solver.arm.with_straight_wrist(&resized(&q), 0.0));
-            self.move_keeping(&straight, &[4], from);
-            self.move_keeping(&straight, &[2, 4], from);
+            self.move_keeping(&straight, &[4], DAMPED, from);
+            self.move_keeping(&straight, &[2, 4], DAMPED, from);
+        }
+    }
+
+    /// Looks at an elbow that is just not straight, to either side: the forearm turns with it, and a wrist that is open with that.
+    fn bend_elbow(&mut self, from: &Solution<N>) {
+        let Geometry::SphericalWrist(solver) = self.robot.geometry() else { return };
+        if !solver.arm.kinds(&resized(&from.q)).contains(Status::ELBOW) {
+            return;
+        }
+        for behind in [false, true] {
+            let bent = resized(&solver.arm.with_bent_elbow(&resized(&from.q), behind));
+            self.move_keeping(&bent, &[2], DETERMINED, from);
         }
     }
 
     /// [`Self::move_onto_pose`] with joints that stay where they are, from 0.
-    fn move_keeping(&mut self, q: &[f64; N], kept: &[usize], from: &Solution<N>) {
+    fn move_keeping(&mut self, q: &[f64; N], kept: &[usize], damping: f64, from: &Solution<N>) {
         let limits = &self.wanted.limits;
         let Some(q) = limits.clamped_to(q, self.wanted.seed, LIMIT_SLACK) else { return };
-        let (q, off) = self.robot.corrected(self.known.pose(), q, limits, kept);
+        let (q, off) = self.robot.corrected(self.known.pose(), q, limits, kept, damping);
         if off <= self.allowed {
             self.take(&self.at(q, from), from);
         }
