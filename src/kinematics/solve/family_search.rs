@@ -60,7 +60,9 @@ impl<const N: usize> NearestSearch<'_, N> {
         let joint = free.joint() - 1;
         for angle in [from.q[joint], self.wanted.seed[joint]] {
             for turned in [angle, angle + PI] {
-                self.members(from, free, turned)?;
+                for member in &self.members(from, free, turned)? {
+                    self.move_onto_pose(&member.q, LIMIT_SLACK, member);
+                }
             }
         }
         if !self.is_open(from, free)? {

@@ -11,7 +11,7 @@ use nalgebra::ComplexField as _;
 
 use crate::error::Error;
 use crate::kinematics::answer::select::Cost;
-use crate::kinematics::answer::solutions::{SLOTS, Solution, Solutions};
+use crate::kinematics::answer::solutions::{FreeJoint, SLOTS, Solution, Solutions};
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::angles::{resized, wrap};
@@ -205,7 +205,7 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
             robot,
             known,
             wanted,
-            allowed: allowed.max(if off <= SOLUTION_OFF { 1.1 * off } else { 0.0 }),
+            allowed: if off > allowed && off <= SOLUTION_OFF { 1.1 * off } else { allowed },
             best: None,
             others: *wanted.seed,
             arms: [None; ARMS],
@@ -219,7 +219,7 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
         for choice in self.choices() {
             let solutions = self.robot.solve(*known.pose(), &choice)?;
             for solution in &solutions {
-                self.take(solution, solution);
+                self.move_onto_pose(&solution.q, 0.0, solution);
             }
             self.start_from_seed(&solutions);
             for solution in &solutions {
@@ -241,8 +241,7 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
 
     /// Looks along the family of a solution with axis 1 at several angles, where the wrist centre is on that as well.
     fn turn_other_joints(&mut self, solution: &Solution<N>) -> Result<(), Error> {
-        let Some(free) = solution.free.filter(|free| free.joint() == 2) else { return Ok(()) };
-        if !solution.kinds().contains(Status::SHOULDER) {
+        if N != 6 || !solution.kinds().contains(Status::SHOULDER | Status::ELBOW) {
             return Ok(());
         }
         let [low, high] = self.wanted.limits.to_array()[0];
@@ -252,7 +251,7 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
                 break;
             }
             self.others[0] = low + (high - low) * f64::from(step) / f64::from(OTHER_STEPS);
-            self.look_along_family(solution, free)?;
+            self.look_along_family(solution, self.upper())?;
         }
         self.others = *self.wanted.seed;
         Ok(())
@@ -266,12 +265,19 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
             let [low, high] = limits[joint];
             self.wanted.seed[joint].max(low).min(high)
         });
-        self.move_onto_pose(&seed, 0.0, solution);
         let middle = core::array::from_fn(|joint| {
             let middle = 0.5 * (limits[joint][0] + limits[joint][1]);
             if middle.is_finite() { middle } else { seed[joint] }
         });
-        self.move_onto_pose(&middle, 0.0, solution);
+        for start in [seed, middle] {
+            self.move_onto_pose(&start, 0.0, solution);
+            if let Geometry::SphericalWrist(solver) = self.robot.geometry() {
+                for side in [1.0, -1.0] {
+                    let straight = solver.arm.with_straight_wrist(&resized(&start), side);
+                    self.move_keeping(&resized(&straight), &[4], DAMPED, solution);
+                }
+            }
+        }
     }
 
     /// The seed for joints that the pose leaves open, and half a turn from it: of two branches that are one the nearer is kept, so that every
@@ -366,19 +372,41 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
         {
             self.look_at_open_plane(solution)?;
         }
-        let Some(free) = solution.free.filter(|free| free.partner().is_none()) else {
-            return Ok(());
-        };
-        let limits = &self.wanted.limits;
-        // What stands still along a family may be outside the limits for good; no member of one moves the rod.
-        let stuck = |joint: &usize| limits.overrun(joint - 1, solution.q[joint - 1]) > SOLUTION_OFF;
-        if free.still().iter().any(stuck) || limits.rod_overrun(&solution.q) > SOLUTION_OFF {
-            return Ok(());
-        }
-        if self.is_first_of(solution, free.joint()) {
-            self.look_along_family(solution, free)?;
+        for free in self.families_of(solution).into_iter().flatten() {
+            let limits = &self.wanted.limits;
+            // What stands still along a family may be outside the limits for good; no member of one moves the rod.
+            let stuck =
+                |joint: &usize| limits.overrun(joint - 1, solution.q[joint - 1]) > SOLUTION_OFF;
+            let stuck = free.still().iter().any(stuck);
+            if !stuck
+                && limits.rod_overrun(&solution.q) <= SOLUTION_OFF
+                && self.is_first_of(solution, free.joint())
+            {
+                self.look_along_family(solution, free)?;
+            }
         }
         Ok(())
+    }
+
+    /// The joints that may be free along a solution and move more than a partner: the one that it names and, next to another singularity, that
+    /// of axis 1 or 2, which a wrist hides.
+    fn families_of(&self, solution: &Solution<N>) -> [Option<FreeJoint>; 3] {
+        let named = solution.free.filter(|free| free.partner().is_none());
+        let Geometry::SphericalWrist(_) = self.robot.geometry() else {
+            return [named, None, None];
+        };
+        let hidden = |kind: Status, free: FreeJoint| {
+            (solution.kinds().contains(kind) && named != Some(free)).then_some(free)
+        };
+        [named, hidden(Status::SHOULDER, FreeJoint::Base), hidden(Status::ELBOW, self.upper())]
+    }
+
+    /// The free joint of an arm that is folded onto axis 2.
+    fn upper(&self) -> FreeJoint {
+        match self.robot.geometry() {
+            Geometry::SphericalWrist(solver) if solver.arm.is_coupled() => FreeJoint::UpperCoupled,
+            _ => FreeJoint::Upper,
+        }
     }
 
     /// Whether no solution of the same shoulder was looked at along this joint before.

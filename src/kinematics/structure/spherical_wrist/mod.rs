@@ -65,6 +65,11 @@ impl SphericalWrist {
         self
     }
 
+    /// Whether joint angles are those of a controller that couples axes 2 and 3.
+    pub(crate) fn is_coupled(&self) -> bool {
+        self.placement.coupled
+    }
+
     /// Whether axes 2 and 3 turn in the same sense, so that q2 + q3 is a pitch.
     pub(crate) fn may_be_coupled(&self) -> bool {
         self.placement.signs[1].total_cmp(&self.placement.signs[2]).is_eq()
