@@ -203,13 +203,12 @@ impl Robot<6> {
     ) -> Option<Solution<6>> {
         for edge in [0.0, CONFIGURATION_EDGE] {
             let Some(limits) = self.limits().narrowed(&wanted.ranges(edge)) else { continue };
-            let within = Solutions { limits, ..solutions.clone() };
             for closeness in [Closeness::Same, Closeness::Met] {
-                let has =
-                    |solution: &Solution<6>| self.has_slot(arm, solution, wanted, edge, closeness);
-                let mut candidates = within.clone();
+                let mut candidates = Solutions { limits, ..solutions.clone() };
                 for slot in &mut candidates.slots {
-                    *slot = slot.filter(has);
+                    *slot = slot.filter(|solution| {
+                        self.has_slot(arm, solution, solution.slot, wanted, edge, closeness)
+                    });
                 }
                 let found = candidates.cheapest(&limits.rest(), &[1.0; 6], Cost::Distance);
                 if found.is_some() {
@@ -232,7 +231,8 @@ impl Robot<6> {
                 let Some(limits) = self.limits().narrowed(&wanted.ranges(edge)) else { continue };
                 for closeness in [Closeness::Same, Closeness::Bent, Closeness::Met] {
                     let accepts = &|solution: &Solution<6>| {
-                        self.has_slot(arm, solution, wanted, edge, closeness)
+                        let slot = arm.slot(&solution.q);
+                        self.has_slot(arm, solution, slot, wanted, edge, closeness)
                     };
                     let (seed, weights) = (&limits.rest(), &[1.0; 6]);
                     let asked = Wanted { limits, seed, weights, accepts };
@@ -249,20 +249,24 @@ impl Robot<6> {
         Ok(None)
     }
 
-    /// Whether a solution is in the slot of a configuration; with `Closeness::Met` also in one that it meets within `edge` [rad].
+    /// Whether a solution in `slot` has that of a configuration; with `Closeness::Met` also in one that it meets within `edge` [rad].
     ///
     /// A coupled arm has no slot: the branches in front of the lower arm are looked at first.
     fn has_slot(
         &self,
         arm: &SphericalWrist,
         solution: &Solution<6>,
+        slot: u8,
         wanted: Configuration,
         edge: f64,
         closeness: Closeness,
     ) -> bool {
-        let slot = i32::from(arm.slot(&solution.q));
+        let slot = i32::from(slot);
         if self.is_coupled() {
             return (slot & 2 == 0) == (closeness == Closeness::Same);
+        }
+        if slot == wanted.cfx {
+            return true;
         }
         let (near, kinds) = (arm.singular_distances(&solution.q), arm.kinds(&solution.q));
         let open = match closeness {

@@ -450,6 +450,9 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
     fn move_with_wrist_at(&mut self, pair: &Pair, angle: f64, from: &Solution<N>) {
         let q = pair.put(&from.q, angle);
         self.move_onto_pose(&q, LIMIT_SLACK, from);
+        if self.best.is_some() && from.kinds().is_empty() {
+            return;
+        }
         self.move_keeping(&q, &[2], DAMPED, from);
         if let Geometry::SphericalWrist(solver) = self.robot.geometry() {
             let straight = resized(&solver.arm.with_straight_wrist(&resized(&q), 0.0));
