@@ -283,10 +283,10 @@ impl<'a> Made<'a> {
                 self.subject.robot.with_free(&self.pose, family, value).ok()?
             })
         });
-        let missing = self.subject.arm.end_along_family(
-            &self.theta,
-            self.subject.arm.theta(&[nearest.q[5]; 6])[5],
-        );
+        let missing = self
+            .subject
+            .arm
+            .end_along_family(&self.theta, self.subject.arm.theta(&[nearest.q[5]; 6])[5]);
         self.subject.arm.missing(missing).abs() <= 1e-12 + self.beyond
             && members.all(|member| least <= cost(&member.q) + 1e-9)
     }

@@ -59,12 +59,10 @@ pub struct Arm {
 
 impl Arm {
     pub fn named(name: &str) -> Self {
-        let own = |opw: OpwParameters| {
-            Self {
-                name: name.to_owned(),
-                robot: Robot::from_opw(opw).unwrap(),
-                geometry: Geometry::Wrist(opw),
-            }
+        let own = |opw: OpwParameters| Self {
+            name: name.to_owned(),
+            robot: Robot::from_opw(opw).unwrap(),
+            geometry: Geometry::Wrist(opw),
         };
         match name {
             "equal links" => {
@@ -87,12 +85,15 @@ impl Arm {
 
     /// A joint vector of the kind, this far from each of its singularities; none where this draw has none.
     pub fn place(&self, kind: Kind, off: f64, rng: &mut Rng) -> Option<[f64; 6]> {
-        let drawn = self.robot.limits().to_array().map(|[low, high]| {
-            rng.between(low.max(-2.0 * PI), high.min(2.0 * PI))
-        });
+        let drawn = self
+            .robot
+            .limits()
+            .to_array()
+            .map(|[low, high]| rng.between(low.max(-2.0 * PI), high.min(2.0 * PI)));
         let side = |rng: &mut Rng| if rng.unit() < 0.5 { -off } else { off };
         // One that the set is not next to is well away.
-        let away = |rng: &mut Rng| if rng.unit() < 0.5 { 0.3 } else { -0.3 } * rng.between(1.0, 8.0);
+        let away =
+            |rng: &mut Rng| if rng.unit() < 0.5 { 0.3 } else { -0.3 } * rng.between(1.0, 8.0);
         let turn = |at: bool, rng: &mut Rng| if at { side(rng) } else { away(rng) };
         let folded = if rng.unit() < 0.3 { PI } else { 0.0 };
         let elbow = folded + turn(kind.elbow, rng);
@@ -114,9 +115,8 @@ impl Arm {
                     let end = [opw.c2 + k * elbow.cos(), k * elbow.sin()];
                     theta[1] = over(x - opw.a1, end, backward)?;
                 }
-                let q = std::array::from_fn(|i| {
-                    f64::from(opw.signs[i]) * (theta[i] + opw.offsets[i])
-                });
+                let q =
+                    std::array::from_fn(|i| f64::from(opw.signs[i]) * (theta[i] + opw.offsets[i]));
                 let q = self.inside(q);
                 Some(if self.robot.is_coupled() { coupled(q) } else { q })
             }

@@ -192,12 +192,7 @@ impl<const N: usize> JointLimits<N> {
     }
 
     /// [`Self::turned_to`], of which a joint that is outside by `slack` [rad] at most is put on the limit; the rod is not looked at.
-    pub(crate) fn clamped_to(
-        &self,
-        q: &[f64; N],
-        seed: &[f64; N],
-        slack: f64,
-    ) -> Option<[f64; N]> {
+    pub(crate) fn clamped_to(&self, q: &[f64; N], seed: &[f64; N], slack: f64) -> Option<[f64; N]> {
         let mut clamped = *q;
         for (joint, angle) in clamped.iter_mut().enumerate() {
             let limits = [self.lower[joint], self.upper[joint]];

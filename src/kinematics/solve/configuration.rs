@@ -20,9 +20,7 @@ use crate::kinematics::solve::inverse::Inverse as _;
 use crate::kinematics::solve::nearest::Wanted;
 use crate::kinematics::solve::self_motion::meets;
 use crate::kinematics::structure::spherical_wrist::SphericalWrist;
-use crate::kinematics::thresholds::{
-    CONFIGURATION_EDGE, MOST_ANGLE, SEEDED_FREE, SOLUTION_OFF,
-};
+use crate::kinematics::thresholds::{CONFIGURATION_EDGE, MOST_ANGLE, SEEDED_FREE, SOLUTION_OFF};
 
 /// ABB's confdata `[cf1, cf4, cf6, cfx]`: quarter turns of axes 1, 4 and 6, and the slot.
 ///
@@ -302,7 +300,8 @@ impl Robot<6> {
         if self.is_coupled() || i32::from(arm.slot(&q)) == wanted.cfx {
             return solution;
         }
-        if (i32::from(arm.slot(&q)) ^ wanted.cfx) & 2 != 0 && arm.kinds(&q).contains(Status::ELBOW) {
+        if (i32::from(arm.slot(&q)) ^ wanted.cfx) & 2 != 0 && arm.kinds(&q).contains(Status::ELBOW)
+        {
             let bent = arm.with_bent_elbow(&q, wanted.cfx & 2 != 0);
             q = moved_onto_pose(bent, 2).unwrap_or(q);
         }

@@ -41,7 +41,7 @@ impl<const N: usize> Robot<N> {
     ) -> ([f64; N], f64) {
         let limits = limits.to_array();
         let (mut best, mut least) = (q, self.residual(&q, pose).largest());
-        let mut locked: [bool; N] = 
+        let mut locked: [bool; N] =
             core::array::from_fn(|joint| joint == 6 || kept.contains(&joint));
         for _ in 0..ROUNDS {
             let Some(step) = self.step_towards(pose, &q, &locked, damping) else { break };

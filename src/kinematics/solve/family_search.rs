@@ -76,8 +76,7 @@ impl<const N: usize> NearestSearch<'_, N> {
             let next = self.sample(from, free, low + f64::from(number) * step)?;
             let between = [before.angle, next.angle];
             for slot in 0..SLOTS {
-                let in_valley =
-                    |of: [f64; 3]| of[1].is_finite() && of[1] < of[0] && of[1] <= of[2];
+                let in_valley = |of: [f64; 3]| of[1].is_finite() && of[1] < of[0] && of[1] <= of[2];
                 let of = |values: fn(&Sample) -> &OfSlots| {
                     [&before, &here, &next].map(|sample| values(sample)[slot])
                 };
@@ -134,13 +133,13 @@ impl<const N: usize> NearestSearch<'_, N> {
         let free = FreeJoint::Parallel;
         let [low, high] = self.wanted.limits.to_array()[5];
         let own = from.q[5];
-        let known = [self.wanted.seed[5], low, high].map(|at| if at.is_finite() { at } else { own });
+        let known =
+            [self.wanted.seed[5], low, high].map(|at| if at.is_finite() { at } else { own });
         let steps = if self.best.is_none() { PLANE_STEPS } else { 0 };
         let others = (0..steps).map(|step| own + f64::from(step) * TAU / f64::from(PLANE_STEPS));
         for angle in known.into_iter().chain(others) {
             let seeded = Solution { q: self.others, ..*from };
-            let solutions =
-                self.robot.solve_with_free(self.known.pose(), &seeded, free, angle)?;
+            let solutions = self.robot.solve_with_free(self.known.pose(), &seeded, free, angle)?;
             for solution in &solutions {
                 self.move_onto_pose(&solution.q, LIMIT_SLACK, solution);
             }
@@ -167,12 +166,7 @@ impl<const N: usize> NearestSearch<'_, N> {
         Ok(solutions)
     }
 
-    fn sample(
-        &mut self,
-        from: &Solution<N>,
-        free: FreeJoint,
-        angle: f64,
-    ) -> Result<Sample, Error> {
+    fn sample(&mut self, from: &Solution<N>, free: FreeJoint, angle: f64) -> Result<Sample, Error> {
         let solutions = self.members(from, free, angle)?;
         let heights = core::array::from_fn(|slot| self.height(&solutions, slot));
         let wrists = core::array::from_fn(|slot| self.wrist(&solutions, slot));

@@ -294,7 +294,11 @@ impl<const N: usize> Robot<N> {
 
     /// Solves a pose that is plain, and tells whether it was.
     #[inline]
-    pub(in crate::kinematics) fn solve_in_lanes(&self, solutions: &mut Solutions<N>, given: f64) -> bool {
+    pub(in crate::kinematics) fn solve_in_lanes(
+        &self,
+        solutions: &mut Solutions<N>,
+        given: f64,
+    ) -> bool {
         let pose = &solutions.pose;
         if pose.translation.vector.iter().any(|coordinate| coordinate.abs() > MOST_LENGTH) {
             return false;

@@ -4,7 +4,7 @@
 //! of which a solve keeps one, and, next to two singularities at once, joints that rounding leaves open. Each of these gives candidates; one
 //! that meets the pose inside the limits may be the answer, and the cheapest is (docs/singularities.md, section 3).
 
-use core::f64::consts::{PI, TAU};
+use core::f64::consts::PI;
 
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
@@ -14,32 +14,19 @@ use crate::kinematics::answer::select::Cost;
 use crate::kinematics::answer::solutions::{FreeJoint, SLOTS, Solution, Solutions};
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::chain::limits::JointLimits;
-use crate::kinematics::pose::angles::{resized, wrap};
+use crate::kinematics::pose::angles::resized;
 use crate::kinematics::robot::Robot;
-use crate::kinematics::solve::correction::{DAMPED, DETERMINED};
-use crate::kinematics::solve::pair::Pair;
+use crate::kinematics::solve::correction::DAMPED;
 use crate::kinematics::solve::self_motion::meets;
 use crate::kinematics::structure::any::Geometry;
 use crate::kinematics::structure::free_choice::FreeChoice;
-use crate::kinematics::thresholds::{LIMIT_SLACK, PATH_WRIST_SIN, SOLUTION_OFF};
+use crate::kinematics::thresholds::{LIMIT_SLACK, SOLUTION_OFF};
 
 /// Arms of a pose whose wrists are looked at: those of the choices of [`NearestSearch::choices`], four each at most.
 const ARMS: usize = 24;
 
-/// Steps of a turn in which a wrist is searched that is open next to another singularity.
-const WRIST_STEPS: u32 = 24;
-
 /// |sin q5| up to which the wrist of three parallel axes may be open because the plane of the arm is [1]: that is open by 1e-7 or less.
 const OPEN_PLANE_SIN: f64 = 1e-6;
-
-/// Steps of axis 1 where two joints of the arm are free.
-const OTHER_STEPS: u32 = 12;
-
-/// How far apart the joints of two arms are that are one [rad].
-const SAME_ARM: f64 = 1e-9;
-
-/// How far the tool of a seed may be off the pose for its joints to be moved onto it [m, rad].
-const SEED_OFF: f64 = 1e-2;
 
 /// What is asked of a solution.
 pub(in crate::kinematics) struct Wanted<'a, const N: usize> {
@@ -186,7 +173,7 @@ pub(super) struct NearestSearch<'a, const N: usize> {
     /// What other joints take that the pose leaves open, along a family.
     pub(super) others: [f64; N],
     /// The arms whose wrists were looked at, and on which side axis 5 stood.
-    arms: [Option<([f64; 3], u8)>; ARMS],
+    pub(super) arms: [Option<([f64; 3], u8)>; ARMS],
     /// The free joints whose families were looked at, a bit each, of either shoulder.
     families: [u8; 2],
 }
@@ -239,47 +226,6 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
         Ok(())
     }
 
-    /// Looks along the family of a solution with axis 1 at several angles, where the wrist centre is on that as well.
-    fn turn_other_joints(&mut self, solution: &Solution<N>) -> Result<(), Error> {
-        if N != 6 || !solution.kinds().contains(Status::SHOULDER | Status::ELBOW) {
-            return Ok(());
-        }
-        let [low, high] = self.wanted.limits.to_array()[0];
-        let (low, high) = (low.max(-PI), high.min(PI).max(low));
-        for step in 0..=OTHER_STEPS {
-            if self.best.is_some() {
-                break;
-            }
-            self.others[0] = low + (high - low) * f64::from(step) / f64::from(OTHER_STEPS);
-            self.look_along_family(solution, self.upper())?;
-        }
-        self.others = *self.wanted.seed;
-        Ok(())
-    }
-
-    /// Looks where several joints that are open at once may be inside narrow limits: at the limits, or next to the seed inside them.
-    fn start_from_limits(&mut self, solution: &Solution<N>) {
-        self.move_onto_pose(&solution.q, LIMIT_SLACK, solution);
-        let limits = self.wanted.limits.to_array();
-        let seed = core::array::from_fn(|joint| {
-            let [low, high] = limits[joint];
-            self.wanted.seed[joint].max(low).min(high)
-        });
-        let middle = core::array::from_fn(|joint| {
-            let middle = 0.5 * (limits[joint][0] + limits[joint][1]);
-            if middle.is_finite() { middle } else { seed[joint] }
-        });
-        for start in [seed, middle] {
-            self.move_onto_pose(&start, 0.0, solution);
-            if let Geometry::SphericalWrist(solver) = self.robot.geometry() {
-                for side in [1.0, -1.0] {
-                    let straight = solver.arm.with_straight_wrist(&resized(&start), side);
-                    self.move_keeping(&resized(&straight), &[4], DAMPED, solution);
-                }
-            }
-        }
-    }
-
     /// The seed for joints that the pose leaves open, and half a turn from it: of two branches that are one the nearer is kept, so that every
     /// pair of twins comes with one or the other.
     fn choices(&self) -> [FreeChoice<N>; 4] {
@@ -293,7 +239,7 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
     }
 
     /// Whether nothing can be nearer than what was found.
-    fn is_done(&self) -> bool {
+    pub(super) fn is_done(&self) -> bool {
         self.best.is_some_and(|best| best.cost == 0.0)
     }
 
@@ -346,20 +292,6 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
         Solution { q, slot, ..*from }
     }
 
-    /// Looks at the joints next to the seed that meet the pose.
-    fn start_from_seed(&mut self, solutions: &Solutions<N>) {
-        let seed = *self.wanted.seed;
-        if self.is_done() || self.robot.residual(&seed, self.known.pose()).largest() > SEED_OFF {
-            return;
-        }
-        let apart = |solution: &&Solution<N>| {
-            (0..N).map(|joint| wrap(solution.q[joint] - seed[joint]).powi(2)).sum::<f64>()
-        };
-        if let Some(next) = solutions.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))) {
-            self.move_onto_pose(&seed, LIMIT_SLACK, next);
-        }
-    }
-
     /// Looks at the solutions that belong to one: along the joint that it leaves free, along the wrist, and its twin.
     fn look_along(&mut self, solution: &Solution<N>) -> Result<(), Error> {
         if self.is_done() {
@@ -402,7 +334,7 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
     }
 
     /// The free joint of an arm that is folded onto axis 2.
-    fn upper(&self) -> FreeJoint {
+    pub(super) fn upper(&self) -> FreeJoint {
         match self.robot.geometry() {
             Geometry::SphericalWrist(solver) if solver.arm.is_coupled() => FreeJoint::UpperCoupled,
             _ => FreeJoint::Upper,
@@ -418,99 +350,19 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
         first
     }
 
-    /// Looks at the angles of two joints of which the pose fixes only the sum, or next to another singularity not much more.
-    pub(super) fn look_at_wrist(&mut self, solution: &Solution<N>) {
-        let Some(pair) = self.pair(solution) else { return };
-        if !self.is_new(solution) {
-            return;
-        }
-        let Wanted { limits, seed, weights, .. } = self.wanted;
-        let own = solution.q[pair.first];
-        if let Some(nearest) = pair.nearest(limits, seed, weights)
-            && self.move_onto_pose(&pair.put(&solution.q, nearest), 0.0, solution)
-            && self.best.is_some()
-        {
-            return;
-        }
-        // Where rounding leaves a part of the turn open, that part holds one of the twins, and ends inside the limits or at one of their ends.
-        let ends = pair.edges(limits).map(|edge| if edge.is_finite() { edge } else { own });
-        for angle in [seed[pair.first], own, own + PI].into_iter().chain(ends) {
-            self.move_with_wrist_at(&pair, angle, solution);
-        }
-        // What else is wanted may keep those parts out of which an angle is known.
-        if self.best.is_none() && self.allowed < SOLUTION_OFF && solution.free.is_none() {
-            for step in 0..WRIST_STEPS {
-                let angle = own + f64::from(step) * TAU / f64::from(WRIST_STEPS);
-                self.move_with_wrist_at(&pair, angle, solution);
-            }
-        }
-    }
-
-    /// Looks where the first joint of a pair is at an angle, and joint 5 or the elbow, which another singularity may leave open, at its own.
-    fn move_with_wrist_at(&mut self, pair: &Pair, angle: f64, from: &Solution<N>) {
-        let q = pair.put(&from.q, angle);
-        self.move_onto_pose(&q, LIMIT_SLACK, from);
-        if self.best.is_some() && from.kinds().is_empty() {
-            return;
-        }
-        self.move_keeping(&q, &[2], DAMPED, from);
-        if let Geometry::SphericalWrist(solver) = self.robot.geometry() {
-            let straight = resized(&solver.arm.with_straight_wrist(&resized(&q), 0.0));
-            self.move_keeping(&straight, &[4], DAMPED, from);
-            self.move_keeping(&straight, &[2, 4], DAMPED, from);
-        }
-    }
-
-    /// Looks at an elbow that is just not straight, to either side: the forearm turns with it, and a wrist that is open with that.
-    fn bend_elbow(&mut self, from: &Solution<N>) {
-        let Geometry::SphericalWrist(solver) = self.robot.geometry() else { return };
-        if !solver.arm.kinds(&resized(&from.q)).contains(Status::ELBOW) {
-            return;
-        }
-        for behind in [false, true] {
-            let bent = resized(&solver.arm.with_bent_elbow(&resized(&from.q), behind));
-            self.move_keeping(&bent, &[2], DETERMINED, from);
-        }
-    }
-
     /// [`Self::move_onto_pose`] with joints that stay where they are, from 0.
-    fn move_keeping(&mut self, q: &[f64; N], kept: &[usize], damping: f64, from: &Solution<N>) {
+    pub(super) fn move_keeping(
+        &mut self,
+        q: &[f64; N],
+        kept: &[usize],
+        damping: f64,
+        from: &Solution<N>,
+    ) {
         let limits = &self.wanted.limits;
         let Some(q) = limits.clamped_to(q, self.wanted.seed, LIMIT_SLACK) else { return };
         let (q, off) = self.robot.corrected(self.known.pose(), q, limits, kept, damping);
         if off <= self.allowed {
             self.take(&self.at(q, from), from);
         }
-    }
-
-    /// The pair of joints that a solution leaves open, or that may be open next to another singularity.
-    fn pair(&self, solution: &Solution<N>) -> Option<Pair> {
-        let declared = solution.free.and_then(|free| Pair::of(free, &solution.q));
-        if declared.is_some() {
-            return declared;
-        }
-        let Geometry::SphericalWrist(solver) = self.robot.geometry() else { return None };
-        let q = resized(&solution.q);
-        // Off the pose by more than rounding, it must be a wrist whose branches are one.
-        let may_be_open =
-            self.allowed < SOLUTION_OFF || solution.kinds().contains(Status::WRIST);
-        (may_be_open && solver.arm.sin_5(&q).abs() <= PATH_WRIST_SIN)
-            .then(|| Pair::of(solver.arm.wrist_pair(&q), &solution.q))?
-    }
-
-    /// Whether the wrist of this arm was not looked at before.
-    fn is_new(&mut self, solution: &Solution<N>) -> bool {
-        let (arm, side): ([f64; 3], u8) = (resized(&solution.q), solution.slot & 1);
-        let same = |(other, other_side): &([f64; 3], u8)| {
-            side == *other_side
-                && arm.iter().zip(other).all(|(a, b)| wrap(a - b).abs() <= SAME_ARM)
-        };
-        if N == 6 && self.arms.iter().flatten().any(same) {
-            return false;
-        }
-        if let Some(place) = self.arms.iter_mut().find(|place| place.is_none()) {
-            *place = Some((arm, side));
-        }
-        true
     }
 }

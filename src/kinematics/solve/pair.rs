@@ -63,8 +63,7 @@ impl Pair {
         let (a, b) = (self.first, self.partner);
         let ([low_a, high_a], [low_b, high_b]) = (all[a], all[b]);
         let clipped_b = seed[b].clamp(low_b, high_b);
-        let turns =
-            whole_below((clipped_b - self.partner_of(seed[a].clamp(low_a, high_a))) / TAU);
+        let turns = whole_below((clipped_b - self.partner_of(seed[a].clamp(low_a, high_a))) / TAU);
         let mut best: Option<(f64, f64)> = None;
         for turn in [turns - 1.0, turns, turns + 1.0, turns + 2.0] {
             let fixed = self.fixed + self.sign * TAU * turn;
@@ -99,7 +98,9 @@ mod tests {
     fn no_other_angles_of_the_pair_are_nearer_to_the_seed() {
         let mut state = 1_u64;
         let mut unit = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
             #[expect(clippy::cast_precision_loss, reason = "53 bits")]
             let mantissa = (state >> 11) as f64;
             mantissa / 2.0_f64.powi(53)
@@ -122,9 +123,7 @@ mod tests {
             let limits = JointLimits::new(limits).unwrap();
             let cost = |angle: f64| {
                 let q = limits.turned_to(&pair.put(&seed, angle), &seed)?;
-                Some(
-                    weights[3] * (q[3] - seed[3]).powi(2) + weights[5] * (q[5] - seed[5]).powi(2),
-                )
+                Some(weights[3] * (q[3] - seed[3]).powi(2) + weights[5] * (q[5] - seed[5]).powi(2))
             };
             let least = (-3200..3200)
                 .filter_map(|step| cost(1e-3 * f64::from(step)))

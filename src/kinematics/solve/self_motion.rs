@@ -50,8 +50,12 @@ impl<const N: usize> Robot<N> {
     ) -> Result<Option<Solution<N>>, Error> {
         let solutions = self.solve_with_free(pose, solution, free, value)?;
         // The same branch, or the one that it becomes.
-        let mut slots =
-            free.branches().iter().copied().flatten().map(|other| usize::from(solution.slot) ^ other);
+        let mut slots = free
+            .branches()
+            .iter()
+            .copied()
+            .flatten()
+            .map(|other| usize::from(solution.slot) ^ other);
         Ok(slots.find_map(|slot| solutions.slot(slot)).map(|found| {
             let mut moved = *found;
             moved.q[free.joint() - 1] = value;
