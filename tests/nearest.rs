@@ -6,8 +6,12 @@ mod common;
 #[path = "nearest/sets.rs"]
 mod sets;
 
+use std::f64::consts::FRAC_PI_2;
+
 use common::{Rng, asked_set, reach_of};
-use irbkin::{Follower, JointLimits, Pose, Robot, Solution, thresholds};
+use irbkin::{
+    CatalogueGeometry, Follower, JointLimits, Pose, Robot, Solution, catalogue, thresholds,
+};
 use sets::{Arm, DISTANCES, KINDS, Kind, random_frame};
 
 fn poses() -> usize {
@@ -176,10 +180,9 @@ impl Laws {
         let found = robot.ik_configured(pose, wanted);
         let has = |found: &Solution<6>| {
             let side = |joint: usize, quarter: i32| {
-                let low = f64::from(quarter) * std::f64::consts::FRAC_PI_2;
+                let low = f64::from(quarter) * FRAC_PI_2;
                 let edge = thresholds::CONFIGURATION_EDGE + 2e-9;
-                found.q[joint] >= low - edge
-                    && found.q[joint] <= low + std::f64::consts::FRAC_PI_2 + edge
+                found.q[joint] >= low - edge && found.q[joint] <= low + FRAC_PI_2 + edge
             };
             robot.limits().contain(&found.q)
                 && met(robot, pose, &found.q)
@@ -274,4 +277,42 @@ fn a_lateral_offset() {
 #[test]
 fn universal_robots() {
     check(&["UR3", "UR5e", "UR10e"]);
+}
+
+/// Also where axes 1, 4 and 6 are within a hundredth of a degree of the edge of a quarter turn.
+#[test]
+fn every_serial_abb_arm_is_found_by_its_configuration() {
+    asked_set();
+    let (mut rng, mut report, mut arms, mut held) = (Rng::new(9), String::new(), 0, 0);
+    let abb = catalogue().filter(|arm| matches!(arm.geometry, CatalogueGeometry::Abb { .. }));
+    let mut kinds = KINDS.map(|kind| (kind, Laws::new().configured));
+    for arm in abb.map(|arm| Arm::named(arm.name)).filter(|arm| !arm.robot.is_coupled()) {
+        arms += 1;
+        for (kind, law) in &mut kinds {
+            for distance in DISTANCES {
+                let drawn = (0..400).find_map(|_| {
+                    let mut q = arm.place(*kind, distance, &mut rng)?;
+                    if rng.unit() < 0.5 {
+                        let joint = [0, 3, 5]
+                            [if rng.unit() < 0.5 { 0 } else { 1 + usize::from(rng.unit() < 0.5) }];
+                        let off = thresholds::CONFIGURATION_EDGE * rng.between(-0.9, 0.9);
+                        q[joint] = (q[joint] / FRAC_PI_2).round() * FRAC_PI_2 + off;
+                    }
+                    arm.robot.limits().contain(&q).then_some(q)
+                });
+                let Some(q) = drawn else { continue };
+                let mut laws = Laws::new();
+                laws.hold_configuration(&arm.robot, &q, &arm.robot.fk(&q));
+                law.hold(laws.configured.broken == 0, || {
+                    laws.configured.first.take().unwrap_or_default()
+                });
+                held += 1;
+            }
+        }
+    }
+    for (kind, law) in &kinds {
+        report += &law.tell(&format!("serial ABB arms {kind:?}"));
+    }
+    assert!(arms > 60 && held > 60 * 60, "{arms} {held}");
+    assert!(report.is_empty(), "\n{report}");
 }

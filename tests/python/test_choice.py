@@ -51,7 +51,8 @@ def test_a_pose_that_joints_inside_the_limits_made_is_within_limits(name, wrist,
                     continue
                 T, seed = robot.fk(q), rng.uniform(-3, 3, 6)
                 solutions = robot.ik(T)
-                assert robot.check_pose(T).within_limits and len(solutions.within_limits()) > 0
+                assert robot.check_pose(T).within_limits
+                assert len(solutions.within_limits()) > 0
                 found = robot.ik_nearest(T, seed)
                 assert cost(found, seed) <= cost(solutions.nearest(seed).q, seed) + 1e-12
                 assert np.abs(robot.fk(found) - T).max() <= 2e-12
