@@ -216,7 +216,7 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
         for solution in known {
             self.look_along(solution)?;
         }
-        if self.best.is_none() && self.allowed < SOLUTION_OFF {
+        if self.best.is_none() && self.must_meet() {
             for solution in known {
                 self.start_from_limits(solution);
                 self.bend_elbow(solution);
@@ -236,6 +236,16 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
             }
             FreeChoice::seed(q)
         })
+    }
+
+    /// Whether a solution must meet the pose, and not only to its distance from the singularity.
+    pub(super) fn must_meet(&self) -> bool {
+        self.allowed < SOLUTION_OFF
+    }
+
+    /// By how much a start may be outside its limits [rad]: what is off the pose is not moved.
+    fn slack(&self, slack: f64) -> f64 {
+        if self.must_meet() { slack } else { 0.0 }
     }
 
     /// Whether nothing can be nearer than what was found.
@@ -269,7 +279,9 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
     /// whether `q` itself meets the pose.
     pub(super) fn move_onto_pose(&mut self, q: &[f64; N], slack: f64, from: &Solution<N>) -> bool {
         let limits = &self.wanted.limits;
-        let Some(q) = limits.clamped_to(q, self.wanted.seed, slack) else { return false };
+        let Some(q) = limits.clamped_to(q, self.wanted.seed, self.slack(slack)) else {
+            return false;
+        };
         let pose = self.known.pose();
         if self.robot.residual(&q, pose).largest() <= self.allowed {
             self.take(&self.at(q, from), from);
@@ -299,6 +311,7 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
         }
         self.look_at_wrist(solution);
         if let Geometry::ThreeParallel(solver) = self.robot.geometry()
+            && (self.must_meet() || solution.kinds().contains(Status::WRIST))
             && solver.arm.sin_5(&resized(&solution.q)).abs() <= OPEN_PLANE_SIN
             && self.is_first_of(solution, 0)
         {
@@ -359,7 +372,9 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
         from: &Solution<N>,
     ) {
         let limits = &self.wanted.limits;
-        let Some(q) = limits.clamped_to(q, self.wanted.seed, LIMIT_SLACK) else { return };
+        let Some(q) = limits.clamped_to(q, self.wanted.seed, self.slack(LIMIT_SLACK)) else {
+            return;
+        };
         let (q, off) = self.robot.corrected(self.known.pose(), q, limits, kept, damping);
         if off <= self.allowed {
             self.take(&self.at(q, from), from);

@@ -10,7 +10,7 @@ use crate::kinematics::solve::correction::{DAMPED, DETERMINED};
 use crate::kinematics::solve::nearest::{NearestSearch, Wanted};
 use crate::kinematics::solve::pair::Pair;
 use crate::kinematics::structure::any::Geometry;
-use crate::kinematics::thresholds::{LIMIT_SLACK, PATH_WRIST_SIN, SOLUTION_OFF};
+use crate::kinematics::thresholds::{LIMIT_SLACK, PATH_WRIST_SIN};
 
 /// Steps of a turn in which a wrist is searched that is open next to another singularity.
 const WRIST_STEPS: u32 = 24;
@@ -48,7 +48,7 @@ impl<const N: usize> NearestSearch<'_, N> {
             self.move_with_wrist_at(&pair, angle, solution);
         }
         // What else is wanted may keep those parts out of which an angle is known.
-        if self.best.is_none() && self.allowed < SOLUTION_OFF && solution.free.is_none() {
+        if self.best.is_none() && self.must_meet() && solution.free.is_none() {
             for step in 0..WRIST_STEPS {
                 let angle = own + f64::from(step) * TAU / f64::from(WRIST_STEPS);
                 self.move_with_wrist_at(&pair, angle, solution);
@@ -99,7 +99,7 @@ impl<const N: usize> NearestSearch<'_, N> {
         let Geometry::SphericalWrist(solver) = self.robot.geometry() else { return None };
         let q = resized(&solution.q);
         // Off the pose by more than rounding, it must be a wrist whose branches are one.
-        let may_be_open = self.allowed < SOLUTION_OFF || solution.kinds().contains(Status::WRIST);
+        let may_be_open = self.must_meet() || solution.kinds().contains(Status::WRIST);
         (may_be_open && solver.arm.sin_5(&q).abs() <= PATH_WRIST_SIN)
             .then(|| Pair::of(solver.arm.wrist_pair(&q), &solution.q))?
     }

@@ -40,7 +40,10 @@ impl<const N: usize> NearestSearch<'_, N> {
     /// Looks at the joints next to the seed that meet the pose.
     pub(super) fn start_from_seed(&mut self, solutions: &Solutions<N>) {
         let seed = *self.wanted.seed;
-        if self.is_done() || self.robot.residual(&seed, self.known.pose()).largest() > SEED_OFF {
+        if self.is_done()
+            || !self.must_meet()
+            || self.robot.residual(&seed, self.known.pose()).largest() > SEED_OFF
+        {
             return;
         }
         let apart = |solution: &&Solution<N>| {
