@@ -195,9 +195,10 @@ fn where_the_wrist_is_singular_axes_4_and_6_take_their_quarters() {
         let q = [0.3, 0.2, 0.1, q4, 0.0, q6];
         let pose = robot.fk(&q);
         let wanted = robot.configuration(&q).unwrap();
-        // At the singularity the slot with q5 < 0 is the same solution.
+        // At the singularity the slot with q5 < 0 is the same solution, with an axis 5 that is zero from below.
         for cfx in [0, 1] {
-            let found = robot.ik_configured(&pose, Configuration { cfx, ..wanted }).unwrap();
+            let wanted = Configuration { cfx, ..wanted };
+            let found = robot.ik_configured(&pose, wanted).unwrap();
             assert!(has(&robot, &found.q, wanted), "{found:?}");
             assert!(found.status.contains(Status::WRIST));
             assert!(robot.residual(&found.q, &pose).largest() < 1e-14);

@@ -8,7 +8,7 @@ mod common;
 #[allow(unreachable_pub)]
 mod place;
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use common::parallel_arm::{ParallelArm, wrapped};
 use common::tally::Tally;
@@ -242,7 +242,7 @@ impl<'a> Made<'a> {
     }
 
     /// Whether the representative of the wrist's family has joint 6 at rest, or as near to it as the arm reaches, in both elbows; by trying
-    /// angles of joint 6 all around. So too with a seed.
+    /// angles of joint 6 all around. With a seed, the nearest member.
     fn is_nearest_of_family(&self, solutions: &Solutions<6>, rng: &mut Rng) -> bool {
         let shoulder = 4 * usize::from(self.subject.arm.x(&self.theta) < 0.0);
         let told = [0, 2].map(|elbow| {
@@ -263,7 +263,32 @@ impl<'a> Made<'a> {
         seed[5] = rng.between(-PI, PI);
         let seeded = self.subject.robot.ik_nearest(&self.pose, &seed, &[1.0; 6]).unwrap();
         let of_family = self.bounds.hold_plane(&self.theta_of(&seeded.q), &self.theta);
-        told == [true; 2] && (!of_family || self.is_nearest_reached(&seeded, seed[5]))
+        told == [true; 2] && (!of_family || self.is_nearest_of_members(solutions, &seeded, &seed))
+    }
+
+    /// Whether no member of a family is nearer to the seed than the solution, by trying angles of joint 6 all around.
+    fn is_nearest_of_members(
+        &self,
+        solutions: &Solutions<6>,
+        nearest: &Solution<6>,
+        seed: &[f64; 6],
+    ) -> bool {
+        let cost = |q: &[f64; 6]| (0..6).map(|i| wrapped(q[i] - seed[i]).powi(2)).sum::<f64>();
+        let least = cost(&nearest.q);
+        let families = solutions.iter().filter(|found| found.free == Some(FreeJoint::Parallel));
+        let steps = 180;
+        let mut members = families.flat_map(|family| {
+            (0..steps).filter_map(move |step| {
+                let value = TAU * f64::from(step) / f64::from(steps) - PI;
+                self.subject.robot.with_free(&self.pose, family, value).ok()?
+            })
+        });
+        let missing = self
+            .subject
+            .arm
+            .end_along_family(&self.theta, self.subject.arm.theta(&[nearest.q[5]; 6])[5]);
+        self.subject.arm.missing(missing).abs() <= 1e-12 + self.beyond
+            && members.all(|member| least <= cost(&member.q) + 1e-9)
     }
 
     /// Whether no angle of joint 6 that is nearer to `wanted` than the solution's is reached, and the solution's is.

@@ -43,7 +43,7 @@ pub use pose::{
 #[cfg(feature = "urdf")]
 pub(crate) use robot::SNAPS;
 pub use robot::{Definition, Robot};
-pub use solve::nearest::Inverse;
+pub use solve::seeded::Inverse;
 pub(crate) use structure::any::Rows;
 pub use structure::arity::{Arity, Joints, RedundancyOf};
 pub use structure::redundancy::Redundancy;

@@ -91,6 +91,10 @@ pub const SOLUTION_OFF: f64 = 1e-6;
 /// How far an angle may pass a joint limit and still be inside [rad]: a pose taught at the limit must not be lost to rounding.
 pub const LIMIT_TOLERANCE: f64 = 1e-9;
 
+/// How far outside its limits a joint may be calculated that rounding of a singular pose leaves open, and still be moved inside them, if that
+/// meets the pose [rad]: what is left open of a joint whose lever is [`SEEDED_FREE`], ten times.
+pub const LIMIT_SLACK: f64 = 1e-2;
+
 /// Least length of an upper arm or forearm [m].
 pub const LEAST_LINK: f64 = 1e-6;
 

@@ -41,8 +41,6 @@ struct SelfMotion {
     /// it. The free joint may flip what turns with it or bring another singularity; the two elbows of
     /// a stretched arm are one solution and go apart along the self-motion.
     branches: &'static [&'static [usize]],
-    /// Whether the branch that was merged with a solution is half a turn of the free joint away.
-    merged_half_a_turn_away: bool,
 }
 
 /// What the other joints do.
@@ -75,9 +73,7 @@ impl FreeJoint {
             Self::Parallel => &[&[0, 1], &[2, 3]],
             _ => ONE_BRANCH,
         };
-        let merged_half_a_turn_away =
-            matches!(rest, Rest::Partner(..)) || matches!(self, Self::Parallel);
-        SelfMotion { joint, fixed, rest, branches, merged_half_a_turn_away }
+        SelfMotion { joint, fixed, rest, branches }
     }
 
     /// Number of the free joint, from 1.
@@ -112,10 +108,5 @@ impl FreeJoint {
     /// The branches that the self-motion runs through, by what their slots differ in.
     pub(crate) const fn branches(self) -> &'static [&'static [usize]] {
         self.motion().branches
-    }
-
-    /// Whether the branch that was merged with a solution is half a turn of the free joint away.
-    pub(crate) const fn merged_half_a_turn_away(self) -> bool {
-        self.motion().merged_half_a_turn_away
     }
 }

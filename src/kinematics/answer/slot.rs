@@ -29,6 +29,11 @@ impl Slot {
         Self(4 * u8::from(first) + 2 * u8::from(second) + u8::from(third))
     }
 
+    /// The same branch with the wrist, the last of three signs, flipped or not.
+    pub(crate) const fn flipped_to(self, flipped: bool) -> Self {
+        Self(self.0 & !1 | flipped as u8)
+    }
+
     /// Its number, as ABB's `cfx` counts.
     pub(crate) fn number(self) -> i32 {
         self.0.into()

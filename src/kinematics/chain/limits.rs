@@ -191,6 +191,21 @@ impl<const N: usize> JointLimits<N> {
         Some(turned)
     }
 
+    /// [`Self::turned_to`], of which a joint that is outside by `slack` [rad] at most is put on the limit; the rod is not looked at.
+    pub(crate) fn clamped_to(&self, q: &[f64; N], seed: &[f64; N], slack: f64) -> Option<[f64; N]> {
+        let mut clamped = *q;
+        for (joint, angle) in clamped.iter_mut().enumerate() {
+            let limits = [self.lower[joint], self.upper[joint]];
+            let nearest = |limit: &f64| {
+                (*limit - *angle - TAU * nearest_whole((limit - *angle) / TAU)).abs() <= slack
+            };
+            *angle = self
+                .turn_nearest(joint, *angle, seed[joint])
+                .or_else(|| limits.into_iter().find(nearest))?;
+        }
+        Some(clamped)
+    }
+
     /// First and last number of turns that, added to `angle`, keep it inside the limits; `None` where no number does.
     pub(crate) fn turns(&self, joint: usize, angle: f64) -> Option<(f64, f64)> {
         let first = whole_above((self.lower[joint] - LIMIT_TOLERANCE - angle) / TAU);

@@ -10,10 +10,12 @@ use nalgebra::{IsometryMatrix3, Rotation3, Translation3};
 
 use crate::error::Error;
 use crate::kinematics::answer::check::{check_seed, check_weights};
+use crate::kinematics::answer::select::Cost;
 use crate::kinematics::answer::solutions::Solution;
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
+use crate::kinematics::solve::seeded::Inverse as _;
 use crate::kinematics::structure::Structure as _;
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::thresholds::{
@@ -152,11 +154,16 @@ impl<'a> Follower<'a> {
         let heading =
             if steady { core::array::from_fn(|i| self.q[i] + self.velocity[i]) } else { self.q };
         let solutions = self.robot.solve(*pose, &FreeChoice::path(heading))?;
-        let Some(mut next) = self.robot.nearest_of(&solutions, &heading, &self.weights)? else {
-            return Ok(Err(solutions.explain()));
-        };
-        self.balance(&mut next, &heading, pose);
-        Ok(Ok(next))
+        if let Some(mut next) = solutions.cheapest(&heading, &self.weights, Cost::Distance) {
+            self.balance(&mut next, &heading, pose);
+            return Ok(Ok(next));
+        }
+        // Of a singular pose another solution may be inside than those that go on.
+        match self.robot.nearest_checked(*pose, &heading, &self.weights) {
+            Ok(next) => Ok(Ok(next)),
+            Err(Error::Unreachable(explanation)) => Ok(Err(explanation)),
+            Err(error) => Err(error),
+        }
     }
 
     /// At a wrist of which the pose says little the whole of what is left over went to joint 6: half of it belongs to joint 4, as far as the

@@ -9,21 +9,32 @@ use nalgebra::ComplexField as _;
 
 use crate::error::{Error, JointFault, ModelFault, NoConfiguration};
 use crate::kinematics::answer::check::check_seed;
-use crate::kinematics::answer::select::Turns;
+use crate::kinematics::answer::select::{Cost, Turns};
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::solutions::{Place, Solution, Solutions};
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
-use crate::kinematics::solve::nearest::Inverse as _;
+use crate::kinematics::solve::correction::DAMPED;
+use crate::kinematics::solve::nearest::Wanted;
+use crate::kinematics::solve::seeded::Inverse as _;
+use crate::kinematics::solve::self_motion::meets;
 use crate::kinematics::structure::Structure as _;
 use crate::kinematics::structure::spherical_wrist::SphericalWrist;
-use crate::kinematics::thresholds::{CONFIGURATION_EDGE, MOST_ANGLE};
+use crate::kinematics::thresholds::{CONFIGURATION_EDGE, MOST_ANGLE, SEEDED_FREE, SOLUTION_OFF};
 use crate::report::Configuration;
 
-/// Slots of the arms that have configurations.
-const SLOTS: usize = 8;
+/// How closely the slot of a solution must be that of a configuration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Closeness {
+    /// The same, an axis 5 that is zero to rounding on either side.
+    Same,
+    /// The same once an elbow that is straight to rounding is bent.
+    Bent,
+    /// Either of two that meet at a singularity, or within the edge.
+    Met,
+}
 
 /// The axes that a configuration counts quarter turns of, from 0.
 const COUNTED: [usize; 3] = [0, 3, 5];
@@ -80,6 +91,11 @@ fn quarter(angle: f64) -> i32 {
     }
 }
 
+/// The slot of a joint vector; a spherical wrist's always has one.
+fn slot_of(arm: &SphericalWrist, q: &[f64; 6]) -> Slot {
+    arm.slot(q).unwrap_or(Slot::new(0))
+}
+
 impl Robot<6> {
     /// ABB's confdata of a joint vector [rad]: on the edge of a quarter turn, that of the one which begins there.
     ///
@@ -94,8 +110,8 @@ impl Robot<6> {
     }
 
     fn configuration_of(&self, arm: &SphericalWrist, q: &[f64; 6]) -> Configuration {
-        let slot = arm.slot(q).filter(|_| !self.is_coupled());
-        Configuration::of(q, slot.map_or(0, Slot::number))
+        let cfx = if self.is_coupled() { 0 } else { slot_of(arm, q).number() };
+        Configuration::of(q, cfx)
     }
 
     /// The solution inside the limits that has the configuration `wanted`, which chooses the turns of axes 1, 4 and 6, too.
@@ -150,75 +166,143 @@ impl Robot<6> {
     ) -> Result<Solution<6>, Error> {
         let arm = self.counted()?;
         wanted.check(self.is_coupled())?;
-        let solutions = self.ik_checked(pose, ())?;
-        for edge in [0.0, CONFIGURATION_EDGE] {
-            let Some(limits) = self.limits().narrowed(&wanted.ranges(edge)) else { continue };
-            for candidates in self.candidates(arm, &solutions, wanted, edge) {
-                if let Some(found) = self.configured(&solutions, candidates, limits)? {
-                    return Ok(found);
-                }
-            }
+        let mut solutions = self.unsolved(pose);
+        let found = if self.solve_in_lanes(&mut solutions, ()) {
+            self.configured_regular(arm, &solutions, wanted)
+        } else {
+            self.solve_at_rest(&mut solutions, ())?;
+            self.configured_singular(arm, &solutions, wanted)?
+        };
+        if let Some(found) = found {
+            return Ok(found);
         }
         Err(self.no_configuration(arm, &solutions, wanted)?)
     }
 
-    /// The slots of which a solution may have the configuration, those to be looked at first before others.
-    fn candidates(
+    /// The solution of a regular pose that has the configuration, at some turn.
+    fn configured_regular(
         &self,
         arm: &SphericalWrist,
         solutions: &Solutions<6>,
         wanted: Configuration,
-        edge: f64,
-    ) -> [[bool; SLOTS]; 2] {
-        if self.is_coupled() {
-            return [
-                core::array::from_fn(|slot| slot & 2 == 0),
-                core::array::from_fn(|slot| slot & 2 != 0),
-            ];
-        }
-        let cfx = usize::try_from(wanted.cfx).unwrap_or(0);
-        let merged = solutions.status()[cfx];
-        let merged = if merged.contains(Status::MERGED) { merged } else { Status::empty() };
-        let may_be = |slot: usize| {
-            let Some(solution) = solutions.slot(slot) else { return false };
-            let distances = arm.singular_distances(&solution.q);
-            let open = [
-                (Status::WRIST, 1, distances.wrist <= edge),
-                (Status::ELBOW, 2, distances.elbow <= edge),
-                (Status::SHOULDER, 4, false),
-            ];
-            let open = open
-                .iter()
-                .filter(|(kind, _, near)| *near || merged.contains(*kind))
-                .map(|(_, bit, _)| bit)
-                .sum::<usize>();
-            (slot ^ cfx) & !open == 0
-        };
-        let (exact, others): ([bool; SLOTS], [bool; SLOTS]) = (
-            core::array::from_fn(|slot| slot == cfx),
-            core::array::from_fn(|slot| slot != cfx && may_be(slot)),
-        );
-        [exact, others]
-    }
-
-    /// The solution in one of the slots that is inside `limits`, at some turn or with another angle of a free joint.
-    fn configured(
-        &self,
-        solutions: &Solutions<6>,
-        slots: [bool; SLOTS],
-        limits: JointLimits<6>,
-    ) -> Result<Option<Solution<6>>, Error> {
-        let mut within = solutions.clone();
-        within.limits = limits;
-        for (place, taken) in within.places_mut().iter_mut().zip(slots) {
-            if !taken {
-                *place = Place::Empty;
+    ) -> Option<Solution<6>> {
+        for edge in [0.0, CONFIGURATION_EDGE] {
+            let Some(limits) = self.limits().narrowed(&wanted.ranges(edge)) else { continue };
+            for closeness in [Closeness::Same, Closeness::Met] {
+                let mut candidates = solutions.clone();
+                candidates.limits = limits;
+                for place in candidates.places_mut() {
+                    let has_slot = |solution: &Solution<6>| {
+                        self.has_slot(arm, solution, solution.slot, wanted, edge, closeness)
+                    };
+                    if !place.found().is_some_and(has_slot) {
+                        *place = Place::Empty;
+                    }
+                }
+                let found = candidates.cheapest(&limits.rest(), &[1.0; 6], Cost::Distance);
+                if found.is_some() {
+                    return found;
+                }
             }
         }
-        if within.is_empty() {
-            return Ok(None);
+        None
+    }
+
+    /// The solution of a singular pose that has the configuration, with whatever angles of the joints that the pose leaves open.
+    fn configured_singular(
+        &self,
+        arm: &SphericalWrist,
+        solutions: &Solutions<6>,
+        wanted: Configuration,
+    ) -> Result<Option<Solution<6>>, Error> {
+        for allowed in [meets(solutions.pose()), SOLUTION_OFF] {
+            for edge in [0.0, CONFIGURATION_EDGE] {
+                let Some(limits) = self.limits().narrowed(&wanted.ranges(edge)) else { continue };
+                for closeness in [Closeness::Same, Closeness::Bent, Closeness::Met] {
+                    let accepts = &|solution: &Solution<6>| {
+                        let slot = slot_of(arm, &solution.q);
+                        self.has_slot(arm, solution, slot, wanted, edge, closeness)
+                    };
+                    let (seed, weights) = (&limits.rest(), &[1.0; 6]);
+                    let asked = Wanted { limits, seed, weights, accepts };
+                    let found = self.nearest_within(solutions, &asked, allowed)?;
+                    let Some((_, found)) = found else { continue };
+                    let found = self.on_side(arm, solutions, found, wanted);
+                    let same = self.configuration_of(arm, &found.q).cfx == wanted.cfx;
+                    if same || closeness == Closeness::Met {
+                        return Ok(Some(found));
+                    }
+                }
+            }
         }
-        self.nearest_of(&within, &limits.rest(), &[1.0; 6])
+        Ok(None)
+    }
+
+    /// Whether a solution in `slot` has that of a configuration; with `Closeness::Met` also in one that it meets within `edge` [rad].
+    ///
+    /// A coupled arm has no slot: the branches in front of the lower arm are looked at first.
+    fn has_slot(
+        &self,
+        arm: &SphericalWrist,
+        solution: &Solution<6>,
+        slot: Slot,
+        wanted: Configuration,
+        edge: f64,
+        closeness: Closeness,
+    ) -> bool {
+        let slot = slot.number();
+        if self.is_coupled() {
+            return (slot & 2 == 0) == (closeness == Closeness::Same);
+        }
+        if slot == wanted.cfx {
+            return true;
+        }
+        let (near, kinds) = (arm.singular_distances(&solution.q), arm.kinds(&solution.q));
+        let open = match closeness {
+            Closeness::Same => [near.wrist <= SEEDED_FREE, false, false],
+            Closeness::Bent => [near.wrist <= SEEDED_FREE, kinds.contains(Status::ELBOW), false],
+            Closeness::Met => {
+                let kinds = kinds | solution.kinds();
+                [
+                    near.wrist <= edge || kinds.contains(Status::WRIST),
+                    near.elbow <= edge || kinds.contains(Status::ELBOW),
+                    kinds.contains(Status::SHOULDER),
+                ]
+            }
+        };
+        let open = [1, 2, 4].iter().zip(open).filter(|(_, open)| *open).map(|(bit, _)| bit);
+        (slot ^ wanted.cfx) & !open.sum::<i32>() == 0
+    }
+
+    /// The solution with an axis 5 that is zero to rounding, or an elbow that is straight to rounding, on the side that the configuration names.
+    fn on_side(
+        &self,
+        arm: &SphericalWrist,
+        solutions: &Solutions<6>,
+        solution: Solution<6>,
+        wanted: Configuration,
+    ) -> Solution<6> {
+        let moved_onto_pose = |start: [f64; 6], kept: usize| {
+            let limits = self.limits();
+            let (q, off) = self.corrected(solutions.pose(), start, limits, &[kept], DAMPED);
+            (off <= meets(solutions.pose()) && limits.contain(&q)).then_some(q)
+        };
+        let mut q = solution.q;
+        if self.is_coupled() || slot_of(arm, &q).number() == wanted.cfx {
+            return solution;
+        }
+        if (slot_of(arm, &q).number() ^ wanted.cfx) & 2 != 0
+            && arm.kinds(&q).contains(Status::ELBOW)
+        {
+            let bent = arm.with_bent_elbow(&q, wanted.cfx & 2 != 0);
+            q = moved_onto_pose(bent, 2).unwrap_or(q);
+        }
+        if (slot_of(arm, &q).number() ^ wanted.cfx) & 1 != 0 {
+            let sides = [1.0, -1.0].map(|side| arm.with_straight_wrist(&q, side));
+            let there = |q: &[f64; 6]| (slot_of(arm, q).number() ^ wanted.cfx) & 1 == 0;
+            q = sides.into_iter().filter(there).find_map(|q| moved_onto_pose(q, 4)).unwrap_or(q);
+        }
+        if slot_of(arm, &q).number() == wanted.cfx { Solution { q, ..solution } } else { solution }
     }
 
     /// Why no solution has a configuration: which others there are, or that no solution is inside the limits.

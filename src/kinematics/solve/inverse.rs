@@ -119,8 +119,28 @@ where
         if self.solve_in_lanes(solutions, redundancy) {
             return Ok(());
         }
+        self.solve_at_rest(solutions, redundancy)
+    }
+
+    /// [`Self::ik_into`] of a pose that is not regular.
+    #[cold]
+    pub(in crate::kinematics) fn solve_at_rest(
+        &self,
+        solutions: &mut Solutions<N>,
+        redundancy: RedundancyOf<N>,
+    ) -> Result<(), Error> {
         self.solve_scalar(solutions, &FreeChoice::rest(self.resting(redundancy)))?;
-        self.bring_families_inside(solutions, meets(&solutions.pose))
+        self.bring_families_inside(solutions, meets(&solutions.pose))?;
+        self.bring_one_inside(solutions)
+    }
+
+    /// Whether a pose is far enough from every singularity for the lanes to solve it.
+    pub(in crate::kinematics) fn is_regular(
+        &self,
+        pose: &Pose,
+        redundancy: RedundancyOf<N>,
+    ) -> bool {
+        self.solve_in_lanes(&mut self.unsolved(*pose), redundancy)
     }
 
     /// Where joints rest: one whose angle was given stays there.

@@ -1,8 +1,15 @@
 //! The inverse of a robot: of one pose, of rows, next to a seed, by configuration, along the redundancy.
 
 pub(crate) mod configuration;
+mod correction;
+mod family_search;
+mod golden_section;
 pub(crate) mod inverse;
 pub(crate) mod nearest;
+mod open_wrist;
+mod pair;
 pub(crate) mod redundancy;
+pub(crate) mod seeded;
 pub(crate) mod self_motion;
 pub(crate) mod self_motion_curve;
+mod starts;

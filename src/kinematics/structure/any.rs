@@ -5,6 +5,7 @@ use core::fmt::Debug;
 use super::declare::structures;
 use super::free_choice::FreeChoice;
 use super::lanes::PoseRow;
+use super::open_wrist::OpenWrist;
 use super::redundancy::Redundancy;
 use super::solver::Solver;
 use super::spherical_shoulder::SphericalShoulder;
@@ -18,6 +19,7 @@ use crate::kinematics::answer::status::Status;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::chain::limits::JointLimits;
+use crate::kinematics::pose::Pose;
 use crate::report::UnknownStructure;
 
 structures! {
@@ -78,6 +80,16 @@ pub(crate) trait Arm<const N: usize, R> {
     /// [`Structure::sin_5`]
     fn sin_5(&self, _q: &[f64; N]) -> Option<f64> {
         None
+    }
+
+    /// [`Structure::open_wrist`]
+    fn spherical_wrist(&self) -> Option<&dyn OpenWrist<N>> {
+        None
+    }
+
+    /// The last frame of the structure, seen from its first, of the tool's pose (eq. 1).
+    fn last_frame(&self, pose: &Pose) -> Pose {
+        *pose
     }
 
     /// [`Structure::may_be_coupled`]

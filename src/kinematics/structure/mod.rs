@@ -13,6 +13,7 @@ pub(crate) mod end_frames;
 pub(crate) mod free_choice;
 pub(crate) mod joint_map;
 pub(crate) mod lanes;
+pub(crate) mod open_wrist;
 pub(crate) mod planar_arm;
 pub(crate) mod recognition;
 pub(crate) mod redundancy;
@@ -29,6 +30,7 @@ use branches::Branches;
 use free_choice::FreeChoice;
 use joint_map::Placement;
 use lanes::LaneKernel;
+use open_wrist::OpenWrist;
 use redundancy::Redundancy;
 
 use super::answer::singularity::SingularDistances;
@@ -101,6 +103,11 @@ pub(crate) trait Structure<const N: usize, const S: usize>:
 
     /// sin q5, signed, of a structure whose wrist is singular where it is zero.
     fn sin_5(&self, _q: &[f64; N]) -> Option<f64> {
+        None
+    }
+
+    /// The arm as one whose wrist is three axes through a point, if it is.
+    fn open_wrist(&self) -> Option<&dyn OpenWrist<N>> {
         None
     }
 

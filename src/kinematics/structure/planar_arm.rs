@@ -263,7 +263,7 @@ impl PlanarArm {
         if shortest - r > tolerance {
             return Err(Reach::TooNear { shortfall: shortest - r });
         }
-        if r <= trust.radius().max(self.position_rounding()) {
+        if trust.forces(2) || r <= trust.radius().max(self.position_rounding()) {
             let (sin_2, cos_2) = free_theta_2.sin_cos();
             return Ok(Elbows {
                 front: self.elbow([sin_2, cos_2], [-sin_2, -cos_2]),

@@ -5,6 +5,7 @@ use super::any::{Arm, RowSolve, Rows};
 use super::end_frames::{Frame, Seen, Surroundings};
 use super::free_choice::FreeChoice;
 use super::lanes::{Blocks, Columns, LaneKernel, RegularPose};
+use super::open_wrist::OpenWrist;
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::solutions::{Place, Solution, Solutions};
@@ -114,6 +115,14 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Arm<N, T::Redundancy> f
 
     fn sin_5(&self, q: &[f64; N]) -> Option<f64> {
         self.structure.sin_5(q)
+    }
+
+    fn spherical_wrist(&self) -> Option<&dyn OpenWrist<N>> {
+        self.structure.open_wrist()
+    }
+
+    fn last_frame(&self, pose: &Pose) -> Pose {
+        self.surroundings.wrist_pose(pose)
     }
 
     fn may_be_coupled(&self) -> Result<(), &'static str> {

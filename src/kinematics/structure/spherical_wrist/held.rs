@@ -1,5 +1,7 @@
 //! The arm with its wrist held, or with axis 4 held: what a path that may deviate in orientation solves.
 
+use core::f64::consts::PI;
+
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 use nalgebra::{Matrix3, Rotation3, Vector3};
@@ -42,6 +44,14 @@ impl SphericalWrist {
                 let [q1, q2, q3, ..] = found;
                 [q1, q2, q3, wrist[0], wrist[1], wrist[2]]
             })
+    }
+
+    /// The wrist angles that give the flange the rotation `m` in the forearm (eq. 15 to 17), or the flipped ones.
+    pub(crate) fn with_wrist(&self, m: &Matrix3<f64>, q: &[f64; 6], flipped: bool) -> [f64; 6] {
+        let theta_4 = m[(1, 2)].atan2(m[(0, 2)]) + if flipped { PI } else { 0.0 };
+        let mut q = *q;
+        q[3] += self.placement.signs[3] * (theta_4 - self.theta(&q)[3]);
+        self.with_axis_4_held(m, &q)
     }
 
     /// The wrist angles with which the tool comes nearest to the rotation `m` of the flange in the forearm, theta_4 held: the approach axis

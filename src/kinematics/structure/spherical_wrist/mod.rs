@@ -8,6 +8,7 @@ mod branch;
 mod held;
 mod measure;
 mod one_pose;
+mod open;
 mod opw;
 mod solve;
 mod wrist;
@@ -25,6 +26,7 @@ use measure::PATTERN;
 use super::Structure;
 use super::branches::Branches;
 use super::free_choice::FreeChoice;
+use super::open_wrist::OpenWrist;
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::status::Status;
@@ -153,6 +155,10 @@ impl Structure<6, 8> for SphericalWrist {
 
     fn sin_5(&self, q: &[f64; 6]) -> Option<f64> {
         Some(self.theta(q)[4].sin())
+    }
+
+    fn open_wrist(&self) -> Option<&dyn OpenWrist<6>> {
+        Some(self)
     }
 
     /// Where axes 2 and 3 turn in the same sense, q2 + q3 is a pitch.

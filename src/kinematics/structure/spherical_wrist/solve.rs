@@ -118,7 +118,7 @@ impl SphericalWrist {
     }
 
     /// What the pose leaves open at theta_5 = 0 or 180 deg, in terms of the joints.
-    fn free_wrist(&self, theta_5: f64) -> FreeJoint {
+    pub(super) fn free_wrist(&self, theta_5: f64) -> FreeJoint {
         let sum =
             (theta_5.cos() > 0.0) == (self.placement.signs[3] * self.placement.signs[5] > 0.0);
         if sum { FreeJoint::WristSum } else { FreeJoint::WristDifference }

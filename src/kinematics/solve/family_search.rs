@@ -1,0 +1,237 @@
+//! The family of solutions along a free joint that moves more than a partner: axis 1 where the wrist centre is on it, axis 2 where the arm is
+//! folded onto it, axis 6 of three parallel axes.
+
+use core::f64::consts::{PI, TAU};
+
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
+use crate::error::Error;
+use crate::kinematics::answer::select::Cost;
+use crate::kinematics::answer::slot::MOST_SLOTS;
+use crate::kinematics::answer::solutions::{Solution, Solutions};
+use crate::kinematics::solve::golden_section::golden_section;
+use crate::kinematics::solve::nearest::{NearestSearch, Wanted};
+use crate::kinematics::structure::any::AnyStructure;
+use crate::kinematics::structure::arity::{Arity, Joints};
+use crate::kinematics::thresholds::LIMIT_SLACK;
+use crate::report::FreeJoint;
+
+/// Steps of a turn in which a family is searched for a place inside the limits.
+const STEPS: u32 = 360;
+
+/// Steps of a turn in which it is searched for one that is nearer than what was found.
+const COARSE_STEPS: u32 = 72;
+
+/// Steps of a turn of joint 6 at which a plane of the arm is tried that rounding leaves open.
+const PLANE_STEPS: u32 = 72;
+
+/// Least number of steps in which a part of a turn is searched.
+const LEAST_STEPS: u32 = 8;
+
+/// Valleys between steps that are looked into.
+const VALLEYS: u32 = 16;
+
+/// A number of each slot.
+type OfSlots = [f64; MOST_SLOTS];
+
+/// What is seen of a family at an angle of the free joint.
+#[derive(Clone, Copy)]
+struct Sample {
+    angle: f64,
+    /// How far the farthest joint is outside its limits or, inside them, less than zero and the less the nearer to the seed.
+    heights: OfSlots,
+    /// Size of sin q5 of an arm whose wrist may be singular as well.
+    wrists: OfSlots,
+}
+
+/// A part of a turn of the free joint.
+struct Window {
+    low: f64,
+    step: f64,
+    steps: u32,
+}
+
+impl<const N: usize> NearestSearch<'_, N>
+where
+    Joints<N>: Arity<N>,
+{
+    /// Looks at the family of a solution, on all its branches.
+    pub(super) fn look_along_family(
+        &mut self,
+        from: &Solution<N>,
+        free: FreeJoint,
+    ) -> Result<(), Error> {
+        let joint = free.joint() - 1;
+        for angle in [from.q[joint], self.wanted.seed[joint]] {
+            for turned in [angle, angle + PI] {
+                for member in &self.members(from, free, turned)? {
+                    self.move_onto_pose(&member.q, LIMIT_SLACK, member);
+                }
+            }
+        }
+        if !self.is_open(from, free)? {
+            return Ok(());
+        }
+        let Window { low, step, steps } = self.window(from, free);
+        let mut before = self.sample(from, free, low - step)?;
+        let mut here = self.sample(from, free, low)?;
+        let mut valleys = 0;
+        for number in 1..=steps + 1 {
+            let next = self.sample(from, free, low + f64::from(number) * step)?;
+            let between = [before.angle, next.angle];
+            for slot in 0..self.known.slot_count() {
+                let in_valley = |of: [f64; 3]| of[1].is_finite() && of[1] < of[0] && of[1] <= of[2];
+                let of = |values: fn(&Sample) -> &OfSlots| {
+                    [&before, &here, &next].map(|sample| values(sample)[slot])
+                };
+                // sin q5 changes by no more than the free joint does.
+                let wrists = of(|sample| &sample.wrists);
+                if slot % 2 == 0 && in_valley(wrists) && wrists[1] <= step {
+                    self.look_at_wrist_between(from, free, slot, between)?;
+                }
+                if in_valley(of(|sample| &sample.heights)) && valleys < VALLEYS {
+                    valleys += 1;
+                    self.look_into_valley(from, free, slot, between)?;
+                }
+            }
+            (before, here) = (here, next);
+        }
+        Ok(())
+    }
+
+    /// Whether the free joint leaves its angle with the tool on the pose: next to the singularity it does not.
+    fn is_open(&mut self, from: &Solution<N>, free: FreeJoint) -> Result<bool, Error> {
+        let own = from.q[free.joint() - 1];
+        for part in [0.05, -0.05, 0.8, -0.8, 1.6, -1.6, 2.4, -2.4] {
+            let solutions = self.members(from, free, own + part)?;
+            if (0..self.known.slot_count()).any(|slot| self.height(&solutions, slot).is_finite()) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// The angles of the free joint that may cost less than what was found.
+    fn window(&self, from: &Solution<N>, free: FreeJoint) -> Window {
+        let joint = free.joint() - 1;
+        let seed = self.wanted.seed[joint];
+        // The free joint alone makes farther angles cost more than what was found.
+        let half = self.best.map_or(f64::INFINITY, |best| {
+            (best.cost / self.wanted.weights[joint]).sqrt().max(f64::MIN_POSITIVE)
+        });
+        let coarse = TAU / f64::from(COARSE_STEPS);
+        if half < PI - coarse {
+            let steps = (LEAST_STEPS..COARSE_STEPS)
+                .find(|steps| f64::from(*steps) * coarse >= 2.0 * half)
+                .unwrap_or(COARSE_STEPS);
+            return Window { low: seed - half, step: 2.0 * half / f64::from(steps), steps };
+        }
+        let steps = if self.best.is_some() { COARSE_STEPS } else { STEPS };
+        // From that of the solution on, which may be where reach ends.
+        Window { low: from.q[joint], step: TAU / f64::from(steps), steps }
+    }
+
+    /// Looks at three parallel axes with joint 6 at several angles, where rounding of the shoulder leaves the plane of the arm open, and with it
+    /// a wrist that is nearly singular.
+    pub(super) fn look_at_open_plane(&mut self, from: &Solution<N>) -> Result<(), Error> {
+        let free = FreeJoint::Parallel;
+        let [low, high] = self.wanted.limits.to_array()[5];
+        let own = from.q[5];
+        let known =
+            [self.wanted.seed[5], low, high].map(|at| if at.is_finite() { at } else { own });
+        let steps = if self.best.is_none() { PLANE_STEPS } else { 0 };
+        let others = (0..steps).map(|step| own + f64::from(step) * TAU / f64::from(PLANE_STEPS));
+        for angle in known.into_iter().chain(others) {
+            let seeded = Solution { q: self.others, ..*from };
+            let solutions = self.robot.solve_with_free(self.known.pose(), &seeded, free, angle)?;
+            for solution in &solutions {
+                self.move_onto_pose(&solution.q, LIMIT_SLACK, solution);
+            }
+        }
+        Ok(())
+    }
+
+    /// The solutions with the free joint at `angle`, of which the nearest is taken.
+    fn members(
+        &mut self,
+        from: &Solution<N>,
+        free: FreeJoint,
+        angle: f64,
+    ) -> Result<Solutions<N>, Error> {
+        let mut q = self.others;
+        if let (Some(last), Some(given)) = (q.get_mut(6), from.q.get(6)) {
+            *last = *given;
+        }
+        let seeded = Solution { q, ..*from };
+        let solutions = self.robot.solve_with_free(self.known.pose(), &seeded, free, angle)?;
+        for solution in &solutions {
+            self.take_if_met(solution, from);
+        }
+        Ok(solutions)
+    }
+
+    fn sample(&mut self, from: &Solution<N>, free: FreeJoint, angle: f64) -> Result<Sample, Error> {
+        let solutions = self.members(from, free, angle)?;
+        let heights = core::array::from_fn(|slot| self.height(&solutions, slot));
+        let wrists = core::array::from_fn(|slot| self.wrist(&solutions, slot));
+        Ok(Sample { angle, heights, wrists })
+    }
+
+    fn height(&self, solutions: &Solutions<N>, slot: usize) -> f64 {
+        let Wanted { limits, seed, weights, .. } = self.wanted;
+        let met = |solution: &&Solution<N>| {
+            self.robot.residual(&solution.q, self.known.pose()).largest() <= self.allowed
+        };
+        let Some(solution) = solutions.slot(slot).filter(met) else { return f64::INFINITY };
+        match limits.turned_to(&solution.q, seed) {
+            Some(q) => -1.0 / (1.0 + Cost::Distance.total(&q, seed, weights)),
+            None => limits.worst_overrun(&solution.q),
+        }
+    }
+
+    fn wrist(&self, solutions: &Solutions<N>, slot: usize) -> f64 {
+        let Some(wrist) = self.robot.structure().arm().spherical_wrist() else {
+            return f64::INFINITY;
+        };
+        let solution = solutions.slot(slot).or_else(|| solutions.slot(slot ^ 1));
+        solution.map_or(f64::INFINITY, |found| wrist.sin_5(&found.q).abs())
+    }
+
+    /// Looks where between two angles the joints of a slot are the least outside the limits, or the nearest to the seed.
+    fn look_into_valley(
+        &mut self,
+        from: &Solution<N>,
+        free: FreeJoint,
+        slot: usize,
+        [low, high]: [f64; 2],
+    ) -> Result<(), Error> {
+        let height = |angle| {
+            let solutions = self.members(from, free, angle)?;
+            Ok(self.height(&solutions, slot))
+        };
+        golden_section(height, low, high).map(|_| ())
+    }
+
+    /// Looks where between two angles the wrist of a slot is singular as well: there axes 4 and 6 may take any part of their sum.
+    fn look_at_wrist_between(
+        &mut self,
+        from: &Solution<N>,
+        free: FreeJoint,
+        slot: usize,
+        [low, high]: [f64; 2],
+    ) -> Result<(), Error> {
+        let wrist = |angle| {
+            let solutions = self.members(from, free, angle)?;
+            Ok(self.wrist(&solutions, slot))
+        };
+        let (angle, _) = golden_section(wrist, low, high)?;
+        let solutions = self.members(from, free, angle)?;
+        for twin in [slot, slot ^ 1] {
+            if let Some(solution) = solutions.slot(twin) {
+                self.look_at_wrist(solution);
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,127 @@
+//! The wrist of a singular pose: twins, the pair of joints about axes 4 and 6, and what another singularity leaves open of them.
+
+use core::f64::consts::{PI, TAU};
+
+use crate::kinematics::answer::solutions::Solution;
+use crate::kinematics::answer::status::Status;
+use crate::kinematics::chain::limits::JointLimits;
+use crate::kinematics::pose::angles::wrap;
+use crate::kinematics::solve::correction::{DAMPED, DETERMINED};
+use crate::kinematics::solve::nearest::{NearestSearch, Wanted};
+use crate::kinematics::solve::pair::Pair;
+use crate::kinematics::structure::any::AnyStructure;
+use crate::kinematics::structure::arity::{Arity, Joints};
+use crate::kinematics::thresholds::{LIMIT_SLACK, PATH_WRIST_SIN};
+
+/// Steps of a turn in which a wrist is searched that is open next to another singularity.
+const WRIST_STEPS: u32 = 24;
+
+/// How far apart the joints of two arms are that are one [rad].
+const SAME_ARM: f64 = 1e-9;
+
+impl<const N: usize> NearestSearch<'_, N>
+where
+    Joints<N>: Arity<N>,
+{
+    /// Looks next to joints of the arm with joint 5 at its singularity, to either side.
+    pub(super) fn start_with_straight_wrist(&mut self, start: &[f64; N], solution: &Solution<N>) {
+        let Some(wrist) = self.robot.structure().arm().spherical_wrist() else { return };
+        for side in [1.0, -1.0] {
+            let straight = wrist.with_straight_wrist(start, side);
+            self.move_keeping(&straight, &[4], DAMPED, solution);
+        }
+    }
+
+    /// Looks at the angles of two joints of which the pose fixes only the sum, or next to another singularity not much more.
+    pub(super) fn look_at_wrist(&mut self, solution: &Solution<N>) {
+        let Some(pair) = self.pair(solution) else { return };
+        if !self.is_new(solution) {
+            return;
+        }
+        let Wanted { limits, seed, weights, .. } = self.wanted;
+        let own = solution.q[pair.first];
+        if let Some(nearest) = pair.nearest(limits, seed, weights)
+            && self.move_onto_pose(&pair.put(&solution.q, nearest), 0.0, solution)
+            && self.best.is_some()
+        {
+            return;
+        }
+        // Where rounding leaves a part of the turn open, that part holds one of the twins, and ends inside the limits or at one of their ends.
+        let ends = pair.edges(limits).map(|edge| if edge.is_finite() { edge } else { own });
+        for angle in [seed[pair.first], own, own + PI].into_iter().chain(ends) {
+            self.move_with_wrist_at(&pair, angle, solution);
+        }
+        // What else is wanted may keep those parts out of which an angle is known.
+        if self.best.is_none() && self.must_meet() && solution.free.is_none() {
+            for step in 0..WRIST_STEPS {
+                let angle = own + f64::from(step) * TAU / f64::from(WRIST_STEPS);
+                self.move_with_wrist_at(&pair, angle, solution);
+            }
+        }
+    }
+
+    /// Looks where the first joint of a pair is at an angle, and joint 5 or the elbow, which another singularity may leave open, at its own.
+    fn move_with_wrist_at(&mut self, pair: &Pair, angle: f64, from: &Solution<N>) {
+        let q = pair.put(&from.q, angle);
+        self.move_onto_pose(&q, LIMIT_SLACK, from);
+        if self.best.is_some() && from.kinds().is_empty() {
+            return;
+        }
+        self.move_keeping(&q, &[2], DAMPED, from);
+        if let Some(wrist) = self.robot.structure().arm().spherical_wrist() {
+            let straight = wrist.with_straight_wrist(&q, 0.0);
+            self.move_keeping(&straight, &[4], DAMPED, from);
+            self.move_keeping(&straight, &[2, 4], DAMPED, from);
+        }
+    }
+
+    /// Looks at an elbow that is just not straight, to either side: the forearm turns with it, and a wrist that is open with that.
+    pub(super) fn bend_elbow(&mut self, from: &Solution<N>) {
+        let arm = self.robot.structure().arm();
+        let Some(wrist) = arm.spherical_wrist() else { return };
+        if !arm.singular(&from.q).is_some_and(|(_, kinds)| kinds.contains(Status::ELBOW)) {
+            return;
+        }
+        let pose = self.known.pose();
+        let t_shoulder_wrist = arm.last_frame(pose);
+        for behind in [false, true] {
+            let bent = wrist.with_bent_elbow(&from.q, behind);
+            let (bent, _) = self.robot.corrected(pose, bent, &JointLimits::UNLIMITED, &[2], DAMPED);
+            for flipped in [false, true] {
+                let met = wrist.with_wrist_of(&t_shoulder_wrist, &bent, flipped);
+                self.move_keeping(&met, &[2], DETERMINED, from);
+            }
+        }
+    }
+
+    /// The pair of joints that a solution leaves open, or that may be open next to another singularity.
+    fn pair(&self, solution: &Solution<N>) -> Option<Pair> {
+        let declared = solution.free.and_then(|free| Pair::of(free, &solution.q));
+        if declared.is_some() {
+            return declared;
+        }
+        let wrist = self.robot.structure().arm().spherical_wrist()?;
+        let q = &solution.q;
+        // Off the pose by more than rounding, it must be a wrist whose branches are one.
+        let may_be_open = self.must_meet() || solution.kinds().contains(Status::WRIST);
+        (may_be_open && wrist.sin_5(q).abs() <= PATH_WRIST_SIN)
+            .then(|| Pair::of(wrist.wrist_pair(q), &solution.q))?
+    }
+
+    /// Whether the wrist of this arm was not looked at before.
+    fn is_new(&mut self, solution: &Solution<N>) -> bool {
+        let side = solution.slot.index() % 2 == 1;
+        let arm: [f64; 3] =
+            core::array::from_fn(|joint| solution.q.get(joint).copied().unwrap_or(0.0));
+        let same = |(other, other_side): &([f64; 3], bool)| {
+            side == *other_side && arm.iter().zip(other).all(|(a, b)| wrap(a - b).abs() <= SAME_ARM)
+        };
+        if N == 6 && self.arms.iter().flatten().any(same) {
+            return false;
+        }
+        if let Some(place) = self.arms.iter_mut().find(|place| place.is_none()) {
+            *place = Some((arm, side));
+        }
+        true
+    }
+}

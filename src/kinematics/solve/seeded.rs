@@ -1,0 +1,102 @@
+//! The solution next to a seed, for every number of joints that has an inverse.
+
+use crate::error::Error;
+use crate::kinematics::answer::check::{check_seed, check_weights};
+use crate::kinematics::answer::select::Cost;
+use crate::kinematics::answer::solutions::Solution;
+use crate::kinematics::pose::{Pose, checked_pose};
+use crate::kinematics::robot::Robot;
+use crate::kinematics::solve::nearest::Wanted;
+use crate::kinematics::structure::arity::{Arity, Joints};
+use crate::report::Explanation;
+
+/// Robots that bring their tool to a pose next to a seed, of six and of seven joints, each in its way. Sealed.
+pub trait Inverse<const N: usize>: sealed::Sealed {
+    /// The solution inside the limits that is nearest to a seed, for arguments that were checked.
+    #[doc(hidden)]
+    fn nearest_checked(
+        &self,
+        pose: Pose,
+        seed: &[f64; N],
+        weights: &[f64; N],
+    ) -> Result<Solution<N>, Error>;
+
+    /// The outcome of the search in a sentence, for a pose that was checked.
+    #[doc(hidden)]
+    fn explain(&self, pose: &Pose) -> Result<Explanation, Error>;
+}
+
+mod sealed {
+    pub trait Sealed {}
+
+    impl Sealed for crate::kinematics::robot::Robot<6> {}
+    impl Sealed for crate::kinematics::robot::Robot<7> {}
+}
+
+impl Inverse<6> for Robot<6> {
+    fn nearest_checked(
+        &self,
+        pose: Pose,
+        seed: &[f64; 6],
+        weights: &[f64; 6],
+    ) -> Result<Solution<6>, Error> {
+        let mut solutions = self.unsolved(pose);
+        let nearest = if self.solve_in_lanes(&mut solutions, ()) {
+            solutions.cheapest(seed, weights, Cost::Distance)
+        } else {
+            self.solve_at_rest(&mut solutions, ())?;
+            let wanted = Wanted { limits: solutions.limits, seed, weights, accepts: &|_| true };
+            self.nearest_at_singularity(&solutions, &wanted)?
+        };
+        nearest.ok_or_else(|| Error::Unreachable(solutions.explain()))
+    }
+
+    fn explain(&self, pose: &Pose) -> Result<Explanation, Error> {
+        let solutions = self.ik_checked(*pose, ())?;
+        if !solutions.iter().any(Solution::within_limits)
+            && self.nearest_of(&solutions, &self.limits().rest(), &[1.0; 6])?.is_some()
+        {
+            return Ok(Explanation::Found { solutions: solutions.len(), inside: 1 });
+        }
+        Ok(solutions.explain())
+    }
+}
+
+impl Inverse<7> for Robot<7> {
+    fn nearest_checked(
+        &self,
+        pose: Pose,
+        seed: &[f64; 7],
+        weights: &[f64; 7],
+    ) -> Result<Solution<7>, Error> {
+        self.nearest_along_redundancy(&pose, seed, weights)
+    }
+
+    fn explain(&self, pose: &Pose) -> Result<Explanation, Error> {
+        self.explain_along_redundancy(pose)
+    }
+}
+
+impl<const N: usize> Robot<N>
+where
+    Self: Inverse<N>,
+    Joints<N>: Arity<N>,
+{
+    /// The solution inside the limits that is nearest to `seed` [rad], turns considered: free joints keep the seed's angle, and of an arm of
+    /// seven joints every angle of joint 7 is considered.
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::ik_with`], [`Error::InvalidJoints`] for a seed or weight that is not finite, and [`Error::Unreachable`] when no solution
+    /// is inside the limits.
+    pub fn ik_nearest(
+        &self,
+        pose: &Pose,
+        seed: &[f64; N],
+        weights: &[f64; N],
+    ) -> Result<Solution<N>, Error> {
+        check_seed("seed", seed)?;
+        check_weights(weights)?;
+        self.nearest_checked(checked_pose(pose)?, seed, weights)
+    }
+}

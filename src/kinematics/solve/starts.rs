@@ -1,0 +1,84 @@
+//! Starts for joints that a singular pose leaves open, several at once perhaps: at the seed, at the limits, and all around.
+
+use core::f64::consts::{PI, TAU};
+
+use crate::error::Error;
+use crate::kinematics::answer::solutions::{Solution, Solutions};
+use crate::kinematics::answer::status::Status;
+use crate::kinematics::pose::angles::wrap;
+use crate::kinematics::solve::nearest::NearestSearch;
+use crate::kinematics::structure::arity::{Arity, Joints};
+use crate::kinematics::thresholds::LIMIT_SLACK;
+
+/// Steps of axis 1 where two joints of the arm are free.
+const OTHER_STEPS: u32 = 12;
+
+/// Steps of axis 2 at which the wrist is put straight there.
+const UPPER_STEPS: u32 = 8;
+
+/// How far the tool of a seed may be off the pose for its joints to be moved onto it [m, rad].
+const SEED_OFF: f64 = 1e-2;
+
+impl<const N: usize> NearestSearch<'_, N>
+where
+    Joints<N>: Arity<N>,
+{
+    /// Looks where several joints that are open at once may be inside narrow limits: at the limits, or next to the seed inside them.
+    pub(super) fn start_from_limits(&mut self, solution: &Solution<N>) {
+        self.move_onto_pose(&solution.q, LIMIT_SLACK, solution);
+        let limits = self.wanted.limits.to_array();
+        let seed = core::array::from_fn(|joint| {
+            let [low, high] = limits[joint];
+            self.wanted.seed[joint].max(low).min(high)
+        });
+        let middle = core::array::from_fn(|joint| {
+            let middle = 0.5 * (limits[joint][0] + limits[joint][1]);
+            if middle.is_finite() { middle } else { seed[joint] }
+        });
+        for start in [seed, middle] {
+            self.move_onto_pose(&start, 0.0, solution);
+            self.start_with_straight_wrist(&start, solution);
+        }
+    }
+
+    /// Looks at the joints next to the seed that meet the pose.
+    pub(super) fn start_from_seed(&mut self, solutions: &Solutions<N>) {
+        let seed = *self.wanted.seed;
+        if self.is_done()
+            || !self.must_meet()
+            || self.robot.residual(&seed, self.known.pose()).largest() > SEED_OFF
+        {
+            return;
+        }
+        let apart = |solution: &&Solution<N>| {
+            (0..N).map(|joint| wrap(solution.q[joint] - seed[joint]).powi(2)).sum::<f64>()
+        };
+        if let Some(next) = solutions.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))) {
+            self.move_onto_pose(&seed, LIMIT_SLACK, next);
+        }
+    }
+
+    /// Looks along the family of a solution with axis 1 at several angles, where the wrist centre is on that as well.
+    pub(super) fn turn_other_joints(&mut self, solution: &Solution<N>) -> Result<(), Error> {
+        if N != 6 || !solution.kinds().contains(Status::SHOULDER | Status::ELBOW) {
+            return Ok(());
+        }
+        let [low, high] = self.wanted.limits.to_array()[0];
+        let (low, high) = (low.max(-PI), high.min(PI).max(low));
+        for step in 0..=OTHER_STEPS {
+            if self.best.is_some() {
+                break;
+            }
+            self.others[0] = low + (high - low) * f64::from(step) / f64::from(OTHER_STEPS);
+            self.look_along_family(solution, self.upper())?;
+            for part in 0..UPPER_STEPS {
+                let mut start = solution.q;
+                start[0] = self.others[0];
+                start[1] += f64::from(part) * TAU / f64::from(UPPER_STEPS);
+                self.start_with_straight_wrist(&start, solution);
+            }
+        }
+        self.others = *self.wanted.seed;
+        Ok(())
+    }
+}
