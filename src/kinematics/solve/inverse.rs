@@ -34,7 +34,8 @@ impl Robot<6> {
         self.ik_checked(checked_pose(pose)?, 0.0)
     }
 
-    /// The solution inside the limits that is nearest to `seed` [rad], turns considered; free joints keep the seed's angle.
+    /// The solution inside the limits that is nearest to `seed` [rad], 2 pi equivalents considered; of a self-motion the
+    /// nearest member.
     ///
     /// # Errors
     ///
