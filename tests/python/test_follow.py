@@ -71,8 +71,9 @@ def test_the_nearest_of_a_singular_wrist_shares_the_way_between_axes_4_and_6(q, 
     assume(Kind.SHOULDER not in robot.ik(pose)[0].kinds)
     found = robot.ik_nearest(pose, seed)
     assume(abs(np.sin(found[4])) < 1e-13)
-    assert abs(abs(found[3] - seed[3]) - abs(found[5] - seed[5])) < 1e-9
-    assert abs(found[3] - seed[3]) <= np.pi / 2 + 1e-9
+    # At the least cost angles that are off by 1e-5 change it by their square.
+    assert abs(abs(found[3] - seed[3]) - abs(found[5] - seed[5])) < 1e-5
+    assert abs(found[3] - seed[3]) <= np.pi / 2 + 1e-5
 
 
 @given(q=singular_joints(), value=st.floats(-6, 6))
