@@ -89,7 +89,8 @@ impl PyRobot {
     ///
     /// Args:
     ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
-    ///     seed: Joint vectors [rad], shape (..., n), or one for all poses, shape (n,). A joint that the pose leaves free keeps its angle.
+    ///     seed: Joint vectors [rad], shape (..., n), or one for all poses, shape (n,). Of joints that the pose leaves
+    ///         free, the nearest angles are taken.
     ///     weights: Cost of moving each joint, shape (n,); ones when not given.
     ///
     /// Returns:

@@ -58,20 +58,22 @@ def test_the_nearest_is_inside_closes_and_is_the_nearest(data, q, seed):
     assert np.abs(robot.fk(found) - pose).max() <= SEEDED + 2 * off + 1e-14
     turns = robot.ik(pose).turns()
     cost = np.linalg.norm(np.asarray(turns) - seed, axis=1)
-    # At a singularity a free joint was given the seed's angle, and a merged branch may be the nearer one.
-    if len(turns) and not any(solution.kinds for solution in turns):
+    # At a singularity another member of a family may be nearer than the one that stands for it; none is farther.
+    if len(turns):
         assert np.linalg.norm(found - seed) <= cost.min() + 1e-9
 
 
 @given(q=singular_joints(), seed=st.lists(st.floats(-9, 9), min_size=6, max_size=6).map(np.array))
-def test_a_free_joint_keeps_the_seed_s_angle(q, seed):
+def test_the_nearest_of_a_singular_wrist_shares_the_way_between_axes_4_and_6(q, seed):
     q[4] = 0.0
     robot = ARM.with_limits([[-np.inf, np.inf]] * 6)
     pose = robot.fk(q)
     assume(Kind.SHOULDER not in robot.ik(pose)[0].kinds)
     found = robot.ik_nearest(pose, seed)
     assume(abs(np.sin(found[4])) < 1e-13)
-    assert abs(found[3] - seed[3]) < 1e-9
+    # At the least cost angles that are off by 1e-5 change it by their square.
+    assert abs(abs(found[3] - seed[3]) - abs(found[5] - seed[5])) < 1e-5
+    assert abs(found[3] - seed[3]) <= np.pi / 2 + 1e-5
 
 
 @given(q=singular_joints(), value=st.floats(-6, 6))

@@ -82,8 +82,8 @@ where
     Self: Inverse<N>,
     Joints<N>: Arity<N>,
 {
-    /// The solution inside the limits that is nearest to `seed` [rad], turns considered: free joints keep the seed's angle, and of an arm of
-    /// seven joints every angle of joint 7 is considered.
+    /// The solution inside the limits that is nearest to `seed` [rad], 2 pi equivalents considered: of a self-motion the nearest member, and of
+    /// an arm of seven joints with every angle of joint 7.
     ///
     /// # Errors
     ///

@@ -2,6 +2,9 @@
 
 use core::f64::consts::{PI, TAU};
 
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
 use crate::error::Error;
 use crate::kinematics::answer::solutions::{Solution, Solutions};
 use crate::kinematics::answer::status::Status;
