@@ -1,7 +1,8 @@
-//! Laws of `Robot::<7>::ik_nearest`, next to the stretched arm above all: there the angles of joint 7 that reach a pose
-//! are an interval narrower than any grid.
+//! Laws of `Robot::<7>::ik_nearest`, next to the stretched arm above all: there the angles of joint
+//! 7 that reach a pose are an interval narrower than any grid.
 //!
-//! `IRBKIN_POSES` is the number of poses for each arm and distance; `make hardsets` prints one row an arm with more.
+//! `IRBKIN_POSES` is the number of poses for each arm and distance; `make hardsets` prints one row
+//! an arm with more.
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 mod common;
@@ -16,13 +17,15 @@ use nalgebra::Isometry3;
 /// Distances of joint 4 from where the arm is stretched [rad].
 const OFF: [f64; 9] = [0.0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2, 0.035];
 
-/// Below this elbow angle the straight arm meets the pose as well [rad]: what answers differ by there.
+/// Below this elbow angle the straight arm meets the pose as well [rad]: what answers differ by
+/// there.
 const STRAIGHT: f64 = 5e-7;
 
 /// What distances in joint space are compared to elsewhere [rad].
 const ROUNDING: f64 = 1e-8;
 
-/// How far an answer may be off its pose [m, rad]: the precision to which a seed keeps a joint that is open.
+/// How far an answer may be off its pose [m, rad]: the precision to which a seed keeps a joint that
+/// is open.
 const MEETS: f64 = thresholds::SEEDED_FREE;
 
 const WEIGHTS: [f64; 7] = [1.0; 7];
@@ -59,12 +62,14 @@ impl Arm {
         self.robot.limits().to_array().map(|[low, high]| rng.between(low.max(-PI), high.min(PI)))
     }
 
-    /// Joint angles inside the limits with joint 4 at `off` [rad] from the stretched arm, to either side.
+    /// Joint angles inside the limits with joint 4 at `off` [rad] from the stretched arm, to either
+    /// side.
     fn next_to_stretched(&self, off: f64, rng: &mut Rng) -> [f64; 7] {
         loop {
             let mut q = self.anywhere(rng);
             q[3] = self.stretched + if rng.unit() < 0.5 { off } else { -off };
-            // Where axis 6 is square to the plane of the arm, joint 7 alone does not move the wrist towards the shoulder.
+            // Where axis 6 is square to the plane of the arm, joint 7 alone does not move the wrist
+            // towards the shoulder.
             if rng.unit() < 0.5 {
                 q[4] = 0.0;
             }
@@ -91,7 +96,8 @@ impl ToMatrixPose for Isometry3<f64> {
     }
 }
 
-/// Joint 4 where the place in which axes 5 and 6 meet is farthest from the shoulder: its square is a + b cos(q4 - phase).
+/// Joint 4 where the place in which axes 5 and 6 meet is farthest from the shoulder: its square is
+/// a + b cos(q4 - phase).
 fn stretched(robot: &Robot<7>) -> f64 {
     let reach2 = |q4: f64| {
         let (frames, _) = robot.link_frames(&[0.0, 0.0, 0.0, q4, 0.0, 0.0, 0.0]);
@@ -241,7 +247,8 @@ const PLACES: [(&str, &[(usize, f64)]); 8] = [
     ("shoulder and wrist, twice", &[(2, 0.0), (3, -FRAC_PI_2), (5, FRAC_PI_2), (6, 0.0)]),
 ];
 
-/// Next to a second singularity the stretched arm leaves more open than the curve is long, from 1e-9 to 1e-5 rad off.
+/// Next to a second singularity the stretched arm leaves more open than the curve is long, from
+/// 1e-9 to 1e-5 rad off.
 const OFF_STRETCHED_PAIRS: [f64; 6] = [0.0, 1e-4, 1e-3, 3e-3, 1e-2, 0.035];
 
 #[test]
@@ -344,7 +351,8 @@ fn smooth_paths_through_the_stretched_arm_neither_end_nor_jump() {
                 let next = next.unwrap_or_else(|e| panic!("{} {step}: {e} {made:?}", arm.name)).q;
                 let farther = distance(&next, &before) - distance(&made, &before);
                 assert!(farther <= STRAIGHT, "{} {step}: {farther:e} {made:?}", arm.name);
-                // Where the curve shrinks to a point, what has drifted off along it comes back; at a limit it may leap.
+                // Where the curve shrinks to a point, what has drifted off along it comes back; at
+                // a limit it may leap.
                 let regular = middle[1].sin().abs() > 0.4 && middle[5].sin().abs() > 0.4;
                 if arm.name == "iiwa without limits" && regular {
                     worst = worst.max(distance(&next, &before) / distance(&made, &made_before));

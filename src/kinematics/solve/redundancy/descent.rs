@@ -21,7 +21,8 @@ impl Search<'_> {
             .sum()
     }
 
-    /// Down from a point of the curve; from where the curve comes back inside the limits too, if the point is outside.
+    /// Down from a point of the curve; from where the curve comes back inside the limits too, if
+    /// the point is outside.
     pub(super) fn descend(&mut self, start: Point) {
         for edge in self.edges(&start).into_iter().flatten() {
             self.downhill(edge);
@@ -29,7 +30,8 @@ impl Search<'_> {
         self.downhill(start);
     }
 
-    /// Where the curve comes back inside the limits: a joint that is outside them stands at its limit, and none is outside.
+    /// Where the curve comes back inside the limits: a joint that is outside them stands at its
+    /// limit, and none is outside.
     fn edges(&self, point: &Point) -> [Option<Point>; 7] {
         let limits = self.robot.limits().to_array();
         core::array::from_fn(|joint| {
@@ -42,7 +44,8 @@ impl Search<'_> {
         })
     }
 
-    /// Down to the bottom of the valley that a point of the curve lies in, inside the limits or not; keeps what is inside.
+    /// Down to the bottom of the valley that a point of the curve lies in, inside the limits or
+    /// not; keeps what is inside.
     fn downhill(&mut self, start: Point) {
         let (mut point, mut step) = (start, FIRST_CURVE_STEP);
         self.keep(&point.joints());
@@ -72,7 +75,8 @@ impl Search<'_> {
         }
     }
 
-    /// The bottom of a valley between a point and one that is ahead of it, with the slopes at both: where the slope is zero, by false position.
+    /// The bottom of a valley between a point and one that is ahead of it, with the slopes at both:
+    /// where the slope is zero, by false position.
     fn bottom(&mut self, point: &Point, ahead: f64, slopes: [f64; 2]) {
         let curve = self.curve;
         let at = |part: f64| curve.across(&(point.q + part * ahead * point.along), &point.along);

@@ -1,4 +1,5 @@
-//! What a pose leaves open besides joint 7: at a singularity whole families of joint vectors meet it.
+//! What a pose leaves open besides joint 7: at a singularity whole families of joint vectors meet
+//! it.
 
 use core::f64::consts::TAU;
 
@@ -11,10 +12,12 @@ use crate::error::Error;
 use crate::kinematics::chain::jacobian::JacobianFrame;
 use crate::kinematics::solve::self_motion_curve::Joints;
 
-/// The joints, from 0, of which a solve takes the angle that it is given where the pose leaves them open.
+/// The joints, from 0, of which a solve takes the angle that it is given where the pose leaves them
+/// open.
 const OPEN: [usize; 3] = [0, 4, 5];
 
-/// Angles of a joint that are looked at in a turn; between the best one's neighbors its valley is narrowed.
+/// Angles of a joint that are looked at in a turn; between the best one's neighbors its valley is
+/// narrowed.
 const PLACES: u32 = 32;
 
 /// Probes: each leaves 62 % of the way, all of them 1e-9 rad.
@@ -23,7 +26,8 @@ const NARROWINGS: u32 = 42;
 /// Where an interval is cut so that the larger part is cut alike: the golden section.
 const GOLDEN: f64 = 0.381_966_011_250_105_1;
 
-/// Steps to the nearest place that the tool does not see: each of the seven joints may come to a limit.
+/// Steps to the nearest place that the tool does not see: each of the seven joints may come to a
+/// limit.
 const SLIDES: u32 = 16;
 
 /// Sweeps of the singular value decomposition of a Jacobian.
@@ -32,8 +36,8 @@ const SWEEPS: usize = 100;
 /// What a step must gain of the cost to be followed by another [1].
 const LEAST_GAIN: f64 = 1e-12;
 
-/// Singular values of the Jacobian below which joints do not move the tool, as a part of the greatest [1]: what is
-/// between rounding and this is a curve that descents follow.
+/// Singular values of the Jacobian below which joints do not move the tool, as a part of the
+/// greatest [1]: what is between rounding and this is a curve that descents follow.
 const STILL: f64 = 1e-6;
 
 /// Weight of a joint as a part of the greatest, at the least [1]: one of no weight has no measure.
@@ -43,7 +47,8 @@ const LEAST_WEIGHT: f64 = 1e-8;
 const HELD: f64 = 1e24;
 
 impl Search<'_> {
-    /// Looks for the nearest of the joint vectors among which the open joints choose, from those of a sample on.
+    /// Looks for the nearest of the joint vectors among which the open joints choose, from those of
+    /// a sample on.
     pub(super) fn choose_free_joints(&mut self, sample: &Sample) -> Result<(), Error> {
         let mut best = *sample;
         for joint in OPEN {
@@ -56,9 +61,10 @@ impl Search<'_> {
         self.slide(best)
     }
 
-    /// Goes to the point nearest to the seed of what does not move the tool, and on from there. Several open joints at
-    /// once, joint 7 among them, turn about one line, so that the sum of their angles is all that the pose says: the
-    /// first step is the last. A joint that comes to a limit is held there.
+    /// Goes to the point nearest to the seed of what does not move the tool, and on from there.
+    /// Several open joints at once, joint 7 among them, turn about one line, so that the sum of
+    /// their angles is all that the pose says: the first step is the last. A joint that comes to a
+    /// limit is held there.
     fn slide(&mut self, from: Sample) -> Result<(), Error> {
         let (mut best, mut weights) = (from, self.weights);
         for _ in 0..SLIDES {
@@ -81,8 +87,8 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// The way to the seed as far as it does not move the tool, small moves of it left out: in the measure of `weights`
-    /// the nearest place of the seed's linear neighborhood.
+    /// The way to the seed as far as it does not move the tool, small moves of it left out: in the
+    /// measure of `weights` the nearest place of the seed's linear neighborhood.
     fn still_tool(&self, q: &[f64; 7], weights: &[f64; 7]) -> Option<[f64; 7]> {
         let most = weights.iter().copied().fold(0.0, f64::max);
         let roots = Joints::from(weights.map(|weight| weight.max(LEAST_WEIGHT * most).sqrt()));

@@ -17,12 +17,9 @@ use crate::kinematics::thresholds::SAMPLE_LEAP;
 /// How often the distance of two samples is halved where a joint goes far between them.
 const DEPTH: u32 = 12;
 
-/// Intervals at least where edges are among the marks: half a turn of joint 5 in steps far below [`SAMPLE_LEAP`], so
-/// that two valleys next to an edge are told apart.
+/// Intervals between two marks at least: half a turn of joint 5 in steps far below [`SAMPLE_LEAP`],
+/// so that two valleys next to an edge are told apart.
 const LEAST_INTERVALS: f64 = 16.0;
-
-/// Intervals at least where no edge is near.
-const LEAST_REGULAR_INTERVALS: f64 = 4.0;
 
 /// Angles of joint 7 in ascending order.
 struct Marks {
@@ -49,11 +46,10 @@ impl Marks {
 }
 
 impl Search<'_> {
-    /// Looks at every slot between the edges of reach, at angles that are `spacing` [rad] apart at most, and goes down
-    /// from each slot's minima.
+    /// Looks at every slot between the edges of reach, at angles that are `spacing` [rad] apart at
+    /// most, and goes down from each slot's minima.
     pub(super) fn between_edges(&mut self, spacing: f64) -> Result<(), Error> {
         let Some(marks) = self.marks() else { return Ok(()) };
-        let least = if marks.count > 2 { LEAST_INTERVALS } else { LEAST_REGULAR_INTERVALS };
         let mut left = self.samples_at(marks.angles[0])?;
         let mut seen = [Samples::NONE, left];
         for (low, high) in marks.pairs() {
@@ -66,24 +62,24 @@ impl Search<'_> {
                 self.step(&mut seen, &Samples::NONE)?;
                 seen = [Samples::NONE, right];
             } else {
-                self.interval(&mut seen, &left, &right, [spacing, least])?;
+                self.interval(&mut seen, &left, &right, spacing)?;
             }
             left = right;
         }
         self.step(&mut seen, &Samples::NONE)
     }
 
-    /// Looks at the samples from one edge to the next, the closer together the nearer to an edge: there the other joints
-    /// move by the root of what joint 7 does.
+    /// Looks at the samples from one edge to the next, the closer together the nearer to an edge:
+    /// there the other joints move by the root of what joint 7 does.
     fn interval(
         &mut self,
         seen: &mut [Samples; 2],
         first: &Samples,
         last: &Samples,
-        [spacing, least]: [f64; 2],
+        spacing: f64,
     ) -> Result<(), Error> {
         let (from, length, mut left) = (first.q7, last.q7 - first.q7, *first);
-        let intervals = (2.0 * (0.75 * length / spacing).ceil()).max(least);
+        let intervals = (2.0 * (0.75 * length / spacing).ceil()).max(LEAST_INTERVALS);
         let mut number = 1.0;
         while number < intervals {
             let part: f64 = number / intervals;
@@ -95,8 +91,8 @@ impl Search<'_> {
         self.between(seen, &left, last, 0)
     }
 
-    /// Looks at the samples between two angles of joint 7, and at the one on the right: the more, the farther the joints
-    /// go between them.
+    /// Looks at the samples between two angles of joint 7, and at the one on the right: the more,
+    /// the farther the joints go between them.
     fn between(
         &mut self,
         seen: &mut [Samples; 2],
@@ -176,7 +172,8 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// The edges of reach between the angles that joint 7 alone makes no dearer than what was found, and these.
+    /// The edges of reach between the angles that joint 7 alone makes no dearer than what was
+    /// found, and these.
     fn marks(&self) -> Option<Marks> {
         let window = self.best.map_or(f64::INFINITY, |(cost, _)| (cost / self.weights[6]).sqrt());
         let (low, high) = self.range();
@@ -197,7 +194,8 @@ impl Search<'_> {
         Some(marks)
     }
 
-    /// Between which angles joint 7 is looked for: its limits, or the full turn inside them that is nearest to the seed.
+    /// Between which angles joint 7 is looked for: its limits, or the full turn inside them that is
+    /// nearest to the seed.
     fn range(&self) -> (f64, f64) {
         let [low, high] = self.robot.limits().to_array()[6];
         if high - low <= TAU {

@@ -1,7 +1,9 @@
-//! An arm of seven joints has one more than a pose needs: which of the joint vectors of a pose is nearest to a seed.
+//! An arm of seven joints has one more than a pose needs: which of the joint vectors of a pose is
+//! nearest to a seed.
 //!
-//! docs/seven_axes.md, section 5, has the method and what it promises. [`grid`] looks at joint 7 between the edges of
-//! reach, [`descent`] goes down the valleys of the cost that it shows, [`free_joints`] chooses what a pose leaves open.
+//! docs/seven_axes.md, section 5, has the method and what it promises. [`grid`] looks at joint 7
+//! between the edges of reach, [`descent`] goes down the valleys of the cost that it shows,
+//! [`free_joints`] chooses what a pose leaves open.
 
 mod descent;
 mod free_joints;
@@ -134,14 +136,16 @@ struct Search<'a> {
     weights: [f64; 7],
     /// The cost of the joint vector that costs the least, and it.
     best: Option<(f64, [f64; 7])>,
-    /// The same of those that are off the pose by more than they may be: the pose is a hair beyond reach.
+    /// The same of those that are off the pose by more than they may be: the pose is a hair beyond
+    /// reach.
     nearly: Option<(f64, [f64; 7])>,
     missed: Missed,
 }
 
 impl Search<'_> {
     fn run(&mut self) -> Result<(), Error> {
-        // Nothing costs less than nothing, and next to a singularity no solve says as much as joints that are known.
+        // Nothing costs less than nothing, and next to a singularity no solve says as much as
+        // joints that are known.
         if self.closes(&self.seed) {
             self.keep(&self.seed.clone());
         }

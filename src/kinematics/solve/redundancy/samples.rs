@@ -21,8 +21,8 @@ pub(super) struct Sample {
     pub(super) joints_outside: u8,
     pub(super) outside: f64,
     pub(super) cost: f64,
-    /// Whether the pose may leave another joint open than joint 7: a straight elbow may leave the shoulder on axis 5 to
-    /// rounding.
+    /// Whether the pose may leave another joint open than joint 7: a straight elbow may leave the
+    /// shoulder on axis 5 to rounding.
     pub(super) is_free: bool,
 }
 
@@ -57,8 +57,9 @@ impl Samples {
         self.slots.iter().all(Option::is_none)
     }
 
-    /// Whether a joint of some slot goes so far to the other samples that something may be missed between. At an edge of
-    /// reach a slot goes on in a twin, of another elbow or wrist but the same shoulder.
+    /// Whether a joint of some slot goes so far to the other samples that something may be missed
+    /// between. At an edge of reach a slot goes on in a twin, of another elbow or wrist but the
+    /// same shoulder.
     pub(super) fn leap_to(&self, other: &Self) -> bool {
         let ends = |slot: usize, end: &Sample, others: &Self| {
             let shoulder = slot / 4 * 4;

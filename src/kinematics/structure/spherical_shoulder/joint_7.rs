@@ -1,4 +1,5 @@
-//! Joint 7: the angles at which an elbow or a wrist comes to the edge of its reach (docs/seven_axes.md, section 5).
+//! Joint 7: the angles at which an elbow or a wrist comes to the edge of its reach
+//! (docs/seven_axes.md, section 5).
 
 use core::f64::consts::{FRAC_PI_4, PI};
 
@@ -12,10 +13,12 @@ use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::thresholds::TOUCHING;
 
-/// Edges at most: four of the elbow, four zeros and three stationary points for each sign of the wrist.
+/// Edges at most: four of the elbow, four zeros and three stationary points for each sign of the
+/// wrist.
 pub(crate) const EDGES: usize = 4 + 2 * (4 + 3);
 
-/// A length, or the square of one, that changes with joint 7: `mean + cos cos(theta_7) + sin sin(theta_7)` (eq. 69, 70).
+/// A length, or the square of one, that changes with joint 7: `mean + cos cos(theta_7) + sin
+/// sin(theta_7)` (eq. 69, 70).
 #[derive(Clone, Copy)]
 struct Wave {
     mean: f64,
@@ -56,7 +59,8 @@ impl Wave {
         }
     }
 
-    /// Over `(1 + t^2)`, with `t = tan(theta_7 / 2)`: the coefficients of a parabola, constant first.
+    /// Over `(1 + t^2)`, with `t = tan(theta_7 / 2)`: the coefficients of a parabola, constant
+    /// first.
     fn parabola(&self) -> [f64; 3] {
         [self.mean + self.cos, 2.0 * self.sin, self.mean - self.cos]
     }
@@ -107,8 +111,8 @@ impl SphericalShoulder {
         edges.map(|theta| theta.map(|theta| wrap(sign * (theta + offset))))
     }
 
-    /// The square of the distance of the shoulder from where axes 5 and 6 meet (eq. 69) [m^2], and how far along axis 6
-    /// it is (eq. 70) [m].
+    /// The square of the distance of the shoulder from where axes 5 and 6 meet (eq. 69) [m^2], and
+    /// how far along axis 6 it is (eq. 70) [m].
     fn waves(&self, t_shoulder_seven: &Pose) -> (Wave, Wave) {
         let shoulder = -t_shoulder_seven
             .rotation
@@ -124,10 +128,12 @@ impl SphericalShoulder {
     }
 }
 
-/// The angles at which `first^2 + second^2 = radius^2`, and those at which the two sides just touch.
+/// The angles at which `first^2 + second^2 = radius^2`, and those at which the two sides just
+/// touch.
 fn circle(first: &Wave, second: &Wave, radius: f64) -> [Option<f64>; 7] {
     let off = |theta: f64| first.at(theta).powi(2) + second.at(theta).powi(2) - radius * radius;
-    // Angles are counted from opposite to where the sides differ the most: the tangent of half of one stays small.
+    // Angles are counted from opposite to where the sides differ the most: the tangent of half of
+    // one stays small.
     let far = (0..8)
         .map(|eighth| f64::from(eighth) * FRAC_PI_4)
         .max_by(|a, b| off(*a).abs().total_cmp(&off(*b).abs()))

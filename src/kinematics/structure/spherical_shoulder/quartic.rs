@@ -3,7 +3,8 @@
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
-/// Steps in which a bracketed zero is found to rounding: every second one halves the bracket at least.
+/// Steps in which a bracketed zero is found to rounding: every second one halves the bracket at
+/// least.
 const ROUNDS: u32 = 120;
 
 /// Where a quartic is zero and where it is stationary, in ascending order.
@@ -12,8 +13,9 @@ pub(super) struct Places {
     pub(super) stationary: [Option<f64>; 3],
 }
 
-/// The places of the quartic with these coefficients, constant first: the zeros of each derivative separate those of
-/// the one before it. No radicals are taken, which lose half of the digits next to a double zero.
+/// The places of the quartic with these coefficients, constant first: the zeros of each derivative
+/// separate those of the one before it. No radicals are taken, which lose half of the digits next
+/// to a double zero.
 pub(super) fn places(quartic: &[f64; 5]) -> Places {
     let [_, a, b, c, d] = *quartic;
     let inflection = zeros::<1>(&[6.0 * c, 24.0 * d], &[]);
