@@ -231,9 +231,8 @@ impl<'a> Made<'a> {
         let straight = if self.is_folding_onto_axis_2() { 0.0 } else { 1e-8 };
         let six_is_known = wrist.is_none_or(|off| off == 0.0);
         let is_elbow = elbow.is_some_and(|off| off <= straight) && six_is_known && x_is_known;
-        let is_shoulder = shoulder.is_some_and(|off| {
-            off <= 0.5 * (self.subject.arm.b() * thresholds::LATERAL_MERGE).sqrt()
-        });
+        let is_shoulder = shoulder
+            .is_some_and(|off| off <= 0.5 * (2.0 * self.subject.arm.b() * self.rounding()).sqrt());
         mine.iter().all(|solution| wrist_told(solution))
             && solutions.iter().all(merged_told)
             && (!is_elbow || seeded.kinds().contains(Status::ELBOW))

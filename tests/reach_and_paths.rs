@@ -4,10 +4,10 @@
 //! `IRBKIN_POSES` sets how many poses; each law prints its rates.
 #![allow(clippy::unwrap_used, clippy::cast_precision_loss, missing_docs)]
 
-mod common;
 #[path = "reach_and_paths/arm.rs"]
 #[allow(unreachable_pub)]
 mod arm;
+mod common;
 
 use std::f64::consts::PI;
 
@@ -91,7 +91,28 @@ fn straight_elbows_next_to_the_shoulder_have_their_solution() {
                 let pose = arm.robot.fk(&q);
                 let seeded = arm.robot.ik_nearest(&pose, &q, &[1.0; 6]);
                 let holds = is_found(&arm, &theta, &pose) && seeded.is_ok();
-                count.take(holds, || format!("{q:?}"));
+                count.take(holds, || {
+                    let found: Vec<_> = arm
+                        .robot
+                        .ik(&pose)
+                        .unwrap()
+                        .iter()
+                        .map(|s| {
+                            (
+                                s.slot,
+                                s.kinds(),
+                                arm.robot.residual(&s.q, &pose).largest(),
+                                wrapped(s.q[0] - q[0]),
+                                wrapped(s.q[4] - q[4]),
+                            )
+                        })
+                        .collect();
+                    format!(
+                        "{q:?} {} {seeded:?} {found:?} {:e}",
+                        arm.slot(&theta),
+                        plane_open(&arm, arm.x(&theta))
+                    )
+                });
             }
             report += &count.tell(&format!("{}, {set}", arm.name));
         };
@@ -189,7 +210,11 @@ fn elbows_that_rounding_does_not_merge_are_two() {
             }
             let solutions = arm.robot.ik(&arm.robot.fk(&q)).unwrap();
             let slot = arm.slot(&theta);
-            let holds = [slot, slot ^ 2].iter().all(|slot| solutions.slot(*slot).is_some());
+            // What is known of the forearm may merge the wrist of an arm whose axes 4, 5 and 6 meet.
+            let merged = usize::from(!arm.is_universal());
+            let holds = [slot, slot ^ 2].iter().all(|slot| {
+                [*slot, *slot ^ merged].iter().any(|slot| solutions.slot(*slot).is_some())
+            });
             count.take(holds, || format!("{q:?}"));
         }
         report += &count.tell(&arm.name);
@@ -206,8 +231,7 @@ fn each_slot_just_beyond_reach_has_the_straight_arm() {
         for wrist in [None, Some(0.0)] {
             let (rng, mut count, mut others) = (&mut Rng::new(14), Count::default(), 0);
             while count.of < 10 * poses() {
-                let theta =
-                    arm.placed(Near { elbow: Some(0.0), wrist, ..Near::default() }, rng);
+                let theta = arm.placed(Near { elbow: Some(0.0), wrist, ..Near::default() }, rng);
                 let [x, z] = arm.end(&theta);
                 let r = x.hypot(z);
                 if r < 1e-3 * arm.c2 {
@@ -218,7 +242,8 @@ fn each_slot_just_beyond_reach_has_the_straight_arm() {
                 let (sin_1, cos_1) = theta[0].sin_cos();
                 // In front of the base of an arm of Universal Robots is -x.
                 let forward = if arm.is_universal() { -1.0 } else { 1.0 };
-                let line = Vector3::new(forward * x * cos_1, forward * x * sin_1, z) * (outward / r);
+                let line =
+                    Vector3::new(forward * x * cos_1, forward * x * sin_1, z) * (outward / r);
                 let mut pose = arm.robot.fk(&arm.q(theta));
                 pose.translation.vector += arm.robot.base().rotation * line;
                 let solutions = arm.robot.ik(&pose).unwrap();
@@ -281,8 +306,9 @@ fn a_seed_keeps_its_branch_behind_axis_1() {
     for arm in [irb_2600(), irb_2600().mounted(), equal_links()] {
         let (rng, mut count) = (&mut Rng::new(16), Count::default());
         while count.of < 100 * poses() {
+            let shoulder = log_uniform(rng, -15.0, -11.0);
             let near = Near {
-                shoulder: Some(log_uniform(rng, -15.0, -11.0)),
+                shoulder: Some(shoulder),
                 elbow: Some(log_uniform(rng, -15.0, -6.0)),
                 wrist: None,
             };
@@ -290,7 +316,9 @@ fn a_seed_keeps_its_branch_behind_axis_1() {
             let (q, [x, z]) = (arm.q(theta), arm.end(&theta));
             let seeded = arm.robot.ik_nearest(&arm.robot.fk(&q), &q, &[1.0; 6]).unwrap();
             // Rounding over the distance from axis 2 turns joint 2, and no more than 1e-12 m is given away for a seed's free joint.
-            let off = 2e-6 + (2e-12 + arm.rounding()) / x.hypot(z);
+            // From there on the pose says what joint 1 is.
+            let plane = if shoulder > 9e-13 { arm.rounding() / shoulder } else { 0.0 };
+            let off = 2e-6 + plane + (2e-12 + arm.rounding()) / x.hypot(z);
             let apart = common::apart(&seeded.q, &q);
             let folded = x.hypot(z) < 1e-9;
             let bound = if folded { 0.3 } else { off };
@@ -324,10 +352,18 @@ fn smooth_paths_past_several_singularities_are_followed() {
     asked_set();
     let mut report = String::new();
     let sets = ["W", "S", "E", "WS", "WE", "ES", "WES"];
-    for arm in [irb_2600(), equal_links(), lateral(1e-4), lateral(0.05)].into_iter().chain(universal())
+    for arm in
+        [irb_2600(), equal_links(), lateral(1e-4), lateral(0.05)].into_iter().chain(universal())
     {
         for set in sets {
-            for decades in [[-16.0, -15.9], [-15.0, -13.0], [-13.0, -11.0], [-11.0, -9.0], [-9.0, -7.0], [-7.0, -5.0]] {
+            for decades in [
+                [-16.0, -15.9],
+                [-15.0, -13.0],
+                [-13.0, -11.0],
+                [-11.0, -9.0],
+                [-9.0, -7.0],
+                [-7.0, -5.0],
+            ] {
                 let (rng, mut count) = (&mut Rng::new(17), Count::default());
                 while count.of < poses() {
                     let mut off = |kind: char| {
@@ -336,14 +372,18 @@ fn smooth_paths_past_several_singularities_are_followed() {
                     };
                     let near = Near { wrist: off('W'), shoulder: off('S'), elbow: off('E') };
                     let middle = arm.q(arm.placed(near, rng));
-                    let rates: [f64; 6] = std::array::from_fn(|_| sign(rng) * rng.between(0.003, 0.015));
+                    let rates: [f64; 6] =
+                        std::array::from_fn(|_| sign(rng) * rng.between(0.003, 0.015));
                     let path: Vec<[f64; 6]> = (-30..=30)
                         .map(|i| std::array::from_fn(|j| middle[j] + rates[j] * f64::from(i)))
                         .collect();
                     let followed = is_followed(&arm.robot, &path);
-                    count.take(followed.is_ok(), || format!("{} {middle:?} {rates:?}", followed.unwrap_err()));
+                    count.take(followed.is_ok(), || {
+                        format!("{} {middle:?} {rates:?}", followed.unwrap_err())
+                    });
                 }
-                report += &count.tell(&format!("{}, {set}, 1e{} .. 1e{}", arm.name, decades[0], decades[1]));
+                report += &count
+                    .tell(&format!("{}, {set}, 1e{} .. 1e{}", arm.name, decades[0], decades[1]));
             }
         }
     }

@@ -11,37 +11,79 @@ use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::free_choice::Trust;
 use crate::kinematics::structure::planar_arm::{Elbow, Shoulder, Target};
 use crate::kinematics::structure::zyz::Zyz;
-use crate::kinematics::thresholds::SEEDED_FREE;
+use crate::kinematics::thresholds::{PATH_WRIST_SIN, SEEDED_FREE};
+
+/// Halvings of the way between two planes on either side of one: to rounding.
+const HALVINGS: u32 = 50;
+
+/// One branch of the arm.
+#[derive(Clone, Copy)]
+pub(super) struct Standing {
+    pub(super) shoulder: Shoulder,
+    pub(super) elbow: Elbow,
+    pub(super) wrist: Zyz,
+}
+
+/// What rounding leaves open of an elbow.
+#[derive(Clone, Copy)]
+pub(super) struct Open {
+    /// How far it may turn the forearm [rad].
+    pub(super) error: f64,
+    /// Whether both elbows are one.
+    pub(super) straight: bool,
+}
 
 impl SphericalWrist {
-    /// The shoulder and the wrist of one branch of the arm; on a path, where the pose leaves the shoulder's angle open, those that move the
-    /// joints less: with the angle that joint 1 is heading for, or turned so that joint 4 has the one that it is heading for.
-    pub(super) fn shoulder_and_wrist(
+    /// The branch of a shoulder and an elbow; on a path, where the pose leaves the shoulder's angle open, the one that moves the joints
+    /// less: with the angle that joint 1 is heading for, or turned so that joint 4 has the one that it is heading for.
+    pub(super) fn standing(
         &self,
         shoulder: &Shoulder,
         elbow: &Elbow,
         target: &Target<'_>,
-        error: f64,
-    ) -> (Shoulder, Zyz) {
-        let with_wrist = |shoulder: Shoulder| {
-            (shoulder, wrist(&forearm_to_flange(&shoulder, elbow, target.rotation), target, error))
+        open: Open,
+    ) -> Standing {
+        let with_wrist = |(shoulder, elbow): (Shoulder, Elbow)| {
+            let m = forearm_to_flange(&shoulder, &elbow, target.rotation);
+            Standing { shoulder, elbow, wrist: wrist(&m, target, open.error) }
         };
-        let straight = with_wrist(*shoulder);
-        let Some(turned) = self.turned_for_wrist(shoulder, elbow, target).map(with_wrist) else {
+        let straight = with_wrist((*shoulder, *elbow));
+        if target.free.trust != Trust::Path {
             return straight;
+        }
+        let nearer = |best: Standing, turned: (Shoulder, Elbow)| {
+            let turned = with_wrist(turned);
+            if motion(&turned, target) < motion(&best, target) { turned } else { best }
         };
-        let motion = |(shoulder, wrist): &(Shoulder, Zyz)| {
-            let [heading_1, _, _, heading_4, heading_5, heading_6] = target.free_theta;
-            let [theta_4, theta_5, theta_6] = wrist.theta;
-            let apart = |theta: f64, heading: f64| wrap(theta - heading).powi(2);
-            let kept =
-                apart(theta_4, heading_4) + apart(theta_5, heading_5) + apart(theta_6, heading_6);
-            let flipped = apart(theta_4 + PI, heading_4)
-                + apart(-theta_5, heading_5)
-                + apart(theta_6 + PI, heading_6);
-            apart(shoulder.sin_1.atan2(shoulder.cos_1), heading_1) + kept.min(flipped)
-        };
-        if motion(&turned) < motion(&straight) { turned } else { straight }
+        if self.planar.b == 0.0 {
+            let turned = self.turned_for_wrist(shoulder, elbow, target);
+            turned.map(|shoulder| (shoulder, *elbow)).into_iter().fold(straight, nearer)
+        } else {
+            self.turned_in_open_plane(shoulder, elbow, target, open).fold(straight, nearer)
+        }
+    }
+
+    /// On a path, with b != 0, the shoulder turned as far as rounding leaves it open, and the elbow with it, so that the wrist can keep the
+    /// joint 4 that it is heading for: there the approach axis has no part across that joint's plane (eq. 25). The ways to do that.
+    fn turned_in_open_plane(
+        &self,
+        shoulder: &Shoulder,
+        elbow: &Elbow,
+        target: &Target<'_>,
+        open: Open,
+    ) -> impl Iterator<Item = (Shoulder, Elbow)> {
+        let m = forearm_to_flange(shoulder, elbow, target.rotation);
+        let near = m[(0, 2)].hypot(m[(1, 2)]) <= PATH_WRIST_SIN;
+        let ends = if near { self.planar.open_turn(shoulder) } else { [0.0; 2] };
+        // Bent by the turn, a straight arm stands on either side.
+        let behind = self.planar.sin_elbow(elbow.theta_3) < 0.0;
+        let sides = [false, true].into_iter().filter(move |side| open.straight || *side == behind);
+        sides.flat_map(move |side| {
+            ends.into_iter().filter_map(move |end| {
+                let plane = TurnedPlane { arm: self, shoulder, target, behind: side };
+                plane.keeping_axis_4(end)
+            })
+        })
     }
 
     /// On a path, a shoulder whose angle the pose leaves open, turned so that the wrist can keep the joint 4 that it is heading for.
@@ -54,9 +96,6 @@ impl SphericalWrist {
         elbow: &Elbow,
         target: &Target<'_>,
     ) -> Option<Shoulder> {
-        if target.free.trust != Trust::Path || self.planar.b != 0.0 {
-            return None;
-        }
         let [_, _, _, theta_4, theta_5, _] = target.free_theta;
         let (sin_4, cos_4) = theta_4.sin_cos();
         let (a20, a22) = (-elbow.sin_23 * cos_4, elbow.cos_23);
@@ -82,4 +121,62 @@ impl SphericalWrist {
         };
         (norm > 0.0 && turn < 0.1 && turn * shoulder.x.abs() <= open).then_some(turned)
     }
+}
+
+/// The planes of an arm with b != 0 that rounding leaves open, with one of its elbows.
+struct TurnedPlane<'a> {
+    arm: &'a SphericalWrist,
+    shoulder: &'a Shoulder,
+    target: &'a Target<'a>,
+    behind: bool,
+}
+
+impl TurnedPlane<'_> {
+    /// The shoulder turned by `angle`, and the elbow that it has then, up to `tolerance` beyond reach.
+    fn at(&self, angle: f64, tolerance: f64) -> Option<(Shoulder, Elbow)> {
+        let Self { arm, shoulder, target, behind } = self;
+        let turned = shoulder.turned(angle, target.wxy);
+        let end = [turned.x - arm.planar.a1, target.wz];
+        let (theta_2, trust) = (target.free_theta[1], target.free.trust);
+        let elbows = arm.planar.elbows(end, tolerance, theta_2, trust).ok()?;
+        Some((turned, elbows.behind.filter(|_| *behind).unwrap_or(elbows.front)))
+    }
+
+    /// The part of the approach axis across the plane in which joint 5 moves it with the joint 4 that a path is heading for.
+    fn across(&self, angle: f64) -> Option<f64> {
+        // An arm that a turn takes out of reach is stretched on the way.
+        let (shoulder, elbow) = self.at(angle, f64::INFINITY)?;
+        let m = forearm_to_flange(&shoulder, &elbow, self.target.rotation);
+        let (sin_4, cos_4) = self.target.free_theta[3].sin_cos();
+        Some(m[(1, 2)] * cos_4 - m[(0, 2)] * sin_4)
+    }
+
+    /// The arm in the plane before `end` in which that is none.
+    fn keeping_axis_4(&self, end: f64) -> Option<(Shoulder, Elbow)> {
+        let (mut near, mut far, from) = (0.0, end, self.across(0.0)?);
+        if self.across(far)? * from >= 0.0 {
+            return None;
+        }
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (near + far);
+            if self.across(middle)? * from < 0.0 {
+                far = middle;
+            } else {
+                near = middle;
+            }
+        }
+        self.at(near, self.target.tolerance)
+    }
+}
+
+/// How far a branch is from where the joints are heading, joints 2 and 3 not regarded: the sum of squares [rad^2].
+fn motion(Standing { shoulder, wrist, .. }: &Standing, target: &Target<'_>) -> f64 {
+    let [heading_1, _, _, heading_4, heading_5, heading_6] = target.free_theta;
+    let [theta_4, theta_5, theta_6] = wrist.theta;
+    let apart = |theta: f64, heading: f64| wrap(theta - heading).powi(2);
+    let kept = apart(theta_4, heading_4) + apart(theta_5, heading_5) + apart(theta_6, heading_6);
+    let flipped = apart(theta_4 + PI, heading_4)
+        + apart(-theta_5, heading_5)
+        + apart(theta_6 + PI, heading_6);
+    apart(shoulder.sin_1.atan2(shoulder.cos_1), heading_1) + kept.min(flipped)
 }

@@ -10,7 +10,7 @@ use super::wrist::{Turn, Wrist, seen_from_plane};
 use crate::kinematics::answer::status::Reach;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::planar_arm::{Elbows, PlanarArm, Shoulder, Target};
-use crate::kinematics::thresholds::WRIST_FREE_SIN;
+use crate::kinematics::thresholds::{REACH_TOLERANCE, WRIST_FREE_SIN};
 
 /// A shoulder and a wrist with the elbows between them.
 pub(super) struct Reaching {
@@ -32,7 +32,10 @@ impl ThreeParallel {
         target: &Target<'_>,
     ) -> Result<Reaching, Reach> {
         let (missed, wrist) = match self.at(*shoulder, turn, target) {
-            Ok(reaching) => return Ok(reaching),
+            Ok(reaching) => {
+                let straight = self.straightened(&reaching, turn, target);
+                return Ok(straight.unwrap_or(reaching));
+            }
             Err(missed) => missed,
         };
         let m = seen_from_plane(shoulder, target.rotation);
@@ -45,6 +48,71 @@ impl ThreeParallel {
         let nearer =
             |turned: Reach| if turned.shortfall() < missed.shortfall() { turned } else { missed };
         self.at(*shoulder, Turn::Taken(theta_6), target).map_err(|(turned, _)| nearer(turned))
+    }
+
+    /// The same where an arm less beyond reach than anyone could see is stretched or folded.
+    pub(super) fn reaching_or_beyond(
+        &self,
+        shoulder: &Shoulder,
+        turn: Turn,
+        target: &Target<'_>,
+    ) -> Result<Reaching, Reach> {
+        self.reaching(shoulder, turn, target).or_else(|missed| {
+            if missed.shortfall() > REACH_TOLERANCE {
+                return Err(missed);
+            }
+            self.reaching(shoulder, turn, &target.beyond(missed.shortfall()))
+        })
+    }
+
+    /// The stretched or folded arm in place of one whose two elbows differ by less than what rounding leaves open: of joint 6, a rounding over
+    /// sin theta_5, or of the plane (eq. 45). None where they are two.
+    fn straightened(&self, bent: &Reaching, turn: Turn, target: &Target<'_>) -> Option<Reaching> {
+        let Reaching { shoulder, wrist, elbows } = bent;
+        if !matches!(turn, Turn::Told { .. }) || elbows.behind.is_none() {
+            return None;
+        }
+        let m = seen_from_plane(shoulder, target.rotation);
+        let (open, plane) = (turn.open(&m), OpenPlane::of(self, shoulder, target));
+        let moved = self.planar.straightening(elbows.front.theta_3);
+        if moved > self.d5 * open + plane.lever(self) {
+            return None;
+        }
+        // Where it is within a rounding beyond reach, it is straight.
+        let rounding = 0.5 * self.planar.position_rounding();
+        let edges = self.circle(shoulder, wrist, target, rounding)?;
+        let taken = |turned: f64| self.at(*shoulder, Turn::Taken(wrist.theta_6 + turned), target);
+        edges
+            .turns()
+            .map(|turned| turned_with_phi(turned, &m))
+            .into_iter()
+            .filter(|turned| turned.abs() <= open)
+            .find_map(|turned| straight(taken(turned)))
+            .or_else(|| {
+                plane.ends().into_iter().find_map(|end| self.at_edge(&plane, end, turn, target))
+            })
+    }
+
+    /// The straight arm in a plane between one in which it is bent and one at which it is out of reach.
+    fn at_edge(
+        &self,
+        plane: &OpenPlane<'_>,
+        end: f64,
+        turn: Turn,
+        target: &Target<'_>,
+    ) -> Option<Reaching> {
+        let at = |angle: f64| self.at(plane.turned(angle), turn, target);
+        at(end).err()?;
+        let (mut reaches, mut misses) = (0.0, end);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (reaches + misses);
+            if at(middle).is_ok() {
+                reaches = middle;
+            } else {
+                misses = middle;
+            }
+        }
+        straight(at(reaches))
     }
 
     /// The arm that is just out of reach with this shoulder, in the nearest of the planes that rounding leaves open in which it reaches.
@@ -72,7 +140,7 @@ impl ThreeParallel {
             }
             Some(reaching)
         };
-        let ends = [plane.open, -plane.open].into_iter();
+        let ends = plane.ends().into_iter();
         let told = self
             .middles_of_reach(shoulder, m, &wrist, target)
             .into_iter()
@@ -110,7 +178,7 @@ impl ThreeParallel {
         wrist: &Wrist,
         target: &Target<'_>,
     ) -> Option<f64> {
-        let Circle { from_line, least, most } = self.circle(shoulder, wrist, target)?;
+        let Circle { from_line, least, most } = self.circle(shoulder, wrist, target, 0.0)?;
         let turned = from_line.abs().clamp(least, most).copysign(from_line) - from_line;
         (turned.abs() <= turn.open(m)).then_some(wrist.theta_6 + turned_with_phi(turned, m))
     }
@@ -123,13 +191,19 @@ impl ThreeParallel {
         wrist: &Wrist,
         target: &Target<'_>,
     ) -> Option<[f64; 2]> {
-        let Circle { from_line, least, most } = self.circle(shoulder, wrist, target)?;
+        let Circle { from_line, least, most } = self.circle(shoulder, wrist, target, 0.0)?;
         let middle = 0.5 * (least + most);
         Some([middle, -middle].map(|middle| wrist.theta_6 + turned_with_phi(middle - from_line, m)))
     }
 
-    /// At sin theta_5 = 0 the end of the planar arm runs on a circle about the wrist (eq. 39).
-    fn circle(&self, shoulder: &Shoulder, wrist: &Wrist, target: &Target<'_>) -> Option<Circle> {
+    /// At sin theta_5 = 0 the end of the planar arm runs on a circle about the wrist (eq. 39). What is in reach, and this far beyond.
+    fn circle(
+        &self,
+        shoulder: &Shoulder,
+        wrist: &Wrist,
+        target: &Target<'_>,
+        beyond: f64,
+    ) -> Option<Circle> {
         let PlanarArm { a1, c2, k, .. } = self.planar;
         let (x, z) = (shoulder.x - a1, target.wz);
         let (size, both) = (x.hypot(z), 2.0 * self.d5 * x.hypot(z));
@@ -137,8 +211,8 @@ impl ThreeParallel {
         let from_line = wrap(wrist.sin_phi.atan2(wrist.cos_phi) - x.atan2(z));
         (both > 0.0).then(|| Circle {
             from_line,
-            least: cosine(c2 - k).acos(),
-            most: cosine(c2 + k).acos(),
+            least: cosine(((c2 - k).abs() - beyond).max(0.0)).acos(),
+            most: cosine(c2 + k + beyond).acos(),
         })
     }
 }
@@ -151,7 +225,19 @@ struct Circle {
     most: f64,
 }
 
-/// How far theta_6 turns where phi turns by this: phi + theta_6 is fixed at theta_5 = 0, phi - theta_6 at 180 deg.
+impl Circle {
+    /// How far to turn to the edges of reach [rad].
+    fn turns(&self) -> [f64; 2] {
+        [self.least, self.most].map(|edge| edge.copysign(self.from_line) - self.from_line)
+    }
+}
+
+/// An arm that reaches and stands for both elbows.
+fn straight<E>(reached: Result<Reaching, E>) -> Option<Reaching> {
+    reached.ok().filter(|arm| arm.elbows.behind.is_none())
+}
+
+/// How far theta_6 turns where phi turns by this: by that over -cos theta_5, for phi + theta_6 is fixed at theta_5 = 0, phi - theta_6 at 180 deg.
 fn turned_with_phi(turned: f64, m: &Matrix3<f64>) -> f64 {
-    if m[(1, 1)] > 0.0 { -turned } else { turned }
+    -turned / m[(1, 1)]
 }
