@@ -56,10 +56,13 @@ fn assert_none(report: &str) {
 fn is_found(arm: &Arm, theta: &[f64; 6], pose: &Pose) -> bool {
     let solutions = arm.robot.ik(pose).unwrap();
     let open = 2.0 * plane_open(arm, arm.x(theta)) + 1e-12;
-    solutions.iter().all(|solution| arm.meets(&solution.q, pose, 0.0))
+    // The twin of a shoulder may be as near to reach as gets it the straight arm.
+    let beyond = thresholds::REACH_TOLERANCE;
+    solutions.iter().all(|solution| arm.meets(&solution.q, pose, beyond))
         && solutions.iter().any(|solution| {
             let found = arm.theta(&solution.q);
-            wrapped(found[0] - theta[0]) <= open
+            arm.meets(&solution.q, pose, 0.0)
+                && wrapped(found[0] - theta[0]) <= open
                 && (wrapped(found[4]) - wrapped(theta[4])).abs() <= open + 1e-9
         })
 }
@@ -163,7 +166,21 @@ fn elbows_that_rounding_merges_are_one() {
                     let told = solutions.status()[twins[1]];
                     found == [true, false] && told.contains(Status::ELBOW | Status::MERGED)
                 });
-                count.take(holds, || format!("{q:?} {open:e}"));
+                count.take(holds, || {
+                    let f: Vec<_> = solutions
+                        .iter()
+                        .map(|s| {
+                            (
+                                s.slot,
+                                s.kinds(),
+                                s.q[2],
+                                wrapped(s.q[0] - q[0]),
+                                wrapped(s.q[5] - q[5]),
+                            )
+                        })
+                        .collect();
+                    format!("{q:?} {open:e} slot {slot} {f:?} {:?}", solutions.status())
+                });
             }
             report += &count.tell(&format!("{}, {set}", arm.name));
         };
@@ -389,4 +406,132 @@ fn smooth_paths_past_several_singularities_are_followed() {
     }
     let _ = PI;
     assert_none(&report);
+}
+
+#[test]
+fn dbg_path() {
+    if std::env::var("DBGS").is_ok() {
+        let arm = Arm::universal("UR5e");
+        for q in [
+            [
+                1.871318886111066,
+                -3.855660262893937,
+                3.141592653589793,
+                -0.30328175330355833,
+                3.1415926654484507,
+                1.4679628485542144,
+            ],
+            [
+                -0.3876555585014092,
+                0.49782972150085936,
+                -1e-8,
+                1.142792246342358,
+                3.141588279325849,
+                3.029227513388025,
+            ],
+        ] {
+            for s in arm.robot.ik(&arm.robot.fk(&q)).unwrap().iter() {
+                println!("{} {:?} {:?}", s.slot, s.q, s.kinds());
+            }
+        }
+    }
+    for name in std::env::var("DBG").unwrap_or_default().split(',') {
+        let (arm, middle, rates) = match name {
+            "lat" => (
+                lateral(0.05),
+                [
+                    -1.7055309903828395,
+                    3.261942100845959,
+                    -1.4005844015368907,
+                    -1.485210973667252,
+                    3.1415926529533795,
+                    0.8376903224476631,
+                ],
+                [
+                    -0.011091668207838499,
+                    0.014209738662407614,
+                    0.0060186420852546985,
+                    0.014915485724692656,
+                    0.009077345525659582,
+                    0.00767623879161025,
+                ],
+            ),
+            "ur5" => (
+                Arm::universal("UR5e"),
+                [
+                    -1.619356709216222,
+                    2.6246159846978845,
+                    3.1415926535910526,
+                    0.22693296474357183,
+                    -4.014679192089479e-12,
+                    -1.6342538202100265,
+                ],
+                [
+                    -0.0034948388839478126,
+                    0.014333744113414652,
+                    0.009900029483344765,
+                    -0.010903666217278073,
+                    0.0046640636123967865,
+                    0.011286760981452624,
+                ],
+            ),
+            "ur5b" => (
+                Arm::universal("UR5e"),
+                [
+                    -1.0626104893016453,
+                    -1.479215271820478,
+                    -6.106255495293623e-11,
+                    -3.9565072339919958,
+                    3.1415926534710272,
+                    -2.907868165112619,
+                ],
+                [
+                    -0.013954393973537468,
+                    0.011594391912454653,
+                    0.013738873923618847,
+                    -0.006225068627551641,
+                    -0.004487848318032498,
+                    0.003440157985728612,
+                ],
+            ),
+            "ur5c" => (
+                Arm::universal("UR5e"),
+                [
+                    -1.0626104893016453,
+                    -1.479215715877962,
+                    -6.106255495293622e-7,
+                    -3.9565072339919958,
+                    3.1415914659292548,
+                    -2.907868165112619,
+                ],
+                [
+                    -0.013954393973537468,
+                    0.011594391912454653,
+                    0.013738873923618847,
+                    -0.006225068627551641,
+                    -0.004487848318032498,
+                    0.003440157985728612,
+                ],
+            ),
+            _ => continue,
+        };
+        let path: Vec<[f64; 6]> = (-30..=30)
+            .map(|i| std::array::from_fn(|j| middle[j] + rates[j] * f64::from(i)))
+            .collect();
+        let poses: Vec<Pose> = path.iter().map(|q| arm.robot.fk(q)).collect();
+        let f = arm.robot.follow(&poses, &path[0], &FollowOptions::default()).unwrap();
+        println!("== {name} x {:e}", arm.x(&arm.theta(&middle)));
+        for b in &f.breaks {
+            println!("{b}");
+        }
+        for k in 27..35 {
+            let d: Vec<String> =
+                (0..6).map(|j| format!("{:9.1e}", f.q[k].unwrap()[j] - path[k][j])).collect();
+            println!("{k} {d:?} {:.1e}", arm.robot.residual(&f.q[k].unwrap(), &poses[k]).largest());
+        }
+        for s in arm.robot.ik(&poses[30]).unwrap().iter() {
+            println!("{} {:?} {:?} {:?}", s.slot, s.kinds(), s.q, s.free);
+        }
+        println!("{middle:?}");
+    }
 }

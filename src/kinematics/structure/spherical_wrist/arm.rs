@@ -43,35 +43,36 @@ impl SphericalWrist {
         target: &Target<'_>,
         open: Open,
     ) -> Standing {
-        let with_wrist = |(shoulder, elbow): (Shoulder, Elbow)| {
+        let with_wrist = |(shoulder, elbow, error): (Shoulder, Elbow, f64)| {
             let m = forearm_to_flange(&shoulder, &elbow, target.rotation);
-            Standing { shoulder, elbow, wrist: wrist(&m, target, open.error) }
+            Standing { shoulder, elbow, wrist: wrist(&m, target, error) }
         };
-        let straight = with_wrist((*shoulder, *elbow));
+        let told = with_wrist((*shoulder, *elbow, open.error));
         if target.free.trust != Trust::Path {
-            return straight;
+            return told;
         }
-        let nearer = |best: Standing, turned: (Shoulder, Elbow)| {
+        let nearer = |best: Standing, turned: (Shoulder, Elbow, f64)| {
             let turned = with_wrist(turned);
             if motion(&turned, target) < motion(&best, target) { turned } else { best }
         };
         if self.planar.b == 0.0 {
             let turned = self.turned_for_wrist(shoulder, elbow, target);
-            turned.map(|shoulder| (shoulder, *elbow)).into_iter().fold(straight, nearer)
+            turned.map(|shoulder| (shoulder, *elbow, open.error)).into_iter().fold(told, nearer)
         } else {
-            self.turned_in_open_plane(shoulder, elbow, target, open).fold(straight, nearer)
+            self.turned_in_open_plane(shoulder, elbow, target, open).fold(told, nearer)
         }
     }
 
     /// On a path, with b != 0, the shoulder turned as far as rounding leaves it open, and the elbow with it, so that the wrist can keep the
-    /// joint 4 that it is heading for: there the approach axis has no part across that joint's plane (eq. 25). The ways to do that.
-    fn turned_in_open_plane(
-        &self,
-        shoulder: &Shoulder,
+    /// joint 4 that it is heading for: there the approach axis has no part across that joint's plane (eq. 25). And where the arm is straight
+    /// at the edge of reach, which leaves the forearm open. With what rounding leaves open of it [rad].
+    fn turned_in_open_plane<'a>(
+        &'a self,
+        shoulder: &'a Shoulder,
         elbow: &Elbow,
-        target: &Target<'_>,
+        target: &'a Target<'a>,
         open: Open,
-    ) -> impl Iterator<Item = (Shoulder, Elbow)> {
+    ) -> impl Iterator<Item = (Shoulder, Elbow, f64)> + use<'a> {
         let m = forearm_to_flange(shoulder, elbow, target.rotation);
         let near = m[(0, 2)].hypot(m[(1, 2)]) <= PATH_WRIST_SIN;
         let ends = if near { self.planar.open_turn(shoulder) } else { [0.0; 2] };
@@ -79,10 +80,8 @@ impl SphericalWrist {
         let behind = self.planar.sin_elbow(elbow.theta_3) < 0.0;
         let sides = [false, true].into_iter().filter(move |side| open.straight || *side == behind);
         sides.flat_map(move |side| {
-            ends.into_iter().filter_map(move |end| {
-                let plane = TurnedPlane { arm: self, shoulder, target, behind: side };
-                plane.keeping_axis_4(end)
-            })
+            let plane = TurnedPlane { arm: self, shoulder, target, behind: side };
+            ends.into_iter().flat_map(move |end| plane.ways(end))
         })
     }
 
@@ -124,6 +123,7 @@ impl SphericalWrist {
 }
 
 /// The planes of an arm with b != 0 that rounding leaves open, with one of its elbows.
+#[derive(Clone, Copy)]
 struct TurnedPlane<'a> {
     arm: &'a SphericalWrist,
     shoulder: &'a Shoulder,
@@ -132,41 +132,49 @@ struct TurnedPlane<'a> {
 }
 
 impl TurnedPlane<'_> {
-    /// The shoulder turned by `angle`, and the elbow that it has then, up to `tolerance` beyond reach.
-    fn at(&self, angle: f64, tolerance: f64) -> Option<(Shoulder, Elbow)> {
+    /// The shoulder turned by `angle`, the elbow that it has then, and what rounding leaves open of the forearm [rad].
+    fn at(&self, angle: f64) -> Option<(Shoulder, Elbow, f64)> {
         let Self { arm, shoulder, target, behind } = self;
         let turned = shoulder.turned(angle, target.wxy);
         let end = [turned.x - arm.planar.a1, target.wz];
         let (theta_2, trust) = (target.free_theta[1], target.free.trust);
-        let elbows = arm.planar.elbows(end, tolerance, theta_2, trust).ok()?;
-        Some((turned, elbows.behind.filter(|_| *behind).unwrap_or(elbows.front)))
+        let elbows = arm.planar.elbows(end, target.tolerance, theta_2, trust).ok()?;
+        let elbow = elbows.behind.filter(|_| *behind).unwrap_or(elbows.front);
+        Some((turned, elbow, turned.error + elbows.error))
     }
 
     /// The part of the approach axis across the plane in which joint 5 moves it with the joint 4 that a path is heading for.
     fn across(&self, angle: f64) -> Option<f64> {
-        // An arm that a turn takes out of reach is stretched on the way.
-        let (shoulder, elbow) = self.at(angle, f64::INFINITY)?;
+        let (shoulder, elbow, _) = self.at(angle)?;
         let m = forearm_to_flange(&shoulder, &elbow, self.target.rotation);
         let (sin_4, cos_4) = self.target.free_theta[3].sin_cos();
         Some(m[(1, 2)] * cos_4 - m[(0, 2)] * sin_4)
     }
 
-    /// The arm in the plane before `end` in which that is none.
-    fn keeping_axis_4(&self, end: f64) -> Option<(Shoulder, Elbow)> {
-        let (mut near, mut far, from) = (0.0, end, self.across(0.0)?);
-        if self.across(far)? * from >= 0.0 {
-            return None;
-        }
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (near + far);
-            if self.across(middle)? * from < 0.0 {
-                far = middle;
-            } else {
-                near = middle;
-            }
-        }
-        self.at(near, self.target.tolerance)
+    /// The arm in the plane before `end` in which that part is none, and at the edge of reach where that is before `end`.
+    fn ways(self, end: f64) -> impl Iterator<Item = (Shoulder, Elbow, f64)> + use<> {
+        let reaches = |angle: f64| self.at(angle).is_some();
+        let far = if reaches(end) { end } else { halved([0.0, end], reaches) };
+        let edge = if far.total_cmp(&end).is_eq() { None } else { self.at(far) };
+        let from = self.across(0.0).unwrap_or(0.0);
+        let before = |angle: f64| self.across(angle).is_some_and(|across| across * from >= 0.0);
+        let kept =
+            (!before(far)).then(|| halved([0.0, far], before)).and_then(|angle| self.at(angle));
+        edge.into_iter().chain(kept)
     }
+}
+
+/// The last place between two, to rounding, up to which it is so as it is at the first.
+fn halved([mut near, mut far]: [f64; 2], is_so: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (near + far);
+        if is_so(middle) {
+            near = middle;
+        } else {
+            far = middle;
+        }
+    }
+    near
 }
 
 /// How far a branch is from where the joints are heading, joints 2 and 3 not regarded: the sum of squares [rad^2].

@@ -19,7 +19,7 @@ pub(super) struct Reaching {
     pub(super) elbows: Elbows,
 }
 
-/// Halvings of the way between a plane in which the arm reaches and one in which it does not: to rounding.
+/// Halvings of the way between a place in which the arm reaches and one in which it does not: to rounding.
 const HALVINGS: u32 = 50;
 
 impl ThreeParallel {
@@ -32,22 +32,19 @@ impl ThreeParallel {
         target: &Target<'_>,
     ) -> Result<Reaching, Reach> {
         let (missed, wrist) = match self.at(*shoulder, turn, target) {
-            Ok(reaching) => {
-                let straight = self.straightened(&reaching, turn, target);
-                return Ok(straight.unwrap_or(reaching));
-            }
+            Ok(reaching) => return Ok(self.straightened(reaching, turn, target)),
             Err(missed) => missed,
         };
         let m = seen_from_plane(shoulder, target.rotation);
-        if let Some(reaching) = self.in_another_plane(shoulder, turn, &m, (missed, wrist), target) {
-            return Ok(reaching);
-        }
-        let Some(theta_6) = self.turned_into_reach(shoulder, turn, &m, &wrist, target) else {
-            return Err(missed);
+        let (reaching, missed) = match self.turned_into_reach(shoulder, turn, &m, &wrist, target) {
+            Some(Ok(reaching)) => (Some(reaching), missed),
+            Some(Err(nearest)) => (None, missed.nearer(nearest)),
+            None => (None, missed),
         };
-        let nearer =
-            |turned: Reach| if turned.shortfall() < missed.shortfall() { turned } else { missed };
-        self.at(*shoulder, Turn::Taken(theta_6), target).map_err(|(turned, _)| nearer(turned))
+        reaching
+            .or_else(|| self.in_another_plane(shoulder, turn, &m, (missed, wrist), target))
+            .map(|reaching| self.straightened(reaching, turn, target))
+            .ok_or(missed)
     }
 
     /// The same where an arm less beyond reach than anyone could see is stretched or folded.
@@ -66,53 +63,31 @@ impl ThreeParallel {
     }
 
     /// The stretched or folded arm in place of one whose two elbows differ by less than what rounding leaves open: of joint 6, a rounding over
-    /// sin theta_5, or of the plane (eq. 45). None where they are two.
-    fn straightened(&self, bent: &Reaching, turn: Turn, target: &Target<'_>) -> Option<Reaching> {
-        let Reaching { shoulder, wrist, elbows } = bent;
+    /// sin theta_5, or of the plane (eq. 45). The arm as it is where they are two.
+    fn straightened(&self, bent: Reaching, turn: Turn, target: &Target<'_>) -> Reaching {
+        let Reaching { shoulder, wrist, elbows } = &bent;
         if !matches!(turn, Turn::Told { .. }) || elbows.behind.is_none() {
-            return None;
+            return bent;
         }
         let m = seen_from_plane(shoulder, target.rotation);
         let (open, plane) = (turn.open(&m), OpenPlane::of(self, shoulder, target));
         let moved = self.planar.straightening(elbows.front.theta_3);
         if moved > self.d5 * open + plane.lever(self) {
-            return None;
+            return bent;
         }
-        // Where it is within a rounding beyond reach, it is straight.
-        let rounding = 0.5 * self.planar.position_rounding();
-        let edges = self.circle(shoulder, wrist, target, rounding)?;
-        let taken = |turned: f64| self.at(*shoulder, Turn::Taken(wrist.theta_6 + turned), target);
-        edges
-            .turns()
-            .map(|turned| turned_with_phi(turned, &m))
+        let turned = |turned: f64| self.at(*shoulder, Turn::Taken(wrist.theta_6 + turned), target);
+        let edges = self.circle(shoulder, wrist, target).map(|circle| circle.edges());
+        let of_six = edges
             .into_iter()
+            .flatten()
+            .map(|turned| turned_with_phi(turned, &m))
             .filter(|turned| turned.abs() <= open)
-            .find_map(|turned| straight(taken(turned)))
-            .or_else(|| {
-                plane.ends().into_iter().find_map(|end| self.at_edge(&plane, end, turn, target))
-            })
-    }
-
-    /// The straight arm in a plane between one in which it is bent and one at which it is out of reach.
-    fn at_edge(
-        &self,
-        plane: &OpenPlane<'_>,
-        end: f64,
-        turn: Turn,
-        target: &Target<'_>,
-    ) -> Option<Reaching> {
-        let at = |angle: f64| self.at(plane.turned(angle), turn, target);
-        at(end).err()?;
-        let (mut reaches, mut misses) = (0.0, end);
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (reaches + misses);
-            if at(middle).is_ok() {
-                reaches = middle;
-            } else {
-                misses = middle;
-            }
-        }
-        straight(at(reaches))
+            .find_map(|to_edge| straight(at_edge(turned, 0.0, 2.0 * to_edge)));
+        let straight = of_six.or_else(|| {
+            let turned = |angle: f64| self.at(plane.turned(angle), turn, target);
+            plane.ends().into_iter().find_map(|end| straight(at_edge(turned, 0.0, end)))
+        });
+        straight.unwrap_or(bent)
     }
 
     /// The arm that is just out of reach with this shoulder, in the nearest of the planes that rounding leaves open in which it reaches.
@@ -128,17 +103,8 @@ impl ThreeParallel {
         if !matches!(turn, Turn::Told { .. }) || missed.shortfall() > plane.lever(self) {
             return None;
         }
-        let at = |angle: f64| self.at(plane.turned(angle), turn, target);
         let nearest = |reaches: f64| {
-            let (mut misses, mut reaches, mut reaching) = (0.0, reaches, at(reaches).ok()?);
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (misses + reaches);
-                match at(middle) {
-                    Ok(nearer) => (reaching, reaches) = (nearer, middle),
-                    Err(_) => misses = middle,
-                }
-            }
-            Some(reaching)
+            at_edge(|angle| self.at(plane.turned(angle), turn, target), reaches, 0.0)
         };
         let ends = plane.ends().into_iter();
         let told = self
@@ -169,7 +135,8 @@ impl ThreeParallel {
         }
     }
 
-    /// theta_6 moved to where the end of the planar arm is in reach, or nearest to it; none where the pose does not leave it open so far.
+    /// The arm with theta_6 moved to where the end of the planar arm is in reach, or by how much it misses there; none where the pose does
+    /// not leave it open so far.
     fn turned_into_reach(
         &self,
         shoulder: &Shoulder,
@@ -177,10 +144,19 @@ impl ThreeParallel {
         m: &Matrix3<f64>,
         wrist: &Wrist,
         target: &Target<'_>,
-    ) -> Option<f64> {
-        let Circle { from_line, least, most } = self.circle(shoulder, wrist, target, 0.0)?;
-        let turned = from_line.abs().clamp(least, most).copysign(from_line) - from_line;
-        (turned.abs() <= turn.open(m)).then_some(wrist.theta_6 + turned_with_phi(turned, m))
+    ) -> Option<Result<Reaching, Reach>> {
+        let Circle { from_line, least, most } = self.circle(shoulder, wrist, target)?;
+        let into_reach = from_line.abs().clamp(least, most).copysign(from_line) - from_line;
+        if into_reach.abs() > turn.open(m) {
+            return None;
+        }
+        let turned = turned_with_phi(into_reach, m);
+        let at = |turned: f64| self.at(*shoulder, Turn::Taken(wrist.theta_6 + turned), target);
+        // Where the edge is, rounding decides: an arm that it takes farther in is bent.
+        let reaching =
+            [turned, 2.0 * turned].into_iter().find_map(|turned| at_edge(at, turned, 0.0));
+        reaching
+            .map_or_else(|| at(turned).err().map(|(missed, _)| Err(missed)), |arm| Some(Ok(arm)))
     }
 
     /// theta_6 in the middle of what is in reach on either side of the line to the wrist.
@@ -191,19 +167,13 @@ impl ThreeParallel {
         wrist: &Wrist,
         target: &Target<'_>,
     ) -> Option<[f64; 2]> {
-        let Circle { from_line, least, most } = self.circle(shoulder, wrist, target, 0.0)?;
+        let Circle { from_line, least, most } = self.circle(shoulder, wrist, target)?;
         let middle = 0.5 * (least + most);
         Some([middle, -middle].map(|middle| wrist.theta_6 + turned_with_phi(middle - from_line, m)))
     }
 
-    /// At sin theta_5 = 0 the end of the planar arm runs on a circle about the wrist (eq. 39). What is in reach, and this far beyond.
-    fn circle(
-        &self,
-        shoulder: &Shoulder,
-        wrist: &Wrist,
-        target: &Target<'_>,
-        beyond: f64,
-    ) -> Option<Circle> {
+    /// At sin theta_5 = 0 the end of the planar arm runs on a circle about the wrist (eq. 39).
+    fn circle(&self, shoulder: &Shoulder, wrist: &Wrist, target: &Target<'_>) -> Option<Circle> {
         let PlanarArm { a1, c2, k, .. } = self.planar;
         let (x, z) = (shoulder.x - a1, target.wz);
         let (size, both) = (x.hypot(z), 2.0 * self.d5 * x.hypot(z));
@@ -211,8 +181,8 @@ impl ThreeParallel {
         let from_line = wrap(wrist.sin_phi.atan2(wrist.cos_phi) - x.atan2(z));
         (both > 0.0).then(|| Circle {
             from_line,
-            least: cosine(((c2 - k).abs() - beyond).max(0.0)).acos(),
-            most: cosine(c2 + k + beyond).acos(),
+            least: cosine(c2 - k).acos(),
+            most: cosine(c2 + k).acos(),
         })
     }
 }
@@ -226,15 +196,32 @@ struct Circle {
 }
 
 impl Circle {
-    /// How far to turn to the edges of reach [rad].
-    fn turns(&self) -> [f64; 2] {
+    /// How far axis 5 is from the edges of reach [rad].
+    fn edges(&self) -> [f64; 2] {
         [self.least, self.most].map(|edge| edge.copysign(self.from_line) - self.from_line)
     }
 }
 
-/// An arm that reaches and stands for both elbows.
-fn straight<E>(reached: Result<Reaching, E>) -> Option<Reaching> {
-    reached.ok().filter(|arm| arm.elbows.behind.is_none())
+/// The arm at the edge of reach between a place where it reaches and one where it does not, to rounding.
+fn at_edge<E>(
+    at: impl Fn(f64) -> Result<Reaching, E>,
+    mut reaches: f64,
+    mut misses: f64,
+) -> Option<Reaching> {
+    let mut reaching = at(reaches).ok()?;
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (misses + reaches);
+        match at(middle) {
+            Ok(nearer) => (reaching, reaches) = (nearer, middle),
+            Err(_) => misses = middle,
+        }
+    }
+    Some(reaching)
+}
+
+/// The arm where it stands for both elbows.
+fn straight(reaching: Option<Reaching>) -> Option<Reaching> {
+    reaching.filter(|arm| arm.elbows.behind.is_none())
 }
 
 /// How far theta_6 turns where phi turns by this: by that over -cos theta_5, for phi + theta_6 is fixed at theta_5 = 0, phi - theta_6 at 180 deg.
