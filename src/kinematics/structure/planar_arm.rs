@@ -141,14 +141,17 @@ impl PlanarArm {
 
     /// How far the plane of a shoulder may be turned about axis 1, b != 0, with the wrist centre off it by no more than rounding: the
     /// least and the greatest angle [rad] (eq. 42).
-    pub(crate) fn open_turn(&self, shoulder: &Shoulder) -> [f64; 2] {
-        let (x, b, rounding) = (shoulder.x.abs(), self.b.abs(), self.position_rounding());
-        let (farther, nearer) = (x * x + 2.0 * b * rounding, x * x - 2.0 * b * rounding);
-        let outward = 2.0 * rounding / (x + farther.sqrt());
-        let inward = if nearer > 0.0 {
-            2.0 * rounding / (x + nearer.sqrt())
+    pub(crate) fn open_turn(&self, shoulder: &Shoulder, [wx, wy]: [f64; 2]) -> [f64; 2] {
+        let (rho, b, x) = (wx.hypot(wy), self.b.abs(), shoulder.x.abs());
+        let (x2, rounding) = ((rho - b) * (rho + b), 2.0 * b * self.position_rounding());
+        // The squares of the greatest and the least x: what is left of x is not a difference of roots.
+        let (farther, nearer) = ((x2 + rounding).max(0.0), x2 - rounding);
+        let (outward, inward) = if x == 0.0 {
+            (farther.sqrt() / b, farther.sqrt() / b)
+        } else if nearer > 0.0 {
+            (rounding / (b * (x + farther.sqrt())), rounding / (b * (x + nearer.sqrt())))
         } else {
-            (x + farther.sqrt()) / b
+            (rounding / (b * (x + farther.sqrt())), (x + farther.sqrt()) / b)
         };
         let turns_outward = shoulder.x.is_sign_negative() == self.b.is_sign_negative();
         if turns_outward { [-inward, outward] } else { [-outward, inward] }

@@ -75,7 +75,7 @@ impl SphericalWrist {
     ) -> impl Iterator<Item = (Shoulder, Elbow, f64)> + use<'a> {
         let m = forearm_to_flange(shoulder, elbow, target.rotation);
         let near = m[(0, 2)].hypot(m[(1, 2)]) <= PATH_WRIST_SIN;
-        let ends = if near { self.planar.open_turn(shoulder) } else { [0.0; 2] };
+        let ends = if near { self.planar.open_turn(shoulder, target.wxy) } else { [0.0; 2] };
         // Bent by the turn, a straight arm stands on either side.
         let behind = self.planar.sin_elbow(elbow.theta_3) < 0.0;
         let sides = [false, true].into_iter().filter(move |side| open.straight || *side == behind);

@@ -26,7 +26,7 @@ impl<'a> OpenPlane<'a> {
         Self {
             shoulder,
             wxy: target.wxy,
-            open: arm.planar.open_turn(shoulder),
+            open: arm.planar.open_turn(shoulder, target.wxy),
             told: [m[(1, 0)], m[(1, 2)]],
             moved: [m[(0, 0)], m[(0, 2)]],
         }
@@ -75,10 +75,14 @@ impl<'a> OpenPlane<'a> {
         self.open[1].max(-self.open[0])
     }
 
+    /// How far the direction of axis 5 may turn when the plane is turned as far as it is open [rad].
+    pub(super) fn open_phi(&self) -> f64 {
+        let (open, sin_5) = (self.widest(), self.told[0].hypot(self.told[1]));
+        if sin_5 > 2.0 * open { 2.0 * open / sin_5 } else { 2.0 }
+    }
+
     /// How far the end of the planar arm may move at most when the plane is turned as far as it is open [m].
     pub(super) fn lever(&self, arm: &ThreeParallel) -> f64 {
-        let (open, sin_5) = (self.widest(), self.told[0].hypot(self.told[1]));
-        let phi = if sin_5 > 2.0 * open { 2.0 * open / sin_5 } else { 2.0 };
-        open * self.wxy[0].hypot(self.wxy[1]) + arm.d5 * phi
+        self.widest() * self.wxy[0].hypot(self.wxy[1]) + arm.d5 * self.open_phi()
     }
 }

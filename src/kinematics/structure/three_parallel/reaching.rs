@@ -6,11 +6,12 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use super::ThreeParallel;
 use super::plane::OpenPlane;
-use super::wrist::{Turn, Wrist, seen_from_plane};
+use super::wrist::{Turn, Wrist, seen_from_plane, sin_5};
 use crate::kinematics::answer::status::Reach;
 use crate::kinematics::pose::angles::wrap;
+use crate::kinematics::structure::free_choice::Trust;
 use crate::kinematics::structure::planar_arm::{Elbows, PlanarArm, Shoulder, Target};
-use crate::kinematics::thresholds::{REACH_TOLERANCE, WRIST_FREE_SIN};
+use crate::kinematics::thresholds::{REACH_TOLERANCE, WRIST_FREE_SIN, WRIST_MERGE_SIN};
 
 /// A shoulder and a wrist with the elbows between them.
 pub(super) struct Reaching {
@@ -18,6 +19,9 @@ pub(super) struct Reaching {
     pub(super) wrist: Wrist,
     pub(super) elbows: Elbows,
 }
+
+/// Greatest turn of axis 5 for which the elbows that it straightens count as one [rad]: beyond, joint 6 is as good as free.
+const MOST_STRAIGHTENING: f64 = 1e-2;
 
 /// Halvings of the way between a place in which the arm reaches and one in which it does not: to rounding.
 const HALVINGS: u32 = 50;
@@ -62,32 +66,57 @@ impl ThreeParallel {
         })
     }
 
-    /// The stretched or folded arm in place of one whose two elbows differ by less than what rounding leaves open: of joint 6, a rounding over
-    /// sin theta_5, or of the plane (eq. 45). The arm as it is where they are two.
+    /// The stretched or folded arm in place of one whose two elbows differ by less than what rounding leaves open of the plane or of joint 6
+    /// (eq. 45). The arm as it is where they are two, and where joint 6 is as good as free, for each elbow has a family of its own. A seed
+    /// says which elbow it is.
     fn straightened(&self, bent: Reaching, turn: Turn, target: &Target<'_>) -> Reaching {
-        let Reaching { shoulder, wrist, elbows } = &bent;
-        if !matches!(turn, Turn::Told { .. }) || elbows.behind.is_none() {
+        let Reaching { shoulder, elbows, .. } = &bent;
+        let told = matches!(turn, Turn::Told { .. }) && target.free.trust == Trust::Pose;
+        if !told || elbows.behind.is_none() {
             return bent;
         }
         let m = seen_from_plane(shoulder, target.rotation);
         let (open, plane) = (turn.open(&m), OpenPlane::of(self, shoulder, target));
+        if sin_5(&m) <= WRIST_MERGE_SIN || plane.open_phi() > MOST_STRAIGHTENING {
+            return bent;
+        }
         let moved = self.planar.straightening(elbows.front.theta_3);
         if moved > self.d5 * open + plane.lever(self) {
             return bent;
         }
-        let turned = |turned: f64| self.at(*shoulder, Turn::Taken(wrist.theta_6 + turned), target);
-        let edges = self.circle(shoulder, wrist, target).map(|circle| circle.edges());
-        let of_six = edges
-            .into_iter()
-            .flatten()
-            .map(|turned| turned_with_phi(turned, &m))
-            .filter(|turned| turned.abs() <= open)
-            .find_map(|to_edge| straight(at_edge(turned, 0.0, 2.0 * to_edge)));
-        let straight = of_six.or_else(|| {
+        // The edge in the middle of what is straight.
+        let target = &target.beyond(target.tolerance - self.planar.position_rounding());
+        let straight = self.straightened_by_six(&bent, open, target).or_else(|| {
             let turned = |angle: f64| self.at(plane.turned(angle), turn, target);
-            plane.ends().into_iter().find_map(|end| straight(at_edge(turned, 0.0, end)))
+            plane.ends().into_iter().find_map(|end| {
+                turned(end).err()?;
+                // A rounding of the plane may bend the arm again.
+                let bent = at_edge(turned, 0.0, end)?;
+                if bent.elbows.behind.is_none() {
+                    return Some(bent);
+                }
+                self.straightened_by_six(&bent, open, target)
+            })
         });
         straight.unwrap_or(bent)
+    }
+
+    /// The arm with theta_6 moved to the edge of reach, by no more than `open` [rad].
+    fn straightened_by_six(
+        &self,
+        Reaching { shoulder, wrist, .. }: &Reaching,
+        open: f64,
+        target: &Target<'_>,
+    ) -> Option<Reaching> {
+        let m = seen_from_plane(shoulder, target.rotation);
+        let turned = |turned: f64| self.at(*shoulder, Turn::Taken(wrist.theta_6 + turned), target);
+        let edges = self.circle(shoulder, wrist, target)?.edges();
+        edges
+            .map(|to_edge| turned_with_phi(to_edge, &m))
+            .into_iter()
+            .filter(|to_edge| to_edge.abs() <= open)
+            .filter_map(|to_edge| at_edge(turned, 0.0, 2.0 * to_edge))
+            .find(|reaching| reaching.elbows.behind.is_none())
     }
 
     /// The arm that is just out of reach with this shoulder, in the nearest of the planes that rounding leaves open in which it reaches.
@@ -151,12 +180,19 @@ impl ThreeParallel {
             return None;
         }
         let turned = turned_with_phi(into_reach, m);
-        let at = |turned: f64| self.at(*shoulder, Turn::Taken(wrist.theta_6 + turned), target);
-        // Where the edge is, rounding decides: an arm that it takes farther in is bent.
+        let at = |turned: f64, target: &Target<'_>| {
+            self.at(*shoulder, Turn::Taken(wrist.theta_6 + turned), target)
+        };
+        // Rounding decides on which side of the edge that is, and bends the arm that it takes farther in.
+        let inside = target.beyond(target.tolerance - self.planar.position_rounding());
+        let mut ways = [(&inside, 1.0), (&inside, 2.0), (target, 1.0)].into_iter();
         let reaching =
-            [turned, 2.0 * turned].into_iter().find_map(|turned| at_edge(at, turned, 0.0));
-        reaching
-            .map_or_else(|| at(turned).err().map(|(missed, _)| Err(missed)), |arm| Some(Ok(arm)))
+            ways.find_map(|(target, far)| at_edge(|turned| at(turned, target), far * turned, 0.0));
+        match (reaching, at(turned, target)) {
+            (Some(reaching), _) => Some(Ok(reaching)),
+            (None, Err((missed, _))) => Some(Err(missed)),
+            (None, Ok(_)) => None,
+        }
     }
 
     /// theta_6 in the middle of what is in reach on either side of the line to the wrist.
@@ -217,11 +253,6 @@ fn at_edge<E>(
         }
     }
     Some(reaching)
-}
-
-/// The arm where it stands for both elbows.
-fn straight(reaching: Option<Reaching>) -> Option<Reaching> {
-    reaching.filter(|arm| arm.elbows.behind.is_none())
 }
 
 /// How far theta_6 turns where phi turns by this: by that over -cos theta_5, for phi + theta_6 is fixed at theta_5 = 0, phi - theta_6 at 180 deg.
