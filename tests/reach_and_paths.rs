@@ -9,8 +9,6 @@
 mod arm;
 mod common;
 
-use std::f64::consts::PI;
-
 use arm::{Arm, Near, arms, equal_links, irb_2600, lateral, log_uniform, sign, universal, wrapped};
 use common::{Rng, asked_set};
 use irbkin::{FollowOptions, Pose, Robot, Status, thresholds};
@@ -94,28 +92,7 @@ fn straight_elbows_next_to_the_shoulder_have_their_solution() {
                 let pose = arm.robot.fk(&q);
                 let seeded = arm.robot.ik_nearest(&pose, &q, &[1.0; 6]);
                 let holds = is_found(&arm, &theta, &pose) && seeded.is_ok();
-                count.take(holds, || {
-                    let found: Vec<_> = arm
-                        .robot
-                        .ik(&pose)
-                        .unwrap()
-                        .iter()
-                        .map(|s| {
-                            (
-                                s.slot,
-                                s.kinds(),
-                                arm.robot.residual(&s.q, &pose).largest(),
-                                wrapped(s.q[0] - q[0]),
-                                wrapped(s.q[4] - q[4]),
-                            )
-                        })
-                        .collect();
-                    format!(
-                        "{q:?} {} {seeded:?} {found:?} {:e}",
-                        arm.slot(&theta),
-                        plane_open(&arm, arm.x(&theta))
-                    )
-                });
+                count.take(holds, || format!("{q:?}"));
             }
             report += &count.tell(&format!("{}, {set}", arm.name));
         };
@@ -156,7 +133,7 @@ fn elbows_that_rounding_merges_are_one() {
                 let theta = arm.placed(near(rng), rng);
                 let q = arm.q(theta);
                 let solutions = arm.robot.ik(&arm.robot.fk(&q)).unwrap();
-                let (slot, open) = (arm.slot(&theta), 2.0 * plane_open(&arm, arm.x(&theta)));
+                let slot = arm.slot(&theta);
                 let met = arm.x(&theta).abs() <= arm.shoulder_rounding();
                 let shoulders = if met { [0, 4] } else { [slot & 4; 2] };
                 // One of the two elbows of the branch, and it is told that it stands for both.
@@ -166,21 +143,7 @@ fn elbows_that_rounding_merges_are_one() {
                     let told = solutions.status()[twins[1]];
                     found == [true, false] && told.contains(Status::ELBOW | Status::MERGED)
                 });
-                count.take(holds, || {
-                    let f: Vec<_> = solutions
-                        .iter()
-                        .map(|s| {
-                            (
-                                s.slot,
-                                s.kinds(),
-                                s.q[2],
-                                wrapped(s.q[0] - q[0]),
-                                wrapped(s.q[5] - q[5]),
-                            )
-                        })
-                        .collect();
-                    format!("{q:?} {open:e} slot {slot} {f:?} {:?}", solutions.status())
-                });
+                count.take(holds, || format!("{q:?}"));
             }
             report += &count.tell(&format!("{}, {set}", arm.name));
         };
@@ -369,12 +332,13 @@ fn is_clear(arm: &Arm, path: &[[f64; 6]], near: Near) -> bool {
     path.iter().enumerate().all(|(i, q)| {
         let theta = arm.theta(q);
         let at_middle = i.abs_diff(path.len() / 2) <= 3;
-        let clear = |asked: Option<f64>, off: f64, least: f64| {
-            off.abs() > least || (asked.is_some() && at_middle)
+        let clear = |asked: Option<f64>, off: f64, least: f64| match asked {
+            Some(_) => at_middle || off.abs() > 0.1 * least,
+            None => off.abs() > least,
         };
-        clear(near.wrist, theta[4].sin(), 0.008)
-            && clear(near.elbow, arm.elbow(&theta).sin(), 0.008)
-            && clear(near.shoulder, arm.x(&theta), 1e-4 * arm.c2)
+        clear(near.wrist, theta[4].sin(), 0.05)
+            && clear(near.elbow, arm.elbow(&theta).sin(), 0.05)
+            && clear(near.shoulder, arm.x(&theta), 0.05 * arm.c2)
     })
 }
 
@@ -421,172 +385,5 @@ fn smooth_paths_past_several_singularities_are_followed() {
             }
         }
     }
-    let _ = PI;
     assert_none(&report);
-}
-
-#[test]
-fn dbg_path() {
-    if std::env::var("DBGS").is_ok() {
-        let arm = Arm::universal("UR5e");
-        for q in [
-            [
-                1.871318886111066,
-                -3.855660262893937,
-                3.141592653589793,
-                -0.30328175330355833,
-                3.1415926654484507,
-                1.4679628485542144,
-            ],
-            [
-                -0.3876555585014092,
-                0.49782972150085936,
-                -1e-8,
-                1.142792246342358,
-                3.141588279325849,
-                3.029227513388025,
-            ],
-        ] {
-            for s in arm.robot.ik(&arm.robot.fk(&q)).unwrap().iter() {
-                println!("{} {:?} {:?}", s.slot, s.q, s.kinds());
-            }
-        }
-    }
-    for name in std::env::var("DBG").unwrap_or_default().split(',') {
-        let (arm, middle, rates) = match name {
-            "lat" => (
-                lateral(0.05),
-                [
-                    -1.7055309903828395,
-                    3.261942100845959,
-                    -1.4005844015368907,
-                    -1.485210973667252,
-                    3.1415926529533795,
-                    0.8376903224476631,
-                ],
-                [
-                    -0.011091668207838499,
-                    0.014209738662407614,
-                    0.0060186420852546985,
-                    0.014915485724692656,
-                    0.009077345525659582,
-                    0.00767623879161025,
-                ],
-            ),
-            "ur5" => (
-                Arm::universal("UR5e"),
-                [
-                    -1.619356709216222,
-                    2.6246159846978845,
-                    3.1415926535910526,
-                    0.22693296474357183,
-                    -4.014679192089479e-12,
-                    -1.6342538202100265,
-                ],
-                [
-                    -0.0034948388839478126,
-                    0.014333744113414652,
-                    0.009900029483344765,
-                    -0.010903666217278073,
-                    0.0046640636123967865,
-                    0.011286760981452624,
-                ],
-            ),
-            "ur5b" => (
-                Arm::universal("UR5e"),
-                [
-                    -1.0626104893016453,
-                    -1.479215271820478,
-                    -6.106255495293623e-11,
-                    -3.9565072339919958,
-                    3.1415926534710272,
-                    -2.907868165112619,
-                ],
-                [
-                    -0.013954393973537468,
-                    0.011594391912454653,
-                    0.013738873923618847,
-                    -0.006225068627551641,
-                    -0.004487848318032498,
-                    0.003440157985728612,
-                ],
-            ),
-            "ws" => (
-                Arm::universal("UR5e"),
-                [
-                    2.5645997243518295,
-                    2.034739566048054,
-                    -0.8777428118354658,
-                    -1.488809393415627,
-                    6.403317829134467e-8,
-                    1.3351005350830851,
-                ],
-                [
-                    -0.012183967695665519,
-                    -0.009436189396491317,
-                    -0.011323234956196044,
-                    0.007491177307569396,
-                    0.014842033105138056,
-                    0.0099,
-                ],
-            ),
-            "wsb" => (
-                Arm::universal("UR5e"),
-                [
-                    1.0092934207476105,
-                    -1.6305152061626227,
-                    -0.2021583444214704,
-                    -0.3523238499148187,
-                    3.141592770305082,
-                    -2.8327208894578026,
-                ],
-                [
-                    0.010192232586520376,
-                    -0.014330277448312573,
-                    -0.0037521899739577555,
-                    -0.006990938831094852,
-                    0.014179414836786208,
-                    -0.009896688094823417,
-                ],
-            ),
-            "ur5c" => (
-                Arm::universal("UR5e"),
-                [
-                    -1.0626104893016453,
-                    -1.479215715877962,
-                    -6.106255495293622e-7,
-                    -3.9565072339919958,
-                    3.1415914659292548,
-                    -2.907868165112619,
-                ],
-                [
-                    -0.013954393973537468,
-                    0.011594391912454653,
-                    0.013738873923618847,
-                    -0.006225068627551641,
-                    -0.004487848318032498,
-                    0.003440157985728612,
-                ],
-            ),
-            _ => continue,
-        };
-        let path: Vec<[f64; 6]> = (-30..=30)
-            .map(|i| std::array::from_fn(|j| middle[j] + rates[j] * f64::from(i)))
-            .collect();
-        let poses: Vec<Pose> = path.iter().map(|q| arm.robot.fk(q)).collect();
-        let f = arm.robot.follow(&poses, &path[0], &FollowOptions::default()).unwrap();
-        println!("== {name} x {:e}", arm.x(&arm.theta(&middle)));
-        for b in &f.breaks {
-            println!("{b}");
-        }
-        for k in 27..35 {
-            let d: Vec<String> =
-                (0..6).map(|j| format!("{:9.1e}", f.q[k].unwrap()[j] - path[k][j])).collect();
-            println!("{k} {d:?} {:.1e}", arm.robot.residual(&f.q[k].unwrap(), &poses[k]).largest());
-        }
-        for s in arm.robot.ik(&poses[30]).unwrap().iter() {
-            println!("{} {:?} {:?} {:?}", s.slot, s.kinds(), s.q, s.free);
-        }
-        println!("{middle:?}");
-    }
 }
