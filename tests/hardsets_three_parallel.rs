@@ -122,8 +122,9 @@ impl<'a> Made<'a> {
         Some((nearest, closes && (is_open || bounds.hold(&self.theta_of(&nearest.q), &self.theta))))
     }
 
-    /// How far beyond reach the pose is with the shoulder and the wrist of a straight arm, by no more than such an arm is given for [m]; what
-    /// rounding leaves open of x there is no part of it.
+    /// How far beyond reach the pose is with the shoulder and the wrist of a straight arm, by no
+    /// more than such an arm is given for [m]; what rounding leaves open of x there is no part of
+    /// it.
     fn beyond_in(&self, solution: &Solution<6>) -> f64 {
         let (arm, slot) = (&self.subject.arm, usize::from(solution.slot));
         let Ok(asked) = arm.asked(&self.pose) else { return 0.0 };

@@ -1,5 +1,6 @@
-//! Next to the edge of reach and to several singularities at once: a pose that a joint vector makes has its solution, what rounding merges is one
-//! and nothing else is, each slot reaches by itself, and smooth joint paths are followed.
+//! Next to the edge of reach and to several singularities at once: a pose that a joint vector makes
+//! has its solution, what rounding merges is one and nothing else is, each slot reaches by itself,
+//! and smooth joint paths are followed.
 //!
 //! `IRBKIN_POSES` sets how many poses; each law prints its rates.
 #![allow(clippy::unwrap_used, clippy::cast_precision_loss, missing_docs)]
@@ -50,7 +51,8 @@ fn assert_none(report: &str) {
     assert!(report.is_empty(), "\n{report}");
 }
 
-/// Whether one of the solutions of a pose stands in the plane of the joint vector that made it, with its joint 5, to what rounding leaves open.
+/// Whether one of the solutions of a pose stands in the plane of the joint vector that made it,
+/// with its joint 5, to what rounding leaves open.
 fn is_found(arm: &Arm, theta: &[f64; 6], pose: &Pose) -> bool {
     let solutions = arm.robot.ik(pose).unwrap();
     let open = 2.0 * plane_open(arm, arm.x(theta)) + 1e-12;
@@ -120,7 +122,8 @@ fn straight_elbows_next_to_the_shoulder_have_their_solution() {
     assert_none(&report);
 }
 
-/// Of arms with three parallel axes: joint 6, and with it the end of the planar arm, is open by a rounding over sin q5.
+/// Of arms with three parallel axes: joint 6, and with it the end of the planar arm, is open by a
+/// rounding over sin q5.
 #[test]
 fn elbows_that_rounding_merges_are_one() {
     asked_set();
@@ -181,7 +184,8 @@ fn elbows_that_rounding_does_not_merge_are_two() {
             if r < 1e-3 * arm.c2 {
                 continue;
             }
-            // By how much straightening moves the end of the planar arm, and by how much rounding does.
+            // By how much straightening moves the end of the planar arm, and by how much rounding
+            // does.
             let moved = arm.c2 * arm.k * elbow.sin().powi(2) / (2.0 * r);
             let plane = plane_open(&arm, arm.x(&theta)) + 2.0 * thresholds::WRIST_FREE_SIN;
             let open = 2.0 * arm.rounding() + arm.d5 * plane / wrist.sin();
@@ -190,7 +194,8 @@ fn elbows_that_rounding_does_not_merge_are_two() {
             }
             let solutions = arm.robot.ik(&arm.robot.fk(&q)).unwrap();
             let slot = arm.slot(&theta);
-            // What is known of the forearm may merge the wrist of an arm whose axes 4, 5 and 6 meet.
+            // What is known of the forearm may merge the wrist of an arm whose axes 4, 5 and 6
+            // meet.
             let merged = usize::from(!arm.is_universal());
             let holds = [slot, slot ^ 2].iter().all(|slot| {
                 [*slot, *slot ^ merged].iter().any(|slot| solutions.slot(*slot).is_some())
@@ -261,8 +266,8 @@ fn a_lateral_offset_merges_only_what_rounding_merges() {
                 let pose = arm.robot.fk(&q);
                 let slot = arm.slot(&theta);
                 let solutions = arm.robot.ik(&pose).unwrap();
-                // Rounding moves the wrist centre across the plane by less than p / 2: by that it may turn, and less far out it may be one with
-                // its twin.
+                // Rounding moves the wrist centre across the plane by less than p / 2: by that it
+                // may turn, and less far out it may be one with its twin.
                 let open = 2.0 * plane_open(&arm, shoulder) + 1e-12;
                 let near = |slot: usize| {
                     solutions.slot(slot).is_some_and(|s| wrapped(s.q[0] - q[0]) <= open)
@@ -278,7 +283,8 @@ fn a_lateral_offset_merges_only_what_rounding_merges() {
     assert_none(&report);
 }
 
-/// Elbow and shoulder, and the wrist centre on axes 1 and 2 at once: the seed that made the pose is its nearest solution.
+/// Elbow and shoulder, and the wrist centre on axes 1 and 2 at once: the seed that made the pose is
+/// its nearest solution.
 #[test]
 fn a_seed_keeps_its_branch_behind_axis_1() {
     asked_set();
@@ -295,8 +301,8 @@ fn a_seed_keeps_its_branch_behind_axis_1() {
             let theta = arm.placed(near, rng);
             let (q, [x, z]) = (arm.q(theta), arm.end(&theta));
             let seeded = arm.robot.ik_nearest(&arm.robot.fk(&q), &q, &[1.0; 6]).unwrap();
-            // Rounding over the distance from axis 2 turns joint 2, and no more than 1e-12 m is given away for a seed's free joint.
-            // From there on the pose says what joint 1 is.
+            // Rounding over the distance from axis 2 turns joint 2, and no more than 1e-12 m is
+            // given away for a seed's free joint. From there on the pose says what joint 1 is.
             let plane = if shoulder > 9e-13 { arm.rounding() / shoulder } else { 0.0 };
             let off = 2e-6 + plane + (2e-12 + arm.rounding()) / x.hypot(z);
             let apart = common::apart(&seeded.q, &q);
@@ -315,7 +321,8 @@ fn largest_step(path: &[[f64; 6]]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Whether a smooth joint path is followed: every pose met, no break, no step of one and a half times the path's own.
+/// Whether a smooth joint path is followed: every pose met, no break, no step of one and a half
+/// times the path's own.
 fn is_followed(robot: &Robot<6>, made: &[[f64; 6]]) -> Result<(), String> {
     let path: Vec<Pose> = made.iter().map(|q| robot.fk(q)).collect();
     let followed = robot.follow(&path, &made[0], &FollowOptions::default()).unwrap();

@@ -25,8 +25,9 @@ pub const WRIST_MERGE_SIN: f64 = 1.5e-9;
 /// |sin q5| below which a pose says nothing of q4 [1]: the rounding of the wrist's rotation, so a free choice leaves the residual there.
 pub const WRIST_FREE_SIN: f64 = 5e-15;
 
-/// Distance of the wrist centre from axis 1 below which the front and the back branch are one [m]; both are returned from 2e-9 on. Without a
-/// lateral offset: with one, they meet by the square root of [`POSITION_ROUNDING`].
+/// Distance of the wrist centre from axis 1 below which the front and the back branch are one [m];
+/// both are returned from 2e-9 on. Without a lateral offset: with one, they meet by the square root
+/// of [`POSITION_ROUNDING`].
 pub const SHOULDER_MERGE: f64 = 1.5e-9;
 
 /// How far rounding moves a position, as a part of the lengths it is summed from [1]: twice the worst of a million poses. A wrist centre this

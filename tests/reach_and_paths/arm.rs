@@ -24,7 +24,8 @@ pub struct Arm {
     pub extent: f64,
 }
 
-/// Distances from the singularities: sin q5, the wrist from the shoulder's [m], the elbow angle [rad]; anything where there is none.
+/// Distances from the singularities: sin q5, the wrist from the shoulder's [m], the elbow angle
+/// [rad]; anything where there is none.
 #[derive(Clone, Copy, Default)]
 pub struct Near {
     pub wrist: Option<f64>,
@@ -126,7 +127,8 @@ impl Arm {
             + usize::from(theta[4].sin() < 0.0)
     }
 
-    /// Joint angles as far from the singularities as asked, on any side of them, and well away from those that are not.
+    /// Joint angles as far from the singularities as asked, on any side of them, and well away from
+    /// those that are not.
     pub fn placed(&self, near: Near, rng: &mut Rng) -> [f64; 6] {
         loop {
             let mut theta: [f64; 6] = std::array::from_fn(|_| rng.between(-PI, PI));

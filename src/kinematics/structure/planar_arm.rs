@@ -129,8 +129,8 @@ impl PlanarArm {
         self.position_rounding() * r * self.c2 * self.k
     }
 
-    /// x of the wrist centre up to which front and back are one [m]. With b != 0 they meet where the wrist centre is on the cylinder of
-    /// radius b to rounding (eq. 3).
+    /// x of the wrist centre up to which front and back are one [m]. With b != 0 they meet where
+    /// the wrist centre is on the cylinder of radius b to rounding (eq. 3).
     pub(crate) fn shoulder_merge(&self) -> f64 {
         if self.b == 0.0 {
             return SHOULDER_MERGE;
@@ -139,12 +139,13 @@ impl PlanarArm {
         (rounding * (2.0 * self.b.abs() + rounding)).sqrt()
     }
 
-    /// How far the plane of a shoulder may be turned about axis 1, b != 0, with the wrist centre off it by no more than rounding: the
-    /// least and the greatest angle [rad] (eq. 42).
+    /// How far the plane of a shoulder may be turned about axis 1, b != 0, with the wrist centre
+    /// off it by no more than rounding: the least and the greatest angle [rad] (eq. 42).
     pub(crate) fn open_turn(&self, shoulder: &Shoulder, [wx, wy]: [f64; 2]) -> [f64; 2] {
         let (rho, b, x) = (wx.hypot(wy), self.b.abs(), shoulder.x.abs());
         let (x2, rounding) = ((rho - b) * (rho + b), 2.0 * b * self.position_rounding());
-        // The squares of the greatest and the least x: what is left of x is not a difference of roots.
+        // The squares of the greatest and the least x: what is left of x is not a difference of
+        // roots.
         let (farther, nearer) = ((x2 + rounding).max(0.0), x2 - rounding);
         let (outward, inward) = if x == 0.0 {
             (farther.sqrt() / b, farther.sqrt() / b)
@@ -168,7 +169,8 @@ impl PlanarArm {
         (self.a2 * cos_3 + self.c3 * sin_3) / self.k
     }
 
-    /// How far straightening the arm moves its end [m], to first order: m^2 / (2 r c2 k), from stretched or from folded.
+    /// How far straightening the arm moves its end [m], to first order: m^2 / (2 r c2 k), from
+    /// stretched or from folded.
     pub(crate) fn straightening(&self, theta_3: f64) -> f64 {
         let (c2, k, elbow) = (self.c2, self.k, self.elbow_angle(theta_3));
         let r = (c2 * c2 + k * k + 2.0 * c2 * k * elbow.cos()).max(0.0).sqrt();
@@ -224,7 +226,8 @@ impl PlanarArm {
         }
         let (sin_1, cos_1) = free_theta_1.sin_cos();
         if self.b == 0.0 && (trust.forces(1) || rho <= trust.radius().max(rounding)) {
-            // Whichever is kept has that angle. A seed's plane says what x is, and on which side of axis 1.
+            // Whichever is kept has that angle. A seed's plane says what x is, and on which side of
+            // axis 1.
             let (x, keep_behind) = match trust {
                 Trust::Forced { behind, .. } => (rho, behind),
                 Trust::Pose => (rho, false),

@@ -58,7 +58,8 @@ impl SphericalShoulder {
         branches
     }
 
-    /// The branches of one elbow, whether or not the other reaches; with the wrist at its edge where it misses by less than anyone could see.
+    /// The branches of one elbow, whether or not the other reaches; with the wrist at its edge
+    /// where it misses by less than anyone could see.
     fn fill_or_beyond(
         &self,
         branches: &mut Branches<7>,

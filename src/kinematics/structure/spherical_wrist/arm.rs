@@ -34,8 +34,9 @@ pub(super) struct Open {
 }
 
 impl SphericalWrist {
-    /// The branch of a shoulder and an elbow; on a path, where the pose leaves the shoulder's angle open, the one that moves the joints
-    /// less: with the angle that joint 1 is heading for, or turned so that joint 4 has the one that it is heading for.
+    /// The branch of a shoulder and an elbow; on a path, where the pose leaves the shoulder's angle
+    /// open, the one that moves the joints less: with the angle that joint 1 is heading for, or
+    /// turned so that joint 4 has the one that it is heading for.
     pub(super) fn standing(
         &self,
         shoulder: &Shoulder,
@@ -63,9 +64,10 @@ impl SphericalWrist {
         }
     }
 
-    /// On a path, with b != 0, the shoulder turned as far as rounding leaves it open, and the elbow with it, so that the wrist can keep the
-    /// joint 4 that it is heading for: there the approach axis has no part across that joint's plane (eq. 25). And where the arm is straight
-    /// at the edge of reach, which leaves the forearm open. With what rounding leaves open of it [rad].
+    /// On a path, with b != 0, the shoulder turned as far as rounding leaves it open, and the elbow
+    /// with it, so that the wrist can keep the joint 4 that it is heading for: there the approach
+    /// axis has no part across that joint's plane (eq. 27). And where the arm is straight at the
+    /// edge of reach, which leaves the forearm open. With what rounding leaves open of it [rad].
     fn turned_in_open_plane<'a>(
         &'a self,
         shoulder: &'a Shoulder,
@@ -132,7 +134,8 @@ struct TurnedPlane<'a> {
 }
 
 impl TurnedPlane<'_> {
-    /// The shoulder turned by `angle`, the elbow that it has then, and what rounding leaves open of the forearm [rad].
+    /// The shoulder turned by `angle`, the elbow that it has then, and what rounding leaves open of
+    /// the forearm [rad].
     fn at(&self, angle: f64) -> Option<(Shoulder, Elbow, f64)> {
         let Self { arm, shoulder, target, behind } = self;
         let turned = shoulder.turned(angle, target.wxy);
@@ -143,7 +146,8 @@ impl TurnedPlane<'_> {
         Some((turned, elbow, turned.error + elbows.error))
     }
 
-    /// The part of the approach axis across the plane in which joint 5 moves it with the joint 4 that a path is heading for.
+    /// The part of the approach axis across the plane in which joint 5 moves it with the joint 4
+    /// that a path is heading for.
     fn across(&self, angle: f64) -> Option<f64> {
         let (shoulder, elbow, _) = self.at(angle)?;
         let m = forearm_to_flange(&shoulder, &elbow, self.target.rotation);
@@ -151,7 +155,8 @@ impl TurnedPlane<'_> {
         Some(m[(1, 2)] * cos_4 - m[(0, 2)] * sin_4)
     }
 
-    /// The arm in the plane before `end` in which that part is none, and at the edge of reach where that is before `end`.
+    /// The arm in the plane before `end` in which that part is none, and at the edge of reach where
+    /// that is before `end`.
     fn ways(self, end: f64) -> impl Iterator<Item = (Shoulder, Elbow, f64)> + use<> {
         let reaches = |angle: f64| self.at(angle).is_some();
         let far = if reaches(end) { end } else { halved([0.0, end], reaches) };
@@ -177,7 +182,8 @@ fn halved([mut near, mut far]: [f64; 2], is_so: impl Fn(f64) -> bool) -> f64 {
     near
 }
 
-/// How far a branch is from where the joints are heading, joints 2 and 3 not regarded: the sum of squares [rad^2].
+/// How far a branch is from where the joints are heading, joints 2 and 3 not regarded: the sum of
+/// squares [rad^2].
 fn motion(Standing { shoulder, wrist, .. }: &Standing, target: &Target<'_>) -> f64 {
     let [heading_1, _, _, heading_4, heading_5, heading_6] = target.free_theta;
     let [theta_4, theta_5, theta_6] = wrist.theta;

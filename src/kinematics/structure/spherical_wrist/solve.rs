@@ -32,7 +32,8 @@ impl SphericalWrist {
         let missed =
             sides.map(|(base, shoulder)| self.fill_or_eased(&mut branches, base, shoulder, target));
         branches.reach = missed[0].nearer(missed[1]);
-        // Less beyond reach than anyone could see: that shoulder gets the stretched or folded arm. Of two that are one, where neither reaches.
+        // Less beyond reach than anyone could see: that shoulder gets the stretched or folded arm.
+        // Of two that are one, where neither reaches.
         let nearest = branches.reach;
         for ((base, shoulder), missed) in sides.into_iter().zip(missed) {
             let shortfall = if *merged { nearest } else { missed }.shortfall();

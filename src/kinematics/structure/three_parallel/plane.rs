@@ -10,7 +10,8 @@ use super::ThreeParallel;
 use super::wrist::{seen_from_plane, sin_5};
 use crate::kinematics::structure::planar_arm::{Shoulder, Target};
 
-/// The planes that rounding leaves open: those turned from the shoulder's by angles in `open` [rad] (eq. 42).
+/// The planes that rounding leaves open: those turned from the shoulder's by angles in `open` [rad]
+/// (eq. 42).
 pub(super) struct OpenPlane<'a> {
     shoulder: &'a Shoulder,
     wxy: [f64; 2],
@@ -57,13 +58,15 @@ impl<'a> OpenPlane<'a> {
         (angle >= least && angle <= most).then_some(angle)
     }
 
-    /// The shoulder turned so that the pose tells `theta_6`, or half a turn from there, as far as it is open.
+    /// The shoulder turned so that the pose tells `theta_6`, or half a turn from there, as far as
+    /// it is open.
     pub(super) fn nearest_to_telling(&self, theta_6: f64) -> Shoulder {
         let ([least, most], angle) = (self.open, self.towards(theta_6));
         if angle.is_nan() { *self.shoulder } else { self.turned(angle.clamp(least, most)) }
     }
 
-    /// The angle to turn by so that the pose tells `theta_6`, or half a turn from there (eq. 44); not finite where there is none.
+    /// The angle to turn by so that the pose tells `theta_6`, or half a turn from there (eq. 44);
+    /// not finite where there is none.
     fn towards(&self, theta_6: f64) -> f64 {
         let (sin_6, cos_6) = theta_6.sin_cos();
         let Self { told: [m10, m12], moved: [m00, m02], .. } = self;
@@ -75,7 +78,8 @@ impl<'a> OpenPlane<'a> {
         self.open[1].max(-self.open[0])
     }
 
-    /// How far the direction of axis 5 may turn when the plane is turned as far as it is open [rad].
+    /// How far the direction of axis 5 may turn when the plane is turned as far as it is open
+    /// [rad].
     pub(super) fn open_phi(&self) -> f64 {
         let (open, sin_5) = (self.widest(), self.told[0].hypot(self.told[1]));
         if sin_5 > 2.0 * open { 2.0 * open / sin_5 } else { 2.0 }

@@ -20,10 +20,12 @@ pub(super) struct Reaching {
     pub(super) elbows: Elbows,
 }
 
-/// Greatest turn of axis 5 for which the elbows that it straightens count as one [rad]: beyond, joint 6 is as good as free.
+/// Greatest turn of axis 5 for which the elbows that it straightens count as one [rad]: beyond,
+/// joint 6 is as good as free.
 const MOST_STRAIGHTENING: f64 = 1e-2;
 
-/// Halvings of the way between a place in which the arm reaches and one in which it does not: to rounding.
+/// Halvings of the way between a place in which the arm reaches and one in which it does not: to
+/// rounding.
 const HALVINGS: u32 = 50;
 
 impl ThreeParallel {
@@ -66,8 +68,9 @@ impl ThreeParallel {
         })
     }
 
-    /// The stretched or folded arm in place of one whose two elbows differ by less than what rounding leaves open of the plane or of joint 6
-    /// (eq. 45). The arm as it is where they are two, and where joint 6 is as good as free, for each elbow has a family of its own. A seed
+    /// The stretched or folded arm in place of one whose two elbows differ by less than what
+    /// rounding leaves open of the plane or of joint 6 (eq. 45). The arm as it is where they are
+    /// two, and where joint 6 is as good as free, for each elbow has a family of its own. A seed
     /// says which elbow it is.
     fn straightened(&self, bent: Reaching, turn: Turn, target: &Target<'_>) -> Reaching {
         let Reaching { shoulder, elbows, .. } = &bent;
@@ -164,8 +167,8 @@ impl ThreeParallel {
         }
     }
 
-    /// The arm with theta_6 moved to where the end of the planar arm is in reach, or by how much it misses there; none where the pose does
-    /// not leave it open so far.
+    /// The arm with theta_6 moved to where the end of the planar arm is in reach, or by how much it
+    /// misses there; none where the pose does not leave it open so far.
     fn turned_into_reach(
         &self,
         shoulder: &Shoulder,
@@ -183,7 +186,8 @@ impl ThreeParallel {
         let at = |turned: f64, target: &Target<'_>| {
             self.at(*shoulder, Turn::Taken(wrist.theta_6 + turned), target)
         };
-        // Rounding decides on which side of the edge that is, and bends the arm that it takes farther in.
+        // Rounding decides on which side of the edge that is, and bends the arm that it takes
+        // farther in.
         let inside = target.beyond(target.tolerance - self.planar.position_rounding());
         let mut ways = [(&inside, 1.0), (&inside, 2.0), (target, 1.0)].into_iter();
         let reaching =
@@ -238,7 +242,8 @@ impl Circle {
     }
 }
 
-/// The arm at the edge of reach between a place where it reaches and one where it does not, to rounding.
+/// The arm at the edge of reach between a place where it reaches and one where it does not, to
+/// rounding.
 fn at_edge<E>(
     at: impl Fn(f64) -> Result<Reaching, E>,
     mut reaches: f64,
@@ -255,7 +260,8 @@ fn at_edge<E>(
     Some(reaching)
 }
 
-/// How far theta_6 turns where phi turns by this: by that over -cos theta_5, for phi + theta_6 is fixed at theta_5 = 0, phi - theta_6 at 180 deg.
+/// How far theta_6 turns where phi turns by this: by that over -cos theta_5, for phi + theta_6 is
+/// fixed at theta_5 = 0, phi - theta_6 at 180 deg.
 fn turned_with_phi(turned: f64, m: &Matrix3<f64>) -> f64 {
     -turned / m[(1, 1)]
 }
