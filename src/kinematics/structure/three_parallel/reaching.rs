@@ -70,11 +70,11 @@ impl ThreeParallel {
 
     /// The stretched or folded arm in place of one whose two elbows differ by less than what
     /// rounding leaves open of the plane or of joint 6 (eq. 45). The arm as it is where they are
-    /// two, and where joint 6 is as good as free, for each elbow has a family of its own. A seed
+    /// two, and where joint 6 is as good as free, for each elbow has a family of its own. A path
     /// says which elbow it is.
     fn straightened(&self, bent: Reaching, turn: Turn, target: &Target<'_>) -> Reaching {
         let Reaching { shoulder, elbows, .. } = &bent;
-        let told = matches!(turn, Turn::Told { .. }) && target.free.trust == Trust::Pose;
+        let told = matches!(turn, Turn::Told { .. }) && target.free.trust != Trust::Path;
         if !told || elbows.behind.is_none() {
             return bent;
         }
