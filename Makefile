@@ -46,7 +46,7 @@ run: $(BUILT) ## Solve a real IRB 2600 pose and show every solution
 
 test: $(BUILT) $(VENV)/.groups ## Run all tests, Rust's and Python's
 	cargo test --quiet
-	$(ON_EACH_SET) cargo test --quiet --test laws --test laws_three_parallel --test recall --test hardsets --test hardsets_three_parallel; done
+	$(ON_EACH_SET) cargo test --quiet --test laws --test laws_three_parallel --test recall --test hardsets --test hardsets_three_parallel --test reach_and_paths; done
 	cargo test --quiet $(NO_STD),rapid --lib --test rapid --test rapid_calc
 	cargo test --quiet $(NO_STD) --lib --test laws --test laws_three_parallel --test coupled --test configuration --test allocation
 	$(BIN)/python -m pytest --quiet
@@ -114,7 +114,7 @@ configurations: | toolchains ## Hold a hundred thousand poses of every ABB arm a
 	IRBKIN_POSES=100000 cargo test --quiet --release --test configuration -- --nocapture --test-threads=1
 
 hardsets: | toolchains ## Solve poses at and next to every singularity, pairs and triples of them, and follow paths through
-	$(ON_EACH_SET) IRBKIN_POSES=2000 cargo test --quiet --release --test hardsets --test hardsets_three_parallel --test follow -- --nocapture --test-threads=1; done
+	$(ON_EACH_SET) IRBKIN_POSES=2000 cargo test --quiet --release --test hardsets --test hardsets_three_parallel --test reach_and_paths --test follow -- --nocapture --test-threads=1; done
 	IRBKIN_POSES=200000 cargo test --quiet --release --lib spherical_shoulder -- --nocapture --test-threads=1
 	IRBKIN_POSES=20 cargo test --quiet --release --test redundancy -- --nocapture --test-threads=1
 

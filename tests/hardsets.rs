@@ -146,7 +146,7 @@ fn found_bound(arm: &Arm, place: Place) -> (f64, f64) {
         if b > 0.0 {
             // x^2 = rho^2 - b^2.
             let x = (2.0 * b * position).sqrt().min(2.0 * b * position / off.max(1e-300));
-            let merged = (b * thresholds::LATERAL_MERGE).sqrt();
+            let merged = (2.0 * b * thresholds::POSITION_ROUNDING * (b + reach)).sqrt();
             position += x + if off <= 2.0 * merged { 2.0 * (off + merged) } else { 0.0 };
             turned += position / b;
         } else if off > thresholds::SHOULDER_MERGE {

@@ -122,6 +122,19 @@ impl<'a> Made<'a> {
         Some((nearest, closes && (is_open || bounds.hold(&self.theta_of(&nearest.q), &self.theta))))
     }
 
+    /// How far beyond reach the pose is with the shoulder and the wrist of a straight arm, by no
+    /// more than such an arm is given for [m]; what rounding leaves open of x there is no part of
+    /// it.
+    fn beyond_in(&self, solution: &Solution<6>) -> f64 {
+        let (arm, slot) = (&self.subject.arm, usize::from(solution.slot));
+        let Ok(asked) = arm.asked(&self.pose) else { return 0.0 };
+        let x = arm.x(&self.theta_of(&solution.q)).abs();
+        let open = self.rounding() * (1.0 + arm.b() / x.max(f64::MIN_POSITIVE));
+        let beyond = asked[slot / 4][slot % 2].missing.abs() + open;
+        let straight = solution.kinds().contains(Status::ELBOW);
+        if straight && beyond <= thresholds::REACH_TOLERANCE + open { beyond } else { 0.0 }
+    }
+
     /// Counts solutions that do not close, by themselves or with their free joint elsewhere, or that are in another slot than they should.
     fn count_wrong(&self, solutions: &Solutions<6>, tally: &mut Tally) {
         let (robot, arm, reach) =
@@ -132,8 +145,9 @@ impl<'a> Made<'a> {
             let residual = robot.residual(&solution.q, &self.pose);
             tally.position = tally.position.max(residual.position);
             tally.rotation = tally.rotation.max(residual.rotation);
+            let beyond = self.beyond.max(self.beyond_in(solution));
             tally.wrong += usize::from(
-                residual.position > self.beyond + 3e-15 * reach || residual.rotation > 1e-14,
+                residual.position > beyond + 3e-15 * reach || residual.rotation > 1e-14,
             );
             let theta = self.theta_of(&solution.q);
             let told = 4 * usize::from(arm.x(&theta).abs() > clear)
@@ -231,9 +245,8 @@ impl<'a> Made<'a> {
         let straight = if self.is_folding_onto_axis_2() { 0.0 } else { 1e-8 };
         let six_is_known = wrist.is_none_or(|off| off == 0.0);
         let is_elbow = elbow.is_some_and(|off| off <= straight) && six_is_known && x_is_known;
-        let is_shoulder = shoulder.is_some_and(|off| {
-            off <= 0.5 * (self.subject.arm.b() * thresholds::LATERAL_MERGE).sqrt()
-        });
+        let is_shoulder = shoulder
+            .is_some_and(|off| off <= 0.5 * (2.0 * self.subject.arm.b() * self.rounding()).sqrt());
         mine.iter().all(|solution| wrist_told(solution))
             && solutions.iter().all(merged_told)
             && (!is_elbow || seeded.kinds().contains(Status::ELBOW))

@@ -25,17 +25,15 @@ pub const WRIST_MERGE_SIN: f64 = 1.5e-9;
 /// |sin q5| below which a pose says nothing of q4 [1]: the rounding of the wrist's rotation, so a free choice leaves the residual there.
 pub const WRIST_FREE_SIN: f64 = 5e-15;
 
-/// Distance of the wrist centre from axis 1 below which the front and the back branch are one [m]; both are returned from 2e-9 on.
+/// Distance of the wrist centre from axis 1 below which the front and the back branch are one [m];
+/// both are returned from 2e-9 on. Without a lateral offset: with one, they meet by the square root
+/// of [`POSITION_ROUNDING`].
 pub const SHOULDER_MERGE: f64 = 1.5e-9;
 
 /// How far rounding moves a position, as a part of the lengths it is summed from [1]: twice the worst of a million poses. A wrist centre this
 /// close to axis 1 says nothing of q1. An elbow whose straightening moves the wrist centre by half of this is straight, and its two
 /// branches are one: below about 1e-7 rad from stretched, by the square root of rounding.
 pub const POSITION_ROUNDING: f64 = 1.5e-15;
-
-/// Square of the distance from the shoulder's tangent plane below which front and back are one, over the lateral offset b [m].
-/// With b != 0 the two branches meet like the elbow's, by the square root of rounding: x^2 = rho^2 - b^2 is rounded to about 1e-15 b.
-pub const LATERAL_MERGE: f64 = 1e-14;
 
 /// How close to a singularity a seeded solve may keep the seed's free joint [rad, m]: the precision of the best poses met in practice.
 pub const SEEDED_FREE: f64 = 1e-12;

@@ -28,6 +28,11 @@ impl Reach {
             Self::TooFar { shortfall } | Self::TooNear { shortfall } => shortfall,
         }
     }
+
+    /// The one of two that misses by less; itself where they are equal.
+    pub(crate) fn nearer(self, other: Self) -> Self {
+        if other.shortfall() < self.shortfall() { other } else { self }
+    }
 }
 
 /// One sentence on the outcome of a solve.

@@ -80,7 +80,7 @@ impl Bounds {
         let x = match place.shoulder {
             None => position * (1.0 + b / clear_of_axis_1(arm)),
             Some(off) => {
-                let merged = (b * thresholds::LATERAL_MERGE).sqrt().max(thresholds::SHOULDER_MERGE);
+                let merged = (2.0 * b * thresholds::POSITION_ROUNDING * arm.reach()).sqrt();
                 let root = (2.0 * b * position).sqrt().min(2.0 * b * position / off.max(1e-300))
                     + position;
                 root + if off <= 2.0 * merged { 2.0 * (off + merged) } else { 0.0 }

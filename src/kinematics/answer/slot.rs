@@ -47,6 +47,12 @@ impl Slot {
     }
 }
 
+impl From<Slot> for usize {
+    fn from(slot: Slot) -> Self {
+        slot.index()
+    }
+}
+
 impl From<Slot> for u8 {
     fn from(slot: Slot) -> Self {
         slot.0

@@ -7,11 +7,8 @@ use nalgebra::Matrix3;
 use nalgebra::{ComplexField as _, RealField as _};
 
 use crate::kinematics::pose::Pose;
-use crate::kinematics::structure::branches::Branches;
 use crate::kinematics::structure::free_choice::{FreeChoice, Trust};
-use crate::kinematics::thresholds::{
-    LATERAL_MERGE, POSITION_ROUNDING, REACH_TOLERANCE, SHOULDER_MERGE,
-};
+use crate::kinematics::thresholds::{POSITION_ROUNDING, REACH_TOLERANCE, SHOULDER_MERGE};
 use crate::report::Reach;
 
 /// The lengths from axis 1 to the end of the forearm, seen from the shoulder (on axis 1, at the height of axis 2).
@@ -73,6 +70,7 @@ pub(crate) struct Elbows {
 }
 
 /// What a solve on this arm is asked.
+#[derive(Clone, Copy)]
 pub(crate) struct Target<'a> {
     pub(crate) wxy: [f64; 2],
     pub(crate) wz: f64,
@@ -83,10 +81,24 @@ pub(crate) struct Target<'a> {
     pub(crate) tolerance: f64,
 }
 
+impl Target<'_> {
+    /// The same, with an arm up to this far beyond reach stretched or folded [m].
+    pub(crate) fn beyond(&self, tolerance: f64) -> Self {
+        Self { tolerance, ..*self }
+    }
+}
+
 impl Shoulder {
     /// Turned by half a turn: what was in front is behind.
-    pub(crate) fn turned(self) -> Self {
+    fn opposite(self) -> Self {
         Self { sin_1: -self.sin_1, cos_1: -self.cos_1, x: -self.x, error: self.error }
+    }
+
+    /// Turned by `angle` about axis 1, the wrist centre where it was.
+    pub(crate) fn turned(&self, angle: f64, [wx, wy]: [f64; 2]) -> Self {
+        let ((sin, cos), Self { sin_1, cos_1, .. }) = (angle.sin_cos(), *self);
+        let (sin_1, cos_1) = (sin_1 * cos + cos_1 * sin, cos_1 * cos - sin_1 * sin);
+        Self { sin_1, cos_1, x: wx * cos_1 + wy * sin_1, ..*self }
     }
 }
 
@@ -117,8 +129,33 @@ impl PlanarArm {
         self.position_rounding() * r * self.c2 * self.k
     }
 
+    /// x of the wrist centre up to which front and back are one [m]. With b != 0 they meet where
+    /// the wrist centre is on the cylinder of radius b to rounding (eq. 3).
     pub(crate) fn shoulder_merge(&self) -> f64 {
-        SHOULDER_MERGE.max((self.b.abs() * LATERAL_MERGE).sqrt())
+        if self.b == 0.0 {
+            return SHOULDER_MERGE;
+        }
+        let rounding = self.position_rounding();
+        (rounding * (2.0 * self.b.abs() + rounding)).sqrt()
+    }
+
+    /// How far the plane of a shoulder may be turned about axis 1, b != 0, with the wrist centre
+    /// off it by no more than rounding: the least and the greatest angle [rad] (eq. 42).
+    pub(crate) fn open_turn(&self, shoulder: &Shoulder, [wx, wy]: [f64; 2]) -> [f64; 2] {
+        let (rho, b, x) = (wx.hypot(wy), self.b.abs(), shoulder.x.abs());
+        let (x2, rounding) = ((rho - b) * (rho + b), 2.0 * b * self.position_rounding());
+        // The squares of the greatest and the least x: what is left of x is not a difference of
+        // roots.
+        let (farther, nearer) = ((x2 + rounding).max(0.0), x2 - rounding);
+        let (outward, inward) = if x == 0.0 {
+            (farther.sqrt() / b, farther.sqrt() / b)
+        } else if nearer > 0.0 {
+            (rounding / (b * (x + farther.sqrt())), rounding / (b * (x + nearer.sqrt())))
+        } else {
+            (rounding / (b * (x + farther.sqrt())), (x + farther.sqrt()) / b)
+        };
+        let turns_outward = shoulder.x.is_sign_negative() == self.b.is_sign_negative();
+        if turns_outward { [-inward, outward] } else { [-outward, inward] }
     }
 
     /// Angle between upper arm and forearm from stretched, for the angle of axis 3 [rad].
@@ -130,6 +167,15 @@ impl PlanarArm {
     pub(crate) fn sin_elbow(&self, theta_3: f64) -> f64 {
         let (sin_3, cos_3) = theta_3.sin_cos();
         (self.a2 * cos_3 + self.c3 * sin_3) / self.k
+    }
+
+    /// How far straightening the arm moves its end [m], to first order: m^2 / (2 r c2 k), from
+    /// stretched or from folded.
+    pub(crate) fn straightening(&self, theta_3: f64) -> f64 {
+        let (c2, k, elbow) = (self.c2, self.k, self.elbow_angle(theta_3));
+        let r = (c2 * c2 + k * k + 2.0 * c2 * k * elbow.cos()).max(0.0).sqrt();
+        let longest_or_shortest = if elbow.cos() > 0.0 { c2 + k } else { (c2 - k).abs() };
+        (r - longest_or_shortest).abs()
     }
 
     /// Distance of the arm's end from axis 1 along the plane of the arm [m]; negative behind it.
@@ -148,36 +194,22 @@ impl PlanarArm {
         folded_onto_axis_2 || (c2 * k * self.sin_elbow(theta_3)).powi(2) <= self.straight_m2(r)
     }
 
-    /// The branches of the frame `t_shoulder_wrist` as `fill` makes them from its shoulders; where none reaches, and the nearest one misses by
-    /// less than anyone could see, once more with that forgiven: it gets the stretched or folded arm.
-    pub(crate) fn solve(
+    /// What is asked of this arm by the frame `t_shoulder_wrist`.
+    pub(crate) fn target<'a>(
         &self,
-        t_shoulder_wrist: &Pose,
-        free: &FreeChoice<6>,
+        t_shoulder_wrist: &'a Pose,
+        free: &'a FreeChoice<6>,
         free_theta: [f64; 6],
-        fill: impl Fn(&Shoulders, &Target<'_>) -> Branches<6>,
-    ) -> Branches<6> {
+    ) -> Target<'a> {
         let w = t_shoulder_wrist.translation.vector;
-        let rotation = t_shoulder_wrist.rotation.matrix();
-        let mut target = Target {
+        Target {
             wxy: [w.x, w.y],
             wz: w.z,
-            rotation,
+            rotation: t_shoulder_wrist.rotation.matrix(),
             free,
             free_theta,
             tolerance: self.position_rounding(),
-        };
-        let shoulders = match self.shoulders(target.wxy, free_theta[0], free.trust) {
-            Ok(shoulders) => shoulders,
-            Err(missed) => return Branches::empty(missed),
-        };
-        let branches = fill(&shoulders, &target);
-        let shortfall = branches.reach.shortfall();
-        if shortfall == 0.0 || shortfall > REACH_TOLERANCE {
-            return branches;
         }
-        target.tolerance = shortfall;
-        fill(&shoulders, &target)
     }
 
     /// Both shoulders that face the point (eq. 2 to 4), with the angle of axis 1 to take where it is free.
@@ -194,20 +226,27 @@ impl PlanarArm {
         }
         let (sin_1, cos_1) = free_theta_1.sin_cos();
         if self.b == 0.0 && (trust.forces(1) || rho <= trust.radius().max(rounding)) {
-            let keep_behind = matches!(trust, Trust::Forced { behind: true, .. });
-            let kept =
-                Shoulder { sin_1, cos_1, x: if keep_behind { -rho } else { rho }, error: 0.0 };
-            let (front, behind) =
-                if keep_behind { (kept.turned(), kept) } else { (kept, kept.turned()) };
-            return Ok(Shoulders { front, behind, merged: true, keep_behind });
+            // Whichever is kept has that angle. A seed's plane says what x is, and on which side of
+            // axis 1.
+            let (x, keep_behind) = match trust {
+                Trust::Forced { behind, .. } => (rho, behind),
+                Trust::Pose => (rho, false),
+                Trust::Seed | Trust::Path => {
+                    let x = wx * cos_1 + wy * sin_1;
+                    (x.abs(), x < 0.0)
+                }
+            };
+            let at = |x: f64| Shoulder { sin_1, cos_1, x, error: 0.0 };
+            return Ok(Shoulders { front: at(x), behind: at(-x), merged: true, keep_behind });
         }
         // With b != 0 a wrist centre on the cylinder of radius b is on it to rounding: x = 0, not the square root of that rounding.
         let x = if outside <= rounding { 0.0 } else { (outside * (rho + self.b.abs())).sqrt() };
-        let merged = x <= self.shoulder_merge();
+        let merged = x == 0.0 || (self.b == 0.0 && x <= SHOULDER_MERGE);
         let error = if merged { 0.0 } else { self.direction_rounding() / x };
         let front = self.shoulder(wx, wy, x, error);
         // With b != 0 the two are not opposite: theta_1 differs by pi - 2 atan2(b, x) (eq. 4).
-        let behind = if self.b == 0.0 { front.turned() } else { self.shoulder(wx, wy, -x, error) };
+        let behind =
+            if self.b == 0.0 { front.opposite() } else { self.shoulder(wx, wy, -x, error) };
         let keep_behind = trust != Trust::Pose && front.sin_1 * sin_1 + front.cos_1 * cos_1 < 0.0;
         Ok(Shoulders { front, behind, merged, keep_behind })
     }

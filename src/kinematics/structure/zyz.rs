@@ -13,6 +13,7 @@ use crate::kinematics::thresholds::{PATH_WRIST_SIN, SEEDED_FREE, WRIST_FREE_SIN,
 use crate::lanes::mul_add;
 
 /// One set of angles, the second in 0 ..= pi unless the first was given; the other set is its flip.
+#[derive(Clone, Copy)]
 pub(crate) struct Zyz {
     pub(crate) theta: [f64; 3],
     pub(crate) merged: bool,

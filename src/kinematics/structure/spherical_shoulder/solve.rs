@@ -29,13 +29,9 @@ impl SphericalShoulder {
         let mut target =
             Target::new(t_shoulder_hand, free, self.theta(&free.q), self.links.position_rounding());
         let mut branches = self.branches(&target);
-        // No branch reaches, the nearest one by less than anyone could see: it gets the stretched or folded arm, or the wrist at its edge,
-        // or both.
-        for _ in 0..2 {
-            let shortfall = branches.reach.shortfall();
-            if shortfall == 0.0 || shortfall > REACH_TOLERANCE {
-                break;
-            }
+        // Out of reach by less than anyone could see: it gets the stretched or folded arm.
+        let shortfall = branches.reach.shortfall();
+        if shortfall > 0.0 && shortfall <= REACH_TOLERANCE {
             target.tolerance = target.tolerance.max(shortfall);
             branches = self.branches(&target);
         }
@@ -48,9 +44,9 @@ impl SphericalShoulder {
             Ok(elbows) => elbows,
             Err(missed) => return Branches::empty(missed),
         };
-        branches.reach = self.fill(&mut branches, 0, &elbows.forwards, target);
+        branches.reach = self.fill_or_beyond(&mut branches, 0, &elbows.forwards, target);
         if let Some(backwards) = &elbows.backwards {
-            let missed = self.fill(&mut branches, ELBOW, backwards, target);
+            let missed = self.fill_or_beyond(&mut branches, ELBOW, backwards, target);
             if missed.shortfall() < branches.reach.shortfall() {
                 branches.reach = missed;
             }
@@ -61,6 +57,24 @@ impl SphericalShoulder {
             );
         }
         branches
+    }
+
+    /// The branches of one elbow, whether or not the other reaches; with the wrist at its edge
+    /// where it misses by less than anyone could see.
+    fn fill_or_beyond(
+        &self,
+        branches: &mut Branches<7>,
+        base: usize,
+        elbow: &Elbow,
+        target: &Target<'_>,
+    ) -> Reach {
+        let missed = self.fill(branches, base, elbow, target);
+        let shortfall = missed.shortfall();
+        if shortfall == 0.0 || shortfall > REACH_TOLERANCE {
+            return missed;
+        }
+        let tolerance = target.tolerance.max(shortfall);
+        self.fill(branches, base, elbow, &Target { tolerance, ..*target })
     }
 
     /// Puts the branches of one elbow into slots `base`, + 1, + 4 and + 5.

@@ -11,37 +11,80 @@ use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::free_choice::Trust;
 use crate::kinematics::structure::planar_arm::{Elbow, Shoulder, Target};
 use crate::kinematics::structure::zyz::Zyz;
-use crate::kinematics::thresholds::SEEDED_FREE;
+use crate::kinematics::thresholds::{PATH_WRIST_SIN, SEEDED_FREE};
+
+/// Halvings of the way between two planes on either side of one: to rounding.
+const HALVINGS: u32 = 50;
+
+/// One branch of the arm.
+#[derive(Clone, Copy)]
+pub(super) struct Standing {
+    pub(super) shoulder: Shoulder,
+    pub(super) elbow: Elbow,
+    pub(super) wrist: Zyz,
+}
+
+/// What rounding leaves open of an elbow.
+#[derive(Clone, Copy)]
+pub(super) struct Open {
+    /// How far it may turn the forearm [rad].
+    pub(super) error: f64,
+    /// Whether both elbows are one.
+    pub(super) straight: bool,
+}
 
 impl SphericalWrist {
-    /// The shoulder and the wrist of one branch of the arm; on a path, where the pose leaves the shoulder's angle open, those that move the
-    /// joints less: with the angle that joint 1 is heading for, or turned so that joint 4 has the one that it is heading for.
-    pub(super) fn shoulder_and_wrist(
+    /// The branch of a shoulder and an elbow; on a path, where the pose leaves the shoulder's angle
+    /// open, the one that moves the joints less: with the angle that joint 1 is heading for, or
+    /// turned so that joint 4 has the one that it is heading for.
+    pub(super) fn standing(
         &self,
         shoulder: &Shoulder,
         elbow: &Elbow,
         target: &Target<'_>,
-        error: f64,
-    ) -> (Shoulder, Zyz) {
-        let with_wrist = |shoulder: Shoulder| {
-            (shoulder, wrist(&forearm_to_flange(&shoulder, elbow, target.rotation), target, error))
+        open: Open,
+    ) -> Standing {
+        let with_wrist = |(shoulder, elbow, error): (Shoulder, Elbow, f64)| {
+            let m = forearm_to_flange(&shoulder, &elbow, target.rotation);
+            Standing { shoulder, elbow, wrist: wrist(&m, target, error) }
         };
-        let straight = with_wrist(*shoulder);
-        let Some(turned) = self.turned_for_wrist(shoulder, elbow, target).map(with_wrist) else {
-            return straight;
+        let told = with_wrist((*shoulder, *elbow, open.error));
+        if target.free.trust != Trust::Path {
+            return told;
+        }
+        let nearer = |best: Standing, turned: (Shoulder, Elbow, f64)| {
+            let turned = with_wrist(turned);
+            if motion(&turned, target) < motion(&best, target) { turned } else { best }
         };
-        let motion = |(shoulder, wrist): &(Shoulder, Zyz)| {
-            let [heading_1, _, _, heading_4, heading_5, heading_6] = target.free_theta;
-            let [theta_4, theta_5, theta_6] = wrist.theta;
-            let apart = |theta: f64, heading: f64| wrap(theta - heading).powi(2);
-            let kept =
-                apart(theta_4, heading_4) + apart(theta_5, heading_5) + apart(theta_6, heading_6);
-            let flipped = apart(theta_4 + PI, heading_4)
-                + apart(-theta_5, heading_5)
-                + apart(theta_6 + PI, heading_6);
-            apart(shoulder.sin_1.atan2(shoulder.cos_1), heading_1) + kept.min(flipped)
-        };
-        if motion(&turned) < motion(&straight) { turned } else { straight }
+        if self.planar.b == 0.0 {
+            let turned = self.turned_for_wrist(shoulder, elbow, target);
+            turned.map(|shoulder| (shoulder, *elbow, open.error)).into_iter().fold(told, nearer)
+        } else {
+            self.turned_in_open_plane(shoulder, elbow, target, open).fold(told, nearer)
+        }
+    }
+
+    /// On a path, with b != 0, the shoulder turned as far as rounding leaves it open, and the elbow
+    /// with it, so that the wrist can keep the joint 4 that it is heading for: there the approach
+    /// axis has no part across that joint's plane (eq. 27). And where the arm is straight at the
+    /// edge of reach, which leaves the forearm open. With what rounding leaves open of it [rad].
+    fn turned_in_open_plane<'a>(
+        &'a self,
+        shoulder: &'a Shoulder,
+        elbow: &Elbow,
+        target: &'a Target<'a>,
+        open: Open,
+    ) -> impl Iterator<Item = (Shoulder, Elbow, f64)> + use<'a> {
+        let m = forearm_to_flange(shoulder, elbow, target.rotation);
+        let near = m[(0, 2)].hypot(m[(1, 2)]) <= PATH_WRIST_SIN;
+        let ends = if near { self.planar.open_turn(shoulder, target.wxy) } else { [0.0; 2] };
+        // Bent by the turn, a straight arm stands on either side.
+        let behind = self.planar.sin_elbow(elbow.theta_3) < 0.0;
+        let sides = [false, true].into_iter().filter(move |side| open.straight || *side == behind);
+        sides.flat_map(move |side| {
+            let plane = TurnedPlane { arm: self, shoulder, target, behind: side };
+            ends.into_iter().flat_map(move |end| plane.ways(end))
+        })
     }
 
     /// On a path, a shoulder whose angle the pose leaves open, turned so that the wrist can keep the joint 4 that it is heading for.
@@ -54,9 +97,6 @@ impl SphericalWrist {
         elbow: &Elbow,
         target: &Target<'_>,
     ) -> Option<Shoulder> {
-        if target.free.trust != Trust::Path || self.planar.b != 0.0 {
-            return None;
-        }
         let [_, _, _, theta_4, theta_5, _] = target.free_theta;
         let (sin_4, cos_4) = theta_4.sin_cos();
         let (a20, a22) = (-elbow.sin_23 * cos_4, elbow.cos_23);
@@ -82,4 +122,75 @@ impl SphericalWrist {
         };
         (norm > 0.0 && turn < 0.1 && turn * shoulder.x.abs() <= open).then_some(turned)
     }
+}
+
+/// The planes of an arm with b != 0 that rounding leaves open, with one of its elbows.
+#[derive(Clone, Copy)]
+struct TurnedPlane<'a> {
+    arm: &'a SphericalWrist,
+    shoulder: &'a Shoulder,
+    target: &'a Target<'a>,
+    behind: bool,
+}
+
+impl TurnedPlane<'_> {
+    /// The shoulder turned by `angle`, the elbow that it has then, and what rounding leaves open of
+    /// the forearm [rad].
+    fn at(&self, angle: f64) -> Option<(Shoulder, Elbow, f64)> {
+        let Self { arm, shoulder, target, behind } = self;
+        let turned = shoulder.turned(angle, target.wxy);
+        let end = [turned.x - arm.planar.a1, target.wz];
+        let (theta_2, trust) = (target.free_theta[1], target.free.trust);
+        let elbows = arm.planar.elbows(end, target.tolerance, theta_2, trust).ok()?;
+        let elbow = elbows.behind.filter(|_| *behind).unwrap_or(elbows.front);
+        Some((turned, elbow, turned.error + elbows.error))
+    }
+
+    /// The part of the approach axis across the plane in which joint 5 moves it with the joint 4
+    /// that a path is heading for.
+    fn across(&self, angle: f64) -> Option<f64> {
+        let (shoulder, elbow, _) = self.at(angle)?;
+        let m = forearm_to_flange(&shoulder, &elbow, self.target.rotation);
+        let (sin_4, cos_4) = self.target.free_theta[3].sin_cos();
+        Some(m[(1, 2)] * cos_4 - m[(0, 2)] * sin_4)
+    }
+
+    /// The arm in the plane before `end` in which that part is none, and at the edge of reach where
+    /// that is before `end`.
+    fn ways(self, end: f64) -> impl Iterator<Item = (Shoulder, Elbow, f64)> + use<> {
+        let reaches = |angle: f64| self.at(angle).is_some();
+        let far = if reaches(end) { end } else { halved([0.0, end], reaches) };
+        let edge = if far.total_cmp(&end).is_eq() { None } else { self.at(far) };
+        let from = self.across(0.0).unwrap_or(0.0);
+        let before = |angle: f64| self.across(angle).is_some_and(|across| across * from >= 0.0);
+        let kept =
+            (!before(far)).then(|| halved([0.0, far], before)).and_then(|angle| self.at(angle));
+        edge.into_iter().chain(kept)
+    }
+}
+
+/// The last place between two, to rounding, up to which it is so as it is at the first.
+fn halved([mut near, mut far]: [f64; 2], is_so: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (near + far);
+        if is_so(middle) {
+            near = middle;
+        } else {
+            far = middle;
+        }
+    }
+    near
+}
+
+/// How far a branch is from where the joints are heading, joints 2 and 3 not regarded: the sum of
+/// squares [rad^2].
+fn motion(Standing { shoulder, wrist, .. }: &Standing, target: &Target<'_>) -> f64 {
+    let [heading_1, _, _, heading_4, heading_5, heading_6] = target.free_theta;
+    let [theta_4, theta_5, theta_6] = wrist.theta;
+    let apart = |theta: f64, heading: f64| wrap(theta - heading).powi(2);
+    let kept = apart(theta_4, heading_4) + apart(theta_5, heading_5) + apart(theta_6, heading_6);
+    let flipped = apart(theta_4 + PI, heading_4)
+        + apart(-theta_5, heading_5)
+        + apart(theta_6 + PI, heading_6);
+    apart(shoulder.sin_1.atan2(shoulder.cos_1), heading_1) + kept.min(flipped)
 }

@@ -6,48 +6,67 @@ use core::f64::consts::PI;
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::SphericalWrist;
+use super::arm::{Open, Standing};
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::branches::Branches;
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::structure::planar_arm::{Elbow, Shoulder, Shoulders, Target};
+use crate::kinematics::thresholds::REACH_TOLERANCE;
 use crate::report::FreeJoint;
 use crate::report::Reach;
 
 impl SphericalWrist {
     /// Every branch of the wrist frame `t_shoulder_wrist`.
     pub(super) fn solve_wrist(&self, t_shoulder_wrist: &Pose, free: &FreeChoice<6>) -> Branches<6> {
-        let free_theta = self.theta(&free.q);
-        self.planar.solve(t_shoulder_wrist, free, free_theta, |shoulders, target| {
-            self.branches(shoulders, target)
-        })
+        let target = self.planar.target(t_shoulder_wrist, free, self.theta(&free.q));
+        match self.planar.shoulders(target.wxy, target.free_theta[0], free.trust) {
+            Ok(shoulders) => self.branches(&shoulders, &target),
+            Err(missed) => Branches::empty(missed),
+        }
     }
 
     fn branches(&self, shoulders: &Shoulders, target: &Target<'_>) -> Branches<6> {
+        let Shoulders { front, behind, merged, keep_behind } = shoulders;
         let mut branches = Branches::empty(Reach::Reached);
-        let mut fill = |base: usize, shoulder: &Shoulder| match self.fill(
-            &mut branches,
-            base,
-            shoulder,
-            target,
-        ) {
-            missed if missed == Reach::Reached || self.planar.b == 0.0 => missed,
-            missed => match self.fill(
-                &mut branches,
-                base,
-                &self.planar.eased(shoulder, target.wxy, self.planar.a1, target.wz),
-                target,
-            ) {
-                Reach::Reached => Reach::Reached,
-                _ => missed,
-            },
-        };
-        let (front, behind) = (fill(0, &shoulders.front), fill(4, &shoulders.behind));
-        branches.reach = if behind.shortfall() < front.shortfall() { behind } else { front };
-        if shoulders.merged {
-            branches.merge_shoulders(shoulders.keep_behind, self.planar.b == 0.0);
+        let sides = [(0, front), (4, behind)];
+        let missed =
+            sides.map(|(base, shoulder)| self.fill_or_eased(&mut branches, base, shoulder, target));
+        branches.reach = missed[0].nearer(missed[1]);
+        // Less beyond reach than anyone could see: that shoulder gets the stretched or folded arm.
+        // Of two that are one, where neither reaches.
+        let nearest = branches.reach;
+        for ((base, shoulder), missed) in sides.into_iter().zip(missed) {
+            let shortfall = if *merged { nearest } else { missed }.shortfall();
+            if shortfall > 0.0 && shortfall <= REACH_TOLERANCE {
+                let beyond = target.beyond(shortfall);
+                let filled = self.fill_or_eased(&mut branches, base, shoulder, &beyond);
+                branches.reach = branches.reach.nearer(filled);
+            }
+        }
+        if *merged {
+            branches.merge_shoulders(*keep_behind, self.planar.b == 0.0);
         }
         branches
+    }
+
+    /// The branches of one shoulder, in the plane that rounding leaves open where it just misses.
+    fn fill_or_eased(
+        &self,
+        branches: &mut Branches<6>,
+        base: usize,
+        shoulder: &Shoulder,
+        target: &Target<'_>,
+    ) -> Reach {
+        let missed = self.fill(branches, base, shoulder, target);
+        if missed == Reach::Reached || self.planar.b == 0.0 {
+            return missed;
+        }
+        let eased = self.planar.eased(shoulder, target.wxy, self.planar.a1, target.wz);
+        match self.fill(branches, base, &eased, target) {
+            Reach::Reached => Reach::Reached,
+            _ => missed,
+        }
     }
 
     /// Puts the four branches of one shoulder into slots `base` ..= `base` + 3 (eq. 13 and 18).
@@ -69,7 +88,7 @@ impl SphericalWrist {
             Err(missed) => return missed,
         };
         let merged = if elbows.behind.is_none() { Status::ELBOW } else { Status::empty() };
-        let error = shoulder.error + elbows.error;
+        let open = Open { error: shoulder.error + elbows.error, straight: elbows.behind.is_none() };
         for (elbow, slot) in [(Some(elbows.front), base), (elbows.behind, base + 2)] {
             let Some(elbow) = elbow else {
                 for twin in [slot, slot + 1] {
@@ -77,8 +96,8 @@ impl SphericalWrist {
                 }
                 continue;
             };
+            let Standing { shoulder, elbow, wrist } = self.standing(shoulder, &elbow, target, open);
             let Elbow { theta_2, theta_3, .. } = elbow;
-            let (shoulder, wrist) = self.shoulder_and_wrist(shoulder, &elbow, target, error);
             let theta_1 = shoulder.sin_1.atan2(shoulder.cos_1);
             let [theta_4, theta_5, theta_6] = wrist.theta;
             let flags = if wrist.merged { merged | Status::WRIST } else { merged };

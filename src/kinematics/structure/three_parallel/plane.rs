@@ -10,11 +10,12 @@ use super::ThreeParallel;
 use super::wrist::{seen_from_plane, sin_5};
 use crate::kinematics::structure::planar_arm::{Shoulder, Target};
 
-/// The planes that rounding leaves open: those turned from the shoulder's by up to `open` either way [rad] (eq. 42).
+/// The planes that rounding leaves open: those turned from the shoulder's by angles in `open` [rad]
+/// (eq. 42).
 pub(super) struct OpenPlane<'a> {
     shoulder: &'a Shoulder,
     wxy: [f64; 2],
-    pub(super) open: f64,
+    open: [f64; 2],
     /// (m10, m12), and what a turn of the plane moves it along, (m00, m02).
     told: [f64; 2],
     moved: [f64; 2],
@@ -22,13 +23,11 @@ pub(super) struct OpenPlane<'a> {
 
 impl<'a> OpenPlane<'a> {
     pub(super) fn of(arm: &ThreeParallel, shoulder: &'a Shoulder, target: &Target<'_>) -> Self {
-        let (x, rounding) = (shoulder.x.abs(), arm.planar.position_rounding());
-        let open = 2.0 * rounding / (x + (x * x + 2.0 * arm.planar.b * rounding).sqrt());
         let m = seen_from_plane(shoulder, target.rotation);
         Self {
             shoulder,
             wxy: target.wxy,
-            open,
+            open: arm.planar.open_turn(shoulder, target.wxy),
             told: [m[(1, 0)], m[(1, 2)]],
             moved: [m[(0, 0)], m[(0, 2)]],
         }
@@ -36,32 +35,58 @@ impl<'a> OpenPlane<'a> {
 
     /// The shoulder turned by `angle` about axis 1, the wrist where it was.
     pub(super) fn turned(&self, angle: f64) -> Shoulder {
-        let ((sin, cos), Shoulder { sin_1, cos_1, .. }) = (angle.sin_cos(), *self.shoulder);
-        let (sin_1, cos_1) = (sin_1 * cos + cos_1 * sin, cos_1 * cos - sin_1 * sin);
-        Shoulder { sin_1, cos_1, x: self.wxy[0] * cos_1 + self.wxy[1] * sin_1, ..*self.shoulder }
+        self.shoulder.turned(angle, self.wxy)
+    }
+
+    /// The angles of the planes at either end, the one that is farther from axis 1 last.
+    pub(super) fn ends(&self) -> [f64; 2] {
+        self.open
     }
 
     /// The shoulder turned to where the wrist is nearest to its singularity, and sin theta_5 there (eq. 43).
     pub(super) fn nearest_to_wrist(&self, target: &Target<'_>) -> (Shoulder, f64) {
-        let Self { told: [m10, m12], moved: [m00, m02], open, .. } = *self;
+        let Self { told: [m10, m12], moved: [m00, m02], open: [least, most], .. } = *self;
         let to_wrist = (m10 * m00 + m12 * m02) / (m00 * m00 + m02 * m02);
-        let nearest = self.turned(to_wrist.clamp(-open, open));
+        let nearest = self.turned(to_wrist.clamp(least, most));
         let sin_5 = sin_5(&seen_from_plane(&nearest, target.rotation));
         (nearest, sin_5)
     }
 
     /// The angle to turn by so that the pose tells `theta_6`, or half a turn from there; none where it is not open so far (eq. 44).
     pub(super) fn telling(&self, theta_6: f64) -> Option<f64> {
+        let ([least, most], angle) = (self.open, self.towards(theta_6));
+        (angle >= least && angle <= most).then_some(angle)
+    }
+
+    /// The shoulder turned so that the pose tells `theta_6`, or half a turn from there, as far as
+    /// it is open.
+    pub(super) fn nearest_to_telling(&self, theta_6: f64) -> Shoulder {
+        let ([least, most], angle) = (self.open, self.towards(theta_6));
+        if angle.is_nan() { *self.shoulder } else { self.turned(angle.clamp(least, most)) }
+    }
+
+    /// The angle to turn by so that the pose tells `theta_6`, or half a turn from there (eq. 44);
+    /// not finite where there is none.
+    fn towards(&self, theta_6: f64) -> f64 {
         let (sin_6, cos_6) = theta_6.sin_cos();
         let Self { told: [m10, m12], moved: [m00, m02], .. } = self;
-        let angle = (m12 * cos_6 - m10 * sin_6) / (m02 * cos_6 - m00 * sin_6);
-        (angle.abs() <= self.open).then_some(angle)
+        (m12 * cos_6 - m10 * sin_6) / (m02 * cos_6 - m00 * sin_6)
+    }
+
+    /// The greatest angle to turn by, either way [rad].
+    fn widest(&self) -> f64 {
+        self.open[1].max(-self.open[0])
+    }
+
+    /// How far the direction of axis 5 may turn when the plane is turned as far as it is open
+    /// [rad].
+    pub(super) fn open_phi(&self) -> f64 {
+        let (open, sin_5) = (self.widest(), self.told[0].hypot(self.told[1]));
+        if sin_5 > 2.0 * open { 2.0 * open / sin_5 } else { 2.0 }
     }
 
     /// How far the end of the planar arm may move at most when the plane is turned as far as it is open [m].
     pub(super) fn lever(&self, arm: &ThreeParallel) -> f64 {
-        let sin_5 = self.told[0].hypot(self.told[1]);
-        let phi = if sin_5 > 2.0 * self.open { 2.0 * self.open / sin_5 } else { 2.0 };
-        self.open * self.wxy[0].hypot(self.wxy[1]) + arm.d5 * phi
+        self.widest() * self.wxy[0].hypot(self.wxy[1]) + arm.d5 * self.open_phi()
     }
 }

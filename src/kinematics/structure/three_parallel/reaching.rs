@@ -6,10 +6,11 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use super::ThreeParallel;
 use super::plane::OpenPlane;
-use super::wrist::{Turn, Wrist, seen_from_plane};
+use super::wrist::{Turn, Wrist, seen_from_plane, sin_5};
 use crate::kinematics::pose::angles::wrap;
+use crate::kinematics::structure::free_choice::Trust;
 use crate::kinematics::structure::planar_arm::{Elbows, PlanarArm, Shoulder, Target};
-use crate::kinematics::thresholds::WRIST_FREE_SIN;
+use crate::kinematics::thresholds::{REACH_TOLERANCE, WRIST_FREE_SIN, WRIST_MERGE_SIN};
 use crate::report::Reach;
 
 /// A shoulder and a wrist with the elbows between them.
@@ -19,7 +20,12 @@ pub(super) struct Reaching {
     pub(super) elbows: Elbows,
 }
 
-/// Halvings of the way between a plane in which the arm reaches and one in which it does not: to rounding.
+/// Greatest turn of axis 5 for which the elbows that it straightens count as one [rad]: beyond,
+/// joint 6 is as good as free.
+const MOST_STRAIGHTENING: f64 = 1e-2;
+
+/// Halvings of the way between a place in which the arm reaches and one in which it does not: to
+/// rounding.
 const HALVINGS: u32 = 50;
 
 impl ThreeParallel {
@@ -32,19 +38,88 @@ impl ThreeParallel {
         target: &Target<'_>,
     ) -> Result<Reaching, Reach> {
         let (missed, wrist) = match self.at(*shoulder, turn, target) {
-            Ok(reaching) => return Ok(reaching),
+            Ok(reaching) => return Ok(self.straightened(reaching, turn, target)),
             Err(missed) => missed,
         };
         let m = seen_from_plane(shoulder, target.rotation);
-        if let Some(reaching) = self.in_another_plane(shoulder, turn, &m, (missed, wrist), target) {
-            return Ok(reaching);
-        }
-        let Some(theta_6) = self.turned_into_reach(shoulder, turn, &m, &wrist, target) else {
-            return Err(missed);
+        let (reaching, missed) = match self.turned_into_reach(shoulder, turn, &m, &wrist, target) {
+            Some(Ok(reaching)) => (Some(reaching), missed),
+            Some(Err(nearest)) => (None, missed.nearer(nearest)),
+            None => (None, missed),
         };
-        let nearer =
-            |turned: Reach| if turned.shortfall() < missed.shortfall() { turned } else { missed };
-        self.at(*shoulder, Turn::Taken(theta_6), target).map_err(|(turned, _)| nearer(turned))
+        reaching
+            .or_else(|| self.in_another_plane(shoulder, turn, &m, (missed, wrist), target))
+            .map(|reaching| self.straightened(reaching, turn, target))
+            .ok_or(missed)
+    }
+
+    /// The same where an arm less beyond reach than anyone could see is stretched or folded.
+    pub(super) fn reaching_or_beyond(
+        &self,
+        shoulder: &Shoulder,
+        turn: Turn,
+        target: &Target<'_>,
+    ) -> Result<Reaching, Reach> {
+        self.reaching(shoulder, turn, target).or_else(|missed| {
+            if missed.shortfall() > REACH_TOLERANCE {
+                return Err(missed);
+            }
+            self.reaching(shoulder, turn, &target.beyond(missed.shortfall()))
+        })
+    }
+
+    /// The stretched or folded arm in place of one whose two elbows differ by less than what
+    /// rounding leaves open of the plane or of joint 6 (eq. 45). The arm as it is where they are
+    /// two, and where joint 6 is as good as free, for each elbow has a family of its own. A path
+    /// says which elbow it is.
+    fn straightened(&self, bent: Reaching, turn: Turn, target: &Target<'_>) -> Reaching {
+        let Reaching { shoulder, elbows, .. } = &bent;
+        let told = matches!(turn, Turn::Told { .. }) && target.free.trust != Trust::Path;
+        if !told || elbows.behind.is_none() {
+            return bent;
+        }
+        let m = seen_from_plane(shoulder, target.rotation);
+        let (open, plane) = (turn.open(&m), OpenPlane::of(self, shoulder, target));
+        if sin_5(&m) <= WRIST_MERGE_SIN || plane.open_phi() > MOST_STRAIGHTENING {
+            return bent;
+        }
+        let moved = self.planar.straightening(elbows.front.theta_3);
+        if moved > self.d5 * open + plane.lever(self) {
+            return bent;
+        }
+        // The edge in the middle of what is straight.
+        let target = &target.beyond(target.tolerance - self.planar.position_rounding());
+        let straight = self.straightened_by_six(&bent, open, target).or_else(|| {
+            let turned = |angle: f64| self.at(plane.turned(angle), turn, target);
+            plane.ends().into_iter().find_map(|end| {
+                turned(end).err()?;
+                // A rounding of the plane may bend the arm again.
+                let bent = at_edge(turned, 0.0, end)?;
+                if bent.elbows.behind.is_none() {
+                    return Some(bent);
+                }
+                self.straightened_by_six(&bent, open, target)
+            })
+        });
+        straight.unwrap_or(bent)
+    }
+
+    /// The arm with theta_6 moved to the edge of reach, by no more than `open` [rad].
+    fn straightened_by_six(
+        &self,
+        Reaching { shoulder, wrist, .. }: &Reaching,
+        open: f64,
+        target: &Target<'_>,
+    ) -> Option<Reaching> {
+        let m = seen_from_plane(shoulder, target.rotation);
+        let turned = |turned: f64| self.at(*shoulder, Turn::Taken(wrist.theta_6 + turned), target);
+        let edges = self.circle(shoulder, wrist, target)?.edges();
+        edges
+            .map(|to_edge| turned_with_phi(to_edge, &m))
+            .into_iter()
+            .filter(|to_edge| to_edge.abs() <= open)
+            .filter_map(|to_edge| at_edge(turned, 0.0, 2.0 * to_edge))
+            .find(|reaching| reaching.elbows.behind.is_none())
     }
 
     /// The arm that is just out of reach with this shoulder, in the nearest of the planes that rounding leaves open in which it reaches.
@@ -60,19 +135,10 @@ impl ThreeParallel {
         if !matches!(turn, Turn::Told { .. }) || missed.shortfall() > plane.lever(self) {
             return None;
         }
-        let at = |angle: f64| self.at(plane.turned(angle), turn, target);
         let nearest = |reaches: f64| {
-            let (mut misses, mut reaches, mut reaching) = (0.0, reaches, at(reaches).ok()?);
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (misses + reaches);
-                match at(middle) {
-                    Ok(nearer) => (reaching, reaches) = (nearer, middle),
-                    Err(_) => misses = middle,
-                }
-            }
-            Some(reaching)
+            at_edge(|angle| self.at(plane.turned(angle), turn, target), reaches, 0.0)
         };
-        let ends = [plane.open, -plane.open].into_iter();
+        let ends = plane.ends().into_iter();
         let told = self
             .middles_of_reach(shoulder, m, &wrist, target)
             .into_iter()
@@ -101,7 +167,8 @@ impl ThreeParallel {
         }
     }
 
-    /// theta_6 moved to where the end of the planar arm is in reach, or nearest to it; none where the pose does not leave it open so far.
+    /// The arm with theta_6 moved to where the end of the planar arm is in reach, or by how much it
+    /// misses there; none where the pose does not leave it open so far.
     fn turned_into_reach(
         &self,
         shoulder: &Shoulder,
@@ -109,10 +176,27 @@ impl ThreeParallel {
         m: &Matrix3<f64>,
         wrist: &Wrist,
         target: &Target<'_>,
-    ) -> Option<f64> {
+    ) -> Option<Result<Reaching, Reach>> {
         let Circle { from_line, least, most } = self.circle(shoulder, wrist, target)?;
-        let turned = from_line.abs().clamp(least, most).copysign(from_line) - from_line;
-        (turned.abs() <= turn.open(m)).then_some(wrist.theta_6 + turned_with_phi(turned, m))
+        let into_reach = from_line.abs().clamp(least, most).copysign(from_line) - from_line;
+        if into_reach.abs() > turn.open(m) {
+            return None;
+        }
+        let turned = turned_with_phi(into_reach, m);
+        let at = |turned: f64, target: &Target<'_>| {
+            self.at(*shoulder, Turn::Taken(wrist.theta_6 + turned), target)
+        };
+        // Rounding decides on which side of the edge that is, and bends the arm that it takes
+        // farther in.
+        let inside = target.beyond(target.tolerance - self.planar.position_rounding());
+        let mut ways = [(&inside, 1.0), (&inside, 2.0), (target, 1.0)].into_iter();
+        let reaching =
+            ways.find_map(|(target, far)| at_edge(|turned| at(turned, target), far * turned, 0.0));
+        match (reaching, at(turned, target)) {
+            (Some(reaching), _) => Some(Ok(reaching)),
+            (None, Err((missed, _))) => Some(Err(missed)),
+            (None, Ok(_)) => None,
+        }
     }
 
     /// theta_6 in the middle of what is in reach on either side of the line to the wrist.
@@ -151,7 +235,33 @@ struct Circle {
     most: f64,
 }
 
-/// How far theta_6 turns where phi turns by this: phi + theta_6 is fixed at theta_5 = 0, phi - theta_6 at 180 deg.
+impl Circle {
+    /// How far axis 5 is from the edges of reach [rad].
+    fn edges(&self) -> [f64; 2] {
+        [self.least, self.most].map(|edge| edge.copysign(self.from_line) - self.from_line)
+    }
+}
+
+/// The arm at the edge of reach between a place where it reaches and one where it does not, to
+/// rounding.
+fn at_edge<E>(
+    at: impl Fn(f64) -> Result<Reaching, E>,
+    mut reaches: f64,
+    mut misses: f64,
+) -> Option<Reaching> {
+    let mut reaching = at(reaches).ok()?;
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (misses + reaches);
+        match at(middle) {
+            Ok(nearer) => (reaching, reaches) = (nearer, middle),
+            Err(_) => misses = middle,
+        }
+    }
+    Some(reaching)
+}
+
+/// How far theta_6 turns where phi turns by this: by that over -cos theta_5, for phi + theta_6 is
+/// fixed at theta_5 = 0, phi - theta_6 at 180 deg.
 fn turned_with_phi(turned: f64, m: &Matrix3<f64>) -> f64 {
-    if m[(1, 1)] > 0.0 { -turned } else { turned }
+    -turned / m[(1, 1)]
 }

@@ -12,70 +12,56 @@ use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::branches::Branches;
 use crate::kinematics::structure::free_choice::{FreeChoice, Trust};
 use crate::kinematics::structure::planar_arm::{Elbow, Shoulder, Shoulders, Target};
-use crate::kinematics::thresholds::{WRIST_FREE_SIN, WRIST_MERGE_SIN};
+use crate::kinematics::thresholds::{PATH_WRIST_SIN, WRIST_FREE_SIN, WRIST_MERGE_SIN};
 use crate::report::FreeJoint;
 use crate::report::Reach;
+
+/// Which shoulders are asked.
+enum Asked {
+    Both,
+    Front,
+    Behind,
+}
+
+impl Asked {
+    fn of(merged: bool, trust: Trust) -> Self {
+        match trust {
+            Trust::Forced { behind: true, .. } => Self::Behind,
+            Trust::Forced { behind: false, .. } => Self::Front,
+            // On the cylinder of radius b both are one, x = 0.
+            _ if merged => Self::Front,
+            _ => Self::Both,
+        }
+    }
+}
 
 impl ThreeParallel {
     /// Every branch of the wrist frame `t_shoulder_wrist`.
     pub(super) fn solve_wrist(&self, t_shoulder_wrist: &Pose, free: &FreeChoice<6>) -> Branches<6> {
-        let free_theta = self.placement.theta(&free.q);
-        self.planar.solve(t_shoulder_wrist, free, free_theta, |shoulders, target| {
-            self.branches(shoulders, target)
-        })
+        let target = self.planar.target(t_shoulder_wrist, free, self.placement.theta(&free.q));
+        match self.planar.shoulders(target.wxy, target.free_theta[0], free.trust) {
+            Ok(shoulders) => self.branches(&shoulders, &target),
+            Err(missed) => Branches::empty(missed),
+        }
     }
 
-    fn branches(&self, shoulders: &Shoulders, target: &Target<'_>) -> Branches<6> {
-        let mut branches = Branches::empty(Reach::Reached);
-        let Shoulders { front, behind, merged, .. } = shoulders;
-        let mut reach: Option<Reach> = None;
-        for asked in self.asked(shoulders, target) {
-            for (side, shoulder) in
-                [front, behind].into_iter().enumerate().filter(|(side, _)| asked[*side])
-            {
-                let filled = self.fill(&mut branches, 4 * side, shoulder, target);
-                reach =
-                    reach.filter(|reach| reach.shortfall() <= filled.shortfall()).or(Some(filled));
-            }
-            if reach == Some(Reach::Reached) {
-                break;
-            }
-        }
-        branches.reach = reach.unwrap_or(Reach::Reached);
-        if *merged {
-            let (sin_1, cos_1) = target.free_theta[0].sin_cos();
-            let off = |shoulder: &Shoulder| (shoulder.sin_1 * cos_1 - shoulder.cos_1 * sin_1).abs();
-            branches.merge_shoulders(
-                target.free.trust != Trust::Pose && off(behind) < off(front),
-                false,
-            );
-        }
-        branches
-    }
-
-    /// Which shoulders are asked, in front and behind; and which in their place where those do not reach.
-    fn asked(
+    fn branches(
         &self,
         Shoulders { front, behind, merged, .. }: &Shoulders,
         target: &Target<'_>,
-    ) -> [[bool; 2]; 2] {
-        if let Trust::Forced { behind, .. } = target.free.trust {
-            return [[!behind, behind], [false; 2]];
+    ) -> Branches<6> {
+        let mut branches = Branches::empty(Reach::Reached);
+        let mut fill =
+            |base: usize, shoulder: &Shoulder| self.fill(&mut branches, base, shoulder, target);
+        branches.reach = match Asked::of(*merged, target.free.trust) {
+            Asked::Front => fill(0, front),
+            Asked::Behind => fill(4, behind),
+            Asked::Both => fill(0, front).nearer(fill(4, behind)),
+        };
+        if *merged {
+            branches.merge_shoulders(false, false);
         }
-        let families = [front, behind].map(|shoulder| *merged && self.is_family(shoulder, target));
-        // Two shoulders that are one need not have one wrist: the branch is the one whose wrist declares its singularity.
-        if families[0] == families[1] {
-            [[true; 2], [false; 2]]
-        } else {
-            [families, families.map(|family| !family)]
-        }
-    }
-
-    /// Whether the two wrists of a shoulder are one family.
-    fn is_family(&self, shoulder: &Shoulder, target: &Target<'_>) -> bool {
-        let sin_5 = sin_5(&seen_from_plane(shoulder, target.rotation));
-        let (_, least_sin_5) = OpenPlane::of(self, shoulder, target).nearest_to_wrist(target);
-        sin_5 <= WRIST_MERGE_SIN || least_sin_5 <= target.free.trust.radius().max(WRIST_FREE_SIN)
+        branches
     }
 
     /// Puts the four branches of one shoulder into slots `base` ..= `base` + 3.
@@ -86,24 +72,33 @@ impl ThreeParallel {
         shoulder: &Shoulder,
         target: &Target<'_>,
     ) -> Reach {
-        let m = seen_from_plane(shoulder, target.rotation);
-        let (sin_5, trust, free_6) = (sin_5(&m), target.free.trust, target.free_theta[5]);
+        let (trust, free_6) = (target.free.trust, target.free_theta[5]);
         let [told, flipped] = [false, true].map(|flipped| Turn::Told { flipped });
         let plane = OpenPlane::of(self, shoulder, target);
+        // A path keeps the joint 6 that it is heading for as far as the plane is open.
+        let shoulder = &if trust == Trust::Path
+            && sin_5(&seen_from_plane(shoulder, target.rotation)) <= PATH_WRIST_SIN
+        {
+            plane.nearest_to_telling(free_6)
+        } else {
+            *shoulder
+        };
+        let m = seen_from_plane(shoulder, target.rotation);
+        let sin_5 = sin_5(&m);
         let (nearest, least_sin_5) = plane.nearest_to_wrist(target);
         if trust.forces(6) {
             let telling = plane.telling(free_6).map_or(nearest, |angle| plane.turned(angle));
             return self.put_merged(
                 branches,
                 base,
-                self.reaching(&telling, Turn::Taken(free_6), target),
+                self.reaching_or_beyond(&telling, Turn::Taken(free_6), target),
             );
         }
         if least_sin_5 <= trust.radius().max(WRIST_FREE_SIN) {
             return self.put_merged(
                 branches,
                 base,
-                self.reaching(&nearest, Turn::Free(free_6), target),
+                self.reaching_or_beyond(&nearest, Turn::Free(free_6), target),
             );
         }
         if sin_5 <= WRIST_MERGE_SIN {
@@ -111,15 +106,15 @@ impl ThreeParallel {
             let away = (m[(1, 2)].atan2(m[(1, 0)]) - free_6).cos() < 0.0;
             let (near, far) = if away { (flipped, told) } else { (told, flipped) };
             let reaching = self.reaching(shoulder, near, target).or_else(|missed| {
-                let nearer = |other: Reach| {
-                    if other.shortfall() < missed.shortfall() { other } else { missed }
-                };
-                self.reaching(shoulder, far, target).map_err(nearer)
+                self.reaching(shoulder, far, target)
+                    .or_else(|_| self.reaching_or_beyond(shoulder, near, target))
+                    .or_else(|_| self.reaching_or_beyond(shoulder, far, target))
+                    .map_err(|other| missed.nearer(other))
             });
             return self.put_merged(branches, base, reaching);
         }
         let missed = [(told, base), (flipped, base + 1)].map(|(turn, slot)| {
-            match self.reaching(shoulder, turn, target) {
+            match self.reaching_or_beyond(shoulder, turn, target) {
                 Ok(reaching) => {
                     self.put(branches, slot, &reaching, Status::empty());
                     Reach::Reached
@@ -127,7 +122,7 @@ impl ThreeParallel {
                 Err(missed) => missed,
             }
         });
-        if missed[1].shortfall() < missed[0].shortfall() { missed[1] } else { missed[0] }
+        missed[0].nearer(missed[1])
     }
 
     /// The branches of a wrist whose flip is the same family.

@@ -5,6 +5,7 @@ use std::string::String;
 
 use super::*;
 use crate::kinematics::structure::free_choice::Trust;
+use crate::kinematics::thresholds::REACH_TOLERANCE;
 
 const OFF: [f64; 8] = [0.0, 1e-12, 1e-9, 2e-9, 1e-7, 1e-6, 1e-5, 1e-4];
 
@@ -140,10 +141,12 @@ impl Found {
         let branches = arm.ik(q);
         let before = self.amiss();
         self.count += 1;
-        let residual = arm.residual(&branches, &pose);
+        let residual = arm.residual(&reached(arm, q, &branches), &pose);
         self.position = self.position.max(residual.position);
         self.rotation = self.rotation.max(residual.rotation);
         self.wrong += u32::from(residual.position > 6e-15 || residual.rotation > 1e-14);
+        let beyond = arm.residual(&branches, &pose).largest();
+        self.wrong += u32::from(beyond > 1.01 * REACH_TOLERANCE);
         self.twice += u32::from(nearest_pair(&branches) < 1e-9);
         let beside =
             core::array::from_fn(|i| if i == 6 { q[6] } else { q[i] + rng.between(-1e-4, 1e-4) });
@@ -154,7 +157,8 @@ impl Found {
             self.lost += u32::from(!is_found(arm, &kept, q, &bounds));
             // A path goes on by itself as far as rounding leaves the upper arm open.
             let allowed = 4e-12 + if trust == Trust::Path { bounds[2] } else { 0.0 };
-            self.wrong += u32::from(arm.residual(&kept, &pose).largest() > allowed);
+            let residual = arm.residual(&reached(arm, q, &kept), &pose);
+            self.wrong += u32::from(residual.largest() > allowed);
         }
         for (slot, found) in
             branches.q.iter().enumerate().filter_map(|(slot, q)| Some((slot, q.as_ref()?)))
@@ -186,6 +190,18 @@ impl Found {
             ));
         }
     }
+}
+
+/// The branches without those of the other elbow whose wrist is at its edge: that one may be up to
+/// a nanometer beyond reach.
+fn reached(arm: &Arm, q: &[f64; 7], branches: &Branches<7>) -> Branches<7> {
+    let (own, mut reached) = (arm.slot_of(q) & 2, *branches);
+    for (slot, flags) in branches.flags.iter().enumerate() {
+        if slot & 2 != own && flags.contains(Status::WRIST) && !flags.contains(Status::ELBOW) {
+            reached.q[slot] = None;
+        }
+    }
+    reached
 }
 
 /// Whether a solution whose free joint is given another angle is one of the pose, to twice the distance from the singularity.
