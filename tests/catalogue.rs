@@ -1,11 +1,11 @@
 //! Every arm of the catalogue against figures that are not irbkin's own.
 #![allow(clippy::unwrap_used, clippy::unreadable_literal, missing_docs)]
 
-mod common;
+use crate::common;
 
 use std::f64::consts::PI;
 
-use common::{Rng, apart, reach_of};
+use crate::common::{Rng, apart, reach_of};
 use irbkin::{CatalogueGeometry, Error, JointLimits, Pose, Robot, catalogue, pose_to_quaternion};
 use nalgebra::Vector3;
 

@@ -1,11 +1,11 @@
 //! Laws of arms whose axes 2 and 3 a parallelogram couples: their joint vectors are the controller's, with axis 3 told from the base.
 #![allow(clippy::unwrap_used, clippy::float_cmp, missing_docs)]
 
-mod common;
+use crate::common;
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use common::{Rng, apart, central_difference, difference_bound, on_each_set, reach_of};
+use crate::common::{Rng, apart, central_difference, difference_bound, on_each_set, reach_of};
 use irbkin::{
     Error, Explanation, FreeJoint, JacobianFrame, JointLimits, OpwParameters, Robot, SLOTS, batch,
     pose_to_rows,

@@ -3,12 +3,12 @@
 //! `make hardsets` prints one row a set with more poses; `make test` runs fewer.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-mod common;
+use crate::common;
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use common::tally::Tally;
-use common::{Rng, asked_set, reach_of};
+use crate::common::tally::Tally;
+use crate::common::{Rng, asked_set, reach_of};
 use nalgebra::Vector3;
 
 use irbkin::{FreeJoint, OpwParameters, Pose, Robot, Solution, Status, thresholds};

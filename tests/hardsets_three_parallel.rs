@@ -3,19 +3,17 @@
 //! `make hardsets` prints one row a set with more poses; `make test` runs fewer.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-mod common;
-#[path = "hardsets_three_parallel/place.rs"]
-#[allow(unreachable_pub)]
+use crate::common;
 mod place;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use common::parallel_arm::{ParallelArm, wrapped};
-use common::tally::Tally;
-use common::{Rng, asked_set};
+use crate::common::parallel_arm::{ParallelArm, wrapped};
+use crate::common::tally::Tally;
+use crate::common::{Rng, asked_set};
 use irbkin::{FreeJoint, Pose, Robot, Solution, Solutions, Status, thresholds};
 use nalgebra::Vector3;
-use place::{Bounds, FOUND, OPEN, Place, clear_of_axis_1, phi, place};
+use self::place::{Bounds, FOUND, OPEN, Place, clear_of_axis_1, phi, place};
 
 const NEAR: [f64; 7] = [0.0, 1e-12, 1e-9, 2e-9, 1e-7, 1e-6, 1e-4];
 const BEYOND: [f64; 4] = [1e-12, 9e-10, 1e-6, 1e-3];

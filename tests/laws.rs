@@ -1,11 +1,11 @@
 //! Laws of the kinematics, on random arms and random joint vectors.
 #![allow(clippy::unwrap_used, clippy::float_cmp, clippy::cast_precision_loss, missing_docs)]
 
-mod common;
+use crate::common;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use common::{apart, central_difference, difference_bound, profile, reach_of};
+use crate::common::{apart, central_difference, difference_bound, profile, reach_of};
 use irbkin::{
     DhRow, JacobianFrame, JointLimits, Mdh, OpwParameters, Pose, PoseError, Robot, Sdh, Status,
     pose_from_euler_zyx,

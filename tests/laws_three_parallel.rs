@@ -1,12 +1,12 @@
 //! Laws of arms with three parallel axes, on random arms and random joint vectors.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-mod common;
+use crate::common;
 
 use std::f64::consts::PI;
 
-use common::parallel_arm::{ParallelArm, turn, wrapped};
-use common::{Rng, apart, profile};
+use crate::common::parallel_arm::{ParallelArm, turn, wrapped};
+use crate::common::{Rng, apart, profile};
 use irbkin::{JacobianFrame, Mdh, Pose, PoseError, Reach, Robot, Sdh, pose_from_euler_zyx};
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;

@@ -10,11 +10,11 @@
     missing_docs
 )]
 
-mod common;
+use crate::common;
 
 use std::time::{Duration, Instant};
 
-use common::Rng;
+use crate::common::Rng;
 use irbkin::rapid::{Content, Module, Move, NewValue, Value, decode, parse, rewrite};
 
 const CORPUS: [&[u8]; 3] = [

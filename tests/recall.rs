@@ -3,11 +3,11 @@
 //! One by one and in a batch. `make million` runs a million poses on each instruction set and prints the table; `make test` runs fewer.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-mod common;
+use crate::common;
 
 use std::f64::consts::PI;
 
-use common::{Rng, apart, asked_set, reach_of};
+use crate::common::{Rng, apart, asked_set, reach_of};
 use irbkin::{
     Error, JacobianFrame, JointLimits, OpwParameters, Pose, Robot, SLOTS, Status, batch,
     pose_to_rows,

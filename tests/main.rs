@@ -1,0 +1,25 @@
+//! The suite: one binary, for linking and optimising one for each file took most of the time.
+//!
+//! A new file of tests is a module here; `CONTRIBUTING.md` says how. What forces an instruction set
+//! in the whole process is in `lanes.rs`, which is a binary of its own.
+
+#![allow(unreachable_pub)]
+
+mod allocation;
+mod catalogue;
+mod catalogue_page;
+mod common;
+mod configuration;
+mod coupled;
+mod follow;
+mod hardsets;
+mod hardsets_three_parallel;
+mod joint_axes;
+mod laws;
+mod laws_three_parallel;
+mod rapid;
+mod rapid_calc;
+mod rapid_fuzz;
+mod recall;
+#[cfg(feature = "urdf")]
+mod urdf;
