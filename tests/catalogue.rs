@@ -1,8 +1,6 @@
 //! Every arm of the catalogue against figures that are not irbkin's own.
 #![allow(clippy::unwrap_used, clippy::unreadable_literal, missing_docs)]
 
-use crate::common;
-
 use std::f64::consts::PI;
 
 use crate::common::{Rng, apart, reach_of};

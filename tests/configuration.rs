@@ -1,8 +1,6 @@
 //! Laws of ABB's confdata. `IRBKIN_POSES` sets the number of poses of each arm; `make configurations` runs a hundred thousand.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-use crate::common;
-
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::common::{Rng, apart, asked_set};

@@ -1,8 +1,7 @@
-//! The suite: one binary, for linking and optimising one for each file took most of the time.
+//! The suite: one binary, for linking and optimizing one for each file took most of the time.
 //!
 //! A new file of tests is a module here; `CONTRIBUTING.md` says how. What forces an instruction set
 //! in the whole process is in `lanes.rs`, which is a binary of its own.
-
 #![allow(unreachable_pub)]
 
 mod allocation;
@@ -12,14 +11,15 @@ mod common;
 mod configuration;
 mod coupled;
 mod follow;
-mod hardsets;
-mod hardsets_three_parallel;
+mod hard_sets;
 mod joint_axes;
 mod laws;
-mod laws_three_parallel;
 mod rapid;
 mod rapid_calc;
 mod rapid_fuzz;
 mod recall;
+mod structures;
 #[cfg(feature = "urdf")]
 mod urdf;
+
+use common::rng;

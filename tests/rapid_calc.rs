@@ -1,8 +1,6 @@
 //! `CalcJointT`, `CalcRobT` and the tables of whole modules.
 #![allow(clippy::unwrap_used, clippy::float_cmp, missing_docs)]
 
-use crate::common;
-
 use crate::common::{Rng, apart};
 use irbkin::rapid::{
     Fallback, JointTarget, LoadData, RapidPose, RobTarget, ToolData, WobjData, calc_joint_t,

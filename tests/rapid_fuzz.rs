@@ -10,8 +10,6 @@
     missing_docs
 )]
 
-use crate::common;
-
 use std::time::{Duration, Instant};
 
 use crate::common::Rng;

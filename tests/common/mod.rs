@@ -1,14 +1,20 @@
 //! What several law tests need: random numbers, arms, distances.
 #![allow(dead_code, unreachable_pub, missing_docs, clippy::unwrap_used, clippy::panic)]
 
-pub mod parallel_arm;
+pub mod rng;
+pub mod skip;
 pub mod tally;
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::{Mutex, PoisonError};
 
-use irbkin::{Definition, Error, InstructionSet, JointLimits, OpwParameters, Robot};
-use proptest::test_runner::Config as ProptestConfig;
+use irbkin::{
+    Definition, Error, InstructionSet, JointLimits, OpwParameters, Pose, Robot, pose_from_euler_zyx,
+};
+use proptest::prelude::*;
+use proptest::test_runner::{Config as ProptestConfig, FileFailurePersistence, RngSeed};
+
+pub use rng::Rng;
 
 /// Takes the instruction set that `IRBKIN_INSTRUCTION_SET` asks for, by its name; without it, the widest. Fails where the processor does not
 /// have it: a run on another set would tell nothing of this one.
@@ -25,10 +31,28 @@ pub fn asked_set() -> InstructionSet {
     InstructionSet::in_use()
 }
 
+/// Seeds of cases that failed once; each run tries them first.
+const REGRESSIONS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/regressions.txt");
+
 /// The same cases everywhere, on the instruction set that was asked for.
+///
+/// `PROPTEST_RNG_SEED` draws others, `PROPTEST_CASES` more. The seed of a case that fails is kept
+/// in tests/regressions.txt, which is committed.
 pub fn profile() -> ProptestConfig {
     asked_set();
-    ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() }
+    let asked = ProptestConfig::default();
+    let rng_seed = match asked.rng_seed {
+        RngSeed::Random => RngSeed::Fixed(20_260_117),
+        fixed => fixed,
+    };
+    let cases = if std::env::var("PROPTEST_CASES").is_ok() { asked.cases } else { 2000 };
+    ProptestConfig {
+        cases,
+        rng_seed,
+        max_global_rejects: 20 * cases,
+        failure_persistence: Some(Box::new(FileFailurePersistence::Direct(REGRESSIONS))),
+        ..asked
+    }
 }
 
 /// Works on each instruction set of this processor in turn; one test at a time, for a set is forced in the whole process.
@@ -42,44 +66,30 @@ pub fn on_each_set(mut work: impl FnMut(InstructionSet)) {
     }
 }
 
-/// A small generator, so that a run gives the same poses everywhere (xorshift64*).
-pub struct Rng(u64);
-
-impl Rng {
-    pub fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
-    }
-
-    /// Uniform in 0 .. 1.
-    pub fn unit(&mut self) -> f64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        #[expect(clippy::cast_precision_loss, reason = "53 bits")]
-        let mantissa = (self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 11) as f64;
-        mantissa / 2.0_f64.powi(53)
-    }
-
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    /// Uniform inside the limits; in two turns either way where a joint has none.
-    pub fn inside<const N: usize>(&mut self, limits: &JointLimits<N>) -> [f64; N] {
-        limits.to_array().map(|[low, high]| self.between(low.max(-TAU * 2.0), high.min(TAU * 2.0)))
-    }
-}
-
 /// Largest difference of two joint vectors, full turns not counted [rad].
 pub fn apart<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b - TAU * ((a - b) / TAU).round()).abs()).fold(0.0, f64::max)
+    a.iter().zip(b).map(|(a, b)| wrapped(a - b)).fold(0.0, f64::max)
+}
+
+/// Distance of an angle from the nearest full turn [rad].
+pub fn wrapped(angle: f64) -> f64 {
+    (angle - TAU * (angle / TAU).round()).abs()
+}
+
+/// How many poses a test takes: `IRBKIN_POSES`, or a default.
+pub fn poses_or(default: usize) -> usize {
+    std::env::var("IRBKIN_POSES").ok().map_or(default, |count| count.parse().unwrap())
 }
 
 /// Step of the central differences [rad].
 pub const DIFFERENCE_STEP: f64 = 1e-5;
 
 /// The column of a joint, from 0, of the Jacobian of the tool in the base, by central differences.
-pub fn central_difference(robot: &Robot<6>, q: &[f64; 6], joint: usize) -> [f64; 6] {
+pub fn central_difference<const N: usize>(
+    robot: &Robot<N>,
+    q: &[f64; N],
+    joint: usize,
+) -> [f64; 6] {
     let (mut before, mut after) = (*q, *q);
     before[joint] -= DIFFERENCE_STEP;
     after[joint] += DIFFERENCE_STEP;
@@ -118,4 +128,16 @@ pub fn kuka_kr6() -> Result<Robot<6>, Error> {
         signs: [-1, 1, 1, -1, 1, -1],
     })?;
     Ok(robot.with_limits(JointLimits::new([[-PI, PI]; 6])?))
+}
+
+/// Poses within so far along each axis [m], in any orientation.
+pub fn poses(far: f64) -> impl Strategy<Value = Pose> {
+    (prop::array::uniform3(-far..far), prop::array::uniform3(-PI..PI))
+        .prop_map(|(xyz, zyx)| pose_from_euler_zyx(xyz, zyx).unwrap())
+}
+
+/// A pose within so far along each axis [m], in any orientation.
+pub fn random_pose(rng: &mut Rng, far: f64) -> Pose {
+    let xyz = std::array::from_fn(|_| rng.between(-far, far));
+    pose_from_euler_zyx(xyz, rng.angles()).unwrap()
 }

@@ -7,48 +7,53 @@ import irbkin
 import numpy as np
 import pytest
 
-COUNT = 200_000  # a third of a second: more than the calls that come meanwhile take
+FIRST_COUNT, MOST = 50_000, 10_000_000  # poses of a batch
 UNWRITTEN = -1.0
 
 
 @pytest.fixture(scope="module")
 def robot():
-    """An arm whose limits are more than a turn away, so that each pose is solved carefully, some microseconds long."""
-    half_turn = [-np.pi, np.pi]
-    return irbkin.Robot("IRB 2600-12/1.65").with_limits([[4.0, 7.0], *[half_turn] * 5])
-
-
-@pytest.fixture(scope="module")
-def poses(robot):
-    return robot.fk(np.random.default_rng(8).uniform(-1.0, 1.0, (COUNT, 6)))
+    return irbkin.Robot("IRB 2600-12/1.65")
 
 
 class Writing:
     """A batch that is being written by another thread; `q` and `status` are where it writes to."""
 
-    def __init__(self, robot, poses):
-        self.robot, self.poses = robot, poses
-        self.q, self.status = np.full((COUNT, 8, 6), UNWRITTEN), np.zeros((COUNT, 8), np.uint8)
-        self.thread = threading.Thread(target=lambda: robot.ik_batch(poses, out=(self.q, self.status)))
+    def __init__(self, robot, count):
+        self.robot = robot
+        self.poses = robot.fk(np.random.default_rng(8).uniform(-1.0, 1.0, (count, 6)))
+        self.q, self.status = np.full((count, 8, 6), UNWRITTEN), np.zeros((count, 8), np.uint8)
+        self.thread = threading.Thread(target=lambda: robot.ik_batch(self.poses, out=(self.q, self.status)))
 
-    def __enter__(self):
+    def meanwhile(self, *calls):
+        """What calls that are made while the batch is written return or raise; none if it was done before them."""
         self.thread.start()
         given_up = time.monotonic() + 60
         while self.q[0, 0, 0] == UNWRITTEN:
             assert time.monotonic() < given_up, "the batch does not begin"
-        return self
-
-    def __exit__(self, *_):
-        # Nothing is told by calls that came after the last row.
+        outcomes = [outcome(call, self) for call in calls]
         still_writing = self.q[-1, 0, 0] == UNWRITTEN
         self.thread.join()
-        assert still_writing, "the batch was done before the calls that it should meet"
+        return outcomes if still_writing else None
 
 
-@pytest.fixture
-def writing(robot, poses):
-    with Writing(robot, poses) as batch:
-        yield batch
+def outcome(call, batch):
+    try:
+        return call(batch)
+    except ValueError as error:
+        return error
+
+
+def during_a_batch(robot, *calls):
+    """A batch and the outcomes of calls made during it; on a quick machine it takes a larger one to last so long."""
+    count = FIRST_COUNT
+    while count < MOST:
+        batch = Writing(robot, count)
+        outcomes = batch.meanwhile(*calls)
+        if outcomes is not None:
+            return batch, outcomes
+        count *= 2
+    pytest.fail(f"a batch of {count // 2} poses was done before the calls that it should meet")
 
 
 READS = {
@@ -70,38 +75,46 @@ WRITES = {
 }
 
 
+def assert_refused(error, words):
+    assert isinstance(error, ValueError), error
+    assert words in str(error)
+
+
 @pytest.mark.parametrize("kind", READS)
-def test_an_array_that_is_being_written_is_not_read(writing, kind):
-    with pytest.raises(ValueError, match="is being written by another call"):
-        READS[kind](writing)
+def test_an_array_that_is_being_written_is_not_read(robot, kind):
+    _, [error] = during_a_batch(robot, READS[kind])
+    assert_refused(error, "is being written by another call")
 
 
 @pytest.mark.parametrize("kind", WRITES)
-def test_an_array_that_is_in_use_is_not_written(writing, kind):
-    with pytest.raises(ValueError, match="out must be writable"):
-        WRITES[kind](writing)
+def test_an_array_that_is_in_use_is_not_written(robot, kind):
+    _, [error] = during_a_batch(robot, WRITES[kind])
+    assert_refused(error, "out must be writable")
 
 
-def test_other_arrays_are_read_and_written_meanwhile(robot, poses):
+def test_other_arrays_are_read_and_written_meanwhile(robot):
     q, out = np.full(6, 0.1), np.zeros((4, 4))
-    wanted, slots = robot.fk(q), robot.ik(poses[7]).slots
-    with Writing(robot, poses) as writing:
-        robot.fk(q, out=out)
-        np.testing.assert_array_equal(out, wanted)
-        np.testing.assert_array_equal(robot.fk(q[None])[0], wanted)
+    wanted = robot.fk(q)
+    batch, (written, read, slots) = during_a_batch(
+        robot,
+        lambda _: robot.fk(q, out=out).copy(),
+        lambda _: robot.fk(q[None])[0],
         # The input of the batch is only read.
-        np.testing.assert_array_equal(robot.ik(poses[7]).slots, slots)
-    np.testing.assert_array_equal(writing.q[7], slots)
+        lambda batch: robot.ik(batch.poses[7]).slots,
+    )
+    np.testing.assert_array_equal(written, wanted)
+    np.testing.assert_array_equal(read, wanted)
+    np.testing.assert_array_equal(slots, robot.ik(batch.poses[7]).slots)
+    np.testing.assert_array_equal(batch.q[7], slots)
     # And all is free again, after a call that was refused too.
-    np.testing.assert_array_equal(robot.fk(writing.q[7, 0]), robot.fk(writing.q[7, 0].tolist()))
-    robot.fk(q, out=writing.q[0].ravel()[:16].reshape(4, 4))
+    np.testing.assert_array_equal(robot.fk(batch.q[7, 0]), robot.fk(batch.q[7, 0].tolist()))
+    robot.fk(q, out=batch.q[0].ravel()[:16].reshape(4, 4))
 
 
-def test_a_refused_call_changes_no_row(robot, poses):
-    alone = robot.ik_batch(poses)
-    with Writing(robot, poses) as writing:
-        for write in WRITES.values():
-            with pytest.raises(ValueError, match="out must be writable"):
-                write(writing)
-    np.testing.assert_array_equal(writing.q, alone.q)
-    np.testing.assert_array_equal(writing.status, alone.status)
+def test_a_refused_call_changes_no_row(robot):
+    batch, errors = during_a_batch(robot, *WRITES.values())
+    for error in errors:
+        assert_refused(error, "out must be writable")
+    alone = robot.ik_batch(batch.poses)
+    np.testing.assert_array_equal(batch.q, alone.q)
+    np.testing.assert_array_equal(batch.status, alone.status)

@@ -12,6 +12,7 @@ use crate::kinematics::thresholds::{
 };
 use crate::kinematics::{DhRow, JacobianFrame, JointLimits, Mdh, PoseError};
 use crate::lanes::on_each_set;
+use crate::rng::Rng;
 
 /// Poses of each set.
 const POSES: usize = 300;
@@ -19,27 +20,6 @@ const POSES: usize = 300;
 /// Where the poses of a set stand, as a part of a margin: plain from one on. With a lateral offset b next to the shoulder, x^2 = rho^2 - b^2
 /// is rounded to 1e-5 of itself.
 const BEYOND: [f64; 7] = [0.5, 0.99, 1.0 - 1e-4, 1.0 + 1e-4, 1.01, 10.0, 100.0];
-
-/// Random numbers (splitmix64).
-struct Random(u64);
-
-impl Random {
-    #[expect(clippy::cast_precision_loss, reason = "53 bits")]
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        low + (high - low) * ((mixed ^ (mixed >> 31)) >> 11) as f64 / 2.0_f64.powi(53)
-    }
-
-    fn sign(&mut self) -> f64 {
-        if self.between(-1.0, 1.0) < 0.0 { -1.0 } else { 1.0 }
-    }
-
-    fn angle(&mut self) -> f64 {
-        self.between(-PI, PI)
-    }
-}
 
 /// An arm, with what the margins are made of.
 struct Arm {
@@ -118,7 +98,7 @@ impl Arm {
     }
 
     /// A pose, turned at random, with the end of the planar arm `x` from axis 1 along the plane of the arm and `z` above the shoulder.
-    fn with_end_of_planar_arm(&self, x: f64, z: f64, random: &mut Random) -> Pose {
+    fn with_end_of_planar_arm(&self, x: f64, z: f64, random: &mut Rng) -> Pose {
         let phi = random.angle();
         let wrist = [x + self.d5 * phi.sin(), self.b, self.c1 + z + self.d5 * phi.cos()];
         // Axis 5 in the plane, along phi.
@@ -129,17 +109,17 @@ impl Arm {
         self.with_wrist(wrist, rotation, random)
     }
 
-    fn with_wrist(&self, wrist: [f64; 3], rotation: Pose, random: &mut Random) -> Pose {
+    fn with_wrist(&self, wrist: [f64; 3], rotation: Pose, random: &mut Rng) -> Pose {
         let heading = pose_from_euler_zyx([0.0; 3], [random.angle(), 0.0, 0.0]).unwrap();
         let wrist = pose_from_euler_zyx(wrist, [0.0; 3]).unwrap() * rotation;
         self.robot.base() * heading * wrist * self.t_wrist_flange * self.robot.tool()
     }
 
-    fn anywhere(&self, random: &mut Random) -> Pose {
+    fn anywhere(&self, random: &mut Rng) -> Pose {
         self.at([(); 6].map(|()| random.angle()))
     }
 
-    fn next_to_the_wrist_margin(&self, part: f64, random: &mut Random) -> Pose {
+    fn next_to_the_wrist_margin(&self, part: f64, random: &mut Rng) -> Pose {
         let off = (part * PLAIN_WRIST_SIN).asin();
         let theta_5 = random.sign() * if random.sign() > 0.0 { off } else { PI - off };
         self.at([
@@ -152,7 +132,7 @@ impl Arm {
         ])
     }
 
-    fn next_to_the_shoulder_margin(&self, part: f64, random: &mut Random) -> Pose {
+    fn next_to_the_shoulder_margin(&self, part: f64, random: &mut Rng) -> Pose {
         let x = part * (PLAIN_SHOULDER * self.extent).max(10.0 * SHOULDER_MERGE);
         // Somewhere between folded and stretched, for both shoulders.
         let [shortest, longest] =
@@ -170,7 +150,7 @@ impl Arm {
     }
 
     /// Inside or outside the edge of reach, stretched or folded, of either shoulder.
-    fn next_to_the_edge_of_reach(&self, part: f64, random: &mut Random) -> Pose {
+    fn next_to_the_edge_of_reach(&self, part: f64, random: &mut Rng) -> Pose {
         let (c2, k) = (self.c2, self.k);
         let m2 = random.sign()
             * part
@@ -324,7 +304,7 @@ fn parallel_arm(a1: f64, [c2, c3]: [f64; 2]) -> Robot<6> {
     Robot::from_mdh(Mdh { base: Pose::identity(), rows, flange }).unwrap()
 }
 
-type Place = fn(&Arm, f64, &mut Random) -> Pose;
+type Place = fn(&Arm, f64, &mut Rng) -> Pose;
 
 /// The margins by name, and the least part of their poses that must be plain: at the edge of reach, half of the arms reach with neither
 /// shoulder; and next to the wrist's, arms with three parallel axes must stand 1.5e-7 d5 / 1e-6, two centimetres, from the shoulder's singularity.
@@ -338,7 +318,7 @@ const MARGINS: [(&str, Place, f64); 3] = [
 #[expect(clippy::cast_precision_loss, reason = "counts")]
 fn plain_and_careful_agree() {
     on_each_set(|set| {
-        let mut random = Random(5);
+        let mut random = Rng::new(5);
         for arm in &arms() {
             let mut all = Tally::default();
             let mut run_set = |set_name: String, least: f64, make: &mut dyn FnMut() -> Pose| {
@@ -383,7 +363,7 @@ fn in_the_lanes_no_arm_is_plain_that_is_minute_in_its_surroundings() {
         "far base",
         Robot::<6>::named("IRB 2600-12/1.65").unwrap().with_base(&base).unwrap(),
     );
-    let mut random = Random(6);
+    let mut random = Rng::new(6);
     on_each_set(|_| {
         for _ in 0..POSES {
             let pose = arm.anywhere(&mut random);
@@ -393,7 +373,7 @@ fn in_the_lanes_no_arm_is_plain_that_is_minute_in_its_surroundings() {
 }
 
 /// Joint vectors all around, some of them next to where a family's branches meet: each joint by chance at a quarter turn and `off` from it.
-fn joints<const N: usize>(random: &mut Random, off: f64) -> [f64; N] {
+fn joints<const N: usize>(random: &mut Rng, off: f64) -> [f64; N] {
     core::array::from_fn(|_| {
         let angle = random.between(-PI, PI);
         if random.between(0.0, 1.0) < 0.2 {
@@ -405,7 +385,7 @@ fn joints<const N: usize>(random: &mut Random, off: f64) -> [f64; N] {
 }
 
 /// How many poses were plain, after both ways were held against one another for each.
-fn agreeing<const N: usize>(robot: &Robot<N>, reach: f64, random: &mut Random) -> usize {
+fn agreeing<const N: usize>(robot: &Robot<N>, reach: f64, random: &mut Rng) -> usize {
     let mut plain_poses = 0;
     for off in [0.0, 1e-8, 9e-7, 1.1e-6, 1e-5, 3e-3, 1e-2, 1.1e-2] {
         for _ in 0..POSES {
@@ -452,7 +432,7 @@ fn plain_and_careful_agree_in_every_family() {
     let base = pose_from_euler_zyx([0.8, -0.5, 0.3], [-1.9, 0.4, 0.2]).unwrap();
     let limits = [[-7.0, 1.0], [-1.0, 4.5], [-4.7, -0.2], [-9.0, 9.0], [-PI, 0.3], [-0.3, PI]];
     on_each_set(|_| {
-        let mut random = Random(7);
+        let mut random = Rng::new(7);
         for name in ["UR3", "UR10e"] {
             let robot = Robot::<6>::named(name).unwrap();
             let turned = robot.clone().with_base(&base).unwrap().with_tool(&tool).unwrap();

@@ -1,6 +1,6 @@
 //! An arm with three parallel axes by its lengths: its table, and its geometry once more, from its joints alone.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use irbkin::{DhRow, Mdh, Pose, Robot};
 use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Translation3, Vector3};
@@ -214,9 +214,4 @@ pub fn quarters_about_x(quarters: i32) -> Matrix3<f64> {
     let (sin, cos) = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)]
         [quarters.rem_euclid(4).unsigned_abs() as usize];
     Matrix3::new(1.0, 0.0, 0.0, 0.0, cos, -sin, 0.0, sin, cos)
-}
-
-/// Distance of an angle from the nearest full turn [rad].
-pub fn wrapped(angle: f64) -> f64 {
-    (angle - TAU * (angle / TAU).round()).abs()
 }
