@@ -214,7 +214,8 @@ const ROD: &str =
     "coupled: its rods are likely to stop it before it is stretched; no source has that limit";
 const FIFTY: &str = "names of large arms are rounded to 50 mm";
 
-/// Arms whose name is off the reach of their lengths by more than the rounding to the last digit that it prints: that reach [m], why.
+/// Arms whose name is off the reach of their lengths by more than the rounding to the last digit
+/// that it prints: that reach [m], why.
 #[rustfmt::skip]
 const OFF_THEIR_NAME: [(&str, f64, &str); 15] = [
     ("IRB 1410-4/1.45", 1.4799, ROD),
@@ -313,7 +314,8 @@ fn every_arm_has_sane_limits() {
 
 const POSES: usize = 200;
 
-/// Holds the answers for random poses against forward kinematics and against the joints that made the poses.
+/// Holds the answers for random poses against forward kinematics and against the joints that made
+/// the poses.
 fn closes<const N: usize>(
     robot: &Robot<N>,
     rng: &mut Rng,

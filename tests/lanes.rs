@@ -1,5 +1,6 @@
-//! What a kernel in lanes must not change: an answer does not depend on the row's place, on its neighbours, on the number of threads, on
-//! whether it was asked for alone, nor, but for rounding where there is no fused multiplication and addition, on the instruction set.
+//! What a kernel in lanes must not change: an answer does not depend on the row's place, on its
+//! neighbours, on the number of threads, on whether it was asked for alone, nor, but for rounding
+//! where there is no fused multiplication and addition, on the instruction set.
 #![allow(clippy::unwrap_used, unreachable_pub, missing_docs)]
 
 mod common;
@@ -370,8 +371,9 @@ fn baseline_agrees_to_rounding<const N: usize>(structure: &Structure<N>) {
         };
         for other in others {
             worst = worst.max(rounding_between(subject, &baseline.answers, &other.answers));
-            // A frame is the product of eight, each element of which is a sum of three products: 24 roundings either way, and as many of
-            // the Jacobian's cross product and turn into the tool.
+            // A frame is the product of eight, each element of which is a sum of three products: 24
+            // roundings either way, and as many of the Jacobian's cross product and turn into the
+            // tool.
             let bound = 2.0 * 48.0 * f64::EPSILON * (1.0 + subject.reach());
             let numbers = |solved: &OnEachSet<N>| {
                 [solved.poses.as_flattened(), solved.jacobians.as_flattened().as_flattened()]
@@ -389,10 +391,11 @@ fn baseline_agrees_to_rounding<const N: usize>(structure: &Structure<N>) {
     println!("farthest apart away from singularities: {worst:.1e} rad");
 }
 
-/// The largest difference of the joints away from singularities; there the slots have the same status.
+/// The largest difference of the joints away from singularities; there the slots have the same
+/// status.
 ///
-/// A solve closes to 3e-15 of the reach and 1e-14 rad, so that two are apart by twice that over the least singular value. Where that is
-/// below 1e-12 rad, the pose is away from singularities.
+/// A solve closes to 3e-15 of the reach and 1e-14 rad, so that two are apart by twice that over the
+/// least singular value. Where that is below 1e-12 rad, the pose is away from singularities.
 fn rounding_between<const N: usize>(
     subject: &Subject<N>,
     ours: &Answers<N>,
@@ -436,7 +439,8 @@ fn table_poses<const N: usize>(robot: &Robot<N>, what: &str) {
     for (q, row) in joints.iter().zip(fk_of(robot, &joints)) {
         let mut wanted: Pose = robot.base() * mdh.base;
         for (row, angle) in mdh.rows.iter().zip(q) {
-            // The two turns about z one after the other: their sum would lose digits of an angle of many turns.
+            // The two turns about z one after the other: their sum would lose digits of an angle of
+            // many turns.
             let along = Translation3::new(row.a, 0.0, row.d) * Rotation3::identity();
             let [x, z, q] = [
                 (Vector3::x_axis(), row.alpha),

@@ -85,9 +85,7 @@ fn hold<const N: usize>(structure: &Structure<N>, law: Law<N>) -> Counts {
     );
     let counts = Counts::default();
     let outcome = TestRunner::new(profile()).run(&cases, |case| law(&case, &counts));
-    if let Err(error) = outcome {
-        panic!("{}: {error}", structure.name);
-    }
+    assert!(outcome.is_ok(), "{}: {}", structure.name, outcome.unwrap_err());
     println!("{}: {counts:?}", structure.name);
     counts
 }

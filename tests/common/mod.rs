@@ -5,19 +5,20 @@ pub mod rng;
 pub mod skip;
 pub mod tally;
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{PI, TAU};
 use std::sync::{Mutex, PoisonError};
 
-use irbkin::{
-    Definition, Error, InstructionSet, JointLimits, OpwParameters, Pose, Robot, pose_from_euler_zyx,
-};
+use irbkin::{Definition, Error, InstructionSet, JointLimits, Pose, Robot, pose_from_euler_zyx};
 use proptest::prelude::*;
 use proptest::test_runner::{Config as ProptestConfig, FileFailurePersistence, RngSeed};
 
 pub use rng::Rng;
 
-/// Takes the instruction set that `IRBKIN_INSTRUCTION_SET` asks for, by its name; without it, the widest. Fails where the processor does not
-/// have it: a run on another set would tell nothing of this one.
+use crate::structures::spherical_wrist::KUKA_KR6;
+
+/// Takes the instruction set that `IRBKIN_INSTRUCTION_SET` asks for, by its name; without it, the
+/// widest. Fails where the processor does not have it: a run on another set would tell nothing of
+/// this one.
 pub fn asked_set() -> InstructionSet {
     if let Ok(name) = std::env::var("IRBKIN_INSTRUCTION_SET") {
         let names: Vec<_> = InstructionSet::available().map(InstructionSet::name).collect();
@@ -43,7 +44,7 @@ pub fn profile() -> ProptestConfig {
     let asked = ProptestConfig::default();
     let rng_seed = match asked.rng_seed {
         RngSeed::Random => RngSeed::Fixed(20_260_117),
-        fixed => fixed,
+        fixed @ RngSeed::Fixed(_) => fixed,
     };
     let cases = if std::env::var("PROPTEST_CASES").is_ok() { asked.cases } else { 2000 };
     ProptestConfig {
@@ -55,7 +56,8 @@ pub fn profile() -> ProptestConfig {
     }
 }
 
-/// Works on each instruction set of this processor in turn; one test at a time, for a set is forced in the whole process.
+/// Works on each instruction set of this processor in turn; one test at a time, for a set is forced
+/// in the whole process.
 pub fn on_each_set(mut work: impl FnMut(InstructionSet)) {
     static FORCED: Mutex<()> = Mutex::new(());
     // A test that failed while it held the lock has said why.
@@ -101,7 +103,8 @@ pub fn central_difference<const N: usize>(
     [linear.x, linear.y, linear.z, spin[(2, 1)], spin[(0, 2)], spin[(1, 0)]]
 }
 
-/// How far they may be off, the arm reaching so far [m]: a sixth of step^2 times the third derivative (one lever), and rounding over the step.
+/// How far they may be off, the arm reaching so far [m]: a sixth of step^2 times the third
+/// derivative (one lever), and rounding over the step.
 pub fn difference_bound(reach: f64) -> f64 {
     10.0 * (DIFFERENCE_STEP * DIFFERENCE_STEP + f64::EPSILON / DIFFERENCE_STEP) * (1.0 + reach)
 }
@@ -114,19 +117,9 @@ pub fn reach_of<const N: usize>(robot: &Robot<N>) -> f64 {
     }
 }
 
-/// KUKA KR 6 R700 sixx (parameters of the cases from rs-opw-kinematics).
+/// KUKA KR 6 R700 sixx, its joints in half a turn either way.
 pub fn kuka_kr6() -> Result<Robot<6>, Error> {
-    let robot = Robot::from_opw(OpwParameters {
-        a1: 0.025,
-        a2: -0.035,
-        b: 0.0,
-        c1: 0.4,
-        c2: 0.315,
-        c3: 0.365,
-        c4: 0.08,
-        offsets: [0.0, -FRAC_PI_2, 0.0, 0.0, 0.0, 0.0],
-        signs: [-1, 1, 1, -1, 1, -1],
-    })?;
+    let robot = Robot::from_opw(KUKA_KR6)?;
     Ok(robot.with_limits(JointLimits::new([[-PI, PI]; 6])?))
 }
 

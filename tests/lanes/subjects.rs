@@ -122,7 +122,7 @@ fn row<const N: usize>(subject: &Subject<N>, kind: usize, rng: &mut Rng) -> Row<
         23 => {
             row = [
                 0.0, 0.0, 1.0, 0.6, -0.0, 1.0, -0.0, -0.0, -1.0, 0.0, 0.0, 0.7, 0.0, -0.0, 0.0, 1.0,
-            ]
+            ];
         }
         _ => {}
     }

@@ -8,9 +8,9 @@ use proptest::test_runner::{FileFailurePersistence, RngSeed, TestRunner};
 
 use crate::common::profile;
 
-fn drawn(profile: ProptestConfig) -> Vec<u64> {
+fn drawn(profile: &ProptestConfig) -> Vec<u64> {
     let cases = RefCell::new(Vec::new());
-    let few = ProptestConfig { cases: 20, failure_persistence: None, ..profile };
+    let few = ProptestConfig { cases: 20, failure_persistence: None, ..profile.clone() };
     let keep = |case| {
         cases.borrow_mut().push(case);
         Ok(())
@@ -23,9 +23,9 @@ fn drawn(profile: ProptestConfig) -> Vec<u64> {
 fn every_run_draws_the_same_cases() {
     let profile = profile();
     assert!(matches!(profile.rng_seed, RngSeed::Fixed(_)), "{:?}", profile.rng_seed);
-    let cases = drawn(profile.clone());
-    assert_eq!(cases, drawn(profile.clone()));
-    assert_ne!(cases, drawn(ProptestConfig { rng_seed: RngSeed::Fixed(1), ..profile }));
+    let cases = drawn(&profile);
+    assert_eq!(cases, drawn(&profile));
+    assert_ne!(cases, drawn(&ProptestConfig { rng_seed: RngSeed::Fixed(1), ..profile }));
 }
 
 #[test]

@@ -151,11 +151,9 @@ def home(path: tuple[str, ...], depth: int = 0) -> Module:
 
 
 @cache
-def used_by() -> dict[Module, set[Module]] | dict[str, set[str]]:
+def used_by() -> dict[str, set[str]]:
     """For each module, by the file's name, the files that it uses."""
-    return {
-        str(module): {str(home(path)) for path in module.uses} - {str(module)} for module in modules().values()
-    }
+    return {str(module): {str(home(path)) for path in module.uses} - {str(module)} for module in modules().values()}
 
 
 def cycles() -> list[list[str]]:

@@ -45,9 +45,7 @@ def test_every_module_has_a_layer(file):
 def test_a_module_uses_only_what_is_above_it(file):
     own = entry(file)
     # A row of several paths is of siblings, which do not use one another.
-    wrong = [
-        used for used in used_by()[file] if entry(used) not in (None, own) and ROWS[entry(used)] >= ROWS[own]
-    ]
+    wrong = [used for used in used_by()[file] if entry(used) not in (None, own) and ROWS[entry(used)] >= ROWS[own]]
     assert not wrong, f"{file} uses {sorted(wrong)}"
 
 

@@ -10,7 +10,8 @@ use crate::rng::Rng;
 use crate::structures::spherical_shoulder::{ShoulderArm, hand_of};
 use crate::structures::{SEVEN, Subject};
 
-/// Length of the upper arm that each turn of joint 6 would need, the elbow on one or the other side of axis 5, less what it has [m].
+/// Length of the upper arm that each turn of joint 6 would need, the elbow on one or the other side
+/// of axis 5, less what it has [m].
 fn closures(arm: &ShoulderArm, hand: &Pose, theta_6: f64) -> [f64; 2] {
     let ShoulderArm { a4, c5, .. } = *arm;
     let (sin, cos) = theta_6.sin_cos();

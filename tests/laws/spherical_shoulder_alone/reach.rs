@@ -59,9 +59,9 @@ fn beyond_the_turn_of_the_wrist_the_shortfall_is_told() {
                     }
                     continue;
                 }
-                let Reach::TooFar { shortfall } = solutions.reach() else {
-                    panic!("{name}: {:?}", solutions.reach())
-                };
+                let reach = solutions.reach();
+                assert!(matches!(reach, Reach::TooFar { .. }), "{name}: {reach:?}");
+                let shortfall = reach.shortfall();
                 // The other elbow may be nearer.
                 let is_right = shortfall > 0.0 && shortfall < 1.01 * beyond + 1e-15;
                 assert!(is_right, "{name}: {shortfall:e} for {beyond:e}");

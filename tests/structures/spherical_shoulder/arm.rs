@@ -283,7 +283,7 @@ impl ShoulderArm {
     }
 
     /// Whether angles are the branch of those that made the pose.
-    pub fn is_branch(&self, a: &[f64; 7], b: &[f64; 7], bounds: &[f64; 4]) -> bool {
+    pub fn is_branch(a: &[f64; 7], b: &[f64; 7], bounds: &[f64; 4]) -> bool {
         let wrapped = |angle: f64| (angle - 2.0 * PI * (angle / (2.0 * PI)).round()).abs();
         let off = |i: usize| wrapped(a[i] - b[i]);
         let sum = |t: &[f64; 7]| if t[1].cos() > 0.0 { t[0] + t[2] } else { t[0] - t[2] };

@@ -44,7 +44,7 @@ fn is_found(arm: &ShoulderArm, robot: &Robot<7>, made: &Made<7>, solution: &Solu
     let bounds = arm.bounds(&made.theta, thresholds::SHOULDER_MERGE);
     let mut moved = *solution;
     for _ in 0..3 {
-        if arm.is_branch(&arm.theta(&moved.q), &made.theta, &bounds) {
+        if ShoulderArm::is_branch(&arm.theta(&moved.q), &made.theta, &bounds) {
             return true;
         }
         let Some(free) = moved.free else { return false };
@@ -64,7 +64,7 @@ fn is_kept(arm: &ShoulderArm, robot: &Robot<7>, made: &Made<7>) -> bool {
     let is_open = arm.bounds(&made.theta, 0.0).iter().any(|bound| *bound > OPEN);
     let residual = robot.residual(&kept.q, &made.pose).largest();
     residual <= 4.0 * thresholds::SEEDED_FREE
-        && (is_open || arm.is_branch(&arm.theta(&kept.q), &made.theta, &bounds))
+        && (is_open || ShoulderArm::is_branch(&arm.theta(&kept.q), &made.theta, &bounds))
 }
 
 /// Whether a solution whose free joint is given another angle is one of the pose, to twice the

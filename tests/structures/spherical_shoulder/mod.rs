@@ -147,8 +147,8 @@ impl Arm<7> for ShoulderArm {
     }
 }
 
-/// The hand seen from the shoulder, from the robot's frames alone: z along axis 5 and y along axis 6
-/// where joint 6 is zero, up to a turn about axis 6.
+/// The hand seen from the shoulder, from the robot's frames alone: z along axis 5 and y along axis
+/// 6 where joint 6 is zero, up to a turn about axis 6.
 pub fn hand_of(robot: &Robot<7>, pose: &Pose, q7: f64) -> Pose {
     let (frames, tool) = robot.link_frames(&[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, q7]);
     let t_six_tool = frames[5].inverse() * tool;

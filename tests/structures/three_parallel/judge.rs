@@ -27,7 +27,8 @@ impl<'a> Judge<'a> {
         self.arm.theta(q)
     }
 
-    /// Whether the answers have the joint vector that made the pose: as it is, or where a joint is free as a member of the family.
+    /// Whether the answers have the joint vector that made the pose: as it is, or where a joint is
+    /// free as a member of the family.
     fn is_found(&self, solutions: &Solutions<6>) -> bool {
         solutions.iter().any(|solution| {
             let found = self.theta_of(&solution.q);
@@ -47,8 +48,9 @@ impl<'a> Judge<'a> {
         })
     }
 
-    /// Whether a solution moved to the free joint's angle is the one that made the pose. One straight arm stands for both elbows of the family,
-    /// and joint 2 of one that is folded onto axis 2 is free too: of those, the seeded solve has to find the right one.
+    /// Whether a solution moved to the free joint's angle is the one that made the pose. One
+    /// straight arm stands for both elbows of the family, and joint 2 of one that is folded onto
+    /// axis 2 is free too: of those, the seeded solve has to find the right one.
     fn is_family_member(&self, from: &Solution<6>, moved: &Solution<6>) -> bool {
         let [mut from_theta, mut found] = [&from.q, &moved.q].map(|q| self.theta_of(q));
         let folded = self.is_folding_onto_axis_2()
@@ -83,8 +85,9 @@ impl<'a> Judge<'a> {
         thresholds::POSITION_ROUNDING * self.arm.reach()
     }
 
-    /// What the solve that is given the joint vector for a seed finds, and whether that is the joint vector. Where the pose leaves a joint open
-    /// that no solution declares free, next to two singularities at once, another branch may be nearer to the seed.
+    /// What the solve that is given the joint vector for a seed finds, and whether that is the
+    /// joint vector. Where the pose leaves a joint open that no solution declares free, next to two
+    /// singularities at once, another branch may be nearer to the seed.
     fn seeded(&self) -> Option<(Solution<6>, bool)> {
         let nearest = self.robot.ik_nearest(&self.made.pose, &self.made.q, &[1.0; 6]).ok()?;
         let residual = self.robot.residual(&nearest.q, &self.made.pose).largest();
@@ -126,7 +129,8 @@ impl<'a> Judge<'a> {
         wrong
     }
 
-    /// Holds the family of a wrist against the circle on which the end of the planar arm runs: reached where it is in reach, the tool still.
+    /// Holds the family of a wrist against the circle on which the end of the planar arm runs:
+    /// reached where it is in reach, the tool still.
     fn count_wrong_along_family(&self, solution: &Solution<6>, theta: &[f64; 6]) -> usize {
         let (robot, arm) = (self.robot, self.arm);
         let off = theta[4].sin().abs();
@@ -150,14 +154,15 @@ impl<'a> Judge<'a> {
                 Err(_) => {
                     wrong += usize::from(
                         arm.margin(arm.end_along_family(theta, theta_6)) > self.rounding(),
-                    )
+                    );
                 }
             }
         }
         wrong
     }
 
-    /// Counts solutions that come twice: the same joints, or two members of a family in place of one.
+    /// Counts solutions that come twice: the same joints, or two members of a family in place of
+    /// one.
     fn count_twice(&self, solutions: &Solutions<6>) -> usize {
         let all: Vec<_> = solutions.iter().collect();
         let mut twice = 0;
@@ -175,7 +180,8 @@ impl<'a> Judge<'a> {
         twice
     }
 
-    /// Whether the flags of the branch that made the pose are told, and what they say of the slots is so.
+    /// Whether the flags of the branch that made the pose are told, and what they say of the slots
+    /// is so.
     fn is_flagged(&self, solutions: &Solutions<6>, seeded: &Solution<6>) -> bool {
         let [wrist, shoulder, elbow] =
             [At::Wrist, At::Shoulder, At::Elbow].map(|at| self.made.place.off(at));
@@ -204,8 +210,8 @@ impl<'a> Judge<'a> {
                         && solutions.slot(slot ^ bit).is_none())
             })
         };
-        // Joint 6 that is off by rounding over sin theta_5 bends the arm, and so does x that is off by rounding times b over x; folded onto
-        // axis 2, rounding itself does.
+        // Joint 6 that is off by rounding over sin theta_5 bends the arm, and so does x that is off
+        // by rounding times b over x; folded onto axis 2, rounding itself does.
         let x_is_known = self.arm.b() < self.arm.x(&self.made.theta).abs();
         let straight = if self.is_folding_onto_axis_2() { 0.0 } else { 1e-8 };
         let six_is_known = wrist.is_none_or(|off| off == 0.0);
@@ -219,8 +225,8 @@ impl<'a> Judge<'a> {
                 || mine.iter().all(|solution| solution.kinds().contains(Status::SHOULDER)))
     }
 
-    /// Whether the representative of the wrist's family has joint 6 at rest, or as near to it as the arm reaches, in both elbows; by trying
-    /// angles of joint 6 all around. So too with a seed.
+    /// Whether the representative of the wrist's family has joint 6 at rest, or as near to it as
+    /// the arm reaches, in both elbows; by trying angles of joint 6 all around. So too with a seed.
     fn is_nearest_of_family(&self, solutions: &Solutions<6>, rng: &mut Rng) -> bool {
         let shoulder = 4 * usize::from(self.arm.x(&self.made.theta) < 0.0);
         let told = [0, 2].map(|elbow| {
@@ -244,7 +250,8 @@ impl<'a> Judge<'a> {
         told == [true; 2] && (!of_family || self.is_nearest_reached(&seeded, seed[5]))
     }
 
-    /// Whether no angle of joint 6 that is nearer to `wanted` than the solution's is reached, and the solution's is.
+    /// Whether no angle of joint 6 that is nearer to `wanted` than the solution's is reached, and
+    /// the solution's is.
     fn is_nearest_reached(&self, solution: &Solution<6>, wanted: f64) -> bool {
         let arm = self.arm;
         let missing = |q6: f64| {

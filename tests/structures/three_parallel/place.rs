@@ -1,4 +1,5 @@
-//! Where a hard set places an arm with three parallel axes, and what rounding leaves open of its joints there.
+//! Where a hard set places an arm with three parallel axes, and what rounding leaves open of its
+//! joints there.
 
 use std::f64::consts::PI;
 
@@ -9,7 +10,8 @@ use crate::common::wrapped;
 use crate::rng::Rng;
 use crate::structures::place::{At, Place};
 
-/// The elbow angle of a stretched arm below which it is straight to rounding: sqrt(2 rounding of the position / lever), 9e-8 for a UR10e.
+/// The elbow angle of a stretched arm below which it is straight to rounding: sqrt(2 rounding of
+/// the position / lever), 9e-8 for a UR10e.
 const STRAIGHT: f64 = 1e-7;
 /// How near the joints that a pose determines must be to those that made it [rad].
 pub const FOUND: f64 = 1e-6;
@@ -48,7 +50,8 @@ fn theta_2(arm: &ParallelArm, theta: &[f64; 6], x: f64, rng: &mut Rng) -> Option
     (sine.abs() < 0.99).then_some(forward - across.atan2(along))
 }
 
-/// How far the joints found may be from those that made the pose, by what rounding leaves open of them (docs/accuracy.md, sections 3 to 5).
+/// How far the joints found may be from those that made the pose, by what rounding leaves open of
+/// them (docs/accuracy.md, sections 3 to 5).
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
     /// theta_1 and theta_5 [rad].
@@ -99,7 +102,8 @@ impl Bounds {
             // Folded onto axis 2: r = c2 theta_3, and only the direction to the end tells theta_2.
             return [2.0 * end / (c2 * off.max(1e-300)), 2.0 * end / c2 + merged];
         }
-        // A deviation e of theta_3 moves the end by c2 c3 e^2 / (2 r), and turns the upper arm by up to longest / r times e.
+        // A deviation e of theta_3 moves the end by c2 c3 e^2 / (2 r), and turns the upper arm by
+        // up to longest / r times e.
         let lever = c2 * c3 / r;
         let root = (2.0 * end / lever).sqrt().min(2.0 * end / (lever * off.max(1e-300)));
         [(root + merged) * (longest / r) + end / r, root + merged]
@@ -114,7 +118,8 @@ impl Bounds {
             && (self.six > OPEN || wrapped(phi(found) - phi(made)) <= self.plane + self.six)
     }
 
-    /// Whether a joint vector has its plane and joint 5, up to its sign, as the one that made the pose.
+    /// Whether a joint vector has its plane and joint 5, up to its sign, as the one that made the
+    /// pose.
     pub fn hold_plane(&self, found: &[f64; 6], made: &[f64; 6]) -> bool {
         let five = (wrapped(found[4]) - wrapped(made[4])).abs();
         wrapped(found[0] - made[0]) <= self.plane && five <= self.plane

@@ -1,4 +1,5 @@
-//! The lanes and the careful solve say the same of every pose that the lanes take, up to where they take none.
+//! The lanes and the careful solve say the same of every pose that the lanes take, up to where they
+//! take none.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::{format, println, string::String, vec::Vec};
@@ -19,8 +20,8 @@ use arm::Arm;
 /// Poses of each set.
 const POSES: usize = 300;
 
-/// Where the poses of a set stand, as a part of a margin: plain from one on. With a lateral offset b next to the shoulder, x^2 = rho^2 - b^2
-/// is rounded to 1e-5 of itself.
+/// Where the poses of a set stand, as a part of a margin: plain from one on. With a lateral offset
+/// b next to the shoulder, x^2 = rho^2 - b^2 is rounded to 1e-5 of itself.
 const BEYOND: [f64; 7] = [0.5, 0.99, 1.0 - 1e-4, 1.0 + 1e-4, 1.01, 10.0, 100.0];
 
 /// The slots by the lanes; `None` where the pose is not plain or has no solution.
@@ -62,8 +63,9 @@ impl Comparison {
         for (slot, solution) in plain.into_iter().zip(&careful.slots) {
             let Some(((q, _), careful)) = slot.zip(solution.as_ref()) else { continue };
             assert_eq!(careful.free, None, "{what}");
-            // A solution closes to 3e-15 of the arm's lengths and to 1e-14 rad, and to what an offset's digits round off theta; so two are
-            // apart by twice that at most, in the pose, and in the joints by that over the least singular value.
+            // A solution closes to 3e-15 of the arm's lengths and to 1e-14 rad, and to what an
+            // offset's digits round off theta; so two are apart by twice that at most, in the pose,
+            // and in the joints by that over the least singular value.
             let rounded_off =
                 f64::EPSILON * arm.offsets.iter().map(|offset| offset.abs()).sum::<f64>();
             let closed = [(3e-15 + rounded_off) * arm.extent, 1e-14 + rounded_off];
@@ -90,7 +92,8 @@ impl Comparison {
     }
 }
 
-/// Arms with and without each offset; between a turned base and tool; with limits that ask for a full turn.
+/// Arms with and without each offset; between a turned base and tool; with limits that ask for a
+/// full turn.
 fn arms() -> Vec<Arm> {
     let abb_2600 = || Robot::<6>::named("IRB 2600-12/1.65").unwrap();
     let opw = OpwParameters::abb(0.15, -0.11, 0.45, 0.6, 0.64, 0.1);
@@ -145,8 +148,9 @@ fn parallel_arm(a1: f64, [c2, c3]: [f64; 2]) -> Robot<6> {
 
 type Place = fn(&Arm, f64, &mut Rng) -> Pose;
 
-/// The margins by name, and the least part of their poses that must be plain: at the edge of reach, half of the arms reach with neither
-/// shoulder; and next to the wrist's, arms with three parallel axes must stand 1.5e-7 d5 / 1e-6, two centimetres, from the shoulder's singularity.
+/// The margins by name, and the least part of their poses that must be plain: at the edge of reach,
+/// half of the arms reach with neither shoulder; and next to the wrist's, arms with three parallel
+/// axes must stand 1.5e-7 d5 / 1e-6, two centimetres, from the shoulder's singularity.
 const MARGINS: [(&str, Place, f64); 3] = [
     ("wrist", Arm::next_to_the_wrist_margin, 0.9),
     ("shoulder", Arm::next_to_the_shoulder_margin, 0.95),
@@ -211,7 +215,8 @@ fn in_the_lanes_no_arm_is_plain_that_is_minute_in_its_surroundings() {
     });
 }
 
-/// Joint vectors all around, some of them next to where a family's branches meet: each joint by chance at a quarter turn and `off` from it.
+/// Joint vectors all around, some of them next to where a family's branches meet: each joint by
+/// chance at a quarter turn and `off` from it.
 fn joints<const N: usize>(random: &mut Rng, off: f64) -> [f64; N] {
     core::array::from_fn(|_| {
         let angle = random.between(-PI, PI);

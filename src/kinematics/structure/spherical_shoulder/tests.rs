@@ -107,7 +107,8 @@ fn judge(arm: &Solved, theta: &[f64; 7]) -> Option<String> {
     let bounds = arm.arm.bounds(theta, KEPT);
     for trust in [Trust::Seed, Trust::Path] {
         let kept = arm.solver.solve(&pose, &FreeChoice { q, trust });
-        let is_found = |found: &[f64; 7]| arm.arm.is_branch(&arm.arm.theta(found), theta, &bounds);
+        let is_found =
+            |found: &[f64; 7]| ShoulderArm::is_branch(&arm.arm.theta(found), theta, &bounds);
         let found = kept.q.iter().flatten().any(is_found);
         // A path goes on by itself as far as rounding leaves the upper arm open.
         let allowed = 4e-12 + if trust == Trust::Path { bounds[2] } else { 0.0 };

@@ -53,7 +53,8 @@ impl Arm {
                 let ([a1, c2, k], [c1, b, d5, d6]) =
                     ([1, 2, 3].map(|i| rows[i].a.abs()), [0, 3, 4, 5].map(|i| rows[i].d));
                 let extent = a1 + b + c1 + c2 + k + d5 + d6 + ends;
-                // Of an arm of Universal Robots joint 2 and joint 4 read zero a quarter turn from upright.
+                // Of an arm of Universal Robots joint 2 and joint 4 read zero a quarter turn from
+                // upright.
                 let quarter = if rows[2].a < 0.0 { -FRAC_PI_2 } else { 0.0 };
                 let offsets = [0.0, quarter, 0.0, quarter, 0.0, 0.0];
                 let t_wrist_flange = pose_from_euler_zyx([0.0, d6, 0.0], [0.0, 0.0, -FRAC_PI_2])
@@ -82,7 +83,8 @@ impl Arm {
         self.robot.fk(&core::array::from_fn(|i| self.signs[i] * (theta[i] + self.offsets[i])))
     }
 
-    /// A pose, turned at random, with the end of the planar arm `x` from axis 1 along the plane of the arm and `z` above the shoulder.
+    /// A pose, turned at random, with the end of the planar arm `x` from axis 1 along the plane of
+    /// the arm and `z` above the shoulder.
     pub(super) fn with_end_of_planar_arm(&self, x: f64, z: f64, random: &mut Rng) -> Pose {
         let phi = random.angle();
         let wrist = [x + self.d5 * phi.sin(), self.b, self.c1 + z + self.d5 * phi.cos()];
@@ -146,7 +148,8 @@ impl Arm {
             * k;
         let (longest2, shortest2) = ((c2 + k).powi(2), (c2 - k).powi(2));
         let middle = c2 * c2 + k * k;
-        // 4 m^2 = (longest^2 - r^2) (r^2 - shortest^2), a parabola over r^2 with its vertex at `middle`.
+        // 4 m^2 = (longest^2 - r^2) (r^2 - shortest^2), a parabola over r^2 with its vertex at
+        // `middle`.
         let half = ((longest2 - middle) * (middle - shortest2) - 4.0 * m2).sqrt();
         let folded = middle - half;
         let r = if random.sign() > 0.0 || folded <= 0.0 { middle + half } else { folded }.sqrt();
