@@ -31,20 +31,18 @@ toolchains:
 	@$(PYTHON) -c 'import ensurepip, venv' || { echo "$(PYTHON) has no venv: install it (Debian: python3-venv)"; exit 1; }
 
 $(VENV)/.made: | toolchains
-	@echo "Setting up $(VENV)"
-	@$(PYTHON) -m venv $(VENV)
+	$(STEP) "Set up $(VENV)" $(PYTHON) -m venv $(VENV)
 	@$(BIN)/pip install --quiet --disable-pip-version-check --upgrade 'pip>=25.1'
 	@$(BIN)/pip install --quiet 'maturin>=1.9,<2' 'numpy>=1.23'
 	@touch $@
 
 $(BUILT): $(VENV)/.made $(RUST_SOURCES) pyproject.toml | toolchains
-	@echo "Building irbkin into $(VENV) (about a minute)"
-	@VIRTUAL_ENV=$(abspath $(VENV)) $(BIN)/maturin develop --release >$(VENV)/build.log 2>&1 || { cat $(VENV)/build.log; exit 1; }
+	$(STEP) "Build irbkin into $(VENV) (about a minute)" env VIRTUAL_ENV=$(abspath $(VENV)) \
+		bash -c '$(BIN)/maturin develop --release >$(VENV)/build.log 2>&1 || { cat $(VENV)/build.log; exit 1; }'
 	@touch $@
 
 $(VENV)/.groups: $(VENV)/.made pyproject.toml
-	@echo "Installing the tests' tools and oracles into $(VENV)"
-	@$(BIN)/pip install --quiet --group test --group check
+	$(STEP) "Install the tests' tools and oracles into $(VENV)" $(BIN)/pip install --quiet --group test --group check
 	@touch $@
 
 run: $(BUILT) ## Solve a real IRB 2600 pose and show every solution
@@ -72,14 +70,14 @@ check: $(BUILT) $(VENV)/.groups ## Format, lints for each feature set, types, st
 	$(STEP) "benches run" cargo test --bench one_pose --bench batch --bench instructions -- --test
 	$(STEP) "examples in Rust run" bash -eu -c 'for example in examples/*.rs; do cargo run --quiet --example "$$(basename "$$example" .rs)" >/dev/null; done'
 	$(STEP) "benches in Python run" $(BIN)/python benches/python_calls.py >/dev/null
-	TARGETS=1000 $(BIN)/python benches/rapid_module.py >/dev/null
-	$(BIN)/python -m benches.peers --quick >/dev/null
-	$(BIN)/python benches/instructions.py >/dev/null
+	$(STEP) "the bench of a module runs" env TARGETS=1000 $(BIN)/python benches/rapid_module.py >/dev/null
+	$(STEP) "peers are compared" $(BIN)/python -m benches.peers --quick >/dev/null
+	$(STEP) "instructions are counted" $(BIN)/python benches/instructions.py >/dev/null
 	$(BIN)/ruff check --quiet .
 	$(BIN)/ruff format --check --quiet .
-	$(BIN)/mypy --no-error-summary
-	$(BIN)/python -m mypy.stubtest irbkin --concise
-	for example in examples/*.py; do $(BIN)/python "$$example" >/dev/null; done
+	$(STEP) "mypy" $(BIN)/mypy --no-error-summary
+	$(STEP) "stubs" $(BIN)/python -m mypy.stubtest irbkin --concise
+	$(STEP) "examples in Python run" bash -eu -c 'for example in examples/*.py; do $(BIN)/python "$$example" >/dev/null; done'
 
 bench: $(BUILT) ## Time one pose and batches in Rust on each instruction set, Python's calls and a RAPID module against yardsticks
 	cargo bench --bench one_pose --bench batch

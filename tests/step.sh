@@ -13,7 +13,7 @@ compiled() {
 
 report() {
     local seconds=0 what
-    while sleep 10; do
+    while sleep 10 </dev/null >/dev/null 2>&1; do
         seconds=$((seconds + 10))
         what=$(compiled "$1")
         echo "   $name, $seconds s${what:+, compiling $what}" >&2
