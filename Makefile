@@ -10,13 +10,19 @@ RUST_SOURCES := $(shell find src -name '*.rs') Cargo.toml
 BUILT := $(VENV)/.irbkin-built
 PEERS := .venv-peers
 NO_STD := --no-default-features --features libm
-# A recipe for each instruction set of this processor; ends with `; done`. The shell's -e stops at the first that fails.
+# A recipe for each instruction set of this processor; ends with `; done`. The shell's -e stops at the
+# first that fails. The widest set is the one that runs without being asked for.
 ON_EACH_SET := sets=$$(cargo run --quiet --example instruction_sets); for set in $$sets; do export IRBKIN_INSTRUCTION_SET=$$set;
+ON_EACH_NARROWER_SET := sets=$$($(BIN)/python -c 'import irbkin; print(*irbkin.instruction_sets()[:-1])'); \
+	for set in $$sets; do export IRBKIN_INSTRUCTION_SET=$$set;
+# Runs a command under a name; where it takes long, the name and the seconds are printed.
+STEP := @tests/step.sh
+SKIPPED := target/skipped.txt
 
 .PHONY: help run test check catalogue bench bench-peers instructions stages ulp million configurations hardsets fuzz wheel clean toolchains
 
 help: ## List the targets
-	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
+	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
 
 toolchains:
 	@command -v cargo >/dev/null || { echo "cargo is missing: install a Rust toolchain (1.89 or newer), https://rustup.rs"; exit 1; }
@@ -25,52 +31,55 @@ toolchains:
 	@$(PYTHON) -c 'import ensurepip, venv' || { echo "$(PYTHON) has no venv: install it (Debian: python3-venv)"; exit 1; }
 
 $(VENV)/.made: | toolchains
-	@echo "Setting up $(VENV)"
-	@$(PYTHON) -m venv $(VENV)
+	$(STEP) "Set up $(VENV)" $(PYTHON) -m venv $(VENV)
 	@$(BIN)/pip install --quiet --disable-pip-version-check --upgrade 'pip>=25.1'
 	@$(BIN)/pip install --quiet 'maturin>=1.9,<2' 'numpy>=1.23'
 	@touch $@
 
 $(BUILT): $(VENV)/.made $(RUST_SOURCES) pyproject.toml | toolchains
-	@echo "Building irbkin into $(VENV) (about a minute)"
-	@VIRTUAL_ENV=$(abspath $(VENV)) $(BIN)/maturin develop --release >$(VENV)/build.log 2>&1 || { cat $(VENV)/build.log; exit 1; }
+	$(STEP) "Build irbkin into $(VENV) (about a minute)" env VIRTUAL_ENV=$(abspath $(VENV)) \
+		bash -c '$(BIN)/maturin develop --release >$(VENV)/build.log 2>&1 || { cat $(VENV)/build.log; exit 1; }'
 	@touch $@
 
 $(VENV)/.groups: $(VENV)/.made pyproject.toml
-	@echo "Installing the tests' tools and oracles into $(VENV)"
-	@$(BIN)/pip install --quiet --group test --group check
+	$(STEP) "Install the tests' tools and oracles into $(VENV)" $(BIN)/pip install --quiet --group test --group check
 	@touch $@
 
 run: $(BUILT) ## Solve a real IRB 2600 pose and show every solution
 	@$(BIN)/python examples/01_solve_a_pose.py
 
 test: $(BUILT) $(VENV)/.groups ## Run all tests, Rust's and Python's
-	cargo test --quiet
-	$(ON_EACH_SET) cargo test --quiet --test laws --test laws_three_parallel --test recall --test hardsets --test hardsets_three_parallel --test reach_and_paths; done
-	cargo test --quiet $(NO_STD),rapid --lib --test rapid --test rapid_calc
-	cargo test --quiet $(NO_STD) --lib --test laws --test laws_three_parallel --test coupled --test configuration --test allocation
-	$(BIN)/python -m pytest --quiet
+	@mkdir -p target && rm -f $(SKIPPED)
+	$(STEP) "Compile Rust's tests" cargo test --lib --tests --no-run
+	$(STEP) "Rust's tests" env IRBKIN_SKIPPED=$(abspath $(SKIPPED)) cargo test --lib --tests
+	$(STEP) "Rust's documentation tests" cargo test --doc
+	@$(ON_EACH_NARROWER_SET) tests/step.sh "Laws on $$set" cargo test --test suite -- laws:: recall:: hard_sets:: reach_and_paths::; done
+	$(STEP) "Compile without std" cargo test $(NO_STD),rapid --lib --test suite --no-run
+	$(STEP) "Rust's own tests without std" cargo test $(NO_STD),rapid --lib
+	$(STEP) "Laws without std" cargo test $(NO_STD),rapid --test suite -- laws:: coupled:: configuration:: allocation:: rapid:: rapid_calc::
+	@if [ -e $(SKIPPED) ]; then sort $(SKIPPED); fi; echo "Skipped in Rust: $$(cat $(SKIPPED) 2>/dev/null | wc -l)"
+	$(STEP) "Python's tests" $(BIN)/python -m pytest
 
 check: $(BUILT) $(VENV)/.groups ## Format, lints for each feature set, types, stubs, docs, benches that run
 	cargo fmt --check
-	cargo clippy --quiet --all-targets -- -D warnings
-	cargo clippy --quiet --all-targets --features serde -- -D warnings
-	cargo clippy --quiet --lib --features python -- -D warnings
-	cargo clippy --quiet --lib $(NO_STD) -- -D warnings
-	cargo clippy --quiet --lib $(NO_STD),rapid -- -D warnings
-	cargo clippy --quiet --all-targets --no-default-features --features std,urdf -- -D warnings
-	RUSTDOCFLAGS='-D warnings' cargo doc --quiet --no-deps --features serde
-	cargo bench --quiet --bench one_pose --bench batch --bench instructions -- --test
-	$(BIN)/python benches/python_calls.py >/dev/null
-	TARGETS=1000 $(BIN)/python benches/rapid_module.py >/dev/null
-	$(BIN)/python -m benches.peers --quick >/dev/null
-	$(BIN)/python benches/instructions.py >/dev/null
-	for example in examples/*.rs; do cargo run --quiet --release --example "$$(basename "$$example" .rs)" >/dev/null; done
+	$(STEP) "clippy" cargo clippy --all-targets -- -D warnings
+	$(STEP) "clippy with serde" cargo clippy --lib --features serde -- -D warnings
+	$(STEP) "clippy with python" cargo clippy --lib --features python -- -D warnings
+	$(STEP) "clippy without std" cargo clippy --lib $(NO_STD) -- -D warnings
+	$(STEP) "clippy without std, with rapid" cargo clippy --lib $(NO_STD),rapid -- -D warnings
+	$(STEP) "clippy without rapid" cargo clippy --all-targets --no-default-features --features std,urdf -- -D warnings
+	$(STEP) "Rust's documentation" env RUSTDOCFLAGS='-D warnings' cargo doc --no-deps --features serde
+	$(STEP) "benches run" cargo test --bench one_pose --bench batch --bench instructions -- --test
+	$(STEP) "examples in Rust run" bash -eu -c 'for example in examples/*.rs; do cargo run --quiet --example "$$(basename "$$example" .rs)" >/dev/null; done'
+	$(STEP) "benches in Python run" $(BIN)/python benches/python_calls.py >/dev/null
+	$(STEP) "the bench of a module runs" env TARGETS=1000 $(BIN)/python benches/rapid_module.py >/dev/null
+	$(STEP) "peers are compared" $(BIN)/python -m benches.peers --quick >/dev/null
+	$(STEP) "instructions are counted" $(BIN)/python benches/instructions.py >/dev/null
 	$(BIN)/ruff check --quiet .
 	$(BIN)/ruff format --check --quiet .
-	$(BIN)/mypy --no-error-summary
-	$(BIN)/python -m mypy.stubtest irbkin --concise
-	for example in examples/*.py; do $(BIN)/python "$$example" >/dev/null; done
+	$(STEP) "mypy" $(BIN)/mypy --no-error-summary
+	$(STEP) "stubs" $(BIN)/python -m mypy.stubtest irbkin --concise
+	$(STEP) "examples in Python run" bash -eu -c 'for example in examples/*.py; do $(BIN)/python "$$example" >/dev/null; done'
 
 bench: $(BUILT) ## Time one pose and batches in Rust on each instruction set, Python's calls and a RAPID module against yardsticks
 	cargo bench --bench one_pose --bench batch
@@ -108,21 +117,22 @@ ulp: | toolchains ## Hold the lanes' arc tangent, sine and cosine against correc
 	IRBKIN_POINTS=10000000 cargo test --quiet --release --lib lanes::functions -- --nocapture --test-threads=1
 
 million: | toolchains ## Solve a million random poses of each of fourteen arms on each instruction set; count what is lost, wrong or twice
-	$(ON_EACH_SET) IRBKIN_POSES=1000000 cargo test --quiet --release --test recall -- --nocapture --test-threads=1; done
+	$(ON_EACH_SET) IRBKIN_POSES=1000000 cargo test --quiet --release --test suite -- recall:: --nocapture --test-threads=1; done
 
 configurations: | toolchains ## Hold a hundred thousand poses of every ABB arm against the rules of its confdata
-	IRBKIN_POSES=100000 cargo test --quiet --release --test configuration -- --nocapture --test-threads=1
+	IRBKIN_POSES=100000 cargo test --quiet --release --test suite -- configuration:: --nocapture --test-threads=1
 
 hardsets: | toolchains ## Solve poses at and next to every singularity, pairs and triples of them, and follow paths through
-	$(ON_EACH_SET) IRBKIN_POSES=2000 cargo test --quiet --release --test hardsets --test hardsets_three_parallel --test reach_and_paths --test follow -- --nocapture --test-threads=1; done
-	IRBKIN_POSES=200000 cargo test --quiet --release --lib spherical_shoulder -- --nocapture --test-threads=1
-	IRBKIN_POSES=20 cargo test --quiet --release --test redundancy -- --nocapture --test-threads=1
+	$(ON_EACH_SET) IRBKIN_POSES=2000 cargo test --quiet --release --test suite -- hard_sets:: follow:: --nocapture --test-threads=1; done
+	$(ON_EACH_SET) IRBKIN_POSES=200 cargo test --quiet --release --test suite -- reach_and_paths:: --nocapture --test-threads=1; done
+	IRBKIN_POSES=1000 cargo test --quiet --release --lib spherical_shoulder -- --nocapture --test-threads=1
+	IRBKIN_POSES=20 cargo test --quiet --release --test suite -- redundancy:: nearest:: --nocapture --test-threads=1
 
 catalogue: | toolchains ## Write the tables of docs/catalogue.md from the catalogue
-	IRBKIN_WRITE=1 cargo test --quiet --test catalogue_page
+	IRBKIN_WRITE=1 cargo test --quiet --test suite -- catalogue_page::
 
 fuzz: | toolchains ## Read millions of broken RAPID texts: none panics, what is read is written and read again, in linear time
-	IRBKIN_INPUTS=1000000 cargo test --quiet --release --test rapid_fuzz -- --nocapture --test-threads=1
+	IRBKIN_INPUTS=1000000 cargo test --quiet --release --test suite -- rapid_fuzz:: --nocapture --test-threads=1
 
 wheel: $(VENV)/.made ## Build the wheel and try it in an environment of its own
 	$(BIN)/maturin build --release --quiet --out dist

@@ -316,3 +316,19 @@ fn check_length(field: &'static str, found: usize, wanted: usize) -> Result<(), 
 fn is_finite(q: &[f64]) -> bool {
     q.iter().all(|angle| angle.is_finite())
 }
+
+#[cfg(all(test, feature = "std"))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_batch_that_is_large_enough_gets_a_pool_where_there_are_cores_for_it() {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let size = |threads, poses| {
+            pool(NonZeroUsize::new(threads), poses).map_or(1, |pool| pool.current_num_threads())
+        };
+        assert_eq!(size(2, 17_001), 2.min(cores));
+        assert_eq!(size(4, 17_001), 4.min(cores));
+        assert_eq!([size(1, 17_001), size(0, 17_001), size(4, WORTH_A_THREAD - 1)], [1; 3]);
+    }
+}

@@ -42,6 +42,8 @@ compile_error!("irbkin needs the feature `std` or, without the standard library,
 
 extern crate alloc;
 #[cfg(test)]
+extern crate self as irbkin;
+#[cfg(test)]
 extern crate std;
 
 pub mod batch;
@@ -54,6 +56,19 @@ mod python;
 #[cfg(feature = "rapid")]
 pub mod rapid;
 mod report;
+// What unit tests share with the tests of the public interface.
+#[cfg(test)]
+#[allow(dead_code, unreachable_pub)]
+#[path = "../tests/common/rng.rs"]
+mod rng;
+#[cfg(test)]
+#[allow(dead_code, unreachable_pub)]
+#[path = "../tests/structures"]
+mod structures {
+    pub mod place;
+    #[path = "spherical_shoulder/arm.rs"]
+    pub mod shoulder_arm;
+}
 #[cfg(feature = "urdf")]
 mod urdf;
 

@@ -1,11 +1,9 @@
 //! Numbers too large to calculate with are refused with the bound, and up to the bound answers keep their digits: the same of every structure.
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
-mod common;
-
 use std::f64::consts::{PI, TAU};
 
-use common::{Rng, reach_of};
+use crate::common::{Rng, reach_of};
 use irbkin::thresholds::{MOST_ANGLE, MOST_LENGTH};
 use irbkin::{
     Configuration, FollowOptions, Follower, JacobianFrame, JointLimits, Pose, Robot, Status, batch,

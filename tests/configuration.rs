@@ -1,11 +1,9 @@
 //! Laws of ABB's confdata. `IRBKIN_POSES` sets the number of poses of each arm; `make configurations` runs a hundred thousand.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-mod common;
-
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use common::{Rng, apart, asked_set};
+use crate::common::{Rng, apart, asked_set};
 use irbkin::{
     CatalogueGeometry, Configuration, Error, JointLimits, OpwParameters, Robot, Solution, Status,
     catalogue, thresholds::CONFIGURATION_EDGE,

@@ -1,11 +1,9 @@
 //! Laws of arms whose axes 2 and 3 a parallelogram couples: their joint vectors are the controller's, with axis 3 told from the base.
 #![allow(clippy::unwrap_used, clippy::float_cmp, missing_docs)]
 
-mod common;
-
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use common::{Rng, apart, central_difference, difference_bound, on_each_set, reach_of};
+use crate::common::{Rng, apart, central_difference, difference_bound, reach_of};
 use irbkin::{
     Error, Explanation, FreeJoint, JacobianFrame, JointLimits, OpwParameters, Robot, batch,
     pose_to_rows,
@@ -173,53 +171,6 @@ fn limits_are_those_of_the_controllers_angles() {
             }
         }
     }
-}
-
-#[test]
-fn batch_equals_single_and_the_careful_solve() {
-    let mut rng = Rng::new(6);
-    // Limits so far out that lanes do not take them: the careful solve, of the same postures.
-    let careful = |robot: &Robot<6>| {
-        let mut far = robot.limits().to_array();
-        far[0] = far[0].map(|limit| limit + TAU);
-        robot.clone().with_limits(JointLimits::new(far).unwrap())
-    };
-    on_each_set(|set| {
-        for robot in [limited(), with_rod(), odd()] {
-            let slow = careful(&limited()).with_rod_limits(robot.limits().rod()).unwrap();
-            let joints: Vec<_> = (0..101).map(|_| rng.inside(robot.limits())).collect();
-            let poses: Vec<_> = joints.iter().map(|q| robot.fk(q)).collect();
-            let rows: Vec<f64> = poses.iter().flat_map(pose_to_rows).collect();
-            let (mut q, mut status) = (vec![[[0.0; 6]; SLOTS]; 101], vec![[0; SLOTS]; 101]);
-            batch::ik(
-                &robot,
-                &rows,
-                q.as_flattened_mut().as_flattened_mut(),
-                status.as_flattened_mut(),
-                None,
-            )
-            .unwrap();
-            for (row, pose) in poses.iter().enumerate() {
-                let single = robot.ik(pose).unwrap();
-                assert_eq!(
-                    status[row],
-                    *single.status().iter().map(|status| status.bits()).collect::<Vec<_>>(),
-                    "{}",
-                    set.name()
-                );
-                for solution in &single {
-                    assert!(apart(&q[row][solution.slot.index()], &solution.q) < 1e-12);
-                }
-                if robot.limits().to_array()[0][0].is_finite() {
-                    let slowly = slow.ik(pose).unwrap();
-                    assert_eq!(slowly.status(), single.status());
-                    for (one, other) in slowly.iter().zip(&single) {
-                        assert!(apart(&one.q, &other.q) < 1e-12);
-                    }
-                }
-            }
-        }
-    });
 }
 
 #[test]

@@ -3,11 +3,11 @@
 //! `make hardsets` prints the table.
 #![allow(clippy::unwrap_used, clippy::cast_precision_loss, clippy::float_cmp, missing_docs)]
 
-mod common;
+use crate::common;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use common::{Rng, asked_set};
+use crate::common::{Rng, asked_set};
 
 use nalgebra::Vector3;
 

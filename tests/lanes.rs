@@ -1,49 +1,73 @@
-//! What a kernel in lanes must not change: an answer does not depend on the row's place, on its neighbours, on the number of threads, on
-//! whether it was asked for alone, nor, but for rounding where there is no fused multiplication and addition, on the instruction set.
-#![allow(clippy::unwrap_used, missing_docs)]
+//! What a kernel in lanes must not change: an answer does not depend on the row's place, on its
+//! neighbours, on the number of threads, on whether it was asked for alone, nor, but for rounding
+//! where there is no fused multiplication and addition, on the instruction set.
+#![allow(clippy::unwrap_used, unreachable_pub, missing_docs)]
 
 mod common;
+#[path = "lanes/coupled.rs"]
+mod coupled;
+mod structures;
 #[path = "lanes/subjects.rs"]
-#[allow(unreachable_pub)]
 mod subjects;
 
+use irbkin::{Arity, Joints};
 use std::array;
 
-use common::{Rng, on_each_set};
-use irbkin::{
-    InstructionSet, JacobianFrame, Pose, Robot, Status, batch, pose_from_rows, pose_to_rows,
-};
+use common::skip::skip;
+use common::{Rng, on_each_set, rng};
+use irbkin::batch;
+use irbkin::{InstructionSet, JacobianFrame, Pose, Robot, Status, pose_from_rows, pose_to_rows};
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Vector3};
-use subjects::{PoseRow, Subject, joint_rows, subjects};
+use structures::{Structure, Subject};
+use subjects::{PoseRow, Row, joint_rows, rows, subjects};
 
 const SLOTS: usize = 8;
+
+on_every_structure!(
+    the_rows_are_of_every_kind,
+    batch_equals_single_bit_for_bit,
+    a_row_does_not_depend_on_its_neighbours,
+    threads_change_no_bit,
+    an_invalid_row_is_told_and_leaves_the_others_alone,
+    avx2_and_avx512_agree_to_the_bit,
+    baseline_agrees_to_rounding,
+    poses_of_many_turns_are_those_of_the_table,
+);
 
 /// No multiple of any lane count; every kind of row in every lane.
 const ROWS: usize = 24 * 18 + 5;
 
 const FRAMES: [JacobianFrame; 2] = [JacobianFrame::Base, JacobianFrame::Tool];
 
-type AnswerRow = [f64; 6 * SLOTS];
+type AnswerRow<const N: usize> = [[f64; N]; SLOTS];
 
 /// The slots and their status of each row.
 #[derive(Clone, Debug)]
-struct Answers {
-    q: Vec<AnswerRow>,
+struct Answers<const N: usize>
+where
+    Joints<N>: Arity<N>,
+{
+    q: Vec<AnswerRow<N>>,
     status: Vec<[u8; SLOTS]>,
 }
 
-impl Answers {
-    fn in_a_batch(robot: &Robot<6>, rows: &[PoseRow], threads: usize) -> Self {
+impl<const N: usize> Answers<N>
+where
+    Joints<N>: Arity<N>,
+{
+    fn in_a_batch(subject: &Subject<N>, rows: &[Row<N>], threads: usize) -> Self {
         let mut answers =
-            Self { q: vec![[7.0; 6 * SLOTS]; rows.len()], status: vec![[255; SLOTS]; rows.len()] };
-        let (q, status) = (answers.q.as_flattened_mut(), answers.status.as_flattened_mut());
-        batch::ik(robot, rows.as_flattened(), q, status, std::num::NonZeroUsize::new(threads))
-            .unwrap();
+            Self { q: vec![[[7.0; N]; SLOTS]; rows.len()], status: vec![[255; SLOTS]; rows.len()] };
+        let (poses, joints): (Vec<PoseRow>, Vec<[f64; N]>) = rows.iter().copied().unzip();
+        let q = answers.q.as_flattened_mut().as_flattened_mut();
+        let status = answers.status.as_flattened_mut();
+        let poses = poses.as_flattened();
+        (subject.calls.ik_rows)(&subject.robot, poses, &joints, q, status, threads).unwrap();
         answers
     }
 
-    fn one_by_one(robot: &Robot<6>, rows: &[PoseRow]) -> Self {
-        let (q, status) = rows.iter().map(|row| alone(robot, row)).unzip();
+    fn one_by_one(subject: &Subject<N>, rows: &[Row<N>]) -> Self {
+        let (q, status) = rows.iter().map(|row| alone(subject, row)).unzip();
         Self { q, status }
     }
 
@@ -54,22 +78,30 @@ impl Answers {
             self.q.iter().zip(&other.q).zip(self.status.iter().zip(&other.status)).enumerate()
         {
             assert_eq!(flags, others, "{what}, row {i}");
-            assert!(same_bits(a, b), "{what}, row {i}:\n{a:?}\n{b:?}");
+            let same = same_bits(a.as_flattened(), b.as_flattened());
+            assert!(same, "{what}, row {i}:\n{a:?}\n{b:?}");
         }
     }
 }
 
 /// The answer to one row as a batch has it.
-fn alone(robot: &Robot<6>, row: &PoseRow) -> (AnswerRow, [u8; SLOTS]) {
-    let mut q = [f64::NAN; 6 * SLOTS];
-    let Ok(solutions) = pose_from_rows(row).and_then(|pose| robot.ik(&pose)) else {
+fn alone<const N: usize>(
+    subject: &Subject<N>,
+    (row, joints): &Row<N>,
+) -> (AnswerRow<N>, [u8; SLOTS])
+where
+    Joints<N>: Arity<N>,
+{
+    let mut q = [[f64::NAN; N]; SLOTS];
+    let solve = |pose| (subject.calls.ik)(&subject.robot, &pose, joints);
+    let Ok(solutions) = pose_from_rows(row).and_then(solve) else {
         return (q, [Status::INVALID.bits(); SLOTS]);
     };
     for solution in &solutions {
-        q.as_chunks_mut::<6>().0[solution.slot.index()] = solution.q;
+        q[solution.slot.index()] = solution.q;
     }
     let status = solutions.status();
-    (q, core::array::from_fn(|slot| status[slot].bits()))
+    (q, std::array::from_fn(|slot| status[slot].bits()))
 }
 
 /// Not numbers are one like the other: their bits mean nothing.
@@ -80,7 +112,7 @@ fn same_bits(a: &[f64], b: &[f64]) -> bool {
 
 fn fk_of<const N: usize>(robot: &Robot<N>, q: &[[f64; N]]) -> Vec<PoseRow>
 where
-    irbkin::Joints<N>: irbkin::Arity<N>,
+    Joints<N>: Arity<N>,
 {
     let mut poses = vec![[7.0; 16]; q.len()];
     batch::fk(robot, q.as_flattened(), poses.as_flattened_mut()).unwrap();
@@ -93,7 +125,7 @@ fn jacobians_of<const N: usize>(
     frame: JacobianFrame,
 ) -> Vec<[[f64; N]; 6]>
 where
-    irbkin::Joints<N>: irbkin::Arity<N>,
+    Joints<N>: Arity<N>,
 {
     let mut jacobians = vec![[[7.0; N]; 6]; q.len()];
     batch::jacobian(
@@ -110,12 +142,13 @@ fn is_finite(row: &[f64]) -> bool {
     row.iter().all(|number| number.is_finite())
 }
 
-#[test]
-fn the_rows_are_of_every_kind() {
+fn the_rows_are_of_every_kind<const N: usize>(structure: &Structure<N>)
+where
+    Joints<N>: Arity<N>,
+{
     let mut halves = 0;
-    for subject in subjects() {
-        let rows = subject.rows(ROWS);
-        let answers = Answers::in_a_batch(&subject.robot, &rows, 1);
+    for subject in subjects(structure) {
+        let answers = Answers::in_a_batch(&subject, &rows(&subject, ROWS), 1);
         let has = |kind: Status| {
             answers
                 .status
@@ -143,26 +176,24 @@ fn the_rows_are_of_every_kind() {
     assert!(halves > 100, "{halves} with one shoulder");
 }
 
-#[test]
-fn batch_equals_single_bit_for_bit() {
+fn batch_equals_single_bit_for_bit<const N: usize>(structure: &Structure<N>)
+where
+    Joints<N>: Arity<N>,
+{
     on_each_set(|set| {
-        for subject in &subjects() {
-            let (robot, what) = (&subject.robot, format!("{}, {}", subject.name, set.name()));
-            let rows = subject.rows(ROWS);
-            Answers::in_a_batch(robot, &rows, 1)
-                .assert_same(&Answers::one_by_one(robot, &rows), &what);
-            forward_in_a_batch_equals_single(robot, &what);
+        for subject in &subjects(structure) {
+            let what = format!("{}, {}", subject.name, set.name());
+            let rows = rows(subject, ROWS);
+            Answers::in_a_batch(subject, &rows, 1)
+                .assert_same(&Answers::one_by_one(subject, &rows), &what);
+            forward_in_a_batch_equals_single(&subject.robot, &what);
         }
-        forward_in_a_batch_equals_single(
-            &Robot::<7>::named("Panda").unwrap(),
-            &format!("Panda, {}", set.name()),
-        );
     });
 }
 
 fn forward_in_a_batch_equals_single<const N: usize>(robot: &Robot<N>, what: &str)
 where
-    irbkin::Joints<N>: irbkin::Arity<N>,
+    Joints<N>: Arity<N>,
 {
     let joints = joint_rows::<N>(77 * 3 + 5);
     for (q, pose) in joints.iter().zip(fk_of(robot, &joints)) {
@@ -183,13 +214,15 @@ where
     }
 }
 
-#[test]
-fn a_row_does_not_depend_on_its_neighbours() {
+fn a_row_does_not_depend_on_its_neighbours<const N: usize>(structure: &Structure<N>)
+where
+    Joints<N>: Arity<N>,
+{
     on_each_set(|set| {
-        for subject in &subjects() {
+        for subject in &subjects(structure) {
             let what = format!("{}, {}", subject.name, set.name());
-            let rows = subject.rows(ROWS);
-            let whole = Answers::in_a_batch(&subject.robot, &rows, 1);
+            let rows = rows(subject, ROWS);
+            let whole = Answers::in_a_batch(subject, &rows, 1);
             let part = |first: usize, past: usize| Answers {
                 q: whole.q[first..past].to_vec(),
                 status: whole.status[first..past].to_vec(),
@@ -198,7 +231,7 @@ fn a_row_does_not_depend_on_its_neighbours() {
                 for (first, past) in
                     [(0, cut), (cut, ROWS), (100 + 3 * cut, 100 + 4 * cut), (cut, 2 * cut)]
                 {
-                    Answers::in_a_batch(&subject.robot, &rows[first..past], 1)
+                    Answers::in_a_batch(subject, &rows[first..past], 1)
                         .assert_same(&part(first, past), &what);
                 }
             }
@@ -208,13 +241,10 @@ fn a_row_does_not_depend_on_its_neighbours() {
                 q: order.iter().map(|i| whole.q[*i]).collect(),
                 status: order.iter().map(|i| whole.status[*i]).collect(),
             };
-            Answers::in_a_batch(&subject.robot, &mixed, 1).assert_same(&wanted, &what);
+            Answers::in_a_batch(subject, &mixed, 1).assert_same(&wanted, &what);
         }
-        forward_rows_do_not_depend_on_their_neighbours(
-            &Robot::<6>::named("IRB 2600-12/1.65").unwrap(),
-            set,
-        );
-        forward_rows_do_not_depend_on_their_neighbours(&Robot::<7>::named("Panda").unwrap(), set);
+        let robot = &structure.subjects[0].robot;
+        forward_rows_do_not_depend_on_their_neighbours(robot, set);
     });
 }
 
@@ -222,7 +252,7 @@ fn forward_rows_do_not_depend_on_their_neighbours<const N: usize>(
     robot: &Robot<N>,
     set: InstructionSet,
 ) where
-    irbkin::Joints<N>: irbkin::Arity<N>,
+    Joints<N>: Arity<N>,
 {
     let joints = joint_rows::<N>(ROWS);
     let (poses, jacobians) =
@@ -255,15 +285,23 @@ fn shuffled(count: usize) -> Vec<usize> {
     order.into_iter().map(|(_, i)| i).collect()
 }
 
-#[test]
-fn threads_change_no_bit() {
+/// Where there is one core, no pool of threads is made, and there is nothing to compare.
+fn threads_change_no_bit<const N: usize>(structure: &Structure<N>)
+where
+    Joints<N>: Arity<N>,
+{
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    if cores < 2 {
+        skip(&format!("threads_change_no_bit, {}", structure.name), "one core: no pool is made");
+        return;
+    }
     on_each_set(|set| {
-        for subject in subjects().iter().step_by(4) {
+        for subject in subjects(structure).iter().step_by(4) {
             // Enough for four threads, the last part not whole.
-            let rows: Vec<_> = subject.rows(ROWS).into_iter().cycle().take(17_001).collect();
-            let whole = Answers::in_a_batch(&subject.robot, &rows, 1);
+            let rows: Vec<_> = rows(subject, ROWS).into_iter().cycle().take(17_001).collect();
+            let whole = Answers::in_a_batch(subject, &rows, 1);
             for threads in [2, 3, 4, 0] {
-                Answers::in_a_batch(&subject.robot, &rows, threads)
+                Answers::in_a_batch(subject, &rows, threads)
                     .assert_same(&whole, &format!("{}, {}", subject.name, set.name()));
             }
         }
@@ -272,8 +310,10 @@ fn threads_change_no_bit() {
 
 type Spoil = fn(&mut PoseRow);
 
-#[test]
-fn an_invalid_row_is_told_and_leaves_the_others_alone() {
+fn an_invalid_row_is_told_and_leaves_the_others_alone<const N: usize>(structure: &Structure<N>)
+where
+    Joints<N>: Arity<N>,
+{
     let spoils: [(&str, Spoil); 6] = [
         ("not a number", |row| row[6] = f64::NAN),
         ("infinite", |row| row[3] = f64::INFINITY),
@@ -282,26 +322,29 @@ fn an_invalid_row_is_told_and_leaves_the_others_alone() {
         ("scaled", |row| [row[0], row[4], row[8]] = [2.0 * row[0], 2.0 * row[4], 2.0 * row[8]]),
         ("last row", |row| row[15] = 1.0 + 1e-8),
     ];
-    let subjects = subjects();
-    for subject in ["IRB 2600-12/1.65", "UR3"]
-        .map(|name| subjects.iter().find(|subject| subject.name == name).unwrap())
-    {
-        let rows: Vec<_> = subject.rows(24 * 2).into_iter().step_by(2).take(19).collect();
+    for subject in &structure.subjects[..2] {
+        let rows: Vec<_> = rows(subject, 24 * 2).into_iter().step_by(2).take(19).collect();
         an_invalid_row_leaves_alone(subject, &rows, &spoils);
     }
 }
 
-fn an_invalid_row_leaves_alone(subject: &Subject, rows: &[PoseRow], spoils: &[(&str, Spoil)]) {
+fn an_invalid_row_leaves_alone<const N: usize>(
+    subject: &Subject<N>,
+    rows: &[Row<N>],
+    spoils: &[(&str, Spoil)],
+) where
+    Joints<N>: Arity<N>,
+{
     on_each_set(|set| {
-        let whole = Answers::in_a_batch(&subject.robot, rows, 1);
+        let whole = Answers::in_a_batch(subject, rows, 1);
         assert!(whole.status.as_flattened().iter().all(|flags| *flags != Status::INVALID.bits()));
         for (name, spoil) in spoils {
             for place in 0..rows.len() {
                 let (mut spoiled, mut wanted) = (rows.to_vec(), whole.clone());
-                spoil(&mut spoiled[place]);
+                spoil(&mut spoiled[place].0);
                 (wanted.q[place], wanted.status[place]) =
-                    ([f64::NAN; 6 * SLOTS], [Status::INVALID.bits(); SLOTS]);
-                Answers::in_a_batch(&subject.robot, &spoiled, 1)
+                    ([[f64::NAN; N]; SLOTS], [Status::INVALID.bits(); SLOTS]);
+                Answers::in_a_batch(subject, &spoiled, 1)
                     .assert_same(&wanted, &format!("{name}, {}", set.name()));
             }
         }
@@ -309,20 +352,26 @@ fn an_invalid_row_leaves_alone(subject: &Subject, rows: &[PoseRow], spoils: &[(&
 }
 
 /// What every set gives for an arm.
-struct OnEachSet {
+struct OnEachSet<const N: usize>
+where
+    Joints<N>: Arity<N>,
+{
     set: InstructionSet,
-    answers: Answers,
+    answers: Answers<N>,
     poses: Vec<PoseRow>,
-    jacobians: Vec<[[f64; 6]; 6]>,
+    jacobians: Vec<[[f64; N]; 6]>,
 }
 
-fn solved_on_each_set(subject: &Subject, rows: &[PoseRow]) -> Vec<OnEachSet> {
-    let joints = joint_rows::<6>(ROWS);
+fn solved_on_each_set<const N: usize>(subject: &Subject<N>, rows: &[Row<N>]) -> Vec<OnEachSet<N>>
+where
+    Joints<N>: Arity<N>,
+{
+    let joints = joint_rows::<N>(ROWS);
     let mut solved = Vec::new();
     on_each_set(|set| {
         solved.push(OnEachSet {
             set,
-            answers: Answers::in_a_batch(&subject.robot, rows, 1),
+            answers: Answers::in_a_batch(subject, rows, 1),
             poses: fk_of(&subject.robot, &joints),
             jacobians: jacobians_of(&subject.robot, &joints, JacobianFrame::Tool),
         });
@@ -330,19 +379,21 @@ fn solved_on_each_set(subject: &Subject, rows: &[PoseRow]) -> Vec<OnEachSet> {
     solved
 }
 
-#[test]
-fn avx2_and_avx512_agree_to_the_bit() {
-    for subject in &subjects() {
-        let solved = solved_on_each_set(subject, &subject.rows(ROWS));
-        let [_, narrow, wide] = &solved[..] else {
-            println!(
-                "this processor has only {:?}",
-                InstructionSet::available().map(InstructionSet::name).collect::<Vec<_>>()
-            );
-            return;
-        };
+fn avx2_and_avx512_agree_to_the_bit<const N: usize>(structure: &Structure<N>)
+where
+    Joints<N>: Arity<N>,
+{
+    if !InstructionSet::available().any(|set| set == InstructionSet::Avx512) {
+        let names: Vec<_> = InstructionSet::available().map(InstructionSet::name).collect();
+        let test = format!("avx2_and_avx512_agree_to_the_bit, {}", structure.name);
+        skip(&test, &format!("this processor has only {names:?}"));
+        return;
+    }
+    for subject in &subjects(structure) {
+        let solved = solved_on_each_set(subject, &rows(subject, ROWS));
+        let [_, narrow, wide] = &solved[..] else { unreachable!("AVX-512 comes after AVX2") };
         assert_eq!((narrow.set, wide.set), (InstructionSet::Avx2, InstructionSet::Avx512));
-        narrow.answers.assert_same(&wide.answers, subject.name);
+        narrow.answers.assert_same(&wide.answers, &subject.name);
         assert!(
             same_bits(narrow.poses.as_flattened(), wide.poses.as_flattened()),
             "{}",
@@ -359,20 +410,23 @@ fn avx2_and_avx512_agree_to_the_bit() {
     }
 }
 
-#[test]
-fn baseline_agrees_to_rounding() {
+fn baseline_agrees_to_rounding<const N: usize>(structure: &Structure<N>)
+where
+    Joints<N>: Arity<N>,
+{
     let mut worst: f64 = 0.0;
-    for subject in &subjects() {
-        let solved = solved_on_each_set(subject, &subject.rows(ROWS));
+    for subject in &subjects(structure) {
+        let solved = solved_on_each_set(subject, &rows(subject, ROWS));
         let [baseline, others @ ..] = &solved[..] else {
             unreachable!("every processor has the baseline")
         };
         for other in others {
             worst = worst.max(rounding_between(subject, &baseline.answers, &other.answers));
-            // A frame is the product of eight, each element of which is a sum of three products: 24 roundings either way, and as many of
-            // the Jacobian's cross product and turn into the tool.
-            let bound = 2.0 * 48.0 * f64::EPSILON * (1.0 + subject.extent());
-            let numbers = |solved: &OnEachSet| {
+            // A frame is the product of eight, each element of which is a sum of three products: 24
+            // roundings either way, and as many of the Jacobian's cross product and turn into the
+            // tool.
+            let bound = 2.0 * 48.0 * f64::EPSILON * (1.0 + subject.reach());
+            let numbers = |solved: &OnEachSet<N>| {
                 [solved.poses.as_flattened(), solved.jacobians.as_flattened().as_flattened()]
                     .concat()
             };
@@ -388,18 +442,26 @@ fn baseline_agrees_to_rounding() {
     println!("farthest apart away from singularities: {worst:.1e} rad");
 }
 
-/// The largest difference of the joints away from singularities; there the slots have the same status.
+/// The largest difference of the joints away from singularities; there the slots have the same
+/// status.
 ///
-/// A solve closes to 3e-15 of the extent and 1e-14 rad, so that two are apart by twice that over the least singular value. Where that is
-/// below 1e-12 rad, the pose is away from singularities.
-fn rounding_between(subject: &Subject, ours: &Answers, theirs: &Answers) -> f64 {
+/// A solve closes to 3e-15 of the reach and 1e-14 rad, so that two are apart by twice that over the
+/// least singular value. Where that is below 1e-12 rad, the pose is away from singularities.
+fn rounding_between<const N: usize>(
+    subject: &Subject<N>,
+    ours: &Answers<N>,
+    theirs: &Answers<N>,
+) -> f64
+where
+    Joints<N>: Arity<N>,
+{
     let mut worst: f64 = 0.0;
     let mut compared = 0;
     for (i, (a, b)) in ours.q.iter().zip(&theirs.q).enumerate() {
-        for (slot, (a, b)) in a.as_chunks::<6>().0.iter().zip(b.as_chunks::<6>().0).enumerate() {
+        for (slot, (a, b)) in a.iter().zip(b).enumerate() {
             assert_eq!(ours.status[i][slot], theirs.status[i][slot], "{}, row {i}", subject.name);
-            let closed = 2.0 * (3e-15 * subject.extent()).hypot(1e-14);
-            if !is_finite(a) || closed / subject.robot.singularity(a).min_singular_value > 1e-12 {
+            let closed = 2.0 * (3e-15 * subject.reach()).hypot(1e-14);
+            if !is_finite(a) || closed / subject.least_singular_value(a) > 1e-12 {
                 continue;
             }
             compared += 1;
@@ -413,19 +475,20 @@ fn rounding_between(subject: &Subject, ours: &Answers, theirs: &Answers) -> f64 
     worst
 }
 
-#[test]
-fn poses_of_many_turns_are_those_of_the_table() {
+fn poses_of_many_turns_are_those_of_the_table<const N: usize>(structure: &Structure<N>)
+where
+    Joints<N>: Arity<N>,
+{
     on_each_set(|set| {
-        for Subject { name, robot, .. } in &subjects() {
+        for Subject { name, robot, .. } in &subjects(structure) {
             table_poses(robot, &format!("{name}, {}", set.name()));
         }
-        table_poses(&Robot::<7>::named("Panda").unwrap(), &format!("Panda, {}", set.name()));
     });
 }
 
 fn table_poses<const N: usize>(robot: &Robot<N>, what: &str)
 where
-    irbkin::Joints<N>: irbkin::Arity<N>,
+    Joints<N>: Arity<N>,
 {
     let joints: Vec<[f64; N]> = joint_rows(200).into_iter().filter(|q| is_finite(q)).collect();
     let mdh = robot.mdh();
@@ -436,7 +499,8 @@ where
     for (q, row) in joints.iter().zip(fk_of(robot, &joints)) {
         let mut wanted: Pose = robot.base() * mdh.base;
         for (row, angle) in mdh.rows.iter().zip(q) {
-            // The two turns about z one after the other: their sum would lose digits of an angle of many turns.
+            // The two turns about z one after the other: their sum would lose digits of an angle of
+            // many turns.
             let along = Translation3::new(row.a, 0.0, row.d) * Rotation3::identity();
             let [x, z, q] = [
                 (Vector3::x_axis(), row.alpha),

@@ -2,13 +2,12 @@
 //! and those of every configuration. `IRBKIN_POSES` sets the number of poses of each set.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-mod common;
 #[path = "nearest/sets.rs"]
 mod sets;
 
 use std::f64::consts::FRAC_PI_2;
 
-use common::{Rng, asked_set, reach_of};
+use crate::common::{Rng, asked_set, reach_of};
 use irbkin::{
     CatalogueGeometry, Follower, JointLimits, Pose, Robot, Solution, catalogue, thresholds,
 };

@@ -1,8 +1,6 @@
 //! RAPID modules: what is written reads back as the same, and what is broken is told in which words.
 #![allow(clippy::unwrap_used, clippy::panic, clippy::float_cmp, missing_docs)]
 
-mod common;
-
 use std::fmt::Write;
 
 use irbkin::rapid::{

@@ -1,9 +1,7 @@
 //! `CalcJointT`, `CalcRobT` and the tables of whole modules.
 #![allow(clippy::unwrap_used, clippy::float_cmp, missing_docs)]
 
-mod common;
-
-use common::{Rng, apart};
+use crate::common::{Rng, apart};
 use irbkin::rapid::{
     Fallback, JointTarget, LoadData, Problem, RapidPose, RobTarget, TableRow, ToolData, WobjData,
     calc_joint_t, calc_joint_t_or_nearest, calc_moves, calc_rob_t, calc_targets, error_name, parse,

@@ -10,11 +10,9 @@
     missing_docs
 )]
 
-mod common;
-
 use std::time::{Duration, Instant};
 
-use common::Rng;
+use crate::common::Rng;
 use irbkin::rapid::{
     Content, Module, Move, NewValue, Reason, Unresolved, Value, decode, parse, rewrite,
 };

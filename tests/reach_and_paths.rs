@@ -8,10 +8,10 @@
 #[path = "reach_and_paths/arm.rs"]
 #[allow(unreachable_pub)]
 mod arm;
-mod common;
+use crate::common;
 
+use crate::common::{Rng, asked_set};
 use arm::{Arm, Near, arms, equal_links, irb_2600, lateral, log_uniform, sign, universal, wrapped};
-use common::{Rng, asked_set};
 use irbkin::{FollowOptions, Pose, Robot, Status, thresholds};
 use nalgebra::Vector3;
 

@@ -1,204 +1,164 @@
-//! Every joint vector that makes a pose is found again, nothing else is, nothing twice, on many random poses.
+//! Every joint vector that makes a pose is found again, nothing else is, nothing twice, on many
+//! random poses.
 //!
-//! One by one and in a batch. `make million` runs a million poses on each instruction set and prints the table; `make test` runs fewer.
+//! One by one and in a batch. `make million` runs a million poses on each instruction set and
+//! prints the table; `make test` runs fewer.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-mod common;
-
+use irbkin::{Arity, Joints};
 use std::f64::consts::PI;
 
-use common::{Rng, apart, asked_set, reach_of};
-use irbkin::{
-    Error, JacobianFrame, JointLimits, OpwParameters, Pose, Robot, Status, batch, pose_to_rows,
-};
+use irbkin::{JointLimits, Pose, Robot, Status, pose_to_rows};
+
+use crate::common::tally::Tally;
+use crate::common::{Rng, apart, asked_set, poses_or};
+use crate::structures::{self, Structure, Subject};
 
 const SLOTS: usize = 8;
 
-#[derive(Default)]
-struct Tally {
-    poses: usize,
-    lost: usize,
-    coarse: usize,
-    wrong: usize,
-    twice: usize,
-    solutions: usize,
-    position: f64,
-    rotation: f64,
-    recall: f64,
-}
+crate::on_every_structure!(every_generating_joint_vector_is_found);
 
 /// Poses of a batch: a million at once would take half a gigabyte. No multiple of any lane count.
 const PART: usize = 1003;
 
-fn poses() -> usize {
-    std::env::var("IRBKIN_POSES").ok().map_or(20_000, |count| count.parse().unwrap())
+fn every_generating_joint_vector_is_found<const N: usize>(structure: &Structure<N>)
+where
+    Joints<N>: Arity<N>,
+{
+    structure.subjects.iter().for_each(check);
 }
 
-impl Tally {
-    /// Holds the answers for a pose against forward kinematics and against the joint vector that made it.
-    fn take<const N: usize>(
-        &mut self,
-        robot: &Robot<N>,
-        reach: f64,
-        q: &[f64; N],
-        pose: &Pose,
-        answers: &[[f64; N]],
-    ) where
-        irbkin::Joints<N>: irbkin::Arity<N>,
-    {
-        self.poses += 1;
-        self.solutions += answers.len();
-        let nearest = answers.iter().map(|answer| apart(answer, q)).fold(f64::INFINITY, f64::min);
-        self.recall = self.recall.max(nearest);
-        self.lost += usize::from(nearest > 1e-9 && nearest > rounding_bound(robot, reach, q));
-        self.coarse += usize::from(nearest > 1e-9);
-        for (i, answer) in answers.iter().enumerate() {
-            let residual = robot.residual(answer, pose);
-            self.position = self.position.max(residual.position);
-            self.rotation = self.rotation.max(residual.rotation);
-            self.wrong +=
-                usize::from(residual.position > 3e-15 * reach || residual.rotation > 1e-14);
-            self.twice +=
-                answers.iter().skip(i + 1).filter(|other| apart(other, answer) < 1e-9).count();
-        }
+#[test]
+fn other_arms_of_abb_lose_nothing() {
+    for name in ["IRB 140-6/0.81", "IRB 1600-6/1.45", "IRB 6700-150/3.2", "IRB 2400-10/1.55"] {
+        let robot: Robot<6> = Robot::named(name).unwrap();
+        // As it is, with its axes coupled or not.
+        check(&structures::spherical_wrist::named(name).with_robot(|_| robot));
     }
 }
 
-/// A robot that solves one pose and many, of seven joints with joint 7 as in the joint vectors that made them.
-trait Solves<const N: usize> {
-    fn alone(&self, pose: &Pose, q: &[f64; N]) -> Vec<[f64; N]>;
-    fn together(&self, rows: &[f64], joints: &[[f64; N]], q: &mut [f64], status: &mut [u8]);
+#[test]
+fn the_largest_arm_of_universal_robots_loses_nothing() {
+    check(&structures::three_parallel::named("UR20"));
 }
 
-impl Solves<6> for Robot<6> {
-    fn alone(&self, pose: &Pose, _: &[f64; 6]) -> Vec<[f64; 6]> {
-        self.ik(pose).unwrap().iter().map(|solution| solution.q).collect()
-    }
-
-    fn together(&self, rows: &[f64], _: &[[f64; 6]], q: &mut [f64], status: &mut [u8]) {
-        batch::ik(self, rows, q, status, None).unwrap();
-    }
-}
-
-impl Solves<7> for Robot<7> {
-    fn alone(&self, pose: &Pose, q: &[f64; 7]) -> Vec<[f64; 7]> {
-        self.ik(pose, q[6]).unwrap().iter().map(|solution| solution.q).collect()
-    }
-
-    fn together(&self, rows: &[f64], joints: &[[f64; 7]], q: &mut [f64], status: &mut [u8]) {
-        let told: Vec<f64> = joints.iter().map(|q| q[6]).collect();
-        batch::ik_with(self, rows, &told, q, status, None).unwrap();
+fn check<const N: usize>(subject: &Subject<N>)
+where
+    Joints<N>: Arity<N>,
+{
+    // Limits of more than a turn: each pose would be drawn as often with full turns as without.
+    let is_wide = |[low, high]: &[f64; 2]| high - low > 3.9 * PI;
+    let subject = if subject.robot.limits().to_array().iter().all(is_wide) {
+        let half_turns = JointLimits::new([[-PI, PI]; N]).unwrap();
+        subject.clone().with_robot(|robot| robot.with_limits(half_turns))
+    } else {
+        subject.clone()
+    };
+    let set = asked_set().name();
+    for (way, tally) in ["one by one", "in a batch"].iter().zip(tallies(&subject)) {
+        let report = tally.tell(&subject.name, way);
+        println!(
+            "    {} found only to worse than 1e-9 rad, the worst {:.1e} rad; position {:.2e} x reach",
+            tally.coarse,
+            tally.recall,
+            tally.position / subject.reach()
+        );
+        assert!(report.is_empty(), "{} {way} on {set}:\n{report}", subject.name);
     }
 }
 
 /// Solves random poses inside the limits, one by one and in batches.
-fn tally<const N: usize>(robot: &Robot<N>, reach: f64) -> [Tally; 2]
+fn tallies<const N: usize>(subject: &Subject<N>) -> [Tally; 2]
 where
-    Robot<N>: Solves<N>,
-    irbkin::Joints<N>: irbkin::Arity<N>,
+    Joints<N>: Arity<N>,
 {
     let mut rng = Rng::new(0x5eed);
     let [mut alone, mut together] = [Tally::default(), Tally::default()];
-    let mut left = poses();
+    let mut left = poses_or(20_000);
     while left > 0 {
-        let joints: Vec<_> = (0..left.min(PART)).map(|_| rng.inside(robot.limits())).collect();
-        let poses: Vec<_> = joints.iter().map(|q| robot.fk(q)).collect();
-        for ((q, pose), answers) in
-            joints.iter().zip(&poses).zip(solved_together(robot, &poses, &joints))
-        {
-            alone.take(robot, reach, q, pose, &robot.alone(pose, q));
-            together.take(robot, reach, q, pose, &answers);
+        let joints: Vec<_> =
+            (0..left.min(PART)).map(|_| rng.inside(subject.robot.limits())).collect();
+        let poses: Vec<_> = joints.iter().map(|q| subject.robot.fk(q)).collect();
+        let answers = solved_together(subject, &poses, &joints);
+        for ((q, pose), answers) in joints.iter().zip(&poses).zip(answers) {
+            let solutions = subject.ik(pose, q);
+            let solved: Vec<_> =
+                solutions.iter().map(|s| (usize::from(s.slot), s.q, s.kinds())).collect();
+            take(&mut alone, subject, q, pose, &solved);
+            take(&mut together, subject, q, pose, &answers);
         }
         left -= joints.len();
     }
     [alone, together]
 }
 
+/// A solution: its slot, its joint angles, the singularities that it is said to be at.
+type Answer<const N: usize> = (usize, [f64; N], Status);
+
 /// The solutions of each pose of a batch.
 fn solved_together<const N: usize>(
-    robot: &Robot<N>,
+    subject: &Subject<N>,
     poses: &[Pose],
     joints: &[[f64; N]],
-) -> Vec<Vec<[f64; N]>>
+) -> Vec<Vec<Answer<N>>>
 where
-    Robot<N>: Solves<N>,
-    irbkin::Joints<N>: irbkin::Arity<N>,
+    Joints<N>: Arity<N>,
 {
     let rows: Vec<f64> = poses.iter().flat_map(pose_to_rows).collect();
     let (mut q, mut status) = (vec![[0.0; N]; SLOTS * poses.len()], vec![0; SLOTS * poses.len()]);
-    robot.together(&rows, joints, q.as_flattened_mut(), &mut status);
-    let found = |(q, flags): (&[f64; N], &u8)| (flags & Status::FOUND.bits() != 0).then_some(*q);
-    let of_a_pose =
-        |(q, status): (&[[f64; N]], &[u8])| q.iter().zip(status).filter_map(found).collect();
+    (subject.calls.ik_rows)(&subject.robot, &rows, joints, q.as_flattened_mut(), &mut status, 1)
+        .unwrap();
+    let found = |(slot, (q, flags)): (usize, (&[f64; N], &u8))| {
+        let status = Status::from_bits_retain(*flags);
+        status.contains(Status::FOUND).then_some((slot, *q, status & Status::KINDS))
+    };
+    let of_a_pose = |(q, status): (&[[f64; N]], &[u8])| {
+        q.iter().zip(status).enumerate().filter_map(found).collect()
+    };
     q.chunks(SLOTS).zip(status.chunks(SLOTS)).map(of_a_pose).collect()
 }
 
-/// How far rounding of the pose may move the joints: a pose is rounded by its forward kinematics (measured: 1e-15 x reach, 2e-15 rad) and
-/// the inverse of the Jacobian of the joints that are solved for turns that into joint angles. Only next to a singularity is this above 1e-9.
-fn rounding_bound<const N: usize>(robot: &Robot<N>, reach: f64, q: &[f64; N]) -> f64
-where
-    irbkin::Joints<N>: irbkin::Arity<N>,
+/// Judges the answers for a pose by forward kinematics, by the joint vector that made it and by the
+/// slots and flags that are theirs.
+fn take<const N: usize>(
+    tally: &mut Tally,
+    subject: &Subject<N>,
+    q: &[f64; N],
+    pose: &Pose,
+    answers: &[Answer<N>],
+) where
+    Joints<N>: Arity<N>,
 {
-    let solved = robot.jacobian(q, JacobianFrame::Base).fixed_columns::<6>(0).into_owned();
-    4e-15 * (1.0 + reach) / solved.singular_values()[5]
+    let before = tally.amiss();
+    // Singular values take longer than all else.
+    let sampled = tally.poses.is_multiple_of(8);
+    let bounds = [3e-15 * subject.reach(), 1e-14];
+    tally.take_residuals(&subject.robot, pose, answers.iter().map(|(_, q, _)| (q, bounds)));
+    let nearest =
+        answers.iter().map(|(_, answer, _)| apart(answer, q)).fold(f64::INFINITY, f64::min);
+    tally.recall = tally.recall.max(nearest);
+    tally.found += usize::from(nearest <= 1e-9 || nearest <= rounding_bound(subject, q));
+    tally.coarse += usize::from(nearest > 1e-9);
+    for (i, (slot, answer, kinds)) in answers.iter().enumerate() {
+        tally.twice +=
+            answers.iter().skip(i + 1).filter(|(_, other, _)| apart(other, answer) < 1e-9).count();
+        // So near a singularity, rounding decides.
+        let is_clear = |answer| subject.clearance(answer) > 1e-6;
+        tally.wrong += usize::from(*slot != subject.slot(answer) && is_clear(answer));
+        let is_flagged = || *kinds == subject.robot.singularity(answer).kinds;
+        tally.flags += usize::from(sampled && is_clear(answer) && !is_flagged());
+    }
+    if tally.amiss() > before && tally.example.is_none() {
+        tally.example = Some(format!("q = {q:?}, nearest {nearest:e}: {answers:?}"));
+    }
 }
 
-fn check<const N: usize>(name: &str, robot: &Robot<N>)
+/// How far rounding of the pose may move the joints: a pose is rounded by its forward kinematics
+/// (measured: 1e-15 x reach, 2e-15 rad) and the inverse of the Jacobian of the joints that are
+/// solved for turns that into joint angles. Only next to a singularity is this above 1e-9.
+fn rounding_bound<const N: usize>(subject: &Subject<N>, q: &[f64; N]) -> f64
 where
-    irbkin::Joints<N>: irbkin::Arity<N>,
-    Robot<N>: Solves<N>,
+    Joints<N>: Arity<N>,
 {
-    let (set, reach) = (asked_set().name(), reach_of(robot));
-    for (way, tally) in ["one by one", "in a batch"].iter().zip(tally(robot, reach)) {
-        let Tally { poses, lost, coarse, wrong, twice, solutions, position, rotation, recall } =
-            tally;
-        #[expect(clippy::cast_precision_loss, reason = "a mean")]
-        let mean = solutions as f64 / poses as f64;
-        println!(
-            "{name:20} {set:8} {way} {poses:8} poses  {lost} lost ({coarse} found only to worse than 1e-9 rad)  {wrong} wrong  {twice} twice  \
-             {mean:.2} solutions  worst: {position:.1e} m ({:.2e} x reach)  {rotation:.1e} rad  recall {recall:.1e} rad",
-            position / reach
-        );
-        assert_eq!((lost, wrong, twice), (0, 0, 0), "{name} {way} on {set}");
-    }
-}
-
-#[test]
-fn every_generating_joint_vector_is_found() {
-    for name in [
-        "IRB 2600-12/1.65",
-        "IRB 120-3/0.58",
-        "IRB 140-6/0.81",
-        "IRB 1600-6/1.45",
-        "IRB 6700-150/3.2",
-        "IRB 2400-10/1.55",
-    ] {
-        check(name, &Robot::<6>::named(name).unwrap());
-    }
-}
-
-#[test]
-fn arms_of_other_makers_lose_nothing() -> Result<(), Error> {
-    check("KUKA KR 6 R700", &common::kuka_kr6()?);
-    let lateral =
-        OpwParameters { b: 0.05, ..OpwParameters::abb(0.15, -0.11, 0.45, 0.6, 0.64, 0.1) };
-    check("lateral offset 50 mm", &Robot::from_opw(lateral)?);
-    Ok(())
-}
-
-#[test]
-fn arms_with_three_parallel_axes_lose_nothing() {
-    for name in ["UR3", "UR5e", "UR10e", "UR20"] {
-        // Their joints turn twice: each pose would be drawn as often with full turns as without.
-        let robot =
-            Robot::named(name).unwrap().with_limits(JointLimits::new([[-PI, PI]; 6]).unwrap());
-        check(name, &robot);
-    }
-}
-
-#[test]
-fn arms_of_seven_axes_lose_nothing() {
-    for name in ["Panda", "FR3"] {
-        check(name, &Robot::<7>::named(name).unwrap());
-    }
+    3.5e-15 * (1.0 + subject.reach()) / subject.least_singular_value(q)
 }

@@ -5,12 +5,10 @@
 //! an arm with more.
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
-mod common;
-
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::fmt::Write as _;
 
-use common::Rng;
+use crate::common::Rng;
 use irbkin::{DhRow, JointLimits, Mdh, Pose, Robot, thresholds};
 use nalgebra::Isometry3;
 

@@ -1,12 +1,12 @@
 //! Right angles that were written with few digits, made exact on request, and proposed exactly where that would help.
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
-mod common;
+use crate::common;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Debug;
 
-use common::{Rng, reach_of};
+use crate::common::{Rng, reach_of};
 use irbkin::{
     DhRow, Error, JointLimits, Mdh, ModelFault, Pose, Robot, Sdh, Solutions, batch, pose_to_rows,
 };

@@ -7,12 +7,12 @@
     missing_docs
 )]
 
-mod common;
+use crate::common;
 
 use std::f64::consts::PI;
 use std::fmt::Write;
 
-use common::{Rng, kuka_kr6};
+use crate::common::{Rng, kuka_kr6};
 use irbkin::{Error, ModelFault, Names, PoseError, Robot, UrdfFault};
 
 const IRB2600: &str = include_str!("data/irb2600.urdf");

@@ -44,7 +44,7 @@ pub use pose::{
 pub(crate) use robot::SNAPS;
 pub use robot::{Definition, Robot};
 pub use solve::seeded::Inverse;
-pub(crate) use structure::any::Rows;
 pub use structure::arity::{Arity, Joints, RedundancyOf};
+pub(crate) use structure::arm::Rows;
 pub use structure::redundancy::Redundancy;
 pub use structure::spherical_wrist::OpwParameters;

@@ -1,17 +1,25 @@
 //! What several law tests need: random numbers, arms, distances.
 #![allow(dead_code, unreachable_pub, missing_docs, clippy::unwrap_used, clippy::panic)]
 
-pub mod parallel_arm;
+pub mod rng;
+pub mod skip;
 pub mod tally;
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use irbkin::{Arity, Joints};
+use std::f64::consts::{PI, TAU};
 use std::sync::{Mutex, PoisonError};
 
-use irbkin::{Definition, Error, InstructionSet, JointLimits, OpwParameters, Robot};
-use proptest::test_runner::Config as ProptestConfig;
+use irbkin::{Definition, Error, InstructionSet, JointLimits, Pose, Robot, pose_from_euler_zyx};
+use proptest::prelude::*;
+use proptest::test_runner::{Config as ProptestConfig, FileFailurePersistence, RngSeed};
 
-/// Takes the instruction set that `IRBKIN_INSTRUCTION_SET` asks for, by its name; without it, the widest. Fails where the processor does not
-/// have it: a run on another set would tell nothing of this one.
+pub use rng::Rng;
+
+use crate::structures::spherical_wrist::KUKA_KR6;
+
+/// Takes the instruction set that `IRBKIN_INSTRUCTION_SET` asks for, by its name; without it, the
+/// widest. Fails where the processor does not have it: a run on another set would tell nothing of
+/// this one.
 pub fn asked_set() -> InstructionSet {
     if let Ok(name) = std::env::var("IRBKIN_INSTRUCTION_SET") {
         let names: Vec<_> = InstructionSet::available().map(InstructionSet::name).collect();
@@ -25,13 +33,32 @@ pub fn asked_set() -> InstructionSet {
     InstructionSet::in_use()
 }
 
+/// Seeds of cases that failed once; each run tries them first.
+const REGRESSIONS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/regressions.txt");
+
 /// The same cases everywhere, on the instruction set that was asked for.
+///
+/// `PROPTEST_RNG_SEED` draws others, `PROPTEST_CASES` more. The seed of a case that fails is kept
+/// in tests/regressions.txt, which is committed.
 pub fn profile() -> ProptestConfig {
     asked_set();
-    ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() }
+    let asked = ProptestConfig::default();
+    let rng_seed = match asked.rng_seed {
+        RngSeed::Random => RngSeed::Fixed(20_260_117),
+        fixed @ RngSeed::Fixed(_) => fixed,
+    };
+    let cases = if std::env::var("PROPTEST_CASES").is_ok() { asked.cases } else { 2000 };
+    ProptestConfig {
+        cases,
+        rng_seed,
+        max_global_rejects: 20 * cases,
+        failure_persistence: Some(Box::new(FileFailurePersistence::Direct(REGRESSIONS))),
+        ..asked
+    }
 }
 
-/// Works on each instruction set of this processor in turn; one test at a time, for a set is forced in the whole process.
+/// Works on each instruction set of this processor in turn; one test at a time, for a set is forced
+/// in the whole process.
 pub fn on_each_set(mut work: impl FnMut(InstructionSet)) {
     static FORCED: Mutex<()> = Mutex::new(());
     // A test that failed while it held the lock has said why.
@@ -42,44 +69,32 @@ pub fn on_each_set(mut work: impl FnMut(InstructionSet)) {
     }
 }
 
-/// A small generator, so that a run gives the same poses everywhere (xorshift64*).
-pub struct Rng(u64);
-
-impl Rng {
-    pub fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
-    }
-
-    /// Uniform in 0 .. 1.
-    pub fn unit(&mut self) -> f64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        #[expect(clippy::cast_precision_loss, reason = "53 bits")]
-        let mantissa = (self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 11) as f64;
-        mantissa / 2.0_f64.powi(53)
-    }
-
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    /// Uniform inside the limits; in two turns either way where a joint has none.
-    pub fn inside<const N: usize>(&mut self, limits: &JointLimits<N>) -> [f64; N] {
-        limits.to_array().map(|[low, high]| self.between(low.max(-TAU * 2.0), high.min(TAU * 2.0)))
-    }
+/// Largest difference of two joint vectors, full turns not counted [rad].
+pub fn apart<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64
+where
+    Joints<N>: Arity<N>,
+{
+    a.iter().zip(b).map(|(a, b)| wrapped(a - b)).fold(0.0, f64::max)
 }
 
-/// Largest difference of two joint vectors, full turns not counted [rad].
-pub fn apart<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b - TAU * ((a - b) / TAU).round()).abs()).fold(0.0, f64::max)
+/// Distance of an angle from the nearest full turn [rad].
+pub fn wrapped(angle: f64) -> f64 {
+    (angle - TAU * (angle / TAU).round()).abs()
+}
+
+/// How many poses a test takes: `IRBKIN_POSES`, or a default.
+pub fn poses_or(default: usize) -> usize {
+    std::env::var("IRBKIN_POSES").ok().map_or(default, |count| count.parse().unwrap())
 }
 
 /// Step of the central differences [rad].
 pub const DIFFERENCE_STEP: f64 = 1e-5;
 
 /// The column of a joint, from 0, of the Jacobian of the tool in the base, by central differences.
-pub fn central_difference(robot: &Robot<6>, q: &[f64; 6], joint: usize) -> [f64; 6] {
+pub fn central_difference<const N: usize>(robot: &Robot<N>, q: &[f64; N], joint: usize) -> [f64; 6]
+where
+    Joints<N>: Arity<N>,
+{
     let (mut before, mut after) = (*q, *q);
     before[joint] -= DIFFERENCE_STEP;
     after[joint] += DIFFERENCE_STEP;
@@ -91,7 +106,8 @@ pub fn central_difference(robot: &Robot<6>, q: &[f64; 6], joint: usize) -> [f64;
     [linear.x, linear.y, linear.z, spin[(2, 1)], spin[(0, 2)], spin[(1, 0)]]
 }
 
-/// How far they may be off, the arm reaching so far [m]: a sixth of step^2 times the third derivative (one lever), and rounding over the step.
+/// How far they may be off, the arm reaching so far [m]: a sixth of step^2 times the third
+/// derivative (one lever), and rounding over the step.
 pub fn difference_bound(reach: f64) -> f64 {
     10.0 * (DIFFERENCE_STEP * DIFFERENCE_STEP + f64::EPSILON / DIFFERENCE_STEP) * (1.0 + reach)
 }
@@ -99,7 +115,7 @@ pub fn difference_bound(reach: f64) -> f64 {
 /// Distance of the stretched arm's flange from axis 1, at the height of the shoulder [m].
 pub fn reach_of<const N: usize>(robot: &Robot<N>) -> f64
 where
-    irbkin::Joints<N>: irbkin::Arity<N>,
+    Joints<N>: Arity<N>,
 {
     match robot.definition() {
         Definition::Opw(opw) => opw.a1.abs() + opw.c2 + opw.a2.hypot(opw.c3) + opw.c4,
@@ -107,18 +123,20 @@ where
     }
 }
 
-/// KUKA KR 6 R700 sixx (parameters of the cases from rs-opw-kinematics).
+/// KUKA KR 6 R700 sixx, its joints in half a turn either way.
 pub fn kuka_kr6() -> Result<Robot<6>, Error> {
-    let robot = Robot::from_opw(OpwParameters {
-        a1: 0.025,
-        a2: -0.035,
-        b: 0.0,
-        c1: 0.4,
-        c2: 0.315,
-        c3: 0.365,
-        c4: 0.08,
-        offsets: [0.0, -FRAC_PI_2, 0.0, 0.0, 0.0, 0.0],
-        signs: [-1, 1, 1, -1, 1, -1],
-    })?;
+    let robot = Robot::from_opw(KUKA_KR6)?;
     Ok(robot.with_limits(JointLimits::new([[-PI, PI]; 6])?))
+}
+
+/// Poses within so far along each axis [m], in any orientation.
+pub fn poses(far: f64) -> impl Strategy<Value = Pose> {
+    (prop::array::uniform3(-far..far), prop::array::uniform3(-PI..PI))
+        .prop_map(|(xyz, zyx)| pose_from_euler_zyx(xyz, zyx).unwrap())
+}
+
+/// A pose within so far along each axis [m], in any orientation.
+pub fn random_pose(rng: &mut Rng, far: f64) -> Pose {
+    let xyz = std::array::from_fn(|_| rng.between(-far, far));
+    pose_from_euler_zyx(xyz, rng.angles()).unwrap()
 }

@@ -1,29 +1,82 @@
-//! Counts of a hard set, and its row.
+//! What became of the poses of a set: counts, worst figures and one row of a table.
 
-use irbkin::Solutions;
+use irbkin::{Arity, Joints};
+use irbkin::{Pose, Robot, Solutions};
 
 use super::asked_set;
 
-/// What became of the poses of a set.
-#[derive(Default)]
+const SLOTS: usize = 8;
+
+/// Counts of a set of poses.
+#[derive(Debug, Default)]
 pub struct Tally {
     pub poses: usize,
+    /// Poses whose own joint vector is among the answers.
     pub found: usize,
+    /// Of these, found only to worse than 1e-9 rad.
+    pub coarse: usize,
+    /// Solutions that do not close, or are in a slot that is not theirs.
     pub wrong: usize,
+    /// Solutions that come twice.
     pub twice: usize,
+    /// Poses with a flag that is missing.
+    pub flags: usize,
+    pub solutions: usize,
+    /// Poses by their number of solutions.
+    pub by_count: [usize; SLOTS + 1],
+    /// Worst residuals [m], [rad].
     pub position: f64,
     pub rotation: f64,
-    pub solutions: usize,
-    pub flags: usize,
+    /// Worst distance of the joint vector found from the one that made the pose [rad].
+    pub recall: f64,
+    /// The first pose that something was amiss with.
+    pub example: Option<String>,
 }
 
 impl Tally {
-    /// Counts the answer to a pose that is out of reach: nothing, and how far.
-    pub fn take_missed(&mut self, solutions: &Solutions<6>, beyond: f64) {
+    /// Counts the solutions of a pose that do not close, each to its bounds [m, rad].
+    pub fn take_residuals<'a, const N: usize>(
+        &mut self,
+        robot: &Robot<N>,
+        pose: &Pose,
+        answers: impl IntoIterator<Item = (&'a [f64; N], [f64; 2])>,
+    ) where
+        Joints<N>: Arity<N>,
+    {
+        let mut count = 0;
+        for (q, [position, rotation]) in answers {
+            let residual = robot.residual(q, pose);
+            self.position = self.position.max(residual.position);
+            self.rotation = self.rotation.max(residual.rotation);
+            // The negation counts what is not a number.
+            let closes = residual.position <= position && residual.rotation <= rotation;
+            self.wrong += usize::from(!closes);
+            count += 1;
+        }
         self.poses += 1;
-        self.found += usize::from((solutions.reach().shortfall() - beyond).abs() < 1e-9);
+        self.solutions += count;
+        self.by_count[count] += 1;
+    }
+
+    /// Counts the answer to a pose that is out of reach: nothing, and how far.
+    pub fn take_missed<const N: usize>(&mut self, solutions: &Solutions<N>, beyond: f64, bound: f64)
+    where
+        Joints<N>: Arity<N>,
+    {
+        self.poses += 1;
+        self.by_count[0] += 1;
+        self.found += usize::from((solutions.reach().shortfall() - beyond).abs() < bound);
         self.solutions += solutions.len();
         self.wrong += solutions.len();
+    }
+
+    pub fn lost(&self) -> usize {
+        self.poses - self.found
+    }
+
+    /// What must be zero.
+    pub fn amiss(&self) -> usize {
+        self.lost() + self.wrong + self.twice + self.flags
     }
 
     /// Prints the row; returns it when something is amiss.
@@ -34,16 +87,21 @@ impl Tally {
             self.solutions as f64 / self.poses as f64,
         );
         let row = format!(
-            "{name:22} {:8} {set:34} {:7} poses  found {found:6.2} %  wrong {}  twice {}  worst {:.1e} m {:.1e} rad  {mean:.2} solutions",
+            "{name:22} {:8} {set:34} {:7} poses  found {found:6.2} %  lost {}  wrong {}  \
+             twice {}  flags missing {}  worst {:.1e} m {:.1e} rad  {mean:.2} solutions",
             asked_set().name(),
             self.poses,
+            self.lost(),
             self.wrong,
             self.twice,
+            self.flags,
             self.position,
             self.rotation
         );
         println!("{row}");
-        let amiss = self.found != self.poses || self.wrong + self.twice + self.flags > 0;
-        if amiss { format!("{row} (flags missing: {})\n", self.flags) } else { String::new() }
+        if self.amiss() == 0 {
+            return String::new();
+        }
+        format!("{row}\n{}\n", self.example.as_deref().unwrap_or_default())
     }
 }

@@ -8,7 +8,7 @@ use irbkin::{Definition, OpwParameters, Pose, Robot};
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Vector3};
 
 use crate::common::Rng;
-use crate::common::parallel_arm::ParallelArm;
+use crate::structures::three_parallel::ParallelArm;
 
 /// How far from a singularity [rad, m].
 pub const DISTANCES: [f64; 14] =

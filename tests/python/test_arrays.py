@@ -164,11 +164,15 @@ def test_a_wrong_out_of_a_jacobian_or_a_batch_is_refused(robot, many):
 
 def test_a_call_that_fails_writes_nothing(robot, many):
     out, status = np.full((20, 8, 6), 5.0), np.full((20, 8), 5, np.uint8)
-    for wrong in (np.zeros((20, 3, 4)), np.zeros((20, 4, 4), complex), np.zeros((19, 4, 4))):
-        with pytest.raises((TypeError, ValueError)):
+    for wrong, error, words in (
+        (np.zeros((20, 3, 4)), irbkin.InvalidPoseError, r"T must have shape \(\.\.\., 4, 4\), got \[20, 3, 4\]"),
+        (np.zeros((20, 4, 4), complex), TypeError, "dtype complex128"),
+        (np.zeros((19, 4, 4)), ValueError, r"out must be C-contiguous with shape \[19, 8, 6\]"),
+    ):
+        with pytest.raises(error, match=words):
             robot.ik_batch(wrong, out=(out, status))
     single = np.full((4, 4), 5.0)
-    with pytest.raises(irbkin.InvalidJointsError):
+    with pytest.raises(irbkin.InvalidJointsError, match="joint 1"):
         robot.fk([np.nan] * 6, out=single)
     assert (out == 5).all()
     assert (status == 5).all()

@@ -247,9 +247,17 @@ def test_another_frame_of_a_jacobian_is_refused():
         ROBOT.jacobian(Q, frame="world")
 
 
-@pytest.mark.parametrize("threads", [-1, 1.5, "2", None])
-def test_threads_are_a_count(threads):
-    with pytest.raises((TypeError, ValueError)):
+@pytest.mark.parametrize(
+    ("threads", "error", "words"),
+    [
+        (-1, ValueError, r"threads must be 0 \(one a core\) or more, got -1"),
+        (1.5, TypeError, "'float' object cannot be interpreted as an integer"),
+        ("2", TypeError, "'str' object cannot be interpreted as an integer"),
+        (None, TypeError, "'NoneType' object cannot be interpreted as an integer"),
+    ],
+)
+def test_threads_are_a_count(threads, error, words):
+    with pytest.raises(error, match=words):
         ROBOT.ik_batch(POSE, threads=threads)
 
 

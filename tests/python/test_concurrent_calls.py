@@ -9,50 +9,64 @@ import irbkin
 import numpy as np
 import pytest
 
-COUNT = 200_000  # a third of a second: more than the calls that come meanwhile take
+FIRST_COUNT, MOST = 50_000, 10_000_000  # poses of a batch
 UNWRITTEN = -1.0
 
 
 @pytest.fixture(scope="module")
 def robot():
-    """An arm whose limits are more than a turn away, so that each pose is solved carefully, some microseconds long."""
-    half_turn = [-np.pi, np.pi]
-    return irbkin.Robot("IRB 2600-12/1.65").with_limits([[4.0, 7.0], *[half_turn] * 5])
-
-
-@pytest.fixture(scope="module")
-def poses(robot):
-    return robot.fk(np.random.default_rng(8).uniform(-1.0, 1.0, (COUNT, 6)))
+    return irbkin.Robot("IRB 2600-12/1.65")
 
 
 class Writing:
-    """A batch that is being written by another thread; `q` and `status` are where it writes to."""
+    """A batch that is being written by another thread; `q` and `status` are where it writes to.
 
-    def __init__(self, robot, poses, q=None, status=None):
-        self.robot, self.poses = robot, poses
-        self.q = np.empty((COUNT, 8, 6)) if q is None else q
-        self.status = np.zeros((COUNT, 8), np.uint8) if status is None else status
+    `memory` gives its arrays of poses and of joint angles, each as two arrays over the same memory:
+    the batch has the first, `seen_poses` and `seen_q` are the second.
+    """
+
+    def __init__(self, robot, count, memory):
+        self.robot = robot
+        (self.poses, self.seen_poses), (self.q, self.seen_q) = memory(count)
+        self.poses[:] = robot.fk(np.random.default_rng(8).uniform(-1.0, 1.0, (count, 6)))
         self.q[:] = UNWRITTEN
-        self.thread = threading.Thread(target=lambda: robot.ik_batch(poses, out=(self.q, self.status)))
+        self.status = np.zeros((count, 8), np.uint8)
+        self.thread = threading.Thread(target=lambda: robot.ik_batch(self.poses, out=(self.q, self.status)))
 
-    def __enter__(self):
+    def meanwhile(self, *calls):
+        """What calls that are made while the batch is written return or raise; none if it was done before them."""
         self.thread.start()
         given_up = time.monotonic() + 60
         while self.q[0, 0, 0] == UNWRITTEN:
             assert time.monotonic() < given_up, "the batch does not begin"
-        return self
-
-    def __exit__(self, *_):
-        # Nothing is told by calls that came after the last row.
+        outcomes = [outcome(call, self) for call in calls]
         still_writing = self.q[-1, 0, 0] == UNWRITTEN
         self.thread.join()
-        assert still_writing, "the batch was done before the calls that it should meet"
+        return outcomes if still_writing else None
 
 
-@pytest.fixture
-def writing(robot, poses):
-    with Writing(robot, poses) as batch:
-        yield batch
+def outcome(call, batch):
+    try:
+        return call(batch)
+    except ValueError as error:
+        return error
+
+
+def own_memory(count):
+    poses, q = np.empty((count, 4, 4)), np.empty((count, 8, 6))
+    return (poses, poses), (q, q)
+
+
+def during_a_batch(robot, *calls, memory=own_memory):
+    """A batch and the outcomes of calls made during it; on a quick machine it takes a larger one to last so long."""
+    count = FIRST_COUNT
+    while count < MOST:
+        batch = Writing(robot, count, memory)
+        outcomes = batch.meanwhile(*calls)
+        if outcomes is not None:
+            return batch, outcomes
+        count *= 2
+    pytest.fail(f"a batch of {count // 2} poses was done before the calls that it should meet")
 
 
 READS = {
@@ -74,41 +88,49 @@ WRITES = {
 }
 
 
+def assert_refused(error, words):
+    assert isinstance(error, ValueError), error
+    assert words in str(error)
+
+
 @pytest.mark.parametrize("kind", READS)
-def test_an_array_that_is_being_written_is_not_read(writing, kind):
-    with pytest.raises(ValueError, match="is being written by another call"):
-        READS[kind](writing)
+def test_an_array_that_is_being_written_is_not_read(robot, kind):
+    _, [error] = during_a_batch(robot, READS[kind])
+    assert_refused(error, "is being written by another call")
 
 
 @pytest.mark.parametrize("kind", WRITES)
-def test_an_array_that_is_in_use_is_not_written(writing, kind):
-    with pytest.raises(ValueError, match="out must be writable"):
-        WRITES[kind](writing)
+def test_an_array_that_is_in_use_is_not_written(robot, kind):
+    _, [error] = during_a_batch(robot, WRITES[kind])
+    assert_refused(error, "out must be writable")
 
 
-def test_other_arrays_are_read_and_written_meanwhile(robot, poses):
+def test_other_arrays_are_read_and_written_meanwhile(robot):
     q, out = np.full(6, 0.1), np.zeros((4, 4))
-    wanted, slots = robot.fk(q), robot.ik(poses[7]).slots
-    with Writing(robot, poses) as writing:
-        robot.fk(q, out=out)
-        np.testing.assert_array_equal(out, wanted)
-        np.testing.assert_array_equal(robot.fk(q[None])[0], wanted)
+    wanted = robot.fk(q)
+    batch, (written, read, slots) = during_a_batch(
+        robot,
+        lambda _: robot.fk(q, out=out).copy(),
+        lambda _: robot.fk(q[None])[0],
         # The input of the batch is only read.
-        np.testing.assert_array_equal(robot.ik(poses[7]).slots, slots)
-    np.testing.assert_array_equal(writing.q[7], slots)
+        lambda batch: robot.ik(batch.poses[7]).slots,
+    )
+    np.testing.assert_array_equal(written, wanted)
+    np.testing.assert_array_equal(read, wanted)
+    np.testing.assert_array_equal(slots, robot.ik(batch.poses[7]).slots)
+    np.testing.assert_array_equal(batch.q[7], slots)
     # And all is free again, after a call that was refused too.
-    np.testing.assert_array_equal(robot.fk(writing.q[7, 0]), robot.fk(writing.q[7, 0].tolist()))
-    robot.fk(q, out=writing.q[0].ravel()[:16].reshape(4, 4))
+    np.testing.assert_array_equal(robot.fk(batch.q[7, 0]), robot.fk(batch.q[7, 0].tolist()))
+    robot.fk(q, out=batch.q[0].ravel()[:16].reshape(4, 4))
 
 
-def test_a_refused_call_changes_no_row(robot, poses):
-    alone = robot.ik_batch(poses)
-    with Writing(robot, poses) as writing:
-        for write in WRITES.values():
-            with pytest.raises(ValueError, match="out must be writable"):
-                write(writing)
-    np.testing.assert_array_equal(writing.q, alone.q)
-    np.testing.assert_array_equal(writing.status, alone.status)
+def test_a_refused_call_changes_no_row(robot):
+    batch, errors = during_a_batch(robot, *WRITES.values())
+    for error in errors:
+        assert_refused(error, "out must be writable")
+    alone = robot.ik_batch(batch.poses)
+    np.testing.assert_array_equal(batch.q, alone.q)
+    np.testing.assert_array_equal(batch.status, alone.status)
 
 
 class Interface:
@@ -119,89 +141,100 @@ class Interface:
         self.__array_interface__ = array.__array_interface__
 
 
-def buffers(count, dtype=float):
-    """Two arrays over the same memory that have no owner in common, for each way to make such a pair."""
-    size = count * np.dtype(dtype).itemsize
-    for buffer in (bytearray(size), mmap.mmap(-1, size)):
-        yield [np.frombuffer(memoryview(buffer), dtype=dtype) for _ in range(2)]
-    own = np.zeros(count, dtype)
+def of_a_buffer(buffer):
+    return [np.frombuffer(memoryview(buffer)) for _ in range(2)]
+
+
+def of_an_address(size):
+    own = np.zeros(size // 8)
     of_address = ctypes.cast(own.ctypes.data, ctypes.POINTER(ctypes.c_char * size)).contents
-    yield [own, np.frombuffer(of_address, dtype=dtype)]
-    yield [np.asarray(Interface(own)), np.asarray(Interface(own))]
+    return [own, np.frombuffer(of_address)]
 
 
-WAYS = ["bytearray", "mmap", "address", "interface"]
+def of_an_interface(size):
+    own = np.zeros(size // 8)
+    return [np.asarray(Interface(own)), np.asarray(Interface(own))]
 
 
-@pytest.mark.parametrize("way", range(len(WAYS)), ids=WAYS)
-def test_memory_that_is_being_written_is_not_read_through_another_array(robot, poses, way):
-    written, seen = (array.reshape(COUNT, 8, 6) for array in list(buffers(COUNT * 48))[way])
-    with Writing(robot, poses, q=written) as writing:
-        writing.q = seen
-        for name, read in READS.items():
-            with pytest.raises(ValueError, match="is being written by another call"):
-                read(writing)
-            assert name
+# Two arrays over the same memory that have no owner in common, for each way to make such a pair.
+PAIRS = {
+    "bytearray": lambda size: of_a_buffer(bytearray(size)),
+    "mmap": lambda size: of_a_buffer(mmap.mmap(-1, size)),
+    "address": of_an_address,
+    "interface": of_an_interface,
+}
+
+
+def paired(way):
+    """The memory of a batch whose arrays each have a second one over the same bytes."""
+
+    def memory(count):
+        pairs = [PAIRS[way](8 * count * width) for width in (16, 48)]
+        shapes = [(count, 4, 4), (count, 8, 6)]
+        return [[array.reshape(shape) for array in pair] for pair, shape in zip(pairs, shapes, strict=True)]
+
+    return memory
+
+
+@pytest.mark.parametrize("way", PAIRS)
+def test_memory_that_is_being_written_is_not_read_through_another_array(robot, way):
+    reads = [
+        lambda b: b.robot.fk(b.seen_q[0, 0]),
+        lambda b: b.robot.ik(b.seen_q[0].ravel()[:16].reshape(4, 4)),
+        lambda b: b.robot.jacobian(b.seen_q[:5, 0]),
         # A strided view whose ends lie in what is written, and bytes of it in another type.
-        for q in (seen[::7, 0][::-1], seen[:3, 0].view(">f8"), seen.view(np.float32)[:3, 0, 6:]):
-            with pytest.raises(ValueError, match="is being written by another call"):
-                robot.fk(q)
-        for write in WRITES.values():
-            with pytest.raises(ValueError, match="out must be writable"):
-                write(writing)
-        writing.q = written
-    np.testing.assert_array_equal(seen, robot.ik_batch(poses).q)
+        lambda b: b.robot.fk(b.seen_q[::7, 0][::-1]),
+        lambda b: b.robot.fk(b.seen_q[:3, 0].view(">f8")),
+        lambda b: b.robot.fk(b.seen_q.view(np.float32)[:3, 0, 6:]),
+    ]
+    writes = [
+        lambda b: b.robot.fk(np.zeros(6), out=b.seen_q[0].ravel()[:16].reshape(4, 4)),
+        lambda b: b.robot.ik_batch(b.poses, out=(b.seen_q, b.status)),
+    ]
+    batch, errors = during_a_batch(robot, *reads, *writes, memory=paired(way))
+    for error in errors[: len(reads)]:
+        assert_refused(error, "is being written by another call")
+    for error in errors[len(reads) :]:
+        assert_refused(error, "out must be writable")
+    np.testing.assert_array_equal(batch.seen_q, robot.ik_batch(batch.poses).q)
 
 
-@pytest.mark.parametrize("way", range(len(WAYS)), ids=WAYS)
-def test_memory_that_is_being_read_is_not_written_through_another_array(robot, poses, way):
-    read, seen = (array.reshape(COUNT, 4, 4) for array in list(buffers(COUNT * 16))[way])
-    read[:] = poses
-    with Writing(robot, read) as writing:
-        for write in (
-            lambda: robot.fk(np.zeros(6), out=seen[COUNT - 1]),
-            lambda: robot.fk(np.zeros((2, 6)), out=seen[:2]),
-            lambda: robot.ik_batch(poses[:1], out=seen.ravel()[-48:].reshape(1, 8, 6)),
-        ):
-            with pytest.raises(ValueError, match=r"out must be writable.*another call uses its memory"):
-                write()
-        # Reading what is read is no conflict.
-        np.testing.assert_array_equal(robot.ik(seen[7]).slots, robot.ik_batch(seen[7:8]).q[0])
-    np.testing.assert_array_equal(writing.q, robot.ik_batch(poses).q)
-    robot.fk(np.zeros(6), out=seen[0])
+@pytest.mark.parametrize("way", PAIRS)
+def test_memory_that_is_being_read_is_not_written_through_another_array(robot, way):
+    writes = [
+        lambda b: b.robot.fk(np.zeros(6), out=b.seen_poses[-1]),
+        lambda b: b.robot.fk(np.zeros((2, 6)), out=b.seen_poses[:2]),
+        lambda b: b.robot.ik_batch(b.poses[:1].copy(), out=b.seen_poses.ravel()[-48:].reshape(1, 8, 6)),
+    ]
+    # Reading what is read is no conflict.
+    batch, [*errors, solutions] = during_a_batch(
+        robot, *writes, lambda b: robot.ik(b.seen_poses[7]), memory=paired(way)
+    )
+    for error in errors:
+        assert_refused(error, "another call uses its memory")
+    np.testing.assert_array_equal(solutions.slots, batch.q[7])
+    np.testing.assert_array_equal(batch.q, robot.ik_batch(batch.poses).q)
+    robot.fk(np.zeros(6), out=batch.seen_poses[0])
 
 
-def test_neighbours_in_one_buffer_are_read_and_written_meanwhile(robot, poses):
-    """What begins where the written memory ends is free; so is what lies between the ends of no written array."""
-    buffer = bytearray(8 * (COUNT * 48 + 12))
-    whole = np.frombuffer(memoryview(buffer))
-    q = np.frombuffer(memoryview(buffer), count=COUNT * 48, offset=48).reshape(COUNT, 8, 6)
-    wanted = robot.fk(np.zeros(6))
-    with Writing(robot, poses, q=q):
-        for vector in (whole[:6], whole[-6:], whole[5::-1]):
-            np.testing.assert_array_equal(robot.fk(vector), wanted)
-        for vector in (whole[1:7], whole[-7:-1], whole[[0]].repeat(6)[::-1], whole[:: len(whole) // 5][:6]):
-            if np.shares_memory(vector, whole):
-                with pytest.raises(ValueError, match="is being written by another call"):
-                    robot.fk(vector)
-            else:
-                np.testing.assert_array_equal(robot.fk(vector), wanted)
+def test_neighbours_in_one_buffer_are_read_meanwhile(robot):
+    """What begins where the written memory ends is free, and one number more of it is not."""
 
+    def memory(count):
+        buffer = bytearray(8 * (count * 48 + 12))
+        whole = np.frombuffer(memoryview(buffer))
+        q = np.frombuffer(memoryview(buffer), count=count * 48, offset=48).reshape(count, 8, 6)
+        poses = np.empty((count, 4, 4))
+        return (poses, poses), (q, whole)
 
-def test_single_calls_cost_the_same_before_and_after_a_batch(robot, poses):
-    """No borrow is left over: single calls take the short way again."""
-    q, out = np.full(6, 0.1), np.zeros((4, 4))
-
-    def cost():
-        start = time.perf_counter()
-        for _ in range(20_000):
-            robot.fk(q, out=out)
-        return time.perf_counter() - start
-
-    before = min(cost() for _ in range(5))
-    robot.ik_batch(poses[:1000])
-    with pytest.raises(irbkin.InvalidPoseError):
-        robot.ik_batch(poses[:1000, :3])
-    with pytest.raises(ValueError, match="out must be"):
-        robot.ik_batch(poses[:2], out=poses[:2])
-    assert min(cost() for _ in range(5)) < 3 * before
+    beside = [lambda b: robot.fk(b.seen_q[:6]), lambda b: robot.fk(b.seen_q[-6:]), lambda b: robot.fk(b.seen_q[5::-1])]
+    across = [
+        lambda b: robot.fk(b.seen_q[1:7]),
+        lambda b: robot.fk(b.seen_q[-7:-1]),
+        lambda b: robot.fk(b.seen_q[:: len(b.seen_q) // 5][:6]),
+    ]
+    _, outcomes = during_a_batch(robot, *beside, *across, memory=memory)
+    for pose in outcomes[:3]:
+        np.testing.assert_array_equal(pose, robot.fk(np.zeros(6)))
+    for error in outcomes[3:]:
+        assert_refused(error, "is being written by another call")

@@ -1,83 +1,92 @@
-"""A module of the Rust core uses only what stands before it."""
+"""A module of the Rust crate uses only what is above it in ARCHITECTURE.md's table of layers."""
 
 import re
-from pathlib import Path
 
 import pytest
+from rust_modules import SRC, cycles, expanded, home, modules, used_by
 
-SRC = Path(__file__).parents[2] / "src"
-# ARCHITECTURE.md, "Layers". `error` holds the explanations and reasons of the core: the one that looks both ways.
-LAYERS = [
-    "thresholds",
-    "angles",
-    "rotation",
-    "pose",
-    "dh",
-    "joint_axes",
-    "axes",
-    "coupling",
-    "chain",
-    "forward",
-    "jacobian",
-    "limits",
-    "status",
-    "solutions",
-    "select",
-    "free_choice",
-    "branches",
-    "singularity",
-    "placement",
-    "surroundings",
-    "recognition",
-    "block",
-    "planar_arm",
-    "zyz",
-    "spherical_wrist",
-    "three_parallel",
-    "spherical_shoulder",
-    "geometry",
-    "robot",
-    "family",
-    "inverse",
-    "configuration",
-    "self_motion",
-    "redundancy",
-    "follow",
-    "crossing",
-]
-OUTER = ["lanes", "kinematics", "catalogue", "batch", "urdf", "rapid", "python"]
+ARCHITECTURE = SRC.parent / "ARCHITECTURE.md"
+LINES = 400
 
 
-def modules_used(path: Path) -> set[str]:
-    """First names of what a file uses from `super::` of `kinematics` or from `crate::`."""
-    text = path.read_text().split("#[cfg(test)]")[0]
-    used = set()
-    for statement in re.findall(r"^use ((?:super|crate)::[^;]*);", text, re.MULTILINE | re.DOTALL):
-        inside = path.parent.name == "kinematics" and statement.startswith("super::")
-        if inside or statement.startswith("crate::kinematics::"):
-            used.add(statement.removeprefix("crate::kinematics::").removeprefix("super::").split("::")[0])
-    return {name for name in used if name in LAYERS}
+def layers() -> list[list[str]]:
+    """The first column of the table under "Layers": rows of module paths."""
+    section = ARCHITECTURE.read_text().split("\n## Layers\n")[1].split("\n## ")[0]
+    rows = [line.split("|")[1] for line in section.splitlines() if line.startswith("| `")]
+    return [re.findall(r"`([\w/]+?)/?`", row) for row in rows]
 
 
-@pytest.mark.parametrize("name", LAYERS)
-def test_a_module_of_the_kinematics_uses_those_before_it(name):
-    files = [SRC / "kinematics" / f"{name}.rs", *sorted((SRC / "kinematics" / name).glob("*.rs"))]
-    files = [path for path in files if path.exists()]
-    assert files
-    for path in files:
-        later = {used for used in modules_used(path) if LAYERS.index(used) > LAYERS.index(name)}
-        assert not later, f"{path.name} uses {sorted(later)}"
+LAYERS = layers()
+ROWS = {path: number for number, row in enumerate(LAYERS) for path in row}
 
 
-def test_the_list_of_layers_is_complete():
-    found = {path.stem if path.is_file() else path.name for path in (SRC / "kinematics").iterdir()} - {"mod"}
-    assert found == set(LAYERS)
+def entry(file: str) -> str | None:
+    """The longest path of the table that a file is or is in."""
+    name = re.sub(r"(/mod)?\.rs$", "", file)
+    found = [path for path in ROWS if name == path or name.startswith(f"{path}/")]
+    return max(found, key=len, default=None)
 
 
-@pytest.mark.parametrize("name", OUTER)
-def test_an_outer_module_uses_those_before_it(name):
-    later = OUTER[OUTER.index(name) + 1 :]
-    files = [SRC / f"{name}.rs", *sorted((SRC / name).rglob("*.rs"))]
-    for path in filter(Path.exists, files):
-        for other in later:
-            assert f"crate::{other}" not in path.read_text(), f"{path} uses {other}"
+FILES = [str(module) for module in modules().values() if not module.is_index]
+
+
+def test_the_table_has_rows_and_each_path_is_a_module():
+    assert len(LAYERS) > 10
+    for path in ROWS:
+        assert (SRC / path).is_dir() or (SRC / f"{path}.rs").is_file(), path
+
+
+@pytest.mark.parametrize("file", FILES)
+def test_every_module_has_a_layer(file):
+    assert entry(file), f"{file} is in no row"
+
+
+@pytest.mark.parametrize("file", FILES)
+def test_a_module_uses_only_what_is_above_it(file):
+    own = entry(file)
+    # A row of several paths is of siblings, which do not use one another.
+    wrong = [used for used in used_by()[file] if entry(used) not in (None, own) and ROWS[entry(used)] >= ROWS[own]]
+    assert not wrong, f"{file} uses {sorted(wrong)}"
+
+
+def test_no_files_use_one_another_in_a_circle():
+    assert cycles() == []
+
+
+@pytest.mark.parametrize("file", [path.relative_to(SRC).as_posix() for path in sorted(SRC.rglob("*.rs"))])
+def test_a_file_is_no_longer_than_it_may_be(file):
+    # The arms of the catalogue are blocks of numbers.
+    if not file.startswith("catalogue/"):
+        assert len((SRC / file).read_text().splitlines()) <= LINES
+
+
+def test_nested_braces_are_taken_apart():
+    assert expanded("super::{a, b::{c, d::e}, f::{self, g as h}}") == [
+        "super::a",
+        "super::b::c",
+        "super::b::d::e",
+        "super::f::self",
+        "super::f::g as h",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("path", "file"),
+    [
+        ("kinematics::Robot", "kinematics/robot.rs"),
+        ("kinematics::JointLimits::new", "kinematics/chain/limits.rs"),
+        ("kinematics::thresholds::MOST_ANGLE", "kinematics/thresholds.rs"),
+        ("kinematics::pose::Pose", "kinematics/pose/mod.rs"),
+        ("Error", "error.rs"),
+    ],
+)
+def test_a_name_is_found_where_it_is_defined(path, file):
+    assert str(home(tuple(path.split("::")))) == file
+
+
+def test_what_folders_and_their_modules_use_is_seen():
+    """The uses that a reader of `kinematics/*.rs` alone does not see."""
+    seen = used_by()
+    assert "kinematics/structure/spherical_shoulder/links.rs" in seen["kinematics/structure/spherical_shoulder/mod.rs"]
+    assert "kinematics/thresholds.rs" in seen["kinematics/structure/spherical_shoulder/mod.rs"]
+    assert len(seen["kinematics/robot.rs"]) > 5

@@ -5,6 +5,7 @@ import pickle
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import irbkin
 import numpy as np
@@ -150,10 +151,38 @@ def test_the_catalogue_is_a_tuple_of_names_without_doubles():
     assert all(Robot(name).name == name for name in names)
 
 
-def test_status_and_kind_have_their_documented_values():
-    named = {"FOUND": 1, "WITHIN_LIMITS": 2, "WRIST": 4, "ELBOW": 8, "SHOULDER": 16, "MERGED": 32, "INVALID": 64}
-    assert {flag.name: flag.value for flag in Status} == named
-    assert {flag.name: flag.value for flag in Kind} == {"WRIST": 4, "ELBOW": 8, "SHOULDER": 16}
+def test_status_and_kind_have_the_bits_of_rust():
+    """The declaration of the flags in Rust, and in Python."""
+    source = (Path(__file__).parents[2] / "src/kinematics/answer/status.rs").read_text()
+    bits = {name: int(value) for name, value in re.findall(r"^ +const (\w+) = (\d+);", source, re.MULTILINE)}
+    assert len(bits) == 7
+    assert {flag.name: flag.value for flag in Status} == bits
+    assert {flag.name: flag.value for flag in Kind} == {name: bits[name] for name in ("WRIST", "ELBOW", "SHOULDER")}
+
+
+def test_status_and_kind_are_what_a_solve_returns():
+    """A pose for each flag: which bits Rust writes there is read by the names that Python has for them."""
+    robot = Robot("IRB 2600-12/1.65")
+    stretched = np.arctan2(0.115, 0.795) - np.pi / 2
+    along, across = 0.7, np.hypot(0.795, 0.115)
+    # q2 that puts the wrist centre on axis 1, the forearm square to the upper arm.
+    over_axis_1 = np.arcsin(-0.15 / np.hypot(along, across)) - np.arctan2(across, along)
+    postures = {
+        Status.WRIST: [0.1, 0.2, 0.3, 0.4, 0.0, 0.6],
+        Status.ELBOW: [0.1, 0.2, stretched, 0.4, 0.5, 0.6],
+        Status.SHOULDER: [0.1, over_axis_1, stretched + np.pi / 2, 0.4, 0.5, 0.6],
+    }
+    for flag, q in postures.items():
+        T = robot.fk(q)
+        assert Status(robot.singularity(q).kinds) == flag
+        status = robot.ik_batch(T[None]).status[0]
+        assert any(Status.FOUND | flag in Status(bits) for bits in status)
+        assert any(Status(bits) == Status.MERGED | flag for bits in status)
+        assert flag.value in [solution.kinds.value for solution in robot.ik(T)]
+        assert all(type(solution.kinds) is Kind for solution in robot.ik(T))
+    regular = robot.ik_batch(robot.fk([0.3, -0.2, 0.4, 0.5, -0.6, 0.7])[None]).status[0]
+    assert {Status(bits) for bits in regular} == {Status.FOUND, Status.FOUND | Status.WITHIN_LIMITS}
+    assert {Status(bits) for bits in robot.ik_batch(np.full((1, 4, 4), np.nan)).status[0]} == {Status.INVALID}
 
 
 @pytest.mark.parametrize("module", ["irbkin", "irbkin.errors", "irbkin.records"])

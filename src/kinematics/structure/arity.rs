@@ -1,6 +1,7 @@
 //! Numbers of joints that an arm may have.
 
-use super::any::{AnyStructure, Arm, SevenJoints, SixJoints};
+use super::any::{AnyStructure, SevenJoints, SixJoints};
+use super::arm::Arm;
 use super::redundancy::Redundancy;
 use super::solver::Solver;
 use super::spherical_wrist::{OpwParameters, SphericalWrist};

@@ -7,6 +7,7 @@
 
 pub(crate) mod any;
 pub(crate) mod arity;
+pub(crate) mod arm;
 pub(crate) mod branches;
 mod declare;
 pub(crate) mod end_frames;

@@ -1,7 +1,7 @@
 //! An arm between the frames in which poses are given, with its limits: the way through any structure.
 
 use super::Structure;
-use super::any::{Arm, RowSolve, Rows};
+use super::arm::{Arm, RowSolve, Rows};
 use super::end_frames::{Frame, Seen, Surroundings};
 use super::free_choice::FreeChoice;
 use super::lanes::{Blocks, Columns, LaneKernel, RegularPose};

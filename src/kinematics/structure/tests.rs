@@ -3,7 +3,8 @@
 use core::f64::consts::TAU;
 use std::vec::Vec;
 
-use super::any::{Arm as _, Rows, recognized};
+use super::any::recognized;
+use super::arm::{Arm as _, Rows};
 use super::branches::Branches;
 use super::free_choice::FreeChoice;
 use super::joint_map::Placement;

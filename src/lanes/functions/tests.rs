@@ -7,6 +7,7 @@ use std::{println, vec::Vec};
 
 use super::*;
 use crate::lanes::{Column, Kernel, LANES, on_each_set, run};
+use crate::rng::Rng;
 
 /// Distance from the correctly rounded value that is promised [ulp].
 const BOUND: u64 = 2;
@@ -18,27 +19,17 @@ fn points() -> u64 {
     std::env::var("IRBKIN_POINTS").map_or(300_000, |count| count.parse().unwrap())
 }
 
-/// Random numbers of every size (splitmix64: any seed will do, and every bit is random).
-struct Random(u64);
+/// What the tests draw beside numbers: numbers of every size, directions, angles.
+trait Draws {
+    fn signed(&mut self, number: f64) -> f64;
+    fn sized(&mut self, low: f64, high: f64) -> f64;
+    fn direction(&mut self, a: f64, b: f64) -> (f64, f64);
+    fn on_circle(&mut self, length: f64) -> (f64, f64);
+    fn y_and_x(&mut self, kind: u64) -> (f64, f64);
+    fn angle_of(&mut self, kind: u64) -> f64;
+}
 
-impl Random {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        mixed ^ (mixed >> 31)
-    }
-
-    /// Uniform in 0 .. 1.
-    #[expect(clippy::cast_precision_loss, reason = "53 bits")]
-    fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / 2.0_f64.powi(53)
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
+impl Draws for Rng {
     fn signed(&mut self, number: f64) -> f64 {
         if self.bits() & 1 == 0 { number } else { -number }
     }
@@ -96,7 +87,7 @@ impl Random {
     }
 
     /// An angle, of a kind for each `kind`.
-    fn angle(&mut self, kind: u64) -> f64 {
+    fn angle_of(&mut self, kind: u64) -> f64 {
         let quarters = self.between(0.0, f64::from(QUARTERS)).floor();
         let size = match kind % 6 {
             0 => self.between(0.0, MOST_SIN_COS),
@@ -167,7 +158,7 @@ impl Worst {
 
 #[test]
 fn the_arc_tangent_is_within_two_ulp() {
-    let mut random = Random(42);
+    let mut random = Rng::new(42);
     let (mut fused, mut unfused) = (Worst::of("atan2, fused"), Worst::of("atan2, unfused"));
     for kind in 0..points() / 2 {
         let (y, x) = random.y_and_x(kind);
@@ -180,7 +171,7 @@ fn the_arc_tangent_is_within_two_ulp() {
 
 #[test]
 fn sine_and_cosine_are_within_two_ulp() {
-    let mut random = Random(43);
+    let mut random = Rng::new(43);
     let mut worst = ["sin, fused", "cos, fused", "sin, unfused", "cos, unfused"].map(Worst::of);
     let mut take = |angle: f64| {
         let (sin, cos) = (pxfm::f_sin(angle), pxfm::f_cos(angle));
@@ -195,7 +186,7 @@ fn sine_and_cosine_are_within_two_ulp() {
         }
     };
     for kind in 0..points() / 2 {
-        take(random.angle(kind));
+        take(random.angle_of(kind));
     }
     // A double times a whole number below 2^16 is at most one double beside the one next to the true multiple.
     for quarter in 1..=QUARTERS {
@@ -294,7 +285,7 @@ impl Kernel for InLanes<'_> {
 #[test]
 fn vector_instructions_give_the_bits_of_single_ones() {
     const COLUMNS: usize = 2000;
-    let mut random = Random(44);
+    let mut random = Rng::new(44);
     let (mut y, mut x) = (Vec::new(), Vec::new());
     for kind in 0..COLUMNS as u64 {
         let directions: [(f64, f64); LANES] =
@@ -304,7 +295,7 @@ fn vector_instructions_give_the_bits_of_single_ones() {
         x.push(if kind % 2 == 0 {
             directions.map(|direction| direction.1)
         } else {
-            core::array::from_fn(|_| random.angle(kind / 2))
+            core::array::from_fn(|_| random.angle_of(kind / 2))
         });
     }
     y.push(SIZES[..LANES].try_into().unwrap());

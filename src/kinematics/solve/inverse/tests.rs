@@ -1,208 +1,28 @@
-//! The lanes and the careful solve say the same of every pose that the lanes take, up to where they take none.
+//! The lanes and the careful solve say the same of every pose that the lanes take, up to where they
+//! take none.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::{format, println, string::String, vec::Vec};
 
+mod arm;
+
 use super::*;
 use crate::kinematics::pose::{pose_from_euler_zyx, translation_z};
-use crate::kinematics::robot::Definition;
 use crate::kinematics::structure::spherical_wrist::OpwParameters;
 use crate::kinematics::thresholds::{
     PLAIN_REACH, PLAIN_SHOULDER, PLAIN_WRIST_SIN, REACH_TOLERANCE, SHOULDER_MERGE,
 };
 use crate::kinematics::{DhRow, JacobianFrame, JointLimits, Mdh, PoseError};
 use crate::lanes::on_each_set;
+use crate::rng::Rng;
+use arm::Arm;
 
 /// Poses of each set.
 const POSES: usize = 300;
 
-/// Where the poses of a set stand, as a part of a margin: plain from one on. With a lateral offset b next to the shoulder, x^2 = rho^2 - b^2
-/// is rounded to 1e-5 of itself.
+/// Where the poses of a set stand, as a part of a margin: plain from one on. With a lateral offset
+/// b next to the shoulder, x^2 = rho^2 - b^2 is rounded to 1e-5 of itself.
 const BEYOND: [f64; 7] = [0.5, 0.99, 1.0 - 1e-4, 1.0 + 1e-4, 1.01, 10.0, 100.0];
-
-/// Random numbers (splitmix64).
-struct Random(u64);
-
-impl Random {
-    #[expect(clippy::cast_precision_loss, reason = "53 bits")]
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        low + (high - low) * ((mixed ^ (mixed >> 31)) >> 11) as f64 / 2.0_f64.powi(53)
-    }
-
-    fn sign(&mut self) -> f64 {
-        if self.between(-1.0, 1.0) < 0.0 { -1.0 } else { 1.0 }
-    }
-
-    fn angle(&mut self) -> f64 {
-        self.between(-PI, PI)
-    }
-}
-
-/// An arm, with what the margins are made of.
-struct Arm {
-    name: &'static str,
-    robot: Robot<6>,
-    a1: f64,
-    b: f64,
-    c1: f64,
-    c2: f64,
-    k: f64,
-    /// From the end of the planar arm to the wrist: nothing where the wrist is spherical.
-    d5: f64,
-    /// From the wrist to the flange.
-    t_wrist_flange: Pose,
-    signs: [f64; 6],
-    offsets: [f64; 6],
-    extent: f64,
-}
-
-impl Arm {
-    fn new(name: &'static str, robot: Robot<6>) -> Self {
-        let ends = robot.base().translation.vector.norm() + robot.tool().translation.vector.norm();
-        match *robot.definition() {
-            Definition::Opw(OpwParameters { a1, a2, b, c1, c2, c3, c4, signs, offsets }) => {
-                let k = a2.hypot(c3);
-                let extent = a1.abs() + b.abs() + c1 + c2 + k + c4 + ends;
-                let (t_wrist_flange, signs) = (translation_z(c4), signs.map(f64::from));
-                Self {
-                    name,
-                    robot,
-                    a1,
-                    b,
-                    c1,
-                    c2,
-                    k,
-                    d5: 0.0,
-                    t_wrist_flange,
-                    signs,
-                    offsets,
-                    extent,
-                }
-            }
-            // As `parallel_arm` draws it, or the maker draws his.
-            Definition::Mdh(ref mdh) => {
-                let rows = mdh.rows;
-                let ([a1, c2, k], [c1, b, d5, d6]) =
-                    ([1, 2, 3].map(|i| rows[i].a.abs()), [0, 3, 4, 5].map(|i| rows[i].d));
-                let extent = a1 + b + c1 + c2 + k + d5 + d6 + ends;
-                // Of an arm of Universal Robots joint 2 and joint 4 read zero a quarter turn from upright.
-                let quarter = if rows[2].a < 0.0 { -FRAC_PI_2 } else { 0.0 };
-                let offsets = [0.0, quarter, 0.0, quarter, 0.0, 0.0];
-                let t_wrist_flange = pose_from_euler_zyx([0.0, d6, 0.0], [0.0, 0.0, -FRAC_PI_2])
-                    .unwrap()
-                    * mdh.flange;
-                Self {
-                    name,
-                    robot,
-                    a1,
-                    b,
-                    c1,
-                    c2,
-                    k,
-                    d5,
-                    t_wrist_flange,
-                    signs: [1.0; 6],
-                    offsets,
-                    extent,
-                }
-            }
-        }
-    }
-
-    /// The pose of angles theta.
-    fn at(&self, theta: [f64; 6]) -> Pose {
-        self.robot.fk(&core::array::from_fn(|i| self.signs[i] * (theta[i] + self.offsets[i])))
-    }
-
-    /// A pose, turned at random, with the end of the planar arm `x` from axis 1 along the plane of the arm and `z` above the shoulder.
-    fn with_end_of_planar_arm(&self, x: f64, z: f64, random: &mut Random) -> Pose {
-        let phi = random.angle();
-        let wrist = [x + self.d5 * phi.sin(), self.b, self.c1 + z + self.d5 * phi.cos()];
-        // Axis 5 in the plane, along phi.
-        let turned = [[0.0, phi, 0.0], [random.angle(), 0.0, 0.0], [0.0, random.angle(), 0.0]]
-            .map(|zyx| pose_from_euler_zyx([0.0; 3], zyx));
-        let rotation =
-            turned.into_iter().fold(Pose::identity(), |product, turn| product * turn.unwrap());
-        self.with_wrist(wrist, rotation, random)
-    }
-
-    fn with_wrist(&self, wrist: [f64; 3], rotation: Pose, random: &mut Random) -> Pose {
-        let heading = pose_from_euler_zyx([0.0; 3], [random.angle(), 0.0, 0.0]).unwrap();
-        let wrist = pose_from_euler_zyx(wrist, [0.0; 3]).unwrap() * rotation;
-        self.robot.base() * heading * wrist * self.t_wrist_flange * self.robot.tool()
-    }
-
-    fn anywhere(&self, random: &mut Random) -> Pose {
-        self.at([(); 6].map(|()| random.angle()))
-    }
-
-    fn next_to_the_wrist_margin(&self, part: f64, random: &mut Random) -> Pose {
-        let off = (part * PLAIN_WRIST_SIN).asin();
-        let theta_5 = random.sign() * if random.sign() > 0.0 { off } else { PI - off };
-        self.at([
-            random.angle(),
-            random.angle(),
-            random.angle(),
-            random.angle(),
-            theta_5,
-            random.angle(),
-        ])
-    }
-
-    fn next_to_the_shoulder_margin(&self, part: f64, random: &mut Random) -> Pose {
-        let x = part * (PLAIN_SHOULDER * self.extent).max(10.0 * SHOULDER_MERGE);
-        // Somewhere between folded and stretched, for both shoulders.
-        let [shortest, longest] =
-            [(self.c2 - self.k).abs() + self.d5 + 0.02, self.c2 + self.k - self.d5 - 0.02];
-        let across = self.a1.abs() + x;
-        let (least, most) = (
-            (shortest * shortest - across * across).max(0.0).sqrt(),
-            (longest * longest - across * across).sqrt(),
-        );
-        let wrist = [x, self.b, self.c1 + random.sign() * random.between(least, most)];
-        let rotation =
-            pose_from_euler_zyx([0.0; 3], [random.angle(), random.angle(), random.angle()])
-                .unwrap();
-        self.with_wrist(wrist, rotation, random)
-    }
-
-    /// Inside or outside the edge of reach, stretched or folded, of either shoulder.
-    fn next_to_the_edge_of_reach(&self, part: f64, random: &mut Random) -> Pose {
-        let (c2, k) = (self.c2, self.k);
-        let m2 = random.sign()
-            * part
-            * 2.0
-            * (PLAIN_REACH * self.extent).max(10.0 * REACH_TOLERANCE)
-            * self.extent
-            * c2
-            * k;
-        let (longest2, shortest2) = ((c2 + k).powi(2), (c2 - k).powi(2));
-        let middle = c2 * c2 + k * k;
-        // 4 m^2 = (longest^2 - r^2) (r^2 - shortest^2), a parabola over r^2 with its vertex at `middle`.
-        let half = ((longest2 - middle) * (middle - shortest2) - 4.0 * m2).sqrt();
-        let folded = middle - half;
-        let r = if random.sign() > 0.0 || folded <= 0.0 { middle + half } else { folded }.sqrt();
-        loop {
-            let (sin, cos) = random.angle().sin_cos();
-            let x = self.a1 + r * sin;
-            if x.abs() > 20.0 * PLAIN_SHOULDER * self.extent {
-                return self.with_end_of_planar_arm(x, r * cos, random);
-            }
-        }
-    }
-
-    /// The slots by the lanes; `None` where the pose is not plain or has no solution.
-    fn by_lanes(&self, pose: &Pose) -> Option<PlainAnswer<6>> {
-        by_lanes(&self.robot, pose, ())
-    }
-
-    fn carefully(&self, pose: Pose) -> Solutions<6> {
-        carefully(&self.robot, pose, ())
-    }
-}
 
 /// The slots by the lanes; `None` where the pose is not plain or has no solution.
 fn by_lanes<const N: usize>(
@@ -215,7 +35,7 @@ where
 {
     let mut solutions = robot.unsolved(*pose);
     let plain = robot.solve_in_lanes(&mut solutions, given);
-    let slot = |slot: usize| Some(solutions.slot(slot)?).map(|found| (found.q, found.status));
+    let slot = |slot: usize| solutions.slot(slot).map(|found| (found.q, found.status));
     plain.then(|| core::array::from_fn(slot))
 }
 
@@ -232,14 +52,14 @@ where
 type PlainAnswer<const N: usize> = [Option<([f64; N], Status)>; 8];
 
 #[derive(Default)]
-struct Tally {
+struct Comparison {
     plain: usize,
     slots: usize,
     /// The largest difference, as a part of its bound.
     apart: f64,
 }
 
-impl Tally {
+impl Comparison {
     /// Solves a pose both ways.
     fn take(&mut self, arm: &Arm, pose: Pose, what: &str) {
         let pose = checked_pose(&pose).unwrap();
@@ -254,8 +74,9 @@ impl Tally {
         for (slot, found) in plain.into_iter().enumerate() {
             let Some(((q, _), careful)) = found.zip(careful.slot(slot)) else { continue };
             assert_eq!(careful.free, None, "{what}");
-            // A solution closes to 3e-15 of the arm's lengths and to 1e-14 rad, and to what an offset's digits round off theta; so two are
-            // apart by twice that at most, in the pose, and in the joints by that over the least singular value.
+            // A solution closes to 3e-15 of the arm's lengths and to 1e-14 rad, and to what an
+            // offset's digits round off theta; so two are apart by twice that at most, in the pose,
+            // and in the joints by that over the least singular value.
             let rounded_off =
                 f64::EPSILON * arm.offsets.iter().map(|offset| offset.abs()).sum::<f64>();
             let closed = [(3e-15 + rounded_off) * arm.extent, 1e-14 + rounded_off];
@@ -282,7 +103,8 @@ impl Tally {
     }
 }
 
-/// Arms with and without each offset; between a turned base and tool; with limits that ask for a full turn.
+/// Arms with and without each offset; between a turned base and tool; with limits that ask for a
+/// full turn.
 fn arms() -> Vec<Arm> {
     let abb_2600 = || Robot::<6>::named("IRB 2600-12/1.65").unwrap();
     let opw = OpwParameters::abb(0.15, -0.11, 0.45, 0.6, 0.64, 0.1);
@@ -335,10 +157,11 @@ fn parallel_arm(a1: f64, [c2, c3]: [f64; 2]) -> Robot<6> {
     Robot::from_mdh(Mdh { base: Pose::identity(), rows, flange }).unwrap()
 }
 
-type Place = fn(&Arm, f64, &mut Random) -> Pose;
+type Place = fn(&Arm, f64, &mut Rng) -> Pose;
 
-/// The margins by name, and the least part of their poses that must be plain: at the edge of reach, half of the arms reach with neither
-/// shoulder; and next to the wrist's, arms with three parallel axes must stand 1.5e-7 d5 / 1e-6, two centimetres, from the shoulder's singularity.
+/// The margins by name, and the least part of their poses that must be plain: at the edge of reach,
+/// half of the arms reach with neither shoulder; and next to the wrist's, arms with three parallel
+/// axes must stand 1.5e-7 d5 / 1e-6, two centimetres, from the shoulder's singularity.
 const MARGINS: [(&str, Place, f64); 3] = [
     ("wrist", Arm::next_to_the_wrist_margin, 0.9),
     ("shoulder", Arm::next_to_the_shoulder_margin, 0.95),
@@ -349,18 +172,18 @@ const MARGINS: [(&str, Place, f64); 3] = [
 #[expect(clippy::cast_precision_loss, reason = "counts")]
 fn plain_and_careful_agree() {
     on_each_set(|set| {
-        let mut random = Random(5);
+        let mut random = Rng::new(5);
         for arm in &arms() {
-            let mut all = Tally::default();
+            let mut all = Comparison::default();
             let mut run_set = |set_name: String, least: f64, make: &mut dyn FnMut() -> Pose| {
-                let mut tally = Tally::default();
+                let mut tally = Comparison::default();
                 (0..POSES).for_each(|_| tally.take(arm, make(), &set_name));
                 let plain = tally.plain as f64 / POSES as f64;
                 assert!(
                     if least > 0.0 { plain >= least } else { plain == 0.0 },
                     "{set_name}: {plain} of the poses are plain"
                 );
-                all = Tally {
+                all = Comparison {
                     plain: all.plain + tally.plain,
                     slots: all.slots + tally.slots,
                     apart: all.apart.max(tally.apart),
@@ -377,7 +200,7 @@ fn plain_and_careful_agree() {
                     );
                 }
             }
-            let Tally { plain, slots, apart } = all;
+            let Comparison { plain, slots, apart } = all;
             println!(
                 "{:24} {:8} {plain:6} plain poses  {slots:6} slots  worst {apart:.3} of the bound",
                 arm.name,
@@ -394,7 +217,7 @@ fn in_the_lanes_no_arm_is_plain_that_is_minute_in_its_surroundings() {
         "far base",
         Robot::<6>::named("IRB 2600-12/1.65").unwrap().with_base(&base).unwrap(),
     );
-    let mut random = Random(6);
+    let mut random = Rng::new(6);
     on_each_set(|_| {
         for _ in 0..POSES {
             let pose = arm.anywhere(&mut random);
@@ -403,8 +226,9 @@ fn in_the_lanes_no_arm_is_plain_that_is_minute_in_its_surroundings() {
     });
 }
 
-/// Joint vectors all around, some of them next to where a family's branches meet: each joint by chance at a quarter turn and `off` from it.
-fn joints<const N: usize>(random: &mut Random, off: f64) -> [f64; N] {
+/// Joint vectors all around, some of them next to where a family's branches meet: each joint by
+/// chance at a quarter turn and `off` from it.
+fn joints<const N: usize>(random: &mut Rng, off: f64) -> [f64; N] {
     core::array::from_fn(|_| {
         let angle = random.between(-PI, PI);
         if random.between(0.0, 1.0) < 0.2 {
@@ -416,7 +240,7 @@ fn joints<const N: usize>(random: &mut Random, off: f64) -> [f64; N] {
 }
 
 /// How many poses were plain, after both ways were held against one another for each.
-fn agreeing<const N: usize>(robot: &Robot<N>, reach: f64, random: &mut Random) -> usize
+fn agreeing<const N: usize>(robot: &Robot<N>, reach: f64, random: &mut Rng) -> usize
 where
     Joints<N>: Arity<N>,
 {
@@ -466,7 +290,7 @@ fn plain_and_careful_agree_in_every_family() {
     let base = pose_from_euler_zyx([0.8, -0.5, 0.3], [-1.9, 0.4, 0.2]).unwrap();
     let limits = [[-7.0, 1.0], [-1.0, 4.5], [-4.7, -0.2], [-9.0, 9.0], [-PI, 0.3], [-0.3, PI]];
     on_each_set(|_| {
-        let mut random = Random(7);
+        let mut random = Rng::new(7);
         for name in ["UR3", "UR10e"] {
             let robot = Robot::<6>::named(name).unwrap();
             let turned = robot.clone().with_base(&base).unwrap().with_tool(&tool).unwrap();

@@ -1,18 +1,19 @@
-//! An arm with three parallel axes by its lengths: its table, and its geometry once more, from its joints alone.
+//! An arm with three parallel axes by its lengths: its table, and its geometry once more, from its
+//! joints alone.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use irbkin::{DhRow, Mdh, Pose, Robot};
 use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Translation3, Vector3};
 
-/// Lengths [m], signs and offsets of an arm with three parallel axes: theta = sign * q - offset counts from the arm standing straight up,
-/// axis 5 up and axis 6 to the side.
+/// Lengths [m], signs and offsets of an arm with three parallel axes: theta = sign * q - offset
+/// counts from the arm standing straight up, axis 5 up and axis 6 to the side.
 #[derive(Clone, Debug)]
 pub struct ParallelArm {
     /// Distance of axis 2 from axis 1.
     pub a1: f64,
-    /// Distances of axes 3, 4 and 5 from the foot of axis 1 on axis 2, along it: where they are drawn; only their sum, the distance of the
-    /// wrist from the plane through axis 1, counts.
+    /// Distances of axes 3, 4 and 5 from the foot of axis 1 on axis 2, along it: where they are
+    /// drawn; only their sum, the distance of the wrist from the plane through axis 1, counts.
     pub b: [f64; 3],
     /// Height of axis 2.
     pub c1: f64,
@@ -93,8 +94,8 @@ impl ParallelArm {
         self.b.iter().sum()
     }
 
-    /// The table. Its zero pose and the directions of its joints follow the offsets and the signs: a joint of sign -1 has its frame turned
-    /// over, `Rz(-q) = Rx(pi) Rz(q) Rx(-pi)`.
+    /// The table. Its zero pose and the directions of its joints follow the offsets and the signs:
+    /// a joint of sign -1 has its frame turned over, `Rz(-q) = Rx(pi) Rz(q) Rx(-pi)`.
     pub fn mdh(&self) -> Mdh<6> {
         let [b2, b3, b4] = self.b;
         let mut rows = [
@@ -139,7 +140,8 @@ impl ParallelArm {
         ]
     }
 
-    /// The end of the planar arm where joint 6 of a pose with sin theta_5 = 0 is turned to `theta_6`: on a circle about the wrist.
+    /// The end of the planar arm where joint 6 of a pose with sin theta_5 = 0 is turned to
+    /// `theta_6`: on a circle about the wrist.
     pub fn end_along_family(&self, theta: &[f64; 6], theta_6: f64) -> [f64; 2] {
         let phi = theta[1] + theta[2] + theta[3];
         let turned =
@@ -175,8 +177,8 @@ impl ParallelArm {
         (flange.translation.vector - approach * self.d6 - Vector3::z() * self.c1, rotation)
     }
 
-    /// What a pose asks of the planar arm: shoulder in front and behind, wrist as told and flipped. None where the wrist is within the
-    /// cylinder of radius b; how far inside then [m].
+    /// What a pose asks of the planar arm: shoulder in front and behind, wrist as told and flipped.
+    /// None where the wrist is within the cylinder of radius b; how far inside then [m].
     pub fn asked(&self, pose: &Pose) -> Result<[[Asked; 2]; 2], f64> {
         let (w, rotation) = self.wrist(pose);
         let (rho, b) = (w.x.hypot(w.y), self.b());
@@ -187,7 +189,8 @@ impl ParallelArm {
         Ok([size, -size].map(|x| {
             let theta_1 = w.y.atan2(w.x) - b.atan2(x);
             let m = Rotation3::from_axis_angle(&Vector3::z_axis(), -theta_1).matrix() * rotation;
-            // Axis 5 is square to axis 2 and to the approach: along y x (M y) = (m21, 0, -m01), up to its sign.
+            // Axis 5 is square to axis 2 and to the approach: along y x (M y) = (m21, 0, -m01), up
+            // to its sign.
             let (sin_phi, cos_phi) = (m[(2, 1)], -m[(0, 1)]);
             let sin_5 = sin_phi.hypot(cos_phi);
             [1.0, -1.0].map(|wrist| {
@@ -214,9 +217,4 @@ pub fn quarters_about_x(quarters: i32) -> Matrix3<f64> {
     let (sin, cos) = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)]
         [quarters.rem_euclid(4).unsigned_abs() as usize];
     Matrix3::new(1.0, 0.0, 0.0, 0.0, cos, -sin, 0.0, sin, cos)
-}
-
-/// Distance of an angle from the nearest full turn [rad].
-pub fn wrapped(angle: f64) -> f64 {
-    (angle - TAU * (angle / TAU).round()).abs()
 }

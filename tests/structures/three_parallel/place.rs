@@ -1,26 +1,22 @@
-//! Where a hard set places an arm with three parallel axes, and what rounding leaves open of its joints there.
+//! Where a hard set places an arm with three parallel axes, and what rounding leaves open of its
+//! joints there.
 
 use std::f64::consts::PI;
 
 use irbkin::thresholds;
 
-use crate::common::Rng;
-use crate::common::parallel_arm::{ParallelArm, wrapped};
+use super::arm::ParallelArm;
+use crate::common::wrapped;
+use crate::rng::Rng;
+use crate::structures::place::{At, Place};
 
-/// The elbow angle of a stretched arm below which it is straight to rounding: sqrt(2 rounding of the position / lever), 9e-8 for a UR10e.
+/// The elbow angle of a stretched arm below which it is straight to rounding: sqrt(2 rounding of
+/// the position / lever), 9e-8 for a UR10e.
 const STRAIGHT: f64 = 1e-7;
 /// How near the joints that a pose determines must be to those that made it [rad].
 pub const FOUND: f64 = 1e-6;
 /// Open by more than this, joint 6 is not determined by the pose [rad].
 pub const OPEN: f64 = 0.1;
-
-/// How a set's poses are made: sines of what is near zero, `None` for anything.
-#[derive(Clone, Copy, Default)]
-pub struct Place {
-    pub wrist: Option<f64>,
-    pub shoulder: Option<f64>,
-    pub elbow: Option<f64>,
-}
 
 /// Distance of the wrist from the shoulder's singularity where a set does not ask for it [m].
 pub fn clear_of_axis_1(arm: &ParallelArm) -> f64 {
@@ -28,27 +24,20 @@ pub fn clear_of_axis_1(arm: &ParallelArm) -> f64 {
 }
 
 /// A joint vector of the set, as theta.
-pub fn place(arm: &ParallelArm, place: Place, rng: &mut Rng) -> [f64; 6] {
-    loop {
-        let mut theta: [f64; 6] = std::array::from_fn(|_| rng.between(-PI, PI));
-        let half_turn = |rng: &mut Rng| if rng.unit() < 0.5 { 0.0 } else { PI };
-        let sign = |rng: &mut Rng| if rng.unit() < 0.5 { -1.0 } else { 1.0 };
-        for (joint, off) in [(4, place.wrist), (2, place.elbow)] {
-            theta[joint] = match off {
-                Some(off) => half_turn(rng) + sign(rng) * off,
-                None => sign(rng) * rng.between(0.2, 2.9),
-            };
-        }
-        if let Some(off) = place.shoulder {
-            match theta_2(arm, &theta, sign(rng) * off, rng) {
-                Some(theta_2) => theta[1] = theta_2,
-                None => continue,
-            }
-        } else if arm.x(&theta).abs() < clear_of_axis_1(arm) {
-            continue;
-        }
-        return theta;
+pub fn at(arm: &ParallelArm, place: &Place, rng: &mut Rng) -> Option<[f64; 6]> {
+    let mut theta: [f64; 6] = rng.angles();
+    for (joint, at) in [(4, At::Wrist), (2, At::Elbow)] {
+        theta[joint] = match place.off(at) {
+            Some(off) => rng.half_turn() + rng.sign() * off,
+            None => rng.sign() * rng.between(0.2, 2.9),
+        };
     }
+    if let Some(off) = place.shoulder() {
+        theta[1] = theta_2(arm, &theta, rng.sign() * off, rng)?;
+    } else if arm.x(&theta).abs() < clear_of_axis_1(arm) {
+        return None;
+    }
+    Some(theta)
 }
 
 /// A theta_2 that puts the wrist `x` before axis 1; none where it cannot get there.
@@ -61,7 +50,8 @@ fn theta_2(arm: &ParallelArm, theta: &[f64; 6], x: f64, rng: &mut Rng) -> Option
     (sine.abs() < 0.99).then_some(forward - across.atan2(along))
 }
 
-/// How far the joints found may be from those that made the pose, by what rounding leaves open of them (docs/accuracy.md, sections 3 to 5).
+/// How far the joints found may be from those that made the pose, by what rounding leaves open of
+/// them (docs/accuracy.md, sections 3 to 5).
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
     /// theta_1 and theta_5 [rad].
@@ -73,11 +63,11 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    pub fn of(arm: &ParallelArm, theta: &[f64; 6], place: Place) -> Self {
+    pub fn of(arm: &ParallelArm, theta: &[f64; 6], place: &Place) -> Self {
         let b = arm.b();
         let position = 8.0 * f64::EPSILON * (1.0 + arm.reach());
         // x^2 = rho^2 - b^2; below the merge threshold one x stands for both.
-        let x = match place.shoulder {
+        let x = match place.shoulder() {
             None => position * (1.0 + b / clear_of_axis_1(arm)),
             Some(off) => {
                 let merged = (2.0 * b * thresholds::POSITION_ROUNDING * arm.reach()).sqrt();
@@ -87,13 +77,13 @@ impl Bounds {
             }
         };
         let plane = x / b + 2.0 * position;
-        let six = (plane / place.wrist.unwrap_or(0.19).max(1e-300)).min(PI);
+        let six = (plane / place.wrist().unwrap_or(0.19).max(1e-300)).min(PI);
         let end = x + position + arm.d5 * (plane + six);
         let elbow = |elbows: [f64; 2]| elbows.map(|angle| FOUND + angle.min(PI));
         Self {
             plane: FOUND + plane,
             six: FOUND + six,
-            arm: elbow(Self::elbow(arm, theta[2], place.elbow, end)),
+            arm: elbow(Self::elbow(arm, theta[2], place.elbow(), end)),
         }
     }
 
@@ -112,7 +102,8 @@ impl Bounds {
             // Folded onto axis 2: r = c2 theta_3, and only the direction to the end tells theta_2.
             return [2.0 * end / (c2 * off.max(1e-300)), 2.0 * end / c2 + merged];
         }
-        // A deviation e of theta_3 moves the end by c2 c3 e^2 / (2 r), and turns the upper arm by up to longest / r times e.
+        // A deviation e of theta_3 moves the end by c2 c3 e^2 / (2 r), and turns the upper arm by
+        // up to longest / r times e.
         let lever = c2 * c3 / r;
         let root = (2.0 * end / lever).sqrt().min(2.0 * end / (lever * off.max(1e-300)));
         [(root + merged) * (longest / r) + end / r, root + merged]
@@ -127,7 +118,8 @@ impl Bounds {
             && (self.six > OPEN || wrapped(phi(found) - phi(made)) <= self.plane + self.six)
     }
 
-    /// Whether a joint vector has its plane and joint 5, up to its sign, as the one that made the pose.
+    /// Whether a joint vector has its plane and joint 5, up to its sign, as the one that made the
+    /// pose.
     pub fn hold_plane(&self, found: &[f64; 6], made: &[f64; 6]) -> bool {
         let five = (wrapped(found[4]) - wrapped(made[4])).abs();
         wrapped(found[0] - made[0]) <= self.plane && five <= self.plane

@@ -1,0 +1,109 @@
+//! What any structure is asked, whichever it is.
+
+use super::NO_LINKAGE;
+use super::free_choice::FreeChoice;
+use super::lanes::PoseRow;
+use super::open_wrist::OpenWrist;
+use crate::kinematics::answer::singularity::SingularDistances;
+use crate::kinematics::answer::slot::Slot;
+use crate::kinematics::answer::solutions::Solutions;
+use crate::kinematics::answer::status::Status;
+use crate::kinematics::pose::Pose;
+use crate::report::UnknownStructure;
+
+/// What any structure of `N` joints is asked: a [`Solver`](super::solver::Solver) answers, or the reason why there is none.
+pub(crate) trait Arm<const N: usize, R> {
+    /// Why the arm has none of the known structures, if so.
+    fn unknown(&self) -> Option<UnknownStructure> {
+        None
+    }
+
+    /// Name of the structure.
+    fn name(&self) -> &'static str;
+
+    /// What each slot stands for, where branches have names.
+    fn slot_names(&self) -> Option<&'static [&'static str]> {
+        None
+    }
+
+    /// Solves the answer's pose, whatever it is, one branch after the other.
+    ///
+    /// # Errors
+    ///
+    /// Why the structure is unknown.
+    fn solve(
+        &self,
+        solutions: &mut Solutions<N>,
+        redundancy: R,
+        free: &FreeChoice<N>,
+    ) -> Result<(), UnknownStructure>;
+
+    /// Solves rows of poses into rows of slots; `by_itself` solves one row, by its number, that is not regular.
+    fn solve_rows(&self, rows: Rows<'_, R>, by_itself: &mut RowSolve<'_, N>);
+
+    /// How far a joint vector is from each singularity, and at which of them it stands.
+    fn singular(&self, _q: &[f64; N]) -> Option<(SingularDistances, Status)> {
+        None
+    }
+
+    /// [`Structure::jacobian_determinant`]
+    fn jacobian_determinant(&self, _q: &[f64; N]) -> Option<f64> {
+        None
+    }
+
+    /// [`Structure::slot`]
+    fn slot(&self, _q: &[f64; N]) -> Option<Slot> {
+        None
+    }
+
+    /// [`Structure::sin_5`]
+    fn sin_5(&self, _q: &[f64; N]) -> Option<f64> {
+        None
+    }
+
+    /// [`Structure::open_wrist`]
+    fn spherical_wrist(&self) -> Option<&dyn OpenWrist<N>> {
+        None
+    }
+
+    /// The last frame of the structure, seen from its first, of the tool's pose (eq. 1).
+    fn last_frame(&self, pose: &Pose) -> Pose {
+        *pose
+    }
+
+    /// [`Structure::may_be_coupled`]
+    ///
+    /// # Errors
+    ///
+    /// Why not.
+    fn may_be_coupled(&self) -> Result<(), &'static str> {
+        Err(NO_LINKAGE)
+    }
+}
+
+/// Rows to be solved: poses, what a caller gives with each, and room for the slots and their status.
+pub(crate) struct Rows<'a, R> {
+    pub(crate) poses: &'a [PoseRow],
+    pub(crate) redundancy: &'a [R],
+    pub(crate) q: &'a mut [f64],
+    pub(crate) status: &'a mut [u8],
+}
+
+/// Solves the row of a number into its slots and their status.
+pub(crate) type RowSolve<'a, const N: usize> = dyn FnMut(usize, &mut [[f64; N]], &mut [u8]) + 'a;
+
+impl<const N: usize, R> Arm<N, R> for UnknownStructure {
+    fn unknown(&self) -> Option<UnknownStructure> {
+        Some(*self)
+    }
+
+    fn name(&self) -> &'static str {
+        "serial"
+    }
+
+    fn solve(&self, _: &mut Solutions<N>, _: R, _: &FreeChoice<N>) -> Result<(), UnknownStructure> {
+        Err(*self)
+    }
+
+    fn solve_rows(&self, _: Rows<'_, R>, _: &mut RowSolve<'_, N>) {}
+}

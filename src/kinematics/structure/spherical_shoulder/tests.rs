@@ -1,0 +1,179 @@
+//! What no caller can ask for: a solve that takes from a joint vector what the pose leaves open.
+//! The laws of the structure are in tests/.
+
+use std::format;
+use std::string::String;
+use std::vec::Vec;
+
+use super::*;
+use crate::kinematics::chain::Chain;
+use crate::kinematics::pose::PoseError;
+use crate::kinematics::structure::any::recognized;
+use crate::kinematics::structure::branches::Branches;
+use crate::kinematics::structure::free_choice::{FreeChoice, Trust};
+use crate::kinematics::structure::solver::Solver;
+use crate::rng::Rng;
+use crate::structures::place::{At, Place};
+use crate::structures::shoulder_arm::ShoulderArm;
+
+const SLOTS: usize = 8;
+
+const OFF: [f64; 8] = [0.0, 1e-12, 1e-9, 2e-9, 1e-7, 1e-6, 1e-5, 1e-4];
+
+/// The part of a joint vector that the solve is given.
+const KEPT: f64 = 1e-12;
+
+/// An arm with its chain and its solver.
+struct Solved {
+    name: &'static str,
+    arm: ShoulderArm,
+    chain: Chain<7>,
+    solver: Solver<SphericalShoulder, 7, 8>,
+}
+
+impl Solved {
+    fn new(name: &'static str, arm: ShoulderArm) -> Self {
+        let (chain, solver) = recognized(&arm.mdh()).unwrap();
+        Self { name, arm, chain, solver }
+    }
+
+    fn solve(&self, pose: &Pose, free: &FreeChoice<7>) -> Branches<7> {
+        let t_shoulder_seven = self.solver.surroundings.wrist_pose(pose);
+        self.solver.structure.solve(&t_shoulder_seven, free.q[6], free)
+    }
+
+    /// The worst distance of a solution from the pose.
+    fn residual(&self, branches: &Branches<7>, pose: &Pose) -> f64 {
+        let of = |q: &[f64; 7]| PoseError::between(&self.chain.fk(q), pose).largest();
+        // What is not a number stays the worst.
+        branches.q.iter().flatten().map(of).fold(0.0, |a, b| if b <= a { a } else { b })
+    }
+}
+
+fn arms() -> [Solved; 4] {
+    [
+        Solved::new("Panda", ShoulderArm::panda()),
+        Solved::new("iiwa", ShoulderArm::iiwa()),
+        Solved::new("oblique", ShoulderArm::oblique()),
+        Solved::new("onto itself", ShoulderArm::onto_itself()),
+    ]
+}
+
+fn poses() -> usize {
+    std::env::var("IRBKIN_POSES").ok().and_then(|text| text.parse().ok()).unwrap_or(100)
+}
+
+/// Poses at and next to every singularity, and every two and three of them with shoulder or wrist.
+fn places() -> Vec<(Place, usize)> {
+    let pairs = || OFF.iter().flat_map(|a| OFF.map(|b| (*a, b)));
+    let (one_of, several_of) = (poses(), poses().div_ceil(4));
+    let mut places = Vec::new();
+    for one in [At::Shoulder, At::Stretched, At::Folded, At::Wrist, At::Forearm, At::Hand] {
+        places.extend(OFF.map(|off| (Place::of(one, off), one_of)));
+        for two in [At::Shoulder, At::Wrist].into_iter().filter(|two| *two != one) {
+            places.extend(pairs().map(|(a, b)| (Place(vec_of([(one, a), (two, b)])), several_of)));
+        }
+        if !matches!(one, At::Shoulder | At::Wrist) {
+            places.extend(pairs().map(|(a, b)| {
+                let three = [(one, a), (At::Wrist, b), (At::Shoulder, a)];
+                (Place(vec_of(three)), several_of)
+            }));
+        }
+    }
+    places
+}
+
+fn vec_of<const M: usize>(parts: [(At, f64); M]) -> Vec<(At, f64)> {
+    parts.into_iter().collect()
+}
+
+#[test]
+fn a_seed_and_a_path_keep_their_branch_at_and_next_to_singularities() {
+    let mut rng = Rng::new(30);
+    for arm in arms() {
+        let (mut judged, mut amiss) = (0, Vec::new());
+        for (place, count) in places() {
+            for _ in 0..count {
+                let Some(theta) = arm.arm.at(&place, &mut rng) else { break };
+                judged += 1;
+                amiss.extend(judge(&arm, &theta).map(|what| format!("{place:?}: {what}")));
+            }
+        }
+        std::println!("{:12} {judged:7} poses, {} amiss", arm.name, amiss.len());
+        assert!(judged > 100 * poses(), "{}: {judged}", arm.name);
+        assert!(amiss.is_empty(), "{}: {} of {judged}, {}", arm.name, amiss.len(), amiss[0]);
+    }
+}
+
+/// What is amiss with the solves that are given the joint vector that made the pose.
+fn judge(arm: &Solved, theta: &[f64; 7]) -> Option<String> {
+    let q = arm.arm.q(*theta);
+    let pose = arm.chain.fk(&q);
+    let bounds = arm.arm.bounds(theta, KEPT);
+    for trust in [Trust::Seed, Trust::Path] {
+        let kept = arm.solve(&pose, &FreeChoice { q, trust });
+        let is_found =
+            |found: &[f64; 7]| ShoulderArm::is_branch(&arm.arm.theta(found), theta, &bounds);
+        let found = kept.q.iter().flatten().any(is_found);
+        // A path goes on by itself as far as rounding leaves the upper arm open.
+        let allowed = 4e-12 + if trust == Trust::Path { bounds[2] } else { 0.0 };
+        let residual = arm.residual(&reached(arm, theta, &kept), &pose);
+        if !found || residual > allowed || residual.is_nan() {
+            return Some(format!("{trust:?} {q:?} {bounds:?} {residual:e}: {kept:?}"));
+        }
+    }
+    None
+}
+
+/// The branches without those of the other elbow whose wrist is at its edge: that one may be up to
+/// a nanometer beyond reach.
+fn reached(arm: &Solved, theta: &[f64; 7], branches: &Branches<7>) -> Branches<7> {
+    let (own, mut reached) = (arm.arm.slot(theta) & 2, *branches);
+    for (slot, flags) in branches.flags.iter().enumerate() {
+        if slot & 2 != own && flags.contains(Status::WRIST) && !flags.contains(Status::ELBOW) {
+            reached.q[slot] = None;
+        }
+    }
+    reached
+}
+
+#[test]
+fn a_free_joint_takes_the_angle_that_it_is_given() {
+    let mut rng = Rng::new(33);
+    let mut moved = 0;
+    for arm in arms() {
+        for at in [At::Shoulder, At::Forearm, At::Hand] {
+            for _ in 0..poses() {
+                let Some(theta) = arm.arm.at(&Place::of(at, 0.0), &mut rng) else { break };
+                let rest = FreeChoice::rest([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, arm.arm.q(theta)[6]]);
+                let pose = arm.chain.fk(&arm.arm.q(theta));
+                let branches = arm.solve(&pose, &rest);
+                for slot in 0..SLOTS {
+                    let (Some(q), Some(free)) = (branches.q[slot], branches.free[slot]) else {
+                        continue;
+                    };
+                    moved += 1;
+                    assert!(
+                        family_closes(&arm, &pose, q, slot, free.joint()),
+                        "{}: {q:?}",
+                        arm.name
+                    );
+                }
+            }
+        }
+    }
+    assert!(moved > 10 * poses(), "{moved}");
+}
+
+fn family_closes(arm: &Solved, pose: &Pose, found: [f64; 7], slot: usize, joint: usize) -> bool {
+    let mut q = found;
+    q[joint - 1] = 0.7;
+    let family = arm.solve(pose, &FreeChoice::forced(q, joint, false));
+    // The shoulder, or the wrist and with it the shoulder, may be kept in its other branch there.
+    let bits = if joint == 1 { &[0, 4][..] } else { &[0, 1, 4, 5] };
+    let moved = bits.iter().find_map(|bits| family.q[slot ^ bits]);
+    moved.is_some_and(|q| {
+        (q[joint - 1] - 0.7).abs() < 1e-15
+            && PoseError::between(&arm.chain.fk(&q), pose).largest() < 4e-9
+    })
+}

@@ -1,0 +1,64 @@
+//! The tests' one source of random numbers, of the unit tests in `src` too.
+
+use irbkin::{Arity, Joints};
+use std::f64::consts::{PI, TAU};
+
+use irbkin::JointLimits;
+
+/// A small generator with a fixed seed: a run draws the same numbers everywhere (splitmix64).
+///
+/// Any seed will do, and every bit is random.
+pub struct Rng(u64);
+
+impl Rng {
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        mixed ^ (mixed >> 31)
+    }
+
+    /// Uniform in 0 .. 1.
+    #[expect(clippy::cast_precision_loss, reason = "53 bits")]
+    pub fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / 2.0_f64.powi(53)
+    }
+
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    /// -1 or 1.
+    pub fn sign(&mut self) -> f64 {
+        if self.unit() < 0.5 { -1.0 } else { 1.0 }
+    }
+
+    /// 0 or pi.
+    pub fn half_turn(&mut self) -> f64 {
+        if self.unit() < 0.5 { 0.0 } else { PI }
+    }
+
+    /// In -pi .. pi.
+    pub fn angle(&mut self) -> f64 {
+        self.between(-PI, PI)
+    }
+
+    pub fn angles<const N: usize>(&mut self) -> [f64; N]
+    where
+        Joints<N>: Arity<N>,
+    {
+        std::array::from_fn(|_| self.angle())
+    }
+
+    /// Uniform inside the limits; in two turns either way where a joint has none.
+    pub fn inside<const N: usize>(&mut self, limits: &JointLimits<N>) -> [f64; N]
+    where
+        Joints<N>: Arity<N>,
+    {
+        limits.to_array().map(|[low, high]| self.between(low.max(-TAU * 2.0), high.min(TAU * 2.0)))
+    }
+}

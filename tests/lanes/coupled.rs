@@ -1,0 +1,95 @@
+//! Arms whose axes 2 and 3 a parallelogram couples: in a batch, alone and by the scalar solver.
+
+use std::f64::consts::TAU;
+use std::num::NonZeroUsize;
+
+use irbkin::{JointLimits, OpwParameters, Robot, batch, pose_to_rows};
+
+use crate::common::{Rng, apart, on_each_set};
+
+const SLOTS: usize = 8;
+
+/// The figures of an IRB 2400-10/1.55.
+fn opw() -> OpwParameters {
+    OpwParameters::abb(0.1, -0.135, 0.615, 0.705, 0.755, 0.085)
+}
+
+fn unlimited() -> Robot<6> {
+    Robot::from_opw(opw()).unwrap().coupled().unwrap()
+}
+
+/// With the controller's limits.
+fn limited() -> Robot<6> {
+    let degrees = [
+        [-180.0, 180.0],
+        [-100.0, 110.0],
+        [-60.0, 65.0],
+        [-200.0, 200.0],
+        [-120.0, 120.0],
+        [-400.0, 400.0],
+    ];
+    unlimited()
+        .with_limits(JointLimits::new(degrees.map(|limit| limit.map(f64::to_radians))).unwrap())
+}
+
+/// An arm with signs, offsets and a lateral offset.
+fn odd() -> Robot<6> {
+    let odd = OpwParameters {
+        b: 0.04,
+        offsets: [0.1, -0.7, 2.0, 0.3, -0.2, 0.5],
+        signs: [-1, -1, -1, 1, -1, 1],
+        ..opw()
+    };
+    Robot::from_opw(odd).unwrap().coupled().unwrap()
+}
+
+fn with_rod() -> Robot<6> {
+    limited().with_rod_limits(Some([-100.0_f64.to_radians(), 40.0_f64.to_radians()])).unwrap()
+}
+
+#[test]
+fn batch_equals_single_and_the_careful_solve() {
+    let mut rng = Rng::new(6);
+    // Limits so far out that lanes do not take them: the careful solve, of the same postures.
+    let careful = |robot: &Robot<6>| {
+        let mut far = robot.limits().to_array();
+        far[0] = far[0].map(|limit| limit + TAU);
+        robot.clone().with_limits(JointLimits::new(far).unwrap())
+    };
+    on_each_set(|set| {
+        for robot in [limited(), with_rod(), odd()] {
+            let slow = careful(&limited()).with_rod_limits(robot.limits().rod()).unwrap();
+            let joints: Vec<_> = (0..101).map(|_| rng.inside(robot.limits())).collect();
+            let poses: Vec<_> = joints.iter().map(|q| robot.fk(q)).collect();
+            let rows: Vec<f64> = poses.iter().flat_map(pose_to_rows).collect();
+            let (mut q, mut status) = (vec![[[0.0; 6]; SLOTS]; 101], vec![[0; SLOTS]; 101]);
+            batch::ik(
+                &robot,
+                &rows,
+                q.as_flattened_mut().as_flattened_mut(),
+                status.as_flattened_mut(),
+                NonZeroUsize::new(1),
+            )
+            .unwrap();
+            for (row, pose) in poses.iter().enumerate() {
+                let single = robot.ik(pose).unwrap();
+                assert_eq!(
+                    status[row],
+                    std::array::from_fn(|slot| single.status()[slot].bits()),
+                    "{}",
+                    set.name()
+                );
+                for solution in &single {
+                    assert!(apart(&q[row][solution.slot.index()], &solution.q) < 1e-12);
+                }
+                if robot.limits().to_array()[0][0].is_finite() {
+                    let slowly = slow.ik(pose).unwrap();
+                    assert_eq!(slowly.status(), single.status());
+                    for (one, other) in slowly.iter().zip(&single) {
+                        assert!(apart(&one.q, &other.q) < 1e-12);
+                    }
+                }
+            }
+        }
+    });
+}

@@ -1,0 +1,36 @@
+//! The suite: one binary, for linking and optimizing one for each file took most of the time.
+//!
+//! A new file of tests is a module here; `CONTRIBUTING.md` says how. What forces an instruction set
+//! in the whole process is in `lanes.rs`, which is a binary of its own.
+#![allow(unreachable_pub)]
+
+mod allocation;
+mod bounds;
+mod catalogue;
+mod catalogue_page;
+mod common;
+mod configuration;
+mod coupled;
+mod follow;
+mod hard_sets;
+mod joint_axes;
+mod laws;
+mod nearest;
+#[cfg(feature = "rapid")]
+mod rapid;
+#[cfg(feature = "rapid")]
+mod rapid_calc;
+#[cfg(feature = "rapid")]
+mod rapid_fuzz;
+mod reach_and_paths;
+mod recall;
+mod redundancy;
+#[cfg(feature = "urdf")]
+mod snap;
+mod structures;
+#[cfg(feature = "urdf")]
+mod urdf;
+#[cfg(feature = "urdf")]
+mod urdf_time;
+
+use common::rng;
