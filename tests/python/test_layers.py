@@ -73,7 +73,7 @@ def test_nested_braces_are_taken_apart():
 @pytest.mark.parametrize(
     ("path", "file"),
     [
-        ("kinematics::Robot", "kinematics/robot.rs"),
+        ("kinematics::Robot", "kinematics/robot/mod.rs"),
         ("kinematics::JointLimits::new", "kinematics/chain/limits.rs"),
         ("kinematics::thresholds::MOST_ANGLE", "kinematics/thresholds.rs"),
         ("kinematics::pose::Pose", "kinematics/pose/mod.rs"),
@@ -89,4 +89,4 @@ def test_what_folders_and_their_modules_use_is_seen():
     seen = used_by()
     assert "kinematics/structure/spherical_shoulder/links.rs" in seen["kinematics/structure/spherical_shoulder/mod.rs"]
     assert "kinematics/thresholds.rs" in seen["kinematics/structure/spherical_shoulder/mod.rs"]
-    assert len(seen["kinematics/robot.rs"]) > 5
+    assert len(seen["kinematics/robot/mod.rs"]) > 5

@@ -59,7 +59,8 @@ impl<const N: usize> Solutions<N> {
             clippy::cast_sign_loss,
             reason = "a whole number below 2^53"
         )]
-        (count < MOST_EXACT && count <= usize::MAX as f64).then_some(count as usize)
+        let exact = (count < MOST_EXACT).then_some(count as u64);
+        exact.and_then(|count| usize::try_from(count).ok())
     }
 
     /// The same as a number that may be too large to count.

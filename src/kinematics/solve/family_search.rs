@@ -29,6 +29,9 @@ const PLANE_STEPS: u32 = 72;
 /// Least number of steps in which a part of a turn is searched.
 const LEAST_STEPS: u32 = 8;
 
+/// How often the way to a stretched or folded arm is halved: from five degrees to 1e-6 rad.
+const ELBOW_HALVINGS: u32 = 17;
+
 /// Valleys between steps that are looked into.
 const VALLEYS: u32 = 16;
 
@@ -43,6 +46,19 @@ struct Sample {
     heights: OfSlots,
     /// Size of sin q5 of an arm whose wrist may be singular as well.
     wrists: OfSlots,
+    /// The least angle between upper arm and forearm of an arm that is nearly stretched or folded.
+    elbow: f64,
+}
+
+/// Whether the middle one of three values is the least.
+fn is_valley(of: [f64; 3]) -> bool {
+    of[1].is_finite() && of[1] < of[0] && of[1] <= of[2]
+}
+
+impl Sample {
+    fn least_height(&self) -> f64 {
+        self.heights.into_iter().fold(f64::INFINITY, f64::min)
+    }
 }
 
 /// A part of a turn of the free joint.
@@ -76,26 +92,68 @@ where
         let Window { low, step, steps } = self.window(from, free);
         let mut before = self.sample(from, free, low - step)?;
         let mut here = self.sample(from, free, low)?;
-        let mut valleys = 0;
+        let mut valleys = VALLEYS;
         for number in 1..=steps + 1 {
             let next = self.sample(from, free, low + f64::from(number) * step)?;
-            let between = [before.angle, next.angle];
-            for slot in 0..self.known.slot_count() {
-                let in_valley = |of: [f64; 3]| of[1].is_finite() && of[1] < of[0] && of[1] <= of[2];
-                let of = |values: fn(&Sample) -> &OfSlots| {
-                    [&before, &here, &next].map(|sample| values(sample)[slot])
-                };
+            let samples = [&before, &here, &next];
+            for slot in (0..self.known.slot_count()).step_by(2) {
                 // sin q5 changes by no more than the free joint does.
-                let wrists = of(|sample| &sample.wrists);
-                if slot % 2 == 0 && in_valley(wrists) && wrists[1] <= step {
-                    self.look_at_wrist_between(from, free, slot, between)?;
-                }
-                if in_valley(of(|sample| &sample.heights)) && valleys < VALLEYS {
-                    valleys += 1;
-                    self.look_into_valley(from, free, slot, between)?;
+                if is_valley(samples.map(|sample| sample.wrists[slot])) && here.wrists[slot] <= step
+                {
+                    self.look_at_wrist_between(from, free, slot, [before.angle, next.angle])?;
                 }
             }
+            self.look_into_valleys(from, free, samples, &mut valleys)?;
+            if is_valley(samples.map(|sample| sample.elbow)) && here.elbow <= step {
+                self.look_at_elbow_between(from, free, [before.angle, next.angle], &mut valleys)?;
+            }
             (before, here) = (here, next);
+        }
+        Ok(())
+    }
+
+    /// Looks where between three angles the joints of a slot are the least outside the limits, or the nearest to the seed.
+    fn look_into_valleys(
+        &mut self,
+        from: &Solution<N>,
+        free: FreeJoint,
+        samples: [&Sample; 3],
+        left: &mut u32,
+    ) -> Result<(), Error> {
+        let between = [samples[0].angle, samples[2].angle];
+        for slot in 0..self.known.slot_count() {
+            if is_valley(samples.map(|sample| sample.heights[slot])) && *left > 0 {
+                *left -= 1;
+                let height = |search: &Self, members: &_| search.height(members, slot);
+                self.look_into_valley(from, free, between, height)?;
+            }
+        }
+        // Where another joint is singular as well, rounding moves a branch from slot to slot.
+        if is_valley(samples.map(Sample::least_height)) {
+            self.look_into_valley(from, free, between, Self::least_height)?;
+        }
+        Ok(())
+    }
+
+    /// Looks where between two angles the arm is the nearest to stretched or folded, ever closer to there: the nearer it comes, the farther a
+    /// small step of the free joint turns the arm.
+    fn look_at_elbow_between(
+        &mut self,
+        from: &Solution<N>,
+        free: FreeJoint,
+        [low, high]: [f64; 2],
+        valleys: &mut u32,
+    ) -> Result<(), Error> {
+        let elbow = |angle| Ok(self.sample(from, free, angle)?.elbow);
+        let (angle, _) = golden_section(elbow, low, high)?;
+        for side in [low - angle, high - angle] {
+            let mut before = self.sample(from, free, angle + side)?;
+            let mut here = self.sample(from, free, angle + side / 2.0)?;
+            for halvings in 2..ELBOW_HALVINGS {
+                let next = self.sample(from, free, angle + side / f64::from(1 << halvings))?;
+                self.look_into_valleys(from, free, [&before, &here, &next], valleys)?;
+                (before, here) = (here, next);
+            }
         }
         Ok(())
     }
@@ -175,7 +233,10 @@ where
         let solutions = self.members(from, free, angle)?;
         let heights = core::array::from_fn(|slot| self.height(&solutions, slot));
         let wrists = core::array::from_fn(|slot| self.wrist(&solutions, slot));
-        Ok(Sample { angle, heights, wrists })
+        let elbow =
+            solutions.iter().filter_map(|solution| self.robot.singular_distances(&solution.q));
+        let elbow = elbow.map(|distances| distances.elbow).fold(f64::INFINITY, f64::min);
+        Ok(Sample { angle, heights, wrists, elbow })
     }
 
     fn height(&self, solutions: &Solutions<N>, slot: usize) -> f64 {
@@ -198,19 +259,25 @@ where
         solution.map_or(f64::INFINITY, |found| wrist.sin_5(&found.q).abs())
     }
 
-    /// Looks where between two angles the joints of a slot are the least outside the limits, or the nearest to the seed.
+    /// The least height of all slots.
+    fn least_height(&self, solutions: &Solutions<N>) -> f64 {
+        let heights = (0..self.known.slot_count()).map(|slot| self.height(solutions, slot));
+        heights.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Looks where between two angles the members are the least outside the limits, or the nearest to the seed.
     fn look_into_valley(
         &mut self,
         from: &Solution<N>,
         free: FreeJoint,
-        slot: usize,
         [low, high]: [f64; 2],
+        height: impl Fn(&Self, &Solutions<N>) -> f64,
     ) -> Result<(), Error> {
-        let height = |angle| {
+        let at = |angle| {
             let solutions = self.members(from, free, angle)?;
-            Ok(self.height(&solutions, slot))
+            Ok(height(self, &solutions))
         };
-        golden_section(height, low, high).map(|_| ())
+        golden_section(at, low, high).map(|_| ())
     }
 
     /// Looks where between two angles the wrist of a slot is singular as well: there axes 4 and 6 may take any part of their sum.

@@ -119,7 +119,11 @@ where
                 accepts: &accepts,
             };
             let mut search = NearestSearch::new(self, solutions, &wanted, allowed);
-            search.look_along(&outside)?;
+            // A twin meets the pose to rounding; between the twins it may be met less well.
+            search.look_at_twins(&outside)?;
+            if search.best.is_none() {
+                search.look_along(&outside)?;
+            }
             if let Some(inside) = search.best.map(|best| best.solution) {
                 solutions.replace(slot, inside);
             }
@@ -217,8 +221,8 @@ where
     fn run(&mut self) -> Result<(), Error> {
         let known = self.known;
         known.iter().for_each(|solution| self.take(solution, solution));
-        for choice in self.choices() {
-            let solutions = self.robot.solve(*known.pose(), &choice)?;
+        for q in self.choices() {
+            let solutions = self.robot.solve(*known.pose(), &FreeChoice::seed(q))?;
             for solution in &solutions {
                 self.move_onto_pose(&solution.q, 0.0, solution);
             }
@@ -242,14 +246,24 @@ where
 
     /// The seed for joints that the pose leaves open, and half a turn from it: of two branches that are one the nearer is kept, so that every
     /// pair of twins comes with one or the other.
-    fn choices(&self) -> [FreeChoice<N>; 4] {
+    fn choices(&self) -> [[f64; N]; 4] {
         [[0.0, 0.0], [0.0, PI], [PI, 0.0], [PI, PI]].map(|[shoulder, wrist]| {
             let mut q = *self.wanted.seed;
             for (joint, angle) in q.iter_mut().enumerate().filter(|(joint, _)| *joint != 6) {
                 *angle += if joint < 3 { shoulder } else { wrist };
             }
-            FreeChoice::seed(q)
+            q
         })
+    }
+
+    /// Looks at the solutions of each side, with joints that the pose leaves open to rounding alone where they rest.
+    fn look_at_twins(&mut self, from: &Solution<N>) -> Result<(), Error> {
+        for q in self.choices() {
+            for solution in &self.robot.solve(*self.known.pose(), &FreeChoice::rest(q))? {
+                self.take_if_met(solution, from);
+            }
+        }
+        Ok(())
     }
 
     /// Whether a solution must meet the pose, and not only to its distance from the singularity.

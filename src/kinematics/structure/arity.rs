@@ -27,6 +27,7 @@ pub trait Arity<const N: usize>: sealed::Sealed {
 
     /// The structure of an ortho-parallel arm with a spherical wrist, where this is its number of joints.
     #[doc(hidden)]
+    #[must_use]
     fn of_opw(_opw: &OpwParameters, _chain: &Chain<N>) -> Option<Self::Structure> {
         None
     }

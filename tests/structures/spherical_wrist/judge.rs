@@ -1,6 +1,6 @@
 //! Judges answers at and next to the singularities of an arm with a spherical wrist.
 
-use irbkin::{FreeJoint, Robot, Solution, Solutions, Status, thresholds};
+use irbkin::{FreeJoint, OpwParameters, Robot, Solution, Solutions, Status, thresholds};
 
 use super::WristArm;
 use crate::common::wrapped;
@@ -98,6 +98,25 @@ pub(super) fn judge(
         twice: twice.sum(),
         flagged: is_flagged(arm, &made.place, solutions),
     }
+}
+
+/// How far beyond reach the pose is with the shoulder of a straight arm that did not make it, by no
+/// more than such an arm is given for [m].
+pub(super) fn beyond_in(arm: &WristArm, made: &Made<6>, solution: &Solution<6>) -> f64 {
+    let own = arm.x(&made.theta);
+    let x = arm.x(&arm.theta(&solution.q));
+    let is_other = (own < 0.0) != (x < 0.0);
+    if !is_other || !solution.kinds().contains(Status::ELBOW) {
+        return 0.0;
+    }
+    // The wrist centre of the pose, before axis 2 and over it; behind axis 1 it is as far away.
+    let [_, t2, t3, ..] = made.theta;
+    let OpwParameters { a1, a2, c2, c3, .. } = arm.opw;
+    let ahead = -own - a1;
+    let over = c2 * t2.cos() + c3 * (t2 + t3).cos() - a2 * (t2 + t3).sin();
+    let distance = ahead.hypot(over);
+    let missing = (distance - (c2 + arm.k())).max((c2 - arm.k()).abs() - distance).max(0.0);
+    if missing <= thresholds::REACH_TOLERANCE { missing } else { 0.0 }
 }
 
 /// Whether the tool moves where the free joint goes, beyond rounding and the distance from the

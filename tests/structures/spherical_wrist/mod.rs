@@ -184,6 +184,10 @@ impl Arm<6> for WristArm {
         Ok(())
     }
 
+    fn beyond_in(&self, _robot: &Robot<6>, made: &Made<6>, solution: &Solution<6>) -> [f64; 2] {
+        [judge::beyond_in(self, made, solution), 0.0]
+    }
+
     fn singular_places(&self) -> &'static [At] {
         &[At::Wrist, At::Shoulder, At::Elbow]
     }

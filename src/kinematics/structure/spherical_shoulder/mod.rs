@@ -6,6 +6,7 @@
 mod block;
 mod branch;
 mod elbow;
+mod geometry;
 mod joint_7;
 mod links;
 mod measure;
@@ -17,15 +18,13 @@ mod target;
 mod turn;
 mod wrist;
 
+pub(crate) use geometry::SphericalShoulder;
 pub(crate) use joint_7::EDGES;
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use nalgebra::{Rotation3, Vector3};
-
 use branch::Constants;
-use links::Links;
 use measure::PATTERN;
 
 use super::Structure;
@@ -38,42 +37,8 @@ use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::distance_from_half_turns;
 use crate::kinematics::structure::joint_map::Placement;
-use crate::kinematics::thresholds::{ROTATION_ROUNDING, WRIST_MERGE_SIN};
+use crate::kinematics::thresholds::WRIST_MERGE_SIN;
 use crate::report::{Pattern, UnknownStructure};
-
-/// The geometry between the shoulder, where axes 1, 2 and 3 meet, and the flange.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SphericalShoulder {
-    links: Links,
-    /// Its last frame is that of joint 7: what stands behind it is constant.
-    placement: Placement<7>,
-    /// From the frame of joint 7 at theta_7 = 0 to the hand, where axes 5 and 6 meet.
-    t_seven_hand: Pose,
-}
-
-impl SphericalShoulder {
-    /// How far rounding moves a pose of this arm at most [m, rad].
-    pub(crate) fn rounding(&self) -> f64 {
-        self.links.position_rounding().max(ROTATION_ROUNDING)
-    }
-
-    fn theta(&self, q: &[f64; 7]) -> [f64; 7] {
-        self.placement.theta(q)
-    }
-
-    /// Distance of the shoulder from the plane of axes 5 and 6 (eq. 60), signed [m].
-    fn aside(&self, q: &[f64; 7]) -> f64 {
-        let [_, _, _, theta_4, theta_5, ..] = self.theta(q);
-        self.links.elbow_at(theta_4).across * theta_5.cos()
-    }
-
-    /// The hand with joint 7 at `q7`, from the frame of joint 7 before its turn (eq. 52).
-    pub(crate) fn hand(&self, t_shoulder_seven: &Pose, q7: f64) -> Pose {
-        let theta_7 = self.placement.signs[6] * q7 - self.placement.offsets[6];
-        let unturned = Rotation3::from_axis_angle(&Vector3::z_axis(), -theta_7);
-        t_shoulder_seven * unturned * self.t_seven_hand
-    }
-}
 
 impl Structure<7, 8> for SphericalShoulder {
     const PATTERN: &'static Pattern = &PATTERN;

@@ -5,6 +5,7 @@
 mod arm;
 mod block;
 mod branch;
+mod geometry;
 mod held;
 mod measure;
 mod one_pose;
@@ -13,12 +14,11 @@ mod opw;
 mod solve;
 mod wrist;
 
+pub(crate) use geometry::SphericalWrist;
 pub use opw::OpwParameters;
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
-
-use core::f64::consts::PI;
 
 use branch::Constants;
 use measure::PATTERN;
@@ -31,50 +31,11 @@ use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::chain::dh::Mdh;
+use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::distance_from_half_turns;
-use crate::kinematics::pose::{Pose, translation_z};
 use crate::kinematics::structure::joint_map::Placement;
-use crate::kinematics::structure::planar_arm::PlanarArm;
 use crate::kinematics::thresholds::WRIST_MERGE_SIN;
 use crate::report::{Pattern, UnknownStructure};
-
-/// The geometry between the shoulder (on axis 1, at the height of axis 2) and the wrist centre.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SphericalWrist {
-    planar: PlanarArm,
-    placement: Placement<6>,
-}
-
-impl SphericalWrist {
-    pub(crate) fn from_opw(opw: &OpwParameters) -> Self {
-        Self {
-            planar: PlanarArm::new([opw.a1, opw.a2, opw.b, opw.c2, opw.c3]),
-            placement: Placement {
-                signs: opw.signs.map(f64::from),
-                offsets: opw.offsets,
-                coupled: false,
-                t_base_shoulder: translation_z(opw.c1),
-                t_wrist_flange: translation_z(opw.c4),
-            },
-        }
-    }
-
-    fn theta(&self, q: &[f64; 6]) -> [f64; 6] {
-        self.placement.theta(q)
-    }
-
-    /// The sine of the elbow angle, x of the wrist centre in the plane of the arm [m], and the sine of joint 5, signed (eq. 21).
-    fn factors(&self, q: &[f64; 6]) -> [f64; 3] {
-        let [_, theta_2, theta_3, _, theta_5, _] = self.theta(q);
-        [self.planar.sin_elbow(theta_3), self.planar.x_of_end(theta_2, theta_3), theta_5.sin()]
-    }
-
-    /// The angle of joint 4 nearest to that of `q` at which axis 5 is parallel to axes 2 and 3 [rad]: 0 or 180 deg for ABB's arms.
-    pub(crate) fn axis_4_in_plane(&self, q: &[f64; 6]) -> f64 {
-        let theta_4 = self.theta(q)[3];
-        q[3] + self.placement.signs[3] * (PI * (theta_4 / PI).round() - theta_4)
-    }
-}
 
 impl Structure<6, 8> for SphericalWrist {
     const PATTERN: &'static Pattern = &PATTERN;

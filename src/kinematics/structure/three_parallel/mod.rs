@@ -5,12 +5,15 @@
 
 mod block;
 mod branch;
+mod geometry;
 mod measure;
 mod one_pose;
 mod plane;
 mod reaching;
 mod solve;
 mod wrist;
+
+pub(crate) use geometry::ThreeParallel;
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -31,24 +34,6 @@ use crate::kinematics::structure::joint_map::Placement;
 use crate::kinematics::structure::planar_arm::PlanarArm;
 use crate::kinematics::thresholds::WRIST_MERGE_SIN;
 use crate::report::{Pattern, UnknownStructure};
-
-/// The geometry between the shoulder (on axis 1, at the height of axis 2) and the wrist, where axes 5 and 6 meet.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ThreeParallel {
-    /// Up to axis 4.
-    planar: PlanarArm,
-    /// Distance of the wrist from axis 4, along axis 5 [m].
-    d5: f64,
-    placement: Placement<6>,
-}
-
-impl ThreeParallel {
-    /// x of the wrist in the plane of the arm (eq. 41) [m].
-    fn x_of_wrist(&self, q: &[f64; 6]) -> f64 {
-        let [_, theta_2, theta_3, theta_4, ..] = self.placement.theta(q);
-        self.planar.x_of_end(theta_2, theta_3) + self.d5 * (theta_2 + theta_3 + theta_4).sin()
-    }
-}
 
 impl Structure<6, 8> for ThreeParallel {
     const PATTERN: &'static Pattern = &PATTERN;

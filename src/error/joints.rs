@@ -1,0 +1,91 @@
+//! What can be wrong with joint angles.
+
+use core::fmt;
+
+/// What is wrong with a joint vector.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum JointFault {
+    /// An angle is NaN or infinite.
+    NotFinite {
+        /// Name of the argument.
+        field: &'static str,
+        /// The joint, from 1.
+        joint: usize,
+        /// The angle.
+        value: f64,
+    },
+    /// An angle is too large to be given: its whole turns leave too few digits for the rest.
+    TooLarge {
+        /// Name of the argument.
+        field: &'static str,
+        /// The joint, from 1.
+        joint: usize,
+        /// The angle [rad].
+        value: f64,
+        /// The largest size of an angle [rad].
+        bound: f64,
+    },
+    /// A solution was passed with a pose that it does not meet.
+    NotOfPose {
+        /// How far its tool is from the pose, the larger of metres and radians.
+        off: f64,
+    },
+    /// The zone of a crossing policy is negative, NaN or infinite.
+    Zone {
+        /// The zone.
+        value: f64,
+    },
+    /// A number of a configuration that no configuration of the arm has.
+    Configuration {
+        /// Its name.
+        field: &'static str,
+        /// The number.
+        value: i32,
+        /// The least and the largest that it may be.
+        bounds: [i32; 2],
+    },
+    /// A weight is negative, NaN or infinite.
+    Weight {
+        /// The joint, from 1.
+        joint: usize,
+        /// The weight.
+        value: f64,
+    },
+}
+
+impl fmt::Display for JointFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFinite { field, joint, value } => {
+                write!(f, "{field}: joint {joint} is {value}, every angle must be finite [rad]")
+            }
+            Self::TooLarge { field, joint, value, bound } => {
+                write!(
+                    f,
+                    "{field}: joint {joint} is {value:e} rad, its size must be at most {bound:e} \
+                     rad (remove whole turns)"
+                )
+            }
+            Self::NotOfPose { off } => {
+                write!(f, "solution: its tool is {off:.1e} (m, rad) off the pose, it is none of it")
+            }
+            Self::Zone { value } => {
+                write!(f, "zone is {value}, it must be finite and not negative")
+            }
+            Self::Configuration { field, value, bounds: [0, 0] } => {
+                write!(
+                    f,
+                    "configuration: {field} is {value}, it is 0 for an arm with coupled axes 2 and 3"
+                )
+            }
+            Self::Configuration { field, value, bounds: [least, most] } => {
+                write!(f, "configuration: {field} is {value}, it must be {least} to {most}")
+            }
+            Self::Weight { joint, value } => write!(
+                f,
+                "weights: joint {joint} is {value}, a weight must be finite and not negative"
+            ),
+        }
+    }
+}

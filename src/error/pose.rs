@@ -1,0 +1,102 @@
+//! What can be wrong with a pose.
+
+use core::fmt;
+
+/// What is wrong with a pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum PoseFault {
+    /// An element is NaN or infinite.
+    NotFinite {
+        /// Row of the matrix, from 0.
+        row: usize,
+        /// Column of the matrix, from 0.
+        column: usize,
+        /// The element.
+        value: f64,
+    },
+    /// A position is too far away to calculate with.
+    TooFar {
+        /// Name of the argument.
+        field: &'static str,
+        /// Index of the coordinate, from 0.
+        index: usize,
+        /// The coordinate [m].
+        value: f64,
+        /// The largest size of a coordinate [m].
+        bound: f64,
+    },
+    /// The last row is not 0 0 0 1.
+    LastRow {
+        /// The row that came.
+        row: [f64; 4],
+    },
+    /// The columns of the rotation are not orthonormal: the largest element of `R^T R - I` exceeds the bound.
+    NotOrthonormal {
+        /// The largest element of `R^T R - I`.
+        deviation: f64,
+        /// The largest that is repaired.
+        bound: f64,
+    },
+    /// The rotation mirrors: its determinant is negative.
+    Mirrored {
+        /// The determinant.
+        determinant: f64,
+    },
+    /// A quaternion's norm is too far from one.
+    QuaternionNorm {
+        /// The norm.
+        norm: f64,
+        /// The largest distance from one that is normalised.
+        bound: f64,
+    },
+    /// A translation, quaternion or Euler angle is NaN or infinite.
+    FieldNotFinite {
+        /// Name of the argument.
+        field: &'static str,
+        /// Index into it.
+        index: usize,
+        /// The element.
+        value: f64,
+    },
+}
+
+impl fmt::Display for PoseFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFinite { row, column, value } => {
+                write!(f, "pose[{row}, {column}] is {value}: every element must be finite")
+            }
+            Self::TooFar { field: "pose", index, value, bound } => {
+                write!(f, "pose[{index}, 3] is {value:e} m, its size must be at most {bound:e} m")
+            }
+            Self::TooFar { field, index, value, bound } => {
+                write!(f, "{field}[{index}] is {value:e} m, its size must be at most {bound:e} m")
+            }
+            Self::LastRow { row: [a, b, c, d] } => {
+                write!(f, "pose row 3 must be [0, 0, 0, 1], got [{a}, {b}, {c}, {d}]")
+            }
+            Self::NotOrthonormal { deviation, bound } => {
+                write!(
+                    f,
+                    "pose rotation is off orthonormal by {deviation:.3e}, more than the {bound:.0e} that is repaired"
+                )
+            }
+            Self::Mirrored { determinant } => {
+                write!(
+                    f,
+                    "pose rotation mirrors: its determinant is {determinant:.6}, it must be 1 (is an axis negated?)"
+                )
+            }
+            Self::QuaternionNorm { norm, bound } => {
+                write!(
+                    f,
+                    "quaternion norm is {norm:.6}, it must be 1 within {bound:.0e} (order is w, x, y, z)"
+                )
+            }
+            Self::FieldNotFinite { field, index, value } => {
+                write!(f, "{field}[{index}] is {value}: every element must be finite")
+            }
+        }
+    }
+}
