@@ -39,15 +39,15 @@ fn many_poses(criterion: &mut Criterion) {
 
         let group = criterion.benchmark_group(format!("ik, {count} poses"));
         measure(group, count, &mut answers, |q| {
-            batch::ik(&robot, &poses, q, &mut status, None).unwrap()
+            batch::ik(&robot, &poses, q, &mut status, None).unwrap();
         });
         let group = criterion.benchmark_group(format!("fk, {count} poses"));
         measure(group, count, &mut answers[..rows * 16], |poses| {
-            batch::fk(&robot, &q, poses).unwrap()
+            batch::fk(&robot, &q, poses).unwrap();
         });
         let group = criterion.benchmark_group(format!("jacobian, {count} poses"));
         measure(group, count, &mut answers[..rows * 36], |rows| {
-            batch::jacobian(&robot, &q, JacobianFrame::Base, rows).unwrap()
+            batch::jacobian(&robot, &q, JacobianFrame::Base, rows).unwrap();
         });
     }
 }
@@ -60,14 +60,14 @@ fn other_families(criterion: &mut Criterion) {
         let poses_ur3 = poses::poses(&ur3, &poses::joints(&ur3, count));
         let group = criterion.benchmark_group(format!("UR3: ik, {count} poses"));
         measure(group, count, &mut vec![0.0; rows * 48], |q| {
-            batch::ik(&ur3, &poses_ur3, q, &mut status, None).unwrap()
+            batch::ik(&ur3, &poses_ur3, q, &mut status, None).unwrap();
         });
         let q = poses::joints(&panda, count);
         let (poses_panda, q7): (_, Vec<f64>) =
             (poses::poses(&panda, &q), q.iter().skip(6).step_by(7).copied().collect());
         let group = criterion.benchmark_group(format!("Panda: ik, {count} poses"));
         measure(group, count, &mut vec![0.0; rows * 56], |q| {
-            batch::ik_with(&panda, &poses_panda, &q7, q, &mut status, None).unwrap()
+            batch::ik_with(&panda, &poses_panda, &q7, q, &mut status, None).unwrap();
         });
     }
 }

@@ -38,7 +38,7 @@ fn main() {
             repeat(&robot, what, times.parse().unwrap());
         }
         [sets] if sets == "sets" => {
-            InstructionSet::available().for_each(|set| println!("{}", set.name()))
+            InstructionSet::available().for_each(|set| println!("{}", set.name()));
         }
         _ => poses::with_each_set(|_| ALL.iter().for_each(|what| repeat(&robot, what, 1))),
     }
@@ -53,7 +53,7 @@ fn repeat(robot: &Robot<6>, what: &str, times: u32) {
         "ik, 8 solutions" => again(times, || robot.ik(black_box(&pose))),
         "ik, wrist singular" => again(times, || robot.ik(black_box(&singular))),
         "ik_nearest" => {
-            again(times, || robot.ik_nearest(black_box(&pose), black_box(&q), &[1.0; 6]))
+            again(times, || robot.ik_nearest(black_box(&pose), black_box(&q), &[1.0; 6]));
         }
         "singularity" => again(times, || robot.singularity(black_box(&q))),
         _ => repeat_batch(robot, what, times),
@@ -67,7 +67,7 @@ fn repeat_batch(robot: &Robot<6>, what: &str, times: u32) {
     let (mut answers, mut status) = (vec![0.0; rows * 48], vec![0; rows * 8]);
     match what {
         "batch fk" => {
-            again(times, || batch::fk(robot, &q, black_box(&mut answers[..rows * 16])).unwrap())
+            again(times, || batch::fk(robot, &q, black_box(&mut answers[..rows * 16])).unwrap());
         }
         "batch jacobian" => {
             again(times, || {
@@ -77,11 +77,11 @@ fn repeat_batch(robot: &Robot<6>, what: &str, times: u32) {
                     JacobianFrame::Base,
                     black_box(&mut answers[..rows * 36]),
                 )
-                .unwrap()
+                .unwrap();
             });
         }
         "batch ik" => again(times, || {
-            batch::ik(robot, &poses, black_box(&mut answers), &mut status, None).unwrap()
+            batch::ik(robot, &poses, black_box(&mut answers), &mut status, None).unwrap();
         }),
         _ => eprintln!("{what} is none of {ALL:?}"),
     }

@@ -16,12 +16,12 @@ fn one_pose(criterion: &mut Criterion) {
         let mut group = criterion.benchmark_group(format!("one pose, {set}"));
         group.bench_function("fk", |b| b.iter(|| robot.fk(black_box(&q))));
         group.bench_function("jacobian", |b| {
-            b.iter(|| robot.jacobian(black_box(&q), JacobianFrame::Base))
+            b.iter(|| robot.jacobian(black_box(&q), JacobianFrame::Base));
         });
         group.bench_function("ik, 8 solutions", |b| b.iter(|| robot.ik(black_box(&pose))));
         group.bench_function("ik, wrist singular", |b| b.iter(|| robot.ik(black_box(&singular))));
         group.bench_function("ik_nearest", |b| {
-            b.iter(|| robot.ik_nearest(black_box(&pose), black_box(&q), &[1.0; 6]))
+            b.iter(|| robot.ik_nearest(black_box(&pose), black_box(&q), &[1.0; 6]));
         });
         group.bench_function("singularity", |b| b.iter(|| robot.singularity(black_box(&q))));
         group.finish();
@@ -44,13 +44,13 @@ fn other_families(criterion: &mut Criterion) {
         group
             .bench_function("UR3: ik, wrist singular", |b| b.iter(|| ur3.ik(black_box(&singular))));
         group.bench_function("UR3: ik_nearest", |b| {
-            b.iter(|| ur3.ik_nearest(black_box(&pose_ur3), black_box(&q_ur3), &[1.0; 6]))
+            b.iter(|| ur3.ik_nearest(black_box(&pose_ur3), black_box(&q_ur3), &[1.0; 6]));
         });
         group.bench_function("Panda: ik, 8 solutions", |b| {
-            b.iter(|| panda.ik(black_box(&pose_panda), q_panda[6]))
+            b.iter(|| panda.ik(black_box(&pose_panda), q_panda[6]));
         });
         group.bench_function("Panda: ik_nearest", |b| {
-            b.iter(|| panda.ik_nearest(black_box(&above), black_box(&q_panda), &[1.0; 7]))
+            b.iter(|| panda.ik_nearest(black_box(&above), black_box(&q_panda), &[1.0; 7]));
         });
         group.finish();
     });

@@ -515,7 +515,7 @@ fn damaged_text_never_panics() {
         }
         match six(&text, None, None) {
             Ok(robot) => {
-                taken += usize::from(robot.fk(&[0.1; 6]).translation.vector.norm().is_finite())
+                taken += usize::from(robot.fk(&[0.1; 6]).translation.vector.norm().is_finite());
             }
             Err(error) => assert!(matches!(error, Error::InvalidModel(_)), "{error}"),
         }

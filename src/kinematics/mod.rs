@@ -9,7 +9,6 @@ mod solve;
 mod structure;
 pub mod thresholds;
 
-pub(crate) use crate::report::{Configuration, Explanation};
 #[cfg(feature = "python")]
 pub(crate) use answer::check::check_joints;
 pub(crate) use answer::check::{check_seed, check_weights};

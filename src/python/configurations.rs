@@ -17,7 +17,8 @@ use super::poses::{PoseArgument, read_poses};
 use super::records;
 use crate::batch;
 use crate::error::ModelFault;
-use crate::kinematics::{Configuration, Robot};
+use crate::kinematics::Robot;
+use crate::report::Configuration;
 
 /// `irbkin.Configuration` of joint vectors, shape (..., 6): integers for one, arrays for many.
 pub(super) fn configuration<'py>(arm: &Arm, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {

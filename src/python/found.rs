@@ -52,13 +52,22 @@ where
         if let Some(turned) = &self.turned {
             return take(&turned.iter().map(|solution| solution.q).collect::<Vec<_>>());
         }
-        let mut rows = [[0.0; N]; MOST_SLOTS];
+        // Most structures have half of the slots that there may be.
+        if self.solutions.slot_count() <= MOST_SLOTS / 2 {
+            take(self.put_rows(&mut [[0.0; N]; MOST_SLOTS / 2]))
+        } else {
+            take(self.put_rows(&mut [[0.0; N]; MOST_SLOTS]))
+        }
+    }
+
+    #[inline]
+    fn put_rows<'r>(&self, rows: &'r mut [[f64; N]]) -> &'r [[f64; N]] {
         let mut found = 0;
         for (row, solution) in rows.iter_mut().zip(&self.solutions) {
             *row = solution.q;
             found += 1;
         }
-        take(&rows[..found])
+        &rows[..found]
     }
 
     /// Joint angles of each slot, NaN where it is empty.

@@ -17,7 +17,8 @@ use super::poses::{PoseArgument, read_pose, read_poses};
 use super::robot::PyRobot;
 use super::solutions::PySolutions;
 use crate::kinematics::thresholds::WRIST_ZONE;
-use crate::kinematics::{Explanation, FollowOptions, Inverse, Redundancy};
+use crate::kinematics::{FollowOptions, Inverse, Redundancy};
+use crate::report::Explanation;
 
 #[pymethods]
 #[expect(non_snake_case, reason = "T is the name that users pass")]

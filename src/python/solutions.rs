@@ -224,7 +224,7 @@ impl PySolutions {
     #[getter]
     fn status<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u8>> {
         let status = on!(AnyFound, &self.found, found => found.solutions.status());
-        PyArray1::from_iter(py, status.iter().map(|status| status.bits()))
+        PyArray1::from_iter(py, status.iter().map(Status::bits))
     }
 
     /// Whether the wrist centre gets to where the pose wants it.

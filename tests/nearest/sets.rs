@@ -48,7 +48,7 @@ pub fn random_frame(rng: &mut Rng) -> Pose {
 
 enum Geometry {
     Wrist(OpwParameters),
-    Parallel(ParallelArm),
+    Parallel(Box<ParallelArm>),
 }
 
 pub struct Arm {
@@ -76,7 +76,7 @@ impl Arm {
         }
         if name.starts_with("UR") {
             let (arm, robot) = ParallelArm::universal(name);
-            return Self { name: name.to_owned(), robot, geometry: Geometry::Parallel(arm) };
+            return Self { name: name.to_owned(), robot, geometry: Geometry::Parallel(Box::new(arm)) };
         }
         let robot: Robot<6> = Robot::named(name).unwrap();
         let Definition::Opw(opw) = *robot.definition() else { unreachable!("{name}") };

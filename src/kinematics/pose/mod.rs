@@ -113,6 +113,15 @@ fn checked_rotation(rows: Rows3) -> Result<Rotation3<f64>, Error> {
 
 /// A pose that another program made: finite, and its rotation orthonormal, repaired like that of [`pose_from_rows`].
 pub(crate) fn checked_pose(pose: &Pose) -> Result<Pose, Error> {
+    let r = pose.rotation.matrix();
+    let rows = [0, 1, 2].map(|row| [r[(row, 0)], r[(row, 1)], r[(row, 2)]]);
+    // What is not a number is in no bound.
+    let is_near = pose.translation.vector.iter().all(|coordinate| coordinate.abs() <= MOST_LENGTH);
+    let is_rotation =
+        gram_excess(&rows).iter().all(|element| element.abs() <= ROTATION_ROUNDING);
+    if is_near && is_rotation && determinant(&rows) > 0.0 {
+        return Ok(*pose);
+    }
     pose_from_rows(&pose_to_rows(pose))
 }
 

@@ -18,8 +18,9 @@ use super::errors::{rapid_fault, to_py};
 use super::found::read_seed;
 use super::robot::PyRobot;
 use crate::error::Error;
-use crate::kinematics::{Configuration, Robot};
+use crate::kinematics::Robot;
 use crate::rapid::{self, Content, Datum, Module, Storage, TableRow, ToolData, Value, WobjData};
+use crate::report::Configuration;
 
 /// The module of a text.
 ///

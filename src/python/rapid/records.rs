@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyBytes, PyFloat, PyList, PyString, PyTuple};
 
-use crate::kinematics::{Configuration, check_joints};
+use crate::kinematics::check_joints;
 use crate::python::arrays::vector;
 use crate::python::classes;
 use crate::python::errors::{Fault, rapid_fault, to_py};
@@ -11,6 +11,7 @@ use crate::python::records as python_records;
 use crate::rapid::{
     Content, JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, ToolData, Value, WobjData,
 };
+use crate::report::Configuration;
 
 /// Most dimensions of an array.
 const MOST_DIMENSIONS: usize = 3;

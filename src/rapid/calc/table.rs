@@ -8,11 +8,12 @@ use super::frames::Frames;
 use super::problem::Problem;
 use super::target::{target_pose, with_flange};
 use crate::error::Error;
-use crate::kinematics::{Configuration, Robot, SingularDistances};
+use crate::kinematics::{Robot, SingularDistances};
 use crate::rapid::data::module::{Content, Module};
 use crate::rapid::data::moves::{Argument, Move, Target};
 use crate::rapid::data::records::{RobTarget, ToolData, WobjData};
 use crate::rapid::data::value::Value;
+use crate::report::Configuration;
 
 /// |joint angle| above which a jointtarget means that the axis is not there [deg]: no joint turns so far, and RAPID writes 9E9.
 const MOST_DEGREES: f64 = 1e6;

@@ -2,8 +2,9 @@
 
 use super::frames::{Frames, pose_in, rapid_pose};
 use crate::error::Error;
-use crate::kinematics::{Explanation, Pose, Robot};
+use crate::kinematics::{Pose, Robot};
 use crate::rapid::data::records::{JointTarget, RapidPose, RobTarget, ToolData, WobjData};
+use crate::report::Explanation;
 
 /// Joint angles of a robtarget, as RAPID's `CalcJointT`: those with the target's configuration,
 /// inside the limits.

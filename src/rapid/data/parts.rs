@@ -6,7 +6,7 @@ use alloc::string::String;
 
 use super::literals::{write_number, write_text};
 use super::records::{JointTarget, LoadData, RapidPose, RobTarget, ToolData, WobjData};
-use crate::kinematics::Configuration;
+use crate::report::Configuration;
 
 /// Most components of a type: those of loaddata.
 const MOST_COMPONENTS: usize = 6;

@@ -2,7 +2,7 @@
 
 use alloc::string::String;
 
-use crate::kinematics::Configuration;
+use crate::report::Configuration;
 
 /// What stands for an external axis that is not there.
 pub const NOT_THERE: f64 = 9e9;

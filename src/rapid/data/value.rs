@@ -7,7 +7,7 @@ use alloc::string::String;
 use super::data_type::DataType;
 use super::parts::{Part, PartMut};
 use super::records::{JointTarget, LoadData, RapidPose, RobTarget, ToolData, WobjData};
-use crate::kinematics::Configuration;
+use crate::report::Configuration;
 
 /// A value of any type that is read.
 #[derive(Clone, Debug, PartialEq)]
