@@ -76,7 +76,11 @@ impl Arm {
         }
         if name.starts_with("UR") {
             let (arm, robot) = ParallelArm::universal(name);
-            return Self { name: name.to_owned(), robot, geometry: Geometry::Parallel(Box::new(arm)) };
+            return Self {
+                name: name.to_owned(),
+                robot,
+                geometry: Geometry::Parallel(Box::new(arm)),
+            };
         }
         let robot: Robot<6> = Robot::named(name).unwrap();
         let Definition::Opw(opw) = *robot.definition() else { unreachable!("{name}") };

@@ -117,8 +117,7 @@ pub(crate) fn checked_pose(pose: &Pose) -> Result<Pose, Error> {
     let rows = [0, 1, 2].map(|row| [r[(row, 0)], r[(row, 1)], r[(row, 2)]]);
     // What is not a number is in no bound.
     let is_near = pose.translation.vector.iter().all(|coordinate| coordinate.abs() <= MOST_LENGTH);
-    let is_rotation =
-        gram_excess(&rows).iter().all(|element| element.abs() <= ROTATION_ROUNDING);
+    let is_rotation = gram_excess(&rows).iter().all(|element| element.abs() <= ROTATION_ROUNDING);
     if is_near && is_rotation && determinant(&rows) > 0.0 {
         return Ok(*pose);
     }

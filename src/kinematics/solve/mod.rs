@@ -4,6 +4,7 @@ pub(crate) mod configuration;
 mod correction;
 mod family_search;
 mod golden_section;
+mod inside;
 pub(crate) mod inverse;
 pub(crate) mod nearest;
 mod open_wrist;

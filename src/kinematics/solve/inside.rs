@@ -1,0 +1,90 @@
+//! Solutions outside the limits next to which others of the same pose are inside: those take their slots.
+
+use crate::error::Error;
+use crate::kinematics::answer::solutions::{Place, Solution, Solutions};
+use crate::kinematics::robot::Robot;
+use crate::kinematics::solve::nearest::{NearestSearch, Wanted};
+use crate::kinematics::solve::self_motion::meets;
+use crate::kinematics::structure::arity::{Arity, Joints};
+use crate::kinematics::structure::redundancy::Redundancy;
+
+impl<const N: usize> Robot<N>
+where
+    Joints<N>: Arity<N>,
+{
+    /// Where a solution is outside the limits and another one of its family, which is `allowed` [rad, m] off the pose at most, is not, that
+    /// one takes its slot.
+    pub(in crate::kinematics) fn bring_families_inside(
+        &self,
+        solutions: &mut Solutions<N>,
+        allowed: f64,
+    ) -> Result<(), Error> {
+        for slot in 0..solutions.slot_count() {
+            let Some(outside) = solutions
+                .slot(slot)
+                .copied()
+                .filter(|solution| solution.free.is_some() && !solution.within_limits())
+            else {
+                continue;
+            };
+            let rest = self.resting(Redundancy::of(&outside.q));
+            // A slot that another solution has is that one's.
+            let vacant = |to: usize| to == slot || solutions.slot(to).is_none();
+            let family = outside.free.map_or(&[][..], |free| free.branches());
+            let accepts = |member: &Solution<N>| {
+                let to = member.slot.index();
+                vacant(to) && family.iter().copied().flatten().any(|branch| to == slot ^ branch)
+            };
+            let wanted = Wanted {
+                limits: solutions.limits,
+                seed: &rest,
+                weights: &[1.0; N],
+                accepts: &accepts,
+            };
+            let mut search = NearestSearch::new(self, solutions, &wanted, allowed);
+            // A twin meets the pose to rounding; between the twins it may be met less well.
+            search.look_at_twins(&outside)?;
+            if search.best.is_none() {
+                search.look_along(&outside)?;
+            }
+            if let Some(inside) = search.best.map(|best| best.solution) {
+                solutions.replace(slot, inside);
+            }
+        }
+        Ok(())
+    }
+
+    /// Where no solution is inside the limits and another one of the pose is, that one takes the slot of the one that it came from.
+    pub(in crate::kinematics) fn bring_one_inside(
+        &self,
+        solutions: &mut Solutions<N>,
+    ) -> Result<(), Error> {
+        // Of seven axes, one is looked for along the redundancy.
+        if N != 6 || solutions.is_empty() || solutions.iter().any(Solution::within_limits) {
+            return Ok(());
+        }
+        let wanted = Wanted {
+            limits: solutions.limits,
+            seed: &self.limits().rest(),
+            weights: &[1.0; N],
+            accepts: &|_| true,
+        };
+        let found = self.nearest_within(solutions, &wanted, meets(solutions.pose()))?;
+        if let Some((from, inside)) = found {
+            solutions.replace(from.index(), inside);
+        }
+        Ok(())
+    }
+}
+
+impl<const N: usize> Solutions<N> {
+    /// Puts another solution of the same branch, or of its twin, in the place of the one in `slot`.
+    fn replace(&mut self, slot: usize, solution: Solution<N>) {
+        let (to, places) = (solution.slot.index(), self.places_mut());
+        if places[to].found().is_none() {
+            // What the other slot was merged by is now said of this one.
+            places.swap(slot, to);
+        }
+        places[to] = Place::Found(solution);
+    }
+}
