@@ -28,7 +28,35 @@
 //! # Ok::<(), irbkin::Error>(())
 //! ```
 //!
-//! Metres, radians, `f64`. `docs/` of the repository has the conventions, the derivation and the accuracy.
+//! Code for any number of joints names what that number must have, and passes what a redundant arm needs besides:
+//!
+//! ```
+//! use irbkin::{Arity, Error, Joints, Pose, RedundancyOf, Robot};
+//!
+//! fn count<const N: usize>(robot: &Robot<N>, pose: &Pose, redundancy: RedundancyOf<N>) -> Result<usize, Error>
+//! where
+//!     Joints<N>: Arity<N>,
+//! {
+//!     Ok(robot.ik_with(pose, redundancy)?.len())
+//! }
+//!
+//! let ur5e: Robot<6> = Robot::named("UR5e")?;
+//! assert_eq!(count(&ur5e, &ur5e.fk(&[0.3, -1.2, 1.4, -0.5, 0.6, 0.7]), ())?, 8);
+//! let panda: Robot<7> = Robot::named("Panda")?;
+//! assert!(count(&panda, &panda.fk(&[0.1, -0.7, 0.2, -2.2, 0.1, 1.7, 0.6]), 0.6)? > 0);
+//! # Ok::<(), irbkin::Error>(())
+//! ```
+//!
+//! | feature | default | brings |
+//! |---|---|---|
+//! | `std` | yes | threads in a batch, the choice of an instruction set, the search for names spelled alike |
+//! | `libm` | | square roots and angles without `std`; a solve takes nothing from the heap either way |
+//! | `urdf` | yes | `Robot::from_urdf` |
+//! | `rapid` | yes | [`rapid`]: robtargets and moves of RAPID modules, read, solved and rewritten |
+//! | `serde` | | [`OpwParameters`], [`DhRow`], [`Configuration`], [`Slot`] and [`FreeJoint`] are written and read |
+//! | `python` | | the extension module of the Python package; no use to a crate |
+//!
+//! Metres, radians, `f64`. `docs/` of the repository has the conventions, the derivations and the accuracy.
 #![cfg_attr(not(feature = "std"), no_std)]
 #![cfg_attr(
     test,

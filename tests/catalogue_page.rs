@@ -30,6 +30,7 @@ fn geometry(arm: &CatalogueArm) -> (&'static str, Vec<String>) {
             ("universal robots", lengths([d1, a2, a3, d4, d5, d6]))
         }
         CatalogueGeometry::Mdh(_) => ("franka", Vec::new()),
+        other => unreachable!("{other:?} has no table on the page"),
     }
 }
 

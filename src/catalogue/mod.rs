@@ -54,6 +54,7 @@ impl AngleUnit {
 
 /// The geometry of a catalogue arm.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub enum CatalogueGeometry {
     /// Ortho-parallel with a spherical wrist, in ABB's joint convention [mm].
     Abb {

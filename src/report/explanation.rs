@@ -4,6 +4,7 @@ use core::fmt;
 
 /// Whether the arm's wrist centre gets to where the pose wants it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Reach {
     /// It does.
     Reached,

@@ -4,6 +4,7 @@ use core::fmt;
 
 /// How two axes of a known structure stand to one another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Relation {
     /// At right angles.
     Perpendicular,

@@ -1,7 +1,7 @@
 //! Axes 2 and 3 coupled by a parallelogram: a rod holds the forearm's pitch while axis 2 turns.
 //!
 //! The controller of such an arm tells axis 3 from the base, not from the upper arm: its q3 is that of the serial chain plus q2
-//! (docs/ik_derivation.md, eq. 25).
+//! (docs/spherical_wrist.md, eq. 25).
 
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;

@@ -16,6 +16,7 @@ use crate::kinematics::thresholds::{HELD_STILL, JUMP_BLIND, WRIST_ZONE};
 
 /// What a path does at the wrist singularity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Crossing {
     /// Meets every pose exactly, however fast axes 4 and 6 must turn.
     #[default]

@@ -1,6 +1,6 @@
 //! The first three joints: a shoulder that turns about axis 1 and an elbow in the plane of axes 2 and 3, which are parallel.
 //!
-//! Both families of six-axis arms stand on it. The equation numbers are those of docs/ik_derivation.md.
+//! Both families of six-axis arms stand on it. The equation numbers are those of docs/spherical_wrist.md.
 
 use nalgebra::Matrix3;
 #[cfg(not(feature = "std"))]
@@ -8,6 +8,7 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::free_choice::{FreeChoice, Trust};
+use crate::kinematics::structure::triangle::Triangle;
 use crate::kinematics::thresholds::{POSITION_ROUNDING, REACH_TOLERANCE, SHOULDER_MERGE};
 use crate::report::Reach;
 
@@ -295,13 +296,7 @@ impl PlanarArm {
     ) -> Result<Elbows, Reach> {
         let r2 = x * x + z * z;
         let r = r2.sqrt();
-        let (longest, shortest) = (self.c2 + self.k, (self.c2 - self.k).abs());
-        if r - longest > tolerance {
-            return Err(Reach::TooFar { shortfall: r - longest });
-        }
-        if shortest - r > tolerance {
-            return Err(Reach::TooNear { shortfall: shortest - r });
-        }
+        let triangle = Triangle::reaching([self.c2, self.k], r, tolerance)?;
         if trust.forces(2) || r <= trust.radius().max(self.position_rounding()) {
             let (sin_2, cos_2) = free_theta_2.sin_cos();
             return Ok(Elbows {
@@ -311,12 +306,11 @@ impl PlanarArm {
                 free: true,
             });
         }
-        let (to_longest, to_shortest) = (longest * longest - r2, r2 - shortest * shortest);
-        let m2 = 0.25 * to_longest * to_shortest;
+        let m2 = triangle.m2(r2);
         if m2 <= self.straight_m2(r) {
             // Both links lie on the line to the wrist centre, to rounding or up to the tolerance beyond reach.
             let [dx, dz] = [x / r, z / r];
-            let (upper, forearm) = match (to_longest < to_shortest, self.k > self.c2) {
+            let (upper, forearm) = match (triangle.is_stretched(r2), self.k > self.c2) {
                 (true, _) => (1.0, 1.0),
                 (false, true) => (-1.0, 1.0),
                 (false, false) => (1.0, -1.0),
@@ -326,9 +320,9 @@ impl PlanarArm {
             let error = 2.0 * self.straight_m2(r).sqrt() / (self.k * r);
             return Ok(Elbows { front, behind: None, error, free: false });
         }
-        let (m, h2) = (m2.sqrt(), 0.5 * (r2 + (self.c2 - self.k) * (self.c2 + self.k)));
+        let m = m2.sqrt();
         let elbow = |m: f64| {
-            let upper = [(h2 * x - m * z) / r2, (h2 * z + m * x) / r2];
+            let upper = triangle.upper_arm::<false>([x, z], r2, m).map(|times_r2| times_r2 / r2);
             self.elbow(upper, [(x - upper[0]) / self.k, (z - upper[1]) / self.k])
         };
         Ok(Elbows {

@@ -1,8 +1,9 @@
 //! The triangle of upper arm, forearm and the line from the shoulder to the end of the forearm: two circles that meet in the elbow.
 //!
-//! Docs: ik_derivation.md, eq. 6 to 10. Every structure with an elbow stands on it, in lanes and one branch after the other.
+//! Docs: spherical_wrist.md, eq. 6 to 10. Every structure with an elbow stands on it, in lanes and one branch after the other.
 
 use crate::lanes::mul_add;
+use crate::report::Reach;
 
 /// The two links that span it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,6 +24,27 @@ impl Triangle {
             shortest2: shortest * shortest,
             difference: shortest * longest,
         }
+    }
+
+    /// Of the lengths of both links, where they span `r` or are `tolerance` short of it at most [m].
+    pub(crate) fn reaching(
+        [upper, forearm]: [f64; 2],
+        r: f64,
+        tolerance: f64,
+    ) -> Result<Self, Reach> {
+        let (longest, shortest) = (upper + forearm, (upper - forearm).abs());
+        if r - longest > tolerance {
+            return Err(Reach::TooFar { shortfall: r - longest });
+        }
+        if shortest - r > tolerance {
+            return Err(Reach::TooNear { shortfall: shortest - r });
+        }
+        Ok(Self::new(upper, forearm))
+    }
+
+    /// Whether the links that span r are nearer to stretched than to folded.
+    pub(crate) fn is_stretched(&self, r2: f64) -> bool {
+        self.longest2 - r2 < r2 - self.shortest2
     }
 
     /// The square of m, which is twice the triangle's area (eq. 7, 8); negative out of reach. Heron's formula: the textbook's difference of

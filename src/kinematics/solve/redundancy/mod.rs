@@ -1,7 +1,7 @@
 //! An arm of seven joints has one more than a pose needs: which of the joint vectors of a pose is
 //! nearest to a seed.
 //!
-//! docs/seven_axes.md, section 5, has the method and what it promises. [`grid`] looks at joint 7
+//! docs/spherical_shoulder.md, section 5, has the method and what it promises. [`grid`] looks at joint 7
 //! between the edges of reach, [`descent`] goes down the valleys of the cost that it shows,
 //! [`free_joints`] chooses what a pose leaves open.
 

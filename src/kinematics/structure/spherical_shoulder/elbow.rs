@@ -6,6 +6,7 @@ use nalgebra::{ComplexField as _, RealField as _};
 use super::links::{Elbow, Links};
 use super::target::Target;
 use crate::kinematics::pose::angles::sign_of;
+use crate::kinematics::structure::triangle::Triangle;
 use crate::report::Reach;
 
 /// The elbow bent forwards and backwards; without the second, they are one.
@@ -18,17 +19,10 @@ impl Links {
     /// Both elbows for a shoulder at distance r, or up to the tolerance beyond reach (eq. 54 to 57).
     pub(super) fn elbows(&self, target: &Target<'_>) -> Result<Elbows, Reach> {
         let (r, r2) = (target.r, target.r * target.r);
-        let (longest, shortest) = (self.upper + self.forearm, (self.upper - self.forearm).abs());
-        if r - longest > target.tolerance {
-            return Err(Reach::TooFar { shortfall: r - longest });
-        }
-        if shortest - r > target.tolerance {
-            return Err(Reach::TooNear { shortfall: shortest - r });
-        }
-        let (to_longest, to_shortest) = (longest * longest - r2, r2 - shortest * shortest);
-        let m2 = 0.25 * to_longest * to_shortest;
+        let triangle = Triangle::reaching([self.upper, self.forearm], r, target.tolerance)?;
+        let m2 = triangle.m2(r2);
         if self.is_onto_itself(r, target.free.trust.radius()) || m2 <= self.straight_m2(r) {
-            let cos_e = if to_longest < to_shortest { 1.0 } else { -1.0 };
+            let cos_e = if triangle.is_stretched(r2) { 1.0 } else { -1.0 };
             // The arm that made the pose may have been bent by as much as counts as straight, and by rounding on top of that.
             let error = 2.0 * self.straight_m2(r).sqrt() / self.product();
             let straight =

@@ -1,5 +1,5 @@
 //! Joint 7: the angles at which an elbow or a wrist comes to the edge of its reach
-//! (docs/seven_axes.md, section 5).
+//! (docs/spherical_shoulder.md, section 5).
 
 use core::f64::consts::{FRAC_PI_4, PI};
 

@@ -32,7 +32,7 @@ pub(crate) static PATTERN: Pattern = Pattern {
     ],
 };
 
-/// Reads the geometry off the frames at q = 0 (docs/seven_axes.md, section 8). Lengths come from the rows, so that none is lost to
+/// Reads the geometry off the frames at q = 0 (docs/spherical_shoulder.md, section 8). Lengths come from the rows, so that none is lost to
 /// rounding; the frames give the directions.
 pub(super) fn measure(mdh: &Mdh<7>) -> Result<SphericalShoulder, UnknownStructure> {
     let rows = &mdh.rows;

@@ -1,7 +1,7 @@
 //! Arms of seven axes with a spherical shoulder and an offset elbow, the angle of the last joint being told: axes 1, 2, 3 through one point,
 //! axes 5 and 6 meeting, axis 7 anywhere.
 //!
-//! `docs/seven_axes.md` has the derivation; its equation numbers stand beside the code.
+//! `docs/spherical_shoulder.md` has the derivation; its equation numbers stand beside the code.
 
 mod block;
 mod branch;

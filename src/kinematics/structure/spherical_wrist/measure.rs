@@ -32,7 +32,7 @@ pub(crate) static PATTERN: Pattern = Pattern {
     ],
 };
 
-/// Reads the geometry off the frames at q = 0 (docs/ik_derivation.md, section 7). Lengths come from the rows, so that none is lost to
+/// Reads the geometry off the frames at q = 0 (docs/spherical_wrist.md, section 7). Lengths come from the rows, so that none is lost to
 /// rounding; the frames give the directions.
 pub(super) fn measure(mdh: &mut Mdh<6>) -> Result<SphericalWrist, UnknownStructure> {
     let rows = mdh.rows;

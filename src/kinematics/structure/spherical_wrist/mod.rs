@@ -1,6 +1,6 @@
 //! Arms with an ortho-parallel basis and a spherical wrist: axis 1 square to axis 2, axes 2 and 3 parallel, axes 4, 5, 6 through one point.
 //!
-//! `docs/ik_derivation.md` has the derivation; its equation numbers stand beside the code.
+//! `docs/spherical_wrist.md` has the derivation; its equation numbers stand beside the code.
 
 mod arm;
 mod block;

@@ -36,7 +36,7 @@ pub struct OpwParameters {
     pub signs: [i8; 6],
 }
 
-/// What is added to each theta to get the angle of the modified Denavit-Hartenberg row (docs/ik_derivation.md, table 1).
+/// What is added to each theta to get the angle of the modified Denavit-Hartenberg row (docs/spherical_wrist.md, table 1).
 const MDH_SHIFT: [f64; 6] = [0.0, -FRAC_PI_2, -FRAC_PI_2, 0.0, 0.0, PI];
 
 impl OpwParameters {
