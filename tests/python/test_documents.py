@@ -29,6 +29,14 @@ def test_links_lead_somewhere(page):
         assert (page.parent / link).exists(), link
 
 
+def test_files_that_are_named_exist():
+    named = re.compile(r"`((?:src|tests|benches|docs|python)/[\w./]+)`")
+    pages = [*PAGES, ROOT / "ARCHITECTURE.md"]
+    files = {file for page in pages for file in named.findall(page.read_text())}
+    assert len(files) > 10
+    assert not [file for file in files if not (ROOT / file).exists()]
+
+
 def test_make_targets_that_are_named_exist():
     targets = set(re.findall(r"^([a-z]+):", (ROOT / "Makefile").read_text(), re.MULTILINE))
     for page in [*PAGES, ROOT / "ARCHITECTURE.md", ROOT / "CONTRIBUTING.md"]:

@@ -239,11 +239,11 @@ impl Walk<'_> {
     /// The joints for a pose with the wrist held as in `q`: arm and wrist solved in turn until both stand.
     fn held(&self, pose: &Pose, q: &[f64; 6], how: Held) -> Result<Option<[f64; 6]>, Error> {
         let pose = checked_pose(pose)?;
-        let Some(Solver { structure: arm, surroundings, .. }) = self.robot.wrist_solver() else {
+        let Some(Solver { structure: arm, end_frames, .. }) = self.robot.wrist_solver() else {
             return Ok(None);
         };
-        let rotation = surroundings.wrist_pose(&pose).rotation;
-        let (point, lever) = surroundings.tool_point(&pose);
+        let rotation = end_frames.wrist_pose(&pose).rotation;
+        let (point, lever) = end_frames.tool_point(&pose);
         let mut held = *q;
         for _ in 0..ROUNDS {
             let m = arm.rotation_in_forearm(rotation.matrix(), &held);

@@ -5,25 +5,25 @@ use nalgebra::Vector3;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::rotation::Rows3;
-use crate::kinematics::structure::joint_map::Placement;
+use crate::kinematics::structure::joint_map::JointMap;
 use crate::lanes::mul_add;
 
 /// The constant factors of eq. 1, which peel base, shoulder height, flange and tool off a pose.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Surroundings {
+pub(crate) struct EndFrames {
     t_shoulder_world: Pose,
     t_tool_wrist: Pose,
     pub(crate) seen: Seen,
 }
 
-impl Surroundings {
+impl EndFrames {
     /// Between the base and the tool of a chain.
     pub(crate) fn new<const M: usize, const N: usize>(
-        placement: &Placement<M>,
+        joint_map: &JointMap<M>,
         chain: &Chain<N>,
     ) -> Self {
-        let t_shoulder_world = (chain.base() * placement.t_base_shoulder).inverse();
-        let t_tool_wrist = (placement.t_wrist_flange * chain.tool()).inverse();
+        let t_shoulder_world = (chain.base() * joint_map.t_base_shoulder).inverse();
+        let t_tool_wrist = (joint_map.t_wrist_flange * chain.tool()).inverse();
         Self { t_shoulder_world, t_tool_wrist, seen: Seen::new(&t_shoulder_world, &t_tool_wrist) }
     }
 

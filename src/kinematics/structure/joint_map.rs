@@ -6,7 +6,7 @@ use crate::kinematics::pose::angles::wrap;
 
 /// Signs and offsets of the joints, and what stands before and behind the frames of the derivation.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Placement<const N: usize> {
+pub(crate) struct JointMap<const N: usize> {
     pub(crate) signs: [f64; N],
     pub(crate) offsets: [f64; N],
     /// Whether axes 2 and 3 are coupled.
@@ -15,7 +15,7 @@ pub(crate) struct Placement<const N: usize> {
     pub(crate) t_wrist_flange: Pose,
 }
 
-impl<const N: usize> Placement<N> {
+impl<const N: usize> JointMap<N> {
     /// The derivation's angles of joint angles `q`.
     pub(crate) fn theta(&self, q: &[f64; N]) -> [f64; N] {
         let q = if self.coupled { serial(*q) } else { *q };

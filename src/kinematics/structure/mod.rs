@@ -29,7 +29,7 @@ use core::fmt::Debug;
 
 use branches::Branches;
 use free_choice::FreeChoice;
-use joint_map::Placement;
+use joint_map::JointMap;
 use lanes::LaneKernel;
 use open_wrist::OpenWrist;
 use redundancy::Redundancy;
@@ -73,7 +73,7 @@ pub(crate) trait Structure<const N: usize, const S: usize>:
     fn measure(mdh: &mut Mdh<N>) -> Result<Self, UnknownStructure>;
 
     /// Signs, offsets, `B` and `F`.
-    fn joint_map(&self) -> &Placement<N>;
+    fn joint_map(&self) -> &JointMap<N>;
 
     /// The same arm between a base and a tool, which add to the lengths that a pose's rounding grows with, with axes 2 and 3 coupled or
     /// not.

@@ -2,7 +2,7 @@
 
 use super::Structure;
 use super::arm::{Arm, RowSolve, Rows};
-use super::end_frames::{Frame, Seen, Surroundings};
+use super::end_frames::{EndFrames, Frame, Seen};
 use super::free_choice::FreeChoice;
 use super::lanes::{Blocks, Columns, LaneKernel, RegularPose};
 use super::open_wrist::OpenWrist;
@@ -20,7 +20,7 @@ use crate::report::UnknownStructure;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Solver<T: Structure<N, S>, const N: usize, const S: usize> {
     pub(crate) structure: T,
-    pub(crate) surroundings: Surroundings,
+    pub(crate) end_frames: EndFrames,
     /// `None` where the structure has no kernel, or the limits ask for more than what lanes do.
     lanes: Option<(T::Kernel, Columns<N>)>,
 }
@@ -32,7 +32,7 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Solver<T, N, S> {
         let map = structure.joint_map();
         let columns = Columns::of(map, T::Kernel::DIFFERENCES, limits);
         Self {
-            surroundings: Surroundings::new(map, chain),
+            end_frames: EndFrames::new(map, chain),
             lanes: structure.kernel().zip(columns),
             structure,
         }
@@ -46,7 +46,7 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Solver<T, N, S> {
         redundancy: T::Redundancy,
     ) -> bool {
         let Some((kernel, columns)) = &self.lanes else { return false };
-        let (seen, pose) = (&self.surroundings.seen, &solutions.pose);
+        let (seen, pose) = (&self.end_frames.seen, &solutions.pose);
         let Some(regular) = run(Single { kernel, columns, seen, pose, redundancy }) else {
             return false;
         };
@@ -74,7 +74,7 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Arm<N, T::Redundancy> f
         redundancy: T::Redundancy,
         free: &FreeChoice<N>,
     ) -> Result<(), UnknownStructure> {
-        let t_first_last = self.surroundings.wrist_pose(&solutions.pose);
+        let t_first_last = self.end_frames.wrist_pose(&solutions.pose);
         let branches = self.structure.solve(&t_first_last, redundancy, free);
         let limits = solutions.limits;
         for (index, place) in solutions.first_places::<S>().iter_mut().enumerate() {
@@ -90,7 +90,7 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Arm<N, T::Redundancy> f
         let status = status.as_chunks_mut::<S>().0;
         match &self.lanes {
             Some((kernel, columns)) => {
-                let seen = self.surroundings.seen;
+                let seen = self.end_frames.seen;
                 run(Blocks { kernel, columns, seen, poses, redundancy, q, status, by_itself });
             }
             None => {
@@ -122,7 +122,7 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Arm<N, T::Redundancy> f
     }
 
     fn last_frame(&self, pose: &Pose) -> Pose {
-        self.surroundings.wrist_pose(pose)
+        self.end_frames.wrist_pose(pose)
     }
 
     fn may_be_coupled(&self) -> Result<(), &'static str> {

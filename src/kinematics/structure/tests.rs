@@ -7,7 +7,7 @@ use super::any::recognized;
 use super::arm::{Arm as _, Rows};
 use super::branches::Branches;
 use super::free_choice::FreeChoice;
-use super::joint_map::Placement;
+use super::joint_map::JointMap;
 use super::lanes::NoKernel;
 use super::solver::Solver;
 use super::spherical_wrist::SphericalWrist;
@@ -31,7 +31,7 @@ impl Structure<6, 16> for Ordinals {
         SphericalWrist::measure(mdh).map(Self)
     }
 
-    fn joint_map(&self) -> &Placement<6> {
+    fn joint_map(&self) -> &JointMap<6> {
         self.0.joint_map()
     }
 

@@ -86,7 +86,7 @@ impl Robot<7> {
     /// The angles of joint 7 at which branches of the pose begin or end [rad].
     fn edges_of_joint_7(&self, pose: &Pose) -> [Option<f64>; EDGES] {
         let edges = |solver: &Solver<SphericalShoulder, 7, 8>| {
-            solver.structure.edges_of_joint_7(&solver.surroundings.wrist_pose(pose))
+            solver.structure.edges_of_joint_7(&solver.end_frames.wrist_pose(pose))
         };
         self.shoulder_solver().map_or([None; EDGES], edges)
     }

@@ -6,7 +6,7 @@ use crate::kinematics::answer::status::Status;
 use crate::kinematics::chain::coupling::coupled;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::angles::wrap;
-use crate::kinematics::structure::joint_map::Placement;
+use crate::kinematics::structure::joint_map::JointMap;
 use crate::kinematics::thresholds::LIMIT_TOLERANCE;
 
 /// How joint angles come from the angles that lanes calculate.
@@ -23,7 +23,7 @@ impl<const N: usize> Columns<N> {
     /// `differences` are the joints, from 0, whose theta is a difference of two angles. `None` where
     /// limits ask for more than what lanes do.
     pub(crate) fn of(
-        map: &Placement<N>,
+        map: &JointMap<N>,
         differences: &[usize],
         limits: &JointLimits<N>,
     ) -> Option<Self> {

@@ -9,7 +9,7 @@ use nalgebra::{ComplexField as _, RealField as _};
 use super::links::Links;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::end_frames::Frame;
-use crate::kinematics::structure::joint_map::Placement;
+use crate::kinematics::structure::joint_map::JointMap;
 use crate::kinematics::structure::lanes::Direction;
 use crate::kinematics::structure::triangle::Triangle;
 use crate::kinematics::structure::zyz::zyz_directions;
@@ -38,7 +38,7 @@ pub(crate) struct Constants {
 }
 
 impl Constants {
-    pub(super) fn of(links: &Links, map: &Placement<7>, t_seven_hand: &Pose) -> Self {
+    pub(super) fn of(links: &Links, map: &JointMap<7>, t_seven_hand: &Pose) -> Self {
         let (upper, forearm, extent) = (links.upper, links.forearm, links.extent);
         let [sin_psi, cos_psi] = links.psi;
         let (least_m, least_aside) = (PLAIN_ELBOW_SIN * links.product(), PLAIN_ASIDE * extent);

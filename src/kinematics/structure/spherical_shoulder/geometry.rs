@@ -6,7 +6,7 @@ use nalgebra::{Rotation3, Vector3};
 
 use super::links::Links;
 use crate::kinematics::pose::Pose;
-use crate::kinematics::structure::joint_map::Placement;
+use crate::kinematics::structure::joint_map::JointMap;
 use crate::kinematics::thresholds::ROTATION_ROUNDING;
 
 /// The geometry between the shoulder, where axes 1, 2 and 3 meet, and the flange.
@@ -14,7 +14,7 @@ use crate::kinematics::thresholds::ROTATION_ROUNDING;
 pub struct SphericalShoulder {
     pub(super) links: Links,
     /// Its last frame is that of joint 7: what stands behind it is constant.
-    pub(super) placement: Placement<7>,
+    pub(super) joint_map: JointMap<7>,
     /// From the frame of joint 7 at theta_7 = 0 to the hand, where axes 5 and 6 meet.
     pub(super) t_seven_hand: Pose,
 }
@@ -26,7 +26,7 @@ impl SphericalShoulder {
     }
 
     pub(super) fn theta(&self, q: &[f64; 7]) -> [f64; 7] {
-        self.placement.theta(q)
+        self.joint_map.theta(q)
     }
 
     /// Distance of the shoulder from the plane of axes 5 and 6 (eq. 60), signed [m].
@@ -37,7 +37,7 @@ impl SphericalShoulder {
 
     /// The hand with joint 7 at `q7`, from the frame of joint 7 before its turn (eq. 52).
     pub(crate) fn hand(&self, t_shoulder_seven: &Pose, q7: f64) -> Pose {
-        let theta_7 = self.placement.signs[6] * q7 - self.placement.offsets[6];
+        let theta_7 = self.joint_map.signs[6] * q7 - self.joint_map.offsets[6];
         let unturned = Rotation3::from_axis_angle(&Vector3::z_axis(), -theta_7);
         t_shoulder_seven * unturned * self.t_seven_hand
     }

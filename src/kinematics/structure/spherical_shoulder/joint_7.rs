@@ -107,7 +107,7 @@ impl SphericalShoulder {
             ];
             edges.copy_from_slice(&circle(&first, &second, links.c5));
         }
-        let (sign, offset) = (self.placement.signs[6], self.placement.offsets[6]);
+        let (sign, offset) = (self.joint_map.signs[6], self.joint_map.offsets[6]);
         edges.map(|theta| theta.map(|theta| wrap(sign * (theta + offset))))
     }
 

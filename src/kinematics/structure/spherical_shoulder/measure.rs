@@ -9,7 +9,7 @@ use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::dh::{Mdh, screw_x};
 use crate::kinematics::pose::angles::sign_of;
 use crate::kinematics::pose::{Pose, translation_z};
-use crate::kinematics::structure::joint_map::Placement;
+use crate::kinematics::structure::joint_map::JointMap;
 use crate::kinematics::structure::recognition::{JointFrame, angle, axes, rotation_pose};
 use crate::kinematics::thresholds::FORM_TOLERANCE;
 use crate::report::{Pattern, Relation, UnknownStructure};
@@ -78,7 +78,7 @@ pub(super) fn measure(mdh: &Mdh<7>) -> Result<SphericalShoulder, UnknownStructur
     let t_hand_seven = t_hand_six * screw_x(rows[6].alpha, rows[6].a) * translation_z(rows[6].d);
     Ok(SphericalShoulder {
         links,
-        placement: Placement {
+        joint_map: JointMap {
             signs: [sign_1, 1.0, sign_3, sign_4, sign_5, sign_6, 1.0],
             offsets: [0.0, -theta_2, -theta_3, -theta_4, -theta_5, 0.0, -rows[6].theta],
             coupled: false,

@@ -36,7 +36,7 @@ use crate::kinematics::answer::status::Status;
 use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::distance_from_half_turns;
-use crate::kinematics::structure::joint_map::Placement;
+use crate::kinematics::structure::joint_map::JointMap;
 use crate::kinematics::thresholds::WRIST_MERGE_SIN;
 use crate::report::{Pattern, UnknownStructure};
 
@@ -61,18 +61,18 @@ impl Structure<7, 8> for SphericalShoulder {
         measure::measure(mdh)
     }
 
-    fn joint_map(&self) -> &Placement<7> {
-        &self.placement
+    fn joint_map(&self) -> &JointMap<7> {
+        &self.joint_map
     }
 
     fn between(self, base: &Pose, tool: &Pose, _coupled: bool) -> Self {
-        let Placement { t_base_shoulder, t_wrist_flange, .. } = &self.placement;
+        let JointMap { t_base_shoulder, t_wrist_flange, .. } = &self.joint_map;
         let fixed = [base, t_base_shoulder, &self.t_seven_hand, t_wrist_flange, tool];
         Self { links: self.links.between(fixed), ..self }
     }
 
     fn kernel(&self) -> Option<Constants> {
-        Some(Constants::of(&self.links, &self.placement, &self.t_seven_hand))
+        Some(Constants::of(&self.links, &self.joint_map, &self.t_seven_hand))
     }
 
     #[inline]
@@ -105,7 +105,7 @@ impl Structure<7, 8> for SphericalShoulder {
     /// Eq. 66.
     fn jacobian_determinant(&self, q: &[f64; 7]) -> f64 {
         let [_, theta_2, _, theta_4, ..] = self.theta(q);
-        let signs = self.placement.signs[..6].iter().product::<f64>();
+        let signs = self.joint_map.signs[..6].iter().product::<f64>();
         let links = self.links.product() * self.links.elbow_angle(theta_4).sin();
         -signs * links * self.aside(q) * theta_2.sin()
     }

@@ -132,7 +132,7 @@ impl SphericalShoulder {
         let [theta_1, theta_2, theta_3] = shoulder.theta;
         let joints = |theta_1, theta_2, theta_3| {
             let hand = [elbow.sin_4.atan2(elbow.cos_4), wrist.fifth.theta, wrist.sixth.theta];
-            let mut q = self.placement.joints([
+            let mut q = self.joint_map.joints([
                 theta_1,
                 theta_2,
                 theta_3,
@@ -162,7 +162,7 @@ impl SphericalShoulder {
     /// What the pose leaves open at theta_2 = 0 or 180 deg, in terms of the joints.
     fn free_shoulder(&self, theta_2: f64) -> FreeJoint {
         let sum =
-            (theta_2.cos() > 0.0) == (self.placement.signs[0] * self.placement.signs[2] > 0.0);
+            (theta_2.cos() > 0.0) == (self.joint_map.signs[0] * self.joint_map.signs[2] > 0.0);
         if sum { FreeJoint::ShoulderSum } else { FreeJoint::ShoulderDifference }
     }
 }

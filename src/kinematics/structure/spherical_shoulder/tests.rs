@@ -38,7 +38,7 @@ impl Solved {
     }
 
     fn solve(&self, pose: &Pose, free: &FreeChoice<7>) -> Branches<7> {
-        let t_shoulder_seven = self.solver.surroundings.wrist_pose(pose);
+        let t_shoulder_seven = self.solver.end_frames.wrist_pose(pose);
         self.solver.structure.solve(&t_shoulder_seven, free.q[6], free)
     }
 

@@ -7,21 +7,21 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use super::opw::OpwParameters;
 use crate::kinematics::pose::translation_z;
-use crate::kinematics::structure::joint_map::Placement;
+use crate::kinematics::structure::joint_map::JointMap;
 use crate::kinematics::structure::planar_arm::PlanarArm;
 
 /// The geometry between the shoulder (on axis 1, at the height of axis 2) and the wrist centre.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SphericalWrist {
     pub(super) planar: PlanarArm,
-    pub(super) placement: Placement<6>,
+    pub(super) joint_map: JointMap<6>,
 }
 
 impl SphericalWrist {
     pub(crate) fn from_opw(opw: &OpwParameters) -> Self {
         Self {
             planar: PlanarArm::new([opw.a1, opw.a2, opw.b, opw.c2, opw.c3]),
-            placement: Placement {
+            joint_map: JointMap {
                 signs: opw.signs.map(f64::from),
                 offsets: opw.offsets,
                 coupled: false,
@@ -32,7 +32,7 @@ impl SphericalWrist {
     }
 
     pub(super) fn theta(&self, q: &[f64; 6]) -> [f64; 6] {
-        self.placement.theta(q)
+        self.joint_map.theta(q)
     }
 
     /// The sine of the elbow angle, x of the wrist centre in the plane of the arm [m], and the sine of joint 5, signed (eq. 21).
@@ -44,6 +44,6 @@ impl SphericalWrist {
     /// The angle of joint 4 nearest to that of `q` at which axis 5 is parallel to axes 2 and 3 [rad]: 0 or 180 deg for ABB's arms.
     pub(crate) fn axis_4_in_plane(&self, q: &[f64; 6]) -> f64 {
         let theta_4 = self.theta(q)[3];
-        q[3] + self.placement.signs[3] * (PI * (theta_4 / PI).round() - theta_4)
+        q[3] + self.joint_map.signs[3] * (PI * (theta_4 / PI).round() - theta_4)
     }
 }

@@ -50,7 +50,7 @@ impl SphericalWrist {
     pub(crate) fn with_wrist(&self, m: &Matrix3<f64>, q: &[f64; 6], flipped: bool) -> [f64; 6] {
         let theta_4 = m[(1, 2)].atan2(m[(0, 2)]) + if flipped { PI } else { 0.0 };
         let mut q = *q;
-        q[3] += self.placement.signs[3] * (theta_4 - self.theta(&q)[3]);
+        q[3] += self.joint_map.signs[3] * (theta_4 - self.theta(&q)[3]);
         self.with_axis_4_held(m, &q)
     }
 
@@ -75,7 +75,7 @@ impl SphericalWrist {
         let cosine = n[(0, 0)] * cos_5 + n[(1, 1)] - n[(2, 0)] * sin_5;
         let sine = n[(1, 0)] - n[(0, 1)] * cos_5 + n[(2, 1)] * sin_5;
         theta[5] = sine.atan2(cosine);
-        let [_, _, _, _, q5, q6] = self.placement.joints(theta);
+        let [_, _, _, _, q5, q6] = self.joint_map.joints(theta);
         [q[0], q[1], q[2], q[3], q5, q6]
     }
 

@@ -10,7 +10,7 @@ use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::pose::angles::sign_of;
 use crate::kinematics::pose::{Pose, translation_z};
-use crate::kinematics::structure::joint_map::Placement;
+use crate::kinematics::structure::joint_map::JointMap;
 use crate::kinematics::structure::planar_arm::PlanarArm;
 use crate::kinematics::structure::recognition::{JointFrame, angle, axes, rotation_pose};
 use crate::kinematics::thresholds::FORM_TOLERANCE;
@@ -80,7 +80,7 @@ pub(super) fn measure(mdh: &mut Mdh<6>) -> Result<SphericalWrist, UnknownStructu
     };
     Ok(SphericalWrist {
         planar: PlanarArm::new([rows[1].a * f1.x.dot(&forward), a2, b, c2, c3]),
-        placement: Placement {
+        joint_map: JointMap {
             signs: [sign_1, sign_2, sign_3, sign_4, sign_5, sign_6],
             offsets: [0.0, -theta_2, -theta_3, -theta_4, -theta_5, 0.0],
             coupled: false,

@@ -33,7 +33,7 @@ use crate::kinematics::answer::status::Status;
 use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::distance_from_half_turns;
-use crate::kinematics::structure::joint_map::Placement;
+use crate::kinematics::structure::joint_map::JointMap;
 use crate::kinematics::thresholds::WRIST_MERGE_SIN;
 use crate::report::{Pattern, UnknownStructure};
 
@@ -58,13 +58,13 @@ impl Structure<6, 8> for SphericalWrist {
         measure::measure(mdh)
     }
 
-    fn joint_map(&self) -> &Placement<6> {
-        &self.placement
+    fn joint_map(&self) -> &JointMap<6> {
+        &self.joint_map
     }
 
     fn between(mut self, base: &Pose, tool: &Pose, coupled: bool) -> Self {
-        self.placement.coupled = coupled;
-        let fixed = [base, &self.placement.t_base_shoulder, &self.placement.t_wrist_flange, tool];
+        self.joint_map.coupled = coupled;
+        let fixed = [base, &self.joint_map.t_base_shoulder, &self.joint_map.t_wrist_flange, tool];
         Self { planar: self.planar.between(fixed), ..self }
     }
 
@@ -102,7 +102,7 @@ impl Structure<6, 8> for SphericalWrist {
     fn jacobian_determinant(&self, q: &[f64; 6]) -> f64 {
         let [elbow, x, wrist] = self.factors(q);
         let links = self.planar.c2 * self.planar.k;
-        -self.placement.signs.iter().product::<f64>() * links * elbow * x * wrist
+        -self.joint_map.signs.iter().product::<f64>() * links * elbow * x * wrist
     }
 
     /// By the signs of eq. 13.
@@ -124,7 +124,7 @@ impl Structure<6, 8> for SphericalWrist {
 
     /// Where axes 2 and 3 turn in the same sense, q2 + q3 is a pitch.
     fn may_be_coupled(&self) -> Result<(), &'static str> {
-        let same_sense = self.placement.signs[1].total_cmp(&self.placement.signs[2]).is_eq();
+        let same_sense = self.joint_map.signs[1].total_cmp(&self.joint_map.signs[2]).is_eq();
         if same_sense { Ok(()) } else { Err("they turn in opposite senses") }
     }
 }

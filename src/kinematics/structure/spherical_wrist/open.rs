@@ -17,7 +17,7 @@ impl SphericalWrist {
         let theta_5 = self.theta(q)[4];
         let straight = PI * (theta_5 / PI).round();
         let mut q = *q;
-        q[4] += self.placement.signs[4] * (straight + side * 2.0 * f64::EPSILON - theta_5);
+        q[4] += self.joint_map.signs[4] * (straight + side * 2.0 * f64::EPSILON - theta_5);
         q
     }
 
@@ -30,7 +30,7 @@ impl SphericalWrist {
         let bend = 1.1 * (self.planar.straight_m2(r).sqrt() / (c2 * k));
         let side = if behind { -straight.cos() } else { straight.cos() };
         let mut q = *q;
-        q[2] += self.placement.signs[2] * (straight + side * bend - elbow);
+        q[2] += self.joint_map.signs[2] * (straight + side * bend - elbow);
         q
     }
 }

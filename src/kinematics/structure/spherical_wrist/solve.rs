@@ -104,12 +104,12 @@ impl SphericalWrist {
             // A free theta_4 that was given may leave theta_5 negative: then the flipped slot is the one that is kept.
             let (kept, flipped) = if theta_5 < 0.0 { (slot + 1, slot) } else { (slot, slot + 1) };
             branches.q[kept] =
-                Some(self.placement.joints([theta_1, theta_2, theta_3, theta_4, theta_5, theta_6]));
+                Some(self.joint_map.joints([theta_1, theta_2, theta_3, theta_4, theta_5, theta_6]));
             branches.flags[kept] = flags;
             branches.flags[flipped] = flags;
             if elbows.free {
                 let upper =
-                    if self.placement.coupled { FreeJoint::UpperCoupled } else { FreeJoint::Upper };
+                    if self.joint_map.coupled { FreeJoint::UpperCoupled } else { FreeJoint::Upper };
                 (branches.free[kept], branches.free[flipped]) = (Some(upper), Some(upper));
             }
             if wrist.free {
@@ -118,7 +118,7 @@ impl SphericalWrist {
             if wrist.merged {
                 branches.flags[flipped] |= Status::MERGED;
             } else {
-                branches.q[flipped] = Some(self.placement.joints([
+                branches.q[flipped] = Some(self.joint_map.joints([
                     theta_1,
                     theta_2,
                     theta_3,
@@ -139,7 +139,7 @@ impl SphericalWrist {
     /// What the pose leaves open at theta_5 = 0 or 180 deg, in terms of the joints.
     pub(super) fn free_wrist(&self, theta_5: f64) -> FreeJoint {
         let sum =
-            (theta_5.cos() > 0.0) == (self.placement.signs[3] * self.placement.signs[5] > 0.0);
+            (theta_5.cos() > 0.0) == (self.joint_map.signs[3] * self.joint_map.signs[5] > 0.0);
         if sum { FreeJoint::WristSum } else { FreeJoint::WristDifference }
     }
 }

@@ -30,7 +30,7 @@ use crate::kinematics::answer::status::Status;
 use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::distance_from_half_turns;
-use crate::kinematics::structure::joint_map::Placement;
+use crate::kinematics::structure::joint_map::JointMap;
 use crate::kinematics::structure::planar_arm::PlanarArm;
 use crate::kinematics::thresholds::WRIST_MERGE_SIN;
 use crate::report::{Pattern, UnknownStructure};
@@ -56,12 +56,12 @@ impl Structure<6, 8> for ThreeParallel {
         measure::measure(mdh)
     }
 
-    fn joint_map(&self) -> &Placement<6> {
-        &self.placement
+    fn joint_map(&self) -> &JointMap<6> {
+        &self.joint_map
     }
 
     fn between(self, base: &Pose, tool: &Pose, _coupled: bool) -> Self {
-        let fixed = [base, &self.placement.t_base_shoulder, &self.placement.t_wrist_flange, tool];
+        let fixed = [base, &self.joint_map.t_base_shoulder, &self.joint_map.t_wrist_flange, tool];
         let planar = self.planar.between(fixed);
         Self { planar: PlanarArm { extent: planar.extent + self.d5, ..planar }, ..self }
     }
@@ -77,7 +77,7 @@ impl Structure<6, 8> for ThreeParallel {
 
     #[inline]
     fn singular_distances(&self, q: &[f64; 6]) -> SingularDistances {
-        let [_, _, theta_3, _, theta_5, _] = self.placement.theta(q);
+        let [_, _, theta_3, _, theta_5, _] = self.joint_map.theta(q);
         SingularDistances {
             wrist: distance_from_half_turns(theta_5),
             elbow: distance_from_half_turns(self.planar.elbow_angle(theta_3)),
@@ -88,7 +88,7 @@ impl Structure<6, 8> for ThreeParallel {
     /// A solve, which does not know `q`, also merges a wrist by what the pose leaves open of axis 1.
     #[inline]
     fn kinds(&self, q: &[f64; 6]) -> Status {
-        let [_, _, theta_3, _, theta_5, _] = self.placement.theta(q);
+        let [_, _, theta_3, _, theta_5, _] = self.joint_map.theta(q);
         let mut kinds = Status::empty();
         kinds.set(Status::WRIST, theta_5.sin().abs() <= WRIST_MERGE_SIN);
         kinds.set(Status::ELBOW, self.planar.is_straight(theta_3));
@@ -98,15 +98,15 @@ impl Structure<6, 8> for ThreeParallel {
 
     /// That at the wrist, which is that of the tool's (eq. 41).
     fn jacobian_determinant(&self, q: &[f64; 6]) -> f64 {
-        let [_, _, theta_3, _, theta_5, _] = self.placement.theta(q);
+        let [_, _, theta_3, _, theta_5, _] = self.joint_map.theta(q);
         let links = self.planar.c2 * self.planar.k * self.planar.sin_elbow(theta_3);
-        let signs = self.placement.signs.iter().product::<f64>();
+        let signs = self.joint_map.signs.iter().product::<f64>();
         -signs * links * self.x_of_wrist(q) * theta_5.sin()
     }
 
     /// By the signs that the solve gives a slot: of x (eq. 32), of theta_3 and of sin theta_5.
     fn slot(&self, q: &[f64; 6]) -> Option<Slot> {
-        let [_, _, theta_3, _, theta_5, _] = self.placement.theta(q);
+        let [_, _, theta_3, _, theta_5, _] = self.joint_map.theta(q);
         let met = self.kinds(q);
         let behind = self.x_of_wrist(q) < 0.0 && !met.contains(Status::SHOULDER);
         let backwards = self.planar.sin_elbow(theta_3) < 0.0 && !met.contains(Status::ELBOW);
@@ -114,6 +114,6 @@ impl Structure<6, 8> for ThreeParallel {
     }
 
     fn sin_5(&self, q: &[f64; 6]) -> Option<f64> {
-        Some(self.placement.theta(q)[4].sin())
+        Some(self.joint_map.theta(q)[4].sin())
     }
 }

@@ -38,7 +38,7 @@ impl Asked {
 impl ThreeParallel {
     /// Every branch of the wrist frame `t_shoulder_wrist`.
     pub(super) fn solve_wrist(&self, t_shoulder_wrist: &Pose, free: &FreeChoice<6>) -> Branches<6> {
-        let target = self.planar.target(t_shoulder_wrist, free, self.placement.theta(&free.q));
+        let target = self.planar.target(t_shoulder_wrist, free, self.joint_map.theta(&free.q));
         match self.planar.shoulders(target.wxy, target.free_theta[0], free.trust) {
             Ok(shoulders) => self.branches(&shoulders, &target),
             Err(missed) => Branches::empty(missed),
@@ -171,7 +171,7 @@ impl ThreeParallel {
         // phi - theta_23 (eq. 40)
         let sin_4 = wrist.sin_phi * elbow.cos_23 - wrist.cos_phi * elbow.sin_23;
         let cos_4 = wrist.cos_phi * elbow.cos_23 + wrist.sin_phi * elbow.sin_23;
-        self.placement.joints([
+        self.joint_map.joints([
             theta_1,
             elbow.theta_2,
             elbow.theta_3,
