@@ -53,7 +53,7 @@
 //! | `libm` | | square roots and angles without `std`; a solve takes nothing from the heap either way |
 //! | `urdf` | yes | `Robot::from_urdf` |
 //! | `rapid` | yes | [`rapid`]: robtargets and moves of RAPID modules, read, solved and rewritten |
-//! | `serde` | | [`OpwParameters`], [`DhRow`], [`Configuration`], [`Slot`] and [`FreeJoint`] are written and read |
+//! | `serde` | | models ([`OpwParameters`], [`Mdh`], [`Sdh`], [`JointAxis`]), answers ([`Solution`], [`Configuration`], [`Singularity`]) and options are written and read |
 //! | `python` | | the extension module of the Python package; no use to a crate |
 //!
 //! Metres, radians, `f64`. `docs/` of the repository has the conventions, the derivations and the accuracy.

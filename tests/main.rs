@@ -26,6 +26,7 @@ mod reach_and_paths;
 mod recall;
 mod redundancy;
 #[cfg(feature = "urdf")]
+mod serde;
 mod snap;
 mod structures;
 #[cfg(feature = "urdf")]

@@ -6,6 +6,7 @@ use crate::kinematics::answer::status::Status;
 
 /// How far a joint vector is from each singularity of an arm with a closed form.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SingularDistances {
     /// Angle of joint 5 from 0 or 180 deg [rad]; of a seven-axis arm, that between the plane of
     /// axes 5 and 6 and the line from where they meet to the shoulder.
@@ -19,6 +20,7 @@ pub struct SingularDistances {
 
 /// How far a joint vector is from the singularities of its arm.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Singularity {
     /// Distances from the wrist, elbow and shoulder singularity; `None` for an arm whose singularities have no such names.
     pub distances: Option<SingularDistances>,

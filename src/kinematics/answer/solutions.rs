@@ -8,8 +8,10 @@ use crate::report::{Explanation, FreeJoint, Reach};
 
 /// One joint vector that brings the tool to the pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Solution<const N: usize> {
     /// Joint angles [rad]: in (-pi, pi], or the full turn of it that is inside the limits.
+    #[cfg_attr(feature = "serde", serde(with = "serde_big_array::BigArray"))]
     pub q: [f64; N],
     /// The slot.
     pub slot: Slot,

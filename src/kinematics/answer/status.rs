@@ -3,6 +3,7 @@
 bitflags::bitflags! {
     /// What a solve says of one slot.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
     pub struct Status: u8 {
         /// The slot holds a solution.
         const FOUND = 1;

@@ -45,10 +45,12 @@ impl DhRow {
 /// Modified (Craig) table with its fixed end transforms:
 /// `base * prod(Rx(alpha) Tx(a) Rz(theta + q) Tz(d)) * flange`.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Mdh<const N: usize> {
     /// Fixed transform before the first row.
     pub base: Pose,
     /// One row a joint.
+    #[cfg_attr(feature = "serde", serde(with = "serde_big_array::BigArray"))]
     pub rows: [DhRow; N],
     /// Fixed transform behind the last row.
     pub flange: Pose,
@@ -57,10 +59,12 @@ pub struct Mdh<const N: usize> {
 /// Standard table with its fixed end transforms:
 /// `base * prod(Rz(theta + q) Tz(d) Tx(a) Rx(alpha)) * flange`.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sdh<const N: usize> {
     /// Fixed transform before the first row.
     pub base: Pose,
     /// One row a joint.
+    #[cfg_attr(feature = "serde", serde(with = "serde_big_array::BigArray"))]
     pub rows: [DhRow; N],
     /// Fixed transform behind the last row.
     pub flange: Pose,

@@ -9,6 +9,7 @@ use crate::lanes::{Kernel, LANES, mul_add, run};
 
 /// The frame in which a Jacobian's rows are expressed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum JacobianFrame {
     /// The frame in which poses are given.
     #[default]

@@ -19,6 +19,7 @@ const ALONG: f64 = 0.9;
 
 /// Axis of a revolute joint at zero joint angles, in the base frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct JointAxis {
     /// The direction about which the joint turns; its length does not matter.
     pub direction: [f64; 3],

@@ -16,6 +16,7 @@ use crate::kinematics::thresholds::{HELD_STILL, JUMP_BLIND, WRIST_ZONE};
 
 /// What a path does at the wrist singularity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Crossing {
     /// Meets every pose exactly, however fast axes 4 and 6 must turn.
@@ -33,6 +34,7 @@ pub enum Crossing {
 
 /// How a path is followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FollowOptions {
     /// Cost of moving each joint, in the choice among solutions.
     pub weights: [f64; 6],

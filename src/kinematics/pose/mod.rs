@@ -23,6 +23,7 @@ pub type Pose = IsometryMatrix3<f64>;
 
 /// How far two poses are apart.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PoseError {
     /// Distance of the origins [m].
     pub position: f64,
