@@ -5,16 +5,16 @@
 pub const ROTATION_REPAIR_BOUND: f64 = 1e-5;
 
 /// Deviation below which a rotation is taken as it is [1]: a product of seven rotations in float64 is this far off, a repair gains nothing.
-pub const ROTATION_ROUNDING: f64 = 4e-15;
+pub(crate) const ROTATION_ROUNDING: f64 = 4e-15;
 
 /// How far the last row of a pose may be from 0 0 0 1 [1]: what a numerically inverted matrix leaves there.
-pub const LAST_ROW_BOUND: f64 = 1e-9;
+pub(crate) const LAST_ROW_BOUND: f64 = 1e-9;
 
 /// How far a quaternion's norm may be from one [1]. Normalising loses no direction, so text with three digits is taken.
 pub const QUATERNION_NORM_BOUND: f64 = 2e-3;
 
 /// Cosine of the middle ZYX angle below which the outer two act as one [1]: a few roundings of a rotation's elements.
-pub const GIMBAL_COS: f64 = 1e-14;
+pub(crate) const GIMBAL_COS: f64 = 1e-14;
 
 /// How far beyond reach the wrist centre may be and still get the stretched (or folded) arm [m].
 pub const REACH_TOLERANCE: f64 = 1e-9;
@@ -39,62 +39,62 @@ pub const POSITION_ROUNDING: f64 = 1.5e-15;
 pub const SEEDED_FREE: f64 = 1e-12;
 
 /// |sin q5| below which a path may keep the q4 that it is heading for [1], where what is known of the forearm does not contradict it.
-pub const PATH_WRIST_SIN: f64 = 1e-3;
+pub(crate) const PATH_WRIST_SIN: f64 = 1e-3;
 
 /// Distance of the wrist centre from axis 1, as a part of the lengths of the arm, from which a branch is plain [1]: all that decides there
 /// stands far from every threshold, so that it is solved in lanes. Nearer, the careful solve decides; both agree to rounding.
-pub const PLAIN_SHOULDER: f64 = 1e-6;
+pub(crate) const PLAIN_SHOULDER: f64 = 1e-6;
 
 /// Distance of the wrist centre from the edge of reach, as a part of the lengths of the arm, from which a branch is plain [1].
-pub const PLAIN_REACH: f64 = 1e-7;
+pub(crate) const PLAIN_REACH: f64 = 1e-7;
 
 /// Length of the forearm, as a part of the upper arm, from which a branch is plain [1]: below, its direction is a small difference.
-pub const PLAIN_FOREARM: f64 = 0.25;
+pub(crate) const PLAIN_FOREARM: f64 = 0.25;
 
 /// |sin q5| from which a branch is plain [1].
-pub const PLAIN_WRIST_SIN: f64 = 1e-6;
+pub(crate) const PLAIN_WRIST_SIN: f64 = 1e-6;
 
 /// |sin| of the elbow angle from which a branch of a seven-axis arm is plain [1]: what rounding leaves open of the elbow turns the upper arm.
-pub const PLAIN_ELBOW_SIN: f64 = 1e-2;
+pub(crate) const PLAIN_ELBOW_SIN: f64 = 1e-2;
 
 /// Distance of the shoulder from the plane of axes 5 and 6, as a part of the lengths of the arm, from which a branch of a seven-axis arm is
 /// plain [1].
-pub const PLAIN_ASIDE: f64 = 3e-3;
+pub(crate) const PLAIN_ASIDE: f64 = 3e-3;
 
 /// Distance of two angles of joint 7 at which all solutions are looked at [rad].
-pub const JOINT_7_SPACING: f64 = 0.06;
+pub(crate) const JOINT_7_SPACING: f64 = 0.06;
 /// The distance at which they are looked at again where none inside the limits was found [rad].
-pub const JOINT_7_FINER_SPACING: f64 = 0.015;
+pub(crate) const JOINT_7_FINER_SPACING: f64 = 0.015;
 
 /// Angle by which a joint may differ between two neighbors of those [rad]: valleys of the cost are wider.
 pub const SAMPLE_LEAP: f64 = 0.5;
 
 /// First step along a curve of self-motion [rad].
-pub const FIRST_CURVE_STEP: f64 = 0.05;
+pub(crate) const FIRST_CURVE_STEP: f64 = 0.05;
 
 /// Largest step along a curve of self-motion [rad]: a tenth of what it takes to turn by half a radian and back.
-pub const LARGEST_CURVE_STEP: f64 = 0.2;
+pub(crate) const LARGEST_CURVE_STEP: f64 = 0.2;
 
 /// Step below which a curve of self-motion is taken to end, and a valley to be at its bottom [rad]: its square is the
 /// rounding of a cost.
-pub const LEAST_CURVE_STEP: f64 = 1e-8;
+pub(crate) const LEAST_CURVE_STEP: f64 = 1e-8;
 
 /// How little the two sides of an edge of joint 7 may differ, as a part of their size, and still be taken to touch [1]:
 /// what rounding leaves of a double zero, with room. An angle that is taken in vain costs one solve.
-pub const TOUCHING: f64 = 1e-12;
+pub(crate) const TOUCHING: f64 = 1e-12;
 
 /// How far a solution may be off its pose and still be one of it [m, rad]: more than any family or stretched arm, less than another pose.
-pub const SOLUTION_OFF: f64 = 1e-6;
+pub(crate) const SOLUTION_OFF: f64 = 1e-6;
 
 /// How far an angle may pass a joint limit and still be inside [rad]: a pose taught at the limit must not be lost to rounding.
 pub const LIMIT_TOLERANCE: f64 = 1e-9;
 
 /// How far outside its limits a joint may be calculated that rounding of a singular pose leaves open, and still be moved inside them, if that
 /// meets the pose [rad]: what is left open of a joint whose lever is [`SEEDED_FREE`], ten times.
-pub const LIMIT_SLACK: f64 = 1e-2;
+pub(crate) const LIMIT_SLACK: f64 = 1e-2;
 
 /// Least length of an upper arm or forearm [m].
-pub const LEAST_LINK: f64 = 1e-6;
+pub(crate) const LEAST_LINK: f64 = 1e-6;
 
 /// Greatest length of a model [m]: squares and sums of it stay exact to rounding, and no arm is longer.
 pub const MOST_LENGTH: f64 = 1e6;
@@ -110,19 +110,19 @@ pub const FORM_TOLERANCE: f64 = 1e-9;
 pub const MOST_SNAP: f64 = 1e-3;
 
 /// How much a joint step must grow over the one before it to be looked into as a jump [1].
-pub const JUMP_GROWTH: f64 = 3.0;
+pub(crate) const JUMP_GROWTH: f64 = 3.0;
 
 /// Joint step that is never looked into as a jump [rad]: two degrees.
-pub const JUMP_LEAST: f64 = 0.035;
+pub(crate) const JUMP_LEAST: f64 = 0.035;
 
 /// Joint step that is told as a jump where nothing between the two poses can be looked at [rad]: 20 degrees.
-pub const JUMP_BLIND: f64 = 0.35;
+pub(crate) const JUMP_BLIND: f64 = 0.35;
 
 /// Joint step below which an arm with axis 4 held stands still [rad]: rounding.
-pub const HELD_STILL: f64 = 1e-15;
+pub(crate) const HELD_STILL: f64 = 1e-15;
 
 /// Joint step up to which a path is taken to go on as it did [rad].
-pub const STEADY_STEP: f64 = 0.1;
+pub(crate) const STEADY_STEP: f64 = 0.1;
 
 /// |sin q5| below which a crossing policy acts [1]: one degree. "wrist" may then deviate by two in orientation.
 pub const WRIST_ZONE: f64 = 0.0175;
