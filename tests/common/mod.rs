@@ -1,6 +1,7 @@
 //! What several law tests need: random numbers, arms, distances.
 #![allow(dead_code, unreachable_pub, missing_docs, clippy::unwrap_used, clippy::panic)]
 
+pub mod coupled_arm;
 pub mod rng;
 pub mod skip;
 pub mod tally;
