@@ -94,6 +94,11 @@ impl<'a> Judge<'a> {
         self.made.theta[2].cos() < 0.0 && (self.arm.c2 - self.arm.c3).abs() < 1e-9
     }
 
+    /// How far a solution may be off the pose, seen with the rounding of the position [m].
+    fn met(&self) -> f64 {
+        thresholds::SEEDED_FREE + self.rounding() + self.made.beyond
+    }
+
     fn rounding(&self) -> f64 {
         thresholds::POSITION_ROUNDING * self.arm.reach()
     }
@@ -284,8 +289,7 @@ impl<'a> Judge<'a> {
         });
         let theta_6 = self.arm.theta(&[nearest.q[5]; 6])[5];
         let missing = self.arm.missing(self.arm.end_along_family(&self.made.theta, theta_6));
-        missing.abs() <= 1e-12 + self.made.beyond
-            && members.all(|member| least <= cost(&member.q) + 1e-9)
+        missing.abs() <= self.met() && members.all(|member| least <= cost(&member.q) + 1e-9)
     }
 
     /// Whether no angle of joint 6 that is nearer to `wanted` than the solution's is reached, and
@@ -303,8 +307,7 @@ impl<'a> Judge<'a> {
             .map(|step| PI * f64::from(step) / f64::from(steps))
             .take_while(|off| *off < distance - open);
         let mut ways = nearer.flat_map(|off| [wanted - off, wanted + off]);
-        missing(solution.q[5]) <= 1e-12 + self.made.beyond
-            && ways.all(|q6| missing(q6) > self.rounding())
+        missing(solution.q[5]) <= self.met() && ways.all(|q6| missing(q6) > self.rounding())
     }
 
     pub fn judge(&self, solutions: &Solutions<6>, rng: &mut Rng) -> Verdict {
