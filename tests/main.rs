@@ -25,8 +25,8 @@ mod rapid_fuzz;
 mod reach_and_paths;
 mod recall;
 mod redundancy;
-#[cfg(feature = "urdf")]
 mod serde;
+#[cfg(feature = "urdf")]
 mod snap;
 mod structures;
 #[cfg(feature = "urdf")]

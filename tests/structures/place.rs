@@ -1,7 +1,11 @@
 //! Where a hard set places an arm, and what is said of the answer there.
 
-use irbkin::{Arity, Joints};
-use irbkin::{Pose, Robot};
+use std::boxed::Box;
+use std::string::String;
+use std::vec::Vec;
+use std::{format, vec};
+
+use irbkin::{Arity, Joints, Pose, Robot};
 
 use crate::rng::Rng;
 
