@@ -116,7 +116,7 @@ stages: | toolchains ## Show where the time of a pose goes, by stages, with Linu
 ulp: | toolchains ## Hold the lanes' arc tangent, sine and cosine against correctly rounded ones, at ten million points
 	IRBKIN_POINTS=10000000 cargo test --quiet --release --lib lanes::functions -- --nocapture --test-threads=1
 
-million: | toolchains ## Solve a million random poses of each of fourteen arms on each instruction set; count what is lost, wrong or twice
+million: | toolchains ## Solve a million random poses of each of twenty-two arms on each instruction set; count what is lost, wrong or twice
 	$(ON_EACH_SET) IRBKIN_POSES=1000000 cargo test --quiet --release --test suite -- recall:: --nocapture --test-threads=1; done
 
 configurations: | toolchains ## Hold a hundred thousand poses of every ABB arm against the rules of its confdata
