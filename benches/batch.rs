@@ -1,4 +1,5 @@
-//! Many poses of an IRB 2600, a UR3 and a Panda on one thread, on every instruction set, a pose at a time, against filling the answers with zeros.
+//! Many poses of an IRB 2600, a UR3 and a Panda on one thread, on every instruction set, a pose at
+//! a time, against filling the answers with zeros.
 //!
 //! 512 poses and their answers stay in the second-level cache; 100,000 do not.
 #![allow(missing_docs, clippy::unwrap_used)]

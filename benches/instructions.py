@@ -1,4 +1,6 @@
-"""Count the instructions of a call and show them beside the recorded ones: `make instructions`, WRITE=1 records."""
+"""Count the instructions of a call and show them beside the recorded ones: `make instructions`,
+WRITE=1 records.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,8 @@ from pathlib import Path
 from built import executable, toolchain
 
 PAGE = Path(__file__).with_suffix(".md")
-# valgrind has no AVX-512: programs that ask it for the processor's features are told that there is none.
+# valgrind has no AVX-512: programs that ask it for the processor's features are told that there is
+# none.
 SETS = ("avx2", "baseline")
 # What is done, and how many poses that are.
 WHAT = {
@@ -32,7 +35,9 @@ FEW, MANY = 2, 12
 def counted(program: str, what: str, instructions: str, times: int) -> int:
     """Instructions of the whole program."""
     valgrind = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null"]
-    run = subprocess.run([*valgrind, program, what, instructions, str(times)], capture_output=True, text=True)
+    run = subprocess.run(
+        [*valgrind, program, what, instructions, str(times)], capture_output=True, text=True
+    )
     found = re.search(r"Collected : (\d+)", run.stderr)
     if run.returncode != 0 or found is None:
         sys.exit(f"valgrind cannot run {what} on {instructions}:\n{run.stderr}")
@@ -41,7 +46,11 @@ def counted(program: str, what: str, instructions: str, times: int) -> int:
 
 def recorded() -> dict[str, list[int]]:
     """The table of the page: a row's counts by its name."""
-    rows = re.findall(r"^\| (.+?) \| (\d+) \| (\d+) \|$", PAGE.read_text(), re.MULTILINE) if PAGE.exists() else []
+    rows = (
+        re.findall(r"^\| (.+?) \| (\d+) \| (\d+) \|$", PAGE.read_text(), re.MULTILINE)
+        if PAGE.exists()
+        else []
+    )
     return {name: [int(count) for count in counts] for name, *counts in rows}
 
 
@@ -68,11 +77,15 @@ def main() -> None:
         print("valgrind is missing: nothing is counted (Debian: apt-get install valgrind)")
         return
     program, before, now = executable(), recorded(), {}
-    print(f"{toolchain()}\n{'instructions a pose':22}{'set':10}{'recorded':>10}{'now':>10}{'change':>10}")
+    print(
+        f"{toolchain()}\n{'instructions a pose':22}{'set':10}{'recorded':>10}{'now':>10}{'change':>10}"
+    )
     for what, poses in WHAT.items():
         now[what] = []
         for number, instructions in enumerate(SETS):
-            difference = counted(program, what, instructions, MANY) - counted(program, what, instructions, FEW)
+            difference = counted(program, what, instructions, MANY) - counted(
+                program, what, instructions, FEW
+            )
             count = round(difference / (MANY - FEW) / poses)
             now[what].append(count)
             old = before[what][number] if what in before else None

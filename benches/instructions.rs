@@ -1,6 +1,8 @@
-//! What `make instructions` counts and `make stages` samples: `instructions WHAT SET TIMES` does one thing that many times.
+//! What `make instructions` counts and `make stages` samples: `instructions WHAT SET TIMES` does
+//! one thing that many times.
 //!
-//! `instructions sets` lists the instruction sets of this processor. Without arguments it does everything once on each: a proof that it runs.
+//! `instructions sets` lists the instruction sets of this processor. Without arguments it does
+//! everything once on each: a proof that it runs.
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use std::hint::black_box;

@@ -1,5 +1,5 @@
-//! One pose of an IRB 2600: forward kinematics, Jacobian, inverse kinematics, singularity; the inverse of a UR3 and a Panda; on every
-//! instruction set.
+//! One pose of an IRB 2600: forward kinematics, Jacobian, inverse kinematics, singularity; the
+//! inverse of a UR3 and a Panda; on every instruction set.
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use std::hint::black_box;

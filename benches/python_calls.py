@@ -1,4 +1,6 @@
-"""Python calls on one pose and on a batch, as ratios to a yardstick that is measured in turn in the same run."""
+"""Python calls on one pose and on a batch, as ratios to a yardstick that is measured in turn in the
+same run.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,9 @@ POSES = 100_000
 
 
 class Row(NamedTuple):
-    """A call, and what the project wants of it: a ratio to the yardstick, or a time of one pose in a batch."""
+    """A call, and what the project wants of it: a ratio to the yardstick, or a time of one pose in
+    a batch.
+    """
 
     name: str
     call: Callable[[], object]
@@ -32,10 +36,11 @@ def single_calls(robot: irbkin.Robot) -> list[Row]:
     """One pose of eight solutions, against a product of two 4x4 arrays."""
     q = np.array([0.3, -0.2, 0.4, 0.5, -0.6, 0.7])
     T = robot.fk(q)
-    xyz, quaternion = irbkin.to_xyz_quaternion(T)
+    xyz, quaternion = irbkin.to_xyz_wxyz(T)
     pose_out, jacobian_out = np.empty((4, 4)), np.empty((6, 6))
     product = "A @ B"
-    # The goals of fk, jacobian and ik_nearest are fractions of other packages' times, in the same unit.
+    # The goals of fk, jacobian and ik_nearest are fractions of other packages' times, in the same
+    # unit.
     return [
         Row("A @ B", lambda: T @ T, product),
         Row("fk(q)", lambda: robot.fk(q), product, "0.58 x"),
@@ -49,15 +54,21 @@ def single_calls(robot: irbkin.Robot) -> list[Row]:
         Row("singularity(q)", lambda: robot.singularity(q), product),
         Row("link_frames(q)", lambda: robot.link_frames(q), product),
         Row("pose(xyz, quaternion)", lambda: irbkin.pose(xyz, quaternion), product),
-        Row("to_xyz_quaternion(T)", lambda: irbkin.to_xyz_quaternion(T), product),
+        Row("to_xyz_wxyz(T)", lambda: irbkin.to_xyz_wxyz(T), product),
     ]
 
 
 def other_families() -> list[Row]:
-    """One pose of eight solutions of a UR3 and a Panda; the goals are fractions of eaik's and frankik's times."""
+    """One pose of eight solutions of a UR3 and a Panda; the goals are fractions of eaik's and
+    frankik's times.
+    """
     ur3, panda = irbkin.Robot("UR3"), irbkin.Robot("Panda")
     T, q = ur3.fk([0.4, -1.9, 1.5, -0.6, 1.1, 0.3]), np.array([0.1, -0.7, 0.2, -2.2, 0.1, 1.7, 0.6])
-    T_panda, above, far = panda.fk(q), panda.fk(q + 0.01), np.array([-1.0, 0.5, -0.8, -1.2, 1.0, 2.5, -1.0])
+    T_panda, above, far = (
+        panda.fk(q),
+        panda.fk(q + 0.01),
+        np.array([-1.0, 0.5, -0.8, -1.2, 1.0, 2.5, -1.0]),
+    )
     product = "A @ B"
     return [
         Row("A @ B", lambda: T @ T, product),
@@ -78,7 +89,12 @@ def other_batches() -> list[list[Row]]:
         out = irbkin.IkBatch(np.empty((POSES, 8, robot.dof)), np.empty((POSES, 8), np.uint8))
         solve = partial(robot.ik_batch, T, q7, out=out)
         zeros = "joints.fill(0.0)"
-        tables.append([Row(zeros, partial(out.q.fill, 0.0), zeros), Row(f"{name}: ik_batch", solve, zeros, goal)])
+        tables.append(
+            [
+                Row(zeros, partial(out.q.fill, 0.0), zeros),
+                Row(f"{name}: ik_batch", solve, zeros, goal),
+            ]
+        )
     return tables
 
 
@@ -106,7 +122,12 @@ def batches(robot: irbkin.Robot) -> list[list[Row]]:
         [
             Row(zero_joints, lambda: out.q.fill(0.0), zero_joints),
             Row(one_thread, lambda: robot.ik_batch(T, out=out), zero_joints, "6.00 x, 67 ns"),
-            Row("ik_batch, threads=2", lambda: robot.ik_batch(T, out=out, threads=2), one_thread, "0.59 x"),
+            Row(
+                "ik_batch, threads=2",
+                lambda: robot.ik_batch(T, out=out, threads=2),
+                one_thread,
+                "0.59 x",
+            ),
         ],
     ]
 
@@ -118,7 +139,9 @@ def measure(rows: list[Row], calls: int, poses: int) -> None:
         for row in rows:
             times[row.name].append(timeit.timeit(row.call, number=calls) / calls / poses)
     for row in rows:
-        ratio = statistics.median(a / b for a, b in zip(times[row.name], times[row.yardstick], strict=True))
+        ratio = statistics.median(
+            a / b for a, b in zip(times[row.name], times[row.yardstick], strict=True)
+        )
         time = statistics.median(times[row.name]) * 1e9
         print(f"{row.name:24}{time:12.1f}{ratio:9.2f}  {row.yardstick:20}{row.goal}".rstrip())
 
@@ -126,7 +149,10 @@ def measure(rows: list[Row], calls: int, poses: int) -> None:
 def import_time() -> float:
     """What importing irbkin takes when NumPy is there already [s]."""
     code = "import numpy, time; start = time.perf_counter(); import irbkin; print(time.perf_counter() - start)"
-    run = [subprocess.run([sys.executable, "-c", code], capture_output=True, check=True).stdout for _ in range(5)]
+    run = [
+        subprocess.run([sys.executable, "-c", code], capture_output=True, check=True).stdout
+        for _ in range(5)
+    ]
     return statistics.median(float(seconds) for seconds in run)
 
 
@@ -142,7 +168,9 @@ def main() -> None:
     for rows in (*batches(robot), *other_batches()):
         measure(rows, 1, POSES)
     print(f"\nimport irbkin, NumPy loaded: {import_time() * 1e3:.1f} ms (goal 5 ms)")
-    print("Goals in Rust, one thread: 150 ns a pose of 8 solutions (AVX2 up), 30 ns in a batch (AVX-512), 60 ns (AVX2)")
+    print(
+        "Goals in Rust, one thread: 150 ns a pose of 8 solutions (AVX2 up), 30 ns in a batch (AVX-512), 60 ns (AVX2)"
+    )
 
 
 if __name__ == "__main__":

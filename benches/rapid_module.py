@@ -1,7 +1,8 @@
-"""Times a RAPID module of many targets: read, solved, written. `TARGETS` in the environment sets how many; 50,000.
+"""Times a RAPID module of many targets: read, solved, written. `TARGETS` in the environment sets
+how many; 50,000.
 
-Each time is the least of some repetitions, beside a yardstick measured in turn: the same numbers read by json, and the
-same poses solved by `ik_batch`.
+Each time is the least of some repetitions, beside a yardstick measured in turn: the same numbers
+read by json, and the same poses solved by `ik_batch`.
 """
 
 import json
@@ -24,7 +25,8 @@ def targets() -> dict[str, rapid.RobTarget]:
     """Targets with their configurations, of random joint vectors inside the limits."""
     joints = np.random.default_rng(7).uniform(*ROBOT.limits.T, (TARGETS, 6))
     return {
-        f"p{number}": rapid.calc_rob_t(ROBOT, rapid.JointTarget.of(q), TOOL, WOBJ) for number, q in enumerate(joints)
+        f"p{number}": rapid.calc_rob_t(ROBOT, rapid.JointTarget.of(q), TOOL, WOBJ)
+        for number, q in enumerate(joints)
     }
 
 
@@ -49,17 +51,29 @@ def main() -> None:
     assert not any(table.problems), "every target has its joint angles"
     print(f"{TARGETS} robtargets, {len(text) / 1e6:.1f} MB")
     for what, run, yardstick, than in (
-        ("read: parse", lambda: rapid.parse(text), lambda: json.loads(numbers), "json.loads of the same numbers"),
+        (
+            "read: parse",
+            lambda: rapid.parse(text),
+            lambda: json.loads(numbers),
+            "json.loads of the same numbers",
+        ),
         (
             "solved: calc_targets",
             lambda: rapid.calc_targets(ROBOT, module, TOOL, WOBJ),
             lambda: ROBOT.ik_batch(poses),
             "ik_batch of the same poses, all eight slots",
         ),
-        ("written: dump", lambda: rapid.dump(module), lambda: json.dumps(json.loads(numbers)), "json there and back"),
+        (
+            "written: dump",
+            lambda: rapid.dump(module),
+            lambda: json.dumps(json.loads(numbers)),
+            "json there and back",
+        ),
     ):
         own, other = least(run), least(yardstick)
-        print(f"  {what:22} {own * 1e3:8.1f} ms  {own / TARGETS * 1e9:6.0f} ns a target  {own / other:6.2f} x {than}")
+        print(
+            f"  {what:22} {own * 1e3:8.1f} ms  {own / TARGETS * 1e9:6.0f} ns a target  {own / other:6.2f} x {than}"
+        )
 
 
 if __name__ == "__main__":

@@ -1,7 +1,8 @@
-"""Show where the time of a pose goes, stage by stage: `make stages`. Needs Linux's perf, nm and addr2line.
+"""Show where the time of a pose goes, stage by stage: `make stages`. Needs Linux's perf, nm and
+addr2line.
 
-perf samples a call that is repeated. A sample belongs to the stage that lists the innermost of the functions, inlined
-ones too, that it fell into.
+perf samples a call that is repeated. A sample belongs to the stage that lists the innermost of the
+functions, inlined ones too, that it fell into.
 """
 
 from __future__ import annotations
@@ -20,7 +21,9 @@ SAMPLES_A_SECOND = 5000
 
 
 class Work(NamedTuple):
-    """What is repeated how often, the poses of a time, and its stages by file and beginning of the function."""
+    """What is repeated how often, the poses of a time, and its stages by file and beginning of the
+    function.
+    """
 
     what: str
     times: int
@@ -30,7 +33,12 @@ class Work(NamedTuple):
 
 SINES = ("forward.rs sines",)
 WORK = (
-    Work("fk", 10_000_000, 1, {"sines": SINES, "frames": ("axes.rs", "forward.rs run", "forward.rs tool")}),
+    Work(
+        "fk",
+        10_000_000,
+        1,
+        {"sines": SINES, "frames": ("axes.rs", "forward.rs run", "forward.rs tool")},
+    ),
     Work("jacobian", 5_000_000, 1, {"sines": SINES, "frames, columns": ("axes.rs", "jacobian.rs")}),
     Work(
         "ik, 8 solutions",
@@ -45,12 +53,21 @@ WORK = (
             "answer": ("inverse.rs", "single.rs"),
         },
     ),
-    Work("batch fk", 30_000, 512, {"sines": SINES, "write": ("axes.rs write",), "frames": ("axes.rs", "dispatch.rs")}),
+    Work(
+        "batch fk",
+        30_000,
+        512,
+        {"sines": SINES, "write": ("axes.rs write",), "frames": ("axes.rs", "dispatch.rs")},
+    ),
     Work(
         "batch jacobian",
         10_000,
         512,
-        {"sines": SINES, "write": ("jacobian.rs run",), "frames, columns": ("axes.rs", "jacobian.rs")},
+        {
+            "sines": SINES,
+            "write": ("jacobian.rs run",),
+            "frames, columns": ("axes.rs", "jacobian.rs"),
+        },
     ),
     Work(
         "batch ik",
@@ -71,27 +88,47 @@ WORK = (
 
 def lines(*command: str, stdin: str | None = None) -> list[str]:
     """What a program prints."""
-    return subprocess.run(command, input=stdin, stdout=subprocess.PIPE, check=True, text=True).stdout.splitlines()
+    return subprocess.run(
+        command, input=stdin, stdout=subprocess.PIPE, check=True, text=True
+    ).stdout.splitlines()
 
 
 def samples(program: str, work: Work, instructions: str) -> Counter[str]:
     """Addresses inside the program, and how often they were met."""
-    symbols = {fields[2]: int(fields[0], 16) for fields in map(str.split, lines("nm", program)) if len(fields) == 3}
+    symbols = {
+        fields[2]: int(fields[0], 16)
+        for fields in map(str.split, lines("nm", program))
+        if len(fields) == 3
+    }
     addresses: Counter[str] = Counter()
     with tempfile.TemporaryDirectory() as folder:
         data = str(Path(folder) / "perf.data")
-        record = ("perf", "record", "-q", "-F", str(SAMPLES_A_SECOND), "-e", "cpu-clock:u", "-o", data)
+        record = (
+            "perf",
+            "record",
+            "-q",
+            "-F",
+            str(SAMPLES_A_SECOND),
+            "-e",
+            "cpu-clock:u",
+            "-o",
+            data,
+        )
         lines(*record, program, work.what, instructions, str(work.times))
         for line in lines("perf", "script", "-i", data, "--no-demangle", "-F", "ip,sym,symoff"):
             symbol, _, offset = line.split()[-1].partition("+")
-            addresses[hex(symbols[symbol] + int(offset or "0", 16)) if symbol in symbols else ""] += 1
+            addresses[
+                hex(symbols[symbol] + int(offset or "0", 16)) if symbol in symbols else ""
+            ] += 1
     return addresses
 
 
 def functions(program: str, addresses: Counter[str]) -> dict[str, list[str]]:
     """File and name of the functions that an address is in, the innermost first."""
     places: dict[str, list[str]] = {}
-    found = iter(lines("addr2line", "-aifC", "-e", program, stdin="\n".join(filter(None, addresses))))
+    found = iter(
+        lines("addr2line", "-aifC", "-e", program, stdin="\n".join(filter(None, addresses)))
+    )
     address = ""
     for line in found:
         if line.startswith("0x"):
@@ -130,7 +167,10 @@ def main() -> None:
             row = [stages.total() if stage == "all" else stages[stage] for stages in columns]
             print(
                 f"{stage:16}"
-                + "".join(f"{count / SAMPLES_A_SECOND / work.times / work.poses * 1e9:12.1f}" for count in row)
+                + "".join(
+                    f"{count / SAMPLES_A_SECOND / work.times / work.poses * 1e9:12.1f}"
+                    for count in row
+                )
             )
 
 

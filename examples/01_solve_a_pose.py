@@ -15,11 +15,11 @@ def outside(limits: npt.NDArray[np.float64], q: npt.NDArray[np.float64]) -> str:
 def main() -> None:
     robot = irbkin.Robot("IRB 2600-12/1.65")
     # 850, 320, 640 mm from the base; the tool points forward and down, 60 deg below the horizon.
-    T = irbkin.pose([0.850, 0.320, 0.640], quaternion=[0.2588190, 0, 0.9659258, 0])
-    xyz, wxyz = irbkin.to_xyz_quaternion(T)
+    T = irbkin.pose([0.850, 0.320, 0.640], wxyz=[0.2588190, 0, 0.9659258, 0])
+    xyz, wxyz = irbkin.to_xyz_wxyz(T)
     solutions = robot.ik(T)
 
-    print(f"{robot.name}: {robot.dof} axes, {robot.family}")
+    print(f"{robot.name}: {robot.dof} axes, {robot.structure}")
     print("pose  xyz  " + " ".join(f"{1e3 * v:9.1f}" for v in xyz) + "            mm")
     print("      wxyz " + " ".join(f"{v:9.6f}" for v in wxyz))
     print(f"{solutions.explain()}\n")
@@ -27,8 +27,10 @@ def main() -> None:
     print("slot      J1      J2      J3      J4      J5      J6  residual  limits")
     for solution in solutions:
         angles = " ".join(f"{np.degrees(angle):7.2f}" for angle in solution)
-        print(f"   {solution.slot} {angles}     {solution.residual:.0e}  {outside(robot.limits, solution.q)}")
-    print("(degrees; the slot is ABB's cfx; the residual is the larger of metres and radians)\n")
+        print(
+            f"   {solution.slot} {angles}     {solution.residual:.0e}  {outside(robot.limits, solution.q)}"
+        )
+    print("(degrees; the slot is ABB's cfx; the residual is the larger of meters and radians)\n")
 
     nearest = solutions.nearest(HOME)
     s = robot.singularity(nearest.q)
@@ -38,7 +40,7 @@ def main() -> None:
     print(f"  from the shoulder singularity {1e3 * s.shoulder:6.1f} mm\n")
 
     T[0, 3] += 1.0
-    print(f"the same pose a metre further out: {robot.ik(T).explain()}")
+    print(f"the same pose a meter further out: {robot.ik(T).explain()}")
 
 
 if __name__ == "__main__":

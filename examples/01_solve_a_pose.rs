@@ -1,6 +1,6 @@
 //! Every way to bring an IRB 2600's tool to one pose.
 
-use irbkin::{Error, Robot, pose_from_quaternion, pose_to_quaternion};
+use irbkin::{Error, Robot, pose_from_wxyz, pose_to_wxyz};
 
 const HOME: [f64; 6] = [0.0, 0.0, 0.0, 0.0, 30.0, 0.0];
 
@@ -15,12 +15,11 @@ fn outside(limits: &[[f64; 2]; 6], q: &[f64; 6]) -> String {
 fn main() -> Result<(), Error> {
     let robot: Robot<6> = Robot::named("IRB 2600-12/1.65")?;
     // 850, 320, 640 mm from the base; the tool points forward and down, 60 deg below the horizon.
-    let mut pose =
-        pose_from_quaternion([0.850, 0.320, 0.640], [0.258_819_0, 0.0, 0.965_925_8, 0.0])?;
-    let (xyz, wxyz) = pose_to_quaternion(&pose);
+    let mut pose = pose_from_wxyz([0.850, 0.320, 0.640], [0.258_819_0, 0.0, 0.965_925_8, 0.0])?;
+    let (xyz, wxyz) = pose_to_wxyz(&pose);
     let solutions = robot.ik(&pose)?;
 
-    println!("{}: 6 axes, {}", robot.name(), robot.family());
+    println!("{}: 6 axes, {}", robot.name(), robot.structure());
     println!("pose  xyz  {}            mm", xyz.map(|v| format!("{:9.1}", 1e3 * v)).join(" "));
     println!("      wxyz {}", wxyz.map(|v| format!("{v:9.6}")).join(" "));
     println!("{}\n", solutions.explain());
@@ -36,7 +35,7 @@ fn main() -> Result<(), Error> {
         );
     }
     println!(
-        "(degrees; the slot is ABB's cfx; the residual is the larger of metres and radians)\n"
+        "(degrees; the slot is ABB's cfx; the residual is the larger of meters and radians)\n"
     );
 
     let nearest = solutions.nearest(&HOME.map(f64::to_radians), &[1.0; 6])?;
@@ -48,6 +47,6 @@ fn main() -> Result<(), Error> {
     }
 
     pose.translation.vector.x += 1.0;
-    println!("the same pose a metre further out: {}", robot.ik(&pose)?.explain());
+    println!("the same pose a meter further out: {}", robot.ik(&pose)?.explain());
     Ok(())
 }

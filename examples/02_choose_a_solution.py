@@ -5,12 +5,15 @@ import numpy as np
 
 
 def show(what: str, solution: irbkin.Solution) -> None:
-    print(f"{what:28} slot {solution.slot}  " + " ".join(f"{np.degrees(angle):7.1f}" for angle in solution))
+    print(
+        f"{what:28} slot {solution.slot}  "
+        + " ".join(f"{np.degrees(angle):7.1f}" for angle in solution)
+    )
 
 
 def main() -> None:
     robot = irbkin.Robot("IRB 2600-12/1.65")
-    T = irbkin.pose([0.850, 0.320, 0.640], quaternion=[0.2588190, 0, 0.9659258, 0])
+    T = irbkin.pose([0.850, 0.320, 0.640], wxyz=[0.2588190, 0, 0.9659258, 0])
     solutions = robot.ik(T)
     print(f"{solutions.explain()}; with every full turn inside them: {len(solutions.turns())}\n")
 

@@ -13,13 +13,14 @@ def show(what: str, q: npt.NDArray[np.float64]) -> None:
 
 def main() -> None:
     arm = irbkin.Robot("IRB 2600-12/1.65")
-    # A gripper whose centre point is 180 mm in front of the flange and tilted by 30 deg.
+    # A gripper whose center point is 180 mm in front of the flange and tilted by 30 deg.
     t_flange_tool = irbkin.pose([0.040, 0, 0.180], euler_zyx=np.radians([0, 30, 0]))
     # A pallet that stands turned by 15 deg, and a part on it.
     t_base_pallet = irbkin.pose([0.700, -0.500, 0.350], euler_zyx=np.radians([15, 0, 0]))
-    t_pallet_target = irbkin.pose([0.200, 0.150, 0.060], quaternion=[0, 0, 1, 0])
+    t_pallet_target = irbkin.pose([0.200, 0.150, 0.060], wxyz=[0, 0, 1, 0])
 
-    # Frames cancel from left to right; poses of a robot with a tool are poses of the tool's centre point.
+    # Frames cancel from left to right; poses of a robot with a tool are poses of the tool's center
+    # point.
     gripper = arm.with_tool(t_flange_tool)
     q = gripper.ik_nearest(t_base_pallet @ t_pallet_target, HOME)
     show("through the pallet", q)
@@ -29,7 +30,7 @@ def main() -> None:
     show("with_base", on_pallet.ik_nearest(t_pallet_target, HOME))
 
     # Forward kinematics answers in the pallet's frame, too.
-    xyz, _ = irbkin.to_xyz_quaternion(on_pallet.fk(q))
+    xyz, _ = irbkin.to_xyz_wxyz(on_pallet.fk(q))
     print("tool in the pallet's frame  " + " ".join(f"{1e3 * v:.1f}" for v in xyz) + " mm")
     print(f"flange in the base          {1e3 * arm.fk(q)[2, 3]:.1f} mm above the floor\n")
 

@@ -1,6 +1,6 @@
 //! A target taught in a work object, for a tool: what a robot program holds.
 
-use irbkin::{Error, Pose, Robot, pose_from_euler_zyx, pose_from_quaternion, pose_to_quaternion};
+use irbkin::{Error, Pose, Robot, pose_from_euler_zyx, pose_from_wxyz, pose_to_wxyz};
 
 const HOME: [f64; 6] = [0.0, 0.0, 0.0, 0.0, 30.0, 0.0];
 
@@ -15,13 +15,14 @@ fn turned(xyz: [f64; 3], zyx_deg: [f64; 3]) -> Result<Pose, Error> {
 fn main() -> Result<(), Error> {
     let (home, weights) = (HOME.map(f64::to_radians), [1.0; 6]);
     let arm: Robot<6> = Robot::named("IRB 2600-12/1.65")?;
-    // A gripper whose centre point is 180 mm in front of the flange and tilted by 30 deg.
+    // A gripper whose center point is 180 mm in front of the flange and tilted by 30 deg.
     let t_flange_tool = turned([0.040, 0.0, 0.180], [0.0, 30.0, 0.0])?;
     // A pallet that stands turned by 15 deg, and a part on it.
     let t_base_pallet = turned([0.700, -0.500, 0.350], [15.0, 0.0, 0.0])?;
-    let t_pallet_target = pose_from_quaternion([0.200, 0.150, 0.060], [0.0, 0.0, 1.0, 0.0])?;
+    let t_pallet_target = pose_from_wxyz([0.200, 0.150, 0.060], [0.0, 0.0, 1.0, 0.0])?;
 
-    // Frames cancel from left to right; poses of a robot with a tool are poses of the tool's centre point.
+    // Frames cancel from left to right; poses of a robot with a tool are poses of the tool's center
+    // point.
     let gripper = arm.clone().with_tool(&t_flange_tool)?;
     let q = gripper.ik_nearest(&(t_base_pallet * t_pallet_target), &home, &weights)?.q;
     show("through the pallet", &q);
@@ -31,7 +32,7 @@ fn main() -> Result<(), Error> {
     show("with_base", &on_pallet.ik_nearest(&t_pallet_target, &home, &weights)?.q);
 
     // Forward kinematics answers in the pallet's frame, too.
-    let (xyz, _) = pose_to_quaternion(&on_pallet.fk(&q));
+    let (xyz, _) = pose_to_wxyz(&on_pallet.fk(&q));
     println!("tool in the pallet's frame  {} mm", xyz.map(|v| format!("{:.1}", 1e3 * v)).join(" "));
     println!(
         "flange in the base          {:.1} mm above the floor\n",

@@ -1,4 +1,4 @@
-"""An arm that no catalogue has: from its table, from its parameters, and what is refused."""
+"""An arm that no catalog has: from its table, from its parameters, and what is refused."""
 
 import irbkin
 import numpy as np
@@ -9,7 +9,7 @@ def refused(what: str, error: irbkin.IrbkinError) -> None:
 
 
 def main() -> None:
-    # alpha, a, d, theta offset of each joint, after Craig; degrees and metres here.
+    # alpha, a, d, theta offset of each joint, after Craig; degrees and meters here.
     table = np.array(
         [
             [0, 0, 0.445, 0],
@@ -22,8 +22,8 @@ def main() -> None:
     )
     table[:, [0, 3]] = np.radians(table[:, [0, 3]])
     arm = irbkin.Robot.from_mdh(table, name="from a table")
-    T = irbkin.pose([0.850, 0.320, 0.640], quaternion=[0.2588190, 0, 0.9659258, 0])
-    print(f"{arm.name}: {arm.family}, {arm.ik(T).explain()}")
+    T = irbkin.pose([0.850, 0.320, 0.640], wxyz=[0.2588190, 0, 0.9659258, 0])
+    print(f"{arm.name}: {arm.structure}, {arm.ik(T).explain()}")
 
     # Brandstoetter's parameters [m]; this maker counts axes 1, 4 and 6 the other way round.
     kuka = irbkin.Robot.from_opw(
@@ -39,7 +39,7 @@ def main() -> None:
         name="KR 6 R700",
     )
     q = np.radians([0, -90, 90, 0, 30, 0])
-    print(f"{kuka.name}: {kuka.family}, {kuka.ik(kuka.fk(q)).explain()}\n")
+    print(f"{kuka.name}: {kuka.structure}, {kuka.ik(kuka.fk(q)).explain()}\n")
 
     # A wrist whose axes 5 and 6 pass 80 mm apart has no closed form here; the rest works.
     offset_wrist = table.copy()
@@ -49,7 +49,9 @@ def main() -> None:
     except irbkin.InvalidModelError as error:
         refused("axes 5 and 6 apart", error)
     arm = irbkin.Robot.from_mdh(offset_wrist, closed_form=False)
-    print(f"  without its inverse: {arm.family}, tool at z = {1e3 * arm.fk(np.zeros(6))[2, 3]:.1f} mm\n")
+    print(
+        f"  without its inverse: {arm.structure}, tool at z = {1e3 * arm.fk(np.zeros(6))[2, 3]:.1f} mm\n"
+    )
 
     mirrored = np.diag([1.0, 1.0, -1.0, 1.0])
     try:

@@ -1,10 +1,9 @@
-//! An arm that no catalogue has: from its table, from its parameters, and what is refused.
+//! An arm that no catalog has: from its table, from its parameters, and what is refused.
 
 use std::f64::consts::FRAC_PI_2;
 
 use irbkin::{
-    DhRow, Error, JointLimits, Mdh, OpwParameters, Pose, Robot, pose_from_quaternion,
-    pose_from_rows,
+    DhRow, Error, JointLimits, Mdh, OpwParameters, Pose, Robot, pose_from_rows, pose_from_wxyz,
 };
 
 /// The name that the Python package gives the error, and its message.
@@ -20,7 +19,7 @@ fn refused<T>(what: &str, result: Result<T, Error>) {
 }
 
 fn main() -> Result<(), Error> {
-    // alpha, a, d, theta offset of each joint, after Craig; degrees and metres here.
+    // alpha, a, d, theta offset of each joint, after Craig; degrees and meters here.
     let table = [
         [0.0, 0.0, 0.445, 0.0],
         [-90.0, 0.150, 0.0, -90.0],
@@ -33,8 +32,8 @@ fn main() -> Result<(), Error> {
         table.map(|[alpha, a, d, theta]| DhRow::new(alpha.to_radians(), a, d, theta.to_radians()));
     let mdh = Mdh { base: Pose::identity(), rows, flange: Pose::identity() };
     let arm = Robot::from_mdh(mdh.clone())?.with_name("from a table");
-    let pose = pose_from_quaternion([0.850, 0.320, 0.640], [0.258_819_0, 0.0, 0.965_925_8, 0.0])?;
-    println!("{}: {}, {}", arm.name(), arm.family(), arm.ik(&pose)?.explain());
+    let pose = pose_from_wxyz([0.850, 0.320, 0.640], [0.258_819_0, 0.0, 0.965_925_8, 0.0])?;
+    println!("{}: {}, {}", arm.name(), arm.structure(), arm.ik(&pose)?.explain());
 
     // Brandstoetter's parameters [m]; this maker counts axes 1, 4 and 6 the other way round.
     let kuka = Robot::from_opw(OpwParameters {
@@ -50,7 +49,7 @@ fn main() -> Result<(), Error> {
     })?
     .with_name("KR 6 R700");
     let q = [0.0, -90.0, 90.0, 0.0, 30.0, 0.0].map(f64::to_radians);
-    println!("{}: {}, {}\n", kuka.name(), kuka.family(), kuka.ik(&kuka.fk(&q))?.explain());
+    println!("{}: {}, {}\n", kuka.name(), kuka.structure(), kuka.ik(&kuka.fk(&q))?.explain());
 
     // A wrist whose axes 5 and 6 pass 80 mm apart has no closed form here; the rest works.
     let mut offset_wrist = mdh;
@@ -59,7 +58,7 @@ fn main() -> Result<(), Error> {
     let arm = Robot::serial_chain(offset_wrist)?;
     println!(
         "  without its inverse: {}, tool at z = {:.1} mm\n",
-        arm.family(),
+        arm.structure(),
         1e3 * arm.fk(&[0.0; 6]).translation.z
     );
 

@@ -24,14 +24,18 @@ def main() -> None:
     robot = irbkin.Robot("IRB 2600-12/1.65")
     # Joint vectors that fill the limits evenly: fractional parts of multiples of square roots.
     lower, upper = robot.limits.T
-    q = lower + (upper - lower) * (np.arange(1.0, POSES + 1)[:, None] * np.sqrt([2.0, 3, 5, 7, 11, 13]) % 1)
+    q = lower + (upper - lower) * (
+        np.arange(1.0, POSES + 1)[:, None] * np.sqrt([2.0, 3, 5, 7, 11, 13]) % 1
+    )
     T = robot.fk(q)
     batch = robot.ik_batch(T)
     print(f"q {q.shape} -> T {T.shape} -> q {batch.q.shape}, status {batch.status.shape}")
 
     found = batch.status & irbkin.Status.FOUND != 0
     inside = batch.status & irbkin.Status.WITHIN_LIMITS != 0
-    print(f"solutions: {found.sum()}, {found.sum() / POSES:.2f} a pose; inside the limits: {inside.sum()}")
+    print(
+        f"solutions: {found.sum()}, {found.sum() / POSES:.2f} a pose; inside the limits: {inside.sum()}"
+    )
 
     # The vector that made each pose is among its solutions, full turns aside; empty slots are NaN.
     apart = np.abs((batch.q - q[:, None] + np.pi) % (2 * np.pi) - np.pi).max(axis=-1)

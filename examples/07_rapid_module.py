@@ -1,4 +1,6 @@
-"""A RAPID module: the joint angles of its moves, and the module written back with confdata that exists."""
+"""A RAPID module: the joint angles of its moves, and the module written back with confdata that
+exists.
+"""
 
 import dataclasses
 from pathlib import Path
@@ -16,7 +18,9 @@ def degrees(q: np.ndarray) -> str:
 
 
 def show(table: rapid.TargetTable) -> None:
-    for row, (kind, name, problem) in enumerate(zip(table.kinds, table.names, table.problems, strict=True)):
+    for row, (kind, name, problem) in enumerate(
+        zip(table.kinds, table.names, table.problems, strict=True)
+    ):
         confdata = [int(numbers[row]) for numbers in table.configuration]
         joints = degrees(table.q[row]) if np.isfinite(table.q[row]).all() else " " * 53
         print(f"  {kind:8} {name[:22]:22} {joints}  {confdata}  {(problem or '')[:60]}")
@@ -32,11 +36,16 @@ def main() -> None:
     print("\nas it is, CalcJointT of every target")
     show(rapid.calc_moves(robot, module))
 
-    # Where nobody calculated confdata, the solution nearest to the joints before is meant. Poses stay as written.
+    # Where nobody calculated confdata, the solution nearest to the joints before is meant. Poses
+    # stay as written.
     home = np.radians([0, 0, 0, 0, 30, 0])
-    table = rapid.calc_targets(robot, module, module["tGripper"], module["wTray"], fallback="nearest", seed=home)
+    table = rapid.calc_targets(
+        robot, module, module["tGripper"], module["wTray"], fallback="nearest", seed=home
+    )
     corrected = {
-        name: dataclasses.replace(module[name], robconf=[numbers[row] for numbers in table.configuration])
+        name: dataclasses.replace(
+            module[name], robconf=[numbers[row] for numbers in table.configuration]
+        )
         for row, (name, problem) in enumerate(zip(table.names, table.problems, strict=True))
         if problem is not None and np.isfinite(table.q[row]).all()
     }

@@ -1,4 +1,5 @@
-//! A RAPID module: the joint angles of its moves, and the module written back with confdata that exists.
+//! A RAPID module: the joint angles of its moves, and the module written back with confdata that
+//! exists.
 
 use irbkin::rapid::{
     self, Content, Fallback, NewValue, RobTarget, TableRow, ToolData, Value, WobjData,
@@ -30,7 +31,8 @@ fn tool_and_wobj(module: &rapid::Module) -> Option<(ToolData, WobjData)> {
     }
 }
 
-/// Where nobody calculated confdata, the solution nearest to the joints before is meant. The poses stay as they are written.
+/// Where nobody calculated confdata, the solution nearest to the joints before is meant. The poses
+/// stay as they are written.
 fn corrected(robot: &Robot<6>, module: &rapid::Module) -> Result<Vec<NewValue>, Error> {
     let Some((tool, wobj)) = tool_and_wobj(module) else { return Ok(Vec::new()) };
     let home = [0.0, 0.0, 0.0, 0.0, 30.0, 0.0].map(f64::to_radians);

@@ -1,7 +1,7 @@
 //! Many poses or joint vectors at once, over flat row-major slices.
 //!
-//! The seam to arrays: a row that is not finite gives a row of NaN, and where the answer has a status, [`Status::INVALID`]. A row's answer
-//! does not depend on its neighbours.
+//! The seam to arrays: a row that is not finite gives a row of NaN, and where the answer has a
+//! status, [`Status::INVALID`]. A row's answer does not depend on its neighbors.
 
 #[cfg(feature = "std")]
 use rayon::prelude::*;
@@ -78,7 +78,8 @@ where
     Ok(())
 }
 
-/// Distances from the singularities, one record a row of `N` joint angles; `None` for a row that is not finite.
+/// Distances from the singularities, one record a row of `N` joint angles; `None` for a row that is
+/// not finite.
 ///
 /// # Errors
 ///
@@ -93,15 +94,17 @@ where
     Ok(rows::<N>("q", q)?.iter().map(|q| is_finite(q).then(|| robot.singularity(q))))
 }
 
-/// Inverse kinematics: rows of 16 pose elements, and what is given with each (`()` for six joints, the angle of joint 7 [rad] for seven), to
-/// [`Robot::slot_count`] slots of `N` joint angles and as many [`Status`](crate::Status) bytes a row. Empty slots are NaN.
+/// Inverse kinematics: rows of 16 pose elements, and what is given with each (`()` for six joints,
+/// the angle of joint 7 [rad] for seven), to [`Robot::slot_count`] slots of `N` joint angles and as
+/// many [`Status`](crate::Status) bytes a row. Empty slots are NaN.
 ///
-/// On up to `threads` threads, but no more than there are cores; without the feature `std`, on the caller's.
+/// On up to `threads` threads, but no more than there are cores; without the feature `std`, on the
+/// caller's.
 ///
 /// # Errors
 ///
-/// [`Error::WrongLength`] when a slice does not hold as many rows as `poses`, [`Error::InvalidModel`] when the structure of the arm is
-/// unknown.
+/// [`Error::WrongLength`] when a slice does not hold as many rows as `poses`,
+/// [`Error::InvalidModel`] when the structure of the arm is unknown.
 pub fn ik_with<const N: usize>(
     robot: &Robot<N>,
     poses: &[f64],
@@ -163,8 +166,9 @@ where
     }
 }
 
-/// Inverse kinematics next to seeds: rows of 16 pose elements and of joint angles to rows of joint angles, those of [`Robot::ik_nearest`].
-/// A row that has none, or whose pose or seed is invalid, is NaN.
+/// Inverse kinematics next to seeds: rows of 16 pose elements and of joint angles to rows of joint
+/// angles, those of [`Robot::ik_nearest`]. A row that has none, or whose pose or seed is invalid,
+/// is NaN.
 ///
 /// # Errors
 ///
@@ -205,14 +209,15 @@ pub fn configuration<'a>(
     Ok(rows::<6>("q", q)?.iter().map(|q| robot.configuration(q)))
 }
 
-/// Inverse kinematics by configurations: rows of 16 pose elements, and a configuration for each, to rows of joint angles, those of
-/// [`Robot::ik_configured`] or, with `seeds`, of [`Robot::ik_configured_or_nearest`]. A row that has none, or whose pose or seed is
-/// invalid, is NaN.
+/// Inverse kinematics by configurations: rows of 16 pose elements, and a configuration for each, to
+/// rows of joint angles, those of [`Robot::ik_configured`] or, with `seeds`, of
+/// [`Robot::ik_configured_or_nearest`]. A row that has none, or whose pose or seed is invalid, is
+/// NaN.
 ///
 /// # Errors
 ///
-/// As [`ik`], [`Error::InvalidModel`] for an arm without a spherical wrist, and [`Error::InvalidJoints`] for a number of a configuration
-/// that no configuration of the arm has.
+/// As [`ik`], [`Error::InvalidModel`] for an arm without a spherical wrist, and
+/// [`Error::InvalidJoints`] for a number of a configuration that no configuration of the arm has.
 pub fn ik_configured(
     robot: &Robot<6>,
     poses: &[f64],
@@ -255,9 +260,11 @@ const PART: usize = 1024;
 #[cfg(feature = "std")]
 const WORTH_A_THREAD: usize = 8 * PART;
 
-/// Threads for a call, as many as are asked for, worth their start and not more than there are cores; `None` for the caller's own.
+/// Threads for a call, as many as are asked for, worth their start and not more than there are
+/// cores; `None` for the caller's own.
 ///
-/// A pool lives no longer than the call: it leaves nothing behind that a forked process would wait for.
+/// A pool lives no longer than the call: it leaves nothing behind that a forked process would wait
+/// for.
 #[cfg(feature = "std")]
 fn pool(threads: Option<NonZeroUsize>, poses: usize) -> Option<rayon::ThreadPool> {
     let threads = threads.map_or(1, NonZeroUsize::get);

@@ -36,7 +36,7 @@ pub enum Error {
     InvalidJoints(JointFault),
     /// The arm cannot be built, or cannot do what is asked of it.
     InvalidModel(ModelFault),
-    /// The catalogue has no arm of that name.
+    /// The catalog has no arm of that name.
     UnknownRobot(UnknownRobot),
     /// The RAPID text is broken.
     #[cfg(feature = "rapid")]
@@ -69,11 +69,13 @@ pub enum Error {
 pub struct NoConfiguration {
     /// The one that was asked for.
     pub wanted: Configuration,
-    /// Those that exist, of every full turn inside the limits; the first [`NoConfiguration::MOST`] of them.
+    /// Those that exist, of every full turn inside the limits; the first [`NoConfiguration::MOST`]
+    /// of them.
     pub existing: Vec<Configuration>,
     /// Whether there are more.
     pub more: bool,
-    /// The joint that the pose leaves free, at a singularity: with another angle of it there are other configurations.
+    /// The joint that the pose leaves free, at a singularity: with another angle of it there are
+    /// other configurations.
     pub free: Option<FreeJoint>,
 }
 

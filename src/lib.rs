@@ -1,4 +1,5 @@
-//! Kinematics of ABB IRB robots and their kin: every inverse-kinematics solution, in a named slot, without allocating.
+//! Kinematics of ABB IRB robots and their kin: every inverse-kinematics solution, in a named slot,
+//! without allocating.
 //!
 //! All eight ways to bring an IRB 2600's tool to a pose:
 //!
@@ -18,17 +19,18 @@
 //! The one a controller wants, next to where the arm stands:
 //!
 //! ```
-//! use irbkin::{Robot, pose_from_quaternion};
+//! use irbkin::{Robot, pose_from_wxyz};
 //!
 //! let robot: Robot<6> = Robot::named("irb 1200 5/0.9")?;
-//! let pose = pose_from_quaternion([0.45, 0.1, 0.6], [0.5, 0.0, 0.75_f64.sqrt(), 0.0])?;
+//! let pose = pose_from_wxyz([0.45, 0.1, 0.6], [0.5, 0.0, 0.75_f64.sqrt(), 0.0])?;
 //! let here = [0.2, 0.0, 0.3, 0.0, 0.5, 0.0];
 //! let next = robot.ik_nearest(&pose, &here, &[1.0; 6])?;
-//! assert!(next.within_limits());
+//! assert!(next.is_within_limits());
 //! # Ok::<(), irbkin::Error>(())
 //! ```
 //!
-//! Code for any number of joints names what that number must have, and passes what a redundant arm needs besides:
+//! Code for any number of joints names what that number must have, and passes what a redundant arm
+//! needs besides:
 //!
 //! ```
 //! use irbkin::{Arity, Error, Joints, Pose, RedundancyOf, Robot};
@@ -56,13 +58,15 @@
 //! | `serde` | | models ([`OpwParameters`], [`Mdh`], [`Sdh`], [`JointAxis`]), answers ([`Solution`], [`Configuration`], [`Singularity`]) and options are written and read |
 //! | `python` | | the extension module of the Python package; no use to a crate |
 //!
-//! Metres, radians, `f64`. `docs/` of the repository has the conventions, the derivations and the accuracy.
+//! Meters, radians, `f64`. `docs/` of the repository has the conventions, the derivations and the
+//! accuracy.
 #![cfg_attr(not(feature = "std"), no_std)]
 #![cfg_attr(
     test,
     allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::float_cmp)
 )]
-// Where another crate of the build links std, its own float methods come before those imported for no_std.
+// Where another crate of the build links std, its own float methods come before those imported for
+// no_std.
 #![cfg_attr(not(feature = "std"), allow(unused_imports))]
 
 #[cfg(not(any(feature = "std", feature = "libm")))]
@@ -75,7 +79,7 @@ extern crate self as irbkin;
 extern crate std;
 
 pub mod batch;
-mod catalogue;
+mod catalog;
 mod error;
 mod kinematics;
 mod lanes;
@@ -100,19 +104,19 @@ mod structures {
 #[cfg(feature = "urdf")]
 mod urdf;
 
-pub use catalogue::{AngleUnit, CatalogueArm, CatalogueGeometry, catalogue, find};
+pub use catalog::{AngleUnit, CatalogArm, CatalogGeometry, catalog, find};
 pub use error::{
     Error, JointFault, ModelFault, Names, NoConfiguration, PoseFault, UnknownRobot, UrdfFault,
 };
 #[cfg(feature = "rapid")]
 pub use error::{FrameFault, Missing, RapidFault, RapidFaultKind};
 pub use kinematics::{
-    Arity, Break, BreakReason, Crossing, Definition, DhRow, FollowOptions, Followed, Follower,
-    Inverse, JacobianFrame, JointAxis, JointLimits, Joints, MOST_SLOTS, Mdh, OpwParameters, Pose,
-    PoseError, Redundancy, RedundancyOf, Robot, Sdh, SingularDistances, Singularity, Slot,
-    SlotStatus, Solution, Solutions, Status, pose_from_euler_zyx, pose_from_isometry,
-    pose_from_matrix, pose_from_quaternion, pose_from_rows, pose_to_euler_zyx, pose_to_isometry,
-    pose_to_matrix, pose_to_quaternion, pose_to_rows, thresholds,
+    Arity, Break, BreakReason, Definition, DhRow, FollowOptions, Followed, Follower, Inverse,
+    JacobianFrame, JointAxis, JointLimits, Joints, MOST_SLOTS, Mdh, OpwParameters, Pose,
+    PoseDifference, Redundancy, RedundancyOf, Robot, Sdh, SingularDistances, Singularity,
+    SingularityKind, SingularityMode, Slot, SlotStatus, Solution, Solutions, Status,
+    pose_from_euler_zyx, pose_from_isometry, pose_from_matrix, pose_from_rows, pose_from_wxyz,
+    pose_to_euler_zyx, pose_to_isometry, pose_to_matrix, pose_to_rows, pose_to_wxyz, thresholds,
 };
 pub use lanes::InstructionSet;
 /// The linear algebra of poses and matrices, in the version that this crate has.

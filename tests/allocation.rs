@@ -47,7 +47,7 @@ fn solve_allocates_nothing() {
     let panda: Robot<7> = Robot::named("Panda").unwrap();
     let ur3: Robot<6> = Robot::named("UR3").unwrap();
     let coupled: Robot<6> = Robot::named("IRB 2400-10/1.55").unwrap();
-    let coupled = coupled.with_rod_limits(Some([-2.0, 1.0])).unwrap();
+    let coupled = coupled.with_linkage_limits(Some([-2.0, 1.0])).unwrap();
     let q = [0.3, -0.2, 0.4, 0.5, -0.6, 0.7];
     let pose = robot.fk(&q);
     let count = allocations_of(|| {
@@ -66,7 +66,9 @@ fn solve_allocates_nothing() {
         std::hint::black_box(robot.jacobian(&q, JacobianFrame::Tool));
         std::hint::black_box(robot.singularity(&q));
         let free = robot.ik(&robot.fk(&[0.0; 6])).unwrap().slot(0).copied().unwrap();
-        std::hint::black_box(robot.with_free(&robot.fk(&[0.0; 6]), &free, 0.3).unwrap().unwrap());
+        std::hint::black_box(
+            robot.with_free_joint(&robot.fk(&[0.0; 6]), &free, 0.3).unwrap().unwrap(),
+        );
         let mut follower = Follower::new(&robot, &q, &[1.0; 6]).unwrap();
         for step in 0..20 {
             let pose = robot.fk(&[0.3, -0.2, 0.4, 0.5, 0.05 * f64::from(step) - 0.6, 0.7]);

@@ -1,4 +1,5 @@
-//! Numbers too large to calculate with are refused with the bound, and up to the bound answers keep their digits: the same of every structure.
+//! Numbers too large to calculate with are refused with the bound, and up to the bound answers keep
+//! their digits: the same of every structure.
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
 use std::f64::consts::{PI, TAU};
@@ -7,13 +8,14 @@ use crate::common::{Rng, reach_of};
 use irbkin::thresholds::{MOST_ANGLE, MOST_LENGTH};
 use irbkin::{
     Configuration, FollowOptions, Follower, JacobianFrame, JointLimits, Pose, Robot, Status, batch,
-    pose_from_euler_zyx, pose_from_quaternion, pose_from_rows, pose_to_rows,
+    pose_from_euler_zyx, pose_from_rows, pose_from_wxyz, pose_to_rows,
 };
 
 const SIXES: [&str; 4] = ["IRB 2600-12/1.65", "IRB 140-6/0.81", "IRB 2400-10/1.55", "UR5e"];
 const SEVENS: [&str; 2] = ["Panda", "FR3"];
 
-/// Sizes beyond a bound of 1e6 or less: by one rounding, by a little, and by more than squares can hold.
+/// Sizes beyond a bound of 1e6 or less: by one rounding, by a little, and by more than squares can
+/// hold.
 const BEYOND: [f64; 8] = [1.000_000_000_000_001e6, 1.1e6, 1e9, 1e15, 1e19, 1e155, 1e300, f64::MAX];
 
 fn six(name: &str) -> Robot<6> {
@@ -48,7 +50,7 @@ fn a_position_that_is_too_far_is_refused_by_every_call() {
         assert_eq!(pose_from_rows(&pose_to_rows(&pose)).unwrap_err().to_string(), words);
         let xyz: [f64; 3] = pose.translation.vector.into();
         let words = words.replace("pose[", "xyz[").replace(", 3]", "]");
-        let refused = pose_from_quaternion(xyz, [1.0, 0.0, 0.0, 0.0]).unwrap_err();
+        let refused = pose_from_wxyz(xyz, [1.0, 0.0, 0.0, 0.0]).unwrap_err();
         assert_eq!(refused.to_string(), words);
         assert_eq!(pose_from_euler_zyx(xyz, [0.1; 3]).unwrap_err().to_string(), words);
     }
@@ -63,7 +65,7 @@ fn a_position_that_is_too_far_is_refused_by_every_call() {
             refused(robot.follow(&[pose], &q, &FollowOptions::default()).unwrap_err());
             let mut follower = Follower::new(&robot, &q, &[1.0; 6]).unwrap();
             refused(follower.step(&pose).unwrap_err());
-            if robot.family() == "spherical wrist" {
+            if robot.structure() == "spherical wrist" {
                 refused(robot.ik_configured(&pose, Configuration::default()).unwrap_err());
             }
         }
@@ -131,7 +133,8 @@ fn a_row_of_a_batch_that_is_too_far_is_invalid_and_the_others_are_not_touched() 
     }
 }
 
-/// At the bound itself, and everywhere below it, a pose that is beyond reach has no solution and says by how much.
+/// At the bound itself, and everywhere below it, a pose that is beyond reach has no solution and
+/// says by how much.
 #[test]
 fn poses_up_to_the_bound_are_beyond_reach_and_say_so() {
     let mut rng = Rng::new(61);
@@ -193,7 +196,7 @@ fn a_seed_that_is_too_large_is_refused_by_every_call() {
             batch::ik_nearest(&robot, &poses, &seeds, &[1.0; 6], &mut nearest).unwrap();
             assert!(nearest[..6].iter().all(|angle| angle.is_nan()), "{name}");
             assert!(nearest[6..].iter().all(|angle| angle.is_finite()), "{name}");
-            if robot.family() == "spherical wrist" {
+            if robot.structure() == "spherical wrist" {
                 let wanted = Configuration::default();
                 refused(robot.ik_configured_or_nearest(&pose, wanted, &seed).unwrap_err());
                 let words = too_large("q", joint, value);
@@ -217,7 +220,8 @@ fn a_seed_that_is_too_large_is_refused_by_every_call() {
     }
 }
 
-/// Without limits a solution is turned to its seed. A seed of `turns` whole turns is rounded to `eps` times its size.
+/// Without limits a solution is turned to its seed. A seed of `turns` whole turns is rounded to
+/// `eps` times its size.
 #[test]
 fn a_solution_next_to_a_large_seed_still_closes() {
     let mut rng = Rng::new(62);
@@ -241,7 +245,7 @@ fn a_solution_next_to_a_large_seed_still_closes() {
 #[test]
 fn a_configuration_never_saturates() {
     let mut rng = Rng::new(63);
-    for name in SIXES.into_iter().filter(|name| six(name).family() == "spherical wrist") {
+    for name in SIXES.into_iter().filter(|name| six(name).structure() == "spherical wrist") {
         let robot = six(name);
         for _ in 0..5000 {
             let mut q = [0.1, -0.2, 0.3, 0.4, 0.5, 0.6];
@@ -267,7 +271,8 @@ fn a_configuration_never_saturates() {
     }
 }
 
-/// Forward kinematics takes the very angle that a number stands for, of however many turns, also where a linkage makes a difference of two.
+/// Forward kinematics takes the very angle that a number stands for, of however many turns, also
+/// where a linkage makes a difference of two.
 #[test]
 fn forward_kinematics_of_large_angles_is_that_of_what_is_left_of_the_turn() {
     let mut rng = Rng::new(64);

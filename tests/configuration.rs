@@ -1,12 +1,13 @@
-//! Laws of ABB's confdata. `IRBKIN_POSES` sets the number of poses of each arm; `make configurations` runs a hundred thousand.
+//! Laws of ABB's confdata. `IRBKIN_POSES` sets the number of poses of each arm;
+//! `make configurations` runs a hundred thousand.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::common::{Rng, apart, asked_set};
 use irbkin::{
-    CatalogueGeometry, Configuration, Error, JointLimits, OpwParameters, Robot, Solution, Status,
-    catalogue, thresholds::CONFIGURATION_EDGE,
+    CatalogGeometry, Configuration, Error, JointLimits, OpwParameters, Robot, Solution, Status,
+    catalog, thresholds::CONFIGURATION_EDGE,
 };
 
 const SLOTS: usize = 8;
@@ -37,14 +38,15 @@ fn has(robot: &Robot<6>, q: &[f64; 6], wanted: Configuration) -> bool {
         && found.cfx == wanted.cfx
 }
 
-/// Eight solutions have eight slots; a joint vector is the only one of its pose, turns included, with its configuration, and is found by it.
-/// A coupled arm's configuration does not tell the elbow: there the one in front is meant, for the rods do not let it be behind.
+/// Eight solutions have eight slots; a joint vector is the only one of its pose, turns included,
+/// with its configuration, and is found by it. A coupled arm's configuration does not tell the
+/// elbow: there the one in front is meant, for the linkages do not let it be behind.
 #[test]
 fn every_joint_vector_is_found_by_its_configuration() {
     let mut arms = 0;
-    for arm in catalogue().filter(|arm| matches!(arm.geometry, CatalogueGeometry::Abb { .. })) {
-        let robot: Robot<6> = Robot::from_catalogue(arm).unwrap();
-        let twin = robot.clone().serial();
+    for arm in catalog().filter(|arm| matches!(arm.geometry, CatalogGeometry::Abb { .. })) {
+        let robot: Robot<6> = Robot::from_catalog(arm).unwrap();
+        let twin = robot.clone().uncoupled();
         let (mut rng, mut eights, mut behind) = (Rng::new(11), 0, 0);
         for _ in 0..poses() {
             let q = rng.inside(robot.limits());
@@ -61,7 +63,7 @@ fn every_joint_vector_is_found_by_its_configuration() {
             }
             let found = robot.ik_configured(&pose, wanted).unwrap();
             assert!(
-                found.within_limits() && has(&robot, &found.q, wanted),
+                found.is_within_limits() && has(&robot, &found.q, wanted),
                 "{}: {q:?} {found:?}",
                 arm.name
             );
@@ -73,7 +75,8 @@ fn every_joint_vector_is_found_by_its_configuration() {
                 robot.configuration(&turn.q).unwrap() == wanted
                     && slot(&twin, &robot, &turn.q) & 2 == wanted.cfx & 2
             };
-            // No configuration counts axis 3, of which the IRB 8700 has a little more than a full turn.
+            // No configuration counts axis 3, of which the IRB 8700 has a little more than a full
+            // turn.
             let [low, high] = robot.limits().to_array()[2];
             let turns_of_axis_3 = 1 + usize::from(high - low > TAU);
             let named = solutions.turns().filter(same).count();
@@ -129,7 +132,7 @@ fn quarter_turns_are_counted_from_below() {
 }
 
 #[test]
-fn an_angle_on_an_edge_has_both_neighbours() {
+fn an_angle_on_an_edge_has_both_neighbors() {
     let robot = irb2600();
     let off = 0.009_f64.to_radians();
     for edge in [-2, -1, 0, 1] {
@@ -193,7 +196,8 @@ fn where_the_wrist_is_singular_axes_4_and_6_take_their_quarters() {
         let q = [0.3, 0.2, 0.1, q4, 0.0, q6];
         let pose = robot.fk(&q);
         let wanted = robot.configuration(&q).unwrap();
-        // At the singularity the slot with q5 < 0 is the same solution, with an axis 5 that is zero from below.
+        // At the singularity the slot with q5 < 0 is the same solution, with an axis 5 that is zero
+        // from below.
         for cfx in [0, 1] {
             let wanted = Configuration { cfx, ..wanted };
             let found = robot.ik_configured(&pose, wanted).unwrap();
@@ -208,8 +212,8 @@ fn where_the_wrist_is_singular_axes_4_and_6_take_their_quarters() {
 fn where_the_shoulder_is_singular_axis_1_takes_its_quarter() {
     let arm = OpwParameters::abb(0.0, -0.07, 0.29, 0.27, 0.302, 0.072);
     let robot = Robot::from_opw(arm).unwrap();
-    // The wrist centre above axis 1.
-    let pose = irbkin::pose_from_quaternion([0.0, 0.0, 0.7 + 0.072], [1.0, 0.0, 0.0, 0.0]).unwrap();
+    // The wrist center above axis 1.
+    let pose = irbkin::pose_from_wxyz([0.0, 0.0, 0.7 + 0.072], [1.0, 0.0, 0.0, 0.0]).unwrap();
     for cf1 in [-2, -1, 0, 1] {
         let existing = robot.ik(&pose).unwrap();
         assert!(existing.iter().all(|solution| solution.status.contains(Status::SHOULDER)));
@@ -247,7 +251,7 @@ fn the_error_lists_what_exists() {
     let nearest =
         robot.ik_configured_or_nearest(&robot.fk(&q), configuration(3, 0, 0, 0), &q).unwrap();
     assert!(apart(&nearest.q, &q) < 1e-9);
-    let far = irbkin::pose_from_quaternion([9.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]).unwrap();
+    let far = irbkin::pose_from_wxyz([9.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]).unwrap();
     assert!(matches!(
         robot.ik_configured(&far, configuration(0, 0, 0, 0)),
         Err(Error::Unreachable(_))
@@ -347,7 +351,7 @@ fn what_is_no_configuration_of_the_arm_is_refused() {
     let ur3 = Robot::named("UR3").unwrap();
     assert_eq!(
         message(ur3.configuration(&[0.1; 6])),
-        "configurations are those of ABB's six-axis arms with a spherical wrist: this arm's form is \"three parallel axes\""
+        "this robot has no ABB configuration: its structure is \"three parallel axes\", not a six-axis arm with a spherical wrist"
     );
     assert_eq!(
         message(robot.configuration(&[f64::NAN; 6])),

@@ -1,9 +1,10 @@
-//! Laws of arms whose axes 2 and 3 a parallelogram couples: their joint vectors are the controller's, with axis 3 told from the base.
+//! Laws of arms whose axes 2 and 3 a parallelogram couples: their joint vectors are the
+//! controller's, with axis 3 told from the base.
 #![allow(clippy::unwrap_used, clippy::float_cmp, missing_docs)]
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use crate::common::coupled_arm::{limited, odd, opw, unlimited, with_rod};
+use crate::common::coupled_arm::{limited, odd, opw, unlimited, with_linkage};
 use crate::common::{Rng, apart, central_difference, difference_bound, reach_of};
 use irbkin::{
     Error, Explanation, FreeJoint, JacobianFrame, JointLimits, OpwParameters, Robot, batch,
@@ -24,7 +25,7 @@ const CASES: usize = 2000;
 fn forward_kinematics_are_those_of_the_serial_twin() {
     let mut rng = Rng::new(1);
     for robot in [unlimited(), odd()] {
-        let twin = robot.clone().serial();
+        let twin = robot.clone().uncoupled();
         assert!(robot.is_coupled() && !twin.is_coupled());
         for _ in 0..CASES {
             let q = rng.inside(robot.limits());
@@ -45,14 +46,15 @@ fn axis_3_keeps_the_forearm_level_while_axis_2_turns() {
     }
 }
 
-/// J of the controller's joints is J of the serial ones times their derivative: in it q2 turns the serial q3 back.
+/// J of the controller's joints is J of the serial ones times their derivative: in it q2 turns the
+/// serial q3 back.
 #[test]
 fn the_jacobian_is_the_serial_one_by_the_chain_rule() {
     let mut derivative = Matrix6::identity();
     derivative[(2, 1)] = -1.0;
     let mut rng = Rng::new(2);
     for robot in [unlimited(), odd()] {
-        let twin = robot.clone().serial();
+        let twin = robot.clone().uncoupled();
         for _ in 0..CASES {
             let q = rng.inside(robot.limits());
             for frame in [JacobianFrame::Base, JacobianFrame::Tool] {
@@ -87,7 +89,7 @@ fn the_jacobian_matches_central_differences() {
 fn solutions_are_those_of_the_serial_twin_slot_for_slot() {
     let mut rng = Rng::new(4);
     for robot in [unlimited(), odd()] {
-        let twin = robot.clone().serial();
+        let twin = robot.clone().uncoupled();
         for _ in 0..CASES {
             let q = rng.inside(robot.limits());
             let pose = robot.fk(&q);
@@ -114,12 +116,12 @@ fn solutions_are_those_of_the_serial_twin_slot_for_slot() {
 #[test]
 fn limits_are_those_of_the_controllers_angles() {
     let mut rng = Rng::new(5);
-    for robot in [limited(), with_rod()] {
+    for robot in [limited(), with_linkage()] {
         let limits = *robot.limits();
         for _ in 0..CASES {
             let q = rng.inside(&limits);
             for solution in &robot.ik(&robot.fk(&q)).unwrap() {
-                let rod = solution.q[2] - solution.q[1];
+                let linkage = solution.q[2] - solution.q[1];
                 let holds =
                     |[low, high]: [f64; 2], angle: f64| angle >= low - 1e-9 && angle <= high + 1e-9;
                 let inside = limits
@@ -127,10 +129,10 @@ fn limits_are_those_of_the_controllers_angles() {
                     .into_iter()
                     .zip(solution.q)
                     .all(|(limit, angle)| holds(limit, angle))
-                    && limits.rod().is_none_or(|limit| {
-                        [-TAU, 0.0, TAU].iter().any(|turn| holds(limit, rod + turn))
+                    && limits.linkage().is_none_or(|limit| {
+                        [-TAU, 0.0, TAU].iter().any(|turn| holds(limit, linkage + turn))
                     });
-                assert_eq!(solution.within_limits(), inside, "{solution:?}");
+                assert_eq!(solution.is_within_limits(), inside, "{solution:?}");
             }
         }
     }
@@ -157,18 +159,18 @@ fn forward_kinematics_and_jacobian_of_rows_are_those_of_one() {
 }
 
 #[test]
-fn turns_and_the_nearest_keep_the_rod_inside() {
-    let (robot, mut rng) = (with_rod(), Rng::new(8));
+fn turns_and_the_nearest_keep_the_linkage_inside() {
+    let (robot, mut rng) = (with_linkage(), Rng::new(8));
     let mut kept_out = 0;
     for _ in 0..CASES {
         let q = rng.inside(robot.limits());
         let solutions = robot.ik(&robot.fk(&q)).unwrap();
         let turns: Vec<_> = solutions.turns().collect();
-        assert!(turns.iter().all(|turn| robot.limits().contain(&turn.q)));
+        assert!(turns.iter().all(|turn| robot.limits().contains(&turn.q)));
         assert_eq!(Some(turns.len()), solutions.turn_count());
         match solutions.nearest(&q, &[1.0; 6]) {
-            Ok(nearest) => assert!(robot.limits().contain(&nearest.q)),
-            Err(Error::Unreachable(Explanation::OutsideRod { excess, .. })) => {
+            Ok(nearest) => assert!(robot.limits().contains(&nearest.q)),
+            Err(Error::Unreachable(Explanation::OutsideLinkage { excess, .. })) => {
                 kept_out += 1;
                 assert!(excess > 0.0);
                 assert!(turns.is_empty());
@@ -185,25 +187,25 @@ fn turns_and_the_nearest_keep_the_rod_inside() {
 #[test]
 fn twins_lose_no_posture() {
     let mut rng = Rng::new(9);
-    for robot in [limited(), with_rod()] {
-        let twin = robot.clone().serial();
+    for robot in [limited(), with_linkage()] {
+        let twin = robot.clone().uncoupled();
         let back = twin.clone().coupled().unwrap();
         for _ in 0..CASES {
             let q = rng.inside(robot.limits());
-            if robot.limits().contain(&q) {
-                assert!(twin.limits().contain(&serial(q)));
-                assert!(back.limits().contain(&q));
+            if robot.limits().contains(&q) {
+                assert!(twin.limits().contains(&serial(q)));
+                assert!(back.limits().contains(&q));
             }
         }
         assert_eq!(
-            robot.limits().rod().is_some(),
+            robot.limits().linkage().is_some(),
             twin.limits().to_array()[2] == [-100.0, 40.0].map(f64::to_radians)
         );
     }
-    assert_eq!(unlimited().serial(), Robot::from_opw(opw()).unwrap());
-    assert_eq!(unlimited().serial().coupled().unwrap(), unlimited());
+    assert_eq!(unlimited().uncoupled(), Robot::from_opw(opw()).unwrap());
+    assert_eq!(unlimited().uncoupled().coupled().unwrap(), unlimited());
     assert_eq!(unlimited().coupled().unwrap(), unlimited());
-    let far = unlimited().with_limits(JointLimits::new([[-1e5, 1e5]; 6]).unwrap()).serial();
+    let far = unlimited().with_limits(JointLimits::new([[-1e5, 1e5]; 6]).unwrap()).uncoupled();
     assert_eq!(far.limits().to_array()[2], [f64::NEG_INFINITY, f64::INFINITY]);
 }
 
@@ -211,22 +213,22 @@ fn twins_lose_no_posture() {
 fn joint_3_of_a_twin_is_as_fast_as_joints_2_and_3_together() {
     let robot = unlimited().with_max_velocity(Some([1.0, 2.0, 3.0, 4.0, 5.0, 6.0])).unwrap();
     assert_eq!(robot.max_velocity(), Some(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]));
-    assert_eq!(robot.serial().max_velocity(), Some(&[1.0, 2.0, 5.0, 4.0, 5.0, 6.0]));
+    assert_eq!(robot.uncoupled().max_velocity(), Some(&[1.0, 2.0, 5.0, 4.0, 5.0, 6.0]));
 }
 
 #[test]
 fn limits_that_are_none_are_told() {
     let message = |result: Result<Robot<6>, Error>| result.unwrap_err().to_string();
     assert_eq!(
-        message(limited().with_rod_limits(Some([0.5, -0.5]))),
-        "rod limit is empty: lower 0.5 rad > upper -0.5 rad"
+        message(limited().with_linkage_limits(Some([0.5, -0.5]))),
+        "linkage limit is empty: lower 0.5 rad > upper -0.5 rad"
     );
     assert_eq!(
-        message(limited().with_rod_limits(Some([f64::NAN, 0.0]))),
-        "lower limit of the rod is NaN, it must be finite"
+        message(limited().with_linkage_limits(Some([f64::NAN, 0.0]))),
+        "lower limit of the linkage is NaN, it must be finite"
     );
     let serial = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
-    assert!(message(serial.with_rod_limits(Some([0.0, 1.0]))).contains("not coupled"));
+    assert!(message(serial.with_linkage_limits(Some([0.0, 1.0]))).contains("not coupled"));
     let senses = OpwParameters { signs: [1, 1, -1, 1, 1, 1], ..opw() };
     assert_eq!(
         message(Robot::from_opw(senses).unwrap().coupled()),
@@ -248,10 +250,12 @@ fn where_the_wrist_is_on_axis_2_the_coupled_axis_3_goes_with_axis_2() {
     let q = [0.2, 0.3, FRAC_PI_2 + 0.3, 0.4, 0.5, 0.6];
     let pose = robot.fk(&q);
     let solutions = robot.ik(&pose).unwrap();
-    let free =
-        solutions.iter().find(|solution| solution.free == Some(FreeJoint::UpperCoupled)).unwrap();
-    assert_eq!(free.free.unwrap().fixed(), "q1, q3 - q2");
-    let moved = robot.with_free(&pose, free, 0.3).unwrap().unwrap();
+    let free = solutions
+        .iter()
+        .find(|solution| solution.free_joint == Some(FreeJoint::UpperCoupled))
+        .unwrap();
+    assert_eq!(free.free_joint.unwrap().fixed(), "q1, q3 - q2");
+    let moved = robot.with_free_joint(&pose, free, 0.3).unwrap().unwrap();
     assert!((moved.q[2] - moved.q[1] - FRAC_PI_2).abs() < 1e-12);
     assert!(robot.residual(&moved.q, &pose).largest() < 1e-12);
 }

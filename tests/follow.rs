@@ -1,4 +1,5 @@
-//! A joint path that is smooth is followed without a jump, and where there is no way the break says where and why.
+//! A joint path that is smooth is followed without a jump, and where there is no way the break says
+//! where and why.
 //!
 //! `make hardsets` prints the table.
 #![allow(clippy::unwrap_used, clippy::cast_precision_loss, clippy::float_cmp, missing_docs)]
@@ -12,8 +13,8 @@ use crate::common::{Rng, asked_set};
 use nalgebra::Vector3;
 
 use irbkin::{
-    BreakReason, Crossing, FollowOptions, Followed, JointLimits, OpwParameters, Pose, Robot,
-    Status, thresholds,
+    BreakReason, FollowOptions, Followed, JointLimits, OpwParameters, Pose, Robot, SingularityKind,
+    SingularityMode, thresholds,
 };
 
 const SAMPLES: usize = 201;
@@ -41,7 +42,8 @@ fn follow(robot: &Robot<6>, made: &[[f64; 6]]) -> (Vec<Pose>, Followed) {
     (poses, followed)
 }
 
-/// Follows a smooth path: met everywhere, no break, no step more than one and a half times the path's own.
+/// Follows a smooth path: met everywhere, no break, no step more than one and a half times the
+/// path's own.
 fn check_smooth(name: &str, robot: &Robot<6>, made: &[[f64; 6]]) {
     let (poses, followed) = follow(robot, made);
     let q: Vec<[f64; 6]> = followed.q.iter().map(|q| q.unwrap()).collect();
@@ -56,10 +58,10 @@ fn check_smooth(name: &str, robot: &Robot<6>, made: &[[f64; 6]]) {
     assert!(ratio <= 1.5, "{name}: {ratio}");
     // A pose within 1e-12 of a wrist singularity keeps the path's own joint 4.
     assert!(worst <= 2e-12, "{name}: {worst:e}");
-    assert!(q.iter().all(|q| robot.limits().contain(q)), "{name}");
+    assert!(q.iter().all(|q| robot.limits().contains(q)), "{name}");
 }
 
-/// q2 that puts the wrist centre of an IRB 2600 on axis 1 for q3, leaning back.
+/// q2 that puts the wrist center of an IRB 2600 on axis 1 for q3, leaning back.
 fn over_the_base(q3: f64) -> f64 {
     let (along, across) =
         (0.7 - 0.795 * q3.sin() + 0.115 * q3.cos(), 0.795 * q3.cos() + 0.115 * q3.sin());
@@ -124,7 +126,7 @@ fn the_shoulder_is_passed_without_a_jump() {
     let q3 = -0.6;
     let q2 = over_the_base(q3);
     for near in [0.0, 1e-12, 1e-9, 1e-7, 1e-6, 1e-4] {
-        let name = format!("wrist centre over axis 1, {near:e} rad off at the middle");
+        let name = format!("wrist center over axis 1, {near:e} rad off at the middle");
         check_smooth(
             &name,
             &robot,
@@ -207,7 +209,7 @@ fn arms_of_other_makers_pass_too() {
 }
 
 /// Where the break is and by how much the joint turns.
-fn jump(followed: &Followed) -> (usize, usize, f64, Status) {
+fn jump(followed: &Followed) -> (usize, usize, f64, SingularityKind) {
     assert_eq!(followed.breaks.len(), 1, "{:?}", followed.breaks);
     let broken = followed.breaks[0];
     println!("{broken}");
@@ -222,7 +224,7 @@ fn a_corner_in_the_wrist_singularity_is_a_break() {
     let turned = |t: f64| if t < 0.0 { 0.0 } else { PI / 3.0 };
     let made = joint_path(|t| [0.3, 0.2, 0.1, 0.2 + turned(t), 0.5 * t, 0.1 - turned(t)]);
     let (index, joint, by, kinds) = jump(&follow(&robot, &made).1);
-    assert_eq!((index, joint, kinds), (SAMPLES / 2 + 1, 4, Status::WRIST));
+    assert_eq!((index, joint, kinds), (SAMPLES / 2 + 1, 4, SingularityKind::WRIST));
     assert!((by.abs() - PI / 3.0).abs() < 0.02, "{by}");
 }
 
@@ -243,7 +245,11 @@ fn joint_4_turns_by_pi_where_the_wrist_keeps_its_sign() {
         ]
     });
     let (index, joint, by, kinds) = jump(&follow(&robot, &made).1);
-    assert!(index.abs_diff(SAMPLES / 2) <= 1 && [4, 6].contains(&joint) && kinds == Status::WRIST);
+    assert!(
+        index.abs_diff(SAMPLES / 2) <= 1
+            && [4, 6].contains(&joint)
+            && kinds == SingularityKind::WRIST
+    );
     assert!((by.abs() - PI).abs() < 0.02, "{by}");
 }
 
@@ -255,7 +261,7 @@ fn a_pose_out_of_reach_is_a_break_and_the_path_goes_on() {
     poses[50].translation.vector.x += 5.0;
     let followed = robot.follow(&poses, &made[0], &FollowOptions::default()).unwrap();
     assert_eq!((followed.breaks.len(), followed.breaks[0].pose_index), (1, 50));
-    assert!(followed.breaks[0].to_string().starts_with("pose 50: wrist centre "));
+    assert!(followed.breaks[0].to_string().starts_with("pose 50: wrist center "));
     assert!(followed.q[50].is_none() && followed.q[51].is_some());
 }
 
@@ -279,10 +285,11 @@ struct Crossed {
     followed: Followed,
 }
 
-fn cross(robot: &Robot<6>, path: &[Pose], crossing: Crossing) -> Crossed {
+fn cross(robot: &Robot<6>, path: &[Pose], singularity_mode: SingularityMode) -> Crossed {
     let seed = robot.ik_nearest(&path[0], &[0.3, 0.2, 0.1, 0.0, 0.3, 0.2], &[1.0; 6]).unwrap().q;
-    let followed =
-        robot.follow(path, &seed, &FollowOptions { crossing, ..FollowOptions::default() }).unwrap();
+    let followed = robot
+        .follow(path, &seed, &FollowOptions { singularity_mode, ..FollowOptions::default() })
+        .unwrap();
     let q: Vec<[f64; 6]> = followed.q.iter().map_while(|q| *q).collect();
     let error = |(q, pose)| robot.residual(q, pose).position;
     let position = q.iter().zip(path).map(error).fold(0.0, f64::max);
@@ -304,7 +311,7 @@ fn crossing_policies_keep_what_they_promise() {
                     crossed.position
                 );
             };
-            let through = cross(&robot, &path, Crossing::Through);
+            let through = cross(&robot, &path, SingularityMode::Through);
             tell("through", &through);
             assert!(
                 through.position < 1e-14
@@ -312,7 +319,7 @@ fn crossing_policies_keep_what_they_promise() {
                     && through.followed.breaks.is_empty()
             );
 
-            let stopped = cross(&robot, &path, Crossing::Error);
+            let stopped = cross(&robot, &path, SingularityMode::Error);
             tell("error", &stopped);
             let index = stopped.followed.breaks[0].pose_index;
             assert!(matches!(stopped.followed.breaks[0].reason, BreakReason::Stopped { .. }));
@@ -321,9 +328,10 @@ fn crossing_policies_keep_what_they_promise() {
                     && stopped.followed.q[index..].iter().all(Option::is_none)
             );
 
-            let wrist = cross(&robot, &path, Crossing::Wrist);
+            let wrist = cross(&robot, &path, SingularityMode::Wrist);
             tell("wrist", &wrist);
-            // Three wrist angles that go straight between two ends of the zone stay within it on both sides.
+            // Three wrist angles that go straight between two ends of the zone stay within it on
+            // both sides.
             assert!(
                 wrist.position < 1e-14
                     && wrist.orientation < 2.0 * thresholds::WRIST_ZONE
@@ -331,7 +339,7 @@ fn crossing_policies_keep_what_they_promise() {
             );
             assert!(wrist.step < 0.02, "{}", wrist.step);
 
-            let locked = cross(&robot, &path, Crossing::LockAxis4);
+            let locked = cross(&robot, &path, SingularityMode::LockAxis4);
             tell("lock_axis4", &locked);
             assert!(
                 locked.position < 1e-14 && locked.followed.breaks.is_empty() && locked.step < 0.02
@@ -346,12 +354,13 @@ fn axis_4_held_at_zero_keeps_the_orientation_in_the_arm_s_plane() {
     let robot = robot();
     let made = joint_path(|t| [0.3, 0.2 + 0.1 * t, 0.1, 0.0, 0.5 * t, 0.2]);
     let path: Vec<Pose> = made.iter().map(|q| robot.fk(q)).collect();
-    let locked = cross(&robot, &path, Crossing::LockAxis4);
+    let locked = cross(&robot, &path, SingularityMode::LockAxis4);
     assert!(locked.position < 1e-14 && locked.orientation < 1e-14, "{:e}", locked.orientation);
     assert!(locked.step <= 1.01 * largest_step(&made));
 }
 
-/// A random smooth path whose middle is at or next to none, one, two or all three singularities; `None` where it leaves the limits.
+/// A random smooth path whose middle is at or next to none, one, two or all three singularities;
+/// `None` where it leaves the limits.
 fn random_path(robot: &Robot<6>, rng: &mut Rng) -> Option<Vec<[f64; 6]>> {
     const NEAR: [f64; 6] = [0.0, 1e-12, 1e-9, 1e-7, 1e-6, 1e-4];
     let sign = |rng: &mut Rng| if rng.unit() < 0.5 { -1.0 } else { 1.0 };
@@ -372,7 +381,7 @@ fn random_path(robot: &Robot<6>, rng: &mut Rng) -> Option<Vec<[f64; 6]>> {
         std::array::from_fn(|_| if rng.unit() < 0.5 { rng.between(-0.4, 0.4) } else { 0.0 });
     let bends: [f64; 6] = std::array::from_fn(|_| rng.between(-0.1, 0.1));
     let path = joint_path(|t| std::array::from_fn(|i| middle[i] + rates[i] * t + bends[i] * t * t));
-    (path.iter().all(|q| robot.limits().contain(q)) && largest_step(&path) > 1e-3).then_some(path)
+    (path.iter().all(|q| robot.limits().contains(q)) && largest_step(&path) > 1e-3).then_some(path)
 }
 
 #[test]
@@ -387,13 +396,14 @@ fn random_paths_through_several_singularities_are_followed() {
         let q: Vec<[f64; 6]> = followed.q.iter().map(|q| q.unwrap()).collect();
         let worst = q.iter().zip(&poses).map(|(q, pose)| robot.residual(q, pose));
         for error in worst {
-            // The wrist centre is met; the flange, 85 mm before it, turns about it.
+            // The wrist center is met; the flange, 85 mm before it, turns about it.
             assert!(error.position < 3e-12 + 0.085 * error.rotation, "{error:?}");
             orientation = orientation.max(error.rotation);
         }
         let smooth = followed.breaks.is_empty() && largest_step(&q) <= 1.5 * largest_step(&made);
         followed_smoothly += usize::from(smooth);
-        // The arm may come back from stretched on its other elbow, and there meet a singularity that the path did not make.
+        // The arm may come back from stretched on its other elbow, and there meet a singularity
+        // that the path did not make.
         let elbow = |q: &[f64; 6]| q[2] - stretched();
         let passes =
             made.iter().map(elbow).fold(f64::INFINITY, |least, e| least.min(e.abs())) < 0.02;
@@ -403,7 +413,8 @@ fn random_paths_through_several_singularities_are_followed() {
     println!(
         "{paths} random paths: {followed_smoothly} followed smoothly, {behind_an_elbow} not, behind a stretched elbow; worst orientation {orientation:.1e} rad"
     );
-    // A straight elbow leaves the forearm open by 2e-7 rad on either side (docs/accuracy.md, section 9).
+    // A straight elbow leaves the forearm open by 2e-7 rad on either side (docs/accuracy.md,
+    // section 9).
     assert!(orientation < 4e-7);
     assert!(followed_smoothly * 100 >= paths * 99);
 }
@@ -414,7 +425,7 @@ fn a_crossing_of_few_uneven_poses_stays_within_two_zones() {
     let made: Vec<[f64; 6]> =
         [0.5, 0.016, 0.01, -0.001, -0.015, -0.1].map(|q5| [0.3, 0.2, 0.1, 0.5, q5, 0.4]).to_vec();
     let path: Vec<Pose> = made.iter().map(|q| robot.fk(q)).collect();
-    let wrist = cross(&robot, &path, Crossing::Wrist);
+    let wrist = cross(&robot, &path, SingularityMode::Wrist);
     assert!(
         wrist.orientation < 2.0 * thresholds::WRIST_ZONE && wrist.position < 1e-14,
         "{:e}",
@@ -434,7 +445,10 @@ fn axis_4_held_at_half_a_turn_is_as_good_over_the_base() {
         .follow(
             &path,
             &seed,
-            &FollowOptions { crossing: Crossing::LockAxis4, ..FollowOptions::default() },
+            &FollowOptions {
+                singularity_mode: SingularityMode::LockAxis4,
+                ..FollowOptions::default()
+            },
         )
         .unwrap();
     assert!(followed.breaks.is_empty(), "{}", followed.breaks[0]);

@@ -140,7 +140,7 @@ where
     }
 }
 
-/// Up to a nanometre beyond reach the arm is stretched or folded, off by no more than that; farther
+/// Up to a nanometer beyond reach the arm is stretched or folded, off by no more than that; farther
 /// out there is nothing, and the right shortfall.
 fn beyond_reach_there_is_nothing_and_the_shortfall_is_right<const N: usize>(
     structure: &Structure<N>,

@@ -3,7 +3,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use irbkin::{JointAxis, Mdh, Pose, PoseError, Robot, pose_from_euler_zyx};
+use irbkin::{JointAxis, Mdh, Pose, PoseDifference, Robot, pose_from_euler_zyx};
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Unit, Vector3};
 use proptest::prelude::*;
 
@@ -85,7 +85,7 @@ where
 {
     let axes = axes_of(drawn);
     let mdh = Mdh::from_joint_axes(&axes, tip).unwrap();
-    let off = PoseError::between(
+    let off = PoseDifference::between(
         &Robot::serial_chain(mdh.clone()).unwrap().fk(q),
         &fk_of_axes(&axes, tip, q),
     )
@@ -152,7 +152,7 @@ proptest! {
         // Between parallel axes x may run anywhere; a turn about them comes from it alone.
         let parallel = (1..6).any(|i| mdh.rows[i].alpha.sin().abs() < 0.5) || mdh.rows[0].alpha.sin().abs() > 0.5;
         prop_assert!(parallel || mdh.rows.iter().all(|row| is_quarter_turn(row.theta)), "{mdh:?}");
-        let off = PoseError::between(&Robot::serial_chain(mdh.clone()).unwrap().fk(&q), &fk_of_axes(&axes, &Pose::identity(), &q)).largest();
+        let off = PoseDifference::between(&Robot::serial_chain(mdh.clone()).unwrap().fk(&q), &fk_of_axes(&axes, &Pose::identity(), &q)).largest();
         prop_assert!(off <= 1e-14 * reach_of(&mdh), "off by {off:e}");
     }
 
@@ -165,7 +165,7 @@ proptest! {
         let tip = Pose::identity();
         let mdh = Mdh::from_joint_axes(&axes, &tip).unwrap();
         prop_assert_eq!(mdh.rows[2].alpha, 0.0);
-        let found = PoseError::between(&Robot::serial_chain(mdh.clone()).unwrap().fk(&q), &fk_of_axes(&axes, &tip, &q)).largest();
+        let found = PoseDifference::between(&Robot::serial_chain(mdh.clone()).unwrap().fk(&q), &fk_of_axes(&axes, &tip, &q)).largest();
         // Each of the two joints next to the deviation turns it by at most two.
         prop_assert!(found <= (4.0 * off + 1e-14) * reach_of(&mdh), "off by {found:e}");
     }

@@ -1,5 +1,5 @@
 //! What a kernel in lanes must not change: an answer does not depend on the row's place, on its
-//! neighbours, on the number of threads, on whether it was asked for alone, nor, but for rounding
+//! neighbors, on the number of threads, on whether it was asked for alone, nor, but for rounding
 //! where there is no fused multiplication and addition, on the instruction set.
 #![allow(clippy::unwrap_used, unreachable_pub, missing_docs)]
 
@@ -26,7 +26,7 @@ const SLOTS: usize = 8;
 on_every_structure!(
     the_rows_are_of_every_kind,
     batch_equals_single_bit_for_bit,
-    a_row_does_not_depend_on_its_neighbours,
+    a_row_does_not_depend_on_its_neighbors,
     threads_change_no_bit,
     an_invalid_row_is_told_and_leaves_the_others_alone,
     avx2_and_avx512_agree_to_the_bit,
@@ -214,7 +214,7 @@ where
     }
 }
 
-fn a_row_does_not_depend_on_its_neighbours<const N: usize>(structure: &Structure<N>)
+fn a_row_does_not_depend_on_its_neighbors<const N: usize>(structure: &Structure<N>)
 where
     Joints<N>: Arity<N>,
 {
@@ -244,11 +244,11 @@ where
             Answers::in_a_batch(subject, &mixed, 1).assert_same(&wanted, &what);
         }
         let robot = &structure.subjects[0].robot;
-        forward_rows_do_not_depend_on_their_neighbours(robot, set);
+        forward_rows_do_not_depend_on_their_neighbors(robot, set);
     });
 }
 
-fn forward_rows_do_not_depend_on_their_neighbours<const N: usize>(
+fn forward_rows_do_not_depend_on_their_neighbors<const N: usize>(
     robot: &Robot<N>,
     set: InstructionSet,
 ) where

@@ -13,7 +13,9 @@ use irbkin::{Arity, Joints};
 use std::cell::Cell;
 use std::f64::consts::PI;
 
-use irbkin::{Definition, JacobianFrame, Mdh, Pose, PoseError, Robot, Sdh, Status, pose_to_rows};
+use irbkin::{
+    Definition, JacobianFrame, Mdh, Pose, PoseDifference, Robot, Sdh, Status, pose_to_rows,
+};
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 use proptest::sample::Index;
@@ -267,7 +269,7 @@ where
         let bound = 1e-14 * (1.0 + arm.reach());
         let standard = Robot::from_sdh(Sdh::from(table.clone())).unwrap();
         for robot in [Robot::from_mdh(mdh).unwrap(), Robot::from_mdh(table).unwrap(), standard] {
-            prop_assert!(PoseError::between(&pose, &robot.fk(q)).largest() < bound);
+            prop_assert!(PoseDifference::between(&pose, &robot.fk(q)).largest() < bound);
             let other = arm.clone().with_robot(|_| robot);
             let (ours, theirs) = (arm.ik(&pose, q), other.ik(&pose, q));
             for solution in &theirs {
@@ -314,7 +316,7 @@ where
     hold(structure, |Case { arm, q, .. }, _| {
         let standard = Sdh::from(arm.robot.mdh().clone());
         let back = Robot::serial_chain(Mdh::from(standard)).unwrap();
-        let off = PoseError::between(&arm.robot.fk(q), &back.fk(q)).largest();
+        let off = PoseDifference::between(&arm.robot.fk(q), &back.fk(q)).largest();
         prop_assert!(off < 1e-14 * (1.0 + arm.reach()));
         Ok(())
     });
@@ -331,7 +333,7 @@ where
         let robot = arm.robot.clone().with_base(base).unwrap().with_tool(tool).unwrap();
         let moved = arm.clone().with_robot(|_| robot);
         let (pose, flange) = (moved.robot.fk(q), arm.robot.fk(q));
-        let off = PoseError::between(&pose, &(base * flange * tool)).largest();
+        let off = PoseDifference::between(&pose, &(base * flange * tool)).largest();
         prop_assert!(off < 1e-14 * (1.0 + moved.reach()));
         let (ours, theirs) = (moved.ik(&pose, q), arm.ik(&flange, q));
         let is_regular = |s: &&irbkin::Solution<N>| arm.is_regular(&s.q);
@@ -357,7 +359,7 @@ where
         let (frames, tool) = arm.robot.link_frames(q);
         prop_assert_eq!(tool, arm.robot.fk(q));
         let flange = frames[N - 1] * arm.robot.mdh().flange;
-        let off = PoseError::between(&flange, &tool).largest();
+        let off = PoseDifference::between(&flange, &tool).largest();
         // The flange of a spherical wrist is a quarter turn, which is exact.
         let is_exact = matches!(arm.robot.definition(), Definition::Opw(_));
         let bound = if is_exact { 0.0 } else { 4.0 * f64::EPSILON * (1.0 + arm.reach()) };
@@ -379,7 +381,7 @@ where
         let turns: Vec<_> = solutions.turns().collect();
         prop_assert_eq!(Some(turns.len()), solutions.turn_count());
         for turn in &turns {
-            prop_assert!(arm.robot.limits().contain(&turn.q));
+            prop_assert!(arm.robot.limits().contains(&turn.q));
             prop_assert!(arm.robot.residual(&turn.q, solutions.pose()).largest() < 1e-14);
         }
         let nearest = solutions.nearest(q, &[1.0; N]);

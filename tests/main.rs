@@ -6,8 +6,8 @@
 
 mod allocation;
 mod bounds;
-mod catalogue;
-mod catalogue_page;
+mod catalog;
+mod catalog_page;
 mod common;
 mod configuration;
 mod coupled;

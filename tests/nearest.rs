@@ -1,5 +1,6 @@
-//! Laws of the choice next to singularities: where joints inside the limits made a pose, some are found, the nearest of them to every seed,
-//! and those of every configuration. `IRBKIN_POSES` sets the number of poses of each set.
+//! Laws of the choice next to singularities: where joints inside the limits made a pose, some are
+//! found, the nearest of them to every seed, and those of every configuration. `IRBKIN_POSES` sets
+//! the number of poses of each set.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 #[path = "nearest/sets.rs"]
@@ -8,9 +9,7 @@ mod sets;
 use std::f64::consts::FRAC_PI_2;
 
 use crate::common::{Rng, asked_set, reach_of};
-use irbkin::{
-    CatalogueGeometry, Follower, JointLimits, Pose, Robot, Solution, catalogue, thresholds,
-};
+use irbkin::{CatalogGeometry, Follower, JointLimits, Pose, Robot, Solution, catalog, thresholds};
 use sets::{Arm, DISTANCES, KINDS, Kind, random_frame};
 
 fn poses() -> usize {
@@ -35,7 +34,7 @@ impl Bounds {
     /// Limits that hold `q`; none where those of the arm do not.
     fn around(self, robot: &Robot<6>, q: &[f64; 6], rng: &mut Rng) -> Option<JointLimits<6>> {
         let limits = match self {
-            Self::Own => return robot.limits().contain(q).then(|| *robot.limits()),
+            Self::Own => return robot.limits().contains(q).then(|| *robot.limits()),
             Self::Narrow => q.map(|q| [q - rng.between(1e-6, 0.25), q + rng.between(1e-6, 0.25)]),
             Self::OneSided => q.map(|q| {
                 if rng.unit() < 0.5 {
@@ -119,7 +118,8 @@ impl Laws {
             any_seed: Law::named("any seed finds one that meets"),
             nearest: Law::named("no solution of ik is nearer"),
             start: Law::named("a path starts there"),
-            // Where the elbow's side is itself a matter of rounding, and where three joints are free at once, the side may be lost.
+            // Where the elbow's side is itself a matter of rounding, and where three joints are
+            // free at once, the side may be lost.
             configured: Law { one_in: 40, ..Law::named("found by its configuration") },
         }
     }
@@ -134,7 +134,7 @@ impl Laws {
         let (pose, limits) = (robot.fk(q), robot.limits());
         let about = || format!("{q:?} of {} in {:?}", robot.name(), limits.to_array());
         let solutions = robot.ik(&pose).unwrap();
-        let inside = solutions.iter().any(Solution::within_limits);
+        let inside = solutions.iter().any(Solution::is_within_limits);
         self.inside.hold(inside, about);
         let ones = [1.0; 6];
         let found = robot.ik_nearest(&pose, q, &ones);
@@ -142,7 +142,7 @@ impl Laws {
         let rounding = 4e-15 * (2.0 + reach_of(robot)) / robot.singularity(q).min_singular_value;
         let bound = rounding.clamp(1e-9, 1e-4);
         let back = |found: &Solution<6>| {
-            limits.contain(&found.q)
+            limits.contains(&found.q)
                 && met(robot, &pose, &found.q)
                 && cost(&found.q, q, &ones).sqrt() < bound
         };
@@ -155,7 +155,7 @@ impl Laws {
                 if weigh { std::array::from_fn(|_| rng.between(0.0, 2.0)) } else { ones };
             let found = robot.ik_nearest(&pose, &seed, &weights);
             let meets =
-                |found: &Solution<6>| limits.contain(&found.q) && met(robot, &pose, &found.q);
+                |found: &Solution<6>| limits.contains(&found.q) && met(robot, &pose, &found.q);
             self.any_seed.hold(found.as_ref().is_ok_and(meets), || {
                 format!("{} from {seed:?} -> {found:?}", about())
             });
@@ -183,7 +183,7 @@ impl Laws {
                 let edge = thresholds::CONFIGURATION_EDGE + 2e-9;
                 found.q[joint] >= low - edge && found.q[joint] <= low + FRAC_PI_2 + edge
             };
-            robot.limits().contain(&found.q)
+            robot.limits().contains(&found.q)
                 && met(robot, pose, &found.q)
                 && side(0, wanted.cf1)
                 && side(3, wanted.cf4)
@@ -283,7 +283,7 @@ fn universal_robots() {
 fn every_serial_abb_arm_is_found_by_its_configuration() {
     asked_set();
     let (mut rng, mut report, mut arms, mut held) = (Rng::new(9), String::new(), 0, 0);
-    let abb = catalogue().filter(|arm| matches!(arm.geometry, CatalogueGeometry::Abb { .. }));
+    let abb = catalog().filter(|arm| matches!(arm.geometry, CatalogGeometry::Abb { .. }));
     let mut kinds = KINDS.map(|kind| (kind, Laws::new().configured));
     for arm in abb.map(|arm| Arm::named(arm.name)).filter(|arm| !arm.robot.is_coupled()) {
         arms += 1;
@@ -297,7 +297,7 @@ fn every_serial_abb_arm_is_found_by_its_configuration() {
                         let off = thresholds::CONFIGURATION_EDGE * rng.between(-0.9, 0.9);
                         q[joint] = (q[joint] / FRAC_PI_2).round() * FRAC_PI_2 + off;
                     }
-                    arm.robot.limits().contain(&q).then_some(q)
+                    arm.robot.limits().contains(&q).then_some(q)
                 });
                 let Some(q) = drawn else { continue };
                 let mut laws = Laws::new();

@@ -1,4 +1,5 @@
-//! RAPID modules: what is written reads back as the same, and what is broken is told in which words.
+//! RAPID modules: what is written reads back as the same, and what is broken is told in which
+//! words.
 #![allow(clippy::unwrap_used, clippy::panic, clippy::float_cmp, missing_docs)]
 
 use std::fmt::Write;

@@ -6,7 +6,7 @@ use irbkin::rapid::{
     Fallback, JointTarget, LoadData, Problem, RapidPose, RobTarget, TableRow, ToolData, WobjData,
     calc_joint_t, calc_joint_t_or_nearest, calc_moves, calc_rob_t, calc_targets, error_name, parse,
 };
-use irbkin::{Configuration, Error, Pose, Robot, pose_from_quaternion};
+use irbkin::{Configuration, Error, Pose, Robot, pose_from_wxyz};
 
 const EXTAX: [f64; 6] = [12.5, 9e9, 9e9, 9e9, 9e9, 9e9];
 
@@ -37,7 +37,7 @@ fn words(row: &TableRow) -> String {
 }
 
 fn pose(frame: &RapidPose) -> Pose {
-    pose_from_quaternion(frame.trans_mm.map(|mm| mm / 1e3), frame.rot).unwrap()
+    pose_from_wxyz(frame.trans_mm.map(|mm| mm / 1e3), frame.rot).unwrap()
 }
 
 fn arms() -> [Robot<6>; 3] {
@@ -49,7 +49,8 @@ fn arms() -> [Robot<6>; 3] {
     [standing, hanging, Robot::named("IRB 2400-10/1.55").unwrap()]
 }
 
-/// Held by the robot, the tool meets the work object where the world sees both; stationary, they swap roles.
+/// Locked by the robot, the tool meets the work object where the world sees both; stationary, they
+/// swap roles.
 #[test]
 fn the_tool_is_in_the_work_object_as_the_world_sees_both() {
     let mut rng = Rng::new(21);
@@ -216,7 +217,7 @@ fn a_table_has_a_row_for_each_target_of_the_moves() {
     assert!(
         problem(1).starts_with("ERR_ROBLIMIT: no solution inside the limits has the configuration [0, 0, 0, 0]; there are [-1, 0, -2, 0]")
     );
-    assert!(problem(4).starts_with("ERR_OUTSIDE_REACH: wrist centre"));
+    assert!(problem(4).starts_with("ERR_OUTSIDE_REACH: wrist center"));
     assert!(problem(5).starts_with("tool tElsewhere: "), "{}", problem(5));
     assert_eq!(problem(6), "ERR_ROBLIMIT: J3 is outside its limits by 49.0 deg");
     for row in &rows {

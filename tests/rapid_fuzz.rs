@@ -1,4 +1,5 @@
-//! RAPID texts that nobody would write: none makes the reader panic, and what it reads it writes and reads again.
+//! RAPID texts that nobody would write: none makes the reader panic, and what it reads it writes
+//! and reads again.
 //!
 //! `IRBKIN_INPUTS` is the number of inputs of each kind; `make fuzz` reads a million.
 #![allow(
@@ -256,7 +257,8 @@ fn check(text: &str, module: &Module) {
         .flat_map(|(datum, it)| own_values(datum, &it.content))
         .collect();
     let rewritten = rewrite(text, module, &own).unwrap();
-    // A datum that referred to another one, which is assigned, stands by itself now: what was unknown in a move is looked at, and may be broken.
+    // A datum that referred to another one, which is assigned, stands by itself now: what was
+    // unknown in a move is looked at, and may be broken.
     let unknown = |step: &Move| {
         let via = step.via.as_ref().and_then(|via| via.value.as_ref().err());
         let wobj = step.wobj.as_ref().and_then(|wobj| wobj.value.as_ref().err());
@@ -281,7 +283,7 @@ fn check(text: &str, module: &Module) {
 fn own_values(datum: usize, content: &Content) -> Vec<NewValue> {
     let value = |element, value: &Value| NewValue { datum, element, value: value.clone() };
     match content {
-        Content::Uninitialised { .. } => Vec::new(),
+        Content::Uninitialized { .. } => Vec::new(),
         Content::Single(single) => vec![value(None, single)],
         Content::Array { values, .. } => {
             values.iter().enumerate().map(|(element, it)| value(Some(element), it)).collect()
@@ -406,8 +408,8 @@ fn time(text: &str) -> f64 {
     (0..3).map(|_| once()).fold(f64::INFINITY, f64::min)
 }
 
-/// Twice the text takes about twice the time: ratios are printed, and where they are to be trusted, among many inputs, a quadratic reader, whose
-/// ratio of sixteen sizes is 256, is not let through.
+/// Twice the text takes about twice the time: ratios are printed, and where they are to be trusted,
+/// among many inputs, a quadratic reader, whose ratio of sixteen sizes is 256, is not let through.
 #[test]
 fn reading_time_is_linear() {
     let is_long = inputs() > 100_000;

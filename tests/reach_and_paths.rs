@@ -266,7 +266,7 @@ fn a_lateral_offset_merges_only_what_rounding_merges() {
                 let pose = arm.robot.fk(&q);
                 let slot = arm.slot(&theta);
                 let solutions = arm.robot.ik(&pose).unwrap();
-                // Rounding moves the wrist centre across the plane by less than p / 2: by that it
+                // Rounding moves the wrist center across the plane by less than p / 2: by that it
                 // may turn, and less far out it may be one with its twin.
                 let open = 2.0 * plane_open(&arm, shoulder) + 1e-12;
                 let near = |slot: usize| {
@@ -283,7 +283,7 @@ fn a_lateral_offset_merges_only_what_rounding_merges() {
     assert_none(&report);
 }
 
-/// Elbow and shoulder, and the wrist centre on axes 1 and 2 at once: the seed that made the pose is
+/// Elbow and shoulder, and the wrist center on axes 1 and 2 at once: the seed that made the pose is
 /// its nearest solution.
 #[test]
 fn a_seed_keeps_its_branch_behind_axis_1() {

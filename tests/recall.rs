@@ -5,10 +5,9 @@
 //! prints the table; `make test` runs fewer.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-use irbkin::{Arity, Joints};
 use std::f64::consts::PI;
 
-use irbkin::{JointLimits, Pose, Robot, Status, pose_to_rows};
+use irbkin::{Arity, JointLimits, Joints, Pose, Robot, SingularityKind, Status, pose_to_rows};
 
 use crate::common::tally::Tally;
 use crate::common::{Rng, apart, asked_set, poses_or};
@@ -83,7 +82,7 @@ where
         for ((q, pose), answers) in joints.iter().zip(&poses).zip(answers) {
             let solutions = subject.ik(pose, q);
             let solved: Vec<_> =
-                solutions.iter().map(|s| (usize::from(s.slot), s.q, s.kinds())).collect();
+                solutions.iter().map(|s| (usize::from(s.slot), s.q, s.singularities())).collect();
             take(&mut alone, subject, q, pose, &solved);
             take(&mut together, subject, q, pose, &answers);
         }
@@ -93,7 +92,7 @@ where
 }
 
 /// A solution: its slot, its joint angles, the singularities that it is said to be at.
-type Answer<const N: usize> = (usize, [f64; N], Status);
+type Answer<const N: usize> = (usize, [f64; N], SingularityKind);
 
 /// The solutions of each pose of a batch.
 fn solved_together<const N: usize>(
@@ -110,7 +109,7 @@ where
         .unwrap();
     let found = |(slot, (q, flags)): (usize, (&[f64; N], &u8))| {
         let status = Status::from_bits_retain(*flags);
-        status.contains(Status::FOUND).then_some((slot, *q, status & Status::KINDS))
+        status.contains(Status::FOUND).then_some((slot, *q, status.singularities()))
     };
     let of_a_pose = |(q, status): (&[[f64; N]], &[u8])| {
         q.iter().zip(status).enumerate().filter_map(found).collect()

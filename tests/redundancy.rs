@@ -71,7 +71,7 @@ impl Arm {
             if rng.unit() < 0.5 {
                 q[4] = 0.0;
             }
-            if self.robot.limits().contain(&q) {
+            if self.robot.limits().contains(&q) {
                 return q;
             }
         }
@@ -181,7 +181,7 @@ impl Tally {
             self.example = Some((*q, *seed));
             return;
         };
-        assert!(arm.robot.limits().contain(&nearest.q));
+        assert!(arm.robot.limits().contains(&nearest.q));
         self.off = self.off.max(arm.robot.residual(&nearest.q, &pose).largest());
         let farther = distance(&nearest.q, seed) - distance(q, seed);
         self.worst = self.worst.max(farther);
@@ -309,7 +309,7 @@ fn nearest_is_never_farther_than_a_solution_with_any_joint_7() {
                     let solutions =
                         arm.robot.ik(&pose, q[6] + rng.between(-spread, spread)).unwrap();
                     let exact = solutions.filter(|other| {
-                        other.within_limits()
+                        other.is_within_limits()
                             && arm.robot.residual(&other.q, &pose).largest() < 1e-14
                     });
                     let Ok(other) = exact.nearest(&seed, &WEIGHTS) else { continue };

@@ -4,7 +4,7 @@
 use std::fmt::Debug;
 
 use irbkin::{
-    Configuration, Crossing, FollowOptions, Mdh, OpwParameters, Robot, Sdh, Solution, Status,
+    Configuration, FollowOptions, Mdh, OpwParameters, Robot, Sdh, SingularityMode, Solution, Status,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -28,7 +28,7 @@ fn answers_come_back() {
     let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
     let straight = [0.3, 0.2, 0.1, 0.4, 0.0, -0.7];
     let solutions = robot.ik(&robot.fk(&straight)).unwrap();
-    assert!(solutions.iter().any(|solution| solution.free.is_some()));
+    assert!(solutions.iter().any(|solution| solution.free_joint.is_some()));
     for solution in &solutions {
         comes_back::<Solution<6>>(solution);
     }
@@ -42,7 +42,10 @@ fn answers_come_back() {
 
 #[test]
 fn options_come_back() {
-    comes_back(&FollowOptions { crossing: Crossing::LockAxis4, ..FollowOptions::default() });
+    comes_back(&FollowOptions {
+        singularity_mode: SingularityMode::LockAxis4,
+        ..FollowOptions::default()
+    });
 }
 
 #[test]

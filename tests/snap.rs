@@ -1,4 +1,5 @@
-//! Right angles that were written with few digits, made exact on request, and proposed exactly where that would help.
+//! Right angles that were written with few digits, made exact on request, and proposed exactly
+//! where that would help.
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
 use crate::common;
@@ -30,7 +31,8 @@ where
     }
 }
 
-/// How far each of many poses of two arms is apart, for joints that go through the limits of neither.
+/// How far each of many poses of two arms is apart, for joints that go through the limits of
+/// neither.
 fn farthest<const N: usize>(one: &Robot<N>, other: &Robot<N>) -> f64
 where
     irbkin::Joints<N>: irbkin::Arity<N>,
@@ -57,7 +59,7 @@ fn an_xarm7_as_published_is_taken_with_the_snap_that_is_proposed() {
     assert!(reason.to_string().ends_with("; snap=1e-5 would take it"), "{reason}");
     assert!(refusal(text.ik(&text.fk(&[0.3; 7]), 0.3)).ends_with("; snap=1e-5 would take it"));
     let robot = Robot::<7>::from_urdf_snapped(XARM7, None, None, 1e-5).unwrap();
-    assert_eq!(robot.family(), "spherical shoulder");
+    assert_eq!(robot.structure(), "spherical shoulder");
     // Six right angles are 3.7e-6 rad off.
     let off = farthest(&robot, &text);
     assert!(off > 1e-6 && off <= moved(&robot, 6, 1e-5), "{off:e}");
@@ -82,7 +84,7 @@ fn a_puma560_as_published_is_taken_with_the_snap_that_is_proposed() {
     let text = Robot::<6>::serial_chain_from_urdf(PUMA560, None, None).unwrap();
     for snap in [1e-8, 1e-5, 1e-3] {
         let robot = Robot::<6>::from_urdf_snapped(PUMA560, None, None, snap).unwrap();
-        assert_eq!(robot.family(), "spherical wrist");
+        assert_eq!(robot.structure(), "spherical wrist");
         assert!(farthest(&robot, &text) <= moved(&robot, 6, 1e-8));
         let robot = robot.with_limits(JointLimits::UNLIMITED);
         let mut full = 0;
@@ -116,7 +118,8 @@ fn rounded<const N: usize>(mdh: &Mdh<N>, decimals: i32) -> Mdh<N> {
     Mdh { rows, ..mdh.clone() }
 }
 
-/// A right angle written with so many decimals is off by so much: the least power of ten above it takes it.
+/// A right angle written with so many decimals is off by so much: the least power of ten above it
+/// takes it.
 #[test]
 fn tables_of_every_structure_are_taken_with_the_snap_that_is_proposed() {
     fn check<const N: usize>(exact: &Robot<N>)
@@ -137,12 +140,12 @@ fn tables_of_every_structure_are_taken_with_the_snap_that_is_proposed() {
             assert!(off <= snap && (snap < 10.0 * off || snap <= 1e-8), "{snap:e} for {off:e}");
             assert!(!reason.to_string().contains("0.000000"), "{reason}");
             let robot = Robot::from_mdh(table.clone().snapped(snap).unwrap()).unwrap();
-            assert_eq!(robot.family(), exact.family(), "{decimals}");
+            assert_eq!(robot.structure(), exact.structure(), "{decimals}");
             let text = Robot::serial_chain(table.clone()).unwrap();
             assert!(farthest(&robot, &text) <= moved(&robot, 2 * N, off.max(1e-15)));
             // The same as a standard table, of which the first twist and length are in the base.
             let sdh = Sdh::from(table).snapped(snap).unwrap();
-            assert_eq!(Robot::from_sdh(sdh).unwrap().family(), exact.family(), "{decimals}");
+            assert_eq!(Robot::from_sdh(sdh).unwrap().structure(), exact.structure(), "{decimals}");
         }
     }
     for name in ["IRB 2600-12/1.65", "IRB 140-6/0.81", "UR5e", "UR10"] {
@@ -182,7 +185,8 @@ fn nothing_is_proposed_where_nothing_would_help() {
     assert!(words.ends_with("; snap=1e-5 would take it"), "{words}");
 }
 
-/// Text can be so far off that there is no table: axes 2 and 3 of an arm that stands on a rounded quarter turn meet far away.
+/// Text can be so far off that there is no table: axes 2 and 3 of an arm that stands on a rounded
+/// quarter turn meet far away.
 #[test]
 fn nearly_parallel_axes_are_taken_with_the_snap_that_is_proposed() {
     let text = include_str!("data/irb2600.urdf");

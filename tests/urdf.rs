@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 use std::fmt::Write;
 
 use crate::common::{Rng, kuka_kr6};
-use irbkin::{Error, ModelFault, Names, PoseError, Robot, UrdfFault};
+use irbkin::{Error, ModelFault, Names, PoseDifference, Robot, UrdfFault};
 
 const IRB2600: &str = include_str!("data/irb2600.urdf");
 const ROUNDED: &str = include_str!("data/irb2600_rounded.urdf");
@@ -46,7 +46,7 @@ fn agrees(text: &str, other: &Robot<6>, bound: f64) {
     for _ in 0..500 {
         let q = rng.inside(other.limits());
         let pose = other.fk(&q);
-        let off = PoseError::between(&robot.fk(&q), &pose).largest();
+        let off = PoseDifference::between(&robot.fk(&q), &pose).largest();
         assert!(off <= bound, "off by {off:e}");
         if other.singularity(&q).min_singular_value < 1e-3 {
             continue;
@@ -87,10 +87,10 @@ fn arms_of_a_known_form_have_their_inverse_and_their_slots() {
 #[test]
 fn names_limits_and_velocities_arrive() {
     let robot = Robot::<6>::from_urdf(IRB2600, None, None).unwrap();
-    let catalogue = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
+    let catalog = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
     assert_eq!(robot.name(), "irb2600");
-    assert_eq!(robot.limits(), catalogue.limits());
-    assert_eq!(robot.max_velocity(), catalogue.max_velocity());
+    assert_eq!(robot.limits(), catalog.limits());
+    assert_eq!(robot.max_velocity(), catalog.max_velocity());
     assert_eq!(robot.mdh().base, irbkin::Pose::identity());
     let seven = Robot::<7>::from_urdf(SEVEN, None, None).unwrap();
     assert_eq!(seven.limits().to_array()[6], [-175.0_f64.to_radians(), 175.0_f64.to_radians()]);
@@ -130,7 +130,7 @@ fn base_and_tip_choose_the_chain() {
     let inner = six(UR5E, Some("base_link_inertia"), Some("wrist_3_link")).unwrap();
     let q = [0.1, -0.2, 0.3, -0.4, 0.5, -0.6];
     let half_turn = irbkin::pose_from_euler_zyx([0.0; 3], [PI, 0.0, 0.0]).unwrap();
-    let off = PoseError::between(&tool.fk(&q), &(half_turn * inner.fk(&q)));
+    let off = PoseDifference::between(&tool.fk(&q), &(half_turn * inner.fk(&q)));
     // The tool frame of the description is the last link's.
     assert!(off.largest() <= 1e-14, "{off:?}");
     assert!(
@@ -408,7 +408,7 @@ fn an_arm_of_no_known_form_says_so_and_is_taken_without() {
     let error = Robot::<6>::from_urdf(&bent, None, None).unwrap_err();
     assert!(matches!(error, Error::InvalidModel(ModelFault::UnknownStructure(_))), "{error}");
     assert!(six(&bent, None, None).unwrap().unknown_structure().is_some());
-    assert_eq!(six(&bent, None, None).unwrap().family(), "serial");
+    assert_eq!(six(&bent, None, None).unwrap().structure(), "unknown");
 }
 
 /// A chain of fixed joints with an arm's six joints at its end, or links side by side.
@@ -526,7 +526,8 @@ fn damaged_text_never_panics() {
 
 #[test]
 fn nearly_parallel_axes_are_told_apart_from_parallel_ones() {
-    // Nine decimals: 2e-10 off, taken as parallel. Seven: 5e-8 off, the common normal is too far away. One: two axes like any other.
+    // Nine decimals: 2e-10 off, taken as parallel. Seven: 5e-8 off, the common normal is too far
+    // away. One: two axes like any other.
     let of = |roll: &str| {
         six(
             &third(

@@ -1,4 +1,5 @@
-//! Reading a URDF takes time in proportion to its text, whatever its shape: what would take longer is refused before it is parsed.
+//! Reading a URDF takes time in proportion to its text, whatever its shape: what would take longer
+//! is refused before it is parsed.
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::format_collect)]
 
 use std::fmt::Write as _;
@@ -169,7 +170,8 @@ fn sixteen_times_the_text_takes_sixteen_times_as_long() {
         let (first, sixteenth) = (time(large), time(small));
         let ratio = first / sixteenth.max(5e-4);
         println!("{kind}: {:.2} ms, {:.2} ms, {ratio:.1}", 1e3 * sixteenth, 1e3 * first);
-        // A quadratic reader's is 256, a cubic one's 4096. Below a second a busy machine and its memory decide.
+        // A quadratic reader's is 256, a cubic one's 4096. Below a second a busy machine and its
+        // memory decide.
         assert!(first < 1.0 || ratio < 64.0, "{kind}: {first:.1} s, {ratio:.1}");
     }
 }

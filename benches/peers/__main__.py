@@ -1,4 +1,6 @@
-"""Compare irbkin with its peers: `python -m benches.peers [--quick] [--write]`, from the repository's root."""
+"""Compare irbkin with its peers: `python -m benches.peers [--quick] [--write]`, from the
+repository's root.
+"""
 
 from __future__ import annotations
 
@@ -20,8 +22,12 @@ PAGE, PICTURE = ROOT / "docs" / "benchmarks.md", ROOT / "docs" / "pictures" / "p
 def main() -> None:
     """Count, time and print; write the page and the picture when asked to."""
     parser = argparse.ArgumentParser(prog="python -m benches.peers", description=__doc__)
-    parser.add_argument("--quick", action="store_true", help="tiny counts: shows that it runs, measures nothing")
-    parser.add_argument("--write", action="store_true", help=f"write {PAGE.name} and {PICTURE.name}, too")
+    parser.add_argument(
+        "--quick", action="store_true", help="tiny counts: shows that it runs, measures nothing"
+    )
+    parser.add_argument(
+        "--write", action="store_true", help=f"write {PAGE.name} and {PICTURE.name}, too"
+    )
     arguments = parser.parse_args()
     if arguments.quick and arguments.write:
         parser.error("--quick measures nothing that is worth writing")
@@ -37,14 +43,23 @@ def main() -> None:
         print(f"{package}: skipped ({word})")
 
     solvers = [contender for contender in built if contender.task == "ik"]
-    recalls = [recall(IRB2600, solvers, poses) for poses in sets_of(IRB2600, effort.recall, effort.singular)]
+    recalls = [
+        recall(IRB2600, solvers, poses)
+        for poses in sets_of(IRB2600, effort.recall, effort.singular)
+    ]
     print("\nSolutions lost, IRB 2600", report.plain(report.losses(recalls)), sep="\n", flush=True)
 
     results = []
     for row in ROWS:
         result = run(row, effort, missing)
         results.append(result)
-        print(f"\n{row.title}", report.plain(report.times(result)), *result.absent, sep="\n", flush=True)
+        print(
+            f"\n{row.title}",
+            report.plain(report.times(result)),
+            *result.absent,
+            sep="\n",
+            flush=True,
+        )
 
     if arguments.write:
         report.write(PAGE, report.document(about, recalls, results, missing))

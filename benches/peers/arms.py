@@ -1,4 +1,5 @@
-"""The arms of the comparison, by their axes at zero joint angles: one description that every contender is built from.
+"""The arms of the comparison, by their axes at zero joint angles: one description that every
+contender is built from.
 
 The forward kinematics here are products of exponentials in NumPy, and no contender's.
 """
@@ -20,13 +21,14 @@ class Arm:
     """A serial arm of revolute joints, seen at zero joint angles [m, rad].
 
     Attributes:
-        name: Name in irbkin's catalogue.
+        name: Name in irbkin's catalog.
         axes: Direction of each axis in the base frame, shape (n, 3).
-        offsets: From the base to a point of axis 1, from there to one of axis 2, and so on to the tool, (n + 1, 3).
+        offsets: From the base to a point of axis 1, from there to one of axis 2, and so on to the
+        tool, (n + 1, 3).
         tool: Rotation of the tool frame in the base frame, shape (3, 3).
         limits: Between which joints are drawn, shape (n, 2).
-        branch: Joints that tell two solutions apart; of a spherical wrist without J4 and J6, which only turn along a
-            family when J5 is zero.
+        branch: Joints that tell two solutions apart; of a spherical wrist without J4 and J6, which
+            only turn along a family when J5 is zero.
         opw: Brandstoetter's parameters, where the arm has them.
     """
 
@@ -44,7 +46,9 @@ class Arm:
         return len(self.axes)
 
     def frames(self, q: Floats) -> tuple[Floats, Floats, Floats]:
-        """Axes, points on them and the tool for joints (..., n): shapes (..., n, 3), (..., n, 3), (..., 4, 4)."""
+        """Axes, points on them and the tool for joints (..., n): shapes (..., n, 3), (..., n, 3),
+        (..., 4, 4).
+        """
         rotation = np.broadcast_to(np.eye(3), (*q.shape[:-1], 3, 3))
         point = np.zeros((*q.shape[:-1], 3))
         axes, points = [], []
@@ -64,7 +68,9 @@ class Arm:
         return self.frames(q)[2]
 
     def jacobian(self, q: Floats) -> Floats:
-        """Geometric Jacobian of the tool in the base frame, linear rows first, (..., n) to (..., 6, n)."""
+        """Geometric Jacobian of the tool in the base frame, linear rows first, (..., n) to (..., 6,
+        n).
+        """
         axes, points, pose = self.frames(q)
         linear = np.cross(axes, pose[..., None, :3, 3] - points)
         return np.swapaxes(np.concatenate([linear, axes], axis=-1), -1, -2)
@@ -76,7 +82,9 @@ class Arm:
     def urdf(self) -> str:
         """The arm as a URDF from `link0` to `tool0`, for those who read no other description."""
         parts = ['<robot name="arm"><link name="link0"/>']
-        for i, (axis, offset, (lower, upper)) in enumerate(zip(self.axes, self.offsets[:-1], self.limits, strict=True)):
+        for i, (axis, offset, (lower, upper)) in enumerate(
+            zip(self.axes, self.offsets[:-1], self.limits, strict=True)
+        ):
             parts.append(
                 f'<link name="link{i + 1}"><inertial><mass value="1"/>'
                 '<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>'
@@ -107,7 +115,10 @@ def rpy(rotation: Floats) -> Floats:
     pitch = np.arctan2(-rotation[2, 0], cosine)
     if cosine < 1e-9:
         return np.array([0.0, pitch, np.arctan2(-rotation[0, 1], rotation[1, 1])])
-    roll, yaw = np.arctan2(rotation[2, 1], rotation[2, 2]), np.arctan2(rotation[1, 0], rotation[0, 0])
+    roll, yaw = (
+        np.arctan2(rotation[2, 1], rotation[2, 2]),
+        np.arctan2(rotation[1, 0], rotation[0, 0]),
+    )
     return np.array([roll, pitch, yaw])
 
 

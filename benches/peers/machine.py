@@ -33,7 +33,9 @@ def cpu() -> tuple[str, str]:
             fields.setdefault(key.strip(), value.strip())
     model = fields.get("model name") or platform.processor() or platform.machine()
     flags = (fields.get("flags") or fields.get("Features") or "").split()
-    return model, next((name for flag, name in INSTRUCTION_SETS.items() if flag in flags), platform.machine())
+    return model, next(
+        (name for flag, name in INSTRUCTION_SETS.items() if flag in flags), platform.machine()
+    )
 
 
 def describe(packages: Iterable[str]) -> list[str]:
@@ -43,5 +45,9 @@ def describe(packages: Iterable[str]) -> list[str]:
     lines = [f"{model}, {instructions}, {os.cpu_count()} cores, {system}"]
     if hasattr(os, "getloadavg"):
         lines[0] += f"; load before the run {os.getloadavg()[0]:.2f}"
-    lines.append(", ".join(f"{name} {number}" for name, number in versions([*packages, "numpy", "scipy"]).items()))
+    lines.append(
+        ", ".join(
+            f"{name} {number}" for name, number in versions([*packages, "numpy", "scipy"]).items()
+        )
+    )
     return lines

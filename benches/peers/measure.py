@@ -1,4 +1,6 @@
-"""Times of contenders that take turns: every round runs each of them once, and ratios are taken within a round."""
+"""Times of contenders that take turns: every round runs each of them once, and ratios are taken
+within a round.
+"""
 
 from __future__ import annotations
 
@@ -66,7 +68,11 @@ def turn(call: Callable[..., Any], arguments: Sequence[tuple[Any, ...]], repeats
 
 
 def take_turns(
-    contenders: Sequence[Contender], cases: Sequence[tuple[Floats, Floats]], rounds: int, least: float, poses: int
+    contenders: Sequence[Contender],
+    cases: Sequence[tuple[Floats, Floats]],
+    rounds: int,
+    least: float,
+    poses: int,
 ) -> dict[str, Timing]:
     """Time contenders on the same cases.
 
@@ -80,7 +86,9 @@ def take_turns(
     Returns:
         For each name its times.
     """
-    arguments = {each.name: [each.prepare(pose, joints) for pose, joints in cases] for each in contenders}
+    arguments = {
+        each.name: [each.prepare(pose, joints) for pose, joints in cases] for each in contenders
+    }
     repeats: dict[str, int] = {}
     for each in contenders:
         turn(each.call, arguments[each.name], 1)
@@ -91,7 +99,7 @@ def take_turns(
     gc.disable()
     try:
         for number in range(rounds):
-            # Who goes first changes, so that nobody always follows the same neighbour.
+            # Who goes first changes, so that nobody always follows the same neighbor.
             first = number % len(contenders)
             for each in (*contenders[first:], *contenders[:first]):
                 seconds = turn(each.call, arguments[each.name], repeats[each.name])

@@ -30,7 +30,7 @@ STYLE: dict[Any, Any] = {
 }
 
 
-def colour(name: str, yardstick: str) -> str:
+def color(name: str, yardstick: str) -> str:
     """Of a bar."""
     if name == yardstick:
         return STICK_COLOUR
@@ -56,11 +56,16 @@ def draw(results: Sequence[Result], path: Path) -> None:
     mpl.use("svg")
     import matplotlib.pyplot as plt
 
-    shared = [r for r in results if r.own and any(colour(n, r.yardstick) == PEER_COLOUR for n in r.timings)]
+    shared = [
+        r for r in results if r.own and any(color(n, r.yardstick) == PEER_COLOUR for n in r.timings)
+    ]
     if not shared:
         return
     ratios = [ratios_of(result) for result in shared]
-    low, high = min(min(each.values()) for each in ratios), max(max(each.values()) for each in ratios)
+    low, high = (
+        min(min(each.values()) for each in ratios),
+        max(max(each.values()) for each in ratios),
+    )
     floor = low / 2
     with mpl.rc_context(STYLE):
         heights = [len(result.timings) + 1 for result in shared]
@@ -73,8 +78,10 @@ def draw(results: Sequence[Result], path: Path) -> None:
             layout="constrained",
         )
         for axes, result, bars in zip(panels[:, 0], shared, ratios, strict=True):
-            colours = [colour(name, result.yardstick) for name in bars]
-            axes.barh(list(bars), [ratio - floor for ratio in bars.values()], left=floor, color=colours)
+            colors = [color(name, result.yardstick) for name in bars]
+            axes.barh(
+                list(bars), [ratio - floor for ratio in bars.values()], left=floor, color=colors
+            )
             axes.set_xscale("log")
             # Room on the right for the words beside the longest bar.
             axes.set_xlim(floor, high * (high / floor) ** 0.3)

@@ -1,7 +1,9 @@
-"""What each contender finds: solutions of poses that are known, counted and checked by this harness's own kinematics.
+"""What each contender finds: solutions of poses that are known, counted and checked by this
+harness's own kinematics.
 
-The truth about a pose is what any contender found and NumPy's forward kinematics confirm, and the joints that the pose
-was made from: no contender is the judge, and what all of them miss is not seen.
+The truth about a pose is what any contender found and NumPy's forward kinematics confirm, and the
+joints that the pose was made from: no contender is the judge, and what all of them miss is not
+seen.
 """
 
 from __future__ import annotations
@@ -15,7 +17,8 @@ from numpy.typing import NDArray
 from .arms import Arm, Floats
 from .contenders import Contender
 
-# A solution counts when it meets the pose to this [m, 1]: an arc cosine at its end loses half the digits, no more.
+# A solution counts when it meets the pose to this [m, 1]: an arc cosine at its end loses half the
+# digits, no more.
 EXACT = 1e-6
 # Two solutions are one branch when no joint of `Arm.branch` differs by more [rad].
 SAME = 1e-4
@@ -53,7 +56,9 @@ class Recall:
 
 
 def sets_of(arm: Arm, count: int, singular: int) -> list[PoseSet]:
-    """Random poses and, for an arm with a spherical wrist, the home pose and poses with axis 5 at zero."""
+    """Random poses and, for an arm with a spherical wrist, the home pose and poses with axis 5 at
+    zero.
+    """
     rng = np.random.default_rng(1)
     joints = {f"{count} random poses": arm.draw(rng, count)}
     if arm.opw:
@@ -104,14 +109,23 @@ def recall(arm: Arm, contenders: Sequence[Contender], poses: PoseSet) -> Recall:
     known = 0
     for pose, joints in zip(poses.poses, poses.joints, strict=True):
         answers = {contender.name: contender.solutions(pose, joints) for contender in contenders}
-        branches = branches_of(arm, pose, np.concatenate([joints[None], *(q for q, _ in answers.values())]))
+        branches = branches_of(
+            arm, pose, np.concatenate([joints[None], *(q for q, _ in answers.values())])
+        )
         known += len(branches)
         for name, (solutions, flags) in answers.items():
             add(tallies[name], arm, pose, branches, solutions, flags)
     return Recall(poses, known, tallies)
 
 
-def add(tally: Tally, arm: Arm, pose: Floats, branches: Floats, solutions: Floats, flags: NDArray[np.bool_]) -> None:
+def add(
+    tally: Tally,
+    arm: Arm,
+    pose: Floats,
+    branches: Floats,
+    solutions: Floats,
+    flags: NDArray[np.bool_],
+) -> None:
     """Count the answer of one contender for one pose."""
     if len(solutions) == 0:
         return

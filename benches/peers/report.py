@@ -24,14 +24,18 @@ def times(result: Result) -> Table:
     timings, own = result.timings, result.own
     stick = timings[result.yardstick]
     head = ["", "a pose" if batch else "a call", "/ irbkin", f"/ {result.yardstick}", "checked"]
-    order = sorted(timings, key=lambda name: (not name.startswith("irbkin"), timings[name].ratio(stick)))
+    order = sorted(
+        timings, key=lambda name: (not name.startswith("irbkin"), timings[name].ratio(stick))
+    )
     table = [head]
     for name in order:
         timing = timings[name]
         ratio = f"{timing.ratio(timings[own]):.2f}" if own else "-"
         words = [result.checked.get(name, ""), result.remarks.get(name, "")]
         said = "; ".join(word for word in words if word)
-        table.append([name, time_of(timing.median, batch), ratio, f"{timing.ratio(stick):.2f}", said])
+        table.append(
+            [name, time_of(timing.median, batch), ratio, f"{timing.ratio(stick):.2f}", said]
+        )
     return table
 
 
@@ -42,7 +46,10 @@ def losses(recalls: Sequence[Recall]) -> Table:
     for name in recalls[0].tallies:
         tallies = [each.tallies[name] for each in recalls]
         lost = [str(each.known - tally.found) for each, tally in zip(recalls, tallies, strict=True)]
-        sums = [str(sum(getattr(tally, what) for tally in tallies)) for what in ("flagged", "inexact", "twice")]
+        sums = [
+            str(sum(getattr(tally, what) for tally in tallies))
+            for what in ("flagged", "inexact", "twice")
+        ]
         table.append([name, *lost, *sums, f"{max(tally.worst for tally in tallies):.0e}"])
     return table
 
@@ -54,7 +61,10 @@ def plain(table: Table) -> str:
     lines = []
     for line in table:
         padded = enumerate(zip(line, widths, strict=True))
-        cells = [cell.ljust(width) if i in (0, last) else cell.rjust(width) for i, (cell, width) in padded]
+        cells = [
+            cell.ljust(width) if i in (0, last) else cell.rjust(width)
+            for i, (cell, width) in padded
+        ]
         lines.append("  ".join(cells).rstrip())
     return "\n".join(lines)
 
@@ -66,7 +76,10 @@ def markdown(table: Table) -> str:
 
 
 def document(
-    machine: Sequence[str], recalls: Sequence[Recall], results: Sequence[Result], missing: dict[str, str]
+    machine: Sequence[str],
+    recalls: Sequence[Recall],
+    results: Sequence[Result],
+    missing: dict[str, str],
 ) -> str:
     """The generated part of docs/benchmarks.md."""
     parts = ["\n\n".join(machine), "### Solutions lost, IRB 2600", markdown(losses(recalls))]

@@ -1,4 +1,6 @@
-"""The comparisons: which task, which arm, beside which yardstick; and the check that comes before the clock."""
+"""The comparisons: which task, which arm, beside which yardstick; and the check that comes before
+the clock.
+"""
 
 from __future__ import annotations
 
@@ -69,7 +71,9 @@ class Result:
 
 
 def gather(arm: Arm, missing: dict[str, str]) -> tuple[list[Contender], list[str]]:
-    """All contenders for an arm, and who could not be built for it; packages that do not import go to `missing`."""
+    """All contenders for an arm, and who could not be built for it; packages that do not import go
+    to `missing`.
+    """
     contenders, absent = [], []
     for package, builder in BUILDERS.items():
         if package in missing:
@@ -92,7 +96,11 @@ def excuse(name: str, error: Exception) -> str:
 def yardstick(row: Row) -> Contender:
     """The product of two 4x4 arrays, or filling the array of a batch's answers."""
     task, dof = row.task, row.arm.dof
-    shapes: dict[Task, tuple[int, ...]] = {"ik_batch": (8, dof), "fk_batch": (4, 4), "jacobian_batch": (6, dof)}
+    shapes: dict[Task, tuple[int, ...]] = {
+        "ik_batch": (8, dof),
+        "fk_batch": (4, 4),
+        "jacobian_batch": (6, dof),
+    }
     if task in shapes:
         shape = shapes[task]
         return Contender(
@@ -116,7 +124,9 @@ def check(row: Row, contender: Contender, poses: Floats, joints: Floats, seeds: 
         if task in BATCHES:
             answers = contender.answer(poses, joints)
         else:
-            answers = np.array([contender.answer(*case) for case in zip(poses, joints, strict=True)])
+            answers = np.array(
+                [contender.answer(*case) for case in zip(poses, joints, strict=True)]
+            )
         error = float(np.abs(answers - truth).max())
         if not error <= contender.bound:
             raise ArithmeticError(f"off by {error:.1e}, allowed {contender.bound:.0e}")
@@ -154,7 +164,9 @@ def run(row: Row, effort: Effort, missing: dict[str, str]) -> Result:
     taking_part = [stick]
     for contender in (each for each in built if each.task == row.task):
         try:
-            result.checked[contender.name] = check(row, contender, poses[few], joints[few], seeds[few])
+            result.checked[contender.name] = check(
+                row, contender, poses[few], joints[few], seeds[few]
+            )
         except Exception as error:  # whatever a package raises, the others go on
             result.absent.append(excuse(contender.name, error))
             continue
@@ -163,6 +175,8 @@ def run(row: Row, effort: Effort, missing: dict[str, str]) -> Result:
             result.remarks[contender.name] = contender.remark
     second = seeds if row.task == "ik_nearest" else joints
     rounds = effort.batch_rounds if batch else effort.rounds
-    cases: Sequence[tuple[Any, Any]] = [(poses, joints)] if batch else list(zip(poses, second, strict=True))
+    cases: Sequence[tuple[Any, Any]] = (
+        [(poses, joints)] if batch else list(zip(poses, second, strict=True))
+    )
     result.timings = take_turns(taking_part, cases, rounds, effort.turn, len(poses))
     return result

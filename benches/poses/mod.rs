@@ -6,7 +6,7 @@ use irbkin::{Arity, InstructionSet, Joints, Robot, batch};
 /// A joint vector whose pose has all eight solutions.
 pub(crate) const Q: [f64; 6] = [0.3, -0.2, 0.4, 0.5, -0.6, 0.7];
 
-/// The same with axes 4 and 6 in one line: a pose for the careful solve.
+/// The same with axes 4 and 6 in one line: a pose for the scalar solve.
 pub(crate) const Q_SINGULAR: [f64; 6] = [0.3, -0.2, 0.4, 0.5, 0.0, 0.7];
 
 pub(crate) fn robot() -> Robot<6> {

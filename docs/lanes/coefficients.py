@@ -2,9 +2,10 @@
 
 Needs mpmath only: `python3 docs/lanes/coefficients.py`.
 
-Polynomials are fitted by the Remez exchange on a dense Chebyshev grid, with a weight that makes the relative error of
-the function itself the one that is least, not that of the polynomial. The coefficients are rounded to float64 one at a
-time, lowest power first; after each the remaining ones are fitted again, and so take up what the rounding left.
+Polynomials are fitted by the Remez exchange on a dense Chebyshev grid, with a weight that makes the
+relative error of the function itself the one that is least, not that of the polynomial. The
+coefficients are rounded to float64 one at a time, lowest power first; after each the remaining ones
+are fitted again, and so take up what the rounding left.
 """
 
 from mpmath import atan, cos, floor, frexp, ldexp, log, lu_solve, matrix, mp, mpf, pi, sin, sqrt
@@ -13,7 +14,7 @@ mp.prec = 240
 
 EXCHANGES = 40
 POINTS_A_COEFFICIENT = 20
-LEVEL = mpf("1.001")  # a largest error this close to the levelled one is the least there is
+LEVEL = mpf("1.001")  # a largest error this close to the leveled one is the least there is
 
 
 def rounded(value):
@@ -29,8 +30,10 @@ def horner(coefficients, u):
     return value
 
 
-def levelled(us, fs, weights, shift, count, reference):
-    """Coefficients whose weighted error at the reference is equal, in turn up and down; and that error."""
+def leveled(us, fs, weights, shift, count, reference):
+    """Coefficients whose weighted error at the reference is equal, in turn up and down; and that
+    error.
+    """
     system, right = matrix(count + 1, count + 1), matrix(count + 1, 1)
     for i, j in enumerate(reference):
         power = us[j] ** shift
@@ -54,13 +57,18 @@ def extremes(errors):
 
 
 def remez(us, fs, weights, shift, count):
-    """Coefficients c that make the largest |weight (f - u^shift sum c_k u^k)| of the grid least; first, that error."""
+    """Coefficients c that make the largest |weight (f - u^shift sum c_k u^k)| of the grid least;
+    first, that error.
+    """
     grid = len(us)
     reference = [(2 * i + 1) * grid // (2 * (count + 1)) for i in range(count + 1)]
     best = (mpf("inf"), None)
     for _ in range(EXCHANGES):
-        coefficients, level = levelled(us, fs, weights, shift, count, reference)
-        errors = [w * (f - u**shift * horner(coefficients, u)) for u, f, w in zip(us, fs, weights, strict=True)]
+        coefficients, level = leveled(us, fs, weights, shift, count, reference)
+        errors = [
+            w * (f - u**shift * horner(coefficients, u))
+            for u, f, w in zip(us, fs, weights, strict=True)
+        ]
         worst = max(abs(error) for error in errors)
         best = min(best, (worst, coefficients), key=lambda found: found[0])
         reference = extremes(errors)
@@ -73,7 +81,9 @@ def remez(us, fs, weights, shift, count):
 
 
 def fit(function, weight, top, count):
-    """Doubles c with `sum c_k u^k` next to the function on 0 .. top, and the largest weighted error that they leave."""
+    """Doubles c with `sum c_k u^k` next to the function on 0 .. top, and the largest weighted error
+    that they leave.
+    """
     grid = POINTS_A_COEFFICIENT * count
     us = [top * (1 - cos(pi * (mpf(i) + mpf(1) / 2) / grid)) / 2 for i in range(grid)] + [top]
     rest, weights = [function(u) for u in us], [weight(u) for u in us]
@@ -136,11 +146,15 @@ def main():
     """Prints all constants."""
     half_pi = rounded(pi / 2)
     show("PI_REST_RATIO", [rounded((pi / 2 - half_pi) / half_pi)])
-    show_fit("ATAN", fit(lambda u: (atan_ratio(u) - 1) / u, lambda u: u / atan_ratio(u), mpf(1), 20))
+    show_fit(
+        "ATAN", fit(lambda u: (atan_ratio(u) - 1) / u, lambda u: u / atan_ratio(u), mpf(1), 20)
+    )
     # A reduced angle may be beyond pi/4 by the rounding of the turn.
     top = (pi / 4 * (1 + mpf(2) ** -30)) ** 2
     show_fit("SIN", fit(lambda z: (sin_ratio(z) - 1) / z, lambda z: z / sin_ratio(z), top, 6))
-    show_fit("COS", fit(lambda z: (cos_of(z) - 1 + z / 2) / z**2, lambda z: z**2 / cos_of(z), top, 6))
+    show_fit(
+        "COS", fit(lambda z: (cos_of(z) - 1 + z / 2) / z**2, lambda z: z**2 / cos_of(z), top, 6)
+    )
     first = truncated(pi / 2, 37)
     second = truncated(pi / 2 - first, 37)
     third = rounded(pi / 2 - first - second)

@@ -1,7 +1,8 @@
-"""Makes the pictures of docs/singularities.md: joint traces through singularities, and what `ik` answers next to them.
+"""Makes the pictures of docs/singularities.md: joint traces through singularities, and what `ik`
+answers next to them.
 
-Run without arguments: it writes the SVG files beside itself and prints their names. The same irbkin and matplotlib give
-the same files.
+Run without arguments: it writes the SVG files beside itself and prints their names. The same irbkin
+and matplotlib give the same files.
 """
 
 from collections.abc import Callable
@@ -48,14 +49,14 @@ ROBOT = irbkin.Robot("IRB 2600-12/1.65")
 A1, A2, C1, C2, C3, C4 = 0.150, -0.115, 0.445, 0.700, 0.795, 0.085
 STRETCHED = float(np.arctan2(-A2, C3) - np.pi / 2)
 LEANING = -0.6
-# From the shoulder to the wrist centre for J3 = LEANING: along the upper arm and across it [m].
+# From the shoulder to the wrist center for J3 = LEANING: along the upper arm and across it [m].
 ALONG = C2 - C3 * np.sin(LEANING) - A2 * np.cos(LEANING)
 ACROSS = C3 * np.cos(LEANING) - A2 * np.sin(LEANING)
 LENGTH = float(np.hypot(ALONG, ACROSS))
 
 
 def over_the_base(x: float) -> float:
-    """J2 that puts the wrist centre `x` [m] before axis 1 for J3 = LEANING."""
+    """J2 that puts the wrist center `x` [m] before axis 1 for J3 = LEANING."""
     return float(np.arcsin((x - A1) / LENGTH) - np.arctan2(ACROSS, ALONG))
 
 
@@ -65,7 +66,9 @@ def joint_path(*joints: float | Floats) -> Floats:
 
 
 def line(middle: Joints, along: Joints, part: Floats = PATH) -> Floats:
-    """Poses of the tool on a straight line through the pose of `middle`: `part` of the way `along` [m]."""
+    """Poses of the tool on a straight line through the pose of `middle`: `part` of the way `along`
+    [m].
+    """
     poses = np.repeat(ROBOT.fk(middle)[None], SAMPLES, axis=0)
     poses[:, :3, 3] += np.outer(part, along)
     return poses
@@ -81,14 +84,21 @@ def told(followed: irbkin.FollowResult) -> str:
 
 def trace(axes: Axes, followed: irbkin.FollowResult, title: str) -> None:
     """Draws J1 to J6 [deg] along the path."""
-    for joint, colour in enumerate(COLOURS):
-        axes.plot(PATH, np.degrees(followed.q[:, joint]), color=colour, label=f"J{joint + 1}")
-    axes.set(title=f"{title}\n{told(followed)}", xlabel="along the path", xlim=(-1, 1), xticks=[-1, -0.5, 0, 0.5, 1])
+    for joint, color in enumerate(COLOURS):
+        axes.plot(PATH, np.degrees(followed.q[:, joint]), color=color, label=f"J{joint + 1}")
+    axes.set(
+        title=f"{title}\n{told(followed)}",
+        xlabel="along the path",
+        xlim=(-1, 1),
+        xticks=[-1, -0.5, 0, 0.5, 1],
+    )
 
 
 def panels(count: int) -> tuple[Figure, list[Axes]]:
     """A row of panels for joint traces."""
-    figure, grid = plt.subplots(1, count, figsize=(4.3 * count, 3.3), layout="constrained", squeeze=False)
+    figure, grid = plt.subplots(
+        1, count, figsize=(4.3 * count, 3.3), layout="constrained", squeeze=False
+    )
     grid[0, 0].set_ylabel("joint angle [deg]")
     return figure, list(grid[0])
 
@@ -103,7 +113,9 @@ def save(figure: Figure, name: str) -> None:
 
 def save_traces(figure: Figure, axes: Axes, name: str) -> None:
     """Names the six joints once for all panels and writes the picture."""
-    figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=6, frameon=False)
+    figure.legend(
+        *axes.get_legend_handles_labels(), loc="outside lower center", ncols=6, frameon=False
+    )
     save(figure, name)
 
 
@@ -114,26 +126,34 @@ def wrist() -> None:
     trace(axes[0], ROBOT.follow(ROBOT.fk(made), made[0]), "J5 through 0 while J4 moves")
     poses = line([0.3, 0.2, 0.1, np.pi / 2, 2e-3, 0.2], [0.0, 0.15, 0.02])
     seed = ROBOT.ik_nearest(poses[0], [0.3, 0.2, 0.1, 0.0, 0.3, 0.2])
-    trace(axes[1], ROBOT.follow(poses, seed, singular="through"), 'tool past J5 = 0 by 0.11 deg, "through"')
-    trace(axes[2], ROBOT.follow(poses, seed, singular="wrist"), 'the same line, "wrist"')
+    trace(
+        axes[1],
+        ROBOT.follow(poses, seed, singularity_mode="through"),
+        'tool past J5 = 0 by 0.11 deg, "through"',
+    )
+    trace(axes[2], ROBOT.follow(poses, seed, singularity_mode="wrist"), 'the same line, "wrist"')
     axes[2].sharey(axes[1])
     save_traces(figure, axes[0], "singularities_wrist")
 
 
 def shoulder() -> None:
-    """The wrist centre through axis 1, and a line that passes axis 1 by 5 mm."""
+    """The wrist center through axis 1, and a line that passes axis 1 by 5 mm."""
     figure, axes = panels(2)
-    made = joint_path(0.4 * PATH, over_the_base(0.0) + 0.3 * PATH, LEANING, 0.3, 0.8 + 0.1 * PATH, 0.2 * PATH)
-    trace(axes[0], ROBOT.follow(ROBOT.fk(made), made[0]), "wrist centre through axis 1")
+    made = joint_path(
+        0.4 * PATH, over_the_base(0.0) + 0.3 * PATH, LEANING, 0.3, 0.8 + 0.1 * PATH, 0.2 * PATH
+    )
+    trace(axes[0], ROBOT.follow(ROBOT.fk(made), made[0]), "wrist center through axis 1")
     middle = [0.0, over_the_base(0.005), LEANING, 0.3, 0.8, 0.0]
     poses = line(middle, [0.0, 0.15, 0.0])
     seed = ROBOT.ik_nearest(poses[0], [-1.5, *middle[1:]])
-    trace(axes[1], ROBOT.follow(poses, seed), "wrist centre past axis 1 by 5 mm")
+    trace(axes[1], ROBOT.follow(poses, seed), "wrist center past axis 1 by 5 mm")
     save_traces(figure, axes[0], "singularities_shoulder")
 
 
 def elbow() -> None:
-    """The arm stretched and bent again: in smooth joints, and by a tool that goes straight out to the edge of reach."""
+    """The arm stretched and bent again: in smooth joints, and by a tool that goes straight out to
+    the edge of reach.
+    """
     figure, axes = panels(2)
     made = joint_path(0.3 * PATH, 0.4, STRETCHED + 0.4 * PATH**2, 0.3, 0.8, 0.2)
     trace(axes[0], ROBOT.follow(ROBOT.fk(made), made[0]), "stretched and bent again by J3")
@@ -156,14 +176,18 @@ def band(solutions: irbkin.Solutions) -> str:
     """Which of `BANDS` an answer belongs to."""
     if not any(status & irbkin.Status.MERGED for status in solutions.status):
         return "both"
-    free = [solution[solution.free.joint - 1] for solution in solutions if solution.free]
+    free = [
+        solution[solution.free_joint.joint - 1] for solution in solutions if solution.free_joint
+    ]
     if not free:
         return "merged"
     return "silent" if all(angle == 0.0 for angle in free) else "free"
 
 
 def answers(axes: Axes, robot: irbkin.Robot, joints: Callable[[float], Joints], title: str) -> None:
-    """Draws the number of solutions against the distance that `joints` is given, over what the status says."""
+    """Draws the number of solutions against the distance that `joints` is given, over what the
+    status says.
+    """
 
     def solve(distance: float) -> irbkin.Solutions:
         return robot.ik(robot.fk(joints(distance)))
@@ -176,7 +200,9 @@ def answers(axes: Axes, robot: irbkin.Robot, joints: Callable[[float], Joints], 
         low, high = below, above
         for _ in range(40):
             middle = float(np.sqrt(low * high))
-            low, high = (middle, high) if band(solve(middle)) == band(solve(below)) else (low, middle)
+            low, high = (
+                (middle, high) if band(solve(middle)) == band(solve(below)) else (low, middle)
+            )
         axes.text(high, 0.3, f" {high:.1e}", fontsize=8)
         edges.append(high)
     for first, last in pairwise([*edges, 1e-4]):
@@ -188,21 +214,34 @@ def answers(axes: Axes, robot: irbkin.Robot, joints: Callable[[float], Joints], 
 
 def branches() -> None:
     """Number of solutions and status against the distance from each singularity."""
-    figure, grid = plt.subplots(2, 2, figsize=(8.6, 5.2), layout="constrained", sharex=True, sharey=True)
-    # dx / dJ2 of the wrist centre over the base.
+    figure, grid = plt.subplots(
+        2, 2, figsize=(8.6, 5.2), layout="constrained", sharex=True, sharey=True
+    )
+    # dx / dJ2 of the wrist center over the base.
     rate = float(np.sqrt(LENGTH**2 - A1**2))
 
     def beside_axis_1(x: float) -> Joints:
         return [0.3, over_the_base(0.0) + x / rate, LEANING, 0.5, 0.8, 0.4]
 
-    lateral = irbkin.Robot.from_opw(A1, A2, 0.05, C1, C2, C3, C4, offsets=[0, 0, -np.pi / 2, 0, 0, 0])
+    lateral = irbkin.Robot.from_opw(
+        a1=A1, a2=A2, b=0.05, c1=C1, c2=C2, c3=C3, c4=C4, offsets=[0, 0, -np.pi / 2, 0, 0, 0]
+    )
     answers(grid[0, 0], ROBOT, lambda off: [0.3, 0.2, 0.1, 0.5, off, 0.4], "wrist: J5 from 0 [rad]")
-    answers(grid[0, 1], ROBOT, lambda off: [0.3, 0.2, STRETCHED + off, 0.5, 0.8, 0.4], "elbow: from stretched [rad]")
-    answers(grid[1, 0], ROBOT, beside_axis_1, "shoulder: wrist centre from axis 1 [m]")
-    answers(grid[1, 1], lateral, beside_axis_1, "shoulder, lateral offset 50 mm: from the plane [m]")
+    answers(
+        grid[0, 1],
+        ROBOT,
+        lambda off: [0.3, 0.2, STRETCHED + off, 0.5, 0.8, 0.4],
+        "elbow: from stretched [rad]",
+    )
+    answers(grid[1, 0], ROBOT, beside_axis_1, "shoulder: wrist center from axis 1 [m]")
+    answers(
+        grid[1, 1], lateral, beside_axis_1, "shoulder, lateral offset 50 mm: from the plane [m]"
+    )
     for axes in grid[:, 0]:
         axes.set_ylabel("solutions")
-    patches = [Patch(facecolor=colour, edgecolor="#777777", label=label) for colour, label in BANDS.values()]
+    patches = [
+        Patch(facecolor=color, edgecolor="#777777", label=label) for color, label in BANDS.values()
+    ]
     figure.legend(handles=patches, loc="outside lower center", ncols=2, frameon=False, fontsize=8)
     save(figure, "singularities_branches")
 

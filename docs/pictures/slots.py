@@ -1,7 +1,8 @@
-"""Makes the pictures of the eight slots: the arms that bring the tool of an IRB 2600 and of a UR3 to one pose.
+"""Makes the pictures of the eight slots: the arms that bring the tool of an IRB 2600 and of a UR3
+to one pose.
 
-Run without arguments: it writes the SVG files beside itself and prints their names. The same irbkin and matplotlib give
-the same files.
+Run without arguments: it writes the SVG files beside itself and prints their names. The same irbkin
+and matplotlib give the same files.
 """
 
 from pathlib import Path
@@ -29,7 +30,9 @@ def on_paper(points: Floats) -> Floats:
 
 
 def joints(robot: irbkin.Robot, q: Floats) -> Floats:
-    """The base, every link frame's origin with the corner between it and the one before, and the tool, shape (k, 3)."""
+    """The base, every link frame's origin with the corner between it and the one before, and the
+    tool, shape (k, 3).
+    """
     frames = robot.link_frames(q)
     points = [np.zeros(3)]
     for before, frame, row in zip(frames[:-2], frames[1:-1], robot.mdh[1:], strict=True):
@@ -45,17 +48,29 @@ def draw(axes: Axes, robot: irbkin.Robot, q: Floats, title: str) -> None:
     axes.plot(*line.T, color=ARM, linewidth=2.5, solid_joinstyle="round")
     pose = robot.fk(q)
     for direction in pose[:3, :3].T:
-        axes.plot(*on_paper(np.array([pose[:3, 3], pose[:3, 3] + 0.08 * direction])).T, color=TOOL, linewidth=1.2)
+        axes.plot(
+            *on_paper(np.array([pose[:3, 3], pose[:3, 3] + 0.08 * direction])).T,
+            color=TOOL,
+            linewidth=1.2,
+        )
     axes.plot(*on_paper(np.zeros((1, 3))).T, marker="s", color="#555555")
     axes.set_title(title)
     axes.set_aspect("equal")
     axes.axis("off")
 
 
-def picture(name: str, robot: irbkin.Robot, q: Floats, words: tuple[tuple[str, str], ...], title: str = "{}: ") -> None:
-    """The eight slots of the pose of `q`, written to `name`; `title` takes a slot's number, and its words follow."""
+def picture(
+    name: str,
+    robot: irbkin.Robot,
+    q: Floats,
+    words: tuple[tuple[str, str], ...],
+    title: str = "{}: ",
+) -> None:
+    """The eight slots of the pose of `q`, written to `name`; `title` takes a slot's number, and its
+    words follow.
+    """
     pose = robot.fk(q)
-    slots = (robot.ik(pose) if robot.dof == 6 else robot.ik(pose, q7=float(q[6]))).slots
+    slots = (robot.ik(pose) if robot.dof == 6 else robot.ik(pose, q7=float(q[6]))).q_by_slot
     figure, grid = plt.subplots(2, 4, figsize=(9, 5.2), sharex=True, sharey=True)
     for slot, (axes, arm) in enumerate(zip(grid.flat, slots, strict=True)):
         bits = [word[bool(slot & bit)] for word, bit in zip(words, (4, 2, 1), strict=True)]

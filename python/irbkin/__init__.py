@@ -1,7 +1,7 @@
 """Kinematics of ABB IRB robots and their kin.
 
-Every inverse-kinematics solution, each in a named slot, with limits and singularities told. Metres, radians, float64;
-poses are 4x4 homogeneous matrices.
+Every inverse-kinematics solution, each in a named slot, with limits and singularities told. Meters,
+radians, float64; poses are 4x4 homogeneous matrices.
 
     >>> import irbkin
     >>> robot = irbkin.Robot("IRB 2600-12/1.65")
@@ -24,7 +24,7 @@ from irbkin._core import (
     instruction_sets,
     pose,
     to_xyz_euler_zyx,
-    to_xyz_quaternion,
+    to_xyz_wxyz,
     use_instruction_set,
 )
 from irbkin.errors import (
@@ -42,10 +42,10 @@ from irbkin.records import (
     FollowResult,
     FreeJoint,
     IkBatch,
-    Kind,
     PoseCheck,
     Reach,
     Singularity,
+    SingularityKind,
     Status,
 )
 
@@ -62,12 +62,12 @@ __all__ = [
     "InvalidModelError",
     "InvalidPoseError",
     "IrbkinError",
-    "Kind",
     "PoseCheck",
     "RapidError",
     "Reach",
     "Robot",
     "Singularity",
+    "SingularityKind",
     "Solution",
     "Solutions",
     "Status",
@@ -80,7 +80,7 @@ __all__ = [
     "pose",
     "rapid",
     "to_xyz_euler_zyx",
-    "to_xyz_quaternion",
+    "to_xyz_wxyz",
     "use_instruction_set",
 ]
 

@@ -40,7 +40,9 @@ class UnreachableError(IrbkinError):
     configurations: tuple[Configuration, ...] = ()
     """Those that exist, where another one was asked for."""
     rapid_error: str | None = None
-    """RAPID's name of the error, where `irbkin.rapid` calculated: ERR_OUTSIDE_REACH or ERR_ROBLIMIT."""
+    """RAPID's name of the error, where `irbkin.rapid` calculated: ERR_OUTSIDE_REACH or
+    ERR_ROBLIMIT.
+    """
 
 
 class RapidError(IrbkinError):
@@ -53,7 +55,7 @@ class RapidError(IrbkinError):
 
 
 class UnknownRobotError(IrbkinError, KeyError):
-    """The catalogue has no arm of that name; the message has the close ones."""
+    """The catalog has no arm of that name; the message has the close ones."""
 
     def __str__(self) -> str:
         """The message as it is: KeyError would put it in quotes."""

@@ -16,10 +16,10 @@ __all__ = [
     "FollowResult",
     "FreeJoint",
     "IkBatch",
-    "Kind",
     "PoseCheck",
     "Reach",
     "Singularity",
+    "SingularityKind",
     "Status",
 ]
 
@@ -41,20 +41,25 @@ class Status(Flags):
     WITHIN_LIMITS = 2
     """The solution is inside the joint limits."""
     WRIST = 4
-    """sin q5 = 0: axes 4 and 6 of a spherical wrist are one, only q4 + q6 or q4 - q6 is determined; axis 6 of a
-    three-parallel arm is parallel to axes 2 to 4. Of seven axes: the shoulder is in the plane of axes 5 and 6."""
+    """sin q5 = 0: axes 4 and 6 of a spherical wrist are one, only q4 + q6 or q4 - q6 is determined;
+    axis 6 of a three-parallel arm is parallel to axes 2 to 4. Of seven axes: the shoulder is in the
+    plane of axes 5 and 6.
+    """
     ELBOW = 8
     """The arm is stretched or folded: both elbow branches coincide."""
     SHOULDER = 16
-    """The wrist centre is on axis 1: q1 is not determined. With a lateral offset: front and back meet. Of seven axes:
-    axes 1 and 3 are one."""
+    """The wrist center is on axis 1: q1 is not determined. With a lateral offset: front and back
+    meet. Of seven axes: axes 1 and 3 are one.
+    """
     MERGED = 32
-    """The slot is empty because its solution coincides with that of another slot at a singularity."""
+    """The slot is empty because its solution coincides with that of another slot at a
+    singularity.
+    """
     INVALID = 64
     """The input of this row was invalid."""
 
 
-class Kind(Flags):
+class SingularityKind(Flags):
     """Kinds of singularity, with the values that they have in `Status`."""
 
     WRIST = 4
@@ -62,11 +67,11 @@ class Kind(Flags):
     ELBOW = 8
     """The arm is stretched or folded."""
     SHOULDER = 16
-    """The wrist centre is on axis 1; of seven axes, axes 1 and 3 are one."""
+    """The wrist center is on axis 1; of seven axes, axes 1 and 3 are one."""
 
 
 class Reach(enum.Enum):
-    """Whether the wrist centre gets to where a pose wants it."""
+    """Whether the wrist center gets to where a pose wants it."""
 
     REACHED = "reached"
     TOO_FAR = "too far"
@@ -94,7 +99,9 @@ class Configuration(NamedTuple):
     cf6: Any
     """Quarter turn of axis 6."""
     cfx: Any
-    """The slot: 4 (wrist centre behind axis 1) + 2 (behind the lower arm) + 1 (q5 < 0); 0 with coupled axes 2 and 3."""
+    """The slot: 4 (wrist center behind axis 1) + 2 (behind the lower arm) + 1 (q5 < 0); 0 with
+    coupled axes 2 and 3.
+    """
 
 
 class FreeJoint(NamedTuple):
@@ -103,8 +110,10 @@ class FreeJoint(NamedTuple):
     joint: int
     """Its number, from 1."""
     fixed: str
-    """What stays fixed along the family: "q4 + q6", "q4 - q6", "q2, q3", "q1, q3" or, with coupled axes 2 and 3,
-    "q1, q3 - q2"; "q1, q5" of three parallel axes; "q1 + q3", "q1 - q3", "q4, q6" or "q4, q5" of seven axes."""
+    """What stays fixed along the family: "q4 + q6", "q4 - q6", "q2, q3", "q1, q3" or, with coupled
+    axes 2 and 3, "q1, q3 - q2"; "q1, q5" of three parallel axes; "q1 + q3", "q1 - q3", "q4, q6" or
+    "q4, q5" of seven axes.
+    """
 
 
 class Break(NamedTuple):
@@ -124,7 +133,9 @@ class FollowResult(NamedTuple):
     q: npt.NDArray[np.float64]
     """Joint angles [rad], shape (..., m, n), NaN where a pose is not met."""
     orientation_error: npt.NDArray[np.float64]
-    """How far the tool's orientation is from that of each pose [rad], shape (..., m), NaN where a pose is not met."""
+    """How far the tool's orientation is from that of each pose [rad], shape (..., m), NaN where a
+    pose is not met.
+    """
     breaks: tuple[Break, ...]
     """Where the joints cannot follow, and why."""
 
@@ -133,19 +144,23 @@ class Singularity(NamedTuple):
     """How far joint vectors are from the singularities; numbers for one, arrays for many."""
 
     wrist: Any
-    """Angle of joint 5 from 0 or 180 deg [rad]; of seven axes, between the plane of axes 5 and 6 and the line to the
-    shoulder."""
+    """Angle of joint 5 from 0 or 180 deg [rad]; of seven axes, between the plane of axes 5 and 6
+    and the line to the shoulder.
+    """
     elbow: Any
     """Angle between upper arm and forearm from stretched or folded [rad]."""
     shoulder: Any
-    """Distance of the wrist centre from axis 1 [m]; with a lateral offset, from the plane through it along axis 2; of
-    seven axes, distance of the upper arm's end from axis 1."""
+    """Distance of the wrist center from axis 1 [m]; with a lateral offset, from the plane through
+    it along axis 2; of seven axes, distance of the upper arm's end from axis 1.
+    """
     min_singular_value: Any
     """Smallest singular value of the Jacobian at the tool, its rows in m and rad as they are."""
     manipulability: Any
     """sqrt(det(J J^T)), the product of the singular values."""
     kinds: Any
-    """`Kind` of the singularities at which the joint vector stands; for many, an array of its values, uint8."""
+    """`SingularityKind` of the singularities at which the joint vector stands; for many, an array
+    of its values, uint8.
+    """
 
 
 class PoseCheck(NamedTuple):

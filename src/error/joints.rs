@@ -28,7 +28,7 @@ pub enum JointFault {
     },
     /// A solution was passed with a pose that it does not meet.
     NotOfPose {
-        /// How far its tool is from the pose, the larger of metres and radians.
+        /// How far its tool is from the pose, the larger of meters and radians.
         off: f64,
     },
     /// The zone of a crossing policy is negative, NaN or infinite.

@@ -62,15 +62,15 @@ pub enum ModelFault {
         /// Upper limit [rad].
         upper: f64,
     },
-    /// The lower limit of the rod of coupled axes is above its upper limit.
+    /// The lower limit of the linkage of coupled axes is above its upper limit.
     EmptyRodLimit {
         /// Lower limit of q3 - q2 [rad].
         lower: f64,
         /// Upper limit of q3 - q2 [rad].
         upper: f64,
     },
-    /// Limits of a rod were given for an arm whose axes 2 and 3 are not coupled.
-    NoRod,
+    /// Limits of a linkage were given for an arm whose axes 2 and 3 are not coupled.
+    NoLinkage,
     /// Axes 2 and 3 of the arm cannot be coupled.
     NotCoupled {
         /// Why not.
@@ -95,7 +95,7 @@ pub enum ModelFault {
     /// ABB's confdata means nothing, or something else, for arms of this form.
     NoConfiguration {
         /// Name of the form.
-        family: &'static str,
+        structure: &'static str,
     },
     /// A crossing policy holds a wrist that the arm does not have.
     NoSphericalWrist,
@@ -114,7 +114,8 @@ pub enum ModelFault {
         distance: f64,
         /// The farthest that a table holds [m].
         bound: f64,
-        /// The least power of ten [rad] that, given as `snap`, makes an arm of a known form of it; none where none does.
+        /// The least power of ten [rad] that, given as `snap`, makes an arm of a known form of it;
+        /// none where none does.
         snap: Option<f64>,
     },
     /// The URDF describes no arm that can be taken.
@@ -149,11 +150,11 @@ impl fmt::Display for ModelFault {
                 write!(f, "joint {joint} limit is empty: lower {lower} rad > upper {upper} rad")
             }
             Self::EmptyRodLimit { lower, upper } => {
-                write!(f, "rod limit is empty: lower {lower} rad > upper {upper} rad")
+                write!(f, "linkage limit is empty: lower {lower} rad > upper {upper} rad")
             }
-            Self::NoRod => write!(
+            Self::NoLinkage => write!(
                 f,
-                "rod limits are those of q3 - q2 of an arm with coupled axes 2 and 3: this arm's are not coupled"
+                "linkage limits are those of q3 - q2 of an arm with coupled axes 2 and 3: this arm's are not coupled"
             ),
             Self::NotCoupled { reason } => write!(f, "axes 2 and 3 cannot be coupled: {reason}"),
             Self::Velocity { joint, value } => {
@@ -162,10 +163,10 @@ impl fmt::Display for ModelFault {
             Self::JointCount { found, wanted } => {
                 write!(f, "the arm has {found} joints, {wanted} were asked for")
             }
-            Self::NoConfiguration { family } => {
+            Self::NoConfiguration { structure } => {
                 write!(
                     f,
-                    "configurations are those of ABB's six-axis arms with a spherical wrist: this arm's form is \"{family}\""
+                    "this robot has no ABB configuration: its structure is \"{structure}\", not a six-axis arm with a spherical wrist"
                 )
             }
             Self::NoSphericalWrist => write!(

@@ -31,7 +31,8 @@ pub enum PoseFault {
         /// The row that came.
         row: [f64; 4],
     },
-    /// The columns of the rotation are not orthonormal: the largest element of `R^T R - I` exceeds the bound.
+    /// The columns of the rotation are not orthonormal: the largest element of `R^T R - I` exceeds
+    /// the bound.
     NotOrthonormal {
         /// The largest element of `R^T R - I`.
         deviation: f64,
@@ -47,7 +48,7 @@ pub enum PoseFault {
     QuaternionNorm {
         /// The norm.
         norm: f64,
-        /// The largest distance from one that is normalised.
+        /// The largest distance from one that is normalized.
         bound: f64,
     },
     /// A translation, quaternion or Euler angle is NaN or infinite.

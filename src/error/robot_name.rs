@@ -5,7 +5,7 @@ use core::fmt;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-/// A name that the catalogue does not have.
+/// A name that the catalog does not have.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownRobot {
     /// The name that was asked for.
@@ -18,7 +18,7 @@ impl fmt::Display for UnknownRobot {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "unknown robot \"{}\"", self.name)?;
         if self.close.is_empty() {
-            return write!(f, "; no name of the catalogue is close to it");
+            return write!(f, "; no name of the catalog is close to it");
         }
         for (i, name) in self.close.iter().enumerate() {
             write!(f, "{}\"{name}\"", if i == 0 { "; close names: " } else { ", " })?;

@@ -17,7 +17,7 @@ pub(crate) use answer::select::Cost;
 pub use answer::singularity::{SingularDistances, Singularity};
 pub use answer::slot::{MOST_SLOTS, Slot, SlotStatus};
 pub use answer::solutions::{Solution, Solutions};
-pub use answer::status::Status;
+pub use answer::status::{SingularityKind, Status};
 #[cfg(feature = "urdf")]
 pub(crate) use chain::dh::check_snap;
 pub use chain::dh::{DhRow, Mdh, Sdh};
@@ -26,8 +26,8 @@ pub use chain::joint_axes::JointAxis;
 #[cfg(feature = "urdf")]
 pub(crate) use chain::joint_axes::unit;
 pub use chain::limits::JointLimits;
-pub use path::crossing::{Crossing, FollowOptions};
 pub use path::follow::{Break, BreakReason, Followed, Follower};
+pub use path::singularity_mode::{FollowOptions, SingularityMode};
 #[cfg(feature = "rapid")]
 pub(crate) use pose::angles::constant_sin_cos;
 #[cfg(feature = "urdf")]
@@ -36,8 +36,8 @@ pub(crate) use pose::angles::snapped;
 pub(crate) use pose::constant_pose;
 pub use pose::matrix::{pose_from_isometry, pose_from_matrix, pose_to_isometry, pose_to_matrix};
 pub use pose::{
-    Pose, PoseError, pose_from_euler_zyx, pose_from_quaternion, pose_from_rows, pose_to_euler_zyx,
-    pose_to_quaternion, pose_to_rows,
+    Pose, PoseDifference, pose_from_euler_zyx, pose_from_rows, pose_from_wxyz, pose_to_euler_zyx,
+    pose_to_rows, pose_to_wxyz,
 };
 #[cfg(feature = "urdf")]
 pub(crate) use robot::SNAPS;

@@ -4,10 +4,11 @@ use core::sync::atomic::{AtomicU8, Ordering};
 
 use crate::error::Error;
 
-/// The instructions that kernels are compiled for. The widest that the processor has is taken when the first kernel runs.
+/// The instructions that kernels are compiled for. The widest that the processor has is taken when
+/// the first kernel runs.
 ///
-/// Answers are the same to the last bit on every set with fused multiplication and addition (AVX2, AVX-512, aarch64's baseline), and agree
-/// with those of the x86-64 baseline to rounding.
+/// Answers are the same to the last bit on every set with fused multiplication and addition (AVX2,
+/// AVX-512, aarch64's baseline), and agree with those of the x86-64 baseline to rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum InstructionSet {
@@ -24,14 +25,16 @@ pub(crate) trait Kernel {
     /// What comes out.
     type Answer;
 
-    /// Whether there is enough to do at once for 512-bit registers to pay: the processor clocks down and joins ports for them.
+    /// Whether there is enough to do at once for 512-bit registers to pay: the processor clocks
+    /// down and joins ports for them.
     #[cfg_attr(
         not(all(feature = "std", target_arch = "x86_64")),
         expect(dead_code, reason = "there is no choice of widths")
     )]
     const WIDE: bool;
 
-    /// Calculates; `FUSED` where the instruction set multiplies and adds in one rounding. Must be `#[inline(always)]`.
+    /// Calculates; `FUSED` where the instruction set multiplies and adds in one rounding. Must be
+    /// `#[inline(always)]`.
     fn run<const FUSED: bool>(self) -> Self::Answer;
 }
 

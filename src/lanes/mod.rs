@@ -1,9 +1,11 @@
 //! Arithmetic that runs on several numbers at once: several poses, joints or branches, one a lane.
 //!
-//! A kernel is plain arithmetic on `f64` in a loop over arrays of a fixed, small length. The compiler makes vector instructions of such a
-//! loop, as wide as the set allows that the function around it is compiled for ([`run`]), on three conditions: everything in the loop is
-//! `#[inline(always)]`, nothing in it branches or loops, and what it reads and writes lies in columns, lane beside lane. Each lane is
-//! calculated by itself, so an answer does not depend on the other lanes.
+//! A kernel is plain arithmetic on `f64` in a loop over arrays of a fixed, small length. The
+//! compiler makes vector instructions of such a loop, as wide as the set allows that the function
+//! around it is compiled for ([`run`]), on three conditions: everything in the loop is
+//! `#[inline(always)]`, nothing in it branches or loops, and what it reads and writes lies in
+//! columns, lane beside lane. Each lane is calculated by itself, so an answer does not depend on
+//! the other lanes.
 
 mod dispatch;
 mod functions;

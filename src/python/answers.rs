@@ -8,7 +8,7 @@ use pyo3::types::PyTuple;
 use super::arrays::{Rows, checked_out, output};
 use super::classes;
 use super::records;
-use crate::kinematics::{Followed, Singularity, Status};
+use crate::kinematics::{Followed, Singularity, SingularityKind};
 
 /// `irbkin.Singularity` of one record, or of records with the leading dimensions `lead`.
 pub(super) fn singularity_record<'py>(
@@ -26,8 +26,9 @@ pub(super) fn singularity_record<'py>(
         number(|s| Some(s.min_singular_value)),
         number(|s| Some(s.manipulability)),
     ];
-    let kinds =
-        |record: &Option<Singularity>| record.map_or(Status::empty(), |record| record.kinds);
+    let kinds = |record: &Option<Singularity>| {
+        record.map_or(SingularityKind::empty(), |record| record.kinds)
+    };
     let mut fields: Vec<Bound<'py, PyAny>> = Vec::with_capacity(6);
     for mut column in columns {
         fields.push(match lead {
@@ -39,7 +40,7 @@ pub(super) fn singularity_record<'py>(
         Some(lead) => PyArray1::from_iter(py, records.iter().map(|record| kinds(record).bits()))
             .reshape(lead.clone())?
             .into_any(),
-        None => records::kinds(py, records.first().map_or(Status::empty(), kinds))?,
+        None => records::kinds(py, records.first().map_or(SingularityKind::empty(), kinds))?,
     });
     classes::singularity_class(py)?.call1(PyTuple::new(py, fields)?)
 }
@@ -68,7 +69,8 @@ pub(super) fn batch_output<'py>(
     }
 }
 
-/// `irbkin.FollowResult` of followed paths with the leading dimensions `lead`, of `poses` poses each.
+/// `irbkin.FollowResult` of followed paths with the leading dimensions `lead`, of `poses` poses
+/// each.
 pub(super) fn follow_result<'py>(
     py: Python<'py>,
     followed: &[Followed],

@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::kinematics::{Crossing, JacobianFrame};
+use crate::kinematics::{JacobianFrame, SingularityMode};
 
 /// The frame of a Jacobian.
 pub(super) fn read_frame(frame: &str) -> PyResult<JacobianFrame> {
@@ -19,14 +19,14 @@ pub(super) fn read_frame(frame: &str) -> PyResult<JacobianFrame> {
 }
 
 /// What a path does at the wrist singularity.
-pub(super) fn read_crossing(singular: &str) -> PyResult<Crossing> {
-    match singular {
-        "through" => Ok(Crossing::Through),
-        "error" => Ok(Crossing::Error),
-        "wrist" => Ok(Crossing::Wrist),
-        "lock_axis4" => Ok(Crossing::LockAxis4),
+pub(super) fn read_singularity_mode(singularity_mode: &str) -> PyResult<SingularityMode> {
+    match singularity_mode {
+        "through" => Ok(SingularityMode::Through),
+        "error" => Ok(SingularityMode::Error),
+        "wrist" => Ok(SingularityMode::Wrist),
+        "lock_axis4" => Ok(SingularityMode::LockAxis4),
         _ => Err(PyValueError::new_err(format!(
-            "singular must be \"through\", \"error\", \"wrist\" or \"lock_axis4\", got \"{singular}\""
+            "singularity_mode must be \"through\", \"error\", \"wrist\" or \"lock_axis4\", got \"{singularity_mode}\""
         ))),
     }
 }

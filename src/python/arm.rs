@@ -138,7 +138,8 @@ impl Arm {
         records.map_err(|error| to_py(py, &error))
     }
 
-    /// An answer of shape (..., `tail`) for joint vectors (..., n), computed without the interpreter's lock.
+    /// An answer of shape (..., `tail`) for joint vectors (..., n), computed without the
+    /// interpreter's lock.
     fn mapped<'py>(
         &self,
         q: &Bound<'py, PyAny>,

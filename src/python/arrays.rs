@@ -26,7 +26,8 @@ pub(super) struct Rows<'py> {
 }
 
 impl<'py> Rows<'py> {
-    /// Reads `value`, of shape (..., `tail`), as the argument `field`. Of a batch, masked elements are NaN.
+    /// Reads `value`, of shape (..., `tail`), as the argument `field`. Of a batch, masked elements
+    /// are NaN.
     pub(super) fn read(
         value: &Bound<'py, PyAny>,
         tail: &[usize],
@@ -77,11 +78,12 @@ impl<'py> Rows<'py> {
     }
 }
 
-/// The short way of reading: a copy of a float64 array of shape (`N`,), any strides. None for everything else, also for
-/// arrays of a class of their own.
+/// The short way of reading: a copy of a float64 array of shape (`N`,), any strides. None for
+/// everything else, also for arrays of a class of their own.
 ///
-/// The elements are copied under the interpreter's lock, without NumPy's bookkeeping of borrows: with 50 ns that costs more than the rest
-/// of the call. Who else could write holds the lock, or has a borrow.
+/// The elements are copied under the interpreter's lock, without NumPy's bookkeeping of borrows:
+/// with 50 ns that costs more than the rest of the call. Who else could write holds the lock, or
+/// has a borrow.
 #[inline]
 pub(super) fn copied_vector<const N: usize>(value: &Bound<'_, PyAny>) -> Option<[f64; N]> {
     if !PyUntypedArray::is_exact_type_of(value) {
@@ -121,7 +123,8 @@ pub(super) fn matrix<'py, const C: usize>(
     PyArray2::from_array(py, &aview2(rows))
 }
 
-/// `rows` in `out` where it was given, in a new array where not. `input` is what they were calculated from: `out` may not overlap it.
+/// `rows` in `out` where it was given, in a new array where not. `input` is what they were
+/// calculated from: `out` may not overlap it.
 #[inline]
 pub(super) fn answer<'py, const C: usize>(
     input: &Bound<'py, PyAny>,
@@ -296,8 +299,8 @@ impl<T: numpy::Element> Writable<'_, T> {
     }
 }
 
-/// A view to write through; refused for a read-only array, for one that overlaps the memory of `others` and for memory that another call
-/// uses.
+/// A view to write through; refused for a read-only array, for one that overlaps the memory of
+/// `others` and for memory that another call uses.
 pub(super) fn writable<'py, T: numpy::Element>(
     array: &Bound<'py, PyArrayDyn<T>>,
     others: &[Range<usize>],

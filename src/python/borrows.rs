@@ -1,8 +1,9 @@
 //! Memory that calls use while they calculate without the interpreter's lock.
 //!
-//! NumPy's own bookkeeping of borrows knows an array by the object that owns its memory. Two arrays made of one buffer or of one address
-//! have no owner in common, so the addresses themselves are kept. They change hands under the interpreter's lock only: whoever looks sees
-//! every call that is under way. Two mappings of one file are two memories to any process, and are not told apart.
+//! NumPy's own bookkeeping of borrows knows an array by the object that owns its memory. Two arrays
+//! made of one buffer or of one address have no owner in common, so the addresses themselves are
+//! kept. They change hands under the interpreter's lock only: whoever looks sees every call that is
+//! under way. Two mappings of one file are two memories to any process, and are not told apart.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};

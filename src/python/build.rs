@@ -7,7 +7,7 @@ use super::arm::{Arm, on_robot};
 use super::arrays::Rows;
 use super::edits::Edit;
 use super::errors::{Fault, to_py};
-use crate::catalogue::CatalogueGeometry;
+use crate::catalog::CatalogGeometry;
 use crate::error::{Error, ModelFault};
 use crate::kinematics::{
     Arity, Definition, DhRow, Joints, Mdh, OpwParameters, Pose, Robot, Sdh, pose_from_rows,
@@ -73,7 +73,8 @@ where
     if closed_form { Robot::from_mdh(mdh) } else { Robot::serial_chain(mdh) }
 }
 
-/// A robot from the parameters of an ortho-parallel arm; `signs` as floats, as they come out of an array.
+/// A robot from the parameters of an ortho-parallel arm; `signs` as floats, as they come out of an
+/// array.
 pub(super) fn from_opw(
     py: Python<'_>,
     mut opw: OpwParameters,
@@ -119,8 +120,8 @@ pub(super) fn with_limits(arm: &Arm, limits: &Bound<'_, PyAny>) -> PyResult<Arm>
     arm.changed(limits.py(), &Edit::Limits(rows.data()?.as_chunks::<2>().0))
 }
 
-/// Everything that a robot was built from: (name, definition, numbers of it, limits, base, tool, velocities, rod). The last is of coupled
-/// arms alone: limits of the rod, or no numbers.
+/// Everything that a robot was built from: (name, definition, numbers of it, limits, base, tool,
+/// velocities, linkage). The last is of coupled arms alone: limits of the linkage, or no numbers.
 pub(super) type State =
     (String, String, Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>, Option<Vec<f64>>, Option<Vec<f64>>);
 
@@ -139,7 +140,7 @@ pub(super) fn state(arm: &Arm) -> State {
             pose_to_rows(robot.base()).to_vec(),
             pose_to_rows(robot.tool()).to_vec(),
             robot.max_velocity().map(|velocity| velocity.to_vec()),
-            robot.is_coupled().then(|| robot.limits().rod().map_or_else(Vec::new, Vec::from)),
+            robot.is_coupled().then(|| robot.limits().linkage().map_or_else(Vec::new, Vec::from)),
         )
     })
 }
@@ -154,18 +155,18 @@ fn mdh_numbers<const N: usize>(mdh: &Mdh<N>) -> Vec<f64> {
     rows.chain(pose_to_rows(&mdh.base)).chain(pose_to_rows(&mdh.flange)).collect()
 }
 
-/// Whether the catalogue's arm of a name is coupled.
-pub(super) fn is_coupled_in_catalogue(name: &str) -> bool {
-    crate::catalogue::find(name)
-        .is_ok_and(|arm| matches!(arm.geometry, CatalogueGeometry::Abb { coupled: true, .. }))
+/// Whether the catalog's arm of a name is coupled.
+pub(super) fn is_coupled_in_catalog(name: &str) -> bool {
+    crate::catalog::find(name)
+        .is_ok_and(|arm| matches!(arm.geometry, CatalogGeometry::Abb { coupled: true, .. }))
 }
 
 /// Hash of a robot's value.
 pub(super) fn hash(py: Python<'_>, arm: &Arm) -> PyResult<isize> {
-    let (name, definition, numbers, limits, base, tool, velocity, rod) = state(arm);
-    let coupled = rod.is_some();
+    let (name, definition, numbers, limits, base, tool, velocity, linkage) = state(arm);
+    let coupled = linkage.is_some();
     let numbers =
-        [numbers, limits, base, tool, velocity.unwrap_or_default(), rod.unwrap_or_default()]
+        [numbers, limits, base, tool, velocity.unwrap_or_default(), linkage.unwrap_or_default()]
             .concat();
     // Python's own hash of floats holds 0.0 and -0.0 for one, as the comparison does.
     (name, definition, coupled, PyTuple::new(py, numbers)?).into_pyobject(py)?.hash()
@@ -173,7 +174,7 @@ pub(super) fn hash(py: Python<'_>, arm: &Arm) -> PyResult<isize> {
 
 /// The arm of a state, for pickle.
 pub(super) fn restored(py: Python<'_>, state: &State) -> PyResult<Arm> {
-    let (name, definition, numbers, limits, base, tool, velocity, rod) = state;
+    let (name, definition, numbers, limits, base, tool, velocity, linkage) = state;
     let (limit_rows, rest) = limits.as_chunks::<2>();
     let broken = || Fault::Model.error(py, "the pickled robot is damaged".to_owned());
     if !rest.is_empty() {
@@ -192,7 +193,7 @@ pub(super) fn restored(py: Python<'_>, state: &State) -> PyResult<Arm> {
     built
         .map_err(|error| to_py(py, &error))?
         .changed(py, &Edit::Name(name))?
-        .changed(py, &Edit::Coupling(rod.as_deref()))?
+        .changed(py, &Edit::Coupling(linkage.as_deref()))?
         .changed(py, &Edit::Limits(limit_rows))?
         .changed(py, &Edit::Base(pose(base)?))?
         .changed(py, &Edit::Tool(pose(tool)?))?

@@ -4,19 +4,23 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyBytes, PyTuple};
 
-use crate::catalogue::catalogue;
+use crate::catalog::catalog as every_arm;
 
-/// Names of the robots in the catalogue, ABB's by type number first; of all, or of those that reach and carry what is asked for.
+/// Names of the robots in the catalog, ABB's by type number first; of all, or of those that reach
+/// and carry what is asked for.
 ///
 /// Args:
-///     reach: Reach as the type name or the data sheet has it [m]: a number for at least that much, a pair for (least, most).
+///     reach: Reach as the type name or the data sheet has it [m]: a number for at least that much,
+///         a pair for (least, most).
 ///     payload: Payload [kg], in the same way.
 ///
 /// Returns:
-///     Names in catalogue order. An arm whose reach or payload is not known is in no answer that asks for it.
+///     Names in catalog order. An arm whose reach or payload is not known is in no answer that asks
+///     for it.
 ///
 /// Raises:
-///     ValueError: A filter is neither a number nor a pair, is NaN or negative, or its least is more than its most.
+///     ValueError: A filter is neither a number nor a pair, is NaN or negative, or its least is
+///         more than its most.
 #[pyfunction]
 #[pyo3(signature = (*, reach=None, payload=None))]
 pub(super) fn catalog<'py>(
@@ -26,7 +30,7 @@ pub(super) fn catalog<'py>(
 ) -> PyResult<Bound<'py, PyTuple>> {
     let [reach, payload] =
         [Range::read("reach", "m", reach)?, Range::read("payload", "kg", payload)?];
-    let fitting = catalogue().filter(|arm| {
+    let fitting = every_arm().filter(|arm| {
         Range::holds(reach.as_ref(), arm.reach) && Range::holds(payload.as_ref(), arm.payload)
     });
     PyTuple::new(py, fitting.map(|arm| arm.name).collect::<Vec<_>>())

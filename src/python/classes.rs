@@ -33,7 +33,7 @@ package_object!(argument_class, "irbkin.rapid.program", "Argument");
 package_object!(move_class, "irbkin.rapid.program", "Move");
 package_object!(skipped_class, "irbkin.rapid.program", "Skipped");
 package_object!(target_table_class, "irbkin.rapid.program", "TargetTable");
-package_object!(kind_class, "irbkin.records", "Kind");
+package_object!(kind_class, "irbkin.records", "SingularityKind");
 package_object!(status_class, "irbkin.records", "Status");
 package_object!(reach_class, "irbkin.records", "Reach");
 package_object!(ik_batch_class, "irbkin.records", "IkBatch");

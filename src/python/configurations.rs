@@ -193,7 +193,7 @@ pub(super) fn counted<'a>(py: Python<'_>, arm: &'a Arm) -> PyResult<&'a Robot<6>
             Ok(_) => return Ok(robot),
             Err(error) => error,
         },
-        Arm::Seven(robot) => ModelFault::NoConfiguration { family: robot.family() }.into(),
+        Arm::Seven(robot) => ModelFault::NoConfiguration { structure: robot.structure() }.into(),
     };
     Err(to_py(py, &refused))
 }

@@ -16,9 +16,10 @@ pub(super) enum Edit<'a> {
     Tool(Pose),
     /// The coupled twin, or the serial one.
     Coupled(bool),
-    /// Other limits of the rod [rad], or none.
-    RodLimits(Option<[f64; 2]>),
-    /// The coupling of a pickled robot: none, or the limits of its rod, which may be no numbers.
+    /// Other limits of the linkage [rad], or none.
+    LinkageLimits(Option<[f64; 2]>),
+    /// The coupling of a pickled robot: none, or the limits of its linkage, which may be no
+    /// numbers.
     Coupling(Option<&'a [f64]>),
     /// Other velocities, as many as joints [rad/s], or none.
     MaxVelocity(Option<&'a [f64]>),
@@ -35,14 +36,17 @@ impl Change for Edit<'_> {
             Self::Base(base) => robot.with_base(base),
             Self::Tool(tool) => robot.with_tool(tool),
             Self::Coupled(true) | Self::Coupling(Some([])) => robot.coupled(),
-            Self::Coupled(false) => Ok(robot.serial()),
-            Self::RodLimits(rod) => robot.with_rod_limits(*rod),
+            Self::Coupled(false) => Ok(robot.uncoupled()),
+            Self::LinkageLimits(linkage) => robot.with_linkage_limits(*linkage),
             Self::Coupling(None) => Ok(robot),
-            Self::Coupling(Some(rod)) => {
-                let damaged =
-                    |_| Error::WrongLength { field: "rod limits", found: rod.len(), wanted: 2 };
-                let rod = <[f64; 2]>::try_from(*rod).map_err(damaged)?;
-                robot.coupled()?.with_rod_limits(Some(rod))
+            Self::Coupling(Some(linkage)) => {
+                let damaged = |_| Error::WrongLength {
+                    field: "linkage limits",
+                    found: linkage.len(),
+                    wanted: 2,
+                };
+                let linkage = <[f64; 2]>::try_from(*linkage).map_err(damaged)?;
+                robot.coupled()?.with_linkage_limits(Some(linkage))
             }
             Self::MaxVelocity(velocity) => {
                 robot.with_max_velocity(velocity.map(of_joints).transpose()?)

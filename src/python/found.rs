@@ -11,7 +11,8 @@ use crate::kinematics::{
     Arity, Cost, Joints, MOST_SLOTS, Robot, Solution, Solutions, check_seed, check_weights,
 };
 
-/// More turns than any robot has inside its limits: a list this long means limits in degrees, or none.
+/// More turns than any robot has inside its limits: a list this long means limits in degrees, or
+/// none.
 const MOST_TURNS: f64 = 1e6;
 
 /// The solutions of a pose, or the list of their turns.
@@ -71,7 +72,7 @@ where
     }
 
     /// Joint angles of each slot, NaN where it is empty.
-    pub(super) fn slots(&self) -> Vec<[f64; N]> {
+    pub(super) fn q_by_slot(&self) -> Vec<[f64; N]> {
         let row = |slot: usize| self.solutions.slot(slot).map_or([f64::NAN; N], |found| found.q);
         (0..self.solutions.slot_count()).map(row).collect()
     }
@@ -80,7 +81,7 @@ where
         let inside = self
             .turned
             .as_ref()
-            .map(|turned| turned.iter().copied().filter(Solution::within_limits).collect());
+            .map(|turned| turned.iter().copied().filter(Solution::is_within_limits).collect());
         self.with(self.solutions.within_limits(), inside)
     }
 
@@ -97,7 +98,8 @@ where
         Ok(self.with(self.solutions.clone(), Some(self.solutions.turns().collect())))
     }
 
-    /// The cheapest solution inside the limits from `seed`, or why there is none. Solutions that were turned stand as they are.
+    /// The cheapest solution inside the limits from `seed`, or why there is none. Solutions that
+    /// were turned stand as they are.
     pub(super) fn cheapest(
         &self,
         seed: &Bound<'_, PyAny>,

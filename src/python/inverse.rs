@@ -5,7 +5,7 @@ use std::sync::Arc;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
-use super::arguments::{read_crossing, thread_count};
+use super::arguments::{read_singularity_mode, thread_count};
 use super::arm::{Arm, on_robot};
 use super::batches::{self, needed_q7, no_q7};
 use super::classes::pose_check_class;
@@ -30,7 +30,8 @@ impl PyRobot {
     ///     q7: Angle of joint 7 [rad], of an arm of seven joints.
     ///
     /// Returns:
-    ///     Solutions, each in its slot, limits not regarded; empty with `reach` and `shortfall` when out of reach.
+    ///     Solutions, each in its slot, limits not regarded; empty with `reach` and `shortfall`
+    ///     when out of reach.
     ///
     /// Raises:
     ///     InvalidPoseError: T has a wrong shape, is not finite or is no rigid transform.
@@ -62,13 +63,16 @@ impl PyRobot {
     ///
     /// Args:
     ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
-    ///     q7: Angles of joint 7 [rad] of an arm of seven joints, of a shape that goes with (...): T and q7 are broadcast.
-    ///     out: Where to write: an IkBatch or tuple of arrays (..., 8, n) float64 and (..., 8) uint8, or the first of them alone.
+    ///     q7: Angles of joint 7 [rad] of an arm of seven joints, of a shape that goes with (...):
+    ///         T and q7 are broadcast.
+    ///     out: Where to write: an IkBatch or tuple of arrays (..., 8, n) float64 and (..., 8)
+    ///         uint8, or the first of them alone.
     ///     threads: Number of threads; 0 for one a core.
     ///
     /// Returns:
-    ///     IkBatch(q, status): joint angles [rad], shape (..., 8, n), NaN where a slot is empty, and `irbkin.Status` of each slot, shape
-    ///     (..., 8), uint8. A row that is no pose, or whose q7 is none, has status INVALID; the others are not touched by it.
+    ///     IkBatch(q, status): joint angles [rad], shape (..., 8, n), NaN where a slot is empty,
+    ///     and `irbkin.Status` of each slot, shape (..., 8), uint8. A row that is no pose, or whose
+    ///     q7 is none, has status INVALID; the others are not touched by it.
     ///
     /// Raises:
     ///     InvalidPoseError: T has a wrong shape.
@@ -90,16 +94,19 @@ impl PyRobot {
     ///
     /// Args:
     ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
-    ///     seed: Joint vectors [rad], shape (..., n), or one for all poses, shape (n,). Of joints that the pose leaves
-    ///         free, the nearest angles are taken.
+    ///     seed: Joint vectors [rad], shape (..., n), or one for all poses, shape (n,). Of joints
+    ///         that the pose leaves free, the nearest angles are taken.
     ///     weights: Cost of moving each joint, shape (n,); ones when not given.
     ///
     /// Returns:
-    ///     Joint vectors [rad], shape (..., n). In a batch, a row without a solution, or whose pose or seed is invalid, is NaN.
+    ///     Joint vectors [rad], shape (..., n). In a batch, a row without a solution, or whose pose
+    ///     or seed is invalid, is NaN.
     ///
     /// Raises:
-    ///     UnreachableError: A single pose has no solution inside the limits; the message says what is missing.
-    ///     InvalidPoseError, InvalidJointsError, InvalidModelError: As `ik`; a seed or weight that is not finite.
+    ///     UnreachableError: A single pose has no solution inside the limits; the message says what
+    ///         is missing.
+    ///     InvalidPoseError, InvalidJointsError, InvalidModelError: As `ik`; a seed or weight that
+    ///         is not finite.
     #[pyo3(signature = (T, seed, weights=None))]
     fn ik_nearest<'py>(
         &self,
@@ -118,63 +125,74 @@ impl PyRobot {
         })
     }
 
-    /// One continuous joint path along a path of poses: inside the limits, turns considered, through singularities without a jump where
-    /// there is a way.
+    /// One continuous joint path along a path of poses: inside the limits, turns considered,
+    /// through singularities without a jump where there is a way.
     ///
     /// Args:
-    ///     T: Poses of the tool, shape (m, 4, 4), or several paths, shape (..., m, 4, 4), translation [m].
-    ///     seed: Joint vector from which a path starts [rad], shape (6,), or one for each path, shape (..., 6).
+    ///     T: Poses of the tool, shape (m, 4, 4), or several paths, shape (..., m, 4, 4),
+    ///         translation [m].
+    ///     seed: Joint vector from which a path starts [rad], shape (6,), or one for each path,
+    ///         shape (..., 6).
     ///     weights: Cost of moving each joint, shape (6,); ones when not given.
-    ///     singular: What to do at the wrist singularity. "through": meet every pose exactly, however fast axes 4 and 6 turn. "error": stop
-    ///         where joint 5 comes into the zone, and where a joint must jump, as SingArea \Off. "wrist": inside the zone axes 4, 5, 6 go
-    ///         straight from where they enter to where they leave, position exact, as SingArea \Wrist. "lock_axis4": axis 4 stays at 0 or
-    ///         +-180 deg all along, position exact, orientation where it can be, as SingArea \LockAxis4.
+    ///     singular: What to do at the wrist singularity. "through": meet every pose exactly,
+    ///         however fast axes 4 and 6 turn. "error": stop where joint 5 comes into the zone, and
+    ///         where a joint must jump, as SingArea \Off. "wrist": inside the zone axes 4, 5, 6 go
+    ///         straight from where they enter to where they leave, position exact, as SingArea
+    ///         \Wrist. "lock_axis4": axis 4 stays at 0 or +-180 deg all along, position exact,
+    ///         orientation where it can be, as SingArea \LockAxis4.
     ///     zone: |sin q5| below which `singular` acts; 0.0175, that is one degree, when not given.
     ///
     /// Returns:
-    ///     FollowResult: joints [rad], shape (..., m, 6), NaN where a pose is not met; orientation error [rad], shape (..., m); the breaks.
+    ///     FollowResult: joints [rad], shape (..., m, 6), NaN where a pose is not met; orientation
+    ///         error [rad], shape (..., m); the breaks.
     ///
     /// Raises:
-    ///     InvalidPoseError: T has a wrong shape or holds a matrix that is no pose; the message has its index.
+    ///     InvalidPoseError: T has a wrong shape or holds a matrix that is no pose; the message has
+    ///         its index.
     ///     InvalidJointsError: A seed, weight or zone that is not finite.
-    ///     InvalidModelError: The arm has no closed form or seven joints; "wrist" or "lock_axis4" for an arm without a spherical wrist.
+    ///     InvalidModelError: The arm has no closed form or seven joints; "wrist" or "lock_axis4"
+    ///         for an arm without a spherical wrist.
     ///     ValueError: Another `singular`.
-    #[pyo3(signature = (T, seed, weights=None, *, singular="through", zone=None))]
+    #[pyo3(signature = (T, seed, weights=None, *, singularity_mode="through", zone=None))]
     fn follow<'py>(
         &self,
         T: &Bound<'py, PyAny>,
         seed: &Bound<'py, PyAny>,
         weights: Option<&Bound<'py, PyAny>>,
-        singular: &str,
+        singularity_mode: &str,
         zone: Option<f64>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let options = FollowOptions {
             weights: read_weights(weights)?,
-            crossing: read_crossing(singular)?,
+            singularity_mode: read_singularity_mode(singularity_mode)?,
             zone: zone.unwrap_or(WRIST_ZONE),
         };
         paths::follow(self.arm().follower(T.py())?, T, seed, &options)
     }
 
-    /// The solution inside the limits that has a configuration, which chooses the turns of axes 1, 4 and 6, too.
+    /// The solution inside the limits that has a configuration, which chooses the turns of axes 1,
+    /// 4 and 6, too.
     ///
     /// An angle within 0.01 deg of the edge of a quarter turn is taken for either side of it.
     ///
     /// Args:
     ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
-    ///     configuration: (cf1, cf4, cf6, cfx): an `irbkin.Configuration`, or whole numbers of shape (4,) or (..., 4).
-    ///     fallback: With "nearest", the solution nearest to `seed` where none has the configuration: many programs write [0, 0, 0, 0]
-    ///         without having calculated it.
+    ///     configuration: (cf1, cf4, cf6, cfx): an `irbkin.Configuration`, or whole numbers of
+    ///         shape (4,) or (..., 4).
+    ///     fallback: With "nearest", the solution nearest to `seed` where none has the
+    ///         configuration: many programs write [0, 0, 0, 0] without having calculated it.
     ///     seed: Joint vector [rad] of the fallback, shape (6,) or (..., 6).
     ///
     /// Returns:
-    ///     Joint vectors [rad], shape (..., 6). In a batch, a row without such a solution, or whose pose or seed is invalid, is NaN.
+    ///     Joint vectors [rad], shape (..., 6). In a batch, a row without such a solution, or whose
+    ///     pose or seed is invalid, is NaN.
     ///
     /// Raises:
-    ///     UnreachableError: A single pose has no solution inside the limits with that configuration; the message, and its attribute
-    ///         `configurations`, have those that exist.
-    ///     InvalidPoseError, InvalidJointsError: A wrong shape, a pose that is none, a number of the configuration that is not whole or that
-    ///         the arm does not have.
+    ///     UnreachableError: A single pose has no solution inside the limits with that
+    ///         configuration; the message, and its attribute `configurations`, have those that
+    ///         exist.
+    ///     InvalidPoseError, InvalidJointsError: A wrong shape, a pose that is none, a number of
+    ///         the configuration that is not whole or that the arm does not have.
     ///     InvalidModelError: As `configuration`.
     ///     TypeError, ValueError: Another fallback, or one without a seed.
     #[pyo3(signature = (T, configuration, *, fallback=None, seed=None))]
@@ -188,7 +206,8 @@ impl PyRobot {
         configurations::ik(self.arm(), T, configuration, &Fallback { name: fallback, seed })
     }
 
-    /// Whether a pose can be reached, inside the limits or not, and why not; with seven joints, with any angle of joint 7 inside its limits.
+    /// Whether a pose can be reached, inside the limits or not, and why not; with seven joints,
+    /// with any angle of joint 7 inside its limits.
     ///
     /// Args:
     ///     T: Pose of the tool, shape (4, 4), translation [m].
@@ -206,7 +225,7 @@ impl PyRobot {
         let reachable = inside
             || matches!(
                 explanation,
-                Explanation::OutsideLimits { .. } | Explanation::OutsideRod { .. }
+                Explanation::OutsideLimits { .. } | Explanation::OutsideLinkage { .. }
             );
         pose_check_class(T.py())?.call1((reachable, inside, explanation.to_string()))
     }

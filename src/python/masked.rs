@@ -1,7 +1,7 @@
 //! Masked arrays of `numpy.ma`. A masked element is not known: it is never read.
 //!
-//! An argument of one row is refused with the place of the first one. In a batch, NaN stands for it, so that its row is invalid and the others
-//! are not touched.
+//! An argument of one row is refused with the place of the first one. In a batch, NaN stands for
+//! it, so that its row is invalid and the others are not touched.
 
 use pyo3::exceptions::PyValueError;
 use pyo3::intern;
@@ -22,7 +22,8 @@ pub(super) struct Masked<'py> {
 }
 
 impl<'py> Masked<'py> {
-    /// The argument, where it has masked elements. What is no array of real numbers is left to those who say so.
+    /// The argument, where it has masked elements. What is no array of real numbers is left to
+    /// those who say so.
     pub(super) fn of(value: &Bound<'py, PyAny>) -> PyResult<Option<Self>> {
         let py = value.py();
         let Some(class) = masked_array_class(py)? else { return Ok(None) };

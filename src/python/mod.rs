@@ -43,7 +43,8 @@ fn instruction_sets(py: Python<'_>) -> PyResult<Bound<'_, PyTuple>> {
     PyTuple::new(py, InstructionSet::available().map(InstructionSet::name).collect::<Vec<_>>())
 }
 
-/// Calculates with another instruction set from now on, in the whole process: for tests and measurements.
+/// Calculates with another instruction set from now on, in the whole process: for tests and
+/// measurements.
 ///
 /// Args:
 ///     name: One of `instruction_sets()`.
@@ -63,7 +64,8 @@ fn use_instruction_set(name: &str) -> PyResult<()> {
     set.force().map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
-// Single calls read arrays under the interpreter's lock (`arrays::copied_vector`), and `borrows` relies on it.
+// Single calls read arrays under the interpreter's lock (`arrays::copied_vector`), and `borrows`
+// relies on it.
 #[pymodule(gil_used = true)]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
@@ -76,7 +78,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(use_instruction_set, module)?)?;
     module.add_function(wrap_pyfunction!(robot::restore_robot, module)?)?;
     module.add_function(wrap_pyfunction!(poses::pose, module)?)?;
-    module.add_function(wrap_pyfunction!(poses::to_xyz_quaternion, module)?)?;
+    module.add_function(wrap_pyfunction!(poses::to_xyz_wxyz, module)?)?;
     module.add_function(wrap_pyfunction!(poses::to_xyz_euler_zyx, module)?)?;
     module.add_class::<rapid::RapidModule>()?;
     module.add_function(wrap_pyfunction!(rapid::parse, module)?)?;

@@ -14,17 +14,19 @@ impl PyRobot {
     /// Robot from a modified (Craig) Denavit-Hartenberg table: Rx(alpha) Tx(a) Rz(theta + q) Tz(d).
     ///
     /// Args:
-    ///     rows: alpha [rad], a [m], d [m], theta offset [rad] of each joint, shape (6, 4) or (7, 4).
+    ///     rows: alpha [rad], a [m], d [m], theta offset [rad] of each joint, shape (6, 4) or (7,
+    ///         4).
     ///     limits: Lower and upper limit of each joint [rad], shape (n, 2); none when not given.
     ///     name: A name of your own.
-    ///     closed_form: With False, a six-axis arm of no known form is taken too: forward kinematics and Jacobian work, `ik` refuses. A
-    ///         seven-axis one is always taken.
-    ///     snap: An alpha or theta offset within this of a multiple of 90 deg is made exact [rad], at most 1e-3: 1e-5 takes 1.5708 for a right
-    ///         angle. Lengths stay as they are.
+    ///     closed_form: With False, a six-axis arm of no known form is taken too: forward
+    ///         kinematics and Jacobian work, `ik` refuses. A seven-axis one is always taken.
+    ///     snap: An alpha or theta offset within this of a multiple of 90 deg is made exact [rad],
+    ///         at most 1e-3: 1e-5 takes 1.5708 for a right angle. Lengths stay as they are.
     ///
     /// Raises:
-    ///     InvalidModelError: A number is not finite, a limit is empty, a link has no length, or no closed form is known: the message
-    ///         names the axes that do not meet or are not parallel, by how much, and a `snap` that would do.
+    ///     InvalidModelError: A number is not finite, a limit is empty, a link has no length, or no
+    ///         closed form is known: the message names the axes that do not meet or are not
+    ///         parallel, by how much, and a `snap` that would do.
     #[staticmethod]
     #[pyo3(signature = (rows, limits=None, name="", *, closed_form=true, snap=0.0))]
     fn from_mdh(
@@ -41,13 +43,14 @@ impl PyRobot {
     /// Robot from a standard Denavit-Hartenberg table: Rz(theta + q) Tz(d) Tx(a) Rx(alpha).
     ///
     /// Args:
-    ///     rows: alpha [rad], a [m], d [m], theta offset [rad] of each joint, in this order too, shape (6, 4) or (7, 4).
+    ///     rows: alpha [rad], a [m], d [m], theta offset [rad] of each joint, in this order too,
+    ///         shape (6, 4) or (7, 4).
     ///     limits: Lower and upper limit of each joint [rad], shape (n, 2); none when not given.
     ///     name: A name of your own.
-    ///     closed_form: With False, a six-axis arm of no known form is taken too: forward kinematics and Jacobian work, `ik` refuses. A
-    ///         seven-axis one is always taken.
-    ///     snap: An alpha or theta offset within this of a multiple of 90 deg is made exact [rad], at most 1e-3: 1e-5 takes 1.5708 for a right
-    ///         angle. Lengths stay as they are.
+    ///     closed_form: With False, a six-axis arm of no known form is taken too: forward
+    ///         kinematics and Jacobian work, `ik` refuses. A seven-axis one is always taken.
+    ///     snap: An alpha or theta offset within this of a multiple of 90 deg is made exact [rad],
+    ///         at most 1e-3: 1e-5 takes 1.5708 for a right angle. Lengths stay as they are.
     ///
     /// Raises:
     ///     InvalidModelError: As `from_mdh`.
@@ -68,15 +71,17 @@ impl PyRobot {
     ///
     /// Args:
     ///     a1, a2, b, c1, c2, c3, c4: Lengths [m]. At zero theta the arm stands straight up.
-    ///     offsets: Joint offsets [rad], shape (6,): theta = sign * q - offset, as opw_kinematics has it; zeros when not given.
+    ///     offsets: Joint offsets [rad], shape (6,): theta = sign * q - offset, as opw_kinematics
+    ///         has it; zeros when not given.
     ///     signs: Joint signs, each 1 or -1, shape (6,); ones when not given.
     ///     limits: Lower and upper limit of each joint [rad], shape (6, 2); none when not given.
     ///     name: A name of your own.
     ///
     /// Raises:
-    ///     InvalidModelError: A number is not finite, a sign is not 1 or -1, a limit is empty, or a link has no length.
+    ///     InvalidModelError: A number is not finite, a sign is not 1 or -1, a limit is empty, or a
+    ///         link has no length.
     #[staticmethod]
-    #[pyo3(signature = (a1, a2, b, c1, c2, c3, c4, offsets=None, signs=None, limits=None, name=""))]
+    #[pyo3(signature = (*, a1, a2, b, c1, c2, c3, c4, offsets=None, signs=None, limits=None, name=""))]
     #[expect(clippy::too_many_arguments, reason = "the parameters of the form have these names")]
     fn from_opw(
         py: Python<'_>,
@@ -99,21 +104,26 @@ impl PyRobot {
         build::from_opw(py, opw, signs, limits, name).map(Self::from)
     }
 
-    /// Robot from a URDF: the revolute and continuous joints between two links, with their limits and velocities.
+    /// Robot from a URDF: the revolute and continuous joints between two links, with their limits
+    /// and velocities.
     ///
     /// Args:
-    ///     text_or_path: The text, str that begins with "<" or bytes, or the path of a file. Xacro must be expanded first.
+    ///     text_or_path: The text, str that begins with "<" or bytes, or the path of a file. Xacro
+    ///         must be expanded first.
     ///     base: Link in whose frame poses are given; the one without a parent when not given.
-    ///     tip: Link that poses are of; when not given, the only one at the end of a chain of six or seven joints.
+    ///     tip: Link that poses are of; when not given, the only one at the end of a chain of six
+    ///         or seven joints.
     ///     name: A name of your own; the URDF's when not given.
-    ///     closed_form: With False, a six-axis arm of no known form is taken too: forward kinematics and Jacobian work, `ik` refuses. A
-    ///         seven-axis one is always taken.
-    ///     snap: An angle of an origin, or an axis, within this of a multiple of 90 deg is made exact [rad], at most 1e-3: 1e-5 takes 1.5708
-    ///         for a right angle. Lengths stay as they are.
+    ///     closed_form: With False, a six-axis arm of no known form is taken too: forward
+    ///         kinematics and Jacobian work, `ik` refuses. A seven-axis one is always taken.
+    ///     snap: An angle of an origin, or an axis, within this of a multiple of 90 deg is made
+    ///         exact [rad], at most 1e-3: 1e-5 takes 1.5708 for a right angle. Lengths stay as they
+    ///         are.
     ///
     /// Raises:
-    ///     InvalidModelError: The text is no URDF, several links could be meant, there are not six or seven joints, a joint between base
-    ///         and tip is not revolute, continuous or fixed, or no closed form is known; the message names what is wrong.
+    ///     InvalidModelError: The text is no URDF, several links could be meant, there are not six
+    ///         or seven joints, a joint between base and tip is not revolute, continuous or fixed,
+    ///         or no closed form is known; the message names what is wrong.
     ///     OSError: The file cannot be read.
     #[staticmethod]
     #[pyo3(signature = (text_or_path, base=None, tip=None, name="", *, closed_form=true, snap=0.0))]

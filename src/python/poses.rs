@@ -8,8 +8,8 @@ use super::arrays::{Rows, copied_matrix4, matrix, matrix4, vector};
 use super::errors::{Fault, to_py};
 use crate::error::Error;
 use crate::kinematics::{
-    Pose, pose_from_euler_zyx, pose_from_quaternion, pose_from_rows, pose_to_euler_zyx,
-    pose_to_quaternion, pose_to_rows,
+    Pose, pose_from_euler_zyx, pose_from_rows, pose_from_wxyz, pose_to_euler_zyx, pose_to_rows,
+    pose_to_wxyz,
 };
 
 /// The argument `field` as a checked pose.
@@ -49,31 +49,30 @@ pub(super) fn pose_array<'py>(py: Python<'py>, pose: &Pose) -> Bound<'py, PyArra
 ///
 /// Args:
 ///     xyz: Translation [m], shape (3,).
-///     quaternion: Orientation as w, x, y, z, shape (4,); normalised.
+///     wxyz: Orientation as w, x, y, z, shape (4,); normalized.
 ///     euler_zyx: Orientation as rz, ry, rx [rad], shape (3,): Rz(rz) Ry(ry) Rx(rx).
 ///
 /// Returns:
 ///     Homogeneous matrix, shape (4, 4). Without an orientation, that of the base.
 ///
 /// Raises:
-///     InvalidPoseError: A wrong shape, an element that is not finite, a quaternion whose norm is off one by more than 2e-3.
+///     InvalidPoseError: A wrong shape, an element that is not finite, a quaternion whose norm is
+///         off one by more than 2e-3.
 ///     TypeError: Both orientations are given, or something is no number.
 #[pyfunction]
-#[pyo3(signature = (xyz, quaternion=None, euler_zyx=None))]
+#[pyo3(signature = (xyz, wxyz=None, euler_zyx=None))]
 pub(super) fn pose<'py>(
     xyz: &Bound<'py, PyAny>,
-    quaternion: Option<&Bound<'py, PyAny>>,
+    wxyz: Option<&Bound<'py, PyAny>>,
     euler_zyx: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let py = xyz.py();
     let xyz = vector::<3>(xyz, "xyz", Fault::Pose)?;
-    let pose: Result<Pose, Error> = match (quaternion, euler_zyx) {
+    let pose: Result<Pose, Error> = match (wxyz, euler_zyx) {
         (Some(_), Some(_)) => {
-            return Err(PyTypeError::new_err("give quaternion or euler_zyx, not both"));
+            return Err(PyTypeError::new_err("give wxyz or euler_zyx, not both"));
         }
-        (Some(quaternion), None) => {
-            pose_from_quaternion(xyz, vector(quaternion, "quaternion", Fault::Pose)?)
-        }
+        (Some(wxyz), None) => pose_from_wxyz(xyz, vector(wxyz, "wxyz", Fault::Pose)?),
         (None, Some(euler)) => pose_from_euler_zyx(xyz, vector(euler, "euler_zyx", Fault::Pose)?),
         (None, None) => pose_from_euler_zyx(xyz, [0.0; 3]),
     };
@@ -93,10 +92,10 @@ type TwoArrays<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 /// Raises:
 ///     InvalidPoseError: T is no rigid transform.
 #[pyfunction]
-#[pyo3(name = "to_xyz_quaternion", signature = (T))]
+#[pyo3(name = "to_xyz_wxyz", signature = (T))]
 #[expect(non_snake_case, reason = "the name that users pass")]
-pub(super) fn to_xyz_quaternion<'py>(T: &Bound<'py, PyAny>) -> PyResult<TwoArrays<'py>> {
-    let (xyz, quaternion) = pose_to_quaternion(&read_pose(T, "T")?);
+pub(super) fn to_xyz_wxyz<'py>(T: &Bound<'py, PyAny>) -> PyResult<TwoArrays<'py>> {
+    let (xyz, quaternion) = pose_to_wxyz(&read_pose(T, "T")?);
     Ok((PyArray1::from_slice(T.py(), &xyz), PyArray1::from_slice(T.py(), &quaternion)))
 }
 
@@ -106,8 +105,8 @@ pub(super) fn to_xyz_quaternion<'py>(T: &Bound<'py, PyAny>) -> PyResult<TwoArray
 ///     T: Homogeneous matrix, shape (4, 4), translation [m].
 ///
 /// Returns:
-///     Translation [m], shape (3,), and rz, ry, rx [rad], shape (3,), ry in -pi/2 .. pi/2. Where ry is +-pi/2 only rz - rx or rz + rx
-///     is determined: rz is 0 there.
+///     Translation [m], shape (3,), and rz, ry, rx [rad], shape (3,), ry in -pi/2 .. pi/2. Where ry
+///     is +-pi/2 only rz - rx or rz + rx is determined: rz is 0 there.
 ///
 /// Raises:
 ///     InvalidPoseError: T is no rigid transform.

@@ -17,7 +17,8 @@ impl PyRobot {
     ///     out: Array to write to, shape (..., 4, 4), float64, C-contiguous; it is returned.
     ///
     /// Returns:
-    ///     Homogeneous matrices, shape (..., 4, 4), translation [m]. In a batch, a row with a NaN or inf gives NaN.
+    ///     Homogeneous matrices, shape (..., 4, 4), translation [m]. In a batch, a row with a NaN
+    ///     or inf gives NaN.
     ///
     /// Raises:
     ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
@@ -74,7 +75,8 @@ impl PyRobot {
     ///     q: Joint angles [rad], shape (..., n).
     ///
     /// Returns:
-    ///     Singularity; numbers for (n,), arrays of shape (...) for (..., n). NaN where an arm has no such singularity.
+    ///     Singularity; numbers for (n,), arrays of shape (...) for (..., n). NaN where an arm has
+    ///     no such singularity.
     ///
     /// Raises:
     ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
@@ -90,8 +92,9 @@ impl PyRobot {
     ///     q: Joint angles [rad], shape (..., 6).
     ///
     /// Returns:
-    ///     Configuration(cf1, cf4, cf6, cfx): integers for one joint vector, int32 arrays of shape (...) for many. cf is
-    ///     floor(angle / 90 deg). cfx is the slot, 0 for an arm with coupled axes 2 and 3, whose controller does not use it.
+    ///     Configuration(cf1, cf4, cf6, cfx): integers for one joint vector, int32 arrays of shape
+    ///     (...) for many. cf is floor(angle / 90 deg). cfx is the slot, 0 for an arm with coupled
+    ///     axes 2 and 3, whose controller does not use it.
     ///
     /// Raises:
     ///     InvalidJointsError: A wrong shape, or an angle that is not finite.

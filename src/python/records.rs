@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 
 use super::classes::{configuration_class, kind_class, reach_class, status_class};
-use crate::kinematics::Status;
+use crate::kinematics::{SingularityKind, Status};
 use crate::report::{Configuration, Reach};
 
 /// `irbkin.Configuration` of one.
@@ -15,9 +15,9 @@ pub(super) fn configuration<'py>(
     configuration_class(py)?.call1((cf1, cf4, cf6, cfx))
 }
 
-/// `irbkin.Kind` of a status.
-pub(super) fn kinds(py: Python<'_>, status: Status) -> PyResult<Bound<'_, PyAny>> {
-    kind_class(py)?.call1(((status & Status::KINDS).bits(),))
+/// `irbkin.SingularityKind` of singularities.
+pub(super) fn kinds(py: Python<'_>, kinds: SingularityKind) -> PyResult<Bound<'_, PyAny>> {
+    kind_class(py)?.call1((kinds.bits(),))
 }
 
 /// `irbkin.Status` of a status.

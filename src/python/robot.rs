@@ -1,4 +1,5 @@
-//! `irbkin.Robot`: the class, what it has and how it is changed. Its other methods are in `models`, `queries` and `inverse`.
+//! `irbkin.Robot`: the class, what it has and how it is changed. Its other methods are in `models`,
+//! `queries` and `inverse`.
 
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
@@ -9,16 +10,18 @@ use super::build::{self, State};
 use super::edits::Edit;
 use super::errors::{Fault, to_py};
 use super::poses::{pose_array, read_pose};
-use crate::catalogue;
+use crate::catalog;
 use crate::kinematics::Robot;
 
 /// A robot arm: `Robot("IRB 2600-12/1.65")`. Frozen, hashable, equal by value, picklable.
 ///
 /// Args:
-///     name: Catalogue name; case, blanks, -, _, /, commas and parentheses do not matter. `irbkin.catalog()` lists them.
+///     name: Catalog name; case, blanks, -, _, /, commas and parentheses do not matter.
+///         `irbkin.catalog()` lists them.
 ///
 /// Raises:
-///     UnknownRobotError: No arm of that name; the message has up to six close ones, the closest first.
+///     UnknownRobotError: No arm of that name; the message has up to six close ones, the closest
+///         first.
 #[pyclass(name = "Robot", module = "irbkin", frozen)]
 pub(super) struct PyRobot {
     arm: Arm,
@@ -49,14 +52,14 @@ pub(super) fn restore_robot(py: Python<'_>, state: State) -> PyResult<PyRobot> {
 impl PyRobot {
     #[new]
     fn new(py: Python<'_>, name: &str) -> PyResult<Self> {
-        let arm = catalogue::find(name).and_then(|arm| match arm.dof() {
-            6 => Robot::<6>::from_catalogue(arm).map(Arm::from),
-            _ => Robot::<7>::from_catalogue(arm).map(Arm::from),
+        let arm = catalog::find(name).and_then(|arm| match arm.dof() {
+            6 => Robot::<6>::from_catalog(arm).map(Arm::from),
+            _ => Robot::<7>::from_catalog(arm).map(Arm::from),
         });
         arm.map(Self::from).map_err(|error| to_py(py, &error))
     }
 
-    /// Catalogue name, or the name that was given.
+    /// Catalog name, or the name that was given.
     #[getter]
     fn name(&self) -> &str {
         on_robot!(&self.arm, robot => robot.name())
@@ -68,13 +71,15 @@ impl PyRobot {
         self.arm.dof()
     }
 
-    /// Name of the closed form: "spherical wrist", "three parallel axes", "spherical shoulder", or "serial" where there is none.
+    /// Name of the closed form: "spherical wrist", "three parallel axes", "spherical shoulder", or
+    /// "unknown" where there is none.
     #[getter]
-    fn family(&self) -> &'static str {
-        on_robot!(&self.arm, robot => robot.family())
+    fn structure(&self) -> &'static str {
+        on_robot!(&self.arm, robot => robot.structure())
     }
 
-    /// Modified Denavit-Hartenberg rows: alpha [rad], a [m], d [m], theta offset [rad], shape (n, 4). `flange` follows the last row.
+    /// Modified Denavit-Hartenberg rows: alpha [rad], a [m], d [m], theta offset [rad], shape (n,
+    /// 4). `flange` follows the last row.
     #[getter]
     fn mdh<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let rows: Vec<f64> = on_robot!(&self.arm, robot => robot.mdh().rows.iter().flat_map(|row| row.to_array()).collect());
@@ -99,7 +104,7 @@ impl PyRobot {
         on_robot!(&self.arm, robot => pose_array(py, robot.base()))
     }
 
-    /// The tool centre point in the flange frame, shape (4, 4).
+    /// The tool center point in the flange frame, shape (4, 4).
     #[getter]
     fn tool<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         on_robot!(&self.arm, robot => pose_array(py, robot.tool()))
@@ -118,58 +123,71 @@ impl PyRobot {
         on_robot!(&self.arm, robot => robot.max_velocity().map(|velocity| PyArray1::from_slice(py, velocity)))
     }
 
-    /// The same robot with its tool centre point at T, shape (4, 4), in the flange frame. A tool that it had is replaced.
+    /// The same robot with its tool center point at T, shape (4, 4), in the flange frame. A tool
+    /// that it had is replaced.
     fn with_tool(&self, T: &Bound<'_, PyAny>) -> PyResult<Self> {
         self.arm.changed(T.py(), &Edit::Tool(read_pose(T, "T")?)).map(Self::from)
     }
 
-    /// The same robot standing at T, shape (4, 4), in the world, in which poses are then given. A base that it had is replaced.
+    /// The same robot standing at T, shape (4, 4), in the world, in which poses are then given. A
+    /// base that it had is replaced.
     fn with_base(&self, T: &Bound<'_, PyAny>) -> PyResult<Self> {
         self.arm.changed(T.py(), &Edit::Base(read_pose(T, "T")?)).map(Self::from)
     }
 
-    /// The same robot with other joint limits [rad], shape (n, 2); those of a rod stay.
+    /// The same robot with other joint limits [rad], shape (n, 2); those of a linkage stay.
     fn with_limits(&self, limits: &Bound<'_, PyAny>) -> PyResult<Self> {
         build::with_limits(&self.arm, limits).map(Self::from)
     }
 
-    /// Whether a parallelogram couples axes 2 and 3: joint 3 is then told from the base, as the controller tells it.
+    /// Whether a parallelogram couples axes 2 and 3: joint 3 is then told from the base, as the
+    /// controller tells it.
     #[getter]
     fn is_coupled(&self) -> bool {
         on_robot!(&self.arm, robot => robot.is_coupled())
     }
 
-    /// Lower and upper limit of q3 - q2 [rad], shape (2,), of the rod that couples axes 2 and 3; None where none are known.
+    /// Lower and upper limit of q3 - q2 [rad], shape (2,), of the linkage that couples axes 2 and
+    /// 3; None where none are known.
     #[getter]
-    fn rod_limits<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
-        on_robot!(&self.arm, robot => robot.limits().rod())
-            .map(|rod| PyArray1::from_slice(py, &rod))
+    fn linkage_limits<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
+        on_robot!(&self.arm, robot => robot.limits().linkage())
+            .map(|linkage| PyArray1::from_slice(py, &linkage))
     }
 
-    /// The same robot with limits of q3 - q2 [rad], shape (2,), at whatever turn, for the rod that couples axes 2 and 3; None for none.
+    /// The same robot with limits of q3 - q2 [rad], shape (2,), at whatever turn, for the linkage
+    /// that couples axes 2 and 3; None for none.
     ///
     /// Raises:
-    ///     InvalidModelError: A limit is NaN, the lower one is above the upper one, or axes 2 and 3 are not coupled.
-    fn with_rod_limits(&self, py: Python<'_>, limits: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+    ///     InvalidModelError: A limit is NaN, the lower one is above the upper one, or axes 2 and 3
+    ///         are not coupled.
+    fn with_linkage_limits(
+        &self,
+        py: Python<'_>,
+        limits: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
         let limits = limits.map(|limits| vector(limits, "limits", Fault::Model)).transpose()?;
-        self.arm.changed(py, &Edit::RodLimits(limits)).map(Self::from)
+        self.arm.changed(py, &Edit::LinkageLimits(limits)).map(Self::from)
     }
 
-    /// The twin without the coupling of axes 2 and 3: its joint 3 is this one's minus joint 2. The arm itself where it has none.
+    /// The twin without the coupling of axes 2 and 3: its joint 3 is this one's minus joint 2. The
+    /// arm itself where it has none.
     ///
-    /// Its joint 3 is limited as the rod is or, where that is unknown, may stand wherever axes 2 and 3 let it, and turns as fast as both
-    /// together: there and back again widens both.
-    fn serial(&self, py: Python<'_>) -> PyResult<Self> {
+    /// Its joint 3 is limited as the linkage is or, where that is unknown, may stand wherever axes
+    /// 2 and 3 let it, and turns as fast as both together: there and back again widens both.
+    fn uncoupled(&self, py: Python<'_>) -> PyResult<Self> {
         self.arm.changed(py, &Edit::Coupled(false)).map(Self::from)
     }
 
-    /// The twin whose axes 2 and 3 a parallelogram couples: its joint 3 is this one's plus joint 2, as its controller tells it.
+    /// The twin whose axes 2 and 3 a parallelogram couples: its joint 3 is this one's plus joint 2,
+    /// as its controller tells it.
     ///
-    /// What was the limit of joint 3 is that of the rod; joint 3 may stand wherever axes 2 and the rod let it, and turns as fast as both
-    /// together: there and back again widens both.
+    /// What was the limit of joint 3 is that of the linkage; joint 3 may stand wherever axes 2 and
+    /// the linkage let it, and turns as fast as both together: there and back again widens both.
     ///
     /// Raises:
-    ///     InvalidModelError: The arm has no spherical wrist, or its axes 2 and 3 turn in opposite senses.
+    ///     InvalidModelError: The arm has no spherical wrist, or its axes 2 and 3 turn in opposite
+    ///         senses.
     fn coupled(&self, py: Python<'_>) -> PyResult<Self> {
         self.arm.changed(py, &Edit::Coupled(true)).map(Self::from)
     }
@@ -188,10 +206,10 @@ impl PyRobot {
 
     fn __repr__(&self) -> String {
         match self.name() {
-            "" => format!("Robot({} joints, {})", self.arm.dof(), self.family()),
+            "" => format!("Robot({} joints, {})", self.arm.dof(), self.structure()),
             name => {
-                let twin = match (build::is_coupled_in_catalogue(name), self.is_coupled()) {
-                    (true, false) => ".serial()",
+                let twin = match (build::is_coupled_in_catalog(name), self.is_coupled()) {
+                    (true, false) => ".uncoupled()",
                     (false, true) => ".coupled()",
                     _ => "",
                 };

@@ -32,10 +32,10 @@ where
         Self { robot: Arc::clone(&found.robot), pose: *found.solutions.pose(), solution }
     }
 
-    fn with_free(&self, py: Python<'_>, value: f64) -> PyResult<Self> {
+    fn with_free_joint(&self, py: Python<'_>, value: f64) -> PyResult<Self> {
         let moved = self
             .robot
-            .with_free(&self.pose, &self.solution, value)
+            .with_free_joint(&self.pose, &self.solution, value)
             .map_err(|error| to_py(py, &error))?;
         let moved = moved.ok_or_else(|| {
             Fault::Joints.error(py, format!("no joint is free: {}", self.sentence()))
@@ -45,14 +45,16 @@ where
 
     fn sentence(&self) -> String {
         let angles = self.solution.q.map(|angle| format!("{:.3}", angle.to_degrees())).join(", ");
-        let limits = if self.solution.within_limits() { "inside limits" } else { "outside limits" };
+        let limits =
+            if self.solution.is_within_limits() { "inside limits" } else { "outside limits" };
         format!("Solution(slot {}: [{angles}] deg, {limits})", self.solution.slot)
     }
 }
 
 /// One joint vector that brings the tool to the pose.
 ///
-/// It is also the sequence of its joint angles: `solution[0]` is J1, `numpy.asarray(solution)` is `solution.q`.
+/// It is also the sequence of its joint angles: `solution[0]` is J1, `numpy.asarray(solution)` is
+/// `solution.q`.
 #[pyclass(name = "Solution", module = "irbkin", frozen)]
 pub(super) struct PySolution {
     of: AnyMember,
@@ -124,20 +126,21 @@ impl PySolution {
 
     /// Whether every joint is inside its limits.
     #[getter]
-    fn within_limits(&self) -> bool {
-        on!(AnyMember, &self.of, member => member.solution.within_limits())
+    fn is_within_limits(&self) -> bool {
+        on!(AnyMember, &self.of, member => member.solution.is_within_limits())
     }
 
     /// The singularities at which the pose stands.
     #[getter]
-    fn kinds<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        records::kinds(py, self.flags())
+    fn singularities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        records::kinds(py, self.flags().singularities())
     }
 
-    /// The joint that the pose leaves free, at a singularity, and what stays fixed: FreeJoint(joint, fixed), or None.
+    /// The joint that the pose leaves free, at a singularity, and what stays fixed:
+    /// FreeJoint(joint, fixed), or None.
     #[getter]
-    fn free<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let free = on!(AnyMember, &self.of, member => member.solution.free);
+    fn free_joint<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let free = on!(AnyMember, &self.of, member => member.solution.free_joint);
         free.map(|free| classes::free_joint_class(py)?.call1((free.joint(), free.fixed())))
             .transpose()
     }
@@ -148,13 +151,14 @@ impl PySolution {
     ///     value: Angle of the free joint [rad].
     ///
     /// Returns:
-    ///     The solution; the tool stays to rounding at the singularity, and within 3e-9 rad or m next to it.
+    ///     The solution; the tool stays to rounding at the singularity, and within 3e-9 rad or m
+    ///     next to it.
     ///
     /// Raises:
     ///     InvalidJointsError: No joint is free, or the value is not finite.
     ///     UnreachableError: The arm does not reach the pose with the free joint there.
-    fn with_free(&self, py: Python<'_>, value: f64) -> PyResult<Self> {
-        on!(AnyMember, &self.of, member => member.with_free(py, value).map(Self::from))
+    fn with_free_joint(&self, py: Python<'_>, value: f64) -> PyResult<Self> {
+        on!(AnyMember, &self.of, member => member.with_free_joint(py, value).map(Self::from))
     }
 
     /// All flags of the slot.
@@ -163,7 +167,8 @@ impl PySolution {
         records::status(py, self.flags())
     }
 
-    /// Distance of the tool from the pose: the larger of the position's [m] and the rotation's [rad].
+    /// Distance of the tool from the pose: the larger of the position's [m] and the rotation's
+    /// [rad].
     #[getter]
     fn residual(&self) -> f64 {
         on!(AnyMember, &self.of, member => member.robot.residual(&member.solution.q, &member.pose).largest())
@@ -216,8 +221,8 @@ impl PySolutions {
 
     /// Joint angles of each slot [rad], shape (8, n), NaN where the slot is empty.
     #[getter]
-    fn slots<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        on!(AnyFound, &self.found, found => matrix(py, &found.slots()))
+    fn q_by_slot<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        on!(AnyFound, &self.found, found => matrix(py, &found.q_by_slot()))
     }
 
     /// `irbkin.Status` of each slot, shape (8,), uint8.
@@ -227,13 +232,13 @@ impl PySolutions {
         PyArray1::from_iter(py, status.iter().map(Status::bits))
     }
 
-    /// Whether the wrist centre gets to where the pose wants it.
+    /// Whether the wrist center gets to where the pose wants it.
     #[getter]
     fn reach<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         records::reach(py, on!(AnyFound, &self.found, found => found.solutions.reach()))
     }
 
-    /// How far the wrist centre is from where the arm can bring it [m]; 0 when it is reached.
+    /// How far the wrist center is from where the arm can bring it [m]; 0 when it is reached.
     #[getter]
     fn shortfall(&self) -> f64 {
         on!(AnyFound, &self.found, found => found.solutions.reach().shortfall())
@@ -249,7 +254,8 @@ impl PySolutions {
         on!(AnyFound, &self.found, found => found.within_limits().into())
     }
 
-    /// Every full turn of every joint of every solution that is inside the limits. A joint without limits has only its own angle.
+    /// Every full turn of every joint of every solution that is inside the limits. A joint without
+    /// limits has only its own angle.
     ///
     /// Raises:
     ///     ValueError: There are more than a million.
@@ -257,7 +263,8 @@ impl PySolutions {
         on!(AnyFound, &self.found, found => found.turns().map(Self::from).map_err(PyValueError::new_err))
     }
 
-    /// The solution inside the limits that is nearest to `seed`, turns considered: least root of the sum of weights * difference^2.
+    /// The solution inside the limits that is nearest to `seed`, turns considered: least root of
+    /// the sum of weights * difference^2.
     ///
     /// Args:
     ///     seed: Joint vector [rad], shape (n,).
@@ -274,7 +281,8 @@ impl PySolutions {
         on!(AnyFound, &self.found, found => Ok(Member::of(found, found.cheapest(seed, weights, Cost::Distance)?).into()))
     }
 
-    /// The solution inside the limits that moves the joints the least from `seed`, turns considered: least sum of weights * |difference|.
+    /// The solution inside the limits that moves the joints the least from `seed`, turns
+    /// considered: least sum of weights * |difference|.
     ///
     /// Args:
     ///     seed: Joint vector [rad], shape (n,).
@@ -291,7 +299,8 @@ impl PySolutions {
         on!(AnyFound, &self.found, found => Ok(Member::of(found, found.cheapest(seed, weights, Cost::Travel)?).into()))
     }
 
-    /// Those for which `accept(solution)` is true; a solution is also the sequence of its joint angles.
+    /// Those for which `accept(solution)` is true; a solution is also the sequence of its joint
+    /// angles.
     fn filter(&self, accept: &Bound<'_, PyAny>) -> PyResult<Self> {
         on!(AnyFound, &self.found, found => {
             let accepts = |solution: &Solution<_>| accept.call1((PySolution::from(Member::of(found, *solution)),))?.is_truthy();

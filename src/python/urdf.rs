@@ -51,7 +51,8 @@ where
     Ok(if name.is_empty() { robot } else { robot.with_name(name.to_owned()) })
 }
 
-/// The bytes of a text, or of the file at a path. A str that begins with `<`, blanks aside, is a text.
+/// The bytes of a text, or of the file at a path. A str that begins with `<`, blanks aside, is a
+/// text.
 fn bytes_of(text_or_path: &Bound<'_, PyAny>) -> PyResult<Vec<u8>> {
     if let Ok(bytes) = text_or_path.cast::<PyBytes>() {
         return Ok(bytes.as_bytes().to_vec());

@@ -4,7 +4,8 @@ use core::fmt;
 
 /// ABB's confdata `[cf1, cf4, cf6, cfx]`: quarter turns of axes 1, 4 and 6, and the slot.
 ///
-/// A quarter turn's number is `floor(angle / 90 deg)`. `cfx` is 4 (wrist centre behind axis 1) + 2 (behind the lower arm) + 1 (q5 < 0).
+/// A quarter turn's number is `floor(angle / 90 deg)`. `cfx` is 4 (wrist center behind axis 1) + 2
+/// (behind the lower arm) + 1 (q5 < 0).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Configuration {

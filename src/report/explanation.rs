@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-/// Whether the arm's wrist centre gets to where the pose wants it.
+/// Whether the arm's wrist center gets to where the pose wants it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Reach {
@@ -21,7 +21,7 @@ pub enum Reach {
 }
 
 impl Reach {
-    /// How far the wrist centre is from where the arm can bring it [m]; zero when reached.
+    /// How far the wrist center is from where the arm can bring it [m]; zero when reached.
     #[must_use]
     pub fn shortfall(self) -> f64 {
         match self {
@@ -56,14 +56,15 @@ pub enum Explanation {
         /// How far that joint is outside [rad].
         excess: f64,
     },
-    /// Solutions exist, none inside the limits: all that keeps the best of them out is the rod of coupled axes 2 and 3.
-    OutsideRod {
+    /// Solutions exist, none inside the limits: all that keeps the best of them out is the linkage
+    /// of coupled axes 2 and 3.
+    OutsideLinkage {
         /// Solutions, limits not regarded.
         solutions: usize,
-        /// How far q3 - q2 is outside the rod's limits [rad].
+        /// How far q3 - q2 is outside the linkage's limits [rad].
         excess: f64,
     },
-    /// The wrist centre is out of reach.
+    /// The wrist center is out of reach.
     OutOfReach(
         /// On which side, and by how much.
         Reach,
@@ -93,18 +94,18 @@ impl fmt::Display for Explanation {
                     excess.to_degrees()
                 )
             }
-            Self::OutsideRod { solutions, excess } => {
+            Self::OutsideLinkage { solutions, excess } => {
                 write!(
                     f,
-                    "all {solutions} outside limits; nearest: the rod (q3 - q2) by {:.1} deg",
+                    "all {solutions} outside limits; nearest: the linkage (q3 - q2) by {:.1} deg",
                     excess.to_degrees()
                 )
             }
             Self::OutOfReach(Reach::TooNear { shortfall }) => {
-                write!(f, "wrist centre {} too near to be reached", Millimetres(shortfall))
+                write!(f, "wrist center {} too near to be reached", Millimeters(shortfall))
             }
             Self::OutOfReach(reach) => {
-                write!(f, "wrist centre {} beyond reach", Millimetres(reach.shortfall()))
+                write!(f, "wrist center {} beyond reach", Millimeters(reach.shortfall()))
             }
             Self::FreeOutOfReach { joint, value } => {
                 write!(f, "the arm does not reach with J{joint} at {:.3} deg", value.to_degrees())
@@ -115,9 +116,9 @@ impl fmt::Display for Explanation {
 }
 
 /// A length in mm, with a decimal from 0.1 mm on and in scientific notation below.
-struct Millimetres(f64);
+struct Millimeters(f64);
 
-impl fmt::Display for Millimetres {
+impl fmt::Display for Millimeters {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mm = self.0 * 1e3;
         if mm >= 0.1 { write!(f, "{mm:.1} mm") } else { write!(f, "{mm:.1e} mm") }
@@ -133,7 +134,7 @@ mod tests {
     #[test]
     fn sentences_name_the_figure_and_the_joint() {
         let far = Explanation::OutOfReach(Reach::TooFar { shortfall: 0.012 });
-        assert_eq!(far.to_string(), "wrist centre 12.0 mm beyond reach");
+        assert_eq!(far.to_string(), "wrist center 12.0 mm beyond reach");
         let outside =
             Explanation::OutsideLimits { solutions: 4, joint: 5, excess: 3.1_f64.to_radians() };
         assert_eq!(outside.to_string(), "all 4 outside limits; nearest: J5 by 3.1 deg");

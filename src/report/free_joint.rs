@@ -5,9 +5,9 @@
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum FreeJoint {
-    /// The wrist centre is on axis 1: q1 is free, q2 and q3 are fixed, the wrist follows.
+    /// The wrist center is on axis 1: q1 is free, q2 and q3 are fixed, the wrist follows.
     Base,
-    /// The wrist centre is on axis 2: q2 is free, q1 and q3 are fixed, the wrist follows.
+    /// The wrist center is on axis 2: q2 is free, q1 and q3 are fixed, the wrist follows.
     Upper,
     /// The same of an arm with coupled axes 2 and 3: q3 goes with q2.
     UpperCoupled,
@@ -15,18 +15,18 @@ pub enum FreeJoint {
     WristSum,
     /// Axes 4 and 6 are one: q4 is free, q4 - q6 is fixed.
     WristDifference,
-    /// Axes 2, 3, 4 and 6 of a three-parallel arm are parallel: q6 is free, q1 and q5 are fixed, the
-    /// arm follows.
+    /// Axes 2, 3, 4 and 6 of a three-parallel arm are parallel: q6 is free, q1 and q5 are fixed,
+    /// the arm follows.
     Parallel,
     /// Axes 1 and 3 of a seven-axis arm are one: q1 is free, q1 + q3 is fixed.
     ShoulderSum,
     /// Axes 1 and 3 of a seven-axis arm are one: q1 is free, q1 - q3 is fixed.
     ShoulderDifference,
-    /// The shoulder of a seven-axis arm is on axis 5: q5 is free, q4 and q6 are fixed, the shoulder's
-    /// joints follow.
+    /// The shoulder of a seven-axis arm is on axis 5: q5 is free, q4 and q6 are fixed, the
+    /// shoulder's joints follow.
     Forearm,
-    /// The shoulder of a seven-axis arm is on axis 6: q6 is free, q4 and q5 are fixed, the shoulder's
-    /// joints follow.
+    /// The shoulder of a seven-axis arm is on axis 6: q6 is free, q4 and q5 are fixed, the
+    /// shoulder's joints follow.
     Hand,
 }
 
@@ -37,15 +37,16 @@ struct SelfMotion {
     /// What stays fixed.
     fixed: &'static str,
     rest: Rest,
-    /// The branches that it runs through, each by what its slots differ in from that of a solution of
-    /// it. The free joint may flip what turns with it or bring another singularity; the two elbows of
-    /// a stretched arm are one solution and go apart along the self-motion.
+    /// The branches that it runs through, each by what its slots differ in from that of a solution
+    /// of it. The free joint may flip what turns with it or bring another singularity; the two
+    /// elbows of a stretched arm are one solution and go apart along the self-motion.
     branches: &'static [&'static [usize]],
 }
 
 /// What the other joints do.
 enum Rest {
-    /// One of them moves: its number, from 1, and the sign with which its sum with the free one is fixed.
+    /// One of them moves: its number, from 1, and the sign with which its sum with the free one is
+    /// fixed.
     Partner(usize, f64),
     /// All move but these, from 1.
     Still(&'static [usize]),

@@ -1,7 +1,7 @@
 //! What irbkin reports, as data: the words that answers and errors have in common.
 //!
-//! Nothing here calculates. A structure, a solve and an error all speak of the same joints, reaches and conditions, so these stand below
-//! all of them.
+//! Nothing here calculates. A structure, a solve and an error all speak of the same joints, reaches
+//! and conditions, so these stand below all of them.
 
 mod configuration;
 mod explanation;

@@ -23,7 +23,8 @@ pub struct Condition {
     pub relation: Relation,
     /// The axes, from 1.
     pub axes: (usize, usize),
-    /// How far they are off: an angle [rad] or, for axes that should meet or lie in one plane, a distance [m].
+    /// How far they are off: an angle [rad] or, for axes that should meet or lie in one plane, a
+    /// distance [m].
     pub off: f64,
 }
 
@@ -41,15 +42,16 @@ pub(crate) struct Pattern {
     pub(crate) conditions: &'static [(Relation, (usize, usize))],
 }
 
-/// Why an arm has none of the known structures: every condition that the nearest of them asks for and
-/// the arm does not meet.
+/// Why an arm has none of the known structures: every condition that the nearest of them asks for
+/// and the arm does not meet.
 #[derive(Clone, Copy, Debug)]
 pub struct UnknownStructure {
     reason: Reason,
     snap: Option<f64>,
 }
 
-/// What an arm lacks is the same whether it was read from text, which could be snapped, or from the table of it.
+/// What an arm lacks is the same whether it was read from text, which could be snapped, or from the
+/// table of it.
 impl PartialEq for UnknownStructure {
     fn eq(&self, other: &Self) -> bool {
         self.reason == other.reason
@@ -81,7 +83,8 @@ impl UnknownStructure {
         Self { snap, ..self }
     }
 
-    /// The least power of ten [rad] that, given as `snap`, gives the arm a known structure; none where none does.
+    /// The least power of ten [rad] that, given as `snap`, gives the arm a known structure; none
+    /// where none does.
     #[must_use]
     pub fn snap(&self) -> Option<f64> {
         self.snap
@@ -115,7 +118,8 @@ impl UnknownStructure {
         }
     }
 
-    /// The conditions that are not met. None is off where the arm has a structure but a link without length, or another number of joints.
+    /// The conditions that are not met. None is off where the arm has a structure but a link
+    /// without length, or another number of joints.
     pub fn conditions(&self) -> impl Iterator<Item = Condition> {
         let (conditions, off) = match self.reason {
             Reason::Off { pattern, off } => (pattern.conditions, off),

@@ -13,7 +13,8 @@ use crate::error::{Names, UrdfFault};
 /// Number of links up to which all their names are told, where one was not known.
 const FEW: usize = 12;
 
-/// The joints from base to tip, and nothing but joints that turn or are fixed; those that turn are as many as one of `wanted`.
+/// The joints from base to tip, and nothing but joints that turn or are fixed; those that turn are
+/// as many as one of `wanted`.
 pub(super) fn chain_between<'t, 'a>(
     tree: &'t Tree<'a>,
     base: Option<&str>,
@@ -109,7 +110,8 @@ struct Way {
     barred_by: Option<usize>,
 }
 
-/// The only link at the end of a chain whose joints are as many as one of `wanted`. A frame is never guessed: of several none is taken.
+/// The only link at the end of a chain whose joints are as many as one of `wanted`. A frame is
+/// never guessed: of several none is taken.
 fn only_tip(tree: &Tree<'_>, base: usize, wanted: &[usize]) -> Result<usize, UrdfFault> {
     let mut ways = vec![Way::default(); tree.links.len()];
     let mut ends = Vec::new();

@@ -39,7 +39,8 @@ pub(super) struct Motion {
 }
 
 impl Placed {
-    /// The child's frame in the parent's at a joint angle of zero, angles within `snap` of a multiple of 90 deg [rad] being one.
+    /// The child's frame in the parent's at a joint angle of zero, angles within `snap` of a
+    /// multiple of 90 deg [rad] being one.
     pub(super) fn origin(&self, snap: f64) -> Pose {
         let [roll, pitch, yaw] = self.rpy.map(|angle| snapped(angle, snap));
         constant_pose(self.xyz, [yaw, pitch, roll])
@@ -62,7 +63,8 @@ fn snapped_direction(direction: Vector3<f64>, snap: f64) -> Vector3<f64> {
 }
 
 impl<'a> Joint<'a> {
-    /// The joint of an element. `missing` tells what the element lacks, `link_of` the index of a link by its name.
+    /// The joint of an element. `missing` tells what the element lacks, `link_of` the index of a
+    /// link by its name.
     pub(super) fn new(
         node: Node<'a, 'a>,
         missing: impl Fn(&'static str) -> UrdfFault,
@@ -130,7 +132,8 @@ impl<'a> Joint<'a> {
         Ok(Some(Motion { direction, limits, velocity }))
     }
 
-    /// Limits, infinite for a continuous joint, and velocity. A limit that is absent is zero, as the format has it.
+    /// Limits, infinite for a continuous joint, and velocity. A limit that is absent is zero, as
+    /// the format has it.
     fn limit(&self) -> Result<([f64; 2], Option<f64>), UrdfFault> {
         let unlimited = [f64::NEG_INFINITY, f64::INFINITY];
         let Some(limit) = self.element("limit")? else {

@@ -23,25 +23,29 @@ where
 {
     /// A robot from the text of a URDF, with the closed form of its geometry.
     ///
-    /// `base` is the link in whose frame poses are given: the one without a parent when not given. `tip` is the link that poses are of: when
-    /// not given, the only one at the end of a chain of `N` revolute joints. Joints count from base to tip; what is fixed between them, and
-    /// what is not between them, is none. A joint turns the way its axis points. Limits and velocities are those of the text; a velocity
-    /// that is absent or zero is unknown, and one unknown leaves the robot without velocities.
+    /// `base` is the link in whose frame poses are given: the one without a parent when not given.
+    /// `tip` is the link that poses are of: when not given, the only one at the end of a chain of
+    /// `N` revolute joints. Joints count from base to tip; what is fixed between them, and what is
+    /// not between them, is none. A joint turns the way its axis points. Limits and velocities are
+    /// those of the text; a velocity that is absent or zero is unknown, and one unknown leaves the
+    /// robot without velocities.
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidModel`] when the text is no URDF, `base` or `tip` are no links of a chain of `N` revolute joints or several links
-    /// could be meant, or, for six axes, the arm has no known form. [`Robot::serial_chain_from_urdf`] takes such an arm without its inverse.
+    /// [`Error::InvalidModel`] when the text is no URDF, `base` or `tip` are no links of a chain of
+    /// `N` revolute joints or several links could be meant, or, for six axes, the arm has no known
+    /// form. [`Robot::serial_chain_from_urdf`] takes such an arm without its inverse.
     pub fn from_urdf(text: &str, base: Option<&str>, tip: Option<&str>) -> Result<Self, Error> {
         UrdfArm::read(text, base, tip, &[N])?.robot(true, 0.0)
     }
 
-    /// As [`Robot::from_urdf`], with each angle of an origin, and each axis, that is within `snap` of a multiple of 90 deg [rad] made exact:
-    /// 1.5708 is a right angle then.
+    /// As [`Robot::from_urdf`], with each angle of an origin, and each axis, that is within `snap`
+    /// of a multiple of 90 deg [rad] made exact: 1.5708 is a right angle then.
     ///
     /// # Errors
     ///
-    /// As [`Robot::from_urdf`], and when `snap` is not 0 to [`MOST_SNAP`](crate::thresholds::MOST_SNAP).
+    /// As [`Robot::from_urdf`], and when `snap` is not 0 to
+    /// [`MOST_SNAP`](crate::thresholds::MOST_SNAP).
     pub fn from_urdf_snapped(
         text: &str,
         base: Option<&str>,
@@ -96,8 +100,9 @@ impl UrdfArm {
         self.motions().count()
     }
 
-    /// The robot, which must have `N` joints; without `closed_form` an arm of no known form is taken too. Angles within `snap` of a multiple of
-    /// 90 deg [rad] are one. Where the arm has no known form, or no table, and would have one with more snap, that is proposed.
+    /// The robot, which must have `N` joints; without `closed_form` an arm of no known form is
+    /// taken too. Angles within `snap` of a multiple of 90 deg [rad] are one. Where the arm has no
+    /// known form, or no table, and would have one with more snap, that is proposed.
     pub(crate) fn robot<const N: usize>(
         &self,
         closed_form: bool,

@@ -1,20 +1,24 @@
-//! The shape of a text before it is parsed: what would take the parser longer than in proportion to the text is refused.
+//! The shape of a text before it is parsed: what would take the parser longer than in proportion to
+//! the text is refused.
 //!
-//! The parser compares each attribute of an element with those before it, and each namespace with all that are in scope: 100 kB of nested
-//! declarations take seconds. This scan is one pass without memory. It reads tags, quotes, comments and character data as the parser does; where a
-//! text is no XML, the parser stops no later than where the two could part.
+//! The parser compares each attribute of an element with those before it, and each namespace with
+//! all that are in scope: 100 kB of nested declarations take seconds. This scan is one pass without
+//! memory. It reads tags, quotes, comments and character data as the parser does; where a text is
+//! no XML, the parser stops no later than where the two could part.
 
 use alloc::borrow::ToOwned;
 
 use crate::error::UrdfFault;
 
-/// Most namespaces that a text declares [1]: real ones declare about ten. Each name is looked up among all of them.
+/// Most namespaces that a text declares [1]: real ones declare about ten. Each name is looked up
+/// among all of them.
 const MOST_NAMESPACES: usize = 256;
 
 /// Most attributes of an element [1]: real ones have at most ten. Each is compared with all others.
 const MOST_ATTRIBUTES: usize = 256;
 
-/// Refuses a text with more namespaces, or more attributes of an element, than can be read in linear time.
+/// Refuses a text with more namespaces, or more attributes of an element, than can be read in
+/// linear time.
 pub(super) fn check_shape(text: &str) -> Result<(), UrdfFault> {
     let mut namespaces = 0;
     let mut rest = text;

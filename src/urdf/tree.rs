@@ -27,7 +27,8 @@ pub(super) struct Tree<'a> {
     index: BTreeMap<&'a str, usize>,
 }
 
-/// The text as XML, and the number of lines before it: an XML declaration is one at the very beginning only. Entities are not read.
+/// The text as XML, and the number of lines before it: an XML declaration is one at the very
+/// beginning only. Entities are not read.
 pub(super) fn parsed(text: &str) -> Result<(Document<'_>, usize), UrdfFault> {
     let body = text.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}');
     let skipped = text[..text.len() - body.len()].matches('\n').count();
@@ -57,7 +58,8 @@ fn not_xml(error: &roxmltree::Error, skipped: usize, body: &str) -> UrdfFault {
 }
 
 impl<'a> Tree<'a> {
-    /// Reads names and connections; the numbers of a joint are read when it is between base and tip.
+    /// Reads names and connections; the numbers of a joint are read when it is between base and
+    /// tip.
     pub(super) fn new(document: &'a Document<'a>, skipped: usize) -> Result<Self, UrdfFault> {
         let robot = document.root_element();
         let elements = |name| {
@@ -124,7 +126,8 @@ impl<'a> Tree<'a> {
         (0..self.links.len()).filter(|&link| self.above[link].is_none())
     }
 
-    /// Every link that hangs on those given, a parent before its children; no link has two parents, and none comes twice.
+    /// Every link that hangs on those given, a parent before its children; no link has two parents,
+    /// and none comes twice.
     pub(super) fn hanging_on(&self, links: impl Iterator<Item = usize>) -> Vec<usize> {
         let mut found: Vec<usize> = links.collect();
         let mut next = 0;

@@ -36,6 +36,6 @@ pub fn odd() -> Robot<6> {
     Robot::from_opw(odd).unwrap().coupled().unwrap()
 }
 
-pub fn with_rod() -> Robot<6> {
-    limited().with_rod_limits(Some([-100.0_f64.to_radians(), 40.0_f64.to_radians()])).unwrap()
+pub fn with_linkage() -> Robot<6> {
+    limited().with_linkage_limits(Some([-100.0_f64.to_radians(), 40.0_f64.to_radians()])).unwrap()
 }

@@ -5,23 +5,23 @@ use std::num::NonZeroUsize;
 
 use irbkin::{JointLimits, Robot, batch, pose_to_rows};
 
-use crate::common::coupled_arm::{limited, odd, with_rod};
+use crate::common::coupled_arm::{limited, odd, with_linkage};
 use crate::common::{Rng, apart, on_each_set};
 
 const SLOTS: usize = 8;
 
 #[test]
-fn batch_equals_single_and_the_careful_solve() {
+fn batch_equals_single_and_the_scalar_solve() {
     let mut rng = Rng::new(6);
-    // Limits so far out that lanes do not take them: the careful solve, of the same postures.
-    let careful = |robot: &Robot<6>| {
+    // Limits so far out that lanes do not take them: the scalar solve, of the same postures.
+    let scalar = |robot: &Robot<6>| {
         let mut far = robot.limits().to_array();
         far[0] = far[0].map(|limit| limit + TAU);
         robot.clone().with_limits(JointLimits::new(far).unwrap())
     };
     on_each_set(|set| {
-        for robot in [limited(), with_rod(), odd()] {
-            let slow = careful(&limited()).with_rod_limits(robot.limits().rod()).unwrap();
+        for robot in [limited(), with_linkage(), odd()] {
+            let slow = scalar(&limited()).with_linkage_limits(robot.limits().linkage()).unwrap();
             let joints: Vec<_> = (0..101).map(|_| rng.inside(robot.limits())).collect();
             let poses: Vec<_> = joints.iter().map(|q| robot.fk(q)).collect();
             let rows: Vec<f64> = poses.iter().flat_map(pose_to_rows).collect();

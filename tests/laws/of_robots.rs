@@ -11,7 +11,7 @@ fn a_solution_stands_for_the_turn_inside_the_limits() {
     let q = [0.2, 0.1, (-230.0_f64).to_radians(), 0.3, 0.4, 0.5];
     let found = robot.ik(&robot.fk(&q)).unwrap();
     let same = found.iter().find(|s| apart(&s.q, &q) < 1e-10).unwrap();
-    assert!((same.q[2] - q[2]).abs() < 1e-10 && same.within_limits());
+    assert!((same.q[2] - q[2]).abs() < 1e-10 && same.is_within_limits());
 }
 
 #[test]
@@ -47,10 +47,10 @@ fn self_motion_is_refused_for_a_solution_of_another_pose() {
     let home = robot.fk(&[0.0; 6]);
     let free = *robot.ik(&home).unwrap().slot(0).unwrap();
     let other = robot.fk(&[0.3, -0.2, 0.4, 0.5, -0.6, 0.7]);
-    assert!(robot.with_free(&home, &free, 0.4).unwrap().is_some());
+    assert!(robot.with_free_joint(&home, &free, 0.4).unwrap().is_some());
     assert!(
         robot
-            .with_free(&other, &free, 0.4)
+            .with_free_joint(&other, &free, 0.4)
             .unwrap_err()
             .to_string()
             .starts_with("solution: its tool is ")

@@ -2,24 +2,24 @@
 
 mod complete;
 mod reach;
-mod recognised;
+mod recognized;
 
 use std::f64::consts::FRAC_PI_2;
 
-use irbkin::{PoseError, Robot};
+use irbkin::{PoseDifference, Robot};
 
 use crate::rng::Rng;
 use crate::structures::spherical_shoulder::{ShoulderArm, named};
 use crate::structures::{Arm as _, SEVEN, Subject};
 
 #[test]
-fn the_arm_of_the_tests_is_the_catalogues() {
+fn the_arm_of_the_tests_is_the_catalogs() {
     let mut rng = Rng::new(1);
     for name in ["Panda", "FR3"] {
         let (robot, built) = (Robot::<7>::named(name).unwrap(), ShoulderArm::panda().robot());
         for _ in 0..100 {
             let q = rng.angles();
-            let off = PoseError::between(&robot.fk(&q), &built.fk(&q)).largest();
+            let off = PoseDifference::between(&robot.fk(&q), &built.fk(&q)).largest();
             assert!(off < 1e-14, "{name}: {off:e}");
         }
     }

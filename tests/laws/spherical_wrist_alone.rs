@@ -21,7 +21,7 @@ fn shortfall_is_the_way_back_to_reach() {
     let solutions = robot.ik(&pose).unwrap();
     assert!(solutions.is_empty());
     assert!((solutions.reach().shortfall() - 0.012).abs() < 1e-15);
-    assert_eq!(solutions.explain().to_string(), "wrist centre 12.0 mm beyond reach");
+    assert_eq!(solutions.explain().to_string(), "wrist center 12.0 mm beyond reach");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::f64::consts::PI;
 
-use irbkin::{Mdh, Pose, PoseError, Reach, Robot};
+use irbkin::{Mdh, Pose, PoseDifference, Reach, Robot};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
@@ -65,7 +65,7 @@ proptest! {
         let b = if mirror[0] { arm.b.map(|b| -b) } else { arm.b };
         let (d5, d6) = (signed(mirror[1], arm.d5), signed(mirror[2], arm.d6));
         let subject = Subject::new("mirrored", ParallelArm { b, d5, d6, ..arm }, &SIX);
-        prop_assert_eq!(subject.robot.family(), "three parallel axes");
+        prop_assert_eq!(subject.robot.structure(), "three parallel axes");
         let pose = subject.robot.fk(&q);
         let solutions = subject.ik(&pose, &q);
         for solution in &solutions {
@@ -123,14 +123,14 @@ fn shortfall_is_what_the_nearest_branch_lacks() {
 }
 
 #[test]
-fn the_arm_of_the_tests_is_the_catalogues() {
+fn the_arm_of_the_tests_is_the_catalogs() {
     let mut rng = Rng::new(1);
     for name in ["UR3", "UR5e", "UR10e", "UR20"] {
         let (arm, robot) = ParallelArm::universal(name);
         let built = arm.robot();
         for _ in 0..100 {
             let q = std::array::from_fn(|_| rng.between(-PI, PI));
-            let off = PoseError::between(&robot.fk(&q), &built.fk(&q)).largest();
+            let off = PoseDifference::between(&robot.fk(&q), &built.fk(&q)).largest();
             assert!(off < 1e-14 * (1.0 + arm.reach()), "{name}: {off:e}");
         }
     }

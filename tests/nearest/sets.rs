@@ -87,7 +87,8 @@ impl Arm {
         Self { name: name.to_owned(), robot, geometry: Geometry::Wrist(opw) }
     }
 
-    /// A joint vector of the kind, this far from each of its singularities; none where this draw has none.
+    /// A joint vector of the kind, this far from each of its singularities; none where this draw
+    /// has none.
     pub fn place(&self, kind: Kind, off: f64, rng: &mut Rng) -> Option<[f64; 6]> {
         let drawn = self
             .robot
@@ -156,7 +157,8 @@ fn coupled(mut q: [f64; 6]) -> [f64; 6] {
     q
 }
 
-/// The angle of axis 2, from straight up, that brings an end (along the upper arm, across) to x before it.
+/// The angle of axis 2, from straight up, that brings an end (along the upper arm, across) to x
+/// before it.
 fn over(x: f64, [along, across]: [f64; 2], backward: bool) -> Option<f64> {
     let sine = x / along.hypot(across);
     let angle = if backward { PI - sine.asin() } else { sine.asin() };

@@ -7,7 +7,9 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Arm:
-    """Modified table (alpha [deg], a [mm], d [mm], theta offset [deg]), limits [deg], velocities [deg/s]."""
+    """Modified table (alpha [deg], a [mm], d [mm], theta offset [deg]), limits [deg], velocities
+    [deg/s].
+    """
 
     name: str
     rows_mm_deg: tuple
@@ -21,7 +23,9 @@ class Arm:
 
     @property
     def lengths(self):
-        """Of an ABB arm [m]: axis 2 off axis 1, elbow offset, height of axis 2, upper arm, forearm, wrist to flange."""
+        """Of an ABB arm [m]: axis 2 off axis 1, elbow offset, height of axis 2, upper arm, forearm,
+        wrist to flange.
+        """
         a, d = self.rows[:, 1], self.rows[:, 2]
         return a[1], a[3], d[0], a[2], d[3], d[5]
 
@@ -29,7 +33,7 @@ class Arm:
 # Nine ABB arms: tables, limits and velocities as most public sources have them
 # (RobotComponents/RobotComponents @ 8eaaf1a2cc, visose/Robots @ 1573995b4d,
 # ros-industrial/abb_experimental @ 20b9cf86ad, 4rtur1t0/ARTE @ a8df0b121e,
-# SaltworkerMLU/robotkinematicscatalogue @ ea88ef98a3). Where they disagree the majority stands here.
+# SaltworkerMLU/robotkinematicscatalog @ ea88ef98a3). Where they disagree the majority stands here.
 # fmt: off
 ABB = {
     arm.name: arm
@@ -118,19 +122,30 @@ UR_TWISTS_DEG = (90, 0, 0, 90, -90, 0)
 
 def ur_rows(name):
     """Standard rows of a Universal Robots arm [rad, m]."""
-    d1, a2, a3, d4, d5, d6 = {key.lower(): figures for key, figures in UR_FIGURES.items()}[name.lower()]
-    return np.column_stack([np.deg2rad(UR_TWISTS_DEG), [0, a2, a3, 0, 0, 0], [d1, 0, 0, d4, d5, d6], np.zeros(6)])
+    d1, a2, a3, d4, d5, d6 = {key.lower(): figures for key, figures in UR_FIGURES.items()}[
+        name.lower()
+    ]
+    return np.column_stack(
+        [np.deg2rad(UR_TWISTS_DEG), [0, a2, a3, 0, 0, 0], [d1, 0, 0, d4, d5, d6], np.zeros(6)]
+    )
 
 
 def ur_arm(name):
     """The same as modified rows: twist and length move on by one row."""
     d1, a2, a3, d4, d5, d6 = (1e3 * length for length in UR_FIGURES[name])
-    rows = ((0, 0, d1, 0), (90, 0, 0, 0), (0, a2, 0, 0), (0, a3, d4, 0), (90, 0, d5, 0), (-90, 0, d6, 0))
+    rows = (
+        (0, 0, d1, 0),
+        (90, 0, 0, 0),
+        (0, a2, 0, 0),
+        (0, a3, d4, 0),
+        (90, 0, d5, 0),
+        (-90, 0, d6, 0),
+    )
     return Arm(name, rows, ((-360, 360),) * 6, None)
 
 
 UR = {name: ur_arm(name) for name in UR_FIGURES}
-CATALOGUE = {**ABB, **UR, "Panda": PANDA, "FR3": FR3}
+CATALOG = {**ABB, **UR, "Panda": PANDA, "FR3": FR3}
 
 # CRB 15000-5/0.95: axes 5 and 6 pass 80 mm apart.
 GOFA_ROWS_MM_DEG = (
@@ -140,7 +155,14 @@ GOFA_ROWS_MM_DEG = (
 # An article's table of an IRB 1410-4/1.45, with the upper arm along -x of its frame.
 IRB1410 = Arm(
     "IRB 1410-4/1.45",
-    ((0, 0, 475, 0), (-90, 150, 0, 90), (0, -600, 0, 0), (90, -120, 720, 0), (-90, 0, 0, 0), (90, 0, 85, 0)),
+    (
+        (0, 0, 475, 0),
+        (-90, 150, 0, 90),
+        (0, -600, 0, 0),
+        (90, -120, 720, 0),
+        (-90, 0, 0, 0),
+        (90, 0, 85, 0),
+    ),
     ((-170, 170), (-70, 70), (-70, 70), (-150, 150), (-115, 115), (-300, 300)),
     None,
 )
@@ -160,9 +182,15 @@ COMAU_NJ165 = {
     "a1": 0.400333, "a2": -0.251449, "b": 0.0, "c1": 0.83, "c2": 1.177556, "c3": 1.443593, "c4": 0.23,
     "offsets": (0, 0, 0, 0, 0, 0), "signs": (-1, 1, -1, -1, 1, -1),
 }  # fmt: skip
-# No maker's: every parameter plays a part, the wrist centre stands 50 mm beside the plane through axis 1.
+# No maker's: every parameter plays a part, the wrist center stands 50 mm beside the plane through
+# axis 1.
 LATERAL = {
     "a1": 0.15, "a2": -0.11, "b": 0.05, "c1": 0.45, "c2": 0.6, "c3": 0.64, "c4": 0.1,
     "offsets": (0.3, -0.2, -QUARTER, 0.1, -0.4, 0.5), "signs": (1, -1, 1, 1, -1, -1),
 }  # fmt: skip
-OPW = {"IRB 2400 serial": IRB2400, "KUKA KR 6 R700": KUKA_KR6, "Comau NJ-165": COMAU_NJ165, "lateral offset": LATERAL}
+OPW = {
+    "IRB 2400 serial": IRB2400,
+    "KUKA KR 6 R700": KUKA_KR6,
+    "Comau NJ-165": COMAU_NJ165,
+    "lateral offset": LATERAL,
+}

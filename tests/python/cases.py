@@ -24,7 +24,8 @@ def numbers(row, fields):
 
 
 def half_digit(row, fields):
-    """Half a unit in the last digit of the least exact of some fields: how far its text may be from the truth.
+    """Half a unit in the last digit of the least exact of some fields: how far its text may be from
+    the truth.
 
     An integer is taken as exact: the sources chose it.
     """
@@ -38,7 +39,7 @@ def pose_mm(row, xyz=XYZ, wxyz=("q1_w", "q2_x", "q3_y", "q4_z")):
 
 
 def matrix(row):
-    """The pose of a row that has a matrix in metres."""
+    """The pose of a row that has a matrix in meters."""
     pose = np.eye(4)
     pose[:3, :3] = numbers(row, [f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)]).reshape(3, 3)
     pose[:3, 3] = numbers(row, ("x_m", "y_m", "z_m"))

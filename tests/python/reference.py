@@ -54,17 +54,18 @@ def reach_opw(opw):
 def jacobian(fk, q, step=np.pi / 4):
     """Geometric Jacobian by central differences of `fk`: three linear rows, three angular.
 
-    A point that turns about an axis has p(q + h) - p(q - h) = 2 sin h dp/dq for any h, and the rotation between the two
-    ends is one by 2 h about the axis: the differences are exact, and a wide step keeps their rounding that of `fk`.
+    A point that turns about an axis has p(q + h) - p(q - h) = 2 sin h dp/dq for any h, and the
+    rotation between the two ends is one by 2 h about the axis: the differences are exact, and a
+    wide step keeps their rounding that of `fk`.
     """
     columns = []
     for h in np.eye(len(q)) * step:
         ahead, behind = fk(q + h), fk(q - h)
         turn = ahead[:3, :3] @ behind[:3, :3].T
         linear = (ahead[:3, 3] - behind[:3, 3]) / np.sin(step)
-        angular = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]]) / np.sin(
-            2 * step
-        )
+        angular = np.array(
+            [turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]]
+        ) / np.sin(2 * step)
         columns.append(np.concatenate([linear, angular]) / 2)
     return np.array(columns).T
 
@@ -77,8 +78,9 @@ def reach(rows):
 def rounding(reach):
     """What rounding may do to a pose that two programs compute [m, 1].
 
-    Eight transforms (seven joints and a tool) are multiplied twice; an element is a sum of four terms whose magnitudes
-    add up to at most sqrt(3) (1 + reach). An angle of up to 8 rad is rounded once for each of seven joints.
+    Eight transforms (seven joints and a tool) are multiplied twice; an element is a sum of four
+    terms whose magnitudes add up to at most sqrt(3) (1 + reach). An angle of up to 8 rad is rounded
+    once for each of seven joints.
     """
     return (2 * 8 * 4 * np.sqrt(3) + 7 * 8) * UNIT * (1 + reach)
 

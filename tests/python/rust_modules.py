@@ -8,7 +8,9 @@ from pathlib import Path
 SRC = Path(__file__).parents[2] / "src"
 
 # Comments, and what quotes could hide: strings and characters.
-NOISE = re.compile(r'//[^\n]*|/\*.*?\*/|r#".*?"#|b?"(?:\\.|[^"\\])*"|b?\'(?:\\.|[^\'\\])\'', re.DOTALL)
+NOISE = re.compile(
+    r'//[^\n]*|/\*.*?\*/|r#".*?"#|b?"(?:\\.|[^"\\])*"|b?\'(?:\\.|[^\'\\])\'', re.DOTALL
+)
 USE = re.compile(r"(?:(pub)(?:\([^)]*\))?\s+)?\buse\s+([^;]*);")
 # A path in the code itself. A method's `self.x` has no colons.
 INLINE = re.compile(r"\b((?:crate|super|self)(?:::\w+)+)")
@@ -36,7 +38,9 @@ class Module:
         """Whether it declares modules and hands on their names, and nothing else."""
         text = re.sub(r"#!?\[(?:[^\[\]]|\[[^\]]*\])*\]", "", USE.sub("", self.text))
         text = re.sub(r"(?:pub(?:\([^)]*\))?\s+)?mod\s+\w+\s*(?:;|\{[^{}]*\})", "", text)
-        text = re.sub(r"extern crate [\w ]+;|compile_error!\([^)]*\);|pub struct ReadmeBlocks;", "", text)
+        text = re.sub(
+            r"extern crate [\w ]+;|compile_error!\([^)]*\);|pub struct ReadmeBlocks;", "", text
+        )
         return not text.strip()
 
 
@@ -70,7 +74,9 @@ def expanded(tree: str) -> list[str]:
     for character in tree[start + 1 : tree.rindex("}")] + ",":
         depth += {"{": 1, "}": -1}.get(character, 0)
         if character == "," and depth == 0:
-            paths += [tree[:start] + path for path in expanded(part.strip())] if part.strip() else []
+            paths += (
+                [tree[:start] + path for path in expanded(part.strip())] if part.strip() else []
+            )
             part = ""
         else:
             part += character
@@ -118,7 +124,9 @@ def read(module: Module, known: dict[tuple[str, ...], Module]) -> None:
             module.uses.append(target)
 
 
-def absolute(path: list[str], here: tuple[str, ...], known: dict[tuple[str, ...], Module]) -> tuple[str, ...] | None:
+def absolute(
+    path: list[str], here: tuple[str, ...], known: dict[tuple[str, ...], Module]
+) -> tuple[str, ...] | None:
     """A path from the root of the crate; none where it leads out of the crate."""
     if path[0] == "crate":
         return tuple(path[1:]) or None
@@ -153,7 +161,10 @@ def home(path: tuple[str, ...], depth: int = 0) -> Module:
 @cache
 def used_by() -> dict[str, set[str]]:
     """For each module, by the file's name, the files that it uses."""
-    return {str(module): {str(home(path)) for path in module.uses} - {str(module)} for module in modules().values()}
+    return {
+        str(module): {str(home(path)) for path in module.uses} - {str(module)}
+        for module in modules().values()
+    }
 
 
 def cycles() -> list[list[str]]:

@@ -12,7 +12,9 @@ from reference import fk, fk_opw, pose_of, reach, reach_opw
 
 @dataclass(frozen=True)
 class Subject:
-    """A robot of irbkin, its forward kinematics in NumPy, a bound of its reach [m], q5 of its straight wrist."""
+    """A robot of irbkin, its forward kinematics in NumPy, a bound of its reach [m], q5 of its
+    straight wrist.
+    """
 
     robot: irbkin.Robot
     fk: object
@@ -22,7 +24,9 @@ class Subject:
 
 @cache
 def subjects():
-    """The ABB arms of the catalogue and two of other makes, whose joints have signs and offsets, by name."""
+    """The ABB arms of the catalog and two of other makes, whose joints have signs and offsets, by
+    name.
+    """
     found = {
         name: Subject(irbkin.Robot(name), lambda q, rows=arm.rows: fk(rows, q), reach(arm.rows))
         for name, arm in ABB.items()
@@ -30,7 +34,10 @@ def subjects():
     for name, opw in {"KUKA KR 6 R700": KUKA_KR6, "lateral offset": LATERAL}.items():
         robot = irbkin.Robot.from_opw(**opw, limits=[[-2 * np.pi, 2 * np.pi]] * 6, name=name)
         found[name] = Subject(
-            robot, lambda q, opw=opw: fk_opw(opw, q), reach_opw(opw), opw["signs"][4] * opw["offsets"][4]
+            robot,
+            lambda q, opw=opw: fk_opw(opw, q),
+            reach_opw(opw),
+            opw["signs"][4] * opw["offsets"][4],
         )
     return found
 
@@ -56,7 +63,11 @@ def subjects_with_joints(draw):
 
 def quaternions():
     """Unit quaternions, also with elements that are exactly zero."""
-    return numbers(-1, 1, 4).filter(lambda q: np.linalg.norm(q) > 0.1).map(lambda q: q / np.linalg.norm(q))
+    return (
+        numbers(-1, 1, 4)
+        .filter(lambda q: np.linalg.norm(q) > 0.1)
+        .map(lambda q: q / np.linalg.norm(q))
+    )
 
 
 def poses(size=3.0):

@@ -1,4 +1,6 @@
-"""Denavit-Hartenberg tables in both conventions, without irbkin: conversion, frames, columns of the Jacobian."""
+"""Denavit-Hartenberg tables in both conventions, without irbkin: conversion, frames, columns of the
+Jacobian.
+"""
 
 import numpy as np
 from reference import frames, move, turn

@@ -83,7 +83,9 @@ def test_a_misaligned_array_is_taken_too(robot, many):
 def test_every_real_number_type_is_taken_at_its_value(robot, dtype):
     given = np.array([1, 0, 1, 2, 1, 3], dtype=dtype)
     np.testing.assert_array_equal(robot.fk(given), robot.fk(given.astype(float)))
-    np.testing.assert_array_equal(robot.jacobian(given[None]), robot.jacobian(given[None].astype(float)))
+    np.testing.assert_array_equal(
+        robot.jacobian(given[None]), robot.jacobian(given[None].astype(float))
+    )
 
 
 def test_the_input_is_not_changed(robot, many):
@@ -126,9 +128,21 @@ def test_an_array_without_a_copy_is_refused_only_where_a_copy_is_needed(robot):
 
 
 WRONG_OUT = {
-    "dtype": (lambda: np.zeros((4, 4), "f4"), TypeError, r"out must be an array of dtype float64, got .*float32"),
-    "byte order": (lambda: np.zeros((4, 4), ">f8"), TypeError, r"out must be an array of dtype float64, got .*>f8"),
-    "shape": (lambda: np.zeros((3, 4)), ValueError, r"out must be C-contiguous with shape \[4, 4\], got .*\[3, 4\]"),
+    "dtype": (
+        lambda: np.zeros((4, 4), "f4"),
+        TypeError,
+        r"out must be an array of dtype float64, got .*float32",
+    ),
+    "byte order": (
+        lambda: np.zeros((4, 4), ">f8"),
+        TypeError,
+        r"out must be an array of dtype float64, got .*>f8",
+    ),
+    "shape": (
+        lambda: np.zeros((3, 4)),
+        ValueError,
+        r"out must be C-contiguous with shape \[4, 4\], got .*\[3, 4\]",
+    ),
     "flat": (lambda: np.zeros(16), ValueError, r"shape \[4, 4\], got .*shape \[16\]"),
     "Fortran order": (lambda: np.zeros((4, 4), order="F"), ValueError, "not C-contiguous"),
     "strided": (lambda: strided(np.zeros((4, 4))), ValueError, "not C-contiguous"),
@@ -165,7 +179,11 @@ def test_a_wrong_out_of_a_jacobian_or_a_batch_is_refused(robot, many):
 def test_a_call_that_fails_writes_nothing(robot, many):
     out, status = np.full((20, 8, 6), 5.0), np.full((20, 8), 5, np.uint8)
     for wrong, error, words in (
-        (np.zeros((20, 3, 4)), irbkin.InvalidPoseError, r"T must have shape \(\.\.\., 4, 4\), got \[20, 3, 4\]"),
+        (
+            np.zeros((20, 3, 4)),
+            irbkin.InvalidPoseError,
+            r"T must have shape \(\.\.\., 4, 4\), got \[20, 3, 4\]",
+        ),
         (np.zeros((20, 4, 4), complex), TypeError, "dtype complex128"),
         (np.zeros((19, 4, 4)), ValueError, r"out must be C-contiguous with shape \[19, 8, 6\]"),
     ):

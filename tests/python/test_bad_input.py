@@ -1,11 +1,19 @@
-"""What bad input gets: an error of the right kind that names the argument, what came and what is wanted."""
+"""What bad input gets: an error of the right kind that names the argument, what came and what is
+wanted.
+"""
 
 import inspect
 
 import irbkin
 import numpy as np
 import pytest
-from irbkin import InvalidJointsError, InvalidModelError, InvalidPoseError, IrbkinError, UnknownRobotError
+from irbkin import (
+    InvalidJointsError,
+    InvalidModelError,
+    InvalidPoseError,
+    IrbkinError,
+    UnknownRobotError,
+)
 
 ROBOT = irbkin.Robot("IRB 2600-12/1.65")
 Q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
@@ -23,14 +31,14 @@ TAKING_A_POSE = {
     "check_pose": ROBOT.check_pose,
     "with_tool": ROBOT.with_tool,
     "with_base": ROBOT.with_base,
-    "to_xyz_quaternion": irbkin.to_xyz_quaternion,
+    "to_xyz_wxyz": irbkin.to_xyz_wxyz,
     "to_xyz_euler_zyx": irbkin.to_xyz_euler_zyx,
 }
 TAKING_A_VECTOR = {
     "seed": (lambda seed: ROBOT.ik_nearest(POSE, seed), 6, InvalidJointsError),
     "weights": (lambda weights: ROBOT.ik_nearest(POSE, Q, weights=weights), 6, InvalidJointsError),
     "xyz": (irbkin.pose, 3, InvalidPoseError),
-    "quaternion": (lambda quaternion: irbkin.pose([0, 0, 0], quaternion), 4, InvalidPoseError),
+    "wxyz": (lambda wxyz: irbkin.pose([0, 0, 0], wxyz), 4, InvalidPoseError),
     "euler_zyx": (lambda euler: irbkin.pose([0, 0, 0], euler_zyx=euler), 3, InvalidPoseError),
 }
 NO_NUMBERS = {
@@ -62,7 +70,12 @@ def sheared(by):
 
 @pytest.mark.parametrize("value", NO_NUMBERS.values(), ids=NO_NUMBERS)
 def test_what_is_no_number_is_a_type_error(value):
-    calls = {**TAKING_JOINTS, **TAKING_A_POSE, "ik_batch": ROBOT.ik_batch, "with_limits": ROBOT.with_limits}
+    calls = {
+        **TAKING_JOINTS,
+        **TAKING_A_POSE,
+        "ik_batch": ROBOT.ik_batch,
+        "with_limits": ROBOT.with_limits,
+    }
     calls["follow"] = lambda T: ROBOT.follow(T, Q)
     # None is an answer to the others: they have a default.
     calls |= {name: TAKING_A_VECTOR[name][0] for name in ("seed", "xyz")}
@@ -108,7 +121,11 @@ MANY_POSES = [(2, 4, 4), (1, 4, 4)]
 
 @pytest.mark.parametrize(
     ("name", "shape"),
-    [(name, shape) for name in TAKING_A_POSE for shape in NO_POSES + MANY_POSES * (name != "ik_nearest")],
+    [
+        (name, shape)
+        for name in TAKING_A_POSE
+        for shape in NO_POSES + MANY_POSES * (name != "ik_nearest")
+    ],
     ids=str,
 )
 def test_a_pose_of_another_shape(name, shape):
@@ -131,13 +148,28 @@ FAULTS = {
     "NaN": (spoiled(0, 1, np.nan), r"^pose\[0, 1\] is NaN: every element must be finite$"),
     "inf": (spoiled(2, 3, -np.inf), r"^pose\[2, 3\] is -inf: every element must be finite$"),
     "far": (spoiled(0, 3, 1e155), r"^pose\[0, 3\] is 1e155 m, its size must be at most 1e6 m$"),
-    "far the other way": (spoiled(2, 3, -1.1e6), r"^pose\[2, 3\] is -1\.1e6 m, its size must be at most 1e6 m$"),
+    "far the other way": (
+        spoiled(2, 3, -1.1e6),
+        r"^pose\[2, 3\] is -1\.1e6 m, its size must be at most 1e6 m$",
+    ),
     "last row": (spoiled(3, 0, 0.5), r"^pose row 3 must be \[0, 0, 0, 1\], got \[0\.5, 0, 0, 1\]$"),
-    "last row by little": (spoiled(3, 2, 2e-9), r"^pose row 3 must be \[0, 0, 0, 1\], got \[0, 0, 0\.000000002, 1\]$"),
+    "last row by little": (
+        spoiled(3, 2, 2e-9),
+        r"^pose row 3 must be \[0, 0, 0, 1\], got \[0, 0, 0\.000000002, 1\]$",
+    ),
     "transposed": (POSE.T.copy(), r"^pose row 3 must be \[0, 0, 0, 1\], got \["),
-    "mirrored": (POSE @ np.diag([1, 1, -1, 1]), r"^pose rotation mirrors: its determinant is -1\.000000, it must be 1"),
-    "scaled": (POSE @ np.diag([2, 2, 2, 1]), r"^pose rotation is off orthonormal by 3\.000e0, more than the 1e-5"),
-    "sheared": (sheared(1.1e-5), r"^pose rotation is off orthonormal by 1\.100e-5, more than the 1e-5"),
+    "mirrored": (
+        POSE @ np.diag([1, 1, -1, 1]),
+        r"^pose rotation mirrors: its determinant is -1\.000000, it must be 1",
+    ),
+    "scaled": (
+        POSE @ np.diag([2, 2, 2, 1]),
+        r"^pose rotation is off orthonormal by 3\.000e0, more than the 1e-5",
+    ),
+    "sheared": (
+        sheared(1.1e-5),
+        r"^pose rotation is off orthonormal by 1\.100e-5, more than the 1e-5",
+    ),
     "no rotation": (np.diag([0.0, 0, 0, 1]), r"^pose rotation is off orthonormal by 1\.000e0"),
 }
 
@@ -178,17 +210,25 @@ def test_a_vector_of_another_length_is_told_the_length(name):
             r"^seed: joint 4 is -1e15 rad, its size must be at most 1e5 rad \(remove whole turns\)$",
         ),
         ("xyz", [0, 0, 2e6], r"^xyz\[2\] is 2e6 m, its size must be at most 1e6 m$"),
-        ("weights", [1, 1, 1, 1, 1, -2], "weights: joint 6 is -2, a weight must be finite and not negative"),
-        ("weights", [np.inf, 1, 1, 1, 1, 1], "weights: joint 1 is inf, a weight must be finite and not negative"),
-        ("xyz", [0, np.nan, 0], r"xyz\[1\] is NaN: every element must be finite"),
-        ("quaternion", [1, 0, np.inf, 0], r"quaternion\[2\] is inf: every element must be finite"),
         (
-            "quaternion",
+            "weights",
+            [1, 1, 1, 1, 1, -2],
+            "weights: joint 6 is -2, a weight must be finite and not negative",
+        ),
+        (
+            "weights",
+            [np.inf, 1, 1, 1, 1, 1],
+            "weights: joint 1 is inf, a weight must be finite and not negative",
+        ),
+        ("xyz", [0, np.nan, 0], r"xyz\[1\] is NaN: every element must be finite"),
+        ("wxyz", [1, 0, np.inf, 0], r"wxyz\[2\] is inf: every element must be finite"),
+        (
+            "wxyz",
             [1.1, 0, 0, 0],
             r"quaternion norm is 1\.100000, it must be 1 within 2e-3 \(order is w, x, y, z\)",
         ),
-        ("quaternion", [1.0021, 0, 0, 0], r"quaternion norm is 1\.002100, it must be 1 within 2e-3"),
-        ("quaternion", [0, 0, 0, 0], r"quaternion norm is 0\.000000"),
+        ("wxyz", [1.0021, 0, 0, 0], r"quaternion norm is 1\.002100, it must be 1 within 2e-3"),
+        ("wxyz", [0, 0, 0, 0], r"quaternion norm is 0\.000000"),
         ("euler_zyx", [0, 0, np.inf], r"euler_zyx\[2\] is inf: every element must be finite"),
     ],
 )
@@ -226,7 +266,9 @@ def test_angles_of_too_many_turns_are_refused_where_an_answer_is_counted_from_th
     with pytest.raises(InvalidJointsError, match=rf"^q\[1\]: q: {words}"):
         ROBOT.configuration([Q, q])
     panda = irbkin.Robot("Panda")
-    with pytest.raises(InvalidJointsError, match=r"^q7: joint 7 is .* rad, its size must be at most 1e5 rad"):
+    with pytest.raises(
+        InvalidJointsError, match=r"^q7: joint 7 is .* rad, its size must be at most 1e5 rad"
+    ):
         panda.ik(POSE, angle)
     assert (panda.ik_batch(POSE, [0.1, angle]).status[1] == irbkin.Status.INVALID).all()
     nearest = ROBOT.ik_nearest(np.array([POSE] * 2), [Q, q])
@@ -238,7 +280,7 @@ def test_angles_of_too_many_turns_are_refused_where_an_answer_is_counted_from_th
 
 
 def test_two_orientations_are_one_too_many():
-    with pytest.raises(TypeError, match="give quaternion or euler_zyx, not both"):
+    with pytest.raises(TypeError, match="give wxyz or euler_zyx, not both"):
         irbkin.pose([0, 0, 0], [1, 0, 0, 0], [0, 0, 0])
 
 
@@ -262,7 +304,13 @@ def test_threads_are_a_count(threads, error, words):
 
 
 def test_errors_are_value_errors_of_one_family():
-    for error in (InvalidPoseError, InvalidJointsError, InvalidModelError, irbkin.UnreachableError, UnknownRobotError):
+    for error in (
+        InvalidPoseError,
+        InvalidJointsError,
+        InvalidModelError,
+        irbkin.UnreachableError,
+        UnknownRobotError,
+    ):
         assert issubclass(error, IrbkinError)
     assert issubclass(IrbkinError, ValueError)
     assert issubclass(UnknownRobotError, KeyError)
@@ -277,18 +325,22 @@ def test_arguments_have_the_names_of_the_documentation():
         ROBOT.ik: "T q7",
         ROBOT.ik_batch: "T q7 out threads",
         ROBOT.ik_nearest: "T seed weights",
-        ROBOT.follow: "T seed weights singular zone",
+        ROBOT.follow: "T seed weights singularity_mode zone",
         ROBOT.check_pose: "T",
         ROBOT.with_tool: "T",
         ROBOT.with_base: "T",
         ROBOT.with_limits: "limits",
-        irbkin.pose: "xyz quaternion euler_zyx",
+        irbkin.pose: "xyz wxyz euler_zyx",
     }.items():
         assert list(inspect.signature(call).parameters) == names.split()
 
 
 def test_nothing_is_printed(capfd):
-    for call in (lambda: ROBOT.ik(FAULTS["NaN"][0]), lambda: ROBOT.fk([np.nan] * 6), lambda: irbkin.Robot("none")):
+    for call in (
+        lambda: ROBOT.ik(FAULTS["NaN"][0]),
+        lambda: ROBOT.fk([np.nan] * 6),
+        lambda: irbkin.Robot("none"),
+    ):
         with pytest.raises(IrbkinError):
             call()
     ROBOT.ik(irbkin.pose([9, 0, 0])).explain()

@@ -22,9 +22,12 @@ def test_a_table_of_another_shape(build, shape):
 def test_a_table_that_is_not_finite_names_the_number(build, column, field):
     rows = ROWS.copy()
     rows[2, column] = np.nan
-    # A standard row's twist and length stand behind its joint: they belong to the next row of the modified table.
+    # A standard row's twist and length stand behind its joint: they belong to the next row of the
+    # modified table.
     row = 4 if build is Robot.from_sdh and column < 2 else 3
-    with pytest.raises(InvalidModelError, match=rf"^{field} of row {row} is NaN, it must be finite$"):
+    with pytest.raises(
+        InvalidModelError, match=rf"^{field} of row {row} is NaN, it must be finite$"
+    ):
         build(rows)
 
 
@@ -35,12 +38,28 @@ def test_a_table_that_is_not_finite_names_the_number(build, column, field):
         ({"c4": np.inf}, InvalidModelError, "^c4 is inf, it must be finite$"),
         ({"c2": 0}, InvalidModelError, "^upper arm c2 is 0 m, it must be at least 1e-6 m$"),
         ({"c2": -0.5}, InvalidModelError, r"^upper arm c2 is -0\.5 m, it must be at least 1e-6 m$"),
-        ({"a2": 0, "c3": 0}, InvalidModelError, r"^forearm hypot\(a2, c3\) is 0 m, it must be at least 1e-6 m$"),
-        ({"signs": [1, 1, 1, 1, 1, 0.5]}, InvalidModelError, r"^joint 6 sign is 0\.5, it must be 1 or -1$"),
-        ({"signs": [1, 0, 1, 1, 1, 1]}, InvalidModelError, "^joint 2 sign is 0, it must be 1 or -1$"),
+        (
+            {"a2": 0, "c3": 0},
+            InvalidModelError,
+            r"^forearm hypot\(a2, c3\) is 0 m, it must be at least 1e-6 m$",
+        ),
+        (
+            {"signs": [1, 1, 1, 1, 1, 0.5]},
+            InvalidModelError,
+            r"^joint 6 sign is 0\.5, it must be 1 or -1$",
+        ),
+        (
+            {"signs": [1, 0, 1, 1, 1, 1]},
+            InvalidModelError,
+            "^joint 2 sign is 0, it must be 1 or -1$",
+        ),
         ({"signs": [1, 1]}, InvalidModelError, r"^signs must have shape .*6.*, got \[2\]$"),
         ({"offsets": [0] * 5}, InvalidModelError, r"^offsets must have shape .*6.*, got \[5\]$"),
-        ({"offsets": [0, 0, np.inf, 0, 0, 0]}, InvalidModelError, "^offset of joint 3 is inf, it must be finite$"),
+        (
+            {"offsets": [0, 0, np.inf, 0, 0, 0]},
+            InvalidModelError,
+            "^offset of joint 3 is inf, it must be finite$",
+        ),
         ({"a1": "x"}, TypeError, "must be real number, not str"),
         ({"name": 5}, TypeError, "str"),
     ],
@@ -51,7 +70,7 @@ def test_wrong_parameters_are_named(changed, error, words):
 
 
 def test_missing_parameters_are_named():
-    with pytest.raises(TypeError, match="missing 2 required positional arguments: 'c3' and 'c4'"):
+    with pytest.raises(TypeError, match="missing 2 required keyword arguments: 'c3' and 'c4'"):
         Robot.from_opw(a1=0.1, a2=0, b=0, c1=0.4, c2=0.5)
 
 
@@ -103,7 +122,10 @@ def test_without_limits_there_are_none():
 @pytest.mark.parametrize(
     ("name", "close"),
     [
-        ("IRB 2600", ["IRB 2600-12/1.65", "IRB 2600-12/1.85", "IRB 2600-20/1.65", "IRB 2600ID-15/1.85"]),
+        (
+            "IRB 2600",
+            ["IRB 2600-12/1.65", "IRB 2600-12/1.85", "IRB 2600-20/1.65", "IRB 2600ID-15/1.85"],
+        ),
         ("IRB 140", ["IRB 140-6/0.81"]),
         ("2600-12/1.65", ["IRB 2600-12/1.65"]),
         ("irb2600-12-165", ["IRB 2600-12/1.65"]),
@@ -126,7 +148,7 @@ def test_an_unknown_name_says_which_are_close(name, close):
 def test_a_name_like_no_other_says_so(name):
     with pytest.raises(KeyError) as unknown:
         Robot(name)
-    assert str(unknown.value) == f'unknown robot "{name}"; no name of the catalogue is close to it'
+    assert str(unknown.value) == f'unknown robot "{name}"; no name of the catalog is close to it'
 
 
 @pytest.mark.parametrize("name", [5, None, b"Panda", ["Panda"]])

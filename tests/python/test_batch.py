@@ -17,10 +17,15 @@ def assert_same_bits(found, wanted):
     """Equal with the signs of zeros; not numbers are one like the other."""
     found, wanted = np.asarray(found), np.asarray(wanted)
     np.testing.assert_array_equal(found, wanted)
-    np.testing.assert_array_equal(np.signbit(found) & ~np.isnan(found), np.signbit(wanted) & ~np.isnan(wanted))
+    np.testing.assert_array_equal(
+        np.signbit(found) & ~np.isnan(found), np.signbit(wanted) & ~np.isnan(wanted)
+    )
 
 
-@pytest.fixture(scope="module", params=["IRB 2600-12/1.65", "IRB 120-3/0.58", "KUKA KR 6 R700", "lateral offset"])
+@pytest.fixture(
+    scope="module",
+    params=["IRB 2600-12/1.65", "IRB 120-3/0.58", "KUKA KR 6 R700", "lateral offset"],
+)
 def subject(request):
     return subjects()[request.param]
 
@@ -45,11 +50,15 @@ def poses(robot, subject):
 def test_batch_equals_single(robot, poses):
     batch = robot.ik_batch(poses)
     assert isinstance(batch, IkBatch)
-    assert (batch.q.shape, batch.status.shape, batch.status.dtype) == ((MANY, 8, 6), (MANY, 8), np.uint8)
+    assert (batch.q.shape, batch.status.shape, batch.status.dtype) == (
+        (MANY, 8, 6),
+        (MANY, 8),
+        np.uint8,
+    )
     for pose, q, status in zip(poses, *batch, strict=True):
         single = robot.ik(pose)
         np.testing.assert_array_equal(status, single.status)
-        assert_same_bits(q, single.slots)
+        assert_same_bits(q, single.q_by_slot)
     assert 0 < (batch.status == 0).all(axis=1).sum() < MANY
     assert (batch.status & Status.WRIST).any()
 
@@ -78,14 +87,16 @@ def test_a_batch_of_every_kind_of_array_equals_single(robot, poses, kind):
     for pose, q, status in zip(given, *robot.ik_batch(given), strict=True):
         single = robot.ik(pose)
         np.testing.assert_array_equal(status, single.status)
-        assert_same_bits(q, single.slots)
+        assert_same_bits(q, single.q_by_slot)
 
 
 @pytest.mark.parametrize("name", ["IRB 2600-12/1.65", "Panda"])
 @pytest.mark.parametrize("kind", [None, *KINDS])
 def test_forward_batches_equal_single(name, kind):
     robot = irbkin.Robot(name)
-    most = np.repeat([0.0, 3.0, 400.0, 9e4, 2e5], 21)[:, None]  # the lanes count turns up to 1e5 rad
+    most = np.repeat([0.0, 3.0, 400.0, 9e4, 2e5], 21)[
+        :, None
+    ]  # the lanes count turns up to 1e5 rad
     q = most * np.random.default_rng(7).uniform(-1, 1, (most.size, robot.dof))
     given = KINDS[kind](q) if kind else q
     for found, wanted in (
@@ -129,7 +140,14 @@ def test_leading_dimensions_come_back(lead):
         assert np.nanmin(apart(batch.q, q[..., None, :]), axis=-1).max(initial=0.0) <= 1e-9
     if lead:
         record = robot.singularity(q)
-        for field in ("wrist", "elbow", "shoulder", "min_singular_value", "manipulability", "kinds"):
+        for field in (
+            "wrist",
+            "elbow",
+            "shoulder",
+            "min_singular_value",
+            "manipulability",
+            "kinds",
+        ):
             assert getattr(record, field).shape == lead
 
 
@@ -243,7 +261,9 @@ def test_nearest_takes_any_leading_shape_and_one_seed_for_all(robot, poses):
     seed, weights = np.full(6, 0.1), [1, 1, 1, 0.1, 0.1, 0.1]
     nearest = robot.ik_nearest(few, seed, weights)
     assert nearest.shape == (3, 4, 6)
-    np.testing.assert_array_equal(nearest, robot.ik_nearest(few, np.broadcast_to(seed, (3, 4, 6)), weights))
+    np.testing.assert_array_equal(
+        nearest, robot.ik_nearest(few, np.broadcast_to(seed, (3, 4, 6)), weights)
+    )
     assert robot.ik_nearest(poses[:0], seed).shape == (0, 6)
 
 
@@ -253,7 +273,9 @@ def test_invalid_rows_of_a_nearest_batch_are_nan(robot):
     seeds[2, 3] = np.inf
     nearest = robot.ik_nearest(poses, seeds)
     np.testing.assert_array_equal(np.isnan(nearest).all(axis=1), [False, True, True, False])
-    with pytest.raises(irbkin.InvalidJointsError, match=r"seed must have shape \[6\] or \[4, 6\], got \[3, 6\]"):
+    with pytest.raises(
+        irbkin.InvalidJointsError, match=r"seed must have shape \[6\] or \[4, 6\], got \[3, 6\]"
+    ):
         robot.ik_nearest(poses, seeds[:3])
     with pytest.raises(irbkin.InvalidJointsError, match="weights: joint 2 is -1"):
         robot.ik_nearest(poses, seeds, [1, -1, 1, 1, 1, 1])

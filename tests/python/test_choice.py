@@ -1,4 +1,6 @@
-"""Next to singularities: what `check_pose`, `ik`, `ik_nearest` and `ik_configured` say of one pose agrees."""
+"""Next to singularities: what `check_pose`, `ik`, `ik_nearest` and `ik_configured` say of one pose
+agrees.
+"""
 
 import irbkin
 import numpy as np
@@ -10,7 +12,9 @@ TRIALS = 4
 
 
 def next_to(name, wrist, elbow, rng):
-    """A joint vector this far from the wrist's and the elbow's singularity; none where an offset is None."""
+    """A joint vector this far from the wrist's and the elbow's singularity; none where an offset is
+    None.
+    """
     robot = irbkin.Robot(name)
     low, high = np.maximum(robot.limits[:, 0], -3), np.minimum(robot.limits[:, 1], 3)
     q = rng.uniform(low, high)

@@ -1,4 +1,6 @@
-"""While a batch writes to an array without the interpreter's lock, no other call reads or writes it."""
+"""While a batch writes to an array without the interpreter's lock, no other call reads or writes
+it.
+"""
 
 import ctypes
 import mmap
@@ -31,10 +33,14 @@ class Writing:
         self.poses[:] = robot.fk(np.random.default_rng(8).uniform(-1.0, 1.0, (count, 6)))
         self.q[:] = UNWRITTEN
         self.status = np.zeros((count, 8), np.uint8)
-        self.thread = threading.Thread(target=lambda: robot.ik_batch(self.poses, out=(self.q, self.status)))
+        self.thread = threading.Thread(
+            target=lambda: robot.ik_batch(self.poses, out=(self.q, self.status))
+        )
 
     def meanwhile(self, *calls):
-        """What calls that are made while the batch is written return or raise; none if it was done before them."""
+        """What calls that are made while the batch is written return or raise; none if it was done
+        before them.
+        """
         self.thread.start()
         given_up = time.monotonic() + 60
         while self.q[0, 0, 0] == UNWRITTEN:
@@ -58,7 +64,9 @@ def own_memory(count):
 
 
 def during_a_batch(robot, *calls, memory=own_memory):
-    """A batch and the outcomes of calls made during it; on a quick machine it takes a larger one to last so long."""
+    """A batch and the outcomes of calls made during it; on a quick machine it takes a larger one to
+    last so long.
+    """
     count = FIRST_COUNT
     while count < MOST:
         batch = Writing(robot, count, memory)
@@ -81,7 +89,9 @@ READS = {
 
 WRITES = {
     "one answer": lambda b: b.robot.fk(np.zeros(6), out=b.q[0].ravel()[:16].reshape(4, 4)),
-    "many answers": lambda b: b.robot.fk(np.zeros((2, 6)), out=b.q[0].ravel()[:32].reshape(2, 4, 4)),
+    "many answers": lambda b: b.robot.fk(
+        np.zeros((2, 6)), out=b.q[0].ravel()[:32].reshape(2, 4, 4)
+    ),
     "the same batch": lambda b: b.robot.ik_batch(b.poses, out=(b.q, b.status)),
     "the status": lambda b: b.robot.ik_batch(b.poses[:2], out=(np.zeros((2, 8, 6)), b.status[:2])),
     "over the input": lambda b: b.robot.fk(np.zeros(6), out=b.poses[0]),
@@ -113,11 +123,11 @@ def test_other_arrays_are_read_and_written_meanwhile(robot):
         lambda _: robot.fk(q, out=out).copy(),
         lambda _: robot.fk(q[None])[0],
         # The input of the batch is only read.
-        lambda batch: robot.ik(batch.poses[7]).slots,
+        lambda batch: robot.ik(batch.poses[7]).q_by_slot,
     )
     np.testing.assert_array_equal(written, wanted)
     np.testing.assert_array_equal(read, wanted)
-    np.testing.assert_array_equal(slots, robot.ik(batch.poses[7]).slots)
+    np.testing.assert_array_equal(slots, robot.ik(batch.poses[7]).q_by_slot)
     np.testing.assert_array_equal(batch.q[7], slots)
     # And all is free again, after a call that was refused too.
     np.testing.assert_array_equal(robot.fk(batch.q[7, 0]), robot.fk(batch.q[7, 0].tolist()))
@@ -171,7 +181,10 @@ def paired(way):
     def memory(count):
         pairs = [PAIRS[way](8 * count * width) for width in (16, 48)]
         shapes = [(count, 4, 4), (count, 8, 6)]
-        return [[array.reshape(shape) for array in pair] for pair, shape in zip(pairs, shapes, strict=True)]
+        return [
+            [array.reshape(shape) for array in pair]
+            for pair, shape in zip(pairs, shapes, strict=True)
+        ]
 
     return memory
 
@@ -204,7 +217,9 @@ def test_memory_that_is_being_read_is_not_written_through_another_array(robot, w
     writes = [
         lambda b: b.robot.fk(np.zeros(6), out=b.seen_poses[-1]),
         lambda b: b.robot.fk(np.zeros((2, 6)), out=b.seen_poses[:2]),
-        lambda b: b.robot.ik_batch(b.poses[:1].copy(), out=b.seen_poses.ravel()[-48:].reshape(1, 8, 6)),
+        lambda b: b.robot.ik_batch(
+            b.poses[:1].copy(), out=b.seen_poses.ravel()[-48:].reshape(1, 8, 6)
+        ),
     ]
     # Reading what is read is no conflict.
     batch, [*errors, solutions] = during_a_batch(
@@ -212,12 +227,12 @@ def test_memory_that_is_being_read_is_not_written_through_another_array(robot, w
     )
     for error in errors:
         assert_refused(error, "another call uses its memory")
-    np.testing.assert_array_equal(solutions.slots, batch.q[7])
+    np.testing.assert_array_equal(solutions.q_by_slot, batch.q[7])
     np.testing.assert_array_equal(batch.q, robot.ik_batch(batch.poses).q)
     robot.fk(np.zeros(6), out=batch.seen_poses[0])
 
 
-def test_neighbours_in_one_buffer_are_read_meanwhile(robot):
+def test_neighbors_in_one_buffer_are_read_meanwhile(robot):
     """What begins where the written memory ends is free, and one number more of it is not."""
 
     def memory(count):
@@ -227,7 +242,11 @@ def test_neighbours_in_one_buffer_are_read_meanwhile(robot):
         poses = np.empty((count, 4, 4))
         return (poses, poses), (q, whole)
 
-    beside = [lambda b: robot.fk(b.seen_q[:6]), lambda b: robot.fk(b.seen_q[-6:]), lambda b: robot.fk(b.seen_q[5::-1])]
+    beside = [
+        lambda b: robot.fk(b.seen_q[:6]),
+        lambda b: robot.fk(b.seen_q[-6:]),
+        lambda b: robot.fk(b.seen_q[5::-1]),
+    ]
     across = [
         lambda b: robot.fk(b.seen_q[1:7]),
         lambda b: robot.fk(b.seen_q[-7:-1]),

@@ -66,7 +66,9 @@ def test_a_broken_row_of_a_batch_is_nan_and_a_broken_pose_an_error():
         with pytest.raises(irbkin.InvalidPoseError):
             ROBOT.ik_configured(broken, (0, 0, 0, 0))
     seeds = np.stack([Q, np.full(6, np.nan)])
-    found = ROBOT.ik_configured(np.stack([ROBOT.fk(Q)] * 2), (2, 0, 0, 0), fallback="nearest", seed=seeds)
+    found = ROBOT.ik_configured(
+        np.stack([ROBOT.fk(Q)] * 2), (2, 0, 0, 0), fallback="nearest", seed=seeds
+    )
     np.testing.assert_allclose(found[0], Q, rtol=0, atol=1e-12)
     assert np.isnan(found[1]).all()
 
@@ -106,7 +108,9 @@ def test_a_slot_that_the_arm_does_not_have_is_refused_in_a_batch_too(seed):
         ROBOT.ik_configured(pose, [(0, 0, 0, 0), (0, 0, 0, 9)], fallback=fallback, seed=seed)
     with pytest.raises(irbkin.InvalidJointsError, match="its four numbers have different shapes"):
         ROBOT.ik_configured(pose, Configuration(np.zeros(2), 0, 0, 0))
-    with pytest.raises(irbkin.InvalidJointsError, match="it must be a whole number of at most 2147483647"):
+    with pytest.raises(
+        irbkin.InvalidJointsError, match="it must be a whole number of at most 2147483647"
+    ):
         ROBOT.ik_configured(pose, (2**31, 0, 0, 0))
 
 
@@ -124,9 +128,9 @@ def test_a_fallback_that_is_none_is_refused():
 def test_other_families_are_refused_not_guessed(name):
     robot = irbkin.Robot(name)
     q = np.full(robot.dof, 0.3)
-    with pytest.raises(irbkin.InvalidModelError, match=f'this arm\'s form is "{robot.family}"'):
+    with pytest.raises(irbkin.InvalidModelError, match=f'its structure is "{robot.structure}"'):
         robot.configuration(q)
-    with pytest.raises(irbkin.InvalidModelError, match="configurations are those of ABB"):
+    with pytest.raises(irbkin.InvalidModelError, match="this robot has no ABB configuration"):
         robot.ik_configured(robot.fk(q), (0, 0, 0, 0))
 
 

@@ -9,7 +9,7 @@ from arms import IRB2400
 
 LIMITS = np.deg2rad([(-180, 180), (-100, 110), (-60, 65), (-200, 200), (-120, 120), (-400, 400)])
 ROBOT = irbkin.Robot.from_opw(**IRB2400, name="2400").coupled().with_limits(LIMITS)
-ROD = np.deg2rad((-100, 40))
+LINKAGE = np.deg2rad((-100, 40))
 
 
 def random_joints(count, seed=1):
@@ -22,19 +22,21 @@ def serial(q):
 
 def test_joints_are_the_controllers_and_the_twins_differ_by_axis_2():
     q = random_joints(200)
-    twin = ROBOT.serial()
+    twin = ROBOT.uncoupled()
     assert ROBOT.is_coupled
     assert not twin.is_coupled
     np.testing.assert_array_equal(ROBOT.fk(q), twin.fk(serial(q)))
     derivative = np.eye(6)
     derivative[2, 1] = -1
-    np.testing.assert_allclose(ROBOT.jacobian(q), twin.jacobian(serial(q)) @ derivative, rtol=0, atol=1e-14)
+    np.testing.assert_allclose(
+        ROBOT.jacobian(q), twin.jacobian(serial(q)) @ derivative, rtol=0, atol=1e-14
+    )
     batch, single = ROBOT.ik_batch(ROBOT.fk(q)), twin.ik_batch(ROBOT.fk(q))
     apart = serial(batch.q) - single.q
     apart -= 2 * np.pi * np.round(apart / (2 * np.pi))
     assert np.nanmax(np.abs(apart)) < 1e-13
     np.testing.assert_array_equal(np.isnan(batch.q), np.isnan(single.q))
-    assert twin.serial() == twin
+    assert twin.uncoupled() == twin
     assert ROBOT.coupled() == ROBOT
 
 
@@ -47,30 +49,34 @@ def test_limits_hold_for_the_controllers_axis_3():
         ROBOT.ik_nearest(ROBOT.fk(q + np.deg2rad([0, 0, 10, 0, 0, 0])), seed=q)
 
 
-def test_the_rod_has_limits_where_they_are_given():
-    robot = ROBOT.with_rod_limits(ROD)
-    assert ROBOT.rod_limits is None
-    np.testing.assert_array_equal(robot.rod_limits, ROD)
-    np.testing.assert_array_equal(robot.with_limits(LIMITS * 0.9).rod_limits, ROD)
-    assert robot.with_rod_limits(None) == ROBOT
+def test_the_linkage_has_limits_where_they_are_given():
+    robot = ROBOT.with_linkage_limits(LINKAGE)
+    assert ROBOT.linkage_limits is None
+    np.testing.assert_array_equal(robot.linkage_limits, LINKAGE)
+    np.testing.assert_array_equal(robot.with_limits(LIMITS * 0.9).linkage_limits, LINKAGE)
+    assert robot.with_linkage_limits(None) == ROBOT
     q = np.deg2rad([10, -60, 20, 20, 30, 40])
     assert ROBOT.check_pose(ROBOT.fk(q)).within_limits
     check = robot.check_pose(robot.fk(q))
     assert (check.reachable, check.within_limits) == (True, False)
-    np.testing.assert_array_equal(robot.serial().limits[2], ROD)
-    with pytest.raises(irbkin.InvalidModelError, match="rod limit is empty"):
-        ROBOT.with_rod_limits((1, 0))
+    np.testing.assert_array_equal(robot.uncoupled().limits[2], LINKAGE)
+    with pytest.raises(irbkin.InvalidModelError, match="linkage limit is empty"):
+        ROBOT.with_linkage_limits((1, 0))
     with pytest.raises(irbkin.InvalidModelError, match="not coupled"):
-        ROBOT.serial().with_rod_limits(ROD)
+        ROBOT.uncoupled().with_linkage_limits(LINKAGE)
 
 
-@pytest.mark.parametrize("robot", [ROBOT, ROBOT.with_rod_limits(ROD), ROBOT.serial()], ids=["coupled", "rod", "serial"])
+@pytest.mark.parametrize(
+    "robot",
+    [ROBOT, ROBOT.with_linkage_limits(LINKAGE), ROBOT.uncoupled()],
+    ids=["coupled", "linkage", "uncoupled"],
+)
 def test_the_coupling_belongs_to_the_value(robot):
     again = pickle.loads(pickle.dumps(robot))
     assert again == robot
     assert hash(again) == hash(robot)
     assert again.is_coupled == robot.is_coupled
-    others = {ROBOT, ROBOT.with_rod_limits(ROD), ROBOT.serial()} - {robot}
+    others = {ROBOT, ROBOT.with_linkage_limits(LINKAGE), ROBOT.uncoupled()} - {robot}
     assert len(others) == 2
     assert robot not in others
 
@@ -78,22 +84,26 @@ def test_the_coupling_belongs_to_the_value(robot):
 def test_a_twin_says_what_it_is():
     named = irbkin.Robot("IRB 2400-10/1.55")
     assert repr(named) == 'Robot("IRB 2400-10/1.55")'
-    assert repr(named.serial()) == 'Robot("IRB 2400-10/1.55").serial()'
+    assert repr(named.uncoupled()) == 'Robot("IRB 2400-10/1.55").uncoupled()'
     assert repr(irbkin.Robot("IRB 2600-12/1.65").coupled()) == 'Robot("IRB 2600-12/1.65").coupled()'
-    assert eval(repr(named.serial()), {"Robot": irbkin.Robot}) == named.serial()
+    assert eval(repr(named.uncoupled()), {"Robot": irbkin.Robot}) == named.uncoupled()
 
 
-def test_a_damaged_state_of_the_rod_is_refused():
-    restore, (state,) = ROBOT.with_rod_limits(ROD).__reduce__()
-    assert restore(state) == ROBOT.with_rod_limits(ROD)
-    with pytest.raises(irbkin.InvalidModelError, match="rod limits has 1 elements, it must have 2"):
+def test_a_damaged_state_of_the_linkage_is_refused():
+    restore, (state,) = ROBOT.with_linkage_limits(LINKAGE).__reduce__()
+    assert restore(state) == ROBOT.with_linkage_limits(LINKAGE)
+    with pytest.raises(
+        irbkin.InvalidModelError, match="linkage limits has 1 elements, it must have 2"
+    ):
         restore((*state[:-1], [1.0]))
 
 
 def test_configurations_do_not_count_the_slot():
     q = random_joints(300)
     assert not np.any(ROBOT.configuration(q).cfx)
-    with pytest.raises(irbkin.InvalidJointsError, match="cfx is 1, it is 0 for an arm with coupled axes 2 and 3"):
+    with pytest.raises(
+        irbkin.InvalidJointsError, match="cfx is 1, it is 0 for an arm with coupled axes 2 and 3"
+    ):
         ROBOT.ik_configured(ROBOT.fk(q[0]), (0, 0, 0, 1))
 
 

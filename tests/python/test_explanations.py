@@ -9,13 +9,17 @@ from reference import move, turn
 
 
 def at_distance(name, r, angle):
-    """A pose whose wrist centre stands `r` from the shoulder, `angle` above the horizontal, its flange forward."""
+    """A pose whose wrist center stands `r` from the shoulder, `angle` above the horizontal, its
+    flange forward.
+    """
     a1, _, height, _, _, flange = ABB[name].lengths
-    return move(a1 + r * np.cos(angle) + flange, 0, height + r * np.sin(angle)) @ turn("y", np.pi / 2)
+    return move(a1 + r * np.cos(angle) + flange, 0, height + r * np.sin(angle)) @ turn(
+        "y", np.pi / 2
+    )
 
 
 def reaches(name):
-    """Shortest and longest distance of the wrist centre from the shoulder."""
+    """Shortest and longest distance of the wrist center from the shoulder."""
     _, elbow, _, upper, forearm, _ = ABB[name].lengths
     k = np.hypot(elbow, forearm)
     return abs(upper - k), upper + k
@@ -34,11 +38,15 @@ def test_shortfall_is_the_distance_beyond_the_stretched_arm(name, beyond):
 
 @pytest.mark.parametrize("name", ABB)
 def test_the_side_of_axis_1_that_comes_nearer_counts(name):
-    """Straight above axis 1 a pose is equally far for both; behind it, the arm that turned round is the nearer."""
+    """Straight above axis 1 a pose is equally far for both; behind it, the arm that turned round is
+    the nearer.
+    """
     a1, _, height, *_, flange = ABB[name].lengths
     robot, longest = irbkin.Robot(name), reaches(name)[1]
     for x in (2.0, -2.0):
-        pose = move(x + np.copysign(flange, x), 0, height + 3) @ turn("y", np.copysign(np.pi / 2, x))
+        pose = move(x + np.copysign(flange, x), 0, height + 3) @ turn(
+            "y", np.copysign(np.pi / 2, x)
+        )
         shortfall = np.hypot(abs(x) - a1, 3) - longest
         if shortfall > 0:
             assert robot.ik(pose).shortfall == pytest.approx(shortfall, abs=1e-14)
@@ -67,20 +75,29 @@ def test_sentences():
     inside = len(robot.ik(robot.fk(q)).within_limits())
     assert robot.ik(robot.fk(q)).explain() == f"8 solutions, {inside} inside limits"
     longest = reaches(robot.name)[1]
-    assert robot.ik(at_distance(robot.name, longest + 0.012, 0.3)).explain() == "wrist centre 12.0 mm beyond reach"
-    assert robot.ik(at_distance(robot.name, longest + 2e-6, 0.3)).explain() == "wrist centre 2.0e-3 mm beyond reach"
+    assert (
+        robot.ik(at_distance(robot.name, longest + 0.012, 0.3)).explain()
+        == "wrist center 12.0 mm beyond reach"
+    )
+    assert (
+        robot.ik(at_distance(robot.name, longest + 2e-6, 0.3)).explain()
+        == "wrist center 2.0e-3 mm beyond reach"
+    )
 
 
 def test_the_sentence_names_the_joint_that_is_outside_and_by_how_much():
     limits = np.deg2rad([[-180, 180]] * 6)
     robot = irbkin.Robot("IRB 2600-12/1.65")
     q = np.deg2rad([10, -20, 30, 40, 50, 60])
-    # Axis 1 is 10 deg or -170 deg in every solution: limits from 13.1 deg on leave it outside by 3.1 deg.
+    # Axis 1 is 10 deg or -170 deg in every solution: limits from 13.1 deg on leave it outside by
+    # 3.1 deg.
     limits[0] = np.deg2rad([13.1, 20])
     solutions = robot.with_limits(limits).ik(robot.fk(q))
     assert solutions.explain() == "all 8 outside limits; nearest: J1 by 3.1 deg"
     for choose in (solutions.nearest, solutions.least_motion):
-        with pytest.raises(UnreachableError, match=r"all 8 outside limits; nearest: J1 by 3\.1 deg"):
+        with pytest.raises(
+            UnreachableError, match=r"all 8 outside limits; nearest: J1 by 3\.1 deg"
+        ):
             choose(q)
     with pytest.raises(UnreachableError, match=r"J1 by 3\.1 deg"):
         robot.with_limits(limits).ik_nearest(robot.fk(q), q)
@@ -104,7 +121,9 @@ def test_check_pose_answers_the_three_questions():
 
 @pytest.mark.parametrize("name", ABB)
 def test_a_pose_that_joints_inside_the_limits_make_is_within_limits(name):
-    """Also where the pose leaves axis 4 free, and its limits or those of axis 6 leave little of the family."""
+    """Also where the pose leaves axis 4 free, and its limits or those of axis 6 leave little of the
+    family.
+    """
     rng = np.random.default_rng(1)
     for q in rng.uniform([-2, -0.4, -0.5, -2, 0.3, -2], [2, 0.6, 0.4, 2, 1.5, 2], (50, 6)):
         for q5 in (q[4], 0.0):
@@ -119,9 +138,9 @@ def test_a_pose_that_joints_inside_the_limits_make_is_within_limits(name):
 
 def test_an_unreachable_pose_says_why():
     robot = irbkin.Robot("IRB 2600-12/1.65")
-    with pytest.raises(UnreachableError, match=r"wrist centre .* mm beyond reach"):
+    with pytest.raises(UnreachableError, match=r"wrist center .* mm beyond reach"):
         robot.ik_nearest(move(9, 0, 0), np.zeros(6))
-    with pytest.raises(IndexError, match=r"solution 0 of 0: wrist centre .* mm beyond reach"):
+    with pytest.raises(IndexError, match=r"solution 0 of 0: wrist center .* mm beyond reach"):
         robot.ik(move(9, 0, 0))[0]
     assert robot.ik(move(9, 0, 0)).q.shape == (0, 6)
     assert list(robot.ik(move(9, 0, 0))) == []
@@ -133,4 +152,4 @@ def test_a_pose_at_a_limit_is_inside():
     for off, inside in ((0.5e-9, True), (2e-9, False)):
         q = np.array([0.3, robot.limits[1, 1] + off, 0.2, 0.4, 0.5, 0.6])
         found = min(robot.ik(robot.fk(q)), key=lambda solution: np.abs(solution.q - q).max())
-        assert found.within_limits is inside
+        assert found.is_within_limits is inside

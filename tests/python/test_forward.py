@@ -3,7 +3,7 @@
 import irbkin
 import numpy as np
 import pytest
-from arms import ABB, CATALOGUE, OPW, PANDA
+from arms import ABB, CATALOG, OPW, PANDA
 from cases import read
 from reference import (
     UNIT,
@@ -29,9 +29,9 @@ def sample(arm, seed=1):
     return np.random.default_rng(seed).uniform(low, high, (SAMPLES, len(low)))
 
 
-@pytest.fixture(params=CATALOGUE, scope="module")
+@pytest.fixture(params=CATALOG, scope="module")
 def arm(request):
-    return CATALOGUE[request.param]
+    return CATALOG[request.param]
 
 
 @pytest.fixture(scope="module")
@@ -39,10 +39,10 @@ def robot(arm):
     return irbkin.Robot(arm.name)
 
 
-def test_every_catalogue_arm_has_a_golden_table_or_pose():
-    """The poses of the arms without a table here are held in tests/catalogue.rs."""
-    posed = {row["robot"] for row in read("abb_catalogue_poses.csv")}
-    assert set(irbkin.catalog()) == set(CATALOGUE) | posed
+def test_every_catalog_arm_has_a_golden_table_or_pose():
+    """The poses of the arms without a table here are held in tests/catalog.rs."""
+    posed = {row["robot"] for row in read("abb_catalog_poses.csv")}
+    assert set(irbkin.catalog()) == set(CATALOG) | posed
 
 
 def test_tables_are_the_golden_ones(arm, robot):
@@ -63,8 +63,11 @@ def test_fk_of_parameters_equals_the_reference(opw):
     for q in np.random.default_rng(8).uniform(-4, 4, (SAMPLES, 6)):
         wanted = fk_opw(opw, q)
         np.testing.assert_allclose(robot.fk(q), wanted, rtol=0, atol=rounding(reach_opw(opw)))
-        # The table that the robot shows is a table of the same arm, once the flange behind it is added.
-        np.testing.assert_allclose(fk(robot.mdh, q) @ robot.flange, wanted, rtol=0, atol=rounding(reach_opw(opw)))
+        # The table that the robot shows is a table of the same arm, once the flange behind it is
+        # added.
+        np.testing.assert_allclose(
+            fk(robot.mdh, q) @ robot.flange, wanted, rtol=0, atol=rounding(reach_opw(opw))
+        )
 
 
 def test_link_frames_equal_the_reference_and_end_in_the_tool(arm, robot):
@@ -86,14 +89,21 @@ def test_base_and_tool_stand_outside_the_chain(arm, robot):
     bound = rounding(reach(arm.rows) + 3)
     for q in sample(arm):
         wanted = base @ fk(arm.rows, q) @ tool
-        np.testing.assert_allclose(robot.with_base(base).with_tool(tool).fk(q), wanted, rtol=0, atol=bound)
+        np.testing.assert_allclose(
+            robot.with_base(base).with_tool(tool).fk(q), wanted, rtol=0, atol=bound
+        )
 
 
 def test_a_new_base_or_tool_replaces_the_old_one():
     rng = np.random.default_rng(4)
     base, tool = random_pose(rng), random_pose(rng)
     robot = irbkin.Robot("IRB 2600-12/1.65")
-    twice = robot.with_base(random_pose(rng)).with_tool(random_pose(rng)).with_base(base).with_tool(tool)
+    twice = (
+        robot.with_base(random_pose(rng))
+        .with_tool(random_pose(rng))
+        .with_base(base)
+        .with_tool(tool)
+    )
     assert twice == robot.with_base(base).with_tool(tool)
     np.testing.assert_allclose(twice.base, base, rtol=0, atol=4 * UNIT)
     np.testing.assert_allclose(twice.tool, tool, rtol=0, atol=4 * UNIT)
@@ -102,13 +112,16 @@ def test_a_new_base_or_tool_replaces_the_old_one():
 @pytest.mark.parametrize("name", ABB)
 def test_the_standard_table_of_an_arm_gives_the_same_poses(name):
     rows = ABB[name].rows
-    # The twist and length of a modified row stand before its joint, those of a standard row behind it.
+    # The twist and length of a modified row stand before its joint, those of a standard row behind
+    # it.
     standard = np.column_stack([np.append(rows[1:, :2], [[0, 0]], axis=0), rows[:, 2:]])
     robot, same = irbkin.Robot(name), irbkin.Robot.from_sdh(standard)
-    assert same.family == "spherical wrist"
+    assert same.structure == "spherical wrist"
     for q in sample(ABB[name]):
         np.testing.assert_allclose(same.fk(q), robot.fk(q), rtol=0, atol=rounding(reach(rows)))
-        np.testing.assert_allclose(same.fk(q), fk_sdh(standard, q), rtol=0, atol=rounding(reach(rows)))
+        np.testing.assert_allclose(
+            same.fk(q), fk_sdh(standard, q), rtol=0, atol=rounding(reach(rows))
+        )
 
 
 def test_a_standard_table_keeps_what_stands_behind_its_last_joint():
@@ -128,7 +141,9 @@ def test_jacobian_matches_central_differences(arm, robot):
         by_hand = jacobian(lambda angles: base @ fk(arm.rows, angles) @ tool, q)
         np.testing.assert_allclose(moved.jacobian(q), by_hand, rtol=0, atol=bound)
         to_tool = np.kron(np.eye(2), (base @ fk(arm.rows, q) @ tool)[:3, :3].T)
-        np.testing.assert_allclose(moved.jacobian(q, frame="tool"), to_tool @ by_hand, rtol=0, atol=4 * bound)
+        np.testing.assert_allclose(
+            moved.jacobian(q, frame="tool"), to_tool @ by_hand, rtol=0, atol=4 * bound
+        )
 
 
 def test_batches_of_any_shape_equal_single_calls(arm, robot):
@@ -153,11 +168,15 @@ def test_zero_pose_looks_forward_with_x_down():
     for name, arm in ABB.items():
         a1, elbow, height, upper, forearm, flange = arm.lengths
         wanted = move(a1 + forearm + flange, 0, height + upper + elbow) @ turn("y", np.pi / 2)
-        np.testing.assert_allclose(irbkin.Robot(name).fk([0] * 6), wanted, rtol=0, atol=rounding(reach(arm.rows)))
+        np.testing.assert_allclose(
+            irbkin.Robot(name).fk([0] * 6), wanted, rtol=0, atol=rounding(reach(arm.rows))
+        )
 
 
 def test_positive_angles_turn_as_abb_arms_do():
-    """Axis 1 to the left, axes 2, 3 and 5 downwards at zero, axes 4 and 6 clockwise seen along the flange."""
+    """Axis 1 to the left, axes 2, 3 and 5 downwards at zero, axes 4 and 6 clockwise seen along the
+    flange.
+    """
     axes = [irbkin.Robot("IRB 2600-12/1.65").jacobian([0] * 6)[3:, i] for i in range(6)]
     wanted = [(0, 0, 1), (0, 1, 0), (0, 1, 0), (1, 0, 0), (0, 1, 0), (1, 0, 0)]
     np.testing.assert_allclose(axes, wanted, rtol=0, atol=16 * UNIT)
@@ -165,5 +184,11 @@ def test_positive_angles_turn_as_abb_arms_do():
 
 def test_panda_at_zero_is_as_high_as_its_drawing():
     robot = irbkin.Robot("Panda")
-    assert (robot.dof, robot.family, robot.jacobian(np.zeros(7)).shape) == (7, "spherical shoulder", (6, 7))
-    assert robot.fk(np.zeros(7))[2, 3] == pytest.approx(0.333 + 0.316 + 0.384 - 0.107, abs=rounding(reach(PANDA.rows)))
+    assert (robot.dof, robot.structure, robot.jacobian(np.zeros(7)).shape) == (
+        7,
+        "spherical shoulder",
+        (6, 7),
+    )
+    assert robot.fk(np.zeros(7))[2, 3] == pytest.approx(
+        0.333 + 0.316 + 0.384 - 0.107, abs=rounding(reach(PANDA.rows))
+    )

@@ -24,7 +24,9 @@ def amplified(subject, q):
 
 
 def cfx(name, q):
-    """ABB's configuration bits and, for each, how far the arm is from where it changes [m, m, rad]."""
+    """ABB's configuration bits and, for each, how far the arm is from where it changes [m, m,
+    rad].
+    """
     a1, elbow, _, upper, forearm, _ = ABB[name].lengths
     _, q2, q3, _, q5, _ = q
     behind_axis_1 = a1 + upper * np.sin(q2) + forearm * np.cos(q2 + q3) + elbow * np.sin(q2 + q3)
@@ -42,7 +44,7 @@ def test_the_generating_joints_are_among_the_solutions(drawn):
     bound = amplified(subject, q)
     assert apart(found.q, q) <= bound
     # A vector at a limit may be rounded past it by no more than its own bound.
-    assert found.within_limits or bound > 1e-9
+    assert found.is_within_limits or bound > 1e-9
 
 
 @given(subjects_with_joints())
@@ -54,7 +56,9 @@ def test_every_solution_closes(drawn):
     for solution in solutions:
         assert solution.residual <= residual_bound(subject)
         by_hand = subject.fk(solution.q)
-        assert np.abs(by_hand - pose)[:3, 3].max() <= residual_bound(subject) + rounding(subject.reach)
+        assert np.abs(by_hand - pose)[:3, 3].max() <= residual_bound(subject) + rounding(
+            subject.reach
+        )
         assert rotation_apart(by_hand, pose) <= residual_bound(subject) + 3 * rounding(0)
 
 
@@ -96,7 +100,7 @@ def test_each_shoulder_has_all_four_branches_or_none(drawn):
 def test_flipping_the_wrist_negates_q5_and_turns_q4_and_q6_by_half(drawn):
     subject, q = drawn
     solutions = subject.robot.ik(subject.robot.fk(q))
-    for plus, minus in solutions.slots.reshape(4, 2, 6):
+    for plus, minus in solutions.q_by_slot.reshape(4, 2, 6):
         if not np.isnan([plus, minus]).any():
             flipped = [*plus[:3], plus[3] + np.pi, 2 * subject.straight - plus[4], plus[5] + np.pi]
             assert apart(flipped, minus) <= 64 * UNIT
@@ -106,28 +110,37 @@ def test_flipping_the_wrist_negates_q5_and_turns_q4_and_q6_by_half(drawn):
 def test_base_and_tool_change_the_pose_and_not_the_joints(drawn, base, tool):
     subject, q = drawn
     plain, moved = subject.robot, subject.robot.with_base(base).with_tool(tool)
-    sigma = min(plain.singularity(solution.q).min_singular_value for solution in plain.ik(plain.fk(q)))
+    sigma = min(
+        plain.singularity(solution.q).min_singular_value for solution in plain.ik(plain.fk(q))
+    )
     assume(sigma > 1e-4)
     there, here = moved.ik(base @ plain.fk(q) @ tool), plain.ik(plain.fk(q))
     assert [solution.slot for solution in there] == [solution.slot for solution in here]
-    assert apart(there.q, here.q).max() <= 2 * rounding(subject.reach + 6) * (1 + subject.reach) / sigma
+    assert (
+        apart(there.q, here.q).max()
+        <= 2 * rounding(subject.reach + 6) * (1 + subject.reach) / sigma
+    )
 
 
 @given(subjects_with_joints())
 def test_the_views_of_the_solutions_agree(drawn):
     subject, q = drawn
     solutions = subject.robot.ik(subject.robot.fk(q))
-    assert [solution.slot for solution in solutions] == sorted(solution.slot for solution in solutions)
+    assert [solution.slot for solution in solutions] == sorted(
+        solution.slot for solution in solutions
+    )
     np.testing.assert_array_equal(solutions.q, [solution.q for solution in solutions])
     np.testing.assert_array_equal(np.asarray(solutions), solutions.q)
     filled = {solution.slot: solution for solution in solutions}
     for slot in range(8):
         if slot in filled:
-            np.testing.assert_array_equal(solutions.slots[slot], filled[slot].q)
+            np.testing.assert_array_equal(solutions.q_by_slot[slot], filled[slot].q)
             assert filled[slot].status == solutions.status[slot]
-            assert bool(solutions.status[slot] & Status.WITHIN_LIMITS) is filled[slot].within_limits
+            assert (
+                bool(solutions.status[slot] & Status.WITHIN_LIMITS) is filled[slot].is_within_limits
+            )
         else:
-            assert np.isnan(solutions.slots[slot]).all()
+            assert np.isnan(solutions.q_by_slot[slot]).all()
             assert not solutions.status[slot] & Status.FOUND
     assert solutions.reach is Reach.REACHED
     assert solutions.shortfall == 0.0
@@ -138,7 +151,9 @@ def test_within_limits_is_what_the_limits_say(drawn):
     subject, q = drawn
     low, high = subject.robot.limits.T
     for solution in subject.robot.ik(subject.robot.fk(q)):
-        assert solution.within_limits == bool(np.all((solution.q >= low - 1e-9) & (solution.q <= high + 1e-9)))
+        assert solution.is_within_limits == bool(
+            np.all((solution.q >= low - 1e-9) & (solution.q <= high + 1e-9))
+        )
 
 
 @pytest.mark.parametrize("name", subjects())
@@ -151,7 +166,11 @@ def test_any_pose_has_every_solution_or_a_shortfall(name):
         pose = random_pose(rng, 0.8 * subject.reach)
         solutions = subject.robot.ik(pose)
         reached += len(solutions) > 0
-        assert (len(solutions) > 0) == (solutions.reach is Reach.REACHED) == (solutions.shortfall == 0.0)
+        assert (
+            (len(solutions) > 0)
+            == (solutions.reach is Reach.REACHED)
+            == (solutions.shortfall == 0.0)
+        )
         assert all(solution.residual <= residual_bound(subject) for solution in solutions)
     assert 20 < reached < 180
 
@@ -164,7 +183,9 @@ def test_lengths_of_either_sign_are_arms(negative):
         pose = robot.fk(q)
         solutions = robot.ik(pose)
         np.testing.assert_allclose(pose, fk_opw(opw, q), rtol=0, atol=rounding(reach_opw(opw)))
-        assert apart(solutions.q, q).min() <= max(1e-9, 4e-14 / robot.singularity(q).min_singular_value)
+        assert apart(solutions.q, q).min() <= max(
+            1e-9, 4e-14 / robot.singularity(q).min_singular_value
+        )
         assert max(solution.residual for solution in solutions) <= RESIDUAL
 
 
@@ -190,7 +211,9 @@ def test_angles_are_in_one_turn_unless_the_limits_ask_for_another(name):
 @pytest.mark.parametrize("opw", [KUKA_KR6, IRB2400], ids=["KUKA KR 6 R700", "IRB 2400"])
 def test_half_turns_are_plus_pi(opw):
     robot = irbkin.Robot.from_opw(**opw)
-    for q in product([-np.pi, np.pi], [0.2], [0.4], [-np.pi, 0.0, np.pi], [0.5, np.pi], [-np.pi, np.pi]):
+    for q in product(
+        [-np.pi, np.pi], [0.2], [0.4], [-np.pi, 0.0, np.pi], [0.5, np.pi], [-np.pi, np.pi]
+    ):
         for solution in robot.ik(robot.fk(q)):
             assert (solution.q > -np.pi).all()
             assert (solution.q <= np.pi).all()

@@ -25,18 +25,29 @@ def test_published_sets_are_complete_and_nothing_is_added(name):
         fields = [[f"s{k}_{joint}" for joint in Q] for k in range(1, count + 1)]
         wanted = np.deg2rad([numbers(row, of_one) for of_one in fields])
         solutions = robot.ik(pose_mm(row, wxyz=WXYZ))
-        # The text rounds the answer, and the pose, which the inverse of the Jacobian turns into joints.
+        # The text rounds the answer, and the pose, which the inverse of the Jacobian turns into
+        # joints.
         pose_rounding = np.sqrt(3) * half_digit(row, XYZ) / 1e3 + 4 * half_digit(row, WXYZ)
         sigma = min(robot.singularity(solution.q).min_singular_value for solution in solutions)
-        bound = np.deg2rad(max(half_digit(row, of_one) for of_one in fields)) + pose_rounding / sigma
+        bound = (
+            np.deg2rad(max(half_digit(row, of_one) for of_one in fields)) + pose_rounding / sigma
+        )
         assert bound < 1e-7, "the row says too little: it would have to be left out by name"
         assert len(solutions) == count
         distances = apart(wanted[:, None], solutions.q[None])
-        assert sorted(distances.argmin(axis=1)) == list(range(count)), "one solution for each of the set"
+        assert sorted(distances.argmin(axis=1)) == list(range(count)), (
+            "one solution for each of the set"
+        )
         assert distances.min(axis=1).max() <= bound
         exact[count] += 1
     # All 128 rows of each file were compared; none stands at a singularity.
-    assert exact == {"abb_irb2400_10_ik8.csv": {8: 120, 4: 8}, "kuka_kr6_r700_sixx_ik8.csv": {8: 110, 4: 18}}[name]
+    assert (
+        exact
+        == {
+            "abb_irb2400_10_ik8.csv": {8: 120, 4: 8},
+            "kuka_kr6_r700_sixx_ik8.csv": {8: 110, 4: 18},
+        }[name]
+    )
 
 
 @pytest.mark.parametrize("name", SETS)
@@ -51,7 +62,9 @@ def test_published_poses_are_met(name):
 
 
 def quarters(angle):
-    """The quarter turns that an angle may be said to stand in: two within a hundredth of a degree of their edge."""
+    """The quarter turns that an angle may be said to stand in: two within a hundredth of a degree
+    of their edge.
+    """
     return {int(np.floor((angle + nudge) / 90)) for nudge in (-EDGE_DEG, 0, EDGE_DEG)}
 
 
@@ -92,7 +105,9 @@ def test_exactly_one_solution_has_the_taught_configuration(row):
     bound = np.deg2rad(1.01 * half_digit(row, derived))
     assert np.abs(matching[0].q - np.deg2rad(numbers(row, derived))).max() <= bound
     taught = [int(row[field]) for field in ("cf1", "cf4", "cf6", "cfx")]
-    np.testing.assert_allclose(robot_of(row).ik_configured(target, taught), matching[0].q, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(
+        robot_of(row).ik_configured(target, taught), matching[0].q, rtol=0, atol=1e-12
+    )
 
 
 def test_every_taught_target_was_compared():
@@ -103,12 +118,16 @@ def test_every_taught_target_was_compared():
 SINGLE_MOVES = [tuple((10 * row).tolist()) for row in np.eye(6, dtype=int)]
 
 
-@pytest.mark.parametrize("deg", [(0,) * 6, (90, 0, 0, 0, 0, 0), (0, 45, -30, 0, 0, 0), *SINGLE_MOVES], ids=str)
+@pytest.mark.parametrize(
+    "deg", [(0,) * 6, (90, 0, 0, 0, 0, 0), (0, 45, -30, 0, 0, 0), *SINGLE_MOVES], ids=str
+)
 def test_the_article_s_poses_come_back_through_the_inverse(deg):
-    """Its verification: FK of these, through IK, contains them. All but the move of axis 5 are wrist-singular."""
+    """Its verification: FK of these, through IK, contains them. All but the move of axis 5 are
+    wrist-singular.
+    """
     rows, q = IRB1410.rows, np.deg2rad(deg)
     robot = irbkin.Robot.from_mdh(rows, limits=np.deg2rad(IRB1410.limits_deg), name=IRB1410.name)
-    assert robot.family == "spherical wrist"
+    assert robot.structure == "spherical wrist"
     pose = robot.fk(q)
     np.testing.assert_allclose(pose, fk(rows, q), rtol=0, atol=rounding(reach(rows)))
     solutions = robot.ik(pose)
@@ -121,9 +140,16 @@ def test_the_article_s_poses_come_back_through_the_inverse(deg):
 
 def test_the_article_s_table_is_that_of_a_1410_with_abb_s_angles():
     robot = irbkin.Robot.from_mdh(IRB1410.rows)
-    np.testing.assert_allclose(robot.fk(np.zeros(6))[:3, 3], [0.955, 0, 1.195], rtol=0, atol=rounding(2))
     np.testing.assert_allclose(
-        irbkin.Robot("IRB 1410-4/1.45").fk(np.zeros(6)), robot.fk(np.zeros(6)), rtol=0, atol=rounding(2)
+        robot.fk(np.zeros(6))[:3, 3], [0.955, 0, 1.195], rtol=0, atol=rounding(2)
+    )
+    np.testing.assert_allclose(
+        irbkin.Robot("IRB 1410-4/1.45").fk(np.zeros(6)),
+        robot.fk(np.zeros(6)),
+        rtol=0,
+        atol=rounding(2),
     )
     assert "IRB 1600-6/1.45" in ABB
-    assert not np.allclose(robot.fk(np.zeros(6)), irbkin.Robot("IRB 1600-6/1.45").fk(np.zeros(6)), atol=0.01)
+    assert not np.allclose(
+        robot.fk(np.zeros(6)), irbkin.Robot("IRB 1600-6/1.45").fk(np.zeros(6)), atol=0.01
+    )

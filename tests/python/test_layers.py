@@ -45,7 +45,11 @@ def test_every_module_has_a_layer(file):
 def test_a_module_uses_only_what_is_above_it(file):
     own = entry(file)
     # A row of several paths is of siblings, which do not use one another.
-    wrong = [used for used in used_by()[file] if entry(used) not in (None, own) and ROWS[entry(used)] >= ROWS[own]]
+    wrong = [
+        used
+        for used in used_by()[file]
+        if entry(used) not in (None, own) and ROWS[entry(used)] >= ROWS[own]
+    ]
     assert not wrong, f"{file} uses {sorted(wrong)}"
 
 
@@ -53,10 +57,12 @@ def test_no_files_use_one_another_in_a_circle():
     assert cycles() == []
 
 
-@pytest.mark.parametrize("file", [path.relative_to(SRC).as_posix() for path in sorted(SRC.rglob("*.rs"))])
+@pytest.mark.parametrize(
+    "file", [path.relative_to(SRC).as_posix() for path in sorted(SRC.rglob("*.rs"))]
+)
 def test_a_file_is_no_longer_than_it_may_be(file):
-    # The arms of the catalogue are blocks of numbers.
-    if not file.startswith("catalogue/"):
+    # The arms of the catalog are blocks of numbers.
+    if not file.startswith("catalog/"):
         assert len((SRC / file).read_text().splitlines()) <= LINES
 
 

@@ -1,11 +1,15 @@
-"""Masked elements are never read: a single argument is refused by name, a row of a batch is invalid."""
+"""Masked elements are never read: a single argument is refused by name, a row of a batch is
+invalid.
+"""
 
 import irbkin
 import numpy as np
 import pytest
 from irbkin import InvalidJointsError, InvalidModelError, InvalidPoseError
 
-ROBOTS = {name: irbkin.Robot(name) for name in ("IRB 2600-12/1.65", "IRB 2400-10/1.55", "UR5e", "Panda")}
+ROBOTS = {
+    name: irbkin.Robot(name) for name in ("IRB 2600-12/1.65", "IRB 2400-10/1.55", "UR5e", "Panda")
+}
 Q = {6: np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6]), 7: np.array([0.1, 0.2, 0.3, -1.4, 0.5, 1.6, 0.7])}
 SIX = ROBOTS["IRB 2600-12/1.65"]
 POSE = SIX.fk(Q[6])
@@ -59,7 +63,9 @@ def test_a_joint_vector_with_a_masked_element_is_refused(name):
     for value in forms(Q[6], 2):
         if not isinstance(value, np.ma.MaskedArray):
             continue  # Elements of a masked vector are numbers: a list of them holds NaN, which is refused too.
-        with pytest.raises(InvalidJointsError, match=rf"^{field}\[2\] is masked: every element must be given"):
+        with pytest.raises(
+            InvalidJointsError, match=rf"^{field}\[2\] is masked: every element must be given"
+        ):
             SINGLE[name](value)
 
 
@@ -71,7 +77,7 @@ TAKING_A_POSE = {
     "ik_configured": lambda v: SIX.ik_configured(v, [0, 0, 0, 0]),
     "with_tool": lambda v: SIX.with_tool(v),
     "with_base": lambda v: SIX.with_base(v),
-    "to_xyz_quaternion": irbkin.to_xyz_quaternion,
+    "to_xyz_wxyz": irbkin.to_xyz_wxyz,
     "to_xyz_euler_zyx": irbkin.to_xyz_euler_zyx,
 }
 
@@ -79,7 +85,9 @@ TAKING_A_POSE = {
 @pytest.mark.parametrize("name", TAKING_A_POSE)
 def test_a_pose_with_a_masked_element_is_refused(name):
     for value in forms(POSE, 1, 3):
-        with pytest.raises(InvalidPoseError, match=r"^T\[1, 3\] is masked: every element must be given"):
+        with pytest.raises(
+            InvalidPoseError, match=r"^T\[1, 3\] is masked: every element must be given"
+        ):
             TAKING_A_POSE[name](value)
 
 
@@ -87,10 +95,26 @@ def test_a_pose_with_a_masked_element_is_refused(name):
     ("call", "error", "words"),
     [
         (lambda: irbkin.pose(masked([0.1, 0.2, 0.3], 1)), InvalidPoseError, r"xyz\[1\] is masked"),
-        (lambda: irbkin.pose([0, 0, 0], masked([1.0, 0, 0, 0], 3)), InvalidPoseError, r"quaternion\[3\] is masked"),
-        (lambda: SIX.with_limits(masked(SIX.limits, 4, 1)), InvalidModelError, r"limits\[4, 1\] is masked"),
-        (lambda: irbkin.Robot.from_mdh(masked(SIX.mdh, 2, 0)), InvalidModelError, r"rows\[2, 0\] is masked"),
-        (lambda: irbkin.Robot.from_sdh(list(masked(SIX.mdh, 2, 0))), InvalidModelError, r"rows\[2, 0\] is masked"),
+        (
+            lambda: irbkin.pose([0, 0, 0], masked([1.0, 0, 0, 0], 3)),
+            InvalidPoseError,
+            r"wxyz\[3\] is masked",
+        ),
+        (
+            lambda: SIX.with_limits(masked(SIX.limits, 4, 1)),
+            InvalidModelError,
+            r"limits\[4, 1\] is masked",
+        ),
+        (
+            lambda: irbkin.Robot.from_mdh(masked(SIX.mdh, 2, 0)),
+            InvalidModelError,
+            r"rows\[2, 0\] is masked",
+        ),
+        (
+            lambda: irbkin.Robot.from_sdh(list(masked(SIX.mdh, 2, 0))),
+            InvalidModelError,
+            r"rows\[2, 0\] is masked",
+        ),
         (
             lambda: SIX.ik_configured(POSE, masked([0, 0, 0, 0], 3)),
             InvalidJointsError,
@@ -116,7 +140,9 @@ def test_a_row_of_a_batch_with_a_masked_element_is_invalid_and_no_other(name):
     q7 = () if robot.dof == 6 else (0.7,)
     good = [0, 1, 3, 4]
     for value in forms(q, 2, 3):
-        np.testing.assert_array_equal(robot.fk(value)[good], robot.fk(np.asarray(value, dtype=float))[good])
+        np.testing.assert_array_equal(
+            robot.fk(value)[good], robot.fk(np.asarray(value, dtype=float))[good]
+        )
         assert np.isnan(robot.fk(value)[2]).all()
         assert np.isnan(robot.jacobian(value)[2]).all()
         assert np.isnan(robot.link_frames(value)[2]).all()
@@ -144,10 +170,16 @@ def test_a_path_with_a_masked_pose_is_refused():
 
 
 def test_without_a_masked_element_the_numbers_are_taken():
-    for value in (np.ma.array(Q[6]), np.ma.array(Q[6], mask=False), np.ma.array(Q[6], mask=[False] * 6)):
+    for value in (
+        np.ma.array(Q[6]),
+        np.ma.array(Q[6], mask=False),
+        np.ma.array(Q[6], mask=[False] * 6),
+    ):
         np.testing.assert_array_equal(SIX.fk(value), POSE)
     np.testing.assert_array_equal(SIX.ik(np.ma.array(POSE)).q, SIX.ik(POSE).q)
-    np.testing.assert_array_equal(SIX.ik_batch(np.ma.array([POSE] * 3)).q, SIX.ik_batch(np.array([POSE] * 3)).q)
+    np.testing.assert_array_equal(
+        SIX.ik_batch(np.ma.array([POSE] * 3)).q, SIX.ik_batch(np.array([POSE] * 3)).q
+    )
     np.testing.assert_array_equal(SIX.fk([np.ma.array(Q[6])] * 2), SIX.fk(np.array([Q[6]] * 2)))
     out = np.ma.zeros((4, 4))
     assert SIX.fk(Q[6], out=out) is out
@@ -159,7 +191,10 @@ def test_an_answer_is_not_written_under_a_mask():
         lambda out: SIX.fk(Q[6], out=out),
         lambda out: SIX.fk(Q[6][None], out=out[None]),
     ):
-        with pytest.raises(ValueError, match=r"^out\[(0, )?1, 1\] is masked: out must be an array without masked elem"):
+        with pytest.raises(
+            ValueError,
+            match=r"^out\[(0, )?1, 1\] is masked: out must be an array without masked elem",
+        ):
             call(masked(np.zeros((4, 4)), 1, 1))
 
 

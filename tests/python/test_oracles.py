@@ -26,7 +26,9 @@ def robot(arm):
 
 @pytest.fixture(scope="module")
 def bound(arm):
-    """Three programs at most stand between two answers: two forward kinematics and a lever of the reach."""
+    """Three programs at most stand between two answers: two forward kinematics and a lever of the
+    reach.
+    """
     return rounding(reach(arm.rows) + 1)
 
 
@@ -37,7 +39,9 @@ def sample(arm):
 
 @pytest.fixture(scope="module")
 def by_pinocchio(arm):
-    """(Pose, Jacobian in the base frame, Jacobian in the tool frame) of a model built joint by joint."""
+    """(Pose, Jacobian in the base frame, Jacobian in the tool frame) of a model built joint by
+    joint.
+    """
     model = pinocchio.Model()
     joint = 0
     for i, row in enumerate(arm.rows):
@@ -62,7 +66,10 @@ def by_pinocchio(arm):
 @pytest.fixture(scope="module")
 def by_toolbox(arm):
     """The same of a chain of the toolbox's own modified rows."""
-    links = [roboticstoolbox.RevoluteMDH(alpha=alpha, a=a, d=d, offset=theta) for alpha, a, d, theta in arm.rows]
+    links = [
+        roboticstoolbox.RevoluteMDH(alpha=alpha, a=a, d=d, offset=theta)
+        for alpha, a, d, theta in arm.rows
+    ]
     chain = roboticstoolbox.DHRobot(links, tool=spatialmath.SE3(TOOL, check=False))
     return lambda q: (chain.fkine(q).A, chain.jacob0(q), chain.jacobe(q))
 
@@ -75,6 +82,6 @@ def test_poses_and_jacobians_agree(arm, robot, bound, oracle, request):
         np.testing.assert_allclose(robot.fk(q), pose, rtol=0, atol=bound)
         np.testing.assert_allclose(robot.jacobian(q), in_base, rtol=0, atol=2 * bound)
         np.testing.assert_allclose(robot.jacobian(q, frame="tool"), in_tool, rtol=0, atol=2 * bound)
-        if robot.family == "spherical wrist":
+        if robot.structure == "spherical wrist":
             for solution in robot.ik(pose):
                 np.testing.assert_allclose(solve(solution.q)[0], pose, rtol=0, atol=2 * bound)

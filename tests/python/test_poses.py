@@ -8,7 +8,9 @@ from hypothesis import strategies as st
 from reference import UNIT, pose_of, rotation_apart, turn
 from strategies import numbers, poses, quaternions
 
-ROUNDING = 32 * UNIT  # a quaternion's products and a normalisation, or three rotations, in elements of at most one
+ROUNDING = (
+    32 * UNIT
+)  # a quaternion's products and a normalization, or three rotations, in elements of at most one
 ANGLES = st.tuples(st.floats(-3, 3), st.floats(-1.5, 1.5), st.floats(-3, 3))
 
 
@@ -18,7 +20,7 @@ def euler(rz, ry, rx):
 
 @given(numbers(-5, 5, 3), quaternions())
 def test_a_quaternion_s_pose_is_the_reference(xyz, wxyz):
-    made = irbkin.pose(xyz, quaternion=wxyz)
+    made = irbkin.pose(xyz, wxyz=wxyz)
     np.testing.assert_allclose(made, pose_of(xyz, wxyz), rtol=0, atol=ROUNDING)
     np.testing.assert_array_equal(made[:3, 3], xyz)
     np.testing.assert_array_equal(made[3], [0, 0, 0, 1])
@@ -26,7 +28,7 @@ def test_a_quaternion_s_pose_is_the_reference(xyz, wxyz):
 
 @given(poses())
 def test_quaternions_round_trip(pose):
-    xyz, wxyz = irbkin.to_xyz_quaternion(pose)
+    xyz, wxyz = irbkin.to_xyz_wxyz(pose)
     assert (xyz.shape, wxyz.shape) == ((3,), (4,))
     assert np.linalg.norm(wxyz) == pytest.approx(1, abs=8 * UNIT)
     assert wxyz[0] >= 0
@@ -36,14 +38,14 @@ def test_quaternions_round_trip(pose):
 
 @given(quaternions())
 def test_a_quaternion_comes_back_up_to_its_sign(wxyz):
-    _, found = irbkin.to_xyz_quaternion(irbkin.pose([0, 0, 0], wxyz))
+    _, found = irbkin.to_xyz_wxyz(irbkin.pose([0, 0, 0], wxyz))
     assert min(np.abs(found - wxyz).max(), np.abs(found + wxyz).max()) <= ROUNDING
 
 
 @pytest.mark.parametrize("axis", np.eye(3))
 def test_half_turns_have_a_quaternion(axis):
     wxyz = np.array([0, *axis])
-    _, found = irbkin.to_xyz_quaternion(irbkin.pose([0, 0, 0], wxyz))
+    _, found = irbkin.to_xyz_wxyz(irbkin.pose([0, 0, 0], wxyz))
     np.testing.assert_allclose(np.abs(found), np.abs(wxyz), rtol=0, atol=ROUNDING)
 
 
@@ -98,7 +100,7 @@ def test_without_an_orientation_the_axes_are_those_of_the_base():
     np.testing.assert_array_equal(irbkin.pose([1, 2, 3])[:3, :3], np.eye(3))
 
 
-def test_a_rounded_quaternion_is_normalised():
+def test_a_rounded_quaternion_is_normalized():
     """RAPID text has a few digits; the direction is kept."""
     wxyz = np.array([0.707, 0, 0.707, 0])
     made = irbkin.pose([0, 0, 0], wxyz)
@@ -112,7 +114,7 @@ def test_a_rotation_that_is_a_little_off_becomes_the_nearest(pose, off, i, j):
     rough[i, j] += off / 3
     # The polar factor: the nearest rotation in the Frobenius norm.
     u, _, vt = np.linalg.svd(rough[:3, :3])
-    xyz, wxyz = irbkin.to_xyz_quaternion(rough)
+    xyz, wxyz = irbkin.to_xyz_wxyz(rough)
     np.testing.assert_allclose(irbkin.pose(xyz, wxyz)[:3, :3], u @ vt, rtol=0, atol=2 * ROUNDING)
 
 
@@ -125,4 +127,6 @@ def test_single_precision_and_text_are_repaired():
         assert max(solution.residual for solution in solutions) <= 1e-14
         u, _, vt = np.linalg.svd(rough[:3, :3].astype(float))
         for solution in solutions:
-            np.testing.assert_allclose(robot.fk(solution.q)[:3, :3], u @ vt, rtol=0, atol=3 * ROUNDING)
+            np.testing.assert_allclose(
+                robot.fk(solution.q)[:3, :3], u @ vt, rtol=0, atol=3 * ROUNDING
+            )

@@ -1,4 +1,6 @@
-"""RAPID through Python: what is written is read again, what is broken is told, what is calculated is ABB's."""
+"""RAPID through Python: what is written is read again, what is broken is told, what is calculated
+is ABB's.
+"""
 
 import subprocess
 import sys
@@ -21,18 +23,32 @@ def tuples(count, of=FLOATS):
 
 
 POSES = st.builds(Pose, tuples(3), tuples(4))
-TARGETS = st.builds(RobTarget, tuples(3), tuples(4), st.builds(Configuration, SMALL, SMALL, SMALL, SMALL), tuples(6))
+TARGETS = st.builds(
+    RobTarget, tuples(3), tuples(4), st.builds(Configuration, SMALL, SMALL, SMALL, SMALL), tuples(6)
+)
 JOINTS = st.builds(JointTarget, tuples(6), tuples(6))
 LOADS = st.builds(LoadData, FLOATS, tuples(3), tuples(4), tuples(3))
 TOOLS = st.builds(ToolData, st.booleans(), POSES, LOADS)
 TEXTS = st.text(
-    st.characters(codec="utf-8", exclude_characters="\n\r", exclude_categories=("Cc", "Cs", "Zl", "Zp")), max_size=20
+    st.characters(
+        codec="utf-8", exclude_characters="\n\r", exclude_categories=("Cc", "Cs", "Zl", "Zp")
+    ),
+    max_size=20,
 )
 WOBJS = st.builds(WobjData, st.booleans(), st.booleans(), TEXTS, POSES, POSES)
 RECORDS = st.one_of(TARGETS, JOINTS, TOOLS, WOBJS, POSES, LOADS)
-ANY = st.one_of(RECORDS, FLOATS, tuples(3), tuples(4), tuples(6), st.builds(Configuration, SMALL, SMALL, SMALL, SMALL))
+ANY = st.one_of(
+    RECORDS,
+    FLOATS,
+    tuples(3),
+    tuples(4),
+    tuples(6),
+    st.builds(Configuration, SMALL, SMALL, SMALL, SMALL),
+)
 ARRAYS = st.integers(1, 3).flatmap(
-    lambda count: st.one_of([st.lists(of, min_size=count, max_size=count) for of in (TARGETS, FLOATS)])
+    lambda count: st.one_of(
+        [st.lists(of, min_size=count, max_size=count) for of in (TARGETS, FLOATS)]
+    )
 )
 NAMES = st.integers(0, 10**6).map("d{}".format)
 
@@ -86,10 +102,20 @@ def test_a_module_says_what_it_declares_and_how_it_moves():
     with pytest.raises(KeyError, match="nothing"):
         module["nothing"]
     p10 = module.declarations[2]
-    assert (p10.type, p10.scope, p10.storage, p10.routine, p10.line) == ("robtarget", "LOCAL", "CONST", None, 9)
+    assert (p10.type, p10.scope, p10.storage, p10.routine, p10.line) == (
+        "robtarget",
+        "LOCAL",
+        "CONST",
+        None,
+        9,
+    )
     joint, line = module.moves
     assert (joint.kind, joint.routine, joint.speed, joint.zone) == ("MoveJ", "main", "v100", "fine")
-    assert (joint.target.value, joint.tool.value, joint.wobj.value) == (module["p10"], module["tGun"], module["wFix"])
+    assert (joint.target.value, joint.tool.value, joint.wobj.value) == (
+        module["p10"],
+        module["tGun"],
+        module["wFix"],
+    )
     # The tool looks down: 5 mm along its z are 5 mm less.
     np.testing.assert_allclose(line.target.value.trans_mm, (425, 325, 313), atol=1e-6)
     assert [(part.line, part.what) for part in module.skipped] == [
@@ -110,7 +136,11 @@ def test_new_values_change_nothing_else_in_the_text():
     assert (again["p10"], again["path"], again["free"]) == (target, [target, target], 2.5)
     assert again["tGun"] == module["tGun"]
     before, after = PROGRAM.splitlines(), text.splitlines()
-    assert [number for number, lines in enumerate(zip(before, after, strict=True), 1) if lines[0] != lines[1]] == [
+    assert [
+        number
+        for number, lines in enumerate(zip(before, after, strict=True), 1)
+        if lines[0] != lines[1]
+    ] == [
         9,
         10,
         11,
@@ -131,7 +161,9 @@ def test_frames_may_be_written_as_rapid_writes_them():
 
 
 def test_numpy_s_numbers_and_truths_are_taken():
-    assert RobTarget(np.array([1, 2, 3]), robconf=np.array([0, 1, 2, 3])) == RobTarget((1, 2, 3), robconf=(0, 1, 2, 3))
+    assert RobTarget(np.array([1, 2, 3]), robconf=np.array([0, 1, 2, 3])) == RobTarget(
+        (1, 2, 3), robconf=(0, 1, 2, 3)
+    )
     assert ToolData(robhold=np.bool_(False)).robhold is False
     assert (rapid.dump(np.int64(3)), rapid.dump(np.array([1.0, 2.0, 3.0]))) == ("3", "[1,2,3]")
     assert rapid.parse(b"[[1,2,3],[1,0,0,0]]") == Pose((1, 2, 3))
@@ -143,7 +175,9 @@ def test_words_of_numbers_may_stand_in_strings():
 
 
 def test_names_are_looked_for_in_the_context():
-    tools = rapid.parse("MODULE Tools(SYSMODULE)\nPERS tooldata tPin:=[TRUE,[[0,0,200],[1,0,0,0]],load0];\nENDMODULE")
+    tools = rapid.parse(
+        "MODULE Tools(SYSMODULE)\nPERS tooldata tPin:=[TRUE,[[0,0,200],[1,0,0,0]],load0];\nENDMODULE"
+    )
     target = rapid.dump(RobTarget((1, 2, 3)))
     text = f"MODULE M\nPROC main()\nMoveL {target},v1,fine,tPin;\nENDPROC\nENDMODULE"
     (alone,), (known,) = rapid.parse(text).moves, rapid.parse(text, context=[tools]).moves
@@ -163,9 +197,12 @@ def test_files_are_of_any_usual_encoding(tmp_path, encoding):
 
 def test_a_broken_file_is_told_with_its_path_line_and_column(tmp_path):
     path = tmp_path / "broken.mod"
-    path.write_text("MODULE M\n  CONST robtarget p:=[[1,2],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nENDMODULE")
+    path.write_text(
+        "MODULE M\n  CONST robtarget p:=[[1,2],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nENDMODULE"
+    )
     with pytest.raises(
-        RapidError, match=r"broken\.mod: line 2, column \d+: robtarget p: trans has 2 components, it must have 3"
+        RapidError,
+        match=r"broken\.mod: line 2, column \d+: robtarget p: trans has 2 components, it must have 3",
     ) as caught:
         rapid.load(path)
     assert caught.value.line == 2
@@ -192,27 +229,47 @@ HOLDS_ITSELF.append(HOLDS_ITSELF)
         (lambda: rapid.dump({"a": [[1.0], [1.0, 2.0]]}), "its lists have different lengths"),
         (lambda: rapid.dump({"a": []}), "at least one element"),
         (lambda: rapid.dump(HOLDS_ITSELF), "an array has one to 3 dimensions"),
-        (lambda: rapid.parse("[[1,2,3]]"), "is no robtarget, jointtarget, tooldata, wobjdata, pose or loaddata"),
+        (
+            lambda: rapid.parse("[[1,2,3]]"),
+            "is no robtarget, jointtarget, tooldata, wobjdata, pose or loaddata",
+        ),
         (lambda: rapid.dump({"a:=1;\nVAR num b": 2.0}), "is no name that RAPID could read"),
         (lambda: rapid.dump({"a": 1.0}, name="M(SYSMODULE)"), "is no name that RAPID could read"),
         (lambda: rapid.dump({1: 1.0}), "1 is no name"),
         (lambda: rapid.dump(b"abc"), "is no RAPID data"),
         (lambda: rapid.dump(True), "is no RAPID data"),
         (lambda: rapid.dump([1.0, [2.0]]), "its lists have different lengths"),
-        (lambda: rapid.parse("[[1,2,3],[1,0,0,0]]; VAR num y:=5"), "no robtarget, jointtarget|stands where"),
+        (
+            lambda: rapid.parse("[[1,2,3],[1,0,0,0]]; VAR num y:=5"),
+            "no robtarget, jointtarget|stands where",
+        ),
         (lambda: rapid.parse("[[1,2,3],[1,0,0,0]"), r"line 1, column 1: \[ is not closed"),
         (lambda: RobTarget("123"), "trans_mm must be 3 finite numbers, got '123'"),
-        (lambda: RobTarget((1, 2, 3), robconf=(2**40, 0, 0, 0)), "4 whole numbers of at most 2147483647"),
-        (lambda: ToolData(tframe=np.eye(4)), r"ToolData: tframe must be a Pose \(Pose.of\(T\) makes one"),
+        (
+            lambda: RobTarget((1, 2, 3), robconf=(2**40, 0, 0, 0)),
+            "4 whole numbers of at most 2147483647",
+        ),
+        (
+            lambda: ToolData(tframe=np.eye(4)),
+            r"ToolData: tframe must be a Pose \(Pose.of\(T\) makes one",
+        ),
         (lambda: ToolData(Pose((1, 2, 3))), "ToolData: robhold must be True or False"),
         (lambda: WobjData(ufmec=None), "WobjData: ufmec must be a str, got None"),
         (lambda: LoadData(mass_kg="abc"), "LoadData: mass_kg must be a finite number, got 'abc'"),
         (lambda: JointTarget.of("abcdef"), "robax_deg must be 6 finite numbers"),
         (lambda: RobTarget.of(np.eye(4), None), "robconf must be 4 whole numbers"),
-        (lambda: rapid.calc_joint_t(irbkin.Robot("UR3"), RobTarget((1, 2, 3))), "configurations are those of ABB"),
-        (lambda: rapid.calc_joint_t(irbkin.Robot("IRB 140-6/0.81"), "p10"), "target must be a RobTarget, got str"),
         (
-            lambda: rapid.calc_joint_t(irbkin.Robot("IRB 140-6/0.81"), RobTarget((1, 2, 3)), WobjData()),
+            lambda: rapid.calc_joint_t(irbkin.Robot("UR3"), RobTarget((1, 2, 3))),
+            "this robot has no ABB configuration",
+        ),
+        (
+            lambda: rapid.calc_joint_t(irbkin.Robot("IRB 140-6/0.81"), "p10"),
+            "target must be a RobTarget, got str",
+        ),
+        (
+            lambda: rapid.calc_joint_t(
+                irbkin.Robot("IRB 140-6/0.81"), RobTarget((1, 2, 3)), WobjData()
+            ),
             "tool must be a ToolData",
         ),
     ],
@@ -227,21 +284,34 @@ def taught():
     robots = {"IRB140": "IRB 140-6/0.81", "IRB120": "IRB 120-3/0.58", "IRB2400": "IRB 2400-10/1.55"}
     for row in read("abb_robtargets_with_confdata.csv"):
         pose = {
-            name: Pose(tuple(map(float, row[f"{name}_pos"].split())), tuple(map(float, row[f"{name}_quat"].split())))
+            name: Pose(
+                tuple(map(float, row[f"{name}_pos"].split())),
+                tuple(map(float, row[f"{name}_quat"].split())),
+            )
             for name in ("tool", "uframe", "oframe")
         }
-        trans, rot = numbers(row, ("x_mm", "y_mm", "z_mm")), numbers(row, ("q1_w", "q2_x", "q3_y", "q4_z"))
+        trans, rot = (
+            numbers(row, ("x_mm", "y_mm", "z_mm")),
+            numbers(row, ("q1_w", "q2_x", "q3_y", "q4_z")),
+        )
         target = RobTarget(trans, rot, numbers(row, ("cf1", "cf4", "cf6", "cfx")))
         wobj = WobjData(uframe=pose["uframe"], oframe=pose["oframe"])
         name = robots.get(row["robot"], row["robot"].replace("IRB", "IRB "))
         derived = numbers(row, [f"{axis}_derived" for axis in RAX])
         yield pytest.param(
-            irbkin.Robot(name), target, ToolData(tframe=pose["tool"]), wobj, derived, id=f"{name} {row['name']}"
+            irbkin.Robot(name),
+            target,
+            ToolData(tframe=pose["tool"]),
+            wobj,
+            derived,
+            id=f"{name} {row['name']}",
         )
 
 
 @pytest.mark.parametrize(("robot", "target", "tool", "wobj", "derived"), list(taught()))
-def test_taught_targets_have_the_joints_that_they_were_taught_with(robot, target, tool, wobj, derived):
+def test_taught_targets_have_the_joints_that_they_were_taught_with(
+    robot, target, tool, wobj, derived
+):
     joints = rapid.calc_joint_t(robot, target, tool, wobj)
     np.testing.assert_allclose(joints.robax_deg, derived, rtol=0, atol=5.1e-5)
     np.testing.assert_allclose(joints.q, np.deg2rad(joints.robax_deg))
@@ -257,16 +327,24 @@ def test_what_a_controller_would_refuse_is_refused_by_its_name():
     robot = irbkin.Robot("IRB 140-6/0.81")
     module = rapid.parse(PROGRAM)
     far = RobTarget((9000, 0, 0), (1, 0, 0, 0))
-    with pytest.raises(irbkin.UnreachableError, match=r"^ERR_OUTSIDE_REACH: wrist centre") as caught:
+    with pytest.raises(
+        irbkin.UnreachableError, match=r"^ERR_OUTSIDE_REACH: wrist center"
+    ) as caught:
         rapid.calc_joint_t(robot, far)
     assert caught.value.rapid_error == "ERR_OUTSIDE_REACH"
     target = RobTarget(module["p10"].trans_mm, module["p10"].rot, (3, 0, 0, 0))
-    with pytest.raises(irbkin.UnreachableError, match=r"^ERR_ROBLIMIT: no solution inside the limits") as caught:
+    with pytest.raises(
+        irbkin.UnreachableError, match=r"^ERR_ROBLIMIT: no solution inside the limits"
+    ) as caught:
         rapid.calc_joint_t(robot, target, module["tGun"], module["wFix"])
     assert caught.value.rapid_error == "ERR_ROBLIMIT"
     assert Configuration(0, 0, -1, 0) in caught.value.configurations
-    joints = rapid.calc_joint_t(robot, target, module["tGun"], module["wFix"], fallback="nearest", seed=np.zeros(6))
-    assert rapid.calc_rob_t(robot, joints, module["tGun"], module["wFix"]).robconf == Configuration(0, 0, -1, 0)
+    joints = rapid.calc_joint_t(
+        robot, target, module["tGun"], module["wFix"], fallback="nearest", seed=np.zeros(6)
+    )
+    assert rapid.calc_rob_t(robot, joints, module["tGun"], module["wFix"]).robconf == Configuration(
+        0, 0, -1, 0
+    )
 
 
 def test_a_whole_module_is_a_table():

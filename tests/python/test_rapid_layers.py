@@ -1,4 +1,6 @@
-"""A layer of the RAPID reader uses only those below it, and no files of it use each other in a circle."""
+"""A layer of the RAPID reader uses only those below it, and no files of it use each other in a
+circle.
+"""
 
 import re
 from pathlib import Path
@@ -12,7 +14,9 @@ def layers() -> list[str]:
 
 
 def uses(path: Path) -> set[str]:
-    """What a file uses of the reader, as "layer/file", and as "layer/mod" what is not in a file of its own."""
+    """What a file uses of the reader, as "layer/file", and as "layer/mod" what is not in a file of
+    its own.
+    """
     layer = path.parent.name
     text = path.read_text().split("#[cfg(test)]")[0]
     used = set()
@@ -27,11 +31,17 @@ def uses(path: Path) -> set[str]:
     return used
 
 
-FILES = {f"{path.parent.name}/{path.stem}": uses(path) for layer in layers() for path in (RAPID / layer).glob("*.rs")}
+FILES = {
+    f"{path.parent.name}/{path.stem}": uses(path)
+    for layer in layers()
+    for path in (RAPID / layer).glob("*.rs")
+}
 
 
 def test_the_documentation_lists_every_layer():
-    assert sorted(layers()) == sorted(path.name for path in RAPID.iterdir() if path.is_dir() and path.name != "tests")
+    assert sorted(layers()) == sorted(
+        path.name for path in RAPID.iterdir() if path.is_dir() and path.name != "tests"
+    )
 
 
 def test_every_file_is_in_a_layer():

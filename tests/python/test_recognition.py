@@ -16,7 +16,9 @@ NAMES = sorted(ABB)
 
 @dataclass
 class Gauge:
-    """A table that is changed without changing the arm: rows, the way from old to new joints, what is left over."""
+    """A table that is changed without changing the arm: rows, the way from old to new joints, what
+    is left over.
+    """
 
     rows: np.ndarray
     signs: np.ndarray = field(default_factory=lambda: np.ones(6))
@@ -66,10 +68,13 @@ TURNS = st.tuples(st.sampled_from(["z", "x"]), st.integers(0, 5))
 
 @st.composite
 def gauges(draw):
-    """(Name of an arm, a gauge that keeps its "up", its "front" and the side to which axis 5 points at zero)."""
+    """(Name of an arm, a gauge that keeps its "up", its "front" and the side to which axis 5 points
+    at zero).
+    """
     name = draw(st.sampled_from(NAMES))
     gauge = Gauge(ABB[name].rows)
-    # Axes 1 and 4 are shifted by less than a quarter: beyond, "front" and the sign of axis 5 are read the other way.
+    # Axes 1 and 4 are shifted by less than a quarter: beyond, "front" and the sign of axis 5 are
+    # read the other way.
     gauge.zero(0, draw(st.floats(-1.4, 1.4)))
     gauge.zero(3, draw(st.floats(-1.4, 1.4)))
     for joint in (1, 2, 4, 5):
@@ -92,7 +97,9 @@ def test_odd_frames_are_the_same_arm(drawn, parts):
     q = low + parts * (high - low)
     bound = rounding(reach(gauge.rows))
     np.testing.assert_allclose(odd.fk(gauge.joints(q)), original.fk(q), rtol=0, atol=bound)
-    np.testing.assert_allclose(fk(gauge.rows, gauge.joints(q)) @ gauge.left_over, original.fk(q), rtol=0, atol=bound)
+    np.testing.assert_allclose(
+        fk(gauge.rows, gauge.joints(q)) @ gauge.left_over, original.fk(q), rtol=0, atol=bound
+    )
 
 
 @given(gauges(), st.integers(0, 2**32 - 1))
@@ -123,17 +130,19 @@ def test_half_turned_zeros_keep_every_solution(name):
             assert len(here) == len(there)
             distances = apart(gauge.joints(here.q)[:, None], there.q[None])
             assert sorted(distances.argmin(axis=1)) == list(range(len(here)))
-            assert distances.min(axis=1).max() <= max(1e-9, 2 * rounding(reach(gauge.rows)) * 4 / sigma)
+            assert distances.min(axis=1).max() <= max(
+                1e-9, 2 * rounding(reach(gauge.rows)) * 4 / sigma
+            )
 
 
-def test_a_catalogue_arm_is_recognised_in_its_own_table():
+def test_a_catalog_arm_is_recognized_in_its_own_table():
     for name, arm in ABB.items():
         robot = irbkin.Robot.from_mdh(arm.rows, limits=np.deg2rad(arm.limits_deg))
         q = np.deg2rad([10, 20, -30, 40, 50, 60])
-        own, catalogue = robot.ik(robot.fk(q)), irbkin.Robot(name).ik(robot.fk(q))
-        assert robot.family == "spherical wrist"
-        np.testing.assert_array_equal(own.status, catalogue.status)
-        np.testing.assert_allclose(own.q, catalogue.q, rtol=0, atol=1e-12)
+        own, catalog = robot.ik(robot.fk(q)), irbkin.Robot(name).ik(robot.fk(q))
+        assert robot.structure == "spherical wrist"
+        np.testing.assert_array_equal(own.status, catalog.status)
+        np.testing.assert_allclose(own.q, catalog.q, rtol=0, atol=1e-12)
 
 
 def test_an_arm_with_a_flange_behind_its_wrist_closes():

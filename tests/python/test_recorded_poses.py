@@ -3,7 +3,7 @@
 import irbkin
 import numpy as np
 import pytest
-from arms import ABB, CATALOGUE, COMAU_NJ165, IRB2400
+from arms import ABB, CATALOG, COMAU_NJ165, IRB2400
 from cases import RAX, XYZ, half_digit, matrix, numbers, pose_mm, read
 from reference import move, pose_of, reach, rotation_apart, rounding, turn
 
@@ -23,7 +23,11 @@ PANDAS = read("panda_fk_pairs.csv")
 
 @pytest.mark.parametrize("row", PAIRS, ids=ids(PAIRS, "robot", "rax_2"))
 def test_published_pairs_are_met_to_a_hundredth(row):
-    robot = irbkin.Robot.from_opw(**IRB2400) if row["robot"].startswith("IRB 2400") else irbkin.Robot(row["robot"])
+    robot = (
+        irbkin.Robot.from_opw(**IRB2400)
+        if row["robot"].startswith("IRB 2400")
+        else irbkin.Robot(row["robot"])
+    )
     found, wanted = robot.fk(np.deg2rad(numbers(row, RAX))), pose_mm(row)
     assert np.linalg.norm(found[:3, 3] - wanted[:3, 3]) <= 1e-5
     assert np.rad2deg(rotation_apart(found, wanted)) <= 0.01
@@ -35,7 +39,10 @@ def test_a_6640_agrees_with_every_printed_digit(row):
     found, wanted = irbkin.Robot(arm.name).fk(np.deg2rad(numbers(row, RAX))), pose_mm(row)
     # Six joints of a rounded text turn the arm, and the pose itself is rounded.
     turned = 6 * np.deg2rad(half_digit(row, RAX)) + rounding(reach(arm.rows))
-    assert np.abs(found[:3, 3] - wanted[:3, 3]).max() <= turned * reach(arm.rows) + half_digit(row, XYZ) / 1e3
+    assert (
+        np.abs(found[:3, 3] - wanted[:3, 3]).max()
+        <= turned * reach(arm.rows) + half_digit(row, XYZ) / 1e3
+    )
     assert rotation_apart(found, wanted) <= turned + 4 * half_digit(row, QUATERNION)
 
 
@@ -57,7 +64,9 @@ def test_robotstudio_home_poses(name, x, z):
 
 @pytest.mark.parametrize("row", COMAU, ids=ids(COMAU, "q1", "q2"))
 def test_joint_signs_of_a_comau(row):
-    found = irbkin.Robot.from_opw(**COMAU_NJ165).fk(np.deg2rad(numbers(row, [f"q{i}" for i in range(1, 7)])))
+    found = irbkin.Robot.from_opw(**COMAU_NJ165).fk(
+        np.deg2rad(numbers(row, [f"q{i}" for i in range(1, 7)]))
+    )
     assert np.abs(found[:3, 3] - numbers(row, XYZ) / 1e3).max() <= 0.5e-6 + rounding(4)
 
 
@@ -87,7 +96,9 @@ def test_panda_poses(row):
 
 
 def test_closed_form_of_a_2600():
-    """The flange position of an IRB 2600-12/1.65, expanded by hand; theta 2 = q2 - 90 deg, millimetres."""
+    """The flange position of an IRB 2600-12/1.65, expanded by hand; theta 2 = q2 - 90 deg,
+    millimeters.
+    """
     robot = irbkin.Robot("IRB 2600-12/1.65")
     low, high = robot.limits.T
     for q in np.random.default_rng(7).uniform(low, high, (100, 6)):
@@ -101,10 +112,12 @@ def test_closed_form_of_a_2600():
             s1 * k - 85 * s5 * (s1 * c23 * c4 - c1 * s4),
             85 * s23 * c4 * s5 - c23 * (85 * c5 + 795) - 115 * s23 - 700 * s2 + 445,
         ]
-        np.testing.assert_allclose(robot.fk(q)[:3, 3], np.array(wanted) / 1e3, rtol=0, atol=rounding(3))
+        np.testing.assert_allclose(
+            robot.fk(q)[:3, 3], np.array(wanted) / 1e3, rtol=0, atol=rounding(3)
+        )
 
 
 def test_no_row_is_left_out():
     """Every arm that the tables name was built, none was skipped."""
-    assert {row["robot"] for row in PAIRS} - {"IRB 2400-10/1.55"} <= set(CATALOGUE)
+    assert {row["robot"] for row in PAIRS} - {"IRB 2400-10/1.55"} <= set(CATALOG)
     assert [len(rows) for rows in (PAIRS, IRB6640, COMAU, UR, PANDAS)] == [4, 4, 3, 4, 2]

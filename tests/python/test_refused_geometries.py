@@ -3,7 +3,7 @@
 import irbkin
 import numpy as np
 import pytest
-from arms import ABB, CATALOGUE, GOFA_ROWS_MM_DEG, ur_rows
+from arms import ABB, CATALOG, GOFA_ROWS_MM_DEG, ur_rows
 from reference import fk, reach
 
 
@@ -39,7 +39,9 @@ def test_a_refusal_names_the_axes_and_the_figure(message):
 def test_a_refusal_names_every_condition():
     rows = changed(2, 0, DEG)
     rows[5, 1] = 0.01
-    with pytest.raises(irbkin.InvalidModelError, match=r"axes 2 and 3 must be parallel.*; axes 5 and 6 must meet"):
+    with pytest.raises(
+        irbkin.InvalidModelError, match=r"axes 2 and 3 must be parallel.*; axes 5 and 6 must meet"
+    ):
         irbkin.Robot.from_mdh(rows)
 
 
@@ -79,7 +81,7 @@ def test_an_arm_without_closed_form_is_taken_when_that_is_said(name):
     with pytest.raises(irbkin.InvalidModelError, match=words):
         build()
     robot = build(closed_form=False, name="mine")
-    assert (robot.family, robot.name, robot.dof) == ("serial", "mine", 6)
+    assert (robot.structure, robot.name, robot.dof) == ("unknown", "mine", 6)
     assert robot.fk(np.zeros(6)).shape == (4, 4)
     assert robot.jacobian(np.zeros(6)).shape == (6, 6)
 
@@ -95,7 +97,7 @@ def test_every_solve_of_an_arm_without_closed_form_says_why_it_has_none(name, so
 
 @pytest.mark.parametrize("solve", SOLVES.values(), ids=SOLVES)
 def test_a_seven_axis_arm_says_that_it_has_no_closed_form(solve):
-    rows = CATALOGUE["Panda"].rows + 1e-3
+    rows = CATALOG["Panda"].rows + 1e-3
     robot = irbkin.Robot.from_mdh(rows)
     with pytest.raises(
         irbkin.InvalidModelError,
@@ -106,7 +108,7 @@ def test_a_seven_axis_arm_says_that_it_has_no_closed_form(solve):
 
 def test_closed_form_false_keeps_the_closed_form_of_an_arm_that_has_one():
     robot = irbkin.Robot.from_mdh(ABB["IRB 140-6/0.81"].rows, closed_form=False)
-    assert robot.family == "spherical wrist"
+    assert robot.structure == "spherical wrist"
     assert len(robot.ik(robot.fk([0.1] * 6))) == 8
 
 
@@ -128,5 +130,7 @@ def test_a_table_in_text_is_squared_up(off, taken):
 def test_a_link_without_length_is_refused(row):
     rows = ABB["IRB 140-6/0.81"].rows.copy()
     rows[row, 1:3] = 0
-    with pytest.raises(irbkin.InvalidModelError, match=r"(upper arm|forearm) .*is 0 m, it must be at least 1e-6 m"):
+    with pytest.raises(
+        irbkin.InvalidModelError, match=r"(upper arm|forearm) .*is 0 m, it must be at least 1e-6 m"
+    ):
         irbkin.Robot.from_mdh(rows)

@@ -1,4 +1,6 @@
-"""The Python seam and the URDF reader are layered: no file of a folder comes back to itself through what it uses."""
+"""The Python seam and the URDF reader are layered: no file of a folder comes back to itself through
+what it uses.
+"""
 
 import re
 from pathlib import Path
@@ -10,7 +12,9 @@ MOST_LINES = 400
 
 
 def uses(folder: Path) -> dict[str, set[str]]:
-    """For each file or folder of a folder, but for its `mod`, the others that it uses by `super::` or by `crate::`."""
+    """For each file or folder of a folder, but for its `mod`, the others that it uses by `super::`
+    or by `crate::`.
+    """
     rooms = {path.stem for path in folder.iterdir()} - {"mod"}
     graph = {}
     for room in rooms:
@@ -48,6 +52,8 @@ def test_no_file_comes_back_to_itself(folder):
 @pytest.mark.parametrize("folder", ["python", "urdf"])
 def test_no_file_is_too_long(folder):
     long = {
-        path.name: n for path in (SRC / folder).rglob("*.rs") if (n := len(path.read_text().splitlines())) > MOST_LINES
+        path.name: n
+        for path in (SRC / folder).rglob("*.rs")
+        if (n := len(path.read_text().splitlines())) > MOST_LINES
     }
     assert long == {}

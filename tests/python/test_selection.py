@@ -24,7 +24,9 @@ def pose(robot):
 
 
 def brute_force(solutions, limits):
-    """Every turn of every solution inside the limits, by trying three turns either way, with the slot."""
+    """Every turn of every solution inside the limits, by trying three turns either way, with the
+    slot.
+    """
     found = []
     for solution in solutions:
         choices = [[angle + TURN * k for k in range(-3, 4)] for angle in solution.q]
@@ -48,10 +50,10 @@ def test_within_limits_keeps_those_inside_in_their_slots(robot, pose):
     solutions = robot.ik(pose)
     inside = solutions.within_limits()
     assert 0 < len(inside) < len(solutions)
-    assert [s.slot for s in inside] == [s.slot for s in solutions if s.within_limits]
-    assert all(s.within_limits for s in inside)
-    outside = [s.slot for s in solutions if not s.within_limits]
-    assert np.isnan(inside.slots[outside]).all()
+    assert [s.slot for s in inside] == [s.slot for s in solutions if s.is_within_limits]
+    assert all(s.is_within_limits for s in inside)
+    outside = [s.slot for s in solutions if not s.is_within_limits]
+    assert np.isnan(inside.q_by_slot[outside]).all()
     assert (inside.status[outside] & Status.FOUND == 0).all()
     assert inside.within_limits().q.tolist() == inside.q.tolist()
 
@@ -69,7 +71,7 @@ def test_turns_are_those_of_brute_force(robot):
             wanted_q, found_q = np.array([angles for _, angles in wanted]), np.array(turns.q)
             order = [np.lexsort(np.round(array, 6).T) for array in (wanted_q, found_q)]
             np.testing.assert_allclose(found_q[order[1]], wanted_q[order[0]], rtol=0, atol=1e-12)
-            assert all(s.within_limits for s in turns)
+            assert all(s.is_within_limits for s in turns)
 
 
 def test_turns_of_wide_limits(robot, pose):
@@ -79,7 +81,7 @@ def test_turns_of_wide_limits(robot, pose):
     turns = solutions.turns()
     assert len(turns) == len(brute_force(solutions, WIDE))
     assert len(turns) >= 8 * 2**6
-    assert apart(turns.q, wide.ik(pose).slots[[s.slot for s in turns]]).max() <= 1e-12
+    assert apart(turns.q, wide.ik(pose).q_by_slot[[s.slot for s in turns]]).max() <= 1e-12
     assert len(np.unique(np.round(turns.q, 9), axis=0)) == len(turns)
 
 
@@ -111,7 +113,7 @@ def test_the_cheapest_is_that_of_brute_force(robot, method, cost, limits):
             costs = cost(turns - seed, np.ones(6) if given is None else given)
             chosen = getattr(solutions, method)(seed, weights=given)
             np.testing.assert_allclose(chosen.q, turns[costs.argmin()], rtol=0, atol=1e-12)
-            assert chosen.within_limits
+            assert chosen.is_within_limits
             turned = getattr(solutions.turns(), method)(seed, weights=given)
             np.testing.assert_array_equal(turned.q, chosen.q)
 
@@ -120,7 +122,11 @@ def test_a_weight_of_zero_makes_a_joint_free(robot, pose):
     seed = robot.ik(pose).within_limits()[0].q.copy()
     seed[5] += 100
     assert (
-        apart(robot.ik(pose).nearest(seed, weights=[1, 1, 1, 1, 1, 0]).q, robot.ik(pose).within_limits()[0].q) <= 1e-12
+        apart(
+            robot.ik(pose).nearest(seed, weights=[1, 1, 1, 1, 1, 0]).q,
+            robot.ik(pose).within_limits()[0].q,
+        )
+        <= 1e-12
     )
 
 
@@ -131,12 +137,17 @@ def test_ik_nearest_is_the_nearest_solution(robot):
         np.testing.assert_array_equal(robot.ik_nearest(pose, seed), robot.ik(pose).nearest(seed).q)
         weighted = robot.ik_nearest(pose, seed, weights=weights)
         np.testing.assert_array_equal(weighted, robot.ik(pose).nearest(seed, weights).q)
-        assert apart(robot.ik_nearest(pose, q), q) <= 1e-14 * 4 / robot.singularity(q).min_singular_value + 1e-9
+        assert (
+            apart(robot.ik_nearest(pose, q), q)
+            <= 1e-14 * 4 / robot.singularity(q).min_singular_value + 1e-9
+        )
 
 
 @pytest.mark.parametrize("name", ABB)
 def test_ik_nearest_holds_the_free_joints_of_the_seed(name):
-    """At q5 = 0 axis 4 stays where it is, and axis 6 takes the rest; so does axis 1 with the wrist centre above it."""
+    """At q5 = 0 axis 4 stays where it is, and axis 6 takes the rest; so does axis 1 with the wrist
+    center above it.
+    """
     arm, rng = irbkin.Robot(name), np.random.default_rng(4)
     for q in rng.uniform(0.8 * arm.limits[:, 0], 0.8 * arm.limits[:, 1], (20, 6)):
         q[4] = 0.0

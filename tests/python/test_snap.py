@@ -1,4 +1,6 @@
-"""Right angles that were written with few digits are made exact where that is asked for, and the refusal says how."""
+"""Right angles that were written with few digits are made exact where that is asked for, and the
+refusal says how.
+"""
 
 import pickle
 from pathlib import Path
@@ -9,7 +11,8 @@ import pytest
 from irbkin import InvalidModelError, Robot
 
 DATA = Path(__file__).parents[1] / "data" / "few_digits"
-# PUMA 560 as textbooks print it, standard rows: alpha, a, d, theta. Right angles with four decimals.
+# PUMA 560 as textbooks print it, standard rows: alpha, a, d, theta. Right angles with four
+# decimals.
 PUMA = [
     [1.5708, 0, 0.6718, 0],
     [0, 0.4318, 0, 0],
@@ -21,15 +24,20 @@ PUMA = [
 
 
 def test_a_table_is_taken_with_the_snap_that_its_refusal_proposes():
-    for build, rows in ((Robot.from_sdh, PUMA), (Robot.from_mdh, Robot.from_sdh(PUMA, closed_form=False).mdh)):
-        with pytest.raises(InvalidModelError, match=r"they are 0\.000210 deg off.*; snap=1e-5 would take it$"):
+    for build, rows in (
+        (Robot.from_sdh, PUMA),
+        (Robot.from_mdh, Robot.from_sdh(PUMA, closed_form=False).mdh),
+    ):
+        with pytest.raises(
+            InvalidModelError, match=r"they are 0\.000210 deg off.*; snap=1e-5 would take it$"
+        ):
             build(rows)
         with pytest.raises(InvalidModelError, match="snap=1e-5 would take it"):
             build(rows, snap=1e-6)
         robot = build(rows, snap=1e-5)
-        assert robot.family == "spherical wrist"
+        assert robot.structure == "spherical wrist"
         text = build(rows, closed_form=False)
-        assert text.family == "serial"
+        assert text.structure == "unknown"
         q = np.random.default_rng(3).uniform(-np.pi, np.pi, (500, 6))
         # Four right angles, each at most 1e-5 rad off; the arm is 1.6 m long.
         assert 0 < np.abs(robot.fk(q) - text.fk(q)).max() <= 4 * 1e-5 * 1.6
@@ -39,7 +47,10 @@ def test_a_table_is_taken_with_the_snap_that_its_refusal_proposes():
             solutions = robot.ik(pose)
             assert max(solution.residual for solution in solutions) <= 1e-14
             difference = solutions.q - joints
-            assert np.abs(difference - 2 * np.pi * np.round(difference / 2 / np.pi)).max(axis=1).min() <= 1e-8
+            assert (
+                np.abs(difference - 2 * np.pi * np.round(difference / 2 / np.pi)).max(axis=1).min()
+                <= 1e-8
+            )
             counts.append(len(solutions))
         assert counts.count(8) > 200
         assert pickle.loads(pickle.dumps(robot)) == robot
@@ -47,7 +58,8 @@ def test_a_table_is_taken_with_the_snap_that_its_refusal_proposes():
 
 
 @pytest.mark.parametrize(
-    ("name", "snap", "family"), [("puma560", "1e-8", "spherical wrist"), ("xarm7", "1e-5", "spherical shoulder")]
+    ("name", "snap", "family"),
+    [("puma560", "1e-8", "spherical wrist"), ("xarm7", "1e-5", "spherical shoulder")],
 )
 def test_a_published_urdf_is_taken_with_the_snap_that_its_refusal_proposes(name, snap, family):
     path = DATA / f"{name}.urdf"
@@ -56,7 +68,7 @@ def test_a_published_urdf_is_taken_with_the_snap_that_its_refusal_proposes(name,
         text.ik(text.fk([0.3] * text.dof), *[0.3] * (text.dof - 6))
     assert "0.000000" not in str(refused.value)
     robot = Robot.from_urdf(path, snap=float(snap))
-    assert robot.family == family
+    assert robot.structure == family
     assert Robot.from_urdf(path, snap=1e-3).mdh.tolist() == robot.mdh.tolist()
     q = np.random.default_rng(4).uniform(-1, 1, (200, robot.dof))
     assert np.abs(robot.fk(q) - text.fk(q)).max() <= 6 * float(snap) * 1.5

@@ -29,7 +29,10 @@ def by_pinocchio(text, base, tip):
     """Forward kinematics from base to tip of the model that Pinocchio makes of the same text."""
     model = pinocchio.buildModelFromXML(text)
     data = model.createData()
-    frames = [model.getFrameId(link, pinocchio.FrameType.BODY) for link in (base or model.frames[1].name, tip)]
+    frames = [
+        model.getFrameId(link, pinocchio.FrameType.BODY)
+        for link in (base or model.frames[1].name, tip)
+    ]
 
     def fk(q):
         configuration = pinocchio.neutral(model)
@@ -63,12 +66,17 @@ def test_every_description_is_tried():
 def test_poses_are_those_of_pinocchio(name):
     base, tip, last = CHAINS[name]
     robot = Robot.from_urdf(TEXTS[name], base, tip, closed_form=False)
-    # Right angles with nine decimals are 2e-10 off, and are taken as such: for six joints, on the way there and back.
-    bound = 12 * 2.1e-10 * reach(robot) if name == "irb2600_rounded" else 2 * rounding(reach(robot) + 1)
+    # Right angles with nine decimals are 2e-10 off, and are taken as such: for six joints, on the
+    # way there and back.
+    bound = (
+        12 * 2.1e-10 * reach(robot) if name == "irb2600_rounded" else 2 * rounding(reach(robot) + 1)
+    )
     assert_agrees(robot, by_pinocchio(TEXTS[name], base, last), bound)
 
 
-@pytest.mark.parametrize(("base", "tip"), [("base_link", "tip"), ("world", "link_6"), ("base_link", "link_6")])
+@pytest.mark.parametrize(
+    ("base", "tip"), [("base_link", "tip"), ("world", "link_6"), ("base_link", "link_6")]
+)
 def test_poses_from_and_to_other_links(base, tip):
     text = TEXTS["tilted"]
     robot = Robot.from_urdf(text, base, tip, closed_form=False)
@@ -78,7 +86,10 @@ def test_poses_from_and_to_other_links(base, tip):
 def test_a_chain_of_too_few_joints_is_counted():
     with pytest.raises(InvalidModelError) as refused:
         Robot.from_urdf(TEXTS["tilted"], "link_1", "tip")
-    assert str(refused.value) == 'URDF: 5 revolute joints lead from "link_1" to "tip", there must be 6 or 7'
+    assert (
+        str(refused.value)
+        == 'URDF: 5 revolute joints lead from "link_1" to "tip", there must be 6 or 7'
+    )
 
 
 def test_the_table_with_both_ends_is_the_arm():
@@ -101,14 +112,14 @@ def test_the_table_with_both_ends_is_the_arm():
 )
 def test_a_known_form_has_the_same_slots(name, other):
     robot = Robot.from_urdf(TEXTS[name])
-    assert robot.family == "spherical wrist"
+    assert robot.structure == "spherical wrist"
     for q in np.random.default_rng(2).uniform(-1.5, 1.5, (SAMPLES, 6)):
         pose = other.fk(q)
         np.testing.assert_allclose(robot.fk(q), pose, atol=1e-14)
         if min(abs(np.sin(q[4])), robot.singularity(q).min_singular_value) < 1e-2:
             continue
         found, wanted = robot.with_limits(other.limits).ik(pose), other.ik(pose)
-        np.testing.assert_allclose(found.slots, wanted.slots, atol=1e-11)
+        np.testing.assert_allclose(found.q_by_slot, wanted.q_by_slot, atol=1e-11)
 
 
 @pytest.mark.parametrize(
@@ -116,12 +127,17 @@ def test_a_known_form_has_the_same_slots(name, other):
     [
         # ROS turns base_link half a turn about z from frame 0 of the maker's table.
         ("ur5e", "tool0", Robot("UR5e").with_base(turn("z", np.pi)), "three parallel axes"),
-        ("panda_hand", "panda_hand", Robot("Panda").with_tool(turn("z", -np.pi / 4)), "spherical shoulder"),
+        (
+            "panda_hand",
+            "panda_hand",
+            Robot("Panda").with_tool(turn("z", -np.pi / 4)),
+            "spherical shoulder",
+        ),
     ],
 )
 def test_the_other_forms_have_the_same_slots(name, tip, other, family):
     robot = Robot.from_urdf(TEXTS[name], tip=tip)
-    assert robot.family == other.family == family
+    assert robot.structure == other.structure == family
     low, high = other.limits.T
     compared = 0
     for q in np.random.default_rng(2).uniform(low, high, (SAMPLES, robot.dof)):
@@ -129,27 +145,35 @@ def test_the_other_forms_have_the_same_slots(name, tip, other, family):
         np.testing.assert_allclose(robot.fk(q), pose, atol=2e-9)
         found, wanted = robot.with_limits(other.limits).ik(pose, **told), other.ik(pose, **told)
         # A URDF in nine decimals is off by 1e-9: the joints by that over the least singular value.
-        if all(np.linalg.svd(other.jacobian(s.q)[:, :6], compute_uv=False)[-1] > 1e-2 for s in wanted):
-            np.testing.assert_allclose(found.slots, wanted.slots, atol=1e-6)
+        if all(
+            np.linalg.svd(other.jacobian(s.q)[:, :6], compute_uv=False)[-1] > 1e-2 for s in wanted
+        ):
+            np.testing.assert_allclose(found.q_by_slot, wanted.q_by_slot, atol=1e-6)
             compared += 1
     assert compared > SAMPLES / 4
 
 
 def test_limits_velocities_and_names_arrive():
     robot = Robot.from_urdf(TEXTS["irb2600"])
-    catalogue = Robot("IRB 2600-12/1.65")
-    np.testing.assert_array_equal(robot.limits, catalogue.limits)
-    np.testing.assert_array_equal(robot.max_velocity, catalogue.max_velocity)
+    catalog = Robot("IRB 2600-12/1.65")
+    np.testing.assert_array_equal(robot.limits, catalog.limits)
+    np.testing.assert_array_equal(robot.max_velocity, catalog.max_velocity)
     assert robot.name == "irb2600"
     assert Robot.from_urdf(TEXTS["irb2600"], name="mine").name == "mine"
     tilted = Robot.from_urdf(TEXTS["tilted"], closed_form=False)
-    np.testing.assert_array_equal(tilted.limits, [[-np.inf, np.inf], *[[-2.0, 2.5]] * 4, [-np.inf, np.inf]])
+    np.testing.assert_array_equal(
+        tilted.limits, [[-np.inf, np.inf], *[[-2.0, 2.5]] * 4, [-np.inf, np.inf]]
+    )
     assert tilted.max_velocity is None
 
 
 def test_a_robot_of_a_urdf_is_a_value():
     robot = Robot.from_urdf(TEXTS["tilted"], closed_form=False)
-    assert pickle.loads(pickle.dumps(robot)) == robot == Robot.from_urdf(TEXTS["tilted"], closed_form=False)
+    assert (
+        pickle.loads(pickle.dumps(robot))
+        == robot
+        == Robot.from_urdf(TEXTS["tilted"], closed_form=False)
+    )
     assert hash(robot) == hash(pickle.loads(pickle.dumps(robot)))
 
 
@@ -157,7 +181,13 @@ def test_text_bytes_and_paths_are_taken(tmp_path):
     text = TEXTS["irb2600"]
     path = DATA / "irb2600.urdf"
     robot = Robot.from_urdf(text)
-    for given in (text.encode(), "\n \ufeff" + text, b"\xef\xbb\xbf" + text.encode(), path, str(path)):
+    for given in (
+        text.encode(),
+        "\n \ufeff" + text,
+        b"\xef\xbb\xbf" + text.encode(),
+        path,
+        str(path),
+    ):
         assert Robot.from_urdf(given) == robot
     # A path may hold what is no UTF-8.
     odd = tmp_path / "arm\udcff.urdf"
@@ -196,12 +226,18 @@ def chain(kinds, extra=""):
     ("text", "words"),
     [
         ("<robot", "line 1, column 7 is no XML: the text ends before the robot does"),
-        ("<robot>\n<link>\n</robot>", "line 3, column 1 is no XML: expected 'link' tag, not 'robot'"),
+        (
+            "<robot>\n<link>\n</robot>",
+            "line 3, column 1 is no XML: expected 'link' tag, not 'robot'",
+        ),
         ("<mujoco/>", "the first element is <mujoco>, it must be <robot>"),
         (b"<robot name='\xff'/>", "byte 13 is no UTF-8"),
         ("<robot name='\ud800'/>", "byte 13 is no UTF-8"),
         ("<robot a='1' a='2'/>", "line 1, column 14 is no XML: attribute 'a' is already defined"),
-        (chain(["revolute"] * 5), '6 or 7 revolute joints lead from "l0" to no end of a chain: "l5" (5)'),
+        (
+            chain(["revolute"] * 5),
+            '6 or 7 revolute joints lead from "l0" to no end of a chain: "l5" (5)',
+        ),
         (
             chain(
                 ["revolute"] * 6 + ["fixed"],
@@ -217,7 +253,10 @@ def chain(kinds, extra=""):
             chain(["revolute"] * 3 + ["planar"] + ["revolute"] * 3),
             '6 or 7 revolute joints lead from "l0" to no end of a chain: "l7" (behind joint "j3", planar)',
         ),
-        (chain(["revolute"] * 6).replace("0.2", "nan", 1), 'joint "j0" origin xyz is NaN, it must be finite'),
+        (
+            chain(["revolute"] * 6).replace("0.2", "nan", 1),
+            'joint "j0" origin xyz is NaN, it must be finite',
+        ),
         (
             chain(["revolute"] * 6).replace("0.2", "1e300", 1),
             'joint "j0" origin xyz is 1e300, its size must be at most 1e6',
@@ -236,7 +275,9 @@ def test_a_link_that_is_none_is_named():
     links = ["base_link", *(f"link_{i}" for i in range(1, 7)), "tool0"]
     words = 'URDF: tip "tool" is no link; there are ' + ", ".join(f'"{link}"' for link in links)
     assert str(refused.value) == words
-    with pytest.raises(InvalidModelError, match=r'^URDF: tip "base" does not hang on base "link_1"$'):
+    with pytest.raises(
+        InvalidModelError, match=r'^URDF: tip "base" does not hang on base "link_1"$'
+    ):
         Robot.from_urdf(TEXTS["irb2600"], "link_1", "base")
 
 
@@ -253,7 +294,15 @@ def test_hostile_text_is_an_invalid_model():
     entities = "".join(f'<!ENTITY e{i} "{f"&e{i - 1};" * 10}">' for i in range(1, 10))
     bomb = f'<!DOCTYPE r [<!ENTITY e0 "lol">{entities}]><robot name="&e9;"/>'
     wide = chain(["fixed"] * 100_000)
-    for text in (deep, deep[: len(deep) // 2], bomb, wide, "<" * 100_000, "<robot>\0</robot>", "<\U0001f916/>"):
+    for text in (
+        deep,
+        deep[: len(deep) // 2],
+        bomb,
+        wide,
+        "<" * 100_000,
+        "<robot>\0</robot>",
+        "<\U0001f916/>",
+    ):
         with pytest.raises(InvalidModelError, match=r"^URDF: "):
             Robot.from_urdf(text)
         with pytest.raises(InvalidModelError, match=r"^URDF: "):

@@ -10,8 +10,8 @@ from pathlib import Path
 import irbkin
 import numpy as np
 import pytest
-from arms import ABB, CATALOGUE, IRB2400, KUKA_KR6, LATERAL
-from irbkin import Kind, Robot, Status
+from arms import ABB, CATALOG, IRB2400, KUKA_KR6, LATERAL
+from irbkin import Robot, SingularityKind, Status
 from reference import move, random_pose
 
 
@@ -20,7 +20,7 @@ def variants():
     plain = Robot("IRB 2600-12/1.65")
     rows = ABB["IRB 140-6/0.81"].rows
     return {
-        "catalogue": plain,
+        "catalog": plain,
         "other arm": Robot("IRB 2600-12/1.85"),
         "Panda": Robot("Panda"),
         "tool": plain.with_tool(move(0, 0, 0.1)),
@@ -33,7 +33,7 @@ def variants():
         "mdh": Robot.from_mdh(rows),
         "mdh, limits": Robot.from_mdh(rows, limits=np.array([[-1.0, 1.0]] * 6), name="mine"),
         "sdh": Robot.from_sdh(rows, closed_form=False),
-        "seven": Robot.from_mdh(CATALOGUE["Panda"].rows),
+        "seven": Robot.from_mdh(CATALOG["Panda"].rows),
         "everything": Robot.from_opw(**KUKA_KR6, name="ü")
         .with_tool(random_pose(np.random.default_rng(1)))
         .with_base(move(1, 2, 3)),
@@ -55,10 +55,12 @@ def test_equal_robots_are_equal_and_have_one_hash(name):
 
 def test_robots_that_differ_are_not_equal():
     for first in NAMES:
-        assert [VARIANTS[first] == VARIANTS[second] for second in NAMES] == [first == second for second in NAMES]
+        assert [VARIANTS[first] == VARIANTS[second] for second in NAMES] == [
+            first == second for second in NAMES
+        ]
     assert len(set(VARIANTS.values())) == len(VARIANTS)
-    assert (VARIANTS["catalogue"] == "IRB 2600-12/1.65") is False
-    assert (VARIANTS["catalogue"] != object()) is True
+    assert (VARIANTS["catalog"] == "IRB 2600-12/1.65") is False
+    assert (VARIANTS["catalog"] != object()) is True
 
 
 @pytest.mark.parametrize(
@@ -66,7 +68,10 @@ def test_robots_that_differ_are_not_equal():
     [
         copy.copy,
         copy.deepcopy,
-        *(lambda robot, p=p: pickle.loads(pickle.dumps(robot, p)) for p in range(pickle.HIGHEST_PROTOCOL + 1)),
+        *(
+            lambda robot, p=p: pickle.loads(pickle.dumps(robot, p))
+            for p in range(pickle.HIGHEST_PROTOCOL + 1)
+        ),
     ],
 )
 @pytest.mark.parametrize("name", NAMES)
@@ -75,17 +80,24 @@ def test_copies_and_pickles_are_equal_and_compute_the_same_bits(name, duplicate)
     twin = duplicate(robot)
     assert twin == robot
     assert hash(twin) == hash(robot)
-    assert (twin.name, twin.family, twin.dof, repr(twin)) == (robot.name, robot.family, robot.dof, repr(robot))
+    assert (twin.name, twin.structure, twin.dof, repr(twin)) == (
+        robot.name,
+        robot.structure,
+        robot.dof,
+        repr(robot),
+    )
     np.testing.assert_array_equal(twin.limits, robot.limits)
     np.testing.assert_array_equal(twin.max_velocity, robot.max_velocity)
     q = np.linspace(-0.3, 0.6, robot.dof)
     np.testing.assert_array_equal(twin.fk(q), robot.fk(q))
-    if robot.family == "spherical wrist":
-        np.testing.assert_array_equal(twin.ik(robot.fk(q)).slots, robot.ik(robot.fk(q)).slots)
+    if robot.structure == "spherical wrist":
+        np.testing.assert_array_equal(
+            twin.ik(robot.fk(q)).q_by_slot, robot.ik(robot.fk(q)).q_by_slot
+        )
 
 
 def test_a_damaged_pickle_is_refused():
-    restore, (state,) = VARIANTS["catalogue"].__reduce__()
+    restore, (state,) = VARIANTS["catalog"].__reduce__()
     for i in (2, 3, 4):
         damaged = list(state)
         damaged[i] = damaged[i][:-1]
@@ -95,7 +107,9 @@ def test_a_damaged_pickle_is_refused():
         restore((state[0], "other", *state[2:]))
 
 
-@pytest.mark.parametrize("attribute", ["name", "dof", "family", "mdh", "limits", "max_velocity", "base", "tool", "new"])
+@pytest.mark.parametrize(
+    "attribute", ["name", "dof", "family", "mdh", "limits", "max_velocity", "base", "tool", "new"]
+)
 def test_a_robot_is_frozen(attribute):
     with pytest.raises(AttributeError):
         setattr(Robot("Panda"), attribute, None)
@@ -126,11 +140,12 @@ def test_representations():
     solutions = robot.ik(robot.fk(np.deg2rad([10, -20, 30, 40, 50, 60])))
     assert repr(solutions) == "Solutions(8 solutions, 4 inside limits)"
     assert (
-        repr(solutions[0]) == "Solution(slot 0: [10.000, -20.000, 30.000, 40.000, 50.000, 60.000] deg, inside limits)"
+        repr(solutions[0])
+        == "Solution(slot 0: [10.000, -20.000, 30.000, 40.000, 50.000, 60.000] deg, inside limits)"
     )
 
 
-@pytest.mark.parametrize("name", CATALOGUE)
+@pytest.mark.parametrize("name", CATALOG)
 def test_what_does_not_matter_in_a_name_does_not(name):
     for spelt in (
         name.lower(),
@@ -144,7 +159,7 @@ def test_what_does_not_matter_in_a_name_does_not(name):
         assert Robot(spelt).name == name
 
 
-def test_the_catalogue_is_a_tuple_of_names_without_doubles():
+def test_the_catalog_is_a_tuple_of_names_without_doubles():
     names = irbkin.catalog()
     assert isinstance(names, tuple)
     assert len(set(names)) == len(names) > 0
@@ -154,18 +169,25 @@ def test_the_catalogue_is_a_tuple_of_names_without_doubles():
 def test_status_and_kind_have_the_bits_of_rust():
     """The declaration of the flags in Rust, and in Python."""
     source = (Path(__file__).parents[2] / "src/kinematics/answer/status.rs").read_text()
-    bits = {name: int(value) for name, value in re.findall(r"^ +const (\w+) = (\d+);", source, re.MULTILINE)}
+    bits = {
+        name: int(value)
+        for name, value in re.findall(r"^ +const (\w+) = (\d+);", source, re.MULTILINE)
+    }
     assert len(bits) == 7
     assert {flag.name: flag.value for flag in Status} == bits
-    assert {flag.name: flag.value for flag in Kind} == {name: bits[name] for name in ("WRIST", "ELBOW", "SHOULDER")}
+    assert {flag.name: flag.value for flag in SingularityKind} == {
+        name: bits[name] for name in ("WRIST", "ELBOW", "SHOULDER")
+    }
 
 
 def test_status_and_kind_are_what_a_solve_returns():
-    """A pose for each flag: which bits Rust writes there is read by the names that Python has for them."""
+    """A pose for each flag: which bits Rust writes there is read by the names that Python has for
+    them.
+    """
     robot = Robot("IRB 2600-12/1.65")
     stretched = np.arctan2(0.115, 0.795) - np.pi / 2
     along, across = 0.7, np.hypot(0.795, 0.115)
-    # q2 that puts the wrist centre on axis 1, the forearm square to the upper arm.
+    # q2 that puts the wrist center on axis 1, the forearm square to the upper arm.
     over_axis_1 = np.arcsin(-0.15 / np.hypot(along, across)) - np.arctan2(across, along)
     postures = {
         Status.WRIST: [0.1, 0.2, 0.3, 0.4, 0.0, 0.6],
@@ -178,11 +200,13 @@ def test_status_and_kind_are_what_a_solve_returns():
         status = robot.ik_batch(T[None]).status[0]
         assert any(Status.FOUND | flag in Status(bits) for bits in status)
         assert any(Status(bits) == Status.MERGED | flag for bits in status)
-        assert flag.value in [solution.kinds.value for solution in robot.ik(T)]
-        assert all(type(solution.kinds) is Kind for solution in robot.ik(T))
+        assert flag.value in [solution.singularities.value for solution in robot.ik(T)]
+        assert all(type(solution.singularities) is SingularityKind for solution in robot.ik(T))
     regular = robot.ik_batch(robot.fk([0.3, -0.2, 0.4, 0.5, -0.6, 0.7])[None]).status[0]
     assert {Status(bits) for bits in regular} == {Status.FOUND, Status.FOUND | Status.WITHIN_LIMITS}
-    assert {Status(bits) for bits in robot.ik_batch(np.full((1, 4, 4), np.nan)).status[0]} == {Status.INVALID}
+    assert {Status(bits) for bits in robot.ik_batch(np.full((1, 4, 4), np.nan)).status[0]} == {
+        Status.INVALID
+    }
 
 
 @pytest.mark.parametrize("module", ["irbkin", "irbkin.errors", "irbkin.records"])
@@ -192,7 +216,9 @@ def test_every_exported_name_is_there(module):
     assert len(set(exported)) == len(exported)
     for name in exported:
         assert getattr(sys.modules[module], name) is not None
-    assert set(sys.modules["irbkin.errors"].__all__ + sys.modules["irbkin.records"].__all__) <= set(irbkin.__all__)
+    assert set(sys.modules["irbkin.errors"].__all__ + sys.modules["irbkin.records"].__all__) <= set(
+        irbkin.__all__
+    )
 
 
 def test_every_public_thing_has_a_docstring():
@@ -213,11 +239,15 @@ def test_the_version_is_that_of_the_distribution():
 
 def fresh(code):
     """What a new interpreter prints."""
-    return subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout
+    return subprocess.run(
+        [sys.executable, "-c", code], check=True, capture_output=True, text=True
+    ).stdout
 
 
 def test_a_status_is_made_from_an_element_of_a_status_array():
-    """In a new interpreter: once a combination has been made from an int, it is found for any number."""
+    """In a new interpreter: once a combination has been made from an int, it is found for any
+    number.
+    """
     assert fresh("import numpy, irbkin; print(int(irbkin.Status(numpy.uint8(44))))") == "44\n"
 
 

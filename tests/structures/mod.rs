@@ -226,7 +226,7 @@ where
     }
 
     /// Whether a joint vector is so far from singularities that its slot and its branches are
-    /// those of its neighbours.
+    /// those of its neighbors.
     pub fn is_regular(&self, q: &[f64; N]) -> bool {
         self.clearance(q) > 0.05
     }

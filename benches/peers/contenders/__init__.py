@@ -1,7 +1,8 @@
-"""Who is compared: for each package a function that builds, for an arm, what the package can do with it.
+"""Who is compared: for each package a function that builds, for an arm, what the package can do
+with it.
 
-A function imports its package, so that one that is missing is noticed there, and returns nothing for an arm that the
-package does not serve.
+A function imports its package, so that one that is missing is noticed there, and returns nothing
+for an arm that the package does not serve.
 """
 
 from __future__ import annotations

@@ -43,11 +43,12 @@ class Contender:
         task: What it does.
         name: Package, and which of its ways.
         call: What is timed.
-        prepare: A pose (or a batch) and its joints to the arguments of `call`, not timed: frames are changed and the
-            package's own layout is made here, in favour of the package.
-        read: The answer of `call` to the common form, not timed: solutions (k, n), a pose (4, 4), a Jacobian (6, n)
-            with linear rows first; of a batch of poses one (k, n) each.
-        flagged: Which of the solutions the package itself calls least squares: near the pose, not on it.
+        prepare: A pose (or a batch) and its joints to the arguments of `call`, not timed: frames
+            are changed and the package's own layout is made here, in favor of the package.
+        read: The answer of `call` to the common form, not timed: solutions (k, n), a pose (4, 4), a
+            Jacobian (6, n) with linear rows first; of a batch of poses one (k, n) each.
+        flagged: Which of the solutions the package itself calls least squares: near the pose, not
+        on it.
         bound: How far a pose or a Jacobian may be off [m, m/rad, 1].
         remark: What a reader must know to compare.
     """

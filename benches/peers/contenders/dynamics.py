@@ -1,4 +1,6 @@
-"""Libraries of rigid-body dynamics with forward kinematics and Jacobians: pinocchio and dynibo. Both read the URDF."""
+"""Libraries of rigid-body dynamics with forward kinematics and Jacobians: pinocchio and dynibo.
+Both read the URDF.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,9 @@ from .contender import Contender, from_joints
 
 
 def pinocchio(arm: Arm) -> list[Contender]:
-    """Frame `tool0`, the Jacobian in `LOCAL_WORLD_ALIGNED`: at the tool, along the axes of the base."""
+    """Frame `tool0`, the Jacobian in `LOCAL_WORLD_ALIGNED`: at the tool, along the axes of the
+    base.
+    """
     import pinocchio as pin
 
     model = pin.buildModelFromXML(arm.urdf())
@@ -38,13 +42,18 @@ def pinocchio(arm: Arm) -> list[Contender]:
             remark="the joints' placements stay in its data: nothing is handed over",
         ),
         Contender(
-            "jacobian", "pinocchio", lambda q: pin.computeFrameJacobian(model, data, q, frame, along_base), from_joints
+            "jacobian",
+            "pinocchio",
+            lambda q: pin.computeFrameJacobian(model, data, q, frame, along_base),
+            from_joints,
         ),
     ]
 
 
 def dynibo(arm: Arm) -> list[Contender]:
-    """Poses are an object of its own; a Jacobian is one column after the other, angular rows first."""
+    """Poses are an object of its own; a Jacobian is one column after the other, angular rows
+    first.
+    """
     import dynibo
 
     with tempfile.TemporaryDirectory() as folder:

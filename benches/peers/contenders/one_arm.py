@@ -14,11 +14,15 @@ def ur_analytic_ik(arm: Arm) -> list[Contender]:
 
     if arm is not UR3:
         return []
-    return [Contender("ik", "ur-analytic-ik", lambda T: np.array(ur3.inverse_kinematics(T)), from_pose)]
+    return [
+        Contender("ik", "ur-analytic-ik", lambda T: np.array(ur3.inverse_kinematics(T)), from_pose)
+    ]
 
 
 def frankik(arm: Arm) -> list[Contender]:
-    """`ik_full` takes the pose of the flange (its `fk` gives the hand's) and q7; solutions inside the limits only."""
+    """`ik_full` takes the pose of the flange (its `fk` gives the hand's) and q7; solutions inside
+    the limits only.
+    """
     import frankik
 
     if arm is not PANDA:

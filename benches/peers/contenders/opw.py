@@ -1,7 +1,8 @@
 """Solvers by Brandstoetter's parameters: py-opw-kinematics and spherical-wrist.
 
-Both wrap a Rust core in a Python class whose poses are SciPy's RigidTransform. The class is their public interface; the
-core, which takes arrays, is private (`_robot`, `_internal`) and shown beside it.
+Both wrap a Rust core in a Python class whose poses are SciPy's RigidTransform. The class is their
+public interface; the core, which takes arrays, is private (`_robot`, `_internal`) and shown beside
+it.
 """
 
 from __future__ import annotations
@@ -22,13 +23,18 @@ def rows_of_16(poses: Floats, joints: Floats) -> tuple[Any, ...]:
 
 
 def two_layers(name: str, robot: Any) -> list[Contender]:
-    """What the Python class and the private core of py-opw-kinematics and py-ikgeo-kinematics have in common."""
+    """What the Python class and the private core of py-opw-kinematics and py-ikgeo-kinematics have
+    in common.
+    """
     from scipy.spatial.transform import RigidTransform
 
     core = robot._robot
     return [
         Contender(
-            "ik", f"{name}, {PUBLIC}", lambda T: np.array(robot.inverse(RigidTransform.from_matrix(T))), from_pose
+            "ik",
+            f"{name}, {PUBLIC}",
+            lambda T: np.array(robot.inverse(RigidTransform.from_matrix(T))),
+            from_pose,
         ),
         Contender("ik", f"{name}, {CORE}", lambda T: np.array(core.inverse(T)), from_pose),
         Contender("fk", f"{name}, {CORE}", lambda q: np.array(core.forward(q)), from_joints),
@@ -51,7 +57,9 @@ def two_layers(name: str, robot: Any) -> list[Contender]:
 
 
 def py_opw_kinematics(arm: Arm) -> list[Contender]:
-    """Angles and tool frame are irbkin's; `reach` gives all eight solutions and margins, `batch_inverse` one."""
+    """Angles and tool frame are irbkin's; `reach` gives all eight solutions and margins,
+    `batch_inverse` one.
+    """
     import py_opw_kinematics as opw
 
     if not arm.opw:
@@ -61,7 +69,12 @@ def py_opw_kinematics(arm: Arm) -> list[Contender]:
     name = "py-opw-kinematics"
     return [
         *two_layers(name, robot),
-        Contender("ik_nearest", f"{name}, {CORE}", lambda T, seed: np.array(core.inverse(T, seed)[0]), from_both),
+        Contender(
+            "ik_nearest",
+            f"{name}, {CORE}",
+            lambda T, seed: np.array(core.inverse(T, seed)[0]),
+            from_both,
+        ),
         Contender("fk", f"{name}, {PUBLIC}", lambda q: robot.forward(q).as_matrix(), from_joints),
         Contender(
             "ik_batch",
@@ -90,9 +103,14 @@ def spherical_wrist(arm: Arm) -> list[Contender]:
 
     return [
         Contender(
-            "ik", f"{name}, {PUBLIC}", lambda T: np.array(robot.inverse(RigidTransform.from_matrix(T))), from_pose
+            "ik",
+            f"{name}, {PUBLIC}",
+            lambda T: np.array(robot.inverse(RigidTransform.from_matrix(T))),
+            from_pose,
         ),
-        Contender("ik", f"{name}, {CORE}", lambda T: np.array(core.inverse(T, None, None)), from_pose),
+        Contender(
+            "ik", f"{name}, {CORE}", lambda T: np.array(core.inverse(T, None, None)), from_pose
+        ),
         Contender("ik_nearest", f"{name}, {PUBLIC}", nearest, from_both),
         Contender(
             "ik_nearest",

@@ -1,4 +1,4 @@
-"""irbkin itself, from its catalogue: what it cannot do yet shows when it is called."""
+"""irbkin itself, from its catalog: what it cannot do yet shows when it is called."""
 
 from __future__ import annotations
 
@@ -20,11 +20,15 @@ def irbkin(arm: Arm) -> list[Contender]:
     def ik_given_q7(pose: Floats, q7: float) -> Floats:
         return robot.ik(pose, q7=q7).q
 
-    def batch(poses: Floats, q7: Floats | None, out: irbkin.IkBatch, threads: int) -> irbkin.IkBatch:
+    def batch(
+        poses: Floats, q7: Floats | None, out: irbkin.IkBatch, threads: int
+    ) -> irbkin.IkBatch:
         return robot.ik_batch(poses, q7, out=out, threads=threads)
 
     def for_batch(poses: Floats, joints: Floats) -> tuple[Floats, Floats | None, irbkin.IkBatch]:
-        out = irbkin.IkBatch(np.empty((len(poses), 8, arm.dof)), np.empty((len(poses), 8), np.uint8))
+        out = irbkin.IkBatch(
+            np.empty((len(poses), 8, arm.dof)), np.empty((len(poses), 8), np.uint8)
+        )
         return poses, np.ascontiguousarray(joints[..., 6]) if arm.dof == 7 else None, out
 
     def with_room(*shape: int) -> Any:
@@ -51,5 +55,10 @@ def irbkin(arm: Arm) -> list[Contender]:
             for threads, plural in ((1, ""), (2, "s"))
         ),
         Contender("fk_batch", "irbkin", lambda q, out: robot.fk(q, out=out), with_room(4, 4)),
-        Contender("jacobian_batch", "irbkin", lambda q, out: robot.jacobian(q, out=out), with_room(6, arm.dof)),
+        Contender(
+            "jacobian_batch",
+            "irbkin",
+            lambda q, out: robot.jacobian(q, out=out),
+            with_room(6, arm.dof),
+        ),
     ]

@@ -1,8 +1,8 @@
 """Solvers by canonical subproblems: eaik, ik-geo, py-ikgeo-kinematics and ssik.
 
-The first two are built from axes and offsets; at zero joint angles their tool frame stands as the base frame does.
-Poses are turned into that frame before the clock starts. A pose that they cannot meet they answer with the nearest, and
-flag it.
+The first two are built from axes and offsets; at zero joint angles their tool frame stands as the
+base frame does. Poses are turned into that frame before the clock starts. A pose that they cannot
+meet they answer with the nearest, and flag it.
 """
 
 from __future__ import annotations
@@ -47,7 +47,9 @@ def eaik(arm: Arm) -> list[Contender]:
             own_frame,
             flagged=lambda T: np.array(robot.IK(T).is_LS, dtype=bool),
         ),
-        Contender("fk", "eaik", robot.fwdKin, from_joints, read=lambda answer: turned(answer, arm.tool)),
+        Contender(
+            "fk", "eaik", robot.fwdKin, from_joints, read=lambda answer: turned(answer, arm.tool)
+        ),
         *(
             Contender(
                 "ik_batch",
@@ -62,7 +64,9 @@ def eaik(arm: Arm) -> list[Contender]:
 
 
 def ik_geo(arm: Arm) -> list[Contender]:
-    """From axes and offsets, wrist centre as the point of J4 to J6; `get_ik` takes the rotation transposed."""
+    """From axes and offsets, wrist center as the point of J4 to J6; `get_ik` takes the rotation
+    transposed.
+    """
     from ik_geo.ik_geo import Robot
 
     if not arm.opw:
@@ -96,7 +100,9 @@ def py_ikgeo_kinematics(arm: Arm) -> list[Contender]:
 
 
 def ssik(arm: Arm) -> list[Contender]:
-    """The module that `ssik build` writes for the arm's URDF: an arm made in Python runs without the native solver."""
+    """The module that `ssik build` writes for the arm's URDF: an arm made in Python runs without
+    the native solver.
+    """
     from ssik.cli import main
 
     # Of the Panda it samples q7: another task than one q7 that is given.
@@ -106,7 +112,19 @@ def ssik(arm: Arm) -> list[Contender]:
         urdf, module = Path(folder, "arm.urdf"), Path(folder, "arm_ik.py")
         urdf.write_text(arm.urdf())
         with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
-            main(["build", str(urdf), "--base", "link0", "--ee", "tool0", "--no-validate", "--out", str(module)])
+            main(
+                [
+                    "build",
+                    str(urdf),
+                    "--base",
+                    "link0",
+                    "--ee",
+                    "tool0",
+                    "--no-validate",
+                    "--out",
+                    str(module),
+                ]
+            )
         spec = importlib.util.spec_from_file_location("arm_ik", module)
         if spec is None or spec.loader is None:
             raise ImportError("the module that ssik built does not load")

@@ -6,7 +6,8 @@
     >>> abs(round(joints.robax_deg[4], 1))
     30.0
 
-Millimetres and degrees, as the names of fields say; the robot's own numbers stay in metres and radians.
+Millimeters and degrees, as the names of fields say; the robot's own numbers stay in meters and
+radians.
 """
 
 from __future__ import annotations
@@ -46,23 +47,29 @@ __all__ = [
 
 
 def parse(text: str | bytes, context: Iterable[Module] = ()) -> Any:
-    """The module of a text, with or without MODULE around it; of a record that stands by itself, the record.
+    """The module of a text, with or without MODULE around it; of a record that stands by itself,
+    the record.
 
     Args:
-        text: RAPID text, or the bytes of a file: UTF-8, UTF-16 with its mark, else Latin-1. Text that begins with a
-            bracket is one robtarget, jointtarget, tooldata, wobjdata, pose or loaddata, as `dump` writes them: their
-            shapes differ.
-        context: Modules in which names that the text does not declare are looked for: their data that are not LOCAL.
+        text: RAPID text, or the bytes of a file: UTF-8, UTF-16 with its mark, else Latin-1. Text
+            that begins with a bracket is one robtarget, jointtarget, tooldata, wobjdata, pose or
+            loaddata, as `dump` writes them: their shapes differ.
+        context: Modules in which names that the text does not declare are looked for: their data
+        that are not LOCAL.
 
     Returns:
         Module; or RobTarget, JointTarget, ToolData, WobjData, Pose or LoadData.
 
     Raises:
-        RapidError: The text is broken; the message has the line and the column. What is not known is no error: it is
-            skipped and listed in `Module.skipped`.
+        RapidError: The text is broken; the message has the line and the column. What is not known
+            is no error: it is skipped and listed in `Module.skipped`.
     """
     source = text if isinstance(text, str) else _core.decode(text)
-    return _core.parse_record(source) if source.lstrip().startswith("[") else _core.parse(source, context)
+    return (
+        _core.parse_record(source)
+        if source.lstrip().startswith("[")
+        else _core.parse(source, context)
+    )
 
 
 def load(path: str | PathLike[str], context: Iterable[Module] = ()) -> Module:
@@ -81,12 +88,15 @@ def load(path: str | PathLike[str], context: Iterable[Module] = ()) -> Module:
 
 
 def dump(value: Any, name: str = "Data") -> str:
-    """RAPID text of a record, of a module, or of data by their names: `parse` gives back what was dumped.
+    """RAPID text of a record, of a module, or of data by their names: `parse` gives back what was
+    dumped.
 
     Args:
-        value: RobTarget, JointTarget, ToolData, WobjData, Pose, LoadData, Configuration, a number, a tuple of 3 (pos),
-            4 (orient) or 6 (extjoint) numbers, nested lists of these for an array: the text of the value. A Module, or
-            a mapping from names to values: the text of a module; tools and work objects as PERS, others as CONST.
+        value: RobTarget, JointTarget, ToolData, WobjData, Pose, LoadData, Configuration, a number,
+            a tuple of 3 (pos), 4 (orient) or 6 (extjoint) numbers, nested lists of these for an
+            array: the text of the value. A Module, or
+            a mapping from names to values: the text of a module; tools and work objects as PERS,
+                others as CONST.
         name: Name of the module that is made of a mapping.
 
     Raises:

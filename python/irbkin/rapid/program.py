@@ -90,12 +90,14 @@ class TargetTable(NamedTuple):
     q: npt.NDArray[np.float64]
     """Joint angles [rad], shape (m, 6), NaN where there are none."""
     configuration: Configuration
-    """That of the joint angles, int32 arrays of shape (m,); where there are none, that of the target."""
+    """That of the joint angles, int32 arrays of shape (m,); where there are none, that of the
+    target.
+    """
     wrist: npt.NDArray[np.float64]
     """Angle of joint 5 from 0 or 180 deg [rad], shape (m,)."""
     elbow: npt.NDArray[np.float64]
     """Angle between upper arm and forearm from stretched or folded [rad], shape (m,)."""
     shoulder: npt.NDArray[np.float64]
-    """Distance of the wrist centre from axis 1 [m], shape (m,)."""
+    """Distance of the wrist center from axis 1 [m], shape (m,)."""
     problems: tuple[str | None, ...]
     """Why there are no joint angles, or why they are others than the target asks for."""

@@ -1,4 +1,6 @@
-"""RAPID's records: millimetres and degrees, as their field names say; quaternions are w, x, y, z."""
+"""RAPID's records: millimeters and degrees, as their field names say; quaternions are w, x, y,
+z.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from irbkin._core import pose, to_xyz_quaternion
+from irbkin._core import pose, to_xyz_wxyz
 from irbkin.errors import RapidError
 from irbkin.records import Configuration
 
@@ -34,7 +36,9 @@ def _set_numbers(record: object, field: str, count: int) -> None:
         with contextlib.suppress(TypeError, ValueError, OverflowError):
             numbers = tuple(map(float, value))
     if len(numbers) != count or not all(map(math.isfinite, numbers)):
-        raise RapidError(f"{type(record).__name__}: {field} must be {count} finite numbers, got {value!r}")
+        raise RapidError(
+            f"{type(record).__name__}: {field} must be {count} finite numbers, got {value!r}"
+        )
     object.__setattr__(record, field, numbers)
 
 
@@ -63,11 +67,11 @@ def _set_truth(record: object, field: str) -> None:
 
 
 def _matrix(trans_mm: Vector, rot: Vector) -> npt.NDArray[np.float64]:
-    return pose([mm / 1e3 for mm in trans_mm], quaternion=rot)
+    return pose([mm / 1e3 for mm in trans_mm], wxyz=rot)
 
 
 def _of_matrix(T: npt.ArrayLike) -> tuple[Vector, Vector]:
-    xyz, wxyz = to_xyz_quaternion(T)
+    xyz, wxyz = to_xyz_wxyz(T)
     return tuple((xyz * 1e3).tolist()), tuple(wxyz.tolist())
 
 
@@ -114,7 +118,9 @@ class RobTarget:
         _set_numbers(self, "extax", 6)
 
     @classmethod
-    def of(cls, T: npt.ArrayLike, robconf: Iterable[int], extax: Iterable[float] = (NOT_THERE,) * 6) -> RobTarget:
+    def of(
+        cls, T: npt.ArrayLike, robconf: Iterable[int], extax: Iterable[float] = (NOT_THERE,) * 6
+    ) -> RobTarget:
         """The target of a homogeneous matrix, shape (4, 4), translation [m]."""
         return cls(*_of_matrix(T), robconf, extax)  # type: ignore[arg-type]
 
@@ -157,7 +163,7 @@ class LoadData:
     mass_kg: float = 0.001
     """Mass [kg]."""
     cog_mm: Vector = (0.0, 0.0, 0.001)
-    """Centre of gravity [mm]."""
+    """Center of gravity [mm]."""
     aom: Vector = (1.0, 0.0, 0.0, 0.0)
     """Axes of moment, a quaternion w, x, y, z."""
     inertia: Vector = (0.0, 0.0, 0.0)
@@ -224,5 +230,7 @@ def _set_configuration(target: RobTarget) -> None:
     except (TypeError, ValueError, OverflowError):
         numbers, whole = (), ()
     if len(whole) != 4 or whole != numbers or any(abs(number) > MOST_WHOLE for number in whole):
-        raise RapidError(f"RobTarget: robconf must be 4 whole numbers of at most {MOST_WHOLE}, got {target.robconf!r}")
+        raise RapidError(
+            f"RobTarget: robconf must be 4 whole numbers of at most {MOST_WHOLE}, got {target.robconf!r}"
+        )
     object.__setattr__(target, "robconf", Configuration(*whole))

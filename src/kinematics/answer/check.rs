@@ -17,7 +17,8 @@ pub(crate) fn check_seed(field: &'static str, q: &[f64]) -> Result<(), Error> {
     q.iter().enumerate().try_for_each(|(i, angle)| check_angle(field, i + 1, *angle))
 }
 
-/// The angle of a joint, from 1, that an answer takes over: beyond [`MOST_ANGLE`], whole turns would cost the answer its digits.
+/// The angle of a joint, from 1, that an answer takes over: beyond [`MOST_ANGLE`], whole turns
+/// would cost the answer its digits.
 pub(crate) fn check_angle(field: &'static str, joint: usize, value: f64) -> Result<(), Error> {
     if !value.is_finite() {
         return Err(JointFault::NotFinite { field, joint, value }.into());

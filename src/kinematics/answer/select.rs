@@ -19,7 +19,7 @@ impl<const N: usize> Solutions<N> {
     /// Those inside the joint limits.
     #[must_use]
     pub fn within_limits(&self) -> Self {
-        self.retain(self.explain(), Solution::within_limits)
+        self.retain(self.explain(), Solution::is_within_limits)
     }
 
     /// Those that `accept` takes, a test for collisions for instance.
@@ -45,7 +45,8 @@ impl<const N: usize> Solutions<N> {
         kept
     }
 
-    /// Every full turn of every joint of every solution that is inside the limits. A joint without limits has only its own angle.
+    /// Every full turn of every joint of every solution that is inside the limits. A joint without
+    /// limits has only its own angle.
     pub fn turns(&self) -> impl Iterator<Item = Solution<N>> + '_ {
         self.iter().flat_map(|solution| Turns::of(&self.limits, solution))
     }
@@ -73,24 +74,24 @@ impl<const N: usize> Solutions<N> {
             turns.product::<f64>()
         };
         self.iter()
-            .filter(|solution| self.limits.rod_excess(&solution.q) == 0.0)
+            .filter(|solution| self.limits.linkage_excess(&solution.q) == 0.0)
             .map(of_solution)
             .sum()
     }
 
-    /// The solution inside the limits that is nearest to `seed` [rad], turns considered: the least root of the sum of
-    /// `weights * difference^2`.
+    /// The solution inside the limits that is nearest to `seed` [rad], turns considered: the least
+    /// root of the sum of `weights * difference^2`.
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidJoints`] for a seed or weight that is not finite or a negative weight, [`Error::Unreachable`] when no solution is
-    /// inside the limits.
+    /// [`Error::InvalidJoints`] for a seed or weight that is not finite or a negative weight,
+    /// [`Error::Unreachable`] when no solution is inside the limits.
     pub fn nearest(&self, seed: &[f64; N], weights: &[f64; N]) -> Result<Solution<N>, Error> {
         self.chosen(seed, weights, Cost::Distance)
     }
 
-    /// The solution inside the limits that moves the joints the least from `seed` [rad], turns considered: the least sum of
-    /// `weights * |difference|`.
+    /// The solution inside the limits that moves the joints the least from `seed` [rad], turns
+    /// considered: the least sum of `weights * |difference|`.
     ///
     /// # Errors
     ///
@@ -173,7 +174,7 @@ pub(crate) struct Turns<const N: usize> {
 impl<const N: usize> Turns<N> {
     pub(crate) fn of(limits: &JointLimits<N>, solution: &Solution<N>) -> Self {
         let mut turns = Self { base: *solution, first: [0.0; N], last: [0.0; N], next: None };
-        if limits.rod_excess(&solution.q) > 0.0 {
+        if limits.linkage_excess(&solution.q) > 0.0 {
             return turns;
         }
         for joint in 0..N {

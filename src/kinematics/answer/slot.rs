@@ -10,8 +10,8 @@ pub const MOST_SLOTS: usize = 16;
 
 /// Number of a solution's slot, from 0: always the same for a branch of the arm.
 ///
-/// What a slot means is the structure's: of spherical-wrist arms it is 4 (wrist centre behind axis 1) + 2 (behind the lower arm) + 1
-/// (q5 < 0). `Robot::slot_names` has the names.
+/// What a slot means is the structure's: of spherical-wrist arms it is 4 (wrist center behind axis
+/// 1) + 2 (behind the lower arm) + 1 (q5 < 0). `Robot::slot_names` has the names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Slot(u8);

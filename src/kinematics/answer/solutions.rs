@@ -1,7 +1,7 @@
 //! The answer of a solve: solutions, each in its slot.
 
 use super::slot::{MOST_SLOTS, Slot, SlotStatus};
-use super::status::Status;
+use super::status::{SingularityKind, Status};
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::Pose;
 use crate::report::{Explanation, FreeJoint, Reach};
@@ -18,20 +18,20 @@ pub struct Solution<const N: usize> {
     /// Found, inside the limits or not, and the singularities that the pose stands at.
     pub status: Status,
     /// The joint that the pose leaves free, at a singularity.
-    pub free: Option<FreeJoint>,
+    pub free_joint: Option<FreeJoint>,
 }
 
 impl<const N: usize> Solution<N> {
     /// Whether every joint is inside its limits.
     #[must_use]
-    pub fn within_limits(&self) -> bool {
+    pub fn is_within_limits(&self) -> bool {
         self.status.contains(Status::WITHIN_LIMITS)
     }
 
     /// The singularities that the pose stands at.
     #[must_use]
-    pub fn kinds(&self) -> Status {
-        self.status & Status::KINDS
+    pub fn singularities(&self) -> SingularityKind {
+        self.status.singularities()
     }
 }
 
@@ -137,7 +137,7 @@ impl<const N: usize> Solutions<N> {
         &mut self.places[..self.slot_count]
     }
 
-    /// Whether the wrist centre gets to where the pose wants it.
+    /// Whether the wrist center gets to where the pose wants it.
     #[must_use]
     pub fn reach(&self) -> Reach {
         self.reach
@@ -165,21 +165,23 @@ impl<const N: usize> Solutions<N> {
             return Explanation::OutOfReach(self.reach);
         }
         let solutions = self.len();
-        let inside = self.iter().filter(|solution| solution.within_limits()).count();
+        let inside = self.iter().filter(|solution| solution.is_within_limits()).count();
         if inside > 0 {
             return Explanation::Found { solutions, inside };
         }
-        // The solution whose worst joint, or rod, is the least outside.
+        // The solution whose worst joint, or linkage, is the least outside.
         let worst = |solution: &Solution<N>| {
             (0..N)
                 .map(|joint| (Some(joint + 1), self.limits.excess(joint, solution.q[joint])))
-                .fold((None, self.limits.rod_excess(&solution.q)), |worst, joint| {
+                .fold((None, self.limits.linkage_excess(&solution.q)), |worst, joint| {
                     if joint.1 > worst.1 { joint } else { worst }
                 })
         };
         match self.iter().map(worst).min_by(|a, b| a.1.total_cmp(&b.1)) {
             Some((Some(joint), excess)) => Explanation::OutsideLimits { solutions, joint, excess },
-            Some((None, excess)) if excess > 0.0 => Explanation::OutsideRod { solutions, excess },
+            Some((None, excess)) if excess > 0.0 => {
+                Explanation::OutsideLinkage { solutions, excess }
+            }
             Some((None, excess)) => Explanation::OutsideLimits { solutions, joint: 1, excess },
             None => Explanation::FilteredOut,
         }

@@ -9,22 +9,47 @@ bitflags::bitflags! {
         const FOUND = 1;
         /// The solution is inside the joint limits.
         const WITHIN_LIMITS = 2;
-        /// sin q5 = 0: axes 4 and 6 of a spherical wrist are one, only q4 + q6 or q4 - q6 is determined; axis 6 of a three-parallel arm is
-        /// parallel to axes 2 to 4. Of seven axes: the shoulder is in the plane of axes 5 and 6.
+        /// sin q5 = 0: axes 4 and 6 of a spherical wrist are one, only q4 + q6 or q4 - q6 is
+        /// determined; axis 6 of a three-parallel arm is parallel to axes 2 to 4. Of seven axes:
+        /// the shoulder is in the plane of axes 5 and 6.
         const WRIST = 4;
         /// The arm is stretched or folded: both elbow branches coincide.
         const ELBOW = 8;
-        /// The wrist centre is on axis 1: q1 is not determined. With a lateral offset: on the edge of its cylinder, where front and back meet.
-        /// Of seven axes: axes 1 and 3 are one.
+        /// The wrist center is on axis 1: q1 is not determined. With a lateral offset: on the edge
+        /// of its cylinder, where front and back meet. Of seven axes: axes 1 and 3 are one.
         const SHOULDER = 16;
-        /// The slot is empty because its solution coincides with that of another slot at a singularity.
+        /// The slot is empty because its solution coincides with that of another slot at a
+        /// singularity.
         const MERGED = 32;
         /// The input of this row was invalid.
         const INVALID = 64;
     }
 }
 
+bitflags::bitflags! {
+    /// Singularities, with the bits that they have in [`Status`].
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+    pub struct SingularityKind: u8 {
+        /// See [`Status::WRIST`].
+        const WRIST = Status::WRIST.bits();
+        /// See [`Status::ELBOW`].
+        const ELBOW = Status::ELBOW.bits();
+        /// See [`Status::SHOULDER`].
+        const SHOULDER = Status::SHOULDER.bits();
+    }
+}
+
 impl Status {
-    /// The three kinds of singularity.
-    pub const KINDS: Self = Self::WRIST.union(Self::ELBOW).union(Self::SHOULDER);
+    /// The singularities among the flags.
+    #[must_use]
+    pub const fn singularities(self) -> SingularityKind {
+        SingularityKind::from_bits_truncate(self.bits())
+    }
+}
+
+impl From<SingularityKind> for Status {
+    fn from(kinds: SingularityKind) -> Self {
+        Self::from_bits_retain(kinds.bits())
+    }
 }

@@ -1,4 +1,5 @@
-//! Frames in lanes, as their axes and origins: what a product of link transforms updates an axis at a time.
+//! Frames in lanes, as their axes and origins: what a product of link transforms updates an axis at
+//! a time.
 
 use nalgebra::{Matrix3, Rotation3, Translation3, Vector3};
 

@@ -1,7 +1,7 @@
-//! Axes 2 and 3 coupled by a parallelogram: a rod holds the forearm's pitch while axis 2 turns.
+//! Axes 2 and 3 coupled by a parallelogram: a linkage holds the forearm's pitch while axis 2 turns.
 //!
-//! The controller of such an arm tells axis 3 from the base, not from the upper arm: its q3 is that of the serial chain plus q2
-//! (docs/spherical_wrist.md, eq. 25).
+//! The controller of such an arm tells axis 3 from the base, not from the upper arm: its q3 is that
+//! of the serial chain plus q2 (docs/spherical_wrist.md, eq. 25).
 
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
@@ -12,14 +12,15 @@ use crate::kinematics::thresholds::MOST_ANGLE;
 
 /// The serial chain's joint angles of a controller's [rad].
 #[inline(always)]
-pub(crate) fn serial<const N: usize>(mut q: [f64; N]) -> [f64; N] {
+pub(crate) fn uncoupled<const N: usize>(mut q: [f64; N]) -> [f64; N] {
     if let [_, q2, q3, ..] = &mut q[..] {
         *q3 = if q2.abs().max(q3.abs()) > MOST_ANGLE { far(*q3, *q2) } else { *q3 - *q2 };
     }
     q
 }
 
-/// The difference of angles of so many turns that it would be rounded to a part of a turn, in [-pi, pi] [rad].
+/// The difference of angles of so many turns that it would be rounded to a part of a turn, in [-pi,
+/// pi] [rad].
 #[cold]
 fn far(angle: f64, other: f64) -> f64 {
     let ((sin, cos), (other_sin, other_cos)) = (angle.sin_cos(), other.sin_cos());

@@ -1,6 +1,7 @@
 //! Denavit-Hartenberg tables, modified and standard, converted into one another and never mixed.
 //!
-//! Reference: Craig, Introduction to Robotics, 2005, section 3.4 (modified); Siciliano et al., Robotics, 2009, section 2.8.2 (standard).
+//! Reference: Craig, Introduction to Robotics, 2005, section 3.4 (modified); Siciliano et al.,
+//! Robotics, 2009, section 2.8.2 (standard).
 
 use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Translation3};
 
@@ -71,7 +72,8 @@ pub struct Sdh<const N: usize> {
 }
 
 impl<const N: usize> Mdh<N> {
-    /// The table with each alpha and theta that is within `snap` of a multiple of 90 deg [rad] made exact: 1.5708 is a right angle then.
+    /// The table with each alpha and theta that is within `snap` of a multiple of 90 deg [rad] made
+    /// exact: 1.5708 is a right angle then.
     ///
     /// # Errors
     ///
@@ -106,8 +108,8 @@ pub(crate) fn check_snap(value: f64) -> Result<(), Error> {
 }
 
 impl<const N: usize> From<Sdh<N>> for Mdh<N> {
-    /// The twist and length of a standard row stand behind its joint, those of a modified row before it: they move on by one row,
-    /// and what the last row leaves over joins the flange.
+    /// The twist and length of a standard row stand behind its joint, those of a modified row
+    /// before it: they move on by one row, and what the last row leaves over joins the flange.
     fn from(sdh: Sdh<N>) -> Self {
         let (mut alpha, mut a) = (0.0, 0.0);
         let rows = sdh.rows.map(|row| {

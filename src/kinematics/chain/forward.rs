@@ -15,7 +15,8 @@ impl<const N: usize> Chain<N> {
         run(OnePose { chain: self, q })
     }
 
-    /// Frame `i` of the modified table after joint `i + 1`, for each joint, and the pose of the tool.
+    /// Frame `i` of the modified table after joint `i + 1`, for each joint, and the pose of the
+    /// tool.
     #[must_use]
     pub fn link_frames(&self, q: &[f64; N]) -> ([Pose; N], Pose) {
         run(OneFrames { chain: self, q })
@@ -64,7 +65,7 @@ impl<const N: usize> Kernel for OnePose<'_, N> {
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> Pose {
-        let (sin, cos) = sines_of_joints::<N, FUSED>(&self.chain.serial(self.q));
+        let (sin, cos) = sines_of_joints::<N, FUSED>(&self.chain.uncoupled(self.q));
         tool::<N, 1, FUSED>(self.chain, Axes::of(self.chain.first()), &sin, &cos).pose(0)
     }
 }
@@ -75,7 +76,7 @@ impl<const N: usize> Kernel for OneFrames<'_, N> {
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> ([Pose; N], Pose) {
-        let (sin, cos) = sines_of_joints::<N, FUSED>(&self.chain.serial(self.q));
+        let (sin, cos) = sines_of_joints::<N, FUSED>(&self.chain.uncoupled(self.q));
         let mut frame = Axes::<1>::of(self.chain.first());
         let mut frames = [Pose::identity(); N];
         for (joint, (link, pose)) in self.chain.links().iter().zip(&mut frames).enumerate() {
@@ -112,14 +113,15 @@ pub(in crate::kinematics) fn sines_of_rows<const N: usize, const FUSED: bool>(
 ) -> (Joints<N>, Joints<N>) {
     let mut angles = [[0.0; LANES]; N];
     for (lane, row) in rows.iter().enumerate() {
-        for (column, angle) in angles.iter_mut().zip(chain.serial(row)) {
+        for (column, angle) in angles.iter_mut().zip(chain.uncoupled(row)) {
             column[lane] = angle;
         }
     }
     sines::<N, FUSED>(&angles)
 }
 
-/// Sines and cosines of the joint angles of one arm, calculated side by side; one lane of each comes out.
+/// Sines and cosines of the joint angles of one arm, calculated side by side; one lane of each
+/// comes out.
 #[inline(always)]
 pub(in crate::kinematics) fn sines_of_joints<const N: usize, const FUSED: bool>(
     q: &[f64; N],

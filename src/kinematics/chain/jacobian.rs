@@ -21,10 +21,11 @@ pub enum JacobianFrame {
 impl<const N: usize> Chain<N> {
     /// Geometric Jacobian of the tool.
     ///
-    /// Three linear rows [m/rad], then three angular [1]; column `i` belongs to joint `i + 1`. Column `i` is `z_i x (p_tool - p_i)` over
-    /// `z_i`, with axis and origin of frame `i` itself: in a modified table a joint turns about its own frame's z, in a standard one
-    /// about the frame's before it.
-    /// Reference: Siciliano et al., Robotics, 2009, eq. 3.30, with the modified-DH index shift of docs/conventions.md.
+    /// Three linear rows [m/rad], then three angular [1]; column `i` belongs to joint `i + 1`.
+    /// Column `i` is `z_i x (p_tool - p_i)` over `z_i`, with axis and origin of frame `i` itself:
+    /// in a modified table a joint turns about its own frame's z, in a standard one about the
+    /// frame's before it. Reference: Siciliano et al., Robotics, 2009, eq. 3.30, with the
+    /// modified-DH index shift of docs/conventions.md.
     #[must_use]
     pub fn jacobian(&self, q: &[f64; N], frame: JacobianFrame) -> SMatrix<f64, 6, N> {
         let rows = self.jacobian_rows(q, frame);
@@ -82,7 +83,7 @@ impl<const N: usize> Kernel for OneJacobian<'_, N> {
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> [[f64; N]; 6] {
-        let (sin, cos) = sines_of_joints::<N, FUSED>(&self.chain.serial(self.q));
+        let (sin, cos) = sines_of_joints::<N, FUSED>(&self.chain.uncoupled(self.q));
         let rows = jacobian_rows::<N, 1, FUSED>(self.chain, self.frame, &sin, &cos);
         let mut jacobian = [[0.0; N]; 6];
         for (to, from) in jacobian.iter_mut().zip(&rows) {
@@ -94,7 +95,8 @@ impl<const N: usize> Kernel for OneJacobian<'_, N> {
     }
 }
 
-/// The Jacobian's rows, for each of them the joints' columns: `z_i x (p_tool - p_i)` over `z_i` in the base.
+/// The Jacobian's rows, for each of them the joints' columns: `z_i x (p_tool - p_i)` over `z_i` in
+/// the base.
 #[inline(always)]
 fn jacobian_rows<const N: usize, const W: usize, const FUSED: bool>(
     chain: &Chain<N>,
@@ -112,7 +114,8 @@ fn jacobian_rows<const N: usize, const W: usize, const FUSED: bool>(
     let mut rows = [[[0.0; W]; N]; 6];
     for (joint, frame) in frames.iter().enumerate() {
         if W > 1 {
-            // No joint waits for another here: without this the compiler takes them for the lanes, and gathers and scatters.
+            // No joint waits for another here: without this the compiler takes them for the lanes,
+            // and gathers and scatters.
             core::hint::black_box(());
         }
         let mut linear = cross::<W, FUSED>(&frame.z, &tool.origin, &frame.origin);
@@ -131,7 +134,8 @@ fn jacobian_rows<const N: usize, const W: usize, const FUSED: bool>(
     rows
 }
 
-/// Where q3 is told from the base, q2 turns the serial joint 3 back: its column loses that of joint 3 (eq. 26).
+/// Where q3 is told from the base, q2 turns the serial joint 3 back: its column loses that of joint
+/// 3 (eq. 26).
 #[inline(always)]
 fn take_coupling_back<const N: usize, const W: usize>(rows: &mut [[[f64; W]; N]; 6]) {
     for row in rows {

@@ -1,6 +1,7 @@
 //! A modified Denavit-Hartenberg table from where the joint axes stand.
 //!
-//! Reference: Craig, Introduction to Robotics, 2005, section 3.4: x of frame `i` runs along the common normal of axes `i` and `i + 1`.
+//! Reference: Craig, Introduction to Robotics, 2005, section 3.4: x of frame `i` runs along the
+//! common normal of axes `i` and `i + 1`.
 
 use core::f64::consts::PI;
 
@@ -14,7 +15,8 @@ use crate::kinematics::chain::dh::{DhRow, Mdh};
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::thresholds::{FORM_TOLERANCE, MOST_LENGTH};
 
-/// Cosine from which a direction is too near an axis to be turned square to it [1]: of two directions at right angles one is below.
+/// Cosine from which a direction is too near an axis to be turned square to it [1]: of two
+/// directions at right angles one is below.
 const ALONG: f64 = 0.9;
 
 /// Axis of a revolute joint at zero joint angles, in the base frame.
@@ -28,20 +30,23 @@ pub struct JointAxis {
 }
 
 impl<const N: usize> Mdh<N> {
-    /// The table of an arm from its joint axes and the pose of its tip, all at zero joint angles and in the base frame.
+    /// The table of an arm from its joint axes and the pose of its tip, all at zero joint angles
+    /// and in the base frame.
     ///
-    /// z of frame `i` is axis `i` with its direction, x runs along the common normal to the next axis, turned by less than a right angle
-    /// from the x before it where there is a choice. Between parallel axes `d` is zero. An axis 1 parallel to z of the base stands in the
-    /// first row, but for its distance along y; any other stands in `base`. The last row ends at the height of the tip, `flange` has the
-    /// rest.
+    /// z of frame `i` is axis `i` with its direction, x runs along the common normal to the next
+    /// axis, turned by less than a right angle from the x before it where there is a choice.
+    /// Between parallel axes `d` is zero. An axis 1 parallel to z of the base stands in the first
+    /// row, but for its distance along y; any other stands in `base`. The last row ends at the
+    /// height of the tip, `flange` has the rest.
     ///
-    /// Axes within 1e-9 rad of parallel are taken as parallel, within 1e-9 m of meeting as meeting: the common normal of nearly parallel
-    /// axes is far away.
+    /// Axes within 1e-9 rad of parallel are taken as parallel, within 1e-9 m of meeting as meeting:
+    /// the common normal of nearly parallel axes is far away.
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidModel`] when a number is not finite or too large, a direction has no length, or two axes are so nearly parallel that
-    /// their common normal is more than [`MOST_LENGTH`] away; [`Error::InvalidPose`] when the tip is no rigid transform.
+    /// [`Error::InvalidModel`] when a number is not finite or too large, a direction has no length,
+    /// or two axes are so nearly parallel that their common normal is more than [`MOST_LENGTH`]
+    /// away; [`Error::InvalidPose`] when the tip is no rigid transform.
     pub fn from_joint_axes(axes: &[JointAxis; N], t_base_tip: &Pose) -> Result<Self, Error> {
         let tip = checked_pose(t_base_tip)?;
         let mut lines = [Line { z: Vector3::zeros(), point: Vector3::zeros() }; N];
@@ -142,7 +147,8 @@ impl Line {
         )
     }
 
-    /// The common normal to the next axis, `before` being the one that comes from the axis before. A sum with zero has no minus zero.
+    /// The common normal to the next axis, `before` being the one that comes from the axis before.
+    /// A sum with zero has no minus zero.
     fn normal_to(&self, next: &Self, before: &Normal) -> Normal {
         let between = next.point - self.point;
         let cross = self.z.cross(&next.z);
@@ -162,7 +168,8 @@ impl Line {
         }
     }
 
-    /// Of the many normals of parallel axes the one where the normal before it arrives: `d` is zero. Where both axes are one, x goes on.
+    /// Of the many normals of parallel axes the one where the normal before it arrives: `d` is
+    /// zero. Where both axes are one, x goes on.
     fn normal_to_parallel(
         &self,
         next: &Self,
@@ -184,8 +191,8 @@ impl Line {
         }
     }
 
-    /// 1 or -1: which way x goes along a normal. Less than a right angle from the x before it; at a right angle towards the next axis; where
-    /// the axes meet, a right angle on.
+    /// 1 or -1: which way x goes along a normal. Less than a right angle from the x before it; at a
+    /// right angle towards the next axis; where the axes meet, a right angle on.
     fn facing(&self, normal: &Vector3<f64>, distance: f64, before: &Normal) -> f64 {
         let choices = [normal.dot(&before.x), distance, before.x.cross(normal).dot(&self.z)];
         let told = choices.into_iter().find(|choice| choice.abs() > FORM_TOLERANCE);

@@ -11,13 +11,13 @@ use crate::lanes::{nearest_whole, whole_above, whole_below};
 pub struct JointLimits<const N: usize> {
     lower: [f64; N],
     upper: [f64; N],
-    rod: Option<[f64; 2]>,
+    linkage: Option<[f64; 2]>,
 }
 
 impl<const N: usize> JointLimits<N> {
     /// No limits at all.
     pub const UNLIMITED: Self =
-        Self { lower: [f64::NEG_INFINITY; N], upper: [f64::INFINITY; N], rod: None };
+        Self { lower: [f64::NEG_INFINITY; N], upper: [f64::INFINITY; N], linkage: None };
 
     /// Limits from (lower, upper) of each joint [rad].
     ///
@@ -34,30 +34,31 @@ impl<const N: usize> JointLimits<N> {
         Ok(Self {
             lower: limits.map(|limit| limit[0]),
             upper: limits.map(|limit| limit[1]),
-            rod: None,
+            linkage: None,
         })
     }
 
-    /// The same limits with those of the rod of coupled axes 2 and 3: (lower, upper) of q3 - q2 [rad], at whatever turn.
-    pub(crate) fn with_rod(self, rod: Option<[f64; 2]>) -> Result<Self, Error> {
-        if let Some([lower, upper]) = rod {
-            check(["lower limit of the rod", "upper limit of the rod"], 0, [lower, upper])?;
+    /// The same limits with those of the linkage of coupled axes 2 and 3: (lower, upper) of q3 - q2
+    /// [rad], at whatever turn.
+    pub(crate) fn with_linkage(self, linkage: Option<[f64; 2]>) -> Result<Self, Error> {
+        if let Some([lower, upper]) = linkage {
+            check(["lower limit of the linkage", "upper limit of the linkage"], 0, [lower, upper])?;
             if lower > upper {
                 return Err(ModelFault::EmptyRodLimit { lower, upper }.into());
             }
         }
-        Ok(Self { rod, ..self })
+        Ok(Self { linkage, ..self })
     }
 
-    /// The same limits with the rod's of others.
-    pub(crate) fn with_rod_of(self, others: &Self) -> Self {
-        Self { rod: others.rod, ..self }
+    /// The same limits with the linkage's of others.
+    pub(crate) fn with_linkage_of(self, others: &Self) -> Self {
+        Self { linkage: others.linkage, ..self }
     }
 
-    /// (lower, upper) of q3 - q2 [rad], for an arm whose rod has limits that are known.
+    /// (lower, upper) of q3 - q2 [rad], for an arm whose linkage has limits that are known.
     #[must_use]
-    pub fn rod(&self) -> Option<[f64; 2]> {
-        self.rod
+    pub fn linkage(&self) -> Option<[f64; 2]> {
+        self.linkage
     }
 
     /// (lower, upper) of each joint [rad].
@@ -66,35 +67,36 @@ impl<const N: usize> JointLimits<N> {
         core::array::from_fn(|i| [self.lower[i], self.upper[i]])
     }
 
-    /// Those of the coupled twin: the limit of joint 3 is the rod's.
+    /// Those of the coupled twin: the limit of joint 3 is the linkage's.
     pub(crate) fn coupled(self) -> Self {
         self.twin(
             1.0,
             Some([self.lower[2], self.upper[2]])
-                .filter(|rod| rod.iter().any(|limit| limit.is_finite())),
+                .filter(|linkage| linkage.iter().any(|limit| limit.is_finite())),
         )
     }
 
-    /// Those of the serial twin: the limit of joint 3 is the rod's, where that is known.
-    pub(crate) fn serial(self) -> Self {
+    /// Those of the serial twin: the limit of joint 3 is the linkage's, where that is known.
+    pub(crate) fn uncoupled(self) -> Self {
         let mut twin = self.twin(-1.0, None);
-        if let Some([lower, upper]) = self.rod {
+        if let Some([lower, upper]) = self.linkage {
             (twin.lower[2], twin.upper[2]) = (lower, upper);
         }
         twin
     }
 
     /// With joint 3 wherever `q3 + sign * q2` may be.
-    fn twin(mut self, sign: f64, rod: Option<[f64; 2]>) -> Self {
+    fn twin(mut self, sign: f64, linkage: Option<[f64; 2]>) -> Self {
         let (low, high) = (sign * self.lower[1], sign * self.upper[1]);
         let (lower, upper) = (self.lower[2] + low.min(high), self.upper[2] + low.max(high));
         // What is too large to calculate with is no limit.
         self.lower[2] = if lower < -MOST_ANGLE { f64::NEG_INFINITY } else { lower };
         self.upper[2] = if upper > MOST_ANGLE { f64::INFINITY } else { upper };
-        Self { rod, ..self }
+        Self { linkage, ..self }
     }
 
-    /// These limits, and a narrower range (lower, upper) of some joints, from 0 [rad]; `None` where they leave a joint nothing.
+    /// These limits, and a narrower range (lower, upper) of some joints, from 0 [rad]; `None` where
+    /// they leave a joint nothing.
     pub(crate) fn narrowed(mut self, ranges: &[(usize, [f64; 2])]) -> Option<Self> {
         for (joint, [lower, upper]) in ranges {
             let (low, high) = (self.lower[*joint].max(*lower), self.upper[*joint].min(*upper));
@@ -108,26 +110,29 @@ impl<const N: usize> JointLimits<N> {
 
     /// Whether every joint is inside its limits, within [`LIMIT_TOLERANCE`].
     #[must_use]
-    pub fn contain(&self, q: &[f64; N]) -> bool {
+    pub fn contains(&self, q: &[f64; N]) -> bool {
         q.iter().enumerate().all(|(joint, angle)| angle.is_finite() && self.holds(joint, *angle))
-            && self.rod_excess(q) == 0.0
+            && self.linkage_excess(q) == 0.0
     }
 
-    /// How far q3 - q2, at its best turn, is outside the limits of the rod, beyond [`LIMIT_TOLERANCE`] [rad]; zero inside.
-    pub(crate) fn rod_excess(&self, q: &[f64; N]) -> f64 {
-        let excess = self.rod_overrun(q);
+    /// How far q3 - q2, at its best turn, is outside the limits of the linkage, beyond
+    /// [`LIMIT_TOLERANCE`] [rad]; zero inside.
+    pub(crate) fn linkage_excess(&self, q: &[f64; N]) -> f64 {
+        let excess = self.linkage_overrun(q);
         if excess <= LIMIT_TOLERANCE { 0.0 } else { excess }
     }
 
-    /// How far q3 - q2, at its best turn, is outside the limits of the rod [rad]; negative inside.
-    pub(crate) fn rod_overrun(&self, q: &[f64; N]) -> f64 {
-        let (Some([lower, upper]), [_, q2, q3, ..]) = (self.rod, &q[..]) else {
+    /// How far q3 - q2, at its best turn, is outside the limits of the linkage [rad]; negative
+    /// inside.
+    pub(crate) fn linkage_overrun(&self, q: &[f64; N]) -> f64 {
+        let (Some([lower, upper]), [_, q2, q3, ..]) = (self.linkage, &q[..]) else {
             return f64::NEG_INFINITY;
         };
         overrun(lower, upper, q3 - q2)
     }
 
-    /// Whether an angle of joint `joint` (from 0) is inside its limits, within [`LIMIT_TOLERANCE`]. Lanes compare in the same way.
+    /// Whether an angle of joint `joint` (from 0) is inside its limits, within [`LIMIT_TOLERANCE`].
+    /// Lanes compare in the same way.
     fn holds(&self, joint: usize, angle: f64) -> bool {
         angle >= self.lower[joint] - LIMIT_TOLERANCE && angle <= self.upper[joint] + LIMIT_TOLERANCE
     }
@@ -137,20 +142,24 @@ impl<const N: usize> JointLimits<N> {
         (self.lower[joint] - angle).max(angle - self.upper[joint]).max(0.0)
     }
 
-    /// How far an angle of joint `joint` (from 0), at its best turn, is outside its limits [rad]; negative inside.
+    /// How far an angle of joint `joint` (from 0), at its best turn, is outside its limits [rad];
+    /// negative inside.
     pub(crate) fn overrun(&self, joint: usize, angle: f64) -> f64 {
         overrun(self.lower[joint], self.upper[joint], angle)
     }
 
     /// [`Self::overrun`] of the joint that is outside the most.
     pub(crate) fn worst_overrun(&self, q: &[f64; N]) -> f64 {
-        let rod = self.rod_overrun(q);
-        q.iter().enumerate().map(|(joint, angle)| self.overrun(joint, *angle)).fold(rod, f64::max)
+        let linkage = self.linkage_overrun(q);
+        q.iter()
+            .enumerate()
+            .map(|(joint, angle)| self.overrun(joint, *angle))
+            .fold(linkage, f64::max)
     }
 
-    /// The turn of each angle that stands for it in a solution (eq. 20): the angle in (-pi, pi], or, where that is outside the limits
-    /// and a full turn of it is not, the first such turn.
-    pub(crate) fn settle(&self, q: [f64; N]) -> [f64; N] {
+    /// The turn of each angle that stands for it in a solution (eq. 20): the angle in (-pi, pi],
+    /// or, where that is outside the limits and a full turn of it is not, the first such turn.
+    pub(crate) fn wrap(&self, q: [f64; N]) -> [f64; N] {
         core::array::from_fn(|joint| {
             if self.holds(joint, q[joint]) {
                 return q[joint];
@@ -170,7 +179,8 @@ impl<const N: usize> JointLimits<N> {
         Some(if turn == 0.0 { angle } else { angle + TAU * turn })
     }
 
-    /// Zero where the limits hold it, and the middle of them where they do not [rad]: what a free joint takes by itself.
+    /// Zero where the limits hold it, and the middle of them where they do not [rad]: what a free
+    /// joint takes by itself.
     pub(crate) fn rest(&self) -> [f64; N] {
         core::array::from_fn(|joint| {
             let middle = 0.5 * (self.lower[joint] + self.upper[joint]);
@@ -178,10 +188,10 @@ impl<const N: usize> JointLimits<N> {
         })
     }
 
-    /// Every angle at its turn inside the limits that is nearest to `seed`; `None` where one has no such turn, or the rod is outside its
-    /// limits, which no turn changes.
+    /// Every angle at its turn inside the limits that is nearest to `seed`; `None` where one has no
+    /// such turn, or the linkage is outside its limits, which no turn changes.
     pub(crate) fn turned_to(&self, q: &[f64; N], seed: &[f64; N]) -> Option<[f64; N]> {
-        if self.rod_excess(q) > 0.0 {
+        if self.linkage_excess(q) > 0.0 {
             return None;
         }
         let mut turned = *q;
@@ -191,7 +201,8 @@ impl<const N: usize> JointLimits<N> {
         Some(turned)
     }
 
-    /// [`Self::turned_to`], of which a joint that is outside by `slack` [rad] at most is put on the limit; the rod is not looked at.
+    /// [`Self::turned_to`], of which a joint that is outside by `slack` [rad] at most is put on the
+    /// limit; the linkage is not looked at.
     pub(crate) fn clamped_to(&self, q: &[f64; N], seed: &[f64; N], slack: f64) -> Option<[f64; N]> {
         let mut clamped = *q;
         for (joint, angle) in clamped.iter_mut().enumerate() {
@@ -206,7 +217,8 @@ impl<const N: usize> JointLimits<N> {
         Some(clamped)
     }
 
-    /// First and last number of turns that, added to `angle`, keep it inside the limits; `None` where no number does.
+    /// First and last number of turns that, added to `angle`, keep it inside the limits; `None`
+    /// where no number does.
     pub(crate) fn turns(&self, joint: usize, angle: f64) -> Option<(f64, f64)> {
         let first = whole_above((self.lower[joint] - LIMIT_TOLERANCE - angle) / TAU);
         let last = whole_below((self.upper[joint] + LIMIT_TOLERANCE - angle) / TAU);
@@ -253,11 +265,11 @@ mod tests {
     }
 
     #[test]
-    fn settled_angles_are_inside_where_a_turn_is() {
-        let settled = limits().settle([1.0, 2.5]);
+    fn wrapped_angles_are_inside_where_a_turn_is() {
+        let settled = limits().wrap([1.0, 2.5]);
         assert_eq!(settled[0], 1.0);
         assert!((settled[1] - (2.5 - TAU)).abs() < 1e-15);
-        assert_eq!(limits().settle([1.0, 1.5])[1], 1.5);
+        assert_eq!(limits().wrap([1.0, 1.5])[1], 1.5);
     }
 
     #[test]
@@ -270,7 +282,7 @@ mod tests {
 
     #[test]
     fn an_angle_at_the_limit_is_inside() {
-        assert!(limits().contain(&[0.0, 1.1 + 1e-10]));
-        assert!(!limits().contain(&[0.0, 1.1 + 1e-8]));
+        assert!(limits().contains(&[0.0, 1.1 + 1e-10]));
+        assert!(!limits().contains(&[0.0, 1.1 + 1e-8]));
     }
 }

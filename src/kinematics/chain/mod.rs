@@ -9,7 +9,7 @@ pub(crate) mod joint_axes;
 pub(crate) mod limits;
 
 use crate::kinematics::chain::axes::Link;
-use crate::kinematics::chain::coupling::serial;
+use crate::kinematics::chain::coupling::uncoupled;
 use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::pose::Pose;
 
@@ -51,7 +51,7 @@ impl<const N: usize> Chain<N> {
         self
     }
 
-    /// The same chain carrying a tool whose centre point stands at `t_flange_tool`.
+    /// The same chain carrying a tool whose center point stands at `t_flange_tool`.
     #[must_use]
     pub fn with_tool(mut self, t_flange_tool: Pose) -> Self {
         self.t_flange_tool = t_flange_tool;
@@ -59,7 +59,8 @@ impl<const N: usize> Chain<N> {
         self
     }
 
-    /// The same chain with the joint angles of a controller that couples axes 2 and 3, or with its own.
+    /// The same chain with the joint angles of a controller that couples axes 2 and 3, or with its
+    /// own.
     #[must_use]
     pub fn with_coupling(mut self, coupled: bool) -> Self {
         self.coupled = coupled;
@@ -97,8 +98,8 @@ impl<const N: usize> Chain<N> {
 
     /// The table's joint angles.
     #[inline(always)]
-    pub(in crate::kinematics) fn serial(&self, q: &[f64; N]) -> [f64; N] {
-        if self.coupled { serial(*q) } else { *q }
+    pub(in crate::kinematics) fn uncoupled(&self, q: &[f64; N]) -> [f64; N] {
+        if self.coupled { uncoupled(*q) } else { *q }
     }
 
     pub(in crate::kinematics) fn links(&self) -> &[Link; N] {

@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::kinematics::answer::check::{check_seed, check_weights};
 use crate::kinematics::answer::select::Cost;
 use crate::kinematics::answer::solutions::Solution;
-use crate::kinematics::answer::status::Status;
+use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::seeded::Inverse as _;
@@ -24,7 +24,8 @@ use crate::kinematics::thresholds::{
 use crate::report::Explanation;
 use crate::report::FreeJoint;
 
-/// How often a segment of the path is halved in search of a continuous way through it: to a millionth of it.
+/// How often a segment of the path is halved in search of a continuous way through it: to a
+/// millionth of it.
 const HALVINGS: u32 = 20;
 
 /// A place where the joints cannot follow the path without a jump.
@@ -49,10 +50,11 @@ pub enum BreakReason {
         /// By how much it turns [rad].
         by: f64,
         /// The singularities at which it does; empty where a joint limit is the cause.
-        kinds: Status,
+        kinds: SingularityKind,
     },
-    /// No joints inside the limits bring the tool's centre point there with the wrist, or axis 4, held as the policy holds it.
-    Held,
+    /// No joints inside the limits bring the tool's center point there with the wrist, or axis 4,
+    /// held as the policy holds it.
+    Locked,
     /// The policy stops at a wrist singularity.
     Stopped {
         /// Joint 5 [rad].
@@ -68,15 +70,19 @@ impl fmt::Display for Break {
             BreakReason::Jump { joint, by, kinds } => {
                 write!(f, "J{joint} must turn by {:.1} deg on the spot, ", by.to_degrees())?;
                 match kinds {
-                    kinds if kinds.contains(Status::WRIST) => write!(f, "at the wrist singularity"),
-                    kinds if kinds.contains(Status::SHOULDER) => {
+                    kinds if kinds.contains(SingularityKind::WRIST) => {
+                        write!(f, "at the wrist singularity")
+                    }
+                    kinds if kinds.contains(SingularityKind::SHOULDER) => {
                         write!(f, "at the shoulder singularity")
                     }
-                    kinds if kinds.contains(Status::ELBOW) => write!(f, "at the elbow singularity"),
+                    kinds if kinds.contains(SingularityKind::ELBOW) => {
+                        write!(f, "at the elbow singularity")
+                    }
                     _ => write!(f, "the branch ends at a joint limit or at the edge of reach"),
                 }
             }
-            BreakReason::Held => write!(f, "out of reach or of the limits with the wrist held"),
+            BreakReason::Locked => write!(f, "out of reach or of the limits with the wrist held"),
             BreakReason::Stopped { q5 } => {
                 write!(f, "stopped at the wrist singularity, J5 is {:.4} deg", q5.to_degrees())
             }
@@ -84,7 +90,8 @@ impl fmt::Display for Break {
     }
 }
 
-/// Follows a path pose by pose, each time with the solution that continues the last. Allocates nothing.
+/// Follows a path pose by pose, each time with the solution that continues the last. Allocates
+/// nothing.
 #[derive(Clone, Debug)]
 pub struct Follower<'a> {
     robot: &'a Robot<6>,
@@ -113,7 +120,8 @@ impl<'a> Follower<'a> {
         (self.last, self.q, self.velocity) = (Some(*pose), q, [0.0; 6]);
     }
 
-    /// The joints of the next pose of the path [rad], and why they jumped when they did; without joints when there are none.
+    /// The joints of the next pose of the path [rad], and why they jumped when they did; without
+    /// joints when there are none.
     ///
     /// # Errors
     ///
@@ -166,8 +174,8 @@ impl<'a> Follower<'a> {
         }
     }
 
-    /// At a wrist of which the pose says little the whole of what is left over went to joint 6: half of it belongs to joint 4, as far as the
-    /// pose does not contradict.
+    /// At a wrist of which the pose says little the whole of what is left over went to joint 6:
+    /// half of it belongs to joint 4, as far as the pose does not contradict.
     fn balance(&self, next: &mut Solution<6>, heading: &[f64; 6], pose: &Pose) {
         let Some(arm) = self
             .robot
@@ -176,7 +184,7 @@ impl<'a> Follower<'a> {
         else {
             return;
         };
-        let sign = match next.free.unwrap_or_else(|| arm.wrist_pair(&next.q)) {
+        let sign = match next.free_joint.unwrap_or_else(|| arm.wrist_pair(&next.q)) {
             FreeJoint::WristSum => 1.0,
             FreeJoint::WristDifference => -1.0,
             _ => return,
@@ -186,14 +194,15 @@ impl<'a> Follower<'a> {
         let mut balanced = next.q;
         balanced[3] += sign * over / 2.0;
         balanced[5] -= over / 2.0;
-        if self.robot.limits().contain(&balanced)
+        if self.robot.limits().contains(&balanced)
             && self.robot.residual(&balanced, pose).largest() <= SEEDED_FREE
         {
             next.q = balanced;
         }
     }
 
-    /// Goes from the last pose to the next one by halving: a step that is only large shrinks with the segment, a jump does not.
+    /// Goes from the last pose to the next one by halving: a step that is only large shrinks with
+    /// the segment, a jump does not.
     fn jump_between(
         &self,
         from: &Pose,
@@ -207,7 +216,8 @@ impl<'a> Follower<'a> {
             let end = if done + width >= 1.0 { 1.0 } else { done + width };
             let pose = if end < 1.0 { between(from, to, end) } else { *to };
             let Ok(next) = scout.nearest(&pose)? else {
-                // The straight line between two poses leaves reach, where the path need not: only the size of the step can tell.
+                // The straight line between two poses leaves reach, where the path need not: only
+                // the size of the step can tell.
                 return if whole > JUMP_BLIND {
                     self.jump(direct, from, &scout.q).map(Some)
                 } else {
@@ -233,9 +243,9 @@ impl<'a> Follower<'a> {
     fn jump(&self, to: &Solution<6>, pose: &Pose, at: &[f64; 6]) -> Result<BreakReason, Error> {
         let (joint, by) = largest_step(&self.q, &to.q);
         let solutions = self.robot.solve(*pose, &FreeChoice::seed(*at))?;
-        let kinds = solutions
-            .iter()
-            .fold(self.robot.singularity(at).kinds, |kinds, solution| kinds | solution.kinds());
+        let kinds = solutions.iter().fold(self.robot.singularity(at).kinds, |kinds, solution| {
+            kinds | solution.singularities()
+        });
         Ok(BreakReason::Jump { joint, by, kinds })
     }
 }

@@ -1,4 +1,4 @@
 //! Joint paths along paths of poses.
 
-pub(crate) mod crossing;
 pub(crate) mod follow;
+pub(crate) mod singularity_mode;

@@ -9,7 +9,8 @@ use crate::error::Error;
 ///
 /// # Errors
 ///
-/// [`Error::InvalidPose`] when an element is not finite, the last row is not 0 0 0 1, or the rotation is mirrored or off by more than 1e-5.
+/// [`Error::InvalidPose`] when an element is not finite, the last row is not 0 0 0 1, or the
+/// rotation is mirrored or off by more than 1e-5.
 pub fn pose_from_matrix(matrix: &Matrix4<f64>) -> Result<Pose, Error> {
     // nalgebra stores columns.
     let mut rows = [0.0; 16];
@@ -27,7 +28,8 @@ pub fn pose_to_matrix(pose: &Pose) -> Matrix4<f64> {
 ///
 /// # Errors
 ///
-/// [`Error::InvalidPose`] when a number is not finite, or the quaternion is too far from length one.
+/// [`Error::InvalidPose`] when a number is not finite, or the quaternion is too far from length
+/// one.
 pub fn pose_from_isometry(isometry: &Isometry3<f64>) -> Result<Pose, Error> {
     checked_pose(&nalgebra::convert(*isometry))
 }
@@ -41,12 +43,12 @@ pub fn pose_to_isometry(pose: &Pose) -> Isometry3<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kinematics::pose::{PoseError, pose_from_euler_zyx};
+    use crate::kinematics::pose::{PoseDifference, pose_from_euler_zyx};
 
     #[test]
     fn matrices_and_isometries_come_back() {
         let pose = pose_from_euler_zyx([0.4, -0.2, 1.1], [0.3, -1.2, 2.5]).unwrap();
-        let apart = |other: &Pose| PoseError::between(&pose, other).largest();
+        let apart = |other: &Pose| PoseDifference::between(&pose, other).largest();
         assert_eq!(pose_to_matrix(&pose)[(0, 3)], 0.4);
         assert!(apart(&pose_from_matrix(&pose_to_matrix(&pose)).unwrap()) < 1e-15);
         assert!(apart(&pose_from_isometry(&pose_to_isometry(&pose)).unwrap()) < 1e-15);

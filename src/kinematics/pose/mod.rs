@@ -24,14 +24,14 @@ pub type Pose = IsometryMatrix3<f64>;
 /// How far two poses are apart.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct PoseError {
+pub struct PoseDifference {
     /// Distance of the origins [m].
     pub position: f64,
     /// Angle of the rotation between the two [rad].
     pub rotation: f64,
 }
 
-impl PoseError {
+impl PoseDifference {
     /// The distance of `a` from `b`.
     #[must_use]
     pub fn between(a: &Pose, b: &Pose) -> Self {
@@ -43,19 +43,21 @@ impl PoseError {
         }
     }
 
-    /// The larger of the two numbers, metres against radians.
+    /// The larger of the two numbers, meters against radians.
     #[must_use]
     pub fn largest(self) -> f64 {
         self.position.max(self.rotation)
     }
 }
 
-/// A pose from a homogeneous 4x4 matrix in row-major order, checked and, where it is a little off, repaired.
+/// A pose from a homogeneous 4x4 matrix in row-major order, checked and, where it is a little off,
+/// repaired.
 ///
 /// # Errors
 ///
-/// [`Error::InvalidPose`] when an element is not finite, a coordinate of the position exceeds [`MOST_LENGTH`], the last row is not
-/// 0 0 0 1, the rotation mirrors or is off orthonormal by more than [`ROTATION_REPAIR_BOUND`]. A rotation that is off by less becomes the nearest rotation.
+/// [`Error::InvalidPose`] when an element is not finite, a coordinate of the position exceeds
+/// [`MOST_LENGTH`], the last row is not 0 0 0 1, the rotation mirrors or is off orthonormal by more
+/// than [`ROTATION_REPAIR_BOUND`]. A rotation that is off by less becomes the nearest rotation.
 pub fn pose_from_rows(rows: &[f64; 16]) -> Result<Pose, Error> {
     if let Some(index) = rows.iter().position(|element| !element.is_finite()) {
         return Err(
@@ -112,7 +114,8 @@ fn checked_rotation(rows: Rows3) -> Result<Rotation3<f64>, Error> {
     Ok(Rotation3::from_matrix_unchecked(Matrix3::new(a, b, c, d, e, f, g, h, i)))
 }
 
-/// A pose that another program made: finite, and its rotation orthonormal, repaired like that of [`pose_from_rows`].
+/// A pose that another program made: finite, and its rotation orthonormal, repaired like that of
+/// [`pose_from_rows`].
 pub(crate) fn checked_pose(pose: &Pose) -> Result<Pose, Error> {
     let r = pose.rotation.matrix();
     let rows = [0, 1, 2].map(|row| [r[(row, 0)], r[(row, 1)], r[(row, 2)]]);
@@ -125,16 +128,16 @@ pub(crate) fn checked_pose(pose: &Pose) -> Result<Pose, Error> {
     pose_from_rows(&pose_to_rows(pose))
 }
 
-/// A pose from a translation [m] and a quaternion in the order w, x, y, z, which is normalised.
+/// A pose from a translation [m] and a quaternion in the order w, x, y, z, which is normalized.
 ///
 /// # Errors
 ///
-/// [`Error::InvalidPose`] when an element is not finite, a coordinate exceeds [`MOST_LENGTH`] or the quaternion's norm is off one by
-/// more than [`QUATERNION_NORM_BOUND`].
-pub fn pose_from_quaternion(xyz: [f64; 3], wxyz: [f64; 4]) -> Result<Pose, Error> {
+/// [`Error::InvalidPose`] when an element is not finite, a coordinate exceeds [`MOST_LENGTH`] or
+/// the quaternion's norm is off one by more than [`QUATERNION_NORM_BOUND`].
+pub fn pose_from_wxyz(xyz: [f64; 3], wxyz: [f64; 4]) -> Result<Pose, Error> {
     check_finite("xyz", &xyz)?;
     check_near("xyz", xyz)?;
-    check_finite("quaternion", &wxyz)?;
+    check_finite("wxyz", &wxyz)?;
     let norm = wxyz.iter().map(|element| element * element).sum::<f64>().sqrt();
     if (norm - 1.0).abs() > QUATERNION_NORM_BOUND {
         return Err(PoseFault::QuaternionNorm { norm, bound: QUATERNION_NORM_BOUND }.into());
@@ -169,7 +172,8 @@ pub fn pose_from_euler_zyx(xyz: [f64; 3], zyx: [f64; 3]) -> Result<Pose, Error> 
     Ok(pose_of_zyx(xyz, zyx.map(f64::sin_cos)))
 }
 
-/// The pose of a model's constants, as [`pose_from_euler_zyx`] of finite ones: a quarter turn in text is one exactly.
+/// The pose of a model's constants, as [`pose_from_euler_zyx`] of finite ones: a quarter turn in
+/// text is one exactly.
 #[cfg(feature = "urdf")]
 pub(crate) fn constant_pose(xyz: [f64; 3], zyx: [f64; 3]) -> Pose {
     pose_of_zyx(xyz, zyx.map(constant_sin_cos))
@@ -193,9 +197,10 @@ fn pose_of_zyx(xyz: [f64; 3], [(sz, cz), (sy, cy), (sx, cx)]: [(f64, f64); 3]) -
 
 /// Translation [m] and quaternion w, x, y, z of a pose; w is not negative.
 #[must_use]
-pub fn pose_to_quaternion(pose: &Pose) -> ([f64; 3], [f64; 4]) {
+pub fn pose_to_wxyz(pose: &Pose) -> ([f64; 3], [f64; 4]) {
     let r = pose.rotation.matrix();
-    // Shepperd's method: the largest of the four squares is taken first, the others follow from it without cancellation.
+    // Shepperd's method: the largest of the four squares is taken first, the others follow from it
+    // without cancellation.
     let squares = [
         1.0 + r[(0, 0)] + r[(1, 1)] + r[(2, 2)],
         1.0 + r[(0, 0)] - r[(1, 1)] - r[(2, 2)],
@@ -218,8 +223,9 @@ pub fn pose_to_quaternion(pose: &Pose) -> ([f64; 3], [f64; 4]) {
 
 /// Translation [m] and ZYX Euler angles rz, ry, rx [rad] of a pose, ry in -pi/2 ..= pi/2.
 ///
-/// At the gimbal pose (|ry| = pi/2) only `rz - rx` or `rz + rx` is determined: rz is zero there and rx takes all. Next to it the three
-/// angles are taken one from the other, so that they give the pose back to rounding.
+/// At the gimbal pose (|ry| = pi/2) only `rz - rx` or `rz + rx` is determined: rz is zero there and
+/// rx takes all. Next to it the three angles are taken one from the other, so that they give the
+/// pose back to rounding.
 #[must_use]
 pub fn pose_to_euler_zyx(pose: &Pose) -> ([f64; 3], [f64; 3]) {
     let r = pose.rotation.matrix();

@@ -1,4 +1,5 @@
-//! How far a 3x3 matrix is from a rotation, and the rotation nearest to it. One matrix or a lane of many: the same arithmetic, the same bits.
+//! How far a 3x3 matrix is from a rotation, and the rotation nearest to it. One matrix or a lane of
+//! many: the same arithmetic, the same bits.
 
 /// The rows of a 3x3 matrix.
 pub(crate) type Rows3 = [[f64; 3]; 3];
@@ -25,7 +26,8 @@ pub(crate) fn determinant(r: &Rows3) -> f64 {
 
 /// The nearest rotation to a matrix that is off orthonormal by 1e-5 at most.
 ///
-/// Newton's iteration for the orthogonal polar factor, `R <- R (3 I - R^T R) / 2`: the deviation is squared by each of two steps.
+/// Newton's iteration for the orthogonal polar factor, `R <- R (3 I - R^T R) / 2`: the deviation is
+/// squared by each of two steps.
 #[inline(always)]
 pub(crate) fn nearest_rotation(r: &Rows3) -> Rows3 {
     newton_step(&newton_step(r))

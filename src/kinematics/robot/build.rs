@@ -21,7 +21,8 @@ impl Robot<6> {
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidModel`] when a parameter is not finite, a sign is not 1 or -1, or a link has no length.
+    /// [`Error::InvalidModel`] when a parameter is not finite, a sign is not 1 or -1, or a link has
+    /// no length.
     pub fn from_opw(opw: OpwParameters) -> Result<Self, Error> {
         Self::of_opw(opw)
     }
@@ -31,15 +32,18 @@ impl<const N: usize> Robot<N>
 where
     Joints<N>: Arity<N>,
 {
-    /// A robot from a modified (Craig) Denavit-Hartenberg table, with the closed form of its geometry.
+    /// A robot from a modified (Craig) Denavit-Hartenberg table, with the closed form of its
+    /// geometry.
     ///
-    /// A six-axis table may have its frames and its zero pose anywhere; what is within 1e-9 rad or m of the form is made exactly so.
-    /// A seven-axis arm of no known form has forward kinematics and the Jacobian. For angles written with few digits, see [`Mdh::snapped`].
+    /// A six-axis table may have its frames and its zero pose anywhere; what is within 1e-9 rad or
+    /// m of the form is made exactly so. A seven-axis arm of no known form has forward kinematics
+    /// and the Jacobian. For angles written with few digits, see [`Mdh::snapped`].
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidModel`] when a number is not finite, a link has no length, or a six-axis arm has no known form: the message
-    /// names the axes and how far they are off. [`Robot::serial_chain`] takes such an arm without its inverse.
+    /// [`Error::InvalidModel`] when a number is not finite, a link has no length, or a six-axis arm
+    /// has no known form: the message names the axes and how far they are off.
+    /// [`Robot::serial_chain`] takes such an arm without its inverse.
     pub fn from_mdh(mdh: Mdh<N>) -> Result<Self, Error> {
         let robot = Self::serial_chain(mdh)?;
         match robot.unknown_structure() {
@@ -57,11 +61,13 @@ where
         Self::from_mdh(sdh.into())
     }
 
-    /// A robot from any modified Denavit-Hartenberg table: with the closed form where its geometry has one, without where not.
+    /// A robot from any modified Denavit-Hartenberg table: with the closed form where its geometry
+    /// has one, without where not.
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidModel`] when a number is not finite or a recognised arm's link has no length.
+    /// [`Error::InvalidModel`] when a number is not finite or a recognized arm's link has no
+    /// length.
     pub fn serial_chain(mut mdh: Mdh<N>) -> Result<Self, Error> {
         check_rows(&mdh.rows)?;
         (mdh.base, mdh.flange) = (checked_pose(&mdh.base)?, checked_pose(&mdh.flange)?);
@@ -114,10 +120,10 @@ where
         self
     }
 
-    /// The same robot with other joint limits; those of its rod stay.
+    /// The same robot with other joint limits; those of its linkage stay.
     #[must_use]
     pub fn with_limits(mut self, limits: JointLimits<N>) -> Self {
-        self.limits = limits.with_rod_of(&self.limits);
+        self.limits = limits.with_linkage_of(&self.limits);
         self.joined()
     }
 
@@ -136,7 +142,8 @@ where
         Ok(self)
     }
 
-    /// The same robot standing at `t_world_base`: poses and Jacobians are then in the world frame. A base that it had is replaced.
+    /// The same robot standing at `t_world_base`: poses and Jacobians are then in the world frame.
+    /// A base that it had is replaced.
     ///
     /// # Errors
     ///
@@ -146,7 +153,8 @@ where
         Ok(self.joined())
     }
 
-    /// The same robot with its tool centre point at `t_flange_tool`. A tool that it had is replaced.
+    /// The same robot with its tool center point at `t_flange_tool`. A tool that it had is
+    /// replaced.
     ///
     /// # Errors
     ///

@@ -12,13 +12,13 @@ use nalgebra::SMatrix;
 
 use crate::kinematics::answer::singularity::{SingularDistances, Singularity, singular_values};
 use crate::kinematics::answer::slot::Slot;
-use crate::kinematics::answer::status::Status;
+use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::chain::forward::Poses;
 use crate::kinematics::chain::jacobian::{JacobianFrame, Jacobians};
 use crate::kinematics::chain::limits::JointLimits;
-use crate::kinematics::pose::{Pose, PoseError};
+use crate::kinematics::pose::{Pose, PoseDifference};
 use crate::kinematics::structure::any::{AnyStructure, SixJoints};
 use crate::kinematics::structure::arity::{Arity, Joints, StructureOf};
 use crate::kinematics::structure::solver::Solver;
@@ -28,8 +28,9 @@ use crate::report::UnknownStructure;
 
 /// A robot arm of `N` revolute joints.
 ///
-/// Build one from the catalogue ([`Robot::named`]), from parameters ([`Robot::from_opw`]) or from a Denavit-Hartenberg table
-/// ([`Robot::from_mdh`], [`Robot::from_sdh`]). A robot does not change: `with_` gives a new one. No solve allocates.
+/// Build one from the catalog ([`Robot::named`]), from parameters ([`Robot::from_opw`]) or from a
+/// Denavit-Hartenberg table ([`Robot::from_mdh`], [`Robot::from_sdh`]). A robot does not change:
+/// `with_` gives a new one. No solve allocates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Robot<const N: usize>
 where
@@ -77,19 +78,20 @@ where
         self
     }
 
-    pub(in crate::kinematics) fn structure(&self) -> &StructureOf<N> {
+    pub(in crate::kinematics) fn solver(&self) -> &StructureOf<N> {
         &self.structure
     }
 
-    /// Catalogue name, or the name that was given.
+    /// Catalog name, or the name that was given.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Name of the kinematic structure: "spherical wrist", "three parallel axes", "spherical shoulder", or "serial" where it is unknown.
+    /// Name of the kinematic structure: "spherical wrist", "three parallel axes", "spherical
+    /// shoulder", or "unknown" where it is unknown.
     #[must_use]
-    pub fn family(&self) -> &'static str {
+    pub fn structure(&self) -> &'static str {
         self.structure.arm().name()
     }
 
@@ -111,7 +113,8 @@ where
         self.structure.arm().slot_names()
     }
 
-    /// The slot of the branch that `q` [rad] is on; of two that meet at a singularity, the one in front. `None` where slots are ordinals.
+    /// The slot of the branch that `q` [rad] is on; of two that meet at a singularity, the one in
+    /// front. `None` where slots are ordinals.
     #[must_use]
     pub fn slot_of(&self, q: &[f64; N]) -> Option<Slot> {
         self.structure.arm().slot(q)
@@ -135,7 +138,7 @@ where
         self.chain.base()
     }
 
-    /// The tool centre point in the flange frame.
+    /// The tool center point in the flange frame.
     #[must_use]
     pub fn tool(&self) -> &Pose {
         self.chain.tool()
@@ -165,7 +168,8 @@ where
         self.chain.link_frames(q)
     }
 
-    /// Geometric Jacobian of the tool: three linear rows [m/rad], three angular [1]; column `i` belongs to joint `i + 1`.
+    /// Geometric Jacobian of the tool: three linear rows [m/rad], three angular [1]; column `i`
+    /// belongs to joint `i + 1`.
     #[must_use]
     pub fn jacobian(&self, q: &[f64; N], frame: JacobianFrame) -> SMatrix<f64, 6, N> {
         self.chain.jacobian(q, frame)
@@ -201,7 +205,7 @@ where
             distances: arm.map(|(distances, _)| distances),
             min_singular_value: values[5],
             manipulability: values.iter().product(),
-            kinds: arm.map_or(Status::empty(), |(_, kinds)| kinds),
+            kinds: arm.map_or(SingularityKind::empty(), |(_, kinds)| kinds),
         }
     }
 
@@ -213,12 +217,13 @@ where
 
     /// How far the tool at `q` [rad] is from `pose`.
     #[must_use]
-    pub fn residual(&self, q: &[f64; N], pose: &Pose) -> PoseError {
-        PoseError::between(&self.fk(q), pose)
+    pub fn residual(&self, q: &[f64; N], pose: &Pose) -> PoseDifference {
+        PoseDifference::between(&self.fk(q), pose)
     }
 
-    /// The determinant of the geometric Jacobian of joints 1 to 6 in closed form [m^3]: it is zero at singularities alone, and its factors are
-    /// those of the structure. `None` where the structure is unknown.
+    /// The determinant of the geometric Jacobian of joints 1 to 6 in closed form [m^3]: it is zero
+    /// at singularities alone, and its factors are those of the structure. `None` where the
+    /// structure is unknown.
     #[must_use]
     pub fn jacobian_determinant(&self, q: &[f64; N]) -> Option<f64> {
         self.structure.arm().jacobian_determinant(q)

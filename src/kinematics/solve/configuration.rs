@@ -12,7 +12,7 @@ use crate::kinematics::answer::check::check_seed;
 use crate::kinematics::answer::select::{Cost, Turns};
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::solutions::{Place, Solution, Solutions};
-use crate::kinematics::answer::status::Status;
+use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
@@ -79,7 +79,8 @@ impl Configuration {
     }
 }
 
-/// The number of an angle's quarter turn: its floor, an angle that is an edge but for the rounding of degrees to radians being one.
+/// The number of an angle's quarter turn: its floor, an angle that is an edge but for the rounding
+/// of degrees to radians being one.
 #[expect(clippy::cast_possible_truncation, reason = "no more than MOST_QUARTERS")]
 fn quarter(angle: f64) -> i32 {
     let quarters = angle / FRAC_PI_2;
@@ -97,12 +98,14 @@ fn slot_of(arm: &SphericalWrist, q: &[f64; 6]) -> Slot {
 }
 
 impl Robot<6> {
-    /// ABB's confdata of a joint vector [rad]: on the edge of a quarter turn, that of the one which begins there.
+    /// ABB's confdata of a joint vector [rad]: on the edge of a quarter turn, that of the one which
+    /// begins there.
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidJoints`] when an angle is not finite or exceeds [`MOST_ANGLE`], [`Error::InvalidModel`] for an arm without a spherical wrist, whose
-    /// controller counts otherwise.
+    /// [`Error::InvalidJoints`] when an angle is not finite or exceeds [`MOST_ANGLE`],
+    /// [`Error::InvalidModel`] for an arm without a spherical wrist, whose controller counts
+    /// otherwise.
     pub fn configuration(&self, q: &[f64; 6]) -> Result<Configuration, Error> {
         let arm = self.counted()?;
         check_seed("q", q)?;
@@ -114,21 +117,25 @@ impl Robot<6> {
         Configuration::of(q, cfx)
     }
 
-    /// The solution inside the limits that has the configuration `wanted`, which chooses the turns of axes 1, 4 and 6, too.
+    /// The solution inside the limits that has the configuration `wanted`, which chooses the turns
+    /// of axes 1, 4 and 6, too.
     ///
-    /// An angle within [`CONFIGURATION_EDGE`] of the edge of a quarter turn is taken for either side of it, and axis 5 next to zero or a
-    /// straight elbow for either slot. Where the pose leaves a joint free, it takes the configuration's side. Of an arm with coupled axes the
+    /// An angle within [`CONFIGURATION_EDGE`] of the edge of a quarter turn is taken for either
+    /// side of it, and axis 5 next to zero or a straight elbow for either slot. Where the pose
+    /// leaves a joint free, it takes the configuration's side. Of an arm with coupled axes the
     /// branches in front of the lower arm are looked at first.
     ///
     /// # Errors
     ///
-    /// As [`Robot::ik_nearest`]; [`Error::NoConfiguration`], which lists those that exist; [`Error::InvalidJoints`] for a `cfx` that the arm
-    /// does not have; [`Error::InvalidModel`] as [`Robot::configuration`].
+    /// As [`Robot::ik_nearest`]; [`Error::NoConfiguration`], which lists those that exist;
+    /// [`Error::InvalidJoints`] for a `cfx` that the arm does not have; [`Error::InvalidModel`] as
+    /// [`Robot::configuration`].
     pub fn ik_configured(&self, pose: &Pose, wanted: Configuration) -> Result<Solution<6>, Error> {
         self.ik_configured_checked(checked_pose(pose)?, wanted)
     }
 
-    /// [`Robot::ik_configured`] or, where no solution has that configuration, the one nearest to `seed` [rad].
+    /// [`Robot::ik_configured`] or, where no solution has that configuration, the one nearest to
+    /// `seed` [rad].
     ///
     /// Many programs write `[0, 0, 0, 0]` without having calculated it.
     ///
@@ -208,7 +215,8 @@ impl Robot<6> {
         None
     }
 
-    /// The solution of a singular pose that has the configuration, with whatever angles of the joints that the pose leaves open.
+    /// The solution of a singular pose that has the configuration, with whatever angles of the
+    /// joints that the pose leaves open.
     fn configured_singular(
         &self,
         arm: &SphericalWrist,
@@ -238,7 +246,8 @@ impl Robot<6> {
         Ok(None)
     }
 
-    /// Whether a solution in `slot` has that of a configuration; with `Closeness::Met` also in one that it meets within `edge` [rad].
+    /// Whether a solution in `slot` has that of a configuration; with `Closeness::Met` also in one
+    /// that it meets within `edge` [rad].
     ///
     /// A coupled arm has no slot: the branches in front of the lower arm are looked at first.
     fn has_slot(
@@ -260,13 +269,15 @@ impl Robot<6> {
         let (near, kinds) = (arm.singular_distances(&solution.q), arm.kinds(&solution.q));
         let open = match closeness {
             Closeness::Same => [near.wrist <= SEEDED_FREE, false, false],
-            Closeness::Bent => [near.wrist <= SEEDED_FREE, kinds.contains(Status::ELBOW), false],
+            Closeness::Bent => {
+                [near.wrist <= SEEDED_FREE, kinds.contains(SingularityKind::ELBOW), false]
+            }
             Closeness::Met => {
-                let kinds = kinds | solution.kinds();
+                let kinds = kinds | solution.singularities();
                 [
-                    near.wrist <= edge || kinds.contains(Status::WRIST),
-                    near.elbow <= edge || kinds.contains(Status::ELBOW),
-                    kinds.contains(Status::SHOULDER),
+                    near.wrist <= edge || kinds.contains(SingularityKind::WRIST),
+                    near.elbow <= edge || kinds.contains(SingularityKind::ELBOW),
+                    kinds.contains(SingularityKind::SHOULDER),
                 ]
             }
         };
@@ -274,7 +285,8 @@ impl Robot<6> {
         (slot ^ wanted.cfx) & !open.sum::<i32>() == 0
     }
 
-    /// The solution with an axis 5 that is zero to rounding, or an elbow that is straight to rounding, on the side that the configuration names.
+    /// The solution with an axis 5 that is zero to rounding, or an elbow that is straight to
+    /// rounding, on the side that the configuration names.
     fn on_side(
         &self,
         arm: &SphericalWrist,
@@ -285,14 +297,14 @@ impl Robot<6> {
         let moved_onto_pose = |start: [f64; 6], kept: usize| {
             let limits = self.limits();
             let (q, off) = self.corrected(solutions.pose(), start, limits, &[kept], DAMPED);
-            (off <= meets(solutions.pose()) && limits.contain(&q)).then_some(q)
+            (off <= meets(solutions.pose()) && limits.contains(&q)).then_some(q)
         };
         let mut q = solution.q;
         if self.is_coupled() || slot_of(arm, &q).number() == wanted.cfx {
             return solution;
         }
         if (slot_of(arm, &q).number() ^ wanted.cfx) & 2 != 0
-            && arm.kinds(&q).contains(Status::ELBOW)
+            && arm.kinds(&q).contains(SingularityKind::ELBOW)
         {
             let bent = arm.with_bent_elbow(&q, wanted.cfx & 2 != 0);
             q = moved_onto_pose(bent, 2).unwrap_or(q);
@@ -305,7 +317,8 @@ impl Robot<6> {
         if slot_of(arm, &q).number() == wanted.cfx { Solution { q, ..solution } } else { solution }
     }
 
-    /// Why no solution has a configuration: which others there are, or that no solution is inside the limits.
+    /// Why no solution has a configuration: which others there are, or that no solution is inside
+    /// the limits.
     fn no_configuration(
         &self,
         arm: &SphericalWrist,
@@ -316,7 +329,7 @@ impl Robot<6> {
             wanted,
             existing: Vec::new(),
             more: false,
-            free: solutions.iter().find_map(|found| found.free),
+            free: solutions.iter().find_map(|found| found.free_joint),
         };
         for solution in solutions {
             self.list_turns(arm, solutions.limits(), solution, &mut none);
@@ -331,7 +344,8 @@ impl Robot<6> {
         Ok(Error::NoConfiguration(none))
     }
 
-    /// Adds the configurations of a solution's turns inside the limits, each once, as long as there is room.
+    /// Adds the configurations of a solution's turns inside the limits, each once, as long as there
+    /// is room.
     fn list_turns(
         &self,
         arm: &SphericalWrist,
@@ -360,6 +374,6 @@ impl Robot<6> {
     /// The geometry whose branches a configuration tells apart.
     pub(crate) fn counted(&self) -> Result<&SphericalWrist, Error> {
         self.spherical_wrist()
-            .ok_or_else(|| ModelFault::NoConfiguration { family: self.family() }.into())
+            .ok_or_else(|| ModelFault::NoConfiguration { structure: self.structure() }.into())
     }
 }

@@ -1,8 +1,10 @@
 //! Joints next to a singularity, moved onto the pose inside the limits.
 //!
-//! Where two singularities meet, rounding of the pose leaves joints open that no single formula names: a straight elbow leaves the forearm
-//! open, and with it the split of q4 and q6. A joint vector that has the open joint where it is wanted is off the pose by about that much; a
-//! few damped Newton steps move the others so that it meets the pose (docs/singularities.md, section 3).
+//! Where two singularities meet, rounding of the pose leaves joints open that no single formula
+//! names: a straight elbow leaves the forearm open, and with it the split of q4 and q6. A joint
+//! vector that has the open joint where it is wanted is off the pose by about that much; a few
+//! damped Newton steps move the others so that it meets the pose (docs/singularities.md, section
+//! 3).
 //!
 //! Reference: Nakamura and Hanafusa, Inverse Kinematic Solutions with Singularity Robustness, 1986.
 
@@ -14,13 +16,15 @@ use crate::kinematics::pose::Pose;
 use crate::kinematics::robot::Robot;
 use crate::kinematics::structure::arity::{Arity, Joints};
 
-/// Steps of Newton's method: next to the pose each squares the distance, and a joint may come to its limit in some of them.
+/// Steps of Newton's method: next to the pose each squares the distance, and a joint may come to
+/// its limit in some of them.
 const ROUNDS: u32 = 20;
 
 /// Part of the distance that a step must leave behind at least, to be followed by another.
 const GAIN: f64 = 0.8;
 
-/// Square of the singular value below which a step is damped [1]: joints that the pose leaves open to 1e-5 stay where they are.
+/// Square of the singular value below which a step is damped [1]: joints that the pose leaves open
+/// to 1e-5 stay where they are.
 pub(super) const DAMPED: f64 = 1e-10;
 
 /// The same where the joints that are kept leave nothing open: only what no joint moves is damped.
@@ -33,8 +37,9 @@ impl<const N: usize> Robot<N>
 where
     Joints<N>: Arity<N>,
 {
-    /// The joint vector next to `q`, inside `limits` as `q` is, that meets the pose best, and how far it is off [rad, m]. The joints `kept`, from
-    /// 0, stay where they are, and so does joint 7; `damping` is [`DAMPED`] or [`DETERMINED`].
+    /// The joint vector next to `q`, inside `limits` as `q` is, that meets the pose best, and how
+    /// far it is off [rad, m]. The joints `kept`, from 0, stay where they are, and so does joint 7;
+    /// `damping` is [`DAMPED`] or [`DETERMINED`].
     pub(in crate::kinematics) fn corrected(
         &self,
         pose: &Pose,
@@ -57,7 +62,8 @@ where
                 }
                 let [low, high] = limits[joint];
                 let stepped = q[joint] + step[joint];
-                // A joint that starts on its limit, or beyond by a tolerance, stays there if it would go out.
+                // A joint that starts on its limit, or beyond by a tolerance, stays there if it
+                // would go out.
                 let inside = stepped.max(low.min(q[joint])).min(high.max(q[joint]));
                 if (inside - stepped).abs() > 0.0 {
                     (locked[joint], at_limit) = (true, true);

@@ -10,7 +10,8 @@ const GOLDEN: f64 = 0.381_966_011_250_105_1;
 /// Cuts, each of which leaves 62 % of the interval: of ten degrees, 1e-10 rad.
 const CUTS: u32 = 45;
 
-/// Where between `low` and `high` the function `f` is least, if it has one valley there, and its value.
+/// Where between `low` and `high` the function `f` is least, if it has one valley there, and its
+/// value.
 pub(super) fn golden_section(
     mut f: impl FnMut(f64) -> Result<f64, Error>,
     mut low: f64,

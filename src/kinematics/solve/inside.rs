@@ -1,4 +1,5 @@
-//! Solutions outside the limits next to which others of the same pose are inside: those take their slots.
+//! Solutions outside the limits next to which others of the same pose are inside: those take their
+//! slots.
 
 use crate::error::Error;
 use crate::kinematics::answer::solutions::{Place, Solution, Solutions};
@@ -12,8 +13,8 @@ impl<const N: usize> Robot<N>
 where
     Joints<N>: Arity<N>,
 {
-    /// Where a solution is outside the limits and another one of its family, which is `allowed` [rad, m] off the pose at most, is not, that
-    /// one takes its slot.
+    /// Where a solution is outside the limits and another one of its family, which is `allowed`
+    /// [rad, m] off the pose at most, is not, that one takes its slot.
     pub(in crate::kinematics) fn bring_families_inside(
         &self,
         solutions: &mut Solutions<N>,
@@ -23,14 +24,14 @@ where
             let Some(outside) = solutions
                 .slot(slot)
                 .copied()
-                .filter(|solution| solution.free.is_some() && !solution.within_limits())
+                .filter(|solution| solution.free_joint.is_some() && !solution.is_within_limits())
             else {
                 continue;
             };
             let rest = self.resting(Redundancy::of(&outside.q));
             // A slot that another solution has is that one's.
             let vacant = |to: usize| to == slot || solutions.slot(to).is_none();
-            let family = outside.free.map_or(&[][..], |free| free.branches());
+            let family = outside.free_joint.map_or(&[][..], |free| free.branches());
             let accepts = |member: &Solution<N>| {
                 let to = member.slot.index();
                 vacant(to) && family.iter().copied().flatten().any(|branch| to == slot ^ branch)
@@ -54,13 +55,14 @@ where
         Ok(())
     }
 
-    /// Where no solution is inside the limits and another one of the pose is, that one takes the slot of the one that it came from.
+    /// Where no solution is inside the limits and another one of the pose is, that one takes the
+    /// slot of the one that it came from.
     pub(in crate::kinematics) fn bring_one_inside(
         &self,
         solutions: &mut Solutions<N>,
     ) -> Result<(), Error> {
         // Of seven axes, one is looked for along the redundancy.
-        if N != 6 || solutions.is_empty() || solutions.iter().any(Solution::within_limits) {
+        if N != 6 || solutions.is_empty() || solutions.iter().any(Solution::is_within_limits) {
             return Ok(());
         }
         let wanted = Wanted {

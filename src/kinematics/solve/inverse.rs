@@ -17,14 +17,15 @@ use crate::kinematics::thresholds::MOST_LENGTH;
 impl Robot<6> {
     /// Every joint vector that brings the tool to `pose`.
     ///
-    /// A pose out of reach has no solutions and tells so by [`Solutions::reach`]; at a singularity a joint that the pose leaves free
-    /// reads zero, or the middle of its limits where zero is outside them; joint 6 of three parallel axes the angle nearest to that with which
-    /// the arm reaches. Derivations: docs/spherical_wrist.md, docs/three_parallel.md.
+    /// A pose out of reach has no solutions and tells so by [`Solutions::reach`]; at a singularity
+    /// a joint that the pose leaves free reads zero, or the middle of its limits where zero is
+    /// outside them; joint 6 of three parallel axes the angle nearest to that with which the arm
+    /// reaches. Derivations: docs/spherical_wrist.md, docs/three_parallel.md.
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidPose`] when the pose is not finite or no rigid transform; [`Error::InvalidModel`] when the structure of the arm is
-    /// unknown.
+    /// [`Error::InvalidPose`] when the pose is not finite or no rigid transform;
+    /// [`Error::InvalidModel`] when the structure of the arm is unknown.
     pub fn ik(&self, pose: &Pose) -> Result<Solutions<6>, Error> {
         self.ik_with(pose, ())
     }
@@ -37,7 +38,8 @@ impl Robot<7> {
     ///
     /// # Errors
     ///
-    /// As [`Robot::<6>::ik`], and [`Error::InvalidJoints`] when `q7` is not finite or exceeds [`MOST_ANGLE`].
+    /// As [`Robot::<6>::ik`], and [`Error::InvalidJoints`] when `q7` is not finite or exceeds
+    /// [`MOST_ANGLE`].
     pub fn ik(&self, pose: &Pose, q7: f64) -> Result<Solutions<7>, Error> {
         self.ik_with(pose, q7)
     }
@@ -47,8 +49,8 @@ impl<const N: usize> Robot<N>
 where
     Joints<N>: Arity<N>,
 {
-    /// [`Robot::<6>::ik`] and [`Robot::<7>::ik`] for a caller that is generic over the number of joints: with the redundancy `()` of six
-    /// joints, and the angle of joint 7 [rad] of seven.
+    /// [`Robot::<6>::ik`] and [`Robot::<7>::ik`] for a caller that is generic over the number of
+    /// joints: with the redundancy `()` of six joints, and the angle of joint 7 [rad] of seven.
     ///
     /// # Errors
     ///
@@ -77,7 +79,7 @@ where
     /// Every joint vector of many poses: rows of pose elements in, slots and their status out.
     pub(crate) fn ik_rows(&self, rows: Rows<'_, RedundancyOf<N>>) {
         let (poses, redundancy) = (rows.poses, rows.redundancy);
-        self.structure().arm().solve_rows(rows, &mut |row, q, status| {
+        self.solver().arm().solve_rows(rows, &mut |row, q, status| {
             self.ik_row(&poses[row], redundancy[row], q, status);
         });
     }
@@ -108,7 +110,7 @@ where
     /// An answer without solutions, to solve in the place where it stands.
     #[inline]
     pub(crate) fn unsolved(&self, pose: Pose) -> Solutions<N> {
-        Solutions::none(self.structure().slot_count(), pose, *self.limits())
+        Solutions::none(self.solver().slot_count(), pose, *self.limits())
     }
 
     /// [`Robot::ik_checked`] of an unsolved answer's pose, without moving the answer about.
@@ -159,7 +161,7 @@ where
     ) -> Result<Solutions<N>, Error> {
         let mut solutions = self.unsolved(pose);
         let redundancy = Redundancy::of(&free.q);
-        if !(free.leaves_plain_poses_alone() && self.solve_in_lanes(&mut solutions, redundancy)) {
+        if !(free.leaves_regular_poses_alone() && self.solve_in_lanes(&mut solutions, redundancy)) {
             self.solve_scalar(&mut solutions, free)?;
         }
         Ok(solutions)
@@ -173,7 +175,7 @@ where
         free: &FreeChoice<N>,
     ) -> Result<(), Error> {
         let redundancy = Redundancy::of(&free.q);
-        let solved = self.structure().arm().solve(solutions, redundancy, free);
+        let solved = self.solver().arm().solve(solutions, redundancy, free);
         solved.map_err(|reason| ModelFault::UnknownStructure(reason).into())
     }
 
@@ -188,7 +190,7 @@ where
         if position.iter().any(|coordinate| coordinate.abs() > MOST_LENGTH) {
             return false;
         }
-        self.structure().solve_in_lanes(solutions, redundancy)
+        self.solver().solve_in_lanes(solutions, redundancy)
     }
 }
 

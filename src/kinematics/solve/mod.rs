@@ -1,8 +1,8 @@
-//! The inverse of a robot: of one pose, of rows, next to a seed, by configuration, along the redundancy.
+//! The inverse of a robot: of one pose, of rows, next to a seed, by configuration, along the
+//! redundancy.
 
 pub(crate) mod configuration;
 mod correction;
-mod family_search;
 mod golden_section;
 mod inside;
 pub(crate) mod inverse;
@@ -13,4 +13,5 @@ pub(crate) mod redundancy;
 pub(crate) mod seeded;
 pub(crate) mod self_motion;
 pub(crate) mod self_motion_curve;
+mod self_motion_search;
 mod starts;

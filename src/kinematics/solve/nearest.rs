@@ -1,8 +1,11 @@
-//! The solution inside the limits that is nearest to a seed, where the pose is next to a singularity.
+//! The solution inside the limits that is nearest to a seed, where the pose is next to a
+//! singularity.
 //!
-//! A regular pose has at most eight solutions, and the cheapest is the answer. A singular one has families of them, twins half a turn apart
-//! of which a solve keeps one, and, next to two singularities at once, joints that rounding leaves open. Each of these gives candidates; one
-//! that meets the pose inside the limits may be the answer, and the cheapest is (docs/singularities.md, section 3).
+//! A regular pose has at most eight solutions, and the cheapest is the answer. A singular one has
+//! families of them, twins half a turn apart of which a solve keeps one, and, next to two
+//! singularities at once, joints that rounding leaves open. Each of these gives candidates; one
+//! that meets the pose inside the limits may be the answer, and the cheapest is
+//! (docs/singularities.md, section 3).
 
 use core::f64::consts::PI;
 
@@ -13,7 +16,7 @@ use crate::error::Error;
 use crate::kinematics::answer::select::Cost;
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::solutions::{Solution, Solutions};
-use crate::kinematics::answer::status::Status;
+use crate::kinematics::answer::status::{SingularityKind, Status};
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::correction::DAMPED;
@@ -25,7 +28,8 @@ use crate::kinematics::structure::redundancy::Redundancy;
 use crate::kinematics::thresholds::{LIMIT_SLACK, SOLUTION_OFF};
 use crate::report::FreeJoint;
 
-/// Arms of a pose whose wrists are looked at: those of the choices of [`NearestSearch::choices`], four each at most.
+/// Arms of a pose whose wrists are looked at: those of the choices of [`NearestSearch::choices`],
+/// four each at most.
 const ARMS: usize = 24;
 
 /// |sin q5| up to which the wrist of three parallel axes may be open because the plane of the arm is [1]: that is open by 1e-7 or less.
@@ -45,8 +49,8 @@ impl<const N: usize> Robot<N>
 where
     Joints<N>: Arity<N>,
 {
-    /// The solution inside the limits that is nearest to `seed`: of `solutions` or, where none of them is inside and the pose is singular, of
-    /// all that it has.
+    /// The solution inside the limits that is nearest to `seed`: of `solutions` or, where none of
+    /// them is inside and the pose is singular, of all that it has.
     pub(in crate::kinematics) fn nearest_of(
         &self,
         solutions: &Solutions<N>,
@@ -61,8 +65,8 @@ where
         self.nearest_at_singularity(solutions, &wanted)
     }
 
-    /// What is wanted, of a pose that is not regular and has `known` solutions among others. One that meets the pose, or else one that meets
-    /// it to its distance from the singularity.
+    /// What is wanted, of a pose that is not regular and has `known` solutions among others. One
+    /// that meets the pose, or else one that meets it to its distance from the singularity.
     pub(in crate::kinematics) fn nearest_at_singularity(
         &self,
         known: &Solutions<N>,
@@ -77,7 +81,8 @@ where
         Ok(None)
     }
 
-    /// What is wanted, at most `allowed` [rad, m] off the pose, and the slot of the solution that it came from.
+    /// What is wanted, at most `allowed` [rad, m] off the pose, and the slot of the solution that
+    /// it came from.
     pub(in crate::kinematics) fn nearest_within(
         &self,
         known: &Solutions<N>,
@@ -168,8 +173,8 @@ where
         Ok(())
     }
 
-    /// The seed for joints that the pose leaves open, and half a turn from it: of two branches that are one the nearer is kept, so that every
-    /// pair of twins comes with one or the other.
+    /// The seed for joints that the pose leaves open, and half a turn from it: of two branches that
+    /// are one the nearer is kept, so that every pair of twins comes with one or the other.
     fn choices(&self) -> [[f64; N]; 4] {
         [[0.0, 0.0], [0.0, PI], [PI, 0.0], [PI, PI]].map(|[shoulder, wrist]| {
             let mut q = *self.wanted.seed;
@@ -180,7 +185,8 @@ where
         })
     }
 
-    /// Looks at the solutions of each side, with joints that the pose leaves open to rounding alone where they rest.
+    /// Looks at the solutions of each side, with joints that the pose leaves open to rounding alone
+    /// where they rest.
     pub(super) fn look_at_twins(&mut self, from: &Solution<N>) -> Result<(), Error> {
         for q in self.choices() {
             for solution in &self.robot.solve(*self.known.pose(), &FreeChoice::rest(q))? {
@@ -227,8 +233,8 @@ where
         }
     }
 
-    /// Takes the joints nearest to `q` that meet the pose, of the branch of `from`; `q` may be outside its limits by `slack` [rad]. Tells
-    /// whether `q` itself meets the pose.
+    /// Takes the joints nearest to `q` that meet the pose, of the branch of `from`; `q` may be
+    /// outside its limits by `slack` [rad]. Tells whether `q` itself meets the pose.
     pub(super) fn move_onto_pose(&mut self, q: &[f64; N], slack: f64, from: &Solution<N>) -> bool {
         let limits = &self.wanted.limits;
         let Some(q) = limits.clamped_to(q, self.wanted.seed, self.slack(slack)) else {
@@ -248,52 +254,58 @@ where
 
     /// The branch of `from` with other joints.
     fn at(&self, q: [f64; N], from: &Solution<N>) -> Solution<N> {
-        let wrist = self.robot.structure().arm().spherical_wrist();
+        let wrist = self.robot.solver().arm().spherical_wrist();
         let slot = wrist.map_or(from.slot, |wrist| from.slot.flipped_to(wrist.sin_5(&q) < 0.0));
         Solution { q, slot, ..*from }
     }
 
-    /// Looks at the solutions that belong to one: along the joint that it leaves free, along the wrist, and its twin.
+    /// Looks at the solutions that belong to one: along the joint that it leaves free, along the
+    /// wrist, and its twin.
     pub(super) fn look_along(&mut self, solution: &Solution<N>) -> Result<(), Error> {
         if self.is_done() {
             return Ok(());
         }
         self.look_at_wrist(solution);
-        let arm = self.robot.structure().arm();
+        let arm = self.robot.solver().arm();
         if arm.spherical_wrist().is_none()
-            && (self.must_meet() || solution.kinds().contains(Status::WRIST))
+            && (self.must_meet() || solution.singularities().contains(SingularityKind::WRIST))
             && arm.sin_5(&solution.q).is_some_and(|sin_5| sin_5.abs() <= OPEN_PLANE_SIN)
             && self.is_first_of(solution, 0)
         {
             self.look_at_open_plane(solution)?;
         }
-        for free in self.families_of(solution).into_iter().flatten() {
+        for free in self.self_motions_of(solution).into_iter().flatten() {
             let limits = &self.wanted.limits;
-            // What stands still along a family may be outside the limits for good; no member of one moves the rod.
+            // What stands still along a family may be outside the limits for good; no member of one
+            // moves the linkage.
             let stuck =
                 |joint: &usize| limits.overrun(joint - 1, solution.q[joint - 1]) > SOLUTION_OFF;
             let stuck = free.still().iter().any(stuck);
             if !stuck
-                && limits.rod_overrun(&solution.q) <= SOLUTION_OFF
+                && limits.linkage_overrun(&solution.q) <= SOLUTION_OFF
                 && self.is_first_of(solution, free.joint())
             {
-                self.look_along_family(solution, free)?;
+                self.look_along_self_motion(solution, free)?;
             }
         }
         Ok(())
     }
 
-    /// The joints that may be free along a solution and move more than a partner: the one that it names and, next to another singularity, that
-    /// of axis 1 or 2, which a wrist hides.
-    fn families_of(&self, solution: &Solution<N>) -> [Option<FreeJoint>; 3] {
-        let named = solution.free.filter(|free| free.partner().is_none());
-        if self.robot.structure().arm().spherical_wrist().is_none() {
+    /// The joints that may be free along a solution and move more than a partner: the one that it
+    /// names and, next to another singularity, that of axis 1 or 2, which a wrist hides.
+    fn self_motions_of(&self, solution: &Solution<N>) -> [Option<FreeJoint>; 3] {
+        let named = solution.free_joint.filter(|free| free.partner().is_none());
+        if self.robot.solver().arm().spherical_wrist().is_none() {
             return [named, None, None];
         }
-        let hidden = |kind: Status, free: FreeJoint| {
-            (solution.kinds().contains(kind) && named != Some(free)).then_some(free)
+        let hidden = |kind: SingularityKind, free: FreeJoint| {
+            (solution.singularities().contains(kind) && named != Some(free)).then_some(free)
         };
-        [named, hidden(Status::SHOULDER, FreeJoint::Base), hidden(Status::ELBOW, self.upper())]
+        [
+            named,
+            hidden(SingularityKind::SHOULDER, FreeJoint::Base),
+            hidden(SingularityKind::ELBOW, self.upper()),
+        ]
     }
 
     /// The free joint of an arm that is folded onto axis 2.

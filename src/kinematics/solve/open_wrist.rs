@@ -1,9 +1,10 @@
-//! The wrist of a singular pose: twins, the pair of joints about axes 4 and 6, and what another singularity leaves open of them.
+//! The wrist of a singular pose: twins, the pair of joints about axes 4 and 6, and what another
+//! singularity leaves open of them.
 
 use core::f64::consts::{PI, TAU};
 
 use crate::kinematics::answer::solutions::Solution;
-use crate::kinematics::answer::status::Status;
+use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::solve::correction::{DAMPED, DETERMINED};
@@ -25,14 +26,15 @@ where
 {
     /// Looks next to joints of the arm with joint 5 at its singularity, to either side.
     pub(super) fn start_with_straight_wrist(&mut self, start: &[f64; N], solution: &Solution<N>) {
-        let Some(wrist) = self.robot.structure().arm().spherical_wrist() else { return };
+        let Some(wrist) = self.robot.solver().arm().spherical_wrist() else { return };
         for side in [1.0, -1.0] {
             let straight = wrist.with_straight_wrist(start, side);
             self.move_keeping(&straight, &[4], DAMPED, solution);
         }
     }
 
-    /// Looks at the angles of two joints of which the pose fixes only the sum, or next to another singularity not much more.
+    /// Looks at the angles of two joints of which the pose fixes only the sum, or next to another
+    /// singularity not much more.
     pub(super) fn look_at_wrist(&mut self, solution: &Solution<N>) {
         let Some(pair) = self.pair(solution) else { return };
         if !self.is_new(solution) {
@@ -46,13 +48,14 @@ where
         {
             return;
         }
-        // Where rounding leaves a part of the turn open, that part holds one of the twins, and ends inside the limits or at one of their ends.
+        // Where rounding leaves a part of the turn open, that part holds one of the twins, and ends
+        // inside the limits or at one of their ends.
         let ends = pair.edges(limits).map(|edge| if edge.is_finite() { edge } else { own });
         for angle in [seed[pair.first], own, own + PI].into_iter().chain(ends) {
             self.move_with_wrist_at(&pair, angle, solution);
         }
         // What else is wanted may keep those parts out of which an angle is known.
-        if self.best.is_none() && self.must_meet() && solution.free.is_none() {
+        if self.best.is_none() && self.must_meet() && solution.free_joint.is_none() {
             for step in 0..WRIST_STEPS {
                 let angle = own + f64::from(step) * TAU / f64::from(WRIST_STEPS);
                 self.move_with_wrist_at(&pair, angle, solution);
@@ -60,26 +63,28 @@ where
         }
     }
 
-    /// Looks where the first joint of a pair is at an angle, and joint 5 or the elbow, which another singularity may leave open, at its own.
+    /// Looks where the first joint of a pair is at an angle, and joint 5 or the elbow, which
+    /// another singularity may leave open, at its own.
     fn move_with_wrist_at(&mut self, pair: &Pair, angle: f64, from: &Solution<N>) {
         let q = pair.put(&from.q, angle);
         self.move_onto_pose(&q, LIMIT_SLACK, from);
-        if self.best.is_some() && from.kinds().is_empty() {
+        if self.best.is_some() && from.singularities().is_empty() {
             return;
         }
         self.move_keeping(&q, &[2], DAMPED, from);
-        if let Some(wrist) = self.robot.structure().arm().spherical_wrist() {
+        if let Some(wrist) = self.robot.solver().arm().spherical_wrist() {
             let straight = wrist.with_straight_wrist(&q, 0.0);
             self.move_keeping(&straight, &[4], DAMPED, from);
             self.move_keeping(&straight, &[2, 4], DAMPED, from);
         }
     }
 
-    /// Looks at an elbow that is just not straight, to either side: the forearm turns with it, and a wrist that is open with that.
+    /// Looks at an elbow that is just not straight, to either side: the forearm turns with it, and
+    /// a wrist that is open with that.
     pub(super) fn bend_elbow(&mut self, from: &Solution<N>) {
-        let arm = self.robot.structure().arm();
+        let arm = self.robot.solver().arm();
         let Some(wrist) = arm.spherical_wrist() else { return };
-        if !arm.singular(&from.q).is_some_and(|(_, kinds)| kinds.contains(Status::ELBOW)) {
+        if !arm.singular(&from.q).is_some_and(|(_, kinds)| kinds.contains(SingularityKind::ELBOW)) {
             return;
         }
         let pose = self.known.pose();
@@ -94,16 +99,18 @@ where
         }
     }
 
-    /// The pair of joints that a solution leaves open, or that may be open next to another singularity.
+    /// The pair of joints that a solution leaves open, or that may be open next to another
+    /// singularity.
     fn pair(&self, solution: &Solution<N>) -> Option<Pair> {
-        let declared = solution.free.and_then(|free| Pair::of(free, &solution.q));
+        let declared = solution.free_joint.and_then(|free| Pair::of(free, &solution.q));
         if declared.is_some() {
             return declared;
         }
-        let wrist = self.robot.structure().arm().spherical_wrist()?;
+        let wrist = self.robot.solver().arm().spherical_wrist()?;
         let q = &solution.q;
         // Off the pose by more than rounding, it must be a wrist whose branches are one.
-        let may_be_open = self.must_meet() || solution.kinds().contains(Status::WRIST);
+        let may_be_open =
+            self.must_meet() || solution.singularities().contains(SingularityKind::WRIST);
         (may_be_open && wrist.sin_5(q).abs() <= PATH_WRIST_SIN)
             .then(|| Pair::of(wrist.wrist_pair(q), &solution.q))?
     }

@@ -1,4 +1,5 @@
-//! Two joints of which a singular pose fixes only the sum or the difference, such as those about axes 4 and 6 in one line.
+//! Two joints of which a singular pose fixes only the sum or the difference, such as those about
+//! axes 4 and 6 in one line.
 
 use core::f64::consts::TAU;
 
@@ -47,12 +48,13 @@ impl Pair {
         [low, high, self.fixed - self.sign * other_low, self.fixed - self.sign * other_high]
     }
 
-    /// The angle of the first joint inside the limits, its partner inside them too, at which both are nearest to the seed; `None` where no
-    /// angle keeps both inside.
+    /// The angle of the first joint inside the limits, its partner inside them too, at which both
+    /// are nearest to the seed; `None` where no angle keeps both inside.
     ///
-    /// With the partner `m` turns on, the cost is a parabola of the angle `a` (docs/singularities.md, eq. 81), of which the limits leave an
-    /// interval. The least cost of each `m` is a convex function of `m`, so that the best turns are next to those of the pair of angles that
-    /// would be taken were the sum not fixed.
+    /// With the partner `m` turns on, the cost is a parabola of the angle `a`
+    /// (docs/singularities.md, eq. 81), of which the limits leave an interval. The least cost of
+    /// each `m` is a convex function of `m`, so that the best turns are next to those of the pair
+    /// of angles that would be taken were the sum not fixed.
     pub(super) fn nearest<const N: usize>(
         &self,
         limits: &JointLimits<N>,

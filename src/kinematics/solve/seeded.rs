@@ -10,7 +10,8 @@ use crate::kinematics::solve::nearest::Wanted;
 use crate::kinematics::structure::arity::{Arity, Joints};
 use crate::report::Explanation;
 
-/// Robots that bring their tool to a pose next to a seed, of six and of seven joints, each in its way. Sealed.
+/// Robots that bring their tool to a pose next to a seed, of six and of seven joints, each in its
+/// way. Sealed.
 pub trait Inverse<const N: usize>: sealed::Sealed {
     /// The solution inside the limits that is nearest to a seed, for arguments that were checked.
     #[doc(hidden)]
@@ -53,7 +54,7 @@ impl Inverse<6> for Robot<6> {
 
     fn explain(&self, pose: &Pose) -> Result<Explanation, Error> {
         let solutions = self.ik_checked(*pose, ())?;
-        if !solutions.iter().any(Solution::within_limits)
+        if !solutions.iter().any(Solution::is_within_limits)
             && self.nearest_of(&solutions, &self.limits().rest(), &[1.0; 6])?.is_some()
         {
             return Ok(Explanation::Found { solutions: solutions.len(), inside: 1 });
@@ -82,13 +83,14 @@ where
     Self: Inverse<N>,
     Joints<N>: Arity<N>,
 {
-    /// The solution inside the limits that is nearest to `seed` [rad], 2 pi equivalents considered: of a self-motion the nearest member, and of
-    /// an arm of seven joints with every angle of joint 7.
+    /// The solution inside the limits that is nearest to `seed` [rad], 2 pi equivalents considered:
+    /// of a self-motion the nearest member, and of an arm of seven joints with every angle of joint
+    /// 7.
     ///
     /// # Errors
     ///
-    /// As [`Robot::ik_with`], [`Error::InvalidJoints`] for a seed or weight that is not finite, and [`Error::Unreachable`] when no solution
-    /// is inside the limits.
+    /// As [`Robot::ik_with`], [`Error::InvalidJoints`] for a seed or weight that is not finite, and
+    /// [`Error::Unreachable`] when no solution is inside the limits.
     pub fn ik_nearest(
         &self,
         pose: &Pose,

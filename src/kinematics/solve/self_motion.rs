@@ -15,54 +15,58 @@ impl<const N: usize> Robot<N>
 where
     Joints<N>: Arity<N>,
 {
-    /// The solution of the same pose whose free joint stands at `value` [rad]; `None` where no joint is free.
+    /// The solution of the same pose whose free joint stands at `value` [rad]; `None` where no
+    /// joint is free.
     ///
-    /// The tool stays to rounding at the singularity, and next to it within twice the pose's distance from it: at most 3e-9 rad or m.
+    /// The tool stays to rounding at the singularity, and next to it within twice the pose's
+    /// distance from it: at most 3e-9 rad or m.
     ///
     /// # Errors
     ///
-    /// As [`Robot::ik`], [`Error::InvalidJoints`] when the value is not finite or the solution is none of the pose, and
-    /// [`Error::Unreachable`] when the arm does not reach with the free joint there.
-    pub fn with_free(
+    /// As [`Robot::ik`], [`Error::InvalidJoints`] when the value is not finite or the solution is
+    /// none of the pose, and [`Error::Unreachable`] when the arm does not reach with the free joint
+    /// there.
+    pub fn with_free_joint(
         &self,
         pose: &Pose,
         solution: &Solution<N>,
         value: f64,
     ) -> Result<Option<Solution<N>>, Error> {
-        let Some(free) = solution.free else { return Ok(None) };
+        let Some(free) = solution.free_joint else { return Ok(None) };
         let off = self.residual(&solution.q, pose).largest();
         if off > SOLUTION_OFF {
             return Err(JointFault::NotOfPose { off }.into());
         }
         check_angle("value", free.joint(), value)?;
-        let moved = self.with_free_at(&checked_pose(pose)?, solution, free, value)?;
+        let moved = self.with_free_joint_at(&checked_pose(pose)?, solution, free, value)?;
         moved
             .map(Some)
             .ok_or(Error::Unreachable(Explanation::FreeOutOfReach { joint: free.joint(), value }))
     }
 
-    /// [`Self::with_free`] for a pose and a solution of it that were checked; `None` where the arm does not reach.
-    fn with_free_at(
+    /// [`Self::with_free_joint`] for a pose and a solution of it that were checked; `None` where
+    /// the arm does not reach.
+    fn with_free_joint_at(
         &self,
         pose: &Pose,
         solution: &Solution<N>,
         free: FreeJoint,
         value: f64,
     ) -> Result<Option<Solution<N>>, Error> {
-        let solutions = self.solve_with_free(pose, solution, free, value)?;
+        let solutions = self.solve_with_free_joint(pose, solution, free, value)?;
         // The same branch, or the one that it becomes.
         let mut slots =
             free.branches().iter().copied().flatten().map(|other| solution.slot.index() ^ other);
         Ok(slots.find_map(|slot| solutions.slot(slot)).map(|found| {
             let mut moved = *found;
             moved.q[free.joint() - 1] = value;
-            moved.status.set(Status::WITHIN_LIMITS, self.limits().contain(&moved.q));
+            moved.status.set(Status::WITHIN_LIMITS, self.limits().contains(&moved.q));
             moved
         }))
     }
 
     /// Every solution with the free joint at `value`, whatever the pose says of it.
-    pub(super) fn solve_with_free(
+    pub(super) fn solve_with_free_joint(
         &self,
         pose: &Pose,
         solution: &Solution<N>,
@@ -78,8 +82,8 @@ where
     }
 }
 
-/// How far a solution that meets this pose may be off it [rad, m]: by what a seed may cost or, of lengths so great that their rounding is
-/// more, by theirs.
+/// How far a solution that meets this pose may be off it [rad, m]: by what a seed may cost or, of
+/// lengths so great that their rounding is more, by theirs.
 pub(in crate::kinematics) fn meets(pose: &Pose) -> f64 {
     SEEDED_FREE.max(4.0 * POSITION_ROUNDING * pose.translation.vector.norm())
 }

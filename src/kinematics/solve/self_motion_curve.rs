@@ -78,7 +78,8 @@ impl SelfMotion<'_> {
             let bordered = self.bordered(&q, border).lu();
             let correction = bordered.solve(&wanted)?;
             let size = correction.amax();
-            // Next to a singularity of the curve rounding keeps corrections large that change nothing of the pose.
+            // Next to a singularity of the curve rounding keeps corrections large that change
+            // nothing of the pose.
             if wanted.amax() <= self.rounding && size >= 0.5 * rest {
                 return Some(Point { q, along: unit(bordered.solve(&Joints::ith(6, 1.0))?)? });
             }

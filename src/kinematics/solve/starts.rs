@@ -1,4 +1,5 @@
-//! Starts for joints that a singular pose leaves open, several at once perhaps: at the seed, at the limits, and all around.
+//! Starts for joints that a singular pose leaves open, several at once perhaps: at the seed, at the
+//! limits, and all around.
 
 use core::f64::consts::{PI, TAU};
 
@@ -7,7 +8,7 @@ use nalgebra::ComplexField as _;
 
 use crate::error::Error;
 use crate::kinematics::answer::solutions::{Solution, Solutions};
-use crate::kinematics::answer::status::Status;
+use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::solve::nearest::NearestSearch;
 use crate::kinematics::structure::arity::{Arity, Joints};
@@ -26,7 +27,8 @@ impl<const N: usize> NearestSearch<'_, N>
 where
     Joints<N>: Arity<N>,
 {
-    /// Looks where several joints that are open at once may be inside narrow limits: at the limits, or next to the seed inside them.
+    /// Looks where several joints that are open at once may be inside narrow limits: at the limits,
+    /// or next to the seed inside them.
     pub(super) fn start_from_limits(&mut self, solution: &Solution<N>) {
         self.move_onto_pose(&solution.q, LIMIT_SLACK, solution);
         let limits = self.wanted.limits.to_array();
@@ -61,9 +63,14 @@ where
         }
     }
 
-    /// Looks along the family of a solution with axis 1 at several angles, where the wrist centre is on that as well.
+    /// Looks along the family of a solution with axis 1 at several angles, where the wrist center
+    /// is on that as well.
     pub(super) fn turn_other_joints(&mut self, solution: &Solution<N>) -> Result<(), Error> {
-        if N != 6 || !solution.kinds().contains(Status::SHOULDER | Status::ELBOW) {
+        if N != 6
+            || !solution
+                .singularities()
+                .contains(SingularityKind::SHOULDER | SingularityKind::ELBOW)
+        {
             return Ok(());
         }
         let [low, high] = self.wanted.limits.to_array()[0];
@@ -73,7 +80,7 @@ where
                 break;
             }
             self.others[0] = low + (high - low) * f64::from(step) / f64::from(OTHER_STEPS);
-            self.look_along_family(solution, self.upper())?;
+            self.look_along_self_motion(solution, self.upper())?;
             for part in 0..UPPER_STEPS {
                 let mut start = solution.q;
                 start[0] = self.others[0];

@@ -17,7 +17,8 @@ pub struct Joints<const N: usize>;
 
 /// What depends on the number of joints. Implemented for [`Joints`] of 1 to 12; sealed.
 pub trait Arity<const N: usize>: sealed::Sealed {
-    /// What a caller gives with a pose: nothing for six joints, the angle of joint 7 [rad] for seven.
+    /// What a caller gives with a pose: nothing for six joints, the angle of joint 7 [rad] for
+    /// seven.
     type Redundancy: Redundancy;
 
     /// The structures that an arm may have.
@@ -25,7 +26,8 @@ pub trait Arity<const N: usize>: sealed::Sealed {
     #[expect(private_bounds, reason = "sealed: no one outside implements it")]
     type Structure: AnyStructure<N, Redundancy = Self::Redundancy>;
 
-    /// The structure of an ortho-parallel arm with a spherical wrist, where this is its number of joints.
+    /// The structure of an ortho-parallel arm with a spherical wrist, where this is its number of
+    /// joints.
     #[doc(hidden)]
     #[must_use]
     fn of_opw(_opw: &OpwParameters, _chain: &Chain<N>) -> Option<Self::Structure> {

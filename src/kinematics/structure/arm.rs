@@ -7,11 +7,12 @@ use super::open_wrist::OpenWrist;
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::solutions::Solutions;
-use crate::kinematics::answer::status::Status;
+use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::pose::Pose;
 use crate::report::UnknownStructure;
 
-/// What any structure of `N` joints is asked: a [`Solver`](super::solver::Solver) answers, or the reason why there is none.
+/// What any structure of `N` joints is asked: a [`Solver`](super::solver::Solver) answers, or the
+/// reason why there is none.
 pub(crate) trait Arm<const N: usize, R> {
     /// Why the arm has none of the known structures, if so.
     fn unknown(&self) -> Option<UnknownStructure> {
@@ -38,11 +39,12 @@ pub(crate) trait Arm<const N: usize, R> {
         free: &FreeChoice<N>,
     ) -> Result<(), UnknownStructure>;
 
-    /// Solves rows of poses into rows of slots; `by_itself` solves one row, by its number, that is not regular.
+    /// Solves rows of poses into rows of slots; `by_itself` solves one row, by its number, that is
+    /// not regular.
     fn solve_rows(&self, rows: Rows<'_, R>, by_itself: &mut RowSolve<'_, N>);
 
     /// How far a joint vector is from each singularity, and at which of them it stands.
-    fn singular(&self, _q: &[f64; N]) -> Option<(SingularDistances, Status)> {
+    fn singular(&self, _q: &[f64; N]) -> Option<(SingularDistances, SingularityKind)> {
         None
     }
 
@@ -81,7 +83,8 @@ pub(crate) trait Arm<const N: usize, R> {
     }
 }
 
-/// Rows to be solved: poses, what a caller gives with each, and room for the slots and their status.
+/// Rows to be solved: poses, what a caller gives with each, and room for the slots and their
+/// status.
 pub(crate) struct Rows<'a, R> {
     pub(crate) poses: &'a [PoseRow],
     pub(crate) redundancy: &'a [R],
@@ -98,7 +101,7 @@ impl<const N: usize, R> Arm<N, R> for UnknownStructure {
     }
 
     fn name(&self) -> &'static str {
-        "serial"
+        "unknown"
     }
 
     fn solve(&self, _: &mut Solutions<N>, _: R, _: &FreeChoice<N>) -> Result<(), UnknownStructure> {

@@ -44,21 +44,22 @@ impl<const N: usize, const S: usize> Branches<N, S> {
                 Place::Empty
             };
         };
-        let mut q = limits.settle(q);
+        let mut q = limits.wrap(q);
         // A joint whose angle was given keeps it.
         redundancy.put(&mut q);
         let mut status = flags | Status::FOUND;
-        status.set(Status::WITHIN_LIMITS, limits.contain(&q));
-        Place::Found(Solution { q, slot: Slot::new(slot), status, free })
+        status.set(Status::WITHIN_LIMITS, limits.contains(&q));
+        Place::Found(Solution { q, slot: Slot::new(slot), status, free_joint: free })
     }
 
-    /// The wrist centre is on axis 1, or on the edge of the cylinder about it: a branch that both shoulders have is one, turned. With
-    /// `free`, q1 is free.
+    /// The wrist center is on axis 1, or on the edge of the cylinder about it: a branch that both
+    /// shoulders have is one, turned. With `free`, q1 is free.
     pub(crate) fn merge_shoulders(&mut self, keep_behind: bool, free: bool) {
         for front in 0..S / 2 {
             let behind = front + S / 2;
-            // Of two that differ by twice the distance from axis 1, one may be straight and the other bent by the root of that: the
-            // straight one is the branch that declares its singularity.
+            // Of two that differ by twice the distance from axis 1, one may be straight and the
+            // other bent by the root of that: the straight one is the branch that declares its
+            // singularity.
             let straight = |slot: usize| self.flags[slot].contains(Status::ELBOW);
             let keep_behind =
                 if straight(front) == straight(behind) { keep_behind } else { straight(behind) };

@@ -32,7 +32,8 @@ impl EndFrames {
         self.t_shoulder_world * pose * self.t_tool_wrist
     }
 
-    /// The tool's centre point of a pose, seen from the shoulder, and the same point in the wrist frame.
+    /// The tool's center point of a pose, seen from the shoulder, and the same point in the wrist
+    /// frame.
     pub(crate) fn tool_point(&self, pose: &Pose) -> (Vector3<f64>, Vector3<f64>) {
         let point = self.t_shoulder_world.transform_point(&pose.translation.vector.into());
         (point.coords, self.t_tool_wrist.inverse().translation.vector)
@@ -46,7 +47,8 @@ const UNTURNED: Rows3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 pub(crate) struct Seen {
     before: Frame,
     behind: Frame,
-    /// Whether either turns: turning by nothing changes no bit of what is not zero, and is left out.
+    /// Whether either turns: turning by nothing changes no bit of what is not zero, and is left
+    /// out.
     pub(crate) turns: bool,
 }
 

@@ -1,6 +1,6 @@
 //! How the joints and the end frames of an arm come from those of its derivation.
 
-use crate::kinematics::chain::coupling::{coupled, serial};
+use crate::kinematics::chain::coupling::{coupled, uncoupled};
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::wrap;
 
@@ -18,7 +18,7 @@ pub(crate) struct JointMap<const N: usize> {
 impl<const N: usize> JointMap<N> {
     /// The derivation's angles of joint angles `q`.
     pub(crate) fn theta(&self, q: &[f64; N]) -> [f64; N] {
-        let q = if self.coupled { serial(*q) } else { *q };
+        let q = if self.coupled { uncoupled(*q) } else { *q };
         core::array::from_fn(|i| self.signs[i] * q[i] - self.offsets[i])
     }
 

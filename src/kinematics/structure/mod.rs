@@ -1,9 +1,11 @@
 //! Kinematic structures: what an arm is like whose inverse is known.
 //!
-//! A structure is a folder here that implements [`Structure`], and a variant in [`any`]. It brings its pattern (what it asks of the axes),
-//! how its geometry is read off a table, the solve of one pose with every singularity handled, and the distances from its singularities.
-//! A [`LaneKernel`](lanes::LaneKernel), which solves regular poses in vectors, is optional. Base, tool, limits, turns, flags, batches and the choice
-//! among solutions are the same for all: [`solver::Solver`] and `solve` have them once.
+//! A structure is a folder here that implements [`Structure`], and a variant in [`any`]. It brings
+//! its pattern (what it asks of the axes), how its geometry is read off a table, the solve of one
+//! pose with every singularity handled, and the distances from its singularities. A
+//! [`LaneKernel`](lanes::LaneKernel), which solves regular poses in vectors, is optional. Base,
+//! tool, limits, turns, flags, batches and the choice among solutions are the same for all:
+//! [`solver::Solver`] and `solve` have them once.
 
 pub(crate) mod any;
 pub(crate) mod arity;
@@ -36,7 +38,7 @@ use redundancy::Redundancy;
 
 use super::answer::singularity::SingularDistances;
 use super::answer::slot::Slot;
-use super::answer::status::Status;
+use super::answer::status::SingularityKind;
 use super::chain::dh::Mdh;
 use super::pose::Pose;
 use crate::report::{Pattern, UnknownStructure};
@@ -46,14 +48,16 @@ pub(crate) const NO_LINKAGE: &str = "the arm has no spherical wrist";
 
 /// A kinematic structure of `N` joints with `S` slots.
 ///
-/// With `theta` the derivation's joint angles, `T_first_last` the last frame of the derivation seen from its first, and `B` and `F` the
-/// constant transforms before and behind them, an arm between a base and a tool is
+/// With `theta` the derivation's joint angles, `T_first_last` the last frame of the derivation seen
+/// from its first, and `B` and `F` the constant transforms before and behind them, an arm between a
+/// base and a tool is
 ///
 /// ```text
 /// T_world_tool(q) = T_world_base B T_first_last(theta) F T_flange_tool,    theta_i = sign_i q_i - offset_i
 /// ```
 ///
-/// [`Solver`](solver::Solver) takes `B`, `F`, base and tool off a pose and turns theta into q; a structure solves `T_first_last(theta)` alone.
+/// [`Solver`](solver::Solver) takes `B`, `F`, base and tool off a pose and turns theta into q; a
+/// structure solves `T_first_last(theta)` alone.
 pub(crate) trait Structure<const N: usize, const S: usize>:
     Clone + Debug + PartialEq
 {
@@ -66,23 +70,26 @@ pub(crate) trait Structure<const N: usize, const S: usize>:
     /// What a caller gives with a pose.
     type Redundancy: Redundancy;
 
-    /// Solves regular poses in lanes; [`NoKernel`](lanes::NoKernel) where every pose goes through [`Self::solve`].
+    /// Solves regular poses in lanes; [`NoKernel`](lanes::NoKernel) where every pose goes through
+    /// [`Self::solve`].
     type Kernel: LaneKernel<N, S, Redundancy = Self::Redundancy>;
 
-    /// Reads the geometry off a table that meets the pattern, and makes exact what is so within rounding.
+    /// Reads the geometry off a table that meets the pattern, and makes exact what is so within
+    /// rounding.
     fn measure(mdh: &mut Mdh<N>) -> Result<Self, UnknownStructure>;
 
     /// Signs, offsets, `B` and `F`.
     fn joint_map(&self) -> &JointMap<N>;
 
-    /// The same arm between a base and a tool, which add to the lengths that a pose's rounding grows with, with axes 2 and 3 coupled or
-    /// not.
+    /// The same arm between a base and a tool, which add to the lengths that a pose's rounding
+    /// grows with, with axes 2 and 3 coupled or not.
     fn between(self, base: &Pose, tool: &Pose, coupled: bool) -> Self;
 
     /// The kernel of this arm; `None` where there is none.
     fn kernel(&self) -> Option<Self::Kernel>;
 
-    /// Every branch of `t_first_last`: in its slot, with its singularities; merged ones once. Limits are not regarded.
+    /// Every branch of `t_first_last`: in its slot, with its singularities; merged ones once.
+    /// Limits are not regarded.
     fn solve(
         &self,
         t_first_last: &Pose,
@@ -94,12 +101,14 @@ pub(crate) trait Structure<const N: usize, const S: usize>:
     fn singular_distances(&self, q: &[f64; N]) -> SingularDistances;
 
     /// The singularities at which `q` stands, by the thresholds that merge the branches of a solve.
-    fn kinds(&self, q: &[f64; N]) -> Status;
+    fn kinds(&self, q: &[f64; N]) -> SingularityKind;
 
-    /// The determinant of the geometric Jacobian of joints 1 to 6 in closed form: zero at singularities alone.
+    /// The determinant of the geometric Jacobian of joints 1 to 6 in closed form: zero at
+    /// singularities alone.
     fn jacobian_determinant(&self, q: &[f64; N]) -> f64;
 
-    /// The slot of the branch that `q` is on; of two that meet at a singularity, the one in front. `None` where slots are ordinals.
+    /// The slot of the branch that `q` is on; of two that meet at a singularity, the one in front.
+    /// `None` where slots are ordinals.
     fn slot(&self, q: &[f64; N]) -> Option<Slot>;
 
     /// sin q5, signed, of a structure whose wrist is singular where it is zero.

@@ -1,18 +1,21 @@
-//! The first three joints: a shoulder that turns about axis 1 and an elbow in the plane of axes 2 and 3, which are parallel.
+//! The first three joints: a shoulder that turns about axis 1 and an elbow in the plane of axes 2
+//! and 3, which are parallel.
 //!
-//! Both families of six-axis arms stand on it. The equation numbers are those of docs/spherical_wrist.md.
+//! Both families of six-axis arms stand on it. The equation numbers are those of
+//! docs/spherical_wrist.md.
 
 use nalgebra::Matrix3;
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
 use crate::kinematics::pose::Pose;
-use crate::kinematics::structure::free_choice::{FreeChoice, Trust};
+use crate::kinematics::structure::free_choice::{FreeChoice, SeedPolicy};
 use crate::kinematics::structure::triangle::Triangle;
 use crate::kinematics::thresholds::{POSITION_ROUNDING, REACH_TOLERANCE, SHOULDER_MERGE};
 use crate::report::Reach;
 
-/// The lengths from axis 1 to the end of the forearm, seen from the shoulder (on axis 1, at the height of axis 2).
+/// The lengths from axis 1 to the end of the forearm, seen from the shoulder (on axis 1, at the
+/// height of axis 2).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PlanarArm {
     /// Distance of axis 2 from axis 1 [m].
@@ -31,18 +34,18 @@ pub(crate) struct PlanarArm {
     pub(crate) extent: f64,
 }
 
-/// One way for axis 1 to face the wrist centre.
+/// One way for axis 1 to face the wrist center.
 #[derive(Clone, Copy)]
 pub(crate) struct Shoulder {
     pub(crate) sin_1: f64,
     pub(crate) cos_1: f64,
-    /// Wrist centre from axis 1, along the arm's plane [m]; negative behind it.
+    /// Wrist center from axis 1, along the arm's plane [m]; negative behind it.
     pub(crate) x: f64,
     /// How far rounding may turn it [rad].
     pub(crate) error: f64,
 }
 
-/// The shoulder that faces the wrist centre, the one that has it behind, and whether they are one.
+/// The shoulder that faces the wrist center, the one that has it behind, and whether they are one.
 pub(crate) struct Shoulders {
     pub(crate) front: Shoulder,
     pub(crate) behind: Shoulder,
@@ -60,13 +63,13 @@ pub(crate) struct Elbow {
     pub(crate) cos_23: f64,
 }
 
-/// The elbow in front of and behind the line to the wrist centre; without the second, they are one.
+/// The elbow in front of and behind the line to the wrist center; without the second, they are one.
 pub(crate) struct Elbows {
     pub(crate) front: Elbow,
     pub(crate) behind: Option<Elbow>,
     /// How far rounding may turn the forearm [rad].
     pub(crate) error: f64,
-    /// The wrist centre is on axis 2: the upper arm may point anywhere.
+    /// The wrist center is on axis 2: the upper arm may point anywhere.
     pub(crate) free: bool,
 }
 
@@ -95,7 +98,7 @@ impl Shoulder {
         Self { sin_1: -self.sin_1, cos_1: -self.cos_1, x: -self.x, error: self.error }
     }
 
-    /// Turned by `angle` about axis 1, the wrist centre where it was.
+    /// Turned by `angle` about axis 1, the wrist center where it was.
     pub(crate) fn turned(&self, angle: f64, [wx, wy]: [f64; 2]) -> Self {
         let ((sin, cos), Self { sin_1, cos_1, .. }) = (angle.sin_cos(), *self);
         let (sin_1, cos_1) = (sin_1 * cos + cos_1 * sin, cos_1 * cos - sin_1 * sin);
@@ -120,18 +123,20 @@ impl PlanarArm {
         POSITION_ROUNDING * self.extent
     }
 
-    /// How far rounding commonly moves a position of this arm [m]: a link of lever l turns by this over l.
+    /// How far rounding commonly moves a position of this arm [m]: a link of lever l turns by this
+    /// over l.
     pub(crate) fn direction_rounding(&self) -> f64 {
         2.0 * f64::EPSILON * self.extent
     }
 
-    /// The square of m (eq. 8) below which a straight arm reaches the wrist centre too, to half the rounding of a position.
+    /// The square of m (eq. 8) below which a straight arm reaches the wrist center too, to half the
+    /// rounding of a position.
     pub(crate) fn straight_m2(&self, r: f64) -> f64 {
         self.position_rounding() * r * self.c2 * self.k
     }
 
-    /// x of the wrist centre up to which front and back are one [m]. With b != 0 they meet where
-    /// the wrist centre is on the cylinder of radius b to rounding (eq. 3).
+    /// x of the wrist center up to which front and back are one [m]. With b != 0 they meet where
+    /// the wrist center is on the cylinder of radius b to rounding (eq. 3).
     pub(crate) fn shoulder_merge(&self) -> f64 {
         if self.b == 0.0 {
             return SHOULDER_MERGE;
@@ -140,7 +145,7 @@ impl PlanarArm {
         (rounding * (2.0 * self.b.abs() + rounding)).sqrt()
     }
 
-    /// How far the plane of a shoulder may be turned about axis 1, b != 0, with the wrist centre
+    /// How far the plane of a shoulder may be turned about axis 1, b != 0, with the wrist center
     /// off it by no more than rounding: the least and the greatest angle [rad] (eq. 42).
     pub(crate) fn open_turn(&self, shoulder: &Shoulder, [wx, wy]: [f64; 2]) -> [f64; 2] {
         let (rho, b, x) = (wx.hypot(wy), self.b.abs(), shoulder.x.abs());
@@ -213,12 +218,13 @@ impl PlanarArm {
         }
     }
 
-    /// Both shoulders that face the point (eq. 2 to 4), with the angle of axis 1 to take where it is free.
+    /// Both shoulders that face the point (eq. 2 to 4), with the angle of axis 1 to take where it
+    /// is free.
     pub(crate) fn shoulders(
         &self,
         [wx, wy]: [f64; 2],
         free_theta_1: f64,
-        trust: Trust,
+        policy: SeedPolicy,
     ) -> Result<Shoulders, Reach> {
         let (rho, rounding) = (wx.hypot(wy), self.position_rounding());
         let outside = rho - self.b.abs();
@@ -226,13 +232,13 @@ impl PlanarArm {
             return Err(Reach::TooNear { shortfall: -outside });
         }
         let (sin_1, cos_1) = free_theta_1.sin_cos();
-        if self.b == 0.0 && (trust.forces(1) || rho <= trust.radius().max(rounding)) {
+        if self.b == 0.0 && (policy.forces(1) || rho <= policy.radius().max(rounding)) {
             // Whichever is kept has that angle. A seed's plane says what x is, and on which side of
             // axis 1.
-            let (x, keep_behind) = match trust {
-                Trust::Forced { behind, .. } => (rho, behind),
-                Trust::Pose => (rho, false),
-                Trust::Seed | Trust::Path => {
+            let (x, keep_behind) = match policy {
+                SeedPolicy::Forced { behind, .. } => (rho, behind),
+                SeedPolicy::Pose => (rho, false),
+                SeedPolicy::Seed | SeedPolicy::Path => {
                     let x = wx * cos_1 + wy * sin_1;
                     (x.abs(), x < 0.0)
                 }
@@ -240,7 +246,8 @@ impl PlanarArm {
             let at = |x: f64| Shoulder { sin_1, cos_1, x, error: 0.0 };
             return Ok(Shoulders { front: at(x), behind: at(-x), merged: true, keep_behind });
         }
-        // With b != 0 a wrist centre on the cylinder of radius b is on it to rounding: x = 0, not the square root of that rounding.
+        // With b != 0 a wrist center on the cylinder of radius b is on it to rounding: x = 0, not
+        // the square root of that rounding.
         let x = if outside <= rounding { 0.0 } else { (outside * (rho + self.b.abs())).sqrt() };
         let merged = x == 0.0 || (self.b == 0.0 && x <= SHOULDER_MERGE);
         let error = if merged { 0.0 } else { self.direction_rounding() / x };
@@ -248,7 +255,8 @@ impl PlanarArm {
         // With b != 0 the two are not opposite: theta_1 differs by pi - 2 atan2(b, x) (eq. 4).
         let behind =
             if self.b == 0.0 { front.opposite() } else { self.shoulder(wx, wy, -x, error) };
-        let keep_behind = trust != Trust::Pose && front.sin_1 * sin_1 + front.cos_1 * cos_1 < 0.0;
+        let keep_behind =
+            policy != SeedPolicy::Pose && front.sin_1 * sin_1 + front.cos_1 * cos_1 < 0.0;
         Ok(Shoulders { front, behind, merged, keep_behind })
     }
 
@@ -259,8 +267,9 @@ impl PlanarArm {
         Shoulder { sin_1: sin / norm, cos_1: cos / norm, x, error }
     }
 
-    /// The shoulder with x moved towards reach as far as rounding leaves it open: next to the cylinder of radius b (eq. 3) a rounding of
-    /// the pose is a large part of x, and a pose at the edge of reach says by that edge which x it has. The arm's end is at `x - a1`, `wz`.
+    /// The shoulder with x moved towards reach as far as rounding leaves it open: next to the
+    /// cylinder of radius b (eq. 3) a rounding of the pose is a large part of x, and a pose at the
+    /// edge of reach says by that edge which x it has. The arm's end is at `x - a1`, `wz`.
     pub(crate) fn eased(
         &self,
         shoulder: &Shoulder,
@@ -285,19 +294,19 @@ impl PlanarArm {
         self.shoulder(wx, wy, sign * x, shoulder.error)
     }
 
-    /// Both elbows of the arm's end at (x, z) from axis 2 in the plane of the arm, or up to `tolerance` beyond reach (eq. 5 to 12); with
-    /// the angle of axis 2 to take where it is free.
+    /// Both elbows of the arm's end at (x, z) from axis 2 in the plane of the arm, or up to
+    /// `tolerance` beyond reach (eq. 5 to 12); with the angle of axis 2 to take where it is free.
     pub(crate) fn elbows(
         &self,
         [x, z]: [f64; 2],
         tolerance: f64,
         free_theta_2: f64,
-        trust: Trust,
+        policy: SeedPolicy,
     ) -> Result<Elbows, Reach> {
         let r2 = x * x + z * z;
         let r = r2.sqrt();
         let triangle = Triangle::reaching([self.c2, self.k], r, tolerance)?;
-        if trust.forces(2) || r <= trust.radius().max(self.position_rounding()) {
+        if policy.forces(2) || r <= policy.radius().max(self.position_rounding()) {
             let (sin_2, cos_2) = free_theta_2.sin_cos();
             return Ok(Elbows {
                 front: self.elbow([sin_2, cos_2], [-sin_2, -cos_2]),
@@ -308,7 +317,8 @@ impl PlanarArm {
         }
         let m2 = triangle.m2(r2);
         if m2 <= self.straight_m2(r) {
-            // Both links lie on the line to the wrist centre, to rounding or up to the tolerance beyond reach.
+            // Both links lie on the line to the wrist center, to rounding or up to the tolerance
+            // beyond reach.
             let [dx, dz] = [x / r, z / r];
             let (upper, forearm) = match (triangle.is_stretched(r2), self.k > self.c2) {
                 (true, _) => (1.0, 1.0),
@@ -316,7 +326,8 @@ impl PlanarArm {
                 (false, false) => (1.0, -1.0),
             };
             let front = self.elbow([upper * dx, upper * dz], [forearm * dx, forearm * dz]);
-            // The arm that made the pose may have been bent by as much as counts as straight, and by rounding on top of that.
+            // The arm that made the pose may have been bent by as much as counts as straight, and
+            // by rounding on top of that.
             let error = 2.0 * self.straight_m2(r).sqrt() / (self.k * r);
             return Ok(Elbows { front, behind: None, error, free: false });
         }
@@ -333,10 +344,12 @@ impl PlanarArm {
         })
     }
 
-    /// The angles of an elbow from the direction of the upper arm, of any length, and that of the forearm, of length one to rounding (eq. 10 to 12).
+    /// The angles of an elbow from the direction of the upper arm, of any length, and that of the
+    /// forearm, of length one to rounding (eq. 10 to 12).
     fn elbow(&self, upper: [f64; 2], forearm: [f64; 2]) -> Elbow {
         let (sin_psi, cos_psi) = (self.a2 / self.k, self.c3 / self.k);
-        // The direction of a forearm that is much shorter than the upper arm is a small difference: it may have lost its length of one.
+        // The direction of a forearm that is much shorter than the upper arm is a small difference:
+        // it may have lost its length of one.
         let length = forearm[0].hypot(forearm[1]);
         let sin_23 = (forearm[0] * cos_psi - forearm[1] * sin_psi) / length;
         let cos_23 = (forearm[1] * cos_psi + forearm[0] * sin_psi) / length;

@@ -24,8 +24,8 @@ impl Pattern {
         }
     }
 
-    /// The table with what is within [`FORM_TOLERANCE`] of the structure made exactly so: row `i + 1` holds the angle and the distance between
-    /// axes `i` and `i + 1`.
+    /// The table with what is within [`FORM_TOLERANCE`] of the structure made exactly so: row
+    /// `i + 1` holds the angle and the distance between axes `i` and `i + 1`.
     pub(crate) fn square_up<const N: usize>(
         &'static self,
         mdh: &Mdh<N>,
@@ -38,7 +38,8 @@ impl Pattern {
             let (value, exact) = match relation {
                 Relation::Parallel => (&mut row.alpha, nearest_of(alpha, 0.0)),
                 Relation::Perpendicular => (&mut row.alpha, nearest_of(alpha, FRAC_PI_2)),
-                // Between its neighbours' feet on it, the middle axis runs for d of its own row, which is the row before that of the last.
+                // Between its neighbors' feet on it, the middle axis runs for d of its own row,
+                // which is the row before that of the last.
                 Relation::Meeting | Relation::Coplanar if axes.1 == axes.0 + 2 => (&mut row.d, 0.0),
                 Relation::Meeting | Relation::Coplanar => (&mut row.a, 0.0),
             };

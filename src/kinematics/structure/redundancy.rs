@@ -4,7 +4,8 @@ use crate::error::Error;
 use crate::kinematics::answer::check::check_angle;
 use crate::lanes::{Column, LANES};
 
-/// What a caller gives with a pose: nothing, `()`, for six joints; the angle of joint 7 [rad], an `f64`, for seven.
+/// What a caller gives with a pose: nothing, `()`, for six joints; the angle of joint 7 [rad], an
+/// `f64`, for seven.
 pub trait Redundancy: Copy + Send + Sync + 'static {
     /// The same of a block of poses.
     #[doc(hidden)]

@@ -1,4 +1,5 @@
-//! An arm between the frames in which poses are given, with its limits: the way through any structure.
+//! An arm between the frames in which poses are given, with its limits: the way through any
+//! structure.
 
 use super::Structure;
 use super::arm::{Arm, RowSolve, Rows};
@@ -9,7 +10,7 @@ use super::open_wrist::OpenWrist;
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::solutions::{Place, Solution, Solutions};
-use crate::kinematics::answer::status::Status;
+use crate::kinematics::answer::status::{SingularityKind, Status};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::Pose;
@@ -53,7 +54,7 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Solver<T, N, S> {
         for (index, place) in solutions.first_places::<S>().iter_mut().enumerate() {
             let Some((q, status)) = regular.slot(index) else { continue };
             let status = Status::from_bits_retain(status);
-            *place = Place::Found(Solution { q, slot: Slot::new(index), status, free: None });
+            *place = Place::Found(Solution { q, slot: Slot::new(index), status, free_joint: None });
         }
         true
     }
@@ -101,7 +102,7 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Arm<N, T::Redundancy> f
         }
     }
 
-    fn singular(&self, q: &[f64; N]) -> Option<(SingularDistances, Status)> {
+    fn singular(&self, q: &[f64; N]) -> Option<(SingularDistances, SingularityKind)> {
         Some((self.structure.singular_distances(q), self.structure.kinds(q)))
     }
 

@@ -1,4 +1,5 @@
-//! The contract by a structure that is as unlike the others as it can be: sixteen slots without names, and no kernel.
+//! The contract by a structure that is as unlike the others as it can be: sixteen slots without
+//! names, and no kernel.
 
 use core::f64::consts::TAU;
 use std::vec::Vec;
@@ -16,7 +17,8 @@ use crate::kinematics::answer::solutions::Solutions;
 use crate::kinematics::pose::pose_to_rows;
 use crate::kinematics::robot::Robot;
 
-/// The arm of an IRB 2600, of which no one knows what a branch is: its solutions in the order of their angles.
+/// The arm of an IRB 2600, of which no one knows what a branch is: its solutions in the order of
+/// their angles.
 #[derive(Clone, Debug, PartialEq)]
 struct Ordinals(SphericalWrist);
 
@@ -58,7 +60,7 @@ impl Structure<6, 16> for Ordinals {
         self.0.singular_distances(q)
     }
 
-    fn kinds(&self, q: &[f64; 6]) -> Status {
+    fn kinds(&self, q: &[f64; 6]) -> SingularityKind {
         self.0.kinds(q)
     }
 

@@ -1,6 +1,8 @@
-//! The triangle of upper arm, forearm and the line from the shoulder to the end of the forearm: two circles that meet in the elbow.
+//! The triangle of upper arm, forearm and the line from the shoulder to the end of the forearm: two
+//! circles that meet in the elbow.
 //!
-//! Docs: spherical_wrist.md, eq. 6 to 10. Every structure with an elbow stands on it, in lanes and one branch after the other.
+//! Docs: spherical_wrist.md, eq. 6 to 10. Every structure with an elbow stands on it, in lanes and
+//! one branch after the other.
 
 use crate::lanes::mul_add;
 use crate::report::Reach;
@@ -26,7 +28,8 @@ impl Triangle {
         }
     }
 
-    /// Of the lengths of both links, where they span `r` or are `tolerance` short of it at most [m].
+    /// Of the lengths of both links, where they span `r` or are `tolerance` short of it at most
+    /// [m].
     pub(crate) fn reaching(
         [upper, forearm]: [f64; 2],
         r: f64,
@@ -47,14 +50,16 @@ impl Triangle {
         self.longest2 - r2 < r2 - self.shortest2
     }
 
-    /// The square of m, which is twice the triangle's area (eq. 7, 8); negative out of reach. Heron's formula: the textbook's difference of
-    /// products loses its digits where the arm is nearly straight.
+    /// The square of m, which is twice the triangle's area (eq. 7, 8); negative out of reach.
+    /// Heron's formula: the textbook's difference of products loses its digits where the arm is
+    /// nearly straight.
     #[inline(always)]
     pub(crate) fn m2(&self, r2: f64) -> f64 {
         0.25 * ((self.longest2 - r2) * (r2 - self.shortest2))
     }
 
-    /// The upper arm times r^2, on the side of the sign of m, where the forearm ends at `end` (eq. 9, 10).
+    /// The upper arm times r^2, on the side of the sign of m, where the forearm ends at `end` (eq.
+    /// 9, 10).
     #[inline(always)]
     pub(crate) fn upper_arm<const FUSED: bool>(
         &self,

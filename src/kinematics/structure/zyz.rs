@@ -1,4 +1,5 @@
-//! The angles of a rotation about z, y and z again, where the first may be open: the wrist of a six-axis arm, the shoulder of a seven-axis one.
+//! The angles of a rotation about z, y and z again, where the first may be open: the wrist of a
+//! six-axis arm, the shoulder of a seven-axis one.
 
 use core::f64::consts::PI;
 
@@ -7,7 +8,7 @@ use nalgebra::{ComplexField as _, RealField as _};
 use nalgebra::{Matrix3, Vector3};
 
 use crate::kinematics::pose::angles::wrap;
-use crate::kinematics::structure::free_choice::Trust;
+use crate::kinematics::structure::free_choice::SeedPolicy;
 use crate::kinematics::structure::lanes::Direction;
 use crate::kinematics::thresholds::{PATH_WRIST_SIN, SEEDED_FREE, WRIST_FREE_SIN, WRIST_MERGE_SIN};
 use crate::lanes::mul_add;
@@ -26,18 +27,19 @@ pub(crate) struct First {
     /// Number of its joint, from 1.
     pub(crate) joint: usize,
     pub(crate) theta: f64,
-    pub(crate) trust: Trust,
+    pub(crate) policy: SeedPolicy,
 }
 
-/// `Rz(theta[0]) Ry(theta[1]) Rz(theta[2])` of the rotation `m`. Taking the last two with the sine and cosine of the first that was chosen keeps
-/// the residual at rounding next to a second of zero, whatever the first is. `error` is how far rounding may turn the rotation: a second
-/// angle below it is none.
+/// `Rz(theta[0]) Ry(theta[1]) Rz(theta[2])` of the rotation `m`. Taking the last two with the sine
+/// and cosine of the first that was chosen keeps the residual at rounding next to a second of zero,
+/// whatever the first is. `error` is how far rounding may turn the rotation: a second angle below
+/// it is none.
 pub(crate) fn zyz(m: &Matrix3<f64>, first: &First, error: f64) -> Zyz {
     let column: Vector3<f64> = m.column(2).into();
     let sin_second = column.x.hypot(column.y);
     let merged = sin_second <= WRIST_MERGE_SIN.max(error);
     let silent =
-        first.trust.forces(first.joint) || sin_second <= first.trust.radius().max(WRIST_FREE_SIN);
+        first.policy.forces(first.joint) || sin_second <= first.policy.radius().max(WRIST_FREE_SIN);
     let (theta_first, (sin, cos)) = if silent {
         let free = first.theta;
         (free, free.sin_cos())
@@ -55,8 +57,9 @@ pub(crate) fn zyz(m: &Matrix3<f64>, first: &First, error: f64) -> Zyz {
     }
 }
 
-/// The first angle as the pose tells it, and its sine and cosine. Of merged branches, the one nearer to the seed or to zero is kept: half a
-/// turn away it may be outside a limit. A path keeps the angle that it is heading for as far as what the pose knows does not contradict it.
+/// The first angle as the pose tells it, and its sine and cosine. Of merged branches, the one
+/// nearer to the seed or to zero is kept: half a turn away it may be outside a limit. A path keeps
+/// the angle that it is heading for as far as what the pose knows does not contradict it.
 fn told(
     column: &Vector3<f64>,
     sin_second: f64,
@@ -67,7 +70,7 @@ fn told(
     let told = column.y.atan2(column.x);
     let flips = merged && (first.theta - told).cos() < 0.0;
     let (told, sign) = if flips { (told + PI, -1.0) } else { (told, 1.0) };
-    if first.trust != Trust::Path || sin_second > PATH_WRIST_SIN {
+    if first.policy != SeedPolicy::Path || sin_second > PATH_WRIST_SIN {
         return (told, (sign * column.y / sin_second, sign * column.x / sin_second));
     }
     let ahead = wrap(first.theta - told);
@@ -83,8 +86,9 @@ fn told(
     (kept, kept.sin_cos())
 }
 
-/// The directions of the three angles of a rotation times any length, without a division: what lanes take the arc tangents of (eq. 15 to
-/// 17). `m0` and `m1` are the first two rows of the rotation, `m22` its last element; the second angle is in 0 ..= pi.
+/// The directions of the three angles of a rotation times any length, without a division: what
+/// lanes take the arc tangents of (eq. 15 to 17). `m0` and `m1` are the first two rows of the
+/// rotation, `m22` its last element; the second angle is in 0 ..= pi.
 #[inline(always)]
 pub(crate) fn zyz_directions<const FUSED: bool>(
     m0: [f64; 3],

@@ -1,4 +1,5 @@
-//! The functions against correctly rounded ones (crate `pxfm`), with fused multiplication and addition and without.
+//! The functions against correctly rounded ones (crate `pxfm`), with fused multiplication and
+//! addition and without.
 //!
 //! `make ulp` takes ten million points and prints the worst; `make test` takes fewer.
 
@@ -188,7 +189,8 @@ fn sine_and_cosine_are_within_two_ulp() {
     for kind in 0..points() / 2 {
         take(random.angle_of(kind));
     }
-    // A double times a whole number below 2^16 is at most one double beside the one next to the true multiple.
+    // A double times a whole number below 2^16 is at most one double beside the one next to the
+    // true multiple.
     for quarter in 1..=QUARTERS {
         for steps in -4..=4 {
             let angle = stepped(f64::from(quarter) * FRAC_PI_2, steps).min(MOST_SIN_COS);
@@ -199,7 +201,8 @@ fn sine_and_cosine_are_within_two_ulp() {
     worst.iter().for_each(Worst::check);
 }
 
-/// Sizes of every kind: none, the least, those that round off, ordinary ones, the greatest, infinite, not a number.
+/// Sizes of every kind: none, the least, those that round off, ordinary ones, the greatest,
+/// infinite, not a number.
 const SIZES: [f64; 19] = [
     0.0,
     5e-324,
@@ -225,7 +228,8 @@ const SIZES: [f64; 19] = [
 #[test]
 fn the_arc_tangent_of_special_values_is_that_of_the_standard_library() {
     for (a, b) in SIZES.iter().flat_map(|a| SIZES.map(|b| (*a, b))) {
-        // Directions along an axis or a diagonal have the correctly rounded angle, with its sign; of the others the sign is right.
+        // Directions along an axis or a diagonal have the correctly rounded angle, with its sign;
+        // of the others the sign is right.
         let special = a == b || [a, b].iter().any(|size| *size == 0.0 || !size.is_finite());
         let bound = if special { 0 } else { BOUND };
         for (y, x) in [(a, b), (-a, b), (a, -b), (-a, -b)] {

@@ -26,10 +26,12 @@ use crate::report::Configuration;
 ///
 /// Args:
 ///     text: RAPID text, or the bytes of a file: UTF-8, UTF-16 with its mark, else Latin-1.
-///     context: Modules in which names that the text does not declare are looked for: their data that are not LOCAL.
+///     context: Modules in which names that the text does not declare are looked for: their data
+///         that are not LOCAL.
 ///
 /// Raises:
-///     RapidError: The text is broken; the message has the line and the column, `line` and `column` of the error too.
+///     RapidError: The text is broken; the message has the line and the column, `line` and `column`
+///         of the error too.
 #[pyfunction]
 #[pyo3(signature = (text, context=None))]
 pub(super) fn parse(
@@ -59,7 +61,8 @@ pub(super) fn decode(text: &Bound<'_, PyAny>) -> PyResult<String> {
     }
 }
 
-/// The record of a value that stands by itself: a robtarget, jointtarget, tooldata, wobjdata, pose or loaddata, which its shape tells.
+/// The record of a value that stands by itself: a robtarget, jointtarget, tooldata, wobjdata, pose
+/// or loaddata, which its shape tells.
 #[pyfunction]
 pub(super) fn parse_record<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
     record(py, &rapid::parse_record(text).map_err(|error| to_py(py, &error))?)
@@ -106,7 +109,8 @@ fn datum(name: String, value: &Bound<'_, PyAny>) -> PyResult<Datum> {
     Ok(if is_single { datum } else { Datum { content: Content::Array { sizes, values }, ..datum } })
 }
 
-/// The jointtarget of a robtarget, as RAPID's CalcJointT: the joint angles with its configuration, inside the limits.
+/// The jointtarget of a robtarget, as RAPID's CalcJointT: the joint angles with its configuration,
+/// inside the limits.
 ///
 /// Args:
 ///     robot: The arm. Its base counts: poses of work objects are seen from the world.
@@ -120,11 +124,13 @@ fn datum(name: String, value: &Bound<'_, PyAny>) -> PyResult<Datum> {
 ///     JointTarget, with the target's external axes.
 ///
 /// Raises:
-///     UnreachableError: Its `rapid_error` is "ERR_OUTSIDE_REACH" where the arm is too short or too long, "ERR_ROBLIMIT" where solutions exist
-///         but none inside the limits with the configuration; `configurations` has those that exist.
+///     UnreachableError: Its `rapid_error` is "ERR_OUTSIDE_REACH" where the arm is too short or too
+///         long, "ERR_ROBLIMIT" where solutions exist but none inside the limits with the
+///         configuration; `configurations` has those that exist.
 ///     InvalidPoseError: A quaternion's norm is off one by more than 2e-3.
 ///     InvalidJointsError: The arm has no such cfx.
-///     RapidError: The robot holds both tool and work object or neither, or a mechanical unit moves the work object.
+///     RapidError: The robot holds both tool and work object or neither, or a mechanical unit moves
+///         the work object.
 ///     InvalidModelError: The arm has no configurations.
 #[pyfunction]
 #[pyo3(signature = (robot, target, tool=None, wobj=None, *, fallback=None, seed=None))]
@@ -149,7 +155,8 @@ pub(super) fn calc_joint_t<'py>(
     joint_target(py, &joints.map_err(|error| named(py, &error))?)
 }
 
-/// The robtarget of a jointtarget, with its configuration, as RAPID's CalcRobT. Limits are not asked.
+/// The robtarget of a jointtarget, with its configuration, as RAPID's CalcRobT. Limits are not
+/// asked.
 ///
 /// Args:
 ///     robot: The arm. Its base counts: poses of work objects are seen from the world.
@@ -177,12 +184,14 @@ pub(super) fn calc_rob_t<'py>(
     rob_target(py, &target.map_err(|error| to_py(py, &error))?)
 }
 
-/// The joint angles of every target of a module's moves, in their order, each with its own tool and work object; a MoveC has two.
+/// The joint angles of every target of a module's moves, in their order, each with its own tool and
+/// work object; a MoveC has two.
 ///
 /// Args:
 ///     robot: The arm.
 ///     module: Module.
-///     fallback: With "nearest", a target whose configuration no solution has gets the one nearest to the joints before it.
+///     fallback: With "nearest", a target whose configuration no solution has gets the one nearest
+///         to the joints before it.
 ///     seed: Joint vector [rad] before the first target, shape (6,).
 ///
 /// Returns:
@@ -209,21 +218,24 @@ pub(super) fn calc_moves<'py>(
     )
 }
 
-/// The joint angles of every robtarget that a module declares, in the order of the text, all with one tool and work object.
+/// The joint angles of every robtarget that a module declares, in the order of the text, all with
+/// one tool and work object.
 ///
 /// Args:
 ///     robot: The arm.
 ///     module: Module.
 ///     tool: ToolData; the robot's own tool where not given.
 ///     wobj: WobjData; the world where not given.
-///     fallback: With "nearest", a target whose configuration no solution has gets the one nearest to the joints before it.
+///     fallback: With "nearest", a target whose configuration no solution has gets the one nearest
+///         to the joints before it.
 ///     seed: Joint vector [rad] before the first target, shape (6,).
 ///
 /// Returns:
 ///     TargetTable. What is wrong with a target is told in its row.
 ///
 /// Raises:
-///     InvalidPoseError, RapidError, InvalidModelError: As `calc_joint_t`, of the tool and the work object.
+///     InvalidPoseError, RapidError, InvalidModelError: As `calc_joint_t`, of the tool and the work
+///         object.
 #[pyfunction]
 #[pyo3(signature = (robot, module, tool=None, wobj=None, *, fallback=None, seed=None))]
 pub(super) fn calc_targets<'py>(

@@ -10,7 +10,8 @@ use crate::python::classes;
 use crate::python::errors::{rapid_fault, to_py};
 use crate::rapid::{self, Argument, Content, Datum, Module, Move, NewValue, Target, Value};
 
-/// A RAPID module: its data by name, its moves in order, what was skipped. Frozen; equal where it says the same, wherever that stands.
+/// A RAPID module: its data by name, its moves in order, what was skipped. Frozen; equal where it
+/// says the same, wherever that stands.
 ///
 /// `parse` and `load` make one.
 #[pyclass(name = "Module", module = "irbkin.rapid", frozen)]
@@ -58,21 +59,24 @@ impl RapidModule {
         &self.source
     }
 
-    /// The data of the module itself, in the order of the text: names to records, to nested lists of records for arrays, to None where
-    /// the declaration has no value. Those of routines are in `declarations`.
+    /// The data of the module itself, in the order of the text: names to records, to nested lists
+    /// of records for arrays, to None where the declaration has no value. Those of routines are in
+    /// `declarations`.
     #[getter]
     fn data<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyMappingProxy>> {
         Ok(PyMappingProxy::new(py, self.data_dict(py)?.as_mapping()))
     }
 
-    /// Every declaration, those of routines too: (name, type, scope, storage, routine, value, line, column).
+    /// Every declaration, those of routines too: (name, type, scope, storage, routine, value, line,
+    /// column).
     #[getter]
     fn declarations<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let declarations = self.module.data().iter().map(|datum| declaration(py, datum));
         PyTuple::new(py, declarations.collect::<PyResult<Vec<_>>>()?)
     }
 
-    /// MoveJ, MoveL, MoveC and MoveAbsJ in the order of the text, whatever branch or loop they stand in.
+    /// MoveJ, MoveL, MoveC and MoveAbsJ in the order of the text, whatever branch or loop they
+    /// stand in.
     #[getter]
     fn moves<'py>(&self, py: Python<'py>) -> PyResult<&Bound<'py, PyTuple>> {
         let moves = self.moves.get_or_try_init(py, || {
@@ -93,10 +97,12 @@ impl RapidModule {
         PyTuple::new(py, skipped.collect::<PyResult<Vec<_>>>()?)
     }
 
-    /// The source with other values for some data: everything else, comments too, stays as it is, character for character.
+    /// The source with other values for some data: everything else, comments too, stays as it is,
+    /// character for character.
     ///
     /// Args:
-    ///     values: Names of the module's data to records of their type, to nested lists of as many for arrays.
+    ///     values: Names of the module's data to records of their type, to nested lists of as many
+    ///         for arrays.
     ///
     /// Returns:
     ///     The text.
@@ -112,7 +118,7 @@ impl RapidModule {
             let given = read_content(&value, &name)?;
             let sizes = match &datum.content {
                 Content::Single(_) => &[][..],
-                Content::Uninitialised { sizes } | Content::Array { sizes, .. } => sizes,
+                Content::Uninitialized { sizes } | Content::Array { sizes, .. } => sizes,
             };
             if given.sizes != sizes {
                 return Err(rapid_fault(

@@ -77,7 +77,7 @@ fn tuple<const N: usize>(py: Python<'_>, numbers: [f64; N]) -> PyResult<Bound<'_
 /// What a datum holds: a record, nested lists of records for an array, None without a value.
 pub(super) fn content<'py>(py: Python<'py>, content: &Content) -> PyResult<Bound<'py, PyAny>> {
     match content {
-        Content::Uninitialised { .. } => Ok(py.None().into_bound(py)),
+        Content::Uninitialized { .. } => Ok(py.None().into_bound(py)),
         Content::Single(value) => record(py, value),
         Content::Array { sizes, values } => nested(py, sizes, values),
     }

@@ -2,7 +2,7 @@
 //! wobjdata.
 
 use crate::error::{Error, FrameFault};
-use crate::kinematics::{Pose, Robot, pose_from_quaternion, pose_to_quaternion};
+use crate::kinematics::{Pose, Robot, pose_from_wxyz, pose_to_wxyz};
 use crate::rapid::data::records::{RapidPose, ToolData, WobjData};
 
 /// A tool and a work object, one of which the robot carries while the other stands in the world.
@@ -25,7 +25,7 @@ impl Frames {
         let tool_carried = tool.is_none_or(|tool| tool.robhold);
         let wobj_carried = wobj.is_some_and(|wobj| wobj.robhold);
         if tool_carried == wobj_carried {
-            return Err(FrameFault::Held { both: tool_carried }.into());
+            return Err(FrameFault::Locked { both: tool_carried }.into());
         }
         let t_tool = match tool {
             Some(tool) => pose_in(&tool.tframe, "tframe")?,
@@ -70,16 +70,16 @@ impl Frames {
     }
 }
 
-/// A pose in metres of one in millimetres.
+/// A pose in meters of one in millimeters.
 pub(super) fn pose_in(pose: &RapidPose, field: &'static str) -> Result<Pose, Error> {
-    pose_from_quaternion(pose.trans_mm.map(|mm| mm / 1e3), pose.rot).map_err(|error| match error {
+    pose_from_wxyz(pose.trans_mm.map(|mm| mm / 1e3), pose.rot).map_err(|error| match error {
         Error::InvalidPose(fault) => FrameFault::Pose { field, fault }.into(),
         other => other,
     })
 }
 
-/// A pose in millimetres of one in metres.
+/// A pose in millimeters of one in meters.
 pub(super) fn rapid_pose(pose: &Pose) -> RapidPose {
-    let (xyz, rot) = pose_to_quaternion(pose);
+    let (xyz, rot) = pose_to_wxyz(pose);
     RapidPose { trans_mm: xyz.map(|m| m * 1e3), rot }
 }

@@ -99,7 +99,7 @@ impl fmt::Display for Problem {
             ),
             Self::OutsideLinkageLimits { excess } => write!(
                 f,
-                "ERR_ROBLIMIT: the rod (q3 - q2) is outside its limits by {:.1} deg",
+                "ERR_ROBLIMIT: the linkage (q3 - q2) is outside its limits by {:.1} deg",
                 excess.to_degrees()
             ),
             Self::NotSolved(error) => Named(error).fmt(f),

@@ -232,7 +232,7 @@ impl<'a> Table<'a> {
     /// What is outside the limits, and by how much.
     fn outside(&self, q: &[f64; 6]) -> Option<Problem> {
         let limits = self.robot.limits();
-        if limits.contain(q) {
+        if limits.contains(q) {
             return None;
         }
         let farthest =
@@ -241,7 +241,7 @@ impl<'a> Table<'a> {
         Some(if excess > 0.0 {
             Problem::OutsideLimits { joint: farthest + 1, excess }
         } else {
-            Problem::OutsideLinkageLimits { excess: limits.rod_excess(q) }
+            Problem::OutsideLinkageLimits { excess: limits.linkage_excess(q) }
         })
     }
 

@@ -59,7 +59,7 @@ impl Storage {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Content {
     /// The declaration has no value.
-    Uninitialised {
+    Uninitialized {
         /// Sizes of an array; none of a single value.
         sizes: Vec<usize>,
     },

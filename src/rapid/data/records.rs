@@ -1,4 +1,4 @@
-//! RAPID's records, as they are written: nothing is normalised.
+//! RAPID's records, as they are written: nothing is normalized.
 
 use alloc::string::String;
 
@@ -43,7 +43,7 @@ pub struct JointTarget {
 pub struct LoadData {
     /// Mass [kg].
     pub mass_kg: f64,
-    /// Centre of gravity [mm].
+    /// Center of gravity [mm].
     pub cog_mm: [f64; 3],
     /// Axes of moment, a quaternion w, x, y, z.
     pub aom: [f64; 4],

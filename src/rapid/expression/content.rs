@@ -44,7 +44,7 @@ impl WrittenContent<'_> {
         let sizes = self.sizes(evaluator)?;
         let Some(expression) = &self.value else {
             let span = self.value_place..self.value_place;
-            return Ok(Placed::new(Content::Uninitialised { sizes }, span));
+            return Ok(Placed::new(Content::Uninitialized { sizes }, span));
         };
         let value_span = expression.start..expression.end;
         if sizes.is_empty() {

@@ -75,7 +75,7 @@ impl Evaluator<'_, '_> {
             Found::Datum { content, .. } => content,
         };
         match content {
-            Content::Uninitialised { .. } => unknown(Unresolved::NoValue),
+            Content::Uninitialized { .. } => unknown(Unresolved::NoValue),
             Content::Single(_) if !indices.is_empty() => count(0),
             Content::Single(value) => Ok(value),
             Content::Array { .. } if indices.is_empty() => unknown(Unresolved::WholeArray),

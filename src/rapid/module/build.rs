@@ -80,7 +80,7 @@ fn check_names(module: Option<&str>, data: &[Datum], moves: &[Move]) -> Result<(
 fn check_numbers(datum: &Datum) -> Result<(), Error> {
     let thing = || format!("{} {}", datum.data_type.name(), datum.name);
     let values = match &datum.content {
-        Content::Uninitialised { .. } => &[],
+        Content::Uninitialized { .. } => &[],
         Content::Single(value) => core::slice::from_ref(value),
         Content::Array { sizes, values } => {
             let wanted = sizes

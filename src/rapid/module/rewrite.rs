@@ -89,7 +89,7 @@ fn place(module: &Module, new: &NewValue) -> Result<Range<usize>, Error> {
     let missing = |missing| Err(fault(RapidFaultKind::NoSuchValue { missing }));
     match (&datum.content, new.element) {
         (Content::Single(_), None) => Ok(datum.value_span.clone()),
-        (Content::Uninitialised { sizes }, None) if sizes.is_empty() => {
+        (Content::Uninitialized { sizes }, None) if sizes.is_empty() => {
             Ok(datum.value_span.clone())
         }
         (Content::Array { .. }, Some(element)) => match datum.element_spans.get(element) {

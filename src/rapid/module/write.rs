@@ -15,7 +15,7 @@ impl fmt::Display for Content {
     /// The value as RAPID writes it, with an array's brackets; nothing where there is none.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Uninitialised { .. } => Ok(()),
+            Self::Uninitialized { .. } => Ok(()),
             Self::Single(value) => value.fmt(f),
             Self::Array { sizes, values } => {
                 for (i, value) in values.iter().enumerate() {
@@ -54,14 +54,14 @@ impl Datum {
             write!(f, "{} ", self.scope.word())?;
         }
         write!(f, "{} {} {}", self.storage.word(), self.data_type.name(), self.name)?;
-        if let Content::Array { sizes, .. } | Content::Uninitialised { sizes } = &self.content {
+        if let Content::Array { sizes, .. } | Content::Uninitialized { sizes } = &self.content {
             for (i, size) in sizes.iter().enumerate() {
                 write!(f, "{}{size}", if i == 0 { '{' } else { ',' })?;
             }
             f.write_str(if sizes.is_empty() { "" } else { "}" })?;
         }
         match (&self.content, expression) {
-            (Content::Uninitialised { .. }, _) => {}
+            (Content::Uninitialized { .. }, _) => {}
             (_, Some(expression)) => write!(f, ":={expression}")?,
             (content, None) => write!(f, ":={content}")?,
         }

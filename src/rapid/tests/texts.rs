@@ -48,7 +48,7 @@ fn headers_cases_and_comments_do_not_matter() {
             ("C", Scope::Task, Storage::Var, 8, 21)
         ]
     );
-    assert_eq!(module.find("c").unwrap().content, Content::Uninitialised { sizes: vec![] });
+    assert_eq!(module.find("c").unwrap().content, Content::Uninitialized { sizes: vec![] });
     assert_eq!(module.find("c").unwrap().data_type, DataType::Num);
     again(&module, &[]);
 }
@@ -178,7 +178,7 @@ fn arrays_keep_their_shape_and_the_places_of_their_elements() {
     assert_eq!((sizes.as_slice(), values.len()), ([2, 3].as_slice(), 6));
     assert_eq!(values[4], Value::Pos([2.0, 0.0, 0.0]));
     assert_eq!(&text[datum.element_spans[4].clone()], "[2,0,0]");
-    assert_eq!(module.find("free").unwrap().content, Content::Uninitialised { sizes: vec![4, 5] });
+    assert_eq!(module.find("free").unwrap().content, Content::Uninitialized { sizes: vec![4, 5] });
     assert_eq!(
         module.data()[0].to_string(),
         "CONST pos pts{2,3}:=[[[1,2,3],[4,5,6],[7,8,9]],[[1,0,0],[2,0,0],[3,0,0]]];"

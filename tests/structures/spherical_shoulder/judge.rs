@@ -1,6 +1,6 @@
 //! Judges answers at and next to the singularities of an arm with a spherical shoulder.
 
-use irbkin::{Robot, Solution, Solutions, Status, thresholds};
+use irbkin::{Robot, SingularityKind, Solution, Solutions, Status, thresholds};
 
 use super::ShoulderArm;
 use crate::common::apart;
@@ -26,15 +26,16 @@ pub(super) fn judge(
     if made.beyond > 0.0 {
         return Verdict { found: !solutions.is_empty(), wrong: 0, twice, flagged: true };
     }
-    let opened = solutions.iter().filter(|solution| !family_closes(robot, made, solution)).count();
+    let opened =
+        solutions.iter().filter(|solution| !self_motion_closes(robot, made, solution)).count();
     let q7 = made.q[6];
     let beside: [f64; 7] = std::array::from_fn(|i| made.q[i] + rng.between(-1e-4, 1e-4));
     let beside = [beside[0], beside[1], beside[2], beside[3], beside[4], beside[5], q7];
-    let neighbour = robot.ik(&robot.fk(&beside), q7).unwrap();
+    let neighbor = robot.ik(&robot.fk(&beside), q7).unwrap();
     Verdict {
         found: solutions.iter().any(|solution| is_found(arm, robot, made, solution))
             || is_kept(arm, robot, made),
-        wrong: opened + usize::from(differ(arm, robot, made, [solutions, &neighbour])),
+        wrong: opened + usize::from(differ(arm, robot, made, [solutions, &neighbor])),
         twice,
         flagged: solutions.iter().all(|solution| is_flagged(arm, robot, solution)),
     }
@@ -49,8 +50,8 @@ fn is_found(arm: &ShoulderArm, robot: &Robot<7>, made: &Made<7>, solution: &Solu
         if ShoulderArm::is_branch(&arm.theta(&moved.q), &made.theta, &bounds) {
             return true;
         }
-        let Some(free) = moved.free else { return false };
-        match robot.with_free(&made.pose, &moved, made.q[free.joint() - 1]) {
+        let Some(free) = moved.free_joint else { return false };
+        match robot.with_free_joint(&made.pose, &moved, made.q[free.joint() - 1]) {
             Ok(Some(next)) => moved = next,
             _ => return false,
         }
@@ -71,9 +72,9 @@ fn is_kept(arm: &ShoulderArm, robot: &Robot<7>, made: &Made<7>) -> bool {
 
 /// Whether a solution whose free joint is given another angle is one of the pose, to twice the
 /// distance from the singularity.
-fn family_closes(robot: &Robot<7>, made: &Made<7>, solution: &Solution<7>) -> bool {
-    let Some(free) = solution.free else { return true };
-    let Ok(Some(moved)) = robot.with_free(&made.pose, solution, 0.7) else { return false };
+fn self_motion_closes(robot: &Robot<7>, made: &Made<7>, solution: &Solution<7>) -> bool {
+    let Some(free) = solution.free_joint else { return true };
+    let Ok(Some(moved)) = robot.with_free_joint(&made.pose, solution, 0.7) else { return false };
     (moved.q[free.joint() - 1] - 0.7).abs() < 1e-15
         && robot.residual(&moved.q, &made.pose).largest() < 4e-9
 }
@@ -107,10 +108,14 @@ fn differ(
 /// Whether the singularities that a solution is at are flagged, and its slot is its own but for the
 /// bits that are open.
 fn is_flagged(arm: &ShoulderArm, robot: &Robot<7>, solution: &Solution<7>) -> bool {
-    let bits = [(Status::SHOULDER, 4), (Status::ELBOW, 2), (Status::WRIST, 1)];
-    let open: usize =
-        bits.iter().filter(|(kind, _)| solution.kinds().contains(*kind)).map(|(_, bit)| bit).sum();
-    let flagged = solution.kinds() | edge_of_merging(arm, robot, &solution.q);
+    let bits =
+        [(SingularityKind::SHOULDER, 4), (SingularityKind::ELBOW, 2), (SingularityKind::WRIST, 1)];
+    let open: usize = bits
+        .iter()
+        .filter(|(kind, _)| solution.singularities().contains(*kind))
+        .map(|(_, bit)| bit)
+        .sum();
+    let flagged = solution.singularities() | edge_of_merging(arm, robot, &solution.q);
     let slot = arm.slot(&arm.theta(&solution.q));
     flagged.contains(robot.singularity(&solution.q).kinds)
         && (slot ^ solution.slot.index()) & !open == 0
@@ -118,15 +123,15 @@ fn is_flagged(arm: &ShoulderArm, robot: &Robot<7>, solution: &Solution<7>) -> bo
 
 /// The wrist and the elbow where they are about as far from singular as still merges: rounding
 /// decides.
-fn edge_of_merging(arm: &ShoulderArm, robot: &Robot<7>, q: &[f64; 7]) -> Status {
+fn edge_of_merging(arm: &ShoulderArm, robot: &Robot<7>, q: &[f64; 7]) -> SingularityKind {
     let theta = arm.theta(q);
     let elbow = arm.elbow(theta[3]);
     let (across, aside) = (elbow.across.abs(), arm.aside(&theta).abs());
     let rho = aside.hypot(elbow.along);
     let ratio = aside * aside / (2.0 * arm.position_rounding() * across.min(rho));
     let elbow = robot.singularity(q).distances.unwrap().elbow;
-    let mut edge = Status::empty();
-    edge.set(Status::WRIST, (0.1..10.0).contains(&ratio));
-    edge.set(Status::ELBOW, (1e-8..1e-6).contains(&elbow));
+    let mut edge = SingularityKind::empty();
+    edge.set(SingularityKind::WRIST, (0.1..10.0).contains(&ratio));
+    edge.set(SingularityKind::ELBOW, (1e-8..1e-6).contains(&elbow));
     edge
 }

@@ -5,7 +5,7 @@ mod judge;
 
 use std::f64::consts::PI;
 
-use irbkin::{Pose, Robot, Solution, Solutions, Status, thresholds};
+use irbkin::{Pose, Robot, SingularityKind, Solution, Solutions, thresholds};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use proptest::prelude::*;
 
@@ -33,7 +33,7 @@ pub fn structure() -> Structure<7> {
     }
 }
 
-/// An arm of Franka in the catalogue, with its limits: both have one table.
+/// An arm of Franka in the catalog, with its limits: both have one table.
 pub fn named(name: &str) -> Subject<7> {
     let robot = Robot::named(name).unwrap();
     Subject::new(name, ShoulderArm::panda(), &SEVEN).with_robot(|_| robot)
@@ -114,8 +114,9 @@ impl Arm<7> for ShoulderArm {
     /// The other elbow may be up to the tolerance beyond reach, with its wrist at its edge.
     fn beyond_in(&self, _robot: &Robot<7>, made: &Made<7>, solution: &Solution<7>) -> [f64; 2] {
         let is_other = (solution.slot.index() ^ self.slot(&made.theta)) & 2 != 0;
-        let kinds = solution.kinds();
-        let is_at_edge = kinds.contains(Status::WRIST) && !kinds.contains(Status::ELBOW);
+        let kinds = solution.singularities();
+        let is_at_edge =
+            kinds.contains(SingularityKind::WRIST) && !kinds.contains(SingularityKind::ELBOW);
         [if is_other && is_at_edge { 1.01 * thresholds::REACH_TOLERANCE } else { 0.0 }; 2]
     }
 

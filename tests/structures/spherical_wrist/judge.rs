@@ -1,6 +1,6 @@
 //! Judges answers at and next to the singularities of an arm with a spherical wrist.
 
-use irbkin::{FreeJoint, OpwParameters, Robot, Solution, Solutions, Status, thresholds};
+use irbkin::{FreeJoint, OpwParameters, Robot, SingularityKind, Solution, Solutions, thresholds};
 
 use super::WristArm;
 use crate::common::wrapped;
@@ -24,13 +24,13 @@ struct Apart {
 }
 
 impl Apart {
-    fn of(arm: &WristArm, a: &[f64; 6], b: &[f64; 6], kinds: Status) -> Self {
+    fn of(arm: &WristArm, a: &[f64; 6], b: &[f64; 6], kinds: SingularityKind) -> Self {
         let (a, b) = (arm.theta(a), arm.theta(b));
         let off = |i: usize| wrapped(a[i] - b[i]);
-        let free_1 = kinds.contains(Status::SHOULDER) && arm.opw.b == 0.0;
+        let free_1 = kinds.contains(SingularityKind::SHOULDER) && arm.opw.b == 0.0;
         let with_5 = |t: [f64; 6]| if t[4].cos() > 0.0 { t[3] + t[5] } else { t[3] - t[5] };
         let wrist = (wrapped(a[4]) - wrapped(b[4])).abs().max(wrapped(with_5(a) - with_5(b)));
-        let undetermined = free_1 || kinds.contains(Status::WRIST);
+        let undetermined = free_1 || kinds.contains(SingularityKind::WRIST);
         Self {
             arm: off(1).max(off(2)).max(if free_1 { 0.0 } else { off(0) }),
             wrist: if free_1 { 0.0 } else { wrist },
@@ -69,7 +69,7 @@ fn found_bound(arm: &WristArm, place: &Place) -> (f64, f64) {
         let root = (2.0 * position / lever).sqrt().min(position / (lever * off.max(1e-300)));
         let merged = if off <= 2.0 * STRAIGHT { off + STRAIGHT } else { 0.0 };
         // Folded, the links turn by more than the elbow, by the longest over the shortest distance
-        // of the wrist centre.
+        // of the wrist center.
         let gear = ((c2 + k) / (c2 - k).abs().max(off)).max(2.0);
         turned += (root + merged) * gear;
     }
@@ -85,7 +85,7 @@ pub(super) fn judge(
 ) -> Verdict {
     let (bound, split_bound) = found_bound(arm, &made.place);
     let found = solutions.iter().any(|solution| {
-        let apart = Apart::of(arm, &solution.q, &made.q, solution.kinds());
+        let apart = Apart::of(arm, &solution.q, &made.q, solution.singularities());
         apart.arm <= bound && apart.wrist <= bound && apart.split <= split_bound
     });
     let moves = |solution: &&Solution<6>| tool_moves(arm, robot, made, solution);
@@ -106,10 +106,10 @@ pub(super) fn beyond_in(arm: &WristArm, made: &Made<6>, solution: &Solution<6>) 
     let own = arm.x(&made.theta);
     let x = arm.x(&arm.theta(&solution.q));
     let is_other = (own < 0.0) != (x < 0.0);
-    if !is_other || !solution.kinds().contains(Status::ELBOW) {
+    if !is_other || !solution.singularities().contains(SingularityKind::ELBOW) {
         return 0.0;
     }
-    // The wrist centre of the pose, before axis 2 and over it; behind axis 1 it is as far away.
+    // The wrist center of the pose, before axis 2 and over it; behind axis 1 it is as far away.
     let [_, t2, t3, ..] = made.theta;
     let OpwParameters { a1, a2, c2, c3, .. } = arm.opw;
     let ahead = -own - a1;
@@ -122,8 +122,8 @@ pub(super) fn beyond_in(arm: &WristArm, made: &Made<6>, solution: &Solution<6>) 
 /// Whether the tool moves where the free joint goes, beyond rounding and the distance from the
 /// singularity.
 fn tool_moves(arm: &WristArm, robot: &Robot<6>, made: &Made<6>, solution: &Solution<6>) -> bool {
-    let Some(free) = solution.free else { return false };
-    let moved = robot.with_free(&made.pose, solution, 0.7).unwrap().unwrap();
+    let Some(free) = solution.free_joint else { return false };
+    let moved = robot.with_free_joint(&made.pose, solution, 0.7).unwrap().unwrap();
     let residual = robot.residual(&moved.q, &made.pose);
     let distances = robot.singularity(&solution.q).distances.unwrap();
     let [w2, w4] = {
@@ -132,7 +132,7 @@ fn tool_moves(arm: &WristArm, robot: &Robot<6>, made: &Made<6>, solution: &Solut
     };
     let distance = match free {
         FreeJoint::Base => distances.shoulder,
-        // From axis 2 to the wrist centre, in the plane of the arm.
+        // From axis 2 to the wrist center, in the plane of the arm.
         FreeJoint::Upper => (w4 - w2).norm(),
         FreeJoint::WristSum | FreeJoint::WristDifference => distances.wrist,
         other => unreachable!("{other:?} is no joint that a spherical wrist leaves free"),
@@ -143,7 +143,7 @@ fn tool_moves(arm: &WristArm, robot: &Robot<6>, made: &Made<6>, solution: &Solut
 /// Whether two solutions are the same. Of the self-motion that q1 is free in, two with the same q1
 /// are two.
 fn are_one(arm: &WristArm, one: &Solution<6>, other: &Solution<6>) -> bool {
-    let kinds = (other.kinds() | one.kinds()) - Status::SHOULDER;
+    let kinds = (other.singularities() | one.singularities()) - SingularityKind::SHOULDER;
     let apart = Apart::of(arm, &other.q, &one.q, kinds);
     apart.arm.max(apart.wrist).max(apart.split) < 1e-9
 }
@@ -155,13 +155,14 @@ fn are_one(arm: &WristArm, one: &Solution<6>, other: &Solution<6>) -> bool {
 fn is_flagged(arm: &WristArm, place: &Place, solutions: &Solutions<6>) -> bool {
     let is_alone =
         place.shoulder().is_none_or(|off| arm.opw.b == 0.0 && off > thresholds::SHOULDER_MERGE);
-    let flagged = |kind: Status, off: Option<f64>, threshold: f64| {
+    let flagged = |kind: SingularityKind, off: Option<f64>, threshold: f64| {
         off.is_none_or(|off| {
-            solutions.iter().any(|s| s.kinds().contains(kind)) || off > 0.5 * threshold
+            solutions.iter().any(|s| s.singularities().contains(kind)) || off > 0.5 * threshold
         })
     };
-    let wrist_and_elbow = flagged(Status::WRIST, place.wrist(), thresholds::WRIST_MERGE_SIN)
-        && flagged(Status::ELBOW, place.elbow(), 1e-8);
+    let wrist_and_elbow =
+        flagged(SingularityKind::WRIST, place.wrist(), thresholds::WRIST_MERGE_SIN)
+            && flagged(SingularityKind::ELBOW, place.elbow(), 1e-8);
     (!is_alone || wrist_and_elbow)
-        && flagged(Status::SHOULDER, place.shoulder(), thresholds::SHOULDER_MERGE)
+        && flagged(SingularityKind::SHOULDER, place.shoulder(), thresholds::SHOULDER_MERGE)
 }

@@ -74,7 +74,7 @@ pub fn structure() -> Structure<6> {
     }
 }
 
-/// An arm of the catalogue, with its limits.
+/// An arm of the catalog, with its limits.
 pub fn named(name: &str) -> Subject<6> {
     let robot: Robot<6> = Robot::named(name).unwrap();
     let Definition::Opw(opw) = *robot.definition() else {
@@ -103,7 +103,7 @@ fn arms() -> impl Strategy<Value = WristArm> {
 }
 
 impl WristArm {
-    /// Length of the forearm, from the elbow to the wrist centre.
+    /// Length of the forearm, from the elbow to the wrist center.
     fn k(&self) -> f64 {
         self.opw.a2.hypot(self.opw.c3)
     }
@@ -113,13 +113,13 @@ impl WristArm {
         elbow - self.opw.a2.atan2(self.opw.c3)
     }
 
-    /// The wrist centre before axis 1, in the plane of the arm [m].
+    /// The wrist center before axis 1, in the plane of the arm [m].
     fn x(&self, [_, t2, t3, ..]: &[f64; 6]) -> f64 {
         let OpwParameters { a1, a2, c2, c3, .. } = self.opw;
         a1 + c2 * t2.sin() + c3 * (t2 + t3).sin() + a2 * (t2 + t3).cos()
     }
 
-    /// A theta_2 that puts the wrist centre `x` before axis 1, for an elbow angle; none where it
+    /// A theta_2 that puts the wrist center `x` before axis 1, for an elbow angle; none where it
     /// cannot get there.
     fn theta_2(&self, elbow: f64, x: f64, rng: &mut Rng) -> Option<f64> {
         let (along, across) = (self.opw.c2 + self.k() * elbow.cos(), self.k() * elbow.sin());
@@ -224,7 +224,7 @@ impl Arm<6> for WristArm {
         vec![Posture { name: "J2 = J3 = J5 = 0", place, draw: Box::new(home) }]
     }
 
-    /// A stretched arm with the wrist centre moved outwards along the line to it, in front of
+    /// A stretched arm with the wrist center moved outwards along the line to it, in front of
     /// axis 1, where the arm behind has still farther to go.
     fn beyond(&self, beyond: f64, rng: &mut Rng) -> Option<Made<6>> {
         let elbow = Place::of(At::Elbow, 0.0);

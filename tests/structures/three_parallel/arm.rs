@@ -42,7 +42,7 @@ pub struct Asked {
 }
 
 impl ParallelArm {
-    /// A catalogue arm of Universal Robots, by the figures of its table.
+    /// A catalog arm of Universal Robots, by the figures of its table.
     pub fn universal(name: &str) -> (Self, Robot<6>) {
         let robot: Robot<6> = Robot::named(name).unwrap();
         let rows = &robot.mdh().rows;
@@ -142,7 +142,7 @@ impl ParallelArm {
 
     /// The end of the planar arm where joint 6 of a pose with sin theta_5 = 0 is turned to
     /// `theta_6`: on a circle about the wrist.
-    pub fn end_along_family(&self, theta: &[f64; 6], theta_6: f64) -> [f64; 2] {
+    pub fn end_along_self_motion(&self, theta: &[f64; 6], theta_6: f64) -> [f64; 2] {
         let phi = theta[1] + theta[2] + theta[3];
         let turned =
             if theta[4].cos() > 0.0 { phi + theta[5] - theta_6 } else { phi - theta[5] + theta_6 };

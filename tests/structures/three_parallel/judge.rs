@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use irbkin::{FreeJoint, Robot, Solution, Solutions, Status, thresholds};
+use irbkin::{FreeJoint, Robot, SingularityKind, Solution, Solutions, Status, thresholds};
 
 use super::arm::ParallelArm;
 use super::place::{Bounds, FOUND, OPEN, phi};
@@ -32,7 +32,7 @@ impl<'a> Judge<'a> {
         let x = arm.x(&self.theta_of(&solution.q)).abs();
         let open = self.rounding() * (1.0 + arm.b() / x.max(f64::MIN_POSITIVE));
         let beyond = asked[slot / 4][slot % 2].missing.abs() + open;
-        let straight = solution.kinds().contains(Status::ELBOW);
+        let straight = solution.singularities().contains(SingularityKind::ELBOW);
         if straight && beyond <= thresholds::REACH_TOLERANCE + open { beyond } else { 0.0 }
     }
 
@@ -49,14 +49,14 @@ impl<'a> Judge<'a> {
                 return true;
             }
             let Some(free) =
-                solution.free.filter(|_| self.bounds.hold_plane(&found, &self.made.theta))
+                solution.free_joint.filter(|_| self.bounds.hold_plane(&found, &self.made.theta))
             else {
                 return false;
             };
             let value = self.made.q[free.joint() - 1];
-            let moved = self.robot.with_free(&self.made.pose, solution, value);
+            let moved = self.robot.with_free_joint(&self.made.pose, solution, value);
             moved.is_ok_and(|moved| {
-                moved.is_some_and(|moved| self.is_family_member(solution, &moved))
+                moved.is_some_and(|moved| self.is_on_self_motion(solution, &moved))
             })
         })
     }
@@ -64,7 +64,7 @@ impl<'a> Judge<'a> {
     /// Whether a solution moved to the free joint's angle is the one that made the pose. One
     /// straight arm stands for both elbows of the family, and joint 2 of one that is folded onto
     /// axis 2 is free too: of those, the seeded solve has to find the right one.
-    fn is_family_member(&self, from: &Solution<6>, moved: &Solution<6>) -> bool {
+    fn is_on_self_motion(&self, from: &Solution<6>, moved: &Solution<6>) -> bool {
         let [mut from_theta, mut found] = [&from.q, &moved.q].map(|q| self.theta_of(q));
         let folded = self.is_folding_onto_axis_2()
             && self
@@ -72,7 +72,7 @@ impl<'a> Judge<'a> {
                 .place
                 .elbow()
                 .is_some_and(|off| self.arm.c2 * off <= 2.0 * self.rounding());
-        if from.kinds().contains(Status::ELBOW) || folded {
+        if from.singularities().contains(SingularityKind::ELBOW) || folded {
             [from_theta[1], from_theta[2]] = [self.made.theta[1], self.made.theta[2]];
             [found[1], found[2]] = [self.made.theta[1], self.made.theta[2]];
             found[3] = phi(&self.theta_of(&moved.q)) - found[1] - found[2];
@@ -134,8 +134,8 @@ impl<'a> Judge<'a> {
                 + 2 * usize::from(theta[2].sin().abs() > 1e-7)
                 + usize::from(theta[4].sin().abs() > 1e-8);
             wrong += usize::from((solution.slot.index() ^ arm.slot(&theta)) & told != 0);
-            wrong += match solution.free {
-                Some(FreeJoint::Parallel) => self.count_wrong_along_family(solution, &theta),
+            wrong += match solution.free_joint {
+                Some(FreeJoint::Parallel) => self.count_wrong_along_self_motion(solution, &theta),
                 Some(free) => usize::from(
                     free != FreeJoint::Upper
                         || arm.end(&theta).map(f64::abs).iter().sum::<f64>()
@@ -149,17 +149,17 @@ impl<'a> Judge<'a> {
 
     /// Holds the family of a wrist against the circle on which the end of the planar arm runs:
     /// reached where it is in reach, the tool still.
-    fn count_wrong_along_family(&self, solution: &Solution<6>, theta: &[f64; 6]) -> usize {
+    fn count_wrong_along_self_motion(&self, solution: &Solution<6>, theta: &[f64; 6]) -> usize {
         let (robot, arm) = (self.robot, self.arm);
         let off = theta[4].sin().abs();
         let mut wrong = usize::from(off > thresholds::WRIST_MERGE_SIN);
         for value in [0.7, -2.0, 3.0] {
             let theta_6 = arm.theta(&[value; 6])[5];
-            let missing = arm.missing(arm.end_along_family(theta, theta_6)).abs();
-            match robot.with_free(&self.made.pose, solution, value) {
+            let missing = arm.missing(arm.end_along_self_motion(theta, theta_6)).abs();
+            match robot.with_free_joint(&self.made.pose, solution, value) {
                 Ok(Some(moved)) => {
                     let residual = robot.residual(&moved.q, &self.made.pose).largest();
-                    // Up to a nanometre beyond reach the arm is stretched or folded there too.
+                    // Up to a nanometer beyond reach the arm is stretched or folded there too.
                     let bound =
                         self.made.beyond.max(missing) + (2.0 * off + 1e-14) * (1.0 + arm.reach());
                     wrong += usize::from(
@@ -171,7 +171,7 @@ impl<'a> Judge<'a> {
                 Ok(None) => wrong += 1,
                 Err(_) => {
                     wrong += usize::from(
-                        arm.margin(arm.end_along_family(theta, theta_6)) > self.rounding(),
+                        arm.margin(arm.end_along_self_motion(theta, theta_6)) > self.rounding(),
                     );
                 }
             }
@@ -189,8 +189,8 @@ impl<'a> Judge<'a> {
                 let [a, b] = [one, other].map(|solution| self.theta_of(&solution.q));
                 let apart: [f64; 6] = std::array::from_fn(|joint| wrapped(a[joint] - b[joint]));
                 let same = apart.iter().all(|apart| *apart < 1e-9);
-                let family = one.free == Some(FreeJoint::Parallel)
-                    && other.free == one.free
+                let family = one.free_joint == Some(FreeJoint::Parallel)
+                    && other.free_joint == one.free_joint
                     && one.slot.index() & 2 == other.slot.index() & 2;
                 twice += usize::from(same || (family && apart[0] < 1e-9));
             }
@@ -215,16 +215,16 @@ impl<'a> Judge<'a> {
             wrist.is_none_or(|off| off - plane > thresholds::WRIST_MERGE_SIN),
         );
         let wrist_told = |solution: &Solution<6>| {
-            let told = solution.kinds().contains(Status::WRIST)
-                && solution.free == Some(FreeJoint::Parallel);
-            (!is_wrist || told) && (!is_none || solution.free != Some(FreeJoint::Parallel))
+            let told = solution.singularities().contains(SingularityKind::WRIST)
+                && solution.free_joint == Some(FreeJoint::Parallel);
+            (!is_wrist || told) && (!is_none || solution.free_joint != Some(FreeJoint::Parallel))
         };
         let status = solutions.status();
         let merged_told = |solution: &Solution<6>| {
             let slot = solution.slot.index();
-            [(Status::WRIST, 1), (Status::ELBOW, 2)].iter().all(|(kind, bit)| {
-                !solution.kinds().contains(*kind)
-                    || (status[slot ^ bit].contains(Status::MERGED | *kind)
+            [(SingularityKind::WRIST, 1), (SingularityKind::ELBOW, 2)].iter().all(|(kind, bit)| {
+                !solution.singularities().contains(*kind)
+                    || (status[slot ^ bit].contains(Status::MERGED | (*kind).into())
                         && solutions.slot(slot ^ bit).is_none())
             })
         };
@@ -238,15 +238,17 @@ impl<'a> Judge<'a> {
             shoulder.is_some_and(|off| off <= 0.5 * (2.0 * self.arm.b() * self.rounding()).sqrt());
         mine.iter().all(|solution| wrist_told(solution))
             && solutions.iter().all(merged_told)
-            && (!is_elbow || seeded.kinds().contains(Status::ELBOW))
+            && (!is_elbow || seeded.singularities().contains(SingularityKind::ELBOW))
             && (!is_shoulder
-                || mine.iter().all(|solution| solution.kinds().contains(Status::SHOULDER)))
+                || mine
+                    .iter()
+                    .all(|solution| solution.singularities().contains(SingularityKind::SHOULDER)))
     }
 
     /// Whether the representative of the wrist's family has joint 6 at rest, or as near to it as
     /// the arm reaches, in both elbows; by trying angles of joint 6 all around. With a seed, the
     /// nearest member.
-    fn is_nearest_of_family(&self, solutions: &Solutions<6>, rng: &mut Rng) -> bool {
+    fn is_nearest_of_self_motion(&self, solutions: &Solutions<6>, rng: &mut Rng) -> bool {
         let shoulder = 4 * usize::from(self.arm.x(&self.made.theta) < 0.0);
         let told = [0, 2].map(|elbow| {
             let of_slots = [0, 1].map(|wrist| solutions.slot(shoulder + elbow + wrist));
@@ -265,8 +267,9 @@ impl<'a> Judge<'a> {
         let mut seed = self.made.q;
         seed[5] = rng.between(-PI, PI);
         let seeded = self.robot.ik_nearest(&self.made.pose, &seed, &[1.0; 6]).unwrap();
-        let of_family = self.bounds.hold_plane(&self.theta_of(&seeded.q), &self.made.theta);
-        told == [true; 2] && (!of_family || self.is_nearest_of_members(solutions, &seeded, &seed))
+        let of_self_motion = self.bounds.hold_plane(&self.theta_of(&seeded.q), &self.made.theta);
+        told == [true; 2]
+            && (!of_self_motion || self.is_nearest_of_members(solutions, &seeded, &seed))
     }
 
     /// Whether no member of a family is nearer to the seed than the solution, by trying angles of
@@ -279,16 +282,17 @@ impl<'a> Judge<'a> {
     ) -> bool {
         let cost = |q: &[f64; 6]| (0..6).map(|i| wrapped(q[i] - seed[i]).powi(2)).sum::<f64>();
         let least = cost(&nearest.q);
-        let families = solutions.iter().filter(|found| found.free == Some(FreeJoint::Parallel));
+        let families =
+            solutions.iter().filter(|found| found.free_joint == Some(FreeJoint::Parallel));
         let steps = 180;
         let mut members = families.flat_map(|family| {
             (0..steps).filter_map(move |step| {
                 let value = TAU * f64::from(step) / f64::from(steps) - PI;
-                self.robot.with_free(&self.made.pose, family, value).ok()?
+                self.robot.with_free_joint(&self.made.pose, family, value).ok()?
             })
         });
         let theta_6 = self.arm.theta(&[nearest.q[5]; 6])[5];
-        let missing = self.arm.missing(self.arm.end_along_family(&self.made.theta, theta_6));
+        let missing = self.arm.missing(self.arm.end_along_self_motion(&self.made.theta, theta_6));
         missing.abs() <= self.met() && members.all(|member| least <= cost(&member.q) + 1e-9)
     }
 
@@ -297,7 +301,7 @@ impl<'a> Judge<'a> {
     fn is_nearest_reached(&self, solution: &Solution<6>, wanted: f64) -> bool {
         let arm = self.arm;
         let missing = |q6: f64| {
-            arm.missing(arm.end_along_family(&self.made.theta, arm.theta(&[q6; 6])[5])).abs()
+            arm.missing(arm.end_along_self_motion(&self.made.theta, arm.theta(&[q6; 6])[5])).abs()
         };
         let distance = wrapped(solution.q[5] - wanted);
         let steps = 720;
@@ -312,7 +316,7 @@ impl<'a> Judge<'a> {
 
     pub fn judge(&self, solutions: &Solutions<6>, rng: &mut Rng) -> Verdict {
         let seeded = self.seeded();
-        let is_one_of_a_family = self.made.place.wrist() == Some(0.0)
+        let is_on_a_self_motion = self.made.place.wrist() == Some(0.0)
             && self.bounds.plane < FOUND + 1e-12
             && self.made.beyond == 0.0;
         Verdict {
@@ -320,7 +324,7 @@ impl<'a> Judge<'a> {
             wrong: self.count_wrong(solutions),
             twice: self.count_twice(solutions),
             flagged: seeded.is_some_and(|(seeded, _)| self.is_flagged(solutions, &seeded))
-                && (!is_one_of_a_family || self.is_nearest_of_family(solutions, rng)),
+                && (!is_on_a_self_motion || self.is_nearest_of_self_motion(solutions, rng)),
         }
     }
 }

@@ -61,7 +61,7 @@ pub fn structure() -> Structure<6> {
     }
 }
 
-/// An arm of the catalogue, with its limits.
+/// An arm of the catalog, with its limits.
 pub fn named(name: &str) -> Subject<6> {
     let (arm, robot) = ParallelArm::universal(name);
     Subject::new(name, arm, &SIX).with_robot(|_| robot)

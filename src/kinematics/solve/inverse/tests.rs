@@ -1,4 +1,4 @@
-//! The lanes and the careful solve say the same of every pose that the lanes take, up to where they
+//! The lanes and the scalar solve say the same of every pose that the lanes take, up to where they
 //! take none.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -10,9 +10,9 @@ use super::*;
 use crate::kinematics::pose::{pose_from_euler_zyx, translation_z};
 use crate::kinematics::structure::spherical_wrist::OpwParameters;
 use crate::kinematics::thresholds::{
-    PLAIN_REACH, PLAIN_SHOULDER, PLAIN_WRIST_SIN, REACH_TOLERANCE, SHOULDER_MERGE,
+    REACH_TOLERANCE, REGULAR_REACH, REGULAR_SHOULDER, REGULAR_WRIST_SIN, SHOULDER_MERGE,
 };
-use crate::kinematics::{DhRow, JacobianFrame, JointLimits, Mdh, PoseError};
+use crate::kinematics::{DhRow, JacobianFrame, JointLimits, Mdh, PoseDifference};
 use crate::lanes::on_each_set;
 use crate::rng::Rng;
 use arm::Arm;
@@ -29,7 +29,7 @@ fn by_lanes<const N: usize>(
     robot: &Robot<N>,
     pose: &Pose,
     given: RedundancyOf<N>,
-) -> Option<PlainAnswer<N>>
+) -> Option<RegularAnswer<N>>
 where
     Joints<N>: Arity<N>,
 {
@@ -39,7 +39,7 @@ where
     plain.then(|| core::array::from_fn(slot))
 }
 
-fn carefully<const N: usize>(robot: &Robot<N>, pose: Pose, given: RedundancyOf<N>) -> Solutions<N>
+fn scalar<const N: usize>(robot: &Robot<N>, pose: Pose, given: RedundancyOf<N>) -> Solutions<N>
 where
     Joints<N>: Arity<N>,
 {
@@ -49,7 +49,7 @@ where
 }
 
 /// Joint angles and status of each slot that has a solution.
-type PlainAnswer<const N: usize> = [Option<([f64; N], Status)>; 8];
+type RegularAnswer<const N: usize> = [Option<([f64; N], Status)>; 8];
 
 #[derive(Default)]
 struct Comparison {
@@ -64,23 +64,23 @@ impl Comparison {
     fn take(&mut self, arm: &Arm, pose: Pose, what: &str) {
         let pose = checked_pose(&pose).unwrap();
         let Some(plain) = arm.by_lanes(&pose) else { return };
-        let careful = arm.carefully(pose);
+        let scalar = arm.scalar(pose);
         self.plain += 1;
         assert_eq!(
             plain.map(|slot| slot.map_or(Status::empty(), |(_, status)| status)),
-            *careful.status(),
+            *scalar.status(),
             "{what}, {pose}"
         );
         for (slot, found) in plain.into_iter().enumerate() {
-            let Some(((q, _), careful)) = found.zip(careful.slot(slot)) else { continue };
-            assert_eq!(careful.free, None, "{what}");
+            let Some(((q, _), scalar)) = found.zip(scalar.slot(slot)) else { continue };
+            assert_eq!(scalar.free_joint, None, "{what}");
             // A solution closes to 3e-15 of the arm's lengths and to 1e-14 rad, and to what an
             // offset's digits round off theta; so two are apart by twice that at most, in the pose,
             // and in the joints by that over the least singular value.
             let rounded_off =
                 f64::EPSILON * arm.offsets.iter().map(|offset| offset.abs()).sum::<f64>();
             let closed = [(3e-15 + rounded_off) * arm.extent, 1e-14 + rounded_off];
-            let PoseError { position, rotation } = arm.robot.residual(&q, &pose);
+            let PoseDifference { position, rotation } = arm.robot.residual(&q, &pose);
             assert!(
                 position <= closed[0] && rotation <= closed[1],
                 "{what}: {position:e} m, {rotation:e} rad"
@@ -89,13 +89,13 @@ impl Comparison {
                 2.0 * closed[0].hypot(closed[1]) / arm.robot.singularity(&q).min_singular_value;
             let apart = q
                 .iter()
-                .zip(&careful.q)
+                .zip(&scalar.q)
                 .map(|(a, b)| (a - b - TAU * ((a - b) / TAU).round()).abs())
                 .fold(0.0, f64::max);
             assert!(
                 apart <= bound,
                 "{what}: {apart:e} rad apart, bound {bound:e}: {q:?} and {:?}",
-                careful.q
+                scalar.q
             );
             self.slots += 1;
             self.apart = self.apart.max(apart / bound);
@@ -161,7 +161,7 @@ type Place = fn(&Arm, f64, &mut Rng) -> Pose;
 
 /// The margins by name, and the least part of their poses that must be plain: at the edge of reach,
 /// half of the arms reach with neither shoulder; and next to the wrist's, arms with three parallel
-/// axes must stand 1.5e-7 d5 / 1e-6, two centimetres, from the shoulder's singularity.
+/// axes must stand 1.5e-7 d5 / 1e-6, two centimeters, from the shoulder's singularity.
 const MARGINS: [(&str, Place, f64); 3] = [
     ("wrist", Arm::next_to_the_wrist_margin, 0.9),
     ("shoulder", Arm::next_to_the_shoulder_margin, 0.95),
@@ -170,7 +170,7 @@ const MARGINS: [(&str, Place, f64); 3] = [
 
 #[test]
 #[expect(clippy::cast_precision_loss, reason = "counts")]
-fn plain_and_careful_agree() {
+fn regular_and_scalar_agree() {
     on_each_set(|set| {
         let mut random = Rng::new(5);
         for arm in &arms() {
@@ -244,22 +244,22 @@ fn agreeing<const N: usize>(robot: &Robot<N>, reach: f64, random: &mut Rng) -> u
 where
     Joints<N>: Arity<N>,
 {
-    let mut plain_poses = 0;
+    let mut regular_poses = 0;
     for off in [0.0, 1e-8, 9e-7, 1.1e-6, 1e-5, 3e-3, 1e-2, 1.1e-2] {
         for _ in 0..POSES {
             let q: [f64; N] = joints(random, off);
             let (pose, given) = (robot.fk(&q), Redundancy::of(&q));
             let Some(plain) = by_lanes(robot, &pose, given) else { continue };
-            let careful = carefully(robot, pose, given);
-            plain_poses += 1;
+            let scalar = scalar(robot, pose, given);
+            regular_poses += 1;
             assert_eq!(
                 plain.map(|slot| slot.map_or(Status::empty(), |(_, status)| status)),
-                *careful.status(),
+                *scalar.status(),
                 "{q:?}"
             );
             for (slot, found) in plain.into_iter().enumerate() {
-                let Some(((q, _), careful)) = found.zip(careful.slot(slot)) else { continue };
-                let PoseError { position, rotation } = robot.residual(&q, &pose);
+                let Some(((q, _), scalar)) = found.zip(scalar.slot(slot)) else { continue };
+                let PoseDifference { position, rotation } = robot.residual(&q, &pose);
                 assert!(
                     position <= 3e-15 * reach && rotation <= 1e-14,
                     "{position:e} m, {rotation:e} rad at {q:?}"
@@ -270,22 +270,22 @@ where
                 let bound = 2.0 * (3e-15 * reach).hypot(1e-14) / jacobian.singular_values()[5];
                 let apart = q
                     .iter()
-                    .zip(&careful.q)
+                    .zip(&scalar.q)
                     .map(|(a, b)| (a - b - TAU * ((a - b) / TAU).round()).abs())
                     .fold(0.0, f64::max);
                 assert!(
                     apart <= bound,
                     "{apart:e} rad apart, bound {bound:e}: {q:?} and {:?}",
-                    careful.q
+                    scalar.q
                 );
             }
         }
     }
-    plain_poses
+    regular_poses
 }
 
 #[test]
-fn plain_and_careful_agree_in_every_family() {
+fn regular_and_scalar_agree_in_every_structure() {
     let tool = pose_from_euler_zyx([0.03, -0.02, 0.2], [0.3, -0.7, 1.1]).unwrap();
     let base = pose_from_euler_zyx([0.8, -0.5, 0.3], [-1.9, 0.4, 0.2]).unwrap();
     let limits = [[-7.0, 1.0], [-1.0, 4.5], [-4.7, -0.2], [-9.0, 9.0], [-PI, 0.3], [-0.3, PI]];

@@ -1,8 +1,8 @@
 //! An arm of seven joints has one more than a pose needs: which of the joint vectors of a pose is
 //! nearest to a seed.
 //!
-//! docs/spherical_shoulder.md, section 5, has the method and what it promises. [`grid`] looks at joint 7
-//! between the edges of reach, [`descent`] goes down the valleys of the cost that it shows,
+//! docs/spherical_shoulder.md, section 5, has the method and what it promises. [`grid`] looks at
+//! joint 7 between the edges of reach, [`descent`] goes down the valleys of the cost that it shows,
 //! [`free_joints`] chooses what a pose leaves open.
 
 mod descent;
@@ -92,7 +92,7 @@ impl Robot<7> {
     }
 
     fn shoulder_solver(&self) -> Option<&Solver<SphericalShoulder, 7, 8>> {
-        match self.structure() {
+        match self.solver() {
             SevenJoints::SphericalShoulder(solver) => Some(solver),
             SevenJoints::Unknown(_) => None,
         }
@@ -104,9 +104,10 @@ impl Robot<7> {
         let free = self
             .solve(*pose, &FreeChoice::seed(q))?
             .slot(slot.index())
-            .and_then(|solution| solution.free);
-        let status = Status::FOUND | Status::WITHIN_LIMITS | self.singularity(&q).kinds;
-        Ok(Solution { q, slot, status, free })
+            .and_then(|solution| solution.free_joint);
+        let status =
+            Status::FOUND | Status::WITHIN_LIMITS | Status::from(self.singularity(&q).kinds);
+        Ok(Solution { q, slot, status, free_joint: free })
     }
 }
 
@@ -202,7 +203,7 @@ impl Search<'_> {
     }
 
     fn outside(&self, q: &[f64; 7]) -> f64 {
-        if self.robot.limits().contain(q) {
+        if self.robot.limits().contains(q) {
             0.0
         } else {
             (0..7).map(|joint| self.robot.limits().excess(joint, q[joint])).fold(0.0, f64::max)

@@ -95,7 +95,7 @@ impl Search<'_> {
                 joints_outside: self.joints_outside(&q),
                 outside: self.outside(&q),
                 cost: self.cost(&q),
-                is_free: solution.free.is_some() || solution.status.contains(Status::ELBOW),
+                is_free: solution.free_joint.is_some() || solution.status.contains(Status::ELBOW),
             })
         });
         slots.iter().flatten().for_each(|sample: &Sample| self.keep(&sample.q));

@@ -57,7 +57,8 @@ where
         }
         for (i, (q, status)) in q_blocks.iter_mut().zip(status_blocks).enumerate() {
             let mut poses = next;
-            // Read before the block at hand is solved: what is written number by number cannot be read at once in vectors.
+            // Read before the block at hand is solved: what is written number by number cannot be
+            // read at once in vectors.
             if let Some(following) = blocks.get(i + 1) {
                 next.read(following);
             }
@@ -83,7 +84,8 @@ where
     }
 }
 
-/// What a block is solved with. A type, because a closure is not inlined into a kernel for certain, and then not compiled for its instructions.
+/// What a block is solved with. A type, because a closure is not inlined into a kernel for certain,
+/// and then not compiled for its instructions.
 struct Lanes<'a, K: LaneKernel<N, S>, const N: usize, const S: usize> {
     kernel: &'a K,
     columns: &'a Columns<N>,

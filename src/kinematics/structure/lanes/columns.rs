@@ -13,15 +13,16 @@ use crate::kinematics::thresholds::LIMIT_TOLERANCE;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Columns<const N: usize> {
     pub(crate) joints: [JointColumn; N],
-    /// How much of theta_2 is taken off theta_23 for joint 3: one, or nothing of an arm with coupled axes (eq. 25).
-    pub(crate) serial: f64,
-    /// The serial joint 3, of an arm whose rod has limits.
-    pub(crate) rod: Option<JointColumn>,
+    /// How much of theta_2 is taken off theta_23 for joint 3: one, or nothing of an arm with
+    /// coupled axes (eq. 25).
+    pub(crate) uncoupled: f64,
+    /// The serial joint 3, of an arm whose linkage has limits.
+    pub(crate) linkage: Option<JointColumn>,
 }
 
 impl<const N: usize> Columns<N> {
-    /// `differences` are the joints, from 0, whose theta is a difference of two angles. `None` where
-    /// limits ask for more than what lanes do.
+    /// `differences` are the joints, from 0, whose theta is a difference of two angles. `None`
+    /// where limits ask for more than what lanes do.
     pub(crate) fn of(
         map: &JointMap<N>,
         differences: &[usize],
@@ -32,16 +33,17 @@ impl<const N: usize> Columns<N> {
             JointColumn::of(signs, offsets, limits, differences)
         };
         let of_controller = if map.coupled { coupled(*offsets) } else { *offsets };
-        let rod = match limits.rod() {
-            Some(rod) => Some(column(offsets, &[rod; N])?[2]),
+        let linkage = match limits.linkage() {
+            Some(linkage) => Some(column(offsets, &[linkage; N])?[2]),
             None => None,
         };
-        let serial = if map.coupled { 0.0 } else { 1.0 };
-        Some(Self { joints: column(&of_controller, &limits.to_array())?, serial, rod })
+        let uncoupled = if map.coupled { 0.0 } else { 1.0 };
+        Some(Self { joints: column(&of_controller, &limits.to_array())?, uncoupled, linkage })
     }
 }
 
-/// How the angle of one joint comes from theta, and what its limits ask of it: the same for every lane.
+/// How the angle of one joint comes from theta, and what its limits ask of it: the same for every
+/// lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct JointColumn {
     sign: f64,
@@ -94,9 +96,10 @@ impl JointColumn {
         if self.holds(angle) { u64::MAX } else { Self::OUTSIDE }
     }
 
-    /// The angle of this joint in (-pi, pi], or the full turn inside the limits (eq. 19, 20), and whether it is inside.
+    /// The angle of this joint in (-pi, pi], or the full turn inside the limits (eq. 19, 20), and
+    /// whether it is inside.
     #[inline(always)]
-    pub(crate) fn settled(self, theta: f64) -> (f64, bool) {
+    pub(crate) fn wrapped(self, theta: f64) -> (f64, bool) {
         let angle = self.turned(self.moved(theta));
         (angle, self.holds(angle))
     }
@@ -104,12 +107,13 @@ impl JointColumn {
     /// What is left of the status of a lane with this theta, at whatever turn.
     #[inline(always)]
     pub(crate) fn left_of(self, theta: f64) -> u64 {
-        if self.settled(theta).1 { u64::MAX } else { Self::OUTSIDE }
+        if self.wrapped(theta).1 { u64::MAX } else { Self::OUTSIDE }
     }
 
-    /// [`Self::settled`] for many, leaving out what this joint does not need. Takes `WITHIN_LIMITS` from the status of those outside.
+    /// [`Self::settled`] for many, leaving out what this joint does not need. Takes `WITHIN_LIMITS`
+    /// from the status of those outside.
     #[inline(always)]
-    pub(crate) fn settle(self, angles: &mut [f64], status: &mut [u64]) {
+    pub(crate) fn wrap(self, angles: &mut [f64], status: &mut [u64]) {
         if self.moves {
             for angle in angles.iter_mut() {
                 *angle = self.moved(*angle);
@@ -133,7 +137,8 @@ impl JointColumn {
         }
     }
 
-    /// In (-pi, pi]. Theta is within a turn of zero and the offset within half a turn, so that one turn is enough.
+    /// In (-pi, pi]. Theta is within a turn of zero and the offset within half a turn, so that one
+    /// turn is enough.
     #[inline(always)]
     fn moved(self, theta: f64) -> f64 {
         let angle = self.sign * (theta + self.offset);

@@ -30,11 +30,13 @@ pub(crate) type StatusRow<const S: usize> = [u8; S];
 /// Flags of a branch that reaches, before the limits are looked at.
 pub(crate) const FOUND_INSIDE: u64 = Status::FOUND.union(Status::WITHIN_LIMITS).bits() as u64;
 
-/// The branches of a structure in arithmetic alone, without a branch of the program: what runs in lanes.
+/// The branches of a structure in arithmetic alone, without a branch of the program: what runs in
+/// lanes.
 ///
-/// Where a branch does not reach, its flags are empty and its angles are not numbers, as the root of a negative number is: that is what rows
-/// of an answer hold there. It solves regular poses and reports which poses are: those away from every singularity and from the edge of reach, on all branches. It
-/// holds the constants of an arm that are ready to be calculated with.
+/// Where a branch does not reach, its flags are empty and its angles are not numbers, as the root
+/// of a negative number is: that is what rows of an answer hold there. It solves regular poses and
+/// reports which poses are: those away from every singularity and from the edge of reach, on all
+/// branches. It holds the constants of an arm that are ready to be calculated with.
 pub(crate) trait LaneKernel<const N: usize, const S: usize>:
     Copy + Debug + PartialEq
 {
@@ -50,7 +52,8 @@ pub(crate) trait LaneKernel<const N: usize, const S: usize>:
     /// The slots of a block of poses.
     type Block: Block<Self, N, S>;
 
-    /// Solves the last frame of the structure, seen from its first; nothing where it is not regular. Must be `#[inline(always)]`.
+    /// Solves the last frame of the structure, seen from its first; nothing where it is not
+    /// regular. Must be `#[inline(always)]`.
     fn solve_one<const FUSED: bool>(
         &self,
         columns: &Columns<N>,
@@ -71,7 +74,8 @@ pub(crate) fn half_turn(angle: f64) -> f64 {
     angle + if angle > 0.0 { -core::f64::consts::PI } else { core::f64::consts::PI }
 }
 
-/// An angle that branches share, of a branch with this status: not a number where it does not reach, as the angles that are its own.
+/// An angle that branches share, of a branch with this status: not a number where it does not
+/// reach, as the angles that are its own.
 #[inline(always)]
 pub(crate) fn where_found(status: u64, angle: f64) -> f64 {
     if status == 0 { f64::NAN } else { angle }

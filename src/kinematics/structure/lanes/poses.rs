@@ -77,7 +77,7 @@ impl Poses {
     #[inline(always)]
     #[expect(
         clippy::float_cmp,
-        reason = "another last row goes the careful way, which has room for rounding"
+        reason = "another last row goes the scalar way, which has room for rounding"
     )]
     pub(crate) fn check(&mut self) -> Flags {
         let (mut sound, mut off) = ([0; LANES], [0; LANES]);

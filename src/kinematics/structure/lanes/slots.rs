@@ -15,17 +15,18 @@ impl<const N: usize, const S: usize> SlotColumns<N, S> {
 
     /// From theta to the joint angles, held against the limits.
     #[inline(always)]
-    pub(crate) fn settle(&mut self, columns: &[JointColumn; N]) {
+    pub(crate) fn wrap(&mut self, columns: &[JointColumn; N]) {
         for joint in 0..N {
-            columns[joint].settle(self.q[joint].as_flattened_mut(), self.status.as_flattened_mut());
+            columns[joint].wrap(self.q[joint].as_flattened_mut(), self.status.as_flattened_mut());
         }
     }
 
-    /// The same, with the last joint where it was `given`: of every slot that is found, it is that angle.
+    /// The same, with the last joint where it was `given`: of every slot that is found, it is that
+    /// angle.
     #[inline(always)]
-    pub(crate) fn settle_given(&mut self, columns: &[JointColumn; N], given: &Column) {
+    pub(crate) fn wrap_given(&mut self, columns: &[JointColumn; N], given: &Column) {
         for joint in 0..N - 1 {
-            columns[joint].settle(self.q[joint].as_flattened_mut(), self.status.as_flattened_mut());
+            columns[joint].wrap(self.q[joint].as_flattened_mut(), self.status.as_flattened_mut());
         }
         let last = columns[N - 1];
         for slot in 0..S {
@@ -76,8 +77,8 @@ impl<const N: usize, const S: usize> RegularSlots<N, S> {
 
     /// Puts theta of joint `joint`, from 0, into a slot as the joint's angle.
     #[inline(always)]
-    pub(crate) fn settle(&mut self, slot: usize, joint: usize, theta: f64, column: JointColumn) {
-        let (angle, inside) = column.settled(theta);
+    pub(crate) fn wrap(&mut self, slot: usize, joint: usize, theta: f64, column: JointColumn) {
+        let (angle, inside) = column.wrapped(theta);
         self.q[joint][slot] = angle;
         self.status[slot] &= if inside { u64::MAX } else { JointColumn::OUTSIDE };
     }

@@ -57,7 +57,7 @@ impl Block<Constants, 7, SLOTS> for ShoulderBlock {
         }
         self.directions.angles::<FUSED>();
         self.thetas();
-        self.slots.settle_given(&columns.joints, &q7);
+        self.slots.wrap_given(&columns.joints, &q7);
         self.regular
     }
 

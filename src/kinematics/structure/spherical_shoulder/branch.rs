@@ -1,7 +1,7 @@
 //! The branches of the arm in arithmetic alone: what runs in lanes.
 //!
-//! The equations are those of `elbow`, `wrist` and `shoulder`. A branch that is next to a singularity or to the edge of reach is not plain,
-//! and those modules decide.
+//! The equations are those of `elbow`, `wrist` and `shoulder`. A branch that is next to a
+//! singularity or to the edge of reach is not plain, and those modules decide.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -13,7 +13,7 @@ use crate::kinematics::structure::joint_map::JointMap;
 use crate::kinematics::structure::lanes::Direction;
 use crate::kinematics::structure::triangle::Triangle;
 use crate::kinematics::structure::zyz::zyz_directions;
-use crate::kinematics::thresholds::{PLAIN_ASIDE, PLAIN_ELBOW_SIN, PLAIN_WRIST_SIN};
+use crate::kinematics::thresholds::{REGULAR_ASIDE, REGULAR_ELBOW_SIN, REGULAR_WRIST_SIN};
 use crate::lanes::{mul_add, sin_cos};
 
 /// The constants of an arm that a branch is calculated with.
@@ -28,7 +28,8 @@ pub(crate) struct Constants {
     squares: f64,
     sin_psi: f64,
     cos_psi: f64,
-    /// Least size of m^2 (eq. 55) [m^4] and of the square of `aside` (eq. 60) [m^2] of a plain branch.
+    /// Least size of m^2 (eq. 55) [m^4] and of the square of `aside` (eq. 60) [m^2] of a plain
+    /// branch.
     plain_m2: f64,
     plain_aside2: f64,
     /// From the frame of joint 7 to the hand, and the sign and offset of joint 7.
@@ -41,7 +42,7 @@ impl Constants {
     pub(super) fn of(links: &Links, map: &JointMap<7>, t_seven_hand: &Pose) -> Self {
         let (upper, forearm, extent) = (links.upper, links.forearm, links.extent);
         let [sin_psi, cos_psi] = links.psi;
-        let (least_m, least_aside) = (PLAIN_ELBOW_SIN * links.product(), PLAIN_ASIDE * extent);
+        let (least_m, least_aside) = (REGULAR_ELBOW_SIN * links.product(), REGULAR_ASIDE * extent);
         // How far rounding may turn the upper arm of a plain branch (`wrist_error`, at its worst).
         let moved = links.direction_rounding() * (1.0 + (upper + forearm) * extent / least_m);
         let error = moved / least_aside * (1.0 + (upper + forearm) / least_aside);
@@ -55,8 +56,9 @@ impl Constants {
             sin_psi,
             cos_psi,
             plain_m2: least_m * least_m,
-            // Where that could hide a shoulder's branches, the arm being minute in its surroundings, nothing is plain.
-            plain_aside2: if error <= 0.1 * PLAIN_WRIST_SIN {
+            // Where that could hide a shoulder's branches, the arm being minute in its
+            // surroundings, nothing is plain.
+            plain_aside2: if error <= 0.1 * REGULAR_WRIST_SIN {
                 least_aside * least_aside
             } else {
                 f64::INFINITY
@@ -75,7 +77,8 @@ impl Constants {
     }
 }
 
-/// One branch of elbow and wrist: the directions of its angles, not a number where it does not reach.
+/// One branch of elbow and wrist: the directions of its angles, not a number where it does not
+/// reach.
 pub(super) struct Branch {
     pub(super) theta_1: Direction,
     /// With theta_2 in 0 ..= pi; the flipped shoulder follows by eq. 64.
@@ -89,7 +92,8 @@ pub(super) struct Branch {
     pub(super) plain: bool,
 }
 
-/// The branch with `elbow` (1, or -1 bent backwards) and `wrist` (1, or -1 with a negative cosine of theta_5) of a hand frame.
+/// The branch with `elbow` (1, or -1 bent backwards) and `wrist` (1, or -1 with a negative cosine
+/// of theta_5) of a hand frame.
 #[inline(always)]
 pub(super) fn branch<const FUSED: bool>(
     arm: &Constants,
@@ -122,7 +126,8 @@ pub(super) fn branch<const FUSED: bool>(
         mul_add::<FUSED>(aside, z, -(forward * x)),
         mul_add::<FUSED>(aside, x, forward * z),
     );
-    // The shoulder (eq. 63): the rotation of the hand times the transpose of Ry(theta_4) Rz(theta_5) Ry(theta_6).
+    // The shoulder (eq. 63): the rotation of the hand times the transpose of Ry(theta_4)
+    // Rz(theta_5) Ry(theta_6).
     let (c56, s56) = (cos_5 * cos_6, cos_5 * sin_6);
     let first = [
         mul_add::<FUSED>(cos_4, c56, -(sin_4 * sin_6)),
@@ -154,7 +159,7 @@ pub(super) fn branch<const FUSED: bool>(
         reached,
         plain: (m2.abs() >= arm.plain_m2)
             & ((m2 < 0.0) | (aside2.abs() >= arm.plain_aside2))
-            & (!reached | (sin_2 >= PLAIN_WRIST_SIN)),
+            & (!reached | (sin_2 >= REGULAR_WRIST_SIN)),
     }
 }
 

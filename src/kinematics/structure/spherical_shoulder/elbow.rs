@@ -1,4 +1,5 @@
-//! Joint 4: the two triangles of upper arm, forearm and the line from the shoulder to where axes 5 and 6 meet.
+//! Joint 4: the two triangles of upper arm, forearm and the line from the shoulder to where axes 5
+//! and 6 meet.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -16,14 +17,16 @@ pub(super) struct Elbows {
 }
 
 impl Links {
-    /// Both elbows for a shoulder at distance r, or up to the tolerance beyond reach (eq. 54 to 57).
+    /// Both elbows for a shoulder at distance r, or up to the tolerance beyond reach (eq. 54 to
+    /// 57).
     pub(super) fn elbows(&self, target: &Target<'_>) -> Result<Elbows, Reach> {
         let (r, r2) = (target.r, target.r * target.r);
         let triangle = Triangle::reaching([self.upper, self.forearm], r, target.tolerance)?;
         let m2 = triangle.m2(r2);
-        if self.is_onto_itself(r, target.free.trust.radius()) || m2 <= self.straight_m2(r) {
+        if self.is_onto_itself(r, target.free.policy.radius()) || m2 <= self.straight_m2(r) {
             let cos_e = if triangle.is_stretched(r2) { 1.0 } else { -1.0 };
-            // The arm that made the pose may have been bent by as much as counts as straight, and by rounding on top of that.
+            // The arm that made the pose may have been bent by as much as counts as straight, and
+            // by rounding on top of that.
             let error = 2.0 * self.straight_m2(r).sqrt() / self.product();
             let straight =
                 Elbow { straight: true, error, ..self.elbow(self.joint_4([0.0, cos_e])) };
@@ -37,8 +40,9 @@ impl Links {
         Ok(Elbows { forwards: bent(m), backwards: Some(bent(-m)) })
     }
 
-    /// The elbow turned as far as its rounding leaves it open, so that the wrist just reaches (eq. 67): next to a straight arm a rounding of
-    /// the pose is a large part of joint 4, and a pose at the edge of the wrist's reach says by that edge which joint 4 it has.
+    /// The elbow turned as far as its rounding leaves it open, so that the wrist just reaches (eq.
+    /// 67): next to a straight arm a rounding of the pose is a large part of joint 4, and a pose at
+    /// the edge of the wrist's reach says by that edge which joint 4 it has.
     pub(super) fn eased(&self, elbow: &Elbow, target: &Target<'_>) -> Option<Elbow> {
         let (high, rho) = (target.seen[1].abs(), target.rho);
         let to_edge = |elbow: &Elbow| {
@@ -52,11 +56,11 @@ impl Links {
         self.turned(elbow, to_edge, target)
     }
 
-    /// The straight elbow bent as far as its rounding leaves it open, so that joint 5 keeps the angle of a seed: a shoulder that is on axis
-    /// 5 to rounding says no more of it.
+    /// The straight elbow bent as far as its rounding leaves it open, so that joint 5 keeps the
+    /// angle of a seed: a shoulder that is on axis 5 to rounding says no more of it.
     pub(super) fn bent_for_seed(&self, elbow: &Elbow, target: &Target<'_>) -> Option<Elbow> {
         let open = self.speeds(elbow)[0].abs() * elbow.error;
-        if !elbow.straight || target.free.trust.radius() == 0.0 || elbow.across.abs() > open {
+        if !elbow.straight || target.free.policy.radius() == 0.0 || elbow.across.abs() > open {
             return None;
         }
         let across = -target.seen[1] / target.free_theta[4].sin();
@@ -93,5 +97,6 @@ impl Links {
     }
 }
 
-/// Greatest turn of joint 4 that may still be a rounding [rad]: the square root of that of a position, with room.
+/// Greatest turn of joint 4 that may still be a rounding [rad]: the square root of that of a
+/// position, with room.
 const MOST_EASING: f64 = 1e-6;

@@ -80,8 +80,8 @@ impl Wave {
 }
 
 impl SphericalShoulder {
-    /// The angles of joint 7 [rad], in (-pi, pi], between which no branch begins or ends, for the frame of joint 7 before
-    /// its turn.
+    /// The angles of joint 7 [rad], in (-pi, pi], between which no branch begins or ends, for the
+    /// frame of joint 7 before its turn.
     pub(crate) fn edges_of_joint_7(&self, t_shoulder_seven: &Pose) -> [Option<f64>; EDGES] {
         let links = &self.links;
         let (upper2, forearm2) = (links.upper * links.upper, links.forearm * links.forearm);

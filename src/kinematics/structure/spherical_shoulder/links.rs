@@ -6,7 +6,8 @@ use nalgebra::{ComplexField as _, RealField as _};
 use crate::kinematics::pose::Pose;
 use crate::kinematics::thresholds::{POSITION_ROUNDING, SHOULDER_MERGE};
 
-/// Upper arm and forearm. Both run along z of the arm standing straight up; x points to where axis 4 stands off axis 3.
+/// Upper arm and forearm. Both run along z of the arm standing straight up; x points to where axis
+/// 4 stands off axis 3.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Links {
     /// Distance of axis 4 from axis 3 [m].
@@ -27,7 +28,8 @@ pub(super) struct Links {
     pub(super) extent: f64,
 }
 
-/// One way for the elbow to stand, and where the shoulder is then, seen from the forearm: in the plane of axes 3 and 5.
+/// One way for the elbow to stand, and where the shoulder is then, seen from the forearm: in the
+/// plane of axes 3 and 5.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Elbow {
     pub(super) sin_4: f64,
@@ -62,7 +64,8 @@ impl Links {
         POSITION_ROUNDING * self.extent
     }
 
-    /// How far rounding commonly moves a position of this arm [m]: a link of lever l turns by this over l.
+    /// How far rounding commonly moves a position of this arm [m]: a link of lever l turns by this
+    /// over l.
     pub(super) fn direction_rounding(&self) -> f64 {
         2.0 * f64::EPSILON * self.extent
     }
@@ -71,14 +74,16 @@ impl Links {
         self.upper * self.forearm
     }
 
-    /// The square of m (eq. 55) below which a straight arm reaches the shoulder too, to half the rounding of a position.
+    /// The square of m (eq. 55) below which a straight arm reaches the shoulder too, to half the
+    /// rounding of a position.
     pub(super) fn straight_m2(&self, r: f64) -> f64 {
         self.position_rounding() * r * self.product()
     }
 
-    /// Whether the shoulder, at distance `r` from where axes 5 and 6 meet, counts as being there, what is below `radius`
-    /// being no distance [m]. Then neither elbow says anything of joints 5 and 6: the shoulder may be that far from each
-    /// of their axes, at a right angle, and the rounding of eq. 58 is a tenth of it at most.
+    /// Whether the shoulder, at distance `r` from where axes 5 and 6 meet, counts as being there,
+    /// what is below `radius` being no distance [m]. Then neither elbow says anything of joints 5
+    /// and 6: the shoulder may be that far from each of their axes, at a right angle, and the
+    /// rounding of eq. 58 is a tenth of it at most.
     pub(super) fn is_onto_itself(&self, r: f64, radius: f64) -> bool {
         r <= 1.5 * radius.max(self.position_rounding())
     }
@@ -128,7 +133,8 @@ impl Links {
         self.is_onto_itself(r, 0.0) || (self.product() * sin_e).powi(2) <= self.straight_m2(r)
     }
 
-    /// Whether both branches of the wrist count as one: on axis 5, on axis 6, or where the two meet.
+    /// Whether both branches of the wrist count as one: on axis 5, on axis 6, or where the two
+    /// meet.
     pub(super) fn wrist_is_one(&self, elbow: &Elbow, theta_5: f64) -> bool {
         let (sin_5, cos_5) = theta_5.sin_cos();
         let (aside, high) = (elbow.across * cos_5, (elbow.across * sin_5).abs());

@@ -14,7 +14,8 @@ use crate::kinematics::structure::recognition::{JointFrame, angle, axes, rotatio
 use crate::kinematics::thresholds::FORM_TOLERANCE;
 use crate::report::{Pattern, Relation, UnknownStructure};
 
-/// The conditions of a spherical shoulder, an elbow that may be offset either way, and a forearm that ends where axis 6 meets it.
+/// The conditions of a spherical shoulder, an elbow that may be offset either way, and a forearm
+/// that ends where axis 6 meets it.
 pub(crate) static PATTERN: Pattern = Pattern {
     name: "spherical shoulder",
     title: "a spherical shoulder and an offset elbow",
@@ -32,8 +33,8 @@ pub(crate) static PATTERN: Pattern = Pattern {
     ],
 };
 
-/// Reads the geometry off the frames at q = 0 (docs/spherical_shoulder.md, section 8). Lengths come from the rows, so that none is lost to
-/// rounding; the frames give the directions.
+/// Reads the geometry off the frames at q = 0 (docs/spherical_shoulder.md, section 8). Lengths come
+/// from the rows, so that none is lost to rounding; the frames give the directions.
 pub(super) fn measure(mdh: &Mdh<7>) -> Result<SphericalShoulder, UnknownStructure> {
     let rows = &mdh.rows;
     let chain = Chain::new(Mdh { base: Pose::identity(), ..mdh.clone() });

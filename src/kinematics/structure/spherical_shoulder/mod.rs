@@ -1,5 +1,5 @@
-//! Arms of seven axes with a spherical shoulder and an offset elbow, the angle of the last joint being told: axes 1, 2, 3 through one point,
-//! axes 5 and 6 meeting, axis 7 anywhere.
+//! Arms of seven axes with a spherical shoulder and an offset elbow, the angle of the last joint
+//! being determined: axes 1, 2, 3 through one point, axes 5 and 6 meeting, axis 7 anywhere.
 //!
 //! `docs/spherical_shoulder.md` has the derivation; its equation numbers stand beside the code.
 
@@ -32,7 +32,7 @@ use super::branches::Branches;
 use super::free_choice::FreeChoice;
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
-use crate::kinematics::answer::status::Status;
+use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::distance_from_half_turns;
@@ -91,14 +91,18 @@ impl Structure<7, 8> for SphericalShoulder {
         }
     }
 
-    /// A solve, which does not know `q`, also merges a shoulder by what the pose leaves open of elbow and wrist.
+    /// A solve, which does not know `q`, also merges a shoulder by what the pose leaves open of
+    /// elbow and wrist.
     #[inline]
-    fn kinds(&self, q: &[f64; 7]) -> Status {
+    fn kinds(&self, q: &[f64; 7]) -> SingularityKind {
         let [_, theta_2, _, theta_4, theta_5, ..] = self.theta(q);
-        let mut kinds = Status::empty();
-        kinds.set(Status::WRIST, self.links.wrist_is_one(&self.links.elbow_at(theta_4), theta_5));
-        kinds.set(Status::ELBOW, self.links.is_straight(theta_4));
-        kinds.set(Status::SHOULDER, theta_2.sin().abs() <= WRIST_MERGE_SIN);
+        let mut kinds = SingularityKind::empty();
+        kinds.set(
+            SingularityKind::WRIST,
+            self.links.wrist_is_one(&self.links.elbow_at(theta_4), theta_5),
+        );
+        kinds.set(SingularityKind::ELBOW, self.links.is_straight(theta_4));
+        kinds.set(SingularityKind::SHOULDER, theta_2.sin().abs() <= WRIST_MERGE_SIN);
         kinds
     }
 

@@ -55,13 +55,13 @@ impl LaneKernel<7, SLOTS> for Constants {
             return None;
         }
         directions.angles::<FUSED>();
-        Some(settled(&columns, &directions.angle, status, q7))
+        Some(wrapped(&columns, &directions.angle, status, q7))
     }
 }
 
 /// Joint angles of the slots, with both shoulders (eq. 64).
 #[inline(always)]
-fn settled(
+fn wrapped(
     columns: &[JointColumn; 7],
     angle: &[[f64; BRANCHES]; 6],
     status: [u64; BRANCHES],
@@ -74,16 +74,16 @@ fn settled(
         let (theta_1, theta_2, theta_3) =
             (angle[THETA_1][lane], angle[THETA_2][lane], angle[THETA_3][lane]);
         [slots.status[lane], slots.status[flipped]] = [status[lane] & given; 2];
-        slots.settle(lane, 0, theta_1, columns[0]);
-        slots.settle(lane, 1, theta_2, columns[1]);
-        slots.settle(lane, 2, theta_3, columns[2]);
-        slots.settle(flipped, 0, half_turn(theta_1), columns[0]);
-        slots.settle(flipped, 1, -theta_2, columns[1]);
-        slots.settle(flipped, 2, half_turn(theta_3), columns[2]);
+        slots.wrap(lane, 0, theta_1, columns[0]);
+        slots.wrap(lane, 1, theta_2, columns[1]);
+        slots.wrap(lane, 2, theta_3, columns[2]);
+        slots.wrap(flipped, 0, half_turn(theta_1), columns[0]);
+        slots.wrap(flipped, 1, -theta_2, columns[1]);
+        slots.wrap(flipped, 2, half_turn(theta_3), columns[2]);
         for slot in [lane, flipped] {
-            slots.settle(slot, 3, angle[THETA_4][lane], columns[3]);
-            slots.settle(slot, 4, angle[THETA_5][lane], columns[4]);
-            slots.settle(slot, 5, angle[THETA_6][lane], columns[5]);
+            slots.wrap(slot, 3, angle[THETA_4][lane], columns[3]);
+            slots.wrap(slot, 4, angle[THETA_5][lane], columns[4]);
+            slots.wrap(slot, 5, angle[THETA_6][lane], columns[5]);
             slots.q[6][slot] = q7;
         }
     }

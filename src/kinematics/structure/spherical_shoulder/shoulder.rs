@@ -6,14 +6,14 @@ use super::links::Elbow;
 use super::target::Target;
 use super::wrist::Wrist;
 use crate::kinematics::structure::zyz::{First, Zyz, zyz};
-use crate::kinematics::thresholds::PLAIN_WRIST_SIN;
+use crate::kinematics::thresholds::REGULAR_WRIST_SIN;
 
 /// The angles of the shoulder (eq. 63 and 64). `error` is how far rounding may turn the upper arm.
 pub(super) fn shoulder(elbow: &Elbow, wrist: &Wrist, target: &Target<'_>, error: f64) -> Zyz {
     let upper_arm = target.rotation * upper_arm_to_hand(elbow, wrist).transpose();
-    let first = First { joint: 1, theta: target.free_theta[0], trust: target.free.trust };
+    let first = First { joint: 1, theta: target.free_theta[0], policy: target.free.policy };
     // Where elbow and wrist are open by more than that, the upper arm is not, once they are chosen.
-    zyz(&upper_arm, &first, error.min(PLAIN_WRIST_SIN))
+    zyz(&upper_arm, &first, error.min(REGULAR_WRIST_SIN))
 }
 
 /// `Ry(theta_4) Rz(theta_5) Ry(theta_6)`.

@@ -144,7 +144,8 @@ impl SphericalShoulder {
             q[6] = target.free.q[6];
             q
         };
-        // A free theta_1 that was given may leave theta_2 negative: then the flipped slot is the one that is kept.
+        // A free theta_1 that was given may leave theta_2 negative: then the flipped slot is the
+        // one that is kept.
         let (kept, flipped) =
             if theta_2 < 0.0 { (slot + SHOULDER, slot) } else { (slot, slot + SHOULDER) };
         branches.q[kept] = Some(joints(theta_1, theta_2, theta_3));

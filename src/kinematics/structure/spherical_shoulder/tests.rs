@@ -6,11 +6,12 @@ use std::string::String;
 use std::vec::Vec;
 
 use super::*;
+use crate::kinematics::answer::status::Status;
 use crate::kinematics::chain::Chain;
-use crate::kinematics::pose::PoseError;
+use crate::kinematics::pose::PoseDifference;
 use crate::kinematics::structure::any::recognized;
 use crate::kinematics::structure::branches::Branches;
-use crate::kinematics::structure::free_choice::{FreeChoice, Trust};
+use crate::kinematics::structure::free_choice::{FreeChoice, SeedPolicy};
 use crate::kinematics::structure::solver::Solver;
 use crate::rng::Rng;
 use crate::structures::place::{At, Place};
@@ -44,7 +45,7 @@ impl Solved {
 
     /// The worst distance of a solution from the pose.
     fn residual(&self, branches: &Branches<7>, pose: &Pose) -> f64 {
-        let of = |q: &[f64; 7]| PoseError::between(&self.chain.fk(q), pose).largest();
+        let of = |q: &[f64; 7]| PoseDifference::between(&self.chain.fk(q), pose).largest();
         // What is not a number stays the worst.
         branches.q.iter().flatten().map(of).fold(0.0, |a, b| if b <= a { a } else { b })
     }
@@ -110,16 +111,16 @@ fn judge(arm: &Solved, theta: &[f64; 7]) -> Option<String> {
     let q = arm.arm.q(*theta);
     let pose = arm.chain.fk(&q);
     let bounds = arm.arm.bounds(theta, KEPT);
-    for trust in [Trust::Seed, Trust::Path] {
-        let kept = arm.solve(&pose, &FreeChoice { q, trust });
+    for policy in [SeedPolicy::Seed, SeedPolicy::Path] {
+        let kept = arm.solve(&pose, &FreeChoice { q, policy });
         let is_found =
             |found: &[f64; 7]| ShoulderArm::is_branch(&arm.arm.theta(found), theta, &bounds);
         let found = kept.q.iter().flatten().any(is_found);
         // A path goes on by itself as far as rounding leaves the upper arm open.
-        let allowed = 4e-12 + if trust == Trust::Path { bounds[2] } else { 0.0 };
+        let allowed = 4e-12 + if policy == SeedPolicy::Path { bounds[2] } else { 0.0 };
         let residual = arm.residual(&reached(arm, theta, &kept), &pose);
         if !found || residual > allowed || residual.is_nan() {
-            return Some(format!("{trust:?} {q:?} {bounds:?} {residual:e}: {kept:?}"));
+            return Some(format!("{policy:?} {q:?} {bounds:?} {residual:e}: {kept:?}"));
         }
     }
     None
@@ -154,7 +155,7 @@ fn a_free_joint_takes_the_angle_that_it_is_given() {
                     };
                     moved += 1;
                     assert!(
-                        family_closes(&arm, &pose, q, slot, free.joint()),
+                        self_motion_closes(&arm, &pose, q, slot, free.joint()),
                         "{}: {q:?}",
                         arm.name
                     );
@@ -165,7 +166,13 @@ fn a_free_joint_takes_the_angle_that_it_is_given() {
     assert!(moved > 10 * poses(), "{moved}");
 }
 
-fn family_closes(arm: &Solved, pose: &Pose, found: [f64; 7], slot: usize, joint: usize) -> bool {
+fn self_motion_closes(
+    arm: &Solved,
+    pose: &Pose,
+    found: [f64; 7],
+    slot: usize,
+    joint: usize,
+) -> bool {
     let mut q = found;
     q[joint - 1] = 0.7;
     let family = arm.solve(pose, &FreeChoice::forced(q, joint, false));
@@ -174,6 +181,6 @@ fn family_closes(arm: &Solved, pose: &Pose, found: [f64; 7], slot: usize, joint:
     let moved = bits.iter().find_map(|bits| family.q[slot ^ bits]);
     moved.is_some_and(|q| {
         (q[joint - 1] - 0.7).abs() < 1e-15
-            && PoseError::between(&arm.chain.fk(&q), pose).largest() < 4e-9
+            && PoseDifference::between(&arm.chain.fk(&q), pose).largest() < 4e-9
     })
 }

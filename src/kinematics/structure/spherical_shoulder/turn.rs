@@ -4,7 +4,7 @@
 use nalgebra::{ComplexField as _, RealField as _};
 
 use crate::kinematics::pose::angles::wrap;
-use crate::kinematics::structure::free_choice::Trust;
+use crate::kinematics::structure::free_choice::SeedPolicy;
 use crate::kinematics::thresholds::SEEDED_FREE;
 
 #[derive(Clone, Copy, Debug)]
@@ -29,12 +29,13 @@ impl Turn {
         Self { theta: sin.atan2(cos), sin: sin / norm, cos: cos / norm }
     }
 
-    /// Of two turns that a pose tells of a joint that moves it by no more than `lever` [m], the one nearer to the angle `free`. A path keeps
-    /// `free` as far as that moves the pose by no more than what is known of it: no leap from what a silent pose left open.
-    pub(super) fn told(twins: [Self; 2], free: f64, lever: f64, trust: Trust) -> Self {
+    /// Of two turns that a pose tells of a joint that moves it by no more than `lever` [m], the one
+    /// nearer to the angle `free`. A path keeps `free` as far as that moves the pose by no more
+    /// than what is known of it: no leap from what a silent pose left open.
+    pub(super) fn from_pose(twins: [Self; 2], free: f64, lever: f64, policy: SeedPolicy) -> Self {
         let [a, b] = twins;
         let nearer = if (b.theta - free).cos() > (a.theta - free).cos() { b } else { a };
-        if trust != Trust::Path {
+        if policy != SeedPolicy::Path {
             return nearer;
         }
         let open = (SEEDED_FREE / lever).min(1.0).asin();

@@ -30,11 +30,13 @@ pub(super) struct Wrists {
 }
 
 impl Links {
-    /// Both branches of the wrist (eq. 60 to 62), or how far the shoulder is from where this elbow can bring it [m].
+    /// Both branches of the wrist (eq. 60 to 62), or how far the shoulder is from where this elbow
+    /// can bring it [m].
     pub(super) fn wrists(&self, elbow: &Elbow, target: &Target<'_>) -> Result<Wrists, f64> {
         let (across, along, rho, high) =
             (elbow.across.abs(), elbow.along.abs(), target.rho, target.seen[1].abs());
-        // Both are the same number; each is accurate where the distance that it is made from is the larger one.
+        // Both are the same number; each is accurate where the distance that it is made from is the
+        // larger one.
         let aside_2 = if high < rho {
             (across - high) * (across + high)
         } else {
@@ -69,14 +71,16 @@ impl Links {
         })
     }
 
-    /// How far rounding may turn the upper arm about the line from the shoulder to where axes 5 and 6 meet [rad].
+    /// How far rounding may turn the upper arm about the line from the shoulder to where axes 5 and
+    /// 6 meet [rad].
     fn wrist_error(&self, elbow: &Elbow, target: &Target<'_>, aside: f64) -> f64 {
         let (across, rho) = (elbow.across.abs(), target.rho);
         let [speed_across, speed_along] = self.speeds(elbow);
         let (lever, speed) =
             if target.seen[1].abs() < rho { (across, speed_across) } else { (rho, speed_along) };
         let moved = self.direction_rounding() + speed.abs() * elbow.error;
-        // The root of what rounding adds to the square of `aside`, from zero or from where it stands.
+        // The root of what rounding adds to the square of `aside`, from zero or from where it
+        // stands.
         let aside_error = (lever * moved / aside).min((2.0 * lever * moved).sqrt());
         match (across <= SHOULDER_MERGE, rho <= SHOULDER_MERGE) {
             (true, true) => 0.0,
@@ -101,13 +105,18 @@ fn sixth(elbow: &Elbow, target: &Target<'_>, aside: f64) -> Turn {
 
 /// The shoulder is on axis 5: joint 5 is free, and joint 6 makes good for it.
 fn on_5(elbow: &Elbow, target: &Target<'_>, aside: f64, rounding: f64, on_axis_6: bool) -> Wrist {
-    let (trust, free, across) = (target.free.trust, target.free_theta[4], elbow.across.abs());
-    let fifth = if trust.forces(5) || across <= trust.radius().max(rounding) {
+    let (policy, free, across) = (target.free.policy, target.free_theta[4], elbow.across.abs());
+    let fifth = if policy.forces(5) || across <= policy.radius().max(rounding) {
         Turn::of(free)
     } else {
-        Turn::told([fifth(elbow, target, aside), fifth(elbow, target, -aside)], free, across, trust)
+        Turn::from_pose(
+            [fifth(elbow, target, aside), fifth(elbow, target, -aside)],
+            free,
+            across,
+            policy,
+        )
     };
-    let sixth = if on_axis_6 && (trust.forces(6) || target.rho <= trust.radius().max(rounding)) {
+    let sixth = if on_axis_6 && (policy.forces(6) || target.rho <= policy.radius().max(rounding)) {
         Turn::of(target.free_theta[5])
     } else {
         sixth(elbow, target, elbow.across * fifth.cos)
@@ -117,15 +126,15 @@ fn on_5(elbow: &Elbow, target: &Target<'_>, aside: f64, rounding: f64, on_axis_6
 
 /// The shoulder is on axis 6: joint 6 is free, and joint 5 makes good for it.
 fn on_6(elbow: &Elbow, target: &Target<'_>, aside: f64, rounding: f64) -> Wrist {
-    let (trust, free) = (target.free.trust, target.free_theta[5]);
-    let sixth = if trust.forces(6) || target.rho <= trust.radius().max(rounding) {
+    let (policy, free) = (target.free.policy, target.free_theta[5]);
+    let sixth = if policy.forces(6) || target.rho <= policy.radius().max(rounding) {
         Turn::of(free)
     } else {
-        Turn::told(
+        Turn::from_pose(
             [sixth(elbow, target, aside), sixth(elbow, target, -aside)],
             free,
             target.rho,
-            trust,
+            policy,
         )
     };
     let [x, _, z] = target.seen;

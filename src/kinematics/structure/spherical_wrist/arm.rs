@@ -8,7 +8,7 @@ use core::f64::consts::PI;
 use super::SphericalWrist;
 use super::wrist::{forearm_to_flange, wrist};
 use crate::kinematics::pose::angles::wrap;
-use crate::kinematics::structure::free_choice::Trust;
+use crate::kinematics::structure::free_choice::SeedPolicy;
 use crate::kinematics::structure::planar_arm::{Elbow, Shoulder, Target};
 use crate::kinematics::structure::zyz::Zyz;
 use crate::kinematics::thresholds::{PATH_WRIST_SIN, SEEDED_FREE};
@@ -49,7 +49,7 @@ impl SphericalWrist {
             Standing { shoulder, elbow, wrist: wrist(&m, target, error) }
         };
         let told = with_wrist((*shoulder, *elbow, open.error));
-        if target.free.trust != Trust::Path {
+        if target.free.policy != SeedPolicy::Path {
             return told;
         }
         let nearer = |best: Standing, turned: (Shoulder, Elbow, f64)| {
@@ -87,10 +87,12 @@ impl SphericalWrist {
         })
     }
 
-    /// On a path, a shoulder whose angle the pose leaves open, turned so that the wrist can keep the joint 4 that it is heading for.
+    /// On a path, a shoulder whose angle the pose leaves open, turned so that the wrist can keep
+    /// the joint 4 that it is heading for.
     ///
-    /// With theta_23 and theta_4 known, `R = Rz(theta_1) A Ry(theta_5) Rz(theta_6)` has the height of the approach axis on both sides:
-    /// `A20 sin theta_5 + A22 cos theta_5 = R22` (eq. 24), and theta_1 from its direction.
+    /// With theta_23 and theta_4 known, `R = Rz(theta_1) A Ry(theta_5) Rz(theta_6)` has the height
+    /// of the approach axis on both sides: `A20 sin theta_5 + A22 cos theta_5 = R22` (eq. 24), and
+    /// theta_1 from its direction.
     fn turned_for_wrist(
         &self,
         shoulder: &Shoulder,
@@ -114,7 +116,8 @@ impl SphericalWrist {
         let turned = Shoulder { sin_1: sin / norm, cos_1: cos / norm, ..*shoulder };
         let turn = (turned.sin_1 * shoulder.cos_1 - turned.cos_1 * shoulder.sin_1)
             .hypot(1.0 - turned.sin_1 * shoulder.sin_1 - turned.cos_1 * shoulder.cos_1);
-        // The wrist centre must not move by more than rounding or, where q1 is free, than the seed's radius.
+        // The wrist center must not move by more than rounding or, where q1 is free, than the
+        // seed's radius.
         let open = if shoulder.x.abs() <= SEEDED_FREE {
             SEEDED_FREE
         } else {
@@ -140,8 +143,8 @@ impl TurnedPlane<'_> {
         let Self { arm, shoulder, target, behind } = self;
         let turned = shoulder.turned(angle, target.wxy);
         let end = [turned.x - arm.planar.a1, target.wz];
-        let (theta_2, trust) = (target.free_theta[1], target.free.trust);
-        let elbows = arm.planar.elbows(end, target.tolerance, theta_2, trust).ok()?;
+        let (theta_2, policy) = (target.free_theta[1], target.free.policy);
+        let elbows = arm.planar.elbows(end, target.tolerance, theta_2, policy).ok()?;
         let elbow = elbows.behind.filter(|_| *behind).unwrap_or(elbows.front);
         Some((turned, elbow, turned.error + elbows.error))
     }

@@ -61,7 +61,7 @@ impl Block<Constants, 6, SLOTS> for WristBlock {
             self.branches::<FUSED, true>(*kernel, wrists);
         }
         self.directions.angles::<FUSED>();
-        self.settle::<FUSED>(columns);
+        self.wrap::<FUSED>(columns);
         self.regular
     }
 
@@ -111,15 +111,16 @@ impl WristBlock {
 
     /// Joint angles of the slots, with both wrists (eq. 18 to 20).
     #[inline(always)]
-    fn settle<const FUSED: bool>(&mut self, columns: &Columns<6>) {
-        let Columns { joints: columns, serial, rod } = columns;
+    fn wrap<const FUSED: bool>(&mut self, columns: &Columns<6>) {
+        let Columns { joints: columns, uncoupled, linkage } = columns;
         let angle = &self.directions.angle;
         for number in 0..BRANCHES {
             let (theta_2, theta_23) = (&angle[THETA_2 + number], &angle[THETA_23 + number]);
             self.q[0][number] = angle[THETA_1 + number / 2];
             self.q[1][number] = *theta_2;
             for lane in 0..LANES {
-                self.q[2][number][lane] = mul_add::<FUSED>(-serial, theta_2[lane], theta_23[lane]);
+                self.q[2][number][lane] =
+                    mul_add::<FUSED>(-uncoupled, theta_2[lane], theta_23[lane]);
                 self.flipped[0][number][lane] = half_turn(angle[THETA_4 + number][lane]);
                 self.flipped[1][number][lane] = -angle[THETA_5 + number][lane];
                 self.flipped[2][number][lane] = half_turn(angle[THETA_6 + number][lane]);
@@ -130,21 +131,22 @@ impl WristBlock {
         }
         for joint in 0..3 {
             columns[joint]
-                .settle(self.q[joint].as_flattened_mut(), self.status[0].as_flattened_mut());
+                .wrap(self.q[joint].as_flattened_mut(), self.status[0].as_flattened_mut());
         }
-        if let Some(rod) = rod {
+        if let Some(linkage) = linkage {
             for number in 0..BRANCHES {
                 for lane in 0..LANES {
-                    let serial_3 = angle[THETA_23 + number][lane] - angle[THETA_2 + number][lane];
-                    self.status[0][number][lane] &= rod.left_of(serial_3);
+                    let uncoupled_3 =
+                        angle[THETA_23 + number][lane] - angle[THETA_2 + number][lane];
+                    self.status[0][number][lane] &= linkage.left_of(uncoupled_3);
                 }
             }
         }
         self.status[1] = self.status[0];
         for joint in 3..6 {
             columns[joint]
-                .settle(self.q[joint].as_flattened_mut(), self.status[0].as_flattened_mut());
-            columns[joint].settle(
+                .wrap(self.q[joint].as_flattened_mut(), self.status[0].as_flattened_mut());
+            columns[joint].wrap(
                 self.flipped[joint - 3].as_flattened_mut(),
                 self.status[1].as_flattened_mut(),
             );

@@ -1,7 +1,8 @@
 //! One branch of the arm with both of its wrists, in arithmetic alone: what runs in lanes.
 //!
-//! The equations are those of `arm` and `wrist`, without a division: directions stay as long as they come out, for an arc tangent does not
-//! mind. A branch that is next to a singularity or to the edge of reach is not plain, and those modules decide.
+//! The equations are those of `arm` and `wrist`, without a division: directions stay as long as
+//! they come out, for an arc tangent does not mind. A branch that is next to a singularity or to
+//! the edge of reach is not plain, and those modules decide.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -12,7 +13,8 @@ use crate::kinematics::structure::planar_arm::PlanarArm;
 use crate::kinematics::structure::triangle::Triangle;
 use crate::kinematics::structure::zyz::zyz_directions;
 use crate::kinematics::thresholds::{
-    PLAIN_FOREARM, PLAIN_REACH, PLAIN_SHOULDER, PLAIN_WRIST_SIN, REACH_TOLERANCE, SHOULDER_MERGE,
+    REACH_TOLERANCE, REGULAR_FOREARM, REGULAR_REACH, REGULAR_SHOULDER, REGULAR_WRIST_SIN,
+    SHOULDER_MERGE,
 };
 use crate::lanes::mul_add;
 
@@ -26,18 +28,19 @@ pub(crate) struct Constants {
     sin_psi: f64,
     cos_psi: f64,
     /// Least x of the shoulder [m] and least size of m^2 (eq. 8) [m^4] of a plain branch.
-    plain_x: f64,
+    regular_x: f64,
     plain_m2: f64,
 }
 
 impl Constants {
     pub(super) fn of(arm: &PlanarArm) -> Self {
         let (c2, k, extent) = (arm.c2, arm.k, arm.extent);
-        let plain_x = (PLAIN_SHOULDER * extent).max(10.0 * SHOULDER_MERGE);
-        let plain_m2 = 2.0 * (PLAIN_REACH * extent).max(10.0 * REACH_TOLERANCE) * extent * c2 * k;
-        // How far rounding may turn the forearm of a plain branch, with the least r that such an m leaves (eq. 7 and 8).
+        let regular_x = (REGULAR_SHOULDER * extent).max(10.0 * SHOULDER_MERGE);
+        let plain_m2 = 2.0 * (REGULAR_REACH * extent).max(10.0 * REACH_TOLERANCE) * extent * c2 * k;
+        // How far rounding may turn the forearm of a plain branch, with the least r that such an m
+        // leaves (eq. 7 and 8).
         let (least_m, least_r) = (plain_m2.sqrt(), 2.0 * plain_m2.sqrt() / (c2 + k));
-        let error = arm.direction_rounding() * (1.0 / plain_x + c2 / least_m + 1.0 / least_r);
+        let error = arm.direction_rounding() * (1.0 / regular_x + c2 / least_m + 1.0 / least_r);
         Self {
             a1: arm.a1,
             b: arm.b,
@@ -45,10 +48,10 @@ impl Constants {
             triangle: Triangle::new(c2, k),
             sin_psi: arm.a2 / k,
             cos_psi: arm.c3 / k,
-            // Where that could hide a wrist's branches, the arm being minute in its surroundings, nothing is plain; nor where the forearm is
-            // so short that eq. 10 loses its length.
-            plain_x: if error <= 0.1 * PLAIN_WRIST_SIN && k >= PLAIN_FOREARM * c2 {
-                plain_x
+            // Where that could hide a wrist's branches, the arm being minute in its surroundings,
+            // nothing is plain; nor where the forearm is so short that eq. 10 loses its length.
+            regular_x: if error <= 0.1 * REGULAR_WRIST_SIN && k >= REGULAR_FOREARM * c2 {
+                regular_x
             } else {
                 f64::INFINITY
             },
@@ -71,8 +74,8 @@ pub(super) struct Branch {
     pub(super) plain: bool,
 }
 
-/// The branch with `shoulder` (1, or -1 with the wrist centre behind axis 1) and `elbow` (1, or -1 behind the lower arm) of a wrist frame;
-/// `LATERAL` where the arm has a lateral offset.
+/// The branch with `shoulder` (1, or -1 with the wrist center behind axis 1) and `elbow` (1, or -1
+/// behind the lower arm) of a wrist frame; `LATERAL` where the arm has a lateral offset.
 #[inline(always)]
 pub(super) fn branch<const FUSED: bool, const LATERAL: bool>(
     arm: &Constants,
@@ -119,9 +122,9 @@ pub(super) fn branch<const FUSED: bool, const LATERAL: bool>(
         theta_5,
         theta_6,
         reached,
-        plain: (size >= arm.plain_x)
+        plain: (size >= arm.regular_x)
             & (m2.abs() >= arm.plain_m2)
-            & (!reached | (sin_5 >= PLAIN_WRIST_SIN * length)),
+            & (!reached | (sin_5 >= REGULAR_WRIST_SIN * length)),
     }
 }
 

@@ -10,7 +10,7 @@ use crate::kinematics::pose::translation_z;
 use crate::kinematics::structure::joint_map::JointMap;
 use crate::kinematics::structure::planar_arm::PlanarArm;
 
-/// The geometry between the shoulder (on axis 1, at the height of axis 2) and the wrist centre.
+/// The geometry between the shoulder (on axis 1, at the height of axis 2) and the wrist center.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SphericalWrist {
     pub(super) planar: PlanarArm,
@@ -35,13 +35,15 @@ impl SphericalWrist {
         self.joint_map.theta(q)
     }
 
-    /// The sine of the elbow angle, x of the wrist centre in the plane of the arm [m], and the sine of joint 5, signed (eq. 21).
+    /// The sine of the elbow angle, x of the wrist center in the plane of the arm [m], and the sine
+    /// of joint 5, signed (eq. 21).
     pub(super) fn factors(&self, q: &[f64; 6]) -> [f64; 3] {
         let [_, theta_2, theta_3, _, theta_5, _] = self.theta(q);
         [self.planar.sin_elbow(theta_3), self.planar.x_of_end(theta_2, theta_3), theta_5.sin()]
     }
 
-    /// The angle of joint 4 nearest to that of `q` at which axis 5 is parallel to axes 2 and 3 [rad]: 0 or 180 deg for ABB's arms.
+    /// The angle of joint 4 nearest to that of `q` at which axis 5 is parallel to axes 2 and 3
+    /// [rad]: 0 or 180 deg for ABB's arms.
     pub(crate) fn axis_4_in_plane(&self, q: &[f64; 6]) -> f64 {
         let theta_4 = self.theta(q)[3];
         q[3] + self.joint_map.signs[3] * (PI * (theta_4 / PI).round() - theta_4)

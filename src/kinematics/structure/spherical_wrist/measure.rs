@@ -16,7 +16,8 @@ use crate::kinematics::structure::recognition::{JointFrame, angle, axes, rotatio
 use crate::kinematics::thresholds::FORM_TOLERANCE;
 use crate::report::{Pattern, Relation, UnknownStructure};
 
-/// The conditions of an ortho-parallel basis with a spherical wrist. Axes 4 and 6 meet axis 5 in one point.
+/// The conditions of an ortho-parallel basis with a spherical wrist. Axes 4 and 6 meet axis 5 in
+/// one point.
 pub(crate) static PATTERN: Pattern = Pattern {
     name: "spherical wrist",
     title: "a spherical wrist on an ortho-parallel base",
@@ -32,14 +33,15 @@ pub(crate) static PATTERN: Pattern = Pattern {
     ],
 };
 
-/// Reads the geometry off the frames at q = 0 (docs/spherical_wrist.md, section 7). Lengths come from the rows, so that none is lost to
-/// rounding; the frames give the directions.
+/// Reads the geometry off the frames at q = 0 (docs/spherical_wrist.md, section 7). Lengths come
+/// from the rows, so that none is lost to rounding; the frames give the directions.
 pub(super) fn measure(mdh: &mut Mdh<6>) -> Result<SphericalWrist, UnknownStructure> {
     let rows = mdh.rows;
     let chain = Chain::new(Mdh { base: Pose::identity(), ..mdh.clone() });
     let [f1, f2, f3, f4, f5, f6] = chain.link_frames(&[0.0; 6]).0.map(|pose| JointFrame::of(&pose));
 
-    // The shoulder: z up, x to where the arm stands off axis 1, or to where it faces at q1 = 0 when it does not.
+    // The shoulder: z up, x to where the arm stands off axis 1, or to where it faces at q1 = 0 when
+    // it does not.
     let sign_1 = if f1.z.z < -FORM_TOLERANCE { -1.0 } else { 1.0 };
     let up = f1.z * sign_1;
     let forward = f1.x * facing(rows[1].a, &f1.x);
@@ -65,7 +67,7 @@ pub(super) fn measure(mdh: &mut Mdh<6>) -> Result<SphericalWrist, UnknownStructu
 
     PATTERN.check_lengths([
         ("upper arm (distance of axes 2 and 3)", c2),
-        ("forearm (distance of the wrist centre from axis 3)", a2.hypot(c3)),
+        ("forearm (distance of the wrist center from axis 3)", a2.hypot(c3)),
     ])?;
     let wrist_at_zero = axes(&axis_5.cross(&approach), &axis_5, &approach);
     let t_wrist_last = rotation_pose(wrist_at_zero.transpose() * axes(&f6.x, &f6.y, &f6.z))

@@ -1,4 +1,5 @@
-//! Arms with an ortho-parallel basis and a spherical wrist: axis 1 square to axis 2, axes 2 and 3 parallel, axes 4, 5, 6 through one point.
+//! Arms with an ortho-parallel basis and a spherical wrist: axis 1 square to axis 2, axes 2 and 3
+//! parallel, axes 4, 5, 6 through one point.
 //!
 //! `docs/spherical_wrist.md` has the derivation; its equation numbers stand beside the code.
 
@@ -6,7 +7,7 @@ mod arm;
 mod block;
 mod branch;
 mod geometry;
-mod held;
+mod locked;
 mod measure;
 mod one_pose;
 mod open;
@@ -29,7 +30,7 @@ use super::free_choice::FreeChoice;
 use super::open_wrist::OpenWrist;
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
-use crate::kinematics::answer::status::Status;
+use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::distance_from_half_turns;
@@ -41,14 +42,14 @@ impl Structure<6, 8> for SphericalWrist {
     const PATTERN: &'static Pattern = &PATTERN;
 
     const SLOT_NAMES: Option<&'static [&'static str; 8]> = Some(&[
-        "facing, wrist centre in front of the lower arm, q5 >= 0",
-        "facing, wrist centre in front of the lower arm, q5 < 0",
-        "facing, wrist centre behind the lower arm, q5 >= 0",
-        "facing, wrist centre behind the lower arm, q5 < 0",
-        "reaching backwards, wrist centre in front of the lower arm, q5 >= 0",
-        "reaching backwards, wrist centre in front of the lower arm, q5 < 0",
-        "reaching backwards, wrist centre behind the lower arm, q5 >= 0",
-        "reaching backwards, wrist centre behind the lower arm, q5 < 0",
+        "facing, wrist center in front of the lower arm, q5 >= 0",
+        "facing, wrist center in front of the lower arm, q5 < 0",
+        "facing, wrist center behind the lower arm, q5 >= 0",
+        "facing, wrist center behind the lower arm, q5 < 0",
+        "reaching backwards, wrist center in front of the lower arm, q5 >= 0",
+        "reaching backwards, wrist center in front of the lower arm, q5 < 0",
+        "reaching backwards, wrist center behind the lower arm, q5 >= 0",
+        "reaching backwards, wrist center behind the lower arm, q5 < 0",
     ]);
 
     type Redundancy = ();
@@ -87,18 +88,19 @@ impl Structure<6, 8> for SphericalWrist {
         }
     }
 
-    /// A solve, which does not know `q`, also merges a wrist by what the pose leaves open of the forearm.
+    /// A solve, which does not know `q`, also merges a wrist by what the pose leaves open of the
+    /// forearm.
     #[inline]
-    fn kinds(&self, q: &[f64; 6]) -> Status {
+    fn kinds(&self, q: &[f64; 6]) -> SingularityKind {
         let [_, x, wrist] = self.factors(q);
-        let mut kinds = Status::empty();
-        kinds.set(Status::WRIST, wrist.abs() <= WRIST_MERGE_SIN);
-        kinds.set(Status::ELBOW, self.planar.is_straight(self.theta(q)[2]));
-        kinds.set(Status::SHOULDER, x.abs() <= self.planar.shoulder_merge());
+        let mut kinds = SingularityKind::empty();
+        kinds.set(SingularityKind::WRIST, wrist.abs() <= WRIST_MERGE_SIN);
+        kinds.set(SingularityKind::ELBOW, self.planar.is_straight(self.theta(q)[2]));
+        kinds.set(SingularityKind::SHOULDER, x.abs() <= self.planar.shoulder_merge());
         kinds
     }
 
-    /// That at the wrist centre, which is that of the tool's (eq. 21).
+    /// That at the wrist center, which is that of the tool's (eq. 21).
     fn jacobian_determinant(&self, q: &[f64; 6]) -> f64 {
         let [elbow, x, wrist] = self.factors(q);
         let links = self.planar.c2 * self.planar.k;
@@ -109,8 +111,8 @@ impl Structure<6, 8> for SphericalWrist {
     fn slot(&self, q: &[f64; 6]) -> Option<Slot> {
         let [elbow, x, wrist] = self.factors(q);
         let met = self.kinds(q);
-        let behind_axis_1 = x < 0.0 && !met.contains(Status::SHOULDER);
-        let behind_lower_arm = elbow < 0.0 && !met.contains(Status::ELBOW);
+        let behind_axis_1 = x < 0.0 && !met.contains(SingularityKind::SHOULDER);
+        let behind_lower_arm = elbow < 0.0 && !met.contains(SingularityKind::ELBOW);
         Some(Slot::of_bits([behind_axis_1, behind_lower_arm, wrist < 0.0]))
     }
 

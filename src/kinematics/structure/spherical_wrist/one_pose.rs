@@ -28,7 +28,7 @@ impl LaneKernel<6, 8> for Constants {
             Branches::of::<FUSED, true>(self, t_shoulder_wrist)
         }?;
         branches.directions.angles::<FUSED>();
-        Some(branches.settled::<FUSED>(columns))
+        Some(branches.wrapped::<FUSED>(columns))
     }
 }
 
@@ -97,8 +97,9 @@ impl Branches {
 
     /// Joint angles of the slots, with both wrists (eq. 18 to 20).
     #[inline(always)]
-    fn settled<const FUSED: bool>(&self, columns: &Columns<6>) -> WristSlots {
-        let (Columns { joints: columns, serial, rod }, angle) = (*columns, &self.directions.angle);
+    fn wrapped<const FUSED: bool>(&self, columns: &Columns<6>) -> WristSlots {
+        let (Columns { joints: columns, uncoupled, linkage }, angle) =
+            (*columns, &self.directions.angle);
         let mut slots = WristSlots {
             arm: [[0.0; BRANCHES]; 3],
             wrist: [[[0.0; BRANCHES]; 3]; 2],
@@ -108,30 +109,30 @@ impl Branches {
             let (theta_2, theta_23) = (angle[THETA_2][lane], angle[THETA_23][lane]);
             let (theta_4, theta_5, theta_6) =
                 (angle[THETA_4][lane], angle[THETA_5][lane], angle[THETA_6][lane]);
-            let (q1, in_1) = columns[0].settled(angle[THETA_1][lane]);
-            let (q2, in_2) = columns[1].settled(theta_2);
-            let (q3, in_3) = columns[2].settled(mul_add::<FUSED>(-serial, theta_2, theta_23));
+            let (q1, in_1) = columns[0].wrapped(angle[THETA_1][lane]);
+            let (q2, in_2) = columns[1].wrapped(theta_2);
+            let (q3, in_3) = columns[2].wrapped(mul_add::<FUSED>(-uncoupled, theta_2, theta_23));
             let arm = &mut slots.arm;
             [arm[0][lane], arm[1][lane], arm[2][lane]] = [q1, q2, q3];
             let reached = self.status[lane]
                 & if in_1 & in_2 & in_3 { u64::MAX } else { JointColumn::OUTSIDE };
-            let (q4, in_4) = columns[3].settled(theta_4);
-            let (q5, in_5) = columns[4].settled(theta_5);
-            let (q6, in_6) = columns[5].settled(theta_6);
+            let (q4, in_4) = columns[3].wrapped(theta_4);
+            let (q5, in_5) = columns[4].wrapped(theta_5);
+            let (q6, in_6) = columns[5].wrapped(theta_6);
             let [wrist, flipped] = &mut slots.wrist;
             [wrist[0][lane], wrist[1][lane], wrist[2][lane]] = [q4, q5, q6];
             slots.status[0][lane] =
                 reached & if in_4 & in_5 & in_6 { u64::MAX } else { JointColumn::OUTSIDE };
-            let (q4, in_4) = columns[3].settled(half_turn(theta_4));
-            let (q5, in_5) = columns[4].settled(-theta_5);
-            let (q6, in_6) = columns[5].settled(half_turn(theta_6));
+            let (q4, in_4) = columns[3].wrapped(half_turn(theta_4));
+            let (q5, in_5) = columns[4].wrapped(-theta_5);
+            let (q6, in_6) = columns[5].wrapped(half_turn(theta_6));
             [flipped[0][lane], flipped[1][lane], flipped[2][lane]] = [q4, q5, q6];
             slots.status[1][lane] =
                 reached & if in_4 & in_5 & in_6 { u64::MAX } else { JointColumn::OUTSIDE };
         }
-        if let Some(rod) = rod {
+        if let Some(linkage) = linkage {
             for lane in 0..BRANCHES {
-                let left = rod.left_of(angle[THETA_23][lane] - angle[THETA_2][lane]);
+                let left = linkage.left_of(angle[THETA_23][lane] - angle[THETA_2][lane]);
                 slots.status[0][lane] &= left;
                 slots.status[1][lane] &= left;
             }

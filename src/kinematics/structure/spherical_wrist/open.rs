@@ -1,4 +1,5 @@
-//! What a search next to its singularities moves: the wrist at its singularity, the elbow just off straight.
+//! What a search next to its singularities moves: the wrist at its singularity, the elbow just off
+//! straight.
 
 use core::f64::consts::PI;
 
@@ -12,7 +13,8 @@ use crate::kinematics::structure::planar_arm::PlanarArm;
 use crate::report::FreeJoint;
 
 impl SphericalWrist {
-    /// `q` with joint 5 at its singularity, to one or the other side of it by the least that is seen of it.
+    /// `q` with joint 5 at its singularity, to one or the other side of it by the least that is
+    /// seen of it.
     pub(crate) fn with_straight_wrist(&self, q: &[f64; 6], side: f64) -> [f64; 6] {
         let theta_5 = self.theta(q)[4];
         let straight = PI * (theta_5 / PI).round();
@@ -21,7 +23,8 @@ impl SphericalWrist {
         q
     }
 
-    /// `q` with an elbow that is just not straight any more, behind the lower arm or in front of it.
+    /// `q` with an elbow that is just not straight any more, behind the lower arm or in front of
+    /// it.
     pub(crate) fn with_bent_elbow(&self, q: &[f64; 6], behind: bool) -> [f64; 6] {
         let PlanarArm { c2, k, .. } = self.planar;
         let elbow = self.planar.elbow_angle(self.theta(q)[2]);

@@ -20,7 +20,7 @@ impl SphericalWrist {
     /// Every branch of the wrist frame `t_shoulder_wrist`.
     pub(super) fn solve_wrist(&self, t_shoulder_wrist: &Pose, free: &FreeChoice<6>) -> Branches<6> {
         let target = self.planar.target(t_shoulder_wrist, free, self.theta(&free.q));
-        match self.planar.shoulders(target.wxy, target.free_theta[0], free.trust) {
+        match self.planar.shoulders(target.wxy, target.free_theta[0], free.policy) {
             Ok(shoulders) => self.branches(&shoulders, &target),
             Err(missed) => Branches::empty(missed),
         }
@@ -82,7 +82,7 @@ impl SphericalWrist {
             end,
             target.tolerance,
             target.free_theta[1],
-            target.free.trust,
+            target.free.policy,
         ) {
             Ok(elbows) => elbows,
             Err(missed) => return missed,
@@ -101,7 +101,8 @@ impl SphericalWrist {
             let theta_1 = shoulder.sin_1.atan2(shoulder.cos_1);
             let [theta_4, theta_5, theta_6] = wrist.theta;
             let flags = if wrist.merged { merged | Status::WRIST } else { merged };
-            // A free theta_4 that was given may leave theta_5 negative: then the flipped slot is the one that is kept.
+            // A free theta_4 that was given may leave theta_5 negative: then the flipped slot is
+            // the one that is kept.
             let (kept, flipped) = if theta_5 < 0.0 { (slot + 1, slot) } else { (slot, slot + 1) };
             branches.q[kept] =
                 Some(self.joint_map.joints([theta_1, theta_2, theta_3, theta_4, theta_5, theta_6]));
@@ -131,7 +132,8 @@ impl SphericalWrist {
         Reach::Reached
     }
 
-    /// What stays fixed where axes 4 and 6 act as one, as they nearly do next to a joint 5 like that of `q`.
+    /// What stays fixed where axes 4 and 6 act as one, as they nearly do next to a joint 5 like
+    /// that of `q`.
     pub(crate) fn wrist_pair(&self, q: &[f64; 6]) -> FreeJoint {
         self.free_wrist(self.theta(q)[4])
     }

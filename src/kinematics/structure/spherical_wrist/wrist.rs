@@ -8,9 +8,10 @@ use crate::kinematics::pose::angles::constant_sin_cos;
 use crate::kinematics::structure::planar_arm::{Elbow, Shoulder, Target};
 use crate::kinematics::structure::zyz::{First, Zyz, zyz};
 
-/// The wrist angles (eq. 15 to 17). `error` is how far rounding may turn the forearm: a theta_5 below it is none.
+/// The wrist angles (eq. 15 to 17). `error` is how far rounding may turn the forearm: a theta_5
+/// below it is none.
 pub(super) fn wrist(m: &Matrix3<f64>, target: &Target<'_>, error: f64) -> Zyz {
-    zyz(m, &First { joint: 4, theta: target.free_theta[3], trust: target.free.trust }, error)
+    zyz(m, &First { joint: 4, theta: target.free_theta[3], policy: target.free.policy }, error)
 }
 
 /// `Ry(-theta_23) Rz(-theta_1) R`, which is `Rz(theta_4) Ry(theta_5) Rz(theta_6)` (eq. 14).

@@ -58,7 +58,7 @@ impl Block<Constants, 6, SLOTS> for ParallelBlock {
         }
         self.directions.angles::<FUSED>();
         self.thetas();
-        self.slots.settle(&columns.joints);
+        self.slots.wrap(&columns.joints);
         self.regular
     }
 

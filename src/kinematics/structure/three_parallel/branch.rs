@@ -1,7 +1,8 @@
 //! The branches of the arm in arithmetic alone: what runs in lanes.
 //!
-//! The equations are those of `planar_arm`, `wrist` and `solve`. Directions stay as long as they come out, for an arc tangent does not
-//! mind. A branch that is next to a singularity or to the edge of reach is not plain, and those modules decide.
+//! The equations are those of `planar_arm`, `wrist` and `solve`. Directions stay as long as they
+//! come out, for an arc tangent does not mind. A branch that is next to a singularity or to the
+//! edge of reach is not plain, and those modules decide.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -11,7 +12,8 @@ use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::lanes::Direction;
 use crate::kinematics::structure::triangle::Triangle;
 use crate::kinematics::thresholds::{
-    PLAIN_FOREARM, PLAIN_REACH, PLAIN_SHOULDER, PLAIN_WRIST_SIN, REACH_TOLERANCE, SHOULDER_MERGE,
+    REACH_TOLERANCE, REGULAR_FOREARM, REGULAR_REACH, REGULAR_SHOULDER, REGULAR_WRIST_SIN,
+    SHOULDER_MERGE,
 };
 use crate::lanes::mul_add;
 
@@ -23,28 +25,30 @@ pub(crate) struct Constants {
     d5: f64,
     triangle: Triangle,
     /// Least x of the shoulder [m] and least size of m^2 (eq. 8) [m^4] of a plain branch.
-    plain_x: f64,
+    regular_x: f64,
     plain_m2: f64,
-    /// Least x sin theta_5 of a plain branch [m]: a rounding of the pose over this turns joint 6, and moves the end of the planar arm.
-    plain_turn: f64,
+    /// Least x sin theta_5 of a plain branch [m]: a rounding of the pose over this turns joint 6,
+    /// and moves the end of the planar arm.
+    regular_turn: f64,
 }
 
 impl Constants {
     pub(super) fn of(arm: &ThreeParallel) -> Self {
         let (planar, c2, k, extent) = (arm.planar, arm.planar.c2, arm.planar.k, arm.planar.extent);
-        let plain_x = (PLAIN_SHOULDER * extent).max(10.0 * SHOULDER_MERGE);
-        let plain_reach = (PLAIN_REACH * extent).max(10.0 * REACH_TOLERANCE);
-        // How far rounding may turn the plane of a plain branch; a forearm that is short loses its length in eq. 10.
-        let sound = planar.direction_rounding() / plain_x <= 0.1 * PLAIN_WRIST_SIN
-            && k >= PLAIN_FOREARM * c2;
+        let regular_x = (REGULAR_SHOULDER * extent).max(10.0 * SHOULDER_MERGE);
+        let regular_reach = (REGULAR_REACH * extent).max(10.0 * REACH_TOLERANCE);
+        // How far rounding may turn the plane of a plain branch; a forearm that is short loses its
+        // length in eq. 10.
+        let sound = planar.direction_rounding() / regular_x <= 0.1 * REGULAR_WRIST_SIN
+            && k >= REGULAR_FOREARM * c2;
         Self {
             a1: planar.a1,
             b: planar.b,
             d5: arm.d5,
             triangle: Triangle::new(c2, k),
-            plain_x: if sound { plain_x } else { f64::INFINITY },
-            plain_m2: 2.0 * plain_reach * extent * c2 * k,
-            plain_turn: 10.0 * planar.position_rounding() * arm.d5 / plain_reach,
+            regular_x: if sound { regular_x } else { f64::INFINITY },
+            plain_m2: 2.0 * regular_reach * extent * c2 * k,
+            regular_turn: 10.0 * planar.position_rounding() * arm.d5 / regular_reach,
         }
     }
 }
@@ -94,13 +98,14 @@ pub(super) fn facing<const FUSED: bool>(
         theta_6: [m12, m10],
         phi: [sin_phi, cos_phi],
         x,
-        plain: (size >= arm.plain_x)
-            & (sin_5 >= PLAIN_WRIST_SIN * rho2)
-            & (size * sin_5 >= arm.plain_turn * rho2),
+        plain: (size >= arm.regular_x)
+            & (sin_5 >= REGULAR_WRIST_SIN * rho2)
+            & (size * sin_5 >= arm.regular_turn * rho2),
     }
 }
 
-/// The arm of a shoulder and a wrist: the directions of its angles, not a number where it does not reach.
+/// The arm of a shoulder and a wrist: the directions of its angles, not a number where it does not
+/// reach.
 pub(super) struct Branch {
     pub(super) theta_2: Direction,
     pub(super) theta_23: Direction,
@@ -109,7 +114,8 @@ pub(super) struct Branch {
     pub(super) plain: bool,
 }
 
-/// The branch with `wrist` (1, or -1 flipped) and `elbow` (1, or -1 with a negative theta_3) of a shoulder (eq. 37, 5 to 12).
+/// The branch with `wrist` (1, or -1 flipped) and `elbow` (1, or -1 with a negative theta_3) of a
+/// shoulder (eq. 37, 5 to 12).
 #[inline(always)]
 pub(super) fn branch<const FUSED: bool>(
     arm: &Constants,

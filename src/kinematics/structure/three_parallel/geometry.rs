@@ -6,7 +6,8 @@ use nalgebra::{ComplexField as _, RealField as _};
 use crate::kinematics::structure::joint_map::JointMap;
 use crate::kinematics::structure::planar_arm::PlanarArm;
 
-/// The geometry between the shoulder (on axis 1, at the height of axis 2) and the wrist, where axes 5 and 6 meet.
+/// The geometry between the shoulder (on axis 1, at the height of axis 2) and the wrist, where axes
+/// 5 and 6 meet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ThreeParallel {
     /// Up to axis 4.

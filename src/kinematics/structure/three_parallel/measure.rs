@@ -11,7 +11,8 @@ use crate::kinematics::structure::recognition::{JointFrame, angle, axes, rotatio
 use crate::kinematics::thresholds::FORM_TOLERANCE;
 use crate::report::{Pattern, Relation, UnknownStructure};
 
-/// The conditions of three parallel axes between a base axis and two wrist axes, each square to the next.
+/// The conditions of three parallel axes between a base axis and two wrist axes, each square to the
+/// next.
 pub(crate) static PATTERN: Pattern = Pattern {
     name: "three parallel axes",
     title: "three parallel axes",
@@ -26,8 +27,8 @@ pub(crate) static PATTERN: Pattern = Pattern {
     ],
 };
 
-/// Reads the geometry off the frames at q = 0 (docs/three_parallel.md, section 6). Lengths come from the rows, so that none is lost to
-/// rounding; the frames give the directions.
+/// Reads the geometry off the frames at q = 0 (docs/three_parallel.md, section 6). Lengths come
+/// from the rows, so that none is lost to rounding; the frames give the directions.
 pub(super) fn measure(mdh: &Mdh<6>) -> Result<ThreeParallel, UnknownStructure> {
     let rows = &mdh.rows;
     let chain = Chain::new(Mdh { base: Pose::identity(), ..mdh.clone() });

@@ -1,7 +1,8 @@
-//! Arms with three parallel axes, as those of Universal Robots: axis 1 square to axes 2, 3 and 4, which are parallel, axis 5 square to them
-//! and axis 6 square to axis 5.
+//! Arms with three parallel axes, as those of Universal Robots: axis 1 square to axes 2, 3 and 4,
+//! which are parallel, axis 5 square to them and axis 6 square to axis 5.
 //!
-//! `docs/three_parallel.md` has the derivation; its equation numbers, from 31 on, stand beside the code.
+//! `docs/three_parallel.md` has the derivation; its equation numbers, from 31 on, stand beside the
+//! code.
 
 mod block;
 mod branch;
@@ -26,7 +27,7 @@ use super::branches::Branches;
 use super::free_choice::FreeChoice;
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
-use crate::kinematics::answer::status::Status;
+use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::distance_from_half_turns;
@@ -85,14 +86,18 @@ impl Structure<6, 8> for ThreeParallel {
         }
     }
 
-    /// A solve, which does not know `q`, also merges a wrist by what the pose leaves open of axis 1.
+    /// A solve, which does not know `q`, also merges a wrist by what the pose leaves open of axis
+    /// 1.
     #[inline]
-    fn kinds(&self, q: &[f64; 6]) -> Status {
+    fn kinds(&self, q: &[f64; 6]) -> SingularityKind {
         let [_, _, theta_3, _, theta_5, _] = self.joint_map.theta(q);
-        let mut kinds = Status::empty();
-        kinds.set(Status::WRIST, theta_5.sin().abs() <= WRIST_MERGE_SIN);
-        kinds.set(Status::ELBOW, self.planar.is_straight(theta_3));
-        kinds.set(Status::SHOULDER, self.x_of_wrist(q).abs() <= self.planar.shoulder_merge());
+        let mut kinds = SingularityKind::empty();
+        kinds.set(SingularityKind::WRIST, theta_5.sin().abs() <= WRIST_MERGE_SIN);
+        kinds.set(SingularityKind::ELBOW, self.planar.is_straight(theta_3));
+        kinds.set(
+            SingularityKind::SHOULDER,
+            self.x_of_wrist(q).abs() <= self.planar.shoulder_merge(),
+        );
         kinds
     }
 
@@ -108,8 +113,9 @@ impl Structure<6, 8> for ThreeParallel {
     fn slot(&self, q: &[f64; 6]) -> Option<Slot> {
         let [_, _, theta_3, _, theta_5, _] = self.joint_map.theta(q);
         let met = self.kinds(q);
-        let behind = self.x_of_wrist(q) < 0.0 && !met.contains(Status::SHOULDER);
-        let backwards = self.planar.sin_elbow(theta_3) < 0.0 && !met.contains(Status::ELBOW);
+        let behind = self.x_of_wrist(q) < 0.0 && !met.contains(SingularityKind::SHOULDER);
+        let backwards =
+            self.planar.sin_elbow(theta_3) < 0.0 && !met.contains(SingularityKind::ELBOW);
         Some(Slot::of_bits([behind, backwards, theta_5.sin() < 0.0]))
     }
 

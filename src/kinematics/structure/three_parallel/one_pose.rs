@@ -59,12 +59,12 @@ impl LaneKernel<6, SLOTS> for Constants {
             let (theta_2, theta_23) = (angle[THETA_2][slot], angle[THETA_23][slot]);
             let (phi, theta_6) = (angle[PHI][slot], angle[THETA_6][slot]);
             let phi = if flipped { half_turn(phi) } else { phi };
-            slots.settle(slot, 0, angle[THETA_1][slot], columns[0]);
-            slots.settle(slot, 1, theta_2, columns[1]);
-            slots.settle(slot, 2, theta_23 - theta_2, columns[2]);
-            slots.settle(slot, 3, phi - theta_23, columns[3]);
-            slots.settle(slot, 4, WRIST[slot] * angle[THETA_5][slot], columns[4]);
-            slots.settle(slot, 5, if flipped { half_turn(theta_6) } else { theta_6 }, columns[5]);
+            slots.wrap(slot, 0, angle[THETA_1][slot], columns[0]);
+            slots.wrap(slot, 1, theta_2, columns[1]);
+            slots.wrap(slot, 2, theta_23 - theta_2, columns[2]);
+            slots.wrap(slot, 3, phi - theta_23, columns[3]);
+            slots.wrap(slot, 4, WRIST[slot] * angle[THETA_5][slot], columns[4]);
+            slots.wrap(slot, 5, if flipped { half_turn(theta_6) } else { theta_6 }, columns[5]);
         }
         Some(slots)
     }

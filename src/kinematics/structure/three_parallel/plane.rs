@@ -1,7 +1,8 @@
 //! The plane of the arm, turned about axis 1 as far as rounding leaves it open.
 //!
-//! Next to the shoulder's singularity a rounding of the wrist's distance from axis 1 turns the plane by much more. A pose at the edge of reach
-//! or at the wrist's singularity says by that which plane it has.
+//! Next to the shoulder's singularity a rounding of the wrist's distance from axis 1 turns the
+//! plane by much more. A pose at the edge of reach or at the wrist's singularity says by that which
+//! plane it has.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -12,23 +13,23 @@ use crate::kinematics::structure::planar_arm::{Shoulder, Target};
 
 /// The planes that rounding leaves open: those turned from the shoulder's by angles in `open` [rad]
 /// (eq. 42).
-pub(super) struct OpenPlane<'a> {
+pub(super) struct PlaneUncertainty<'a> {
     shoulder: &'a Shoulder,
     wxy: [f64; 2],
     open: [f64; 2],
     /// (m10, m12), and what a turn of the plane moves it along, (m00, m02).
-    told: [f64; 2],
+    determined: [f64; 2],
     moved: [f64; 2],
 }
 
-impl<'a> OpenPlane<'a> {
+impl<'a> PlaneUncertainty<'a> {
     pub(super) fn of(arm: &ThreeParallel, shoulder: &'a Shoulder, target: &Target<'_>) -> Self {
         let m = seen_from_plane(shoulder, target.rotation);
         Self {
             shoulder,
             wxy: target.wxy,
             open: arm.planar.open_turn(shoulder, target.wxy),
-            told: [m[(1, 0)], m[(1, 2)]],
+            determined: [m[(1, 0)], m[(1, 2)]],
             moved: [m[(0, 0)], m[(0, 2)]],
         }
     }
@@ -43,16 +44,18 @@ impl<'a> OpenPlane<'a> {
         self.open
     }
 
-    /// The shoulder turned to where the wrist is nearest to its singularity, and sin theta_5 there (eq. 43).
+    /// The shoulder turned to where the wrist is nearest to its singularity, and sin theta_5 there
+    /// (eq. 43).
     pub(super) fn nearest_to_wrist(&self, target: &Target<'_>) -> (Shoulder, f64) {
-        let Self { told: [m10, m12], moved: [m00, m02], open: [least, most], .. } = *self;
+        let Self { determined: [m10, m12], moved: [m00, m02], open: [least, most], .. } = *self;
         let to_wrist = (m10 * m00 + m12 * m02) / (m00 * m00 + m02 * m02);
         let nearest = self.turned(to_wrist.clamp(least, most));
         let sin_5 = sin_5(&seen_from_plane(&nearest, target.rotation));
         (nearest, sin_5)
     }
 
-    /// The angle to turn by so that the pose tells `theta_6`, or half a turn from there; none where it is not open so far (eq. 44).
+    /// The angle to turn by so that the pose tells `theta_6`, or half a turn from there; none where
+    /// it is not open so far (eq. 44).
     pub(super) fn telling(&self, theta_6: f64) -> Option<f64> {
         let ([least, most], angle) = (self.open, self.towards(theta_6));
         (angle >= least && angle <= most).then_some(angle)
@@ -69,7 +72,7 @@ impl<'a> OpenPlane<'a> {
     /// not finite where there is none.
     fn towards(&self, theta_6: f64) -> f64 {
         let (sin_6, cos_6) = theta_6.sin_cos();
-        let Self { told: [m10, m12], moved: [m00, m02], .. } = self;
+        let Self { determined: [m10, m12], moved: [m00, m02], .. } = self;
         (m12 * cos_6 - m10 * sin_6) / (m02 * cos_6 - m00 * sin_6)
     }
 
@@ -81,11 +84,12 @@ impl<'a> OpenPlane<'a> {
     /// How far the direction of axis 5 may turn when the plane is turned as far as it is open
     /// [rad].
     pub(super) fn open_phi(&self) -> f64 {
-        let (open, sin_5) = (self.widest(), self.told[0].hypot(self.told[1]));
+        let (open, sin_5) = (self.widest(), self.determined[0].hypot(self.determined[1]));
         if sin_5 > 2.0 * open { 2.0 * open / sin_5 } else { 2.0 }
     }
 
-    /// How far the end of the planar arm may move at most when the plane is turned as far as it is open [m].
+    /// How far the end of the planar arm may move at most when the plane is turned as far as it is
+    /// open [m].
     pub(super) fn lever(&self, arm: &ThreeParallel) -> f64 {
         self.widest() * self.wxy[0].hypot(self.wxy[1]) + arm.d5 * self.open_phi()
     }

@@ -5,10 +5,10 @@ use nalgebra::Matrix3;
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::ThreeParallel;
-use super::plane::OpenPlane;
+use super::plane::PlaneUncertainty;
 use super::wrist::{Turn, Wrist, seen_from_plane, sin_5};
 use crate::kinematics::pose::angles::wrap;
-use crate::kinematics::structure::free_choice::Trust;
+use crate::kinematics::structure::free_choice::SeedPolicy;
 use crate::kinematics::structure::planar_arm::{Elbows, PlanarArm, Shoulder, Target};
 use crate::kinematics::thresholds::{REACH_TOLERANCE, WRIST_FREE_SIN, WRIST_MERGE_SIN};
 use crate::report::Reach;
@@ -29,8 +29,9 @@ const MOST_STRAIGHTENING: f64 = 1e-2;
 const HALVINGS: u32 = 50;
 
 impl ThreeParallel {
-    /// The arm with this shoulder and joint 6 there; where that is out of reach, with what the pose leaves open moved towards reach: the plane
-    /// of the arm, where joint 6 is told by the pose, and joint 6.
+    /// The arm with this shoulder and joint 6 there; where that is out of reach, with what the pose
+    /// leaves open moved towards reach: the plane of the arm, where joint 6 is told by the pose,
+    /// and joint 6.
     pub(super) fn reaching(
         &self,
         shoulder: &Shoulder,
@@ -74,12 +75,13 @@ impl ThreeParallel {
     /// says which elbow it is.
     fn straightened(&self, bent: Reaching, turn: Turn, target: &Target<'_>) -> Reaching {
         let Reaching { shoulder, elbows, .. } = &bent;
-        let told = matches!(turn, Turn::Told { .. }) && target.free.trust != Trust::Path;
-        if !told || elbows.behind.is_none() {
+        let from_pose =
+            matches!(turn, Turn::FromPose { .. }) && target.free.policy != SeedPolicy::Path;
+        if !from_pose || elbows.behind.is_none() {
             return bent;
         }
         let m = seen_from_plane(shoulder, target.rotation);
-        let (open, plane) = (turn.open(&m), OpenPlane::of(self, shoulder, target));
+        let (open, plane) = (turn.open(&m), PlaneUncertainty::of(self, shoulder, target));
         if sin_5(&m) <= WRIST_MERGE_SIN || plane.open_phi() > MOST_STRAIGHTENING {
             return bent;
         }
@@ -122,7 +124,8 @@ impl ThreeParallel {
             .find(|reaching| reaching.elbows.behind.is_none())
     }
 
-    /// The arm that is just out of reach with this shoulder, in the nearest of the planes that rounding leaves open in which it reaches.
+    /// The arm that is just out of reach with this shoulder, in the nearest of the planes that
+    /// rounding leaves open in which it reaches.
     fn in_another_plane(
         &self,
         shoulder: &Shoulder,
@@ -131,8 +134,8 @@ impl ThreeParallel {
         (missed, wrist): (Reach, Wrist),
         target: &Target<'_>,
     ) -> Option<Reaching> {
-        let plane = OpenPlane::of(self, shoulder, target);
-        if !matches!(turn, Turn::Told { .. }) || missed.shortfall() > plane.lever(self) {
+        let plane = PlaneUncertainty::of(self, shoulder, target);
+        if !matches!(turn, Turn::FromPose { .. }) || missed.shortfall() > plane.lever(self) {
             return None;
         }
         let nearest = |reaches: f64| {
@@ -161,7 +164,7 @@ impl ThreeParallel {
             shoulder.x - self.planar.a1 - self.d5 * wrist.sin_phi,
             target.wz - self.d5 * wrist.cos_phi,
         ];
-        match self.planar.elbows(end, target.tolerance, target.free_theta[1], target.free.trust) {
+        match self.planar.elbows(end, target.tolerance, target.free_theta[1], target.free.policy) {
             Ok(elbows) => Ok(Reaching { shoulder, wrist, elbows }),
             Err(missed) => Err((missed, wrist)),
         }
@@ -227,8 +230,8 @@ impl ThreeParallel {
     }
 }
 
-/// Axis 5 on its way about the wrist: its angle from the line between axis 2 and the wrist, and between which angles, on either side of the
-/// line, the end of the planar arm is in reach [rad].
+/// Axis 5 on its way about the wrist: its angle from the line between axis 2 and the wrist, and
+/// between which angles, on either side of the line, the end of the planar arm is in reach [rad].
 struct Circle {
     from_line: f64,
     least: f64,

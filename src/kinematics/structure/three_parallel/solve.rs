@@ -4,13 +4,13 @@
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::ThreeParallel;
-use super::plane::OpenPlane;
+use super::plane::PlaneUncertainty;
 use super::reaching::Reaching;
 use super::wrist::{Turn, Wrist, seen_from_plane, sin_5};
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::branches::Branches;
-use crate::kinematics::structure::free_choice::{FreeChoice, Trust};
+use crate::kinematics::structure::free_choice::{FreeChoice, SeedPolicy};
 use crate::kinematics::structure::planar_arm::{Elbow, Shoulder, Shoulders, Target};
 use crate::kinematics::thresholds::{PATH_WRIST_SIN, WRIST_FREE_SIN, WRIST_MERGE_SIN};
 use crate::report::FreeJoint;
@@ -24,10 +24,10 @@ enum Asked {
 }
 
 impl Asked {
-    fn of(merged: bool, trust: Trust) -> Self {
-        match trust {
-            Trust::Forced { behind: true, .. } => Self::Behind,
-            Trust::Forced { behind: false, .. } => Self::Front,
+    fn of(merged: bool, policy: SeedPolicy) -> Self {
+        match policy {
+            SeedPolicy::Forced { behind: true, .. } => Self::Behind,
+            SeedPolicy::Forced { behind: false, .. } => Self::Front,
             // On the cylinder of radius b both are one, x = 0.
             _ if merged => Self::Front,
             _ => Self::Both,
@@ -39,7 +39,7 @@ impl ThreeParallel {
     /// Every branch of the wrist frame `t_shoulder_wrist`.
     pub(super) fn solve_wrist(&self, t_shoulder_wrist: &Pose, free: &FreeChoice<6>) -> Branches<6> {
         let target = self.planar.target(t_shoulder_wrist, free, self.joint_map.theta(&free.q));
-        match self.planar.shoulders(target.wxy, target.free_theta[0], free.trust) {
+        match self.planar.shoulders(target.wxy, target.free_theta[0], free.policy) {
             Ok(shoulders) => self.branches(&shoulders, &target),
             Err(missed) => Branches::empty(missed),
         }
@@ -53,7 +53,7 @@ impl ThreeParallel {
         let mut branches = Branches::empty(Reach::Reached);
         let mut fill =
             |base: usize, shoulder: &Shoulder| self.fill(&mut branches, base, shoulder, target);
-        branches.reach = match Asked::of(*merged, target.free.trust) {
+        branches.reach = match Asked::of(*merged, target.free.policy) {
             Asked::Front => fill(0, front),
             Asked::Behind => fill(4, behind),
             Asked::Both => fill(0, front).nearer(fill(4, behind)),
@@ -72,11 +72,11 @@ impl ThreeParallel {
         shoulder: &Shoulder,
         target: &Target<'_>,
     ) -> Reach {
-        let (trust, free_6) = (target.free.trust, target.free_theta[5]);
-        let [told, flipped] = [false, true].map(|flipped| Turn::Told { flipped });
-        let plane = OpenPlane::of(self, shoulder, target);
+        let (policy, free_6) = (target.free.policy, target.free_theta[5]);
+        let [regular, flipped] = [false, true].map(|flipped| Turn::FromPose { flipped });
+        let plane = PlaneUncertainty::of(self, shoulder, target);
         // A path keeps the joint 6 that it is heading for as far as the plane is open.
-        let shoulder = &if trust == Trust::Path
+        let shoulder = &if policy == SeedPolicy::Path
             && sin_5(&seen_from_plane(shoulder, target.rotation)) <= PATH_WRIST_SIN
         {
             plane.nearest_to_telling(free_6)
@@ -86,7 +86,7 @@ impl ThreeParallel {
         let m = seen_from_plane(shoulder, target.rotation);
         let sin_5 = sin_5(&m);
         let (nearest, least_sin_5) = plane.nearest_to_wrist(target);
-        if trust.forces(6) {
+        if policy.forces(6) {
             let telling = plane.telling(free_6).map_or(nearest, |angle| plane.turned(angle));
             return self.put_merged(
                 branches,
@@ -94,7 +94,7 @@ impl ThreeParallel {
                 self.reaching_or_beyond(&telling, Turn::Taken(free_6), target),
             );
         }
-        if least_sin_5 <= trust.radius().max(WRIST_FREE_SIN) {
+        if least_sin_5 <= policy.radius().max(WRIST_FREE_SIN) {
             return self.put_merged(
                 branches,
                 base,
@@ -102,9 +102,10 @@ impl ThreeParallel {
             );
         }
         if sin_5 <= WRIST_MERGE_SIN {
-            // One family: of its two members that the pose tells, the one nearer to the free angle, if it reaches.
+            // One family: of its two members that the pose tells, the one nearer to the free angle,
+            // if it reaches.
             let away = (m[(1, 2)].atan2(m[(1, 0)]) - free_6).cos() < 0.0;
-            let (near, far) = if away { (flipped, told) } else { (told, flipped) };
+            let (near, far) = if away { (flipped, regular) } else { (regular, flipped) };
             let reaching = self.reaching(shoulder, near, target).or_else(|missed| {
                 self.reaching(shoulder, far, target)
                     .or_else(|_| self.reaching_or_beyond(shoulder, near, target))
@@ -113,7 +114,7 @@ impl ThreeParallel {
             });
             return self.put_merged(branches, base, reaching);
         }
-        let missed = [(told, base), (flipped, base + 1)].map(|(turn, slot)| {
+        let missed = [(regular, base), (flipped, base + 1)].map(|(turn, slot)| {
             match self.reaching_or_beyond(shoulder, turn, target) {
                 Ok(reaching) => {
                     self.put(branches, slot, &reaching, Status::empty());

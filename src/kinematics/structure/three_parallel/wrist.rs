@@ -7,7 +7,7 @@ use nalgebra::Matrix3;
 use nalgebra::{ComplexField as _, RealField as _};
 
 use crate::kinematics::pose::angles::wrap;
-use crate::kinematics::structure::free_choice::{FreeChoice, Trust};
+use crate::kinematics::structure::free_choice::{FreeChoice, SeedPolicy};
 use crate::kinematics::structure::planar_arm::Shoulder;
 use crate::kinematics::thresholds::{PATH_WRIST_SIN, SEEDED_FREE, WRIST_FREE_SIN};
 
@@ -25,10 +25,11 @@ pub(super) struct Wrist {
 #[derive(Clone, Copy)]
 pub(super) enum Turn {
     /// Where the pose has it, with theta_5 in 0 ..= pi, or half a turn from there.
-    Told { flipped: bool },
+    FromPose { flipped: bool },
     /// At this theta_6.
     Taken(f64),
-    /// At this theta_6 or, since the pose says nothing of it, at the nearest to it that the arm reaches with.
+    /// At this theta_6 or, since the pose says nothing of it, at the nearest to it that the arm
+    /// reaches with.
     Free(f64),
 }
 
@@ -48,17 +49,18 @@ pub(super) fn sin_5(m: &Matrix3<f64>) -> f64 {
 }
 
 impl Turn {
-    /// How far joint 6 may be turned from there without the tool's leaving the pose by more than rounding [rad].
+    /// How far joint 6 may be turned from there without the tool's leaving the pose by more than
+    /// rounding [rad].
     pub(super) fn open(self, m: &Matrix3<f64>) -> f64 {
         match self {
-            Self::Told { .. } => (WRIST_FREE_SIN / sin_5(m)).min(PI),
+            Self::FromPose { .. } => (WRIST_FREE_SIN / sin_5(m)).min(PI),
             Self::Taken(_) => 0.0,
             Self::Free(_) => PI,
         }
     }
 
-    /// theta_6 with its sine and cosine. `error` is how far rounding may turn the plane of the arm: a path keeps the theta_6 that it is
-    /// heading for where the pose does not contradict it.
+    /// theta_6 with its sine and cosine. `error` is how far rounding may turn the plane of the arm:
+    /// a path keeps the theta_6 that it is heading for where the pose does not contradict it.
     fn theta_6(
         self,
         m: &Matrix3<f64>,
@@ -68,12 +70,12 @@ impl Turn {
     ) -> (f64, (f64, f64)) {
         let flipped = match self {
             Self::Taken(theta_6) | Self::Free(theta_6) => return (theta_6, theta_6.sin_cos()),
-            Self::Told { flipped } => flipped,
+            Self::FromPose { flipped } => flipped,
         };
         let sin_5 = sin_5(m);
         let (told, sign) = (m[(1, 2)].atan2(m[(1, 0)]), if flipped { -1.0 } else { 1.0 });
         let told = if flipped { told + PI } else { told };
-        if free.trust == Trust::Path && sin_5 <= PATH_WRIST_SIN {
+        if free.policy == SeedPolicy::Path && sin_5 <= PATH_WRIST_SIN {
             let ahead = wrap(heading - told);
             if sin_5 * ahead.sin().abs() <= error.max(SEEDED_FREE) && ahead.cos() > 0.0 {
                 return (told + ahead, heading.sin_cos());
@@ -82,8 +84,9 @@ impl Turn {
         (told, (sign * m[(1, 2)] / sin_5, sign * m[(1, 0)] / sin_5))
     }
 
-    /// The wrist with joint 6 there (eq. 34 to 36). Taking theta_5 and phi with the sine and cosine of the theta_6 that was chosen keeps
-    /// the residual at rounding next to theta_5 = 0, whatever theta_6 is.
+    /// The wrist with joint 6 there (eq. 34 to 36). Taking theta_5 and phi with the sine and cosine
+    /// of the theta_6 that was chosen keeps the residual at rounding next to theta_5 = 0, whatever
+    /// theta_6 is.
     pub(super) fn wrist(
         self,
         m: &Matrix3<f64>,

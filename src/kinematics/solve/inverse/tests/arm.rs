@@ -107,7 +107,7 @@ impl Arm {
     }
 
     pub(super) fn next_to_the_wrist_margin(&self, part: f64, random: &mut Rng) -> Pose {
-        let off = (part * PLAIN_WRIST_SIN).asin();
+        let off = (part * REGULAR_WRIST_SIN).asin();
         let theta_5 = random.sign() * if random.sign() > 0.0 { off } else { PI - off };
         self.at([
             random.angle(),
@@ -120,7 +120,7 @@ impl Arm {
     }
 
     pub(super) fn next_to_the_shoulder_margin(&self, part: f64, random: &mut Rng) -> Pose {
-        let x = part * (PLAIN_SHOULDER * self.extent).max(10.0 * SHOULDER_MERGE);
+        let x = part * (REGULAR_SHOULDER * self.extent).max(10.0 * SHOULDER_MERGE);
         // Somewhere between folded and stretched, for both shoulders.
         let [shortest, longest] =
             [(self.c2 - self.k).abs() + self.d5 + 0.02, self.c2 + self.k - self.d5 - 0.02];
@@ -142,7 +142,7 @@ impl Arm {
         let m2 = random.sign()
             * part
             * 2.0
-            * (PLAIN_REACH * self.extent).max(10.0 * REACH_TOLERANCE)
+            * (REGULAR_REACH * self.extent).max(10.0 * REACH_TOLERANCE)
             * self.extent
             * c2
             * k;
@@ -156,18 +156,18 @@ impl Arm {
         loop {
             let (sin, cos) = random.angle().sin_cos();
             let x = self.a1 + r * sin;
-            if x.abs() > 20.0 * PLAIN_SHOULDER * self.extent {
+            if x.abs() > 20.0 * REGULAR_SHOULDER * self.extent {
                 return self.with_end_of_planar_arm(x, r * cos, random);
             }
         }
     }
 
     /// The slots by the lanes; `None` where the pose is not plain or has no solution.
-    pub(super) fn by_lanes(&self, pose: &Pose) -> Option<PlainAnswer<6>> {
+    pub(super) fn by_lanes(&self, pose: &Pose) -> Option<RegularAnswer<6>> {
         by_lanes(&self.robot, pose, ())
     }
 
-    pub(super) fn carefully(&self, pose: Pose) -> Solutions<6> {
-        carefully(&self.robot, pose, ())
+    pub(super) fn scalar(&self, pose: Pose) -> Solutions<6> {
+        scalar(&self.robot, pose, ())
     }
 }

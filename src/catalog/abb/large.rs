@@ -1,13 +1,13 @@
 //! IRB 5710 to 6660.
 
-use crate::catalogue::{AngleUnit, CatalogueArm, CatalogueGeometry};
+use crate::catalog::{AngleUnit, CatalogArm, CatalogGeometry};
 
-pub(super) const ARMS: &[CatalogueArm] = &[
-    CatalogueArm {
+pub(super) const ARMS: &[CatalogArm] = &[
+    CatalogArm {
         name: "IRB 5710-70/2.7 LID",
         payload: Some(70.0),
         reach: Some(2.7),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 280.0,
             a2: -180.0,
             c1: 670.0,
@@ -29,11 +29,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 1,
         provenance: "RobotComponents",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 5710-90/2.3 LID",
         payload: Some(90.0),
         reach: Some(2.3),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 280.0,
             a2: -180.0,
             c1: 670.0,
@@ -55,11 +55,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 1,
         provenance: "RobotComponents",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 5710-90/2.7",
         payload: Some(90.0),
         reach: Some(2.7),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 280.0,
             a2: -180.0,
             c1: 670.0,
@@ -79,13 +79,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalogue; a1 is 286 mm in robotkinematicscatalogue",
+        provenance: "RobotComponents, robotkinematicscatalog; a1 is 286 mm in robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 5710-110/2.3",
         payload: Some(110.0),
         reach: Some(2.3),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 280.0,
             a2: -180.0,
             c1: 670.0,
@@ -105,13 +105,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalogue",
+        provenance: "RobotComponents, robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 5720-90/3.0 LID",
         payload: Some(90.0),
         reach: Some(3.0),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 670.0,
@@ -133,11 +133,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 1,
         provenance: "RobotComponents",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 5720-125/3.0",
         payload: Some(125.0),
         reach: Some(3.0),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 670.0,
@@ -159,11 +159,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 1,
         provenance: "RobotComponents",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 5720-155/2.6 LID",
         payload: Some(155.0),
         reach: Some(2.6),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 670.0,
@@ -185,11 +185,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 1,
         provenance: "RobotComponents",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 5720-180/2.6",
         payload: Some(180.0),
         reach: Some(2.6),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 670.0,
@@ -209,13 +209,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalogue",
+        provenance: "RobotComponents, robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6400/2.4-120",
         payload: Some(120.0),
         reach: Some(2.4),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 188.0,
             a2: -225.0,
             c1: 900.0,
@@ -235,13 +235,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue; the same source gives the 6400R/2.5-150 other limits of axes 1 to 3 (+-180, -70..85, -28..110 deg)",
+        provenance: "robotkinematicscatalog; the same source gives the 6400R/2.5-150 other limits of axes 1 to 3 (+-180, -70..85, -28..110 deg)",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6400R/2.5-150",
         payload: Some(150.0),
         reach: Some(2.5),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 240.0,
             a2: -225.0,
             c1: 800.0,
@@ -261,13 +261,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue",
+        provenance: "robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6400R/2.8-200",
         payload: Some(200.0),
         reach: Some(2.8),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 240.0,
             a2: -225.0,
             c1: 800.0,
@@ -287,13 +287,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue; the same source gives the 6400R/2.5-150 other limits of axes 1 to 3 (+-180, -70..85, -28..110 deg)",
+        provenance: "robotkinematicscatalog; the same source gives the 6400R/2.5-150 other limits of axes 1 to 3 (+-180, -70..85, -28..110 deg)",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6600-175/2.8",
         payload: Some(175.0),
         reach: Some(2.8),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 780.0,
@@ -313,13 +313,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue",
+        provenance: "robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6600-225/2.55",
         payload: Some(225.0),
         reach: Some(2.55),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 780.0,
@@ -339,13 +339,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[100.0, 90.0, 90.0, 150.0, 120.0, 190.0]),
         sources: 2,
-        provenance: "ros-industrial/abb, robotkinematicscatalogue; axis 2 is -60..80 deg in robotkinematicscatalogue",
+        provenance: "ros-industrial/abb, robotkinematicscatalog; axis 2 is -60..80 deg in robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6620-150/2.2",
         payload: Some(150.0),
         reach: Some(2.2),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 680.0,
@@ -365,13 +365,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[100.0, 90.0, 90.0, 150.0, 120.0, 190.0]),
         sources: 4,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue, ARTE; robotkinematicscatalogue has the limits of a 6400 (axis 1 +-180, axis 2 -70..85, axis 3 -28..110, axis 5 +-120 deg); in ARTE a1 is 317, a2 -195, c1 683, c2 976, c3 902 and c4 195 mm",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalog, ARTE; robotkinematicscatalog has the limits of a 6400 (axis 1 +-180, axis 2 -70..85, axis 3 -28..110, axis 5 +-120 deg); in ARTE a1 is 317, a2 -195, c1 683, c2 976, c3 902 and c4 195 mm",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6640-130/3.2",
         payload: Some(130.0),
         reach: Some(3.2),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 780.0,
@@ -391,13 +391,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue",
+        provenance: "robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6640-180/2.55",
         payload: Some(180.0),
         reach: Some(2.55),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 780.0,
@@ -417,13 +417,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue",
+        provenance: "robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6640-185/2.8",
         payload: Some(185.0),
         reach: Some(2.8),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 780.0,
@@ -443,13 +443,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[100.0, 90.0, 90.0, 170.0, 140.0, 190.0]),
         sources: 4,
-        provenance: "RobotComponents, visose/Robots, ros-industrial/abb, robotkinematicscatalogue; c3 is 1392 mm in ros-industrial/abb and robotkinematicscatalogue (rounded); axis 1 has 105 and axis 5 120 deg/s in visose/Robots",
+        provenance: "RobotComponents, visose/Robots, ros-industrial/abb, robotkinematicscatalog; c3 is 1392 mm in ros-industrial/abb and robotkinematicscatalog (rounded); axis 1 has 105 and axis 5 120 deg/s in visose/Robots",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6640-205/2.75",
         payload: Some(205.0),
         reach: Some(2.75),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 780.0,
@@ -469,13 +469,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue",
+        provenance: "robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6640-235/2.55",
         payload: Some(235.0),
         reach: Some(2.55),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 780.0,
@@ -495,13 +495,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[100.0, 90.0, 90.0, 170.0, 120.0, 190.0]),
         sources: 3,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue; the forearm is 1142 mm in two sources (rounded); visose Nagami.xml has a1 175 and c1 495, those of a 4600",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalog; the forearm is 1142 mm in two sources (rounded); visose Nagami.xml has a1 175 and c1 495, those of a 4600",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6640ID-170/2.75",
         payload: Some(170.0),
         reach: Some(2.75),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 780.0,
@@ -521,13 +521,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue; the lengths are those of the 6640-205/2.75",
+        provenance: "robotkinematicscatalog; the lengths are those of the 6640-205/2.75",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6640ID-200/2.55",
         payload: Some(200.0),
         reach: Some(2.55),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 780.0,
@@ -547,13 +547,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue; the lengths are those of the 6640-180/2.55",
+        provenance: "robotkinematicscatalog; the lengths are those of the 6640-180/2.55",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6650-125/3.2",
         payload: Some(125.0),
         reach: Some(3.2),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 780.0,
@@ -573,13 +573,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalogue; c2 is 1275 mm in robotkinematicscatalogue; axis 2 is -40..160 deg in robotkinematicscatalogue",
+        provenance: "RobotComponents, robotkinematicscatalog; c2 is 1275 mm in robotkinematicscatalog; axis 2 is -40..160 deg in robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6650-200/2.75",
         payload: Some(200.0),
         reach: Some(2.75),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 780.0,
@@ -601,11 +601,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 1,
         provenance: "RobotComponents",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6650S-90/3.9",
         payload: Some(90.0),
         reach: Some(3.9),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 600.0,
             a2: -200.0,
             c1: 630.0,
@@ -625,13 +625,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[100.0, 90.0, 90.0, 150.0, 120.0, 235.0]),
         sources: 4,
-        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE",
+        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalog, ARTE",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6650S-125/3.5",
         payload: Some(125.0),
         reach: Some(3.5),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 600.0,
             a2: -200.0,
             c1: 630.0,
@@ -651,13 +651,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[110.0, 90.0, 90.0, 150.0, 120.0, 235.0]),
         sources: 5,
-        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE",
+        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, robotkinematicscatalog, ARTE",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6650S-200/3.0",
         payload: Some(200.0),
         reach: Some(3.0),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 600.0,
             a2: -200.0,
             c1: 630.0,
@@ -677,13 +677,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 3,
-        provenance: "RobotComponents, robotkinematicscatalogue, ARTE; ARTE has the forearm of the 3.9 m arm (2042)",
+        provenance: "RobotComponents, robotkinematicscatalog, ARTE; ARTE has the forearm of the 3.9 m arm (2042)",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6660-130/3.1",
         payload: Some(130.0),
         reach: Some(3.1),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 300.0,
             a2: -280.0,
             c1: 814.5,
@@ -703,13 +703,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue",
+        provenance: "robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6660-205/1.9",
         payload: Some(205.0),
         reach: Some(1.9),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 300.0,
             a2: -280.0,
             c1: 814.5,
@@ -729,6 +729,6 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue",
+        provenance: "robotkinematicscatalog",
     },
 ];

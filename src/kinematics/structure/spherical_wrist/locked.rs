@@ -1,4 +1,5 @@
-//! The arm with its wrist held, or with axis 4 held: what a path that may deviate in orientation solves.
+//! The arm with its wrist held, or with axis 4 held: what a path that may deviate in orientation
+//! solves.
 
 use core::f64::consts::PI;
 
@@ -14,9 +15,11 @@ use crate::kinematics::structure::planar_arm::{Elbow, PlanarArm, Shoulder};
 use crate::kinematics::thresholds::LEAST_LINK;
 
 impl SphericalWrist {
-    /// The joint vectors that bring a point of the tool to `point` with the wrist angles of `q`: up to four, the wrist's as they are.
+    /// The joint vectors that bring a point of the tool to `point` with the wrist angles of `q`: up
+    /// to four, the wrist's as they are.
     ///
-    /// With the wrist held, forearm and tool are one link that ends at the point: the same arm with other a2, b and c3 (eq. 22).
+    /// With the wrist held, forearm and tool are one link that ends at the point: the same arm with
+    /// other a2, b and c3 (eq. 22).
     pub(crate) fn to_point(
         &self,
         point: &Vector3<f64>,
@@ -35,7 +38,8 @@ impl SphericalWrist {
         };
         let still = Pose::from_parts((*point).into(), Rotation3::identity());
         let branches = arm.solve_wrist(&still, &FreeChoice::seed(*q));
-        // Slots that differ in their last bit differ in the wrist of the point, which is not looked at.
+        // Slots that differ in their last bit differ in the wrist of the point, which is not looked
+        // at.
         let wrist = [q[3], q[4], q[5]];
         [0, 2, 4, 6]
             .into_iter()
@@ -46,7 +50,8 @@ impl SphericalWrist {
             })
     }
 
-    /// The wrist angles that give the flange the rotation `m` in the forearm (eq. 15 to 17), or the flipped ones.
+    /// The wrist angles that give the flange the rotation `m` in the forearm (eq. 15 to 17), or the
+    /// flipped ones.
     pub(crate) fn with_wrist(&self, m: &Matrix3<f64>, q: &[f64; 6], flipped: bool) -> [f64; 6] {
         let theta_4 = m[(1, 2)].atan2(m[(0, 2)]) + if flipped { PI } else { 0.0 };
         let mut q = *q;
@@ -54,8 +59,9 @@ impl SphericalWrist {
         self.with_axis_4_held(m, &q)
     }
 
-    /// The wrist angles with which the tool comes nearest to the rotation `m` of the flange in the forearm, theta_4 held: the approach axis
-    /// in the plane that theta_5 moves it in, then the best turn about it (eq. 23). They are exact where the plane holds that axis.
+    /// The wrist angles with which the tool comes nearest to the rotation `m` of the flange in the
+    /// forearm, theta_4 held: the approach axis in the plane that theta_5 moves it in, then the
+    /// best turn about it (eq. 23). They are exact where the plane holds that axis.
     pub(crate) fn with_axis_4_held(&self, m: &Matrix3<f64>, q: &[f64; 6]) -> [f64; 6] {
         let mut theta = self.theta(q);
         let n = wrist_rotation(-theta[3], 0.0, 0.0) * m;

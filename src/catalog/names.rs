@@ -4,22 +4,23 @@ use alloc::borrow::ToOwned;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::{CatalogueArm, catalogue};
+use super::{CatalogArm, catalog};
 use crate::error::{Error, UnknownRobot};
 
 /// How many close names an unknown one is told.
 const MOST_CLOSE: usize = 6;
 
-/// Finds an arm by its name; case, blanks, dashes, `_`, `/`, `,`, parentheses and the last zeros of a decimal (2.50, 2,5) do not matter.
+/// Finds an arm by its name; case, blanks, dashes, `_`, `/`, `,`, parentheses and the last zeros of
+/// a decimal (2.50, 2,5) do not matter.
 ///
 /// Nothing is guessed: a name that lacks a part is unknown, even where one arm alone has it.
 ///
 /// # Errors
 ///
 /// [`Error::UnknownRobot`] with up to six names that are close, the closest first.
-pub fn find(name: &str) -> Result<&'static CatalogueArm, Error> {
+pub fn find(name: &str) -> Result<&'static CatalogArm, Error> {
     let wanted = squeezed(name);
-    catalogue().find(|arm| squeezed(arm.name) == wanted).ok_or_else(|| {
+    catalog().find(|arm| squeezed(arm.name) == wanted).ok_or_else(|| {
         Error::UnknownRobot(UnknownRobot { name: name.to_owned(), close: close_to(&wanted) })
     })
 }
@@ -71,13 +72,14 @@ fn trim_decimals(text: &mut String, point: Option<usize>) {
     }
 }
 
-/// Names that hold the wanted one, the earlier in the name the closer; where there are none, those that are spelled like it.
+/// Names that hold the wanted one, the earlier in the name the closer; where there are none, those
+/// that are spelled like it.
 fn close_to(wanted: &str) -> Vec<&'static str> {
     if wanted.is_empty() {
         return Vec::new();
     }
-    let place = |arm: &CatalogueArm| squeezed(arm.name).find(wanted);
-    let mut holding: Vec<_> = catalogue().filter_map(|arm| Some((place(arm)?, arm.name))).collect();
+    let place = |arm: &CatalogArm| squeezed(arm.name).find(wanted);
+    let mut holding: Vec<_> = catalog().filter_map(|arm| Some((place(arm)?, arm.name))).collect();
     if holding.is_empty() {
         return spelled_like(wanted);
     }
@@ -88,16 +90,17 @@ fn close_to(wanted: &str) -> Vec<&'static str> {
 /// Names that are spelled like the wanted one, or begin like it.
 #[cfg(feature = "std")]
 fn spelled_like(wanted: &str) -> Vec<&'static str> {
-    /// Share of the letters that must be right [1]: with less, an arm of another series and maker would be close.
+    /// Share of the letters that must be right [1]: with less, an arm of another series and maker
+    /// would be close.
     const LEAST_SIMILARITY: f64 = 0.7;
-    let similarity = |arm: &CatalogueArm| {
+    let similarity = |arm: &CatalogArm| {
         let name = squeezed(arm.name);
         let start: String = name.chars().take(wanted.chars().count()).collect();
         let [whole, start] =
             [name, start].map(|name| strsim::normalized_damerau_levenshtein(&name, wanted));
         whole.max(start)
     };
-    let mut ranked: Vec<_> = catalogue()
+    let mut ranked: Vec<_> = catalog()
         .map(|arm| (similarity(arm), arm.name))
         .filter(|(s, _)| *s >= LEAST_SIMILARITY)
         .collect();
@@ -133,7 +136,7 @@ mod tests {
 
     #[test]
     fn no_two_arms_have_the_same_name() {
-        let mut names: Vec<_> = catalogue().map(|arm| squeezed(arm.name)).collect();
+        let mut names: Vec<_> = catalog().map(|arm| squeezed(arm.name)).collect();
         let count = names.len();
         names.sort();
         names.dedup();

@@ -11,17 +11,19 @@ use crate::kinematics::{DhRow, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh
 
 pub use names::find;
 
-/// One arm of the catalogue, with the numbers as its maker prints them.
+/// One arm of the catalog, with the numbers as its maker prints them.
 #[derive(Clone, Copy, Debug)]
-pub struct CatalogueArm {
+pub struct CatalogArm {
     /// The maker's type name.
     pub name: &'static str,
-    /// What it carries [kg], as its type name or the maker's data sheet has it; of several generations the least.
+    /// What it carries [kg], as its type name or the maker's data sheet has it; of several
+    /// generations the least.
     pub payload: Option<f64>,
-    /// How far it reaches [m], as its type name or the maker's data sheet has it: rounded, of ABB's arms to the wrist centre.
+    /// How far it reaches [m], as its type name or the maker's data sheet has it: rounded, of ABB's
+    /// arms to the wrist center.
     pub reach: Option<f64>,
     /// Its geometry.
-    pub geometry: CatalogueGeometry,
+    pub geometry: CatalogGeometry,
     /// Unit of the limits and velocities.
     pub angles: AngleUnit,
     /// (lower, upper) limit of each joint.
@@ -52,10 +54,10 @@ impl AngleUnit {
     }
 }
 
-/// The geometry of a catalogue arm.
+/// The geometry of a catalog arm.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
-pub enum CatalogueGeometry {
+pub enum CatalogGeometry {
     /// Ortho-parallel with a spherical wrist, in ABB's joint convention [mm].
     Abb {
         /// Distance of axis 2 from axis 1.
@@ -68,13 +70,14 @@ pub enum CatalogueGeometry {
         c2: f64,
         /// Forearm.
         c3: f64,
-        /// Wrist centre to flange.
+        /// Wrist center to flange.
         c4: f64,
-        /// Axes 2 and 3 are coupled by a parallelogram: the controller's angle of axis 3 counts from the base, q3_serial = q3 - q2, and so
-        /// do its limits.
+        /// Axes 2 and 3 are coupled by a parallelogram: the controller's angle of axis 3 counts
+        /// from the base, q3_serial = q3 - q2, and so do its limits.
         coupled: bool,
     },
-    /// Three parallel axes, in Universal Robots' standard Denavit-Hartenberg figures [mm]: twists of 90, 0, 0, 90, -90 and 0 deg.
+    /// Three parallel axes, in Universal Robots' standard Denavit-Hartenberg figures [mm]: twists
+    /// of 90, 0, 0, 90, -90 and 0 deg.
     ThreeParallel {
         /// Height of axis 2.
         d1: f64,
@@ -93,12 +96,12 @@ pub enum CatalogueGeometry {
     Mdh(&'static [[f64; 4]]),
 }
 
-/// Every arm of the catalogue: ABB's by type number, then the other makers'.
-pub fn catalogue() -> impl Iterator<Item = &'static CatalogueArm> {
+/// Every arm of the catalog: ABB's by type number, then the other makers'.
+pub fn catalog() -> impl Iterator<Item = &'static CatalogArm> {
     abb::SERIES.into_iter().chain([universal_robots::ARMS, franka::ARMS]).flatten()
 }
 
-impl CatalogueArm {
+impl CatalogArm {
     /// Number of joints.
     #[must_use]
     pub fn dof(&self) -> usize {
@@ -110,21 +113,22 @@ impl<const N: usize> Robot<N>
 where
     Joints<N>: Arity<N>,
 {
-    /// The arm of that name from the catalogue, as [`find`] finds it.
+    /// The arm of that name from the catalog, as [`find`] finds it.
     ///
     /// # Errors
     ///
-    /// [`Error::UnknownRobot`] with up to six close names; [`Error::InvalidModel`] when the arm does not have `N` joints.
+    /// [`Error::UnknownRobot`] with up to six close names; [`Error::InvalidModel`] when the arm
+    /// does not have `N` joints.
     pub fn named(name: &str) -> Result<Self, Error> {
-        Self::from_catalogue(find(name)?)
+        Self::from_catalog(find(name)?)
     }
 
-    /// The robot of a catalogue arm.
+    /// The robot of a catalog arm.
     ///
     /// # Errors
     ///
     /// [`Error::InvalidModel`] when the arm does not have `N` joints.
-    pub fn from_catalogue(arm: &CatalogueArm) -> Result<Self, Error> {
+    pub fn from_catalog(arm: &CatalogArm) -> Result<Self, Error> {
         let wrong_count = || Error::from(ModelFault::JointCount { found: arm.dof(), wanted: N });
         let limits: &[[f64; 2]; N] = arm.limits.try_into().map_err(|_| wrong_count())?;
         let velocity = match arm.max_velocity {
@@ -136,11 +140,11 @@ where
             None => None,
         };
         let robot = match arm.geometry {
-            CatalogueGeometry::Abb { a1, a2, c1, c2, c3, c4, coupled } => {
+            CatalogGeometry::Abb { a1, a2, c1, c2, c3, c4, coupled } => {
                 let [a1, a2, c1, c2, c3, c4] = [a1, a2, c1, c2, c3, c4].map(|mm| mm / 1e3);
                 Self::of_opw(OpwParameters::abb(a1, a2, c1, c2, c3, c4))?.with_coupling(coupled)
             }
-            CatalogueGeometry::ThreeParallel { d1, a2, a3, d4, d5, d6 } => {
+            CatalogGeometry::ThreeParallel { d1, a2, a3, d4, d5, d6 } => {
                 let rows = [
                     (90.0, 0.0, d1),
                     (0.0, a2, 0.0),
@@ -155,7 +159,7 @@ where
                 let rows = <[DhRow; N]>::try_from(&rows[..]).map_err(|_| wrong_count())?;
                 Self::from_sdh(Sdh { base: Pose::identity(), rows, flange: Pose::identity() })?
             }
-            CatalogueGeometry::Mdh(rows) => {
+            CatalogGeometry::Mdh(rows) => {
                 let rows = <[[f64; 4]; N]>::try_from(rows).map_err(|_| wrong_count())?;
                 let rows = rows.map(|[alpha, a, d, theta]| {
                     DhRow::new(alpha.to_radians(), a / 1e3, d / 1e3, theta.to_radians())

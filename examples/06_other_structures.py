@@ -1,4 +1,6 @@
-"""Arms that are not ABB's: three parallel axes, seven axes, and what a table or a URDF turns out to be."""
+"""Arms that are not ABB's: three parallel axes, seven axes, and what a table or a URDF turns out to
+be.
+"""
 
 from pathlib import Path
 
@@ -18,17 +20,19 @@ def three_parallel_axes() -> None:
     robot = irbkin.Robot("UR3")
     T = robot.fk(np.radians([25, -105, 85, -35, 65, 15]))
     solutions = robot.ik(T)
-    print(f"{robot.name}: {robot.family}, {solutions.explain()}")
+    print(f"{robot.name}: {robot.structure}, {solutions.explain()}")
     for solution in solutions:
-        words = ", ".join(word[bool(solution.slot & bit)] for word, bit in zip(SLOT, (4, 2, 1), strict=True))
+        words = ", ".join(
+            word[bool(solution.slot & bit)] for word, bit in zip(SLOT, (4, 2, 1), strict=True)
+        )
         print(f"  {solution.slot} {degrees(solution)}   {words}")
 
     # Axis 6 parallel to axes 2, 3 and 4: joint 6 is free.
     singular = robot.ik(robot.fk(np.radians([25, -80, 75, -45, 0, 40])))[0]
-    assert singular.free is not None
-    print(f"  with q5 = 0: J{singular.free.joint} is free, {singular.free.fixed} stay")
+    assert singular.free_joint is not None
+    print(f"  with q5 = 0: J{singular.free_joint.joint} is free, {singular.free_joint.fixed} stay")
     print(f"  {singular.slot} {degrees(singular)}")
-    print(f"  {singular.slot} {degrees(singular.with_free(np.radians(40)))}\n")
+    print(f"  {singular.slot} {degrees(singular.with_free_joint(np.radians(40)))}\n")
 
 
 def seven_axes() -> None:
@@ -36,17 +40,19 @@ def seven_axes() -> None:
     here = np.radians([5, -40, 10, -130, 5, 95, 35])
     T = robot.fk(here)
     solutions = robot.ik(T, q7=here[6])
-    print(f"{robot.name}: {robot.family}, q7 = 35 deg: {solutions.explain()}")
+    print(f"{robot.name}: {robot.structure}, q7 = 35 deg: {solutions.explain()}")
     for solution in solutions:
-        print(f"  {solution.slot} {degrees(solution)}   {'inside' if solution.within_limits else 'outside'}")
+        print(
+            f"  {solution.slot} {degrees(solution)}   {'inside' if solution.is_within_limits else 'outside'}"
+        )
     T[2, 3] += 0.050
     print("  50 mm higher, q7 chosen too:")
     print(f"    {' '.join(f'{angle:8.2f}' for angle in np.degrees(robot.ik_nearest(T, here)))}\n")
 
 
-def recognised() -> None:
+def recognized() -> None:
     robot = irbkin.Robot.from_urdf(URDF, tip="tool0")
-    print(f"{URDF.name}: {robot.family}")
+    print(f"{URDF.name}: {robot.structure}")
     # An IRB 2600 in standard form, with frames and a zero pose of its own.
     rows = np.array(
         [
@@ -61,7 +67,7 @@ def recognised() -> None:
     rows[:, [0, 3]] = np.radians(rows[:, [0, 3]])
     robot = irbkin.Robot.from_sdh(rows)
     solutions = robot.ik(robot.fk(np.radians([10, 20, 30, 40, 50, 60])))
-    print(f"a standard table with odd frames: {robot.family}, {len(solutions)} solutions")
+    print(f"a standard table with odd frames: {robot.structure}, {len(solutions)} solutions")
 
     tilted = rows.copy()
     tilted[1, 0] += np.radians(0.2)
@@ -75,7 +81,7 @@ def recognised() -> None:
 def main() -> None:
     three_parallel_axes()
     seven_axes()
-    recognised()
+    recognized()
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use irbkin::{Mdh, PoseError, Robot, Sdh};
+use irbkin::{Mdh, PoseDifference, Robot, Sdh};
 
 use crate::common::{poses_or, random_pose};
 use crate::rng::Rng;
@@ -54,7 +54,7 @@ fn assert_same_arm(
         let q = rng.angles();
         let pose = rewritten.robot.fk(&q);
         let q_original = std::array::from_fn(|i| signs[i] * q[i] + shifts[i]);
-        let error = PoseError::between(&original.robot.fk(&q_original), &pose);
+        let error = PoseDifference::between(&original.robot.fk(&q_original), &pose);
         assert!(error.position < 1e-14 && error.rotation < 1e-14, "{error:?}\n{table:?}");
         let solutions = rewritten.ik(&pose, &q);
         let off =

@@ -1,10 +1,11 @@
-//! The tables of docs/catalogue.md are those of the catalogue. With IRBKIN_WRITE=1 (`make catalogue`) they are written.
+//! The tables of docs/catalog.md are those of the catalog. With IRBKIN_WRITE=1 (`make catalog`)
+//! they are written.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use std::fs;
 use std::path::Path;
 
-use irbkin::{CatalogueArm, CatalogueGeometry, catalogue};
+use irbkin::{CatalogArm, CatalogGeometry, catalog};
 
 const COMMON_HEAD: [&str; 3] = ["arm", "payload [kg]", "reach [m]"];
 const COMMON_TAIL: [&str; 4] =
@@ -18,18 +19,18 @@ const TABLES: [(&str, &[&str]); 3] = [
 ];
 
 /// The table that an arm stands in, and its cells there.
-fn geometry(arm: &CatalogueArm) -> (&'static str, Vec<String>) {
+fn geometry(arm: &CatalogArm) -> (&'static str, Vec<String>) {
     let lengths = |mm: [f64; 6]| mm.map(|length| length.to_string()).to_vec();
     match arm.geometry {
-        CatalogueGeometry::Abb { a1, a2, c1, c2, c3, c4, coupled } => {
+        CatalogGeometry::Abb { a1, a2, c1, c2, c3, c4, coupled } => {
             let mut cells = lengths([a1, a2, c1, c2, c3, c4]);
             cells.push(if coupled { "yes" } else { "" }.to_owned());
             ("abb", cells)
         }
-        CatalogueGeometry::ThreeParallel { d1, a2, a3, d4, d5, d6 } => {
+        CatalogGeometry::ThreeParallel { d1, a2, a3, d4, d5, d6 } => {
             ("universal robots", lengths([d1, a2, a3, d4, d5, d6]))
         }
-        CatalogueGeometry::Mdh(_) => ("franka", Vec::new()),
+        CatalogGeometry::Mdh(_) => ("franka", Vec::new()),
         other => unreachable!("{other:?} has no table on the page"),
     }
 }
@@ -44,7 +45,7 @@ fn row(cells: impl IntoIterator<Item = String>) -> String {
     format!("| {} |\n", cells.into_iter().collect::<Vec<_>>().join(" | "))
 }
 
-fn row_of(arm: &CatalogueArm, geometry: Vec<String>) -> String {
+fn row_of(arm: &CatalogArm, geometry: Vec<String>) -> String {
     let known =
         |figure: Option<f64>| figure.map_or_else(|| "-".to_owned(), |figure| figure.to_string());
     let limits = arm.limits.iter().map(limit).collect::<Vec<_>>().join(", ");
@@ -62,7 +63,7 @@ fn table(name: &str, columns: &[&str]) -> String {
     let heads = || COMMON_HEAD.iter().chain(columns).chain(&COMMON_TAIL);
     let mut table = row(heads().map(|&head| head.to_owned()))
         + &format!("|{}\n", "---|".repeat(heads().count()));
-    for arm in catalogue() {
+    for arm in catalog() {
         let (place, cells) = geometry(arm);
         if place == name {
             table += &row_of(arm, cells);
@@ -72,12 +73,12 @@ fn table(name: &str, columns: &[&str]) -> String {
 }
 
 #[test]
-fn the_tables_of_the_page_are_those_of_the_catalogue() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/catalogue.md");
+fn the_tables_of_the_page_are_those_of_the_catalog() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/catalog.md");
     let page = fs::read_to_string(&path).unwrap();
     let mut made = page.clone();
     for (name, columns) in TABLES {
-        let start = format!("<!-- {name}: written by make catalogue -->\n");
+        let start = format!("<!-- {name}: written by make catalog -->\n");
         let (before, rest) = made.split_once(&start).unwrap();
         let (_, after) = rest.split_once("<!-- end -->").unwrap();
         made =
@@ -88,7 +89,7 @@ fn the_tables_of_the_page_are_those_of_the_catalogue() {
     } else {
         assert!(
             page == made,
-            "docs/catalogue.md is not what the catalogue says: make catalogue writes it"
+            "docs/catalog.md is not what the catalog says: make catalog writes it"
         );
     }
 }

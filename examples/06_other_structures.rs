@@ -1,4 +1,5 @@
-//! Arms that are not ABB's: three parallel axes, seven axes, and what a table or a URDF turns out to be.
+//! Arms that are not ABB's: three parallel axes, seven axes, and what a table or a URDF turns out
+//! to be.
 
 use irbkin::{DhRow, Error, Pose, Robot, Sdh, Solution};
 
@@ -17,7 +18,7 @@ fn three_parallel_axes() -> Result<(), Error> {
     let robot: Robot<6> = Robot::named("UR3")?;
     let pose = robot.fk(&[25.0, -105.0, 85.0, -35.0, 65.0, 15.0].map(f64::to_radians));
     let solutions = robot.ik(&pose)?;
-    println!("{}: {}, {}", robot.name(), robot.family(), solutions.explain());
+    println!("{}: {}, {}", robot.name(), robot.structure(), solutions.explain());
     for solution in &solutions {
         let words: Vec<_> = SLOT
             .iter()
@@ -30,11 +31,12 @@ fn three_parallel_axes() -> Result<(), Error> {
     // Axis 6 parallel to axes 2, 3 and 4: joint 6 is free.
     let pose = robot.fk(&[25.0, -80.0, 75.0, -45.0, 0.0, 40.0].map(f64::to_radians));
     let solutions = robot.ik(&pose)?;
-    let families = solutions.iter().find_map(|solution| solution.free.map(|free| (solution, free)));
+    let families =
+        solutions.iter().find_map(|solution| solution.free_joint.map(|free| (solution, free)));
     if let Some((singular, free)) = families {
         println!("  with q5 = 0: J{} is free, {} stay", free.joint(), free.fixed());
         println!("  {} {}", singular.slot, degrees(singular));
-        if let Some(moved) = robot.with_free(&pose, singular, 40.0_f64.to_radians())? {
+        if let Some(moved) = robot.with_free_joint(&pose, singular, 40.0_f64.to_radians())? {
             println!("  {} {}\n", moved.slot, degrees(&moved));
         }
     }
@@ -46,13 +48,13 @@ fn seven_axes() -> Result<(), Error> {
     let here = [5.0, -40.0, 10.0, -130.0, 5.0, 95.0, 35.0].map(f64::to_radians);
     let mut pose = robot.fk(&here);
     let solutions = robot.ik(&pose, here[6])?;
-    println!("{}: {}, q7 = 35 deg: {}", robot.name(), robot.family(), solutions.explain());
+    println!("{}: {}, q7 = 35 deg: {}", robot.name(), robot.structure(), solutions.explain());
     for solution in &solutions {
         println!(
             "  {} {}   {}",
             solution.slot,
             degrees(solution),
-            if solution.within_limits() { "inside" } else { "outside" }
+            if solution.is_within_limits() { "inside" } else { "outside" }
         );
     }
     pose.translation.z += 0.050;
@@ -61,9 +63,9 @@ fn seven_axes() -> Result<(), Error> {
     Ok(())
 }
 
-fn recognised() -> Result<(), Error> {
+fn recognized() -> Result<(), Error> {
     let robot: Robot<6> = Robot::from_urdf(URDF, None, Some("tool0"))?;
-    println!("ur5e.urdf: {}", robot.family());
+    println!("ur5e.urdf: {}", robot.structure());
     // An IRB 2600 in standard form, with frames and a zero pose of its own.
     let rows = [
         [90.0, 0.150, 0.445, 0.0],
@@ -79,7 +81,11 @@ fn recognised() -> Result<(), Error> {
     let robot = Robot::from_sdh(table.clone())?;
     let solutions =
         robot.ik(&robot.fk(&[10.0, 20.0, 30.0, 40.0, 50.0, 60.0].map(f64::to_radians)))?;
-    println!("a standard table with odd frames: {}, {} solutions", robot.family(), solutions.len());
+    println!(
+        "a standard table with odd frames: {}, {} solutions",
+        robot.structure(),
+        solutions.len()
+    );
 
     let mut tilted = table;
     tilted.rows[1].alpha += 0.2_f64.to_radians();
@@ -93,5 +99,5 @@ fn recognised() -> Result<(), Error> {
 fn main() -> Result<(), Error> {
     three_parallel_axes()?;
     seven_axes()?;
-    recognised()
+    recognized()
 }

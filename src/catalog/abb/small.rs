@@ -1,13 +1,13 @@
 //! Below 2000 in type number.
 
-use crate::catalogue::{AngleUnit, CatalogueArm, CatalogueGeometry};
+use crate::catalog::{AngleUnit, CatalogArm, CatalogGeometry};
 
-pub(super) const ARMS: &[CatalogueArm] = &[
-    CatalogueArm {
+pub(super) const ARMS: &[CatalogArm] = &[
+    CatalogArm {
         name: "IRB 52-7/1.2",
         payload: Some(7.0),
         reach: Some(1.2),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 150.0,
             a2: 0.0,
             c1: 486.5,
@@ -29,11 +29,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 2,
         provenance: "ros-industrial/abb_experimental, ARTE",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 52-7/1.45",
         payload: Some(7.0),
         reach: Some(1.45),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 150.0,
             a2: 0.0,
             c1: 486.5,
@@ -55,11 +55,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 1,
         provenance: "ros-industrial/abb_experimental",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 120-3/0.58",
         payload: Some(3.0),
         reach: Some(0.58),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 0.0,
             a2: -70.0,
             c1: 290.0,
@@ -79,13 +79,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[250.0, 250.0, 250.0, 320.0, 320.0, 420.0]),
         sources: 5,
-        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE; axis 4 is +-150 deg in visose/Robots, axis 3 -90 deg in robotkinematicscatalogue",
+        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, robotkinematicscatalog, ARTE; axis 4 is +-150 deg in visose/Robots, axis 3 -90 deg in robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 120T-3/0.58",
         payload: Some(3.0),
         reach: Some(0.58),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 0.0,
             a2: -70.0,
             c1: 290.0,
@@ -107,11 +107,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 1,
         provenance: "ros-industrial/abb_experimental",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 140-6/0.81",
         payload: Some(6.0),
         reach: Some(0.81),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 70.0,
             a2: 0.0,
             c1: 352.0,
@@ -131,13 +131,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[200.0, 200.0, 260.0, 360.0, 360.0, 450.0]),
         sources: 4,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue, ARTE; axis 5 is +-120 deg in robotkinematicscatalogue",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalog, ARTE; axis 5 is +-120 deg in robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 1010-1.5/0.37",
         payload: Some(1.5),
         reach: Some(0.37),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 0.0,
             a2: 0.0,
             c1: 190.0,
@@ -157,13 +157,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalogue; axis 6 is +-360 deg in robotkinematicscatalogue",
+        provenance: "RobotComponents, robotkinematicscatalog; axis 6 is +-360 deg in robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 1100-4/0.475",
         payload: Some(4.0),
         reach: Some(0.475),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 0.0,
             a2: -10.0,
             c1: 327.0,
@@ -183,13 +183,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-125 deg in robotkinematicscatalogue",
+        provenance: "RobotComponents, robotkinematicscatalog; axis 5 is +-125 deg in robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 1100-4/0.58",
         payload: Some(4.0),
         reach: Some(0.58),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 0.0,
             a2: -10.0,
             c1: 327.0,
@@ -209,13 +209,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-125 deg in robotkinematicscatalogue",
+        provenance: "RobotComponents, robotkinematicscatalog; axis 5 is +-125 deg in robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 1200-5/0.9",
         payload: Some(5.0),
         reach: Some(0.9),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 0.0,
             a2: -42.0,
             c1: 399.1,
@@ -235,13 +235,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[288.0, 240.0, 300.0, 400.0, 405.0, 600.0]),
         sources: 6,
-        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalogue, abb_motion_program_exec; axis 6 is +-400 deg in RobotComponents and visose/Robots: its turn limit is a software setting",
+        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalog, abb_motion_program_exec; axis 6 is +-400 deg in RobotComponents and visose/Robots: its turn limit is a software setting",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 1200-7/0.7",
         payload: Some(7.0),
         reach: Some(0.7),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 0.0,
             a2: -42.0,
             c1: 399.1,
@@ -261,13 +261,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[288.0, 240.0, 300.0, 400.0, 405.0, 600.0]),
         sources: 4,
-        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE",
+        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalog, ARTE",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 1300-7/1.4",
         payload: Some(7.0),
         reach: Some(1.4),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 150.0,
             a2: -40.0,
             c1: 544.0,
@@ -287,13 +287,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalogue",
+        provenance: "RobotComponents, robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 1300-10/1.15",
         payload: Some(10.0),
         reach: Some(1.15),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 150.0,
             a2: -40.0,
             c1: 544.0,
@@ -313,13 +313,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[280.0, 228.0, 336.0, 500.0, 415.0, 720.0]),
         sources: 3,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 1300-11/0.9",
         payload: Some(11.0),
         reach: Some(0.9),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 50.0,
             a2: -40.0,
             c1: 544.0,
@@ -339,13 +339,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalogue; axis 2 is -100..133 deg in robotkinematicscatalogue; axis 6 is +-242 deg in robotkinematicscatalogue",
+        provenance: "RobotComponents, robotkinematicscatalog; axis 2 is -100..133 deg in robotkinematicscatalog; axis 6 is +-242 deg in robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "CRB 1300-7/1.4",
         payload: Some(7.0),
         reach: Some(1.4),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 150.0,
             a2: -40.0,
             c1: 544.0,
@@ -365,13 +365,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue",
+        provenance: "robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "CRB 1300-10/1.15",
         payload: Some(10.0),
         reach: Some(1.15),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 150.0,
             a2: -40.0,
             c1: 544.0,
@@ -391,13 +391,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue",
+        provenance: "robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "CRB 1300-11/0.9",
         payload: Some(11.0),
         reach: Some(0.9),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 50.0,
             a2: -40.0,
             c1: 544.0,
@@ -417,13 +417,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue",
+        provenance: "robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 1410-4/1.45",
         payload: Some(4.0),
         reach: Some(1.45),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 150.0,
             a2: -120.0,
             c1: 475.0,
@@ -443,13 +443,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "robotkinematicscatalogue, ARTE; in ARTE c1 is 465 and c4 75 mm; its table is also printed under the name of an IRB 1600-6/1.45",
+        provenance: "robotkinematicscatalog, ARTE; in ARTE c1 is 465 and c4 75 mm; its table is also printed under the name of an IRB 1600-6/1.45",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 1520ID-4/1.5",
         payload: Some(4.0),
         reach: Some(1.5),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 160.0,
             a2: -200.0,
             c1: 453.0,
@@ -469,13 +469,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 3,
-        provenance: "RobotComponents, robotkinematicscatalogue, ARTE",
+        provenance: "RobotComponents, robotkinematicscatalog, ARTE",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 1600-6/1.2",
         payload: Some(6.0),
         reach: Some(1.2),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 150.0,
             a2: 0.0,
             c1: 486.5,
@@ -495,13 +495,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[150.0, 160.0, 170.0, 320.0, 400.0, 450.0]),
         sources: 4,
-        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE; axis 2 of the 1.2 m arms goes to 136 deg in ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
+        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalog, ARTE; axis 2 of the 1.2 m arms goes to 136 deg in ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 1600-6/1.45",
         payload: Some(6.0),
         reach: Some(1.45),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 150.0,
             a2: 0.0,
             c1: 486.5,
@@ -521,13 +521,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[180.0, 180.0, 185.0, 385.0, 400.0, 460.0]),
         sources: 4,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue, ARTE; axis 2 goes to 150 deg in visose/Robots and ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arm exchanged",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalog, ARTE; axis 2 goes to 150 deg in visose/Robots and ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arm exchanged",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 1600-8/1.2",
         payload: Some(8.0),
         reach: Some(1.2),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 150.0,
             a2: 0.0,
             c1: 486.5,
@@ -547,13 +547,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue; axis 2 of the 1.2 m arms goes to 136 deg in ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
+        provenance: "robotkinematicscatalog; axis 2 of the 1.2 m arms goes to 136 deg in ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 1600-8/1.45",
         payload: Some(8.0),
         reach: Some(1.45),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 150.0,
             a2: 0.0,
             c1: 486.5,
@@ -573,13 +573,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[180.0, 180.0, 200.0, 400.0, 400.0, 460.0]),
         sources: 2,
-        provenance: "ros-industrial/abb_experimental, robotkinematicscatalogue; axis 2 of the 1.45 m arms goes to 150 deg in visose/Robots and ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
+        provenance: "ros-industrial/abb_experimental, robotkinematicscatalog; axis 2 of the 1.45 m arms goes to 150 deg in visose/Robots and ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 1600-10/1.2",
         payload: Some(10.0),
         reach: Some(1.2),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 150.0,
             a2: 0.0,
             c1: 486.5,
@@ -601,11 +601,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 1,
         provenance: "RobotComponents; axis 2 of the 1.2 m arms goes to 136 deg in ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 1600-10/1.45",
         payload: Some(10.0),
         reach: Some(1.45),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 150.0,
             a2: 0.0,
             c1: 486.5,
@@ -625,13 +625,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[180.0, 180.0, 185.0, 385.0, 400.0, 460.0]),
         sources: 3,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue; axis 2 of the 1.45 m arms goes to 150 deg in visose/Robots and ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalog; axis 2 of the 1.45 m arms goes to 150 deg in visose/Robots and ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 1600ID-4/1.5",
         payload: Some(4.0),
         reach: Some(1.5),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 150.0,
             a2: -110.0,
             c1: 486.5,
@@ -651,13 +651,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "robotkinematicscatalogue, ARTE",
+        provenance: "robotkinematicscatalog, ARTE",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 1660ID-4/1.55",
         payload: Some(4.0),
         reach: Some(1.55),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 150.0,
             a2: -110.0,
             c1: 486.5,
@@ -677,13 +677,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 3,
-        provenance: "RobotComponents, robotkinematicscatalogue, ARTE; a2 is -108 mm in ARTE",
+        provenance: "RobotComponents, robotkinematicscatalog, ARTE; a2 is -108 mm in ARTE",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 1660ID-6/1.55",
         payload: Some(6.0),
         reach: Some(1.55),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 150.0,
             a2: -110.0,
             c1: 486.5,

@@ -1,19 +1,21 @@
 //! Universal Robots' arms.
 //!
-//! Standard Denavit-Hartenberg figures as Universal Robots publishes them (article "DH parameters for calculations of kinematics and dynamics"),
-//! held against ur-analytic-ik 0.1.0. Base and flange are frames 0 and 6 of that table. A machine's own calibration moves its tool by 1 to 2 mm
-//! from them. Payload and reach are general knowledge of the data sheets. Planners usually hold joint 3 to +-180 deg; the machine does not.
+//! Standard Denavit-Hartenberg figures as Universal Robots publishes them (article "DH parameters
+//! for calculations of kinematics and dynamics"), held against ur-analytic-ik 0.1.0. Base and
+//! flange are frames 0 and 6 of that table. A machine's own calibration moves its tool by 1 to 2 mm
+//! from them. Payload and reach are general knowledge of the data sheets. Planners usually hold
+//! joint 3 to +-180 deg; the machine does not.
 
-use super::{AngleUnit, CatalogueArm, CatalogueGeometry};
+use super::{AngleUnit, CatalogArm, CatalogGeometry};
 
 const LIMITS: &[[f64; 2]] = &[[-360.0, 360.0]; 6];
 
-pub(super) const ARMS: &[CatalogueArm] = &[
-    CatalogueArm {
+pub(super) const ARMS: &[CatalogArm] = &[
+    CatalogArm {
         name: "UR3",
         payload: Some(3.0),
         reach: Some(0.5),
-        geometry: CatalogueGeometry::ThreeParallel {
+        geometry: CatalogGeometry::ThreeParallel {
             d1: 151.9,
             a2: -243.65,
             a3: -213.25,
@@ -27,11 +29,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik; joint 6 of the machine turns without end",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "UR3e",
         payload: Some(3.0),
         reach: Some(0.5),
-        geometry: CatalogueGeometry::ThreeParallel {
+        geometry: CatalogGeometry::ThreeParallel {
             d1: 151.85,
             a2: -243.55,
             a3: -213.2,
@@ -45,11 +47,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik; joint 6 of the machine turns without end",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "UR5",
         payload: Some(5.0),
         reach: Some(0.85),
-        geometry: CatalogueGeometry::ThreeParallel {
+        geometry: CatalogGeometry::ThreeParallel {
             d1: 89.159,
             a2: -425.0,
             a3: -392.25,
@@ -63,11 +65,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "UR5e",
         payload: Some(5.0),
         reach: Some(0.85),
-        geometry: CatalogueGeometry::ThreeParallel {
+        geometry: CatalogGeometry::ThreeParallel {
             d1: 162.5,
             a2: -425.0,
             a3: -392.2,
@@ -81,11 +83,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "UR7e",
         payload: Some(7.5),
         reach: Some(0.85),
-        geometry: CatalogueGeometry::ThreeParallel {
+        geometry: CatalogGeometry::ThreeParallel {
             d1: 162.5,
             a2: -425.0,
             a3: -392.2,
@@ -99,11 +101,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik; the UR5e under a new name",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "UR8 Long",
         payload: Some(8.0),
         reach: Some(1.75),
-        geometry: CatalogueGeometry::ThreeParallel {
+        geometry: CatalogGeometry::ThreeParallel {
             d1: 218.6,
             a2: -898.9,
             a3: -714.9,
@@ -117,11 +119,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "UR10",
         payload: Some(10.0),
         reach: Some(1.3),
-        geometry: CatalogueGeometry::ThreeParallel {
+        geometry: CatalogGeometry::ThreeParallel {
             d1: 127.3,
             a2: -612.0,
             a3: -572.3,
@@ -135,11 +137,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "UR10e",
         payload: Some(10.0),
         reach: Some(1.3),
-        geometry: CatalogueGeometry::ThreeParallel {
+        geometry: CatalogGeometry::ThreeParallel {
             d1: 180.7,
             a2: -612.7,
             a3: -571.55,
@@ -153,11 +155,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "UR12e",
         payload: Some(12.5),
         reach: Some(1.3),
-        geometry: CatalogueGeometry::ThreeParallel {
+        geometry: CatalogGeometry::ThreeParallel {
             d1: 180.7,
             a2: -612.7,
             a3: -571.55,
@@ -171,11 +173,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik; the UR10e under a new name",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "UR15",
         payload: Some(15.0),
         reach: Some(1.3),
-        geometry: CatalogueGeometry::ThreeParallel {
+        geometry: CatalogGeometry::ThreeParallel {
             d1: 218.6,
             a2: -647.5,
             a3: -516.4,
@@ -189,11 +191,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "UR16e",
         payload: Some(16.0),
         reach: Some(0.9),
-        geometry: CatalogueGeometry::ThreeParallel {
+        geometry: CatalogGeometry::ThreeParallel {
             d1: 180.7,
             a2: -478.4,
             a3: -360.0,
@@ -207,11 +209,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "UR18",
         payload: Some(18.0),
         reach: Some(0.95),
-        geometry: CatalogueGeometry::ThreeParallel {
+        geometry: CatalogGeometry::ThreeParallel {
             d1: 218.6,
             a2: -475.0,
             a3: -338.9,
@@ -225,11 +227,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "UR20",
         payload: Some(20.0),
         reach: Some(1.75),
-        geometry: CatalogueGeometry::ThreeParallel {
+        geometry: CatalogGeometry::ThreeParallel {
             d1: 236.3,
             a2: -862.0,
             a3: -728.7,
@@ -243,11 +245,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "UR30",
         payload: Some(30.0),
         reach: Some(1.3),
-        geometry: CatalogueGeometry::ThreeParallel {
+        geometry: CatalogGeometry::ThreeParallel {
             d1: 236.3,
             a2: -637.0,
             a3: -503.7,

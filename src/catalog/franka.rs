@@ -1,11 +1,12 @@
 //! Franka arms.
 //!
-//! Denavit-Hartenberg rows as Franka publishes them (control parameters documentation), the flange in the last row; held against a pose
-//! recorded on a machine (petercorke/robotics-toolbox-matlab#107). Limits and velocities after Franka's data sheet.
+//! Denavit-Hartenberg rows as Franka publishes them (control parameters documentation), the flange
+//! in the last row; held against a pose recorded on a machine
+//! (petercorke/robotics-toolbox-matlab#107). Limits and velocities after Franka's data sheet.
 
-use super::{AngleUnit, CatalogueArm, CatalogueGeometry};
+use super::{AngleUnit, CatalogArm, CatalogGeometry};
 
-const GEOMETRY: CatalogueGeometry = CatalogueGeometry::Mdh(&[
+const GEOMETRY: CatalogGeometry = CatalogGeometry::Mdh(&[
     [0.0, 0.0, 333.0, 0.0],
     [-90.0, 0.0, 0.0, 0.0],
     [90.0, 0.0, 316.0, 0.0],
@@ -15,9 +16,9 @@ const GEOMETRY: CatalogueGeometry = CatalogueGeometry::Mdh(&[
     [90.0, 88.0, 107.0, 0.0],
 ]);
 
-pub(super) const ARMS: &[CatalogueArm] = &[PANDA, FR3];
+pub(super) const ARMS: &[CatalogArm] = &[PANDA, FR3];
 
-const PANDA: CatalogueArm = CatalogueArm {
+const PANDA: CatalogArm = CatalogArm {
     name: "Panda",
     payload: Some(3.0),
     reach: Some(0.855),
@@ -37,7 +38,7 @@ const PANDA: CatalogueArm = CatalogueArm {
     provenance: "Franka control parameters; limits are general knowledge of the data sheet",
 };
 
-const FR3: CatalogueArm = CatalogueArm {
+const FR3: CatalogArm = CatalogArm {
     name: "FR3",
     payload: Some(3.0),
     reach: Some(0.855),

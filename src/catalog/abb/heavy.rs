@@ -1,13 +1,13 @@
 //! IRB 6700 to 8700.
 
-use crate::catalogue::{AngleUnit, CatalogueArm, CatalogueGeometry};
+use crate::catalog::{AngleUnit, CatalogArm, CatalogGeometry};
 
-pub(super) const ARMS: &[CatalogueArm] = &[
-    CatalogueArm {
+pub(super) const ARMS: &[CatalogArm] = &[
+    CatalogArm {
         name: "IRB 6700-150/3.2",
         payload: Some(150.0),
         reach: Some(3.2),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 780.0,
@@ -27,13 +27,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[100.0, 90.0, 90.0, 170.0, 120.0, 190.0]),
         sources: 5,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue, ARTE, abb_motion_program_exec; a1 is 377 mm in ARTE",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalog, ARTE, abb_motion_program_exec; a1 is 377 mm in ARTE",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6700-150/3.2 (LeanID)",
         payload: Some(150.0),
         reach: Some(3.2),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 780.0,
@@ -53,13 +53,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue",
+        provenance: "robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6700-155/2.85",
         payload: Some(155.0),
         reach: Some(2.85),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 780.0,
@@ -79,13 +79,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[110.0, 110.0, 110.0, 190.0, 150.0, 210.0]),
         sources: 3,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue; c3 is 1393 mm in visose/Robots",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalog; c3 is 1393 mm in visose/Robots",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6700-175/3.05",
         payload: Some(175.0),
         reach: Some(3.05),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 780.0,
@@ -105,13 +105,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalogue",
+        provenance: "RobotComponents, robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6700-200/2.6",
         payload: Some(200.0),
         reach: Some(2.6),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 780.0,
@@ -131,13 +131,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[110.0, 110.0, 110.0, 190.0, 150.0, 210.0]),
         sources: 4,
-        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE",
+        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalog, ARTE",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6700-205/2.8",
         payload: Some(205.0),
         reach: Some(2.8),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 780.0,
@@ -157,13 +157,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalogue",
+        provenance: "RobotComponents, robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6700-220/2.65 (MH6, LeanID)",
         payload: Some(220.0),
         reach: Some(2.65),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 780.0,
@@ -185,11 +185,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 1,
         provenance: "visose/Robots",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6700-235/2.65",
         payload: Some(235.0),
         reach: Some(2.65),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 780.0,
@@ -209,13 +209,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[100.0, 90.0, 90.0, 170.0, 120.0, 190.0]),
         sources: 3,
-        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue",
+        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6790-205/2.8",
         payload: Some(205.0),
         reach: Some(2.8),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 780.0,
@@ -237,11 +237,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 1,
         provenance: "RobotComponents",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 6790-235/2.65",
         payload: Some(235.0),
         reach: Some(2.65),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 320.0,
             a2: -200.0,
             c1: 780.0,
@@ -263,11 +263,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 1,
         provenance: "RobotComponents",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 7600-150/3.5",
         payload: Some(150.0),
         reach: Some(3.5),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 410.0,
             a2: -165.0,
             c1: 780.0,
@@ -287,13 +287,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[100.0, 60.0, 60.0, 100.0, 100.0, 190.0]),
         sources: 4,
-        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE; axis 5 is +-130 deg in robotkinematicscatalogue",
+        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalog, ARTE; axis 5 is +-130 deg in robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 7600-325/3.1",
         payload: Some(325.0),
         reach: Some(3.1),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 410.0,
             a2: -165.0,
             c1: 780.0,
@@ -313,13 +313,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-130 deg in robotkinematicscatalogue",
+        provenance: "RobotComponents, robotkinematicscatalog; axis 5 is +-130 deg in robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 7600-340/2.8",
         payload: Some(340.0),
         reach: Some(2.8),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 410.0,
             a2: -165.0,
             c1: 780.0,
@@ -339,13 +339,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-130 deg in robotkinematicscatalogue",
+        provenance: "RobotComponents, robotkinematicscatalog; axis 5 is +-130 deg in robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 7600-400/2.55",
         payload: Some(400.0),
         reach: Some(2.55),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 410.0,
             a2: -165.0,
             c1: 780.0,
@@ -365,13 +365,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-130 deg in robotkinematicscatalogue",
+        provenance: "RobotComponents, robotkinematicscatalog; axis 5 is +-130 deg in robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 7600-500/2.3",
         payload: Some(500.0),
         reach: Some(2.3),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 410.0,
             a2: -165.0,
             c1: 780.0,
@@ -391,13 +391,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue; axis 5 is +-100 deg in three sources of the other 7600s",
+        provenance: "robotkinematicscatalog; axis 5 is +-100 deg in three sources of the other 7600s",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 7600-500/2.55",
         payload: Some(500.0),
         reach: Some(2.55),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 410.0,
             a2: -165.0,
             c1: 780.0,
@@ -417,13 +417,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-130 deg in robotkinematicscatalogue",
+        provenance: "RobotComponents, robotkinematicscatalog; axis 5 is +-130 deg in robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 8700-550/4.2",
         payload: Some(550.0),
         reach: Some(4.2),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 420.0,
             a2: -310.0,
             c1: 1000.0,
@@ -443,13 +443,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue; axis 3 has a far wider range than on the other coupled arms: no second source confirms it",
+        provenance: "robotkinematicscatalog; axis 3 has a far wider range than on the other coupled arms: no second source confirms it",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 8700-800/3.5",
         payload: Some(800.0),
         reach: Some(3.5),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 420.0,
             a2: -310.0,
             c1: 1000.0,
@@ -469,6 +469,6 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue; axis 3 has a far wider range than on the other coupled arms: no second source confirms it",
+        provenance: "robotkinematicscatalog; axis 3 has a far wider range than on the other coupled arms: no second source confirms it",
     },
 ];

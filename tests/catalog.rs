@@ -1,22 +1,22 @@
-//! Every arm of the catalogue against figures that are not irbkin's own.
+//! Every arm of the catalog against figures that are not irbkin's own.
 #![allow(clippy::unwrap_used, clippy::unreadable_literal, clippy::panic, missing_docs)]
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use crate::common::{Rng, apart, reach_of};
-use irbkin::{CatalogueGeometry, Error, JointLimits, Pose, Robot, catalogue, pose_to_quaternion};
+use irbkin::{CatalogGeometry, Error, JointLimits, Pose, Robot, catalog, pose_to_wxyz};
 use nalgebra::Vector3;
 
-/// Where the figures come from that an arm is held to. Only the first kind can find a catalogue
+/// Where the figures come from that an arm is held to. Only the first kind can find a catalog
 /// that is wrong; the second finds a product that is, the third a slip of the pen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Golden {
     /// A pose that others measured, recorded or printed.
     MeasuredOrPublishedByOthers,
-    /// Poses that another program calculated from the table that the catalogue has.
+    /// Poses that another program calculated from the table that the catalog has.
     IndependentProductOfTheTable,
-    /// The zero pose, summed from the maker's figures, which are the catalogue's too.
+    /// The zero pose, summed from the maker's figures, which are the catalog's too.
     TranscriptionOfTheSheet,
 }
 
@@ -90,7 +90,7 @@ fn assert_is_met(
     (position, rotation): (f64, f64),
 ) {
     let robot: Robot<6> = Robot::named(name).unwrap();
-    let (xyz, found) = pose_to_quaternion(&robot.fk(&degrees.map(f64::to_radians)));
+    let (xyz, found) = pose_to_wxyz(&robot.fk(&degrees.map(f64::to_radians)));
     for (axis, mm) in xyz_mm.iter().enumerate() {
         assert!((xyz[axis] * 1e3 - mm).abs() < position, "{name}: {xyz:?} m, not {xyz_mm:?} mm");
     }
@@ -101,9 +101,9 @@ fn assert_is_met(
 /// Arm, joint angles [deg] with a serial axis 3, position of tool0 [mm], quaternion w x y z.
 type Product = (String, [f64; 6], [f64; 3], [f64; 4]);
 
-/// Rows of tests/data/abb_catalogue_poses.csv.
+/// Rows of tests/data/abb_catalog_poses.csv.
 fn products_of_rows() -> Vec<Product> {
-    let text = include_str!("data/abb_catalogue_poses.csv");
+    let text = include_str!("data/abb_catalog_poses.csv");
     let row = |line: &str| {
         // A name may hold a comma, the thirteen numbers behind it do not.
         let mut numbers: Vec<f64> =
@@ -123,8 +123,8 @@ fn products_of_rows() -> Vec<Product> {
 #[test]
 fn independent_product_of_the_table() {
     for (name, degrees, xyz_mm, wxyz) in products_of_rows() {
-        let robot: Robot<6> = Robot::named(&name).unwrap().serial();
-        let (xyz, found) = pose_to_quaternion(&robot.fk(&degrees.map(f64::to_radians)));
+        let robot: Robot<6> = Robot::named(&name).unwrap().uncoupled();
+        let (xyz, found) = pose_to_wxyz(&robot.fk(&degrees.map(f64::to_radians)));
         // Half a unit of the last digit of the file, and what rounding adds.
         for (axis, mm) in xyz_mm.into_iter().enumerate() {
             assert!(
@@ -140,9 +140,9 @@ fn independent_product_of_the_table() {
 
 #[test]
 fn the_zero_pose_is_the_sum_of_the_drawings_lengths() {
-    for arm in catalogue() {
-        let CatalogueGeometry::Abb { a1, a2, c1, c2, c3, c4, .. } = arm.geometry else { continue };
-        let pose: Pose = Robot::<6>::from_catalogue(arm).unwrap().fk(&[0.0; 6]);
+    for arm in catalog() {
+        let CatalogGeometry::Abb { a1, a2, c1, c2, c3, c4, .. } = arm.geometry else { continue };
+        let pose: Pose = Robot::<6>::from_catalog(arm).unwrap().fk(&[0.0; 6]);
         let wanted = Vector3::new(a1 + c3 + c4, 0.0, c1 + c2 - a2) / 1e3;
         assert!(
             (pose.translation.vector - wanted).amax() < 2e-15 * wanted.norm(),
@@ -171,10 +171,10 @@ fn golden_of(name: &str, products: &[Product]) -> Option<Golden> {
 fn every_arm_has_a_golden_pose_of_a_stated_kind() {
     let products = products_of_rows();
     let mut counts = BTreeMap::new();
-    for arm in catalogue() {
+    for arm in catalog() {
         let kind = golden_of(arm.name, &products);
         *counts.entry(kind.unwrap_or_else(|| panic!("{} has none", arm.name))).or_insert(0) += 1;
-        if matches!(arm.geometry, CatalogueGeometry::Abb { .. }) {
+        if matches!(arm.geometry, CatalogGeometry::Abb { .. }) {
             // Beside what others measured of a few.
             assert_eq!(products.iter().filter(|row| row.0 == arm.name).count(), 2, "{}", arm.name);
         }
@@ -210,24 +210,24 @@ fn panda_and_fr3_meet_the_pose_recorded_on_a_machine() {
     assert!((pose.rotation[(0, 0)] - 0.768_176_030_504_295_6).abs() < 1e-9);
 }
 
-const ROD: &str =
-    "coupled: its rods are likely to stop it before it is stretched; no source has that limit";
+const LINKAGE: &str =
+    "coupled: its linkages are likely to stop it before it is stretched; no source has that limit";
 const FIFTY: &str = "names of large arms are rounded to 50 mm";
 
 /// Arms whose name is off the reach of their lengths by more than the rounding to the last digit
 /// that it prints: that reach [m], why.
 #[rustfmt::skip]
 const OFF_THEIR_NAME: [(&str, f64, &str); 15] = [
-    ("IRB 1410-4/1.45", 1.4799, ROD),
+    ("IRB 1410-4/1.45", 1.4799, LINKAGE),
     ("IRB 1660ID-4/1.55", 1.5369, "three sources agree on the lengths"),
     ("IRB 1660ID-6/1.55", 1.5369, "the lengths of the 1660ID-4/1.55"),
-    ("IRB 2400-10/1.55", 1.5720, ROD),
-    ("IRB 2400-12/1.55", 1.5720, ROD),
-    ("IRB 2400-16/1.55", 1.5720, ROD),
-    ("IRB 4400-45/1.96 (M94A)", 1.9827, ROD),
-    ("IRB 4400-60/1.96", 1.9827, ROD),
-    ("IRB 4400L-30/2.43", 2.4781, ROD),
-    ("IRB 6400/2.4-120", 2.4573, ROD),
+    ("IRB 2400-10/1.55", 1.5720, LINKAGE),
+    ("IRB 2400-12/1.55", 1.5720, LINKAGE),
+    ("IRB 2400-16/1.55", 1.5720, LINKAGE),
+    ("IRB 4400-45/1.96 (M94A)", 1.9827, LINKAGE),
+    ("IRB 4400-60/1.96", 1.9827, LINKAGE),
+    ("IRB 4400L-30/2.43", 2.4781, LINKAGE),
+    ("IRB 6400/2.4-120", 2.4573, LINKAGE),
     ("IRB 6640-205/2.75", 2.7594, FIFTY),
     ("IRB 6640ID-170/2.75", 2.7594, FIFTY),
     ("IRB 6650-200/2.75", 2.7594, FIFTY),
@@ -238,8 +238,8 @@ const OFF_THEIR_NAME: [(&str, f64, &str); 15] = [
 #[test]
 fn the_reach_in_the_type_name_is_that_of_the_geometry() {
     let mut off: Vec<_> = OFF_THEIR_NAME.iter().map(|exception| exception.0).collect();
-    for arm in catalogue() {
-        let CatalogueGeometry::Abb { a1, a2, c2, c3, .. } = arm.geometry else { continue };
+    for arm in catalog() {
+        let CatalogGeometry::Abb { a1, a2, c2, c3, .. } = arm.geometry else { continue };
         let reach = (a1 + c2 + a2.hypot(c3)) / 1e3;
         let printed = arm.reach.unwrap().to_string();
         let decimals = printed.split_once('.').map_or(1, |(_, decimals)| decimals.len());
@@ -262,12 +262,12 @@ fn the_reach_in_the_type_name_is_that_of_the_geometry() {
             );
         }
     }
-    assert!(off.is_empty(), "{off:?} are not in the catalogue");
+    assert!(off.is_empty(), "{off:?} are not in the catalog");
 }
 
 #[test]
 fn payload_and_reach_of_an_abb_arm_are_those_of_its_name() {
-    for arm in catalogue().filter(|arm| matches!(arm.geometry, CatalogueGeometry::Abb { .. })) {
+    for arm in catalog().filter(|arm| matches!(arm.geometry, CatalogGeometry::Abb { .. })) {
         // "2600-12/1.65", of the oldest "6400R/2.5-150".
         let numbers: Vec<f64> =
             arm.name.split(['-', '/', ' ']).filter_map(|word| word.parse().ok()).collect();
@@ -282,23 +282,23 @@ fn payload_and_reach_of_an_abb_arm_are_those_of_its_name() {
 
 #[test]
 fn every_arm_has_sane_limits() {
-    for arm in catalogue() {
+    for arm in catalog() {
         assert!(arm.sources >= 1, "{}", arm.name);
         assert!(!arm.provenance.is_empty());
         assert!(
             arm.payload.is_none_or(|kilograms| kilograms > 0.0)
-                && arm.reach.is_none_or(|metres| metres > 0.0)
+                && arm.reach.is_none_or(|meters| meters > 0.0)
         );
         assert!(arm.max_velocity.is_none_or(
             |velocity| velocity.len() == arm.dof() && velocity.iter().all(|speed| *speed > 0.0)
         ));
         for [lower, upper] in arm.limits {
             assert!(lower < upper, "{}", arm.name);
-            if matches!(arm.geometry, CatalogueGeometry::Abb { .. }) {
+            if matches!(arm.geometry, CatalogGeometry::Abb { .. }) {
                 assert!(*lower < 0.0 && *upper > 0.0, "{} cannot stand at zero", arm.name);
             }
         }
-        if matches!(arm.geometry, CatalogueGeometry::Abb { .. }) {
+        if matches!(arm.geometry, CatalogGeometry::Abb { .. }) {
             // The widest ranges that a source has: what goes past them is a slip.
             let most = [230.0, 180.0, 250.0, 400.0, 135.0, 400.0];
             for (limit, most) in arm.limits.iter().zip(most) {
@@ -342,16 +342,16 @@ fn closes<const N: usize>(
 #[test]
 fn every_arm_closes_on_random_poses_and_finds_the_joints_that_made_them() {
     let mut rng = Rng::new(2026);
-    for arm in catalogue() {
+    for arm in catalog() {
         if arm.dof() == 7 {
-            let robot: Robot<7> = Robot::from_catalogue(arm).unwrap();
+            let robot: Robot<7> = Robot::from_catalog(arm).unwrap();
             closes(&robot, &mut rng, |pose, q| {
                 robot.ik(pose, q[6]).unwrap().iter().map(|solution| solution.q).collect()
             });
             continue;
         }
-        let mut robot: Robot<6> = Robot::from_catalogue(arm).unwrap();
-        if matches!(arm.geometry, CatalogueGeometry::ThreeParallel { .. }) {
+        let mut robot: Robot<6> = Robot::from_catalog(arm).unwrap();
+        if matches!(arm.geometry, CatalogGeometry::ThreeParallel { .. }) {
             // Full turns make no new poses.
             robot = robot.with_limits(JointLimits::new([[-PI, PI]; 6]).unwrap());
         }

@@ -1,19 +1,21 @@
-"""Limits and speeds of the catalogue against the golden figures; what its filters let through."""
+"""Limits and speeds of the catalog against the golden figures; what its filters let through."""
 
 import irbkin
 import numpy as np
 import pytest
-from arms import ABB, CATALOGUE
+from arms import ABB, CATALOG
 
 
-@pytest.mark.parametrize("name", CATALOGUE)
+@pytest.mark.parametrize("name", CATALOG)
 def test_limits_are_the_golden_ones(name):
-    np.testing.assert_allclose(np.rad2deg(irbkin.Robot(name).limits), CATALOGUE[name].limits_deg, rtol=4e-16, atol=0)
+    np.testing.assert_allclose(
+        np.rad2deg(irbkin.Robot(name).limits), CATALOG[name].limits_deg, rtol=4e-16, atol=0
+    )
 
 
-@pytest.mark.parametrize("name", CATALOGUE)
+@pytest.mark.parametrize("name", CATALOG)
 def test_speeds_are_the_golden_ones_or_none(name):
-    found, golden = irbkin.Robot(name).max_velocity, CATALOGUE[name].velocity_deg_s
+    found, golden = irbkin.Robot(name).max_velocity, CATALOG[name].velocity_deg_s
     if golden is None:
         assert found is None
     else:
@@ -22,12 +24,16 @@ def test_speeds_are_the_golden_ones_or_none(name):
 
 @pytest.mark.parametrize("name", ABB)
 def test_an_arm_reaches_about_what_its_name_says(name):
-    """The number behind the stroke is the maker's reach [m], to the wrist centre, in steps of 50 mm at worst."""
+    """The number behind the stroke is the maker's reach [m], to the wrist center, in steps of 50 mm
+    at worst.
+    """
     a1, elbow, _, upper, forearm, _ = ABB[name].lengths
-    assert a1 + upper + np.hypot(elbow, forearm) == pytest.approx(float(name.split("/")[1]), abs=0.05)
+    assert a1 + upper + np.hypot(elbow, forearm) == pytest.approx(
+        float(name.split("/")[1]), abs=0.05
+    )
 
 
-@pytest.mark.parametrize("name", CATALOGUE)
+@pytest.mark.parametrize("name", CATALOG)
 def test_the_zero_pose_of_an_abb_arm_is_inside_its_limits(name):
     low, high = irbkin.Robot(name).limits.T
     assert (low < high).all()
@@ -39,13 +45,23 @@ def test_the_zero_pose_of_an_abb_arm_is_inside_its_limits(name):
 def test_filters_take_a_least_figure_or_a_pair():
     names = irbkin.catalog()
     assert irbkin.catalog(reach=0, payload=0) == names
-    assert irbkin.catalog(reach=(1.65, 1.65), payload=(12, 20)) == ("IRB 2600-12/1.65", "IRB 2600-20/1.65")
-    assert irbkin.catalog(payload=[3, 3], reach=(0.5, 0.6)) == ("IRB 120-3/0.58", "IRB 120T-3/0.58", "UR3", "UR3e")
+    assert irbkin.catalog(reach=(1.65, 1.65), payload=(12, 20)) == (
+        "IRB 2600-12/1.65",
+        "IRB 2600-20/1.65",
+    )
+    assert irbkin.catalog(payload=[3, 3], reach=(0.5, 0.6)) == (
+        "IRB 120-3/0.58",
+        "IRB 120T-3/0.58",
+        "UR3",
+        "UR3e",
+    )
     assert irbkin.catalog(payload=500, reach=4) == ("IRB 8700-550/4.2",)
     assert irbkin.catalog(reach=100) == ()
     far = irbkin.catalog(reach=2.5)
     assert list(far) == [name for name in names if name in far]
-    assert set(irbkin.catalog(reach=(0, 2.4))) | set(irbkin.catalog(reach=2.5)) | {"IRB 4400L-30/2.43"} == set(names)
+    assert set(irbkin.catalog(reach=(0, 2.4))) | set(irbkin.catalog(reach=2.5)) | {
+        "IRB 4400L-30/2.43"
+    } == set(names)
 
 
 @pytest.mark.parametrize(

@@ -1,13 +1,13 @@
 //! IRB 2400 to 4600.
 
-use crate::catalogue::{AngleUnit, CatalogueArm, CatalogueGeometry};
+use crate::catalog::{AngleUnit, CatalogArm, CatalogGeometry};
 
-pub(super) const ARMS: &[CatalogueArm] = &[
-    CatalogueArm {
+pub(super) const ARMS: &[CatalogArm] = &[
+    CatalogArm {
         name: "IRB 2400-10/1.55",
         payload: Some(10.0),
         reach: Some(1.55),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 100.0,
             a2: -135.0,
             c1: 615.0,
@@ -27,13 +27,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[150.0, 150.0, 150.0, 360.0, 360.0, 450.0]),
         sources: 4,
-        provenance: "ros-industrial/abb, robotkinematicscatalogue, ARTE, rs-opw-kinematics",
+        provenance: "ros-industrial/abb, robotkinematicscatalog, ARTE, rs-opw-kinematics",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 2400-12/1.55",
         payload: Some(12.0),
         reach: Some(1.55),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 100.0,
             a2: -135.0,
             c1: 615.0,
@@ -55,11 +55,11 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         sources: 1,
         provenance: "ros-industrial/abb",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 2400-16/1.55",
         payload: Some(16.0),
         reach: Some(1.55),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 100.0,
             a2: -135.0,
             c1: 615.0,
@@ -79,13 +79,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[150.0, 150.0, 150.0, 360.0, 360.0, 450.0]),
         sources: 2,
-        provenance: "visose/Robots, robotkinematicscatalogue",
+        provenance: "visose/Robots, robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 2400L-7/1.8",
         payload: Some(7.0),
         reach: Some(1.8),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 100.0,
             a2: -150.0,
             c1: 615.0,
@@ -105,13 +105,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue; axis 2 is -100..110 deg on the other 2400s, in more sources",
+        provenance: "robotkinematicscatalog; axis 2 is -100..110 deg on the other 2400s, in more sources",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 2600-12/1.65",
         payload: Some(12.0),
         reach: Some(1.65),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 150.0,
             a2: -115.0,
             c1: 445.0,
@@ -131,13 +131,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[175.0, 175.0, 175.0, 360.0, 360.0, 500.0]),
         sources: 6,
-        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE, rs-opw-kinematics; ros-industrial/abb_experimental has axis 2 as -155..95 deg (sign turned) and axis 3 as -155..75 deg",
+        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, robotkinematicscatalog, ARTE, rs-opw-kinematics; ros-industrial/abb_experimental has axis 2 as -155..95 deg (sign turned) and axis 3 as -155..75 deg",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 2600-12/1.85",
         payload: Some(12.0),
         reach: Some(1.85),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 150.0,
             a2: -115.0,
             c1: 445.0,
@@ -157,13 +157,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalogue",
+        provenance: "RobotComponents, robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 2600-20/1.65",
         payload: Some(20.0),
         reach: Some(1.65),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 150.0,
             a2: -115.0,
             c1: 445.0,
@@ -183,13 +183,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[175.0, 175.0, 175.0, 360.0, 360.0, 500.0]),
         sources: 3,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 2600ID-8/2.0",
         payload: Some(8.0),
         reach: Some(2.0),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 150.0,
             a2: -150.0,
             c1: 445.0,
@@ -209,13 +209,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalogue",
+        provenance: "RobotComponents, robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 2600ID-15/1.85",
         payload: Some(15.0),
         reach: Some(1.85),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 150.0,
             a2: -150.0,
             c1: 445.0,
@@ -235,13 +235,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 3,
-        provenance: "RobotComponents, robotkinematicscatalogue, ARTE; ARTE has the forearm of the 2600-12/1.85 (a2 -115, c3 795, c4 85)",
+        provenance: "RobotComponents, robotkinematicscatalog, ARTE; ARTE has the forearm of the 2600-12/1.85 (a2 -115, c3 795, c4 85)",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 4400-45/1.96 (M94A)",
         payload: Some(45.0),
         reach: Some(1.96),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 200.0,
             a2: -150.0,
             c1: 680.0,
@@ -261,13 +261,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue; axis 3 is -60..65 deg on the 4400-60/1.96, in three sources",
+        provenance: "robotkinematicscatalog; axis 3 is -60..65 deg on the 4400-60/1.96, in three sources",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 4400-60/1.96",
         payload: Some(60.0),
         reach: Some(1.96),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 200.0,
             a2: -150.0,
             c1: 680.0,
@@ -287,13 +287,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[150.0, 120.0, 120.0, 225.0, 250.0, 330.0]),
         sources: 3,
-        provenance: "visose/Robots, robotkinematicscatalogue, ARTE",
+        provenance: "visose/Robots, robotkinematicscatalog, ARTE",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 4400L-30/2.43",
         payload: Some(30.0),
         reach: Some(2.43),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 200.0,
             a2: -150.0,
             c1: 680.0,
@@ -313,13 +313,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[150.0, 120.0, 120.0, 225.0, 250.0, 330.0]),
         sources: 2,
-        provenance: "ros-industrial/abb, robotkinematicscatalogue; axis 3 is +-165 deg in robotkinematicscatalogue; tool0 is not turned by 90 deg about y in ros-industrial/abb",
+        provenance: "ros-industrial/abb, robotkinematicscatalog; axis 3 is +-165 deg in robotkinematicscatalog; tool0 is not turned by 90 deg about y in ros-industrial/abb",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 4600-20/2.5",
         payload: Some(20.0),
         reach: Some(2.5),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 175.0,
             a2: -175.0,
             c1: 495.0,
@@ -339,13 +339,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[175.0, 175.0, 175.0, 360.0, 360.0, 500.0]),
         sources: 4,
-        provenance: "RobotComponents, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalogue; axis 5 is -125..120 deg in ROS-Industrial and PickNik; robotkinematicscatalogue has the forearm of the 40/2.55 arm (1270/135)",
+        provenance: "RobotComponents, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalog; axis 5 is -125..120 deg in ROS-Industrial and PickNik; robotkinematicscatalog has the forearm of the 40/2.55 arm (1270/135)",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 4600-40/2.55",
         payload: Some(40.0),
         reach: Some(2.55),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 175.0,
             a2: -175.0,
             c1: 495.0,
@@ -365,13 +365,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[175.0, 175.0, 175.0, 250.0, 250.0, 360.0]),
         sources: 7,
-        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalogue, ARTE, compas_fab; axis 5 is -120..125 deg in RobotComponents and +-120 deg in robotkinematicscatalogue; ARTE has the upper arm and forearm of the 2.05 m arm (900, 960); c3 is 1271 mm in compas_fab",
+        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalog, ARTE, compas_fab; axis 5 is -120..125 deg in RobotComponents and +-120 deg in robotkinematicscatalog; ARTE has the upper arm and forearm of the 2.05 m arm (900, 960); c3 is 1271 mm in compas_fab",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 4600-45/2.05",
         payload: Some(45.0),
         reach: Some(2.05),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 175.0,
             a2: -175.0,
             c1: 495.0,
@@ -391,13 +391,13 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[175.0, 175.0, 175.0, 250.0, 250.0, 360.0]),
         sources: 3,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue; axis 5 is +-120 deg in robotkinematicscatalogue",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalog; axis 5 is +-120 deg in robotkinematicscatalog",
     },
-    CatalogueArm {
+    CatalogArm {
         name: "IRB 4600-60/2.05",
         payload: Some(60.0),
         reach: Some(2.05),
-        geometry: CatalogueGeometry::Abb {
+        geometry: CatalogGeometry::Abb {
             a1: 175.0,
             a2: -175.0,
             c1: 495.0,
@@ -417,6 +417,6 @@ pub(super) const ARMS: &[CatalogueArm] = &[
         ],
         max_velocity: Some(&[175.0, 175.0, 175.0, 250.0, 250.0, 360.0]),
         sources: 6,
-        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalogue, rs-opw-kinematics; axis 5 is +-120 deg in robotkinematicscatalogue",
+        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalog, rs-opw-kinematics; axis 5 is +-120 deg in robotkinematicscatalog",
     },
 ];

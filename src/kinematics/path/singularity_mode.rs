@@ -5,9 +5,9 @@ use alloc::vec::Vec;
 use nalgebra::Vector3;
 
 use crate::error::{Error, JointFault, ModelFault};
-use crate::kinematics::answer::status::Status;
+use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::path::follow::{Break, BreakReason, Followed, Follower, largest_step};
-use crate::kinematics::pose::{Pose, PoseError, checked_pose};
+use crate::kinematics::pose::{Pose, PoseDifference, checked_pose};
 use crate::kinematics::robot::Robot;
 use crate::kinematics::structure::any::AnyStructure;
 use crate::kinematics::structure::solver::Solver;
@@ -18,17 +18,17 @@ use crate::kinematics::thresholds::{HELD_STILL, JUMP_BLIND, WRIST_ZONE};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
-pub enum Crossing {
+pub enum SingularityMode {
     /// Meets every pose exactly, however fast axes 4 and 6 must turn.
     #[default]
     Through,
     /// Stops where joint 5 comes into the zone, and where a joint must jump. As `SingArea \Off`.
     Error,
-    /// Inside the zone axes 4 and 5 go straight from the first pose to the last; the tool's position stays exact, its orientation deviates
-    /// by two zones at most. As `SingArea \Wrist`.
+    /// Inside the zone axes 4 and 5 go straight from the first pose to the last; the tool's
+    /// position stays exact, its orientation deviates by two zones at most. As `SingArea \Wrist`.
     Wrist,
-    /// Axis 4 stays at 0 or +-180 deg all along; the tool's position stays exact, its orientation is met where the pose can be reached
-    /// with axis 4 there. As `SingArea \LockAxis4`.
+    /// Axis 4 stays at 0 or +-180 deg all along; the tool's position stays exact, its orientation
+    /// is met where the pose can be reached with axis 4 there. As `SingArea \LockAxis4`.
     LockAxis4,
 }
 
@@ -39,27 +39,30 @@ pub struct FollowOptions {
     /// Cost of moving each joint, in the choice among solutions.
     pub weights: [f64; 6],
     /// What to do at the wrist singularity.
-    pub crossing: Crossing,
+    pub singularity_mode: SingularityMode,
     /// |sin q5| below which joint 5 is in the zone of `crossing` [1].
     pub zone: f64,
 }
 
 impl Default for FollowOptions {
     fn default() -> Self {
-        Self { weights: [1.0; 6], crossing: Crossing::Through, zone: WRIST_ZONE }
+        Self { weights: [1.0; 6], singularity_mode: SingularityMode::Through, zone: WRIST_ZONE }
     }
 }
 
-/// How often the arm and a wrist with axis 4 held are solved in turn: each round shrinks the error by the tool's length over the arm's.
+/// How often the arm and a wrist with axis 4 held are solved in turn: each round shrinks the error
+/// by the tool's length over the arm's.
 const ROUNDS: usize = 60;
 
 impl Robot<6> {
-    /// One continuous joint path along `path`, from the solution nearest to `seed` [rad] on: inside the limits, turns considered.
+    /// One continuous joint path along `path`, from the solution nearest to `seed` [rad] on: inside
+    /// the limits, turns considered.
     ///
     /// # Errors
     ///
-    /// As [`Robot::ik_nearest`]; a pose that cannot be reached is no error but a break. [`Error::InvalidModel`] where [`Crossing::Wrist`] or
-    /// [`Crossing::LockAxis4`] is asked of an arm without a spherical wrist.
+    /// As [`Robot::ik_nearest`]; a pose that cannot be reached is no error but a break.
+    /// [`Error::InvalidModel`] where [`SingularityMode::Wrist`] or [`SingularityMode::LockAxis4`]
+    /// is asked of an arm without a spherical wrist.
     pub fn follow(
         &self,
         path: &[Pose],
@@ -69,7 +72,7 @@ impl Robot<6> {
         if !(options.zone.is_finite() && options.zone >= 0.0) {
             return Err(JointFault::Zone { value: options.zone }.into());
         }
-        if matches!(options.crossing, Crossing::Wrist | Crossing::LockAxis4)
+        if matches!(options.singularity_mode, SingularityMode::Wrist | SingularityMode::LockAxis4)
             && self.spherical_wrist().is_none()
         {
             return Err(ModelFault::NoSphericalWrist.into());
@@ -85,10 +88,10 @@ impl Robot<6> {
                 breaks: Vec::new(),
             },
         };
-        match options.crossing {
-            Crossing::Through | Crossing::Error => walk.through()?,
-            Crossing::Wrist => walk.wrist()?,
-            Crossing::LockAxis4 => walk.lock_axis_4()?,
+        match options.singularity_mode {
+            SingularityMode::Through | SingularityMode::Error => walk.through()?,
+            SingularityMode::Wrist => walk.wrist()?,
+            SingularityMode::LockAxis4 => walk.lock_axis_4()?,
         }
         Ok(walk.finish())
     }
@@ -96,7 +99,7 @@ impl Robot<6> {
 
 /// What of the wrist is held; the rest comes as near to the pose as it can.
 #[derive(Clone, Copy)]
-enum Held {
+enum Locked {
     Axis4,
     Axes4And5,
 }
@@ -112,7 +115,7 @@ struct Walk<'a> {
 
 impl Walk<'_> {
     fn in_zone(&self, q: &[f64; 6]) -> bool {
-        self.robot.structure().arm().sin_5(q).is_some_and(|sin_5| sin_5.abs() < self.options.zone)
+        self.robot.solver().arm().sin_5(q).is_some_and(|sin_5| sin_5.abs() < self.options.zone)
     }
 
     fn record(&mut self, q: Option<[f64; 6]>, broken: Option<BreakReason>) {
@@ -121,12 +124,12 @@ impl Walk<'_> {
         self.followed.breaks.extend(broken.map(|reason| Break { pose_index, reason }));
     }
 
-    /// Pose by pose; with [`Crossing::Error`] up to the zone or a jump.
+    /// Pose by pose; with [`SingularityMode::Error`] up to the zone or a jump.
     fn through(&mut self) -> Result<(), Error> {
         for pose in self.path {
             let (solution, broken) = self.follower.step(pose)?;
             let q = solution.map(|solution| solution.q);
-            if self.options.crossing == Crossing::Error {
+            if self.options.singularity_mode == SingularityMode::Error {
                 let stopped =
                     q.filter(|q| self.in_zone(q)).map(|q| BreakReason::Stopped { q5: q[4] });
                 if let Some(reason) = stopped.or(broken) {
@@ -156,10 +159,12 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// Records the poses of one zone, from `first` on; returns the index of the first pose behind it.
+    /// Records the poses of one zone, from `first` on; returns the index of the first pose behind
+    /// it.
     ///
-    /// The first and the last pose of the zone are met exactly. Between them axes 4 and 5 go straight and axis 6 turns the tool as near as it
-    /// can: q5 and the pose's own tilt both stay in the zone, so the tool deviates by two zones at most.
+    /// The first and the last pose of the zone are met exactly. Between them axes 4 and 5 go
+    /// straight and axis 6 turns the tool as near as it can: q5 and the pose's own tilt both stay
+    /// in the zone, so the tool deviates by two zones at most.
     fn cross(
         &mut self,
         first: usize,
@@ -193,9 +198,9 @@ impl Walk<'_> {
             let found = if index + 1 == behind {
                 Some(left)
             } else {
-                self.held(&self.path[index], &wanted, Held::Axes4And5)?
+                self.held(&self.path[index], &wanted, Locked::Axes4And5)?
             };
-            let broken = found.map_or(Some(BreakReason::Held), |found| jump(&q, &found));
+            let broken = found.map_or(Some(BreakReason::Locked), |found| jump(&q, &found));
             q = found.unwrap_or(q);
             self.record(found, broken);
         }
@@ -218,9 +223,9 @@ impl Walk<'_> {
                     }
                 },
             };
-            let held = self.held(pose, &from, Held::Axis4)?;
+            let held = self.held(pose, &from, Locked::Axis4)?;
             let broken = match (held, standing) {
-                (None, _) => Some(BreakReason::Held),
+                (None, _) => Some(BreakReason::Locked),
                 (Some(q), Some(before)) => jump(&before, &q),
                 (Some(_), None) => None,
             };
@@ -238,8 +243,9 @@ impl Walk<'_> {
         q
     }
 
-    /// The joints for a pose with the wrist held as in `q`: arm and wrist solved in turn until both stand.
-    fn held(&self, pose: &Pose, q: &[f64; 6], how: Held) -> Result<Option<[f64; 6]>, Error> {
+    /// The joints for a pose with the wrist held as in `q`: arm and wrist solved in turn until both
+    /// stand.
+    fn held(&self, pose: &Pose, q: &[f64; 6], how: Locked) -> Result<Option<[f64; 6]>, Error> {
         let pose = checked_pose(pose)?;
         let Some(Solver { structure: arm, end_frames, .. }) = self.robot.wrist_solver() else {
             return Ok(None);
@@ -250,8 +256,8 @@ impl Walk<'_> {
         for _ in 0..ROUNDS {
             let m = arm.rotation_in_forearm(rotation.matrix(), &held);
             let wrist = match how {
-                Held::Axis4 => arm.with_axis_4_held(&m, &held),
-                Held::Axes4And5 => arm.with_axes_4_and_5_held(&m, &held),
+                Locked::Axis4 => arm.with_axis_4_held(&m, &held),
+                Locked::Axes4And5 => arm.with_axes_4_and_5_held(&m, &held),
             };
             let wrist = self.robot.limits().turned_to(&wrist, &held);
             let Some(next) = wrist.and_then(|wrist| self.to_point(arm, &point, &lever, &wrist))
@@ -267,7 +273,8 @@ impl Walk<'_> {
         Ok(Some(held))
     }
 
-    /// The joints inside the limits, nearest to `q`, that bring `lever` in the wrist frame to `point` with the wrist of `q`.
+    /// The joints inside the limits, nearest to `q`, that bring `lever` in the wrist frame to
+    /// `point` with the wrist of `q`.
     fn to_point(
         &self,
         arm: &SphericalWrist,
@@ -287,7 +294,7 @@ impl Walk<'_> {
     fn finish(mut self) -> Followed {
         let rows = self.followed.q.iter().zip(self.path);
         let error = |(q, pose): (&Option<[f64; 6]>, &Pose)| {
-            q.map(|q| PoseError::between(&self.robot.fk(&q), pose).rotation)
+            q.map(|q| PoseDifference::between(&self.robot.fk(&q), pose).rotation)
         };
         self.followed.orientation_error = rows.map(error).collect();
         // What was not come to, when the path stopped.
@@ -300,5 +307,9 @@ impl Walk<'_> {
 /// A step of the held arm that is too large to be the path's.
 fn jump(from: &[f64; 6], to: &[f64; 6]) -> Option<BreakReason> {
     let (joint, by) = largest_step(from, to);
-    (by.abs() > JUMP_BLIND).then_some(BreakReason::Jump { joint, by, kinds: Status::empty() })
+    (by.abs() > JUMP_BLIND).then_some(BreakReason::Jump {
+        joint,
+        by,
+        kinds: SingularityKind::empty(),
+    })
 }

@@ -1,5 +1,5 @@
-//! The family of solutions along a free joint that moves more than a partner: axis 1 where the wrist centre is on it, axis 2 where the arm is
-//! folded onto it, axis 6 of three parallel axes.
+//! The family of solutions along a free joint that moves more than a partner: axis 1 where the
+//! wrist center is on it, axis 2 where the arm is folded onto it, axis 6 of three parallel axes.
 
 use core::f64::consts::{PI, TAU};
 
@@ -42,7 +42,8 @@ type OfSlots = [f64; MOST_SLOTS];
 #[derive(Clone, Copy)]
 struct Sample {
     angle: f64,
-    /// How far the farthest joint is outside its limits or, inside them, less than zero and the less the nearer to the seed.
+    /// How far the farthest joint is outside its limits or, inside them, less than zero and the
+    /// less the nearer to the seed.
     heights: OfSlots,
     /// Size of sin q5 of an arm whose wrist may be singular as well.
     wrists: OfSlots,
@@ -73,7 +74,7 @@ where
     Joints<N>: Arity<N>,
 {
     /// Looks at the family of a solution, on all its branches.
-    pub(super) fn look_along_family(
+    pub(super) fn look_along_self_motion(
         &mut self,
         from: &Solution<N>,
         free: FreeJoint,
@@ -112,7 +113,8 @@ where
         Ok(())
     }
 
-    /// Looks where between three angles the joints of a slot are the least outside the limits, or the nearest to the seed.
+    /// Looks where between three angles the joints of a slot are the least outside the limits, or
+    /// the nearest to the seed.
     fn look_into_valleys(
         &mut self,
         from: &Solution<N>,
@@ -135,8 +137,8 @@ where
         Ok(())
     }
 
-    /// Looks where between two angles the arm is the nearest to stretched or folded, ever closer to there: the nearer it comes, the farther a
-    /// small step of the free joint turns the arm.
+    /// Looks where between two angles the arm is the nearest to stretched or folded, ever closer to
+    /// there: the nearer it comes, the farther a small step of the free joint turns the arm.
     fn look_at_elbow_between(
         &mut self,
         from: &Solution<N>,
@@ -158,7 +160,8 @@ where
         Ok(())
     }
 
-    /// Whether the free joint leaves its angle with the tool on the pose: next to the singularity it does not.
+    /// Whether the free joint leaves its angle with the tool on the pose: next to the singularity
+    /// it does not.
     fn is_open(&mut self, from: &Solution<N>, free: FreeJoint) -> Result<bool, Error> {
         let own = from.q[free.joint() - 1];
         for part in [0.05, -0.05, 0.8, -0.8, 1.6, -1.6, 2.4, -2.4] {
@@ -190,8 +193,8 @@ where
         Window { low: from.q[joint], step: TAU / f64::from(steps), steps }
     }
 
-    /// Looks at three parallel axes with joint 6 at several angles, where rounding of the shoulder leaves the plane of the arm open, and with it
-    /// a wrist that is nearly singular.
+    /// Looks at three parallel axes with joint 6 at several angles, where rounding of the shoulder
+    /// leaves the plane of the arm open, and with it a wrist that is nearly singular.
     pub(super) fn look_at_open_plane(&mut self, from: &Solution<N>) -> Result<(), Error> {
         let free = FreeJoint::Parallel;
         let [low, high] = self.wanted.limits.to_array()[5];
@@ -202,7 +205,8 @@ where
         let others = (0..steps).map(|step| own + f64::from(step) * TAU / f64::from(PLANE_STEPS));
         for angle in known.into_iter().chain(others) {
             let seeded = Solution { q: self.others, ..*from };
-            let solutions = self.robot.solve_with_free(self.known.pose(), &seeded, free, angle)?;
+            let solutions =
+                self.robot.solve_with_free_joint(self.known.pose(), &seeded, free, angle)?;
             for solution in &solutions {
                 self.move_onto_pose(&solution.q, LIMIT_SLACK, solution);
             }
@@ -222,7 +226,8 @@ where
             *last = *given;
         }
         let seeded = Solution { q, ..*from };
-        let solutions = self.robot.solve_with_free(self.known.pose(), &seeded, free, angle)?;
+        let solutions =
+            self.robot.solve_with_free_joint(self.known.pose(), &seeded, free, angle)?;
         for solution in &solutions {
             self.take_if_met(solution, from);
         }
@@ -252,7 +257,7 @@ where
     }
 
     fn wrist(&self, solutions: &Solutions<N>, slot: usize) -> f64 {
-        let Some(wrist) = self.robot.structure().arm().spherical_wrist() else {
+        let Some(wrist) = self.robot.solver().arm().spherical_wrist() else {
             return f64::INFINITY;
         };
         let solution = solutions.slot(slot).or_else(|| solutions.slot(slot ^ 1));
@@ -265,7 +270,8 @@ where
         heights.fold(f64::INFINITY, f64::min)
     }
 
-    /// Looks where between two angles the members are the least outside the limits, or the nearest to the seed.
+    /// Looks where between two angles the members are the least outside the limits, or the nearest
+    /// to the seed.
     fn look_into_valley(
         &mut self,
         from: &Solution<N>,
@@ -280,7 +286,8 @@ where
         golden_section(at, low, high).map(|_| ())
     }
 
-    /// Looks where between two angles the wrist of a slot is singular as well: there axes 4 and 6 may take any part of their sum.
+    /// Looks where between two angles the wrist of a slot is singular as well: there axes 4 and 6
+    /// may take any part of their sum.
     fn look_at_wrist_between(
         &mut self,
         from: &Solution<N>,
