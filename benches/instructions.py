@@ -27,6 +27,7 @@ WHAT = {
     "batch fk": 512,
     "batch jacobian": 512,
     "batch ik": 512,
+    "batch singularity": 512,
 }
 # The difference of two counts leaves start and preparation out.
 FEW, MANY = 2, 12

@@ -14,7 +14,7 @@ mod poses;
 /// Poses of a batch.
 const POSES: u32 = 512;
 
-const ALL: [&str; 9] = [
+const ALL: [&str; 10] = [
     "fk",
     "jacobian",
     "ik, 8 solutions",
@@ -24,6 +24,7 @@ const ALL: [&str; 9] = [
     "batch fk",
     "batch jacobian",
     "batch ik",
+    "batch singularity",
 ];
 
 fn main() {
@@ -84,6 +85,11 @@ fn repeat_batch(robot: &Robot<6>, what: &str, times: u32) {
         }
         "batch ik" => again(times, || {
             batch::ik(robot, &poses, black_box(&mut answers), &mut status, None).unwrap();
+        }),
+        "batch singularity" => again(times, || {
+            for record in batch::singularity(robot, black_box(&q)).unwrap() {
+                black_box(record);
+            }
         }),
         _ => eprintln!("{what} is none of {ALL:?}"),
     }

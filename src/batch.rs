@@ -91,7 +91,7 @@ pub fn singularity<'a, const N: usize>(
 where
     Joints<N>: Arity<N>,
 {
-    Ok(rows::<N>("q", q)?.iter().map(|q| is_finite(q).then(|| robot.singularity(q))))
+    Ok(robot.singularities(rows::<N>("q", q)?))
 }
 
 /// Inverse kinematics: rows of 16 pose elements, and what is given with each (`()` for six joints,

@@ -16,7 +16,9 @@ use std::array;
 use common::skip::skip;
 use common::{Rng, on_each_set, rng};
 use irbkin::batch;
-use irbkin::{InstructionSet, JacobianFrame, Pose, Robot, Status, pose_from_rows, pose_to_rows};
+use irbkin::{
+    InstructionSet, JacobianFrame, Pose, Robot, Singularity, Status, pose_from_rows, pose_to_rows,
+};
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Vector3};
 use structures::{Structure, Subject};
 use subjects::{PoseRow, Row, joint_rows, rows, subjects};
@@ -138,6 +140,18 @@ where
     jacobians
 }
 
+fn figures_of<const N: usize>(robot: &Robot<N>, q: &[[f64; N]]) -> Vec<[f64; 2]>
+where
+    Joints<N>: Arity<N>,
+{
+    let records = batch::singularity(robot, q.as_flattened()).unwrap();
+    records.map(|record| record.map_or([f64::NAN; 2], |record| figures(&record))).collect()
+}
+
+fn figures(record: &Singularity) -> [f64; 2] {
+    [record.min_singular_value, record.manipulability]
+}
+
 fn is_finite(row: &[f64]) -> bool {
     row.iter().all(|number| number.is_finite())
 }
@@ -212,6 +226,10 @@ where
             );
         }
     }
+    for (q, found) in joints.iter().zip(figures_of(robot, &joints)) {
+        let wanted = if is_finite(q) { figures(&robot.singularity(q)) } else { [f64::NAN; 2] };
+        assert!(same_bits(&found, &wanted), "{what}, singular values of {q:?}");
+    }
 }
 
 fn a_row_does_not_depend_on_its_neighbors<const N: usize>(structure: &Structure<N>)
@@ -257,12 +275,18 @@ fn forward_rows_do_not_depend_on_their_neighbors<const N: usize>(
     let joints = joint_rows::<N>(ROWS);
     let (poses, jacobians) =
         (fk_of(robot, &joints), jacobians_of(robot, &joints, JacobianFrame::Tool));
+    let figures = figures_of(robot, &joints);
     for cut in 0..=17 {
         for (first, past) in [(0, cut), (cut, ROWS), (cut, 2 * cut), (100 + 3 * cut, 100 + 4 * cut)]
         {
             let q = &joints[first..past];
             assert!(
                 same_bits(fk_of(robot, q).as_flattened(), poses[first..past].as_flattened()),
+                "{first}..{past}, {}",
+                set.name()
+            );
+            assert!(
+                same_bits(figures_of(robot, q).as_flattened(), figures[first..past].as_flattened()),
                 "{first}..{past}, {}",
                 set.name()
             );
@@ -360,6 +384,7 @@ where
     answers: Answers<N>,
     poses: Vec<PoseRow>,
     jacobians: Vec<[[f64; N]; 6]>,
+    figures: Vec<[f64; 2]>,
 }
 
 fn solved_on_each_set<const N: usize>(subject: &Subject<N>, rows: &[Row<N>]) -> Vec<OnEachSet<N>>
@@ -374,6 +399,7 @@ where
             answers: Answers::in_a_batch(subject, rows, 1),
             poses: fk_of(&subject.robot, &joints),
             jacobians: jacobians_of(&subject.robot, &joints, JacobianFrame::Tool),
+            figures: figures_of(&subject.robot, &joints),
         });
     });
     solved
@@ -404,6 +430,11 @@ where
                 narrow.jacobians.as_flattened().as_flattened(),
                 wide.jacobians.as_flattened().as_flattened()
             ),
+            "{}",
+            subject.name
+        );
+        assert!(
+            same_bits(narrow.figures.as_flattened(), wide.figures.as_flattened()),
             "{}",
             subject.name
         );

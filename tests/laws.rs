@@ -5,6 +5,7 @@
 
 mod of_robots;
 mod profile;
+mod singular_values;
 mod spherical_shoulder_alone;
 mod spherical_wrist_alone;
 mod three_parallel_alone;

@@ -152,3 +152,8 @@ pub const WRIST_ZONE: f64 = 0.0175;
 /// configuration is matched [rad]: 0.01 deg, what the rounding of a robtarget's printed digits
 /// leaves open.
 pub const CONFIGURATION_EDGE: f64 = 0.01 * core::f64::consts::PI / 180.0;
+
+/// Square of a length below which a mirror does not turn it [(m/rad)^2, 1]: the least whose digits,
+/// and those of what it is summed from, are all there. The length counts as zero, which moves a
+/// singular value by no more than its root.
+pub(crate) const REFLECTED_SQUARE: f64 = 1e-290;

@@ -1,7 +1,5 @@
 //! How far a joint vector is from the singularities.
 
-use nalgebra::SMatrix;
-
 use crate::kinematics::answer::status::SingularityKind;
 
 /// How far a joint vector is from each singularity of an arm with a closed form.
@@ -32,19 +30,4 @@ pub struct Singularity {
     pub manipulability: f64,
     /// The singularities at which the joint vector stands.
     pub kinds: SingularityKind,
-}
-
-/// The singular values of a Jacobian of 6 or 7 joints, the largest first.
-pub(crate) fn singular_values<const N: usize>(jacobian: &SMatrix<f64, 6, N>) -> [f64; 6] {
-    const { assert!(N <= 7, "singular values are calculated for arms of up to seven joints") };
-    if !jacobian.iter().all(|element| element.is_finite()) {
-        return [f64::NAN; 6];
-    }
-    // A column of zeros changes no singular value: one size serves every arm.
-    let mut padded = SMatrix::<f64, 6, 7>::zeros();
-    for (to, from) in padded.column_iter_mut().zip(jacobian.column_iter()) {
-        let mut to = to;
-        to.copy_from(&from);
-    }
-    padded.singular_values().into()
 }

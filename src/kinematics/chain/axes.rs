@@ -48,45 +48,36 @@ impl<const W: usize> Axes<W> {
         Self { x: axis(0), y: axis(1), z: axis(2), origin: [[p.x; W], [p.y; W], [p.z; W]] }
     }
 
-    /// The frames times `Rx(alpha) Tx(a) Rz(theta + q) Tz(d)`, with the sines and cosines of q.
+    /// Takes the frames on by `Rx(alpha) Tx(a) Rz(theta + q) Tz(d)`, with the sines and cosines of
+    /// q. In place: new frames would be copied for each link.
     #[inline(always)]
-    pub(crate) fn after<const FUSED: bool>(
-        &self,
+    pub(crate) fn advance<const FUSED: bool>(
+        &mut self,
         link: Link,
         sin_q: &[f64; W],
         cos_q: &[f64; W],
-    ) -> Self {
-        let mut next = *self;
+    ) {
         for lane in 0..W {
             let sin = mul_add::<FUSED>(sin_q[lane], link.cos_theta, cos_q[lane] * link.sin_theta);
             let cos =
                 mul_add::<FUSED>(cos_q[lane], link.cos_theta, -(sin_q[lane] * link.sin_theta));
-            next.turn::<FUSED>(self, link, sin, cos, 0, lane);
-            next.turn::<FUSED>(self, link, sin, cos, 1, lane);
-            next.turn::<FUSED>(self, link, sin, cos, 2, lane);
+            self.turn::<FUSED>(link, sin, cos, 0, lane);
+            self.turn::<FUSED>(link, sin, cos, 1, lane);
+            self.turn::<FUSED>(link, sin, cos, 2, lane);
         }
-        next
     }
 
     /// One component of the step in one lane.
     #[inline(always)]
-    fn turn<const FUSED: bool>(
-        &mut self,
-        from: &Self,
-        link: Link,
-        sin: f64,
-        cos: f64,
-        i: usize,
-        lane: usize,
-    ) {
-        let (x, y, z) = (from.x[i][lane], from.y[i][lane], from.z[i][lane]);
+    fn turn<const FUSED: bool>(&mut self, link: Link, sin: f64, cos: f64, i: usize, lane: usize) {
+        let (x, y, z) = (self.x[i][lane], self.y[i][lane], self.z[i][lane]);
         let tilted = mul_add::<FUSED>(y, link.cos_alpha, z * link.sin_alpha);
         let axis = mul_add::<FUSED>(z, link.cos_alpha, -(y * link.sin_alpha));
         self.x[i][lane] = mul_add::<FUSED>(x, cos, tilted * sin);
         self.y[i][lane] = mul_add::<FUSED>(tilted, cos, -(x * sin));
         self.z[i][lane] = axis;
         self.origin[i][lane] =
-            mul_add::<FUSED>(x, link.a, mul_add::<FUSED>(axis, link.d, from.origin[i][lane]));
+            mul_add::<FUSED>(x, link.a, mul_add::<FUSED>(axis, link.d, self.origin[i][lane]));
     }
 
     /// The frames times a constant one.

@@ -50,7 +50,8 @@ impl<const N: usize> Kernel for Poses<'_, N> {
     fn run<const FUSED: bool>(self) {
         let first = Axes::of(self.chain.first());
         for (q, poses) in self.q.chunks(LANES).zip(self.out.chunks_mut(LANES)) {
-            let (sin, cos) = sines_of_rows::<N, FUSED>(self.chain, q);
+            let (mut sin, mut cos) = ([[0.0; LANES]; N], [[0.0; LANES]; N]);
+            sines_of_rows::<N, FUSED>(self.chain, q, &mut sin, &mut cos);
             tool::<N, LANES, FUSED>(self.chain, first, &sin, &cos).write(poses);
             for (_, pose) in q.iter().zip(poses).filter(|(q, _)| !is_finite(q)) {
                 *pose = [f64::NAN; 16];
@@ -80,7 +81,7 @@ impl<const N: usize> Kernel for OneFrames<'_, N> {
         let mut frame = Axes::<1>::of(self.chain.first());
         let mut frames = [Pose::identity(); N];
         for (joint, (link, pose)) in self.chain.links().iter().zip(&mut frames).enumerate() {
-            frame = frame.after::<FUSED>(*link, &sin[joint], &cos[joint]);
+            frame.advance::<FUSED>(*link, &sin[joint], &cos[joint]);
             *pose = frame.pose(0);
         }
         (frames, frame.times::<FUSED>(self.chain.last()).pose(0))
@@ -97,7 +98,7 @@ fn tool<const N: usize, const W: usize, const FUSED: bool>(
 ) -> Axes<W> {
     let mut frame = first;
     for (joint, link) in chain.links().iter().enumerate() {
-        frame = frame.after::<FUSED>(*link, &sin[joint], &cos[joint]);
+        frame.advance::<FUSED>(*link, &sin[joint], &cos[joint]);
     }
     frame.times::<FUSED>(chain.last())
 }
@@ -106,18 +107,21 @@ fn tool<const N: usize, const W: usize, const FUSED: bool>(
 pub(in crate::kinematics) type Joints<const N: usize> = [Column; N];
 
 /// Sines and cosines of the table's angles of up to a block of rows, which stand in the lanes.
+/// Written in place: returned, they would be copied from function to function.
 #[inline(always)]
 pub(in crate::kinematics) fn sines_of_rows<const N: usize, const FUSED: bool>(
     chain: &Chain<N>,
     rows: &[[f64; N]],
-) -> (Joints<N>, Joints<N>) {
+    sin: &mut Joints<N>,
+    cos: &mut Joints<N>,
+) {
     let mut angles = [[0.0; LANES]; N];
     for (lane, row) in rows.iter().enumerate() {
         for (column, angle) in angles.iter_mut().zip(chain.uncoupled(row)) {
             column[lane] = angle;
         }
     }
-    sines::<N, FUSED>(&angles)
+    sines::<N, FUSED>(&angles, sin, cos);
 }
 
 /// Sines and cosines of the joint angles of one arm, calculated side by side; one lane of each
@@ -130,27 +134,30 @@ pub(in crate::kinematics) fn sines_of_joints<const N: usize, const FUSED: bool>(
     for ((q, sin), cos) in q.chunks(LANES).zip(sin.chunks_mut(LANES)).zip(cos.chunks_mut(LANES)) {
         let mut angles = [0.0; LANES];
         angles[..q.len()].copy_from_slice(q);
-        let ([sines], [cosines]) = sines::<1, FUSED>(&[angles]);
-        sin.as_flattened_mut().copy_from_slice(&sines[..q.len()]);
-        cos.as_flattened_mut().copy_from_slice(&cosines[..q.len()]);
+        let (mut sines_of, mut cosines_of) = ([[0.0; LANES]], [[0.0; LANES]]);
+        sines::<1, FUSED>(&[angles], &mut sines_of, &mut cosines_of);
+        sin.as_flattened_mut().copy_from_slice(&sines_of[0][..q.len()]);
+        cos.as_flattened_mut().copy_from_slice(&cosines_of[0][..q.len()]);
     }
     (sin, cos)
 }
 
 #[inline(always)]
-fn sines<const N: usize, const FUSED: bool>(angles: &Joints<N>) -> (Joints<N>, Joints<N>) {
-    let (mut sin, mut cos) = ([[0.0; LANES]; N], [[0.0; LANES]; N]);
+fn sines<const N: usize, const FUSED: bool>(
+    angles: &Joints<N>,
+    sin: &mut Joints<N>,
+    cos: &mut Joints<N>,
+) {
+    let (angles, sin, cos) =
+        (angles.as_flattened(), sin.as_flattened_mut(), cos.as_flattened_mut());
     let mut inside = u64::MAX;
-    for ((angle, sin), cos) in
-        angles.as_flattened().iter().zip(sin.as_flattened_mut()).zip(cos.as_flattened_mut())
-    {
+    for ((angle, sin), cos) in angles.iter().zip(&mut *sin).zip(&mut *cos) {
         (*sin, *cos) = sin_cos::<FUSED>(*angle);
         inside &= if angle.abs() <= MOST_SIN_COS { u64::MAX } else { 0 };
     }
     if inside == 0 {
-        take_far_turns(angles.as_flattened(), sin.as_flattened_mut(), cos.as_flattened_mut());
+        take_far_turns(angles, sin, cos);
     }
-    (sin, cos)
 }
 
 /// Angles of more turns than the lanes can count.

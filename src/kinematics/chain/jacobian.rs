@@ -61,7 +61,8 @@ impl<const N: usize> Kernel for Jacobians<'_, N> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) {
         for (q, jacobians) in self.q.chunks(LANES).zip(self.out.chunks_mut(LANES)) {
-            let (sin, cos) = sines_of_rows::<N, FUSED>(self.chain, q);
+            let (mut sin, mut cos) = ([[0.0; LANES]; N], [[0.0; LANES]; N]);
+            sines_of_rows::<N, FUSED>(self.chain, q, &mut sin, &mut cos);
             let rows = jacobian_rows::<N, LANES, FUSED>(self.chain, self.frame, &sin, &cos);
             for (lane, jacobian) in jacobians.iter_mut().enumerate() {
                 for (to, from) in jacobian.iter_mut().zip(&rows) {
@@ -98,7 +99,7 @@ impl<const N: usize> Kernel for OneJacobian<'_, N> {
 /// The Jacobian's rows, for each of them the joints' columns: `z_i x (p_tool - p_i)` over `z_i` in
 /// the base.
 #[inline(always)]
-fn jacobian_rows<const N: usize, const W: usize, const FUSED: bool>(
+pub(in crate::kinematics) fn jacobian_rows<const N: usize, const W: usize, const FUSED: bool>(
     chain: &Chain<N>,
     in_frame: JacobianFrame,
     sin: &[[f64; W]; N],
@@ -107,7 +108,7 @@ fn jacobian_rows<const N: usize, const W: usize, const FUSED: bool>(
     let mut frame = Axes::of(chain.first());
     let mut frames = [frame; N];
     for (joint, (link, place)) in chain.links().iter().zip(&mut frames).enumerate() {
-        frame = frame.after::<FUSED>(*link, &sin[joint], &cos[joint]);
+        frame.advance::<FUSED>(*link, &sin[joint], &cos[joint]);
         *place = frame;
     }
     let tool = frame.times::<FUSED>(chain.last());

@@ -7,6 +7,7 @@ pub(crate) mod forward;
 pub(crate) mod jacobian;
 pub(crate) mod joint_axes;
 pub(crate) mod limits;
+pub(crate) mod singular_values;
 
 use crate::kinematics::chain::axes::Link;
 use crate::kinematics::chain::coupling::uncoupled;

@@ -10,20 +10,21 @@ use alloc::borrow::Cow;
 
 use nalgebra::SMatrix;
 
-use crate::kinematics::answer::singularity::{SingularDistances, Singularity, singular_values};
+use crate::kinematics::answer::singularity::{SingularDistances, Singularity};
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::dh::Mdh;
-use crate::kinematics::chain::forward::Poses;
+use crate::kinematics::chain::forward::{Poses, is_finite};
 use crate::kinematics::chain::jacobian::{JacobianFrame, Jacobians};
 use crate::kinematics::chain::limits::JointLimits;
+use crate::kinematics::chain::singular_values::SingularValues;
 use crate::kinematics::pose::{Pose, PoseDifference};
 use crate::kinematics::structure::any::{AnyStructure, SixJoints};
 use crate::kinematics::structure::arity::{Arity, Joints, StructureOf};
 use crate::kinematics::structure::solver::Solver;
 use crate::kinematics::structure::spherical_wrist::{OpwParameters, SphericalWrist};
-use crate::lanes::run;
+use crate::lanes::{LANES, run};
 use crate::report::UnknownStructure;
 
 /// A robot arm of `N` revolute joints.
@@ -199,12 +200,28 @@ where
     /// How far `q` [rad] is from the singularities.
     #[must_use]
     pub fn singularity(&self, q: &[f64; N]) -> Singularity {
-        let values = singular_values(&self.jacobian(q, JacobianFrame::Base));
+        self.singularity_of(q, self.chain.singular_values(q))
+    }
+
+    /// [`Self::singularity`] of many, in lanes; none of a row that is not finite.
+    pub(crate) fn singularities<'a>(
+        &'a self,
+        q: &'a [[f64; N]],
+    ) -> impl Iterator<Item = Option<Singularity>> + 'a {
+        q.chunks(LANES).flat_map(move |q| {
+            let values = self.chain.singular_values_of_rows(q);
+            q.iter()
+                .zip(values)
+                .map(|(q, values)| is_finite(q).then(|| self.singularity_of(q, values)))
+        })
+    }
+
+    fn singularity_of(&self, q: &[f64; N], values: SingularValues) -> Singularity {
         let arm = self.structure.arm().singular(q);
         Singularity {
             distances: arm.map(|(distances, _)| distances),
-            min_singular_value: values[5],
-            manipulability: values.iter().product(),
+            min_singular_value: values.least,
+            manipulability: values.product,
             kinds: arm.map_or(SingularityKind::empty(), |(_, kinds)| kinds),
         }
     }

@@ -165,11 +165,13 @@ impl PlanarArm {
     }
 
     /// Angle between upper arm and forearm from stretched, for the angle of axis 3 [rad].
+    #[inline]
     pub(crate) fn elbow_angle(&self, theta_3: f64) -> f64 {
         theta_3 + self.a2.atan2(self.c3)
     }
 
     /// Its sine.
+    #[inline]
     pub(crate) fn sin_elbow(&self, theta_3: f64) -> f64 {
         let (sin_3, cos_3) = theta_3.sin_cos();
         (self.a2 * cos_3 + self.c3 * sin_3) / self.k
@@ -185,6 +187,7 @@ impl PlanarArm {
     }
 
     /// Distance of the arm's end from axis 1 along the plane of the arm [m]; negative behind it.
+    #[inline]
     pub(crate) fn x_of_end(&self, theta_2: f64, theta_3: f64) -> f64 {
         let (sin_2, cos_2) = theta_2.sin_cos();
         let (sin_3, cos_3) = theta_3.sin_cos();
@@ -193,6 +196,7 @@ impl PlanarArm {
     }
 
     /// Whether the arm counts as stretched or folded (eq. 8).
+    #[inline]
     pub(crate) fn is_straight(&self, theta_3: f64) -> bool {
         let (c2, k) = (self.c2, self.k);
         let r = (c2 * c2 + k * k + 2.0 * c2 * k * self.elbow_angle(theta_3).cos()).max(0.0).sqrt();

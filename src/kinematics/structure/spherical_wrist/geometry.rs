@@ -31,12 +31,14 @@ impl SphericalWrist {
         }
     }
 
+    #[inline]
     pub(super) fn theta(&self, q: &[f64; 6]) -> [f64; 6] {
         self.joint_map.theta(q)
     }
 
     /// The sine of the elbow angle, x of the wrist center in the plane of the arm [m], and the sine
     /// of joint 5, signed (eq. 21).
+    #[inline]
     pub(super) fn factors(&self, q: &[f64; 6]) -> [f64; 3] {
         let [_, theta_2, theta_3, _, theta_5, _] = self.theta(q);
         [self.planar.sin_elbow(theta_3), self.planar.x_of_end(theta_2, theta_3), theta_5.sin()]
