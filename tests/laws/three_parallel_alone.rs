@@ -3,14 +3,14 @@
 use std::cell::Cell;
 use std::f64::consts::PI;
 
-use irbkin::{Mdh, Pose, PoseDifference, Reach, Robot};
+use irbkin::{FreeJoint, Mdh, Pose, PoseDifference, Reach, Robot, thresholds};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 
-use crate::common::{apart, poses, profile};
+use crate::common::{apart, poses, profile, wrapped};
 use crate::rng::Rng;
-use crate::structures::three_parallel::{ParallelArm, arms};
+use crate::structures::three_parallel::{ParallelArm, arms, equal_links};
 use crate::structures::{SIX, Subject};
 
 fn angles() -> impl Strategy<Value = [f64; 6]> {
@@ -197,5 +197,39 @@ fn a_table_in_text_is_made_exactly_the_form() {
             residual.position <= 3e-15 * lengths(&arm) && residual.rotation <= 1e-14,
             "{residual:?}"
         );
+    }
+}
+
+/// Poses with joint 6 free on an arc of a few degrees, or past axis 2 by a picometer, each with the
+/// joint 6 of a seed: a member is nearer to the seed than the ends of the arc are.
+#[test]
+fn no_member_of_a_narrow_family_is_nearer_than_the_answer() {
+    let [ur_3, ur_10e] = ["UR3", "UR10e"].map(|name| ParallelArm::universal(name).0);
+    let equal = equal_links();
+    let pinned: [(&ParallelArm, [f64; 6], f64); 5] = [
+        (&ur_3, [0.32, 0.592, -1e-7, -0.0167, PI, 3.079], -3.035),
+        (&ur_10e, [-0.0064, -0.486, 0.0, -0.0356, PI, 0.2065], 0.2484),
+        (&equal, [0.73, -0.94, 2e-9, -0.0087, PI, -2.827], -2.785),
+        (&equal, [2.56, 2.255, -1e-4, -0.0242, PI, -1.587], -1.507),
+        (&equal, [-1.33, -2.3, PI - 1e-12, 1.43, PI, -1.505], -0.921),
+    ];
+    for (arm, theta, seed_6) in pinned {
+        let (robot, q) = (arm.robot(), arm.q(theta));
+        let (pose, mut seed) = (robot.fk(&q), q);
+        seed[5] = arm.q([seed_6; 6])[5];
+        let cost = |q: &[f64; 6]| (0..6).map(|i| wrapped(q[i] - seed[i]).powi(2)).sum::<f64>();
+        let found = robot.ik_nearest(&pose, &seed, &[1.0; 6]).unwrap();
+        let solutions = robot.ik(&pose).unwrap();
+        let families =
+            solutions.iter().filter(|found| found.free_joint == Some(FreeJoint::Parallel));
+        let members = families.flat_map(|family| {
+            let angles = (-500..=500).map(|step| q[5] + 2e-4 * f64::from(step));
+            angles.filter_map(|six| robot.with_free_joint(&pose, family, six).ok()?)
+        });
+        let met = members.map(|member| member.q).filter(|q| {
+            robot.residual(q, &pose).largest() <= thresholds::POSITION_ROUNDING * arm.reach()
+        });
+        let least = met.map(|q| cost(&q)).fold(cost(&q), f64::min);
+        assert!(cost(&found.q) <= least + 1e-9, "{theta:?}: {} {least}", cost(&found.q));
     }
 }

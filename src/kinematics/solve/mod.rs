@@ -2,6 +2,7 @@
 //! redundancy.
 
 pub(crate) mod configuration;
+mod corner_search;
 mod correction;
 mod golden_section;
 mod inside;

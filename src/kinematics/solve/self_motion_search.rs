@@ -18,37 +18,32 @@ use crate::kinematics::thresholds::LIMIT_SLACK;
 use crate::report::FreeJoint;
 
 /// Steps of a turn in which a family is searched for a place inside the limits.
-const STEPS: u32 = 360;
+pub(super) const STEPS: u32 = 360;
 
 /// Steps of a turn in which it is searched for one that is nearer than what was found.
-const COARSE_STEPS: u32 = 72;
+pub(super) const COARSE_STEPS: u32 = 72;
 
 /// Steps of a turn of joint 6 at which a plane of the arm is tried that rounding leaves open.
 const PLANE_STEPS: u32 = 72;
 
 /// Least number of steps in which a part of a turn is searched.
-const LEAST_STEPS: u32 = 8;
-
-/// How often the way to a stretched or folded arm is halved: from five degrees to 1e-6 rad.
-const ELBOW_HALVINGS: u32 = 17;
+pub(super) const LEAST_STEPS: u32 = 8;
 
 /// Valleys between steps that are looked into.
-const VALLEYS: u32 = 16;
+pub(super) const VALLEYS: u32 = 16;
 
 /// A number of each slot.
 type OfSlots = [f64; MOST_SLOTS];
 
 /// What is seen of a family at an angle of the free joint.
 #[derive(Clone, Copy)]
-struct Sample {
-    angle: f64,
+pub(super) struct Sample {
+    pub(super) angle: f64,
     /// How far the farthest joint is outside its limits or, inside them, less than zero and the
     /// less the nearer to the seed.
-    heights: OfSlots,
+    pub(super) heights: OfSlots,
     /// Size of sin q5 of an arm whose wrist may be singular as well.
     wrists: OfSlots,
-    /// The least angle between upper arm and forearm of an arm that is nearly stretched or folded.
-    elbow: f64,
 }
 
 /// Whether the middle one of three values is the least.
@@ -57,7 +52,13 @@ fn is_valley(of: [f64; 3]) -> bool {
 }
 
 impl Sample {
-    fn least_height(&self) -> f64 {
+    /// One at which nothing is met.
+    pub(super) fn nothing(angle: f64) -> Self {
+        let nothing = [f64::INFINITY; MOST_SLOTS];
+        Self { angle, heights: nothing, wrists: nothing }
+    }
+
+    pub(super) fn least_height(&self) -> f64 {
         self.heights.into_iter().fold(f64::INFINITY, f64::min)
     }
 }
@@ -87,6 +88,9 @@ where
                 }
             }
         }
+        if let Some(corners) = self.robot.solver().arm().corners(&from.q, free) {
+            return self.look_between_corners(from, free, corners);
+        }
         if !self.is_open(from, free)? {
             return Ok(());
         }
@@ -105,9 +109,6 @@ where
                 }
             }
             self.look_into_valleys(from, free, samples, &mut valleys)?;
-            if is_valley(samples.map(|sample| sample.elbow)) && here.elbow <= step {
-                self.look_at_elbow_between(from, free, [before.angle, next.angle], &mut valleys)?;
-            }
             (before, here) = (here, next);
         }
         Ok(())
@@ -115,7 +116,7 @@ where
 
     /// Looks where between three angles the joints of a slot are the least outside the limits, or
     /// the nearest to the seed.
-    fn look_into_valleys(
+    pub(super) fn look_into_valleys(
         &mut self,
         from: &Solution<N>,
         free: FreeJoint,
@@ -137,32 +138,9 @@ where
         Ok(())
     }
 
-    /// Looks where between two angles the arm is the nearest to stretched or folded, ever closer to
-    /// there: the nearer it comes, the farther a small step of the free joint turns the arm.
-    fn look_at_elbow_between(
-        &mut self,
-        from: &Solution<N>,
-        free: FreeJoint,
-        [low, high]: [f64; 2],
-        valleys: &mut u32,
-    ) -> Result<(), Error> {
-        let elbow = |angle| Ok(self.sample(from, free, angle)?.elbow);
-        let (angle, _) = golden_section(elbow, low, high)?;
-        for side in [low - angle, high - angle] {
-            let mut before = self.sample(from, free, angle + side)?;
-            let mut here = self.sample(from, free, angle + side / 2.0)?;
-            for halvings in 2..ELBOW_HALVINGS {
-                let next = self.sample(from, free, angle + side / f64::from(1 << halvings))?;
-                self.look_into_valleys(from, free, [&before, &here, &next], valleys)?;
-                (before, here) = (here, next);
-            }
-        }
-        Ok(())
-    }
-
     /// Whether the free joint leaves its angle with the tool on the pose: next to the singularity
     /// it does not.
-    fn is_open(&mut self, from: &Solution<N>, free: FreeJoint) -> Result<bool, Error> {
+    pub(super) fn is_open(&mut self, from: &Solution<N>, free: FreeJoint) -> Result<bool, Error> {
         let own = from.q[free.joint() - 1];
         for part in [0.05, -0.05, 0.8, -0.8, 1.6, -1.6, 2.4, -2.4] {
             let solutions = self.members(from, free, own + part)?;
@@ -173,14 +151,19 @@ where
         Ok(false)
     }
 
+    /// How far from the seed a joint, from 0, may be without costing more than what was found by
+    /// itself [rad].
+    pub(super) fn farthest(&self, joint: usize) -> f64 {
+        self.best.map_or(f64::INFINITY, |best| {
+            (best.cost / self.wanted.weights[joint]).sqrt().max(f64::MIN_POSITIVE)
+        })
+    }
+
     /// The angles of the free joint that may cost less than what was found.
     fn window(&self, from: &Solution<N>, free: FreeJoint) -> Window {
         let joint = free.joint() - 1;
         let seed = self.wanted.seed[joint];
-        // The free joint alone makes farther angles cost more than what was found.
-        let half = self.best.map_or(f64::INFINITY, |best| {
-            (best.cost / self.wanted.weights[joint]).sqrt().max(f64::MIN_POSITIVE)
-        });
+        let half = self.farthest(joint);
         let coarse = TAU / f64::from(COARSE_STEPS);
         if half < PI - coarse {
             let steps = (LEAST_STEPS..COARSE_STEPS)
@@ -215,7 +198,7 @@ where
     }
 
     /// The solutions with the free joint at `angle`, of which the nearest is taken.
-    fn members(
+    pub(super) fn members(
         &mut self,
         from: &Solution<N>,
         free: FreeJoint,
@@ -234,14 +217,16 @@ where
         Ok(solutions)
     }
 
-    fn sample(&mut self, from: &Solution<N>, free: FreeJoint, angle: f64) -> Result<Sample, Error> {
+    pub(super) fn sample(
+        &mut self,
+        from: &Solution<N>,
+        free: FreeJoint,
+        angle: f64,
+    ) -> Result<Sample, Error> {
         let solutions = self.members(from, free, angle)?;
         let heights = core::array::from_fn(|slot| self.height(&solutions, slot));
         let wrists = core::array::from_fn(|slot| self.wrist(&solutions, slot));
-        let elbow =
-            solutions.iter().filter_map(|solution| self.robot.singular_distances(&solution.q));
-        let elbow = elbow.map(|distances| distances.elbow).fold(f64::INFINITY, f64::min);
-        Ok(Sample { angle, heights, wrists, elbow })
+        Ok(Sample { angle, heights, wrists })
     }
 
     fn height(&self, solutions: &Solutions<N>, slot: usize) -> f64 {

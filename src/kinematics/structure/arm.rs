@@ -9,7 +9,7 @@ use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::solutions::Solutions;
 use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::pose::Pose;
-use crate::report::UnknownStructure;
+use crate::report::{FreeJoint, UnknownStructure};
 
 /// What any structure of `N` joints is asked: a [`Solver`](super::solver::Solver) answers, or the
 /// reason why there is none.
@@ -60,6 +60,11 @@ pub(crate) trait Arm<const N: usize, R> {
 
     /// [`Structure::sin_5`]
     fn sin_5(&self, _q: &[f64; N]) -> Option<f64> {
+        None
+    }
+
+    /// [`Structure::corners`]
+    fn corners(&self, _q: &[f64; N], _free: FreeJoint) -> Option<[f64; 6]> {
         None
     }
 

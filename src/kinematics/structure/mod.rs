@@ -41,7 +41,7 @@ use super::answer::slot::Slot;
 use super::answer::status::SingularityKind;
 use super::chain::dh::Mdh;
 use super::pose::Pose;
-use crate::report::{Pattern, UnknownStructure};
+use crate::report::{FreeJoint, Pattern, UnknownStructure};
 
 /// Why a linkage couples no axes of most structures.
 pub(crate) const NO_LINKAGE: &str = "the arm has no spherical wrist";
@@ -113,6 +113,13 @@ pub(crate) trait Structure<const N: usize, const S: usize>:
 
     /// sin q5, signed, of a structure whose wrist is singular where it is zero.
     fn sin_5(&self, _q: &[f64; N]) -> Option<f64> {
+        None
+    }
+
+    /// The angles of the free joint, along the self-motion of `q`, between which the arm only bends
+    /// or only straightens: where it is the most bent and the least of all, and four where it may
+    /// come to an edge of reach. `None` where the elbow stands still.
+    fn corners(&self, _q: &[f64; N], _free: FreeJoint) -> Option<[f64; 6]> {
         None
     }
 

@@ -15,7 +15,7 @@ use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::Pose;
 use crate::lanes::{Kernel, run};
-use crate::report::UnknownStructure;
+use crate::report::{FreeJoint, UnknownStructure};
 
 /// A structure, with what stands before and behind it and what is asked of its joints.
 #[derive(Clone, Debug, PartialEq)]
@@ -116,6 +116,10 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Arm<N, T::Redundancy> f
 
     fn sin_5(&self, q: &[f64; N]) -> Option<f64> {
         self.structure.sin_5(q)
+    }
+
+    fn corners(&self, q: &[f64; N], free: FreeJoint) -> Option<[f64; 6]> {
+        self.structure.corners(q, free)
     }
 
     fn spherical_wrist(&self) -> Option<&dyn OpenWrist<N>> {

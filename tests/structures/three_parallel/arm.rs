@@ -150,6 +150,20 @@ impl ParallelArm {
         [x + self.d5 * (phi.sin() - turned.sin()), z + self.d5 * (phi.cos() - turned.cos())]
     }
 
+    /// The angle of axis 5 from the line between axis 2 and the wrist, and the angles from it, to
+    /// either side, between which the end of the planar arm is in reach along the family [rad].
+    pub fn circle(&self, theta: &[f64; 6]) -> [f64; 3] {
+        let phi = theta[1] + theta[2] + theta[3];
+        let [x, z] = self.end(theta);
+        let [x, z] = [x + self.d5 * phi.sin(), z + self.d5 * phi.cos()];
+        let size = x.hypot(z);
+        let edge = |r: f64| {
+            let cosine = (size * size + self.d5 * self.d5 - r * r) / (2.0 * self.d5 * size);
+            cosine.clamp(-1.0, 1.0).acos()
+        };
+        [phi - x.atan2(z), edge(self.c2 - self.c3), edge(self.c2 + self.c3)]
+    }
+
     /// By how much an end of the planar arm is too far (positive) or too near (negative) [m].
     pub fn missing(&self, [x, z]: [f64; 2]) -> f64 {
         let (r, longest, shortest) = (x.hypot(z), self.c2 + self.c3, (self.c2 - self.c3).abs());

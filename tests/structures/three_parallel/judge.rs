@@ -272,8 +272,8 @@ impl<'a> Judge<'a> {
             && (!of_self_motion || self.is_nearest_of_members(solutions, &seeded, &seed))
     }
 
-    /// Whether no member of a family is nearer to the seed than the solution, by trying angles of
-    /// joint 6 all around.
+    /// Whether no member of a family is nearer to the seed than the solution: neither the joint
+    /// vector that made the pose nor one of many others.
     fn is_nearest_of_members(
         &self,
         solutions: &Solutions<6>,
@@ -284,16 +284,41 @@ impl<'a> Judge<'a> {
         let least = cost(&nearest.q);
         let families =
             solutions.iter().filter(|found| found.free_joint == Some(FreeJoint::Parallel));
-        let steps = 180;
+        let angles = self.reached_angles();
         let mut members = families.flat_map(|family| {
-            (0..steps).filter_map(move |step| {
-                let value = TAU * f64::from(step) / f64::from(steps) - PI;
-                self.robot.with_free_joint(&self.made.pose, family, value).ok()?
+            angles.iter().filter_map(|value| {
+                self.robot.with_free_joint(&self.made.pose, family, *value).ok()?
             })
         });
         let theta_6 = self.arm.theta(&[nearest.q[5]; 6])[5];
         let missing = self.arm.missing(self.arm.end_along_self_motion(&self.made.theta, theta_6));
-        missing.abs() <= self.met() && members.all(|member| least <= cost(&member.q) + 1e-9)
+        missing.abs() <= self.met()
+            && least <= cost(&self.made.q) + 1e-9
+            && members.all(|member| least <= cost(&member.q) + 1e-9)
+    }
+
+    /// Angles of joint 6 all around, and on each arc of the family that is in reach, however
+    /// narrow, the denser the nearer to its ends. Those with which the arm reaches: beyond the
+    /// edges a stretched or folded arm is given up to a nanometer from there, and is no member.
+    fn reached_angles(&self) -> Vec<f64> {
+        let (arm, theta) = (self.arm, &self.made.theta);
+        let around = (0..180).map(|step| arm.theta(&[TAU * f64::from(step) / 180.0 - PI; 6])[5]);
+        let sign = -theta[4].cos().signum();
+        let [from_line, least, most] = arm.circle(theta);
+        let arcs = [[least, most], [-most, -least], [-most, most]];
+        let on_arcs = arcs.into_iter().flat_map(|[low, high]| {
+            (0..=60).map(move |step| {
+                let part = 0.5 - 0.5 * (PI * f64::from(step) / 60.0).cos();
+                theta[5] + sign * (low + (high - low) * part - from_line)
+            })
+        });
+        around
+            .chain(on_arcs)
+            .filter(|theta_6| {
+                arm.missing(arm.end_along_self_motion(theta, *theta_6)).abs() <= self.rounding()
+            })
+            .map(|theta_6| arm.q([theta_6; 6])[5])
+            .collect()
     }
 
     /// Whether no angle of joint 6 that is nearer to `wanted` than the solution's is reached, and

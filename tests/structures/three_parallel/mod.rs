@@ -36,7 +36,7 @@ pub fn odd() -> ParallelArm {
 }
 
 /// Upper arm and forearm of one length, which fold onto axis 2.
-fn equal_links() -> ParallelArm {
+pub fn equal_links() -> ParallelArm {
     ParallelArm {
         c2: 0.35,
         c3: 0.35,

@@ -6,6 +6,7 @@
 
 mod block;
 mod branch;
+mod circle;
 mod geometry;
 mod measure;
 mod one_pose;
@@ -34,7 +35,7 @@ use crate::kinematics::pose::angles::distance_from_half_turns;
 use crate::kinematics::structure::joint_map::JointMap;
 use crate::kinematics::structure::planar_arm::PlanarArm;
 use crate::kinematics::thresholds::WRIST_MERGE_SIN;
-use crate::report::{Pattern, UnknownStructure};
+use crate::report::{FreeJoint, Pattern, UnknownStructure};
 
 impl Structure<6, 8> for ThreeParallel {
     const PATTERN: &'static Pattern = &PATTERN;
@@ -121,5 +122,9 @@ impl Structure<6, 8> for ThreeParallel {
 
     fn sin_5(&self, q: &[f64; 6]) -> Option<f64> {
         Some(self.joint_map.theta(q)[4].sin())
+    }
+
+    fn corners(&self, q: &[f64; 6], free: FreeJoint) -> Option<[f64; 6]> {
+        if free == FreeJoint::Parallel { self.corners_of_six(q) } else { None }
     }
 }

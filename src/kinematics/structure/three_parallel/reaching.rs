@@ -5,11 +5,11 @@ use nalgebra::Matrix3;
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::ThreeParallel;
+use super::circle::Circle;
 use super::plane::PlaneUncertainty;
 use super::wrist::{Turn, Wrist, seen_from_plane, sin_5};
-use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::free_choice::SeedPolicy;
-use crate::kinematics::structure::planar_arm::{Elbows, PlanarArm, Shoulder, Target};
+use crate::kinematics::structure::planar_arm::{Elbows, Shoulder, Target};
 use crate::kinematics::thresholds::{REACH_TOLERANCE, WRIST_FREE_SIN, WRIST_MERGE_SIN};
 use crate::report::Reach;
 
@@ -215,33 +215,10 @@ impl ThreeParallel {
         Some([middle, -middle].map(|middle| wrist.theta_6 + turned_with_phi(middle - from_line, m)))
     }
 
-    /// At sin theta_5 = 0 the end of the planar arm runs on a circle about the wrist (eq. 39).
+    /// The circle of the end of the planar arm (eq. 39).
     fn circle(&self, shoulder: &Shoulder, wrist: &Wrist, target: &Target<'_>) -> Option<Circle> {
-        let PlanarArm { a1, c2, k, .. } = self.planar;
-        let (x, z) = (shoulder.x - a1, target.wz);
-        let (size, both) = (x.hypot(z), 2.0 * self.d5 * x.hypot(z));
-        let cosine = |r: f64| ((size * size + self.d5 * self.d5 - r * r) / both).clamp(-1.0, 1.0);
-        let from_line = wrap(wrist.sin_phi.atan2(wrist.cos_phi) - x.atan2(z));
-        (both > 0.0).then(|| Circle {
-            from_line,
-            least: cosine(c2 - k).acos(),
-            most: cosine(c2 + k).acos(),
-        })
-    }
-}
-
-/// Axis 5 on its way about the wrist: its angle from the line between axis 2 and the wrist, and
-/// between which angles, on either side of the line, the end of the planar arm is in reach [rad].
-struct Circle {
-    from_line: f64,
-    least: f64,
-    most: f64,
-}
-
-impl Circle {
-    /// How far axis 5 is from the edges of reach [rad].
-    fn edges(&self) -> [f64; 2] {
-        [self.least, self.most].map(|edge| edge.copysign(self.from_line) - self.from_line)
+        let from_axis_2 = [shoulder.x - self.planar.a1, target.wz];
+        Circle::about(self, from_axis_2, [wrist.sin_phi, wrist.cos_phi])
     }
 }
 
