@@ -1,6 +1,6 @@
 """Make the picture of the README: the eight solutions of one pose of an IRB 2600, as skeletons.
 
-Run without arguments: it writes eight_solutions.svg beside itself and prints its name. It needs
+Run without arguments: it writes eight_solutions.svg next to itself and prints its name. It needs
 matplotlib. The same irbkin and matplotlib give the same file.
 """
 
