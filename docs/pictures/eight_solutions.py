@@ -126,12 +126,12 @@ def main() -> None:
     T = irbkin.pose([0.85, 0.32, 0.64], wxyz=[0.2588190, 0, 0.9659258, 0])
     solutions = robot.ik(T)
     with mpl.rc_context(STYLE):
-        figure, grid = plt.subplots(2, 4, figsize=(9, 6.0), sharex=True, sharey=True)
+        figure, grid = plt.subplots(2, 4, figsize=(9, 6.3), sharex=True, sharey=True)
         for solution, axes in zip(solutions, grid.flat, strict=True):
             others = [other.q for other in solutions if other.slot != solution.slot]
             draw(axes, robot, solution, others)
             title(axes, robot, solution)
-        figure.subplots_adjust(0.01, 0.13, 0.99, 0.93, 0.05, 0.36)
+        figure.subplots_adjust(0.01, 0.13, 0.99, 0.93, 0.05, 0.52)
         parts = [
             Line2D([], [], color=color, linewidth=width, label=label)
             for color, width, label in (
