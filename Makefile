@@ -1,4 +1,4 @@
-# irbkin's one gate. `make help` lists what there is.
+# The targets of irbkin. `make help` lists them.
 SHELL := bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DELETE_ON_ERROR:
@@ -10,19 +10,19 @@ RUST_SOURCES := $(shell find src -name '*.rs') Cargo.toml
 BUILT := $(VENV)/.irbkin-built
 PEERS := .venv-peers
 NO_STD := --no-default-features --features libm
-# A recipe for each instruction set of this processor; ends with `; done`. The shell's -e stops at the
-# first that fails. The widest set is the one that runs without being asked for.
+# A recipe for each instruction set of this processor; ends with `; done`. The shell's -e stops at
+# the first that fails. The widest set is the default.
 ON_EACH_SET := sets=$$(cargo run --quiet --example instruction_sets); for set in $$sets; do export IRBKIN_INSTRUCTION_SET=$$set;
 ON_EACH_NARROWER_SET := sets=$$($(BIN)/python -c 'import irbkin; print(*irbkin.instruction_sets()[:-1])'); \
 	for set in $$sets; do export IRBKIN_INSTRUCTION_SET=$$set;
-# Runs a command under a name; where it takes long, the name and the seconds are printed.
+# Run a command under a name; if it takes long, print the name and the seconds.
 STEP := @tests/step.sh
 SKIPPED := target/skipped.txt
 
 .PHONY: help run test check catalog bench bench-peers instructions stages ulp million configurations hardsets fuzz wheel clean toolchains
 
 help: ## List the targets
-	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
+	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
 
 toolchains:
 	@command -v cargo >/dev/null || { echo "cargo is missing: install a Rust toolchain (1.89 or newer), https://rustup.rs"; exit 1; }
@@ -42,25 +42,25 @@ $(BUILT): $(VENV)/.made $(RUST_SOURCES) pyproject.toml | toolchains
 	@touch $@
 
 $(VENV)/.groups: $(VENV)/.made pyproject.toml
-	$(STEP) "Install the tests' tools and oracles into $(VENV)" $(BIN)/pip install --quiet --group test --group check
+	$(STEP) "Install test tools and reference packages into $(VENV)" $(BIN)/pip install --quiet --group test --group check
 	@touch $@
 
-run: $(BUILT) ## Solve a real IRB 2600 pose and show every solution
+run: $(BUILT) ## Solve a pose of an IRB 2600 and show all solutions
 	@$(BIN)/python examples/01_solve_a_pose.py
 
-test: $(BUILT) $(VENV)/.groups ## Run all tests, Rust's and Python's
+test: $(BUILT) $(VENV)/.groups ## Run all tests, in Rust and Python
 	@mkdir -p target && rm -f $(SKIPPED)
-	$(STEP) "Compile Rust's tests" cargo test --lib --tests --no-run
-	$(STEP) "Rust's tests" env IRBKIN_SKIPPED=$(abspath $(SKIPPED)) cargo test --lib --tests
-	$(STEP) "Rust's documentation tests" cargo test --doc
+	$(STEP) "Compile the Rust tests" cargo test --lib --tests --no-run
+	$(STEP) "Rust tests" env IRBKIN_SKIPPED=$(abspath $(SKIPPED)) cargo test --lib --tests
+	$(STEP) "Rust documentation tests" cargo test --doc
 	@$(ON_EACH_NARROWER_SET) tests/step.sh "Laws on $$set" cargo test --test suite -- laws:: recall:: hard_sets:: reach_and_paths::; done
 	$(STEP) "Compile without std" cargo test $(NO_STD),rapid --lib --test suite --no-run
-	$(STEP) "Rust's own tests without std" cargo test $(NO_STD),rapid --lib
+	$(STEP) "Rust unit tests without std" cargo test $(NO_STD),rapid --lib
 	$(STEP) "Laws without std" cargo test $(NO_STD),rapid --test suite -- laws:: coupled:: configuration:: allocation:: rapid:: rapid_calc::
 	@if [ -e $(SKIPPED) ]; then sort $(SKIPPED); fi; echo "Skipped in Rust: $$(cat $(SKIPPED) 2>/dev/null | wc -l)"
-	$(STEP) "Python's tests" $(BIN)/python -m pytest
+	$(STEP) "Python tests" $(BIN)/python -m pytest
 
-check: $(BUILT) $(VENV)/.groups ## Format, lints for each feature set, types, stubs, docs, benches that run
+check: $(BUILT) $(VENV)/.groups ## Check format, lints of each feature set, types, stubs, docs; run benches and examples briefly
 	cargo fmt --check
 	$(STEP) "clippy" cargo clippy --all-targets -- -D warnings
 	$(STEP) "clippy with serde" cargo clippy --lib --features serde -- -D warnings
@@ -68,7 +68,7 @@ check: $(BUILT) $(VENV)/.groups ## Format, lints for each feature set, types, st
 	$(STEP) "clippy without std" cargo clippy --lib $(NO_STD) -- -D warnings
 	$(STEP) "clippy without std, with rapid" cargo clippy --lib $(NO_STD),rapid -- -D warnings
 	$(STEP) "clippy without rapid" cargo clippy --all-targets --no-default-features --features std,urdf -- -D warnings
-	$(STEP) "Rust's documentation" env RUSTDOCFLAGS='-D warnings' cargo doc --no-deps --features serde
+	$(STEP) "Rust documentation" env RUSTDOCFLAGS='-D warnings' cargo doc --no-deps --features serde
 	$(STEP) "benches run" cargo test --bench one_pose --bench batch --bench instructions -- --test
 	$(STEP) "examples in Rust run" bash -eu -c 'for example in examples/*.rs; do cargo run --quiet --example "$$(basename "$$example" .rs)" >/dev/null; done'
 	$(STEP) "benches in Python run" $(BIN)/python benches/python_calls.py >/dev/null
@@ -81,19 +81,19 @@ check: $(BUILT) $(VENV)/.groups ## Format, lints for each feature set, types, st
 	$(STEP) "stubs" $(BIN)/python -m mypy.stubtest irbkin --concise
 	$(STEP) "examples in Python run" bash -eu -c 'for example in examples/*.py; do $(BIN)/python "$$example" >/dev/null; done'
 
-bench: $(BUILT) ## Time one pose and batches in Rust on each instruction set, Python's calls and a RAPID module against yardsticks
+bench: $(BUILT) ## Time poses and batches in Rust on each instruction set, Python calls, a RAPID module
 	cargo bench --bench one_pose --bench batch
 	$(BIN)/python benches/python_calls.py
 	$(BIN)/python benches/rapid_module.py
 
-# One at a time: a peer that has no wheel for this Python does not keep the others out.
+# One at a time: a peer without a wheel for this Python does not exclude the others.
 $(PEERS)/.made: benches/peers/requirements.txt | toolchains
 	@echo "Installing the peers into $(PEERS)"
 	@$(PYTHON) -m venv --clear $(PEERS)
 	@$(PEERS)/bin/pip install --quiet --disable-pip-version-check --upgrade 'pip>=25.1'
 	@$(PEERS)/bin/pip install --quiet 'maturin>=1.9,<2' 'numpy>=1.23'
 	@while read -r peer; do \
-		$(PEERS)/bin/pip install --quiet "$$peer" </dev/null || echo "$$peer does not install: left out"; \
+		$(PEERS)/bin/pip install --quiet "$$peer" </dev/null || echo "$$peer cannot be installed: left out"; \
 	done <$<
 	@touch $@
 
@@ -104,42 +104,42 @@ $(PEERS)/.irbkin-built: $(PEERS)/.made $(RUST_SOURCES) $(wildcard python/irbkin/
 	@$(PEERS)/bin/pip install --quiet --force-reinstall --no-deps $(PEERS)/wheel/irbkin-*.whl
 	@touch $@
 
-bench-peers: $(PEERS)/.irbkin-built ## Compare with other packages: solutions lost, times; WRITE=1 writes docs/benchmarks.md
+bench-peers: $(PEERS)/.irbkin-built ## Compare with other packages: solutions missed, times; WRITE=1 writes docs/benchmarks.md
 	$(PEERS)/bin/python -m benches.peers $(if $(QUICK),--quick) $(if $(WRITE),--write)
 
-instructions: | toolchains ## Count a call's instructions with valgrind, against benches/instructions.md; WRITE=1 records them there
+instructions: | toolchains ## Count the instructions of a call (valgrind), compare with benches/instructions.md; WRITE=1 records
 	@$(PYTHON) benches/instructions.py $(if $(WRITE),--write)
 
-stages: | toolchains ## Show where the time of a pose goes, by stages, with Linux's perf; SETS="avx2 avx512" chooses
+stages: | toolchains ## Show the time of a pose by stages (Linux perf); SETS="avx2 avx512" selects
 	@$(PYTHON) benches/stages.py $(SETS)
 
-ulp: | toolchains ## Hold the lanes' arc tangent, sine and cosine against correctly rounded ones, at ten million points
+ulp: | toolchains ## Compare the lanes' arc tangent, sine and cosine with correctly rounded ones
 	IRBKIN_POINTS=10000000 cargo test --quiet --release --lib lanes::functions -- --nocapture --test-threads=1
 
-million: | toolchains ## Solve a million random poses of each of twenty-two arms on each instruction set; count what is lost, wrong or twice
+million: | toolchains ## Solve a million random poses of 22 arms; count missed, incorrect and duplicate solutions
 	$(ON_EACH_SET) IRBKIN_POSES=1000000 cargo test --quiet --release --test suite -- recall:: --nocapture --test-threads=1; done
 
-configurations: | toolchains ## Hold a hundred thousand poses of every ABB arm against the rules of its confdata
+configurations: | toolchains ## Check the confdata of a hundred thousand poses of every ABB arm
 	IRBKIN_POSES=100000 cargo test --quiet --release --test suite -- configuration:: --nocapture --test-threads=1
 
-hardsets: | toolchains ## Solve poses at and next to every singularity, pairs and triples of them, and follow paths through
+hardsets: | toolchains ## Solve poses at and next to every singularity, pairs and triples of them; follow paths
 	$(ON_EACH_SET) IRBKIN_POSES=2000 cargo test --quiet --release --test suite -- hard_sets:: follow:: --nocapture --test-threads=1; done
 	$(ON_EACH_SET) IRBKIN_POSES=200 cargo test --quiet --release --test suite -- reach_and_paths:: --nocapture --test-threads=1; done
 	IRBKIN_POSES=1000 cargo test --quiet --release --lib spherical_shoulder -- --nocapture --test-threads=1
 	IRBKIN_POSES=20 cargo test --quiet --release --test suite -- redundancy:: nearest:: --nocapture --test-threads=1
 
-catalog: | toolchains ## Write the tables of docs/catalog.md from the catalog
+catalog: | toolchains ## Write the tables of docs/catalog.md
 	IRBKIN_WRITE=1 cargo test --quiet --test suite -- catalog_page::
 
-fuzz: | toolchains ## Read millions of broken RAPID texts: none panics, what is read is written and read again, in linear time
+fuzz: | toolchains ## Read four million broken RAPID texts, write and read them again
 	IRBKIN_INPUTS=1000000 cargo test --quiet --release --test suite -- rapid_fuzz:: --nocapture --test-threads=1
 
-wheel: $(VENV)/.made ## Build the wheel and try it in an environment of its own
+wheel: $(VENV)/.made ## Build the wheel and test it in a separate environment
 	$(BIN)/maturin build --release --quiet --out dist
 	rm -rf dist/venv && $(PYTHON) -m venv dist/venv
 	dist/venv/bin/pip install --quiet --disable-pip-version-check dist/irbkin-*.whl
 	cd dist && venv/bin/python ../examples/01_solve_a_pose.py >/dev/null
 	ls -l dist/*.whl
 
-clean: ## Remove what was built
+clean: ## Remove all build products
 	rm -rf $(VENV) $(PEERS) target dist

@@ -1,4 +1,4 @@
-"""Count the instructions of a call and show them beside the recorded ones: `make instructions`,
+"""Count the instructions of a call and compare them with the recorded ones: `make instructions`,
 WRITE=1 records.
 """
 
@@ -13,10 +13,9 @@ from pathlib import Path
 from built import executable, toolchain
 
 PAGE = Path(__file__).with_suffix(".md")
-# valgrind has no AVX-512: programs that ask it for the processor's features are told that there is
-# none.
+# valgrind has no AVX-512: it reports to programs that the processor has none.
 SETS = ("avx2", "baseline")
-# What is done, and how many poses that are.
+# The calls, and the number of poses of each.
 WHAT = {
     "fk": 1,
     "jacobian": 1,
@@ -29,7 +28,7 @@ WHAT = {
     "batch ik": 512,
     "batch singularity": 512,
 }
-# The difference of two counts leaves start and preparation out.
+# The difference of two counts excludes start and preparation.
 FEW, MANY = 2, 12
 
 
@@ -60,11 +59,11 @@ def page(counts: dict[str, list[int]]) -> str:
     rows = "\n".join(f"| {name} | {' | '.join(map(str, row))} |" for name, row in counts.items())
     return f"""# Instructions of one pose
 
-Counted by callgrind, start and preparation left out; a batch's are those of one of its 512 poses. They depend on the
-compiler, not on how busy the machine is. valgrind does not run AVX-512.
+Counted by callgrind, without start and preparation. Batch figures are for one of 512 poses. The
+counts depend on the compiler, not on the load of the machine. valgrind does not run AVX-512.
 
-`make instructions` counts again and shows the difference; `make instructions WRITE=1` writes this page.
-Recorded with {toolchain()}.
+`make instructions` counts again and shows the difference; `make instructions WRITE=1` writes this
+page. Recorded with {toolchain()}.
 
 | IRB 2600-12/1.65 | {" | ".join(SETS)} |
 |---|---:|---:|
@@ -73,7 +72,7 @@ Recorded with {toolchain()}.
 
 
 def main() -> None:
-    """Count, compare and, where asked to, record."""
+    """Count, compare and, on request, record."""
     if shutil.which("valgrind") is None:
         print("valgrind is missing: nothing is counted (Debian: apt-get install valgrind)")
         return

@@ -1,4 +1,4 @@
-"""Every way to bring an IRB 2600's tool to one pose."""
+"""All solutions that bring the tool of an IRB 2600 to one pose."""
 
 import irbkin
 import numpy as np
@@ -40,7 +40,7 @@ def main() -> None:
     print(f"  from the shoulder singularity {1e3 * s.shoulder:6.1f} mm\n")
 
     T[0, 3] += 1.0
-    print(f"the same pose a meter further out: {robot.ik(T).explain()}")
+    print(f"the same pose one meter farther out: {robot.ik(T).explain()}")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-//! Every way to bring an IRB 2600's tool to one pose.
+//! All solutions that bring the tool of an IRB 2600 to one pose.
 
 use irbkin::{Error, Robot, pose_from_wxyz, pose_to_wxyz};
 
@@ -47,6 +47,6 @@ fn main() -> Result<(), Error> {
     }
 
     pose.translation.vector.x += 1.0;
-    println!("the same pose a meter further out: {}", robot.ik(&pose)?.explain());
+    println!("the same pose one meter farther out: {}", robot.ik(&pose)?.explain());
     Ok(())
 }

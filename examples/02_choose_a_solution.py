@@ -1,4 +1,4 @@
-"""Which of the solutions: limits, full turns, the nearest, the least motion, a test of your own."""
+"""Choose a solution: limits, 2 pi equivalents, nearest, least motion, your own test."""
 
 import irbkin
 import numpy as np
@@ -15,19 +15,19 @@ def main() -> None:
     robot = irbkin.Robot("IRB 2600-12/1.65")
     T = irbkin.pose([0.850, 0.320, 0.640], wxyz=[0.2588190, 0, 0.9659258, 0])
     solutions = robot.ik(T)
-    print(f"{solutions.explain()}; with every full turn inside them: {len(solutions.turns())}\n")
+    print(f"{solutions.explain()}; with 2 pi equivalents: {len(solutions.turns())}\n")
 
-    # The arm stands here, halfway between two wrist configurations.
+    # The current joints, halfway between two wrist configurations.
     seed = np.radians([20, 0, 40, 55, -25, 127])
     show("nearest (root of squares)", solutions.nearest(seed))
     show("least motion (sum)", solutions.least_motion(seed))
-    show("nearest, J5 costs 9 times", solutions.nearest(seed, weights=[1, 1, 1, 1, 9, 1]))
+    show("nearest, J5 weighted 9", solutions.nearest(seed, weights=[1, 1, 1, 1, 9, 1]))
 
-    # J6 has been wound back by most of a turn: the answer stays there.
+    # J6 is wound back by most of a turn; the answer stays near it.
     wound = np.radians([20, 0, 40, -30, 25, -300])
     show("nearest to J6 = -300", solutions.nearest(wound))
 
-    # A test of your own, for a cable that must not twist or for collisions.
+    # Your own test, for a cable that must not twist or for collisions.
     untwisted = solutions.within_limits().filter(lambda solution: abs(solution[3]) < np.pi / 2)
     print(f"\ninside the limits with |J4| < 90: slots {[solution.slot for solution in untwisted]}")
 
@@ -36,7 +36,7 @@ def main() -> None:
     print(f"elbow below 300 mm: slots {[solution.slot for solution in low]}")
     print(f"and of those inside the limits: {low.within_limits().explain()}")
 
-    # A cell that leaves less room says which joint is in the way.
+    # With tighter limits, the message names the joint that exceeds them.
     limits = robot.limits
     limits[0] = np.radians([-90, 90])
     limits[4] = np.radians([-20, 20])

@@ -1,4 +1,4 @@
-//! Which of the solutions: limits, full turns, the nearest, the least motion, a test of your own.
+//! Choose a solution: limits, 2 pi equivalents, nearest, least motion, your own test.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -23,23 +23,19 @@ fn main() -> Result<(), Error> {
     let robot: Robot<6> = Robot::named("IRB 2600-12/1.65")?;
     let pose = pose_from_wxyz([0.850, 0.320, 0.640], [0.258_819_0, 0.0, 0.965_925_8, 0.0])?;
     let solutions = robot.ik(&pose)?;
-    println!(
-        "{}; with every full turn inside them: {}\n",
-        solutions.explain(),
-        solutions.turns().count()
-    );
+    println!("{}; with 2 pi equivalents: {}\n", solutions.explain(), solutions.turns().count());
 
-    // The arm stands here, halfway between two wrist configurations.
+    // The current joints, halfway between two wrist configurations.
     let seed = radians([20.0, 0.0, 40.0, 55.0, -25.0, 127.0]);
     show("nearest (root of squares)", solutions.nearest(&seed, &[1.0; 6])?);
     show("least motion (sum)", solutions.least_motion(&seed, &[1.0; 6])?);
-    show("nearest, J5 costs 9 times", solutions.nearest(&seed, &[1.0, 1.0, 1.0, 1.0, 9.0, 1.0])?);
+    show("nearest, J5 weighted 9", solutions.nearest(&seed, &[1.0, 1.0, 1.0, 1.0, 9.0, 1.0])?);
 
-    // J6 has been wound back by most of a turn: the answer stays there.
+    // J6 is wound back by most of a turn; the answer stays near it.
     let wound = radians([20.0, 0.0, 40.0, -30.0, 25.0, -300.0]);
     show("nearest to J6 = -300", solutions.nearest(&wound, &[1.0; 6])?);
 
-    // A test of your own, for a cable that must not twist or for collisions.
+    // Your own test, for a cable that must not twist or for collisions.
     let untwisted = solutions.within_limits().filter(|solution| solution.q[3].abs() < FRAC_PI_2);
     println!("\ninside the limits with |J4| < 90: slots {:?}", slots(&untwisted));
 
@@ -48,7 +44,7 @@ fn main() -> Result<(), Error> {
     println!("elbow below 300 mm: slots {:?}", slots(&low));
     println!("and of those inside the limits: {}", low.within_limits().explain());
 
-    // A cell that leaves less room says which joint is in the way.
+    // With tighter limits, the message names the joint that exceeds them.
     let mut limits = robot.limits().to_array();
     limits[0] = [-90.0_f64, 90.0].map(f64::to_radians);
     limits[4] = [-20.0_f64, 20.0].map(f64::to_radians);

@@ -1,4 +1,4 @@
-"""An arm that no catalog has: from its table, from its parameters, and what is refused."""
+"""An arm that is not in the catalog: from a table, from parameters, and what is rejected."""
 
 import irbkin
 import numpy as np
@@ -25,7 +25,7 @@ def main() -> None:
     T = irbkin.pose([0.850, 0.320, 0.640], wxyz=[0.2588190, 0, 0.9659258, 0])
     print(f"{arm.name}: {arm.structure}, {arm.ik(T).explain()}")
 
-    # Brandstoetter's parameters [m]; this maker counts axes 1, 4 and 6 the other way round.
+    # OPW parameters [m]; this maker counts axes 1, 4 and 6 in the opposite sense.
     kuka = irbkin.Robot.from_opw(
         a1=0.025,
         a2=-0.035,
@@ -41,7 +41,7 @@ def main() -> None:
     q = np.radians([0, -90, 90, 0, 30, 0])
     print(f"{kuka.name}: {kuka.structure}, {kuka.ik(kuka.fk(q)).explain()}\n")
 
-    # A wrist whose axes 5 and 6 pass 80 mm apart has no closed form here; the rest works.
+    # A wrist whose axes 5 and 6 are 80 mm apart has no closed form; forward kinematics works.
     offset_wrist = table.copy()
     offset_wrist[5, 1] = 0.080
     try:
@@ -61,11 +61,11 @@ def main() -> None:
     try:
         kuka.with_limits(np.array([[-3, 3], [0.5, -2], [-3, 3], [-3, 3], [-2, 2], [-6, 6]]))
     except irbkin.InvalidModelError as error:
-        refused("limits that are exchanged", error)
+        refused("exchanged limits", error)
     try:
         irbkin.Robot("IRB 2600-12/1.56")
     except irbkin.UnknownRobotError as error:
-        refused("a slip of the pen", error)
+        refused("a misspelled name", error)
 
 
 if __name__ == "__main__":

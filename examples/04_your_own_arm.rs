@@ -1,4 +1,4 @@
-//! An arm that no catalog has: from its table, from its parameters, and what is refused.
+//! An arm that is not in the catalog: from a table, from parameters, and what is rejected.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -35,7 +35,7 @@ fn main() -> Result<(), Error> {
     let pose = pose_from_wxyz([0.850, 0.320, 0.640], [0.258_819_0, 0.0, 0.965_925_8, 0.0])?;
     println!("{}: {}, {}", arm.name(), arm.structure(), arm.ik(&pose)?.explain());
 
-    // Brandstoetter's parameters [m]; this maker counts axes 1, 4 and 6 the other way round.
+    // OPW parameters [m]; this maker counts axes 1, 4 and 6 in the opposite sense.
     let kuka = Robot::from_opw(OpwParameters {
         a1: 0.025,
         a2: -0.035,
@@ -51,7 +51,7 @@ fn main() -> Result<(), Error> {
     let q = [0.0, -90.0, 90.0, 0.0, 30.0, 0.0].map(f64::to_radians);
     println!("{}: {}, {}\n", kuka.name(), kuka.structure(), kuka.ik(&kuka.fk(&q))?.explain());
 
-    // A wrist whose axes 5 and 6 pass 80 mm apart has no closed form here; the rest works.
+    // A wrist whose axes 5 and 6 are 80 mm apart has no closed form; forward kinematics works.
     let mut offset_wrist = mdh;
     offset_wrist.rows[5].a = 0.080;
     refused("axes 5 and 6 apart", Robot::from_mdh(offset_wrist.clone()));
@@ -66,7 +66,7 @@ fn main() -> Result<(), Error> {
     (mirrored[0], mirrored[5], mirrored[10], mirrored[15]) = (1.0, 1.0, -1.0, 1.0);
     refused("a left-handed pose", pose_from_rows(&mirrored));
     refused(
-        "limits that are exchanged",
+        "exchanged limits",
         JointLimits::new([
             [-3.0, 3.0],
             [0.5, -2.0],
@@ -76,6 +76,6 @@ fn main() -> Result<(), Error> {
             [-6.0, 6.0],
         ]),
     );
-    refused("a slip of the pen", Robot::<6>::named("IRB 2600-12/1.56"));
+    refused("a misspelled name", Robot::<6>::named("IRB 2600-12/1.56"));
     Ok(())
 }

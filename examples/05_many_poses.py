@@ -22,7 +22,7 @@ def seconds(task: Callable[[], object]) -> float:
 
 def main() -> None:
     robot = irbkin.Robot("IRB 2600-12/1.65")
-    # Joint vectors that fill the limits evenly: fractional parts of multiples of square roots.
+    # Joint vectors spread evenly over the limits: fractional parts of multiples of square roots.
     lower, upper = robot.limits.T
     q = lower + (upper - lower) * (
         np.arange(1.0, POSES + 1)[:, None] * np.sqrt([2.0, 3, 5, 7, 11, 13]) % 1
@@ -37,11 +37,11 @@ def main() -> None:
         f"solutions: {found.sum()}, {found.sum() / POSES:.2f} a pose; inside the limits: {inside.sum()}"
     )
 
-    # The vector that made each pose is among its solutions, full turns aside; empty slots are NaN.
+    # The joints that made each pose are among its solutions, modulo 2 pi; empty slots are NaN.
     apart = np.abs((batch.q - q[:, None] + np.pi) % (2 * np.pi) - np.pi).max(axis=-1)
-    print(f"poses whose own joint vector is missing: {(~(np.nanmin(apart, axis=1) < 1e-7)).sum()}")
+    print(f"poses whose own joints are missing: {(~(np.nanmin(apart, axis=1) < 1e-7)).sum()}")
 
-    # A row that is no pose, and one out of reach, leave the others as they are.
+    # An invalid row, and one out of reach, do not affect the others.
     T[1, 0, 0] = np.nan
     T[2, 0, 3] += 9.0
     again = robot.ik_batch(T, out=batch, threads=2)
@@ -54,8 +54,8 @@ def main() -> None:
     one_call = seconds(lambda: robot.ik_batch(poses, out=batch))
     one_by_one = seconds(lambda: [robot.ik(pose) for pose in poses])
     forward = seconds(lambda: robot.fk(q, out=poses))
-    print(f"\none call takes {one_call / one_by_one:.2f} times as long as a call for each pose,")
-    print(f"eight solutions take {one_call / forward:.1f} times as long as one forward kinematics")
+    print(f"\na batch takes {one_call / one_by_one:.2f} of the time of single calls,")
+    print(f"eight solutions take {one_call / forward:.1f} times as long as forward kinematics")
 
 
 if __name__ == "__main__":

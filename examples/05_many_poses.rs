@@ -19,7 +19,7 @@ fn seconds(mut task: impl FnMut()) -> f64 {
     (0..5).map(|_| once()).fold(f64::INFINITY, f64::min)
 }
 
-/// Largest difference of two joint vectors, full turns aside.
+/// Largest difference of two joint vectors, modulo 2 pi.
 fn apart(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b - TAU * ((a - b) / TAU).round()).abs()).fold(0.0, f64::max)
 }
@@ -27,7 +27,7 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
 #[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
 fn main() -> Result<(), Error> {
     let robot: Robot<6> = Robot::named("IRB 2600-12/1.65")?;
-    // Joint vectors that fill the limits evenly: fractional parts of multiples of square roots.
+    // Joint vectors spread evenly over the limits: fractional parts of multiples of square roots.
     let limits = robot.limits().to_array();
     let vector = |row: usize| {
         core::array::from_fn(|joint| {
@@ -53,15 +53,15 @@ fn main() -> Result<(), Error> {
         found as f64 / POSES as f64
     );
 
-    // The vector that made each pose is among its solutions, full turns aside; empty slots are NaN.
+    // The joints that made each pose are among its solutions, modulo 2 pi; empty slots are NaN.
     let own = |q: &[f64], slots: &[f64]| {
         slots.chunks(6).any(|slot| !slot[0].is_nan() && apart(slot, q) < 1e-7)
     };
     let missing =
         q.chunks(6).zip(solved.chunks(slots * 6)).filter(|(q, slots)| !own(q, slots)).count();
-    println!("poses whose own joint vector is missing: {missing}");
+    println!("poses whose own joints are missing: {missing}");
 
-    // A row that is no pose, and one out of reach, leave the others as they are.
+    // An invalid row, and one out of reach, do not affect the others.
     let mut broken = poses.clone();
     broken[16] = f64::NAN;
     broken[2 * 16 + 3] += 9.0;
@@ -82,13 +82,7 @@ fn main() -> Result<(), Error> {
     });
     let mut again = vec![0.0; POSES * 16];
     let forward = seconds(|| drop(black_box(batch::fk(&robot, q, &mut again))));
-    println!(
-        "\none call takes {:.2} times as long as a call for each pose,",
-        one_call / one_by_one
-    );
-    println!(
-        "eight solutions take {:.1} times as long as one forward kinematics",
-        one_call / forward
-    );
+    println!("\na batch takes {:.2} of the time of single calls,", one_call / one_by_one);
+    println!("eight solutions take {:.1} times as long as forward kinematics", one_call / forward);
     Ok(())
 }

@@ -1,5 +1,5 @@
-"""Arms that are not ABB's: three parallel axes, seven axes, and what a table or a URDF turns out to
-be.
+"""Other arms than ABB's: three parallel axes, seven axes, and tables and URDFs that are
+recognized.
 """
 
 from pathlib import Path
@@ -12,7 +12,7 @@ SLOT = (("left", "right"), ("q3 >= 0", "q3 < 0"), ("q5 >= 0", "q5 < 0"))
 
 
 def degrees(q: irbkin.Solution) -> str:
-    # Adding zero takes the sign off a zero.
+    # Adding zero turns -0.0 into 0.0.
     return " ".join(f"{round(np.degrees(angle), 2) + 0.0:8.2f}" for angle in q)
 
 
@@ -30,7 +30,8 @@ def three_parallel_axes() -> None:
     # Axis 6 parallel to axes 2, 3 and 4: joint 6 is free.
     singular = robot.ik(robot.fk(np.radians([25, -80, 75, -45, 0, 40])))[0]
     assert singular.free_joint is not None
-    print(f"  with q5 = 0: J{singular.free_joint.joint} is free, {singular.free_joint.fixed} stay")
+    joint, fixed = singular.free_joint.joint, singular.free_joint.fixed
+    print(f"  with q5 = 0: J{joint} is free, {fixed} stay fixed")
     print(f"  {singular.slot} {degrees(singular)}")
     print(f"  {singular.slot} {degrees(singular.with_free_joint(np.radians(40)))}\n")
 
@@ -53,7 +54,7 @@ def seven_axes() -> None:
 def recognized() -> None:
     robot = irbkin.Robot.from_urdf(URDF, tip="tool0")
     print(f"{URDF.name}: {robot.structure}")
-    # An IRB 2600 in standard form, with frames and a zero pose of its own.
+    # An IRB 2600 in standard form, with unusual frames and zero pose.
     rows = np.array(
         [
             [90, 0.150, 0.445, 0],
@@ -67,7 +68,7 @@ def recognized() -> None:
     rows[:, [0, 3]] = np.radians(rows[:, [0, 3]])
     robot = irbkin.Robot.from_sdh(rows)
     solutions = robot.ik(robot.fk(np.radians([10, 20, 30, 40, 50, 60])))
-    print(f"a standard table with odd frames: {robot.structure}, {len(solutions)} solutions")
+    print(f"a standard table with unusual frames: {robot.structure}, {len(solutions)} solutions")
 
     tilted = rows.copy()
     tilted[1, 0] += np.radians(0.2)
@@ -75,7 +76,7 @@ def recognized() -> None:
     try:
         irbkin.Robot.from_sdh(tilted)
     except irbkin.InvalidModelError as error:
-        print(f"the same, badly made:\n  {error}")
+        print(f"the same with errors:\n  {error}")
 
 
 def main() -> None:

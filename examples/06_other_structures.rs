@@ -1,5 +1,5 @@
-//! Arms that are not ABB's: three parallel axes, seven axes, and what a table or a URDF turns out
-//! to be.
+//! Other arms than ABB's: three parallel axes, seven axes, and tables and URDFs that are
+//! recognized.
 
 use irbkin::{DhRow, Error, Pose, Robot, Sdh, Solution};
 
@@ -7,7 +7,7 @@ const URDF: &str = include_str!("../tests/data/ur5e.urdf");
 const SLOT: [[&str; 2]; 3] = [["left", "right"], ["q3 >= 0", "q3 < 0"], ["q5 >= 0", "q5 < 0"]];
 
 fn degrees<const N: usize>(solution: &Solution<N>) -> String {
-    // Adding zero takes the sign off a zero.
+    // Adding zero turns -0.0 into 0.0.
     solution
         .q
         .map(|angle| format!("{:8.2}", (100.0 * angle.to_degrees()).round() / 100.0 + 0.0))
@@ -34,7 +34,7 @@ fn three_parallel_axes() -> Result<(), Error> {
     let families =
         solutions.iter().find_map(|solution| solution.free_joint.map(|free| (solution, free)));
     if let Some((singular, free)) = families {
-        println!("  with q5 = 0: J{} is free, {} stay", free.joint(), free.fixed());
+        println!("  with q5 = 0: J{} is free, {} stay fixed", free.joint(), free.fixed());
         println!("  {} {}", singular.slot, degrees(singular));
         if let Some(moved) = robot.with_free_joint(&pose, singular, 40.0_f64.to_radians())? {
             println!("  {} {}\n", moved.slot, degrees(&moved));
@@ -66,7 +66,7 @@ fn seven_axes() -> Result<(), Error> {
 fn recognized() -> Result<(), Error> {
     let robot: Robot<6> = Robot::from_urdf(URDF, None, Some("tool0"))?;
     println!("ur5e.urdf: {}", robot.structure());
-    // An IRB 2600 in standard form, with frames and a zero pose of its own.
+    // An IRB 2600 in standard form, with unusual frames and zero pose.
     let rows = [
         [90.0, 0.150, 0.445, 0.0],
         [0.0, 0.700, 0.0, 60.0],
@@ -82,7 +82,7 @@ fn recognized() -> Result<(), Error> {
     let solutions =
         robot.ik(&robot.fk(&[10.0, 20.0, 30.0, 40.0, 50.0, 60.0].map(f64::to_radians)))?;
     println!(
-        "a standard table with odd frames: {}, {} solutions",
+        "a standard table with unusual frames: {}, {} solutions",
         robot.structure(),
         solutions.len()
     );
@@ -91,7 +91,7 @@ fn recognized() -> Result<(), Error> {
     tilted.rows[1].alpha += 0.2_f64.to_radians();
     tilted.rows[4].a = 0.002;
     if let Err(error) = Robot::from_sdh(tilted) {
-        println!("the same, badly made:\n  {error}");
+        println!("the same with errors:\n  {error}");
     }
     Ok(())
 }

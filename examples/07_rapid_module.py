@@ -1,5 +1,5 @@
-"""A RAPID module: the joint angles of its moves, and the module written back with confdata that
-exists.
+"""A RAPID module: the joint angles of its moves, and the module written back with valid
+confdata.
 """
 
 import dataclasses
@@ -13,7 +13,7 @@ MODULE = Path(__file__).parent / "pick_and_place.mod"
 
 
 def degrees(q: np.ndarray) -> str:
-    # Adding zero takes the sign off a zero.
+    # Adding zero turns -0.0 into 0.0.
     return " ".join(f"{round(np.degrees(angle), 2) + 0.0:8.2f}" for angle in q)
 
 
@@ -33,11 +33,11 @@ def main() -> None:
     for part in module.skipped:
         print(f"  line {part.line}: {part.what}")
 
-    print("\nas it is, CalcJointT of every target")
+    print("\nas read: CalcJointT of every target")
     show(rapid.calc_moves(robot, module))
 
-    # Where nobody calculated confdata, the solution nearest to the joints before is meant. Poses
-    # stay as written.
+    # Where confdata was not calculated, use the solution nearest to the joints before. Poses stay
+    # as written.
     home = np.radians([0, 0, 0, 0, 30, 0])
     table = rapid.calc_targets(
         robot, module, module["tGripper"], module["wTray"], fallback="nearest", seed=home
@@ -50,7 +50,7 @@ def main() -> None:
         if problem is not None and np.isfinite(table.q[row]).all()
     }
     text = module.rewritten(corrected)
-    print(f"\nwritten back with {len(corrected)} configurations")
+    print(f"\nwritten back with {len(corrected)} corrected configurations")
     for before, after in zip(module.source.splitlines(), text.splitlines(), strict=True):
         if before != after:
             print(f"  {after.strip()[:96]}")

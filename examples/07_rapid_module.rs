@@ -1,5 +1,4 @@
-//! A RAPID module: the joint angles of its moves, and the module written back with confdata that
-//! exists.
+//! A RAPID module: the joint angles of its moves, and the module written back with valid confdata.
 
 use irbkin::rapid::{
     self, Content, Fallback, NewValue, RobTarget, TableRow, ToolData, Value, WobjData,
@@ -9,7 +8,7 @@ use irbkin::{Error, Robot};
 const MODULE: &str = include_str!("pick_and_place.mod");
 
 fn degrees(q: &[f64; 6]) -> String {
-    // Adding zero takes the sign off a zero.
+    // Adding zero turns -0.0 into 0.0.
     q.map(|angle| format!("{:8.2}", (100.0 * angle.to_degrees()).round() / 100.0 + 0.0)).join(" ")
 }
 
@@ -31,8 +30,8 @@ fn tool_and_wobj(module: &rapid::Module) -> Option<(ToolData, WobjData)> {
     }
 }
 
-/// Where nobody calculated confdata, the solution nearest to the joints before is meant. The poses
-/// stay as they are written.
+/// Where confdata was not calculated, use the solution nearest to the joints before. The poses
+/// stay as written.
 fn corrected(robot: &Robot<6>, module: &rapid::Module) -> Result<Vec<NewValue>, Error> {
     let Some((tool, wobj)) = tool_and_wobj(module) else { return Ok(Vec::new()) };
     let home = [0.0, 0.0, 0.0, 0.0, 30.0, 0.0].map(f64::to_radians);
@@ -58,12 +57,12 @@ fn main() -> Result<(), Error> {
         println!("  line {}: {}", part.line, part.what);
     }
 
-    println!("\nas it is, CalcJointT of every target");
+    println!("\nas read: CalcJointT of every target");
     show(&rapid::calc_moves(&robot, &module, Fallback::None)?);
 
     let corrected = corrected(&robot, &module)?;
     let text = rapid::rewrite(MODULE, &module, &corrected)?;
-    println!("\nwritten back with {} configurations", corrected.len());
+    println!("\nwritten back with {} corrected configurations", corrected.len());
     for (_, after) in MODULE.lines().zip(text.lines()).filter(|(before, after)| before != after) {
         println!("  {:.96}", after.trim());
     }

@@ -1,4 +1,4 @@
-//! The instruction sets of this processor that irbkin has kernels for, the narrowest first.
+//! List the instruction sets of this processor that irbkin has kernels for, narrowest first.
 
 use irbkin::InstructionSet;
 

@@ -3,12 +3,12 @@ MODULE PickAndPlace
     PERS tooldata tGripper:=[TRUE,[[0,0,180],[1,0,0,0]],[3.2,[0,0,75],[1,0,0,0],0,0,0]];
     PERS wobjdata wTray:=[FALSE,TRUE,"",[[750,-300,420],[1,0,0,0]],[[50,50,25],[0.9659258,0,0,0.2588190]]];
 
-    ! Taught.
+    ! Taught targets.
     CONST robtarget pHome:=[[105.7,323.2,455],[0,0,1,0],[0,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
     CONST robtarget pOverPick:=[[40,-60,120],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
     CONST robtarget pPick:=[[40,-60,8],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
 
-    ! Written by a program that left confdata at zero.
+    ! Written by a generator that left confdata at zero.
     CONST robtarget pLift:=[[40,-60,240],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
     CONST robtarget pOverCamera:=[[150,200,260],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
     CONST robtarget pCamera:=[[180,420,180],[0,0.3826834,0.9238795,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];

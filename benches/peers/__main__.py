@@ -47,7 +47,9 @@ def main() -> None:
         recall(IRB2600, solvers, poses)
         for poses in sets_of(IRB2600, effort.recall, effort.singular)
     ]
-    print("\nSolutions lost, IRB 2600", report.plain(report.losses(recalls)), sep="\n", flush=True)
+    print(
+        "\nSolutions missed, IRB 2600", report.plain(report.losses(recalls)), sep="\n", flush=True
+    )
 
     results = []
     for row in ROWS:

@@ -38,7 +38,7 @@ def color(name: str, yardstick: str) -> str:
 
 
 def ratios_of(result: Result) -> dict[str, float]:
-    """Times over irbkin's, the slowest first."""
+    """Times relative to irbkin, the slowest first."""
     own = result.timings[str(result.own)]
     ratios = {name: timing.ratio(own) for name, timing in result.timings.items()}
     return dict(sorted(ratios.items(), key=lambda item: item[1], reverse=True))
@@ -94,7 +94,7 @@ def draw(results: Sequence[Result], path: Path) -> None:
                 words = f"{number(ratio)} x, {time_of(result.timings[name].median, result.row.task in BATCHES)}"
                 box = {"facecolor": "white", "edgecolor": "none", "pad": 0.5}
                 axes.text(ratio * 1.1, place, words, va="center", fontsize=7, bbox=box)
-        panels[-1, 0].set_xlabel("time over irbkin's, median of the rounds")
+        panels[-1, 0].set_xlabel("time relative to irbkin, median of the rounds")
         path.parent.mkdir(parents=True, exist_ok=True)
         figure.savefig(path, metadata={"Date": None})
         plt.close(figure)

@@ -40,17 +40,19 @@ def times(result: Result) -> Table:
 
 
 def losses(recalls: Sequence[Recall]) -> Table:
-    """Solutions that each contender lost, and what else its answers hold."""
-    head = ["lost of", *(f"{each.poses.name} ({each.known})" for each in recalls)]
-    table = [[*head, "flagged", "wrong", "twice", "worst residual"]]
+    """Solutions that each contender missed, and what else its answers hold."""
+    head = ["missed of", *(f"{each.poses.name} ({each.known})" for each in recalls)]
+    table = [[*head, "flagged", "incorrect", "duplicate", "worst residual"]]
     for name in recalls[0].tallies:
         tallies = [each.tallies[name] for each in recalls]
-        lost = [str(each.known - tally.found) for each, tally in zip(recalls, tallies, strict=True)]
+        missed = [
+            str(each.known - tally.found) for each, tally in zip(recalls, tallies, strict=True)
+        ]
         sums = [
             str(sum(getattr(tally, what) for tally in tallies))
             for what in ("flagged", "inexact", "twice")
         ]
-        table.append([name, *lost, *sums, f"{max(tally.worst for tally in tallies):.0e}"])
+        table.append([name, *missed, *sums, f"{max(tally.worst for tally in tallies):.0e}"])
     return table
 
 
@@ -82,7 +84,7 @@ def document(
     missing: dict[str, str],
 ) -> str:
     """The generated part of docs/benchmarks.md."""
-    parts = ["\n\n".join(machine), "### Solutions lost, IRB 2600", markdown(losses(recalls))]
+    parts = ["\n\n".join(machine), "### Solutions missed, IRB 2600", markdown(losses(recalls))]
     for result in results:
         parts += [f"### {result.row.title}", markdown(times(result))]
         parts += ["\n".join(f"- {line}" for line in result.absent)] if result.absent else []

@@ -1,8 +1,8 @@
-"""Makes the pictures of docs/singularities.md: joint traces through singularities, and what `ik`
-answers next to them.
+"""Draw the pictures of docs/singularities.md: joint traces through singularities, and the answers
+of `ik` next to them.
 
-Run without arguments: it writes the SVG files beside itself and prints their names. The same irbkin
-and matplotlib give the same files.
+Run without arguments: it writes the SVG files next to itself and prints their names. The same
+irbkin and matplotlib give the same files.
 """
 
 from collections.abc import Callable
@@ -25,7 +25,7 @@ Joints = list[float]
 HERE = Path(__file__).parent
 SAMPLES = 201
 PATH = np.linspace(-1, 1, SAMPLES)
-COLOURS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#555555")
+COLORS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#555555")
 STYLE: dict[Any, Any] = {
     "axes.edgecolor": "#777777",
     "axes.grid": True,
@@ -74,20 +74,21 @@ def line(middle: Joints, along: Joints, part: Floats = PATH) -> Floats:
     return poses
 
 
-def told(followed: irbkin.FollowResult) -> str:
-    """Largest step of a joint, and the breaks or the error of the orientation, in words."""
+def summary(followed: irbkin.FollowResult) -> str:
+    """Describe the largest joint step, the orientation error and the number of breaks."""
     step = np.degrees(np.abs(np.diff(followed.q, axis=0)).max())
     error = np.degrees(followed.orientation_error.max())
     orientation = "exact" if error < 1e-9 else f"within {error:.2f} deg"
-    return f"steps up to {step:.1f} deg, orientation {orientation}, {len(followed.breaks) or 'no'} breaks"
+    breaks = len(followed.breaks) or "no"
+    return f"steps up to {step:.1f} deg, orientation {orientation}, {breaks} breaks"
 
 
 def trace(axes: Axes, followed: irbkin.FollowResult, title: str) -> None:
-    """Draws J1 to J6 [deg] along the path."""
-    for joint, color in enumerate(COLOURS):
+    """Draw J1 to J6 [deg] along the path."""
+    for joint, color in enumerate(COLORS):
         axes.plot(PATH, np.degrees(followed.q[:, joint]), color=color, label=f"J{joint + 1}")
     axes.set(
-        title=f"{title}\n{told(followed)}",
+        title=f"{title}\n{summary(followed)}",
         xlabel="along the path",
         xlim=(-1, 1),
         xticks=[-1, -0.5, 0, 0.5, 1],
@@ -104,7 +105,7 @@ def panels(count: int) -> tuple[Figure, list[Axes]]:
 
 
 def save(figure: Figure, name: str) -> None:
-    """Writes one picture."""
+    """Write one picture."""
     target = HERE / f"{name}.svg"
     figure.savefig(target, metadata={"Date": None, "Creator": None})
     plt.close(figure)
@@ -112,7 +113,7 @@ def save(figure: Figure, name: str) -> None:
 
 
 def save_traces(figure: Figure, axes: Axes, name: str) -> None:
-    """Names the six joints once for all panels and writes the picture."""
+    """Name the six joints once for all panels and write the picture."""
     figure.legend(
         *axes.get_legend_handles_labels(), loc="outside lower center", ncols=6, frameon=False
     )
@@ -120,7 +121,7 @@ def save_traces(figure: Figure, axes: Axes, name: str) -> None:
 
 
 def wrist() -> None:
-    """J5 through 0 with J4 moving, and a line that passes J5 = 0 by 2e-3 rad under two policies."""
+    """J5 through 0 with J4 moving, and a line past J5 = 0 by 2e-3 rad in two singularity modes."""
     figure, axes = panels(3)
     made = joint_path(0.3 * PATH, 0.2, 0.1, 0.7 + 0.4 * PATH, 0.5 * PATH, -0.4)
     trace(axes[0], ROBOT.follow(ROBOT.fk(made), made[0]), "J5 through 0 while J4 moves")
@@ -165,15 +166,15 @@ def elbow() -> None:
 
 
 BANDS = {
-    "silent": ("#f2b8a0", "one solution for both branches, twin MERGED, free joint reads 0"),
-    "free": ("#f7dfa5", "one solution, twin MERGED, free joint read from the pose"),
+    "undetermined": ("#f2b8a0", "one solution for both branches, twin MERGED, free joint set to 0"),
+    "free": ("#f7dfa5", "one solution, twin MERGED, free joint computed from the pose"),
     "merged": ("#bcd9ea", "one solution, twin MERGED, no joint free"),
     "both": ("#ffffff", "a solution for each branch, no flag"),
 }
 
 
 def band(solutions: irbkin.Solutions) -> str:
-    """Which of `BANDS` an answer belongs to."""
+    """Return the key of `BANDS` that an answer belongs to."""
     if not any(status & irbkin.Status.MERGED for status in solutions.status):
         return "both"
     free = [
@@ -181,13 +182,11 @@ def band(solutions: irbkin.Solutions) -> str:
     ]
     if not free:
         return "merged"
-    return "silent" if all(angle == 0.0 for angle in free) else "free"
+    return "undetermined" if all(angle == 0.0 for angle in free) else "free"
 
 
 def answers(axes: Axes, robot: irbkin.Robot, joints: Callable[[float], Joints], title: str) -> None:
-    """Draws the number of solutions against the distance that `joints` is given, over what the
-    status says.
-    """
+    """Draw the number of solutions against the distance passed to `joints`, over the status."""
 
     def solve(distance: float) -> irbkin.Solutions:
         return robot.ik(robot.fk(joints(distance)))
@@ -208,7 +207,7 @@ def answers(axes: Axes, robot: irbkin.Robot, joints: Callable[[float], Joints], 
     for first, last in pairwise([*edges, 1e-4]):
         inside = solve(float(np.sqrt(first * last)))
         axes.axvspan(first, last, color=BANDS[band(inside)][0], linewidth=0)
-        axes.hlines(len(inside), first, last, color=COLOURS[0], linewidth=2.5)
+        axes.hlines(len(inside), first, last, color=COLORS[0], linewidth=2.5)
     axes.set(xscale="log", xlim=(1e-17, 1e-4), ylim=(0, 9), yticks=[0, 2, 4, 6, 8], title=title)
 
 
@@ -247,7 +246,7 @@ def branches() -> None:
 
 
 def main() -> None:
-    """Makes all pictures."""
+    """Draw all pictures."""
     with mpl.rc_context(STYLE):
         for picture in (wrist, shoulder, elbow, branches):
             picture()

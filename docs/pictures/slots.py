@@ -1,8 +1,7 @@
-"""Makes the pictures of the eight slots: the arms that bring the tool of an IRB 2600 and of a UR3
-to one pose.
+"""Draw the pictures of the eight slots: the solutions of one pose of an IRB 2600 and of a UR3.
 
-Run without arguments: it writes the SVG files beside itself and prints their names. The same irbkin
-and matplotlib give the same files.
+Run without arguments: it writes the SVG files next to itself and prints their names. The same
+irbkin and matplotlib give the same files.
 """
 
 from pathlib import Path
@@ -18,20 +17,21 @@ from singularities import STYLE
 Floats = NDArray[np.float64]
 
 HERE = Path(__file__).parent
-# Seen from above on the left: which way base x, y and z run on paper.
+# Seen from above on the left: the directions of base x, y and z on paper.
 PAPER = np.array([[0.85, -0.2], [0.42, 0.45], [0.0, 0.9]])
 ARM, AXIS, TOOL = "#0072b2", "#bbbbbb", "#d55e00"
 
 
 def on_paper(points: Floats) -> Floats:
-    """Points of the base frame, shape (..., 3), drawn in parallel projection."""
+    """Project points of the base frame, shape (..., 3), in parallel projection."""
     drawn: Floats = points @ PAPER
     return drawn
 
 
 def joints(robot: irbkin.Robot, q: Floats) -> Floats:
-    """The base, every link frame's origin with the corner between it and the one before, and the
-    tool, shape (k, 3).
+    """Return the base, the origin of every link frame with the corner before it, and the tool.
+
+    The shape is (k, 3).
     """
     frames = robot.link_frames(q)
     points = [np.zeros(3)]
@@ -41,7 +41,7 @@ def joints(robot: irbkin.Robot, q: Floats) -> Floats:
 
 
 def draw(axes: Axes, robot: irbkin.Robot, q: Floats, title: str) -> None:
-    """One arm, with the frame of its tool."""
+    """Draw one arm, with the frame of its tool."""
     line = on_paper(joints(robot, q))
     axis = on_paper(np.array([[0, 0, 0], [0, 0, 0.6]]))
     axes.plot(*axis.T, color=AXIS, linestyle=":", linewidth=1)
@@ -66,8 +66,9 @@ def picture(
     words: tuple[tuple[str, str], ...],
     title: str = "{}: ",
 ) -> None:
-    """The eight slots of the pose of `q`, written to `name`; `title` takes a slot's number, and its
-    words follow.
+    """Write the eight slots of the pose of `q` to `name`.
+
+    `title` takes the number of a slot; the words for its bits follow.
     """
     pose = robot.fk(q)
     slots = (robot.ik(pose) if robot.dof == 6 else robot.ik(pose, q7=float(q[6]))).q_by_slot
@@ -82,7 +83,7 @@ def picture(
 
 
 def main() -> None:
-    """Both pictures."""
+    """Draw both pictures."""
     mpl.rcParams.update(STYLE)
     picture(
         "slots_abb.svg",

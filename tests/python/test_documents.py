@@ -1,44 +1,111 @@
-"""The Python blocks of the README and of the documents run as they stand."""
+"""The Python blocks of the README and of the documents run as they stand, and their links lead
+somewhere.
+"""
 
+import contextlib
+import io
+import os
 import re
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).parents[2]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
-BLOCK = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+README = ROOT / "README.md"
+PACKAGE = ROOT / "docs" / "package.md"
+DOCS = sorted((ROOT / "docs").glob("*.md"))
+PAGES = [README, ROOT / "ARCHITECTURE.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md", *DOCS]
+BLOCK = re.compile(r"^```python\n(.*?)^```$(?:\n\n```text\n(.*?)^```$)?", re.MULTILINE | re.DOTALL)
+FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 RUN = [page for page in PAGES if BLOCK.search(page.read_text())]
+README_WORDS = 700
+LINE = 100
 
 
 @pytest.mark.parametrize("page", RUN, ids=lambda page: page.name)
-def test_the_blocks_of_a_page_run_top_to_bottom(page):
+def test_the_blocks_of_a_page_run_top_to_bottom_and_print_what_it_shows(
+    page, tmp_path, monkeypatch
+):
+    # An empty folder: no block reads a file of the checkout.
+    monkeypatch.chdir(tmp_path)
     namespace = {}
-    for block in BLOCK.findall(page.read_text()):
-        exec(compile(block, page.name, "exec"), namespace)
+    for block, shown in BLOCK.findall(page.read_text()):
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            exec(compile(block, page.name, "exec"), namespace)
+        if shown:
+            assert printed.getvalue() == shown
 
 
-def test_there_are_pages_with_blocks():
-    assert ROOT / "README.md" in RUN
+def test_the_readme_shows_what_its_blocks_print():
+    blocks = BLOCK.findall(README.read_text())
+    assert len(blocks) >= 3
+    for block, shown in blocks:
+        assert shown or "print(" not in block, block
+
+
+def words(text):
+    """Number of words outside code blocks, tables and pictures; an address is no word."""
+    text = FENCED.sub("", text)
+    text = re.sub(r"^\|.*$", "", text, flags=re.MULTILINE)
+    text = re.sub(r"!\[[^]]*\]\([^)]*\)", "", text)
+    text = re.sub(r"\]\([^)]*\)", "]", text)
+    return sum(bool(re.search(r"\w", word)) for word in text.split())
+
+
+def test_the_readme_is_short():
+    assert words(README.read_text()) <= README_WORDS
+
+
+def package_page(readme):
+    """The page of the package registries: the README without pictures, its links as paths."""
+    page = re.sub(r"^!\[[^]]*\]\([^)]*\)\n\n", "", readme, flags=re.MULTILINE)
+    page = re.sub(r"\[(`?)([^]]*?)\1\]\(\2\)", r"`\2`", page)
+    return re.sub(r"\[([^]]*)\]\(([^)#]*)(?:#[^)]*)?\)", r"\1 (`\2`)", page)
+
+
+def test_the_page_of_the_package_is_the_readme_without_pictures_and_links():
+    page = package_page(README.read_text())
+    assert "](" not in page
+    if os.environ.get("IRBKIN_WRITE") == "1":
+        PACKAGE.write_text(page)
+    how = "IRBKIN_WRITE=1 pytest tests/python/test_documents.py writes it"
+    assert PACKAGE.read_text() == page, f"docs/package.md is not what README.md says: {how}"
+
+
+def anchors(page):
+    """The anchors of a page's headings, as GitHub makes them."""
+    headings = re.findall(r"^#+ (.*)$", FENCED.sub("", page.read_text()), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_links_lead_somewhere(page):
-    links = re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", page.read_text())
-    for link in links:
-        assert (page.parent / link).exists(), link
+def test_links_and_anchors_lead_somewhere(page):
+    links = re.findall(r"\]\((?!https?:)([^)#]*)(?:#([^)]*))?\)", page.read_text())
+    for link, anchor in links:
+        target = page.parent / link if link else page
+        assert target.exists(), link
+        if anchor:
+            assert anchor in anchors(target), f"{link}#{anchor}"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_lines_of_prose_are_short(page):
+    lines = FENCED.sub("", page.read_text()).splitlines()
+    prose = [line for line in lines if not line.startswith(("|", "    ", "!["))]
+    # A link may not be broken.
+    assert not [line for line in prose if len(line) > LINE and line.count(" ") > 2]
 
 
 def test_files_that_are_named_exist():
     named = re.compile(r"`((?:src|tests|benches|docs|python)/[\w./]+)`")
-    pages = [*PAGES, ROOT / "ARCHITECTURE.md"]
-    files = {file for page in pages for file in named.findall(page.read_text())}
+    files = {file for page in PAGES for file in named.findall(page.read_text())}
     assert len(files) > 10
     assert not [file for file in files if not (ROOT / file).exists()]
 
 
 def test_make_targets_that_are_named_exist():
-    targets = set(re.findall(r"^([a-z]+):", (ROOT / "Makefile").read_text(), re.MULTILINE))
-    for page in [*PAGES, ROOT / "ARCHITECTURE.md", ROOT / "CONTRIBUTING.md"]:
-        for target in re.findall(r"`make ([a-z]+)`", page.read_text()):
+    targets = set(re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(), re.MULTILINE))
+    for page in PAGES:
+        for target in re.findall(r"`make ([a-z-]+)`", page.read_text()):
             assert target in targets, f"{page.name}: make {target}"

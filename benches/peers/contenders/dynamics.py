@@ -39,7 +39,7 @@ def pinocchio(arm: Arm) -> list[Contender]:
             lambda q: pin.forwardKinematics(model, data, q),
             from_joints,
             read=placed,
-            remark="the joints' placements stay in its data: nothing is handed over",
+            remark="the joint placements stay in its data: nothing is returned",
         ),
         Contender(
             "jacobian",
@@ -85,7 +85,7 @@ def dynibo(arm: Arm) -> list[Contender]:
             lambda q: robot.forward_kinematics(q, tool),
             from_joints,
             read=matrix,
-            remark="an object with translation and quaternion, no matrix",
+            remark="an object with translation and quaternion, not a matrix",
         ),
         Contender("jacobian", "dynibo", lambda q: robot.jacobian(q, tool), from_joints, read=rows),
         Contender(
@@ -94,6 +94,6 @@ def dynibo(arm: Arm) -> list[Contender]:
             lambda q: robot.jacobian(q, tool, out=room),
             from_joints,
             read=rows,
-            remark="into an array made beforehand",
+            remark="into a preallocated array",
         ),
     ]

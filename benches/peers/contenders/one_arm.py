@@ -33,6 +33,6 @@ def frankik(arm: Arm) -> list[Contender]:
             "frankik, ik_full",
             lambda T, q7: frankik.ik_full(T, q7=q7),
             lambda pose, joints: (pose, float(joints[6])),
-            remark="inside the limits only",
+            remark="only those inside the limits",
         )
     ]

@@ -44,7 +44,7 @@ def two_layers(name: str, robot: Any) -> list[Contender]:
             lambda T: core.reach(T, None, None, 1),
             rows_of_16,
             read=lambda answer: answer[0],
-            remark="gives margins and the smallest singular value, too",
+            remark="also returns margins and the smallest singular value",
         ),
         Contender(
             "fk_batch",
