@@ -10,16 +10,9 @@ use super::errors::{Fault, to_py};
 use crate::catalog::CatalogGeometry;
 use crate::error::{Error, ModelFault};
 use crate::kinematics::{
-    Arity, Definition, DhRow, Joints, Mdh, OpwParameters, Pose, Robot, Sdh, pose_from_rows,
-    pose_to_rows,
+    Arity, Convention, Definition, DhRow, Joints, Mdh, OpwParameters, Pose, Robot, Sdh,
+    pose_from_rows, pose_to_rows,
 };
-
-/// Which Denavit-Hartenberg convention a table has.
-#[derive(Clone, Copy)]
-pub(super) enum Convention {
-    Modified,
-    Standard,
-}
 
 /// How a Denavit-Hartenberg table is to be read.
 #[derive(Clone, Copy)]
@@ -66,11 +59,20 @@ where
         numbers.try_into().map_err(|_| ModelFault::JointCount { found, wanted: N })?;
     let rows = numbers.map(|[alpha, a, d, theta]| DhRow::new(alpha, a, d, theta));
     let (base, flange) = (Pose::identity(), Pose::identity());
-    let mdh = match convention {
-        Convention::Modified => Mdh { base, rows, flange }.snapped(snap)?,
-        Convention::Standard => Sdh { base, rows, flange }.snapped(snap)?.into(),
-    };
-    if closed_form { Robot::from_mdh(mdh) } else { Robot::serial_chain(mdh) }
+    match convention {
+        Convention::Modified if closed_form => {
+            Robot::from_mdh(Mdh { base, rows, flange }.snapped(snap)?)
+        }
+        Convention::Standard if closed_form => {
+            Robot::from_sdh(Sdh { base, rows, flange }.snapped(snap)?)
+        }
+        Convention::Modified => Robot::serial_chain(Mdh { base, rows, flange }.snapped(snap)?)
+            .map(|robot| robot.hinting(&rows, convention)),
+        Convention::Standard => {
+            Robot::serial_chain(Sdh { base, rows, flange }.snapped(snap)?.into())
+                .map(|robot| robot.hinting(&rows, convention))
+        }
+    }
 }
 
 /// A robot from the parameters of an ortho-parallel arm; `signs` as floats, as they come out of an
@@ -194,7 +196,7 @@ pub(super) fn restored(py: Python<'_>, state: &State) -> PyResult<Arm> {
         .map_err(|error| to_py(py, &error))?
         .changed(py, &Edit::Name(name))?
         .changed(py, &Edit::Coupling(linkage.as_deref()))?
-        .changed(py, &Edit::Limits(limit_rows))?
+        .changed(py, &Edit::StoredLimits(limit_rows))?
         .changed(py, &Edit::Base(pose(base)?))?
         .changed(py, &Edit::Tool(pose(tool)?))?
         .changed(py, &Edit::MaxVelocity(velocity.as_deref()))

@@ -57,7 +57,7 @@ fn use_instruction_set(name: &str) -> PyResult<()> {
     let set = InstructionSet::available().find(|set| set.name() == name);
     let set = set.ok_or_else(|| {
         PyValueError::new_err(format!(
-            "instruction set \"{name}\" is none of this processor's: {available:?}",
+            "the instruction set \"{name}\" is not supported by this CPU, which has {available:?}",
             available = available()
         ))
     })?;

@@ -48,7 +48,26 @@ pub(crate) struct Pattern {
 pub struct UnknownStructure {
     reason: Reason,
     snap: Option<f64>,
+    reading: Option<Reading>,
 }
+
+/// Names of the four columns of a table, in their order.
+pub(crate) type Columns = [&'static str; 4];
+
+/// Another way to read a table, in which its structure is known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Reading {
+    pub(crate) columns: Columns,
+    /// Whether its angles are degrees.
+    pub(crate) degrees: bool,
+    /// The convention, where it is not the one that was given: "standard" or "modified".
+    pub(crate) other: Option<&'static str>,
+    /// Name of the structure.
+    pub(crate) structure: &'static str,
+}
+
+/// The columns as tables are given.
+const COLUMNS: Columns = ["alpha", "a", "d", "theta"];
 
 /// What an arm lacks is the same whether it was read from text, which could be snapped, or from the
 /// table of it.
@@ -75,12 +94,17 @@ impl UnknownStructure {
     }
 
     fn new(reason: Reason) -> Self {
-        Self { reason, snap: None }
+        Self { reason, snap: None, reading: None }
     }
 
     /// The same, proposing a `snap` with which the arm would be taken, or none.
     pub(crate) fn proposing(self, snap: Option<f64>) -> Self {
         Self { snap, ..self }
+    }
+
+    /// The same, with another reading of the table, or none.
+    pub(crate) fn reading_as(self, reading: Option<Reading>) -> Self {
+        Self { reading, ..self }
     }
 
     /// The least power of ten [rad] that, given as `snap`, gives the arm a known structure; none
@@ -169,7 +193,9 @@ impl fmt::Display for Figure {
 impl fmt::Display for UnknownStructure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.reason {
-            Reason::JointCount(joints) => write!(f, "{joints} joints, the known forms have 6 or 7"),
+            Reason::JointCount(joints) => {
+                write!(f, "it has {joints} joints, the known structures have 6 or 7")
+            }
             Reason::TooShort { pattern, field, value, bound } => {
                 write!(
                     f,
@@ -184,6 +210,48 @@ impl fmt::Display for UnknownStructure {
                 })
             }
         }?;
-        self.snap.map_or(Ok(()), |snap| write!(f, "; snap={snap:e} would take it"))
+        if let Some(snap) = self.snap {
+            write!(f, " (write the angles with all their digits); snap={snap:e} would take it")?;
+        }
+        self.reading.map_or(Ok(()), |reading| reading.fmt(f))
+    }
+}
+
+impl fmt::Display for Reading {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { columns, degrees, other, structure } = self;
+        let reordered = *columns != COLUMNS;
+        let list =
+            |f: &mut fmt::Formatter<'_>, [a, b, c, d]: Columns| write!(f, "{a}, {b}, {c}, {d}");
+        let mut between = ";";
+        if reordered {
+            write!(f, "{between} with its columns as ")?;
+            list(f, *columns)?;
+            between = ",";
+        }
+        if *degrees {
+            write!(f, "{between} with its angles in degrees")?;
+            between = ",";
+        }
+        if let Some(other) = other {
+            write!(f, "{between} as a {other} table")?;
+        }
+        let article = if structure.ends_with('s') { "" } else { "a " };
+        write!(f, " it has {article}{structure}:")?;
+        let mut between = "";
+        if reordered {
+            write!(f, " reorder them to ")?;
+            list(f, COLUMNS)?;
+            between = " and";
+        }
+        if *degrees {
+            write!(f, "{between} give radians")?;
+            between = " and";
+        }
+        match *other {
+            Some("standard") => write!(f, "{between} use from_sdh"),
+            Some(_) => write!(f, "{between} use from_mdh"),
+            None => Ok(()),
+        }
     }
 }

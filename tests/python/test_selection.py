@@ -193,9 +193,9 @@ def test_an_exception_in_a_filter_comes_out(robot, pose):
 def test_a_filter_that_takes_nothing_says_so(robot, pose):
     empty = robot.ik(pose).filter(lambda _: False)
     assert len(empty) == 0
-    assert empty.explain() == "no solution is left by the filter"
+    assert empty.explain() == "the filter rejected every solution"
     assert empty.q.shape == (0, 6)
-    with pytest.raises(irbkin.UnreachableError, match="no solution is left by the filter"):
+    with pytest.raises(irbkin.UnreachableError, match="the filter rejected every solution"):
         empty.nearest(np.zeros(6))
 
 

@@ -2,9 +2,12 @@
 
 mod build;
 mod linkage;
+mod reading;
 
 #[cfg(feature = "urdf")]
 pub(crate) use build::SNAPS;
+#[cfg(feature = "python")]
+pub(crate) use reading::Convention;
 
 use alloc::borrow::Cow;
 

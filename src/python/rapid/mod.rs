@@ -85,8 +85,12 @@ pub(super) fn dump(value: &Bound<'_, PyAny>, name: &str) -> PyResult<String> {
         return module("Value", vec![datum]).map(|_| text);
     };
     let name_of = |name: &Bound<'_, PyAny>| {
-        name.extract()
-            .map_err(|_| rapid_fault(py, format!("{name} is no name that RAPID could read")))
+        name.extract().map_err(|_| {
+            rapid_fault(
+                py,
+                format!("{name} is not a RAPID identifier (a letter, then letters, digits, _)"),
+            )
+        })
     };
     let data = data
         .iter()

@@ -152,7 +152,7 @@ fn what_ends_a_file_is_no_text() {
     );
     assert_eq!(
         fault("VAR num a\0"),
-        "line 1, column 11: the end of the text stands where a semicolon must"
+        "line 1, column 11: expected a semicolon, found the end of the text"
     );
 }
 
@@ -218,7 +218,7 @@ fn new_values_leave_everything_else_as_it_was() {
         "line 3, column 2: there is no single value in the array pos b"
     );
     let twice = [new(2, None, Value::Num(3.0)), new(2, None, Value::Num(4.0))];
-    assert_eq!(words(&twice), "num c is to get two values");
+    assert_eq!(words(&twice), "num c is given two values, it must get one");
     let shorter = rewrite("", &module, &[]).unwrap_err().to_string();
     assert_eq!(
         shorter,
@@ -299,7 +299,7 @@ fn a_record_by_itself_is_told_by_its_shape() {
     assert_eq!(record(" [[1,2,3],[1,0,0,0]] "), Ok("pose"));
     assert_eq!(record("[[1,2,3,4,5,6],[9E9,9E9,9E9,9E9,9E9,9E9]]"), Ok("jointtarget"));
     assert_eq!(record("[TRUE,[[0,0,1],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]]"), Ok("tooldata"));
-    let none = "[1,2,3] is no robtarget, jointtarget, tooldata, wobjdata, pose or loaddata";
+    let none = "[1,2,3] is not a robtarget, jointtarget, tooldata, wobjdata, pose or loaddata";
     assert_eq!(record("[1,2,3]"), Err(none.to_string()));
     assert_eq!(
         record("[[1,2,3],\n[1,0,0,0]"),
