@@ -83,6 +83,8 @@ mod catalog;
 mod error;
 mod kinematics;
 mod lanes;
+#[cfg(all(test, feature = "rapid", feature = "urdf"))]
+mod messages;
 #[cfg(feature = "python")]
 mod python;
 #[cfg(feature = "rapid")]

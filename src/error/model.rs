@@ -183,8 +183,8 @@ impl fmt::Display for ModelFault {
             }
             Self::Degrees { field, index, value } => write!(
                 f,
-                "{field} {index} is {value} rad, a multiple of 15 beyond two turns (12.57 rad) \
-                 (did you pass degrees? {value} deg is {} rad)",
+                "{field} {index} is {value} rad, a multiple of 15 must be at most 12.57 rad (did you \
+                 pass degrees? {value} deg is {} rad)",
                 value.to_radians()
             ),
             Self::TooFar { axis, distance, bound } => write!(

@@ -7,6 +7,7 @@ use super::arm::{Arm, on_robot};
 use super::arrays::Rows;
 use super::edits::Edit;
 use super::errors::{Fault, to_py};
+use super::wording::shape;
 use crate::catalog::CatalogGeometry;
 use crate::error::{Error, ModelFault};
 use crate::kinematics::{
@@ -32,7 +33,8 @@ pub(super) fn from_table(
     table: Table,
 ) -> PyResult<Arm> {
     let py = rows.py();
-    let rows = Rows::read(rows, &[4], "rows", Fault::Model)?;
+    let wanted = "(6, 4) or (7, 4)";
+    let rows = Rows::read_wanting(rows, &[4], "rows", Fault::Model, || wanted.to_owned())?;
     let numbers = rows.data()?.as_chunks::<4>().0;
     let arm = match rows.lead[..] {
         [6] => robot_of_table::<6>(numbers, table).map(Arm::from),
@@ -40,7 +42,7 @@ pub(super) fn from_table(
         _ => {
             return Err(Fault::Model.error(
                 py,
-                format!("rows must have shape (6, 4) or (7, 4), got {:?}", rows.shape_with(&[4])),
+                format!("rows must have shape {wanted}, got {}", shape(&rows.shape_with(&[4]))),
             ));
         }
     };
@@ -111,13 +113,12 @@ fn named_and_limited(
 
 /// The arm with limits of shape (n, 2).
 pub(super) fn with_limits(arm: &Arm, limits: &Bound<'_, PyAny>) -> PyResult<Arm> {
-    let rows = Rows::read(limits, &[arm.dof(), 2], "limits", Fault::Model)?;
+    let tail = [arm.dof(), 2];
+    let rows = Rows::read_wanting(limits, &tail, "limits", Fault::Model, || shape(&tail))?;
     if !rows.is_single() {
-        let shape = rows.shape_with(&[arm.dof(), 2]);
-        return Err(Fault::Model.error(
-            limits.py(),
-            format!("limits must have shape [{}, 2], got {shape:?}", arm.dof()),
-        ));
+        let (wanted, got) = (shape(&tail), shape(&rows.shape_with(&tail)));
+        let message = format!("limits must have shape {wanted}, got {got}");
+        return Err(Fault::Model.error(limits.py(), message));
     }
     arm.changed(limits.py(), &Edit::Limits(rows.data()?.as_chunks::<2>().0))
 }

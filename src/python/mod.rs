@@ -24,6 +24,7 @@ mod records;
 mod robot;
 mod solutions;
 mod urdf;
+mod wording;
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

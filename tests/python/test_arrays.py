@@ -182,7 +182,7 @@ def test_a_call_that_fails_writes_nothing(robot, many):
         (
             np.zeros((20, 3, 4)),
             irbkin.InvalidPoseError,
-            r"T must have shape \(\.\.\., 4, 4\), got \[20, 3, 4\]",
+            r"T must have shape \(\.\.\., 4, 4\), got \(20, 3, 4\)",
         ),
         (np.zeros((20, 4, 4), complex), TypeError, "dtype complex128"),
         (np.zeros((19, 4, 4)), ValueError, r"out must be C-contiguous with shape \[19, 8, 6\]"),
