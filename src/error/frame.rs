@@ -46,7 +46,7 @@ impl fmt::Display for FrameFault {
             }
             Self::Moved { unit } => write!(
                 f,
-                "the work object's user frame is moved (ufprog FALSE) by the mechanical unit \"{unit}\": where it stands is not in the data"
+                "the work object's user frame is moved (ufprog FALSE) by the mechanical unit \"{unit}\": its position is not in the data"
             ),
             Self::Pose { field, fault } => write!(f, "{field}: {fault}"),
         }

@@ -213,7 +213,7 @@ fn structures() -> Vec<Row> {
     let swapped = refused(Mdh { base: identity, rows: standard.rows, flange: identity });
     all.push(Row {
         message: std::format!("...{}", tail(&swapped)),
-        trigger: "standard rows given to `from_mdh`, columns in another order, degrees",
+        trigger: "standard rows given to `from_mdh`, columns in another order",
         remedy: "do what it says",
     });
     all

@@ -71,10 +71,8 @@ fn the_page_of_messages_has_every_message_as_it_is_printed() {
         let start = std::format!("<!-- {name}: written by make errors -->\n");
         let (before, rest) = made.split_once(&start).unwrap();
         let (_, after) = rest.split_once("<!-- end -->").unwrap();
-        made = std::format!(
-            "{before}{start}\n{table}\n<!-- end -->{after}",
-            table = printed(&rows)
-        );
+        made =
+            std::format!("{before}{start}\n{table}\n<!-- end -->{after}", table = printed(&rows));
     }
     if std::env::var("IRBKIN_WRITE").is_ok_and(|write| write == "1") {
         std::fs::write(&path, made).unwrap();

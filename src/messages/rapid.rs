@@ -137,9 +137,8 @@ fn frames() -> Vec<Row> {
 
 fn problems() -> Vec<Row> {
     let unknown = || Reason::Taught;
-    let reach = || {
-        crate::Error::Unreachable(Explanation::OutOfReach(Reach::TooFar { shortfall: 0.012 }))
-    };
+    let reach =
+        || crate::Error::Unreachable(Explanation::OutOfReach(Reach::TooFar { shortfall: 0.012 }));
     rows! { Problem;
         Problem::Target(_) => Problem::Target(unknown()),
             "a target without a value in the text", "see the reasons below";

@@ -34,7 +34,7 @@ pub(super) fn no_numbers(value: &Bound<'_, PyAny>, dtype: &str) -> String {
     }
     let first = first_of(value);
     if let Some((first, how)) = first.and_then(|first| Some((name(&first), conversion(&first)?))) {
-        return format!("several {first}: of each, pass {how}");
+        return format!("a list of {first}: pass {how} of each");
     }
     format!("an array of dtype {dtype}")
 }

@@ -58,8 +58,6 @@ pub(crate) type Columns = [&'static str; 4];
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Reading {
     pub(crate) columns: Columns,
-    /// Whether its angles are degrees.
-    pub(crate) degrees: bool,
     /// The convention, where it is not the one that was given: "standard" or "modified".
     pub(crate) other: Option<&'static str>,
     /// Name of the structure.
@@ -219,7 +217,7 @@ impl fmt::Display for UnknownStructure {
 
 impl fmt::Display for Reading {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { columns, degrees, other, structure } = self;
+        let Self { columns, other, structure } = self;
         let reordered = *columns != COLUMNS;
         let list =
             |f: &mut fmt::Formatter<'_>, [a, b, c, d]: Columns| write!(f, "{a}, {b}, {c}, {d}");
@@ -227,10 +225,6 @@ impl fmt::Display for Reading {
         if reordered {
             write!(f, "{between} with its columns as ")?;
             list(f, *columns)?;
-            between = ",";
-        }
-        if *degrees {
-            write!(f, "{between} with its angles in degrees")?;
             between = ",";
         }
         if let Some(other) = other {
@@ -242,10 +236,6 @@ impl fmt::Display for Reading {
         if reordered {
             write!(f, " reorder them to ")?;
             list(f, COLUMNS)?;
-            between = " and";
-        }
-        if *degrees {
-            write!(f, "{between} give radians")?;
             between = " and";
         }
         match *other {

@@ -297,7 +297,7 @@ def test_another_frame_of_a_jacobian_is_refused():
 @pytest.mark.parametrize(
     ("threads", "error", "words"),
     [
-        (-1, ValueError, r"threads must be 0 \(one a core\) or more, got -1"),
+        (-1, ValueError, r"threads must be 0 \(one per core\) or more, got -1"),
         (1.5, TypeError, "'float' object cannot be interpreted as an integer"),
         ("2", TypeError, "'str' object cannot be interpreted as an integer"),
         (None, TypeError, "'NoneType' object cannot be interpreted as an integer"),

@@ -62,7 +62,7 @@ def test_the_linkage_has_limits_where_they_are_given():
     np.testing.assert_array_equal(robot.uncoupled().limits[2], LINKAGE)
     with pytest.raises(irbkin.InvalidModelError, match="linkage limit is empty"):
         ROBOT.with_linkage_limits((1, 0))
-    with pytest.raises(irbkin.InvalidModelError, match="not coupled"):
+    with pytest.raises(irbkin.InvalidModelError, match="no parallelogram linkage"):
         ROBOT.uncoupled().with_linkage_limits(LINKAGE)
 
 

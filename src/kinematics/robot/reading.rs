@@ -1,5 +1,10 @@
 //! Tables whose structure is unknown, read in another way.
 
+use core::f64::consts::PI;
+
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
 use crate::kinematics::chain::dh::{DhRow, Mdh, Sdh};
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::any::AnyStructure;
@@ -29,8 +34,16 @@ const ORDERS: [Columns; 8] = [
 /// How far an angle of another reading may be from a right angle and still be one [rad]: 1.5708 is.
 const SNAP: f64 = 1e-5;
 
+/// How far an angle may be from a multiple of 15 deg and still be one that was written as it [rad]:
+/// text with four decimals.
+const WRITTEN: f64 = 1e-4;
+
 /// The first other reading of rows in which the arm has a known structure: by the other
-/// convention, in degrees, with columns in another order. None where there is none.
+/// convention, or with columns in another order. None where there is none.
+///
+/// A column of lengths, read as theta, says nothing against a structure. So another order is looked
+/// for only where the angles of the given one are not as tables have them, and those of the other
+/// are.
 pub(crate) fn other_reading<const N: usize>(rows: &[DhRow; N], given: Convention) -> Option<Reading>
 where
     Joints<N>: Arity<N>,
@@ -39,29 +52,40 @@ where
         Convention::Modified => (Convention::Standard, "standard"),
         Convention::Standard => (Convention::Modified, "modified"),
     };
-    let mut readings = ORDERS.into_iter().flat_map(|columns| {
-        [false, true].into_iter().flat_map(move |degrees| {
-            let conventions = [(given, None), (other, Some(name))];
-            conventions.into_iter().map(move |convention| (columns, degrees, convention))
-        })
+    let orders = if has_usual_angles(rows) { &ORDERS[..1] } else { &ORDERS[..] };
+    let mut readings = orders.iter().enumerate().flat_map(|(order, columns)| {
+        let conventions = [(given, None), (other, Some(name))];
+        conventions.into_iter().map(move |convention| (order, *columns, convention))
     });
-    readings.find_map(|(columns, degrees, (convention, other))| {
-        let rows = rows.map(|row| read(row, columns, degrees));
+    readings.find_map(|(order, columns, (convention, other))| {
+        let rows = rows.map(|row| read(row, columns));
+        if order > 0 && !has_usual_angles(&rows) {
+            return None;
+        }
         let structure = structure(rows, convention)?;
-        Some(Reading { columns, degrees, other, structure })
+        Some(Reading { columns, other, structure })
     })
 }
 
+/// Whether every alpha and theta is a multiple of 15 deg, and not every axis parallel.
+fn has_usual_angles(rows: &[DhRow]) -> bool {
+    let is_multiple = |angle: f64| {
+        let steps = angle / (PI / 12.0);
+        (steps - steps.round()).abs() * (PI / 12.0) <= WRITTEN
+    };
+    rows.iter().all(|row| is_multiple(row.alpha) && is_multiple(row.theta))
+        && rows.iter().filter(|row| row.alpha.abs() > WRITTEN).count() > 1
+}
+
 /// A row whose numbers have these meanings.
-fn read(row: DhRow, columns: Columns, degrees: bool) -> DhRow {
+fn read(row: DhRow, columns: Columns) -> DhRow {
     let mut read = DhRow::default();
-    let angle = |value: f64| if degrees { value.to_radians() } else { value };
     for (column, value) in columns.into_iter().zip(row.to_array()) {
         match column {
-            "alpha" => read.alpha = angle(value),
+            "alpha" => read.alpha = value,
             "a" => read.a = value,
             "d" => read.d = value,
-            _ => read.theta = angle(value),
+            _ => read.theta = value,
         }
     }
     read
@@ -144,6 +168,18 @@ mod tests {
         let mut rows = UR5E;
         (rows[2][0], rows[4][1]) = (0.3, 0.2);
         let refusal = modified(rows).unwrap_err().to_string();
+        assert!(!refusal.contains("use from") && !refusal.contains("columns"), "{refusal}");
+        // A wrist with an offset along axis 5: with d read as theta it would be a spherical one.
+        let quarter = core::f64::consts::FRAC_PI_2;
+        let offset = [
+            [0.0, 0.0, 0.445, 0.0],
+            [-quarter, 0.15, 0.0, -quarter],
+            [0.0, 0.7, 0.0, 0.0],
+            [-quarter, 0.115, 0.795, 0.0],
+            [quarter, 0.0, 0.13, 0.0],
+            [-quarter, 0.0, 0.085, 2.0 * quarter],
+        ];
+        let refusal = modified(offset).unwrap_err().to_string();
         assert!(!refusal.contains("use from") && !refusal.contains("columns"), "{refusal}");
     }
 }
