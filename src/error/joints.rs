@@ -82,7 +82,8 @@ impl fmt::Display for JointFault {
             Self::Configuration { field, value, bounds: [0, 0] } => {
                 write!(
                     f,
-                    "configuration: {field} is {value}, it must be 0 for a robot with coupled axes 2 and 3"
+                    "configuration: {field} is {value}, it must be 0 for a robot with coupled \
+                     axes 2 and 3"
                 )
             }
             Self::Configuration { field, value, bounds: [least, most] } => {

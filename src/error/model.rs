@@ -183,8 +183,8 @@ impl fmt::Display for ModelFault {
             }
             Self::Degrees { field, index, value } => write!(
                 f,
-                "{field} {index} is {value} rad, a multiple of 15 must be at most 12.57 rad (did you \
-                 pass degrees? {value} deg is {} rad)",
+                "{field} {index} is {value} rad, a multiple of 15 must be at most 12.57 rad (did \
+                 you pass degrees? {value} deg is {} rad)",
                 value.to_radians()
             ),
             Self::TooFar { axis, distance, bound } => write!(
@@ -232,7 +232,8 @@ impl fmt::Display for ModelFault {
             Self::NoConfiguration { structure } => {
                 write!(
                     f,
-                    "this robot has no ABB configuration: its structure is \"{structure}\", not a six-axis arm with a spherical wrist"
+                    "this robot has no ABB configuration: its structure is \"{structure}\", not a \
+                     six-axis arm with a spherical wrist"
                 )
             }
             Self::NoSphericalWrist => write!(

@@ -103,20 +103,22 @@ impl fmt::Display for PoseFault {
             Self::NotOrthonormal { deviation, bound } => {
                 write!(
                     f,
-                    "pose rotation is off orthonormal by {deviation:.3e}, more than the {bound:.0e} that is \
-                     repaired (is it scaled, or written with too few digits?)"
+                    "pose rotation is off orthonormal by {deviation:.3e}, more than the {bound:.0e} that \
+                     is repaired (is it scaled, or written with too few digits?)"
                 )
             }
             Self::Mirrored { determinant } => {
                 write!(
                     f,
-                    "pose rotation mirrors: its determinant is {determinant:.6}, it must be 1 (is an axis negated?)"
+                    "pose rotation mirrors: its determinant is {determinant:.6}, it must be 1 (is \
+                     an axis negated?)"
                 )
             }
             Self::QuaternionNorm { norm, bound } => {
                 write!(
                     f,
-                    "quaternion norm is {norm:.6}, it must be 1 within {bound:.0e} (order is w, x, y, z)"
+                    "quaternion norm is {norm:.6}, it must be 1 within {bound:.0e} (order is w, \
+                     x, y, z)"
                 )
             }
             Self::EulerAngle { index, value, bound } => {

@@ -289,7 +289,8 @@ impl UrdfFault {
             Self::TwoParents { link, joints: [one, two] } => {
                 write!(
                     f,
-                    "link {link:?} is the child of joints {one:?} and {two:?}, it must be that of one"
+                    "link {link:?} is the child of joints {one:?} and {two:?}, it must be that of \
+                     one"
                 )
             }
             Self::Loop { links } => {
@@ -313,7 +314,8 @@ impl UrdfFault {
                 let wanted = Counts(wanted);
                 write!(
                     f,
-                    "{wanted} revolute joints lead from {base:?} to several ends: {tips}; tip must name the one to take"
+                    "{wanted} revolute joints lead from {base:?} to several ends: {tips}; tip \
+                     must name the one to take"
                 )
             }
             Self::NoTip { base, wanted, ends } => {
@@ -333,7 +335,8 @@ impl UrdfFault {
             Self::JointType { joint, kind } => {
                 write!(
                     f,
-                    "joint {joint:?} is {kind:?}, between base and tip it must be revolute, continuous or fixed"
+                    "joint {joint:?} is {kind:?}, between base and tip it must be revolute, \
+                     continuous or fixed"
                 )
             }
             Self::Mimic { joint, of } => write!(
@@ -349,7 +352,8 @@ impl UrdfFault {
             }
             Self::NoLimit { joint } => write!(
                 f,
-                "joint {joint:?} is revolute and has no <limit>; a joint without limits is continuous"
+                "joint {joint:?} is revolute and has no <limit>; a joint without limits is \
+                 continuous"
             ),
             Self::NotNumbers { joint, field, text, wanted } => {
                 let of = if *wanted == 1 { "a number" } else { "three numbers" };

@@ -39,8 +39,6 @@ pub use pose::{
     Pose, PoseDifference, pose_from_euler_zyx, pose_from_rows, pose_from_wxyz, pose_to_euler_zyx,
     pose_to_rows, pose_to_wxyz,
 };
-#[cfg(feature = "python")]
-pub(crate) use robot::Convention;
 #[cfg(feature = "urdf")]
 pub(crate) use robot::SNAPS;
 pub use robot::{Definition, Robot};

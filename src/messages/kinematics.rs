@@ -50,7 +50,8 @@ fn poses() -> Vec<Row> {
             "a left-handed frame", "negate the axis that was negated";
         PoseFault::QuaternionNorm { .. } =>
             PoseFault::QuaternionNorm { norm: 5.477_226, bound: QUATERNION_NORM_BOUND },
-            "a quaternion that is not of length 1", "normalize it; look at the order of its elements";
+            "a quaternion that is not of length 1",
+            "normalize it; look at the order of its elements";
         PoseFault::EulerAngle { .. } =>
             PoseFault::EulerAngle { index: 0, value: 90.0, bound: MOST_EULER },
             "Euler angles in degrees", "pass `np.radians(angles)`; remove whole turns";
@@ -149,7 +150,8 @@ fn models() -> Vec<Row> {
             ModelFault::NoConfiguration { structure: "three parallel axes" },
             "`configuration`, `ik_configured`", "take `slot` of a solution";
         ModelFault::NoSphericalWrist => ModelFault::NoSphericalWrist,
-            "`follow(singularity_mode=)` \"wrist\" or \"lock_axis4\"", "take \"through\" or \"error\"";
+            "`follow(singularity_mode=)` \"wrist\" or \"lock_axis4\"",
+            "take \"through\" or \"error\"";
         ModelFault::AxisDirection { .. } => ModelFault::AxisDirection { axis: 2 },
             "`JointAxis`", "give a direction";
         ModelFault::NearlyParallel { snap: Some(_), .. } => ModelFault::NearlyParallel {

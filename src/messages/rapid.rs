@@ -27,7 +27,8 @@ fn faults() -> Vec<Row> {
             column: 12,
             kind: Kind::Unexpected { found: "the end of the text".into(), wanted: "a semicolon" },
         },
-            "`parse(\"hello world\")`: text that is not RAPID", "mend the place; `load` takes a path";
+            "`parse(\"hello world\")`: text that is not RAPID",
+            "mend the place; `load` takes a path";
     };
     all.extend(rows! { RapidFaultKind;
         Kind::UnterminatedString => Kind::UnterminatedString,
@@ -183,7 +184,8 @@ fn reasons() -> Vec<Row> {
             "an argument that is not read", "write the value";
         Reason::CopiedArray { .. } => Reason::CopiedArray { name: "pGrid".into() },
             "an array copied as a whole", "write its elements";
-        Reason::NoAggregate => Reason::NoAggregate, "an array from a function", "write its elements";
+        Reason::NoAggregate => Reason::NoAggregate,
+            "an array from a function", "write its elements";
         Reason::Reference { .. } => of, "a name of another module", "pass it as `context`";
     };
     let by = AssignedBy::Line(12);

@@ -21,7 +21,8 @@ fn faults() -> Vec<Row> {
             "bytes in another encoding", "save the file as UTF-8";
         UrdfFault::NotXml { .. } =>
             UrdfFault::NotXml { line: 1, column: 1, what: "unknown token".into() },
-            "broken XML, or a path that does not exist as text", "mend the place; pass a path that ends in .urdf";
+            "broken XML, or a path that does not exist as text",
+            "mend the place; pass a path that ends in .urdf";
         UrdfFault::Namespaces { .. } => UrdfFault::Namespaces { line: 3, bound: 64 },
             "a text made to take long", "remove them";
         UrdfFault::Attributes { .. } =>

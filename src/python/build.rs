@@ -11,9 +11,10 @@ use super::wording::shape;
 use crate::catalog::CatalogGeometry;
 use crate::error::{Error, ModelFault};
 use crate::kinematics::{
-    Arity, Convention, Definition, DhRow, Joints, Mdh, OpwParameters, Pose, Robot, Sdh,
-    pose_from_rows, pose_to_rows,
+    Arity, Definition, DhRow, Joints, Mdh, OpwParameters, Pose, Robot, Sdh, pose_from_rows,
+    pose_to_rows,
 };
+use crate::report::Convention;
 
 /// How a Denavit-Hartenberg table is to be read.
 #[derive(Clone, Copy)]

@@ -7,7 +7,8 @@ use super::build::{self, Table};
 use super::errors::Fault;
 use super::robot::PyRobot;
 use super::urdf::{self, Wanted};
-use crate::kinematics::{Convention, OpwParameters};
+use crate::kinematics::OpwParameters;
+use crate::report::Convention;
 
 #[pymethods]
 impl PyRobot {

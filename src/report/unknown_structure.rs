@@ -47,8 +47,23 @@ pub(crate) struct Pattern {
 #[derive(Clone, Copy, Debug)]
 pub struct UnknownStructure {
     reason: Reason,
-    snap: Option<f64>,
-    reading: Option<Reading>,
+    hint: Hint,
+}
+
+/// What would give the arm a known structure. One of them at most, for an error is small.
+#[derive(Clone, Copy, Debug)]
+enum Hint {
+    Nothing,
+    /// A `snap` [rad].
+    Snap(f64),
+    Reading(Reading),
+}
+
+/// Which Denavit-Hartenberg convention a table has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Convention {
+    Modified,
+    Standard,
 }
 
 /// Names of the four columns of a table, in their order.
@@ -57,15 +72,25 @@ pub(crate) type Columns = [&'static str; 4];
 /// Another way to read a table, in which its structure is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Reading {
-    pub(crate) columns: Columns,
-    /// The convention, where it is not the one that was given: "standard" or "modified".
-    pub(crate) other: Option<&'static str>,
+    /// The order of its columns, an index into [`ORDERS`].
+    pub(crate) order: u8,
+    /// The convention, where it is not the one that was given.
+    pub(crate) other: Option<Convention>,
     /// Name of the structure.
     pub(crate) structure: &'static str,
 }
 
-/// The columns as tables are given.
-const COLUMNS: Columns = ["alpha", "a", "d", "theta"];
+/// Orders of columns: first the one that tables are given in, then those of textbooks and programs.
+pub(crate) const ORDERS: [Columns; 8] = [
+    ["alpha", "a", "d", "theta"],
+    ["theta", "d", "a", "alpha"],
+    ["d", "theta", "a", "alpha"],
+    ["a", "alpha", "d", "theta"],
+    ["a", "d", "alpha", "theta"],
+    ["d", "a", "alpha", "theta"],
+    ["theta", "d", "alpha", "a"],
+    ["alpha", "a", "theta", "d"],
+];
 
 /// What an arm lacks is the same whether it was read from text, which could be snapped, or from the
 /// table of it.
@@ -92,24 +117,27 @@ impl UnknownStructure {
     }
 
     fn new(reason: Reason) -> Self {
-        Self { reason, snap: None, reading: None }
+        Self { reason, hint: Hint::Nothing }
     }
 
     /// The same, proposing a `snap` with which the arm would be taken, or none.
     pub(crate) fn proposing(self, snap: Option<f64>) -> Self {
-        Self { snap, ..self }
+        Self { hint: snap.map_or(Hint::Nothing, Hint::Snap), ..self }
     }
 
     /// The same, with another reading of the table, or none.
     pub(crate) fn reading_as(self, reading: Option<Reading>) -> Self {
-        Self { reading, ..self }
+        Self { hint: reading.map_or(Hint::Nothing, Hint::Reading), ..self }
     }
 
     /// The least power of ten [rad] that, given as `snap`, gives the arm a known structure; none
     /// where none does.
     #[must_use]
     pub fn snap(&self) -> Option<f64> {
-        self.snap
+        match self.hint {
+            Hint::Snap(snap) => Some(snap),
+            Hint::Nothing | Hint::Reading(_) => None,
+        }
     }
 
     /// An arm that is off these conditions of a structure by so much; zero where one is met.
@@ -208,39 +236,44 @@ impl fmt::Display for UnknownStructure {
                 })
             }
         }?;
-        if let Some(snap) = self.snap {
-            write!(f, " (write the angles with all their digits); snap={snap:e} would take it")?;
+        match self.hint {
+            Hint::Nothing => Ok(()),
+            Hint::Snap(snap) => {
+                write!(f, " (write the angles with all their digits); snap={snap:e} would take it")
+            }
+            Hint::Reading(reading) => reading.fmt(f),
         }
-        self.reading.map_or(Ok(()), |reading| reading.fmt(f))
     }
 }
 
 impl fmt::Display for Reading {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { columns, other, structure } = self;
-        let reordered = *columns != COLUMNS;
+        let Self { order, other, structure } = self;
+        let reordered = *order > 0;
         let list =
             |f: &mut fmt::Formatter<'_>, [a, b, c, d]: Columns| write!(f, "{a}, {b}, {c}, {d}");
         let mut between = ";";
         if reordered {
             write!(f, "{between} with its columns as ")?;
-            list(f, *columns)?;
+            list(f, ORDERS[usize::from(*order)])?;
             between = ",";
         }
-        if let Some(other) = other {
-            write!(f, "{between} as a {other} table")?;
+        match other {
+            Some(Convention::Standard) => write!(f, "{between} as a standard table")?,
+            Some(Convention::Modified) => write!(f, "{between} as a modified table")?,
+            None => {}
         }
         let article = if structure.ends_with('s') { "" } else { "a " };
         write!(f, " it has {article}{structure}:")?;
         let mut between = "";
         if reordered {
             write!(f, " reorder them to ")?;
-            list(f, COLUMNS)?;
+            list(f, ORDERS[0])?;
             between = " and";
         }
         match *other {
-            Some("standard") => write!(f, "{between} use from_sdh"),
-            Some(_) => write!(f, "{between} use from_mdh"),
+            Some(Convention::Standard) => write!(f, "{between} use from_sdh"),
+            Some(Convention::Modified) => write!(f, "{between} use from_mdh"),
             None => Ok(()),
         }
     }

@@ -2,7 +2,7 @@
 
 use alloc::borrow::Cow;
 
-use super::reading::{Convention, other_reading};
+use super::reading::other_reading;
 use super::{Definition, Robot};
 use crate::error::{Error, ModelFault};
 use crate::kinematics::chain::Chain;
@@ -14,6 +14,7 @@ use crate::kinematics::structure::any::AnyStructure;
 use crate::kinematics::structure::arity::{Arity, Joints, StructureOf};
 use crate::kinematics::structure::spherical_wrist::OpwParameters;
 use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH, MOST_REACH, MOST_SNAP};
+use crate::report::Convention;
 
 /// What is proposed as a `snap` to an arm that it would help [rad]: the least of these.
 pub(crate) const SNAPS: [f64; 6] = [1e-8, 1e-7, 1e-6, 1e-5, 1e-4, MOST_SNAP];

@@ -6,8 +6,6 @@ mod reading;
 
 #[cfg(feature = "urdf")]
 pub(crate) use build::SNAPS;
-#[cfg(feature = "python")]
-pub(crate) use reading::Convention;
 
 use alloc::borrow::Cow;
 

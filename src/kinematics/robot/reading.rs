@@ -10,26 +10,7 @@ use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::any::AnyStructure;
 use crate::kinematics::structure::arity::{Arity, Joints, StructureOf};
 use crate::kinematics::thresholds::MOST_LENGTH;
-use crate::report::{Columns, Reading};
-
-/// Which Denavit-Hartenberg convention a table has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Convention {
-    Modified,
-    Standard,
-}
-
-/// Orders of columns that textbooks and programs have.
-const ORDERS: [Columns; 8] = [
-    ["alpha", "a", "d", "theta"],
-    ["theta", "d", "a", "alpha"],
-    ["d", "theta", "a", "alpha"],
-    ["a", "alpha", "d", "theta"],
-    ["a", "d", "alpha", "theta"],
-    ["d", "a", "alpha", "theta"],
-    ["theta", "d", "alpha", "a"],
-    ["alpha", "a", "theta", "d"],
-];
+use crate::report::{Columns, Convention, ORDERS, Reading};
 
 /// How far an angle of another reading may be from a right angle and still be one [rad]: 1.5708 is.
 const SNAP: f64 = 1e-5;
@@ -48,13 +29,13 @@ pub(crate) fn other_reading<const N: usize>(rows: &[DhRow; N], given: Convention
 where
     Joints<N>: Arity<N>,
 {
-    let (other, name) = match given {
-        Convention::Modified => (Convention::Standard, "standard"),
-        Convention::Standard => (Convention::Modified, "modified"),
+    let other = match given {
+        Convention::Modified => Convention::Standard,
+        Convention::Standard => Convention::Modified,
     };
     let orders = if has_usual_angles(rows) { &ORDERS[..1] } else { &ORDERS[..] };
-    let mut readings = orders.iter().enumerate().flat_map(|(order, columns)| {
-        let conventions = [(given, None), (other, Some(name))];
+    let mut readings = (0..).zip(orders).flat_map(|(order, columns)| {
+        let conventions = [(given, None), (other, Some(other))];
         conventions.into_iter().map(move |convention| (order, *columns, convention))
     });
     readings.find_map(|(order, columns, (convention, other))| {
@@ -63,7 +44,7 @@ where
             return None;
         }
         let structure = structure(rows, convention)?;
-        Some(Reading { columns, other, structure })
+        Some(Reading { order, other, structure })
     })
 }
 
