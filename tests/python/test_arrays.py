@@ -167,7 +167,7 @@ def test_a_wrong_out_of_a_jacobian_or_a_batch_is_refused(robot, many):
     for out, error, words in (
         (q[:19], ValueError, r"shape \(20, 8, 6\), got .*\(19, 8, 6\)"),
         ((q, status.astype(int)), TypeError, "dtype uint8, got .*int64"),
-        ((q, status[:, :7]), ValueError, r"shape \[20, 8\]"),
+        ((q, status[:, :7]), ValueError, r"shape \(20, 8\)"),
         ((q, status, status), TypeError, r"out must be \(q, status\), got a tuple of 3"),
         ((q, read_only(status)), ValueError, "out must be writable"),
         ([q, status], TypeError, "got list"),

@@ -83,7 +83,9 @@ def test_what_is_no_number_is_a_type_error(value):
     if value is not None:
         calls |= {name: call for name, (call, _, _) in TAKING_A_VECTOR.items()}
     for call in calls.values():
-        with pytest.raises(TypeError, match=r"^\w+ must be real numbers, got (an array of dtype|None)"):
+        with pytest.raises(
+            TypeError, match=r"^\w+ must be real numbers, got (an array of dtype|None)"
+        ):
             call(value)
 
 

@@ -102,7 +102,8 @@ def test_configurations_do_not_count_the_slot():
     q = random_joints(300)
     assert not np.any(ROBOT.configuration(q).cfx)
     with pytest.raises(
-        irbkin.InvalidJointsError, match="cfx is 1, it must be 0 for a robot with coupled axes 2 and 3"
+        irbkin.InvalidJointsError,
+        match="cfx is 1, it must be 0 for a robot with coupled axes 2 and 3",
     ):
         ROBOT.ik_configured(ROBOT.fk(q[0]), (0, 0, 0, 1))
 

@@ -244,7 +244,11 @@ def test_an_empty_path_has_an_empty_answer(robot):
         ({"T": [np.eye(4), np.eye(4) * np.nan]}, InvalidPoseError, r"T\[1\]: pose\[0, 0\] is NaN"),
         ({"T": [np.eye(4), 2 * np.eye(4)]}, InvalidPoseError, r"T\[1\]: pose row 3 must be"),
         ({"seed": [np.nan] * 6}, InvalidJointsError, "seed: joint 1 is NaN"),
-        ({"seed": [0.0] * 5}, InvalidJointsError, r"seed must have shape \(\.\.\., 6\), got \(5,\)"),
+        (
+            {"seed": [0.0] * 5},
+            InvalidJointsError,
+            r"seed must have shape \(\.\.\., 6\), got \(5,\)",
+        ),
         ({"weights": [-1] * 6}, InvalidJointsError, "weights: joint 1 is -1"),
         ({"zone": np.nan}, InvalidJointsError, "zone is NaN, it must be finite and not negative"),
         ({"zone": -1}, InvalidJointsError, "zone is -1, it must be finite and not negative"),

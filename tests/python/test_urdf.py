@@ -276,7 +276,8 @@ def test_a_link_that_is_none_is_named():
     words = 'URDF: tip "tool" is not a link; there are ' + ", ".join(f'"{link}"' for link in links)
     assert str(refused.value) == words
     with pytest.raises(
-        InvalidModelError, match=r'^URDF: tip "base" is not below base "link_1": no joints lead from base to tip$'
+        InvalidModelError,
+        match=r'^URDF: tip "base" is not below base "link_1": no joints lead from base to tip$',
     ):
         Robot.from_urdf(TEXTS["irb2600"], "link_1", "base")
 
