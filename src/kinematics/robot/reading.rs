@@ -93,17 +93,18 @@ where
 
 #[cfg(test)]
 mod tests {
+    use core::f64::consts::FRAC_PI_2;
     use std::string::ToString;
 
     use super::*;
     use crate::kinematics::robot::Robot;
 
     const UR5E: [[f64; 4]; 6] = [
-        [1.570_796_326_794_896_6, 0.0, 0.1625, 0.0],
+        [FRAC_PI_2, 0.0, 0.1625, 0.0],
         [0.0, -0.425, 0.0, 0.0],
         [0.0, -0.3922, 0.0, 0.0],
-        [1.570_796_326_794_896_6, 0.0, 0.1333, 0.0],
-        [-1.570_796_326_794_896_6, 0.0, 0.0997, 0.0],
+        [FRAC_PI_2, 0.0, 0.1333, 0.0],
+        [-FRAC_PI_2, 0.0, 0.0997, 0.0],
         [0.0, 0.0, 0.0996, 0.0],
     ];
 
@@ -151,7 +152,7 @@ mod tests {
         let refusal = modified(rows).unwrap_err().to_string();
         assert!(!refusal.contains("use from") && !refusal.contains("columns"), "{refusal}");
         // A wrist with an offset along axis 5: with d read as theta it would be a spherical one.
-        let quarter = core::f64::consts::FRAC_PI_2;
+        let quarter = FRAC_PI_2;
         let offset = [
             [0.0, 0.0, 0.445, 0.0],
             [-quarter, 0.15, 0.0, -quarter],
