@@ -19,7 +19,7 @@ ON_EACH_NARROWER_SET := sets=$$($(BIN)/python -c 'import irbkin; print(*irbkin.i
 STEP := @tests/step.sh
 SKIPPED := target/skipped.txt
 
-.PHONY: help run test check catalog bench bench-peers instructions stages ulp million configurations hardsets fuzz wheel clean toolchains
+.PHONY: help run test check catalog errors bench bench-peers instructions stages ulp million configurations hardsets fuzz wheel clean toolchains
 
 help: ## List the targets
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -130,6 +130,10 @@ hardsets: | toolchains ## Solve poses at and next to every singularity, pairs an
 
 catalog: | toolchains ## Write the tables of docs/catalog.md
 	IRBKIN_WRITE=1 cargo test --quiet --test suite -- catalog_page::
+
+errors: $(BUILT) $(VENV)/.groups ## Write docs/errors.md: every message, as it is printed
+	IRBKIN_WRITE=1 cargo test --quiet --lib -- messages::
+	IRBKIN_WRITE=1 $(BIN)/python -m pytest --quiet tests/python/test_errors_page.py
 
 fuzz: | toolchains ## Read four million broken RAPID texts, write and read them again
 	IRBKIN_INPUTS=1000000 cargo test --quiet --release --test suite -- rapid_fuzz:: --nocapture --test-threads=1

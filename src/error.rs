@@ -98,7 +98,7 @@ impl fmt::Display for Error {
             Self::Unreachable(explanation) => explanation.fmt(f),
             Self::NoConfiguration(fault) => fault.fmt(f),
             Self::NoInstructionSet { name } => {
-                write!(f, "this processor does not have the instruction set \"{name}\"")
+                write!(f, "the instruction set \"{name}\" is not supported by this CPU")
             }
             Self::WrongLength { field, found, wanted } => {
                 write!(f, "{field} has {found} elements, it must have {wanted}")
@@ -122,8 +122,13 @@ impl fmt::Display for NoConfiguration {
         if self.more {
             write!(f, " and more")?;
         }
-        self.free
-            .map_or(Ok(()), |free| write!(f, ", and others, for J{} is free there", free.joint()))
+        self.free.map_or(Ok(()), |free| {
+            write!(
+                f,
+                ", and others with other angles of J{}, which is free at this pose",
+                free.joint()
+            )
+        })
     }
 }
 

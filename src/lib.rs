@@ -69,8 +69,12 @@
 // no_std.
 #![cfg_attr(not(feature = "std"), allow(unused_imports))]
 
+// What calculates is left out then, so that this is the error that is seen.
 #[cfg(not(any(feature = "std", feature = "libm")))]
-compile_error!("irbkin needs the feature `std` or, without the standard library, `libm`");
+compile_error!(
+    "irbkin needs the feature `std` or, without the standard library, `libm`: build with \
+     --no-default-features --features libm"
+);
 
 extern crate alloc;
 #[cfg(test)]
@@ -78,14 +82,20 @@ extern crate self as irbkin;
 #[cfg(test)]
 extern crate std;
 
+#[cfg(any(feature = "std", feature = "libm"))]
 pub mod batch;
+#[cfg(any(feature = "std", feature = "libm"))]
 mod catalog;
 mod error;
+#[cfg(any(feature = "std", feature = "libm"))]
 mod kinematics;
+#[cfg(any(feature = "std", feature = "libm"))]
 mod lanes;
+#[cfg(all(test, feature = "rapid", feature = "urdf"))]
+mod messages;
 #[cfg(feature = "python")]
 mod python;
-#[cfg(feature = "rapid")]
+#[cfg(all(feature = "rapid", any(feature = "std", feature = "libm")))]
 pub mod rapid;
 mod report;
 // What unit tests share with the tests of the public interface.
@@ -101,15 +111,17 @@ mod structures {
     #[path = "spherical_shoulder/arm.rs"]
     pub mod shoulder_arm;
 }
-#[cfg(feature = "urdf")]
+#[cfg(all(feature = "urdf", any(feature = "std", feature = "libm")))]
 mod urdf;
 
+#[cfg(any(feature = "std", feature = "libm"))]
 pub use catalog::{AngleUnit, CatalogArm, CatalogGeometry, catalog, find};
 pub use error::{
     Error, JointFault, ModelFault, Names, NoConfiguration, PoseFault, UnknownRobot, UrdfFault,
 };
 #[cfg(feature = "rapid")]
 pub use error::{FrameFault, Missing, RapidFault, RapidFaultKind};
+#[cfg(any(feature = "std", feature = "libm"))]
 pub use kinematics::{
     Arity, Break, BreakReason, Definition, DhRow, FollowOptions, Followed, Follower, Inverse,
     JacobianFrame, JointAxis, JointLimits, Joints, MOST_SLOTS, Mdh, OpwParameters, Pose,
@@ -118,6 +130,7 @@ pub use kinematics::{
     pose_from_euler_zyx, pose_from_isometry, pose_from_matrix, pose_from_rows, pose_from_wxyz,
     pose_to_euler_zyx, pose_to_isometry, pose_to_matrix, pose_to_rows, pose_to_wxyz, thresholds,
 };
+#[cfg(any(feature = "std", feature = "libm"))]
 pub use lanes::InstructionSet;
 /// The linear algebra of poses and matrices, in the version that this crate has.
 pub use nalgebra;

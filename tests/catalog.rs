@@ -381,7 +381,7 @@ fn names_forgive_spelling() {
         assert_eq!(irbkin::find(spelling).unwrap().name, "IRB 6650S-200/3.0");
     }
     let seven = Robot::<6>::named("Panda").unwrap_err();
-    assert_eq!(seven.to_string(), "the arm has 7 joints, 6 were asked for");
+    assert_eq!(seven.to_string(), "the robot has 7 joints, it must have 6");
 }
 
 #[test]

@@ -292,7 +292,7 @@ fn the_list_has_each_configuration_once_and_tells_of_a_free_joint() {
     assert!(
         Error::NoConfiguration(singular)
             .to_string()
-            .ends_with(", and others, for J4 is free there")
+            .ends_with(", and others with other angles of J4, which is free at this pose")
     );
 }
 
@@ -346,7 +346,7 @@ fn what_is_no_configuration_of_the_arm_is_refused() {
         .unwrap();
     assert_eq!(
         refused(&coupled, 2),
-        "configuration: cfx is 2, it is 0 for an arm with coupled axes 2 and 3"
+        "configuration: cfx is 2, it must be 0 for a robot with coupled axes 2 and 3"
     );
     let ur3 = Robot::named("UR3").unwrap();
     assert_eq!(

@@ -179,7 +179,7 @@ fn an_axis_without_direction_is_refused_and_so_is_a_normal_too_far_away() {
     };
     assert_eq!(
         words([upright, JointAxis { direction: [0.0; 3], ..upright }, upright]),
-        "direction of axis 2 has no length"
+        "direction of axis 2 is zero, it must have a length"
     );
     let axis = JointAxis { direction: [0.0, f64::NAN, 0.0], ..upright };
     assert_eq!(words([upright, upright, axis]), "direction of axis 3 is NaN, it must be finite");
@@ -191,7 +191,7 @@ fn an_axis_without_direction_is_refused_and_so_is_a_normal_too_far_away() {
     let axis = JointAxis { direction: [0.0, 1e-8, 1.0], point: [0.1, 0.2, 0.0] };
     assert_eq!(
         words([upright, axis, upright]),
-        "axes 1 and 2 are 1.0e-8 rad off parallel, their common normal stands 2.0e7 m away, it must be at most 1e6 m (are the angles \
+        "axes 1 and 2 are 1.0e-8 rad off parallel, their common normal is 2.0e7 m away, it must be at most 1e6 m (are the angles \
          written with all their digits?)"
     );
 }

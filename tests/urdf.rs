@@ -161,7 +161,7 @@ fn base_and_tip_must_be_links_one_below_the_other() {
     let of = |base, tip| refused(six(UR5E, base, tip));
     assert_eq!(
         of(Some("tool0"), Some("base")),
-        "URDF: tip \"base\" does not hang on base \"tool0\""
+        "URDF: tip \"base\" is not below base \"tool0\": no joints lead from base to tip"
     );
     assert_eq!(
         of(None, Some("base_link")),
@@ -169,15 +169,18 @@ fn base_and_tip_must_be_links_one_below_the_other() {
     );
     let all = "\"base_link\", \"base\", \"base_link_inertia\", \"shoulder_link\", \"upper_arm_link\", \"forearm_link\", \"wrist_1_link\", \
                \"wrist_2_link\", \"wrist_3_link\", \"ft_frame\", \"flange\", \"tool0\"";
-    assert_eq!(of(None, Some("tool")), format!("URDF: tip \"tool\" is no link; there are {all}"));
+    assert_eq!(
+        of(None, Some("tool")),
+        format!("URDF: tip \"tool\" is not a link; there are {all}")
+    );
     let many = UR5E.replace("</robot>", "<link name=\"a\"/></robot>");
     assert_eq!(
         refused(six(&many, Some("wrist"), None)),
-        "URDF: base \"wrist\" is no link; there are \"wrist_1_link\", \"wrist_2_link\", \"wrist_3_link\""
+        "URDF: base \"wrist\" is not a link; there are \"wrist_1_link\", \"wrist_2_link\", \"wrist_3_link\""
     );
     assert_eq!(
         refused(six(&many, Some("zz"), None)),
-        "URDF: base \"zz\" is no link, and no link's name is close to it"
+        "URDF: base \"zz\" is not a link, and no link has a name close to it"
     );
     assert_eq!(
         words(&many),
@@ -191,21 +194,21 @@ fn what_is_no_urdf_is_told_with_its_place() {
     let of = words;
     assert_eq!(
         of("<robot>\n <link name='a'>\n</robot>"),
-        "URDF: line 3, column 1 is no XML: expected 'link' tag, not 'robot'"
+        "URDF: line 3, column 1 is not XML: expected 'link' tag, not 'robot'"
     );
     assert_eq!(
         of("\n\n<robot>\n <link name='a' name='b'/>"),
-        "URDF: line 4, column 17 is no XML: attribute 'name' is already defined"
+        "URDF: line 4, column 17 is not XML: attribute 'name' is already defined"
     );
     assert_eq!(
         of("<robot>\n <link name='a'/>"),
-        "URDF: line 2, column 18 is no XML: the text ends before the robot does"
+        "URDF: line 2, column 18 is not XML: the text ends before the robot does"
     );
-    assert_eq!(of(""), "URDF: line 1, column 1 is no XML: the text ends before the robot does");
-    assert_eq!(of("arm.urdf"), "URDF: line 1, column 1 is no XML: unknown token");
+    assert_eq!(of(""), "URDF: line 1, column 1 is not XML: the text ends before the robot does");
+    assert_eq!(of("arm.urdf"), "URDF: line 1, column 1 is not XML: unknown token");
     assert_eq!(
         of("<!DOCTYPE r [<!ENTITY a 'b'>]><robot/>"),
-        "URDF: line 1, column 1 is no XML: it has a document type, which is not read"
+        "URDF: line 1, column 1 is not XML: it has a document type, which is not read"
     );
     assert_eq!(of("<sdf version='1.6'/>"), "URDF: the first element is <sdf>, it must be <robot>");
     assert_eq!(of("<robot name='a'/>"), "URDF: the robot has no links");
@@ -247,11 +250,11 @@ fn links_and_joints_must_form_a_tree() {
     assert_eq!(robot(&twice), "URDF: two joints are named \"j\", each must have a name of its own");
     assert_eq!(
         robot(&joint("j", "a", "x")),
-        "URDF: joint \"j\" has the child \"x\", which is no link"
+        "URDF: joint \"j\" has the child \"x\", which is not a link"
     );
     assert_eq!(
         robot(&joint("j", "y", "a")),
-        "URDF: joint \"j\" has the parent \"y\", which is no link"
+        "URDF: joint \"j\" has the parent \"y\", which is not a link"
     );
     let two = joint("i", "a", "c") + &joint("j", "b", "c");
     assert_eq!(
@@ -461,11 +464,11 @@ fn hostile_text_is_refused_without_a_panic() {
     bomb += "]><robot name='&e9;'/>";
     assert_eq!(
         words(&bomb),
-        "URDF: line 1, column 1 is no XML: it has a document type, which is not read"
+        "URDF: line 1, column 1 is not XML: it has a document type, which is not read"
     );
     assert_eq!(
         words("<robot name='&lol;'/>"),
-        "URDF: line 1, column 14 is no XML: unknown entity reference 'lol'"
+        "URDF: line 1, column 14 is not XML: unknown entity reference 'lol'"
     );
     let huge = format!("xyz=\"0 0 {}\"", "9".repeat(400));
     assert_eq!(
@@ -474,7 +477,7 @@ fn hostile_text_is_refused_without_a_panic() {
     );
     let endless = format!("xyz=\"{}\"", "x".repeat(1_000_000));
     assert!(words(&third("xyz=\"0 0 0.7\"", &endless)).len() < 200);
-    assert!(words("<robot><link name='a&#10;\u{1b}[31m'/></robot>").contains("is no XML"));
+    assert!(words("<robot><link name='a&#10;\u{1b}[31m'/></robot>").contains("is not XML"));
     for end in 0..IRB2600.len() {
         assert!(six(&IRB2600[..end], None, None).is_err() || IRB2600[end..].trim().is_empty());
     }
@@ -541,8 +544,7 @@ fn nearly_parallel_axes_are_told_apart_from_parallel_ones() {
     assert_eq!(of("3.141592654").unwrap().mdh().rows[2].alpha, PI);
     assert_eq!(
         refused(of("3.1415927")),
-        "axes 2 and 3 are 4.6e-8 rad off parallel, their common normal stands 1.5e7 m away, it must be at most 1e6 m; snap=1e-7 \
-         would take it"
+        "axes 2 and 3 are 4.6e-8 rad off parallel, their common normal is 1.5e7 m away, it must be at most 1e6 m (write the angles with all their digits); snap=1e-7 would take it"
     );
     assert!((of("3.1").unwrap().mdh().rows[2].alpha.abs() - 3.1).abs() < 1e-12);
 }

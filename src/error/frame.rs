@@ -35,18 +35,21 @@ impl fmt::Display for FrameFault {
             Self::Locked { both: true } => {
                 write!(
                     f,
-                    "the robot holds the tool and the work object: robhold must be TRUE for one of them"
+                    "the robot holds the tool and the work object: robhold must be TRUE for one \
+                     of them"
                 )
             }
             Self::Locked { both: false } => {
                 write!(
                     f,
-                    "the robot holds neither the tool nor the work object: robhold must be TRUE for one of them"
+                    "the robot holds neither the tool nor the work object: robhold must be TRUE \
+                     for one of them"
                 )
             }
             Self::Moved { unit } => write!(
                 f,
-                "the work object's user frame is moved (ufprog FALSE) by the mechanical unit \"{unit}\": where it stands is not in the data"
+                "the work object's user frame is moved (ufprog FALSE) by the mechanical unit \
+                 \"{unit}\": its position is not in the data"
             ),
             Self::Pose { field, fault } => write!(f, "{field}: {fault}"),
         }

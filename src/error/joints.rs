@@ -30,8 +30,10 @@ pub enum JointFault {
     NotOfPose {
         /// How far its tool is from the pose, the larger of meters and radians.
         off: f64,
+        /// The farthest that it may be [m, rad].
+        bound: f64,
     },
-    /// The zone of a crossing policy is negative, NaN or infinite.
+    /// The zone of a singularity mode is negative, NaN or infinite.
     Zone {
         /// The zone.
         value: f64,
@@ -67,8 +69,12 @@ impl fmt::Display for JointFault {
                      rad (remove whole turns)"
                 )
             }
-            Self::NotOfPose { off } => {
-                write!(f, "solution: its tool is {off:.1e} (m, rad) off the pose, it is none of it")
+            Self::NotOfPose { off, bound } => {
+                write!(
+                    f,
+                    "solution does not reach this pose: residual {off:.1e} (m or rad), it must be \
+                     at most {bound:.0e} (is it a solution of another pose or robot?)"
+                )
             }
             Self::Zone { value } => {
                 write!(f, "zone is {value}, it must be finite and not negative")
@@ -76,7 +82,8 @@ impl fmt::Display for JointFault {
             Self::Configuration { field, value, bounds: [0, 0] } => {
                 write!(
                     f,
-                    "configuration: {field} is {value}, it is 0 for an arm with coupled axes 2 and 3"
+                    "configuration: {field} is {value}, it must be 0 for a robot with coupled \
+                     axes 2 and 3"
                 )
             }
             Self::Configuration { field, value, bounds: [least, most] } => {

@@ -1,5 +1,6 @@
 //! What can be wrong with the model of an arm, or with what is asked of it.
 
+use core::f64::consts::TAU;
 use core::fmt;
 
 use crate::report::UnknownStructure;
@@ -39,6 +40,46 @@ pub enum ModelFault {
         /// The largest size.
         bound: f64,
     },
+    /// An angle of a model is in degrees: a multiple of 15 beyond two turns.
+    Degrees {
+        /// Name of the parameter.
+        field: &'static str,
+        /// Index into it, from 1 (joint or row).
+        index: usize,
+        /// The value, taken as radians.
+        value: f64,
+    },
+    /// The flange is too far from an axis, as that of an arm in millimeters is.
+    TooFar {
+        /// The axis, from 1.
+        axis: usize,
+        /// The distance [m].
+        distance: f64,
+        /// The greatest distance [m].
+        bound: f64,
+    },
+    /// More than half of the joints have limits as those in degrees are.
+    LimitsInDegrees {
+        /// The first of these joints, from 1.
+        joint: usize,
+        /// Its lower limit, taken as radians.
+        lower: f64,
+        /// Its upper limit, taken as radians.
+        upper: f64,
+        /// The size from which limits of most joints are refused [rad].
+        bound: f64,
+    },
+    /// A limit is NaN, or infinite on the wrong side.
+    NoLimit {
+        /// Which limit.
+        field: &'static str,
+        /// The joint, from 1; 0 for the linkage.
+        index: usize,
+        /// The value.
+        value: f64,
+        /// What stands for no limit: infinity or minus infinity.
+        none: f64,
+    },
     /// `snap` is negative, NaN or too large.
     Snap {
         /// What was given [rad].
@@ -63,7 +104,7 @@ pub enum ModelFault {
         upper: f64,
     },
     /// The lower limit of the linkage of coupled axes is above its upper limit.
-    EmptyRodLimit {
+    EmptyLinkageLimit {
         /// Lower limit of q3 - q2 [rad].
         lower: f64,
         /// Upper limit of q3 - q2 [rad].
@@ -92,12 +133,12 @@ pub enum ModelFault {
     },
     /// The geometry has no closed-form inverse here.
     UnknownStructure(UnknownStructure),
-    /// ABB's confdata means nothing, or something else, for arms of this form.
+    /// ABB's confdata means nothing, or something else, for arms of this structure.
     NoConfiguration {
-        /// Name of the form.
+        /// Name of the structure.
         structure: &'static str,
     },
-    /// A crossing policy holds a wrist that the arm does not have.
+    /// A singularity mode locks a wrist that the arm does not have.
     NoSphericalWrist,
     /// The direction of an axis has no length.
     AxisDirection {
@@ -110,12 +151,12 @@ pub enum ModelFault {
         axes: (usize, usize),
         /// How far they are off parallel [rad].
         off: f64,
-        /// How far away their common normal stands [m].
+        /// How far away their common normal is [m].
         distance: f64,
         /// The farthest that a table holds [m].
         bound: f64,
-        /// The least power of ten [rad] that, given as `snap`, makes an arm of a known form of it;
-        /// none where none does.
+        /// The least power of ten [rad] that, given as `snap`, makes an arm of a known structure of
+        /// it; none where none does.
         snap: Option<f64>,
     },
     /// The URDF describes no arm that can be taken.
@@ -140,6 +181,30 @@ impl fmt::Display for ModelFault {
             Self::TooShort { field, value, bound } => {
                 write!(f, "{field} is {value} m, it must be at least {bound:e} m")
             }
+            Self::Degrees { field, index, value } => write!(
+                f,
+                "{field} {index} is {value} rad, a multiple of 15 must be at most 12.57 rad (did \
+                 you pass degrees? {value} deg is {} rad)",
+                value.to_radians()
+            ),
+            Self::TooFar { axis, distance, bound } => write!(
+                f,
+                "the flange is {distance:.1} m from axis {axis}, it must be at most {bound} m \
+                 (are the lengths in millimeters? meters are wanted)"
+            ),
+            Self::LimitsInDegrees { joint, lower, upper, bound } => write!(
+                f,
+                "joint {joint} limit is {lower} to {upper} rad, beyond {bound} rad as are those \
+                 of most joints (did you pass degrees? for no limit give inf)"
+            ),
+            Self::NoLimit { field, index, value, none } => {
+                match index {
+                    0 => write!(f, "{field}"),
+                    _ => write!(f, "{field} {index}"),
+                }?;
+                let wanted = if value.is_nan() { "not be NaN" } else { "be finite" };
+                write!(f, " is {value}, it must {wanted} ({none} is allowed: no limit)")
+            }
             Self::Snap { value, bound } => {
                 write!(f, "snap is {value} rad, it must be 0 to {bound:e} rad")
             }
@@ -149,42 +214,50 @@ impl fmt::Display for ModelFault {
             Self::EmptyLimit { joint, lower, upper } => {
                 write!(f, "joint {joint} limit is empty: lower {lower} rad > upper {upper} rad")
             }
-            Self::EmptyRodLimit { lower, upper } => {
+            Self::EmptyLinkageLimit { lower, upper } => {
                 write!(f, "linkage limit is empty: lower {lower} rad > upper {upper} rad")
             }
             Self::NoLinkage => write!(
                 f,
-                "linkage limits are those of q3 - q2 of an arm with coupled axes 2 and 3: this arm's are not coupled"
+                "this robot has no parallelogram linkage: linkage limits are those of q3 - q2 of a \
+                 robot with coupled axes 2 and 3 (see coupled)"
             ),
             Self::NotCoupled { reason } => write!(f, "axes 2 and 3 cannot be coupled: {reason}"),
             Self::Velocity { joint, value } => {
                 write!(f, "joint {joint} velocity is {value} rad/s, it must be positive")
             }
             Self::JointCount { found, wanted } => {
-                write!(f, "the arm has {found} joints, {wanted} were asked for")
+                write!(f, "the robot has {found} joints, it must have {wanted}")
             }
             Self::NoConfiguration { structure } => {
                 write!(
                     f,
-                    "this robot has no ABB configuration: its structure is \"{structure}\", not a six-axis arm with a spherical wrist"
+                    "this robot has no ABB configuration: its structure is \"{structure}\", not a \
+                     six-axis arm with a spherical wrist"
                 )
             }
             Self::NoSphericalWrist => write!(
                 f,
-                "this policy holds a spherical wrist, and the arm has none: take \"through\" or \"error\""
+                "this singularity mode needs a spherical wrist, and the robot has none: use \
+                 \"through\" or \"error\""
             ),
             Self::UnknownStructure(reason) => {
                 write!(f, "no closed-form inverse kinematics for this arm: {reason}")
             }
-            Self::AxisDirection { axis } => write!(f, "direction of axis {axis} has no length"),
+            Self::AxisDirection { axis } => {
+                write!(f, "direction of axis {axis} is zero, it must have a length")
+            }
             Self::NearlyParallel { axes: (i, j), off, distance, bound, snap } => {
                 write!(
                     f,
-                    "axes {i} and {j} are {off:.1e} rad off parallel, their common normal stands {distance:.1e} m away, it must be at most \
-                     {bound:.0e} m"
+                    "axes {i} and {j} are {off:.1e} rad off parallel, their common normal is \
+                     {distance:.1e} m away, it must be at most {bound:.0e} m"
                 )?;
                 match snap {
-                    Some(snap) => write!(f, "; snap={snap:e} would take it"),
+                    Some(snap) => write!(
+                        f,
+                        " (write the angles with all their digits); snap={snap:e} would take it"
+                    ),
                     None => write!(f, " (are the angles written with all their digits?)"),
                 }
             }
@@ -194,6 +267,15 @@ impl fmt::Display for ModelFault {
 }
 
 impl ModelFault {
+    /// Checks that an angle of a model is not in degrees: no one writes 90 rad, or another multiple
+    /// of 15, for an angle of that many turns.
+    pub(crate) fn check_radians(field: &'static str, index: usize, value: f64) -> Result<(), Self> {
+        if value.abs() > 2.0 * TAU && value % 15.0 == 0.0 {
+            return Err(Self::Degrees { field, index, value });
+        }
+        Ok(())
+    }
+
     /// Checks that a number of a model is finite and not too large to calculate with.
     pub(crate) fn check(
         field: &'static str,

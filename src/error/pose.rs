@@ -30,6 +30,8 @@ pub enum PoseFault {
     LastRow {
         /// The row that came.
         row: [f64; 4],
+        /// Whether the last column is 0 0 0 1: the matrix is transposed.
+        transposed: bool,
     },
     /// The columns of the rotation are not orthonormal: the largest element of `R^T R - I` exceeds
     /// the bound.
@@ -49,6 +51,22 @@ pub enum PoseFault {
         /// The norm.
         norm: f64,
         /// The largest distance from one that is normalized.
+        bound: f64,
+    },
+    /// An Euler angle of more than a full turn, as degrees are.
+    EulerAngle {
+        /// Index into the angles, from 0.
+        index: usize,
+        /// The angle [rad].
+        value: f64,
+        /// The largest size of an angle [rad].
+        bound: f64,
+    },
+    /// A tool is too long to be one, as one in millimeters is.
+    ToolTooLong {
+        /// Distance of the tool center point from the flange [m].
+        length: f64,
+        /// The longest that is taken [m].
         bound: f64,
     },
     /// A translation, quaternion or Euler angle is NaN or infinite.
@@ -74,25 +92,47 @@ impl fmt::Display for PoseFault {
             Self::TooFar { field, index, value, bound } => {
                 write!(f, "{field}[{index}] is {value:e} m, its size must be at most {bound:e} m")
             }
-            Self::LastRow { row: [a, b, c, d] } => {
-                write!(f, "pose row 3 must be [0, 0, 0, 1], got [{a}, {b}, {c}, {d}]")
+            Self::LastRow { row: [a, b, c, d], transposed } => {
+                write!(f, "pose row 3 must be [0, 0, 0, 1], got [{a}, {b}, {c}, {d}]")?;
+                if *transposed {
+                    write!(f, ", and column 3 is [0, 0, 0, 1] (is it transposed?)")
+                } else {
+                    Ok(())
+                }
             }
             Self::NotOrthonormal { deviation, bound } => {
                 write!(
                     f,
-                    "pose rotation is off orthonormal by {deviation:.3e}, more than the {bound:.0e} that is repaired"
+                    "pose rotation is off orthonormal by {deviation:.3e}, more than the {bound:.0e} that \
+                     is repaired (is it scaled, or written with too few digits?)"
                 )
             }
             Self::Mirrored { determinant } => {
                 write!(
                     f,
-                    "pose rotation mirrors: its determinant is {determinant:.6}, it must be 1 (is an axis negated?)"
+                    "pose rotation mirrors: its determinant is {determinant:.6}, it must be 1 (is \
+                     an axis negated?)"
                 )
             }
             Self::QuaternionNorm { norm, bound } => {
                 write!(
                     f,
-                    "quaternion norm is {norm:.6}, it must be 1 within {bound:.0e} (order is w, x, y, z)"
+                    "quaternion norm is {norm:.6}, it must be 1 within {bound:.0e} (order is w, \
+                     x, y, z)"
+                )
+            }
+            Self::EulerAngle { index, value, bound } => {
+                write!(
+                    f,
+                    "euler_zyx[{index}] is {value} rad, its size must be at most {bound:.4} rad \
+                     (did you pass degrees?)"
+                )
+            }
+            Self::ToolTooLong { length, bound } => {
+                write!(
+                    f,
+                    "the tool center point is {length:.1} m from the flange, it must be at most \
+                     {bound} m (is the tool in millimeters? meters are wanted)"
                 )
             }
             Self::FieldNotFinite { field, index, value } => {

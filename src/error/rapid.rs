@@ -44,11 +44,11 @@ pub enum RapidFaultKind {
         /// The opening character.
         bracket: char,
     },
-    /// Something stands where something else must.
+    /// Something is at a place where something else is expected.
     Unexpected {
-        /// What stands there.
+        /// What is there.
         found: String,
-        /// What must.
+        /// What is expected.
         wanted: &'static str,
     },
     /// The text ends too early.
@@ -281,13 +281,13 @@ impl fmt::Display for RapidFaultKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::UnterminatedString => write!(f, "the string has no closing quote on its line"),
-            Self::BadNumber { text } => write!(f, "{text} is no number"),
+            Self::BadNumber { text } => write!(f, "{text} is not a number"),
             Self::NotFinite { text } => write!(f, "{text} is not finite, every number must be"),
             Self::UnexpectedCharacter { character } => {
                 write!(f, "{character:?} has no place outside a string or a comment")
             }
             Self::Unclosed { bracket } => write!(f, "{bracket} is not closed"),
-            Self::Unexpected { found, wanted } => write!(f, "{found} stands where {wanted} must"),
+            Self::Unexpected { found, wanted } => write!(f, "expected {wanted}, found {found}"),
             Self::UnexpectedEnd { inside, missing } => {
                 write!(f, "the text ends inside {inside}: {missing} is missing")
             }
@@ -336,7 +336,7 @@ impl fmt::Display for RapidFaultKind {
                 let indices = if *found == 1 { "index" } else { "indices" };
                 write!(f, "{text} has {found} {indices}, ")?;
                 if *wanted == 0 {
-                    write!(f, "and it is no array")
+                    write!(f, "but it is not an array")
                 } else {
                     write!(f, "it must have {wanted}")
                 }
@@ -360,10 +360,12 @@ impl fmt::Display for RapidFaultKind {
             Self::ArgumentCount { instruction, found, wanted } => {
                 write!(f, "{instruction} has {}, it must have {wanted}", Count(*found, "argument"))
             }
-            Self::NotAName { name } => write!(f, "{name:?} is no name that RAPID could read"),
+            Self::NotAName { name } => {
+                write!(f, "{name:?} is not a RAPID identifier (a letter, then letters, digits, _)")
+            }
             Self::NoRecord { text } => write!(
                 f,
-                "{text} is no robtarget, jointtarget, tooldata, wobjdata, pose or loaddata"
+                "{text} is not a robtarget, jointtarget, tooldata, wobjdata, pose or loaddata"
             ),
             Self::OtherText { found, wanted } => {
                 write!(
@@ -372,7 +374,7 @@ impl fmt::Display for RapidFaultKind {
                      {wanted}"
                 )
             }
-            Self::TwoValues { thing } => write!(f, "{thing} is to get two values"),
+            Self::TwoValues { thing } => write!(f, "{thing} is given two values, it must get one"),
             Self::NoSuchValue { missing } => write!(f, "there is no {missing}"),
         }
     }

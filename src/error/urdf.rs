@@ -241,9 +241,9 @@ impl UrdfFault {
     /// Of a text, and of an element of it.
     fn fmt_text(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NotUtf8 { byte } => write!(f, "byte {byte} is no UTF-8"),
+            Self::NotUtf8 { byte } => write!(f, "byte {byte} is not valid UTF-8"),
             Self::NotXml { line, column, what } => {
-                write!(f, "line {line}, column {column} is no XML: {what}")
+                write!(f, "line {line}, column {column} is not XML: {what}")
             }
             Self::Namespaces { line, bound } => {
                 write!(
@@ -263,7 +263,8 @@ impl UrdfFault {
             Self::Xacro { line, element } => {
                 write!(
                     f,
-                    "line {line} is xacro, <{element}>: it must be expanded first (xacro arm.urdf.xacro > arm.urdf)"
+                    "line {line} is xacro, <{element}>: it must be expanded first \
+                     (xacro arm.urdf.xacro > arm.urdf)"
                 )
             }
             Self::Missing { line, element, missing } => {
@@ -283,12 +284,13 @@ impl UrdfFault {
                 write!(f, "joint {joint:?} has two <{element}>, it must have at most one")
             }
             Self::UnknownLink { joint, role, link } => {
-                write!(f, "joint {joint:?} has the {role} {link:?}, which is no link")
+                write!(f, "joint {joint:?} has the {role} {link:?}, which is not a link")
             }
             Self::TwoParents { link, joints: [one, two] } => {
                 write!(
                     f,
-                    "link {link:?} is the child of joints {one:?} and {two:?}, it must be that of one"
+                    "link {link:?} is the child of joints {one:?} and {two:?}, it must be that of \
+                     one"
                 )
             }
             Self::Loop { links } => {
@@ -300,17 +302,20 @@ impl UrdfFault {
                 "several links have no parent: {links}; base must name the one to begin at"
             ),
             Self::NoSuchLink { field, name, links } if links.listed.is_empty() => {
-                write!(f, "{field} {name:?} is no link, and no link's name is close to it")
+                write!(f, "{field} {name:?} is not a link, and no link has a name close to it")
             }
             Self::NoSuchLink { field, name, links } => {
-                write!(f, "{field} {name:?} is no link; there are {links}")
+                write!(f, "{field} {name:?} is not a link; there are {links}")
             }
-            Self::NotBelow { tip, base } => write!(f, "tip {tip:?} does not hang on base {base:?}"),
+            Self::NotBelow { tip, base } => {
+                write!(f, "tip {tip:?} is not below base {base:?}: no joints lead from base to tip")
+            }
             Self::SeveralTips { base, wanted, tips } => {
                 let wanted = Counts(wanted);
                 write!(
                     f,
-                    "{wanted} revolute joints lead from {base:?} to several ends: {tips}; tip must name the one to take"
+                    "{wanted} revolute joints lead from {base:?} to several ends: {tips}; tip \
+                     must name the one to take"
                 )
             }
             Self::NoTip { base, wanted, ends } => {
@@ -330,7 +335,8 @@ impl UrdfFault {
             Self::JointType { joint, kind } => {
                 write!(
                     f,
-                    "joint {joint:?} is {kind:?}, between base and tip it must be revolute, continuous or fixed"
+                    "joint {joint:?} is {kind:?}, between base and tip it must be revolute, \
+                     continuous or fixed"
                 )
             }
             Self::Mimic { joint, of } => write!(
@@ -346,7 +352,8 @@ impl UrdfFault {
             }
             Self::NoLimit { joint } => write!(
                 f,
-                "joint {joint:?} is revolute and has no <limit>; a joint without limits is continuous"
+                "joint {joint:?} is revolute and has no <limit>; a joint without limits is \
+                 continuous"
             ),
             Self::NotNumbers { joint, field, text, wanted } => {
                 let of = if *wanted == 1 { "a number" } else { "three numbers" };

@@ -17,6 +17,9 @@ pub(crate) const LAST_ROW_BOUND: f64 = 1e-9;
 /// three digits is taken.
 pub const QUATERNION_NORM_BOUND: f64 = 2e-3;
 
+/// Greatest Euler angle [rad]: a full turn, as text with four decimals writes it. More are degrees.
+pub const MOST_EULER: f64 = core::f64::consts::TAU + 1e-4;
+
 /// Cosine of the middle ZYX angle below which the outer two act as one [1]: a few roundings of a
 /// rotation's elements.
 pub(crate) const GIMBAL_COS: f64 = 1e-14;
@@ -115,6 +118,19 @@ pub(crate) const LEAST_LINK: f64 = 1e-6;
 /// Greatest length of a model [m]: squares and sums of it stay exact to rounding, and no arm is
 /// longer.
 pub const MOST_LENGTH: f64 = 1e6;
+
+/// Longest tool that is taken [m]: the distance of its center point from the flange. No arm carries
+/// one of 50 m, and a pointer or laser is aimed less far; a tool of 50 mm in millimeters is one.
+pub const MOST_TOOL: f64 = 50.0;
+
+/// Farthest that the flange of an arm may be from its base [m]: the longest manipulators reach 70
+/// m, and an arm in millimeters hundreds.
+pub const MOST_REACH: f64 = 100.0;
+
+/// Sizes of joint limits that are in degrees, where more than half of the joints have one [rad]:
+/// from eight turns on, which an arm may have at its wrist but not everywhere. Above, a limit
+/// stands for none.
+pub const DEGREE_LIMITS: core::ops::RangeInclusive<f64> = 50.0..=1000.0;
 
 /// Greatest angle of a model and greatest joint limit [rad], apart from no limit: beyond, full
 /// turns lose the angle's digits.

@@ -37,7 +37,7 @@ pub(super) fn thread_count(threads: isize) -> PyResult<Option<NonZeroUsize>> {
         Ok(0) => Ok(std::thread::available_parallelism().ok()),
         Ok(count) => Ok(NonZeroUsize::new(count)),
         Err(_) => Err(PyValueError::new_err(format!(
-            "threads must be 0 (one a core) or more, got {threads}"
+            "threads must be 0 (one per core) or more, got {threads}"
         ))),
     }
 }

@@ -59,7 +59,8 @@ impl Arm {
                 Some(reason) => to_py(py, &ModelFault::UnknownStructure(reason).into()),
                 None => Fault::Model.error(
                     py,
-                    "follow is for arms of six joints: along a path of a seven-axis arm, give ik_nearest the joints before as the seed"
+                    "follow is for arms of six joints: along a path of a seven-axis arm, pass the \
+                     joints of the pose before to ik_nearest as the seed"
                         .to_owned(),
                 ),
             }),

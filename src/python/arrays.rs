@@ -17,6 +17,7 @@ use pyo3::type_object::PyTypeInfo;
 use super::borrows::{Access, Borrow, is_any_written, is_free, overlap};
 use super::errors::Fault;
 use super::masked::{self, Masked};
+use super::wording::{self, shape_of_rows};
 
 /// An input array whose last dimensions are known, and the leading ones that came before them.
 pub(super) struct Rows<'py> {
@@ -34,15 +35,25 @@ impl<'py> Rows<'py> {
         field: &str,
         fault: Fault,
     ) -> PyResult<Self> {
+        Self::read_wanting(value, tail, field, fault, || shape_of_rows(tail))
+    }
+
+    /// The same of an argument whose leading dimensions are not any: `wanted` spells its shapes.
+    pub(super) fn read_wanting(
+        value: &Bound<'py, PyAny>,
+        tail: &[usize],
+        field: &str,
+        fault: Fault,
+        wanted: impl FnOnce() -> String,
+    ) -> PyResult<Self> {
         let masked = masked_elements(value)?;
         let array = readable(masked.as_ref().map_or(value, |masked| &masked.filled), field, fault)?;
         let shape = array.shape();
         let Some(lead) = shape.strip_suffix(tail) else {
-            let wanted = tail.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
-            return Err(fault.error(
-                value.py(),
-                format!("{field} must have shape (..., {wanted}), got {shape:?}"),
-            ));
+            let (wanted, got) = (wanted(), wording::shape(shape));
+            return Err(
+                fault.error(value.py(), format!("{field} must have shape {wanted}, got {got}"))
+            );
         };
         if let Some(masked) = masked.filter(|_| lead.is_empty() || matches!(fault, Fault::Model)) {
             return Err(masked.refused(value.py(), field, fault));
@@ -182,7 +193,11 @@ fn exactly<const N: usize>(
     if array.shape() != shape {
         return Err(fault.error(
             value.py(),
-            format!("{field} must have shape {shape:?}, got {:?}", array.shape()),
+            format!(
+                "{field} must have shape {}, got {}",
+                wording::shape(shape),
+                wording::shape(array.shape())
+            ),
         ));
     }
     Ok(array.as_slice()?.try_into().map_or([f64::NAN; N], |numbers: &[f64; N]| *numbers))
@@ -214,7 +229,7 @@ fn readable<'py>(
     if is_any_written() && !is_free(&extent(&array)?, Access::Read) {
         return Err(written());
     }
-    converted(&array, field)?.try_readonly().map_err(|_| written())
+    converted(value, &array, field)?.try_readonly().map_err(|_| written())
 }
 
 /// Whatever NumPy makes an array of, as the array that it makes.
@@ -233,6 +248,7 @@ fn as_array<'py>(
 
 /// A real array as an aligned C-contiguous one of float64.
 fn converted<'py>(
+    value: &Bound<'py, PyAny>,
     array: &Bound<'py, PyUntypedArray>,
     field: &str,
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
@@ -241,7 +257,8 @@ fn converted<'py>(
     let kind: String = dtype.getattr(intern!(py, "kind"))?.extract()?;
     if !matches!(kind.as_str(), "f" | "i" | "u") {
         return Err(PyTypeError::new_err(format!(
-            "{field} must be real numbers, got an array of dtype {dtype}"
+            "{field} must be real numbers, got {}",
+            wording::no_numbers(value, &dtype.to_string())
         )));
     }
     let numpy = py.import(intern!(py, "numpy"))?;
@@ -279,7 +296,8 @@ pub(super) fn checked_out<'py, T: numpy::Element>(
     }
     if array.shape() != shape || !array.is_c_contiguous() {
         return Err(PyValueError::new_err(format!(
-            "out must be C-contiguous with shape {shape:?}, got {}",
+            "out must be C-contiguous with shape {}, got {}",
+            wording::shape(shape),
             describe(out)
         )));
     }
@@ -352,7 +370,8 @@ fn describe(value: &Bound<'_, PyAny>) -> String {
     match value.cast::<PyUntypedArray>() {
         Ok(array) => {
             let order = if array.is_c_contiguous() { "" } else { ", not C-contiguous" };
-            format!("an array of dtype {} and shape {:?}{order}", array.dtype(), array.shape())
+            let shape = wording::shape(array.shape());
+            format!("an array of dtype {} and shape {shape}{order}", array.dtype())
         }
         Err(_) => value
             .get_type()

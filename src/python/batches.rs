@@ -12,6 +12,7 @@ use super::arm::Arm;
 use super::arrays::{Rows, addresses, writable};
 use super::classes;
 use super::errors::{Fault, to_py};
+use super::wording::shape;
 use crate::batch;
 use crate::error::ModelFault;
 use crate::kinematics::{Arity, Joints, Robot};
@@ -68,9 +69,9 @@ fn read_q7<'py>(q7: &Bound<'py, PyAny>, poses: &mut Rows<'py>) -> PyResult<Vec<f
         Fault::Joints.error(
             py,
             format!(
-                "q7 of shape {:?} does not go with T of shape {:?}",
-                rows.lead,
-                poses.shape_with(&[4, 4])
+                "q7 of shape {} cannot be broadcast with T of shape {}",
+                shape(&rows.lead),
+                shape(&poses.shape_with(&[4, 4]))
             ),
         )
     };
@@ -88,10 +89,30 @@ fn read_q7<'py>(q7: &Bound<'py, PyAny>, poses: &mut Rows<'py>) -> PyResult<Vec<f
 /// An arm of six joints has no joint 7.
 pub(super) fn no_q7(given: bool) -> PyResult<()> {
     if given {
-        Err(PyTypeError::new_err("q7 is joint 7 of an arm of seven joints: this one has six"))
+        Err(PyTypeError::new_err(
+            "q7 is joint 7 of an arm of seven joints: this one has six (for the solution nearest \
+             to a seed take ik_nearest(T, seed))",
+        ))
     } else {
         Ok(())
     }
+}
+
+/// Joint 7 as one angle [rad]; a seed is not one.
+pub(super) fn one_q7(q7: &Bound<'_, PyAny>) -> PyResult<f64> {
+    q7.extract().map_err(|_| {
+        let got = match q7.getattr(intern!(q7.py(), "shape")).and_then(|sizes| sizes.extract()) {
+            Ok::<Vec<usize>, _>(sizes) => format!("an array of shape {}", shape(&sizes)),
+            Err(_) => q7.get_type().name().map_or_else(
+                |_| "another object".to_owned(),
+                |name| format!("an object of type {name}"),
+            ),
+        };
+        PyTypeError::new_err(format!(
+            "q7 must be one real number, the angle of joint 7 [rad], got {got} (for the solution \
+             nearest to a seed take ik_nearest(T, seed))"
+        ))
+    })
 }
 
 /// An arm whose structure is unknown has no inverse.

@@ -7,19 +7,14 @@ use super::arm::{Arm, on_robot};
 use super::arrays::Rows;
 use super::edits::Edit;
 use super::errors::{Fault, to_py};
+use super::wording::shape;
 use crate::catalog::CatalogGeometry;
 use crate::error::{Error, ModelFault};
 use crate::kinematics::{
     Arity, Definition, DhRow, Joints, Mdh, OpwParameters, Pose, Robot, Sdh, pose_from_rows,
     pose_to_rows,
 };
-
-/// Which Denavit-Hartenberg convention a table has.
-#[derive(Clone, Copy)]
-pub(super) enum Convention {
-    Modified,
-    Standard,
-}
+use crate::report::Convention;
 
 /// How a Denavit-Hartenberg table is to be read.
 #[derive(Clone, Copy)]
@@ -39,7 +34,8 @@ pub(super) fn from_table(
     table: Table,
 ) -> PyResult<Arm> {
     let py = rows.py();
-    let rows = Rows::read(rows, &[4], "rows", Fault::Model)?;
+    let wanted = "(6, 4) or (7, 4)";
+    let rows = Rows::read_wanting(rows, &[4], "rows", Fault::Model, || wanted.to_owned())?;
     let numbers = rows.data()?.as_chunks::<4>().0;
     let arm = match rows.lead[..] {
         [6] => robot_of_table::<6>(numbers, table).map(Arm::from),
@@ -47,7 +43,7 @@ pub(super) fn from_table(
         _ => {
             return Err(Fault::Model.error(
                 py,
-                format!("rows must have shape (6, 4) or (7, 4), got {:?}", rows.shape_with(&[4])),
+                format!("rows must have shape {wanted}, got {}", shape(&rows.shape_with(&[4]))),
             ));
         }
     };
@@ -66,11 +62,20 @@ where
         numbers.try_into().map_err(|_| ModelFault::JointCount { found, wanted: N })?;
     let rows = numbers.map(|[alpha, a, d, theta]| DhRow::new(alpha, a, d, theta));
     let (base, flange) = (Pose::identity(), Pose::identity());
-    let mdh = match convention {
-        Convention::Modified => Mdh { base, rows, flange }.snapped(snap)?,
-        Convention::Standard => Sdh { base, rows, flange }.snapped(snap)?.into(),
-    };
-    if closed_form { Robot::from_mdh(mdh) } else { Robot::serial_chain(mdh) }
+    match convention {
+        Convention::Modified if closed_form => {
+            Robot::from_mdh(Mdh { base, rows, flange }.snapped(snap)?)
+        }
+        Convention::Standard if closed_form => {
+            Robot::from_sdh(Sdh { base, rows, flange }.snapped(snap)?)
+        }
+        Convention::Modified => Robot::serial_chain(Mdh { base, rows, flange }.snapped(snap)?)
+            .map(|robot| robot.hinting(&rows, convention)),
+        Convention::Standard => {
+            Robot::serial_chain(Sdh { base, rows, flange }.snapped(snap)?.into())
+                .map(|robot| robot.hinting(&rows, convention))
+        }
+    }
 }
 
 /// A robot from the parameters of an ortho-parallel arm; `signs` as floats, as they come out of an
@@ -109,13 +114,12 @@ fn named_and_limited(
 
 /// The arm with limits of shape (n, 2).
 pub(super) fn with_limits(arm: &Arm, limits: &Bound<'_, PyAny>) -> PyResult<Arm> {
-    let rows = Rows::read(limits, &[arm.dof(), 2], "limits", Fault::Model)?;
+    let tail = [arm.dof(), 2];
+    let rows = Rows::read_wanting(limits, &tail, "limits", Fault::Model, || shape(&tail))?;
     if !rows.is_single() {
-        let shape = rows.shape_with(&[arm.dof(), 2]);
-        return Err(Fault::Model.error(
-            limits.py(),
-            format!("limits must have shape [{}, 2], got {shape:?}", arm.dof()),
-        ));
+        let (wanted, got) = (shape(&tail), shape(&rows.shape_with(&tail)));
+        let message = format!("limits must have shape {wanted}, got {got}");
+        return Err(Fault::Model.error(limits.py(), message));
     }
     arm.changed(limits.py(), &Edit::Limits(rows.data()?.as_chunks::<2>().0))
 }
@@ -194,7 +198,7 @@ pub(super) fn restored(py: Python<'_>, state: &State) -> PyResult<Arm> {
         .map_err(|error| to_py(py, &error))?
         .changed(py, &Edit::Name(name))?
         .changed(py, &Edit::Coupling(linkage.as_deref()))?
-        .changed(py, &Edit::Limits(limit_rows))?
+        .changed(py, &Edit::StoredLimits(limit_rows))?
         .changed(py, &Edit::Base(pose(base)?))?
         .changed(py, &Edit::Tool(pose(tool)?))?
         .changed(py, &Edit::MaxVelocity(velocity.as_deref()))

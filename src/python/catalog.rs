@@ -5,6 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyBytes, PyTuple};
 
 use crate::catalog::catalog as every_arm;
+use crate::kinematics::thresholds::MOST_REACH;
 
 /// Names of the robots in the catalog, ABB's by type number first; of all, or of those that reach
 /// and carry what is asked for.
@@ -61,6 +62,16 @@ impl Range {
                     "{field} is {value} {unit}, it must be 0 or more"
                 )));
             }
+        }
+        // A payload may be that many kilograms; no arm reaches that many meters.
+        if let Some(value) = [least, most]
+            .into_iter()
+            .find(|value| unit == "m" && value.is_finite() && *value > MOST_REACH)
+        {
+            return Err(PyValueError::new_err(format!(
+                "{field} is {value} {unit}, it must be at most {MOST_REACH} {unit} (is it in \
+                 millimeters?)"
+            )));
         }
         if least > most {
             return Err(PyValueError::new_err(format!(

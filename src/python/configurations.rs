@@ -15,6 +15,7 @@ use super::masked::Masked;
 use super::paths::read_seeds;
 use super::poses::{PoseArgument, read_poses};
 use super::records;
+use super::wording::shape;
 use crate::batch;
 use crate::error::ModelFault;
 use crate::kinematics::Robot;
@@ -123,8 +124,8 @@ impl Configurations {
             _ => Err(Fault::Joints.error(
                 py,
                 format!(
-                    "configuration must have shape [4], got {:?}",
-                    [&self.lead[..], &[4]].concat()
+                    "configuration must have shape (4,), got {}",
+                    shape(&[&self.lead[..], &[4]].concat())
                 ),
             )),
         }
@@ -134,13 +135,12 @@ impl Configurations {
         if self.lead == lead {
             return Ok(self.all);
         }
-        let (wanted, got) = ([lead, &[4]].concat(), [&self.lead[..], &[4]].concat());
+        let wanted = shape(&[lead, &[4]].concat());
+        let got = shape(&[&self.lead[..], &[4]].concat());
         match self.all[..] {
             [one] if self.lead.is_empty() => Ok(vec![one; lead.iter().product()]),
-            _ => Err(Fault::Joints.error(
-                py,
-                format!("configuration must have shape [4] or {wanted:?}, got {got:?}"),
-            )),
+            _ => Err(Fault::Joints
+                .error(py, format!("configuration must have shape (4,) or {wanted}, got {got}"))),
         }
     }
 }

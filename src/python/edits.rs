@@ -10,6 +10,8 @@ pub(super) enum Edit<'a> {
     Name(&'a str),
     /// Other joint limits, as many as joints [rad].
     Limits(&'a [[f64; 2]]),
+    /// The joint limits of a pickled robot.
+    StoredLimits(&'a [[f64; 2]]),
     /// Another base.
     Base(Pose),
     /// Another tool.
@@ -33,6 +35,9 @@ impl Change for Edit<'_> {
         match self {
             Self::Name(name) => Ok(robot.with_name((*name).to_owned())),
             Self::Limits(limits) => Ok(robot.with_limits(JointLimits::new(of_joints(limits)?)?)),
+            Self::StoredLimits(limits) => {
+                Ok(robot.with_limits(JointLimits::stored(of_joints(limits)?)?))
+            }
             Self::Base(base) => robot.with_base(base),
             Self::Tool(tool) => robot.with_tool(tool),
             Self::Coupled(true) | Self::Coupling(Some([])) => robot.coupled(),

@@ -11,7 +11,7 @@ use super::classes::{
 use super::records;
 use crate::error::{Error, FrameFault, NoConfiguration, RapidFault};
 
-/// What kind of input was wrong: which exception tells of it.
+/// What kind of input was wrong: which exception reports it.
 #[derive(Clone, Copy)]
 pub(super) enum Fault {
     Pose,
@@ -53,6 +53,19 @@ pub(super) fn to_py(py: Python<'_>, error: &Error) -> PyErr {
     raised(class, error.to_string())
 }
 
+/// The error of a solve from a seed [rad]: one outside the limits whose seed is beyond two turns
+/// asks for degrees.
+pub(super) fn of_seed(py: Python<'_>, error: &Error, seed: &[f64]) -> PyErr {
+    let large = seed.iter().position(|angle| angle.abs() > 2.0 * std::f64::consts::TAU);
+    match (error, large) {
+        (Error::Unreachable(_), Some(i)) => raised(
+            unreachable_error(py),
+            format!("{error} (seed: joint {} is {} rad, did you pass degrees?)", i + 1, seed[i]),
+        ),
+        _ => to_py(py, error),
+    }
+}
+
 /// A `RapidError` that has no place in a text.
 pub(super) fn rapid_fault(py: Python<'_>, message: String) -> PyErr {
     raised(rapid_error(py), message)
@@ -62,9 +75,9 @@ pub(super) fn rapid_fault(py: Python<'_>, message: String) -> PyErr {
 fn broken_text(py: Python<'_>, fault: &RapidFault) -> PyErr {
     let error = rapid_fault(py, fault.to_string());
     let value = error.value(py);
-    let told =
+    let placed =
         value.setattr("line", fault.line).and_then(|()| value.setattr("column", fault.column));
-    told.map_or_else(|failure| failure, |()| error)
+    placed.map_or_else(|failure| failure, |()| error)
 }
 
 /// With the configurations that exist as an attribute.

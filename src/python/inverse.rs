@@ -7,13 +7,13 @@ use pyo3::prelude::*;
 
 use super::arguments::{read_singularity_mode, thread_count};
 use super::arm::{Arm, on_robot};
-use super::batches::{self, needed_q7, no_q7};
+use super::batches::{self, needed_q7, no_q7, one_q7};
 use super::classes::pose_check_class;
 use super::configurations::{self, Fallback};
-use super::errors::to_py;
+use super::errors::{of_seed, to_py};
 use super::found::{Found, read_seed, read_weights};
 use super::paths;
-use super::poses::{PoseArgument, read_pose, read_poses};
+use super::poses::{PoseArgument, read_one_pose, read_poses};
 use super::robot::PyRobot;
 use super::solutions::PySolutions;
 use crate::kinematics::thresholds::WRIST_ZONE;
@@ -39,18 +39,22 @@ impl PyRobot {
     ///     InvalidModelError: The arm has no closed form.
     ///     TypeError: q7 is missing, or the arm has six joints and it is not.
     #[pyo3(signature = (T, q7=None))]
-    fn ik<'py>(&self, T: &Bound<'py, PyAny>, q7: Option<f64>) -> PyResult<Bound<'py, PySolutions>> {
+    fn ik<'py>(
+        &self,
+        T: &Bound<'py, PyAny>,
+        q7: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PySolutions>> {
         let py = T.py();
         match self.arm() {
             Arm::Six(robot) => {
                 no_q7(q7.is_some())?;
-                let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_pose(T, "T")?));
+                let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_one_pose(T)?));
                 robot.ik_into(&mut found.solutions, ()).map_err(|error| to_py(py, &error))?;
                 Bound::new(py, PySolutions::from(found))
             }
             Arm::Seven(robot) => {
-                let q7 = needed_q7(py, robot, q7)?;
-                let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_pose(T, "T")?));
+                let q7 = one_q7(needed_q7(py, robot, q7)?)?;
+                let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_one_pose(T)?));
                 q7.check()
                     .and_then(|()| robot.ik_into(&mut found.solutions, q7))
                     .map_err(|error| to_py(py, &error))?;
@@ -120,7 +124,7 @@ impl PyRobot {
                 PoseArgument::Many(poses) => return Ok(paths::nearest(robot, &poses, seed, weights)?.into_any()),
             };
             let (seed, weights) = read_seed(seed, weights)?;
-            let nearest = robot.nearest_checked(pose, &seed, &weights).map_err(|error| to_py(T.py(), &error))?;
+            let nearest = robot.nearest_checked(pose, &seed, &weights).map_err(|error| of_seed(T.py(), &error, &seed))?;
             Ok(PyArray1::from_slice(T.py(), &nearest.q).into_any())
         })
     }
@@ -218,7 +222,7 @@ impl PyRobot {
     /// Raises:
     ///     InvalidPoseError, InvalidModelError: As `ik`.
     fn check_pose<'py>(&self, T: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        let pose = read_pose(T, "T")?;
+        let pose = read_one_pose(T)?;
         let explanation = on_robot!(self.arm(), robot => robot.explain(&pose))
             .map_err(|error| to_py(T.py(), &error))?;
         let inside = matches!(explanation, Explanation::Found { .. });

@@ -24,6 +24,7 @@ mod records;
 mod robot;
 mod solutions;
 mod urdf;
+mod wording;
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -57,7 +58,7 @@ fn use_instruction_set(name: &str) -> PyResult<()> {
     let set = InstructionSet::available().find(|set| set.name() == name);
     let set = set.ok_or_else(|| {
         PyValueError::new_err(format!(
-            "instruction set \"{name}\" is none of this processor's: {available:?}",
+            "the instruction set \"{name}\" is not supported by this CPU, which has {available:?}",
             available = available()
         ))
     })?;

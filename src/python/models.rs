@@ -3,11 +3,12 @@
 use pyo3::prelude::*;
 
 use super::arrays::vector;
-use super::build::{self, Convention, Table};
+use super::build::{self, Table};
 use super::errors::Fault;
 use super::robot::PyRobot;
 use super::urdf::{self, Wanted};
 use crate::kinematics::OpwParameters;
+use crate::report::Convention;
 
 #[pymethods]
 impl PyRobot {

@@ -7,6 +7,7 @@ use super::answers::{follow_result, index_in};
 use super::arrays::{Rows, output, writable};
 use super::errors::{Fault, to_py};
 use super::found::read_weights;
+use super::wording::shape;
 use crate::batch;
 use crate::kinematics::{
     Arity, FollowOptions, Inverse, Joints, Pose, Robot, check_seed, pose_from_rows,
@@ -45,7 +46,7 @@ pub(super) fn follow<'py>(
     let [lead @ .., length] = &rows.lead[..] else {
         return Err(Fault::Pose.error(
             py,
-            format!("T must have shape (..., m, 4, 4), got {:?}", rows.shape_with(&[4, 4])),
+            format!("T must have shape (..., m, 4, 4), got {}", shape(&rows.shape_with(&[4, 4]))),
         ));
     };
     let seeds = read_seeds::<6>(seeds, lead)?;
@@ -87,9 +88,12 @@ pub(super) fn read_seeds<const N: usize>(
         return Ok(rows.data()?.to_vec());
     }
     if !rows.is_single() {
-        let (wanted, got) = ([lead, &[N]].concat(), rows.shape_with(&[N]));
-        return Err(Fault::Joints
-            .error(seeds.py(), format!("seed must have shape [{N}] or {wanted:?}, got {got:?}")));
+        let (one, many) = (shape(&[N]), shape(&[lead, &[N]].concat()));
+        let wanted = if one == many { one } else { format!("{one} or {many}") };
+        let got = shape(&rows.shape_with(&[N]));
+        return Err(
+            Fault::Joints.error(seeds.py(), format!("seed must have shape {wanted}, got {got}"))
+        );
     }
     check_seed("seed", rows.data()?).map_err(|error| to_py(seeds.py(), &error))?;
     Ok(rows.data()?.repeat(lead.iter().product()))

@@ -6,6 +6,7 @@ use pyo3::prelude::*;
 
 use super::arrays::{Rows, copied_matrix4, matrix, matrix4, vector};
 use super::errors::{Fault, to_py};
+use super::wording;
 use crate::error::Error;
 use crate::kinematics::{
     Pose, pose_from_euler_zyx, pose_from_rows, pose_from_wxyz, pose_to_euler_zyx, pose_to_rows,
@@ -16,6 +17,20 @@ use crate::kinematics::{
 pub(super) fn read_pose(value: &Bound<'_, PyAny>, field: &str) -> PyResult<Pose> {
     let rows = matrix4(value, field, Fault::Pose)?;
     pose_from_rows(&rows).map_err(|error| to_py(value.py(), &error))
+}
+
+/// The argument T of a call that takes one pose, and of which `ik_batch` takes many.
+#[inline]
+pub(super) fn read_one_pose(value: &Bound<'_, PyAny>) -> PyResult<Pose> {
+    match copied_matrix4(value) {
+        Some(rows) => pose_from_rows(&rows).map_err(|error| to_py(value.py(), &error)),
+        None => {
+            read_pose(value, "T").map_err(|error| match wording::many_hint(value, "ik_batch") {
+                none if none.is_empty() => error,
+                hint => Fault::Pose.error(value.py(), format!("{}{hint}", error.value(value.py()))),
+            })
+        }
+    }
 }
 
 /// A pose, or many.

@@ -76,7 +76,7 @@ pub enum Explanation {
         /// The angle [rad].
         value: f64,
     },
-    /// The caller's own condition turned every solution away.
+    /// The caller's own condition rejected every solution.
     FilteredOut,
 }
 
@@ -105,15 +105,29 @@ impl fmt::Display for Explanation {
                 write!(f, "wrist center {} too near to be reached", Millimeters(shortfall))
             }
             Self::OutOfReach(reach) => {
-                write!(f, "wrist center {} beyond reach", Millimeters(reach.shortfall()))
+                let shortfall = reach.shortfall();
+                write!(f, "wrist center {} beyond reach", Millimeters(shortfall))?;
+                if shortfall > FAR_BEYOND {
+                    write!(f, " (is the pose in millimeters? meters are wanted)")
+                } else {
+                    Ok(())
+                }
             }
             Self::FreeOutOfReach { joint, value } => {
-                write!(f, "the arm does not reach with J{joint} at {:.3} deg", value.to_degrees())
+                write!(
+                    f,
+                    "the robot does not reach the pose with J{joint} at {:.3} deg",
+                    value.to_degrees()
+                )
             }
-            Self::FilteredOut => write!(f, "no solution is left by the filter"),
+            Self::FilteredOut => write!(f, "the filter rejected every solution"),
         }
     }
 }
+
+/// How far beyond reach a pose must be to be one in millimeters [m]: no arm of the catalog reaches
+/// 5 m, and the poses in millimeters that it is used for are 100 of them away, and more.
+const FAR_BEYOND: f64 = 20.0;
 
 /// A length in mm, with a decimal from 0.1 mm on and in scientific notation below.
 struct Millimeters(f64);
@@ -135,6 +149,12 @@ mod tests {
     fn sentences_name_the_figure_and_the_joint() {
         let far = Explanation::OutOfReach(Reach::TooFar { shortfall: 0.012 });
         assert_eq!(far.to_string(), "wrist center 12.0 mm beyond reach");
+        let mm = Explanation::OutOfReach(Reach::TooFar { shortfall: 1423.4115 });
+        assert_eq!(
+            mm.to_string(),
+            "wrist center 1423411.5 mm beyond reach (is the pose in millimeters? meters are \
+             wanted)"
+        );
         let outside =
             Explanation::OutsideLimits { solutions: 4, joint: 5, excess: 3.1_f64.to_radians() };
         assert_eq!(outside.to_string(), "all 4 outside limits; nearest: J5 by 3.1 deg");

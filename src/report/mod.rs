@@ -11,5 +11,7 @@ mod unknown_structure;
 pub use configuration::Configuration;
 pub use explanation::{Explanation, Reach};
 pub use free_joint::FreeJoint;
+pub(crate) use unknown_structure::{
+    Columns, Convention, MOST_CONDITIONS, ORDERS, Pattern, Reading,
+};
 pub use unknown_structure::{Condition, Relation, UnknownStructure};
-pub(crate) use unknown_structure::{MOST_CONDITIONS, Pattern};

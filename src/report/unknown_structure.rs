@@ -47,8 +47,50 @@ pub(crate) struct Pattern {
 #[derive(Clone, Copy, Debug)]
 pub struct UnknownStructure {
     reason: Reason,
-    snap: Option<f64>,
+    hint: Hint,
 }
+
+/// What would give the arm a known structure. One of them at most, for an error is small.
+#[derive(Clone, Copy, Debug)]
+enum Hint {
+    Nothing,
+    /// A `snap` [rad].
+    Snap(f64),
+    Reading(Reading),
+}
+
+/// Which Denavit-Hartenberg convention a table has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Convention {
+    Modified,
+    Standard,
+}
+
+/// Names of the four columns of a table, in their order.
+pub(crate) type Columns = [&'static str; 4];
+
+/// Another way to read a table, in which its structure is known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Reading {
+    /// The order of its columns, an index into [`ORDERS`].
+    pub(crate) order: u8,
+    /// The convention, where it is not the one that was given.
+    pub(crate) other: Option<Convention>,
+    /// Name of the structure.
+    pub(crate) structure: &'static str,
+}
+
+/// Orders of columns: first the one that tables are given in, then those of textbooks and programs.
+pub(crate) const ORDERS: [Columns; 8] = [
+    ["alpha", "a", "d", "theta"],
+    ["theta", "d", "a", "alpha"],
+    ["d", "theta", "a", "alpha"],
+    ["a", "alpha", "d", "theta"],
+    ["a", "d", "alpha", "theta"],
+    ["d", "a", "alpha", "theta"],
+    ["theta", "d", "alpha", "a"],
+    ["alpha", "a", "theta", "d"],
+];
 
 /// What an arm lacks is the same whether it was read from text, which could be snapped, or from the
 /// table of it.
@@ -75,19 +117,27 @@ impl UnknownStructure {
     }
 
     fn new(reason: Reason) -> Self {
-        Self { reason, snap: None }
+        Self { reason, hint: Hint::Nothing }
     }
 
     /// The same, proposing a `snap` with which the arm would be taken, or none.
     pub(crate) fn proposing(self, snap: Option<f64>) -> Self {
-        Self { snap, ..self }
+        Self { hint: snap.map_or(Hint::Nothing, Hint::Snap), ..self }
+    }
+
+    /// The same, with another reading of the table, or none.
+    pub(crate) fn reading_as(self, reading: Option<Reading>) -> Self {
+        Self { hint: reading.map_or(Hint::Nothing, Hint::Reading), ..self }
     }
 
     /// The least power of ten [rad] that, given as `snap`, gives the arm a known structure; none
     /// where none does.
     #[must_use]
     pub fn snap(&self) -> Option<f64> {
-        self.snap
+        match self.hint {
+            Hint::Snap(snap) => Some(snap),
+            Hint::Nothing | Hint::Reading(_) => None,
+        }
     }
 
     /// An arm that is off these conditions of a structure by so much; zero where one is met.
@@ -169,7 +219,9 @@ impl fmt::Display for Figure {
 impl fmt::Display for UnknownStructure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.reason {
-            Reason::JointCount(joints) => write!(f, "{joints} joints, the known forms have 6 or 7"),
+            Reason::JointCount(joints) => {
+                write!(f, "it has {joints} joints, the known structures have 6 or 7")
+            }
             Reason::TooShort { pattern, field, value, bound } => {
                 write!(
                     f,
@@ -184,6 +236,45 @@ impl fmt::Display for UnknownStructure {
                 })
             }
         }?;
-        self.snap.map_or(Ok(()), |snap| write!(f, "; snap={snap:e} would take it"))
+        match self.hint {
+            Hint::Nothing => Ok(()),
+            Hint::Snap(snap) => {
+                write!(f, " (write the angles with all their digits); snap={snap:e} would take it")
+            }
+            Hint::Reading(reading) => reading.fmt(f),
+        }
+    }
+}
+
+impl fmt::Display for Reading {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { order, other, structure } = self;
+        let reordered = *order > 0;
+        let list =
+            |f: &mut fmt::Formatter<'_>, [a, b, c, d]: Columns| write!(f, "{a}, {b}, {c}, {d}");
+        let mut between = ";";
+        if reordered {
+            write!(f, "{between} with its columns as ")?;
+            list(f, ORDERS[usize::from(*order)])?;
+            between = ",";
+        }
+        match other {
+            Some(Convention::Standard) => write!(f, "{between} as a standard table")?,
+            Some(Convention::Modified) => write!(f, "{between} as a modified table")?,
+            None => {}
+        }
+        let article = if structure.ends_with('s') { "" } else { "a " };
+        write!(f, " it has {article}{structure}:")?;
+        let mut between = "";
+        if reordered {
+            write!(f, " reorder them to ")?;
+            list(f, ORDERS[0])?;
+            between = " and";
+        }
+        match *other {
+            Some(Convention::Standard) => write!(f, "{between} use from_sdh"),
+            Some(Convention::Modified) => write!(f, "{between} use from_mdh"),
+            None => Ok(()),
+        }
     }
 }

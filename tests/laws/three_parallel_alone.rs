@@ -148,7 +148,7 @@ fn what_is_not_the_form_is_refused_by_the_axes_that_are_off() {
             )
             .unwrap()
             // Whether snap takes it is told last.
-            .split("; snap=")
+            .split(" (write the angles")
             .next()
             .unwrap()
             .to_owned()

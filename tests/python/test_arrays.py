@@ -141,9 +141,9 @@ WRONG_OUT = {
     "shape": (
         lambda: np.zeros((3, 4)),
         ValueError,
-        r"out must be C-contiguous with shape \[4, 4\], got .*\[3, 4\]",
+        r"out must be C-contiguous with shape \(4, 4\), got .*\(3, 4\)",
     ),
-    "flat": (lambda: np.zeros(16), ValueError, r"shape \[4, 4\], got .*shape \[16\]"),
+    "flat": (lambda: np.zeros(16), ValueError, r"shape \(4, 4\), got .*shape \(16,\)"),
     "Fortran order": (lambda: np.zeros((4, 4), order="F"), ValueError, "not C-contiguous"),
     "strided": (lambda: strided(np.zeros((4, 4))), ValueError, "not C-contiguous"),
     "read-only": (lambda: read_only(np.zeros((4, 4))), ValueError, "out must be writable"),
@@ -162,12 +162,12 @@ def test_a_wrong_out_is_refused_with_what_came(robot, kind):
 def test_a_wrong_out_of_a_jacobian_or_a_batch_is_refused(robot, many):
     poses = robot.fk(many)
     q, status = np.zeros((20, 8, 6)), np.zeros((20, 8), np.uint8)
-    with pytest.raises(ValueError, match=r"shape \[6, 6\]"):
+    with pytest.raises(ValueError, match=r"shape \(6, 6\)"):
         robot.jacobian(Q, out=np.zeros((6, 7)))
     for out, error, words in (
-        (q[:19], ValueError, r"shape \[20, 8, 6\], got .*\[19, 8, 6\]"),
+        (q[:19], ValueError, r"shape \(20, 8, 6\), got .*\(19, 8, 6\)"),
         ((q, status.astype(int)), TypeError, "dtype uint8, got .*int64"),
-        ((q, status[:, :7]), ValueError, r"shape \[20, 8\]"),
+        ((q, status[:, :7]), ValueError, r"shape \(20, 8\)"),
         ((q, status, status), TypeError, r"out must be \(q, status\), got a tuple of 3"),
         ((q, read_only(status)), ValueError, "out must be writable"),
         ([q, status], TypeError, "got list"),
@@ -182,10 +182,10 @@ def test_a_call_that_fails_writes_nothing(robot, many):
         (
             np.zeros((20, 3, 4)),
             irbkin.InvalidPoseError,
-            r"T must have shape \(\.\.\., 4, 4\), got \[20, 3, 4\]",
+            r"T must have shape \(\.\.\., 4, 4\), got \(20, 3, 4\)",
         ),
         (np.zeros((20, 4, 4), complex), TypeError, "dtype complex128"),
-        (np.zeros((19, 4, 4)), ValueError, r"out must be C-contiguous with shape \[19, 8, 6\]"),
+        (np.zeros((19, 4, 4)), ValueError, r"out must be C-contiguous with shape \(19, 8, 6\)"),
     ):
         with pytest.raises(error, match=words):
             robot.ik_batch(wrong, out=(out, status))

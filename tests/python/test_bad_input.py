@@ -83,7 +83,9 @@ def test_what_is_no_number_is_a_type_error(value):
     if value is not None:
         calls |= {name: call for name, (call, _, _) in TAKING_A_VECTOR.items()}
     for call in calls.values():
-        with pytest.raises(TypeError, match=r"^\w+ must be real numbers, got an array of dtype"):
+        with pytest.raises(
+            TypeError, match=r"^\w+ must be real numbers, got (an array of dtype|None)"
+        ):
             call(value)
 
 
@@ -92,11 +94,11 @@ def test_what_is_no_number_is_a_type_error(value):
 def test_joints_of_another_shape(name, shape):
     with pytest.raises(InvalidJointsError) as refused:
         TAKING_JOINTS[name](np.zeros(shape))
-    assert str(refused.value) == f"q must have shape (..., 6), got {list(shape)}"
+    assert str(refused.value) == f"q must have shape (..., 6), got {shape}"
 
 
 def test_a_seven_axis_arm_asks_for_seven():
-    with pytest.raises(InvalidJointsError, match=r"q must have shape \(\.\.\., 7\), got \[6\]"):
+    with pytest.raises(InvalidJointsError, match=r"q must have shape \(\.\.\., 7\), got \(6,\)"):
         irbkin.Robot("Panda").fk(Q)
 
 
@@ -116,6 +118,8 @@ def test_joints_that_are_not_finite_are_named(name, value, word):
 
 
 NO_POSES = [(), (4,), (16,), (3, 4), (4, 3)]
+# Calls that have a batch beside them.
+TAKING_ONE_OF_MANY = ("ik", "check_pose")
 MANY_POSES = [(2, 4, 4), (1, 4, 4)]
 
 
@@ -132,16 +136,15 @@ def test_a_pose_of_another_shape(name, shape):
     with pytest.raises(InvalidPoseError) as refused:
         TAKING_A_POSE[name](np.zeros(shape))
     assert str(refused.value).startswith("T must have shape ")
-    assert str(refused.value).endswith(f"4, 4), got {list(shape)}") or str(refused.value).endswith(
-        f"4], got {list(shape)}"
-    )
+    many = " (for many poses take ik_batch)" * (shape in MANY_POSES and name in TAKING_ONE_OF_MANY)
+    assert str(refused.value).endswith(f"4, 4), got {shape}{many}")
 
 
 @pytest.mark.parametrize("shape", [(), (4,), (5, 16), (3, 4), (2, 4, 3)], ids=str)
 def test_batches_of_another_shape(shape):
     with pytest.raises(InvalidPoseError) as refused:
         ROBOT.ik_batch(np.zeros(shape))
-    assert str(refused.value) == f"T must have shape (..., 4, 4), got {list(shape)}"
+    assert str(refused.value) == f"T must have shape (..., 4, 4), got {shape}"
 
 
 FAULTS = {
@@ -157,7 +160,11 @@ FAULTS = {
         spoiled(3, 2, 2e-9),
         r"^pose row 3 must be \[0, 0, 0, 1\], got \[0, 0, 0\.000000002, 1\]$",
     ),
-    "transposed": (POSE.T.copy(), r"^pose row 3 must be \[0, 0, 0, 1\], got \["),
+    "transposed": (
+        POSE.T.copy(),
+        r"^pose row 3 must be \[0, 0, 0, 1\], got \[.*\], and column 3 is \[0, 0, 0, 1\] "
+        r"\(is it transposed\?\)$",
+    ),
     "mirrored": (
         POSE @ np.diag([1, 1, -1, 1]),
         r"^pose rotation mirrors: its determinant is -1\.000000, it must be 1",
@@ -196,7 +203,7 @@ def test_a_vector_of_another_length_is_told_the_length(name):
         with pytest.raises(error) as refused:
             call(np.zeros(shape))
         assert str(refused.value).startswith(f"{name} must have shape ")
-        assert str(refused.value).endswith(f"got {list(shape)}")
+        assert str(refused.value).endswith(f"got {shape}")
         assert "..." not in str(refused.value)
 
 
@@ -292,7 +299,7 @@ def test_another_frame_of_a_jacobian_is_refused():
 @pytest.mark.parametrize(
     ("threads", "error", "words"),
     [
-        (-1, ValueError, r"threads must be 0 \(one a core\) or more, got -1"),
+        (-1, ValueError, r"threads must be 0 \(one per core\) or more, got -1"),
         (1.5, TypeError, "'float' object cannot be interpreted as an integer"),
         ("2", TypeError, "'str' object cannot be interpreted as an integer"),
         (None, TypeError, "'NoneType' object cannot be interpreted as an integer"),

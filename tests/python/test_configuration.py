@@ -91,8 +91,8 @@ def test_a_single_pose_without_it_tells_what_exists():
         ((0, 0, 0, 8), "cfx is 8, it must be 0 to 7"),
         ((0, 0.5, 0, 0), "cf4 is 0.5, it must be a whole number"),
         ((0, 0, np.nan, 0), "cf6 is NaN, it must be a whole number"),
-        ((0, 0, 0), r"configuration must have shape \(..., 4\), got \[3\]"),
-        (np.zeros((2, 4)), r"configuration must have shape \[4\], got \[2, 4\]"),
+        ((0, 0, 0), r"configuration must have shape \(..., 4\), got \(3,\)"),
+        (np.zeros((2, 4)), r"configuration must have shape \(4,\), got \(2, 4\)"),
     ],
 )
 def test_what_is_no_configuration_is_refused(configuration, message):

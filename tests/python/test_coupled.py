@@ -62,7 +62,7 @@ def test_the_linkage_has_limits_where_they_are_given():
     np.testing.assert_array_equal(robot.uncoupled().limits[2], LINKAGE)
     with pytest.raises(irbkin.InvalidModelError, match="linkage limit is empty"):
         ROBOT.with_linkage_limits((1, 0))
-    with pytest.raises(irbkin.InvalidModelError, match="not coupled"):
+    with pytest.raises(irbkin.InvalidModelError, match="no parallelogram linkage"):
         ROBOT.uncoupled().with_linkage_limits(LINKAGE)
 
 
@@ -102,7 +102,8 @@ def test_configurations_do_not_count_the_slot():
     q = random_joints(300)
     assert not np.any(ROBOT.configuration(q).cfx)
     with pytest.raises(
-        irbkin.InvalidJointsError, match="cfx is 1, it is 0 for an arm with coupled axes 2 and 3"
+        irbkin.InvalidJointsError,
+        match="cfx is 1, it must be 0 for a robot with coupled axes 2 and 3",
     ):
         ROBOT.ik_configured(ROBOT.fk(q[0]), (0, 0, 0, 1))
 

@@ -176,12 +176,12 @@ def test_a_path_with_a_bad_pose_names_it():
         (
             {"T": np.eye(4)},
             irbkin.InvalidPoseError,
-            r"T must have shape \(\.\.\., m, 4, 4\), got \[4, 4\]",
+            r"T must have shape \(\.\.\., m, 4, 4\), got \(4, 4\)",
         ),
         (
             {"seed": np.zeros(5)},
             irbkin.InvalidJointsError,
-            r"seed must have shape \(\.\.\., 6\), got \[5\]",
+            r"seed must have shape \(\.\.\., 6\), got \(5,\)",
         ),
         ({"seed": [np.inf] * 6}, irbkin.InvalidJointsError, "seed: joint 1 is inf"),
         ({"weights": -np.ones(6)}, irbkin.InvalidJointsError, "weights: joint 1 is -1"),

@@ -217,7 +217,7 @@ def test_bad_seed_among_several_is_named(robot):
     with pytest.raises(InvalidJointsError, match=r"seed\[1\]: seed: joint 3 is NaN"):
         robot.follow(robot.fk(np.zeros((2, 3, 6))), seeds)
     with pytest.raises(
-        InvalidJointsError, match=r"seed must have shape \[6\] or \[2, 6\], got \[3, 6\]"
+        InvalidJointsError, match=r"seed must have shape \(6,\) or \(2, 6\), got \(3, 6\)"
     ):
         robot.follow(robot.fk(np.zeros((2, 3, 6))), np.zeros((3, 6)))
 
@@ -233,18 +233,22 @@ def test_an_empty_path_has_an_empty_answer(robot):
         (
             {"T": np.eye(4)},
             InvalidPoseError,
-            r"T must have shape \(\.\.\., m, 4, 4\), got \[4, 4\]",
+            r"T must have shape \(\.\.\., m, 4, 4\), got \(4, 4\)",
         ),
         ({"T": np.zeros((1, 2, 4, 4))}, InvalidPoseError, r"T\[0, 0\]: pose row 3 must be"),
         (
             {"seed": np.zeros((2, 6))},
             InvalidJointsError,
-            r"seed must have shape \[6\] or \[6\], got \[2, 6\]",
+            r"seed must have shape \(6,\), got \(2, 6\)",
         ),
         ({"T": [np.eye(4), np.eye(4) * np.nan]}, InvalidPoseError, r"T\[1\]: pose\[0, 0\] is NaN"),
         ({"T": [np.eye(4), 2 * np.eye(4)]}, InvalidPoseError, r"T\[1\]: pose row 3 must be"),
         ({"seed": [np.nan] * 6}, InvalidJointsError, "seed: joint 1 is NaN"),
-        ({"seed": [0.0] * 5}, InvalidJointsError, r"seed must have shape \(\.\.\., 6\), got \[5\]"),
+        (
+            {"seed": [0.0] * 5},
+            InvalidJointsError,
+            r"seed must have shape \(\.\.\., 6\), got \(5,\)",
+        ),
         ({"weights": [-1] * 6}, InvalidJointsError, "weights: joint 1 is -1"),
         ({"zone": np.nan}, InvalidJointsError, "zone is NaN, it must be finite and not negative"),
         ({"zone": -1}, InvalidJointsError, "zone is -1, it must be finite and not negative"),

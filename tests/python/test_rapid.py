@@ -120,7 +120,7 @@ def test_a_module_says_what_it_declares_and_how_it_moves():
     np.testing.assert_allclose(line.target.value.trans_mm, (425, 325, 313), atol=1e-6)
     assert [(part.line, part.what) for part in module.skipped] == [
         (12, "vSlow: type speeddata is not read"),
-        (16, "SetDO is no instruction that is read"),
+        (16, "SetDO is not an instruction that is read"),
     ]
     assert rapid.parse(rapid.dump(module)) == module
     assert repr(module) == 'Module("Weld": 5 data, 2 moves, 2 skipped)'
@@ -145,7 +145,7 @@ def test_new_values_change_nothing_else_in_the_text():
         10,
         11,
     ]
-    with pytest.raises(RapidError, match="the module has no data of the name"):
+    with pytest.raises(RapidError, match="the module has no data named"):
         module.rewritten({"nothing": target})
     with pytest.raises(RapidError, match=r"path has dimensions \[2\], the new value has \[1\]"):
         module.rewritten({"path": [target]})
@@ -222,26 +222,26 @@ HOLDS_ITSELF.append(HOLDS_ITSELF)
         (lambda: RobTarget((1, 2, np.nan)), "trans_mm must be 3 finite numbers"),
         (lambda: RobTarget((1, 2, 3), robconf=(0, 0.5, 0, 0)), "robconf must be 4 whole numbers"),
         (lambda: JointTarget("abcdef"), "robax_deg must be 6 finite numbers"),
-        (lambda: rapid.dump(object()), "is no RAPID data"),
+        (lambda: rapid.dump(object()), "is not RAPID data"),
         (lambda: rapid.dump(float("inf")), "not finite"),
-        (lambda: rapid.dump({"no name": 1.0}), '"no name" is no name that RAPID could read'),
+        (lambda: rapid.dump({"no name": 1.0}), '"no name" is not a RAPID identifier'),
         (lambda: LoadData(mass_kg=np.inf), "mass_kg must be a finite number"),
         (lambda: rapid.dump({"a": [[1.0], [1.0, 2.0]]}), "its lists have different lengths"),
         (lambda: rapid.dump({"a": []}), "at least one element"),
         (lambda: rapid.dump(HOLDS_ITSELF), "an array has one to 3 dimensions"),
         (
             lambda: rapid.parse("[[1,2,3]]"),
-            "is no robtarget, jointtarget, tooldata, wobjdata, pose or loaddata",
+            "is not a robtarget, jointtarget, tooldata, wobjdata, pose or loaddata",
         ),
-        (lambda: rapid.dump({"a:=1;\nVAR num b": 2.0}), "is no name that RAPID could read"),
-        (lambda: rapid.dump({"a": 1.0}, name="M(SYSMODULE)"), "is no name that RAPID could read"),
-        (lambda: rapid.dump({1: 1.0}), "1 is no name"),
-        (lambda: rapid.dump(b"abc"), "is no RAPID data"),
-        (lambda: rapid.dump(True), "is no RAPID data"),
+        (lambda: rapid.dump({"a:=1;\nVAR num b": 2.0}), "is not a RAPID identifier"),
+        (lambda: rapid.dump({"a": 1.0}, name="M(SYSMODULE)"), "is not a RAPID identifier"),
+        (lambda: rapid.dump({1: 1.0}), "1 is not a RAPID identifier"),
+        (lambda: rapid.dump(b"abc"), "is not RAPID data"),
+        (lambda: rapid.dump(True), "is not RAPID data"),
         (lambda: rapid.dump([1.0, [2.0]]), "its lists have different lengths"),
         (
             lambda: rapid.parse("[[1,2,3],[1,0,0,0]]; VAR num y:=5"),
-            "no robtarget, jointtarget|stands where",
+            "not a robtarget, jointtarget|expected .* found",
         ),
         (lambda: rapid.parse("[[1,2,3],[1,0,0,0]"), r"line 1, column 1: \[ is not closed"),
         (lambda: RobTarget("123"), "trans_mm must be 3 finite numbers, got '123'"),

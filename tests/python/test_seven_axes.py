@@ -144,10 +144,12 @@ def test_joint_7_is_needed_by_seven_joints_and_refused_by_six(robot):
         robot.ik(pose, q7=np.nan)
     with pytest.raises(
         irbkin.InvalidJointsError,
-        match=r"q7 of shape \[3\] does not go with T of shape \[2, 4, 4\]",
+        match=r"q7 of shape \(3,\) cannot be broadcast with T of shape \(2, 4, 4\)",
     ):
         robot.ik_batch(np.stack([pose, pose]), np.zeros(3))
-    with pytest.raises(irbkin.InvalidModelError, match="give ik_nearest the joints before"):
+    with pytest.raises(
+        irbkin.InvalidModelError, match="pass the joints of the pose before to ik_nearest"
+    ):
         robot.follow(np.stack([pose, pose]), np.zeros(7))
 
 

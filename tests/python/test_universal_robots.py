@@ -115,7 +115,7 @@ def test_a_free_joint_that_does_not_reach_is_told_with_its_angle():
     robot = irbkin.Robot("UR3")
     free = robot.ik(robot.fk([0.4, -0.3, 0.05, -1.1, 0.0, 2.5]))[0]
     with pytest.raises(
-        irbkin.UnreachableError, match=r"the arm does not reach with J6 at 0\.000 deg"
+        irbkin.UnreachableError, match=r"the robot does not reach the pose with J6 at 0\.000 deg"
     ):
         free.with_free_joint(0.0)
 

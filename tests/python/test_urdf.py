@@ -225,15 +225,15 @@ def chain(kinds, extra=""):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("<robot", "line 1, column 7 is no XML: the text ends before the robot does"),
+        ("<robot", "line 1, column 7 is not XML: the text ends before the robot does"),
         (
             "<robot>\n<link>\n</robot>",
-            "line 3, column 1 is no XML: expected 'link' tag, not 'robot'",
+            "line 3, column 1 is not XML: expected 'link' tag, not 'robot'",
         ),
         ("<mujoco/>", "the first element is <mujoco>, it must be <robot>"),
-        (b"<robot name='\xff'/>", "byte 13 is no UTF-8"),
-        ("<robot name='\ud800'/>", "byte 13 is no UTF-8"),
-        ("<robot a='1' a='2'/>", "line 1, column 14 is no XML: attribute 'a' is already defined"),
+        (b"<robot name='\xff'/>", "byte 13 is not valid UTF-8"),
+        ("<robot name='\ud800'/>", "byte 13 is not valid UTF-8"),
+        ("<robot a='1' a='2'/>", "line 1, column 14 is not XML: attribute 'a' is already defined"),
         (
             chain(["revolute"] * 5),
             '6 or 7 revolute joints lead from "l0" to no end of a chain: "l5" (5)',
@@ -273,10 +273,11 @@ def test_a_link_that_is_none_is_named():
     with pytest.raises(InvalidModelError) as refused:
         Robot.from_urdf(TEXTS["kr6_r700"], tip="tool")
     links = ["base_link", *(f"link_{i}" for i in range(1, 7)), "tool0"]
-    words = 'URDF: tip "tool" is no link; there are ' + ", ".join(f'"{link}"' for link in links)
+    words = 'URDF: tip "tool" is not a link; there are ' + ", ".join(f'"{link}"' for link in links)
     assert str(refused.value) == words
     with pytest.raises(
-        InvalidModelError, match=r'^URDF: tip "base" does not hang on base "link_1"$'
+        InvalidModelError,
+        match=r'^URDF: tip "base" is not below base "link_1": no joints lead from base to tip$',
     ):
         Robot.from_urdf(TEXTS["irb2600"], "link_1", "base")
 

@@ -3,7 +3,7 @@
 use core::f64::consts::{PI, TAU};
 
 use crate::error::{Error, ModelFault};
-use crate::kinematics::thresholds::{LIMIT_TOLERANCE, MOST_ANGLE};
+use crate::kinematics::thresholds::{DEGREE_LIMITS, LIMIT_TOLERANCE, MOST_ANGLE};
 use crate::lanes::{nearest_whole, whole_above, whole_below};
 
 /// Lower and upper limit of each joint [rad]; infinite where a joint has none.
@@ -23,8 +23,16 @@ impl<const N: usize> JointLimits<N> {
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidModel`] when a limit is NaN or a lower limit is above its upper limit.
+    /// [`Error::InvalidModel`] when a limit is NaN, a lower limit is above its upper limit, or the
+    /// limits of most joints are beyond eight turns, as limits in degrees are.
     pub fn new(limits: [[f64; 2]; N]) -> Result<Self, Error> {
+        let limits = Self::stored(limits)?;
+        limits.check_radians()?;
+        Ok(limits)
+    }
+
+    /// Limits that a robot had: of a coupled twin, those of most joints may be wide.
+    pub(crate) fn stored(limits: [[f64; 2]; N]) -> Result<Self, Error> {
         for (i, [lower, upper]) in limits.into_iter().enumerate() {
             check(["lower limit of joint", "upper limit of joint"], i + 1, [lower, upper])?;
             if lower > upper {
@@ -38,13 +46,29 @@ impl<const N: usize> JointLimits<N> {
         })
     }
 
+    /// Checks that not most of the joints have limits as those in degrees are.
+    fn check_radians(&self) -> Result<(), Error> {
+        let in_degrees = |joint: &usize| {
+            let (lower, upper) = (self.lower[*joint], self.upper[*joint]);
+            let size = [lower, upper].into_iter().filter(|limit| limit.is_finite());
+            DEGREE_LIMITS.contains(&size.fold(0.0, |most: f64, limit| most.max(limit.abs())))
+        };
+        if 2 * (0..N).filter(in_degrees).count() <= N {
+            return Ok(());
+        }
+        let joint = (0..N).find(in_degrees).unwrap_or_default();
+        let (lower, upper) = (self.lower[joint], self.upper[joint]);
+        let bound = *DEGREE_LIMITS.start();
+        Err(ModelFault::LimitsInDegrees { joint: joint + 1, lower, upper, bound }.into())
+    }
+
     /// The same limits with those of the linkage of coupled axes 2 and 3: (lower, upper) of q3 - q2
     /// [rad], at whatever turn.
     pub(crate) fn with_linkage(self, linkage: Option<[f64; 2]>) -> Result<Self, Error> {
         if let Some([lower, upper]) = linkage {
             check(["lower limit of the linkage", "upper limit of the linkage"], 0, [lower, upper])?;
             if lower > upper {
-                return Err(ModelFault::EmptyRodLimit { lower, upper }.into());
+                return Err(ModelFault::EmptyLinkageLimit { lower, upper }.into());
             }
         }
         Ok(Self { linkage, ..self })
@@ -238,7 +262,10 @@ fn check(fields: [&'static str; 2], index: usize, limits: [f64; 2]) -> Result<()
     for ((field, value), none) in
         fields.into_iter().zip(limits).zip([f64::NEG_INFINITY, f64::INFINITY])
     {
-        if value.total_cmp(&none).is_ne() {
+        if value.is_nan() || (value.is_infinite() && value.total_cmp(&none).is_ne()) {
+            return Err(ModelFault::NoLimit { field, index, value, none }.into());
+        }
+        if value.is_finite() {
             ModelFault::check(field, index, value, MOST_ANGLE)?;
         }
     }
@@ -278,6 +305,27 @@ mod tests {
         assert_eq!(limits().turn_nearest(0, 0.5, 60.0), Some(0.5 + TAU));
         assert_eq!(limits().turn_nearest(0, 1.0, -60.0), Some(1.0 - TAU));
         assert_eq!(limits().turn_nearest(1, 1.5, 0.0), None);
+    }
+
+    #[test]
+    fn limits_of_most_joints_in_degrees_are_refused_and_wide_ones_of_some_are_not() {
+        let refused = |limits: [[f64; 2]; 6]| JointLimits::new(limits).unwrap_err().to_string();
+        assert_eq!(
+            refused([[-180.0, 180.0]; 6]),
+            "joint 1 limit is -180 to 180 rad, beyond 50 rad as are those of most joints (did you \
+             pass degrees? for no limit give inf)"
+        );
+        let degrees =
+            [[-180.0, 180.0], [-95.0, 155.0], [-180.0, 75.0], [-400.0, 400.0], [-120.0, 120.0]];
+        let five: [[f64; 2]; 5] = degrees;
+        assert!(JointLimits::new(five).is_err());
+        // 242 revolutions of axes 1, 4 and 6; every joint as good as without limits; none at all.
+        let (axis, wide) = ([-2.0, 2.0], [-242.0 * TAU, 242.0 * TAU]);
+        assert!(JointLimits::new([wide, axis, axis, wide, axis, wide]).is_ok());
+        assert!(JointLimits::new([[-100.0, 100.0], axis, axis, wide, axis, [-99.0, 99.0]]).is_ok());
+        for every in [[-7.9 * TAU, 7.9 * TAU], [-1e4, 1e4], [f64::NEG_INFINITY, f64::INFINITY]] {
+            assert!(JointLimits::new([every; 6]).is_ok(), "{every:?}");
+        }
     }
 
     #[test]

@@ -82,7 +82,9 @@ impl fmt::Display for Break {
                     _ => write!(f, "the branch ends at a joint limit or at the edge of reach"),
                 }
             }
-            BreakReason::Locked => write!(f, "out of reach or of the limits with the wrist held"),
+            BreakReason::Locked => {
+                write!(f, "out of reach or outside the limits with the wrist locked")
+            }
             BreakReason::Stopped { q5 } => {
                 write!(f, "stopped at the wrist singularity, J5 is {:.4} deg", q5.to_degrees())
             }

@@ -14,8 +14,8 @@ use crate::error::{Error, PoseFault};
 use crate::kinematics::pose::angles::constant_sin_cos;
 use crate::kinematics::pose::rotation::{Rows3, determinant, gram_excess, nearest_rotation};
 use crate::kinematics::thresholds::{
-    GIMBAL_COS, LAST_ROW_BOUND, MOST_LENGTH, QUATERNION_NORM_BOUND, ROTATION_REPAIR_BOUND,
-    ROTATION_ROUNDING,
+    GIMBAL_COS, LAST_ROW_BOUND, MOST_EULER, MOST_LENGTH, MOST_TOOL, QUATERNION_NORM_BOUND,
+    ROTATION_REPAIR_BOUND, ROTATION_ROUNDING,
 };
 
 /// A rigid transform: a rotation matrix and a translation [m].
@@ -67,7 +67,12 @@ pub fn pose_from_rows(rows: &[f64; 16]) -> Result<Pose, Error> {
     let &[r00, r01, r02, x, r10, r11, r12, y, r20, r21, r22, z, l0, l1, l2, l3] = rows;
     check_near("pose", [x, y, z])?;
     if [l0, l1, l2, l3 - 1.0].iter().any(|element| element.abs() > LAST_ROW_BOUND) {
-        return Err(PoseFault::LastRow { row: [l0, l1, l2, l3] }.into());
+        let is_unit = |column: [f64; 4]| {
+            let unit = column.iter().zip([0.0, 0.0, 0.0, 1.0]);
+            unit.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) <= LAST_ROW_BOUND
+        };
+        let transposed = is_unit([x, y, z, l3]);
+        return Err(PoseFault::LastRow { row: [l0, l1, l2, l3], transposed }.into());
     }
     let rotation = checked_rotation([[r00, r01, r02], [r10, r11, r12], [r20, r21, r22]])?;
     Ok(IsometryMatrix3::from_parts(Translation3::new(x, y, z), rotation))
@@ -164,11 +169,15 @@ pub fn pose_from_wxyz(xyz: [f64; 3], wxyz: [f64; 4]) -> Result<Pose, Error> {
 ///
 /// # Errors
 ///
-/// [`Error::InvalidPose`] when an element is not finite or a coordinate exceeds [`MOST_LENGTH`].
+/// [`Error::InvalidPose`] when an element is not finite, a coordinate exceeds [`MOST_LENGTH`], or
+/// an angle exceeds a full turn, [`MOST_EULER`], as degrees do.
 pub fn pose_from_euler_zyx(xyz: [f64; 3], zyx: [f64; 3]) -> Result<Pose, Error> {
     check_finite("xyz", &xyz)?;
     check_near("xyz", xyz)?;
     check_finite("euler_zyx", &zyx)?;
+    if let Some(index) = zyx.iter().position(|angle| angle.abs() > MOST_EULER) {
+        return Err(PoseFault::EulerAngle { index, value: zyx[index], bound: MOST_EULER }.into());
+    }
     Ok(pose_of_zyx(xyz, zyx.map(f64::sin_cos)))
 }
 
@@ -253,6 +262,16 @@ fn check_near(field: &'static str, xyz: [f64; 3]) -> Result<(), Error> {
         }
         None => Ok(()),
     }
+}
+
+/// A tool, checked as [`checked_pose`] and to be no longer than [`MOST_TOOL`].
+pub(crate) fn checked_tool(t_flange_tool: &Pose) -> Result<Pose, Error> {
+    let tool = checked_pose(t_flange_tool)?;
+    let length = tool.translation.vector.norm();
+    if length > MOST_TOOL {
+        return Err(PoseFault::ToolTooLong { length, bound: MOST_TOOL }.into());
+    }
+    Ok(tool)
 }
 
 /// The translation by `z` along z.

@@ -2,16 +2,19 @@
 
 use alloc::borrow::Cow;
 
+use super::reading::other_reading;
 use super::{Definition, Robot};
 use crate::error::{Error, ModelFault};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::dh::{DhRow, Mdh, Sdh};
+use crate::kinematics::chain::jacobian::JacobianFrame;
 use crate::kinematics::chain::limits::JointLimits;
-use crate::kinematics::pose::{Pose, checked_pose};
+use crate::kinematics::pose::{Pose, checked_pose, checked_tool};
 use crate::kinematics::structure::any::AnyStructure;
 use crate::kinematics::structure::arity::{Arity, Joints, StructureOf};
 use crate::kinematics::structure::spherical_wrist::OpwParameters;
-use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH, MOST_SNAP};
+use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH, MOST_REACH, MOST_SNAP};
+use crate::report::Convention;
 
 /// What is proposed as a `snap` to an arm that it would help [rad]: the least of these.
 pub(crate) const SNAPS: [f64; 6] = [1e-8, 1e-7, 1e-6, 1e-5, 1e-4, MOST_SNAP];
@@ -45,10 +48,15 @@ where
     /// has no known form: the message names the axes and how far they are off.
     /// [`Robot::serial_chain`] takes such an arm without its inverse.
     pub fn from_mdh(mdh: Mdh<N>) -> Result<Self, Error> {
-        let robot = Self::serial_chain(mdh)?;
-        match robot.unknown_structure() {
+        let rows = mdh.rows;
+        Self::serial_chain(mdh)?.hinting(&rows, Convention::Modified).with_closed_form()
+    }
+
+    /// Refuses an arm of six joints whose structure is unknown.
+    fn with_closed_form(self) -> Result<Self, Error> {
+        match self.unknown_structure() {
             Some(reason) if N == 6 => Err(ModelFault::UnknownStructure(reason).into()),
-            _ => Ok(robot),
+            _ => Ok(self),
         }
     }
 
@@ -58,7 +66,8 @@ where
     ///
     /// As [`Robot::from_mdh`].
     pub fn from_sdh(sdh: Sdh<N>) -> Result<Self, Error> {
-        Self::from_mdh(sdh.into())
+        let rows = sdh.rows;
+        Self::serial_chain(sdh.into())?.hinting(&rows, Convention::Standard).with_closed_form()
     }
 
     /// A robot from any modified Denavit-Hartenberg table: with the closed form where its geometry
@@ -73,11 +82,40 @@ where
         (mdh.base, mdh.flange) = (checked_pose(&mdh.base)?, checked_pose(&mdh.flange)?);
         let (chain, structure) = StructureOf::<N>::recognize(&mdh);
         let mut robot = Self::new(Definition::Mdh(mdh), chain, structure);
+        robot.check_reach()?;
         if robot.unknown_structure().is_some() {
             let snap = robot.helpful_snap();
-            robot.structure = robot.structure.proposing(snap);
+            robot.structure = robot.structure.hinting(|reason| reason.proposing(snap));
         }
         Ok(robot)
+    }
+
+    /// Checks that the flange is no farther from an axis than [`MOST_REACH`]. Lengths by themselves
+    /// say nothing: next to parallel axes they are large and cancel.
+    fn check_reach(&self) -> Result<(), Error> {
+        for q in [[0.0; N], [1.0; N]] {
+            let jacobian = self.jacobian(&q, JacobianFrame::Base);
+            for (i, column) in jacobian.column_iter().enumerate() {
+                let distance = column.fixed_rows::<3>(0).norm();
+                if distance > MOST_REACH {
+                    return Err(
+                        ModelFault::TooFar { axis: i + 1, distance, bound: MOST_REACH }.into()
+                    );
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The same robot; where its structure is unknown, with another reading of the rows of its
+    /// table, in which it is known.
+    #[must_use]
+    pub(crate) fn hinting(mut self, rows: &[DhRow; N], convention: Convention) -> Self {
+        if self.unknown_structure().is_some_and(|reason| reason.snap().is_none()) {
+            let reading = other_reading(rows, convention);
+            self.structure = self.structure.hinting(|reason| reason.reading_as(reading));
+        }
+        self
     }
 
     /// The least of the snaps that are proposed with which a table has a known structure.
@@ -92,7 +130,7 @@ where
     /// The same robot with another proposal of a `snap`, where its structure is unknown.
     #[cfg(feature = "urdf")]
     pub(crate) fn proposing(mut self, snap: Option<f64>) -> Self {
-        self.structure = self.structure.proposing(snap);
+        self.structure = self.structure.hinting(|reason| reason.proposing(snap));
         self
     }
 
@@ -105,7 +143,9 @@ where
         let chain = Chain::new(Mdh { base, rows, flange });
         let structure = Joints::<N>::of_opw(&opw, &chain)
             .ok_or(ModelFault::JointCount { found: 6, wanted: N })?;
-        Ok(Self::new(Definition::Opw(opw), chain, structure))
+        let robot = Self::new(Definition::Opw(opw), chain, structure);
+        robot.check_reach()?;
+        Ok(robot)
     }
 
     fn new(definition: Definition<N>, chain: Chain<N>, structure: StructureOf<N>) -> Self {
@@ -158,9 +198,10 @@ where
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidPose`] when the tool is no rigid transform.
+    /// [`Error::InvalidPose`] when the tool is no rigid transform, or its center point is farther
+    /// from the flange than [`MOST_TOOL`](crate::thresholds::MOST_TOOL).
     pub fn with_tool(mut self, t_flange_tool: &Pose) -> Result<Self, Error> {
-        self.chain = self.chain.with_tool(checked_pose(t_flange_tool)?);
+        self.chain = self.chain.with_tool(checked_tool(t_flange_tool)?);
         Ok(self.joined())
     }
 }
@@ -171,6 +212,8 @@ fn check_rows(rows: &[DhRow]) -> Result<(), Error> {
         ModelFault::check("a of row", i + 1, row.a, MOST_LENGTH)?;
         ModelFault::check("d of row", i + 1, row.d, MOST_LENGTH)?;
         ModelFault::check("theta of row", i + 1, row.theta, MOST_ANGLE)?;
+        ModelFault::check_radians("alpha of row", i + 1, row.alpha)?;
+        ModelFault::check_radians("theta of row", i + 1, row.theta)?;
     }
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 mod build;
 mod linkage;
+mod reading;
 
 #[cfg(feature = "urdf")]
 pub(crate) use build::SNAPS;

@@ -35,7 +35,7 @@ where
         let Some(free) = solution.free_joint else { return Ok(None) };
         let off = self.residual(&solution.q, pose).largest();
         if off > SOLUTION_OFF {
-            return Err(JointFault::NotOfPose { off }.into());
+            return Err(JointFault::NotOfPose { off, bound: SOLUTION_OFF }.into());
         }
         check_angle("value", free.joint(), value)?;
         let moved = self.with_free_joint_at(&checked_pose(pose)?, solution, free, value)?;

@@ -40,9 +40,9 @@ pub(crate) trait AnyStructure<const N: usize>:
     #[must_use]
     fn between(self, chain: &Chain<N>, limits: &JointLimits<N>) -> Self;
 
-    /// Unknown as it is, with the `snap` that would help; the same where it is known.
+    /// Unknown as it is, for a reason that says more; the same where it is known.
     #[must_use]
-    fn proposing(self, snap: Option<f64>) -> Self;
+    fn hinting(self, hint: impl FnOnce(UnknownStructure) -> UnknownStructure) -> Self;
 
     /// Number of slots; none where the structure is unknown.
     fn slot_count(&self) -> usize;

@@ -88,7 +88,7 @@ impl<const N: usize> AnyStructure<N> for NoStructure {
         self
     }
 
-    fn proposing(self, _: Option<f64>) -> Self {
+    fn hinting(self, _: impl FnOnce(UnknownStructure) -> UnknownStructure) -> Self {
         self
     }
 

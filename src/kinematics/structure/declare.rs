@@ -42,9 +42,9 @@ macro_rules! structures {
                 }
             }
 
-            fn proposing(self, snap: Option<f64>) -> Self {
+            fn hinting(self, hint: impl FnOnce(UnknownStructure) -> UnknownStructure) -> Self {
                 match self {
-                    Self::Unknown(reason) => Self::Unknown(reason.proposing(snap)),
+                    Self::Unknown(reason) => Self::Unknown(hint(reason)),
                     known => known,
                 }
             }

@@ -40,6 +40,10 @@ pub(super) fn parse(
 ) -> PyResult<RapidModule> {
     let py = text.py();
     let source = decode(text)?;
+    if is_path(&source) {
+        let message = format!("{source:?} is a path, parse takes the text of a module: use load");
+        return Err(rapid_fault(py, message));
+    }
     let mut others = Vec::new();
     if let Some(context) = context {
         for other in context.try_iter()? {
@@ -50,6 +54,13 @@ pub(super) fn parse(
     let module =
         py.detach(|| rapid::parse(&source, &context)).map_err(|error| to_py(py, &error))?;
     Ok(RapidModule::new(module, source))
+}
+
+/// Whether a text is the path of a module: one word with its ending, which no RAPID text is.
+fn is_path(text: &str) -> bool {
+    let endings = [".mod", ".modx", ".sys", ".sysx", ".prg"];
+    let (text, marks) = (text.trim().to_ascii_lowercase(), ['\n', ';', '[', '"', '!']);
+    endings.iter().any(|ending| text.ends_with(ending)) && !text.contains(marks)
 }
 
 /// RAPID text of a str, or of the bytes of a file.
@@ -85,8 +96,12 @@ pub(super) fn dump(value: &Bound<'_, PyAny>, name: &str) -> PyResult<String> {
         return module("Value", vec![datum]).map(|_| text);
     };
     let name_of = |name: &Bound<'_, PyAny>| {
-        name.extract()
-            .map_err(|_| rapid_fault(py, format!("{name} is no name that RAPID could read")))
+        name.extract().map_err(|_| {
+            rapid_fault(
+                py,
+                format!("{name} is not a RAPID identifier (a letter, then letters, digits, _)"),
+            )
+        })
     };
     let data = data
         .iter()

@@ -172,7 +172,7 @@ impl RapidModule {
     /// A datum of the module itself, and its index.
     fn found(&self, py: Python<'_>, name: &str) -> PyResult<(usize, &Datum)> {
         let found = self.module.position(name).zip(self.module.find(name));
-        found.ok_or_else(|| rapid_fault(py, format!("the module has no data of the name {name:?}")))
+        found.ok_or_else(|| rapid_fault(py, format!("the module has no data named {name:?}")))
     }
 }
 

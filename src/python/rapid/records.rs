@@ -252,7 +252,10 @@ fn read_value(given: &Bound<'_, PyAny>, thing: &str) -> PyResult<Value> {
     } else if is(classes::configuration_class(py))? {
         let whole = given.extract::<[i32; 4]>();
         let [cf1, cf4, cf6, cfx] = whole.map_err(|_| {
-            rapid_fault(py, format!("{thing}: {given} is no confdata of four whole numbers"))
+            rapid_fault(
+                py,
+                format!("{thing}: {given} is not confdata, which has four whole numbers"),
+            )
         })?;
         Value::ConfData(Configuration { cf1, cf4, cf6, cfx })
     } else {
@@ -264,7 +267,7 @@ fn read_value(given: &Bound<'_, PyAny>, thing: &str) -> PyResult<Value> {
 /// A number, or a tuple or an array of numbers.
 fn numbers(given: &Bound<'_, PyAny>, thing: &str) -> PyResult<Value> {
     let refused =
-        || Ok(rapid_fault(given.py(), format!("{thing}: {} is no RAPID data", given.repr()?)));
+        || Ok(rapid_fault(given.py(), format!("{thing}: {} is not RAPID data", given.repr()?)));
     if given.is_instance_of::<PyBool>()
         || given.is_instance_of::<PyString>()
         || given.is_instance_of::<PyBytes>()

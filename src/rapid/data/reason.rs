@@ -14,7 +14,7 @@ pub enum Reason {
     Unfinished,
     /// It depends on whether the caller gives an optional argument.
     OptionalArgument,
-    /// It has an operator that is not calculated, such as `DIV`.
+    /// It has an operator that is not evaluated, such as `DIV`.
     Operator,
     /// It begins with `NOT`.
     Negation,
@@ -23,7 +23,7 @@ pub enum Reason {
         /// The type of the result.
         type_name: &'static str,
     },
-    /// It is the result of a function that is not calculated.
+    /// It is the result of a function that is not evaluated.
     Function {
         /// Name of the function, as it is written.
         name: String,
@@ -33,7 +33,7 @@ pub enum Reason {
         /// Name of the function, as it is written.
         name: String,
     },
-    /// It is the result of a function with an optional argument that is not calculated.
+    /// It is the result of a function with an optional argument that is not evaluated.
     FunctionArgument {
         /// Name of the function, as it is written.
         name: String,
@@ -130,20 +130,20 @@ impl fmt::Display for Reason {
             Self::OptionalArgument => {
                 f.write_str("it depends on whether an optional argument is there")
             }
-            Self::Operator => f.write_str("this operator is not calculated"),
-            Self::Negation => f.write_str("NOT is not calculated"),
+            Self::Operator => f.write_str("this operator is not evaluated"),
+            Self::Negation => f.write_str("NOT is not evaluated"),
             Self::Arithmetic { type_name } => {
-                write!(f, "arithmetic of {type_name} is not calculated")
+                write!(f, "arithmetic of {type_name} is not evaluated")
             }
-            Self::Function { name } => write!(f, "{name} is not calculated"),
+            Self::Function { name } => write!(f, "{name} is not evaluated"),
             Self::OwnFunction { name } => {
-                write!(f, "{name} is declared in this module, it is not calculated")
+                write!(f, "{name} is declared in this module, it is not evaluated")
             }
             Self::FunctionArgument { name, argument } => {
-                write!(f, "{name} with {argument} is not calculated")
+                write!(f, "{name} with {argument} is not evaluated")
             }
             Self::CopiedArray { name } => write!(f, "refers to {name}, and arrays are not copied"),
-            Self::NoAggregate => f.write_str("the value of an array is written as no aggregate"),
+            Self::NoAggregate => f.write_str("the value of the array is not an aggregate"),
             Self::Reference { name, why } => write!(f, "refers to {name}, {why}"),
         }
     }

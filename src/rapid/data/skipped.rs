@@ -92,13 +92,13 @@ impl fmt::Display for NotRead {
             }
             Self::Record { name } => write!(f, "RECORD {name} is not read"),
             Self::Alias { name } => write!(f, "ALIAS {name} is not read"),
-            Self::Flow { word } => write!(f, "{word} is not carried out"),
+            Self::Flow { word } => write!(f, "{word} is not executed"),
             Self::Label { name } => write!(f, "label {name} is not read"),
             Self::Assignment { name } => {
                 write!(f, "{name} is assigned a value, which is not followed")
             }
             Self::Motion { name } => write!(f, "{name} moves the robot, but is not read"),
-            Self::Instruction { name } => write!(f, "{name} is no instruction that is read"),
+            Self::Instruction { name } => write!(f, "{name} is not an instruction that is read"),
         }
     }
 }

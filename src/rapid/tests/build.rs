@@ -35,10 +35,13 @@ fn modules_that_could_not_be_read_are_not_made() {
         Module::new(Some(name.into()), data, vec![], &[]).unwrap_err().to_string()
     };
     let one = || datum("a", Value::Num(1.0));
-    assert_eq!(words("if", vec![]), "\"if\" is no name that RAPID could read");
+    assert_eq!(
+        words("if", vec![]),
+        "\"if\" is not a RAPID identifier (a letter, then letters, digits, _)"
+    );
     assert_eq!(
         words("M", vec![datum("a b", Value::Num(1.0))]),
-        "\"a b\" is no name that RAPID could read"
+        "\"a b\" is not a RAPID identifier (a letter, then letters, digits, _)"
     );
     assert_eq!(
         words("M", vec![one(), one()]),

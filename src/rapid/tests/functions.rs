@@ -56,11 +56,11 @@ fn functions_are_refused_in_words() {
     );
     let words = "line 2, column 20: RelTool(p,1,0,0) is not finite, every number must be";
     assert_eq!(fault("CONST robtarget r:=RelTool(p,1,0,0);"), words);
-    assert_eq!(why("CONST robtarget r:=Offs(p,0,0,f(2));"), "r: f is not calculated");
+    assert_eq!(why("CONST robtarget r:=Offs(p,0,0,f(2));"), "r: f is not evaluated");
     assert_eq!(
         why("CONST robtarget r:=RelTool(p,0,0,0\\Rq:=1);"),
-        "r: RelTool with Rq is not calculated"
+        "r: RelTool with Rq is not evaluated"
     );
     let own = "FUNC robtarget Offs(robtarget p) ENDFUNC CONST robtarget r:=Offs(p,0,0,1);";
-    assert_eq!(why(own), "r: Offs is declared in this module, it is not calculated");
+    assert_eq!(why(own), "r: Offs is declared in this module, it is not evaluated");
 }

@@ -82,7 +82,7 @@ fn a_comma_may_stand_before_an_optional_argument() {
     ];
     assert_eq!(written, expected);
     again(&module, &[]);
-    assert_eq!(fault("MoveL p,v1,z1,tool0,;"), "line 1, column 21: ; stands where a value must");
+    assert_eq!(fault("MoveL p,v1,z1,tool0,;"), "line 1, column 21: expected a value, found ;");
 }
 
 #[test]

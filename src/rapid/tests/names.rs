@@ -82,10 +82,10 @@ fn what_has_no_value_says_why() {
         "a: refers to i, which can change"
     );
     assert_eq!(why("VAR num n:=2; CONST num b{n}:=[1,2];"), "b: refers to n, which can change");
-    assert_eq!(why("CONST num a:=1 DIV 2;"), "a: this operator is not calculated");
-    assert_eq!(why("CONST pos a:=[1,2,3]+[1,2,3];"), "a: arithmetic of pos is not calculated");
-    assert_eq!(why("CONST num a:=NOT TRUE;"), "a: NOT is not calculated");
-    assert_eq!(why("CONST num b{2}:=1+1;"), "b: the value of an array is written as no aggregate");
+    assert_eq!(why("CONST num a:=1 DIV 2;"), "a: this operator is not evaluated");
+    assert_eq!(why("CONST pos a:=[1,2,3]+[1,2,3];"), "a: arithmetic of pos is not evaluated");
+    assert_eq!(why("CONST num a:=NOT TRUE;"), "a: NOT is not evaluated");
+    assert_eq!(why("CONST num b{2}:=1+1;"), "b: the value of the array is not an aggregate");
     assert_eq!(
         why("CONST pos b{1}:=[*];"),
         "b: * is taught on the controller, its value is not in the text"

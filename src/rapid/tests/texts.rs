@@ -152,7 +152,7 @@ fn what_ends_a_file_is_no_text() {
     );
     assert_eq!(
         fault("VAR num a\0"),
-        "line 1, column 11: the end of the text stands where a semicolon must"
+        "line 1, column 11: expected a semicolon, found the end of the text"
     );
 }
 
@@ -218,7 +218,7 @@ fn new_values_leave_everything_else_as_it_was() {
         "line 3, column 2: there is no single value in the array pos b"
     );
     let twice = [new(2, None, Value::Num(3.0)), new(2, None, Value::Num(4.0))];
-    assert_eq!(words(&twice), "num c is to get two values");
+    assert_eq!(words(&twice), "num c is given two values, it must get one");
     let shorter = rewrite("", &module, &[]).unwrap_err().to_string();
     assert_eq!(
         shorter,
@@ -237,30 +237,30 @@ fn what_is_not_known_is_skipped_and_told() {
         "RECORD r is not read",
         "ALIAS length is not read",
         "b: type bool is not read",
-        "p: CRobT is not calculated",
+        "p: CRobT is not evaluated",
         "b is assigned a value, which is not followed",
         "a is assigned a value, which is not followed",
-        "IF is not carried out",
-        "ELSEIF is not carried out",
-        "ELSE is not carried out",
-        "ENDIF is not carried out",
-        "FOR is not carried out",
-        "ENDFOR is not carried out",
-        "WHILE is not carried out",
-        "ENDWHILE is not carried out",
-        "TEST is not carried out",
-        "CASE is not carried out",
+        "IF is not executed",
+        "ELSEIF is not executed",
+        "ELSE is not executed",
+        "ENDIF is not executed",
+        "FOR is not executed",
+        "ENDFOR is not executed",
+        "WHILE is not executed",
+        "ENDWHILE is not executed",
+        "TEST is not executed",
+        "CASE is not executed",
         "b is assigned a value, which is not followed",
-        "DEFAULT is not carried out",
-        "ENDTEST is not carried out",
+        "DEFAULT is not executed",
+        "ENDTEST is not executed",
         "label again is not read",
-        "GOTO is no instruction that is read",
-        "% is no instruction that is read",
+        "GOTO is not an instruction that is read",
+        "% is not an instruction that is read",
         "<SMT> is not finished",
-        "WaitTime is no instruction that is read",
-        "ERROR is not carried out",
-        "RETRY is no instruction that is read",
-        "RETURN is no instruction that is read",
+        "WaitTime is not an instruction that is read",
+        "ERROR is not executed",
+        "RETRY is not an instruction that is read",
+        "RETURN is not an instruction that is read",
     ];
     assert_eq!(told(&module), expected);
     let first = &module.skipped()[3];
@@ -299,7 +299,7 @@ fn a_record_by_itself_is_told_by_its_shape() {
     assert_eq!(record(" [[1,2,3],[1,0,0,0]] "), Ok("pose"));
     assert_eq!(record("[[1,2,3,4,5,6],[9E9,9E9,9E9,9E9,9E9,9E9]]"), Ok("jointtarget"));
     assert_eq!(record("[TRUE,[[0,0,1],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]]"), Ok("tooldata"));
-    let none = "[1,2,3] is no robtarget, jointtarget, tooldata, wobjdata, pose or loaddata";
+    let none = "[1,2,3] is not a robtarget, jointtarget, tooldata, wobjdata, pose or loaddata";
     assert_eq!(record("[1,2,3]"), Err(none.to_string()));
     assert_eq!(
         record("[[1,2,3],\n[1,0,0,0]"),

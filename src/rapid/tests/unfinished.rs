@@ -18,26 +18,30 @@ fn statements_that_are_not_finished_are_skipped() {
     assert_eq!(skipped("<SMT>"), ["<SMT> is not finished"]);
     assert_eq!(
         skipped("<SMT>; <SMT>\nfoo;"),
-        ["<SMT> is not finished", "<SMT> is not finished", "foo is no instruction that is read"]
+        [
+            "<SMT> is not finished",
+            "<SMT> is not finished",
+            "foo is not an instruction that is read"
+        ]
     );
     assert_eq!(skipped("<VAR>:=<EXP>;"), ["<VAR> is not finished"]);
     assert_eq!(skipped("a:=<EXP>;"), ["a is not finished"]);
     assert_eq!(skipped("foo <ARG>;"), ["foo is not finished"]);
-    assert_eq!(skipped("IF TRUE <SMT>"), ["IF is not carried out", "<SMT> is not finished"]);
+    assert_eq!(skipped("IF TRUE <SMT>"), ["IF is not executed", "<SMT> is not finished"]);
     assert_eq!(skipped("IF <EXP> <SMT>"), ["IF is not finished", "<SMT> is not finished"]);
-    let block = ["IF is not finished", "<SMT> is not finished", "ENDIF is not carried out"];
+    let block = ["IF is not finished", "<SMT> is not finished", "ENDIF is not executed"];
     assert_eq!(skipped("IF <EXP> THEN <SMT> ENDIF"), block);
-    let words = ["FOR is not finished", "<SMT> is not finished", "ENDFOR is not carried out"];
+    let words = ["FOR is not finished", "<SMT> is not finished", "ENDFOR is not executed"];
     assert_eq!(skipped("FOR <ID> FROM <EXP> TO <EXP> DO <SMT> ENDFOR"), words);
     assert_eq!(
         skipped("WHILE <EXP> DO ENDWHILE"),
-        ["WHILE is not finished", "ENDWHILE is not carried out"]
+        ["WHILE is not finished", "ENDWHILE is not executed"]
     );
     let words = [
         "TEST is not finished",
         "CASE is not finished",
         "<CSE> is not finished",
-        "ENDTEST is not carried out",
+        "ENDTEST is not executed",
     ];
     assert_eq!(skipped("TEST <EXP> CASE <EXP>: <CSE> ENDTEST"), words);
     assert_eq!(
@@ -77,7 +81,7 @@ fn declarations_that_are_not_finished_are_skipped() {
 fn comparisons_are_no_placeholders() {
     assert_eq!(
         skipped("IF a<B AND C>d foo;"),
-        ["IF is not carried out", "foo is no instruction that is read"]
+        ["IF is not executed", "foo is not an instruction that is read"]
     );
     assert_eq!(skipped("IF a<B THEN ELSEIF C>d THEN ENDIF").len(), 3);
     assert_eq!(skipped("IF a <> B AND (c<D) OR (E>f) foo;").len(), 2);

@@ -90,6 +90,7 @@ impl OpwParameters {
         }
         for (i, value) in self.offsets.into_iter().enumerate() {
             ModelFault::check("offset of joint", i + 1, value, MOST_ANGLE)?;
+            ModelFault::check_radians("offset of joint", i + 1, value)?;
         }
         for (i, sign) in self.signs.into_iter().enumerate() {
             if sign != 1 && sign != -1 {

@@ -1,0 +1,265 @@
+//! Messages of RAPID.
+
+use std::vec;
+use std::vec::Vec;
+
+use super::{Row, Table, rows};
+use crate::error::{FrameFault, Missing, PoseFault, RapidFault, RapidFaultKind};
+use crate::rapid::{AssignedBy, NotRead, Problem, Reason, Unresolved};
+use crate::report::{Explanation, Reach};
+
+pub(super) fn tables() -> Vec<Table> {
+    vec![
+        Table { name: "rapid", rows: faults() },
+        Table { name: "rapid frames", rows: frames() },
+        Table { name: "rapid problems", rows: problems() },
+        Table { name: "rapid reasons", rows: reasons() },
+        Table { name: "rapid skipped", rows: skipped() },
+    ]
+}
+
+fn faults() -> Vec<Row> {
+    use RapidFaultKind as Kind;
+    let [thing, part] = ["robtarget p10", "robconf"].map(std::string::String::from);
+    let mut all = rows! { RapidFault;
+        RapidFault { .. } => RapidFault {
+            line: 1,
+            column: 12,
+            kind: Kind::Unexpected { found: "the end of the text".into(), wanted: "a semicolon" },
+        },
+            "`parse(\"hello world\")`: text that is not RAPID",
+            "mend the place; `load` takes a path";
+    };
+    all.extend(rows! { RapidFaultKind;
+        Kind::UnterminatedString => Kind::UnterminatedString,
+            "a string over two lines", "close it on its line";
+        Kind::BadNumber { .. } => Kind::BadNumber { text: "1.2.3".into() },
+            "a word that begins as a number", "mend it";
+        Kind::NotFinite { .. } => Kind::NotFinite { text: "1e999".into() },
+            "a number beyond 1.8e308", "write a smaller one";
+        Kind::UnexpectedCharacter { .. } => Kind::UnexpectedCharacter { character: '#' },
+            "a character that RAPID does not have", "remove it";
+        Kind::Unclosed { .. } => Kind::Unclosed { bracket: '[' },
+            "a bracket without its partner", "close it";
+        Kind::Unexpected { .. } =>
+            Kind::Unexpected { found: "ENDMODULE".into(), wanted: "ENDPROC" },
+            "a text that is cut off, or not RAPID", "mend the place";
+        Kind::UnexpectedEnd { .. } =>
+            Kind::UnexpectedEnd { inside: "PROC main".into(), missing: "ENDPROC" },
+            "a text that is cut off", "add what is missing";
+        Kind::ComponentCount { .. } => Kind::ComponentCount {
+            thing: thing.clone(), part: part.clone(), found: 3, wanted: 4,
+        },
+            "a record with another number of components", "add or remove components";
+        Kind::ComponentType { .. } => Kind::ComponentType {
+            thing: thing.clone(), part: part.clone(), found: "TRUE".into(), wanted: "a number",
+        },
+            "a value of another type", "write one of the type";
+        Kind::NotWhole { .. } =>
+            Kind::NotWhole { thing: thing.clone(), part, value: 0.5 },
+            "confdata", "write whole numbers";
+        Kind::NoSuchComponent { .. } => Kind::NoSuchComponent {
+            text: "p10.tran".into(), of: "robtarget", component: "tran".into(),
+        },
+            "a misspelt component", "write `trans`, `rot`, ...";
+        Kind::ArraySize { .. } =>
+            Kind::ArraySize { thing: thing.clone(), dimension: 1, found: 2, wanted: 3 },
+            "an array whose value has another size", "make both agree";
+        Kind::ArrayDimension { .. } =>
+            Kind::ArrayDimension { thing: thing.clone(), dimension: 1, value: 0.0 },
+            "the size of an array", "give a whole number from 1 on";
+        Kind::Dimensions { .. } =>
+            Kind::Dimensions { thing: thing.clone(), found: 4, bound: 3 },
+            "an array of more than three dimensions", "use fewer";
+        Kind::Index { .. } => Kind::Index { text: "p{5}".into(), value: 5.0, size: 3 },
+            "an index outside its array", "indices count from 1";
+        Kind::IndexCount { wanted: 0, .. } =>
+            Kind::IndexCount { text: "a{1}".into(), found: 1, wanted: 0 },
+            "an index of something else", "remove it";
+        Kind::IndexCount { .. } =>
+            Kind::IndexCount { text: "p{1}".into(), found: 1, wanted: 2 },
+            "another number of indices than dimensions", "give as many";
+        Kind::SameName { routine: None, .. } =>
+            Kind::SameName { name: "p10".into(), routine: None },
+            "a name declared twice", "rename one";
+        Kind::SameName { .. } =>
+            Kind::SameName { name: "p10".into(), routine: Some("main".into()) },
+            "the same in a routine", "rename one";
+        Kind::Circular { .. } =>
+            Kind::Circular { names: ["a", "b", "a"].into_iter().collect() },
+            "values that refer to each other", "give one of them a value";
+        Kind::TooLong { .. } => Kind::TooLong { what: "name", found: 99_999, bound: 4096 },
+            "a text made to take long", "shorten it";
+        Kind::TooDeep { .. } => Kind::TooDeep { bound: 64 },
+            "brackets or blocks in one another", "nest fewer";
+        Kind::SecondModule => Kind::SecondModule, "two modules in one text", "split the text";
+        Kind::ArgumentCount { .. } =>
+            Kind::ArgumentCount { instruction: "MoveL", found: 3, wanted: 4 },
+            "a move with missing arguments", "add them";
+        Kind::NotAName { .. } => Kind::NotAName { name: "p 10".into() },
+            "`dump` of a name", "write another name";
+        Kind::NoRecord { .. } => Kind::NoRecord { text: "[1,2,3]".into() },
+            "a record by itself", "write a whole one";
+        Kind::OtherText { .. } => Kind::OtherText { found: 100, wanted: 120 },
+            "`rewrite` with another text", "pass the text that was read";
+        Kind::TwoValues { .. } => Kind::TwoValues { thing: thing.clone() },
+            "`rewrite` with two values for one place", "give one";
+        Kind::NoSuchValue { missing: Missing::Datum { .. } } =>
+            Kind::NoSuchValue { missing: Missing::Datum { index: 7, count: 3 } },
+            "`rewrite` of a datum that the module does not have", "take one of the module's";
+        Kind::NoSuchValue { missing: Missing::Element { .. } } =>
+            Kind::NoSuchValue { missing: Missing::Element { thing: thing.clone(), element: 9 } },
+            "the same of an element", "take one of the array's";
+        Kind::NoSuchValue { missing: Missing::Single { .. } } =>
+            Kind::NoSuchValue { missing: Missing::Single { thing } },
+            "one value for a whole array", "give an element";
+        Kind::NoSuchValue { missing: Missing::Module { .. } } =>
+            Kind::NoSuchValue { missing: Missing::Module { what: "num a".into() } },
+            "data that RAPID cannot write", "leave the datum out";
+    });
+    all
+}
+
+fn frames() -> Vec<Row> {
+    rows! { FrameFault;
+        FrameFault::Locked { both: true } => FrameFault::Locked { both: true },
+            "a stationary tool with a stationary work object the wrong way round",
+            "set robhold of one of them to FALSE";
+        FrameFault::Locked { both: false } => FrameFault::Locked { both: false },
+            "the same", "set robhold of one of them to TRUE";
+        FrameFault::Moved { .. } => FrameFault::Moved { unit: "STN1".into() },
+            "a positioner", "give a work object with ufprog TRUE";
+        FrameFault::Pose { .. } => FrameFault::Pose {
+            field: "tframe", fault: PoseFault::QuaternionNorm { norm: 2.0, bound: 2e-3 },
+        },
+            "a frame in the data", "mend its quaternion";
+    }
+}
+
+fn problems() -> Vec<Row> {
+    let unknown = || Reason::Taught;
+    let reach =
+        || crate::Error::Unreachable(Explanation::OutOfReach(Reach::TooFar { shortfall: 0.012 }));
+    rows! { Problem;
+        Problem::Target(_) => Problem::Target(unknown()),
+            "a target without a value in the text", "see the reasons below";
+        Problem::Tool { .. } => Problem::Tool { text: "tGrip".into(), reason: unknown() },
+            "a tool without a value", "pass its module as `context`";
+        Problem::WorkObject { .. } =>
+            Problem::WorkObject { text: "wTable".into(), reason: unknown() },
+            "a work object without a value", "pass its module as `context`";
+        Problem::Displaced { .. } => Problem::Displaced { line: 12 },
+            "PDispSet, PDispOn, EOffsSet", "displace the targets yourself";
+        Problem::AbsentAxis { .. } => Problem::AbsentAxis { axis: 6, degrees: 9e9 },
+            "9E9 as a joint angle", "write the angle";
+        Problem::OutsideLimits { .. } => Problem::OutsideLimits { joint: 5, excess: 0.05 },
+            "a jointtarget outside the limits", "move it inside";
+        Problem::OutsideLinkageLimits { .. } => Problem::OutsideLinkageLimits { excess: 0.05 },
+            "the same of the parallelogram linkage", "move it inside";
+        Problem::NotSolved(_) => Problem::NotSolved(reach()),
+            "a robtarget without a solution", "see [answers](#answers)";
+        Problem::Nearest(_) => Problem::Nearest(reach()),
+            "`fallback=\"nearest\"`", "correct its confdata";
+    }
+}
+
+fn reasons() -> Vec<Row> {
+    let name = std::string::String::from("p10");
+    let refers = |why| Reason::Reference { name: name.clone(), why };
+    let of = Reason::Reference { name: name.clone(), why: Unresolved::NotDeclared };
+    let mut all = rows! { Reason;
+        Reason::Taught => Reason::Taught, "`*` as a target", "name the target";
+        Reason::Unfinished => Reason::Unfinished, "`<EXP>` and other placeholders", "fill them in";
+        Reason::OptionalArgument => Reason::OptionalArgument, "`Present`", "-";
+        Reason::Operator => Reason::Operator, "DIV, MOD, ...", "write the value";
+        Reason::Negation => Reason::Negation, "NOT", "write the value";
+        Reason::Arithmetic { .. } => Reason::Arithmetic { type_name: "robtarget" },
+            "`+` of records", "write the value";
+        Reason::Function { .. } => Reason::Function { name: "CRobT".into() },
+            "a function that asks the controller", "write the value";
+        Reason::OwnFunction { .. } => Reason::OwnFunction { name: "fGrid".into() },
+            "a function of the program", "write the value";
+        Reason::FunctionArgument { .. } =>
+            Reason::FunctionArgument { name: "Offs".into(), argument: "\\Tool".into() },
+            "an argument that is not read", "write the value";
+        Reason::CopiedArray { .. } => Reason::CopiedArray { name: "pGrid".into() },
+            "an array copied as a whole", "write its elements";
+        Reason::NoAggregate => Reason::NoAggregate,
+            "an array from a function", "write its elements";
+        Reason::Reference { .. } => of, "a name of another module", "pass it as `context`";
+    };
+    let by = AssignedBy::Line(12);
+    all.extend(rows! { Unresolved;
+        Unresolved::NotDeclared => Unresolved::NotDeclared, "-", "";
+        Unresolved::LoopVariable => Unresolved::LoopVariable, "-", "";
+        Unresolved::OtherType { .. } => Unresolved::OtherType { type_name: "zonedata".into() },
+            "-", "";
+        Unresolved::Unfinished => Unresolved::Unfinished, "-", "";
+        Unresolved::Type => Unresolved::Type, "-", "";
+        Unresolved::Routine => Unresolved::Routine, "-", "";
+        Unresolved::Parameter { .. } => Unresolved::Parameter { routine: "main".into() }, "-", "";
+        Unresolved::ValueNotKnown => Unresolved::ValueNotKnown, "-", "";
+        Unresolved::NoValue => Unresolved::NoValue, "-", "";
+        Unresolved::CanChange => Unresolved::CanChange, "-", "";
+        Unresolved::WholeArray => Unresolved::WholeArray, "-", "";
+        Unresolved::NoSuchElement => Unresolved::NoSuchElement, "-", "";
+        Unresolved::Assigned { .. } => Unresolved::Assigned { through: None, by: by.clone() },
+            "-", "";
+    });
+    for (why, trigger) in [
+        (Unresolved::LoopVariable, "FOR"),
+        (Unresolved::OtherType { type_name: "zonedata".into() }, "a type that is not read"),
+        (Unresolved::Unfinished, "a placeholder"),
+        (Unresolved::Type, "the name of a type"),
+        (Unresolved::Routine, "the name of a routine"),
+        (Unresolved::Parameter { routine: "main".into() }, "a parameter"),
+        (Unresolved::ValueNotKnown, "a value from a function"),
+        (Unresolved::NoValue, "a declaration without `:=`"),
+        (Unresolved::CanChange, "a VAR or PERS where a constant is needed"),
+        (Unresolved::WholeArray, "an array without an index"),
+        (Unresolved::NoSuchElement, "an index outside the array"),
+        (Unresolved::Assigned { through: None, by }, "an assignment in the program"),
+        (
+            Unresolved::Assigned {
+                through: Some("a".into()),
+                by: AssignedBy::Module(Some("Data".into())),
+            },
+            "an assignment to what it depends on",
+        ),
+        (
+            Unresolved::Assigned { through: None, by: AssignedBy::Module(None) },
+            "an assignment in another module",
+        ),
+    ] {
+        all.push(Row {
+            message: std::string::ToString::to_string(&refers(why)),
+            trigger,
+            remedy: "write the value where it is used",
+        });
+    }
+    all
+}
+
+fn skipped() -> Vec<Row> {
+    let name = || std::string::String::from("Reset");
+    rows! { NotRead;
+        NotRead::Unfinished { .. } => NotRead::Unfinished { statement: "MoveL".into() },
+            "a placeholder", "fill it in";
+        NotRead::Datum { .. } => NotRead::Datum { name: "p10".into(), reason: Reason::Taught },
+            "a value that is not known", "see the reasons above";
+        NotRead::DatumOfType { .. } =>
+            NotRead::DatumOfType { name: "z1".into(), type_name: "zonedata".into() },
+            "a type that is not read", "-";
+        NotRead::Record { .. } => NotRead::Record { name: name() }, "RECORD", "-";
+        NotRead::Alias { .. } => NotRead::Alias { name: name() }, "ALIAS", "-";
+        NotRead::Flow { .. } => NotRead::Flow { word: "IF".into() },
+            "branches and loops: all moves are read, in the order of the text", "-";
+        NotRead::Label { .. } => NotRead::Label { name: name() }, "a label", "-";
+        NotRead::Assignment { .. } => NotRead::Assignment { name: "p10".into() },
+            "an assignment", "write the value in the declaration";
+        NotRead::Motion { .. } => NotRead::Motion { name: "TriggL".into() },
+            "a move of another name", "write MoveL, MoveJ, MoveC or MoveAbsJ";
+        NotRead::Instruction { .. } => NotRead::Instruction { name: name() },
+            "an instruction that does not move", "-";
+    }
+}

@@ -1,0 +1,90 @@
+"""The messages of Python's arguments in docs/errors.md are those that are raised. With
+IRBKIN_WRITE=1 (`make errors`) the table is written.
+"""
+
+import os
+from pathlib import Path
+
+import irbkin
+import numpy as np
+from irbkin import Robot, rapid
+
+PAGE = Path(__file__).parents[2] / "docs" / "errors.md"
+START = "<!-- python: written by make errors -->\n"
+END = "<!-- end -->"
+SIX = Robot("IRB 2600-12/1.65")
+SEVEN = Robot("Panda")
+SEED = np.array([0.3, -0.2, 0.4, 0.5, -0.6, 0.7])
+POSE = SIX.fk(SEED)
+NAMES = {
+    "irbkin": irbkin,
+    "rapid": rapid,
+    "np": np,
+    "robot": SIX,
+    "panda": SEVEN,
+    "T": POSE,
+    "seed": SEED,
+    "many": np.array([POSE] * 5),
+    "target": rapid.parse("[[0,0,0],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"),
+    "tool": rapid.parse("[TRUE,[[0,0,100],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]]"),
+    "masked": np.ma.masked_array(POSE, mask=np.eye(4)),
+}
+# A call that is refused, and what to do.
+CALLS = [
+    ("robot.ik(T, seed)", "`robot.ik_nearest(T, seed)`"),
+    ("panda.ik(T, seed)", "give `q7`, or take `ik_nearest`"),
+    ("panda.ik(T)", "give `q7`, or take `ik_nearest`"),
+    ("robot.ik(many)", "`robot.ik_batch(many)`"),
+    ("robot.ik(target)", "`robot.ik(target.matrix())`"),
+    ("robot.with_tool(tool)", "`robot.with_tool(tool.tframe.matrix())`"),
+    ("robot.ik([target, target])", "`np.array([each.matrix() for each in targets])`"),
+    ("robot.ik(None)", "give a pose"),
+    ("robot.fk(['a'] * 6)", "give numbers"),
+    ("robot.fk(np.zeros(5))", "give as many angles as joints"),
+    ("robot.ik_nearest(many, np.zeros((3, 6)))", "one seed, or one for each pose"),
+    ("robot.follow(T, seed)", "give a path, shape (m, 4, 4)"),
+    ("panda.follow(many, np.zeros(7))", "do what it says"),
+    ("panda.ik_batch(many, np.zeros(3))", "one angle, or one for each pose"),
+    ("robot.ik_configured(T, [0, 0, 0])", "four numbers"),
+    ("robot.ik_configured(T, [0, 0, 0.5, 0])", "whole numbers"),
+    ("robot.ik_configured(T, [0] * 4, fallback='near')", "`fallback='nearest'`"),
+    ("robot.ik_configured(T, [0] * 4, fallback='nearest')", "give the seed"),
+    ("robot.ik_configured(T, [0] * 4, seed=seed)", "give `fallback='nearest'` too"),
+    ("robot.ik(masked)", "fill the element, or leave the pose out"),
+    ("robot.fk(seed, out=np.zeros(16))", "`np.empty((4, 4))`"),
+    ("robot.fk(seed, out=[])", "give an array"),
+    ("robot.jacobian(seed, frame='world')", '"base" or "tool"'),
+    ("robot.follow(many, seed, singularity_mode='jump')", "one of the four"),
+    ("robot.ik_batch(many, threads=-1)", "0 for one per core"),
+    ("irbkin.Robot.from_mdh(np.zeros((6, 3)))", "rows of alpha, a, d, theta"),
+    ("robot.with_limits(np.zeros((2, 6)))", "transpose them"),
+    ("irbkin.catalog(reach=1400)", "give meters"),
+    ("irbkin.catalog(reach='far')", "a number or a pair"),
+    ("irbkin.catalog(reach=-1)", "0 or more"),
+    ("irbkin.catalog(reach=(2, 1))", "(least, most)"),
+    ("robot.with_limits([[-1e4, 1e4]] * 6).ik(T).turns()", "give limits, or inf for none"),
+    ("rapid.parse('hello world')", "give RAPID text"),
+    ("rapid.parse('pick.mod')", "`rapid.load('pick.mod')`"),
+    ("rapid.dump(True)", "give a record or a module"),
+]
+
+
+def row(call, remedy):
+    try:
+        eval(call, dict(NAMES))
+    except Exception as error:
+        message = str(error.args[0]).replace("|", "\\|").replace("\n", " ")
+        return f"| `{call}` | {type(error).__name__} | `{message}` | {remedy} |\n"
+    raise AssertionError(f"{call} is not refused")
+
+
+def test_the_page_has_the_messages_of_arguments_as_they_are_raised():
+    page = PAGE.read_text(encoding="utf-8")
+    before, rest = page.split(START)
+    after = rest.split(END, 1)[1]
+    table = "| call | error | message | what to do |\n|---|---|---|---|\n"
+    table += "".join(row(call, remedy) for call, remedy in CALLS)
+    made = f"{before}{START}\n{table}\n{END}{after}"
+    if os.environ.get("IRBKIN_WRITE") == "1":
+        PAGE.write_text(made, encoding="utf-8")
+    assert made == PAGE.read_text(encoding="utf-8"), "docs/errors.md: make errors writes it"
