@@ -11,7 +11,7 @@ use super::PoseFault;
 #[non_exhaustive]
 pub enum FrameFault {
     /// The robot holds both the tool and the work object, or neither.
-    Locked {
+    Held {
         /// Whether it holds both.
         both: bool,
     },
@@ -32,14 +32,14 @@ pub enum FrameFault {
 impl fmt::Display for FrameFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Locked { both: true } => {
+            Self::Held { both: true } => {
                 write!(
                     f,
                     "the robot holds the tool and the work object: robhold must be TRUE for one \
                      of them"
                 )
             }
-            Self::Locked { both: false } => {
+            Self::Held { both: false } => {
                 write!(
                     f,
                     "the robot holds neither the tool nor the work object: robhold must be TRUE \

@@ -320,7 +320,7 @@ fn others() -> Vec<Row> {
         Error::Rapid(_) => crate::error::RapidFault {
             line: 1, column: 12, kind: crate::error::RapidFaultKind::SecondModule,
         }.into(), "see [RAPID](#rapid)", "";
-        Error::Frame(_) => crate::error::FrameFault::Locked { both: true }.into(),
+        Error::Frame(_) => crate::error::FrameFault::Held { both: true }.into(),
             "see [RAPID](#rapid)", "";
     }
 }

@@ -122,10 +122,10 @@ fn faults() -> Vec<Row> {
 
 fn frames() -> Vec<Row> {
     rows! { FrameFault;
-        FrameFault::Locked { both: true } => FrameFault::Locked { both: true },
+        FrameFault::Held { both: true } => FrameFault::Held { both: true },
             "a stationary tool with a stationary work object the wrong way round",
             "set robhold of one of them to FALSE";
-        FrameFault::Locked { both: false } => FrameFault::Locked { both: false },
+        FrameFault::Held { both: false } => FrameFault::Held { both: false },
             "the same", "set robhold of one of them to TRUE";
         FrameFault::Moved { .. } => FrameFault::Moved { unit: "STN1".into() },
             "a positioner", "give a work object with ufprog TRUE";

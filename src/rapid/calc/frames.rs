@@ -25,7 +25,7 @@ impl Frames {
         let tool_carried = tool.is_none_or(|tool| tool.robhold);
         let wobj_carried = wobj.is_some_and(|wobj| wobj.robhold);
         if tool_carried == wobj_carried {
-            return Err(FrameFault::Locked { both: tool_carried }.into());
+            return Err(FrameFault::Held { both: tool_carried }.into());
         }
         let t_tool = match tool {
             Some(tool) => pose_in(&tool.tframe, "tframe")?,
