@@ -101,12 +101,14 @@ mod structures {
     #[path = "spherical_shoulder/arm.rs"]
     pub mod shoulder_arm;
 }
+pub mod trajectory;
 #[cfg(feature = "urdf")]
 mod urdf;
 
 pub use catalog::{AngleUnit, CatalogArm, CatalogGeometry, catalog, find};
 pub use error::{
-    Error, JointFault, ModelFault, Names, NoConfiguration, PoseFault, UnknownRobot, UrdfFault,
+    Error, JointFault, ModelFault, MotionFault, Names, NoConfiguration, PoseFault, UnknownRobot,
+    UrdfFault,
 };
 #[cfg(feature = "rapid")]
 pub use error::{FrameFault, Missing, RapidFault, RapidFaultKind};

@@ -18,6 +18,7 @@ macro_rules! package_object {
 package_object!(invalid_pose_error, "irbkin.errors", "InvalidPoseError");
 package_object!(invalid_joints_error, "irbkin.errors", "InvalidJointsError");
 package_object!(invalid_model_error, "irbkin.errors", "InvalidModelError");
+package_object!(invalid_motion_error, "irbkin.errors", "InvalidMotionError");
 package_object!(unknown_robot_error, "irbkin.errors", "UnknownRobotError");
 package_object!(unreachable_error, "irbkin.errors", "UnreachableError");
 package_object!(rapid_error, "irbkin.errors", "RapidError");
