@@ -83,6 +83,7 @@ mod catalog;
 mod error;
 mod kinematics;
 mod lanes;
+pub mod paths;
 #[cfg(feature = "python")]
 mod python;
 #[cfg(feature = "rapid")]

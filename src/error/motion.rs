@@ -83,6 +83,11 @@ pub enum MotionFault {
         /// The one before it [s].
         before: f64,
     },
+    /// A waypoint repeats the one before it.
+    Repeats {
+        /// The waypoint, from 0.
+        index: usize,
+    },
     /// The tool turns by half a turn between two poses: there are two ways.
     HalfTurn {
         /// The pose that it turns to, from 0.
@@ -94,6 +99,27 @@ pub enum MotionFault {
     Axis {
         /// The part of it along the axis of the turn [1].
         along: f64,
+    },
+    /// A path would have too many poses.
+    TooMany {
+        /// How many.
+        found: f64,
+        /// How many it may have.
+        most: f64,
+    },
+    /// Neither the step nor the turn says how many poses a part of the path has.
+    NoStep {
+        /// Its length [m].
+        length: f64,
+        /// The angle that the tool turns by [rad].
+        angle: f64,
+    },
+    /// A zone is negative, NaN or infinite.
+    Zone {
+        /// The pose, from 0.
+        index: usize,
+        /// The zone.
+        value: f64,
     },
     /// The three points of an arc lie on a line, or coincide.
     Collinear {
@@ -145,6 +171,9 @@ impl fmt::Display for MotionFault {
             Self::Order { index, value, before } => {
                 write!(f, "t[{index}] is {value} s, it must be later than {before} s")
             }
+            Self::Repeats { index } => {
+                write!(f, "q[{index}] repeats the waypoint before it: give t, or leave it out")
+            }
             Self::HalfTurn { index, angle } => write!(
                 f,
                 "the tool turns by {:.6} deg to pose {index}, there are two ways: give axis, or \
@@ -156,6 +185,21 @@ impl fmt::Display for MotionFault {
                 "axis has a part of {along:.1e} along the axis of the half turn, it must have \
                  at least 1e-6"
             ),
+            Self::TooMany { found, most } => {
+                write!(
+                    f,
+                    "the path has {found:.1e} poses, at most {most:.0e} are given: is step in m?"
+                )
+            }
+            Self::NoStep { length, angle } => write!(
+                f,
+                "a part of the path is {length} m long and turns by {:.6} deg: give {}, or steps",
+                angle.to_degrees(),
+                if length > 0.0 { "step" } else { "turn" }
+            ),
+            Self::Zone { index, value } => {
+                write!(f, "zones[{index}] is {value:?}, it must be finite and not negative")
+            }
             Self::Collinear { off, bound } => write!(
                 f,
                 "the three points of an arc must not lie on a line: the second is {off:.1e} m off \

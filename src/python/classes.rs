@@ -42,4 +42,6 @@ package_object!(singularity_class, "irbkin.records", "Singularity");
 package_object!(free_joint_class, "irbkin.records", "FreeJoint");
 package_object!(break_class, "irbkin.records", "Break");
 package_object!(follow_result_class, "irbkin.records", "FollowResult");
+package_object!(trajectory_sample_class, "irbkin.records", "TrajectorySample");
+package_object!(motion_peaks_class, "irbkin.records", "MotionPeaks");
 package_object!(pose_check_class, "irbkin.records", "PoseCheck");

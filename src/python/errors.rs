@@ -17,6 +17,7 @@ pub(super) enum Fault {
     Pose,
     Joints,
     Model,
+    Motion,
 }
 
 impl Fault {
@@ -26,6 +27,7 @@ impl Fault {
             Self::Pose => invalid_pose_error(py),
             Self::Joints => invalid_joints_error(py),
             Self::Model => invalid_model_error(py),
+            Self::Motion => invalid_motion_error(py),
         };
         raised(class, message)
     }

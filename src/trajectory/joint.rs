@@ -128,7 +128,7 @@ pub fn joint_within(
         Synchronization::Phase => along_line(profile, start, end, limits),
     };
     let arrives = axes.iter().map(AxisMotion::duration).fold(0.0, f64::max);
-    let moving = start.iter().zip(end).position(|(start, end)| start != end);
+    let moving = start.iter().zip(end).position(|(start, end)| (end - start).abs() > 0.0);
     match moving {
         Some(joint) if arrives == 0.0 => Err(MotionFault::NoDuration { joint: joint + 1 }.into()),
         _ => Ok(Trajectory::of_axes(&axes)),
@@ -146,7 +146,7 @@ fn slowed(profile: Profile, start: &[f64], end: &[f64], limits: &[AxisLimits]) -
         .zip(ends)
         .map(|(axis, (start, end))| {
             // A joint that nothing limits has the time of the others.
-            if axis.duration() == 0.0 && start != end && duration > 0.0 {
+            if axis.duration() == 0.0 && (end - start).abs() > 0.0 && duration > 0.0 {
                 let [start, end] = [*start, *end].map(AxisState::at_rest);
                 AxisMotion::quintic(start, end, duration)
             } else {

@@ -4,7 +4,7 @@ use crate::error::{Error, MotionFault};
 
 /// Limits are positive; infinity is none.
 pub(super) fn check(field: &'static str, limits: &[f64]) -> Result<(), Error> {
-    match limits.iter().position(|limit| !(*limit > 0.0)) {
+    match limits.iter().position(|limit| limit.is_nan() || *limit <= 0.0) {
         None => Ok(()),
         Some(index) => {
             let value = limits[index];

@@ -30,7 +30,7 @@ pub use axis::{AxisLimits, AxisMotion, AxisState, Profile};
 pub use joint::{Synchronization, joint, joint_within};
 pub use piecewise::{JOINED_POSITION, Peaks, Trajectory};
 pub use retime::retime;
-pub use waypoints::{SplineKind, spline};
+pub use waypoints::{SplineKind, spline, through};
 
 #[cfg(test)]
 mod tests;

@@ -128,7 +128,11 @@ impl Strips {
             let (low_slope, low_half) =
                 if lower.lower(right) > 0.0 { (lower.slope, -lower.half) } else { (0.0, 0.0) };
             let next = (half - low_half) / (low_slope - slope);
-            right = if next < right { next.max(0.0) } else { 0.0 };
+            // The same place again: only rounding is left.
+            if next.is_nan() || next >= right {
+                break;
+            }
+            right = next.max(0.0);
         }
         // The highest point of the upper lines, a concave function, between 0 and there: where the
         // lines that bind at both ends meet, until one of them binds there too.

@@ -3,12 +3,15 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::axis::AxisMotion;
+use super::axis::{AxisLimits, AxisMotion};
 use super::polynomial::{TERMS, derivative, derivatives, largest_size, shifted};
 use crate::error::{Error, MotionFault};
 
 /// How far joints may be apart where one trajectory goes on with another [rad].
 pub const JOINED_POSITION: f64 = 1e-9;
+
+/// How far a limit may be exceeded by rounding, as a part of it [1].
+const LIMIT_ROUNDING: f64 = 1e-9;
 
 /// Joint angles, velocities and accelerations over time, exact at any time.
 ///
@@ -44,7 +47,7 @@ impl Trajectory {
     /// The motions of joints that begin together. A joint that arrives early waits.
     #[must_use]
     pub fn of_axes(axes: &[AxisMotion]) -> Self {
-        let mut knots: Vec<f64> = axes.iter().flat_map(|axis| axis.knots()).copied().collect();
+        let mut knots: Vec<f64> = axes.iter().flat_map(AxisMotion::knots).copied().collect();
         knots.push(0.0);
         knots.sort_by(f64::total_cmp);
         knots.dedup();
@@ -135,16 +138,60 @@ impl Trajectory {
             }
             let since = inside - self.knots[piece];
             let terms = &self.terms[piece * self.dof..][..self.dof];
+            // At rest outside.
+            let is_outside = *time < 0.0 || *time > self.duration();
+            let moves = if is_outside { 0.0 } else { 1.0 };
             for (joint, terms) in terms.iter().enumerate() {
                 let [position, velocity, acceleration, _] = derivatives(terms, since);
                 q[joint] = position;
-                // At rest outside.
-                let moves = if inside == *time { 1.0 } else { 0.0 };
                 dq[joint] = moves * velocity;
                 ddq[joint] = moves * acceleration;
             }
         }
         Ok(())
+    }
+
+    /// Refuses a motion that exceeds a limit of a joint by more than rounding.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidMotion`] with the joint, its largest velocity, acceleration or jerk and the
+    /// limit; [`Error::WrongLength`] for another number of limits than of joints.
+    pub fn within(&self, limits: &[AxisLimits]) -> Result<(), Error> {
+        if limits.len() != self.dof {
+            let (found, wanted) = (limits.len(), self.dof);
+            return Err(Error::WrongLength { field: "limits", found, wanted });
+        }
+        for (index, (peaks, limits)) in self.peaks().iter().zip(limits).enumerate() {
+            for (what, value, limit) in [
+                ("velocity", peaks.velocity, limits.velocity),
+                ("acceleration", peaks.acceleration, limits.acceleration),
+                ("jerk", peaks.jerk, limits.jerk),
+            ] {
+                if value > limit * (1.0 + LIMIT_ROUNDING) {
+                    return Err(
+                        MotionFault::AboveLimit { joint: index + 1, what, value, limit }.into()
+                    );
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Number of joints, knots and coefficients.
+    #[cfg(feature = "python")]
+    pub(crate) fn to_parts(&self) -> (usize, &[f64], &[[f64; TERMS]]) {
+        (self.dof, &self.knots, &self.terms)
+    }
+
+    /// From what [`Self::to_parts`] gives, flattened.
+    #[cfg(feature = "python")]
+    pub(crate) fn from_parts(dof: usize, knots: Vec<f64>, terms: &[f64]) -> Result<Self, Error> {
+        let wanted = dof * (knots.len().max(2) - 1) * TERMS;
+        if dof == 0 || knots.len() < 2 || terms.len() != wanted {
+            return Err(Error::WrongLength { field: "terms", found: terms.len(), wanted });
+        }
+        Ok(Self { dof, knots, terms: terms.as_chunks().0.to_vec() })
     }
 
     /// The joint angles at the start and at the end [rad].

@@ -22,7 +22,7 @@ use super::spline::{Ends, cubic};
 use crate::error::{Error, MotionFault};
 
 /// Pieces of the grid, at least: a path of few waypoints is cut finer.
-const LEAST_PIECES: usize = 400;
+const LEAST_PIECES: usize = 1000;
 
 /// The fastest trajectory along samples of a path, from rest to rest.
 ///
