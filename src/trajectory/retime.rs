@@ -91,7 +91,7 @@ struct Grid {
 
 impl Grid {
     fn of(knots: &[f64], spline: &[[f64; TERMS]], dof: usize) -> Self {
-        let parts = LEAST_PIECES.div_ceil(knots.len() - 1);
+        let parts = (LEAST_PIECES / (knots.len() - 1)).max(1);
         let mut grid = Self { dof, lengths: Vec::new(), terms: Vec::new() };
         for (piece, ends) in knots.windows(2).enumerate() {
             let terms = &spline[piece * dof..][..dof];
