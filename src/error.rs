@@ -4,6 +4,7 @@
 mod frame;
 mod joints;
 mod model;
+mod motion;
 mod names;
 mod pose;
 #[cfg(feature = "rapid")]
@@ -19,6 +20,7 @@ use alloc::vec::Vec;
 pub use self::frame::FrameFault;
 pub use self::joints::JointFault;
 pub use self::model::ModelFault;
+pub use self::motion::MotionFault;
 pub use self::pose::PoseFault;
 #[cfg(feature = "rapid")]
 pub use self::rapid::{Missing, RapidFault, RapidFaultKind};
@@ -36,6 +38,8 @@ pub enum Error {
     InvalidJoints(JointFault),
     /// The arm cannot be built, or cannot do what is asked of it.
     InvalidModel(ModelFault),
+    /// A trajectory or a path is not what it must be.
+    InvalidMotion(MotionFault),
     /// The catalog has no arm of that name.
     UnknownRobot(UnknownRobot),
     /// The RAPID text is broken.
@@ -90,6 +94,7 @@ impl fmt::Display for Error {
             Self::InvalidPose(fault) => fault.fmt(f),
             Self::InvalidJoints(fault) => fault.fmt(f),
             Self::InvalidModel(fault) => fault.fmt(f),
+            Self::InvalidMotion(fault) => fault.fmt(f),
             Self::UnknownRobot(fault) => fault.fmt(f),
             #[cfg(feature = "rapid")]
             Self::Rapid(fault) => fault.fmt(f),
@@ -161,6 +166,12 @@ impl From<RapidFault> for Error {
 impl From<FrameFault> for Error {
     fn from(fault: FrameFault) -> Self {
         Self::Frame(fault)
+    }
+}
+
+impl From<MotionFault> for Error {
+    fn from(fault: MotionFault) -> Self {
+        Self::InvalidMotion(fault)
     }
 }
 

@@ -93,6 +93,8 @@ mod kinematics;
 mod lanes;
 #[cfg(all(test, feature = "rapid", feature = "urdf"))]
 mod messages;
+#[cfg(any(feature = "std", feature = "libm"))]
+pub mod paths;
 #[cfg(feature = "python")]
 mod python;
 #[cfg(all(feature = "rapid", any(feature = "std", feature = "libm")))]
@@ -111,13 +113,16 @@ mod structures {
     #[path = "spherical_shoulder/arm.rs"]
     pub mod shoulder_arm;
 }
+#[cfg(any(feature = "std", feature = "libm"))]
+pub mod trajectory;
 #[cfg(all(feature = "urdf", any(feature = "std", feature = "libm")))]
 mod urdf;
 
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use catalog::{AngleUnit, CatalogArm, CatalogGeometry, catalog, find};
 pub use error::{
-    Error, JointFault, ModelFault, Names, NoConfiguration, PoseFault, UnknownRobot, UrdfFault,
+    Error, JointFault, ModelFault, MotionFault, Names, NoConfiguration, PoseFault, UnknownRobot,
+    UrdfFault,
 };
 #[cfg(feature = "rapid")]
 pub use error::{FrameFault, Missing, RapidFault, RapidFaultKind};

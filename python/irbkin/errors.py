@@ -10,6 +10,7 @@ if TYPE_CHECKING:
 __all__ = [
     "InvalidJointsError",
     "InvalidModelError",
+    "InvalidMotionError",
     "InvalidPoseError",
     "IrbkinError",
     "RapidError",
@@ -32,6 +33,10 @@ class InvalidJointsError(IrbkinError):
 
 class InvalidModelError(IrbkinError):
     """An arm cannot be built from these figures, or has no closed form for what is asked."""
+
+
+class InvalidMotionError(IrbkinError):
+    """A trajectory, a path or a limit of it cannot be what was asked for."""
 
 
 class UnreachableError(IrbkinError):

@@ -16,11 +16,13 @@ __all__ = [
     "FollowResult",
     "FreeJoint",
     "IkBatch",
+    "MotionPeaks",
     "PoseCheck",
     "Reach",
     "Singularity",
     "SingularityKind",
     "Status",
+    "TrajectorySample",
 ]
 
 
@@ -161,6 +163,28 @@ class Singularity(NamedTuple):
     """`SingularityKind` of the singularities at which the joint vector stands; for many, an array
     of its values, uint8.
     """
+
+
+class TrajectorySample(NamedTuple):
+    """The state of the joints at times."""
+
+    q: npt.NDArray[np.float64]
+    """Joint angles [rad], shape (..., n)."""
+    dq: npt.NDArray[np.float64]
+    """Joint velocities [rad/s], shape (..., n)."""
+    ddq: npt.NDArray[np.float64]
+    """Joint accelerations [rad/s^2], shape (..., n)."""
+
+
+class MotionPeaks(NamedTuple):
+    """The largest sizes of each joint's derivatives."""
+
+    velocity: npt.NDArray[np.float64]
+    """Velocities [rad/s], shape (n,)."""
+    acceleration: npt.NDArray[np.float64]
+    """Accelerations [rad/s^2], shape (n,)."""
+    jerk: npt.NDArray[np.float64]
+    """Jerks [rad/s^3], shape (n,)."""
 
 
 class PoseCheck(NamedTuple):

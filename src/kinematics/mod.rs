@@ -32,6 +32,7 @@ pub use path::singularity_mode::{FollowOptions, SingularityMode};
 pub(crate) use pose::angles::constant_sin_cos;
 #[cfg(feature = "urdf")]
 pub(crate) use pose::angles::snapped;
+pub(crate) use pose::checked_pose;
 #[cfg(feature = "urdf")]
 pub(crate) use pose::constant_pose;
 pub use pose::matrix::{pose_from_isometry, pose_from_matrix, pose_to_isometry, pose_to_matrix};

@@ -305,6 +305,8 @@ fn others() -> Vec<Row> {
         Error::InvalidJoints(_) =>
             JointFault::Weight { joint: 1, value: -1.0 }.into(), "see [joints](#joints)", "";
         Error::InvalidModel(_) => ModelFault::NoLinkage.into(), "see [models](#models)", "";
+        Error::InvalidMotion(_) => crate::error::MotionFault::Repeats { index: 3 }.into(),
+            "see [trajectories](#trajectories)", "";
         Error::UnknownRobot(_) => Robot::<6>::named("IRB 2600-12/1.66").unwrap_err(),
             "a name that is not in the catalog", "take one that is close, or `irbkin.catalog()`";
         Error::Unreachable(_) => Error::Unreachable(Explanation::FilteredOut),

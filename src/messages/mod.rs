@@ -5,6 +5,7 @@
 //! (`make errors`) the page is written.
 
 mod kinematics;
+mod motion;
 mod rapid;
 mod urdf;
 
@@ -65,8 +66,11 @@ fn the_page_of_messages_has_every_message_as_it_is_printed() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/errors.md");
     let page = std::fs::read_to_string(&path).unwrap();
     let mut made = page.clone();
-    for Table { name, rows } in
-        kinematics::tables().into_iter().chain(urdf::tables()).chain(rapid::tables())
+    for Table { name, rows } in kinematics::tables()
+        .into_iter()
+        .chain(motion::tables())
+        .chain(urdf::tables())
+        .chain(rapid::tables())
     {
         let start = std::format!("<!-- {name}: written by make errors -->\n");
         let (before, rest) = made.split_once(&start).unwrap();

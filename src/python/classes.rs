@@ -18,6 +18,7 @@ macro_rules! package_object {
 package_object!(invalid_pose_error, "irbkin.errors", "InvalidPoseError");
 package_object!(invalid_joints_error, "irbkin.errors", "InvalidJointsError");
 package_object!(invalid_model_error, "irbkin.errors", "InvalidModelError");
+package_object!(invalid_motion_error, "irbkin.errors", "InvalidMotionError");
 package_object!(unknown_robot_error, "irbkin.errors", "UnknownRobotError");
 package_object!(unreachable_error, "irbkin.errors", "UnreachableError");
 package_object!(rapid_error, "irbkin.errors", "RapidError");
@@ -41,4 +42,6 @@ package_object!(singularity_class, "irbkin.records", "Singularity");
 package_object!(free_joint_class, "irbkin.records", "FreeJoint");
 package_object!(break_class, "irbkin.records", "Break");
 package_object!(follow_result_class, "irbkin.records", "FollowResult");
+package_object!(trajectory_sample_class, "irbkin.records", "TrajectorySample");
+package_object!(motion_peaks_class, "irbkin.records", "MotionPeaks");
 package_object!(pose_check_class, "irbkin.records", "PoseCheck");

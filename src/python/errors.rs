@@ -5,8 +5,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use super::classes::{
-    invalid_joints_error, invalid_model_error, invalid_pose_error, rapid_error,
-    unknown_robot_error, unreachable_error,
+    invalid_joints_error, invalid_model_error, invalid_motion_error, invalid_pose_error,
+    rapid_error, unknown_robot_error, unreachable_error,
 };
 use super::records;
 use crate::error::{Error, FrameFault, NoConfiguration, RapidFault};
@@ -17,6 +17,7 @@ pub(super) enum Fault {
     Pose,
     Joints,
     Model,
+    Motion,
 }
 
 impl Fault {
@@ -26,6 +27,7 @@ impl Fault {
             Self::Pose => invalid_pose_error(py),
             Self::Joints => invalid_joints_error(py),
             Self::Model => invalid_model_error(py),
+            Self::Motion => invalid_motion_error(py),
         };
         raised(class, message)
     }
@@ -43,6 +45,7 @@ pub(super) fn to_py(py: Python<'_>, error: &Error) -> PyErr {
         Error::InvalidPose(_) | Error::Frame(FrameFault::Pose { .. }) => invalid_pose_error(py),
         Error::InvalidJoints(_) => invalid_joints_error(py),
         Error::InvalidModel(_) | Error::WrongLength { .. } => invalid_model_error(py),
+        Error::InvalidMotion(_) => invalid_motion_error(py),
         Error::UnknownRobot(_) => unknown_robot_error(py),
         Error::Unreachable(_) => unreachable_error(py),
         Error::NoConfiguration(fault) => return no_configuration(py, fault),

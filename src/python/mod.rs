@@ -23,6 +23,8 @@ mod rapid;
 mod records;
 mod robot;
 mod solutions;
+mod tool_paths;
+mod trajectories;
 mod urdf;
 mod wording;
 
@@ -81,6 +83,14 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(poses::pose, module)?)?;
     module.add_function(wrap_pyfunction!(poses::to_xyz_wxyz, module)?)?;
     module.add_function(wrap_pyfunction!(poses::to_xyz_euler_zyx, module)?)?;
+    module.add_class::<trajectories::PyTrajectory>()?;
+    module.add_function(wrap_pyfunction!(trajectories::restore_trajectory, module)?)?;
+    module.add_function(wrap_pyfunction!(trajectories::joint, module)?)?;
+    module.add_function(wrap_pyfunction!(trajectories::spline, module)?)?;
+    module.add_function(wrap_pyfunction!(trajectories::retime, module)?)?;
+    module.add_function(wrap_pyfunction!(tool_paths::line, module)?)?;
+    module.add_function(wrap_pyfunction!(tool_paths::arc, module)?)?;
+    module.add_function(wrap_pyfunction!(tool_paths::polyline, module)?)?;
     module.add_class::<rapid::RapidModule>()?;
     module.add_function(wrap_pyfunction!(rapid::parse, module)?)?;
     module.add_function(wrap_pyfunction!(rapid::decode, module)?)?;

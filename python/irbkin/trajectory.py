@@ -1,0 +1,16 @@
+"""Motions of joints over time: from one joint vector to another, through many, along a path.
+
+    >>> from irbkin import trajectory
+    >>> move = trajectory.joint([0, 0], [1, -2], duration=2.0)
+    >>> move.q[-1]
+    array([ 1., -2.])
+    >>> move.sample(1.0).dq
+    array([ 0.9375, -1.875 ])
+"""
+
+from __future__ import annotations
+
+from irbkin._core import Trajectory, joint, retime, spline
+from irbkin.records import MotionPeaks, TrajectorySample
+
+__all__ = ["MotionPeaks", "Trajectory", "TrajectorySample", "joint", "retime", "spline"]

@@ -1,0 +1,210 @@
+//! What can be wrong with a trajectory, a path or their limits.
+
+use core::fmt;
+
+/// What is wrong with an input of a trajectory or a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum MotionFault {
+    /// A number is NaN or infinite.
+    NotFinite {
+        /// Name of the argument.
+        field: &'static str,
+        /// Which one, from 0.
+        index: usize,
+        /// The number.
+        value: f64,
+    },
+    /// A number is not positive.
+    NotPositive {
+        /// Name of the argument.
+        field: &'static str,
+        /// Which one of several, from 0.
+        index: Option<usize>,
+        /// The number.
+        value: f64,
+    },
+    /// There are too few rows, samples or poses.
+    TooFew {
+        /// Name of the argument.
+        field: &'static str,
+        /// How many there are.
+        found: usize,
+        /// How many there must be.
+        least: usize,
+    },
+    /// Nothing says how long the motion takes.
+    NoDuration {
+        /// The joint that moves and has no limit, from 1.
+        joint: usize,
+    },
+    /// The duration is too short for a limit.
+    AboveLimit {
+        /// The joint, from 1.
+        joint: usize,
+        /// "velocity", "acceleration" or "jerk".
+        what: &'static str,
+        /// Its largest size.
+        value: f64,
+        /// The limit.
+        limit: f64,
+    },
+    /// A profile cannot do what is asked of it.
+    Profile {
+        /// Name of the profile.
+        profile: &'static str,
+        /// Name of the argument.
+        field: &'static str,
+    },
+    /// A trajectory does not begin where the one before it ends.
+    Apart {
+        /// The joint, from 1.
+        joint: usize,
+        /// How far it would jump [rad].
+        gap: f64,
+        /// How far it may be off [rad].
+        bound: f64,
+    },
+    /// A part that is none.
+    Slice {
+        /// Its start [s].
+        start: f64,
+        /// Its end [s].
+        end: f64,
+        /// The duration [s].
+        bound: f64,
+    },
+    /// Times do not increase.
+    Order {
+        /// Which one is not later than the one before it, from 0.
+        index: usize,
+        /// That time [s].
+        value: f64,
+        /// The one before it [s].
+        before: f64,
+    },
+    /// A waypoint repeats the one before it.
+    Repeats {
+        /// The waypoint, from 0.
+        index: usize,
+    },
+    /// The tool turns by half a turn between two poses: there are two ways.
+    HalfTurn {
+        /// The pose that it turns to, from 0.
+        index: usize,
+        /// The angle [rad].
+        angle: f64,
+    },
+    /// The axis that is given is at right angles with that of the half turn, or has no length.
+    Axis {
+        /// The part of it along the axis of the turn [1].
+        along: f64,
+    },
+    /// A path would have too many poses.
+    TooMany {
+        /// How many.
+        found: f64,
+        /// How many it may have.
+        most: f64,
+    },
+    /// Neither the step nor the turn says how many poses a part of the path has.
+    NoStep {
+        /// Its length [m].
+        length: f64,
+        /// The angle that the tool turns by [rad].
+        angle: f64,
+    },
+    /// A zone is negative, NaN or infinite.
+    Zone {
+        /// The pose, from 0.
+        index: usize,
+        /// The zone.
+        value: f64,
+    },
+    /// The three points of an arc lie on a line, or coincide.
+    Collinear {
+        /// How far the point on the way is off the line through the others [m].
+        off: f64,
+        /// How far it must be [m].
+        bound: f64,
+    },
+}
+
+impl fmt::Display for MotionFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::NotFinite { field, index, value } => {
+                write!(f, "{field}[{index}] is {value}: every element must be finite")
+            }
+            Self::NotPositive { field, index: Some(index), value } => {
+                write!(f, "{field}[{index}] is {value:?}, it must be positive")
+            }
+            Self::NotPositive { field, index: None, value } => {
+                write!(f, "{field} is {value:?}, it must be positive and finite")
+            }
+            Self::TooFew { field, found, least } => {
+                write!(f, "{field} has {found} rows, it must have at least {least}")
+            }
+            Self::NoDuration { joint } => write!(
+                f,
+                "joint {joint} moves and has no limit: give a duration, or limits that bind it"
+            ),
+            Self::AboveLimit { joint, what, value, limit } => write!(
+                f,
+                "joint {joint} reaches a {what} of {value:.6}, its limit is {limit:.6}: \
+                 give a longer duration, or limits without a duration"
+            ),
+            Self::Profile { profile, field } => write!(
+                f,
+                "a {profile} profile takes no {field}: use \"quintic\" for velocities and \
+                 accelerations at the ends, \"cubic\" for velocities"
+            ),
+            Self::Apart { joint, gap, bound } => write!(
+                f,
+                "joint {joint} would jump by {gap:.3e} rad, trajectories are joined within \
+                 {bound:.0e} rad"
+            ),
+            Self::Slice { start, end, bound } => write!(
+                f,
+                "a slice from {start} s to {end} s must be inside 0 s to {bound} s and not empty"
+            ),
+            Self::Order { index, value, before } => {
+                write!(f, "t[{index}] is {value} s, it must be later than {before} s")
+            }
+            Self::Repeats { index } => {
+                write!(f, "q[{index}] repeats the waypoint before it: give t, or leave it out")
+            }
+            Self::HalfTurn { index, angle } => write!(
+                f,
+                "the tool turns by {:.6} deg to pose {index}, there are two ways: give axis, or \
+                 a pose between them",
+                angle.to_degrees()
+            ),
+            Self::Axis { along } => write!(
+                f,
+                "axis has a part of {along:.1e} along the axis of the half turn, it must have \
+                 at least 1e-6"
+            ),
+            Self::TooMany { found, most } => {
+                write!(
+                    f,
+                    "the path has {found:.1e} poses, at most {most:.0e} are given: is step in m?"
+                )
+            }
+            Self::NoStep { length, angle } => write!(
+                f,
+                "a part of the path is {length} m long and turns by {:.6} deg: give {}, or steps",
+                angle.to_degrees(),
+                if length > 0.0 { "step" } else { "turn" }
+            ),
+            Self::Zone { index, value } => {
+                write!(f, "zones[{index}] is {value:?}, it must be finite and not negative")
+            }
+            Self::Collinear { off, bound } => write!(
+                f,
+                "the three points of an arc must not lie on a line: the second is {off:.1e} m off \
+                 it, at least {bound:.0e} m is wanted"
+            ),
+        }
+    }
+}

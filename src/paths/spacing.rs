@@ -1,0 +1,110 @@
+//! How many poses a path has.
+
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
+use crate::error::{Error, MotionFault};
+
+/// Most poses of one path.
+const MOST_POSES: f64 = 1e8;
+
+/// A part of a step below which no other step is made: rounding of a length is no step.
+const NO_STEP: f64 = 1e-9;
+
+/// How the poses of a path are spaced.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spacing(Kind);
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kind {
+    Count(usize),
+    Step { length: f64, angle: f64 },
+}
+
+impl Spacing {
+    /// So many poses, both ends included.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidMotion`] for fewer than two.
+    pub fn count(poses: usize) -> Result<Self, Error> {
+        if poses < 2 {
+            return Err(MotionFault::TooFew { field: "steps", found: poses, least: 2 }.into());
+        }
+        Ok(Self(Kind::Count(poses)))
+    }
+
+    /// Steps of at most a length [m], in which the tool turns by at most an angle [rad]; infinity
+    /// where one of them does not count.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidMotion`] unless both are positive and one is finite.
+    pub fn step(length: f64, angle: f64) -> Result<Self, Error> {
+        for (field, value) in [("step", length), ("turn", angle)] {
+            if value.is_nan() || value <= 0.0 {
+                return Err(MotionFault::NotPositive { field, index: None, value }.into());
+            }
+        }
+        if length.is_infinite() && angle.is_infinite() {
+            return Err(
+                MotionFault::NotPositive { field: "step", index: None, value: length }.into()
+            );
+        }
+        Ok(Self(Kind::Step { length, angle }))
+    }
+
+    /// The number of steps of each part of a path, by its length [m] and angle [rad].
+    pub(super) fn steps(self, parts: &[[f64; 2]]) -> Result<alloc::vec::Vec<usize>, Error> {
+        match self.0 {
+            Kind::Count(poses) => shared(poses - 1, parts),
+            Kind::Step { length, angle } => {
+                parts.iter().map(|part| counted(*part, length, angle)).collect()
+            }
+        }
+    }
+}
+
+/// Steps that are short enough.
+fn counted([length, angle]: [f64; 2], step: f64, turn: f64) -> Result<usize, Error> {
+    let steps = (length / step).max(angle / turn);
+    if steps > MOST_POSES {
+        let (found, most) = (steps, MOST_POSES);
+        return Err(MotionFault::TooMany { found, most }.into());
+    }
+    if steps == 0.0 && (length > 0.0 || angle > 0.0) {
+        return Err(MotionFault::NoStep { length, angle }.into());
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 1e8")]
+    let steps = (steps - NO_STEP).max(0.0).ceil() as usize;
+    Ok(steps)
+}
+
+/// Steps shared among parts by their lengths, one at least for each.
+fn shared(steps: usize, parts: &[[f64; 2]]) -> Result<alloc::vec::Vec<usize>, Error> {
+    if steps < parts.len() {
+        let least = parts.len() + 1;
+        return Err(MotionFault::TooFew { field: "steps", found: steps + 1, least }.into());
+    }
+    let total: [f64; 2] =
+        parts.iter().fold([0.0; 2], |sum, part| [sum[0] + part[0], sum[1] + part[1]]);
+    // A part where the tool only turns counts by its angle.
+    let index = usize::from(total[0] == 0.0);
+    let mut left = (total[index], steps);
+    let mut counts = alloc::vec::Vec::with_capacity(parts.len());
+    for (number, part) in parts.iter().enumerate() {
+        let rest = parts.len() - 1 - number;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            clippy::cast_precision_loss,
+            reason = "a part of a count"
+        )]
+        let share = if left.0 > 0.0 { (part[index] / left.0 * left.1 as f64).round() } else { 1.0 }
+            as usize;
+        let count = if rest == 0 { left.1 } else { share.clamp(1, left.1 - rest) };
+        counts.push(count);
+        left = ((left.0 - part[index]).max(0.0), left.1 - count);
+    }
+    Ok(counts)
+}

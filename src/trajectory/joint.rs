@@ -1,0 +1,179 @@
+//! From one joint vector to another.
+
+use alloc::vec::Vec;
+
+use super::axis::{AxisLimits, AxisMotion, AxisState, Profile};
+use super::limits::{check, check_finite};
+use super::piecewise::Trajectory;
+use crate::error::{Error, MotionFault};
+
+/// How joints with limits of their own arrive together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum Synchronization {
+    /// Each joint has a profile of its own, slowed down to the duration of the slowest: the
+    /// shortest duration.
+    Time,
+    /// All joints share one profile: a straight line in joint space, as ABB's MoveJ describes it.
+    Phase,
+}
+
+impl Profile {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Quintic => "quintic",
+            Self::Cubic => "cubic",
+            Self::Trapezoid => "trapezoid",
+            Self::SCurve => "s_curve",
+        }
+    }
+
+    /// Refuses velocities and accelerations at the ends that the profile cannot have.
+    fn check_ends(self, states: &[AxisState]) -> Result<(), Error> {
+        let fault =
+            |field: &'static str| MotionFault::Profile { profile: self.name(), field }.into();
+        if self != Self::Quintic && states.iter().any(|state| state.acceleration != 0.0) {
+            return Err(fault("acceleration at an end"));
+        }
+        let has_velocity = matches!(self, Self::Quintic | Self::Cubic);
+        if !has_velocity && states.iter().any(|state| state.velocity != 0.0) {
+            return Err(fault("velocity at an end"));
+        }
+        Ok(())
+    }
+}
+
+/// A trajectory between two states of each joint over a duration [s].
+///
+/// # Errors
+///
+/// [`Error::InvalidMotion`] for a number that is not finite, a duration that is not positive, or
+/// a velocity or acceleration at an end that the profile cannot have; [`Error::WrongLength`] for
+/// ends of different lengths.
+pub fn joint(
+    profile: Profile,
+    start: &[AxisState],
+    end: &[AxisState],
+    duration: f64,
+) -> Result<Trajectory, Error> {
+    if start.len() != end.len() {
+        return Err(Error::WrongLength { field: "q1", found: end.len(), wanted: start.len() });
+    }
+    for states in [start, end] {
+        check_states(states)?;
+        profile.check_ends(states)?;
+    }
+    if !(duration > 0.0 && duration.is_finite()) {
+        let fault = MotionFault::NotPositive { field: "duration", index: None, value: duration };
+        return Err(fault.into());
+    }
+    let axes: Vec<AxisMotion> = start
+        .iter()
+        .zip(end)
+        .map(|(start, end)| match profile {
+            Profile::Quintic => AxisMotion::quintic(*start, *end, duration),
+            Profile::Cubic => AxisMotion::cubic(*start, *end, duration),
+            Profile::Trapezoid => AxisMotion::trapezoid(start.position, end.position, duration),
+            Profile::SCurve => AxisMotion::s_curve(start.position, end.position, duration),
+        })
+        .collect();
+    Ok(Trajectory::of_axes(&axes))
+}
+
+fn check_states(states: &[AxisState]) -> Result<(), Error> {
+    for (index, state) in states.iter().enumerate() {
+        let AxisState { position, velocity, acceleration } = *state;
+        for (field, value) in
+            [("q", position), ("velocity", velocity), ("acceleration", acceleration)]
+        {
+            if !value.is_finite() {
+                return Err(MotionFault::NotFinite { field, index, value }.into());
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The shortest trajectory of a profile between two joint vectors [rad], from rest to rest, within
+/// limits.
+///
+/// # Errors
+///
+/// [`Error::InvalidMotion`] for an angle that is not finite, a limit that is not positive or a
+/// joint that moves and that no limit binds; [`Error::WrongLength`] for slices of different
+/// lengths.
+pub fn joint_within(
+    profile: Profile,
+    start: &[f64],
+    end: &[f64],
+    limits: &[AxisLimits],
+    synchronization: Synchronization,
+) -> Result<Trajectory, Error> {
+    let wanted = start.len();
+    for (field, found) in [("q1", end.len()), ("limits", limits.len())] {
+        if found != wanted {
+            return Err(Error::WrongLength { field, found, wanted });
+        }
+    }
+    check_finite("q0", start)?;
+    check_finite("q1", end)?;
+    for limits in limits {
+        check("max_velocity", &[limits.velocity])?;
+        check("max_acceleration", &[limits.acceleration])?;
+        check("max_jerk", &[limits.jerk])?;
+    }
+    let axes = match synchronization {
+        Synchronization::Time => slowed(profile, start, end, limits),
+        Synchronization::Phase => along_line(profile, start, end, limits),
+    };
+    let arrives = axes.iter().map(AxisMotion::duration).fold(0.0, f64::max);
+    let moving = start.iter().zip(end).position(|(start, end)| (end - start).abs() > 0.0);
+    match moving {
+        Some(joint) if arrives == 0.0 => Err(MotionFault::NoDuration { joint: joint + 1 }.into()),
+        _ => Ok(Trajectory::of_axes(&axes)),
+    }
+}
+
+/// A profile each, at the pace of the slowest.
+fn slowed(profile: Profile, start: &[f64], end: &[f64], limits: &[AxisLimits]) -> Vec<AxisMotion> {
+    let own = start.iter().zip(end).zip(limits);
+    let own = own.map(|((start, end), limits)| AxisMotion::within(profile, *start, *end, limits));
+    let axes: Vec<AxisMotion> = own.collect();
+    let duration = axes.iter().map(AxisMotion::duration).fold(0.0, f64::max);
+    let ends = start.iter().zip(end);
+    axes.into_iter()
+        .zip(ends)
+        .map(|(axis, (start, end))| {
+            // A joint that nothing limits has the time of the others.
+            if axis.duration() == 0.0 && (end - start).abs() > 0.0 && duration > 0.0 {
+                let [start, end] = [*start, *end].map(AxisState::at_rest);
+                AxisMotion::quintic(start, end, duration)
+            } else {
+                axis.stretched(duration)
+            }
+        })
+        .collect()
+}
+
+/// One profile from 0 to 1, within what the limits of each joint leave of its velocity,
+/// acceleration and jerk.
+fn along_line(
+    profile: Profile,
+    start: &[f64],
+    end: &[f64],
+    limits: &[AxisLimits],
+) -> Vec<AxisMotion> {
+    let none =
+        AxisLimits { velocity: f64::INFINITY, acceleration: f64::INFINITY, jerk: f64::INFINITY };
+    let ways = start.iter().zip(end).map(|(start, end)| (end - start).abs());
+    let shared =
+        ways.zip(limits).filter(|(way, _)| *way > 0.0).fold(none, |least, (way, own)| AxisLimits {
+            velocity: least.velocity.min(own.velocity / way),
+            acceleration: least.acceleration.min(own.acceleration / way),
+            jerk: least.jerk.min(own.jerk / way),
+        });
+    let moves = start != end;
+    let unit = AxisMotion::within(profile, 0.0, if moves { 1.0 } else { 0.0 }, &shared);
+    start.iter().zip(end).map(|(start, end)| unit.between(*start, *end)).collect()
+}

@@ -1,0 +1,36 @@
+//! Trajectories of joints: from one joint vector to another, through many, along a path in the
+//! shortest time; exact between samples. The equations are in docs/motion.md.
+//!
+//! ```
+//! use irbkin::trajectory::{AxisLimits, Profile, Synchronization, joint_within};
+//!
+//! let limits = [AxisLimits { velocity: 3.0, acceleration: 8.0, jerk: 60.0 }; 6];
+//! let motion = joint_within(
+//!     Profile::SCurve,
+//!     &[0.0; 6],
+//!     &[0.5, -0.4, 0.3, 1.0, 0.2, -2.0],
+//!     &limits,
+//!     Synchronization::Time,
+//! )?;
+//! assert!(motion.peaks()[5].velocity <= 3.0 * (1.0 + 1e-12));
+//! # Ok::<(), irbkin::Error>(())
+//! ```
+
+mod axis;
+mod joint;
+mod limits;
+mod piece;
+mod piecewise;
+mod polynomial;
+mod retime;
+mod spline;
+mod waypoints;
+
+pub use axis::{AxisLimits, AxisMotion, AxisState, Profile};
+pub use joint::{Synchronization, joint, joint_within};
+pub use piecewise::{JOINED_POSITION, Peaks, Trajectory};
+pub use retime::retime;
+pub use waypoints::{SplineKind, spline, through};
+
+#[cfg(test)]
+mod tests;

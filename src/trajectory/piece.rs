@@ -1,0 +1,178 @@
+//! One piece of a path: what limits leave of the paces at both of its ends.
+
+use alloc::vec::Vec;
+
+use super::polynomial::TERMS;
+
+/// Rounds of a search that ends after a few: each leaves a corner of a polygon behind.
+const MOST_ROUNDS: usize = 64;
+
+/// A piece of a path: a cubic in s for each joint, from 0 to a length.
+pub(super) struct Piece<'a> {
+    pub(super) length: f64,
+    pub(super) terms: &'a [[f64; TERMS]],
+}
+
+impl Piece<'_> {
+    /// The largest pace at which no joint exceeds its velocity anywhere on the piece (eq. 14).
+    pub(super) fn pace_bound(&self, max_velocity: &[f64]) -> f64 {
+        let bound = |(terms, limit): (&[f64; TERMS], &f64)| {
+            let ratio = limit / self.steepest(terms);
+            ratio * ratio
+        };
+        self.terms.iter().zip(max_velocity).map(bound).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The largest size of dq/ds on the piece: at an end or where its derivative is zero.
+    fn steepest(&self, [_, c1, c2, c3, ..]: &[f64; TERMS]) -> f64 {
+        let slope = |s: f64| (c1 + s * (2.0 * c2 + s * 3.0 * c3)).abs();
+        let turn = -c2 / (3.0 * c3);
+        let inner = if 0.0 < turn && turn < self.length { slope(turn) } else { 0.0 };
+        slope(0.0).max(slope(self.length)).max(inner)
+    }
+
+    /// The first joint that moves, from 1.
+    pub(super) fn first_moving(&self) -> usize {
+        let moves = |terms: &[f64; TERMS]| terms[1..].iter().any(|term| *term != 0.0);
+        self.terms.iter().position(moves).map_or(1, |joint| joint + 1)
+    }
+}
+
+/// What the limits of acceleration say of the paces x before and y after a piece:
+/// `-limit <= by_before * x + by_after * y <= limit` for each Bernstein coefficient of each joint
+/// (eq. 15). Rest at both ends is always inside.
+pub(super) struct Strips {
+    /// Those with a part of x, solved for it: |x - slope * y| <= half.
+    lines: Vec<Line>,
+    /// The largest y by those without.
+    most_after: f64,
+}
+
+#[derive(Clone, Copy)]
+struct Line {
+    slope: f64,
+    half: f64,
+}
+
+impl Line {
+    const OPEN: Self = Self { slope: 0.0, half: f64::INFINITY };
+
+    fn upper(self, y: f64) -> f64 {
+        self.slope * y + self.half
+    }
+
+    fn lower(self, y: f64) -> f64 {
+        self.slope * y - self.half
+    }
+}
+
+impl Strips {
+    pub(super) fn of(piece: &Piece<'_>, max_acceleration: &[f64]) -> Self {
+        let h = piece.length;
+        let mut strips =
+            Self { lines: Vec::with_capacity(3 * piece.terms.len()), most_after: f64::INFINITY };
+        for ([_, c1, c2, c3, ..], limit) in piece.terms.iter().zip(max_acceleration) {
+            // dq/ds and d2q/ds2 at both ends, and the middle Bernstein coefficient of the former.
+            let (first, middle, last) = (*c1, c1 + c2 * h, c1 + h * (2.0 * c2 + h * 3.0 * c3));
+            let (bend, bend_after) = (2.0 * c2, 2.0 * c2 + 6.0 * c3 * h);
+            let rate = 0.5 / h;
+            strips.add(bend - first * rate, first * rate, *limit);
+            strips.add(0.5 * bend_after - middle * rate, 0.5 * bend + middle * rate, *limit);
+            strips.add(-last * rate, bend_after + last * rate, *limit);
+        }
+        strips
+    }
+
+    fn add(&mut self, by_before: f64, by_after: f64, limit: f64) {
+        if by_before == 0.0 {
+            if by_after != 0.0 {
+                self.most_after = self.most_after.min(limit / by_after.abs());
+            }
+        } else if limit.is_finite() {
+            self.lines.push(Line { slope: -by_after / by_before, half: limit / by_before.abs() });
+        }
+    }
+
+    /// The upper line that binds at y, and the lower one.
+    fn binding(&self, y: f64) -> [Line; 2] {
+        let [mut upper, mut lower] = [Line::OPEN; 2];
+        for line in &self.lines {
+            if line.upper(y) < upper.upper(y) {
+                upper = *line;
+            }
+            if line.lower(y) > lower.lower(y) {
+                lower = *line;
+            }
+        }
+        [upper, lower]
+    }
+
+    /// The largest x up to `bound` from which some y in 0 ..= `most_after` is allowed (eq. 16).
+    pub(super) fn most_before(&self, bound: f64, most_after: f64) -> f64 {
+        let mut right = most_after.min(self.most_after);
+        if !right.is_finite() {
+            // No limit of what follows: nor of what precedes it.
+            return bound;
+        }
+        // The largest y that is allowed with any x >= 0: Newton's iteration from above on a convex
+        // function that consists of lines ends at its zero.
+        for _ in 0..MOST_ROUNDS {
+            let [upper, lower] = self.binding(right);
+            let highest = upper.upper(right).min(bound);
+            if highest >= lower.lower(right).max(0.0) {
+                break;
+            }
+            let (slope, half) =
+                if upper.upper(right) <= bound { (upper.slope, upper.half) } else { (0.0, bound) };
+            // Where the upper line meets the lower one, or zero.
+            let (low_slope, low_half) =
+                if lower.lower(right) > 0.0 { (lower.slope, -lower.half) } else { (0.0, 0.0) };
+            let next = (half - low_half) / (low_slope - slope);
+            // The same place again: only rounding is left.
+            if next.is_nan() || next >= right {
+                break;
+            }
+            right = next.max(0.0);
+        }
+        // The highest point of the upper lines, a concave function, between 0 and there: where the
+        // lines that bind at both ends meet, until one of them binds there too.
+        let mut left = 0.0;
+        let [mut rising, _] = self.binding(left);
+        let [mut falling, _] = self.binding(right);
+        let (mut low, mut high) = (rising.upper(left), falling.upper(right));
+        if falling.slope >= 0.0 || rising.slope <= 0.0 {
+            let most = if falling.slope >= 0.0 { high } else { low };
+            return most.min(bound).max(0.0);
+        }
+        for _ in 0..MOST_ROUNDS {
+            let y = (falling.half - rising.half) / (rising.slope - falling.slope);
+            if !(left < y && y < right) {
+                break;
+            }
+            let [line, _] = self.binding(y);
+            let top = line.upper(y);
+            if top >= rising.upper(y).min(falling.upper(y)) {
+                return top.min(bound).max(0.0);
+            }
+            if line.slope > 0.0 {
+                (left, rising, low) = (y, line, top);
+            } else {
+                (right, falling, high) = (y, line, top);
+            }
+        }
+        low.max(high).min(bound).max(0.0)
+    }
+
+    /// The largest y up to `bound` that is allowed after a pace of x.
+    pub(super) fn most_after(&self, x: f64, bound: f64) -> f64 {
+        let mut most = bound.min(self.most_after);
+        for line in &self.lines {
+            // |x - slope y| <= half
+            if line.slope != 0.0 {
+                let ends = [(x - line.half) / line.slope, (x + line.half) / line.slope];
+                most = most.min(ends[0].max(ends[1]));
+            }
+        }
+        most.max(0.0)
+    }
+}

@@ -1,0 +1,296 @@
+//! A trajectory of several joints: a polynomial in time for each joint between two knots.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::axis::{AxisLimits, AxisMotion};
+use super::polynomial::{TERMS, derivative, derivatives, largest_size, shifted};
+use crate::error::{Error, MotionFault};
+
+/// How far joints may be apart where one trajectory goes on with another [rad].
+pub const JOINED_POSITION: f64 = 1e-9;
+
+/// How far a limit may be exceeded by rounding, as a part of it [1].
+const LIMIT_ROUNDING: f64 = 1e-9;
+
+/// Joint angles, velocities and accelerations over time, exact at any time.
+///
+/// Between two knots each joint is a polynomial of degree six at most, so what lies between two
+/// samples is known: limits are checked on the polynomials, not on samples.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Trajectory {
+    dof: usize,
+    /// Where each piece begins [s], and the end: one more than there are pieces.
+    knots: Vec<f64>,
+    /// By piece, by joint: the coefficients in the time since the piece began.
+    terms: Vec<[f64; TERMS]>,
+}
+
+/// The largest velocity, acceleration and jerk of a joint.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Peaks {
+    /// Velocity [rad/s].
+    pub velocity: f64,
+    /// Acceleration [rad/s^2].
+    pub acceleration: f64,
+    /// Jerk [rad/s^3] inside the pieces: a jump of the acceleration at a knot is no jerk.
+    pub jerk: f64,
+}
+
+impl Trajectory {
+    pub(super) fn new(dof: usize, knots: Vec<f64>, terms: Vec<[f64; TERMS]>) -> Self {
+        Self { dof, knots, terms }
+    }
+
+    /// The motions of joints that begin together. A joint that arrives early waits.
+    #[must_use]
+    pub fn of_axes(axes: &[AxisMotion]) -> Self {
+        let mut knots: Vec<f64> = axes.iter().flat_map(AxisMotion::knots).copied().collect();
+        knots.push(0.0);
+        knots.sort_by(f64::total_cmp);
+        knots.dedup();
+        if knots.len() == 1 {
+            knots.push(0.0);
+        }
+        let mut terms = Vec::with_capacity((knots.len() - 1) * axes.len());
+        for &start in &knots[..knots.len() - 1] {
+            terms.extend(axes.iter().map(|axis| {
+                let own = axis.knots();
+                let piece = own[..own.len() - 1].iter().rposition(|knot| *knot <= start);
+                let piece = piece.unwrap_or(0);
+                if start >= axis.duration() && start > 0.0 {
+                    let mut still = [0.0; TERMS];
+                    still[0] = axis.state(axis.duration()).position;
+                    return still;
+                }
+                match start - own[piece] {
+                    0.0 => *axis.terms(piece),
+                    since => shifted(axis.terms(piece), since),
+                }
+            }));
+        }
+        Self { dof: axes.len(), knots, terms }
+    }
+
+    /// Number of joints.
+    #[must_use]
+    pub fn dof(&self) -> usize {
+        self.dof
+    }
+
+    /// Duration [s].
+    #[must_use]
+    pub fn duration(&self) -> f64 {
+        self.knots[self.knots.len() - 1]
+    }
+
+    /// Where each piece begins [s], and the end.
+    #[must_use]
+    pub fn knots(&self) -> &[f64] {
+        &self.knots
+    }
+
+    fn pieces(&self) -> usize {
+        self.knots.len() - 1
+    }
+
+    /// The piece of a time inside the trajectory; a knot belongs to the piece that begins there.
+    fn piece_at(&self, time: f64) -> usize {
+        self.knots[1..self.pieces()].partition_point(|knot| *knot <= time)
+    }
+
+    /// Writes joint angles [rad], velocities [rad/s] and accelerations [rad/s^2] at each of `times`
+    /// [s], one row of `dof` numbers a time. Before the start and after the end the joints rest.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidMotion`] for a time that is NaN; [`Error::WrongLength`] for a slice of
+    /// another length than `times` times `dof`.
+    pub fn sample(
+        &self,
+        times: &[f64],
+        q: &mut [f64],
+        dq: &mut [f64],
+        ddq: &mut [f64],
+    ) -> Result<(), Error> {
+        for (field, found) in [("q", q.len()), ("dq", dq.len()), ("ddq", ddq.len())] {
+            let wanted = times.len() * self.dof;
+            if found != wanted {
+                return Err(Error::WrongLength { field, found, wanted });
+            }
+        }
+        let mut piece = 0;
+        let rows = q
+            .chunks_exact_mut(self.dof)
+            .zip(dq.chunks_exact_mut(self.dof))
+            .zip(ddq.chunks_exact_mut(self.dof));
+        for ((index, time), ((q, dq), ddq)) in times.iter().enumerate().zip(rows) {
+            if time.is_nan() {
+                return Err(MotionFault::NotFinite { field: "t", index, value: *time }.into());
+            }
+            let inside = time.clamp(0.0, self.duration());
+            // Times mostly come in order, a few to a piece.
+            let is_here = self.knots[piece] <= inside && inside < self.knots[piece + 1];
+            if !is_here {
+                piece = self.piece_at(inside);
+            }
+            let since = inside - self.knots[piece];
+            let terms = &self.terms[piece * self.dof..][..self.dof];
+            // At rest outside.
+            let is_outside = *time < 0.0 || *time > self.duration();
+            let moves = if is_outside { 0.0 } else { 1.0 };
+            for (joint, terms) in terms.iter().enumerate() {
+                let [position, velocity, acceleration, _] = derivatives(terms, since);
+                q[joint] = position;
+                dq[joint] = moves * velocity;
+                ddq[joint] = moves * acceleration;
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses a motion that exceeds a limit of a joint by more than rounding.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidMotion`] with the joint, its largest velocity, acceleration or jerk and the
+    /// limit; [`Error::WrongLength`] for another number of limits than of joints.
+    pub fn within(&self, limits: &[AxisLimits]) -> Result<(), Error> {
+        if limits.len() != self.dof {
+            let (found, wanted) = (limits.len(), self.dof);
+            return Err(Error::WrongLength { field: "limits", found, wanted });
+        }
+        for (index, (peaks, limits)) in self.peaks().iter().zip(limits).enumerate() {
+            for (what, value, limit) in [
+                ("velocity", peaks.velocity, limits.velocity),
+                ("acceleration", peaks.acceleration, limits.acceleration),
+                ("jerk", peaks.jerk, limits.jerk),
+            ] {
+                if value > limit * (1.0 + LIMIT_ROUNDING) {
+                    return Err(
+                        MotionFault::AboveLimit { joint: index + 1, what, value, limit }.into()
+                    );
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Number of joints, knots and coefficients.
+    #[cfg(feature = "python")]
+    pub(crate) fn to_parts(&self) -> (usize, &[f64], &[[f64; TERMS]]) {
+        (self.dof, &self.knots, &self.terms)
+    }
+
+    /// From what [`Self::to_parts`] gives, flattened.
+    #[cfg(feature = "python")]
+    pub(crate) fn from_parts(dof: usize, knots: Vec<f64>, terms: &[f64]) -> Result<Self, Error> {
+        let wanted = dof * (knots.len().max(2) - 1) * TERMS;
+        if dof == 0 || knots.len() < 2 || terms.len() != wanted {
+            return Err(Error::WrongLength { field: "terms", found: terms.len(), wanted });
+        }
+        Ok(Self { dof, knots, terms: terms.as_chunks().0.to_vec() })
+    }
+
+    /// The joint angles at the start and at the end [rad].
+    #[must_use]
+    pub fn ends(&self) -> [Vec<f64>; 2] {
+        let last = self.pieces() - 1;
+        let at = |piece: usize, since: f64| {
+            let terms = &self.terms[piece * self.dof..][..self.dof];
+            terms.iter().map(|terms| derivatives(terms, since)[0]).collect()
+        };
+        [at(0, 0.0), at(last, self.knots[last + 1] - self.knots[last])]
+    }
+
+    /// The largest velocity, acceleration and jerk of each joint: exact, not of samples.
+    #[must_use]
+    pub fn peaks(&self) -> Vec<Peaks> {
+        let mut peaks = vec![Peaks::default(); self.dof];
+        for piece in 0..self.pieces() {
+            let length = self.knots[piece + 1] - self.knots[piece];
+            for (joint, peaks) in peaks.iter_mut().enumerate() {
+                let velocity = derivative(&self.terms[piece * self.dof + joint]);
+                let acceleration = derivative(&velocity);
+                let jerk = derivative(&acceleration);
+                peaks.velocity = peaks.velocity.max(largest_size(&velocity, length));
+                peaks.acceleration = peaks.acceleration.max(largest_size(&acceleration, length));
+                peaks.jerk = peaks.jerk.max(largest_size(&jerk, length));
+            }
+        }
+        peaks
+    }
+
+    /// The same way at another pace: every time multiplied by `factor`.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidMotion`] when `factor` is not positive and finite.
+    pub fn stretched(mut self, factor: f64) -> Result<Self, Error> {
+        if !(factor > 0.0 && factor.is_finite()) {
+            return Err(
+                MotionFault::NotPositive { field: "factor", index: None, value: factor }.into()
+            );
+        }
+        for knot in &mut self.knots {
+            *knot *= factor;
+        }
+        for terms in &mut self.terms {
+            let mut power = 1.0;
+            for term in terms {
+                *term /= power;
+                power *= factor;
+            }
+        }
+        Ok(self)
+    }
+
+    /// This trajectory, then another one that begins where this one ends.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidMotion`] when a joint is apart by more than [`JOINED_POSITION`], or the
+    /// numbers of joints differ.
+    pub fn then(mut self, next: &Self) -> Result<Self, Error> {
+        if self.dof != next.dof {
+            return Err(Error::WrongLength { field: "joints", found: next.dof, wanted: self.dof });
+        }
+        let ([_, end], [start, _]) = (self.ends(), next.ends());
+        for (index, (end, start)) in end.iter().zip(&start).enumerate() {
+            let gap = start - end;
+            if gap.abs() > JOINED_POSITION {
+                let bound = JOINED_POSITION;
+                return Err(MotionFault::Apart { joint: index + 1, gap, bound }.into());
+            }
+        }
+        let offset = self.duration();
+        self.knots.extend(next.knots[1..].iter().map(|knot| offset + knot));
+        self.terms.extend_from_slice(&next.terms);
+        Ok(self)
+    }
+
+    /// The part from one time to another [s], which begins at 0.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidMotion`] unless 0 <= `start` < `end` <= duration.
+    pub fn slice(&self, start: f64, end: f64) -> Result<Self, Error> {
+        if !(0.0 <= start && start < end && end <= self.duration()) {
+            let bound = self.duration();
+            return Err(MotionFault::Slice { start, end, bound }.into());
+        }
+        let first = self.piece_at(start);
+        let last = self.knots[..self.pieces()].partition_point(|knot| *knot < end) - 1;
+        let mut knots = Vec::with_capacity(last - first + 2);
+        knots.push(0.0);
+        knots.extend(self.knots[first + 1..=last].iter().map(|knot| knot - start));
+        knots.push(end - start);
+        let mut terms = self.terms[first * self.dof..(last + 1) * self.dof].to_vec();
+        for terms in &mut terms[..self.dof] {
+            *terms = shifted(terms, start - self.knots[first]);
+        }
+        Ok(Self { dof: self.dof, knots, terms })
+    }
+}

@@ -1,0 +1,126 @@
+//! Polynomials in time, by their coefficients from the constant upwards.
+
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
+/// Coefficients of a polynomial: a cubic in a path parameter that is itself quadratic in time has
+/// degree six.
+pub(crate) const TERMS: usize = 7;
+
+/// Halvings that bring a bracket of a root to the last digit.
+const HALVINGS: usize = 64;
+
+/// Value, first, second and third derivative at `t`.
+#[inline]
+pub(crate) fn derivatives(coefficients: &[f64], t: f64) -> [f64; 4] {
+    let [mut value, mut first, mut second, mut third] = [0.0; 4];
+    for coefficient in coefficients.iter().rev() {
+        third = third * t + second;
+        second = second * t + first;
+        first = first * t + value;
+        value = value * t + coefficient;
+    }
+    [value, first, 2.0 * second, 6.0 * third]
+}
+
+/// The coefficients of the derivative.
+pub(crate) fn derivative(coefficients: &[f64; TERMS]) -> [f64; TERMS] {
+    let mut derivative = [0.0; TERMS];
+    let mut order = 0.0;
+    for index in 1..TERMS {
+        order += 1.0;
+        derivative[index - 1] = order * coefficients[index];
+    }
+    derivative
+}
+
+/// The coefficients of the same polynomial in `t - shift`, by repeated synthetic division.
+pub(crate) fn shifted(coefficients: &[f64; TERMS], shift: f64) -> [f64; TERMS] {
+    let mut shifted = *coefficients;
+    for lowest in 0..TERMS - 1 {
+        for index in (lowest..TERMS - 1).rev() {
+            shifted[index] += shift * shifted[index + 1];
+        }
+    }
+    shifted
+}
+
+/// The largest size of the polynomial for t in 0 ..= `end`.
+///
+/// It is at an end or where the derivative is zero. The zeros are found by recursion: between two
+/// neighboring zeros of its own derivative a polynomial is monotone, so halving finds what it has
+/// there, without the ill-conditioned roots of a formula.
+pub(crate) fn largest_size(coefficients: &[f64; TERMS], end: f64) -> f64 {
+    let mut extremes = [0.0; TERMS + 1];
+    let count = critical_points(coefficients, end, &mut extremes);
+    extremes[..count]
+        .iter()
+        .map(|t| derivatives(coefficients, *t)[0].abs())
+        .fold(derivatives(coefficients, 0.0)[0].abs(), f64::max)
+        .max(derivatives(coefficients, end)[0].abs())
+}
+
+/// The zeros of the derivative in 0 ..= `end`, in order; returns how many there are.
+fn critical_points(coefficients: &[f64; TERMS], end: f64, points: &mut [f64; TERMS + 1]) -> usize {
+    let slope = derivative(coefficients);
+    if slope[1..].iter().all(|coefficient| *coefficient == 0.0) {
+        return 0;
+    }
+    let mut turns = [0.0; TERMS + 1];
+    let count = critical_points(&slope, end, &mut turns);
+    turns[count] = end;
+    let (mut found, mut low) = (0, 0.0);
+    for high in &turns[..=count] {
+        if let Some(root) = monotone_root(&slope, low, *high)
+            && found < TERMS
+        {
+            points[found] = root;
+            found += 1;
+        }
+        low = *high;
+    }
+    found
+}
+
+/// The zero between two places between which the polynomial is monotone; `None` where it keeps its
+/// sign.
+fn monotone_root(coefficients: &[f64; TERMS], mut low: f64, mut high: f64) -> Option<f64> {
+    let at = |t| derivatives(coefficients, t)[0];
+    let (rises, falls) = (at(low) <= 0.0 && at(high) >= 0.0, at(low) >= 0.0 && at(high) <= 0.0);
+    if !rises && !falls {
+        return None;
+    }
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if (at(middle) < 0.0) == rises {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Some(0.5 * (low + high))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn derivatives_are_those_of_a_known_polynomial() {
+        // 1 + 2 t - 3 t^2 + t^5
+        let polynomial = [1.0, 2.0, -3.0, 0.0, 0.0, 1.0, 0.0];
+        assert_eq!(derivatives(&polynomial, 2.0), [25.0, 70.0, 154.0, 240.0]);
+        assert_eq!(derivatives(&derivative(&polynomial), 2.0)[0], 70.0);
+        assert_eq!(derivatives(&shifted(&polynomial, 0.5), 1.5), [25.0, 70.0, 154.0, 240.0]);
+    }
+
+    #[test]
+    fn the_largest_size_is_at_an_end_or_at_a_turn() {
+        // t (1 - t) has its top of 1/4 at 1/2; t (t - 1)(t - 2) has sizes of 2/sqrt(27).
+        assert!((largest_size(&[0.0, 1.0, -1.0, 0.0, 0.0, 0.0, 0.0], 1.0) - 0.25).abs() < 1e-16);
+        let cubic = [0.0, 2.0, -3.0, 1.0, 0.0, 0.0, 0.0];
+        assert!((largest_size(&cubic, 2.0) - 2.0 / 27.0_f64.sqrt()).abs() < 1e-15);
+        assert!((largest_size(&cubic, 3.0) - 6.0).abs() < 1e-15);
+        assert_eq!(largest_size(&[-3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], 5.0), 3.0);
+    }
+}

@@ -1,0 +1,165 @@
+//! The fastest pace along a path of joints within limits of velocity and acceleration.
+//!
+//! A path q(s) is a cubic spline. Its pace is x = (ds/dt)^2, linear in s on each piece of a grid,
+//! so d2s/dt2 is constant there and q is a polynomial in time. The acceleration of a joint on a
+//! piece is then a polynomial of degree two in s whose Bernstein coefficients are linear in the
+//! paces at both ends: where these keep to the limit, all of the piece does (eq. 13 to 16).
+//! From the end backwards the largest pace is found from which the rest of the path can be done;
+//! from the start forwards the largest pace is taken that stays below it (Pham and Pham, "A new
+//! approach to time-optimal path parameterization based on reachability analysis", 2018; there the
+//! limits hold at the points of the grid alone).
+
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::piece::{Piece, Strips};
+use super::piecewise::Trajectory;
+use super::polynomial::{TERMS, shifted};
+use super::spline::{Ends, cubic};
+use crate::error::{Error, MotionFault};
+
+/// Pieces of the grid, at least: a path of few waypoints is cut finer.
+const LEAST_PIECES: usize = 1000;
+
+/// The fastest trajectory along samples of a path, from rest to rest.
+///
+/// `q` has rows of as many numbers as `max_velocity` has [rad]; between them the path is a cubic
+/// spline over the length of the polygon. Samples that repeat the one before them are left out.
+/// Limits are positive, in rad/s and rad/s^2, infinity for none.
+///
+/// # Errors
+///
+/// [`Error::InvalidMotion`] for a number that is not finite, a limit that is not positive, fewer
+/// than one row, or a path that no limit binds; [`Error::WrongLength`] for slices that do not fit.
+pub fn retime(
+    q: &[f64],
+    max_velocity: &[f64],
+    max_acceleration: &[f64],
+) -> Result<Trajectory, Error> {
+    let dof = max_velocity.len();
+    super::limits::check("max_velocity", max_velocity)?;
+    super::limits::check("max_acceleration", max_acceleration)?;
+    if max_acceleration.len() != dof {
+        let found = max_acceleration.len();
+        return Err(Error::WrongLength { field: "max_acceleration", found, wanted: dof });
+    }
+    let (lengths, points) = polygon(q, dof)?;
+    if lengths.len() == 1 {
+        let still = points.iter().map(|position| [*position, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        return Ok(Trajectory::new(dof, vec![0.0, 0.0], still.collect()));
+    }
+    let grid = Grid::of(&lengths, &cubic(&lengths, &points, dof, Ends::NotAKnot), dof);
+    let pieces: Vec<Piece<'_>> = (0..grid.lengths.len()).map(|index| grid.piece(index)).collect();
+    let paces = paces(&pieces, max_velocity, max_acceleration)?;
+    Ok(grid.timed(&paces))
+}
+
+/// The rows that differ from the one before, and the length of the polygon up to each.
+fn polygon(q: &[f64], dof: usize) -> Result<(Vec<f64>, Vec<f64>), Error> {
+    if dof == 0 || !q.len().is_multiple_of(dof) {
+        return Err(Error::WrongLength { field: "q", found: q.len(), wanted: dof });
+    }
+    if q.is_empty() {
+        return Err(MotionFault::TooFew { field: "q", found: 0, least: 1 }.into());
+    }
+    if let Some(index) = q.iter().position(|angle| !angle.is_finite()) {
+        return Err(MotionFault::NotFinite { field: "q", index, value: q[index] }.into());
+    }
+    let (mut lengths, mut points) = (vec![0.0], q[..dof].to_vec());
+    for row in q.chunks_exact(dof).skip(1) {
+        let last = &points[points.len() - dof..];
+        let way: f64 = row.iter().zip(last).map(|(a, b)| (a - b) * (a - b)).sum();
+        let length = lengths[lengths.len() - 1] + way.sqrt();
+        if length > lengths[lengths.len() - 1] {
+            lengths.push(length);
+            points.extend_from_slice(row);
+        }
+    }
+    Ok((lengths, points))
+}
+
+/// The spline, cut into pieces that are short enough.
+struct Grid {
+    dof: usize,
+    lengths: Vec<f64>,
+    /// By piece and joint.
+    terms: Vec<[f64; TERMS]>,
+}
+
+impl Grid {
+    fn of(knots: &[f64], spline: &[[f64; TERMS]], dof: usize) -> Self {
+        let parts = (LEAST_PIECES / (knots.len() - 1)).max(1);
+        let mut grid = Self { dof, lengths: Vec::new(), terms: Vec::new() };
+        for (piece, ends) in knots.windows(2).enumerate() {
+            let terms = &spline[piece * dof..][..dof];
+            let mut begin = 0.0;
+            for part in 1..=parts {
+                #[expect(clippy::cast_precision_loss, reason = "counts of parts are small")]
+                let end = (ends[1] - ends[0]) * (part as f64 / parts as f64);
+                grid.lengths.push(end - begin);
+                grid.terms.extend(terms.iter().map(|terms| shifted(terms, begin)));
+                begin = end;
+            }
+        }
+        grid
+    }
+
+    fn piece(&self, index: usize) -> Piece<'_> {
+        Piece { length: self.lengths[index], terms: &self.terms[index * self.dof..][..self.dof] }
+    }
+
+    /// The path at these paces: s = sqrt(x) t + (dx/ds) t^2 / 4 on each piece, put into its cubic.
+    fn timed(&self, paces: &[f64]) -> Trajectory {
+        let mut knots = Vec::with_capacity(paces.len());
+        knots.push(0.0);
+        let mut terms = Vec::with_capacity(self.terms.len());
+        for (index, length) in self.lengths.iter().enumerate() {
+            let (before, after) = (paces[index].sqrt(), paces[index + 1].sqrt());
+            let (a, b) = (before, (paces[index + 1] - paces[index]) / (4.0 * length));
+            knots.push(knots[index] + 2.0 * length / (before + after));
+            terms.extend(self.piece(index).terms.iter().map(|[c0, c1, c2, c3, ..]| {
+                [
+                    *c0,
+                    c1 * a,
+                    c1 * b + c2 * a * a,
+                    2.0 * c2 * a * b + c3 * a * a * a,
+                    c2 * b * b + 3.0 * c3 * a * a * b,
+                    3.0 * c3 * a * b * b,
+                    c3 * b * b * b,
+                ]
+            }));
+        }
+        Trajectory::new(self.dof, knots, terms)
+    }
+}
+
+/// The largest paces at the points of the grid, from rest to rest.
+fn paces(
+    pieces: &[Piece<'_>],
+    max_velocity: &[f64],
+    max_acceleration: &[f64],
+) -> Result<Vec<f64>, Error> {
+    let last = pieces.len();
+    let mut bounds = vec![f64::INFINITY; last + 1];
+    for (index, piece) in pieces.iter().enumerate() {
+        let bound = piece.pace_bound(max_velocity);
+        bounds[index] = bounds[index].min(bound);
+        bounds[index + 1] = bounds[index + 1].min(bound);
+    }
+    (bounds[0], bounds[last]) = (0.0, 0.0);
+    let strips: Vec<Strips> =
+        pieces.iter().map(|piece| Strips::of(piece, max_acceleration)).collect();
+    for index in (1..last).rev() {
+        bounds[index] = strips[index].most_before(bounds[index], bounds[index + 1]);
+    }
+    for index in 1..last {
+        bounds[index] = strips[index - 1].most_after(bounds[index - 1], bounds[index]);
+        if !bounds[index].is_finite() {
+            return Err(MotionFault::NoDuration { joint: pieces[index].first_moving() }.into());
+        }
+    }
+    Ok(bounds)
+}

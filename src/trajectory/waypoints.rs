@@ -1,0 +1,129 @@
+//! Through many joint vectors.
+
+use alloc::vec::Vec;
+
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
+use super::axis::AxisLimits;
+use super::limits::{check, check_finite};
+use super::piecewise::Trajectory;
+use super::spline::{Ends, cubic, quintic};
+use crate::error::{Error, MotionFault};
+
+/// How smooth a curve through waypoints is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum SplineKind {
+    /// Cubic pieces: acceleration is continuous, and jumps at the ends.
+    Cubic,
+    /// Quintic pieces: acceleration is zero at the ends; jerk and its derivative are continuous.
+    Quintic,
+}
+
+/// A curve through waypoints, a row of `dof` numbers each [rad], at given times [s], at rest at
+/// both ends.
+///
+/// # Errors
+///
+/// [`Error::InvalidMotion`] for a number that is not finite, fewer than two waypoints, or times
+/// that do not increase; [`Error::WrongLength`] for slices that do not fit.
+pub fn spline(
+    kind: SplineKind,
+    waypoints: &[f64],
+    dof: usize,
+    times: &[f64],
+) -> Result<Trajectory, Error> {
+    let wanted = dof * times.len();
+    if dof == 0 || waypoints.len() != wanted {
+        return Err(Error::WrongLength { field: "q", found: waypoints.len(), wanted });
+    }
+    if times.len() < 2 {
+        return Err(MotionFault::TooFew { field: "q", found: times.len(), least: 2 }.into());
+    }
+    check_finite("q", waypoints)?;
+    check_finite("t", times)?;
+    if let Some(index) = (1..times.len()).find(|index| times[*index] <= times[index - 1]) {
+        let (value, before) = (times[index], times[index - 1]);
+        return Err(MotionFault::Order { index, value, before }.into());
+    }
+    let knots: Vec<f64> = times.iter().map(|time| time - times[0]).collect();
+    let rest = alloc::vec![0.0; dof];
+    let terms = match kind {
+        SplineKind::Cubic => cubic(&knots, waypoints, dof, Ends::Clamped([&rest, &rest])),
+        SplineKind::Quintic => quintic(&knots, waypoints, dof),
+    };
+    Ok(Trajectory::new(dof, knots, terms))
+}
+
+/// A curve through waypoints at times of its own, or by a duration [s], or as fast as limits allow.
+///
+/// Without times the waypoints are spaced by their distances: by the time that the slowest joint
+/// takes at full velocity or, without limits of velocity, by the length of the polygon.
+///
+/// # Errors
+///
+/// As [`spline`]; [`Error::InvalidMotion`] too for waypoints that repeat the one before them, a
+/// limit that is not positive or that is exceeded, and a motion that nothing limits.
+pub fn through(
+    kind: SplineKind,
+    waypoints: &[f64],
+    dof: usize,
+    times: Option<&[f64]>,
+    duration: Option<f64>,
+    limits: &[AxisLimits],
+) -> Result<Trajectory, Error> {
+    for limits in limits {
+        check("max_velocity", &[limits.velocity])?;
+        check("max_acceleration", &[limits.acceleration])?;
+        check("max_jerk", &[limits.jerk])?;
+    }
+    if let Some(times) = times {
+        let motion = spline(kind, waypoints, dof, times)?;
+        return motion.within(limits).map(|()| motion);
+    }
+    let times = spaced(waypoints, dof, limits)?;
+    let motion = spline(kind, waypoints, dof, &times)?;
+    if let Some(duration) = duration {
+        if !(duration > 0.0 && duration.is_finite()) {
+            let value = duration;
+            return Err(MotionFault::NotPositive { field: "duration", index: None, value }.into());
+        }
+        let motion = motion.stretched(duration / times[times.len() - 1])?;
+        return motion.within(limits).map(|()| motion);
+    }
+    // A pace k times slower has k, k^2 and k^3 times smaller derivatives.
+    let peaks = motion.peaks();
+    let factor = peaks.iter().zip(limits).map(|(peaks, limits)| {
+        (peaks.velocity / limits.velocity)
+            .max((peaks.acceleration / limits.acceleration).sqrt())
+            .max((peaks.jerk / limits.jerk).cbrt())
+    });
+    let factor = factor.fold(0.0, f64::max);
+    if factor == 0.0 {
+        return Err(MotionFault::NoDuration { joint: 1 }.into());
+    }
+    motion.stretched(factor)
+}
+
+/// Times of waypoints by their distances.
+fn spaced(waypoints: &[f64], dof: usize, limits: &[AxisLimits]) -> Result<Vec<f64>, Error> {
+    check_finite("q", waypoints)?;
+    let has_velocity = limits.iter().all(|limits| limits.velocity.is_finite());
+    let mut times = alloc::vec![0.0];
+    let rows = waypoints.chunks_exact(dof);
+    for (index, (row, before)) in rows.clone().skip(1).zip(rows).enumerate() {
+        let ways = row.iter().zip(before).map(|(to, from)| (to - from).abs());
+        let time = if has_velocity {
+            ways.zip(limits).map(|(way, own)| way / own.velocity).fold(0.0, f64::max)
+        } else {
+            ways.map(|way| way * way).sum::<f64>().sqrt()
+        };
+        if time == 0.0 {
+            return Err(MotionFault::Repeats { index: index + 1 }.into());
+        }
+        times.push(times[index] + time);
+    }
+    Ok(times)
+}
