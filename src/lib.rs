@@ -104,9 +104,10 @@ mod structures {
 #[cfg(feature = "urdf")]
 mod urdf;
 
-pub use catalog::{AngleUnit, CatalogArm, CatalogGeometry, catalog, find};
+pub use catalog::{AngleUnit, CatalogArm, CatalogGeometry, catalog, find, left_out};
 pub use error::{
-    Error, JointFault, ModelFault, Names, NoConfiguration, PoseFault, UnknownRobot, UrdfFault,
+    Error, JointFault, LeftOut, ModelFault, Names, NoConfiguration, PoseFault, UnknownRobot,
+    UrdfFault,
 };
 #[cfg(feature = "rapid")]
 pub use error::{FrameFault, Missing, RapidFault, RapidFaultKind};

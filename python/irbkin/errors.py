@@ -13,6 +13,7 @@ __all__ = [
     "InvalidPoseError",
     "IrbkinError",
     "RapidError",
+    "UnknownNameError",
     "UnknownRobotError",
     "UnreachableError",
 ]
@@ -54,8 +55,18 @@ class RapidError(IrbkinError):
     """Column of the text, from 1; 0 where it has none."""
 
 
+class UnknownNameError(RapidError, KeyError):
+    """A RAPID module has no data of that name; the message has the close ones."""
+
+    def __str__(self) -> str:
+        """The message as it is: KeyError would put it in quotes."""
+        return str(self.args[0]) if self.args else ""
+
+
 class UnknownRobotError(IrbkinError, KeyError):
-    """The catalog has no arm of that name; the message has the close ones."""
+    """The catalog has no arm of that name; the message has the close ones, or why it is left
+    out.
+    """
 
     def __str__(self) -> str:
         """The message as it is: KeyError would put it in quotes."""

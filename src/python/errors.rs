@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use super::classes::{
-    invalid_joints_error, invalid_model_error, invalid_pose_error, rapid_error,
+    invalid_joints_error, invalid_model_error, invalid_pose_error, rapid_error, unknown_name_error,
     unknown_robot_error, unreachable_error,
 };
 use super::records;
@@ -56,6 +56,11 @@ pub(super) fn to_py(py: Python<'_>, error: &Error) -> PyErr {
 /// A `RapidError` that has no place in a text.
 pub(super) fn rapid_fault(py: Python<'_>, message: String) -> PyErr {
     raised(rapid_error(py), message)
+}
+
+/// An `UnknownNameError`, which is a `KeyError`.
+pub(super) fn unknown_name(py: Python<'_>, message: String) -> PyErr {
+    raised(unknown_name_error(py), message)
 }
 
 /// With the line and the column as attributes.

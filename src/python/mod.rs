@@ -22,12 +22,16 @@ mod queries;
 mod rapid;
 mod records;
 mod robot;
+mod robot_repr;
+mod solution;
+mod solution_state;
 mod solutions;
+mod table;
 mod urdf;
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use pyo3::types::{PyMapping, PySequence, PyTuple};
 
 use crate::lanes::InstructionSet;
 
@@ -71,12 +75,15 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<robot::PyRobot>()?;
     module.add_class::<solutions::PySolutions>()?;
-    module.add_class::<solutions::PySolution>()?;
+    module.add_class::<solution::PySolution>()?;
     module.add_function(wrap_pyfunction!(catalog::catalog, module)?)?;
+    module.add_function(wrap_pyfunction!(catalog::catalog_entry, module)?)?;
     module.add_function(wrap_pyfunction!(instruction_set, module)?)?;
     module.add_function(wrap_pyfunction!(instruction_sets, module)?)?;
     module.add_function(wrap_pyfunction!(use_instruction_set, module)?)?;
     module.add_function(wrap_pyfunction!(robot::restore_robot, module)?)?;
+    module.add_function(wrap_pyfunction!(solution::restore_solution, module)?)?;
+    module.add_function(wrap_pyfunction!(solutions::restore_solutions, module)?)?;
     module.add_function(wrap_pyfunction!(poses::pose, module)?)?;
     module.add_function(wrap_pyfunction!(poses::to_xyz_wxyz, module)?)?;
     module.add_function(wrap_pyfunction!(poses::to_xyz_euler_zyx, module)?)?;
@@ -89,5 +96,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(rapid::calc_rob_t, module)?)?;
     module.add_function(wrap_pyfunction!(rapid::calc_moves, module)?)?;
     module.add_function(wrap_pyfunction!(rapid::calc_targets, module)?)?;
-    Ok(())
+    let py = module.py();
+    PySequence::register::<solution::PySolution>(py)?;
+    PySequence::register::<solutions::PySolutions>(py)?;
+    PyMapping::register::<rapid::RapidModule>(py)
 }

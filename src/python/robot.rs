@@ -10,19 +10,20 @@ use super::build::{self, State};
 use super::edits::Edit;
 use super::errors::{Fault, to_py};
 use super::poses::{pose_array, read_pose};
+use super::robot_repr;
 use crate::catalog;
 use crate::kinematics::Robot;
 
 /// A robot arm: `Robot("IRB 2600-12/1.65")`. Frozen, hashable, equal by value, picklable.
 ///
 /// Args:
-///     name: Catalog name; case, blanks, -, _, /, commas and parentheses do not matter.
-///         `irbkin.catalog()` lists them.
+///     name: Catalog name or alias, the maker's name before it or not; case, blanks, -, _, /,
+///         commas and parentheses do not matter. `irbkin.catalog()` lists the names.
 ///
 /// Raises:
 ///     UnknownRobotError: No arm of that name; the message has up to six close ones, the closest
-///         first.
-#[pyclass(name = "Robot", module = "irbkin", frozen)]
+///         first, or why the arm is left out of the catalog.
+#[pyclass(name = "Robot", module = "irbkin", frozen, weakref)]
 pub(super) struct PyRobot {
     arm: Arm,
 }
@@ -205,16 +206,6 @@ impl PyRobot {
     }
 
     fn __repr__(&self) -> String {
-        match self.name() {
-            "" => format!("Robot({} joints, {})", self.arm.dof(), self.structure()),
-            name => {
-                let twin = match (build::is_coupled_in_catalog(name), self.is_coupled()) {
-                    (true, false) => ".uncoupled()",
-                    (false, true) => ".coupled()",
-                    _ => "",
-                };
-                format!("Robot(\"{name}\"){twin}")
-            }
-        }
+        robot_repr::repr(&self.arm)
     }
 }

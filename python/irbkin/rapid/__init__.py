@@ -102,4 +102,10 @@ def dump(value: Any, name: str = "Data") -> str:
     Raises:
         RapidError: A value is no RAPID data or not finite, or a name is none.
     """
-    return _core.dump(dict(value) if isinstance(value, Mapping) else value, name)
+    is_data = isinstance(value, Mapping) and not isinstance(value, Module)
+    return _core.dump(dict(value) if is_data else value, name)
+
+
+def __dir__() -> list[str]:
+    """List what the module offers."""
+    return sorted({*__all__, "program", "records", *(n for n in globals() if n.startswith("__"))})

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from irbkin.rapid.records import JointTarget, RobTarget, ToolData, WobjData
-from irbkin.records import Configuration
+from irbkin.records import ConfigurationBatch, by_value
 
 if TYPE_CHECKING:
+    from typing import TypeAlias
+
     import numpy as np
     import numpy.typing as npt
+
+    from irbkin.rapid.records import Record
+
+    Elements: TypeAlias = list[Record] | list["Elements"]
 
 __all__ = ["Argument", "Declaration", "Move", "Skipped", "TargetTable"]
 
@@ -18,6 +24,7 @@ class Declaration(NamedTuple):
     """A data declaration. Values are those of the text: what a program assigns is not followed."""
 
     name: str
+    """Its name, as the text has it."""
     type: str
     """RAPID's name of it."""
     scope: str
@@ -26,10 +33,12 @@ class Declaration(NamedTuple):
     """"CONST", "PERS" or "VAR"."""
     routine: str | None
     """The routine that it is declared in; None for the module."""
-    value: Any
+    value: Record | Elements | None
     """A record; nested lists of records for an array; None without a value."""
     line: int
+    """Line of the text, from 1."""
     column: int
+    """Column of the text, from 1."""
 
 
 class Argument(NamedTuple):
@@ -39,7 +48,9 @@ class Argument(NamedTuple):
     """
 
     text: str
+    """The argument as it is written."""
     value: RobTarget | JointTarget | ToolData | WobjData | None
+    """What it is; None where the declarations do not give it."""
     reason: str | None
     """Why the value is not known, where it is None."""
 
@@ -50,19 +61,25 @@ class Move(NamedTuple):
     kind: str
     """"MoveJ", "MoveL", "MoveC" or "MoveAbsJ"."""
     routine: str | None
-    """The routine that it stands in."""
+    """The routine that it is in."""
     target: Argument
+    """Where it goes: a RobTarget, of MoveAbsJ a JointTarget."""
     via: Argument | None
     """The point on the circle of a MoveC."""
     speed: str
+    """The speed as it is written, such as "v1000"."""
     zone: str
+    """The zone as it is written, such as "z50"."""
     tool: Argument
+    """The tool: a ToolData."""
     wobj: Argument | None
     r"""The work object of \WObj; wobj0 is meant without one."""
     options: tuple[tuple[str, str | None], ...]
     """The other optional arguments: name and text; no text for a switch."""
     line: int
+    """Line of the text, from 1."""
     column: int
+    """Column of the text, from 1."""
     displaced: int | None
     """Line of the instruction that displaces it, which is not followed: PDispOn or PDispSet."""
 
@@ -71,13 +88,18 @@ class Skipped(NamedTuple):
     """A part of the text that is not read."""
 
     line: int
+    """Line of the text, from 1."""
     column: int
+    """Column of the text, from 1."""
     routine: str | None
+    """The routine that it is in; None for the module."""
     what: str
     """What it is and, of a datum, why it is not read."""
     text: str
+    """The part as it is written."""
 
 
+@by_value
 class TargetTable(NamedTuple):
     """The joint angles of m targets."""
 
@@ -89,7 +111,7 @@ class TargetTable(NamedTuple):
     """Line of the instruction or of the declaration, shape (m,)."""
     q: npt.NDArray[np.float64]
     """Joint angles [rad], shape (m, 6), NaN where there are none."""
-    configuration: Configuration
+    configuration: ConfigurationBatch
     """That of the joint angles, int32 arrays of shape (m,); where there are none, that of the
     target.
     """

@@ -49,7 +49,8 @@ pub(super) fn parse(
     let context: Vec<&Module> = others.iter().map(|other| &other.get().module).collect();
     let module =
         py.detach(|| rapid::parse(&source, &context)).map_err(|error| to_py(py, &error))?;
-    Ok(RapidModule::new(module, source))
+    let context = others.into_iter().map(Bound::unbind).collect();
+    Ok(RapidModule::new(module, source, context))
 }
 
 /// RAPID text of a str, or of the bytes of a file.
@@ -312,7 +313,7 @@ fn table<'py>(py: Python<'py>, rows: &[TableRow]) -> PyResult<Bound<'py, PyAny>>
             .into_any(),
         (PyArray1::from_vec(py, joints).reshape([rows.len(), 6])? as Bound<'_, PyArray2<f64>>)
             .into_any(),
-        classes::configuration_class(py)?.call1((cf1, cf4, cf6, cfx))?,
+        classes::configuration_batch_class(py)?.call1((cf1, cf4, cf6, cfx))?,
         distance(|d| d.wrist).into_any(),
         distance(|d| d.elbow).into_any(),
         distance(|d| d.shoulder).into_any(),
