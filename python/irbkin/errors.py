@@ -24,7 +24,7 @@ class IrbkinError(ValueError):
 
 
 class InvalidPoseError(IrbkinError):
-    """A pose is no rigid transform, or its array has a wrong shape."""
+    """A pose is not a rigid transform, or its array has a wrong shape."""
 
 
 class InvalidJointsError(IrbkinError):
@@ -32,22 +32,20 @@ class InvalidJointsError(IrbkinError):
 
 
 class InvalidModelError(IrbkinError):
-    """An arm cannot be built from these figures, or has no closed form for what is asked."""
+    """An arm cannot be built from these figures, or its structure does not support the call."""
 
 
 class UnreachableError(IrbkinError):
-    """No solution inside the limits, or none with the configuration that was asked for."""
+    """No solution is inside the limits, or none has the configuration that was asked for."""
 
     configurations: tuple[Configuration, ...] = ()
     """Those that exist, where another one was asked for."""
     rapid_error: str | None = None
-    """RAPID's name of the error, where `irbkin.rapid` calculated: ERR_OUTSIDE_REACH or
-    ERR_ROBLIMIT.
-    """
+    """RAPID's name of the error, in errors of `irbkin.rapid`: ERR_OUTSIDE_REACH or ERR_ROBLIMIT."""
 
 
 class RapidError(IrbkinError):
-    """A RAPID text is broken, or RAPID data do not go together."""
+    """A RAPID text is broken, or RAPID data do not fit together."""
 
     line: int = 0
     """Line of the text, from 1; 0 where it has none."""

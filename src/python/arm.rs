@@ -71,7 +71,8 @@ impl Arm {
                 Some(reason) => to_py(py, &ModelFault::UnknownStructure(reason).into()),
                 None => Fault::Model.error(
                     py,
-                    "follow is for arms of six joints: along a path of a seven-axis arm, give ik_nearest the joints before as the seed"
+                    "follow is for arms of six joints: along a path of a seven-axis arm, give \
+                     ik_nearest the joints before as the seed"
                         .to_owned(),
                 ),
             }),

@@ -90,8 +90,12 @@ impl Range {
             .map(|least| [least, f64::INFINITY])
             .or_else(|_| filter.extract::<[f64; 2]>());
         let [least, most] = pair.ok().filter(|_| !no_number).ok_or_else(|| {
-            let got = filter.repr().map_or_else(|_| "something else".into(), |repr| repr.to_string());
-            PyValueError::new_err(format!("{field} must be a number (at least that much) or a pair (least, most) [{unit}], got {got}"))
+            let got = filter.repr();
+            let got = got.map_or_else(|_| "something else".into(), |repr| repr.to_string());
+            PyValueError::new_err(format!(
+                "{field} must be a number (at least that much) or a pair (least, most) [{unit}], \
+                 got {got}"
+            ))
         })?;
         for value in [least, most] {
             if value.is_nan() || value < 0.0 {

@@ -35,33 +35,32 @@ use pyo3::types::{PyMapping, PySequence, PyTuple};
 
 use crate::lanes::InstructionSet;
 
-/// Name of the instruction set that calculates: "avx512", "avx2" or "baseline".
+/// Return the name of the instruction set in use: "avx512", "avx2" or "baseline".
 #[pyfunction]
 fn instruction_set() -> &'static str {
     InstructionSet::in_use().name()
 }
 
-/// Names of the instruction sets that this processor has, the narrowest first.
+/// Return the names of the instruction sets that this CPU supports, the narrowest first.
 #[pyfunction]
 fn instruction_sets(py: Python<'_>) -> PyResult<Bound<'_, PyTuple>> {
     PyTuple::new(py, InstructionSet::available().map(InstructionSet::name).collect::<Vec<_>>())
 }
 
-/// Calculates with another instruction set from now on, in the whole process: for tests and
-/// measurements.
+/// Use another instruction set from now on, in the whole process: for tests and measurements.
 ///
 /// Args:
 ///     name: One of `instruction_sets()`.
 ///
 /// Raises:
-///     ValueError: This processor does not have it.
+///     ValueError: This CPU does not support it.
 #[pyfunction]
 fn use_instruction_set(name: &str) -> PyResult<()> {
     let available = || InstructionSet::available().map(InstructionSet::name).collect::<Vec<_>>();
     let set = InstructionSet::available().find(|set| set.name() == name);
     let set = set.ok_or_else(|| {
         PyValueError::new_err(format!(
-            "instruction set \"{name}\" is none of this processor's: {available:?}",
+            "instruction set \"{name}\" is not supported by this CPU, which has {available:?}",
             available = available()
         ))
     })?;

@@ -271,7 +271,7 @@ impl PySolutions {
 
     fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
         let pose = on!(&self.found, found => solution_state::of_pose(found.solutions.pose()));
-        let rows: Vec<f64> = on!(&self.found, found => found.with_rows(|rows| rows.concat()));
+        let rows = on!(&self.found, found => found.with_rows(|rows| rows.as_flattened().to_vec()));
         (PyTuple::new(py, pose)?, PyTuple::new(py, rows)?).into_pyobject(py)?.hash()
     }
 

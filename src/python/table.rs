@@ -97,8 +97,7 @@ pub(super) fn html<const N: usize>(
     }
     let row = |(number, cells): (usize, &Vec<String>)| {
         let tag = if number == 0 { "th" } else { "td" };
-        let cells = cells.iter().map(|cell| format!("<{tag}>{cell}</{tag}>")).collect::<String>();
-        format!("<tr>{cells}</tr>")
+        format!("<tr><{tag}>{}</{tag}></tr>", cells.join(&format!("</{tag}><{tag}>")))
     };
     let rows: String = rows(solutions, limits).iter().enumerate().map(row).collect();
     let rest = rest(solutions.len()).map_or_else(String::new, |rest| format!("<p>{rest}</p>"));

@@ -1,4 +1,4 @@
-"""What a RAPID module says, and what became of its targets."""
+"""What a RAPID module declares and moves, and the joint angles of its targets."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from irbkin.rapid.records import Record
 
-    Elements: TypeAlias = list[Record] | list["Elements"]
+    _Elements: TypeAlias = list[Record] | list["_Elements"]
 
 __all__ = ["Argument", "Declaration", "Move", "Skipped", "TargetTable"]
 
@@ -33,7 +33,7 @@ class Declaration(NamedTuple):
     """"CONST", "PERS" or "VAR"."""
     routine: str | None
     """The routine that it is declared in; None for the module."""
-    value: Record | Elements | None
+    value: Record | _Elements | None
     """A record; nested lists of records for an array; None without a value."""
     line: int
     """Line of the text, from 1."""

@@ -158,7 +158,7 @@ class JointTarget:
 
 @dataclass(frozen=True, slots=True)
 class LoadData:
-    """`loaddata`: mass and inertia of a load, of which kinematics takes no notice."""
+    """`loaddata`: mass and inertia of a load; kinematics does not use them."""
 
     mass_kg: float = 0.001
     """Mass [kg]."""

@@ -26,6 +26,9 @@ pub(crate) struct RapidModule {
     moves: PyOnceLock<Py<PyTuple>>,
 }
 
+/// A text, and the modules that its names are looked for in.
+type Source<'a, 'py> = (&'a str, Bound<'py, PyTuple>);
+
 impl RapidModule {
     pub(super) fn new(module: Module, source: String, context: Vec<Py<Self>>) -> Self {
         Self { module, source, context, data: PyOnceLock::new(), moves: PyOnceLock::new() }
@@ -71,16 +74,15 @@ impl RapidModule {
         Ok(PyMappingProxy::new(py, self.data_dict(py)?.as_mapping()))
     }
 
-    /// Every declaration, those of routines too: (name, type, scope, storage, routine, value, line,
-    /// column).
+    /// Every declaration, including those of routines: a tuple of `Declaration`.
     #[getter]
     fn declarations<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let declarations = self.module.data().iter().map(|datum| declaration(py, datum));
         PyTuple::new(py, declarations.collect::<PyResult<Vec<_>>>()?)
     }
 
-    /// MoveJ, MoveL, MoveC and MoveAbsJ in the order of the text, whatever branch or loop they
-    /// stand in.
+    /// MoveJ, MoveL, MoveC and MoveAbsJ in the order of the text, whatever branch or loop they are
+    /// in.
     #[getter]
     fn moves<'py>(&self, py: Python<'py>) -> PyResult<&Bound<'py, PyTuple>> {
         let moves = self.moves.get_or_try_init(py, || {
@@ -90,7 +92,7 @@ impl RapidModule {
         Ok(moves?.bind(py))
     }
 
-    /// What was not read, in the order of the text: (line, column, routine, what, text).
+    /// What was not read, in the order of the text: a tuple of `Skipped`.
     #[getter]
     fn skipped<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let class = classes::skipped_class(py)?;
@@ -101,8 +103,8 @@ impl RapidModule {
         PyTuple::new(py, skipped.collect::<PyResult<Vec<_>>>()?)
     }
 
-    /// The source with other values for some data: everything else, comments too, stays as it is,
-    /// character for character.
+    /// Return the source with other values for some data; everything else, comments included, stays
+    /// as it is, character for character.
     ///
     /// Args:
     ///     values: Names of the module's data to records of their type, to nested lists of as many
@@ -188,10 +190,7 @@ impl RapidModule {
     }
 
     /// The text and the context are read again.
-    fn __reduce__<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<(Bound<'py, PyAny>, (&str, Bound<'py, PyTuple>))> {
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Source<'_, 'py>)> {
         let context = PyTuple::new(py, &self.context)?;
         Ok((py.import("irbkin._core")?.getattr("parse")?, (&self.source, context)))
     }
