@@ -327,7 +327,9 @@ class Robot:
     def dof(self) -> int:
         """Number of joints."""
     @property
-    def structure(self) -> str:
+    def structure(
+        self,
+    ) -> Literal["spherical wrist", "three parallel axes", "spherical shoulder", "unknown"]:
         """Kinematic structure: "spherical wrist", "three parallel axes", "spherical shoulder",
         or "unknown" where irbkin has no closed form.
         """

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 if TYPE_CHECKING:
     from irbkin.records import Configuration
@@ -40,7 +40,7 @@ class UnreachableError(IrbkinError):
 
     configurations: tuple[Configuration, ...] = ()
     """Those that exist, where another one was asked for."""
-    rapid_error: str | None = None
+    rapid_error: Literal["ERR_OUTSIDE_REACH", "ERR_ROBLIMIT"] | None = None
     """RAPID's name of the error, in errors of `irbkin.rapid`: ERR_OUTSIDE_REACH or ERR_ROBLIMIT."""
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import enum
 import operator
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar
 
 if TYPE_CHECKING:
     import numpy as np
@@ -286,7 +286,7 @@ class CatalogEntry(NamedTuple):
 
     name: str
     """The maker's type name."""
-    maker: str
+    maker: Literal["ABB", "Universal Robots", "Franka"]
     """"ABB", "Universal Robots" or "Franka"."""
     aliases: tuple[str, ...]
     """Other names that `Robot` takes for it, beside spellings in which case, blanks and dashes

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from irbkin.rapid.records import JointTarget, RobTarget, ToolData, WobjData
 from irbkin.records import ConfigurationBatch, by_value
@@ -27,9 +27,9 @@ class Declaration(NamedTuple):
     """Its name, as the text has it."""
     type: str
     """RAPID's name of it."""
-    scope: str
+    scope: Literal["LOCAL", "TASK", ""]
     """"LOCAL", "TASK" or nothing."""
-    storage: str
+    storage: Literal["CONST", "PERS", "VAR"]
     """"CONST", "PERS" or "VAR"."""
     routine: str | None
     """The routine that it is declared in; None for the module."""
@@ -58,7 +58,7 @@ class Argument(NamedTuple):
 class Move(NamedTuple):
     """A move instruction."""
 
-    kind: str
+    kind: Literal["MoveJ", "MoveL", "MoveC", "MoveAbsJ"]
     """"MoveJ", "MoveL", "MoveC" or "MoveAbsJ"."""
     routine: str | None
     """The routine that it is in."""
