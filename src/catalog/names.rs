@@ -18,8 +18,8 @@ pub(super) const ALIASES: &[(&str, &str)] = &[
     ("Franka Research 3", "FR3"),
 ];
 
-/// Finds an arm by its name or an alias, the maker's name before it or not; case, blanks, dashes, `_`, `/`, `,`, parentheses and the last zeros of
-/// a decimal (2.50, 2,5) do not matter.
+/// Finds an arm by its name or an alias, the maker's name before it or not; case, blanks, dashes,
+/// `_`, `/`, `,`, parentheses and the last zeros of a decimal (2.50, 2,5) do not matter.
 ///
 /// Nothing is guessed: a name that lacks a part is unknown, even where one arm alone has it.
 ///
@@ -90,8 +90,8 @@ fn trim_decimals(text: &mut String, point: Option<usize>) {
     }
 }
 
-/// Names of the maker's arms, where the wanted one is a maker's; names that hold the wanted one, the earlier in the name the closer; where there are none, those
-/// that are spelled like it.
+/// Names of a maker's arms, where the wanted one is the maker's; else names that hold the wanted
+/// one, the earlier in the name the closer; where there are none, those that are spelled like it.
 fn close_to(wanted: &str) -> Vec<&'static str> {
     if wanted.is_empty() {
         return Vec::new();
