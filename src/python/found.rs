@@ -16,7 +16,7 @@ use crate::kinematics::{
 const MOST_TURNS: f64 = 1e6;
 
 /// The solutions of a pose, or the list of their turns.
-#[derive(Clone, PartialEq)]
+#[derive(Clone)]
 pub(super) struct Found<const N: usize>
 where
     Joints<N>: Arity<N>,
@@ -25,6 +25,25 @@ where
     pub(super) solutions: Solutions<N>,
     /// The list of turns, where the solutions were turned.
     pub(super) turned: Option<Vec<Solution<N>>>,
+}
+
+impl<const N: usize> PartialEq for Found<N>
+where
+    Joints<N>: Arity<N>,
+{
+    fn eq(&self, other: &Self) -> bool {
+        self.solutions == other.solutions
+            && self.turned == other.turned
+            && is_same(&self.robot, &other.robot)
+    }
+}
+
+/// Whether two robots are equal; one and the same is without a look at its numbers.
+pub(super) fn is_same<const N: usize>(first: &Arc<Robot<N>>, second: &Arc<Robot<N>>) -> bool
+where
+    Joints<N>: Arity<N>,
+{
+    Arc::ptr_eq(first, second) || first == second
 }
 
 impl<const N: usize> Found<N>

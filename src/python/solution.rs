@@ -11,7 +11,7 @@ use pyo3::types::{PyIterator, PyTuple};
 use super::arm::Arm;
 use super::classes;
 use super::errors::{Fault, to_py};
-use super::found::Found;
+use super::found::{Found, is_same};
 use super::records;
 use super::robot::PyRobot;
 use super::solution_state::{self, PoseState, SolutionState};
@@ -19,7 +19,6 @@ use super::table;
 use crate::kinematics::{Arity, Joints, Pose, Robot, Solution, Status};
 
 /// A solution, with the robot and the pose that it is of.
-#[derive(PartialEq)]
 pub(super) struct Member<const N: usize>
 where
     Joints<N>: Arity<N>,
@@ -27,6 +26,17 @@ where
     robot: Arc<Robot<N>>,
     pose: Pose,
     solution: Solution<N>,
+}
+
+impl<const N: usize> PartialEq for Member<N>
+where
+    Joints<N>: Arity<N>,
+{
+    fn eq(&self, other: &Self) -> bool {
+        self.solution == other.solution
+            && self.pose == other.pose
+            && is_same(&self.robot, &other.robot)
+    }
 }
 
 impl<const N: usize> Member<N>
