@@ -19,7 +19,7 @@ ON_EACH_NARROWER_SET := sets=$$($(BIN)/python -c 'import irbkin; print(*irbkin.i
 STEP := @tests/step.sh
 SKIPPED := target/skipped.txt
 
-.PHONY: help run test check catalog errors bench bench-peers instructions stages ulp million configurations hardsets fuzz wheel clean toolchains
+.PHONY: help run test check stubs catalog errors bench bench-peers instructions stages ulp million configurations hardsets fuzz wheel clean toolchains
 
 help: ## List the targets
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -78,7 +78,7 @@ check: $(BUILT) $(VENV)/.groups ## Check format, lints of each feature set, type
 	$(BIN)/ruff check --quiet .
 	$(BIN)/ruff format --check --quiet .
 	$(STEP) "mypy" $(BIN)/mypy --no-error-summary
-	$(STEP) "stubs" $(BIN)/python -m mypy.stubtest irbkin --concise
+	$(STEP) "stubs" $(BIN)/python -m mypy.stubtest irbkin --concise --allowlist tests/python/stubtest_allow.txt
 	$(STEP) "examples in Python run" bash -eu -c 'for example in examples/*.py; do $(BIN)/python "$$example" >/dev/null; done'
 
 bench: $(BUILT) ## Time poses and batches in Rust on each instruction set, Python calls, a RAPID module
@@ -127,6 +127,9 @@ hardsets: | toolchains ## Solve poses at and next to every singularity, pairs an
 	$(ON_EACH_SET) IRBKIN_POSES=200 cargo test --quiet --release --test suite -- reach_and_paths:: --nocapture --test-threads=1; done
 	IRBKIN_POSES=1000 cargo test --quiet --release --lib spherical_shoulder -- --nocapture --test-threads=1
 	IRBKIN_POSES=20 cargo test --quiet --release --test suite -- redundancy:: nearest:: --nocapture --test-threads=1
+
+stubs: $(BUILT) ## Write the docstrings of the type stubs from those of the extension
+	$(BIN)/python tests/python/stub_docs.py
 
 catalog: | toolchains ## Write the tables of docs/catalog.md
 	IRBKIN_WRITE=1 cargo test --quiet --test suite -- catalog_page::

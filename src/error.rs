@@ -24,7 +24,7 @@ pub use self::motion::MotionFault;
 pub use self::pose::PoseFault;
 #[cfg(feature = "rapid")]
 pub use self::rapid::{Missing, RapidFault, RapidFaultKind};
-pub use self::robot_name::UnknownRobot;
+pub use self::robot_name::{LeftOut, UnknownRobot};
 pub use self::urdf::{Names, UrdfFault};
 use crate::report::{Configuration, Explanation, FreeJoint};
 

@@ -119,10 +119,10 @@ pub mod trajectory;
 mod urdf;
 
 #[cfg(any(feature = "std", feature = "libm"))]
-pub use catalog::{AngleUnit, CatalogArm, CatalogGeometry, catalog, find};
+pub use catalog::{AngleUnit, CatalogArm, CatalogGeometry, catalog, find, left_out};
 pub use error::{
-    Error, JointFault, ModelFault, MotionFault, Names, NoConfiguration, PoseFault, UnknownRobot,
-    UrdfFault,
+    Error, JointFault, LeftOut, ModelFault, MotionFault, Names, NoConfiguration, PoseFault,
+    UnknownRobot, UrdfFault,
 };
 #[cfg(feature = "rapid")]
 pub use error::{FrameFault, Missing, RapidFault, RapidFaultKind};

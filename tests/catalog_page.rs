@@ -5,7 +5,7 @@
 use std::fs;
 use std::path::Path;
 
-use irbkin::{CatalogArm, CatalogGeometry, catalog};
+use irbkin::{CatalogArm, CatalogGeometry, catalog, left_out};
 
 const COMMON_HEAD: [&str; 3] = ["arm", "payload [kg]", "reach [m]"];
 const COMMON_TAIL: [&str; 4] =
@@ -72,17 +72,22 @@ fn table(name: &str, columns: &[&str]) -> String {
     table
 }
 
+fn left_out_table() -> String {
+    let rows = left_out().map(|arm| row([arm.name.to_owned(), arm.reason.to_owned()]));
+    format!("| arm | why |\n|---|---|\n{}", rows.collect::<String>())
+}
+
 #[test]
 fn the_tables_of_the_page_are_those_of_the_catalog() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/catalog.md");
     let page = fs::read_to_string(&path).unwrap();
     let mut made = page.clone();
-    for (name, columns) in TABLES {
+    let tables = TABLES.map(|(name, columns)| (name, table(name, columns)));
+    for (name, table) in tables.into_iter().chain([("left out", left_out_table())]) {
         let start = format!("<!-- {name}: written by make catalog -->\n");
         let (before, rest) = made.split_once(&start).unwrap();
         let (_, after) = rest.split_once("<!-- end -->").unwrap();
-        made =
-            format!("{before}{start}\n{table}\n<!-- end -->{after}", table = table(name, columns));
+        made = format!("{before}{start}\n{table}\n<!-- end -->{after}");
     }
     if std::env::var("IRBKIN_WRITE").is_ok_and(|write| write == "1") {
         fs::write(&path, made).unwrap();

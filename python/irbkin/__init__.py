@@ -1,6 +1,6 @@
-"""Kinematics of ABB IRB robots and their kin.
+"""Kinematics of ABB IRB, Universal Robots and Franka arms.
 
-Every inverse-kinematics solution, each in a named slot, with limits and singularities told. Meters,
+All inverse-kinematics solutions, in stable slots, with limits and singularities reported. Meters,
 radians, float64; poses are 4x4 homogeneous matrices.
 
     >>> import irbkin
@@ -12,7 +12,7 @@ radians, float64; poses are 4x4 homogeneous matrices.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from irbkin._core import (
     Robot,
@@ -20,6 +20,7 @@ from irbkin._core import (
     Solutions,
     __version__,
     catalog,
+    catalog_entry,
     instruction_set,
     instruction_sets,
     pose,
@@ -33,28 +34,39 @@ from irbkin.errors import (
     InvalidPoseError,
     IrbkinError,
     RapidError,
+    UnknownNameError,
     UnknownRobotError,
     UnreachableError,
 )
 from irbkin.records import (
     Break,
+    BreakReason,
+    CatalogEntry,
     Configuration,
+    ConfigurationBatch,
     FollowResult,
     FreeJoint,
     IkBatch,
     PoseCheck,
     Reach,
     Singularity,
+    SingularityBatch,
     SingularityKind,
+    SingularityMode,
     Status,
 )
 
 if TYPE_CHECKING:
+    from types import ModuleType
+
     from irbkin import rapid as rapid
 
 __all__ = [
     "Break",
+    "BreakReason",
+    "CatalogEntry",
     "Configuration",
+    "ConfigurationBatch",
     "FollowResult",
     "FreeJoint",
     "IkBatch",
@@ -67,14 +79,18 @@ __all__ = [
     "Reach",
     "Robot",
     "Singularity",
+    "SingularityBatch",
     "SingularityKind",
+    "SingularityMode",
     "Solution",
     "Solutions",
     "Status",
+    "UnknownNameError",
     "UnknownRobotError",
     "UnreachableError",
     "__version__",
     "catalog",
+    "catalog_entry",
     "instruction_set",
     "instruction_sets",
     "pose",
@@ -85,10 +101,15 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> Any:
-    """`irbkin.rapid` is imported when it is first asked for."""
+def __getattr__(name: str) -> ModuleType:
+    """Import `irbkin.rapid` when it is first asked for."""
     if name == "rapid":
         import importlib
 
         return importlib.import_module("irbkin.rapid")
     raise AttributeError(f"module 'irbkin' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    """List what the package offers, `rapid` before its import, too."""
+    return sorted({*__all__, "errors", "records", *(n for n in globals() if n.startswith("__"))})

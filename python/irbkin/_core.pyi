@@ -1,4 +1,13 @@
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import (
+    Callable,
+    ItemsView,
+    Iterable,
+    Iterator,
+    KeysView,
+    Mapping,
+    Sequence,
+    ValuesView,
+)
 from os import PathLike
 from typing import Any, ClassVar, Literal, final, overload
 
@@ -6,16 +15,20 @@ import numpy as np
 import numpy.typing as npt
 
 from irbkin.rapid.program import Declaration, Move, Skipped, TargetTable
-from irbkin.rapid.records import JointTarget, RobTarget, ToolData, WobjData
+from irbkin.rapid.records import JointTarget, Record, RobTarget, ToolData, WobjData
 from irbkin.records import (
+    CatalogEntry,
     Configuration,
+    ConfigurationBatch,
     FollowResult,
     FreeJoint,
     IkBatch,
     PoseCheck,
     Reach,
     Singularity,
+    SingularityBatch,
     SingularityKind,
+    SingularityMode,
     Status,
 )
 
@@ -31,6 +44,14 @@ _State = tuple[
     list[float] | None,
 ]
 
+_SolutionState = tuple[int, int, list[float], tuple[int, str] | None]
+_OutcomeState = tuple[str, int, int, float]
+_FoundState = tuple[
+    list[_SolutionState], _OutcomeState, _OutcomeState | None, list[_SolutionState] | None
+]
+# One joint vector, `Solution` too; the shape of an array is known at the call alone.
+_Vector = Sequence[float]
+
 __all__ = [
     "Module",
     "Robot",
@@ -38,11 +59,14 @@ __all__ = [
     "Solutions",
     "__version__",
     "_restore_robot",
+    "_restore_solution",
+    "_restore_solutions",
     "calc_joint_t",
     "calc_moves",
     "calc_rob_t",
     "calc_targets",
     "catalog",
+    "catalog_entry",
     "decode",
     "dump",
     "instruction_set",
@@ -61,19 +85,120 @@ def catalog(
     *,
     reach: float | tuple[float, float] | None = None,
     payload: float | tuple[float, float] | None = None,
-) -> tuple[str, ...]: ...
-def instruction_set() -> str: ...
-def instruction_sets() -> tuple[str, ...]: ...
-def use_instruction_set(name: str) -> None: ...
+) -> tuple[str, ...]:
+    """Return the names of the arms in the catalog, ABB's by type number first; of all, or of those
+    with a reach and a payload. `catalog_entry(name)` has the data of one.
+
+    Args:
+        reach: Reach as the type name or the data sheet has it [m]: a number for at least that much,
+            a pair for (least, most).
+        payload: Payload [kg], in the same way.
+
+    Returns:
+        Names in catalog order. An arm whose reach or payload is not known is left out where it is
+        asked for.
+
+    Raises:
+        ValueError: A filter is neither a number nor a pair, is NaN or negative, or its least is
+            more than its most.
+    """
+
+def catalog_entry(name: str) -> CatalogEntry:
+    """Return what the catalog has of an arm: payload, reach, limits, velocities, sources.
+
+    Args:
+        name: Catalog name or alias, as `Robot` takes it.
+
+    Returns:
+        CatalogEntry.
+
+    Raises:
+        UnknownRobotError: No arm of that name; the message has the close names, or why the arm is
+            left out.
+    """
+
+def instruction_set() -> str:
+    """Return the name of the instruction set in use: "avx512", "avx2" or "baseline"."""
+
+def instruction_sets() -> tuple[str, ...]:
+    """Return the names of the instruction sets that this CPU supports, the narrowest first."""
+
+def use_instruction_set(name: str) -> None:
+    """Use another instruction set from now on, in the whole process: for tests and measurements.
+
+    Args:
+        name: One of `instruction_sets()`.
+
+    Raises:
+        ValueError: This CPU does not support it.
+    """
+
 def pose(
     xyz: npt.ArrayLike, wxyz: npt.ArrayLike | None = None, euler_zyx: npt.ArrayLike | None = None
-) -> _Floats: ...
-def to_xyz_wxyz(T: npt.ArrayLike) -> tuple[_Floats, _Floats]: ...
-def to_xyz_euler_zyx(T: npt.ArrayLike) -> tuple[_Floats, _Floats]: ...
+) -> _Floats:
+    """Pose from a translation and an orientation.
+
+    Args:
+        xyz: Translation [m], shape (3,).
+        wxyz: Orientation as w, x, y, z, shape (4,); normalized.
+        euler_zyx: Orientation as rz, ry, rx [rad], shape (3,): Rz(rz) Ry(ry) Rx(rx).
+
+    Returns:
+        Homogeneous matrix, shape (4, 4). Without an orientation, that of the base.
+
+    Raises:
+        InvalidPoseError: A wrong shape, an element that is not finite, a quaternion whose norm is
+            off one by more than 2e-3.
+        TypeError: Both orientations are given, or something is no number.
+    """
+
+def to_xyz_wxyz(T: npt.ArrayLike) -> tuple[_Floats, _Floats]:
+    """Translation and quaternion of a pose.
+
+    Args:
+        T: Homogeneous matrix, shape (4, 4), translation [m].
+
+    Returns:
+        Translation [m], shape (3,), and quaternion w, x, y, z with w >= 0, shape (4,).
+
+    Raises:
+        InvalidPoseError: T is no rigid transform.
+    """
+
+def to_xyz_euler_zyx(T: npt.ArrayLike) -> tuple[_Floats, _Floats]:
+    """Translation and ZYX Euler angles of a pose.
+
+    Args:
+        T: Homogeneous matrix, shape (4, 4), translation [m].
+
+    Returns:
+        Translation [m], shape (3,), and rz, ry, rx [rad], shape (3,), ry in -pi/2 .. pi/2. Where ry
+        is +-pi/2 only rz - rx or rz + rx is determined: rz is 0 there.
+
+    Raises:
+        InvalidPoseError: T is no rigid transform.
+    """
+
 def _restore_robot(state: _State) -> Robot: ...
+def _restore_solution(robot: Robot, pose: list[float], state: _SolutionState) -> Solution: ...
+def _restore_solutions(robot: Robot, pose: list[float], state: _FoundState) -> Solutions: ...
 
 @final
 class Robot:
+    """A robot arm of six or seven joints: `Robot("IRB 2600-12/1.65")`.
+
+    Frozen, hashable, equal by value, picklable. Other arms come from `from_mdh`, `from_sdh`,
+    `from_opw` and `from_urdf`.
+
+    Args:
+        name: Catalog name or alias, the maker's name before it or not; case, blanks, -, _, /,
+            commas and parentheses do not matter. `irbkin.catalog()` lists the names.
+
+    Raises:
+        UnknownRobotError: No arm of that name; the message has up to six close ones, the closest
+            first, or why the arm is left out of the catalog.
+    """
+
     def __new__(cls, name: str) -> Robot: ...
     @staticmethod
     def from_mdh(
@@ -83,7 +208,25 @@ class Robot:
         *,
         closed_form: bool = True,
         snap: float = 0.0,
-    ) -> Robot: ...
+    ) -> Robot:
+        """Robot from a modified (Craig) Denavit-Hartenberg table: Rx(alpha) Tx(a) Rz(theta + q)
+        Tz(d).
+
+        Args:
+            rows: alpha [rad], a [m], d [m], theta offset [rad] of each joint, shape (6, 4) or (7,
+                4).
+            limits: Lower and upper limit of each joint [rad], shape (n, 2); none when not given.
+            name: A name of your own.
+            closed_form: With False, a six-axis arm of unknown structure is accepted, too: forward
+                kinematics and Jacobian work, `ik` raises. A seven-axis one is always accepted.
+            snap: An alpha or theta offset within this of a multiple of 90 deg is made exact [rad],
+                at most 1e-3: 1e-5 takes 1.5708 for a right angle. Lengths stay as they are.
+
+        Raises:
+            InvalidModelError: A number is not finite, a limit is empty, a link has no length, or
+                the structure is unknown: the message names the axes that do not meet or are not
+                parallel, by how much, and a `snap` that suffices.
+        """
     @staticmethod
     def from_sdh(
         rows: npt.ArrayLike,
@@ -92,7 +235,22 @@ class Robot:
         *,
         closed_form: bool = True,
         snap: float = 0.0,
-    ) -> Robot: ...
+    ) -> Robot:
+        """Robot from a standard Denavit-Hartenberg table: Rz(theta + q) Tz(d) Tx(a) Rx(alpha).
+
+        Args:
+            rows: alpha [rad], a [m], d [m], theta offset [rad] of each joint, in this order too,
+                shape (6, 4) or (7, 4).
+            limits: Lower and upper limit of each joint [rad], shape (n, 2); none when not given.
+            name: A name of your own.
+            closed_form: With False, a six-axis arm of unknown structure is accepted, too: forward
+                kinematics and Jacobian work, `ik` raises. A seven-axis one is always accepted.
+            snap: An alpha or theta offset within this of a multiple of 90 deg is made exact [rad],
+                at most 1e-3: 1e-5 takes 1.5708 for a right angle. Lengths stay as they are.
+
+        Raises:
+            InvalidModelError: As `from_mdh`.
+        """
     @staticmethod
     def from_opw(
         *,
@@ -107,7 +265,29 @@ class Robot:
         signs: npt.ArrayLike | None = None,
         limits: npt.ArrayLike | None = None,
         name: str = "",
-    ) -> Robot: ...
+    ) -> Robot:
+        """Robot from Brandstoetter's parameters of an ortho-parallel arm with a spherical wrist,
+        which is straight up along z at zero theta.
+
+        Args:
+            a1: Distance of axis 2 from axis 1 [m].
+            a2: Elbow offset [m]: distance of axis 4 from axis 3, negative where it lifts the
+                forearm of an ABB arm at zero.
+            b: Lateral offset of the wrist center from the plane through axis 1 [m].
+            c1: Height of axis 2 [m].
+            c2: Upper arm [m]: distance of axis 3 from axis 2.
+            c3: Forearm [m]: distance of the wrist center from axis 3, along axis 4.
+            c4: Distance of the flange from the wrist center [m].
+            offsets: Joint offsets [rad], shape (6,): theta = sign * q - offset, as opw_kinematics
+                has it; zeros when not given.
+            signs: Joint signs, each 1 or -1, shape (6,); ones when not given.
+            limits: Lower and upper limit of each joint [rad], shape (6, 2); none when not given.
+            name: A name of your own.
+
+        Raises:
+            InvalidModelError: A number is not finite, a sign is not 1 or -1, a limit is empty, or a
+                link has no length.
+        """
     @staticmethod
     def from_urdf(
         text_or_path: str | bytes | PathLike[str],
@@ -117,44 +297,215 @@ class Robot:
         *,
         closed_form: bool = True,
         snap: float = 0.0,
-    ) -> Robot: ...
+    ) -> Robot:
+        """Robot from a URDF: the revolute and continuous joints between two links, with their
+        limits and velocities.
+
+        Args:
+            text_or_path: The text, str that begins with "<" or bytes, or the path of a file. Xacro
+                must be expanded first.
+            base: Link in whose frame poses are given; the one without a parent when not given.
+            tip: Link that poses are of; when not given, the only one at the end of a chain of six
+                or seven joints.
+            name: A name of your own; the URDF's when not given.
+            closed_form: With False, a six-axis arm of unknown structure is accepted, too: forward
+                kinematics and Jacobian work, `ik` raises. A seven-axis one is always accepted.
+            snap: An angle of an origin, or an axis, within this of a multiple of 90 deg is made
+                exact [rad], at most 1e-3: 1e-5 takes 1.5708 for a right angle. Lengths stay as they
+                are.
+
+        Raises:
+            InvalidModelError: The text is no URDF, several links could be meant, there are not six
+                or seven joints, a joint between base and tip is not revolute, continuous or fixed,
+                or the structure is unknown; the message names what is wrong.
+            OSError: The file cannot be read.
+        """
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """Catalog name, or the name given by the caller."""
     @property
-    def dof(self) -> int: ...
+    def dof(self) -> int:
+        """Number of joints."""
     @property
-    def structure(self) -> str: ...
+    def structure(
+        self,
+    ) -> Literal["spherical wrist", "three parallel axes", "spherical shoulder", "unknown"]:
+        """Kinematic structure: "spherical wrist", "three parallel axes", "spherical shoulder",
+        or "unknown" where irbkin has no closed form.
+        """
     @property
-    def mdh(self) -> _Floats: ...
+    def mdh(self) -> _Floats:
+        """Modified Denavit-Hartenberg rows: alpha [rad], a [m], d [m], theta offset [rad], shape
+        (n, 4). `flange` follows the last row.
+        """
     @property
-    def root(self) -> _Floats: ...
+    def root(self) -> _Floats:
+        """Fixed transform from the base to the frame before the first row of `mdh`, shape (4,
+        4).
+        """
     @property
-    def flange(self) -> _Floats: ...
+    def flange(self) -> _Floats:
+        """Fixed transform from the last frame of `mdh` to the flange, shape (4, 4)."""
     @property
-    def base(self) -> _Floats: ...
+    def base(self) -> _Floats:
+        """Pose of the base in the world, shape (4, 4)."""
     @property
-    def tool(self) -> _Floats: ...
+    def tool(self) -> _Floats:
+        """Pose of the tool center point in the flange frame, shape (4, 4)."""
     @property
-    def limits(self) -> _Floats: ...
+    def limits(self) -> _Floats:
+        """Lower and upper limit of each joint [rad], shape (n, 2); infinite where a joint has
+        none.
+        """
     @property
-    def max_velocity(self) -> _Floats | None: ...
-    def with_tool(self, T: npt.ArrayLike) -> Robot: ...
-    def with_base(self, T: npt.ArrayLike) -> Robot: ...
-    def with_limits(self, limits: npt.ArrayLike) -> Robot: ...
+    def max_velocity(self) -> _Floats | None:
+        """Largest velocity of each joint [rad/s], shape (n,), or None where it is not known."""
+    def with_tool(self, T: npt.ArrayLike) -> Robot:
+        """Return the robot with another tool, in place of the one that it had.
+
+        Args:
+            T: Pose of the tool center point in the flange frame, shape (4, 4), translation [m].
+
+        Raises:
+            InvalidPoseError: T is not a rigid transform or has a wrong shape.
+        """
+    def with_base(self, T: npt.ArrayLike) -> Robot:
+        """Return the robot with another base, in place of the one that it had; poses are then given
+        in the world.
+
+        Args:
+            T: Pose of the base in the world, shape (4, 4), translation [m].
+
+        Raises:
+            InvalidPoseError: T is not a rigid transform or has a wrong shape.
+        """
+    def with_limits(self, limits: npt.ArrayLike) -> Robot:
+        """Return the robot with other joint limits; those of a linkage stay.
+
+        Args:
+            limits: Lower and upper limit of each joint [rad], shape (n, 2); infinite for none.
+
+        Raises:
+            InvalidModelError: A limit is NaN, a lower one is above the upper one, or the shape is
+                wrong.
+        """
     @property
-    def is_coupled(self) -> bool: ...
+    def is_coupled(self) -> bool:
+        """Whether a parallelogram linkage couples axes 2 and 3: q3 is then measured from the
+        base, as the controller does.
+        """
     @property
-    def linkage_limits(self) -> _Floats | None: ...
-    def with_linkage_limits(self, limits: npt.ArrayLike | None) -> Robot: ...
-    def serial(self) -> Robot: ...
-    def coupled(self) -> Robot: ...
-    def fk(self, q: npt.ArrayLike, out: _Floats | None = None) -> _Floats: ...
-    def link_frames(self, q: npt.ArrayLike) -> _Floats: ...
+    def linkage_limits(self) -> _Floats | None:
+        """Lower and upper limit of q3 - q2 [rad], shape (2,), of the parallelogram linkage; None
+        where none are known.
+        """
+    def with_linkage_limits(self, limits: npt.ArrayLike | None) -> Robot:
+        """Return the robot with other limits of q3 - q2, the angle of its parallelogram linkage.
+
+        Args:
+            limits: Lower and upper limit [rad], shape (2,), met by any 2 pi equivalent of q3 - q2;
+                None for none.
+
+        Raises:
+            InvalidModelError: A limit is NaN, the lower one is above the upper one, or axes 2 and 3
+                are not coupled.
+        """
+    def uncoupled(self) -> Robot:
+        """Return the twin without the coupling of axes 2 and 3: its q3 is this robot's q3 - q2. The
+        robot itself where it has no linkage.
+
+        The limits of its joint 3 are those of the linkage or, where these are not known, the range
+        of q3 - q2 inside the limits of both axes. Its velocity is the sum of both. `coupled()` of
+        the twin therefore has wider limits and a higher velocity than this robot.
+        """
+    def coupled(self) -> Robot:
+        """Return the twin whose axes 2 and 3 are coupled by a parallelogram linkage: its q3 is this
+        robot's q3 + q2, as a controller measures it.
+
+        The limits of joint 3 become those of the linkage. The limits of its joint 3 are the range
+        that axis 2 and the linkage allow, and its velocity is the sum of both. `uncoupled()` of the
+        twin therefore has wider limits and a higher velocity than this robot.
+
+        Raises:
+            InvalidModelError: The arm has no spherical wrist, or its axes 2 and 3 turn in opposite
+                directions.
+        """
+    def fk(self, q: npt.ArrayLike, out: _Floats | None = None) -> _Floats:
+        """Forward kinematics: the pose of the tool.
+
+        Args:
+            q: Joint angles [rad], shape (..., n).
+            out: Array to write to, shape (..., 4, 4), float64, C-contiguous; it is returned.
+
+        Returns:
+            Homogeneous matrices, shape (..., 4, 4), translation [m]. In a batch, a row with a NaN
+            or inf gives NaN.
+
+        Raises:
+            InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
+        """
+    def link_frames(self, q: npt.ArrayLike) -> _Floats:
+        """Every frame of the modified Denavit-Hartenberg table after its joint, then the tool.
+
+        Args:
+            q: Joint angles [rad], shape (..., n).
+
+        Returns:
+            Homogeneous matrices, shape (..., n + 1, 4, 4), translation [m].
+
+        Raises:
+            InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
+        """
     def jacobian(
         self, q: npt.ArrayLike, frame: Literal["base", "tool"] = "base", out: _Floats | None = None
-    ) -> _Floats: ...
-    def singularity(self, q: npt.ArrayLike) -> Singularity: ...
-    def ik(self, T: npt.ArrayLike, q7: float | None = None) -> Solutions: ...
+    ) -> _Floats:
+        """Geometric Jacobian of the tool.
+
+        Args:
+            q: Joint angles [rad], shape (..., n).
+            frame: "base", the frame in which poses are given, or "tool".
+            out: Array to write to, shape (..., 6, n), float64, C-contiguous; it is returned.
+
+        Returns:
+            Shape (..., 6, n): three linear rows [m/rad], then three angular [1].
+
+        Raises:
+            InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
+            ValueError: Another frame.
+        """
+    @overload
+    def singularity(self, q: _Vector) -> Singularity:
+        """How far joint vectors are from the singularities.
+
+        Args:
+            q: Joint angles [rad], shape (..., n).
+
+        Returns:
+            Singularity; numbers for (n,), arrays of shape (...) for (..., n). NaN where an arm has
+            no such singularity.
+
+        Raises:
+            InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
+        """
+    @overload
+    def singularity(self, q: npt.ArrayLike) -> Singularity | SingularityBatch: ...
+    def ik(self, T: npt.ArrayLike, q7: float | None = None) -> Solutions:
+        """Every joint vector that brings the tool to a pose.
+
+        Args:
+            T: Pose of the tool, shape (4, 4), translation [m].
+            q7: Angle of joint 7 [rad], of an arm of seven joints.
+
+        Returns:
+            Solutions, each in its slot, limits not regarded; empty with `reach` and `shortfall`
+            when out of reach.
+
+        Raises:
+            InvalidPoseError: T has a wrong shape, is not finite or is no rigid transform.
+            InvalidJointsError: q7 is not finite.
+            InvalidModelError: The arm has no closed form.
+            TypeError: q7 is missing, or the arm has six joints and it is not.
+        """
     def ik_batch(
         self,
         T: npt.ArrayLike,
@@ -162,113 +513,429 @@ class Robot:
         *,
         out: tuple[_Floats, npt.NDArray[np.uint8]] | _Floats | None = None,
         threads: int = 1,
-    ) -> IkBatch: ...
+    ) -> IkBatch:
+        """Every joint vector of many poses.
+
+        Args:
+            T: Poses of the tool, shape (..., 4, 4), translation [m].
+            q7: Angles of joint 7 [rad] of an arm of seven joints, of a shape that goes with (...):
+                T and q7 are broadcast.
+            out: Where to write: an IkBatch or tuple of arrays (..., 8, n) float64 and (..., 8)
+                uint8, or the first of them alone.
+            threads: Number of threads; 0 for one a core.
+
+        Returns:
+            IkBatch(q, status): joint angles [rad], shape (..., 8, n), NaN where a slot is empty,
+            and `irbkin.Status` of each slot, shape (..., 8), uint8. A row that is no pose, or whose
+            q7 is none, has status INVALID; the others are not touched by it.
+
+        Raises:
+            InvalidPoseError: T has a wrong shape.
+            InvalidJointsError: q7 has a wrong shape.
+            InvalidModelError: The arm has no closed form.
+            TypeError: q7 is missing, or the arm has six joints and it is not.
+        """
     def ik_nearest(
         self, T: npt.ArrayLike, seed: npt.ArrayLike, weights: npt.ArrayLike | None = None
-    ) -> _Floats: ...
+    ) -> _Floats:
+        """The solution inside the limits that is nearest to `seed`, turns considered.
+
+        Args:
+            T: Poses of the tool, shape (..., 4, 4), translation [m].
+            seed: Joint vectors [rad], shape (..., n), or one for all poses, shape (n,). Of joints
+                that the pose leaves free, the nearest angles are taken.
+            weights: Cost of moving each joint, shape (n,); ones when not given.
+
+        Returns:
+            Joint vectors [rad], shape (..., n). In a batch, a row without a solution, or whose pose
+            or seed is invalid, is NaN.
+
+        Raises:
+            UnreachableError: A single pose has no solution inside the limits; the message says what
+                is missing.
+            InvalidPoseError, InvalidJointsError, InvalidModelError: As `ik`; a seed or weight that
+                is not finite.
+        """
     def follow(
         self,
         T: npt.ArrayLike,
         seed: npt.ArrayLike,
         weights: npt.ArrayLike | None = None,
         *,
-        singularity_mode: Literal["through", "error", "wrist", "lock_axis4"] = "through",
+        singularity_mode: SingularityMode
+        | Literal["through", "error", "wrist", "lock_axis4"] = "through",
         zone: float | None = None,
-    ) -> FollowResult: ...
-    def configuration(self, q: npt.ArrayLike) -> Configuration: ...
+    ) -> FollowResult:
+        r"""One continuous joint path along a path of poses: inside the limits, turns considered,
+        through singularities without a jump where there is a way.
+
+        Args:
+            T: Poses of the tool, shape (m, 4, 4), or several paths, shape (..., m, 4, 4),
+                translation [m].
+            seed: Joint vector from which a path starts [rad], shape (6,), or one for each path,
+                shape (..., 6).
+            weights: Cost of moving each joint, shape (6,); ones when not given.
+            singularity_mode: What to do at the wrist singularity. "through": meet every pose
+                exactly, however fast axes 4 and 6 turn. "error": stop where joint 5 comes into the
+                zone, and where a joint must jump, as SingArea \Off. "wrist": inside the zone axes
+                4, 5, 6 go straight from where they enter to where they leave, position exact, as
+                SingArea \Wrist. "lock_axis4": axis 4 stays at 0 or +-180 deg all along, position
+                exact, orientation where it can be, as SingArea \LockAxis4.
+            zone: |sin q5| below which `singularity_mode` acts; 0.0175, that is one degree, when not
+                given.
+
+        Returns:
+            FollowResult: joints [rad], shape (..., m, 6), NaN where a pose is not met; orientation
+                error [rad], shape (..., m); the breaks.
+
+        Raises:
+            InvalidPoseError: T has a wrong shape or holds a matrix that is no pose; the message has
+                its index.
+            InvalidJointsError: A seed, weight or zone that is not finite.
+            InvalidModelError: The arm has no closed form or seven joints; "wrist" or "lock_axis4"
+                for an arm without a spherical wrist.
+            ValueError: Another `singularity_mode`.
+        """
+    @overload
+    def configuration(self, q: _Vector) -> Configuration:
+        """ABB's confdata of joint vectors: quarter turns of axes 1, 4 and 6, and the slot.
+
+        Args:
+            q: Joint angles [rad], shape (..., 6).
+
+        Returns:
+            Configuration(cf1, cf4, cf6, cfx): integers for one joint vector, int32 arrays of shape
+            (...) for many. cf is floor(angle / 90 deg). cfx is the slot, 0 for an arm with coupled
+            axes 2 and 3, whose controller does not use it.
+
+        Raises:
+            InvalidJointsError: A wrong shape, or an angle that is not finite.
+            InvalidModelError: The arm has no spherical wrist: its controller counts otherwise.
+        """
+    @overload
+    def configuration(self, q: npt.ArrayLike) -> Configuration | ConfigurationBatch: ...
     def ik_configured(
         self,
         T: npt.ArrayLike,
-        configuration: Configuration | npt.ArrayLike,
+        configuration: Configuration | ConfigurationBatch | npt.ArrayLike,
         *,
         fallback: Literal["nearest"] | None = None,
         seed: npt.ArrayLike | None = None,
-    ) -> _Floats: ...
-    def check_pose(self, T: npt.ArrayLike) -> PoseCheck: ...
+    ) -> _Floats:
+        """The solution inside the limits that has a configuration, which chooses the turns of axes
+        1, 4 and 6, too.
+
+        An angle within 0.01 deg of the edge of a quarter turn is taken for either side of it.
+
+        Args:
+            T: Poses of the tool, shape (..., 4, 4), translation [m].
+            configuration: (cf1, cf4, cf6, cfx): an `irbkin.Configuration`, or whole numbers of
+                shape (4,) or (..., 4).
+            fallback: With "nearest", the solution nearest to `seed` where none has the
+                configuration: many programs write [0, 0, 0, 0] without having calculated it.
+            seed: Joint vector [rad] of the fallback, shape (6,) or (..., 6).
+
+        Returns:
+            Joint vectors [rad], shape (..., 6). In a batch, a row without such a solution, or whose
+            pose or seed is invalid, is NaN.
+
+        Raises:
+            UnreachableError: A single pose has no solution inside the limits with that
+                configuration; the message, and its attribute `configurations`, have those that
+                exist.
+            InvalidPoseError, InvalidJointsError: A wrong shape, a pose that is none, a number of
+                the configuration that is not whole or that the arm does not have.
+            InvalidModelError: As `configuration`.
+            TypeError, ValueError: Another fallback, or one without a seed.
+        """
+    def check_pose(self, T: npt.ArrayLike) -> PoseCheck:
+        """Whether a pose can be reached, inside the limits or not, and why not; with seven joints,
+        with any angle of joint 7 inside its limits.
+
+        Args:
+            T: Pose of the tool, shape (4, 4), translation [m].
+
+        Returns:
+            PoseCheck(reachable, within_limits, reason).
+
+        Raises:
+            InvalidPoseError, InvalidModelError: As `ik`.
+        """
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
     def __reduce__(self) -> tuple[Callable[[_State], Robot], tuple[_State]]: ...
 
 @final
-class Solution:
+class Solution(Sequence[float]):
+    """One joint vector that brings the tool to the pose.
+
+    It is also the sequence of its joint angles: `solution[0]` is J1, `numpy.asarray(solution)` is
+    `solution.q`. Frozen, hashable, equal by value to a solution of the same robot and pose,
+    picklable.
+    """
+
     @property
-    def q(self) -> _Floats: ...
+    def q(self) -> _Floats:
+        """Joint angles [rad], shape (n,)."""
     @property
-    def slot(self) -> int: ...
+    def q_deg(self) -> _Floats:
+        """Joint angles [deg], shape (n,)."""
     @property
-    def is_within_limits(self) -> bool: ...
+    def slot(self) -> int:
+        """Index of the slot, from 0; for spherical-wrist arms ABB's cfx."""
     @property
-    def singularities(self) -> SingularityKind: ...
+    def is_within_limits(self) -> bool:
+        """Whether every joint is inside its limits."""
     @property
-    def free_joint(self) -> FreeJoint | None: ...
-    def with_free_joint(self, value: float) -> Solution: ...
+    def singularities(self) -> SingularityKind:
+        """Singularities of the pose on this branch: an `irbkin.SingularityKind`, 0 for none."""
     @property
-    def status(self) -> Status: ...
+    def free_joint(self) -> FreeJoint | None:
+        """The joint that a singular pose leaves undetermined and what stays fixed along its
+        self-motion, as FreeJoint(joint, fixed); None at a regular pose.
+        """
+    def with_free_joint(self, value: float) -> Solution:
+        """Return the solution of the same pose with the free joint at another angle.
+
+        Args:
+            value: Angle of the free joint [rad].
+
+        Returns:
+            The solution. The tool stays at the pose to rounding at the singularity, and within 3e-9
+            rad or m next to it.
+
+        Raises:
+            InvalidJointsError: No joint is free, or the value is not finite.
+            UnreachableError: The arm does not reach the pose with the free joint at that angle.
+        """
     @property
-    def residual(self) -> float: ...
+    def status(self) -> Status:
+        """Flags of the slot, an `irbkin.Status`."""
+    @property
+    def residual(self) -> float:
+        """Distance of the tool from the pose: the larger of the position's [m] and the
+        rotation's [rad].
+        """
+    def index(self, value: float, start: int = 0, stop: int = ..., /) -> int:
+        """Return the index of the first joint at an angle.
+
+        Raises:
+            ValueError: No joint is at that angle.
+        """
+    def count(self, value: float, /) -> int:
+        """Return the number of joints at an angle."""
+    def _repr_html_(self) -> str: ...
     def __array__(
         self, dtype: npt.DTypeLike | None = None, copy: bool | None = None
-    ) -> npt.NDArray[Any]: ...
+    ) -> npt.NDArray[np.float64]: ...
     def __len__(self) -> int: ...
-    @overload
+    @overload  # type: ignore[override]
     def __getitem__(self, index: int, /) -> float: ...
     @overload
     def __getitem__(self, index: slice | Sequence[int], /) -> _Floats: ...
     def __iter__(self) -> Iterator[float]: ...
+    def __reversed__(self) -> Iterator[float]: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __reduce__(
+        self,
+    ) -> tuple[Callable[..., Solution], tuple[Robot, list[float], _SolutionState]]: ...
 
 @final
-class Solutions:
+class Solutions(Sequence[Solution]):
+    """All solutions of a pose in the order of their slots, or the reason why there are none.
+
+    A sequence of `Solution`: `solutions[0]`, `solutions[-1]`, iteration, `len`, `in`; a slice is a
+    tuple of `Solution`. `numpy.asarray(solutions)` is `solutions.q`. `print(solutions)` shows a
+    table in degrees. Frozen, hashable, equal by value to the same answer of the same robot and
+    pose, picklable.
+    """
+
     @property
-    def q(self) -> _Floats: ...
+    def q(self) -> _Floats:
+        """Joint angles of every solution [rad], shape (k, n), inside the limits or not."""
     @property
-    def q_by_slot(self) -> _Floats: ...
+    def q_deg(self) -> _Floats:
+        """Joint angles of every solution [deg], shape (k, n), inside the limits or not."""
     @property
-    def status(self) -> npt.NDArray[np.uint8]: ...
+    def q_by_slot(self) -> _Floats:
+        """Joint angles of each slot [rad], shape (slots, n), NaN where the slot is empty;
+        `status` has the flags of its rows.
+        """
     @property
-    def reach(self) -> Reach: ...
+    def status(self) -> npt.NDArray[np.uint8]:
+        """Flags of each slot, `irbkin.Status`, shape (slots,), uint8: those of the rows of
+        `q_by_slot`.
+        """
     @property
-    def shortfall(self) -> float: ...
-    def explain(self) -> str: ...
-    def within_limits(self) -> Solutions: ...
-    def turns(self) -> Solutions: ...
-    def nearest(self, seed: npt.ArrayLike, weights: npt.ArrayLike | None = None) -> Solution: ...
-    def least_motion(
-        self, seed: npt.ArrayLike, weights: npt.ArrayLike | None = None
-    ) -> Solution: ...
-    def filter(self, accept: Callable[[Solution], object]) -> Solutions: ...
+    def reach(self) -> Reach:
+        """Whether the arm reaches the pose, limits not regarded, or is too short or too long for
+        it: an `irbkin.Reach`.
+        """
+    @property
+    def shortfall(self) -> float:
+        """Distance missing to reach [m]: of the wrist center from where the arm can bring it; 0
+        when it is reached.
+        """
+    def explain(self) -> str:
+        """Return the outcome in a sentence: how many solutions, or why there are none."""
+    def within_limits(self) -> Solutions:
+        """Return the solutions inside the joint limits."""
+    def turns(self) -> Solutions:
+        """Return every 2 pi equivalent of every solution that is inside the limits. A joint without
+        limits keeps its own angle.
+
+        Raises:
+            ValueError: There are more than a million.
+        """
+    def nearest(self, seed: npt.ArrayLike, weights: npt.ArrayLike | None = None) -> Solution:
+        """Return the solution inside the limits that is nearest to `seed`, 2 pi equivalents
+        considered: least root of the sum of weights * difference^2.
+
+        Args:
+            seed: Joint vector [rad], shape (n,).
+            weights: Cost of moving each joint, shape (n,); ones when not given.
+
+        Raises:
+            UnreachableError: None is inside the limits; the message is `explain()`.
+            InvalidJointsError: The seed or the weights are not finite or have a wrong shape.
+        """
+    def least_motion(self, seed: npt.ArrayLike, weights: npt.ArrayLike | None = None) -> Solution:
+        """Return the solution inside the limits that moves the joints the least from `seed`, 2 pi
+        equivalents considered: least sum of weights * |difference|.
+
+        Args:
+            seed: Joint vector [rad], shape (n,).
+            weights: Cost of moving each joint, shape (n,); ones when not given.
+
+        Raises:
+            UnreachableError: None is inside the limits; the message is `explain()`.
+            InvalidJointsError: The seed or the weights are not finite or have a wrong shape.
+        """
+    def filter(self, accept: Callable[[Solution], object]) -> Solutions:
+        """Return the solutions for which `accept(solution)` is true.
+
+        Args:
+            accept: Called with each `Solution`, which is also the sequence of its joint angles
+                [rad]. An exception of it is passed on.
+        """
+    def index(self, value: object, start: int = 0, stop: int = ..., /) -> int:
+        """Return the index of the first solution that equals `value`.
+
+        Raises:
+            ValueError: No solution equals it.
+        """
+    def count(self, value: object, /) -> int:
+        """Return the number of solutions that equal `value`."""
+    def _repr_html_(self) -> str: ...
     def __array__(
         self, dtype: npt.DTypeLike | None = None, copy: bool | None = None
-    ) -> npt.NDArray[Any]: ...
+    ) -> npt.NDArray[np.float64]: ...
     def __len__(self) -> int: ...
+    @overload
     def __getitem__(self, index: int, /) -> Solution: ...
+    @overload
+    def __getitem__(self, index: slice, /) -> tuple[Solution, ...]: ...
     def __iter__(self) -> Iterator[Solution]: ...
+    def __reversed__(self) -> Iterator[Solution]: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __reduce__(
+        self,
+    ) -> tuple[Callable[..., Solutions], tuple[Robot, list[float], _FoundState]]: ...
 
+# What a name stands for is the text's: records of any type, narrowed with isinstance.
 @final
-class Module:
+class Module(Mapping[str, Any]):
+    """A RAPID module: its data by name, its moves in order, and what was skipped.
+
+    A mapping of the names of the module's own data to their values: `module["p10"]`, `len`,
+    iteration, `in`, `get`, `keys`, `values`, `items`. Names are taken as RAPID takes them, in upper
+    or lower case. Frozen and picklable; two modules are equal where they declare and move the same,
+    whatever the lines. `parse` and `load` make one.
+    """
+
     @property
-    def name(self) -> str | None: ...
+    def name(self) -> str | None:
+        """Its name; None for declarations without a module around them."""
     @property
-    def attributes(self) -> tuple[str, ...]: ...
+    def attributes(self) -> tuple[str, ...]:
+        """Its attributes, such as "SYSMODULE"."""
     @property
-    def source(self) -> str: ...
+    def source(self) -> str:
+        """The text that it was read from."""
     @property
-    def data(self) -> Mapping[str, Any]: ...
+    def data(self) -> Mapping[str, Any]:
+        """The data of the module itself, in the order of the text: names to records, to nested
+        lists of records for arrays, to None where the declaration has no value. Those of
+        routines are in `declarations`.
+        """
     @property
-    def declarations(self) -> tuple[Declaration, ...]: ...
+    def declarations(self) -> tuple[Declaration, ...]:
+        """Every declaration, including those of routines: a tuple of `Declaration`."""
     @property
-    def moves(self) -> tuple[Move, ...]: ...
+    def moves(self) -> tuple[Move, ...]:
+        """MoveJ, MoveL, MoveC and MoveAbsJ in the order of the text, whatever branch or loop
+        they are in.
+        """
     @property
-    def skipped(self) -> tuple[Skipped, ...]: ...
-    def rewritten(self, values: Mapping[str, Any]) -> str: ...
+    def skipped(self) -> tuple[Skipped, ...]:
+        """What was not read, in the order of the text: a tuple of `Skipped`."""
+    def rewritten(self, values: Mapping[str, Any]) -> str:
+        """Return the source with other values for some data; everything else, comments included,
+        stays as it is, character for character.
+
+        Args:
+            values: Names of the module's data to records of their type, to nested lists of as many
+                for arrays.
+
+        Returns:
+            The text.
+
+        Raises:
+            RapidError: The module has no such data, or a value is of another type or size.
+        """
+    def keys(self) -> KeysView[str]:
+        """Return the names of the module's own data, in the order of the text."""
+    def values(self) -> ValuesView[Any]:
+        """Return the values of the module's own data, in the order of the text."""
+    def items(self) -> ItemsView[str, Any]:
+        """Return the pairs (name, value) of the module's own data, in the order of the text."""
+    def get(self, name: str, default: Any = None, /) -> Any:
+        """Return the value of a datum of the module; `default` where there is none of that name."""
     def __getitem__(self, name: str, /) -> Any: ...
-    def __contains__(self, name: str, /) -> bool: ...
+    def __contains__(self, name: object, /) -> bool: ...
+    def __len__(self) -> int: ...
+    def __iter__(self) -> Iterator[str]: ...
+    def __reversed__(self) -> Iterator[str]: ...
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
+    def __reduce__(self) -> tuple[Callable[..., Module], tuple[str, tuple[Module, ...]]]: ...
 
-def parse(text: str | bytes, context: Iterable[Module] | None = None) -> Module: ...
-def decode(text: str | bytes) -> str: ...
-def parse_record(text: str) -> Any: ...
-def dump(value: Any, name: str) -> str: ...
+def parse(text: str | bytes, context: Iterable[Module] | None = None) -> Module:
+    """Parse a RAPID module.
+
+    Args:
+        text: RAPID text, or the bytes of a file: UTF-8, UTF-16 with its mark, else Latin-1.
+        context: Modules in which names that the text does not declare are looked for: their data
+            that are not LOCAL.
+
+    Raises:
+        RapidError: The text is broken; the message and the attributes `line` and `column` have the
+            place.
+    """
+
+def decode(text: str | bytes) -> str:
+    """Return RAPID text from a str, or from the bytes of a file."""
+
+def parse_record(text: str) -> Record:
+    """Parse one value: a robtarget, jointtarget, tooldata, wobjdata, pose or loaddata,
+    determined by its shape.
+    """
+
+def dump(value: Any, name: str) -> str:
+    """Return the RAPID text of a record, of a module, or of a mapping of names to values."""
+
 def calc_joint_t(
     robot: Robot,
     target: RobTarget,
@@ -277,20 +944,79 @@ def calc_joint_t(
     *,
     fallback: Literal["nearest"] | None = None,
     seed: npt.ArrayLike | None = None,
-) -> JointTarget: ...
+) -> JointTarget:
+    """Return the jointtarget of a robtarget, as RAPID's CalcJointT: joint angles inside the limits
+    that have its configuration.
+
+    Args:
+        robot: The arm. Work objects are given in the world, in which the robot's base is.
+        target: RobTarget.
+        tool: ToolData; the robot's own tool where not given.
+        wobj: WobjData; the world where not given.
+        fallback: With "nearest", the solution nearest to `seed` where none has the configuration.
+        seed: Joint vector [rad] of the fallback, shape (6,).
+
+    Returns:
+        JointTarget, with the target's external axes.
+
+    Raises:
+        UnreachableError: Its `rapid_error` is "ERR_OUTSIDE_REACH" where the arm is too short or too
+            long, "ERR_ROBLIMIT" where solutions exist but none inside the limits with the
+            configuration; `configurations` has those that exist.
+        InvalidPoseError: A quaternion's norm is off one by more than 2e-3.
+        InvalidJointsError: The arm has no such cfx.
+        RapidError: The robot holds both tool and work object or neither, or a mechanical unit moves
+            the work object.
+        InvalidModelError: The arm has no spherical wrist, so no confdata.
+    """
+
 def calc_rob_t(
     robot: Robot,
     joints: JointTarget | npt.ArrayLike,
     tool: ToolData | None = None,
     wobj: WobjData | None = None,
-) -> RobTarget: ...
+) -> RobTarget:
+    """Return the robtarget of a jointtarget, with its configuration, as RAPID's CalcRobT. Limits
+    are not checked.
+
+    Args:
+        robot: The arm. Work objects are given in the world, in which the robot's base is.
+        joints: JointTarget, or joint angles [rad], shape (6,).
+        tool: ToolData; the robot's own tool where not given.
+        wobj: WobjData; the world where not given.
+
+    Returns:
+        RobTarget, with the external axes of `joints`.
+
+    Raises:
+        InvalidPoseError, RapidError, InvalidModelError: As `calc_joint_t`.
+    """
+
 def calc_moves(
     robot: Robot,
     module: Module,
     *,
     fallback: Literal["nearest"] | None = None,
     seed: npt.ArrayLike | None = None,
-) -> TargetTable: ...
+) -> TargetTable:
+    """Return the joint angles of every target of a module's moves, in their order, each with its
+    own tool and work object; a MoveC has two. The motion between targets is not checked: `follow`
+    does.
+
+    Args:
+        robot: The arm.
+        module: Module.
+        fallback: With "nearest", a target whose configuration no solution has gets the one nearest
+            to the joints before it.
+        seed: Joint vector [rad] before the first target, shape (6,).
+
+    Returns:
+        TargetTable. `problems` says what is wrong with the target of a row.
+
+    Raises:
+        InvalidModelError: The arm has no spherical wrist, so no confdata.
+    """
+
 def calc_targets(
     robot: Robot,
     module: Module,
@@ -299,4 +1025,23 @@ def calc_targets(
     *,
     fallback: Literal["nearest"] | None = None,
     seed: npt.ArrayLike | None = None,
-) -> TargetTable: ...
+) -> TargetTable:
+    """Return the joint angles of every robtarget that a module declares, in the order of the text,
+    all with one tool and work object.
+
+    Args:
+        robot: The arm.
+        module: Module.
+        tool: ToolData; the robot's own tool where not given.
+        wobj: WobjData; the world where not given.
+        fallback: With "nearest", a target whose configuration no solution has gets the one nearest
+            to the joints before it.
+        seed: Joint vector [rad] before the first target, shape (6,).
+
+    Returns:
+        TargetTable. `problems` says what is wrong with the target of a row.
+
+    Raises:
+        InvalidPoseError, RapidError, InvalidModelError: As `calc_joint_t`, of the tool and the work
+            object.
+    """

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 if TYPE_CHECKING:
     from irbkin.records import Configuration
@@ -14,6 +14,7 @@ __all__ = [
     "InvalidPoseError",
     "IrbkinError",
     "RapidError",
+    "UnknownNameError",
     "UnknownRobotError",
     "UnreachableError",
 ]
@@ -24,7 +25,7 @@ class IrbkinError(ValueError):
 
 
 class InvalidPoseError(IrbkinError):
-    """A pose is no rigid transform, or its array has a wrong shape."""
+    """A pose is not a rigid transform, or its array has a wrong shape."""
 
 
 class InvalidJointsError(IrbkinError):
@@ -32,7 +33,7 @@ class InvalidJointsError(IrbkinError):
 
 
 class InvalidModelError(IrbkinError):
-    """An arm cannot be built from these figures, or has no closed form for what is asked."""
+    """An arm cannot be built from these figures, or its structure does not support the call."""
 
 
 class InvalidMotionError(IrbkinError):
@@ -40,18 +41,16 @@ class InvalidMotionError(IrbkinError):
 
 
 class UnreachableError(IrbkinError):
-    """No solution inside the limits, or none with the configuration that was asked for."""
+    """No solution is inside the limits, or none has the configuration that was asked for."""
 
     configurations: tuple[Configuration, ...] = ()
     """Those that exist, where another one was asked for."""
-    rapid_error: str | None = None
-    """RAPID's name of the error, where `irbkin.rapid` calculated: ERR_OUTSIDE_REACH or
-    ERR_ROBLIMIT.
-    """
+    rapid_error: Literal["ERR_OUTSIDE_REACH", "ERR_ROBLIMIT"] | None = None
+    """RAPID's name of the error, in errors of `irbkin.rapid`: ERR_OUTSIDE_REACH or ERR_ROBLIMIT."""
 
 
 class RapidError(IrbkinError):
-    """A RAPID text is broken, or RAPID data do not go together."""
+    """A RAPID text is broken, or RAPID data do not fit together."""
 
     line: int = 0
     """Line of the text, from 1; 0 where it has none."""
@@ -59,8 +58,18 @@ class RapidError(IrbkinError):
     """Column of the text, from 1; 0 where it has none."""
 
 
+class UnknownNameError(RapidError, KeyError):
+    """A RAPID module has no data of that name; the message has the close ones."""
+
+    def __str__(self) -> str:
+        """The message as it is: KeyError would put it in quotes."""
+        return str(self.args[0]) if self.args else ""
+
+
 class UnknownRobotError(IrbkinError, KeyError):
-    """The catalog has no arm of that name; the message has the close ones."""
+    """The catalog has no arm of that name; the message has the close ones, or why it is left
+    out.
+    """
 
     def __str__(self) -> str:
         """The message as it is: KeyError would put it in quotes."""

@@ -1,10 +1,15 @@
-"""Flags and records that come out of irbkin."""
+"""Flags and records that come out of irbkin.
+
+Records are named tuples. Those that hold arrays are equal where every array has the same shape and
+the same values, NaN being equal to NaN; they cannot be hashed. The others compare and hash as
+tuples do.
+"""
 
 from __future__ import annotations
 
 import enum
 import operator
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar
 
 if TYPE_CHECKING:
     import numpy as np
@@ -12,7 +17,10 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Break",
+    "BreakReason",
+    "CatalogEntry",
     "Configuration",
+    "ConfigurationBatch",
     "FollowResult",
     "FreeJoint",
     "IkBatch",
@@ -20,10 +28,43 @@ __all__ = [
     "PoseCheck",
     "Reach",
     "Singularity",
+    "SingularityBatch",
     "SingularityKind",
+    "SingularityMode",
     "Status",
     "TrajectorySample",
 ]
+
+_Record = TypeVar("_Record", bound=type)
+
+
+def _same(first: Any, second: Any) -> bool:
+    """Whether two fields have one value: arrays by shape and elements, NaN being equal to NaN."""
+    import numpy as np
+
+    if isinstance(first, np.ndarray) or isinstance(second, np.ndarray):
+        first, second = np.asarray(first), np.asarray(second)
+        is_real = all(array.dtype.kind == "f" for array in (first, second))
+        return np.array_equal(first, second, equal_nan=is_real)
+    if isinstance(first, tuple) and isinstance(second, tuple):
+        return len(first) == len(second) and all(map(_same, first, second))
+    return bool(first == second)
+
+
+def by_value(record: _Record) -> _Record:
+    """Compare a record that holds arrays by value; without it, `==` would ask for the truth of an
+    array.
+    """
+
+    def is_equal(self: tuple[object, ...], other: object) -> bool:
+        return _same(self, other) if isinstance(other, tuple) else NotImplemented
+
+    def is_unequal(self: tuple[object, ...], other: object) -> bool:
+        return not _same(self, other) if isinstance(other, tuple) else NotImplemented
+
+    for name, method in (("__eq__", is_equal), ("__ne__", is_unequal), ("__hash__", None)):
+        setattr(record, name, method)
+    return record
 
 
 class Flags(enum.IntFlag):
@@ -43,15 +84,15 @@ class Status(Flags):
     WITHIN_LIMITS = 2
     """The solution is inside the joint limits."""
     WRIST = 4
-    """sin q5 = 0: axes 4 and 6 of a spherical wrist are one, only q4 + q6 or q4 - q6 is determined;
-    axis 6 of a three-parallel arm is parallel to axes 2 to 4. Of seven axes: the shoulder is in the
-    plane of axes 5 and 6.
+    """sin q5 = 0: axes 4 and 6 of a spherical wrist coincide, only q4 + q6 or q4 - q6 is
+    determined; axis 6 of a three-parallel arm is parallel to axes 2 to 4. Of seven axes: the
+    shoulder is in the plane of axes 5 and 6.
     """
     ELBOW = 8
     """The arm is stretched or folded: both elbow branches coincide."""
     SHOULDER = 16
     """The wrist center is on axis 1: q1 is not determined. With a lateral offset: front and back
-    meet. Of seven axes: axes 1 and 3 are one.
+    meet. Of seven axes: axes 1 and 3 coincide.
     """
     MERGED = 32
     """The slot is empty because its solution coincides with that of another slot at a
@@ -62,59 +103,103 @@ class Status(Flags):
 
 
 class SingularityKind(Flags):
-    """Kinds of singularity, with the values that they have in `Status`."""
+    """Singularities, with the values that they have in `Status`."""
 
     WRIST = 4
-    """sin q5 = 0; of seven axes, the shoulder in the plane of axes 5 and 6."""
+    """sin q5 = 0; of seven axes, the shoulder is in the plane of axes 5 and 6."""
     ELBOW = 8
     """The arm is stretched or folded."""
     SHOULDER = 16
-    """The wrist center is on axis 1; of seven axes, axes 1 and 3 are one."""
+    """The wrist center is on axis 1; of seven axes, axes 1 and 3 coincide."""
 
 
 class Reach(enum.Enum):
-    """Whether the wrist center gets to where a pose wants it."""
+    """Whether the arm reaches a pose, limits not regarded."""
 
     REACHED = "reached"
+    """It does."""
     TOO_FAR = "too far"
-    """It lies beyond the stretched arm."""
+    """The wrist center lies beyond the stretched arm."""
     TOO_NEAR = "too near"
-    """It lies closer than the folded arm, or inside the cylinder of the lateral offset."""
+    """The wrist center lies closer than the folded arm, or inside the cylinder of the lateral
+    offset.
+    """
 
 
+class SingularityMode(str, enum.Enum):
+    """What `Robot.follow` does at the wrist singularity; the plain words are taken, too."""
+
+    THROUGH = "through"
+    """Meet every pose exactly, however fast axes 4 and 6 turn."""
+    ERROR = "error"
+    """Stop where joint 5 enters the zone, and where a joint must jump, as SingArea \\Off."""
+    WRIST = "wrist"
+    """Interpolate axes 4, 5, 6 across the zone, the position exact, as SingArea \\Wrist."""
+    LOCK_AXIS4 = "lock_axis4"
+    """Keep axis 4 at 0 or +-180 deg, the position exact, as SingArea \\LockAxis4."""
+
+
+class BreakReason(enum.Enum):
+    """Why the joints cannot follow a path."""
+
+    UNREACHABLE = "unreachable"
+    """No solution inside the limits reaches the pose."""
+    JUMP = "jump"
+    """A joint must turn while the tool stands still."""
+    LOCKED = "locked"
+    """No joints inside the limits bring the tool there with the wrist or axis 4 locked."""
+    STOPPED = "stopped"
+    """Joint 5 enters the zone of the wrist singularity in the mode "error"."""
+
+
+@by_value
 class IkBatch(NamedTuple):
     """Solutions of many poses."""
 
     q: npt.NDArray[np.float64]
-    """Joint angles [rad], shape (..., 8, n), NaN where a slot is empty."""
+    """Joint angles [rad], shape (..., slots, n), NaN where a slot is empty."""
     status: npt.NDArray[np.uint8]
-    """`Status` of each slot, shape (..., 8)."""
+    """`Status` of each slot, shape (..., slots)."""
 
 
 class Configuration(NamedTuple):
-    """ABB's confdata: integers for one joint vector, arrays for many."""
+    """ABB's confdata of one joint vector."""
 
-    cf1: Any
+    cf1: int
     """Quarter turn of axis 1: floor(q1 / 90 deg)."""
-    cf4: Any
+    cf4: int
     """Quarter turn of axis 4."""
-    cf6: Any
+    cf6: int
     """Quarter turn of axis 6."""
-    cfx: Any
+    cfx: int
     """The slot: 4 (wrist center behind axis 1) + 2 (behind the lower arm) + 1 (q5 < 0); 0 with
     coupled axes 2 and 3.
     """
 
 
+@by_value
+class ConfigurationBatch(NamedTuple):
+    """ABB's confdata of many joint vectors."""
+
+    cf1: npt.NDArray[np.int32]
+    """Quarter turns of axis 1: floor(q1 / 90 deg), shape (...)."""
+    cf4: npt.NDArray[np.int32]
+    """Quarter turns of axis 4, shape (...)."""
+    cf6: npt.NDArray[np.int32]
+    """Quarter turns of axis 6, shape (...)."""
+    cfx: npt.NDArray[np.int32]
+    """The slots, shape (...): as `Configuration.cfx`."""
+
+
 class FreeJoint(NamedTuple):
-    """The joint that a singular pose leaves free."""
+    """The joint that a singular pose leaves undetermined."""
 
     joint: int
     """Its number, from 1."""
     fixed: str
-    """What stays fixed along the family: "q4 + q6", "q4 - q6", "q2, q3", "q1, q3" or, with coupled
-    axes 2 and 3, "q1, q3 - q2"; "q1, q5" of three parallel axes; "q1 + q3", "q1 - q3", "q4, q6" or
-    "q4, q5" of seven axes.
+    """What stays fixed along the self-motion: "q4 + q6", "q4 - q6", "q2, q3", "q1, q3" or, with
+    coupled axes 2 and 3, "q1, q3 - q2"; "q1, q5" of three parallel axes; "q1 + q3", "q1 - q3",
+    "q4, q6" or "q4, q5" of seven axes.
     """
 
 
@@ -127,15 +212,18 @@ class Break(NamedTuple):
     """Where and why, in a sentence."""
     path: tuple[int, ...] = ()
     """Index of the path among several; empty for one."""
+    kind: BreakReason = BreakReason.UNREACHABLE
+    """Why."""
 
 
+@by_value
 class FollowResult(NamedTuple):
     """A joint path along a path of poses."""
 
     q: npt.NDArray[np.float64]
     """Joint angles [rad], shape (..., m, n), NaN where a pose is not met."""
     orientation_error: npt.NDArray[np.float64]
-    """How far the tool's orientation is from that of each pose [rad], shape (..., m), NaN where a
+    """Angle between the tool's orientation and that of each pose [rad], shape (..., m), NaN where a
     pose is not met.
     """
     breaks: tuple[Break, ...]
@@ -143,26 +231,44 @@ class FollowResult(NamedTuple):
 
 
 class Singularity(NamedTuple):
-    """How far joint vectors are from the singularities; numbers for one, arrays for many."""
+    """Distances of one joint vector from the singularities; NaN where an arm has no such one."""
 
-    wrist: Any
+    wrist: float
     """Angle of joint 5 from 0 or 180 deg [rad]; of seven axes, between the plane of axes 5 and 6
     and the line to the shoulder.
     """
-    elbow: Any
+    elbow: float
     """Angle between upper arm and forearm from stretched or folded [rad]."""
-    shoulder: Any
+    shoulder: float
     """Distance of the wrist center from axis 1 [m]; with a lateral offset, from the plane through
     it along axis 2; of seven axes, distance of the upper arm's end from axis 1.
     """
-    min_singular_value: Any
+    min_singular_value: float
     """Smallest singular value of the Jacobian at the tool, its rows in m and rad as they are."""
-    manipulability: Any
+    manipulability: float
     """sqrt(det(J J^T)), the product of the singular values."""
-    kinds: Any
-    """`SingularityKind` of the singularities at which the joint vector stands; for many, an array
-    of its values, uint8.
+    kinds: SingularityKind
+    """The singularities that the joint vector is at."""
+
+
+@by_value
+class SingularityBatch(NamedTuple):
+    """Distances of many joint vectors from the singularities: arrays of shape (...), with the units
+    of `Singularity`. NaN where an arm has no such singularity.
     """
+
+    wrist: npt.NDArray[np.float64]
+    """As `Singularity.wrist` [rad]."""
+    elbow: npt.NDArray[np.float64]
+    """As `Singularity.elbow` [rad]."""
+    shoulder: npt.NDArray[np.float64]
+    """As `Singularity.shoulder` [m]."""
+    min_singular_value: npt.NDArray[np.float64]
+    """Smallest singular values of the Jacobians."""
+    manipulability: npt.NDArray[np.float64]
+    """sqrt(det(J J^T))."""
+    kinds: npt.NDArray[np.uint8]
+    """Values of `SingularityKind`."""
 
 
 class TrajectorySample(NamedTuple):
@@ -196,3 +302,37 @@ class PoseCheck(NamedTuple):
     """One of them is inside the joint limits."""
     reason: str
     """The outcome in a sentence."""
+
+
+@by_value
+class CatalogEntry(NamedTuple):
+    """What the catalog has of an arm."""
+
+    name: str
+    """The maker's type name."""
+    maker: Literal["ABB", "Universal Robots", "Franka"]
+    """"ABB", "Universal Robots" or "Franka"."""
+    aliases: tuple[str, ...]
+    """Other names that `Robot` takes for it, beside spellings in which case, blanks and dashes
+    differ.
+    """
+    dof: int
+    """Number of joints."""
+    payload: float | None
+    """Payload [kg], as the type name or the data sheet gives it; of several generations the least.
+    None where it is not known.
+    """
+    reach: float | None
+    """Reach [m], as the type name or the data sheet gives it: rounded, of ABB's arms to the wrist
+    center. None where it is not known.
+    """
+    limits: npt.NDArray[np.float64]
+    """Lower and upper limit of each joint [rad], shape (n, 2)."""
+    max_velocity: npt.NDArray[np.float64] | None
+    """Largest velocity of each joint [rad/s], shape (n,), or None where no source has it."""
+    is_coupled: bool
+    """Whether a parallelogram linkage couples axes 2 and 3."""
+    sources: int
+    """Number of independent sources of the figures."""
+    provenance: str
+    """The sources, and where they disagree."""

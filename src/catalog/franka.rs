@@ -20,6 +20,7 @@ pub(super) const ARMS: &[CatalogArm] = &[PANDA, FR3];
 
 const PANDA: CatalogArm = CatalogArm {
     name: "Panda",
+    maker: "Franka",
     payload: Some(3.0),
     reach: Some(0.855),
     geometry: GEOMETRY,
@@ -40,6 +41,7 @@ const PANDA: CatalogArm = CatalogArm {
 
 const FR3: CatalogArm = CatalogArm {
     name: "FR3",
+    maker: "Franka",
     payload: Some(3.0),
     reach: Some(0.855),
     geometry: GEOMETRY,

@@ -2,6 +2,7 @@
 
 mod abb;
 mod franka;
+mod left_out;
 mod names;
 mod universal_robots;
 
@@ -9,6 +10,7 @@ use crate::error::{Error, ModelFault};
 use crate::kinematics::{Arity, Joints};
 use crate::kinematics::{DhRow, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh};
 
+pub use left_out::left_out;
 pub use names::find;
 
 /// One arm of the catalog, with the numbers as its maker prints them.
@@ -16,6 +18,8 @@ pub use names::find;
 pub struct CatalogArm {
     /// The maker's type name.
     pub name: &'static str,
+    /// "ABB", "Universal Robots" or "Franka".
+    pub maker: &'static str,
     /// What it carries [kg], as its type name or the maker's data sheet has it; of several
     /// generations the least.
     pub payload: Option<f64>,
@@ -46,7 +50,7 @@ pub enum AngleUnit {
 }
 
 impl AngleUnit {
-    fn to_radians(self, angle: f64) -> f64 {
+    pub(crate) fn to_radians(self, angle: f64) -> f64 {
         match self {
             Self::Degrees => angle.to_radians(),
             Self::Radians => angle,
@@ -107,6 +111,18 @@ impl CatalogArm {
     pub fn dof(&self) -> usize {
         self.limits.len()
     }
+
+    /// Whether a parallelogram linkage couples axes 2 and 3.
+    #[must_use]
+    pub fn is_coupled(&self) -> bool {
+        matches!(self.geometry, CatalogGeometry::Abb { coupled: true, .. })
+    }
+
+    /// Other names that [`find`] takes for it, besides spellings that differ in what does not
+    /// matter.
+    pub fn aliases(&self) -> impl Iterator<Item = &'static str> {
+        names::ALIASES.iter().filter(|(_, name)| *name == self.name).map(|(alias, _)| *alias)
+    }
 }
 
 impl<const N: usize> Robot<N>
@@ -117,8 +133,8 @@ where
     ///
     /// # Errors
     ///
-    /// [`Error::UnknownRobot`] with up to six close names; [`Error::InvalidModel`] when the arm
-    /// does not have `N` joints.
+    /// [`Error::UnknownRobot`] with up to six close names, or with the reason for which an arm is
+    /// left out; [`Error::InvalidModel`] when the arm does not have `N` joints.
     pub fn named(name: &str) -> Result<Self, Error> {
         Self::from_catalog(find(name)?)
     }

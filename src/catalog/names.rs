@@ -4,24 +4,42 @@ use alloc::borrow::ToOwned;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::{CatalogArm, catalog};
+use super::{CatalogArm, catalog, left_out};
 use crate::error::{Error, UnknownRobot};
 
 /// How many close names an unknown one is told.
 const MOST_CLOSE: usize = 6;
 
-/// Finds an arm by its name; case, blanks, dashes, `_`, `/`, `,`, parentheses and the last zeros of
-/// a decimal (2.50, 2,5) do not matter.
+/// Other names of arms.
+pub(super) const ALIASES: &[(&str, &str)] = &[
+    ("Franka Emika Panda", "Panda"),
+    ("Franka Emika Robot", "Panda"),
+    ("FER", "Panda"),
+    ("Franka Research 3", "FR3"),
+];
+
+/// Finds an arm by its name or an alias, the maker's name before it or not; case, blanks, dashes,
+/// `_`, `/`, `,`, parentheses and the last zeros of a decimal (2.50, 2,5) do not matter.
 ///
 /// Nothing is guessed: a name that lacks a part is unknown, even where one arm alone has it.
 ///
 /// # Errors
 ///
-/// [`Error::UnknownRobot`] with up to six names that are close, the closest first.
+/// [`Error::UnknownRobot`] with the reason for which the arm is left out, or with up to six names
+/// that are close, the closest first.
 pub fn find(name: &str) -> Result<&'static CatalogArm, Error> {
     let wanted = squeezed(name);
-    catalog().find(|arm| squeezed(arm.name) == wanted).ok_or_else(|| {
-        Error::UnknownRobot(UnknownRobot { name: name.to_owned(), close: close_to(&wanted) })
+    let is_meant = |arm: &&CatalogArm| {
+        let own = squeezed(arm.name);
+        let after_maker = wanted.strip_prefix(squeezed(arm.maker).as_str());
+        own == wanted
+            || after_maker.is_some_and(|rest| rest == own)
+            || arm.aliases().any(|alias| squeezed(alias) == wanted)
+    };
+    catalog().find(is_meant).ok_or_else(|| {
+        let left_out = left_out::meant(name);
+        let close = if left_out.is_some() { Vec::new() } else { close_to(&wanted) };
+        Error::UnknownRobot(UnknownRobot { name: name.to_owned(), close, left_out })
     })
 }
 
@@ -72,11 +90,16 @@ fn trim_decimals(text: &mut String, point: Option<usize>) {
     }
 }
 
-/// Names that hold the wanted one, the earlier in the name the closer; where there are none, those
-/// that are spelled like it.
+/// Names of a maker's arms, where the wanted one is the maker's; else names that hold the wanted
+/// one, the earlier in the name the closer; where there are none, those that are spelled like it.
 fn close_to(wanted: &str) -> Vec<&'static str> {
     if wanted.is_empty() {
         return Vec::new();
+    }
+    let of_maker = catalog().filter(|arm| squeezed(arm.maker) == wanted);
+    let of_maker: Vec<_> = of_maker.map(|arm| arm.name).take(MOST_CLOSE).collect();
+    if !of_maker.is_empty() {
+        return of_maker;
     }
     let place = |arm: &CatalogArm| squeezed(arm.name).find(wanted);
     let mut holding: Vec<_> = catalog().filter_map(|arm| Some((place(arm)?, arm.name))).collect();
@@ -114,7 +137,10 @@ fn spelled_like(_: &str) -> Vec<&'static str> {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
+    use alloc::format;
+
     use super::*;
 
     #[test]
@@ -135,8 +161,20 @@ mod tests {
     }
 
     #[test]
+    fn aliases_and_makers_are_found() {
+        for (alias, name) in ALIASES {
+            assert_eq!(find(alias).unwrap().name, *name);
+        }
+        for arm in catalog() {
+            assert_eq!(find(&format!("{} {}", arm.maker, arm.name)).unwrap().name, arm.name);
+        }
+        assert!(find("ABB UR5e").is_err());
+    }
+
+    #[test]
     fn no_two_arms_have_the_same_name() {
         let mut names: Vec<_> = catalog().map(|arm| squeezed(arm.name)).collect();
+        names.extend(ALIASES.iter().map(|(alias, _)| squeezed(alias)));
         let count = names.len();
         names.sort();
         names.dedup();

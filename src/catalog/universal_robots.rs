@@ -13,6 +13,7 @@ const LIMITS: &[[f64; 2]] = &[[-360.0, 360.0]; 6];
 pub(super) const ARMS: &[CatalogArm] = &[
     CatalogArm {
         name: "UR3",
+        maker: "Universal Robots",
         payload: Some(3.0),
         reach: Some(0.5),
         geometry: CatalogGeometry::ThreeParallel {
@@ -31,6 +32,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "UR3e",
+        maker: "Universal Robots",
         payload: Some(3.0),
         reach: Some(0.5),
         geometry: CatalogGeometry::ThreeParallel {
@@ -49,6 +51,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "UR5",
+        maker: "Universal Robots",
         payload: Some(5.0),
         reach: Some(0.85),
         geometry: CatalogGeometry::ThreeParallel {
@@ -67,6 +70,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "UR5e",
+        maker: "Universal Robots",
         payload: Some(5.0),
         reach: Some(0.85),
         geometry: CatalogGeometry::ThreeParallel {
@@ -85,6 +89,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "UR7e",
+        maker: "Universal Robots",
         payload: Some(7.5),
         reach: Some(0.85),
         geometry: CatalogGeometry::ThreeParallel {
@@ -103,6 +108,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "UR8 Long",
+        maker: "Universal Robots",
         payload: Some(8.0),
         reach: Some(1.75),
         geometry: CatalogGeometry::ThreeParallel {
@@ -121,6 +127,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "UR10",
+        maker: "Universal Robots",
         payload: Some(10.0),
         reach: Some(1.3),
         geometry: CatalogGeometry::ThreeParallel {
@@ -139,6 +146,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "UR10e",
+        maker: "Universal Robots",
         payload: Some(10.0),
         reach: Some(1.3),
         geometry: CatalogGeometry::ThreeParallel {
@@ -157,6 +165,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "UR12e",
+        maker: "Universal Robots",
         payload: Some(12.5),
         reach: Some(1.3),
         geometry: CatalogGeometry::ThreeParallel {
@@ -175,6 +184,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "UR15",
+        maker: "Universal Robots",
         payload: Some(15.0),
         reach: Some(1.3),
         geometry: CatalogGeometry::ThreeParallel {
@@ -193,6 +203,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "UR16e",
+        maker: "Universal Robots",
         payload: Some(16.0),
         reach: Some(0.9),
         geometry: CatalogGeometry::ThreeParallel {
@@ -211,6 +222,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "UR18",
+        maker: "Universal Robots",
         payload: Some(18.0),
         reach: Some(0.95),
         geometry: CatalogGeometry::ThreeParallel {
@@ -229,6 +241,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "UR20",
+        maker: "Universal Robots",
         payload: Some(20.0),
         reach: Some(1.75),
         geometry: CatalogGeometry::ThreeParallel {
@@ -247,6 +260,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "UR30",
+        maker: "Universal Robots",
         payload: Some(30.0),
         reach: Some(1.3),
         geometry: CatalogGeometry::ThreeParallel {

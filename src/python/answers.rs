@@ -8,9 +8,10 @@ use pyo3::types::PyTuple;
 use super::arrays::{Rows, checked_out, output};
 use super::classes;
 use super::records;
-use crate::kinematics::{Followed, Singularity, SingularityKind};
+use crate::kinematics::{BreakReason, Followed, Singularity, SingularityKind};
 
-/// `irbkin.Singularity` of one record, or of records with the leading dimensions `lead`.
+/// `irbkin.Singularity` of one record, or `irbkin.SingularityBatch` of records with the leading
+/// dimensions `lead`.
 pub(super) fn singularity_record<'py>(
     py: Python<'py>,
     records: &[Option<Singularity>],
@@ -42,7 +43,11 @@ pub(super) fn singularity_record<'py>(
             .into_any(),
         None => records::kinds(py, records.first().map_or(SingularityKind::empty(), kinds))?,
     });
-    classes::singularity_class(py)?.call1(PyTuple::new(py, fields)?)
+    let class = match lead {
+        Some(_) => classes::singularity_batch_class(py)?,
+        None => classes::singularity_class(py)?,
+    };
+    class.call1(PyTuple::new(py, fields)?)
 }
 
 pub(super) type BatchArrays<'py> = (Bound<'py, PyArrayDyn<f64>>, Bound<'py, PyArrayDyn<u8>>);
@@ -94,10 +99,21 @@ pub(super) fn follow_result<'py>(
                 broken.pose_index,
                 broken.to_string(),
                 place,
+                break_kind(py, &broken.reason)?,
             ))?);
         }
     }
     classes::follow_result_class(py)?.call1((joints, errors, PyTuple::new(py, breaks)?))
+}
+
+/// `irbkin.BreakReason` of a break.
+fn break_kind<'py>(py: Python<'py>, reason: &BreakReason) -> PyResult<Bound<'py, PyAny>> {
+    classes::break_reason_class(py)?.getattr(match reason {
+        BreakReason::Unreachable(_) => "UNREACHABLE",
+        BreakReason::Jump { .. } => "JUMP",
+        BreakReason::Locked => "LOCKED",
+        BreakReason::Stopped { .. } => "STOPPED",
+    })
 }
 
 /// The index of an element by its number in row-major order.

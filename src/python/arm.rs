@@ -43,6 +43,18 @@ impl From<Robot<7>> for Arm {
     }
 }
 
+impl From<Arc<Robot<6>>> for Arm {
+    fn from(robot: Arc<Robot<6>>) -> Self {
+        Self::Six(robot)
+    }
+}
+
+impl From<Arc<Robot<7>>> for Arm {
+    fn from(robot: Arc<Robot<7>>) -> Self {
+        Self::Seven(robot)
+    }
+}
+
 impl Arm {
     pub(super) fn dof(&self) -> usize {
         match self {

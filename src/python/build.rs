@@ -8,7 +8,6 @@ use super::arrays::Rows;
 use super::edits::Edit;
 use super::errors::{Fault, to_py};
 use super::wording::shape;
-use crate::catalog::CatalogGeometry;
 use crate::error::{Error, ModelFault};
 use crate::kinematics::{
     Arity, Definition, DhRow, Joints, Mdh, OpwParameters, Pose, Robot, Sdh, pose_from_rows,
@@ -157,12 +156,6 @@ fn opw_numbers(opw: &OpwParameters) -> Vec<f64> {
 fn mdh_numbers<const N: usize>(mdh: &Mdh<N>) -> Vec<f64> {
     let rows = mdh.rows.iter().flat_map(|row| row.to_array());
     rows.chain(pose_to_rows(&mdh.base)).chain(pose_to_rows(&mdh.flange)).collect()
-}
-
-/// Whether the catalog's arm of a name is coupled.
-pub(super) fn is_coupled_in_catalog(name: &str) -> bool {
-    crate::catalog::find(name)
-        .is_ok_and(|arm| matches!(arm.geometry, CatalogGeometry::Abb { coupled: true, .. }))
 }
 
 /// Hash of a robot's value.

@@ -1,14 +1,52 @@
-//! `irbkin.catalog`.
+//! `irbkin.catalog` and `irbkin.catalog_entry`.
 
+use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyBytes, PyTuple};
 
-use crate::catalog::catalog as every_arm;
+use super::classes;
+use super::errors::to_py;
+use crate::catalog::{catalog as every_arm, find};
 use crate::kinematics::thresholds::MOST_REACH;
 
-/// Names of the robots in the catalog, ABB's by type number first; of all, or of those that reach
-/// and carry what is asked for.
+/// Return what the catalog has of an arm: payload, reach, limits, velocities, sources.
+///
+/// Args:
+///     name: Catalog name or alias, as `Robot` takes it.
+///
+/// Returns:
+///     CatalogEntry.
+///
+/// Raises:
+///     UnknownRobotError: No arm of that name; the message has the close names, or why the arm is
+///         left out.
+#[pyfunction]
+pub(super) fn catalog_entry<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+    let arm = find(name).map_err(|error| to_py(py, &error))?;
+    let radians = |angle: f64| arm.angles.to_radians(angle);
+    let limits: Vec<f64> = arm.limits.as_flattened().iter().map(|&limit| radians(limit)).collect();
+    let velocities = arm
+        .max_velocity
+        .map(|all| PyArray1::from_iter(py, all.iter().map(|&velocity| radians(velocity))));
+    let fields = (
+        arm.name,
+        arm.maker,
+        PyTuple::new(py, arm.aliases().collect::<Vec<_>>())?,
+        arm.dof(),
+        arm.payload,
+        arm.reach,
+        PyArray1::from_vec(py, limits).reshape([arm.dof(), 2])?,
+        velocities,
+        arm.is_coupled(),
+        arm.sources,
+        arm.provenance,
+    );
+    classes::catalog_entry_class(py)?.call1(fields)
+}
+
+/// Return the names of the arms in the catalog, ABB's by type number first; of all, or of those
+/// with a reach and a payload. `catalog_entry(name)` has the data of one.
 ///
 /// Args:
 ///     reach: Reach as the type name or the data sheet has it [m]: a number for at least that much,
@@ -16,8 +54,8 @@ use crate::kinematics::thresholds::MOST_REACH;
 ///     payload: Payload [kg], in the same way.
 ///
 /// Returns:
-///     Names in catalog order. An arm whose reach or payload is not known is in no answer that asks
-///     for it.
+///     Names in catalog order. An arm whose reach or payload is not known is left out where it is
+///     asked for.
 ///
 /// Raises:
 ///     ValueError: A filter is neither a number nor a pair, is NaN or negative, or its least is
@@ -53,8 +91,12 @@ impl Range {
             .map(|least| [least, f64::INFINITY])
             .or_else(|_| filter.extract::<[f64; 2]>());
         let [least, most] = pair.ok().filter(|_| !no_number).ok_or_else(|| {
-            let got = filter.repr().map_or_else(|_| "something else".into(), |repr| repr.to_string());
-            PyValueError::new_err(format!("{field} must be a number (at least that much) or a pair (least, most) [{unit}], got {got}"))
+            let got = filter.repr();
+            let got = got.map_or_else(|_| "something else".into(), |repr| repr.to_string());
+            PyValueError::new_err(format!(
+                "{field} must be a number (at least that much) or a pair (least, most) [{unit}], \
+                 got {got}"
+            ))
         })?;
         for value in [least, most] {
             if value.is_nan() || value < 0.0 {

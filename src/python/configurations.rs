@@ -48,7 +48,7 @@ pub(super) fn configuration<'py>(arm: &Arm, q: &Bound<'py, PyAny>) -> PyResult<B
             };
             let columns =
                 (column(|c| c.cf1)?, column(|c| c.cf4)?, column(|c| c.cf6)?, column(|c| c.cfx)?);
-            classes::configuration_class(py)?.call1(columns)
+            classes::configuration_batch_class(py)?.call1(columns)
         }
     }
 }
@@ -151,7 +151,9 @@ fn read_configurations(value: &Bound<'_, PyAny>) -> PyResult<Configurations> {
     if let Some(masked) = Masked::of(value)? {
         return Err(masked.refused(py, "configuration", Fault::Joints));
     }
-    let stacked = if value.is_instance(classes::configuration_class(py)?)? {
+    let is_record = value.is_instance(classes::configuration_class(py)?)?
+        || value.is_instance(classes::configuration_batch_class(py)?)?;
+    let stacked = if is_record {
         let numpy = py.import(intern!(py, "numpy"))?;
         let unlike = |_| {
             Fault::Joints

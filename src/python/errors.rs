@@ -6,7 +6,7 @@ use pyo3::types::PyTuple;
 
 use super::classes::{
     invalid_joints_error, invalid_model_error, invalid_motion_error, invalid_pose_error,
-    rapid_error, unknown_robot_error, unreachable_error,
+    rapid_error, unknown_name_error, unknown_robot_error, unreachable_error,
 };
 use super::records;
 use crate::error::{Error, FrameFault, NoConfiguration, RapidFault};
@@ -72,6 +72,11 @@ pub(super) fn of_seed(py: Python<'_>, error: &Error, seed: &[f64]) -> PyErr {
 /// A `RapidError` that has no place in a text.
 pub(super) fn rapid_fault(py: Python<'_>, message: String) -> PyErr {
     raised(rapid_error(py), message)
+}
+
+/// An `UnknownNameError`, which is a `KeyError`.
+pub(super) fn unknown_name(py: Python<'_>, message: String) -> PyErr {
+    raised(unknown_name_error(py), message)
 }
 
 /// With the line and the column as attributes.

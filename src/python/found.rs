@@ -8,7 +8,7 @@ use super::arrays::vector;
 use super::errors::{Fault, to_py};
 use crate::error::Error;
 use crate::kinematics::{
-    Arity, Cost, Joints, MOST_SLOTS, Robot, Solution, Solutions, check_seed, check_weights,
+    Arity, Cost, Joints, MOST_SLOTS, Pose, Robot, Solution, Solutions, check_seed, check_weights,
 };
 
 /// More turns than any robot has inside its limits: a list this long means limits in degrees, or
@@ -24,7 +24,26 @@ where
     pub(super) robot: Arc<Robot<N>>,
     pub(super) solutions: Solutions<N>,
     /// The list of turns, where the solutions were turned.
-    turned: Option<Vec<Solution<N>>>,
+    pub(super) turned: Option<Vec<Solution<N>>>,
+}
+
+impl<const N: usize> PartialEq for Found<N>
+where
+    Joints<N>: Arity<N>,
+{
+    fn eq(&self, other: &Self) -> bool {
+        self.solutions == other.solutions
+            && self.turned == other.turned
+            && is_same(&self.robot, &other.robot)
+    }
+}
+
+/// Whether two robots are equal; one and the same is without a look at its numbers.
+pub(super) fn is_same<const N: usize>(first: &Arc<Robot<N>>, second: &Arc<Robot<N>>) -> bool
+where
+    Joints<N>: Arity<N>,
+{
+    Arc::ptr_eq(first, second) || first == second
 }
 
 impl<const N: usize> Found<N>
@@ -33,6 +52,12 @@ where
 {
     pub(super) fn new(robot: Arc<Robot<N>>, solutions: Solutions<N>) -> Self {
         Self { robot, solutions, turned: None }
+    }
+
+    /// An answer of a pose without solutions.
+    pub(super) fn empty(robot: Arc<Robot<N>>, pose: Pose) -> Self {
+        let solutions = Solutions::none(robot.slot_count(), pose, *robot.limits());
+        Self::new(robot, solutions)
     }
 
     fn with(&self, solutions: Solutions<N>, turned: Option<Vec<Solution<N>>>) -> Self {

@@ -138,13 +138,14 @@ impl PyRobot {
     ///     seed: Joint vector from which a path starts [rad], shape (6,), or one for each path,
     ///         shape (..., 6).
     ///     weights: Cost of moving each joint, shape (6,); ones when not given.
-    ///     singular: What to do at the wrist singularity. "through": meet every pose exactly,
-    ///         however fast axes 4 and 6 turn. "error": stop where joint 5 comes into the zone, and
-    ///         where a joint must jump, as SingArea \Off. "wrist": inside the zone axes 4, 5, 6 go
-    ///         straight from where they enter to where they leave, position exact, as SingArea
-    ///         \Wrist. "lock_axis4": axis 4 stays at 0 or +-180 deg all along, position exact,
-    ///         orientation where it can be, as SingArea \LockAxis4.
-    ///     zone: |sin q5| below which `singular` acts; 0.0175, that is one degree, when not given.
+    ///     singularity_mode: What to do at the wrist singularity. "through": meet every pose
+    ///         exactly, however fast axes 4 and 6 turn. "error": stop where joint 5 comes into the
+    ///         zone, and where a joint must jump, as SingArea \Off. "wrist": inside the zone axes
+    ///         4, 5, 6 go straight from where they enter to where they leave, position exact, as
+    ///         SingArea \Wrist. "lock_axis4": axis 4 stays at 0 or +-180 deg all along, position
+    ///         exact, orientation where it can be, as SingArea \LockAxis4.
+    ///     zone: |sin q5| below which `singularity_mode` acts; 0.0175, that is one degree, when not
+    ///         given.
     ///
     /// Returns:
     ///     FollowResult: joints [rad], shape (..., m, 6), NaN where a pose is not met; orientation
@@ -156,7 +157,7 @@ impl PyRobot {
     ///     InvalidJointsError: A seed, weight or zone that is not finite.
     ///     InvalidModelError: The arm has no closed form or seven joints; "wrist" or "lock_axis4"
     ///         for an arm without a spherical wrist.
-    ///     ValueError: Another `singular`.
+    ///     ValueError: Another `singularity_mode`.
     #[pyo3(signature = (T, seed, weights=None, *, singularity_mode="through", zone=None))]
     fn follow<'py>(
         &self,

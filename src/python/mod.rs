@@ -22,7 +22,11 @@ mod queries;
 mod rapid;
 mod records;
 mod robot;
+mod robot_repr;
+mod solution;
+mod solution_state;
 mod solutions;
+mod table;
 mod tool_paths;
 mod trajectories;
 mod urdf;
@@ -30,30 +34,29 @@ mod wording;
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use pyo3::types::{PyMapping, PySequence, PyTuple};
 
 use crate::lanes::InstructionSet;
 
-/// Name of the instruction set that calculates: "avx512", "avx2" or "baseline".
+/// Return the name of the instruction set in use: "avx512", "avx2" or "baseline".
 #[pyfunction]
 fn instruction_set() -> &'static str {
     InstructionSet::in_use().name()
 }
 
-/// Names of the instruction sets that this processor has, the narrowest first.
+/// Return the names of the instruction sets that this CPU supports, the narrowest first.
 #[pyfunction]
 fn instruction_sets(py: Python<'_>) -> PyResult<Bound<'_, PyTuple>> {
     PyTuple::new(py, InstructionSet::available().map(InstructionSet::name).collect::<Vec<_>>())
 }
 
-/// Calculates with another instruction set from now on, in the whole process: for tests and
-/// measurements.
+/// Use another instruction set from now on, in the whole process: for tests and measurements.
 ///
 /// Args:
 ///     name: One of `instruction_sets()`.
 ///
 /// Raises:
-///     ValueError: This processor does not have it.
+///     ValueError: This CPU does not support it.
 #[pyfunction]
 fn use_instruction_set(name: &str) -> PyResult<()> {
     let available = || InstructionSet::available().map(InstructionSet::name).collect::<Vec<_>>();
@@ -74,12 +77,15 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<robot::PyRobot>()?;
     module.add_class::<solutions::PySolutions>()?;
-    module.add_class::<solutions::PySolution>()?;
+    module.add_class::<solution::PySolution>()?;
     module.add_function(wrap_pyfunction!(catalog::catalog, module)?)?;
+    module.add_function(wrap_pyfunction!(catalog::catalog_entry, module)?)?;
     module.add_function(wrap_pyfunction!(instruction_set, module)?)?;
     module.add_function(wrap_pyfunction!(instruction_sets, module)?)?;
     module.add_function(wrap_pyfunction!(use_instruction_set, module)?)?;
     module.add_function(wrap_pyfunction!(robot::restore_robot, module)?)?;
+    module.add_function(wrap_pyfunction!(solution::restore_solution, module)?)?;
+    module.add_function(wrap_pyfunction!(solutions::restore_solutions, module)?)?;
     module.add_function(wrap_pyfunction!(poses::pose, module)?)?;
     module.add_function(wrap_pyfunction!(poses::to_xyz_wxyz, module)?)?;
     module.add_function(wrap_pyfunction!(poses::to_xyz_euler_zyx, module)?)?;
@@ -100,5 +106,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(rapid::calc_rob_t, module)?)?;
     module.add_function(wrap_pyfunction!(rapid::calc_moves, module)?)?;
     module.add_function(wrap_pyfunction!(rapid::calc_targets, module)?)?;
-    Ok(())
+    let py = module.py();
+    PySequence::register::<solution::PySolution>(py)?;
+    PySequence::register::<solutions::PySolutions>(py)?;
+    PyMapping::register::<rapid::RapidModule>(py)
 }

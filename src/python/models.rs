@@ -19,15 +19,15 @@ impl PyRobot {
     ///         4).
     ///     limits: Lower and upper limit of each joint [rad], shape (n, 2); none when not given.
     ///     name: A name of your own.
-    ///     closed_form: With False, a six-axis arm of no known form is taken too: forward
-    ///         kinematics and Jacobian work, `ik` refuses. A seven-axis one is always taken.
+    ///     closed_form: With False, a six-axis arm of unknown structure is accepted, too: forward
+    ///         kinematics and Jacobian work, `ik` raises. A seven-axis one is always accepted.
     ///     snap: An alpha or theta offset within this of a multiple of 90 deg is made exact [rad],
     ///         at most 1e-3: 1e-5 takes 1.5708 for a right angle. Lengths stay as they are.
     ///
     /// Raises:
-    ///     InvalidModelError: A number is not finite, a limit is empty, a link has no length, or no
-    ///         closed form is known: the message names the axes that do not meet or are not
-    ///         parallel, by how much, and a `snap` that would do.
+    ///     InvalidModelError: A number is not finite, a limit is empty, a link has no length, or
+    ///         the structure is unknown: the message names the axes that do not meet or are not
+    ///         parallel, by how much, and a `snap` that suffices.
     #[staticmethod]
     #[pyo3(signature = (rows, limits=None, name="", *, closed_form=true, snap=0.0))]
     fn from_mdh(
@@ -48,8 +48,8 @@ impl PyRobot {
     ///         shape (6, 4) or (7, 4).
     ///     limits: Lower and upper limit of each joint [rad], shape (n, 2); none when not given.
     ///     name: A name of your own.
-    ///     closed_form: With False, a six-axis arm of no known form is taken too: forward
-    ///         kinematics and Jacobian work, `ik` refuses. A seven-axis one is always taken.
+    ///     closed_form: With False, a six-axis arm of unknown structure is accepted, too: forward
+    ///         kinematics and Jacobian work, `ik` raises. A seven-axis one is always accepted.
     ///     snap: An alpha or theta offset within this of a multiple of 90 deg is made exact [rad],
     ///         at most 1e-3: 1e-5 takes 1.5708 for a right angle. Lengths stay as they are.
     ///
@@ -68,10 +68,18 @@ impl PyRobot {
         build::from_table(rows, limits, name, table).map(Self::from)
     }
 
-    /// Robot from Brandstoetter's parameters of an ortho-parallel arm with a spherical wrist.
+    /// Robot from Brandstoetter's parameters of an ortho-parallel arm with a spherical wrist, which
+    /// is straight up along z at zero theta.
     ///
     /// Args:
-    ///     a1, a2, b, c1, c2, c3, c4: Lengths [m]. At zero theta the arm stands straight up.
+    ///     a1: Distance of axis 2 from axis 1 [m].
+    ///     a2: Elbow offset [m]: distance of axis 4 from axis 3, negative where it lifts the
+    ///         forearm of an ABB arm at zero.
+    ///     b: Lateral offset of the wrist center from the plane through axis 1 [m].
+    ///     c1: Height of axis 2 [m].
+    ///     c2: Upper arm [m]: distance of axis 3 from axis 2.
+    ///     c3: Forearm [m]: distance of the wrist center from axis 3, along axis 4.
+    ///     c4: Distance of the flange from the wrist center [m].
     ///     offsets: Joint offsets [rad], shape (6,): theta = sign * q - offset, as opw_kinematics
     ///         has it; zeros when not given.
     ///     signs: Joint signs, each 1 or -1, shape (6,); ones when not given.
@@ -82,7 +90,9 @@ impl PyRobot {
     ///     InvalidModelError: A number is not finite, a sign is not 1 or -1, a limit is empty, or a
     ///         link has no length.
     #[staticmethod]
-    #[pyo3(signature = (*, a1, a2, b, c1, c2, c3, c4, offsets=None, signs=None, limits=None, name=""))]
+    #[pyo3(signature = (
+        *, a1, a2, b, c1, c2, c3, c4, offsets=None, signs=None, limits=None, name=""
+    ))]
     #[expect(clippy::too_many_arguments, reason = "the parameters of the form have these names")]
     fn from_opw(
         py: Python<'_>,
@@ -115,8 +125,8 @@ impl PyRobot {
     ///     tip: Link that poses are of; when not given, the only one at the end of a chain of six
     ///         or seven joints.
     ///     name: A name of your own; the URDF's when not given.
-    ///     closed_form: With False, a six-axis arm of no known form is taken too: forward
-    ///         kinematics and Jacobian work, `ik` refuses. A seven-axis one is always taken.
+    ///     closed_form: With False, a six-axis arm of unknown structure is accepted, too: forward
+    ///         kinematics and Jacobian work, `ik` raises. A seven-axis one is always accepted.
     ///     snap: An angle of an origin, or an axis, within this of a multiple of 90 deg is made
     ///         exact [rad], at most 1e-3: 1e-5 takes 1.5708 for a right angle. Lengths stay as they
     ///         are.
@@ -124,7 +134,7 @@ impl PyRobot {
     /// Raises:
     ///     InvalidModelError: The text is no URDF, several links could be meant, there are not six
     ///         or seven joints, a joint between base and tip is not revolute, continuous or fixed,
-    ///         or no closed form is known; the message names what is wrong.
+    ///         or the structure is unknown; the message names what is wrong.
     ///     OSError: The file cannot be read.
     #[staticmethod]
     #[pyo3(signature = (text_or_path, base=None, tip=None, name="", *, closed_form=true, snap=0.0))]

@@ -10,19 +10,23 @@ use super::build::{self, State};
 use super::edits::Edit;
 use super::errors::{Fault, to_py};
 use super::poses::{pose_array, read_pose};
+use super::robot_repr;
 use crate::catalog;
 use crate::kinematics::Robot;
 
-/// A robot arm: `Robot("IRB 2600-12/1.65")`. Frozen, hashable, equal by value, picklable.
+/// A robot arm of six or seven joints: `Robot("IRB 2600-12/1.65")`.
+///
+/// Frozen, hashable, equal by value, picklable. Other arms come from `from_mdh`, `from_sdh`,
+/// `from_opw` and `from_urdf`.
 ///
 /// Args:
-///     name: Catalog name; case, blanks, -, _, /, commas and parentheses do not matter.
-///         `irbkin.catalog()` lists them.
+///     name: Catalog name or alias, the maker's name before it or not; case, blanks, -, _, /,
+///         commas and parentheses do not matter. `irbkin.catalog()` lists the names.
 ///
 /// Raises:
 ///     UnknownRobotError: No arm of that name; the message has up to six close ones, the closest
-///         first.
-#[pyclass(name = "Robot", module = "irbkin", frozen)]
+///         first, or why the arm is left out of the catalog.
+#[pyclass(name = "Robot", module = "irbkin", frozen, weakref)]
 pub(super) struct PyRobot {
     arm: Arm,
 }
@@ -59,7 +63,7 @@ impl PyRobot {
         arm.map(Self::from).map_err(|error| to_py(py, &error))
     }
 
-    /// Catalog name, or the name that was given.
+    /// Catalog name, or the name given by the caller.
     #[getter]
     fn name(&self) -> &str {
         on_robot!(&self.arm, robot => robot.name())
@@ -71,8 +75,8 @@ impl PyRobot {
         self.arm.dof()
     }
 
-    /// Name of the closed form: "spherical wrist", "three parallel axes", "spherical shoulder", or
-    /// "unknown" where there is none.
+    /// Kinematic structure: "spherical wrist", "three parallel axes", "spherical shoulder", or
+    /// "unknown" where irbkin has no closed form.
     #[getter]
     fn structure(&self) -> &'static str {
         on_robot!(&self.arm, robot => robot.structure())
@@ -82,7 +86,9 @@ impl PyRobot {
     /// 4). `flange` follows the last row.
     #[getter]
     fn mdh<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows: Vec<f64> = on_robot!(&self.arm, robot => robot.mdh().rows.iter().flat_map(|row| row.to_array()).collect());
+        let rows: Vec<f64> = on_robot!(&self.arm, robot => {
+            robot.mdh().rows.iter().flat_map(|row| row.to_array()).collect()
+        });
         PyArray1::from_vec(py, rows).reshape([self.arm.dof(), 4])
     }
 
@@ -98,13 +104,13 @@ impl PyRobot {
         on_robot!(&self.arm, robot => pose_array(py, &robot.mdh().flange))
     }
 
-    /// The base in the world, shape (4, 4).
+    /// Pose of the base in the world, shape (4, 4).
     #[getter]
     fn base<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         on_robot!(&self.arm, robot => pose_array(py, robot.base()))
     }
 
-    /// The tool center point in the flange frame, shape (4, 4).
+    /// Pose of the tool center point in the flange frame, shape (4, 4).
     #[getter]
     fn tool<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         on_robot!(&self.arm, robot => pose_array(py, robot.tool()))
@@ -117,46 +123,69 @@ impl PyRobot {
         PyArray1::from_vec(py, flat).reshape([self.arm.dof(), 2])
     }
 
-    /// Largest velocity of each joint [rad/s], shape (n,), or None where no source has it.
+    /// Largest velocity of each joint [rad/s], shape (n,), or None where it is not known.
     #[getter]
     fn max_velocity<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
-        on_robot!(&self.arm, robot => robot.max_velocity().map(|velocity| PyArray1::from_slice(py, velocity)))
+        on_robot!(&self.arm, robot => {
+            robot.max_velocity().map(|velocity| PyArray1::from_slice(py, velocity))
+        })
     }
 
-    /// The same robot with its tool center point at T, shape (4, 4), in the flange frame. A tool
-    /// that it had is replaced.
+    /// Return the robot with another tool, in place of the one that it had.
+    ///
+    /// Args:
+    ///     T: Pose of the tool center point in the flange frame, shape (4, 4), translation [m].
+    ///
+    /// Raises:
+    ///     InvalidPoseError: T is not a rigid transform or has a wrong shape.
     fn with_tool(&self, T: &Bound<'_, PyAny>) -> PyResult<Self> {
         self.arm.changed(T.py(), &Edit::Tool(read_pose(T, "T")?)).map(Self::from)
     }
 
-    /// The same robot standing at T, shape (4, 4), in the world, in which poses are then given. A
-    /// base that it had is replaced.
+    /// Return the robot with another base, in place of the one that it had; poses are then given in
+    /// the world.
+    ///
+    /// Args:
+    ///     T: Pose of the base in the world, shape (4, 4), translation [m].
+    ///
+    /// Raises:
+    ///     InvalidPoseError: T is not a rigid transform or has a wrong shape.
     fn with_base(&self, T: &Bound<'_, PyAny>) -> PyResult<Self> {
         self.arm.changed(T.py(), &Edit::Base(read_pose(T, "T")?)).map(Self::from)
     }
 
-    /// The same robot with other joint limits [rad], shape (n, 2); those of a linkage stay.
+    /// Return the robot with other joint limits; those of a linkage stay.
+    ///
+    /// Args:
+    ///     limits: Lower and upper limit of each joint [rad], shape (n, 2); infinite for none.
+    ///
+    /// Raises:
+    ///     InvalidModelError: A limit is NaN, a lower one is above the upper one, or the shape is
+    ///         wrong.
     fn with_limits(&self, limits: &Bound<'_, PyAny>) -> PyResult<Self> {
         build::with_limits(&self.arm, limits).map(Self::from)
     }
 
-    /// Whether a parallelogram couples axes 2 and 3: joint 3 is then told from the base, as the
-    /// controller tells it.
+    /// Whether a parallelogram linkage couples axes 2 and 3: q3 is then measured from the base, as
+    /// the controller does.
     #[getter]
     fn is_coupled(&self) -> bool {
         on_robot!(&self.arm, robot => robot.is_coupled())
     }
 
-    /// Lower and upper limit of q3 - q2 [rad], shape (2,), of the linkage that couples axes 2 and
-    /// 3; None where none are known.
+    /// Lower and upper limit of q3 - q2 [rad], shape (2,), of the parallelogram linkage; None where
+    /// none are known.
     #[getter]
     fn linkage_limits<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
         on_robot!(&self.arm, robot => robot.limits().linkage())
             .map(|linkage| PyArray1::from_slice(py, &linkage))
     }
 
-    /// The same robot with limits of q3 - q2 [rad], shape (2,), at whatever turn, for the linkage
-    /// that couples axes 2 and 3; None for none.
+    /// Return the robot with other limits of q3 - q2, the angle of its parallelogram linkage.
+    ///
+    /// Args:
+    ///     limits: Lower and upper limit [rad], shape (2,), met by any 2 pi equivalent of q3 - q2;
+    ///         None for none.
     ///
     /// Raises:
     ///     InvalidModelError: A limit is NaN, the lower one is above the upper one, or axes 2 and 3
@@ -170,24 +199,26 @@ impl PyRobot {
         self.arm.changed(py, &Edit::LinkageLimits(limits)).map(Self::from)
     }
 
-    /// The twin without the coupling of axes 2 and 3: its joint 3 is this one's minus joint 2. The
-    /// arm itself where it has none.
+    /// Return the twin without the coupling of axes 2 and 3: its q3 is this robot's q3 - q2. The
+    /// robot itself where it has no linkage.
     ///
-    /// Its joint 3 is limited as the linkage is or, where that is unknown, may stand wherever axes
-    /// 2 and 3 let it, and turns as fast as both together: there and back again widens both.
+    /// The limits of its joint 3 are those of the linkage or, where these are not known, the range
+    /// of q3 - q2 inside the limits of both axes. Its velocity is the sum of both. `coupled()` of
+    /// the twin therefore has wider limits and a higher velocity than this robot.
     fn uncoupled(&self, py: Python<'_>) -> PyResult<Self> {
         self.arm.changed(py, &Edit::Coupled(false)).map(Self::from)
     }
 
-    /// The twin whose axes 2 and 3 a parallelogram couples: its joint 3 is this one's plus joint 2,
-    /// as its controller tells it.
+    /// Return the twin whose axes 2 and 3 are coupled by a parallelogram linkage: its q3 is this
+    /// robot's q3 + q2, as a controller measures it.
     ///
-    /// What was the limit of joint 3 is that of the linkage; joint 3 may stand wherever axes 2 and
-    /// the linkage let it, and turns as fast as both together: there and back again widens both.
+    /// The limits of joint 3 become those of the linkage. The limits of its joint 3 are the range
+    /// that axis 2 and the linkage allow, and its velocity is the sum of both. `uncoupled()` of the
+    /// twin therefore has wider limits and a higher velocity than this robot.
     ///
     /// Raises:
     ///     InvalidModelError: The arm has no spherical wrist, or its axes 2 and 3 turn in opposite
-    ///         senses.
+    ///         directions.
     fn coupled(&self, py: Python<'_>) -> PyResult<Self> {
         self.arm.changed(py, &Edit::Coupled(true)).map(Self::from)
     }
@@ -205,16 +236,6 @@ impl PyRobot {
     }
 
     fn __repr__(&self) -> String {
-        match self.name() {
-            "" => format!("Robot({} joints, {})", self.arm.dof(), self.structure()),
-            name => {
-                let twin = match (build::is_coupled_in_catalog(name), self.is_coupled()) {
-                    (true, false) => ".uncoupled()",
-                    (false, true) => ".coupled()",
-                    _ => "",
-                };
-                format!("Robot(\"{name}\"){twin}")
-            }
-        }
+        robot_repr::repr(&self.arm)
     }
 }

@@ -55,6 +55,27 @@ enum Rest {
 const ONE_BRANCH: &[&[usize]] = &[&[0, 1]];
 
 impl FreeJoint {
+    /// Every one of them.
+    #[cfg(any(test, feature = "python"))]
+    const ALL: [Self; 10] = [
+        Self::Base,
+        Self::Upper,
+        Self::UpperCoupled,
+        Self::WristSum,
+        Self::WristDifference,
+        Self::Parallel,
+        Self::ShoulderSum,
+        Self::ShoulderDifference,
+        Self::Forearm,
+        Self::Hand,
+    ];
+
+    /// The one with this joint, from 1, and these words for what stays fixed.
+    #[cfg(any(test, feature = "python"))]
+    pub(crate) fn named(joint: usize, fixed: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|free| free.joint() == joint && free.fixed() == fixed)
+    }
+
     const fn motion(self) -> SelfMotion {
         let (joint, fixed, rest) = match self {
             Self::Base => (1, "q2, q3", Rest::Still(&[2, 3])),
@@ -109,5 +130,19 @@ impl FreeJoint {
     /// The branches that the self-motion runs through, by what their slots differ in.
     pub(crate) const fn branches(self) -> &'static [&'static [usize]] {
         self.motion().branches
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::FreeJoint;
+
+    #[test]
+    fn each_has_its_own_joint_and_words() {
+        for (index, free) in FreeJoint::ALL.into_iter().enumerate() {
+            assert_eq!(free as usize, index, "ALL has every one, in order");
+            assert_eq!(FreeJoint::named(free.joint(), free.fixed()), Some(free));
+        }
+        assert_eq!(FreeJoint::named(7, "q4 + q6"), None);
     }
 }

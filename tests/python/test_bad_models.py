@@ -148,7 +148,37 @@ def test_an_unknown_name_says_which_are_close(name, close):
 def test_a_name_like_no_other_says_so(name):
     with pytest.raises(KeyError) as unknown:
         Robot(name)
-    assert str(unknown.value) == f'unknown robot "{name}"; no name of the catalog is close to it'
+    assert str(unknown.value) == (
+        f'unknown robot "{name}"; no name of the catalog is close to it: '
+        "catalog() lists all, from_urdf and from_mdh take other arms"
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "reason"),
+    [
+        ("GoFa", "no spherical wrist: axes 5 and 6 pass 80 mm apart"),
+        ("CRB 15000-5/0.95", "no spherical wrist: axes 5 and 6 pass 80 mm apart"),
+        ("YuMi", "seven axes of no form that irbkin solves"),
+        ("IRB 910SC", "four axes, one of them prismatic"),
+        ("abb irb 460", "four axes, a second linkage keeps the flange level"),
+        ("IRB 6400/2.8-120", "its one source has a forearm of 1705 mm"),
+    ],
+)
+def test_an_arm_that_is_left_out_says_why(name, reason):
+    with pytest.raises(UnknownRobotError, match="; left out of the catalog: ") as unknown:
+        Robot(name)
+    assert reason in str(unknown.value)
+
+
+@pytest.mark.parametrize(
+    ("maker", "arms"),
+    [("franka", ("Panda", "FR3")), ("Universal Robots", ("UR3", "UR5e")), ("ABB", ("IRB",))],
+)
+def test_a_makers_name_says_which_arms_there_are(maker, arms):
+    with pytest.raises(UnknownRobotError, match="close names: ") as unknown:
+        Robot(maker)
+    assert all(arm in str(unknown.value) for arm in arms)
 
 
 @pytest.mark.parametrize("name", [5, None, b"Panda", ["Panda"]])

@@ -135,8 +135,10 @@ def test_representations():
     robot = Robot("IRB 2600-12/1.65")
     assert repr(robot) == 'Robot("IRB 2600-12/1.65")'
     assert eval(repr(robot), {"Robot": Robot}) == robot
-    assert repr(Robot.from_opw(**IRB2400)) == "Robot(6 joints, spherical wrist)"
-    assert repr(Robot.from_opw(**IRB2400, name="mine")) == 'Robot("mine")'
+    assert repr(Robot.from_opw(**IRB2400)) == "<Robot: 6 joints, spherical wrist>"
+    assert repr(Robot.from_opw(**IRB2400, name="mine")) == (
+        '<Robot "mine": 6 joints, spherical wrist>'
+    )
     solutions = robot.ik(robot.fk(np.deg2rad([10, -20, 30, 40, 50, 60])))
     assert repr(solutions) == "Solutions(8 solutions, 4 inside limits)"
     assert (
@@ -164,6 +166,26 @@ def test_the_catalog_is_a_tuple_of_names_without_doubles():
     assert isinstance(names, tuple)
     assert len(set(names)) == len(names) > 0
     assert all(Robot(name).name == name for name in names)
+
+
+@pytest.mark.parametrize("name", irbkin.catalog())
+def test_an_entry_of_the_catalog_has_what_the_robot_has(name):
+    entry, robot = irbkin.catalog_entry(name), Robot(name)
+    assert (entry.name, entry.dof, entry.is_coupled) == (name, robot.dof, robot.is_coupled)
+    np.testing.assert_array_equal(entry.limits, robot.limits)
+    np.testing.assert_array_equal(entry.max_velocity, robot.max_velocity)
+    assert entry.maker in ("ABB", "Universal Robots", "Franka")
+    assert entry.sources >= 1
+    assert entry.provenance
+    assert all(Robot(alias) == robot for alias in entry.aliases)
+    assert Robot(f"{entry.maker} {name}") == robot
+    assert name in irbkin.catalog(reach=entry.reach and (entry.reach, entry.reach))
+    assert name in irbkin.catalog(payload=entry.payload and (entry.payload, entry.payload))
+
+
+def test_an_unknown_name_has_no_entry():
+    with pytest.raises(irbkin.UnknownRobotError, match="close names"):
+        irbkin.catalog_entry("IRB 2600-12/1.66")
 
 
 def test_status_and_kind_have_the_bits_of_rust():

@@ -1,7 +1,9 @@
-"""ABB's RAPID: modules read and written, robtargets to joint angles and back.
+"""ABB's RAPID: read and write modules, convert robtargets to joint angles and back.
 
     >>> from irbkin import Robot, rapid
-    >>> p10 = rapid.parse("[[1018.6,0,1417.5],[0.5,0,0.866025,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]")
+    >>> p10 = rapid.parse(
+    ...     "[[1018.6,0,1417.5],[0.5,0,0.866025,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
+    ... )
     >>> joints = rapid.calc_joint_t(Robot("IRB 2600-12/1.85"), p10)
     >>> abs(round(joints.robax_deg[4], 1))
     30.0
@@ -47,15 +49,14 @@ __all__ = [
 
 
 def parse(text: str | bytes, context: Iterable[Module] = ()) -> Any:
-    """The module of a text, with or without MODULE around it; of a record that stands by itself,
-    the record.
+    """Parse a RAPID module, with or without MODULE around it, or a single record.
 
     Args:
         text: RAPID text, or the bytes of a file: UTF-8, UTF-16 with its mark, else Latin-1. Text
             that begins with a bracket is one robtarget, jointtarget, tooldata, wobjdata, pose or
-            loaddata, as `dump` writes them: their shapes differ.
+            loaddata, as `dump` writes them, determined by its shape.
         context: Modules in which names that the text does not declare are looked for: their data
-        that are not LOCAL.
+            that are not LOCAL.
 
     Returns:
         Module; or RobTarget, JointTarget, ToolData, WobjData, Pose or LoadData.
@@ -73,7 +74,11 @@ def parse(text: str | bytes, context: Iterable[Module] = ()) -> Any:
 
 
 def load(path: str | PathLike[str], context: Iterable[Module] = ()) -> Module:
-    """The module of a file (.mod, .sys, .prg); otherwise as `parse`.
+    """Parse the module of a file (.mod, .sys, .prg).
+
+    Args:
+        path: The file: UTF-8, UTF-16 with its mark, else Latin-1.
+        context: As for `parse`.
 
     Raises:
         RapidError: As `parse`; the message begins with the path.
@@ -88,18 +93,23 @@ def load(path: str | PathLike[str], context: Iterable[Module] = ()) -> Module:
 
 
 def dump(value: Any, name: str = "Data") -> str:
-    """RAPID text of a record, of a module, or of data by their names: `parse` gives back what was
-    dumped.
+    """Return the RAPID text of a record, of a module, or of a mapping of names to values; `parse`
+    gives back what was dumped.
 
     Args:
         value: RobTarget, JointTarget, ToolData, WobjData, Pose, LoadData, Configuration, a number,
             a tuple of 3 (pos), 4 (orient) or 6 (extjoint) numbers, nested lists of these for an
-            array: the text of the value. A Module, or
-            a mapping from names to values: the text of a module; tools and work objects as PERS,
-                others as CONST.
+            array: the text of the value. A Module, or a mapping of names to values: the text of a
+            module, with tools and work objects as PERS, others as CONST.
         name: Name of the module that is made of a mapping.
 
     Raises:
         RapidError: A value is no RAPID data or not finite, or a name is none.
     """
-    return _core.dump(dict(value) if isinstance(value, Mapping) else value, name)
+    is_data = isinstance(value, Mapping) and not isinstance(value, Module)
+    return _core.dump(dict(value) if is_data else value, name)
+
+
+def __dir__() -> list[str]:
+    """List what the module offers."""
+    return sorted({*__all__, "program", "records", *(n for n in globals() if n.startswith("__"))})

@@ -1,15 +1,21 @@
-"""What a RAPID module says, and what became of its targets."""
+"""What a RAPID module declares and moves, and the joint angles of its targets."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from irbkin.rapid.records import JointTarget, RobTarget, ToolData, WobjData
-from irbkin.records import Configuration
+from irbkin.records import ConfigurationBatch, by_value
 
 if TYPE_CHECKING:
+    from typing import TypeAlias
+
     import numpy as np
     import numpy.typing as npt
+
+    from irbkin.rapid.records import Record
+
+    _Elements: TypeAlias = list[Record] | list["_Elements"]
 
 __all__ = ["Argument", "Declaration", "Move", "Skipped", "TargetTable"]
 
@@ -18,18 +24,21 @@ class Declaration(NamedTuple):
     """A data declaration. Values are those of the text: what a program assigns is not followed."""
 
     name: str
+    """Its name, as the text has it."""
     type: str
     """RAPID's name of it."""
-    scope: str
+    scope: Literal["LOCAL", "TASK", ""]
     """"LOCAL", "TASK" or nothing."""
-    storage: str
+    storage: Literal["CONST", "PERS", "VAR"]
     """"CONST", "PERS" or "VAR"."""
     routine: str | None
     """The routine that it is declared in; None for the module."""
-    value: Any
+    value: Record | _Elements | None
     """A record; nested lists of records for an array; None without a value."""
     line: int
+    """Line of the text, from 1."""
     column: int
+    """Column of the text, from 1."""
 
 
 class Argument(NamedTuple):
@@ -39,7 +48,9 @@ class Argument(NamedTuple):
     """
 
     text: str
+    """The argument as it is written."""
     value: RobTarget | JointTarget | ToolData | WobjData | None
+    """What it is; None where the declarations do not give it."""
     reason: str | None
     """Why the value is not known, where it is None."""
 
@@ -47,22 +58,28 @@ class Argument(NamedTuple):
 class Move(NamedTuple):
     """A move instruction."""
 
-    kind: str
+    kind: Literal["MoveJ", "MoveL", "MoveC", "MoveAbsJ"]
     """"MoveJ", "MoveL", "MoveC" or "MoveAbsJ"."""
     routine: str | None
-    """The routine that it stands in."""
+    """The routine that it is in."""
     target: Argument
+    """Where it goes: a RobTarget, of MoveAbsJ a JointTarget."""
     via: Argument | None
     """The point on the circle of a MoveC."""
     speed: str
+    """The speed as it is written, such as "v1000"."""
     zone: str
+    """The zone as it is written, such as "z50"."""
     tool: Argument
+    """The tool: a ToolData."""
     wobj: Argument | None
     r"""The work object of \WObj; wobj0 is meant without one."""
     options: tuple[tuple[str, str | None], ...]
     """The other optional arguments: name and text; no text for a switch."""
     line: int
+    """Line of the text, from 1."""
     column: int
+    """Column of the text, from 1."""
     displaced: int | None
     """Line of the instruction that displaces it, which is not followed: PDispOn or PDispSet."""
 
@@ -71,13 +88,18 @@ class Skipped(NamedTuple):
     """A part of the text that is not read."""
 
     line: int
+    """Line of the text, from 1."""
     column: int
+    """Column of the text, from 1."""
     routine: str | None
+    """The routine that it is in; None for the module."""
     what: str
     """What it is and, of a datum, why it is not read."""
     text: str
+    """The part as it is written."""
 
 
+@by_value
 class TargetTable(NamedTuple):
     """The joint angles of m targets."""
 
@@ -89,7 +111,7 @@ class TargetTable(NamedTuple):
     """Line of the instruction or of the declaration, shape (m,)."""
     q: npt.NDArray[np.float64]
     """Joint angles [rad], shape (m, 6), NaN where there are none."""
-    configuration: Configuration
+    configuration: ConfigurationBatch
     """That of the joint angles, int32 arrays of shape (m,); where there are none, that of the
     target.
     """

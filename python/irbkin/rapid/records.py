@@ -158,7 +158,7 @@ class JointTarget:
 
 @dataclass(frozen=True, slots=True)
 class LoadData:
-    """`loaddata`: mass and inertia of a load, of which kinematics takes no notice."""
+    """`loaddata`: mass and inertia of a load; kinematics does not use them."""
 
     mass_kg: float = 0.001
     """Mass [kg]."""
@@ -231,6 +231,15 @@ def _set_configuration(target: RobTarget) -> None:
         numbers, whole = (), ()
     if len(whole) != 4 or whole != numbers or any(abs(number) > MOST_WHOLE for number in whole):
         raise RapidError(
-            f"RobTarget: robconf must be 4 whole numbers of at most {MOST_WHOLE}, got {target.robconf!r}"
+            f"RobTarget: robconf must be 4 whole numbers of at most {MOST_WHOLE}, "
+            f"got {target.robconf!r}"
         )
     object.__setattr__(target, "robconf", Configuration(*whole))
+
+
+Record = (
+    RobTarget | JointTarget | ToolData | WobjData | Pose | LoadData | Configuration | Vector | float
+)
+"""The value of a RAPID datum: a record, a tuple of 3 (pos), 4 (orient) or 6 (extjoint) numbers, or
+a number.
+"""

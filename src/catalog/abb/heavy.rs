@@ -5,6 +5,7 @@ use crate::catalog::{AngleUnit, CatalogArm, CatalogGeometry};
 pub(super) const ARMS: &[CatalogArm] = &[
     CatalogArm {
         name: "IRB 6700-150/3.2",
+        maker: "ABB",
         payload: Some(150.0),
         reach: Some(3.2),
         geometry: CatalogGeometry::Abb {
@@ -31,6 +32,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6700-150/3.2 (LeanID)",
+        maker: "ABB",
         payload: Some(150.0),
         reach: Some(3.2),
         geometry: CatalogGeometry::Abb {
@@ -57,6 +59,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6700-155/2.85",
+        maker: "ABB",
         payload: Some(155.0),
         reach: Some(2.85),
         geometry: CatalogGeometry::Abb {
@@ -83,6 +86,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6700-175/3.05",
+        maker: "ABB",
         payload: Some(175.0),
         reach: Some(3.05),
         geometry: CatalogGeometry::Abb {
@@ -109,6 +113,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6700-200/2.6",
+        maker: "ABB",
         payload: Some(200.0),
         reach: Some(2.6),
         geometry: CatalogGeometry::Abb {
@@ -135,6 +140,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6700-205/2.8",
+        maker: "ABB",
         payload: Some(205.0),
         reach: Some(2.8),
         geometry: CatalogGeometry::Abb {
@@ -161,6 +167,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6700-220/2.65 (MH6, LeanID)",
+        maker: "ABB",
         payload: Some(220.0),
         reach: Some(2.65),
         geometry: CatalogGeometry::Abb {
@@ -187,6 +194,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6700-235/2.65",
+        maker: "ABB",
         payload: Some(235.0),
         reach: Some(2.65),
         geometry: CatalogGeometry::Abb {
@@ -213,6 +221,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6790-205/2.8",
+        maker: "ABB",
         payload: Some(205.0),
         reach: Some(2.8),
         geometry: CatalogGeometry::Abb {
@@ -239,6 +248,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6790-235/2.65",
+        maker: "ABB",
         payload: Some(235.0),
         reach: Some(2.65),
         geometry: CatalogGeometry::Abb {
@@ -265,6 +275,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 7600-150/3.5",
+        maker: "ABB",
         payload: Some(150.0),
         reach: Some(3.5),
         geometry: CatalogGeometry::Abb {
@@ -291,6 +302,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 7600-325/3.1",
+        maker: "ABB",
         payload: Some(325.0),
         reach: Some(3.1),
         geometry: CatalogGeometry::Abb {
@@ -317,6 +329,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 7600-340/2.8",
+        maker: "ABB",
         payload: Some(340.0),
         reach: Some(2.8),
         geometry: CatalogGeometry::Abb {
@@ -343,6 +356,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 7600-400/2.55",
+        maker: "ABB",
         payload: Some(400.0),
         reach: Some(2.55),
         geometry: CatalogGeometry::Abb {
@@ -369,6 +383,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 7600-500/2.3",
+        maker: "ABB",
         payload: Some(500.0),
         reach: Some(2.3),
         geometry: CatalogGeometry::Abb {
@@ -395,6 +410,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 7600-500/2.55",
+        maker: "ABB",
         payload: Some(500.0),
         reach: Some(2.55),
         geometry: CatalogGeometry::Abb {
@@ -421,6 +437,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 8700-550/4.2",
+        maker: "ABB",
         payload: Some(550.0),
         reach: Some(4.2),
         geometry: CatalogGeometry::Abb {
@@ -447,6 +464,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 8700-800/3.5",
+        maker: "ABB",
         payload: Some(800.0),
         reach: Some(3.5),
         geometry: CatalogGeometry::Abb {

@@ -5,6 +5,7 @@ use crate::catalog::{AngleUnit, CatalogArm, CatalogGeometry};
 pub(super) const ARMS: &[CatalogArm] = &[
     CatalogArm {
         name: "IRB 5710-70/2.7 LID",
+        maker: "ABB",
         payload: Some(70.0),
         reach: Some(2.7),
         geometry: CatalogGeometry::Abb {
@@ -31,6 +32,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 5710-90/2.3 LID",
+        maker: "ABB",
         payload: Some(90.0),
         reach: Some(2.3),
         geometry: CatalogGeometry::Abb {
@@ -57,6 +59,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 5710-90/2.7",
+        maker: "ABB",
         payload: Some(90.0),
         reach: Some(2.7),
         geometry: CatalogGeometry::Abb {
@@ -83,6 +86,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 5710-110/2.3",
+        maker: "ABB",
         payload: Some(110.0),
         reach: Some(2.3),
         geometry: CatalogGeometry::Abb {
@@ -109,6 +113,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 5720-90/3.0 LID",
+        maker: "ABB",
         payload: Some(90.0),
         reach: Some(3.0),
         geometry: CatalogGeometry::Abb {
@@ -135,6 +140,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 5720-125/3.0",
+        maker: "ABB",
         payload: Some(125.0),
         reach: Some(3.0),
         geometry: CatalogGeometry::Abb {
@@ -161,6 +167,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 5720-155/2.6 LID",
+        maker: "ABB",
         payload: Some(155.0),
         reach: Some(2.6),
         geometry: CatalogGeometry::Abb {
@@ -187,6 +194,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 5720-180/2.6",
+        maker: "ABB",
         payload: Some(180.0),
         reach: Some(2.6),
         geometry: CatalogGeometry::Abb {
@@ -213,6 +221,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6400/2.4-120",
+        maker: "ABB",
         payload: Some(120.0),
         reach: Some(2.4),
         geometry: CatalogGeometry::Abb {
@@ -239,6 +248,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6400R/2.5-150",
+        maker: "ABB",
         payload: Some(150.0),
         reach: Some(2.5),
         geometry: CatalogGeometry::Abb {
@@ -265,6 +275,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6400R/2.8-200",
+        maker: "ABB",
         payload: Some(200.0),
         reach: Some(2.8),
         geometry: CatalogGeometry::Abb {
@@ -291,6 +302,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6600-175/2.8",
+        maker: "ABB",
         payload: Some(175.0),
         reach: Some(2.8),
         geometry: CatalogGeometry::Abb {
@@ -317,6 +329,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6600-225/2.55",
+        maker: "ABB",
         payload: Some(225.0),
         reach: Some(2.55),
         geometry: CatalogGeometry::Abb {
@@ -343,6 +356,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6620-150/2.2",
+        maker: "ABB",
         payload: Some(150.0),
         reach: Some(2.2),
         geometry: CatalogGeometry::Abb {
@@ -369,6 +383,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6640-130/3.2",
+        maker: "ABB",
         payload: Some(130.0),
         reach: Some(3.2),
         geometry: CatalogGeometry::Abb {
@@ -395,6 +410,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6640-180/2.55",
+        maker: "ABB",
         payload: Some(180.0),
         reach: Some(2.55),
         geometry: CatalogGeometry::Abb {
@@ -421,6 +437,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6640-185/2.8",
+        maker: "ABB",
         payload: Some(185.0),
         reach: Some(2.8),
         geometry: CatalogGeometry::Abb {
@@ -447,6 +464,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6640-205/2.75",
+        maker: "ABB",
         payload: Some(205.0),
         reach: Some(2.75),
         geometry: CatalogGeometry::Abb {
@@ -473,6 +491,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6640-235/2.55",
+        maker: "ABB",
         payload: Some(235.0),
         reach: Some(2.55),
         geometry: CatalogGeometry::Abb {
@@ -499,6 +518,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6640ID-170/2.75",
+        maker: "ABB",
         payload: Some(170.0),
         reach: Some(2.75),
         geometry: CatalogGeometry::Abb {
@@ -525,6 +545,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6640ID-200/2.55",
+        maker: "ABB",
         payload: Some(200.0),
         reach: Some(2.55),
         geometry: CatalogGeometry::Abb {
@@ -551,6 +572,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6650-125/3.2",
+        maker: "ABB",
         payload: Some(125.0),
         reach: Some(3.2),
         geometry: CatalogGeometry::Abb {
@@ -577,6 +599,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6650-200/2.75",
+        maker: "ABB",
         payload: Some(200.0),
         reach: Some(2.75),
         geometry: CatalogGeometry::Abb {
@@ -603,6 +626,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6650S-90/3.9",
+        maker: "ABB",
         payload: Some(90.0),
         reach: Some(3.9),
         geometry: CatalogGeometry::Abb {
@@ -629,6 +653,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6650S-125/3.5",
+        maker: "ABB",
         payload: Some(125.0),
         reach: Some(3.5),
         geometry: CatalogGeometry::Abb {
@@ -655,6 +680,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6650S-200/3.0",
+        maker: "ABB",
         payload: Some(200.0),
         reach: Some(3.0),
         geometry: CatalogGeometry::Abb {
@@ -681,6 +707,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6660-130/3.1",
+        maker: "ABB",
         payload: Some(130.0),
         reach: Some(3.1),
         geometry: CatalogGeometry::Abb {
@@ -707,6 +734,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 6660-205/1.9",
+        maker: "ABB",
         payload: Some(205.0),
         reach: Some(1.9),
         geometry: CatalogGeometry::Abb {

@@ -5,6 +5,7 @@ use crate::catalog::{AngleUnit, CatalogArm, CatalogGeometry};
 pub(super) const ARMS: &[CatalogArm] = &[
     CatalogArm {
         name: "IRB 2400-10/1.55",
+        maker: "ABB",
         payload: Some(10.0),
         reach: Some(1.55),
         geometry: CatalogGeometry::Abb {
@@ -31,6 +32,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 2400-12/1.55",
+        maker: "ABB",
         payload: Some(12.0),
         reach: Some(1.55),
         geometry: CatalogGeometry::Abb {
@@ -57,6 +59,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 2400-16/1.55",
+        maker: "ABB",
         payload: Some(16.0),
         reach: Some(1.55),
         geometry: CatalogGeometry::Abb {
@@ -83,6 +86,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 2400L-7/1.8",
+        maker: "ABB",
         payload: Some(7.0),
         reach: Some(1.8),
         geometry: CatalogGeometry::Abb {
@@ -109,6 +113,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 2600-12/1.65",
+        maker: "ABB",
         payload: Some(12.0),
         reach: Some(1.65),
         geometry: CatalogGeometry::Abb {
@@ -135,6 +140,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 2600-12/1.85",
+        maker: "ABB",
         payload: Some(12.0),
         reach: Some(1.85),
         geometry: CatalogGeometry::Abb {
@@ -161,6 +167,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 2600-20/1.65",
+        maker: "ABB",
         payload: Some(20.0),
         reach: Some(1.65),
         geometry: CatalogGeometry::Abb {
@@ -187,6 +194,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 2600ID-8/2.0",
+        maker: "ABB",
         payload: Some(8.0),
         reach: Some(2.0),
         geometry: CatalogGeometry::Abb {
@@ -213,6 +221,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 2600ID-15/1.85",
+        maker: "ABB",
         payload: Some(15.0),
         reach: Some(1.85),
         geometry: CatalogGeometry::Abb {
@@ -239,6 +248,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 4400-45/1.96 (M94A)",
+        maker: "ABB",
         payload: Some(45.0),
         reach: Some(1.96),
         geometry: CatalogGeometry::Abb {
@@ -265,6 +275,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 4400-60/1.96",
+        maker: "ABB",
         payload: Some(60.0),
         reach: Some(1.96),
         geometry: CatalogGeometry::Abb {
@@ -291,6 +302,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 4400L-30/2.43",
+        maker: "ABB",
         payload: Some(30.0),
         reach: Some(2.43),
         geometry: CatalogGeometry::Abb {
@@ -317,6 +329,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 4600-20/2.5",
+        maker: "ABB",
         payload: Some(20.0),
         reach: Some(2.5),
         geometry: CatalogGeometry::Abb {
@@ -343,6 +356,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 4600-40/2.55",
+        maker: "ABB",
         payload: Some(40.0),
         reach: Some(2.55),
         geometry: CatalogGeometry::Abb {
@@ -369,6 +383,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 4600-45/2.05",
+        maker: "ABB",
         payload: Some(45.0),
         reach: Some(2.05),
         geometry: CatalogGeometry::Abb {
@@ -395,6 +410,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 4600-60/2.05",
+        maker: "ABB",
         payload: Some(60.0),
         reach: Some(2.05),
         geometry: CatalogGeometry::Abb {

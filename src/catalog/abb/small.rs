@@ -5,6 +5,7 @@ use crate::catalog::{AngleUnit, CatalogArm, CatalogGeometry};
 pub(super) const ARMS: &[CatalogArm] = &[
     CatalogArm {
         name: "IRB 52-7/1.2",
+        maker: "ABB",
         payload: Some(7.0),
         reach: Some(1.2),
         geometry: CatalogGeometry::Abb {
@@ -31,6 +32,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 52-7/1.45",
+        maker: "ABB",
         payload: Some(7.0),
         reach: Some(1.45),
         geometry: CatalogGeometry::Abb {
@@ -57,6 +59,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 120-3/0.58",
+        maker: "ABB",
         payload: Some(3.0),
         reach: Some(0.58),
         geometry: CatalogGeometry::Abb {
@@ -83,6 +86,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 120T-3/0.58",
+        maker: "ABB",
         payload: Some(3.0),
         reach: Some(0.58),
         geometry: CatalogGeometry::Abb {
@@ -109,6 +113,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 140-6/0.81",
+        maker: "ABB",
         payload: Some(6.0),
         reach: Some(0.81),
         geometry: CatalogGeometry::Abb {
@@ -135,6 +140,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 1010-1.5/0.37",
+        maker: "ABB",
         payload: Some(1.5),
         reach: Some(0.37),
         geometry: CatalogGeometry::Abb {
@@ -161,6 +167,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 1100-4/0.475",
+        maker: "ABB",
         payload: Some(4.0),
         reach: Some(0.475),
         geometry: CatalogGeometry::Abb {
@@ -187,6 +194,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 1100-4/0.58",
+        maker: "ABB",
         payload: Some(4.0),
         reach: Some(0.58),
         geometry: CatalogGeometry::Abb {
@@ -213,6 +221,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 1200-5/0.9",
+        maker: "ABB",
         payload: Some(5.0),
         reach: Some(0.9),
         geometry: CatalogGeometry::Abb {
@@ -239,6 +248,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 1200-7/0.7",
+        maker: "ABB",
         payload: Some(7.0),
         reach: Some(0.7),
         geometry: CatalogGeometry::Abb {
@@ -265,6 +275,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 1300-7/1.4",
+        maker: "ABB",
         payload: Some(7.0),
         reach: Some(1.4),
         geometry: CatalogGeometry::Abb {
@@ -291,6 +302,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 1300-10/1.15",
+        maker: "ABB",
         payload: Some(10.0),
         reach: Some(1.15),
         geometry: CatalogGeometry::Abb {
@@ -317,6 +329,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 1300-11/0.9",
+        maker: "ABB",
         payload: Some(11.0),
         reach: Some(0.9),
         geometry: CatalogGeometry::Abb {
@@ -343,6 +356,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "CRB 1300-7/1.4",
+        maker: "ABB",
         payload: Some(7.0),
         reach: Some(1.4),
         geometry: CatalogGeometry::Abb {
@@ -369,6 +383,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "CRB 1300-10/1.15",
+        maker: "ABB",
         payload: Some(10.0),
         reach: Some(1.15),
         geometry: CatalogGeometry::Abb {
@@ -395,6 +410,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "CRB 1300-11/0.9",
+        maker: "ABB",
         payload: Some(11.0),
         reach: Some(0.9),
         geometry: CatalogGeometry::Abb {
@@ -421,6 +437,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 1410-4/1.45",
+        maker: "ABB",
         payload: Some(4.0),
         reach: Some(1.45),
         geometry: CatalogGeometry::Abb {
@@ -447,6 +464,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 1520ID-4/1.5",
+        maker: "ABB",
         payload: Some(4.0),
         reach: Some(1.5),
         geometry: CatalogGeometry::Abb {
@@ -473,6 +491,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 1600-6/1.2",
+        maker: "ABB",
         payload: Some(6.0),
         reach: Some(1.2),
         geometry: CatalogGeometry::Abb {
@@ -499,6 +518,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 1600-6/1.45",
+        maker: "ABB",
         payload: Some(6.0),
         reach: Some(1.45),
         geometry: CatalogGeometry::Abb {
@@ -525,6 +545,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 1600-8/1.2",
+        maker: "ABB",
         payload: Some(8.0),
         reach: Some(1.2),
         geometry: CatalogGeometry::Abb {
@@ -551,6 +572,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 1600-8/1.45",
+        maker: "ABB",
         payload: Some(8.0),
         reach: Some(1.45),
         geometry: CatalogGeometry::Abb {
@@ -577,6 +599,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 1600-10/1.2",
+        maker: "ABB",
         payload: Some(10.0),
         reach: Some(1.2),
         geometry: CatalogGeometry::Abb {
@@ -603,6 +626,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 1600-10/1.45",
+        maker: "ABB",
         payload: Some(10.0),
         reach: Some(1.45),
         geometry: CatalogGeometry::Abb {
@@ -629,6 +653,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 1600ID-4/1.5",
+        maker: "ABB",
         payload: Some(4.0),
         reach: Some(1.5),
         geometry: CatalogGeometry::Abb {
@@ -655,6 +680,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 1660ID-4/1.55",
+        maker: "ABB",
         payload: Some(4.0),
         reach: Some(1.55),
         geometry: CatalogGeometry::Abb {
@@ -681,6 +707,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
     },
     CatalogArm {
         name: "IRB 1660ID-6/1.55",
+        maker: "ABB",
         payload: Some(6.0),
         reach: Some(1.55),
         geometry: CatalogGeometry::Abb {

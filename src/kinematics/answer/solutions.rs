@@ -137,6 +137,18 @@ impl<const N: usize> Solutions<N> {
         &mut self.places[..self.slot_count]
     }
 
+    /// Puts a solution into its slot.
+    #[cfg(feature = "python")]
+    pub(crate) fn put(&mut self, solution: Solution<N>) {
+        self.places[solution.slot.index()] = Place::Found(solution);
+    }
+
+    /// Says that the solution of a slot coincides with that of another one.
+    #[cfg(feature = "python")]
+    pub(crate) fn put_merged(&mut self, slot: Slot, flags: Status) {
+        self.places[slot.index()] = Place::Merged(flags);
+    }
+
     /// Whether the wrist center gets to where the pose wants it.
     #[must_use]
     pub fn reach(&self) -> Reach {

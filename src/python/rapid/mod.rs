@@ -22,7 +22,7 @@ use crate::kinematics::Robot;
 use crate::rapid::{self, Content, Datum, Module, Storage, TableRow, ToolData, Value, WobjData};
 use crate::report::Configuration;
 
-/// The module of a text.
+/// Parse a RAPID module.
 ///
 /// Args:
 ///     text: RAPID text, or the bytes of a file: UTF-8, UTF-16 with its mark, else Latin-1.
@@ -30,8 +30,8 @@ use crate::report::Configuration;
 ///         that are not LOCAL.
 ///
 /// Raises:
-///     RapidError: The text is broken; the message has the line and the column, `line` and `column`
-///         of the error too.
+///     RapidError: The text is broken; the message and the attributes `line` and `column` have the
+///         place.
 #[pyfunction]
 #[pyo3(signature = (text, context=None))]
 pub(super) fn parse(
@@ -53,7 +53,8 @@ pub(super) fn parse(
     let context: Vec<&Module> = others.iter().map(|other| &other.get().module).collect();
     let module =
         py.detach(|| rapid::parse(&source, &context)).map_err(|error| to_py(py, &error))?;
-    Ok(RapidModule::new(module, source))
+    let context = others.into_iter().map(Bound::unbind).collect();
+    Ok(RapidModule::new(module, source, context))
 }
 
 /// Whether a text is the path of a module: one word with its ending, which no RAPID text is.
@@ -63,7 +64,7 @@ fn is_path(text: &str) -> bool {
     endings.iter().any(|ending| text.ends_with(ending)) && !text.contains(marks)
 }
 
-/// RAPID text of a str, or of the bytes of a file.
+/// Return RAPID text from a str, or from the bytes of a file.
 #[pyfunction]
 pub(super) fn decode(text: &Bound<'_, PyAny>) -> PyResult<String> {
     match text.cast::<PyBytes>() {
@@ -72,14 +73,14 @@ pub(super) fn decode(text: &Bound<'_, PyAny>) -> PyResult<String> {
     }
 }
 
-/// The record of a value that stands by itself: a robtarget, jointtarget, tooldata, wobjdata, pose
-/// or loaddata, which its shape tells.
+/// Parse one value: a robtarget, jointtarget, tooldata, wobjdata, pose or loaddata, determined by
+/// its shape.
 #[pyfunction]
 pub(super) fn parse_record<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
     record(py, &rapid::parse_record(text).map_err(|error| to_py(py, &error))?)
 }
 
-/// RAPID text of a record, of a module, or of a module with data by their names.
+/// Return the RAPID text of a record, of a module, or of a mapping of names to values.
 #[pyfunction]
 pub(super) fn dump(value: &Bound<'_, PyAny>, name: &str) -> PyResult<String> {
     let py = value.py();
@@ -124,11 +125,11 @@ fn datum(name: String, value: &Bound<'_, PyAny>) -> PyResult<Datum> {
     Ok(if is_single { datum } else { Datum { content: Content::Array { sizes, values }, ..datum } })
 }
 
-/// The jointtarget of a robtarget, as RAPID's CalcJointT: the joint angles with its configuration,
-/// inside the limits.
+/// Return the jointtarget of a robtarget, as RAPID's CalcJointT: joint angles inside the limits
+/// that have its configuration.
 ///
 /// Args:
-///     robot: The arm. Its base counts: poses of work objects are seen from the world.
+///     robot: The arm. Work objects are given in the world, in which the robot's base is.
 ///     target: RobTarget.
 ///     tool: ToolData; the robot's own tool where not given.
 ///     wobj: WobjData; the world where not given.
@@ -146,7 +147,7 @@ fn datum(name: String, value: &Bound<'_, PyAny>) -> PyResult<Datum> {
 ///     InvalidJointsError: The arm has no such cfx.
 ///     RapidError: The robot holds both tool and work object or neither, or a mechanical unit moves
 ///         the work object.
-///     InvalidModelError: The arm has no configurations.
+///     InvalidModelError: The arm has no spherical wrist, so no confdata.
 #[pyfunction]
 #[pyo3(signature = (robot, target, tool=None, wobj=None, *, fallback=None, seed=None))]
 pub(super) fn calc_joint_t<'py>(
@@ -170,11 +171,11 @@ pub(super) fn calc_joint_t<'py>(
     joint_target(py, &joints.map_err(|error| named(py, &error))?)
 }
 
-/// The robtarget of a jointtarget, with its configuration, as RAPID's CalcRobT. Limits are not
-/// asked.
+/// Return the robtarget of a jointtarget, with its configuration, as RAPID's CalcRobT. Limits are
+/// not checked.
 ///
 /// Args:
-///     robot: The arm. Its base counts: poses of work objects are seen from the world.
+///     robot: The arm. Work objects are given in the world, in which the robot's base is.
 ///     joints: JointTarget, or joint angles [rad], shape (6,).
 ///     tool: ToolData; the robot's own tool where not given.
 ///     wobj: WobjData; the world where not given.
@@ -199,8 +200,8 @@ pub(super) fn calc_rob_t<'py>(
     rob_target(py, &target.map_err(|error| to_py(py, &error))?)
 }
 
-/// The joint angles of every target of a module's moves, in their order, each with its own tool and
-/// work object; a MoveC has two.
+/// Return the joint angles of every target of a module's moves, in their order, each with its own
+/// tool and work object; a MoveC has two. The motion between targets is not checked: `follow` does.
 ///
 /// Args:
 ///     robot: The arm.
@@ -210,10 +211,10 @@ pub(super) fn calc_rob_t<'py>(
 ///     seed: Joint vector [rad] before the first target, shape (6,).
 ///
 /// Returns:
-///     TargetTable. What is wrong with a target is told in its row.
+///     TargetTable. `problems` says what is wrong with the target of a row.
 ///
 /// Raises:
-///     InvalidModelError: The arm has no configurations.
+///     InvalidModelError: The arm has no spherical wrist, so no confdata.
 #[pyfunction]
 #[pyo3(signature = (robot, module, *, fallback=None, seed=None))]
 pub(super) fn calc_moves<'py>(
@@ -233,8 +234,8 @@ pub(super) fn calc_moves<'py>(
     )
 }
 
-/// The joint angles of every robtarget that a module declares, in the order of the text, all with
-/// one tool and work object.
+/// Return the joint angles of every robtarget that a module declares, in the order of the text, all
+/// with one tool and work object.
 ///
 /// Args:
 ///     robot: The arm.
@@ -246,7 +247,7 @@ pub(super) fn calc_moves<'py>(
 ///     seed: Joint vector [rad] before the first target, shape (6,).
 ///
 /// Returns:
-///     TargetTable. What is wrong with a target is told in its row.
+///     TargetTable. `problems` says what is wrong with the target of a row.
 ///
 /// Raises:
 ///     InvalidPoseError, RapidError, InvalidModelError: As `calc_joint_t`, of the tool and the work
@@ -327,7 +328,7 @@ fn table<'py>(py: Python<'py>, rows: &[TableRow]) -> PyResult<Bound<'py, PyAny>>
             .into_any(),
         (PyArray1::from_vec(py, joints).reshape([rows.len(), 6])? as Bound<'_, PyArray2<f64>>)
             .into_any(),
-        classes::configuration_class(py)?.call1((cf1, cf4, cf6, cfx))?,
+        classes::configuration_batch_class(py)?.call1((cf1, cf4, cf6, cfx))?,
         distance(|d| d.wrist).into_any(),
         distance(|d| d.elbow).into_any(),
         distance(|d| d.shoulder).into_any(),

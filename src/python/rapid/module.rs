@@ -1,30 +1,37 @@
 //! `irbkin.rapid.Module`.
 
-use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
+use pyo3::pybacked::PyBackedStr;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyDict, PyMappingProxy, PyTuple};
+use pyo3::types::{PyDict, PyIterator, PyMappingProxy, PyTuple};
 
 use super::records::{content, joint_target, read_content, record, rob_target};
 use crate::python::classes;
-use crate::python::errors::{rapid_fault, to_py};
+use crate::python::errors::{rapid_fault, to_py, unknown_name};
 use crate::rapid::{self, Argument, Content, Datum, Module, Move, NewValue, Target, Value};
 
-/// A RAPID module: its data by name, its moves in order, what was skipped. Frozen; equal where it
-/// says the same, wherever that stands.
+/// A RAPID module: its data by name, its moves in order, and what was skipped.
 ///
-/// `parse` and `load` make one.
-#[pyclass(name = "Module", module = "irbkin.rapid", frozen)]
+/// A mapping of the names of the module's own data to their values: `module["p10"]`, `len`,
+/// iteration, `in`, `get`, `keys`, `values`, `items`. Names are taken as RAPID takes them, in upper
+/// or lower case. Frozen and picklable; two modules are equal where they declare and move the same,
+/// whatever the lines. `parse` and `load` make one.
+#[pyclass(name = "Module", module = "irbkin.rapid", frozen, weakref)]
 pub(crate) struct RapidModule {
     pub(super) module: Module,
     source: String,
+    /// The modules that names were looked for in.
+    context: Vec<Py<Self>>,
     data: PyOnceLock<Py<PyDict>>,
     moves: PyOnceLock<Py<PyTuple>>,
 }
 
+/// A text, and the modules that its names are looked for in.
+type Source<'a, 'py> = (&'a str, Bound<'py, PyTuple>);
+
 impl RapidModule {
-    pub(super) fn new(module: Module, source: String) -> Self {
-        Self { module, source, data: PyOnceLock::new(), moves: PyOnceLock::new() }
+    pub(super) fn new(module: Module, source: String, context: Vec<Py<Self>>) -> Self {
+        Self { module, source, context, data: PyOnceLock::new(), moves: PyOnceLock::new() }
     }
 
     fn data_dict<'py>(&self, py: Python<'py>) -> PyResult<&Bound<'py, PyDict>> {
@@ -67,16 +74,15 @@ impl RapidModule {
         Ok(PyMappingProxy::new(py, self.data_dict(py)?.as_mapping()))
     }
 
-    /// Every declaration, those of routines too: (name, type, scope, storage, routine, value, line,
-    /// column).
+    /// Every declaration, including those of routines: a tuple of `Declaration`.
     #[getter]
     fn declarations<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let declarations = self.module.data().iter().map(|datum| declaration(py, datum));
         PyTuple::new(py, declarations.collect::<PyResult<Vec<_>>>()?)
     }
 
-    /// MoveJ, MoveL, MoveC and MoveAbsJ in the order of the text, whatever branch or loop they
-    /// stand in.
+    /// MoveJ, MoveL, MoveC and MoveAbsJ in the order of the text, whatever branch or loop they are
+    /// in.
     #[getter]
     fn moves<'py>(&self, py: Python<'py>) -> PyResult<&Bound<'py, PyTuple>> {
         let moves = self.moves.get_or_try_init(py, || {
@@ -86,7 +92,7 @@ impl RapidModule {
         Ok(moves?.bind(py))
     }
 
-    /// What was not read, in the order of the text: (line, column, routine, what, text).
+    /// What was not read, in the order of the text: a tuple of `Skipped`.
     #[getter]
     fn skipped<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let class = classes::skipped_class(py)?;
@@ -97,8 +103,8 @@ impl RapidModule {
         PyTuple::new(py, skipped.collect::<PyResult<Vec<_>>>()?)
     }
 
-    /// The source with other values for some data: everything else, comments too, stays as it is,
-    /// character for character.
+    /// Return the source with other values for some data; everything else, comments included, stays
+    /// as it is, character for character.
     ///
     /// Args:
     ///     values: Names of the module's data to records of their type, to nested lists of as many
@@ -134,13 +140,59 @@ impl RapidModule {
         rapid::rewrite(&self.source, &self.module, &new_values).map_err(|error| to_py(py, &error))
     }
 
-    fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
-        let datum = self.module.find(name).ok_or_else(|| PyKeyError::new_err(name.to_owned()))?;
-        self.data_dict(py)?.as_any().get_item(&datum.name)
+    /// Return the names of the module's own data, in the order of the text.
+    fn keys<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.data(py)?.call_method0("keys")
     }
 
-    fn __contains__(&self, name: &str) -> bool {
-        self.module.find(name).is_some()
+    /// Return the values of the module's own data, in the order of the text.
+    fn values<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.data(py)?.call_method0("values")
+    }
+
+    /// Return the pairs (name, value) of the module's own data, in the order of the text.
+    fn items<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.data(py)?.call_method0("items")
+    }
+
+    /// Return the value of a datum of the module; `default` where there is none of that name.
+    #[pyo3(signature = (name, default=None, /))]
+    fn get<'py>(
+        &self,
+        name: &Bound<'py, PyAny>,
+        default: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        match self.key(name) {
+            Some(key) => self.data_dict(name.py())?.as_any().get_item(key),
+            None => Ok(default.unwrap_or_else(|| name.py().None().into_bound(name.py()))),
+        }
+    }
+
+    fn __getitem__<'py>(&self, name: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let key = self.key(name).ok_or_else(|| self.unknown(name))?;
+        self.data_dict(name.py())?.as_any().get_item(key)
+    }
+
+    fn __contains__(&self, name: &Bound<'_, PyAny>) -> bool {
+        self.key(name).is_some()
+    }
+
+    fn __len__(&self) -> usize {
+        self.module.data().iter().filter(|datum| datum.routine.is_none()).count()
+    }
+
+    fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyIterator>> {
+        self.data_dict(py)?.try_iter()
+    }
+
+    fn __reversed__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.data(py)?.call_method0("__reversed__")
+    }
+
+    /// The text and the context are read again.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Source<'_, 'py>)> {
+        let context = PyTuple::new(py, &self.context)?;
+        Ok((py.import("irbkin._core")?.getattr("parse")?, (&self.source, context)))
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
@@ -169,6 +221,30 @@ impl RapidModule {
 }
 
 impl RapidModule {
+    /// The name of a datum as it is written in the text.
+    fn key(&self, name: &Bound<'_, PyAny>) -> Option<&str> {
+        let name: PyBackedStr = name.extract().ok()?;
+        self.module.find(&name).map(|datum| datum.name.as_str())
+    }
+
+    /// The error for a name that the module does not have; it tells those that are spelled alike.
+    fn unknown(&self, name: &Bound<'_, PyAny>) -> PyErr {
+        let py = name.py();
+        let known = self.module.data().iter().filter(|datum| datum.routine.is_none());
+        let known: Vec<&str> = known.map(|datum| datum.name.as_str()).collect();
+        let wanted = name.extract::<PyBackedStr>();
+        let close = wanted.as_ref().map(|wanted| close_names(wanted, &known)).unwrap_or_default();
+        let hint = if !close.is_empty() {
+            format!("did you mean {}?", close.join(", "))
+        } else if known.is_empty() {
+            "the module declares none outside its routines".to_owned()
+        } else {
+            format!("it has {} others: list(module)", known.len())
+        };
+        let shown = name.repr().map_or_else(|_| "this".to_owned(), |repr| repr.to_string());
+        unknown_name(py, format!("the module has no data of the name {shown}; {hint}"))
+    }
+
     /// A datum of the module itself, and its index.
     fn found(&self, py: Python<'_>, name: &str) -> PyResult<(usize, &Datum)> {
         let found = self.module.position(name).zip(self.module.find(name));
@@ -232,4 +308,19 @@ fn argument<'py, T>(
         Err(reason) => (None, Some(reason.to_string())),
     };
     classes::argument_class(py)?.call1((&argument.text, value, reason))
+}
+
+/// Names that are spelled like another one, the closest first.
+fn close_names<'a>(wanted: &str, known: &[&'a str]) -> Vec<&'a str> {
+    /// Share of the letters that must be right [1].
+    const LEAST_SIMILARITY: f64 = 0.6;
+    const MOST_CLOSE: usize = 4;
+    let wanted = wanted.to_lowercase();
+    let mut ranked: Vec<(f64, &str)> = known
+        .iter()
+        .map(|name| (strsim::normalized_damerau_levenshtein(&wanted, &name.to_lowercase()), *name))
+        .filter(|(similarity, _)| *similarity >= LEAST_SIMILARITY)
+        .collect();
+    ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
+    ranked.into_iter().map(|(_, name)| name).take(MOST_CLOSE).collect()
 }

@@ -111,7 +111,8 @@ fn read_array(given: &Bound<'_, PyAny>, thing: &str, dimensions: usize) -> PyRes
     };
     if dimensions == 0 || list.is_empty() {
         let message = format!(
-            "{thing}: an array has one to {MOST_DIMENSIONS} dimensions and at least one element in each"
+            "{thing}: an array has one to {MOST_DIMENSIONS} dimensions and at least one element \
+             in each"
         );
         return Err(rapid_fault(given.py(), message));
     }

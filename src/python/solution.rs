@@ -1,0 +1,319 @@
+//! `irbkin.Solution`: one joint vector of an answer.
+
+use std::sync::Arc;
+
+use numpy::PyArray1;
+use pyo3::basic::CompareOp;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::{PyIterator, PyTuple};
+
+use super::arm::Arm;
+use super::classes;
+use super::errors::{Fault, to_py};
+use super::found::{Found, is_same};
+use super::records;
+use super::robot::PyRobot;
+use super::solution_state::{self, PoseState, SolutionState};
+use super::table;
+use crate::kinematics::{Arity, Joints, Pose, Robot, Solution, Status};
+
+/// A solution, with the robot and the pose that it is of.
+pub(super) struct Member<const N: usize>
+where
+    Joints<N>: Arity<N>,
+{
+    robot: Arc<Robot<N>>,
+    pose: Pose,
+    solution: Solution<N>,
+}
+
+impl<const N: usize> PartialEq for Member<N>
+where
+    Joints<N>: Arity<N>,
+{
+    fn eq(&self, other: &Self) -> bool {
+        self.solution == other.solution
+            && self.pose == other.pose
+            && is_same(&self.robot, &other.robot)
+    }
+}
+
+impl<const N: usize> Member<N>
+where
+    Joints<N>: Arity<N>,
+{
+    pub(super) fn of(found: &Found<N>, solution: Solution<N>) -> Self {
+        Self { robot: Arc::clone(&found.robot), pose: *found.solutions.pose(), solution }
+    }
+
+    fn with_free_joint(&self, py: Python<'_>, value: f64) -> PyResult<Self> {
+        let moved = self
+            .robot
+            .with_free_joint(&self.pose, &self.solution, value)
+            .map_err(|error| to_py(py, &error))?;
+        let moved = moved.ok_or_else(|| {
+            Fault::Joints.error(py, format!("no joint is free: {}", self.sentence()))
+        })?;
+        Ok(Self { robot: Arc::clone(&self.robot), pose: self.pose, solution: moved })
+    }
+
+    fn sentence(&self) -> String {
+        let angles = self.solution.q.map(|angle| format!("{:.3}", angle.to_degrees())).join(", ");
+        let limits =
+            if self.solution.is_within_limits() { "inside limits" } else { "outside limits" };
+        format!("Solution(slot {}: [{angles}] deg, {limits})", self.solution.slot)
+    }
+}
+
+/// One joint vector that brings the tool to the pose.
+///
+/// It is also the sequence of its joint angles: `solution[0]` is J1, `numpy.asarray(solution)` is
+/// `solution.q`. Frozen, hashable, equal by value to a solution of the same robot and pose,
+/// picklable.
+#[pyclass(name = "Solution", module = "irbkin", frozen, weakref)]
+pub(super) struct PySolution {
+    of: AnyMember,
+}
+
+#[derive(PartialEq)]
+enum AnyMember {
+    Six(Member<6>),
+    Seven(Member<7>),
+}
+
+/// Runs the same expression on a solution, whatever its number of joints.
+macro_rules! on {
+    ($answer:expr, $inner:ident => $body:expr) => {
+        match $answer {
+            AnyMember::Six($inner) => $body,
+            AnyMember::Seven($inner) => $body,
+        }
+    };
+}
+
+impl From<Member<6>> for PySolution {
+    fn from(member: Member<6>) -> Self {
+        Self { of: AnyMember::Six(member) }
+    }
+}
+
+impl From<Member<7>> for PySolution {
+    fn from(member: Member<7>) -> Self {
+        Self { of: AnyMember::Seven(member) }
+    }
+}
+
+/// The solution of a pickled state.
+#[pyfunction]
+#[pyo3(name = "_restore_solution")]
+#[expect(clippy::needless_pass_by_value, reason = "an extracted argument")]
+pub(super) fn restore_solution(
+    robot: &Bound<'_, PyRobot>,
+    pose: PoseState,
+    state: SolutionState,
+) -> PyResult<PySolution> {
+    let py = robot.py();
+    let pose = solution_state::pose(py, &pose)?;
+    match robot.get().arm() {
+        Arm::Six(robot) => {
+            let solution = solution_state::solution(py, robot, &state)?;
+            Ok(Member { robot: Arc::clone(robot), pose, solution }.into())
+        }
+        Arm::Seven(robot) => {
+            let solution = solution_state::solution(py, robot, &state)?;
+            Ok(Member { robot: Arc::clone(robot), pose, solution }.into())
+        }
+    }
+}
+
+#[pymethods]
+impl PySolution {
+    /// Joint angles [rad], shape (n,).
+    #[getter]
+    fn q<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        on!(&self.of, member => PyArray1::from_slice(py, &member.solution.q))
+    }
+
+    /// Joint angles [deg], shape (n,).
+    #[getter]
+    fn q_deg<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        on!(&self.of, member => PyArray1::from_slice(py, &member.solution.q.map(f64::to_degrees)))
+    }
+
+    /// Index of the slot, from 0; for spherical-wrist arms ABB's cfx.
+    #[getter]
+    fn slot(&self) -> usize {
+        on!(&self.of, member => member.solution.slot.index())
+    }
+
+    /// Whether every joint is inside its limits.
+    #[getter]
+    fn is_within_limits(&self) -> bool {
+        on!(&self.of, member => member.solution.is_within_limits())
+    }
+
+    /// Singularities of the pose on this branch: an `irbkin.SingularityKind`, 0 for none.
+    #[getter]
+    fn singularities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        records::kinds(py, self.flags().singularities())
+    }
+
+    /// The joint that a singular pose leaves undetermined and what stays fixed along its
+    /// self-motion, as FreeJoint(joint, fixed); None at a regular pose.
+    #[getter]
+    fn free_joint<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let free = on!(&self.of, member => member.solution.free_joint);
+        free.map(|free| classes::free_joint_class(py)?.call1((free.joint(), free.fixed())))
+            .transpose()
+    }
+
+    /// Return the solution of the same pose with the free joint at another angle.
+    ///
+    /// Args:
+    ///     value: Angle of the free joint [rad].
+    ///
+    /// Returns:
+    ///     The solution. The tool stays at the pose to rounding at the singularity, and within 3e-9
+    ///     rad or m next to it.
+    ///
+    /// Raises:
+    ///     InvalidJointsError: No joint is free, or the value is not finite.
+    ///     UnreachableError: The arm does not reach the pose with the free joint at that angle.
+    fn with_free_joint(&self, py: Python<'_>, value: f64) -> PyResult<Self> {
+        on!(&self.of, member => member.with_free_joint(py, value).map(Self::from))
+    }
+
+    /// Flags of the slot, an `irbkin.Status`.
+    #[getter]
+    fn status<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        records::status(py, self.flags())
+    }
+
+    /// Distance of the tool from the pose: the larger of the position's [m] and the rotation's
+    /// [rad].
+    #[getter]
+    fn residual(&self) -> f64 {
+        on!(&self.of, member => member.robot.residual(&member.solution.q, &member.pose).largest())
+    }
+
+    /// Return the index of the first joint at an angle.
+    ///
+    /// Raises:
+    ///     ValueError: No joint is at that angle.
+    #[pyo3(signature = (value, start=0, stop=isize::MAX, /))]
+    fn index<'py>(
+        &self,
+        value: &Bound<'py, PyAny>,
+        start: isize,
+        stop: isize,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.angles(value.py())?.call_method1("index", (value, start, stop))
+    }
+
+    /// Return the number of joints at an angle.
+    #[pyo3(signature = (value, /))]
+    fn count<'py>(&self, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        self.angles(value.py())?.call_method1("count", (value,))
+    }
+
+    #[pyo3(signature = (dtype=None, copy=None))]
+    fn __array__<'py>(
+        &self,
+        py: Python<'py>,
+        dtype: Option<&Bound<'py, PyAny>>,
+        copy: Option<bool>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        as_array(self.q(py).into_any(), dtype, copy)
+    }
+
+    fn __len__(&self) -> usize {
+        on!(&self.of, member => member.solution.q.len())
+    }
+
+    fn __getitem__<'py>(&self, index: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        self.q(index.py()).get_item(index)
+    }
+
+    fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyIterator>> {
+        self.angles(py)?.try_iter()
+    }
+
+    fn __reversed__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyIterator>> {
+        on!(&self.of, member => PyTuple::new(py, member.solution.q.iter().rev()))?.try_iter()
+    }
+
+    fn __richcmp__<'py>(
+        &self,
+        other: &Bound<'py, PyAny>,
+        operator: CompareOp,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        compared(
+            other.py(),
+            other.cast::<Self>().ok().map(|other| self.of == other.get().of),
+            operator,
+        )
+    }
+
+    fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
+        (self.slot(), self.angles(py)?).into_pyobject(py)?.hash()
+    }
+
+    fn __reduce__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyAny>, (PyRobot, PoseState, SolutionState))> {
+        let state = on!(&self.of, member => (
+            Arm::from(Arc::clone(&member.robot)).into(),
+            solution_state::of_pose(&member.pose),
+            solution_state::of_solution(&member.solution),
+        ));
+        Ok((py.import("irbkin._core")?.getattr("_restore_solution")?, state))
+    }
+
+    fn __repr__(&self) -> String {
+        on!(&self.of, member => member.sentence())
+    }
+
+    fn _repr_html_(&self) -> String {
+        on!(&self.of, member => table::html("", &[member.solution], member.robot.limits()))
+    }
+}
+
+impl PySolution {
+    fn flags(&self) -> Status {
+        on!(&self.of, member => member.solution.status)
+    }
+
+    fn angles<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        on!(&self.of, member => PyTuple::new(py, member.solution.q))
+    }
+}
+
+/// What a comparison answers: `is_equal` is None for an object of another class.
+pub(super) fn compared(
+    py: Python<'_>,
+    is_equal: Option<bool>,
+    operator: CompareOp,
+) -> PyResult<Bound<'_, PyAny>> {
+    match (is_equal, operator) {
+        (Some(is_equal), CompareOp::Eq) => Ok(is_equal.into_pyobject(py)?.to_owned().into_any()),
+        (Some(is_equal), CompareOp::Ne) => Ok((!is_equal).into_pyobject(py)?.to_owned().into_any()),
+        _ => Ok(py.NotImplemented().into_bound(py)),
+    }
+}
+
+/// What NumPy's array protocol wants of `__array__`.
+pub(super) fn as_array<'py>(
+    array: Bound<'py, PyAny>,
+    dtype: Option<&Bound<'py, PyAny>>,
+    copy: Option<bool>,
+) -> PyResult<Bound<'py, PyAny>> {
+    if copy == Some(false) {
+        return Err(PyValueError::new_err("the joint angles cannot be seen without a copy"));
+    }
+    match dtype {
+        Some(dtype) => array.call_method1("astype", (dtype,)),
+        None => Ok(array),
+    }
+}

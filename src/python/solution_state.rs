@@ -1,0 +1,158 @@
+//! Solutions as numbers and words, for pickle: exactly what a solve answered, not the pose to be
+//! solved again, which another instruction set would do with other rounding.
+
+use pyo3::prelude::*;
+
+use super::errors::Fault;
+use super::found::Found;
+use crate::kinematics::{
+    Arity, Joints, Pose, Robot, Slot, Solution, Status, pose_from_rows, pose_to_rows,
+};
+use crate::report::{Explanation, FreeJoint, Reach};
+
+/// The pose that was solved, 4x4 in row-major order.
+pub(super) type PoseState = Vec<f64>;
+
+/// (slot, flags, joint angles, the free joint and what stays fixed). A merged slot has no angles.
+pub(super) type SolutionState = (usize, u8, Vec<f64>, Option<(usize, String)>);
+
+/// (what, a count, a count or a joint, a length or an angle).
+type OutcomeState = (String, usize, usize, f64);
+
+/// (what the slots hold, reach, why the last selection left nothing, the list of turns).
+pub(super) type FoundState =
+    (Vec<SolutionState>, OutcomeState, Option<OutcomeState>, Option<Vec<SolutionState>>);
+
+fn damaged(py: Python<'_>) -> PyErr {
+    Fault::Model.error(py, "the pickled solution is damaged".to_owned())
+}
+
+pub(super) fn of_pose(pose: &Pose) -> PoseState {
+    pose_to_rows(pose).to_vec()
+}
+
+/// The pose of a state.
+pub(super) fn pose(py: Python<'_>, state: &[f64]) -> PyResult<Pose> {
+    let rows = <&[f64; 16]>::try_from(state).map_err(|_| damaged(py))?;
+    pose_from_rows(rows).map_err(|_| damaged(py))
+}
+
+pub(super) fn of_solution<const N: usize>(solution: &Solution<N>) -> SolutionState {
+    let free = solution.free_joint.map(|free| (free.joint(), free.fixed().to_owned()));
+    (solution.slot.index(), solution.status.bits(), solution.q.to_vec(), free)
+}
+
+/// The solution of a state.
+pub(super) fn solution<const N: usize>(
+    py: Python<'_>,
+    robot: &Robot<N>,
+    state: &SolutionState,
+) -> PyResult<Solution<N>>
+where
+    Joints<N>: Arity<N>,
+{
+    let (slot, flags, q, free) = state;
+    let read = || {
+        let slot = (*slot < robot.slot_count()).then(|| Slot::new(*slot))?;
+        let q = <[f64; N]>::try_from(&q[..]).ok()?;
+        let free_joint = match free {
+            Some((joint, fixed)) => Some(FreeJoint::named(*joint, fixed)?),
+            None => None,
+        };
+        Some(Solution { q, slot, status: Status::from_bits(*flags)?, free_joint })
+    };
+    read().ok_or_else(|| damaged(py))
+}
+
+fn solutions<const N: usize>(
+    py: Python<'_>,
+    robot: &Robot<N>,
+    states: &[SolutionState],
+) -> PyResult<Vec<Solution<N>>>
+where
+    Joints<N>: Arity<N>,
+{
+    states.iter().map(|state| solution(py, robot, state)).collect()
+}
+
+pub(super) fn of_found<const N: usize>(found: &Found<N>) -> FoundState
+where
+    Joints<N>: Arity<N>,
+{
+    let solutions = &found.solutions;
+    let status = solutions.status();
+    let slots =
+        status.iter().enumerate().filter(|(_, flags)| !flags.is_empty()).map(|(slot, flags)| {
+            match solutions.slot(slot) {
+                Some(solution) => of_solution(solution),
+                None => (slot, flags.bits(), Vec::new(), None),
+            }
+        });
+    (
+        slots.collect(),
+        of_outcome(Explanation::OutOfReach(solutions.reach())),
+        solutions.emptied.map(of_outcome),
+        found.turned.as_ref().map(|turned| turned.iter().map(of_solution).collect()),
+    )
+}
+
+/// The answer of a state: `found` is empty, of the same robot and pose.
+pub(super) fn restored<const N: usize>(
+    py: Python<'_>,
+    mut found: Found<N>,
+    (slots, reach, emptied, turned): &FoundState,
+) -> PyResult<Found<N>>
+where
+    Joints<N>: Arity<N>,
+{
+    let robot = &found.robot;
+    for state in slots {
+        match state {
+            (slot, flags, q, None) if q.is_empty() && *slot < robot.slot_count() => {
+                let flags = Status::from_bits(*flags).ok_or_else(|| damaged(py))?;
+                found.solutions.put_merged(Slot::new(*slot), flags);
+            }
+            _ => found.solutions.put(solution(py, robot, state)?),
+        }
+    }
+    found.solutions.reach = match outcome(py, reach)? {
+        Explanation::OutOfReach(reach) => reach,
+        _ => return Err(damaged(py)),
+    };
+    found.solutions.emptied = emptied.as_ref().map(|emptied| outcome(py, emptied)).transpose()?;
+    found.turned = turned.as_ref().map(|turned| solutions(py, robot, turned)).transpose()?;
+    Ok(found)
+}
+
+fn of_outcome(outcome: Explanation) -> OutcomeState {
+    let (what, count, other, figure) = match outcome {
+        Explanation::Found { solutions, inside } => ("found", solutions, inside, 0.0),
+        Explanation::OutsideLimits { solutions, joint, excess } => {
+            ("outside limits", solutions, joint, excess)
+        }
+        Explanation::OutsideLinkage { solutions, excess } => {
+            ("outside linkage", solutions, 0, excess)
+        }
+        Explanation::OutOfReach(Reach::Reached) => ("reached", 0, 0, 0.0),
+        Explanation::OutOfReach(Reach::TooFar { shortfall }) => ("too far", 0, 0, shortfall),
+        Explanation::OutOfReach(Reach::TooNear { shortfall }) => ("too near", 0, 0, shortfall),
+        Explanation::FreeOutOfReach { joint, value } => ("free out of reach", 0, joint, value),
+        Explanation::FilteredOut => ("filtered out", 0, 0, 0.0),
+    };
+    (what.to_owned(), count, other, figure)
+}
+
+fn outcome(py: Python<'_>, (what, count, other, figure): &OutcomeState) -> PyResult<Explanation> {
+    let (solutions, other, figure) = (*count, *other, *figure);
+    Ok(match what.as_str() {
+        "found" => Explanation::Found { solutions, inside: other },
+        "outside limits" => Explanation::OutsideLimits { solutions, joint: other, excess: figure },
+        "outside linkage" => Explanation::OutsideLinkage { solutions, excess: figure },
+        "reached" => Explanation::OutOfReach(Reach::Reached),
+        "too far" => Explanation::OutOfReach(Reach::TooFar { shortfall: figure }),
+        "too near" => Explanation::OutOfReach(Reach::TooNear { shortfall: figure }),
+        "free out of reach" => Explanation::FreeOutOfReach { joint: other, value: figure },
+        "filtered out" => Explanation::FilteredOut,
+        _ => return Err(damaged(py)),
+    })
+}

@@ -1,0 +1,85 @@
+"""Write the docstrings of `python/irbkin/_core.pyi` from those of the extension module.
+
+The doc comments in `src/python` are what `help()` shows; this puts the same words into the stub,
+which editors and type checkers read. `make stubs` runs it, `test_stub_docs.py` holds the stub to
+it.
+"""
+
+import ast
+import inspect
+import textwrap
+from pathlib import Path
+
+from irbkin import _core
+
+STUB = Path(__file__).parents[2] / "python/irbkin/_core.pyi"
+WIDTH = 100
+
+
+def with_docs(stub: str) -> str:
+    """The stub with the docstring of each public function, class, method and property."""
+    lines = stub.splitlines()
+    # From the end, so that the numbers of the lines before stay as they are.
+    found = sorted(documented(ast.parse(stub)), key=lambda found: found[0].lineno)
+    for node, thing in reversed(found):
+        set_doc(lines, node, inspect.getdoc(thing))
+    return "\n".join(lines) + "\n"
+
+
+def documented(tree: ast.Module):
+    """The definitions that are documented, with what they are in the extension."""
+    for node in tree.body:
+        if isinstance(node, ast.ClassDef):
+            owner = getattr(_core, node.name)
+            yield node, owner
+            yield from ((member, getattr(owner, member.name)) for member in public(node.body))
+    yield from ((node, getattr(_core, node.name)) for node in public(tree.body))
+
+
+def public(body: list[ast.stmt]):
+    """The functions of public names; of overloads the first, which stands for all."""
+    seen = set()
+    for node in body:
+        is_public = isinstance(node, ast.FunctionDef) and not node.name.startswith("_")
+        if is_public and node.name not in seen:
+            seen.add(node.name)
+            yield node
+
+
+def set_doc(lines: list[str], node: ast.FunctionDef | ast.ClassDef, doc: str) -> None:
+    """Put a docstring into a definition, in place of `...` or of the one that it has."""
+    first = node.body[0]
+    is_function = isinstance(node, ast.FunctionDef)
+    is_doc = isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant)
+    text = quoted(doc, " " * (node.col_offset + 4))
+    if is_doc:
+        head = lines[first.lineno - 1][: first.col_offset].rstrip()
+        end = first.end_lineno
+        start = first.lineno - 1
+        lines[start:end] = ([head] if head else []) + text
+    else:
+        assert not is_function, f"{node.name} has a body"
+        decorators = getattr(first, "decorator_list", [])
+        start = min([first.lineno, *(decorator.lineno for decorator in decorators)]) - 1
+        lines[start:start] = [*text, ""]
+
+
+def quoted(doc: str, indent: str) -> list[str]:
+    """The lines of a docstring; its first paragraph is wrapped again, behind the quotes."""
+    mark = 'r"""' if "\\" in doc else '"""'
+    first, *rest = doc.split("\n\n", 1)
+    first = " ".join(first.split())
+    if not rest and len(indent + mark + first) + 3 <= WIDTH:
+        return [f'{indent}{mark}{first}"""']
+    # A formatter puts the last quotes behind a text of one line.
+    head = textwrap.wrap(f"{mark}{first}", WIDTH - len(indent) - (0 if rest else 3))
+    body = ["", *rest[0].splitlines()] if rest else []
+    return [f"{indent}{line}".rstrip() for line in [*head, *body, '"""']]
+
+
+def main() -> None:
+    STUB.write_text(with_docs(STUB.read_text()))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,443 @@
+"""Solutions and modules are values: they pickle, copy, compare, slice and print."""
+
+import collections.abc
+import copy
+import operator
+import pickle
+import weakref
+
+import irbkin
+import numpy as np
+import pytest
+from arms import IRB2400
+from irbkin import Robot, rapid
+from reference import move
+
+REGULAR = [0.3, -0.2, 0.4, 0.5, -0.6, 0.7]
+DUPLICATES = [
+    copy.copy,
+    copy.deepcopy,
+    *(
+        lambda value, p=p: pickle.loads(pickle.dumps(value, p))
+        for p in range(pickle.HIGHEST_PROTOCOL + 1)
+    ),
+]
+
+
+def answers():
+    """Answers that differ from one another, of every outcome and both numbers of joints."""
+    robot, ur, panda = Robot("IRB 2600-12/1.65"), Robot("UR5e"), Robot("Panda")
+    stretched = np.arctan2(0.115, 0.795) - np.pi / 2
+    regular = robot.ik(robot.fk(REGULAR))
+    seven = panda.ik(panda.fk([0.1, 0.2, 0.3, -1.5, 0.5, 1.6, 0.7]), q7=0.7)
+    return {
+        "regular": regular,
+        "wrist": robot.ik(robot.fk([0.1, 0.2, 0.3, 0.4, 0.0, 0.6])),
+        "elbow": robot.ik(robot.fk([0.1, 0.2, stretched, 0.4, 0.5, 0.6])),
+        "too far": robot.ik(move(9, 0, 0)),
+        "too near": Robot("IRB 120-3/0.58").ik(move(0.01, 0, 0.362)),
+        "outside limits": robot.with_limits([[3.0, 3.1]] * 6).ik(robot.fk(REGULAR)),
+        "within limits": regular.within_limits(),
+        "turns": regular.turns(),
+        "turns, filtered": regular.turns().filter(lambda q: q[5] > 0),
+        "filtered": regular.filter(lambda q: q[0] > 0),
+        "filtered out": regular.filter(lambda q: False),
+        "none within limits": robot.with_limits([[3.0, 3.1]] * 6)
+        .ik(robot.fk(REGULAR))
+        .within_limits(),
+        "tool": robot.with_tool(move(0, 0, 0.1)).ik(robot.fk(REGULAR)),
+        "UR": ur.ik(ur.fk(REGULAR)),
+        "UR, wrist": ur.ik(ur.fk([0.3, -1.2, 1.4, 0.5, 0.0, 0.7])),
+        "seven": seven,
+        "seven, within limits": seven.within_limits(),
+    }
+
+
+ANSWERS = answers()
+
+
+def facts(solution):
+    """Everything that a solution shows."""
+    return (
+        tuple(solution.q),
+        solution.slot,
+        solution.status,
+        solution.singularities,
+        solution.free_joint,
+        solution.is_within_limits,
+        solution.residual,
+        repr(solution),
+    )
+
+
+def test_the_answers_are_of_every_kind():
+    reaches = {answer.reach for answer in ANSWERS.values()}
+    assert reaches == set(irbkin.Reach)
+    assert ANSWERS["wrist"][0].free_joint == (4, "q4 + q6")
+    assert any(solution.free_joint for solution in ANSWERS["UR, wrist"])
+    assert irbkin.Status.MERGED in irbkin.Status(int(np.max(ANSWERS["elbow"].status)))
+    assert len(ANSWERS["turns"]) > len(ANSWERS["within limits"]) > 0
+    assert len(ANSWERS["none within limits"]) == len(ANSWERS["filtered out"]) == 0
+    assert len(ANSWERS["seven"]) > 0
+
+
+@pytest.mark.parametrize("duplicate", DUPLICATES)
+@pytest.mark.parametrize("name", ANSWERS)
+def test_copies_and_pickles_of_answers_have_the_same_bits(name, duplicate):
+    answer = ANSWERS[name]
+    twin = duplicate(answer)
+    assert twin == answer
+    assert hash(twin) == hash(answer)
+    assert (twin.reach, twin.shortfall, twin.explain()) == (
+        answer.reach,
+        answer.shortfall,
+        answer.explain(),
+    )
+    assert (str(twin), repr(twin)) == (str(answer), repr(answer))
+    for array in ("q", "q_deg", "q_by_slot", "status"):
+        np.testing.assert_array_equal(getattr(twin, array), getattr(answer, array))
+    assert list(map(facts, twin)) == list(map(facts, answer))
+    assert twin.within_limits() == answer.within_limits()
+
+
+@pytest.mark.parametrize("duplicate", DUPLICATES)
+def test_copies_and_pickles_of_solutions_have_the_same_bits(duplicate):
+    for answer in ANSWERS.values():
+        for solution in answer:
+            twin = duplicate(solution)
+            assert twin == solution
+            assert hash(twin) == hash(solution)
+            assert facts(twin) == facts(solution)
+            if solution.free_joint:
+                assert twin.with_free_joint(0.3) == solution.with_free_joint(0.3)
+
+
+def test_answers_are_equal_by_value():
+    again = answers()
+    assert all(ANSWERS[name] == again[name] for name in ANSWERS)
+    names = list(ANSWERS)
+    for first in names:
+        equal = [second for second in names if ANSWERS[first] == ANSWERS[second]]
+        assert equal == [first]
+    assert (ANSWERS["regular"] == 5) is False
+    assert (ANSWERS["regular"] != None) is True  # noqa: E711
+    with pytest.raises(TypeError):
+        operator.lt(ANSWERS["regular"], ANSWERS["wrist"])
+
+
+def test_a_solution_is_in_its_answer_and_equals_itself():
+    s = ANSWERS["regular"]
+    assert s[0] == s[0]
+    assert s[0] != s[1]
+    assert s[0] in s
+    assert s[0] not in ANSWERS["wrist"]
+    # The same joints of another robot solve another problem.
+    tool = Robot("IRB 2600-12/1.65").with_tool(move(0, 0, 0.1))
+    other = tool.ik(tool.fk(s[0])).nearest(s[0])
+    np.testing.assert_allclose(other.q, s[0].q, atol=1e-12)
+    assert other != s[0]
+    assert len({*s, *s}) == len(s)
+    np.testing.assert_array_equal(s[0] == s[0].q, [True] * 6)
+
+
+@pytest.mark.parametrize("name", ANSWERS)
+def test_an_answer_is_a_sequence(name):
+    s = ANSWERS[name]
+    assert isinstance(s, collections.abc.Sequence)
+    every = tuple(s)
+    assert s[:] == every
+    assert (s[:2], s[-2:], s[::-1], s[5:2]) == (every[:2], every[-2:], every[::-1], ())
+    assert tuple(reversed(s)) == every[::-1]
+    for i, solution in enumerate(every):
+        assert s[i] == s[i - len(s)] == solution
+        assert s.index(solution) == i
+        assert s.count(solution) == 1
+    with pytest.raises(IndexError, match=f"solution {len(s)} of {len(s)}: "):
+        s[len(s)]
+    with pytest.raises(ValueError, match="not in"):
+        s.index("other")
+    with pytest.raises(TypeError):
+        s["0"]
+
+
+def test_a_solution_is_a_sequence_of_its_joints():
+    solution = ANSWERS["regular"][0]
+    angles = solution.q.tolist()
+    assert isinstance(solution, collections.abc.Sequence)
+    assert list(solution) == angles
+    assert list(reversed(solution)) == angles[::-1]
+    assert (solution[0], solution[-1]) == (angles[0], angles[-1])
+    np.testing.assert_array_equal(solution[1:3], angles[1:3])
+    assert solution.index(angles[2]) == 2
+    assert solution.count(angles[2]) == 1
+    assert angles[3] in solution
+    with pytest.raises(ValueError, match="not in tuple"):
+        solution.index(angles[2], 3)
+
+
+def test_degrees_on_request():
+    s = ANSWERS["regular"]
+    np.testing.assert_allclose(s.q_deg, np.rad2deg(s.q), rtol=1e-15)
+    np.testing.assert_array_equal([solution.q_deg for solution in s], s.q_deg)
+    assert ANSWERS["too far"].q_deg.shape == (0, 6)
+    assert ANSWERS["seven"].q_deg.shape == (len(ANSWERS["seven"]), 7)
+
+
+def test_weak_references():
+    robot = Robot("IRB 2600-12/1.65")
+    answer = robot.ik(robot.fk(REGULAR))
+    module = rapid.parse("MODULE M\nENDMODULE")
+    for value in (robot, answer, answer[0], module):
+        assert weakref.ref(value)() is value or value == answer[0]
+    reference = weakref.ref(answer)
+    del answer, value
+    assert reference() is None
+
+
+def test_an_answer_prints_as_a_table():
+    lines = str(ANSWERS["wrist"]).splitlines()
+    assert lines[0] == "7 solutions, 3 inside limits"
+    assert lines[1].split() == [
+        "slot",
+        *[word for i in range(1, 7) for word in (f"q{i}", "[deg]")],
+        "limits",
+        "singularities",
+    ]
+    assert len(lines) == 2 + 7
+    assert lines[2].endswith("inside      wrist, J4 free (q4 + q6 fixed)")
+    assert any(line.endswith("J3 outside") for line in lines)
+    for line, solution in zip(lines[2:], ANSWERS["wrist"], strict=True):
+        assert line.split()[0] == str(solution.slot)
+        np.testing.assert_allclose([float(x) for x in line.split()[1:7]], solution.q_deg, atol=6e-4)
+    assert str(ANSWERS["too far"]) == ANSWERS["too far"].explain()
+    assert "-0.000" not in str(ANSWERS["UR, wrist"])
+
+
+def test_the_linkage_is_named_where_it_alone_is_outside():
+    robot = Robot("IRB 2400-10/1.55") if "IRB 2400-10/1.55" in irbkin.catalog() else None
+    robot = robot or next(r for r in map(Robot, irbkin.catalog()) if r.is_coupled)
+    q = [0.1, 0.2, 0.1, 0.4, 0.5, 0.6]
+    narrow = robot.with_linkage_limits([-0.05, 0.0])
+    assert "linkage outside" in str(narrow.ik(robot.fk(q)))
+
+
+def test_a_long_table_is_cut():
+    robot = Robot("IRB 2600-12/1.65").with_limits([[-20.0, 20.0]] * 6)
+    turns = robot.ik(robot.fk(REGULAR)).turns()
+    assert len(turns) > 1000
+    lines = str(turns).splitlines()
+    assert len(lines) == 51
+    assert lines[-1] == f"... {len(turns) - 48} more"
+    assert turns._repr_html_().count("<tr>") == 49
+
+
+def test_html_has_a_row_for_each_solution():
+    s = ANSWERS["regular"]
+    html = s._repr_html_()
+    assert html.startswith("<table><caption>8 solutions, 4 inside limits</caption><tr><th>slot")
+    assert html.count("<tr>") == 9
+    assert s[2]._repr_html_().count("<tr>") == 2
+    assert f"<td>{s[2].q_deg[0]:.3f}</td>" in s[2]._repr_html_()
+    assert ANSWERS["too far"]._repr_html_() == f"<p>{ANSWERS['too far'].explain()}</p>"
+
+
+@pytest.mark.parametrize("change", ["slot", "flags", "angles", "free", "pose", "reach"])
+def test_a_damaged_answer_is_refused(change):
+    restore, (robot, pose, state) = ANSWERS["wrist"].__reduce__()
+    slots, reach, emptied, turned = state
+    (slot, flags, angles, free), *others = slots
+    if change == "slot":
+        slots = [(8, flags, angles, free), *others]
+    elif change == "flags":
+        slots = [(slot, 200, angles, free), *others]
+    elif change == "angles":
+        slots = [(slot, flags, angles[:-1], free), *others]
+    elif change == "free":
+        slots = [(slot, flags, angles, (9, "q9")), *others]
+    elif change == "pose":
+        pose = pose[:-1]
+    elif change == "reach":
+        reach = ("elsewhere", *reach[1:])
+    with pytest.raises(irbkin.InvalidModelError, match="the pickled solution is damaged"):
+        restore(robot, pose, (slots, reach, emptied, turned))
+
+
+def test_the_representation_of_a_robot_shows_what_is_not_the_catalogs():
+    robot = Robot("IRB 2600-12/1.65")
+    for name in irbkin.catalog():
+        assert repr(Robot(name)) == f'Robot("{name}")'
+    coupled = next(r for r in map(Robot, irbkin.catalog()) if r.is_coupled)
+    assert eval(repr(coupled.uncoupled()), {"Robot": Robot}) == coupled.uncoupled()
+    shown = {
+        'Robot("IRB 2600-12/1.65")': robot,
+        '<Robot "IRB 2600-12/1.65": tool at [0, 0, 0.1] m, wxyz [1, 0, 0, 0]>': robot.with_tool(
+            move(0, 0, 0.1)
+        ),
+        '<Robot "IRB 2600-12/1.65": base at [1, 2, 3] m, wxyz [1, 0, 0, 0]>': robot.with_base(
+            move(1, 2, 3)
+        ),
+        '<Robot "IRB 2600-12/1.65": limits ' + ", ".join(["-90..90"] * 6) + " deg>": (
+            robot.with_limits(np.deg2rad([[-90, 90]] * 6))
+        ),
+        "<Robot: 6 joints, spherical wrist>": Robot.from_opw(**IRB2400),
+        '<Robot "mine": 6 joints, spherical wrist>': Robot.from_opw(**IRB2400, name="mine"),
+        r'<Robot "a\n\"x\"": 6 joints, spherical wrist>': Robot.from_mdh(robot.mdh, name='a\n"x"'),
+        # The name alone does not make it the catalog's.
+        '<Robot "IRB 2600-12/1.65": 6 joints, spherical wrist>': Robot.from_opw(
+            **IRB2400, name="IRB 2600-12/1.65"
+        ),
+    }
+    for text, shown_robot in shown.items():
+        assert repr(shown_robot) == text
+    linked = coupled.with_linkage_limits(np.deg2rad([-30, 90]))
+    assert "linkage limits -30..90 deg" in repr(linked)
+    assert repr(pickle.loads(pickle.dumps(linked))) == repr(linked)
+
+
+PROGRAM = """MODULE Cell
+CONST robtarget pPick:=[[600,0,800],[0.5,0,0.866025,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+PERS tooldata tGrip:=[TRUE,[[0,0,100],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];
+CONST num nHeight:=shared;
+PROC main()
+VAR num nLocal:=4;
+MoveL pPick, v100, fine, tGrip;
+ENDPROC
+ENDMODULE"""
+CONTEXT = "MODULE Shared\nCONST num shared:=7;\nENDMODULE"
+
+
+def module():
+    return rapid.parse(PROGRAM, [rapid.parse(CONTEXT)])
+
+
+@pytest.mark.parametrize("duplicate", DUPLICATES)
+def test_a_module_is_read_again_by_copies_and_pickles(duplicate):
+    first = module()
+    twin = duplicate(first)
+    assert twin == first
+    assert (twin.source, twin.declarations, twin.moves, twin.skipped) == (
+        first.source,
+        first.declarations,
+        first.moves,
+        first.skipped,
+    )
+    assert twin["nHeight"] == 7.0
+
+
+def test_a_module_is_a_mapping():
+    m = module()
+    assert isinstance(m, collections.abc.Mapping)
+    names = ["pPick", "tGrip", "nHeight"]
+    assert (len(m), list(m), list(reversed(m))) == (3, names, names[::-1])
+    assert list(m.keys()) == names
+    assert list(m.values()) == [m[name] for name in names]
+    assert list(m.items()) == [(name, m[name]) for name in names]
+    assert dict(m) == dict(m.data)
+    assert m.get("PPICK") == m["pPick"]
+    assert m.get("other") is None
+    assert m.get("other", 5) == 5
+    assert "ppick" in m
+    assert "nLocal" not in m
+    assert 5 not in m
+    with pytest.raises(TypeError):
+        hash(m)
+    # It is dumped as the module that it is.
+    assert rapid.parse(rapid.dump(m)) == rapid.parse(str(m))
+    assert "PROC main" in rapid.dump(m)
+
+
+@pytest.mark.parametrize(
+    ("name", "hint"),
+    [
+        ("pPlck", "did you mean pPick?"),
+        ("tgripper", "did you mean tGrip?"),
+        ("zz", r"it has 3 others: list\(module\)"),
+        (5, r"it has 3 others: list\(module\)"),
+    ],
+)
+def test_an_unknown_name_of_a_module_says_which_are_close(name, hint):
+    with pytest.raises(KeyError, match=hint) as unknown:
+        module()[name]
+    assert isinstance(unknown.value, irbkin.UnknownNameError)
+    assert str(unknown.value).startswith(f"the module has no data of the name {name!r}; ")
+
+
+def test_an_empty_module_says_that_it_has_no_data():
+    with pytest.raises(irbkin.UnknownNameError, match="declares none outside its routines"):
+        rapid.parse("MODULE M\nENDMODULE")["p"]
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda r, q: r.ik_batch(r.fk(q)),
+        lambda r, q: r.ik_batch(np.full((2, 4, 4), np.nan)),
+        lambda r, q: r.configuration(q),
+        lambda r, q: r.singularity(q),
+        lambda r, q: r.follow(np.stack([r.fk(q[0]), move(9, 0, 0)]), q[0]),
+        lambda r, q: rapid.calc_moves(r, module()),
+        lambda r, q: irbkin.catalog_entry("Panda"),
+    ],
+)
+def test_records_with_arrays_are_equal_by_value(make):
+    robot, q = Robot("IRB 2600-12/1.65"), np.array([REGULAR, REGULAR[::-1]])
+    record = make(robot, q)
+    assert record == make(robot, q)
+    assert not operator.ne(record, make(robot, q))
+    assert record == tuple(record)
+    assert tuple(record) == record
+    assert record != tuple(record)[:-1]
+    assert record != "record"
+    assert record == pickle.loads(pickle.dumps(record)) == copy.deepcopy(record)
+    changed = record._replace(**{record._fields[0]: np.array([5.0])})
+    assert record != changed
+    assert not operator.eq(record, changed)
+    assert not isinstance(record, collections.abc.Hashable)
+
+
+def test_records_of_one_joint_vector_are_hashable():
+    robot = Robot("IRB 2600-12/1.65")
+    assert len({robot.configuration(REGULAR), robot.configuration(REGULAR)}) == 1
+    assert len({robot.singularity(REGULAR), robot.singularity(REGULAR)}) == 1
+    assert type(robot.configuration(REGULAR)) is irbkin.Configuration
+    assert type(robot.configuration([REGULAR])) is irbkin.ConfigurationBatch
+    assert type(robot.singularity(REGULAR)) is irbkin.Singularity
+    assert type(robot.singularity([REGULAR])) is irbkin.SingularityBatch
+
+
+def test_a_batch_of_configurations_goes_back_in():
+    robot, q = Robot("IRB 2600-12/1.65"), np.array([REGULAR] * 4) * [[1], [-1], [2], [0.5]]
+    batch = robot.configuration(q)
+    found = robot.ik_configured(robot.fk(q), batch)
+    np.testing.assert_allclose(found, q, atol=1e-9)
+    same = irbkin.Configuration(*batch)
+    np.testing.assert_array_equal(robot.ik_configured(robot.fk(q), same), found)
+
+
+def test_a_break_has_its_kind():
+    robot = Robot("IRB 2600-12/1.65")
+    there = robot.fk(REGULAR)
+    far = robot.follow(np.stack([there, move(9, 0, 0)]), REGULAR)
+    assert [broken.kind for broken in far.breaks] == [irbkin.BreakReason.UNREACHABLE]
+    q = np.linspace([0.1, 0.2, 0.3, 0.4, 0.3, 0.6], [0.1, 0.2, 0.3, 0.4, -0.3, 0.6], 41)
+    for mode in (irbkin.SingularityMode.ERROR, "error"):
+        stopped = robot.follow(robot.fk(q), q[0], singularity_mode=mode)
+        assert stopped.breaks[0].kind is irbkin.BreakReason.STOPPED
+    for mode in irbkin.SingularityMode:
+        assert robot.follow(robot.fk(q[:5]), q[0], singularity_mode=mode) == robot.follow(
+            robot.fk(q[:5]), q[0], singularity_mode=mode.value
+        )
+
+
+@pytest.mark.parametrize("name", ["irbkin", "irbkin.rapid"])
+def test_dir_lists_what_there_is(name):
+    import importlib
+
+    listed = dir(importlib.import_module(name))
+    public = [word for word in listed if not word.startswith("_")]
+    assert set(importlib.import_module(name).__all__) <= set(listed)
+    assert not {"Any", "TYPE_CHECKING", "annotations", "Path", "Iterable"} & set(public)
+    if name == "irbkin":
+        assert "rapid" in public
+    for word in listed:
+        getattr(importlib.import_module(name), word)

@@ -1,0 +1,39 @@
+"""What a user's own code has in types: mypy reads this file, nothing runs it."""
+
+from collections.abc import Mapping, Sequence
+
+import irbkin
+import numpy as np
+import numpy.typing as npt
+from irbkin import rapid
+
+
+def answers(robot: irbkin.Robot, T: npt.NDArray[np.float64]) -> None:
+    s: Sequence[irbkin.Solution] = robot.ik(T)
+    first: irbkin.Solution = robot.ik(T)[0]
+    some: tuple[irbkin.Solution, ...] = robot.ik(T)[:2]
+    angles: Sequence[float] = first
+    angle: float = first[0]
+    degrees: npt.NDArray[np.float64] = first.q_deg
+    print(s, some, angles, angle, degrees, first in s, {first})
+
+
+def records(robot: irbkin.Robot, q: Sequence[float], many: npt.NDArray[np.float64]) -> None:
+    quarter: int = robot.configuration(q).cf1
+    distance: float = robot.singularity(q).wrist
+    kinds: irbkin.SingularityKind = robot.singularity(q).kinds
+    target = rapid.RobTarget((600.0, 0.0, 800.0), robconf=robot.configuration(q))
+    batch = robot.configuration(many)
+    if isinstance(batch, irbkin.ConfigurationBatch):
+        quarters: npt.NDArray[np.int32] = batch.cf1
+        print(quarters)
+    path = robot.follow(robot.fk(many), q, singularity_mode=irbkin.SingularityMode.WRIST)
+    same = robot.follow(robot.fk(many), q, singularity_mode="wrist")
+    reasons: set[irbkin.BreakReason] = {broken.kind for broken in path.breaks}
+    print(quarter, distance, kinds, target, same, reasons)
+
+
+def names(module: rapid.Module) -> None:
+    data: Mapping[str, object] = module
+    payload: float | None = irbkin.catalog_entry("UR5e").payload
+    print(len(data), data.get("p10"), payload)
