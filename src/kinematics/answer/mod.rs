@@ -1,4 +1,4 @@
-//! What a solve answers: flags, reach, solutions in their slots, and the choice among them.
+//! The answer of a solve: flags, reach, solutions in their slots, and the choice among them.
 
 pub(crate) mod check;
 pub(crate) mod select;

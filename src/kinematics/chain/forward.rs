@@ -87,7 +87,7 @@ impl<const N: usize> Kernel for OneFrames<'_, N> {
     }
 }
 
-/// The tool's frames, from the frame before the first link on.
+/// The tool's frames, starting from the frame before the first link.
 #[inline(always)]
 fn tool<const N: usize, const W: usize, const FUSED: bool>(
     chain: &Chain<N>,
@@ -105,7 +105,7 @@ fn tool<const N: usize, const W: usize, const FUSED: bool>(
 /// A column of lanes for each joint.
 pub(in crate::kinematics) type Joints<const N: usize> = [Column; N];
 
-/// Sines and cosines of the table's angles of up to a block of rows, which stand in the lanes.
+/// Sines and cosines of the table's angles for up to a block of rows, one row per lane.
 #[inline(always)]
 pub(in crate::kinematics) fn sines_of_rows<const N: usize, const FUSED: bool>(
     chain: &Chain<N>,
@@ -120,8 +120,8 @@ pub(in crate::kinematics) fn sines_of_rows<const N: usize, const FUSED: bool>(
     sines::<N, FUSED>(&angles)
 }
 
-/// Sines and cosines of the joint angles of one arm, calculated side by side; one lane of each
-/// comes out.
+/// Sines and cosines of the joint angles of one arm, computed side by side; one lane of each is
+/// returned.
 #[inline(always)]
 pub(in crate::kinematics) fn sines_of_joints<const N: usize, const FUSED: bool>(
     q: &[f64; N],
@@ -153,7 +153,7 @@ fn sines<const N: usize, const FUSED: bool>(angles: &Joints<N>) -> (Joints<N>, J
     (sin, cos)
 }
 
-/// Angles of more turns than the lanes can count.
+/// Angles with more turns than the lanes can count.
 #[cold]
 fn take_far_turns(angles: &[f64], sin: &mut [f64], cos: &mut [f64]) {
     for ((angle, sin), cos) in

@@ -1,11 +1,11 @@
-//! Poses as nalgebra's other types for them.
+//! Conversions between poses and nalgebra's other types for them.
 
 use nalgebra::{Isometry3, Matrix4};
 
 use super::{Pose, checked_pose, pose_from_rows};
 use crate::error::Error;
 
-/// The pose of a 4x4 homogeneous matrix; a rotation that is off by rounding is repaired.
+/// The pose of a 4x4 homogeneous matrix; a rotation with rounding errors is repaired.
 ///
 /// # Errors
 ///

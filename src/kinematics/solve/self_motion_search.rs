@@ -1,5 +1,5 @@
-//! The family of solutions along a free joint that moves more than a partner: axis 1 where the
-//! wrist center is on it, axis 2 where the arm is folded onto it, axis 6 of three parallel axes.
+//! The self-motion along a free joint that moves more than a partner: axis 1 if the wrist center is
+//! on it, axis 2 if the arm is folded onto it, axis 6 of three parallel axes.
 
 use core::f64::consts::{PI, TAU};
 
@@ -17,35 +17,38 @@ use crate::kinematics::structure::arity::{Arity, Joints};
 use crate::kinematics::thresholds::LIMIT_SLACK;
 use crate::report::FreeJoint;
 
-/// Steps of a turn in which a family is searched for a place inside the limits.
+/// Steps per turn in the search of a self-motion for a place inside the limits.
 const STEPS: u32 = 360;
 
-/// Steps of a turn in which it is searched for one that is nearer than what was found.
+/// Steps per turn in the search for one that is nearer than the best found.
 const COARSE_STEPS: u32 = 72;
 
-/// Steps of a turn of joint 6 at which a plane of the arm is tried that rounding leaves open.
+/// Steps per turn of joint 6 at which a plane of the arm is tried that rounding leaves
+/// undetermined.
 const PLANE_STEPS: u32 = 72;
 
-/// Least number of steps in which a part of a turn is searched.
+/// Least number of steps in the search of a part of a turn.
 const LEAST_STEPS: u32 = 8;
 
-/// How often the way to a stretched or folded arm is halved: from five degrees to 1e-6 rad.
+/// How often the way to a stretched or folded arm is bisected: from five degrees to 1e-6 rad.
 const ELBOW_HALVINGS: u32 = 17;
 
-/// Valleys between steps that are looked into.
+/// Largest number of valleys between steps that are searched.
 const VALLEYS: u32 = 16;
 
-/// A number of each slot.
+/// One number per slot.
 type OfSlots = [f64; MOST_SLOTS];
 
-/// What is seen of a family at an angle of the free joint.
+/// The self-motion at one angle of the free joint.
 #[derive(Clone, Copy)]
 struct Sample {
     angle: f64,
-    /// How far the farthest joint is outside its limits or, inside them, less than zero and the
-    /// less the nearer to the seed.
+    /// How far the farthest joint is outside its limits; inside them, a negative number that falls
+    /// towards the seed.
     heights: OfSlots,
-    /// Size of sin q5 of an arm whose wrist may be singular as well.
+    /// sin q5
+    ///
+    /// of an arm whose wrist may be singular as well.
     wrists: OfSlots,
     /// The least angle between upper arm and forearm of an arm that is nearly stretched or folded.
     elbow: f64,
@@ -73,7 +76,7 @@ impl<const N: usize> NearestSearch<'_, N>
 where
     Joints<N>: Arity<N>,
 {
-    /// Looks at the family of a solution, on all its branches.
+    /// Search the self-motion of a solution, on all its branches.
     pub(super) fn look_along_self_motion(
         &mut self,
         from: &Solution<N>,
@@ -81,13 +84,13 @@ where
     ) -> Result<(), Error> {
         let joint = free.joint() - 1;
         for angle in [from.q[joint], self.wanted.seed[joint]] {
-            for turned in [angle, angle + PI] {
-                for member in &self.members(from, free, turned)? {
+            for rotated in [angle, angle + PI] {
+                for member in &self.members(from, free, rotated)? {
                     self.move_onto_pose(&member.q, LIMIT_SLACK, member);
                 }
             }
         }
-        if !self.is_open(from, free)? {
+        if !self.is_undetermined(from, free)? {
             return Ok(());
         }
         let Window { low, step, steps } = self.window(from, free);
@@ -98,7 +101,7 @@ where
             let next = self.sample(from, free, low + f64::from(number) * step)?;
             let samples = [&before, &here, &next];
             for slot in (0..self.known.slot_count()).step_by(2) {
-                // sin q5 changes by no more than the free joint does.
+                // sin q5 changes no faster than the free joint does.
                 if is_valley(samples.map(|sample| sample.wrists[slot])) && here.wrists[slot] <= step
                 {
                     self.look_at_wrist_between(from, free, slot, [before.angle, next.angle])?;
@@ -113,8 +116,8 @@ where
         Ok(())
     }
 
-    /// Looks where between three angles the joints of a slot are the least outside the limits, or
-    /// the nearest to the seed.
+    /// Search between three angles where the joints of a slot exceed the limits least, or are
+    /// nearest to the seed.
     fn look_into_valleys(
         &mut self,
         from: &Solution<N>,
@@ -130,15 +133,15 @@ where
                 self.look_into_valley(from, free, between, height)?;
             }
         }
-        // Where another joint is singular as well, rounding moves a branch from slot to slot.
+        // If another joint is singular as well, rounding moves a branch from slot to slot.
         if is_valley(samples.map(Sample::least_height)) {
             self.look_into_valley(from, free, between, Self::least_height)?;
         }
         Ok(())
     }
 
-    /// Looks where between two angles the arm is the nearest to stretched or folded, ever closer to
-    /// there: the nearer it comes, the farther a small step of the free joint turns the arm.
+    /// Search between two angles where the arm is nearest to stretched or folded, ever closer to
+    /// there: the nearer it is, the farther a small step of the free joint turns the arm.
     fn look_at_elbow_between(
         &mut self,
         from: &Solution<N>,
@@ -160,9 +163,8 @@ where
         Ok(())
     }
 
-    /// Whether the free joint leaves its angle with the tool on the pose: next to the singularity
-    /// it does not.
-    fn is_open(&mut self, from: &Solution<N>, free: FreeJoint) -> Result<bool, Error> {
+    /// Whether the free joint can move with the tool on the pose: near the singularity it cannot.
+    fn is_undetermined(&mut self, from: &Solution<N>, free: FreeJoint) -> Result<bool, Error> {
         let own = from.q[free.joint() - 1];
         for part in [0.05, -0.05, 0.8, -0.8, 1.6, -1.6, 2.4, -2.4] {
             let solutions = self.members(from, free, own + part)?;
@@ -173,11 +175,11 @@ where
         Ok(false)
     }
 
-    /// The angles of the free joint that may cost less than what was found.
+    /// The angles of the free joint that may cost less than the best found.
     fn window(&self, from: &Solution<N>, free: FreeJoint) -> Window {
         let joint = free.joint() - 1;
         let seed = self.wanted.seed[joint];
-        // The free joint alone makes farther angles cost more than what was found.
+        // Farther angles cost more than the best found by the free joint alone.
         let half = self.best.map_or(f64::INFINITY, |best| {
             (best.cost / self.wanted.weights[joint]).sqrt().max(f64::MIN_POSITIVE)
         });
@@ -189,13 +191,13 @@ where
             return Window { low: seed - half, step: 2.0 * half / f64::from(steps), steps };
         }
         let steps = if self.best.is_some() { COARSE_STEPS } else { STEPS };
-        // From that of the solution on, which may be where reach ends.
+        // From the angle of the solution on, which may be at the edge of reach.
         Window { low: from.q[joint], step: TAU / f64::from(steps), steps }
     }
 
-    /// Looks at three parallel axes with joint 6 at several angles, where rounding of the shoulder
-    /// leaves the plane of the arm open, and with it a wrist that is nearly singular.
-    pub(super) fn look_at_open_plane(&mut self, from: &Solution<N>) -> Result<(), Error> {
+    /// Try joint 6 of three parallel axes at several angles, if rounding of the shoulder leaves the
+    /// plane of the arm undetermined, and with it a nearly singular wrist.
+    pub(super) fn search_uncertain_plane(&mut self, from: &Solution<N>) -> Result<(), Error> {
         let free = FreeJoint::Parallel;
         let [low, high] = self.wanted.limits.to_array()[5];
         let own = from.q[5];
@@ -214,7 +216,7 @@ where
         Ok(())
     }
 
-    /// The solutions with the free joint at `angle`, of which the nearest is taken.
+    /// The solutions with the free joint at `angle`; the nearest is kept.
     fn members(
         &mut self,
         from: &Solution<N>,
@@ -250,7 +252,7 @@ where
             self.robot.residual(&solution.q, self.known.pose()).largest() <= self.allowed
         };
         let Some(solution) = solutions.slot(slot).filter(met) else { return f64::INFINITY };
-        match limits.turned_to(&solution.q, seed) {
+        match limits.wrapped_near(&solution.q, seed) {
             Some(q) => -1.0 / (1.0 + Cost::Distance.total(&q, seed, weights)),
             None => limits.worst_overrun(&solution.q),
         }
@@ -270,8 +272,8 @@ where
         heights.fold(f64::INFINITY, f64::min)
     }
 
-    /// Looks where between two angles the members are the least outside the limits, or the nearest
-    /// to the seed.
+    /// Search between two angles where the members exceed the limits least, or are nearest to the
+    /// seed.
     fn look_into_valley(
         &mut self,
         from: &Solution<N>,
@@ -286,8 +288,8 @@ where
         golden_section(at, low, high).map(|_| ())
     }
 
-    /// Looks where between two angles the wrist of a slot is singular as well: there axes 4 and 6
-    /// may take any part of their sum.
+    /// Search between two angles where the wrist of a slot is singular as well: there axes 4 and 6
+    /// may share their sum in any way.
     fn look_at_wrist_between(
         &mut self,
         from: &Solution<N>,
