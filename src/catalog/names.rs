@@ -1,4 +1,4 @@
-//! Arms by name: what does not matter in a name, and which names are close to an unknown one.
+//! Finds arms by name: normalizes spelling, and lists the names closest to an unknown one.
 
 use alloc::borrow::ToOwned;
 use alloc::string::String;
@@ -7,13 +7,13 @@ use alloc::vec::Vec;
 use super::{CatalogArm, catalog};
 use crate::error::{Error, UnknownRobot};
 
-/// How many close names an unknown one is told.
+/// Number of close names in the message for an unknown one.
 const MOST_CLOSE: usize = 6;
 
-/// Finds an arm by its name; case, blanks, dashes, `_`, `/`, `,`, parentheses and the last zeros of
-/// a decimal (2.50, 2,5) do not matter.
+/// Find a catalog arm by its name. Case, blanks, dashes, `_`, `/`, `,`, parentheses and trailing
+/// zeros of a decimal (2.50, 2,5) do not matter.
 ///
-/// Nothing is guessed: a name that lacks a part is unknown, even where one arm alone has it.
+/// Names are not guessed: a name that lacks a part is unknown, even if only one arm has it.
 ///
 /// # Errors
 ///
@@ -25,7 +25,7 @@ pub fn find(name: &str) -> Result<&'static CatalogArm, Error> {
     })
 }
 
-/// A name without what does not matter in it.
+/// A name without the characters that do not matter.
 fn squeezed(name: &str) -> String {
     let mut squeezed = String::new();
     let mut point = None;
@@ -61,7 +61,7 @@ fn squeezed(name: &str) -> String {
     squeezed
 }
 
-/// Takes the last zeros of a number away, and its decimal point when nothing stands behind it.
+/// Remove the trailing zeros of a number, and its decimal point if nothing follows it.
 fn trim_decimals(text: &mut String, point: Option<usize>) {
     if let Some(point) = point {
         let zeros = text[point..].len() - text[point..].trim_end_matches('0').len();
@@ -72,8 +72,8 @@ fn trim_decimals(text: &mut String, point: Option<usize>) {
     }
 }
 
-/// Names that hold the wanted one, the earlier in the name the closer; where there are none, those
-/// that are spelled like it.
+/// Names that contain the wanted one, the earlier in the name the closer; if there are none, those
+/// with a similar spelling.
 fn close_to(wanted: &str) -> Vec<&'static str> {
     if wanted.is_empty() {
         return Vec::new();
@@ -87,11 +87,11 @@ fn close_to(wanted: &str) -> Vec<&'static str> {
     holding.into_iter().map(|(_, name)| name).take(MOST_CLOSE).collect()
 }
 
-/// Names that are spelled like the wanted one, or begin like it.
+/// Names with a spelling similar to the wanted one, or with the same beginning.
 #[cfg(feature = "std")]
 fn spelled_like(wanted: &str) -> Vec<&'static str> {
-    /// Share of the letters that must be right [1]: with less, an arm of another series and maker
-    /// would be close.
+    /// Fraction of the letters that must match [1]: with a smaller one, an arm of another series
+    /// and maker would be close.
     const LEAST_SIMILARITY: f64 = 0.7;
     let similarity = |arm: &CatalogArm| {
         let name = squeezed(arm.name);

@@ -33,7 +33,7 @@ class Arm:
 # Nine ABB arms: tables, limits and velocities as most public sources have them
 # (RobotComponents/RobotComponents @ 8eaaf1a2cc, visose/Robots @ 1573995b4d,
 # ros-industrial/abb_experimental @ 20b9cf86ad, 4rtur1t0/ARTE @ a8df0b121e,
-# SaltworkerMLU/robotkinematicscatalog @ ea88ef98a3). Where they disagree the majority stands here.
+# SaltworkerMLU/robotkinematicscatalogue @ ea88ef98a3). Where they disagree the majority stands here.
 # fmt: off
 ABB = {
     arm.name: arm

@@ -27,7 +27,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[100.0, 90.0, 90.0, 170.0, 120.0, 190.0]),
         sources: 5,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalog, ARTE, abb_motion_program_exec; a1 is 377 mm in ARTE",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue, ARTE, abb_motion_program_exec; a1 is 377 mm in ARTE",
     },
     CatalogArm {
         name: "IRB 6700-150/3.2 (LeanID)",
@@ -53,7 +53,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalog",
+        provenance: "robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 6700-155/2.85",
@@ -79,7 +79,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[110.0, 110.0, 110.0, 190.0, 150.0, 210.0]),
         sources: 3,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalog; c3 is 1393 mm in visose/Robots",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue; c3 is 1393 mm in visose/Robots",
     },
     CatalogArm {
         name: "IRB 6700-175/3.05",
@@ -105,7 +105,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalog",
+        provenance: "RobotComponents, robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 6700-200/2.6",
@@ -131,7 +131,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[110.0, 110.0, 110.0, 190.0, 150.0, 210.0]),
         sources: 4,
-        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalog, ARTE",
+        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE",
     },
     CatalogArm {
         name: "IRB 6700-205/2.8",
@@ -157,7 +157,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalog",
+        provenance: "RobotComponents, robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 6700-220/2.65 (MH6, LeanID)",
@@ -209,7 +209,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[100.0, 90.0, 90.0, 170.0, 120.0, 190.0]),
         sources: 3,
-        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalog",
+        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 6790-205/2.8",
@@ -287,7 +287,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[100.0, 60.0, 60.0, 100.0, 100.0, 190.0]),
         sources: 4,
-        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalog, ARTE; axis 5 is +-130 deg in robotkinematicscatalog",
+        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE; axis 5 is +-130 deg in robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 7600-325/3.1",
@@ -313,7 +313,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalog; axis 5 is +-130 deg in robotkinematicscatalog",
+        provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-130 deg in robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 7600-340/2.8",
@@ -339,7 +339,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalog; axis 5 is +-130 deg in robotkinematicscatalog",
+        provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-130 deg in robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 7600-400/2.55",
@@ -365,7 +365,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalog; axis 5 is +-130 deg in robotkinematicscatalog",
+        provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-130 deg in robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 7600-500/2.3",
@@ -391,7 +391,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalog; axis 5 is +-100 deg in three sources of the other 7600s",
+        provenance: "robotkinematicscatalogue; axis 5 is +-100 deg in three sources of the other 7600s",
     },
     CatalogArm {
         name: "IRB 7600-500/2.55",
@@ -417,7 +417,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalog; axis 5 is +-130 deg in robotkinematicscatalog",
+        provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-130 deg in robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 8700-550/4.2",
@@ -443,7 +443,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalog; axis 3 has a far wider range than on the other coupled arms: no second source confirms it",
+        provenance: "robotkinematicscatalogue; axis 3 has a far wider range than on the other coupled arms: no second source confirms it",
     },
     CatalogArm {
         name: "IRB 8700-800/3.5",
@@ -469,6 +469,6 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalog; axis 3 has a far wider range than on the other coupled arms: no second source confirms it",
+        provenance: "robotkinematicscatalogue; axis 3 has a far wider range than on the other coupled arms: no second source confirms it",
     },
 ];
