@@ -329,7 +329,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_batch_that_is_large_enough_gets_a_pool_where_there_are_cores_for_it() {
+    fn a_large_batch_gets_a_pool_if_cores_are_available() {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let size = |threads, poses| {
             pool(NonZeroUsize::new(threads), poses).map_or(1, |pool| pool.current_num_threads())

@@ -44,7 +44,7 @@ fn far_poses(pose: &Pose) -> impl Iterator<Item = (Pose, String)> + '_ {
 }
 
 #[test]
-fn a_position_that_is_too_far_is_refused_by_every_call() {
+fn every_call_refuses_a_position_that_is_too_far_away() {
     let identity = Pose::identity();
     for (pose, words) in far_poses(&identity) {
         assert_eq!(pose_from_rows(&pose_to_rows(&pose)).unwrap_err().to_string(), words);
@@ -83,7 +83,7 @@ fn a_position_that_is_too_far_is_refused_by_every_call() {
 }
 
 #[test]
-fn a_row_of_a_batch_that_is_too_far_is_invalid_and_the_others_are_not_touched() {
+fn a_batch_row_that_is_too_far_away_is_invalid_and_the_other_rows_are_solved() {
     let near = |rows: &[f64]| [rows, rows].concat();
     let check = |name: &str, q: &[f64], status: &[u8], alone: &[f64], row: usize| {
         let slots = alone.len();
@@ -136,7 +136,7 @@ fn a_row_of_a_batch_that_is_too_far_is_invalid_and_the_others_are_not_touched() 
 /// At the bound itself, and everywhere below it, a pose that is beyond reach has no solution and
 /// says by how much.
 #[test]
-fn poses_up_to_the_bound_are_beyond_reach_and_say_so() {
+fn poses_up_to_the_bound_are_reported_as_beyond_reach() {
     let mut rng = Rng::new(61);
     for size in [3.0, 1e2, 1e4, 9.99e5, MOST_LENGTH] {
         for _ in 0..50 {
@@ -168,7 +168,7 @@ fn too_large(field: &str, joint: usize, value: f64) -> String {
 }
 
 #[test]
-fn a_seed_that_is_too_large_is_refused_by_every_call() {
+fn every_call_refuses_a_seed_that_is_too_large() {
     fn sweep<const N: usize>(q: [f64; N], mut work: impl FnMut([f64; N], usize, f64)) {
         for value in ANGLES_BEYOND.into_iter().flat_map(|size| [size, -size]) {
             for joint in 0..N {
@@ -223,7 +223,7 @@ fn a_seed_that_is_too_large_is_refused_by_every_call() {
 /// Without limits a solution is turned to its seed. A seed of `turns` whole turns is rounded to
 /// `eps` times its size.
 #[test]
-fn a_solution_next_to_a_large_seed_still_closes() {
+fn a_solution_near_a_large_seed_still_closes() {
     let mut rng = Rng::new(62);
     for size in [0.0, 1e2, 1e4, MOST_ANGLE - PI] {
         for name in SIXES {
@@ -274,7 +274,7 @@ fn a_configuration_never_saturates() {
 /// Forward kinematics takes the very angle that a number stands for, of however many turns, also
 /// where a linkage makes a difference of two.
 #[test]
-fn forward_kinematics_of_large_angles_is_that_of_what_is_left_of_the_turn() {
+fn forward_kinematics_of_large_angles_equals_that_of_the_angle_modulo_2_pi() {
     let mut rng = Rng::new(64);
     for name in SIXES {
         let robot = six(name);

@@ -139,7 +139,7 @@ fn independent_product_of_the_table() {
 }
 
 #[test]
-fn the_zero_pose_is_the_sum_of_the_drawings_lengths() {
+fn the_zero_pose_is_the_sum_of_the_lengths_in_the_drawing() {
     for arm in catalog() {
         let CatalogGeometry::Abb { a1, a2, c1, c2, c3, c4, .. } = arm.geometry else { continue };
         let pose: Pose = Robot::<6>::from_catalog(arm).unwrap().fk(&[0.0; 6]);
@@ -362,7 +362,7 @@ fn every_arm_closes_on_random_poses_and_finds_the_joints_that_made_them() {
 }
 
 #[test]
-fn names_forgive_spelling() {
+fn names_match_in_any_spelling() {
     for spelling in [
         "IRB 2600-12/1,65",
         "IRB 2600\u{2013}12/1.65",
@@ -385,7 +385,7 @@ fn names_forgive_spelling() {
 }
 
 #[test]
-fn an_unknown_name_tells_the_close_ones_and_nothing_is_guessed() {
+fn an_unknown_name_lists_close_ones_and_is_never_guessed() {
     let close = |name: &str| match irbkin::find(name) {
         Err(Error::UnknownRobot(unknown)) => unknown.close,
         other => unreachable!("{name}: {other:?}"),

@@ -132,7 +132,7 @@ fn quarter_turns_are_counted_from_below() {
 }
 
 #[test]
-fn an_angle_on_an_edge_has_both_neighbors() {
+fn an_angle_on_an_edge_matches_both_quarter_turns() {
     let robot = irb2600();
     let off = 0.009_f64.to_radians();
     for edge in [-2, -1, 0, 1] {
@@ -161,7 +161,7 @@ fn an_angle_on_an_edge_has_both_neighbors() {
 }
 
 #[test]
-fn axis_5_next_to_zero_has_both_slots() {
+fn axis_5_near_zero_matches_both_slots() {
     let robot = irb2600();
     for (q5, found) in [(0.005_f64, true), (-0.005, true), (0.02, false)] {
         let q = [0.3, 0.2, 0.1, 0.4, q5.to_radians(), 0.7];
@@ -190,7 +190,7 @@ fn turns_are_chosen_by_the_configuration() {
 }
 
 #[test]
-fn where_the_wrist_is_singular_axes_4_and_6_take_their_quarters() {
+fn at_a_wrist_singularity_axes_4_and_6_take_the_named_quarter_turns() {
     let robot = irb2600();
     for (q4, q6) in [(0.4, 0.7), (2.0, -1.2), (-2.5, 3.3), (-0.2, -4.0)] {
         let q = [0.3, 0.2, 0.1, q4, 0.0, q6];
@@ -209,7 +209,7 @@ fn where_the_wrist_is_singular_axes_4_and_6_take_their_quarters() {
 }
 
 #[test]
-fn where_the_shoulder_is_singular_axis_1_takes_its_quarter() {
+fn at_a_shoulder_singularity_axis_1_takes_the_named_quarter_turn() {
     let arm = OpwParameters::abb(0.0, -0.07, 0.29, 0.27, 0.302, 0.072);
     let robot = Robot::from_opw(arm).unwrap();
     // The wrist center above axis 1.
@@ -234,7 +234,7 @@ fn where_the_shoulder_is_singular_axis_1_takes_its_quarter() {
 }
 
 #[test]
-fn the_error_lists_what_exists() {
+fn the_error_lists_the_configurations_that_exist() {
     let robot = irb2600();
     let q = [0.3, 0.2, 0.1, 0.4, 0.5, 0.7];
     let Err(Error::NoConfiguration(none)) =
@@ -263,7 +263,7 @@ fn the_error_lists_what_exists() {
 }
 
 #[test]
-fn the_list_has_each_configuration_once_and_tells_of_a_free_joint() {
+fn the_list_has_each_configuration_once_and_names_a_free_joint() {
     let wide = irb2600().with_limits(JointLimits::new([[-7.0, 7.0]; 6]).unwrap());
     let q = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
     let listed = |robot: &Robot<6>, q: &[f64; 6]| match robot
@@ -298,7 +298,7 @@ fn the_list_has_each_configuration_once_and_tells_of_a_free_joint() {
 
 /// Next to the singularity, where only another member of the family is inside the limits.
 #[test]
-fn a_family_that_has_members_inside_the_limits_is_not_unreachable() {
+fn a_self_motion_with_members_inside_the_limits_is_reachable() {
     let mut limits = irb2600().limits().to_array();
     (limits[3], limits[5]) = ([2.0, 2.1], [-0.6, -0.5]);
     let robot = irb2600().with_limits(JointLimits::new(limits).unwrap());
@@ -316,7 +316,7 @@ fn a_family_that_has_members_inside_the_limits_is_not_unreachable() {
 }
 
 #[test]
-fn far_multiples_of_a_quarter_turn_begin_theirs() {
+fn large_multiples_of_a_quarter_turn_belong_to_the_quarter_turn_they_begin() {
     let robot = irb2600().with_limits(JointLimits::UNLIMITED);
     for quarters in -400..=400 {
         let q = [(f64::from(quarters) * 90.0).to_radians(), 0.0, 0.0, 0.0, 0.0, 0.0];
@@ -329,7 +329,7 @@ fn far_multiples_of_a_quarter_turn_begin_theirs() {
 }
 
 #[test]
-fn what_is_no_configuration_of_the_arm_is_refused() {
+fn configurations_that_the_arm_cannot_have_are_refused() {
     let robot = irb2600();
     let message = |answer: Result<Configuration, Error>| answer.unwrap_err().to_string();
     let refused = |robot: &Robot<6>, cfx| {
@@ -360,7 +360,7 @@ fn what_is_no_configuration_of_the_arm_is_refused() {
 }
 
 #[test]
-fn a_coupled_arm_does_not_count_its_slot() {
+fn the_configuration_of_a_coupled_arm_has_no_slot() {
     let robot = Robot::from_opw(OpwParameters::abb(0.1, -0.135, 0.615, 0.705, 0.755, 0.085))
         .unwrap()
         .coupled()

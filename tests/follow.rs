@@ -167,7 +167,7 @@ fn the_elbow_is_stretched_and_bent_again() {
 }
 
 #[test]
-fn turns_are_counted_up_to_the_limits() {
+fn the_joints_turn_on_up_to_the_limits() {
     let robot = robot();
     let turns = 390.0_f64.to_radians();
     check_smooth(
@@ -189,7 +189,7 @@ fn turns_are_counted_up_to_the_limits() {
 }
 
 #[test]
-fn arms_of_other_makers_pass_too() {
+fn arms_of_other_makers_pass_the_wrist_without_a_jump() {
     let kuka = common::kuka_kr6().unwrap();
     check_smooth(
         "KUKA, J5 through 0",
@@ -229,7 +229,7 @@ fn a_corner_in_the_wrist_singularity_is_a_break() {
 }
 
 #[test]
-fn joint_4_turns_by_pi_where_the_wrist_keeps_its_sign() {
+fn joint_4_turns_by_pi_if_joint_5_keeps_its_sign() {
     let robot = robot();
     let mut limits = robot.limits().to_array();
     limits[4][0] = 0.0;
@@ -254,7 +254,7 @@ fn joint_4_turns_by_pi_where_the_wrist_keeps_its_sign() {
 }
 
 #[test]
-fn a_pose_out_of_reach_is_a_break_and_the_path_goes_on() {
+fn a_pose_out_of_reach_is_a_break_and_the_path_continues() {
     let robot = robot();
     let made = joint_path(|t| [0.3 * t, 0.2, 0.1, 0.4, 0.5, 0.1]);
     let mut poses: Vec<Pose> = made.iter().map(|q| robot.fk(q)).collect();
@@ -298,14 +298,15 @@ fn cross(robot: &Robot<6>, path: &[Pose], singularity_mode: SingularityMode) -> 
 }
 
 #[test]
-fn crossing_policies_keep_what_they_promise() {
+fn singularity_modes_keep_their_guarantees() {
     let robot = robot();
     for off in [0.0, 1e-4, 2e-3] {
         for along in [[0.0, 0.15, 0.02], [0.1, 0.0, 0.1], [0.0, 0.2, 0.0]] {
             let path = crossing_line(&robot, off, along);
             let tell = |name: &str, crossed: &Crossed| {
                 println!(
-                    "line past J5 = 0 by {off:5e} rad, {along:?} m: {name:10} largest step {:6.3} deg  orientation {:8.1e} deg  position {:.0e} m",
+                    "line past J5 = 0 by {off:5e} rad, {along:?} m: {name:10} largest step {:6.3} \
+                     deg  orientation {:8.1e} deg  position {:.0e} m",
                     crossed.step.to_degrees(),
                     crossed.orientation.to_degrees(),
                     crossed.position
@@ -350,7 +351,7 @@ fn crossing_policies_keep_what_they_promise() {
 }
 
 #[test]
-fn axis_4_held_at_zero_keeps_the_orientation_in_the_arm_s_plane() {
+fn axis_4_locked_at_zero_keeps_the_orientation_in_the_plane_of_the_arm() {
     let robot = robot();
     let made = joint_path(|t| [0.3, 0.2 + 0.1 * t, 0.1, 0.0, 0.5 * t, 0.2]);
     let path: Vec<Pose> = made.iter().map(|q| robot.fk(q)).collect();
@@ -411,7 +412,8 @@ fn random_paths_through_several_singularities_are_followed() {
         assert!(smooth || passes, "{:?} {:?}", followed.breaks, made[SAMPLES / 2]);
     }
     println!(
-        "{paths} random paths: {followed_smoothly} followed smoothly, {behind_an_elbow} not, behind a stretched elbow; worst orientation {orientation:.1e} rad"
+        "{paths} random paths: {followed_smoothly} followed smoothly, {behind_an_elbow} not, \
+         behind a stretched elbow; worst orientation {orientation:.1e} rad"
     );
     // A straight elbow leaves the forearm open by 2e-7 rad on either side (docs/accuracy.md,
     // section 9).
@@ -420,7 +422,7 @@ fn random_paths_through_several_singularities_are_followed() {
 }
 
 #[test]
-fn a_crossing_of_few_uneven_poses_stays_within_two_zones() {
+fn wrist_mode_with_few_uneven_poses_stays_within_two_zones() {
     let robot = robot();
     let made: Vec<[f64; 6]> =
         [0.5, 0.016, 0.01, -0.001, -0.015, -0.1].map(|q5| [0.3, 0.2, 0.1, 0.5, q5, 0.4]).to_vec();
@@ -435,7 +437,7 @@ fn a_crossing_of_few_uneven_poses_stays_within_two_zones() {
 }
 
 #[test]
-fn axis_4_held_at_half_a_turn_is_as_good_over_the_base() {
+fn axis_4_locked_at_half_a_turn_keeps_it_over_the_base() {
     let robot = robot();
     let path: Vec<Pose> = (0..20)
         .map(|i| robot.fk(&[0.3, over_the_base(-0.6) + 1e-3 * f64::from(i), -0.6, PI, 0.8, 0.2]))

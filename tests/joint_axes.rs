@@ -136,17 +136,17 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 20_000, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn tables_of_six_axes_turn_as_the_axes(drawn in prop::array::uniform6(drawn()), tip in tips(), q in prop::array::uniform6(-PI..PI)) {
+    fn tables_of_six_axes_move_like_the_axes(drawn in prop::array::uniform6(drawn()), tip in tips(), q in prop::array::uniform6(-PI..PI)) {
         table_turns_as_the_axes(&drawn, &tip, &q)?;
     }
 
     #[test]
-    fn tables_of_seven_axes_turn_as_the_axes(drawn in prop::array::uniform7(drawn()), tip in tips(), q in prop::array::uniform7(-PI..PI)) {
+    fn tables_of_seven_axes_move_like_the_axes(drawn in prop::array::uniform7(drawn()), tip in tips(), q in prop::array::uniform7(-PI..PI)) {
         table_turns_as_the_axes(&drawn, &tip, &q)?;
     }
 
     #[test]
-    fn square_arms_stay_square(axes in square(), q in prop::array::uniform6(-PI..PI)) {
+    fn right_angles_stay_exact(axes in square(), q in prop::array::uniform6(-PI..PI)) {
         let mdh = Mdh::from_joint_axes(&axes, &Pose::identity()).unwrap();
         prop_assert!(mdh.rows.iter().all(|row| is_quarter_turn(row.alpha)), "{mdh:?}");
         // Between parallel axes x may run anywhere; a turn about them comes from it alone.
@@ -157,7 +157,7 @@ proptest! {
     }
 
     #[test]
-    fn what_is_a_rounding_off_parallel_is_parallel(drawn in prop::array::uniform6(drawn()), off in 1e-12..9e-10, q in prop::array::uniform6(-PI..PI)) {
+    fn axes_parallel_to_rounding_are_parallel(drawn in prop::array::uniform6(drawn()), off in 1e-12..9e-10, q in prop::array::uniform6(-PI..PI)) {
         let mut axes = axes_of(&drawn);
         let z: Vector3<f64> = Vector3::from(axes[1].direction).normalize();
         let aside: Vector3<f64> = z.cross(&if z.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() }).normalize();
@@ -197,7 +197,7 @@ fn an_axis_without_direction_is_refused_and_so_is_a_normal_too_far_away() {
 }
 
 #[test]
-fn directions_of_any_size_are_taken() {
+fn directions_of_any_length_are_accepted() {
     let axis = |direction| JointAxis { direction, point: [0.1, 0.2, 0.3] };
     let mdh = |size: f64| {
         Mdh::from_joint_axes(&[axis([0.0, 0.0, size]), axis([size, 0.0, 0.0])], &Pose::identity())

@@ -340,7 +340,7 @@ const BROKEN: &[(&str, &str)] = &[
 ];
 
 #[test]
-fn broken_input_is_told() {
+fn invalid_input_is_reported() {
     for (text, words) in BROKEN {
         match parse(text, &[]) {
             Err(Error::Rapid(fault)) => assert_eq!(fault.to_string(), *words, "{text}"),

@@ -52,7 +52,7 @@ fn arms() -> [Robot<6>; 3] {
 /// Locked by the robot, the tool meets the work object where the world sees both; stationary, they
 /// swap roles.
 #[test]
-fn the_tool_is_in_the_work_object_as_the_world_sees_both() {
+fn tool_and_work_object_are_combined_in_the_world_frame() {
     let mut rng = Rng::new(21);
     for robot in arms() {
         for (tool, wobj) in [(gun(true), fixture(false)), (gun(false), fixture(true))] {
@@ -78,7 +78,7 @@ fn the_tool_is_in_the_work_object_as_the_world_sees_both() {
 }
 
 #[test]
-fn joint_angles_come_back_from_their_robtarget() {
+fn joint_angles_round_trip_through_their_robtarget() {
     let mut rng = Rng::new(22);
     for robot in arms() {
         for (tool, wobj) in [(gun(true), fixture(false)), (gun(false), fixture(true))] {
@@ -110,7 +110,7 @@ fn joint_angles_come_back_from_their_robtarget() {
 }
 
 #[test]
-fn without_tool_and_work_object_the_robots_own_count() {
+fn without_tool_and_work_object_those_of_the_robot_are_used() {
     let tool = pose(&gun(true).tframe);
     let robot = arms()[1].clone().with_tool(&tool).unwrap();
     let joints = JointTarget { robax_deg: [10.0, 20.0, 30.0, 40.0, 50.0, 60.0], extax: EXTAX };
@@ -148,7 +148,7 @@ fn errors_have_the_names_of_rapid() {
 }
 
 #[test]
-fn frames_that_do_not_go_together_are_refused() {
+fn frames_that_cannot_be_combined_are_refused() {
     let robot = &arms()[0];
     let joints = JointTarget { robax_deg: [0.0; 6], extax: EXTAX };
     let message = |tool: &ToolData, wobj: &WobjData| {
@@ -178,8 +178,10 @@ const PROGRAM: &str = r#"
 MODULE Table
     PERS tooldata tGun:=[TRUE,[[0,0,110],[1,0,0,0]],[1,[0,0,50],[1,0,0,0],0,0,0]];
     PERS wobjdata wFix:=[FALSE,TRUE,"",[[300,-175,1],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
-    CONST robtarget p10:=[[425,325,308],[0,-0.707106781,0.707106781,0],[0,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
-    CONST robtarget pZero:=[[325,50,323],[0,-0.707106781,0.707106781,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+    CONST robtarget p10:=[[425,325,308],[0,-0.707106781,0.707106781,0],[0,0,-1,0],[9E9,9E9,9E9,\
+        9E9,9E9,9E9]];
+    CONST robtarget pZero:=[[325,50,323],[0,-0.707106781,0.707106781,0],[0,0,0,0],[9E9,9E9,9E9,\
+        9E9,9E9,9E9]];
     CONST robtarget row{2}:=[p10,pZero];
     CONST robtarget pFar:=[[4000,0,0],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
     PROC main()
@@ -235,7 +237,7 @@ fn a_table_has_a_row_for_each_target_of_the_moves() {
 }
 
 #[test]
-fn a_configuration_that_nobody_calculated_can_fall_back_to_the_joints_before() {
+fn a_configuration_without_solution_can_fall_back_to_the_nearest_joints() {
     let robot: Robot<6> = Robot::named("IRB 140-6/0.81").unwrap();
     let module = parse(PROGRAM, &[]).unwrap();
     let rows = calc_moves(&robot, &module, Fallback::Nearest([0.0; 6])).unwrap();
@@ -277,7 +279,7 @@ fn declared_targets_have_a_row_each_by_their_names() {
 }
 
 #[test]
-fn displaced_moves_and_axes_that_are_not_there_have_no_joints() {
+fn displaced_moves_and_absent_axes_have_no_joint_angles() {
     let robot: Robot<6> = Robot::named("IRB 140-6/0.81").unwrap();
     let text = "CONST jointtarget j:=[[0,0,9E9,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
         MoveAbsJ j,v100,fine,tool0;

@@ -196,7 +196,8 @@ fn statements(rng: &mut Rng) -> Vec<u8> {
             0 => format!("CONST num {name}:=-({other}+2)*.5;\n"),
             1 => format!("VAR num {name}{{2}}:=[{other},7];\n"),
             2 => format!(
-                "PERS robtarget {name}:=[[1,{other},3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+                "PERS robtarget {name}:=[[1,{other},3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,\
+                 9E9]];\n"
             ),
             3 => format!("CONST robtarget {name}:=RelTool({other},1,2,3\\Rz:=30);\n"),
             4 => format!("MoveL {other},v1,z1,tool0\\WObj:=wobj0;\n"),
@@ -206,7 +207,8 @@ fn statements(rng: &mut Rng) -> Vec<u8> {
             8 => format!("{name}:=1; Incr {other};\n"),
             9 => format!("PDispOn {name},tool0; SearchL d,{name},{other},v1,tool0;\n"),
             10 => format!(
-                "MoveL ToPoint:=Offs(Point:={name},0,0,{other}),\\ID:=1,v1,Zone:=z1,tool0,\\WObj:=wobj0;\n"
+                "MoveL ToPoint:=Offs(Point:={name},0,0,{other}),\\ID:=1,v1,Zone:=z1,tool0,\
+                 \\WObj:=wobj0;\n"
             ),
             11 => format!("VAR <TYP> {name}; IF <EXP> <SMT> {other}:=<EXP>; VAR num <ID>;\n"),
             12 => format!("PERS robtarget {name}:={other};\n"),
@@ -441,7 +443,8 @@ fn large_modules_are_read_at_once() {
     let count = if inputs() > 100_000 { 50_000 } else { 1000 };
     let target: fn(usize) -> String = |i| {
         format!(
-            "  CONST robtarget p{i}:=[[{i}.125,-20.5,300.75],[0.5,0.5,-0.5,0.5],[0,-1,0,1],[9E+09,9E+09,9E+09,9E+09,9E+09,9E+09]];\n"
+            "  CONST robtarget p{i}:=[[{i}.125,-20.5,300.75],[0.5,0.5,-0.5,0.5],[0,-1,0,1],[9E+09,\
+             9E+09,9E+09,9E+09,9E+09,9E+09]];\n"
         )
     };
     let step: fn(usize) -> String =

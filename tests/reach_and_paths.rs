@@ -80,7 +80,7 @@ fn plane_open(arm: &Arm, x: f64) -> f64 {
 }
 
 #[test]
-fn straight_elbows_next_to_the_shoulder_have_their_solution() {
+fn straight_elbows_near_the_shoulder_singularity_have_their_solution() {
     asked_set();
     let mut report = String::new();
     for arm in universal() {

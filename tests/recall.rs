@@ -28,7 +28,7 @@ where
 }
 
 #[test]
-fn other_arms_of_abb_lose_nothing() {
+fn other_arms_of_abb_miss_no_solution() {
     for name in ["IRB 140-6/0.81", "IRB 1600-6/1.45", "IRB 6700-150/3.2", "IRB 2400-10/1.55"] {
         let robot: Robot<6> = Robot::named(name).unwrap();
         // As it is, with its axes coupled or not.
@@ -37,7 +37,7 @@ fn other_arms_of_abb_lose_nothing() {
 }
 
 #[test]
-fn the_largest_arm_of_universal_robots_loses_nothing() {
+fn the_largest_arm_of_universal_robots_misses_no_solution() {
     check(&structures::three_parallel::named("UR20"));
 }
 
@@ -57,7 +57,8 @@ where
     for (way, tally) in ["one by one", "in a batch"].iter().zip(tallies(&subject)) {
         let report = tally.tell(&subject.name, way);
         println!(
-            "    {} found only to worse than 1e-9 rad, the worst {:.1e} rad; position {:.2e} x reach",
+            "    {} found only to worse than 1e-9 rad, the worst {:.1e} rad; position {:.2e} x \
+             reach",
             tally.coarse,
             tally.recall,
             tally.position / subject.reach()

@@ -224,12 +224,12 @@ fn sweep(arms: &[Arm], off: &[f64], seed: u64, place: impl Fn(&Arm, f64, &mut Rn
 }
 
 #[test]
-fn next_to_the_stretched_arm_nearest_is_never_farther_than_the_maker() {
+fn near_the_stretched_arm_nearest_is_never_farther_than_the_known_joints() {
     sweep(&arms(), &OFF, 1, Arm::next_to_stretched);
 }
 
 #[test]
-fn anywhere_nearest_is_never_farther_than_the_maker() {
+fn at_random_poses_nearest_is_never_farther_than_the_known_joints() {
     sweep(&arms(), &[1.0; 5], 2, |arm, _, rng| arm.anywhere(rng));
 }
 
@@ -250,7 +250,7 @@ const PLACES: [(&str, &[(usize, f64)]); 8] = [
 const OFF_STRETCHED_PAIRS: [f64; 6] = [0.0, 1e-4, 1e-3, 3e-3, 1e-2, 0.035];
 
 #[test]
-fn at_pairs_of_singularities_nearest_is_never_farther_than_the_maker() {
+fn at_pairs_of_singularities_nearest_is_never_farther_than_the_known_joints() {
     let arms = arms();
     for (name, place) in PLACES {
         println!("{name}");
@@ -274,7 +274,7 @@ fn other_rounding(robot: &Robot<7>, q: &[f64; 7]) -> Pose {
 }
 
 #[test]
-fn own_seed_comes_back() {
+fn the_seed_of_a_pose_is_returned() {
     let (mut rng, mut asked) = (Rng::new(4), 0);
     for arm in arms() {
         for off in OFF {
@@ -324,7 +324,7 @@ fn nearest_is_never_farther_than_a_solution_with_any_joint_7() {
 }
 
 #[test]
-fn smooth_paths_through_the_stretched_arm_neither_end_nor_jump() {
+fn smooth_paths_through_the_stretched_arm_have_no_break() {
     let (mut rng, mut steps, mut worst) = (Rng::new(7), 0, 0.0_f64);
     for arm in arms() {
         for path in 0..2 * poses() {
@@ -388,7 +388,7 @@ fn apart(a: &[f64; 7], b: &[f64; 7]) -> f64 {
 }
 
 #[test]
-fn no_duplicates_folded() {
+fn the_folded_arm_has_no_duplicates() {
     let arm = folding();
     let folded: f64 = 2.620_387_870_095_105_8;
     let (mut rng, mut pairs) = (Rng::new(5), 0);

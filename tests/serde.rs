@@ -15,7 +15,7 @@ fn comes_back<T: Serialize + DeserializeOwned + PartialEq + Debug>(kept: &T) {
 }
 
 #[test]
-fn models_come_back() {
+fn models_round_trip() {
     comes_back(&OpwParameters::abb(0.1, -0.135, 0.615, 0.705, 0.755, 0.085));
     let panda: Robot<7> = Robot::named("Panda").unwrap();
     comes_back::<Mdh<7>>(panda.mdh());
@@ -24,7 +24,7 @@ fn models_come_back() {
 }
 
 #[test]
-fn answers_come_back() {
+fn answers_round_trip() {
     let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
     let straight = [0.3, 0.2, 0.1, 0.4, 0.0, -0.7];
     let solutions = robot.ik(&robot.fk(&straight)).unwrap();
@@ -41,7 +41,7 @@ fn answers_come_back() {
 }
 
 #[test]
-fn options_come_back() {
+fn options_round_trip() {
     comes_back(&FollowOptions {
         singularity_mode: SingularityMode::LockAxis4,
         ..FollowOptions::default()
@@ -49,7 +49,7 @@ fn options_come_back() {
 }
 
 #[test]
-fn a_table_with_a_row_too_many_is_refused() {
+fn a_table_with_too_many_rows_is_refused() {
     let panda: Robot<7> = Robot::named("Panda").unwrap();
     let text = serde_json::to_string(panda.mdh()).unwrap();
     assert!(serde_json::from_str::<Mdh<6>>(&text).is_err());

@@ -51,7 +51,7 @@ where
 }
 
 #[test]
-fn an_xarm7_as_published_is_taken_with_the_snap_that_is_proposed() {
+fn the_published_xarm7_is_accepted_with_the_proposed_snap() {
     let text = Robot::<7>::from_urdf(XARM7, None, None).unwrap();
     let reason = text.unknown_structure().unwrap();
     assert_eq!(reason.snap(), Some(1e-5));
@@ -77,7 +77,7 @@ fn an_xarm7_as_published_is_taken_with_the_snap_that_is_proposed() {
 }
 
 #[test]
-fn a_puma560_as_published_is_taken_with_the_snap_that_is_proposed() {
+fn the_published_puma560_is_accepted_with_the_proposed_snap() {
     let words = refusal(Robot::<6>::from_urdf(PUMA560, None, None));
     assert!(words.ends_with("; snap=1e-8 would take it"), "{words}");
     assert!(!words.contains("0.000000"), "{words}");
@@ -121,7 +121,7 @@ fn rounded<const N: usize>(mdh: &Mdh<N>, decimals: i32) -> Mdh<N> {
 /// A right angle written with so many decimals is off by so much: the least power of ten above it
 /// takes it.
 #[test]
-fn tables_of_every_structure_are_taken_with_the_snap_that_is_proposed() {
+fn tables_of_every_structure_are_accepted_with_the_proposed_snap() {
     fn check<const N: usize>(exact: &Robot<N>)
     where
         irbkin::Joints<N>: irbkin::Arity<N>,
@@ -158,7 +158,7 @@ fn tables_of_every_structure_are_taken_with_the_snap_that_is_proposed() {
 
 /// What no snap would take is refused without a proposal: a length, or an angle that is meant.
 #[test]
-fn nothing_is_proposed_where_nothing_would_help() {
+fn no_snap_is_proposed_if_none_helps() {
     let exact = Robot::<6>::named("IRB 2600-12/1.65").unwrap().mdh().clone();
     let with = |change: &dyn Fn(&mut Mdh<6>)| {
         let mut table = rounded(&exact, 5);
@@ -188,7 +188,7 @@ fn nothing_is_proposed_where_nothing_would_help() {
 /// Text can be so far off that there is no table: axes 2 and 3 of an arm that stands on a rounded
 /// quarter turn meet far away.
 #[test]
-fn nearly_parallel_axes_are_taken_with_the_snap_that_is_proposed() {
+fn nearly_parallel_axes_are_accepted_with_the_proposed_snap() {
     let text = include_str!("data/irb2600.urdf");
     let joint = r#"<origin xyz="0 0 0.7""#;
     assert!(text.contains(joint), "the joint that is tilted");
@@ -204,7 +204,7 @@ fn nearly_parallel_axes_are_taken_with_the_snap_that_is_proposed() {
 
 /// Axes are snapped too, to a coordinate axis that is near, and to nothing else.
 #[test]
-fn an_axis_next_to_a_coordinate_axis_is_taken_for_it() {
+fn an_axis_near_a_coordinate_axis_is_snapped_to_it() {
     let tilted = |axis: &str| {
         PUMA560.replace("1.570796325", &FRAC_PI_2.to_string()).replacen(
             "<axis xyz=\"0 0 1\"/>",
@@ -223,7 +223,7 @@ fn an_axis_next_to_a_coordinate_axis_is_taken_for_it() {
 }
 
 #[test]
-fn without_snap_every_bit_is_as_it_was_written() {
+fn without_snap_every_bit_is_kept() {
     let mut rng = Rng::new(73);
     for _ in 0..1000 {
         let row = || DhRow::new(0.0, 0.0, 0.0, 0.0);

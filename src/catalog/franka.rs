@@ -56,5 +56,6 @@ const FR3: CatalogArm = CatalogArm {
     ],
     max_velocity: None,
     sources: 2,
-    provenance: "Franka control parameters: the Panda's geometry; limits are general knowledge of the data sheet",
+    provenance: "Franka control parameters: the Panda's geometry; limits are general knowledge of \
+        the data sheet",
 };

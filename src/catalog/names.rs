@@ -118,7 +118,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_does_not_matter_is_squeezed_out() {
+    fn irrelevant_characters_are_removed_from_names() {
         for (name, wanted) in [
             ("IRB 2600-12/1.65", "irb2600121.65"),
             ("IRB 4600-20/2.50", "irb4600202.5"),

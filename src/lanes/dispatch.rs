@@ -165,7 +165,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_widest_set_is_taken_and_only_what_the_processor_has() {
+    fn the_widest_supported_set_is_in_use_and_others_are_refused() {
         let available = || InstructionSet::available();
         assert_eq!(available().next(), Some(InstructionSet::Baseline));
         on_each_set(|set| assert_eq!(InstructionSet::in_use(), set));

@@ -11,7 +11,7 @@ use crate::common::{Rng, apart, on_each_set};
 const SLOTS: usize = 8;
 
 #[test]
-fn batch_equals_single_and_the_scalar_solve() {
+fn batch_equals_single_and_the_scalar_solver() {
     let mut rng = Rng::new(6);
     // Limits so far out that lanes do not take them: the scalar solve, of the same postures.
     let scalar = |robot: &Robot<6>| {

@@ -80,7 +80,7 @@ proptest! {
 }
 
 #[test]
-fn shortfall_is_what_the_nearest_branch_lacks() {
+fn shortfall_is_that_of_the_nearest_branch() {
     // Poses inside the cylinder of the lateral offset, out of reach of the links, and in reach.
     let [inside, beyond, reached] = [Cell::new(0), Cell::new(0), Cell::new(0)];
     let count = |cell: &Cell<usize>| cell.set(cell.get() + 1);
@@ -123,7 +123,7 @@ fn shortfall_is_what_the_nearest_branch_lacks() {
 }
 
 #[test]
-fn the_arm_of_the_tests_is_the_catalogs() {
+fn the_arm_of_the_tests_is_that_of_the_catalog() {
     let mut rng = Rng::new(1);
     for name in ["UR3", "UR5e", "UR10e", "UR20"] {
         let (arm, robot) = ParallelArm::universal(name);
@@ -137,7 +137,7 @@ fn the_arm_of_the_tests_is_the_catalogs() {
 }
 
 #[test]
-fn what_is_not_the_form_is_refused_by_the_axes_that_are_off() {
+fn a_table_of_another_structure_is_refused_with_the_axes_that_deviate() {
     let refused = |spoil: fn(&mut Mdh<6>)| {
         let mut mdh = Robot::<6>::named("UR3").unwrap().mdh().clone();
         spoil(&mut mdh);
@@ -180,7 +180,7 @@ fn what_is_not_the_form_is_refused_by_the_axes_that_are_off() {
 }
 
 #[test]
-fn a_table_in_text_is_made_exactly_the_form() {
+fn a_table_in_text_is_made_exact() {
     let (arm, exact) = ParallelArm::universal("UR5e");
     let mut mdh = exact.mdh().clone();
     // Ten digits.

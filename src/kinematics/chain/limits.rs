@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn wrapped_angles_are_inside_where_a_turn_is() {
+    fn an_angle_is_wrapped_inside_the_limits_if_an_equivalent_is_inside() {
         let wrapped = limits().wrap([1.0, 2.5]);
         assert_eq!(wrapped[0], 1.0);
         assert!((wrapped[1] - (2.5 - TAU)).abs() < 1e-15);

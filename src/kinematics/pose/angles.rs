@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn an_angle_is_snapped_within_the_bound_and_left_alone_beyond() {
+    fn an_angle_is_snapped_within_the_bound_and_unchanged_beyond() {
         for quarters in -8..=8 {
             let exact = f64::from(quarters) * FRAC_PI_2;
             for (snap, off) in [(1e-5, 0.99e-5), (1e-5, -3.7e-6), (1e-3, 0.9e-3), (0.0, 0.0)] {

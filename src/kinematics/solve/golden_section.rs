@@ -38,7 +38,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_valley_is_found_smooth_or_sharp() {
+    fn smooth_and_sharp_minima_are_found() {
         let smooth = golden_section(|x| Ok((x - 0.3).powi(2)), -0.1, 0.9).unwrap();
         let sharp = golden_section(|x| Ok((x - 0.3).abs()), -0.1, 0.9).unwrap();
         assert!((smooth.0 - 0.3).abs() < 1e-7 && (sharp.0 - 0.3).abs() < 1e-9);

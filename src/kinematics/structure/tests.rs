@@ -73,7 +73,7 @@ impl Structure<6, 16> for Ordinals {
 }
 
 #[test]
-fn a_structure_of_sixteen_ordinals_without_a_kernel_fits() {
+fn the_contract_fits_a_structure_with_sixteen_ordinal_slots_and_no_kernel() {
     let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
     let (chain, solver) = recognized::<Ordinals, 6, 16>(robot.mdh()).unwrap();
     let solver = Solver::new(solver.structure, &chain, robot.limits());

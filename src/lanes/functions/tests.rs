@@ -226,7 +226,7 @@ const SIZES: [f64; 19] = [
 ];
 
 #[test]
-fn the_arc_tangent_of_special_values_is_that_of_the_standard_library() {
+fn special_values_of_the_arc_tangent_match_the_standard_library() {
     for (a, b) in SIZES.iter().flat_map(|a| SIZES.map(|b| (*a, b))) {
         // Directions along an axis or a diagonal have the correctly rounded angle, with its sign;
         // for the others the sign is correct.
@@ -249,7 +249,7 @@ fn the_arc_tangent_of_special_values_is_that_of_the_standard_library() {
 }
 
 #[test]
-fn sine_and_cosine_of_special_values_are_those_of_the_standard_library() {
+fn special_values_of_sine_and_cosine_match_the_standard_library() {
     for size in SIZES.into_iter().filter(|size| *size <= MOST_SIN_COS || !size.is_finite()) {
         for angle in [size, -size] {
             for (sin, cos) in [sin_cos::<true>(angle), sin_cos::<false>(angle)] {
@@ -287,7 +287,7 @@ impl Kernel for InLanes<'_> {
 }
 
 #[test]
-fn vector_instructions_give_the_bits_of_single_ones() {
+fn vector_and_scalar_instructions_give_the_same_bits() {
     const COLUMNS: usize = 2000;
     let mut random = Rng::new(44);
     let (mut y, mut x) = (Vec::new(), Vec::new());
@@ -325,7 +325,7 @@ fn vector_instructions_give_the_bits_of_single_ones() {
 }
 
 #[test]
-fn whole_numbers_are_those_of_the_standard_library() {
+fn rounding_to_whole_numbers_matches_the_standard_library() {
     for number in [
         0.0,
         -0.0,

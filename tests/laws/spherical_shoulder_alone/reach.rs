@@ -27,7 +27,7 @@ fn turned(subject: &Subject<7>, q: &[f64; 7], beyond: f64) -> Option<Pose> {
 }
 
 #[test]
-fn beyond_the_turn_of_the_wrist_the_shortfall_is_told() {
+fn beyond_the_reach_of_the_wrist_the_shortfall_is_reported() {
     let arms = [
         ("Panda", ShoulderArm::panda()),
         ("iiwa", ShoulderArm::iiwa()),

@@ -77,7 +77,7 @@ fn subjects() -> impl Iterator<Item = Subject<7>> {
 }
 
 #[test]
-fn any_frames_and_any_zero_pose_are_the_arm() {
+fn tables_with_any_frames_and_zero_pose_are_recognized() {
     let mut rng = Rng::new(20);
     for subject in subjects() {
         for _ in 0..poses_or(20_000) / 100 {
@@ -94,7 +94,7 @@ fn any_frames_and_any_zero_pose_are_the_arm() {
 }
 
 #[test]
-fn a_standard_table_is_the_arm() {
+fn a_standard_table_is_recognized() {
     let mut rng = Rng::new(21);
     for subject in subjects() {
         for _ in 0..50 {
@@ -137,7 +137,7 @@ fn slots_do_not_depend_on_the_frames_of_a_table() {
 }
 
 #[test]
-fn a_table_that_is_off_by_text_is_squared_up() {
+fn a_table_rounded_in_text_is_made_exact() {
     let mut table = ShoulderArm::panda().mdh();
     for row in &mut table.rows {
         row.alpha += 5e-10;
@@ -156,7 +156,7 @@ fn a_table_that_is_off_by_text_is_squared_up() {
 }
 
 #[test]
-fn what_keeps_a_table_from_the_form_is_named() {
+fn the_condition_that_a_table_violates_is_named() {
     let mut table = ShoulderArm::panda().mdh();
     table.rows[2].alpha += 0.01_f64.to_radians();
     table.rows[3].d = 0.002;

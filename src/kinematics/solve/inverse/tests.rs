@@ -170,7 +170,7 @@ const MARGINS: [(&str, Place, f64); 3] = [
 
 #[test]
 #[expect(clippy::cast_precision_loss, reason = "counts")]
-fn regular_and_scalar_agree() {
+fn lanes_and_scalar_solver_agree() {
     on_each_set(|set| {
         let mut random = Rng::new(5);
         for arm in &arms() {
@@ -202,7 +202,8 @@ fn regular_and_scalar_agree() {
             }
             let Comparison { regular, slots, apart } = all;
             println!(
-                "{:24} {:8} {regular:6} regular poses  {slots:6} slots  worst {apart:.3} of the bound",
+                "{:24} {:8} {regular:6} regular poses  {slots:6} slots  worst {apart:.3} of the \
+                 bound",
                 arm.name,
                 set.name()
             );
@@ -211,7 +212,7 @@ fn regular_and_scalar_agree() {
 }
 
 #[test]
-fn in_the_lanes_no_arm_is_plain_that_is_minute_in_its_surroundings() {
+fn no_branch_is_regular_in_lanes_for_an_arm_minute_relative_to_its_end_frames() {
     let base = pose_from_euler_zyx([1e5, -2e5, 0.0], [0.3, 0.0, 0.0]).unwrap();
     let arm = Arm::new(
         "far base",
@@ -285,7 +286,7 @@ where
 }
 
 #[test]
-fn regular_and_scalar_agree_in_every_structure() {
+fn lanes_and_scalar_solver_agree_in_every_structure() {
     let tool = pose_from_euler_zyx([0.03, -0.02, 0.2], [0.3, -0.7, 1.1]).unwrap();
     let base = pose_from_euler_zyx([0.8, -0.5, 0.3], [-1.9, 0.4, 0.2]).unwrap();
     let limits = [[-7.0, 1.0], [-1.0, 4.5], [-4.7, -0.2], [-9.0, 9.0], [-PI, 0.3], [-0.3, PI]];

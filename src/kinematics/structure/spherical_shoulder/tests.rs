@@ -89,7 +89,7 @@ fn vec_of<const M: usize>(parts: [(At, f64); M]) -> Vec<(At, f64)> {
 }
 
 #[test]
-fn a_seed_and_a_path_keep_their_branch_at_and_next_to_singularities() {
+fn a_seed_and_a_path_keep_their_branch_at_and_near_singularities() {
     let mut rng = Rng::new(30);
     for arm in arms() {
         let (mut judged, mut amiss) = (0, Vec::new());
@@ -139,7 +139,7 @@ fn reached(arm: &Solved, theta: &[f64; 7], branches: &Branches<7>) -> Branches<7
 }
 
 #[test]
-fn a_free_joint_takes_the_angle_that_it_is_given() {
+fn a_free_joint_takes_the_given_angle() {
     let mut rng = Rng::new(33);
     let mut moved = 0;
     for arm in arms() {
