@@ -59,11 +59,11 @@ def page(counts: dict[str, list[int]]) -> str:
     rows = "\n".join(f"| {name} | {' | '.join(map(str, row))} |" for name, row in counts.items())
     return f"""# Instructions of one pose
 
-Counted by callgrind, start and preparation left out; a batch's are those of one of its 512 poses. They depend on the
-compiler, not on how busy the machine is. valgrind does not run AVX-512.
+Counted by callgrind, without start and preparation; for a batch, per pose of its 512. They depend
+on the compiler, not on the load of the machine. valgrind does not run AVX-512.
 
-`make instructions` counts again and shows the difference; `make instructions WRITE=1` writes this page.
-Recorded with {toolchain()}.
+`make instructions` counts again and shows the difference; `make instructions WRITE=1` writes this
+page. Recorded with {toolchain()}.
 
 | IRB 2600-12/1.65 | {" | ".join(SETS)} |
 |---|---:|---:|
@@ -78,7 +78,8 @@ def main() -> None:
         return
     program, before, now = executable(), recorded(), {}
     print(
-        f"{toolchain()}\n{'instructions a pose':22}{'set':10}{'recorded':>10}{'now':>10}{'change':>10}"
+        f"{toolchain()}\n"
+        f"{'instructions a pose':22}{'set':10}{'recorded':>10}{'now':>10}{'change':>10}"
     )
     for what, poses in WHAT.items():
         now[what] = []

@@ -7,7 +7,7 @@ use irbkin::{JointAxis, Mdh, Pose, PoseDifference, Robot, pose_from_euler_zyx};
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Unit, Vector3};
 use proptest::prelude::*;
 
-/// How an axis stands to the one before it.
+/// Relation of an axis to the previous one.
 #[derive(Clone, Copy, Debug)]
 enum Step {
     Anyhow,
@@ -18,7 +18,12 @@ enum Step {
 
 fn steps() -> impl Strategy<Value = Step> {
     let sign = || prop_oneof![Just(1.0), Just(-1.0)];
-    prop_oneof![3 => Just(Step::Anyhow), 2 => sign().prop_map(Step::Parallel), 2 => Just(Step::Meeting), 1 => sign().prop_map(Step::Coincident)]
+    prop_oneof![
+        3 => Just(Step::Anyhow),
+        2 => sign().prop_map(Step::Parallel),
+        2 => Just(Step::Meeting),
+        1 => sign().prop_map(Step::Coincident),
+    ]
 }
 
 /// A step, and the direction, point and length that it may need.
@@ -133,15 +138,27 @@ fn is_quarter_turn(angle: f64) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 20_000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 20_000,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
 
     #[test]
-    fn tables_of_six_axes_move_like_the_axes(drawn in prop::array::uniform6(drawn()), tip in tips(), q in prop::array::uniform6(-PI..PI)) {
+    fn tables_of_six_axes_move_like_the_axes(
+        drawn in prop::array::uniform6(drawn()),
+        tip in tips(),
+        q in prop::array::uniform6(-PI..PI),
+    ) {
         table_turns_as_the_axes(&drawn, &tip, &q)?;
     }
 
     #[test]
-    fn tables_of_seven_axes_move_like_the_axes(drawn in prop::array::uniform7(drawn()), tip in tips(), q in prop::array::uniform7(-PI..PI)) {
+    fn tables_of_seven_axes_move_like_the_axes(
+        drawn in prop::array::uniform7(drawn()),
+        tip in tips(),
+        q in prop::array::uniform7(-PI..PI),
+    ) {
         table_turns_as_the_axes(&drawn, &tip, &q)?;
     }
 
@@ -150,22 +167,31 @@ proptest! {
         let mdh = Mdh::from_joint_axes(&axes, &Pose::identity()).unwrap();
         prop_assert!(mdh.rows.iter().all(|row| is_quarter_turn(row.alpha)), "{mdh:?}");
         // Between parallel axes x may run anywhere; a turn about them comes from it alone.
-        let parallel = (1..6).any(|i| mdh.rows[i].alpha.sin().abs() < 0.5) || mdh.rows[0].alpha.sin().abs() > 0.5;
+        let parallel = (1..6).any(|i| mdh.rows[i].alpha.sin().abs() < 0.5)
+            || mdh.rows[0].alpha.sin().abs() > 0.5;
         prop_assert!(parallel || mdh.rows.iter().all(|row| is_quarter_turn(row.theta)), "{mdh:?}");
-        let off = PoseDifference::between(&Robot::serial_chain(mdh.clone()).unwrap().fk(&q), &fk_of_axes(&axes, &Pose::identity(), &q)).largest();
+        let found = Robot::serial_chain(mdh.clone()).unwrap().fk(&q);
+        let wanted = fk_of_axes(&axes, &Pose::identity(), &q);
+        let off = PoseDifference::between(&found, &wanted).largest();
         prop_assert!(off <= 1e-14 * reach_of(&mdh), "off by {off:e}");
     }
 
     #[test]
-    fn axes_parallel_to_rounding_are_parallel(drawn in prop::array::uniform6(drawn()), off in 1e-12..9e-10, q in prop::array::uniform6(-PI..PI)) {
+    fn axes_parallel_to_rounding_are_parallel(
+        drawn in prop::array::uniform6(drawn()),
+        off in 1e-12..9e-10,
+        q in prop::array::uniform6(-PI..PI),
+    ) {
         let mut axes = axes_of(&drawn);
         let z: Vector3<f64> = Vector3::from(axes[1].direction).normalize();
-        let aside: Vector3<f64> = z.cross(&if z.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() }).normalize();
+        let other = if z.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() };
+        let aside: Vector3<f64> = z.cross(&other).normalize();
         axes[2].direction = Vector3::into(z + aside * off);
         let tip = Pose::identity();
         let mdh = Mdh::from_joint_axes(&axes, &tip).unwrap();
         prop_assert_eq!(mdh.rows[2].alpha, 0.0);
-        let found = PoseDifference::between(&Robot::serial_chain(mdh.clone()).unwrap().fk(&q), &fk_of_axes(&axes, &tip, &q)).largest();
+        let found = Robot::serial_chain(mdh.clone()).unwrap().fk(&q);
+        let found = PoseDifference::between(&found, &fk_of_axes(&axes, &tip, &q)).largest();
         // Each of the two joints next to the deviation turns it by at most two.
         prop_assert!(found <= (4.0 * off + 1e-14) * reach_of(&mdh), "off by {found:e}");
     }

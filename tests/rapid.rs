@@ -99,7 +99,11 @@ fn holds(module: &Module, context: &[&Module]) -> Module {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 2000,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn every_value_reads_back_bit_for_bit(value in values()) {
@@ -109,14 +113,22 @@ proptest! {
     }
 
     #[test]
-    fn arrays_read_back_as_they_are(columns in 1..4_usize, targets in prop::collection::vec(robtargets(), 1..12)) {
-        let rows: Vec<_> = targets.chunks_exact(columns).map(|row| row.iter().map(RobTarget::to_string).collect::<Vec<_>>().join(",")).collect();
+    fn arrays_read_back_as_they_are(
+        columns in 1..4_usize,
+        targets in prop::collection::vec(robtargets(), 1..12),
+    ) {
+        let row = |row: &[RobTarget]| {
+            row.iter().map(RobTarget::to_string).collect::<Vec<_>>().join(",")
+        };
+        let rows: Vec<_> = targets.chunks_exact(columns).map(row).collect();
         prop_assume!(!rows.is_empty());
-        let text = format!("PERS robtarget pts{{{},{columns}}}:=[[{}]];", rows.len(), rows.join("],["));
+        let (count, written) = (rows.len(), rows.join("],["));
+        let text = format!("PERS robtarget pts{{{count},{columns}}}:=[[{written}]];");
         let module = parse(&text, &[]).unwrap();
         let Content::Array { sizes, values } = &module.data()[0].content else { panic!() };
         prop_assert_eq!(sizes, &[rows.len(), columns]);
-        prop_assert_eq!(values, &targets[..values.len()].iter().copied().map(Value::RobTarget).collect::<Vec<_>>());
+        let wanted = targets[..values.len()].iter().copied().map(Value::RobTarget);
+        prop_assert_eq!(values, &wanted.collect::<Vec<_>>());
         holds(&module, &[]);
     }
 }

@@ -79,7 +79,8 @@ def told(followed: irbkin.FollowResult) -> str:
     step = np.degrees(np.abs(np.diff(followed.q, axis=0)).max())
     error = np.degrees(followed.orientation_error.max())
     orientation = "exact" if error < 1e-9 else f"within {error:.2f} deg"
-    return f"steps up to {step:.1f} deg, orientation {orientation}, {len(followed.breaks) or 'no'} breaks"
+    breaks = len(followed.breaks) or "no"
+    return f"steps up to {step:.1f} deg, orientation {orientation}, {breaks} breaks"
 
 
 def trace(axes: Axes, followed: irbkin.FollowResult, title: str) -> None:

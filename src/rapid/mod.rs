@@ -10,10 +10,13 @@
 //!     ENDPROC
 //! ENDMODULE";
 //! let module = rapid::parse(text, &[])?;
-//! let Content::Single(Value::RobTarget(p10)) = &module.find("P10").unwrap().content else { unreachable!() };
+//! let Content::Single(Value::RobTarget(p10)) = &module.find("P10").unwrap().content else {
+//!     unreachable!()
+//! };
 //! assert_eq!(p10.trans_mm, [600.0, 0.0, 800.0]);
 //! assert_eq!(module.moves()[0].target.text, "Offs(p10,0,0,50)");
-//! assert_eq!(rapid::parse(&module.to_string(), &[])?.without_positions(), module.without_positions());
+//! let again = rapid::parse(&module.to_string(), &[])?;
+//! assert_eq!(again.without_positions(), module.without_positions());
 //! # Ok::<(), irbkin::Error>(())
 //! ```
 //!

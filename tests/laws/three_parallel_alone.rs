@@ -60,7 +60,11 @@ proptest! {
 
     /// Lengths of either sign: the arm is another one, and its own.
     #[test]
-    fn lengths_may_be_negative(arm in arms(), q in angles(), mirror in prop::array::uniform3(prop::bool::ANY)) {
+    fn lengths_may_be_negative(
+        arm in arms(),
+        q in angles(),
+        mirror in prop::array::uniform3(prop::bool::ANY),
+    ) {
         let signed = |negative: bool, length: f64| if negative { -length } else { length };
         let b = if mirror[0] { arm.b.map(|b| -b) } else { arm.b };
         let (d5, d6) = (signed(mirror[1], arm.d5), signed(mirror[2], arm.d6));

@@ -62,7 +62,8 @@ def test_a_joint_vector_with_a_masked_element_is_refused(name):
     field = FIELDS.get(name, "seed")
     for value in forms(Q[6], 2):
         if not isinstance(value, np.ma.MaskedArray):
-            continue  # Elements of a masked vector are numbers: a list of them holds NaN, which is refused too.
+            # Elements of a masked vector are numbers; a list of them contains NaN, also an error.
+            continue
         with pytest.raises(
             InvalidJointsError, match=rf"^{field}\[2\] is masked: every element must be given"
         ):

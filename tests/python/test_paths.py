@@ -113,7 +113,8 @@ def test_a_pose_out_of_reach_is_a_break_and_the_path_goes_on(robot):
 def test_a_corner_in_the_wrist_singularity_is_a_break_that_names_the_joint(robot):
     turned = np.where(TIMES < 0, 0, np.pi / 3)
     made = np.column_stack([
-        np.full(201, 0.3), np.full(201, 0.2), np.full(201, 0.1), 0.2 + turned, 0.5 * TIMES, 0.1 - turned,
+        np.full(201, 0.3), np.full(201, 0.2), np.full(201, 0.1),
+        0.2 + turned, 0.5 * TIMES, 0.1 - turned,
     ])  # fmt: skip
     (broken,) = robot.follow(robot.fk(made), made[0]).breaks
     assert broken.pose_index == 101

@@ -60,7 +60,8 @@ MODULE Weld(NOSTEPIN)
   ! The gun, and where the fixture stands.
   PERS tooldata tGun := [TRUE,[[0,0,110],[1,0,0,0]],[1,[0,0,50],[1,0,0,0],0,0,0]];
   TASK PERS wobjdata wFix := [FALSE,TRUE,"",[[300,-175,1],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
-  LOCAL CONST robtarget p10 := [[425,325,308],[0,-0.707106781,0.707106781,0],[0,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  LOCAL CONST robtarget p10 := [[425,325,308],[0,-0.707106781,0.707106781,0],[0,0,-1,0],\
+[9E9,9E9,9E9,9E9,9E9,9E9]];
   VAR robtarget path{2} := [p10, Offs(p10,0,0,10)];
   VAR num free;
   CONST speeddata vSlow := [10,10,10,10];
@@ -176,7 +177,9 @@ def test_words_of_numbers_may_stand_in_strings():
 
 def test_names_are_looked_for_in_the_context():
     tools = rapid.parse(
-        "MODULE Tools(SYSMODULE)\nPERS tooldata tPin:=[TRUE,[[0,0,200],[1,0,0,0]],load0];\nENDMODULE"
+        "MODULE Tools(SYSMODULE)\n"
+        "PERS tooldata tPin:=[TRUE,[[0,0,200],[1,0,0,0]],load0];\n"
+        "ENDMODULE"
     )
     target = rapid.dump(RobTarget((1, 2, 3)))
     text = f"MODULE M\nPROC main()\nMoveL {target},v1,fine,tPin;\nENDPROC\nENDMODULE"
@@ -198,7 +201,9 @@ def test_files_are_of_any_usual_encoding(tmp_path, encoding):
 def test_a_broken_file_is_told_with_its_path_line_and_column(tmp_path):
     path = tmp_path / "broken.mod"
     path.write_text(
-        "MODULE M\n  CONST robtarget p:=[[1,2],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nENDMODULE"
+        "MODULE M\n"
+        "  CONST robtarget p:=[[1,2],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+        "ENDMODULE"
     )
     with pytest.raises(
         RapidError,

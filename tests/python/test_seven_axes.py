@@ -184,9 +184,7 @@ def test_next_to_q2_zero_nothing_is_lost(q2):
 
 
 @pytest.mark.parametrize("off", [1e-12, 1e-9, 2e-9, 1e-8])
-def test_a_stretched_arm_next_to_q2_zero_stays_at_rounding_whatever_the_limits_leave_of_its_families(
-    robot, off
-):
+def test_a_stretched_arm_near_q2_zero_closes_to_rounding_with_any_limits(robot, off):
     a3, c3, c5 = 0.0825, 0.316, 0.384
     stretched = -np.arctan2(a3, c3) - np.arctan2(a3, c5)
     rng = np.random.default_rng(12)

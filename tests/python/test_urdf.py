@@ -215,8 +215,9 @@ def chain(kinds, extra=""):
     """A chain of joints of these types, about z and x in turn."""
     links = "".join(f'<link name="l{i}"/>' for i in range(len(kinds) + 1))
     joints = "".join(
-        f'<joint name="j{i}" type="{kind}"><parent link="l{i}"/><child link="l{i + 1}"/><origin xyz="0 0 0.2"/>'
-        f'<axis xyz="{i % 2} 0 {1 - i % 2}"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>'
+        f'<joint name="j{i}" type="{kind}"><parent link="l{i}"/><child link="l{i + 1}"/>'
+        f'<origin xyz="0 0 0.2"/><axis xyz="{i % 2} 0 {1 - i % 2}"/>'
+        '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>'
         for i, kind in enumerate(kinds)
     )
     return f'<robot name="chain">{links}{joints}{extra}</robot>'
@@ -241,7 +242,8 @@ def chain(kinds, extra=""):
         (
             chain(
                 ["revolute"] * 6 + ["fixed"],
-                '<link name="x"/><joint name="k" type="fixed"><parent link="l6"/><child link="x"/></joint>',
+                '<link name="x"/>'
+                '<joint name="k" type="fixed"><parent link="l6"/><child link="x"/></joint>',
             ),
             '6 or 7 revolute joints lead from "l0" to several ends: "l7", "x"; tip must name the one to take',
         ),

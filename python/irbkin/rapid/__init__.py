@@ -1,7 +1,9 @@
 """ABB's RAPID: modules read and written, robtargets to joint angles and back.
 
     >>> from irbkin import Robot, rapid
-    >>> p10 = rapid.parse("[[1018.6,0,1417.5],[0.5,0,0.866025,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]")
+    >>> p10 = rapid.parse(
+    ...     "[[1018.6,0,1417.5],[0.5,0,0.866025,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
+    ... )
     >>> joints = rapid.calc_joint_t(Robot("IRB 2600-12/1.85"), p10)
     >>> abs(round(joints.robax_deg[4], 1))
     30.0

@@ -3,7 +3,10 @@
 /// An enum of structures, each with its number of slots. Each is tried on a table in this order; if
 /// none fits, the one with the smallest deviation gives the reason.
 macro_rules! structures {
-    ($(#[$doc:meta])* $name:ident, $joints:literal, $redundancy:ty: $($structure:ident: $slots:literal),+) => {
+    (
+        $(#[$doc:meta])* $name:ident, $joints:literal, $redundancy:ty:
+        $($structure:ident: $slots:literal),+
+    ) => {
         $(#[$doc])*
         #[derive(Clone, Debug, PartialEq)]
         #[allow(
