@@ -1,6 +1,7 @@
 //! The answer of a solve: flags, reach, solutions in their slots, and the choice among them.
 
 pub(crate) mod check;
+mod display;
 pub(crate) mod select;
 pub(crate) mod singularity;
 pub(crate) mod slot;

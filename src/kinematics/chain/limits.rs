@@ -8,6 +8,8 @@ use crate::lanes::{nearest_whole, whole_above, whole_below};
 
 /// Lower and upper limit of each joint [rad]; infinite where a joint has none.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "StoredLimits<N>", into = "StoredLimits<N>"))]
 pub struct JointLimits<const N: usize> {
     lower: [f64; N],
     upper: [f64; N],
@@ -254,6 +256,38 @@ fn overrun(lower: f64, upper: f64, angle: f64) -> f64 {
     }
     let angle = angle + TAU * nearest_whole((middle - angle) / TAU);
     (lower - angle).max(angle - upper)
+}
+
+/// Joint limits as serde reads and writes them: `None` for no limit, as text has no infinity.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(rename = "JointLimits")]
+struct StoredLimits<const N: usize> {
+    /// (lower, upper) of each joint [rad].
+    #[serde(with = "serde_big_array::BigArray")]
+    joints: [[Option<f64>; 2]; N],
+    /// (lower, upper) of the linkage [rad].
+    linkage: Option<[Option<f64>; 2]>,
+}
+
+#[cfg(feature = "serde")]
+impl<const N: usize> From<JointLimits<N>> for StoredLimits<N> {
+    fn from(limits: JointLimits<N>) -> Self {
+        let stored = |pair: [f64; 2]| pair.map(|limit| limit.is_finite().then_some(limit));
+        Self { joints: limits.to_array().map(stored), linkage: limits.linkage().map(stored) }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<const N: usize> TryFrom<StoredLimits<N>> for JointLimits<N> {
+    type Error = Error;
+
+    fn try_from(stored: StoredLimits<N>) -> Result<Self, Error> {
+        let limits = |[lower, upper]: [Option<f64>; 2]| {
+            [lower.unwrap_or(f64::NEG_INFINITY), upper.unwrap_or(f64::INFINITY)]
+        };
+        Self::new(stored.joints.map(limits))?.with_linkage(stored.linkage.map(limits))
+    }
 }
 
 #[cfg(test)]

@@ -1,7 +1,10 @@
 //! A robot: a chain, its limits and, where its structure is known, its inverse.
 
 mod build;
+mod display;
 mod linkage;
+#[cfg(feature = "serde")]
+mod stored;
 
 #[cfg(feature = "urdf")]
 pub(crate) use build::SNAPS;
@@ -46,6 +49,7 @@ where
 
 /// What a robot was built from.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Definition<const N: usize> {
     /// Parameters of an ortho-parallel arm with a spherical wrist.
     Opw(OpwParameters),
