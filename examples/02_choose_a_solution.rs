@@ -29,7 +29,7 @@ fn main() -> Result<(), Error> {
         solutions.turns().count()
     );
 
-    // The arm stands here, halfway between two wrist configurations.
+    // The current joints, halfway between two wrist configurations.
     let seed = radians([20.0, 0.0, 40.0, 55.0, -25.0, 127.0]);
     show("nearest (root of squares)", solutions.nearest(&seed, &[1.0; 6])?);
     show("least motion (sum)", solutions.least_motion(&seed, &[1.0; 6])?);

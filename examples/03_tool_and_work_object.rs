@@ -17,7 +17,7 @@ fn main() -> Result<(), Error> {
     let arm: Robot<6> = Robot::named("IRB 2600-12/1.65")?;
     // A gripper whose center point is 180 mm in front of the flange and tilted by 30 deg.
     let t_flange_tool = turned([0.040, 0.0, 0.180], [0.0, 30.0, 0.0])?;
-    // A pallet that stands turned by 15 deg, and a part on it.
+    // A pallet rotated by 15 deg, and a part on it.
     let t_base_pallet = turned([0.700, -0.500, 0.350], [15.0, 0.0, 0.0])?;
     let t_pallet_target = pose_from_wxyz([0.200, 0.150, 0.060], [0.0, 0.0, 1.0, 0.0])?;
 

@@ -1,5 +1,5 @@
-//! Numbers too large to calculate with are refused with the bound, and up to the bound answers keep
-//! their digits: the same of every structure.
+//! Numbers that are too large to compute with are refused with the bound, and up to the bound
+//! answers keep their digits, for every structure.
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
 use std::f64::consts::{PI, TAU};
@@ -15,7 +15,7 @@ const SIXES: [&str; 4] = ["IRB 2600-12/1.65", "IRB 140-6/0.81", "IRB 2400-10/1.5
 const SEVENS: [&str; 2] = ["Panda", "FR3"];
 
 /// Sizes beyond a bound of 1e6 or less: by one rounding, by a little, and by more than squares can
-/// hold.
+/// represent.
 const BEYOND: [f64; 8] = [1.000_000_000_000_001e6, 1.1e6, 1e9, 1e15, 1e19, 1e155, 1e300, f64::MAX];
 
 fn six(name: &str) -> Robot<6> {
@@ -26,7 +26,7 @@ fn seven(name: &str) -> Robot<7> {
     Robot::named(name).unwrap()
 }
 
-/// A pose of the arm with one coordinate far away, not checked by anybody.
+/// A pose of the arm with one coordinate far away, unchecked.
 fn far(pose: &Pose, index: usize, value: f64) -> Pose {
     let mut far = *pose;
     far.translation.vector[index] = value;
@@ -133,8 +133,8 @@ fn a_batch_row_that_is_too_far_away_is_invalid_and_the_other_rows_are_solved() {
     }
 }
 
-/// At the bound itself, and everywhere below it, a pose that is beyond reach has no solution and
-/// says by how much.
+/// At the bound, and everywhere below it, a pose that is beyond reach has no solution and reports
+/// by how much.
 #[test]
 fn poses_up_to_the_bound_are_reported_as_beyond_reach() {
     let mut rng = Rng::new(61);
@@ -220,7 +220,7 @@ fn every_call_refuses_a_seed_that_is_too_large() {
     }
 }
 
-/// Without limits a solution is turned to its seed. A seed of `turns` whole turns is rounded to
+/// Without limits a solution is wrapped near its seed. A seed of `turns` whole turns is rounded to
 /// `eps` times its size.
 #[test]
 fn a_solution_near_a_large_seed_still_closes() {
@@ -241,7 +241,7 @@ fn a_solution_near_a_large_seed_still_closes() {
     }
 }
 
-/// floor(angle / 90 deg) of every angle that is taken, in integers of any size.
+/// floor(angle / 90 deg) for every permitted angle, in integers of any size.
 #[test]
 fn a_configuration_never_saturates() {
     let mut rng = Rng::new(63);
@@ -258,7 +258,7 @@ fn a_configuration_never_saturates() {
                 let inside = (from - 1e-9..=from + 90_f64.to_radians() + 1e-9).contains(&q[joint]);
                 assert!(inside, "{name}: {quarter} of {}", q[joint]);
             }
-            // And it is a configuration that the arm can be asked for.
+            // The configuration can also be requested from the arm.
             let pose = robot.fk(&q);
             let configured = robot.clone().with_limits(JointLimits::UNLIMITED);
             if let Err(error) = configured.ik_configured(&pose, found) {
@@ -271,8 +271,8 @@ fn a_configuration_never_saturates() {
     }
 }
 
-/// Forward kinematics takes the very angle that a number stands for, of however many turns, also
-/// where a linkage makes a difference of two.
+/// Forward kinematics uses the exact value of an angle with any number of turns, also where a
+/// linkage takes the difference of two.
 #[test]
 fn forward_kinematics_of_large_angles_equals_that_of_the_angle_modulo_2_pi() {
     let mut rng = Rng::new(64);
@@ -284,7 +284,7 @@ fn forward_kinematics_of_large_angles_equals_that_of_the_angle_modulo_2_pi() {
             let rest = q.map(|angle| angle.sin().atan2(angle.cos()));
             let bound = 40.0 * f64::EPSILON * (1.0 + reach_of(&robot));
             let off = robot.residual(&rest, &robot.fk(&q)).largest();
-            // Up to 1e5 rad a linkage's difference is rounded to a part of its size.
+            // Up to 1e5 rad the difference of a linkage is rounded relative to its size.
             let rounding = if robot.is_coupled() { f64::EPSILON * size.min(1e5) } else { 0.0 };
             assert!(
                 off <= bound + 2.0 * rounding * reach_of(&robot),

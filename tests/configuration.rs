@@ -24,7 +24,7 @@ fn configuration(cf1: i32, cf4: i32, cf6: i32, cfx: i32) -> Configuration {
     Configuration { cf1, cf4, cf6, cfx }
 }
 
-/// Whether a joint vector has a configuration, an angle next to an edge on either side of it.
+/// Whether a joint vector has a configuration; an angle near an edge has both.
 fn has(robot: &Robot<6>, q: &[f64; 6], wanted: Configuration) -> bool {
     let near = |angle: f64, cf: i32| {
         let quarters = f64::from(cf) * FRAC_PI_2;
@@ -38,9 +38,10 @@ fn has(robot: &Robot<6>, q: &[f64; 6], wanted: Configuration) -> bool {
         && found.cfx == wanted.cfx
 }
 
-/// Eight solutions have eight slots; a joint vector is the only one of its pose, turns included,
-/// with its configuration, and is found by it. A coupled arm's configuration does not tell the
-/// elbow: there the one in front is meant, for the linkages do not let it be behind.
+/// Eight solutions have eight slots. A joint vector is the only one of its pose with its
+/// configuration, 2 pi equivalents included, and is found by it. The configuration of a coupled arm
+/// does not determine the elbow: the one in front is meant, because the linkage does not permit the
+/// other.
 #[test]
 fn every_joint_vector_is_found_by_its_configuration() {
     let mut arms = 0;
@@ -75,13 +76,13 @@ fn every_joint_vector_is_found_by_its_configuration() {
                 robot.configuration(&turn.q).unwrap() == wanted
                     && slot(&twin, &robot, &turn.q) & 2 == wanted.cfx & 2
             };
-            // No configuration counts axis 3, of which the IRB 8700 has a little more than a full
-            // turn.
+            // No configuration counts axis 3, whose range on the IRB 8700 is slightly more than a
+            // full turn.
             let [low, high] = robot.limits().to_array()[2];
             let turns_of_axis_3 = 1 + usize::from(high - low > TAU);
             let named = solutions.turns().filter(same).count();
             assert!((1..=turns_of_axis_3).contains(&named), "{}: {q:?}", arm.name);
-            // Next to a singularity rounding of the pose is seen in the joints.
+            // Near a singularity, rounding of the pose is visible in the joints.
             let bound = 1e-9_f64.max(4e-15 * 5.0 / robot.singularity(&q).min_singular_value);
             assert!(
                 apart(&found.q, &q) < bound && (found.q[5] - q[5]).abs() < 1.0,
@@ -102,7 +103,7 @@ fn every_joint_vector_is_found_by_its_configuration() {
     assert!(arms > 80);
 }
 
-/// The slot of a joint vector by the configuration of the serial twin.
+/// The slot of a joint vector by the configuration of the uncoupled arm.
 fn slot(twin: &Robot<6>, robot: &Robot<6>, q: &[f64; 6]) -> i32 {
     let mut serial = *q;
     if robot.is_coupled() {
@@ -182,7 +183,7 @@ fn turns_are_chosen_by_the_configuration() {
         let found = robot.ik_configured(&robot.fk(&q), robot.configuration(&q).unwrap()).unwrap();
         assert!((found.q[5] - q[5]).abs() < 1e-9, "{q6}: {:?}", found.q);
     }
-    // Without limits, too.
+    // Also without limits.
     let free = robot.with_limits(JointLimits::UNLIMITED);
     let q = [0.3, 0.2, 0.1, 40.0, 0.5, -70.0];
     let found = free.ik_configured(&free.fk(&q), free.configuration(&q).unwrap()).unwrap();
@@ -296,7 +297,7 @@ fn the_list_has_each_configuration_once_and_names_a_free_joint() {
     );
 }
 
-/// Next to the singularity, where only another member of the family is inside the limits.
+/// Near the singularity, where only another member of the self-motion is inside the limits.
 #[test]
 fn a_self_motion_with_members_inside_the_limits_is_reachable() {
     let mut limits = irb2600().limits().to_array();

@@ -1,5 +1,5 @@
-//! Laws of arms whose axes 2 and 3 a parallelogram couples: their joint vectors are the
-//! controller's, with axis 3 told from the base.
+//! Laws of arms with axes 2 and 3 coupled by a parallelogram linkage: their joint vectors are the
+//! controller's, with axis 3 measured from the base.
 #![allow(clippy::unwrap_used, clippy::float_cmp, missing_docs)]
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -46,8 +46,8 @@ fn axis_3_keeps_the_forearm_level_while_axis_2_turns() {
     }
 }
 
-/// J of the controller's joints is J of the serial ones times their derivative: in it q2 turns the
-/// serial q3 back.
+/// J of the controller's joints is J of the serial ones times their derivative, in which q2 turns
+/// the serial q3 back.
 #[test]
 fn the_jacobian_follows_from_the_uncoupled_one_by_the_chain_rule() {
     let mut derivative = Matrix6::identity();

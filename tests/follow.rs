@@ -1,5 +1,5 @@
-//! A joint path that is smooth is followed without a jump, and where there is no way the break says
-//! where and why.
+//! A smooth joint path is followed without a jump; where there is no way, the break reports where
+//! and why.
 //!
 //! `make hardsets` prints the table.
 #![allow(clippy::unwrap_used, clippy::cast_precision_loss, clippy::float_cmp, missing_docs)]
@@ -19,7 +19,7 @@ use irbkin::{
 
 const SAMPLES: usize = 201;
 
-/// The robot of every path, solved on the instruction set that was asked for.
+/// The robot of every path, solved on the requested instruction set.
 fn robot() -> Robot<6> {
     asked_set();
     Robot::named("IRB 2600-12/1.65").unwrap()
@@ -42,7 +42,7 @@ fn follow(robot: &Robot<6>, made: &[[f64; 6]]) -> (Vec<Pose>, Followed) {
     (poses, followed)
 }
 
-/// Follows a smooth path: met everywhere, no break, no step more than one and a half times the
+/// Follows a smooth path: every pose reached, no break, no step more than one and a half times the
 /// path's own.
 fn check_smooth(name: &str, robot: &Robot<6>, made: &[[f64; 6]]) {
     let (poses, followed) = follow(robot, made);
@@ -219,7 +219,7 @@ fn jump(followed: &Followed) -> (usize, usize, f64, SingularityKind) {
 
 #[test]
 fn a_corner_in_the_wrist_singularity_is_a_break() {
-    // In along one direction, out along another: J4 must turn by 60 deg while J5 is 0.
+    // In along one direction, out along another: J4 must turn by 60 deg at J5 = 0.
     let robot = robot();
     let turned = |t: f64| if t < 0.0 { 0.0 } else { PI / 3.0 };
     let made = joint_path(|t| [0.3, 0.2, 0.1, 0.2 + turned(t), 0.5 * t, 0.1 - turned(t)]);
@@ -331,7 +331,7 @@ fn singularity_modes_keep_their_guarantees() {
 
             let wrist = cross(&robot, &path, SingularityMode::Wrist);
             tell("wrist", &wrist);
-            // Three wrist angles that go straight between two ends of the zone stay within it on
+            // Three wrist angles that move straight between two ends of the zone stay within it on
             // both sides.
             assert!(
                 wrist.position < 1e-14
@@ -360,8 +360,8 @@ fn axis_4_locked_at_zero_keeps_the_orientation_in_the_plane_of_the_arm() {
     assert!(locked.step <= 1.01 * largest_step(&made));
 }
 
-/// A random smooth path whose middle is at or next to none, one, two or all three singularities;
-/// `None` where it leaves the limits.
+/// A random smooth path whose middle is at or near none, one, two or all three singularities;
+/// `None` if it leaves the limits.
 fn random_path(robot: &Robot<6>, rng: &mut Rng) -> Option<Vec<[f64; 6]>> {
     const NEAR: [f64; 6] = [0.0, 1e-12, 1e-9, 1e-7, 1e-6, 1e-4];
     let sign = |rng: &mut Rng| if rng.unit() < 0.5 { -1.0 } else { 1.0 };
@@ -397,14 +397,14 @@ fn random_paths_through_several_singularities_are_followed() {
         let q: Vec<[f64; 6]> = followed.q.iter().map(|q| q.unwrap()).collect();
         let worst = q.iter().zip(&poses).map(|(q, pose)| robot.residual(q, pose));
         for error in worst {
-            // The wrist center is met; the flange, 85 mm before it, turns about it.
+            // The wrist center is exact; the flange, 85 mm in front of it, turns about it.
             assert!(error.position < 3e-12 + 0.085 * error.rotation, "{error:?}");
             orientation = orientation.max(error.rotation);
         }
         let smooth = followed.breaks.is_empty() && largest_step(&q) <= 1.5 * largest_step(&made);
         followed_smoothly += usize::from(smooth);
-        // The arm may come back from stretched on its other elbow, and there meet a singularity
-        // that the path did not make.
+        // The arm may return from stretched on its other elbow, and there meet a singularity that
+        // the path does not contain.
         let elbow = |q: &[f64; 6]| q[2] - stretched();
         let passes =
             made.iter().map(elbow).fold(f64::INFINITY, |least, e| least.min(e.abs())) < 0.02;
@@ -415,8 +415,8 @@ fn random_paths_through_several_singularities_are_followed() {
         "{paths} random paths: {followed_smoothly} followed smoothly, {behind_an_elbow} not, \
          behind a stretched elbow; worst orientation {orientation:.1e} rad"
     );
-    // A straight elbow leaves the forearm open by 2e-7 rad on either side (docs/accuracy.md,
-    // section 9).
+    // A straight elbow leaves the forearm undetermined by 2e-7 rad on either side
+    // (docs/accuracy.md, section 9).
     assert!(orientation < 4e-7);
     assert!(followed_smoothly * 100 >= paths * 99);
 }

@@ -1,7 +1,7 @@
-//! Poses at and next to every singularity: each branch is found, nothing is wrong, nothing comes
-//! twice. And poses out of reach by little: nothing is found, and the shortfall is right.
+//! Poses at and near every singularity: each branch is found, no solution is incorrect, none is a
+//! duplicate. Poses slightly out of reach: no solution, and the correct shortfall.
 //!
-//! `make hardsets` prints one row a set with more poses; `make test` runs fewer.
+//! `make hardsets` prints one row per set with more poses; `make test` runs fewer.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use irbkin::thresholds;
@@ -21,13 +21,13 @@ crate::on_every_structure!(
 const NEAR: [f64; 8] = [0.0, 1e-12, 1e-9, 2e-9, 1e-7, 1e-6, 1e-5, 1e-4];
 const BEYOND: [f64; 5] = [1e-15, 1e-12, 9e-10, 1e-6, 1e-3];
 
-/// Poses of a set: one singularity, two of them, three.
+/// Poses per set: one singularity, two of them, three.
 fn poses() -> [usize; 3] {
     let of_one = poses_or(60);
     [of_one, of_one.div_ceil(2), of_one.div_ceil(4)]
 }
 
-/// Draws that may miss before a place counts as one that the arm does not get to.
+/// Draws that may fail before a place counts as one that the arm cannot reach.
 const MISSES: usize = 2000;
 
 fn every_branch_is_found_at_and_next_to_singularities<const N: usize>(structure: &Structure<N>)
@@ -53,7 +53,7 @@ where
                 report += &tally.tell(&subject.name, &place.name());
             }
         }
-        // Wrist, shoulder and one elbow can be had by every arm, alone and in pairs.
+        // Every arm can attain wrist, shoulder and one elbow, alone and in pairs.
         assert!(attained >= 3 * NEAR.len() + 3 * NEAR.len().pow(2), "{}: {attained}", subject.name);
     }
     assert!(report.is_empty(), "\n{report}");
@@ -67,7 +67,7 @@ where
     subject.clone().with_robot(|_| subject.arm.robot())
 }
 
-/// Every singularity, every two that are different joints' and, at one distance, every three.
+/// Every singularity, every two that belong to different joints and, at one distance, every three.
 fn places(singular: &[At]) -> Vec<Place> {
     let is_joint_4 = |at: At| !matches!(at, At::Wrist | At::Shoulder);
     let mut places = Vec::new();
@@ -141,7 +141,7 @@ where
 }
 
 /// Up to a nanometer beyond reach the arm is stretched or folded, off by no more than that; farther
-/// out there is nothing, and the right shortfall.
+/// out there is no solution, and the correct shortfall.
 fn beyond_reach_there_is_nothing_and_the_shortfall_is_right<const N: usize>(
     structure: &Structure<N>,
 ) where

@@ -1,4 +1,4 @@
-//! Laws of the tables that are made from joint axes.
+//! Laws of the tables that are built from joint axes.
 #![allow(clippy::unwrap_used, clippy::float_cmp, missing_docs)]
 
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -35,7 +35,7 @@ fn drawn() -> impl Strategy<Value = Drawn> {
     (steps(), direction, prop::array::uniform3(-1.0..1.0), -0.5..0.5)
 }
 
-/// The first axis stands to the base's z as each other one to the axis before it.
+/// The first axis is to the base's z what each other one is to the previous axis.
 fn axes_of<const N: usize>(drawn: &[Drawn; N]) -> [JointAxis; N]
 where
     irbkin::Joints<N>: irbkin::Arity<N>,
@@ -58,7 +58,7 @@ fn tips() -> impl Strategy<Value = Pose> {
         .prop_map(|(xyz, zyx)| pose_from_euler_zyx(xyz, zyx).unwrap())
 }
 
-/// Product of exponentials: the tip at zero, turned about each axis from the last to the first.
+/// Product of exponentials: the tip at zero, rotated about each axis from the last to the first.
 fn fk_of_axes<const N: usize>(axes: &[JointAxis; N], tip: &Pose, q: &[f64; N]) -> Pose
 where
     irbkin::Joints<N>: irbkin::Arity<N>,
@@ -71,7 +71,7 @@ where
     })
 }
 
-/// Lengths that a pose is summed from [m]: where two axes are nearly parallel they are long.
+/// Lengths that a pose is summed from [m]: they are long if two axes are nearly parallel.
 fn reach_of<const N: usize>(mdh: &Mdh<N>) -> f64
 where
     irbkin::Joints<N>: irbkin::Arity<N>,
@@ -112,7 +112,7 @@ where
     if let Step::Meeting | Step::Anyhow = drawn[0].0 {
         return Ok(());
     }
-    // Height and turn of an upright axis 1 are in the first row, and its distance along x.
+    // Height and angle of an upright axis 1 are in the first row, and its distance along x.
     prop_assert_eq!(mdh.base.rotation, Rotation3::identity());
     prop_assert_eq!((mdh.base.translation.x, mdh.base.translation.z), (0.0, 0.0));
     if let Step::Coincident(_) = drawn[0].0 {
@@ -166,7 +166,7 @@ proptest! {
     fn right_angles_stay_exact(axes in square(), q in prop::array::uniform6(-PI..PI)) {
         let mdh = Mdh::from_joint_axes(&axes, &Pose::identity()).unwrap();
         prop_assert!(mdh.rows.iter().all(|row| is_quarter_turn(row.alpha)), "{mdh:?}");
-        // Between parallel axes x may run anywhere; a turn about them comes from it alone.
+        // Between parallel axes x may be anywhere; a rotation about them depends on it alone.
         let parallel = (1..6).any(|i| mdh.rows[i].alpha.sin().abs() < 0.5)
             || mdh.rows[0].alpha.sin().abs() > 0.5;
         prop_assert!(parallel || mdh.rows.iter().all(|row| is_quarter_turn(row.theta)), "{mdh:?}");
@@ -192,7 +192,7 @@ proptest! {
         prop_assert_eq!(mdh.rows[2].alpha, 0.0);
         let found = Robot::serial_chain(mdh.clone()).unwrap().fk(&q);
         let found = PoseDifference::between(&found, &fk_of_axes(&axes, &tip, &q)).largest();
-        // Each of the two joints next to the deviation turns it by at most two.
+        // Each of the two joints at the deviation rotates it by at most two.
         prop_assert!(found <= (4.0 * off + 1e-14) * reach_of(&mdh), "off by {found:e}");
     }
 }

@@ -1,6 +1,6 @@
 //! Laws of the kinematics that hold for every structure, on its subjects and on random arms.
 //!
-//! What holds for one structure alone is in the folder `laws`.
+//! Laws of one structure alone are in the folder `laws`.
 #![allow(clippy::unwrap_used, clippy::float_cmp, missing_docs)]
 
 mod of_robots;
@@ -58,7 +58,7 @@ where
 
 type Law<const N: usize> = fn(&Case<N>, &Counts) -> Result<(), TestCaseError>;
 
-/// What a law compared, and what it left out: both sides are asserted.
+/// What a law compared, and what it left out: both are asserted.
 #[derive(Debug, Default)]
 struct Counts {
     compared: Cell<usize>,
@@ -99,7 +99,7 @@ where
     counts
 }
 
-/// Asserts that a law compared at least so many times.
+/// Asserts that a law compared at least this many times.
 fn assert_compared(counts: &Counts, least: usize) {
     assert!(counts.compared.get() >= least, "{counts:?}, at least {least} comparisons are wanted");
 }
@@ -257,7 +257,7 @@ where
     });
 }
 
-/// The same arm by a table with the x axes of some frames turned over, and by a standard one.
+/// The same arm by a table with the x axes of some frames flipped, and by a standard one.
 fn a_table_may_have_its_frames_anywhere<const N: usize>(structure: &Structure<N>)
 where
     Joints<N>: Arity<N>,
@@ -342,7 +342,7 @@ where
         }
         for ours in ours.iter().filter(is_regular) {
             let theirs = theirs.slot(usize::from(ours.slot)).unwrap();
-            // Rounded where base and tool put the pose, once more where they are removed.
+            // Rounded where base and tool are applied to the pose, again where they are removed.
             let off = apart(&ours.q, &theirs.q);
             prop_assert!(off <= 3.0 * moved.joint_bound(&ours.q), "{off:e}");
         }
@@ -394,7 +394,7 @@ where
     assert_compared(&counts, 100);
 }
 
-/// Half of the poses are drawn near the arm, so that both sides have many.
+/// Half of the poses are drawn near the arm, so that both cases are frequent.
 fn any_pose_has_an_answer_or_a_shortfall<const N: usize>(structure: &Structure<N>)
 where
     Joints<N>: Arity<N>,

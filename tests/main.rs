@@ -1,7 +1,7 @@
 //! The suite: one binary, because linking and optimizing one per file took most of the time.
 //!
-//! A new file of tests is a module here, see `CONTRIBUTING.md`. Tests that force an instruction set in
-//! the whole process are in `lanes.rs`, which is a separate binary.
+//! A new file of tests is a module here, see `CONTRIBUTING.md`. Tests that force an instruction set
+//! in the whole process are in `lanes.rs`, which is a separate binary.
 #![allow(unreachable_pub)]
 
 mod allocation;

@@ -1,6 +1,6 @@
-//! Laws of the choice next to singularities: where joints inside the limits made a pose, some are
-//! found, the nearest of them to every seed, and those of every configuration. `IRBKIN_POSES` sets
-//! the number of poses of each set.
+//! Laws of the choice near singularities: if joints inside the limits made a pose, some are found,
+//! the nearest of them to every seed, and those of every configuration. `IRBKIN_POSES` sets the
+//! number of poses per set.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 #[path = "nearest/sets.rs"]
@@ -16,12 +16,12 @@ fn poses() -> usize {
     std::env::var("IRBKIN_POSES").ok().map_or(3, |count| count.parse().unwrap())
 }
 
-/// What limits a pose is solved with.
+/// The limits that a pose is solved with.
 #[derive(Clone, Copy, Debug)]
 enum Bounds {
     /// Those of the catalog.
     Own,
-    /// Up to half a radian wide, the joints that made the pose inside.
+    /// Up to half a radian wide, around the joints that made the pose.
     Narrow,
     /// One side of each joint only.
     OneSided,
@@ -31,7 +31,7 @@ enum Bounds {
 const BOUNDS: [Bounds; 4] = [Bounds::Own, Bounds::Narrow, Bounds::OneSided, Bounds::Unlimited];
 
 impl Bounds {
-    /// Limits that hold `q`; none where those of the arm do not.
+    /// Limits that contain `q`; `None` if those of the arm do not.
     fn around(self, robot: &Robot<6>, q: &[f64; 6], rng: &mut Rng) -> Option<JointLimits<6>> {
         let limits = match self {
             Self::Own => return robot.limits().contains(q).then(|| *robot.limits()),
@@ -49,11 +49,11 @@ impl Bounds {
     }
 }
 
-/// How often a law was held against a set, and how often it did not hold.
+/// How often a law was checked on a set, and how often it was violated.
 #[derive(Default)]
 struct Law {
     name: &'static str,
-    /// It may be broken once in so many.
+    /// It may be violated once in so many.
     one_in: usize,
     held: usize,
     broken: usize,
@@ -74,7 +74,7 @@ impl Law {
         }
     }
 
-    /// Prints a row; returns it where the law was broken.
+    /// Prints a row; returns it if the law was violated.
     fn tell(&self, set: &str) -> String {
         let all = self.held + self.broken;
         let row = format!("{set:44} {:28} {:6} of {all:6} broken", self.name, self.broken);
@@ -88,7 +88,8 @@ impl Law {
     }
 }
 
-/// How far a solution may be off its pose: by what a seed may cost, and by rounding.
+/// Whether a solution is as near to its pose as the tolerance of a seeded solve and rounding
+/// permit.
 fn met(robot: &Robot<6>, pose: &Pose, q: &[f64; 6]) -> bool {
     let size = pose.translation.vector.norm() + robot.base().translation.vector.norm() * 2.0;
     let error = robot.residual(q, pose);
@@ -118,8 +119,8 @@ impl Laws {
             any_seed: Law::named("any seed finds one that meets"),
             nearest: Law::named("no solution of ik is nearer"),
             start: Law::named("a path starts there"),
-            // Where the elbow's side is itself a matter of rounding, and where three joints are
-            // free at once, the side may be lost.
+            // If the elbow's side is itself a matter of rounding, or three joints are free at once,
+            // the side may be missed.
             configured: Law { one_in: 40, ..Law::named("found by its configuration") },
         }
     }
@@ -138,7 +139,7 @@ impl Laws {
         self.inside.hold(inside, about);
         let ones = [1.0; 6];
         let found = robot.ik_nearest(&pose, q, &ones);
-        // Where the pose is regular, by what its rounding leaves of the joints.
+        // For a regular pose, the rounding of the joints.
         let rounding = 4e-15 * (2.0 + reach_of(robot)) / robot.singularity(q).min_singular_value;
         let bound = rounding.clamp(1e-9, 1e-4);
         let back = |found: &Solution<6>| {
@@ -196,7 +197,7 @@ impl Laws {
     }
 }
 
-/// Holds the laws against every kind of singularity of an arm, at every distance.
+/// Checks the laws at every kind of singularity of an arm, at every distance.
 fn run(arm: &Arm) -> String {
     let (mut rng, mut report, mut held) = (Rng::new(5), String::new(), 0);
     for kind in KINDS {

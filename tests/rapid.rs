@@ -1,5 +1,5 @@
-//! RAPID modules: what is written reads back as the same, and what is broken is told in which
-//! words.
+//! RAPID modules: what is written reads back unchanged, and invalid text is reported with an exact
+//! message.
 #![allow(clippy::unwrap_used, clippy::panic, clippy::float_cmp, missing_docs)]
 
 use std::fmt::Write;
@@ -16,7 +16,7 @@ const WELD: &str = include_str!("data/rapid/weld.mod");
 const TOOLS: &[u8] = include_bytes!("data/rapid/tools.sys");
 const PENDANT: &str = include_str!("data/rapid/pendant.prg");
 
-/// Any finite number, those with many digits, and those that modules hold.
+/// Any finite number, numbers with many digits, and numbers as in modules.
 fn numbers() -> impl Strategy<Value = f64> {
     prop_oneof![
         any::<f64>().prop_filter("finite", |number| number.is_finite()),
@@ -90,7 +90,7 @@ fn values() -> impl Strategy<Value = Value> {
     ]
 }
 
-/// The module written and read again, which must say the same.
+/// The module written and read again, which must be equal.
 fn holds(module: &Module, context: &[&Module]) -> Module {
     let text = module.to_string();
     let again = parse(&text, context).unwrap_or_else(|error| panic!("{error}\n{text}"));
@@ -165,7 +165,7 @@ fn real_looking_modules_are_read() {
     holds(&weld, &[&tools]);
 }
 
-/// A fault in a text, with the words that tell it.
+/// An error in a text, with its message.
 const BROKEN: &[(&str, &str)] = &[
     (
         "MODULE M\n  CONST string s:=\"abc;\nENDMODULE",

@@ -31,7 +31,7 @@ fn fixture(robhold: bool) -> WobjData {
     WobjData { robhold, ufprog: true, ufmec: String::new(), uframe, oframe }
 }
 
-/// The words of what is wrong with a target; the empty text where nothing is.
+/// The words of the problem with a target; empty if there is none.
 fn words(row: &TableRow) -> String {
     row.problem.as_ref().map(ToString::to_string).unwrap_or_default()
 }
@@ -49,8 +49,8 @@ fn arms() -> [Robot<6>; 3] {
     [standing, hanging, Robot::named("IRB 2400-10/1.55").unwrap()]
 }
 
-/// Locked by the robot, the tool meets the work object where the world sees both; stationary, they
-/// swap roles.
+/// Carried by the robot, the tool is at the target in the work object, both in the world frame;
+/// with a stationary tool, they swap roles.
 #[test]
 fn tool_and_work_object_are_combined_in_the_world_frame() {
     let mut rng = Rng::new(21);
@@ -97,7 +97,7 @@ fn joint_angles_round_trip_through_their_robtarget() {
                     .zip(joints.robax_deg)
                     .map(|(a, b)| (a - b).abs())
                     .fold(0.0, f64::max);
-                // Behind the elbow a coupled arm's configuration names another posture.
+                // Behind the elbow the configuration of a coupled arm names another posture.
                 if !(robot.is_coupled() && off > 1.0) {
                     assert!(off < 1e-9, "{off} deg");
                     kept += 1;
@@ -227,7 +227,7 @@ fn a_table_has_a_row_for_each_target_of_the_moves() {
         assert_eq!(row.configuration, robot.configuration(&q).unwrap());
         assert_eq!(row.distances, robot.singularity(&q).distances);
     }
-    // As the controller has it.
+    // As on the controller.
     let degrees = rows[0].q.unwrap().map(f64::to_degrees);
     for (found, derived) in
         degrees.into_iter().zip([11.6894, 55.6175, -44.8034, 0.0, 79.1858, -78.3106])

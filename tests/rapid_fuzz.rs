@@ -24,7 +24,7 @@ const CORPUS: [&[u8]; 3] = [
     include_bytes!("data/rapid/pendant.prg"),
 ];
 
-/// Pieces of RAPID, and of what is none.
+/// Pieces of RAPID, and of other text.
 const PIECES: &[&str] = &[
     "MODULE M",
     "ENDMODULE",
@@ -185,7 +185,7 @@ fn token_soup(rng: &mut Rng) -> Vec<u8> {
     (0..below(rng, 40)).flat_map(|_| PIECES[below(rng, PIECES.len())].bytes()).collect()
 }
 
-/// Declarations and moves most of which are right, in any order.
+/// Declarations and moves, most of them valid, in any order.
 fn statements(rng: &mut Rng) -> Vec<u8> {
     let mut text = String::new();
     for _ in 0..below(rng, 12) {
@@ -220,7 +220,7 @@ fn statements(rng: &mut Rng) -> Vec<u8> {
     text.into_bytes()
 }
 
-/// A module with bytes changed, left out, doubled, or with pieces put in.
+/// A module with bytes changed, omitted, doubled, or with pieces inserted.
 fn mutation(rng: &mut Rng) -> Vec<u8> {
     let mut text = CORPUS[below(rng, CORPUS.len())].to_vec();
     for _ in 0..=below(rng, 3) {
@@ -259,8 +259,8 @@ fn check(text: &str, module: &Module) {
         .flat_map(|(datum, it)| own_values(datum, &it.content))
         .collect();
     let rewritten = rewrite(text, module, &own).unwrap();
-    // A datum that referred to another one, which is assigned, stands by itself now: what was
-    // unknown in a move is looked at, and may be broken.
+    // A datum that referred to an assigned one is now independent: what was unknown in a move is
+    // evaluated, and may be invalid.
     let unknown = |step: &Move| {
         let via = step.via.as_ref().and_then(|via| via.value.as_ref().err());
         let wobj = step.wobj.as_ref().and_then(|wobj| wobj.value.as_ref().err());
@@ -293,7 +293,7 @@ fn own_values(datum: usize, content: &Content) -> Vec<NewValue> {
     }
 }
 
-/// Reads inputs of a kind: how many were refused, and the longest time for a byte.
+/// Reads inputs of a kind: the number that is refused, and the longest time per byte.
 fn read_all(kind: &str, make: fn(&mut Rng) -> Vec<u8>) -> usize {
     let count = inputs();
     let mut rng = Rng::new(kind.len() as u64);
@@ -410,8 +410,8 @@ fn time(text: &str) -> f64 {
     (0..3).map(|_| once()).fold(f64::INFINITY, f64::min)
 }
 
-/// Twice the text takes about twice the time: ratios are printed, and where they are to be trusted,
-/// among many inputs, a quadratic reader, whose ratio of sixteen sizes is 256, is not let through.
+/// Twice the text takes about twice the time. Ratios are printed and, with enough inputs to be
+/// reliable, a quadratic reader, whose ratio of sixteen sizes is 256, fails.
 #[test]
 fn reading_time_is_linear() {
     let is_long = inputs() > 100_000;
@@ -427,7 +427,7 @@ fn reading_time_is_linear() {
             four / one,
             sixteen / one
         );
-        // Sizes below a tenth of a millisecond tell nothing of a ratio.
+        // Below a tenth of a millisecond a ratio has no meaning.
         assert!(
             !is_long || sixteen / one.max(1e-4) < 64.0,
             "{}: {:.1}",

@@ -1,4 +1,4 @@
-//! Robots from URDF: what arrives, and what is refused in which words.
+//! Robots from URDF: what is read, and the messages for what is refused.
 #![allow(
     clippy::unwrap_used,
     clippy::float_cmp,
@@ -39,7 +39,7 @@ where
     error.to_string()
 }
 
-/// The arm of the URDF stands where `other` does, and has its solutions in its slots.
+/// The arm of the URDF is where `other` is, and has its solutions in its slots.
 fn agrees(text: &str, other: &Robot<6>, bound: f64) {
     let robot = Robot::<6>::from_urdf(text, None, None).unwrap();
     let mut rng = Rng::new(1);
@@ -71,7 +71,7 @@ fn arms_of_known_structure_have_their_inverse_and_slots() {
     let mut rng = Rng::new(2);
     for _ in 0..500 {
         let q = rng.inside(upright.limits());
-        // Their tips stand turned to one another.
+        // Their tips are rotated relative to each other.
         let (a, b) = (upright.fk(&q).translation.vector, rounded.fk(&q).translation.vector);
         assert!((a - b).norm() <= 3e-9);
         assert!(

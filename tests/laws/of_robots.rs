@@ -1,4 +1,4 @@
-//! Laws of what surrounds a solve: limits, choices, batches, chains without a solver.
+//! Laws of everything around a solve: limits, choices, batches, chains without a solver.
 #![allow(clippy::cast_precision_loss)]
 
 use irbkin::{DhRow, JacobianFrame, JointLimits, Mdh, OpwParameters, Pose, Robot};

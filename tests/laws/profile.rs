@@ -1,4 +1,4 @@
-//! The profile of the random cases is what it says: the same cases in every run, failures kept.
+//! The profile of the random cases: the same cases in every run, failures kept.
 
 use std::cell::RefCell;
 use std::path::Path;

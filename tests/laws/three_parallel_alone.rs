@@ -23,7 +23,7 @@ fn is_regular(arm: &ParallelArm, theta: &[f64; 6]) -> bool {
 
 const SLACK: f64 = 0.05;
 
-/// What a position is summed from [m].
+/// The sum of the lengths that contribute to a position [m].
 fn lengths(arm: &ParallelArm) -> f64 {
     1.0 + arm.reach()
 }
@@ -33,7 +33,7 @@ proptest! {
 
     #[test]
     fn the_table_of_the_tests_is_that_of_their_geometry(arm in arms(), q in angles()) {
-        // The wrist and the approach axis of forward kinematics stand where the lengths put them.
+        // The wrist and the approach axis of forward kinematics are where the lengths put them.
         let (theta, pose) = (arm.theta(&q), arm.robot().fk(&q));
         let (wrist, _) = arm.wrist(&pose);
         let (sin_1, cos_1) = theta[0].sin_cos();
@@ -48,7 +48,7 @@ proptest! {
         let pose = robot.fk(&q);
         prop_assume!(is_regular(&arm, &theta));
         let asked = arm.asked(&pose).unwrap().concat();
-        // Beside the edge of reach, where rounding decides.
+        // Not at the edge of reach, where rounding decides.
         prop_assume!(asked.iter().all(|asked| arm.margin(asked.end).abs() > 1e-9));
         let reached = asked.iter().filter(|asked| arm.missing(asked.end) == 0.0).count();
         let solutions = robot.ik(&pose).unwrap();
@@ -58,7 +58,7 @@ proptest! {
         }
     }
 
-    /// Lengths of either sign: the arm is another one, and its own.
+    /// Lengths of either sign: a different arm with its own solutions.
     #[test]
     fn lengths_may_be_negative(
         arm in arms(),
@@ -112,7 +112,7 @@ fn shortfall_is_that_of_the_nearest_branch() {
         };
         let nearer = |a: f64, b: f64| if b.abs() < a.abs() { b } else { a };
         let least = asked.concat().iter().map(|asked| asked.missing).fold(f64::INFINITY, nearer);
-        // Rounding of the wrist's distance from axis 1 counts for much next to it.
+        // Near axis 1, rounding of the wrist's distance from it has a large effect.
         let x = asked[0][0].end[0] + arm.a1;
         prop_assume!(x.abs() > SLACK && (least == 0.0 || least.abs() > 1e-6));
         count(if least == 0.0 { &reached } else { &beyond });
@@ -151,7 +151,7 @@ fn a_table_of_another_structure_is_refused_with_the_axes_that_deviate() {
                 "no closed-form inverse kinematics for this arm: for three parallel axes, ",
             )
             .unwrap()
-            // Whether snap takes it is told last.
+            // The last part says whether snap helps.
             .split("; snap=")
             .next()
             .unwrap()

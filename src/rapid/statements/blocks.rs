@@ -18,7 +18,7 @@ const BLOCKS: [(&str, &str); 4] =
 /// Words that divide a block or a routine.
 const PARTS: [&str; 7] = ["ELSEIF", "ELSE", "CASE", "DEFAULT", "ERROR", "UNDO", "BACKWARD"];
 
-/// Words that stand between operands.
+/// Words between operands.
 const OPERATORS: [&str; 6] = ["AND", "OR", "XOR", "NOT", "DIV", "MOD"];
 
 /// Reserved words with which an instruction begins.

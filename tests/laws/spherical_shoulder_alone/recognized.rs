@@ -1,4 +1,4 @@
-//! Tables with their frames and their zero pose anywhere.
+//! Tables with any frames and any zero pose.
 
 use std::f64::consts::PI;
 
@@ -10,8 +10,8 @@ use crate::structures::spherical_shoulder::{self, ShoulderArm};
 use crate::structures::three_parallel::arm::{quarters_about_x, turn};
 use crate::structures::{SEVEN, Subject};
 
-/// The same arm by another table. Frames are turned over about x (joint signs), about z by half a
-/// turn (the sides of x), and joints read zero elsewhere. `signs` and `shifts` get what they did to
+/// The same arm by another table. Frames are flipped about x (joint signs), rotated about z by half
+/// a turn (the sides of x), and joints have other zeros. `signs` and `shifts` receive the change of
 /// the joint angles: `q_old = sign q_new + shift`.
 fn rewritten(rng: &mut Rng, mdh: &Mdh<7>) -> (Mdh<7>, [f64; 7], [f64; 7]) {
     let mut rows = mdh.rows;
@@ -105,8 +105,8 @@ fn a_standard_table_is_recognized() {
     }
 }
 
-/// Slots of elbow and wrist, that is: the bit of the shoulder is the sign of joint 2, which may
-/// count the other way.
+/// Slots of elbow and wrist only: the bit of the shoulder is the sign of joint 2, which may count
+/// the other way.
 #[test]
 fn slots_do_not_depend_on_the_frames_of_a_table() {
     let mut rng = Rng::new(22);
@@ -114,7 +114,7 @@ fn slots_do_not_depend_on_the_frames_of_a_table() {
     let mut compared = 0;
     for _ in 0..200 {
         let (mut table, signs, shifts) = rewritten(&mut rng, arm.robot.mdh());
-        // The joints read zero where they did.
+        // The joints have the same zeros.
         for i in 0..7 {
             table.rows[i].theta -= signs[i] * shifts[i];
         }

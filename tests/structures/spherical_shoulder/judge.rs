@@ -1,4 +1,4 @@
-//! Judges answers at and next to the singularities of an arm with a spherical shoulder.
+//! Judges answers at and near the singularities of an arm with a spherical shoulder.
 
 use irbkin::{Robot, SingularityKind, Solution, Solutions, Status, thresholds};
 
@@ -9,7 +9,7 @@ use crate::structures::place::{Made, Verdict};
 
 const SLOTS: usize = 8;
 
-/// Open by more than this, a joint is not determined by the pose [rad].
+/// With a larger uncertainty, a joint is not determined by the pose [rad].
 const OPEN: f64 = 0.1;
 
 pub(super) fn judge(

@@ -1,4 +1,4 @@
-//! Judges answers at and next to the singularities of an arm with three parallel axes.
+//! Judges answers at and near the singularities of an arm with three parallel axes.
 
 use std::f64::consts::{PI, TAU};
 
@@ -10,7 +10,7 @@ use crate::common::wrapped;
 use crate::rng::Rng;
 use crate::structures::place::{At, Made, Verdict};
 
-/// A pose that was made, with what rounding leaves open of it.
+/// A pose that was made, with its uncertainty from rounding.
 pub struct Judge<'a> {
     pub arm: &'a ParallelArm,
     pub robot: &'a Robot<6>,
@@ -24,7 +24,7 @@ impl<'a> Judge<'a> {
     }
 
     /// How far beyond reach the pose is with the shoulder and the wrist of a straight arm, by no
-    /// more than such an arm is given for [m]; what rounding leaves open of x there is no part of
+    /// more than such an arm is given for [m]; the uncertainty of x there is no part of
     /// it.
     pub fn beyond_in(&self, solution: &Solution<6>) -> f64 {
         let (arm, slot) = (self.arm, solution.slot.index());
@@ -41,7 +41,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Whether the answers have the joint vector that made the pose: as it is, or where a joint is
-    /// free as a member of the family.
+    /// free as a member of the self-motion.
     fn is_found(&self, solutions: &Solutions<6>) -> bool {
         solutions.iter().any(|solution| {
             let found = self.theta_of(&solution.q);
@@ -62,8 +62,8 @@ impl<'a> Judge<'a> {
     }
 
     /// Whether a solution moved to the free joint's angle is the one that made the pose. One
-    /// straight arm stands for both elbows of the family, and joint 2 of one that is folded onto
-    /// axis 2 is free too: of those, the seeded solve has to find the right one.
+    /// straight arm stands for both elbows of the self-motion, and joint 2 of one that is folded
+    /// onto axis 2 is free too: of those, the seeded solve has to find the right one.
     fn is_on_self_motion(&self, from: &Solution<6>, moved: &Solution<6>) -> bool {
         let [mut from_theta, mut found] = [&from.q, &moved.q].map(|q| self.theta_of(q));
         let folded = self.is_folding_onto_axis_2()
@@ -104,7 +104,7 @@ impl<'a> Judge<'a> {
     }
 
     /// What the solve that is given the joint vector for a seed finds, and whether that is the
-    /// joint vector. Where the pose leaves a joint open that no solution declares free, next to two
+    /// joint vector. Where the pose leaves a joint open that no solution declares free, near two
     /// singularities at once, another branch may be nearer to the seed.
     fn seeded(&self) -> Option<(Solution<6>, bool)> {
         let nearest = self.robot.ik_nearest(&self.made.pose, &self.made.q, &[1.0; 6]).ok()?;
@@ -125,7 +125,7 @@ impl<'a> Judge<'a> {
     /// slot than they should.
     fn count_wrong(&self, solutions: &Solutions<6>) -> usize {
         let arm = self.arm;
-        // Rounding of the pose moves x by the root of it, next to zero.
+        // Rounding of the pose moves x by the root of it, near zero.
         let clear = 1e-7 + 2.0 * (2.0 * arm.b() * self.rounding()).sqrt();
         let mut wrong = 0;
         for solution in solutions {
@@ -147,7 +147,7 @@ impl<'a> Judge<'a> {
         wrong
     }
 
-    /// Holds the family of a wrist against the circle on which the end of the planar arm runs:
+    /// Compares the self-motion of a wrist with the circle of the end of the planar arm:
     /// reached where it is in reach, the tool still.
     fn count_wrong_along_self_motion(&self, solution: &Solution<6>, theta: &[f64; 6]) -> usize {
         let (robot, arm) = (self.robot, self.arm);
@@ -179,7 +179,7 @@ impl<'a> Judge<'a> {
         wrong
     }
 
-    /// Counts solutions that come twice: the same joints, or two members of a family in place of
+    /// Counts duplicate solutions: the same joints, or two members of a self-motion in place of
     /// one.
     fn count_twice(&self, solutions: &Solutions<6>) -> usize {
         let all: Vec<_> = solutions.iter().collect();
@@ -198,7 +198,7 @@ impl<'a> Judge<'a> {
         twice
     }
 
-    /// Whether the flags of the branch that made the pose are told, and what they say of the slots
+    /// Whether the flags of the branch that made the pose are set, and what they say of the slots
     /// is so.
     fn is_flagged(&self, solutions: &Solutions<6>, seeded: &Solution<6>) -> bool {
         let [wrist, shoulder, elbow] =
@@ -245,8 +245,8 @@ impl<'a> Judge<'a> {
                     .all(|solution| solution.singularities().contains(SingularityKind::SHOULDER)))
     }
 
-    /// Whether the representative of the wrist's family has joint 6 at rest, or as near to it as
-    /// the arm reaches, in both elbows; by trying angles of joint 6 all around. With a seed, the
+    /// Whether the representative of the wrist's self-motion has joint 6 at rest, or as near to it
+    /// as the arm reaches, in both elbows; by trying angles of joint 6 all around. With a seed, the
     /// nearest member.
     fn is_nearest_of_self_motion(&self, solutions: &Solutions<6>, rng: &mut Rng) -> bool {
         let shoulder = 4 * usize::from(self.arm.x(&self.made.theta) < 0.0);
@@ -272,8 +272,8 @@ impl<'a> Judge<'a> {
             && (!of_self_motion || self.is_nearest_of_members(solutions, &seeded, &seed))
     }
 
-    /// Whether no member of a family is nearer to the seed than the solution, by trying angles of
-    /// joint 6 all around.
+    /// Whether no member of a self-motion is nearer to the seed than the solution, by trying angles
+    /// of joint 6 all around.
     fn is_nearest_of_members(
         &self,
         solutions: &Solutions<6>,
