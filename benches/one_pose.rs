@@ -28,7 +28,7 @@ fn one_pose(criterion: &mut Criterion) {
     });
 }
 
-fn other_families(criterion: &mut Criterion) {
+fn other_structures(criterion: &mut Criterion) {
     let (ur3, panda) = (Robot::<6>::named("UR3").unwrap(), Robot::<7>::named("Panda").unwrap());
     let (q_ur3, q_panda) = ([0.4, -1.9, 1.5, -0.6, 1.1, 0.3], poses::Q_PANDA);
     let (pose_ur3, pose_panda, above) =
@@ -56,5 +56,5 @@ fn other_families(criterion: &mut Criterion) {
     });
 }
 
-criterion_group!(benches, one_pose, other_families);
+criterion_group!(benches, one_pose, other_structures);
 criterion_main!(benches);

@@ -266,7 +266,7 @@ fn a_pose_out_of_reach_is_a_break_and_the_path_continues() {
 }
 
 /// A straight line of the tool through the wrist singularity or `off` [rad] past it.
-fn crossing_line(robot: &Robot<6>, off: f64, along: [f64; 3]) -> Vec<Pose> {
+fn line_through_wrist(robot: &Robot<6>, off: f64, along: [f64; 3]) -> Vec<Pose> {
     let middle = robot.fk(&[0.3, 0.2, 0.1, if off == 0.0 { 0.0 } else { FRAC_PI_2 }, off, 0.2]);
     joint_path(|t| [t; 6])
         .iter()
@@ -302,7 +302,7 @@ fn singularity_modes_keep_their_guarantees() {
     let robot = robot();
     for off in [0.0, 1e-4, 2e-3] {
         for along in [[0.0, 0.15, 0.02], [0.1, 0.0, 0.1], [0.0, 0.2, 0.0]] {
-            let path = crossing_line(&robot, off, along);
+            let path = line_through_wrist(&robot, off, along);
             let tell = |name: &str, crossed: &Crossed| {
                 println!(
                     "line past J5 = 0 by {off:5e} rad, {along:?} m: {name:10} largest step {:6.3} \

@@ -42,7 +42,7 @@ where
         for posture in subject.arm.postures() {
             let draw = |rng: &mut Rng| (posture.draw)(rng);
             let tally = run(&subject, &posture.place, poses()[0], draw, &mut rng);
-            report += &tally.tell(&subject.name, posture.name);
+            report += &tally.row(&subject.name, posture.name);
         }
         let mut attained = 0;
         for place in places(subject.arm.singular_places()) {
@@ -50,7 +50,7 @@ where
             let tally = run(&subject, &place, count, |rng| subject.arm.at(&place, rng), &mut rng);
             attained += usize::from(tally.poses > 0);
             if tally.poses > 0 {
-                report += &tally.tell(&subject.name, &place.name());
+                report += &tally.row(&subject.name, &place.name());
             }
         }
         // Every arm can attain wrist, shoulder and one elbow, alone and in pairs.
@@ -129,8 +129,8 @@ where
     tally.take_residuals(&subject.robot, &made.pose, answers);
     let verdict = subject.arm.judge(&subject.robot, made, &solutions, rng);
     tally.found += usize::from(verdict.found);
-    tally.wrong += verdict.wrong;
-    tally.twice += verdict.twice;
+    tally.incorrect += verdict.incorrect;
+    tally.duplicates += verdict.duplicates;
     tally.flags += usize::from(!verdict.flagged);
     if tally.amiss() > before && tally.example.is_none() {
         let slots: Vec<_> = solutions.iter().collect();
@@ -163,7 +163,7 @@ fn beyond_reach_there_is_nothing_and_the_shortfall_is_right<const N: usize>(
                     tally.take_missed(&subject.ik(&made.pose, &made.q), beyond, bound);
                 }
             }
-            report += &tally.tell(&subject.name, &format!("beyond reach by {beyond:e} m"));
+            report += &tally.row(&subject.name, &format!("beyond reach by {beyond:e} m"));
         }
     }
     assert!(report.is_empty(), "\n{report}");

@@ -80,7 +80,7 @@ where
     1.0 + ends + mdh.rows.iter().map(|row| row.a.hypot(row.d)).sum::<f64>()
 }
 
-fn table_turns_as_the_axes<const N: usize>(
+fn table_moves_like_the_axes<const N: usize>(
     drawn: &[Drawn; N],
     tip: &Pose,
     q: &[f64; N],
@@ -150,7 +150,7 @@ proptest! {
         tip in tips(),
         q in prop::array::uniform6(-PI..PI),
     ) {
-        table_turns_as_the_axes(&drawn, &tip, &q)?;
+        table_moves_like_the_axes(&drawn, &tip, &q)?;
     }
 
     #[test]
@@ -159,7 +159,7 @@ proptest! {
         tip in tips(),
         q in prop::array::uniform7(-PI..PI),
     ) {
-        table_turns_as_the_axes(&drawn, &tip, &q)?;
+        table_moves_like_the_axes(&drawn, &tip, &q)?;
     }
 
     #[test]

@@ -264,7 +264,7 @@ where
 {
     let counts = hold(structure, |Case { arm, q, bits, .. }, counts| {
         let mdh = arm.robot.mdh().clone();
-        let table = with_x_turned_over(mdh.clone(), *bits);
+        let table = with_x_flipped(mdh.clone(), *bits);
         let pose = arm.robot.fk(q);
         let bound = 1e-14 * (1.0 + arm.reach());
         let standard = Robot::from_sdh(Sdh::from(table.clone())).unwrap();
@@ -291,7 +291,7 @@ where
 }
 
 /// `Rz(pi) Rx(alpha) Tx(a) = Rx(-alpha) Tx(-a) Rz(pi)`.
-fn with_x_turned_over<const N: usize>(mut mdh: Mdh<N>, over: u32) -> Mdh<N>
+fn with_x_flipped<const N: usize>(mut mdh: Mdh<N>, over: u32) -> Mdh<N>
 where
     Joints<N>: Arity<N>,
 {

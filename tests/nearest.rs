@@ -75,7 +75,7 @@ impl Law {
     }
 
     /// Prints a row; returns it if the law was violated.
-    fn tell(&self, set: &str) -> String {
+    fn row(&self, set: &str) -> String {
         let all = self.held + self.broken;
         let row = format!("{set:44} {:28} {:6} of {all:6} broken", self.name, self.broken);
         if all > 0 {
@@ -125,9 +125,9 @@ impl Laws {
         }
     }
 
-    fn tell(&self, set: &str) -> String {
+    fn row(&self, set: &str) -> String {
         [&self.inside, &self.own_seed, &self.any_seed, &self.nearest, &self.start, &self.configured]
-            .map(|law| law.tell(set))
+            .map(|law| law.row(set))
             .concat()
     }
 
@@ -208,7 +208,7 @@ fn run(arm: &Arm) -> String {
                     held += usize::from(hold_one(arm, kind, distance, bounds, &mut rng, &mut laws));
                 }
             }
-            report += &laws.tell(&format!("{} {kind:?} {bounds:?}", arm.name));
+            report += &laws.row(&format!("{} {kind:?} {bounds:?}", arm.name));
         }
     }
     assert!(held > 100, "{}: {held}", arm.name);
@@ -311,7 +311,7 @@ fn every_serial_abb_arm_is_found_by_its_configuration() {
         }
     }
     for (kind, law) in &kinds {
-        report += &law.tell(&format!("serial ABB arms {kind:?}"));
+        report += &law.row(&format!("serial ABB arms {kind:?}"));
     }
     assert!(arms > 60 && held > 60 * 60, "{arms} {held}");
     assert!(report.is_empty(), "\n{report}");

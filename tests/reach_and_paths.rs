@@ -39,7 +39,7 @@ impl Count {
     }
 
     /// Prints the rate; returns it if it is not zero.
-    fn tell(&self, set: &str) -> String {
+    fn row(&self, set: &str) -> String {
         let row = format!("{set:60} {:6} of {:7} {}", self.failed, self.of, self.first);
         println!("{row}");
         assert!(self.of > 0, "{set}: no pose");
@@ -55,7 +55,7 @@ fn assert_none(report: &str) {
 /// its joint 5, within the uncertainty of rounding.
 fn is_found(arm: &Arm, theta: &[f64; 6], pose: &Pose) -> bool {
     let solutions = arm.robot.ik(pose).unwrap();
-    let open = 2.0 * plane_open(arm, arm.x(theta)) + 1e-12;
+    let open = 2.0 * plane_uncertainty(arm, arm.x(theta)) + 1e-12;
     // The twin of a shoulder may be near enough to reach to get the straight arm.
     let beyond = thresholds::REACH_TOLERANCE;
     solutions.iter().all(|solution| arm.meets(&solution.q, pose, beyond))
@@ -68,7 +68,7 @@ fn is_found(arm: &Arm, theta: &[f64; 6], pose: &Pose) -> bool {
 }
 
 /// How far rounding may rotate the plane of the arm (eq. 42) [rad].
-fn plane_open(arm: &Arm, x: f64) -> f64 {
+fn plane_uncertainty(arm: &Arm, x: f64) -> f64 {
     let (x, p) = (x.abs(), arm.rounding());
     let inward = if x * x > 2.0 * arm.b * p {
         2.0 * p / (x + (x * x - 2.0 * arm.b * p).sqrt())
@@ -96,7 +96,7 @@ fn straight_elbows_near_the_shoulder_singularity_have_their_solution() {
                 let holds = is_found(&arm, &theta, &pose) && seeded.is_ok();
                 count.take(holds, || format!("{q:?}"));
             }
-            report += &count.tell(&format!("{}, {set}", arm.name));
+            report += &count.row(&format!("{}, {set}", arm.name));
         };
         check("at the edge of what rounding merges", &|rng| Near {
             shoulder: Some(edge * rng.between(0.9, 1.5)),
@@ -148,7 +148,7 @@ fn elbows_that_rounding_merges_are_one() {
                 });
                 count.take(holds, || format!("{q:?}"));
             }
-            report += &count.tell(&format!("{}, {set}", arm.name));
+            report += &count.row(&format!("{}, {set}", arm.name));
         };
         for elbow in [0.0, 2e-9, 1e-8] {
             let elbow = Some(elbow);
@@ -186,7 +186,7 @@ fn elbows_that_rounding_does_not_merge_are_two() {
             }
             // How far straightening moves the end of the planar arm, and how far rounding does.
             let moved = arm.c2 * arm.k * elbow.sin().powi(2) / (2.0 * r);
-            let plane = plane_open(&arm, arm.x(&theta)) + 2.0 * thresholds::WRIST_FREE_SIN;
+            let plane = plane_uncertainty(&arm, arm.x(&theta)) + 2.0 * thresholds::WRIST_FREE_SIN;
             let open = 2.0 * arm.rounding() + arm.d5 * plane / wrist.sin();
             if moved < open {
                 continue;
@@ -201,7 +201,7 @@ fn elbows_that_rounding_does_not_merge_are_two() {
             });
             count.take(holds, || format!("{q:?}"));
         }
-        report += &count.tell(&arm.name);
+        report += &count.row(&arm.name);
     }
     assert_none(&report);
 }
@@ -244,7 +244,7 @@ fn each_slot_just_beyond_reach_has_the_straight_arm() {
                 others += usize::from(solutions.iter().any(|s| !slots.contains(&s.slot.into())));
                 count.take(close && mine.iter().all(told), || format!("{theta:?} {beyond:e}"));
             }
-            report += &count.tell(&format!("{}, wrist {wrist:?}, {others} not alone", arm.name));
+            report += &count.row(&format!("{}, wrist {wrist:?}, {others} not alone", arm.name));
             assert!(others > 0, "{}: no other branch reaches", arm.name);
         }
     }
@@ -267,7 +267,7 @@ fn a_lateral_offset_merges_only_what_rounding_merges() {
                 let solutions = arm.robot.ik(&pose).unwrap();
                 // Rounding moves the wrist center across the plane by less than p / 2: the plane
                 // may rotate by that, and at smaller distances merge with its twin.
-                let open = 2.0 * plane_open(&arm, shoulder) + 1e-12;
+                let open = 2.0 * plane_uncertainty(&arm, shoulder) + 1e-12;
                 let near = |slot: usize| {
                     solutions.slot(slot).is_some_and(|s| wrapped(s.q[0] - q[0]) <= open)
                 };
@@ -276,7 +276,7 @@ fn a_lateral_offset_merges_only_what_rounding_merges() {
                 let closes = solutions.iter().all(|s| arm.meets(&s.q, &pose, 0.0));
                 count.take(holds && closes, || format!("{shoulder:e} {q:?}"));
             }
-            report += &count.tell(&arm.name);
+            report += &count.row(&arm.name);
         }
     }
     assert_none(&report);
@@ -309,7 +309,7 @@ fn a_seed_keeps_its_branch_behind_axis_1() {
             let bound = if folded { 0.3 } else { off };
             count.take(apart <= bound, || format!("{apart:e} {q:?}"));
         }
-        report += &count.tell(&arm.name);
+        report += &count.row(&arm.name);
     }
     assert_none(&report);
 }
@@ -387,7 +387,7 @@ fn smooth_paths_past_several_singularities_are_followed() {
                     });
                 }
                 report += &count
-                    .tell(&format!("{}, {set}, 1e{} .. 1e{}", arm.name, decades[0], decades[1]));
+                    .row(&format!("{}, {set}, 1e{} .. 1e{}", arm.name, decades[0], decades[1]));
             }
         }
     }

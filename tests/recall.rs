@@ -55,7 +55,7 @@ where
     };
     let set = asked_set().name();
     for (way, tally) in ["one by one", "in a batch"].iter().zip(tallies(&subject)) {
-        let report = tally.tell(&subject.name, way);
+        let report = tally.row(&subject.name, way);
         println!(
             "    {} found only to worse than 1e-9 rad, the worst {:.1e} rad; position {:.2e} x \
              reach",
@@ -140,11 +140,11 @@ fn take<const N: usize>(
     tally.found += usize::from(nearest <= 1e-9 || nearest <= rounding_bound(subject, q));
     tally.coarse += usize::from(nearest > 1e-9);
     for (i, (slot, answer, kinds)) in answers.iter().enumerate() {
-        tally.twice +=
+        tally.duplicates +=
             answers.iter().skip(i + 1).filter(|(_, other, _)| apart(other, answer) < 1e-9).count();
         // This near a singularity, rounding decides.
         let is_clear = |answer| subject.clearance(answer) > 1e-6;
-        tally.wrong += usize::from(*slot != subject.slot(answer) && is_clear(answer));
+        tally.incorrect += usize::from(*slot != subject.slot(answer) && is_clear(answer));
         let is_flagged = || *kinds == subject.robot.singularity(answer).kinds;
         tally.flags += usize::from(sampled && is_clear(answer) && !is_flagged());
     }

@@ -16,9 +16,9 @@ pub struct Tally {
     /// Of these, found only to worse than 1e-9 rad.
     pub coarse: usize,
     /// Solutions that do not close, or are in an incorrect slot.
-    pub wrong: usize,
+    pub incorrect: usize,
     /// Duplicate solutions.
-    pub twice: usize,
+    pub duplicates: usize,
     /// Poses with a flag that is missing.
     pub flags: usize,
     pub solutions: usize,
@@ -50,7 +50,7 @@ impl Tally {
             self.rotation = self.rotation.max(residual.rotation);
             // The negation counts NaN.
             let closes = residual.position <= position && residual.rotation <= rotation;
-            self.wrong += usize::from(!closes);
+            self.incorrect += usize::from(!closes);
             count += 1;
         }
         self.poses += 1;
@@ -67,33 +67,33 @@ impl Tally {
         self.by_count[0] += 1;
         self.found += usize::from((solutions.reach().shortfall() - beyond).abs() < bound);
         self.solutions += solutions.len();
-        self.wrong += solutions.len();
+        self.incorrect += solutions.len();
     }
 
-    pub fn lost(&self) -> usize {
+    pub fn missed(&self) -> usize {
         self.poses - self.found
     }
 
     /// The sum of the counts that must be zero.
     pub fn amiss(&self) -> usize {
-        self.lost() + self.wrong + self.twice + self.flags
+        self.missed() + self.incorrect + self.duplicates + self.flags
     }
 
     /// Prints the row; returns it if a count is not zero.
-    pub fn tell(&self, name: &str, set: &str) -> String {
+    pub fn row(&self, name: &str, set: &str) -> String {
         #[expect(clippy::cast_precision_loss, reason = "a mean")]
         let (found, mean) = (
             100.0 * self.found as f64 / self.poses as f64,
             self.solutions as f64 / self.poses as f64,
         );
         let row = format!(
-            "{name:22} {:8} {set:34} {:7} poses  found {found:6.2} %  lost {}  wrong {}  \
-             twice {}  flags missing {}  worst {:.1e} m {:.1e} rad  {mean:.2} solutions",
+            "{name:22} {:8} {set:34} {:7} poses  found {found:6.2} %  missed {}  incorrect {}  \
+             duplicates {}  flags missing {}  worst {:.1e} m {:.1e} rad  {mean:.2} solutions",
             asked_set().name(),
             self.poses,
-            self.lost(),
-            self.wrong,
-            self.twice,
+            self.missed(),
+            self.incorrect,
+            self.duplicates,
             self.flags,
             self.position,
             self.rotation

@@ -103,9 +103,9 @@ pub struct Verdict {
     /// Whether the joint vector that made the pose is among the solutions.
     pub found: bool,
     /// Incorrect solutions.
-    pub wrong: usize,
+    pub incorrect: usize,
     /// Pairs of duplicate solutions.
-    pub twice: usize,
+    pub duplicates: usize,
     /// Whether every singularity that the pose is at is flagged.
     pub flagged: bool,
 }

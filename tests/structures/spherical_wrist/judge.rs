@@ -89,13 +89,13 @@ pub(super) fn judge(
         apart.arm <= bound && apart.wrist <= bound && apart.split <= split_bound
     });
     let moves = |solution: &&Solution<6>| tool_moves(arm, robot, made, solution);
-    let twice = solutions.iter().enumerate().map(|(i, solution)| {
+    let duplicates = solutions.iter().enumerate().map(|(i, solution)| {
         solutions.iter().skip(i + 1).filter(|other| are_one(arm, solution, other)).count()
     });
     Verdict {
         found,
-        wrong: solutions.iter().filter(moves).count(),
-        twice: twice.sum(),
+        incorrect: solutions.iter().filter(moves).count(),
+        duplicates: duplicates.sum(),
         flagged: is_flagged(arm, &made.place, solutions),
     }
 }

@@ -16,7 +16,7 @@ const STRAIGHT: f64 = 1e-7;
 /// How near the joints that a pose determines must be to those that made it [rad].
 pub const FOUND: f64 = 1e-6;
 /// With a larger uncertainty, joint 6 is not determined by the pose [rad].
-pub const OPEN: f64 = 0.1;
+pub const UNDETERMINED: f64 = 0.1;
 
 /// Distance of the wrist from the shoulder's singularity where a set does not ask for it [m].
 pub fn clear_of_axis_1(arm: &ParallelArm) -> f64 {
@@ -114,9 +114,9 @@ impl Bounds {
     pub fn hold(&self, found: &[f64; 6], made: &[f64; 6]) -> bool {
         let off = |joint: usize| wrapped(found[joint] - made[joint]);
         self.hold_plane(found, made)
-            && (self.six > OPEN
+            && (self.six > UNDETERMINED
                 || (off(5) <= self.six && off(1) <= self.arm[0] && off(2) <= self.arm[1]))
-            && (self.six > OPEN || wrapped(phi(found) - phi(made)) <= self.plane + self.six)
+            && (self.six > UNDETERMINED || wrapped(phi(found) - phi(made)) <= self.plane + self.six)
     }
 
     /// Whether a joint vector has its plane and joint 5, up to its sign, as the one that made the
