@@ -13,8 +13,8 @@ from pathlib import Path
 from built import executable, toolchain
 
 PAGE = Path(__file__).with_suffix(".md")
-# valgrind has no AVX-512: programs that ask it for the processor's features are told that there is
-# none.
+# valgrind has no AVX-512: it reports the processor as one
+# without.
 SETS = ("avx2", "baseline")
 # What is done, and how many poses that are.
 WHAT = {

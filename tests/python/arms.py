@@ -192,7 +192,7 @@ COMAU_NJ165 = {
     "a1": 0.400333, "a2": -0.251449, "b": 0.0, "c1": 0.83, "c2": 1.177556, "c3": 1.443593,
     "c4": 0.23, "offsets": (0, 0, 0, 0, 0, 0), "signs": (-1, 1, -1, -1, 1, -1),
 }  # fmt: skip
-# No maker's: every parameter plays a part, the wrist center stands 50 mm beside the plane through
+# Not a real arm: every parameter has an effect, the wrist center is 50 mm off the plane through
 # axis 1.
 LATERAL = {
     "a1": 0.15, "a2": -0.11, "b": 0.05, "c1": 0.45, "c2": 0.6, "c3": 0.64, "c4": 0.1,

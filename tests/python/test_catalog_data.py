@@ -79,7 +79,7 @@ def test_filters_take_a_least_figure_or_a_pair():
     ],
     ids=str,
 )
-def test_a_filter_that_is_none_is_refused(filters, message):
+def test_an_invalid_filter_is_refused(filters, message):
     with pytest.raises(ValueError, match=message):
         irbkin.catalog(**filters)
 

@@ -199,7 +199,7 @@ def test_an_answer_is_not_written_under_a_mask():
             call(masked(np.zeros((4, 4)), 1, 1))
 
 
-def test_what_is_no_number_stays_a_type_error():
+def test_masked_non_numeric_input_is_a_type_error():
     for value in (
         np.ma.array(Q[6] * 1j, mask=True),
         np.ma.array(Q[6] > 0, mask=True),

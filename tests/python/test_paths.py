@@ -1,4 +1,4 @@
-"""A path of poses as one joint path: continuous, inside the limits, its breaks told."""
+"""A path of poses as one joint path: continuous, inside the limits, with its breaks reported."""
 
 import irbkin
 import numpy as np
@@ -10,7 +10,7 @@ from strategies import subjects
 
 NAME = "IRB 2600-12/1.65"
 TIMES = np.linspace(-1, 1, 201)
-# Distances from q5 = 0, also around 1e-12, below which a pose counts as silent on axis 4.
+# Distances from q5 = 0, also around 1e-12, below which a pose does not determine axis 4.
 NEAR = [0.0, 1e-13, 1e-12, 2e-12, 3e-12, 1e-11, 1e-10, 1e-9, 1e-7, 1e-4]
 
 
@@ -71,7 +71,7 @@ def test_the_wrist_is_passed_without_a_jump(name, near):
 @pytest.mark.parametrize("near", NEAR)
 @pytest.mark.parametrize("name", ABB)
 def test_a_path_along_the_wrist_singularity_has_no_jump(name, near):
-    """Below 1e-12 the pose counts as silent on J4, and the joint keeps on; above, the pose tells
+    """Below 1e-12 the pose does not determine J4, which is extrapolated; above, the pose determines
     it.
     """
     along = np.array([0.3, 0.2, 0.1, 0.7, near, -0.4]) + np.outer(TIMES, [0.3, 0, 0.1, 0.4, 0, 0])
@@ -133,7 +133,7 @@ def crossing(robot, off):
 
 @pytest.mark.parametrize("off", [0.0, 1e-4, 2e-3])
 @pytest.mark.parametrize("mode", ["through", "wrist", "lock_axis4"])
-def test_a_crossing_keeps_the_position_and_tells_the_orientation(robot, mode, off):
+def test_a_singularity_mode_keeps_the_position_and_reports_the_orientation(robot, mode, off):
     path, seed = crossing(robot, off)
     result = robot.follow(path, seed, singularity_mode=mode)
     assert result.breaks == ()
@@ -152,7 +152,7 @@ def test_a_crossing_keeps_the_position_and_tells_the_orientation(robot, mode, of
         np.testing.assert_array_equal(result.q[:, 3] % np.pi, 0)
 
 
-def test_a_crossing_that_is_an_error_stops_there(robot):
+def test_the_error_mode_stops_at_the_singularity(robot):
     path, seed = crossing(robot, 0.0)
     result = robot.follow(path, seed, singularity_mode="error", zone=0.05)
     (broken,) = result.breaks

@@ -1,4 +1,4 @@
-"""RAPID through Python: what is written is read again, what is broken is told, what is calculated
+"""RAPID through Python: what is written is read again, invalid text is reported, what is computed
 is ABB's.
 """
 
@@ -170,7 +170,7 @@ def test_numpy_s_numbers_and_truths_are_taken():
     assert rapid.parse(b"[[1,2,3],[1,0,0,0]]") == Pose((1, 2, 3))
 
 
-def test_words_of_numbers_may_stand_in_strings():
+def test_strings_may_contain_number_words():
     wobj = WobjData(ufmec="infeed NaN")
     assert rapid.parse(rapid.dump(wobj)) == wobj
 
@@ -198,7 +198,7 @@ def test_files_are_of_any_usual_encoding(tmp_path, encoding):
     assert rapid.load(path)["w"].ufmec == "STÄTION"
 
 
-def test_a_broken_file_is_told_with_its_path_line_and_column(tmp_path):
+def test_an_invalid_file_is_reported_with_its_path_line_and_column(tmp_path):
     path = tmp_path / "broken.mod"
     path.write_text(
         "MODULE M\n"
@@ -279,7 +279,7 @@ HOLDS_ITSELF.append(HOLDS_ITSELF)
         ),
     ],
 )
-def test_what_is_no_rapid_data_is_refused(make, message):
+def test_invalid_rapid_data_are_refused(make, message):
     with pytest.raises(irbkin.IrbkinError, match=message):
         make()
 
@@ -328,7 +328,7 @@ def test_taught_targets_have_the_joints_that_they_were_taught_with(
     assert of_angles.robconf == again.robconf
 
 
-def test_what_a_controller_would_refuse_is_refused_by_its_name():
+def test_what_a_controller_would_refuse_has_its_error_name():
     robot = irbkin.Robot("IRB 140-6/0.81")
     module = rapid.parse(PROGRAM)
     far = RobTarget((9000, 0, 0), (1, 0, 0, 0))

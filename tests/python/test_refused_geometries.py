@@ -76,7 +76,7 @@ SOLVES = {
 
 
 @pytest.mark.parametrize("name", OTHERS)
-def test_an_arm_without_closed_form_is_taken_when_that_is_said(name):
+def test_an_arm_without_closed_form_is_accepted_on_request(name):
     build, words = OTHERS[name]
     with pytest.raises(irbkin.InvalidModelError, match=words):
         build()
@@ -88,7 +88,7 @@ def test_an_arm_without_closed_form_is_taken_when_that_is_said(name):
 
 @pytest.mark.parametrize("solve", SOLVES.values(), ids=SOLVES)
 @pytest.mark.parametrize("name", OTHERS)
-def test_every_solve_of_an_arm_without_closed_form_says_why_it_has_none(name, solve):
+def test_every_solve_of_an_arm_without_closed_form_reports_the_reason(name, solve):
     build, words = OTHERS[name]
     robot = build(closed_form=False)
     with pytest.raises(irbkin.InvalidModelError, match=words):
@@ -113,7 +113,7 @@ def test_closed_form_false_keeps_the_closed_form_of_an_arm_that_has_one():
 
 
 @pytest.mark.parametrize(("off", "taken"), [(5e-10, True), (2e-9, False)])
-def test_a_table_in_text_is_squared_up(off, taken):
+def test_a_table_in_text_is_made_exact(off, taken):
     rows = changed(5, 1, off)
     rows[2, 0] += off
     if taken:

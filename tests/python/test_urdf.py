@@ -110,7 +110,7 @@ def test_the_table_with_both_ends_is_the_arm():
         ("kr6_r700", Robot.from_opw(**KUKA_KR6)),
     ],
 )
-def test_a_known_form_has_the_same_slots(name, other):
+def test_a_known_structure_has_the_same_slots(name, other):
     robot = Robot.from_urdf(TEXTS[name])
     assert robot.structure == "spherical wrist"
     for q in np.random.default_rng(2).uniform(-1.5, 1.5, (SAMPLES, 6)):
@@ -135,7 +135,7 @@ def test_a_known_form_has_the_same_slots(name, other):
         ),
     ],
 )
-def test_the_other_forms_have_the_same_slots(name, tip, other, family):
+def test_the_other_structures_have_the_same_slots(name, tip, other, family):
     robot = Robot.from_urdf(TEXTS[name], tip=tip)
     assert robot.structure == other.structure == family
     low, high = other.limits.T
@@ -201,7 +201,7 @@ def test_a_missing_file_is_pythons_error(given):
         Robot.from_urdf(given)
 
 
-def test_what_is_neither_text_nor_path_is_no_argument(tmp_path):
+def test_an_argument_that_is_neither_text_nor_path_is_refused(tmp_path):
     with pytest.raises(IsADirectoryError):
         Robot.from_urdf(tmp_path)
     for given in (5, None, 1.5, ["<robot/>"], 0):
@@ -265,13 +265,13 @@ def chain(kinds, extra=""):
         ),
     ],
 )
-def test_what_is_refused_says_why(text, words):
+def test_a_refusal_reports_the_reason(text, words):
     with pytest.raises(InvalidModelError) as refused:
         Robot.from_urdf(text, closed_form=False)
     assert str(refused.value) == f"URDF: {words}"
 
 
-def test_a_link_that_is_none_is_named():
+def test_an_unknown_link_is_named():
     with pytest.raises(InvalidModelError) as refused:
         Robot.from_urdf(TEXTS["kr6_r700"], tip="tool")
     links = ["base_link", *(f"link_{i}" for i in range(1, 7)), "tool0"]
@@ -283,7 +283,7 @@ def test_a_link_that_is_none_is_named():
         Robot.from_urdf(TEXTS["irb2600"], "link_1", "base")
 
 
-def test_without_closed_form_an_arm_of_no_form_is_taken():
+def test_without_closed_form_an_arm_of_unknown_structure_is_accepted():
     text = chain(["revolute", "continuous"] * 3)
     with pytest.raises(InvalidModelError, match="no closed-form inverse kinematics"):
         Robot.from_urdf(text)
