@@ -207,7 +207,8 @@ def test_a_vector_of_wrong_length_is_reported_with_the_length(name):
         (
             "seed",
             [0, 0, 0, -1e15, 0, 0],
-            r"^seed: joint 4 is -1e15 rad, its size must be at most 1e5 rad \(remove whole turns\)$",
+            r"^seed: joint 4 is -1e15 rad, its size must be at most 1e5 rad "
+            r"\(remove whole turns\)$",
         ),
         ("xyz", [0, 0, 2e6], r"^xyz\[2\] is 2e6 m, its size must be at most 1e6 m$"),
         (

@@ -69,7 +69,8 @@ def test_filters_take_a_least_figure_or_a_pair():
     [
         (
             {"reach": "far"},
-            r"^reach must be a number \(at least that much\) or a pair \(least, most\) \[m\], got 'far'$",
+            r"^reach must be a number \(at least that much\) or a pair \(least, most\) \[m\], "
+            r"got 'far'$",
         ),
         ({"payload": (1, 2, 3)}, r"^payload must be a number .* \[kg\], got \(1, 2, 3\)$"),
         ({"payload": -1}, "^payload is -1 kg, it must be 0 or more$"),

@@ -9,8 +9,8 @@ from reference import move, turn
 
 
 def at_distance(name, r, angle):
-    """A pose whose wrist center is at distance `r` from the shoulder, `angle` above the horizontal, its
-    flange forward.
+    """A pose whose wrist center is at distance `r` from the shoulder, `angle` above the horizontal,
+    with the flange forward.
     """
     a1, _, height, _, _, flange = ABB[name].lengths
     return move(a1 + r * np.cos(angle) + flange, 0, height + r * np.sin(angle)) @ turn(

@@ -61,8 +61,8 @@ def test_the_nearest_is_inside_closes_and_is_the_nearest(data, q, seed):
     found = robot.ik_nearest(pose, seed)
     assert np.all(found >= robot.limits[:, 0] - 1e-9)
     assert np.all(found <= robot.limits[:, 1] + 1e-9)
-    # If the seed's free joint is outside the limits, another member of the self-motion is inside, to
-    # twice the distance from the singularity.
+    # If the seed's free joint is outside the limits, another member of the self-motion is inside,
+    # to twice the distance from the singularity.
     distances = robot.singularity(q)
     off = sum(distance for distance in (distances.wrist, distances.shoulder) if distance <= 1.5e-9)
     assert np.abs(robot.fk(found) - pose).max() <= SEEDED + 2 * off + 1e-14

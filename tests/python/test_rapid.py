@@ -207,7 +207,8 @@ def test_an_invalid_file_is_reported_with_its_path_line_and_column(tmp_path):
     )
     with pytest.raises(
         RapidError,
-        match=r"broken\.mod: line 2, column \d+: robtarget p: trans has 2 components, it must have 3",
+        match=r"broken\.mod: line 2, column \d+: robtarget p: trans has 2 components, "
+        r"it must have 3",
     ) as caught:
         rapid.load(path)
     assert caught.value.line == 2

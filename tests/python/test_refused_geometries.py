@@ -101,7 +101,8 @@ def test_a_seven_axis_arm_says_that_it_has_no_closed_form(solve):
     robot = irbkin.Robot.from_mdh(rows)
     with pytest.raises(
         irbkin.InvalidModelError,
-        match=r"spherical shoulder and an offset elbow, axes 1 and 2 must be at right angles, they are 0\.057296 deg",
+        match=r"spherical shoulder and an offset elbow, axes 1 and 2 must be at right angles, "
+        r"they are 0\.057296 deg",
     ):
         solve(robot, robot.fk(np.zeros(7)))
 

@@ -245,7 +245,8 @@ def chain(kinds, extra=""):
                 '<link name="x"/>'
                 '<joint name="k" type="fixed"><parent link="l6"/><child link="x"/></joint>',
             ),
-            '6 or 7 revolute joints lead from "l0" to several ends: "l7", "x"; tip must name the one to take',
+            '6 or 7 revolute joints lead from "l0" to several ends: "l7", "x"; '
+            "tip must name the one to take",
         ),
         (
             chain(["revolute"] * 6, "<link name='x'/>"),
@@ -253,7 +254,8 @@ def chain(kinds, extra=""):
         ),
         (
             chain(["revolute"] * 3 + ["planar"] + ["revolute"] * 3),
-            '6 or 7 revolute joints lead from "l0" to no end of a chain: "l7" (behind joint "j3", planar)',
+            '6 or 7 revolute joints lead from "l0" to no end of a chain: '
+            '"l7" (behind joint "j3", planar)',
         ),
         (
             chain(["revolute"] * 6).replace("0.2", "nan", 1),

@@ -231,6 +231,7 @@ def _set_configuration(target: RobTarget) -> None:
         numbers, whole = (), ()
     if len(whole) != 4 or whole != numbers or any(abs(number) > MOST_WHOLE for number in whole):
         raise RapidError(
-            f"RobTarget: robconf must be 4 whole numbers of at most {MOST_WHOLE}, got {target.robconf!r}"
+            f"RobTarget: robconf must be 4 whole numbers of at most {MOST_WHOLE}, "
+            f"got {target.robconf!r}"
         )
     object.__setattr__(target, "robconf", Configuration(*whole))
