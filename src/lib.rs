@@ -29,7 +29,7 @@
 //! # Ok::<(), irbkin::Error>(())
 //! ```
 //!
-//! Code that is generic over the number of joints, with the redundancy parameter of a seven-axis arm:
+//! Code that is generic over the number of joints, with the redundancy parameter of seven axes:
 //!
 //! ```
 //! use irbkin::{Arity, Error, Joints, Pose, RedundancyOf, Robot};
@@ -54,17 +54,17 @@
 //!
 //! | feature | default | provides |
 //! |---|---|---|
-//! | `std` | yes | threads in a batch, choice of the instruction set, close names for an unknown one |
+//! | `std` | yes | threads in a batch, choice of the instruction set, close names |
 //! | `libm` | | square roots and angles without `std` (a solve never allocates, either way) |
 //! | `urdf` | yes | `Robot::from_urdf` |
 //! | `rapid` | yes | [`rapid`]: robtargets and moves of RAPID modules, read, solved and rewritten |
 //! | `serde` | | `Serialize` and `Deserialize`, see below |
 //! | `python` | | the extension module of the Python package; of no use to a crate |
 //!
-//! `serde` is implemented for robots ([`Robot`], with limits, velocities, base and tool; reading one
-//! runs every check of its constructors), for models ([`Definition`], [`OpwParameters`], [`Mdh`],
-//! [`Sdh`], [`DhRow`], [`JointAxis`], [`JointLimits`]), for answers ([`Solution`], [`Slot`],
-//! [`Status`], [`SingularityKind`], [`FreeJoint`], [`Configuration`], [`Singularity`],
+//! `serde` is implemented for robots ([`Robot`], with limits, velocities, base and tool; reading
+//! one runs every check of its constructors), for models ([`Definition`], [`OpwParameters`],
+//! [`Mdh`], [`Sdh`], [`DhRow`], [`JointAxis`], [`JointLimits`]), for answers ([`Solution`],
+//! [`Slot`], [`Status`], [`SingularityKind`], [`FreeJoint`], [`Configuration`], [`Singularity`],
 //! [`SingularDistances`], [`PoseDifference`]) and for options ([`FollowOptions`],
 //! [`SingularityMode`], [`JacobianFrame`]). In text formats, a joint without a limit is `null`.
 //!

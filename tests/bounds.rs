@@ -163,7 +163,8 @@ const ANGLES_BEYOND: [f64; 9] =
 
 fn too_large(field: &str, joint: usize, value: f64) -> String {
     format!(
-        "{field}: joint {joint} is {value:e} rad, its size must be at most 1e5 rad (remove whole turns)"
+        "{field}: joint {joint} is {value:e} rad, its size must be at most 1e5 rad (remove whole \
+         turns)"
     )
 }
 

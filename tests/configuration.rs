@@ -352,7 +352,8 @@ fn configurations_that_the_arm_cannot_have_are_refused() {
     let ur3 = Robot::named("UR3").unwrap();
     assert_eq!(
         message(ur3.configuration(&[0.1; 6])),
-        "this robot has no ABB configuration: its structure is \"three parallel axes\", not a six-axis arm with a spherical wrist"
+        "this robot has no ABB configuration: its structure is \"three parallel axes\", not a \
+         six-axis arm with a spherical wrist"
     );
     assert_eq!(
         message(robot.configuration(&[f64::NAN; 6])),

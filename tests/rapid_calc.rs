@@ -216,9 +216,10 @@ fn a_table_has_a_row_for_each_target_of_the_moves() {
         ]
     );
     let problem = |row: usize| words(&rows[row]);
-    assert!(
-        problem(1).starts_with("ERR_ROBLIMIT: no solution inside the limits has the configuration [0, 0, 0, 0]; there are [-1, 0, -2, 0]")
-    );
+    assert!(problem(1).starts_with(
+        "ERR_ROBLIMIT: no solution inside the limits has the \
+            configuration [0, 0, 0, 0]; there are [-1, 0, -2, 0]"
+    ));
     assert!(problem(4).starts_with("ERR_OUTSIDE_REACH: wrist center"));
     assert!(problem(5).starts_with("tool tElsewhere: "), "{}", problem(5));
     assert_eq!(problem(6), "ERR_ROBLIMIT: J3 is outside its limits by 49.0 deg");

@@ -142,13 +142,15 @@ fn base_and_tip_choose_the_chain() {
 fn a_tip_is_never_guessed() {
     assert_eq!(
         words(UR5E),
-        "URDF: 6 revolute joints lead from \"base_link\" to several ends: \"ft_frame\", \"tool0\"; tip must name the one to take"
+        "URDF: 6 revolute joints lead from \"base_link\" to several ends: \"ft_frame\", \
+         \"tool0\"; tip must name the one to take"
     );
     assert_eq!(
         words(SEVEN),
         "URDF: 6 revolute joints lead from \"link_0\" to no end of a chain: \"link_ee\" (7)"
     );
-    let ends = "\"panda_hand_tcp\" (7), \"panda_leftfinger\" (behind joint \"panda_finger_joint1\", prismatic), \"panda_rightfinger\" (behind \
+    let ends = "\"panda_hand_tcp\" (7), \"panda_leftfinger\" (behind joint \
+        \"panda_finger_joint1\", prismatic), \"panda_rightfinger\" (behind \
                 joint \"panda_finger_joint2\", prismatic)";
     assert_eq!(
         words(PANDA),
@@ -167,7 +169,8 @@ fn base_and_tip_must_be_links_one_below_the_other() {
         of(None, Some("base_link")),
         "URDF: 0 revolute joints lead from \"base_link\" to \"base_link\", there must be 6"
     );
-    let all = "\"base_link\", \"base\", \"base_link_inertia\", \"shoulder_link\", \"upper_arm_link\", \"forearm_link\", \"wrist_1_link\", \
+    let all = "\"base_link\", \"base\", \"base_link_inertia\", \"shoulder_link\", \
+        \"upper_arm_link\", \"forearm_link\", \"wrist_1_link\", \
                \"wrist_2_link\", \"wrist_3_link\", \"ft_frame\", \"flange\", \"tool0\"";
     assert_eq!(of(None, Some("tool")), format!("URDF: tip \"tool\" is no link; there are {all}"));
     let many = UR5E.replace("</robot>", "<link name=\"a\"/></robot>");
@@ -181,7 +184,8 @@ fn base_and_tip_must_be_links_one_below_the_other() {
     );
     assert_eq!(
         words(&many),
-        "URDF: several links have no parent: \"base_link\", \"a\"; base must name the one to begin at"
+        "URDF: several links have no parent: \"base_link\", \"a\"; base must name the one to \
+         begin at"
     );
     assert!(six(&many, Some("base_link"), Some("tool0")).is_ok());
 }
@@ -298,16 +302,19 @@ fn only_independent_revolute_joints_may_be_between_base_and_tip() {
     let tool = |text: &str| refused(six(text, None, Some("tool0")));
     for kind in ["prismatic", "planar", "floating", "revolut", "Revolute", ""] {
         let wanted = format!(
-            "URDF: joint \"joint_3\" is {kind:?}, between base and tip it must be revolute, continuous or fixed"
+            "URDF: joint \"joint_3\" is {kind:?}, between base and tip it must be revolute, \
+             continuous or fixed"
         );
         assert_eq!(tool(&third("revolute", kind)), wanted);
     }
     let mimic = third("<axis", "<mimic joint=\"joint_2\"/><axis");
     assert_eq!(
         tool(&mimic),
-        "URDF: joint \"joint_3\" mimics \"joint_2\", between base and tip each joint must turn by itself"
+        "URDF: joint \"joint_3\" mimics \"joint_2\", between base and tip each joint must turn \
+         by itself"
     );
-    let behind = "URDF: 6 revolute joints lead from \"base_link\" to no end of a chain: \"base\" (0), \"tool0\" (behind joint \"joint_3\", ";
+    let behind = "URDF: 6 revolute joints lead from \"base_link\" to no end of a chain: \"base\" \
+        (0), \"tool0\" (behind joint \"joint_3\", ";
     assert_eq!(words(&mimic), format!("{behind}a mimic)"));
     assert_eq!(words(&third("revolute", "prismatic")), format!("{behind}prismatic)"));
     let fixed = third("revolute", "fixed");

@@ -173,7 +173,8 @@ fn a_table_of_another_structure_is_refused_with_the_axes_that_deviate() {
     );
     assert_eq!(
         refused(two),
-        "axes 2 and 3 must be parallel, they are 0.020000 deg off; axes 4 and 5 must meet, they pass 2.000000 mm apart"
+        "axes 2 and 3 must be parallel, they are 0.020000 deg off; axes 4 and 5 must meet, they \
+         pass 2.000000 mm apart"
     );
     let short = |field: &str| format!("{field} is 0 m, it must be at least 1e-6 m");
     assert_eq!(refused(|mdh| mdh.rows[2].a = 0.0), short("upper arm (distance of axes 2 and 3)"));
