@@ -39,7 +39,7 @@ fn other_structures(criterion: &mut Criterion) {
         (8, 8)
     );
     poses::with_each_set(|set| {
-        let mut group = criterion.benchmark_group(format!("one pose, other families, {set}"));
+        let mut group = criterion.benchmark_group(format!("one pose, other structures, {set}"));
         group.bench_function("UR3: ik, 8 solutions", |b| b.iter(|| ur3.ik(black_box(&pose_ur3))));
         group
             .bench_function("UR3: ik, wrist singular", |b| b.iter(|| ur3.ik(black_box(&singular))));

@@ -28,7 +28,7 @@ on_every_structure!(
     batch_equals_single_bit_for_bit,
     a_row_does_not_depend_on_its_neighbors,
     threads_change_no_bit,
-    an_invalid_row_is_told_and_leaves_the_others_alone,
+    an_invalid_row_is_flagged_and_the_others_are_solved,
     avx2_and_avx512_agree_to_the_bit,
     baseline_agrees_to_rounding,
     poses_of_many_turns_are_those_of_the_table,
@@ -310,7 +310,7 @@ where
 
 type Spoil = fn(&mut PoseRow);
 
-fn an_invalid_row_is_told_and_leaves_the_others_alone<const N: usize>(structure: &Structure<N>)
+fn an_invalid_row_is_flagged_and_the_others_are_solved<const N: usize>(structure: &Structure<N>)
 where
     Joints<N>: Arity<N>,
 {

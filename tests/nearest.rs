@@ -55,7 +55,7 @@ struct Law {
     name: &'static str,
     /// It may be violated once in so many.
     one_in: usize,
-    held: usize,
+    kept: usize,
     broken: usize,
     first: Option<String>,
 }
@@ -67,7 +67,7 @@ impl Law {
 
     fn hold(&mut self, holds: bool, what: impl FnOnce() -> String) {
         if holds {
-            self.held += 1;
+            self.kept += 1;
         } else {
             self.broken += 1;
             let _ = self.first.get_or_insert_with(what);
@@ -76,7 +76,7 @@ impl Law {
 
     /// Prints a row; returns it if the law was violated.
     fn row(&self, set: &str) -> String {
-        let all = self.held + self.broken;
+        let all = self.kept + self.broken;
         let row = format!("{set:44} {:28} {:6} of {all:6} broken", self.name, self.broken);
         if all > 0 {
             println!("{row}");
@@ -199,19 +199,19 @@ impl Laws {
 
 /// Checks the laws at every kind of singularity of an arm, at every distance.
 fn run(arm: &Arm) -> String {
-    let (mut rng, mut report, mut held) = (Rng::new(5), String::new(), 0);
+    let (mut rng, mut report, mut kept) = (Rng::new(5), String::new(), 0);
     for kind in KINDS {
         for bounds in BOUNDS {
             let mut laws = Laws::new();
             for distance in DISTANCES {
                 for _ in 0..poses() {
-                    held += usize::from(hold_one(arm, kind, distance, bounds, &mut rng, &mut laws));
+                    kept += usize::from(hold_one(arm, kind, distance, bounds, &mut rng, &mut laws));
                 }
             }
             report += &laws.row(&format!("{} {kind:?} {bounds:?}", arm.name));
         }
     }
-    assert!(held > 100, "{}: {held}", arm.name);
+    assert!(kept > 100, "{}: {held}", arm.name);
     report
 }
 
@@ -283,7 +283,7 @@ fn universal_robots() {
 #[test]
 fn every_serial_abb_arm_is_found_by_its_configuration() {
     asked_set();
-    let (mut rng, mut report, mut arms, mut held) = (Rng::new(9), String::new(), 0, 0);
+    let (mut rng, mut report, mut arms, mut kept) = (Rng::new(9), String::new(), 0, 0);
     let abb = catalog().filter(|arm| matches!(arm.geometry, CatalogGeometry::Abb { .. }));
     let mut kinds = KINDS.map(|kind| (kind, Laws::new().configured));
     for arm in abb.map(|arm| Arm::named(arm.name)).filter(|arm| !arm.robot.is_coupled()) {
@@ -306,13 +306,13 @@ fn every_serial_abb_arm_is_found_by_its_configuration() {
                 law.hold(laws.configured.broken == 0, || {
                     laws.configured.first.take().unwrap_or_default()
                 });
-                held += 1;
+                kept += 1;
             }
         }
     }
     for (kind, law) in &kinds {
         report += &law.row(&format!("serial ABB arms {kind:?}"));
     }
-    assert!(arms > 60 && held > 60 * 60, "{arms} {held}");
+    assert!(arms > 60 && kept > 60 * 60, "{arms} {held}");
     assert!(report.is_empty(), "\n{report}");
 }

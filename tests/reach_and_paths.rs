@@ -143,8 +143,8 @@ fn elbows_that_rounding_merges_are_one() {
                 let holds = shoulders.iter().any(|shoulder| {
                     let twins = [0, 2].map(|elbow| shoulder + elbow + (slot & 1));
                     let found = twins.map(|slot| solutions.slot(slot).is_some());
-                    let told = solutions.status()[twins[1]];
-                    found == [true, false] && told.contains(Status::ELBOW | Status::MERGED)
+                    let status = solutions.status()[twins[1]];
+                    found == [true, false] && status.contains(Status::ELBOW | Status::MERGED)
                 });
                 count.take(holds, || format!("{q:?}"));
             }
@@ -234,7 +234,7 @@ fn each_slot_just_beyond_reach_has_the_straight_arm() {
                 let status = solutions.status();
                 let slots = [0, 1].map(|wrist| (arm.slot(&theta) & 4) + wrist);
                 // If joint 6 is free, another angle reaches.
-                let told = |slot: &usize| {
+                let is_flagged = |slot: &usize| {
                     status[*slot].contains(Status::ELBOW)
                         || (arm.is_universal() && status[*slot].contains(Status::WRIST))
                 };
@@ -242,7 +242,8 @@ fn each_slot_just_beyond_reach_has_the_straight_arm() {
                 let mine = if free { &slots[arm.slot(&theta) & 1..][..1] } else { &slots[..] };
                 let close = solutions.iter().all(|s| arm.meets(&s.q, &pose, 1.01 * beyond));
                 others += usize::from(solutions.iter().any(|s| !slots.contains(&s.slot.into())));
-                count.take(close && mine.iter().all(told), || format!("{theta:?} {beyond:e}"));
+                count
+                    .take(close && mine.iter().all(is_flagged), || format!("{theta:?} {beyond:e}"));
             }
             report += &count.row(&format!("{}, wrist {wrist:?}, {others} not alone", arm.name));
             assert!(others > 0, "{}: no other branch reaches", arm.name);

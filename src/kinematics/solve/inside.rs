@@ -31,10 +31,10 @@ where
             let rest = self.resting(Redundancy::of(&outside.q));
             // A slot that holds another solution is not vacant.
             let vacant = |to: usize| to == slot || solutions.slot(to).is_none();
-            let family = outside.free_joint.map_or(&[][..], |free| free.branches());
+            let branches = outside.free_joint.map_or(&[][..], |free| free.branches());
             let accepts = |member: &Solution<N>| {
                 let to = member.slot.index();
-                vacant(to) && family.iter().copied().flatten().any(|branch| to == slot ^ branch)
+                vacant(to) && branches.iter().copied().flatten().any(|branch| to == slot ^ branch)
             };
             let wanted = Wanted {
                 limits: solutions.limits,

@@ -38,9 +38,9 @@ pub(crate) fn zyz(m: &Matrix3<f64>, first: &First, error: f64) -> Zyz {
     let column: Vector3<f64> = m.column(2).into();
     let sin_second = column.x.hypot(column.y);
     let merged = sin_second <= WRIST_MERGE_SIN.max(error);
-    let silent =
+    let undetermined =
         first.policy.forces(first.joint) || sin_second <= first.policy.radius().max(WRIST_FREE_SIN);
-    let (theta_first, (sin, cos)) = if silent {
+    let (theta_first, (sin, cos)) = if undetermined {
         let free = first.theta;
         (free, free.sin_cos())
     } else {

@@ -286,10 +286,10 @@ impl<'a> Judge<'a> {
     ) -> bool {
         let cost = |q: &[f64; 6]| (0..6).map(|i| wrapped(q[i] - seed[i]).powi(2)).sum::<f64>();
         let least = cost(&nearest.q);
-        let families =
+        let self_motions =
             solutions.iter().filter(|found| found.free_joint == Some(FreeJoint::Parallel));
         let steps = 180;
-        let mut members = families.flat_map(|self_motion| {
+        let mut members = self_motions.flat_map(|self_motion| {
             (0..steps).filter_map(move |step| {
                 let value = TAU * f64::from(step) / f64::from(steps) - PI;
                 self.robot.with_free_joint(&self.made.pose, self_motion, value).ok()?

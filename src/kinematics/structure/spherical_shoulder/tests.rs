@@ -175,10 +175,10 @@ fn self_motion_closes(
 ) -> bool {
     let mut q = found;
     q[joint - 1] = 0.7;
-    let family = arm.solve(pose, &FreeChoice::forced(q, joint, false));
+    let members = arm.solve(pose, &FreeChoice::forced(q, joint, false));
     // The shoulder, or the wrist and with it the shoulder, may be kept in its other branch there.
     let bits = if joint == 1 { &[0, 4][..] } else { &[0, 1, 4, 5] };
-    let moved = bits.iter().find_map(|bits| family.q[slot ^ bits]);
+    let moved = bits.iter().find_map(|bits| members.q[slot ^ bits]);
     moved.is_some_and(|q| {
         (q[joint - 1] - 0.7).abs() < 1e-15
             && PoseDifference::between(&arm.chain.fk(&q), pose).largest() < 4e-9
