@@ -13,8 +13,8 @@ use crate::structures::place::{At, Made, Place};
 use crate::structures::{Structure, Subject};
 
 crate::on_every_structure!(
-    every_branch_is_found_at_and_next_to_singularities,
-    beyond_reach_there_is_nothing_and_the_shortfall_is_right,
+    every_branch_is_found_at_and_near_singularities,
+    beyond_reach_there_is_no_solution_and_the_shortfall_is_correct,
 );
 
 /// Distances from a singularity, around the thresholds at which branches merge [rad, m].
@@ -30,7 +30,7 @@ fn poses() -> [usize; 3] {
 /// Draws that may fail before a place counts as one that the arm cannot reach.
 const MISSES: usize = 2000;
 
-fn every_branch_is_found_at_and_next_to_singularities<const N: usize>(structure: &Structure<N>)
+fn every_branch_is_found_at_and_near_singularities<const N: usize>(structure: &Structure<N>)
 where
     Joints<N>: Arity<N>,
 {
@@ -142,7 +142,7 @@ where
 
 /// Up to a nanometer beyond reach the arm is stretched or folded, off by no more than that; farther
 /// out there is no solution, and the correct shortfall.
-fn beyond_reach_there_is_nothing_and_the_shortfall_is_right<const N: usize>(
+fn beyond_reach_there_is_no_solution_and_the_shortfall_is_correct<const N: usize>(
     structure: &Structure<N>,
 ) where
     Joints<N>: Arity<N>,

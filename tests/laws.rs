@@ -32,7 +32,7 @@ crate::on_every_structure!(
     both_wrists_of_an_arm_are_flips,
     slots_are_stable_along_a_path,
     jacobian_matches_central_differences,
-    the_tool_jacobian_is_the_base_jacobian_turned,
+    the_tool_jacobian_is_the_rotated_base_jacobian,
     the_determinant_is_the_product_of_its_factors,
     a_table_may_have_its_frames_anywhere,
     both_conventions_describe_the_same_arm,
@@ -217,7 +217,7 @@ where
     });
 }
 
-fn the_tool_jacobian_is_the_base_jacobian_turned<const N: usize>(structure: &Structure<N>)
+fn the_tool_jacobian_is_the_rotated_base_jacobian<const N: usize>(structure: &Structure<N>)
 where
     Joints<N>: Arity<N>,
 {
