@@ -211,7 +211,7 @@ fn run(arm: &Arm) -> String {
             report += &laws.row(&format!("{} {kind:?} {bounds:?}", arm.name));
         }
     }
-    assert!(kept > 100, "{}: {held}", arm.name);
+    assert!(kept > 100, "{}: {kept}", arm.name);
     report
 }
 
@@ -313,6 +313,6 @@ fn every_serial_abb_arm_is_found_by_its_configuration() {
     for (kind, law) in &kinds {
         report += &law.row(&format!("serial ABB arms {kind:?}"));
     }
-    assert!(arms > 60 && kept > 60 * 60, "{arms} {held}");
+    assert!(arms > 60 && kept > 60 * 60, "{arms} {kept}");
     assert!(report.is_empty(), "\n{report}");
 }
