@@ -122,7 +122,7 @@ def test_a_corner_in_the_wrist_singularity_is_a_break_that_names_the_joint(robot
     assert broken.reason.endswith(" deg on the spot, at the wrist singularity")
 
 
-def crossing(robot, off):
+def path_past_the_wrist(robot, off):
     """A straight line of the tool past the wrist singularity by `off` [rad], its orientation
     kept.
     """
@@ -134,7 +134,7 @@ def crossing(robot, off):
 @pytest.mark.parametrize("off", [0.0, 1e-4, 2e-3])
 @pytest.mark.parametrize("mode", ["through", "wrist", "lock_axis4"])
 def test_a_singularity_mode_keeps_the_position_and_reports_the_orientation(robot, mode, off):
-    path, seed = crossing(robot, off)
+    path, seed = path_past_the_wrist(robot, off)
     result = robot.follow(path, seed, singularity_mode=mode)
     assert result.breaks == ()
     found = robot.fk(result.q)
@@ -153,7 +153,7 @@ def test_a_singularity_mode_keeps_the_position_and_reports_the_orientation(robot
 
 
 def test_the_error_mode_stops_at_the_singularity(robot):
-    path, seed = crossing(robot, 0.0)
+    path, seed = path_past_the_wrist(robot, 0.0)
     result = robot.follow(path, seed, singularity_mode="error", zone=0.05)
     (broken,) = result.breaks
     assert "stopped at the wrist singularity, J5 is " in broken.reason
