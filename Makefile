@@ -143,7 +143,7 @@ REMAPPED = --remap-path-prefix=$${CARGO_HOME:-$$HOME/.cargo}/registry/src/= \
 
 wheel: $(VENV)/.made ## Build the wheel, check its size and paths, and try it
 	rm -rf dist/venv dist/irbkin-*.whl
-	RUSTFLAGS="$$RUSTFLAGS $(REMAPPED)" $(BIN)/maturin build --release --quiet \
+	RUSTFLAGS="$${RUSTFLAGS:-} $(REMAPPED)" $(BIN)/maturin build --release --quiet \
 		--compression-level 9 --out dist
 	$(BIN)/python tests/check_wheel.py dist/irbkin-*.whl
 	$(PYTHON) -m venv dist/venv
