@@ -12,14 +12,16 @@ PEERS := .venv-peers
 NO_STD := --no-default-features --features libm
 # A recipe for each instruction set of this processor; ends with `; done`. The shell's -e stops at
 # the first that fails. The widest set is the default.
-ON_EACH_SET := sets=$$(cargo run --quiet --example instruction_sets); for set in $$sets; do export IRBKIN_INSTRUCTION_SET=$$set;
-ON_EACH_NARROWER_SET := sets=$$($(BIN)/python -c 'import irbkin; print(*irbkin.instruction_sets()[:-1])'); \
+ON_EACH_SET := sets=$$(cargo run --quiet --example instruction_sets); \
+	for set in $$sets; do export IRBKIN_INSTRUCTION_SET=$$set;
+ON_EACH_NARROWER_SET := \
+	sets=$$($(BIN)/python -c 'import irbkin; print(*irbkin.instruction_sets()[:-1])'); \
 	for set in $$sets; do export IRBKIN_INSTRUCTION_SET=$$set;
 # Run a command under a name; if it takes long, print the name and the seconds.
 STEP := @tests/step.sh
 SKIPPED := target/skipped.txt
 
-.PHONY: help run test check stubs catalog errors bench bench-peers instructions stages ulp million configurations hardsets fuzz wheel clean toolchains
+.PHONY: help run test check stubs catalog errors bench bench-peers instructions stages ulp million configurations hardsets fuzz wheel packages clean toolchains
 
 help: ## List the targets
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -60,7 +62,7 @@ test: $(BUILT) $(VENV)/.groups ## Run all tests, in Rust and Python
 	@if [ -e $(SKIPPED) ]; then sort $(SKIPPED); fi; echo "Skipped in Rust: $$(cat $(SKIPPED) 2>/dev/null | wc -l)"
 	$(STEP) "Python tests" $(BIN)/python -m pytest
 
-check: $(BUILT) $(VENV)/.groups ## Check format, lints of each feature set, types, stubs, docs; run benches and examples briefly
+check: $(BUILT) $(VENV)/.groups ## Check format, lints, types, stubs, docs, benches and examples
 	cargo fmt --check
 	$(STEP) "clippy" cargo clippy --all-targets -- -D warnings
 	$(STEP) "clippy with serde" cargo clippy --lib --features serde -- -D warnings
@@ -81,7 +83,7 @@ check: $(BUILT) $(VENV)/.groups ## Check format, lints of each feature set, type
 	$(STEP) "stubs" $(BIN)/python -m mypy.stubtest irbkin --concise --allowlist tests/python/stubtest_allow.txt
 	$(STEP) "examples in Python run" bash -eu -c 'for example in examples/*.py; do $(BIN)/python "$$example" >/dev/null; done'
 
-bench: $(BUILT) ## Time poses and batches in Rust on each instruction set, Python calls, a RAPID module
+bench: $(BUILT) ## Time single poses, batches, Python's calls and a RAPID module
 	cargo bench --bench one_pose --bench batch
 	$(BIN)/python benches/python_calls.py
 	$(BIN)/python benches/rapid_module.py
@@ -104,25 +106,25 @@ $(PEERS)/.irbkin-built: $(PEERS)/.made $(RUST_SOURCES) $(wildcard python/irbkin/
 	@$(PEERS)/bin/pip install --quiet --force-reinstall --no-deps $(PEERS)/wheel/irbkin-*.whl
 	@touch $@
 
-bench-peers: $(PEERS)/.irbkin-built ## Compare with other packages: solutions missed, times; WRITE=1 writes docs/benchmarks.md
+bench-peers: $(PEERS)/.irbkin-built ## Compare with other packages; WRITE=1 writes docs/benchmarks.md
 	$(PEERS)/bin/python -m benches.peers $(if $(QUICK),--quick) $(if $(WRITE),--write)
 
-instructions: | toolchains ## Count the instructions of a call (valgrind), compare with benches/instructions.md; WRITE=1 records
+instructions: | toolchains ## Count instructions with valgrind; WRITE=1 records them
 	@$(PYTHON) benches/instructions.py $(if $(WRITE),--write)
 
-stages: | toolchains ## Show the time of a pose by stages (Linux perf); SETS="avx2 avx512" selects
+stages: | toolchains ## Show the time of a pose by stages, with perf; SETS="avx2 avx512"
 	@$(PYTHON) benches/stages.py $(SETS)
 
-ulp: | toolchains ## Compare the lanes' arc tangent, sine and cosine with correctly rounded ones
+ulp: | toolchains ## Compare arc tangent, sine and cosine with correctly rounded ones
 	IRBKIN_POINTS=10000000 cargo test --quiet --release --lib lanes::functions -- --nocapture --test-threads=1
 
-million: | toolchains ## Solve a million random poses of 22 arms; count missed, incorrect and duplicate solutions
+million: | toolchains ## Solve a million poses of each arm; count missed and incorrect ones
 	$(ON_EACH_SET) IRBKIN_POSES=1000000 cargo test --quiet --release --test suite -- recall:: --nocapture --test-threads=1; done
 
-configurations: | toolchains ## Check the confdata of a hundred thousand poses of every ABB arm
+configurations: | toolchains ## Check confdata at 100,000 poses of every ABB arm
 	IRBKIN_POSES=100000 cargo test --quiet --release --test suite -- configuration:: --nocapture --test-threads=1
 
-hardsets: | toolchains ## Solve poses at and next to every singularity, pairs and triples of them; follow paths
+hardsets: | toolchains ## Solve poses and follow paths at and near every singularity
 	$(ON_EACH_SET) IRBKIN_POSES=2000 cargo test --quiet --release --test suite -- hard_sets:: follow:: --nocapture --test-threads=1; done
 	$(ON_EACH_SET) IRBKIN_POSES=200 cargo test --quiet --release --test suite -- reach_and_paths:: --nocapture --test-threads=1; done
 	IRBKIN_POSES=1000 cargo test --quiet --release --lib spherical_shoulder -- --nocapture --test-threads=1
@@ -138,15 +140,26 @@ errors: $(BUILT) $(VENV)/.groups ## Write docs/errors.md: every message, as it i
 	IRBKIN_WRITE=1 cargo test --quiet --lib -- messages::
 	IRBKIN_WRITE=1 $(BIN)/python -m pytest --quiet tests/python/test_errors_page.py
 
-fuzz: | toolchains ## Read four million broken RAPID texts, write and read them again
+
+fuzz: | toolchains ## Read four million invalid RAPID texts: no panic, linear time
 	IRBKIN_INPUTS=1000000 cargo test --quiet --release --test suite -- rapid_fuzz:: --nocapture --test-threads=1
 
-wheel: $(VENV)/.made ## Build the wheel and test it in a separate environment
-	$(BIN)/maturin build --release --quiet --out dist
-	rm -rf dist/venv && $(PYTHON) -m venv dist/venv
+# Panic messages name source files: without the folders of this machine, and those of the toolchain
+# as in a toolchain without its sources. The compiler adds no path of this crate: its are relative.
+REMAPPED = --remap-path-prefix=$${CARGO_HOME:-$$HOME/.cargo}/registry/src/= \
+	--remap-path-prefix=$$(rustc --print sysroot)/lib/rustlib/src/rust=/rustc
+
+wheel: $(VENV)/.made ## Build the wheel, check its size and paths, and try it
+	rm -rf dist/venv dist/irbkin-*.whl
+	RUSTFLAGS="$${RUSTFLAGS:-} $(REMAPPED)" $(BIN)/maturin build --release --quiet \
+		--compression-level 9 --out dist
+	$(BIN)/python tests/check_wheel.py dist/irbkin-*.whl
+	$(PYTHON) -m venv dist/venv
 	dist/venv/bin/pip install --quiet --disable-pip-version-check dist/irbkin-*.whl
 	cd dist && venv/bin/python ../examples/01_solve_a_pose.py >/dev/null
-	ls -l dist/*.whl
+
+packages: $(VENV)/.made ## Build the crate and the sdist, and run their unpacked examples
+	@tests/packages.sh $(abspath $(BIN))
 
 clean: ## Remove all build products
 	rm -rf $(VENV) $(PEERS) target dist

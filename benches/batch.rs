@@ -53,7 +53,7 @@ fn many_poses(criterion: &mut Criterion) {
     }
 }
 
-fn other_families(criterion: &mut Criterion) {
+fn other_structures(criterion: &mut Criterion) {
     let (ur3, panda) = (Robot::<6>::named("UR3").unwrap(), Robot::<7>::named("Panda").unwrap());
     for count in [512, 100_000] {
         let rows = usize::try_from(count).unwrap();
@@ -75,7 +75,10 @@ fn other_families(criterion: &mut Criterion) {
 
 criterion_group! {
     name = benches;
-    config = Criterion::default().sample_size(50).warm_up_time(Duration::from_millis(500)).measurement_time(Duration::from_secs(2));
-    targets = many_poses, other_families
+    config = Criterion::default()
+        .sample_size(50)
+        .warm_up_time(Duration::from_millis(500))
+        .measurement_time(Duration::from_secs(2));
+    targets = many_poses, other_structures
 }
 criterion_main!(benches);

@@ -13,7 +13,8 @@ from pathlib import Path
 from built import executable, toolchain
 
 PAGE = Path(__file__).with_suffix(".md")
-# valgrind has no AVX-512: it reports to programs that the processor has none.
+# valgrind has no AVX-512: it reports the processor as one
+# without.
 SETS = ("avx2", "baseline")
 # The calls, and the number of poses of each.
 WHAT = {
@@ -78,7 +79,8 @@ def main() -> None:
         return
     program, before, now = executable(), recorded(), {}
     print(
-        f"{toolchain()}\n{'instructions a pose':22}{'set':10}{'recorded':>10}{'now':>10}{'change':>10}"
+        f"{toolchain()}\n"
+        f"{'instructions a pose':22}{'set':10}{'recorded':>10}{'now':>10}{'change':>10}"
     )
     for what, poses in WHAT.items():
         now[what] = []

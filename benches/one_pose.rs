@@ -28,7 +28,7 @@ fn one_pose(criterion: &mut Criterion) {
     });
 }
 
-fn other_families(criterion: &mut Criterion) {
+fn other_structures(criterion: &mut Criterion) {
     let (ur3, panda) = (Robot::<6>::named("UR3").unwrap(), Robot::<7>::named("Panda").unwrap());
     let (q_ur3, q_panda) = ([0.4, -1.9, 1.5, -0.6, 1.1, 0.3], poses::Q_PANDA);
     let (pose_ur3, pose_panda, above) =
@@ -39,7 +39,7 @@ fn other_families(criterion: &mut Criterion) {
         (8, 8)
     );
     poses::with_each_set(|set| {
-        let mut group = criterion.benchmark_group(format!("one pose, other families, {set}"));
+        let mut group = criterion.benchmark_group(format!("one pose, other structures, {set}"));
         group.bench_function("UR3: ik, 8 solutions", |b| b.iter(|| ur3.ik(black_box(&pose_ur3))));
         group
             .bench_function("UR3: ik, wrist singular", |b| b.iter(|| ur3.ik(black_box(&singular))));
@@ -56,5 +56,5 @@ fn other_families(criterion: &mut Criterion) {
     });
 }
 
-criterion_group!(benches, one_pose, other_families);
+criterion_group!(benches, one_pose, other_structures);
 criterion_main!(benches);

@@ -147,8 +147,11 @@ def measure(rows: list[Row], calls: int, poses: int) -> None:
 
 
 def import_time() -> float:
-    """What importing irbkin takes when NumPy is there already [s]."""
-    code = "import numpy, time; start = time.perf_counter(); import irbkin; print(time.perf_counter() - start)"
+    """Time to import irbkin when NumPy is already imported [s]."""
+    code = (
+        "import numpy, time; start = time.perf_counter(); "
+        "import irbkin; print(time.perf_counter() - start)"
+    )
     run = [
         subprocess.run([sys.executable, "-c", code], capture_output=True, check=True).stdout
         for _ in range(5)
@@ -169,7 +172,8 @@ def main() -> None:
         measure(rows, 1, POSES)
     print(f"\nimport irbkin, NumPy loaded: {import_time() * 1e3:.1f} ms (goal 5 ms)")
     print(
-        "Goals in Rust, one thread: 150 ns a pose of 8 solutions (AVX2 up), 30 ns in a batch (AVX-512), 60 ns (AVX2)"
+        "Goals in Rust, one thread: 150 ns a pose of 8 solutions (AVX2 up), "
+        "30 ns in a batch (AVX-512), 60 ns (AVX2)"
     )
 
 

@@ -72,7 +72,8 @@ def main() -> None:
     ):
         own, other = least(run), least(yardstick)
         print(
-            f"  {what:22} {own * 1e3:8.1f} ms  {own / TARGETS * 1e9:6.0f} ns a target  {own / other:6.2f} x {than}"
+            f"  {what:22} {own * 1e3:8.1f} ms  {own / TARGETS * 1e9:6.0f} ns a target  "
+            f"{own / other:6.2f} x {than}"
         )
 
 

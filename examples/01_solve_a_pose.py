@@ -28,7 +28,8 @@ def main() -> None:
     for solution in solutions:
         angles = " ".join(f"{np.degrees(angle):7.2f}" for angle in solution)
         print(
-            f"   {solution.slot} {angles}     {solution.residual:.0e}  {outside(robot.limits, solution.q)}"
+            f"   {solution.slot} {angles}     {solution.residual:.0e}  "
+            f"{outside(robot.limits, solution.q)}"
         )
     print("(degrees; the slot is ABB's cfx; the residual is the larger of meters and radians)\n")
 

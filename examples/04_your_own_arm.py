@@ -50,7 +50,8 @@ def main() -> None:
         refused("axes 5 and 6 apart", error)
     arm = irbkin.Robot.from_mdh(offset_wrist, closed_form=False)
     print(
-        f"  without its inverse: {arm.structure}, tool at z = {1e3 * arm.fk(np.zeros(6))[2, 3]:.1f} mm\n"
+        f"  without its inverse: {arm.structure}, "
+        f"tool at z = {1e3 * arm.fk(np.zeros(6))[2, 3]:.1f} mm\n"
     )
 
     mirrored = np.diag([1.0, 1.0, -1.0, 1.0])

@@ -34,7 +34,8 @@ def main() -> None:
     found = batch.status & irbkin.Status.FOUND != 0
     inside = batch.status & irbkin.Status.WITHIN_LIMITS != 0
     print(
-        f"solutions: {found.sum()}, {found.sum() / POSES:.2f} a pose; inside the limits: {inside.sum()}"
+        f"solutions: {found.sum()}, {found.sum() / POSES:.2f} a pose; "
+        f"inside the limits: {inside.sum()}"
     )
 
     # The joints that made each pose are among its solutions, modulo 2 pi; empty slots are NaN.

@@ -44,7 +44,8 @@ def seven_axes() -> None:
     print(f"{robot.name}: {robot.structure}, q7 = 35 deg: {solutions.explain()}")
     for solution in solutions:
         print(
-            f"  {solution.slot} {degrees(solution)}   {'inside' if solution.is_within_limits else 'outside'}"
+            f"  {solution.slot} {degrees(solution)}   "
+            f"{'inside' if solution.is_within_limits else 'outside'}"
         )
     T[2, 3] += 0.050
     print("  50 mm higher, q7 chosen too:")

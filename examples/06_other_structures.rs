@@ -31,9 +31,9 @@ fn three_parallel_axes() -> Result<(), Error> {
     // Axis 6 parallel to axes 2, 3 and 4: joint 6 is free.
     let pose = robot.fk(&[25.0, -80.0, 75.0, -45.0, 0.0, 40.0].map(f64::to_radians));
     let solutions = robot.ik(&pose)?;
-    let families =
+    let self_motions =
         solutions.iter().find_map(|solution| solution.free_joint.map(|free| (solution, free)));
-    if let Some((singular, free)) = families {
+    if let Some((singular, free)) = self_motions {
         println!("  with q5 = 0: J{} is free, {} stay fixed", free.joint(), free.fixed());
         println!("  {} {}", singular.slot, degrees(singular));
         if let Some(moved) = robot.with_free_joint(&pose, singular, 40.0_f64.to_radians())? {

@@ -1,7 +1,7 @@
 //! Many poses or joint vectors at once, over flat row-major slices.
 //!
-//! The seam to arrays: a row that is not finite gives a row of NaN, and where the answer has a
-//! status, [`Status::INVALID`]. A row's answer does not depend on its neighbors.
+//! A row that is not finite gives a row of NaN and, if the answer has a status,
+//! [`Status::INVALID`]. A row's answer does not depend on its neighbors.
 
 #[cfg(feature = "std")]
 use rayon::prelude::*;
@@ -16,11 +16,11 @@ use crate::kinematics::{
 };
 use crate::report::Configuration;
 
-/// Forward kinematics: rows of `N` joint angles to rows of 16 pose elements.
+/// Forward kinematics: from rows of `N` joint angles [rad] to rows of 16 pose elements.
 ///
 /// # Errors
 ///
-/// [`Error::WrongLength`] when a slice does not hold as many rows as `q`.
+/// [`Error::WrongLength`] when a slice does not have as many rows as `q`.
 pub fn fk<const N: usize>(robot: &Robot<N>, q: &[f64], poses: &mut [f64]) -> Result<(), Error>
 where
     Joints<N>: Arity<N>,
@@ -30,7 +30,7 @@ where
     Ok(())
 }
 
-/// Link frames: rows of `N` joint angles to `N + 1` times 16 pose elements a row.
+/// Link frames: from rows of `N` joint angles [rad] to rows of `N + 1` times 16 pose elements.
 ///
 /// # Errors
 ///
@@ -58,7 +58,7 @@ where
     Ok(())
 }
 
-/// Geometric Jacobians: rows of `N` joint angles to rows of 6 times `N` elements.
+/// Geometric Jacobians: from rows of `N` joint angles [rad] to rows of 6 times `N` elements.
 ///
 /// # Errors
 ///
@@ -78,8 +78,8 @@ where
     Ok(())
 }
 
-/// Distances from the singularities, one record a row of `N` joint angles; `None` for a row that is
-/// not finite.
+/// Distances from the singularities, one record for each row of `N` joint angles [rad]; `None` for
+/// a row that is not finite.
 ///
 /// # Errors
 ///
@@ -94,16 +94,15 @@ where
     Ok(robot.singularities(rows::<N>("q", q)?))
 }
 
-/// Inverse kinematics: rows of 16 pose elements, and what is given with each (`()` for six joints,
-/// the angle of joint 7 [rad] for seven), to [`Robot::slot_count`] slots of `N` joint angles and as
-/// many [`Status`](crate::Status) bytes a row. Empty slots are NaN.
+/// Inverse kinematics: from rows of 16 pose elements, each with its redundancy parameter (`()` for
+/// six joints, the angle of joint 7 [rad] for seven), to rows of [`Robot::slot_count`] slots of `N`
+/// joint angles [rad] and as many [`Status`](crate::Status) bytes. Empty slots are NaN.
 ///
-/// On up to `threads` threads, but no more than there are cores; without the feature `std`, on the
-/// caller's.
+/// Uses up to `threads` threads, at most one per core; without the feature `std`, the caller's.
 ///
 /// # Errors
 ///
-/// [`Error::WrongLength`] when a slice does not hold as many rows as `poses`,
+/// [`Error::WrongLength`] when a slice does not have as many rows as `poses`,
 /// [`Error::InvalidModel`] when the structure of the arm is unknown.
 pub fn ik_with<const N: usize>(
     robot: &Robot<N>,
@@ -139,7 +138,7 @@ where
     Ok(())
 }
 
-/// [`ik_with`] of an arm of six joints.
+/// [`ik_with`] for an arm of six joints.
 ///
 /// # Errors
 ///
@@ -151,7 +150,7 @@ pub fn ik(
     status: &mut [u8],
     threads: Option<NonZeroUsize>,
 ) -> Result<(), Error> {
-    // Nothing is given, and a list of nothing takes no memory.
+    // The parameters `()` take no memory.
     ik_with(robot, poses, &vec![(); poses.len() / 16], q, status, threads)
 }
 
@@ -166,9 +165,9 @@ where
     }
 }
 
-/// Inverse kinematics next to seeds: rows of 16 pose elements and of joint angles to rows of joint
-/// angles, those of [`Robot::ik_nearest`]. A row that has none, or whose pose or seed is invalid,
-/// is NaN.
+/// Inverse kinematics near seeds: from rows of 16 pose elements and of joint angles [rad] to rows
+/// of joint angles, those of [`Robot::ik_nearest`]. A row without a solution, or with an invalid
+/// pose or seed, is NaN.
 ///
 /// # Errors
 ///
@@ -196,7 +195,8 @@ where
     Ok(())
 }
 
-/// Configurations, one a row of six joint angles; an error for a row that is not finite.
+/// Configurations, one for each row of six joint angles [rad]; an error for a row that is not
+/// finite.
 ///
 /// # Errors
 ///
@@ -209,15 +209,15 @@ pub fn configuration<'a>(
     Ok(rows::<6>("q", q)?.iter().map(|q| robot.configuration(q)))
 }
 
-/// Inverse kinematics by configurations: rows of 16 pose elements, and a configuration for each, to
-/// rows of joint angles, those of [`Robot::ik_configured`] or, with `seeds`, of
-/// [`Robot::ik_configured_or_nearest`]. A row that has none, or whose pose or seed is invalid, is
-/// NaN.
+/// Inverse kinematics by configurations: from rows of 16 pose elements, each with a configuration,
+/// to rows of joint angles, those of [`Robot::ik_configured`] or, with `seeds`, of
+/// [`Robot::ik_configured_or_nearest`]. A row without a solution, or with an invalid pose or seed,
+/// is NaN.
 ///
 /// # Errors
 ///
 /// As [`ik`], [`Error::InvalidModel`] for an arm without a spherical wrist, and
-/// [`Error::InvalidJoints`] for a number of a configuration that no configuration of the arm has.
+/// [`Error::InvalidJoints`] for a number that no configuration of the arm has.
 pub fn ik_configured(
     robot: &Robot<6>,
     poses: &[f64],
@@ -256,15 +256,15 @@ pub fn ik_configured(
 #[cfg(feature = "std")]
 const PART: usize = 1024;
 
-/// Fewest poses for which a second thread pays: its start takes as long as half a thousand of them.
+/// Least number of poses for which a second thread pays off: its start takes as long as half a
+/// thousand of them.
 #[cfg(feature = "std")]
 const WORTH_A_THREAD: usize = 8 * PART;
 
-/// Threads for a call, as many as are asked for, worth their start and not more than there are
-/// cores; `None` for the caller's own.
+/// Threads for a call: at most the requested number, as many as are worth their start, and not more
+/// than there are cores; `None` for the caller's own.
 ///
-/// A pool lives no longer than the call: it leaves nothing behind that a forked process would wait
-/// for.
+/// The pool ends with the call: it leaves nothing behind that a forked process would wait for.
 #[cfg(feature = "std")]
 fn pool(threads: Option<NonZeroUsize>, poses: usize) -> Option<rayon::ThreadPool> {
     let threads = threads.map_or(1, NonZeroUsize::get);
@@ -329,7 +329,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_batch_that_is_large_enough_gets_a_pool_where_there_are_cores_for_it() {
+    fn a_large_batch_gets_a_pool_if_cores_are_available() {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let size = |threads, poses| {
             pool(NonZeroUsize::new(threads), poses).map_or(1, |pool| pool.current_num_threads())

@@ -1,7 +1,7 @@
-//! Kinematics of ABB IRB robots and their kin: every inverse-kinematics solution, in a named slot,
-//! without allocating.
+//! Kinematics of ABB IRB, Universal Robots and Franka arms: all inverse-kinematics solutions, in
+//! stable slots, with limits and singularities reported. No solve allocates.
 //!
-//! All eight ways to bring an IRB 2600's tool to a pose:
+//! All eight solutions for a pose of an IRB 2600:
 //!
 //! ```
 //! use irbkin::Robot;
@@ -16,7 +16,7 @@
 //! # Ok::<(), irbkin::Error>(())
 //! ```
 //!
-//! The one a controller wants, next to where the arm stands:
+//! The solution nearest to the current joints, as a controller needs it:
 //!
 //! ```
 //! use irbkin::{Robot, pose_from_wxyz};
@@ -29,13 +29,16 @@
 //! # Ok::<(), irbkin::Error>(())
 //! ```
 //!
-//! Code for any number of joints names what that number must have, and passes what a redundant arm
-//! needs besides:
+//! Code that is generic over the number of joints, with the redundancy parameter of seven axes:
 //!
 //! ```
 //! use irbkin::{Arity, Error, Joints, Pose, RedundancyOf, Robot};
 //!
-//! fn count<const N: usize>(robot: &Robot<N>, pose: &Pose, redundancy: RedundancyOf<N>) -> Result<usize, Error>
+//! fn count<const N: usize>(
+//!     robot: &Robot<N>,
+//!     pose: &Pose,
+//!     redundancy: RedundancyOf<N>,
+//! ) -> Result<usize, Error>
 //! where
 //!     Joints<N>: Arity<N>,
 //! {
@@ -49,24 +52,41 @@
 //! # Ok::<(), irbkin::Error>(())
 //! ```
 //!
-//! | feature | default | brings |
+//! | feature | default | provides |
 //! |---|---|---|
-//! | `std` | yes | threads in a batch, the choice of an instruction set, the search for names spelled alike |
-//! | `libm` | | square roots and angles without `std`; a solve takes nothing from the heap either way |
+//! | `std` | yes | threads in a batch, choice of the instruction set, close names |
+//! | `libm` | | square roots and angles without `std` (a solve never allocates, either way) |
 //! | `urdf` | yes | `Robot::from_urdf` |
 //! | `rapid` | yes | [`rapid`]: robtargets and moves of RAPID modules, read, solved and rewritten |
-//! | `serde` | | models ([`OpwParameters`], [`Mdh`], [`Sdh`], [`JointAxis`]), answers ([`Solution`], [`Configuration`], [`Singularity`]) and options are written and read |
-//! | `python` | | the extension module of the Python package; no use to a crate |
+//! | `serde` | | `Serialize` and `Deserialize`, see below |
+//! | `python` | | the extension module of the Python package; of no use to a crate |
 //!
-//! Meters, radians, `f64`. `docs/` of the repository has the conventions, the derivations and the
-//! accuracy.
+//! `serde` is implemented for robots ([`Robot`], with limits, velocities, base and tool; reading
+//! one runs every check of its constructors), for models ([`Definition`], [`OpwParameters`],
+//! [`Mdh`], [`Sdh`], [`DhRow`], [`JointAxis`], [`JointLimits`]), for answers ([`Solution`],
+//! [`Slot`], [`Status`], [`SingularityKind`], [`FreeJoint`], [`Configuration`], [`Singularity`],
+//! [`SingularDistances`], [`PoseDifference`]) and for options ([`FollowOptions`],
+//! [`SingularityMode`], [`JacobianFrame`]). In text formats, a joint without a limit is `null`.
+//!
+//! Unoptimized, a solve is many times slower. To optimize this crate in a debug build of yours, add
+//! to your `Cargo.toml`:
+//!
+//! ```toml
+//! [profile.dev.package.irbkin]
+//! opt-level = 3
+//!
+//! [profile.dev.package.nalgebra]
+//! opt-level = 3
+//! ```
+//!
+//! Meters, radians, `f64`. The conventions, the derivations and the accuracy are in `docs/` of the
+//! repository.
 #![cfg_attr(not(feature = "std"), no_std)]
 #![cfg_attr(
     test,
     allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::float_cmp)
 )]
-// Where another crate of the build links std, its own float methods come before those imported for
-// no_std.
+// If another crate of the build links std, its float methods shadow those imported for no_std.
 #![cfg_attr(not(feature = "std"), allow(unused_imports))]
 
 // What calculates is left out then, so that this is the error that is seen.
@@ -100,7 +120,7 @@ mod python;
 #[cfg(all(feature = "rapid", any(feature = "std", feature = "libm")))]
 pub mod rapid;
 mod report;
-// What unit tests share with the tests of the public interface.
+// Shared by unit tests and the tests of the public interface.
 #[cfg(test)]
 #[allow(dead_code, unreachable_pub)]
 #[path = "../tests/common/rng.rs"]
@@ -137,7 +157,7 @@ pub use kinematics::{
 };
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use lanes::InstructionSet;
-/// The linear algebra of poses and matrices, in the version that this crate has.
+/// The linear algebra of poses and matrices, in the version that this crate uses.
 pub use nalgebra;
 pub use report::{
     Condition, Configuration, Explanation, FreeJoint, Reach, Relation, UnknownStructure,

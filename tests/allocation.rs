@@ -6,14 +6,14 @@ use std::cell::Cell;
 
 use irbkin::{Follower, JacobianFrame, Robot};
 
-/// The system's allocator, counting what the test's own thread asks for.
+/// The system's allocator, counting the allocations of the test's own thread.
 struct Counting;
 
 thread_local! {
     static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
 }
 
-// SAFETY: every call goes to the system's allocator as it came.
+// SAFETY: every call is passed unchanged to the system's allocator.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         let _ = ALLOCATIONS.try_with(|count| count.set(count.get() + 1));
@@ -58,7 +58,7 @@ fn solve_allocates_nothing() {
             solutions.within_limits().filter(|s| s.q[0] > 0.0).least_motion(&q, &[1.0; 6]).is_ok(),
         );
         std::hint::black_box(robot.ik_nearest(&pose, &q, &[1.0; 6]).unwrap());
-        // Singular poses and poses out of reach go the same way.
+        // Singular poses and poses out of reach take the same path.
         std::hint::black_box(robot.ik(&robot.fk(&[0.0; 6])).unwrap());
         let mut far = pose;
         far.translation.vector.x += 10.0;
@@ -77,15 +77,15 @@ fn solve_allocates_nothing() {
         std::hint::black_box(robot.link_frames(&q));
         std::hint::black_box(panda.fk(&[0.1; 7]));
         std::hint::black_box(panda.singularity(&[0.1; 7]));
-        let (bent, told) = ([0.1, -0.7, 0.2, -2.2, 0.1, 1.7, 0.6], 0.6);
-        assert!(std::hint::black_box(panda.ik(&panda.fk(&bent), told).unwrap()).len() > 1);
+        let (bent, q7) = ([0.1, -0.7, 0.2, -2.2, 0.1, 1.7, 0.6], 0.6);
+        assert!(std::hint::black_box(panda.ik(&panda.fk(&bent), q7).unwrap()).len() > 1);
         assert!(std::hint::black_box(panda.ik(&panda.fk(&[0.0; 7]), 0.0).unwrap()).len() > 1);
         std::hint::black_box(
             panda
                 .ik_nearest(&panda.fk(&bent), &[0.0, -0.6, 0.1, -2.0, 0.0, 1.5, 0.5], &[1.0; 7])
                 .unwrap(),
         );
-        // By configuration, a free joint's and a coupled arm's too.
+        // By configuration, also for a free joint and a coupled arm.
         for (arm, q) in [(&robot, q), (&robot, [0.1, 0.2, 0.3, -2.0, 0.0, 1.0]), (&coupled, q)] {
             let configuration = arm.configuration(&q).unwrap();
             std::hint::black_box(arm.ik_configured(&arm.fk(&q), configuration).unwrap());

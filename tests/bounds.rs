@@ -1,5 +1,5 @@
-//! Numbers too large to calculate with are refused with the bound, and up to the bound answers keep
-//! their digits: the same of every structure.
+//! Numbers that are too large to compute with are refused with the bound, and up to the bound
+//! answers keep their digits, for every structure.
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
 use std::f64::consts::{PI, TAU};
@@ -15,7 +15,7 @@ const SIXES: [&str; 4] = ["IRB 2600-12/1.65", "IRB 140-6/0.81", "IRB 2400-10/1.5
 const SEVENS: [&str; 2] = ["Panda", "FR3"];
 
 /// Sizes beyond a bound of 1e6 or less: by one rounding, by a little, and by more than squares can
-/// hold.
+/// represent.
 const BEYOND: [f64; 8] = [1.000_000_000_000_001e6, 1.1e6, 1e9, 1e15, 1e19, 1e155, 1e300, f64::MAX];
 
 fn six(name: &str) -> Robot<6> {
@@ -26,7 +26,7 @@ fn seven(name: &str) -> Robot<7> {
     Robot::named(name).unwrap()
 }
 
-/// A pose of the arm with one coordinate far away, not checked by anybody.
+/// A pose of the arm with one coordinate far away, unchecked.
 fn far(pose: &Pose, index: usize, value: f64) -> Pose {
     let mut far = *pose;
     far.translation.vector[index] = value;
@@ -44,7 +44,7 @@ fn far_poses(pose: &Pose) -> impl Iterator<Item = (Pose, String)> + '_ {
 }
 
 #[test]
-fn a_position_that_is_too_far_is_refused_by_every_call() {
+fn every_call_refuses_a_position_that_is_too_far_away() {
     let identity = Pose::identity();
     for (pose, words) in far_poses(&identity) {
         assert_eq!(pose_from_rows(&pose_to_rows(&pose)).unwrap_err().to_string(), words);
@@ -83,7 +83,7 @@ fn a_position_that_is_too_far_is_refused_by_every_call() {
 }
 
 #[test]
-fn a_row_of_a_batch_that_is_too_far_is_invalid_and_the_others_are_not_touched() {
+fn a_batch_row_that_is_too_far_away_is_invalid_and_the_other_rows_are_solved() {
     let near = |rows: &[f64]| [rows, rows].concat();
     let check = |name: &str, q: &[f64], status: &[u8], alone: &[f64], row: usize| {
         let slots = alone.len();
@@ -133,10 +133,10 @@ fn a_row_of_a_batch_that_is_too_far_is_invalid_and_the_others_are_not_touched() 
     }
 }
 
-/// At the bound itself, and everywhere below it, a pose that is beyond reach has no solution and
-/// says by how much.
+/// At the bound, and everywhere below it, a pose that is beyond reach has no solution and reports
+/// by how much.
 #[test]
-fn poses_up_to_the_bound_are_beyond_reach_and_say_so() {
+fn poses_up_to_the_bound_are_reported_as_beyond_reach() {
     let mut rng = Rng::new(61);
     for size in [3.0, 1e2, 1e4, 9.99e5, MOST_LENGTH] {
         for _ in 0..50 {
@@ -163,12 +163,13 @@ const ANGLES_BEYOND: [f64; 9] =
 
 fn too_large(field: &str, joint: usize, value: f64) -> String {
     format!(
-        "{field}: joint {joint} is {value:e} rad, its size must be at most 1e5 rad (remove whole turns)"
+        "{field}: joint {joint} is {value:e} rad, its size must be at most 1e5 rad (remove whole \
+         turns)"
     )
 }
 
 #[test]
-fn a_seed_that_is_too_large_is_refused_by_every_call() {
+fn every_call_refuses_a_seed_that_is_too_large() {
     fn sweep<const N: usize>(q: [f64; N], mut work: impl FnMut([f64; N], usize, f64)) {
         for value in ANGLES_BEYOND.into_iter().flat_map(|size| [size, -size]) {
             for joint in 0..N {
@@ -220,10 +221,10 @@ fn a_seed_that_is_too_large_is_refused_by_every_call() {
     }
 }
 
-/// Without limits a solution is turned to its seed. A seed of `turns` whole turns is rounded to
+/// Without limits a solution is wrapped near its seed. A seed of `turns` whole turns is rounded to
 /// `eps` times its size.
 #[test]
-fn a_solution_next_to_a_large_seed_still_closes() {
+fn a_solution_near_a_large_seed_still_closes() {
     let mut rng = Rng::new(62);
     for size in [0.0, 1e2, 1e4, MOST_ANGLE - PI] {
         for name in SIXES {
@@ -241,7 +242,7 @@ fn a_solution_next_to_a_large_seed_still_closes() {
     }
 }
 
-/// floor(angle / 90 deg) of every angle that is taken, in integers of any size.
+/// floor(angle / 90 deg) for every permitted angle, in integers of any size.
 #[test]
 fn a_configuration_never_saturates() {
     let mut rng = Rng::new(63);
@@ -258,7 +259,7 @@ fn a_configuration_never_saturates() {
                 let inside = (from - 1e-9..=from + 90_f64.to_radians() + 1e-9).contains(&q[joint]);
                 assert!(inside, "{name}: {quarter} of {}", q[joint]);
             }
-            // And it is a configuration that the arm can be asked for.
+            // The configuration can also be requested from the arm.
             let pose = robot.fk(&q);
             let configured = robot.clone().with_limits(JointLimits::UNLIMITED);
             if let Err(error) = configured.ik_configured(&pose, found) {
@@ -271,10 +272,10 @@ fn a_configuration_never_saturates() {
     }
 }
 
-/// Forward kinematics takes the very angle that a number stands for, of however many turns, also
-/// where a linkage makes a difference of two.
+/// Forward kinematics uses the exact value of an angle with any number of turns, also where a
+/// linkage takes the difference of two.
 #[test]
-fn forward_kinematics_of_large_angles_is_that_of_what_is_left_of_the_turn() {
+fn forward_kinematics_of_large_angles_equals_that_of_the_angle_modulo_2_pi() {
     let mut rng = Rng::new(64);
     for name in SIXES {
         let robot = six(name);
@@ -284,7 +285,7 @@ fn forward_kinematics_of_large_angles_is_that_of_what_is_left_of_the_turn() {
             let rest = q.map(|angle| angle.sin().atan2(angle.cos()));
             let bound = 40.0 * f64::EPSILON * (1.0 + reach_of(&robot));
             let off = robot.residual(&rest, &robot.fk(&q)).largest();
-            // Up to 1e5 rad a linkage's difference is rounded to a part of its size.
+            // Up to 1e5 rad the difference of a linkage is rounded relative to its size.
             let rounding = if robot.is_coupled() { f64::EPSILON * size.min(1e5) } else { 0.0 };
             assert!(
                 off <= bound + 2.0 * rounding * reach_of(&robot),

@@ -1,4 +1,4 @@
-//! Every arm of the catalog against figures that are not irbkin's own.
+//! Every arm of the catalog is compared with figures that are not irbkin's own.
 #![allow(clippy::unwrap_used, clippy::unreadable_literal, clippy::panic, missing_docs)]
 
 use std::collections::BTreeMap;
@@ -8,15 +8,15 @@ use crate::common::{Rng, apart, reach_of};
 use irbkin::{CatalogGeometry, Error, JointLimits, Pose, Robot, catalog, pose_to_wxyz};
 use nalgebra::Vector3;
 
-/// Where the figures come from that an arm is held to. Only the first kind can find a catalog
-/// that is wrong; the second finds a product that is, the third a slip of the pen.
+/// The source of the figures that an arm is compared with. Only the first kind can detect a wrong
+/// catalog; the second detects a wrong product, the third a typing error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Golden {
-    /// A pose that others measured, recorded or printed.
+    /// A pose that others measured, recorded or published.
     MeasuredOrPublishedByOthers,
-    /// Poses that another program calculated from the table that the catalog has.
+    /// Poses that another program computed from the table in the catalog.
     IndependentProductOfTheTable,
-    /// The zero pose, summed from the maker's figures, which are the catalog's too.
+    /// The zero pose, summed from the maker's figures, which are also those of the catalog.
     TranscriptionOfTheSheet,
 }
 
@@ -34,16 +34,28 @@ const HOME_JOINTS: [f64; 6] = [0.0, 0.0, 0.0, 0.0, 30.0, 0.0];
 const MEASURED_OR_PUBLISHED_BY_OTHERS: [Pair; 10] = [
     ("IRB 120-3/0.58", HOME_JOINTS, [364.353829, 0.0, 594.0], HOME, "RobotStudio home robtarget"),
     ("IRB 140-6/0.81", HOME_JOINTS, [506.291651, 0.0, 679.5], HOME, "RobotStudio home robtarget"),
-    ("IRB 140-6/0.81", [0.0; 6], [515.0, 0.0, 712.0], UP, "Robot Web Services reference, robtarget and jointtarget pages"),
+    ("IRB 140-6/0.81", [0.0; 6], [515.0, 0.0, 712.0], UP,
+     "Robot Web Services reference, robtarget and jointtarget pages"),
     ("IRB 1200-5/0.9", HOME_JOINTS, [522.014083, 0.0, 848.1], HOME, "RobotStudio home robtarget"),
-    ("IRB 2600-12/1.85", HOME_JOINTS, [1018.612159, 0.0, 1417.5], HOME, "RobotStudio home robtarget"),
+    ("IRB 2600-12/1.85", HOME_JOINTS, [1018.612159, 0.0, 1417.5], HOME,
+     "RobotStudio home robtarget"),
     ("IRB 4600-20/2.5", [0.0; 6], [1490.5, 0.0, 1765.0], UP, "Susta79/RF210001, README"),
-    ("IRB 4600-20/2.5", [45.0; 6], [734.88, 794.99, -21.32], [0.353_545_455, -0.353_599_631, -0.853_545_455, 0.146_400_369], "Susta79/RF210001, README"),
-    ("IRB 6640-235/2.55", [-79.740_641_207_9, 16.877_346_913_8, 164.702_460_756, 167.359_872_672, -123.259_290_596, 169.413_401_434],
-     [-107.491_424_219, 388.403_686_13, 1_800.372_279_7], [0.689_966_366_553, 0.256_058_176_935, 0.184_888_397_87, -0.651_304_002_278], "rpiRobotics/ik-geo test cases"),
-    ("IRB 6640-235/2.55", [64.344_655_748_9, 92.786_447_008_2, 87.527_688_525, -38.798_272_967_7, 55.972_040_463_9, -118.372_792_388],
-     [153.773_731_978, 80.276_836_2, 663.799_788_567], [0.759_671_110_762, 0.265_917_851_382, 0.323_738_818_68, -0.497_373_780_038], "rpiRobotics/ik-geo test cases"),
-    ("UR3", [0.0; 6], [-456.9, -194.25, 66.55], TO_THE_SIDE, "py_ur_kin test_ur3, its base_link turned half a turn"),
+    ("IRB 4600-20/2.5", [45.0; 6], [734.88, 794.99, -21.32],
+     [0.353_545_455, -0.353_599_631, -0.853_545_455, 0.146_400_369], "Susta79/RF210001, README"),
+    ("IRB 6640-235/2.55",
+     [-79.740_641_207_9, 16.877_346_913_8, 164.702_460_756, 167.359_872_672, -123.259_290_596,
+      169.413_401_434],
+     [-107.491_424_219, 388.403_686_13, 1_800.372_279_7],
+     [0.689_966_366_553, 0.256_058_176_935, 0.184_888_397_87, -0.651_304_002_278],
+     "rpiRobotics/ik-geo test cases"),
+    ("IRB 6640-235/2.55",
+     [64.344_655_748_9, 92.786_447_008_2, 87.527_688_525, -38.798_272_967_7, 55.972_040_463_9,
+      -118.372_792_388],
+     [153.773_731_978, 80.276_836_2, 663.799_788_567],
+     [0.759_671_110_762, 0.265_917_851_382, 0.323_738_818_68, -0.497_373_780_038],
+     "rpiRobotics/ik-geo test cases"),
+    ("UR3", [0.0; 6], [-456.9, -194.25, 66.55], TO_THE_SIDE,
+     "py_ur_kin test_ur3, its base_link turned half a turn"),
 ];
 
 /// Arm, position of tool0 at zero [mm] from the lengths on the maker's sheet.
@@ -81,7 +93,7 @@ fn transcription_of_the_sheet() {
     }
 }
 
-/// Compares a pose, to digits of its position [mm] and of its quaternion.
+/// Compares a pose, to the given digits of its position [mm] and quaternion.
 fn assert_is_met(
     name: &str,
     degrees: &[f64; 6],
@@ -105,7 +117,7 @@ type Product = (String, [f64; 6], [f64; 3], [f64; 4]);
 fn products_of_rows() -> Vec<Product> {
     let text = include_str!("data/abb_catalog_poses.csv");
     let row = |line: &str| {
-        // A name may hold a comma, the thirteen numbers behind it do not.
+        // A name may contain a comma; the thirteen numbers after it do not.
         let mut numbers: Vec<f64> =
             line.rsplitn(14, ',').take(13).map(|number| number.parse().unwrap()).collect();
         numbers.reverse();
@@ -125,7 +137,7 @@ fn independent_product_of_the_table() {
     for (name, degrees, xyz_mm, wxyz) in products_of_rows() {
         let robot: Robot<6> = Robot::named(&name).unwrap().uncoupled();
         let (xyz, found) = pose_to_wxyz(&robot.fk(&degrees.map(f64::to_radians)));
-        // Half a unit of the last digit of the file, and what rounding adds.
+        // Half a unit of the last digit in the file, plus rounding.
         for (axis, mm) in xyz_mm.into_iter().enumerate() {
             assert!(
                 (xyz[axis] * 1e3 - mm).abs() < 0.5e-6 + 1e-11,
@@ -139,7 +151,7 @@ fn independent_product_of_the_table() {
 }
 
 #[test]
-fn the_zero_pose_is_the_sum_of_the_drawings_lengths() {
+fn the_zero_pose_is_the_sum_of_the_lengths_in_the_drawing() {
     for arm in catalog() {
         let CatalogGeometry::Abb { a1, a2, c1, c2, c3, c4, .. } = arm.geometry else { continue };
         let pose: Pose = Robot::<6>::from_catalog(arm).unwrap().fk(&[0.0; 6]);
@@ -152,7 +164,7 @@ fn the_zero_pose_is_the_sum_of_the_drawings_lengths() {
     }
 }
 
-/// The best kind of figures that there are of an arm.
+/// The best kind of figures that exists for an arm.
 fn golden_of(name: &str, products: &[Product]) -> Option<Golden> {
     let has = |pairs: &[Pair]| pairs.iter().any(|pair| pair.0 == name);
     if has(&MEASURED_OR_PUBLISHED_BY_OTHERS) || SEVEN_AXES.contains(&name) {
@@ -166,7 +178,7 @@ fn golden_of(name: &str, products: &[Product]) -> Option<Golden> {
     }
 }
 
-/// The counts are stated, so that an arm that moves to a weaker kind is seen.
+/// The counts are stated, so that a change of an arm to a weaker kind is noticed.
 #[test]
 fn every_arm_has_a_golden_pose_of_a_stated_kind() {
     let products = products_of_rows();
@@ -175,7 +187,7 @@ fn every_arm_has_a_golden_pose_of_a_stated_kind() {
         let kind = golden_of(arm.name, &products);
         *counts.entry(kind.unwrap_or_else(|| panic!("{} has none", arm.name))).or_insert(0) += 1;
         if matches!(arm.geometry, CatalogGeometry::Abb { .. }) {
-            // Beside what others measured of a few.
+            // In addition to what others measured of a few.
             assert_eq!(products.iter().filter(|row| row.0 == arm.name).count(), 2, "{}", arm.name);
         }
     }
@@ -187,7 +199,7 @@ fn every_arm_has_a_golden_pose_of_a_stated_kind() {
     assert_eq!(counts, BTreeMap::from(stated));
 }
 
-/// Compared with a recorded pose by themselves.
+/// Compared with a recorded pose in a separate test.
 const SEVEN_AXES: [&str; 2] = ["Panda", "FR3"];
 
 #[test]
@@ -214,8 +226,8 @@ const LINKAGE: &str =
     "coupled: its linkages are likely to stop it before it is stretched; no source has that limit";
 const FIFTY: &str = "names of large arms are rounded to 50 mm";
 
-/// Arms whose name is off the reach of their lengths by more than the rounding to the last digit
-/// that it prints: that reach [m], why.
+/// Arms whose name differs from the reach of their lengths by more than the rounding of its last
+/// digit: that reach [m], and the reason.
 #[rustfmt::skip]
 const OFF_THEIR_NAME: [(&str, f64, &str); 15] = [
     ("IRB 1410-4/1.45", 1.4799, LINKAGE),
@@ -268,7 +280,7 @@ fn the_reach_in_the_type_name_is_that_of_the_geometry() {
 #[test]
 fn payload_and_reach_of_an_abb_arm_are_those_of_its_name() {
     for arm in catalog().filter(|arm| matches!(arm.geometry, CatalogGeometry::Abb { .. })) {
-        // "2600-12/1.65", of the oldest "6400R/2.5-150".
+        // "2600-12/1.65"; for the oldest, "6400R/2.5-150".
         let numbers: Vec<f64> =
             arm.name.split(['-', '/', ' ']).filter_map(|word| word.parse().ok()).collect();
         assert!(
@@ -299,7 +311,7 @@ fn every_arm_has_sane_limits() {
             }
         }
         if matches!(arm.geometry, CatalogGeometry::Abb { .. }) {
-            // The widest ranges that a source has: what goes past them is a slip.
+            // The widest ranges in any source: a larger one is a typing error.
             let most = [230.0, 180.0, 250.0, 400.0, 135.0, 400.0];
             for (limit, most) in arm.limits.iter().zip(most) {
                 assert!(
@@ -314,8 +326,8 @@ fn every_arm_has_sane_limits() {
 
 const POSES: usize = 200;
 
-/// Holds the answers for random poses against forward kinematics and against the joints that made
-/// the poses.
+/// Compares the answers for random poses with forward kinematics and with the joints that made the
+/// poses.
 fn closes<const N: usize>(
     robot: &Robot<N>,
     rng: &mut Rng,
@@ -352,7 +364,7 @@ fn every_arm_closes_on_random_poses_and_finds_the_joints_that_made_them() {
         }
         let mut robot: Robot<6> = Robot::from_catalog(arm).unwrap();
         if matches!(arm.geometry, CatalogGeometry::ThreeParallel { .. }) {
-            // Full turns make no new poses.
+            // 2 pi equivalents make no new poses.
             robot = robot.with_limits(JointLimits::new([[-PI, PI]; 6]).unwrap());
         }
         closes(&robot, &mut rng, |pose, _| {
@@ -362,7 +374,7 @@ fn every_arm_closes_on_random_poses_and_finds_the_joints_that_made_them() {
 }
 
 #[test]
-fn names_forgive_spelling() {
+fn names_match_in_any_spelling() {
     for spelling in [
         "IRB 2600-12/1,65",
         "IRB 2600\u{2013}12/1.65",
@@ -385,7 +397,7 @@ fn names_forgive_spelling() {
 }
 
 #[test]
-fn an_unknown_name_tells_the_close_ones_and_nothing_is_guessed() {
+fn an_unknown_name_lists_close_ones_and_is_never_guessed() {
     let close = |name: &str| match irbkin::find(name) {
         Err(Error::UnknownRobot(unknown)) => unknown.close,
         other => unreachable!("{name}: {other:?}"),

@@ -1,5 +1,5 @@
-//! The tables of docs/catalog.md are those of the catalog. With IRBKIN_WRITE=1 (`make catalog`)
-//! they are written.
+//! The tables of docs/catalog.md match the catalog. With IRBKIN_WRITE=1 (`make catalog`) they are
+//! written.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use std::fs;
@@ -18,7 +18,7 @@ const TABLES: [(&str, &[&str]); 3] = [
     ("franka", &[]),
 ];
 
-/// The table that an arm stands in, and its cells there.
+/// The table that lists an arm, and its cells there.
 fn geometry(arm: &CatalogArm) -> (&'static str, Vec<String>) {
     let lengths = |mm: [f64; 6]| mm.map(|length| length.to_string()).to_vec();
     match arm.geometry {

@@ -24,7 +24,7 @@ fn configuration(cf1: i32, cf4: i32, cf6: i32, cfx: i32) -> Configuration {
     Configuration { cf1, cf4, cf6, cfx }
 }
 
-/// Whether a joint vector has a configuration, an angle next to an edge on either side of it.
+/// Whether a joint vector has a configuration; an angle near an edge has both.
 fn has(robot: &Robot<6>, q: &[f64; 6], wanted: Configuration) -> bool {
     let near = |angle: f64, cf: i32| {
         let quarters = f64::from(cf) * FRAC_PI_2;
@@ -38,9 +38,10 @@ fn has(robot: &Robot<6>, q: &[f64; 6], wanted: Configuration) -> bool {
         && found.cfx == wanted.cfx
 }
 
-/// Eight solutions have eight slots; a joint vector is the only one of its pose, turns included,
-/// with its configuration, and is found by it. A coupled arm's configuration does not tell the
-/// elbow: there the one in front is meant, for the linkages do not let it be behind.
+/// Eight solutions have eight slots. A joint vector is the only one of its pose with its
+/// configuration, 2 pi equivalents included, and is found by it. The configuration of a coupled arm
+/// does not determine the elbow: the one in front is meant, because the linkage does not permit the
+/// other.
 #[test]
 fn every_joint_vector_is_found_by_its_configuration() {
     let mut arms = 0;
@@ -75,13 +76,13 @@ fn every_joint_vector_is_found_by_its_configuration() {
                 robot.configuration(&turn.q).unwrap() == wanted
                     && slot(&twin, &robot, &turn.q) & 2 == wanted.cfx & 2
             };
-            // No configuration counts axis 3, of which the IRB 8700 has a little more than a full
-            // turn.
+            // No configuration counts axis 3, whose range on the IRB 8700 is slightly more than a
+            // full turn.
             let [low, high] = robot.limits().to_array()[2];
             let turns_of_axis_3 = 1 + usize::from(high - low > TAU);
             let named = solutions.turns().filter(same).count();
             assert!((1..=turns_of_axis_3).contains(&named), "{}: {q:?}", arm.name);
-            // Next to a singularity rounding of the pose is seen in the joints.
+            // Near a singularity, rounding of the pose is visible in the joints.
             let bound = 1e-9_f64.max(4e-15 * 5.0 / robot.singularity(&q).min_singular_value);
             assert!(
                 apart(&found.q, &q) < bound && (found.q[5] - q[5]).abs() < 1.0,
@@ -102,7 +103,7 @@ fn every_joint_vector_is_found_by_its_configuration() {
     assert!(arms > 80);
 }
 
-/// The slot of a joint vector by the configuration of the serial twin.
+/// The slot of a joint vector by the configuration of the uncoupled arm.
 fn slot(twin: &Robot<6>, robot: &Robot<6>, q: &[f64; 6]) -> i32 {
     let mut serial = *q;
     if robot.is_coupled() {
@@ -132,7 +133,7 @@ fn quarter_turns_are_counted_from_below() {
 }
 
 #[test]
-fn an_angle_on_an_edge_has_both_neighbors() {
+fn an_angle_on_an_edge_matches_both_quarter_turns() {
     let robot = irb2600();
     let off = 0.009_f64.to_radians();
     for edge in [-2, -1, 0, 1] {
@@ -161,7 +162,7 @@ fn an_angle_on_an_edge_has_both_neighbors() {
 }
 
 #[test]
-fn axis_5_next_to_zero_has_both_slots() {
+fn axis_5_near_zero_matches_both_slots() {
     let robot = irb2600();
     for (q5, found) in [(0.005_f64, true), (-0.005, true), (0.02, false)] {
         let q = [0.3, 0.2, 0.1, 0.4, q5.to_radians(), 0.7];
@@ -182,7 +183,7 @@ fn turns_are_chosen_by_the_configuration() {
         let found = robot.ik_configured(&robot.fk(&q), robot.configuration(&q).unwrap()).unwrap();
         assert!((found.q[5] - q[5]).abs() < 1e-9, "{q6}: {:?}", found.q);
     }
-    // Without limits, too.
+    // Also without limits.
     let free = robot.with_limits(JointLimits::UNLIMITED);
     let q = [0.3, 0.2, 0.1, 40.0, 0.5, -70.0];
     let found = free.ik_configured(&free.fk(&q), free.configuration(&q).unwrap()).unwrap();
@@ -190,7 +191,7 @@ fn turns_are_chosen_by_the_configuration() {
 }
 
 #[test]
-fn where_the_wrist_is_singular_axes_4_and_6_take_their_quarters() {
+fn at_a_wrist_singularity_axes_4_and_6_take_the_named_quarter_turns() {
     let robot = irb2600();
     for (q4, q6) in [(0.4, 0.7), (2.0, -1.2), (-2.5, 3.3), (-0.2, -4.0)] {
         let q = [0.3, 0.2, 0.1, q4, 0.0, q6];
@@ -209,7 +210,7 @@ fn where_the_wrist_is_singular_axes_4_and_6_take_their_quarters() {
 }
 
 #[test]
-fn where_the_shoulder_is_singular_axis_1_takes_its_quarter() {
+fn at_a_shoulder_singularity_axis_1_takes_the_named_quarter_turn() {
     let arm = OpwParameters::abb(0.0, -0.07, 0.29, 0.27, 0.302, 0.072);
     let robot = Robot::from_opw(arm).unwrap();
     // The wrist center above axis 1.
@@ -234,7 +235,7 @@ fn where_the_shoulder_is_singular_axis_1_takes_its_quarter() {
 }
 
 #[test]
-fn the_error_lists_what_exists() {
+fn the_error_lists_the_configurations_that_exist() {
     let robot = irb2600();
     let q = [0.3, 0.2, 0.1, 0.4, 0.5, 0.7];
     let Err(Error::NoConfiguration(none)) =
@@ -263,7 +264,7 @@ fn the_error_lists_what_exists() {
 }
 
 #[test]
-fn the_list_has_each_configuration_once_and_tells_of_a_free_joint() {
+fn the_list_has_each_configuration_once_and_names_a_free_joint() {
     let wide = irb2600().with_limits(JointLimits::new([[-7.0, 7.0]; 6]).unwrap());
     let q = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
     let listed = |robot: &Robot<6>, q: &[f64; 6]| match robot
@@ -296,9 +297,9 @@ fn the_list_has_each_configuration_once_and_tells_of_a_free_joint() {
     );
 }
 
-/// Next to the singularity, where only another member of the family is inside the limits.
+/// Near the singularity, where only another member of the self-motion is inside the limits.
 #[test]
-fn a_family_that_has_members_inside_the_limits_is_not_unreachable() {
+fn a_self_motion_with_members_inside_the_limits_is_reachable() {
     let mut limits = irb2600().limits().to_array();
     (limits[3], limits[5]) = ([2.0, 2.1], [-0.6, -0.5]);
     let robot = irb2600().with_limits(JointLimits::new(limits).unwrap());
@@ -316,7 +317,7 @@ fn a_family_that_has_members_inside_the_limits_is_not_unreachable() {
 }
 
 #[test]
-fn far_multiples_of_a_quarter_turn_begin_theirs() {
+fn large_multiples_of_a_quarter_turn_belong_to_the_quarter_turn_they_begin() {
     let robot = irb2600().with_limits(JointLimits::UNLIMITED);
     for quarters in -400..=400 {
         let q = [(f64::from(quarters) * 90.0).to_radians(), 0.0, 0.0, 0.0, 0.0, 0.0];
@@ -329,7 +330,7 @@ fn far_multiples_of_a_quarter_turn_begin_theirs() {
 }
 
 #[test]
-fn what_is_no_configuration_of_the_arm_is_refused() {
+fn configurations_that_the_arm_cannot_have_are_refused() {
     let robot = irb2600();
     let message = |answer: Result<Configuration, Error>| answer.unwrap_err().to_string();
     let refused = |robot: &Robot<6>, cfx| {
@@ -351,7 +352,8 @@ fn what_is_no_configuration_of_the_arm_is_refused() {
     let ur3 = Robot::named("UR3").unwrap();
     assert_eq!(
         message(ur3.configuration(&[0.1; 6])),
-        "this robot has no ABB configuration: its structure is \"three parallel axes\", not a six-axis arm with a spherical wrist"
+        "this robot has no ABB configuration: its structure is \"three parallel axes\", not a \
+         six-axis arm with a spherical wrist"
     );
     assert_eq!(
         message(robot.configuration(&[f64::NAN; 6])),
@@ -360,7 +362,7 @@ fn what_is_no_configuration_of_the_arm_is_refused() {
 }
 
 #[test]
-fn a_coupled_arm_does_not_count_its_slot() {
+fn the_configuration_of_a_coupled_arm_has_no_slot() {
     let robot = Robot::from_opw(OpwParameters::abb(0.1, -0.135, 0.615, 0.705, 0.755, 0.085))
         .unwrap()
         .coupled()

@@ -1,5 +1,5 @@
-//! Laws of arms whose axes 2 and 3 a parallelogram couples: their joint vectors are the
-//! controller's, with axis 3 told from the base.
+//! Laws of arms with axes 2 and 3 coupled by a parallelogram linkage: their joint vectors are the
+//! controller's, with axis 3 measured from the base.
 #![allow(clippy::unwrap_used, clippy::float_cmp, missing_docs)]
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -22,7 +22,7 @@ fn serial(mut q: [f64; 6]) -> [f64; 6] {
 const CASES: usize = 2000;
 
 #[test]
-fn forward_kinematics_are_those_of_the_serial_twin() {
+fn forward_kinematics_equals_that_of_the_uncoupled_arm() {
     let mut rng = Rng::new(1);
     for robot in [unlimited(), odd()] {
         let twin = robot.clone().uncoupled();
@@ -46,10 +46,10 @@ fn axis_3_keeps_the_forearm_level_while_axis_2_turns() {
     }
 }
 
-/// J of the controller's joints is J of the serial ones times their derivative: in it q2 turns the
-/// serial q3 back.
+/// J of the controller's joints is J of the serial ones times their derivative, in which q2 turns
+/// the serial q3 back.
 #[test]
-fn the_jacobian_is_the_serial_one_by_the_chain_rule() {
+fn the_jacobian_follows_from_the_uncoupled_one_by_the_chain_rule() {
     let mut derivative = Matrix6::identity();
     derivative[(2, 1)] = -1.0;
     let mut rng = Rng::new(2);
@@ -86,7 +86,7 @@ fn the_jacobian_matches_central_differences() {
 }
 
 #[test]
-fn solutions_are_those_of_the_serial_twin_slot_for_slot() {
+fn solutions_equal_those_of_the_uncoupled_arm_slot_for_slot() {
     let mut rng = Rng::new(4);
     for robot in [unlimited(), odd()] {
         let twin = robot.clone().uncoupled();
@@ -139,7 +139,7 @@ fn limits_are_those_of_the_controllers_angles() {
 }
 
 #[test]
-fn forward_kinematics_and_jacobian_of_rows_are_those_of_one() {
+fn forward_kinematics_and_jacobian_of_rows_equal_single_calls() {
     let (robot, mut rng) = (odd(), Rng::new(7));
     let joints: Vec<_> = (0..13).map(|_| rng.inside(robot.limits())).collect();
     let (mut poses, mut jacobians) = (vec![[0.0; 16]; 13], vec![[[0.0; 6]; 6]; 13]);
@@ -185,7 +185,7 @@ fn turns_and_the_nearest_keep_the_linkage_inside() {
 }
 
 #[test]
-fn twins_lose_no_posture() {
+fn coupling_and_uncoupling_lose_no_posture() {
     let mut rng = Rng::new(9);
     for robot in [limited(), with_linkage()] {
         let twin = robot.clone().uncoupled();
@@ -210,14 +210,14 @@ fn twins_lose_no_posture() {
 }
 
 #[test]
-fn joint_3_of_a_twin_is_as_fast_as_joints_2_and_3_together() {
+fn coupling_adds_the_velocity_of_joint_2_to_that_of_joint_3() {
     let robot = unlimited().with_max_velocity(Some([1.0, 2.0, 3.0, 4.0, 5.0, 6.0])).unwrap();
     assert_eq!(robot.max_velocity(), Some(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]));
     assert_eq!(robot.uncoupled().max_velocity(), Some(&[1.0, 2.0, 5.0, 4.0, 5.0, 6.0]));
 }
 
 #[test]
-fn limits_that_are_none_are_told() {
+fn invalid_limits_are_reported() {
     let message = |result: Result<Robot<6>, Error>| result.unwrap_err().to_string();
     assert_eq!(
         message(limited().with_linkage_limits(Some([0.5, -0.5]))),
@@ -244,7 +244,7 @@ fn limits_that_are_none_are_told() {
 }
 
 #[test]
-fn where_the_wrist_is_on_axis_2_the_coupled_axis_3_goes_with_axis_2() {
+fn with_the_wrist_on_axis_2_the_coupled_axis_3_follows_axis_2() {
     let robot = Robot::from_opw(OpwParameters::abb(0.1, 0.0, 0.5, 0.7, 0.7, 0.1))
         .unwrap()
         .coupled()

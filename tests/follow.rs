@@ -1,5 +1,5 @@
-//! A joint path that is smooth is followed without a jump, and where there is no way the break says
-//! where and why.
+//! A smooth joint path is followed without a jump; where there is no way, the break reports where
+//! and why.
 //!
 //! `make hardsets` prints the table.
 #![allow(clippy::unwrap_used, clippy::cast_precision_loss, clippy::float_cmp, missing_docs)]
@@ -19,7 +19,7 @@ use irbkin::{
 
 const SAMPLES: usize = 201;
 
-/// The robot of every path, solved on the instruction set that was asked for.
+/// The robot of every path, solved on the requested instruction set.
 fn robot() -> Robot<6> {
     asked_set();
     Robot::named("IRB 2600-12/1.65").unwrap()
@@ -42,7 +42,7 @@ fn follow(robot: &Robot<6>, made: &[[f64; 6]]) -> (Vec<Pose>, Followed) {
     (poses, followed)
 }
 
-/// Follows a smooth path: met everywhere, no break, no step more than one and a half times the
+/// Follows a smooth path: every pose reached, no break, no step more than one and a half times the
 /// path's own.
 fn check_smooth(name: &str, robot: &Robot<6>, made: &[[f64; 6]]) {
     let (poses, followed) = follow(robot, made);
@@ -167,7 +167,7 @@ fn the_elbow_is_stretched_and_bent_again() {
 }
 
 #[test]
-fn turns_are_counted_up_to_the_limits() {
+fn the_joints_turn_on_up_to_the_limits() {
     let robot = robot();
     let turns = 390.0_f64.to_radians();
     check_smooth(
@@ -189,7 +189,7 @@ fn turns_are_counted_up_to_the_limits() {
 }
 
 #[test]
-fn arms_of_other_makers_pass_too() {
+fn arms_of_other_makers_pass_the_wrist_without_a_jump() {
     let kuka = common::kuka_kr6().unwrap();
     check_smooth(
         "KUKA, J5 through 0",
@@ -219,7 +219,7 @@ fn jump(followed: &Followed) -> (usize, usize, f64, SingularityKind) {
 
 #[test]
 fn a_corner_in_the_wrist_singularity_is_a_break() {
-    // In along one direction, out along another: J4 must turn by 60 deg while J5 is 0.
+    // In along one direction, out along another: J4 must turn by 60 deg at J5 = 0.
     let robot = robot();
     let turned = |t: f64| if t < 0.0 { 0.0 } else { PI / 3.0 };
     let made = joint_path(|t| [0.3, 0.2, 0.1, 0.2 + turned(t), 0.5 * t, 0.1 - turned(t)]);
@@ -229,7 +229,7 @@ fn a_corner_in_the_wrist_singularity_is_a_break() {
 }
 
 #[test]
-fn joint_4_turns_by_pi_where_the_wrist_keeps_its_sign() {
+fn joint_4_turns_by_pi_if_joint_5_keeps_its_sign() {
     let robot = robot();
     let mut limits = robot.limits().to_array();
     limits[4][0] = 0.0;
@@ -254,7 +254,7 @@ fn joint_4_turns_by_pi_where_the_wrist_keeps_its_sign() {
 }
 
 #[test]
-fn a_pose_out_of_reach_is_a_break_and_the_path_goes_on() {
+fn a_pose_out_of_reach_is_a_break_and_the_path_continues() {
     let robot = robot();
     let made = joint_path(|t| [0.3 * t, 0.2, 0.1, 0.4, 0.5, 0.1]);
     let mut poses: Vec<Pose> = made.iter().map(|q| robot.fk(q)).collect();
@@ -266,7 +266,7 @@ fn a_pose_out_of_reach_is_a_break_and_the_path_goes_on() {
 }
 
 /// A straight line of the tool through the wrist singularity or `off` [rad] past it.
-fn crossing_line(robot: &Robot<6>, off: f64, along: [f64; 3]) -> Vec<Pose> {
+fn line_through_wrist(robot: &Robot<6>, off: f64, along: [f64; 3]) -> Vec<Pose> {
     let middle = robot.fk(&[0.3, 0.2, 0.1, if off == 0.0 { 0.0 } else { FRAC_PI_2 }, off, 0.2]);
     joint_path(|t| [t; 6])
         .iter()
@@ -298,14 +298,15 @@ fn cross(robot: &Robot<6>, path: &[Pose], singularity_mode: SingularityMode) -> 
 }
 
 #[test]
-fn crossing_policies_keep_what_they_promise() {
+fn singularity_modes_keep_their_guarantees() {
     let robot = robot();
     for off in [0.0, 1e-4, 2e-3] {
         for along in [[0.0, 0.15, 0.02], [0.1, 0.0, 0.1], [0.0, 0.2, 0.0]] {
-            let path = crossing_line(&robot, off, along);
+            let path = line_through_wrist(&robot, off, along);
             let tell = |name: &str, crossed: &Crossed| {
                 println!(
-                    "line past J5 = 0 by {off:5e} rad, {along:?} m: {name:10} largest step {:6.3} deg  orientation {:8.1e} deg  position {:.0e} m",
+                    "line past J5 = 0 by {off:5e} rad, {along:?} m: {name:10} largest step {:6.3} \
+                     deg  orientation {:8.1e} deg  position {:.0e} m",
                     crossed.step.to_degrees(),
                     crossed.orientation.to_degrees(),
                     crossed.position
@@ -330,7 +331,7 @@ fn crossing_policies_keep_what_they_promise() {
 
             let wrist = cross(&robot, &path, SingularityMode::Wrist);
             tell("wrist", &wrist);
-            // Three wrist angles that go straight between two ends of the zone stay within it on
+            // Three wrist angles that move straight between two ends of the zone stay within it on
             // both sides.
             assert!(
                 wrist.position < 1e-14
@@ -350,7 +351,7 @@ fn crossing_policies_keep_what_they_promise() {
 }
 
 #[test]
-fn axis_4_held_at_zero_keeps_the_orientation_in_the_arm_s_plane() {
+fn axis_4_locked_at_zero_keeps_the_orientation_in_the_plane_of_the_arm() {
     let robot = robot();
     let made = joint_path(|t| [0.3, 0.2 + 0.1 * t, 0.1, 0.0, 0.5 * t, 0.2]);
     let path: Vec<Pose> = made.iter().map(|q| robot.fk(q)).collect();
@@ -359,8 +360,8 @@ fn axis_4_held_at_zero_keeps_the_orientation_in_the_arm_s_plane() {
     assert!(locked.step <= 1.01 * largest_step(&made));
 }
 
-/// A random smooth path whose middle is at or next to none, one, two or all three singularities;
-/// `None` where it leaves the limits.
+/// A random smooth path whose middle is at or near none, one, two or all three singularities;
+/// `None` if it leaves the limits.
 fn random_path(robot: &Robot<6>, rng: &mut Rng) -> Option<Vec<[f64; 6]>> {
     const NEAR: [f64; 6] = [0.0, 1e-12, 1e-9, 1e-7, 1e-6, 1e-4];
     let sign = |rng: &mut Rng| if rng.unit() < 0.5 { -1.0 } else { 1.0 };
@@ -396,14 +397,14 @@ fn random_paths_through_several_singularities_are_followed() {
         let q: Vec<[f64; 6]> = followed.q.iter().map(|q| q.unwrap()).collect();
         let worst = q.iter().zip(&poses).map(|(q, pose)| robot.residual(q, pose));
         for error in worst {
-            // The wrist center is met; the flange, 85 mm before it, turns about it.
+            // The wrist center is exact; the flange, 85 mm in front of it, turns about it.
             assert!(error.position < 3e-12 + 0.085 * error.rotation, "{error:?}");
             orientation = orientation.max(error.rotation);
         }
         let smooth = followed.breaks.is_empty() && largest_step(&q) <= 1.5 * largest_step(&made);
         followed_smoothly += usize::from(smooth);
-        // The arm may come back from stretched on its other elbow, and there meet a singularity
-        // that the path did not make.
+        // The arm may return from stretched on its other elbow, and there meet a singularity that
+        // the path does not contain.
         let elbow = |q: &[f64; 6]| q[2] - stretched();
         let passes =
             made.iter().map(elbow).fold(f64::INFINITY, |least, e| least.min(e.abs())) < 0.02;
@@ -411,16 +412,17 @@ fn random_paths_through_several_singularities_are_followed() {
         assert!(smooth || passes, "{:?} {:?}", followed.breaks, made[SAMPLES / 2]);
     }
     println!(
-        "{paths} random paths: {followed_smoothly} followed smoothly, {behind_an_elbow} not, behind a stretched elbow; worst orientation {orientation:.1e} rad"
+        "{paths} random paths: {followed_smoothly} followed smoothly, {behind_an_elbow} not, \
+         behind a stretched elbow; worst orientation {orientation:.1e} rad"
     );
-    // A straight elbow leaves the forearm open by 2e-7 rad on either side (docs/accuracy.md,
-    // section 9).
+    // A straight elbow leaves the forearm undetermined by 2e-7 rad on either side
+    // (docs/accuracy.md, section 9).
     assert!(orientation < 4e-7);
     assert!(followed_smoothly * 100 >= paths * 99);
 }
 
 #[test]
-fn a_crossing_of_few_uneven_poses_stays_within_two_zones() {
+fn wrist_mode_with_few_uneven_poses_stays_within_two_zones() {
     let robot = robot();
     let made: Vec<[f64; 6]> =
         [0.5, 0.016, 0.01, -0.001, -0.015, -0.1].map(|q5| [0.3, 0.2, 0.1, 0.5, q5, 0.4]).to_vec();
@@ -435,7 +437,7 @@ fn a_crossing_of_few_uneven_poses_stays_within_two_zones() {
 }
 
 #[test]
-fn axis_4_held_at_half_a_turn_is_as_good_over_the_base() {
+fn axis_4_locked_at_half_a_turn_keeps_it_over_the_base() {
     let robot = robot();
     let path: Vec<Pose> = (0..20)
         .map(|i| robot.fk(&[0.3, over_the_base(-0.6) + 1e-3 * f64::from(i), -0.6, PI, 0.8, 0.2]))

@@ -1,7 +1,7 @@
-//! Poses at and next to every singularity: each branch is found, nothing is wrong, nothing comes
-//! twice. And poses out of reach by little: nothing is found, and the shortfall is right.
+//! Poses at and near every singularity: each branch is found, no solution is incorrect, none is a
+//! duplicate. Poses slightly out of reach: no solution, and the correct shortfall.
 //!
-//! `make hardsets` prints one row a set with more poses; `make test` runs fewer.
+//! `make hardsets` prints one row per set with more poses; `make test` runs fewer.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use irbkin::thresholds;
@@ -13,24 +13,24 @@ use crate::structures::place::{At, Made, Place};
 use crate::structures::{Structure, Subject};
 
 crate::on_every_structure!(
-    every_branch_is_found_at_and_next_to_singularities,
-    beyond_reach_there_is_nothing_and_the_shortfall_is_right,
+    every_branch_is_found_at_and_near_singularities,
+    beyond_reach_there_is_no_solution_and_the_shortfall_is_correct,
 );
 
 /// Distances from a singularity, around the thresholds at which branches merge [rad, m].
 const NEAR: [f64; 8] = [0.0, 1e-12, 1e-9, 2e-9, 1e-7, 1e-6, 1e-5, 1e-4];
 const BEYOND: [f64; 5] = [1e-15, 1e-12, 9e-10, 1e-6, 1e-3];
 
-/// Poses of a set: one singularity, two of them, three.
+/// Poses per set: one singularity, two of them, three.
 fn poses() -> [usize; 3] {
     let of_one = poses_or(60);
     [of_one, of_one.div_ceil(2), of_one.div_ceil(4)]
 }
 
-/// Draws that may miss before a place counts as one that the arm does not get to.
+/// Draws that may fail before a place counts as one that the arm cannot reach.
 const MISSES: usize = 2000;
 
-fn every_branch_is_found_at_and_next_to_singularities<const N: usize>(structure: &Structure<N>)
+fn every_branch_is_found_at_and_near_singularities<const N: usize>(structure: &Structure<N>)
 where
     Joints<N>: Arity<N>,
 {
@@ -42,7 +42,7 @@ where
         for posture in subject.arm.postures() {
             let draw = |rng: &mut Rng| (posture.draw)(rng);
             let tally = run(&subject, &posture.place, poses()[0], draw, &mut rng);
-            report += &tally.tell(&subject.name, posture.name);
+            report += &tally.row(&subject.name, posture.name);
         }
         let mut attained = 0;
         for place in places(subject.arm.singular_places()) {
@@ -50,10 +50,10 @@ where
             let tally = run(&subject, &place, count, |rng| subject.arm.at(&place, rng), &mut rng);
             attained += usize::from(tally.poses > 0);
             if tally.poses > 0 {
-                report += &tally.tell(&subject.name, &place.name());
+                report += &tally.row(&subject.name, &place.name());
             }
         }
-        // Wrist, shoulder and one elbow can be had by every arm, alone and in pairs.
+        // Every arm can attain wrist, shoulder and one elbow, alone and in pairs.
         assert!(attained >= 3 * NEAR.len() + 3 * NEAR.len().pow(2), "{}: {attained}", subject.name);
     }
     assert!(report.is_empty(), "\n{report}");
@@ -67,7 +67,7 @@ where
     subject.clone().with_robot(|_| subject.arm.robot())
 }
 
-/// Every singularity, every two that are different joints' and, at one distance, every three.
+/// Every singularity, every two that belong to different joints and, at one distance, every three.
 fn places(singular: &[At]) -> Vec<Place> {
     let is_joint_4 = |at: At| !matches!(at, At::Wrist | At::Shoulder);
     let mut places = Vec::new();
@@ -129,8 +129,8 @@ where
     tally.take_residuals(&subject.robot, &made.pose, answers);
     let verdict = subject.arm.judge(&subject.robot, made, &solutions, rng);
     tally.found += usize::from(verdict.found);
-    tally.wrong += verdict.wrong;
-    tally.twice += verdict.twice;
+    tally.incorrect += verdict.incorrect;
+    tally.duplicates += verdict.duplicates;
     tally.flags += usize::from(!verdict.flagged);
     if tally.amiss() > before && tally.example.is_none() {
         let slots: Vec<_> = solutions.iter().collect();
@@ -141,8 +141,8 @@ where
 }
 
 /// Up to a nanometer beyond reach the arm is stretched or folded, off by no more than that; farther
-/// out there is nothing, and the right shortfall.
-fn beyond_reach_there_is_nothing_and_the_shortfall_is_right<const N: usize>(
+/// out there is no solution, and the correct shortfall.
+fn beyond_reach_there_is_no_solution_and_the_shortfall_is_correct<const N: usize>(
     structure: &Structure<N>,
 ) where
     Joints<N>: Arity<N>,
@@ -163,7 +163,7 @@ fn beyond_reach_there_is_nothing_and_the_shortfall_is_right<const N: usize>(
                     tally.take_missed(&subject.ik(&made.pose, &made.q), beyond, bound);
                 }
             }
-            report += &tally.tell(&subject.name, &format!("beyond reach by {beyond:e} m"));
+            report += &tally.row(&subject.name, &format!("beyond reach by {beyond:e} m"));
         }
     }
     assert!(report.is_empty(), "\n{report}");

@@ -1,4 +1,4 @@
-//! Laws of the tables that are made from joint axes.
+//! Laws of the tables that are built from joint axes.
 #![allow(clippy::unwrap_used, clippy::float_cmp, missing_docs)]
 
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -7,7 +7,7 @@ use irbkin::{JointAxis, Mdh, Pose, PoseDifference, Robot, pose_from_euler_zyx};
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Unit, Vector3};
 use proptest::prelude::*;
 
-/// How an axis stands to the one before it.
+/// Relation of an axis to the previous one.
 #[derive(Clone, Copy, Debug)]
 enum Step {
     Anyhow,
@@ -18,7 +18,12 @@ enum Step {
 
 fn steps() -> impl Strategy<Value = Step> {
     let sign = || prop_oneof![Just(1.0), Just(-1.0)];
-    prop_oneof![3 => Just(Step::Anyhow), 2 => sign().prop_map(Step::Parallel), 2 => Just(Step::Meeting), 1 => sign().prop_map(Step::Coincident)]
+    prop_oneof![
+        3 => Just(Step::Anyhow),
+        2 => sign().prop_map(Step::Parallel),
+        2 => Just(Step::Meeting),
+        1 => sign().prop_map(Step::Coincident),
+    ]
 }
 
 /// A step, and the direction, point and length that it may need.
@@ -30,7 +35,7 @@ fn drawn() -> impl Strategy<Value = Drawn> {
     (steps(), direction, prop::array::uniform3(-1.0..1.0), -0.5..0.5)
 }
 
-/// The first axis stands to the base's z as each other one to the axis before it.
+/// The first axis is to the base's z what each other one is to the previous axis.
 fn axes_of<const N: usize>(drawn: &[Drawn; N]) -> [JointAxis; N]
 where
     irbkin::Joints<N>: irbkin::Arity<N>,
@@ -53,7 +58,7 @@ fn tips() -> impl Strategy<Value = Pose> {
         .prop_map(|(xyz, zyx)| pose_from_euler_zyx(xyz, zyx).unwrap())
 }
 
-/// Product of exponentials: the tip at zero, turned about each axis from the last to the first.
+/// Product of exponentials: the tip at zero, rotated about each axis from the last to the first.
 fn fk_of_axes<const N: usize>(axes: &[JointAxis; N], tip: &Pose, q: &[f64; N]) -> Pose
 where
     irbkin::Joints<N>: irbkin::Arity<N>,
@@ -66,7 +71,7 @@ where
     })
 }
 
-/// Lengths that a pose is summed from [m]: where two axes are nearly parallel they are long.
+/// Lengths that a pose is summed from [m]: they are long if two axes are nearly parallel.
 fn reach_of<const N: usize>(mdh: &Mdh<N>) -> f64
 where
     irbkin::Joints<N>: irbkin::Arity<N>,
@@ -75,7 +80,7 @@ where
     1.0 + ends + mdh.rows.iter().map(|row| row.a.hypot(row.d)).sum::<f64>()
 }
 
-fn table_turns_as_the_axes<const N: usize>(
+fn table_moves_like_the_axes<const N: usize>(
     drawn: &[Drawn; N],
     tip: &Pose,
     q: &[f64; N],
@@ -107,7 +112,7 @@ where
     if let Step::Meeting | Step::Anyhow = drawn[0].0 {
         return Ok(());
     }
-    // Height and turn of an upright axis 1 are in the first row, and its distance along x.
+    // Height and angle of an upright axis 1 are in the first row, and its distance along x.
     prop_assert_eq!(mdh.base.rotation, Rotation3::identity());
     prop_assert_eq!((mdh.base.translation.x, mdh.base.translation.z), (0.0, 0.0));
     if let Step::Coincident(_) = drawn[0].0 {
@@ -133,40 +138,61 @@ fn is_quarter_turn(angle: f64) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 20_000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 20_000,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
 
     #[test]
-    fn tables_of_six_axes_turn_as_the_axes(drawn in prop::array::uniform6(drawn()), tip in tips(), q in prop::array::uniform6(-PI..PI)) {
-        table_turns_as_the_axes(&drawn, &tip, &q)?;
+    fn tables_of_six_axes_move_like_the_axes(
+        drawn in prop::array::uniform6(drawn()),
+        tip in tips(),
+        q in prop::array::uniform6(-PI..PI),
+    ) {
+        table_moves_like_the_axes(&drawn, &tip, &q)?;
     }
 
     #[test]
-    fn tables_of_seven_axes_turn_as_the_axes(drawn in prop::array::uniform7(drawn()), tip in tips(), q in prop::array::uniform7(-PI..PI)) {
-        table_turns_as_the_axes(&drawn, &tip, &q)?;
+    fn tables_of_seven_axes_move_like_the_axes(
+        drawn in prop::array::uniform7(drawn()),
+        tip in tips(),
+        q in prop::array::uniform7(-PI..PI),
+    ) {
+        table_moves_like_the_axes(&drawn, &tip, &q)?;
     }
 
     #[test]
-    fn square_arms_stay_square(axes in square(), q in prop::array::uniform6(-PI..PI)) {
+    fn right_angles_stay_exact(axes in square(), q in prop::array::uniform6(-PI..PI)) {
         let mdh = Mdh::from_joint_axes(&axes, &Pose::identity()).unwrap();
         prop_assert!(mdh.rows.iter().all(|row| is_quarter_turn(row.alpha)), "{mdh:?}");
-        // Between parallel axes x may run anywhere; a turn about them comes from it alone.
-        let parallel = (1..6).any(|i| mdh.rows[i].alpha.sin().abs() < 0.5) || mdh.rows[0].alpha.sin().abs() > 0.5;
+        // Between parallel axes x may be anywhere; a rotation about them depends on it alone.
+        let parallel = (1..6).any(|i| mdh.rows[i].alpha.sin().abs() < 0.5)
+            || mdh.rows[0].alpha.sin().abs() > 0.5;
         prop_assert!(parallel || mdh.rows.iter().all(|row| is_quarter_turn(row.theta)), "{mdh:?}");
-        let off = PoseDifference::between(&Robot::serial_chain(mdh.clone()).unwrap().fk(&q), &fk_of_axes(&axes, &Pose::identity(), &q)).largest();
+        let found = Robot::serial_chain(mdh.clone()).unwrap().fk(&q);
+        let wanted = fk_of_axes(&axes, &Pose::identity(), &q);
+        let off = PoseDifference::between(&found, &wanted).largest();
         prop_assert!(off <= 1e-14 * reach_of(&mdh), "off by {off:e}");
     }
 
     #[test]
-    fn what_is_a_rounding_off_parallel_is_parallel(drawn in prop::array::uniform6(drawn()), off in 1e-12..9e-10, q in prop::array::uniform6(-PI..PI)) {
+    fn axes_parallel_to_rounding_are_parallel(
+        drawn in prop::array::uniform6(drawn()),
+        off in 1e-12..9e-10,
+        q in prop::array::uniform6(-PI..PI),
+    ) {
         let mut axes = axes_of(&drawn);
         let z: Vector3<f64> = Vector3::from(axes[1].direction).normalize();
-        let aside: Vector3<f64> = z.cross(&if z.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() }).normalize();
+        let other = if z.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() };
+        let aside: Vector3<f64> = z.cross(&other).normalize();
         axes[2].direction = Vector3::into(z + aside * off);
         let tip = Pose::identity();
         let mdh = Mdh::from_joint_axes(&axes, &tip).unwrap();
         prop_assert_eq!(mdh.rows[2].alpha, 0.0);
-        let found = PoseDifference::between(&Robot::serial_chain(mdh.clone()).unwrap().fk(&q), &fk_of_axes(&axes, &tip, &q)).largest();
-        // Each of the two joints next to the deviation turns it by at most two.
+        let found = Robot::serial_chain(mdh.clone()).unwrap().fk(&q);
+        let found = PoseDifference::between(&found, &fk_of_axes(&axes, &tip, &q)).largest();
+        // Each of the two joints at the deviation rotates it by at most two.
         prop_assert!(found <= (4.0 * off + 1e-14) * reach_of(&mdh), "off by {found:e}");
     }
 }
@@ -197,7 +223,7 @@ fn an_axis_without_direction_is_refused_and_so_is_a_normal_too_far_away() {
 }
 
 #[test]
-fn directions_of_any_size_are_taken() {
+fn directions_of_any_length_are_accepted() {
     let axis = |direction| JointAxis { direction, point: [0.1, 0.2, 0.3] };
     let mdh = |size: f64| {
         Mdh::from_joint_axes(&[axis([0.0, 0.0, size]), axis([size, 0.0, 0.0])], &Pose::identity())

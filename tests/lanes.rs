@@ -1,6 +1,6 @@
-//! What a kernel in lanes must not change: an answer does not depend on the row's place, on its
-//! neighbors, on the number of threads, on whether it was asked for alone, nor, but for rounding
-//! where there is no fused multiplication and addition, on the instruction set.
+//! What a kernel in lanes must not change: an answer does not depend on the place of the row, on
+//! its neighbors, on the number of threads, on whether it was solved alone, nor, except for
+//! rounding without fused multiplication and addition, on the instruction set.
 #![allow(clippy::unwrap_used, unreachable_pub, missing_docs)]
 
 mod common;
@@ -30,13 +30,13 @@ on_every_structure!(
     batch_equals_single_bit_for_bit,
     a_row_does_not_depend_on_its_neighbors,
     threads_change_no_bit,
-    an_invalid_row_is_told_and_leaves_the_others_alone,
+    an_invalid_row_is_flagged_and_the_others_are_solved,
     avx2_and_avx512_agree_to_the_bit,
     baseline_agrees_to_rounding,
     poses_of_many_turns_are_those_of_the_table,
 );
 
-/// No multiple of any lane count; every kind of row in every lane.
+/// Not a multiple of any lane count; every kind of row in every lane.
 const ROWS: usize = 24 * 18 + 5;
 
 const FRAMES: [JacobianFrame; 2] = [JacobianFrame::Base, JacobianFrame::Tool];
@@ -86,7 +86,7 @@ where
     }
 }
 
-/// The answer to one row as a batch has it.
+/// The answer to one row, as in a batch.
 fn alone<const N: usize>(
     subject: &Subject<N>,
     (row, joints): &Row<N>,
@@ -106,7 +106,7 @@ where
     (q, std::array::from_fn(|slot| status[slot].bits()))
 }
 
-/// Not numbers are one like the other: their bits mean nothing.
+/// Every NaN equals every other: their bits have no meaning.
 fn same_bits(a: &[f64], b: &[f64]) -> bool {
     a.len() == b.len()
         && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan()))
@@ -301,7 +301,7 @@ fn forward_rows_do_not_depend_on_their_neighbors<const N: usize>(
     }
 }
 
-/// The numbers below `count` in another order.
+/// The numbers below `count` in random order.
 fn shuffled(count: usize) -> Vec<usize> {
     let mut rng = Rng::new(3);
     let mut order: Vec<_> = (0..count).map(|i| (rng.unit(), i)).collect();
@@ -309,7 +309,7 @@ fn shuffled(count: usize) -> Vec<usize> {
     order.into_iter().map(|(_, i)| i).collect()
 }
 
-/// Where there is one core, no pool of threads is made, and there is nothing to compare.
+/// With one core, no pool of threads is made, and there is nothing to compare.
 fn threads_change_no_bit<const N: usize>(structure: &Structure<N>)
 where
     Joints<N>: Arity<N>,
@@ -321,7 +321,7 @@ where
     }
     on_each_set(|set| {
         for subject in subjects(structure).iter().step_by(4) {
-            // Enough for four threads, the last part not whole.
+            // Enough for four threads, with an incomplete last part.
             let rows: Vec<_> = rows(subject, ROWS).into_iter().cycle().take(17_001).collect();
             let whole = Answers::in_a_batch(subject, &rows, 1);
             for threads in [2, 3, 4, 0] {
@@ -334,7 +334,7 @@ where
 
 type Spoil = fn(&mut PoseRow);
 
-fn an_invalid_row_is_told_and_leaves_the_others_alone<const N: usize>(structure: &Structure<N>)
+fn an_invalid_row_is_flagged_and_the_others_are_solved<const N: usize>(structure: &Structure<N>)
 where
     Joints<N>: Arity<N>,
 {
@@ -375,7 +375,7 @@ fn an_invalid_row_leaves_alone<const N: usize>(
     });
 }
 
-/// What every set gives for an arm.
+/// The answers of every set for an arm.
 struct OnEachSet<const N: usize>
 where
     Joints<N>: Arity<N>,
@@ -454,8 +454,8 @@ where
         for other in others {
             worst = worst.max(rounding_between(subject, &baseline.answers, &other.answers));
             // A frame is the product of eight, each element of which is a sum of three products: 24
-            // roundings either way, and as many of the Jacobian's cross product and turn into the
-            // tool.
+            // roundings either way, and as many for the Jacobian's cross product and rotation into
+            // the tool frame.
             let bound = 2.0 * 48.0 * f64::EPSILON * (1.0 + subject.reach());
             let numbers = |solved: &OnEachSet<N>| {
                 [solved.poses.as_flattened(), solved.jacobians.as_flattened().as_flattened()]
@@ -476,8 +476,8 @@ where
 /// The largest difference of the joints away from singularities; there the slots have the same
 /// status.
 ///
-/// A solve closes to 3e-15 of the reach and 1e-14 rad, so that two are apart by twice that over the
-/// least singular value. Where that is below 1e-12 rad, the pose is away from singularities.
+/// A solve closes to 3e-15 of the reach and 1e-14 rad, so two solves differ by at most twice that
+/// over the least singular value. If that is below 1e-12 rad, the pose is away from singularities.
 fn rounding_between<const N: usize>(
     subject: &Subject<N>,
     ours: &Answers<N>,
@@ -496,7 +496,7 @@ where
                 continue;
             }
             compared += 1;
-            // Half a turn is +pi or, with the last bit otherwise, -pi.
+            // Half a turn is +pi or, with another last bit, -pi.
             let apart = common::apart(a, b);
             assert!(apart <= 1e-12, "{}, row {i}, slot {slot}: {a:?} and {b:?}", subject.name);
             worst = worst.max(apart);
@@ -530,7 +530,7 @@ where
     for (q, row) in joints.iter().zip(fk_of(robot, &joints)) {
         let mut wanted: Pose = robot.base() * mdh.base;
         for (row, angle) in mdh.rows.iter().zip(q) {
-            // The two turns about z one after the other: their sum would lose digits of an angle of
+            // The two rotations about z in sequence: their sum would lose digits of an angle of
             // many turns.
             let along = Translation3::new(row.a, 0.0, row.d) * Rotation3::identity();
             let [x, z, q] = [
@@ -547,7 +547,7 @@ where
             wanted = wanted * x * along * z * q;
         }
         wanted = wanted * mdh.flange * robot.tool();
-        // Ten products either way, of which each element is a sum of three products.
+        // Ten products either way, each element of which is a sum of three products.
         let bound = 2.0 * 30.0 * f64::EPSILON * (1.0 + lengths + ends);
         for (a, b) in row.iter().zip(pose_to_rows(&wanted)) {
             assert!((a - b).abs() <= bound, "{what}, fk of {q:?}: {a} and {b}");

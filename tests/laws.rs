@@ -1,6 +1,6 @@
 //! Laws of the kinematics that hold for every structure, on its subjects and on random arms.
 //!
-//! What holds for one structure alone is in the folder `laws`.
+//! Laws of one structure alone are in the folder `laws`.
 #![allow(clippy::unwrap_used, clippy::float_cmp, missing_docs)]
 
 mod of_robots;
@@ -33,7 +33,7 @@ crate::on_every_structure!(
     both_wrists_of_an_arm_are_flips,
     slots_are_stable_along_a_path,
     jacobian_matches_central_differences,
-    the_tool_jacobian_is_the_base_jacobian_turned,
+    the_tool_jacobian_is_the_rotated_base_jacobian,
     the_determinant_is_the_product_of_its_factors,
     a_table_may_have_its_frames_anywhere,
     both_conventions_describe_the_same_arm,
@@ -59,7 +59,7 @@ where
 
 type Law<const N: usize> = fn(&Case<N>, &Counts) -> Result<(), TestCaseError>;
 
-/// What a law compared, and what it left out: both sides are asserted.
+/// What a law compared, and what it left out: both are asserted.
 #[derive(Debug, Default)]
 struct Counts {
     compared: Cell<usize>,
@@ -100,7 +100,7 @@ where
     counts
 }
 
-/// Asserts that a law compared at least so many times.
+/// Asserts that a law compared at least this many times.
 fn assert_compared(counts: &Counts, least: usize) {
     assert!(counts.compared.get() >= least, "{counts:?}, at least {least} comparisons are wanted");
 }
@@ -218,7 +218,7 @@ where
     });
 }
 
-fn the_tool_jacobian_is_the_base_jacobian_turned<const N: usize>(structure: &Structure<N>)
+fn the_tool_jacobian_is_the_rotated_base_jacobian<const N: usize>(structure: &Structure<N>)
 where
     Joints<N>: Arity<N>,
 {
@@ -258,14 +258,14 @@ where
     });
 }
 
-/// The same arm by a table with the x axes of some frames turned over, and by a standard one.
+/// The same arm by a table with the x axes of some frames flipped, and by a standard one.
 fn a_table_may_have_its_frames_anywhere<const N: usize>(structure: &Structure<N>)
 where
     Joints<N>: Arity<N>,
 {
     let counts = hold(structure, |Case { arm, q, bits, .. }, counts| {
         let mdh = arm.robot.mdh().clone();
-        let table = with_x_turned_over(mdh.clone(), *bits);
+        let table = with_x_flipped(mdh.clone(), *bits);
         let pose = arm.robot.fk(q);
         let bound = 1e-14 * (1.0 + arm.reach());
         let standard = Robot::from_sdh(Sdh::from(table.clone())).unwrap();
@@ -292,7 +292,7 @@ where
 }
 
 /// `Rz(pi) Rx(alpha) Tx(a) = Rx(-alpha) Tx(-a) Rz(pi)`.
-fn with_x_turned_over<const N: usize>(mut mdh: Mdh<N>, over: u32) -> Mdh<N>
+fn with_x_flipped<const N: usize>(mut mdh: Mdh<N>, over: u32) -> Mdh<N>
 where
     Joints<N>: Arity<N>,
 {
@@ -343,7 +343,7 @@ where
         }
         for ours in ours.iter().filter(is_regular) {
             let theirs = theirs.slot(usize::from(ours.slot)).unwrap();
-            // Rounded where base and tool put the pose, once more where they are removed.
+            // Rounded where base and tool are applied to the pose, again where they are removed.
             let off = apart(&ours.q, &theirs.q);
             prop_assert!(off <= 3.0 * moved.joint_bound(&ours.q), "{off:e}");
         }
@@ -395,7 +395,7 @@ where
     assert_compared(&counts, 100);
 }
 
-/// Half of the poses are drawn near the arm, so that both sides have many.
+/// Half of the poses are drawn near the arm, so that both cases are frequent.
 fn any_pose_has_an_answer_or_a_shortfall<const N: usize>(structure: &Structure<N>)
 where
     Joints<N>: Arity<N>,

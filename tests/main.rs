@@ -1,7 +1,7 @@
-//! The suite: one binary, for linking and optimizing one for each file took most of the time.
+//! The suite: one binary, because linking and optimizing one per file took most of the time.
 //!
-//! A new file of tests is a module here; `CONTRIBUTING.md` says how. What forces an instruction set
-//! in the whole process is in `lanes.rs`, which is a binary of its own.
+//! A new file of tests is a module here, see `CONTRIBUTING.md`. Tests that force an instruction set
+//! in the whole process are in `lanes.rs`, which is a separate binary.
 #![allow(unreachable_pub)]
 
 mod allocation;
@@ -11,6 +11,7 @@ mod catalog_page;
 mod common;
 mod configuration;
 mod coupled;
+mod display;
 mod follow;
 mod hard_sets;
 mod joint_axes;

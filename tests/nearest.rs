@@ -1,6 +1,6 @@
-//! Laws of the choice next to singularities: where joints inside the limits made a pose, some are
-//! found, the nearest of them to every seed, and those of every configuration. `IRBKIN_POSES` sets
-//! the number of poses of each set.
+//! Laws of the choice near singularities: if joints inside the limits made a pose, some are found,
+//! the nearest of them to every seed, and those of every configuration. `IRBKIN_POSES` sets the
+//! number of poses per set.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 #[path = "nearest/sets.rs"]
@@ -16,12 +16,12 @@ fn poses() -> usize {
     std::env::var("IRBKIN_POSES").ok().map_or(3, |count| count.parse().unwrap())
 }
 
-/// What limits a pose is solved with.
+/// The limits that a pose is solved with.
 #[derive(Clone, Copy, Debug)]
 enum Bounds {
     /// Those of the catalog.
     Own,
-    /// Up to half a radian wide, the joints that made the pose inside.
+    /// Up to half a radian wide, around the joints that made the pose.
     Narrow,
     /// One side of each joint only.
     OneSided,
@@ -31,7 +31,7 @@ enum Bounds {
 const BOUNDS: [Bounds; 4] = [Bounds::Own, Bounds::Narrow, Bounds::OneSided, Bounds::Unlimited];
 
 impl Bounds {
-    /// Limits that hold `q`; none where those of the arm do not.
+    /// Limits that contain `q`; `None` if those of the arm do not.
     fn around(self, robot: &Robot<6>, q: &[f64; 6], rng: &mut Rng) -> Option<JointLimits<6>> {
         let limits = match self {
             Self::Own => return robot.limits().contains(q).then(|| *robot.limits()),
@@ -49,13 +49,13 @@ impl Bounds {
     }
 }
 
-/// How often a law was held against a set, and how often it did not hold.
+/// How often a law was checked on a set, and how often it was violated.
 #[derive(Default)]
 struct Law {
     name: &'static str,
-    /// It may be broken once in so many.
+    /// It may be violated once in so many.
     one_in: usize,
-    held: usize,
+    kept: usize,
     broken: usize,
     first: Option<String>,
 }
@@ -67,16 +67,16 @@ impl Law {
 
     fn hold(&mut self, holds: bool, what: impl FnOnce() -> String) {
         if holds {
-            self.held += 1;
+            self.kept += 1;
         } else {
             self.broken += 1;
             let _ = self.first.get_or_insert_with(what);
         }
     }
 
-    /// Prints a row; returns it where the law was broken.
-    fn tell(&self, set: &str) -> String {
-        let all = self.held + self.broken;
+    /// Prints a row; returns it if the law was violated.
+    fn row(&self, set: &str) -> String {
+        let all = self.kept + self.broken;
         let row = format!("{set:44} {:28} {:6} of {all:6} broken", self.name, self.broken);
         if all > 0 {
             println!("{row}");
@@ -88,7 +88,8 @@ impl Law {
     }
 }
 
-/// How far a solution may be off its pose: by what a seed may cost, and by rounding.
+/// Whether a solution is as near to its pose as the tolerance of a seeded solve and rounding
+/// permit.
 fn met(robot: &Robot<6>, pose: &Pose, q: &[f64; 6]) -> bool {
     let size = pose.translation.vector.norm() + robot.base().translation.vector.norm() * 2.0;
     let error = robot.residual(q, pose);
@@ -118,15 +119,15 @@ impl Laws {
             any_seed: Law::named("any seed finds one that meets"),
             nearest: Law::named("no solution of ik is nearer"),
             start: Law::named("a path starts there"),
-            // Where the elbow's side is itself a matter of rounding, and where three joints are
-            // free at once, the side may be lost.
+            // If the elbow's side is itself a matter of rounding, or three joints are free at once,
+            // the side may be missed.
             configured: Law { one_in: 40, ..Law::named("found by its configuration") },
         }
     }
 
-    fn tell(&self, set: &str) -> String {
+    fn row(&self, set: &str) -> String {
         [&self.inside, &self.own_seed, &self.any_seed, &self.nearest, &self.start, &self.configured]
-            .map(|law| law.tell(set))
+            .map(|law| law.row(set))
             .concat()
     }
 
@@ -138,7 +139,7 @@ impl Laws {
         self.inside.hold(inside, about);
         let ones = [1.0; 6];
         let found = robot.ik_nearest(&pose, q, &ones);
-        // Where the pose is regular, by what its rounding leaves of the joints.
+        // For a regular pose, the rounding of the joints.
         let rounding = 4e-15 * (2.0 + reach_of(robot)) / robot.singularity(q).min_singular_value;
         let bound = rounding.clamp(1e-9, 1e-4);
         let back = |found: &Solution<6>| {
@@ -196,21 +197,21 @@ impl Laws {
     }
 }
 
-/// Holds the laws against every kind of singularity of an arm, at every distance.
+/// Checks the laws at every kind of singularity of an arm, at every distance.
 fn run(arm: &Arm) -> String {
-    let (mut rng, mut report, mut held) = (Rng::new(5), String::new(), 0);
+    let (mut rng, mut report, mut kept) = (Rng::new(5), String::new(), 0);
     for kind in KINDS {
         for bounds in BOUNDS {
             let mut laws = Laws::new();
             for distance in DISTANCES {
                 for _ in 0..poses() {
-                    held += usize::from(hold_one(arm, kind, distance, bounds, &mut rng, &mut laws));
+                    kept += usize::from(hold_one(arm, kind, distance, bounds, &mut rng, &mut laws));
                 }
             }
-            report += &laws.tell(&format!("{} {kind:?} {bounds:?}", arm.name));
+            report += &laws.row(&format!("{} {kind:?} {bounds:?}", arm.name));
         }
     }
-    assert!(held > 100, "{}: {held}", arm.name);
+    assert!(kept > 100, "{}: {kept}", arm.name);
     report
 }
 
@@ -282,7 +283,7 @@ fn universal_robots() {
 #[test]
 fn every_serial_abb_arm_is_found_by_its_configuration() {
     asked_set();
-    let (mut rng, mut report, mut arms, mut held) = (Rng::new(9), String::new(), 0, 0);
+    let (mut rng, mut report, mut arms, mut kept) = (Rng::new(9), String::new(), 0, 0);
     let abb = catalog().filter(|arm| matches!(arm.geometry, CatalogGeometry::Abb { .. }));
     let mut kinds = KINDS.map(|kind| (kind, Laws::new().configured));
     for arm in abb.map(|arm| Arm::named(arm.name)).filter(|arm| !arm.robot.is_coupled()) {
@@ -305,13 +306,13 @@ fn every_serial_abb_arm_is_found_by_its_configuration() {
                 law.hold(laws.configured.broken == 0, || {
                     laws.configured.first.take().unwrap_or_default()
                 });
-                held += 1;
+                kept += 1;
             }
         }
     }
     for (kind, law) in &kinds {
-        report += &law.tell(&format!("serial ABB arms {kind:?}"));
+        report += &law.row(&format!("serial ABB arms {kind:?}"));
     }
-    assert!(arms > 60 && held > 60 * 60, "{arms} {held}");
+    assert!(arms > 60 && kept > 60 * 60, "{arms} {kept}");
     assert!(report.is_empty(), "\n{report}");
 }

@@ -1,5 +1,5 @@
-//! RAPID modules: what is written reads back as the same, and what is broken is told in which
-//! words.
+//! RAPID modules: what is written reads back unchanged, and invalid text is reported with an exact
+//! message.
 #![allow(clippy::unwrap_used, clippy::panic, clippy::float_cmp, missing_docs)]
 
 use std::fmt::Write;
@@ -16,7 +16,7 @@ const WELD: &str = include_str!("data/rapid/weld.mod");
 const TOOLS: &[u8] = include_bytes!("data/rapid/tools.sys");
 const PENDANT: &str = include_str!("data/rapid/pendant.prg");
 
-/// Any finite number, those with many digits, and those that modules hold.
+/// Any finite number, numbers with many digits, and numbers as in modules.
 fn numbers() -> impl Strategy<Value = f64> {
     prop_oneof![
         any::<f64>().prop_filter("finite", |number| number.is_finite()),
@@ -90,7 +90,7 @@ fn values() -> impl Strategy<Value = Value> {
     ]
 }
 
-/// The module written and read again, which must say the same.
+/// The module written and read again, which must be equal.
 fn holds(module: &Module, context: &[&Module]) -> Module {
     let text = module.to_string();
     let again = parse(&text, context).unwrap_or_else(|error| panic!("{error}\n{text}"));
@@ -99,7 +99,11 @@ fn holds(module: &Module, context: &[&Module]) -> Module {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 2000,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn every_value_reads_back_bit_for_bit(value in values()) {
@@ -109,14 +113,22 @@ proptest! {
     }
 
     #[test]
-    fn arrays_read_back_as_they_are(columns in 1..4_usize, targets in prop::collection::vec(robtargets(), 1..12)) {
-        let rows: Vec<_> = targets.chunks_exact(columns).map(|row| row.iter().map(RobTarget::to_string).collect::<Vec<_>>().join(",")).collect();
+    fn arrays_read_back_as_they_are(
+        columns in 1..4_usize,
+        targets in prop::collection::vec(robtargets(), 1..12),
+    ) {
+        let row = |row: &[RobTarget]| {
+            row.iter().map(RobTarget::to_string).collect::<Vec<_>>().join(",")
+        };
+        let rows: Vec<_> = targets.chunks_exact(columns).map(row).collect();
         prop_assume!(!rows.is_empty());
-        let text = format!("PERS robtarget pts{{{},{columns}}}:=[[{}]];", rows.len(), rows.join("],["));
+        let (count, written) = (rows.len(), rows.join("],["));
+        let text = format!("PERS robtarget pts{{{count},{columns}}}:=[[{written}]];");
         let module = parse(&text, &[]).unwrap();
         let Content::Array { sizes, values } = &module.data()[0].content else { panic!() };
         prop_assert_eq!(sizes, &[rows.len(), columns]);
-        prop_assert_eq!(values, &targets[..values.len()].iter().copied().map(Value::RobTarget).collect::<Vec<_>>());
+        let wanted = targets[..values.len()].iter().copied().map(Value::RobTarget);
+        prop_assert_eq!(values, &wanted.collect::<Vec<_>>());
         holds(&module, &[]);
     }
 }
@@ -153,7 +165,7 @@ fn real_looking_modules_are_read() {
     holds(&weld, &[&tools]);
 }
 
-/// A fault in a text, with the words that tell it.
+/// An error in a text, with its message.
 const BROKEN: &[(&str, &str)] = &[
     (
         "MODULE M\n  CONST string s:=\"abc;\nENDMODULE",
@@ -340,7 +352,7 @@ const BROKEN: &[(&str, &str)] = &[
 ];
 
 #[test]
-fn broken_input_is_told() {
+fn invalid_input_is_reported() {
     for (text, words) in BROKEN {
         match parse(text, &[]) {
             Err(Error::Rapid(fault)) => assert_eq!(fault.to_string(), *words, "{text}"),

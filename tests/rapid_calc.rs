@@ -31,7 +31,7 @@ fn fixture(robhold: bool) -> WobjData {
     WobjData { robhold, ufprog: true, ufmec: String::new(), uframe, oframe }
 }
 
-/// The words of what is wrong with a target; the empty text where nothing is.
+/// The words of the problem with a target; empty if there is none.
 fn words(row: &TableRow) -> String {
     row.problem.as_ref().map(ToString::to_string).unwrap_or_default()
 }
@@ -49,10 +49,10 @@ fn arms() -> [Robot<6>; 3] {
     [standing, hanging, Robot::named("IRB 2400-10/1.55").unwrap()]
 }
 
-/// Locked by the robot, the tool meets the work object where the world sees both; stationary, they
-/// swap roles.
+/// Carried by the robot, the tool is at the target in the work object, both in the world frame;
+/// with a stationary tool, they swap roles.
 #[test]
-fn the_tool_is_in_the_work_object_as_the_world_sees_both() {
+fn tool_and_work_object_are_combined_in_the_world_frame() {
     let mut rng = Rng::new(21);
     for robot in arms() {
         for (tool, wobj) in [(gun(true), fixture(false)), (gun(false), fixture(true))] {
@@ -78,7 +78,7 @@ fn the_tool_is_in_the_work_object_as_the_world_sees_both() {
 }
 
 #[test]
-fn joint_angles_come_back_from_their_robtarget() {
+fn joint_angles_round_trip_through_their_robtarget() {
     let mut rng = Rng::new(22);
     for robot in arms() {
         for (tool, wobj) in [(gun(true), fixture(false)), (gun(false), fixture(true))] {
@@ -97,7 +97,7 @@ fn joint_angles_come_back_from_their_robtarget() {
                     .zip(joints.robax_deg)
                     .map(|(a, b)| (a - b).abs())
                     .fold(0.0, f64::max);
-                // Behind the elbow a coupled arm's configuration names another posture.
+                // Behind the elbow the configuration of a coupled arm names another posture.
                 if !(robot.is_coupled() && off > 1.0) {
                     assert!(off < 1e-9, "{off} deg");
                     kept += 1;
@@ -110,7 +110,7 @@ fn joint_angles_come_back_from_their_robtarget() {
 }
 
 #[test]
-fn without_tool_and_work_object_the_robots_own_count() {
+fn without_tool_and_work_object_those_of_the_robot_are_used() {
     let tool = pose(&gun(true).tframe);
     let robot = arms()[1].clone().with_tool(&tool).unwrap();
     let joints = JointTarget { robax_deg: [10.0, 20.0, 30.0, 40.0, 50.0, 60.0], extax: EXTAX };
@@ -148,7 +148,7 @@ fn errors_have_the_names_of_rapid() {
 }
 
 #[test]
-fn frames_that_do_not_go_together_are_refused() {
+fn frames_that_cannot_be_combined_are_refused() {
     let robot = &arms()[0];
     let joints = JointTarget { robax_deg: [0.0; 6], extax: EXTAX };
     let message = |tool: &ToolData, wobj: &WobjData| {
@@ -214,9 +214,10 @@ fn a_table_has_a_row_for_each_target_of_the_moves() {
         ]
     );
     let problem = |row: usize| words(&rows[row]);
-    assert!(
-        problem(1).starts_with("ERR_ROBLIMIT: no solution inside the limits has the configuration [0, 0, 0, 0]; there are [-1, 0, -2, 0]")
-    );
+    assert!(problem(1).starts_with(
+        "ERR_ROBLIMIT: no solution inside the limits has the \
+            configuration [0, 0, 0, 0]; there are [-1, 0, -2, 0]"
+    ));
     assert!(problem(4).starts_with("ERR_OUTSIDE_REACH: wrist center"));
     assert!(problem(5).starts_with("tool tElsewhere: "), "{}", problem(5));
     assert_eq!(problem(6), "ERR_ROBLIMIT: J3 is outside its limits by 49.0 deg");
@@ -225,7 +226,7 @@ fn a_table_has_a_row_for_each_target_of_the_moves() {
         assert_eq!(row.configuration, robot.configuration(&q).unwrap());
         assert_eq!(row.distances, robot.singularity(&q).distances);
     }
-    // As the controller has it.
+    // As on the controller.
     let degrees = rows[0].q.unwrap().map(f64::to_degrees);
     for (found, derived) in
         degrees.into_iter().zip([11.6894, 55.6175, -44.8034, 0.0, 79.1858, -78.3106])
@@ -235,7 +236,7 @@ fn a_table_has_a_row_for_each_target_of_the_moves() {
 }
 
 #[test]
-fn a_configuration_that_nobody_calculated_can_fall_back_to_the_joints_before() {
+fn a_configuration_without_solution_can_fall_back_to_the_nearest_joints() {
     let robot: Robot<6> = Robot::named("IRB 140-6/0.81").unwrap();
     let module = parse(PROGRAM, &[]).unwrap();
     let rows = calc_moves(&robot, &module, Fallback::Nearest([0.0; 6])).unwrap();
@@ -277,7 +278,7 @@ fn declared_targets_have_a_row_each_by_their_names() {
 }
 
 #[test]
-fn displaced_moves_and_axes_that_are_not_there_have_no_joints() {
+fn displaced_moves_and_absent_axes_have_no_joint_angles() {
     let robot: Robot<6> = Robot::named("IRB 140-6/0.81").unwrap();
     let text = "CONST jointtarget j:=[[0,0,9E9,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
         MoveAbsJ j,v100,fine,tool0;

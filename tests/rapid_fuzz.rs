@@ -24,7 +24,7 @@ const CORPUS: [&[u8]; 3] = [
     include_bytes!("data/rapid/pendant.prg"),
 ];
 
-/// Pieces of RAPID, and of what is none.
+/// Pieces of RAPID, and of other text.
 const PIECES: &[&str] = &[
     "MODULE M",
     "ENDMODULE",
@@ -185,7 +185,7 @@ fn token_soup(rng: &mut Rng) -> Vec<u8> {
     (0..below(rng, 40)).flat_map(|_| PIECES[below(rng, PIECES.len())].bytes()).collect()
 }
 
-/// Declarations and moves most of which are right, in any order.
+/// Declarations and moves, most of them valid, in any order.
 fn statements(rng: &mut Rng) -> Vec<u8> {
     let mut text = String::new();
     for _ in 0..below(rng, 12) {
@@ -196,7 +196,8 @@ fn statements(rng: &mut Rng) -> Vec<u8> {
             0 => format!("CONST num {name}:=-({other}+2)*.5;\n"),
             1 => format!("VAR num {name}{{2}}:=[{other},7];\n"),
             2 => format!(
-                "PERS robtarget {name}:=[[1,{other},3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+                "PERS robtarget {name}:=[[1,{other},3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,\
+                 9E9]];\n"
             ),
             3 => format!("CONST robtarget {name}:=RelTool({other},1,2,3\\Rz:=30);\n"),
             4 => format!("MoveL {other},v1,z1,tool0\\WObj:=wobj0;\n"),
@@ -206,7 +207,8 @@ fn statements(rng: &mut Rng) -> Vec<u8> {
             8 => format!("{name}:=1; Incr {other};\n"),
             9 => format!("PDispOn {name},tool0; SearchL d,{name},{other},v1,tool0;\n"),
             10 => format!(
-                "MoveL ToPoint:=Offs(Point:={name},0,0,{other}),\\ID:=1,v1,Zone:=z1,tool0,\\WObj:=wobj0;\n"
+                "MoveL ToPoint:=Offs(Point:={name},0,0,{other}),\\ID:=1,v1,Zone:=z1,tool0,\
+                 \\WObj:=wobj0;\n"
             ),
             11 => format!("VAR <TYP> {name}; IF <EXP> <SMT> {other}:=<EXP>; VAR num <ID>;\n"),
             12 => format!("PERS robtarget {name}:={other};\n"),
@@ -218,7 +220,7 @@ fn statements(rng: &mut Rng) -> Vec<u8> {
     text.into_bytes()
 }
 
-/// A module with bytes changed, left out, doubled, or with pieces put in.
+/// A module with bytes changed, omitted, doubled, or with pieces inserted.
 fn mutation(rng: &mut Rng) -> Vec<u8> {
     let mut text = CORPUS[below(rng, CORPUS.len())].to_vec();
     for _ in 0..=below(rng, 3) {
@@ -257,8 +259,8 @@ fn check(text: &str, module: &Module) {
         .flat_map(|(datum, it)| own_values(datum, &it.content))
         .collect();
     let rewritten = rewrite(text, module, &own).unwrap();
-    // A datum that referred to another one, which is assigned, stands by itself now: what was
-    // unknown in a move is looked at, and may be broken.
+    // A datum that referred to an assigned one is now independent: what was unknown in a move is
+    // evaluated, and may be invalid.
     let unknown = |step: &Move| {
         let via = step.via.as_ref().and_then(|via| via.value.as_ref().err());
         let wobj = step.wobj.as_ref().and_then(|wobj| wobj.value.as_ref().err());
@@ -291,7 +293,7 @@ fn own_values(datum: usize, content: &Content) -> Vec<NewValue> {
     }
 }
 
-/// Reads inputs of a kind: how many were refused, and the longest time for a byte.
+/// Reads inputs of a kind: the number that is refused, and the longest time per byte.
 fn read_all(kind: &str, make: fn(&mut Rng) -> Vec<u8>) -> usize {
     let count = inputs();
     let mut rng = Rng::new(kind.len() as u64);
@@ -408,8 +410,8 @@ fn time(text: &str) -> f64 {
     (0..3).map(|_| once()).fold(f64::INFINITY, f64::min)
 }
 
-/// Twice the text takes about twice the time: ratios are printed, and where they are to be trusted,
-/// among many inputs, a quadratic reader, whose ratio of sixteen sizes is 256, is not let through.
+/// Twice the text takes about twice the time. Ratios are printed and, with enough inputs to be
+/// reliable, a quadratic reader, whose ratio of sixteen sizes is 256, fails.
 #[test]
 fn reading_time_is_linear() {
     let is_long = inputs() > 100_000;
@@ -425,7 +427,7 @@ fn reading_time_is_linear() {
             four / one,
             sixteen / one
         );
-        // Sizes below a tenth of a millisecond tell nothing of a ratio.
+        // Below a tenth of a millisecond a ratio has no meaning.
         assert!(
             !is_long || sixteen / one.max(1e-4) < 64.0,
             "{}: {:.1}",
@@ -441,7 +443,8 @@ fn large_modules_are_read_at_once() {
     let count = if inputs() > 100_000 { 50_000 } else { 1000 };
     let target: fn(usize) -> String = |i| {
         format!(
-            "  CONST robtarget p{i}:=[[{i}.125,-20.5,300.75],[0.5,0.5,-0.5,0.5],[0,-1,0,1],[9E+09,9E+09,9E+09,9E+09,9E+09,9E+09]];\n"
+            "  CONST robtarget p{i}:=[[{i}.125,-20.5,300.75],[0.5,0.5,-0.5,0.5],[0,-1,0,1],[9E+09,\
+             9E+09,9E+09,9E+09,9E+09,9E+09]];\n"
         )
     };
     let step: fn(usize) -> String =

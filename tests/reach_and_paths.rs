@@ -1,8 +1,8 @@
-//! Next to the edge of reach and to several singularities at once: a pose that a joint vector makes
-//! has its solution, what rounding merges is one and nothing else is, each slot reaches by itself,
-//! and smooth joint paths are followed.
+//! Near the edge of reach and several singularities at once: a pose made by a joint vector has its
+//! solution, rounding merges exactly what it must, each slot reaches independently, and smooth
+//! joint paths are followed.
 //!
-//! `IRBKIN_POSES` sets how many poses; each law prints its rates.
+//! `IRBKIN_POSES` sets the number of poses; each law prints its rates.
 #![allow(clippy::unwrap_used, clippy::cast_precision_loss, missing_docs)]
 
 #[path = "reach_and_paths/arm.rs"]
@@ -19,7 +19,7 @@ fn poses() -> usize {
     std::env::var("IRBKIN_POSES").ok().map_or(60, |count| count.parse().unwrap())
 }
 
-/// Cases that fail a law, of all of a set.
+/// Cases that violate a law, of all of a set.
 #[derive(Default)]
 struct Count {
     of: usize,
@@ -38,8 +38,8 @@ impl Count {
         }
     }
 
-    /// Prints the rate; returns it where it is not zero.
-    fn tell(&self, set: &str) -> String {
+    /// Prints the rate; returns it if it is not zero.
+    fn row(&self, set: &str) -> String {
         let row = format!("{set:60} {:6} of {:7} {}", self.failed, self.of, self.first);
         println!("{row}");
         assert!(self.of > 0, "{set}: no pose");
@@ -51,12 +51,12 @@ fn assert_none(report: &str) {
     assert!(report.is_empty(), "\n{report}");
 }
 
-/// Whether one of the solutions of a pose stands in the plane of the joint vector that made it,
-/// with its joint 5, to what rounding leaves open.
+/// Whether one of the solutions of a pose is in the plane of the joint vector that made it, with
+/// its joint 5, within the uncertainty of rounding.
 fn is_found(arm: &Arm, theta: &[f64; 6], pose: &Pose) -> bool {
     let solutions = arm.robot.ik(pose).unwrap();
-    let open = 2.0 * plane_open(arm, arm.x(theta)) + 1e-12;
-    // The twin of a shoulder may be as near to reach as gets it the straight arm.
+    let open = 2.0 * plane_uncertainty(arm, arm.x(theta)) + 1e-12;
+    // The twin of a shoulder may be near enough to reach to get the straight arm.
     let beyond = thresholds::REACH_TOLERANCE;
     solutions.iter().all(|solution| arm.meets(&solution.q, pose, beyond))
         && solutions.iter().any(|solution| {
@@ -67,8 +67,8 @@ fn is_found(arm: &Arm, theta: &[f64; 6], pose: &Pose) -> bool {
         })
 }
 
-/// How far rounding may turn the plane of the arm (eq. 42) [rad].
-fn plane_open(arm: &Arm, x: f64) -> f64 {
+/// How far rounding may rotate the plane of the arm (eq. 42) [rad].
+fn plane_uncertainty(arm: &Arm, x: f64) -> f64 {
     let (x, p) = (x.abs(), arm.rounding());
     let inward = if x * x > 2.0 * arm.b * p {
         2.0 * p / (x + (x * x - 2.0 * arm.b * p).sqrt())
@@ -80,7 +80,7 @@ fn plane_open(arm: &Arm, x: f64) -> f64 {
 }
 
 #[test]
-fn straight_elbows_next_to_the_shoulder_have_their_solution() {
+fn straight_elbows_near_the_shoulder_singularity_have_their_solution() {
     asked_set();
     let mut report = String::new();
     for arm in universal() {
@@ -96,7 +96,7 @@ fn straight_elbows_next_to_the_shoulder_have_their_solution() {
                 let holds = is_found(&arm, &theta, &pose) && seeded.is_ok();
                 count.take(holds, || format!("{q:?}"));
             }
-            report += &count.tell(&format!("{}, {set}", arm.name));
+            report += &count.row(&format!("{}, {set}", arm.name));
         };
         check("at the edge of what rounding merges", &|rng| Near {
             shoulder: Some(edge * rng.between(0.9, 1.5)),
@@ -122,8 +122,8 @@ fn straight_elbows_next_to_the_shoulder_have_their_solution() {
     assert_none(&report);
 }
 
-/// Of arms with three parallel axes: joint 6, and with it the end of the planar arm, is open by a
-/// rounding over sin q5.
+/// For arms with three parallel axes, the uncertainty of joint 6, and with it of the end of the
+/// planar arm, is a rounding over sin q5.
 #[test]
 fn elbows_that_rounding_merges_are_one() {
     asked_set();
@@ -139,16 +139,16 @@ fn elbows_that_rounding_merges_are_one() {
                 let slot = arm.slot(&theta);
                 let met = arm.x(&theta).abs() <= arm.shoulder_rounding();
                 let shoulders = if met { [0, 4] } else { [slot & 4; 2] };
-                // One of the two elbows of the branch, and it is told that it stands for both.
+                // One of the two elbows of the branch, flagged as representing both.
                 let holds = shoulders.iter().any(|shoulder| {
                     let twins = [0, 2].map(|elbow| shoulder + elbow + (slot & 1));
                     let found = twins.map(|slot| solutions.slot(slot).is_some());
-                    let told = solutions.status()[twins[1]];
-                    found == [true, false] && told.contains(Status::ELBOW | Status::MERGED)
+                    let status = solutions.status()[twins[1]];
+                    found == [true, false] && status.contains(Status::ELBOW | Status::MERGED)
                 });
                 count.take(holds, || format!("{q:?}"));
             }
-            report += &count.tell(&format!("{}, {set}", arm.name));
+            report += &count.row(&format!("{}, {set}", arm.name));
         };
         for elbow in [0.0, 2e-9, 1e-8] {
             let elbow = Some(elbow);
@@ -184,25 +184,24 @@ fn elbows_that_rounding_does_not_merge_are_two() {
             if r < 1e-3 * arm.c2 {
                 continue;
             }
-            // By how much straightening moves the end of the planar arm, and by how much rounding
-            // does.
+            // How far straightening moves the end of the planar arm, and how far rounding does.
             let moved = arm.c2 * arm.k * elbow.sin().powi(2) / (2.0 * r);
-            let plane = plane_open(&arm, arm.x(&theta)) + 2.0 * thresholds::WRIST_FREE_SIN;
+            let plane = plane_uncertainty(&arm, arm.x(&theta)) + 2.0 * thresholds::WRIST_FREE_SIN;
             let open = 2.0 * arm.rounding() + arm.d5 * plane / wrist.sin();
             if moved < open {
                 continue;
             }
             let solutions = arm.robot.ik(&arm.robot.fk(&q)).unwrap();
             let slot = arm.slot(&theta);
-            // What is known of the forearm may merge the wrist of an arm whose axes 4, 5 and 6
-            // meet.
+            // The uncertainty of the forearm may merge the wrist of an arm whose axes 4, 5 and 6
+            // intersect.
             let merged = usize::from(!arm.is_universal());
             let holds = [slot, slot ^ 2].iter().all(|slot| {
                 [*slot, *slot ^ merged].iter().any(|slot| solutions.slot(*slot).is_some())
             });
             count.take(holds, || format!("{q:?}"));
         }
-        report += &count.tell(&arm.name);
+        report += &count.row(&arm.name);
     }
     assert_none(&report);
 }
@@ -234,8 +233,8 @@ fn each_slot_just_beyond_reach_has_the_straight_arm() {
                 let solutions = arm.robot.ik(&pose).unwrap();
                 let status = solutions.status();
                 let slots = [0, 1].map(|wrist| (arm.slot(&theta) & 4) + wrist);
-                // Where joint 6 is free, another reaches.
-                let told = |slot: &usize| {
+                // If joint 6 is free, another angle reaches.
+                let is_flagged = |slot: &usize| {
                     status[*slot].contains(Status::ELBOW)
                         || (arm.is_universal() && status[*slot].contains(Status::WRIST))
                 };
@@ -243,9 +242,10 @@ fn each_slot_just_beyond_reach_has_the_straight_arm() {
                 let mine = if free { &slots[arm.slot(&theta) & 1..][..1] } else { &slots[..] };
                 let close = solutions.iter().all(|s| arm.meets(&s.q, &pose, 1.01 * beyond));
                 others += usize::from(solutions.iter().any(|s| !slots.contains(&s.slot.into())));
-                count.take(close && mine.iter().all(told), || format!("{theta:?} {beyond:e}"));
+                count
+                    .take(close && mine.iter().all(is_flagged), || format!("{theta:?} {beyond:e}"));
             }
-            report += &count.tell(&format!("{}, wrist {wrist:?}, {others} not alone", arm.name));
+            report += &count.row(&format!("{}, wrist {wrist:?}, {others} not alone", arm.name));
             assert!(others > 0, "{}: no other branch reaches", arm.name);
         }
     }
@@ -266,9 +266,9 @@ fn a_lateral_offset_merges_only_what_rounding_merges() {
                 let pose = arm.robot.fk(&q);
                 let slot = arm.slot(&theta);
                 let solutions = arm.robot.ik(&pose).unwrap();
-                // Rounding moves the wrist center across the plane by less than p / 2: by that it
-                // may turn, and less far out it may be one with its twin.
-                let open = 2.0 * plane_open(&arm, shoulder) + 1e-12;
+                // Rounding moves the wrist center across the plane by less than p / 2: the plane
+                // may rotate by that, and at smaller distances merge with its twin.
+                let open = 2.0 * plane_uncertainty(&arm, shoulder) + 1e-12;
                 let near = |slot: usize| {
                     solutions.slot(slot).is_some_and(|s| wrapped(s.q[0] - q[0]) <= open)
                 };
@@ -277,7 +277,7 @@ fn a_lateral_offset_merges_only_what_rounding_merges() {
                 let closes = solutions.iter().all(|s| arm.meets(&s.q, &pose, 0.0));
                 count.take(holds && closes, || format!("{shoulder:e} {q:?}"));
             }
-            report += &count.tell(&arm.name);
+            report += &count.row(&arm.name);
         }
     }
     assert_none(&report);
@@ -301,8 +301,8 @@ fn a_seed_keeps_its_branch_behind_axis_1() {
             let theta = arm.placed(near, rng);
             let (q, [x, z]) = (arm.q(theta), arm.end(&theta));
             let seeded = arm.robot.ik_nearest(&arm.robot.fk(&q), &q, &[1.0; 6]).unwrap();
-            // Rounding over the distance from axis 2 turns joint 2, and no more than 1e-12 m is
-            // given away for a seed's free joint. From there on the pose says what joint 1 is.
+            // Rounding over the distance from axis 2 rotates joint 2, and at most 1e-12 m is traded
+            // for a seed's free joint. Beyond that the pose determines joint 1.
             let plane = if shoulder > 9e-13 { arm.rounding() / shoulder } else { 0.0 };
             let off = 2e-6 + plane + (2e-12 + arm.rounding()) / x.hypot(z);
             let apart = common::apart(&seeded.q, &q);
@@ -310,7 +310,7 @@ fn a_seed_keeps_its_branch_behind_axis_1() {
             let bound = if folded { 0.3 } else { off };
             count.take(apart <= bound, || format!("{apart:e} {q:?}"));
         }
-        report += &count.tell(&arm.name);
+        report += &count.row(&arm.name);
     }
     assert_none(&report);
 }
@@ -321,7 +321,7 @@ fn largest_step(path: &[[f64; 6]]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Whether a smooth joint path is followed: every pose met, no break, no step of one and a half
+/// Whether a smooth joint path is followed: every pose reached, no break, no step of one and a half
 /// times the path's own.
 fn is_followed(robot: &Robot<6>, made: &[[f64; 6]]) -> Result<(), String> {
     let path: Vec<Pose> = made.iter().map(|q| robot.fk(q)).collect();
@@ -334,7 +334,7 @@ fn is_followed(robot: &Robot<6>, made: &[[f64; 6]]) -> Result<(), String> {
     if ratio <= 1.5 { Ok(()) } else { Err(format!("largest step {ratio:.2} x the path's")) }
 }
 
-/// Whether a path comes near no singularity but those of its middle.
+/// Whether a path is near no singularities except those of its middle.
 fn is_clear(arm: &Arm, path: &[[f64; 6]], near: Near) -> bool {
     path.iter().enumerate().all(|(i, q)| {
         let theta = arm.theta(q);
@@ -388,7 +388,7 @@ fn smooth_paths_past_several_singularities_are_followed() {
                     });
                 }
                 report += &count
-                    .tell(&format!("{}, {set}, 1e{} .. 1e{}", arm.name, decades[0], decades[1]));
+                    .row(&format!("{}, {set}, 1e{} .. 1e{}", arm.name, decades[0], decades[1]));
             }
         }
     }

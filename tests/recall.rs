@@ -1,5 +1,5 @@
-//! Every joint vector that makes a pose is found again, nothing else is, nothing twice, on many
-//! random poses.
+//! Every joint vector that makes a pose is found, with no incorrect and no duplicate solution, for
+//! many random poses.
 //!
 //! One by one and in a batch. `make million` runs a million poses on each instruction set and
 //! prints the table; `make test` runs fewer.
@@ -17,7 +17,7 @@ const SLOTS: usize = 8;
 
 crate::on_every_structure!(every_generating_joint_vector_is_found);
 
-/// Poses of a batch: a million at once would take half a gigabyte. No multiple of any lane count.
+/// Poses per batch: a million at once would take half a gigabyte. Not a multiple of any lane count.
 const PART: usize = 1003;
 
 fn every_generating_joint_vector_is_found<const N: usize>(structure: &Structure<N>)
@@ -28,7 +28,7 @@ where
 }
 
 #[test]
-fn other_arms_of_abb_lose_nothing() {
+fn other_arms_of_abb_miss_no_solution() {
     for name in ["IRB 140-6/0.81", "IRB 1600-6/1.45", "IRB 6700-150/3.2", "IRB 2400-10/1.55"] {
         let robot: Robot<6> = Robot::named(name).unwrap();
         // As it is, with its axes coupled or not.
@@ -37,7 +37,7 @@ fn other_arms_of_abb_lose_nothing() {
 }
 
 #[test]
-fn the_largest_arm_of_universal_robots_loses_nothing() {
+fn the_largest_arm_of_universal_robots_misses_no_solution() {
     check(&structures::three_parallel::named("UR20"));
 }
 
@@ -55,9 +55,10 @@ where
     };
     let set = asked_set().name();
     for (way, tally) in ["one by one", "in a batch"].iter().zip(tallies(&subject)) {
-        let report = tally.tell(&subject.name, way);
+        let report = tally.row(&subject.name, way);
         println!(
-            "    {} found only to worse than 1e-9 rad, the worst {:.1e} rad; position {:.2e} x reach",
+            "    {} found only to worse than 1e-9 rad, the worst {:.1e} rad; position {:.2e} x \
+             reach",
             tally.coarse,
             tally.recall,
             tally.position / subject.reach()
@@ -91,7 +92,7 @@ where
     [alone, together]
 }
 
-/// A solution: its slot, its joint angles, the singularities that it is said to be at.
+/// A solution: its slot, its joint angles, the reported singularities.
 type Answer<const N: usize> = (usize, [f64; N], SingularityKind);
 
 /// The solutions of each pose of a batch.
@@ -117,8 +118,8 @@ where
     q.chunks(SLOTS).zip(status.chunks(SLOTS)).map(of_a_pose).collect()
 }
 
-/// Judges the answers for a pose by forward kinematics, by the joint vector that made it and by the
-/// slots and flags that are theirs.
+/// Judges the answers for a pose by forward kinematics, by the joint vector that made it and by its
+/// slots and flags.
 fn take<const N: usize>(
     tally: &mut Tally,
     subject: &Subject<N>,
@@ -129,7 +130,7 @@ fn take<const N: usize>(
     Joints<N>: Arity<N>,
 {
     let before = tally.amiss();
-    // Singular values take longer than all else.
+    // Singular values take longer than everything else.
     let sampled = tally.poses.is_multiple_of(8);
     let bounds = [3e-15 * subject.reach(), 1e-14];
     tally.take_residuals(&subject.robot, pose, answers.iter().map(|(_, q, _)| (q, bounds)));
@@ -139,11 +140,11 @@ fn take<const N: usize>(
     tally.found += usize::from(nearest <= 1e-9 || nearest <= rounding_bound(subject, q));
     tally.coarse += usize::from(nearest > 1e-9);
     for (i, (slot, answer, kinds)) in answers.iter().enumerate() {
-        tally.twice +=
+        tally.duplicates +=
             answers.iter().skip(i + 1).filter(|(_, other, _)| apart(other, answer) < 1e-9).count();
-        // So near a singularity, rounding decides.
+        // This near a singularity, rounding decides.
         let is_clear = |answer| subject.clearance(answer) > 1e-6;
-        tally.wrong += usize::from(*slot != subject.slot(answer) && is_clear(answer));
+        tally.incorrect += usize::from(*slot != subject.slot(answer) && is_clear(answer));
         let is_flagged = || *kinds == subject.robot.singularity(answer).kinds;
         tally.flags += usize::from(sampled && is_clear(answer) && !is_flagged());
     }
@@ -153,8 +154,8 @@ fn take<const N: usize>(
 }
 
 /// How far rounding of the pose may move the joints: a pose is rounded by its forward kinematics
-/// (measured: 1e-15 x reach, 2e-15 rad) and the inverse of the Jacobian of the joints that are
-/// solved for turns that into joint angles. Only next to a singularity is this above 1e-9.
+/// (measured: 1e-15 x reach, 2e-15 rad), and the inverse of the Jacobian of the solved joints
+/// converts that to joint angles. Only near a singularity is this above 1e-9.
 fn rounding_bound<const N: usize>(subject: &Subject<N>, q: &[f64; N]) -> f64
 where
     Joints<N>: Arity<N>,

@@ -1,8 +1,8 @@
-//! Laws of `Robot::<7>::ik_nearest`, next to the stretched arm above all: there the angles of joint
-//! 7 that reach a pose are an interval narrower than any grid.
+//! Laws of `Robot::<7>::ik_nearest`, especially near the stretched arm: there the angles of joint 7
+//! that reach a pose are an interval narrower than any grid.
 //!
 //! `IRBKIN_POSES` is the number of poses for each arm and distance; `make hardsets` prints one row
-//! an arm with more.
+//! per arm with more.
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -15,15 +15,15 @@ use nalgebra::Isometry3;
 /// Distances of joint 4 from where the arm is stretched [rad].
 const OFF: [f64; 9] = [0.0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2, 0.035];
 
-/// Below this elbow angle the straight arm meets the pose as well [rad]: what answers differ by
-/// there.
+/// Below this elbow angle the straight arm reaches the pose as well [rad]: answers may differ by
+/// that.
 const STRAIGHT: f64 = 5e-7;
 
-/// What distances in joint space are compared to elsewhere [rad].
+/// Tolerance of distances in joint space elsewhere [rad].
 const ROUNDING: f64 = 1e-8;
 
-/// How far an answer may be off its pose [m, rad]: the precision to which a seed keeps a joint that
-/// is open.
+/// How far an answer may be off its pose [m, rad]: the precision to which a seed keeps an
+/// undetermined joint.
 const MEETS: f64 = thresholds::SEEDED_FREE;
 
 const WEIGHTS: [f64; 7] = [1.0; 7];
@@ -60,14 +60,14 @@ impl Arm {
         self.robot.limits().to_array().map(|[low, high]| rng.between(low.max(-PI), high.min(PI)))
     }
 
-    /// Joint angles inside the limits with joint 4 at `off` [rad] from the stretched arm, to either
+    /// Joint angles inside the limits with joint 4 at `off` [rad] from the stretched arm, on either
     /// side.
     fn next_to_stretched(&self, off: f64, rng: &mut Rng) -> [f64; 7] {
         loop {
             let mut q = self.anywhere(rng);
             q[3] = self.stretched + if rng.unit() < 0.5 { off } else { -off };
-            // Where axis 6 is square to the plane of the arm, joint 7 alone does not move the wrist
-            // towards the shoulder.
+            // If axis 6 is perpendicular to the plane of the arm, joint 7 alone does not move the
+            // wrist towards the shoulder.
             if rng.unit() < 0.5 {
                 q[4] = 0.0;
             }
@@ -77,7 +77,7 @@ impl Arm {
         }
     }
 
-    /// The joints themselves, joints near them, and any.
+    /// The joints themselves, joints near them, and arbitrary ones.
     fn seeds(&self, q: &[f64; 7], rng: &mut Rng) -> [[f64; 7]; 4] {
         let mut near = |noise: f64| q.map(|angle| angle + rng.between(-noise, noise));
         [*q, near(0.1), near(1.0), self.anywhere(rng)]
@@ -94,8 +94,8 @@ impl ToMatrixPose for Isometry3<f64> {
     }
 }
 
-/// Joint 4 where the place in which axes 5 and 6 meet is farthest from the shoulder: its square is
-/// a + b cos(q4 - phase).
+/// Joint 4 where the intersection of axes 5 and 6 is farthest from the shoulder: the square of that
+/// distance is a + b cos(q4 - phase).
 fn stretched(robot: &Robot<7>) -> f64 {
     let reach2 = |q4: f64| {
         let (frames, _) = robot.link_frames(&[0.0, 0.0, 0.0, q4, 0.0, 0.0, 0.0]);
@@ -160,7 +160,7 @@ fn distance(a: &[f64; 7], b: &[f64; 7]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }
 
-/// What became of the poses of an arm.
+/// The results for the poses of an arm.
 #[derive(Default)]
 struct Tally {
     asked: usize,
@@ -191,7 +191,7 @@ impl Tally {
         }
     }
 
-    /// Prints the row; returns it where something is amiss.
+    /// Prints the row; returns it if a result is incorrect.
     fn row(&self, name: &str) -> String {
         let row = format!(
             "{name:40} {:7} asked  refused {}  farther {} (by {:.1e} rad)  residual {:.1e}",
@@ -203,7 +203,7 @@ impl Tally {
     }
 }
 
-/// Asks for each distance of `off` and each arm: `place` puts joints that far from a singularity.
+/// Runs each distance of `off` and each arm: `place` puts joints that far from a singularity.
 fn sweep(arms: &[Arm], off: &[f64], seed: u64, place: impl Fn(&Arm, f64, &mut Rng) -> [f64; 7]) {
     let (mut rng, mut amiss) = (Rng::new(seed), String::new());
     for arm in arms {
@@ -224,12 +224,12 @@ fn sweep(arms: &[Arm], off: &[f64], seed: u64, place: impl Fn(&Arm, f64, &mut Rn
 }
 
 #[test]
-fn next_to_the_stretched_arm_nearest_is_never_farther_than_the_maker() {
+fn near_the_stretched_arm_nearest_is_never_farther_than_the_known_joints() {
     sweep(&arms(), &OFF, 1, Arm::next_to_stretched);
 }
 
 #[test]
-fn anywhere_nearest_is_never_farther_than_the_maker() {
+fn at_random_poses_nearest_is_never_farther_than_the_known_joints() {
     sweep(&arms(), &[1.0; 5], 2, |arm, _, rng| arm.anywhere(rng));
 }
 
@@ -245,12 +245,12 @@ const PLACES: [(&str, &[(usize, f64)]); 8] = [
     ("shoulder and wrist, twice", &[(2, 0.0), (3, -FRAC_PI_2), (5, FRAC_PI_2), (6, 0.0)]),
 ];
 
-/// Next to a second singularity the stretched arm leaves more open than the curve is long, from
-/// 1e-9 to 1e-5 rad off.
+/// Near a second singularity the uncertainty of the stretched arm exceeds the length of the curve,
+/// from 1e-9 to 1e-5 rad off.
 const OFF_STRETCHED_PAIRS: [f64; 6] = [0.0, 1e-4, 1e-3, 3e-3, 1e-2, 0.035];
 
 #[test]
-fn at_pairs_of_singularities_nearest_is_never_farther_than_the_maker() {
+fn at_pairs_of_singularities_nearest_is_never_farther_than_the_known_joints() {
     let arms = arms();
     for (name, place) in PLACES {
         println!("{name}");
@@ -266,7 +266,7 @@ fn at_pairs_of_singularities_nearest_is_never_farther_than_the_maker() {
     }
 }
 
-/// The pose of joints by another way of summing than the robot's: both are a rounding off.
+/// The pose of joints summed in another way than the robot does: both are a rounding off.
 fn other_rounding(robot: &Robot<7>, q: &[f64; 7]) -> Pose {
     let turned = Pose::rotation(nalgebra::Vector3::new(0.3, -0.2, 0.5));
     let moved = robot.clone().with_base(&turned).unwrap();
@@ -274,7 +274,7 @@ fn other_rounding(robot: &Robot<7>, q: &[f64; 7]) -> Pose {
 }
 
 #[test]
-fn own_seed_comes_back() {
+fn the_seed_of_a_pose_is_returned() {
     let (mut rng, mut asked) = (Rng::new(4), 0);
     for arm in arms() {
         for off in OFF {
@@ -324,19 +324,19 @@ fn nearest_is_never_farther_than_a_solution_with_any_joint_7() {
 }
 
 #[test]
-fn smooth_paths_through_the_stretched_arm_neither_end_nor_jump() {
+fn smooth_paths_through_the_stretched_arm_have_no_break() {
     let (mut rng, mut steps, mut worst) = (Rng::new(7), 0, 0.0_f64);
     for arm in arms() {
         for path in 0..2 * poses() {
             let mut middle = arm.next_to_stretched(0.0, &mut rng);
-            // Room inside the limits for what the arm does by itself.
+            // Room inside the limits for the arm's own motion.
             for (angle, [low, high]) in middle.iter_mut().zip(arm.robot.limits().to_array()) {
                 *angle = angle.clamp(low.max(-9.0) + 0.35, high.min(9.0) - 0.35);
             }
             middle[3] = arm.stretched;
             let mut speed = [0.0; 7].map(|_: f64| rng.between(-0.01, 0.01));
             speed[3] = 0.01;
-            // Exactly through, or past by less than a step.
+            // Exactly through, or past it by less than a step.
             let past = if path % 2 == 0 { 0.0 } else { rng.unit() };
             let joints = |step: i32| -> [f64; 7] {
                 std::array::from_fn(|i| middle[i] + speed[i] * (f64::from(step) + past))
@@ -349,8 +349,8 @@ fn smooth_paths_through_the_stretched_arm_neither_end_nor_jump() {
                 let next = next.unwrap_or_else(|e| panic!("{} {step}: {e} {made:?}", arm.name)).q;
                 let farther = distance(&next, &before) - distance(&made, &before);
                 assert!(farther <= STRAIGHT, "{} {step}: {farther:e} {made:?}", arm.name);
-                // Where the curve shrinks to a point, what has drifted off along it comes back; at
-                // a limit it may leap.
+                // Where the curve shrinks to a point, the drift along it returns; at a limit it may
+                // jump.
                 let regular = middle[1].sin().abs() > 0.4 && middle[5].sin().abs() > 0.4;
                 if arm.name == "iiwa without limits" && regular {
                     worst = worst.max(distance(&next, &before) / distance(&made, &made_before));
@@ -365,7 +365,8 @@ fn smooth_paths_through_the_stretched_arm_neither_end_nor_jump() {
     assert_eq!(steps, 6 * 2 * poses() * 60);
 }
 
-/// Folded links of the same length, with offsets: the shoulder comes to where axes 5 and 6 meet.
+/// Folded links of equal length, with offsets: the shoulder reaches the intersection of axes 5 and
+/// 6.
 fn folding() -> Arm {
     Arm::of(
         "folding",
@@ -382,13 +383,13 @@ fn folding() -> Arm {
     )
 }
 
-/// Largest difference of two joint vectors, full turns not counted [rad].
+/// Largest difference of two joint vectors, modulo 2 pi [rad].
 fn apart(a: &[f64; 7], b: &[f64; 7]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b - TAU * ((a - b) / TAU).round()).abs()).fold(0.0, f64::max)
 }
 
 #[test]
-fn no_duplicates_folded() {
+fn the_folded_arm_has_no_duplicates() {
     let arm = folding();
     let folded: f64 = 2.620_387_870_095_105_8;
     let (mut rng, mut pairs) = (Rng::new(5), 0);

@@ -1,55 +1,121 @@
-//! What users keep is written and read back as it was.
+//! Values that users store are written and read back unchanged.
 #![allow(clippy::unwrap_used)]
 
 use std::fmt::Debug;
 
 use irbkin::{
-    Configuration, FollowOptions, Mdh, OpwParameters, Robot, Sdh, SingularityMode, Solution, Status,
+    Arity, Configuration, FollowOptions, JointLimits, Joints, Mdh, OpwParameters, Robot, Sdh,
+    SingularityMode, Solution, Status, catalog, pose_from_euler_zyx,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-fn comes_back<T: Serialize + DeserializeOwned + PartialEq + Debug>(kept: &T) {
+fn round_trips<T: Serialize + DeserializeOwned + PartialEq + Debug>(kept: &T) {
     let text = serde_json::to_string(kept).unwrap();
     assert_eq!(&serde_json::from_str::<T>(&text).unwrap(), kept, "{text}");
 }
 
 #[test]
-fn models_come_back() {
-    comes_back(&OpwParameters::abb(0.1, -0.135, 0.615, 0.705, 0.755, 0.085));
+fn models_round_trip() {
+    round_trips(&OpwParameters::abb(0.1, -0.135, 0.615, 0.705, 0.755, 0.085));
     let panda: Robot<7> = Robot::named("Panda").unwrap();
-    comes_back::<Mdh<7>>(panda.mdh());
+    round_trips::<Mdh<7>>(panda.mdh());
     let Mdh { base, rows, flange } = panda.mdh().clone();
-    comes_back(&Sdh { base, rows, flange });
+    round_trips(&Sdh { base, rows, flange });
+}
+
+fn round_trips_with_settings<const N: usize>(robot: &Robot<N>)
+where
+    Joints<N>: Arity<N>,
+{
+    round_trips(robot);
+    let base = pose_from_euler_zyx([0.1, -2.0, 0.3], [0.4, 0.5, -0.6]).unwrap();
+    let tool = pose_from_euler_zyx([0.0, 0.02, 0.11], [0.1, 0.0, 3.0]).unwrap();
+    let mut limits = [[-1.25, 2.5]; N];
+    limits[0] = [f64::NEG_INFINITY, f64::INFINITY];
+    limits[1] = [f64::NEG_INFINITY, 1.5];
+    let changed = robot.clone().with_base(&base).unwrap().with_tool(&tool).unwrap();
+    let changed = changed.with_limits(JointLimits::new(limits).unwrap()).with_name("cell 3");
+    let mut velocity = [2.0; N];
+    velocity[2] = f64::INFINITY;
+    round_trips(&changed.with_max_velocity(Some(velocity)).unwrap());
 }
 
 #[test]
-fn answers_come_back() {
+fn robots_round_trip() {
+    for arm in catalog() {
+        match arm.dof() {
+            6 => round_trips_with_settings(&Robot::<6>::from_catalog(arm).unwrap()),
+            _ => round_trips_with_settings(&Robot::<7>::from_catalog(arm).unwrap()),
+        }
+    }
+    let coupled: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap().coupled().unwrap();
+    round_trips_with_settings(&coupled);
+    round_trips(&coupled.clone().with_linkage_limits(None).unwrap());
+    round_trips(&coupled.with_linkage_limits(Some([-1.0, f64::INFINITY])).unwrap());
+}
+
+#[test]
+fn joint_limits_round_trip() {
+    let limits = JointLimits::new([[-1.0, 2.0], [f64::NEG_INFINITY, 0.5]]).unwrap();
+    round_trips(&limits);
+    round_trips(&JointLimits::<7>::UNLIMITED);
+    assert_eq!(
+        serde_json::to_string(&limits).unwrap(),
+        r#"{"joints":[[-1.0,2.0],[null,0.5]],"linkage":null}"#
+    );
+}
+
+/// The error for a robot as text with one part replaced.
+fn error_with(old: &str, new: &str) -> String {
+    let robot: Robot<6> = Robot::named("UR5e").unwrap().with_max_velocity(Some([3.0; 6])).unwrap();
+    let text = serde_json::to_string(&robot).unwrap();
+    assert!(text.contains(old), "{text}");
+    serde_json::from_str::<Robot<6>>(&text.replacen(old, new, 1)).unwrap_err().to_string()
+}
+
+#[test]
+fn a_robot_is_checked_when_it_is_read() {
+    let velocity = error_with(r#""max_velocity":["#, r#""max_velocity":[-1.0,"#);
+    assert!(velocity.contains('6') && velocity.contains('7'), "{velocity}");
+    let coupled = error_with(r#""coupled":false"#, r#""coupled":true"#);
+    assert!(coupled.contains("spherical wrist"), "{coupled}");
+    let limits = error_with(r#""joints":[[-6.28"#, r#""joints":[[16.28"#);
+    assert!(limits.contains("joint 1 limit is empty"), "{limits}");
+    let tool = error_with(r#""tool":{"rotation":[1.0"#, r#""tool":{"rotation":[2.0"#);
+    assert!(tool.contains("rotation"), "{tool}");
+    let limit = serde_json::from_str::<JointLimits<1>>(r#"{"joints":[[2.0,1.0]],"linkage":null}"#);
+    let words = limit.unwrap_err().to_string();
+    assert!(words.contains("joint 1 limit is empty"), "{words}");
+}
+
+#[test]
+fn answers_round_trip() {
     let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
     let straight = [0.3, 0.2, 0.1, 0.4, 0.0, -0.7];
     let solutions = robot.ik(&robot.fk(&straight)).unwrap();
     assert!(solutions.iter().any(|solution| solution.free_joint.is_some()));
     for solution in &solutions {
-        comes_back::<Solution<6>>(solution);
+        round_trips::<Solution<6>>(solution);
     }
     for status in &*solutions.status() {
-        comes_back::<Status>(status);
+        round_trips::<Status>(status);
     }
-    comes_back::<Configuration>(&robot.configuration(&straight).unwrap());
-    comes_back(&robot.singularity(&straight));
-    comes_back(&robot.residual(&straight, &robot.fk(&[0.0; 6])));
+    round_trips::<Configuration>(&robot.configuration(&straight).unwrap());
+    round_trips(&robot.singularity(&straight));
+    round_trips(&robot.residual(&straight, &robot.fk(&[0.0; 6])));
 }
 
 #[test]
-fn options_come_back() {
-    comes_back(&FollowOptions {
+fn options_round_trip() {
+    round_trips(&FollowOptions {
         singularity_mode: SingularityMode::LockAxis4,
         ..FollowOptions::default()
     });
 }
 
 #[test]
-fn a_table_with_a_row_too_many_is_refused() {
+fn a_table_with_too_many_rows_is_refused() {
     let panda: Robot<7> = Robot::named("Panda").unwrap();
     let text = serde_json::to_string(panda.mdh()).unwrap();
     assert!(serde_json::from_str::<Mdh<6>>(&text).is_err());

@@ -1,5 +1,5 @@
-//! Right angles that were written with few digits, made exact on request, and proposed exactly
-//! where that would help.
+//! Right angles written with few digits are made exact on request, which is proposed exactly where
+//! it helps.
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
 use crate::common;
@@ -15,7 +15,7 @@ use irbkin::{
 const XARM7: &str = include_str!("data/few_digits/xarm7.urdf");
 const PUMA560: &str = include_str!("data/few_digits/puma560.urdf");
 
-/// What an arm of either number of joints has.
+/// The error of an arm with either number of joints.
 fn refusal<T: Debug>(built: Result<T, Error>) -> String {
     built.unwrap_err().to_string()
 }
@@ -31,8 +31,7 @@ where
     }
 }
 
-/// How far each of many poses of two arms is apart, for joints that go through the limits of
-/// neither.
+/// The largest difference of many poses of two arms, for joints inside the limits of both.
 fn farthest<const N: usize>(one: &Robot<N>, other: &Robot<N>) -> f64
 where
     irbkin::Joints<N>: irbkin::Arity<N>,
@@ -42,7 +41,7 @@ where
     q.map(|q| one.residual(&q, &other.fk(&q)).largest()).fold(0.0, f64::max)
 }
 
-/// Each of `angles` moves by at most `snap`, and turns what is behind it by so much.
+/// Each of `angles` moves by at most `snap`, and rotates what follows it by that.
 fn moved<const N: usize>(robot: &Robot<N>, angles: usize, snap: f64) -> f64
 where
     irbkin::Joints<N>: irbkin::Arity<N>,
@@ -51,7 +50,7 @@ where
 }
 
 #[test]
-fn an_xarm7_as_published_is_taken_with_the_snap_that_is_proposed() {
+fn the_published_xarm7_is_accepted_with_the_proposed_snap() {
     let text = Robot::<7>::from_urdf(XARM7, None, None).unwrap();
     let reason = text.unknown_structure().unwrap();
     assert_eq!(reason.snap(), Some(1e-5));
@@ -77,7 +76,7 @@ fn an_xarm7_as_published_is_taken_with_the_snap_that_is_proposed() {
 }
 
 #[test]
-fn a_puma560_as_published_is_taken_with_the_snap_that_is_proposed() {
+fn the_published_puma560_is_accepted_with_the_proposed_snap() {
     let words = refusal(Robot::<6>::from_urdf(PUMA560, None, None));
     assert!(words.ends_with("; snap=1e-8 would take it"), "{words}");
     assert!(!words.contains("0.000000"), "{words}");
@@ -118,10 +117,10 @@ fn rounded<const N: usize>(mdh: &Mdh<N>, decimals: i32) -> Mdh<N> {
     Mdh { rows, ..mdh.clone() }
 }
 
-/// A right angle written with so many decimals is off by so much: the least power of ten above it
-/// takes it.
+/// A right angle written with so many decimals is off by a known amount: the least power of ten
+/// above it is accepted.
 #[test]
-fn tables_of_every_structure_are_taken_with_the_snap_that_is_proposed() {
+fn tables_of_every_structure_are_accepted_with_the_proposed_snap() {
     fn check<const N: usize>(exact: &Robot<N>)
     where
         irbkin::Joints<N>: irbkin::Arity<N>,
@@ -143,7 +142,7 @@ fn tables_of_every_structure_are_taken_with_the_snap_that_is_proposed() {
             assert_eq!(robot.structure(), exact.structure(), "{decimals}");
             let text = Robot::serial_chain(table.clone()).unwrap();
             assert!(farthest(&robot, &text) <= moved(&robot, 2 * N, off.max(1e-15)));
-            // The same as a standard table, of which the first twist and length are in the base.
+            // The same as a standard table, whose first twist and length are in the base.
             let sdh = Sdh::from(table).snapped(snap).unwrap();
             assert_eq!(Robot::from_sdh(sdh).unwrap().structure(), exact.structure(), "{decimals}");
         }
@@ -156,9 +155,9 @@ fn tables_of_every_structure_are_taken_with_the_snap_that_is_proposed() {
     }
 }
 
-/// What no snap would take is refused without a proposal: a length, or an angle that is meant.
+/// What no snap would make exact is refused without a proposal: a length, or an intended angle.
 #[test]
-fn nothing_is_proposed_where_nothing_would_help() {
+fn no_snap_is_proposed_if_none_helps() {
     let exact = Robot::<6>::named("IRB 2600-12/1.65").unwrap().mdh().clone();
     let with = |change: &dyn Fn(&mut Mdh<6>)| {
         let mut table = rounded(&exact, 5);
@@ -180,15 +179,15 @@ fn nothing_is_proposed_where_nothing_would_help() {
             assert!(Robot::from_mdh(table.snapped(snap).unwrap()).is_err());
         }
     }
-    // An arm that is only so far off as more than what was given would take.
+    // An arm that deviates by more than the given snap accepts.
     let words = refusal(Robot::from_mdh(rounded(&exact, 4).snapped(1e-6).unwrap()));
     assert!(words.ends_with("; snap=1e-5 would take it"), "{words}");
 }
 
-/// Text can be so far off that there is no table: axes 2 and 3 of an arm that stands on a rounded
-/// quarter turn meet far away.
+/// Text can deviate so far that there is no table: axes 2 and 3 of an arm on a rounded quarter turn
+/// intersect far away.
 #[test]
-fn nearly_parallel_axes_are_taken_with_the_snap_that_is_proposed() {
+fn nearly_parallel_axes_are_accepted_with_the_proposed_snap() {
     let text = include_str!("data/irb2600.urdf");
     let joint = r#"<origin xyz="0 0 0.7""#;
     assert!(text.contains(joint), "the joint that is tilted");
@@ -204,7 +203,7 @@ fn nearly_parallel_axes_are_taken_with_the_snap_that_is_proposed() {
 
 /// Axes are snapped too, to a coordinate axis that is near, and to nothing else.
 #[test]
-fn an_axis_next_to_a_coordinate_axis_is_taken_for_it() {
+fn an_axis_near_a_coordinate_axis_is_snapped_to_it() {
     let tilted = |axis: &str| {
         PUMA560.replace("1.570796325", &FRAC_PI_2.to_string()).replacen(
             "<axis xyz=\"0 0 1\"/>",
@@ -223,7 +222,7 @@ fn an_axis_next_to_a_coordinate_axis_is_taken_for_it() {
 }
 
 #[test]
-fn without_snap_every_bit_is_as_it_was_written() {
+fn without_snap_every_bit_is_kept() {
     let mut rng = Rng::new(73);
     for _ in 0..1000 {
         let row = || DhRow::new(0.0, 0.0, 0.0, 0.0);
@@ -251,7 +250,7 @@ fn a_snap_has_bounds() {
     assert!(mdh.snapped(1e-3).is_ok());
 }
 
-/// A batch of a snapped arm is solved like any other.
+/// A batch of a snapped arm is solved as any other.
 #[test]
 fn a_snapped_arm_solves_batches() {
     let robot = Robot::<6>::from_urdf_snapped(PUMA560, None, None, 1e-8).unwrap();

@@ -1,4 +1,4 @@
-//! Robots from URDF: what arrives, and what is refused in which words.
+//! Robots from URDF: what is read, and the messages for what is refused.
 #![allow(
     clippy::unwrap_used,
     clippy::float_cmp,
@@ -39,7 +39,7 @@ where
     error.to_string()
 }
 
-/// The arm of the URDF stands where `other` does, and has its solutions in its slots.
+/// The arm of the URDF is where `other` is, and has its solutions in its slots.
 fn agrees(text: &str, other: &Robot<6>, bound: f64) {
     let robot = Robot::<6>::from_urdf(text, None, None).unwrap();
     let mut rng = Rng::new(1);
@@ -62,7 +62,7 @@ fn agrees(text: &str, other: &Robot<6>, bound: f64) {
 }
 
 #[test]
-fn arms_of_a_known_form_have_their_inverse_and_their_slots() {
+fn arms_of_known_structure_have_their_inverse_and_slots() {
     agrees(IRB2600, &Robot::named("IRB 2600-12/1.65").unwrap(), 1e-14);
     agrees(KUKA, &kuka_kr6().unwrap(), 1e-14);
     // Right angles with nine decimals are 2e-10 off; six of them, at most 2 m away.
@@ -71,7 +71,7 @@ fn arms_of_a_known_form_have_their_inverse_and_their_slots() {
     let mut rng = Rng::new(2);
     for _ in 0..500 {
         let q = rng.inside(upright.limits());
-        // Their tips stand turned to one another.
+        // Their tips are rotated relative to each other.
         let (a, b) = (upright.fk(&q).translation.vector, rounded.fk(&q).translation.vector);
         assert!((a - b).norm() <= 3e-9);
         assert!(
@@ -109,7 +109,7 @@ fn a_continuous_joint_has_no_limits_and_an_absent_limit_is_zero() {
 }
 
 #[test]
-fn a_velocity_that_is_absent_or_zero_is_unknown() {
+fn a_missing_or_zero_velocity_is_unknown() {
     let velocity = "velocity=\"8.726646259971648\"";
     assert!(IRB2600.contains(velocity));
     for unknown in ["", "velocity=\"0\"", "velocity=\"-0.0\""] {
@@ -142,13 +142,15 @@ fn base_and_tip_choose_the_chain() {
 fn a_tip_is_never_guessed() {
     assert_eq!(
         words(UR5E),
-        "URDF: 6 revolute joints lead from \"base_link\" to several ends: \"ft_frame\", \"tool0\"; tip must name the one to take"
+        "URDF: 6 revolute joints lead from \"base_link\" to several ends: \"ft_frame\", \
+         \"tool0\"; tip must name the one to take"
     );
     assert_eq!(
         words(SEVEN),
         "URDF: 6 revolute joints lead from \"link_0\" to no end of a chain: \"link_ee\" (7)"
     );
-    let ends = "\"panda_hand_tcp\" (7), \"panda_leftfinger\" (behind joint \"panda_finger_joint1\", prismatic), \"panda_rightfinger\" (behind \
+    let ends = "\"panda_hand_tcp\" (7), \"panda_leftfinger\" (behind joint \
+        \"panda_finger_joint1\", prismatic), \"panda_rightfinger\" (behind \
                 joint \"panda_finger_joint2\", prismatic)";
     assert_eq!(
         words(PANDA),
@@ -167,7 +169,8 @@ fn base_and_tip_must_be_links_one_below_the_other() {
         of(None, Some("base_link")),
         "URDF: 0 revolute joints lead from \"base_link\" to \"base_link\", there must be 6"
     );
-    let all = "\"base_link\", \"base\", \"base_link_inertia\", \"shoulder_link\", \"upper_arm_link\", \"forearm_link\", \"wrist_1_link\", \
+    let all = "\"base_link\", \"base\", \"base_link_inertia\", \"shoulder_link\", \
+        \"upper_arm_link\", \"forearm_link\", \"wrist_1_link\", \
                \"wrist_2_link\", \"wrist_3_link\", \"ft_frame\", \"flange\", \"tool0\"";
     assert_eq!(
         of(None, Some("tool")),
@@ -184,13 +187,14 @@ fn base_and_tip_must_be_links_one_below_the_other() {
     );
     assert_eq!(
         words(&many),
-        "URDF: several links have no parent: \"base_link\", \"a\"; base must name the one to begin at"
+        "URDF: several links have no parent: \"base_link\", \"a\"; base must name the one to \
+         begin at"
     );
     assert!(six(&many, Some("base_link"), Some("tool0")).is_ok());
 }
 
 #[test]
-fn what_is_no_urdf_is_told_with_its_place() {
+fn invalid_urdf_is_reported_with_its_line() {
     let of = words;
     assert_eq!(
         of("<robot>\n <link name='a'>\n</robot>"),
@@ -215,7 +219,8 @@ fn what_is_no_urdf_is_told_with_its_place() {
     assert_eq!(of("<robot>\n<link/></robot>"), "URDF: line 2: <link> has no name");
     assert_eq!(of("<robot><joint/></robot>"), "URDF: line 1: <joint> has no name");
     let expand = "it must be expanded first (xacro arm.urdf.xacro > arm.urdf)";
-    let declared = "<robot xmlns:xacro='http://www.ros.org/wiki/xacro'>\n\n<link name='a'><xacro:box/></link></robot>";
+    let declared = "<robot xmlns:xacro='http://www.ros.org/wiki/xacro'>\n\n<link name='a'>\
+        <xacro:box/></link></robot>";
     assert_eq!(of(declared), format!("URDF: line 3 is xacro, <xacro:box>: {expand}"));
     assert_eq!(
         of("<robot>\n<xacro:arm/></robot>"),
@@ -224,7 +229,7 @@ fn what_is_no_urdf_is_told_with_its_place() {
 }
 
 #[test]
-fn a_blank_or_a_mark_before_the_text_does_not_matter() {
+fn blanks_or_a_byte_order_mark_before_the_text_do_not_matter() {
     for before in ["\n  ", "\u{feff}", "\u{feff}\r\n\t"] {
         assert!(six(&format!("{before}{IRB2600}"), None, None).is_ok(), "{before:?}");
     }
@@ -239,7 +244,8 @@ fn links_and_joints_must_form_a_tree() {
     };
     let joint = |name: &str, parent: &str, child: &str| {
         format!(
-            "<joint name='{name}' type='fixed'><parent link='{parent}'/><child link='{child}'/></joint>"
+            "<joint name='{name}' type='fixed'><parent link='{parent}'/><child link='{child}'/>\
+             </joint>"
         )
     };
     assert_eq!(
@@ -281,7 +287,8 @@ fn links_and_joints_must_form_a_tree() {
         robot("<joint name='j' type='fixed'><parent link='a'/><child/></joint>"),
         "URDF: line 1: <joint> has no <child link=\"...\">"
     );
-    let parents = "<joint name='j' type='fixed'><parent link='a'/><parent link='b'/><child link='c'/></joint>";
+    let parents = "<joint name='j' type='fixed'><parent link='a'/><parent link='b'/><child \
+        link='c'/></joint>";
     assert_eq!(robot(parents), "URDF: joint \"j\" has two <parent>, it must have at most one");
 }
 
@@ -294,20 +301,23 @@ fn third(from: &str, to: &str) -> String {
 }
 
 #[test]
-fn only_joints_that_turn_by_themselves_are_between_base_and_tip() {
+fn only_independent_revolute_joints_may_be_between_base_and_tip() {
     let tool = |text: &str| refused(six(text, None, Some("tool0")));
     for kind in ["prismatic", "planar", "floating", "revolut", "Revolute", ""] {
         let wanted = format!(
-            "URDF: joint \"joint_3\" is {kind:?}, between base and tip it must be revolute, continuous or fixed"
+            "URDF: joint \"joint_3\" is {kind:?}, between base and tip it must be revolute, \
+             continuous or fixed"
         );
         assert_eq!(tool(&third("revolute", kind)), wanted);
     }
     let mimic = third("<axis", "<mimic joint=\"joint_2\"/><axis");
     assert_eq!(
         tool(&mimic),
-        "URDF: joint \"joint_3\" mimics \"joint_2\", between base and tip each joint must turn by itself"
+        "URDF: joint \"joint_3\" mimics \"joint_2\", between base and tip each joint must turn \
+         by itself"
     );
-    let behind = "URDF: 6 revolute joints lead from \"base_link\" to no end of a chain: \"base\" (0), \"tool0\" (behind joint \"joint_3\", ";
+    let behind = "URDF: 6 revolute joints lead from \"base_link\" to no end of a chain: \"base\" \
+        (0), \"tool0\" (behind joint \"joint_3\", ";
     assert_eq!(words(&mimic), format!("{behind}a mimic)"));
     assert_eq!(words(&third("revolute", "prismatic")), format!("{behind}prismatic)"));
     let fixed = third("revolute", "fixed");
@@ -406,7 +416,7 @@ fn absent_numbers_have_the_values_of_the_format() {
 }
 
 #[test]
-fn an_arm_of_no_known_form_says_so_and_is_taken_without() {
+fn an_arm_of_unknown_structure_is_reported_and_accepted_without_inverse() {
     let bent = third("xyz=\"0 1 0\"", "xyz=\"0 1 0.1\"");
     let error = Robot::<6>::from_urdf(&bent, None, None).unwrap_err();
     assert!(matches!(error, Error::InvalidModel(ModelFault::UnknownStructure(_))), "{error}");
@@ -420,7 +430,12 @@ fn long(links: usize, parent: impl Fn(usize) -> usize) -> String {
     for i in 1..=links {
         let kind = if i + 6 > links { "continuous" } else { "fixed" };
         let parent = parent(i);
-        write!(text, "<link name='l{i}'/><joint name='j{i}' type='{kind}'><parent link='l{parent}'/><child link='l{i}'/>").unwrap();
+        write!(
+            text,
+            "<link name='l{i}'/><joint name='j{i}' type='{kind}'><parent \
+            link='l{parent}'/><child link='l{i}'/>"
+        )
+        .unwrap();
         write!(text, "<origin xyz='0.1 0 0' rpy='1e-5 0 {}'/></joint>", i % 3).unwrap();
     }
     text + "</robot>"
@@ -528,7 +543,7 @@ fn damaged_text_never_panics() {
 }
 
 #[test]
-fn nearly_parallel_axes_are_told_apart_from_parallel_ones() {
+fn nearly_parallel_axes_are_distinguished_from_parallel_ones() {
     // Nine decimals: 2e-10 off, taken as parallel. Seven: 5e-8 off, the common normal is too far
     // away. One: two axes like any other.
     let of = |roll: &str| {
@@ -550,7 +565,7 @@ fn nearly_parallel_axes_are_told_apart_from_parallel_ones() {
 }
 
 #[test]
-fn faults_can_be_told_apart() {
+fn faults_can_be_distinguished() {
     let error = six(UR5E, None, None).unwrap_err();
     let tips = Names { listed: vec!["\"ft_frame\"".to_owned(), "\"tool0\"".to_owned()], more: 0 };
     let fault = UrdfFault::SeveralTips { base: "base_link".to_owned(), wanted: vec![6], tips };

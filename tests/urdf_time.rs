@@ -137,7 +137,8 @@ fn chains(size: usize) -> Vec<Shape> {
                 &("<link name=\"l\"/>".to_owned()
                     + &filled(size, &|i| {
                         format!(
-                            "<joint name=\"j{i}\" type=\"fixed\"><parent link=\"l\"/><child link=\"l\"/></joint>"
+                            "<joint name=\"j{i}\" type=\"fixed\"><parent link=\"l\"/><child \
+                             link=\"l\"/></joint>"
                         )
                     })),
             ),
@@ -181,7 +182,7 @@ fn refusal(text: &str) -> String {
 }
 
 #[test]
-fn what_would_take_long_is_refused_with_the_bound() {
+fn text_that_would_take_long_is_refused_with_the_bound() {
     let text = |count: usize| {
         let open: String = (0..count).map(|i| format!("\n<a xmlns:n{i}=\"{i}\">")).collect();
         format!("<robot>{open}{}</robot>", "</a>".repeat(count))

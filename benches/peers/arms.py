@@ -88,8 +88,8 @@ class Arm:
             parts.append(
                 f'<link name="link{i + 1}"><inertial><mass value="1"/>'
                 '<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>'
-                f'<joint name="joint{i + 1}" type="revolute"><origin xyz="{words(offset)}"/><parent link="link{i}"/>'
-                f'<child link="link{i + 1}"/><axis xyz="{words(axis)}"/>'
+                f'<joint name="joint{i + 1}" type="revolute"><origin xyz="{words(offset)}"/>'
+                f'<parent link="link{i}"/><child link="link{i + 1}"/><axis xyz="{words(axis)}"/>'
                 f'<limit lower="{lower}" upper="{upper}" effort="1" velocity="1"/></joint>'
             )
         place = f'xyz="{words(self.offsets[-1])}" rpy="{words(rpy(self.tool))}"'
@@ -132,7 +132,15 @@ IRB2600 = Arm(
     name="IRB 2600-12/1.65",
     axes=np.array([Z, Y, Y, X, Y, X]),
     offsets=np.array(
-        [[0, 0, 0], [0.150, 0, 0.445], [0, 0, 0.700], [0.795, 0, 0.115], [0, 0, 0], [0, 0, 0], [0.085, 0, 0]]
+        [
+            [0, 0, 0],
+            [0.150, 0, 0.445],
+            [0, 0, 0.700],
+            [0.795, 0, 0.115],
+            [0, 0, 0],
+            [0, 0, 0],
+            [0.085, 0, 0],
+        ]
     ),
     tool=np.column_stack([-Z, Y, X]),
     limits=np.deg2rad([(-180, 180), (-95, 155), (-180, 75), (-400, 400), (-120, 120), (-400, 400)]),
@@ -171,8 +179,8 @@ PANDA = Arm(
     tool=np.diag([1.0, -1.0, -1.0]),
     limits=np.array(
         [
-            (-2.8973, 2.8973), (-1.7628, 1.7628), (-2.8973, 2.8973), (-3.0718, -0.0698), (-2.8973, 2.8973),
-            (-0.0175, 3.7525), (-2.8973, 2.8973),
+            (-2.8973, 2.8973), (-1.7628, 1.7628), (-2.8973, 2.8973), (-3.0718, -0.0698),
+            (-2.8973, 2.8973), (-0.0175, 3.7525), (-2.8973, 2.8973),
         ]
     ),
     branch=(0, 1, 2, 3, 4, 5, 6),

@@ -24,7 +24,7 @@ def versions(packages: Iterable[str]) -> dict[str, str]:
 
 
 def cpu() -> tuple[str, str]:
-    """Model and widest instruction set of the processor, as far as the system tells."""
+    """Model and widest instruction set of the processor, as far as the system reports it."""
     info = Path("/proc/cpuinfo")
     fields: dict[str, str] = {}
     if info.exists():

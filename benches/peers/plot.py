@@ -91,7 +91,8 @@ def draw(results: Sequence[Result], path: Path) -> None:
             axes.tick_params(axis="x", which="both", bottom=axes is panels[-1, 0])
             axes.spines["bottom"].set_visible(axes is panels[-1, 0])
             for place, (name, ratio) in enumerate(bars.items()):
-                words = f"{number(ratio)} x, {time_of(result.timings[name].median, result.row.task in BATCHES)}"
+                time = time_of(result.timings[name].median, result.row.task in BATCHES)
+                words = f"{number(ratio)} x, {time}"
                 box = {"facecolor": "white", "edgecolor": "none", "pad": 0.5}
                 axes.text(ratio * 1.1, place, words, va="center", fontsize=7, bbox=box)
         panels[-1, 0].set_xlabel("time relative to irbkin, median of the rounds")

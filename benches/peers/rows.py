@@ -90,7 +90,8 @@ def gather(arm: Arm, missing: dict[str, str]) -> tuple[list[Contender], list[str
 def excuse(name: str, error: Exception) -> str:
     """A line about who does not take part."""
     words = "not yet" if name.split(",")[0] == OWN else "left out"
-    return f"{name}: {words} ({type(error).__name__}: {str(error).splitlines()[0] if str(error) else 'no message'})"
+    message = str(error).splitlines()[0] if str(error) else "no message"
+    return f"{name}: {words} ({type(error).__name__}: {message})"
 
 
 def yardstick(row: Row) -> Contender:

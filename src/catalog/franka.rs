@@ -1,8 +1,9 @@
 //! Franka arms.
 //!
-//! Denavit-Hartenberg rows as Franka publishes them (control parameters documentation), the flange
-//! in the last row; held against a pose recorded on a machine
-//! (petercorke/robotics-toolbox-matlab#107). Limits and velocities after Franka's data sheet.
+//! Denavit-Hartenberg rows as published by Franka (control parameters documentation), with the
+//! flange in the last row; validated against a pose recorded on a machine
+//! (petercorke/robotics-toolbox-matlab#107). Limits and velocities are those of Franka's data
+//! sheet.
 
 use super::{AngleUnit, CatalogArm, CatalogGeometry};
 
@@ -57,5 +58,6 @@ const FR3: CatalogArm = CatalogArm {
     ],
     max_velocity: None,
     sources: 2,
-    provenance: "Franka control parameters: the Panda's geometry; limits are general knowledge of the data sheet",
+    provenance: "Franka control parameters: the Panda's geometry; limits are general knowledge of \
+        the data sheet",
 };

@@ -1,4 +1,4 @@
-//! The arms that irbkin knows by name.
+//! The catalog: arms by name.
 
 mod abb;
 mod franka;
@@ -13,7 +13,7 @@ use crate::kinematics::{DhRow, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh
 pub use left_out::left_out;
 pub use names::find;
 
-/// One arm of the catalog, with the numbers as its maker prints them.
+/// One arm of the catalog, with the numbers as printed by its maker.
 #[derive(Clone, Copy, Debug)]
 pub struct CatalogArm {
     /// The maker's type name.
@@ -23,8 +23,8 @@ pub struct CatalogArm {
     /// What it carries [kg], as its type name or the maker's data sheet has it; of several
     /// generations the least.
     pub payload: Option<f64>,
-    /// How far it reaches [m], as its type name or the maker's data sheet has it: rounded, of ABB's
-    /// arms to the wrist center.
+    /// Reach [m] in the type name or the maker's data sheet: rounded, and for ABB's arms to the
+    /// wrist center.
     pub reach: Option<f64>,
     /// Its geometry.
     pub geometry: CatalogGeometry,
@@ -32,11 +32,11 @@ pub struct CatalogArm {
     pub angles: AngleUnit,
     /// (lower, upper) limit of each joint.
     pub limits: &'static [[f64; 2]],
-    /// Largest velocity of each joint, where a source has it.
+    /// Largest velocity of each joint; `None` if no source states it.
     pub max_velocity: Option<&'static [f64]>,
-    /// How many independent sources have these figures.
+    /// Number of independent sources that agree on these figures.
     pub sources: u8,
-    /// Where the figures come from, and where sources disagree.
+    /// The sources of the figures, and where they disagree.
     pub provenance: &'static str,
 }
 
@@ -76,18 +76,18 @@ pub enum CatalogGeometry {
         c3: f64,
         /// Wrist center to flange.
         c4: f64,
-        /// Axes 2 and 3 are coupled by a parallelogram: the controller's angle of axis 3 counts
-        /// from the base, q3_serial = q3 - q2, and so do its limits.
+        /// Axes 2 and 3 are coupled by a parallelogram linkage: the controller measures axis 3 from
+        /// the base, q3_serial = q3 - q2, and so are its limits.
         coupled: bool,
     },
-    /// Three parallel axes, in Universal Robots' standard Denavit-Hartenberg figures [mm]: twists
-    /// of 90, 0, 0, 90, -90 and 0 deg.
+    /// Three parallel axes, in Universal Robots' standard Denavit-Hartenberg parameters [mm]:
+    /// twists of 90, 0, 0, 90, -90 and 0 deg.
     ThreeParallel {
         /// Height of axis 2.
         d1: f64,
-        /// Upper arm, negative: it points to -x at zero.
+        /// Upper arm; negative, as it points to -x at zero.
         a2: f64,
-        /// Forearm, negative too.
+        /// Forearm; negative too.
         a3: f64,
         /// Distance of the wrist from the plane through axis 1.
         d4: f64,
@@ -100,7 +100,7 @@ pub enum CatalogGeometry {
     Mdh(&'static [[f64; 4]]),
 }
 
-/// Every arm of the catalog: ABB's by type number, then the other makers'.
+/// Every arm of the catalog: ABB's by type number, then those of other makers.
 pub fn catalog() -> impl Iterator<Item = &'static CatalogArm> {
     abb::SERIES.into_iter().chain([universal_robots::ARMS, franka::ARMS]).flatten()
 }
@@ -129,7 +129,7 @@ impl<const N: usize> Robot<N>
 where
     Joints<N>: Arity<N>,
 {
-    /// The arm of that name from the catalog, as [`find`] finds it.
+    /// The catalog arm with this name; [`find`] defines which spellings match.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! Arms by name: what does not matter in a name, and which names are close to an unknown one.
+//! Finds arms by name: normalizes spelling, and lists the names closest to an unknown one.
 
 use alloc::borrow::ToOwned;
 use alloc::string::String;
@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use super::{CatalogArm, catalog, left_out};
 use crate::error::{Error, UnknownRobot};
 
-/// How many close names an unknown one is told.
+/// Number of close names in the message for an unknown one.
 const MOST_CLOSE: usize = 6;
 
 /// Other names of arms.
@@ -21,7 +21,7 @@ pub(super) const ALIASES: &[(&str, &str)] = &[
 /// Finds an arm by its name or an alias, the maker's name before it or not; case, blanks, dashes,
 /// `_`, `/`, `,`, parentheses and the last zeros of a decimal (2.50, 2,5) do not matter.
 ///
-/// Nothing is guessed: a name that lacks a part is unknown, even where one arm alone has it.
+/// Names are not guessed: a name that lacks a part is unknown, even if only one arm has it.
 ///
 /// # Errors
 ///
@@ -43,7 +43,7 @@ pub fn find(name: &str) -> Result<&'static CatalogArm, Error> {
     })
 }
 
-/// A name without what does not matter in it.
+/// A name without the characters that do not matter.
 fn squeezed(name: &str) -> String {
     let mut squeezed = String::new();
     let mut point = None;
@@ -79,7 +79,7 @@ fn squeezed(name: &str) -> String {
     squeezed
 }
 
-/// Takes the last zeros of a number away, and its decimal point when nothing stands behind it.
+/// Remove the trailing zeros of a number, and its decimal point if nothing follows it.
 fn trim_decimals(text: &mut String, point: Option<usize>) {
     if let Some(point) = point {
         let zeros = text[point..].len() - text[point..].trim_end_matches('0').len();
@@ -90,8 +90,8 @@ fn trim_decimals(text: &mut String, point: Option<usize>) {
     }
 }
 
-/// Names of a maker's arms, where the wanted one is the maker's; else names that hold the wanted
-/// one, the earlier in the name the closer; where there are none, those that are spelled like it.
+/// Names that contain the wanted one, the earlier in the name the closer; if there are none, those
+/// with a similar spelling.
 fn close_to(wanted: &str) -> Vec<&'static str> {
     if wanted.is_empty() {
         return Vec::new();
@@ -110,11 +110,11 @@ fn close_to(wanted: &str) -> Vec<&'static str> {
     holding.into_iter().map(|(_, name)| name).take(MOST_CLOSE).collect()
 }
 
-/// Names that are spelled like the wanted one, or begin like it.
+/// Names with a spelling similar to the wanted one, or with the same beginning.
 #[cfg(feature = "std")]
 fn spelled_like(wanted: &str) -> Vec<&'static str> {
-    /// Share of the letters that must be right [1]: with less, an arm of another series and maker
-    /// would be close.
+    /// Fraction of the letters that must match [1]: with a smaller one, an arm of another series
+    /// and maker would be close.
     const LEAST_SIMILARITY: f64 = 0.7;
     let similarity = |arm: &CatalogArm| {
         let name = squeezed(arm.name);
@@ -144,7 +144,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_does_not_matter_is_squeezed_out() {
+    fn irrelevant_characters_are_removed_from_names() {
         for (name, wanted) in [
             ("IRB 2600-12/1.65", "irb2600121.65"),
             ("IRB 4600-20/2.50", "irb4600202.5"),

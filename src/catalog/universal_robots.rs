@@ -1,9 +1,9 @@
 //! Universal Robots' arms.
 //!
-//! Standard Denavit-Hartenberg figures as Universal Robots publishes them (article "DH parameters
-//! for calculations of kinematics and dynamics"), held against ur-analytic-ik 0.1.0. Base and
+//! Standard Denavit-Hartenberg parameters as published by Universal Robots (article "DH parameters
+//! for calculations of kinematics and dynamics"), validated against ur-analytic-ik 0.1.0. Base and
 //! flange are frames 0 and 6 of that table. A machine's own calibration moves its tool by 1 to 2 mm
-//! from them. Payload and reach are general knowledge of the data sheets. Planners usually hold
+//! from them. Payload and reach are general knowledge of the data sheets. Planners usually limit
 //! joint 3 to +-180 deg; the machine does not.
 
 use super::{AngleUnit, CatalogArm, CatalogGeometry};

@@ -1,20 +1,20 @@
 //! Every threshold of the library, with its unit and its reason. `docs/accuracy.md` derives them.
 
-/// How far a rotation's columns may be from orthonormal and still be repaired: the largest element
-/// of `R^T R - I` [1]. Elements in single precision (6e-8 off) and in text with six digits (1e-6
-/// off) are inside, a scaled or sheared matrix is not.
+/// How far a rotation's columns may deviate from orthonormal and still be repaired: the largest
+/// element of `R^T R - I` [1]. Elements in single precision (6e-8 off) and in text with six digits
+/// (1e-6 off) are inside, a scaled or sheared matrix is not.
 pub const ROTATION_REPAIR_BOUND: f64 = 1e-5;
 
-/// Deviation below which a rotation is taken as it is [1]: a product of seven rotations in float64
-/// is this far off, a repair gains nothing.
+/// Deviation below which a rotation is used unchanged [1]: a product of seven rotations in float64
+/// deviates this much, and a repair gains nothing.
 pub(crate) const ROTATION_ROUNDING: f64 = 4e-15;
 
-/// How far the last row of a pose may be from 0 0 0 1 [1]: what a numerically inverted matrix
-/// leaves there.
+/// How far the last row of a pose may deviate from 0 0 0 1 [1]: the error of a numerically inverted
+/// matrix.
 pub(crate) const LAST_ROW_BOUND: f64 = 1e-9;
 
-/// How far a quaternion's norm may be from one [1]. Normalizing loses no direction, so text with
-/// three digits is taken.
+/// How far a quaternion's norm may be from one [1]. Normalizing keeps the direction, so text with
+/// three digits is accepted.
 pub const QUATERNION_NORM_BOUND: f64 = 2e-3;
 
 /// Greatest Euler angle [rad]: a full turn, as text with four decimals writes it. More are degrees.
@@ -27,59 +27,73 @@ pub(crate) const GIMBAL_COS: f64 = 1e-14;
 /// How far beyond reach the wrist center may be and still get the stretched (or folded) arm [m].
 pub const REACH_TOLERANCE: f64 = 1e-9;
 
-/// |sin q5| below which the wrist's two branches are one [1]. A nanoradian is out of any encoder's sight, and both are returned from 2e-9 on.
+/// sin q5
+///
+/// below which the two branches of the wrist are one [1]. No encoder resolves a nanoradian; both
+/// are returned from 2e-9 on.
 pub const WRIST_MERGE_SIN: f64 = 1.5e-9;
 
-/// |sin q5| below which a pose says nothing of q4 [1]: the rounding of the wrist's rotation, so a free choice leaves the residual there.
+/// sin q5
+///
+/// below which a pose does not determine q4 [1]: the rounding of the wrist's rotation, so a free
+/// choice does not change the residual.
 pub const WRIST_FREE_SIN: f64 = 5e-15;
 
 /// Distance of the wrist center from axis 1 below which the front and the back branch are one [m];
-/// both are returned from 2e-9 on. Without a lateral offset: with one, they meet by the square root
-/// of [`POSITION_ROUNDING`].
+/// both are returned from 2e-9 on. This holds without a lateral offset: with one, they meet by the
+/// square root of [`POSITION_ROUNDING`].
 pub const SHOULDER_MERGE: f64 = 1.5e-9;
 
-/// How far rounding moves a position, as a part of the lengths it is summed from [1]: twice the
-/// worst of a million poses. A wrist center this close to axis 1 says nothing of q1. An elbow whose
-/// straightening moves the wrist center by half of this is straight, and its two branches are one:
-/// below about 1e-7 rad from stretched, by the square root of rounding.
+/// How far rounding moves a position, relative to the lengths it is summed from [1]: twice the
+/// worst of a million poses. A wrist center this close to axis 1 does not determine q1. An elbow
+/// whose straightening moves the wrist center by half of this is straight, and its two branches are
+/// one: below about 1e-7 rad from stretched, by the square root of rounding.
 pub const POSITION_ROUNDING: f64 = 1.5e-15;
 
-/// How close to a singularity a seeded solve may keep the seed's free joint [rad, m]: the precision
-/// of the best poses met in practice.
+/// How close to a singularity a seeded solve may keep the seed's value of the undetermined joint
+/// [rad, m]: the precision of the best poses met in practice.
 pub const SEEDED_FREE: f64 = 1e-12;
 
-/// |sin q5| below which a path may keep the q4 that it is heading for [1], where what is known of the forearm does not contradict it.
+/// sin q5
+///
+/// below which a path may keep the q4 that it is heading for [1], within the uncertainty of the
+/// forearm.
 pub(crate) const PATH_WRIST_SIN: f64 = 1e-3;
 
-/// Distance of the wrist center from axis 1, as a part of the lengths of the arm, from which a
-/// branch is plain [1]: all that decides there stands far from every threshold, so that it is
-/// solved in lanes. Nearer, the scalar solve decides; both agree to rounding.
+/// Distance of the wrist center from axis 1, relative to the lengths of the arm, above which a
+/// branch is regular [1]: every decision is then far from its threshold, so that the branch can be
+/// solved in lanes. Nearer, the scalar solver decides; both agree to rounding.
 pub(crate) const REGULAR_SHOULDER: f64 = 1e-6;
 
-/// Distance of the wrist center from the edge of reach, as a part of the lengths of the arm, from
-/// which a branch is plain [1].
+/// Distance of the wrist center from the edge of reach, relative to the lengths of the arm, above
+/// which a branch is regular [1].
 pub(crate) const REGULAR_REACH: f64 = 1e-7;
 
-/// Length of the forearm, as a part of the upper arm, from which a branch is plain [1]: below, its
-/// direction is a small difference.
+/// Length of the forearm, relative to the upper arm, above which a branch is regular [1]: below,
+/// its direction is a small difference.
 pub(crate) const REGULAR_FOREARM: f64 = 0.25;
 
-/// |sin q5| from which a branch is plain [1].
+/// sin q5
+///
+/// above which a branch is regular [1].
 pub(crate) const REGULAR_WRIST_SIN: f64 = 1e-6;
 
-/// |sin| of the elbow angle from which a branch of a seven-axis arm is plain [1]: what rounding leaves open of the elbow turns the upper arm.
+/// sin
+///
+/// of the elbow angle above which a branch of a seven-axis arm is regular [1]: below, the rounding
+/// error of the elbow turns the upper arm.
 pub(crate) const REGULAR_ELBOW_SIN: f64 = 1e-2;
 
-/// Distance of the shoulder from the plane of axes 5 and 6, as a part of the lengths of the arm,
-/// from which a branch of a seven-axis arm is plain [1].
+/// Distance of the shoulder from the plane of axes 5 and 6, relative to the lengths of the arm,
+/// above which a branch of a seven-axis arm is regular [1].
 pub(crate) const REGULAR_ASIDE: f64 = 3e-3;
 
-/// Distance of two angles of joint 7 at which all solutions are looked at [rad].
+/// Spacing of the angles of joint 7 at which all solutions are computed [rad].
 pub(crate) const JOINT_7_SPACING: f64 = 0.06;
-/// The distance at which they are looked at again where none inside the limits was found [rad].
+/// The finer spacing that is used if the first finds none inside the limits [rad].
 pub(crate) const JOINT_7_FINER_SPACING: f64 = 0.015;
 
-/// Angle by which a joint may differ between two neighbors of those [rad]: valleys of the cost are
+/// Angle by which a joint may differ between two neighboring samples [rad]: valleys of the cost are
 /// wider.
 pub const SAMPLE_LEAP: f64 = 0.5;
 
@@ -90,26 +104,26 @@ pub(crate) const FIRST_CURVE_STEP: f64 = 0.05;
 /// radian and back.
 pub(crate) const LARGEST_CURVE_STEP: f64 = 0.2;
 
-/// Step below which a curve of self-motion is taken to end, and a valley to be at its bottom [rad]:
-/// its square is the rounding of a cost.
+/// Step below which a curve of self-motion ends, and a valley is at its bottom [rad]: its square is
+/// the rounding of a cost.
 pub(crate) const LEAST_CURVE_STEP: f64 = 1e-8;
 
-/// How little the two sides of an edge of joint 7 may differ, as a part of their size, and still be
-/// taken to touch [1]: what rounding leaves of a double zero, with room. An angle that is taken in
-/// vain costs one solve.
+/// Largest difference of the two sides of an edge of joint 7, relative to their size, at which they
+/// touch [1]: the rounding of a double zero, with a margin. An angle that is tried in vain costs
+/// one solve.
 pub(crate) const TOUCHING: f64 = 1e-12;
 
-/// How far a solution may be off its pose and still be one of it [m, rad]: more than any family or
-/// stretched arm, less than another pose.
+/// How far a solution may be from its pose and still be accepted as one of it [m, rad]: more than
+/// the error of any self-motion or stretched arm, less than another pose.
 pub(crate) const SOLUTION_OFF: f64 = 1e-6;
 
-/// How far an angle may pass a joint limit and still be inside [rad]: a pose taught at the limit
+/// How far an angle may exceed a joint limit and still be inside [rad]: a pose taught at the limit
 /// must not be lost to rounding.
 pub const LIMIT_TOLERANCE: f64 = 1e-9;
 
-/// How far outside its limits a joint may be calculated that rounding of a singular pose leaves
-/// open, and still be moved inside them, if that meets the pose [rad]: what is left open of a joint
-/// whose lever is [`SEEDED_FREE`], ten times.
+/// How far outside its limits a joint may be computed that rounding leaves undetermined at a
+/// singular pose, and still be moved inside them, if that reaches the pose [rad]: ten times the
+/// uncertainty of a joint whose lever is [`SEEDED_FREE`].
 pub(crate) const LIMIT_SLACK: f64 = 1e-2;
 
 /// Least length of an upper arm or forearm [m].
@@ -136,37 +150,39 @@ pub const DEGREE_LIMITS: core::ops::RangeInclusive<f64> = 50.0..=1000.0;
 /// turns lose the angle's digits.
 pub const MOST_ANGLE: f64 = 1e5;
 
-/// How far a Denavit-Hartenberg table may be from a known form and still be it [rad, m]: the
-/// rounding of a table in text. It is squared up.
+/// How far a Denavit-Hartenberg table may deviate from a known structure and still be recognized
+/// [rad, m]: the rounding of a table in text. The deviation is removed.
 pub const FORM_TOLERANCE: f64 = 1e-9;
 
-/// Greatest `snap` [rad]: how far an angle may be from a multiple of 90 deg and still be made one
-/// on request. Text with three digits is inside; beyond, an arm would be another one: a tenth of a
-/// degree moves the tool of a long arm by millimeters.
+/// Greatest `snap` [rad]: how far an angle may be from a multiple of 90 deg and still be made exact
+/// on request. Text with three digits is inside. Beyond, the arm would be a different one: a tenth
+/// of a degree moves the tool of a long arm by millimeters.
 pub const MOST_SNAP: f64 = 1e-3;
 
-/// How much a joint step must grow over the one before it to be looked into as a jump [1].
+/// Growth of a joint step over the previous one from which it is examined as a jump [1].
 pub(crate) const JUMP_GROWTH: f64 = 3.0;
 
-/// Joint step that is never looked into as a jump [rad]: two degrees.
+/// Joint step that is never examined as a jump [rad]: two degrees.
 pub(crate) const JUMP_LEAST: f64 = 0.035;
 
-/// Joint step that is told as a jump where nothing between the two poses can be looked at [rad]: 20
-/// degrees.
+/// Joint step that is reported as a jump if the way between the two poses cannot be examined [rad]:
+/// 20 degrees.
 pub(crate) const JUMP_BLIND: f64 = 0.35;
 
-/// Joint step below which an arm with axis 4 held stands still [rad]: rounding.
-pub(crate) const HELD_STILL: f64 = 1e-15;
+/// Joint step below which an arm with axis 4 locked has converged [rad]: rounding.
+pub(crate) const LOCKED_CONVERGED: f64 = 1e-15;
 
-/// Joint step up to which a path is taken to go on as it did [rad].
+/// Joint step up to which a path is extrapolated [rad].
 pub(crate) const STEADY_STEP: f64 = 0.1;
 
-/// |sin q5| below which a crossing policy acts [1]: one degree. "wrist" may then deviate by two in orientation.
+/// sin q5
+///
+/// below which a singularity mode acts [1]: one degree. "wrist" may then deviate by two in
+/// orientation.
 pub const WRIST_ZONE: f64 = 0.0175;
 
-/// How close to the edge of a quarter turn an angle is taken for either side of it when a
-/// configuration is matched [rad]: 0.01 deg, what the rounding of a robtarget's printed digits
-/// leaves open.
+/// How close to the edge of a quarter turn an angle matches either side of it in a configuration
+/// [rad]: 0.01 deg, the rounding of a robtarget's printed digits.
 pub const CONFIGURATION_EDGE: f64 = 0.01 * core::f64::consts::PI / 180.0;
 
 /// Square of a length below which a mirror does not turn it [(m/rad)^2, 1]: the least whose digits,

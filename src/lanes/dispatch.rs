@@ -1,14 +1,14 @@
-//! Which instruction set the kernels run on.
+//! The instruction set that the kernels run on.
 
 use core::sync::atomic::{AtomicU8, Ordering};
 
 use crate::error::Error;
 
-/// The instructions that kernels are compiled for. The widest that the processor has is taken when
-/// the first kernel runs.
+/// The instruction sets that kernels are compiled for. The widest one of the processor is chosen
+/// when the first kernel runs.
 ///
-/// Answers are the same to the last bit on every set with fused multiplication and addition (AVX2,
-/// AVX-512, aarch64's baseline), and agree with those of the x86-64 baseline to rounding.
+/// Answers have the same bits on every set with fused multiplication and addition (AVX2, AVX-512,
+/// aarch64's baseline), and agree with those of the x86-64 baseline to rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum InstructionSet {
@@ -20,21 +20,21 @@ pub enum InstructionSet {
     Avx512,
 }
 
-/// A calculation that is compiled for each instruction set.
+/// A computation that is compiled for each instruction set.
 pub(crate) trait Kernel {
-    /// What comes out.
+    /// The result.
     type Answer;
 
-    /// Whether there is enough to do at once for 512-bit registers to pay: the processor clocks
-    /// down and joins ports for them.
+    /// Whether there is enough parallel work for 512-bit registers to pay off: the processor lowers
+    /// its clock and joins ports for them.
     #[cfg_attr(
         not(all(feature = "std", target_arch = "x86_64")),
         expect(dead_code, reason = "there is no choice of widths")
     )]
     const WIDE: bool;
 
-    /// Calculates; `FUSED` where the instruction set multiplies and adds in one rounding. Must be
-    /// `#[inline(always)]`.
+    /// Compute the answer; `FUSED` if the instruction set multiplies and adds in one rounding. Must
+    /// be `#[inline(always)]`.
     fn run<const FUSED: bool>(self) -> Self::Answer;
 }
 
@@ -42,7 +42,7 @@ pub(crate) trait Kernel {
 const BASELINE_FUSED: bool =
     cfg!(all(feature = "std", any(target_arch = "aarch64", target_feature = "fma")));
 
-/// The set in use, as 1 + its number; 0 before it is known.
+/// The set in use, as 1 + its number; 0 before it is chosen.
 static IN_USE: AtomicU8 = AtomicU8::new(0);
 
 impl InstructionSet {
@@ -66,7 +66,7 @@ impl InstructionSet {
         widest
     }
 
-    /// The sets that this processor has, the narrowest first.
+    /// The sets that this processor supports, the narrowest first.
     pub fn available() -> impl Iterator<Item = Self> {
         Self::ALL.into_iter().filter(|set| set.is_available())
     }
@@ -92,11 +92,11 @@ impl InstructionSet {
         self == Self::Baseline
     }
 
-    /// Takes this set from now on, in the whole process: for tests and measurements.
+    /// Use this set from now on, in the whole process: for tests and measurements.
     ///
     /// # Errors
     ///
-    /// [`Error::NoInstructionSet`] when the processor does not have it.
+    /// [`Error::NoInstructionSet`] when the processor does not support it.
     pub fn force(self) -> Result<(), Error> {
         if !self.is_available() {
             return Err(Error::NoInstructionSet { name: self.name() });
@@ -116,7 +116,7 @@ impl InstructionSet {
     }
 }
 
-/// Runs a kernel on the instruction set in use.
+/// Run a kernel on the instruction set in use.
 #[inline]
 #[cfg_attr(
     all(feature = "std", target_arch = "x86_64"),
@@ -146,11 +146,12 @@ fn with_avx2<K: Kernel>(kernel: K) -> K::Answer {
     kernel.run::<true>()
 }
 
-/// Works on each set of this processor in turn, one caller at a time, and goes back to the widest.
+/// Run `work` on each set of this processor in turn, one caller at a time, then return to the
+/// widest.
 #[cfg(test)]
 pub(crate) fn on_each_set(mut work: impl FnMut(InstructionSet)) {
     static FORCED: std::sync::Mutex<()> = std::sync::Mutex::new(());
-    // A test that failed while it held the lock has said why.
+    // A test that failed while it held the lock has reported its failure.
     let _one_at_a_time = FORCED.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     for set in InstructionSet::available() {
         set.force().unwrap();
@@ -164,7 +165,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_widest_set_is_taken_and_only_what_the_processor_has() {
+    fn the_widest_supported_set_is_in_use_and_others_are_refused() {
         let available = || InstructionSet::available();
         assert_eq!(available().next(), Some(InstructionSet::Baseline));
         on_each_set(|set| assert_eq!(InstructionSet::in_use(), set));

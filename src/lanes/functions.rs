@@ -1,4 +1,4 @@
-//! Arc tangent, sine and cosine without a branch, for kernels.
+//! Branch-free arc tangent, sine and cosine, for kernels.
 //!
 //! Within 2 ulp of the correctly rounded value for every argument (`docs/lanes.md`), with the
 //! special values of the standard library's functions. `docs/lanes/coefficients.py` computes the
@@ -6,8 +6,8 @@
 
 use core::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
-/// (pi/2 - `FRAC_PI_2`) / `FRAC_PI_2`: what pi/2, and so pi, has beyond its rounded value, in
-/// proportion to it.
+/// (pi/2 - `FRAC_PI_2`) / `FRAC_PI_2`: the rounding error of pi/2, and so of pi, relative to its
+/// rounded value.
 const PI_REST_RATIO: f64 = 3.898_171_832_519_375_5e-17;
 
 /// `atan(t) = t + t u P(u)`, `u = t^2` in 0 ..= 1; P by ascending powers. Relative error of the arc
@@ -55,16 +55,16 @@ const COS: [f64; 6] = [
     -1.135_875_083_077_524_6e-11,
 ];
 
-/// pi/2 in three parts, of which the first two have 37 bits: times a whole number below 2^16 they
-/// are exact. The sum is off by 2^-130.5.
+/// pi/2 in three parts, of which the first two have 37 bits: their products with whole numbers
+/// below 2^16 are exact. The sum is off by 2^-130.5.
 const PI_2_PARTS: [f64; 3] =
     [1.570_796_326_792_333_3, 2.563_344_151_583_955_8e-12, 1.056_299_906_698_742_8e-23];
 
-/// 1.5 * 2^52: added to a number it rounds it to a whole one, whose low bits are then those of the
-/// sum.
+/// 1.5 * 2^52: adding it to a number rounds that to a whole one, whose low bits are then those of
+/// the sum.
 const ROUND: f64 = 6_755_399_441_055_744.0;
 
-/// The smallest positive number, in place of the zero in 0/0.
+/// The smallest positive number, which replaces the zero in 0/0.
 const LEAST: f64 = 5e-324;
 
 const SIGN: u64 = 1 << 63;
@@ -79,35 +79,35 @@ pub(crate) fn mul_add<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
     a * b + c
 }
 
-/// The nearest whole number, of a number below 2^51 in size or infinite; an even one from the
-/// middle. Without a call on any processor.
+/// The nearest whole number, for a number below 2^51 in size or infinite; ties to even. Without a
+/// call on any processor.
 #[inline(always)]
 pub(crate) fn nearest_whole(number: f64) -> f64 {
     (number + ROUND) - ROUND
 }
 
-/// The nearest whole number that is not above.
+/// The largest whole number that is not above.
 #[inline(always)]
 pub(crate) fn whole_below(number: f64) -> f64 {
     let nearest = nearest_whole(number);
     if nearest > number { nearest - 1.0 } else { nearest }
 }
 
-/// The nearest whole number that is not below.
+/// The smallest whole number that is not below.
 #[inline(always)]
 pub(crate) fn whole_above(number: f64) -> f64 {
     let nearest = nearest_whole(number);
     if nearest < number { nearest + 1.0 } else { nearest }
 }
 
-/// The angle of the direction (x, y) [rad], for every argument as [`f64::atan2`] has it.
+/// The angle of the direction (x, y) [rad], for every argument as [`f64::atan2`].
 #[inline(always)]
 #[expect(clippy::float_cmp, reason = "both infinite")]
 pub(crate) fn atan2<const FUSED: bool>(y_signed: f64, x: f64) -> f64 {
     let y = y_signed.abs();
     let width = x.abs();
     let steep = y > width;
-    // t = least / most: written so that the compiler divides once, and that either being NaN makes
+    // t = least / most, written so that the compiler divides once, and that a NaN in either makes
     // it NaN.
     let least = if steep { width } else { y };
     let width = if width < LEAST { LEAST } else { width };
@@ -115,7 +115,7 @@ pub(crate) fn atan2<const FUSED: bool>(y_signed: f64, x: f64) -> f64 {
     let t = least / most;
     // Both may be infinite.
     let t = if least == most { 1.0 } else { t };
-    // The angle but for its sign is base + atan(t): 0 or -pi/2 for x > 0, -pi or pi/2 for x < 0.
+    // The angle up to its sign is base + atan(t): 0 or -pi/2 for x > 0, -pi or pi/2 for x < 0.
     let side = FRAC_PI_2.copysign(x);
     let base = if steep { -side } else { side - FRAC_PI_2 };
     let rest = base * PI_REST_RATIO;
@@ -142,12 +142,12 @@ fn four<const FUSED: bool>(a: f64, b: f64, c: f64, d: f64, u: f64, u2: f64) -> f
 /// Largest angle of [`sin_cos`] [rad].
 pub(crate) const MOST_SIN_COS: f64 = 1e5;
 
-/// Sine and cosine of an angle of at most [`MOST_SIN_COS`] [rad]; wrong beyond. NaN of what is not
-/// finite.
+/// Sine and cosine of an angle of at most [`MOST_SIN_COS`] [rad]; incorrect beyond. NaN for an
+/// argument that is not finite.
 #[inline(always)]
 pub(crate) fn sin_cos<const FUSED: bool>(angle: f64) -> (f64, f64) {
     let [first, second, third] = PI_2_PARTS;
-    // turns = -(angle / (pi/2), rounded); high + low = angle + turns * pi/2. Next to a multiple of
+    // turns = -(angle / (pi/2), rounded); high + low = angle + turns * pi/2. Near a multiple of
     // pi/2 the two differences are exact.
     let sum = mul_add::<FUSED>(angle, FRAC_2_PI, ROUND);
     let turns = ROUND - sum;

@@ -1,10 +1,10 @@
-//! Arithmetic that runs on several numbers at once: several poses, joints or branches, one a lane.
+//! Arithmetic on several numbers at once: several poses, joints or branches, one per lane.
 //!
 //! A kernel is plain arithmetic on `f64` in a loop over arrays of a fixed, small length. The
-//! compiler makes vector instructions of such a loop, as wide as the set allows that the function
-//! around it is compiled for ([`run`]), on three conditions: everything in the loop is
-//! `#[inline(always)]`, nothing in it branches or loops, and what it reads and writes lies in
-//! columns, lane beside lane. Each lane is calculated by itself, so an answer does not depend on
+//! compiler turns such a loop into vector instructions, as wide as the instruction set permits for
+//! which the surrounding function is compiled ([`run`]), on three conditions: everything in the
+//! loop is `#[inline(always)]`, nothing in it branches or loops, and its input and output are
+//! columns, lane beside lane. Each lane is computed independently, so an answer does not depend on
 //! the other lanes.
 
 mod dispatch;
@@ -24,5 +24,5 @@ pub(crate) const LANES: usize = 8;
 /// A number for each lane.
 pub(crate) type Column = [f64; LANES];
 
-/// Flags for each lane: as wide as the numbers, so that both move through vectors side by side.
+/// Flags for each lane: as wide as the numbers, so that both move through vectors together.
 pub(crate) type Flags = [u64; LANES];

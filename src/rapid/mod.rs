@@ -10,27 +10,29 @@
 //!     ENDPROC
 //! ENDMODULE";
 //! let module = rapid::parse(text, &[])?;
-//! let Content::Single(Value::RobTarget(p10)) = &module.find("P10").unwrap().content else { unreachable!() };
+//! let Content::Single(Value::RobTarget(p10)) = &module.find("P10").unwrap().content else {
+//!     unreachable!()
+//! };
 //! assert_eq!(p10.trans_mm, [600.0, 0.0, 800.0]);
 //! assert_eq!(module.moves()[0].target.text, "Offs(p10,0,0,50)");
-//! assert_eq!(rapid::parse(&module.to_string(), &[])?.without_positions(), module.without_positions());
+//! let again = rapid::parse(&module.to_string(), &[])?;
+//! assert_eq!(again.without_positions(), module.without_positions());
 //! # Ok::<(), irbkin::Error>(())
 //! ```
 //!
-//! What is not known is skipped and listed ([`Module::skipped`]), never guessed; a broken text is
+//! What is not known is skipped and listed ([`Module::skipped`]), never guessed; an invalid text is
 //! an error with its line and column. Data have the values of their declarations; those that the
-//! module assigns have none where it moves, and the [`Reason`] says why. A negative zero is read as
-//! zero.
+//! module assigns have none where it moves, with the [`Reason`]. A negative zero is read as zero.
 //!
 //! The layers, each of which uses only those before it:
 //!
 //! 1. `text`: places, tokens, literals and reserved words of a text.
 //! 2. `data`: types, records, values, declarations, moves, modules, and reasons why something is
 //!    not read.
-//! 3. `expression`: expressions as they are written, and what they are worth.
+//! 3. `expression`: expressions as they are written, and their values.
 //! 4. `statements`: declarations, moves, routines and blocks as they are written, and what is not
 //!    read.
-//! 5. `resolve`: names looked up, data in the order of their references, then moves.
+//! 5. `resolve`: names resolved, data in the order of their references, then moves.
 //! 6. `module`: whole modules read, made, written, and rewritten in place.
 //! 7. `calc`: joint angles of targets and back, one by one and in tables.
 

@@ -10,11 +10,11 @@ use super::joint::Joint;
 use super::tree::{Tree, quoted};
 use crate::error::{Names, UrdfFault};
 
-/// Number of links up to which all their names are told, where one was not known.
+/// Number of links up to which a message for an unknown one lists all names.
 const FEW: usize = 12;
 
-/// The joints from base to tip, and nothing but joints that turn or are fixed; those that turn are
-/// as many as one of `wanted`.
+/// The joints from base to tip, all of them revolute or fixed; the number of revolute ones is in
+/// `wanted`.
 pub(super) fn chain_between<'t, 'a>(
     tree: &'t Tree<'a>,
     base: Option<&str>,
@@ -63,14 +63,14 @@ fn named(tree: &Tree<'_>, field: &'static str, name: &str) -> Result<usize, Urdf
     })
 }
 
-/// Links whose names hold the wanted one or are spelled like it, the closest first.
+/// Links whose names contain the wanted one or have a similar spelling, the closest first.
 #[cfg(feature = "std")]
 fn close_to(tree: &Tree<'_>, wanted: &str) -> Names {
     const LEAST_SIMILARITY: f64 = 0.7;
     const LONGEST: usize = 200;
     let similarity = |name: &str| match name {
         _ if !wanted.is_empty() && name.contains(wanted) => 1.0,
-        // The comparison takes the product of both lengths.
+        // The comparison takes time proportional to the product of both lengths.
         _ if name.len().max(wanted.len()) > LONGEST => 0.0,
         _ => strsim::jaro_winkler(name, wanted),
     };
@@ -101,17 +101,17 @@ fn only_root(tree: &Tree<'_>) -> Result<usize, UrdfFault> {
     }
 }
 
-/// What leads from the base to a link.
+/// The path from the base to a link.
 #[derive(Clone, Copy, Default)]
 struct Way {
-    /// Joints that turn.
+    /// Number of revolute joints.
     turning: usize,
-    /// The first joint that must not be on the way.
+    /// The first joint that must not be on the path.
     barred_by: Option<usize>,
 }
 
-/// The only link at the end of a chain whose joints are as many as one of `wanted`. A frame is
-/// never guessed: of several none is taken.
+/// The only link at the end of a chain whose number of joints is in `wanted`. A frame is never
+/// guessed: if there are several, none is chosen.
 fn only_tip(tree: &Tree<'_>, base: usize, wanted: &[usize]) -> Result<usize, UrdfFault> {
     let mut ways = vec![Way::default(); tree.links.len()];
     let mut ends = Vec::new();
@@ -143,7 +143,7 @@ fn only_tip(tree: &Tree<'_>, base: usize, wanted: &[usize]) -> Result<usize, Urd
     }
 }
 
-/// A link at the end of a chain, and what keeps it from being the tip.
+/// A link at the end of a chain, and the reason why it cannot be the tip.
 fn remark(tree: &Tree<'_>, link: usize, way: Way) -> String {
     let name = tree.links[link];
     match way.barred_by.map(|joint| &tree.joints[joint]) {

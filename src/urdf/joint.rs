@@ -1,4 +1,4 @@
-//! A joint of a URDF: its names, and the numbers of one between base and tip.
+//! A joint of a URDF: its names, and its numbers if it is between base and tip.
 
 use alloc::borrow::ToOwned;
 
@@ -12,7 +12,7 @@ use crate::kinematics::{JointAxis, Pose, constant_pose, snapped, unit};
 /// Most characters of an attribute that a message repeats.
 const REPEATED: usize = 60;
 
-/// A joint between two links, which are told by their indices.
+/// A joint between two links, which are given by their indices.
 pub(super) struct Joint<'a> {
     pub(super) name: &'a str,
     pub(super) kind: &'a str,
@@ -21,17 +21,17 @@ pub(super) struct Joint<'a> {
     node: Node<'a, 'a>,
 }
 
-/// The numbers of a joint, as the text has them.
+/// The numbers of a joint, as in the text.
 pub(super) struct Placed {
     /// The child's origin in the parent [m].
     xyz: [f64; 3],
     /// Roll, pitch and yaw of the child in the parent [rad].
     rpy: [f64; 3],
-    /// What turns; nothing of a fixed joint.
+    /// The motion; `None` for a fixed joint.
     pub(super) motion: Option<Motion>,
 }
 
-/// A joint that turns: its axis in the child's frame, limits [rad] and velocity [rad/s].
+/// A revolute joint: its axis in the child's frame, limits [rad] and velocity [rad/s].
 pub(super) struct Motion {
     direction: Vector3<f64>,
     pub(super) limits: [f64; 2],
@@ -39,8 +39,8 @@ pub(super) struct Motion {
 }
 
 impl Placed {
-    /// The child's frame in the parent's at a joint angle of zero, angles within `snap` of a
-    /// multiple of 90 deg [rad] being one.
+    /// The child's frame in the parent's at a joint angle of zero; angles within `snap` of a
+    /// multiple of 90 deg [rad] are made exact.
     pub(super) fn origin(&self, snap: f64) -> Pose {
         let [roll, pitch, yaw] = self.rpy.map(|angle| snapped(angle, snap));
         constant_pose(self.xyz, [yaw, pitch, roll])
@@ -48,7 +48,7 @@ impl Placed {
 }
 
 impl Motion {
-    /// The axis in the base frame, the child's frame being where it is at zero joint angles.
+    /// The axis in the base frame, for the child's frame at zero joint angles.
     pub(super) fn axis(&self, t_base_child: &Pose, snap: f64) -> JointAxis {
         let direction = t_base_child.rotation * snapped_direction(self.direction, snap);
         JointAxis { direction: direction.into(), point: t_base_child.translation.vector.into() }
@@ -63,8 +63,8 @@ fn snapped_direction(direction: Vector3<f64>, snap: f64) -> Vector3<f64> {
 }
 
 impl<'a> Joint<'a> {
-    /// The joint of an element. `missing` tells what the element lacks, `link_of` the index of a
-    /// link by its name.
+    /// The joint of an element. `missing` describes what the element lacks, `link_of` gives the
+    /// index of a link by its name.
     pub(super) fn new(
         node: Node<'a, 'a>,
         missing: impl Fn(&'static str) -> UrdfFault,
@@ -85,12 +85,12 @@ impl<'a> Joint<'a> {
         Ok(Self { name, kind, parent, child: link("child", "<child link=\"...\">")?, node })
     }
 
-    /// Whether the joint turns.
+    /// Whether the joint is revolute.
     pub(super) fn turns(&self) -> bool {
         matches!(self.kind, "revolute" | "continuous")
     }
 
-    /// What keeps the joint from being between base and tip.
+    /// The reason why the joint may not be between base and tip.
     pub(super) fn fault(&self) -> Result<(), UrdfFault> {
         if !self.turns() && self.kind != "fixed" {
             return Err(UrdfFault::JointType {
@@ -117,7 +117,7 @@ impl<'a> Joint<'a> {
         Ok(Placed { xyz, rpy, motion: self.motion()? })
     }
 
-    /// What turns; nothing for a fixed joint.
+    /// The motion; `None` for a fixed joint.
     fn motion(&self) -> Result<Option<Motion>, UrdfFault> {
         if !self.turns() {
             return Ok(None);
@@ -132,8 +132,8 @@ impl<'a> Joint<'a> {
         Ok(Some(Motion { direction, limits, velocity }))
     }
 
-    /// Limits, infinite for a continuous joint, and velocity. A limit that is absent is zero, as
-    /// the format has it.
+    /// Limits, infinite for a continuous joint, and velocity. A missing limit is zero, as the
+    /// format defines.
     fn limit(&self) -> Result<([f64; 2], Option<f64>), UrdfFault> {
         let unlimited = [f64::NEG_INFINITY, f64::INFINITY];
         let Some(limit) = self.element("limit")? else {
@@ -207,7 +207,7 @@ impl<'a> Joint<'a> {
     }
 }
 
-/// The only element of that name in a joint.
+/// The only element with that name in a joint.
 fn element<'a>(
     node: Node<'a, 'a>,
     joint: &str,

@@ -21,26 +21,26 @@ impl<const N: usize> Robot<N>
 where
     Joints<N>: Arity<N>,
 {
-    /// A robot from the text of a URDF, with the closed form of its geometry.
+    /// A robot from the text of a URDF, with the closed form of its kinematic structure.
     ///
-    /// `base` is the link in whose frame poses are given: the one without a parent when not given.
-    /// `tip` is the link that poses are of: when not given, the only one at the end of a chain of
-    /// `N` revolute joints. Joints count from base to tip; what is fixed between them, and what is
-    /// not between them, is none. A joint turns the way its axis points. Limits and velocities are
-    /// those of the text; a velocity that is absent or zero is unknown, and one unknown leaves the
-    /// robot without velocities.
+    /// `base` is the link in whose frame poses are given; by default the link without a parent.
+    /// `tip` is the link whose poses are given; by default the only one at the end of a chain of
+    /// `N` revolute joints. Joints are numbered from base to tip; fixed joints, and joints that are
+    /// not between them, are not counted. A joint turns in the sense of its axis. Limits and
+    /// velocities are those of the text. A velocity that is missing or zero is unknown, and one
+    /// unknown velocity leaves the robot without velocities.
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidModel`] when the text is no URDF, `base` or `tip` are no links of a chain of
-    /// `N` revolute joints or several links could be meant, or, for six axes, the arm has no known
-    /// form. [`Robot::serial_chain_from_urdf`] takes such an arm without its inverse.
+    /// [`Error::InvalidModel`] when the text is not a URDF, `base` or `tip` are not links of a
+    /// chain of `N` revolute joints or are ambiguous, or, for six axes, the arm has no known
+    /// structure. [`Robot::serial_chain_from_urdf`] accepts such an arm, without its inverse.
     pub fn from_urdf(text: &str, base: Option<&str>, tip: Option<&str>) -> Result<Self, Error> {
         UrdfArm::read(text, base, tip, &[N])?.robot(true, 0.0)
     }
 
     /// As [`Robot::from_urdf`], with each angle of an origin, and each axis, that is within `snap`
-    /// of a multiple of 90 deg [rad] made exact: 1.5708 is a right angle then.
+    /// of a multiple of 90 deg [rad] made exact, so that 1.5708 becomes a right angle.
     ///
     /// # Errors
     ///
@@ -55,11 +55,12 @@ where
         UrdfArm::read(text, base, tip, &[N])?.robot(true, snap)
     }
 
-    /// As [`Robot::from_urdf`]: with the closed form where the geometry has one, without where not.
+    /// As [`Robot::from_urdf`]: with the closed form if the structure is known, otherwise without
+    /// the inverse.
     ///
     /// # Errors
     ///
-    /// As [`Robot::from_urdf`], but for an arm that has no known form.
+    /// As [`Robot::from_urdf`], except that an arm of unknown structure is accepted.
     pub fn serial_chain_from_urdf(
         text: &str,
         base: Option<&str>,
@@ -69,14 +70,14 @@ where
     }
 }
 
-/// An arm as a URDF has it, with however many joints.
+/// The arm of a URDF, with any number of joints.
 pub(crate) struct UrdfArm {
     name: String,
     joints: Vec<Placed>,
 }
 
 impl UrdfArm {
-    /// Reads the chain between two links; its number of joints must be one of `wanted`.
+    /// Read the chain between two links; its number of joints must be in `wanted`.
     pub(crate) fn read(
         text: &str,
         base: Option<&str>,
@@ -94,15 +95,16 @@ impl UrdfArm {
         self.joints.iter().filter_map(|joint| joint.motion.as_ref())
     }
 
-    /// Number of joints that turn.
+    /// Number of revolute joints.
     #[cfg(feature = "python")]
     pub(crate) fn dof(&self) -> usize {
         self.motions().count()
     }
 
-    /// The robot, which must have `N` joints; without `closed_form` an arm of no known form is
-    /// taken too. Angles within `snap` of a multiple of 90 deg [rad] are one. Where the arm has no
-    /// known form, or no table, and would have one with more snap, that is proposed.
+    /// The robot, which must have `N` joints; without `closed_form` an arm of unknown structure is
+    /// accepted too. Angles within `snap` of a multiple of 90 deg [rad] are made exact. If the arm
+    /// has no known structure, or no table, and would have one with a larger snap, that is
+    /// proposed.
     pub(crate) fn robot<const N: usize>(
         &self,
         closed_form: bool,
@@ -139,7 +141,7 @@ impl UrdfArm {
         }
     }
 
-    /// The chain, with the closed form where it has one.
+    /// The chain, with the closed form if its structure is known.
     fn chain<const N: usize>(&self, snap: f64) -> Result<Robot<N>, Error>
     where
         Joints<N>: Arity<N>,

@@ -1,24 +1,24 @@
-//! The shape of a text before it is parsed: what would take the parser longer than in proportion to
-//! the text is refused.
+//! Checks the shape of a text before it is parsed: a text that would take the parser longer than
+//! linear time is rejected.
 //!
 //! The parser compares each attribute of an element with those before it, and each namespace with
 //! all that are in scope: 100 kB of nested declarations take seconds. This scan is one pass without
-//! memory. It reads tags, quotes, comments and character data as the parser does; where a text is
-//! no XML, the parser stops no later than where the two could part.
+//! memory. It reads tags, quotes, comments and character data as the parser does; if a text is not
+//! XML, the parser stops no later than where the two could differ.
 
 use alloc::borrow::ToOwned;
 
 use crate::error::UrdfFault;
 
-/// Most namespaces that a text declares [1]: real ones declare about ten. Each name is looked up
-/// among all of them.
+/// Most namespaces in a text [1]: real ones declare about ten. Each name is looked up among all of
+/// them.
 const MOST_NAMESPACES: usize = 256;
 
 /// Most attributes of an element [1]: real ones have at most ten. Each is compared with all others.
 const MOST_ATTRIBUTES: usize = 256;
 
-/// Refuses a text with more namespaces, or more attributes of an element, than can be read in
-/// linear time.
+/// Reject a text with more namespaces, or more attributes in an element, than can be read in linear
+/// time.
 pub(super) fn check_shape(text: &str) -> Result<(), UrdfFault> {
     let mut namespaces = 0;
     let mut rest = text;
@@ -37,7 +37,7 @@ pub(super) fn check_shape(text: &str) -> Result<(), UrdfFault> {
     Ok(())
 }
 
-/// What ends a markup that is no tag.
+/// The end of a markup that is not a tag.
 fn end_of_text(markup: &str) -> Option<&'static str> {
     let markups = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>"), ("</", ">"), ("<!", ">")];
     markups.into_iter().find(|(start, _)| markup.starts_with(start)).map(|(_, end)| end)
@@ -75,7 +75,8 @@ struct Tag<'a> {
 }
 
 impl<'a> Tag<'a> {
-    /// The tag at the beginning of a text. An attribute is one for its equals sign outside quotes.
+    /// The tag at the beginning of a text. An attribute is counted by its equals sign outside
+    /// quotes.
     fn read(text: &'a str) -> Self {
         let is_name = |c: char| !(c.is_ascii_whitespace() || matches!(c, '>' | '/' | '='));
         let name = text[1..].split(|c| !is_name(c)).next().unwrap_or_default();

@@ -13,7 +13,7 @@ use super::joint::Joint;
 use super::shape::check_shape;
 use crate::error::{Names, UrdfFault};
 
-/// Links and joints by their index, each link with the joint above it and those below.
+/// Links and joints by index, each link with the joint above it and those below.
 pub(super) struct Tree<'a> {
     pub(super) name: &'a str,
     /// Lines before the text that was parsed.
@@ -27,8 +27,8 @@ pub(super) struct Tree<'a> {
     index: BTreeMap<&'a str, usize>,
 }
 
-/// The text as XML, and the number of lines before it: an XML declaration is one at the very
-/// beginning only. Entities are not read.
+/// The text as XML, and the number of lines before it: an XML declaration is valid only at the very
+/// beginning. Entities are not read.
 pub(super) fn parsed(text: &str) -> Result<(Document<'_>, usize), UrdfFault> {
     let body = text.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}');
     let skipped = text[..text.len() - body.len()].matches('\n').count();
@@ -36,7 +36,7 @@ pub(super) fn parsed(text: &str) -> Result<(Document<'_>, usize), UrdfFault> {
     Ok((Document::parse(body).map_err(|error| not_xml(&error, skipped, body))?, skipped))
 }
 
-/// What the parser says, with the line in the whole text.
+/// The parser's message, with the line in the whole text.
 fn not_xml(error: &roxmltree::Error, skipped: usize, body: &str) -> UrdfFault {
     let position = error.pos();
     let (mut line, mut column) = (position.row as usize, position.col as usize);
@@ -58,8 +58,7 @@ fn not_xml(error: &roxmltree::Error, skipped: usize, body: &str) -> UrdfFault {
 }
 
 impl<'a> Tree<'a> {
-    /// Reads names and connections; the numbers of a joint are read when it is between base and
-    /// tip.
+    /// Read names and connections; the numbers of a joint are read if it is between base and tip.
     pub(super) fn new(document: &'a Document<'a>, skipped: usize) -> Result<Self, UrdfFault> {
         let robot = document.root_element();
         let elements = |name| {
@@ -126,8 +125,8 @@ impl<'a> Tree<'a> {
         (0..self.links.len()).filter(|&link| self.above[link].is_none())
     }
 
-    /// Every link that hangs on those given, a parent before its children; no link has two parents,
-    /// and none comes twice.
+    /// Every link below those given, a parent before its children; no link has two parents, and
+    /// none appears twice.
     pub(super) fn hanging_on(&self, links: impl Iterator<Item = usize>) -> Vec<usize> {
         let mut found: Vec<usize> = links.collect();
         let mut next = 0;
@@ -171,7 +170,7 @@ impl<'a> Tree<'a> {
             on_a_root[link] = true;
         }
         let Some(mut link) = on_a_root.iter().position(|on| !on) else { return Ok(()) };
-        // Upwards there is no end: after as many steps as there are links, it is the loop.
+        // Upwards there is no end: after as many steps as there are links, the loop is found.
         let parent = |link: usize| self.above[link].map_or(link, |joint| self.joints[joint].parent);
         for _ in 0..self.links.len() {
             link = parent(link);

@@ -1,4 +1,4 @@
-//! An arm whose axes 2 and 3 a parallelogram couples.
+//! An arm with axes 2 and 3 coupled by a parallelogram linkage.
 
 use irbkin::{JointLimits, OpwParameters, Robot};
 

@@ -1,4 +1,4 @@
-//! What several law tests need: random numbers, arms, distances.
+//! Shared by several tests: random numbers, arms, distances.
 #![allow(dead_code, unreachable_pub, missing_docs, clippy::unwrap_used, clippy::panic)]
 
 pub mod coupled_arm;
@@ -18,9 +18,8 @@ pub use rng::Rng;
 
 use crate::structures::spherical_wrist::KUKA_KR6;
 
-/// Takes the instruction set that `IRBKIN_INSTRUCTION_SET` asks for, by its name; without it, the
-/// widest. Fails where the processor does not have it: a run on another set would tell nothing of
-/// this one.
+/// Use the instruction set named in `IRBKIN_INSTRUCTION_SET`; without it, the widest. Fails if the
+/// processor does not support it: a run on another set would show nothing about this one.
 pub fn asked_set() -> InstructionSet {
     if let Ok(name) = std::env::var("IRBKIN_INSTRUCTION_SET") {
         let names: Vec<_> = InstructionSet::available().map(InstructionSet::name).collect();
@@ -37,7 +36,7 @@ pub fn asked_set() -> InstructionSet {
 /// Seeds of cases that failed once; each run tries them first.
 const REGRESSIONS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/regressions.txt");
 
-/// The same cases everywhere, on the instruction set that was asked for.
+/// The same cases everywhere, on the requested instruction set.
 ///
 /// `PROPTEST_RNG_SEED` draws others, `PROPTEST_CASES` more. The seed of a case that fails is kept
 /// in tests/regressions.txt, which is committed.
@@ -58,11 +57,11 @@ pub fn profile() -> ProptestConfig {
     }
 }
 
-/// Works on each instruction set of this processor in turn; one test at a time, for a set is forced
-/// in the whole process.
+/// Run `work` on each instruction set of this processor in turn; one test at a time, because a set
+/// is forced in the whole process.
 pub fn on_each_set(mut work: impl FnMut(InstructionSet)) {
     static FORCED: Mutex<()> = Mutex::new(());
-    // A test that failed while it held the lock has said why.
+    // A test that failed while it held the lock has reported its failure.
     let _one_at_a_time = FORCED.lock().unwrap_or_else(PoisonError::into_inner);
     for set in InstructionSet::available() {
         set.force().unwrap();
@@ -70,7 +69,7 @@ pub fn on_each_set(mut work: impl FnMut(InstructionSet)) {
     }
 }
 
-/// Largest difference of two joint vectors, full turns not counted [rad].
+/// Largest difference of two joint vectors, modulo 2 pi [rad].
 pub fn apart<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64
 where
     Joints<N>: Arity<N>,
@@ -78,12 +77,12 @@ where
     a.iter().zip(b).map(|(a, b)| wrapped(a - b)).fold(0.0, f64::max)
 }
 
-/// Distance of an angle from the nearest full turn [rad].
+/// Distance of an angle from the nearest multiple of 2 pi [rad].
 pub fn wrapped(angle: f64) -> f64 {
     (angle - TAU * (angle / TAU).round()).abs()
 }
 
-/// How many poses a test takes: `IRBKIN_POSES`, or a default.
+/// Number of poses of a test: `IRBKIN_POSES`, or a default.
 pub fn poses_or(default: usize) -> usize {
     std::env::var("IRBKIN_POSES").ok().map_or(default, |count| count.parse().unwrap())
 }
@@ -107,8 +106,8 @@ where
     [linear.x, linear.y, linear.z, spin[(2, 1)], spin[(0, 2)], spin[(1, 0)]]
 }
 
-/// How far they may be off, the arm reaching so far [m]: a sixth of step^2 times the third
-/// derivative (one lever), and rounding over the step.
+/// Bound of the error of a central difference for an arm with the given reach [m]: a sixth of
+/// step^2 times the third derivative (one lever), and rounding over the step.
 pub fn difference_bound(reach: f64) -> f64 {
     10.0 * (DIFFERENCE_STEP * DIFFERENCE_STEP + f64::EPSILON / DIFFERENCE_STEP) * (1.0 + reach)
 }

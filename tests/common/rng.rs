@@ -1,4 +1,4 @@
-//! The tests' one source of random numbers, of the unit tests in `src` too.
+//! The only source of random numbers of the tests, including the unit tests in `src`.
 
 use irbkin::{Arity, Joints};
 use std::f64::consts::{PI, TAU};
@@ -54,7 +54,7 @@ impl Rng {
         std::array::from_fn(|_| self.angle())
     }
 
-    /// Uniform inside the limits; in two turns either way where a joint has none.
+    /// Uniform inside the limits; within two turns either way for a joint without limits.
     pub fn inside<const N: usize>(&mut self, limits: &JointLimits<N>) -> [f64; N]
     where
         Joints<N>: Arity<N>,

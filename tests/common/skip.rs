@@ -1,4 +1,4 @@
-//! Tests that cannot run here say so: the harness knows no skip that is decided at run time.
+//! Tests that cannot run on this machine report it: the harness cannot skip at run time.
 
 use std::fs::OpenOptions;
 use std::io::{Write, stderr};

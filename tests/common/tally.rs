@@ -1,4 +1,4 @@
-//! What became of the poses of a set: counts, worst figures and one row of a table.
+//! The results for the poses of a set: counts, worst figures and one row of a table.
 
 use irbkin::{Arity, Joints};
 use irbkin::{Pose, Robot, Solutions};
@@ -15,10 +15,10 @@ pub struct Tally {
     pub found: usize,
     /// Of these, found only to worse than 1e-9 rad.
     pub coarse: usize,
-    /// Solutions that do not close, or are in a slot that is not theirs.
-    pub wrong: usize,
-    /// Solutions that come twice.
-    pub twice: usize,
+    /// Solutions that do not close, or are in an incorrect slot.
+    pub incorrect: usize,
+    /// Duplicate solutions.
+    pub duplicates: usize,
     /// Poses with a flag that is missing.
     pub flags: usize,
     pub solutions: usize,
@@ -29,7 +29,7 @@ pub struct Tally {
     pub rotation: f64,
     /// Worst distance of the joint vector found from the one that made the pose [rad].
     pub recall: f64,
-    /// The first pose that something was amiss with.
+    /// The first pose with an incorrect result.
     pub example: Option<String>,
 }
 
@@ -48,9 +48,9 @@ impl Tally {
             let residual = robot.residual(q, pose);
             self.position = self.position.max(residual.position);
             self.rotation = self.rotation.max(residual.rotation);
-            // The negation counts what is not a number.
+            // The negation counts NaN.
             let closes = residual.position <= position && residual.rotation <= rotation;
-            self.wrong += usize::from(!closes);
+            self.incorrect += usize::from(!closes);
             count += 1;
         }
         self.poses += 1;
@@ -58,7 +58,7 @@ impl Tally {
         self.by_count[count] += 1;
     }
 
-    /// Counts the answer to a pose that is out of reach: nothing, and how far.
+    /// Counts the answer to a pose that is out of reach: no solution, and the shortfall.
     pub fn take_missed<const N: usize>(&mut self, solutions: &Solutions<N>, beyond: f64, bound: f64)
     where
         Joints<N>: Arity<N>,
@@ -67,33 +67,33 @@ impl Tally {
         self.by_count[0] += 1;
         self.found += usize::from((solutions.reach().shortfall() - beyond).abs() < bound);
         self.solutions += solutions.len();
-        self.wrong += solutions.len();
+        self.incorrect += solutions.len();
     }
 
-    pub fn lost(&self) -> usize {
+    pub fn missed(&self) -> usize {
         self.poses - self.found
     }
 
-    /// What must be zero.
+    /// The sum of the counts that must be zero.
     pub fn amiss(&self) -> usize {
-        self.lost() + self.wrong + self.twice + self.flags
+        self.missed() + self.incorrect + self.duplicates + self.flags
     }
 
-    /// Prints the row; returns it when something is amiss.
-    pub fn tell(&self, name: &str, set: &str) -> String {
+    /// Prints the row; returns it if a count is not zero.
+    pub fn row(&self, name: &str, set: &str) -> String {
         #[expect(clippy::cast_precision_loss, reason = "a mean")]
         let (found, mean) = (
             100.0 * self.found as f64 / self.poses as f64,
             self.solutions as f64 / self.poses as f64,
         );
         let row = format!(
-            "{name:22} {:8} {set:34} {:7} poses  found {found:6.2} %  lost {}  wrong {}  \
-             twice {}  flags missing {}  worst {:.1e} m {:.1e} rad  {mean:.2} solutions",
+            "{name:22} {:8} {set:34} {:7} poses  found {found:6.2} %  missed {}  incorrect {}  \
+             duplicates {}  flags missing {}  worst {:.1e} m {:.1e} rad  {mean:.2} solutions",
             asked_set().name(),
             self.poses,
-            self.lost(),
-            self.wrong,
-            self.twice,
+            self.missed(),
+            self.incorrect,
+            self.duplicates,
             self.flags,
             self.position,
             self.rotation

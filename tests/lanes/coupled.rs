@@ -1,4 +1,5 @@
-//! Arms whose axes 2 and 3 a parallelogram couples: in a batch, alone and by the scalar solver.
+//! Arms with axes 2 and 3 coupled by a parallelogram linkage: in a batch, alone and by the scalar
+//! solver.
 
 use std::f64::consts::TAU;
 use std::num::NonZeroUsize;
@@ -11,9 +12,9 @@ use crate::common::{Rng, apart, on_each_set};
 const SLOTS: usize = 8;
 
 #[test]
-fn batch_equals_single_and_the_scalar_solve() {
+fn batch_equals_single_and_the_scalar_solver() {
     let mut rng = Rng::new(6);
-    // Limits so far out that lanes do not take them: the scalar solve, of the same postures.
+    // Limits too far from zero for the lanes: the scalar solver, for the same postures.
     let scalar = |robot: &Robot<6>| {
         let mut far = robot.limits().to_array();
         far[0] = far[0].map(|limit| limit + TAU);

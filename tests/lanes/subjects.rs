@@ -1,4 +1,5 @@
-//! Arms of every kind that the kernels tell apart, and poses of every kind that a batch may bring.
+//! Arms of every kind that the kernels distinguish, and poses of every kind that a batch may
+//! contain.
 
 use irbkin::{Arity, Joints};
 use std::f64::consts::PI;
@@ -11,12 +12,12 @@ use crate::structures::{Structure, Subject};
 
 pub type PoseRow = [f64; 16];
 
-/// A row with a joint vector, of which an arm of seven joints takes joint 7.
+/// A row with a joint vector, whose joint 7 is given to an arm of seven joints.
 pub type Row<const N: usize> = (PoseRow, [f64; N]);
 
-/// The arms of a structure, two of them once more with tools and bases, with and without rotation,
-/// and with limits that leave out nothing, much, ask for full turns, or lie where more than one is
-/// needed.
+/// The arms of a structure, two of them again with tools and bases, with and without rotation, and
+/// with limits that exclude nothing or much, require a 2 pi equivalent, or are so far from zero
+/// that more than one turn is needed.
 pub fn subjects<const N: usize>(structure: &Structure<N>) -> Vec<Subject<N>>
 where
     Joints<N>: Arity<N>,
@@ -79,7 +80,7 @@ where
     subjects
 }
 
-/// Rows of all kinds, of which each stands in a block with the others.
+/// Rows of all kinds, each in a block with the others.
 pub fn rows<const N: usize>(subject: &Subject<N>, count: usize) -> Vec<Row<N>>
 where
     Joints<N>: Arity<N>,
@@ -123,10 +124,10 @@ where
         13 => row[round % 12] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY][round % 3],
         15 => [row[2], row[6], row[10]] = [-row[2], -row[6], -row[10]],
         17 => row[round % 3] += [1e-3, -2e-3][round % 2],
-        // Repaired: by rounding in single precision, and just within and beyond what is taken as
-        // it is.
+        // Repaired: by rounding in single precision, and just within and beyond what is accepted
+        // unchanged.
         19 => row[round % 3] += [1e-7, 1e-14, 3e-15, 1e-6][round % 4],
-        // The last row, taken and not.
+        // The last row, accepted and not.
         21 => row[12 + round % 4] += [1e-12, 9e-10, 1e-6][round % 3],
         // Zeros of both signs.
         23 => {

@@ -1,4 +1,4 @@
-//! Laws of what surrounds a solve: limits, choices, batches, chains without a solver.
+//! Laws of everything around a solve: limits, choices, batches, chains without a solver.
 #![allow(clippy::cast_precision_loss)]
 
 use irbkin::{DhRow, JacobianFrame, JointLimits, Mdh, OpwParameters, Pose, Robot};
@@ -6,7 +6,7 @@ use irbkin::{DhRow, JacobianFrame, JointLimits, Mdh, OpwParameters, Pose, Robot}
 use crate::common::apart;
 
 #[test]
-fn a_solution_stands_for_the_turn_inside_the_limits() {
+fn solutions_are_wrapped_inside_the_limits() {
     let robot: Robot<6> = Robot::named("IRB 1600-6/1.45").unwrap();
     let q = [0.2, 0.1, (-230.0_f64).to_radians(), 0.3, 0.4, 0.5];
     let found = robot.ik(&robot.fk(&q)).unwrap();
@@ -61,7 +61,7 @@ fn self_motion_is_refused_for_a_solution_of_another_pose() {
 }
 
 #[test]
-fn a_seed_or_a_weight_that_is_no_number_is_refused() {
+fn a_seed_or_weight_that_is_not_a_number_is_refused() {
     let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
     let solutions = robot.ik(&robot.fk(&[0.1; 6])).unwrap();
     assert_eq!(

@@ -1,4 +1,4 @@
-//! The profile of the random cases is what it says: the same cases in every run, failures kept.
+//! The profile of the random cases: the same cases in every run, failures kept.
 
 use std::cell::RefCell;
 use std::path::Path;
@@ -29,7 +29,7 @@ fn every_run_draws_the_same_cases() {
 }
 
 #[test]
-fn there_are_two_thousand_cases_where_nothing_else_is_asked_for() {
+fn there_are_two_thousand_cases_by_default() {
     let asked = std::env::var("PROPTEST_CASES").map_or(2000, |count| count.parse().unwrap());
     assert_eq!(profile().cases, asked);
 }

@@ -13,7 +13,7 @@ use crate::structures::spherical_shoulder::{ShoulderArm, named};
 use crate::structures::{Arm as _, SEVEN, Subject};
 
 #[test]
-fn the_arm_of_the_tests_is_the_catalogs() {
+fn the_arm_of_the_tests_is_that_of_the_catalog() {
     let mut rng = Rng::new(1);
     for name in ["Panda", "FR3"] {
         let (robot, built) = (Robot::<7>::named(name).unwrap(), ShoulderArm::panda().robot());
@@ -26,7 +26,7 @@ fn the_arm_of_the_tests_is_the_catalogs() {
 }
 
 #[test]
-fn the_slots_of_a_panda_are_told_by_its_own_joints() {
+fn the_slots_of_a_panda_follow_from_its_own_joints() {
     let arm = named("Panda");
     let mut rng = Rng::new(1);
     let mut compared = 0;
@@ -49,7 +49,7 @@ fn the_slots_of_a_panda_are_told_by_its_own_joints() {
 }
 
 #[test]
-fn joint_7_is_kept_to_the_last_bit() {
+fn joint_7_is_returned_bit_for_bit() {
     let arm = Subject::new("Panda", ShoulderArm::panda(), &SEVEN);
     let mut rng = Rng::new(6);
     for _ in 0..200 {

@@ -7,7 +7,7 @@ use irbkin::{OpwParameters, Robot, pose_from_euler_zyx};
 use crate::rng::Rng;
 
 #[test]
-fn shortfall_is_the_way_back_to_reach() {
+fn shortfall_is_the_distance_missing_to_reach() {
     let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
     // Stretched upwards: theta_3 makes upper arm and forearm one line.
     let stretched = [0.4, 0.3, (0.115_f64).atan2(0.795) - FRAC_PI_2, 0.0, 0.5, 0.0];

@@ -23,7 +23,7 @@ fn is_regular(arm: &ParallelArm, theta: &[f64; 6]) -> bool {
 
 const SLACK: f64 = 0.05;
 
-/// What a position is summed from [m].
+/// The sum of the lengths that contribute to a position [m].
 fn lengths(arm: &ParallelArm) -> f64 {
     1.0 + arm.reach()
 }
@@ -33,7 +33,7 @@ proptest! {
 
     #[test]
     fn the_table_of_the_tests_is_that_of_their_geometry(arm in arms(), q in angles()) {
-        // The wrist and the approach axis of forward kinematics stand where the lengths put them.
+        // The wrist and the approach axis of forward kinematics are where the lengths put them.
         let (theta, pose) = (arm.theta(&q), arm.robot().fk(&q));
         let (wrist, _) = arm.wrist(&pose);
         let (sin_1, cos_1) = theta[0].sin_cos();
@@ -48,7 +48,7 @@ proptest! {
         let pose = robot.fk(&q);
         prop_assume!(is_regular(&arm, &theta));
         let asked = arm.asked(&pose).unwrap().concat();
-        // Beside the edge of reach, where rounding decides.
+        // Not at the edge of reach, where rounding decides.
         prop_assume!(asked.iter().all(|asked| arm.margin(asked.end).abs() > 1e-9));
         let reached = asked.iter().filter(|asked| arm.missing(asked.end) == 0.0).count();
         let solutions = robot.ik(&pose).unwrap();
@@ -58,9 +58,13 @@ proptest! {
         }
     }
 
-    /// Lengths of either sign: the arm is another one, and its own.
+    /// Lengths of either sign: a different arm with its own solutions.
     #[test]
-    fn lengths_may_be_negative(arm in arms(), q in angles(), mirror in prop::array::uniform3(prop::bool::ANY)) {
+    fn lengths_may_be_negative(
+        arm in arms(),
+        q in angles(),
+        mirror in prop::array::uniform3(prop::bool::ANY),
+    ) {
         let signed = |negative: bool, length: f64| if negative { -length } else { length };
         let b = if mirror[0] { arm.b.map(|b| -b) } else { arm.b };
         let (d5, d6) = (signed(mirror[1], arm.d5), signed(mirror[2], arm.d6));
@@ -80,7 +84,7 @@ proptest! {
 }
 
 #[test]
-fn shortfall_is_what_the_nearest_branch_lacks() {
+fn shortfall_is_that_of_the_nearest_branch() {
     // Poses inside the cylinder of the lateral offset, out of reach of the links, and in reach.
     let [inside, beyond, reached] = [Cell::new(0), Cell::new(0), Cell::new(0)];
     let count = |cell: &Cell<usize>| cell.set(cell.get() + 1);
@@ -108,7 +112,7 @@ fn shortfall_is_what_the_nearest_branch_lacks() {
         };
         let nearer = |a: f64, b: f64| if b.abs() < a.abs() { b } else { a };
         let least = asked.concat().iter().map(|asked| asked.missing).fold(f64::INFINITY, nearer);
-        // Rounding of the wrist's distance from axis 1 counts for much next to it.
+        // Near axis 1, rounding of the wrist's distance from it has a large effect.
         let x = asked[0][0].end[0] + arm.a1;
         prop_assume!(x.abs() > SLACK && (least == 0.0 || least.abs() > 1e-6));
         count(if least == 0.0 { &reached } else { &beyond });
@@ -123,7 +127,7 @@ fn shortfall_is_what_the_nearest_branch_lacks() {
 }
 
 #[test]
-fn the_arm_of_the_tests_is_the_catalogs() {
+fn the_arm_of_the_tests_is_that_of_the_catalog() {
     let mut rng = Rng::new(1);
     for name in ["UR3", "UR5e", "UR10e", "UR20"] {
         let (arm, robot) = ParallelArm::universal(name);
@@ -137,7 +141,7 @@ fn the_arm_of_the_tests_is_the_catalogs() {
 }
 
 #[test]
-fn what_is_not_the_form_is_refused_by_the_axes_that_are_off() {
+fn a_table_of_another_structure_is_refused_with_the_axes_that_deviate() {
     let refused = |spoil: fn(&mut Mdh<6>)| {
         let mut mdh = Robot::<6>::named("UR3").unwrap().mdh().clone();
         spoil(&mut mdh);
@@ -169,7 +173,8 @@ fn what_is_not_the_form_is_refused_by_the_axes_that_are_off() {
     );
     assert_eq!(
         refused(two),
-        "axes 2 and 3 must be parallel, they are 0.020000 deg off; axes 4 and 5 must meet, they pass 2.000000 mm apart"
+        "axes 2 and 3 must be parallel, they are 0.020000 deg off; axes 4 and 5 must meet, they \
+         pass 2.000000 mm apart"
     );
     let short = |field: &str| format!("{field} is 0 m, it must be at least 1e-6 m");
     assert_eq!(refused(|mdh| mdh.rows[2].a = 0.0), short("upper arm (distance of axes 2 and 3)"));
@@ -180,7 +185,7 @@ fn what_is_not_the_form_is_refused_by_the_axes_that_are_off() {
 }
 
 #[test]
-fn a_table_in_text_is_made_exactly_the_form() {
+fn a_table_in_text_is_made_exact() {
     let (arm, exact) = ParallelArm::universal("UR5e");
     let mut mdh = exact.mdh().clone();
     // Ten digits.

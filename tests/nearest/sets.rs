@@ -1,4 +1,4 @@
-//! Poses of the laws: arms at and next to one, two and three singularities.
+//! Poses of the laws: arms at and near one, two and three singularities.
 
 #![allow(unreachable_pub)]
 
@@ -14,7 +14,7 @@ use crate::structures::three_parallel::ParallelArm;
 pub const DISTANCES: [f64; 14] =
     [0.0, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3];
 
-/// Which singularities an arm stands next to.
+/// The singularities that an arm is near.
 #[derive(Clone, Copy)]
 pub struct Kind {
     wrist: bool,
@@ -87,8 +87,8 @@ impl Arm {
         Self { name: name.to_owned(), robot, geometry: Geometry::Wrist(opw) }
     }
 
-    /// A joint vector of the kind, this far from each of its singularities; none where this draw
-    /// has none.
+    /// A joint vector of the kind, this far from each of its singularities; `None` if this draw has
+    /// none.
     pub fn place(&self, kind: Kind, off: f64, rng: &mut Rng) -> Option<[f64; 6]> {
         let drawn = self
             .robot
@@ -96,7 +96,7 @@ impl Arm {
             .to_array()
             .map(|[low, high]| rng.between(low.max(-2.0 * PI), high.min(2.0 * PI)));
         let side = |rng: &mut Rng| if rng.unit() < 0.5 { -off } else { off };
-        // One that the set is not next to is well away.
+        // Singularities that are not part of the set are well away.
         let away =
             |rng: &mut Rng| if rng.unit() < 0.5 { 0.3 } else { -0.3 } * rng.between(1.0, 8.0);
         let turn = |at: bool, rng: &mut Rng| if at { side(rng) } else { away(rng) };
@@ -141,7 +141,7 @@ impl Arm {
         }
     }
 
-    /// The turns inside the limits, where there are some.
+    /// The 2 pi equivalents inside the limits, if there are any.
     fn inside(&self, q: [f64; 6]) -> [f64; 6] {
         let limits = self.robot.limits().to_array();
         std::array::from_fn(|i| {
@@ -157,8 +157,8 @@ fn coupled(mut q: [f64; 6]) -> [f64; 6] {
     q
 }
 
-/// The angle of axis 2, from straight up, that brings an end (along the upper arm, across) to x
-/// before it.
+/// The angle of axis 2, from upright, that brings an end (along the upper arm, across) to x in
+/// front of it.
 fn over(x: f64, [along, across]: [f64; 2], backward: bool) -> Option<f64> {
     let sine = x / along.hypot(across);
     let angle = if backward { PI - sine.asin() } else { sine.asin() };

@@ -80,7 +80,7 @@ def test_a_misaligned_array_is_taken_too(robot, many):
 
 
 @pytest.mark.parametrize("dtype", ["f2", "f4", "i1", "i2", "i4", "i8", "u1", "u2", "u4", "u8"])
-def test_every_real_number_type_is_taken_at_its_value(robot, dtype):
+def test_every_real_number_type_is_accepted_with_its_value(robot, dtype):
     given = np.array([1, 0, 1, 2, 1, 3], dtype=dtype)
     np.testing.assert_array_equal(robot.fk(given), robot.fk(given.astype(float)))
     np.testing.assert_array_equal(
@@ -153,7 +153,7 @@ WRONG_OUT = {
 
 
 @pytest.mark.parametrize("kind", WRONG_OUT)
-def test_a_wrong_out_is_refused_with_what_came(robot, kind):
+def test_a_wrong_out_is_refused_and_described(robot, kind):
     make, error, words = WRONG_OUT[kind]
     with pytest.raises(error, match=words):
         robot.fk(Q, out=make())
@@ -211,7 +211,7 @@ def test_out_that_overlaps_the_input_is_refused(robot):
         robot.ik_batch(np.eye(4), out=(q, q.view(np.uint8).ravel()[:8]))
 
 
-def test_out_may_stand_beside_the_input_in_one_memory(robot):
+def test_out_may_share_a_buffer_with_the_input_without_overlap(robot):
     memory = np.zeros(22)
     memory[:6] = Q
     robot.fk(memory[:6], out=memory[6:].reshape(4, 4))

@@ -69,7 +69,7 @@ def sheared(by):
 
 
 @pytest.mark.parametrize("value", NO_NUMBERS.values(), ids=NO_NUMBERS)
-def test_what_is_no_number_is_a_type_error(value):
+def test_non_numeric_input_is_a_type_error(value):
     calls = {
         **TAKING_JOINTS,
         **TAKING_A_POSE,
@@ -183,7 +183,7 @@ FAULTS = {
 
 @pytest.mark.parametrize("fault", FAULTS)
 @pytest.mark.parametrize("name", TAKING_A_POSE)
-def test_a_pose_that_is_no_rigid_transform_is_told_with_the_figure(name, fault):
+def test_a_pose_that_is_not_a_rigid_transform_is_reported_with_the_deviation(name, fault):
     pose, words = FAULTS[fault]
     with pytest.raises(InvalidPoseError, match=words):
         TAKING_A_POSE[name](pose)
@@ -196,7 +196,7 @@ def test_off_by_less_is_repaired():
 
 
 @pytest.mark.parametrize("name", TAKING_A_VECTOR)
-def test_a_vector_of_another_length_is_told_the_length(name):
+def test_a_vector_of_wrong_length_is_reported_with_the_length(name):
     """And not that leading dimensions were welcome: these arguments are one vector each."""
     call, count, error = TAKING_A_VECTOR[name]
     for shape in ((), (count + 1,), (1, count)):
@@ -214,7 +214,8 @@ def test_a_vector_of_another_length_is_told_the_length(name):
         (
             "seed",
             [0, 0, 0, -1e15, 0, 0],
-            r"^seed: joint 4 is -1e15 rad, its size must be at most 1e5 rad \(remove whole turns\)$",
+            r"^seed: joint 4 is -1e15 rad, its size must be at most 1e5 rad "
+            r"\(remove whole turns\)$",
         ),
         ("xyz", [0, 0, 2e6], r"^xyz\[2\] is 2e6 m, its size must be at most 1e6 m$"),
         (
@@ -255,7 +256,7 @@ def test_selection_checks_its_seed_like_the_solve():
 
 
 @pytest.mark.parametrize("angle", [1.01e5, -3.4e9, 1e15, 1e300])
-def test_angles_of_too_many_turns_are_refused_where_an_answer_is_counted_from_them(angle):
+def test_angles_of_too_many_turns_are_refused_as_seeds(angle):
     q = Q.copy()
     q[3] = angle
     words = r"joint 4 is .* rad, its size must be at most 1e5 rad \(remove whole turns\)$"
@@ -310,7 +311,7 @@ def test_threads_are_a_count(threads, error, words):
         ROBOT.ik_batch(POSE, threads=threads)
 
 
-def test_errors_are_value_errors_of_one_family():
+def test_errors_are_value_errors_with_a_common_base():
     for error in (
         InvalidPoseError,
         InvalidJointsError,

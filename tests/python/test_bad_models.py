@@ -83,7 +83,7 @@ LIMIT_SETTERS = {
 
 
 @pytest.mark.parametrize("set_limits", LIMIT_SETTERS.values(), ids=LIMIT_SETTERS)
-def test_limits_are_checked_wherever_they_come_in(set_limits):
+def test_limits_are_checked_by_every_function(set_limits):
     good = np.array([[-1.0, 2.0]] * 6)
     np.testing.assert_array_equal(set_limits(good).limits, good)
     empty = good.copy()
@@ -136,7 +136,7 @@ def test_without_limits_there_are_none():
         ("IRB1600 6/1.45 X", ["IRB 1600-6/1.45"]),
     ],
 )
-def test_an_unknown_name_says_which_are_close(name, close):
+def test_an_unknown_name_lists_close_ones(name, close):
     with pytest.raises(UnknownRobotError) as unknown:
         Robot(name)
     message = str(unknown.value)
@@ -145,7 +145,7 @@ def test_an_unknown_name_says_which_are_close(name, close):
 
 
 @pytest.mark.parametrize("name", ["", "zzzz", "?"])
-def test_a_name_like_no_other_says_so(name):
+def test_a_name_without_close_ones_is_reported_so(name):
     with pytest.raises(KeyError) as unknown:
         Robot(name)
     assert str(unknown.value) == (

@@ -127,7 +127,7 @@ def test_threads_and_chunks_change_no_bit(robot, poses, threads):
 
 
 @pytest.mark.parametrize("lead", [(), (1,), (0,), (2, 3), (2, 0, 3), (2, 3, 4, 1)])
-def test_leading_dimensions_come_back(lead):
+def test_leading_dimensions_are_kept(lead):
     robot = irbkin.Robot("IRB 140-6/0.81")
     q = np.random.default_rng(1).uniform(-0.5, 0.5, (*lead, 6))
     poses = robot.fk(q)
@@ -188,7 +188,7 @@ def bad_poses():
 
 @pytest.mark.parametrize("name", bad_poses())
 @pytest.mark.parametrize("threads", [1, 2])
-def test_an_invalid_row_is_told_and_leaves_the_others_alone(name, threads):
+def test_an_invalid_row_is_flagged_and_the_other_rows_are_solved(name, threads):
     robot = irbkin.Robot("IRB 140-6/0.81")
     poses = robot.fk(np.random.default_rng(3).uniform(-0.5, 0.5, (9, 6)))
     wanted = robot.ik_batch(poses)

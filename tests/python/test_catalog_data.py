@@ -69,7 +69,8 @@ def test_filters_take_a_least_figure_or_a_pair():
     [
         (
             {"reach": "far"},
-            r"^reach must be a number \(at least that much\) or a pair \(least, most\) \[m\], got 'far'$",
+            r"^reach must be a number \(at least that much\) or a pair \(least, most\) \[m\], "
+            r"got 'far'$",
         ),
         ({"payload": (1, 2, 3)}, r"^payload must be a number .* \[kg\], got \(1, 2, 3\)$"),
         ({"payload": -1}, "^payload is -1 kg, it must be 0 or more$"),
@@ -79,7 +80,7 @@ def test_filters_take_a_least_figure_or_a_pair():
     ],
     ids=str,
 )
-def test_a_filter_that_is_none_is_refused(filters, message):
+def test_an_invalid_filter_is_refused(filters, message):
     with pytest.raises(ValueError, match=message):
         irbkin.catalog(**filters)
 

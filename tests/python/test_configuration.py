@@ -55,7 +55,7 @@ def test_an_empty_batch_is_an_empty_answer():
         assert ROBOT.ik_configured(np.zeros((0, 4, 4)), configuration).shape == (0, 6)
 
 
-def test_a_broken_row_of_a_batch_is_nan_and_a_broken_pose_an_error():
+def test_an_invalid_row_of_a_batch_is_nan_and_an_invalid_pose_an_error():
     skew, mirrored = ROBOT.fk(Q), ROBOT.fk(Q)
     skew[0, 0] += 0.1
     mirrored[:3, 0] *= -1
@@ -73,7 +73,7 @@ def test_a_broken_row_of_a_batch_is_nan_and_a_broken_pose_an_error():
     assert np.isnan(found[1]).all()
 
 
-def test_a_single_pose_without_it_tells_what_exists():
+def test_a_single_pose_without_the_configuration_lists_those_that_exist():
     with pytest.raises(
         irbkin.UnreachableError, match=r"has the configuration \[2, 0, 0, 0\]; there are \[0, -4,"
     ) as caught:
@@ -95,7 +95,7 @@ def test_a_single_pose_without_it_tells_what_exists():
         (np.zeros((2, 4)), r"configuration must have shape \(4,\), got \(2, 4\)"),
     ],
 )
-def test_what_is_no_configuration_is_refused(configuration, message):
+def test_invalid_configurations_are_refused(configuration, message):
     with pytest.raises(irbkin.InvalidJointsError, match=message):
         ROBOT.ik_configured(ROBOT.fk(Q), configuration)
 
@@ -114,7 +114,7 @@ def test_a_slot_that_the_arm_does_not_have_is_refused_in_a_batch_too(seed):
         ROBOT.ik_configured(pose, (2**31, 0, 0, 0))
 
 
-def test_a_fallback_that_is_none_is_refused():
+def test_an_unknown_fallback_is_refused():
     pose = ROBOT.fk(Q)
     with pytest.raises(TypeError, match="needs a seed"):
         ROBOT.ik_configured(pose, (0, 0, 0, 0), fallback="nearest")
@@ -125,7 +125,7 @@ def test_a_fallback_that_is_none_is_refused():
 
 
 @pytest.mark.parametrize("name", ["UR3", "Panda"])
-def test_other_families_are_refused_not_guessed(name):
+def test_arms_of_other_structures_have_no_configuration(name):
     robot = irbkin.Robot(name)
     q = np.full(robot.dof, 0.3)
     with pytest.raises(irbkin.InvalidModelError, match=f'its structure is "{robot.structure}"'):

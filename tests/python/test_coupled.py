@@ -81,7 +81,7 @@ def test_the_coupling_belongs_to_the_value(robot):
     assert robot not in others
 
 
-def test_a_twin_says_what_it_is():
+def test_a_coupled_arm_reports_its_coupling():
     named = irbkin.Robot("IRB 2400-10/1.55")
     assert repr(named) == 'Robot("IRB 2400-10/1.55")'
     assert repr(named.uncoupled()) == 'Robot("IRB 2400-10/1.55").uncoupled()'
@@ -108,7 +108,7 @@ def test_configurations_do_not_count_the_slot():
         ROBOT.ik_configured(ROBOT.fk(q[0]), (0, 0, 0, 1))
 
 
-def test_arms_that_no_parallelogram_drives_are_refused():
+def test_arms_that_cannot_have_a_linkage_are_refused():
     with pytest.raises(irbkin.InvalidModelError, match="the arm has no spherical wrist"):
         irbkin.Robot("UR3").coupled()
     with pytest.raises(irbkin.InvalidModelError, match="the arm has no spherical wrist"):

@@ -85,7 +85,7 @@ def test_the_tables_of_the_page_are_those_of_one_arm():
         close(fk_sdh(sdh, Q[: len(sdh)]), fk(mdh, Q[: len(mdh)]), reach(mdh))
 
 
-def test_the_shift_leaves_a_base_or_a_flange_over():
+def test_the_shift_of_rows_leaves_a_base_or_a_flange():
     for rows, q in arms():
         close(rigid(*rows[0, :2]) @ fk_sdh(up(rows), q), fk(rows, q), reach(rows))
         close(fk(down(rows), q) @ rigid(*rows[-1, :2]), fk_sdh(rows, q), reach(rows))
@@ -174,7 +174,7 @@ def test_parallel_axes_share_their_d():
         close(fk(moved, q), fk(rows, q), reach(moved))
 
 
-def test_ik_does_not_mind_where_the_d_of_parallel_axes_stands():
+def test_ik_does_not_depend_on_how_parallel_axes_share_their_d():
     rows = ABB[IRB].rows.copy()
     rows[[1, 2], 2] = 0.3, -0.3
     robot, moved = irbkin.Robot(IRB), irbkin.Robot.from_mdh(rows)

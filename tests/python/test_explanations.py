@@ -9,8 +9,8 @@ from reference import move, turn
 
 
 def at_distance(name, r, angle):
-    """A pose whose wrist center stands `r` from the shoulder, `angle` above the horizontal, its
-    flange forward.
+    """A pose whose wrist center is at distance `r` from the shoulder, `angle` above the horizontal,
+    with the flange forward.
     """
     a1, _, height, _, _, flange = ABB[name].lengths
     return move(a1 + r * np.cos(angle) + flange, 0, height + r * np.sin(angle)) @ turn(
@@ -37,7 +37,7 @@ def test_shortfall_is_the_distance_beyond_the_stretched_arm(name, beyond):
 
 
 @pytest.mark.parametrize("name", ABB)
-def test_the_side_of_axis_1_that_comes_nearer_counts(name):
+def test_the_shortfall_is_that_of_the_nearer_side_of_axis_1(name):
     """Straight above axis 1 a pose is equally far for both; behind it, the arm that turned round is
     the nearer.
     """
@@ -64,7 +64,7 @@ def test_shortfall_is_the_distance_within_the_folded_arm(name, inside):
         assert solutions.shortfall == pytest.approx(inside, abs=1e-14)
         assert solutions.explain().endswith(" mm too near to be reached")
     else:
-        # The arm that turned round stands twice a1 further and gets there.
+        # The arm turned by 180 deg is 2 a1 farther away and reaches it.
         assert (len(solutions), solutions.reach) == (4, Reach.REACHED)
         assert all(solution.slot >= 4 for solution in solutions)
 
@@ -136,7 +136,7 @@ def test_a_pose_that_joints_inside_the_limits_make_is_within_limits(name):
             assert robot.check_pose(pose).within_limits
 
 
-def test_an_unreachable_pose_says_why():
+def test_an_unreachable_pose_reports_the_reason():
     robot = irbkin.Robot("IRB 2600-12/1.65")
     with pytest.raises(UnreachableError, match=r"wrist center .* mm beyond reach"):
         robot.ik_nearest(move(9, 0, 0), np.zeros(6))

@@ -61,14 +61,14 @@ def test_the_nearest_is_inside_closes_and_is_the_nearest(data, q, seed):
     found = robot.ik_nearest(pose, seed)
     assert np.all(found >= robot.limits[:, 0] - 1e-9)
     assert np.all(found <= robot.limits[:, 1] + 1e-9)
-    # Where the seed's free joint does not fit the limits, another place of the family does, to
-    # twice the distance from the singularity.
+    # If the seed's free joint is outside the limits, another member of the self-motion is inside,
+    # to twice the distance from the singularity.
     distances = robot.singularity(q)
     off = sum(distance for distance in (distances.wrist, distances.shoulder) if distance <= 1.5e-9)
     assert np.abs(robot.fk(found) - pose).max() <= SEEDED + 2 * off + 1e-14
     turns = robot.ik(pose).turns()
     cost = np.linalg.norm(np.asarray(turns) - seed, axis=1)
-    # At a singularity another member of a family may be nearer than the one that stands for it;
+    # At a singularity another member of a self-motion may be nearer than its representative;
     # none is farther.
     if len(turns):
         assert np.linalg.norm(found - seed) <= cost.min() + 1e-9
@@ -142,7 +142,7 @@ def test_an_elbow_that_is_stretched_and_bent_again_is_followed():
 
 
 @pytest.mark.parametrize("mode", ["through", "error", "wrist", "lock_axis4"])
-def test_a_policy_keeps_the_position(mode):
+def test_a_singularity_mode_keeps_the_position(mode):
     line = np.repeat(ARM.fk([0.3, 0.2, 0.1, 0.0, 0.0, 0.2])[None], 101, axis=0)
     line[:, 1, 3] += np.linspace(-0.15, 0.15, 101)
     seed = ARM.ik(line[0]).nearest([0.3, 0.2, 0.1, 0, 0.1, 0.2]).q

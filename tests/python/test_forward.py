@@ -40,7 +40,7 @@ def robot(arm):
 
 
 def test_every_catalog_arm_has_a_golden_table_or_pose():
-    """The poses of the arms without a table here are held in tests/catalog.rs."""
+    """The poses of the arms without a table here are checked in tests/catalog.rs."""
     posed = {row["robot"] for row in read("abb_catalog_poses.csv")}
     assert set(irbkin.catalog()) == set(CATALOG) | posed
 
@@ -83,7 +83,7 @@ def test_link_frames_equal_the_reference_and_end_in_the_tool(arm, robot):
     np.testing.assert_array_equal(moved.link_frames(q)[:, -1], moved.fk(q))
 
 
-def test_base_and_tool_stand_outside_the_chain(arm, robot):
+def test_base_and_tool_are_outside_the_chain(arm, robot):
     rng = np.random.default_rng(3)
     base, tool = random_pose(rng), random_pose(rng)
     bound = rounding(reach(arm.rows) + 3)
@@ -124,7 +124,7 @@ def test_the_standard_table_of_an_arm_gives_the_same_poses(name):
         )
 
 
-def test_a_standard_table_keeps_what_stands_behind_its_last_joint():
+def test_a_standard_table_keeps_the_transform_after_its_last_joint():
     rng = np.random.default_rng(5)
     rows = rng.uniform(-1, 1, (7, 4))
     robot = irbkin.Robot.from_sdh(rows)

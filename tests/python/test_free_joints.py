@@ -1,4 +1,4 @@
-"""What a singular pose leaves free: the solution names the joint and moves along its family."""
+"""Undetermined joints: the solution names the joint and moves along its self-motion."""
 
 import irbkin
 import numpy as np
@@ -51,7 +51,7 @@ def test_at_the_shoulder_q1_is_free_and_the_arm_is_not(name):
         for solution in solutions:
             check_self_motion(solution, name, pose)
             assert apart(solution.with_free_joint(1.0).q[1:3], solution.q[1:3]) <= 1e-12
-        # The vector that made the pose is a member of one of the families.
+        # The vector that made the pose is a member of one of the self-motions.
         assert min(apart(solution.with_free_joint(q[0]).q, q) for solution in solutions) <= 1e-9
 
 
@@ -69,8 +69,8 @@ def test_folded_onto_axis_2_q2_is_free():
 
 
 @pytest.mark.parametrize("name", ABB)
-def test_next_to_the_singularity_the_residual_tells_how_far_the_tool_turns(name):
-    """At q5 = 1e-9 the branches are one, and a member of the family is off by up to twice that."""
+def test_near_the_singularity_the_residual_reports_how_far_the_tool_turns(name):
+    """At q5 = 1e-9 the branches are one; a member of the self-motion is off by at most 2e-9."""
     robot, rng = free(name), np.random.default_rng(RNG_SEED)
     for _ in range(TRIALS):
         q = ordinary(rng)
@@ -81,7 +81,7 @@ def test_next_to_the_singularity_the_residual_tells_how_far_the_tool_turns(name)
         off = rotation_apart(robot.fk(half_turned.q), pose)
         assert 0.5e-9 <= off <= 2e-9
         assert half_turned.residual == pytest.approx(off, abs=1e-14)
-        # Turned on, axis 5 stands on the other side, and that is the other slot.
+        # Beyond, axis 5 is on the other side, which is the other slot.
         flipped = solution.with_free_joint(solution.q[3] + np.pi)
         assert flipped.q[4] == pytest.approx(-solution.q[4], abs=1e-14)
         assert flipped.slot == solution.slot ^ 1
@@ -112,7 +112,7 @@ def test_a_member_knows_whether_it_is_inside_the_limits():
     ("value", "error"),
     [(np.nan, InvalidJointsError), (np.inf, InvalidJointsError), ("x", TypeError)],
 )
-def test_a_value_that_is_no_angle_is_refused(value, error):
+def test_an_invalid_angle_is_refused(value, error):
     robot = irbkin.Robot("IRB 140-6/0.81")
     (solution,) = [
         found for found in robot.ik(robot.fk([0.1, 0.2, 0.3, 0.4, 0, 0.6])) if found.free_joint

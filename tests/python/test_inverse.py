@@ -147,7 +147,7 @@ def test_the_views_of_the_solutions_agree(drawn):
 
 
 @given(subjects_with_joints())
-def test_within_limits_is_what_the_limits_say(drawn):
+def test_within_limits_agrees_with_the_limits(drawn):
     subject, q = drawn
     low, high = subject.robot.limits.T
     for solution in subject.robot.ik(subject.robot.fk(q)):

@@ -40,7 +40,7 @@ def test_published_sets_are_complete_and_nothing_is_added(name):
         )
         assert distances.min(axis=1).max() <= bound
         exact[count] += 1
-    # All 128 rows of each file were compared; none stands at a singularity.
+    # All 128 rows of each file were compared; none is at a singularity.
     assert (
         exact
         == {
@@ -121,7 +121,7 @@ SINGLE_MOVES = [tuple((10 * row).tolist()) for row in np.eye(6, dtype=int)]
 @pytest.mark.parametrize(
     "deg", [(0,) * 6, (90, 0, 0, 0, 0, 0), (0, 45, -30, 0, 0, 0), *SINGLE_MOVES], ids=str
 )
-def test_the_article_s_poses_come_back_through_the_inverse(deg):
+def test_the_article_s_poses_round_trip_through_the_inverse(deg):
     """Its verification: FK of these, through IK, contains them. All but the move of axis 5 are
     wrist-singular.
     """
@@ -132,7 +132,7 @@ def test_the_article_s_poses_come_back_through_the_inverse(deg):
     np.testing.assert_allclose(pose, fk(rows, q), rtol=0, atol=rounding(reach(rows)))
     solutions = robot.ik(pose)
     assert all(solution.residual <= 1e-14 for solution in solutions)
-    # A pose with q5 = 0 knows only q4 + q6: one representative stands for the family, with q4 = 0.
+    # A pose with q5 = 0 determines only q4 + q6: the representative has q4 = 0.
     given = q if deg[4] else [*q[:3], 0, 0, q[3] + q[5]]
     assert apart(solutions.q, given).min() <= 1e-9
     np.testing.assert_allclose(robot.ik_nearest(pose, seed=q), q, rtol=0, atol=1e-9)

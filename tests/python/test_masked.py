@@ -62,7 +62,8 @@ def test_a_joint_vector_with_a_masked_element_is_refused(name):
     field = FIELDS.get(name, "seed")
     for value in forms(Q[6], 2):
         if not isinstance(value, np.ma.MaskedArray):
-            continue  # Elements of a masked vector are numbers: a list of them holds NaN, which is refused too.
+            # Elements of a masked vector are numbers; a list of them contains NaN, also an error.
+            continue
         with pytest.raises(
             InvalidJointsError, match=rf"^{field}\[2\] is masked: every element must be given"
         ):
@@ -198,7 +199,7 @@ def test_an_answer_is_not_written_under_a_mask():
             call(masked(np.zeros((4, 4)), 1, 1))
 
 
-def test_what_is_no_number_stays_a_type_error():
+def test_masked_non_numeric_input_is_a_type_error():
     for value in (
         np.ma.array(Q[6] * 1j, mask=True),
         np.ma.array(Q[6] > 0, mask=True),

@@ -1,4 +1,4 @@
-"""A path of poses as one joint path: continuous, inside the limits, its breaks told."""
+"""A path of poses as one joint path: continuous, inside the limits, with its breaks reported."""
 
 import irbkin
 import numpy as np
@@ -10,7 +10,7 @@ from strategies import subjects
 
 NAME = "IRB 2600-12/1.65"
 TIMES = np.linspace(-1, 1, 201)
-# Distances from q5 = 0, also around 1e-12, below which a pose counts as silent on axis 4.
+# Distances from q5 = 0, also around 1e-12, below which a pose does not determine axis 4.
 NEAR = [0.0, 1e-13, 1e-12, 2e-12, 3e-12, 1e-11, 1e-10, 1e-9, 1e-7, 1e-4]
 
 
@@ -71,7 +71,7 @@ def test_the_wrist_is_passed_without_a_jump(name, near):
 @pytest.mark.parametrize("near", NEAR)
 @pytest.mark.parametrize("name", ABB)
 def test_a_path_along_the_wrist_singularity_has_no_jump(name, near):
-    """Below 1e-12 the pose counts as silent on J4, and the joint keeps on; above, the pose tells
+    """Below 1e-12 the pose does not determine J4, which is extrapolated; above, the pose determines
     it.
     """
     along = np.array([0.3, 0.2, 0.1, 0.7, near, -0.4]) + np.outer(TIMES, [0.3, 0, 0.1, 0.4, 0, 0])
@@ -113,7 +113,8 @@ def test_a_pose_out_of_reach_is_a_break_and_the_path_goes_on(robot):
 def test_a_corner_in_the_wrist_singularity_is_a_break_that_names_the_joint(robot):
     turned = np.where(TIMES < 0, 0, np.pi / 3)
     made = np.column_stack([
-        np.full(201, 0.3), np.full(201, 0.2), np.full(201, 0.1), 0.2 + turned, 0.5 * TIMES, 0.1 - turned,
+        np.full(201, 0.3), np.full(201, 0.2), np.full(201, 0.1),
+        0.2 + turned, 0.5 * TIMES, 0.1 - turned,
     ])  # fmt: skip
     (broken,) = robot.follow(robot.fk(made), made[0]).breaks
     assert broken.pose_index == 101
@@ -121,7 +122,7 @@ def test_a_corner_in_the_wrist_singularity_is_a_break_that_names_the_joint(robot
     assert broken.reason.endswith(" deg on the spot, at the wrist singularity")
 
 
-def crossing(robot, off):
+def path_past_the_wrist(robot, off):
     """A straight line of the tool past the wrist singularity by `off` [rad], its orientation
     kept.
     """
@@ -132,8 +133,8 @@ def crossing(robot, off):
 
 @pytest.mark.parametrize("off", [0.0, 1e-4, 2e-3])
 @pytest.mark.parametrize("mode", ["through", "wrist", "lock_axis4"])
-def test_a_crossing_keeps_the_position_and_tells_the_orientation(robot, mode, off):
-    path, seed = crossing(robot, off)
+def test_a_singularity_mode_keeps_the_position_and_reports_the_orientation(robot, mode, off):
+    path, seed = path_past_the_wrist(robot, off)
     result = robot.follow(path, seed, singularity_mode=mode)
     assert result.breaks == ()
     found = robot.fk(result.q)
@@ -151,8 +152,8 @@ def test_a_crossing_keeps_the_position_and_tells_the_orientation(robot, mode, of
         np.testing.assert_array_equal(result.q[:, 3] % np.pi, 0)
 
 
-def test_a_crossing_that_is_an_error_stops_there(robot):
-    path, seed = crossing(robot, 0.0)
+def test_the_error_mode_stops_at_the_singularity(robot):
+    path, seed = path_past_the_wrist(robot, 0.0)
     result = robot.follow(path, seed, singularity_mode="error", zone=0.05)
     (broken,) = result.breaks
     assert "stopped at the wrist singularity, J5 is " in broken.reason

@@ -37,7 +37,7 @@ def test_quaternions_round_trip(pose):
 
 
 @given(quaternions())
-def test_a_quaternion_comes_back_up_to_its_sign(wxyz):
+def test_a_quaternion_round_trips_up_to_its_sign(wxyz):
     _, found = irbkin.to_xyz_wxyz(irbkin.pose([0, 0, 0], wxyz))
     assert min(np.abs(found - wxyz).max(), np.abs(found + wxyz).max()) <= ROUNDING
 
@@ -57,7 +57,7 @@ def test_euler_angles_are_rz_ry_rx(xyz, angles):
 
 
 @given(ANGLES)
-def test_euler_angles_come_back(angles):
+def test_euler_angles_round_trip(angles):
     _, found = irbkin.to_xyz_euler_zyx(irbkin.pose([1, 2, 3], euler_zyx=angles))
     # Rounding of the matrix is divided by cos ry, which is 0.07 at 1.5 rad.
     np.testing.assert_allclose(found, angles, rtol=0, atol=ROUNDING / np.cos(angles[1]))
@@ -72,7 +72,7 @@ def test_euler_angles_give_the_pose_back(pose):
 
 @pytest.mark.parametrize("ry", [np.pi / 2, -np.pi / 2])
 @pytest.mark.parametrize("off", [0.0, 1e-15, 1e-12, 1e-9, 1e-7, 1e-4])
-def test_gimbal_poses_come_back_to_rounding(ry, off):
+def test_gimbal_poses_round_trip_to_rounding(ry, off):
     rng = np.random.default_rng(1)
     for rz, rx in rng.uniform(-3, 3, (50, 2)):
         pose = euler(rz, ry - np.sign(ry) * off, rx)

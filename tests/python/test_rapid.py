@@ -1,4 +1,4 @@
-"""RAPID through Python: what is written is read again, what is broken is told, what is calculated
+"""RAPID through Python: what is written is read again, invalid text is reported, what is computed
 is ABB's.
 """
 
@@ -60,7 +60,8 @@ MODULE Weld(NOSTEPIN)
   ! The gun, and where the fixture stands.
   PERS tooldata tGun := [TRUE,[[0,0,110],[1,0,0,0]],[1,[0,0,50],[1,0,0,0],0,0,0]];
   TASK PERS wobjdata wFix := [FALSE,TRUE,"",[[300,-175,1],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
-  LOCAL CONST robtarget p10 := [[425,325,308],[0,-0.707106781,0.707106781,0],[0,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  LOCAL CONST robtarget p10 := [[425,325,308],[0,-0.707106781,0.707106781,0],[0,0,-1,0],\
+[9E9,9E9,9E9,9E9,9E9,9E9]];
   VAR robtarget path{2} := [p10, Offs(p10,0,0,10)];
   VAR num free;
   CONST speeddata vSlow := [10,10,10,10];
@@ -169,14 +170,16 @@ def test_numpy_s_numbers_and_truths_are_taken():
     assert rapid.parse(b"[[1,2,3],[1,0,0,0]]") == Pose((1, 2, 3))
 
 
-def test_words_of_numbers_may_stand_in_strings():
+def test_strings_may_contain_number_words():
     wobj = WobjData(ufmec="infeed NaN")
     assert rapid.parse(rapid.dump(wobj)) == wobj
 
 
 def test_names_are_looked_for_in_the_context():
     tools = rapid.parse(
-        "MODULE Tools(SYSMODULE)\nPERS tooldata tPin:=[TRUE,[[0,0,200],[1,0,0,0]],load0];\nENDMODULE"
+        "MODULE Tools(SYSMODULE)\n"
+        "PERS tooldata tPin:=[TRUE,[[0,0,200],[1,0,0,0]],load0];\n"
+        "ENDMODULE"
     )
     target = rapid.dump(RobTarget((1, 2, 3)))
     text = f"MODULE M\nPROC main()\nMoveL {target},v1,fine,tPin;\nENDPROC\nENDMODULE"
@@ -195,14 +198,17 @@ def test_files_are_of_any_usual_encoding(tmp_path, encoding):
     assert rapid.load(path)["w"].ufmec == "STÄTION"
 
 
-def test_a_broken_file_is_told_with_its_path_line_and_column(tmp_path):
+def test_an_invalid_file_is_reported_with_its_path_line_and_column(tmp_path):
     path = tmp_path / "broken.mod"
     path.write_text(
-        "MODULE M\n  CONST robtarget p:=[[1,2],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nENDMODULE"
+        "MODULE M\n"
+        "  CONST robtarget p:=[[1,2],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+        "ENDMODULE"
     )
     with pytest.raises(
         RapidError,
-        match=r"broken\.mod: line 2, column \d+: robtarget p: trans has 2 components, it must have 3",
+        match=r"broken\.mod: line 2, column \d+: robtarget p: trans has 2 components, "
+        r"it must have 3",
     ) as caught:
         rapid.load(path)
     assert caught.value.line == 2
@@ -274,7 +280,7 @@ HOLDS_ITSELF.append(HOLDS_ITSELF)
         ),
     ],
 )
-def test_what_is_no_rapid_data_is_refused(make, message):
+def test_invalid_rapid_data_are_refused(make, message):
     with pytest.raises(irbkin.IrbkinError, match=message):
         make()
 
@@ -323,7 +329,7 @@ def test_taught_targets_have_the_joints_that_they_were_taught_with(
     assert of_angles.robconf == again.robconf
 
 
-def test_what_a_controller_would_refuse_is_refused_by_its_name():
+def test_what_a_controller_would_refuse_has_its_error_name():
     robot = irbkin.Robot("IRB 140-6/0.81")
     module = rapid.parse(PROGRAM)
     far = RobTarget((9000, 0, 0), (1, 0, 0, 0))

@@ -76,7 +76,7 @@ SOLVES = {
 
 
 @pytest.mark.parametrize("name", OTHERS)
-def test_an_arm_without_closed_form_is_taken_when_that_is_said(name):
+def test_an_arm_without_closed_form_is_accepted_on_request(name):
     build, words = OTHERS[name]
     with pytest.raises(irbkin.InvalidModelError, match=words):
         build()
@@ -88,7 +88,7 @@ def test_an_arm_without_closed_form_is_taken_when_that_is_said(name):
 
 @pytest.mark.parametrize("solve", SOLVES.values(), ids=SOLVES)
 @pytest.mark.parametrize("name", OTHERS)
-def test_every_solve_of_an_arm_without_closed_form_says_why_it_has_none(name, solve):
+def test_every_solve_of_an_arm_without_closed_form_reports_the_reason(name, solve):
     build, words = OTHERS[name]
     robot = build(closed_form=False)
     with pytest.raises(irbkin.InvalidModelError, match=words):
@@ -101,7 +101,8 @@ def test_a_seven_axis_arm_says_that_it_has_no_closed_form(solve):
     robot = irbkin.Robot.from_mdh(rows)
     with pytest.raises(
         irbkin.InvalidModelError,
-        match=r"spherical shoulder and an offset elbow, axes 1 and 2 must be at right angles, they are 0\.057296 deg",
+        match=r"spherical shoulder and an offset elbow, axes 1 and 2 must be at right angles, "
+        r"they are 0\.057296 deg",
     ):
         solve(robot, robot.fk(np.zeros(7)))
 
@@ -113,7 +114,7 @@ def test_closed_form_false_keeps_the_closed_form_of_an_arm_that_has_one():
 
 
 @pytest.mark.parametrize(("off", "taken"), [(5e-10, True), (2e-9, False)])
-def test_a_table_in_text_is_squared_up(off, taken):
+def test_a_table_in_text_is_made_exact(off, taken):
     rows = changed(5, 1, off)
     rows[2, 0] += off
     if taken:

@@ -178,7 +178,7 @@ def test_filter_hands_over_solutions_that_are_sequences_too(robot, pose):
     assert (turned.q[:, 5] > 0).all()
 
 
-def test_an_exception_in_a_filter_comes_out(robot, pose):
+def test_an_exception_in_a_filter_propagates(robot, pose):
     class OwnError(Exception):
         pass
 
@@ -190,7 +190,7 @@ def test_an_exception_in_a_filter_comes_out(robot, pose):
             solutions.filter(fail)
 
 
-def test_a_filter_that_takes_nothing_says_so(robot, pose):
+def test_a_filter_that_rejects_everything_is_named_as_the_reason(robot, pose):
     empty = robot.ik(pose).filter(lambda _: False)
     assert len(empty) == 0
     assert empty.explain() == "the filter rejected every solution"

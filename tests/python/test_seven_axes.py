@@ -1,4 +1,4 @@
-"""The Panda and the FR3: every solution for a told joint 7, the nearest one along the redundancy,
+"""The Panda and the FR3: every solution for a given joint 7, the nearest one along the redundancy,
 frankik's answers.
 """
 
@@ -28,7 +28,7 @@ def wrapped(angles):
     return np.abs((np.asarray(angles) + np.pi) % (2 * np.pi) - np.pi)
 
 
-def test_the_family_is_recognized_by_name_and_by_table(robot):
+def test_the_structure_is_recognized_by_name_and_by_table(robot):
     again = irbkin.Robot.from_mdh(CATALOG[robot.name].rows)
     assert robot.structure == again.structure == "spherical shoulder"
     q = inside(robot, 1)[0]
@@ -51,7 +51,7 @@ def test_every_solution_closes_and_the_generating_one_is_among_them(robot):
 
 def test_the_slot_is_the_sign_of_q2_the_elbow_and_the_cosine_of_q5():
     panda = irbkin.Robot("Panda")
-    # The stretched arm: axis 4 stands 82.5 mm off the lines of 316 mm and 384 mm.
+    # The stretched arm: axis 4 is 82.5 mm off the lines of 316 mm and 384 mm.
     stretched = -np.arctan2(0.0825, 0.316) - np.arctan2(0.0825, 0.384)
     seen = set()
     for q in inside(panda, 300):
@@ -117,7 +117,7 @@ def test_an_empty_batch_is_empty(robot):
     assert robot.ik_nearest(none, np.zeros(7)).shape == (0, 7)
 
 
-def test_a_broken_row_of_a_batch_is_told_and_the_others_are_not_touched(robot):
+def test_an_invalid_row_of_a_batch_is_flagged_and_the_others_are_solved(robot):
     q = inside(robot, 20)
     poses, q7 = robot.fk(q), q[:, 6].copy()
     good = robot.ik_batch(poses, q7)
@@ -153,7 +153,7 @@ def test_joint_7_is_needed_by_seven_joints_and_refused_by_six(robot):
         robot.follow(np.stack([pose, pose]), np.zeros(7))
 
 
-def test_joint_7_stays_where_it_was_told_and_counts_for_the_limits(robot):
+def test_joint_7_keeps_its_given_value_and_is_checked_against_its_limits(robot):
     q = inside(robot, 1)[0]
     beyond = robot.limits[6, 1] + 0.5
     solutions = robot.ik(robot.fk([*q[:6], beyond]), q7=beyond)
@@ -162,7 +162,7 @@ def test_joint_7_stays_where_it_was_told_and_counts_for_the_limits(robot):
 
 
 @pytest.mark.parametrize("q2", [0.0, 1e-12, 1e-9, 1e-7, 1e-6, 1e-4])
-def test_next_to_q2_zero_nothing_is_lost(q2):
+def test_near_q2_zero_no_solution_is_missed(q2):
     panda = irbkin.Robot("Panda")
     rng = np.random.default_rng(11)
     for _ in range(50):
@@ -186,9 +186,7 @@ def test_next_to_q2_zero_nothing_is_lost(q2):
 
 
 @pytest.mark.parametrize("off", [1e-12, 1e-9, 2e-9, 1e-8])
-def test_a_stretched_arm_next_to_q2_zero_stays_at_rounding_whatever_the_limits_leave_of_its_families(
-    robot, off
-):
+def test_a_stretched_arm_near_q2_zero_closes_to_rounding_with_any_limits(robot, off):
     a3, c3, c5 = 0.0825, 0.316, 0.384
     stretched = -np.arctan2(a3, c3) - np.arctan2(a3, c5)
     rng = np.random.default_rng(12)
@@ -266,7 +264,7 @@ def test_ik_nearest_goes_through_q2_zero(robot):
             assert np.linalg.norm(q - before) <= np.linalg.norm(wanted - before) + 1e-9
 
 
-def test_ik_nearest_of_where_the_arm_stands_is_where_it_stands(robot):
+def test_ik_nearest_of_the_current_pose_returns_the_current_joints(robot):
     q = inside(robot, 50)
     np.testing.assert_allclose(robot.ik_nearest(robot.fk(q), q), q, rtol=0, atol=1e-7)
 
@@ -301,7 +299,7 @@ def test_weights_move_the_choice(robot):
         robot.ik_nearest(pose, seed, weights=np.ones(6))
 
 
-def test_what_cannot_be_reached_is_told(robot):
+def test_an_unreachable_pose_is_reported(robot):
     far = irbkin.pose([2, 0, 0.5])
     with pytest.raises(irbkin.UnreachableError, match="beyond reach"):
         robot.ik_nearest(far, np.zeros(7))
@@ -328,7 +326,7 @@ STRETCHED = -np.arctan2(0.0825, 0.316) - np.arctan2(0.0825, 0.384)
 
 @pytest.mark.parametrize("off", [0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2])
 @pytest.mark.parametrize("name", ["iiwa", *NAMES])
-def test_any_pose_of_the_arm_is_reachable_next_to_the_stretched_arm(name, off):
+def test_any_pose_of_the_arm_near_stretched_is_reachable(name, off):
     if name == "iiwa":
         robot = irbkin.Robot.from_mdh(IIWA).with_limits(
             np.stack([-IIWA_LIMITS, IIWA_LIMITS], axis=1)
@@ -349,7 +347,7 @@ def test_any_pose_of_the_arm_is_reachable_next_to_the_stretched_arm(name, off):
     assert asked == 20
 
 
-def test_frankik_finds_no_solution_more():
+def test_frankik_finds_no_further_solution():
     """It lists solutions inside its limits, and not all of them."""
     frankik = pytest.importorskip("frankik")
     panda = irbkin.Robot("Panda")

@@ -100,8 +100,8 @@ def test_wrist_branches(name, off, straight):
         assert solution.singularities == SingularityKind.WRIST
         assert solutions.status[solution.slot ^ 1] == Status.MERGED | Status.WRIST
         if off == 0:
-            # Only the sum or the difference of axes 4 and 6 is determined: q4 = 0 stands for the
-            # family.
+            # Only the sum or the difference of axes 4 and 6 is determined: q4 = 0 is the
+            # representative.
             together = q[3] + q[5] if straight == 0 else q[5] - q[3]
             assert apart(solution.q, [*q[:3], 0, straight, together]) <= 1e-9
         elsewhere = [other for other in solutions if other.slot // 2 != solution.slot // 2]
@@ -199,8 +199,8 @@ def test_shoulder_branches_with_a_lateral_offset(off, count):
 
 @pytest.mark.parametrize("name", ABB)
 def test_a_free_axis_1_carries_the_generating_arm_to_any_angle(name):
-    """At the shoulder singularity the given vector, turned to q1 = 0, is one of the family's
-    representatives.
+    """At the shoulder singularity the given vector, turned to q1 = 0, is one of the
+    representatives of the self-motion.
     """
     robot, rng = free(name), np.random.default_rng(RNG_SEED)
     q = at_shoulder(name, 0.0, rng)
@@ -214,7 +214,7 @@ def test_a_free_axis_1_carries_the_generating_arm_to_any_angle(name):
 
 
 def test_all_three_at_once_leave_one_solution():
-    """A straight arm stands straight up: nothing but its height and the sum of q1, q4 and q6 is
+    """An upright straight arm: nothing but its height and the sum of q1, q4 and q6 is
     determined.
     """
     robot = irbkin.Robot.from_opw(a1=0, a2=0, b=0, c1=0.4, c2=0.3, c3=0.3, c4=0.1)
@@ -252,7 +252,7 @@ def test_wrist_and_elbow_at_once_are_both_declared(name, off, folded):
 
 @pytest.mark.parametrize("beyond", [0.5e-9, 0.95e-9])
 @pytest.mark.parametrize("name", ABB)
-def test_a_hair_beyond_reach_gets_the_stretched_arm(name, beyond):
+def test_a_pose_beyond_reach_within_the_tolerance_gets_the_stretched_arm(name, beyond):
     robot = free(name)
     q = np.array([0.4, 0.9, angle_at_elbow(name, 0.0, False), 0.3, 0.8, 0.2])
     pose = robot.fk(q)

@@ -58,7 +58,7 @@ def test_a_seven_axis_arm_has_the_figures_and_the_distances():
         assert record.kinds == SingularityKind(0)
 
 
-def test_an_arm_of_no_known_form_has_the_figures_and_no_names():
+def test_an_arm_of_unknown_structure_has_the_figures_and_no_names():
     rows = CATALOG["Panda"].rows + 1e-3
     record = irbkin.Robot.from_mdh(rows).singularity(np.full(7, 0.4))
     assert record.min_singular_value > 0

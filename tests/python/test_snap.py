@@ -23,7 +23,7 @@ PUMA = [
 ]
 
 
-def test_a_table_is_taken_with_the_snap_that_its_refusal_proposes():
+def test_a_table_is_accepted_with_the_proposed_snap():
     for build, rows in (
         (Robot.from_sdh, PUMA),
         (Robot.from_mdh, Robot.from_sdh(PUMA, closed_form=False).mdh),
@@ -61,7 +61,7 @@ def test_a_table_is_taken_with_the_snap_that_its_refusal_proposes():
     ("name", "snap", "family"),
     [("puma560", "1e-8", "spherical wrist"), ("xarm7", "1e-5", "spherical shoulder")],
 )
-def test_a_published_urdf_is_taken_with_the_snap_that_its_refusal_proposes(name, snap, family):
+def test_a_published_urdf_is_accepted_with_the_proposed_snap(name, snap, family):
     path = DATA / f"{name}.urdf"
     text = Robot.from_urdf(path, closed_form=False)
     with pytest.raises(InvalidModelError, match=f"; snap={snap} would take it$") as refused:

@@ -111,7 +111,7 @@ def reaches(solution, q6):
     return True
 
 
-def test_a_free_joint_that_does_not_reach_is_told_with_its_angle():
+def test_a_free_joint_that_does_not_reach_is_reported_with_its_angle():
     robot = irbkin.Robot("UR3")
     free = robot.ik(robot.fk([0.4, -0.3, 0.05, -1.1, 0.0, 2.5]))[0]
     with pytest.raises(
@@ -157,7 +157,7 @@ def test_a_stretched_arm_at_the_wrist_singularity_is_found():
     assert solution.singularities == SingularityKind.WRIST | SingularityKind.ELBOW
 
 
-def test_singularity_tells_all_three_distances():
+def test_singularity_reports_all_three_distances():
     robot = irbkin.Robot("UR3")
     found = robot.singularity([0.3, -1.0, 0.2, 0.5, -0.1, 0.0])
     assert abs(found.wrist - 0.1) < 1e-15
@@ -183,7 +183,7 @@ def test_follow_meets_a_path_and_refuses_what_needs_a_spherical_wrist():
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_ur_analytic_ik_has_the_same_arm_and_no_solution_more(name):
+def test_ur_analytic_ik_has_the_same_arm_and_no_further_solution(name):
     module = pytest.importorskip("ur_analytic_ik")
     peer = getattr(module, name.lower().replace(" ", ""))
     robot = irbkin.Robot(name)

@@ -110,7 +110,7 @@ def test_the_table_with_both_ends_is_the_arm():
         ("kr6_r700", Robot.from_opw(**KUKA_KR6)),
     ],
 )
-def test_a_known_form_has_the_same_slots(name, other):
+def test_a_known_structure_has_the_same_slots(name, other):
     robot = Robot.from_urdf(TEXTS[name])
     assert robot.structure == "spherical wrist"
     for q in np.random.default_rng(2).uniform(-1.5, 1.5, (SAMPLES, 6)):
@@ -135,7 +135,7 @@ def test_a_known_form_has_the_same_slots(name, other):
         ),
     ],
 )
-def test_the_other_forms_have_the_same_slots(name, tip, other, family):
+def test_the_other_structures_have_the_same_slots(name, tip, other, family):
     robot = Robot.from_urdf(TEXTS[name], tip=tip)
     assert robot.structure == other.structure == family
     low, high = other.limits.T
@@ -201,7 +201,7 @@ def test_a_missing_file_is_pythons_error(given):
         Robot.from_urdf(given)
 
 
-def test_what_is_neither_text_nor_path_is_no_argument(tmp_path):
+def test_an_argument_that_is_neither_text_nor_path_is_refused(tmp_path):
     with pytest.raises(IsADirectoryError):
         Robot.from_urdf(tmp_path)
     for given in (5, None, 1.5, ["<robot/>"], 0):
@@ -215,8 +215,9 @@ def chain(kinds, extra=""):
     """A chain of joints of these types, about z and x in turn."""
     links = "".join(f'<link name="l{i}"/>' for i in range(len(kinds) + 1))
     joints = "".join(
-        f'<joint name="j{i}" type="{kind}"><parent link="l{i}"/><child link="l{i + 1}"/><origin xyz="0 0 0.2"/>'
-        f'<axis xyz="{i % 2} 0 {1 - i % 2}"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>'
+        f'<joint name="j{i}" type="{kind}"><parent link="l{i}"/><child link="l{i + 1}"/>'
+        f'<origin xyz="0 0 0.2"/><axis xyz="{i % 2} 0 {1 - i % 2}"/>'
+        '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>'
         for i, kind in enumerate(kinds)
     )
     return f'<robot name="chain">{links}{joints}{extra}</robot>'
@@ -241,9 +242,11 @@ def chain(kinds, extra=""):
         (
             chain(
                 ["revolute"] * 6 + ["fixed"],
-                '<link name="x"/><joint name="k" type="fixed"><parent link="l6"/><child link="x"/></joint>',
+                '<link name="x"/>'
+                '<joint name="k" type="fixed"><parent link="l6"/><child link="x"/></joint>',
             ),
-            '6 or 7 revolute joints lead from "l0" to several ends: "l7", "x"; tip must name the one to take',
+            '6 or 7 revolute joints lead from "l0" to several ends: "l7", "x"; '
+            "tip must name the one to take",
         ),
         (
             chain(["revolute"] * 6, "<link name='x'/>"),
@@ -251,7 +254,8 @@ def chain(kinds, extra=""):
         ),
         (
             chain(["revolute"] * 3 + ["planar"] + ["revolute"] * 3),
-            '6 or 7 revolute joints lead from "l0" to no end of a chain: "l7" (behind joint "j3", planar)',
+            '6 or 7 revolute joints lead from "l0" to no end of a chain: '
+            '"l7" (behind joint "j3", planar)',
         ),
         (
             chain(["revolute"] * 6).replace("0.2", "nan", 1),
@@ -263,13 +267,13 @@ def chain(kinds, extra=""):
         ),
     ],
 )
-def test_what_is_refused_says_why(text, words):
+def test_a_refusal_reports_the_reason(text, words):
     with pytest.raises(InvalidModelError) as refused:
         Robot.from_urdf(text, closed_form=False)
     assert str(refused.value) == f"URDF: {words}"
 
 
-def test_a_link_that_is_none_is_named():
+def test_an_unknown_link_is_named():
     with pytest.raises(InvalidModelError) as refused:
         Robot.from_urdf(TEXTS["kr6_r700"], tip="tool")
     links = ["base_link", *(f"link_{i}" for i in range(1, 7)), "tool0"]
@@ -282,7 +286,7 @@ def test_a_link_that_is_none_is_named():
         Robot.from_urdf(TEXTS["irb2600"], "link_1", "base")
 
 
-def test_without_closed_form_an_arm_of_no_form_is_taken():
+def test_without_closed_form_an_arm_of_unknown_structure_is_accepted():
     text = chain(["revolute", "continuous"] * 3)
     with pytest.raises(InvalidModelError, match="no closed-form inverse kinematics"):
         Robot.from_urdf(text)

@@ -148,7 +148,7 @@ def test_representations():
 
 
 @pytest.mark.parametrize("name", CATALOG)
-def test_what_does_not_matter_in_a_name_does_not(name):
+def test_irrelevant_characters_of_a_name_are_ignored(name):
     for spelt in (
         name.lower(),
         name.upper(),

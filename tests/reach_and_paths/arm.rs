@@ -6,7 +6,7 @@ use irbkin::{JointLimits, OpwParameters, Pose, Robot, pose_from_wxyz, thresholds
 
 use crate::common::Rng;
 
-/// An arm and the lengths that place it [m]; its theta counts from the arm standing straight up.
+/// An arm and the lengths that place it [m]; its theta is zero when the arm is upright.
 pub struct Arm {
     pub name: String,
     pub robot: Robot<6>,
@@ -17,15 +17,15 @@ pub struct Arm {
     pub k: f64,
     /// Of the elbow angle, against theta_3 [rad].
     psi: f64,
-    /// Wrist from axis 4; 0 where axes 4, 5 and 6 meet.
+    /// Wrist from axis 4; 0 if axes 4, 5 and 6 intersect.
     pub d5: f64,
     offsets: [f64; 6],
-    /// The lengths that a position is summed from [m].
+    /// The sum of the lengths that contribute to a position [m].
     pub extent: f64,
 }
 
 /// Distances from the singularities: sin q5, the wrist from the shoulder's [m], the elbow angle
-/// [rad]; anything where there is none.
+/// [rad]; anything if there is none.
 #[derive(Clone, Copy, Default)]
 pub struct Near {
     pub wrist: Option<f64>,
@@ -91,17 +91,17 @@ impl Arm {
         self.d5 > 0.0
     }
 
-    /// How far rounding moves a position at most [m].
+    /// Upper bound of the rounding of a position [m].
     pub fn rounding(&self) -> f64 {
         thresholds::POSITION_ROUNDING * self.extent
     }
 
-    /// The least distance from the shoulder's singularity that rounding leaves of none [m].
+    /// The least distance from the shoulder singularity that rounding can resolve [m].
     pub fn shoulder_rounding(&self) -> f64 {
         (self.rounding() * (2.0 * self.b + self.rounding())).sqrt()
     }
 
-    /// Distance of the wrist from the shoulder's singularity, along the plane of the arm [m].
+    /// Distance of the wrist from the shoulder singularity, along the plane of the arm [m].
     pub fn x(&self, theta: &[f64; 6]) -> f64 {
         let [x, _] = self.end(theta);
         self.a1 + x + self.d5 * (theta[1] + theta[2] + theta[3]).sin()
@@ -127,8 +127,8 @@ impl Arm {
             + usize::from(theta[4].sin() < 0.0)
     }
 
-    /// Joint angles as far from the singularities as asked, on any side of them, and well away from
-    /// those that are not.
+    /// Joint angles at the given distances from the singularities, on any side, and well away from
+    /// the others.
     pub fn placed(&self, near: Near, rng: &mut Rng) -> [f64; 6] {
         loop {
             let mut theta: [f64; 6] = std::array::from_fn(|_| rng.between(-PI, PI));
@@ -149,7 +149,7 @@ impl Arm {
         }
     }
 
-    /// A theta_2 that puts the wrist `x` before axis 1; none where it cannot get there.
+    /// A theta_2 that puts the wrist `x` in front of axis 1; `None` if it cannot get there.
     fn theta_2(&self, theta: &[f64; 6], x: f64, rng: &mut Rng) -> Option<f64> {
         let (elbow, last) = (self.elbow(theta), theta[2] + theta[3]);
         let along = self.c2 + self.k * elbow.cos() + self.d5 * last.cos();
@@ -159,7 +159,7 @@ impl Arm {
         (sine.abs() < 0.99).then_some(forward - across.atan2(along))
     }
 
-    /// Whether a joint vector meets a pose, up to `off` [m] away from it, to rounding.
+    /// Whether a joint vector reaches a pose that is up to `off` [m] away, to rounding.
     pub fn meets(&self, q: &[f64; 6], pose: &Pose, off: f64) -> bool {
         let residual = self.robot.residual(q, pose);
         residual.position <= off + 3e-15 * self.extent && residual.rotation <= 1e-14
@@ -205,7 +205,7 @@ pub fn log_uniform(rng: &mut Rng, low: f64, high: f64) -> f64 {
     10.0_f64.powf(rng.between(low, high))
 }
 
-/// Distance of an angle from the nearest full turn [rad].
+/// Distance of an angle from the nearest multiple of 2 pi [rad].
 pub fn wrapped(angle: f64) -> f64 {
     (angle - TAU * (angle / TAU).round()).abs()
 }

@@ -1,4 +1,4 @@
-//! The test subjects: arms of every structure, with what their tests know of them by themselves.
+//! The test subjects: arms of every structure, with the independent knowledge of their tests.
 //!
 //! A new structure is one line of `on_every_structure` and one folder here that implements [`Arm`];
 //! laws, hard sets, recall and lanes then run on it.
@@ -52,17 +52,17 @@ pub struct Structure<const N: usize>
 where
     Joints<N>: Arity<N>,
 {
-    /// What `Robot::family` says.
+    /// The value of `Robot::structure`.
     pub name: &'static str,
-    /// Arms of makers and odd ones.
+    /// Arms of makers and unusual ones.
     pub subjects: Vec<Subject<N>>,
-    /// An arm whose joints read zero many turns away, for the lanes.
+    /// An arm whose joints are zero many turns away, for the lanes.
     pub many_turns: Subject<N>,
     /// Arms with random lengths, signs, offsets and, where the table has them, ends.
     pub random: BoxedStrategy<Subject<N>>,
 }
 
-/// The mathematics of an arm that its tests know by themselves, from its lengths alone.
+/// The mathematics of an arm that the tests know independently, from its lengths alone.
 pub trait Arm<const N: usize>: Debug
 where
     Joints<N>: Arity<N>,
@@ -70,7 +70,7 @@ where
     /// The robot, without limits.
     fn robot(&self) -> Robot<N>;
 
-    /// The lengths by which its accuracy is measured: how far its flange reaches [m].
+    /// The lengths that its accuracy is relative to: the reach of its flange [m].
     fn reach(&self) -> f64;
 
     /// Angles of the derivation.
@@ -85,27 +85,28 @@ where
     /// The determinant of the Jacobian of joints 1 to 6, by the factors that the structure has.
     fn determinant(&self, robot: &Robot<N>, q: &[f64; N]) -> f64;
 
-    /// What is wrong between two solutions whose slots differ in the wrist alone.
+    /// What is incorrect between two solutions whose slots differ in the wrist alone.
     fn wrist_flip(&self, slots: [&Solution<N>; 2]) -> Result<(), String>;
 
-    /// Whether the bits of a slot are those of the angles of the derivation: not where a link has
-    /// no length and its axis points either way.
+    /// Whether the bits of a slot follow from the angles of the derivation: not if a link has no
+    /// length and its axis points either way.
     fn has_slots(&self) -> bool {
         true
     }
 
-    /// The residual of a singular pose, over the reach.
+    /// The residual of a singular pose, relative to the reach.
     fn singular_residual(&self) -> f64 {
         3e-15
     }
 
-    /// The residual of a pose that is out of reach by less than the tolerance, over that distance.
+    /// The residual of a pose that is out of reach by less than the tolerance, relative to that
+    /// distance.
     fn spread(&self) -> f64 {
         1.0
     }
 
-    /// How far a solution of a slot that is just beyond reach may be off the pose, beyond what
-    /// rounding does: [m], [rad].
+    /// How far a solution of a slot that is just beyond reach may be off the pose, in addition to
+    /// rounding: [m], [rad].
     fn beyond_in(&self, _robot: &Robot<N>, _made: &Made<N>, _solution: &Solution<N>) -> [f64; 2] {
         [0.0; 2]
     }
@@ -113,7 +114,7 @@ where
     /// Where the arm can be singular.
     fn singular_places(&self) -> &'static [At];
 
-    /// Angles of the derivation at a place; none where this arm does not get there.
+    /// Angles of the derivation at a place; `None` if this arm cannot get there.
     fn at(&self, place: &Place, rng: &mut Rng) -> Option<[f64; N]>;
 
     /// Singular postures that no place draws.
@@ -124,7 +125,7 @@ where
     /// A pose that is out of reach by so much, and out of reach of all other branches by more.
     fn beyond(&self, beyond: f64, rng: &mut Rng) -> Option<Made<N>>;
 
-    /// Judges the answer to a pose of a hard set. Residuals are judged already.
+    /// Judges the answer to a pose of a hard set. Residuals are already judged.
     fn judge(
         &self,
         robot: &Robot<N>,
@@ -134,7 +135,7 @@ where
     ) -> Verdict;
 }
 
-/// What differs by the number of joints: how to call the solver, joint 7 as in a joint vector.
+/// What differs by the number of joints: how to call the solver, with joint 7 as in a joint vector.
 pub struct Calls<const N: usize>
 where
     Joints<N>: Arity<N>,
@@ -203,7 +204,7 @@ where
         (self.calls.ik)(&self.robot, pose, q).unwrap()
     }
 
-    /// The lengths by which accuracy is measured, base and tool with them [m].
+    /// The lengths that accuracy is relative to, including base and tool [m].
     pub fn reach(&self) -> f64 {
         let ends = [self.robot.base(), self.robot.tool()];
         self.arm.reach() + ends.map(|end| end.translation.vector.norm()).iter().sum::<f64>()
@@ -225,8 +226,8 @@ where
         distances.wrist.min(distances.elbow).min(distances.shoulder)
     }
 
-    /// Whether a joint vector is so far from singularities that its slot and its branches are
-    /// those of its neighbors.
+    /// Whether a joint vector is so far from singularities that its slot and its branches are those
+    /// of its neighbors.
     pub fn is_regular(&self, q: &[f64; N]) -> bool {
         self.clearance(q) > 0.05
     }

@@ -1,4 +1,4 @@
-//! Where a hard set places an arm, and what is said of the answer there.
+//! Where a hard set places an arm, and the verdict on the answer there.
 
 use std::boxed::Box;
 use std::string::String;
@@ -24,7 +24,7 @@ pub enum At {
     Hand,
 }
 
-/// The singularities that a posture is next to, and how near [rad, m].
+/// The singularities that a posture is near, and the distances [rad, m].
 #[derive(Clone, Debug, Default)]
 pub struct Place(pub Vec<(At, f64)>);
 
@@ -82,10 +82,10 @@ where
     }
 }
 
-/// Draws angles of the derivation; nothing where a draw is of no use.
+/// Draws angles of the derivation; `None` if a draw is not usable.
 pub type Draw<const N: usize> = Box<dyn Fn(&mut Rng) -> Option<[f64; N]>>;
 
-/// A singular posture that has a name of its own.
+/// A singular posture with a name of its own.
 pub struct Posture<const N: usize>
 where
     Joints<N>: Arity<N>,
@@ -97,15 +97,15 @@ where
     pub draw: Draw<N>,
 }
 
-/// What is said of an answer.
+/// The verdict on an answer.
 #[derive(Debug, Default)]
 pub struct Verdict {
     /// Whether the joint vector that made the pose is among the solutions.
     pub found: bool,
-    /// Solutions that are not what they are said to be.
-    pub wrong: usize,
-    /// Pairs of solutions that are one.
-    pub twice: usize,
-    /// Whether every singularity is flagged that the pose is at.
+    /// Incorrect solutions.
+    pub incorrect: usize,
+    /// Pairs of duplicate solutions.
+    pub duplicates: usize,
+    /// Whether every singularity that the pose is at is flagged.
     pub flagged: bool,
 }

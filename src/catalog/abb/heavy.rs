@@ -28,7 +28,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[100.0, 90.0, 90.0, 170.0, 120.0, 190.0]),
         sources: 5,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalog, ARTE, abb_motion_program_exec; a1 is 377 mm in ARTE",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue, ARTE, abb_motion_program_exec; a1 is 377 mm in ARTE",
     },
     CatalogArm {
         name: "IRB 6700-150/3.2 (LeanID)",
@@ -55,7 +55,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalog",
+        provenance: "robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 6700-155/2.85",
@@ -82,7 +82,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[110.0, 110.0, 110.0, 190.0, 150.0, 210.0]),
         sources: 3,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalog; c3 is 1393 mm in visose/Robots",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue; c3 is 1393 mm in visose/Robots",
     },
     CatalogArm {
         name: "IRB 6700-175/3.05",
@@ -109,7 +109,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalog",
+        provenance: "RobotComponents, robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 6700-200/2.6",
@@ -136,7 +136,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[110.0, 110.0, 110.0, 190.0, 150.0, 210.0]),
         sources: 4,
-        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalog, ARTE",
+        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE",
     },
     CatalogArm {
         name: "IRB 6700-205/2.8",
@@ -163,7 +163,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalog",
+        provenance: "RobotComponents, robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 6700-220/2.65 (MH6, LeanID)",
@@ -217,7 +217,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[100.0, 90.0, 90.0, 170.0, 120.0, 190.0]),
         sources: 3,
-        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalog",
+        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 6790-205/2.8",
@@ -298,7 +298,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[100.0, 60.0, 60.0, 100.0, 100.0, 190.0]),
         sources: 4,
-        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalog, ARTE; axis 5 is +-130 deg in robotkinematicscatalog",
+        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE; axis 5 is +-130 deg in robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 7600-325/3.1",
@@ -325,7 +325,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalog; axis 5 is +-130 deg in robotkinematicscatalog",
+        provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-130 deg in robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 7600-340/2.8",
@@ -352,7 +352,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalog; axis 5 is +-130 deg in robotkinematicscatalog",
+        provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-130 deg in robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 7600-400/2.55",
@@ -379,7 +379,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalog; axis 5 is +-130 deg in robotkinematicscatalog",
+        provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-130 deg in robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 7600-500/2.3",
@@ -406,7 +406,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalog; axis 5 is +-100 deg in three sources of the other 7600s",
+        provenance: "robotkinematicscatalogue; axis 5 is +-100 deg in three sources of the other 7600s",
     },
     CatalogArm {
         name: "IRB 7600-500/2.55",
@@ -433,7 +433,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalog; axis 5 is +-130 deg in robotkinematicscatalog",
+        provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-130 deg in robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 8700-550/4.2",
@@ -460,7 +460,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalog; axis 3 has a far wider range than on the other coupled arms: no second source confirms it",
+        provenance: "robotkinematicscatalogue; axis 3 has a far wider range than on the other coupled arms: no second source confirms it",
     },
     CatalogArm {
         name: "IRB 8700-800/3.5",
@@ -487,6 +487,6 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalog; axis 3 has a far wider range than on the other coupled arms: no second source confirms it",
+        provenance: "robotkinematicscatalogue; axis 3 has a far wider range than on the other coupled arms: no second source confirms it",
     },
 ];

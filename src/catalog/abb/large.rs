@@ -82,7 +82,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalog; a1 is 286 mm in robotkinematicscatalog",
+        provenance: "RobotComponents, robotkinematicscatalogue; a1 is 286 mm in robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 5710-110/2.3",
@@ -109,7 +109,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalog",
+        provenance: "RobotComponents, robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 5720-90/3.0 LID",
@@ -217,7 +217,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalog",
+        provenance: "RobotComponents, robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 6400/2.4-120",
@@ -244,7 +244,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalog; the same source gives the 6400R/2.5-150 other limits of axes 1 to 3 (+-180, -70..85, -28..110 deg)",
+        provenance: "robotkinematicscatalogue; the same source gives the 6400R/2.5-150 other limits of axes 1 to 3 (+-180, -70..85, -28..110 deg)",
     },
     CatalogArm {
         name: "IRB 6400R/2.5-150",
@@ -271,7 +271,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalog",
+        provenance: "robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 6400R/2.8-200",
@@ -298,7 +298,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalog; the same source gives the 6400R/2.5-150 other limits of axes 1 to 3 (+-180, -70..85, -28..110 deg)",
+        provenance: "robotkinematicscatalogue; the same source gives the 6400R/2.5-150 other limits of axes 1 to 3 (+-180, -70..85, -28..110 deg)",
     },
     CatalogArm {
         name: "IRB 6600-175/2.8",
@@ -325,7 +325,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalog",
+        provenance: "robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 6600-225/2.55",
@@ -352,7 +352,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[100.0, 90.0, 90.0, 150.0, 120.0, 190.0]),
         sources: 2,
-        provenance: "ros-industrial/abb, robotkinematicscatalog; axis 2 is -60..80 deg in robotkinematicscatalog",
+        provenance: "ros-industrial/abb, robotkinematicscatalogue; axis 2 is -60..80 deg in robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 6620-150/2.2",
@@ -379,7 +379,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[100.0, 90.0, 90.0, 150.0, 120.0, 190.0]),
         sources: 4,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalog, ARTE; robotkinematicscatalog has the limits of a 6400 (axis 1 +-180, axis 2 -70..85, axis 3 -28..110, axis 5 +-120 deg); in ARTE a1 is 317, a2 -195, c1 683, c2 976, c3 902 and c4 195 mm",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue, ARTE; robotkinematicscatalogue has the limits of a 6400 (axis 1 +-180, axis 2 -70..85, axis 3 -28..110, axis 5 +-120 deg); in ARTE a1 is 317, a2 -195, c1 683, c2 976, c3 902 and c4 195 mm",
     },
     CatalogArm {
         name: "IRB 6640-130/3.2",
@@ -406,7 +406,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalog",
+        provenance: "robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 6640-180/2.55",
@@ -433,7 +433,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalog",
+        provenance: "robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 6640-185/2.8",
@@ -460,7 +460,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[100.0, 90.0, 90.0, 170.0, 140.0, 190.0]),
         sources: 4,
-        provenance: "RobotComponents, visose/Robots, ros-industrial/abb, robotkinematicscatalog; c3 is 1392 mm in ros-industrial/abb and robotkinematicscatalog (rounded); axis 1 has 105 and axis 5 120 deg/s in visose/Robots",
+        provenance: "RobotComponents, visose/Robots, ros-industrial/abb, robotkinematicscatalogue; c3 is 1392 mm in ros-industrial/abb and robotkinematicscatalogue (rounded); axis 1 has 105 and axis 5 120 deg/s in visose/Robots",
     },
     CatalogArm {
         name: "IRB 6640-205/2.75",
@@ -487,7 +487,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalog",
+        provenance: "robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 6640-235/2.55",
@@ -514,7 +514,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[100.0, 90.0, 90.0, 170.0, 120.0, 190.0]),
         sources: 3,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalog; the forearm is 1142 mm in two sources (rounded); visose Nagami.xml has a1 175 and c1 495, those of a 4600",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue; the forearm is 1142 mm in two sources (rounded); visose Nagami.xml has a1 175 and c1 495, those of a 4600",
     },
     CatalogArm {
         name: "IRB 6640ID-170/2.75",
@@ -541,7 +541,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalog; the lengths are those of the 6640-205/2.75",
+        provenance: "robotkinematicscatalogue; the lengths are those of the 6640-205/2.75",
     },
     CatalogArm {
         name: "IRB 6640ID-200/2.55",
@@ -568,7 +568,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalog; the lengths are those of the 6640-180/2.55",
+        provenance: "robotkinematicscatalogue; the lengths are those of the 6640-180/2.55",
     },
     CatalogArm {
         name: "IRB 6650-125/3.2",
@@ -595,7 +595,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalog; c2 is 1275 mm in robotkinematicscatalog; axis 2 is -40..160 deg in robotkinematicscatalog",
+        provenance: "RobotComponents, robotkinematicscatalogue; c2 is 1275 mm in robotkinematicscatalogue; axis 2 is -40..160 deg in robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 6650-200/2.75",
@@ -649,7 +649,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[100.0, 90.0, 90.0, 150.0, 120.0, 235.0]),
         sources: 4,
-        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalog, ARTE",
+        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE",
     },
     CatalogArm {
         name: "IRB 6650S-125/3.5",
@@ -676,7 +676,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[110.0, 90.0, 90.0, 150.0, 120.0, 235.0]),
         sources: 5,
-        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, robotkinematicscatalog, ARTE",
+        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE",
     },
     CatalogArm {
         name: "IRB 6650S-200/3.0",
@@ -703,7 +703,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 3,
-        provenance: "RobotComponents, robotkinematicscatalog, ARTE; ARTE has the forearm of the 3.9 m arm (2042)",
+        provenance: "RobotComponents, robotkinematicscatalogue, ARTE; ARTE has the forearm of the 3.9 m arm (2042)",
     },
     CatalogArm {
         name: "IRB 6660-130/3.1",
@@ -730,7 +730,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalog",
+        provenance: "robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 6660-205/1.9",
@@ -757,6 +757,6 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalog",
+        provenance: "robotkinematicscatalogue",
     },
 ];

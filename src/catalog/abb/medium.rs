@@ -28,7 +28,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[150.0, 150.0, 150.0, 360.0, 360.0, 450.0]),
         sources: 4,
-        provenance: "ros-industrial/abb, robotkinematicscatalog, ARTE, rs-opw-kinematics",
+        provenance: "ros-industrial/abb, robotkinematicscatalogue, ARTE, rs-opw-kinematics",
     },
     CatalogArm {
         name: "IRB 2400-12/1.55",
@@ -82,7 +82,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[150.0, 150.0, 150.0, 360.0, 360.0, 450.0]),
         sources: 2,
-        provenance: "visose/Robots, robotkinematicscatalog",
+        provenance: "visose/Robots, robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 2400L-7/1.8",
@@ -109,7 +109,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalog; axis 2 is -100..110 deg on the other 2400s, in more sources",
+        provenance: "robotkinematicscatalogue; axis 2 is -100..110 deg on the other 2400s, in more sources",
     },
     CatalogArm {
         name: "IRB 2600-12/1.65",
@@ -136,7 +136,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[175.0, 175.0, 175.0, 360.0, 360.0, 500.0]),
         sources: 6,
-        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, robotkinematicscatalog, ARTE, rs-opw-kinematics; ros-industrial/abb_experimental has axis 2 as -155..95 deg (sign turned) and axis 3 as -155..75 deg",
+        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE, rs-opw-kinematics; ros-industrial/abb_experimental has axis 2 as -155..95 deg (sign turned) and axis 3 as -155..75 deg",
     },
     CatalogArm {
         name: "IRB 2600-12/1.85",
@@ -163,7 +163,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalog",
+        provenance: "RobotComponents, robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 2600-20/1.65",
@@ -190,7 +190,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[175.0, 175.0, 175.0, 360.0, 360.0, 500.0]),
         sources: 3,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalog",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 2600ID-8/2.0",
@@ -217,7 +217,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalog",
+        provenance: "RobotComponents, robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 2600ID-15/1.85",
@@ -244,7 +244,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 3,
-        provenance: "RobotComponents, robotkinematicscatalog, ARTE; ARTE has the forearm of the 2600-12/1.85 (a2 -115, c3 795, c4 85)",
+        provenance: "RobotComponents, robotkinematicscatalogue, ARTE; ARTE has the forearm of the 2600-12/1.85 (a2 -115, c3 795, c4 85)",
     },
     CatalogArm {
         name: "IRB 4400-45/1.96 (M94A)",
@@ -271,7 +271,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalog; axis 3 is -60..65 deg on the 4400-60/1.96, in three sources",
+        provenance: "robotkinematicscatalogue; axis 3 is -60..65 deg on the 4400-60/1.96, in three sources",
     },
     CatalogArm {
         name: "IRB 4400-60/1.96",
@@ -298,7 +298,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[150.0, 120.0, 120.0, 225.0, 250.0, 330.0]),
         sources: 3,
-        provenance: "visose/Robots, robotkinematicscatalog, ARTE",
+        provenance: "visose/Robots, robotkinematicscatalogue, ARTE",
     },
     CatalogArm {
         name: "IRB 4400L-30/2.43",
@@ -325,7 +325,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[150.0, 120.0, 120.0, 225.0, 250.0, 330.0]),
         sources: 2,
-        provenance: "ros-industrial/abb, robotkinematicscatalog; axis 3 is +-165 deg in robotkinematicscatalog; tool0 is not turned by 90 deg about y in ros-industrial/abb",
+        provenance: "ros-industrial/abb, robotkinematicscatalogue; axis 3 is +-165 deg in robotkinematicscatalogue; tool0 is not turned by 90 deg about y in ros-industrial/abb",
     },
     CatalogArm {
         name: "IRB 4600-20/2.5",
@@ -352,7 +352,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[175.0, 175.0, 175.0, 360.0, 360.0, 500.0]),
         sources: 4,
-        provenance: "RobotComponents, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalog; axis 5 is -125..120 deg in ROS-Industrial and PickNik; robotkinematicscatalog has the forearm of the 40/2.55 arm (1270/135)",
+        provenance: "RobotComponents, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalogue; axis 5 is -125..120 deg in ROS-Industrial and PickNik; robotkinematicscatalogue has the forearm of the 40/2.55 arm (1270/135)",
     },
     CatalogArm {
         name: "IRB 4600-40/2.55",
@@ -379,7 +379,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[175.0, 175.0, 175.0, 250.0, 250.0, 360.0]),
         sources: 7,
-        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalog, ARTE, compas_fab; axis 5 is -120..125 deg in RobotComponents and +-120 deg in robotkinematicscatalog; ARTE has the upper arm and forearm of the 2.05 m arm (900, 960); c3 is 1271 mm in compas_fab",
+        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalogue, ARTE, compas_fab; axis 5 is -120..125 deg in RobotComponents and +-120 deg in robotkinematicscatalogue; ARTE has the upper arm and forearm of the 2.05 m arm (900, 960); c3 is 1271 mm in compas_fab",
     },
     CatalogArm {
         name: "IRB 4600-45/2.05",
@@ -406,7 +406,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[175.0, 175.0, 175.0, 250.0, 250.0, 360.0]),
         sources: 3,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalog; axis 5 is +-120 deg in robotkinematicscatalog",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue; axis 5 is +-120 deg in robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 4600-60/2.05",
@@ -433,6 +433,6 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[175.0, 175.0, 175.0, 250.0, 250.0, 360.0]),
         sources: 6,
-        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalog, rs-opw-kinematics; axis 5 is +-120 deg in robotkinematicscatalog",
+        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalogue, rs-opw-kinematics; axis 5 is +-120 deg in robotkinematicscatalogue",
     },
 ];

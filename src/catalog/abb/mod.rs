@@ -3,7 +3,7 @@
 //! Figures collected on 2026-11-21 from public repositories, by majority where they disagree:
 //! `RobotComponents/RobotComponents` @ 8eaaf1a2cc, visose/Robots (branch libraries) @ 1573995b4d,
 //! `ros-industrial/abb` @ 77db19bdb0, `ros-industrial/abb_experimental` @ 20b9cf86ad,
-//! `PickNikRobotics/abb_ros2` @ 0705714217, `SaltworkerMLU/robotkinematicscatalog` @ ea88ef98a3,
+//! `PickNikRobotics/abb_ros2` @ 0705714217, `SaltworkerMLU/robotkinematicscatalogue` @ ea88ef98a3,
 //! 4rtur1t0/ARTE @ a8df0b121e, `bourumir-wyngs/rs-opw-kinematics` @ fb51d85bd7,
 //! `rpiRobotics/abb_motion_program_exec` @ 3891d1b78a, `compas-dev/compas_fab` @ 293d7aa033. What
 //! is left out, and why: docs/catalog.md.

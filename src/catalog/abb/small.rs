@@ -1,4 +1,4 @@
-//! Below 2000 in type number.
+//! IRB arms with type numbers below 2000.
 
 use crate::catalog::{AngleUnit, CatalogArm, CatalogGeometry};
 
@@ -82,7 +82,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[250.0, 250.0, 250.0, 320.0, 320.0, 420.0]),
         sources: 5,
-        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, robotkinematicscatalog, ARTE; axis 4 is +-150 deg in visose/Robots, axis 3 -90 deg in robotkinematicscatalog",
+        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE; axis 4 is +-150 deg in visose/Robots, axis 3 -90 deg in robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 120T-3/0.58",
@@ -136,7 +136,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[200.0, 200.0, 260.0, 360.0, 360.0, 450.0]),
         sources: 4,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalog, ARTE; axis 5 is +-120 deg in robotkinematicscatalog",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue, ARTE; axis 5 is +-120 deg in robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 1010-1.5/0.37",
@@ -163,7 +163,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalog; axis 6 is +-360 deg in robotkinematicscatalog",
+        provenance: "RobotComponents, robotkinematicscatalogue; axis 6 is +-360 deg in robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 1100-4/0.475",
@@ -190,7 +190,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalog; axis 5 is +-125 deg in robotkinematicscatalog",
+        provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-125 deg in robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 1100-4/0.58",
@@ -217,7 +217,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalog; axis 5 is +-125 deg in robotkinematicscatalog",
+        provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-125 deg in robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 1200-5/0.9",
@@ -244,7 +244,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[288.0, 240.0, 300.0, 400.0, 405.0, 600.0]),
         sources: 6,
-        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalog, abb_motion_program_exec; axis 6 is +-400 deg in RobotComponents and visose/Robots: its turn limit is a software setting",
+        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalogue, abb_motion_program_exec; axis 6 is +-400 deg in RobotComponents and visose/Robots: its turn limit is a software setting",
     },
     CatalogArm {
         name: "IRB 1200-7/0.7",
@@ -271,7 +271,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[288.0, 240.0, 300.0, 400.0, 405.0, 600.0]),
         sources: 4,
-        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalog, ARTE",
+        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE",
     },
     CatalogArm {
         name: "IRB 1300-7/1.4",
@@ -298,7 +298,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalog",
+        provenance: "RobotComponents, robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 1300-10/1.15",
@@ -325,7 +325,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[280.0, 228.0, 336.0, 500.0, 415.0, 720.0]),
         sources: 3,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalog",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 1300-11/0.9",
@@ -352,7 +352,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalog; axis 2 is -100..133 deg in robotkinematicscatalog; axis 6 is +-242 deg in robotkinematicscatalog",
+        provenance: "RobotComponents, robotkinematicscatalogue; axis 2 is -100..133 deg in robotkinematicscatalogue; axis 6 is +-242 deg in robotkinematicscatalogue",
     },
     CatalogArm {
         name: "CRB 1300-7/1.4",
@@ -379,7 +379,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalog",
+        provenance: "robotkinematicscatalogue",
     },
     CatalogArm {
         name: "CRB 1300-10/1.15",
@@ -406,7 +406,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalog",
+        provenance: "robotkinematicscatalogue",
     },
     CatalogArm {
         name: "CRB 1300-11/0.9",
@@ -433,7 +433,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalog",
+        provenance: "robotkinematicscatalogue",
     },
     CatalogArm {
         name: "IRB 1410-4/1.45",
@@ -460,7 +460,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "robotkinematicscatalog, ARTE; in ARTE c1 is 465 and c4 75 mm; its table is also printed under the name of an IRB 1600-6/1.45",
+        provenance: "robotkinematicscatalogue, ARTE; in ARTE c1 is 465 and c4 75 mm; its table is also printed under the name of an IRB 1600-6/1.45",
     },
     CatalogArm {
         name: "IRB 1520ID-4/1.5",
@@ -487,7 +487,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 3,
-        provenance: "RobotComponents, robotkinematicscatalog, ARTE",
+        provenance: "RobotComponents, robotkinematicscatalogue, ARTE",
     },
     CatalogArm {
         name: "IRB 1600-6/1.2",
@@ -514,7 +514,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[150.0, 160.0, 170.0, 320.0, 400.0, 450.0]),
         sources: 4,
-        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalog, ARTE; axis 2 of the 1.2 m arms goes to 136 deg in ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
+        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE; axis 2 of the 1.2 m arms goes to 136 deg in ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
     },
     CatalogArm {
         name: "IRB 1600-6/1.45",
@@ -541,7 +541,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[180.0, 180.0, 185.0, 385.0, 400.0, 460.0]),
         sources: 4,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalog, ARTE; axis 2 goes to 150 deg in visose/Robots and ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arm exchanged",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue, ARTE; axis 2 goes to 150 deg in visose/Robots and ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arm exchanged",
     },
     CatalogArm {
         name: "IRB 1600-8/1.2",
@@ -568,7 +568,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalog; axis 2 of the 1.2 m arms goes to 136 deg in ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
+        provenance: "robotkinematicscatalogue; axis 2 of the 1.2 m arms goes to 136 deg in ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
     },
     CatalogArm {
         name: "IRB 1600-8/1.45",
@@ -595,7 +595,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[180.0, 180.0, 200.0, 400.0, 400.0, 460.0]),
         sources: 2,
-        provenance: "ros-industrial/abb_experimental, robotkinematicscatalog; axis 2 of the 1.45 m arms goes to 150 deg in visose/Robots and ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
+        provenance: "ros-industrial/abb_experimental, robotkinematicscatalogue; axis 2 of the 1.45 m arms goes to 150 deg in visose/Robots and ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
     },
     CatalogArm {
         name: "IRB 1600-10/1.2",
@@ -649,7 +649,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[180.0, 180.0, 185.0, 385.0, 400.0, 460.0]),
         sources: 3,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalog; axis 2 of the 1.45 m arms goes to 150 deg in visose/Robots and ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue; axis 2 of the 1.45 m arms goes to 150 deg in visose/Robots and ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
     },
     CatalogArm {
         name: "IRB 1600ID-4/1.5",
@@ -676,7 +676,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "robotkinematicscatalog, ARTE",
+        provenance: "robotkinematicscatalogue, ARTE",
     },
     CatalogArm {
         name: "IRB 1660ID-4/1.55",
@@ -703,7 +703,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 3,
-        provenance: "RobotComponents, robotkinematicscatalog, ARTE; a2 is -108 mm in ARTE",
+        provenance: "RobotComponents, robotkinematicscatalogue, ARTE; a2 is -108 mm in ARTE",
     },
     CatalogArm {
         name: "IRB 1660ID-6/1.55",

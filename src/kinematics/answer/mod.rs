@@ -1,6 +1,7 @@
-//! What a solve answers: flags, reach, solutions in their slots, and the choice among them.
+//! The answer of a solve: flags, reach, solutions in their slots, and the choice among them.
 
 pub(crate) mod check;
+mod display;
 pub(crate) mod select;
 pub(crate) mod singularity;
 pub(crate) mod slot;

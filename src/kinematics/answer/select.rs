@@ -12,24 +12,24 @@ use crate::error::Error;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::report::Explanation;
 
-/// Above, not every whole number is a float.
+/// Above this value, not every whole number is a float.
 const MOST_EXACT: f64 = 9_007_199_254_740_992.0;
 
 impl<const N: usize> Solutions<N> {
-    /// Those inside the joint limits.
+    /// The solutions inside the joint limits.
     #[must_use]
     pub fn within_limits(&self) -> Self {
         self.retain(self.explain(), Solution::is_within_limits)
     }
 
-    /// Those that `accept` takes, a test for collisions for instance.
+    /// The solutions that `accept` returns true for, a collision test for instance.
     #[must_use]
     pub fn filter(&self, accept: impl FnMut(&Solution<N>) -> bool) -> Self {
         let explanation = if self.is_empty() { self.explain() } else { Explanation::FilteredOut };
         self.retain(explanation, accept)
     }
 
-    /// Those that `accept` takes; `explanation` is what a selection without any says of itself.
+    /// The solutions that `accept` returns true for; `explanation` is reported if none is left.
     fn retain(
         &self,
         explanation: Explanation,
@@ -45,13 +45,13 @@ impl<const N: usize> Solutions<N> {
         kept
     }
 
-    /// Every full turn of every joint of every solution that is inside the limits. A joint without
-    /// limits has only its own angle.
+    /// Every 2 pi equivalent of every solution whose joints are all inside their limits. A joint
+    /// without limits contributes its own angle only.
     pub fn turns(&self) -> impl Iterator<Item = Solution<N>> + '_ {
         self.iter().flat_map(|solution| Turns::of(&self.limits, solution))
     }
 
-    /// How many [`Self::turns`] lists; `None` where they are too many for a `usize`.
+    /// Number of items of [`Self::turns`]; `None` if it exceeds `usize`.
     #[must_use]
     pub fn turn_count(&self) -> Option<usize> {
         let count = self.turn_total();
@@ -64,7 +64,7 @@ impl<const N: usize> Solutions<N> {
         exact.and_then(|count| usize::try_from(count).ok())
     }
 
-    /// The same as a number that may be too large to count.
+    /// Number of items of [`Self::turns`] as a float, which cannot overflow.
     pub(crate) fn turn_total(&self) -> f64 {
         let of_solution = |solution: &Solution<N>| {
             let turns = (0..N).map(|joint| {
@@ -79,8 +79,8 @@ impl<const N: usize> Solutions<N> {
             .sum()
     }
 
-    /// The solution inside the limits that is nearest to `seed` [rad], turns considered: the least
-    /// root of the sum of `weights * difference^2`.
+    /// The solution inside the limits that is nearest to `seed` [rad] among all 2 pi equivalents.
+    /// The distance is the square root of the sum of `weights * difference^2`.
     ///
     /// # Errors
     ///
@@ -90,8 +90,12 @@ impl<const N: usize> Solutions<N> {
         self.chosen(seed, weights, Cost::Distance)
     }
 
-    /// The solution inside the limits that moves the joints the least from `seed` [rad], turns
-    /// considered: the least sum of `weights * |difference|`.
+    /// The solution inside the limits that moves the joints least from `seed` [rad] among all 2 pi
+    /// equivalents. The cost is the sum of `weights *
+    ///
+    /// difference
+    ///
+    /// `.
     ///
     /// # Errors
     ///
@@ -111,7 +115,7 @@ impl<const N: usize> Solutions<N> {
         self.cheapest(seed, weights, cost).ok_or_else(|| Error::Unreachable(self.explain()))
     }
 
-    /// The cost is a sum over the joints, so each joint takes its own nearest turn.
+    /// The cost is a sum over the joints, so the nearest turn is chosen for each joint separately.
     pub(crate) fn cheapest(
         &self,
         seed: &[f64; N],
@@ -120,7 +124,7 @@ impl<const N: usize> Solutions<N> {
     ) -> Option<Solution<N>> {
         let mut best: Option<(f64, Solution<N>)> = None;
         for solution in self {
-            if let Some(q) = self.limits.turned_to(&solution.q, seed) {
+            if let Some(q) = self.limits.wrapped_near(&solution.q, seed) {
                 let total = cost.total(&q, seed, weights);
                 if best.as_ref().is_none_or(|(least, _)| total < *least) {
                     best = Some((
@@ -138,17 +142,17 @@ impl<const N: usize> Solutions<N> {
     }
 }
 
-/// What moving a joint costs.
+/// The cost of moving a joint.
 #[derive(Clone, Copy)]
 pub(crate) enum Cost {
-    /// The square of the difference.
+    /// The squared difference.
     Distance,
-    /// Its size.
+    /// The absolute difference.
     Travel,
 }
 
 impl Cost {
-    /// What going from `seed` to `q` costs.
+    /// The cost of moving from `seed` to `q`.
     pub(crate) fn total<const N: usize>(
         self,
         q: &[f64; N],
@@ -163,7 +167,7 @@ impl Cost {
     }
 }
 
-/// Counts through the turns of one solution, the last joint fastest.
+/// Enumerates the 2 pi equivalents of one solution, the last joint fastest.
 pub(crate) struct Turns<const N: usize> {
     base: Solution<N>,
     first: [f64; N],

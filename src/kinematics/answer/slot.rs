@@ -5,36 +5,36 @@ use core::ops::Deref;
 
 use super::status::Status;
 
-/// Most slots that any structure has: a general chain of six joints has up to 16 solutions.
+/// Largest number of slots of any structure: a general chain of six joints has up to 16 solutions.
 pub const MOST_SLOTS: usize = 16;
 
-/// Number of a solution's slot, from 0: always the same for a branch of the arm.
+/// Index of a solution's slot, from 0: always the same for a branch of the arm.
 ///
-/// What a slot means is the structure's: of spherical-wrist arms it is 4 (wrist center behind axis
-/// 1) + 2 (behind the lower arm) + 1 (q5 < 0). `Robot::slot_names` has the names.
+/// The structure defines what a slot means. For spherical-wrist arms it is 4 (wrist center behind
+/// axis 1) + 2 (behind the lower arm) + 1 (q5 < 0). `Robot::slot_names` has the names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Slot(u8);
 
 impl Slot {
-    /// Of an index below [`MOST_SLOTS`].
+    /// A slot from an index below [`MOST_SLOTS`].
     #[expect(clippy::cast_possible_truncation, reason = "no structure has more than 16 slots")]
     #[inline(always)]
     pub(crate) const fn new(index: usize) -> Self {
         Self(index as u8)
     }
 
-    /// Of three signs: 4 [first] + 2 [second] + 1 [third].
+    /// A slot from three signs: 4 [first] + 2 [second] + 1 [third].
     pub(crate) fn of_bits([first, second, third]: [bool; 3]) -> Self {
         Self(4 * u8::from(first) + 2 * u8::from(second) + u8::from(third))
     }
 
-    /// The same branch with the wrist, the last of three signs, flipped or not.
+    /// The same branch with the wrist, the last of the three signs, flipped or not.
     pub(crate) const fn flipped_to(self, flipped: bool) -> Self {
         Self(self.0 & !1 | flipped as u8)
     }
 
-    /// Its number, as ABB's `cfx` counts.
+    /// Its number, as in ABB's `cfx`.
     pub(crate) fn number(self) -> i32 {
         self.0.into()
     }
@@ -65,7 +65,7 @@ impl fmt::Display for Slot {
     }
 }
 
-/// The status of every slot of a structure, in their order.
+/// The status of every slot of a structure, in slot order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SlotStatus {
     flags: [Status; MOST_SLOTS],

@@ -10,14 +10,14 @@ use crate::report::{Explanation, FreeJoint, Reach};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Solution<const N: usize> {
-    /// Joint angles [rad]: in (-pi, pi], or the full turn of it that is inside the limits.
+    /// Joint angles [rad], each in (-pi, pi] or its 2 pi equivalent inside the limits.
     #[cfg_attr(feature = "serde", serde(with = "serde_big_array::BigArray"))]
     pub q: [f64; N],
-    /// The slot.
+    /// The slot that the solution is in.
     pub slot: Slot,
-    /// Found, inside the limits or not, and the singularities that the pose stands at.
+    /// Found, inside the limits or not, and the singularities that the solution is at.
     pub status: Status,
-    /// The joint that the pose leaves free, at a singularity.
+    /// The joint that the pose leaves undetermined, at a singularity.
     pub free_joint: Option<FreeJoint>,
 }
 
@@ -28,19 +28,20 @@ impl<const N: usize> Solution<N> {
         self.status.contains(Status::WITHIN_LIMITS)
     }
 
-    /// The singularities that the pose stands at.
+    /// The singularities that the solution is at.
     #[must_use]
     pub fn singularities(&self) -> SingularityKind {
         self.status.singularities()
     }
 }
 
-/// What a slot holds.
+/// The content of a slot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Place<const N: usize> {
     /// The branch does not exist.
     Empty,
-    /// The branch is that of another slot, which holds the solution; its singularities and MERGED.
+    /// The branch coincides with that of another slot, which holds the solution. Its flags are its
+    /// singularities and MERGED.
     Merged(Status),
     Found(Solution<N>),
 }
@@ -63,7 +64,7 @@ impl<const N: usize> Place<N> {
     }
 }
 
-/// Every solution of a pose, and why there is none where there is none.
+/// Every solution of a pose or, if there is none, the reason.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solutions<const N: usize> {
     places: [Place<N>; MOST_SLOTS],
@@ -71,61 +72,61 @@ pub struct Solutions<const N: usize> {
     pub(crate) reach: Reach,
     pub(crate) pose: Pose,
     pub(crate) limits: JointLimits<N>,
-    /// Why the last selection left nothing.
+    /// The reason why the last selection is empty.
     pub(crate) emptied: Option<Explanation>,
 }
 
 impl<const N: usize> Solutions<N> {
-    /// An answer without solutions, for a structure of so many slots.
+    /// An answer without solutions, for a structure with `slot_count` slots.
     #[inline]
     pub(crate) fn none(slot_count: usize, pose: Pose, limits: JointLimits<N>) -> Self {
         let places = [Place::Empty; MOST_SLOTS];
         Self { places, slot_count, reach: Reach::Reached, pose, limits, emptied: None }
     }
 
-    /// Number of solutions, limits not regarded.
+    /// Number of solutions, inside the limits or not.
     #[must_use]
     pub fn len(&self) -> usize {
         self.iter().count()
     }
 
-    /// Whether there is none.
+    /// Whether there is no solution.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Number of slots: eight, of a general chain of six joints sixteen.
+    /// Number of slots: eight, or sixteen for a general chain of six joints.
     #[must_use]
     pub fn slot_count(&self) -> usize {
         self.slot_count
     }
 
-    /// The solutions in the order of their slots.
+    /// The solutions in slot order.
     #[must_use]
     pub fn iter(&self) -> Iter<'_, N> {
         Iter(self.places().iter())
     }
 
-    /// The solution in a slot, from 0.
+    /// The solution in a slot, from 0; `None` if the slot is empty.
     #[must_use]
     pub fn slot(&self, slot: usize) -> Option<&Solution<N>> {
         self.places().get(slot)?.found()
     }
 
-    /// What the solve says of each slot; empty flags where the branch does not exist.
+    /// The status of each slot; empty flags if the branch does not exist.
     #[must_use]
     pub fn status(&self) -> SlotStatus {
         SlotStatus::new(self.places.map(|place| place.status()), self.slot_count)
     }
 
-    /// What each slot holds.
+    /// The content of each slot.
     #[inline]
     pub(crate) fn places(&self) -> &[Place<N>] {
         &self.places[..self.slot_count]
     }
 
-    /// What the first `S` slots hold, `S` being known to the compiler.
+    /// The content of the first `S` slots, with `S` known to the compiler.
     #[inline]
     pub(crate) fn first_places<const S: usize>(&mut self) -> &mut [Place<N>] {
         const { assert!(S <= MOST_SLOTS, "an answer has room for every slot of a structure") };
@@ -161,13 +162,13 @@ impl<const N: usize> Solutions<N> {
         &self.pose
     }
 
-    /// The limits that the solutions were held against.
+    /// The joint limits that the solutions were checked against.
     #[must_use]
     pub fn limits(&self) -> &JointLimits<N> {
         &self.limits
     }
 
-    /// The outcome in a sentence.
+    /// Summarize the outcome in a sentence.
     #[must_use]
     pub fn explain(&self) -> Explanation {
         if let Some(explanation) = self.emptied {
@@ -181,7 +182,7 @@ impl<const N: usize> Solutions<N> {
         if inside > 0 {
             return Explanation::Found { solutions, inside };
         }
-        // The solution whose worst joint, or linkage, is the least outside.
+        // The solution whose worst joint, or linkage, exceeds its limits least.
         let worst = |solution: &Solution<N>| {
             (0..N)
                 .map(|joint| (Some(joint + 1), self.limits.excess(joint, solution.q[joint])))
@@ -200,7 +201,7 @@ impl<const N: usize> Solutions<N> {
     }
 }
 
-/// The solutions of an answer in the order of their slots.
+/// Iterator over the solutions of an answer, in slot order.
 #[derive(Clone, Debug)]
 pub struct Iter<'a, const N: usize>(core::slice::Iter<'a, Place<N>>);
 

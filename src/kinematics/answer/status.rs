@@ -1,7 +1,7 @@
-//! What a solve says of one slot.
+//! The status of one slot.
 
 bitflags::bitflags! {
-    /// What a solve says of one slot.
+    /// The status of one slot.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
     #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
     pub struct Status: u8 {
@@ -9,14 +9,15 @@ bitflags::bitflags! {
         const FOUND = 1;
         /// The solution is inside the joint limits.
         const WITHIN_LIMITS = 2;
-        /// sin q5 = 0: axes 4 and 6 of a spherical wrist are one, only q4 + q6 or q4 - q6 is
-        /// determined; axis 6 of a three-parallel arm is parallel to axes 2 to 4. Of seven axes:
+        /// sin q5 = 0. Axes 4 and 6 of a spherical wrist coincide: only q4 + q6 or q4 - q6 is
+        /// determined. For a three-parallel arm, axis 6 is parallel to axes 2 to 4. For seven axes,
         /// the shoulder is in the plane of axes 5 and 6.
         const WRIST = 4;
         /// The arm is stretched or folded: both elbow branches coincide.
         const ELBOW = 8;
         /// The wrist center is on axis 1: q1 is not determined. With a lateral offset: on the edge
-        /// of its cylinder, where front and back meet. Of seven axes: axes 1 and 3 are one.
+        /// of its cylinder, where the front and back branch meet. For seven axes: axes 1 and 3
+        /// coincide.
         const SHOULDER = 16;
         /// The slot is empty because its solution coincides with that of another slot at a
         /// singularity.
@@ -49,7 +50,7 @@ impl Status {
 }
 
 impl From<SingularityKind> for Status {
-    fn from(kinds: SingularityKind) -> Self {
-        Self::from_bits_retain(kinds.bits())
+    fn from(singularities: SingularityKind) -> Self {
+        Self::from_bits_retain(singularities.bits())
     }
 }

@@ -1,5 +1,5 @@
-//! Frames in lanes, as their axes and origins: what a product of link transforms updates an axis at
-//! a time.
+//! Frames in lanes, as axes and origins: a product of link transforms updates them one axis at a
+//! time.
 
 use nalgebra::{Matrix3, Rotation3, Translation3, Vector3};
 
@@ -8,7 +8,7 @@ use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::constant_sin_cos;
 use crate::lanes::mul_add;
 
-/// The constants of one row, with the sines taken once.
+/// The constants of one table row, with the sines computed once.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(in crate::kinematics) struct Link {
     pub(in crate::kinematics) sin_alpha: f64,
@@ -124,7 +124,7 @@ impl<const W: usize> Axes<W> {
         )
     }
 
-    /// Row-major elements of the pose in each lane, as many as there are rows.
+    /// Write the pose of each lane as row-major elements, for as many lanes as there are rows.
     #[inline(always)]
     pub(crate) fn write(&self, rows: &mut [[f64; 16]]) {
         for (lane, row) in rows.iter_mut().enumerate() {

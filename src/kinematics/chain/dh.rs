@@ -10,7 +10,7 @@ use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::{constant_sin_cos, snapped};
 use crate::kinematics::thresholds::MOST_SNAP;
 
-/// One row of a Denavit-Hartenberg table; the convention is told by the table that holds it.
+/// One row of a Denavit-Hartenberg table; the table that holds it determines the convention.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DhRow {
@@ -20,7 +20,7 @@ pub struct DhRow {
     pub a: f64,
     /// Offset along z [m].
     pub d: f64,
-    /// Angle about z at which the joint reads zero [rad].
+    /// Angle about z where the joint angle is zero [rad].
     pub theta: f64,
 }
 
@@ -37,7 +37,7 @@ impl DhRow {
         [self.alpha, self.a, self.d, self.theta]
     }
 
-    /// Lengths stay: text holds them exactly, and no right angle.
+    /// Lengths are not changed: text represents them exactly, unlike right angles.
     fn snapped(self, snap: f64) -> Self {
         Self { alpha: snapped(self.alpha, snap), theta: snapped(self.theta, snap), ..self }
     }
@@ -50,10 +50,10 @@ impl DhRow {
 pub struct Mdh<const N: usize> {
     /// Fixed transform before the first row.
     pub base: Pose,
-    /// One row a joint.
+    /// One row per joint.
     #[cfg_attr(feature = "serde", serde(with = "serde_big_array::BigArray"))]
     pub rows: [DhRow; N],
-    /// Fixed transform behind the last row.
+    /// Fixed transform after the last row.
     pub flange: Pose,
 }
 
@@ -64,16 +64,16 @@ pub struct Mdh<const N: usize> {
 pub struct Sdh<const N: usize> {
     /// Fixed transform before the first row.
     pub base: Pose,
-    /// One row a joint.
+    /// One row per joint.
     #[cfg_attr(feature = "serde", serde(with = "serde_big_array::BigArray"))]
     pub rows: [DhRow; N],
-    /// Fixed transform behind the last row.
+    /// Fixed transform after the last row.
     pub flange: Pose,
 }
 
 impl<const N: usize> Mdh<N> {
-    /// The table with each alpha and theta that is within `snap` of a multiple of 90 deg [rad] made
-    /// exact: 1.5708 is a right angle then.
+    /// Return the table with each alpha and theta within `snap` [rad] of a multiple of 90 deg made
+    /// exact, so that 1.5708 becomes a right angle.
     ///
     /// # Errors
     ///
@@ -86,7 +86,7 @@ impl<const N: usize> Mdh<N> {
 }
 
 impl<const N: usize> Sdh<N> {
-    /// As [`Mdh::snapped`].
+    /// Return the table with its angles made exact as by [`Mdh::snapped`].
     ///
     /// # Errors
     ///
@@ -98,7 +98,8 @@ impl<const N: usize> Sdh<N> {
     }
 }
 
-/// How far an angle may be from a multiple of 90 deg and still be made one: 0 to [`MOST_SNAP`].
+/// Check `snap`, how far an angle may be from a multiple of 90 deg to become one: 0 to
+/// [`MOST_SNAP`].
 pub(crate) fn check_snap(value: f64) -> Result<(), Error> {
     if (0.0..=MOST_SNAP).contains(&value) {
         Ok(())
@@ -108,8 +109,8 @@ pub(crate) fn check_snap(value: f64) -> Result<(), Error> {
 }
 
 impl<const N: usize> From<Sdh<N>> for Mdh<N> {
-    /// The twist and length of a standard row stand behind its joint, those of a modified row
-    /// before it: they move on by one row, and what the last row leaves over joins the flange.
+    /// The twist and length of a standard row follow its joint, those of a modified row precede it:
+    /// they shift by one row, and those of the last row join the flange.
     fn from(sdh: Sdh<N>) -> Self {
         let (mut alpha, mut a) = (0.0, 0.0);
         let rows = sdh.rows.map(|row| {

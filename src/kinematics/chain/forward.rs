@@ -88,7 +88,7 @@ impl<const N: usize> Kernel for OneFrames<'_, N> {
     }
 }
 
-/// The tool's frames, from the frame before the first link on.
+/// The tool's frames, starting from the frame before the first link.
 #[inline(always)]
 fn tool<const N: usize, const W: usize, const FUSED: bool>(
     chain: &Chain<N>,
@@ -106,8 +106,7 @@ fn tool<const N: usize, const W: usize, const FUSED: bool>(
 /// A column of lanes for each joint.
 pub(in crate::kinematics) type Joints<const N: usize> = [Column; N];
 
-/// Sines and cosines of the table's angles of up to a block of rows, which stand in the lanes.
-/// Written in place: returned, they would be copied from function to function.
+/// Sines and cosines of the table's angles for up to a block of rows, one row per lane.
 #[inline(always)]
 pub(in crate::kinematics) fn sines_of_rows<const N: usize, const FUSED: bool>(
     chain: &Chain<N>,
@@ -124,8 +123,8 @@ pub(in crate::kinematics) fn sines_of_rows<const N: usize, const FUSED: bool>(
     sines::<N, FUSED>(&angles, sin, cos);
 }
 
-/// Sines and cosines of the joint angles of one arm, calculated side by side; one lane of each
-/// comes out.
+/// Sines and cosines of the joint angles of one arm, computed side by side; one lane of each is
+/// returned.
 #[inline(always)]
 pub(in crate::kinematics) fn sines_of_joints<const N: usize, const FUSED: bool>(
     q: &[f64; N],
@@ -160,7 +159,7 @@ fn sines<const N: usize, const FUSED: bool>(
     }
 }
 
-/// Angles of more turns than the lanes can count.
+/// Angles with more turns than the lanes can count.
 #[cold]
 fn take_far_turns(angles: &[f64], sin: &mut [f64], cos: &mut [f64]) {
     for ((angle, sin), cos) in

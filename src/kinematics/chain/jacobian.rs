@@ -96,8 +96,8 @@ impl<const N: usize> Kernel for OneJacobian<'_, N> {
     }
 }
 
-/// The Jacobian's rows, for each of them the joints' columns: `z_i x (p_tool - p_i)` over `z_i` in
-/// the base.
+/// The rows of the Jacobian, each with a column per joint: `z_i x (p_tool - p_i)` over `z_i`, in
+/// the base frame.
 #[inline(always)]
 pub(in crate::kinematics) fn jacobian_rows<const N: usize, const W: usize, const FUSED: bool>(
     chain: &Chain<N>,
@@ -115,8 +115,8 @@ pub(in crate::kinematics) fn jacobian_rows<const N: usize, const W: usize, const
     let mut rows = [[[0.0; W]; N]; 6];
     for (joint, frame) in frames.iter().enumerate() {
         if W > 1 {
-            // No joint waits for another here: without this the compiler takes them for the lanes,
-            // and gathers and scatters.
+            // Keeps the loop over joints scalar: without this the compiler vectorizes over joints
+            // instead of lanes, with gathers and scatters.
             core::hint::black_box(());
         }
         let mut linear = cross::<W, FUSED>(&frame.z, &tool.origin, &frame.origin);
@@ -135,8 +135,8 @@ pub(in crate::kinematics) fn jacobian_rows<const N: usize, const W: usize, const
     rows
 }
 
-/// Where q3 is told from the base, q2 turns the serial joint 3 back: its column loses that of joint
-/// 3 (eq. 26).
+/// With q3 measured from the base, q2 turns the serial joint 3 back: the column of joint 3 is
+/// subtracted from that of joint 2 (eq. 26).
 #[inline(always)]
 fn take_coupling_back<const N: usize, const W: usize>(rows: &mut [[[f64; W]; N]; 6]) {
     for row in rows {
@@ -167,7 +167,7 @@ fn cross<const W: usize, const FUSED: bool>(
     product
 }
 
-/// Vectors of the base as the tool sees them.
+/// Vectors in the base frame, expressed in the tool frame.
 #[inline(always)]
 fn seen_from<const W: usize, const FUSED: bool>(tool: &Axes<W>, v: &Vectors<W>) -> Vectors<W> {
     [dot::<W, FUSED>(&tool.x, v), dot::<W, FUSED>(&tool.y, v), dot::<W, FUSED>(&tool.z, v)]

@@ -1,4 +1,4 @@
-//! A modified Denavit-Hartenberg table from where the joint axes stand.
+//! A modified Denavit-Hartenberg table from the lines of the joint axes.
 //!
 //! Reference: Craig, Introduction to Robotics, 2005, section 3.4: x of frame `i` runs along the
 //! common normal of axes `i` and `i + 1`.
@@ -15,17 +15,17 @@ use crate::kinematics::chain::dh::{DhRow, Mdh};
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::thresholds::{FORM_TOLERANCE, MOST_LENGTH};
 
-/// Cosine from which a direction is too near an axis to be turned square to it [1]: of two
-/// directions at right angles one is below.
+/// Cosine above which a direction is too near an axis to be made perpendicular to it [1]: of two
+/// perpendicular directions, one is below.
 const ALONG: f64 = 0.9;
 
 /// Axis of a revolute joint at zero joint angles, in the base frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct JointAxis {
-    /// The direction about which the joint turns; its length does not matter.
+    /// The direction about which the joint turns; its length has no effect.
     pub direction: [f64; 3],
-    /// A point of the axis [m].
+    /// A point on the axis [m].
     pub point: [f64; 3],
 }
 
@@ -33,14 +33,14 @@ impl<const N: usize> Mdh<N> {
     /// The table of an arm from its joint axes and the pose of its tip, all at zero joint angles
     /// and in the base frame.
     ///
-    /// z of frame `i` is axis `i` with its direction, x runs along the common normal to the next
-    /// axis, turned by less than a right angle from the x before it where there is a choice.
-    /// Between parallel axes `d` is zero. An axis 1 parallel to z of the base stands in the first
-    /// row, but for its distance along y; any other stands in `base`. The last row ends at the
-    /// height of the tip, `flange` has the rest.
+    /// z of frame `i` is axis `i` with its direction. x runs along the common normal to the next
+    /// axis, less than a right angle from the previous x where there is a choice. Between parallel
+    /// axes `d` is zero. An axis 1 parallel to z of the base is in the first row, except for its
+    /// distance along y; any other is in `base`. The last row ends at the height of the tip;
+    /// `flange` has the rest.
     ///
-    /// Axes within 1e-9 rad of parallel are taken as parallel, within 1e-9 m of meeting as meeting:
-    /// the common normal of nearly parallel axes is far away.
+    /// Axes within 1e-9 rad of parallel are treated as parallel, and within 1e-9 m of intersecting
+    /// as intersecting: the common normal of nearly parallel axes is far away.
     ///
     /// # Errors
     ///
@@ -90,17 +90,17 @@ impl<const N: usize> Mdh<N> {
 struct Line {
     /// Unit direction.
     z: Vector3<f64>,
-    /// A point of it [m].
+    /// A point on it [m].
     point: Vector3<f64>,
 }
 
-/// The common normal of an axis and the next: the part `Rx(alpha) Tx(a)` of the next row.
+/// The common normal of an axis and the next one: the part `Rx(alpha) Tx(a)` of the next row.
 struct Normal {
     /// Unit direction.
     x: Vector3<f64>,
-    /// Where it leaves the axis, from the axis' point [m].
+    /// Where it leaves the axis, measured from the axis' point [m].
     from: f64,
-    /// Where it meets the next axis, from that axis' point [m].
+    /// Where it meets the next axis, measured from that axis' point [m].
     to: f64,
     a: f64,
     alpha: f64,
@@ -123,7 +123,7 @@ impl Line {
         Ok(Self { z, point: Vector3::from(given.point) })
     }
 
-    /// What stands before the first row, and the twist and length of that row.
+    /// The transform before the first row, and the twist and length of that row.
     fn root(&self) -> (Pose, Normal) {
         let Self { z, point } = self;
         if z.x.hypot(z.y) > FORM_TOLERANCE {
@@ -147,8 +147,8 @@ impl Line {
         )
     }
 
-    /// The common normal to the next axis, `before` being the one that comes from the axis before.
-    /// A sum with zero has no minus zero.
+    /// The common normal to the next axis; `before` is the one from the previous axis. Adding zero
+    /// removes minus zero.
     fn normal_to(&self, next: &Self, before: &Normal) -> Normal {
         let between = next.point - self.point;
         let cross = self.z.cross(&next.z);
@@ -168,8 +168,8 @@ impl Line {
         }
     }
 
-    /// Of the many normals of parallel axes the one where the normal before it arrives: `d` is
-    /// zero. Where both axes are one, x goes on.
+    /// Parallel axes have many common normals: choose the one that makes `d` zero. For coincident
+    /// axes, keep x.
     fn normal_to_parallel(
         &self,
         next: &Self,
@@ -191,21 +191,21 @@ impl Line {
         }
     }
 
-    /// 1 or -1: which way x goes along a normal. Less than a right angle from the x before it; at a
-    /// right angle towards the next axis; where the axes meet, a right angle on.
+    /// The sign of x along a normal, 1 or -1: less than a right angle from the previous x; at a
+    /// right angle, towards the next axis; where the axes intersect, a right angle on.
     fn facing(&self, normal: &Vector3<f64>, distance: f64, before: &Normal) -> f64 {
         let choices = [normal.dot(&before.x), distance, before.x.cross(normal).dot(&self.z)];
-        let told = choices.into_iter().find(|choice| choice.abs() > FORM_TOLERANCE);
-        if told.is_some_and(|choice| choice < 0.0) { -1.0 } else { 1.0 }
+        let chosen = choices.into_iter().find(|choice| choice.abs() > FORM_TOLERANCE);
+        if chosen.is_some_and(|choice| choice < 0.0) { -1.0 } else { 1.0 }
     }
 
-    /// The last frame stands at the height of the tip, with its x where that can be.
+    /// The last frame is at the height of the tip, with the tip's x where possible.
     fn normal_to_tip(&self, tip: &Pose) -> Normal {
         let from = (tip.translation.vector - self.point).dot(&self.z);
         Normal { x: across(&self.z, tip.rotation.matrix()), from, ..Normal::NONE }
     }
 
-    /// What the last row leaves over.
+    /// The transform that remains after the last row.
     fn flange(&self, last: &Normal, tip: &Pose) -> Pose {
         let t_base_last = frame(&last.x, &self.z);
         let aside =
@@ -219,30 +219,30 @@ impl Line {
 
 /// The direction with length one; exact along x, y and z.
 pub(crate) fn unit(direction: [f64; 3]) -> Option<Vector3<f64>> {
-    // Scaled first: squares of very small and very large numbers have no digits.
+    // Scaled first: squares of very small and very large numbers lose their digits.
     let largest = direction.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
     let scaled = Vector3::from(direction.map(|value| value / largest));
     (largest > 0.0).then(|| scaled / scaled.norm())
 }
 
-/// The length, or zero where it is none [m].
+/// The length, or zero if it is within the tolerance [m].
 fn nearly(length: f64) -> f64 {
     if length.abs() > FORM_TOLERANCE { length } else { 0.0 }
 }
 
 /// The angle about `z` from one direction to another, in (-pi, pi] [rad].
 fn turn(from: &Vector3<f64>, to: &Vector3<f64>, z: &Vector3<f64>) -> f64 {
-    // Minus zero would make minus pi of a half turn.
+    // Minus zero would turn a half turn into minus pi.
     (from.cross(to).dot(z) + 0.0).atan2(from.dot(to))
 }
 
-/// The unit direction next to `x` at right angles to `z`.
+/// The unit direction perpendicular to `z` that is nearest to `x`.
 fn square_to(z: &Vector3<f64>, x: &Vector3<f64>) -> Vector3<f64> {
     let square = x - z * x.dot(z);
     square / square.norm()
 }
 
-/// x of a rotation turned square to `z`; its y where x runs along `z`.
+/// x of a rotation made perpendicular to `z`; its y where x runs along `z`.
 fn across(z: &Vector3<f64>, rotation: &Matrix3<f64>) -> Vector3<f64> {
     let [x, y] = [0, 1].map(|column| Vector3::from(rotation.column(column)));
     square_to(z, if x.dot(z).abs() < ALONG { &x } else { &y })

@@ -1,4 +1,4 @@
-//! Joint limits, and the full turns of an angle inside them.
+//! Joint limits, and the 2 pi equivalents of an angle inside them.
 
 use core::f64::consts::{PI, TAU};
 
@@ -8,6 +8,8 @@ use crate::lanes::{nearest_whole, whole_above, whole_below};
 
 /// Lower and upper limit of each joint [rad]; infinite where a joint has none.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "StoredLimits<N>", into = "StoredLimits<N>"))]
 pub struct JointLimits<const N: usize> {
     lower: [f64; N],
     upper: [f64; N],
@@ -74,12 +76,12 @@ impl<const N: usize> JointLimits<N> {
         Ok(Self { linkage, ..self })
     }
 
-    /// The same limits with the linkage's of others.
+    /// The same limits with the linkage limits of `others`.
     pub(crate) fn with_linkage_of(self, others: &Self) -> Self {
         Self { linkage: others.linkage, ..self }
     }
 
-    /// (lower, upper) of q3 - q2 [rad], for an arm whose linkage has limits that are known.
+    /// (lower, upper) of q3 - q2 [rad]; `None` if the arm has no linkage or its limits are unknown.
     #[must_use]
     pub fn linkage(&self) -> Option<[f64; 2]> {
         self.linkage
@@ -91,7 +93,7 @@ impl<const N: usize> JointLimits<N> {
         core::array::from_fn(|i| [self.lower[i], self.upper[i]])
     }
 
-    /// Those of the coupled twin: the limit of joint 3 is the linkage's.
+    /// The limits of the coupled arm: the limit of joint 3 becomes that of the linkage.
     pub(crate) fn coupled(self) -> Self {
         self.twin(
             1.0,
@@ -100,7 +102,7 @@ impl<const N: usize> JointLimits<N> {
         )
     }
 
-    /// Those of the serial twin: the limit of joint 3 is the linkage's, where that is known.
+    /// The limits of the uncoupled arm: the linkage limit, where known, becomes that of joint 3.
     pub(crate) fn uncoupled(self) -> Self {
         let mut twin = self.twin(-1.0, None);
         if let Some([lower, upper]) = self.linkage {
@@ -109,18 +111,18 @@ impl<const N: usize> JointLimits<N> {
         twin
     }
 
-    /// With joint 3 wherever `q3 + sign * q2` may be.
+    /// With joint 3 limited to the range of `q3 + sign * q2`.
     fn twin(mut self, sign: f64, linkage: Option<[f64; 2]>) -> Self {
         let (low, high) = (sign * self.lower[1], sign * self.upper[1]);
         let (lower, upper) = (self.lower[2] + low.min(high), self.upper[2] + low.max(high));
-        // What is too large to calculate with is no limit.
+        // A bound that exceeds [`MOST_ANGLE`] is no limit.
         self.lower[2] = if lower < -MOST_ANGLE { f64::NEG_INFINITY } else { lower };
         self.upper[2] = if upper > MOST_ANGLE { f64::INFINITY } else { upper };
         Self { linkage, ..self }
     }
 
-    /// These limits, and a narrower range (lower, upper) of some joints, from 0 [rad]; `None` where
-    /// they leave a joint nothing.
+    /// These limits, narrowed to (lower, upper) for some joints, from 0 [rad]; `None` if that
+    /// leaves a joint without a range.
     pub(crate) fn narrowed(mut self, ranges: &[(usize, [f64; 2])]) -> Option<Self> {
         for (joint, [lower, upper]) in ranges {
             let (low, high) = (self.lower[*joint].max(*lower), self.upper[*joint].min(*upper));
@@ -139,14 +141,14 @@ impl<const N: usize> JointLimits<N> {
             && self.linkage_excess(q) == 0.0
     }
 
-    /// How far q3 - q2, at its best turn, is outside the limits of the linkage, beyond
+    /// How far q3 - q2, at its best 2 pi equivalent, exceeds the linkage limits, beyond
     /// [`LIMIT_TOLERANCE`] [rad]; zero inside.
     pub(crate) fn linkage_excess(&self, q: &[f64; N]) -> f64 {
         let excess = self.linkage_overrun(q);
         if excess <= LIMIT_TOLERANCE { 0.0 } else { excess }
     }
 
-    /// How far q3 - q2, at its best turn, is outside the limits of the linkage [rad]; negative
+    /// How far q3 - q2, at its best 2 pi equivalent, exceeds the linkage limits [rad]; negative
     /// inside.
     pub(crate) fn linkage_overrun(&self, q: &[f64; N]) -> f64 {
         let (Some([lower, upper]), [_, q2, q3, ..]) = (self.linkage, &q[..]) else {
@@ -156,7 +158,7 @@ impl<const N: usize> JointLimits<N> {
     }
 
     /// Whether an angle of joint `joint` (from 0) is inside its limits, within [`LIMIT_TOLERANCE`].
-    /// Lanes compare in the same way.
+    /// The lanes use the same comparison.
     fn holds(&self, joint: usize, angle: f64) -> bool {
         angle >= self.lower[joint] - LIMIT_TOLERANCE && angle <= self.upper[joint] + LIMIT_TOLERANCE
     }
@@ -166,13 +168,13 @@ impl<const N: usize> JointLimits<N> {
         (self.lower[joint] - angle).max(angle - self.upper[joint]).max(0.0)
     }
 
-    /// How far an angle of joint `joint` (from 0), at its best turn, is outside its limits [rad];
-    /// negative inside.
+    /// How far an angle of joint `joint` (from 0), at its best 2 pi equivalent, exceeds its limits
+    /// [rad]; negative inside.
     pub(crate) fn overrun(&self, joint: usize, angle: f64) -> f64 {
         overrun(self.lower[joint], self.upper[joint], angle)
     }
 
-    /// [`Self::overrun`] of the joint that is outside the most.
+    /// [`Self::overrun`] of the joint that exceeds its limits most.
     pub(crate) fn worst_overrun(&self, q: &[f64; N]) -> f64 {
         let linkage = self.linkage_overrun(q);
         q.iter()
@@ -181,8 +183,8 @@ impl<const N: usize> JointLimits<N> {
             .fold(linkage, f64::max)
     }
 
-    /// The turn of each angle that stands for it in a solution (eq. 20): the angle in (-pi, pi],
-    /// or, where that is outside the limits and a full turn of it is not, the first such turn.
+    /// Wrap each angle into its limits (eq. 20): the angle in (-pi, pi] or, if that is outside the
+    /// limits and a 2 pi equivalent is inside, the first such.
     pub(crate) fn wrap(&self, q: [f64; N]) -> [f64; N] {
         core::array::from_fn(|joint| {
             if self.holds(joint, q[joint]) {
@@ -192,9 +194,9 @@ impl<const N: usize> JointLimits<N> {
         })
     }
 
-    /// The turn of `angle` inside the limits that is nearest to `seed`.
+    /// The 2 pi equivalent of `angle` inside the limits that is nearest to `seed`.
     pub(crate) fn turn_nearest(&self, joint: usize, angle: f64, seed: f64) -> Option<f64> {
-        // Without a division where most angles are.
+        // The common case, without a division.
         if (seed - angle).abs() < PI && self.holds(joint, angle) {
             return Some(angle);
         }
@@ -203,8 +205,8 @@ impl<const N: usize> JointLimits<N> {
         Some(if turn == 0.0 { angle } else { angle + TAU * turn })
     }
 
-    /// Zero where the limits hold it, and the middle of them where they do not [rad]: what a free
-    /// joint takes by itself.
+    /// The angle that an undetermined joint takes without a seed [rad]: zero if that is inside the
+    /// limits, otherwise their middle.
     pub(crate) fn rest(&self) -> [f64; N] {
         core::array::from_fn(|joint| {
             let middle = 0.5 * (self.lower[joint] + self.upper[joint]);
@@ -212,21 +214,21 @@ impl<const N: usize> JointLimits<N> {
         })
     }
 
-    /// Every angle at its turn inside the limits that is nearest to `seed`; `None` where one has no
-    /// such turn, or the linkage is outside its limits, which no turn changes.
-    pub(crate) fn turned_to(&self, q: &[f64; N], seed: &[f64; N]) -> Option<[f64; N]> {
+    /// Every angle at its 2 pi equivalent inside the limits that is nearest to `seed`; `None` if an
+    /// angle has none, or if the linkage is outside its limits, which no turn changes.
+    pub(crate) fn wrapped_near(&self, q: &[f64; N], seed: &[f64; N]) -> Option<[f64; N]> {
         if self.linkage_excess(q) > 0.0 {
             return None;
         }
-        let mut turned = *q;
-        for (joint, angle) in turned.iter_mut().enumerate() {
+        let mut wrapped = *q;
+        for (joint, angle) in wrapped.iter_mut().enumerate() {
             *angle = self.turn_nearest(joint, *angle, seed[joint])?;
         }
-        Some(turned)
+        Some(wrapped)
     }
 
-    /// [`Self::turned_to`], of which a joint that is outside by `slack` [rad] at most is put on the
-    /// limit; the linkage is not looked at.
+    /// [`Self::wrapped_near`], with a joint that is outside by at most `slack` [rad] put on the
+    /// limit; the linkage is not checked.
     pub(crate) fn clamped_to(&self, q: &[f64; N], seed: &[f64; N], slack: f64) -> Option<[f64; N]> {
         let mut clamped = *q;
         for (joint, angle) in clamped.iter_mut().enumerate() {
@@ -241,15 +243,15 @@ impl<const N: usize> JointLimits<N> {
         Some(clamped)
     }
 
-    /// First and last number of turns that, added to `angle`, keep it inside the limits; `None`
-    /// where no number does.
+    /// First and last number of turns that keep `angle` inside the limits when added to it; `None`
+    /// if no number does.
     pub(crate) fn turns(&self, joint: usize, angle: f64) -> Option<(f64, f64)> {
         let first = whole_above((self.lower[joint] - LIMIT_TOLERANCE - angle) / TAU);
         let last = whole_below((self.upper[joint] + LIMIT_TOLERANCE - angle) / TAU);
         (first <= last).then_some((first, last))
     }
 
-    /// [`Self::turns`], of which a joint without limits has only the angle itself.
+    /// [`Self::turns`], restricted to the angle itself for a joint without limits.
     pub(crate) fn countable_turns(&self, joint: usize, angle: f64) -> Option<(f64, f64)> {
         self.turns(joint, angle).map(|(first, last)| {
             if first.is_finite() && last.is_finite() { (first, last) } else { (0.0, 0.0) }
@@ -257,7 +259,7 @@ impl<const N: usize> JointLimits<N> {
     }
 }
 
-/// Limits that are numbers, or none: minus infinity below, infinity above.
+/// Check limits, each a number or infinite: minus infinity below, infinity above.
 fn check(fields: [&'static str; 2], index: usize, limits: [f64; 2]) -> Result<(), Error> {
     for ((field, value), none) in
         fields.into_iter().zip(limits).zip([f64::NEG_INFINITY, f64::INFINITY])
@@ -272,15 +274,47 @@ fn check(fields: [&'static str; 2], index: usize, limits: [f64; 2]) -> Result<()
     Ok(())
 }
 
-/// How far an angle, at its best turn, is outside limits [rad]; negative inside.
+/// How far an angle, at its best 2 pi equivalent, exceeds its limits [rad]; negative inside.
 fn overrun(lower: f64, upper: f64, angle: f64) -> f64 {
     let middle = 0.5 * (lower + upper);
-    // A turn is always inside where one side has no limit.
+    // With one side unlimited, some 2 pi equivalent is always inside.
     if !middle.is_finite() {
         return f64::NEG_INFINITY;
     }
     let angle = angle + TAU * nearest_whole((middle - angle) / TAU);
     (lower - angle).max(angle - upper)
+}
+
+/// Joint limits as serde reads and writes them: `None` for no limit, as text has no infinity.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(rename = "JointLimits")]
+struct StoredLimits<const N: usize> {
+    /// (lower, upper) of each joint [rad].
+    #[serde(with = "serde_big_array::BigArray")]
+    joints: [[Option<f64>; 2]; N],
+    /// (lower, upper) of the linkage [rad].
+    linkage: Option<[Option<f64>; 2]>,
+}
+
+#[cfg(feature = "serde")]
+impl<const N: usize> From<JointLimits<N>> for StoredLimits<N> {
+    fn from(limits: JointLimits<N>) -> Self {
+        let stored = |pair: [f64; 2]| pair.map(|limit| limit.is_finite().then_some(limit));
+        Self { joints: limits.to_array().map(stored), linkage: limits.linkage().map(stored) }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<const N: usize> TryFrom<StoredLimits<N>> for JointLimits<N> {
+    type Error = Error;
+
+    fn try_from(stored: StoredLimits<N>) -> Result<Self, Error> {
+        let limits = |[lower, upper]: [Option<f64>; 2]| {
+            [lower.unwrap_or(f64::NEG_INFINITY), upper.unwrap_or(f64::INFINITY)]
+        };
+        Self::new(stored.joints.map(limits))?.with_linkage(stored.linkage.map(limits))
+    }
 }
 
 #[cfg(test)]
@@ -292,10 +326,10 @@ mod tests {
     }
 
     #[test]
-    fn wrapped_angles_are_inside_where_a_turn_is() {
-        let settled = limits().wrap([1.0, 2.5]);
-        assert_eq!(settled[0], 1.0);
-        assert!((settled[1] - (2.5 - TAU)).abs() < 1e-15);
+    fn an_angle_is_wrapped_inside_the_limits_if_an_equivalent_is_inside() {
+        let wrapped = limits().wrap([1.0, 2.5]);
+        assert_eq!(wrapped[0], 1.0);
+        assert!((wrapped[1] - (2.5 - TAU)).abs() < 1e-15);
         assert_eq!(limits().wrap([1.0, 1.5])[1], 1.5);
     }
 

@@ -44,7 +44,8 @@ impl<const N: usize> Chain<N> {
         chain
     }
 
-    /// The same chain standing at `t_world_base`; poses and Jacobians are then in the world frame.
+    /// The same chain with its base at `t_world_base`; poses and Jacobians are then in the world
+    /// frame.
     #[must_use]
     pub fn with_base(mut self, t_world_base: Pose) -> Self {
         self.t_world_base = t_world_base;
@@ -52,7 +53,7 @@ impl<const N: usize> Chain<N> {
         self
     }
 
-    /// The same chain carrying a tool whose center point stands at `t_flange_tool`.
+    /// The same chain with its tool center point at `t_flange_tool`.
     #[must_use]
     pub fn with_tool(mut self, t_flange_tool: Pose) -> Self {
         self.t_flange_tool = t_flange_tool;
@@ -60,8 +61,8 @@ impl<const N: usize> Chain<N> {
         self
     }
 
-    /// The same chain with the joint angles of a controller that couples axes 2 and 3, or with its
-    /// own.
+    /// The same chain with the joint angles of a controller that couples axes 2 and 3, or with the
+    /// angles of the serial chain.
     #[must_use]
     pub fn with_coupling(mut self, coupled: bool) -> Self {
         self.coupled = coupled;
@@ -107,12 +108,12 @@ impl<const N: usize> Chain<N> {
         &self.links
     }
 
-    /// What stands before the first link.
+    /// The transform before the first link.
     pub(in crate::kinematics) fn first(&self) -> &Pose {
         &self.t_world_first
     }
 
-    /// What stands behind the last link.
+    /// The transform after the last link.
     pub(in crate::kinematics) fn last(&self) -> &Pose {
         &self.t_last_tool
     }

@@ -24,38 +24,38 @@ use crate::kinematics::thresholds::{
 use crate::report::Explanation;
 use crate::report::FreeJoint;
 
-/// How often a segment of the path is halved in search of a continuous way through it: to a
-/// millionth of it.
+/// Number of times that a segment of the path is bisected in search of a continuous way through it:
+/// down to a millionth of it.
 const HALVINGS: u32 = 20;
 
-/// A place where the joints cannot follow the path without a jump.
+/// A pose of the path where the joints cannot follow without a jump.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Break {
-    /// Index of the pose that is not met, or at which the joints arrive by a jump.
+    /// Index of the pose that is not reached, or that the joints reach by a jump.
     pub pose_index: usize,
-    /// Why.
+    /// The cause.
     pub reason: BreakReason,
 }
 
-/// Why the joints cannot follow.
+/// The reason why the joints cannot follow the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum BreakReason {
     /// No solution inside the limits.
     Unreachable(Explanation),
-    /// A joint must turn while the tool stands still.
+    /// A joint must turn while the tool does not move.
     Jump {
         /// The joint, from 1.
         joint: usize,
-        /// By how much it turns [rad].
+        /// The angle by which it turns [rad].
         by: f64,
-        /// The singularities at which it does; empty where a joint limit is the cause.
+        /// The singularities where it turns; empty if a joint limit is the cause.
         kinds: SingularityKind,
     },
-    /// No joints inside the limits bring the tool's center point there with the wrist, or axis 4,
-    /// held as the policy holds it.
+    /// No joint vector inside the limits brings the tool center point there with the wrist, or axis
+    /// 4, locked as the singularity mode requires.
     Locked,
-    /// The policy stops at a wrist singularity.
+    /// The singularity mode stops at a wrist singularity.
     Stopped {
         /// Joint 5 [rad].
         q5: f64,
@@ -92,21 +92,21 @@ impl fmt::Display for Break {
     }
 }
 
-/// Follows a path pose by pose, each time with the solution that continues the last. Allocates
-/// nothing.
+/// Follows a path pose by pose, each time with the solution that continues the previous one. Does
+/// not allocate.
 #[derive(Clone, Debug)]
 pub struct Follower<'a> {
     robot: &'a Robot<6>,
     weights: [f64; 6],
-    /// The pose of the last step.
+    /// The pose of the previous step.
     last: Option<Pose>,
     q: [f64; 6],
-    /// The joints' step before: where the path is heading.
+    /// The previous step of the joints: where the path is heading.
     velocity: [f64; 6],
 }
 
 impl<'a> Follower<'a> {
-    /// A follower that stands at `seed` [rad].
+    /// A follower that starts at `seed` [rad].
     ///
     /// # Errors
     ///
@@ -117,13 +117,13 @@ impl<'a> Follower<'a> {
         Ok(Self { robot, weights: *weights, last: None, q: *seed, velocity: [0.0; 6] })
     }
 
-    /// Goes on from `q` [rad] at `pose`.
-    pub(crate) fn stand_at(&mut self, pose: &Pose, q: [f64; 6]) {
+    /// Continue from `q` [rad] at `pose`.
+    pub(crate) fn continue_from(&mut self, pose: &Pose, q: [f64; 6]) {
         (self.last, self.q, self.velocity) = (Some(*pose), q, [0.0; 6]);
     }
 
-    /// The joints of the next pose of the path [rad], and why they jumped when they did; without
-    /// joints when there are none.
+    /// The joint vector of the next pose of the path [rad], with the reason if it is reached by a
+    /// jump; no joint vector, with the reason, if there is none.
     ///
     /// # Errors
     ///
@@ -159,7 +159,7 @@ impl<'a> Follower<'a> {
 
     /// The solution nearest to where the joints are heading.
     fn nearest(&self, pose: &Pose) -> Result<Result<Solution<6>, Explanation>, Error> {
-        // A joint that swings as it passes a singularity will not swing on.
+        // A joint that swings while it passes a singularity does not continue to swing.
         let steady = largest(&self.velocity) <= STEADY_STEP;
         let heading =
             if steady { core::array::from_fn(|i| self.q[i] + self.velocity[i]) } else { self.q };
@@ -168,7 +168,7 @@ impl<'a> Follower<'a> {
             self.balance(&mut next, &heading, pose);
             return Ok(Ok(next));
         }
-        // Of a singular pose another solution may be inside than those that go on.
+        // At a singular pose, another solution than the continuing ones may be inside the limits.
         match self.robot.nearest_checked(*pose, &heading, &self.weights) {
             Ok(next) => Ok(Ok(next)),
             Err(Error::Unreachable(explanation)) => Ok(Err(explanation)),
@@ -176,8 +176,8 @@ impl<'a> Follower<'a> {
         }
     }
 
-    /// At a wrist of which the pose says little the whole of what is left over went to joint 6:
-    /// half of it belongs to joint 4, as far as the pose does not contradict.
+    /// Near wrist singularities the residual was put on joint 6 alone; split it with joint 4 as far
+    /// as the pose permits.
     fn balance(&self, next: &mut Solution<6>, heading: &[f64; 6], pose: &Pose) {
         let Some(arm) = self
             .robot
@@ -203,7 +203,7 @@ impl<'a> Follower<'a> {
         }
     }
 
-    /// Goes from the last pose to the next one by halving: a step that is only large shrinks with
+    /// Bisect the way from the last pose to the next one: a step that is only large shrinks with
     /// the segment, a jump does not.
     fn jump_between(
         &self,
@@ -218,8 +218,8 @@ impl<'a> Follower<'a> {
             let end = if done + width >= 1.0 { 1.0 } else { done + width };
             let pose = if end < 1.0 { between(from, to, end) } else { *to };
             let Ok(next) = scout.nearest(&pose)? else {
-                // The straight line between two poses leaves reach, where the path need not: only
-                // the size of the step can tell.
+                // The straight line between two poses may leave the workspace where the path does
+                // not: only the size of the step can decide.
                 return if whole > JUMP_BLIND {
                     self.jump(direct, from, &scout.q).map(Some)
                 } else {
@@ -241,7 +241,7 @@ impl<'a> Follower<'a> {
         Ok(None)
     }
 
-    /// The jump from where the joints stand to `to`, at the pose where it cannot be avoided.
+    /// The jump from the current joints to `to`, at the pose where it is unavoidable.
     fn jump(&self, to: &Solution<6>, pose: &Pose, at: &[f64; 6]) -> Result<BreakReason, Error> {
         let (joint, by) = largest_step(&self.q, &to.q);
         let solutions = self.robot.solve(*pose, &FreeChoice::seed(*at))?;
@@ -255,22 +255,23 @@ impl<'a> Follower<'a> {
 /// A joint path along a path of poses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Followed {
-    /// Joint angles of each pose [rad]; `None` where the pose is not met.
+    /// Joint angles for each pose [rad]; `None` if the pose is not reached.
     pub q: Vec<Option<[f64; 6]>>,
-    /// How far the tool's orientation is from that of each pose [rad].
+    /// Angle between the tool's orientation and that of each pose [rad].
     pub orientation_error: Vec<Option<f64>>,
-    /// Where the joints cannot follow, and why.
+    /// Where the joints cannot follow, with the reason.
     pub breaks: Vec<Break>,
 }
 
-/// The pose at a part of the way from one to another: straight, at a constant rate of turn.
+/// The pose at a fraction of the way from one pose to another: straight, at a constant rate of
+/// rotation.
 fn between(from: &Pose, to: &Pose, part: f64) -> Pose {
     let turn = (from.rotation.inverse() * to.rotation).scaled_axis() * part;
     let position = from.translation.vector.lerp(&to.translation.vector, part);
     IsometryMatrix3::from_parts(Translation3::from(position), from.rotation * Rotation3::new(turn))
 }
 
-/// The joint, from 1, that moves the most from one joint vector to another, and by how much [rad].
+/// The joint (from 1) that moves most from one joint vector to another, and its step [rad].
 pub(in crate::kinematics) fn largest_step(from: &[f64; 6], to: &[f64; 6]) -> (usize, f64) {
     let steps = difference(to, from);
     let joint = (0..6).fold(0, |most, i| if steps[i].abs() > steps[most].abs() { i } else { most });

@@ -1,4 +1,4 @@
-//! What to do where a path crosses the wrist singularity, named as ABB names it.
+//! Singularity modes: how a path crosses the wrist singularity, named as ABB names them.
 
 use alloc::vec::Vec;
 
@@ -12,35 +12,37 @@ use crate::kinematics::robot::Robot;
 use crate::kinematics::structure::any::AnyStructure;
 use crate::kinematics::structure::solver::Solver;
 use crate::kinematics::structure::spherical_wrist::SphericalWrist;
-use crate::kinematics::thresholds::{HELD_STILL, JUMP_BLIND, WRIST_ZONE};
+use crate::kinematics::thresholds::{JUMP_BLIND, LOCKED_CONVERGED, WRIST_ZONE};
 
-/// What a path does at the wrist singularity.
+/// How a path passes the wrist singularity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum SingularityMode {
-    /// Meets every pose exactly, however fast axes 4 and 6 must turn.
+    /// Reach every pose exactly, however fast axes 4 and 6 must turn.
     #[default]
     Through,
-    /// Stops where joint 5 comes into the zone, and where a joint must jump. As `SingArea \Off`.
+    /// Stop where joint 5 enters the zone, or where a joint must jump. As `SingArea \Off`.
     Error,
-    /// Inside the zone axes 4 and 5 go straight from the first pose to the last; the tool's
-    /// position stays exact, its orientation deviates by two zones at most. As `SingArea \Wrist`.
+    /// Inside the zone, axes 4 and 5 move straight from its first pose to its last. The tool's
+    /// position stays exact; its orientation deviates by at most two zones. As `SingArea \Wrist`.
     Wrist,
-    /// Axis 4 stays at 0 or +-180 deg all along; the tool's position stays exact, its orientation
-    /// is met where the pose can be reached with axis 4 there. As `SingArea \LockAxis4`.
+    /// Axis 4 stays at 0 or +-180 deg. The tool's position stays exact; its orientation is met if
+    /// the pose can be reached with axis 4 there. As `SingArea \LockAxis4`.
     LockAxis4,
 }
 
-/// How a path is followed.
+/// Options of [`Robot::follow`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FollowOptions {
-    /// Cost of moving each joint, in the choice among solutions.
+    /// Cost of moving each joint, for the choice among solutions.
     pub weights: [f64; 6],
-    /// What to do at the wrist singularity.
+    /// How the path passes the wrist singularity.
     pub singularity_mode: SingularityMode,
-    /// |sin q5| below which joint 5 is in the zone of `crossing` [1].
+    /// sin q5
+    ///
+    /// below which joint 5 is in the zone of `singularity_mode` [1].
     pub zone: f64,
 }
 
@@ -50,19 +52,19 @@ impl Default for FollowOptions {
     }
 }
 
-/// How often the arm and a wrist with axis 4 held are solved in turn: each round shrinks the error
-/// by the tool's length over the arm's.
+/// Maximum number of rounds in which the arm and the wrist with axis 4 locked are solved in turn:
+/// each round shrinks the error by the ratio of the tool's length to the arm's.
 const ROUNDS: usize = 60;
 
 impl Robot<6> {
-    /// One continuous joint path along `path`, from the solution nearest to `seed` [rad] on: inside
-    /// the limits, turns considered.
+    /// Follow `path` with one continuous joint path inside the limits, starting from the solution
+    /// nearest to `seed` [rad] among all 2 pi equivalents.
     ///
     /// # Errors
     ///
-    /// As [`Robot::ik_nearest`]; a pose that cannot be reached is no error but a break.
-    /// [`Error::InvalidModel`] where [`SingularityMode::Wrist`] or [`SingularityMode::LockAxis4`]
-    /// is asked of an arm without a spherical wrist.
+    /// As [`Robot::ik_nearest`]; a pose that cannot be reached is a break, not an error.
+    /// [`Error::InvalidModel`] if [`SingularityMode::Wrist`] or [`SingularityMode::LockAxis4`] is
+    /// requested for an arm without a spherical wrist.
     pub fn follow(
         &self,
         path: &[Pose],
@@ -97,14 +99,14 @@ impl Robot<6> {
     }
 }
 
-/// What of the wrist is held; the rest comes as near to the pose as it can.
+/// Which part of the wrist is locked; the rest comes as near to the pose as possible.
 #[derive(Clone, Copy)]
 enum Locked {
     Axis4,
     Axes4And5,
 }
 
-/// A path on its way.
+/// The state of following a path.
 struct Walk<'a> {
     robot: &'a Robot<6>,
     path: &'a [Pose],
@@ -142,7 +144,7 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// The wrist straight through the zone, position by the other three axes.
+    /// The wrist moves straight through the zone; the other three axes keep the position.
     fn wrist(&mut self) -> Result<(), Error> {
         let mut index = 0;
         while index < self.path.len() {
@@ -159,19 +161,23 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// Records the poses of one zone, from `first` on; returns the index of the first pose behind
+    /// Record the poses of one zone, starting at `first`; return the index of the first pose after
     /// it.
     ///
-    /// The first and the last pose of the zone are met exactly. Between them axes 4 and 5 go
-    /// straight and axis 6 turns the tool as near as it can: q5 and the pose's own tilt both stay
-    /// in the zone, so the tool deviates by two zones at most.
+    /// The first and the last pose of the zone are met exactly. Between them axes 4 and 5 move
+    /// straight, and axis 6 turns the tool as near to the pose as it can: both q5 and the tilt of
+    /// the pose stay in the zone, so the tool deviates by at most two zones.
     fn cross(
         &mut self,
         first: usize,
         entered: [f64; 6],
         broken: Option<BreakReason>,
     ) -> Result<usize, Error> {
-        // Where the zone ends, on whatever wrist branch: sin q5 has the same size on both.
+        // The end of the zone, on either wrist branch:
+        //
+        // sin q5
+        //
+        // is the same on both.
         let mut behind = first + 1;
         while behind < self.path.len() {
             match self.follower.step(&self.path[behind])?.0 {
@@ -198,23 +204,23 @@ impl Walk<'_> {
             let found = if index + 1 == behind {
                 Some(left)
             } else {
-                self.held(&self.path[index], &wanted, Locked::Axes4And5)?
+                self.solve_locked(&self.path[index], &wanted, Locked::Axes4And5)?
             };
             let broken = found.map_or(Some(BreakReason::Locked), |found| jump(&q, &found));
             q = found.unwrap_or(q);
             self.record(found, broken);
         }
-        self.follower.stand_at(&self.path[behind - 1], q);
+        self.follower.continue_from(&self.path[behind - 1], q);
         Ok(behind)
     }
 
-    /// Axis 4 at the nearest of 0 and +-180 deg all along.
+    /// Axis 4 at whichever of 0 and +-180 deg is nearest, for the whole path.
     fn lock_axis_4(&mut self) -> Result<(), Error> {
-        let mut standing: Option<[f64; 6]> = None;
+        let mut previous: Option<[f64; 6]> = None;
         for pose in self.path {
-            let from = match standing {
+            let from = match previous {
                 Some(q) => q,
-                // Up to the first pose that is met, the path stands at the seed.
+                // Before the first pose that is reached, the path is at the seed.
                 None => match self.follower.step(pose)? {
                     (Some(start), _) => self.locked(start.q),
                     (None, broken) => {
@@ -223,19 +229,19 @@ impl Walk<'_> {
                     }
                 },
             };
-            let held = self.held(pose, &from, Locked::Axis4)?;
-            let broken = match (held, standing) {
+            let locked = self.solve_locked(pose, &from, Locked::Axis4)?;
+            let broken = match (locked, previous) {
                 (None, _) => Some(BreakReason::Locked),
                 (Some(q), Some(before)) => jump(&before, &q),
                 (Some(_), None) => None,
             };
-            standing = held.or(standing);
-            self.record(held, broken);
+            previous = locked.or(previous);
+            self.record(locked, broken);
         }
         Ok(())
     }
 
-    /// `q` with axis 4 in the plane of the arm.
+    /// `q` with axis 4 locked in the plane of the arm.
     fn locked(&self, mut q: [f64; 6]) -> [f64; 6] {
         if let Some(arm) = self.robot.spherical_wrist() {
             q[3] = arm.axis_4_in_plane(&q);
@@ -243,38 +249,43 @@ impl Walk<'_> {
         q
     }
 
-    /// The joints for a pose with the wrist held as in `q`: arm and wrist solved in turn until both
-    /// stand.
-    fn held(&self, pose: &Pose, q: &[f64; 6], how: Locked) -> Result<Option<[f64; 6]>, Error> {
+    /// The joint vector for a pose with the wrist locked as in `q`: arm and wrist are solved in
+    /// turn until both converge.
+    fn solve_locked(
+        &self,
+        pose: &Pose,
+        q: &[f64; 6],
+        how: Locked,
+    ) -> Result<Option<[f64; 6]>, Error> {
         let pose = checked_pose(pose)?;
         let Some(Solver { structure: arm, end_frames, .. }) = self.robot.wrist_solver() else {
             return Ok(None);
         };
         let rotation = end_frames.wrist_pose(&pose).rotation;
         let (point, lever) = end_frames.tool_point(&pose);
-        let mut held = *q;
+        let mut locked = *q;
         for _ in 0..ROUNDS {
-            let m = arm.rotation_in_forearm(rotation.matrix(), &held);
+            let m = arm.rotation_in_forearm(rotation.matrix(), &locked);
             let wrist = match how {
-                Locked::Axis4 => arm.with_axis_4_held(&m, &held),
-                Locked::Axes4And5 => arm.with_axes_4_and_5_held(&m, &held),
+                Locked::Axis4 => arm.with_axis_4_locked(&m, &locked),
+                Locked::Axes4And5 => arm.with_axes_4_and_5_locked(&m, &locked),
             };
-            let wrist = self.robot.limits().turned_to(&wrist, &held);
+            let wrist = self.robot.limits().wrapped_near(&wrist, &locked);
             let Some(next) = wrist.and_then(|wrist| self.to_point(arm, &point, &lever, &wrist))
             else {
                 return Ok(None);
             };
-            let moved = next.iter().zip(&held).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            held = next;
-            if moved < HELD_STILL {
+            let moved = next.iter().zip(&locked).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            locked = next;
+            if moved < LOCKED_CONVERGED {
                 break;
             }
         }
-        Ok(Some(held))
+        Ok(Some(locked))
     }
 
-    /// The joints inside the limits, nearest to `q`, that bring `lever` in the wrist frame to
-    /// `point` with the wrist of `q`.
+    /// The joint vector inside the limits, nearest to `q`, that brings `lever`, in the wrist frame,
+    /// to `point` with the wrist of `q`.
     fn to_point(
         &self,
         arm: &SphericalWrist,
@@ -286,25 +297,25 @@ impl Walk<'_> {
             |found: &[f64; 6]| found.iter().zip(q).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
         let found = arm
             .to_point(point, lever, q)
-            .filter_map(|found| self.robot.limits().turned_to(&found, q));
+            .filter_map(|found| self.robot.limits().wrapped_near(&found, q));
         found.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 
-    /// Measures the orientation of every pose.
+    /// Measure the orientation error at every pose.
     fn finish(mut self) -> Followed {
         let rows = self.followed.q.iter().zip(self.path);
         let error = |(q, pose): (&Option<[f64; 6]>, &Pose)| {
             q.map(|q| PoseDifference::between(&self.robot.fk(&q), pose).rotation)
         };
         self.followed.orientation_error = rows.map(error).collect();
-        // What was not come to, when the path stopped.
+        // The poses that were not reached when the path stopped.
         self.followed.q.resize(self.path.len(), None);
         self.followed.orientation_error.resize(self.path.len(), None);
         self.followed
     }
 }
 
-/// A step of the held arm that is too large to be the path's.
+/// A step of the locked arm that is too large to belong to the path.
 fn jump(from: &[f64; 6], to: &[f64; 6]) -> Option<BreakReason> {
     let (joint, by) = largest_step(from, to);
     (by.abs() > JUMP_BLIND).then_some(BreakReason::Jump {

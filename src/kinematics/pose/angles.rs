@@ -7,11 +7,11 @@ use nalgebra::ComplexField as _;
 
 use crate::lanes::nearest_whole;
 
-/// How far a constant may stand from a quarter turn and still be one [rad]: the rounding of
+/// How far a constant may be from a quarter turn and still be one [rad]: the rounding of
 /// `90_f64.to_radians()` and of sums of it.
 const QUARTER_TURN_ROUNDING: f64 = 4e-15;
 
-/// The same angle in (-pi, pi] [rad].
+/// Wrap an angle into (-pi, pi] [rad].
 #[must_use]
 #[inline(always)]
 pub(crate) fn wrap(angle: f64) -> f64 {
@@ -33,8 +33,8 @@ pub(crate) fn distance_from_half_turns(angle: f64) -> f64 {
     (angle - PI * (angle / PI).round()).abs()
 }
 
-/// Sine and cosine of a constant of a model: exact (0, 1, -1) where the constant is a quarter turn,
-/// so that square arms stay square.
+/// Sine and cosine of a model constant: exact (0, 1, -1) for a quarter turn, so that right angles
+/// of an arm stay right angles.
 #[must_use]
 pub(crate) fn constant_sin_cos(angle: f64) -> (f64, f64) {
     let quarters = (angle / FRAC_PI_2).round();
@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn an_angle_is_snapped_within_the_bound_and_left_alone_beyond() {
+    fn an_angle_is_snapped_within_the_bound_and_unchanged_beyond() {
         for quarters in -8..=8 {
             let exact = f64::from(quarters) * FRAC_PI_2;
             for (snap, off) in [(1e-5, 0.99e-5), (1e-5, -3.7e-6), (1e-3, 0.9e-3), (0.0, 0.0)] {

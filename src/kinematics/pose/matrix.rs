@@ -1,11 +1,11 @@
-//! Poses as nalgebra's other types for them.
+//! Conversions between poses and nalgebra's other types for them.
 
 use nalgebra::{Isometry3, Matrix4};
 
 use super::{Pose, checked_pose, pose_from_rows};
 use crate::error::Error;
 
-/// The pose of a 4x4 homogeneous matrix; a rotation that is off by rounding is repaired.
+/// The pose of a 4x4 homogeneous matrix; a rotation with rounding errors is repaired.
 ///
 /// # Errors
 ///
@@ -46,7 +46,7 @@ mod tests {
     use crate::kinematics::pose::{PoseDifference, pose_from_euler_zyx};
 
     #[test]
-    fn matrices_and_isometries_come_back() {
+    fn matrices_and_isometries_round_trip() {
         let pose = pose_from_euler_zyx([0.4, -0.2, 1.1], [0.3, -1.2, 2.5]).unwrap();
         let apart = |other: &Pose| PoseDifference::between(&pose, other).largest();
         assert_eq!(pose_to_matrix(&pose)[(0, 3)], 0.4);

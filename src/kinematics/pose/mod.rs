@@ -1,4 +1,4 @@
-//! Poses: checking and repairing a 4x4 matrix, quaternions and ZYX Euler angles.
+//! Poses: check and repair of a 4x4 matrix, quaternions and ZYX Euler angles.
 
 pub(crate) mod angles;
 pub(crate) mod matrix;
@@ -21,21 +21,24 @@ use crate::kinematics::thresholds::{
 /// A rigid transform: a rotation matrix and a translation [m].
 pub type Pose = IsometryMatrix3<f64>;
 
-/// How far two poses are apart.
+/// The difference of two poses.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PoseDifference {
     /// Distance of the origins [m].
     pub position: f64,
-    /// Angle of the rotation between the two [rad].
+    /// Angle of the rotation between them [rad].
     pub rotation: f64,
 }
 
 impl PoseDifference {
-    /// The distance of `a` from `b`.
+    /// The difference of `a` and `b`.
     #[must_use]
     pub fn between(a: &Pose, b: &Pose) -> Self {
-        // |Ra - Rb| (Frobenius) is 2 sqrt(2) sin(angle / 2): accurate for small angles, where the trace is not.
+        // Ra - Rb
+        //
+        // (Frobenius) is 2 sqrt(2) sin(angle / 2): accurate for small angles, where the trace is
+        // not.
         let chord = (a.rotation.matrix() - b.rotation.matrix()).norm() / 8.0_f64.sqrt();
         Self {
             position: (a.translation.vector - b.translation.vector).norm(),
@@ -43,21 +46,22 @@ impl PoseDifference {
         }
     }
 
-    /// The larger of the two numbers, meters against radians.
+    /// The larger of the two numbers, meters compared with radians.
     #[must_use]
     pub fn largest(self) -> f64 {
         self.position.max(self.rotation)
     }
 }
 
-/// A pose from a homogeneous 4x4 matrix in row-major order, checked and, where it is a little off,
+/// The pose of a homogeneous 4x4 matrix in row-major order, checked and, within the tolerance,
 /// repaired.
 ///
 /// # Errors
 ///
 /// [`Error::InvalidPose`] when an element is not finite, a coordinate of the position exceeds
-/// [`MOST_LENGTH`], the last row is not 0 0 0 1, the rotation mirrors or is off orthonormal by more
-/// than [`ROTATION_REPAIR_BOUND`]. A rotation that is off by less becomes the nearest rotation.
+/// [`MOST_LENGTH`], the last row is not 0 0 0 1, the rotation mirrors, or its deviation from
+/// orthonormal exceeds [`ROTATION_REPAIR_BOUND`]. A rotation with a smaller deviation becomes the
+/// nearest rotation.
 pub fn pose_from_rows(rows: &[f64; 16]) -> Result<Pose, Error> {
     if let Some(index) = rows.iter().position(|element| !element.is_finite()) {
         return Err(
@@ -103,7 +107,7 @@ pub fn pose_to_rows(pose: &Pose) -> [f64; 16] {
     ]
 }
 
-/// A rotation that is finite, does not mirror and is orthonormal to rounding.
+/// A rotation that is finite, proper and orthonormal to rounding, or an error.
 fn checked_rotation(rows: Rows3) -> Result<Rotation3<f64>, Error> {
     let deviation =
         gram_excess(&rows).into_iter().fold(0.0, |most: f64, element| most.max(element.abs()));
@@ -119,12 +123,12 @@ fn checked_rotation(rows: Rows3) -> Result<Rotation3<f64>, Error> {
     Ok(Rotation3::from_matrix_unchecked(Matrix3::new(a, b, c, d, e, f, g, h, i)))
 }
 
-/// A pose that another program made: finite, and its rotation orthonormal, repaired like that of
+/// Check a pose from another program: finite, and its rotation orthonormal, repaired as by
 /// [`pose_from_rows`].
 pub(crate) fn checked_pose(pose: &Pose) -> Result<Pose, Error> {
     let r = pose.rotation.matrix();
     let rows = [0, 1, 2].map(|row| [r[(row, 0)], r[(row, 1)], r[(row, 2)]]);
-    // What is not a number is in no bound.
+    // The comparison is false for NaN, too.
     let is_near = pose.translation.vector.iter().all(|coordinate| coordinate.abs() <= MOST_LENGTH);
     let is_rotation = gram_excess(&rows).iter().all(|element| element.abs() <= ROTATION_ROUNDING);
     if is_near && is_rotation && determinant(&rows) > 0.0 {
@@ -133,12 +137,12 @@ pub(crate) fn checked_pose(pose: &Pose) -> Result<Pose, Error> {
     pose_from_rows(&pose_to_rows(pose))
 }
 
-/// A pose from a translation [m] and a quaternion in the order w, x, y, z, which is normalized.
+/// The pose of a translation [m] and a quaternion in the order w, x, y, z, which is normalized.
 ///
 /// # Errors
 ///
 /// [`Error::InvalidPose`] when an element is not finite, a coordinate exceeds [`MOST_LENGTH`] or
-/// the quaternion's norm is off one by more than [`QUATERNION_NORM_BOUND`].
+/// the quaternion's norm differs from one by more than [`QUATERNION_NORM_BOUND`].
 pub fn pose_from_wxyz(xyz: [f64; 3], wxyz: [f64; 4]) -> Result<Pose, Error> {
     check_finite("xyz", &xyz)?;
     check_near("xyz", xyz)?;
@@ -165,7 +169,7 @@ pub fn pose_from_wxyz(xyz: [f64; 3], wxyz: [f64; 4]) -> Result<Pose, Error> {
     ))
 }
 
-/// A pose from a translation [m] and ZYX Euler angles rz, ry, rx [rad]: `Rz(rz) Ry(ry) Rx(rx)`.
+/// The pose of a translation [m] and ZYX Euler angles rz, ry, rx [rad]: `Rz(rz) Ry(ry) Rx(rx)`.
 ///
 /// # Errors
 ///
@@ -181,8 +185,8 @@ pub fn pose_from_euler_zyx(xyz: [f64; 3], zyx: [f64; 3]) -> Result<Pose, Error> 
     Ok(pose_of_zyx(xyz, zyx.map(f64::sin_cos)))
 }
 
-/// The pose of a model's constants, as [`pose_from_euler_zyx`] of finite ones: a quarter turn in
-/// text is one exactly.
+/// The pose of a model's constants, as [`pose_from_euler_zyx`] for finite input; quarter turns are
+/// exact.
 #[cfg(feature = "urdf")]
 pub(crate) fn constant_pose(xyz: [f64; 3], zyx: [f64; 3]) -> Pose {
     pose_of_zyx(xyz, zyx.map(constant_sin_cos))
@@ -208,8 +212,8 @@ fn pose_of_zyx(xyz: [f64; 3], [(sz, cz), (sy, cy), (sx, cx)]: [(f64, f64); 3]) -
 #[must_use]
 pub fn pose_to_wxyz(pose: &Pose) -> ([f64; 3], [f64; 4]) {
     let r = pose.rotation.matrix();
-    // Shepperd's method: the largest of the four squares is taken first, the others follow from it
-    // without cancellation.
+    // Shepperd's method: the largest of the four squares is computed first, the others follow from
+    // it without cancellation.
     let squares = [
         1.0 + r[(0, 0)] + r[(1, 1)] + r[(2, 2)],
         1.0 + r[(0, 0)] - r[(1, 1)] - r[(2, 2)],
@@ -232,9 +236,13 @@ pub fn pose_to_wxyz(pose: &Pose) -> ([f64; 3], [f64; 4]) {
 
 /// Translation [m] and ZYX Euler angles rz, ry, rx [rad] of a pose, ry in -pi/2 ..= pi/2.
 ///
-/// At the gimbal pose (|ry| = pi/2) only `rz - rx` or `rz + rx` is determined: rz is zero there and
-/// rx takes all. Next to it the three angles are taken one from the other, so that they give the
-/// pose back to rounding.
+/// In gimbal lock (
+///
+/// ry
+///
+/// = pi/2) only `rz - rx` or `rz + rx` is determined: rz is set to zero and rx takes the whole
+/// angle. Near it each angle is computed from the previous one, so that together they reproduce the
+/// pose to rounding.
 #[must_use]
 pub fn pose_to_euler_zyx(pose: &Pose) -> ([f64; 3], [f64; 3]) {
     let r = pose.rotation.matrix();
@@ -254,7 +262,7 @@ fn check_finite(field: &'static str, values: &[f64]) -> Result<(), Error> {
     }
 }
 
-/// A position that is near enough for squares of its coordinates to keep their digits.
+/// Check that a position is small enough for squares of its coordinates to keep their digits.
 fn check_near(field: &'static str, xyz: [f64; 3]) -> Result<(), Error> {
     match xyz.iter().position(|coordinate| coordinate.abs() > MOST_LENGTH) {
         Some(index) => {

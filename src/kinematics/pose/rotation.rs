@@ -1,10 +1,10 @@
-//! How far a 3x3 matrix is from a rotation, and the rotation nearest to it. One matrix or a lane of
-//! many: the same arithmetic, the same bits.
+//! The deviation of a 3x3 matrix from a rotation, and the rotation nearest to it. The same
+//! arithmetic serves one matrix and a lane of many, with the same bits.
 
 /// The rows of a 3x3 matrix.
 pub(crate) type Rows3 = [[f64; 3]; 3];
 
-/// The six different elements of `R^T R - I`.
+/// The six independent elements of `R^T R - I`.
 #[inline(always)]
 pub(crate) fn gram_excess(r: &Rows3) -> [f64; 6] {
     let [[a, b, c], [d, e, f], [g, h, i]] = *r;
@@ -24,10 +24,10 @@ pub(crate) fn determinant(r: &Rows3) -> f64 {
     a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
 }
 
-/// The nearest rotation to a matrix that is off orthonormal by 1e-5 at most.
+/// The rotation nearest to a matrix that deviates from orthonormal by at most 1e-5.
 ///
-/// Newton's iteration for the orthogonal polar factor, `R <- R (3 I - R^T R) / 2`: the deviation is
-/// squared by each of two steps.
+/// Newton's iteration for the orthogonal polar factor, `R <- R (3 I - R^T R) / 2`: each of two
+/// steps squares the deviation.
 #[inline(always)]
 pub(crate) fn nearest_rotation(r: &Rows3) -> Rows3 {
     newton_step(&newton_step(r))

@@ -1,4 +1,4 @@
-//! Building a robot: from parameters, from tables, and from another one.
+//! Building a robot from parameters, from tables, and from another robot.
 
 use alloc::borrow::Cow;
 
@@ -16,7 +16,8 @@ use crate::kinematics::structure::spherical_wrist::OpwParameters;
 use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH, MOST_REACH, MOST_SNAP};
 use crate::report::Convention;
 
-/// What is proposed as a `snap` to an arm that it would help [rad]: the least of these.
+/// Values of `snap` that are proposed for an arm that needs one [rad]; the least that helps is
+/// named.
 pub(crate) const SNAPS: [f64; 6] = [1e-8, 1e-7, 1e-6, 1e-5, 1e-4, MOST_SNAP];
 
 impl Robot<6> {
@@ -36,17 +37,17 @@ where
     Joints<N>: Arity<N>,
 {
     /// A robot from a modified (Craig) Denavit-Hartenberg table, with the closed form of its
-    /// geometry.
+    /// kinematic structure.
     ///
-    /// A six-axis table may have its frames and its zero pose anywhere; what is within 1e-9 rad or
-    /// m of the form is made exactly so. A seven-axis arm of no known form has forward kinematics
-    /// and the Jacobian. For angles written with few digits, see [`Mdh::snapped`].
+    /// A six-axis table may have its frames and its zero pose anywhere. Deviations from the
+    /// structure of at most 1e-9 rad or m are removed. A seven-axis arm of unknown structure has
+    /// forward kinematics and the Jacobian. For angles with few digits, see [`Mdh::snapped`].
     ///
     /// # Errors
     ///
     /// [`Error::InvalidModel`] when a number is not finite, a link has no length, or a six-axis arm
-    /// has no known form: the message names the axes and how far they are off.
-    /// [`Robot::serial_chain`] takes such an arm without its inverse.
+    /// has no known structure: the message names the axes and their deviations.
+    /// [`Robot::serial_chain`] accepts such an arm, without its inverse.
     pub fn from_mdh(mdh: Mdh<N>) -> Result<Self, Error> {
         let rows = mdh.rows;
         Self::serial_chain(mdh)?.hinting(&rows, Convention::Modified).with_closed_form()
@@ -70,8 +71,8 @@ where
         Self::serial_chain(sdh.into())?.hinting(&rows, Convention::Standard).with_closed_form()
     }
 
-    /// A robot from any modified Denavit-Hartenberg table: with the closed form where its geometry
-    /// has one, without where not.
+    /// A robot from any modified Denavit-Hartenberg table: with the closed form if its structure is
+    /// known, otherwise without the inverse.
     ///
     /// # Errors
     ///
@@ -127,7 +128,7 @@ where
         })
     }
 
-    /// The same robot with another proposal of a `snap`, where its structure is unknown.
+    /// The same robot with another `snap` proposed, if its structure is unknown.
     #[cfg(feature = "urdf")]
     pub(crate) fn proposing(mut self, snap: Option<f64>) -> Self {
         self.structure = self.structure.hinting(|reason| reason.proposing(snap));
@@ -160,7 +161,7 @@ where
         self
     }
 
-    /// The same robot with other joint limits; those of its linkage stay.
+    /// The same robot with other joint limits; the linkage limits are kept.
     #[must_use]
     pub fn with_limits(mut self, limits: JointLimits<N>) -> Self {
         self.limits = limits.with_linkage_of(&self.limits);
@@ -182,24 +183,23 @@ where
         Ok(self)
     }
 
-    /// The same robot standing at `t_world_base`: poses and Jacobians are then in the world frame.
-    /// A base that it had is replaced.
+    /// The same robot with its base at `t_world_base`, which replaces its current base. Poses and
+    /// Jacobians are then in the world frame.
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidPose`] when the base is no rigid transform.
+    /// [`Error::InvalidPose`] when the base is not a rigid transform.
     pub fn with_base(mut self, t_world_base: &Pose) -> Result<Self, Error> {
         self.chain = self.chain.with_base(checked_pose(t_world_base)?);
         Ok(self.joined())
     }
 
-    /// The same robot with its tool center point at `t_flange_tool`. A tool that it had is
-    /// replaced.
+    /// The same robot with its tool center point at `t_flange_tool`, which replaces its current
+    /// tool.
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidPose`] when the tool is no rigid transform, or its center point is farther
-    /// from the flange than [`MOST_TOOL`](crate::thresholds::MOST_TOOL).
+    /// [`Error::InvalidPose`] when the tool is not a rigid transform.
     pub fn with_tool(mut self, t_flange_tool: &Pose) -> Result<Self, Error> {
         self.chain = self.chain.with_tool(checked_tool(t_flange_tool)?);
         Ok(self.joined())

@@ -10,7 +10,7 @@ where
     Joints<N>: Arity<N>,
 {
     /// The same robot with limits of the linkage that couples axes 2 and 3: (lower, upper) of q3 -
-    /// q2 [rad], at whatever turn; `None` for none.
+    /// q2 [rad], compared modulo 2 pi; `None` for no limits.
     ///
     /// # Errors
     ///
@@ -24,11 +24,12 @@ where
         Ok(self.joined())
     }
 
-    /// The twin of this arm whose axes 2 and 3 a parallelogram couples: its joint 3 is this one's
-    /// plus joint 2, as its controller tells it.
+    /// The same arm with axes 2 and 3 coupled by a parallelogram linkage: joint 3 becomes q3 + q2,
+    /// as its controller reports it.
     ///
-    /// What was the limit of joint 3 is that of the linkage; joint 3 may stand wherever axes 2 and
-    /// the linkage let it, and turns as fast as both together: there and back again widens both.
+    /// The limit of joint 3 becomes that of the linkage. The new range of joint 3 is the sum of the
+    /// ranges of axis 2 and the linkage, and its speed the sum of both speeds; coupling and
+    /// uncoupling an arm therefore widens both.
     ///
     /// # Errors
     ///
@@ -45,11 +46,12 @@ where
         Ok(self.with_twins_velocity().joined())
     }
 
-    /// The twin of this arm without the coupling of axes 2 and 3: its joint 3 is this one's minus
-    /// joint 2. The arm itself where it has none.
+    /// The same arm without the coupling of axes 2 and 3: joint 3 becomes q3 - q2. Returns an
+    /// uncoupled arm unchanged.
     ///
-    /// Its joint 3 is limited as the linkage is or, where that is unknown, may stand wherever axes
-    /// 2 and 3 let it, and turns as fast as both together: there and back again widens both.
+    /// The limit of joint 3 is that of the linkage or, if unknown, the difference of the ranges of
+    /// axes 2 and 3, and its speed is the sum of both speeds; coupling and uncoupling an arm
+    /// therefore widens both.
     #[must_use]
     pub fn uncoupled(mut self) -> Self {
         if !self.is_coupled() {
@@ -60,7 +62,7 @@ where
         self.with_twins_velocity().joined()
     }
 
-    /// Joint 3 of a twin turns as fast as joints 2 and 3 of the arm together.
+    /// Joint 3 of the converted arm turns as fast as joints 2 and 3 of the arm together.
     fn with_twins_velocity(mut self) -> Self {
         if let Some([_, second, third, ..]) =
             self.max_velocity.as_mut().map(|velocity| &mut velocity[..])
@@ -70,14 +72,14 @@ where
         self
     }
 
-    /// Whether a parallelogram couples axes 2 and 3: then joint 3 is told from the base, not from
-    /// the upper arm.
+    /// Whether a parallelogram linkage couples axes 2 and 3: q3 is then measured from the base, not
+    /// from the upper arm.
     #[must_use]
     pub fn is_coupled(&self) -> bool {
         self.chain.is_coupled()
     }
 
-    /// The same arm, coupled or not, with the limits as they are: those of its controller.
+    /// The same arm, coupled or not, with unchanged limits: those of its controller.
     pub(crate) fn with_coupling(mut self, coupled: bool) -> Self {
         self.chain = self.chain.with_coupling(coupled);
         self.joined()

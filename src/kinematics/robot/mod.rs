@@ -1,8 +1,11 @@
 //! A robot: a chain, its limits and, where its structure is known, its inverse.
 
 mod build;
+mod display;
 mod linkage;
 mod reading;
+#[cfg(feature = "serde")]
+mod stored;
 
 #[cfg(feature = "urdf")]
 pub(crate) use build::SNAPS;
@@ -31,8 +34,8 @@ use crate::report::UnknownStructure;
 /// A robot arm of `N` revolute joints.
 ///
 /// Build one from the catalog ([`Robot::named`]), from parameters ([`Robot::from_opw`]) or from a
-/// Denavit-Hartenberg table ([`Robot::from_mdh`], [`Robot::from_sdh`]). A robot does not change:
-/// `with_` gives a new one. No solve allocates.
+/// Denavit-Hartenberg table ([`Robot::from_mdh`], [`Robot::from_sdh`]). A robot is immutable: each
+/// `with_` method returns a new one. No solve allocates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Robot<const N: usize>
 where
@@ -48,6 +51,7 @@ where
 
 /// What a robot was built from.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Definition<const N: usize> {
     /// Parameters of an ortho-parallel arm with a spherical wrist.
     Opw(OpwParameters),
@@ -74,7 +78,7 @@ impl<const N: usize> Robot<N>
 where
     Joints<N>: Arity<N>,
 {
-    /// The same arm, with the solver that its base, tool, coupling and limits ask for.
+    /// The same arm with its solver rebuilt for its base, tool, coupling and limits.
     fn joined(mut self) -> Self {
         self.structure = self.structure.between(&self.chain, &self.limits);
         self
@@ -84,39 +88,39 @@ where
         &self.structure
     }
 
-    /// Catalog name, or the name that was given.
+    /// The catalog name, or the name that was given.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
     /// Name of the kinematic structure: "spherical wrist", "three parallel axes", "spherical
-    /// shoulder", or "unknown" where it is unknown.
+    /// shoulder", or "unknown".
     #[must_use]
     pub fn structure(&self) -> &'static str {
         self.structure.arm().name()
     }
 
-    /// Why the structure of the arm is unknown, where it is.
+    /// The reason why the structure of the arm is unknown; `None` if it is known.
     #[must_use]
     pub fn unknown_structure(&self) -> Option<UnknownStructure> {
         self.structure.arm().unknown()
     }
 
-    /// Number of slots of an answer: none where the structure is unknown.
+    /// Number of slots of an answer: zero if the structure is unknown.
     #[must_use]
     pub fn slot_count(&self) -> usize {
         self.structure.slot_count()
     }
 
-    /// What each slot stands for; `None` where slots are ordinals, or the structure is unknown.
+    /// The name of each slot; `None` if slots are ordinals or the structure is unknown.
     #[must_use]
     pub fn slot_names(&self) -> Option<&'static [&'static str]> {
         self.structure.arm().slot_names()
     }
 
-    /// The slot of the branch that `q` [rad] is on; of two that meet at a singularity, the one in
-    /// front. `None` where slots are ordinals.
+    /// The slot of the branch that `q` [rad] is on; the one in front if two meet at a singularity.
+    /// `None` if slots are ordinals.
     #[must_use]
     pub fn slot_of(&self, q: &[f64; N]) -> Option<Slot> {
         self.structure.arm().slot(q)
@@ -152,19 +156,19 @@ where
         &self.limits
     }
 
-    /// Velocity limits [rad/s], where they are known.
+    /// Velocity limits [rad/s]; `None` if unknown.
     #[must_use]
     pub fn max_velocity(&self) -> Option<&[f64; N]> {
         self.max_velocity.as_ref()
     }
 
-    /// Pose of the tool for the joint angles `q` [rad].
+    /// The pose of the tool for the joint angles `q` [rad].
     #[must_use]
     pub fn fk(&self, q: &[f64; N]) -> Pose {
         self.chain.fk(q)
     }
 
-    /// Every frame of the modified table after its joint, and the pose of the tool.
+    /// The pose of every link frame of the modified table, and the pose of the tool.
     #[must_use]
     pub fn link_frames(&self, q: &[f64; N]) -> ([Pose; N], Pose) {
         self.chain.link_frames(q)
@@ -183,12 +187,13 @@ where
         self.chain.jacobian_rows(q, frame)
     }
 
-    /// [`Self::fk`] of many, in lanes: rows of joint angles in, rows of pose elements out.
+    /// [`Self::fk`] for many joint vectors, in lanes: rows of joint angles in, rows of pose
+    /// elements out.
     pub(crate) fn fk_rows(&self, q: &[[f64; N]], poses: &mut [[f64; 16]]) {
         run(Poses { chain: &self.chain, q, out: poses });
     }
 
-    /// [`Self::jacobian`] of many, in lanes.
+    /// [`Self::jacobian`] for many joint vectors, in lanes.
     pub(crate) fn jacobians(
         &self,
         q: &[[f64; N]],
@@ -198,7 +203,7 @@ where
         run(Jacobians { chain: &self.chain, frame, q, out: jacobians });
     }
 
-    /// How far `q` [rad] is from the singularities.
+    /// How near `q` [rad] is to the singularities.
     #[must_use]
     pub fn singularity(&self, q: &[f64; N]) -> Singularity {
         self.singularity_of(q, self.chain.singular_values(q))
@@ -223,25 +228,25 @@ where
             distances: arm.map(|(distances, _)| distances),
             min_singular_value: values.least,
             manipulability: values.product,
-            kinds: arm.map_or(SingularityKind::empty(), |(_, kinds)| kinds),
+            kinds: arm.map_or(SingularityKind::empty(), |(_, singularities)| singularities),
         }
     }
 
-    /// How far `q` [rad] is from each singularity of the structure; `None` where that is unknown.
+    /// Distances of `q` [rad] from the singularities of the structure; `None` if that is unknown.
     #[must_use]
     pub fn singular_distances(&self, q: &[f64; N]) -> Option<SingularDistances> {
         self.structure.arm().singular(q).map(|(distances, _)| distances)
     }
 
-    /// How far the tool at `q` [rad] is from `pose`.
+    /// The difference between the tool pose at `q` [rad] and `pose`.
     #[must_use]
     pub fn residual(&self, q: &[f64; N], pose: &Pose) -> PoseDifference {
         PoseDifference::between(&self.fk(q), pose)
     }
 
-    /// The determinant of the geometric Jacobian of joints 1 to 6 in closed form [m^3]: it is zero
-    /// at singularities alone, and its factors are those of the structure. `None` where the
-    /// structure is unknown.
+    /// The determinant of the geometric Jacobian of joints 1 to 6, in closed form [m^3]. It is zero
+    /// at singularities only, and its factors are those of the structure. `None` if the structure
+    /// is unknown.
     #[must_use]
     pub fn jacobian_determinant(&self, q: &[f64; N]) -> Option<f64> {
         self.structure.arm().jacobian_determinant(q)

@@ -1,4 +1,4 @@
-//! ABB's confdata: which of the solutions of a pose, and which turn of it.
+//! ABB's confdata: selects one of the solutions of a pose and one of its 2 pi equivalents.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -25,35 +25,35 @@ use crate::kinematics::structure::spherical_wrist::SphericalWrist;
 use crate::kinematics::thresholds::{CONFIGURATION_EDGE, MOST_ANGLE, SEEDED_FREE, SOLUTION_OFF};
 use crate::report::Configuration;
 
-/// How closely the slot of a solution must be that of a configuration.
+/// How closely the slot of a solution must match that of a configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Closeness {
-    /// The same, an axis 5 that is zero to rounding on either side.
+    /// The same slot, or axis 5 is zero to rounding.
     Same,
-    /// The same once an elbow that is straight to rounding is bent.
+    /// The same slot after an elbow that is straight to rounding is bent.
     Bent,
-    /// Either of two that meet at a singularity, or within the edge.
+    /// Either of two slots that meet at a singularity, or within the edge.
     Met,
 }
 
-/// The axes that a configuration counts quarter turns of, from 0.
+/// The axes whose quarter turns a configuration counts, from 0.
 const COUNTED: [usize; 3] = [0, 3, 5];
 
-/// The others.
+/// The other axes.
 const UNCOUNTED: [usize; 3] = [1, 2, 4];
 
-/// Most quarter turns that an angle can have that is not too large to calculate with.
+/// Largest number of quarter turns of an angle within [`MOST_ANGLE`].
 #[expect(clippy::cast_possible_truncation, reason = "some ten thousands")]
 const MOST_QUARTERS: i32 = (MOST_ANGLE / FRAC_PI_2) as i32;
 
 impl Configuration {
-    /// Of a joint vector, with the number of its slot.
+    /// The configuration of a joint vector, with the number of its slot.
     fn of(q: &[f64; 6], cfx: i32) -> Self {
         let [cf1, cf4, cf6] = COUNTED.map(|joint| quarter(q[joint]));
         Self { cf1, cf4, cf6, cfx }
     }
 
-    /// Numbers that a configuration of the arm can have.
+    /// Check that the arm can have a configuration with these numbers.
     pub(crate) fn check(&self, coupled: bool) -> Result<(), Error> {
         let quarters = [-MOST_QUARTERS, MOST_QUARTERS];
         let slots = if coupled { [0, 0] } else { [0, 7] };
@@ -70,7 +70,7 @@ impl Configuration {
         Ok(())
     }
 
-    /// The ranges [rad] that it leaves axes 1, 4 and 6, widened by `edge` [rad].
+    /// The ranges [rad] that it permits for axes 1, 4 and 6, widened by `edge` [rad].
     fn ranges(&self, edge: f64) -> [(usize, [f64; 2]); 3] {
         let quarters = [self.cf1, self.cf4, self.cf6].map(f64::from);
         core::array::from_fn(|i| {
@@ -79,8 +79,8 @@ impl Configuration {
     }
 }
 
-/// The number of an angle's quarter turn: its floor, an angle that is an edge but for the rounding
-/// of degrees to radians being one.
+/// The quarter turn of an angle: its floor. An angle that differs from an edge only by the rounding
+/// of degrees to radians counts as that edge.
 #[expect(clippy::cast_possible_truncation, reason = "no more than MOST_QUARTERS")]
 fn quarter(angle: f64) -> i32 {
     let quarters = angle / FRAC_PI_2;
@@ -92,20 +92,20 @@ fn quarter(angle: f64) -> i32 {
     }
 }
 
-/// The slot of a joint vector; a spherical wrist's always has one.
+/// The slot of a joint vector; a spherical wrist always has one.
 fn slot_of(arm: &SphericalWrist, q: &[f64; 6]) -> Slot {
     arm.slot(q).unwrap_or(Slot::new(0))
 }
 
 impl Robot<6> {
-    /// ABB's confdata of a joint vector [rad]: on the edge of a quarter turn, that of the one which
-    /// begins there.
+    /// ABB's confdata of a joint vector [rad]. On the edge of a quarter turn, it is that of the one
+    /// which begins there.
     ///
     /// # Errors
     ///
     /// [`Error::InvalidJoints`] when an angle is not finite or exceeds [`MOST_ANGLE`],
-    /// [`Error::InvalidModel`] for an arm without a spherical wrist, whose controller counts
-    /// otherwise.
+    /// [`Error::InvalidModel`] for an arm without a spherical wrist, whose controller uses other
+    /// numbers.
     pub fn configuration(&self, q: &[f64; 6]) -> Result<Configuration, Error> {
         let arm = self.counted()?;
         check_seed("q", q)?;
@@ -117,27 +117,27 @@ impl Robot<6> {
         Configuration::of(q, cfx)
     }
 
-    /// The solution inside the limits that has the configuration `wanted`, which chooses the turns
-    /// of axes 1, 4 and 6, too.
+    /// The solution inside the limits that has the configuration `wanted`, which also selects the 2
+    /// pi equivalents of axes 1, 4 and 6.
     ///
-    /// An angle within [`CONFIGURATION_EDGE`] of the edge of a quarter turn is taken for either
-    /// side of it, and axis 5 next to zero or a straight elbow for either slot. Where the pose
-    /// leaves a joint free, it takes the configuration's side. Of an arm with coupled axes the
-    /// branches in front of the lower arm are looked at first.
+    /// An angle within [`CONFIGURATION_EDGE`] of the edge of a quarter turn matches either side of
+    /// it; axis 5 near zero and a straight elbow match either slot. A joint that the pose leaves
+    /// undetermined takes the side that the configuration names. For an arm with coupled axes the
+    /// branches in front of the lower arm are tried first.
     ///
     /// # Errors
     ///
-    /// As [`Robot::ik_nearest`]; [`Error::NoConfiguration`], which lists those that exist;
-    /// [`Error::InvalidJoints`] for a `cfx` that the arm does not have; [`Error::InvalidModel`] as
-    /// [`Robot::configuration`].
+    /// As [`Robot::ik_nearest`]; [`Error::NoConfiguration`], which lists the configurations that
+    /// exist; [`Error::InvalidJoints`] for a `cfx` that the arm does not have;
+    /// [`Error::InvalidModel`] as [`Robot::configuration`].
     pub fn ik_configured(&self, pose: &Pose, wanted: Configuration) -> Result<Solution<6>, Error> {
         self.ik_configured_checked(checked_pose(pose)?, wanted)
     }
 
-    /// [`Robot::ik_configured`] or, where no solution has that configuration, the one nearest to
+    /// [`Robot::ik_configured`] or, if no solution has that configuration, the solution nearest to
     /// `seed` [rad].
     ///
-    /// Many programs write `[0, 0, 0, 0]` without having calculated it.
+    /// Many programs contain `[0, 0, 0, 0]` without having computed it.
     ///
     /// # Errors
     ///
@@ -152,7 +152,7 @@ impl Robot<6> {
         self.ik_configured_or_nearest_checked(checked_pose(pose)?, wanted, seed)
     }
 
-    /// [`Robot::ik_configured_or_nearest`] for arguments that were checked where they came in.
+    /// [`Robot::ik_configured_or_nearest`] with arguments that are already checked.
     pub(crate) fn ik_configured_or_nearest_checked(
         &self,
         pose: Pose,
@@ -165,7 +165,7 @@ impl Robot<6> {
         }
     }
 
-    /// [`Robot::ik_configured`] for a pose that was checked.
+    /// [`Robot::ik_configured`] with a pose that is already checked.
     pub(crate) fn ik_configured_checked(
         &self,
         pose: Pose,
@@ -186,7 +186,7 @@ impl Robot<6> {
         Err(self.no_configuration(arm, &solutions, wanted)?)
     }
 
-    /// The solution of a regular pose that has the configuration, at some turn.
+    /// The solution of a regular pose that has the configuration, at some 2 pi equivalent.
     fn configured_regular(
         &self,
         arm: &SphericalWrist,
@@ -215,8 +215,8 @@ impl Robot<6> {
         None
     }
 
-    /// The solution of a singular pose that has the configuration, with whatever angles of the
-    /// joints that the pose leaves open.
+    /// The solution of a singular pose that has the configuration, with any angles of the
+    /// undetermined joints.
     fn configured_singular(
         &self,
         arm: &SphericalWrist,
@@ -246,10 +246,10 @@ impl Robot<6> {
         Ok(None)
     }
 
-    /// Whether a solution in `slot` has that of a configuration; with `Closeness::Met` also in one
-    /// that it meets within `edge` [rad].
+    /// Whether a solution in `slot` has the slot of a configuration or, with `Closeness::Met`, one
+    /// that meets it within `edge` [rad].
     ///
-    /// A coupled arm has no slot: the branches in front of the lower arm are looked at first.
+    /// A coupled arm has no slot: the branches in front of the lower arm are tried first.
     fn has_slot(
         &self,
         arm: &SphericalWrist,
@@ -266,18 +266,19 @@ impl Robot<6> {
         if slot == wanted.cfx {
             return true;
         }
-        let (near, kinds) = (arm.singular_distances(&solution.q), arm.kinds(&solution.q));
+        let (near, singularities) =
+            (arm.singular_distances(&solution.q), arm.singularities(&solution.q));
         let open = match closeness {
             Closeness::Same => [near.wrist <= SEEDED_FREE, false, false],
             Closeness::Bent => {
-                [near.wrist <= SEEDED_FREE, kinds.contains(SingularityKind::ELBOW), false]
+                [near.wrist <= SEEDED_FREE, singularities.contains(SingularityKind::ELBOW), false]
             }
             Closeness::Met => {
-                let kinds = kinds | solution.singularities();
+                let singularities = singularities | solution.singularities();
                 [
-                    near.wrist <= edge || kinds.contains(SingularityKind::WRIST),
-                    near.elbow <= edge || kinds.contains(SingularityKind::ELBOW),
-                    kinds.contains(SingularityKind::SHOULDER),
+                    near.wrist <= edge || singularities.contains(SingularityKind::WRIST),
+                    near.elbow <= edge || singularities.contains(SingularityKind::ELBOW),
+                    singularities.contains(SingularityKind::SHOULDER),
                 ]
             }
         };
@@ -286,7 +287,7 @@ impl Robot<6> {
     }
 
     /// The solution with an axis 5 that is zero to rounding, or an elbow that is straight to
-    /// rounding, on the side that the configuration names.
+    /// rounding, moved to the side that the configuration names.
     fn on_side(
         &self,
         arm: &SphericalWrist,
@@ -304,7 +305,7 @@ impl Robot<6> {
             return solution;
         }
         if (slot_of(arm, &q).number() ^ wanted.cfx) & 2 != 0
-            && arm.kinds(&q).contains(SingularityKind::ELBOW)
+            && arm.singularities(&q).contains(SingularityKind::ELBOW)
         {
             let bent = arm.with_bent_elbow(&q, wanted.cfx & 2 != 0);
             q = moved_onto_pose(bent, 2).unwrap_or(q);
@@ -317,8 +318,8 @@ impl Robot<6> {
         if slot_of(arm, &q).number() == wanted.cfx { Solution { q, ..solution } } else { solution }
     }
 
-    /// Why no solution has a configuration: which others there are, or that no solution is inside
-    /// the limits.
+    /// The reason why no solution has a configuration: the configurations that exist, or that no
+    /// solution is inside the limits.
     fn no_configuration(
         &self,
         arm: &SphericalWrist,
@@ -335,7 +336,7 @@ impl Robot<6> {
             self.list_turns(arm, solutions.limits(), solution, &mut none);
         }
         if none.existing.is_empty() {
-            // Of a family, another one than that which stands for it may be inside.
+            // Another member of a self-motion than its representative may be inside.
             let Some(inside) = self.nearest_of(solutions, &self.limits().rest(), &[1.0; 6])? else {
                 return Ok(Error::Unreachable(solutions.explain()));
             };
@@ -344,8 +345,8 @@ impl Robot<6> {
         Ok(Error::NoConfiguration(none))
     }
 
-    /// Adds the configurations of a solution's turns inside the limits, each once, as long as there
-    /// is room.
+    /// Add the configurations of a solution's 2 pi equivalents inside the limits, each once, while
+    /// there is room.
     fn list_turns(
         &self,
         arm: &SphericalWrist,
@@ -353,8 +354,8 @@ impl Robot<6> {
         solution: &Solution<6>,
         none: &mut NoConfiguration,
     ) {
-        let Some(q) = limits.turned_to(&solution.q, &solution.q) else { return };
-        // Turns of the other axes have the same configurations.
+        let Some(q) = limits.wrapped_near(&solution.q, &solution.q) else { return };
+        // 2 pi equivalents of the other axes have the same configurations.
         let Some(limits) = limits.narrowed(&UNCOUNTED.map(|joint| (joint, [q[joint]; 2]))) else {
             return;
         };
@@ -371,7 +372,7 @@ impl Robot<6> {
         }
     }
 
-    /// The geometry whose branches a configuration tells apart.
+    /// The geometry whose branches a configuration distinguishes.
     pub(crate) fn counted(&self) -> Result<&SphericalWrist, Error> {
         self.spherical_wrist()
             .ok_or_else(|| ModelFault::NoConfiguration { structure: self.structure() }.into())

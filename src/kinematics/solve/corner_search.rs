@@ -129,7 +129,7 @@ where
         let joint = free.joint() - 1;
         let others = self.others;
         self.others[joint] = folded.q[joint];
-        if self.is_open(folded, FreeJoint::Upper)? {
+        if self.is_undetermined(folded, FreeJoint::Upper)? {
             self.look_along_self_motion(folded, FreeJoint::Upper)?;
         }
         self.others = others;

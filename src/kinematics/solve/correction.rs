@@ -1,10 +1,10 @@
-//! Joints next to a singularity, moved onto the pose inside the limits.
+//! Moves joints near a singularity onto the pose, inside the limits.
 //!
-//! Where two singularities meet, rounding of the pose leaves joints open that no single formula
-//! names: a straight elbow leaves the forearm open, and with it the split of q4 and q6. A joint
-//! vector that has the open joint where it is wanted is off the pose by about that much; a few
-//! damped Newton steps move the others so that it meets the pose (docs/singularities.md, section
-//! 3).
+//! Where two singularities meet, rounding of the pose leaves joints undetermined that no single
+//! formula names: a straight elbow leaves the forearm undetermined, and with it the split of q4 and
+//! q6. A joint vector with the undetermined joint at a desired value is off the pose by about that
+//! much; a few damped Newton steps move the other joints until it reaches the pose
+//! (docs/singularities.md, section 3).
 //!
 //! Reference: Nakamura and Hanafusa, Inverse Kinematic Solutions with Singularity Robustness, 1986.
 
@@ -16,29 +16,29 @@ use crate::kinematics::pose::Pose;
 use crate::kinematics::robot::Robot;
 use crate::kinematics::structure::arity::{Arity, Joints};
 
-/// Steps of Newton's method: next to the pose each squares the distance, and a joint may come to
-/// its limit in some of them.
+/// Newton steps: near the pose each squares the distance, and in some of them a joint may reach its
+/// limit.
 const ROUNDS: u32 = 20;
 
-/// Part of the distance that a step must leave behind at least, to be followed by another.
+/// Largest fraction of the distance that a step may leave to be followed by another.
 const GAIN: f64 = 0.8;
 
-/// Square of the singular value below which a step is damped [1]: joints that the pose leaves open
-/// to 1e-5 stay where they are.
+/// Square of the singular value below which a step is damped [1]: joints that the pose determines
+/// only to 1e-5 are not moved.
 pub(super) const DAMPED: f64 = 1e-10;
 
-/// The same where the joints that are kept leave nothing open: only what no joint moves is damped.
+/// The same if the kept joints leave nothing undetermined: damps only what no joint moves.
 pub(super) const DETERMINED: f64 = 1e-18;
 
-/// Largest step of a joint [rad]: farther, the Jacobian is another one.
+/// Largest step of a joint [rad]: farther away, the Jacobian differs too much.
 const LARGEST_STEP: f64 = 0.5;
 
 impl<const N: usize> Robot<N>
 where
     Joints<N>: Arity<N>,
 {
-    /// The joint vector next to `q`, inside `limits` as `q` is, that meets the pose best, and how
-    /// far it is off [rad, m]. The joints `kept`, from 0, stay where they are, and so does joint 7;
+    /// The joint vector near `q`, inside `limits` if `q` is, that meets the pose best, and its
+    /// distance from the pose [rad, m]. The joints `kept`, from 0, are not moved, nor is joint 7;
     /// `damping` is [`DAMPED`] or [`DETERMINED`].
     pub(in crate::kinematics) fn corrected(
         &self,
@@ -62,8 +62,8 @@ where
                 }
                 let [low, high] = limits[joint];
                 let stepped = q[joint] + step[joint];
-                // A joint that starts on its limit, or beyond by a tolerance, stays there if it
-                // would go out.
+                // A joint that starts on its limit, or beyond it within the tolerance, stays there
+                // if the step would move it outward.
                 let inside = stepped.max(low.min(q[joint])).min(high.max(q[joint]));
                 if (inside - stepped).abs() > 0.0 {
                     (locked[joint], at_limit) = (true, true);
@@ -100,7 +100,8 @@ where
         step.iter().all(|angle| angle.is_finite()).then_some(step)
     }
 
-    /// From the tool at `q` to the pose: translation [m] and, for small angles, turn [rad].
+    /// The difference from the tool pose at `q` to the pose: translation [m] and, for small angles,
+    /// rotation [rad].
     fn off(&self, pose: &Pose, q: &[f64; N]) -> SVector<f64, 6> {
         let at = self.fk(q);
         let turn = (pose.rotation * at.rotation.inverse()).into_inner();

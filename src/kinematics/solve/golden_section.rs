@@ -1,17 +1,16 @@
-//! The least value of a function of one angle, where its slope need not be known.
+//! Minimizes a function of one angle without derivatives.
 //!
 //! Reference: Kiefer, Sequential Minimax Search for a Maximum, 1953.
 
 use crate::error::Error;
 
-/// Where an interval is cut so that the larger part is cut alike.
+/// Fraction that divides an interval in the golden section.
 const GOLDEN: f64 = 0.381_966_011_250_105_1;
 
-/// Cuts, each of which leaves 62 % of the interval: of ten degrees, 1e-10 rad.
+/// Number of cuts, each of which leaves 62 % of the interval: of ten degrees, 1e-10 rad.
 const CUTS: u32 = 45;
 
-/// Where between `low` and `high` the function `f` is least, if it has one valley there, and its
-/// value.
+/// The minimum of `f` between `low` and `high`, if it has one valley there, and its value.
 pub(super) fn golden_section(
     mut f: impl FnMut(f64) -> Result<f64, Error>,
     mut low: f64,
@@ -39,7 +38,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_valley_is_found_smooth_or_sharp() {
+    fn smooth_and_sharp_minima_are_found() {
         let smooth = golden_section(|x| Ok((x - 0.3).powi(2)), -0.1, 0.9).unwrap();
         let sharp = golden_section(|x| Ok((x - 0.3).abs()), -0.1, 0.9).unwrap();
         assert!((smooth.0 - 0.3).abs() < 1e-7 && (sharp.0 - 0.3).abs() < 1e-9);

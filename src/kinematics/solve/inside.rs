@@ -1,5 +1,5 @@
-//! Solutions outside the limits next to which others of the same pose are inside: those take their
-//! slots.
+//! Replaces solutions outside the limits by other members of their self-motion, or by neighbors of
+//! the same pose, that are inside.
 
 use crate::error::Error;
 use crate::kinematics::answer::solutions::{Place, Solution, Solutions};
@@ -13,9 +13,9 @@ impl<const N: usize> Robot<N>
 where
     Joints<N>: Arity<N>,
 {
-    /// Where a solution is outside the limits and another one of its family, which is `allowed`
-    /// [rad, m] off the pose at most, is not, that one takes its slot.
-    pub(in crate::kinematics) fn bring_families_inside(
+    /// If a solution is outside the limits and another member of its self-motion, at most `allowed`
+    /// [rad, m] off the pose, is inside, that member takes its slot.
+    pub(in crate::kinematics) fn bring_self_motions_inside(
         &self,
         solutions: &mut Solutions<N>,
         allowed: f64,
@@ -29,12 +29,12 @@ where
                 continue;
             };
             let rest = self.resting(Redundancy::of(&outside.q));
-            // A slot that another solution has is that one's.
+            // A slot that holds another solution is not vacant.
             let vacant = |to: usize| to == slot || solutions.slot(to).is_none();
-            let family = outside.free_joint.map_or(&[][..], |free| free.branches());
+            let branches = outside.free_joint.map_or(&[][..], |free| free.branches());
             let accepts = |member: &Solution<N>| {
                 let to = member.slot.index();
-                vacant(to) && family.iter().copied().flatten().any(|branch| to == slot ^ branch)
+                vacant(to) && branches.iter().copied().flatten().any(|branch| to == slot ^ branch)
             };
             let wanted = Wanted {
                 limits: solutions.limits,
@@ -43,7 +43,7 @@ where
                 accepts: &accepts,
             };
             let mut search = NearestSearch::new(self, solutions, &wanted, allowed);
-            // A twin meets the pose to rounding; between the twins it may be met less well.
+            // A twin meets the pose to rounding; between the twins the residual may be larger.
             search.look_at_twins(&outside)?;
             if search.best.is_none() {
                 search.look_along(&outside)?;
@@ -55,13 +55,13 @@ where
         Ok(())
     }
 
-    /// Where no solution is inside the limits and another one of the pose is, that one takes the
-    /// slot of the one that it came from.
+    /// If no solution is inside the limits but another one of the pose is, it takes the slot of the
+    /// solution that it was derived from.
     pub(in crate::kinematics) fn bring_one_inside(
         &self,
         solutions: &mut Solutions<N>,
     ) -> Result<(), Error> {
-        // Of seven axes, one is looked for along the redundancy.
+        // For seven axes, one is searched along the redundancy.
         if N != 6 || solutions.is_empty() || solutions.iter().any(Solution::is_within_limits) {
             return Ok(());
         }
@@ -80,11 +80,11 @@ where
 }
 
 impl<const N: usize> Solutions<N> {
-    /// Puts another solution of the same branch, or of its twin, in the place of the one in `slot`.
+    /// Replace the solution in `slot` by another one of the same branch, or of its twin.
     fn replace(&mut self, slot: usize, solution: Solution<N>) {
         let (to, places) = (solution.slot.index(), self.places_mut());
         if places[to].found().is_none() {
-            // What the other slot was merged by is now said of this one.
+            // The MERGED status of the other slot now applies to this one.
             places.swap(slot, to);
         }
         places[to] = Place::Found(solution);

@@ -1,4 +1,4 @@
-//! The inverse of a robot: every joint vector of a pose, and of many.
+//! The inverse of a robot: every joint vector of one pose, and of many.
 
 use crate::error::{Error, ModelFault};
 use crate::kinematics::answer::solutions::Solutions;
@@ -17,14 +17,14 @@ use crate::kinematics::thresholds::MOST_LENGTH;
 impl Robot<6> {
     /// Every joint vector that brings the tool to `pose`.
     ///
-    /// A pose out of reach has no solutions and tells so by [`Solutions::reach`]; at a singularity
-    /// a joint that the pose leaves free reads zero, or the middle of its limits where zero is
-    /// outside them; joint 6 of three parallel axes the angle nearest to that with which the arm
-    /// reaches. Derivations: docs/spherical_wrist.md, docs/three_parallel.md.
+    /// A pose out of reach has no solutions; [`Solutions::reach`] gives the reason. At a
+    /// singularity, a joint that the pose leaves undetermined is zero, or the middle of its limits
+    /// if zero is outside them; joint 6 of three parallel axes takes the angle nearest to that with
+    /// which the arm reaches. Derivations: docs/spherical_wrist.md, docs/three_parallel.md.
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidPose`] when the pose is not finite or no rigid transform;
+    /// [`Error::InvalidPose`] when the pose is not finite or not a rigid transform;
     /// [`Error::InvalidModel`] when the structure of the arm is unknown.
     pub fn ik(&self, pose: &Pose) -> Result<Solutions<6>, Error> {
         self.ik_with(pose, ())
@@ -49,24 +49,24 @@ impl<const N: usize> Robot<N>
 where
     Joints<N>: Arity<N>,
 {
-    /// [`Robot::<6>::ik`] and [`Robot::<7>::ik`] for a caller that is generic over the number of
-    /// joints: with the redundancy `()` of six joints, and the angle of joint 7 [rad] of seven.
+    /// [`Robot::<6>::ik`] or [`Robot::<7>::ik`] for a caller that is generic over the number of
+    /// joints. `redundancy` is `()` for six joints and the angle of joint 7 [rad] for seven.
     ///
     /// # Errors
     ///
-    /// As theirs.
+    /// As [`Robot::<6>::ik`] and [`Robot::<7>::ik`].
     pub fn ik_with(&self, pose: &Pose, redundancy: RedundancyOf<N>) -> Result<Solutions<N>, Error> {
         redundancy.check()?;
         self.ik_checked(checked_pose(pose)?, redundancy)
     }
 
-    /// [`Robot::ik_with`] for arguments that were checked where they came in.
+    /// [`Robot::ik_with`] with arguments that are already checked.
     pub(crate) fn ik_checked(
         &self,
         pose: Pose,
         redundancy: RedundancyOf<N>,
     ) -> Result<Solutions<N>, Error> {
-        // Solved where it is returned: an answer is a thousand bytes.
+        // Solved in place: an answer has about a thousand bytes.
         let mut answer = Ok(self.unsolved(pose));
         if let Ok(solutions) = &mut answer
             && let Err(error) = self.ik_into(solutions, redundancy)
@@ -84,7 +84,7 @@ where
         });
     }
 
-    /// One row by itself.
+    /// Solve one row by itself.
     #[cold]
     fn ik_row(
         &self,
@@ -107,13 +107,13 @@ where
         }
     }
 
-    /// An answer without solutions, to solve in the place where it stands.
+    /// An answer without solutions, to be solved in place.
     #[inline]
     pub(crate) fn unsolved(&self, pose: Pose) -> Solutions<N> {
         Solutions::none(self.solver().slot_count(), pose, *self.limits())
     }
 
-    /// [`Robot::ik_checked`] of an unsolved answer's pose, without moving the answer about.
+    /// [`Robot::ik_checked`] for the pose of an unsolved answer, in place.
     pub(crate) fn ik_into(
         &self,
         solutions: &mut Solutions<N>,
@@ -125,7 +125,7 @@ where
         self.solve_at_rest(solutions, redundancy)
     }
 
-    /// [`Self::ik_into`] of a pose that is not regular.
+    /// [`Self::ik_into`] for a pose that is not regular.
     #[cold]
     pub(in crate::kinematics) fn solve_at_rest(
         &self,
@@ -133,11 +133,11 @@ where
         redundancy: RedundancyOf<N>,
     ) -> Result<(), Error> {
         self.solve_scalar(solutions, &FreeChoice::rest(self.resting(redundancy)))?;
-        self.bring_families_inside(solutions, meets(&solutions.pose))?;
+        self.bring_self_motions_inside(solutions, meets(&solutions.pose))?;
         self.bring_one_inside(solutions)
     }
 
-    /// Whether a pose is far enough from every singularity for the lanes to solve it.
+    /// Whether a pose is far enough from every singularity to be solved in lanes.
     pub(in crate::kinematics) fn is_regular(
         &self,
         pose: &Pose,
@@ -146,14 +146,14 @@ where
         self.solve_in_lanes(&mut self.unsolved(*pose), redundancy)
     }
 
-    /// Where joints rest: one whose angle was given stays there.
+    /// The default angles of undetermined joints; a joint whose angle is given keeps it.
     pub(in crate::kinematics) fn resting(&self, redundancy: RedundancyOf<N>) -> [f64; N] {
         let mut rest = self.limits().rest();
         redundancy.put(&mut rest);
         rest
     }
 
-    /// Every joint vector of a pose; what a caller gives with it is that of the free choice.
+    /// Every joint vector of a pose; the redundancy parameter is that of the free choice.
     pub(in crate::kinematics) fn solve(
         &self,
         pose: Pose,
@@ -167,7 +167,7 @@ where
         Ok(solutions)
     }
 
-    /// Whatever the pose, one branch after the other.
+    /// Solve any pose, one branch after the other.
     #[cold]
     pub(in crate::kinematics) fn solve_scalar(
         &self,
@@ -179,7 +179,7 @@ where
         solved.map_err(|reason| ModelFault::UnknownStructure(reason).into())
     }
 
-    /// Solves a regular pose, and reports whether it is one.
+    /// Solve a regular pose; return whether the pose is regular.
     #[inline]
     pub(in crate::kinematics) fn solve_in_lanes(
         &self,

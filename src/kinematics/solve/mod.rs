@@ -1,4 +1,4 @@
-//! The inverse of a robot: of one pose, of rows, next to a seed, by configuration, along the
+//! The inverse of a robot: for one pose, for rows, near a seed, by configuration, along the
 //! redundancy.
 
 pub(crate) mod configuration;
@@ -8,11 +8,11 @@ mod golden_section;
 mod inside;
 pub(crate) mod inverse;
 pub(crate) mod nearest;
-mod open_wrist;
 mod pair;
 pub(crate) mod redundancy;
 pub(crate) mod seeded;
 pub(crate) mod self_motion;
 pub(crate) mod self_motion_curve;
 mod self_motion_search;
+mod singular_wrist;
 mod starts;

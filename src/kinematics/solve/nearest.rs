@@ -1,10 +1,9 @@
-//! The solution inside the limits that is nearest to a seed, where the pose is next to a
-//! singularity.
+//! The solution inside the limits that is nearest to a seed, for a pose near a singularity.
 //!
-//! A regular pose has at most eight solutions, and the cheapest is the answer. A singular one has
-//! families of them, twins half a turn apart of which a solve keeps one, and, next to two
-//! singularities at once, joints that rounding leaves open. Each of these gives candidates; one
-//! that meets the pose inside the limits may be the answer, and the cheapest is
+//! A regular pose has at most eight solutions, and the cheapest is the answer. A singular pose also
+//! has self-motions; twins half a turn apart, of which a solve keeps one; and, near two
+//! singularities at once, joints that rounding leaves undetermined. Each of these yields
+//! candidates. One that reaches the pose inside the limits may be the answer, and the cheapest is
 //! (docs/singularities.md, section 3).
 
 use core::f64::consts::PI;
@@ -28,20 +27,23 @@ use crate::kinematics::structure::redundancy::Redundancy;
 use crate::kinematics::thresholds::{LIMIT_SLACK, SOLUTION_OFF};
 use crate::report::FreeJoint;
 
-/// Arms of a pose whose wrists are looked at: those of the choices of [`NearestSearch::choices`],
-/// four each at most.
+/// Number of arms of a pose whose wrists are searched: those of the choices of
+/// [`NearestSearch::choices`], at most four each.
 const ARMS: usize = 24;
 
-/// |sin q5| up to which the wrist of three parallel axes may be open because the plane of the arm is [1]: that is open by 1e-7 or less.
-const OPEN_PLANE_SIN: f64 = 1e-6;
+/// sin q5
+///
+/// up to which an undetermined plane of the arm may leave the wrist of three parallel axes
+/// undetermined [1]: the plane's uncertainty is at most 1e-7.
+const UNCERTAIN_PLANE_SIN: f64 = 1e-6;
 
-/// What is asked of a solution.
+/// The requirements on a solution.
 pub(in crate::kinematics) struct Wanted<'a, const N: usize> {
     /// The robot's limits, or narrower ones.
     pub(in crate::kinematics) limits: JointLimits<N>,
     pub(in crate::kinematics) seed: &'a [f64; N],
     pub(in crate::kinematics) weights: &'a [f64; N],
-    /// What it must be besides.
+    /// A further condition that it must satisfy.
     pub(in crate::kinematics) accepts: &'a dyn Fn(&Solution<N>) -> bool,
 }
 
@@ -49,8 +51,8 @@ impl<const N: usize> Robot<N>
 where
     Joints<N>: Arity<N>,
 {
-    /// The solution inside the limits that is nearest to `seed`: of `solutions` or, where none of
-    /// them is inside and the pose is singular, of all that it has.
+    /// The solution inside the limits that is nearest to `seed`: one of `solutions` or, if none of
+    /// them is inside and the pose is singular, any solution of the pose.
     pub(in crate::kinematics) fn nearest_of(
         &self,
         solutions: &Solutions<N>,
@@ -65,8 +67,8 @@ where
         self.nearest_at_singularity(solutions, &wanted)
     }
 
-    /// What is wanted, of a pose that is not regular and has `known` solutions among others. One
-    /// that meets the pose, or else one that meets it to its distance from the singularity.
+    /// The wanted solution of a pose that is not regular, of which the solutions `known` are given.
+    /// It reaches the pose or, failing that, is off by at most the distance from the singularity.
     pub(in crate::kinematics) fn nearest_at_singularity(
         &self,
         known: &Solutions<N>,
@@ -81,8 +83,8 @@ where
         Ok(None)
     }
 
-    /// What is wanted, at most `allowed` [rad, m] off the pose, and the slot of the solution that
-    /// it came from.
+    /// The wanted solution, at most `allowed` [rad, m] off the pose, and the slot of the solution
+    /// that it was derived from.
     pub(in crate::kinematics) fn nearest_within(
         &self,
         known: &Solutions<N>,
@@ -95,7 +97,7 @@ where
     }
 }
 
-/// A solution that was found, what it costs, and the slot of the one that it came from.
+/// A solution that was found, its cost, and the slot of the solution that it was derived from.
 #[derive(Clone, Copy)]
 pub(super) struct Candidate<const N: usize> {
     pub(super) cost: f64,
@@ -114,12 +116,12 @@ where
     /// How far a solution may be off the pose [rad, m].
     pub(super) allowed: f64,
     pub(super) best: Option<Candidate<N>>,
-    /// What other joints take that the pose leaves open, along a family.
+    /// The values of other undetermined joints along a self-motion.
     pub(super) others: [f64; N],
-    /// The arms whose wrists were looked at, and on which side axis 5 stood.
+    /// The arms whose wrists were searched, with the side of axis 5.
     pub(super) arms: [Option<([f64; 3], bool)>; ARMS],
-    /// The free joints whose families were looked at, a bit each, of either shoulder.
-    families: [u8; 2],
+    /// The undetermined joints whose self-motions were searched, one bit each, for either shoulder.
+    self_motions: [u8; 2],
 }
 
 impl<'a, const N: usize> NearestSearch<'a, N>
@@ -132,7 +134,7 @@ where
         wanted: &'a Wanted<'a, N>,
         allowed: f64,
     ) -> Self {
-        // Beyond reach no solution meets the pose better than those that are known.
+        // Beyond reach no solution meets the pose better than the known ones.
         let off = |solution: &Solution<N>| robot.residual(&solution.q, known.pose()).largest();
         let off = known.iter().map(off).fold(0.0, f64::max);
         Self {
@@ -143,7 +145,7 @@ where
             best: None,
             others: *wanted.seed,
             arms: [None; ARMS],
-            families: [0; 2],
+            self_motions: [0; 2],
         }
     }
 
@@ -173,8 +175,8 @@ where
         Ok(())
     }
 
-    /// The seed for joints that the pose leaves open, and half a turn from it: of two branches that
-    /// are one the nearer is kept, so that every pair of twins comes with one or the other.
+    /// The seed for undetermined joints, and half a turn from it: of two merged branches the nearer
+    /// is kept, so every pair of twins appears with one or the other.
     fn choices(&self) -> [[f64; N]; 4] {
         [[0.0, 0.0], [0.0, PI], [PI, 0.0], [PI, PI]].map(|[shoulder, wrist]| {
             let mut q = *self.wanted.seed;
@@ -185,8 +187,8 @@ where
         })
     }
 
-    /// Looks at the solutions of each side, with joints that the pose leaves open to rounding alone
-    /// where they rest.
+    /// Search the solutions on each side, with the joints that only rounding leaves undetermined at
+    /// their default angles.
     pub(super) fn look_at_twins(&mut self, from: &Solution<N>) -> Result<(), Error> {
         for q in self.choices() {
             for solution in &self.robot.solve(*self.known.pose(), &FreeChoice::rest(q))? {
@@ -196,25 +198,27 @@ where
         Ok(())
     }
 
-    /// Whether a solution must meet the pose, and not only to its distance from the singularity.
+    /// Whether a solution must reach the pose to rounding, not only to its distance from the
+    /// singularity.
     pub(super) fn must_meet(&self) -> bool {
         self.allowed < SOLUTION_OFF
     }
 
-    /// By how much a start may be outside its limits [rad]: what is off the pose is not moved.
+    /// By how much a start may be outside its limits [rad]; zero if the solution may be off the
+    /// pose, as it is then not moved.
     fn slack(&self, slack: f64) -> f64 {
         if self.must_meet() { slack } else { 0.0 }
     }
 
-    /// Whether nothing can be nearer than what was found.
+    /// Whether no solution can be nearer than the one found.
     pub(super) fn is_done(&self) -> bool {
         self.best.is_some_and(|best| best.cost == 0.0)
     }
 
-    /// Takes a solution if it is wanted and the nearest.
+    /// Keep a solution if it is wanted and the nearest so far.
     fn take(&mut self, solution: &Solution<N>, from: &Solution<N>) {
         let Wanted { limits, seed, weights, accepts } = self.wanted;
-        let Some(q) = limits.turned_to(&solution.q, seed) else { return };
+        let Some(q) = limits.wrapped_near(&solution.q, seed) else { return };
         let cost = Cost::Distance.total(&q, seed, weights);
         if self.best.is_some_and(|best| best.cost <= cost) {
             return;
@@ -226,15 +230,15 @@ where
         }
     }
 
-    /// Takes a solution that is on the pose.
+    /// Keep a solution if it reaches the pose.
     pub(super) fn take_if_met(&mut self, solution: &Solution<N>, from: &Solution<N>) {
         if self.robot.residual(&solution.q, self.known.pose()).largest() <= self.allowed {
             self.take(solution, from);
         }
     }
 
-    /// Takes the joints nearest to `q` that meet the pose, of the branch of `from`; `q` may be
-    /// outside its limits by `slack` [rad]. Tells whether `q` itself meets the pose.
+    /// Keep the joints nearest to `q` that reach the pose, on the branch of `from`; `q` may be
+    /// outside its limits by `slack` [rad]. Returns whether `q` itself reaches the pose.
     pub(super) fn move_onto_pose(&mut self, q: &[f64; N], slack: f64, from: &Solution<N>) -> bool {
         let limits = &self.wanted.limits;
         let Some(q) = limits.clamped_to(q, self.wanted.seed, self.slack(slack)) else {
@@ -252,15 +256,15 @@ where
         false
     }
 
-    /// The branch of `from` with other joints.
+    /// The branch of `from` with other joint angles.
     fn at(&self, q: [f64; N], from: &Solution<N>) -> Solution<N> {
         let wrist = self.robot.solver().arm().spherical_wrist();
         let slot = wrist.map_or(from.slot, |wrist| from.slot.flipped_to(wrist.sin_5(&q) < 0.0));
         Solution { q, slot, ..*from }
     }
 
-    /// Looks at the solutions that belong to one: along the joint that it leaves free, along the
-    /// wrist, and its twin.
+    /// Search the solutions related to one: along its undetermined joint, along the wrist, and its
+    /// twin.
     pub(super) fn look_along(&mut self, solution: &Solution<N>) -> Result<(), Error> {
         if self.is_done() {
             return Ok(());
@@ -269,15 +273,15 @@ where
         let arm = self.robot.solver().arm();
         if arm.spherical_wrist().is_none()
             && (self.must_meet() || solution.singularities().contains(SingularityKind::WRIST))
-            && arm.sin_5(&solution.q).is_some_and(|sin_5| sin_5.abs() <= OPEN_PLANE_SIN)
+            && arm.sin_5(&solution.q).is_some_and(|sin_5| sin_5.abs() <= UNCERTAIN_PLANE_SIN)
             && self.is_first_of(solution, 0)
         {
-            self.look_at_open_plane(solution)?;
+            self.search_uncertain_plane(solution)?;
         }
         for free in self.self_motions_of(solution).into_iter().flatten() {
             let limits = &self.wanted.limits;
-            // What stands still along a family may be outside the limits for good; no member of one
-            // moves the linkage.
+            // A joint that is fixed along a self-motion may be outside the limits for all members;
+            // no member moves the linkage.
             let stuck =
                 |joint: &usize| limits.overrun(joint - 1, solution.q[joint - 1]) > SOLUTION_OFF;
             let stuck = free.still().iter().any(stuck);
@@ -291,8 +295,8 @@ where
         Ok(())
     }
 
-    /// The joints that may be free along a solution and move more than a partner: the one that it
-    /// names and, next to another singularity, that of axis 1 or 2, which a wrist hides.
+    /// The joints that may be undetermined at a solution and move more than a partner: the one that
+    /// it names and, near another singularity, that of axis 1 or 2, which a singular wrist hides.
     fn self_motions_of(&self, solution: &Solution<N>) -> [Option<FreeJoint>; 3] {
         let named = solution.free_joint.filter(|free| free.partner().is_none());
         if self.robot.solver().arm().spherical_wrist().is_none() {
@@ -313,16 +317,16 @@ where
         if self.robot.is_coupled() { FreeJoint::UpperCoupled } else { FreeJoint::Upper }
     }
 
-    /// Whether no solution of the same shoulder was looked at along this joint before.
+    /// Whether no solution of the same shoulder was searched along this joint before.
     fn is_first_of(&mut self, solution: &Solution<N>, joint: usize) -> bool {
         let shoulder = solution.slot.index() / (self.known.slot_count() / 2);
-        let (families, bit) = (&mut self.families[shoulder], 1 << joint);
-        let first = *families & bit == 0;
-        *families |= bit;
+        let (self_motions, bit) = (&mut self.self_motions[shoulder], 1 << joint);
+        let first = *self_motions & bit == 0;
+        *self_motions |= bit;
         first
     }
 
-    /// [`Self::move_onto_pose`] with joints that stay where they are, from 0.
+    /// [`Self::move_onto_pose`] with joints (from 0) that are not moved.
     pub(super) fn move_keeping(
         &mut self,
         q: &[f64; N],

@@ -1,5 +1,5 @@
-//! Two joints of which a singular pose fixes only the sum or the difference, such as those about
-//! axes 4 and 6 in one line.
+//! Two joints whose sum or difference alone a singular pose determines, such as those about
+//! collinear axes 4 and 6.
 
 use core::f64::consts::TAU;
 
@@ -11,10 +11,10 @@ use crate::kinematics::thresholds::LIMIT_TOLERANCE;
 use crate::lanes::whole_below;
 use crate::report::FreeJoint;
 
-/// `q[first] + sign * q[partner] = fixed`, at whatever turn.
+/// `q[first] + sign * q[partner] = fixed`, modulo 2 pi.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pair {
-    /// Numbers of the joints, from 0.
+    /// Indices of the joints, from 0.
     pub(super) first: usize,
     pub(super) partner: usize,
     sign: f64,
@@ -22,39 +22,39 @@ pub(super) struct Pair {
 }
 
 impl Pair {
-    /// That of a solution whose free joint has a partner.
+    /// The pair of a solution whose free joint has a partner.
     pub(super) fn of<const N: usize>(free: FreeJoint, q: &[f64; N]) -> Option<Self> {
         let (partner, sign) = free.partner()?;
         let (first, partner) = (free.joint() - 1, partner - 1);
         Some(Self { first, partner, sign, fixed: q[first] + sign * q[partner] })
     }
 
-    /// The angle of the partner that goes with one of the first joint.
+    /// The angle of the partner for an angle of the first joint.
     fn partner_of(&self, angle: f64) -> f64 {
         self.sign * (self.fixed - angle)
     }
 
-    /// `q` with the first joint at `angle` and its partner where that puts it.
+    /// `q` with the first joint at `angle` and its partner at the angle that follows.
     pub(super) fn put<const N: usize>(&self, q: &[f64; N], angle: f64) -> [f64; N] {
         let mut q = *q;
         (q[self.first], q[self.partner]) = (angle, self.partner_of(angle));
         q
     }
 
-    /// The angles of the first joint at which it or its partner comes to a limit.
+    /// The angles of the first joint at which it or its partner reaches a limit.
     pub(super) fn edges<const N: usize>(&self, limits: &JointLimits<N>) -> [f64; 4] {
         let limits = limits.to_array();
         let ([low, high], [other_low, other_high]) = (limits[self.first], limits[self.partner]);
         [low, high, self.fixed - self.sign * other_low, self.fixed - self.sign * other_high]
     }
 
-    /// The angle of the first joint inside the limits, its partner inside them too, at which both
-    /// are nearest to the seed; `None` where no angle keeps both inside.
+    /// The angle of the first joint at which both joints are inside the limits and nearest to the
+    /// seed; `None` if no angle keeps both inside.
     ///
     /// With the partner `m` turns on, the cost is a parabola of the angle `a`
-    /// (docs/singularities.md, eq. 81), of which the limits leave an interval. The least cost of
-    /// each `m` is a convex function of `m`, so that the best turns are next to those of the pair
-    /// of angles that would be taken were the sum not fixed.
+    /// (docs/singularities.md, eq. 81), restricted by the limits to an interval. The least cost for
+    /// each `m` is a convex function of `m`, so the best turns are adjacent to those of the pair of
+    /// angles that would be chosen if the sum were free.
     pub(super) fn nearest<const N: usize>(
         &self,
         limits: &JointLimits<N>,
@@ -69,7 +69,7 @@ impl Pair {
         let mut best: Option<(f64, f64)> = None;
         for turn in [turns - 1.0, turns, turns + 1.0, turns + 2.0] {
             let fixed = self.fixed + self.sign * TAU * turn;
-            // Of b = sign (fixed - a) in its limits.
+            // For b = sign (fixed - a) at its limits.
             let ends = [fixed - self.sign * low_b, fixed - self.sign * high_b];
             let low = low_a.max(ends[0].min(ends[1]));
             let high = high_a.min(ends[0].max(ends[1]));
@@ -95,7 +95,7 @@ impl Pair {
 mod tests {
     use super::*;
 
-    /// Against every angle in steps of a milliradian.
+    /// Compares with every angle in steps of a milliradian.
     #[test]
     fn no_other_angles_of_the_pair_are_nearer_to_the_seed() {
         let mut state = 1_u64;
@@ -124,7 +124,7 @@ mod tests {
             let pair = Pair::of(free, &q).unwrap();
             let limits = JointLimits::new(limits).unwrap();
             let cost = |angle: f64| {
-                let q = limits.turned_to(&pair.put(&seed, angle), &seed)?;
+                let q = limits.wrapped_near(&pair.put(&seed, angle), &seed)?;
                 Some(weights[3] * (q[3] - seed[3]).powi(2) + weights[5] * (q[5] - seed[5]).powi(2))
             };
             let least = (-3200..3200)

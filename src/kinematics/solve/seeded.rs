@@ -1,4 +1,4 @@
-//! The solution next to a seed, for every number of joints that has an inverse.
+//! The solution nearest to a seed, for every number of joints that has an inverse.
 
 use crate::error::Error;
 use crate::kinematics::answer::check::{check_seed, check_weights};
@@ -10,10 +10,10 @@ use crate::kinematics::solve::nearest::Wanted;
 use crate::kinematics::structure::arity::{Arity, Joints};
 use crate::report::Explanation;
 
-/// Robots that bring their tool to a pose next to a seed, of six and of seven joints, each in its
-/// way. Sealed.
+/// Robots whose inverse can be solved near a seed: of six and of seven joints, each in its own way.
+/// Sealed.
 pub trait Inverse<const N: usize>: sealed::Sealed {
-    /// The solution inside the limits that is nearest to a seed, for arguments that were checked.
+    /// The solution inside the limits that is nearest to a seed; the arguments are already checked.
     #[doc(hidden)]
     fn nearest_checked(
         &self,
@@ -22,7 +22,7 @@ pub trait Inverse<const N: usize>: sealed::Sealed {
         weights: &[f64; N],
     ) -> Result<Solution<N>, Error>;
 
-    /// The outcome of the search in a sentence, for a pose that was checked.
+    /// The outcome of the search in a sentence, for a pose that is already checked.
     #[doc(hidden)]
     fn explain(&self, pose: &Pose) -> Result<Explanation, Error>;
 }
@@ -83,9 +83,8 @@ where
     Self: Inverse<N>,
     Joints<N>: Arity<N>,
 {
-    /// The solution inside the limits that is nearest to `seed` [rad], 2 pi equivalents considered:
-    /// of a self-motion the nearest member, and of an arm of seven joints with every angle of joint
-    /// 7.
+    /// The solution inside the limits that is nearest to `seed` [rad] among all 2 pi equivalents,
+    /// all members of a self-motion and, for an arm of seven joints, all angles of joint 7.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! The self-motion of a singular pose: its solutions along a joint that it leaves free.
+//! The self-motion of a singular pose: its solutions along an undetermined joint.
 
 use crate::error::{Error, JointFault};
 use crate::kinematics::answer::check::check_angle;
@@ -15,17 +15,17 @@ impl<const N: usize> Robot<N>
 where
     Joints<N>: Arity<N>,
 {
-    /// The solution of the same pose whose free joint stands at `value` [rad]; `None` where no
-    /// joint is free.
+    /// The solution of the same pose with its free joint at `value` [rad]; `None` if no joint is
+    /// undetermined.
     ///
-    /// The tool stays to rounding at the singularity, and next to it within twice the pose's
+    /// At the singularity the tool stays in place to rounding; near it, within twice the pose's
     /// distance from it: at most 3e-9 rad or m.
     ///
     /// # Errors
     ///
-    /// As [`Robot::ik`], [`Error::InvalidJoints`] when the value is not finite or the solution is
-    /// none of the pose, and [`Error::Unreachable`] when the arm does not reach with the free joint
-    /// there.
+    /// As [`Robot::ik`], [`Error::InvalidJoints`] when the value is not finite or the solution does
+    /// not reach the pose, and [`Error::Unreachable`] when the arm does not reach the pose with the
+    /// free joint there.
     pub fn with_free_joint(
         &self,
         pose: &Pose,
@@ -44,8 +44,8 @@ where
             .ok_or(Error::Unreachable(Explanation::FreeOutOfReach { joint: free.joint(), value }))
     }
 
-    /// [`Self::with_free_joint`] for a pose and a solution of it that were checked; `None` where
-    /// the arm does not reach.
+    /// [`Self::with_free_joint`] for a pose and a solution of it that are already checked; `None`
+    /// if the arm does not reach.
     fn with_free_joint_at(
         &self,
         pose: &Pose,
@@ -65,7 +65,7 @@ where
         }))
     }
 
-    /// Every solution with the free joint at `value`, whatever the pose says of it.
+    /// Every solution with the free joint at `value`, even if the pose determines it.
     pub(super) fn solve_with_free_joint(
         &self,
         pose: &Pose,
@@ -82,8 +82,8 @@ where
     }
 }
 
-/// How far a solution that meets this pose may be off it [rad, m]: by what a seed may cost or, of
-/// lengths so great that their rounding is more, by theirs.
+/// How far a solution that reaches this pose may be off it [rad, m]: the tolerance of a seeded
+/// solve or, for very long lengths, their rounding.
 pub(in crate::kinematics) fn meets(pose: &Pose) -> f64 {
     SEEDED_FREE.max(4.0 * POSITION_ROUNDING * pose.translation.vector.norm())
 }

@@ -1,4 +1,4 @@
-//! The curve on which the joints of a seven-axis arm move while its tool stands still.
+//! The curve on which the joints of a seven-axis arm move while its tool stays in place.
 //!
 //! Reference: Allgower and Georg, Introduction to Numerical Continuation Methods, 2003, chapter 2.
 
@@ -12,13 +12,13 @@ use crate::kinematics::thresholds::POSITION_ROUNDING;
 /// Seven joint angles [rad].
 pub(in crate::kinematics) type Joints = SVector<f64, 7>;
 
-/// Rounds in which Newton's method has come to rest, if it does.
+/// Rounds in which Newton's method converges, if it does.
 const ROUNDS: u32 = 12;
 
-/// Correction beyond which a point is not next to the curve [rad].
+/// Correction beyond which a point is not near the curve [rad].
 const LARGEST_CORRECTION: f64 = 0.5;
 
-/// Correction below which a point is on the curve to rounding, next to a singularity too [rad].
+/// Correction below which a point is on the curve to rounding, near a singularity too [rad].
 const AT_REST: f64 = 1e-11;
 
 /// The joint vectors that bring the tool to a pose.
@@ -26,11 +26,11 @@ const AT_REST: f64 = 1e-11;
 pub(in crate::kinematics) struct SelfMotion<'a> {
     pub(in crate::kinematics) robot: &'a Robot<7>,
     pub(in crate::kinematics) pose: &'a Pose,
-    /// How far rounding moves a pose of the arm at most [m, rad].
+    /// Upper bound of the rounding of a pose of the arm [m, rad].
     pub(in crate::kinematics) rounding: f64,
 }
 
-/// A point of the curve, and the direction of the curve there, of length one.
+/// A point of the curve, and the unit direction of the curve there.
 #[derive(Clone, Copy)]
 pub(in crate::kinematics) struct Point {
     pub(in crate::kinematics) q: Joints,
@@ -44,9 +44,9 @@ impl Point {
 }
 
 impl SelfMotion<'_> {
-    /// The point of the curve next to `q`, which may be off it.
+    /// The point of the curve near `q`, which may be off it.
     pub(in crate::kinematics) fn nearest(&self, q: &Joints) -> Option<Point> {
-        // Where the arm is singular with one joint standing still, it is not with every other.
+        // An arm that is singular with one joint fixed is not singular with every other one fixed.
         let along = [6, 4, 2, 0, 1, 3, 5].into_iter().find_map(|joint| {
             let border = Joints::ith(joint, 1.0);
             self.direction(q, &border)
@@ -54,12 +54,12 @@ impl SelfMotion<'_> {
         self.across(q, &along)
     }
 
-    /// The point of the curve in the plane through `q` that is square to `along`.
+    /// The point of the curve in the plane through `q` perpendicular to `along`.
     pub(in crate::kinematics) fn across(&self, q: &Joints, along: &Joints) -> Option<Point> {
         self.newton(*q, along, along.dot(q))
     }
 
-    /// The point of the curve near `q` at which joint `joint`, from 0, stands at `angle`.
+    /// The point of the curve near `q` at which joint `joint`, from 0, is at `angle`.
     pub(in crate::kinematics) fn with_joint_at(
         &self,
         q: &Joints,
@@ -69,7 +69,7 @@ impl SelfMotion<'_> {
         self.newton(*q, &Joints::ith(joint, 1.0), angle)
     }
 
-    /// The point of the curve near `q` at which `border . q` has a value.
+    /// The point of the curve near `q` at which `border . q` has a given value.
     fn newton(&self, mut q: Joints, border: &Joints, value: f64) -> Option<Point> {
         let mut rest = f64::INFINITY;
         for _ in 0..ROUNDS {
@@ -78,8 +78,8 @@ impl SelfMotion<'_> {
             let bordered = self.bordered(&q, border).lu();
             let correction = bordered.solve(&wanted)?;
             let size = correction.amax();
-            // Next to a singularity of the curve rounding keeps corrections large that change
-            // nothing of the pose.
+            // Near a singularity of the curve, rounding keeps corrections large that do not change
+            // the pose.
             if wanted.amax() <= self.rounding && size >= 0.5 * rest {
                 return Some(Point { q, along: unit(bordered.solve(&Joints::ith(6, 1.0))?)? });
             }
@@ -87,7 +87,7 @@ impl SelfMotion<'_> {
                 return None;
             }
             q += correction;
-            // At rest where it does not shrink any more.
+            // Converged when it no longer shrinks.
             if size <= AT_REST && (size >= 0.5 * rest || size <= POSITION_ROUNDING) {
                 return Some(Point { q, along: unit(bordered.solve(&Joints::ith(6, 1.0))?)? });
             }
@@ -96,12 +96,12 @@ impl SelfMotion<'_> {
         None
     }
 
-    /// The direction of the curve at `q`, to the side to which `border` points.
+    /// The direction of the curve at `q`, on the side that `border` points to.
     fn direction(&self, q: &Joints, border: &Joints) -> Option<Joints> {
         unit(self.bordered(q, border).lu().solve(&Joints::ith(6, 1.0))?)
     }
 
-    /// The Jacobian over one more row.
+    /// The Jacobian extended by one row.
     fn bordered(&self, q: &Joints, border: &Joints) -> SMatrix<f64, 7, 7> {
         let mut matrix = SMatrix::<f64, 7, 7>::zeros();
         matrix
@@ -111,7 +111,8 @@ impl SelfMotion<'_> {
         matrix
     }
 
-    /// From the tool at `q` to the pose: translation [m] and, for small angles, turn [rad].
+    /// The difference from the tool pose at `q` to the pose: translation [m] and, for small angles,
+    /// rotation [rad].
     fn off(&self, q: &Joints) -> SVector<f64, 6> {
         let at = self.robot.fk(&(*q).into());
         let turn = (self.pose.rotation * at.rotation.inverse()).into_inner();

@@ -1,5 +1,5 @@
-//! The family of solutions along a free joint that moves more than a partner: axis 1 where the
-//! wrist center is on it, axis 2 where the arm is folded onto it, axis 6 of three parallel axes.
+//! The self-motion along a free joint that moves more than a partner: axis 1 if the wrist center is
+//! on it, axis 2 if the arm is folded onto it, axis 6 of three parallel axes.
 
 use core::f64::consts::{PI, TAU};
 
@@ -23,7 +23,8 @@ pub(super) const STEPS: u32 = 360;
 /// Steps of a turn in which it is searched for one that is nearer than what was found.
 pub(super) const COARSE_STEPS: u32 = 72;
 
-/// Steps of a turn of joint 6 at which a plane of the arm is tried that rounding leaves open.
+/// Steps per turn of joint 6 at which a plane of the arm is tried that rounding leaves
+/// undetermined.
 const PLANE_STEPS: u32 = 72;
 
 /// Least number of steps in which a part of a turn is searched.
@@ -32,10 +33,10 @@ pub(super) const LEAST_STEPS: u32 = 8;
 /// Valleys between steps that are looked into.
 pub(super) const VALLEYS: u32 = 16;
 
-/// A number of each slot.
+/// One number per slot.
 type OfSlots = [f64; MOST_SLOTS];
 
-/// What is seen of a family at an angle of the free joint.
+/// The self-motion at one angle of the free joint.
 #[derive(Clone, Copy)]
 pub(super) struct Sample {
     pub(super) angle: f64,
@@ -74,7 +75,7 @@ impl<const N: usize> NearestSearch<'_, N>
 where
     Joints<N>: Arity<N>,
 {
-    /// Looks at the family of a solution, on all its branches.
+    /// Search the self-motion of a solution, on all its branches.
     pub(super) fn look_along_self_motion(
         &mut self,
         from: &Solution<N>,
@@ -82,8 +83,8 @@ where
     ) -> Result<(), Error> {
         let joint = free.joint() - 1;
         for angle in [from.q[joint], self.wanted.seed[joint]] {
-            for turned in [angle, angle + PI] {
-                for member in &self.members(from, free, turned)? {
+            for rotated in [angle, angle + PI] {
+                for member in &self.members(from, free, rotated)? {
                     self.move_onto_pose(&member.q, LIMIT_SLACK, member);
                 }
             }
@@ -91,7 +92,7 @@ where
         if let Some(corners) = self.robot.solver().arm().corners(&from.q, free) {
             return self.look_between_corners(from, free, corners);
         }
-        if !self.is_open(from, free)? {
+        if !self.is_undetermined(from, free)? {
             return Ok(());
         }
         let Window { low, step, steps } = self.window(from, free);
@@ -102,7 +103,7 @@ where
             let next = self.sample(from, free, low + f64::from(number) * step)?;
             let samples = [&before, &here, &next];
             for slot in (0..self.known.slot_count()).step_by(2) {
-                // sin q5 changes by no more than the free joint does.
+                // sin q5 changes no faster than the free joint does.
                 if is_valley(samples.map(|sample| sample.wrists[slot])) && here.wrists[slot] <= step
                 {
                     self.look_at_wrist_between(from, free, slot, [before.angle, next.angle])?;
@@ -131,16 +132,19 @@ where
                 self.look_into_valley(from, free, between, height)?;
             }
         }
-        // Where another joint is singular as well, rounding moves a branch from slot to slot.
+        // If another joint is singular as well, rounding moves a branch from slot to slot.
         if is_valley(samples.map(Sample::least_height)) {
             self.look_into_valley(from, free, between, Self::least_height)?;
         }
         Ok(())
     }
 
-    /// Whether the free joint leaves its angle with the tool on the pose: next to the singularity
-    /// it does not.
-    pub(super) fn is_open(&mut self, from: &Solution<N>, free: FreeJoint) -> Result<bool, Error> {
+    /// Whether the free joint can move with the tool on the pose: near the singularity it cannot.
+    pub(super) fn is_undetermined(
+        &mut self,
+        from: &Solution<N>,
+        free: FreeJoint,
+    ) -> Result<bool, Error> {
         let own = from.q[free.joint() - 1];
         for part in [0.05, -0.05, 0.8, -0.8, 1.6, -1.6, 2.4, -2.4] {
             let solutions = self.members(from, free, own + part)?;
@@ -172,13 +176,13 @@ where
             return Window { low: seed - half, step: 2.0 * half / f64::from(steps), steps };
         }
         let steps = if self.best.is_some() { COARSE_STEPS } else { STEPS };
-        // From that of the solution on, which may be where reach ends.
+        // From the angle of the solution on, which may be at the edge of reach.
         Window { low: from.q[joint], step: TAU / f64::from(steps), steps }
     }
 
-    /// Looks at three parallel axes with joint 6 at several angles, where rounding of the shoulder
-    /// leaves the plane of the arm open, and with it a wrist that is nearly singular.
-    pub(super) fn look_at_open_plane(&mut self, from: &Solution<N>) -> Result<(), Error> {
+    /// Try joint 6 of three parallel axes at several angles, if rounding of the shoulder leaves the
+    /// plane of the arm undetermined, and with it a nearly singular wrist.
+    pub(super) fn search_uncertain_plane(&mut self, from: &Solution<N>) -> Result<(), Error> {
         let free = FreeJoint::Parallel;
         let [low, high] = self.wanted.limits.to_array()[5];
         let own = from.q[5];
@@ -235,7 +239,7 @@ where
             self.robot.residual(&solution.q, self.known.pose()).largest() <= self.allowed
         };
         let Some(solution) = solutions.slot(slot).filter(met) else { return f64::INFINITY };
-        match limits.turned_to(&solution.q, seed) {
+        match limits.wrapped_near(&solution.q, seed) {
             Some(q) => -1.0 / (1.0 + Cost::Distance.total(&q, seed, weights)),
             None => limits.worst_overrun(&solution.q),
         }
@@ -255,8 +259,8 @@ where
         heights.fold(f64::INFINITY, f64::min)
     }
 
-    /// Looks where between two angles the members are the least outside the limits, or the nearest
-    /// to the seed.
+    /// Search between two angles where the members exceed the limits least, or are nearest to the
+    /// seed.
     fn look_into_valley(
         &mut self,
         from: &Solution<N>,
@@ -271,8 +275,8 @@ where
         golden_section(at, low, high).map(|_| ())
     }
 
-    /// Looks where between two angles the wrist of a slot is singular as well: there axes 4 and 6
-    /// may take any part of their sum.
+    /// Search between two angles where the wrist of a slot is singular as well: there axes 4 and 6
+    /// may share their sum in any way.
     fn look_at_wrist_between(
         &mut self,
         from: &Solution<N>,

@@ -1,5 +1,5 @@
-//! Starts for joints that a singular pose leaves open, several at once perhaps: at the seed, at the
-//! limits, and all around.
+//! Starts for joints that a singular pose leaves undetermined, perhaps several at once: at the
+//! seed, at the limits, and over the whole range.
 
 use core::f64::consts::{PI, TAU};
 
@@ -14,21 +14,21 @@ use crate::kinematics::solve::nearest::NearestSearch;
 use crate::kinematics::structure::arity::{Arity, Joints};
 use crate::kinematics::thresholds::LIMIT_SLACK;
 
-/// Steps of axis 1 where two joints of the arm are free.
+/// Steps of axis 1 if two joints of the arm are undetermined.
 const OTHER_STEPS: u32 = 12;
 
 /// Steps of axis 2 at which the wrist is put straight there.
 const UPPER_STEPS: u32 = 8;
 
-/// How far the tool of a seed may be off the pose for its joints to be moved onto it [m, rad].
+/// How far the tool at a seed may be off the pose for its joints to be moved onto it [m, rad].
 const SEED_OFF: f64 = 1e-2;
 
 impl<const N: usize> NearestSearch<'_, N>
 where
     Joints<N>: Arity<N>,
 {
-    /// Looks where several joints that are open at once may be inside narrow limits: at the limits,
-    /// or next to the seed inside them.
+    /// Search where several undetermined joints may be inside narrow limits: at the limits, or near
+    /// the seed inside them.
     pub(super) fn start_from_limits(&mut self, solution: &Solution<N>) {
         self.move_onto_pose(&solution.q, LIMIT_SLACK, solution);
         let limits = self.wanted.limits.to_array();
@@ -46,7 +46,7 @@ where
         }
     }
 
-    /// Looks at the joints next to the seed that meet the pose.
+    /// Search the joints near the seed that reach the pose.
     pub(super) fn start_from_seed(&mut self, solutions: &Solutions<N>) {
         let seed = *self.wanted.seed;
         if self.is_done()
@@ -63,8 +63,8 @@ where
         }
     }
 
-    /// Looks along the family of a solution with axis 1 at several angles, where the wrist center
-    /// is on that as well.
+    /// Search along the self-motion of a solution with axis 1 at several angles, if the wrist
+    /// center is on that axis as well.
     pub(super) fn turn_other_joints(&mut self, solution: &Solution<N>) -> Result<(), Error> {
         if N != 6
             || !solution

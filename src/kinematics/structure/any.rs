@@ -1,4 +1,4 @@
-//! The structures that an arm of so many joints may have, and one way through them.
+//! The structures that an arm with a given number of joints may have, behind one interface.
 
 use core::fmt::Debug;
 
@@ -17,12 +17,12 @@ use crate::kinematics::chain::limits::JointLimits;
 use crate::report::UnknownStructure;
 
 structures! {
-    /// Structures of six joints.
+    /// Structures with six joints.
     SixJoints, 6, (): SphericalWrist: 8, ThreeParallel: 8
 }
 
 structures! {
-    /// Structures of seven joints, of which the caller gives the last.
+    /// Structures with seven joints, of which the caller gives the last.
     SevenJoints, 7, f64: SphericalShoulder: 8
 }
 
@@ -30,31 +30,32 @@ structures! {
 pub(crate) trait AnyStructure<const N: usize>:
     Clone + Debug + PartialEq + Send + Sync
 {
-    /// What a caller gives with a pose.
+    /// The redundancy parameter that a caller gives with a pose.
     type Redundancy: Redundancy;
 
-    /// The structure of a table, and the table with what is within rounding of it made exactly so.
+    /// The structure of a table, and the table with deviations within rounding removed.
     fn recognize(mdh: &Mdh<N>) -> (Chain<N>, Self);
 
     /// The same structure between the base and the tool of `chain`, with its coupling and limits.
     #[must_use]
     fn between(self, chain: &Chain<N>, limits: &JointLimits<N>) -> Self;
 
-    /// Unknown as it is, for a reason that says more; the same where it is known.
+    /// The same unknown structure with the `snap` that would make it known; a known one is returned
+    /// unchanged.
     #[must_use]
     fn hinting(self, hint: impl FnOnce(UnknownStructure) -> UnknownStructure) -> Self;
 
-    /// Number of slots; none where the structure is unknown.
+    /// Number of slots; zero if the structure is unknown.
     fn slot_count(&self) -> usize;
 
-    /// The structure that is asked.
+    /// The structure as a trait object.
     fn arm(&self) -> &dyn Arm<N, Self::Redundancy>;
 
-    /// [`Solver::solve_in_lanes`]; by itself, for it is what most time goes into.
+    /// [`Solver::solve_in_lanes`]; a separate method because most time is spent in it.
     fn solve_in_lanes(&self, solutions: &mut Solutions<N>, redundancy: Self::Redundancy) -> bool;
 }
 
-/// The solver of a structure that a table has, between no base and no tool, and its chain.
+/// The chain and the solver of a table of structure `T`, with identity base and tool.
 pub(crate) fn recognized<T: Structure<N, S>, const N: usize, const S: usize>(
     mdh: &Mdh<N>,
 ) -> Result<(Chain<N>, Solver<T, N, S>), UnknownStructure> {

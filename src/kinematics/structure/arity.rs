@@ -1,4 +1,4 @@
-//! Numbers of joints that an arm may have.
+//! The numbers of joints that an arm may have.
 
 use super::any::{AnyStructure, SevenJoints, SixJoints};
 use super::arm::Arm;
@@ -11,14 +11,14 @@ use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::report::UnknownStructure;
 
-/// A number of joints, as a type: `Joints<6>` says what is special about six.
+/// A number of joints, as a type: `Joints<6>` implements what is specific to six.
 #[derive(Clone, Copy, Debug)]
 pub struct Joints<const N: usize>;
 
-/// What depends on the number of joints. Implemented for [`Joints`] of 1 to 12; sealed.
+/// Properties that depend on the number of joints. Implemented for [`Joints`] of 1 to 12; sealed.
 pub trait Arity<const N: usize>: sealed::Sealed {
-    /// What a caller gives with a pose: nothing for six joints, the angle of joint 7 [rad] for
-    /// seven.
+    /// The redundancy parameter that a caller gives with a pose: none for six joints, the angle of
+    /// joint 7 [rad] for seven.
     type Redundancy: Redundancy;
 
     /// The structures that an arm may have.
@@ -26,8 +26,8 @@ pub trait Arity<const N: usize>: sealed::Sealed {
     #[expect(private_bounds, reason = "sealed: no one outside implements it")]
     type Structure: AnyStructure<N, Redundancy = Self::Redundancy>;
 
-    /// The structure of an ortho-parallel arm with a spherical wrist, where this is its number of
-    /// joints.
+    /// The structure of an ortho-parallel arm with a spherical wrist; `None` if it has another
+    /// number of joints.
     #[doc(hidden)]
     #[must_use]
     fn of_opw(_opw: &OpwParameters, _chain: &Chain<N>) -> Option<Self::Structure> {
@@ -38,7 +38,7 @@ pub trait Arity<const N: usize>: sealed::Sealed {
 /// The structure of an arm of `N` joints.
 pub(crate) type StructureOf<const N: usize> = <Joints<N> as Arity<N>>::Structure;
 
-/// What a caller gives with a pose of an arm of `N` joints.
+/// The redundancy parameter that a caller gives with a pose of an arm of `N` joints.
 pub type RedundancyOf<const N: usize> = <Joints<N> as Arity<N>>::Redundancy;
 
 mod sealed {
@@ -73,7 +73,7 @@ macro_rules! without_structures {
 }
 without_structures!(1 2 3 4 5 8 9 10 11 12);
 
-/// The structure of an arm with a number of joints of which no structure is known.
+/// The structure of an arm with a number of joints for which no structure is known.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NoStructure(UnknownStructure);
 

@@ -1,9 +1,9 @@
-//! What any structure is asked, whichever it is.
+//! The interface of every structure.
 
 use super::NO_LINKAGE;
 use super::free_choice::FreeChoice;
 use super::lanes::PoseRow;
-use super::open_wrist::OpenWrist;
+use super::singular_wrist::SingularWrist;
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::solutions::Solutions;
@@ -11,10 +11,10 @@ use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::pose::Pose;
 use crate::report::{FreeJoint, UnknownStructure};
 
-/// What any structure of `N` joints is asked: a [`Solver`](super::solver::Solver) answers, or the
-/// reason why there is none.
+/// The interface of every structure of `N` joints: implemented by
+/// [`Solver`](super::solver::Solver), and by the reason why there is none.
 pub(crate) trait Arm<const N: usize, R> {
-    /// Why the arm has none of the known structures, if so.
+    /// The reason why the arm has none of the known structures; `None` if it has one.
     fn unknown(&self) -> Option<UnknownStructure> {
         None
     }
@@ -22,16 +22,16 @@ pub(crate) trait Arm<const N: usize, R> {
     /// Name of the structure.
     fn name(&self) -> &'static str;
 
-    /// What each slot stands for, where branches have names.
+    /// The name of each slot, if branches have names.
     fn slot_names(&self) -> Option<&'static [&'static str]> {
         None
     }
 
-    /// Solves the answer's pose, whatever it is, one branch after the other.
+    /// Solve the pose of the answer, regular or not, one branch after the other.
     ///
     /// # Errors
     ///
-    /// Why the structure is unknown.
+    /// The reason why the structure is unknown.
     fn solve(
         &self,
         solutions: &mut Solutions<N>,
@@ -39,11 +39,11 @@ pub(crate) trait Arm<const N: usize, R> {
         free: &FreeChoice<N>,
     ) -> Result<(), UnknownStructure>;
 
-    /// Solves rows of poses into rows of slots; `by_itself` solves one row, by its number, that is
-    /// not regular.
+    /// Solve rows of poses into rows of slots; `by_itself` solves one row, by index, that is not
+    /// regular.
     fn solve_rows(&self, rows: Rows<'_, R>, by_itself: &mut RowSolve<'_, N>);
 
-    /// How far a joint vector is from each singularity, and at which of them it stands.
+    /// Distances of a joint vector from the singularities, and those that it is at.
     fn singular(&self, _q: &[f64; N]) -> Option<(SingularDistances, SingularityKind)> {
         None
     }
@@ -68,12 +68,12 @@ pub(crate) trait Arm<const N: usize, R> {
         None
     }
 
-    /// [`Structure::open_wrist`]
-    fn spherical_wrist(&self) -> Option<&dyn OpenWrist<N>> {
+    /// [`Structure::singular_wrist`]
+    fn spherical_wrist(&self) -> Option<&dyn SingularWrist<N>> {
         None
     }
 
-    /// The last frame of the structure, seen from its first, of the tool's pose (eq. 1).
+    /// The last frame of the structure in its first frame, for a pose of the tool (eq. 1).
     fn last_frame(&self, pose: &Pose) -> Pose {
         *pose
     }
@@ -82,13 +82,13 @@ pub(crate) trait Arm<const N: usize, R> {
     ///
     /// # Errors
     ///
-    /// Why not.
+    /// The reason why it may not.
     fn may_be_coupled(&self) -> Result<(), &'static str> {
         Err(NO_LINKAGE)
     }
 }
 
-/// Rows to be solved: poses, what a caller gives with each, and room for the slots and their
+/// Rows to be solved: poses, the redundancy parameter of each, and room for the slots and their
 /// status.
 pub(crate) struct Rows<'a, R> {
     pub(crate) poses: &'a [PoseRow],
@@ -97,7 +97,7 @@ pub(crate) struct Rows<'a, R> {
     pub(crate) status: &'a mut [u8],
 }
 
-/// Solves the row of a number into its slots and their status.
+/// Solve the row with an index into its slots and their status.
 pub(crate) type RowSolve<'a, const N: usize> = dyn FnMut(usize, &mut [[f64; N]], &mut [u8]) + 'a;
 
 impl<const N: usize, R> Arm<N, R> for UnknownStructure {

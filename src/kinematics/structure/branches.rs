@@ -1,4 +1,4 @@
-//! The joint vectors of a pose as a structure gives them: without limits, in their slots.
+//! The joint vectors of a pose as a structure computes them: without limits, in their slots.
 
 use super::redundancy::Redundancy;
 use crate::kinematics::answer::slot::Slot;
@@ -11,9 +11,9 @@ use crate::report::{FreeJoint, Reach};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Branches<const N: usize, const S: usize = 8> {
     pub(crate) q: [Option<[f64; N]>; S],
-    /// Singularities of each slot's branch, and MERGED where the slot gave its solution to another.
+    /// Singularities of each slot's branch, and MERGED if another slot holds its solution.
     pub(crate) flags: [Status; S],
-    /// The joint that the pose leaves free in each slot.
+    /// The joint that the pose leaves undetermined in each slot.
     pub(crate) free: [Option<FreeJoint>; S],
     pub(crate) reach: Reach,
 }
@@ -23,12 +23,12 @@ impl<const N: usize, const S: usize> Branches<N, S> {
         Self { q: [None; S], flags: [Status::empty(); S], free: [None; S], reach }
     }
 
-    /// Whether a slot holds a solution or gave it to another.
+    /// Whether a slot holds a solution or is merged into another.
     pub(crate) fn exists(&self, slot: usize) -> bool {
         self.q[slot].is_some() || self.flags[slot].contains(Status::MERGED)
     }
 
-    /// What a slot of the answer holds: the joint vector at its turn inside the limits.
+    /// The content of a slot of the answer: the joint vector wrapped into the limits.
     #[inline]
     pub(crate) fn place(
         &self,
@@ -45,21 +45,20 @@ impl<const N: usize, const S: usize> Branches<N, S> {
             };
         };
         let mut q = limits.wrap(q);
-        // A joint whose angle was given keeps it.
+        // A joint whose angle is given keeps it.
         redundancy.put(&mut q);
         let mut status = flags | Status::FOUND;
         status.set(Status::WITHIN_LIMITS, limits.contains(&q));
         Place::Found(Solution { q, slot: Slot::new(slot), status, free_joint: free })
     }
 
-    /// The wrist center is on axis 1, or on the edge of the cylinder about it: a branch that both
-    /// shoulders have is one, turned. With `free`, q1 is free.
+    /// Merge the shoulders: the wrist center is on axis 1, or on the edge of the cylinder about it,
+    /// so that a branch of both shoulders is the same, rotated. With `free`, q1 is undetermined.
     pub(crate) fn merge_shoulders(&mut self, keep_behind: bool, free: bool) {
         for front in 0..S / 2 {
             let behind = front + S / 2;
-            // Of two that differ by twice the distance from axis 1, one may be straight and the
-            // other bent by the root of that: the straight one is the branch that declares its
-            // singularity.
+            // Of two branches that differ by twice the distance from axis 1, one may be straight
+            // and the other bent by the root of that: the straight one reports the singularity.
             let straight = |slot: usize| self.flags[slot].contains(Status::ELBOW);
             let keep_behind =
                 if straight(front) == straight(behind) { keep_behind } else { straight(behind) };

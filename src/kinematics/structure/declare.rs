@@ -1,9 +1,12 @@
-//! How the structures of arms with a number of joints are declared.
+//! Declares the structures of arms with a number of joints.
 
-/// An enum of structures, each with its number of slots: each is tried on a table in this order,
-/// and where none fits, the one that was missed by the least says why.
+/// An enum of structures, each with its number of slots. Each is tried on a table in this order; if
+/// none fits, the one with the smallest deviation gives the reason.
 macro_rules! structures {
-    ($(#[$doc:meta])* $name:ident, $joints:literal, $redundancy:ty: $($structure:ident: $slots:literal),+) => {
+    (
+        $(#[$doc:meta])* $name:ident, $joints:literal, $redundancy:ty:
+        $($structure:ident: $slots:literal),+
+    ) => {
         $(#[$doc])*
         #[derive(Clone, Debug, PartialEq)]
         #[allow(

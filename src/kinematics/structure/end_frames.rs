@@ -1,4 +1,4 @@
-//! What stands before and behind an arm's geometry: base, shoulder, flange and tool.
+//! The end frames of an arm's geometry: base, shoulder, flange and tool.
 
 use nalgebra::Vector3;
 
@@ -8,7 +8,7 @@ use crate::kinematics::pose::rotation::Rows3;
 use crate::kinematics::structure::joint_map::JointMap;
 use crate::lanes::mul_add;
 
-/// The constant factors of eq. 1, which peel base, shoulder height, flange and tool off a pose.
+/// The constant factors of eq. 1, which remove base, shoulder height, flange and tool from a pose.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct EndFrames {
     t_shoulder_world: Pose,
@@ -17,7 +17,7 @@ pub(crate) struct EndFrames {
 }
 
 impl EndFrames {
-    /// Between the base and the tool of a chain.
+    /// The factors for the base and the tool of a chain.
     pub(crate) fn new<const M: usize, const N: usize>(
         joint_map: &JointMap<M>,
         chain: &Chain<N>,
@@ -27,12 +27,12 @@ impl EndFrames {
         Self { t_shoulder_world, t_tool_wrist, seen: Seen::new(&t_shoulder_world, &t_tool_wrist) }
     }
 
-    /// The wrist frame of a pose, seen from the shoulder (eq. 1).
+    /// The wrist frame of a pose, in the shoulder frame (eq. 1).
     pub(crate) fn wrist_pose(&self, pose: &Pose) -> Pose {
         self.t_shoulder_world * pose * self.t_tool_wrist
     }
 
-    /// The tool's center point of a pose, seen from the shoulder, and the same point in the wrist
+    /// The tool center point of a pose in the shoulder frame, and the same point in the wrist
     /// frame.
     pub(crate) fn tool_point(&self, pose: &Pose) -> (Vector3<f64>, Vector3<f64>) {
         let point = self.t_shoulder_world.transform_point(&pose.translation.vector.into());
@@ -42,13 +42,14 @@ impl EndFrames {
 
 const UNTURNED: Rows3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// What peels base, shoulder height, flange and tool off a pose: the constant factors of eq. 1.
+/// The constant factors of eq. 1, as kernels take them: they remove base, shoulder height, flange
+/// and tool from a pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Seen {
     before: Frame,
     behind: Frame,
-    /// Whether either turns: turning by nothing changes no bit of what is not zero, and is left
-    /// out.
+    /// Whether either factor rotates: an identity rotation changes no bit of a nonzero number, and
+    /// is skipped.
     pub(crate) turns: bool,
 }
 
@@ -58,18 +59,18 @@ impl Seen {
         Self { before, behind, turns: before.rotation != UNTURNED || behind.rotation != UNTURNED }
     }
 
-    /// The wrist in the shoulder's frame, of the tool in the world.
+    /// The wrist in the shoulder frame, for the tool in the world frame.
     #[inline(always)]
     pub(crate) fn of<const FUSED: bool>(&self, t_world_tool: &Frame) -> Frame {
         if self.turns {
-            self.turned::<FUSED>(t_world_tool)
+            self.rotated::<FUSED>(t_world_tool)
         } else {
             Frame { rotation: t_world_tool.rotation, origin: self.shifted::<FUSED>(t_world_tool) }
         }
     }
 
     #[inline(always)]
-    pub(crate) fn turned<const FUSED: bool>(&self, t_world_tool: &Frame) -> Frame {
+    pub(crate) fn rotated<const FUSED: bool>(&self, t_world_tool: &Frame) -> Frame {
         let before = &self.before.rotation;
         let rotation = product::<FUSED>(before, &t_world_tool.rotation);
         let origin = moved::<FUSED>(before, t_world_tool.origin, self.before.origin);
@@ -104,7 +105,7 @@ impl Frame {
 }
 
 impl Frame {
-    /// This frame, turned back by an angle about its z axis.
+    /// This frame rotated back by an angle about its z axis.
     #[inline(always)]
     pub(crate) fn unturned<const FUSED: bool>(&self, sin: f64, cos: f64) -> Self {
         let [a, b, c] = self.rotation;

@@ -1,10 +1,11 @@
-//! How the joints and the end frames of an arm come from those of its derivation.
+//! The joint map: from the joints and frames of a derivation to those of the arm.
 
 use crate::kinematics::chain::coupling::{coupled, uncoupled};
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::wrap;
 
-/// Signs and offsets of the joints, and what stands before and behind the frames of the derivation.
+/// Signs and offsets of the joints, and the transforms before and after the frames of the
+/// derivation.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct JointMap<const N: usize> {
     pub(crate) signs: [f64; N],
@@ -16,13 +17,13 @@ pub(crate) struct JointMap<const N: usize> {
 }
 
 impl<const N: usize> JointMap<N> {
-    /// The derivation's angles of joint angles `q`.
+    /// The derivation's angles theta for joint angles `q`.
     pub(crate) fn theta(&self, q: &[f64; N]) -> [f64; N] {
         let q = if self.coupled { uncoupled(*q) } else { *q };
         core::array::from_fn(|i| self.signs[i] * q[i] - self.offsets[i])
     }
 
-    /// The joint angles of theta, in (-pi, pi] (eq. 19, 25).
+    /// The joint angles for theta, in (-pi, pi] (eq. 19, 25).
     pub(crate) fn joints(&self, theta: [f64; N]) -> [f64; N] {
         let q = core::array::from_fn(|i| self.signs[i] * (theta[i] + self.offsets[i]));
         if self.coupled { coupled(q) } else { q }.map(wrap)

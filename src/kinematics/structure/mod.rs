@@ -1,11 +1,11 @@
-//! Kinematic structures: what an arm is like whose inverse is known.
+//! Kinematic structures: arms with a closed-form inverse.
 //!
-//! A structure is a folder here that implements [`Structure`], and a variant in [`any`]. It brings
-//! its pattern (what it asks of the axes), how its geometry is read off a table, the solve of one
-//! pose with every singularity handled, and the distances from its singularities. A
-//! [`LaneKernel`](lanes::LaneKernel), which solves regular poses in vectors, is optional. Base,
-//! tool, limits, turns, flags, batches and the choice among solutions are the same for all:
-//! [`solver::Solver`] and `solve` have them once.
+//! A structure is a folder here that implements [`Structure`], and a variant in [`any`]. It
+//! contains its pattern (the conditions on the axes), the measurement of its geometry from a table,
+//! the solve of one pose with every singularity handled, and the distances from its singularities.
+//! A [`LaneKernel`](lanes::LaneKernel), which solves regular poses in vectors, is optional. Base,
+//! tool, limits, turns, flags, batches and the choice among solutions are common to all:
+//! [`solver::Solver`] and `solve` implement them once.
 
 pub(crate) mod any;
 pub(crate) mod arity;
@@ -16,10 +16,10 @@ pub(crate) mod end_frames;
 pub(crate) mod free_choice;
 pub(crate) mod joint_map;
 pub(crate) mod lanes;
-pub(crate) mod open_wrist;
 pub(crate) mod planar_arm;
 pub(crate) mod recognition;
 pub(crate) mod redundancy;
+pub(crate) mod singular_wrist;
 pub(crate) mod solver;
 pub(crate) mod spherical_shoulder;
 pub(crate) mod spherical_wrist;
@@ -33,8 +33,8 @@ use branches::Branches;
 use free_choice::FreeChoice;
 use joint_map::JointMap;
 use lanes::LaneKernel;
-use open_wrist::OpenWrist;
 use redundancy::Redundancy;
+use singular_wrist::SingularWrist;
 
 use super::answer::singularity::SingularDistances;
 use super::answer::slot::Slot;
@@ -43,53 +43,54 @@ use super::chain::dh::Mdh;
 use super::pose::Pose;
 use crate::report::{FreeJoint, Pattern, UnknownStructure};
 
-/// Why a linkage couples no axes of most structures.
+/// The reason why most structures cannot have a linkage that couples axes.
 pub(crate) const NO_LINKAGE: &str = "the arm has no spherical wrist";
 
 /// A kinematic structure of `N` joints with `S` slots.
 ///
-/// With `theta` the derivation's joint angles, `T_first_last` the last frame of the derivation seen
-/// from its first, and `B` and `F` the constant transforms before and behind them, an arm between a
-/// base and a tool is
+/// Let `theta` be the derivation's joint angles, `T_first_last` the last frame of the derivation in
+/// its first, and `B` and `F` the constant transforms before and after them. An arm between a base
+/// and a tool is then
 ///
 /// ```text
-/// T_world_tool(q) = T_world_base B T_first_last(theta) F T_flange_tool,    theta_i = sign_i q_i - offset_i
+/// T_world_tool(q) = T_world_base B T_first_last(theta) F T_flange_tool,
+/// theta_i = sign_i q_i - offset_i
 /// ```
 ///
-/// [`Solver`](solver::Solver) takes `B`, `F`, base and tool off a pose and turns theta into q; a
-/// structure solves `T_first_last(theta)` alone.
+/// [`Solver`](solver::Solver) removes `B`, `F`, base and tool from a pose and converts theta to q;
+/// a structure solves `T_first_last(theta)` alone.
 pub(crate) trait Structure<const N: usize, const S: usize>:
     Clone + Debug + PartialEq
 {
-    /// What it asks of the axes, and its name.
+    /// The conditions on the axes, and the name.
     const PATTERN: &'static Pattern;
 
-    /// What each slot stands for; `None` where branches have no names and slots are ordinals.
+    /// The name of each slot; `None` if branches have no names and slots are ordinals.
     const SLOT_NAMES: Option<&'static [&'static str; S]>;
 
-    /// What a caller gives with a pose.
+    /// The redundancy parameter that a caller gives with a pose.
     type Redundancy: Redundancy;
 
-    /// Solves regular poses in lanes; [`NoKernel`](lanes::NoKernel) where every pose goes through
+    /// Solves regular poses in lanes; [`NoKernel`](lanes::NoKernel) if every pose is solved by
     /// [`Self::solve`].
     type Kernel: LaneKernel<N, S, Redundancy = Self::Redundancy>;
 
-    /// Reads the geometry off a table that meets the pattern, and makes exact what is so within
+    /// Measure the geometry of a table that meets the pattern, and remove deviations within
     /// rounding.
     fn measure(mdh: &mut Mdh<N>) -> Result<Self, UnknownStructure>;
 
     /// Signs, offsets, `B` and `F`.
     fn joint_map(&self) -> &JointMap<N>;
 
-    /// The same arm between a base and a tool, which add to the lengths that a pose's rounding
-    /// grows with, with axes 2 and 3 coupled or not.
+    /// The same arm between a base and a tool, whose lengths add to the rounding of a pose, with
+    /// axes 2 and 3 coupled or not.
     fn between(self, base: &Pose, tool: &Pose, coupled: bool) -> Self;
 
-    /// The kernel of this arm; `None` where there is none.
+    /// The kernel of this arm; `None` if it has none.
     fn kernel(&self) -> Option<Self::Kernel>;
 
     /// Every branch of `t_first_last`: in its slot, with its singularities; merged ones once.
-    /// Limits are not regarded.
+    /// Limits are not checked.
     fn solve(
         &self,
         t_first_last: &Pose,
@@ -97,21 +98,21 @@ pub(crate) trait Structure<const N: usize, const S: usize>:
         free: &FreeChoice<N>,
     ) -> Branches<N, S>;
 
-    /// How far `q` is from each singularity.
+    /// Distances of `q` from the singularities.
     fn singular_distances(&self, q: &[f64; N]) -> SingularDistances;
 
-    /// The singularities at which `q` stands, by the thresholds that merge the branches of a solve.
-    fn kinds(&self, q: &[f64; N]) -> SingularityKind;
+    /// The singularities that `q` is at, by the thresholds that merge the branches of a solve.
+    fn singularities(&self, q: &[f64; N]) -> SingularityKind;
 
     /// The determinant of the geometric Jacobian of joints 1 to 6 in closed form: zero at
-    /// singularities alone.
+    /// singularities only.
     fn jacobian_determinant(&self, q: &[f64; N]) -> f64;
 
-    /// The slot of the branch that `q` is on; of two that meet at a singularity, the one in front.
-    /// `None` where slots are ordinals.
+    /// The slot of the branch that `q` is on; the one in front if two meet at a singularity. `None`
+    /// if slots are ordinals.
     fn slot(&self, q: &[f64; N]) -> Option<Slot>;
 
-    /// sin q5, signed, of a structure whose wrist is singular where it is zero.
+    /// sin q5, signed, for a structure whose wrist is singular where it is zero.
     fn sin_5(&self, _q: &[f64; N]) -> Option<f64> {
         None
     }
@@ -123,12 +124,12 @@ pub(crate) trait Structure<const N: usize, const S: usize>:
         None
     }
 
-    /// The arm as one whose wrist is three axes through a point, if it is.
-    fn open_wrist(&self) -> Option<&dyn OpenWrist<N>> {
+    /// The arm as one with a spherical wrist, if it has one.
+    fn singular_wrist(&self) -> Option<&dyn SingularWrist<N>> {
         None
     }
 
-    /// Whether a parallelogram linkage may couple axes 2 and 3, or why not.
+    /// Whether a parallelogram linkage may couple axes 2 and 3; otherwise the reason.
     fn may_be_coupled(&self) -> Result<(), &'static str> {
         Err(NO_LINKAGE)
     }

@@ -1,7 +1,7 @@
-//! The first three joints: a shoulder that turns about axis 1 and an elbow in the plane of axes 2
-//! and 3, which are parallel.
+//! The first three joints: a shoulder that turns about axis 1 and an elbow in the plane
+//! perpendicular to the parallel axes 2 and 3.
 //!
-//! Both families of six-axis arms stand on it. The equation numbers are those of
+//! Both structures of six-axis arms use it. The equation numbers are those of
 //! docs/spherical_wrist.md.
 
 use nalgebra::Matrix3;
@@ -14,7 +14,7 @@ use crate::kinematics::structure::triangle::Triangle;
 use crate::kinematics::thresholds::{POSITION_ROUNDING, REACH_TOLERANCE, SHOULDER_MERGE};
 use crate::report::Reach;
 
-/// The lengths from axis 1 to the end of the forearm, seen from the shoulder (on axis 1, at the
+/// The lengths from axis 1 to the end of the forearm, measured from the shoulder (on axis 1, at the
 /// height of axis 2).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PlanarArm {
@@ -30,7 +30,7 @@ pub(crate) struct PlanarArm {
     pub(crate) c3: f64,
     /// Length of the forearm, hypot(a2, c3) [m].
     pub(crate) k: f64,
-    /// The lengths that a position of the tool is summed from [m].
+    /// The sum of the lengths that contribute to a position of the tool [m].
     pub(crate) extent: f64,
 }
 
@@ -41,7 +41,7 @@ pub(crate) struct Shoulder {
     pub(crate) cos_1: f64,
     /// Wrist center from axis 1, along the arm's plane [m]; negative behind it.
     pub(crate) x: f64,
-    /// How far rounding may turn it [rad].
+    /// How far rounding may rotate it [rad].
     pub(crate) error: f64,
 }
 
@@ -50,11 +50,11 @@ pub(crate) struct Shoulders {
     pub(crate) front: Shoulder,
     pub(crate) behind: Shoulder,
     pub(crate) merged: bool,
-    /// Where they are merged: whether the one behind is kept.
+    /// If they are merged: whether the one behind is kept.
     pub(crate) keep_behind: bool,
 }
 
-/// One way for the elbow to stand.
+/// One configuration of the elbow.
 #[derive(Clone, Copy)]
 pub(crate) struct Elbow {
     pub(crate) theta_2: f64,
@@ -67,13 +67,13 @@ pub(crate) struct Elbow {
 pub(crate) struct Elbows {
     pub(crate) front: Elbow,
     pub(crate) behind: Option<Elbow>,
-    /// How far rounding may turn the forearm [rad].
+    /// How far rounding may rotate the forearm [rad].
     pub(crate) error: f64,
-    /// The wrist center is on axis 2: the upper arm may point anywhere.
+    /// The wrist center is on axis 2: the direction of the upper arm is undetermined.
     pub(crate) free: bool,
 }
 
-/// What a solve on this arm is asked.
+/// The target of a solve on this arm.
 #[derive(Clone, Copy)]
 pub(crate) struct Target<'a> {
     pub(crate) wxy: [f64; 2],
@@ -86,20 +86,20 @@ pub(crate) struct Target<'a> {
 }
 
 impl Target<'_> {
-    /// The same, with an arm up to this far beyond reach stretched or folded [m].
+    /// The same, with an arm up to `tolerance` beyond reach stretched or folded [m].
     pub(crate) fn beyond(&self, tolerance: f64) -> Self {
         Self { tolerance, ..*self }
     }
 }
 
 impl Shoulder {
-    /// Turned by half a turn: what was in front is behind.
+    /// Rotated by half a turn: front and behind are exchanged.
     fn opposite(self) -> Self {
         Self { sin_1: -self.sin_1, cos_1: -self.cos_1, x: -self.x, error: self.error }
     }
 
-    /// Turned by `angle` about axis 1, the wrist center where it was.
-    pub(crate) fn turned(&self, angle: f64, [wx, wy]: [f64; 2]) -> Self {
+    /// Rotated by `angle` about axis 1, with the wrist center unchanged.
+    pub(crate) fn rotated(&self, angle: f64, [wx, wy]: [f64; 2]) -> Self {
         let ((sin, cos), Self { sin_1, cos_1, .. }) = (angle.sin_cos(), *self);
         let (sin_1, cos_1) = (sin_1 * cos + cos_1 * sin, cos_1 * cos - sin_1 * sin);
         Self { sin_1, cos_1, x: wx * cos_1 + wy * sin_1, ..*self }
@@ -107,24 +107,24 @@ impl Shoulder {
 }
 
 impl PlanarArm {
-    /// From a1, a2, b, c2 and c3.
+    /// An arm with the given lengths [m].
     pub(crate) fn new([a1, a2, b, c2, c3]: [f64; 5]) -> Self {
         Self { a1, a2, b, c2, c3, k: a2.hypot(c3), extent: 0.0 }
     }
 
-    /// The same arm among fixed transforms, which add to what a position's rounding grows with.
+    /// The same arm between fixed transforms, whose lengths add to the rounding of a position.
     pub(crate) fn between(self, fixed: [&Pose; 4]) -> Self {
         let fixed: f64 = fixed.map(|pose| pose.translation.vector.norm()).iter().sum();
         Self { extent: self.a1.abs() + self.b.abs() + self.c2 + self.k + fixed, ..self }
     }
 
-    /// How far rounding moves a position of this arm at most [m].
+    /// Upper bound of the rounding of a position of this arm [m].
     pub(crate) fn position_rounding(&self) -> f64 {
         POSITION_ROUNDING * self.extent
     }
 
-    /// How far rounding commonly moves a position of this arm [m]: a link of lever l turns by this
-    /// over l.
+    /// Typical rounding of a position of this arm [m]: a link with lever l is rotated by this over
+    /// l.
     pub(crate) fn direction_rounding(&self) -> f64 {
         2.0 * f64::EPSILON * self.extent
     }
@@ -145,12 +145,12 @@ impl PlanarArm {
         (rounding * (2.0 * self.b.abs() + rounding)).sqrt()
     }
 
-    /// How far the plane of a shoulder may be turned about axis 1, b != 0, with the wrist center
-    /// off it by no more than rounding: the least and the greatest angle [rad] (eq. 42).
-    pub(crate) fn open_turn(&self, shoulder: &Shoulder, [wx, wy]: [f64; 2]) -> [f64; 2] {
+    /// How far the plane of a shoulder may be rotated about axis 1, for b != 0, with the wrist
+    /// center off it by no more than rounding: the least and the greatest angle [rad] (eq. 42).
+    pub(crate) fn rotation_range(&self, shoulder: &Shoulder, [wx, wy]: [f64; 2]) -> [f64; 2] {
         let (rho, b, x) = (wx.hypot(wy), self.b.abs(), shoulder.x.abs());
         let (x2, rounding) = ((rho - b) * (rho + b), 2.0 * b * self.position_rounding());
-        // The squares of the greatest and the least x: what is left of x is not a difference of
+        // The squares of the greatest and the least x: the remaining x is not a difference of
         // roots.
         let (farther, nearer) = ((x2 + rounding).max(0.0), x2 - rounding);
         let (outward, inward) = if x == 0.0 {
@@ -204,7 +204,7 @@ impl PlanarArm {
         folded_onto_axis_2 || (c2 * k * self.sin_elbow(theta_3)).powi(2) <= self.straight_m2(r)
     }
 
-    /// What is asked of this arm by the frame `t_shoulder_wrist`.
+    /// The target of this arm for the frame `t_shoulder_wrist`.
     pub(crate) fn target<'a>(
         &self,
         t_shoulder_wrist: &'a Pose,
@@ -222,8 +222,8 @@ impl PlanarArm {
         }
     }
 
-    /// Both shoulders that face the point (eq. 2 to 4), with the angle of axis 1 to take where it
-    /// is free.
+    /// Both shoulders that face the point (eq. 2 to 4), with the angle of axis 1 to choose if it is
+    /// undetermined.
     pub(crate) fn shoulders(
         &self,
         [wx, wy]: [f64; 2],
@@ -237,8 +237,8 @@ impl PlanarArm {
         }
         let (sin_1, cos_1) = free_theta_1.sin_cos();
         if self.b == 0.0 && (policy.forces(1) || rho <= policy.radius().max(rounding)) {
-            // Whichever is kept has that angle. A seed's plane says what x is, and on which side of
-            // axis 1.
+            // Whichever is kept has that angle. A seed's plane determines x, and the side of axis
+            // 1.
             let (x, keep_behind) = match policy {
                 SeedPolicy::Forced { behind, .. } => (rho, behind),
                 SeedPolicy::Pose => (rho, false),
@@ -271,9 +271,9 @@ impl PlanarArm {
         Shoulder { sin_1: sin / norm, cos_1: cos / norm, x, error }
     }
 
-    /// The shoulder with x moved towards reach as far as rounding leaves it open: next to the
-    /// cylinder of radius b (eq. 3) a rounding of the pose is a large part of x, and a pose at the
-    /// edge of reach says by that edge which x it has. The arm's end is at `x - a1`, `wz`.
+    /// The shoulder with x moved towards reach within its rounding: near the cylinder of radius b
+    /// (eq. 3) a rounding of the pose is a large part of x, and for a pose at the edge of reach
+    /// that edge determines x. The arm's end is at `x - a1`, `wz`.
     pub(crate) fn eased(
         &self,
         shoulder: &Shoulder,
@@ -298,8 +298,9 @@ impl PlanarArm {
         self.shoulder(wx, wy, sign * x, shoulder.error)
     }
 
-    /// Both elbows of the arm's end at (x, z) from axis 2 in the plane of the arm, or up to
-    /// `tolerance` beyond reach (eq. 5 to 12); with the angle of axis 2 to take where it is free.
+    /// Both elbows for the arm's end at (x, z) from axis 2 in the plane of the arm, or up to
+    /// `tolerance` beyond reach (eq. 5 to 12); with the angle of axis 2 to choose if it is
+    /// undetermined.
     pub(crate) fn elbows(
         &self,
         [x, z]: [f64; 2],
@@ -321,7 +322,7 @@ impl PlanarArm {
         }
         let m2 = triangle.m2(r2);
         if m2 <= self.straight_m2(r) {
-            // Both links lie on the line to the wrist center, to rounding or up to the tolerance
+            // Both links are on the line to the wrist center, to rounding or up to the tolerance
             // beyond reach.
             let [dx, dz] = [x / r, z / r];
             let (upper, forearm) = match (triangle.is_stretched(r2), self.k > self.c2) {
@@ -330,8 +331,8 @@ impl PlanarArm {
                 (false, false) => (1.0, -1.0),
             };
             let front = self.elbow([upper * dx, upper * dz], [forearm * dx, forearm * dz]);
-            // The arm that made the pose may have been bent by as much as counts as straight, and
-            // by rounding on top of that.
+            // The arm that made the pose may have been bent by as much as still counts as straight,
+            // and by rounding on top of that.
             let error = 2.0 * self.straight_m2(r).sqrt() / (self.k * r);
             return Ok(Elbows { front, behind: None, error, free: false });
         }
@@ -349,11 +350,11 @@ impl PlanarArm {
     }
 
     /// The angles of an elbow from the direction of the upper arm, of any length, and that of the
-    /// forearm, of length one to rounding (eq. 10 to 12).
+    /// forearm, of unit length to rounding (eq. 10 to 12).
     fn elbow(&self, upper: [f64; 2], forearm: [f64; 2]) -> Elbow {
         let (sin_psi, cos_psi) = (self.a2 / self.k, self.c3 / self.k);
         // The direction of a forearm that is much shorter than the upper arm is a small difference:
-        // it may have lost its length of one.
+        // it may have lost its unit length.
         let length = forearm[0].hypot(forearm[1]);
         let sin_23 = (forearm[0] * cos_psi - forearm[1] * sin_psi) / length;
         let cos_23 = (forearm[1] * cos_psi + forearm[0] * sin_psi) / length;

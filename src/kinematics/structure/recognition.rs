@@ -1,4 +1,4 @@
-//! Whether a table has a structure, and what reading its geometry takes.
+//! Whether a table has a structure, and the steps to measure its geometry.
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
@@ -13,7 +13,7 @@ use crate::kinematics::thresholds::{FORM_TOLERANCE, LEAST_LINK};
 use crate::report::{MOST_CONDITIONS, Pattern, Relation, UnknownStructure};
 
 impl Pattern {
-    /// Checks that each of the lengths (name and meaning, value [m]) is one.
+    /// Check that each of the lengths (name and meaning, value [m]) is positive.
     pub(crate) fn check_lengths<const N: usize>(
         &'static self,
         lengths: [(&'static str, f64); N],
@@ -24,8 +24,8 @@ impl Pattern {
         }
     }
 
-    /// The table with what is within [`FORM_TOLERANCE`] of the structure made exactly so: row
-    /// `i + 1` holds the angle and the distance between axes `i` and `i + 1`.
+    /// The table with deviations from the structure within [`FORM_TOLERANCE`] removed: row `i + 1`
+    /// holds the angle and the distance between axes `i` and `i + 1`.
     pub(crate) fn square_up<const N: usize>(
         &'static self,
         mdh: &Mdh<N>,
@@ -55,7 +55,7 @@ impl Pattern {
     }
 }
 
-/// The angle nearest to `alpha` that is `base` and half turns.
+/// The angle nearest to `alpha` that is `base` plus half turns.
 pub(crate) fn nearest_of(alpha: f64, base: f64) -> f64 {
     base + PI * ((alpha - base) / PI).round()
 }

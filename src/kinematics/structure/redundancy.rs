@@ -1,29 +1,30 @@
-//! What a pose leaves open of every arm with a number of joints, and a caller gives.
+//! The redundancy parameter: what every pose leaves undetermined for a number of joints, and a
+//! caller gives.
 
 use crate::error::Error;
 use crate::kinematics::answer::check::check_angle;
 use crate::lanes::{Column, LANES};
 
-/// What a caller gives with a pose: nothing, `()`, for six joints; the angle of joint 7 [rad], an
-/// `f64`, for seven.
+/// The redundancy parameter that a caller gives with a pose: `()` for six joints; the angle of
+/// joint 7 [rad], an `f64`, for seven.
 pub trait Redundancy: Copy + Send + Sync + 'static {
-    /// The same of a block of poses.
+    /// The redundancy parameters of a block of poses.
     #[doc(hidden)]
     type Lanes: Copy;
 
-    /// That of a block, of those of all poses; of rows behind the last, anything.
+    /// The parameters of a block, from those of all poses; arbitrary for rows after the last.
     #[doc(hidden)]
     fn lanes(rows: &[Self], block: usize) -> Self::Lanes;
 
-    /// That of a joint vector.
+    /// The parameter of a joint vector.
     #[doc(hidden)]
     fn of(q: &[f64]) -> Self;
 
-    /// Gives a joint vector the angle as it was given.
+    /// Set the given angle in a joint vector.
     #[doc(hidden)]
     fn put(self, q: &mut [f64]);
 
-    /// Checks that it is an angle.
+    /// Check that the parameter is a valid angle.
     #[doc(hidden)]
     fn check(self) -> Result<(), Error>;
 }

@@ -1,12 +1,12 @@
-//! An arm between the frames in which poses are given, with its limits: the way through any
-//! structure.
+//! An arm between the frames in which poses are given, with its limits: the solve that is common to
+//! all structures.
 
 use super::Structure;
 use super::arm::{Arm, RowSolve, Rows};
 use super::end_frames::{EndFrames, Frame, Seen};
 use super::free_choice::FreeChoice;
 use super::lanes::{Blocks, Columns, LaneKernel, RegularPose};
-use super::open_wrist::OpenWrist;
+use super::singular_wrist::SingularWrist;
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::solutions::{Place, Solution, Solutions};
@@ -17,17 +17,18 @@ use crate::kinematics::pose::Pose;
 use crate::lanes::{Kernel, run};
 use crate::report::{FreeJoint, UnknownStructure};
 
-/// A structure, with what stands before and behind it and what is asked of its joints.
+/// A structure with its end frames and joint limits.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Solver<T: Structure<N, S>, const N: usize, const S: usize> {
     pub(crate) structure: T,
     pub(crate) end_frames: EndFrames,
-    /// `None` where the structure has no kernel, or the limits ask for more than what lanes do.
+    /// `None` if the structure has no kernel, or the limits require more than the lanes can do.
     lanes: Option<(T::Kernel, Columns<N>)>,
 }
 
 impl<T: Structure<N, S>, const N: usize, const S: usize> Solver<T, N, S> {
-    /// The structure between the base and the tool of `chain`, coupled as it is, with limits.
+    /// The structure between the base and the tool of `chain`, coupled as the chain is, with
+    /// limits.
     pub(crate) fn new(structure: T, chain: &Chain<N>, limits: &JointLimits<N>) -> Self {
         let structure = structure.between(chain.base(), chain.tool(), chain.is_coupled());
         let map = structure.joint_map();
@@ -39,7 +40,7 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Solver<T, N, S> {
         }
     }
 
-    /// Solves the answer's pose if it is regular, and reports whether it was.
+    /// Solve the answer's pose if it is regular; return whether it is.
     #[inline]
     pub(crate) fn solve_in_lanes(
         &self,
@@ -103,7 +104,7 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Arm<N, T::Redundancy> f
     }
 
     fn singular(&self, q: &[f64; N]) -> Option<(SingularDistances, SingularityKind)> {
-        Some((self.structure.singular_distances(q), self.structure.kinds(q)))
+        Some((self.structure.singular_distances(q), self.structure.singularities(q)))
     }
 
     fn jacobian_determinant(&self, q: &[f64; N]) -> Option<f64> {
@@ -122,8 +123,8 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Arm<N, T::Redundancy> f
         self.structure.corners(q, free)
     }
 
-    fn spherical_wrist(&self) -> Option<&dyn OpenWrist<N>> {
-        self.structure.open_wrist()
+    fn spherical_wrist(&self) -> Option<&dyn SingularWrist<N>> {
+        self.structure.singular_wrist()
     }
 
     fn last_frame(&self, pose: &Pose) -> Pose {
@@ -145,7 +146,7 @@ struct Single<'a, K: LaneKernel<N, S>, const N: usize, const S: usize> {
 }
 
 impl<K: LaneKernel<N, S>, const N: usize, const S: usize> Kernel for Single<'_, K, N, S> {
-    /// Nothing where a branch is not regular, or none reaches: the scalar solver has to say more.
+    /// `None` if a branch is not regular, or none reaches: the scalar solver then decides.
     type Answer = Option<K::Regular>;
     const WIDE: bool = true;
 

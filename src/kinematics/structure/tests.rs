@@ -1,5 +1,5 @@
-//! The contract by a structure that is as unlike the others as it can be: sixteen slots without
-//! names, and no kernel.
+//! Checks the contract with a structure that is as unlike the others as possible: sixteen slots
+//! without names, and no kernel.
 
 use core::f64::consts::TAU;
 use std::vec::Vec;
@@ -17,8 +17,7 @@ use crate::kinematics::answer::solutions::Solutions;
 use crate::kinematics::pose::pose_to_rows;
 use crate::kinematics::robot::Robot;
 
-/// The arm of an IRB 2600, of which no one knows what a branch is: its solutions in the order of
-/// their angles.
+/// The arm of an IRB 2600 with unnamed branches: its solutions are in the order of their angles.
 #[derive(Clone, Debug, PartialEq)]
 struct Ordinals(SphericalWrist);
 
@@ -60,8 +59,8 @@ impl Structure<6, 16> for Ordinals {
         self.0.singular_distances(q)
     }
 
-    fn kinds(&self, q: &[f64; 6]) -> SingularityKind {
-        self.0.kinds(q)
+    fn singularities(&self, q: &[f64; 6]) -> SingularityKind {
+        self.0.singularities(q)
     }
 
     fn jacobian_determinant(&self, q: &[f64; 6]) -> f64 {
@@ -74,7 +73,7 @@ impl Structure<6, 16> for Ordinals {
 }
 
 #[test]
-fn a_structure_of_sixteen_ordinals_without_a_kernel_fits() {
+fn the_contract_fits_a_structure_with_sixteen_ordinal_slots_and_no_kernel() {
     let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
     let (chain, solver) = recognized::<Ordinals, 6, 16>(robot.mdh()).unwrap();
     let solver = Solver::new(solver.structure, &chain, robot.limits());

@@ -1,8 +1,8 @@
 //! The triangle of upper arm, forearm and the line from the shoulder to the end of the forearm: two
-//! circles that meet in the elbow.
+//! circles that intersect in the elbow.
 //!
-//! Docs: spherical_wrist.md, eq. 6 to 10. Every structure with an elbow stands on it, in lanes and
-//! one branch after the other.
+//! Docs: spherical_wrist.md, eq. 6 to 10. Every structure with an elbow uses it, in lanes and in
+//! the scalar solver.
 
 use crate::lanes::mul_add;
 use crate::report::Reach;
@@ -18,7 +18,7 @@ pub(crate) struct Triangle {
 }
 
 impl Triangle {
-    /// Of the lengths of both links [m].
+    /// The triangle for the lengths of both links [m].
     pub(crate) fn new(upper: f64, forearm: f64) -> Self {
         let (longest, shortest) = (upper + forearm, upper - forearm);
         Self {
@@ -28,8 +28,8 @@ impl Triangle {
         }
     }
 
-    /// Of the lengths of both links, where they span `r` or are `tolerance` short of it at most
-    /// [m].
+    /// The triangle for the lengths of both links, if they span `r` or miss it by at most
+    /// `tolerance` [m].
     pub(crate) fn reaching(
         [upper, forearm]: [f64; 2],
         r: f64,
@@ -58,7 +58,7 @@ impl Triangle {
         0.25 * ((self.longest2 - r2) * (r2 - self.shortest2))
     }
 
-    /// The upper arm times r^2, on the side of the sign of m, where the forearm ends at `end` (eq.
+    /// The upper arm times r^2, on the side of the sign of m, with the forearm ending at `end` (eq.
     /// 9, 10).
     #[inline(always)]
     pub(crate) fn upper_arm<const FUSED: bool>(

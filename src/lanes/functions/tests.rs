@@ -1,7 +1,7 @@
-//! The functions against correctly rounded ones (crate `pxfm`), with fused multiplication and
+//! Compares the functions with correctly rounded ones (crate `pxfm`), with fused multiplication and
 //! addition and without.
 //!
-//! `make ulp` takes ten million points and prints the worst; `make test` takes fewer.
+//! `make ulp` uses ten million points and prints the worst; `make test` uses fewer.
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 use std::{println, vec::Vec};
@@ -10,7 +10,7 @@ use super::*;
 use crate::lanes::{Column, Kernel, LANES, on_each_set, run};
 use crate::rng::Rng;
 
-/// Distance from the correctly rounded value that is promised [ulp].
+/// Largest permitted distance from the correctly rounded value [ulp].
 const BOUND: u64 = 2;
 
 /// Quarter turns up to the largest angle.
@@ -20,7 +20,7 @@ fn points() -> u64 {
     std::env::var("IRBKIN_POINTS").map_or(300_000, |count| count.parse().unwrap())
 }
 
-/// What the tests draw beside numbers: numbers of every size, directions, angles.
+/// Further random values of the tests: numbers of every size, directions, angles.
 trait Draws {
     fn signed(&mut self, number: f64) -> f64;
     fn sized(&mut self, low: f64, high: f64) -> f64;
@@ -41,7 +41,7 @@ impl Draws for Rng {
         (1.0 + self.unit()) * exponent.exp2()
     }
 
-    /// Two numbers of either sign, either of which comes first.
+    /// Two numbers of either sign, in random order.
     fn direction(&mut self, a: f64, b: f64) -> (f64, f64) {
         let (a, b) = (self.signed(a), self.signed(b));
         if self.bits() & 1 == 0 { (a, b) } else { (b, a) }
@@ -53,7 +53,7 @@ impl Draws for Rng {
         (sin * length, cos * length)
     }
 
-    /// y and x, of a kind for each `kind`.
+    /// y and x, from a different distribution for each `kind`.
     fn y_and_x(&mut self, kind: u64) -> (f64, f64) {
         let (wide, near_one, middling) =
             (self.sized(-1000.0, 1000.0), self.sized(-20.0, 20.0), self.sized(-3.0, 3.0));
@@ -65,7 +65,7 @@ impl Draws for Rng {
                 let (a, b) = (self.sized(-1074.0, 1024.0), self.sized(-1074.0, 1024.0));
                 self.direction(a, b)
             }
-            // Next to a diagonal, and next to an axis.
+            // Near a diagonal, and near an axis.
             3 => {
                 let off = self.sized(-53.0, -20.0);
                 self.direction(wide, wide * (1.0 + off))
@@ -79,7 +79,7 @@ impl Draws for Rng {
                 let part = self.unit();
                 self.direction(near_one, near_one * part)
             }
-            // Where the rounding of the quotient weighs most.
+            // Where the rounding of the quotient has the largest effect.
             _ => {
                 let part = self.between(0.5, 0.6);
                 self.direction(middling, middling * part)
@@ -87,7 +87,7 @@ impl Draws for Rng {
         }
     }
 
-    /// An angle, of a kind for each `kind`.
+    /// An angle, from a different distribution for each `kind`.
     fn angle_of(&mut self, kind: u64) -> f64 {
         let quarters = self.between(0.0, f64::from(QUARTERS)).floor();
         let size = match kind % 6 {
@@ -95,7 +95,7 @@ impl Draws for Rng {
             1 => self.sized(-1074.0, 16.6),
             2 => self.between(0.0, TAU),
             3 => self.between(0.0, FRAC_PI_4),
-            // Next to a quarter turn, and next to where the quadrants change.
+            // Near a quarter turn, and near where the quadrants change.
             4 => quarters * FRAC_PI_2 + self.sized(-50.0, -1.0),
             _ => (quarters + 0.5) * FRAC_PI_2 + self.between(-0.1, 0.1),
         };
@@ -103,7 +103,7 @@ impl Draws for Rng {
     }
 }
 
-/// How many doubles apart; two that are not numbers are together, zeros of different sign are not.
+/// The number of doubles between two values; two NaN are equal, zeros of different sign are not.
 fn ulps(a: f64, b: f64) -> u64 {
     // The bits of doubles, minus those of zero, count them on each side of zero.
     let place = |number: f64| {
@@ -127,7 +127,7 @@ fn exact_atan2(y: f64, x: f64) -> f64 {
     if angle == 0.0 { angle.copysign(y) } else { angle }
 }
 
-/// The worst of many points, and how many were off by 0, 1, 2 and more.
+/// The worst of many points, and how many are off by 0, 1, 2 and more.
 struct Worst {
     name: &'static str,
     ulps: u64,
@@ -189,7 +189,7 @@ fn sine_and_cosine_are_within_two_ulp() {
     for kind in 0..points() / 2 {
         take(random.angle_of(kind));
     }
-    // A double times a whole number below 2^16 is at most one double beside the one next to the
+    // A double times a whole number below 2^16 is at most one double from the one nearest to the
     // true multiple.
     for quarter in 1..=QUARTERS {
         for steps in -4..=4 {
@@ -201,8 +201,8 @@ fn sine_and_cosine_are_within_two_ulp() {
     worst.iter().for_each(Worst::check);
 }
 
-/// Sizes of every kind: none, the least, those that round off, ordinary ones, the greatest,
-/// infinite, not a number.
+/// Sizes of every kind: zero, the least, those that round off, ordinary ones, the greatest,
+/// infinite, NaN.
 const SIZES: [f64; 19] = [
     0.0,
     5e-324,
@@ -226,10 +226,10 @@ const SIZES: [f64; 19] = [
 ];
 
 #[test]
-fn the_arc_tangent_of_special_values_is_that_of_the_standard_library() {
+fn special_values_of_the_arc_tangent_match_the_standard_library() {
     for (a, b) in SIZES.iter().flat_map(|a| SIZES.map(|b| (*a, b))) {
         // Directions along an axis or a diagonal have the correctly rounded angle, with its sign;
-        // of the others the sign is right.
+        // for the others the sign is correct.
         let special = a == b || [a, b].iter().any(|size| *size == 0.0 || !size.is_finite());
         let bound = if special { 0 } else { BOUND };
         for (y, x) in [(a, b), (-a, b), (a, -b), (-a, -b)] {
@@ -249,11 +249,11 @@ fn the_arc_tangent_of_special_values_is_that_of_the_standard_library() {
 }
 
 #[test]
-fn sine_and_cosine_of_special_values_are_those_of_the_standard_library() {
+fn special_values_of_sine_and_cosine_match_the_standard_library() {
     for size in SIZES.into_iter().filter(|size| *size <= MOST_SIN_COS || !size.is_finite()) {
         for angle in [size, -size] {
             for (sin, cos) in [sin_cos::<true>(angle), sin_cos::<false>(angle)] {
-                // So small an angle is its own sine.
+                // An angle this small is its own sine.
                 let bound = if size <= 1e-17 || !size.is_finite() { 0 } else { BOUND };
                 assert!(ulps(sin, angle.sin()) <= bound, "sin({angle:e}) is {sin:e}");
                 assert!(ulps(cos, angle.cos()) <= bound, "cos({angle:e}) is {cos:e}");
@@ -287,7 +287,7 @@ impl Kernel for InLanes<'_> {
 }
 
 #[test]
-fn vector_instructions_give_the_bits_of_single_ones() {
+fn vector_and_scalar_instructions_give_the_same_bits() {
     const COLUMNS: usize = 2000;
     let mut random = Rng::new(44);
     let (mut y, mut x) = (Vec::new(), Vec::new());
@@ -295,7 +295,7 @@ fn vector_instructions_give_the_bits_of_single_ones() {
         let directions: [(f64, f64); LANES] =
             core::array::from_fn(|lane| random.y_and_x(kind + lane as u64));
         y.push(directions.map(|direction| direction.0));
-        // Half of the columns for sines, some of which are next to quarter turns.
+        // Half of the columns for sines, some of which are near quarter turns.
         x.push(if kind % 2 == 0 {
             directions.map(|direction| direction.1)
         } else {
@@ -325,7 +325,7 @@ fn vector_instructions_give_the_bits_of_single_ones() {
 }
 
 #[test]
-fn whole_numbers_are_those_of_the_standard_library() {
+fn rounding_to_whole_numbers_matches_the_standard_library() {
     for number in [
         0.0,
         -0.0,

@@ -1,11 +1,10 @@
-//! Where the flange stands when a tool is somewhere in a work object: the frames of tooldata and
-//! wobjdata.
+//! The flange pose for a tool pose in a work object: the frames of tooldata and wobjdata.
 
 use crate::error::{Error, FrameFault};
 use crate::kinematics::{Pose, Robot, pose_from_wxyz, pose_to_wxyz};
 use crate::rapid::data::records::{RapidPose, ToolData, WobjData};
 
-/// A tool and a work object, one of which the robot carries while the other stands in the world.
+/// A tool and a work object, one of which the robot carries while the other is fixed in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Frames {
     /// The robot carries the tool.
@@ -15,8 +14,7 @@ pub(super) enum Frames {
 }
 
 impl Frames {
-    /// Those of a tool, the robot's own where none is given, and a work object, the world where
-    /// none is given.
+    /// The frames of a tool, by default the robot's own, and a work object, by default the world.
     pub(super) fn new(
         robot: &Robot<6>,
         tool: Option<&ToolData>,
@@ -45,7 +43,7 @@ impl Frames {
         })
     }
 
-    /// The flange in the world, of the tool in the work object.
+    /// The flange in the world frame, for the tool in the work object.
     pub(super) fn flange(&self, t_wobj_tool: &Pose) -> Pose {
         match self {
             Self::Carried { t_flange_tool, t_world_wobj } => {
@@ -57,7 +55,7 @@ impl Frames {
         }
     }
 
-    /// The tool in the work object, of the flange in the world.
+    /// The tool in the work object, for the flange in the world frame.
     pub(super) fn tool(&self, t_world_flange: &Pose) -> Pose {
         match self {
             Self::Carried { t_flange_tool, t_world_wobj } => {
@@ -70,7 +68,7 @@ impl Frames {
     }
 }
 
-/// A pose in meters of one in millimeters.
+/// Convert a pose in millimeters to one in meters.
 pub(super) fn pose_in(pose: &RapidPose, field: &'static str) -> Result<Pose, Error> {
     pose_from_wxyz(pose.trans_mm.map(|mm| mm / 1e3), pose.rot).map_err(|error| match error {
         Error::InvalidPose(fault) => FrameFault::Pose { field, fault }.into(),
@@ -78,7 +76,7 @@ pub(super) fn pose_in(pose: &RapidPose, field: &'static str) -> Result<Pose, Err
     })
 }
 
-/// A pose in millimeters of one in meters.
+/// Convert a pose in meters to one in millimeters.
 pub(super) fn rapid_pose(pose: &Pose) -> RapidPose {
     let (xyz, rot) = pose_to_wxyz(pose);
     RapidPose { trans_mm: xyz.map(|m| m * 1e3), rot }

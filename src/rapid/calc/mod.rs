@@ -1,4 +1,4 @@
-//! Joint angles of targets and targets of joint angles, one by one and of whole modules.
+//! Joint angles of targets and targets of joint angles, for single ones and for whole modules.
 
 mod frames;
 pub(super) mod problem;

@@ -1,4 +1,4 @@
-//! What is wrong with a target of a table.
+//! Problems with a target of a table.
 
 use core::fmt;
 
@@ -10,41 +10,41 @@ use crate::rapid::data::reason::Reason;
 use crate::rapid::data::records::NOT_THERE;
 use crate::rapid::data::value::Value;
 
-/// Why a target has no joint angles, or why they are others than it asks for. `Display` gives the
+/// The reason why a target has no joint angles, or others than it requests. `Display` gives the
 /// words.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Problem {
-    /// The target is not known.
+    /// The value of the target is unknown.
     Target(Reason),
-    /// The tool is not known.
+    /// The value of the tool is unknown.
     Tool {
         /// Its source text.
         text: String,
-        /// Why it is not known.
+        /// Why it is unknown.
         reason: Reason,
     },
-    /// The work object is not known.
+    /// The value of the work object is unknown.
     WorkObject {
         /// Its source text.
         text: String,
-        /// Why it is not known.
+        /// Why it is unknown.
         reason: Reason,
     },
     /// An instruction displaces the move.
     Displaced {
-        /// Line of the instruction, from 1; 0 where it is in no text.
+        /// Line of the instruction, from 1; 0 for data that were not read from a text.
         line: usize,
     },
-    /// A jointtarget has the angle of an axis that is not there.
+    /// A jointtarget has the angle of an axis that does not exist (9E9).
     AbsentAxis {
         /// The axis, from 1.
         axis: usize,
         /// Its angle [deg].
         degrees: f64,
     },
-    /// The joint angles of a jointtarget are outside the limits: the joint that is farthest
-    /// outside.
+    /// The joint angles of a jointtarget are outside the limits; reports the joint that exceeds
+    /// them most.
     OutsideLimits {
         /// The joint, from 1.
         joint: usize,
@@ -57,13 +57,13 @@ pub enum Problem {
         /// How far outside [rad].
         excess: f64,
     },
-    /// No joint angles were found, and why.
+    /// No joint angles were found, for this reason.
     NotSolved(Error),
-    /// No solution has the configuration: the joint angles are those nearest to the ones before.
+    /// No solution has the configuration: the joint angles are those nearest to the previous ones.
     Nearest(Error),
 }
 
-/// An error with RAPID's name of it, if it has one.
+/// An error with its name in RAPID, if it has one.
 struct Named<'a>(&'a Error);
 
 impl fmt::Display for Named<'_> {

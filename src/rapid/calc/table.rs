@@ -15,49 +15,51 @@ use crate::rapid::data::records::{RobTarget, ToolData, WobjData};
 use crate::rapid::data::value::Value;
 use crate::report::Configuration;
 
-/// |joint angle| above which a jointtarget means that the axis is not there [deg]: no joint turns so far, and RAPID writes 9E9.
+/// joint angle
+///
+/// above which an axis of a jointtarget does not exist [deg]: no joint turns so far, and RAPID
+/// writes 9E9.
 const MOST_DEGREES: f64 = 1e6;
 
-/// What became of one target.
+/// The result for one target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TableRow {
-    /// What it is: `MoveL` and the like, or `robtarget`.
+    /// The instruction, `MoveL` and the like, or `robtarget`.
     pub kind: &'static str,
     /// The target as it is written, or the name of its declaration.
     pub text: String,
     /// Line of the instruction or of the declaration.
     pub line: usize,
-    /// Joint angles [rad]; `None` where there are none.
+    /// Joint angles [rad]; `None` if there are none.
     pub q: Option<[f64; 6]>,
-    /// The configuration of the joint angles; that of the target where there are none, zeros where
-    /// that is not known either.
+    /// The configuration of the joint angles; if there are none, that of the target, or zeros if it
+    /// is unknown too.
     pub configuration: Configuration,
-    /// How far the joint angles are from the singularities.
+    /// Distances of the joint angles from the singularities.
     pub distances: Option<SingularDistances>,
-    /// What is wrong: why there are no joint angles, or why they are others than the target asks
-    /// for.
+    /// The reason why there are no joint angles, or others than the target requests.
     pub problem: Option<Problem>,
 }
 
-/// What to do with a target whose configuration no solution has.
+/// The treatment of a target whose configuration no solution has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fallback {
     /// It has no joint angles.
     None,
-    /// It gets the solution nearest to the joint angles before it, of the first target to these
-    /// [rad], and the problem says so.
+    /// It gets the solution nearest to the previous joint angles (for the first target, to these
+    /// [rad]), and the problem reports so.
     Nearest([f64; 6]),
 }
 
-/// The joint angles of every target of the module's moves, in their order; a `MoveC` has two.
+/// The joint angles of every target of the module's moves, in order; a `MoveC` has two.
 ///
-/// Each is seen with its own tool and work object. A `MoveAbsJ` has the joint angles that it names,
-/// none where one of them is more than 1E6 degrees, as the 9E9 of an axis that is not there. A move
-/// that is displaced has none.
+/// Each is solved with its own tool and work object. A `MoveAbsJ` has the joint angles that it
+/// names, or none if one of them exceeds 1E6 degrees, as the 9E9 of an axis that does not exist. A
+/// displaced move has none.
 ///
 /// # Errors
 ///
-/// [`Error::InvalidModel`] for an arm without configurations. What is wrong with one target is told
+/// [`Error::InvalidModel`] for an arm without configurations. A problem with one target is reported
 /// in its row.
 pub fn calc_moves(
     robot: &Robot<6>,
@@ -77,7 +79,7 @@ pub fn calc_moves(
     Ok(table.rows)
 }
 
-/// The joint angles of every robtarget that the module itself declares, element by element of
+/// The joint angles of every robtarget that the module itself declares, element by element for
 /// arrays, in the order of the text, all with one tool and one work object.
 ///
 /// # Errors
@@ -116,13 +118,13 @@ pub fn calc_targets(
     Ok(table.rows)
 }
 
-/// The first axis that is not there, by the joint angles [deg].
+/// The first axis that does not exist, by the joint angles [deg].
 fn absent_axis(robax_deg: &[f64; 6]) -> Option<Problem> {
     let axis = robax_deg.iter().position(|degrees| degrees.abs() > MOST_DEGREES)?;
     Some(Problem::AbsentAxis { axis: axis + 1, degrees: robax_deg[axis] })
 }
 
-/// The name of an element of an array by its number in the order of the values.
+/// The name of an element of an array, by its index in the order of the values.
 fn element(name: &str, sizes: &[usize], mut number: usize) -> String {
     let mut indices = Vec::with_capacity(sizes.len());
     for size in sizes.iter().rev() {
@@ -135,7 +137,7 @@ fn element(name: &str, sizes: &[usize], mut number: usize) -> String {
 
 struct Table<'a> {
     robot: &'a Robot<6>,
-    /// The same robot with its flange for a tool.
+    /// The same robot with the flange as its tool.
     flange: Robot<6>,
     fallback: Fallback,
     rows: Vec<TableRow>,
@@ -147,7 +149,7 @@ impl<'a> Table<'a> {
         Ok(Self { robot, flange: with_flange(robot)?, fallback, rows: Vec::new() })
     }
 
-    /// A row for an argument of a move, which `read` takes for a robtarget or for joint angles
+    /// Add a row for an argument of a move, which `read` converts to a robtarget or to joint angles
     /// [deg].
     fn add_move<T>(
         &mut self,
@@ -229,7 +231,7 @@ impl<'a> Table<'a> {
         });
     }
 
-    /// What is outside the limits, and by how much.
+    /// The joint or linkage that is outside the limits, and the excess.
     fn outside(&self, q: &[f64; 6]) -> Option<Problem> {
         let limits = self.robot.limits();
         if limits.contains(q) {
@@ -245,7 +247,7 @@ impl<'a> Table<'a> {
         })
     }
 
-    /// The joint angles of a target, and what is wrong with them.
+    /// The joint angles of a target, and the problem with them, if any.
     fn solved(
         &self,
         target: &RobTarget,

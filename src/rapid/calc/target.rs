@@ -6,16 +6,16 @@ use crate::kinematics::{Pose, Robot};
 use crate::rapid::data::records::{JointTarget, RapidPose, RobTarget, ToolData, WobjData};
 use crate::report::Explanation;
 
-/// Joint angles of a robtarget, as RAPID's `CalcJointT`: those with the target's configuration,
+/// Joint angles of a robtarget, as by RAPID's `CalcJointT`: those with the target's configuration,
 /// inside the limits.
 ///
-/// A tool replaces the robot's own, which counts where none is given; a work object stands in the
-/// world that [`Robot::with_base`] sets. External axes are taken over as they are.
+/// A tool replaces the robot's own, which is the default. A work object is in the world frame that
+/// [`Robot::with_base`] defines. External axes are copied unchanged.
 ///
 /// # Errors
 ///
-/// As [`Robot::ik_configured`]: RAPID's names of them are given by [`error_name`]. [`Error::Frame`]
-/// for a tool and a work object that do not go together or are no poses.
+/// As [`Robot::ik_configured`]; [`error_name`] gives RAPID's names. [`Error::Frame`] for a tool and
+/// a work object that cannot be combined or are not poses.
 pub fn calc_joint_t(
     robot: &Robot<6>,
     target: &RobTarget,
@@ -28,8 +28,8 @@ pub fn calc_joint_t(
     Ok(joint_target(&q, target.extax))
 }
 
-/// [`calc_joint_t`] or, where no solution has the target's configuration, the one nearest to `seed`
-/// [rad].
+/// [`calc_joint_t`] or, if no solution has the target's configuration, the solution nearest to
+/// `seed` [rad].
 ///
 /// # Errors
 ///
@@ -48,11 +48,11 @@ pub fn calc_joint_t_or_nearest(
     Ok(joint_target(&q, target.extax))
 }
 
-/// The robtarget of joint angles, with its configuration, as RAPID's `CalcRobT`.
+/// The robtarget of joint angles, with its configuration, as by RAPID's `CalcRobT`.
 ///
 /// # Errors
 ///
-/// As [`Robot::configuration`], and [`Error::Frame`] as [`calc_joint_t`]. Limits are not asked.
+/// As [`Robot::configuration`], and [`Error::Frame`] as [`calc_joint_t`]. Limits are not checked.
 pub fn calc_rob_t(
     robot: &Robot<6>,
     joints: &JointTarget,
@@ -66,9 +66,9 @@ pub fn calc_rob_t(
     Ok(RobTarget { trans_mm, rot, robconf, extax: joints.extax })
 }
 
-/// What RAPID calls an error of [`calc_joint_t`]: `ERR_OUTSIDE_REACH` where the arm is too short or
-/// too long, `ERR_ROBLIMIT` where solutions exist, but none inside the limits with the
-/// configuration that was asked for. `None` for what no controller gets to calculate.
+/// RAPID's name of an error of [`calc_joint_t`]: `ERR_OUTSIDE_REACH` if the arm is too short or too
+/// long, `ERR_ROBLIMIT` if solutions exist, but none inside the limits with the requested
+/// configuration. `None` for errors that no controller reports.
 #[must_use]
 pub fn error_name(error: &Error) -> Option<&'static str> {
     match error {
@@ -78,7 +78,7 @@ pub fn error_name(error: &Error) -> Option<&'static str> {
     }
 }
 
-/// The same robot with its flange for a tool.
+/// The same robot with the flange as its tool.
 pub(super) fn with_flange(robot: &Robot<6>) -> Result<Robot<6>, Error> {
     robot.clone().with_tool(&Pose::identity())
 }

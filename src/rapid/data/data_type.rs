@@ -1,6 +1,6 @@
-//! The types of data that are read.
+//! The data types that are read.
 
-/// A type of data that is read.
+/// A data type that is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum DataType {
     /// `robtarget`.
@@ -43,7 +43,7 @@ impl DataType {
         Self::Num,
     ];
 
-    /// The type's name in RAPID.
+    /// The name of the type in RAPID.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -61,7 +61,7 @@ impl DataType {
         }
     }
 
-    /// The type of a name in any case; none for one that is not read.
+    /// The type with a name, in any case; `None` if it is not read.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         if name.eq_ignore_ascii_case("dnum") {

@@ -10,11 +10,11 @@ const LARGE: f64 = 1e7;
 /// The size below which a number is written with an exponent.
 const SMALL: f64 = 1e-4;
 
-/// Writes a number with the fewest digits that read back as the same, an exponent as ABB writes it:
-/// `9E+09`.
+/// Write a number with the fewest digits that read back as the same number, with an exponent as ABB
+/// writes it: `9E+09`.
 ///
-/// RAPID has no negative zero, and nothing that is not finite: such a number is written as Rust
-/// writes it.
+/// RAPID has no negative zero, and no number that is not finite: such a number is written as in
+/// Rust.
 pub(crate) fn write_number(f: &mut impl fmt::Write, number: f64) -> fmt::Result {
     let size = number.abs();
     if size == 0.0 {
@@ -30,7 +30,7 @@ pub(crate) fn write_number(f: &mut impl fmt::Write, number: f64) -> fmt::Result 
     write!(f, "{digits}E{sign}{exponent:0>2}")
 }
 
-/// Writes a string in quotes.
+/// Write a string in quotes.
 pub(crate) fn write_text(f: &mut impl fmt::Write, text: &str) -> fmt::Result {
     f.write_char('"')?;
     for character in text.chars() {

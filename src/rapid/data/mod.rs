@@ -1,4 +1,4 @@
-//! What a module is made of: types, records, values, data, moves, and reasons why something is not
+//! The content of a module: types, records, values, data, moves, and reasons why something is not
 //! read.
 
 pub(crate) mod data_type;

@@ -1,4 +1,4 @@
-//! A RAPID module as data: what is declared, how it moves, what was skipped.
+//! A RAPID module as data: declarations, moves, and what was skipped.
 
 use core::ops::Range;
 
@@ -11,18 +11,18 @@ use super::moves::Move;
 use super::skipped::Skipped;
 use super::value::Value;
 
-/// From where a datum is seen.
+/// The scope of a datum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
-    /// From every module; inside a routine, from the routine.
+    /// Visible in every module; inside a routine, in the routine.
     Global,
-    /// `LOCAL`: from its module.
+    /// `LOCAL`: visible in its module.
     Local,
-    /// `TASK`: from the modules of its task.
+    /// `TASK`: visible in the modules of its task.
     Task,
 }
 
-/// How a datum is kept.
+/// The storage class of a datum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storage {
     /// `CONST`: never changes.
@@ -34,7 +34,7 @@ pub enum Storage {
 }
 
 impl Scope {
-    /// Its word in RAPID; empty for a global one, which has none.
+    /// Its keyword in RAPID; empty for a global one, which has none.
     pub(crate) fn word(self) -> &'static str {
         match self {
             Self::Global => "",
@@ -45,7 +45,7 @@ impl Scope {
 }
 
 impl Storage {
-    /// Its word in RAPID.
+    /// Its keyword in RAPID.
     pub(crate) fn word(self) -> &'static str {
         match self {
             Self::Const => "CONST",
@@ -55,17 +55,17 @@ impl Storage {
     }
 }
 
-/// What a datum holds by its declaration; a program may change it afterwards.
+/// The content of a datum by its declaration; a program may change it afterwards.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Content {
     /// The declaration has no value.
     Uninitialized {
-        /// Sizes of an array; none of a single value.
+        /// Sizes of an array; empty for a single value.
         sizes: Vec<usize>,
     },
     /// One value.
     Single(Value),
-    /// An array, the last index running fastest.
+    /// An array, with the last index running fastest.
     Array {
         /// One to three sizes.
         sizes: Vec<usize>,
@@ -79,28 +79,28 @@ pub enum Content {
 pub struct Datum {
     /// Name, as it is written.
     pub name: String,
-    /// Type of its values.
+    /// Data type of its values.
     pub data_type: DataType,
-    /// From where it is seen.
+    /// Its scope.
     pub scope: Scope,
-    /// How it is kept.
+    /// Its storage class.
     pub storage: Storage,
-    /// The routine that it is declared in; none for the module.
+    /// The routine that declares it; `None` for the module.
     pub routine: Option<String>,
-    /// What it holds.
+    /// Its content.
     pub content: Content,
-    /// Line of the declaration, from 1; 0 where it stands in no text.
+    /// Line of the declaration, from 1; 0 if it was not read from a text.
     pub line: usize,
-    /// Column of the declaration, from 1, in characters; 0 where it stands in no text.
+    /// Column of the declaration, from 1, in characters; 0 if it was not read from a text.
     pub column: usize,
-    /// Bytes of the value in the text; empty, where a value would stand, without one.
+    /// Bytes of the value in the text; without a value, the empty range at its place.
     pub value_span: Range<usize>,
     /// Bytes of each element of an array, in the order of its values.
     pub element_spans: Vec<Range<usize>>,
 }
 
 impl Datum {
-    /// A single value that is declared for the whole module, of global scope.
+    /// A single value that is declared for the whole module, with global scope.
     #[must_use]
     pub fn single(name: String, storage: Storage, value: Value) -> Self {
         Self {
@@ -118,7 +118,7 @@ impl Datum {
     }
 }
 
-/// What is declared as `PROC`, `FUNC` or `TRAP`.
+/// The kind of a routine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RoutineKind {
     /// Procedure.
@@ -130,7 +130,7 @@ pub enum RoutineKind {
 }
 
 impl RoutineKind {
-    /// The word that begins it.
+    /// The keyword that begins it.
     pub(crate) fn word(self) -> &'static str {
         match self {
             Self::Proc => "PROC",
@@ -139,7 +139,7 @@ impl RoutineKind {
         }
     }
 
-    /// The word that ends it.
+    /// The keyword that ends it.
     pub(crate) fn end(self) -> &'static str {
         match self {
             Self::Proc => "ENDPROC",
@@ -152,19 +152,19 @@ impl RoutineKind {
 /// A routine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Routine {
-    /// What it is.
+    /// Its kind.
     pub kind: RoutineKind,
     /// Name, as it is written.
     pub name: String,
     /// Its first line, from `LOCAL` or `PROC` to the parameters.
     pub header: String,
-    /// Line, from 1; 0 where it stands in no text.
+    /// Line, from 1; 0 if it was not read from a text.
     pub line: usize,
-    /// Column, from 1, in characters; 0 where it stands in no text.
+    /// Column, from 1, in characters; 0 if it was not read from a text.
     pub column: usize,
 }
 
-/// The name of a routine by its index, from 1; none for 0, the module itself.
+/// The name of a routine by its index, from 1; `None` for 0, the module itself.
 pub(crate) fn routine_name(routines: &[Routine], index: usize) -> Option<String> {
     routines.get(index.checked_sub(1)?).map(|routine| routine.name.clone())
 }
@@ -180,19 +180,19 @@ pub struct Module {
     pub(crate) skipped: Vec<Skipped>,
     /// Data of the module itself by their names in lower case.
     pub(crate) index: BTreeMap<String, usize>,
-    /// Names in lower case that it assigns: of its own data, with those that refer to them, and of
-    /// data that it does not declare.
+    /// Names in lower case that the module assigns: of its own data, with those that refer to them,
+    /// and of data that it does not declare.
     pub(crate) assigned: BTreeSet<String>,
-    /// Values that refer to what is assigned, as they are written, by the index of the datum: as
-    /// numbers they would not.
+    /// Values that refer to assigned data, as they are written, by the index of the datum: as
+    /// numbers they would no longer refer to them.
     pub(crate) expressions: BTreeMap<usize, String>,
     /// Bytes of the text that it was read from.
     pub(crate) text_length: usize,
 }
 
 impl Module {
-    /// Its name, or the placeholder of an unfinished one; none for declarations without a module
-    /// around them.
+    /// Its name, or the placeholder of an unfinished one; `None` for declarations without an
+    /// enclosing module.
     #[must_use]
     pub fn name(&self) -> Option<&str> {
         self.name.as_deref()
@@ -210,13 +210,13 @@ impl Module {
         &self.routines
     }
 
-    /// Its data, in the order of the text, those of routines among them.
+    /// Its data, in the order of the text, including those of routines.
     #[must_use]
     pub fn data(&self) -> &[Datum] {
         &self.data
     }
 
-    /// Its moves, in the order of the text, whatever branch or loop they stand in.
+    /// Its moves, in the order of the text, regardless of branches and loops.
     #[must_use]
     pub fn moves(&self) -> &[Move] {
         &self.moves
@@ -228,13 +228,13 @@ impl Module {
         &self.skipped
     }
 
-    /// The datum of the module of a name in any case; data of routines are not looked through.
+    /// The datum of the module with a name, in any case; data of routines are not searched.
     #[must_use]
     pub fn find(&self, name: &str) -> Option<&Datum> {
         self.position(name).and_then(|index| self.data.get(index))
     }
 
-    /// The index in [`Self::data`] of what [`Self::find`] gives.
+    /// The index in [`Self::data`] of the datum that [`Self::find`] returns.
     #[must_use]
     pub fn position(&self, name: &str) -> Option<usize> {
         self.index.get(&name.to_lowercase()).copied()

@@ -45,16 +45,16 @@ impl MoveKind {
     }
 }
 
-/// An argument as it is written, without its name, and what it is by the declarations.
+/// An argument as it is written, without its name, and its value by the declarations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Argument<T> {
     /// Source text.
     pub text: String,
-    /// The value, or why it is not known.
+    /// The value, or the reason why it is unknown.
     pub value: Result<T, Reason>,
 }
 
-/// Where a move goes.
+/// The destination of a move.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Target {
     /// A pose.
@@ -66,12 +66,12 @@ pub enum Target {
 /// An optional argument other than `\WObj`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MoveOption {
-    /// How many of the required arguments stand before it.
+    /// Number of required arguments before it.
     pub after: usize,
     /// Name, as it is written.
     pub name: String,
-    /// Source text of its value; none of a switch. It begins with `?` where a routine passes its
-    /// own optional argument on.
+    /// Source text of its value; `None` for a switch. It begins with `?` if a routine passes on its
+    /// own optional argument.
     pub text: Option<String>,
 }
 
@@ -80,17 +80,17 @@ pub struct MoveOption {
 /// Values are those of the declarations; data that the module assigns have none here.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Move {
-    /// How it moves.
+    /// The kind of move.
     pub kind: MoveKind,
-    /// The routine that it stands in; none outside routines.
+    /// The routine that contains it; `None` outside routines.
     pub routine: Option<String>,
-    /// Line, from 1; 0 where it stands in no text.
+    /// Line, from 1; 0 if it was not read from a text.
     pub line: usize,
-    /// Column, from 1, in characters; 0 where it stands in no text.
+    /// Column, from 1, in characters; 0 if it was not read from a text.
     pub column: usize,
     /// The point on the circle of a `MoveC`.
     pub via: Option<Argument<RobTarget>>,
-    /// Where it goes.
+    /// The destination.
     pub target: Argument<Target>,
     /// Source text of the speed.
     pub speed: String,
@@ -98,18 +98,18 @@ pub struct Move {
     pub zone: String,
     /// The tool.
     pub tool: Argument<ToolData>,
-    /// The work object of `\WObj:=`; `wobj0` is meant without one.
+    /// The work object of `\WObj:=`; without one, `wobj0`.
     pub wobj: Option<Argument<WobjData>>,
     /// The other optional arguments, in order.
     pub options: Vec<MoveOption>,
-    /// Line of the `PDispOn` or `PDispSet` that stands before it in its routine and that no
-    /// `PDispOff` between them ends: the robot goes elsewhere than `via` and `target` say. Joint
-    /// angles are not displaced.
+    /// Line of the `PDispOn` or `PDispSet` that precedes it in its routine without a `PDispOff` in
+    /// between: the robot does not move to `via` and `target` as written. Joint angles are not
+    /// displaced.
     pub displaced: Option<usize>,
 }
 
 impl Move {
-    /// Makes it one that stands in no text.
+    /// Clear its line and column, as for a move that was not read from a text.
     pub(crate) fn clear_lines(&mut self) {
         (self.line, self.column, self.displaced) = (0, 0, self.displaced.map(|_| 0));
         let reasons = [

@@ -1,4 +1,4 @@
-//! Values and their components: one table, which reading, writing and component access go by.
+//! Values and their components: one table for reading, writing and component access.
 
 use core::fmt;
 
@@ -19,7 +19,7 @@ fn in_order<P, const N: usize>(components: [(&'static str, P); N]) -> Components
     core::array::from_fn(|_| components.next())
 }
 
-/// The table, for parts that are read and for parts that are written to.
+/// Defines the table, for parts that are read and for parts that are written.
 macro_rules! parts {
     ($(#[$documentation:meta])* $Part:ident $(, $mutable:ident)?) => {
         $(#[$documentation])*
@@ -63,7 +63,7 @@ macro_rules! parts {
                 }
             }
 
-            /// Its components; none of an atomic type.
+            /// Its components; none for an atomic type.
             pub(crate) fn components(self) -> Components<$Part<'v>> {
                 use $Part::{
                     Bool, ConfData, ExtJoint, Num, Orient, Pos, Pose, RobJoint, Text, Whole,
@@ -152,13 +152,13 @@ parts!(
 );
 
 impl<'v> Part<'v> {
-    /// The component of a name in any case.
+    /// The component with a name, in any case.
     pub(crate) fn component(self, wanted: &str) -> Option<Part<'v>> {
         let mut components = self.components().into_iter().flatten();
         components.find(|(name, _)| name.eq_ignore_ascii_case(wanted)).map(|(_, part)| part)
     }
 
-    /// Whether every number of it is finite.
+    /// Whether all of its numbers are finite.
     pub(crate) fn is_finite(self) -> bool {
         match self {
             Part::Num(number) => number.is_finite(),
@@ -166,7 +166,7 @@ impl<'v> Part<'v> {
         }
     }
 
-    /// Writes it as RAPID does, without blanks.
+    /// Write it as RAPID does, without blanks.
     pub(crate) fn write(self, f: &mut impl fmt::Write) -> fmt::Result {
         match self {
             Part::Num(number) => return write_number(f, *number),
@@ -184,7 +184,7 @@ impl<'v> Part<'v> {
 }
 
 impl PartMut<'_> {
-    /// What must be there, for a message.
+    /// What is expected there, for a message.
     pub(crate) fn wanted(&self) -> &'static str {
         match self {
             PartMut::Num(_) | PartMut::Whole(_) => "a number",
@@ -194,7 +194,7 @@ impl PartMut<'_> {
         }
     }
 
-    /// Takes over a part of the same type; whether it was of the same type.
+    /// Copy a part of the same type; returns whether the types match.
     pub(crate) fn assign(self, from: Part<'_>) -> bool {
         match (self, from) {
             (PartMut::Num(to), Part::Num(from)) => to.clone_from(from),

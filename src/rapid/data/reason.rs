@@ -1,20 +1,20 @@
-//! Why the value of something is not known.
+//! Reasons why a value is unknown.
 
 use core::fmt;
 
 use alloc::string::String;
 
-/// Why an expression has no value here. `Display` gives the words.
+/// The reason why an expression has no value here. `Display` gives the words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Reason {
     /// It is the teach pendant's `*`: its value is on the controller.
     Taught,
-    /// It has a placeholder in it.
+    /// It contains a placeholder.
     Unfinished,
     /// It depends on whether the caller gives an optional argument.
     OptionalArgument,
-    /// It has an operator that is not evaluated, such as `DIV`.
+    /// It contains an operator that is not evaluated, such as `DIV`.
     Operator,
     /// It begins with `NOT`.
     Negation,
@@ -47,16 +47,16 @@ pub enum Reason {
     },
     /// An array is declared with something other than an aggregate.
     NoAggregate,
-    /// It refers to something whose value is not known.
+    /// It refers to something whose value is unknown.
     Reference {
         /// The name, as it is written.
         name: String,
-        /// Why that has none.
+        /// Why that is unknown.
         why: Unresolved,
     },
 }
 
-/// Why what a name refers to has no value here. `Display` gives the words.
+/// The reason why a name has no value here. `Display` gives the words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Unresolved {
@@ -64,7 +64,7 @@ pub enum Unresolved {
     NotDeclared,
     /// It is the variable of a loop.
     LoopVariable,
-    /// It is of a type that is not read.
+    /// It has a data type that is not read.
     OtherType {
         /// Name of the type, as it is written.
         type_name: String,
@@ -80,11 +80,11 @@ pub enum Unresolved {
         /// Name of the routine, as it is written.
         routine: String,
     },
-    /// The value of its declaration is not known.
+    /// The value of its declaration is unknown.
     ValueNotKnown,
     /// Its declaration has no value.
     NoValue,
-    /// It can change, where only a constant can be taken: in a size and in an index.
+    /// It can change, but a size or an index must be constant.
     CanChange,
     /// It is an array, and no element of it is named.
     WholeArray,
@@ -92,7 +92,7 @@ pub enum Unresolved {
     NoSuchElement,
     /// A program assigns it, or something that its declaration refers to.
     Assigned {
-        /// What is assigned, where that is something that its declaration refers to.
+        /// What is assigned, if that is something that its declaration refers to.
         through: Option<String>,
         /// What assigns it.
         by: AssignedBy,
@@ -103,14 +103,14 @@ pub enum Unresolved {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum AssignedBy {
-    /// The statement on a line, from 1; 0 where that is in no text.
+    /// The statement on a line, from 1; 0 if it was not read from a text.
     Line(usize),
     /// Another module, with its name.
     Module(Option<String>),
 }
 
 impl Reason {
-    /// Makes it one of something that is in no text.
+    /// Clear the line, as for something that was not read from a text.
     pub(crate) fn clear_line(&mut self) {
         if let Self::Reference { why: Unresolved::Assigned { by, .. }, .. } = self
             && let AssignedBy::Line(line) = by

@@ -4,7 +4,7 @@ use alloc::string::String;
 
 use crate::report::Configuration;
 
-/// What stands for an external axis that is not there.
+/// Value of an external axis that does not exist.
 pub const NOT_THERE: f64 = 9e9;
 
 /// `pose`: a frame.
@@ -16,7 +16,7 @@ pub struct RapidPose {
     pub rot: [f64; 4],
 }
 
-/// `robtarget`: a pose of the tool in the work object, which solution, and external axes.
+/// `robtarget`: a pose of the tool in the work object, a configuration, and external axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RobTarget {
     /// Position [mm].
@@ -25,7 +25,7 @@ pub struct RobTarget {
     pub rot: [f64; 4],
     /// Quarter turns and slot.
     pub robconf: Configuration,
-    /// External axes [deg or mm]; 9e9 is one that is not there.
+    /// External axes [deg or mm]; 9e9 for an axis that does not exist.
     pub extax: [f64; 6],
 }
 
@@ -34,7 +34,7 @@ pub struct RobTarget {
 pub struct JointTarget {
     /// The controller's angles [deg].
     pub robax_deg: [f64; 6],
-    /// External axes [deg or mm]; 9e9 is one that is not there.
+    /// External axes [deg or mm]; 9e9 for an axis that does not exist.
     pub extax: [f64; 6],
 }
 
@@ -56,18 +56,18 @@ pub struct LoadData {
 pub struct ToolData {
     /// Whether the robot holds the tool.
     pub robhold: bool,
-    /// The tool in the frame of the flange; in the world where the robot does not hold it.
+    /// The tool in the flange frame or, if the robot does not hold it, in the world frame.
     pub tframe: RapidPose,
     /// The tool's load.
     pub tload: LoadData,
 }
 
-/// `wobjdata`: a work object, `uframe * oframe` in the world.
+/// `wobjdata`: a work object, at `uframe * oframe` in the world.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WobjData {
     /// Whether the robot holds the work object.
     pub robhold: bool,
-    /// Whether the user frame is fixed; a mechanical unit moves it where it is not.
+    /// Whether the user frame is fixed; otherwise a mechanical unit moves it.
     pub ufprog: bool,
     /// Name of the mechanical unit that moves the user frame.
     pub ufmec: String,

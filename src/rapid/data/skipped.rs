@@ -15,14 +15,14 @@ pub struct Skipped {
     pub column: usize,
     /// The routine that it is in; none for the module.
     pub routine: Option<String>,
-    /// What it is and, of a datum, why it is not read.
+    /// Its kind and, for a datum, why it is not read.
     pub what: NotRead,
     /// The text, which is written back as it is.
     pub text: String,
 }
 
-/// What a part of the text is that is not read. Names and words are as they are written.
-/// `Display` gives the words.
+/// The kind of a part of the text that is not read. Names and words are as written. `Display` gives
+/// the words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum NotRead {
@@ -31,11 +31,11 @@ pub enum NotRead {
         /// Its first word.
         statement: String,
     },
-    /// A datum of a type that is read, whose value is not known.
+    /// A datum of a type that is read, whose value is unknown.
     Datum {
         /// Its name.
         name: String,
-        /// Why its value is not known.
+        /// Why its value is unknown.
         reason: Reason,
     },
     /// A datum of a type that is not read.
@@ -50,12 +50,12 @@ pub enum NotRead {
         /// Its name.
         name: String,
     },
-    /// The declaration of another name of a type.
+    /// The declaration of an alias of a type.
     Alias {
-        /// That name.
+        /// The alias.
         name: String,
     },
-    /// A line that begins, parts or ends a branch, a loop or a handler.
+    /// A line that begins, divides or ends a branch, a loop or a handler.
     Flow {
         /// Its word, in capitals.
         word: String,

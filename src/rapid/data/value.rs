@@ -61,7 +61,7 @@ impl Value {
         self.data_type().name()
     }
 
-    /// A value of a type, all of whose numbers are zero, to be read from a text.
+    /// A value of a type with all numbers zero, to be read from a text.
     pub(crate) fn zero(data_type: DataType) -> Self {
         match data_type {
             DataType::RobTarget => Self::RobTarget(Record::ZERO),
@@ -78,7 +78,7 @@ impl Value {
         }
     }
 
-    /// It with its components.
+    /// The value with its components.
     pub(crate) fn part(&self) -> Part<'_> {
         match self {
             Self::RobTarget(target) => Part::RobTarget(target),
@@ -95,7 +95,7 @@ impl Value {
         }
     }
 
-    /// It with its components, to be read from a text.
+    /// The value with its components, to be read from a text.
     pub(crate) fn part_mut(&mut self) -> PartMut<'_> {
         match self {
             Self::RobTarget(target) => PartMut::RobTarget(target),
@@ -127,10 +127,10 @@ const ZERO_LOAD: LoadData =
 
 /// A record that is a value of its own type.
 pub(crate) trait Record: Sized {
-    /// One all of whose numbers are zero, to be read from a text.
+    /// The value with all numbers zero, to be read from a text.
     const ZERO: Self;
 
-    /// It with its components, to be read from a text.
+    /// The value with its components, to be read from a text.
     fn part_mut(&mut self) -> PartMut<'_>;
 }
 

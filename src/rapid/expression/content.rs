@@ -1,4 +1,4 @@
-//! What a declaration holds: a value, or the elements of an array.
+//! The content of a declaration: a value, or the elements of an array.
 
 use core::ops::Range;
 
@@ -21,7 +21,7 @@ pub(crate) struct WrittenContent<'a> {
     pub(crate) data_type: DataType,
     pub(crate) sizes: Vec<Expression<'a>>,
     pub(crate) value: Option<Expression<'a>>,
-    /// Where a value would be, if there is none.
+    /// The place of the value, if there is none.
     pub(crate) value_place: usize,
 }
 
@@ -39,7 +39,7 @@ impl Placed {
 }
 
 impl WrittenContent<'_> {
-    /// What it is worth.
+    /// Evaluate the content.
     pub(crate) fn evaluate(&self, evaluator: &Evaluator<'_, '_>) -> Result<Placed, Stop> {
         let sizes = self.sizes(evaluator)?;
         let Some(expression) = &self.value else {

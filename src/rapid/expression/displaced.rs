@@ -3,7 +3,7 @@
 use crate::kinematics::constant_sin_cos;
 use crate::rapid::data::records::RobTarget;
 
-/// A function that gives a displaced target.
+/// A function that returns a displaced target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Displacement {
     /// `Offs`: in the work object.
@@ -27,10 +27,11 @@ impl Displacement {
     }
 }
 
-/// A target displaced by `shift` [mm] and, by RelTool, turned by `turns` [deg]: about x, then about
-/// the new y, then about the new z.
+/// A target displaced by `shift` [mm] and, by RelTool, rotated by `turns` [deg]: about x, then
+/// about the new y, then about the new z.
 ///
-/// The order of the turns is general knowledge of RAPID's reference, not checked on a controller.
+/// The order of the rotations is general knowledge of RAPID's reference, not checked on a
+/// controller.
 pub(crate) fn displaced(
     function: Displacement,
     target: &RobTarget,
@@ -63,7 +64,7 @@ fn product([aw, ax, ay, az]: [f64; 4], [bw, bx, by, bz]: [f64; 4]) -> [f64; 4] {
     ]
 }
 
-/// A vector turned by a quaternion of any norm; not finite where the norm is zero and the vector is
+/// A vector rotated by a quaternion of any norm; not finite if the norm is zero and the vector is
 /// not.
 fn rotated(rot: [f64; 4], vector: [f64; 3]) -> [f64; 3] {
     if vector.iter().all(|component| *component == 0.0) {

@@ -1,4 +1,4 @@
-//! What an expression is worth, where a value of some type must be.
+//! Evaluates expressions where a value of some type is expected.
 
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -15,9 +15,9 @@ use crate::rapid::text::place::fault_at;
 
 /// Why an expression has no value.
 pub(crate) enum Stop {
-    /// The text is broken.
+    /// The text is invalid.
     Fault(RapidFault),
-    /// It is not known.
+    /// The value is unknown.
     Unknown(Reason),
 }
 
@@ -44,21 +44,21 @@ impl From<Unread> for Reason {
     }
 }
 
-/// Where an expression is.
+/// The context of an expression.
 #[derive(Clone, Copy)]
 pub(crate) struct Evaluator<'r, 'a> {
     pub(crate) text: &'a str,
     pub(crate) names: &'r dyn Names,
     pub(crate) at: At,
-    /// The thing for messages: "robtarget" and "p10", or "MoveL" and "tool".
+    /// The evaluated item for messages: "robtarget" and "p10", or "MoveL" and "tool".
     pub(crate) thing: (&'static str, &'a str),
-    /// Whether only what never changes may be referred to: sizes and indices.
+    /// Whether only constants may be referred to: in sizes and indices.
     pub(crate) constant: bool,
-    /// Whether it counts what the program assigns: where it moves.
+    /// Whether data that the program assigns are unknown: in moves.
     pub(crate) at_move: bool,
 }
 
-/// The names of a component and of those that it is in, for messages.
+/// The name of a component and of those that contain it, for messages.
 #[derive(Clone, Copy)]
 pub(super) struct Path<'p> {
     name: &'static str,
@@ -79,7 +79,7 @@ impl core::fmt::Display for Path<'_> {
 }
 
 impl Evaluator<'_, '_> {
-    /// The value of a type.
+    /// Evaluate to a value of a type.
     pub(crate) fn value(
         &self,
         expression: &Expression<'_>,
@@ -90,21 +90,21 @@ impl Evaluator<'_, '_> {
         Ok(value)
     }
 
-    /// A record.
+    /// Evaluate to a record.
     pub(crate) fn record<T: Record>(&self, expression: &Expression<'_>) -> Result<T, Stop> {
         let mut record = T::ZERO;
         self.fill(expression, record.part_mut(), &Path::WHOLE)?;
         Ok(record)
     }
 
-    /// A number.
+    /// Evaluate to a number.
     pub(crate) fn number(&self, expression: &Expression<'_>) -> Result<f64, Stop> {
         let mut number = 0.0;
         self.fill(expression, PartMut::Num(&mut number), &Path::WHOLE)?;
         Ok(number)
     }
 
-    /// The thing's name for a message.
+    /// The name of the evaluated item, for a message.
     pub(crate) fn thing(&self) -> String {
         format!("{} {}", self.thing.0, self.thing.1)
     }
@@ -125,7 +125,7 @@ impl Evaluator<'_, '_> {
         self.fault(expression, RapidFaultKind::ComponentType { thing, part, found, wanted })
     }
 
-    /// Puts what an expression is worth into its place, the component of a path.
+    /// Write the value of an expression to its place, the component of a path.
     fn fill(
         &self,
         expression: &Expression<'_>,
@@ -167,7 +167,7 @@ impl Evaluator<'_, '_> {
         }
     }
 
-    /// Puts a number into its place. RAPID has no negative zero: it becomes a positive one.
+    /// Write a number to its place. RAPID has no negative zero: it becomes a positive one.
     pub(super) fn fill_number(
         &self,
         expression: &Expression<'_>,
@@ -244,7 +244,7 @@ impl Evaluator<'_, '_> {
     }
 }
 
-/// A number of confdata, where it is whole and in range.
+/// A number of confdata, if it is whole and in range.
 pub(super) fn whole(value: f64) -> Option<i32> {
     #[expect(clippy::cast_possible_truncation, reason = "what is lost shows")]
     let whole = value as i32;
@@ -253,7 +253,7 @@ pub(super) fn whole(value: f64) -> Option<i32> {
 
 /// A positive whole number as a size or an index.
 pub(crate) fn positive_whole(value: f64) -> Option<usize> {
-    /// Whole numbers above are not told apart.
+    /// Above, whole numbers cannot be distinguished.
     const MOST: f64 = 9_007_199_254_740_992.0;
     if !(1.0..=MOST).contains(&value) {
         return None;

@@ -1,4 +1,4 @@
-//! What a function is worth: `Offs` and `RelTool`.
+//! Evaluates functions: `Offs` and `RelTool`.
 
 use alloc::format;
 use alloc::string::ToString;
@@ -13,7 +13,7 @@ use crate::rapid::data::reason::Reason;
 use crate::rapid::data::records::RobTarget;
 
 impl Evaluator<'_, '_> {
-    /// Puts the result of a function into its place.
+    /// Write the result of a function to its place.
     pub(super) fn fill_call(
         &self,
         expression: &Expression<'_>,
@@ -25,7 +25,7 @@ impl Evaluator<'_, '_> {
         let Some(function) = Displacement::named(call.name) else {
             return Err(Reason::Function { name: name() }.into());
         };
-        // A routine or a datum may have taken the name.
+        // A routine or a datum may use the name.
         let Found::NotHere = self.names.find(self.at, call.name) else {
             return Err(Reason::OwnFunction { name: name() }.into());
         };

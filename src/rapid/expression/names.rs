@@ -1,4 +1,4 @@
-//! What names stand for, as an expression asks for it.
+//! What names refer to, as an expression looks them up.
 
 use alloc::borrow::Cow;
 use alloc::string::{String, ToString};
@@ -9,7 +9,7 @@ use crate::rapid::data::value::Value;
 
 /// Looks names up.
 pub(crate) trait Names {
-    /// What a name stands for at a place.
+    /// What a name refers to at a place.
     fn find(&self, at: At, name: &str) -> Found<'_>;
 }
 
@@ -22,22 +22,22 @@ pub(crate) struct At {
     pub(crate) inside_loop: Option<usize>,
 }
 
-/// What a name stands for, where it is used.
+/// What a name refers to, where it is used.
 pub(crate) enum Found<'r> {
     Datum {
         content: &'r Content,
         can_change: bool,
-        /// Why it need not hold that where the program moves.
+        /// Why its value may be different where the program moves.
         cause: Option<Cause<'r>>,
     },
     Predefined(&'static Value),
     /// Nothing declares it.
     NotHere,
-    /// Why it has no value.
+    /// It has no value, for this reason.
     Unknown(Unresolved),
 }
 
-/// Why a datum has no known value where the program moves.
+/// The reason why a datum has no known value where the program moves.
 #[derive(Clone, Copy)]
 pub(crate) struct Cause<'a> {
     /// What is assigned: the datum or one that its declaration refers to.
@@ -54,7 +54,7 @@ pub(crate) enum By<'a> {
 }
 
 impl Cause<'_> {
-    /// It as the reason why the name that is referred to has no value.
+    /// The cause as the reason why the name that is referred to has no value.
     pub(crate) fn of(&self, referred: &str) -> Unresolved {
         let by = match self.by {
             By::Line(line) => AssignedBy::Line(line),
@@ -74,7 +74,7 @@ pub(crate) fn lower(name: &str) -> Cow<'_, str> {
     }
 }
 
-/// Knows no name: for expressions that have none.
+/// Knows no names: for expressions that have none.
 pub(crate) struct NoNames;
 
 impl Names for NoNames {

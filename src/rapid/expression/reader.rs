@@ -13,10 +13,10 @@ use crate::rapid::text::words::is_reserved;
 /// The deepest nesting of brackets and of blocks that is read.
 pub const DEEPEST_NESTING: usize = 64;
 
-/// Room that is made at first for the components of an aggregate: most have four or six.
+/// Initial capacity for the components of an aggregate: most have four or six.
 const USUAL_COMPONENTS: usize = 6;
 
-/// Reads expressions and perhaps collects the names that they refer to.
+/// Reads expressions and, on request, collects the names that they refer to.
 pub(crate) struct ExpressionReader<'t, 'a> {
     tokens: &'t mut Tokens<'a>,
     /// Names in the expressions read, those of functions too, in order.
@@ -52,7 +52,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         Ok(self.made(start, Form::Unread(Unread::Operator)))
     }
 
-    /// A number or a name by itself, most of a module: read without going through the operators.
+    /// A single number or name, most of a module: read without looking for operators.
     fn alone(&mut self) -> Result<Option<Expression<'a>>, RapidFault> {
         let (first, mark) = (self.tokens.peek(), self.tokens.mark());
         let form = match first.kind {
@@ -79,7 +79,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         }
     }
 
-    /// The sizes of an array in braces, none without braces.
+    /// The sizes of an array in braces; empty without braces.
     pub(crate) fn sizes(&mut self) -> Result<Vec<Expression<'a>>, RapidFault> {
         let open = self.tokens.peek();
         let mut sizes = Vec::new();
@@ -96,7 +96,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         Ok(sizes)
     }
 
-    /// Expressions between commas, up to the closing symbol; the opening one was taken.
+    /// Expressions between commas, up to the closing symbol; the opening one is already read.
     pub(crate) fn list(
         &mut self,
         open: Token,
@@ -286,8 +286,8 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         Ok(call)
     }
 
-    /// A required argument: its value, perhaps after its name and `:=`. The name is not kept: RAPID
-    /// has them in their order.
+    /// A required argument: its value, perhaps after its name and `:=`. The name is not kept:
+    /// RAPID's required arguments are in order.
     pub(crate) fn argument(&mut self) -> Result<Expression<'a>, RapidFault> {
         if self.tokens.at_assigned_name() {
             self.tokens.take()?;
@@ -296,14 +296,14 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         self.expression()
     }
 
-    /// `Name`, `Name:=value` or `Name?parameter`; the backslash was taken.
+    /// `Name`, `Name:=value` or `Name?parameter`; the backslash is already read.
     pub(crate) fn optional(&mut self) -> Result<(&'a str, Option<Expression<'a>>), RapidFault> {
         if self.tokens.peek().kind != TokenKind::Name {
             return Err(self.tokens.unexpected("the name of an optional argument"));
         }
         let token = self.tokens.take()?;
         let name = self.tokens.text_of(token);
-        // \Name?parameter passes the caller's own argument on, if there is one; the question mark
+        // \Name?parameter passes on the caller's own argument, if there is one; the question mark
         // belongs to the value.
         let mark = self.tokens.peek();
         if self.tokens.take_if(b'?')? {

@@ -1,4 +1,4 @@
-//! What a reference is worth: a datum, an element of an array, or a component of one of them.
+//! Evaluates references: to a datum, an element of an array, or a component of one of them.
 
 use alloc::format;
 use alloc::string::ToString;
@@ -13,7 +13,7 @@ use crate::rapid::data::reason::{Reason, Unresolved};
 use crate::rapid::data::value::Value;
 
 impl Evaluator<'_, '_> {
-    /// Puts what a name with indices and components refers to into its place.
+    /// Write the value of a name with indices and components to its place.
     pub(super) fn fill_reference(
         &self,
         expression: &Expression<'_>,

@@ -1,5 +1,4 @@
-//! Expressions as they are written: a tree with the bytes of each part, before anything is looked
-//! up.
+//! Expressions as they are written: a tree with the bytes of each part, before names are looked up.
 
 use alloc::boxed::Box;
 use alloc::string::String;
@@ -32,7 +31,7 @@ pub(crate) enum Form<'a> {
     Chain(Box<Expression<'a>>, Vec<(Operator, Expression<'a>)>),
     /// The teach pendant's `*`.
     Star,
-    /// What is not calculated, and why.
+    /// Not evaluated, for this reason.
     Unread(Unread),
 }
 
@@ -52,7 +51,7 @@ pub(crate) struct Call<'a> {
     pub(crate) optional: Vec<(&'a str, Option<Expression<'a>>)>,
 }
 
-/// Why an expression is not calculated, whatever its names refer to.
+/// The reason why an expression is not evaluated, whatever its names refer to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Unread {
     Unfinished,
@@ -69,7 +68,7 @@ pub(crate) enum Operator {
     Over,
 }
 
-/// The text of an expression, short.
+/// The text of an expression, shortened.
 pub(crate) fn written(text: &str, expression: &Expression<'_>) -> String {
     excerpt(text.get(expression.start..expression.end).unwrap_or_default())
 }

@@ -1,4 +1,4 @@
-//! A module from data and moves that stand in no text.
+//! A module from data and moves that were not read from a text.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;
@@ -12,16 +12,16 @@ use crate::rapid::data::moves::Move;
 use crate::rapid::text::words::is_name;
 
 impl Module {
-    /// A module of data and moves, with a procedure without parameters for each routine that they
-    /// name.
+    /// Build a module from data and moves, with a procedure without parameters for each routine
+    /// that they name.
     ///
-    /// It is the module that its text says: the values of moves are looked up by their texts, in
-    /// the module and in `context`, and what `moves` bring as values is not used.
+    /// The module is that of its text: the values of moves are looked up by their texts, in the
+    /// module and in `context`; values in `moves` are not used.
     ///
     /// # Errors
     ///
-    /// [`Error::Rapid`] when a name is none, a name is there twice, a number is not finite or the
-    /// text of an argument is no expression.
+    /// [`Error::Rapid`] when a name is not a valid name, a name appears twice, a number is not
+    /// finite or the text of an argument is not an expression.
     pub fn new(
         name: Option<String>,
         data: Vec<Datum>,
@@ -76,7 +76,8 @@ fn check_names(module: Option<&str>, data: &[Datum], moves: &[Move]) -> Result<(
     }
 }
 
-/// That every number of a datum is finite, and that an array has as many values as its sizes say.
+/// Check that every number of a datum is finite, and that an array has as many values as its sizes
+/// require.
 fn check_numbers(datum: &Datum) -> Result<(), Error> {
     let thing = || format!("{} {}", datum.data_type.name(), datum.name);
     let values = match &datum.content {
@@ -115,7 +116,7 @@ fn check_numbers(datum: &Datum) -> Result<(), Error> {
     Ok(())
 }
 
-/// A procedure for each name of a routine, in the order in which they come.
+/// A procedure for each name of a routine, in order of appearance.
 fn routines(data: &[Datum], moves: &[Move]) -> Vec<Routine> {
     let mut known = BTreeSet::new();
     let of_moves = moves.iter().filter_map(|step| step.routine.as_ref());

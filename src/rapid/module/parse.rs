@@ -8,31 +8,31 @@ use crate::rapid::data::module::Module;
 use crate::rapid::resolve::resolved;
 use crate::rapid::statements::reader::StatementReader;
 
-/// Reads the text of a module, or of declarations and moves without one.
+/// Read the text of a module, or of declarations and moves without one.
 ///
-/// Names that it does not declare are RAPID's own `tool0`, `wobj0` and `load0`; else they are
-/// looked for in `context`: the data of these modules that are not `LOCAL`, those of the first
+/// Names that it does not declare are RAPID's own `tool0`, `wobj0` and `load0`; otherwise they are
+/// looked up in `context`: the data of these modules that are not `LOCAL`, those of the first
 /// module first.
 ///
-/// A datum that a statement of the module assigns, wherever the statement stands, has no known
-/// value in moves, and no datum that refers to it has; all others have there what they are declared
-/// with. `name:=` is followed so far, and instructions such as `Incr` and `SearchL` that write to
-/// an argument: data handed to another routine as `INOUT` are not, nor what modules assign that are
-/// not in `context`.
+/// A datum that a statement of the module assigns, wherever the statement is, has no known value in
+/// moves, nor has a datum that refers to it; all others have their declared values there. `name:=`
+/// is recognized, and instructions such as `Incr` and `SearchL` that write to an argument. Data
+/// passed to another routine as `INOUT` are not, nor are assignments in modules that are not in
+/// `context`.
 ///
-/// The time is linear in the size of the text, but for the search of names, which takes its
-/// logarithm.
+/// The time is linear in the size of the text, except for the lookup of names, which is
+/// logarithmic.
 ///
 /// # Errors
 ///
-/// [`Error::Rapid`] when the text is broken.
+/// [`Error::Rapid`] when the text is invalid.
 pub fn parse(text: &str, context: &[&Module]) -> Result<Module, Error> {
     let written = StatementReader::read(text)?;
     Ok(resolved(written, context)?)
 }
 
-/// The text of a file: UTF-16 with a byte order mark, UTF-8, else Latin-1; without its byte order
-/// mark.
+/// Decode the text of a file: UTF-16 with a byte order mark, UTF-8, otherwise Latin-1. The byte
+/// order mark is removed.
 #[must_use]
 pub fn decode(bytes: &[u8]) -> Cow<'_, str> {
     match bytes {
@@ -47,7 +47,7 @@ pub fn decode(bytes: &[u8]) -> Cow<'_, str> {
     }
 }
 
-/// UTF-16; what is none becomes a replacement character, also a byte too many.
+/// Decode UTF-16; invalid units become replacement characters, as does a trailing byte.
 fn decode_units(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> String {
     let (pairs, rest) = bytes.as_chunks::<2>();
     let characters = char::decode_utf16(pairs.iter().map(|pair| unit(*pair)))

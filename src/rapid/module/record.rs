@@ -1,4 +1,4 @@
-//! A record that stands by itself.
+//! Reads a single record.
 
 use alloc::format;
 
@@ -19,16 +19,16 @@ const BY_SHAPE: [DataType; 6] = [
     DataType::LoadData,
 ];
 
-/// The value of a text that is one robtarget, jointtarget, tooldata, wobjdata, pose or loaddata,
-/// which its shape tells.
+/// Read a text that is one robtarget, jointtarget, tooldata, wobjdata, pose or loaddata; its shape
+/// determines the type.
 ///
 /// # Errors
 ///
-/// [`Error::Rapid`] when the text is broken, is none of these, or goes on behind it.
+/// [`Error::Rapid`] when the text is invalid, is none of these, or is followed by more text.
 pub fn parse_record(text: &str) -> Result<Value, Error> {
     let mut broken = None;
     for data_type in BY_SHAPE {
-        // The text has lines of its own, behind one that is not told of.
+        // The text keeps its own lines, after one that is not reported.
         match parse(&format!("VAR {} value:=\n{text}\n;", data_type.name()), &[]) {
             Ok(module) => {
                 let alone = module.moves().is_empty() && module.skipped().is_empty();

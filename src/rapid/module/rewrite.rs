@@ -1,4 +1,4 @@
-//! New values in an old text, of which nothing else changes.
+//! Replaces values in a text, without any other change.
 
 use core::ops::Range;
 
@@ -10,28 +10,28 @@ use crate::error::{Error, Missing, RapidFault, RapidFaultKind};
 use crate::rapid::data::module::{Content, Module};
 use crate::rapid::data::value::Value;
 
-/// A value to be put in the place of another.
+/// A value that replaces another.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NewValue {
     /// Index of the datum in [`Module::data`].
     pub datum: usize,
-    /// Index of the element of an array in its values, from 0; none for a single value.
+    /// Index of the element in the values of an array, from 0; `None` for a single value.
     pub element: Option<usize>,
     /// The new value, of the datum's type.
     pub value: Value,
 }
 
-/// The text of which `module` was read, with new values; comments, blanks and everything else stay
-/// as they are, byte for byte.
+/// The text that `module` was read from, with new values. Comments, blanks and everything else are
+/// kept byte for byte.
 ///
 /// A declaration without a value gets one.
 ///
 /// # Errors
 ///
-/// [`Error::Rapid`] when there is no such datum or element, a value is of another type or not
+/// [`Error::Rapid`] when there is no such datum or element, a value has another type or is not
 /// finite, one place gets two values, or `source` is not the text.
 pub fn rewrite(source: &str, module: &Module, new_values: &[NewValue]) -> Result<String, Error> {
-    // Of a text as long as that of the module, but another one, a place may lie inside a character.
+    // In another text of the same length, a place may be inside a character.
     let other_text =
         || nowhere(RapidFaultKind::OtherText { found: source.len(), wanted: module.text_length });
     if source.len() != module.text_length {
@@ -65,7 +65,7 @@ fn nowhere(kind: RapidFaultKind) -> Error {
     RapidFault::nowhere(kind).into()
 }
 
-/// The bytes that a new value takes the place of.
+/// The bytes that a new value replaces.
 fn place(module: &Module, new: &NewValue) -> Result<Range<usize>, Error> {
     let Some(datum) = module.data.get(new.datum) else {
         let (index, count) = (new.datum, module.data.len());

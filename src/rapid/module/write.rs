@@ -12,7 +12,7 @@ use crate::rapid::data::moves::Move;
 use crate::rapid::data::skipped::Skipped;
 
 impl fmt::Display for Content {
-    /// The value as RAPID writes it, with an array's brackets; nothing where there is none.
+    /// The value as RAPID writes it, with an array's brackets; nothing if there is none.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Uninitialized { .. } => Ok(()),
@@ -48,7 +48,7 @@ impl fmt::Display for Datum {
 }
 
 impl Datum {
-    /// Writes the declaration with its semicolon; an expression may stand for the value.
+    /// Write the declaration with its semicolon; an expression may replace the value.
     fn write(&self, f: &mut fmt::Formatter<'_>, expression: Option<&str>) -> fmt::Result {
         if self.scope != Scope::Global {
             write!(f, "{} ", self.scope.word())?;
@@ -69,8 +69,8 @@ impl Datum {
     }
 }
 
-/// Writes an optional argument; a text that begins with a question mark passes the caller's own
-/// argument on.
+/// Write an optional argument; a text that begins with a question mark passes on the caller's own
+/// argument.
 fn write_option(f: &mut fmt::Formatter<'_>, name: &str, text: Option<&str>) -> fmt::Result {
     match text {
         None => write!(f, "\\{name}"),
@@ -80,7 +80,7 @@ fn write_option(f: &mut fmt::Formatter<'_>, name: &str, text: Option<&str>) -> f
 }
 
 impl Move {
-    /// Writes the options that stand behind a number of required arguments.
+    /// Write the options after a number of required arguments.
     fn write_options(&self, f: &mut fmt::Formatter<'_>, after: usize) -> fmt::Result {
         let mut options = self.options.iter().filter(|option| option.after == after);
         options.try_for_each(|option| write_option(f, &option.name, option.text.as_deref()))
@@ -114,7 +114,7 @@ impl fmt::Display for Move {
     }
 }
 
-/// What stands in a module or in a routine.
+/// An item of a module or of a routine.
 enum Item<'m> {
     /// Perhaps with the expression that it is written with.
     Datum(&'m Datum, Option<&'m str>),
@@ -124,8 +124,8 @@ enum Item<'m> {
 }
 
 impl Item<'_> {
-    /// Line and column; behind all others what stands in no text. Data of a routine come before
-    /// everything else.
+    /// Line and column; items that were not read from a text come last. Data of a routine come
+    /// first.
     fn key(&self, in_routine: bool) -> (bool, usize, usize) {
         let (first, line, column) = match self {
             Self::Datum(datum, _) => (in_routine, datum.line, datum.column),
@@ -137,7 +137,7 @@ impl Item<'_> {
     }
 }
 
-/// What stands in each routine, by its name in lower case; in the module by the empty name.
+/// The items of each routine, by its name in lower case; those of the module by the empty name.
 fn items(module: &Module) -> BTreeMap<String, Vec<Item<'_>>> {
     let mut items: BTreeMap<String, Vec<Item<'_>>> = BTreeMap::new();
     let mut add = |routine: Option<&String>, item| {
@@ -162,8 +162,8 @@ fn items(module: &Module) -> BTreeMap<String, Vec<Item<'_>>> {
 }
 
 impl fmt::Display for Module {
-    /// The module as a text that reads back as the same: values as they are, without comments, but
-    /// those that refer to data that are assigned, and what was skipped, as they were written.
+    /// The module as a text that reads back as the same module: values as they are, without
+    /// comments; values that refer to assigned data, and what was skipped, as written.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let items = items(self);
         if let Some(name) = &self.name {

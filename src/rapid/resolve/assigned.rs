@@ -1,4 +1,4 @@
-//! Data that a module assigns: when it moves, they need not hold what their declarations say.
+//! Data that a module assigns: in moves, they may differ from their declarations.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::string::String;
@@ -10,7 +10,7 @@ use crate::rapid::statements::declarations::Declared;
 use crate::rapid::statements::reader::Assignment;
 use crate::rapid::statements::scopes::{Named, Scopes};
 
-/// What is assigned, by data.
+/// The assigned data, with causes.
 pub(crate) struct Causes<'a> {
     /// By the index of the datum.
     of_data: BTreeMap<usize, Cause<'a>>,
@@ -23,8 +23,8 @@ impl<'a> Causes<'a> {
         Self { of_data: BTreeMap::new(), of_others: BTreeMap::new() }
     }
 
-    /// Those of assignments: each goes to the datum that its name stands for where it stands. A
-    /// CONST cannot be assigned.
+    /// The causes from assignments: each applies to the datum that its name refers to at its place.
+    /// A CONST cannot be assigned.
     pub(crate) fn new(
         assignments: &[Assignment<'a>],
         declared: &[Declared<'_>],
@@ -61,8 +61,8 @@ impl<'a> Causes<'a> {
         self.of_data.get(&datum).copied()
     }
 
-    /// That of a datum of another module, by its name in lower case: this module assigns it, its
-    /// own does, or one that does not mean its own.
+    /// The cause for a datum of another module, by its name in lower case: this module assigns it,
+    /// its own does, or one that refers to it.
     pub(crate) fn of_other(
         &self,
         lower: &str,
@@ -81,7 +81,7 @@ impl<'a> Causes<'a> {
         self.of_others.get(lower).copied().or_else(of_context)
     }
 
-    /// The names in lower case of what other modules could see that it is assigned.
+    /// The names in lower case of assigned data that are visible to other modules.
     pub(crate) fn names(self, declared: &[Declared<'_>]) -> BTreeSet<String> {
         let data = self
             .of_data
@@ -92,7 +92,7 @@ impl<'a> Causes<'a> {
     }
 }
 
-/// The datum of other modules that a name in lower case means, with its module.
+/// The datum of other modules that a name in lower case refers to, with its module.
 pub(crate) fn found_elsewhere<'a>(
     lower: &str,
     context: &[&'a Module],

@@ -1,4 +1,4 @@
-//! From names to values: data after those that they refer to, then the moves.
+//! Resolves names to values: data after those that they refer to, then the moves.
 
 mod assigned;
 mod moves;
@@ -19,7 +19,7 @@ use crate::rapid::expression::content::Placed;
 use crate::rapid::statements::declarations::Declared;
 use crate::rapid::statements::reader::Written;
 
-/// The module of a text with every name looked up.
+/// The module of a text with every name resolved.
 pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Module, RapidFault> {
     let Written {
         text,
@@ -34,7 +34,7 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         scopes,
         blocks,
     } = written;
-    // Those that hold something unknown are not resolved yet: no reason of theirs is seen before.
+    // Data with unknown parts are not resolved yet: none of their reasons is used before.
     let contents = contents.into_iter().map(|known| known.ok_or(Reason::Unfinished)).collect();
     let causes = Causes::new(&assignments, &declared, &scopes, &blocks);
     let mut resolver = Resolver {
@@ -87,12 +87,12 @@ struct ResolvedData {
     /// The place of each declaration among the data.
     places: Vec<Option<usize>>,
     skipped: Vec<Skipped>,
-    /// The values that refer to what is assigned, as they are written, by the place of the datum.
+    /// The values that refer to assigned data, as they are written, by the place of the datum.
     expressions: BTreeMap<usize, String>,
 }
 
 impl ResolvedData {
-    /// Adds a declaration, which may refer to what is assigned.
+    /// Add a declaration, which may refer to assigned data.
     fn add(
         &mut self,
         text: &str,

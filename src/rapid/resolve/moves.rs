@@ -39,8 +39,7 @@ impl<'a> Resolver<'a> {
         self.text.get(expression.start..expression.end).unwrap_or_default().to_string()
     }
 
-    /// A move with the values of its arguments; none where it has another number of them than it
-    /// must.
+    /// A move with the values of its arguments; `None` if their number is wrong.
     pub(super) fn step(
         &self,
         written: &mut WrittenMove<'a>,

@@ -24,9 +24,9 @@ pub(super) struct Resolver<'a> {
     pub(super) scopes: &'a Scopes,
     pub(super) blocks: &'a Blocks<'a>,
     pub(super) context: &'a [&'a Module],
-    /// What each datum holds, or why that is not known, or not yet.
+    /// The content of each datum, or the reason why it is unknown, or not resolved yet.
     pub(super) contents: Vec<Result<Placed, Reason>>,
-    /// Why data are not known where the program moves.
+    /// Why data are unknown where the program moves.
     pub(super) causes: Causes<'a>,
 }
 
@@ -67,10 +67,10 @@ impl Resolver<'_> {
         Found::Datum { content, can_change, cause: self.causes.of_datum(index) }
     }
 
-    /// Resolves every datum, each after those that it refers to, without recursion.
+    /// Resolve every datum, each after those that it refers to, without recursion.
     pub(super) fn resolve_all(&mut self) -> Result<(), RapidFault> {
         let mut state = vec![State::New; self.declared.len()];
-        // A datum with the number of its names that were gone through.
+        // A datum with the number of its names that are resolved.
         let mut open: Vec<(usize, usize)> = Vec::new();
         for datum in 0..self.declared.len() {
             if state[datum] == State::New {
@@ -84,7 +84,7 @@ impl Resolver<'_> {
                     self.resolve(current)?;
                     state[current] = State::Done;
                     open.pop();
-                    // What refers to it changes with it.
+                    // Data that refer to it change with it.
                     if let Some((above, gone_through)) = open.last() {
                         self.add_cause(*above, *gone_through, current);
                     }
@@ -116,7 +116,7 @@ impl Resolver<'_> {
         Ok(())
     }
 
-    /// Notes that a datum changes with what a name of it stands for; sizes, the names that come
+    /// Record that a datum changes with what one of its names refers to; sizes, whose names come
     /// first, do not change.
     fn add_cause(&mut self, datum: usize, gone_through: usize, other: usize) {
         if let Some(cause) =
@@ -126,7 +126,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// Notes that a datum changes with one of another module, where that does.
+    /// Record that a datum changes with one of another module, if that changes.
     fn add_cause_elsewhere(&mut self, datum: usize, lower: &str) {
         let found = found_elsewhere(lower, self.context).filter(|_| predefined(lower).is_none());
         if let Some(cause) =

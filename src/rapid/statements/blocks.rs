@@ -1,4 +1,4 @@
-//! Lines that steer a program: their blocks are told apart, what they decide is not.
+//! Control flow: blocks are recognized, conditions are not evaluated.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -15,10 +15,10 @@ use crate::rapid::text::words::is_reserved;
 const BLOCKS: [(&str, &str); 4] =
     [("IF", "ENDIF"), ("FOR", "ENDFOR"), ("WHILE", "ENDWHILE"), ("TEST", "ENDTEST")];
 
-/// Words that stand between the beginning and the end of a block or of a routine.
+/// Words that divide a block or a routine.
 const PARTS: [&str; 7] = ["ELSEIF", "ELSE", "CASE", "DEFAULT", "ERROR", "UNDO", "BACKWARD"];
 
-/// Words that stand between operands.
+/// Words between operands.
 const OPERATORS: [&str; 6] = ["AND", "OR", "XOR", "NOT", "DIV", "MOD"];
 
 /// Reserved words with which an instruction begins.
@@ -26,12 +26,12 @@ const INSTRUCTIONS: [&str; 11] = [
     "IF", "FOR", "WHILE", "TEST", "RETURN", "EXIT", "GOTO", "RAISE", "RETRY", "TRYNEXT", "CONNECT",
 ];
 
-/// Whether a word in capitals begins, parts or ends a block.
+/// Whether a word in capitals begins, divides or ends a block.
 pub(crate) fn is_flow(word: &str) -> bool {
     BLOCKS.iter().any(|(begin, end)| *begin == word || *end == word) || PARTS.contains(&word)
 }
 
-/// Whether the next token begins another statement wherever it stands.
+/// Whether the next token begins another statement at any place.
 pub(crate) fn begins_another(tokens: &Tokens<'_>) -> bool {
     let token = tokens.peek();
     if token.kind != TokenKind::Name {
@@ -57,7 +57,7 @@ impl<'a> Blocks<'a> {
         Self { open: Vec::new(), loops: Vec::new() }
     }
 
-    /// The words that began the innermost block and that will end it.
+    /// The words that began the innermost block and that end it.
     pub(crate) fn innermost(&self) -> Option<(&'static str, &'static str)> {
         self.open.last().map(|(block, _)| BLOCKS[*block])
     }
@@ -78,7 +78,7 @@ impl<'a> Blocks<'a> {
         false
     }
 
-    /// Reads the line that begins with a word in capitals, which was taken.
+    /// Read the line that begins with a word in capitals, which is already read.
     pub(crate) fn read(
         &mut self,
         tokens: &mut Tokens<'a>,
@@ -162,8 +162,8 @@ impl<'a> Blocks<'a> {
     }
 }
 
-/// Goes on to where a condition ends: a word that follows an operand and is no operator begins what
-/// comes behind.
+/// Skip to the end of a condition: a word after an operand that is not an operator begins the next
+/// part.
 fn skip_condition(tokens: &mut Tokens<'_>) -> Result<(), RapidFault> {
     skip_balanced(tokens, |tokens, last| {
         let next = tokens.peek();
@@ -185,7 +185,7 @@ fn skip_condition(tokens: &mut Tokens<'_>) -> Result<(), RapidFault> {
     })
 }
 
-/// That an instruction follows, no declaration and no end of anything.
+/// Check that an instruction follows, not a declaration or an end.
 fn check_instruction(tokens: &mut Tokens<'_>) -> Result<(), RapidFault> {
     let token = tokens.peek();
     let word = tokens.text_of(token);

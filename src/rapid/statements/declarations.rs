@@ -7,9 +7,9 @@ use crate::error::RapidFault;
 use crate::rapid::data::data_type::DataType;
 use crate::rapid::data::module::{Content, Scope, Storage};
 use crate::rapid::expression::content::{Placed, WrittenContent};
+use crate::rapid::expression::direct::read_direct;
 use crate::rapid::expression::evaluate::{Evaluator, Stop};
 use crate::rapid::expression::names::{At, Names, NoNames};
-use crate::rapid::expression::plain::read_plain;
 use crate::rapid::expression::reader::ExpressionReader;
 use crate::rapid::text::skipping::skip_balanced;
 use crate::rapid::text::tokens::{TokenKind, Tokens};
@@ -32,7 +32,7 @@ pub(crate) struct Declared<'a> {
     pub(crate) end: usize,
     pub(crate) line: usize,
     pub(crate) column: usize,
-    /// Its sizes and its value, unless what it holds is known without looking up a name: they are
+    /// Its sizes and its value, unless its content is known without looking up a name: they are
     /// most of the memory that a large text takes.
     pub(crate) written: Option<Box<WrittenContent<'a>>>,
 }
@@ -51,24 +51,24 @@ impl<'a> Declared<'a> {
     }
 }
 
-/// What was declared.
+/// The result of reading a declaration.
 #[expect(clippy::large_enum_variant, reason = "the large one is nearly every one of a large text")]
 pub(crate) enum Declaration<'a> {
-    /// With what it holds, where that is known without looking up a name.
+    /// With its content, if that is known without looking up a name.
     Read(Declared<'a>, Option<Placed>),
-    /// Of a type that is not read.
+    /// Of a data type that is not read.
     Unread { name: &'a str, type_name: &'a str },
     /// With a placeholder, perhaps for its name.
     Unfinished { name: &'a str },
 }
 
-/// Storage of the next token, where it is one's word.
+/// The storage class that the next token names, if any.
 pub(crate) fn storage_at(tokens: &Tokens<'_>) -> Option<Storage> {
     let all = [Storage::Const, Storage::Pers, Storage::Var];
     all.into_iter().find(|storage| tokens.at_word(storage.word()))
 }
 
-/// A name of something declared, or the placeholder of one, which is the next token.
+/// The name in a declaration, or its placeholder: the next token.
 pub(crate) fn read_name<'a>(
     tokens: &mut Tokens<'a>,
     wanted: &'static str,
@@ -85,8 +85,8 @@ pub(crate) fn read_name<'a>(
     Ok(tokens.text_of(token))
 }
 
-/// Reads a declaration from its storage to its semicolon; it begins, perhaps with LOCAL or TASK, at
-/// byte `start`.
+/// Read a declaration from its storage class to its semicolon; it begins, perhaps with LOCAL or
+/// TASK, at byte `start`.
 pub(crate) fn read_declaration<'a>(
     tokens: &mut Tokens<'a>,
     start: usize,
@@ -109,11 +109,11 @@ pub(crate) fn read_declaration<'a>(
     let mut names = Vec::new();
     let sizes = ExpressionReader::collecting(tokens, &mut names).sizes()?;
     let size_names = names.len();
-    let (value_place, mut value, mut plain) = (tokens.last_end, None, None);
+    let (value_place, mut value, mut direct) = (tokens.last_end, None, None);
     if tokens.peek().kind == TokenKind::Assign {
         tokens.take()?;
-        plain = if sizes.is_empty() { read_plain(tokens, data_type) } else { None };
-        if plain.is_none() {
+        direct = if sizes.is_empty() { read_direct(tokens, data_type) } else { None };
+        if direct.is_none() {
             value = Some(ExpressionReader::collecting(tokens, &mut names).expression()?);
         }
     }
@@ -135,14 +135,14 @@ pub(crate) fn read_declaration<'a>(
         column,
         written: None,
     };
-    if let Some((value, span)) = plain {
+    if let Some((value, span)) = direct {
         let placed = Placed::new(Content::Single(value), span);
         return Ok(Declaration::Read(declared, Some(placed)));
     }
     known_at_once(tokens.text, declared, WrittenContent { data_type, sizes, value, value_place })
 }
 
-/// A declaration with what it holds, where it has no names.
+/// A declaration with its content, if it has no names.
 fn known_at_once<'a>(
     text: &'a str,
     mut declared: Declared<'a>,
@@ -152,7 +152,7 @@ fn known_at_once<'a>(
         match written.evaluate(&declared.evaluator(text, &NoNames)) {
             Ok(placed) => return Ok(Declaration::Read(declared, Some(placed))),
             Err(Stop::Fault(fault)) => return Err(fault),
-            // The reason is asked for when all names are known.
+            // The reason is determined when all names are known.
             Err(Stop::Unknown(_)) => {}
         }
     }

@@ -2,8 +2,8 @@
 
 use crate::rapid::data::moves::MoveKind;
 
-/// Line of the instruction that displaces the moves to poses which follow it in a routine.
-/// `MoveAbsJ` is not displaced, and external axes are no matter of the arm's.
+/// Line of the instruction that displaces the following moves to poses in a routine. `MoveAbsJ` is
+/// not displaced, and external axes do not concern the arm.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct DisplacedBy {
     line: Option<usize>,
@@ -14,7 +14,7 @@ impl DisplacedBy {
         self.line.filter(|_| kind != MoveKind::MoveAbsJ)
     }
 
-    /// Takes notice of an instruction on a line.
+    /// Record an instruction on a line.
     pub(crate) fn see(&mut self, name: &str, line: usize) {
         if ["PDispOn", "PDispSet"].iter().any(|word| word.eq_ignore_ascii_case(name)) {
             self.line = Some(line);

@@ -1,4 +1,4 @@
-//! Instructions that are not read: which move the robot, which displace its targets, which write to
+//! Instructions that are not read: those that move the robot, displace its targets, or write to
 //! their arguments.
 
 use alloc::string::ToString;
@@ -67,8 +67,8 @@ const WRITING: [(&str, usize); 17] = [
     ("SToolTCPCalib", 5),
 ];
 
-/// Whether an instruction moves the robot: behind its beginning another word begins, so that
-/// `DisplayText` is not `DispL`.
+/// Whether an instruction moves the robot: the beginning of its name is followed by another word,
+/// so that `DisplayText` is not `DispL`.
 fn moves_the_robot(name: &str) -> bool {
     MOVING.iter().any(|beginning| {
         let is_it =
@@ -100,7 +100,7 @@ impl<'a> StatementReader<'a> {
             self.skip_unfinished(first);
             return Ok(());
         }
-        // Two of them begin a header, which stands at the beginning only.
+        // Two of them begin a header, which is valid at the beginning only.
         if first.is(b'%') && next.is(b'%') {
             return Err(self.tokens.unexpected("the name of a procedure"));
         }
@@ -125,7 +125,7 @@ impl<'a> StatementReader<'a> {
         Ok(())
     }
 
-    /// The name in the argument that an instruction writes to; goes on up to it.
+    /// The name in the argument that an instruction writes to; reads up to it.
     fn written_argument(&mut self, instruction: &str) -> Result<Option<&'a str>, RapidFault> {
         let Some((_, place)) =
             WRITING.iter().find(|(name, _)| name.eq_ignore_ascii_case(instruction))
@@ -160,7 +160,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn instructions_that_move_are_told_from_those_that_only_sound_so() {
+    fn instructions_that_move_are_recognized_by_whole_words() {
         for name in [
             "MoveLDO",
             "movejdo",

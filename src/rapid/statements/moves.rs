@@ -26,8 +26,8 @@ pub(crate) struct WrittenMove<'a> {
     pub(crate) options: Vec<MoveOption>,
 }
 
-/// Reads the arguments of a move up to its semicolon; the instruction's name was taken at byte
-/// `start`. None for one that is not finished.
+/// Read the arguments of a move up to its semicolon; the instruction's name at byte `start` is
+/// already read. `None` for an unfinished one.
 pub(crate) fn read_move<'a>(
     tokens: &mut Tokens<'a>,
     kind: MoveKind,
@@ -37,7 +37,7 @@ pub(crate) fn read_move<'a>(
     let (mut required, mut options, mut wobj): (Vec<Expression<'a>>, Vec<MoveOption>, _) =
         (Vec::with_capacity(MOST_ARGUMENTS), Vec::new(), None);
     loop {
-        // A comma may stand before an optional argument too.
+        // A comma may precede an optional argument too.
         let is_first = required.is_empty() && options.is_empty() && wobj.is_none();
         let after_comma = !is_first && tokens.take_if(b',')?;
         if tokens.take_if(b'\\')? {

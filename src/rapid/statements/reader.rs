@@ -1,4 +1,4 @@
-//! The reader of statements: what it has read so far, and where it is.
+//! The state of the reader of statements: results and position.
 
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -22,7 +22,7 @@ pub(crate) struct Written<'a> {
     pub(crate) attributes: Vec<String>,
     pub(crate) routines: Vec<Routine>,
     pub(crate) declared: Vec<Declared<'a>>,
-    /// What each declaration holds, where that is known without looking up a name.
+    /// The content of each declaration, if it is known without looking up a name.
     pub(crate) contents: Vec<Option<Placed>>,
     pub(crate) moves: Vec<WrittenMove<'a>>,
     pub(crate) skipped: Vec<Skipped>,
@@ -38,7 +38,7 @@ pub(crate) struct Assignment<'a> {
     pub(crate) line: usize,
 }
 
-/// Where the reader is.
+/// The position of the reader in the module.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Stage {
     /// Before anything.
@@ -81,7 +81,7 @@ impl<'a> StatementReader<'a> {
         Ok(Self { tokens, written, stage: Stage::Beginning, routine: 0, displaced_by })
     }
 
-    /// Where it is, for names.
+    /// The position, for looking up names.
     pub(super) fn at(&self) -> At {
         At { routine: self.routine, inside_loop: self.written.blocks.innermost_loop() }
     }
@@ -91,7 +91,7 @@ impl<'a> StatementReader<'a> {
     }
 
     /// The word that ends the innermost block or else the routine.
-    pub(super) fn open_end(&self) -> Option<&'static str> {
+    pub(super) fn expected_end(&self) -> Option<&'static str> {
         let block = self.written.blocks.innermost().map(|(_, end)| end);
         block.or_else(|| self.current_routine().map(|routine| routine.kind.end()))
     }
@@ -114,8 +114,8 @@ impl<'a> StatementReader<'a> {
         declared.map_err(|kind| self.tokens.fault(at.start, kind))
     }
 
-    /// Lists what is between a token and here as not read; as not finished where a placeholder is
-    /// in it. Its line.
+    /// List the text from a token to here as not read, or as unfinished if it contains a
+    /// placeholder. Returns its line.
     pub(super) fn skip(&mut self, from: Token, what: NotRead) -> usize {
         let (line, column) = self.tokens.line_and_column(from.start);
         let what = if self.tokens.unfinished_since(from.start) {
@@ -129,7 +129,7 @@ impl<'a> StatementReader<'a> {
         line
     }
 
-    /// Lists what is between a token and here as not finished.
+    /// List the text from a token to here as unfinished.
     pub(super) fn skip_unfinished(&mut self, from: Token) {
         let statement = self.tokens.text_of(from).to_string();
         self.skip(from, NotRead::Unfinished { statement });

@@ -1,4 +1,4 @@
-//! Where routines begin and end, and their parameters.
+//! The beginnings and ends of routines, and their parameters.
 
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -18,7 +18,7 @@ impl StatementReader<'_> {
         kind: RoutineKind,
         first: Token,
     ) -> Result<(), RapidFault> {
-        if let Some(end) = self.open_end() {
+        if let Some(end) = self.expected_end() {
             return Err(self.tokens.unexpected(end));
         }
         self.tokens.take()?;
@@ -51,8 +51,8 @@ impl StatementReader<'_> {
         Ok(())
     }
 
-    /// A routine without a name, up to its end: what stands in it could not be told from what
-    /// stands in another one.
+    /// Skip a routine without a name, up to its end: its content could not be distinguished from
+    /// that of another one.
     fn unfinished_routine(
         &mut self,
         kind: RoutineKind,
@@ -73,7 +73,7 @@ impl StatementReader<'_> {
         Ok(())
     }
 
-    /// The parameters in their parentheses: each one's name is the last word before a comma, a bar
+    /// Read the parameters in parentheses: the name of each is the last word before a comma, a bar
     /// or a backslash.
     fn parameters(&mut self, routine: &str) -> Result<(), RapidFault> {
         let open = self.tokens.take()?;

@@ -7,17 +7,17 @@ use alloc::vec::Vec;
 use crate::error::RapidFaultKind;
 use crate::rapid::data::reason::Unresolved;
 
-/// Whether a name is a placeholder: that of something that the program does not name yet.
+/// Whether a name is a placeholder: for something that the program does not name yet.
 pub(crate) fn is_placeholder(name: &str) -> bool {
     name.starts_with('<')
 }
 
-/// What a name stands for.
+/// What a name refers to.
 #[derive(Clone)]
 pub(crate) enum Named {
     /// Data, by their index.
     Datum(usize),
-    /// Something that has no value here, and why.
+    /// Something that has no value here, with the reason.
     Other(Unresolved),
 }
 
@@ -37,8 +37,8 @@ impl Scopes {
         self.names.push(BTreeMap::new());
     }
 
-    /// Declares a name, which must not be there yet; `routine_name` is for the message. A
-    /// placeholder declares nothing.
+    /// Declare a name, which must not exist yet; `routine_name` is for the message. A placeholder
+    /// declares nothing.
     pub(crate) fn declare(
         &mut self,
         routine: usize,
@@ -58,7 +58,7 @@ impl Scopes {
         }
     }
 
-    /// What a name in lower case stands for, in a routine or else in the module.
+    /// What a name in lower case refers to, in a routine or else in the module.
     pub(crate) fn find(&self, routine: usize, lower: &str) -> Option<&Named> {
         let local = if routine > 0 {
             self.names.get(routine).and_then(|scope| scope.get(lower))

@@ -1,5 +1,5 @@
-//! A module's statements, one after the other: declarations and moves are read, everything else is
-//! listed as not read.
+//! A module's statements in sequence: declarations and moves are read, everything else is listed as
+//! not read.
 
 use alloc::format;
 use alloc::string::ToString;
@@ -28,7 +28,7 @@ impl<'a> StatementReader<'a> {
         Ok(reader.written)
     }
 
-    /// That nothing is open where the text ends.
+    /// Check that nothing is open where the text ends.
     fn check_end(&self) -> Result<(), RapidFault> {
         let (inside, missing) = if let Some((word, end)) = self.written.blocks.innermost() {
             (word.to_string(), end)
@@ -114,7 +114,7 @@ impl<'a> StatementReader<'a> {
     }
 
     fn end_module(&mut self) -> Result<(), RapidFault> {
-        if let Some(end) = self.open_end() {
+        if let Some(end) = self.expected_end() {
             return Err(self.tokens.unexpected(end));
         }
         if self.stage != Stage::Module {
@@ -145,7 +145,7 @@ impl<'a> StatementReader<'a> {
         match kinds.into_iter().find(|kind| self.tokens.at_word(kind.word())) {
             Some(kind) if scope != Scope::Task => self.begin_routine(kind, first),
             _ if self.tokens.at_word("ALIAS") => self.alias(first),
-            // A procedure may be named Task.
+            // A procedure may have the name Task.
             _ if scope == Scope::Task => self.rest_of_other(first),
             _ if self.tokens.at_word("RECORD") => self.record(first),
             _ => Err(self.tokens.unexpected("CONST, PERS, VAR, PROC, FUNC or TRAP")),
@@ -196,7 +196,7 @@ impl<'a> StatementReader<'a> {
         self.declare(first, name, Named::Other(Unresolved::Type))
     }
 
-    /// Another name of a type, which hides no name of data.
+    /// An alias of a type, which does not hide a name of data.
     fn alias(&mut self, first: Token) -> Result<(), RapidFault> {
         self.tokens.take()?;
         read_name(&mut self.tokens, "a type")?;

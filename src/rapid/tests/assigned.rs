@@ -1,4 +1,4 @@
-//! Data that a program assigns, and displacements: what moves do not know.
+//! Data that a program assigns, and displacements: unknown in moves.
 
 use std::format;
 use std::string::String;
@@ -12,13 +12,14 @@ const TARGET: &str = "[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]";
 /// The module of data, each on a line from 2 on, and of statements of a routine.
 fn module(data: &str, statements: &str) -> Module {
     let module = read(&format!(
-        "MODULE M CONST robtarget c:={TARGET};\n{data}\nPROC main()\n{statements}\nENDPROC\nENDMODULE"
+        "MODULE M CONST robtarget c:={TARGET};\n{data}\nPROC \
+         main()\n{statements}\nENDPROC\nENDMODULE"
     ));
     again(&module, &[]);
     module
 }
 
-/// Why the last move has no target; the empty text where it has one.
+/// Why the last move has no target; empty if it has one.
 fn why(data: &str, statements: &str) -> String {
     words(&module(data, statements).moves().last().unwrap().target.value)
 }
@@ -31,7 +32,7 @@ fn line_4(statement: &str) -> String {
 }
 
 #[test]
-fn what_is_assigned_has_no_value_in_moves() {
+fn assigned_data_have_no_value_in_moves() {
     assert_eq!(line_4("x:=-100;"), "refers to x, which line 4 assigns");
     assert_eq!(line_4("P.trans.z:=1000;"), "refers to p, which line 4 assigns");
     assert_eq!(line_4("a{2}:=1;"), "refers to a, which line 4 assigns");
@@ -55,26 +56,29 @@ fn what_is_assigned_has_no_value_in_moves() {
 }
 
 #[test]
-fn assignments_count_wherever_they_stand() {
+fn assignments_anywhere_in_the_module_count() {
     let text = format!(
-        "PERS robtarget p:={TARGET};\nPROC a() MoveL p,v,z,tool0; ENDPROC\n\n! note\nPROC b() p:=p; ENDPROC"
+        "PERS robtarget p:={TARGET};\nPROC a() MoveL p,v,z,tool0; ENDPROC\n\n! note\nPROC b() \
+         p:=p; ENDPROC"
     );
     let module = read(&text);
     assert_eq!(words(&module.moves()[0].target.value), "refers to p, which line 5 assigns");
     again(&module, &[]);
-    // One that is local there is another.
+    // A local one there is another datum.
     let local = format!(
-        "PERS robtarget p:={TARGET};\nPROC a() MoveL p,v,z,tool0; ENDPROC\nPROC b() VAR robtarget p; p:=x; ENDPROC"
+        "PERS robtarget p:={TARGET};\nPROC a() MoveL p,v,z,tool0; ENDPROC\nPROC b() VAR robtarget \
+         p; p:=x; ENDPROC"
     );
     assert!(read(&local).moves()[0].target.value.is_ok());
     let parameter = format!(
-        "PERS robtarget p:={TARGET};\nPROC a() MoveL p,v,z,tool0; ENDPROC\nPROC b(INOUT robtarget p) p:=x; ENDPROC"
+        "PERS robtarget p:={TARGET};\nPROC a() MoveL p,v,z,tool0; ENDPROC\nPROC b(INOUT robtarget \
+         p) p:=x; ENDPROC"
     );
     assert!(read(&parameter).moves()[0].target.value.is_ok());
 }
 
 #[test]
-fn what_refers_to_assigned_data_has_no_value_either() {
+fn data_that_refer_to_assigned_data_have_no_value() {
     assert_eq!(why("VAR robtarget q:=c;", "MoveL q,v,z,tool0;"), "");
     let data = format!("VAR robtarget p:={TARGET}; VAR robtarget q:=p; VAR robtarget r:=q;");
     assert_eq!(
@@ -90,7 +94,13 @@ fn what_refers_to_assigned_data_has_no_value_either() {
         "VAR num x:=1; VAR num a{2}:=[ x, 2 ]; CONST num n:=x; VAR num b{n}:=[4];",
         "x:=2; MoveL Offs(c,a{2},0,b{1}),v,z,tool0;",
     );
-    assert!(kept.to_string().contains("VAR num x:=1;\n    VAR num a{2}:=[ x, 2 ];\n    CONST num n:=x;\n    VAR num b{1}:=[4];"), "{kept}");
+    assert!(
+        kept.to_string().contains(
+            "VAR num x:=1;\n    VAR num a{2}:=[ x, 2 ];\n    CONST num \
+        n:=x;\n    VAR num b{1}:=[4];"
+        ),
+        "{kept}"
+    );
     assert_eq!(
         words(&kept.moves()[0].target.value),
         "refers to a, which depends on x, which line 4 assigns"
@@ -134,17 +144,19 @@ fn other_modules_assign_too() {
 }
 
 #[test]
-fn displaced_moves_tell_the_line() {
+fn displaced_moves_report_the_line() {
     let step = "MoveL c,v,z,tool0;";
     let joints = "MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v,z,tool0;";
     let text = format!(
-        "{step}\nPDispOn \\ExeP:=c, c, tool0;\n{step}\n{step} EOffsSet x;\n{joints} {step} PDispOff;\n{step}"
+        "{step}\nPDispOn \\ExeP:=c, c, tool0;\n{step}\n{step} EOffsSet x;\n{joints} {step} \
+         PDispOff;\n{step}"
     );
     let module = module("", &text);
     let lines: Vec<_> = module.moves().iter().map(|step| step.displaced).collect();
     assert_eq!(lines, [None, Some(5), Some(5), None, Some(5), None]);
     let two = read(&format!(
-        "PROC a() PDispSet x; {step} ENDPROC PROC b() {step} ENDPROC PROC d() PDispOn c; {step} ENDPROC"
+        "PROC a() PDispSet x; {step} ENDPROC PROC b() {step} ENDPROC PROC d() PDispOn c; {step} \
+         ENDPROC"
     ));
     assert_eq!(
         two.moves().iter().map(|step| step.displaced).collect::<Vec<_>>(),

@@ -1,4 +1,4 @@
-//! Modules from data that stand in no text.
+//! Modules from data that were not read from a text.
 
 use std::string::String;
 use std::string::ToString;
@@ -14,7 +14,8 @@ fn datum(name: &str, value: Value) -> Datum {
 
 #[test]
 fn modules_are_made_of_data_and_moves() {
-    let text = "CONST robtarget p:=[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nPROC main()\nMoveL p,v1,fine,t;\nENDPROC";
+    let text = "CONST robtarget p:=[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nPROC \
+        main()\nMoveL p,v1,fine,t;\nENDPROC";
     let read = read(text);
     let mut data = read.data().to_vec();
     data.push(datum("t", Value::ToolData(ToolData::TOOL0)));
@@ -30,7 +31,7 @@ fn modules_are_made_of_data_and_moves() {
 }
 
 #[test]
-fn modules_that_could_not_be_read_are_not_made() {
+fn modules_that_cannot_be_read_back_are_refused() {
     let words = |name: &str, data: Vec<Datum>| {
         Module::new(Some(name.into()), data, vec![], &[]).unwrap_err().to_string()
     };

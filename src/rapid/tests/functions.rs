@@ -42,10 +42,10 @@ fn reltool_shifts_and_turns_in_the_tool() {
 }
 
 #[test]
-fn functions_are_refused_in_words() {
+fn unsupported_functions_are_reported() {
     let p = format!("CONST robtarget p:=[[1,2,3],[0,0,0,0],{ZEROS}]; ");
     let fault = |rest: &str| super::fault(&format!("{p}\n{rest}"));
-    let why = |rest: &str| told(&read(&format!("{p}{rest}")))[0].clone();
+    let why = |rest: &str| not_read(&read(&format!("{p}{rest}")))[0].clone();
     assert_eq!(
         fault("CONST robtarget r:=Offs(p,1,2);"),
         "line 2, column 20: Offs has 3 arguments, it must have 4"

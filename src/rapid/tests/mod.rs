@@ -1,11 +1,11 @@
-//! What is read, construct by construct.
+//! Reading, construct by construct.
 
 mod assigned;
 mod build;
+mod direct;
 mod functions;
 mod moves;
 mod names;
-mod plain;
 mod texts;
 mod unfinished;
 
@@ -19,7 +19,7 @@ fn read(text: &str) -> Module {
     parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
-/// The words of the fault of a broken text.
+/// The message for an invalid text.
 fn fault(text: &str) -> String {
     parse(text, &[]).map(|module| panic!("no fault: {module}")).unwrap_err().to_string()
 }
@@ -37,16 +37,16 @@ fn number(module: &Module, name: &str) -> f64 {
     number
 }
 
-fn told(module: &Module) -> Vec<String> {
+fn not_read(module: &Module) -> Vec<String> {
     module.skipped().iter().map(|Skipped { what, .. }| what.to_string()).collect()
 }
 
-/// The words of the reason why a value is not known; the empty text where it is.
+/// The words of the reason why a value is unknown; empty if it is known.
 fn words<T>(value: &Result<T, Reason>) -> String {
     value.as_ref().err().map(ToString::to_string).unwrap_or_default()
 }
 
-/// The module written and read again, which must be the same.
+/// The module written and read again, which must be equal.
 fn again(module: &Module, context: &[&Module]) -> Module {
     let text = module.to_string();
     let again = parse(&text, context).unwrap_or_else(|error| panic!("{error}\n{text}"));

@@ -9,7 +9,8 @@ use super::*;
 use crate::rapid::{MoveKind, MoveOption, Target, ToolData, WobjData};
 
 const DATA: &str = "CONST robtarget p:=[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
-    CONST jointtarget j:=[[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]; CONST robtarget pts{1}:=[p]; PERS wobjdata w:=wobj0;";
+    CONST jointtarget j:=[[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]; CONST robtarget pts{1}:=[p]; \
+        PERS wobjdata w:=wobj0;";
 
 fn module(steps: &str) -> Module {
     read(&format!("MODULE M\n{DATA}\nPROC main()\n{steps}\nENDPROC\nENDMODULE"))
@@ -18,7 +19,8 @@ fn module(steps: &str) -> Module {
 #[test]
 fn moves_are_read_with_all_their_arguments() {
     let module = module(
-        "MoveJ \\Conc, p\\ID:=10, v100 \\V:=500,z10\\Z:=5\\Inpos:=inpos20, tool0\\Corr\\wobj:= w \\TLoad:=load0;
+        "MoveJ \\Conc, p\\ID:=10, v100 \\V:=500,z10\\Z:=5\\Inpos:=inpos20, tool0\\Corr\\wobj:= w \
+         \\TLoad:=load0;
          movel Offs(p,0,0,50), v100, fine, tool0;
          MoveC p, pts{1}, vmax, z1, tool0\\WObj:=wobj0;
          MoveAbsJ j\\NoEOffs, v1000\\T:=5, z50, tool0;
@@ -52,7 +54,8 @@ fn moves_are_read_with_all_their_arguments() {
             option(4, "TLoad", Some("load0")),
         ]
     );
-    let written = "MoveJ \\Conc, p\\ID:=10,v100\\V:=500,z10\\Z:=5\\Inpos:=inpos20,tool0\\WObj:=w\\Corr\\TLoad:=load0;";
+    let written = "MoveJ \\Conc, p\\ID:=10,v100\\V:=500,z10\\Z:=5\\Inpos:=inpos20,\
+        tool0\\WObj:=w\\Corr\\TLoad:=load0;";
     assert_eq!(first.to_string(), written);
     let Ok(Target::RobTarget(target)) = &second.target.value else { panic!() };
     assert_eq!((target.trans_mm, second.wobj.is_none()), ([1.0, 2.0, 53.0], true));
@@ -68,9 +71,10 @@ fn moves_are_read_with_all_their_arguments() {
 }
 
 #[test]
-fn a_comma_may_stand_before_an_optional_argument() {
+fn a_comma_may_precede_an_optional_argument() {
     let module = module(
-        "MoveAbsJ j, v100, \\T:=5, fine, tool0; MoveL p, v1, fine, tool0, \\WObj:=w; MoveL p, \\ID:=10, v1, fine, tool0, \\WObj:=w, \\Corr;
+        "MoveAbsJ j, v100, \\T:=5, fine, tool0; MoveL p, v1, fine, tool0, \\WObj:=w; MoveL p, \
+         \\ID:=10, v1, fine, tool0, \\WObj:=w, \\Corr;
          MoveJ \\Conc, \\NoX, p, v1, fine, tool0;",
     );
     let written = module.moves().iter().map(ToString::to_string).collect::<Vec<_>>();
@@ -89,7 +93,8 @@ fn a_comma_may_stand_before_an_optional_argument() {
 fn required_arguments_may_be_named() {
     let module = module(
         "MoveL ToPoint:=p, Speed := v100, Zone:=z1, Tool:=tool0 \\WObj:=w;
-         MoveC CirPoint:=p, ToPoint:=RelTool(Point:=p,Dx:=1,Dy:=0,Dz:=0\\Rz:=0), Speed:=v1, Zone:=fine, Tool:=tool0;
+         MoveC CirPoint:=p, ToPoint:=RelTool(Point:=p,Dx:=1,Dy:=0,Dz:=0\\Rz:=0), Speed:=v1, \
+             Zone:=fine, Tool:=tool0;
          MoveAbsJ ToJointPos:=j\\NoEOffs, Speed:=v1, Zone:=fine, Tool:=tool0;
          MoveL Offs(Point:=p, XOffset:=0, YOffset:=0, ZOffset:=5), v1, fine, tool0;",
     );
@@ -119,11 +124,12 @@ fn moves_in_branches_and_loops_are_listed_in_order() {
 }
 
 #[test]
-fn moves_that_cannot_be_resolved_say_why() {
+fn moves_that_cannot_be_resolved_report_the_reason() {
     let module = read(
         "MODULE M VAR robtarget q; PROC go(robtarget r, \\num T)
          MoveL *, v100, z10, tGripper\\WObj:=wTable;
-         MoveL r, v100\\T?T, z10, tool0; MoveL q, v100, z10, tool0\\WObj ?w; MoveJDO q, v1, fine, tool0, do1, 1; ENDPROC ENDMODULE",
+         MoveL r, v100\\T?T, z10, tool0; MoveL q, v100, z10, tool0\\WObj ?w; MoveJDO q, v1, fine, \
+             tool0, do1, 1; ENDPROC ENDMODULE",
     );
     let [taught, parameter, empty] = module.moves() else { panic!() };
     assert_eq!(
@@ -142,12 +148,12 @@ fn moves_that_cannot_be_resolved_say_why() {
         words(&empty.wobj.as_ref().unwrap().value),
         "it depends on whether an optional argument is there"
     );
-    assert_eq!(told(&module), ["MoveJDO moves the robot, but is not read"]);
+    assert_eq!(not_read(&module), ["MoveJDO moves the robot, but is not read"]);
     again(&module, &[]);
 }
 
 #[test]
-fn moves_stand_by_themselves_too() {
+fn moves_without_a_module_are_read() {
     let module = read("MoveL [[1,2,3],[1,0,0,0],[0,0,0,0],[0,0,0,0,0,0]], v100, z10, tool0;");
     assert_eq!(module.moves()[0].routine, None);
     assert!(module.moves()[0].target.value.is_ok());

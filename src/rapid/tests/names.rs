@@ -7,7 +7,7 @@ use std::vec::Vec;
 use super::*;
 
 #[test]
-fn names_stand_for_values_before_and_after_their_declarations() {
+fn names_are_resolved_before_and_after_their_declarations() {
     let module = read(
         "CONST num a:=b+1; CONST num b:=2*(3-1)/8; CONST pos p:=[a,-b,q.z]; CONST pos q:=[0,0,-a];",
     );
@@ -20,10 +20,13 @@ fn components_and_elements_are_values() {
     let module = read(
         "CONST robtarget p:=[[1,2,3],[1,0,0,0],[0,-1,0,7],[9E9,9E9,9E9,9E9,9E9,9E9]];
          CONST robtarget r:=[p.trans,P.ROT,p.robconf,p.extax]; CONST num x:=p.trans.y+p.robconf.cfx;
-         CONST pos pts{2,2}:=[[[1,1,1],[1,2,0]],[[2,1,0],[2,2,5]]]; CONST num i:=2; CONST num z:=pts{2,i}.z;
+         CONST pos pts{2,2}:=[[[1,1,1],[1,2,0]],[[2,1,0],[2,2,5]]]; CONST num i:=2; CONST num \
+             z:=pts{2,i}.z;
          CONST robtarget s:=[pts{1,2},tool0.tframe.rot,[z,0,0,0],p.extax];
-         CONST wobjdata w:=[FALSE,wobj0.ufprog,wobj0.ufmec,wobj0.uframe,[pts{1,1},[1,0,0,0]]]; CONST jointtarget j:=[[1,2,3,4,5,6],p.extax];
-         CONST num j2:=j.robax.rax_2; CONST tooldata t:=[TRUE,[[0,0,100],[1,0,0,0]],load0]; CONST wobjdata w2:=w;",
+         CONST wobjdata w:=[FALSE,wobj0.ufprog,wobj0.ufmec,wobj0.uframe,[pts{1,1},[1,0,0,0]]]; \
+             CONST jointtarget j:=[[1,2,3,4,5,6],p.extax];
+         CONST num j2:=j.robax.rax_2; CONST tooldata t:=[TRUE,[[0,0,100],[1,0,0,0]],load0]; CONST \
+             wobjdata w2:=w;",
     );
     assert!(module.skipped().is_empty(), "{:?}", module.skipped());
     assert_eq!(single(&module, "p"), single(&module, "r"));
@@ -57,8 +60,8 @@ fn long_chains_of_names_are_read_from_both_ends() {
 }
 
 #[test]
-fn what_has_no_value_says_why() {
-    let why = |text: &str| told(&read(text)).pop().unwrap();
+fn unknown_values_report_the_reason() {
+    let why = |text: &str| not_read(&read(text)).pop().unwrap();
     assert_eq!(why("CONST num a:=b;"), "a: refers to b, which is not in this module");
     assert_eq!(why("VAR num b; CONST num a:=b;"), "a: refers to b, whose declaration has no value");
     assert_eq!(
@@ -105,7 +108,7 @@ fn names_of_a_routine_hide_those_of_the_module() {
     assert_eq!(in_one[1].content, Content::Single(Value::Num(12.0)));
     assert_eq!(number(&module, "a"), 1.0);
     assert_eq!(
-        told(&module),
+        not_read(&module),
         [
             "c: refers to a, a parameter of two",
             "e: refers to b, a parameter of two",
@@ -126,7 +129,7 @@ fn names_are_found_in_other_modules() {
     let module = parse(text, &[&tools, &more]).unwrap();
     assert_eq!((number(&module, "a"), number(&module, "b")), (1.0, 6.0));
     assert_eq!(
-        told(&module),
+        not_read(&module),
         ["c: refers to z, which is not in this module", "e: refers to x, which can change"]
     );
     again(&module, &[&tools, &more]);

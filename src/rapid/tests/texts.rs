@@ -30,7 +30,8 @@ fn a_target_is_read_as_it_is_written() {
 
 #[test]
 fn headers_cases_and_comments_do_not_matter() {
-    let text = "\u{feff}%%%\n  VERSION:1\n  LANGUAGE:ENGLISH\n%%%\n\nmodule Main(sysmodule, NoStepIn) ! a remark with \"\n\
+    let text = "\u{feff}%%%\n  VERSION:1\n  LANGUAGE:ENGLISH\n%%%\n\nmodule Main(sysmodule, \
+        NoStepIn) ! a remark with \"\n\
                 local CONST NUM a:=1;!\n pErS Dnum b := 2 ; task var num C;\r\nEndModule";
     let module = read(text);
     assert_eq!(module.name(), Some("Main"));
@@ -138,7 +139,7 @@ fn bytes_are_utf_8_or_latin_1() {
 }
 
 #[test]
-fn what_ends_a_file_is_no_text() {
+fn trailing_end_of_file_characters_are_ignored() {
     for end in ["\0", "\u{1a}", "\r\n\u{1a}\n\0\0 \u{1a}"] {
         let text = format!("MODULE M\nVAR num a:=1;\nENDMODULE{end}");
         let module = read(&text);
@@ -157,12 +158,13 @@ fn what_ends_a_file_is_no_text() {
 }
 
 #[test]
-fn names_of_types_hide_no_names() {
+fn names_of_types_do_not_hide_names_of_data() {
     let module = read(
-        "ALIAS num length; LOCAL ALIAS num width; TASK ALIAS num depth; VAR num length:=1; CONST num a:=length;",
+        "ALIAS num length; LOCAL ALIAS num width; TASK ALIAS num depth; VAR num length:=1; CONST \
+         num a:=length;",
     );
     assert_eq!(
-        told(&module),
+        not_read(&module),
         ["ALIAS length is not read", "ALIAS width is not read", "ALIAS depth is not read"]
     );
     assert_eq!(number(&module, "a"), 1.0);
@@ -171,7 +173,8 @@ fn names_of_types_hide_no_names() {
 
 #[test]
 fn arrays_keep_their_shape_and_the_places_of_their_elements() {
-    let text = "CONST pos pts{2,3}:=[[[1,2,3],[4,5,6],[7,8,9]],\n [[1,0,0],[2,0,0],[3,0,0]]]; VAR num free{4,5};";
+    let text = "CONST pos pts{2,3}:=[[[1,2,3],[4,5,6],[7,8,9]],\n [[1,0,0],[2,0,0],[3,0,0]]]; VAR \
+        num free{4,5};";
     let module = read(text);
     let datum = module.find("pts").unwrap();
     let Content::Array { sizes, values } = &datum.content else { panic!() };
@@ -187,8 +190,9 @@ fn arrays_keep_their_shape_and_the_places_of_their_elements() {
 }
 
 #[test]
-fn new_values_leave_everything_else_as_it_was() {
-    let text = "MODULE M ! é\n PERS num a := 1 ; ! one\n VAR pos b{2}:=[ [1,2,3], [4,5,6] ];\n VAR num c ; ENDMODULE\n";
+fn rewriting_values_changes_nothing_else() {
+    let text = "MODULE M ! é\n PERS num a := 1 ; ! one\n VAR pos b{2}:=[ [1,2,3], [4,5,6] ];\n \
+        VAR num c ; ENDMODULE\n";
     let module = read(text);
     let new = |datum, element, value| NewValue { datum, element, value };
     let values = [
@@ -196,7 +200,8 @@ fn new_values_leave_everything_else_as_it_was() {
         new(1, Some(1), Value::Pos([0.0, 1e9, 0.0])),
         new(0, None, Value::Num(-2.5)),
     ];
-    let expected = "MODULE M ! é\n PERS num a := -2.5 ; ! one\n VAR pos b{2}:=[ [1,2,3], [0,1E+09,0] ];\n VAR num c := 3 ; ENDMODULE\n";
+    let expected = "MODULE M ! é\n PERS num a := -2.5 ; ! one\n VAR pos b{2}:=[ [1,2,3], [0,1E+09,\
+        0] ];\n VAR num c := 3 ; ENDMODULE\n";
     assert_eq!(rewrite(text, &module, &values).unwrap(), expected);
     assert_eq!(rewrite(text, &module, &[]).unwrap(), text);
     let words = |values: &[NewValue]| rewrite(text, &module, values).unwrap_err().to_string();
@@ -227,10 +232,13 @@ fn new_values_leave_everything_else_as_it_was() {
 }
 
 #[test]
-fn what_is_not_known_is_skipped_and_told() {
-    let text = "MODULE M\n RECORD r\n  num a; pos b;\n ENDRECORD\n ALIAS num length;\n VAR bool b:=(1>2) AND TRUE;\n CONST robtarget p:=CRobT(\\Tool:=t);\n\
-                \x20PROC p1()\n  b:=FALSE; a{1}:=2;\n  IF b THEN\n  ELSEIF NOT b OR a=1 THEN\n  ELSE\n  ENDIF\n  FOR i FROM 1 TO 3 STEP 2 DO ENDFOR\n  WHILE b DO ENDWHILE\n\
-                \x20 TEST a CASE 1,2: b:=TRUE; DEFAULT: ENDTEST\n  again: GOTO again; %\"p2\"%; <SMT>\n  WaitTime\\InPos, 0.5;\n ERROR (1) RETRY;\n ENDPROC\n\
+fn unknown_statements_are_skipped_and_listed() {
+    let text = "MODULE M\n RECORD r\n  num a; pos b;\n ENDRECORD\n ALIAS num length;\n VAR bool \
+        b:=(1>2) AND TRUE;\n CONST robtarget p:=CRobT(\\Tool:=t);\n\
+                \x20PROC p1()\n  b:=FALSE; a{1}:=2;\n  IF b THEN\n  ELSEIF NOT b OR a=1 THEN\n  \
+                ELSE\n  ENDIF\n  FOR i FROM 1 TO 3 STEP 2 DO ENDFOR\n  WHILE b DO ENDWHILE\n\
+                \x20 TEST a CASE 1,2: b:=TRUE; DEFAULT: ENDTEST\n  again: GOTO again; %\"p2\"%; \
+                <SMT>\n  WaitTime\\InPos, 0.5;\n ERROR (1) RETRY;\n ENDPROC\n\
                 \x20FUNC bool f(num x) RETURN x>1; ENDFUNC\n TRAP t ENDTRAP\nENDMODULE";
     let module = read(text);
     let expected = [
@@ -262,7 +270,7 @@ fn what_is_not_known_is_skipped_and_told() {
         "RETRY is not an instruction that is read",
         "RETURN is not an instruction that is read",
     ];
-    assert_eq!(told(&module), expected);
+    assert_eq!(not_read(&module), expected);
     let first = &module.skipped()[3];
     assert_eq!((first.line, first.column, first.routine.as_deref()), (7, 2, None));
     assert_eq!(first.text, "CONST robtarget p:=CRobT(\\Tool:=t);");
@@ -273,7 +281,7 @@ fn what_is_not_known_is_skipped_and_told() {
 }
 
 #[test]
-fn names_and_strings_have_a_bound() {
+fn names_and_strings_have_a_maximum_length() {
     let name = |length: usize| std::format!("VAR num {}:=1;", "a".repeat(length));
     assert_eq!(read(&name(256)).data().len(), 1);
     assert_eq!(
@@ -290,7 +298,7 @@ fn names_and_strings_have_a_bound() {
 }
 
 #[test]
-fn a_record_by_itself_is_told_by_its_shape() {
+fn the_type_of_a_single_record_follows_from_its_shape() {
     let record = |text: &str| {
         crate::rapid::parse_record(text)
             .map(|value| value.type_name())

@@ -6,15 +6,15 @@ use std::vec::Vec;
 
 use super::*;
 
-/// What is told of the statements of a routine.
+/// What is reported for the statements of a routine.
 fn skipped(statements: &str) -> Vec<String> {
     let module = read(&format!("MODULE M\nPROC main()\n{statements}\nENDPROC\nENDMODULE"));
     again(&module, &[]);
-    told(&module)
+    not_read(&module)
 }
 
 #[test]
-fn statements_that_are_not_finished_are_skipped() {
+fn unfinished_statements_are_skipped() {
     assert_eq!(skipped("<SMT>"), ["<SMT> is not finished"]);
     assert_eq!(
         skipped("<SMT>; <SMT>\nfoo;"),
@@ -51,11 +51,13 @@ fn statements_that_are_not_finished_are_skipped() {
 }
 
 #[test]
-fn declarations_that_are_not_finished_are_skipped() {
+fn unfinished_declarations_are_skipped() {
     let module = read(
-        "MODULE <ID>(<ATR>) <DDN> VAR num <ID>; VAR num <ID>; VAR <TYP> x; CONST num y:=<EXP>; VAR num a{<DIM>}; CONST pos b:=[<EXP>];
+        "MODULE <ID>(<ATR>) <DDN> VAR num <ID>; VAR num <ID>; VAR <TYP> x; CONST num y:=<EXP>; \
+         VAR num a{<DIM>}; CONST pos b:=[<EXP>];
          ALIAS <TYP> <ID>; RECORD <ID> <CDN> ENDRECORD CONST num z:=y;
-         LOCAL PROC <ID>(<PAR>) VAR num q; MoveL q; ENDPROC FUNC <TYP> <ID>() ENDFUNC FUNC <TYP> f(num <ID>) ENDFUNC PROC main(<PAR>) ENDPROC
+         LOCAL PROC <ID>(<PAR>) VAR num q; MoveL q; ENDPROC FUNC <TYP> <ID>() ENDFUNC FUNC <TYP> \
+             f(num <ID>) ENDFUNC PROC main(<PAR>) ENDPROC
          ENDMODULE",
     );
     assert_eq!(module.name(), Some("<ID>"));
@@ -67,7 +69,7 @@ fn declarations_that_are_not_finished_are_skipped() {
         "FUNC is not finished",
     ]
     .map(String::from);
-    assert_eq!(told(&module), words.into_iter().chain(rest).collect::<Vec<_>>());
+    assert_eq!(not_read(&module), words.into_iter().chain(rest).collect::<Vec<_>>());
     let headers: Vec<_> = module.routines().iter().map(|routine| routine.header.as_str()).collect();
     assert_eq!(headers, ["FUNC <TYP> f(num <ID>)", "PROC main(<PAR>)"]);
     again(&module, &[]);
@@ -78,7 +80,7 @@ fn declarations_that_are_not_finished_are_skipped() {
 }
 
 #[test]
-fn comparisons_are_no_placeholders() {
+fn comparisons_are_not_placeholders() {
     assert_eq!(
         skipped("IF a<B AND C>d foo;"),
         ["IF is not executed", "foo is not an instruction that is read"]

@@ -10,11 +10,11 @@ const POWERS: [f64; 23] = [
     1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
 ];
 
-/// Most digits whose number is exact, whichever digits they are.
+/// Largest number of digits for which every number is exact.
 const EXACT_DIGITS: usize = 15;
 
 /// The decimal number that begins at a byte, with its end. The byte is a digit, or a point before a
-/// digit. None for what is broken, not finite or not decimal, which [`number`] reads.
+/// digit. `None` for what is invalid, not finite or not decimal, which [`number`] reads.
 pub(crate) fn decimal(text: &str, start: usize) -> Option<(f64, usize)> {
     let bytes = text.as_bytes();
     let (mut mantissa, point) = digits(bytes, start, 0);
@@ -54,8 +54,8 @@ pub(crate) fn decimal(text: &str, start: usize) -> Option<(f64, usize)> {
     value.is_finite().then_some((value, end))
 }
 
-/// The number of a row of digits that continue `before`, and the end of the row. More than 19
-/// digits overflow: the caller counts them.
+/// The number of a sequence of digits that continue `before`, and its end. More than 19 digits
+/// overflow: the caller counts them.
 fn digits(bytes: &[u8], start: usize, before: u64) -> (u64, usize) {
     let (mut number, mut at) = (before, start);
     for byte in bytes.get(start..).unwrap_or_default() {
@@ -69,13 +69,13 @@ fn digits(bytes: &[u8], start: usize, before: u64) -> (u64, usize) {
     (number, at)
 }
 
-/// A number as RAPID writes it, without a sign; infinite where it is too large.
+/// A number as RAPID writes it, without a sign; infinite if it is too large.
 pub(crate) fn number(text: &str) -> Option<f64> {
     let radix = match text.as_bytes() {
         [b'0', b'x' | b'X', ..] => 16,
         [b'0', b'o' | b'O', ..] => 8,
         [b'0', b'b' | b'B', ..] => 2,
-        // It has digits, and no letters other than an exponent's: "inf" and "nan" do not come here.
+        // It has digits, and no letters except an exponent's: "inf" and "nan" do not get here.
         _ => return text.parse().ok(),
     };
     let digits =
@@ -85,7 +85,7 @@ pub(crate) fn number(text: &str) -> Option<f64> {
 }
 
 /// A string without its quotes: "" is a quote, \\ a backslash and \ with two hexadecimal digits the
-/// character of that number.
+/// character with that number.
 pub(crate) fn unquoted(quoted: &str) -> String {
     let inner = quoted.get(1..quoted.len().saturating_sub(1)).unwrap_or_default();
     let mut text = String::new();
@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn other_numbers_are_left_alone() {
+    fn numbers_beyond_the_exact_range_are_parsed_by_the_standard_library() {
         for text in ["0x1F", "1.5.2", "12abc", "1_", "1E", "1E+", "1E100", "1e400", "1\u{e9}"] {
             assert_eq!(decimal(text, 0), None, "{text}");
         }

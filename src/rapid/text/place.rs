@@ -32,14 +32,13 @@ impl Place {
     }
 }
 
-/// How many newlines there are. A byte counts those of a piece, so that many bytes are compared at
-/// once.
+/// The number of newlines. A byte counts those of a chunk, so that many bytes are compared at once.
 fn newlines(bytes: &[u8]) -> usize {
     let of_piece = |piece: &[u8]| piece.iter().map(|byte| u8::from(*byte == b'\n')).sum::<u8>();
     bytes.chunks(usize::from(u8::MAX)).map(|piece| usize::from(of_piece(piece))).sum()
 }
 
-/// A fault at a byte of a text.
+/// An error at a byte of a text.
 pub(crate) fn fault_at(text: &str, byte: usize, kind: RapidFaultKind) -> RapidFault {
     let Place { line, column, .. } = Place::BEGINNING.advanced(text, byte);
     RapidFault { line, column, kind }

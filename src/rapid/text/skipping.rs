@@ -1,11 +1,11 @@
-//! Going on over what is not read, with its brackets in pairs.
+//! Skips what is not read, with balanced brackets.
 
 use alloc::vec::Vec;
 
 use super::tokens::{Token, TokenKind, Tokens};
 use crate::error::{RapidFault, RapidFaultKind};
 
-/// What closes an opening symbol, and as it is named in a message.
+/// The symbol that closes an opening one, and its name in a message.
 fn closing(open: u8) -> (u8, &'static str) {
     match open {
         b'[' => (b']', "]"),
@@ -14,8 +14,8 @@ fn closing(open: u8) -> (u8, &'static str) {
     }
 }
 
-/// What a closing symbol that does not come tells: the bracket is open where the statement ends,
-/// and else something stands in its place.
+/// The error for a missing closing symbol: the bracket is open at the end of the statement, or
+/// something else is in its place.
 pub(crate) fn not_closed(tokens: &Tokens<'_>, open: Token, close: u8) -> RapidFault {
     match tokens.peek().kind {
         TokenKind::End | TokenKind::Symbol(b';') => {
@@ -30,29 +30,29 @@ pub(crate) fn not_closed(tokens: &Tokens<'_>, open: Token, close: u8) -> RapidFa
     }
 }
 
-/// Whether the next token is an operator that is not calculated.
+/// Whether the next token is an operator that is not evaluated.
 pub(crate) fn is_unread_operator(tokens: &Tokens<'_>) -> bool {
     let word = |word: &&str| tokens.at_word(word);
     matches!(tokens.peek().kind, TokenKind::Symbol(b'=' | b'<' | b'>') | TokenKind::Placeholder)
         || ["AND", "OR", "XOR", "DIV", "MOD"].iter().any(word)
 }
 
-/// Words that end a statement wherever they stand: one that is not closed before them is broken.
+/// Words that end a statement at any place: one that is not closed before them is invalid.
 fn is_end_of_routine(word: &str) -> bool {
     ["ENDPROC", "ENDFUNC", "ENDTRAP", "ENDMODULE", "PROC", "FUNC", "TRAP", "MODULE"]
         .iter()
         .any(|end| end.eq_ignore_ascii_case(word))
 }
 
-/// Goes on to the comma, semicolon or closing bracket that ends the argument.
+/// Skip to the comma, semicolon or closing bracket that ends the argument.
 pub(crate) fn skip_to_end_of_argument(tokens: &mut Tokens<'_>) -> Result<(), RapidFault> {
     skip_balanced(tokens, |tokens, _| tokens.peek().is(b',') || tokens.peek().is(b'\\'))
 }
 
-/// Goes on over balanced brackets to where `ends` says, to a semicolon, a closing bracket or the
-/// end; none of these is taken.
+/// Skip over balanced brackets until `ends` returns true, or to a semicolon, a closing bracket or
+/// the end; none of these is read.
 ///
-/// `ends` is told the last token that was taken, and asked outside brackets only.
+/// `ends` gets the last token that was read, and is called outside brackets only.
 pub(crate) fn skip_balanced(
     tokens: &mut Tokens<'_>,
     ends: impl Fn(&Tokens<'_>, Option<Token>) -> bool,

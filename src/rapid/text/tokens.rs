@@ -10,12 +10,13 @@ use crate::error::{RapidFault, RapidFaultKind};
 /// Most letters of a placeholder; RAPID's own have two or three.
 const LONGEST_PLACEHOLDER: usize = 16;
 
-/// Most bytes of a name and of a string. RAPID's own bounds are 32 and 80 characters; what repeats
-/// a name often, the routine of each statement for instance, stays linear in the text so.
+/// Most bytes of a name and of a string. RAPID's own bounds are 32 and 80 characters. The bound
+/// keeps reading linear in the text even if a name is repeated often, as the routine of each
+/// statement.
 const LONGEST_NAME: usize = 256;
 pub(crate) const LONGEST_STRING: usize = 2048;
 
-/// Characters that end a file: blanks, and what some systems put behind the text.
+/// Characters at the end of a file: blanks, and what some systems append to the text.
 const END_OF_FILE: [char; 8] = ['\0', '\u{1a}', ' ', '\t', '\r', '\n', '\u{b}', '\u{c}'];
 
 /// What a token is.
@@ -29,11 +30,11 @@ pub(crate) enum TokenKind {
     Text,
     /// `:=`.
     Assign,
-    /// `<SMT>` and its like: what an unfinished program does not have yet.
+    /// `<SMT>` and the like: what an unfinished program does not have yet.
     Placeholder,
     /// A character of RAPID's punctuation.
     Symbol(u8),
-    /// Behind the last token.
+    /// After the last token.
     End,
 }
 
@@ -51,20 +52,20 @@ impl Token {
     }
 }
 
-/// Reads tokens one after the other, with the next one in sight.
+/// Reads tokens in sequence, with one token of lookahead.
 pub(crate) struct Tokens<'a> {
     pub(crate) text: &'a str,
     next: Token,
-    /// End of the token before.
+    /// End of the previous token.
     pub(crate) last_end: usize,
-    /// Beginning of the last placeholder that was taken.
+    /// Beginning of the last placeholder that was read.
     last_placeholder: Option<usize>,
-    /// End of what is read: what may follow are blanks, NUL and Ctrl-Z.
+    /// End of what is read: only blanks, NUL and Ctrl-Z may follow.
     end: usize,
     place: Place,
 }
 
-/// Where a reader of tokens was, to go back to.
+/// A position of the reader, to return to.
 #[derive(Clone, Copy)]
 pub(crate) struct Mark {
     next: Token,
@@ -72,7 +73,7 @@ pub(crate) struct Mark {
 }
 
 impl<'a> Tokens<'a> {
-    /// Begins at a text, behind its `%%% ... %%%`.
+    /// Start at a text, after its `%%% ... %%%`.
     pub(crate) fn new(text: &'a str) -> Result<Self, RapidFault> {
         let next = Token { kind: TokenKind::End, start: 0, end: 0 };
         let end = text.trim_end_matches(END_OF_FILE).len();
@@ -94,12 +95,12 @@ impl<'a> Tokens<'a> {
         Ok(tokens)
     }
 
-    /// The next token, which stays the next.
+    /// The next token, without reading it.
     pub(crate) fn peek(&self) -> Token {
         self.next
     }
 
-    /// The next token, and goes on behind it.
+    /// Read the next token.
     pub(crate) fn take(&mut self) -> Result<Token, RapidFault> {
         let token = self.next;
         self.last_end = token.end;
@@ -110,7 +111,7 @@ impl<'a> Tokens<'a> {
         Ok(token)
     }
 
-    /// Whether a placeholder was taken from a byte on.
+    /// Whether a placeholder was read from a byte on.
     pub(crate) fn unfinished_since(&self, byte: usize) -> bool {
         self.last_placeholder.is_some_and(|placeholder| placeholder >= byte)
     }
@@ -121,17 +122,17 @@ impl<'a> Tokens<'a> {
             && self.text[self.skip_blanks(self.next.end)..].starts_with(":=")
     }
 
-    /// Where it is.
+    /// The current position.
     pub(crate) fn mark(&self) -> Mark {
         Mark { next: self.next, last_end: self.last_end }
     }
 
-    /// Goes back to where it was. No placeholder was taken since.
+    /// Return to a position. No placeholder may have been read since.
     pub(crate) fn rewind(&mut self, Mark { next, last_end }: Mark) {
         (self.next, self.last_end) = (next, last_end);
     }
 
-    /// Takes the next token where it is this symbol.
+    /// Read the next token if it is this symbol.
     pub(crate) fn take_if(&mut self, symbol: u8) -> Result<bool, RapidFault> {
         let is = self.next.is(symbol);
         if is {
@@ -140,7 +141,7 @@ impl<'a> Tokens<'a> {
         Ok(is)
     }
 
-    /// Takes the symbol, or says what is in its place.
+    /// Read the symbol, or report what is in its place.
     pub(crate) fn demand(&mut self, symbol: u8, wanted: &'static str) -> Result<(), RapidFault> {
         if self.take_if(symbol)? { Ok(()) } else { Err(self.unexpected(wanted)) }
     }
@@ -155,7 +156,7 @@ impl<'a> Tokens<'a> {
         self.next.kind == TokenKind::Name && self.text_of(self.next).eq_ignore_ascii_case(word)
     }
 
-    /// Takes the next token where it is this word.
+    /// Read the next token if it is this word.
     pub(crate) fn take_word(&mut self, word: &str) -> Result<bool, RapidFault> {
         let is = self.at_word(word);
         if is {
@@ -164,7 +165,7 @@ impl<'a> Tokens<'a> {
         Ok(is)
     }
 
-    /// The fault that the next token is not what must stand there.
+    /// The error that the next token is not the expected one.
     pub(crate) fn unexpected(&self, wanted: &'static str) -> RapidFault {
         let found = match self.next.kind {
             TokenKind::End => "the end of the text".to_string(),
@@ -173,13 +174,13 @@ impl<'a> Tokens<'a> {
         self.fault(self.next.start, RapidFaultKind::Unexpected { found, wanted })
     }
 
-    /// A fault at a byte.
+    /// An error at a byte.
     pub(crate) fn fault(&self, byte: usize, kind: RapidFaultKind) -> RapidFault {
         fault_at(self.text, byte, kind)
     }
 
-    /// Line and column of a byte, from 1; counts from the byte asked for before, so that asking in
-    /// order takes linear time.
+    /// Line and column of a byte, from 1. Counts from the byte of the previous call, so that calls
+    /// in ascending order take linear time.
     pub(crate) fn line_and_column(&mut self, byte: usize) -> (usize, usize) {
         if byte < self.place.byte {
             self.place = Place::BEGINNING;
@@ -188,19 +189,19 @@ impl<'a> Tokens<'a> {
         (self.place.line, self.place.column)
     }
 
-    /// What is read of the text, without the blanks, NUL and Ctrl-Z at its end.
+    /// The text that is read, without the blanks, NUL and Ctrl-Z at its end.
     pub(crate) fn content(&self) -> &'a [u8] {
         &self.text.as_bytes()[..self.end]
     }
 
-    /// Goes on behind a byte that begins or ends a token.
+    /// Continue after a byte that begins or ends a token.
     pub(crate) fn resume(&mut self, byte: usize) -> Result<(), RapidFault> {
         self.last_end = byte;
         self.next = self.read(byte)?;
         Ok(())
     }
 
-    /// The first byte behind blanks and comments.
+    /// The first byte after blanks and comments.
     fn skip_blanks(&self, at: usize) -> usize {
         let at = behind_blanks(self.content(), at);
         if at < self.end { at } else { self.text.len() }
@@ -250,7 +251,7 @@ impl<'a> Tokens<'a> {
         }
     }
 
-    /// The end of a name or a string, where it is not too long.
+    /// The end of a name or a string, if it is not too long.
     fn short(
         &self,
         start: usize,
@@ -278,8 +279,8 @@ impl<'a> Tokens<'a> {
         if matches!(bytes.get(end), Some(b'e' | b'E')) {
             end += if matches!(bytes.get(end + 1), Some(b'+' | b'-')) { 2 } else { 1 };
         }
-        // Letters and digits belong to it, so that 12abc is one wrong number and not a number and a
-        // name.
+        // Adjacent letters and digits belong to it, so that 12abc is one invalid number and not a
+        // number and a name.
         end = end_of_word(self.text, end);
         let text = &self.text[start..end];
         let fault = |kind| self.fault(start, kind);
@@ -292,7 +293,7 @@ impl<'a> Tokens<'a> {
     }
 }
 
-/// The first byte behind blanks and comments.
+/// The first byte after blanks and comments.
 pub(crate) fn behind_blanks(bytes: &[u8], mut at: usize) -> usize {
     while let Some(&byte) = bytes.get(at) {
         match byte {
@@ -340,7 +341,7 @@ fn is_symbol(byte: u8) -> bool {
 /// The end of the placeholder that begins at a byte: capital letters between `<` and `>`, without
 /// blanks.
 ///
-/// It is no comparison: RAPID has none of three operands, as `a<B>c` would be.
+/// It is not a comparison: RAPID has none with three operands, as `a<B>c` would be.
 fn placeholder_end(bytes: &[u8], start: usize) -> Option<usize> {
     if bytes.get(start) != Some(&b'<') {
         return None;

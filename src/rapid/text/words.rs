@@ -1,7 +1,6 @@
 //! RAPID's reserved words, and what may be a name.
 
-/// Whether a byte belongs to a word wherever it is in it: an ASCII letter, a digit or an
-/// underscore.
+/// Whether a byte may be anywhere in a word: an ASCII letter, a digit or an underscore.
 pub(crate) fn is_word_byte(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_'
 }
@@ -20,12 +19,12 @@ pub(crate) fn end_of_word(text: &str, start: usize) -> usize {
     end + text[end..].chars().take_while(belongs).map(char::len_utf8).sum::<usize>()
 }
 
-/// Whether RAPID could read it as the name of something declared.
+/// Whether RAPID could read it as a declared name.
 pub(crate) fn is_name(text: &str) -> bool {
     end_of_word(text, 0) == text.len() && is_name_token(text)
 }
 
-/// Whether a word, letters, digits and underscores, may be the name of something declared.
+/// Whether a word of letters, digits and underscores may be a declared name.
 pub(crate) fn is_name_token(word: &str) -> bool {
     word.chars().next().is_some_and(char::is_alphabetic) && !is_reserved(word)
 }
@@ -33,7 +32,7 @@ pub(crate) fn is_name_token(word: &str) -> bool {
 /// Room for a word: more than the longest of RAPID's own takes.
 const ROOM: usize = 16;
 
-/// A word in capitals; one that is longer than any of RAPID's own is empty.
+/// A word in capitals; empty if it is longer than any of RAPID's own.
 #[derive(Clone, Copy)]
 pub(crate) struct Capitals {
     bytes: [u8; ROOM],
@@ -53,7 +52,7 @@ impl Capitals {
         capitals
     }
 
-    /// It as a number, in the order of words.
+    /// The word as a number, in alphabetical order.
     const fn number(&self) -> u128 {
         u128::from_be_bytes(self.bytes)
     }

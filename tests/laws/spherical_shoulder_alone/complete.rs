@@ -1,4 +1,4 @@
-//! The number of solutions, found another way: by turning joint 6 until the arm closes.
+//! The number of solutions, found in another way: by turning joint 6 until the arm closes.
 
 use std::f64::consts::TAU;
 
@@ -10,8 +10,8 @@ use crate::rng::Rng;
 use crate::structures::spherical_shoulder::{ShoulderArm, hand_of};
 use crate::structures::{SEVEN, Subject};
 
-/// Length of the upper arm that each turn of joint 6 would need, the elbow on one or the other side
-/// of axis 5, less what it has [m].
+/// Length of the upper arm that each angle of joint 6 would need, with the elbow on one or the
+/// other side of axis 5, minus its length [m].
 fn closures(arm: &ShoulderArm, hand: &Pose, theta_6: f64) -> [f64; 2] {
     let ShoulderArm { a4, c5, .. } = *arm;
     let (sin, cos) = theta_6.sin_cos();
@@ -23,7 +23,8 @@ fn closures(arm: &ShoulderArm, hand: &Pose, theta_6: f64) -> [f64; 2] {
     [1.0, -1.0].map(|side| (foot - towards * (side * a4)).norm() - arm.upper())
 }
 
-/// How many turns of joint 6 close the arm; `None` where two cannot be told from none.
+/// The number of angles of joint 6 that close the arm; `None` if two cannot be distinguished from
+/// none.
 fn turns_that_close(arm: &ShoulderArm, hand: &Pose) -> Option<usize> {
     const STEPS: i32 = 2000;
     let angle = |step: i32| TAU * f64::from(step) / f64::from(STEPS);
@@ -40,7 +41,7 @@ fn turns_that_close(arm: &ShoulderArm, hand: &Pose) -> Option<usize> {
             {
                 continue;
             }
-            // Two may hide where the closure turns back towards zero.
+            // Two may be hidden where the closure turns back towards zero.
             let nearest =
                 least(|theta_6| at(theta_6) * here.signum(), angle(step - 1), angle(step + 1));
             if nearest.abs() < 1e-10 {

@@ -1,4 +1,4 @@
-//! Beyond the turn of the wrist.
+//! Poses beyond the reach of the wrist.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -12,7 +12,7 @@ use crate::structures::{SEVEN, Subject};
 
 const BEYOND: [f64; 5] = [1e-15, 1e-12, 9e-10, 1e-6, 1e-3];
 
-/// The hand turned so that the shoulder is nearer to axis 6 than this elbow can bring it.
+/// The hand rotated so that the shoulder is nearer to axis 6 than this elbow can bring it.
 fn turned(subject: &Subject<7>, q: &[f64; 7], beyond: f64) -> Option<Pose> {
     let pose = subject.robot.fk(q);
     let hand = hand_of(&subject.robot, &pose, q[6]);
@@ -27,7 +27,7 @@ fn turned(subject: &Subject<7>, q: &[f64; 7], beyond: f64) -> Option<Pose> {
 }
 
 #[test]
-fn beyond_the_turn_of_the_wrist_the_shortfall_is_told() {
+fn beyond_the_reach_of_the_wrist_the_shortfall_is_reported() {
     let arms = [
         ("Panda", ShoulderArm::panda()),
         ("iiwa", ShoulderArm::iiwa()),

@@ -1,4 +1,4 @@
-//! Tables with their frames and their zero pose anywhere.
+//! Tables with any frames and any zero pose.
 
 use std::f64::consts::PI;
 
@@ -10,8 +10,8 @@ use crate::structures::spherical_shoulder::{self, ShoulderArm};
 use crate::structures::three_parallel::arm::{quarters_about_x, turn};
 use crate::structures::{SEVEN, Subject};
 
-/// The same arm by another table. Frames are turned over about x (joint signs), about z by half a
-/// turn (the sides of x), and joints read zero elsewhere. `signs` and `shifts` get what they did to
+/// The same arm by another table. Frames are flipped about x (joint signs), rotated about z by half
+/// a turn (the sides of x), and joints have other zeros. `signs` and `shifts` receive the change of
 /// the joint angles: `q_old = sign q_new + shift`.
 fn rewritten(rng: &mut Rng, mdh: &Mdh<7>) -> (Mdh<7>, [f64; 7], [f64; 7]) {
     let mut rows = mdh.rows;
@@ -77,7 +77,7 @@ fn subjects() -> impl Iterator<Item = Subject<7>> {
 }
 
 #[test]
-fn any_frames_and_any_zero_pose_are_the_arm() {
+fn tables_with_any_frames_and_zero_pose_are_recognized() {
     let mut rng = Rng::new(20);
     for subject in subjects() {
         for _ in 0..poses_or(20_000) / 100 {
@@ -94,7 +94,7 @@ fn any_frames_and_any_zero_pose_are_the_arm() {
 }
 
 #[test]
-fn a_standard_table_is_the_arm() {
+fn a_standard_table_is_recognized() {
     let mut rng = Rng::new(21);
     for subject in subjects() {
         for _ in 0..50 {
@@ -105,8 +105,8 @@ fn a_standard_table_is_the_arm() {
     }
 }
 
-/// Slots of elbow and wrist, that is: the bit of the shoulder is the sign of joint 2, which may
-/// count the other way.
+/// Slots of elbow and wrist only: the bit of the shoulder is the sign of joint 2, which may count
+/// the other way.
 #[test]
 fn slots_do_not_depend_on_the_frames_of_a_table() {
     let mut rng = Rng::new(22);
@@ -114,7 +114,7 @@ fn slots_do_not_depend_on_the_frames_of_a_table() {
     let mut compared = 0;
     for _ in 0..200 {
         let (mut table, signs, shifts) = rewritten(&mut rng, arm.robot.mdh());
-        // The joints read zero where they did.
+        // The joints have the same zeros.
         for i in 0..7 {
             table.rows[i].theta -= signs[i] * shifts[i];
         }
@@ -137,7 +137,7 @@ fn slots_do_not_depend_on_the_frames_of_a_table() {
 }
 
 #[test]
-fn a_table_that_is_off_by_text_is_squared_up() {
+fn a_table_rounded_in_text_is_made_exact() {
     let mut table = ShoulderArm::panda().mdh();
     for row in &mut table.rows {
         row.alpha += 5e-10;
@@ -156,15 +156,17 @@ fn a_table_that_is_off_by_text_is_squared_up() {
 }
 
 #[test]
-fn what_keeps_a_table_from_the_form_is_named() {
+fn the_condition_that_a_table_violates_is_named() {
     let mut table = ShoulderArm::panda().mdh();
     table.rows[2].alpha += 0.01_f64.to_radians();
     table.rows[3].d = 0.002;
     table.rows[5].a = 0.0005;
     assert_eq!(
         Robot::from_mdh(table).unwrap().unknown_structure().unwrap().to_string(),
-        "for a spherical shoulder and an offset elbow, axes 2 and 3 must be at right angles, they are 0.010000 deg \
-         off; axes 5 and 6 must meet, they pass 0.500000 mm apart; axes 3 and 5 must lie in one plane, they pass 2.000000 mm apart"
+        "for a spherical shoulder and an offset elbow, axes 2 and 3 must be at right angles, \
+         they are 0.010000 deg \
+         off; axes 5 and 6 must meet, they pass 0.500000 mm apart; axes 3 and 5 must lie in one \
+         plane, they pass 2.000000 mm apart"
     );
 }
 

@@ -1,4 +1,4 @@
-//! An arm with a spherical shoulder by its lengths: its table, and its geometry once more.
+//! An arm with a spherical shoulder by its lengths: its table, and an independent geometry.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -8,8 +8,8 @@ use nalgebra::{Rotation3, Translation3, Vector3};
 use crate::rng::Rng;
 use crate::structures::place::{At, Place};
 
-/// Lengths [m], signs and offsets: theta = sign * q - offset counts from the arm standing straight
-/// up, axes 2, 4 and 6 to the side, offsets of axis 4 to the front.
+/// Lengths [m], signs and offsets: theta = sign * q - offset is zero when the arm is upright, axes
+/// 2, 4 and 6 to the side, offsets of axis 4 to the front.
 #[derive(Clone, Debug)]
 pub struct ShoulderArm {
     /// Height of the shoulder.
@@ -28,12 +28,13 @@ pub struct ShoulderArm {
     pub d7: f64,
     pub signs: [f64; 7],
     pub offsets: [f64; 7],
-    /// What stands before axis 1 and behind frame 7.
+    /// The transforms before axis 1 and after frame 7.
     pub base: Pose,
     pub flange: Pose,
 }
 
-/// The shoulder seen from the hand, where axes 5 and 6 meet: square to axis 5 and along it [m].
+/// The shoulder in the hand frame, at the intersection of axes 5 and 6: perpendicular to axis 5 and
+/// along it [m].
 #[derive(Clone, Copy, Debug)]
 pub struct Elbow {
     pub across: f64,
@@ -64,7 +65,7 @@ impl ShoulderArm {
         }
     }
 
-    /// KUKA LBR iiwa 7 R800: axes 5, 6 and 7 meet too.
+    /// KUKA LBR iiwa 7 R800: axes 5, 6 and 7 intersect too.
     pub fn iiwa() -> Self {
         Self {
             c1: 0.34,
@@ -82,8 +83,8 @@ impl ShoulderArm {
         }
     }
 
-    /// A long upper arm, so that the shoulder can come onto axis 6, joint 7 at an angle, no two
-    /// lengths equal.
+    /// A long upper arm, so that the shoulder can reach axis 6, joint 7 at an angle, no two lengths
+    /// equal.
     pub fn oblique() -> Self {
         Self {
             c1: 0.3,
@@ -102,7 +103,8 @@ impl ShoulderArm {
         }
     }
 
-    /// Offsets, and upper arm as long as forearm: the shoulder can come to where axes 5 and 6 meet.
+    /// Offsets, and upper arm as long as forearm: the shoulder can reach the intersection of axes 5
+    /// and 6.
     pub fn onto_itself() -> Self {
         Self {
             c1: 0.3,
@@ -125,7 +127,7 @@ impl ShoulderArm {
     }
 
     /// The table. Its zero pose and the directions of its joints follow the offsets and the signs:
-    /// a joint of sign -1 has its frame turned over, `Rz(-q) = Rx(pi) Rz(q) Rx(-pi)`.
+    /// a joint of sign -1 has its frame flipped, `Rz(-q) = Rx(pi) Rz(q) Rx(-pi)`.
     pub fn mdh(&self) -> Mdh<7> {
         let mut rows = [
             DhRow::new(0.0, 0.0, self.c1, 0.0),
@@ -205,7 +207,7 @@ impl ShoulderArm {
     /// The bits of the slot: shoulder 4, elbow 2, wrist 1.
     ///
     /// The shoulder counts as joint 2 turns; the wrist counts from the side of axis 6 at q = 0; an
-    /// arm without an offset at the elbow has its elbow to the side that joint 4 turns to.
+    /// arm without an offset at the elbow has its elbow on the side that joint 4 turns to.
     pub fn slot(&self, theta: &[f64; 7]) -> usize {
         let elbow = if self.a3 == 0.0 { self.signs[3] } else { 1.0 };
         let wrist = self.offsets[4].cos();
@@ -214,7 +216,7 @@ impl ShoulderArm {
             + usize::from(wrist * theta[4].cos() < 0.0)
     }
 
-    /// Angles next to the singularities of a place; none where this arm does not get there.
+    /// Angles near the singularities of a place; `None` if this arm cannot get there.
     pub fn at(&self, place: &Place, rng: &mut Rng) -> Option<[f64; 7]> {
         let mut theta = rng.angles();
         for (at, off) in &place.0 {
@@ -253,11 +255,11 @@ impl ShoulderArm {
     }
 
     /// How far the joints of a solution may be from those that made the pose [rad]: joint 4; joints
-    /// 5 and 6; joint 2 and the sum or difference of 1 and 3; joints 1 and 3 by themselves.
+    /// 5 and 6; joint 2 and the sum or difference of 1 and 3; joints 1 and 3 individually.
     ///
-    /// A distance that is known to `p` is the cosine of an angle: near the edge of what it can be,
-    /// the angle is known to the root of `p`. On axis 5 or 6 a joint that is given is kept as far
-    /// as `kept` from it.
+    /// A distance that is known to `p` is the cosine of an angle: near its extremes, the angle is
+    /// known to the root of `p`. On axis 5 or 6 a joint that is given is kept as far as `kept` from
+    /// it.
     pub fn bounds(&self, theta: &[f64; 7], kept: f64) -> [f64; 4] {
         let [_, theta_2, _, theta_4, theta_5, ..] = *theta;
         let elbow = self.elbow(theta_4);
@@ -271,7 +273,7 @@ impl ShoulderArm {
         let lever = if (across * theta_5.sin()).abs() < rho { across } else { rho };
         let moved = p + speeds[0].abs().max(speeds[1].abs()) * joint_4;
         let aside_error = p + root(moved * lever, aside).min(2.0 * (moved * lever).sqrt());
-        // A merged twin may stand for the other one.
+        // A merged twin may represent the other one.
         let of = |distance: f64| {
             if distance <= 0.9 * kept { 2.0 * kept + p } else { (p + aside_error) / distance }
         };

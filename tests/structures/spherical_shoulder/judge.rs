@@ -1,4 +1,4 @@
-//! Judges answers at and next to the singularities of an arm with a spherical shoulder.
+//! Judges answers at and near the singularities of an arm with a spherical shoulder.
 
 use irbkin::{Robot, SingularityKind, Solution, Solutions, Status, thresholds};
 
@@ -9,8 +9,8 @@ use crate::structures::place::{Made, Verdict};
 
 const SLOTS: usize = 8;
 
-/// Open by more than this, a joint is not determined by the pose [rad].
-const OPEN: f64 = 0.1;
+/// With a larger uncertainty, a joint is not determined by the pose [rad].
+const UNDETERMINED: f64 = 0.1;
 
 pub(super) fn judge(
     arm: &ShoulderArm,
@@ -19,12 +19,12 @@ pub(super) fn judge(
     solutions: &Solutions<7>,
     rng: &mut Rng,
 ) -> Verdict {
-    let twice = solutions.iter().enumerate().map(|(i, one)| {
+    let duplicates = solutions.iter().enumerate().map(|(i, one)| {
         solutions.iter().skip(i + 1).filter(|other| apart(&one.q, &other.q) < 1e-9).count()
     });
-    let twice = twice.sum();
+    let duplicates = duplicates.sum();
     if made.beyond > 0.0 {
-        return Verdict { found: !solutions.is_empty(), wrong: 0, twice, flagged: true };
+        return Verdict { found: !solutions.is_empty(), incorrect: 0, duplicates, flagged: true };
     }
     let opened =
         solutions.iter().filter(|solution| !self_motion_closes(robot, made, solution)).count();
@@ -35,8 +35,8 @@ pub(super) fn judge(
     Verdict {
         found: solutions.iter().any(|solution| is_found(arm, robot, made, solution))
             || is_kept(arm, robot, made),
-        wrong: opened + usize::from(differ(arm, robot, made, [solutions, &neighbor])),
-        twice,
+        incorrect: opened + usize::from(differ(arm, robot, made, [solutions, &neighbor])),
+        duplicates,
         flagged: solutions.iter().all(|solution| is_flagged(arm, robot, solution)),
     }
 }
@@ -64,10 +64,10 @@ fn is_found(arm: &ShoulderArm, robot: &Robot<7>, made: &Made<7>, solution: &Solu
 fn is_kept(arm: &ShoulderArm, robot: &Robot<7>, made: &Made<7>) -> bool {
     let Ok(kept) = robot.ik_nearest(&made.pose, &made.q, &[1.0; 7]) else { return false };
     let bounds = arm.bounds(&made.theta, thresholds::SEEDED_FREE);
-    let is_open = arm.bounds(&made.theta, 0.0).iter().any(|bound| *bound > OPEN);
+    let is_undetermined = arm.bounds(&made.theta, 0.0).iter().any(|bound| *bound > UNDETERMINED);
     let residual = robot.residual(&kept.q, &made.pose).largest();
     residual <= 4.0 * thresholds::SEEDED_FREE
-        && (is_open || ShoulderArm::is_branch(&arm.theta(&kept.q), &made.theta, &bounds))
+        && (is_undetermined || ShoulderArm::is_branch(&arm.theta(&kept.q), &made.theta, &bounds))
 }
 
 /// Whether a solution whose free joint is given another angle is one of the pose, to twice the

@@ -39,7 +39,7 @@ pub fn named(name: &str) -> Subject<7> {
     Subject::new(name, ShoulderArm::panda(), &SEVEN).with_robot(|_| robot)
 }
 
-/// Arms of the form, with signs, offsets, a base and a flange.
+/// Arms of the structure, with signs, offsets, a base and a flange.
 fn arms() -> impl Strategy<Value = ShoulderArm> {
     let elbow = (prop_oneof![Just(0.0), 0.01..0.15], 0.2..0.6, -0.15..0.15, 0.2..0.6);
     let hand = (-0.1..0.1, -PI..PI, -0.2..0.2, -0.2..0.2);

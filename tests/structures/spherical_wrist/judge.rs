@@ -1,4 +1,4 @@
-//! Judges answers at and next to the singularities of an arm with a spherical wrist.
+//! Judges answers at and near the singularities of an arm with a spherical wrist.
 
 use irbkin::{FreeJoint, OpwParameters, Robot, SingularityKind, Solution, Solutions, thresholds};
 
@@ -42,7 +42,7 @@ impl Apart {
 /// How far the joints of the branch that made a pose may be from those found [rad]: (arm and
 /// wrist, for the split of theta_4 and theta_6).
 ///
-/// Next to an elbow limit, and with b != 0 next to the shoulder's tangent plane, twins differ by
+/// Next to an elbow limit, and with b != 0 near the shoulder's tangent plane, twins differ by
 /// the square root of rounding, and below the merge threshold one stands for both
 /// (docs/accuracy.md, section 4). What turns the forearm turns the split of theta_4 and theta_6 by
 /// that over sin theta_5.
@@ -89,13 +89,13 @@ pub(super) fn judge(
         apart.arm <= bound && apart.wrist <= bound && apart.split <= split_bound
     });
     let moves = |solution: &&Solution<6>| tool_moves(arm, robot, made, solution);
-    let twice = solutions.iter().enumerate().map(|(i, solution)| {
+    let duplicates = solutions.iter().enumerate().map(|(i, solution)| {
         solutions.iter().skip(i + 1).filter(|other| are_one(arm, solution, other)).count()
     });
     Verdict {
         found,
-        wrong: solutions.iter().filter(moves).count(),
-        twice: twice.sum(),
+        incorrect: solutions.iter().filter(moves).count(),
+        duplicates: duplicates.sum(),
         flagged: is_flagged(arm, &made.place, solutions),
     }
 }

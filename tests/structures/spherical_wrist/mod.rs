@@ -17,7 +17,8 @@ use crate::rng::Rng;
 #[derive(Clone, Copy, Debug)]
 pub struct WristArm {
     pub opw: OpwParameters,
-    /// Whether a parallelogram couples axes 2 and 3: joint 3 then counts from the base.
+    /// Whether a parallelogram linkage couples axes 2 and 3: joint 3 is then measured from the
+    /// base.
     pub coupled: bool,
 }
 
@@ -27,7 +28,7 @@ impl From<OpwParameters> for WristArm {
     }
 }
 
-/// No maker's: every parameter plays a part.
+/// Not a real arm: every parameter has an effect.
 pub const ODD: OpwParameters = OpwParameters {
     a1: 0.15,
     a2: -0.11,
@@ -83,7 +84,7 @@ pub fn named(name: &str) -> Subject<6> {
     Subject::new(name, WristArm { opw, coupled: robot.is_coupled() }, &SIX).with_robot(|_| robot)
 }
 
-/// Arms of the form, with offsets, signs and a lateral offset.
+/// Arms of the structure, with offsets, signs and a lateral offset.
 fn arms() -> impl Strategy<Value = WristArm> {
     let lengths = (
         -0.3..0.5,
@@ -119,7 +120,7 @@ impl WristArm {
         a1 + c2 * t2.sin() + c3 * (t2 + t3).sin() + a2 * (t2 + t3).cos()
     }
 
-    /// A theta_2 that puts the wrist center `x` before axis 1, for an elbow angle; none where it
+    /// A theta_2 that puts the wrist center `x` before axis 1, for an elbow angle; `None` if it
     /// cannot get there.
     fn theta_2(&self, elbow: f64, x: f64, rng: &mut Rng) -> Option<f64> {
         let (along, across) = (self.opw.c2 + self.k() * elbow.cos(), self.k() * elbow.sin());
@@ -216,7 +217,7 @@ impl Arm<6> for WristArm {
         let home = move |rng: &mut Rng| {
             Some(arm.theta(&[rng.angle(), 0.0, 0.0, rng.angle(), 0.0, rng.angle()]))
         };
-        // Where joint 5 reads zero, theta_5 may be anything.
+        // Where joint 5 is zero, theta_5 may be anything.
         if self.opw.offsets[4] != 0.0 {
             return Vec::new();
         }

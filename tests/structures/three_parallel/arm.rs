@@ -7,7 +7,7 @@ use irbkin::{DhRow, Mdh, Pose, Robot};
 use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Translation3, Vector3};
 
 /// Lengths [m], signs and offsets of an arm with three parallel axes: theta = sign * q - offset
-/// counts from the arm standing straight up, axis 5 up and axis 6 to the side.
+/// is zero when the arm is upright, axis 5 up and axis 6 to the side.
 #[derive(Clone, Debug)]
 pub struct ParallelArm {
     /// Distance of axis 2 from axis 1.
@@ -27,12 +27,12 @@ pub struct ParallelArm {
     pub d6: f64,
     pub signs: [f64; 6],
     pub offsets: [f64; 6],
-    /// What stands before axis 1 and behind the flange, whose y is axis 6.
+    /// The transforms before axis 1 and after the flange, whose y is axis 6.
     pub base: Pose,
     pub flange: Pose,
 }
 
-/// What a pose asks of the planar arm for one shoulder and one wrist.
+/// The target of the planar arm for a pose for one shoulder and one wrist.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked {
     /// End of the planar arm, from axis 2, forward and up [m].
@@ -67,7 +67,7 @@ impl ParallelArm {
         Robot::from_mdh(self.mdh()).unwrap()
     }
 
-    /// Joint angles of theta.
+    /// The joint angles for theta.
     pub fn q(&self, theta: [f64; 6]) -> [f64; 6] {
         std::array::from_fn(|i| self.signs[i] * (theta[i] + self.offsets[i]))
     }
@@ -76,7 +76,7 @@ impl ParallelArm {
         std::array::from_fn(|i| self.signs[i] * q[i] - self.offsets[i])
     }
 
-    /// The lengths that a position is summed from [m].
+    /// The sum of the lengths that contribute to a position [m].
     pub fn reach(&self) -> f64 {
         let along_axis_2: f64 = self.b.iter().map(|b| b.abs()).sum();
         let ends = self.base.translation.vector.norm() + self.flange.translation.vector.norm();
@@ -95,7 +95,7 @@ impl ParallelArm {
     }
 
     /// The table. Its zero pose and the directions of its joints follow the offsets and the signs:
-    /// a joint of sign -1 has its frame turned over, `Rz(-q) = Rx(pi) Rz(q) Rx(-pi)`.
+    /// a joint of sign -1 has its frame flipped, `Rz(-q) = Rx(pi) Rz(q) Rx(-pi)`.
     pub fn mdh(&self) -> Mdh<6> {
         let [b2, b3, b4] = self.b;
         let mut rows = [
@@ -183,7 +183,7 @@ impl ParallelArm {
             + usize::from(theta[4].sin() < 0.0)
     }
 
-    /// The wrist seen from the shoulder, of the flange's pose.
+    /// The wrist in the shoulder frame, for the pose of the flange.
     pub fn wrist(&self, pose: &Pose) -> (Vector3<f64>, Matrix3<f64>) {
         let flange = self.base.inverse() * pose * self.flange.inverse();
         let rotation = *flange.rotation.matrix();
@@ -191,8 +191,9 @@ impl ParallelArm {
         (flange.translation.vector - approach * self.d6 - Vector3::z() * self.c1, rotation)
     }
 
-    /// What a pose asks of the planar arm: shoulder in front and behind, wrist as told and flipped.
-    /// None where the wrist is within the cylinder of radius b; how far inside then [m].
+    /// The target of the planar arm for a pose: shoulder in front and behind, wrist as determined
+    /// and flipped. `None` if the wrist is within the cylinder of radius b; how far inside then
+    /// [m].
     pub fn asked(&self, pose: &Pose) -> Result<[[Asked; 2]; 2], f64> {
         let (w, rotation) = self.wrist(pose);
         let (rho, b) = (w.x.hypot(w.y), self.b());
@@ -203,8 +204,8 @@ impl ParallelArm {
         Ok([size, -size].map(|x| {
             let theta_1 = w.y.atan2(w.x) - b.atan2(x);
             let m = Rotation3::from_axis_angle(&Vector3::z_axis(), -theta_1).matrix() * rotation;
-            // Axis 5 is square to axis 2 and to the approach: along y x (M y) = (m21, 0, -m01), up
-            // to its sign.
+            // Axis 5 is perpendicular to axis 2 and to the approach: along y x (M y) = (m21, 0,
+            // -m01), up to its sign.
             let (sin_phi, cos_phi) = (m[(2, 1)], -m[(0, 1)]);
             let sin_5 = sin_phi.hypot(cos_phi);
             [1.0, -1.0].map(|wrist| {
@@ -218,7 +219,7 @@ impl ParallelArm {
     }
 }
 
-/// A turn on the spot.
+/// A pure rotation.
 pub fn turn(rotation: Matrix3<f64>) -> Pose {
     IsometryMatrix3::from_parts(
         Translation3::identity(),

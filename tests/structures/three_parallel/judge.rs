@@ -1,16 +1,16 @@
-//! Judges answers at and next to the singularities of an arm with three parallel axes.
+//! Judges answers at and near the singularities of an arm with three parallel axes.
 
 use std::f64::consts::{PI, TAU};
 
 use irbkin::{FreeJoint, Robot, SingularityKind, Solution, Solutions, Status, thresholds};
 
 use super::arm::ParallelArm;
-use super::place::{Bounds, FOUND, OPEN, phi};
+use super::place::{Bounds, FOUND, UNDETERMINED, phi};
 use crate::common::wrapped;
 use crate::rng::Rng;
 use crate::structures::place::{At, Made, Verdict};
 
-/// A pose that was made, with what rounding leaves open of it.
+/// A pose that was made, with its uncertainty from rounding.
 pub struct Judge<'a> {
     pub arm: &'a ParallelArm,
     pub robot: &'a Robot<6>,
@@ -24,7 +24,7 @@ impl<'a> Judge<'a> {
     }
 
     /// How far beyond reach the pose is with the shoulder and the wrist of a straight arm, by no
-    /// more than such an arm is given for [m]; what rounding leaves open of x there is no part of
+    /// more than such an arm is given for [m]; the uncertainty of x there is no part of
     /// it.
     pub fn beyond_in(&self, solution: &Solution<6>) -> f64 {
         let (arm, slot) = (self.arm, solution.slot.index());
@@ -41,7 +41,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Whether the answers have the joint vector that made the pose: as it is, or where a joint is
-    /// free as a member of the family.
+    /// free as a member of the self-motion.
     fn is_found(&self, solutions: &Solutions<6>) -> bool {
         solutions.iter().any(|solution| {
             let found = self.theta_of(&solution.q);
@@ -62,8 +62,8 @@ impl<'a> Judge<'a> {
     }
 
     /// Whether a solution moved to the free joint's angle is the one that made the pose. One
-    /// straight arm stands for both elbows of the family, and joint 2 of one that is folded onto
-    /// axis 2 is free too: of those, the seeded solve has to find the right one.
+    /// straight arm stands for both elbows of the self-motion, and joint 2 of one that is folded
+    /// onto axis 2 is free too: of those, the seeded solve has to find the right one.
     fn is_on_self_motion(&self, from: &Solution<6>, moved: &Solution<6>) -> bool {
         let [mut from_theta, mut found] = [&from.q, &moved.q].map(|q| self.theta_of(q));
         let folded = self.is_folding_onto_axis_2()
@@ -104,7 +104,7 @@ impl<'a> Judge<'a> {
     }
 
     /// What the solve that is given the joint vector for a seed finds, and whether that is the
-    /// joint vector. Where the pose leaves a joint open that no solution declares free, next to two
+    /// joint vector. Where the pose leaves a joint open that no solution declares free, near two
     /// singularities at once, another branch may be nearer to the seed.
     fn seeded(&self) -> Option<(Solution<6>, bool)> {
         let nearest = self.robot.ik_nearest(&self.made.pose, &self.made.q, &[1.0; 6]).ok()?;
@@ -112,30 +112,33 @@ impl<'a> Judge<'a> {
         let kept = self.made.place.shoulder().is_none()
             && self.made.place.wrist().is_none_or(|off| off < thresholds::SEEDED_FREE);
         let bounds = if kept { self.bounds_with_six() } else { self.bounds };
-        let is_open = !kept && (bounds.six > OPEN || bounds.arm[0] > OPEN);
+        let is_undetermined = !kept && (bounds.six > UNDETERMINED || bounds.arm[0] > UNDETERMINED);
         let closes =
             residual <= self.made.beyond + 3.0 * thresholds::SEEDED_FREE * (1.0 + self.arm.reach());
         Some((
             nearest,
-            closes && (is_open || bounds.hold(&self.theta_of(&nearest.q), &self.made.theta)),
+            closes
+                && (is_undetermined || bounds.hold(&self.theta_of(&nearest.q), &self.made.theta)),
         ))
     }
 
     /// Counts solutions that do not close with their free joint elsewhere, or that are in another
     /// slot than they should.
-    fn count_wrong(&self, solutions: &Solutions<6>) -> usize {
+    fn count_incorrect(&self, solutions: &Solutions<6>) -> usize {
         let arm = self.arm;
-        // Rounding of the pose moves x by the root of it, next to zero.
+        // Rounding of the pose moves x by the root of it, near zero.
         let clear = 1e-7 + 2.0 * (2.0 * arm.b() * self.rounding()).sqrt();
-        let mut wrong = 0;
+        let mut incorrect = 0;
         for solution in solutions {
             let theta = self.theta_of(&solution.q);
-            let told = 4 * usize::from(arm.x(&theta).abs() > clear)
+            let determined = 4 * usize::from(arm.x(&theta).abs() > clear)
                 + 2 * usize::from(theta[2].sin().abs() > 1e-7)
                 + usize::from(theta[4].sin().abs() > 1e-8);
-            wrong += usize::from((solution.slot.index() ^ arm.slot(&theta)) & told != 0);
-            wrong += match solution.free_joint {
-                Some(FreeJoint::Parallel) => self.count_wrong_along_self_motion(solution, &theta),
+            incorrect += usize::from((solution.slot.index() ^ arm.slot(&theta)) & determined != 0);
+            incorrect += match solution.free_joint {
+                Some(FreeJoint::Parallel) => {
+                    self.count_incorrect_along_self_motion(solution, &theta)
+                }
                 Some(free) => usize::from(
                     free != FreeJoint::Upper
                         || arm.end(&theta).map(f64::abs).iter().sum::<f64>()
@@ -144,15 +147,15 @@ impl<'a> Judge<'a> {
                 None => 0,
             };
         }
-        wrong
+        incorrect
     }
 
-    /// Holds the family of a wrist against the circle on which the end of the planar arm runs:
+    /// Compares the self-motion of a wrist with the circle of the end of the planar arm:
     /// reached where it is in reach, the tool still.
-    fn count_wrong_along_self_motion(&self, solution: &Solution<6>, theta: &[f64; 6]) -> usize {
+    fn count_incorrect_along_self_motion(&self, solution: &Solution<6>, theta: &[f64; 6]) -> usize {
         let (robot, arm) = (self.robot, self.arm);
         let off = theta[4].sin().abs();
-        let mut wrong = usize::from(off > thresholds::WRIST_MERGE_SIN);
+        let mut incorrect = usize::from(off > thresholds::WRIST_MERGE_SIN);
         for value in [0.7, -2.0, 3.0] {
             let theta_6 = arm.theta(&[value; 6])[5];
             let missing = arm.missing(arm.end_along_self_motion(theta, theta_6)).abs();
@@ -162,43 +165,43 @@ impl<'a> Judge<'a> {
                     // Up to a nanometer beyond reach the arm is stretched or folded there too.
                     let bound =
                         self.made.beyond.max(missing) + (2.0 * off + 1e-14) * (1.0 + arm.reach());
-                    wrong += usize::from(
+                    incorrect += usize::from(
                         residual > bound
                             || missing > thresholds::REACH_TOLERANCE + bound
                             || moved.q[5].to_bits() != value.to_bits(),
                     );
                 }
-                Ok(None) => wrong += 1,
+                Ok(None) => incorrect += 1,
                 Err(_) => {
-                    wrong += usize::from(
+                    incorrect += usize::from(
                         arm.margin(arm.end_along_self_motion(theta, theta_6)) > self.rounding(),
                     );
                 }
             }
         }
-        wrong
+        incorrect
     }
 
-    /// Counts solutions that come twice: the same joints, or two members of a family in place of
+    /// Counts duplicate solutions: the same joints, or two members of a self-motion in place of
     /// one.
-    fn count_twice(&self, solutions: &Solutions<6>) -> usize {
+    fn count_duplicates(&self, solutions: &Solutions<6>) -> usize {
         let all: Vec<_> = solutions.iter().collect();
-        let mut twice = 0;
+        let mut duplicates = 0;
         for (i, one) in all.iter().enumerate() {
             for other in &all[i + 1..] {
                 let [a, b] = [one, other].map(|solution| self.theta_of(&solution.q));
                 let apart: [f64; 6] = std::array::from_fn(|joint| wrapped(a[joint] - b[joint]));
                 let same = apart.iter().all(|apart| *apart < 1e-9);
-                let family = one.free_joint == Some(FreeJoint::Parallel)
+                let self_motion = one.free_joint == Some(FreeJoint::Parallel)
                     && other.free_joint == one.free_joint
                     && one.slot.index() & 2 == other.slot.index() & 2;
-                twice += usize::from(same || (family && apart[0] < 1e-9));
+                duplicates += usize::from(same || (self_motion && apart[0] < 1e-9));
             }
         }
-        twice
+        duplicates
     }
 
-    /// Whether the flags of the branch that made the pose are told, and what they say of the slots
+    /// Whether the flags of the branch that made the pose are set, and what they say of the slots
     /// is so.
     fn is_flagged(&self, solutions: &Solutions<6>, seeded: &Solution<6>) -> bool {
         let [wrist, shoulder, elbow] =
@@ -214,13 +217,14 @@ impl<'a> Judge<'a> {
             wrist.is_some_and(|off| off + plane < thresholds::WRIST_MERGE_SIN),
             wrist.is_none_or(|off| off - plane > thresholds::WRIST_MERGE_SIN),
         );
-        let wrist_told = |solution: &Solution<6>| {
-            let told = solution.singularities().contains(SingularityKind::WRIST)
+        let wrist_flagged = |solution: &Solution<6>| {
+            let determined = solution.singularities().contains(SingularityKind::WRIST)
                 && solution.free_joint == Some(FreeJoint::Parallel);
-            (!is_wrist || told) && (!is_none || solution.free_joint != Some(FreeJoint::Parallel))
+            (!is_wrist || determined)
+                && (!is_none || solution.free_joint != Some(FreeJoint::Parallel))
         };
         let status = solutions.status();
-        let merged_told = |solution: &Solution<6>| {
+        let merged_flagged = |solution: &Solution<6>| {
             let slot = solution.slot.index();
             [(SingularityKind::WRIST, 1), (SingularityKind::ELBOW, 2)].iter().all(|(kind, bit)| {
                 !solution.singularities().contains(*kind)
@@ -236,8 +240,8 @@ impl<'a> Judge<'a> {
         let is_elbow = elbow.is_some_and(|off| off <= straight) && six_is_known && x_is_known;
         let is_shoulder =
             shoulder.is_some_and(|off| off <= 0.5 * (2.0 * self.arm.b() * self.rounding()).sqrt());
-        mine.iter().all(|solution| wrist_told(solution))
-            && solutions.iter().all(merged_told)
+        mine.iter().all(|solution| wrist_flagged(solution))
+            && solutions.iter().all(merged_flagged)
             && (!is_elbow || seeded.singularities().contains(SingularityKind::ELBOW))
             && (!is_shoulder
                 || mine
@@ -245,12 +249,12 @@ impl<'a> Judge<'a> {
                     .all(|solution| solution.singularities().contains(SingularityKind::SHOULDER)))
     }
 
-    /// Whether the representative of the wrist's family has joint 6 at rest, or as near to it as
-    /// the arm reaches, in both elbows; by trying angles of joint 6 all around. With a seed, the
+    /// Whether the representative of the wrist's self-motion has joint 6 at rest, or as near to it
+    /// as the arm reaches, in both elbows; by trying angles of joint 6 all around. With a seed, the
     /// nearest member.
     fn is_nearest_of_self_motion(&self, solutions: &Solutions<6>, rng: &mut Rng) -> bool {
         let shoulder = 4 * usize::from(self.arm.x(&self.made.theta) < 0.0);
-        let told = [0, 2].map(|elbow| {
+        let determined = [0, 2].map(|elbow| {
             let of_slots = [0, 1].map(|wrist| solutions.slot(shoulder + elbow + wrist));
             let merged = [0, 1].iter().all(|wrist| {
                 solutions.status()[shoulder + elbow + wrist]
@@ -268,12 +272,12 @@ impl<'a> Judge<'a> {
         seed[5] = rng.between(-PI, PI);
         let seeded = self.robot.ik_nearest(&self.made.pose, &seed, &[1.0; 6]).unwrap();
         let of_self_motion = self.bounds.hold_plane(&self.theta_of(&seeded.q), &self.made.theta);
-        told == [true; 2]
+        determined == [true; 2]
             && (!of_self_motion || self.is_nearest_of_members(solutions, &seeded, &seed))
     }
 
-    /// Whether no member of a family is nearer to the seed than the solution: neither the joint
-    /// vector that made the pose nor one of many others.
+    /// Whether no member of a self-motion is nearer to the seed than the solution, by trying angles
+    /// of joint 6 all around.
     fn is_nearest_of_members(
         &self,
         solutions: &Solutions<6>,
@@ -282,12 +286,12 @@ impl<'a> Judge<'a> {
     ) -> bool {
         let cost = |q: &[f64; 6]| (0..6).map(|i| wrapped(q[i] - seed[i]).powi(2)).sum::<f64>();
         let least = cost(&nearest.q);
-        let families =
+        let self_motions =
             solutions.iter().filter(|found| found.free_joint == Some(FreeJoint::Parallel));
         let angles = self.reached_angles();
-        let mut members = families.flat_map(|family| {
+        let mut members = self_motions.flat_map(|self_motion| {
             angles.iter().filter_map(|value| {
-                self.robot.with_free_joint(&self.made.pose, family, *value).ok()?
+                self.robot.with_free_joint(&self.made.pose, self_motion, *value).ok()?
             })
         });
         let theta_6 = self.arm.theta(&[nearest.q[5]; 6])[5];
@@ -346,8 +350,8 @@ impl<'a> Judge<'a> {
             && self.made.beyond == 0.0;
         Verdict {
             found: self.is_found(solutions) && seeded.is_some_and(|(_, found)| found),
-            wrong: self.count_wrong(solutions),
-            twice: self.count_twice(solutions),
+            incorrect: self.count_incorrect(solutions),
+            duplicates: self.count_duplicates(solutions),
             flagged: seeded.is_some_and(|(seeded, _)| self.is_flagged(solutions, &seeded))
                 && (!is_on_a_self_motion || self.is_nearest_of_self_motion(solutions, rng)),
         }

@@ -18,7 +18,7 @@ pub use arm::ParallelArm;
 use judge::Judge;
 use place::clear_of_axis_1;
 
-/// No maker's: every parameter plays a part.
+/// Not a real arm: every parameter has an effect.
 pub fn odd() -> ParallelArm {
     ParallelArm {
         a1: 0.07,
@@ -67,7 +67,7 @@ pub fn named(name: &str) -> Subject<6> {
     Subject::new(name, arm, &SIX).with_robot(|_| robot)
 }
 
-/// Arms of the form, with signs, offsets, a base and a flange; the parallel axes drawn at any
+/// Arms of the structure, with signs, offsets, a base and a flange; the parallel axes drawn at any
 /// places along themselves.
 pub fn arms() -> impl Strategy<Value = ParallelArm> {
     let wrist = prop_oneof![Just(0.0), 0.01..0.3];
@@ -214,8 +214,8 @@ impl Arm<6> for ParallelArm {
 
 impl ParallelArm {
     /// Straight arms with a straight wrist and axis 5 along the links: joint 6 is free, and the arm
-    /// reaches with one angle of it alone. So stands a Universal Robots arm that points straight
-    /// up, over axis 1.
+    /// reaches with one angle of it alone. An example is a Universal Robots arm that points
+    /// straight up, over axis 1.
     fn along_the_line(&self) -> Vec<Posture<6>> {
         let place = Place(vec![(At::Wrist, 0.0), (At::Elbow, 0.0)]);
         let (arm, at) = (self.clone(), place.clone());

@@ -1,5 +1,5 @@
-//! Where a hard set places an arm with three parallel axes, and what rounding leaves open of its
-//! joints there.
+//! Where a hard set places an arm with three parallel axes, and the uncertainty of its joints
+//! from rounding there.
 
 use std::f64::consts::PI;
 
@@ -15,8 +15,8 @@ use crate::structures::place::{At, Place};
 const STRAIGHT: f64 = 1e-7;
 /// How near the joints that a pose determines must be to those that made it [rad].
 pub const FOUND: f64 = 1e-6;
-/// Open by more than this, joint 6 is not determined by the pose [rad].
-pub const OPEN: f64 = 0.1;
+/// With a larger uncertainty, joint 6 is not determined by the pose [rad].
+pub const UNDETERMINED: f64 = 0.1;
 
 /// Distance of the wrist from the shoulder's singularity where a set does not ask for it [m].
 pub fn clear_of_axis_1(arm: &ParallelArm) -> f64 {
@@ -40,7 +40,7 @@ pub fn at(arm: &ParallelArm, place: &Place, rng: &mut Rng) -> Option<[f64; 6]> {
     Some(theta)
 }
 
-/// A theta_2 that puts the wrist `x` before axis 1; none where it cannot get there.
+/// A theta_2 that puts the wrist `x` before axis 1; `None` if it cannot get there.
 fn theta_2(arm: &ParallelArm, theta: &[f64; 6], x: f64, rng: &mut Rng) -> Option<f64> {
     let (elbow, last) = (theta[2], theta[2] + theta[3]);
     let along = arm.c2 + arm.c3 * elbow.cos() + arm.d5 * last.cos();
@@ -50,8 +50,8 @@ fn theta_2(arm: &ParallelArm, theta: &[f64; 6], x: f64, rng: &mut Rng) -> Option
     (sine.abs() < 0.99).then_some(forward - across.atan2(along))
 }
 
-/// How far the joints found may be from those that made the pose, by what rounding leaves open of
-/// them (docs/accuracy.md, sections 3 to 5).
+/// How far the joints found may be from those that made the pose, by their uncertainty from
+/// rounding (docs/accuracy.md, sections 3 to 5).
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
     /// theta_1 and theta_5 [rad].
@@ -99,7 +99,8 @@ impl Bounds {
         let merged = if off <= 2.0 * STRAIGHT { off + STRAIGHT } else { 0.0 };
         let r = if theta_3.cos() > 0.0 { longest } else { shortest };
         if r < 1e-9 {
-            // Folded onto axis 2: r = c2 theta_3, and only the direction to the end tells theta_2.
+            // Folded onto axis 2: r = c2 theta_3, and only the direction to the end determines
+            // theta_2.
             return [2.0 * end / (c2 * off.max(1e-300)), 2.0 * end / c2 + merged];
         }
         // A deviation e of theta_3 moves the end by c2 c3 e^2 / (2 r), and turns the upper arm by
@@ -113,9 +114,9 @@ impl Bounds {
     pub fn hold(&self, found: &[f64; 6], made: &[f64; 6]) -> bool {
         let off = |joint: usize| wrapped(found[joint] - made[joint]);
         self.hold_plane(found, made)
-            && (self.six > OPEN
+            && (self.six > UNDETERMINED
                 || (off(5) <= self.six && off(1) <= self.arm[0] && off(2) <= self.arm[1]))
-            && (self.six > OPEN || wrapped(phi(found) - phi(made)) <= self.plane + self.six)
+            && (self.six > UNDETERMINED || wrapped(phi(found) - phi(made)) <= self.plane + self.six)
     }
 
     /// Whether a joint vector has its plane and joint 5, up to its sign, as the one that made the

@@ -1,5 +1,5 @@
-//! The lanes and the scalar solve say the same of every pose that the lanes take, up to where they
-//! take none.
+//! The lanes and the scalar solver agree on every pose that the lanes accept, up to the margins
+//! where they accept none.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::{format, println, string::String, vec::Vec};
@@ -17,14 +17,14 @@ use crate::lanes::on_each_set;
 use crate::rng::Rng;
 use arm::Arm;
 
-/// Poses of each set.
+/// Poses in each set.
 const POSES: usize = 300;
 
-/// Where the poses of a set stand, as a part of a margin: plain from one on. With a lateral offset
-/// b next to the shoulder, x^2 = rho^2 - b^2 is rounded to 1e-5 of itself.
+/// Distance of the poses of a set from a threshold, relative to the margin: regular from one on.
+/// With a lateral offset b near the shoulder, x^2 = rho^2 - b^2 is rounded to 1e-5 of itself.
 const BEYOND: [f64; 7] = [0.5, 0.99, 1.0 - 1e-4, 1.0 + 1e-4, 1.01, 10.0, 100.0];
 
-/// The slots by the lanes; `None` where the pose is not plain or has no solution.
+/// The slots computed in lanes; `None` if the pose is not regular or has no solution.
 fn by_lanes<const N: usize>(
     robot: &Robot<N>,
     pose: &Pose,
@@ -34,9 +34,9 @@ where
     Joints<N>: Arity<N>,
 {
     let mut solutions = robot.unsolved(*pose);
-    let plain = robot.solve_in_lanes(&mut solutions, given);
+    let regular = robot.solve_in_lanes(&mut solutions, given);
     let slot = |slot: usize| solutions.slot(slot).map(|found| (found.q, found.status));
-    plain.then(|| core::array::from_fn(slot))
+    regular.then(|| core::array::from_fn(slot))
 }
 
 fn scalar<const N: usize>(robot: &Robot<N>, pose: Pose, given: RedundancyOf<N>) -> Solutions<N>
@@ -53,30 +53,30 @@ type RegularAnswer<const N: usize> = [Option<([f64; N], Status)>; 8];
 
 #[derive(Default)]
 struct Comparison {
-    plain: usize,
+    regular: usize,
     slots: usize,
-    /// The largest difference, as a part of its bound.
+    /// The largest difference, relative to its bound.
     apart: f64,
 }
 
 impl Comparison {
-    /// Solves a pose both ways.
+    /// Solve a pose both ways and compare.
     fn take(&mut self, arm: &Arm, pose: Pose, what: &str) {
         let pose = checked_pose(&pose).unwrap();
-        let Some(plain) = arm.by_lanes(&pose) else { return };
+        let Some(regular) = arm.by_lanes(&pose) else { return };
         let scalar = arm.scalar(pose);
-        self.plain += 1;
+        self.regular += 1;
         assert_eq!(
-            plain.map(|slot| slot.map_or(Status::empty(), |(_, status)| status)),
+            regular.map(|slot| slot.map_or(Status::empty(), |(_, status)| status)),
             *scalar.status(),
             "{what}, {pose}"
         );
-        for (slot, found) in plain.into_iter().enumerate() {
+        for (slot, found) in regular.into_iter().enumerate() {
             let Some(((q, _), scalar)) = found.zip(scalar.slot(slot)) else { continue };
             assert_eq!(scalar.free_joint, None, "{what}");
-            // A solution closes to 3e-15 of the arm's lengths and to 1e-14 rad, and to what an
-            // offset's digits round off theta; so two are apart by twice that at most, in the pose,
-            // and in the joints by that over the least singular value.
+            // A solution closes to 3e-15 of the arm's lengths and to 1e-14 rad, and to what the
+            // digits of an offset round off theta. Two solutions differ by at most twice that in
+            // the pose, and in the joints by that over the least singular value.
             let rounded_off =
                 f64::EPSILON * arm.offsets.iter().map(|offset| offset.abs()).sum::<f64>();
             let closed = [(3e-15 + rounded_off) * arm.extent, 1e-14 + rounded_off];
@@ -103,8 +103,8 @@ impl Comparison {
     }
 }
 
-/// Arms with and without each offset; between a turned base and tool; with limits that ask for a
-/// full turn.
+/// Arms with and without each offset; between a rotated base and tool; with limits that require a 2
+/// pi equivalent.
 fn arms() -> Vec<Arm> {
     let abb_2600 = || Robot::<6>::named("IRB 2600-12/1.65").unwrap();
     let opw = OpwParameters::abb(0.15, -0.11, 0.45, 0.6, 0.64, 0.1);
@@ -141,7 +141,7 @@ fn arms() -> Vec<Arm> {
     robots.into_iter().map(|(name, robot)| Arm::new(name, robot)).collect()
 }
 
-/// An arm with three parallel axes that counts its angles from upright.
+/// An arm with three parallel axes whose angles are zero when upright.
 fn parallel_arm(a1: f64, [c2, c3]: [f64; 2]) -> Robot<6> {
     let rows = [
         (0.0, 0.0, 0.3, 0.0),
@@ -159,9 +159,9 @@ fn parallel_arm(a1: f64, [c2, c3]: [f64; 2]) -> Robot<6> {
 
 type Place = fn(&Arm, f64, &mut Rng) -> Pose;
 
-/// The margins by name, and the least part of their poses that must be plain: at the edge of reach,
-/// half of the arms reach with neither shoulder; and next to the wrist's, arms with three parallel
-/// axes must stand 1.5e-7 d5 / 1e-6, two centimeters, from the shoulder's singularity.
+/// The margins by name, and the least fraction of their poses that must be regular: at the edge of
+/// reach half of the arms reach with neither shoulder; near the wrist's margin, arms with three
+/// parallel axes must be 1.5e-7 d5 / 1e-6, two centimeters, from the shoulder singularity.
 const MARGINS: [(&str, Place, f64); 3] = [
     ("wrist", Arm::next_to_the_wrist_margin, 0.9),
     ("shoulder", Arm::next_to_the_shoulder_margin, 0.95),
@@ -170,7 +170,7 @@ const MARGINS: [(&str, Place, f64); 3] = [
 
 #[test]
 #[expect(clippy::cast_precision_loss, reason = "counts")]
-fn regular_and_scalar_agree() {
+fn lanes_and_scalar_solver_agree() {
     on_each_set(|set| {
         let mut random = Rng::new(5);
         for arm in &arms() {
@@ -178,13 +178,13 @@ fn regular_and_scalar_agree() {
             let mut run_set = |set_name: String, least: f64, make: &mut dyn FnMut() -> Pose| {
                 let mut tally = Comparison::default();
                 (0..POSES).for_each(|_| tally.take(arm, make(), &set_name));
-                let plain = tally.plain as f64 / POSES as f64;
+                let regular = tally.regular as f64 / POSES as f64;
                 assert!(
-                    if least > 0.0 { plain >= least } else { plain == 0.0 },
-                    "{set_name}: {plain} of the poses are plain"
+                    if least > 0.0 { regular >= least } else { regular == 0.0 },
+                    "{set_name}: {regular} of the poses are regular"
                 );
                 all = Comparison {
-                    plain: all.plain + tally.plain,
+                    regular: all.regular + tally.regular,
                     slots: all.slots + tally.slots,
                     apart: all.apart.max(tally.apart),
                 };
@@ -200,9 +200,10 @@ fn regular_and_scalar_agree() {
                     );
                 }
             }
-            let Comparison { plain, slots, apart } = all;
+            let Comparison { regular, slots, apart } = all;
             println!(
-                "{:24} {:8} {plain:6} plain poses  {slots:6} slots  worst {apart:.3} of the bound",
+                "{:24} {:8} {regular:6} regular poses  {slots:6} slots  worst {apart:.3} of the \
+                 bound",
                 arm.name,
                 set.name()
             );
@@ -211,7 +212,7 @@ fn regular_and_scalar_agree() {
 }
 
 #[test]
-fn in_the_lanes_no_arm_is_plain_that_is_minute_in_its_surroundings() {
+fn no_branch_is_regular_in_lanes_for_an_arm_minute_relative_to_its_end_frames() {
     let base = pose_from_euler_zyx([1e5, -2e5, 0.0], [0.3, 0.0, 0.0]).unwrap();
     let arm = Arm::new(
         "far base",
@@ -226,8 +227,8 @@ fn in_the_lanes_no_arm_is_plain_that_is_minute_in_its_surroundings() {
     });
 }
 
-/// Joint vectors all around, some of them next to where a family's branches meet: each joint by
-/// chance at a quarter turn and `off` from it.
+/// Joint vectors over the whole range, some of them near where branches of a structure meet: each
+/// joint is, at random, at a quarter turn plus `off`.
 fn joints<const N: usize>(random: &mut Rng, off: f64) -> [f64; N] {
     core::array::from_fn(|_| {
         let angle = random.between(-PI, PI);
@@ -239,7 +240,7 @@ fn joints<const N: usize>(random: &mut Rng, off: f64) -> [f64; N] {
     })
 }
 
-/// How many poses were plain, after both ways were held against one another for each.
+/// The number of regular poses, after both solvers were compared for each.
 fn agreeing<const N: usize>(robot: &Robot<N>, reach: f64, random: &mut Rng) -> usize
 where
     Joints<N>: Arity<N>,
@@ -249,22 +250,22 @@ where
         for _ in 0..POSES {
             let q: [f64; N] = joints(random, off);
             let (pose, given) = (robot.fk(&q), Redundancy::of(&q));
-            let Some(plain) = by_lanes(robot, &pose, given) else { continue };
+            let Some(regular) = by_lanes(robot, &pose, given) else { continue };
             let scalar = scalar(robot, pose, given);
             regular_poses += 1;
             assert_eq!(
-                plain.map(|slot| slot.map_or(Status::empty(), |(_, status)| status)),
+                regular.map(|slot| slot.map_or(Status::empty(), |(_, status)| status)),
                 *scalar.status(),
                 "{q:?}"
             );
-            for (slot, found) in plain.into_iter().enumerate() {
+            for (slot, found) in regular.into_iter().enumerate() {
                 let Some(((q, _), scalar)) = found.zip(scalar.slot(slot)) else { continue };
                 let PoseDifference { position, rotation } = robot.residual(&q, &pose);
                 assert!(
                     position <= 3e-15 * reach && rotation <= 1e-14,
                     "{position:e} m, {rotation:e} rad at {q:?}"
                 );
-                // As above; of seven joints, the one that is told counts as fixed.
+                // As above; for seven joints, the given one counts as fixed.
                 let jacobian =
                     robot.jacobian(&q, JacobianFrame::Base).fixed_columns::<6>(0).into_owned();
                 let bound = 2.0 * (3e-15 * reach).hypot(1e-14) / jacobian.singular_values()[5];
@@ -285,7 +286,7 @@ where
 }
 
 #[test]
-fn regular_and_scalar_agree_in_every_structure() {
+fn lanes_and_scalar_solver_agree_in_every_structure() {
     let tool = pose_from_euler_zyx([0.03, -0.02, 0.2], [0.3, -0.7, 1.1]).unwrap();
     let base = pose_from_euler_zyx([0.8, -0.5, 0.3], [-1.9, 0.4, 0.2]).unwrap();
     let limits = [[-7.0, 1.0], [-1.0, 4.5], [-4.7, -0.2], [-9.0, 9.0], [-PI, 0.3], [-0.3, PI]];
@@ -293,20 +294,28 @@ fn regular_and_scalar_agree_in_every_structure() {
         let mut random = Rng::new(7);
         for name in ["UR3", "UR10e"] {
             let robot = Robot::<6>::named(name).unwrap();
-            let turned = robot.clone().with_base(&base).unwrap().with_tool(&tool).unwrap();
+            let rotated = robot.clone().with_base(&base).unwrap().with_tool(&tool).unwrap();
             for robot in
-                [robot.clone(), turned, robot.with_limits(JointLimits::new(limits).unwrap())]
+                [robot.clone(), rotated, robot.with_limits(JointLimits::new(limits).unwrap())]
             {
-                let plain = agreeing(&robot, 3.0, &mut random);
-                assert!(plain > 2 * POSES, "{name}: {plain} of {} poses are plain", 8 * POSES);
+                let regular = agreeing(&robot, 3.0, &mut random);
+                assert!(
+                    regular > 2 * POSES,
+                    "{name}: {regular} of {} poses are regular",
+                    8 * POSES
+                );
             }
         }
         for name in ["Panda", "FR3"] {
             let robot = Robot::<7>::named(name).unwrap();
-            let turned = robot.clone().with_base(&base).unwrap().with_tool(&tool).unwrap();
-            for robot in [robot, turned] {
-                let plain = agreeing(&robot, 3.0, &mut random);
-                assert!(plain > 2 * POSES, "{name}: {plain} of {} poses are plain", 8 * POSES);
+            let rotated = robot.clone().with_base(&base).unwrap().with_tool(&tool).unwrap();
+            for robot in [robot, rotated] {
+                let regular = agreeing(&robot, 3.0, &mut random);
+                assert!(
+                    regular > 2 * POSES,
+                    "{name}: {regular} of {} poses are regular",
+                    8 * POSES
+                );
             }
         }
     });

@@ -1,4 +1,4 @@
-//! Down the valleys of the cost, along the curve of self-motion.
+//! Descends the valleys of the cost along the curve of self-motion.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -7,7 +7,7 @@ use super::Search;
 use crate::kinematics::solve::self_motion_curve::Point;
 use crate::kinematics::thresholds::{FIRST_CURVE_STEP, LARGEST_CURVE_STEP, LEAST_CURVE_STEP};
 
-/// Steps along one curve, and rounds in which the bottom of a valley is found between two of them.
+/// Steps along one curve, and rounds that locate the bottom of a valley between two of them.
 const STEPS: u32 = 120;
 const ROUNDS: u32 = 40;
 
@@ -21,8 +21,8 @@ impl Search<'_> {
             .sum()
     }
 
-    /// Down from a point of the curve; from where the curve comes back inside the limits too, if
-    /// the point is outside.
+    /// Descend from a point of the curve and, if the point is outside the limits, also from where
+    /// the curve re-enters them.
     pub(super) fn descend(&mut self, start: Point) {
         for edge in self.edges(&start).into_iter().flatten() {
             self.downhill(edge);
@@ -30,8 +30,8 @@ impl Search<'_> {
         self.downhill(start);
     }
 
-    /// Where the curve comes back inside the limits: a joint that is outside them stands at its
-    /// limit, and none is outside.
+    /// Where the curve re-enters the limits: one of the joints outside them is at its limit, and
+    /// none is outside.
     fn edges(&self, point: &Point) -> [Option<Point>; 7] {
         let limits = self.robot.limits().to_array();
         core::array::from_fn(|joint| {
@@ -44,8 +44,8 @@ impl Search<'_> {
         })
     }
 
-    /// Down to the bottom of the valley that a point of the curve lies in, inside the limits or
-    /// not; keeps what is inside.
+    /// Descend to the bottom of the valley that a point of the curve is in, inside the limits or
+    /// not; keep the points inside.
     fn downhill(&mut self, start: Point) {
         let (mut point, mut step) = (start, FIRST_CURVE_STEP);
         self.keep(&point.joints());
@@ -75,8 +75,8 @@ impl Search<'_> {
         }
     }
 
-    /// The bottom of a valley between a point and one that is ahead of it, with the slopes at both:
-    /// where the slope is zero, by false position.
+    /// Find the bottom of a valley between a point and one ahead of it, with the slopes at both:
+    /// the zero of the slope, by false position.
     fn bottom(&mut self, point: &Point, ahead: f64, slopes: [f64; 2]) {
         let curve = self.curve;
         let at = |part: f64| curve.across(&(point.q + part * ahead * point.along), &point.along);
@@ -86,11 +86,11 @@ impl Search<'_> {
             let Some(middle) = at(part) else { return };
             self.keep(&middle.joints());
             let slope = self.slope(&middle);
-            // The cost is a square: what a step this small changes of it is below rounding.
+            // The cost is a square: the change from a step this small is below rounding.
             if slope == 0.0 || ((part - high.0) * ahead).abs() < LEAST_CURVE_STEP {
                 return;
             }
-            // The end that stays twice weighs half (Illinois).
+            // An end that is kept twice gets half the weight (Illinois).
             if slope * high.1 < 0.0 {
                 low = high;
             } else {

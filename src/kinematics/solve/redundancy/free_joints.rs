@@ -1,5 +1,4 @@
-//! What a pose leaves open besides joint 7: at a singularity whole families of joint vectors meet
-//! it.
+//! What a pose leaves undetermined besides joint 7: at a singularity, whole self-motions reach it.
 
 use core::f64::consts::TAU;
 
@@ -12,46 +11,45 @@ use crate::error::Error;
 use crate::kinematics::chain::jacobian::JacobianFrame;
 use crate::kinematics::solve::self_motion_curve::Joints;
 
-/// The joints, from 0, of which a solve takes the angle that it is given where the pose leaves them
-/// open.
-const OPEN: [usize; 3] = [0, 4, 5];
+/// The joints, from 0, for which a solve uses the given angle if the pose leaves them undetermined.
+const UNDETERMINED: [usize; 3] = [0, 4, 5];
 
-/// Angles of a joint that are looked at in a turn; between the best one's neighbors its valley is
-/// narrowed.
+/// Angles of a joint that are tried per turn; the valley is narrowed between the neighbors of the
+/// best one.
 const PLACES: u32 = 32;
 
-/// Probes: each leaves 62 % of the way, all of them 1e-9 rad.
+/// Probes: each leaves 62 % of the interval, all of them 1e-9 rad.
 const NARROWINGS: u32 = 42;
 
-/// Where an interval is cut so that the larger part is cut alike: the golden section.
+/// Fraction that divides an interval in the golden section.
 const GOLDEN: f64 = 0.381_966_011_250_105_1;
 
-/// Steps to the nearest place that the tool does not see: each of the seven joints may come to a
-/// limit.
+/// Steps to the nearest joint vector that leaves the tool in place: each of the seven joints may
+/// reach a limit.
 const SLIDES: u32 = 16;
 
 /// Sweeps of the singular value decomposition of a Jacobian.
 const SWEEPS: usize = 100;
 
-/// What a step must gain of the cost to be followed by another [1].
+/// Least relative gain of a step in cost to be followed by another [1].
 const LEAST_GAIN: f64 = 1e-12;
 
-/// Singular values of the Jacobian below which joints do not move the tool, as a part of the
-/// greatest [1]: what is between rounding and this is a curve that descents follow.
+/// Singular values of the Jacobian, relative to the greatest, below which joints do not move the
+/// tool [1]: values between rounding and this belong to a curve that descents follow.
 const STILL: f64 = 1e-6;
 
-/// Weight of a joint as a part of the greatest, at the least [1]: one of no weight has no measure.
+/// Least weight of a joint relative to the greatest [1]: a joint of zero weight has no measure.
 const LEAST_WEIGHT: f64 = 1e-8;
 
-/// Weight of a joint that is held at its limit [1].
-const HELD: f64 = 1e24;
+/// Weight of a joint that is locked at its limit [1].
+const LOCKED: f64 = 1e24;
 
 impl Search<'_> {
-    /// Looks for the nearest of the joint vectors among which the open joints choose, from those of
-    /// a sample on.
+    /// Search the nearest of the joint vectors among which the undetermined joints choose, starting
+    /// from those of a sample.
     pub(super) fn choose_free_joints(&mut self, sample: &Sample) -> Result<(), Error> {
         let mut best = *sample;
-        for joint in OPEN {
+        for joint in UNDETERMINED {
             if let Some(found) = self.choose(&best.q, joint)?
                 && found.is_better_than(Some(&best))
             {
@@ -61,10 +59,10 @@ impl Search<'_> {
         self.slide(best)
     }
 
-    /// Goes to the point nearest to the seed of what does not move the tool, and on from there.
-    /// Several open joints at once, joint 7 among them, turn about one line, so that the sum of
-    /// their angles is all that the pose says: the first step is the last. A joint that comes to a
-    /// limit is held there.
+    /// Move to the point nearest to the seed that leaves the tool in place, and continue from
+    /// there. Several undetermined joints at once, joint 7 among them, turn about one line, so the
+    /// pose determines only the sum of their angles: the first step is the last. A joint that
+    /// reaches a limit is locked there.
     fn slide(&mut self, from: Sample) -> Result<(), Error> {
         let (mut best, mut weights) = (from, self.weights);
         for _ in 0..SLIDES {
@@ -79,7 +77,7 @@ impl Search<'_> {
                 best = found;
             }
             match blocked {
-                Some(joint) => weights[joint] = HELD,
+                Some(joint) => weights[joint] = LOCKED,
                 None if gains => {}
                 None => return Ok(()),
             }
@@ -87,8 +85,8 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// The way to the seed as far as it does not move the tool, small moves of it left out: in the
-    /// measure of `weights` the nearest place of the seed's linear neighborhood.
+    /// The part of the way to the seed that does not move the tool, without small moves of it: in
+    /// the metric of `weights`, the nearest point in the seed's linear neighborhood.
     fn still_tool(&self, q: &[f64; 7], weights: &[f64; 7]) -> Option<[f64; 7]> {
         let most = weights.iter().copied().fold(0.0, f64::max);
         let roots = Joints::from(weights.map(|weight| weight.max(LEAST_WEIGHT * most).sqrt()));
@@ -108,7 +106,7 @@ impl Search<'_> {
         Some(way.component_div(&roots).into())
     }
 
-    /// The part of a way that stays inside the limits, and the joint that ends it.
+    /// The fraction of a way that stays inside the limits, and the joint that ends it.
     fn inside_part(
         &self,
         q: &[f64; 7],
@@ -119,14 +117,14 @@ impl Search<'_> {
         for (joint, [low, high]) in self.robot.limits().to_array().into_iter().enumerate() {
             let limit = if way[joint] < 0.0 { low } else { high };
             let part = ((limit - q[joint]) / way[joint]).max(0.0);
-            if part < first.0 && weights[joint] != HELD {
+            if part < first.0 && weights[joint] != LOCKED {
                 first = (part, Some(joint));
             }
         }
         first
     }
 
-    /// The best solution of every angle of one joint; `None` where the pose determines it.
+    /// The best solution over every angle of one joint; `None` if the pose determines it.
     fn choose(&mut self, rest: &[f64; 7], joint: usize) -> Result<Option<Sample>, Error> {
         let step = TAU / f64::from(PLACES);
         let (here, next) = (self.with(rest, joint, 0.0)?, self.with(rest, joint, step)?);

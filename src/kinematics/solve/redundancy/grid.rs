@@ -1,4 +1,4 @@
-//! Joint 7 from one edge of reach to the next.
+//! Samples joint 7 from one edge of reach to the next.
 
 use core::f64::consts::{PI, TAU};
 
@@ -14,11 +14,11 @@ use crate::kinematics::solve::self_motion_curve::Joints;
 use crate::kinematics::structure::spherical_shoulder::EDGES;
 use crate::kinematics::thresholds::SAMPLE_LEAP;
 
-/// How often the distance of two samples is halved where a joint goes far between them.
+/// How often the interval between two samples is bisected where a joint moves far between them.
 const DEPTH: u32 = 12;
 
-/// Intervals between two marks at least: half a turn of joint 5 in steps far below [`SAMPLE_LEAP`],
-/// so that two valleys next to an edge are told apart.
+/// Least number of intervals between two marks: half a turn of joint 5 in steps far below
+/// [`SAMPLE_LEAP`], so that two valleys near an edge are resolved.
 const LEAST_INTERVALS: f64 = 16.0;
 
 /// Angles of joint 7 in ascending order.
@@ -46,8 +46,8 @@ impl Marks {
 }
 
 impl Search<'_> {
-    /// Looks at every slot between the edges of reach, at angles that are `spacing` [rad] apart at
-    /// most, and goes down from each slot's minima.
+    /// Sample every slot between the edges of reach, at angles at most `spacing` [rad] apart, and
+    /// descend from the minima of each slot.
     pub(super) fn between_edges(&mut self, spacing: f64) -> Result<(), Error> {
         let Some(marks) = self.marks() else { return Ok(()) };
         let mut left = self.samples_at(marks.angles[0])?;
@@ -58,7 +58,7 @@ impl Search<'_> {
             }
             let right = self.samples_at(high)?;
             if self.samples_at(0.5 * (low + high))?.are_none() {
-                // The edges may touch: all that is reached is at the mark itself.
+                // The edges may touch: the only reachable angle is then the mark itself.
                 self.step(&mut seen, &Samples::NONE)?;
                 seen = [Samples::NONE, right];
             } else {
@@ -69,8 +69,8 @@ impl Search<'_> {
         self.step(&mut seen, &Samples::NONE)
     }
 
-    /// Looks at the samples from one edge to the next, the closer together the nearer to an edge:
-    /// there the other joints move by the root of what joint 7 does.
+    /// Sample from one edge to the next, more densely near an edge: there the other joints move
+    /// with the square root of joint 7.
     fn interval(
         &mut self,
         seen: &mut [Samples; 2],
@@ -91,8 +91,8 @@ impl Search<'_> {
         self.between(seen, &left, last, 0)
     }
 
-    /// Looks at the samples between two angles of joint 7, and at the one on the right: the more,
-    /// the farther the joints go between them.
+    /// Sample between two angles of joint 7, and at the right one: more densely the farther the
+    /// joints move between them.
     fn between(
         &mut self,
         seen: &mut [Samples; 2],
@@ -108,14 +108,14 @@ impl Search<'_> {
         self.step(seen, right)
     }
 
-    /// One sample on: the last one has both its neighbors then.
+    /// Advance by one sample: the last one then has both its neighbors.
     fn step(&mut self, seen: &mut [Samples; 2], next: &Samples) -> Result<(), Error> {
         let [before, here] = *seen;
         *seen = [here, *next];
         self.look_at(&here, [&before, next])
     }
 
-    /// Goes down from samples where they are better than both neighbors.
+    /// Descend from samples that are better than both neighbors.
     pub(super) fn look_at(
         &mut self,
         here: &Samples,
@@ -125,7 +125,7 @@ impl Search<'_> {
         for slot in 0..MOST_SLOTS {
             let Some(sample) = here.slots[slot] else { continue };
             let neighbors = neighbors.map(|samples| samples.slots[slot].as_ref());
-            // Where other joints are outside than next to it, there may be none between.
+            // If more joints are outside than at the neighbor, there may be no sample between.
             let edge = |other: Option<&Sample>| {
                 other.is_none_or(|other| other.joints_outside != sample.joints_outside)
             };
@@ -146,10 +146,10 @@ impl Search<'_> {
         free.map_or(Ok(()), |sample| self.choose_free_joints(&sample))
     }
 
-    /// Whether something between a sample and its neighbors may cost less than what was found.
+    /// Whether a point between a sample and its neighbors may cost less than the best found.
     fn may_gain(&self, sample: &Sample, neighbors: [Option<&Sample>; 2]) -> bool {
         let Some((least, _)) = self.best else { return true };
-        // Where a slot ends, it may go as far again.
+        // Where a slot ends, it may extend by as much again.
         let end = SAMPLE_LEAP * self.weights.iter().sum::<f64>().sqrt();
         let apart = |other: Option<&Sample>| {
             other.map_or(end, |other| {
@@ -160,7 +160,7 @@ impl Search<'_> {
         sample.cost.sqrt() - 2.0 * farthest < least.sqrt()
     }
 
-    /// How far a pose that is reached by no angle of joint 7 is out of reach.
+    /// How far a pose that no angle of joint 7 reaches is out of reach.
     pub(super) fn least_shortfall(&mut self, spacing: f64) -> Result<(), Error> {
         let (low, high) = self.range();
         let intervals = ((high - low) / spacing).ceil().max(2.0);
@@ -172,8 +172,8 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// The edges of reach between the angles that joint 7 alone makes no dearer than what was
-    /// found, and these.
+    /// The edges of reach within the range in which joint 7 alone does not exceed the best cost,
+    /// and the ends of that range.
     fn marks(&self) -> Option<Marks> {
         let window = self.best.map_or(f64::INFINITY, |(cost, _)| (cost / self.weights[6]).sqrt());
         let (low, high) = self.range();
@@ -194,8 +194,8 @@ impl Search<'_> {
         Some(marks)
     }
 
-    /// Between which angles joint 7 is looked for: its limits, or the full turn inside them that is
-    /// nearest to the seed.
+    /// The range of joint 7 to search: its limits, or the turn inside them that is nearest to the
+    /// seed.
     fn range(&self) -> (f64, f64) {
         let [low, high] = self.robot.limits().to_array()[6];
         if high - low <= TAU {

@@ -1,9 +1,9 @@
-//! An arm of seven joints has one more than a pose needs: which of the joint vectors of a pose is
+//! Finds the joint vector of a seven-joint arm, which has one joint more than a pose needs, that is
 //! nearest to a seed.
 //!
-//! docs/spherical_shoulder.md, section 5, has the method and what it promises. [`grid`] looks at
-//! joint 7 between the edges of reach, [`descent`] goes down the valleys of the cost that it shows,
-//! [`free_joints`] chooses what a pose leaves open.
+//! docs/spherical_shoulder.md, section 5, has the method and its guarantees. [`grid`] samples joint
+//! 7 between the edges of reach, [`descent`] descends the valleys of the cost that it finds,
+//! [`free_joints`] chooses the joints that a pose leaves undetermined.
 
 mod descent;
 mod free_joints;
@@ -54,7 +54,7 @@ impl Robot<7> {
         let Some(q) = found.nearest() else { return Ok(found.missed.explanation) };
         Ok(match self.ik_checked(*pose, q[6])?.explain() {
             found @ Explanation::Found { .. } => found,
-            // Inside only to the tolerance of the limits.
+            // Inside the limits only within their tolerance.
             _ => Explanation::Found { solutions: 1, inside: 1 },
         })
     }
@@ -111,11 +111,11 @@ impl Robot<7> {
     }
 }
 
-/// What comes the nearest to a solution inside the limits.
+/// The nearest approach to a solution inside the limits.
 struct Missed {
     /// How far the pose is out of reach [m].
     shortfall: f64,
-    /// How far the joint that is outside its limits the most is outside them [rad].
+    /// How far the joint that exceeds its limits most is outside them [rad].
     outside: f64,
     explanation: Explanation,
 }
@@ -128,32 +128,31 @@ impl Missed {
     };
 }
 
-/// A search along the redundancy, and what it has found.
+/// A search along the redundancy, and its result so far.
 struct Search<'a> {
     robot: &'a Robot<7>,
     curve: SelfMotion<'a>,
     pose: &'a Pose,
     seed: [f64; 7],
     weights: [f64; 7],
-    /// The cost of the joint vector that costs the least, and it.
+    /// The least cost and its joint vector.
     best: Option<(f64, [f64; 7])>,
-    /// The same of those that are off the pose by more than they may be: the pose is a hair beyond
-    /// reach.
+    /// The same for joint vectors that are farther off the pose than permitted: the pose is
+    /// slightly beyond reach.
     nearly: Option<(f64, [f64; 7])>,
     missed: Missed,
 }
 
 impl Search<'_> {
     fn run(&mut self) -> Result<(), Error> {
-        // Nothing costs less than nothing, and next to a singularity no solve says as much as
-        // joints that are known.
+        // No cost is below zero, and near a singularity known joints are more exact than any solve.
         if self.closes(&self.seed) {
             self.keep(&self.seed.clone());
         }
         if self.best.is_some() {
             return Ok(());
         }
-        // The solution that goes on from the seed, with its joint 7 and along the curve.
+        // The solution that continues from the seed, with its joint 7 and along the curve.
         self.samples(&self.seed.clone())?;
         if let Some(start) = self.curve.nearest(&Joints::from(self.seed)) {
             self.descend(start);
@@ -172,7 +171,7 @@ impl Search<'_> {
         self.best.or(self.nearly).map(|(_, q)| q)
     }
 
-    /// Keeps a joint vector inside the limits that costs less than what was found.
+    /// Keep a joint vector inside the limits if it costs less than the best found.
     fn keep(&mut self, q: &[f64; 7]) {
         let cost = self.cost(q);
         let cheaper = |found: Option<(f64, [f64; 7])>| found.is_none_or(|(least, _)| cost < least);
@@ -193,7 +192,7 @@ impl Search<'_> {
         }
     }
 
-    /// Whether a joint vector meets the pose to rounding.
+    /// Whether a joint vector reaches the pose to rounding.
     fn closes(&self, q: &[f64; 7]) -> bool {
         self.robot.residual(q, self.pose).largest() <= self.curve.rounding
     }

@@ -1,4 +1,4 @@
-//! The solutions of all slots with joint 7 at an angle.
+//! The solutions of all slots for an angle of joint 7.
 
 use core::cmp::Ordering;
 use core::f64::consts::TAU;
@@ -13,24 +13,24 @@ use crate::kinematics::answer::status::Status;
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::thresholds::SAMPLE_LEAP;
 
-/// A solution, at its turns nearest to the seed where those are inside the limits.
+/// A solution, at its 2 pi equivalents nearest to the seed if those are inside the limits.
 #[derive(Clone, Copy)]
 pub(super) struct Sample {
     pub(super) q: [f64; 7],
-    /// The joints that are outside their limits, a bit each, and by how much the farthest is [rad].
+    /// The joints outside their limits, one bit each, and the largest excess [rad].
     pub(super) joints_outside: u8,
     pub(super) outside: f64,
     pub(super) cost: f64,
-    /// Whether the pose may leave another joint open than joint 7: a straight elbow may leave the
-    /// shoulder on axis 5 to rounding.
+    /// Whether the pose may leave a joint besides joint 7 undetermined: a straight elbow may leave
+    /// the shoulder on axis 5 to rounding.
     pub(super) is_free: bool,
 }
 
 impl Sample {
     fn leaps_to(&self, other: &Self) -> bool {
         let leaps = |(a, b): (&f64, &f64)| {
-            let turned = a - b;
-            (turned - TAU * (turned / TAU).round()).abs() > SAMPLE_LEAP
+            let rotated = a - b;
+            (rotated - TAU * (rotated / TAU).round()).abs() > SAMPLE_LEAP
         };
         self.q.iter().zip(&other.q).any(leaps)
     }
@@ -57,9 +57,9 @@ impl Samples {
         self.slots.iter().all(Option::is_none)
     }
 
-    /// Whether a joint of some slot goes so far to the other samples that something may be missed
-    /// between. At an edge of reach a slot goes on in a twin, of another elbow or wrist but the
-    /// same shoulder.
+    /// Whether a joint of some slot moves so far to the other samples that something may be missed
+    /// between them. At an edge of reach a slot continues in a twin with another elbow or wrist but
+    /// the same shoulder.
     pub(super) fn leap_to(&self, other: &Self) -> bool {
         let ends = |slot: usize, end: &Sample, others: &Self| {
             let shoulder = slot / 4 * 4;
@@ -74,7 +74,7 @@ impl Samples {
         })
     }
 
-    /// The best of all slots.
+    /// The best sample of all slots.
     pub(super) fn best(&self) -> Option<Sample> {
         let better = |best: Option<Sample>, sample: &Sample| {
             if sample.is_better_than(best.as_ref()) { Some(*sample) } else { best }
@@ -84,12 +84,12 @@ impl Samples {
 }
 
 impl Search<'_> {
-    /// The solutions with joint 7, and what else the pose leaves open, as `rest` has them.
+    /// The solutions with joint 7, and the other undetermined joints, at their values in `rest`.
     pub(super) fn samples(&mut self, rest: &[f64; 7]) -> Result<Samples, Error> {
         let solutions = self.robot.solve(*self.pose, &FreeChoice::seed(*rest))?;
         let slots = core::array::from_fn(|slot| {
             let solution = solutions.slot(slot)?;
-            let q = self.robot.limits().turned_to(&solution.q, &self.seed).unwrap_or(solution.q);
+            let q = self.robot.limits().wrapped_near(&solution.q, &self.seed).unwrap_or(solution.q);
             Some(Sample {
                 q,
                 joints_outside: self.joints_outside(&q),
@@ -108,7 +108,7 @@ impl Search<'_> {
         Ok(Samples { q7: rest[6], slots })
     }
 
-    /// The solutions with joint 7 at an angle, the others that are open as the seed has them.
+    /// The solutions with joint 7 at an angle, the other undetermined joints at the seed's.
     pub(super) fn samples_at(&mut self, q7: f64) -> Result<Samples, Error> {
         let mut rest = self.seed;
         rest[6] = q7;

@@ -1,16 +1,16 @@
-//! Rows of poses through a kernel, a block of lanes at a time.
+//! Passes rows of poses through a kernel, one block of lanes at a time.
 
 use super::{AnswerRow, Columns, LaneKernel, PoseRow, Poses, StatusRow};
 use crate::kinematics::structure::end_frames::Seen;
 use crate::kinematics::structure::redundancy::Redundancy;
 use crate::lanes::{Flags, Kernel, LANES};
 
-/// What becomes of a block of poses.
+/// A block of poses with its solutions.
 pub(crate) trait Block<K: LaneKernel<N, S>, const N: usize, const S: usize> {
     /// Room for a block.
     const NEW: Self;
 
-    /// Solves the last frames of the structure, seen from its first, and returns which are regular.
+    /// Solve for the last frames of the structure in its first frame; return which are regular.
     /// Must be `#[inline(always)]`.
     fn solve<const FUSED: bool>(
         &mut self,
@@ -20,11 +20,11 @@ pub(crate) trait Block<K: LaneKernel<N, S>, const N: usize, const S: usize> {
         redundancy: <K::Redundancy as Redundancy>::Lanes,
     ) -> Flags;
 
-    /// Writes the slots as rows.
+    /// Write the slots as rows.
     fn write(&self, q: &mut [AnswerRow<N, S>; LANES], status: &mut [StatusRow<S>; LANES]);
 }
 
-/// Rows to be solved; `by_itself` solves one that is not regular, by its number.
+/// Rows to be solved; `by_itself` solves a row that is not regular, by index.
 pub(crate) struct Blocks<'a, K: LaneKernel<N, S>, F, const N: usize, const S: usize> {
     pub(crate) kernel: &'a K,
     pub(crate) columns: &'a Columns<N>,
@@ -57,8 +57,8 @@ where
         }
         for (i, (q, status)) in q_blocks.iter_mut().zip(status_blocks).enumerate() {
             let mut poses = next;
-            // Read before the block at hand is solved: what is written number by number cannot be
-            // read at once in vectors.
+            // The next block is read before the current one is solved: numbers that were just
+            // written one by one cannot be loaded as vectors at once.
             if let Some(following) = blocks.get(i + 1) {
                 next.read(following);
             }
@@ -84,8 +84,8 @@ where
     }
 }
 
-/// What a block is solved with. A type, because a closure is not inlined into a kernel for certain,
-/// and then not compiled for its instructions.
+/// The parameters of a block solve. A type, because a closure is not reliably inlined into a
+/// kernel, and would then not be compiled for its instruction set.
 struct Lanes<'a, K: LaneKernel<N, S>, const N: usize, const S: usize> {
     kernel: &'a K,
     columns: &'a Columns<N>,
@@ -94,7 +94,7 @@ struct Lanes<'a, K: LaneKernel<N, S>, const N: usize, const S: usize> {
 }
 
 impl<K: LaneKernel<N, S>, const N: usize, const S: usize> Lanes<'_, K, N, S> {
-    /// Checks block number `number` of the poses and solves it; returns which poses are regular.
+    /// Check and solve block number `number` of the poses; return which poses are regular.
     #[inline(always)]
     fn solve<const FUSED: bool>(
         &self,

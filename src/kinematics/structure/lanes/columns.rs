@@ -1,4 +1,4 @@
-//! From theta to the joint's angle, a column of lanes at a time.
+//! From theta to joint angles, one column of lanes at a time.
 
 use core::f64::consts::{PI, TAU};
 
@@ -9,20 +9,20 @@ use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::joint_map::JointMap;
 use crate::kinematics::thresholds::LIMIT_TOLERANCE;
 
-/// How joint angles come from the angles that lanes calculate.
+/// How joint angles follow from the angles that lanes compute.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Columns<const N: usize> {
     pub(crate) joints: [JointColumn; N],
-    /// How much of theta_2 is taken off theta_23 for joint 3: one, or nothing of an arm with
+    /// Factor of theta_2 that is subtracted from theta_23 for joint 3: one, or zero for an arm with
     /// coupled axes (eq. 25).
     pub(crate) uncoupled: f64,
-    /// The serial joint 3, of an arm whose linkage has limits.
+    /// The serial joint 3, if the linkage of the arm has limits.
     pub(crate) linkage: Option<JointColumn>,
 }
 
 impl<const N: usize> Columns<N> {
-    /// `differences` are the joints, from 0, whose theta is a difference of two angles. `None`
-    /// where limits ask for more than what lanes do.
+    /// `differences` are the joints, from 0, whose theta is a difference of two angles. `None` if
+    /// the limits require more than the lanes can do.
     pub(crate) fn of(
         map: &JointMap<N>,
         differences: &[usize],
@@ -42,25 +42,24 @@ impl<const N: usize> Columns<N> {
     }
 }
 
-/// How the angle of one joint comes from theta, and what its limits ask of it: the same for every
-/// lane.
+/// How the angle of one joint follows from theta, and its limits: the same for every lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct JointColumn {
     sign: f64,
     offset: f64,
     low: f64,
     high: f64,
-    /// Whether theta may have to be turned over, shifted or wrapped.
+    /// Whether theta may have to be negated, shifted or wrapped.
     moves: bool,
-    /// Whether the limits leave anything out of (-pi, pi].
+    /// Whether the limits exclude a part of (-pi, pi].
     limits: bool,
-    /// Whether a full turn of an angle outside the limits may be inside them.
+    /// Whether a 2 pi equivalent of an angle outside the limits may be inside them.
     turns: bool,
 }
 
 impl JointColumn {
-    /// Of each joint; `differences` are those whose theta is a difference of two angles, from 0.
-    /// `None` where limits lie so far out that more than one full turn may be needed.
+    /// One column per joint; `differences` are the joints, from 0, whose theta is a difference of
+    /// two angles. `None` if limits are so far from zero that more than one turn may be needed.
     fn of<const N: usize>(
         signs: &[f64; N],
         offsets: &[f64; N],
@@ -87,47 +86,47 @@ impl JointColumn {
         }))
     }
 
-    /// What is left of the status of a lane that is outside the limits.
+    /// Mask for the status of a lane that is outside the limits.
     pub(crate) const OUTSIDE: u64 = !(Status::WITHIN_LIMITS.bits() as u64);
 
-    /// What is left of the status of a lane whose angle of this joint is `angle`, as it is.
+    /// Mask for the status of a lane whose angle of this joint is `angle`, without wrapping.
     #[inline(always)]
     pub(crate) fn limited(self, angle: f64) -> u64 {
         if self.holds(angle) { u64::MAX } else { Self::OUTSIDE }
     }
 
-    /// The angle of this joint in (-pi, pi], or the full turn inside the limits (eq. 19, 20), and
-    /// whether it is inside.
+    /// The angle of this joint in (-pi, pi], or its 2 pi equivalent inside the limits (eq. 19, 20),
+    /// and whether it is inside.
     #[inline(always)]
     pub(crate) fn wrapped(self, theta: f64) -> (f64, bool) {
-        let angle = self.turned(self.moved(theta));
+        let angle = self.shifted(self.to_joint(theta));
         (angle, self.holds(angle))
     }
 
-    /// What is left of the status of a lane with this theta, at whatever turn.
+    /// Mask for the status of a lane with this theta, modulo 2 pi.
     #[inline(always)]
     pub(crate) fn left_of(self, theta: f64) -> u64 {
         if self.wrapped(theta).1 { u64::MAX } else { Self::OUTSIDE }
     }
 
-    /// [`Self::settled`] for many, leaving out what this joint does not need. Takes `WITHIN_LIMITS`
-    /// from the status of those outside.
+    /// [`Self::wrapped`] for many, without the steps that this joint does not need. Clears
+    /// `WITHIN_LIMITS` in the status of those outside.
     #[inline(always)]
     pub(crate) fn wrap(self, angles: &mut [f64], status: &mut [u64]) {
         if self.moves {
             for angle in angles.iter_mut() {
-                *angle = self.moved(*angle);
+                *angle = self.to_joint(*angle);
             }
         } else {
             for angle in angles.iter_mut() {
-                // The offset is zero: as in `moved`, it makes a plus of a zero's minus.
+                // The offset is zero; as in `to_joint`, adding it turns minus zero into zero.
                 let theta = *angle + self.offset;
                 *angle = if theta <= -PI { PI } else { theta };
             }
         }
         if self.turns {
             for angle in angles.iter_mut() {
-                *angle = self.turned(*angle);
+                *angle = self.shifted(*angle);
             }
         }
         if self.limits {
@@ -137,17 +136,17 @@ impl JointColumn {
         }
     }
 
-    /// In (-pi, pi]. Theta is within a turn of zero and the offset within half a turn, so that one
-    /// turn is enough.
+    /// The joint angle in (-pi, pi]. Theta is within a turn of zero and the offset within half a
+    /// turn, so one turn is enough.
     #[inline(always)]
-    fn moved(self, theta: f64) -> f64 {
+    fn to_joint(self, theta: f64) -> f64 {
         let angle = self.sign * (theta + self.offset);
         let angle = if angle > PI { angle - TAU } else { angle };
         if angle <= -PI { angle + TAU } else { angle }
     }
 
     #[inline(always)]
-    fn turned(self, angle: f64) -> f64 {
+    fn shifted(self, angle: f64) -> f64 {
         let (up, down) = (angle + TAU, angle - TAU);
         let raised = if (angle < self.low) & (up <= self.high) { up } else { angle };
         if (angle > self.high) & (down >= self.low) { down } else { raised }

@@ -21,7 +21,7 @@ impl<const D: usize, const W: usize> Directions<D, W> {
         (self.sin[number][lane], self.cos[number][lane]) = (sin, cos);
     }
 
-    /// One arc tangent after the other, none of which waits for another.
+    /// Arc tangents in sequence, independent of one another.
     #[inline(always)]
     pub(crate) fn angles<const FUSED: bool>(&mut self) {
         let (sin, cos) = (self.sin.as_flattened(), self.cos.as_flattened());

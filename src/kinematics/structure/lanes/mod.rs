@@ -3,7 +3,7 @@
 mod block;
 mod columns;
 mod directions;
-// Every structure so far has a kernel; the test of the contract has none.
+// Every structure so far has a kernel; only the contract's test structure has none.
 #[cfg(test)]
 mod no_kernel;
 mod poses;
@@ -27,23 +27,23 @@ use crate::kinematics::answer::status::Status;
 pub(crate) type AnswerRow<const N: usize, const S: usize> = [[f64; N]; S];
 pub(crate) type StatusRow<const S: usize> = [u8; S];
 
-/// Flags of a branch that reaches, before the limits are looked at.
+/// Flags of a branch that reaches, before the limits are checked.
 pub(crate) const FOUND_INSIDE: u64 = Status::FOUND.union(Status::WITHIN_LIMITS).bits() as u64;
 
-/// The branches of a structure in arithmetic alone, without a branch of the program: what runs in
-/// lanes.
+/// The branches of a structure in branch-free arithmetic, which runs in lanes.
 ///
-/// Where a branch does not reach, its flags are empty and its angles are not numbers, as the root
-/// of a negative number is: that is what rows of an answer hold there. It solves regular poses and
-/// reports which poses are: those away from every singularity and from the edge of reach, on all
-/// branches. It holds the constants of an arm that are ready to be calculated with.
+/// Where a branch does not reach, its flags are empty and its angles are NaN, like the root of a
+/// negative number: rows of an answer contain that there. A kernel solves regular poses and reports
+/// which poses are regular: those away from every singularity and from the edge of reach, on all
+/// branches. It holds the precomputed constants of an arm.
 pub(crate) trait LaneKernel<const N: usize, const S: usize>:
     Copy + Debug + PartialEq
 {
-    /// Joints, from 0, whose theta is a difference of two angles, and so may be a turn off.
+    /// Joints, from 0, whose theta is a difference of two angles and may therefore be off by a
+    /// turn.
     const DIFFERENCES: &'static [usize];
 
-    /// What a caller gives with a pose.
+    /// The redundancy parameter that a caller gives with a pose.
     type Redundancy: Redundancy;
 
     /// The slots of one regular pose.
@@ -52,8 +52,8 @@ pub(crate) trait LaneKernel<const N: usize, const S: usize>:
     /// The slots of a block of poses.
     type Block: Block<Self, N, S>;
 
-    /// Solves the last frame of the structure, seen from its first; nothing where it is not
-    /// regular. Must be `#[inline(always)]`.
+    /// Solve for the last frame of the structure in its first frame; `None` if it is not regular.
+    /// Must be `#[inline(always)]`.
     fn solve_one<const FUSED: bool>(
         &self,
         columns: &Columns<N>,
@@ -64,18 +64,18 @@ pub(crate) trait LaneKernel<const N: usize, const S: usize>:
 
 /// The slots of a regular pose.
 pub(crate) trait RegularPose<const N: usize> {
-    /// The joint angles and the flags of a slot, where there is a solution.
+    /// The joint angles and the flags of a slot; `None` if it has no solution.
     fn slot(&self, slot: usize) -> Option<([f64; N], u8)>;
 }
 
-/// The angle half a turn on.
+/// The angle plus half a turn.
 #[inline(always)]
 pub(crate) fn half_turn(angle: f64) -> f64 {
     angle + if angle > 0.0 { -core::f64::consts::PI } else { core::f64::consts::PI }
 }
 
-/// An angle that branches share, of a branch with this status: not a number where it does not
-/// reach, as the angles that are its own.
+/// An angle that branches share, for a branch with this status: NaN if it does not reach, like the
+/// angles of its own.
 #[inline(always)]
 pub(crate) fn where_found(status: u64, angle: f64) -> f64 {
     if status == 0 { f64::NAN } else { angle }

@@ -1,11 +1,11 @@
-//! The kernel of a structure that has none: every pose goes through its scalar solve.
+//! The kernel of a structure without one: every pose is solved by the scalar solver.
 
 use super::{AnswerRow, Block, Columns, LaneKernel, Poses, RegularPose, StatusRow};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::redundancy::Redundancy;
 use crate::lanes::{Flags, LANES};
 
-/// There is none: no value of this type exists.
+/// No kernel: this type has no values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum NoKernel {}
 
@@ -27,7 +27,7 @@ impl<const N: usize> RegularPose<N> for NoKernel {
     }
 }
 
-/// No block is ever solved.
+/// A block that is never solved.
 pub(crate) struct NoBlock;
 
 impl<const N: usize, const S: usize> Block<NoKernel, N, S> for NoBlock {

@@ -1,4 +1,4 @@
-//! A block of poses in lanes: read, checked, and seen as the arm sees them.
+//! A block of poses in lanes: read, checked, and expressed in the arm's frames.
 
 use crate::kinematics::pose::rotation::{Rows3, determinant, gram_excess, nearest_rotation};
 use crate::kinematics::structure::end_frames::{Frame, Seen};
@@ -73,7 +73,7 @@ impl Poses {
         [p[0][lane], p[1][lane], p[2][lane]] = origin;
     }
 
-    /// The lanes that hold a pose; a rotation that is off by little is repaired.
+    /// The lanes that hold a pose; a rotation with small errors is repaired.
     #[inline(always)]
     #[expect(
         clippy::float_cmp,
@@ -105,12 +105,12 @@ impl Poses {
         sound
     }
 
-    /// From the tool in the world to the wrist in the shoulder's frame (eq. 1).
+    /// From the tool in the world frame to the wrist in the shoulder frame (eq. 1).
     #[inline(always)]
     pub(crate) fn seen_from_shoulder<const FUSED: bool>(&mut self, seen: Seen) {
         if seen.turns {
             for lane in 0..LANES {
-                let frame = seen.turned::<FUSED>(&self.frame(lane));
+                let frame = seen.rotated::<FUSED>(&self.frame(lane));
                 self.set_rotation(lane, frame.rotation);
                 self.set_origin(lane, frame.origin);
             }

@@ -13,7 +13,7 @@ pub(crate) struct SlotColumns<const N: usize, const S: usize> {
 impl<const N: usize, const S: usize> SlotColumns<N, S> {
     pub(crate) const NEW: Self = Self { q: [[[0.0; LANES]; S]; N], status: [[0; LANES]; S] };
 
-    /// From theta to the joint angles, held against the limits.
+    /// Convert theta to joint angles and check them against the limits.
     #[inline(always)]
     pub(crate) fn wrap(&mut self, columns: &[JointColumn; N]) {
         for joint in 0..N {
@@ -21,8 +21,7 @@ impl<const N: usize, const S: usize> SlotColumns<N, S> {
         }
     }
 
-    /// The same, with the last joint where it was `given`: of every slot that is found, it is that
-    /// angle.
+    /// The same, with the last joint equal to `given` in every slot that is found.
     #[inline(always)]
     pub(crate) fn wrap_given(&mut self, columns: &[JointColumn; N], given: &Column) {
         for joint in 0..N - 1 {
@@ -38,7 +37,7 @@ impl<const N: usize, const S: usize> SlotColumns<N, S> {
         }
     }
 
-    /// Writes them as rows, two numbers at a time.
+    /// Write the slots as rows, two numbers at a time.
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "flags of a byte")]
     pub(crate) fn write(
@@ -59,14 +58,14 @@ impl<const N: usize, const S: usize> SlotColumns<N, S> {
         }
     }
 
-    /// The column of a number of a row.
+    /// The column with an index in a row.
     #[inline(always)]
     fn column(&self, number: usize) -> &Column {
         &self.q[number % N][number / N]
     }
 }
 
-/// Joint angles and status of the slots of a plain pose.
+/// Joint angles and status of the slots of a regular pose.
 pub(crate) struct RegularSlots<const N: usize, const S: usize> {
     pub(crate) q: [[f64; S]; N],
     pub(crate) status: [u64; S],
@@ -75,7 +74,7 @@ pub(crate) struct RegularSlots<const N: usize, const S: usize> {
 impl<const N: usize, const S: usize> RegularSlots<N, S> {
     pub(crate) const NEW: Self = Self { q: [[0.0; S]; N], status: [0; S] };
 
-    /// Puts theta of joint `joint`, from 0, into a slot as the joint's angle.
+    /// Write theta of joint `joint`, from 0, to a slot as the joint's angle.
     #[inline(always)]
     pub(crate) fn wrap(&mut self, slot: usize, joint: usize, theta: f64, column: JointColumn) {
         let (angle, inside) = column.wrapped(theta);

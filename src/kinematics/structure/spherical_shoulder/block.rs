@@ -11,7 +11,7 @@ use crate::lanes::{Column, Flags, LANES};
 /// Slots of the structure.
 pub(super) const SLOTS: usize = 8;
 
-/// Branches of elbow and wrist; the shoulder flips each.
+/// Branches of elbow and wrist; each has two shoulders.
 pub(super) const BRANCHES: usize = SLOTS / 2;
 
 /// Columns of the directions: one for each elbow, then five for each branch.
@@ -23,7 +23,7 @@ const THETA_5: usize = THETA_3 + BRANCHES;
 const THETA_6: usize = THETA_5 + BRANCHES;
 const DIRECTIONS: usize = THETA_6 + BRANCHES;
 
-/// What becomes of a block of poses.
+/// A block of poses with its solutions.
 pub(crate) struct ShoulderBlock {
     /// Sines and cosines, of any length.
     directions: Directions<DIRECTIONS, LANES>,
@@ -80,7 +80,7 @@ impl ShoulderBlock {
         let status = if branch.reached { FOUND_INSIDE } else { 0 };
         self.slots.status[number][lane] = status;
         self.slots.status[number + BRANCHES][lane] = status;
-        self.regular[lane] &= u64::from(branch.plain);
+        self.regular[lane] &= u64::from(branch.regular);
     }
 
     /// theta of every slot (eq. 64).

@@ -1,7 +1,7 @@
-//! The branches of the arm in arithmetic alone: what runs in lanes.
+//! The branches of the arm in branch-free arithmetic, which runs in lanes.
 //!
-//! The equations are those of `elbow`, `wrist` and `shoulder`. A branch that is next to a
-//! singularity or to the edge of reach is not plain, and those modules decide.
+//! The equations are those of `elbow`, `wrist` and `shoulder`. A branch near a singularity or the
+//! edge of reach is not regular; those modules then decide.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -16,7 +16,7 @@ use crate::kinematics::structure::zyz::zyz_directions;
 use crate::kinematics::thresholds::{REGULAR_ASIDE, REGULAR_ELBOW_SIN, REGULAR_WRIST_SIN};
 use crate::lanes::{mul_add, sin_cos};
 
-/// The constants of an arm that a branch is calculated with.
+/// The precomputed constants of an arm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Constants {
     a3: f64,
@@ -28,10 +28,10 @@ pub(crate) struct Constants {
     squares: f64,
     sin_psi: f64,
     cos_psi: f64,
-    /// Least size of m^2 (eq. 55) [m^4] and of the square of `aside` (eq. 60) [m^2] of a plain
+    /// Least size of m^2 (eq. 55) [m^4] and of the square of `aside` (eq. 60) [m^2] of a regular
     /// branch.
-    plain_m2: f64,
-    plain_aside2: f64,
+    regular_m2: f64,
+    regular_aside2: f64,
     /// From the frame of joint 7 to the hand, and the sign and offset of joint 7.
     t_seven_hand: Frame,
     sign_7: f64,
@@ -43,7 +43,8 @@ impl Constants {
         let (upper, forearm, extent) = (links.upper, links.forearm, links.extent);
         let [sin_psi, cos_psi] = links.psi;
         let (least_m, least_aside) = (REGULAR_ELBOW_SIN * links.product(), REGULAR_ASIDE * extent);
-        // How far rounding may turn the upper arm of a plain branch (`wrist_error`, at its worst).
+        // How far rounding may rotate the upper arm of a regular branch (`wrist_error`, at its
+        // worst).
         let moved = links.direction_rounding() * (1.0 + (upper + forearm) * extent / least_m);
         let error = moved / least_aside * (1.0 + (upper + forearm) / least_aside);
         Self {
@@ -55,10 +56,10 @@ impl Constants {
             squares: upper * upper + forearm * forearm,
             sin_psi,
             cos_psi,
-            plain_m2: least_m * least_m,
-            // Where that could hide a shoulder's branches, the arm being minute in its
-            // surroundings, nothing is plain.
-            plain_aside2: if error <= 0.1 * REGULAR_WRIST_SIN {
+            regular_m2: least_m * least_m,
+            // If that could hide branches of a shoulder, because the arm is minute relative to its
+            // end frames, no branch is regular.
+            regular_aside2: if error <= 0.1 * REGULAR_WRIST_SIN {
                 least_aside * least_aside
             } else {
                 f64::INFINITY
@@ -77,8 +78,7 @@ impl Constants {
     }
 }
 
-/// One branch of elbow and wrist: the directions of its angles, not a number where it does not
-/// reach.
+/// One branch of elbow and wrist: the directions of its angles, NaN if it does not reach.
 pub(super) struct Branch {
     pub(super) theta_1: Direction,
     /// With theta_2 in 0 ..= pi; the flipped shoulder follows by eq. 64.
@@ -88,12 +88,12 @@ pub(super) struct Branch {
     pub(super) theta_5: Direction,
     pub(super) theta_6: Direction,
     pub(super) reached: bool,
-    /// Whether this is all there is to say of the branch.
-    pub(super) plain: bool,
+    /// Whether the branch is regular (well conditioned).
+    pub(super) regular: bool,
 }
 
 /// The branch with `elbow` (1, or -1 bent backwards) and `wrist` (1, or -1 with a negative cosine
-/// of theta_5) of a hand frame.
+/// of theta_5) for a hand frame.
 #[inline(always)]
 pub(super) fn branch<const FUSED: bool>(
     arm: &Constants,
@@ -102,7 +102,7 @@ pub(super) fn branch<const FUSED: bool>(
     wrist: f64,
 ) -> Branch {
     let Frame { rotation: r, origin: w } = t_shoulder_hand;
-    // The shoulder seen from the hand (eq. 53).
+    // The shoulder in the hand frame (eq. 53).
     let (x, y, z) = (-along::<FUSED>(r, w, 0), -along::<FUSED>(r, w, 1), -along::<FUSED>(r, w, 2));
     let rho2 = mul_add::<FUSED>(x, x, z * z);
     let (rho, high, r2) = (rho2.sqrt(), y.abs(), mul_add::<FUSED>(y, y, rho2));
@@ -157,8 +157,8 @@ pub(super) fn branch<const FUSED: bool>(
         theta_5: [sin_5, cos_5],
         theta_6: [sin_6, cos_6],
         reached,
-        plain: (m2.abs() >= arm.plain_m2)
-            & ((m2 < 0.0) | (aside2.abs() >= arm.plain_aside2))
+        regular: (m2.abs() >= arm.regular_m2)
+            & ((m2 < 0.0) | (aside2.abs() >= arm.regular_aside2))
             & (!reached | (sin_2 >= REGULAR_WRIST_SIN)),
     }
 }

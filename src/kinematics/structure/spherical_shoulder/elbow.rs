@@ -1,5 +1,5 @@
-//! Joint 4: the two triangles of upper arm, forearm and the line from the shoulder to where axes 5
-//! and 6 meet.
+//! Joint 4: the two triangles of upper arm, forearm and the line from the shoulder to the
+//! intersection of axes 5 and 6.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -25,8 +25,8 @@ impl Links {
         let m2 = triangle.m2(r2);
         if self.is_onto_itself(r, target.free.policy.radius()) || m2 <= self.straight_m2(r) {
             let cos_e = if triangle.is_stretched(r2) { 1.0 } else { -1.0 };
-            // The arm that made the pose may have been bent by as much as counts as straight, and
-            // by rounding on top of that.
+            // The arm that made the pose may have been bent by as much as still counts as straight,
+            // and by rounding on top of that.
             let error = 2.0 * self.straight_m2(r).sqrt() / self.product();
             let straight =
                 Elbow { straight: true, error, ..self.elbow(self.joint_4([0.0, cos_e])) };
@@ -40,9 +40,9 @@ impl Links {
         Ok(Elbows { forwards: bent(m), backwards: Some(bent(-m)) })
     }
 
-    /// The elbow turned as far as its rounding leaves it open, so that the wrist just reaches (eq.
-    /// 67): next to a straight arm a rounding of the pose is a large part of joint 4, and a pose at
-    /// the edge of the wrist's reach says by that edge which joint 4 it has.
+    /// The elbow rotated within its rounding, so that the wrist just reaches (eq. 67): near a
+    /// straight arm a rounding of the pose is a large part of joint 4, and for a pose at the edge
+    /// of the wrist's reach that edge determines joint 4.
     pub(super) fn eased(&self, elbow: &Elbow, target: &Target<'_>) -> Option<Elbow> {
         let (high, rho) = (target.seen[1].abs(), target.rho);
         let to_edge = |elbow: &Elbow| {
@@ -53,50 +53,50 @@ impl Links {
                 (rho - elbow.along.abs()) / (along * sign_of(elbow.along))
             }
         };
-        self.turned(elbow, to_edge, target)
+        self.rotated(elbow, to_edge, target)
     }
 
-    /// The straight elbow bent as far as its rounding leaves it open, so that joint 5 keeps the
-    /// angle of a seed: a shoulder that is on axis 5 to rounding says no more of it.
+    /// The straight elbow bent within its rounding, so that joint 5 keeps the angle of a seed,
+    /// which a shoulder on axis 5 to rounding does not determine.
     pub(super) fn bent_for_seed(&self, elbow: &Elbow, target: &Target<'_>) -> Option<Elbow> {
         let open = self.speeds(elbow)[0].abs() * elbow.error;
         if !elbow.straight || target.free.policy.radius() == 0.0 || elbow.across.abs() > open {
             return None;
         }
         let across = -target.seen[1] / target.free_theta[4].sin();
-        self.turned(elbow, |elbow| (across - elbow.across) / self.speeds(elbow)[0], target)
+        self.rotated(elbow, |elbow| (across - elbow.across) / self.speeds(elbow)[0], target)
     }
 
-    /// The elbow after three steps of joint 4, where that leaves it the same to rounding.
-    fn turned(
+    /// The elbow after three steps of joint 4, if that leaves it the same to rounding.
+    fn rotated(
         &self,
         elbow: &Elbow,
         step: impl Fn(&Elbow) -> f64,
         target: &Target<'_>,
     ) -> Option<Elbow> {
-        let mut turned = *elbow;
+        let mut rotated = *elbow;
         for _ in 0..3 {
-            let turn = step(&turned);
-            // Not finite where joint 4 does not move the shoulder that way.
+            let turn = step(&rotated);
+            // Not finite if joint 4 does not move the shoulder in that direction.
             if turn.is_nan() || turn.abs() > MOST_EASING {
                 return None;
             }
             let [sin_4, cos_4] =
-                [turned.sin_4 + turned.cos_4 * turn, turned.cos_4 - turned.sin_4 * turn];
+                [rotated.sin_4 + rotated.cos_4 * turn, rotated.cos_4 - rotated.sin_4 * turn];
             let norm = sin_4.hypot(cos_4);
-            turned = Elbow {
+            rotated = Elbow {
                 straight: elbow.straight,
                 error: elbow.error,
                 ..self.elbow([sin_4 / norm, cos_4 / norm])
             };
         }
         let bent = |elbow: &Elbow| self.sin_elbow([elbow.sin_4, elbow.cos_4]) < 0.0;
-        let off = (turned.across.hypot(turned.along) - target.r).abs();
-        ((elbow.straight || bent(&turned) == bent(elbow)) && off <= target.tolerance)
-            .then_some(turned)
+        let off = (rotated.across.hypot(rotated.along) - target.r).abs();
+        ((elbow.straight || bent(&rotated) == bent(elbow)) && off <= target.tolerance)
+            .then_some(rotated)
     }
 }
 
-/// Greatest turn of joint 4 that may still be a rounding [rad]: the square root of that of a
-/// position, with room.
+/// Greatest rotation of joint 4 that may still be due to rounding [rad]: the square root of that of
+/// a position, with a margin.
 const MOST_EASING: f64 = 1e-6;

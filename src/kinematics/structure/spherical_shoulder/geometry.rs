@@ -1,4 +1,5 @@
-//! What is kept of an arm with a spherical shoulder, and what its joint angles make of it.
+//! The stored geometry of an arm with a spherical shoulder, and what follows from it for joint
+//! angles.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -13,14 +14,14 @@ use crate::kinematics::thresholds::ROTATION_ROUNDING;
 #[derive(Clone, Debug, PartialEq)]
 pub struct SphericalShoulder {
     pub(super) links: Links,
-    /// Its last frame is that of joint 7: what stands behind it is constant.
+    /// Its last frame is that of joint 7: the transform after it is constant.
     pub(super) joint_map: JointMap<7>,
-    /// From the frame of joint 7 at theta_7 = 0 to the hand, where axes 5 and 6 meet.
+    /// From the frame of joint 7 at theta_7 = 0 to the hand, at the intersection of axes 5 and 6.
     pub(super) t_seven_hand: Pose,
 }
 
 impl SphericalShoulder {
-    /// How far rounding moves a pose of this arm at most [m, rad].
+    /// Upper bound of the rounding of a pose of this arm [m, rad].
     pub(crate) fn rounding(&self) -> f64 {
         self.links.position_rounding().max(ROTATION_ROUNDING)
     }
@@ -35,7 +36,7 @@ impl SphericalShoulder {
         self.links.elbow_at(theta_4).across * theta_5.cos()
     }
 
-    /// The hand with joint 7 at `q7`, from the frame of joint 7 before its turn (eq. 52).
+    /// The hand with joint 7 at `q7`, from the frame of joint 7 before its rotation (eq. 52).
     pub(crate) fn hand(&self, t_shoulder_seven: &Pose, q7: f64) -> Pose {
         let theta_7 = self.joint_map.signs[6] * q7 - self.joint_map.offsets[6];
         let unturned = Rotation3::from_axis_angle(&Vector3::z_axis(), -theta_7);

@@ -1,4 +1,4 @@
-//! Joint 7: the angles at which an elbow or a wrist comes to the edge of its reach
+//! Joint 7: the angles at which an elbow or a wrist is at the edge of its reach
 //! (docs/spherical_shoulder.md, section 5).
 
 use core::f64::consts::{FRAC_PI_4, PI};
@@ -13,8 +13,8 @@ use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::thresholds::TOUCHING;
 
-/// Edges at most: four of the elbow, four zeros and three stationary points for each sign of the
-/// wrist.
+/// Largest number of edges: four of the elbow, four zeros and three stationary points for each sign
+/// of the wrist.
 pub(crate) const EDGES: usize = 4 + 2 * (4 + 3);
 
 /// A length, or the square of one, that changes with joint 7: `mean + cos cos(theta_7) + sin
@@ -49,7 +49,7 @@ impl Wave {
         }
     }
 
-    /// The same with angles counted from `start`.
+    /// The same with angles measured from `start`.
     fn from(&self, start: f64) -> Self {
         let (sin, cos) = start.sin_cos();
         Self {
@@ -65,10 +65,12 @@ impl Wave {
         [self.mean + self.cos, 2.0 * self.sin, self.mean - self.cos]
     }
 
-    /// The two angles at which it has a value (eq. 71); one twice where it just misses it.
+    /// The two angles at which it has a value (eq. 71); the same angle twice if the value is just
+    /// missed.
     fn angles_at(&self, value: f64) -> [Option<f64>; 2] {
         let (size, phase) = (self.cos.hypot(self.sin), self.sin.atan2(self.cos));
-        // The square of the sine of half the angle from the phase: next to it a cosine says little.
+        // The square of the sine of half the angle from the phase: near the phase a cosine is ill
+        // conditioned.
         let part = (self.mean + size - value) / (2.0 * size);
         if !(-TOUCHING..=1.0 + TOUCHING).contains(&part) {
             return [None; 2];
@@ -81,7 +83,7 @@ impl Wave {
 
 impl SphericalShoulder {
     /// The angles of joint 7 [rad], in (-pi, pi], between which no branch begins or ends, for the
-    /// frame of joint 7 before its turn.
+    /// frame of joint 7 before its rotation.
     pub(crate) fn edges_of_joint_7(&self, t_shoulder_seven: &Pose) -> [Option<f64>; EDGES] {
         let links = &self.links;
         let (upper2, forearm2) = (links.upper * links.upper, links.forearm * links.forearm);
@@ -94,7 +96,7 @@ impl SphericalShoulder {
         {
             edges.copy_from_slice(&reach2.angles_at(reach * reach));
         }
-        // Both wrists are one (eq. 73).
+        // The wrists merge (eq. 73).
         let cosine = reach2.plus(-1.0, &Wave { mean: upper2 + forearm2, cos: 0.0, sin: 0.0 });
         let zero = Wave { mean: 0.0, cos: 0.0, sin: 0.0 };
         let cosine = zero.plus(0.5 / (links.upper * links.forearm), &cosine);
@@ -111,8 +113,8 @@ impl SphericalShoulder {
         edges.map(|theta| theta.map(|theta| wrap(sign * (theta + offset))))
     }
 
-    /// The square of the distance of the shoulder from where axes 5 and 6 meet (eq. 69) [m^2], and
-    /// how far along axis 6 it is (eq. 70) [m].
+    /// The square of the distance of the shoulder from the intersection of axes 5 and 6 (eq. 69)
+    /// [m^2], and its coordinate along axis 6 (eq. 70) [m].
     fn waves(&self, t_shoulder_seven: &Pose) -> (Wave, Wave) {
         let shoulder = -t_shoulder_seven
             .rotation
@@ -132,8 +134,8 @@ impl SphericalShoulder {
 /// touch.
 fn circle(first: &Wave, second: &Wave, radius: f64) -> [Option<f64>; 7] {
     let off = |theta: f64| first.at(theta).powi(2) + second.at(theta).powi(2) - radius * radius;
-    // Angles are counted from opposite to where the sides differ the most: the tangent of half of
-    // one stays small.
+    // Angles are measured from opposite to where the sides differ most: the tangent of half the
+    // angle stays small.
     let far = (0..8)
         .map(|eighth| f64::from(eighth) * FRAC_PI_4)
         .max_by(|a, b| off(*a).abs().total_cmp(&off(*b).abs()))

@@ -1,4 +1,4 @@
-//! The lengths of the arm, and where they bring the shoulder for an angle of joint 4.
+//! The lengths of the arm, and the position of the shoulder for an angle of joint 4.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -6,8 +6,8 @@ use nalgebra::{ComplexField as _, RealField as _};
 use crate::kinematics::pose::Pose;
 use crate::kinematics::thresholds::{POSITION_ROUNDING, SHOULDER_MERGE};
 
-/// Upper arm and forearm. Both run along z of the arm standing straight up; x points to where axis
-/// 4 stands off axis 3.
+/// Upper arm and forearm. Both run along z of the upright arm; x points to the side on which axis 4
+/// is offset from axis 3.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Links {
     /// Distance of axis 4 from axis 3 [m].
@@ -22,13 +22,13 @@ pub(super) struct Links {
     pub(super) upper: f64,
     /// Length of the forearm, hypot(a4, c5) [m].
     pub(super) forearm: f64,
-    /// The angle of joint 4 of the stretched arm: its sine and cosine.
+    /// Sine and cosine of the angle of joint 4 of the stretched arm.
     pub(super) psi: [f64; 2],
-    /// The lengths that a position of the tool is summed from [m].
+    /// The sum of the lengths that contribute to a position of the tool [m].
     pub(super) extent: f64,
 }
 
-/// One way for the elbow to stand, and where the shoulder is then, seen from the forearm: in the
+/// One configuration of the elbow, with the position of the shoulder in the forearm frame: in the
 /// plane of axes 3 and 5.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Elbow {
@@ -38,14 +38,14 @@ pub(super) struct Elbow {
     pub(super) across: f64,
     /// From axis 6 to the shoulder, along axis 5 [m].
     pub(super) along: f64,
-    /// Stretched or folded: it stands for both.
+    /// Stretched or folded: it represents both elbows.
     pub(super) straight: bool,
-    /// How far rounding may turn joint 4 [rad].
+    /// How far rounding may rotate joint 4 [rad].
     pub(super) error: f64,
 }
 
 impl Links {
-    /// From a3, c3, a4 and c5.
+    /// Links with the given lengths [m].
     pub(super) fn new([a3, c3, a4, c5]: [f64; 4]) -> Self {
         let (upper, forearm) = (a3.hypot(c3), a4.hypot(c5));
         let psi =
@@ -53,19 +53,19 @@ impl Links {
         Self { a3, c3, a4, c5, upper, forearm, psi, extent: upper + forearm }
     }
 
-    /// The same links among fixed transforms, which add to what a position's rounding grows with.
+    /// The same links between fixed transforms, whose lengths add to the rounding of a position.
     pub(super) fn between(self, fixed: [&Pose; 5]) -> Self {
         let fixed: f64 = fixed.map(|pose| pose.translation.vector.norm()).iter().sum();
         Self { extent: self.upper + self.forearm + fixed, ..self }
     }
 
-    /// How far rounding moves a position of this arm at most [m].
+    /// Upper bound of the rounding of a position of this arm [m].
     pub(super) fn position_rounding(&self) -> f64 {
         POSITION_ROUNDING * self.extent
     }
 
-    /// How far rounding commonly moves a position of this arm [m]: a link of lever l turns by this
-    /// over l.
+    /// Typical rounding of a position of this arm [m]: a link with lever l is rotated by this over
+    /// l.
     pub(super) fn direction_rounding(&self) -> f64 {
         2.0 * f64::EPSILON * self.extent
     }
@@ -80,10 +80,10 @@ impl Links {
         self.position_rounding() * r * self.product()
     }
 
-    /// Whether the shoulder, at distance `r` from where axes 5 and 6 meet, counts as being there,
-    /// what is below `radius` being no distance [m]. Then neither elbow says anything of joints 5
+    /// Whether the shoulder, at distance `r` from the intersection of axes 5 and 6, counts as being
+    /// there; distances below `radius` count as zero [m]. Neither elbow then determines joints 5
     /// and 6: the shoulder may be that far from each of their axes, at a right angle, and the
-    /// rounding of eq. 58 is a tenth of it at most.
+    /// rounding of eq. 58 is at most a tenth of it.
     pub(super) fn is_onto_itself(&self, r: f64, radius: f64) -> bool {
         r <= 1.5 * radius.max(self.position_rounding())
     }
@@ -104,7 +104,7 @@ impl Links {
         sin_4 * self.psi[1] - cos_4 * self.psi[0]
     }
 
-    /// Where the shoulder stands, seen from the forearm (eq. 58), for sine and cosine of joint 4.
+    /// The position of the shoulder in the forearm frame (eq. 58), for sine and cosine of joint 4.
     pub(super) fn elbow(&self, [sin_4, cos_4]: [f64; 2]) -> Elbow {
         Elbow {
             sin_4,
@@ -133,8 +133,8 @@ impl Links {
         self.is_onto_itself(r, 0.0) || (self.product() * sin_e).powi(2) <= self.straight_m2(r)
     }
 
-    /// Whether both branches of the wrist count as one: on axis 5, on axis 6, or where the two
-    /// meet.
+    /// Whether both branches of the wrist count as one: on axis 5, on axis 6, or at their
+    /// intersection.
     pub(super) fn wrist_is_one(&self, elbow: &Elbow, theta_5: f64) -> bool {
         let (sin_5, cos_5) = theta_5.sin_cos();
         let (aside, high) = (elbow.across * cos_5, (elbow.across * sin_5).abs());

@@ -1,4 +1,4 @@
-//! Finding a spherical shoulder and an offset elbow in a modified Denavit-Hartenberg table.
+//! Recognizes a spherical shoulder and an offset elbow in a modified Denavit-Hartenberg table.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -15,7 +15,7 @@ use crate::kinematics::thresholds::FORM_TOLERANCE;
 use crate::report::{Pattern, Relation, UnknownStructure};
 
 /// The conditions of a spherical shoulder, an elbow that may be offset either way, and a forearm
-/// that ends where axis 6 meets it.
+/// that ends where axis 6 intersects it.
 pub(crate) static PATTERN: Pattern = Pattern {
     name: "spherical shoulder",
     title: "a spherical shoulder and an offset elbow",
@@ -33,8 +33,8 @@ pub(crate) static PATTERN: Pattern = Pattern {
     ],
 };
 
-/// Reads the geometry off the frames at q = 0 (docs/spherical_shoulder.md, section 8). Lengths come
-/// from the rows, so that none is lost to rounding; the frames give the directions.
+/// Measure the geometry in the frames at q = 0 (docs/spherical_shoulder.md, section 8). Lengths are
+/// those of the rows, so that none is lost to rounding; the frames give the directions.
 pub(super) fn measure(mdh: &Mdh<7>) -> Result<SphericalShoulder, UnknownStructure> {
     let rows = &mdh.rows;
     let chain = Chain::new(Mdh { base: Pose::identity(), ..mdh.clone() });
@@ -49,7 +49,7 @@ pub(super) fn measure(mdh: &Mdh<7>) -> Result<SphericalShoulder, UnknownStructur
     let upper_arm = f3.z * sign_3;
     let theta_2 = angle(&upper_arm, &up, &forward);
 
-    // Axis 4 stands in front of axis 3; where they meet, joint 4 bends the arm forwards.
+    // Axis 4 is in front of axis 3; where they intersect, joint 4 bends the arm forwards.
     let offset = rows[3].a.abs() > FORM_TOLERANCE;
     let front = if offset { f3.x * sign_of(rows[3].a) } else { f4.z.cross(&upper_arm) };
     let axis_4 = upper_arm.cross(&front);

@@ -1,7 +1,7 @@
-//! Arms of seven axes with a spherical shoulder and an offset elbow, the angle of the last joint
-//! being determined: axes 1, 2, 3 through one point, axes 5 and 6 meeting, axis 7 anywhere.
+//! Seven-axis arms with a spherical shoulder and an offset elbow, with the angle of joint 7 given:
+//! axes 1, 2, 3 through one point, axes 5 and 6 intersecting, axis 7 anywhere.
 //!
-//! `docs/spherical_shoulder.md` has the derivation; its equation numbers stand beside the code.
+//! `docs/spherical_shoulder.md` has the derivation, with the equation numbers cited in the code.
 
 mod block;
 mod branch;
@@ -91,22 +91,22 @@ impl Structure<7, 8> for SphericalShoulder {
         }
     }
 
-    /// A solve, which does not know `q`, also merges a shoulder by what the pose leaves open of
-    /// elbow and wrist.
+    /// A solve, which does not know `q`, also merges shoulders within the uncertainty of elbow and
+    /// wrist.
     #[inline]
-    fn kinds(&self, q: &[f64; 7]) -> SingularityKind {
+    fn singularities(&self, q: &[f64; 7]) -> SingularityKind {
         let [_, theta_2, _, theta_4, theta_5, ..] = self.theta(q);
-        let mut kinds = SingularityKind::empty();
-        kinds.set(
+        let mut singularities = SingularityKind::empty();
+        singularities.set(
             SingularityKind::WRIST,
             self.links.wrist_is_one(&self.links.elbow_at(theta_4), theta_5),
         );
-        kinds.set(SingularityKind::ELBOW, self.links.is_straight(theta_4));
-        kinds.set(SingularityKind::SHOULDER, theta_2.sin().abs() <= WRIST_MERGE_SIN);
-        kinds
+        singularities.set(SingularityKind::ELBOW, self.links.is_straight(theta_4));
+        singularities.set(SingularityKind::SHOULDER, theta_2.sin().abs() <= WRIST_MERGE_SIN);
+        singularities
     }
 
-    /// Eq. 66.
+    /// Computed by eq. 66.
     fn jacobian_determinant(&self, q: &[f64; 7]) -> f64 {
         let [_, theta_2, _, theta_4, ..] = self.theta(q);
         let signs = self.joint_map.signs[..6].iter().product::<f64>();
@@ -114,7 +114,7 @@ impl Structure<7, 8> for SphericalShoulder {
         -signs * links * self.aside(q) * theta_2.sin()
     }
 
-    /// By the signs of eq. 65.
+    /// Determined by the signs of eq. 65.
     fn slot(&self, q: &[f64; 7]) -> Option<Slot> {
         let [_, theta_2, _, theta_4, theta_5, ..] = self.theta(q);
         let backwards = self.links.elbow_angle(theta_4).sin() < 0.0;

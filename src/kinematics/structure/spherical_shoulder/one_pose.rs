@@ -49,7 +49,7 @@ impl LaneKernel<7, SLOTS> for Constants {
             directions.set(THETA_5, lane, branch.theta_5);
             directions.set(THETA_6, lane, branch.theta_6);
             status[lane] = if branch.reached { FOUND_INSIDE } else { 0 };
-            regular[lane] = u64::from(branch.plain);
+            regular[lane] = u64::from(branch.regular);
         }
         if regular != [1; BRANCHES] || status == [0; BRANCHES] {
             return None;

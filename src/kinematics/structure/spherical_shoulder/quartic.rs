@@ -3,19 +3,19 @@
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
-/// Steps in which a bracketed zero is found to rounding: every second one halves the bracket at
-/// least.
+/// Maximum number of steps in which a bracketed zero is found to rounding: at least every second
+/// one halves the bracket.
 const ROUNDS: u32 = 120;
 
-/// Where a quartic is zero and where it is stationary, in ascending order.
+/// The zeros and the stationary points of a quartic, in ascending order.
 pub(super) struct Places {
     pub(super) zeros: [Option<f64>; 4],
     pub(super) stationary: [Option<f64>; 3],
 }
 
-/// The places of the quartic with these coefficients, constant first: the zeros of each derivative
-/// separate those of the one before it. No radicals are taken, which lose half of the digits next
-/// to a double zero.
+/// The zeros and stationary points of the quartic with these coefficients, constant first: the
+/// zeros of each derivative separate those of the previous one. Radicals are avoided: they lose
+/// half of the digits near a double zero.
 pub(super) fn places(quartic: &[f64; 5]) -> Places {
     let [_, a, b, c, d] = *quartic;
     let inflection = zeros::<1>(&[6.0 * c, 24.0 * d], &[]);
@@ -24,7 +24,7 @@ pub(super) fn places(quartic: &[f64; 5]) -> Places {
     Places { zeros: zeros::<4>(quartic, &stationary), stationary }
 }
 
-/// The zeros of a polynomial, constant first, that its stationary points separate.
+/// The zeros of a polynomial, constant first, separated by its stationary points.
 fn zeros<const N: usize>(polynomial: &[f64], stationary: &[Option<f64>]) -> [Option<f64>; N] {
     let mut found = [None; N];
     let bound = bound(polynomial);
@@ -37,13 +37,13 @@ fn zeros<const N: usize>(polynomial: &[f64], stationary: &[Option<f64>]) -> [Opt
     found
 }
 
-/// Beyond this size a polynomial has no zero (Cauchy).
+/// Upper bound of the size of a zero (Cauchy).
 fn bound(polynomial: &[f64]) -> f64 {
     let Some((leading, others)) = polynomial.split_last() else { return 0.0 };
     1.0 + others.iter().map(|other| (other / leading).abs()).fold(0.0, f64::max)
 }
 
-/// Newton's method in a bracket that is halved where a step leaves it or gains too little.
+/// Newton's method in a bracket that is halved if a step leaves it or gains too little.
 fn zero_between(polynomial: &[f64], mut low: f64, mut high: f64) -> Option<f64> {
     let (at_low, at_high) = (value(polynomial, low).0, value(polynomial, high).0);
     if !(at_low * at_high <= 0.0 && low < high) {

@@ -1,4 +1,4 @@
-//! Joints 1, 2 and 3: the rotation that is left for the shoulder.
+//! Joints 1, 2 and 3: the remaining rotation of the shoulder.
 
 use nalgebra::Matrix3;
 
@@ -8,11 +8,13 @@ use super::wrist::Wrist;
 use crate::kinematics::structure::zyz::{First, Zyz, zyz};
 use crate::kinematics::thresholds::REGULAR_WRIST_SIN;
 
-/// The angles of the shoulder (eq. 63 and 64). `error` is how far rounding may turn the upper arm.
+/// The angles of the shoulder (eq. 63 and 64). `error` is how far rounding may rotate the upper
+/// arm.
 pub(super) fn shoulder(elbow: &Elbow, wrist: &Wrist, target: &Target<'_>, error: f64) -> Zyz {
     let upper_arm = target.rotation * upper_arm_to_hand(elbow, wrist).transpose();
     let first = First { joint: 1, theta: target.free_theta[0], policy: target.free.policy };
-    // Where elbow and wrist are open by more than that, the upper arm is not, once they are chosen.
+    // Even if elbow and wrist are more uncertain than that, the upper arm is not, once they are
+    // chosen.
     zyz(&upper_arm, &first, error.min(REGULAR_WRIST_SIN))
 }
 

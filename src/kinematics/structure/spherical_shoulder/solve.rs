@@ -29,7 +29,7 @@ impl SphericalShoulder {
         let mut target =
             Target::new(t_shoulder_hand, free, self.theta(&free.q), self.links.position_rounding());
         let mut branches = self.branches(&target);
-        // Out of reach by less than anyone could see: it gets the stretched or folded arm.
+        // Out of reach by less than the tolerance: return the stretched or folded arm.
         let shortfall = branches.reach.shortfall();
         if shortfall > 0.0 && shortfall <= REACH_TOLERANCE {
             target.tolerance = target.tolerance.max(shortfall);
@@ -59,8 +59,8 @@ impl SphericalShoulder {
         branches
     }
 
-    /// The branches of one elbow, whether or not the other reaches; with the wrist at its edge
-    /// where it misses by less than anyone could see.
+    /// The branches of one elbow, whether or not the other reaches; with the wrist at its edge if
+    /// it misses by less than the tolerance.
     fn fill_or_beyond(
         &self,
         branches: &mut Branches<7>,
@@ -77,7 +77,7 @@ impl SphericalShoulder {
         self.fill(branches, base, elbow, &Target { tolerance, ..*target })
     }
 
-    /// Puts the branches of one elbow into slots `base`, + 1, + 4 and + 5.
+    /// Fill slots `base`, + 1, + 4 and + 5 with the branches of one elbow.
     fn fill(
         &self,
         branches: &mut Branches<7>,
@@ -103,7 +103,7 @@ impl SphericalShoulder {
         Reach::Reached
     }
 
-    /// Both branches of the wrist, with the elbow that they were found for.
+    /// Both branches of the wrist, with the elbow for which they were found.
     fn wrists(&self, elbow: &Elbow, target: &Target<'_>) -> Result<(Elbow, Wrists), f64> {
         let elbow = self.links.bent_for_seed(elbow, target).unwrap_or(*elbow);
         let missed = match self.links.wrists(&elbow, target) {
@@ -115,7 +115,7 @@ impl SphericalShoulder {
         Ok((eased, wrists))
     }
 
-    /// Puts both shoulders of one elbow and wrist into slots `slot` and + 4.
+    /// Fill slots `slot` and + 4 with both shoulders of one elbow and wrist.
     fn place(
         &self,
         branches: &mut Branches<7>,
@@ -144,8 +144,7 @@ impl SphericalShoulder {
             q[6] = target.free.q[6];
             q
         };
-        // A free theta_1 that was given may leave theta_2 negative: then the flipped slot is the
-        // one that is kept.
+        // A free theta_1 that is given may make theta_2 negative: the flipped slot is then kept.
         let (kept, flipped) =
             if theta_2 < 0.0 { (slot + SHOULDER, slot) } else { (slot, slot + SHOULDER) };
         branches.q[kept] = Some(joints(theta_1, theta_2, theta_3));
@@ -160,7 +159,7 @@ impl SphericalShoulder {
         }
     }
 
-    /// What the pose leaves open at theta_2 = 0 or 180 deg, in terms of the joints.
+    /// The joints that the pose leaves undetermined at theta_2 = 0 or 180 deg.
     fn free_shoulder(&self, theta_2: f64) -> FreeJoint {
         let sum =
             (theta_2.cos() > 0.0) == (self.joint_map.signs[0] * self.joint_map.signs[2] > 0.0);
@@ -168,7 +167,7 @@ impl SphericalShoulder {
     }
 }
 
-/// Flags slots whose solution another slot holds.
+/// Flag slots whose solution another slot holds.
 fn merge<const N: usize>(branches: &mut Branches<7>, pairs: [(usize, usize); N]) {
     for (kept, merged) in pairs {
         if branches.exists(kept) {

@@ -1,4 +1,4 @@
-//! What a solve is asked: where the hand stands, and what to take where it leaves a joint open.
+//! The target of a solve: the hand's pose, and the choice for an undetermined joint.
 
 use nalgebra::Matrix3;
 #[cfg(not(feature = "std"))]
@@ -7,19 +7,20 @@ use nalgebra::{ComplexField as _, RealField as _};
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::free_choice::FreeChoice;
 
-/// What the branches of one pose are made from.
+/// The input of the branches of one pose.
 pub(super) struct Target<'a> {
-    /// The hand in the shoulder's frame.
+    /// The hand in the shoulder frame.
     pub(super) rotation: &'a Matrix3<f64>,
-    /// The shoulder in the hand's frame (eq. 53) [m].
+    /// The shoulder in the hand frame (eq. 53) [m].
     pub(super) seen: [f64; 3],
     /// Distance of the shoulder from axis 6 [m].
     pub(super) rho: f64,
-    /// Distance of the shoulder from where axes 5 and 6 meet [m].
+    /// Distance of the shoulder from the intersection of axes 5 and 6 [m].
     pub(super) r: f64,
     pub(super) free: &'a FreeChoice<7>,
     pub(super) free_theta: [f64; 7],
-    /// How far from where the arm can bring it the shoulder may be and still be reached [m].
+    /// Largest distance of the shoulder from where the arm can bring it at which the pose counts as
+    /// reached [m].
     pub(super) tolerance: f64,
 }
 

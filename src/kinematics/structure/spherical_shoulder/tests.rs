@@ -1,5 +1,5 @@
-//! What no caller can ask for: a solve that takes from a joint vector what the pose leaves open.
-//! The laws of the structure are in tests/.
+//! A solve that takes what the pose leaves undetermined from a joint vector, which no public
+//! function offers. The laws of the structure are in tests/.
 
 use std::format;
 use std::string::String;
@@ -21,7 +21,7 @@ const SLOTS: usize = 8;
 
 const OFF: [f64; 8] = [0.0, 1e-12, 1e-9, 2e-9, 1e-7, 1e-6, 1e-5, 1e-4];
 
-/// The part of a joint vector that the solve is given.
+/// Largest change of a given joint that a solve must return unchanged.
 const KEPT: f64 = 1e-12;
 
 /// An arm with its chain and its solver.
@@ -43,10 +43,10 @@ impl Solved {
         self.solver.structure.solve(&t_shoulder_seven, free.q[6], free)
     }
 
-    /// The worst distance of a solution from the pose.
+    /// The largest residual of all solutions.
     fn residual(&self, branches: &Branches<7>, pose: &Pose) -> f64 {
         let of = |q: &[f64; 7]| PoseDifference::between(&self.chain.fk(q), pose).largest();
-        // What is not a number stays the worst.
+        // NaN stays the worst.
         branches.q.iter().flatten().map(of).fold(0.0, |a, b| if b <= a { a } else { b })
     }
 }
@@ -64,7 +64,7 @@ fn poses() -> usize {
     std::env::var("IRBKIN_POSES").ok().and_then(|text| text.parse().ok()).unwrap_or(100)
 }
 
-/// Poses at and next to every singularity, and every two and three of them with shoulder or wrist.
+/// Poses at and near every singularity, and every two and three of them with shoulder or wrist.
 fn places() -> Vec<(Place, usize)> {
     let pairs = || OFF.iter().flat_map(|a| OFF.map(|b| (*a, b)));
     let (one_of, several_of) = (poses(), poses().div_ceil(4));
@@ -89,7 +89,7 @@ fn vec_of<const M: usize>(parts: [(At, f64); M]) -> Vec<(At, f64)> {
 }
 
 #[test]
-fn a_seed_and_a_path_keep_their_branch_at_and_next_to_singularities() {
+fn a_seed_and_a_path_keep_their_branch_at_and_near_singularities() {
     let mut rng = Rng::new(30);
     for arm in arms() {
         let (mut judged, mut amiss) = (0, Vec::new());
@@ -106,7 +106,7 @@ fn a_seed_and_a_path_keep_their_branch_at_and_next_to_singularities() {
     }
 }
 
-/// What is amiss with the solves that are given the joint vector that made the pose.
+/// The first failed check of the solves that are given the joint vector that made the pose.
 fn judge(arm: &Solved, theta: &[f64; 7]) -> Option<String> {
     let q = arm.arm.q(*theta);
     let pose = arm.chain.fk(&q);
@@ -116,7 +116,7 @@ fn judge(arm: &Solved, theta: &[f64; 7]) -> Option<String> {
         let is_found =
             |found: &[f64; 7]| ShoulderArm::is_branch(&arm.arm.theta(found), theta, &bounds);
         let found = kept.q.iter().flatten().any(is_found);
-        // A path goes on by itself as far as rounding leaves the upper arm open.
+        // A path is extrapolated as far as rounding leaves the upper arm undetermined.
         let allowed = 4e-12 + if policy == SeedPolicy::Path { bounds[2] } else { 0.0 };
         let residual = arm.residual(&reached(arm, theta, &kept), &pose);
         if !found || residual > allowed || residual.is_nan() {
@@ -139,7 +139,7 @@ fn reached(arm: &Solved, theta: &[f64; 7], branches: &Branches<7>) -> Branches<7
 }
 
 #[test]
-fn a_free_joint_takes_the_angle_that_it_is_given() {
+fn a_free_joint_takes_the_given_angle() {
     let mut rng = Rng::new(33);
     let mut moved = 0;
     for arm in arms() {
@@ -175,10 +175,10 @@ fn self_motion_closes(
 ) -> bool {
     let mut q = found;
     q[joint - 1] = 0.7;
-    let family = arm.solve(pose, &FreeChoice::forced(q, joint, false));
+    let members = arm.solve(pose, &FreeChoice::forced(q, joint, false));
     // The shoulder, or the wrist and with it the shoulder, may be kept in its other branch there.
     let bits = if joint == 1 { &[0, 4][..] } else { &[0, 1, 4, 5] };
-    let moved = bits.iter().find_map(|bits| family.q[slot ^ bits]);
+    let moved = bits.iter().find_map(|bits| members.q[slot ^ bits]);
     moved.is_some_and(|q| {
         (q[joint - 1] - 0.7).abs() < 1e-15
             && PoseDifference::between(&arm.chain.fk(&q), pose).largest() < 4e-9

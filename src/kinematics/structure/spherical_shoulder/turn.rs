@@ -20,7 +20,7 @@ impl Turn {
         Self { theta, sin, cos }
     }
 
-    /// The turn from `cos` towards `sin`, of any length; none of no length.
+    /// The angle of the direction (cos, sin), of any length; `None` for length zero.
     pub(super) fn towards(sin: f64, cos: f64) -> Self {
         let norm = sin.hypot(cos);
         if norm == 0.0 {
@@ -29,9 +29,9 @@ impl Turn {
         Self { theta: sin.atan2(cos), sin: sin / norm, cos: cos / norm }
     }
 
-    /// Of two turns that a pose tells of a joint that moves it by no more than `lever` [m], the one
-    /// nearer to the angle `free`. A path keeps `free` as far as that moves the pose by no more
-    /// than what is known of it: no leap from what a silent pose left open.
+    /// Of two angles that a pose determines for a joint with lever at most `lever` [m], the one
+    /// nearer to the angle `free`. A path keeps `free` as far as that moves the pose within its
+    /// uncertainty: no leap from the angle that an undetermined pose left.
     pub(super) fn from_pose(twins: [Self; 2], free: f64, lever: f64, policy: SeedPolicy) -> Self {
         let [a, b] = twins;
         let nearer = if (b.theta - free).cos() > (a.theta - free).cos() { b } else { a };

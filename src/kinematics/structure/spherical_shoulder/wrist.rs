@@ -1,4 +1,5 @@
-//! Joints 5 and 6: two ways to turn the forearm until the shoulder stands where the hand sees it.
+//! Joints 5 and 6: two ways to turn the forearm so that the shoulder is where the hand frame has
+//! it.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -11,32 +12,32 @@ use crate::kinematics::pose::angles::sign_of;
 use crate::kinematics::thresholds::SHOULDER_MERGE;
 use crate::report::FreeJoint;
 
-/// One way to turn joints 5 and 6.
+/// One pair of angles of joints 5 and 6.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wrist {
     pub(super) fifth: Turn,
     pub(super) sixth: Turn,
 }
 
-/// Both ways; without the second, they are one.
+/// Both pairs; without the second, they are one.
 #[derive(Debug)]
 pub(super) struct Wrists {
     pub(super) first: Wrist,
     pub(super) second: Option<Wrist>,
-    /// The joint that the pose leaves open.
+    /// The joint that the pose leaves undetermined.
     pub(super) free: Option<FreeJoint>,
-    /// How far rounding may turn the upper arm [rad].
+    /// How far rounding may rotate the upper arm [rad].
     pub(super) error: f64,
 }
 
 impl Links {
-    /// Both branches of the wrist (eq. 60 to 62), or how far the shoulder is from where this elbow
-    /// can bring it [m].
+    /// Both branches of the wrist (eq. 60 to 62), or the distance of the shoulder from where this
+    /// elbow can bring it [m].
     pub(super) fn wrists(&self, elbow: &Elbow, target: &Target<'_>) -> Result<Wrists, f64> {
         let (across, along, rho, high) =
             (elbow.across.abs(), elbow.along.abs(), target.rho, target.seen[1].abs());
-        // Both are the same number; each is accurate where the distance that it is made from is the
-        // larger one.
+        // Both expressions are equal; each is accurate where the distance that it is computed from
+        // is the larger one.
         let aside_2 = if high < rho {
             (across - high) * (across + high)
         } else {
@@ -71,16 +72,15 @@ impl Links {
         })
     }
 
-    /// How far rounding may turn the upper arm about the line from the shoulder to where axes 5 and
-    /// 6 meet [rad].
+    /// How far rounding may rotate the upper arm about the line from the shoulder to the
+    /// intersection of axes 5 and 6 [rad].
     fn wrist_error(&self, elbow: &Elbow, target: &Target<'_>, aside: f64) -> f64 {
         let (across, rho) = (elbow.across.abs(), target.rho);
         let [speed_across, speed_along] = self.speeds(elbow);
         let (lever, speed) =
             if target.seen[1].abs() < rho { (across, speed_across) } else { (rho, speed_along) };
         let moved = self.direction_rounding() + speed.abs() * elbow.error;
-        // The root of what rounding adds to the square of `aside`, from zero or from where it
-        // stands.
+        // The root of what rounding adds to the square of `aside`, from zero or from its value.
         let aside_error = (lever * moved / aside).min((2.0 * lever * moved).sqrt());
         match (across <= SHOULDER_MERGE, rho <= SHOULDER_MERGE) {
             (true, true) => 0.0,
@@ -91,19 +91,19 @@ impl Links {
     }
 }
 
-/// Joint 5 from how far aside of the plane of axes 5 and 6 the shoulder stands (eq. 61).
+/// Joint 5 from the distance `aside` of the shoulder from the plane of axes 5 and 6 (eq. 61).
 fn fifth(elbow: &Elbow, target: &Target<'_>, aside: f64) -> Turn {
     let side = sign_of(elbow.across);
     Turn::towards(-target.seen[1] * side, aside * side)
 }
 
-/// Joint 6 from the same (eq. 62).
+/// Joint 6 from the same distance (eq. 62).
 fn sixth(elbow: &Elbow, target: &Target<'_>, aside: f64) -> Turn {
     let [x, _, z] = target.seen;
     Turn::towards(aside * z - elbow.along * x, aside * x + elbow.along * z)
 }
 
-/// The shoulder is on axis 5: joint 5 is free, and joint 6 makes good for it.
+/// The shoulder is on axis 5: joint 5 is undetermined, and joint 6 compensates for it.
 fn on_5(elbow: &Elbow, target: &Target<'_>, aside: f64, rounding: f64, on_axis_6: bool) -> Wrist {
     let (policy, free, across) = (target.free.policy, target.free_theta[4], elbow.across.abs());
     let fifth = if policy.forces(5) || across <= policy.radius().max(rounding) {
@@ -124,7 +124,7 @@ fn on_5(elbow: &Elbow, target: &Target<'_>, aside: f64, rounding: f64, on_axis_6
     Wrist { fifth, sixth }
 }
 
-/// The shoulder is on axis 6: joint 6 is free, and joint 5 makes good for it.
+/// The shoulder is on axis 6: joint 6 is undetermined, and joint 5 compensates for it.
 fn on_6(elbow: &Elbow, target: &Target<'_>, aside: f64, rounding: f64) -> Wrist {
     let (policy, free) = (target.free.policy, target.free_theta[5]);
     let sixth = if policy.forces(6) || target.rho <= policy.radius().max(rounding) {

@@ -1,4 +1,4 @@
-//! The arm where the pose leaves its shoulder open and a path does not.
+//! The arm on a path, where the pose leaves its shoulder undetermined.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -13,87 +13,91 @@ use crate::kinematics::structure::planar_arm::{Elbow, Shoulder, Target};
 use crate::kinematics::structure::zyz::Zyz;
 use crate::kinematics::thresholds::{PATH_WRIST_SIN, SEEDED_FREE};
 
-/// Halvings of the way between two planes on either side of one: to rounding.
+/// Bisections of the interval between two planes on either side of one: to rounding.
 const HALVINGS: u32 = 50;
 
 /// One branch of the arm.
 #[derive(Clone, Copy)]
-pub(super) struct Standing {
+pub(super) struct ArmBranch {
     pub(super) shoulder: Shoulder,
     pub(super) elbow: Elbow,
     pub(super) wrist: Zyz,
 }
 
-/// What rounding leaves open of an elbow.
+/// The uncertainty that rounding leaves to an elbow.
 #[derive(Clone, Copy)]
-pub(super) struct Open {
-    /// How far it may turn the forearm [rad].
+pub(super) struct ElbowUncertainty {
+    /// How far it may rotate the forearm [rad].
     pub(super) error: f64,
     /// Whether both elbows are one.
     pub(super) straight: bool,
 }
 
 impl SphericalWrist {
-    /// The branch of a shoulder and an elbow; on a path, where the pose leaves the shoulder's angle
-    /// open, the one that moves the joints less: with the angle that joint 1 is heading for, or
-    /// turned so that joint 4 has the one that it is heading for.
-    pub(super) fn standing(
+    /// The branch of a shoulder and an elbow. On a path, where the pose leaves the shoulder's angle
+    /// undetermined, the one that moves the joints less: with the angle that joint 1 is heading
+    /// for, or rotated so that joint 4 has the one that it is heading for.
+    pub(super) fn arm_branch(
         &self,
         shoulder: &Shoulder,
         elbow: &Elbow,
         target: &Target<'_>,
-        open: Open,
-    ) -> Standing {
+        open: ElbowUncertainty,
+    ) -> ArmBranch {
         let with_wrist = |(shoulder, elbow, error): (Shoulder, Elbow, f64)| {
             let m = forearm_to_flange(&shoulder, &elbow, target.rotation);
-            Standing { shoulder, elbow, wrist: wrist(&m, target, error) }
+            ArmBranch { shoulder, elbow, wrist: wrist(&m, target, error) }
         };
-        let told = with_wrist((*shoulder, *elbow, open.error));
+        let from_pose = with_wrist((*shoulder, *elbow, open.error));
         if target.free.policy != SeedPolicy::Path {
-            return told;
+            return from_pose;
         }
-        let nearer = |best: Standing, turned: (Shoulder, Elbow, f64)| {
-            let turned = with_wrist(turned);
-            if motion(&turned, target) < motion(&best, target) { turned } else { best }
+        let nearer = |best: ArmBranch, rotated: (Shoulder, Elbow, f64)| {
+            let rotated = with_wrist(rotated);
+            if motion(&rotated, target) < motion(&best, target) { rotated } else { best }
         };
         if self.planar.b == 0.0 {
-            let turned = self.turned_for_wrist(shoulder, elbow, target);
-            turned.map(|shoulder| (shoulder, *elbow, open.error)).into_iter().fold(told, nearer)
+            let rotated = self.rotated_for_wrist(shoulder, elbow, target);
+            rotated
+                .map(|shoulder| (shoulder, *elbow, open.error))
+                .into_iter()
+                .fold(from_pose, nearer)
         } else {
-            self.turned_in_open_plane(shoulder, elbow, target, open).fold(told, nearer)
+            self.rotated_within_uncertainty(shoulder, elbow, target, open).fold(from_pose, nearer)
         }
     }
 
-    /// On a path, with b != 0, the shoulder turned as far as rounding leaves it open, and the elbow
-    /// with it, so that the wrist can keep the joint 4 that it is heading for: there the approach
-    /// axis has no part across that joint's plane (eq. 27). And where the arm is straight at the
-    /// edge of reach, which leaves the forearm open. With what rounding leaves open of it [rad].
-    fn turned_in_open_plane<'a>(
+    /// On a path, with b != 0: the shoulder rotated within its uncertainty, and the elbow with it,
+    /// so that the wrist can keep the joint 4 that it is heading for; there the approach axis has
+    /// no component across that joint's plane (eq. 27). Also where the arm is straight at the edge
+    /// of reach, which leaves the forearm undetermined. Returned with the forearm's uncertainty
+    /// [rad].
+    fn rotated_within_uncertainty<'a>(
         &'a self,
         shoulder: &'a Shoulder,
         elbow: &Elbow,
         target: &'a Target<'a>,
-        open: Open,
+        open: ElbowUncertainty,
     ) -> impl Iterator<Item = (Shoulder, Elbow, f64)> + use<'a> {
         let m = forearm_to_flange(shoulder, elbow, target.rotation);
         let near = m[(0, 2)].hypot(m[(1, 2)]) <= PATH_WRIST_SIN;
-        let ends = if near { self.planar.open_turn(shoulder, target.wxy) } else { [0.0; 2] };
-        // Bent by the turn, a straight arm stands on either side.
+        let ends = if near { self.planar.rotation_range(shoulder, target.wxy) } else { [0.0; 2] };
+        // Bent by the rotation, a straight arm may be on either side.
         let behind = self.planar.sin_elbow(elbow.theta_3) < 0.0;
         let sides = [false, true].into_iter().filter(move |side| open.straight || *side == behind);
         sides.flat_map(move |side| {
-            let plane = TurnedPlane { arm: self, shoulder, target, behind: side };
+            let plane = RotatedPlane { arm: self, shoulder, target, behind: side };
             ends.into_iter().flat_map(move |end| plane.ways(end))
         })
     }
 
-    /// On a path, a shoulder whose angle the pose leaves open, turned so that the wrist can keep
-    /// the joint 4 that it is heading for.
+    /// On a path: a shoulder whose angle the pose leaves undetermined, rotated so that the wrist
+    /// can keep the joint 4 that it is heading for.
     ///
     /// With theta_23 and theta_4 known, `R = Rz(theta_1) A Ry(theta_5) Rz(theta_6)` has the height
     /// of the approach axis on both sides: `A20 sin theta_5 + A22 cos theta_5 = R22` (eq. 24), and
-    /// theta_1 from its direction.
-    fn turned_for_wrist(
+    /// theta_1 follows from its direction.
+    fn rotated_for_wrist(
         &self,
         shoulder: &Shoulder,
         elbow: &Elbow,
@@ -113,44 +117,44 @@ impl SphericalWrist {
         let (to_x, to_y) = (target.rotation[(0, 2)], target.rotation[(1, 2)]);
         let (sin, cos) = (to_y * x - to_x * y, to_x * x + to_y * y);
         let norm = sin.hypot(cos);
-        let turned = Shoulder { sin_1: sin / norm, cos_1: cos / norm, ..*shoulder };
-        let turn = (turned.sin_1 * shoulder.cos_1 - turned.cos_1 * shoulder.sin_1)
-            .hypot(1.0 - turned.sin_1 * shoulder.sin_1 - turned.cos_1 * shoulder.cos_1);
-        // The wrist center must not move by more than rounding or, where q1 is free, than the
-        // seed's radius.
+        let rotated = Shoulder { sin_1: sin / norm, cos_1: cos / norm, ..*shoulder };
+        let turn = (rotated.sin_1 * shoulder.cos_1 - rotated.cos_1 * shoulder.sin_1)
+            .hypot(1.0 - rotated.sin_1 * shoulder.sin_1 - rotated.cos_1 * shoulder.cos_1);
+        // The wrist center must not move by more than rounding or, if q1 is free, than the seed's
+        // radius.
         let open = if shoulder.x.abs() <= SEEDED_FREE {
             SEEDED_FREE
         } else {
             self.planar.position_rounding()
         };
-        (norm > 0.0 && turn < 0.1 && turn * shoulder.x.abs() <= open).then_some(turned)
+        (norm > 0.0 && turn < 0.1 && turn * shoulder.x.abs() <= open).then_some(rotated)
     }
 }
 
-/// The planes of an arm with b != 0 that rounding leaves open, with one of its elbows.
+/// The planes of an arm with b != 0 within the uncertainty, with one of its elbows.
 #[derive(Clone, Copy)]
-struct TurnedPlane<'a> {
+struct RotatedPlane<'a> {
     arm: &'a SphericalWrist,
     shoulder: &'a Shoulder,
     target: &'a Target<'a>,
     behind: bool,
 }
 
-impl TurnedPlane<'_> {
-    /// The shoulder turned by `angle`, the elbow that it has then, and what rounding leaves open of
-    /// the forearm [rad].
+impl RotatedPlane<'_> {
+    /// The shoulder rotated by `angle`, the elbow that it then has, and the uncertainty of the
+    /// forearm [rad].
     fn at(&self, angle: f64) -> Option<(Shoulder, Elbow, f64)> {
         let Self { arm, shoulder, target, behind } = self;
-        let turned = shoulder.turned(angle, target.wxy);
-        let end = [turned.x - arm.planar.a1, target.wz];
+        let rotated = shoulder.rotated(angle, target.wxy);
+        let end = [rotated.x - arm.planar.a1, target.wz];
         let (theta_2, policy) = (target.free_theta[1], target.free.policy);
         let elbows = arm.planar.elbows(end, target.tolerance, theta_2, policy).ok()?;
         let elbow = elbows.behind.filter(|_| *behind).unwrap_or(elbows.front);
-        Some((turned, elbow, turned.error + elbows.error))
+        Some((rotated, elbow, rotated.error + elbows.error))
     }
 
-    /// The part of the approach axis across the plane in which joint 5 moves it with the joint 4
-    /// that a path is heading for.
+    /// The component of the approach axis across the plane in which joint 5 moves it with the joint
+    /// 4 that a path is heading for.
     fn across(&self, angle: f64) -> Option<f64> {
         let (shoulder, elbow, _) = self.at(angle)?;
         let m = forearm_to_flange(&shoulder, &elbow, self.target.rotation);
@@ -158,8 +162,8 @@ impl TurnedPlane<'_> {
         Some(m[(1, 2)] * cos_4 - m[(0, 2)] * sin_4)
     }
 
-    /// The arm in the plane before `end` in which that part is none, and at the edge of reach where
-    /// that is before `end`.
+    /// The arm in the plane before `end` in which that component is zero, and at the edge of reach
+    /// if that is before `end`.
     fn ways(self, end: f64) -> impl Iterator<Item = (Shoulder, Elbow, f64)> + use<> {
         let reaches = |angle: f64| self.at(angle).is_some();
         let far = if reaches(end) { end } else { halved([0.0, end], reaches) };
@@ -172,7 +176,7 @@ impl TurnedPlane<'_> {
     }
 }
 
-/// The last place between two, to rounding, up to which it is so as it is at the first.
+/// The last place between two, to rounding, up to which `is_so` has the same value as at the first.
 fn halved([mut near, mut far]: [f64; 2], is_so: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..HALVINGS {
         let middle = 0.5 * (near + far);
@@ -185,9 +189,9 @@ fn halved([mut near, mut far]: [f64; 2], is_so: impl Fn(f64) -> bool) -> f64 {
     near
 }
 
-/// How far a branch is from where the joints are heading, joints 2 and 3 not regarded: the sum of
+/// The distance of a branch from where the joints are heading, without joints 2 and 3: the sum of
 /// squares [rad^2].
-fn motion(Standing { shoulder, wrist, .. }: &Standing, target: &Target<'_>) -> f64 {
+fn motion(ArmBranch { shoulder, wrist, .. }: &ArmBranch, target: &Target<'_>) -> f64 {
     let [heading_1, _, _, heading_4, heading_5, heading_6] = target.free_theta;
     let [theta_4, theta_5, theta_6] = wrist.theta;
     let apart = |theta: f64, heading: f64| wrap(theta - heading).powi(2);

@@ -24,7 +24,7 @@ const DIRECTIONS: usize = THETA_6 + BRANCHES;
 /// A column for each branch.
 type Branches = [Column; BRANCHES];
 
-/// What becomes of a block of poses.
+/// A block of poses with its solutions.
 pub(crate) struct WristBlock {
     /// Sines and cosines, of any length.
     directions: Directions<DIRECTIONS, LANES>,
@@ -32,7 +32,7 @@ pub(crate) struct WristBlock {
     q: [Branches; 6],
     /// theta, later q, of joints 4 to 6 with the wrist flipped.
     flipped: [Branches; 3],
-    /// Of the unflipped and of the flipped slots.
+    /// The status of the unflipped and of the flipped slots.
     status: [[Flags; BRANCHES]; 2],
     regular: Flags,
 }
@@ -106,7 +106,7 @@ impl WristBlock {
         self.directions.set(THETA_5 + number, lane, branch.theta_5);
         self.directions.set(THETA_6 + number, lane, branch.theta_6);
         self.status[0][number][lane] = if branch.reached { FOUND_INSIDE } else { 0 };
-        self.regular[lane] &= u64::from(branch.plain);
+        self.regular[lane] &= u64::from(branch.regular);
     }
 
     /// Joint angles of the slots, with both wrists (eq. 18 to 20).

@@ -1,8 +1,8 @@
-//! One branch of the arm with both of its wrists, in arithmetic alone: what runs in lanes.
+//! One branch of the arm with both of its wrists, in branch-free arithmetic, which runs in lanes.
 //!
-//! The equations are those of `arm` and `wrist`, without a division: directions stay as long as
-//! they come out, for an arc tangent does not mind. A branch that is next to a singularity or to
-//! the edge of reach is not plain, and those modules decide.
+//! The equations are those of `arm` and `wrist`, without a division: directions are not normalized,
+//! which an arc tangent does not need. A branch near a singularity or the edge of reach is not
+//! regular; those modules then decide.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -18,7 +18,7 @@ use crate::kinematics::thresholds::{
 };
 use crate::lanes::mul_add;
 
-/// The constants of an arm that a branch is calculated with.
+/// The precomputed constants of an arm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Constants {
     a1: f64,
@@ -27,19 +27,20 @@ pub(crate) struct Constants {
     triangle: Triangle,
     sin_psi: f64,
     cos_psi: f64,
-    /// Least x of the shoulder [m] and least size of m^2 (eq. 8) [m^4] of a plain branch.
+    /// Least x of the shoulder [m] and least size of m^2 (eq. 8) [m^4] of a regular branch.
     regular_x: f64,
-    plain_m2: f64,
+    regular_m2: f64,
 }
 
 impl Constants {
     pub(super) fn of(arm: &PlanarArm) -> Self {
         let (c2, k, extent) = (arm.c2, arm.k, arm.extent);
         let regular_x = (REGULAR_SHOULDER * extent).max(10.0 * SHOULDER_MERGE);
-        let plain_m2 = 2.0 * (REGULAR_REACH * extent).max(10.0 * REACH_TOLERANCE) * extent * c2 * k;
-        // How far rounding may turn the forearm of a plain branch, with the least r that such an m
-        // leaves (eq. 7 and 8).
-        let (least_m, least_r) = (plain_m2.sqrt(), 2.0 * plain_m2.sqrt() / (c2 + k));
+        let regular_m2 =
+            2.0 * (REGULAR_REACH * extent).max(10.0 * REACH_TOLERANCE) * extent * c2 * k;
+        // How far rounding may rotate the forearm of a regular branch, with the least r for such an
+        // m (eq. 7 and 8).
+        let (least_m, least_r) = (regular_m2.sqrt(), 2.0 * regular_m2.sqrt() / (c2 + k));
         let error = arm.direction_rounding() * (1.0 / regular_x + c2 / least_m + 1.0 / least_r);
         Self {
             a1: arm.a1,
@@ -48,19 +49,20 @@ impl Constants {
             triangle: Triangle::new(c2, k),
             sin_psi: arm.a2 / k,
             cos_psi: arm.c3 / k,
-            // Where that could hide a wrist's branches, the arm being minute in its surroundings,
-            // nothing is plain; nor where the forearm is so short that eq. 10 loses its length.
+            // If that could hide branches of a wrist, because the arm is minute relative to its end
+            // frames, no branch is regular; nor if the forearm is so short that eq. 10 loses its
+            // length.
             regular_x: if error <= 0.1 * REGULAR_WRIST_SIN && k >= REGULAR_FOREARM * c2 {
                 regular_x
             } else {
                 f64::INFINITY
             },
-            plain_m2,
+            regular_m2,
         }
     }
 }
 
-/// One branch of the arm: the directions of its angles, not a number where it does not reach.
+/// One branch of the arm: the directions of its angles, NaN if it does not reach.
 pub(super) struct Branch {
     pub(super) theta_1: Direction,
     pub(super) theta_2: Direction,
@@ -70,12 +72,12 @@ pub(super) struct Branch {
     pub(super) theta_5: Direction,
     pub(super) theta_6: Direction,
     pub(super) reached: bool,
-    /// Whether this is all there is to say of the branch.
-    pub(super) plain: bool,
+    /// Whether the branch is regular (well conditioned).
+    pub(super) regular: bool,
 }
 
 /// The branch with `shoulder` (1, or -1 with the wrist center behind axis 1) and `elbow` (1, or -1
-/// behind the lower arm) of a wrist frame; `LATERAL` where the arm has a lateral offset.
+/// behind the lower arm) for a wrist frame; `LATERAL` if the arm has a lateral offset.
 #[inline(always)]
 pub(super) fn branch<const FUSED: bool, const LATERAL: bool>(
     arm: &Constants,
@@ -107,9 +109,9 @@ pub(super) fn branch<const FUSED: bool, const LATERAL: bool>(
     // The wrist (eq. 14 to 17); M times `length`.
     let length = length_1 * length_23;
     let (down, along) = (length_1 * sin_23, length_1 * cos_23);
-    let n0 = turned::<FUSED>(r[0], cos_1, r[1], sin_1);
-    let m0 = turned::<FUSED>(n0, cos_23, r[2], -down);
-    let n1 = turned::<FUSED>(r[1], cos_1, r[0], -sin_1);
+    let n0 = combined::<FUSED>(r[0], cos_1, r[1], sin_1);
+    let m0 = combined::<FUSED>(n0, cos_23, r[2], -down);
+    let n1 = combined::<FUSED>(r[1], cos_1, r[0], -sin_1);
     let m1 = [n1[0] * length_23, n1[1] * length_23, n1[2] * length_23];
     let m22 = mul_add::<FUSED>(n0[2], sin_23, r[2][2] * along);
     let [theta_4, theta_5, theta_6] = zyz_directions::<FUSED>(m0, m1, m22);
@@ -122,15 +124,15 @@ pub(super) fn branch<const FUSED: bool, const LATERAL: bool>(
         theta_5,
         theta_6,
         reached,
-        plain: (size >= arm.regular_x)
-            & (m2.abs() >= arm.plain_m2)
+        regular: (size >= arm.regular_x)
+            & (m2.abs() >= arm.regular_m2)
             & (!reached | (sin_5 >= REGULAR_WRIST_SIN * length)),
     }
 }
 
 /// `a p + b s`, element by element.
 #[inline(always)]
-fn turned<const FUSED: bool>(a: [f64; 3], p: f64, b: [f64; 3], s: f64) -> [f64; 3] {
+fn combined<const FUSED: bool>(a: [f64; 3], p: f64, b: [f64; 3], s: f64) -> [f64; 3] {
     [
         mul_add::<FUSED>(a[0], p, b[0] * s),
         mul_add::<FUSED>(a[1], p, b[1] * s),

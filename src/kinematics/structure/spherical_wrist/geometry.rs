@@ -1,4 +1,4 @@
-//! What is kept of an arm with a spherical wrist, and what its joint angles make of it.
+//! The stored geometry of an arm with a spherical wrist, and what follows from it for joint angles.
 
 use core::f64::consts::PI;
 

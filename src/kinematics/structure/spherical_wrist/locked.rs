@@ -1,5 +1,5 @@
-//! The arm with its wrist held, or with axis 4 held: what a path that may deviate in orientation
-//! solves.
+//! The arm with its wrist locked, or with axis 4 locked: solved by a path that may deviate in
+//! orientation.
 
 use core::f64::consts::PI;
 
@@ -16,10 +16,10 @@ use crate::kinematics::thresholds::LEAST_LINK;
 
 impl SphericalWrist {
     /// The joint vectors that bring a point of the tool to `point` with the wrist angles of `q`: up
-    /// to four, the wrist's as they are.
+    /// to four, with an unchanged wrist.
     ///
-    /// With the wrist held, forearm and tool are one link that ends at the point: the same arm with
-    /// other a2, b and c3 (eq. 22).
+    /// With the wrist locked, forearm and tool are one link that ends at the point: the same arm
+    /// with other a2, b and c3 (eq. 22).
     pub(crate) fn to_point(
         &self,
         point: &Vector3<f64>,
@@ -29,7 +29,7 @@ impl SphericalWrist {
         let theta = self.theta(q);
         let lever = wrist_rotation(theta[3], theta[4], theta[5]) * tool_in_wrist;
         let (a2, c3) = (self.planar.a2 + lever.x, self.planar.c3 + lever.z);
-        // An offset of rounding is none: it would make another kind of shoulder.
+        // An offset due to rounding is zero: it would change how the shoulder's branches meet.
         let b = self.planar.b + lever.y;
         let b = if b.abs() <= self.planar.position_rounding() { 0.0 } else { b };
         let arm = Self {
@@ -38,8 +38,7 @@ impl SphericalWrist {
         };
         let still = Pose::from_parts((*point).into(), Rotation3::identity());
         let branches = arm.solve_wrist(&still, &FreeChoice::seed(*q));
-        // Slots that differ in their last bit differ in the wrist of the point, which is not looked
-        // at.
+        // Slots that differ in their last bit differ in the wrist of the point, which is not used.
         let wrist = [q[3], q[4], q[5]];
         [0, 2, 4, 6]
             .into_iter()
@@ -50,32 +49,33 @@ impl SphericalWrist {
             })
     }
 
-    /// The wrist angles that give the flange the rotation `m` in the forearm (eq. 15 to 17), or the
-    /// flipped ones.
+    /// The wrist angles that give the flange the rotation `m` in the forearm frame (eq. 15 to 17),
+    /// or the flipped ones.
     pub(crate) fn with_wrist(&self, m: &Matrix3<f64>, q: &[f64; 6], flipped: bool) -> [f64; 6] {
         let theta_4 = m[(1, 2)].atan2(m[(0, 2)]) + if flipped { PI } else { 0.0 };
         let mut q = *q;
         q[3] += self.joint_map.signs[3] * (theta_4 - self.theta(&q)[3]);
-        self.with_axis_4_held(m, &q)
+        self.with_axis_4_locked(m, &q)
     }
 
     /// The wrist angles with which the tool comes nearest to the rotation `m` of the flange in the
-    /// forearm, theta_4 held: the approach axis in the plane that theta_5 moves it in, then the
-    /// best turn about it (eq. 23). They are exact where the plane holds that axis.
-    pub(crate) fn with_axis_4_held(&self, m: &Matrix3<f64>, q: &[f64; 6]) -> [f64; 6] {
+    /// forearm frame, with theta_4 locked: the approach axis in the plane that theta_5 moves it in,
+    /// then the best rotation about it (eq. 23). They are exact if the plane contains that axis.
+    pub(crate) fn with_axis_4_locked(&self, m: &Matrix3<f64>, q: &[f64; 6]) -> [f64; 6] {
         let mut theta = self.theta(q);
         let n = wrist_rotation(-theta[3], 0.0, 0.0) * m;
         theta[4] = n[(0, 2)].atan2(n[(2, 2)]);
         self.with_best_turn(theta, &n, q)
     }
 
-    /// The same with theta_5 held too: the best turn alone.
-    pub(crate) fn with_axes_4_and_5_held(&self, m: &Matrix3<f64>, q: &[f64; 6]) -> [f64; 6] {
+    /// The same with theta_5 locked too: only the best rotation.
+    pub(crate) fn with_axes_4_and_5_locked(&self, m: &Matrix3<f64>, q: &[f64; 6]) -> [f64; 6] {
         let theta = self.theta(q);
         self.with_best_turn(theta, &(wrist_rotation(-theta[3], 0.0, 0.0) * m), q)
     }
 
-    /// The turn about the approach axis that comes nearest to `n` with theta_5 as it is (eq. 23).
+    /// The rotation about the approach axis that comes nearest to `n` with theta_5 unchanged (eq.
+    /// 23).
     fn with_best_turn(&self, mut theta: [f64; 6], n: &Matrix3<f64>, q: &[f64; 6]) -> [f64; 6] {
         let (sin_5, cos_5) = theta[4].sin_cos();
         let cosine = n[(0, 0)] * cos_5 + n[(1, 1)] - n[(2, 0)] * sin_5;
@@ -85,7 +85,7 @@ impl SphericalWrist {
         [q[0], q[1], q[2], q[3], q5, q6]
     }
 
-    /// The flange's rotation in the forearm, for the arm angles of `q` (eq. 14).
+    /// The flange's rotation in the forearm frame, for the arm angles of `q` (eq. 14).
     pub(crate) fn rotation_in_forearm(
         &self,
         rotation: &Matrix3<f64>,

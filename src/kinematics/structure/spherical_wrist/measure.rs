@@ -1,4 +1,5 @@
-//! Finding an ortho-parallel basis with a spherical wrist in a modified Denavit-Hartenberg table.
+//! Recognizes an ortho-parallel basis with a spherical wrist in a modified Denavit-Hartenberg
+//! table.
 
 use nalgebra::Vector3;
 
@@ -16,8 +17,8 @@ use crate::kinematics::structure::recognition::{JointFrame, angle, axes, rotatio
 use crate::kinematics::thresholds::FORM_TOLERANCE;
 use crate::report::{Pattern, Relation, UnknownStructure};
 
-/// The conditions of an ortho-parallel basis with a spherical wrist. Axes 4 and 6 meet axis 5 in
-/// one point.
+/// The conditions of an ortho-parallel basis with a spherical wrist. Axes 4 and 6 intersect axis 5
+/// in one point.
 pub(crate) static PATTERN: Pattern = Pattern {
     name: "spherical wrist",
     title: "a spherical wrist on an ortho-parallel base",
@@ -33,15 +34,15 @@ pub(crate) static PATTERN: Pattern = Pattern {
     ],
 };
 
-/// Reads the geometry off the frames at q = 0 (docs/spherical_wrist.md, section 7). Lengths come
-/// from the rows, so that none is lost to rounding; the frames give the directions.
+/// Measure the geometry in the frames at q = 0 (docs/spherical_wrist.md, section 7). Lengths are
+/// those of the rows, so that none is lost to rounding; the frames give the directions.
 pub(super) fn measure(mdh: &mut Mdh<6>) -> Result<SphericalWrist, UnknownStructure> {
     let rows = mdh.rows;
     let chain = Chain::new(Mdh { base: Pose::identity(), ..mdh.clone() });
     let [f1, f2, f3, f4, f5, f6] = chain.link_frames(&[0.0; 6]).0.map(|pose| JointFrame::of(&pose));
 
-    // The shoulder: z up, x to where the arm stands off axis 1, or to where it faces at q1 = 0 when
-    // it does not.
+    // The shoulder: z up, x to the side on which the arm is offset from axis 1 or, without an
+    // offset, to where it faces at q1 = 0.
     let sign_1 = if f1.z.z < -FORM_TOLERANCE { -1.0 } else { 1.0 };
     let up = f1.z * sign_1;
     let forward = f1.x * facing(rows[1].a, &f1.x);
@@ -92,7 +93,7 @@ pub(super) fn measure(mdh: &mut Mdh<6>) -> Result<SphericalWrist, UnknownStructu
     })
 }
 
-/// 1 or -1: which way of axis x the arm faces.
+/// The direction along axis x that the arm faces, 1 or -1.
 fn facing(a1: f64, x: &Vector3<f64>) -> f64 {
     if a1.abs() > FORM_TOLERANCE {
         return sign_of(a1);

@@ -1,7 +1,7 @@
-//! Arms with an ortho-parallel basis and a spherical wrist: axis 1 square to axis 2, axes 2 and 3
-//! parallel, axes 4, 5, 6 through one point.
+//! Arms with an ortho-parallel basis and a spherical wrist: axis 1 perpendicular to axis 2, axes 2
+//! and 3 parallel, axes 4, 5, 6 through one point.
 //!
-//! `docs/spherical_wrist.md` has the derivation; its equation numbers stand beside the code.
+//! `docs/spherical_wrist.md` has the derivation, with the equation numbers cited in the code.
 
 mod arm;
 mod block;
@@ -10,8 +10,8 @@ mod geometry;
 mod locked;
 mod measure;
 mod one_pose;
-mod open;
 mod opw;
+mod singular;
 mod solve;
 mod wrist;
 
@@ -27,7 +27,7 @@ use measure::PATTERN;
 use super::Structure;
 use super::branches::Branches;
 use super::free_choice::FreeChoice;
-use super::open_wrist::OpenWrist;
+use super::singular_wrist::SingularWrist;
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::status::SingularityKind;
@@ -88,29 +88,28 @@ impl Structure<6, 8> for SphericalWrist {
         }
     }
 
-    /// A solve, which does not know `q`, also merges a wrist by what the pose leaves open of the
-    /// forearm.
+    /// A solve, which does not know `q`, also merges wrists within the uncertainty of the forearm.
     #[inline]
-    fn kinds(&self, q: &[f64; 6]) -> SingularityKind {
+    fn singularities(&self, q: &[f64; 6]) -> SingularityKind {
         let [_, x, wrist] = self.factors(q);
-        let mut kinds = SingularityKind::empty();
-        kinds.set(SingularityKind::WRIST, wrist.abs() <= WRIST_MERGE_SIN);
-        kinds.set(SingularityKind::ELBOW, self.planar.is_straight(self.theta(q)[2]));
-        kinds.set(SingularityKind::SHOULDER, x.abs() <= self.planar.shoulder_merge());
-        kinds
+        let mut singularities = SingularityKind::empty();
+        singularities.set(SingularityKind::WRIST, wrist.abs() <= WRIST_MERGE_SIN);
+        singularities.set(SingularityKind::ELBOW, self.planar.is_straight(self.theta(q)[2]));
+        singularities.set(SingularityKind::SHOULDER, x.abs() <= self.planar.shoulder_merge());
+        singularities
     }
 
-    /// That at the wrist center, which is that of the tool's (eq. 21).
+    /// The determinant at the wrist center, which equals that at the tool (eq. 21).
     fn jacobian_determinant(&self, q: &[f64; 6]) -> f64 {
         let [elbow, x, wrist] = self.factors(q);
         let links = self.planar.c2 * self.planar.k;
         -self.joint_map.signs.iter().product::<f64>() * links * elbow * x * wrist
     }
 
-    /// By the signs of eq. 13.
+    /// Determined by the signs of eq. 13.
     fn slot(&self, q: &[f64; 6]) -> Option<Slot> {
         let [elbow, x, wrist] = self.factors(q);
-        let met = self.kinds(q);
+        let met = self.singularities(q);
         let behind_axis_1 = x < 0.0 && !met.contains(SingularityKind::SHOULDER);
         let behind_lower_arm = elbow < 0.0 && !met.contains(SingularityKind::ELBOW);
         Some(Slot::of_bits([behind_axis_1, behind_lower_arm, wrist < 0.0]))
@@ -120,11 +119,11 @@ impl Structure<6, 8> for SphericalWrist {
         Some(self.theta(q)[4].sin())
     }
 
-    fn open_wrist(&self) -> Option<&dyn OpenWrist<6>> {
+    fn singular_wrist(&self) -> Option<&dyn SingularWrist<6>> {
         Some(self)
     }
 
-    /// Where axes 2 and 3 turn in the same sense, q2 + q3 is a pitch.
+    /// If axes 2 and 3 turn in the same sense, q2 + q3 is a pitch.
     fn may_be_coupled(&self) -> Result<(), &'static str> {
         let same_sense = self.joint_map.signs[1].total_cmp(&self.joint_map.signs[2]).is_eq();
         if same_sense { Ok(()) } else { Err("they turn in opposite senses") }

@@ -35,7 +35,7 @@ impl LaneKernel<6, 8> for Constants {
 /// Joint angles and status of the slots of a regular pose.
 pub(crate) struct WristSlots {
     arm: [[f64; BRANCHES]; 3],
-    /// With the wrist unflipped and flipped.
+    /// The wrist angles, unflipped and flipped.
     wrist: [[[f64; BRANCHES]; 3]; 2],
     status: [[u64; BRANCHES]; 2],
 }
@@ -69,7 +69,7 @@ const THETA_4: usize = 3;
 const THETA_5: usize = 4;
 const THETA_6: usize = 5;
 
-/// The branches of a pose, a lane each.
+/// The branches of a pose, one per lane.
 struct Branches {
     directions: Directions<6, BRANCHES>,
     status: [u64; BRANCHES],
@@ -90,7 +90,7 @@ impl Branches {
             branches.directions.set(THETA_5, lane, branch.theta_5);
             branches.directions.set(THETA_6, lane, branch.theta_6);
             branches.status[lane] = if branch.reached { FOUND_INSIDE } else { 0 };
-            regular[lane] = u64::from(branch.plain);
+            regular[lane] = u64::from(branch.regular);
         }
         (regular == [1; BRANCHES] && branches.status != [0; BRANCHES]).then_some(branches)
     }

@@ -10,7 +10,7 @@ use crate::kinematics::thresholds::{FORM_TOLERANCE, LEAST_LINK, MOST_ANGLE, MOST
 
 /// Brandstoetter's parameters of an ortho-parallel basis with a spherical wrist.
 ///
-/// At zero angles the arm stands straight up along z. `theta = sign * q - offset`, as in the
+/// At zero angles the arm is upright along z. `theta = sign * q - offset`, as in the
 /// `opw_kinematics` library. Reference: Brandstoetter, Angerer, Hofbaur, "An analytical solution of
 /// the inverse kinematics problem of industrial serial manipulators with an ortho-parallel basis
 /// and a spherical wrist", 2014.
@@ -19,7 +19,7 @@ use crate::kinematics::thresholds::{FORM_TOLERANCE, LEAST_LINK, MOST_ANGLE, MOST
 pub struct OpwParameters {
     /// Distance of axis 2 from axis 1 [m].
     pub a1: f64,
-    /// Elbow offset: distance of axis 4 from axis 3 [m]; negative when it lifts the forearm of an
+    /// Elbow offset: distance of axis 4 from axis 3 [m]; negative if it raises the forearm of an
     /// ABB arm at zero.
     pub a2: f64,
     /// Lateral offset of the wrist center from the plane through axis 1 [m].
@@ -38,13 +38,13 @@ pub struct OpwParameters {
     pub signs: [i8; 6],
 }
 
-/// What is added to each theta to get the angle of the modified Denavit-Hartenberg row
+/// Added to each theta to get the angle of the modified Denavit-Hartenberg row
 /// (docs/spherical_wrist.md, table 1).
 const MDH_SHIFT: [f64; 6] = [0.0, -FRAC_PI_2, -FRAC_PI_2, 0.0, 0.0, PI];
 
 impl OpwParameters {
-    /// Parameters in meters with ABB's joint convention: axis 3 reads -90 deg where the arm is
-    /// straight, all signs +1.
+    /// Parameters in meters with ABB's joint convention: axis 3 is at -90 deg where the arm is
+    /// straight, all signs are +1.
     #[must_use]
     pub const fn abb(a1: f64, a2: f64, c1: f64, c2: f64, c3: f64, c4: f64) -> Self {
         Self {
@@ -60,8 +60,9 @@ impl OpwParameters {
         }
     }
 
-    /// The parameters, checked; offsets in (-pi, pi]; a lateral offset within [`FORM_TOLERANCE`] of
-    /// zero is zero, for it changes how the shoulder's branches meet.
+    /// The parameters, checked, with offsets in (-pi, pi]. A lateral offset within
+    /// [`FORM_TOLERANCE`] of zero becomes zero, because an offset changes how the shoulder's
+    /// branches meet.
     ///
     /// # Errors
     ///
@@ -69,7 +70,7 @@ impl OpwParameters {
     /// arm or forearm has no length.
     pub(crate) fn squared_up(self) -> Result<Self, Error> {
         self.check()?;
-        // Turns of an offset would cost digits of every angle.
+        // Full turns of an offset would cost digits of every angle.
         let offsets =
             self.offsets.map(|offset| if offset.abs() > PI { wrap(offset) } else { offset });
         Ok(Self { b: if self.b.abs() <= FORM_TOLERANCE { 0.0 } else { self.b }, offsets, ..self })
@@ -108,8 +109,8 @@ impl OpwParameters {
 
     /// The modified Denavit-Hartenberg table of the arm.
     ///
-    /// A joint of sign -1 turns its frame over: `Rz(-q) = Rx(pi) Rz(q) Rx(-pi)`; the last turn
-    /// stays in the flange transform.
+    /// A joint of sign -1 flips its frame: `Rz(-q) = Rx(pi) Rz(q) Rx(-pi)`; the last flip remains
+    /// in the flange transform.
     #[must_use]
     pub fn mdh(&self) -> Mdh<6> {
         let mut rows = [

@@ -6,7 +6,7 @@ use core::f64::consts::PI;
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::SphericalWrist;
-use super::arm::{Open, Standing};
+use super::arm::{ArmBranch, ElbowUncertainty};
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::branches::Branches;
@@ -33,8 +33,8 @@ impl SphericalWrist {
         let missed =
             sides.map(|(base, shoulder)| self.fill_or_eased(&mut branches, base, shoulder, target));
         branches.reach = missed[0].nearer(missed[1]);
-        // Less beyond reach than anyone could see: that shoulder gets the stretched or folded arm.
-        // Of two that are one, where neither reaches.
+        // Beyond reach by less than the tolerance: that shoulder gets the stretched or folded arm;
+        // of two merged shoulders, only if neither reaches.
         let nearest = branches.reach;
         for ((base, shoulder), missed) in sides.into_iter().zip(missed) {
             let shortfall = if *merged { nearest } else { missed }.shortfall();
@@ -50,7 +50,7 @@ impl SphericalWrist {
         branches
     }
 
-    /// The branches of one shoulder, in the plane that rounding leaves open where it just misses.
+    /// The branches of one shoulder; in the plane within its uncertainty if it just misses.
     fn fill_or_eased(
         &self,
         branches: &mut Branches<6>,
@@ -69,7 +69,7 @@ impl SphericalWrist {
         }
     }
 
-    /// Puts the four branches of one shoulder into slots `base` ..= `base` + 3 (eq. 13 and 18).
+    /// Fill slots `base` ..= `base` + 3 with the four branches of one shoulder (eq. 13 and 18).
     fn fill(
         &self,
         branches: &mut Branches<6>,
@@ -88,7 +88,10 @@ impl SphericalWrist {
             Err(missed) => return missed,
         };
         let merged = if elbows.behind.is_none() { Status::ELBOW } else { Status::empty() };
-        let open = Open { error: shoulder.error + elbows.error, straight: elbows.behind.is_none() };
+        let open = ElbowUncertainty {
+            error: shoulder.error + elbows.error,
+            straight: elbows.behind.is_none(),
+        };
         for (elbow, slot) in [(Some(elbows.front), base), (elbows.behind, base + 2)] {
             let Some(elbow) = elbow else {
                 for twin in [slot, slot + 1] {
@@ -96,13 +99,14 @@ impl SphericalWrist {
                 }
                 continue;
             };
-            let Standing { shoulder, elbow, wrist } = self.standing(shoulder, &elbow, target, open);
+            let ArmBranch { shoulder, elbow, wrist } =
+                self.arm_branch(shoulder, &elbow, target, open);
             let Elbow { theta_2, theta_3, .. } = elbow;
             let theta_1 = shoulder.sin_1.atan2(shoulder.cos_1);
             let [theta_4, theta_5, theta_6] = wrist.theta;
             let flags = if wrist.merged { merged | Status::WRIST } else { merged };
-            // A free theta_4 that was given may leave theta_5 negative: then the flipped slot is
-            // the one that is kept.
+            // A free theta_4 that is given may make theta_5 negative: the flipped slot is then
+            // kept.
             let (kept, flipped) = if theta_5 < 0.0 { (slot + 1, slot) } else { (slot, slot + 1) };
             branches.q[kept] =
                 Some(self.joint_map.joints([theta_1, theta_2, theta_3, theta_4, theta_5, theta_6]));
@@ -132,13 +136,13 @@ impl SphericalWrist {
         Reach::Reached
     }
 
-    /// What stays fixed where axes 4 and 6 act as one, as they nearly do next to a joint 5 like
-    /// that of `q`.
+    /// The combination of joints that is fixed where axes 4 and 6 act as one, as they nearly do
+    /// near a joint 5 like that of `q`.
     pub(crate) fn wrist_pair(&self, q: &[f64; 6]) -> FreeJoint {
         self.free_wrist(self.theta(q)[4])
     }
 
-    /// What the pose leaves open at theta_5 = 0 or 180 deg, in terms of the joints.
+    /// The joints that the pose leaves undetermined at theta_5 = 0 or 180 deg.
     pub(super) fn free_wrist(&self, theta_5: f64) -> FreeJoint {
         let sum =
             (theta_5.cos() > 0.0) == (self.joint_map.signs[3] * self.joint_map.signs[5] > 0.0);

@@ -1,4 +1,5 @@
-//! The wrist: the angles of joints 4, 5 and 6 that give the flange its rotation in the forearm.
+//! The wrist: the angles of joints 4, 5 and 6 that give the flange its rotation in the forearm
+//! frame.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
@@ -8,8 +9,8 @@ use crate::kinematics::pose::angles::constant_sin_cos;
 use crate::kinematics::structure::planar_arm::{Elbow, Shoulder, Target};
 use crate::kinematics::structure::zyz::{First, Zyz, zyz};
 
-/// The wrist angles (eq. 15 to 17). `error` is how far rounding may turn the forearm: a theta_5
-/// below it is none.
+/// The wrist angles (eq. 15 to 17). `error` is how far rounding may rotate the forearm: a theta_5
+/// below it is treated as zero.
 pub(super) fn wrist(m: &Matrix3<f64>, target: &Target<'_>, error: f64) -> Zyz {
     zyz(m, &First { joint: 4, theta: target.free_theta[3], policy: target.free.policy }, error)
 }
@@ -30,7 +31,7 @@ pub(super) fn forearm_to_flange(
     ])
 }
 
-/// `Rz(theta_4) Ry(theta_5) Rz(theta_6)`; exact where theta_4 is held at a quarter turn.
+/// `Rz(theta_4) Ry(theta_5) Rz(theta_6)`; exact if theta_4 is locked at a quarter turn.
 pub(super) fn wrist_rotation(theta_4: f64, theta_5: f64, theta_6: f64) -> Matrix3<f64> {
     let about_z =
         |(sin, cos): (f64, f64)| Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);

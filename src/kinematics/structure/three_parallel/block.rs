@@ -19,7 +19,7 @@ const THETA_2: usize = PHI + 2;
 const THETA_23: usize = THETA_2 + SLOTS;
 const DIRECTIONS: usize = THETA_23 + SLOTS;
 
-/// What becomes of a block of poses.
+/// A block of poses with its solutions.
 pub(crate) struct ParallelBlock {
     directions: Directions<DIRECTIONS, LANES>,
     slots: SlotColumns<6, SLOTS>,
@@ -82,7 +82,7 @@ impl ParallelBlock {
         self.directions.set(THETA_2 + slot, lane, branch.theta_2);
         self.directions.set(THETA_23 + slot, lane, branch.theta_23);
         self.slots.status[slot][lane] = if branch.reached { FOUND_INSIDE } else { 0 };
-        self.regular[lane] &= u64::from(branch.plain);
+        self.regular[lane] &= u64::from(branch.regular);
     }
 
     /// theta of every slot (eq. 40).

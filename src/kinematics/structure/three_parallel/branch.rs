@@ -1,8 +1,8 @@
-//! The branches of the arm in arithmetic alone: what runs in lanes.
+//! The branches of the arm in branch-free arithmetic, which runs in lanes.
 //!
-//! The equations are those of `planar_arm`, `wrist` and `solve`. Directions stay as long as they
-//! come out, for an arc tangent does not mind. A branch that is next to a singularity or to the
-//! edge of reach is not plain, and those modules decide.
+//! The equations are those of `planar_arm`, `wrist` and `solve`. Directions are not normalized,
+//! which an arc tangent does not need. A branch near a singularity or the edge of reach is not
+//! regular; those modules then decide.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -17,18 +17,18 @@ use crate::kinematics::thresholds::{
 };
 use crate::lanes::mul_add;
 
-/// The constants of an arm that a branch is calculated with.
+/// The precomputed constants of an arm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Constants {
     a1: f64,
     b: f64,
     d5: f64,
     triangle: Triangle,
-    /// Least x of the shoulder [m] and least size of m^2 (eq. 8) [m^4] of a plain branch.
+    /// Least x of the shoulder [m] and least size of m^2 (eq. 8) [m^4] of a regular branch.
     regular_x: f64,
-    plain_m2: f64,
-    /// Least x sin theta_5 of a plain branch [m]: a rounding of the pose over this turns joint 6,
-    /// and moves the end of the planar arm.
+    regular_m2: f64,
+    /// Least x sin theta_5 of a regular branch [m]: a rounding of the pose over this rotates joint
+    /// 6, and moves the end of the planar arm.
     regular_turn: f64,
 }
 
@@ -37,8 +37,8 @@ impl Constants {
         let (planar, c2, k, extent) = (arm.planar, arm.planar.c2, arm.planar.k, arm.planar.extent);
         let regular_x = (REGULAR_SHOULDER * extent).max(10.0 * SHOULDER_MERGE);
         let regular_reach = (REGULAR_REACH * extent).max(10.0 * REACH_TOLERANCE);
-        // How far rounding may turn the plane of a plain branch; a forearm that is short loses its
-        // length in eq. 10.
+        // How far rounding may rotate the plane of a regular branch; a forearm that is short loses
+        // its length in eq. 10.
         let sound = planar.direction_rounding() / regular_x <= 0.1 * REGULAR_WRIST_SIN
             && k >= REGULAR_FOREARM * c2;
         Self {
@@ -47,7 +47,7 @@ impl Constants {
             d5: arm.d5,
             triangle: Triangle::new(c2, k),
             regular_x: if sound { regular_x } else { f64::INFINITY },
-            plain_m2: 2.0 * regular_reach * extent * c2 * k,
+            regular_m2: 2.0 * regular_reach * extent * c2 * k,
             regular_turn: 10.0 * planar.position_rounding() * arm.d5 / regular_reach,
         }
     }
@@ -60,13 +60,13 @@ pub(super) struct Facing {
     /// With theta_5 in 0 ..= pi; the flipped wrist follows by eq. 40.
     pub(super) theta_5: Direction,
     pub(super) theta_6: Direction,
-    /// Of length one.
+    /// A unit vector.
     pub(super) phi: Direction,
     x: f64,
-    pub(super) plain: bool,
+    pub(super) regular: bool,
 }
 
-/// The shoulder 1, or -1 with the wrist behind axis 1, of a wrist frame (eq. 32 to 36).
+/// The shoulder 1, or -1 with the wrist behind axis 1, for a wrist frame (eq. 32 to 36).
 #[inline(always)]
 pub(super) fn facing<const FUSED: bool>(
     arm: &Constants,
@@ -98,23 +98,22 @@ pub(super) fn facing<const FUSED: bool>(
         theta_6: [m12, m10],
         phi: [sin_phi, cos_phi],
         x,
-        plain: (size >= arm.regular_x)
+        regular: (size >= arm.regular_x)
             & (sin_5 >= REGULAR_WRIST_SIN * rho2)
             & (size * sin_5 >= arm.regular_turn * rho2),
     }
 }
 
-/// The arm of a shoulder and a wrist: the directions of its angles, not a number where it does not
-/// reach.
+/// The arm of a shoulder and a wrist: the directions of its angles, NaN if it does not reach.
 pub(super) struct Branch {
     pub(super) theta_2: Direction,
     pub(super) theta_23: Direction,
     pub(super) reached: bool,
-    /// Whether this is all there is to say of the branch.
-    pub(super) plain: bool,
+    /// Whether the branch is regular (well conditioned).
+    pub(super) regular: bool,
 }
 
-/// The branch with `wrist` (1, or -1 flipped) and `elbow` (1, or -1 with a negative theta_3) of a
+/// The branch with `wrist` (1, or -1 flipped) and `elbow` (1, or -1 with a negative theta_3) for a
 /// shoulder (eq. 37, 5 to 12).
 #[inline(always)]
 pub(super) fn branch<const FUSED: bool>(
@@ -138,6 +137,6 @@ pub(super) fn branch<const FUSED: bool>(
         theta_2: [upper_x, upper_z],
         theta_23: [mul_add::<FUSED>(r2, x, -upper_x), mul_add::<FUSED>(r2, z, -upper_z)],
         reached,
-        plain: facing.plain & (m2.abs() >= arm.plain_m2),
+        regular: facing.regular & (m2.abs() >= arm.regular_m2),
     }
 }

@@ -1,4 +1,5 @@
-//! What is kept of an arm with three parallel axes, and what its joint angles make of it.
+//! The stored geometry of an arm with three parallel axes, and what follows from it for joint
+//! angles.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -6,11 +7,11 @@ use nalgebra::{ComplexField as _, RealField as _};
 use crate::kinematics::structure::joint_map::JointMap;
 use crate::kinematics::structure::planar_arm::PlanarArm;
 
-/// The geometry between the shoulder (on axis 1, at the height of axis 2) and the wrist, where axes
-/// 5 and 6 meet.
+/// The geometry between the shoulder (on axis 1, at the height of axis 2) and the wrist, the
+/// intersection of axes 5 and 6.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ThreeParallel {
-    /// Up to axis 4.
+    /// The arm up to axis 4.
     pub(super) planar: PlanarArm,
     /// Distance of the wrist from axis 4, along axis 5 [m].
     pub(super) d5: f64,

@@ -1,4 +1,4 @@
-//! Finding three parallel axes in a modified Denavit-Hartenberg table.
+//! Recognizes three parallel axes in a modified Denavit-Hartenberg table.
 
 use super::ThreeParallel;
 use crate::kinematics::chain::Chain;
@@ -11,8 +11,8 @@ use crate::kinematics::structure::recognition::{JointFrame, angle, axes, rotatio
 use crate::kinematics::thresholds::FORM_TOLERANCE;
 use crate::report::{Pattern, Relation, UnknownStructure};
 
-/// The conditions of three parallel axes between a base axis and two wrist axes, each square to the
-/// next.
+/// The conditions of three parallel axes between a base axis and two wrist axes, each perpendicular
+/// to the next.
 pub(crate) static PATTERN: Pattern = Pattern {
     name: "three parallel axes",
     title: "three parallel axes",
@@ -27,14 +27,14 @@ pub(crate) static PATTERN: Pattern = Pattern {
     ],
 };
 
-/// Reads the geometry off the frames at q = 0 (docs/three_parallel.md, section 6). Lengths come
-/// from the rows, so that none is lost to rounding; the frames give the directions.
+/// Measure the geometry in the frames at q = 0 (docs/three_parallel.md, section 6). Lengths are
+/// those of the rows, so that none is lost to rounding; the frames give the directions.
 pub(super) fn measure(mdh: &Mdh<6>) -> Result<ThreeParallel, UnknownStructure> {
     let rows = &mdh.rows;
     let chain = Chain::new(Mdh { base: Pose::identity(), ..mdh.clone() });
     let [f1, f2, f3, f4, f5, f6] = chain.link_frames(&[0.0; 6]).0.map(|pose| JointFrame::of(&pose));
 
-    // The shoulder: z up, y to the side on which the wrist stands.
+    // The shoulder: z up, y to the side of the wrist.
     let sign_1 = if f1.z.z < -FORM_TOLERANCE { -1.0 } else { 1.0 };
     let up = f1.z * sign_1;
     let lateral =

@@ -1,7 +1,7 @@
-//! Arms with three parallel axes, as those of Universal Robots: axis 1 square to axes 2, 3 and 4,
-//! which are parallel, axis 5 square to them and axis 6 square to axis 5.
+//! Arms with three parallel axes, such as those of Universal Robots: axis 1 perpendicular to the
+//! parallel axes 2, 3 and 4, axis 5 perpendicular to them and axis 6 perpendicular to axis 5.
 //!
-//! `docs/three_parallel.md` has the derivation; its equation numbers, from 31 on, stand beside the
+//! `docs/three_parallel.md` has the derivation, with the equation numbers (from 31 on) cited in the
 //! code.
 
 mod block;
@@ -87,22 +87,21 @@ impl Structure<6, 8> for ThreeParallel {
         }
     }
 
-    /// A solve, which does not know `q`, also merges a wrist by what the pose leaves open of axis
-    /// 1.
+    /// A solve, which does not know `q`, also merges wrists within the uncertainty of axis 1.
     #[inline]
-    fn kinds(&self, q: &[f64; 6]) -> SingularityKind {
+    fn singularities(&self, q: &[f64; 6]) -> SingularityKind {
         let [_, _, theta_3, _, theta_5, _] = self.joint_map.theta(q);
-        let mut kinds = SingularityKind::empty();
-        kinds.set(SingularityKind::WRIST, theta_5.sin().abs() <= WRIST_MERGE_SIN);
-        kinds.set(SingularityKind::ELBOW, self.planar.is_straight(theta_3));
-        kinds.set(
+        let mut singularities = SingularityKind::empty();
+        singularities.set(SingularityKind::WRIST, theta_5.sin().abs() <= WRIST_MERGE_SIN);
+        singularities.set(SingularityKind::ELBOW, self.planar.is_straight(theta_3));
+        singularities.set(
             SingularityKind::SHOULDER,
             self.x_of_wrist(q).abs() <= self.planar.shoulder_merge(),
         );
-        kinds
+        singularities
     }
 
-    /// That at the wrist, which is that of the tool's (eq. 41).
+    /// The determinant at the wrist, which equals that at the tool (eq. 41).
     fn jacobian_determinant(&self, q: &[f64; 6]) -> f64 {
         let [_, _, theta_3, _, theta_5, _] = self.joint_map.theta(q);
         let links = self.planar.c2 * self.planar.k * self.planar.sin_elbow(theta_3);
@@ -110,10 +109,11 @@ impl Structure<6, 8> for ThreeParallel {
         -signs * links * self.x_of_wrist(q) * theta_5.sin()
     }
 
-    /// By the signs that the solve gives a slot: of x (eq. 32), of theta_3 and of sin theta_5.
+    /// Determined by the signs that the solve assigns to a slot: of x (eq. 32), of theta_3 and of
+    /// sin theta_5.
     fn slot(&self, q: &[f64; 6]) -> Option<Slot> {
         let [_, _, theta_3, _, theta_5, _] = self.joint_map.theta(q);
-        let met = self.kinds(q);
+        let met = self.singularities(q);
         let behind = self.x_of_wrist(q) < 0.0 && !met.contains(SingularityKind::SHOULDER);
         let backwards =
             self.planar.sin_elbow(theta_3) < 0.0 && !met.contains(SingularityKind::ELBOW);

@@ -47,7 +47,7 @@ impl LaneKernel<6, SLOTS> for Constants {
             directions.set(THETA_5, slot, facing.theta_5);
             directions.set(THETA_6, slot, facing.theta_6);
             slots.status[slot] = if branch.reached { FOUND_INSIDE } else { 0 };
-            regular[slot] = u64::from(branch.plain);
+            regular[slot] = u64::from(branch.regular);
         }
         if regular != [1; SLOTS] || slots.status == [0; SLOTS] {
             return None;

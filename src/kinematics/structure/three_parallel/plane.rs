@@ -1,8 +1,8 @@
-//! The plane of the arm, turned about axis 1 as far as rounding leaves it open.
+//! The plane of the arm, rotated about axis 1 within its uncertainty.
 //!
-//! Next to the shoulder's singularity a rounding of the wrist's distance from axis 1 turns the
-//! plane by much more. A pose at the edge of reach or at the wrist's singularity says by that which
-//! plane it has.
+//! Near the shoulder singularity a rounding of the wrist's distance from axis 1 rotates the plane
+//! by much more. For a pose at the edge of reach or at the wrist singularity, that edge or
+//! singularity determines the plane.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -11,13 +11,13 @@ use super::ThreeParallel;
 use super::wrist::{seen_from_plane, sin_5};
 use crate::kinematics::structure::planar_arm::{Shoulder, Target};
 
-/// The planes that rounding leaves open: those turned from the shoulder's by angles in `open` [rad]
+/// The planes within the uncertainty: those rotated from the shoulder's by angles in `open` [rad]
 /// (eq. 42).
 pub(super) struct PlaneUncertainty<'a> {
     shoulder: &'a Shoulder,
     wxy: [f64; 2],
     open: [f64; 2],
-    /// (m10, m12), and what a turn of the plane moves it along, (m00, m02).
+    /// (m10, m12), and the direction in which a rotation of the plane moves it, (m00, m02).
     determined: [f64; 2],
     moved: [f64; 2],
 }
@@ -28,15 +28,15 @@ impl<'a> PlaneUncertainty<'a> {
         Self {
             shoulder,
             wxy: target.wxy,
-            open: arm.planar.open_turn(shoulder, target.wxy),
+            open: arm.planar.rotation_range(shoulder, target.wxy),
             determined: [m[(1, 0)], m[(1, 2)]],
             moved: [m[(0, 0)], m[(0, 2)]],
         }
     }
 
-    /// The shoulder turned by `angle` about axis 1, the wrist where it was.
-    pub(super) fn turned(&self, angle: f64) -> Shoulder {
-        self.shoulder.turned(angle, self.wxy)
+    /// The shoulder rotated by `angle` about axis 1, with the wrist unchanged.
+    pub(super) fn rotated(&self, angle: f64) -> Shoulder {
+        self.shoulder.rotated(angle, self.wxy)
     }
 
     /// The angles of the planes at either end, the one that is farther from axis 1 last.
@@ -44,53 +44,51 @@ impl<'a> PlaneUncertainty<'a> {
         self.open
     }
 
-    /// The shoulder turned to where the wrist is nearest to its singularity, and sin theta_5 there
+    /// The shoulder rotated to where the wrist is nearest to its singularity, and sin theta_5 there
     /// (eq. 43).
     pub(super) fn nearest_to_wrist(&self, target: &Target<'_>) -> (Shoulder, f64) {
         let Self { determined: [m10, m12], moved: [m00, m02], open: [least, most], .. } = *self;
         let to_wrist = (m10 * m00 + m12 * m02) / (m00 * m00 + m02 * m02);
-        let nearest = self.turned(to_wrist.clamp(least, most));
+        let nearest = self.rotated(to_wrist.clamp(least, most));
         let sin_5 = sin_5(&seen_from_plane(&nearest, target.rotation));
         (nearest, sin_5)
     }
 
-    /// The angle to turn by so that the pose tells `theta_6`, or half a turn from there; none where
-    /// it is not open so far (eq. 44).
-    pub(super) fn telling(&self, theta_6: f64) -> Option<f64> {
+    /// The rotation with which the pose determines joint 6 to be `theta_6`, or half a turn from it;
+    /// `None` if that exceeds the uncertainty (eq. 44).
+    pub(super) fn determining(&self, theta_6: f64) -> Option<f64> {
         let ([least, most], angle) = (self.open, self.towards(theta_6));
         (angle >= least && angle <= most).then_some(angle)
     }
 
-    /// The shoulder turned so that the pose tells `theta_6`, or half a turn from there, as far as
-    /// it is open.
-    pub(super) fn nearest_to_telling(&self, theta_6: f64) -> Shoulder {
+    /// The shoulder rotated towards where the pose determines joint 6 to be `theta_6`, or half a
+    /// turn from it, within the uncertainty.
+    pub(super) fn nearest_to_determining(&self, theta_6: f64) -> Shoulder {
         let ([least, most], angle) = (self.open, self.towards(theta_6));
-        if angle.is_nan() { *self.shoulder } else { self.turned(angle.clamp(least, most)) }
+        if angle.is_nan() { *self.shoulder } else { self.rotated(angle.clamp(least, most)) }
     }
 
-    /// The angle to turn by so that the pose tells `theta_6`, or half a turn from there (eq. 44);
-    /// not finite where there is none.
+    /// The rotation with which the pose determines joint 6 to be `theta_6`, or half a turn from it
+    /// (eq. 44); not finite if there is none.
     fn towards(&self, theta_6: f64) -> f64 {
         let (sin_6, cos_6) = theta_6.sin_cos();
         let Self { determined: [m10, m12], moved: [m00, m02], .. } = self;
         (m12 * cos_6 - m10 * sin_6) / (m02 * cos_6 - m00 * sin_6)
     }
 
-    /// The greatest angle to turn by, either way [rad].
+    /// The greatest rotation, either way [rad].
     fn widest(&self) -> f64 {
         self.open[1].max(-self.open[0])
     }
 
-    /// How far the direction of axis 5 may turn when the plane is turned as far as it is open
-    /// [rad].
-    pub(super) fn open_phi(&self) -> f64 {
+    /// How far the direction of axis 5 may rotate within the uncertainty of the plane [rad].
+    pub(super) fn phi_uncertainty(&self) -> f64 {
         let (open, sin_5) = (self.widest(), self.determined[0].hypot(self.determined[1]));
         if sin_5 > 2.0 * open { 2.0 * open / sin_5 } else { 2.0 }
     }
 
-    /// How far the end of the planar arm may move at most when the plane is turned as far as it is
-    /// open [m].
+    /// How far the end of the planar arm may move within the uncertainty of the plane [m].
     pub(super) fn lever(&self, arm: &ThreeParallel) -> f64 {
-        self.widest() * self.wxy[0].hypot(self.wxy[1]) + arm.d5 * self.open_phi()
+        self.widest() * self.wxy[0].hypot(self.wxy[1]) + arm.d5 * self.phi_uncertainty()
     }
 }

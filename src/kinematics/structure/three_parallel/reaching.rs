@@ -1,4 +1,5 @@
-//! An arm that brings its wrist to where the pose wants it, and what rounding leaves open of that.
+//! An arm that brings its wrist to where the pose requires it, and the uncertainty that rounding
+//! leaves to it.
 
 use nalgebra::Matrix3;
 #[cfg(not(feature = "std"))]
@@ -20,17 +21,17 @@ pub(super) struct Reaching {
     pub(super) elbows: Elbows,
 }
 
-/// Greatest turn of axis 5 for which the elbows that it straightens count as one [rad]: beyond,
-/// joint 6 is as good as free.
+/// Greatest rotation of axis 5 for which the elbows that it straightens count as one [rad]: beyond,
+/// joint 6 is nearly free.
 const MOST_STRAIGHTENING: f64 = 1e-2;
 
-/// Halvings of the way between a place in which the arm reaches and one in which it does not: to
+/// Bisections of the interval between a place where the arm reaches and one where it does not: to
 /// rounding.
 const HALVINGS: u32 = 50;
 
 impl ThreeParallel {
-    /// The arm with this shoulder and joint 6 there; where that is out of reach, with what the pose
-    /// leaves open moved towards reach: the plane of the arm, where joint 6 is told by the pose,
+    /// The arm with this shoulder and joint 6. If that is out of reach, what the pose leaves
+    /// undetermined is moved towards reach: the plane of the arm, if the pose determines joint 6,
     /// and joint 6.
     pub(super) fn reaching(
         &self,
@@ -43,7 +44,7 @@ impl ThreeParallel {
             Err(missed) => missed,
         };
         let m = seen_from_plane(shoulder, target.rotation);
-        let (reaching, missed) = match self.turned_into_reach(shoulder, turn, &m, &wrist, target) {
+        let (reaching, missed) = match self.moved_into_reach(shoulder, turn, &m, &wrist, target) {
             Some(Ok(reaching)) => (Some(reaching), missed),
             Some(Err(nearest)) => (None, missed.nearer(nearest)),
             None => (None, missed),
@@ -54,7 +55,7 @@ impl ThreeParallel {
             .ok_or(missed)
     }
 
-    /// The same where an arm less beyond reach than anyone could see is stretched or folded.
+    /// The same; an arm beyond reach by less than the tolerance is stretched or folded.
     pub(super) fn reaching_or_beyond(
         &self,
         shoulder: &Shoulder,
@@ -69,10 +70,10 @@ impl ThreeParallel {
         })
     }
 
-    /// The stretched or folded arm in place of one whose two elbows differ by less than what
-    /// rounding leaves open of the plane or of joint 6 (eq. 45). The arm as it is where they are
-    /// two, and where joint 6 is as good as free, for each elbow has a family of its own. A path
-    /// says which elbow it is.
+    /// The stretched or folded arm in place of one whose two elbows differ by less than the
+    /// uncertainty of the plane or of joint 6 (eq. 45). The arm is unchanged if they are two, and
+    /// if joint 6 is nearly free, because each elbow then has a self-motion of its own. A path
+    /// determines the elbow.
     fn straightened(&self, bent: Reaching, turn: Turn, target: &Target<'_>) -> Reaching {
         let Reaching { shoulder, elbows, .. } = &bent;
         let from_pose =
@@ -81,22 +82,22 @@ impl ThreeParallel {
             return bent;
         }
         let m = seen_from_plane(shoulder, target.rotation);
-        let (open, plane) = (turn.open(&m), PlaneUncertainty::of(self, shoulder, target));
-        if sin_5(&m) <= WRIST_MERGE_SIN || plane.open_phi() > MOST_STRAIGHTENING {
+        let (open, plane) = (turn.uncertainty(&m), PlaneUncertainty::of(self, shoulder, target));
+        if sin_5(&m) <= WRIST_MERGE_SIN || plane.phi_uncertainty() > MOST_STRAIGHTENING {
             return bent;
         }
         let moved = self.planar.straightening(elbows.front.theta_3);
         if moved > self.d5 * open + plane.lever(self) {
             return bent;
         }
-        // The edge in the middle of what is straight.
+        // The edge in the middle of the range that is straight.
         let target = &target.beyond(target.tolerance - self.planar.position_rounding());
         let straight = self.straightened_by_six(&bent, open, target).or_else(|| {
-            let turned = |angle: f64| self.at(plane.turned(angle), turn, target);
+            let rotated = |angle: f64| self.at(plane.rotated(angle), turn, target);
             plane.ends().into_iter().find_map(|end| {
-                turned(end).err()?;
+                rotated(end).err()?;
                 // A rounding of the plane may bend the arm again.
-                let bent = at_edge(turned, 0.0, end)?;
+                let bent = at_edge(rotated, 0.0, end)?;
                 if bent.elbows.behind.is_none() {
                     return Some(bent);
                 }
@@ -106,7 +107,7 @@ impl ThreeParallel {
         straight.unwrap_or(bent)
     }
 
-    /// The arm with theta_6 moved to the edge of reach, by no more than `open` [rad].
+    /// The arm with theta_6 moved to the edge of reach, by at most `open` [rad].
     fn straightened_by_six(
         &self,
         Reaching { shoulder, wrist, .. }: &Reaching,
@@ -114,18 +115,19 @@ impl ThreeParallel {
         target: &Target<'_>,
     ) -> Option<Reaching> {
         let m = seen_from_plane(shoulder, target.rotation);
-        let turned = |turned: f64| self.at(*shoulder, Turn::Taken(wrist.theta_6 + turned), target);
+        let rotated =
+            |rotated: f64| self.at(*shoulder, Turn::Taken(wrist.theta_6 + rotated), target);
         let edges = self.circle(shoulder, wrist, target)?.edges();
         edges
-            .map(|to_edge| turned_with_phi(to_edge, &m))
+            .map(|to_edge| rotated_with_phi(to_edge, &m))
             .into_iter()
             .filter(|to_edge| to_edge.abs() <= open)
-            .filter_map(|to_edge| at_edge(turned, 0.0, 2.0 * to_edge))
+            .filter_map(|to_edge| at_edge(rotated, 0.0, 2.0 * to_edge))
             .find(|reaching| reaching.elbows.behind.is_none())
     }
 
-    /// The arm that is just out of reach with this shoulder, in the nearest of the planes that
-    /// rounding leaves open in which it reaches.
+    /// The arm that is just out of reach with this shoulder, in the nearest plane within the
+    /// uncertainty in which it reaches.
     fn in_another_plane(
         &self,
         shoulder: &Shoulder,
@@ -139,18 +141,18 @@ impl ThreeParallel {
             return None;
         }
         let nearest = |reaches: f64| {
-            at_edge(|angle| self.at(plane.turned(angle), turn, target), reaches, 0.0)
+            at_edge(|angle| self.at(plane.rotated(angle), turn, target), reaches, 0.0)
         };
         let ends = plane.ends().into_iter();
-        let told = self
+        let from_pose = self
             .middles_of_reach(shoulder, m, &wrist, target)
             .into_iter()
             .flatten()
-            .filter_map(|theta_6| plane.telling(theta_6));
-        ends.chain(told).find_map(nearest)
+            .filter_map(|theta_6| plane.determining(theta_6));
+        ends.chain(from_pose).find_map(nearest)
     }
 
-    /// The elbows of the end of the planar arm (eq. 37, 38), or how far it is out of reach.
+    /// The elbows for the end of the planar arm (eq. 37, 38), or how far it is out of reach.
     fn at(
         &self,
         shoulder: Shoulder,
@@ -170,9 +172,9 @@ impl ThreeParallel {
         }
     }
 
-    /// The arm with theta_6 moved to where the end of the planar arm is in reach, or by how much it
-    /// misses there; none where the pose does not leave it open so far.
-    fn turned_into_reach(
+    /// The arm with theta_6 moved to where the end of the planar arm is in reach, or the distance
+    /// that is missing there; `None` if that exceeds the uncertainty.
+    fn moved_into_reach(
         &self,
         shoulder: &Shoulder,
         turn: Turn,
@@ -182,27 +184,27 @@ impl ThreeParallel {
     ) -> Option<Result<Reaching, Reach>> {
         let Circle { from_line, least, most } = self.circle(shoulder, wrist, target)?;
         let into_reach = from_line.abs().clamp(least, most).copysign(from_line) - from_line;
-        if into_reach.abs() > turn.open(m) {
+        if into_reach.abs() > turn.uncertainty(m) {
             return None;
         }
-        let turned = turned_with_phi(into_reach, m);
-        let at = |turned: f64, target: &Target<'_>| {
-            self.at(*shoulder, Turn::Taken(wrist.theta_6 + turned), target)
+        let rotated = rotated_with_phi(into_reach, m);
+        let at = |rotated: f64, target: &Target<'_>| {
+            self.at(*shoulder, Turn::Taken(wrist.theta_6 + rotated), target)
         };
-        // Rounding decides on which side of the edge that is, and bends the arm that it takes
+        // Rounding decides on which side of the edge that is, and bends the arm that is chosen
         // farther in.
         let inside = target.beyond(target.tolerance - self.planar.position_rounding());
         let mut ways = [(&inside, 1.0), (&inside, 2.0), (target, 1.0)].into_iter();
-        let reaching =
-            ways.find_map(|(target, far)| at_edge(|turned| at(turned, target), far * turned, 0.0));
-        match (reaching, at(turned, target)) {
+        let reaching = ways
+            .find_map(|(target, far)| at_edge(|rotated| at(rotated, target), far * rotated, 0.0));
+        match (reaching, at(rotated, target)) {
             (Some(reaching), _) => Some(Ok(reaching)),
             (None, Err((missed, _))) => Some(Err(missed)),
             (None, Ok(_)) => None,
         }
     }
 
-    /// theta_6 in the middle of what is in reach on either side of the line to the wrist.
+    /// theta_6 in the middle of the range in reach on either side of the line to the wrist.
     fn middles_of_reach(
         &self,
         shoulder: &Shoulder,
@@ -212,10 +214,12 @@ impl ThreeParallel {
     ) -> Option<[f64; 2]> {
         let Circle { from_line, least, most } = self.circle(shoulder, wrist, target)?;
         let middle = 0.5 * (least + most);
-        Some([middle, -middle].map(|middle| wrist.theta_6 + turned_with_phi(middle - from_line, m)))
+        Some(
+            [middle, -middle].map(|middle| wrist.theta_6 + rotated_with_phi(middle - from_line, m)),
+        )
     }
 
-    /// The circle of the end of the planar arm (eq. 39).
+    /// At sin theta_5 = 0 the end of the planar arm moves on a circle about the wrist (eq. 39).
     fn circle(&self, shoulder: &Shoulder, wrist: &Wrist, target: &Target<'_>) -> Option<Circle> {
         let from_axis_2 = [shoulder.x - self.planar.a1, target.wz];
         Circle::about(self, from_axis_2, [wrist.sin_phi, wrist.cos_phi])
@@ -240,8 +244,8 @@ fn at_edge<E>(
     Some(reaching)
 }
 
-/// How far theta_6 turns where phi turns by this: by that over -cos theta_5, for phi + theta_6 is
-/// fixed at theta_5 = 0, phi - theta_6 at 180 deg.
-fn turned_with_phi(turned: f64, m: &Matrix3<f64>) -> f64 {
-    -turned / m[(1, 1)]
+/// The rotation of theta_6 that corresponds to a rotation of phi: divided by -cos theta_5, because
+/// phi + theta_6 is fixed at theta_5 = 0, phi - theta_6 at 180 deg.
+fn rotated_with_phi(rotated: f64, m: &Matrix3<f64>) -> f64 {
+    -rotated / m[(1, 1)]
 }

@@ -16,7 +16,7 @@ use crate::kinematics::thresholds::{PATH_WRIST_SIN, WRIST_FREE_SIN, WRIST_MERGE_
 use crate::report::FreeJoint;
 use crate::report::Reach;
 
-/// Which shoulders are asked.
+/// The shoulders to solve.
 enum Asked {
     Both,
     Front,
@@ -64,7 +64,7 @@ impl ThreeParallel {
         branches
     }
 
-    /// Puts the four branches of one shoulder into slots `base` ..= `base` + 3.
+    /// Fill slots `base` ..= `base` + 3 with the four branches of one shoulder.
     fn fill(
         &self,
         branches: &mut Branches<6>,
@@ -75,11 +75,11 @@ impl ThreeParallel {
         let (policy, free_6) = (target.free.policy, target.free_theta[5]);
         let [regular, flipped] = [false, true].map(|flipped| Turn::FromPose { flipped });
         let plane = PlaneUncertainty::of(self, shoulder, target);
-        // A path keeps the joint 6 that it is heading for as far as the plane is open.
+        // A path keeps the joint 6 that it is heading for within the uncertainty of the plane.
         let shoulder = &if policy == SeedPolicy::Path
             && sin_5(&seen_from_plane(shoulder, target.rotation)) <= PATH_WRIST_SIN
         {
-            plane.nearest_to_telling(free_6)
+            plane.nearest_to_determining(free_6)
         } else {
             *shoulder
         };
@@ -87,11 +87,12 @@ impl ThreeParallel {
         let sin_5 = sin_5(&m);
         let (nearest, least_sin_5) = plane.nearest_to_wrist(target);
         if policy.forces(6) {
-            let telling = plane.telling(free_6).map_or(nearest, |angle| plane.turned(angle));
+            let determining =
+                plane.determining(free_6).map_or(nearest, |angle| plane.rotated(angle));
             return self.put_merged(
                 branches,
                 base,
-                self.reaching_or_beyond(&telling, Turn::Taken(free_6), target),
+                self.reaching_or_beyond(&determining, Turn::Taken(free_6), target),
             );
         }
         if least_sin_5 <= policy.radius().max(WRIST_FREE_SIN) {
@@ -102,8 +103,8 @@ impl ThreeParallel {
             );
         }
         if sin_5 <= WRIST_MERGE_SIN {
-            // One family: of its two members that the pose tells, the one nearer to the free angle,
-            // if it reaches.
+            // One self-motion: of its two members that the pose determines, the one nearer to the
+            // free angle, if it reaches.
             let away = (m[(1, 2)].atan2(m[(1, 0)]) - free_6).cos() < 0.0;
             let (near, far) = if away { (flipped, regular) } else { (regular, flipped) };
             let reaching = self.reaching(shoulder, near, target).or_else(|missed| {
@@ -126,7 +127,7 @@ impl ThreeParallel {
         missed[0].nearer(missed[1])
     }
 
-    /// The branches of a wrist whose flip is the same family.
+    /// The branches of a wrist whose flip belongs to the same self-motion.
     fn put_merged(
         &self,
         branches: &mut Branches<6>,
@@ -151,7 +152,7 @@ impl ThreeParallel {
         Reach::Reached
     }
 
-    /// Both elbows of an arm, into `slot` and `slot` + 2.
+    /// Put both elbows of an arm into `slot` and `slot` + 2.
     fn put(&self, branches: &mut Branches<6>, slot: usize, reaching: &Reaching, flags: Status) {
         let Reaching { shoulder, wrist, elbows } = reaching;
         let flags = if elbows.behind.is_none() { flags | Status::ELBOW } else { flags };

@@ -11,7 +11,7 @@ use crate::kinematics::structure::free_choice::{FreeChoice, SeedPolicy};
 use crate::kinematics::structure::planar_arm::Shoulder;
 use crate::kinematics::thresholds::{PATH_WRIST_SIN, SEEDED_FREE, WRIST_FREE_SIN};
 
-/// One way for the wrist to stand.
+/// One configuration of the wrist.
 #[derive(Clone, Copy)]
 pub(super) struct Wrist {
     pub(super) theta_5: f64,
@@ -21,15 +21,15 @@ pub(super) struct Wrist {
     pub(super) cos_phi: f64,
 }
 
-/// Where joint 6 stands.
+/// How joint 6 is chosen.
 #[derive(Clone, Copy)]
 pub(super) enum Turn {
-    /// Where the pose has it, with theta_5 in 0 ..= pi, or half a turn from there.
+    /// As the pose determines it, with theta_5 in 0 ..= pi, or half a turn from there.
     FromPose { flipped: bool },
     /// At this theta_6.
     Taken(f64),
-    /// At this theta_6 or, since the pose says nothing of it, at the nearest to it that the arm
-    /// reaches with.
+    /// At this theta_6 or, as the pose does not determine it, at the nearest one with which the arm
+    /// reaches.
     Free(f64),
 }
 
@@ -49,9 +49,9 @@ pub(super) fn sin_5(m: &Matrix3<f64>) -> f64 {
 }
 
 impl Turn {
-    /// How far joint 6 may be turned from there without the tool's leaving the pose by more than
+    /// How far joint 6 may turn from there without moving the tool off the pose by more than
     /// rounding [rad].
-    pub(super) fn open(self, m: &Matrix3<f64>) -> f64 {
+    pub(super) fn uncertainty(self, m: &Matrix3<f64>) -> f64 {
         match self {
             Self::FromPose { .. } => (WRIST_FREE_SIN / sin_5(m)).min(PI),
             Self::Taken(_) => 0.0,
@@ -59,8 +59,8 @@ impl Turn {
         }
     }
 
-    /// theta_6 with its sine and cosine. `error` is how far rounding may turn the plane of the arm:
-    /// a path keeps the theta_6 that it is heading for where the pose does not contradict it.
+    /// theta_6 with its sine and cosine. `error` is how far rounding may rotate the plane of the
+    /// arm: within that uncertainty a path keeps the theta_6 that it is heading for.
     fn theta_6(
         self,
         m: &Matrix3<f64>,
@@ -73,19 +73,19 @@ impl Turn {
             Self::FromPose { flipped } => flipped,
         };
         let sin_5 = sin_5(m);
-        let (told, sign) = (m[(1, 2)].atan2(m[(1, 0)]), if flipped { -1.0 } else { 1.0 });
-        let told = if flipped { told + PI } else { told };
+        let (from_pose, sign) = (m[(1, 2)].atan2(m[(1, 0)]), if flipped { -1.0 } else { 1.0 });
+        let from_pose = if flipped { from_pose + PI } else { from_pose };
         if free.policy == SeedPolicy::Path && sin_5 <= PATH_WRIST_SIN {
-            let ahead = wrap(heading - told);
+            let ahead = wrap(heading - from_pose);
             if sin_5 * ahead.sin().abs() <= error.max(SEEDED_FREE) && ahead.cos() > 0.0 {
-                return (told + ahead, heading.sin_cos());
+                return (from_pose + ahead, heading.sin_cos());
             }
         }
-        (told, (sign * m[(1, 2)] / sin_5, sign * m[(1, 0)] / sin_5))
+        (from_pose, (sign * m[(1, 2)] / sin_5, sign * m[(1, 0)] / sin_5))
     }
 
-    /// The wrist with joint 6 there (eq. 34 to 36). Taking theta_5 and phi with the sine and cosine
-    /// of the theta_6 that was chosen keeps the residual at rounding next to theta_5 = 0, whatever
+    /// The wrist with joint 6 there (eq. 34 to 36). Computing theta_5 and phi from the sine and
+    /// cosine of the chosen theta_6 keeps the residual at rounding near theta_5 = 0, whatever
     /// theta_6 is.
     pub(super) fn wrist(
         self,

@@ -1,4 +1,4 @@
-//! An arm, and poses next to where its lanes give up.
+//! An arm, and poses near the margins of its lanes.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -6,7 +6,7 @@ use super::*;
 use crate::kinematics::robot::Definition;
 use crate::kinematics::structure::spherical_wrist::OpwParameters;
 
-/// An arm, with what the margins are made of.
+/// An arm, with the quantities that the margins are relative to.
 pub(super) struct Arm {
     pub(super) name: &'static str,
     pub(super) robot: Robot<6>,
@@ -15,7 +15,7 @@ pub(super) struct Arm {
     pub(super) c1: f64,
     pub(super) c2: f64,
     pub(super) k: f64,
-    /// From the end of the planar arm to the wrist: nothing where the wrist is spherical.
+    /// From the end of the planar arm to the wrist: zero if the wrist is spherical.
     pub(super) d5: f64,
     /// From the wrist to the flange.
     pub(super) t_wrist_flange: Pose,
@@ -47,13 +47,13 @@ impl Arm {
                     extent,
                 }
             }
-            // As `parallel_arm` draws it, or the maker draws his.
+            // As `parallel_arm` or the maker defines it.
             Definition::Mdh(ref mdh) => {
                 let rows = mdh.rows;
                 let ([a1, c2, k], [c1, b, d5, d6]) =
                     ([1, 2, 3].map(|i| rows[i].a.abs()), [0, 3, 4, 5].map(|i| rows[i].d));
                 let extent = a1 + b + c1 + c2 + k + d5 + d6 + ends;
-                // Of an arm of Universal Robots joint 2 and joint 4 read zero a quarter turn from
+                // For an arm of Universal Robots, joint 2 and joint 4 are zero a quarter turn from
                 // upright.
                 let quarter = if rows[2].a < 0.0 { -FRAC_PI_2 } else { 0.0 };
                 let offsets = [0.0, quarter, 0.0, quarter, 0.0, 0.0];
@@ -78,21 +78,21 @@ impl Arm {
         }
     }
 
-    /// The pose of angles theta.
+    /// The pose for angles theta.
     pub(super) fn at(&self, theta: [f64; 6]) -> Pose {
         self.robot.fk(&core::array::from_fn(|i| self.signs[i] * (theta[i] + self.offsets[i])))
     }
 
-    /// A pose, turned at random, with the end of the planar arm `x` from axis 1 along the plane of
-    /// the arm and `z` above the shoulder.
+    /// A pose with random orientation whose end of the planar arm is `x` from axis 1, along the
+    /// plane of the arm, and `z` above the shoulder.
     pub(super) fn with_end_of_planar_arm(&self, x: f64, z: f64, random: &mut Rng) -> Pose {
         let phi = random.angle();
         let wrist = [x + self.d5 * phi.sin(), self.b, self.c1 + z + self.d5 * phi.cos()];
         // Axis 5 in the plane, along phi.
-        let turned = [[0.0, phi, 0.0], [random.angle(), 0.0, 0.0], [0.0, random.angle(), 0.0]]
+        let rotated = [[0.0, phi, 0.0], [random.angle(), 0.0, 0.0], [0.0, random.angle(), 0.0]]
             .map(|zyx| pose_from_euler_zyx([0.0; 3], zyx));
         let rotation =
-            turned.into_iter().fold(Pose::identity(), |product, turn| product * turn.unwrap());
+            rotated.into_iter().fold(Pose::identity(), |product, turn| product * turn.unwrap());
         self.with_wrist(wrist, rotation, random)
     }
 
@@ -121,7 +121,7 @@ impl Arm {
 
     pub(super) fn next_to_the_shoulder_margin(&self, part: f64, random: &mut Rng) -> Pose {
         let x = part * (REGULAR_SHOULDER * self.extent).max(10.0 * SHOULDER_MERGE);
-        // Somewhere between folded and stretched, for both shoulders.
+        // Between folded and stretched, for both shoulders.
         let [shortest, longest] =
             [(self.c2 - self.k).abs() + self.d5 + 0.02, self.c2 + self.k - self.d5 - 0.02];
         let across = self.a1.abs() + x;
@@ -162,7 +162,7 @@ impl Arm {
         }
     }
 
-    /// The slots by the lanes; `None` where the pose is not plain or has no solution.
+    /// The slots computed in lanes; `None` if the pose is not regular or has no solution.
     pub(super) fn by_lanes(&self, pose: &Pose) -> Option<RegularAnswer<6>> {
         by_lanes(&self.robot, pose, ())
     }

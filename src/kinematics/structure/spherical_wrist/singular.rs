@@ -1,4 +1,4 @@
-//! What a search next to its singularities moves: the wrist at its singularity, the elbow just off
+//! The motions of a search near singularities: the wrist at its singularity, the elbow just not
 //! straight.
 
 use core::f64::consts::PI;
@@ -8,13 +8,13 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use super::SphericalWrist;
 use crate::kinematics::pose::Pose;
-use crate::kinematics::structure::open_wrist::OpenWrist;
 use crate::kinematics::structure::planar_arm::PlanarArm;
+use crate::kinematics::structure::singular_wrist::SingularWrist;
 use crate::report::FreeJoint;
 
 impl SphericalWrist {
-    /// `q` with joint 5 at its singularity, to one or the other side of it by the least that is
-    /// seen of it.
+    /// `q` with joint 5 at its singularity, on one or the other side of it by the least amount that
+    /// is still distinguished.
     pub(crate) fn with_straight_wrist(&self, q: &[f64; 6], side: f64) -> [f64; 6] {
         let theta_5 = self.theta(q)[4];
         let straight = PI * (theta_5 / PI).round();
@@ -23,8 +23,7 @@ impl SphericalWrist {
         q
     }
 
-    /// `q` with an elbow that is just not straight any more, behind the lower arm or in front of
-    /// it.
+    /// `q` with an elbow that is just not straight, behind the lower arm or in front of it.
     pub(crate) fn with_bent_elbow(&self, q: &[f64; 6], behind: bool) -> [f64; 6] {
         let PlanarArm { c2, k, .. } = self.planar;
         let elbow = self.planar.elbow_angle(self.theta(q)[2]);
@@ -38,7 +37,7 @@ impl SphericalWrist {
     }
 }
 
-impl OpenWrist<6> for SphericalWrist {
+impl SingularWrist<6> for SphericalWrist {
     fn sin_5(&self, q: &[f64; 6]) -> f64 {
         self.theta(q)[4].sin()
     }

@@ -1,4 +1,4 @@
-//! Values without names and operators are read at once: as expressions they would be the same.
+//! Values without names and operators are read directly; as expressions they are the same.
 
 use std::format;
 use std::string::String;
@@ -25,7 +25,7 @@ const SHAPES: [(&str, &str); 12] = [
     ("dnum", "n"),
 ];
 
-/// What may be in the place of a component, and what may not.
+/// Valid and invalid texts in the place of a component.
 const LITERALS: [&str; 58] = [
     "0",
     "-0",
@@ -87,7 +87,7 @@ const LITERALS: [&str; 58] = [
     "\0",
 ];
 
-/// The fault of a text, or what its only datum holds and why it is not read.
+/// The error for a text, or the content of its only datum and why it is not read.
 fn outcome(text: &str) -> Result<(Vec<Value>, Vec<NotRead>), RapidFaultKind> {
     let module = match parse(text, &[]) {
         Ok(module) => module,
@@ -103,14 +103,14 @@ fn outcome(text: &str) -> Result<(Vec<Value>, Vec<NotRead>), RapidFaultKind> {
 }
 
 #[test]
-fn plain_values_are_those_of_expressions() {
+fn direct_reading_and_expressions_give_the_same_values() {
     let (mut read, mut skipped, mut broken) = (0, 0, 0);
     for (type_name, shape) in SHAPES {
         let places: Vec<_> = shape.match_indices(['n', 'w', 'b', 's']).collect();
         for (literal, (place, _)) in
             LITERALS.iter().flat_map(|it| places.iter().map(move |at| (it, at)))
         {
-            // By themselves these are no value, between brackets they are two and none.
+            // By themselves these are not values; between brackets they are two and none.
             if shape == "n" && ["1,2", ""].contains(literal) {
                 continue;
             }

@@ -1,5 +1,5 @@
-//! The wrist of a singular pose: twins, the pair of joints about axes 4 and 6, and what another
-//! singularity leaves open of them.
+//! The wrist of a singular pose: twins, the pair of joints about axes 4 and 6, and the uncertainty
+//! that another singularity adds.
 
 use core::f64::consts::{PI, TAU};
 
@@ -14,17 +14,17 @@ use crate::kinematics::structure::any::AnyStructure;
 use crate::kinematics::structure::arity::{Arity, Joints};
 use crate::kinematics::thresholds::{LIMIT_SLACK, PATH_WRIST_SIN};
 
-/// Steps of a turn in which a wrist is searched that is open next to another singularity.
+/// Steps per turn in the search of a wrist that is undetermined near another singularity.
 const WRIST_STEPS: u32 = 24;
 
-/// How far apart the joints of two arms are that are one [rad].
+/// Difference of the joints of two arms below which they are the same [rad].
 const SAME_ARM: f64 = 1e-9;
 
 impl<const N: usize> NearestSearch<'_, N>
 where
     Joints<N>: Arity<N>,
 {
-    /// Looks next to joints of the arm with joint 5 at its singularity, to either side.
+    /// Search near joint vectors with joint 5 at its singularity, on either side.
     pub(super) fn start_with_straight_wrist(&mut self, start: &[f64; N], solution: &Solution<N>) {
         let Some(wrist) = self.robot.solver().arm().spherical_wrist() else { return };
         for side in [1.0, -1.0] {
@@ -33,8 +33,8 @@ where
         }
     }
 
-    /// Looks at the angles of two joints of which the pose fixes only the sum, or next to another
-    /// singularity not much more.
+    /// Search the angles of two joints whose sum alone the pose determines or, near another
+    /// singularity, hardly more.
     pub(super) fn look_at_wrist(&mut self, solution: &Solution<N>) {
         let Some(pair) = self.pair(solution) else { return };
         if !self.is_new(solution) {
@@ -48,13 +48,13 @@ where
         {
             return;
         }
-        // Where rounding leaves a part of the turn open, that part holds one of the twins, and ends
-        // inside the limits or at one of their ends.
+        // If rounding leaves a part of the turn undetermined, that part contains one of the twins
+        // and ends inside the limits or at one of their ends.
         let ends = pair.edges(limits).map(|edge| if edge.is_finite() { edge } else { own });
         for angle in [seed[pair.first], own, own + PI].into_iter().chain(ends) {
             self.move_with_wrist_at(&pair, angle, solution);
         }
-        // What else is wanted may keep those parts out of which an angle is known.
+        // A further condition may exclude the parts in which an angle is known.
         if self.best.is_none() && self.must_meet() && solution.free_joint.is_none() {
             for step in 0..WRIST_STEPS {
                 let angle = own + f64::from(step) * TAU / f64::from(WRIST_STEPS);
@@ -63,8 +63,8 @@ where
         }
     }
 
-    /// Looks where the first joint of a pair is at an angle, and joint 5 or the elbow, which
-    /// another singularity may leave open, at its own.
+    /// Search with the first joint of a pair at an angle; joint 5 and the elbow, which another
+    /// singularity may leave undetermined, keep theirs.
     fn move_with_wrist_at(&mut self, pair: &Pair, angle: f64, from: &Solution<N>) {
         let q = pair.put(&from.q, angle);
         self.move_onto_pose(&q, LIMIT_SLACK, from);
@@ -79,12 +79,15 @@ where
         }
     }
 
-    /// Looks at an elbow that is just not straight, to either side: the forearm turns with it, and
-    /// a wrist that is open with that.
+    /// Search with an elbow that is nearly straight, on either side: the forearm turns with it, and
+    /// so does an undetermined wrist.
     pub(super) fn bend_elbow(&mut self, from: &Solution<N>) {
         let arm = self.robot.solver().arm();
         let Some(wrist) = arm.spherical_wrist() else { return };
-        if !arm.singular(&from.q).is_some_and(|(_, kinds)| kinds.contains(SingularityKind::ELBOW)) {
+        if !arm
+            .singular(&from.q)
+            .is_some_and(|(_, singularities)| singularities.contains(SingularityKind::ELBOW))
+        {
             return;
         }
         let pose = self.known.pose();
@@ -99,7 +102,7 @@ where
         }
     }
 
-    /// The pair of joints that a solution leaves open, or that may be open next to another
+    /// The pair of joints that a solution leaves undetermined, or that may be so near another
     /// singularity.
     fn pair(&self, solution: &Solution<N>) -> Option<Pair> {
         let declared = solution.free_joint.and_then(|free| Pair::of(free, &solution.q));
@@ -108,14 +111,15 @@ where
         }
         let wrist = self.robot.solver().arm().spherical_wrist()?;
         let q = &solution.q;
-        // Off the pose by more than rounding, it must be a wrist whose branches are one.
-        let may_be_open =
+        // If it is off the pose by more than rounding, it must be a wrist whose branches are
+        // merged.
+        let may_be_undetermined =
             self.must_meet() || solution.singularities().contains(SingularityKind::WRIST);
-        (may_be_open && wrist.sin_5(q).abs() <= PATH_WRIST_SIN)
+        (may_be_undetermined && wrist.sin_5(q).abs() <= PATH_WRIST_SIN)
             .then(|| Pair::of(wrist.wrist_pair(q), &solution.q))?
     }
 
-    /// Whether the wrist of this arm was not looked at before.
+    /// Whether the wrist of this arm was not searched before.
     fn is_new(&mut self, solution: &Solution<N>) -> bool {
         let side = solution.slot.index() % 2 == 1;
         let arm: [f64; 3] =

@@ -1,5 +1,5 @@
-//! Values that are written without names and operators, most of a large module: read straight into
-//! their records, without tokens and trees.
+//! Values without names and operators, most of a large module: read straight into their records,
+//! without tokens and trees.
 
 use core::ops::Range;
 
@@ -13,16 +13,16 @@ use crate::rapid::text::literals::{decimal, unquoted};
 use crate::rapid::text::tokens::{LONGEST_STRING, Tokens, behind_blanks};
 use crate::rapid::text::words::end_of_word;
 
-/// A value of a type up to its semicolon, with the bytes that it takes.
+/// A value of a type up to its semicolon, with its bytes.
 ///
-/// None for anything that is not plainly one, a broken text too: the tokens are where they were, to
-/// be read as an expression, which says what is wrong.
-pub(crate) fn read_plain(
+/// `None` for anything that is not such a value, including an invalid text: the tokens are left
+/// unchanged, to be read as an expression, which reports the error.
+pub(crate) fn read_direct(
     tokens: &mut Tokens<'_>,
     data_type: DataType,
 ) -> Option<(Value, Range<usize>)> {
     let start = tokens.peek().start;
-    let mut reader = PlainReader { text: tokens.text, bytes: tokens.content(), at: start };
+    let mut reader = DirectReader { text: tokens.text, bytes: tokens.content(), at: start };
     let mut value = Value::zero(data_type);
     reader.fill(value.part_mut())?;
     let end = reader.at;
@@ -31,16 +31,16 @@ pub(crate) fn read_plain(
     Some((value, start..end))
 }
 
-struct PlainReader<'a> {
+struct DirectReader<'a> {
     text: &'a str,
-    /// The text up to what may be at its end.
+    /// The text up to the possible end of the value.
     bytes: &'a [u8],
-    /// The end of what was taken.
+    /// The end of what was read.
     at: usize,
 }
 
-impl PlainReader<'_> {
-    /// The next byte that is not blank, which stays the next.
+impl DirectReader<'_> {
+    /// The next byte that is not blank, without consuming it.
     fn peek(&mut self) -> Option<u8> {
         self.at = behind_blanks(self.bytes, self.at);
         self.bytes.get(self.at).copied()

@@ -1,0 +1,69 @@
+//! Solutions as text: one line for each, and a table of all.
+
+use core::fmt;
+
+use super::solutions::{Solution, Solutions};
+use super::status::SingularityKind;
+
+/// An angle in degrees with two decimals, without the sign of a rounded zero.
+struct Degrees(f64);
+
+impl fmt::Display for Degrees {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let degrees = self.0.to_degrees();
+        let shown = if degrees.abs() < 0.005 { 0.0 } else { degrees };
+        write!(f, "{shown:8.2}")
+    }
+}
+
+/// The limits and singularities of a solution, in words.
+struct Remarks<'a, const N: usize>(&'a Solution<N>);
+
+impl<const N: usize> fmt::Display for Remarks<'_, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(solution) = self;
+        f.write_str(if solution.is_within_limits() { "inside limits" } else { "outside limits" })?;
+        for (kind, name) in [
+            (SingularityKind::WRIST, "wrist"),
+            (SingularityKind::ELBOW, "elbow"),
+            (SingularityKind::SHOULDER, "shoulder"),
+        ] {
+            if solution.singularities().contains(kind) {
+                write!(f, ", {name} singularity")?;
+            }
+        }
+        match solution.free_joint {
+            Some(free) => write!(f, ", J{} undetermined", free.joint()),
+            None => Ok(()),
+        }
+    }
+}
+
+impl<const N: usize> fmt::Display for Solution<N> {
+    /// Slot, joint angles [deg], limits and singularities, in one line.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:4}", self.slot.index())?;
+        for angle in self.q {
+            write!(f, " {}", Degrees(angle))?;
+        }
+        write!(f, "  {}", Remarks(self))
+    }
+}
+
+impl<const N: usize> fmt::Display for Solutions<N> {
+    /// The outcome in a sentence, then a table with a line for each solution, angles in degrees.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.explain())?;
+        if self.is_empty() {
+            return Ok(());
+        }
+        write!(f, "\nslot")?;
+        for joint in 1..=N {
+            // As wide as an angle with its blank.
+            let width = if joint < 10 { 8 } else { 7 };
+            write!(f, "{:>width$}{joint}", "J")?;
+        }
+        f.write_str("  [deg]")?;
+        self.iter().try_for_each(|solution| write!(f, "\n{solution}"))
+    }
+}

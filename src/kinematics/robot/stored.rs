@@ -1,0 +1,88 @@
+//! A robot as serde reads and writes it: its definition and its settings. Reading builds it anew,
+//! with every check of the constructors.
+
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use super::{Definition, Robot};
+use crate::error::{Error, ModelFault};
+use crate::kinematics::chain::limits::JointLimits;
+use crate::kinematics::pose::Pose;
+use crate::kinematics::structure::any::AnyStructure;
+use crate::kinematics::structure::arity::{Arity, Joints};
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename = "Robot")]
+struct Stored<const N: usize> {
+    name: String,
+    definition: Definition<N>,
+    coupled: bool,
+    limits: JointLimits<N>,
+    base: Pose,
+    tool: Pose,
+    /// `None` for a joint whose velocity is not limited: text has no infinity.
+    max_velocity: Option<Vec<Option<f64>>>,
+}
+
+impl<const N: usize> Serialize for Robot<N>
+where
+    Joints<N>: Arity<N>,
+{
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let finite = |velocity: &f64| velocity.is_finite().then_some(*velocity);
+        Stored {
+            name: self.name().into(),
+            definition: self.definition().clone(),
+            coupled: self.is_coupled(),
+            limits: *self.limits(),
+            base: *self.base(),
+            tool: *self.tool(),
+            max_velocity: self.max_velocity().map(|all| all.iter().map(finite).collect()),
+        }
+        .serialize(serializer)
+    }
+}
+
+impl<'de, const N: usize> Deserialize<'de> for Robot<N>
+where
+    Joints<N>: Arity<N>,
+{
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Stored::deserialize(deserializer)?.build().map_err(D::Error::custom)
+    }
+}
+
+impl<const N: usize> Stored<N> {
+    fn build(self) -> Result<Robot<N>, Error>
+    where
+        Joints<N>: Arity<N>,
+    {
+        let mut robot = match self.definition {
+            Definition::Opw(opw) => Robot::of_opw(opw)?,
+            Definition::Mdh(mdh) => Robot::serial_chain(mdh)?,
+        };
+        if self.coupled {
+            let may_be_coupled = robot.structure.arm().may_be_coupled();
+            may_be_coupled.map_err(|reason| ModelFault::NotCoupled { reason })?;
+            robot = robot.with_coupling(true);
+        }
+        let max_velocity = match self.max_velocity {
+            Some(all) => {
+                let all: Vec<f64> = all.iter().map(|one| one.unwrap_or(f64::INFINITY)).collect();
+                let joint_count = |found: usize| ModelFault::JointCount { found, wanted: N };
+                Some(<[f64; N]>::try_from(all).map_err(|all| joint_count(all.len()))?)
+            }
+            None => None,
+        };
+        robot
+            .with_name(self.name)
+            .with_limits(self.limits)
+            .with_linkage_limits(self.limits.linkage())?
+            .with_max_velocity(max_velocity)?
+            .with_base(&self.base)?
+            .with_tool(&self.tool)
+    }
+}

@@ -1,0 +1,57 @@
+"""Check a wheel: its size, and that it has no paths of the machine that built it.
+
+Usage: python tests/check_wheel.py dist/irbkin-*.whl
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+import zipfile
+from pathlib import Path
+
+MOST_BYTES = 1_400_000
+
+
+def machine_paths() -> set[bytes]:
+    """Folders whose names must not be in a wheel."""
+    home = Path.home()
+    rustc = subprocess.run(
+        ["rustc", "--print", "sysroot"], capture_output=True, text=True, check=True
+    )
+    folders = {
+        home,
+        Path(os.environ.get("CARGO_HOME", home / ".cargo")),
+        Path(os.environ.get("CARGO_TARGET_DIR", "target")).resolve(),
+        Path(rustc.stdout.strip()),
+        Path(__file__).resolve().parents[1],
+        Path(tempfile.gettempdir()),
+    }
+    # The root folder is part of every path: a home of "/" cannot be looked for.
+    return {f"{folder}/".encode() for folder in folders if folder != Path("/")}
+
+
+def faults(wheel: Path) -> list[str]:
+    """What is wrong with a wheel, a line each."""
+    found = []
+    size = wheel.stat().st_size
+    if size > MOST_BYTES:
+        found.append(f"{wheel.name} has {size} bytes, it must have at most {MOST_BYTES}")
+    with zipfile.ZipFile(wheel) as files:
+        for name in files.namelist():
+            content = files.read(name)
+            for path in sorted(machine_paths()):
+                if path in content:
+                    at = content.index(path)
+                    text = content[at : at + 100].split(b"\0")[0].decode(errors="replace")
+                    found.append(f"{name} contains a path of this machine: {text}")
+    return found
+
+
+if __name__ == "__main__":
+    lines = [line for wheel in sys.argv[1:] for line in faults(Path(wheel))]
+    for wheel in sys.argv[1:]:
+        print(f"{Path(wheel).name}: {Path(wheel).stat().st_size} bytes")
+    sys.exit("\n".join(lines))

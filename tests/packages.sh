@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# Builds the crate and the sdist, unpacks each into an empty folder, and runs its examples there.
+# The argument is the folder of Python and maturin. Downloads what pip and cargo need.
+set -euo pipefail
+bin=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+echo "The crate"
+cargo package --quiet --allow-dirty --no-verify
+tar xzf target/package/irbkin-*.crate -C "$folder"
+if find "$folder" -name '*.py' | grep .; then
+    echo "The crate has Python files" >&2
+    exit 1
+fi
+(
+    cd "$folder"/irbkin-*
+    export CARGO_TARGET_DIR="$folder/target"
+    cargo check --quiet --examples
+    for example in 01_solve_a_pose 06_other_structures 07_rapid_module; do
+        cargo run --quiet --example "$example" >/dev/null
+    done
+)
+
+echo "The sdist"
+"$bin/maturin" sdist --quiet --out "$folder/dist"
+"$bin/python" -m venv "$folder/venv"
+"$folder/venv/bin/pip" install --quiet --disable-pip-version-check "$folder"/dist/irbkin-*.tar.gz
+mkdir "$folder/sdist"
+tar xzf "$folder"/dist/irbkin-*.tar.gz -C "$folder/sdist"
+(
+    cd "$folder"/sdist/irbkin-*
+    for example in examples/*.py; do
+        "$folder/venv/bin/python" "$example" >/dev/null
+    done
+)
