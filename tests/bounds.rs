@@ -106,7 +106,8 @@ fn a_row_of_a_batch_that_is_too_far_is_invalid_and_the_others_are_not_touched() 
             batch::ik(&robot, &poses, &mut q, &mut status, None).unwrap();
             check(name, &q, &status, &alone, row);
             let mut nearest = [0.0; 18];
-            batch::ik_nearest(&robot, &poses, &seed.repeat(3), &[1.0; 6], &mut nearest).unwrap();
+            batch::ik_nearest(&robot, &poses, &seed.repeat(3), &[1.0; 6], &mut nearest, None)
+                .unwrap();
             assert!(nearest[6..12].iter().all(|angle| angle.is_nan()), "{name} {row}");
             assert!(nearest[..6].iter().chain(&nearest[12..]).all(|angle| angle.is_finite()));
         }
@@ -193,7 +194,7 @@ fn a_seed_that_is_too_large_is_refused_by_every_call() {
             let mut nearest = [0.0; 12];
             let seeds = [seed, q].concat();
             let poses = pose_to_rows(&pose).repeat(2);
-            batch::ik_nearest(&robot, &poses, &seeds, &[1.0; 6], &mut nearest).unwrap();
+            batch::ik_nearest(&robot, &poses, &seeds, &[1.0; 6], &mut nearest, None).unwrap();
             assert!(nearest[..6].iter().all(|angle| angle.is_nan()), "{name}");
             assert!(nearest[6..].iter().all(|angle| angle.is_finite()), "{name}");
             if robot.structure() == "spherical wrist" {

@@ -50,6 +50,8 @@ pub enum PoseFault {
         norm: f64,
         /// The largest distance from one that is normalized.
         bound: f64,
+        /// The order of its elements.
+        order: &'static str,
     },
     /// A translation, quaternion or Euler angle is NaN or infinite.
     FieldNotFinite {
@@ -89,10 +91,10 @@ impl fmt::Display for PoseFault {
                     "pose rotation mirrors: its determinant is {determinant:.6}, it must be 1 (is an axis negated?)"
                 )
             }
-            Self::QuaternionNorm { norm, bound } => {
+            Self::QuaternionNorm { norm, bound, order } => {
                 write!(
                     f,
-                    "quaternion norm is {norm:.6}, it must be 1 within {bound:.0e} (order is w, x, y, z)"
+                    "quaternion norm is {norm:.6}, it must be 1 within {bound:.0e} (order is {order})"
                 )
             }
             Self::FieldNotFinite { field, index, value } => {

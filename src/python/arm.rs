@@ -7,11 +7,10 @@ use pyo3::prelude::*;
 
 use super::arrays::{Rows, answer, copied_vector, output, writable};
 use super::errors::{Fault, to_py};
-use crate::batch;
+use super::signals::detached;
+use crate::batch::Pace;
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{
-    Arity, JacobianFrame, Joints, Robot, Singularity, check_joints, pose_to_rows,
-};
+use crate::kinematics::{Arity, JacobianFrame, Joints, Robot, check_joints, pose_to_rows};
 
 /// A robot of six or seven joints.
 #[derive(Clone, PartialEq)]
@@ -92,7 +91,7 @@ impl Arm {
                 q,
                 out,
                 &[4, 4],
-                |q, poses| on_robot!(self, robot => batch::fk(robot, q, poses)),
+                |pace, q, poses| on_robot!(self, robot => pace.fk(robot, q, poses)),
             )?
             .into_any())
     }
@@ -100,12 +99,13 @@ impl Arm {
     pub(super) fn link_frames<'py>(
         &self,
         q: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.mapped(
             q,
-            None,
+            out,
             &[self.dof() + 1, 4, 4],
-            |q, frames| on_robot!(self, robot => batch::link_frames(robot, q, frames)),
+            |pace, q, frames| on_robot!(self, robot => pace.link_frames(robot, q, frames)),
         )
     }
 
@@ -122,20 +122,9 @@ impl Arm {
             q,
             out,
             &[6, self.dof()],
-            |q, rows| on_robot!(self, robot => batch::jacobian(robot, q, frame, rows)),
+            |pace, q, rows| on_robot!(self, robot => pace.jacobian(robot, q, frame, rows)),
         );
         Ok(rows?.into_any())
-    }
-
-    pub(super) fn singularity(
-        &self,
-        py: Python<'_>,
-        q: &[f64],
-    ) -> PyResult<Vec<Option<Singularity>>> {
-        let records = py.detach(
-            || on_robot!(self, robot => batch::singularity(robot, q).map(Iterator::collect)),
-        );
-        records.map_err(|error| to_py(py, &error))
     }
 
     /// An answer of shape (..., `tail`) for joint vectors (..., n), computed without the
@@ -145,13 +134,13 @@ impl Arm {
         q: &Bound<'py, PyAny>,
         out: Option<&Bound<'py, PyAny>>,
         tail: &[usize],
-        compute: impl FnOnce(&[f64], &mut [f64]) -> Result<(), Error> + Send,
+        compute: impl FnOnce(&mut Pace<'_>, &[f64], &mut [f64]) -> Result<(), Error> + Send,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let rows = self.joints(q)?;
         let answer = output(q.py(), out, &rows.shape_with(tail))?;
         let (data, mut view) = (rows.data()?, writable(&answer, &[rows.addresses()])?);
         let slice = view.as_slice_mut()?;
-        q.py().detach(|| compute(data, slice)).map_err(|error| to_py(q.py(), &error))?;
+        detached(q.py(), None, |pace| compute(pace, data, slice))?;
         Ok(answer)
     }
 

@@ -13,6 +13,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::type_object::PyTypeInfo;
+use pyo3::types::PyTuple;
 
 use super::borrows::{Access, Borrow, is_any_written, is_free, overlap};
 use super::errors::Fault;
@@ -57,9 +58,23 @@ impl<'py> Rows<'py> {
         Ok(self.array.as_slice()?)
     }
 
-    /// The array that is seen.
-    pub(super) fn array(&self) -> &Bound<'py, PyAny> {
-        self.array.as_any()
+    /// The same rows repeated, as NumPy broadcasts them to the leading dimensions `lead`.
+    pub(super) fn broadcast(&self, lead: &[usize], field: &str, fault: Fault) -> PyResult<Self> {
+        let (py, tail) = (self.array.py(), &self.shape()[self.lead.len()..]);
+        let shape = PyTuple::new(py, [lead, tail].concat())?;
+        let numpy = py.import(intern!(py, "numpy"))?;
+        let all = numpy.call_method1(intern!(py, "broadcast_to"), (self.array.as_any(), shape))?;
+        Self::read(&all, tail, field, fault)
+    }
+
+    /// Takes the last leading dimension to those that are known.
+    pub(super) fn split_last(&mut self) -> Option<usize> {
+        self.lead.pop()
+    }
+
+    /// The shape of the array.
+    pub(super) fn shape(&self) -> &[usize] {
+        self.array.shape()
     }
 
     /// The addresses of its memory.
@@ -134,6 +149,19 @@ pub(super) fn answer<'py, const C: usize>(
     match out {
         None => Ok(matrix(input.py(), rows).into_any()),
         Some(out) => write_out(input, out, &[rows.len(), C], rows.as_flattened()),
+    }
+}
+
+/// As [`answer`], of one row.
+#[inline]
+pub(super) fn answer_row<'py>(
+    input: &Bound<'py, PyAny>,
+    out: Option<&Bound<'py, PyAny>>,
+    row: &[f64],
+) -> PyResult<Bound<'py, PyAny>> {
+    match out {
+        None => Ok(PyArray1::from_slice(input.py(), row).into_any()),
+        Some(out) => write_out(input, out, &[row.len()], row),
     }
 }
 

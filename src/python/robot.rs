@@ -9,7 +9,7 @@ use super::arrays::vector;
 use super::build::{self, State};
 use super::edits::Edit;
 use super::errors::{Fault, to_py};
-use super::poses::{pose_array, read_pose};
+use super::poses::{pose_array, read_single_pose};
 use crate::catalog;
 use crate::kinematics::Robot;
 
@@ -126,13 +126,13 @@ impl PyRobot {
     /// The same robot with its tool center point at T, shape (4, 4), in the flange frame. A tool
     /// that it had is replaced.
     fn with_tool(&self, T: &Bound<'_, PyAny>) -> PyResult<Self> {
-        self.arm.changed(T.py(), &Edit::Tool(read_pose(T, "T")?)).map(Self::from)
+        self.arm.changed(T.py(), &Edit::Tool(read_single_pose(T, "with_tool")?)).map(Self::from)
     }
 
     /// The same robot standing at T, shape (4, 4), in the world, in which poses are then given. A
     /// base that it had is replaced.
     fn with_base(&self, T: &Bound<'_, PyAny>) -> PyResult<Self> {
-        self.arm.changed(T.py(), &Edit::Base(read_pose(T, "T")?)).map(Self::from)
+        self.arm.changed(T.py(), &Edit::Base(read_single_pose(T, "with_base")?)).map(Self::from)
     }
 
     /// The same robot with other joint limits [rad], shape (n, 2); those of a linkage stay.

@@ -50,6 +50,9 @@ impl Default for FollowOptions {
     }
 }
 
+/// Steps between two questions whether to go on.
+const ASKED_EVERY: usize = 32;
+
 /// How often the arm and a wrist with axis 4 held are solved in turn: each round shrinks the error
 /// by the tool's length over the arm's.
 const ROUNDS: usize = 60;
@@ -69,6 +72,18 @@ impl Robot<6> {
         seed: &[f64; 6],
         options: &FollowOptions,
     ) -> Result<Followed, Error> {
+        self.follow_while(path, seed, options, &mut || true)
+    }
+
+    /// [`Robot::follow`] for as long as `go_on` says so; it is asked now and then. The rest of the
+    /// path is not met.
+    pub(crate) fn follow_while(
+        &self,
+        path: &[Pose],
+        seed: &[f64; 6],
+        options: &FollowOptions,
+        go_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Followed, Error> {
         if !(options.zone.is_finite() && options.zone >= 0.0) {
             return Err(JointFault::Zone { value: options.zone }.into());
         }
@@ -84,9 +99,11 @@ impl Robot<6> {
             follower: Follower::new(self, seed, &options.weights)?,
             followed: Followed {
                 q: Vec::with_capacity(path.len()),
-                orientation_error: Vec::new(),
+                orientation_error: Vec::with_capacity(path.len()),
                 breaks: Vec::new(),
             },
+            go_on,
+            steps: 0,
         };
         match options.singularity_mode {
             SingularityMode::Through | SingularityMode::Error => walk.through()?,
@@ -111,11 +128,19 @@ struct Walk<'a> {
     options: &'a FollowOptions,
     follower: Follower<'a>,
     followed: Followed,
+    go_on: &'a mut dyn FnMut() -> bool,
+    steps: usize,
 }
 
 impl Walk<'_> {
     fn in_zone(&self, q: &[f64; 6]) -> bool {
         self.robot.solver().arm().sin_5(q).is_some_and(|sin_5| sin_5.abs() < self.options.zone)
+    }
+
+    /// Whether to take another step.
+    fn goes_on(&mut self) -> bool {
+        self.steps += 1;
+        !self.steps.is_multiple_of(ASKED_EVERY) || (self.go_on)()
     }
 
     fn record(&mut self, q: Option<[f64; 6]>, broken: Option<BreakReason>) {
@@ -127,6 +152,9 @@ impl Walk<'_> {
     /// Pose by pose; with [`SingularityMode::Error`] up to the zone or a jump.
     fn through(&mut self) -> Result<(), Error> {
         for pose in self.path {
+            if !self.goes_on() {
+                return Ok(());
+            }
             let (solution, broken) = self.follower.step(pose)?;
             let q = solution.map(|solution| solution.q);
             if self.options.singularity_mode == SingularityMode::Error {
@@ -145,7 +173,7 @@ impl Walk<'_> {
     /// The wrist straight through the zone, position by the other three axes.
     fn wrist(&mut self) -> Result<(), Error> {
         let mut index = 0;
-        while index < self.path.len() {
+        while index < self.path.len() && self.goes_on() {
             let (solution, broken) = self.follower.step(&self.path[index])?;
             let q = solution.map(|solution| solution.q);
             match q.filter(|q| self.in_zone(q)) {
@@ -173,7 +201,7 @@ impl Walk<'_> {
     ) -> Result<usize, Error> {
         // Where the zone ends, on whatever wrist branch: sin q5 has the same size on both.
         let mut behind = first + 1;
-        while behind < self.path.len() {
+        while behind < self.path.len() && self.goes_on() {
             match self.follower.step(&self.path[behind])?.0 {
                 Some(solution) if self.in_zone(&solution.q) => behind += 1,
                 _ => break,
@@ -188,6 +216,9 @@ impl Walk<'_> {
             };
         let mut q = entered;
         for index in first + 1..behind {
+            if !self.goes_on() {
+                break;
+            }
             #[expect(clippy::cast_precision_loss, reason = "a part of the way")]
             let part = (index - first) as f64 / (behind - 1 - first) as f64;
             let mut wanted = q;
@@ -212,6 +243,9 @@ impl Walk<'_> {
     fn lock_axis_4(&mut self) -> Result<(), Error> {
         let mut standing: Option<[f64; 6]> = None;
         for pose in self.path {
+            if !self.goes_on() {
+                return Ok(());
+            }
             let from = match standing {
                 Some(q) => q,
                 // Up to the first pose that is met, the path stands at the seed.
@@ -292,11 +326,13 @@ impl Walk<'_> {
 
     /// Measures the orientation of every pose.
     fn finish(mut self) -> Followed {
-        let rows = self.followed.q.iter().zip(self.path);
-        let error = |(q, pose): (&Option<[f64; 6]>, &Pose)| {
-            q.map(|q| PoseDifference::between(&self.robot.fk(&q), pose).rotation)
-        };
-        self.followed.orientation_error = rows.map(error).collect();
+        for (index, pose) in self.path.iter().enumerate().take(self.followed.q.len()) {
+            if !self.goes_on() {
+                break;
+            }
+            let error = |q: [f64; 6]| PoseDifference::between(&self.robot.fk(&q), pose).rotation;
+            self.followed.orientation_error.push(self.followed.q[index].map(error));
+        }
         // What was not come to, when the path stopped.
         self.followed.q.resize(self.path.len(), None);
         self.followed.orientation_error.resize(self.path.len(), None);

@@ -39,7 +39,8 @@ impl SphericalWrist {
     /// of joint 5, signed (eq. 21).
     pub(super) fn factors(&self, q: &[f64; 6]) -> [f64; 3] {
         let [_, theta_2, theta_3, _, theta_5, _] = self.theta(q);
-        [self.planar.sin_elbow(theta_3), self.planar.x_of_end(theta_2, theta_3), theta_5.sin()]
+        let [elbow, x] = self.planar.elbow_and_end(theta_2, theta_3);
+        [elbow, x, theta_5.sin()]
     }
 
     /// The angle of joint 4 nearest to that of `q` at which axis 5 is parallel to axes 2 and 3
