@@ -1,6 +1,6 @@
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from os import PathLike
-from typing import Any, ClassVar, Literal, final, overload
+from typing import Any, ClassVar, Literal, Protocol, final, overload, type_check_only
 
 import numpy as np
 import numpy.typing as npt
@@ -30,6 +30,12 @@ _State = tuple[
     list[float] | None,
     list[float] | None,
 ]
+
+@type_check_only
+class _Rotation(Protocol):
+    """A rotation of another package, such as SciPy's."""
+
+    def as_matrix(self) -> npt.NDArray[Any]: ...
 
 __all__ = [
     "Module",
@@ -66,7 +72,11 @@ def instruction_set() -> str: ...
 def instruction_sets() -> tuple[str, ...]: ...
 def use_instruction_set(name: str) -> None: ...
 def pose(
-    xyz: npt.ArrayLike, wxyz: npt.ArrayLike | None = None, euler_zyx: npt.ArrayLike | None = None
+    xyz: npt.ArrayLike,
+    wxyz: npt.ArrayLike | None = None,
+    xyzw: npt.ArrayLike | None = None,
+    euler_zyx: npt.ArrayLike | None = None,
+    rotation: npt.ArrayLike | _Rotation | None = None,
 ) -> _Floats: ...
 def to_xyz_wxyz(T: npt.ArrayLike) -> tuple[_Floats, _Floats]: ...
 def to_xyz_euler_zyx(T: npt.ArrayLike) -> tuple[_Floats, _Floats]: ...
@@ -149,11 +159,17 @@ class Robot:
     def serial(self) -> Robot: ...
     def coupled(self) -> Robot: ...
     def fk(self, q: npt.ArrayLike, out: _Floats | None = None) -> _Floats: ...
-    def link_frames(self, q: npt.ArrayLike) -> _Floats: ...
+    def link_frames(self, q: npt.ArrayLike, out: _Floats | None = None) -> _Floats: ...
     def jacobian(
         self, q: npt.ArrayLike, frame: Literal["base", "tool"] = "base", out: _Floats | None = None
     ) -> _Floats: ...
-    def singularity(self, q: npt.ArrayLike) -> Singularity: ...
+    def singularity(
+        self,
+        q: npt.ArrayLike,
+        *,
+        out: Singularity | tuple[npt.NDArray[Any], ...] | None = None,
+        threads: int = 1,
+    ) -> Singularity: ...
     def ik(self, T: npt.ArrayLike, q7: float | None = None) -> Solutions: ...
     def ik_batch(
         self,
@@ -164,7 +180,13 @@ class Robot:
         threads: int = 1,
     ) -> IkBatch: ...
     def ik_nearest(
-        self, T: npt.ArrayLike, seed: npt.ArrayLike, weights: npt.ArrayLike | None = None
+        self,
+        T: npt.ArrayLike,
+        seed: npt.ArrayLike,
+        weights: npt.ArrayLike | None = None,
+        *,
+        out: _Floats | None = None,
+        threads: int = 1,
     ) -> _Floats: ...
     def follow(
         self,
@@ -174,6 +196,8 @@ class Robot:
         *,
         singularity_mode: Literal["through", "error", "wrist", "lock_axis4"] = "through",
         zone: float | None = None,
+        out: tuple[_Floats, _Floats] | None = None,
+        threads: int = 1,
     ) -> FollowResult: ...
     def configuration(self, q: npt.ArrayLike) -> Configuration: ...
     def ik_configured(
@@ -183,6 +207,8 @@ class Robot:
         *,
         fallback: Literal["nearest"] | None = None,
         seed: npt.ArrayLike | None = None,
+        out: _Floats | None = None,
+        threads: int = 1,
     ) -> _Floats: ...
     def check_pose(self, T: npt.ArrayLike) -> PoseCheck: ...
     def __eq__(self, other: object, /) -> bool: ...

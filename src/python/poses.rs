@@ -85,7 +85,7 @@ pub(super) fn pose<'py>(
         )));
     }
     match first {
-        None => made(xyz, None, "", &[0], |xyz, []| pose_from_euler_zyx(xyz, [0.0; 3])),
+        None => made(xyz, None, "", &[3], pose_from_euler_zyx),
         Some((name @ "wxyz", value)) => made(xyz, Some(value), name, &[4], pose_from_wxyz),
         Some((name @ "xyzw", value)) => made(xyz, Some(value), name, &[4], pose_from_xyzw),
         Some((name @ "euler_zyx", value)) => {

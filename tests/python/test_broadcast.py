@@ -26,7 +26,7 @@ def each(call, lead, *arguments):
         for array, core in arguments
     ]
     answers = [call(*(array[index] for array in arrays)) for index in np.ndindex(*lead)]
-    return np.array(answers).reshape(*lead, -1)
+    return np.array(answers).reshape(*lead, 6)
 
 
 @pytest.mark.parametrize(("poses", "seeds"), LEADS)

@@ -157,7 +157,9 @@ def test_poses_are_broadcast_and_each_is_the_one_made_alone(way):
     for index in np.ndindex(2, 3):
         alone = irbkin.pose(xyz[index], **{way: turns[index]})
         np.testing.assert_array_equal(made[index], alone)
-        np.testing.assert_array_equal(irbkin.pose(xyz[index].tolist(), **{way: turns[index]}), alone)
+        np.testing.assert_array_equal(
+            irbkin.pose(xyz[index].tolist(), **{way: turns[index]}), alone
+        )
     np.testing.assert_array_equal(
         irbkin.pose(xyz, **{way: turns[0, 0]})[1, 2], irbkin.pose(xyz[1, 2], **{way: turns[0, 0]})
     )
@@ -192,7 +194,9 @@ def test_poses_come_apart_as_each_does_alone():
         spoiled = MANY.copy()
         spoiled[0, 1] *= 2
         spoiled[1, 0, 0, 0] = np.nan
-        for parts in zip(take(spoiled), zip(*map(take, MANY.reshape(-1, 4, 4)), strict=True), strict=True):
+        for parts in zip(
+            take(spoiled), zip(*map(take, MANY.reshape(-1, 4, 4)), strict=True), strict=True
+        ):
             together, alone = parts[0], np.array(parts[1]).reshape(parts[0].shape)
             alone[0, 1] = alone[1, 0] = np.nan
             np.testing.assert_array_equal(together, alone)

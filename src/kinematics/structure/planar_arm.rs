@@ -192,10 +192,12 @@ impl PlanarArm {
         self.a1 + self.c2 * sin_2 + self.c3 * sin_23 + self.a2 * cos_23
     }
 
-    /// [`Self::sin_elbow`] and [`Self::x_of_end`], from the same sines and cosines.
-    pub(crate) fn elbow_and_end(&self, theta_2: f64, theta_3: f64) -> [f64; 2] {
-        let (sin_2, cos_2) = theta_2.sin_cos();
-        let (sin_3, cos_3) = theta_3.sin_cos();
+    /// [`Self::sin_elbow`] and [`Self::x_of_end`], from sines and cosines of theta_2 and theta_3.
+    pub(crate) fn elbow_and_end(
+        &self,
+        (sin_2, cos_2): (f64, f64),
+        (sin_3, cos_3): (f64, f64),
+    ) -> [f64; 2] {
         let (sin_23, cos_23) = (sin_2 * cos_3 + cos_2 * sin_3, cos_2 * cos_3 - sin_2 * sin_3);
         let elbow = (self.a2 * cos_3 + self.c3 * sin_3) / self.k;
         [elbow, self.a1 + self.c2 * sin_2 + self.c3 * sin_23 + self.a2 * cos_23]

@@ -108,16 +108,23 @@ impl<const N: usize> Choice<N> {
                 // The kernel has turned the angle into the limits where a turn of it is inside.
                 let outside = ((angle < low) & (angle + TAU > high + MARGIN))
                     | ((angle > high) & (angle - TAU < low - MARGIN));
-                let far = size >= PI;
-                let turned = angle + TAU.copysign(apart);
-                let turned_inside = (turned >= low + MARGIN) & (turned <= high - MARGIN);
-                let turned_outside = (turned < low - MARGIN) | (turned > high + MARGIN);
-                let plain = (size > PI + MARGIN)
-                    & (size < 3.0 * PI - MARGIN)
-                    & (turned_inside | turned_outside);
+                // The turn nearest to the seed is none, one or two away; limits may end before it.
+                let (far, farther) = (size >= PI, size >= 3.0 * PI);
+                let turn = TAU.copysign(apart);
+                let (one, two) = (angle + turn, angle + 2.0 * turn);
+                let [one_in, two_in] =
+                    [one, two].map(|it| (it >= low + MARGIN) & (it <= high - MARGIN));
+                let [one_out, two_out] =
+                    [one, two].map(|it| (it < low - MARGIN) | (it > high + MARGIN));
+                let clear = ((size - PI).abs() > MARGIN)
+                    & ((size - 3.0 * PI).abs() > MARGIN)
+                    & (size < 5.0 * PI - MARGIN)
+                    & (one_in | one_out)
+                    & (!farther | one_out | two_in | two_out);
                 priced.inside[lane] &= u64::from(!outside);
-                priced.open[lane] |= u64::from(!holds | (far & !plain));
-                let nearest = if far & turned_inside { turned } else { angle };
+                priced.open[lane] |= u64::from(!holds | (far & !clear));
+                let nearest = if far & one_in { one } else { angle };
+                let nearest = if farther & one_in & two_in { two } else { nearest };
                 priced.q[joint][lane] = nearest;
                 let step = nearest - seed;
                 priced.cost[lane] += weight * (step * step);
