@@ -45,12 +45,12 @@ impl Signals {
     /// Whether no handler has raised anything; looks now and then.
     fn is_quiet(&mut self) -> bool {
         if self.raised.is_none() && !self.is_deaf && self.asked.elapsed() >= PATIENCE {
-            Python::attach(|py| {
-                self.is_deaf = !is_main_thread(py);
-                if !self.is_deaf {
-                    self.raised = py.check_signals().err();
-                }
-            });
+            // Whatever runs Python's code may raise what a handler raises.
+            let heard = Python::attach(|py| py.check_signals().and_then(|()| is_main_thread(py)));
+            match heard {
+                Ok(is_main) => self.is_deaf = !is_main,
+                Err(raised) => self.raised = Some(raised),
+            }
             self.asked = Instant::now();
         }
         self.raised.is_none()
@@ -58,11 +58,8 @@ impl Signals {
 }
 
 /// Whether this is the thread that handles signals.
-fn is_main_thread(py: Python<'_>) -> bool {
-    let is_main = || {
-        let threading = py.import(intern!(py, "threading"))?;
-        let main = threading.call_method0(intern!(py, "main_thread"))?;
-        PyResult::Ok(threading.call_method0(intern!(py, "current_thread"))?.is(&main))
-    };
-    is_main().unwrap_or(true)
+fn is_main_thread(py: Python<'_>) -> PyResult<bool> {
+    let threading = py.import(intern!(py, "threading"))?;
+    let main = threading.call_method0(intern!(py, "main_thread"))?;
+    Ok(threading.call_method0(intern!(py, "current_thread"))?.is(&main))
 }

@@ -5,14 +5,13 @@ import sys
 
 import pytest
 
-# Larger than a second's work on any machine that these tests run on; the arrays are the same row
-# over and over where that makes no difference.
-COUNT = 4_000_000
+# The slow calls take a second.
+COUNT = 300_000
 
 CALLS = {
     "fk": "robot.fk(q, out=np.empty((n, 4, 4)))",
     "jacobian": "robot.jacobian(q, out=np.empty((n, 6, 6)))",
-    "link_frames": "robot.link_frames(q[:n // 4])",
+    "link_frames": "robot.link_frames(q)",
     "singularity": "robot.singularity(q)",
     "singularity on two threads": "robot.singularity(q, threads=2)",
     "configuration": "robot.configuration(q)",
@@ -29,13 +28,14 @@ CALLS = {
     "to_xyz_wxyz": "irbkin.to_xyz_wxyz(T)",
 }
 
-# Calls over and over, so that the signal comes during one however fast it is; what is measured is
-# the time from the signal to the exception.
+# Calls over and over, so that the signal comes during one however fast it is. What is measured is
+# the time from the signal to the exception, of this process alone: others may have the processor.
 PROGRAM = """
-import os, signal, sys, threading, time
+import os, signal, threading, time
 import numpy as np
 import irbkin
 
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a background job ignores it
 robot = irbkin.Robot("IRB 2600-12/1.65")
 n = {count}
 one = np.array([0.3, -0.2, 0.4, 0.5, 0.6, 0.7])
@@ -44,8 +44,8 @@ T = np.repeat(robot.fk(one)[None], n, axis=0)
 sent = []
 
 def interrupt():
-    time.sleep({delay})
-    sent.append(time.monotonic())
+    time.sleep(0.2)
+    sent.append(time.process_time())
     os.kill(os.getpid(), signal.SIGINT)
 
 try:
@@ -53,25 +53,17 @@ try:
     while True:
         {call}
 except KeyboardInterrupt:
-    print(time.monotonic() - sent[0], time.process_time())
+    print(time.process_time() - sent[0])
 """
-
-
-def seconds_to_end(call, delay):
-    program = PROGRAM.format(call=call, count=COUNT, delay=delay)
-    run = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, timeout=120, check=True
-    )
-    return float(run.stdout.split()[0])
 
 
 @pytest.mark.parametrize("name", CALLS)
 def test_an_interrupt_ends_the_call(name):
-    """Within 0.2 s; of three tries the best, for another process may have the processor."""
-    least = min(seconds_to_end(CALLS[name], delay) for delay in (0.3,))
-    if least > 0.2:
-        least = min(least, *(seconds_to_end(CALLS[name], delay) for delay in (0.35, 0.4)))
-    assert least < 0.2
+    program = PROGRAM.format(call=CALLS[name], count=COUNT)
+    run = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, timeout=120, check=True
+    )
+    assert float(run.stdout) < 0.2
 
 
 def test_a_handler_that_raises_nothing_ends_no_call():
@@ -82,7 +74,7 @@ import numpy as np
 import irbkin
 
 robot = irbkin.Robot("IRB 2600-12/1.65")
-q = np.full((300_000, 6), 0.3)
+q = np.full((100_000, 6), 0.3)
 heard = []
 signal.signal(signal.SIGALRM, lambda *_: heard.append(time.monotonic()))
 signal.setitimer(signal.ITIMER_REAL, 0.02, 0.02)
@@ -106,8 +98,9 @@ import os, signal, threading, time
 import numpy as np
 import irbkin
 
+signal.signal(signal.SIGINT, signal.default_int_handler)
 robot = irbkin.Robot("IRB 2600-12/1.65")
-q = np.repeat(np.full((1, 6), 0.3), 4_000_000, axis=0)
+q = np.repeat(np.full((1, 6), 0.3), 400_000, axis=0)
 T = np.repeat(robot.fk(q[:1]), len(q), axis=0)
 out = np.full((len(q), 6), 7.0)
 threading.Timer(0.1, lambda: os.kill(os.getpid(), signal.SIGINT)).start()

@@ -112,10 +112,10 @@ impl<const N: usize> Choice<N> {
                 let (far, farther) = (size >= PI, size >= 3.0 * PI);
                 let turn = TAU.copysign(apart);
                 let (one, two) = (angle + turn, angle + 2.0 * turn);
-                let [one_in, two_in] =
-                    [one, two].map(|it| (it >= low + MARGIN) & (it <= high - MARGIN));
-                let [one_out, two_out] =
-                    [one, two].map(|it| (it < low - MARGIN) | (it > high + MARGIN));
+                let one_in = (one >= low + MARGIN) & (one <= high - MARGIN);
+                let two_in = (two >= low + MARGIN) & (two <= high - MARGIN);
+                let one_out = (one < low - MARGIN) | (one > high + MARGIN);
+                let two_out = (two < low - MARGIN) | (two > high + MARGIN);
                 let clear = ((size - PI).abs() > MARGIN)
                     & ((size - 3.0 * PI).abs() > MARGIN)
                     & (size < 5.0 * PI - MARGIN)
