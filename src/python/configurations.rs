@@ -146,7 +146,7 @@ fn read_configurations(py: Python<'_>, rows: &Rows<'_>) -> PyResult<Vec<Configur
             reason = "checked to be a whole number of that size"
         )]
         if number.fract() == 0.0
-            && (number.abs() <= f64::from(i32::MAX) || number == f64::from(NO_CONFIGURATION))
+            && (f64::from(NO_CONFIGURATION)..=f64::from(i32::MAX)).contains(&number)
         {
             Ok(number as i32)
         } else {

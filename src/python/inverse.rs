@@ -217,7 +217,6 @@ impl PyRobot {
     ///     InvalidModelError: As `configuration`.
     ///     TypeError, ValueError: Another fallback, or one without a seed.
     #[pyo3(signature = (T, configuration, *, fallback=None, seed=None, out=None, threads=1))]
-    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn ik_configured<'py>(
         &self,
         T: &Bound<'py, PyAny>,

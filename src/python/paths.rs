@@ -70,12 +70,12 @@ fn read_path(py: Python<'_>, rows: &Rows<'_>, shape: &[usize]) -> PyResult<Vec<P
 fn checked_seeds<'a>(py: Python<'_>, seeds: &'a Rows<'_>) -> PyResult<&'a [[f64; 6]]> {
     let rows = seeds.data()?.as_chunks::<6>().0;
     for (path, seed) in rows.iter().enumerate() {
-        check_seed("seed", seed).map_err(|error| match seeds.lead[..] {
-            [] => to_py(py, &error),
-            _ => {
-                let place = index_in(&seeds.lead, path);
-                Fault::Joints.error(py, format!("seed{place:?}: {error}"))
+        check_seed("seed", seed).map_err(|error| {
+            let place = index_in(&seeds.lead, path);
+            if place.is_empty() {
+                return to_py(py, &error);
             }
+            Fault::Joints.error(py, format!("seed{place:?}: {error}"))
         })?;
     }
     Ok(rows)

@@ -1,4 +1,4 @@
-"""Arguments with leading dimensions of their own are broadcast; `out` and threads change nothing."""
+"""Leading dimensions of arguments are broadcast; `out` and threads change nothing."""
 
 import os
 

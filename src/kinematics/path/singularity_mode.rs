@@ -104,6 +104,7 @@ impl Robot<6> {
             },
             go_on,
             steps: 0,
+            is_stopped: false,
         };
         match options.singularity_mode {
             SingularityMode::Through | SingularityMode::Error => walk.through()?,
@@ -130,6 +131,7 @@ struct Walk<'a> {
     followed: Followed,
     go_on: &'a mut dyn FnMut() -> bool,
     steps: usize,
+    is_stopped: bool,
 }
 
 impl Walk<'_> {
@@ -140,7 +142,10 @@ impl Walk<'_> {
     /// Whether to take another step.
     fn goes_on(&mut self) -> bool {
         self.steps += 1;
-        !self.steps.is_multiple_of(ASKED_EVERY) || (self.go_on)()
+        if self.steps.is_multiple_of(ASKED_EVERY) {
+            self.is_stopped |= !(self.go_on)();
+        }
+        !self.is_stopped
     }
 
     fn record(&mut self, q: Option<[f64; 6]>, broken: Option<BreakReason>) {
