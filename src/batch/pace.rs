@@ -30,13 +30,15 @@ impl Pace<'static> {
     }
 }
 
+#[cfg(feature = "python")]
 impl<'a> Pace<'a> {
     /// For as long as `go_on` says so.
-    #[cfg(feature = "python")]
     pub(crate) fn until(threads: Option<NonZeroUsize>, go_on: &'a mut GoOn<'a>) -> Self {
         Self { threads: threads.map_or(1, NonZeroUsize::get), go_on: Some(go_on) }
     }
+}
 
+impl Pace<'_> {
     /// Works on the parts of `rows` rows, in any order. Work that takes long asks whether to go on.
     ///
     /// The caller works, too: it does not wait for threads that wake up late.
@@ -126,7 +128,9 @@ mod tests {
         for threads in 1..5 {
             let mut done = vec![0_u8; 1000];
             Pace::steady(NonZeroUsize::new(threads)).run(100_000, done.chunks_mut(7), |part, _| {
-                part.iter_mut().for_each(|row| *row += 1)
+                for row in part {
+                    *row += 1;
+                }
             });
             assert_eq!(done, [1; 1000], "{threads} threads");
         }
