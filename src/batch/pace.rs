@@ -169,8 +169,7 @@ mod tests {
             ids.dedup();
             ids
         };
-        let first = ids();
-        // Other tests may have taken them for a moment; with one core there are none.
-        assert!(first.is_empty() || (0..100).any(|_| ids() == first));
+        // Other tests may take them for a moment, and end them.
+        assert!((0..100).any(|_| ids() == ids()));
     }
 }
