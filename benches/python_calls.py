@@ -104,6 +104,9 @@ def batches(robot: irbkin.Robot) -> list[list[Row]]:
     T = robot.fk(q)
     poses, jacobians = np.empty((POSES, 4, 4)), np.empty((POSES, 6, 6))
     out = irbkin.IkBatch(np.empty((POSES, 8, 6)), np.empty((POSES, 8), np.uint8))
+    nearest, singular = np.empty((POSES, 6)), robot.singularity(q)
+    seeds = q + np.random.default_rng(2).normal(0.0, 0.05, size=q.shape)
+    counted = robot.configuration(q)
     zero_poses, zero_jacobians, zero_joints, one_thread = (
         "poses.fill(0.0)",
         "jacobians.fill(0.0)",
@@ -128,8 +131,42 @@ def batches(robot: irbkin.Robot) -> list[list[Row]]:
                 one_thread,
                 "0.59 x",
             ),
+            Row(
+                "ik_nearest",
+                lambda: robot.ik_nearest(T, seeds, out=nearest),
+                one_thread,
+                "120 ns",
+            ),
+            Row("ik_configured", lambda: robot.ik_configured(T, counted, out=nearest), one_thread),
+            Row(
+                "singularity",
+                lambda: robot.singularity(q, out=singular),
+                one_thread,
+                "300 ns",
+            ),
+            Row("configuration", lambda: robot.configuration(q), one_thread, "40 ns"),
         ],
     ]
+
+
+def sizes(robot: irbkin.Robot) -> None:
+    """Print the time of a pose in batches of many sizes, on one thread and on two: the threads are
+    worth it from 5,000 poses on, and a million poses are written to memory, not to a cache.
+    """
+    most = 1_000_000
+    q = np.random.default_rng(1).uniform(*robot.limits.T, size=(most, 6))
+    T, out = robot.fk(q), (np.empty((most, 8, 6)), np.empty((most, 8), np.uint8))
+    print(f"\n{'ik_batch(out=) of':24}{'ns a pose':>12}{'2 threads':>12}{'gain':>9}")
+    for count in (512, 5_000, 10_000, 50_000, 100_000, most):
+        answer = tuple(array[:count] for array in out)
+        calls = [partial(robot.ik_batch, T[:count], out=answer, threads=n) for n in (1, 2)]
+        times = np.full((2, ROUNDS), np.inf)
+        for turn in range(ROUNDS):
+            for i, call in enumerate(calls):
+                repeat = max(1, 50_000 // count)
+                times[i, turn] = timeit.timeit(call, number=repeat) / repeat / count * 1e9
+        one, two = times.min(axis=1)
+        print(f"{count:<24,}{one:12.1f}{two:12.1f}{one / two:8.2f}x")
 
 
 def measure(rows: list[Row], calls: int, poses: int) -> None:
@@ -170,6 +207,7 @@ def main() -> None:
     print(f"\n{f'{POSES} poses, out=':24}{'ns a pose':>12}{columns}")
     for rows in (*batches(robot), *other_batches()):
         measure(rows, 1, POSES)
+    sizes(robot)
     print(f"\nimport irbkin, NumPy loaded: {import_time() * 1e3:.1f} ms (goal 5 ms)")
     print(
         "Goals in Rust, one thread: 150 ns a pose of 8 solutions (AVX2 up), "

@@ -106,7 +106,8 @@ fn a_batch_row_that_is_too_far_away_is_invalid_and_the_other_rows_are_solved() {
             batch::ik(&robot, &poses, &mut q, &mut status, None).unwrap();
             check(name, &q, &status, &alone, row);
             let mut nearest = [0.0; 18];
-            batch::ik_nearest(&robot, &poses, &seed.repeat(3), &[1.0; 6], &mut nearest).unwrap();
+            batch::ik_nearest(&robot, &poses, &seed.repeat(3), &[1.0; 6], &mut nearest, None)
+                .unwrap();
             assert!(nearest[6..12].iter().all(|angle| angle.is_nan()), "{name} {row}");
             assert!(nearest[..6].iter().chain(&nearest[12..]).all(|angle| angle.is_finite()));
         }
@@ -194,7 +195,7 @@ fn every_call_refuses_a_seed_that_is_too_large() {
             let mut nearest = [0.0; 12];
             let seeds = [seed, q].concat();
             let poses = pose_to_rows(&pose).repeat(2);
-            batch::ik_nearest(&robot, &poses, &seeds, &[1.0; 6], &mut nearest).unwrap();
+            batch::ik_nearest(&robot, &poses, &seeds, &[1.0; 6], &mut nearest, None).unwrap();
             assert!(nearest[..6].iter().all(|angle| angle.is_nan()), "{name}");
             assert!(nearest[6..].iter().all(|angle| angle.is_finite()), "{name}");
             if robot.structure() == "spherical wrist" {

@@ -6,6 +6,8 @@
 mod common;
 #[path = "lanes/coupled.rs"]
 mod coupled;
+#[path = "lanes/nearest.rs"]
+mod nearest;
 mod structures;
 #[path = "lanes/subjects.rs"]
 mod subjects;

@@ -31,6 +31,7 @@ from irbkin._core import (
 from irbkin.errors import (
     InvalidJointsError,
     InvalidModelError,
+    InvalidMotionError,
     InvalidPoseError,
     IrbkinError,
     RapidError,
@@ -47,6 +48,7 @@ from irbkin.records import (
     FollowResult,
     FreeJoint,
     IkBatch,
+    MotionPeaks,
     PoseCheck,
     Reach,
     Singularity,
@@ -54,12 +56,15 @@ from irbkin.records import (
     SingularityKind,
     SingularityMode,
     Status,
+    TrajectorySample,
 )
 
 if TYPE_CHECKING:
     from types import ModuleType
 
+    from irbkin import paths as paths
     from irbkin import rapid as rapid
+    from irbkin import trajectory as trajectory
 
 __all__ = [
     "Break",
@@ -72,8 +77,10 @@ __all__ = [
     "IkBatch",
     "InvalidJointsError",
     "InvalidModelError",
+    "InvalidMotionError",
     "InvalidPoseError",
     "IrbkinError",
+    "MotionPeaks",
     "PoseCheck",
     "RapidError",
     "Reach",
@@ -85,6 +92,7 @@ __all__ = [
     "Solution",
     "Solutions",
     "Status",
+    "TrajectorySample",
     "UnknownNameError",
     "UnknownRobotError",
     "UnreachableError",
@@ -93,23 +101,27 @@ __all__ = [
     "catalog_entry",
     "instruction_set",
     "instruction_sets",
+    "paths",
     "pose",
     "rapid",
     "to_xyz_euler_zyx",
     "to_xyz_wxyz",
+    "trajectory",
     "use_instruction_set",
 ]
 
+_MODULES = ("paths", "rapid", "trajectory")
+
 
 def __getattr__(name: str) -> ModuleType:
-    """Import `irbkin.rapid` when it is first asked for."""
-    if name == "rapid":
+    """Import `irbkin.rapid` and the like when they are first asked for."""
+    if name in _MODULES:
         import importlib
 
-        return importlib.import_module("irbkin.rapid")
+        return importlib.import_module(f"irbkin.{name}")
     raise AttributeError(f"module 'irbkin' has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:
-    """List what the package offers, `rapid` before its import, too."""
+    """List what the package offers, its modules before their import, too."""
     return sorted({*__all__, "errors", "records", *(n for n in globals() if n.startswith("__"))})

@@ -9,7 +9,7 @@ from collections.abc import (
     ValuesView,
 )
 from os import PathLike
-from typing import Any, ClassVar, Literal, final, overload
+from typing import Any, ClassVar, Literal, Protocol, final, overload, type_check_only
 
 import numpy as np
 import numpy.typing as npt
@@ -23,6 +23,7 @@ from irbkin.records import (
     FollowResult,
     FreeJoint,
     IkBatch,
+    MotionPeaks,
     PoseCheck,
     Reach,
     Singularity,
@@ -30,6 +31,7 @@ from irbkin.records import (
     SingularityKind,
     SingularityMode,
     Status,
+    TrajectorySample,
 )
 
 _Floats = npt.NDArray[np.float64]
@@ -49,18 +51,28 @@ _OutcomeState = tuple[str, int, int, float]
 _FoundState = tuple[
     list[_SolutionState], _OutcomeState, _OutcomeState | None, list[_SolutionState] | None
 ]
+_TrajectoryState = tuple[int, list[float], list[float], list[float]]
 # One joint vector, `Solution` too; the shape of an array is known at the call alone.
 _Vector = Sequence[float]
+
+@type_check_only
+class _Rotation(Protocol):
+    """A rotation of another package, such as SciPy's."""
+
+    def as_matrix(self) -> npt.NDArray[Any]: ...
 
 __all__ = [
     "Module",
     "Robot",
     "Solution",
     "Solutions",
+    "Trajectory",
     "__version__",
     "_restore_robot",
     "_restore_solution",
     "_restore_solutions",
+    "_restore_trajectory",
+    "arc",
     "calc_joint_t",
     "calc_moves",
     "calc_rob_t",
@@ -71,9 +83,14 @@ __all__ = [
     "dump",
     "instruction_set",
     "instruction_sets",
+    "joint",
+    "line",
     "parse",
     "parse_record",
+    "polyline",
     "pose",
+    "retime",
+    "spline",
     "to_xyz_euler_zyx",
     "to_xyz_wxyz",
     "use_instruction_set",
@@ -134,49 +151,60 @@ def use_instruction_set(name: str) -> None:
     """
 
 def pose(
-    xyz: npt.ArrayLike, wxyz: npt.ArrayLike | None = None, euler_zyx: npt.ArrayLike | None = None
+    xyz: npt.ArrayLike,
+    wxyz: npt.ArrayLike | None = None,
+    xyzw: npt.ArrayLike | None = None,
+    euler_zyx: npt.ArrayLike | None = None,
+    rotation: npt.ArrayLike | _Rotation | None = None,
 ) -> _Floats:
-    """Pose from a translation and an orientation.
+    """Poses from translations and orientations.
+
+    Give one orientation or none, which is that of the base. All arguments are broadcast.
 
     Args:
-        xyz: Translation [m], shape (3,).
-        wxyz: Orientation as w, x, y, z, shape (4,); normalized.
-        euler_zyx: Orientation as rz, ry, rx [rad], shape (3,): Rz(rz) Ry(ry) Rx(rx).
+        xyz: Translations [m], shape (..., 3).
+        wxyz: Quaternions w, x, y, z, shape (..., 4); normalized.
+        xyzw: Quaternions x, y, z, w, as SciPy and ROS order them, shape (..., 4); normalized.
+        euler_zyx: Angles rz, ry, rx [rad], shape (..., 3): Rz(rz) Ry(ry) Rx(rx).
+        rotation: Rotation matrices, shape (..., 3, 3), or a `scipy.spatial.transform.Rotation`.
 
     Returns:
-        Homogeneous matrix, shape (4, 4). Without an orientation, that of the base.
+        Homogeneous matrices, shape (..., 4, 4).
 
     Raises:
         InvalidPoseError: A wrong shape, an element that is not finite, a quaternion whose norm is
-            off one by more than 2e-3.
-        TypeError: Both orientations are given, or something is no number.
+            off one by more than 2e-3, a matrix that is no rotation. Of many the message has the
+            index of the first.
+        TypeError: Several orientations are given, or something is no number.
     """
 
 def to_xyz_wxyz(T: npt.ArrayLike) -> tuple[_Floats, _Floats]:
-    """Translation and quaternion of a pose.
+    """Translations and quaternions of poses.
 
     Args:
-        T: Homogeneous matrix, shape (4, 4), translation [m].
+        T: Homogeneous matrices, shape (..., 4, 4), translation [m].
 
     Returns:
-        Translation [m], shape (3,), and quaternion w, x, y, z with w >= 0, shape (4,).
+        Translations [m], shape (..., 3), and quaternions w, x, y, z with w >= 0, shape (..., 4). In
+        a batch, a row that is no rigid transform gives NaN.
 
     Raises:
-        InvalidPoseError: T is no rigid transform.
+        InvalidPoseError: A wrong shape, or a single pose that is no rigid transform.
     """
 
 def to_xyz_euler_zyx(T: npt.ArrayLike) -> tuple[_Floats, _Floats]:
-    """Translation and ZYX Euler angles of a pose.
+    """Translations and ZYX Euler angles of poses.
 
     Args:
-        T: Homogeneous matrix, shape (4, 4), translation [m].
+        T: Homogeneous matrices, shape (..., 4, 4), translation [m].
 
     Returns:
-        Translation [m], shape (3,), and rz, ry, rx [rad], shape (3,), ry in -pi/2 .. pi/2. Where ry
-        is +-pi/2 only rz - rx or rz + rx is determined: rz is 0 there.
+        Translations [m], shape (..., 3), and rz, ry, rx [rad], shape (..., 3), ry in -pi/2 .. pi/2.
+        Where ry is +-pi/2 only rz - rx or rz + rx is determined: rz is 0 there. In a batch, a row
+        that is no rigid transform gives NaN.
 
     Raises:
-        InvalidPoseError: T is no rigid transform.
+        InvalidPoseError: A wrong shape, or a single pose that is no rigid transform.
     """
 
 def _restore_robot(state: _State) -> Robot: ...
@@ -444,14 +472,16 @@ class Robot:
         Raises:
             InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
         """
-    def link_frames(self, q: npt.ArrayLike) -> _Floats:
+    def link_frames(self, q: npt.ArrayLike, out: _Floats | None = None) -> _Floats:
         """Every frame of the modified Denavit-Hartenberg table after its joint, then the tool.
 
         Args:
             q: Joint angles [rad], shape (..., n).
+            out: Array to write to, shape (..., n + 1, 4, 4), float64, C-contiguous; it is returned.
 
         Returns:
-            Homogeneous matrices, shape (..., n + 1, 4, 4), translation [m].
+            Homogeneous matrices, shape (..., n + 1, 4, 4), translation [m]. In a batch, a row with
+            a NaN or inf gives NaN.
 
         Raises:
             InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
@@ -479,16 +509,27 @@ class Robot:
 
         Args:
             q: Joint angles [rad], shape (..., n).
+            out: Where to write the answer of a batch: a Singularity, or a tuple, of arrays (...),
+                five of float64 and one of uint8.
+            threads: Number of threads; 0 for one a core.
 
         Returns:
             Singularity; numbers for (n,), arrays of shape (...) for (..., n). NaN where an arm has
-            no such singularity.
+            no such singularity. In a batch, a row with a NaN or inf gives NaN, and its `kinds` are
+            `irbkin.Status.INVALID`, 64.
 
         Raises:
             InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
+            TypeError: `out` for a single joint vector, or of another kind.
         """
     @overload
-    def singularity(self, q: npt.ArrayLike) -> Singularity | SingularityBatch: ...
+    def singularity(
+        self,
+        q: npt.ArrayLike,
+        *,
+        out: SingularityBatch | tuple[npt.NDArray[Any], ...] | None = None,
+        threads: int = 1,
+    ) -> Singularity | SingularityBatch: ...
     def ik(self, T: npt.ArrayLike, q7: float | None = None) -> Solutions:
         """Every joint vector that brings the tool to a pose.
 
@@ -536,15 +577,24 @@ class Robot:
             TypeError: q7 is missing, or the arm has six joints and it is not.
         """
     def ik_nearest(
-        self, T: npt.ArrayLike, seed: npt.ArrayLike, weights: npt.ArrayLike | None = None
+        self,
+        T: npt.ArrayLike,
+        seed: npt.ArrayLike,
+        weights: npt.ArrayLike | None = None,
+        *,
+        out: _Floats | None = None,
+        threads: int = 1,
     ) -> _Floats:
         """The solution inside the limits that is nearest to `seed`, turns considered.
 
         Args:
             T: Poses of the tool, shape (..., 4, 4), translation [m].
-            seed: Joint vectors [rad], shape (..., n), or one for all poses, shape (n,). Of joints
-                that the pose leaves free, the nearest angles are taken.
+            seed: Joint vectors [rad], shape (..., n). T and seed are broadcast: one seed for many
+                poses, one pose for many seeds. Of joints that the pose leaves free, the nearest
+                angles are taken.
             weights: Cost of moving each joint, shape (n,); ones when not given.
+            out: Array to write to, shape (..., n), float64, C-contiguous; it is returned.
+            threads: Number of threads; 0 for one a core.
 
         Returns:
             Joint vectors [rad], shape (..., n). In a batch, a row without a solution, or whose pose
@@ -554,7 +604,7 @@ class Robot:
             UnreachableError: A single pose has no solution inside the limits; the message says what
                 is missing.
             InvalidPoseError, InvalidJointsError, InvalidModelError: As `ik`; a seed or weight that
-                is not finite.
+                is not finite; a single pose or seed for a whole batch that is invalid.
         """
     def follow(
         self,
@@ -565,6 +615,8 @@ class Robot:
         singularity_mode: SingularityMode
         | Literal["through", "error", "wrist", "lock_axis4"] = "through",
         zone: float | None = None,
+        out: tuple[_Floats, _Floats] | None = None,
+        threads: int = 1,
     ) -> FollowResult:
         r"""One continuous joint path along a path of poses: inside the limits, turns considered,
         through singularities without a jump where there is a way.
@@ -572,17 +624,20 @@ class Robot:
         Args:
             T: Poses of the tool, shape (m, 4, 4), or several paths, shape (..., m, 4, 4),
                 translation [m].
-            seed: Joint vector from which a path starts [rad], shape (6,), or one for each path,
-                shape (..., 6).
+            seed: Joint vectors from which the paths start [rad], shape (..., 6). T and seed are
+                broadcast: one seed for many paths, one path from many seeds.
             weights: Cost of moving each joint, shape (6,); ones when not given.
-            singularity_mode: What to do at the wrist singularity. "through": meet every pose
-                exactly, however fast axes 4 and 6 turn. "error": stop where joint 5 comes into the
-                zone, and where a joint must jump, as SingArea \Off. "wrist": inside the zone axes
-                4, 5, 6 go straight from where they enter to where they leave, position exact, as
-                SingArea \Wrist. "lock_axis4": axis 4 stays at 0 or +-180 deg all along, position
-                exact, orientation where it can be, as SingArea \LockAxis4.
+            singularity_mode: What to do at the wrist singularity. "through": meet every pose exactly,
+                however fast axes 4 and 6 turn. "error": stop where joint 5 comes into the zone, and
+                where a joint must jump, as SingArea \Off. "wrist": inside the zone axes 4, 5, 6 go
+                straight from where they enter to where they leave, position exact, as SingArea
+                \Wrist. "lock_axis4": axis 4 stays at 0 or +-180 deg all along, position exact,
+                orientation where it can be, as SingArea \LockAxis4.
             zone: |sin q5| below which `singularity_mode` acts; 0.0175, that is one degree, when not
                 given.
+            out: Where to write: arrays (..., m, 6) and (..., m), float64, of the joints and of the
+                orientation error.
+            threads: Number of threads, for several paths; 0 for one a core.
 
         Returns:
             FollowResult: joints [rad], shape (..., m, 6), NaN where a pose is not met; orientation
@@ -606,10 +661,12 @@ class Robot:
         Returns:
             Configuration(cf1, cf4, cf6, cfx): integers for one joint vector, int32 arrays of shape
             (...) for many. cf is floor(angle / 90 deg). cfx is the slot, 0 for an arm with coupled
-            axes 2 and 3, whose controller does not use it.
+            axes 2 and 3, whose controller does not use it. In a batch, a row that is not finite, or
+            has an angle beyond 1e5 rad, has -2147483648, the least int32, in all four:
+            `ik_configured` gives NaN for it.
 
         Raises:
-            InvalidJointsError: A wrong shape, or an angle that is not finite.
+            InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
             InvalidModelError: The arm has no spherical wrist: its controller counts otherwise.
         """
     @overload
@@ -621,6 +678,8 @@ class Robot:
         *,
         fallback: Literal["nearest"] | None = None,
         seed: npt.ArrayLike | None = None,
+        out: _Floats | None = None,
+        threads: int = 1,
     ) -> _Floats:
         """The solution inside the limits that has a configuration, which chooses the turns of axes
         1, 4 and 6, too.
@@ -630,14 +689,17 @@ class Robot:
         Args:
             T: Poses of the tool, shape (..., 4, 4), translation [m].
             configuration: (cf1, cf4, cf6, cfx): an `irbkin.Configuration`, or whole numbers of
-                shape (4,) or (..., 4).
+                shape (..., 4). T, configuration and seed are broadcast.
             fallback: With "nearest", the solution nearest to `seed` where none has the
                 configuration: many programs write [0, 0, 0, 0] without having calculated it.
-            seed: Joint vector [rad] of the fallback, shape (6,) or (..., 6).
+            seed: Joint vectors [rad] of the fallback, shape (..., 6).
+            out: Array to write to, shape (..., 6), float64, C-contiguous; it is returned.
+            threads: Number of threads; 0 for one a core.
 
         Returns:
             Joint vectors [rad], shape (..., 6). In a batch, a row without such a solution, or whose
-            pose or seed is invalid, is NaN.
+            pose, seed or configuration (that which `configuration` gives an invalid row) is
+            invalid, is NaN.
 
         Raises:
             UnreachableError: A single pose has no solution inside the limits with that
@@ -1044,4 +1106,294 @@ def calc_targets(
     Raises:
         InvalidPoseError, RapidError, InvalidModelError: As `calc_joint_t`, of the tool and the work
             object.
+    """
+
+@final
+class Trajectory:
+    """Joint angles, velocities and accelerations over time.
+
+    The arrays are samples of it; `sample` gives the motion at any time, exactly. Between its knots
+    each joint is a polynomial in time.
+    """
+
+    @property
+    def t(self) -> _Floats:
+        """Times of the samples [s], shape (m,)."""
+    @property
+    def q(self) -> _Floats:
+        """Joint angles of the samples [rad], shape (m, n)."""
+    @property
+    def dq(self) -> _Floats:
+        """Joint velocities of the samples [rad/s], shape (m, n)."""
+    @property
+    def ddq(self) -> _Floats:
+        """Joint accelerations of the samples [rad/s^2], shape (m, n)."""
+    @property
+    def dof(self) -> int:
+        """Number of joints."""
+    @property
+    def duration(self) -> float:
+        """Duration [s]."""
+    @property
+    def knots(self) -> _Floats:
+        """Times at which one polynomial ends and the next begins [s], both ends included, shape
+        (k,).
+        """
+    def sample(self, t: npt.ArrayLike) -> TrajectorySample:
+        """Joint angles, velocities and accelerations at any time.
+
+        Args:
+            t: Times [s], shape (...). Before the start and after the end the joints rest.
+
+        Returns:
+            TrajectorySample(q, dq, ddq) [rad, rad/s, rad/s^2], arrays of shape (..., n).
+
+        Raises:
+            InvalidMotionError: A time is NaN.
+        """
+    def peaks(self) -> MotionPeaks:
+        """The largest velocity, acceleration and jerk of each joint, exact between samples too.
+
+        Returns:
+            MotionPeaks(velocity, acceleration, jerk) [rad/s, rad/s^2, rad/s^3], arrays of shape
+            (n,). A jump of the acceleration at a knot does not count as jerk.
+        """
+    def resampled(self, steps: int) -> Trajectory:
+        """The same motion with other samples.
+
+        Args:
+            steps: Number of samples, evenly over the duration.
+        """
+    def stretched(self, factor: float) -> Trajectory:
+        """The same way at another pace.
+
+        Args:
+            factor: What every time is multiplied by; 2 is half the speed.
+
+        Raises:
+            InvalidMotionError: The factor is not positive and finite.
+        """
+    def slice(self, start: float, end: float) -> Trajectory:
+        """The part between two times, which begins at t = 0.
+
+        Args:
+            start: Its start [s].
+            end: Its end [s].
+
+        Returns:
+            The part, with the samples that lie in it and both ends.
+
+        Raises:
+            InvalidMotionError: Unless 0 <= start < end <= duration.
+        """
+    def __add__(self, next: Trajectory, /) -> Trajectory: ...
+    def __len__(self) -> int: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __reduce__(
+        self,
+    ) -> tuple[
+        Callable[[int, list[float], list[float], list[float]], Trajectory], _TrajectoryState
+    ]: ...
+
+def _restore_trajectory(
+    dof: int, knots: list[float], terms: list[float], times: list[float]
+) -> Trajectory: ...
+def joint(
+    q0: npt.ArrayLike,
+    q1: npt.ArrayLike,
+    *,
+    steps: int = 50,
+    duration: float | None = None,
+    profile: Literal["quintic", "cubic", "trapezoid", "s_curve"] = "quintic",
+    start_velocity: npt.ArrayLike | None = None,
+    end_velocity: npt.ArrayLike | None = None,
+    start_acceleration: npt.ArrayLike | None = None,
+    end_acceleration: npt.ArrayLike | None = None,
+    max_velocity: npt.ArrayLike | None = None,
+    max_acceleration: npt.ArrayLike | None = None,
+    max_jerk: npt.ArrayLike | None = None,
+    synchronization: Literal["time", "phase"] = "time",
+) -> Trajectory:
+    """Move from one joint vector to another.
+
+    Args:
+        q0: Joint angles at the start [rad], shape (n,).
+        q1: Joint angles at the end [rad], shape (n,).
+        steps: Number of samples, both ends included.
+        duration: Duration [s]; 1 where neither it nor a limit is given, the shortest that the
+            limits allow where only limits are given.
+        profile: "quintic", "cubic", "trapezoid" (constant acceleration, a third of the duration
+            each) or "s_curve" (the same with constant jerk).
+        start_velocity: Velocities at the start [rad/s], of a quintic or a cubic; zero.
+        end_velocity: Velocities at the end [rad/s], of a quintic or a cubic; zero.
+        start_acceleration: Accelerations at the start [rad/s^2], of a quintic; zero.
+        end_acceleration: Accelerations at the end [rad/s^2], of a quintic; zero.
+        max_velocity: Limits [rad/s], a number or shape (n,).
+        max_acceleration: Limits [rad/s^2], a number or shape (n,).
+        max_jerk: Limits [rad/s^3], a number or shape (n,).
+        synchronization: With limits alone: "time", each joint has a profile of its own, slowed down
+            to the slowest; or "phase", a straight line in joint space.
+
+    Returns:
+        The trajectory, which meets both ends. With a duration and limits it is checked against
+        them.
+
+    Raises:
+        InvalidMotionError: A limit or the duration is not positive, the duration is too short for
+            a limit, a joint moves and no limit binds it, or the profile cannot have what is given
+            for an end.
+        InvalidJointsError: A wrong shape.
+    """
+
+def spline(
+    q: npt.ArrayLike,
+    *,
+    t: npt.ArrayLike | None = None,
+    steps: int = 100,
+    duration: float | None = None,
+    profile: Literal["quintic", "cubic"] = "quintic",
+    max_velocity: npt.ArrayLike | None = None,
+    max_acceleration: npt.ArrayLike | None = None,
+    max_jerk: npt.ArrayLike | None = None,
+) -> Trajectory:
+    """Move through many joint vectors on a smooth curve, at rest at both ends.
+
+    Args:
+        q: Waypoints [rad], shape (m, n).
+        t: Times of the waypoints [s], shape (m,), increasing. Without them they are spaced by the
+            distances of the waypoints.
+        steps: Number of samples.
+        duration: Duration without `t` [s]; 1 where no limit is given.
+        profile: "quintic" (zero acceleration at both ends, four continuous derivatives) or "cubic"
+            (two).
+        max_velocity: Limits [rad/s], a number or shape (n,): without `t` and `duration` the curve
+            is as fast as they allow.
+        max_acceleration: Limits [rad/s^2], in the same way.
+        max_jerk: Limits [rad/s^3], in the same way.
+
+    Returns:
+        The trajectory, which passes every waypoint.
+
+    Raises:
+        InvalidMotionError: Fewer than two waypoints, waypoints that repeat the one before without
+            `t`, times that do not increase, a limit that is exceeded or not positive.
+        InvalidJointsError: A wrong shape.
+    """
+
+def retime(
+    q: npt.ArrayLike,
+    max_velocity: npt.ArrayLike,
+    max_acceleration: npt.ArrayLike,
+    *,
+    steps: int | None = None,
+) -> Trajectory:
+    """Move along a path in the shortest time within limits, from rest to rest.
+
+    The path is a cubic spline through the samples. No joint exceeds a limit anywhere, between the
+    samples too. Catalogs have no accelerations: they are the caller's.
+
+    Args:
+        q: Samples of the path [rad], shape (m, n), of `robot.follow` for instance.
+        max_velocity: Limits [rad/s], a number or shape (n,); `robot.max_velocity` has a robot's.
+        max_acceleration: Limits [rad/s^2], a number or shape (n,).
+        steps: Number of samples of the answer; as many as `q` has where it is not given.
+
+    Returns:
+        The trajectory.
+
+    Raises:
+        InvalidMotionError: A limit is not positive, or no limit binds the path.
+        InvalidJointsError: A wrong shape, or an angle that is not finite.
+    """
+
+def line(
+    T0: npt.ArrayLike,
+    T1: npt.ArrayLike,
+    *,
+    steps: int | None = None,
+    step: float | None = None,
+    turn: float | None = None,
+    axis: npt.ArrayLike | None = None,
+) -> _Floats:
+    """Move the tool on a straight line, its orientation turning evenly about one axis (slerp).
+
+    Args:
+        T0: Pose at the start, shape (4, 4).
+        T1: Pose at the end, shape (4, 4).
+        steps: Number of poses, both ends included.
+        step: Instead of `steps`, the largest distance of two poses [m].
+        turn: With or instead of `step`, the largest turn between two poses [rad].
+        axis: Axis of a turn by 180 deg, shape (3,), in the frame of the poses: the tool turns
+            counterclockwise about it. Without it such a turn is refused, for there are two ways.
+
+    Returns:
+        Poses, shape (m, 4, 4). Of equal poses with `step`: one.
+
+    Raises:
+        InvalidPoseError: A pose is not a rigid transform.
+        InvalidMotionError: The tool turns by 180 deg and `axis` does not say how, or neither
+            `step` nor `turn` says how many poses there are.
+    """
+
+def arc(
+    T0: npt.ArrayLike,
+    T_via: npt.ArrayLike,
+    T1: npt.ArrayLike,
+    *,
+    orientation: Literal["path", "object", "via"] = "path",
+    steps: int | None = None,
+    step: float | None = None,
+    turn: float | None = None,
+) -> _Floats:
+    r"""Move the tool on a circular arc through three poses.
+
+    Args:
+        T0: Pose at the start, shape (4, 4).
+        T_via: Pose that the arc passes, shape (4, 4).
+        T1: Pose at the end, shape (4, 4).
+        orientation: "path", the tool turns evenly relative to the path (ABB's \PathFrame);
+            "object", evenly relative to the base (\ObjectFrame); "via", evenly to the orientation
+            of `T_via` and then to that of `T1` (\CirPointOri).
+        steps: Number of poses, both ends included.
+        step: Instead of `steps`, the largest distance of two poses along the arc [m].
+        turn: With or instead of `step`, the largest turn between two poses [rad].
+
+    Returns:
+        Poses, shape (m, 4, 4).
+
+    Raises:
+        InvalidPoseError: A pose is not a rigid transform.
+        InvalidMotionError: The points lie on a line or coincide, or the tool turns by 180 deg.
+    """
+
+def polyline(
+    T: npt.ArrayLike,
+    zones: float | str | Sequence[float | str] | _Floats,
+    *,
+    steps: int | None = None,
+    step: float | None = None,
+    turn: float | None = None,
+) -> _Floats:
+    """Move the tool on lines from pose to pose, with rounded corners.
+
+    Inside a zone the position runs on a parabola, as ABB's manual describes its corners; the
+    orientation is blended over its own zone. A zone reaches half of the way to a neighbor at most.
+
+    Args:
+        T: Poses, shape (m, 4, 4).
+        zones: For each pose a radius [m] or one of ABB's names, "fine", "z0" .. "z200"; or one for
+            all. Those of the first and the last pose do not matter: both are met.
+        steps: Number of poses of the path.
+        step: Instead of `steps`, the largest distance of two poses along the lines [m].
+        turn: With or instead of `step`, the largest turn between two poses along the lines [rad].
+
+    Returns:
+        Poses, shape (k, 4, 4). A corner with a zone of radius r, where the direction changes by an
+        angle a, is passed at a distance of r / 2 sin(a / 2).
+
+    Raises:
+        InvalidPoseError: A pose is not a rigid transform.
+        InvalidMotionError: No pose, another number of zones, a zone that is negative or not known,
+            or a turn by 180 deg between two poses.
     """

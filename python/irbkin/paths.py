@@ -1,10 +1,10 @@
 """Paths of the tool: lines, arcs and polylines with rounded corners, as poses.
 
-    >>> import irbkin
-    >>> from irbkin import paths
-    >>> start, end = irbkin.pose([0.8, -0.2, 0.6]), irbkin.pose([0.8, 0.2, 0.6])
-    >>> paths.line(start, end, steps=5)[:, 1, 3].round(3)
-    array([-0.2, -0.1,  0. ,  0.1,  0.2])
+>>> import irbkin
+>>> from irbkin import paths
+>>> start, end = irbkin.pose([0.8, -0.2, 0.6]), irbkin.pose([0.8, 0.2, 0.6])
+>>> paths.line(start, end, steps=5)[:, 1, 3].round(3)
+array([-0.2, -0.1,  0. ,  0.1,  0.2])
 """
 
 from __future__ import annotations

@@ -1,11 +1,11 @@
 """Motions of joints over time: from one joint vector to another, through many, along a path.
 
-    >>> from irbkin import trajectory
-    >>> move = trajectory.joint([0, 0], [1, -2], duration=2.0)
-    >>> move.q[-1]
-    array([ 1., -2.])
-    >>> move.sample(1.0).dq
-    array([ 0.9375, -1.875 ])
+>>> from irbkin import trajectory
+>>> move = trajectory.joint([0, 0], [1, -2], duration=2.0)
+>>> move.q[-1]
+array([ 1., -2.])
+>>> move.sample(1.0).dq
+array([ 0.9375, -1.875 ])
 """
 
 from __future__ import annotations

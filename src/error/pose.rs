@@ -52,6 +52,8 @@ pub enum PoseFault {
         norm: f64,
         /// The largest distance from one that is normalized.
         bound: f64,
+        /// The order of its elements.
+        order: &'static str,
     },
     /// An Euler angle of more than a full turn, as degrees are.
     EulerAngle {
@@ -114,11 +116,10 @@ impl fmt::Display for PoseFault {
                      an axis negated?)"
                 )
             }
-            Self::QuaternionNorm { norm, bound } => {
+            Self::QuaternionNorm { norm, bound, order } => {
                 write!(
                     f,
-                    "quaternion norm is {norm:.6}, it must be 1 within {bound:.0e} (order is w, \
-                     x, y, z)"
+                    "quaternion norm is {norm:.6}, it must be 1 within {bound:.0e} (order is {order})"
                 )
             }
             Self::EulerAngle { index, value, bound } => {

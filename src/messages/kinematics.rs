@@ -49,7 +49,7 @@ fn poses() -> Vec<Row> {
         PoseFault::Mirrored { .. } => PoseFault::Mirrored { determinant: -1.0 },
             "a left-handed frame", "negate the axis that was negated";
         PoseFault::QuaternionNorm { .. } =>
-            PoseFault::QuaternionNorm { norm: 5.477_226, bound: QUATERNION_NORM_BOUND },
+            PoseFault::QuaternionNorm { norm: 5.477_226, bound: QUATERNION_NORM_BOUND, order: "w, x, y, z" },
             "a quaternion that is not of length 1",
             "normalize it; look at the order of its elements";
         PoseFault::EulerAngle { .. } =>

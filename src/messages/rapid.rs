@@ -130,7 +130,7 @@ fn frames() -> Vec<Row> {
         FrameFault::Moved { .. } => FrameFault::Moved { unit: "STN1".into() },
             "a positioner", "give a work object with ufprog TRUE";
         FrameFault::Pose { .. } => FrameFault::Pose {
-            field: "tframe", fault: PoseFault::QuaternionNorm { norm: 2.0, bound: 2e-3 },
+            field: "tframe", fault: PoseFault::QuaternionNorm { norm: 2.0, bound: 2e-3, order: "w, x, y, z" },
         },
             "a frame in the data", "mend its quaternion";
     }

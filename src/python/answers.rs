@@ -1,53 +1,99 @@
 //! Records and arrays that answers are handed over in.
 
-use numpy::{PyArray1, PyArrayDyn, PyArrayMethods};
+use std::num::NonZeroUsize;
+
+use numpy::PyArrayDyn;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use super::arrays::{Rows, checked_out, output};
+use super::arm::{Arm, on_robot};
+use super::arrays::{Rows, addresses};
 use super::classes;
+use super::outputs::{checked_out, output, writable};
 use super::records;
-use crate::kinematics::{BreakReason, Followed, Singularity, SingularityKind};
+use super::signals::detached;
+use crate::batch::Pace;
+use crate::kinematics::{Singularity, Status};
 
-/// `irbkin.Singularity` of one record, or `irbkin.SingularityBatch` of records with the leading
-/// dimensions `lead`.
+/// `irbkin.Singularity` of one joint vector.
 pub(super) fn singularity_record<'py>(
     py: Python<'py>,
-    records: &[Option<Singularity>],
-    lead: Option<&Vec<usize>>,
+    record: &Singularity,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let number = |of: fn(&Singularity) -> Option<f64>| {
-        records.iter().map(move |record| record.as_ref().and_then(of).unwrap_or(f64::NAN))
+    let [wrist, elbow, shoulder, least, product] = numbers(record);
+    let kinds = records::kinds(py, record.kinds)?;
+    classes::singularity_class(py)?.call1((wrist, elbow, shoulder, least, product, kinds))
+}
+
+/// `irbkin.Singularity` of arrays with the leading dimensions of `q`.
+pub(super) fn singularity_arrays<'py>(
+    py: Python<'py>,
+    arm: &Arm,
+    q: &Rows<'py>,
+    out: Option<&Bound<'py, PyAny>>,
+    threads: Option<NonZeroUsize>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let out = match out.map(|out| out.cast::<PyTuple>().map(|out| (out, out.len()))) {
+        None => None,
+        Some(Ok((out, 6))) => Some(out),
+        Some(_) => {
+            return Err(PyTypeError::new_err(
+                "out must be a Singularity, or a tuple of its six arrays",
+            ));
+        }
     };
-    let columns = [
-        number(|s| s.distances.map(|d| d.wrist)),
-        number(|s| s.distances.map(|d| d.elbow)),
-        number(|s| s.distances.map(|d| d.shoulder)),
-        number(|s| Some(s.min_singular_value)),
-        number(|s| Some(s.manipulability)),
-    ];
-    let kinds = |record: &Option<Singularity>| {
-        record.map_or(SingularityKind::empty(), |record| record.kinds)
-    };
-    let mut fields: Vec<Bound<'py, PyAny>> = Vec::with_capacity(6);
-    for mut column in columns {
-        fields.push(match lead {
-            Some(lead) => PyArray1::from_iter(py, column).reshape(lead.clone())?.into_any(),
-            None => column.next().into_pyobject(py)?.into_any(),
-        });
+    let mut memory = vec![q.addresses()];
+    let (mut columns, mut views) = (Vec::new(), Vec::new());
+    for field in 0..5 {
+        let out = out.map(|out| out.get_item(field)).transpose()?;
+        let column = output(py, out.as_ref(), &q.lead)?;
+        views.push(writable(&column, &memory)?);
+        memory.push(addresses(&column));
+        columns.push(column);
     }
-    fields.push(match lead {
-        Some(lead) => PyArray1::from_iter(py, records.iter().map(|record| kinds(record).bits()))
-            .reshape(lead.clone())?
-            .into_any(),
-        None => records::kinds(py, records.first().map_or(SingularityKind::empty(), kinds))?,
-    });
-    let class = match lead {
-        Some(_) => classes::singularity_batch_class(py)?,
-        None => classes::singularity_class(py)?,
+    let kinds = match out {
+        Some(out) => checked_out(&out.get_item(5)?, &q.lead, "uint8")?,
+        None => PyArrayDyn::zeros(py, q.lead.clone(), false),
     };
-    class.call1(PyTuple::new(py, fields)?)
+    let mut kinds_view = writable(&kinds, &memory)?;
+    let mut parts = Vec::new();
+    for view in &mut views {
+        parts.push(view.as_slice_mut()?.chunks_mut(Pace::SINGULARITIES));
+    }
+    let kind_parts = kinds_view.as_slice_mut()?.chunks_mut(Pace::SINGULARITIES);
+    let data = q.data()?;
+    let parts = kind_parts
+        .map(move |kinds| (kinds, parts.iter_mut().filter_map(Iterator::next).collect::<Vec<_>>()));
+    detached(
+        py,
+        threads,
+        |pace| on_robot!(arm, robot => pace.singularity(robot, data, parts, write_part)),
+    )?;
+    let mut fields: Vec<Bound<'py, PyAny>> = columns.into_iter().map(Bound::into_any).collect();
+    fields.push(kinds.into_any());
+    classes::singularity_batch_class(py)?.call1(PyTuple::new(py, fields)?)
+}
+
+/// Writes some records into columns: the singularities, and the five numbers.
+fn write_part(
+    (kinds, mut columns): (&mut [u8], Vec<&mut [f64]>),
+    records: &mut dyn Iterator<Item = Option<Singularity>>,
+) {
+    for (row, (record, kinds)) in records.zip(kinds).enumerate() {
+        *kinds = record.map_or(Status::INVALID.bits(), |record| record.kinds.bits());
+        let numbers = record.as_ref().map_or([f64::NAN; 5], numbers);
+        for (column, number) in columns.iter_mut().zip(numbers) {
+            column[row] = number;
+        }
+    }
+}
+
+/// The numbers of a record in the order of its fields; NaN where an arm has no such singularity.
+fn numbers(record: &Singularity) -> [f64; 5] {
+    let [wrist, elbow, shoulder] =
+        record.distances.map_or([f64::NAN; 3], |d| [d.wrist, d.elbow, d.shoulder]);
+    [wrist, elbow, shoulder, record.min_singular_value, record.manipulability]
 }
 
 pub(super) type BatchArrays<'py> = (Bound<'py, PyArrayDyn<f64>>, Bound<'py, PyArrayDyn<u8>>);
@@ -72,61 +118,4 @@ pub(super) fn batch_output<'py>(
         ))),
         None => Ok((output(py, out, &q_shape)?, PyArrayDyn::zeros(py, status_shape, false))),
     }
-}
-
-/// `irbkin.FollowResult` of followed paths with the leading dimensions `lead`, of `poses` poses
-/// each.
-pub(super) fn follow_result<'py>(
-    py: Python<'py>,
-    followed: &[Followed],
-    lead: &[usize],
-    poses: usize,
-) -> PyResult<Bound<'py, PyAny>> {
-    let joints: Vec<f64> =
-        followed.iter().flat_map(|path| &path.q).flat_map(|q| q.unwrap_or([f64::NAN; 6])).collect();
-    let joints = PyArray1::from_vec(py, joints).reshape([lead, &[poses, 6]].concat())?;
-    let errors: Vec<f64> = followed
-        .iter()
-        .flat_map(|path| &path.orientation_error)
-        .map(|error| error.unwrap_or(f64::NAN))
-        .collect();
-    let errors = PyArray1::from_vec(py, errors).reshape([lead, &[poses]].concat())?;
-    let mut breaks = Vec::new();
-    for (path, followed) in followed.iter().enumerate() {
-        for broken in &followed.breaks {
-            let place = PyTuple::new(py, index_in(lead, path))?;
-            breaks.push(classes::break_class(py)?.call1((
-                broken.pose_index,
-                broken.to_string(),
-                place,
-                break_kind(py, &broken.reason)?,
-            ))?);
-        }
-    }
-    classes::follow_result_class(py)?.call1((joints, errors, PyTuple::new(py, breaks)?))
-}
-
-/// `irbkin.BreakReason` of a break.
-fn break_kind<'py>(py: Python<'py>, reason: &BreakReason) -> PyResult<Bound<'py, PyAny>> {
-    classes::break_reason_class(py)?.getattr(match reason {
-        BreakReason::Unreachable(_) => "UNREACHABLE",
-        BreakReason::Jump { .. } => "JUMP",
-        BreakReason::Locked => "LOCKED",
-        BreakReason::Stopped { .. } => "STOPPED",
-    })
-}
-
-/// The index of an element by its number in row-major order.
-pub(super) fn index_in(shape: &[usize], mut number: usize) -> Vec<usize> {
-    let mut index: Vec<usize> = shape
-        .iter()
-        .rev()
-        .map(|size| {
-            let at = number % size;
-            number /= size;
-            at
-        })
-        .collect();
-    index.reverse();
-    index
 }

@@ -5,13 +5,13 @@ use std::sync::Arc;
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 
-use super::arrays::{Rows, answer, copied_vector, output, writable};
+use super::arrays::{Rows, copied_vector};
 use super::errors::{Fault, to_py};
-use crate::batch;
+use super::outputs::{answer, output, writable};
+use super::signals::detached;
+use crate::batch::Pace;
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{
-    Arity, JacobianFrame, Joints, Robot, Singularity, check_joints, pose_to_rows,
-};
+use crate::kinematics::{Arity, JacobianFrame, Joints, Robot, check_joints, pose_to_rows};
 
 /// A robot of six or seven joints.
 #[derive(Clone, PartialEq)]
@@ -105,7 +105,7 @@ impl Arm {
                 q,
                 out,
                 &[4, 4],
-                |q, poses| on_robot!(self, robot => batch::fk(robot, q, poses)),
+                |pace, q, poses| on_robot!(self, robot => pace.fk(robot, q, poses)),
             )?
             .into_any())
     }
@@ -113,12 +113,13 @@ impl Arm {
     pub(super) fn link_frames<'py>(
         &self,
         q: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.mapped(
             q,
-            None,
+            out,
             &[self.dof() + 1, 4, 4],
-            |q, frames| on_robot!(self, robot => batch::link_frames(robot, q, frames)),
+            |pace, q, frames| on_robot!(self, robot => pace.link_frames(robot, q, frames)),
         )
     }
 
@@ -135,20 +136,9 @@ impl Arm {
             q,
             out,
             &[6, self.dof()],
-            |q, rows| on_robot!(self, robot => batch::jacobian(robot, q, frame, rows)),
+            |pace, q, rows| on_robot!(self, robot => pace.jacobian(robot, q, frame, rows)),
         );
         Ok(rows?.into_any())
-    }
-
-    pub(super) fn singularity(
-        &self,
-        py: Python<'_>,
-        q: &[f64],
-    ) -> PyResult<Vec<Option<Singularity>>> {
-        let records = py.detach(
-            || on_robot!(self, robot => batch::singularity(robot, q).map(Iterator::collect)),
-        );
-        records.map_err(|error| to_py(py, &error))
     }
 
     /// An answer of shape (..., `tail`) for joint vectors (..., n), computed without the
@@ -158,13 +148,13 @@ impl Arm {
         q: &Bound<'py, PyAny>,
         out: Option<&Bound<'py, PyAny>>,
         tail: &[usize],
-        compute: impl FnOnce(&[f64], &mut [f64]) -> Result<(), Error> + Send,
+        compute: impl FnOnce(&mut Pace<'_>, &[f64], &mut [f64]) -> Result<(), Error> + Send,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let rows = self.joints(q)?;
         let answer = output(q.py(), out, &rows.shape_with(tail))?;
         let (data, mut view) = (rows.data()?, writable(&answer, &[rows.addresses()])?);
         let slice = view.as_slice_mut()?;
-        q.py().detach(|| compute(data, slice)).map_err(|error| to_py(q.py(), &error))?;
+        detached(q.py(), None, |pace| compute(pace, data, slice))?;
         Ok(answer)
     }
 

@@ -5,15 +5,16 @@ use std::num::NonZeroUsize;
 use pyo3::exceptions::PyTypeError;
 use pyo3::intern;
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
 
 use super::answers::batch_output;
 use super::arm::Arm;
-use super::arrays::{Rows, addresses, writable};
+use super::arrays::{Rows, addresses};
+use super::broadcast::{Argument, together};
 use super::classes;
 use super::errors::{Fault, to_py};
+use super::outputs::writable;
+use super::signals::detached;
 use super::wording::shape;
-use crate::batch;
 use crate::error::ModelFault;
 use crate::kinematics::{Arity, Joints, Robot};
 
@@ -46,44 +47,24 @@ pub(super) fn ik<'py>(
         writable(&status, &[poses.addresses(), addresses(&q)])?,
     );
     let (q_slice, status_slice) = (q_view.as_slice_mut()?, status_view.as_slice_mut()?);
-    let solved = py.detach(|| match arm {
-        Arm::Six(robot) => batch::ik(robot, data, q_slice, status_slice, threads),
-        Arm::Seven(robot) => batch::ik_with(robot, data, &given, q_slice, status_slice, threads),
-    });
-    solved.map_err(|error| to_py(py, &error))?;
+    detached(py, threads, |pace| match arm {
+        Arm::Six(robot) => pace.ik(robot, data, q_slice, status_slice),
+        Arm::Seven(robot) => pace.ik_with(robot, data, &given, q_slice, status_slice),
+    })?;
     classes::ik_batch_class(py)?.call1((q, status))
 }
 
 /// An angle of joint 7 for each pose; both are broadcast.
 fn read_q7<'py>(q7: &Bound<'py, PyAny>, poses: &mut Rows<'py>) -> PyResult<Vec<f64>> {
-    let rows = Rows::read(q7, &[], "q7", Fault::Joints)?;
-    if rows.lead == poses.lead {
-        return Ok(rows.data()?.to_vec());
-    }
-    if rows.is_single() {
-        return Ok(rows.data()?.repeat(poses.lead.iter().product()));
-    }
-    let (py, numpy) = (q7.py(), q7.py().import(intern!(q7.py(), "numpy"))?);
-    let shapes = (PyTuple::new(py, &poses.lead)?, PyTuple::new(py, &rows.lead)?);
-    let unlike = |_| {
-        Fault::Joints.error(
-            py,
-            format!(
-                "q7 of shape {} cannot be broadcast with T of shape {}",
-                shape(&rows.lead),
-                shape(&poses.shape_with(&[4, 4]))
-            ),
-        )
-    };
-    let shape: Vec<usize> =
-        numpy.call_method1(intern!(py, "broadcast_shapes"), shapes).map_err(unlike)?.extract()?;
-    let broadcast = |array: &Bound<'py, PyAny>, shape: &[usize]| {
-        numpy.call_method1(intern!(py, "broadcast_to"), (array, PyTuple::new(py, shape)?))
-    };
-    let told = Rows::read(&broadcast(q7, &shape)?, &[], "q7", Fault::Joints)?.data()?.to_vec();
-    let all_poses = broadcast(poses.array(), &[&shape[..], &[4, 4]].concat())?;
-    *poses = Rows::read(&all_poses, &[4, 4], "T", Fault::Pose)?;
-    Ok(told)
+    let mut rows = Rows::read(q7, &[], "q7", Fault::Joints)?;
+    together(
+        q7.py(),
+        &mut [
+            Argument { field: "T", fault: Fault::Pose, rows: poses },
+            Argument { field: "q7", fault: Fault::Joints, rows: &mut rows },
+        ],
+    )?;
+    Ok(rows.data()?.to_vec())
 }
 
 /// An arm of six joints has no joint 7.

@@ -1,22 +1,23 @@
 //! ABB's confdata: of joint vectors, and solutions that have one.
 
-use numpy::{PyArray1, PyArrayMethods};
+use std::num::NonZeroUsize;
+
+use numpy::PyArrayDyn;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::intern;
 use pyo3::prelude::*;
 
-use super::answers::index_in;
 use super::arm::Arm;
-use super::arrays::{Rows, output, writable};
+use super::arrays::Rows;
+use super::broadcast::{Argument, together};
 use super::classes;
 use super::errors::{Fault, to_py};
-use super::found::read_seed;
 use super::masked::Masked;
-use super::paths::read_seeds;
-use super::poses::{PoseArgument, read_poses};
+use super::nearest::{single_pose, single_seed};
+use super::outputs::{answer_row, output, writable};
 use super::records;
-use super::wording::shape;
-use crate::batch;
+use super::signals::detached;
+use crate::batch::NO_CONFIGURATION;
 use crate::error::ModelFault;
 use crate::kinematics::Robot;
 use crate::report::Configuration;
@@ -27,30 +28,22 @@ pub(super) fn configuration<'py>(arm: &Arm, q: &Bound<'py, PyAny>) -> PyResult<B
     let robot = counted(py, arm)?;
     let rows = arm.joints(q)?;
     let data = rows.data()?;
-    let answers: Result<Vec<_>, _> =
-        py.detach(|| batch::configuration(robot, data).map(Iterator::collect));
-    let configurations = answers.map_err(|error| to_py(py, &error))?.into_iter().enumerate().map(
-        |(number, configuration)| {
-            configuration.map_err(|error| match rows.lead[..] {
-                [] => to_py(py, &error),
-                _ => {
-                    Fault::Joints.error(py, format!("q{:?}: {error}", index_in(&rows.lead, number)))
-                }
-            })
-        },
-    );
-    let configurations = configurations.collect::<PyResult<Vec<_>>>()?;
-    match &configurations[..] {
-        [one] if rows.is_single() => records::configuration(py, one),
-        many => {
-            let column = |of: fn(&Configuration) -> i32| {
-                PyArray1::from_iter(py, many.iter().map(of)).reshape(rows.lead.clone())
-            };
-            let columns =
-                (column(|c| c.cf1)?, column(|c| c.cf4)?, column(|c| c.cf6)?, column(|c| c.cfx)?);
-            classes::configuration_batch_class(py)?.call1(columns)
-        }
+    if let ([one], true) = (data.as_chunks::<6>().0, rows.is_single()) {
+        let counted = robot.configuration(one).map_err(|error| to_py(py, &error))?;
+        return records::configuration(py, &counted);
     }
+    let columns = [(); 4].map(|()| PyArrayDyn::<i32>::zeros(py, rows.lead.clone(), false));
+    let mut views = Vec::with_capacity(columns.len());
+    for column in &columns {
+        views.push(writable(column, &[])?);
+    }
+    if let [cf1, cf4, cf6, cfx] = &mut views[..] {
+        let numbers =
+            [cf1.as_slice_mut()?, cf4.as_slice_mut()?, cf6.as_slice_mut()?, cfx.as_slice_mut()?];
+        detached(py, None, |pace| pace.configurations(robot, data, numbers))?;
+    }
+    let [cf1, cf4, cf6, cfx] = columns;
+    classes::configuration_batch_class(py)?.call1((cf1, cf4, cf6, cfx))
 }
 
 /// What to do with a pose that no solution reaches in the configuration that was asked for.
@@ -82,71 +75,53 @@ pub(super) fn ik<'py>(
     poses: &Bound<'py, PyAny>,
     configuration: &Bound<'py, PyAny>,
     fallback: &Fallback<'_, 'py>,
+    out: Option<&Bound<'py, PyAny>>,
+    threads: Option<NonZeroUsize>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = poses.py();
     let (robot, seed) = (counted(py, arm)?, fallback.checked()?);
-    let wanted = read_configurations(configuration)?;
-    let poses = match read_poses(poses)? {
-        PoseArgument::Many(poses) => poses,
-        PoseArgument::One(pose) => {
-            let one = wanted.one(py)?;
-            let found = match seed {
-                Some(seed) => {
-                    robot.ik_configured_or_nearest_checked(pose, one, &read_seed(seed, None)?.0)
-                }
-                None => robot.ik_configured_checked(pose, one),
-            };
-            return Ok(
-                PyArray1::from_slice(py, &found.map_err(|error| to_py(py, &error))?.q).into_any()
-            );
-        }
+    let mut rows = Rows::read(poses, &[4, 4], "T", Fault::Pose)?;
+    let mut wanted = configuration_rows(configuration)?;
+    let mut seeds = seed.map(|seed| Rows::read(seed, &[6], "seed", Fault::Joints)).transpose()?;
+    let pose = single_pose(py, &rows)?;
+    let one_seed = match &seeds {
+        Some(seeds) => single_seed::<6>(py, seeds)?,
+        None => None,
     };
-    let wanted = wanted.many(py, &poses.lead)?;
-    let seeds = seed.map(|seed| read_seeds::<6>(seed, &poses.lead)).transpose()?;
-    let answer = output(py, None, &poses.shape_with(&[6]))?;
-    let (data, mut view) = (poses.data()?, writable(&answer, &[])?);
+    if let Some(pose) = pose
+        && wanted.is_single()
+        && one_seed.is_some() == seeds.is_some()
+    {
+        let one = read_configurations(py, &wanted)?;
+        let Some(one) = one.first().copied() else { return Ok(py.None().into_bound(py)) };
+        let found = match one_seed {
+            Some(seed) => robot.ik_configured_or_nearest_checked(pose, one, &seed),
+            None => robot.ik_configured_checked(pose, one),
+        };
+        return answer_row(poses, out, &found.map_err(|error| to_py(py, &error))?.q);
+    }
+    let mut arguments = vec![
+        Argument { field: "T", fault: Fault::Pose, rows: &mut rows },
+        Argument { field: "configuration", fault: Fault::Joints, rows: &mut wanted },
+    ];
+    arguments.extend(seeds.as_mut().map(|rows| Argument {
+        field: "seed",
+        fault: Fault::Joints,
+        rows,
+    }));
+    together(py, &mut arguments)?;
+    let wanted = read_configurations(py, &wanted)?;
+    let answer = output(py, out, &rows.shape_with(&[6]))?;
+    let inputs = [Some(rows.addresses()), seeds.as_ref().map(Rows::addresses)];
+    let mut view = writable(&answer, &inputs.into_iter().flatten().collect::<Vec<_>>())?;
+    let (data, seeds) = (rows.data()?, seeds.as_ref().map(Rows::data).transpose()?);
     let q = view.as_slice_mut()?;
-    py.detach(|| batch::ik_configured(robot, data, &wanted, seeds.as_deref(), q))
-        .map_err(|error| to_py(py, &error))?;
+    detached(py, threads, |pace| pace.ik_configured(robot, data, &wanted, seeds, q))?;
     Ok(answer.into_any())
 }
 
-/// Configurations with the leading dimensions in which they came.
-struct Configurations {
-    all: Vec<Configuration>,
-    lead: Vec<usize>,
-}
-
-impl Configurations {
-    fn one(&self, py: Python<'_>) -> PyResult<Configuration> {
-        match self.all[..] {
-            [one] if self.lead.is_empty() => Ok(one),
-            _ => Err(Fault::Joints.error(
-                py,
-                format!(
-                    "configuration must have shape (4,), got {}",
-                    shape(&[&self.lead[..], &[4]].concat())
-                ),
-            )),
-        }
-    }
-
-    fn many(self, py: Python<'_>, lead: &[usize]) -> PyResult<Vec<Configuration>> {
-        if self.lead == lead {
-            return Ok(self.all);
-        }
-        let wanted = shape(&[lead, &[4]].concat());
-        let got = shape(&[&self.lead[..], &[4]].concat());
-        match self.all[..] {
-            [one] if self.lead.is_empty() => Ok(vec![one; lead.iter().product()]),
-            _ => Err(Fault::Joints
-                .error(py, format!("configuration must have shape (4,) or {wanted}, got {got}"))),
-        }
-    }
-}
-
 /// Configurations of shape (..., 4), or a record of four arrays.
-fn read_configurations(value: &Bound<'_, PyAny>) -> PyResult<Configurations> {
+fn configuration_rows<'py>(value: &Bound<'py, PyAny>) -> PyResult<Rows<'py>> {
     let py = value.py();
     if let Some(masked) = Masked::of(value)? {
         return Err(masked.refused(py, "configuration", Fault::Joints));
@@ -163,13 +138,19 @@ fn read_configurations(value: &Bound<'_, PyAny>) -> PyResult<Configurations> {
     } else {
         value
     };
-    let rows = Rows::read(stacked, &[4], "configuration", Fault::Joints)?;
+    Rows::read(stacked, &[4], "configuration", Fault::Joints)
+}
+
+/// The numbers of configurations, which must be whole.
+fn read_configurations(py: Python<'_>, rows: &Rows<'_>) -> PyResult<Vec<Configuration>> {
     let whole = |field: &str, number: f64| {
         #[expect(
             clippy::cast_possible_truncation,
             reason = "checked to be a whole number of that size"
         )]
-        if number.fract() == 0.0 && number.abs() <= f64::from(i32::MAX) {
+        if number.fract() == 0.0
+            && (f64::from(NO_CONFIGURATION)..=f64::from(i32::MAX)).contains(&number)
+        {
             Ok(number as i32)
         } else {
             let bound = i32::MAX;
@@ -184,8 +165,7 @@ fn read_configurations(value: &Bound<'_, PyAny>) -> PyResult<Configurations> {
             cfx: whole("cfx", *cfx)?,
         })
     };
-    let all = rows.data()?.as_chunks::<4>().0.iter().map(configuration).collect::<PyResult<_>>()?;
-    Ok(Configurations { all, lead: rows.lead.clone() })
+    rows.data()?.as_chunks::<4>().0.iter().map(configuration).collect()
 }
 
 /// The robot that has configurations.

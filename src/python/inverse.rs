@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use super::arguments::{read_singularity_mode, thread_count};
@@ -11,9 +10,11 @@ use super::batches::{self, needed_q7, no_q7, one_q7};
 use super::classes::pose_check_class;
 use super::configurations::{self, Fallback};
 use super::errors::{of_seed, to_py};
-use super::found::{Found, read_seed, read_weights};
+use super::found::{Found, read_weights};
+use super::nearest::{self, Seeded, read_seeded};
+use super::outputs::answer_row;
 use super::paths;
-use super::poses::{PoseArgument, read_one_pose, read_poses};
+use super::poses::{read_one_pose, read_single_pose};
 use super::robot::PyRobot;
 use super::solutions::PySolutions;
 use crate::kinematics::thresholds::WRIST_ZONE;
@@ -98,9 +99,12 @@ impl PyRobot {
     ///
     /// Args:
     ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
-    ///     seed: Joint vectors [rad], shape (..., n), or one for all poses, shape (n,). Of joints
-    ///         that the pose leaves free, the nearest angles are taken.
+    ///     seed: Joint vectors [rad], shape (..., n). T and seed are broadcast: one seed for many
+    ///         poses, one pose for many seeds. Of joints that the pose leaves free, the nearest
+    ///         angles are taken.
     ///     weights: Cost of moving each joint, shape (n,); ones when not given.
+    ///     out: Array to write to, shape (..., n), float64, C-contiguous; it is returned.
+    ///     threads: Number of threads; 0 for one a core.
     ///
     /// Returns:
     ///     Joint vectors [rad], shape (..., n). In a batch, a row without a solution, or whose pose
@@ -110,22 +114,28 @@ impl PyRobot {
     ///     UnreachableError: A single pose has no solution inside the limits; the message says what
     ///         is missing.
     ///     InvalidPoseError, InvalidJointsError, InvalidModelError: As `ik`; a seed or weight that
-    ///         is not finite.
-    #[pyo3(signature = (T, seed, weights=None))]
+    ///         is not finite; a single pose or seed for a whole batch that is invalid.
+    #[pyo3(signature = (T, seed, weights=None, *, out=None, threads=1))]
     fn ik_nearest<'py>(
         &self,
         T: &Bound<'py, PyAny>,
         seed: &Bound<'py, PyAny>,
         weights: Option<&Bound<'py, PyAny>>,
+        out: Option<&Bound<'py, PyAny>>,
+        threads: isize,
     ) -> PyResult<Bound<'py, PyAny>> {
+        let (py, threads) = (T.py(), thread_count(threads)?);
         on_robot!(self.arm(), robot => {
-            let pose = match read_poses(T)? {
-                PoseArgument::One(pose) => pose,
-                PoseArgument::Many(poses) => return Ok(paths::nearest(robot, &poses, seed, weights)?.into_any()),
+            let (pose, seed) = match read_seeded(T, seed)? {
+                Seeded::One(pose, seed) => (pose, seed),
+                Seeded::Many(poses, seeds) => {
+                    return nearest::many(py, robot, &poses, &seeds, weights, out, threads);
+                }
             };
-            let (seed, weights) = read_seed(seed, weights)?;
-            let nearest = robot.nearest_checked(pose, &seed, &weights).map_err(|error| of_seed(T.py(), &error, &seed))?;
-            Ok(PyArray1::from_slice(T.py(), &nearest.q).into_any())
+            let nearest = robot
+                .nearest_checked(pose, &seed, &read_weights(weights)?)
+                .map_err(|error| of_seed(py, &error, &seed))?;
+            answer_row(T, out, &nearest.q)
         })
     }
 
@@ -135,17 +145,20 @@ impl PyRobot {
     /// Args:
     ///     T: Poses of the tool, shape (m, 4, 4), or several paths, shape (..., m, 4, 4),
     ///         translation [m].
-    ///     seed: Joint vector from which a path starts [rad], shape (6,), or one for each path,
-    ///         shape (..., 6).
+    ///     seed: Joint vectors from which the paths start [rad], shape (..., 6). T and seed are
+    ///         broadcast: one seed for many paths, one path from many seeds.
     ///     weights: Cost of moving each joint, shape (6,); ones when not given.
-    ///     singularity_mode: What to do at the wrist singularity. "through": meet every pose
-    ///         exactly, however fast axes 4 and 6 turn. "error": stop where joint 5 comes into the
-    ///         zone, and where a joint must jump, as SingArea \Off. "wrist": inside the zone axes
-    ///         4, 5, 6 go straight from where they enter to where they leave, position exact, as
-    ///         SingArea \Wrist. "lock_axis4": axis 4 stays at 0 or +-180 deg all along, position
-    ///         exact, orientation where it can be, as SingArea \LockAxis4.
+    ///     singularity_mode: What to do at the wrist singularity. "through": meet every pose exactly,
+    ///         however fast axes 4 and 6 turn. "error": stop where joint 5 comes into the zone, and
+    ///         where a joint must jump, as SingArea \Off. "wrist": inside the zone axes 4, 5, 6 go
+    ///         straight from where they enter to where they leave, position exact, as SingArea
+    ///         \Wrist. "lock_axis4": axis 4 stays at 0 or +-180 deg all along, position exact,
+    ///         orientation where it can be, as SingArea \LockAxis4.
     ///     zone: |sin q5| below which `singularity_mode` acts; 0.0175, that is one degree, when not
     ///         given.
+    ///     out: Where to write: arrays (..., m, 6) and (..., m), float64, of the joints and of the
+    ///         orientation error.
+    ///     threads: Number of threads, for several paths; 0 for one a core.
     ///
     /// Returns:
     ///     FollowResult: joints [rad], shape (..., m, 6), NaN where a pose is not met; orientation
@@ -158,7 +171,8 @@ impl PyRobot {
     ///     InvalidModelError: The arm has no closed form or seven joints; "wrist" or "lock_axis4"
     ///         for an arm without a spherical wrist.
     ///     ValueError: Another `singularity_mode`.
-    #[pyo3(signature = (T, seed, weights=None, *, singularity_mode="through", zone=None))]
+    #[pyo3(signature = (T, seed, weights=None, *, singularity_mode="through", zone=None, out=None, threads=1))]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn follow<'py>(
         &self,
         T: &Bound<'py, PyAny>,
@@ -166,13 +180,16 @@ impl PyRobot {
         weights: Option<&Bound<'py, PyAny>>,
         singularity_mode: &str,
         zone: Option<f64>,
+        out: Option<&Bound<'py, PyAny>>,
+        threads: isize,
     ) -> PyResult<Bound<'py, PyAny>> {
         let options = FollowOptions {
             weights: read_weights(weights)?,
             singularity_mode: read_singularity_mode(singularity_mode)?,
             zone: zone.unwrap_or(WRIST_ZONE),
         };
-        paths::follow(self.arm().follower(T.py())?, T, seed, &options)
+        let robot = self.arm().follower(T.py())?;
+        paths::follow(robot, T, seed, &options, out, thread_count(threads)?)
     }
 
     /// The solution inside the limits that has a configuration, which chooses the turns of axes 1,
@@ -183,14 +200,17 @@ impl PyRobot {
     /// Args:
     ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
     ///     configuration: (cf1, cf4, cf6, cfx): an `irbkin.Configuration`, or whole numbers of
-    ///         shape (4,) or (..., 4).
+    ///         shape (..., 4). T, configuration and seed are broadcast.
     ///     fallback: With "nearest", the solution nearest to `seed` where none has the
     ///         configuration: many programs write [0, 0, 0, 0] without having calculated it.
-    ///     seed: Joint vector [rad] of the fallback, shape (6,) or (..., 6).
+    ///     seed: Joint vectors [rad] of the fallback, shape (..., 6).
+    ///     out: Array to write to, shape (..., 6), float64, C-contiguous; it is returned.
+    ///     threads: Number of threads; 0 for one a core.
     ///
     /// Returns:
     ///     Joint vectors [rad], shape (..., 6). In a batch, a row without such a solution, or whose
-    ///     pose or seed is invalid, is NaN.
+    ///     pose, seed or configuration (that which `configuration` gives an invalid row) is
+    ///     invalid, is NaN.
     ///
     /// Raises:
     ///     UnreachableError: A single pose has no solution inside the limits with that
@@ -200,15 +220,18 @@ impl PyRobot {
     ///         the configuration that is not whole or that the arm does not have.
     ///     InvalidModelError: As `configuration`.
     ///     TypeError, ValueError: Another fallback, or one without a seed.
-    #[pyo3(signature = (T, configuration, *, fallback=None, seed=None))]
+    #[pyo3(signature = (T, configuration, *, fallback=None, seed=None, out=None, threads=1))]
     fn ik_configured<'py>(
         &self,
         T: &Bound<'py, PyAny>,
         configuration: &Bound<'py, PyAny>,
         fallback: Option<&str>,
         seed: Option<&Bound<'py, PyAny>>,
+        out: Option<&Bound<'py, PyAny>>,
+        threads: isize,
     ) -> PyResult<Bound<'py, PyAny>> {
-        configurations::ik(self.arm(), T, configuration, &Fallback { name: fallback, seed })
+        let (fallback, threads) = (Fallback { name: fallback, seed }, thread_count(threads)?);
+        configurations::ik(self.arm(), T, configuration, &fallback, out, threads)
     }
 
     /// Whether a pose can be reached, inside the limits or not, and why not; with seven joints,
@@ -223,7 +246,7 @@ impl PyRobot {
     /// Raises:
     ///     InvalidPoseError, InvalidModelError: As `ik`.
     fn check_pose<'py>(&self, T: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        let pose = read_one_pose(T)?;
+        let pose = read_single_pose(T, "check_pose")?;
         let explanation = on_robot!(self.arm(), robot => robot.explain(&pose))
             .map_err(|error| to_py(T.py(), &error))?;
         let inside = matches!(explanation, Explanation::Found { .. });

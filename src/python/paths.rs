@@ -1,38 +1,27 @@
-//! Many poses with seeds: the nearest solutions, and paths followed.
+//! Paths followed from seeds.
+
+use std::num::NonZeroUsize;
+use std::ops::Range;
 
 use numpy::PyArrayDyn;
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 
-use super::answers::{follow_result, index_in};
-use super::arrays::{Rows, output, writable};
+use super::arrays::{Rows, addresses};
+use super::broadcast::{Argument, together};
+use super::classes;
 use super::errors::{Fault, to_py};
-use super::found::read_weights;
+use super::nearest::single_seed;
+use super::outputs::{Writable, output, writable};
+use super::signals::detached;
 use super::wording::shape;
-use crate::batch;
 use crate::kinematics::{
-    Arity, FollowOptions, Inverse, Joints, Pose, Robot, check_seed, pose_from_rows,
+    BreakReason, FollowOptions, Followed, Pose, Robot, check_seed, pose_from_rows,
 };
 
-/// The solutions nearest to seeds, a row for each pose.
-pub(super) fn nearest<'py, const N: usize>(
-    robot: &Robot<N>,
-    poses: &Rows<'py>,
-    seeds: &Bound<'py, PyAny>,
-    weights: Option<&Bound<'py, PyAny>>,
-) -> PyResult<Bound<'py, PyArrayDyn<f64>>>
-where
-    Robot<N>: Inverse<N>,
-    Joints<N>: Arity<N>,
-{
-    let py = seeds.py();
-    let (weights, numbers) = (read_weights::<N>(weights)?, read_seeds::<N>(seeds, &poses.lead)?);
-    let answer = output(py, None, &poses.shape_with(&[N]))?;
-    let (data, mut view) = (poses.data()?, writable(&answer, &[])?);
-    let q = view.as_slice_mut()?;
-    py.detach(|| batch::ik_nearest(robot, data, &numbers, &weights, q))
-        .map_err(|error| to_py(py, &error))?;
-    Ok(answer)
-}
+/// Poses that are read between two looks at the signals.
+const POSES_AT_A_TIME: usize = 1 << 18;
 
 /// Paths of poses, shape (..., m, 4, 4), each followed from its seed.
 pub(super) fn follow<'py>(
@@ -40,61 +29,149 @@ pub(super) fn follow<'py>(
     paths: &Bound<'py, PyAny>,
     seeds: &Bound<'py, PyAny>,
     options: &FollowOptions,
+    out: Option<&Bound<'py, PyAny>>,
+    threads: Option<NonZeroUsize>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = paths.py();
-    let rows = Rows::read(paths, &[4, 4], "T", Fault::Pose)?;
-    let [lead @ .., length] = &rows.lead[..] else {
-        return Err(Fault::Pose.error(
-            py,
-            format!("T must have shape (..., m, 4, 4), got {}", shape(&rows.shape_with(&[4, 4]))),
-        ));
+    let mut rows = Rows::read(paths, &[4, 4], "T", Fault::Pose)?;
+    let mut seeds = Rows::read(seeds, &[6], "seed", Fault::Joints)?;
+    single_seed::<6>(py, &seeds)?;
+    let Some(length) = rows.split_last() else {
+        return Err(Fault::Pose
+            .error(py, format!("T must have shape (..., m, 4, 4), got {}", shape(rows.shape()))));
     };
-    let seeds = read_seeds::<6>(seeds, lead)?;
-    let seeds = seeds.as_chunks::<6>().0;
-    if let Some((path, error)) = seeds
-        .iter()
-        .enumerate()
-        .find_map(|(path, seed)| Some((path, check_seed("seed", seed).err()?)))
-    {
-        return Err(if lead.is_empty() {
-            to_py(py, &error)
-        } else {
-            Fault::Joints.error(py, format!("seed{:?}: {error}", index_in(lead, path)))
-        });
-    }
-    let poses = rows.data()?.as_chunks::<16>().0.iter().enumerate();
-    let pose = |(number, row)| {
-        pose_from_rows(row).map_err(|error| {
-            Fault::Pose.error(py, format!("T{:?}: {error}", index_in(&rows.lead, number)))
-        })
-    };
-    let poses = poses.map(pose).collect::<PyResult<Vec<Pose>>>()?;
-    let followed = py.detach(|| {
-        let path = |(number, seed)| {
-            robot.follow(&poses[number * length..(number + 1) * length], seed, options)
-        };
-        seeds.iter().enumerate().map(path).collect::<Result<Vec<_>, _>>()
-    });
-    follow_result(py, &followed.map_err(|error| to_py(py, &error))?, lead, *length)
+    together(
+        py,
+        &mut [
+            Argument { field: "T", fault: Fault::Pose, rows: &mut rows },
+            Argument { field: "seed", fault: Fault::Joints, rows: &mut seeds },
+        ],
+    )?;
+    let shape = rows.shape_with(&[length]);
+    let answers = Answers::of(py, out, &shape, &[rows.addresses(), seeds.addresses()])?;
+    let poses = read_path(py, &rows, &shape)?;
+    let starts = checked_seeds(py, &seeds)?;
+    let followed =
+        detached(py, threads, |pace| pace.follow(robot, &poses, length, starts, options))?;
+    answers.filled(py, &rows.lead, &followed)
 }
 
-/// A seed for each row with the leading dimensions `lead`, or one for all.
-pub(super) fn read_seeds<const N: usize>(
-    seeds: &Bound<'_, PyAny>,
-    lead: &[usize],
-) -> PyResult<Vec<f64>> {
-    let rows = Rows::read(seeds, &[N], "seed", Fault::Joints)?;
-    if rows.lead == lead {
-        return Ok(rows.data()?.to_vec());
+/// Every pose of paths of the shape `shape`, checked.
+fn read_path(py: Python<'_>, rows: &Rows<'_>, shape: &[usize]) -> PyResult<Vec<Pose>> {
+    let rows = rows.data()?.as_chunks::<16>().0;
+    let mut poses = Vec::with_capacity(rows.len());
+    for row in rows {
+        if poses.len().is_multiple_of(POSES_AT_A_TIME) {
+            py.check_signals()?;
+        }
+        poses.push(pose_from_rows(row).map_err(|error| {
+            Fault::Pose.error(py, format!("T{:?}: {error}", index_in(shape, poses.len())))
+        })?);
     }
-    if !rows.is_single() {
-        let (one, many) = (shape(&[N]), shape(&[lead, &[N]].concat()));
-        let wanted = if one == many { one } else { format!("{one} or {many}") };
-        let got = shape(&rows.shape_with(&[N]));
-        return Err(
-            Fault::Joints.error(seeds.py(), format!("seed must have shape {wanted}, got {got}"))
-        );
+    Ok(poses)
+}
+
+fn checked_seeds<'a>(py: Python<'_>, seeds: &'a Rows<'_>) -> PyResult<&'a [[f64; 6]]> {
+    let rows = seeds.data()?.as_chunks::<6>().0;
+    for (path, seed) in rows.iter().enumerate() {
+        check_seed("seed", seed).map_err(|error| {
+            let place = index_in(&seeds.lead, path);
+            if place.is_empty() {
+                return to_py(py, &error);
+            }
+            Fault::Joints.error(py, format!("seed{place:?}: {error}"))
+        })?;
     }
-    check_seed("seed", rows.data()?).map_err(|error| to_py(seeds.py(), &error))?;
-    Ok(rows.data()?.repeat(lead.iter().product()))
+    Ok(rows)
+}
+
+/// The arrays that followed paths are written to.
+struct Answers<'py> {
+    q: Bound<'py, PyArrayDyn<f64>>,
+    q_view: Writable<'py, f64>,
+    errors: Bound<'py, PyArrayDyn<f64>>,
+    errors_view: Writable<'py, f64>,
+}
+
+impl<'py> Answers<'py> {
+    /// For paths of the shape `shape`, that of all their poses.
+    fn of(
+        py: Python<'py>,
+        out: Option<&Bound<'py, PyAny>>,
+        shape: &[usize],
+        inputs: &[Range<usize>],
+    ) -> PyResult<Self> {
+        let (q, errors) = match out {
+            None => (None, None),
+            Some(out) => match out.cast::<PyTuple>().map(|pair| (pair, pair.len())) {
+                Ok((pair, 2)) => (Some(pair.get_item(0)?), Some(pair.get_item(1)?)),
+                _ => {
+                    return Err(PyTypeError::new_err(
+                        "out must be a tuple of two arrays: (q, orientation_error)",
+                    ));
+                }
+            },
+        };
+        let q = output(py, q.as_ref(), &[shape, &[6]].concat())?;
+        let errors = output(py, errors.as_ref(), shape)?;
+        let (q_view, errors_view) =
+            (writable(&q, inputs)?, writable(&errors, &[inputs, &[addresses(&q)]].concat())?);
+        Ok(Self { q, q_view, errors, errors_view })
+    }
+
+    /// `irbkin.FollowResult` of paths with the leading dimensions `lead`.
+    fn filled(
+        mut self,
+        py: Python<'py>,
+        lead: &[usize],
+        followed: &[Followed],
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let rows = self.q_view.as_slice_mut()?.as_chunks_mut::<6>().0.iter_mut();
+        for (row, q) in rows.zip(followed.iter().flat_map(|path| &path.q)) {
+            *row = q.unwrap_or([f64::NAN; 6]);
+        }
+        let errors = followed.iter().flat_map(|path| &path.orientation_error);
+        for (to, error) in self.errors_view.as_slice_mut()?.iter_mut().zip(errors) {
+            *to = error.unwrap_or(f64::NAN);
+        }
+        let mut breaks = Vec::new();
+        for (path, followed) in followed.iter().enumerate() {
+            for broken in &followed.breaks {
+                let place = PyTuple::new(py, index_in(lead, path))?;
+                breaks.push(classes::break_class(py)?.call1((
+                    broken.pose_index,
+                    broken.to_string(),
+                    place,
+                    break_kind(py, &broken.reason)?,
+                ))?);
+            }
+        }
+        let breaks = PyTuple::new(py, breaks)?;
+        classes::follow_result_class(py)?.call1((self.q, self.errors, breaks))
+    }
+}
+
+/// The index of an element by its number in row-major order.
+pub(super) fn index_in(shape: &[usize], mut number: usize) -> Vec<usize> {
+    let mut index: Vec<usize> = shape
+        .iter()
+        .rev()
+        .map(|size| {
+            let at = number % size;
+            number /= size;
+            at
+        })
+        .collect();
+    index.reverse();
+    index
+}
+
+/// `irbkin.BreakReason` of a break.
+fn break_kind<'py>(py: Python<'py>, reason: &BreakReason) -> PyResult<Bound<'py, PyAny>> {
+    classes::break_reason_class(py)?.getattr(match reason {
+        BreakReason::Unreachable(_) => "UNREACHABLE",
+        BreakReason::Jump { .. } => "JUMP",
+        BreakReason::Locked => "LOCKED",
+        BreakReason::Stopped { .. } => "STOPPED",
+    })
 }

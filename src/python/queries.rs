@@ -1,10 +1,12 @@
 //! Methods of `irbkin.Robot` that take joint vectors.
 
 use numpy::PyArrayDyn;
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
-use super::answers::singularity_record;
-use super::arguments::read_frame;
+use super::answers::{singularity_arrays, singularity_record};
+use super::arguments::{read_frame, thread_count};
+use super::arm::on_robot;
 use super::configurations;
 use super::robot::PyRobot;
 
@@ -35,14 +37,21 @@ impl PyRobot {
     ///
     /// Args:
     ///     q: Joint angles [rad], shape (..., n).
+    ///     out: Array to write to, shape (..., n + 1, 4, 4), float64, C-contiguous; it is returned.
     ///
     /// Returns:
-    ///     Homogeneous matrices, shape (..., n + 1, 4, 4), translation [m].
+    ///     Homogeneous matrices, shape (..., n + 1, 4, 4), translation [m]. In a batch, a row with
+    ///     a NaN or inf gives NaN.
     ///
     /// Raises:
     ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
-    fn link_frames<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.arm().link_frames(q)
+    #[pyo3(signature = (q, out=None))]
+    fn link_frames<'py>(
+        &self,
+        q: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.arm().link_frames(q, out)
     }
 
     /// Geometric Jacobian of the tool.
@@ -73,17 +82,37 @@ impl PyRobot {
     ///
     /// Args:
     ///     q: Joint angles [rad], shape (..., n).
+    ///     out: Where to write the answer of a batch: a Singularity, or a tuple, of arrays (...),
+    ///         five of float64 and one of uint8.
+    ///     threads: Number of threads; 0 for one a core.
     ///
     /// Returns:
     ///     Singularity; numbers for (n,), arrays of shape (...) for (..., n). NaN where an arm has
-    ///     no such singularity.
+    ///     no such singularity. In a batch, a row with a NaN or inf gives NaN, and its `kinds` are
+    ///     `irbkin.Status.INVALID`, 64.
     ///
     /// Raises:
     ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
-    fn singularity<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    ///     TypeError: `out` for a single joint vector, or of another kind.
+    #[pyo3(signature = (q, *, out=None, threads=1))]
+    fn singularity<'py>(
+        &self,
+        q: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+        threads: isize,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (py, threads) = (q.py(), thread_count(threads)?);
         let rows = self.arm().joints(q)?;
-        let records = self.arm().singularity(q.py(), rows.data()?)?;
-        singularity_record(q.py(), &records, (!rows.is_single()).then_some(&rows.lead))
+        if !rows.is_single() {
+            return singularity_arrays(py, self.arm(), &rows, out, threads);
+        }
+        if out.is_some() {
+            return Err(PyTypeError::new_err("out is for many joint vectors, shape (..., n)"));
+        }
+        on_robot!(self.arm(), robot => match rows.data()?.first_chunk() {
+            Some(q) => singularity_record(py, &robot.singularity(q)),
+            None => Err(PyTypeError::new_err("q is empty")),
+        })
     }
 
     /// ABB's confdata of joint vectors: quarter turns of axes 1, 4 and 6, and the slot.
@@ -94,10 +123,12 @@ impl PyRobot {
     /// Returns:
     ///     Configuration(cf1, cf4, cf6, cfx): integers for one joint vector, int32 arrays of shape
     ///     (...) for many. cf is floor(angle / 90 deg). cfx is the slot, 0 for an arm with coupled
-    ///     axes 2 and 3, whose controller does not use it.
+    ///     axes 2 and 3, whose controller does not use it. In a batch, a row that is not finite, or
+    ///     has an angle beyond 1e5 rad, has -2147483648, the least int32, in all four:
+    ///     `ik_configured` gives NaN for it.
     ///
     /// Raises:
-    ///     InvalidJointsError: A wrong shape, or an angle that is not finite.
+    ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
     ///     InvalidModelError: The arm has no spherical wrist: its controller counts otherwise.
     fn configuration<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         configurations::configuration(self.arm(), q)

@@ -9,7 +9,7 @@ use super::arrays::vector;
 use super::build::{self, State};
 use super::edits::Edit;
 use super::errors::{Fault, to_py};
-use super::poses::{pose_array, read_pose};
+use super::poses::{pose_array, read_single_pose};
 use super::robot_repr;
 use crate::catalog;
 use crate::kinematics::Robot;
@@ -139,7 +139,7 @@ impl PyRobot {
     /// Raises:
     ///     InvalidPoseError: T is not a rigid transform or has a wrong shape.
     fn with_tool(&self, T: &Bound<'_, PyAny>) -> PyResult<Self> {
-        self.arm.changed(T.py(), &Edit::Tool(read_pose(T, "T")?)).map(Self::from)
+        self.arm.changed(T.py(), &Edit::Tool(read_single_pose(T, "with_tool")?)).map(Self::from)
     }
 
     /// Return the robot with another base, in place of the one that it had; poses are then given in
@@ -151,7 +151,7 @@ impl PyRobot {
     /// Raises:
     ///     InvalidPoseError: T is not a rigid transform or has a wrong shape.
     fn with_base(&self, T: &Bound<'_, PyAny>) -> PyResult<Self> {
-        self.arm.changed(T.py(), &Edit::Base(read_pose(T, "T")?)).map(Self::from)
+        self.arm.changed(T.py(), &Edit::Base(read_single_pose(T, "with_base")?)).map(Self::from)
     }
 
     /// Return the robot with other joint limits; those of a linkage stay.

@@ -9,8 +9,8 @@ use pyo3::prelude::*;
 use pyo3::types::{PyIterator, PySlice, PyTuple};
 
 use super::arm::Arm;
-use super::arrays::matrix;
 use super::found::Found;
+use super::outputs::matrix;
 use super::records;
 use super::robot::PyRobot;
 use super::solution::{Member, PySolution, as_array, compared};

@@ -8,6 +8,7 @@ use pyo3::types::PyString;
 use super::arrays::{Rows, vector};
 use super::errors::{Fault, to_py};
 use super::poses::read_pose;
+use super::wording::shape;
 use crate::error::Error;
 use crate::kinematics::{Pose, pose_from_rows, pose_to_rows};
 use crate::paths::{ArcOrientation, Spacing, Zone};
@@ -155,7 +156,8 @@ pub(super) fn polyline<'py>(
     let py = T.py();
     let rows = Rows::read(T, &[4, 4], "T", Fault::Pose)?;
     if rows.lead.len() != 1 {
-        let message = format!("T must have shape (m, 4, 4), got {:?}", rows.shape_with(&[4, 4]));
+        let message =
+            format!("T must have shape (m, 4, 4), got {}", shape(&rows.shape_with(&[4, 4])));
         return Err(Fault::Pose.error(py, message));
     }
     let poses = rows.data()?.as_chunks::<16>().0.iter().enumerate();

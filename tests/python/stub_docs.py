@@ -29,7 +29,7 @@ def with_docs(stub: str) -> str:
 def documented(tree: ast.Module):
     """The definitions that are documented, with what they are in the extension."""
     for node in tree.body:
-        if isinstance(node, ast.ClassDef):
+        if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
             owner = getattr(_core, node.name)
             yield node, owner
             yield from ((member, getattr(owner, member.name)) for member in public(node.body))

@@ -218,7 +218,8 @@ def test_bad_seed_among_several_is_named(robot):
     with pytest.raises(InvalidJointsError, match=r"seed\[1\]: seed: joint 3 is NaN"):
         robot.follow(robot.fk(np.zeros((2, 3, 6))), seeds)
     with pytest.raises(
-        InvalidJointsError, match=r"seed must have shape \(6,\) or \(2, 6\), got \(3, 6\)"
+        InvalidJointsError,
+        match=r"seed of shape \(3, 6\) cannot be broadcast with T of shape \(2, 3, 4, 4\): leading",
     ):
         robot.follow(robot.fk(np.zeros((2, 3, 6))), np.zeros((3, 6)))
 
@@ -238,9 +239,9 @@ def test_an_empty_path_has_an_empty_answer(robot):
         ),
         ({"T": np.zeros((1, 2, 4, 4))}, InvalidPoseError, r"T\[0, 0\]: pose row 3 must be"),
         (
-            {"seed": np.zeros((2, 6))},
+            {"T": np.zeros((2, 1, 4, 4)), "seed": np.zeros((3, 6))},
             InvalidJointsError,
-            r"seed must have shape \(6,\), got \(2, 6\)",
+            r"seed of shape \(3, 6\) cannot be broadcast with T of shape \(2, 1, 4, 4\)",
         ),
         ({"T": [np.eye(4), np.eye(4) * np.nan]}, InvalidPoseError, r"T\[1\]: pose\[0, 0\] is NaN"),
         ({"T": [np.eye(4), 2 * np.eye(4)]}, InvalidPoseError, r"T\[1\]: pose row 3 must be"),

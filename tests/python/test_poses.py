@@ -130,3 +130,104 @@ def test_single_precision_and_text_are_repaired():
             np.testing.assert_allclose(
                 robot.fk(solution.q)[:3, :3], u @ vt, rtol=0, atol=3 * ROUNDING
             )
+
+
+def orientations(many):
+    """The same orientations in every way of giving them, by keyword."""
+    wxyz = irbkin.to_xyz_wxyz(many)[1]
+    return {
+        "wxyz": wxyz,
+        "xyzw": np.roll(wxyz, -1, axis=-1),
+        "euler_zyx": irbkin.to_xyz_euler_zyx(many)[1],
+        "rotation": many[..., :3, :3],
+    }
+
+
+MANY = np.stack([irbkin.pose([i, 2, 3], euler_zyx=[0.1 * i, 0.2, -0.3]) for i in range(6)])
+MANY = MANY.reshape(2, 3, 4, 4)
+
+
+@pytest.mark.parametrize("way", ["wxyz", "xyzw", "euler_zyx", "rotation"])
+def test_poses_are_broadcast_and_each_is_the_one_made_alone(way):
+    turns = orientations(MANY)[way]
+    xyz = MANY[..., :3, 3]
+    made = irbkin.pose(xyz, **{way: turns})
+    assert made.shape == (2, 3, 4, 4)
+    np.testing.assert_allclose(made, MANY, rtol=0, atol=ROUNDING)
+    for index in np.ndindex(2, 3):
+        alone = irbkin.pose(xyz[index], **{way: turns[index]})
+        np.testing.assert_array_equal(made[index], alone)
+        np.testing.assert_array_equal(
+            irbkin.pose(xyz[index].tolist(), **{way: turns[index]}), alone
+        )
+    np.testing.assert_array_equal(
+        irbkin.pose(xyz, **{way: turns[0, 0]})[1, 2], irbkin.pose(xyz[1, 2], **{way: turns[0, 0]})
+    )
+    np.testing.assert_array_equal(
+        irbkin.pose(xyz[0, 0], **{way: turns})[1, 2], irbkin.pose(xyz[0, 0], **{way: turns[1, 2]})
+    )
+    assert irbkin.pose(np.zeros((0, 3)), **{way: turns[0, 0]}).shape == (0, 4, 4)
+
+
+def test_translations_alone_are_poses_too():
+    made = irbkin.pose(MANY[..., :3, 3])
+    np.testing.assert_array_equal(made[1, 2], irbkin.pose(MANY[1, 2, :3, 3]))
+    assert made.shape == (2, 3, 4, 4)
+
+
+def test_a_scipy_rotation_is_taken():
+    Rotation = pytest.importorskip("scipy.spatial.transform").Rotation
+    turns = orientations(MANY)
+    many = Rotation.from_quat(turns["xyzw"].reshape(-1, 4))
+    made = irbkin.pose(np.zeros(3), rotation=many)
+    np.testing.assert_allclose(
+        made, irbkin.pose(np.zeros(3), turns["wxyz"].reshape(-1, 4)), rtol=0, atol=ROUNDING
+    )
+    np.testing.assert_array_equal(irbkin.pose(np.zeros(3), rotation=many[2]), made[2])
+    np.testing.assert_allclose(
+        irbkin.pose([0, 0, 0], xyzw=many[2].as_quat()), made[2], rtol=0, atol=ROUNDING
+    )
+
+
+def test_poses_come_apart_as_each_does_alone():
+    for take in (irbkin.to_xyz_wxyz, irbkin.to_xyz_euler_zyx):
+        spoiled = MANY.copy()
+        spoiled[0, 1] *= 2
+        spoiled[1, 0, 0, 0] = np.nan
+        for parts in zip(
+            take(spoiled), zip(*map(take, MANY.reshape(-1, 4, 4)), strict=True), strict=True
+        ):
+            together, alone = parts[0], np.array(parts[1]).reshape(parts[0].shape)
+            alone[0, 1] = alone[1, 0] = np.nan
+            np.testing.assert_array_equal(together, alone)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"wxyz": [[1, 0, 0, 0], [1, 1, 0, 0]]}, r"row \[1\]: quaternion norm .* w, x, y, z"),
+        ({"xyzw": [[1, 0, 0, 0], [1, 1, 0, 0]]}, r"row \[1\]: quaternion norm .* x, y, z, w"),
+        ({"xyzw": [0, 0, np.nan, 1]}, r"^xyzw\[2\] is NaN"),
+        ({"xyzw": [2, 0, 0, 1]}, r"^quaternion norm is .* \(order is x, y, z, w\)"),
+        ({"euler_zyx": [[0, 0, 0], [0, np.inf, 0]]}, r"row \[1\]: euler_zyx\[1\] is inf"),
+        ({"rotation": np.diag([1, 1, -1])}, "^pose rotation mirrors"),
+        ({"rotation": [np.eye(3), 2 * np.eye(3)]}, r"row \[1\]: pose rotation is off orthonormal"),
+        ({"rotation": np.full((3, 3), np.nan)}, r"^pose\[0, 0\] is NaN"),
+        ({"rotation": np.eye(4)}, r"rotation must have shape \(\.\.\., 3, 3\), got \(4, 4\)"),
+        ({"xyz": [[0, 0, 0], [0, np.nan, 0]]}, r"row \[1\]: xyz\[1\] is NaN"),
+        ({"xyz": [1e200, 0, 0], "rotation": np.eye(3)}, r"^xyz\[0\] is 1e200 m"),
+        (
+            {"xyz": np.zeros((2, 3)), "wxyz": np.zeros((3, 4))},
+            r"wxyz of shape \(3, 4\) cannot be broadcast with xyz of shape \(2, 3\)",
+        ),
+    ],
+)
+def test_what_makes_no_pose_is_refused_with_its_row(given, words):
+    with pytest.raises(irbkin.InvalidPoseError, match=words):
+        irbkin.pose(**({"xyz": [0, 0, 0]} | given))
+
+
+@pytest.mark.parametrize("other", ["xyzw", "euler_zyx", "rotation"])
+def test_one_orientation_is_enough(other):
+    with pytest.raises(TypeError, match=f"give one orientation: wxyz or {other}, not both"):
+        irbkin.pose([0, 0, 0], wxyz=[1, 0, 0, 0], **{other: [0, 0, 0]})

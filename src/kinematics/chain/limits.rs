@@ -93,7 +93,15 @@ impl<const N: usize> JointLimits<N> {
         core::array::from_fn(|i| [self.lower[i], self.upper[i]])
     }
 
-    /// The limits of the coupled arm: the limit of joint 3 becomes that of the linkage.
+    /// The least and the greatest angles that count as inside [rad].
+    pub(crate) fn bounds(&self) -> [[f64; N]; 2] {
+        [
+            self.lower.map(|lower| lower - LIMIT_TOLERANCE),
+            self.upper.map(|upper| upper + LIMIT_TOLERANCE),
+        ]
+    }
+
+    /// Those of the coupled twin: the limit of joint 3 is the linkage's.
     pub(crate) fn coupled(self) -> Self {
         self.twin(
             1.0,

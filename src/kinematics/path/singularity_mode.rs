@@ -52,8 +52,11 @@ impl Default for FollowOptions {
     }
 }
 
-/// Maximum number of rounds in which the arm and the wrist with axis 4 locked are solved in turn:
-/// each round shrinks the error by the ratio of the tool's length to the arm's.
+/// Steps between two questions whether to go on.
+const ASKED_EVERY: usize = 32;
+
+/// How often the arm and a wrist with axis 4 held are solved in turn: each round shrinks the error
+/// by the tool's length over the arm's.
 const ROUNDS: usize = 60;
 
 impl Robot<6> {
@@ -71,6 +74,18 @@ impl Robot<6> {
         seed: &[f64; 6],
         options: &FollowOptions,
     ) -> Result<Followed, Error> {
+        self.follow_while(path, seed, options, &mut || true)
+    }
+
+    /// [`Robot::follow`] for as long as `go_on` says so; it is asked now and then. The rest of the
+    /// path is not met.
+    pub(crate) fn follow_while(
+        &self,
+        path: &[Pose],
+        seed: &[f64; 6],
+        options: &FollowOptions,
+        go_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Followed, Error> {
         if !(options.zone.is_finite() && options.zone >= 0.0) {
             return Err(JointFault::Zone { value: options.zone }.into());
         }
@@ -86,9 +101,12 @@ impl Robot<6> {
             follower: Follower::new(self, seed, &options.weights)?,
             followed: Followed {
                 q: Vec::with_capacity(path.len()),
-                orientation_error: Vec::new(),
+                orientation_error: Vec::with_capacity(path.len()),
                 breaks: Vec::new(),
             },
+            go_on,
+            steps: 0,
+            is_stopped: false,
         };
         match options.singularity_mode {
             SingularityMode::Through | SingularityMode::Error => walk.through()?,
@@ -113,11 +131,23 @@ struct Walk<'a> {
     options: &'a FollowOptions,
     follower: Follower<'a>,
     followed: Followed,
+    go_on: &'a mut dyn FnMut() -> bool,
+    steps: usize,
+    is_stopped: bool,
 }
 
 impl Walk<'_> {
     fn in_zone(&self, q: &[f64; 6]) -> bool {
         self.robot.solver().arm().sin_5(q).is_some_and(|sin_5| sin_5.abs() < self.options.zone)
+    }
+
+    /// Whether to take another step.
+    fn goes_on(&mut self) -> bool {
+        self.steps += 1;
+        if self.steps.is_multiple_of(ASKED_EVERY) {
+            self.is_stopped |= !(self.go_on)();
+        }
+        !self.is_stopped
     }
 
     fn record(&mut self, q: Option<[f64; 6]>, broken: Option<BreakReason>) {
@@ -129,6 +159,9 @@ impl Walk<'_> {
     /// Pose by pose; with [`SingularityMode::Error`] up to the zone or a jump.
     fn through(&mut self) -> Result<(), Error> {
         for pose in self.path {
+            if !self.goes_on() {
+                return Ok(());
+            }
             let (solution, broken) = self.follower.step(pose)?;
             let q = solution.map(|solution| solution.q);
             if self.options.singularity_mode == SingularityMode::Error {
@@ -147,7 +180,7 @@ impl Walk<'_> {
     /// The wrist moves straight through the zone; the other three axes keep the position.
     fn wrist(&mut self) -> Result<(), Error> {
         let mut index = 0;
-        while index < self.path.len() {
+        while index < self.path.len() && self.goes_on() {
             let (solution, broken) = self.follower.step(&self.path[index])?;
             let q = solution.map(|solution| solution.q);
             match q.filter(|q| self.in_zone(q)) {
@@ -179,7 +212,7 @@ impl Walk<'_> {
         //
         // is the same on both.
         let mut behind = first + 1;
-        while behind < self.path.len() {
+        while behind < self.path.len() && self.goes_on() {
             match self.follower.step(&self.path[behind])?.0 {
                 Some(solution) if self.in_zone(&solution.q) => behind += 1,
                 _ => break,
@@ -194,6 +227,9 @@ impl Walk<'_> {
             };
         let mut q = entered;
         for index in first + 1..behind {
+            if !self.goes_on() {
+                break;
+            }
             #[expect(clippy::cast_precision_loss, reason = "a part of the way")]
             let part = (index - first) as f64 / (behind - 1 - first) as f64;
             let mut wanted = q;
@@ -218,6 +254,9 @@ impl Walk<'_> {
     fn lock_axis_4(&mut self) -> Result<(), Error> {
         let mut previous: Option<[f64; 6]> = None;
         for pose in self.path {
+            if !self.goes_on() {
+                return Ok(());
+            }
             let from = match previous {
                 Some(q) => q,
                 // Before the first pose that is reached, the path is at the seed.
@@ -303,12 +342,14 @@ impl Walk<'_> {
 
     /// Measure the orientation error at every pose.
     fn finish(mut self) -> Followed {
-        let rows = self.followed.q.iter().zip(self.path);
-        let error = |(q, pose): (&Option<[f64; 6]>, &Pose)| {
-            q.map(|q| PoseDifference::between(&self.robot.fk(&q), pose).rotation)
-        };
-        self.followed.orientation_error = rows.map(error).collect();
-        // The poses that were not reached when the path stopped.
+        for (index, pose) in self.path.iter().enumerate().take(self.followed.q.len()) {
+            if !self.goes_on() {
+                break;
+            }
+            let error = |q: [f64; 6]| PoseDifference::between(&self.robot.fk(&q), pose).rotation;
+            self.followed.orientation_error.push(self.followed.q[index].map(error));
+        }
+        // What was not come to, when the path stopped.
         self.followed.q.resize(self.path.len(), None);
         self.followed.orientation_error.resize(self.path.len(), None);
         self.followed

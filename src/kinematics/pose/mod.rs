@@ -144,12 +144,45 @@ pub(crate) fn checked_pose(pose: &Pose) -> Result<Pose, Error> {
 /// [`Error::InvalidPose`] when an element is not finite, a coordinate exceeds [`MOST_LENGTH`] or
 /// the quaternion's norm differs from one by more than [`QUATERNION_NORM_BOUND`].
 pub fn pose_from_wxyz(xyz: [f64; 3], wxyz: [f64; 4]) -> Result<Pose, Error> {
-    check_finite("xyz", &xyz)?;
-    check_near("xyz", xyz)?;
+    check_position(xyz)?;
     check_finite("wxyz", &wxyz)?;
+    pose_of_quaternion(xyz, wxyz, "w, x, y, z")
+}
+
+/// As [`pose_from_wxyz`], of a quaternion in the order x, y, z, w of SciPy and ROS.
+///
+/// # Errors
+///
+/// As [`pose_from_wxyz`].
+pub fn pose_from_xyzw(xyz: [f64; 3], xyzw: [f64; 4]) -> Result<Pose, Error> {
+    check_position(xyz)?;
+    check_finite("xyzw", &xyzw)?;
+    let [x, y, z, w] = xyzw;
+    pose_of_quaternion(xyz, [w, x, y, z], "x, y, z, w")
+}
+
+/// A pose from a translation [m] and the rows of a rotation matrix, checked and repaired as those
+/// of [`pose_from_rows`].
+///
+/// # Errors
+///
+/// As [`pose_from_rows`].
+pub fn pose_from_rotation(xyz: [f64; 3], rotation: [[f64; 3]; 3]) -> Result<Pose, Error> {
+    check_position(xyz)?;
+    let elements = rotation.as_flattened();
+    if let Some(index) = elements.iter().position(|element| !element.is_finite()) {
+        let (row, column, value) = (index / 3, index % 3, elements[index]);
+        return Err(PoseFault::NotFinite { row, column, value }.into());
+    }
+    Ok(IsometryMatrix3::from_parts(Translation3::from(xyz), checked_rotation(rotation)?))
+}
+
+/// The pose of a quaternion w, x, y, z, which came in an order of its own.
+fn pose_of_quaternion(xyz: [f64; 3], wxyz: [f64; 4], order: &'static str) -> Result<Pose, Error> {
     let norm = wxyz.iter().map(|element| element * element).sum::<f64>().sqrt();
     if (norm - 1.0).abs() > QUATERNION_NORM_BOUND {
-        return Err(PoseFault::QuaternionNorm { norm, bound: QUATERNION_NORM_BOUND }.into());
+        let bound = QUATERNION_NORM_BOUND;
+        return Err(PoseFault::QuaternionNorm { norm, bound, order }.into());
     }
     let [w, x, y, z] = wxyz.map(|element| element / norm);
     let rotation = Matrix3::new(
@@ -262,7 +295,13 @@ fn check_finite(field: &'static str, values: &[f64]) -> Result<(), Error> {
     }
 }
 
-/// Check that a position is small enough for squares of its coordinates to keep their digits.
+/// A translation that is finite and near enough.
+fn check_position(xyz: [f64; 3]) -> Result<(), Error> {
+    check_finite("xyz", &xyz)?;
+    check_near("xyz", xyz)
+}
+
+/// A position that is near enough for squares of its coordinates to keep their digits.
 fn check_near(field: &'static str, xyz: [f64; 3]) -> Result<(), Error> {
     match xyz.iter().position(|coordinate| coordinate.abs() > MOST_LENGTH) {
         Some(index) => {

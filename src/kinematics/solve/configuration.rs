@@ -23,6 +23,7 @@ use crate::kinematics::solve::self_motion::meets;
 use crate::kinematics::structure::Structure as _;
 use crate::kinematics::structure::spherical_wrist::SphericalWrist;
 use crate::kinematics::thresholds::{CONFIGURATION_EDGE, MOST_ANGLE, SEEDED_FREE, SOLUTION_OFF};
+use crate::lanes::{nearest_whole, whole_below};
 use crate::report::Configuration;
 
 /// How closely the slot of a solution must match that of a configuration.
@@ -84,11 +85,11 @@ impl Configuration {
 #[expect(clippy::cast_possible_truncation, reason = "no more than MOST_QUARTERS")]
 fn quarter(angle: f64) -> i32 {
     let quarters = angle / FRAC_PI_2;
-    let edge = quarters.round();
+    let edge = nearest_whole(quarters);
     if (quarters - edge).abs() <= 2.0 * f64::EPSILON * edge.abs() {
         edge as i32
     } else {
-        quarters.floor() as i32
+        whole_below(quarters) as i32
     }
 }
 

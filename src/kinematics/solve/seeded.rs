@@ -4,10 +4,12 @@ use crate::error::Error;
 use crate::kinematics::answer::check::{check_seed, check_weights};
 use crate::kinematics::answer::select::Cost;
 use crate::kinematics::answer::solutions::Solution;
-use crate::kinematics::pose::{Pose, checked_pose};
+use crate::kinematics::pose::{Pose, checked_pose, pose_from_rows};
 use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::nearest::Wanted;
+use crate::kinematics::structure::any::AnyStructure as _;
 use crate::kinematics::structure::arity::{Arity, Joints};
+use crate::kinematics::structure::lanes::Choice;
 use crate::report::Explanation;
 
 /// Robots whose inverse can be solved near a seed: of six and of seven joints, each in its own way.
@@ -22,7 +24,30 @@ pub trait Inverse<const N: usize>: sealed::Sealed {
         weights: &[f64; N],
     ) -> Result<Solution<N>, Error>;
 
-    /// The outcome of the search in a sentence, for a pose that is already checked.
+    /// [`Self::nearest_checked`] of rows of poses and seeds, for weights that were checked; NaN of a
+    /// row that has none.
+    #[doc(hidden)]
+    fn nearest_rows(
+        &self,
+        poses: &[[f64; 16]],
+        seeds: &[[f64; N]],
+        weights: &[f64; N],
+        q: &mut [[f64; N]],
+    ) {
+        for ((pose, seed), q) in poses.iter().zip(seeds).zip(q) {
+            *q = self.nearest_row(pose, seed, weights);
+        }
+    }
+
+    /// One row of [`Self::nearest_rows`] by itself.
+    #[doc(hidden)]
+    fn nearest_row(&self, pose: &[f64; 16], seed: &[f64; N], weights: &[f64; N]) -> [f64; N] {
+        let checked = check_seed("seed", seed).and_then(|()| pose_from_rows(pose));
+        let nearest = checked.and_then(|pose| self.nearest_checked(pose, seed, weights));
+        nearest.map_or([f64::NAN; N], |nearest| nearest.q)
+    }
+
+    /// The outcome of the search in a sentence, for a pose that was checked.
     #[doc(hidden)]
     fn explain(&self, pose: &Pose) -> Result<Explanation, Error>;
 }
@@ -50,6 +75,19 @@ impl Inverse<6> for Robot<6> {
             self.nearest_at_singularity(&solutions, &wanted)?
         };
         nearest.ok_or_else(|| Error::Unreachable(solutions.explain()))
+    }
+
+    fn nearest_rows(
+        &self,
+        poses: &[[f64; 16]],
+        seeds: &[[f64; 6]],
+        weights: &[f64; 6],
+        q: &mut [[f64; 6]],
+    ) {
+        let choice = Choice::new(self.limits(), weights);
+        self.solver().arm().nearest_rows(poses, seeds, choice, q, &mut |row, q, _| {
+            q.fill(self.nearest_row(&poses[row], &seeds[row], weights));
+        });
     }
 
     fn explain(&self, pose: &Pose) -> Result<Explanation, Error> {

@@ -2,7 +2,7 @@
 
 use super::NO_LINKAGE;
 use super::free_choice::FreeChoice;
-use super::lanes::PoseRow;
+use super::lanes::{Choice, PoseRow};
 use super::singular_wrist::SingularWrist;
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
@@ -43,7 +43,18 @@ pub(crate) trait Arm<const N: usize, R> {
     /// regular.
     fn solve_rows(&self, rows: Rows<'_, R>, by_itself: &mut RowSolve<'_, N>);
 
-    /// Distances of a joint vector from the singularities, and those that it is at.
+    /// Writes the solution nearest to each seed, of a structure whose poses leave nothing to give;
+    /// `by_itself` does so for one row, by its number, that is not regular.
+    fn nearest_rows(
+        &self,
+        poses: &[PoseRow],
+        seeds: &[[f64; N]],
+        choice: Choice<N>,
+        q: &mut [[f64; N]],
+        by_itself: &mut RowSolve<'_, N>,
+    );
+
+    /// How far a joint vector is from each singularity, and at which of them it stands.
     fn singular(&self, _q: &[f64; N]) -> Option<(SingularDistances, SingularityKind)> {
         None
     }
@@ -114,4 +125,14 @@ impl<const N: usize, R> Arm<N, R> for UnknownStructure {
     }
 
     fn solve_rows(&self, _: Rows<'_, R>, _: &mut RowSolve<'_, N>) {}
+
+    fn nearest_rows(
+        &self,
+        _: &[PoseRow],
+        _: &[[f64; N]],
+        _: Choice<N>,
+        _: &mut [[f64; N]],
+        _: &mut RowSolve<'_, N>,
+    ) {
+    }
 }

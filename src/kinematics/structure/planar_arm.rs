@@ -195,10 +195,25 @@ impl PlanarArm {
         self.a1 + self.c2 * sin_2 + self.c3 * sin_23 + self.a2 * cos_23
     }
 
+    /// [`Self::sin_elbow`] and [`Self::x_of_end`], from sines and cosines of theta_2 and theta_3.
+    pub(crate) fn elbow_and_end(
+        &self,
+        (sin_2, cos_2): (f64, f64),
+        (sin_3, cos_3): (f64, f64),
+    ) -> [f64; 2] {
+        let (sin_23, cos_23) = (sin_2 * cos_3 + cos_2 * sin_3, cos_2 * cos_3 - sin_2 * sin_3);
+        let elbow = (self.a2 * cos_3 + self.c3 * sin_3) / self.k;
+        [elbow, self.a1 + self.c2 * sin_2 + self.c3 * sin_23 + self.a2 * cos_23]
+    }
+
     /// Whether the arm counts as stretched or folded (eq. 8).
     #[inline]
     pub(crate) fn is_straight(&self, theta_3: f64) -> bool {
         let (c2, k) = (self.c2, self.k);
+        // The arm is no longer than stretched: far from straight, its length need not be known.
+        if (c2 * k * self.sin_elbow(theta_3)).powi(2) > 2.0 * self.straight_m2(c2 + k) {
+            return false;
+        }
         let r = (c2 * c2 + k * k + 2.0 * c2 * k * self.elbow_angle(theta_3).cos()).max(0.0).sqrt();
         let folded_onto_axis_2 = r <= self.position_rounding();
         folded_onto_axis_2 || (c2 * k * self.sin_elbow(theta_3)).powi(2) <= self.straight_m2(r)

@@ -5,7 +5,7 @@ use super::Structure;
 use super::arm::{Arm, RowSolve, Rows};
 use super::end_frames::{EndFrames, Frame, Seen};
 use super::free_choice::FreeChoice;
-use super::lanes::{Blocks, Columns, LaneKernel, RegularPose};
+use super::lanes::{Blocks, Choice, Columns, LaneKernel, PoseRow, RegularPose, Wanted};
 use super::singular_wrist::SingularWrist;
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
@@ -93,11 +93,34 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Arm<N, T::Redundancy> f
         match &self.lanes {
             Some((kernel, columns)) => {
                 let seen = self.end_frames.seen;
-                run(Blocks { kernel, columns, seen, poses, redundancy, q, status, by_itself });
+                let wanted = Wanted::Slots { q, status };
+                run(Blocks { kernel, columns, seen, poses, redundancy, wanted, by_itself });
             }
             None => {
                 for (row, (q, status)) in q.iter_mut().zip(status).enumerate() {
                     by_itself(row, q, status);
+                }
+            }
+        }
+    }
+
+    fn nearest_rows(
+        &self,
+        poses: &[PoseRow],
+        seeds: &[[f64; N]],
+        choice: Choice<N>,
+        q: &mut [[f64; N]],
+        by_itself: &mut RowSolve<'_, N>,
+    ) {
+        match &self.lanes {
+            Some((kernel, columns)) => {
+                let seen = self.end_frames.seen;
+                let wanted = Wanted::Nearest { choice, seeds, q };
+                run(Blocks { kernel, columns, seen, poses, redundancy: &[], wanted, by_itself });
+            }
+            None => {
+                for (row, q) in q.iter_mut().enumerate() {
+                    by_itself(row, core::slice::from_mut(q), &mut []);
                 }
             }
         }

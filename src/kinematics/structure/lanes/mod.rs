@@ -3,18 +3,22 @@
 mod block;
 mod columns;
 mod directions;
-// Every structure so far has a kernel; only the contract's test structure has none.
+mod nearest;
+// Every structure so far has a kernel; the test of the contract has none.
 #[cfg(test)]
 mod no_kernel;
 mod poses;
+mod rows;
 mod slots;
 
-pub(crate) use block::{Block, Blocks};
+pub(crate) use block::Block;
 pub(crate) use columns::{Columns, JointColumn};
 pub(crate) use directions::{Direction, Directions};
+pub(crate) use nearest::Choice;
 #[cfg(test)]
 pub(crate) use no_kernel::NoKernel;
 pub(crate) use poses::{PoseRow, Poses};
+pub(crate) use rows::{Blocks, Wanted};
 pub(crate) use slots::{RegularSlots, SlotColumns};
 
 use core::fmt::Debug;

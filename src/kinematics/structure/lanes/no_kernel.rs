@@ -3,7 +3,7 @@
 use super::{AnswerRow, Block, Columns, LaneKernel, Poses, RegularPose, StatusRow};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::redundancy::Redundancy;
-use crate::lanes::{Flags, LANES};
+use crate::lanes::{Column, Flags, LANES};
 
 /// No kernel: this type has no values.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,4 +44,12 @@ impl<const N: usize, const S: usize> Block<NoKernel, N, S> for NoBlock {
     }
 
     fn write(&self, _: &mut [AnswerRow<N, S>; LANES], _: &mut [StatusRow<S>; LANES]) {}
+
+    fn angles(&self, _: usize, _: usize) -> &Column {
+        &[0.0; LANES]
+    }
+
+    fn status(&self, _: usize) -> &Flags {
+        &[0; LANES]
+    }
 }

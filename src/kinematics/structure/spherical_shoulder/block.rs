@@ -65,6 +65,16 @@ impl Block<Constants, 7, SLOTS> for ShoulderBlock {
     fn write(&self, q: &mut [AnswerRow<7, SLOTS>; LANES], status: &mut [StatusRow<SLOTS>; LANES]) {
         self.slots.write(q, status);
     }
+
+    #[inline(always)]
+    fn angles(&self, slot: usize, joint: usize) -> &Column {
+        &self.slots.q[joint][slot]
+    }
+
+    #[inline(always)]
+    fn status(&self, slot: usize) -> &Flags {
+        &self.slots.status[slot]
+    }
 }
 
 impl ShoulderBlock {

@@ -82,6 +82,21 @@ impl Block<Constants, 6, SLOTS> for WristBlock {
             }
         }
     }
+
+    #[inline(always)]
+    fn angles(&self, slot: usize, joint: usize) -> &Column {
+        let (branch, flip) = (slot / 2, slot % 2);
+        if flip == 0 || joint < 3 {
+            &self.q[joint][branch]
+        } else {
+            &self.flipped[joint - 3][branch]
+        }
+    }
+
+    #[inline(always)]
+    fn status(&self, slot: usize) -> &Flags {
+        &self.status[slot % 2][slot / 2]
+    }
 }
 
 impl WristBlock {

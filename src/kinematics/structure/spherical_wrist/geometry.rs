@@ -9,6 +9,7 @@ use super::opw::OpwParameters;
 use crate::kinematics::pose::translation_z;
 use crate::kinematics::structure::joint_map::JointMap;
 use crate::kinematics::structure::planar_arm::PlanarArm;
+use crate::lanes::{Kernel, MOST_SIN_COS, run, sin_cos};
 
 /// The geometry between the shoulder (on axis 1, at the height of axis 2) and the wrist center.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,7 +42,14 @@ impl SphericalWrist {
     #[inline]
     pub(super) fn factors(&self, q: &[f64; 6]) -> [f64; 3] {
         let [_, theta_2, theta_3, _, theta_5, _] = self.theta(q);
-        [self.planar.sin_elbow(theta_3), self.planar.x_of_end(theta_2, theta_3), theta_5.sin()]
+        let theta = [theta_2, theta_3, theta_5];
+        let [second, third, fifth] = if theta.iter().all(|angle| angle.abs() <= MOST_SIN_COS) {
+            run(Sines { theta })
+        } else {
+            theta.map(f64::sin_cos)
+        };
+        let [elbow, x] = self.planar.elbow_and_end(second, third);
+        [elbow, x, fifth.0]
     }
 
     /// The angle of joint 4 nearest to that of `q` at which axis 5 is parallel to axes 2 and 3
@@ -49,5 +57,26 @@ impl SphericalWrist {
     pub(crate) fn axis_4_in_plane(&self, q: &[f64; 6]) -> f64 {
         let theta_4 = self.theta(q)[3];
         q[3] + self.joint_map.signs[3] * (PI * (theta_4 / PI).round() - theta_4)
+    }
+}
+
+/// Sines and cosines of three angles, side by side.
+struct Sines {
+    theta: [f64; 3],
+}
+
+impl Kernel for Sines {
+    type Answer = [(f64, f64); 3];
+    const WIDE: bool = false;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> [(f64, f64); 3] {
+        // Four fill a vector.
+        let (mut angles, mut sin, mut cos) = ([0.0; 4], [0.0; 4], [0.0; 4]);
+        angles[..3].copy_from_slice(&self.theta);
+        for lane in 0..4 {
+            (sin[lane], cos[lane]) = sin_cos::<FUSED>(angles[lane]);
+        }
+        [(sin[0], cos[0]), (sin[1], cos[1]), (sin[2], cos[2])]
     }
 }

@@ -109,9 +109,8 @@ impl Structure<6, 8> for SphericalWrist {
     /// Determined by the signs of eq. 13.
     fn slot(&self, q: &[f64; 6]) -> Option<Slot> {
         let [elbow, x, wrist] = self.factors(q);
-        let met = self.singularities(q);
-        let behind_axis_1 = x < 0.0 && !met.contains(SingularityKind::SHOULDER);
-        let behind_lower_arm = elbow < 0.0 && !met.contains(SingularityKind::ELBOW);
+        let behind_axis_1 = x < -self.planar.shoulder_merge();
+        let behind_lower_arm = elbow < 0.0 && !self.planar.is_straight(self.theta(q)[2]);
         Some(Slot::of_bits([behind_axis_1, behind_lower_arm, wrist < 0.0]))
     }
 

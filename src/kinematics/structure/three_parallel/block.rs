@@ -5,7 +5,7 @@ use crate::kinematics::structure::lanes::{
     AnswerRow, Block, Columns, Directions, FOUND_INSIDE, Poses, SlotColumns, StatusRow, half_turn,
     where_found,
 };
-use crate::lanes::{Flags, LANES};
+use crate::lanes::{Column, Flags, LANES};
 
 /// Slots of the structure.
 pub(super) const SLOTS: usize = 8;
@@ -65,6 +65,16 @@ impl Block<Constants, 6, SLOTS> for ParallelBlock {
     #[inline(never)]
     fn write(&self, q: &mut [AnswerRow<6, SLOTS>; LANES], status: &mut [StatusRow<SLOTS>; LANES]) {
         self.slots.write(q, status);
+    }
+
+    #[inline(always)]
+    fn angles(&self, slot: usize, joint: usize) -> &Column {
+        &self.slots.q[joint][slot]
+    }
+
+    #[inline(always)]
+    fn status(&self, slot: usize) -> &Flags {
+        &self.slots.status[slot]
     }
 }
 

@@ -1,0 +1,254 @@
+//! Inverse kinematics of many poses.
+
+use alloc::vec;
+use core::num::NonZeroUsize;
+
+use super::pace::Pace;
+use super::rows::{check_length, rows, rows_for, rows_out};
+use crate::error::{Error, ModelFault};
+use crate::kinematics::{
+    Arity, Inverse, Joints, RedundancyOf, Robot, Rows, check_seed, check_weights, pose_from_rows,
+};
+use crate::report::Configuration;
+
+/// Poses that a thread takes at a time: some ten microseconds of work.
+const PART: usize = 512;
+
+/// The same where a pose may take a thousand times as long, next to a singularity.
+const SMALL_PART: usize = 64;
+
+/// What stands in each number of the configuration of a row that is invalid. Of such a
+/// configuration there is no solution.
+pub const NO_CONFIGURATION: i32 = i32::MIN;
+
+/// The same in all four.
+const NONE: Configuration = Configuration {
+    cf1: NO_CONFIGURATION,
+    cf4: NO_CONFIGURATION,
+    cf6: NO_CONFIGURATION,
+    cfx: NO_CONFIGURATION,
+};
+
+/// Inverse kinematics: rows of 16 pose elements, and what is given with each (`()` for six joints,
+/// the angle of joint 7 [rad] for seven), to [`Robot::slot_count`] slots of `N` joint angles and as
+/// many [`Status`](crate::Status) bytes a row. Empty slots are NaN.
+///
+/// On up to `threads` threads, but no more than there are cores; without the feature `std`, on the
+/// caller's.
+///
+/// # Errors
+///
+/// [`Error::WrongLength`] when a slice does not hold as many rows as `poses`,
+/// [`Error::InvalidModel`] when the structure of the arm is unknown.
+pub fn ik_with<const N: usize>(
+    robot: &Robot<N>,
+    poses: &[f64],
+    redundancy: &[RedundancyOf<N>],
+    q: &mut [f64],
+    status: &mut [u8],
+    threads: Option<NonZeroUsize>,
+) -> Result<(), Error>
+where
+    Joints<N>: Arity<N>,
+{
+    Pace::steady(threads).ik_with(robot, poses, redundancy, q, status)
+}
+
+/// [`ik_with`] of an arm of six joints.
+///
+/// # Errors
+///
+/// As [`ik_with`].
+pub fn ik(
+    robot: &Robot<6>,
+    poses: &[f64],
+    q: &mut [f64],
+    status: &mut [u8],
+    threads: Option<NonZeroUsize>,
+) -> Result<(), Error> {
+    Pace::steady(threads).ik(robot, poses, q, status)
+}
+
+/// Inverse kinematics next to seeds: rows of 16 pose elements and of joint angles to rows of joint
+/// angles, those of [`Robot::ik_nearest`]. A row that has none, or whose pose or seed is invalid,
+/// is NaN.
+///
+/// On up to `threads` threads, as [`ik_with`].
+///
+/// # Errors
+///
+/// As [`ik`], and [`Error::InvalidJoints`] for a weight that is negative or not finite.
+pub fn ik_nearest<const N: usize>(
+    robot: &Robot<N>,
+    poses: &[f64],
+    seeds: &[f64],
+    weights: &[f64; N],
+    q: &mut [f64],
+    threads: Option<NonZeroUsize>,
+) -> Result<(), Error>
+where
+    Robot<N>: Inverse<N>,
+    Joints<N>: Arity<N>,
+{
+    Pace::steady(threads).ik_nearest(robot, poses, seeds, weights, q)
+}
+
+/// Inverse kinematics by configurations: rows of 16 pose elements, and a configuration for each, to
+/// rows of joint angles, those of [`Robot::ik_configured`] or, with `seeds`, of
+/// [`Robot::ik_configured_or_nearest`]. A row that has none, or whose pose or seed is invalid, or
+/// whose configuration is that of an invalid row ([`NO_CONFIGURATION`]), is NaN.
+///
+/// On up to `threads` threads, as [`ik_with`].
+///
+/// # Errors
+///
+/// As [`ik`], [`Error::InvalidModel`] for an arm without a spherical wrist, and
+/// [`Error::InvalidJoints`] for a number of a configuration that no configuration of the arm has.
+pub fn ik_configured(
+    robot: &Robot<6>,
+    poses: &[f64],
+    configurations: &[Configuration],
+    seeds: Option<&[f64]>,
+    q: &mut [f64],
+    threads: Option<NonZeroUsize>,
+) -> Result<(), Error> {
+    Pace::steady(threads).ik_configured(robot, poses, configurations, seeds, q)
+}
+
+impl Pace<'_> {
+    /// [`ik_with`]
+    pub(crate) fn ik_with<const N: usize>(
+        &mut self,
+        robot: &Robot<N>,
+        poses: &[f64],
+        redundancy: &[RedundancyOf<N>],
+        q: &mut [f64],
+        status: &mut [u8],
+    ) -> Result<(), Error>
+    where
+        Joints<N>: Arity<N>,
+    {
+        check_structure(robot)?;
+        let (poses, slots) = (rows::<16>("poses", poses)?, robot.slot_count());
+        check_length("redundancy", redundancy.len(), poses.len())?;
+        check_length("q", q.len(), slots * N * poses.len())?;
+        check_length("status", status.len(), slots * poses.len())?;
+        let answers = q.chunks_mut(PART * slots * N).zip(status.chunks_mut(PART * slots));
+        let asked = poses.chunks(PART).zip(redundancy.chunks(PART));
+        self.run(poses.len(), asked.zip(answers), |((poses, redundancy), (q, status)), _| {
+            robot.ik_rows(Rows { poses, redundancy, q, status });
+        });
+        Ok(())
+    }
+
+    /// [`ik`]
+    pub(crate) fn ik(
+        &mut self,
+        robot: &Robot<6>,
+        poses: &[f64],
+        q: &mut [f64],
+        status: &mut [u8],
+    ) -> Result<(), Error> {
+        // Nothing is given, and a list of nothing takes no memory.
+        self.ik_with(robot, poses, &vec![(); poses.len() / 16], q, status)
+    }
+
+    /// [`ik_nearest`]
+    pub(crate) fn ik_nearest<const N: usize>(
+        &mut self,
+        robot: &Robot<N>,
+        poses: &[f64],
+        seeds: &[f64],
+        weights: &[f64; N],
+        q: &mut [f64],
+    ) -> Result<(), Error>
+    where
+        Robot<N>: Inverse<N>,
+        Joints<N>: Arity<N>,
+    {
+        check_structure(robot)?;
+        check_weights(weights)?;
+        let poses = rows::<16>("poses", poses)?;
+        let seeds = rows_for::<N>("seeds", seeds, poses.len())?;
+        let q = rows_out::<N, f64>("q", q, poses.len())?;
+        let asked = poses.chunks(SMALL_PART).zip(seeds.chunks(SMALL_PART));
+        let parts = asked.zip(q.chunks_mut(SMALL_PART));
+        self.run(poses.len(), parts, |((poses, seeds), q), _| {
+            robot.nearest_rows(poses, seeds, weights, q);
+        });
+        Ok(())
+    }
+
+    /// [`ik_configured`]
+    pub(crate) fn ik_configured(
+        &mut self,
+        robot: &Robot<6>,
+        poses: &[f64],
+        configurations: &[Configuration],
+        seeds: Option<&[f64]>,
+        q: &mut [f64],
+    ) -> Result<(), Error> {
+        robot.counted()?;
+        let poses = rows::<16>("poses", poses)?;
+        check_length("configurations", configurations.len(), poses.len())?;
+        for configuration in configurations.iter().filter(|configuration| **configuration != NONE) {
+            configuration.check(robot.is_coupled())?;
+        }
+        let seeds = match seeds {
+            Some(seeds) => Some(rows_for::<6>("seeds", seeds, poses.len())?),
+            None => None,
+        };
+        let solve = |row: usize| {
+            let pose = pose_from_rows(&poses[row])?;
+            let Some(seeds) = seeds else {
+                return robot.ik_configured_checked(pose, configurations[row]);
+            };
+            check_seed("seed", &seeds[row])?;
+            robot.ik_configured_or_nearest_checked(pose, configurations[row], &seeds[row])
+        };
+        let q = rows_out::<6, f64>("q", q, poses.len())?;
+        self.run(poses.len(), q.chunks_mut(SMALL_PART).enumerate(), |(part, q), _| {
+            for (row, q) in (SMALL_PART * part..).zip(q) {
+                *q = solve(row).map_or([f64::NAN; 6], |solution| solution.q);
+            }
+        });
+        Ok(())
+    }
+
+    /// The configurations of rows of six joint angles, number by number; [`NO_CONFIGURATION`] of a
+    /// row that is invalid.
+    #[cfg(feature = "python")]
+    pub(crate) fn configurations(
+        &mut self,
+        robot: &Robot<6>,
+        q: &[f64],
+        numbers: [&mut [i32]; 4],
+    ) -> Result<(), Error> {
+        robot.counted()?;
+        let q = rows::<6>("q", q)?;
+        for numbers in &numbers {
+            check_length("configurations", numbers.len(), q.len())?;
+        }
+        let [cf1, cf4, cf6, cfx] = numbers.map(|numbers| numbers.chunks_mut(PART));
+        let parts = q.chunks(PART).zip(cf1.zip(cf4).zip(cf6.zip(cfx)));
+        self.run(q.len(), parts, |(q, ((cf1, cf4), (cf6, cfx))), _| {
+            let counts = cf1.iter_mut().zip(cf4).zip(cf6.iter_mut().zip(cfx));
+            for (q, ((cf1, cf4), (cf6, cfx))) in q.iter().zip(counts) {
+                let counted = robot.configuration(q).unwrap_or(NONE);
+                (*cf1, *cf4, *cf6, *cfx) = (counted.cf1, counted.cf4, counted.cf6, counted.cfx);
+            }
+        });
+        Ok(())
+    }
+}
+
+/// Whether the structure of an arm is known.
+fn check_structure<const N: usize>(robot: &Robot<N>) -> Result<(), Error>
+where
+    Joints<N>: Arity<N>,
+{
+    match robot.unknown_structure() {
+        Some(reason) => Err(ModelFault::UnknownStructure(reason).into()),
+        None => Ok(()),
+    }
+}

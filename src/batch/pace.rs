@@ -1,0 +1,175 @@
+//! How a batch is worked through: part by part, on one thread or more, for as long as the caller
+//! wants.
+
+#[cfg(feature = "std")]
+use std::sync::atomic::{AtomicBool, Ordering};
+#[cfg(feature = "std")]
+use std::sync::{Mutex, PoisonError};
+
+use core::num::NonZeroUsize;
+
+#[cfg(feature = "std")]
+use super::helpers::Helpers;
+
+/// Whether to go on, asked now and then.
+pub(crate) type GoOn<'a> = dyn FnMut() -> bool + 'a;
+
+/// How a batch is worked through.
+pub(crate) struct Pace<'a> {
+    /// Threads that may work, the caller's among them.
+    #[cfg_attr(not(feature = "std"), expect(dead_code, reason = "there are no threads"))]
+    threads: usize,
+    /// Asked after each part, on the thread of the caller.
+    go_on: Option<&'a mut GoOn<'a>>,
+}
+
+impl Pace<'static> {
+    /// To the end, on up to `threads` threads.
+    pub(crate) fn steady(threads: Option<NonZeroUsize>) -> Self {
+        Self { threads: threads.map_or(1, NonZeroUsize::get), go_on: None }
+    }
+}
+
+#[cfg(feature = "python")]
+impl<'a> Pace<'a> {
+    /// For as long as `go_on` says so.
+    pub(crate) fn until(threads: Option<NonZeroUsize>, go_on: &'a mut GoOn<'a>) -> Self {
+        Self { threads: threads.map_or(1, NonZeroUsize::get), go_on: Some(go_on) }
+    }
+}
+
+impl Pace<'_> {
+    /// Works on the parts of `rows` rows, in any order. Work that takes long asks whether to go on.
+    ///
+    /// The caller works, too: it does not wait for threads that wake up late.
+    pub(crate) fn run<P: Send>(
+        &mut self,
+        rows: usize,
+        mut parts: impl Iterator<Item = P> + Send,
+        work: impl Fn(P, &mut GoOn<'_>) + Sync,
+    ) {
+        #[cfg(feature = "std")]
+        if let Some(helpers) = Helpers::of(self.threads, rows) {
+            self.share(&helpers, parts, work);
+            helpers.release();
+            return;
+        }
+        let _ = rows;
+        let mut go_on = || self.go_on.as_mut().is_none_or(|go_on| go_on());
+        for part in parts.by_ref() {
+            work(part, &mut go_on);
+            if !go_on() {
+                return;
+            }
+        }
+    }
+
+    /// Each thread takes the next part as long as there is one.
+    #[cfg(feature = "std")]
+    fn share<P: Send>(
+        &mut self,
+        helpers: &Helpers,
+        parts: impl Iterator<Item = P> + Send,
+        work: impl Fn(P, &mut GoOn<'_>) + Sync,
+    ) {
+        let (parts, stopped) = (Mutex::new(parts), AtomicBool::new(false));
+        let next = || {
+            let mut parts = parts.lock().unwrap_or_else(PoisonError::into_inner);
+            if stopped.load(Ordering::Relaxed) { None } else { parts.next() }
+        };
+        let (next, work, stopped) = (&next, &work, &stopped);
+        helpers.pool().in_place_scope(|scope| {
+            for _ in 0..helpers.count().min(self.threads - 1) {
+                scope.spawn(|_| {
+                    while let Some(part) = next() {
+                        work(part, &mut || !stopped.load(Ordering::Relaxed));
+                    }
+                });
+            }
+            let mut go_on = || {
+                let on = self.go_on.as_mut().is_none_or(|go_on| go_on());
+                if !on {
+                    stopped.store(true, Ordering::Relaxed);
+                }
+                on
+            };
+            while let Some(part) = next() {
+                work(part, &mut go_on);
+                go_on();
+            }
+        });
+    }
+}
+
+#[cfg(all(test, feature = "std"))]
+mod tests {
+    use super::*;
+    use crate::batch::helpers::WORTH_A_THREAD;
+    use std::sync::atomic::AtomicUsize;
+    use std::thread;
+    use std::vec::Vec;
+
+    #[test]
+    fn a_batch_that_is_large_enough_gets_threads_where_there_are_cores_for_them() {
+        let cores = thread::available_parallelism().map_or(1, usize::from);
+        let size = |threads, rows| {
+            let helpers = Helpers::of(threads, rows);
+            let size = helpers.as_ref().map_or(1, |helpers| 1 + helpers.count());
+            drop(helpers);
+            size
+        };
+        assert_eq!(size(2, 17_001), 2.min(cores));
+        assert_eq!(size(4, 17_001), 4.min(cores));
+        assert_eq!([size(1, 17_001), size(0, 17_001), size(4, WORTH_A_THREAD - 1)], [1; 3]);
+    }
+
+    #[test]
+    fn every_part_is_worked_on_once_on_any_number_of_threads() {
+        for threads in 1..5 {
+            let mut done = vec![0_u8; 1000];
+            Pace::steady(NonZeroUsize::new(threads)).run(100_000, done.chunks_mut(7), |part, _| {
+                for row in part {
+                    *row += 1;
+                }
+            });
+            assert_eq!(done, [1; 1000], "{threads} threads");
+        }
+    }
+
+    #[test]
+    fn work_ends_when_the_caller_wants_no_more() {
+        for threads in [1, 2] {
+            let worked = AtomicUsize::new(0);
+            let mut asked = 0;
+            let mut go_on = || {
+                asked += 1;
+                asked < 3
+            };
+            let mut pace = Pace { threads, go_on: Some(&mut go_on) };
+            pace.run(100_000, 0..1_000_000, |_, _| {
+                worked.fetch_add(1, Ordering::Relaxed);
+                thread::yield_now();
+            });
+            let worked = worked.into_inner();
+            assert!(if threads == 1 { worked == 3 } else { worked < 1_000_000 }, "{worked}");
+        }
+    }
+
+    #[test]
+    fn helpers_stay_for_the_next_call() {
+        let ids = || {
+            let seen = Mutex::new(Vec::new());
+            Pace::steady(NonZeroUsize::new(2)).run(100_000, 0..200, |_, _| {
+                seen.lock().unwrap().push(thread::current().id());
+                thread::sleep(std::time::Duration::from_micros(100));
+            });
+            let own = thread::current().id();
+            let mut ids = seen.into_inner().unwrap();
+            ids.retain(|id| *id != own);
+            ids.dedup();
+            ids
+        };
+        // Other tests may take them for a moment, and end them.
+        assert!((0..100).any(|_| ids() == ids()));
+    }
+}

@@ -1,0 +1,65 @@
+//! Batches that calculate without the interpreter's lock, and end when a signal's handler raises:
+//! Ctrl-C.
+
+use std::num::NonZeroUsize;
+use std::time::{Duration, Instant};
+
+use pyo3::intern;
+use pyo3::prelude::*;
+
+use super::errors::to_py;
+use crate::batch::Pace;
+use crate::error::Error;
+
+/// How long a signal may wait.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// Works without the interpreter's lock, on up to `threads` threads; for as long as no signal's
+/// handler raises an exception.
+pub(super) fn detached<R: Send>(
+    py: Python<'_>,
+    threads: Option<NonZeroUsize>,
+    work: impl FnOnce(&mut Pace<'_>) -> Result<R, Error> + Send,
+) -> PyResult<R> {
+    let mut signals = Signals { asked: Instant::now(), is_deaf: false, raised: None };
+    let answer = py.detach(|| {
+        let mut go_on = || signals.is_quiet();
+        work(&mut Pace::until(threads, &mut go_on))
+    });
+    match signals.raised {
+        Some(raised) => Err(raised),
+        None => answer.map_err(|error| to_py(py, &error)),
+    }
+}
+
+/// The signals of a call.
+struct Signals {
+    asked: Instant,
+    /// Whether another thread than this is the one that handles signals.
+    is_deaf: bool,
+    /// What a handler raised.
+    raised: Option<PyErr>,
+}
+
+impl Signals {
+    /// Whether no handler has raised anything; looks now and then.
+    fn is_quiet(&mut self) -> bool {
+        if self.raised.is_none() && !self.is_deaf && self.asked.elapsed() >= PATIENCE {
+            // Whatever runs Python's code may raise what a handler raises.
+            let heard = Python::attach(|py| py.check_signals().and_then(|()| is_main_thread(py)));
+            match heard {
+                Ok(is_main) => self.is_deaf = !is_main,
+                Err(raised) => self.raised = Some(raised),
+            }
+            self.asked = Instant::now();
+        }
+        self.raised.is_none()
+    }
+}
+
+/// Whether this is the thread that handles signals.
+fn is_main_thread(py: Python<'_>) -> PyResult<bool> {
+    let threading = py.import(intern!(py, "threading"))?;
+    let main = threading.call_method0(intern!(py, "main_thread"))?;
+    Ok(threading.call_method0(intern!(py, "current_thread"))?.is(&main))
+}
