@@ -627,7 +627,7 @@ class Robot:
             seed: Joint vectors from which the paths start [rad], shape (..., 6). T and seed are
                 broadcast: one seed for many paths, one path from many seeds.
             weights: Cost of moving each joint, shape (6,); ones when not given.
-            singularity_mode: What to do at the wrist singularity. "through": meet every pose exactly,
+            singularity_mode: What to do at the wrist singularity. "through": meet every pose,
                 however fast axes 4 and 6 turn. "error": stop where joint 5 comes into the zone, and
                 where a joint must jump, as SingArea \Off. "wrist": inside the zone axes 4, 5, 6 go
                 straight from where they enter to where they leave, position exact, as SingArea
