@@ -6,7 +6,7 @@ use core::f64::consts::TAU;
 use nalgebra::{Rotation3, Translation3, Unit, Vector3};
 
 #[cfg(not(feature = "std"))]
-use nalgebra::RealField as _;
+use nalgebra::{ComplexField as _, RealField as _};
 
 use super::line::part;
 use super::spacing::Spacing;

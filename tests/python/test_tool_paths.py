@@ -1,0 +1,116 @@
+"""Lines, arcs and rounded polylines of the tool."""
+
+import itertools
+
+import irbkin
+import numpy as np
+import pytest
+from irbkin import InvalidMotionError, InvalidPoseError, paths
+from reference import rotation_apart
+
+A = irbkin.pose([0.8, -0.2, 0.6], euler_zyx=[0.0, 3.0, 0.2])
+B = irbkin.pose([0.8, 0.3, 0.7], euler_zyx=[1.0, 2.5, -0.4])
+C = irbkin.pose([0.5, 0.4, 0.9], euler_zyx=[0.5, 2.0, 0.0])
+
+
+def test_a_line_meets_both_ends_in_equal_steps():
+    path = paths.line(A, B, steps=41)
+    np.testing.assert_array_equal(path[[0, -1]], [A, B])
+    steps = np.diff(path[:, :3, 3], axis=0)
+    np.testing.assert_allclose(steps, np.tile((B - A)[:3, 3] / 40, (40, 1)), rtol=0, atol=1e-15)
+    turns = [rotation_apart(one, other) for one, other in itertools.pairwise(path)]
+    np.testing.assert_allclose(turns, rotation_apart(A, B) / 40, rtol=0, atol=1e-13)
+
+
+def test_a_line_is_that_of_scipy_s_slerp():
+    transform = pytest.importorskip("scipy.spatial.transform")
+    both = transform.Rotation.from_matrix([A[:3, :3], B[:3, :3]])
+    slerp = transform.Slerp([0, 1], both)(np.linspace(0, 1, 30)).as_matrix()
+    np.testing.assert_allclose(paths.line(A, B, steps=30)[:, :3, :3], slerp, rtol=0, atol=1e-14)
+
+
+def test_a_followed_line_is_straight():
+    robot = irbkin.Robot("IRB 2600-12/1.65")
+    start = irbkin.pose([0.9, -0.4, 0.8], euler_zyx=[0, np.pi - 0.3, 0])
+    end = irbkin.pose([0.9, 0.4, 0.8], euler_zyx=[0.5, np.pi - 0.3, 0])
+    followed = robot.follow(paths.line(start, end, step=0.002), np.zeros(6))
+    assert followed.breaks == ()
+    assert len(followed.q) == 401
+
+
+def test_half_a_turn_needs_an_axis():
+    turned = A.copy()
+    turned[:3, :3] = np.diag([-1.0, -1, 1]) @ A[:3, :3]
+    with pytest.raises(InvalidMotionError, match=r"turns by 180\.000000 deg .* give axis"):
+        paths.line(A, turned, steps=3)
+    for sign in (1, -1):
+        quarter = np.array([[0, -sign, 0], [sign, 0, 0], [0, 0, 1]]) @ A[:3, :3]
+        middle = paths.line(A, turned, steps=3, axis=[0, 0, sign])[1]
+        np.testing.assert_allclose(middle[:3, :3], quarter, rtol=0, atol=1e-14)
+
+
+@pytest.mark.parametrize("orientation", ["path", "object", "via"])
+def test_an_arc_is_round_and_passes_its_points(orientation):
+    path = paths.arc(A, B, C, orientation=orientation, steps=1001)
+    np.testing.assert_array_equal(path[[0, -1]], [A, C])
+    points = path[:, :3, 3]
+    assert np.linalg.norm(points - B[:3, 3], axis=1).min() < 1e-3
+    steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    np.testing.assert_allclose(steps, steps[0], rtol=1e-9)
+    # Equal distances from the point where the normals of two chords meet: one circle.
+    normal = np.cross(B[:3, 3] - A[:3, 3], C[:3, 3] - A[:3, 3])
+    assert abs((points - A[:3, 3]) @ normal).max() < 1e-14
+    if orientation == "via":
+        turns = [rotation_apart(pose, B) for pose in path]
+        assert min(turns) < 2e-3
+
+
+@pytest.mark.parametrize("zone", [0.0, 0.02, 0.05, "z20", "z200", "fine"])
+def test_a_corner_is_passed_at_the_distance_that_is_said(zone):
+    radius = {"z20": 0.02, "z200": 0.2, "fine": 0.0}.get(zone, zone)
+    ways = [B[:3, 3] - A[:3, 3], C[:3, 3] - B[:3, 3]]
+    lengths = np.linalg.norm(ways, axis=1)
+    cos = ways[0] @ ways[1] / lengths.prod()
+    kept = min(radius, lengths.min() / 2)
+    path = paths.polyline([A, B, C], zone, steps=2001)
+    nearest = np.linalg.norm(path[:, :3, 3] - B[:3, 3], axis=1).min()
+    assert abs(nearest - kept / 2 * np.sqrt((1 - cos) / 2)) < 1e-12
+    np.testing.assert_array_equal(path[[0, -1]], [A, C])
+
+
+def test_a_polyline_of_one_pose_is_that_pose():
+    np.testing.assert_array_equal(paths.polyline([A], "fine", steps=5), [A])
+    np.testing.assert_array_equal(paths.line(A, A, step=0.01), [A])
+
+
+@pytest.mark.parametrize(
+    ("call", "error", "words"),
+    [
+        (lambda: paths.line(A, B), ValueError, "give steps, or step"),
+        (lambda: paths.line(A, B, steps=5, step=0.1), ValueError, "give steps, or step"),
+        (lambda: paths.line(A, B, steps=1), InvalidMotionError, "steps has 1 rows, .* at least 2"),
+        (lambda: paths.line(A, B, step=-0.1), InvalidMotionError, "step is -0.1, .* positive"),
+        (lambda: paths.line(A, B, step=np.nan), InvalidMotionError, "step is NaN"),
+        (lambda: paths.line(A, B, step=1e-12), InvalidMotionError, "is step in m"),
+        (lambda: paths.line(A, B[:3], steps=2), InvalidPoseError, r"T1 must have shape \(4, 4\)"),
+        (lambda: paths.line(A, 2 * B, steps=2), InvalidPoseError, "row 3 must be"),
+        (lambda: paths.arc(A, A, B, steps=5), InvalidMotionError, "must not lie on a line"),
+        (
+            lambda: paths.arc(A, B, C, orientation="ABB", steps=5),
+            ValueError,
+            'orientation must be "path", "object" or "via", got "ABB"',
+        ),
+        (lambda: paths.polyline(np.zeros((0, 4, 4)), [], steps=2), InvalidMotionError, "0 rows"),
+        (
+            lambda: paths.polyline(A, "fine", steps=2),
+            InvalidPoseError,
+            r"T must have shape \(m, 4, 4\), got \(4, 4\)",
+        ),
+        (lambda: paths.polyline([A, B], "z7", steps=5), InvalidMotionError, "got 'z7'"),
+        (lambda: paths.polyline([A, B], [0.1], steps=5), InvalidMotionError, "must have 2"),
+        (lambda: paths.polyline([A, B], -1, steps=5), InvalidMotionError, r"zones\[0\] is -1"),
+    ],
+)
+def test_what_makes_no_path_is_refused(call, error, words):
+    with pytest.raises(error, match=words):
+        call()

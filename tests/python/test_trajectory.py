@@ -1,0 +1,248 @@
+"""Trajectories of joints: against roboticstoolbox and toppra, and by laws."""
+
+import copy
+import pickle
+
+import irbkin
+import numpy as np
+import pytest
+from irbkin import InvalidJointsError, InvalidMotionError, trajectory
+
+# The article's example, as axis angles of the Denavit-Hartenberg table.
+START = np.radians([0, -90, 0, 0, 90, -180])
+END = np.radians([90, -100, 40, 10, 60, -120])
+LIMITS = {
+    "max_velocity": np.radians([175, 175, 175, 360, 360, 500]),
+    "max_acceleration": np.array([10.0, 9, 12, 30, 30, 40]),
+    "max_jerk": 200.0,
+}
+
+
+def largest_excess(move, limits):
+    """How far a trajectory exceeds limits, as a part of them, on ten times its samples."""
+    sampled = move.sample(np.linspace(0, move.duration, 10 * len(move)))
+    ratios = [np.abs(sampled.dq) / limits["max_velocity"]]
+    ratios.append(np.abs(sampled.ddq) / limits["max_acceleration"])
+    return max(float(ratio.max()) for ratio in ratios) - 1
+
+
+def test_the_article_s_quintic_is_that_of_roboticstoolbox():
+    toolbox = pytest.importorskip("roboticstoolbox")
+    reference = toolbox.jtraj(START, END, np.linspace(0, 1, 50))
+    move = trajectory.joint(START, END, steps=50)
+    np.testing.assert_allclose(move.t, np.linspace(0, 1, 50), rtol=0, atol=1e-15)
+    np.testing.assert_allclose(move.q, reference.q, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(move.dq, reference.qd, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(move.ddq, reference.qdd, rtol=0, atol=1e-12)
+
+
+def test_given_ends_are_met():
+    rng = np.random.default_rng(1)
+    ends = rng.uniform(-2, 2, (6, 4))
+    move = trajectory.joint(
+        ends[0],
+        ends[1],
+        duration=1.7,
+        start_velocity=ends[2],
+        end_velocity=ends[3],
+        start_acceleration=ends[4],
+        end_acceleration=ends[5],
+    )
+    for found, wanted in zip(
+        [move.q[0], move.q[-1], move.dq[0], move.dq[-1], move.ddq[0], move.ddq[-1]],
+        ends,
+        strict=True,
+    ):
+        np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("profile", ["quintic", "cubic", "trapezoid", "s_curve"])
+@pytest.mark.parametrize("synchronization", ["time", "phase"])
+def test_a_move_within_limits_keeps_them_and_reaches_one(profile, synchronization):
+    rng = np.random.default_rng(2)
+    for _ in range(200):
+        q0, q1 = rng.uniform(-3, 3, (2, 6))
+        move = trajectory.joint(
+            q0, q1, steps=40, profile=profile, synchronization=synchronization, **LIMITS
+        )
+        assert largest_excess(move, LIMITS) <= 1e-9
+        peaks = move.peaks()
+        used = [peaks.velocity / LIMITS["max_velocity"]]
+        used.append(peaks.acceleration / LIMITS["max_acceleration"])
+        if profile in ("quintic", "s_curve"):
+            assert (peaks.jerk <= 200 * (1 + 1e-9)).all()
+            used.append(peaks.jerk / 200)
+        assert np.max(used) >= 1 - 1e-9
+        np.testing.assert_allclose(move.q[[0, -1]], [q0, q1], rtol=0, atol=1e-12)
+
+
+def test_the_derivatives_are_those_of_the_positions():
+    move = trajectory.spline(np.random.default_rng(3).uniform(-1, 1, (7, 5)), duration=4)
+    t, h = np.linspace(0.1, 3.9, 60), 1e-4
+    before, here, after = (move.sample(t + d) for d in (-h, 0, h))
+    np.testing.assert_allclose((after.q - before.q) / (2 * h), here.dq, rtol=0, atol=1e-5)
+    np.testing.assert_allclose((after.dq - before.dq) / (2 * h), here.ddq, rtol=0, atol=1e-4)
+
+
+def test_a_spline_passes_its_waypoints_in_time():
+    q, t = np.random.default_rng(4).uniform(-1, 1, (6, 3)), [0, 0.5, 0.7, 2, 2.5, 4]
+    for profile in ("quintic", "cubic"):
+        move = trajectory.spline(q, t=t, profile=profile)
+        np.testing.assert_allclose(move.sample(t).q, q, rtol=0, atol=1e-12)
+        assert abs(move.sample([0, 4]).dq).max() < 1e-10
+    fast = trajectory.spline(q, max_velocity=2.0, max_acceleration=9.0)
+    assert (fast.peaks().velocity <= 2 * (1 + 1e-9)).all()
+    assert (fast.peaks().acceleration <= 9 * (1 + 1e-9)).all()
+
+
+@pytest.mark.parametrize("count", [2, 5, 20, 100])
+def test_retiming_keeps_limits_between_samples_too(count):
+    rng = np.random.default_rng(count)
+    q = rng.uniform(-2, 2, (count, 6))
+    limits = {name: LIMITS[name] for name in ("max_velocity", "max_acceleration")}
+    move = trajectory.retime(q, **limits, steps=1000)
+    assert largest_excess(move, limits) <= 1e-9
+    np.testing.assert_allclose(move.q[[0, -1]], q[[0, -1]], rtol=0, atol=1e-11)
+
+
+def test_a_line_retimed_is_as_fast_as_toppra():
+    toppra = pytest.importorskip("toppra")
+    from toppra import algorithm, constraint
+
+    toppra.setup_logging("ERROR")
+    robot = irbkin.Robot("IRB 2600-12/1.65")
+    start = irbkin.pose([0.85, -0.4, 0.64], wxyz=[0.2588190, 0, 0.9659258, 0])
+    end = irbkin.pose([0.85, 0.4, 0.64], wxyz=[0.5, 0.1, 0.8602325267, 0])
+    path = robot.follow(irbkin.paths.line(start, end, steps=1000), np.zeros(6)).q
+    velocity, acceleration = robot.max_velocity, 5 * robot.max_velocity
+    lengths = np.r_[0, np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))]
+    limits = [
+        constraint.JointVelocityConstraint(np.c_[-velocity, velocity]),
+        constraint.JointAccelerationConstraint(np.c_[-acceleration, acceleration]),
+    ]
+    solver = algorithm.TOPPRA(
+        limits,
+        toppra.SplineInterpolator(lengths, path),
+        gridpoints=np.linspace(0, lengths[-1], 1000),
+        parametrizer="ParametrizeConstAccel",
+    )
+    move = trajectory.retime(path, velocity, acceleration)
+    assert move.duration <= 1.01 * solver.compute_trajectory().duration
+
+
+def test_a_trajectory_is_a_value():
+    move = trajectory.joint(START, END, steps=20, duration=2.0)
+    for other in (pickle.loads(pickle.dumps(move)), copy.copy(move), copy.deepcopy(move)):
+        assert other == move
+        assert hash(other) == hash(move)
+        np.testing.assert_array_equal(other.ddq, move.ddq)
+    assert move != move.stretched(2.0)
+    assert repr(move) == "Trajectory(20 samples of 6 joints, 2.000000 s)"
+    with pytest.raises(ValueError, match="read-only"):
+        move.q[0, 0] = 1
+
+
+def test_parts_join_to_the_whole():
+    move = trajectory.joint(START, END, steps=21, duration=2.0)
+    joined = move.slice(0, 0.73) + move.slice(0.73, 2.0)
+    times = np.linspace(0, 2, 50)
+    np.testing.assert_allclose(joined.sample(times).q, move.sample(times).q, rtol=0, atol=1e-13)
+    assert (np.diff(joined.t) > 0).all()
+    there_and_back = move + trajectory.joint(END, START)
+    np.testing.assert_allclose(there_and_back.q[-1], START, rtol=0, atol=1e-13)
+    slow = move.stretched(2.0)
+    assert slow.duration == 4.0
+    np.testing.assert_allclose(slow.dq, move.dq / 2, rtol=0, atol=1e-14)
+    assert len(move.resampled(101)) == 101
+
+
+def test_a_start_that_is_the_end_is_a_still_trajectory():
+    for move in (
+        trajectory.joint(START, START),
+        trajectory.joint(START, START, profile="s_curve", **LIMITS),
+        trajectory.retime(np.tile(START, (5, 1)), 1.0, 1.0),
+    ):
+        np.testing.assert_allclose(move.q, np.tile(START, (len(move), 1)), rtol=0, atol=1e-15)
+        assert not move.dq.any()
+        assert not move.ddq.any()
+
+
+NAN = [np.nan] * 6
+
+
+@pytest.mark.parametrize(
+    ("call", "error", "words"),
+    [
+        (
+            lambda: trajectory.joint(START, END[:5]),
+            InvalidJointsError,
+            r"q1 must have shape \(6,\)",
+        ),
+        (lambda: trajectory.joint([START], END), InvalidJointsError, r"q0 must have shape \(n,\)"),
+        (lambda: trajectory.joint(START, NAN), InvalidMotionError, r"q\[0\] is NaN: every element"),
+        (lambda: trajectory.joint(START, END, duration=0), InvalidMotionError, "must be positive"),
+        (lambda: trajectory.joint(START, END, duration=-1), InvalidMotionError, "duration is -1"),
+        (
+            lambda: trajectory.joint(START, END, steps=1),
+            ValueError,
+            "steps must be 2 or more, got 1",
+        ),
+        (
+            lambda: trajectory.joint(START, END, profile="sine"),
+            ValueError,
+            'profile must be "quintic", .* got "sine"',
+        ),
+        (
+            lambda: trajectory.joint(START, END, max_velocity=[1, 1]),
+            InvalidMotionError,
+            r"max_velocity must be a number or have shape \(6,\), got \(2,\)",
+        ),
+        (
+            lambda: trajectory.joint(START, END, max_velocity=0),
+            InvalidMotionError,
+            r"max_velocity\[0\] is 0.0, it must be positive",
+        ),
+        (
+            lambda: trajectory.joint(START, END, max_velocity=np.inf),
+            InvalidMotionError,
+            "joint 1 moves and has no limit",
+        ),
+        (
+            lambda: trajectory.joint(START, END, duration=0.1, max_velocity=3),
+            InvalidMotionError,
+            "joint 1 reaches a velocity of 29.45",
+        ),
+        (
+            lambda: trajectory.joint(START, END, profile="trapezoid", end_velocity=1),
+            InvalidMotionError,
+            "a trapezoid profile takes no velocity at an end",
+        ),
+        (lambda: trajectory.spline([START]), InvalidMotionError, "q has 1 rows, .* at least 2"),
+        (
+            lambda: trajectory.spline([START, END], t=[1, 1]),
+            InvalidMotionError,
+            r"t\[1\] is 1 s, it must be later than 1 s",
+        ),
+        (
+            lambda: trajectory.spline([START, START, END]),
+            InvalidMotionError,
+            r"q\[1\] repeats the waypoint before it",
+        ),
+        (lambda: trajectory.retime(np.zeros((0, 6)), 1, 1), InvalidMotionError, "q has 0 rows"),
+        (
+            lambda: trajectory.retime([START, END], np.inf, np.inf),
+            InvalidMotionError,
+            "joint 1 moves and has no limit",
+        ),
+        (
+            lambda: trajectory.joint(START, END) + trajectory.joint(START, END),
+            InvalidMotionError,
+            "joint 1 would jump by -1.571e0 rad",
+        ),
+        (lambda: trajectory.joint(START, END).slice(0.5, 0.5), InvalidMotionError, "a slice from"),
+        (lambda: trajectory.joint(START, END).sample(np.nan), InvalidMotionError, r"t\[0\] is NaN"),
+    ],
+)
+def test_what_makes_no_trajectory_is_refused(call, error, words):
+    with pytest.raises(error, match=words):
+        call()
