@@ -19,7 +19,7 @@ const ENTRIES: &[Entry] = &[
     entry(
         "IRB 6700-245/3.0, 6700-300/2.7",
         &["IRB 6700-245", "IRB 6700-300"],
-        "unsettled: RobotComponents has a1 320 and c4 250, robotkinematicscatalog a1 350 and c4 \
+        "unsettled: RobotComponents has a1 320 and c4 250, robotkinematicscatalogue a1 350 and c4 \
          220. The reach of the name, 3.0 and 2.7 m, does not decide: the lengths give 2.94 or 2.97 \
          m and 2.69 or 2.72 m",
     ),
