@@ -12,8 +12,8 @@ import tempfile
 import zipfile
 from pathlib import Path
 
-# 1.3 MB are wanted. A build with `-C llvm-args=-inline-threshold=100` is 7 % smaller, and its batches
-# of singularities and configurations are 17 % and 60 % slower: it was not taken.
+# 1.3 MB are wanted. A build with `-C llvm-args=-inline-threshold=100` is 7 % smaller, but its
+# batches of singularities and configurations are 17 % and 60 % slower: it was not taken.
 MOST_BYTES = 1_620_000
 
 
