@@ -56,4 +56,4 @@ if __name__ == "__main__":
     lines = [line for wheel in sys.argv[1:] for line in faults(Path(wheel))]
     for wheel in sys.argv[1:]:
         print(f"{Path(wheel).name}: {Path(wheel).stat().st_size} bytes")
-    sys.exit("\n".join(lines))
+    sys.exit("\n".join(lines) or 0)
