@@ -5,6 +5,8 @@
 
 mod of_robots;
 mod profile;
+// nalgebra has matrices of any size with std alone.
+#[cfg(feature = "std")]
 mod singular_values;
 mod spherical_shoulder_alone;
 mod spherical_wrist_alone;

@@ -327,6 +327,8 @@ impl<const N: usize> TryFrom<StoredLimits<N>> for JointLimits<N> {
 
 #[cfg(test)]
 mod tests {
+    use std::string::ToString;
+
     use super::*;
 
     fn limits() -> JointLimits<2> {
