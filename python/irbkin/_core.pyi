@@ -1163,6 +1163,9 @@ class Trajectory:
 
         Args:
             steps: Number of samples, evenly over the duration.
+
+        Raises:
+            InvalidMotionError: Fewer than two or more than ten million samples.
         """
     def stretched(self, factor: float) -> Trajectory:
         """The same way at another pace.
@@ -1304,7 +1307,8 @@ def retime(
         The trajectory.
 
     Raises:
-        InvalidMotionError: A limit is not positive, or no limit binds the path.
+        InvalidMotionError: No rows, a limit that is not positive, a path that no limit binds, or a
+            duration that is not between 1e-9 and 1e9 s.
         InvalidJointsError: A wrong shape, or an angle that is not finite.
     """
 

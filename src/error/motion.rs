@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use super::JointFault;
+
 /// What is wrong with an input of a trajectory or a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -33,6 +35,34 @@ pub enum MotionFault {
         /// How many there must be.
         least: usize,
     },
+    /// There is no joint.
+    NoJoints {
+        /// Name of the argument.
+        field: &'static str,
+    },
+    /// A row of joint angles is invalid.
+    Row {
+        /// The row, from 0.
+        row: usize,
+        /// What is wrong with it.
+        fault: JointFault,
+    },
+    /// There are too few or too many samples or poses.
+    Steps {
+        /// How many.
+        found: usize,
+        /// The least and the largest number.
+        bounds: [usize; 2],
+    },
+    /// The duration is too short or too long.
+    Duration {
+        /// The duration [s].
+        value: f64,
+        /// The least and the greatest [s].
+        bounds: [f64; 2],
+    },
+    /// Velocities, accelerations or times are beyond what a double holds.
+    Overflow,
     /// Nothing says how long the motion takes.
     NoDuration {
         /// The joint that moves and has no limit, from 1.
@@ -145,6 +175,20 @@ impl fmt::Display for MotionFault {
             Self::TooFew { field, found, least } => {
                 write!(f, "{field} has {found} rows, it must have at least {least}")
             }
+            Self::NoJoints { field } => write!(f, "{field} has no joints, it must have at least 1"),
+            Self::Row { row, fault } => write!(f, "row {row} of {fault}"),
+            Self::Steps { found, bounds: [least, most] } => {
+                write!(f, "steps must be {least} to {most}, got {found}")
+            }
+            Self::Duration { value, bounds: [least, most] } => write!(
+                f,
+                "the motion takes {value:e} s, it must take {least:e} to {most:e} s: \
+                 are the limits and the duration in rad and s?"
+            ),
+            Self::Overflow => f.write_str(
+                "the motion is not finite: its velocities or accelerations are too large, or its \
+                 times too close",
+            ),
             Self::NoDuration { joint } => write!(
                 f,
                 "joint {joint} moves and has no limit: give a duration, or limits that bind it"

@@ -189,3 +189,34 @@ pub const CONFIGURATION_EDGE: f64 = 0.01 * core::f64::consts::PI / 180.0;
 /// and those of what it is summed from, are all there. The length counts as zero, which moves a
 /// singular value by no more than its root.
 pub(crate) const REFLECTED_SQUARE: f64 = 1e-290;
+
+/// Most samples of a trajectory and most poses of a path [1]: they fill gigabytes. More is a step
+/// in another unit.
+pub const MOST_SAMPLES: usize = 10_000_000;
+
+/// Least duration of a motion [s]: its fifth power and the velocities are far inside what a double
+/// holds.
+pub const LEAST_DURATION: f64 = 1e-9;
+
+/// Greatest duration of a motion [s]: 30 years.
+pub const MOST_DURATION: f64 = 1e9;
+
+/// How far joints may be apart where one trajectory continues another [rad].
+pub const JOINED_POSITION: f64 = 1e-9;
+
+/// How far rounding may exceed a limit of a motion, as a part of the limit [1].
+pub(crate) const LIMIT_ROUNDING: f64 = 1e-9;
+
+/// Cosine of half the angle below which a turn of the tool is a half turn [1]: both ways are
+/// equally long, to 2e-9 rad.
+pub(crate) const HALF_TURN_COS: f64 = 1e-9;
+
+/// Least part of a given axis along that of a half turn for it to choose the way [1].
+pub(crate) const LEAST_ALONG: f64 = 1e-6;
+
+/// Least distance of the second point of an arc from the line through the others, by their distance
+/// [1]: below, the radius is a million times that distance.
+pub(crate) const LEAST_BEND: f64 = 1e-6;
+
+/// Part of a step of a path that is rounding and takes no step of its own [1].
+pub(crate) const STEP_ROUNDING: f64 = 1e-9;

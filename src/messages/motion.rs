@@ -1,7 +1,7 @@
 //! Messages of trajectories and paths of the tool.
 
 use super::{Row, Table, rows};
-use crate::error::MotionFault;
+use crate::error::{JointFault, MotionFault};
 
 pub(super) fn tables() -> [Table; 1] {
     [Table { name: "motion", rows: faults() }]
@@ -20,6 +20,19 @@ fn faults() -> std::vec::Vec<Row> {
             "a duration, a factor, a step", "give a positive one; for no motion, one pose";
         MotionFault::TooFew { .. } => MotionFault::TooFew { field: "q", found: 1, least: 2 },
             "waypoints, poses or `steps`", "give more";
+        MotionFault::NoJoints { .. } => MotionFault::NoJoints { field: "q0" },
+            "empty joint vectors", "give at least one joint";
+        MotionFault::Row { .. } => MotionFault::Row {
+            row: 3, fault: JointFault::NotFinite { field: "q", joint: 2, value: f64::NAN },
+        }, "`spline`, `retime`; in Python an `InvalidJointsError`", "leave the row out, or repair it";
+        MotionFault::Steps { .. } => MotionFault::Steps { found: 1, bounds: [2, 10_000_000] },
+            "`steps`; a polyline needs one for each of its parts",
+            "give a count between; `sample` a trajectory where you need more";
+        MotionFault::Duration { .. } =>
+            MotionFault::Duration { value: 1e12, bounds: [1e-9, 1e9] },
+            "a duration or limits in another unit", "give rad, s and their derivatives";
+        MotionFault::Overflow => MotionFault::Overflow,
+            "velocities of 1e300, times 1e-300 s apart", "give rad and s";
         MotionFault::NoDuration { .. } => MotionFault::NoDuration { joint: 1 },
             "limits that are all infinite", "give a finite one, or `duration`";
         MotionFault::AboveLimit { .. } => MotionFault::AboveLimit {
@@ -42,7 +55,7 @@ fn faults() -> std::vec::Vec<Row> {
             "`line`, `arc`, `polyline`", "give `axis` to `line`, or a pose between the two";
         MotionFault::Axis { .. } => MotionFault::Axis { along: 0.0 },
             "`axis` of `line`", "give one that points more along that of the turn";
-        MotionFault::TooMany { .. } => MotionFault::TooMany { found: 2e9, most: 1e8 },
+        MotionFault::TooMany { .. } => MotionFault::TooMany { found: 2e9, most: 1e7 },
             "a step that is too small", "give a longer one, in m and rad";
         MotionFault::NoStep { .. } => MotionFault::NoStep { length: 0.0, angle: 0.5 },
             "`step` where the tool only turns", "give `turn` too, or `steps`";

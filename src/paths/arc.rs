@@ -12,11 +12,8 @@ use super::line::part;
 use super::spacing::Spacing;
 use super::turn::Turn;
 use crate::error::{Error, MotionFault};
+use crate::kinematics::thresholds::LEAST_BEND;
 use crate::kinematics::{Pose, checked_pose};
-
-/// How far the second point must be off the line through the others, by their distance: beyond, the
-/// radius is known to ten digits less than the points.
-const LEAST_BEND: f64 = 1e-6;
 
 /// What the tool's orientation does along an arc; ABB's names are those of CirPathMode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

@@ -4,12 +4,7 @@
 use nalgebra::ComplexField as _;
 
 use crate::error::{Error, MotionFault};
-
-/// Most poses of one path.
-const MOST_POSES: f64 = 1e8;
-
-/// A part of a step below which no other step is made: rounding of a length is no step.
-const NO_STEP: f64 = 1e-9;
+use crate::kinematics::thresholds::{MOST_SAMPLES, STEP_ROUNDING};
 
 /// How the poses of a path are spaced.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,10 +21,10 @@ impl Spacing {
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidMotion`] for fewer than two.
+    /// [`Error::InvalidMotion`] for fewer than two or more than [`MOST_SAMPLES`].
     pub fn count(poses: usize) -> Result<Self, Error> {
-        if poses < 2 {
-            return Err(MotionFault::TooFew { field: "steps", found: poses, least: 2 }.into());
+        if !(2..=MOST_SAMPLES).contains(&poses) {
+            return Err(MotionFault::Steps { found: poses, bounds: [2, MOST_SAMPLES] }.into());
         }
         Ok(Self(Kind::Count(poses)))
     }
@@ -68,23 +63,27 @@ impl Spacing {
 /// Steps that are short enough.
 fn counted([length, angle]: [f64; 2], step: f64, turn: f64) -> Result<usize, Error> {
     let steps = (length / step).max(angle / turn);
-    if steps > MOST_POSES {
-        let (found, most) = (steps, MOST_POSES);
-        return Err(MotionFault::TooMany { found, most }.into());
+    #[expect(clippy::cast_precision_loss, reason = "exact")]
+    let most = MOST_SAMPLES as f64;
+    if steps > most {
+        return Err(MotionFault::TooMany { found: steps, most }.into());
     }
     if steps == 0.0 && (length > 0.0 || angle > 0.0) {
         return Err(MotionFault::NoStep { length, angle }.into());
     }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 1e8")]
-    let steps = (steps - NO_STEP).max(0.0).ceil() as usize;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 1e7")]
+    let steps = (steps - STEP_ROUNDING).max(0.0).ceil() as usize;
     Ok(steps)
 }
 
 /// Steps shared among parts by their lengths, one at least for each.
 fn shared(steps: usize, parts: &[[f64; 2]]) -> Result<alloc::vec::Vec<usize>, Error> {
     if steps < parts.len() {
-        let least = parts.len() + 1;
-        return Err(MotionFault::TooFew { field: "steps", found: steps + 1, least }.into());
+        return Err(MotionFault::Steps {
+            found: steps + 1,
+            bounds: [parts.len() + 1, MOST_SAMPLES],
+        }
+        .into());
     }
     let total: [f64; 2] =
         parts.iter().fold([0.0; 2], |sum, part| [sum[0] + part[0], sum[1] + part[1]]);

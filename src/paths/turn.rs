@@ -6,13 +6,8 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use nalgebra::{ComplexField as _, RealField as _};
 
 use crate::error::{Error, MotionFault};
+use crate::kinematics::thresholds::{HALF_TURN_COS, LEAST_ALONG};
 use crate::kinematics::{Pose, pose_to_wxyz};
-
-/// Cosine of half the angle below which a turn is a half turn: both ways are as long, to 2e-9 rad.
-const HALF_TURN_COS: f64 = 1e-9;
-
-/// The part of an axis that must point along that of a half turn to choose its way [1].
-const LEAST_ALONG: f64 = 1e-6;
 
 /// R(s) = R0 + sin(s angle) A + (1 - cos(s angle)) B, with A = R0 K, B = R0 K^2 and K the cross
 /// product with the axis (Rodrigues' formula, eq. 18).

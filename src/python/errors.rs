@@ -9,7 +9,7 @@ use super::classes::{
     rapid_error, unknown_name_error, unknown_robot_error, unreachable_error,
 };
 use super::records;
-use crate::error::{Error, FrameFault, NoConfiguration, RapidFault};
+use crate::error::{Error, FrameFault, MotionFault, NoConfiguration, RapidFault};
 
 /// What kind of input was wrong: which exception reports it.
 #[derive(Clone, Copy)]
@@ -43,7 +43,9 @@ fn raised(class: PyResult<&Bound<'_, PyAny>>, message: String) -> PyErr {
 pub(super) fn to_py(py: Python<'_>, error: &Error) -> PyErr {
     let class = match error {
         Error::InvalidPose(_) | Error::Frame(FrameFault::Pose { .. }) => invalid_pose_error(py),
-        Error::InvalidJoints(_) => invalid_joints_error(py),
+        Error::InvalidJoints(_) | Error::InvalidMotion(MotionFault::Row { .. }) => {
+            invalid_joints_error(py)
+        }
         Error::InvalidModel(_) | Error::WrongLength { .. } => invalid_model_error(py),
         Error::InvalidMotion(_) => invalid_motion_error(py),
         Error::UnknownRobot(_) => unknown_robot_error(py),

@@ -5,13 +5,14 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 
+use super::arguments::{read_orientation, read_steps};
 use super::arrays::{Rows, vector};
 use super::errors::{Fault, to_py};
 use super::poses::read_pose;
 use super::wording::shape;
 use crate::error::Error;
 use crate::kinematics::{Pose, pose_from_rows, pose_to_rows};
-use crate::paths::{ArcOrientation, Spacing, Zone};
+use crate::paths::{Spacing, Zone};
 
 type PoseArray<'py> = Bound<'py, PyArray3<f64>>;
 
@@ -25,12 +26,12 @@ fn pose_rows(py: Python<'_>, poses: Result<Vec<Pose>, Error>) -> PyResult<PoseAr
 /// `steps` poses, or steps of at most `step` [m] and `turn` [rad].
 fn read_spacing(
     py: Python<'_>,
-    steps: Option<usize>,
+    steps: Option<&Bound<'_, PyAny>>,
     step: Option<f64>,
     turn: Option<f64>,
 ) -> PyResult<Spacing> {
     let spacing = match (steps, step.or(turn)) {
-        (Some(steps), None) => Spacing::count(steps),
+        (Some(steps), None) => Spacing::count(read_steps(steps)?),
         (None, Some(_)) => {
             Spacing::step(step.unwrap_or(f64::INFINITY), turn.unwrap_or(f64::INFINITY))
         }
@@ -63,7 +64,7 @@ fn read_spacing(
 pub(super) fn line<'py>(
     T0: &Bound<'py, PyAny>,
     T1: &Bound<'py, PyAny>,
-    steps: Option<usize>,
+    steps: Option<&Bound<'py, PyAny>>,
     step: Option<f64>,
     turn: Option<f64>,
     axis: Option<&Bound<'py, PyAny>>,
@@ -102,22 +103,13 @@ pub(super) fn arc<'py>(
     T_via: &Bound<'py, PyAny>,
     T1: &Bound<'py, PyAny>,
     orientation: &str,
-    steps: Option<usize>,
+    steps: Option<&Bound<'py, PyAny>>,
     step: Option<f64>,
     turn: Option<f64>,
 ) -> PyResult<PoseArray<'py>> {
     let py = T0.py();
     let poses = [read_pose(T0, "T0")?, read_pose(T_via, "T_via")?, read_pose(T1, "T1")?];
-    let orientation = match orientation {
-        "path" => ArcOrientation::Path,
-        "object" => ArcOrientation::Object,
-        "via" => ArcOrientation::Via,
-        _ => {
-            return Err(PyValueError::new_err(format!(
-                "orientation must be \"path\", \"object\" or \"via\", got \"{orientation}\""
-            )));
-        }
-    };
+    let orientation = read_orientation(orientation)?;
     let spacing = read_spacing(py, steps, step, turn)?;
     pose_rows(py, crate::paths::arc(&poses[0], &poses[1], &poses[2], orientation, spacing))
 }
@@ -149,7 +141,7 @@ pub(super) fn arc<'py>(
 pub(super) fn polyline<'py>(
     T: &Bound<'py, PyAny>,
     zones: &Bound<'py, PyAny>,
-    steps: Option<usize>,
+    steps: Option<&Bound<'py, PyAny>>,
     step: Option<f64>,
     turn: Option<f64>,
 ) -> PyResult<PoseArray<'py>> {

@@ -3,13 +3,12 @@
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use super::arguments::{read_profile, read_spline, read_steps, read_synchronization};
 use super::arrays::Rows;
 use super::errors::{Fault, to_py};
 use super::trajectory::PyTrajectory;
 use super::wording::shape;
-use crate::trajectory::{
-    AxisLimits, AxisState, Profile, SplineKind, Synchronization, joint_within,
-};
+use crate::trajectory::{AxisLimits, AxisState, joint_within};
 
 /// Numbers of one dimension.
 fn read_vector(value: &Bound<'_, PyAny>, field: &'static str) -> PyResult<Vec<f64>> {
@@ -53,16 +52,18 @@ fn read_each(
     }
 }
 
-fn read_profile(profile: &str) -> PyResult<Profile> {
-    match profile {
-        "quintic" => Ok(Profile::Quintic),
-        "cubic" => Ok(Profile::Cubic),
-        "trapezoid" => Ok(Profile::Trapezoid),
-        "s_curve" => Ok(Profile::SCurve),
-        _ => Err(PyValueError::new_err(format!(
-            "profile must be \"quintic\", \"cubic\", \"trapezoid\" or \"s_curve\", got \"{profile}\""
-        ))),
-    }
+/// Limits of the joints; infinite where none is given.
+fn read_limits(given: [Option<&Bound<'_, PyAny>>; 3], dof: usize) -> PyResult<Vec<AxisLimits>> {
+    let fields = ["max_velocity", "max_acceleration", "max_jerk"];
+    let [velocity, acceleration, jerk] =
+        [0, 1, 2].map(|which| read_each(given[which], fields[which], dof, f64::INFINITY));
+    let (velocity, acceleration, jerk) = (velocity?, acceleration?, jerk?);
+    let limits = (0..dof).map(|joint| AxisLimits {
+        velocity: velocity[joint],
+        acceleration: acceleration[joint],
+        jerk: jerk[joint],
+    });
+    Ok(limits.collect())
 }
 
 /// Move from one joint vector to another.
@@ -102,7 +103,7 @@ fn read_profile(profile: &str) -> PyResult<Profile> {
 pub(super) fn joint(
     q0: &Bound<'_, PyAny>,
     q1: &Bound<'_, PyAny>,
-    steps: usize,
+    #[pyo3(from_py_with = read_steps)] steps: usize,
     duration: Option<f64>,
     profile: &str,
     start_velocity: Option<&Bound<'_, PyAny>>,
@@ -116,15 +117,7 @@ pub(super) fn joint(
 ) -> PyResult<PyTrajectory> {
     let py = q0.py();
     let profile = read_profile(profile)?;
-    let synchronization = match synchronization {
-        "time" => Synchronization::Time,
-        "phase" => Synchronization::Phase,
-        _ => {
-            return Err(PyValueError::new_err(format!(
-                "synchronization must be \"time\" or \"phase\", got \"{synchronization}\""
-            )));
-        }
-    };
+    let synchronization = read_synchronization(synchronization)?;
     let (start, end) = (read_vector(q0, "q0")?, read_vector(q1, "q1")?);
     let dof = start.len();
     if end.len() != dof {
@@ -138,17 +131,7 @@ pub(super) fn joint(
         read_each(end_acceleration, "end_acceleration", dof, 0.0)?,
     ];
     let given = max_velocity.or(max_acceleration).or(max_jerk).is_some();
-    let none = f64::INFINITY;
-    let velocity = read_each(max_velocity, "max_velocity", dof, none)?;
-    let acceleration = read_each(max_acceleration, "max_acceleration", dof, none)?;
-    let jerk = read_each(max_jerk, "max_jerk", dof, none)?;
-    let limits: Vec<AxisLimits> = (0..dof)
-        .map(|joint| AxisLimits {
-            velocity: velocity[joint],
-            acceleration: acceleration[joint],
-            jerk: jerk[joint],
-        })
-        .collect();
+    let limits = read_limits([max_velocity, max_acceleration, max_jerk], dof)?;
     let motion = if given && duration.is_none() {
         if ends.iter().flatten().any(|number| *number != 0.0) {
             let message = "limits without a duration are for motions from rest to rest: give \
@@ -200,7 +183,7 @@ pub(super) fn joint(
 pub(super) fn spline(
     q: &Bound<'_, PyAny>,
     t: Option<&Bound<'_, PyAny>>,
-    steps: usize,
+    #[pyo3(from_py_with = read_steps)] steps: usize,
     duration: Option<f64>,
     profile: &str,
     max_velocity: Option<&Bound<'_, PyAny>>,
@@ -208,28 +191,10 @@ pub(super) fn spline(
     max_jerk: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<PyTrajectory> {
     let py = q.py();
-    let kind = match profile {
-        "quintic" => SplineKind::Quintic,
-        "cubic" => SplineKind::Cubic,
-        _ => {
-            return Err(PyValueError::new_err(format!(
-                "profile must be \"quintic\" or \"cubic\", got \"{profile}\""
-            )));
-        }
-    };
+    let kind = read_spline(profile)?;
     let (points, dof) = read_rows(q, "q")?;
     let given = max_velocity.or(max_acceleration).or(max_jerk).is_some();
-    let none = f64::INFINITY;
-    let velocity = read_each(max_velocity, "max_velocity", dof, none)?;
-    let acceleration = read_each(max_acceleration, "max_acceleration", dof, none)?;
-    let jerk = read_each(max_jerk, "max_jerk", dof, none)?;
-    let limits: Vec<AxisLimits> = (0..dof)
-        .map(|joint| AxisLimits {
-            velocity: velocity[joint],
-            acceleration: acceleration[joint],
-            jerk: jerk[joint],
-        })
-        .collect();
+    let limits = read_limits([max_velocity, max_acceleration, max_jerk], dof)?;
     if t.is_some() && duration.is_some() {
         return Err(PyValueError::new_err("give t or duration, not both"));
     }
@@ -260,7 +225,8 @@ pub(super) fn spline(
 ///     The trajectory.
 ///
 /// Raises:
-///     InvalidMotionError: A limit is not positive, or no limit binds the path.
+///     InvalidMotionError: No rows, a limit that is not positive, a path that no limit binds, or a
+///         duration that is not between 1e-9 and 1e9 s.
 ///     InvalidJointsError: A wrong shape, or an angle that is not finite.
 #[pyfunction]
 #[pyo3(signature = (q, max_velocity, max_acceleration, *, steps=None))]
@@ -268,7 +234,7 @@ pub(super) fn retime(
     q: &Bound<'_, PyAny>,
     max_velocity: &Bound<'_, PyAny>,
     max_acceleration: &Bound<'_, PyAny>,
-    steps: Option<usize>,
+    steps: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<PyTrajectory> {
     let py = q.py();
     let (points, dof) = read_rows(q, "q")?;
@@ -276,6 +242,6 @@ pub(super) fn retime(
     let velocity = read_each(Some(max_velocity), "max_velocity", dof, none)?;
     let acceleration = read_each(Some(max_acceleration), "max_acceleration", dof, none)?;
     let motion = py.detach(|| crate::trajectory::retime(&points, &velocity, &acceleration));
-    let steps = steps.unwrap_or((points.len() / dof).max(2));
+    let steps = steps.map_or(Ok((points.len() / dof).max(2)), read_steps)?;
     PyTrajectory::even(py, motion.map_err(|error| to_py(py, &error))?, steps)
 }

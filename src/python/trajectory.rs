@@ -2,16 +2,16 @@
 
 use std::sync::Arc;
 
-use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
-use pyo3::exceptions::PyValueError;
-use pyo3::intern;
+use numpy::{Element, PyArray, PyArray1, PyArray2, PyArrayDyn, PyArrayMethods};
+use numpy::{PyUntypedArrayMethods, ndarray::Dimension};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
+use super::arguments::read_steps;
 use super::arrays::Rows;
 use super::classes;
 use super::errors::{Fault, to_py};
-use crate::trajectory::Trajectory;
+use crate::trajectory::{Trajectory, TrajectoryParts};
 
 /// Joint angles, velocities and accelerations over time.
 ///
@@ -29,10 +29,11 @@ impl PyTrajectory {
         let shape = [times.len(), motion.dof()];
         let states = states(py, &motion, &times, &shape)?;
         let t = PyArray1::from_vec(py, times);
-        read_only(t.as_any())?;
+        read_only(&t);
         let matrices = states.map(|array| -> PyResult<Py<PyArray2<f64>>> {
-            read_only(array.as_any())?;
-            Ok(array.reshape(shape)?.unbind())
+            let array = array.reshape(shape)?;
+            read_only(&array);
+            Ok(array.unbind())
         });
         let [q, dq, ddq] = matrices;
         Ok(Self { motion: Arc::new(motion), t: t.unbind(), states: [q?, dq?, ddq?] })
@@ -40,10 +41,7 @@ impl PyTrajectory {
 
     /// `steps` samples, evenly over the duration.
     pub(super) fn even(py: Python<'_>, motion: Trajectory, steps: usize) -> PyResult<Self> {
-        if steps < 2 {
-            return Err(PyValueError::new_err(format!("steps must be 2 or more, got {steps}")));
-        }
-        let times = evenly(motion.duration(), steps);
+        let times = motion.times(steps).map_err(|error| to_py(py, &error))?;
         Self::new(py, motion, times)
     }
 
@@ -52,18 +50,8 @@ impl PyTrajectory {
     }
 }
 
-/// So many times from 0 to the duration, both exact.
-#[expect(clippy::cast_precision_loss, reason = "a count of samples")]
-fn evenly(duration: f64, steps: usize) -> Vec<f64> {
-    let last = steps - 1;
-    (0..steps)
-        .map(|step| if step == last { duration } else { duration * (step as f64 / last as f64) })
-        .collect()
-}
-
-fn read_only(array: &Bound<'_, PyAny>) -> PyResult<()> {
-    let py = array.py();
-    array.getattr(intern!(py, "flags"))?.setattr(intern!(py, "writeable"), false)
+fn read_only<T: Element, D: Dimension>(array: &Bound<'_, PyArray<T, D>>) {
+    array.readwrite().make_nonwriteable();
 }
 
 /// Joint angles, velocities and accelerations at times, as arrays of a shape.
@@ -162,7 +150,14 @@ impl PyTrajectory {
     ///
     /// Args:
     ///     steps: Number of samples, evenly over the duration.
-    fn resampled(&self, py: Python<'_>, steps: usize) -> PyResult<Self> {
+    ///
+    /// Raises:
+    ///     InvalidMotionError: Fewer than two or more than ten million samples.
+    fn resampled(
+        &self,
+        py: Python<'_>,
+        #[pyo3(from_py_with = read_steps)] steps: usize,
+    ) -> PyResult<Self> {
         Self::even(py, (*self.motion).clone(), steps)
     }
 
@@ -234,12 +229,12 @@ impl PyTrajectory {
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, TrajectoryState)> {
         let restore = py.import("irbkin._core")?.getattr("_restore_trajectory")?;
-        let (dof, knots, terms) = self.motion.to_parts();
-        Ok((restore, (dof, knots.to_vec(), terms.as_flattened().to_vec(), self.times(py)?)))
+        let TrajectoryParts { dof, knots, terms } = (*self.motion).clone().into();
+        Ok((restore, (dof, knots, terms, self.times(py)?)))
     }
 }
 
-type TrajectoryState = (usize, Vec<f64>, Vec<f64>, Vec<f64>);
+type TrajectoryState = (usize, Vec<f64>, Vec<[f64; 7]>, Vec<f64>);
 
 /// A pickled trajectory.
 #[pyfunction(name = "_restore_trajectory")]
@@ -247,10 +242,10 @@ pub(super) fn restore_trajectory(
     py: Python<'_>,
     dof: usize,
     knots: Vec<f64>,
-    terms: &Bound<'_, PyAny>,
+    terms: Vec<[f64; 7]>,
     times: Vec<f64>,
 ) -> PyResult<PyTrajectory> {
-    let motion = Trajectory::from_parts(dof, knots, &terms.extract::<Vec<f64>>()?)
-        .map_err(|error| to_py(py, &error))?;
+    let motion = Trajectory::try_from(TrajectoryParts { dof, knots, terms });
+    let motion = motion.map_err(|error| to_py(py, &error))?;
     PyTrajectory::new(py, motion, times)
 }

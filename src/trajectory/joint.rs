@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 
 use super::axis::{AxisLimits, AxisMotion, AxisState, Profile};
-use super::limits::{check, check_finite};
+use super::check::{check_axes, check_duration, check_finite, check_joints};
 use super::piecewise::Trajectory;
 use crate::error::{Error, MotionFault};
 
@@ -48,9 +48,14 @@ impl Profile {
 ///
 /// # Errors
 ///
-/// [`Error::InvalidMotion`] for a number that is not finite, a duration that is not positive, or
-/// a velocity or acceleration at an end that the profile cannot have; [`Error::WrongLength`] for
-/// ends of different lengths.
+/// [`Error::InvalidJoints`] for an angle that is not finite or beyond [`MOST_ANGLE`];
+/// [`Error::InvalidMotion`] for no joints, a velocity or acceleration that is not finite or that the
+/// profile cannot have, or a duration outside [`LEAST_DURATION`] to [`MOST_DURATION`];
+/// [`Error::WrongLength`] for ends of different lengths.
+///
+/// [`MOST_ANGLE`]: crate::thresholds::MOST_ANGLE
+/// [`LEAST_DURATION`]: crate::thresholds::LEAST_DURATION
+/// [`MOST_DURATION`]: crate::thresholds::MOST_DURATION
 pub fn joint(
     profile: Profile,
     start: &[AxisState],
@@ -60,14 +65,11 @@ pub fn joint(
     if start.len() != end.len() {
         return Err(Error::WrongLength { field: "q1", found: end.len(), wanted: start.len() });
     }
-    for states in [start, end] {
-        check_states(states)?;
-        profile.check_ends(states)?;
-    }
-    if !(duration > 0.0 && duration.is_finite()) {
-        let fault = MotionFault::NotPositive { field: "duration", index: None, value: duration };
-        return Err(fault.into());
-    }
+    check_states(["q0", "start_velocity", "start_acceleration"], start)?;
+    check_states(["q1", "end_velocity", "end_acceleration"], end)?;
+    profile.check_ends(start)?;
+    profile.check_ends(end)?;
+    check_duration(duration)?;
     let axes: Vec<AxisMotion> = start
         .iter()
         .zip(end)
@@ -78,21 +80,15 @@ pub fn joint(
             Profile::SCurve => AxisMotion::s_curve(start.position, end.position, duration),
         })
         .collect();
-    Ok(Trajectory::of_axes(&axes))
+    Trajectory::of_axes(&axes).checked()
 }
 
-fn check_states(states: &[AxisState]) -> Result<(), Error> {
-    for (index, state) in states.iter().enumerate() {
-        let AxisState { position, velocity, acceleration } = *state;
-        for (field, value) in
-            [("q", position), ("velocity", velocity), ("acceleration", acceleration)]
-        {
-            if !value.is_finite() {
-                return Err(MotionFault::NotFinite { field, index, value }.into());
-            }
-        }
-    }
-    Ok(())
+/// Check states; `fields` name their positions, velocities and accelerations.
+fn check_states(fields: [&'static str; 3], states: &[AxisState]) -> Result<(), Error> {
+    let of = |number: fn(&AxisState) -> f64| states.iter().map(number).collect::<Vec<_>>();
+    check_joints(fields[0], &of(|state| state.position))?;
+    check_finite(fields[1], &of(|state| state.velocity))?;
+    check_finite(fields[2], &of(|state| state.acceleration))
 }
 
 /// The shortest trajectory of a profile between two joint vectors [rad], from rest to rest, within
@@ -100,9 +96,8 @@ fn check_states(states: &[AxisState]) -> Result<(), Error> {
 ///
 /// # Errors
 ///
-/// [`Error::InvalidMotion`] for an angle that is not finite, a limit that is not positive or a
-/// joint that moves and that no limit binds; [`Error::WrongLength`] for slices of different
-/// lengths.
+/// As [`joint`]; [`Error::InvalidMotion`] too for a limit that is not positive or a joint that moves
+/// and that no limit binds.
 pub fn joint_within(
     profile: Profile,
     start: &[f64],
@@ -110,19 +105,12 @@ pub fn joint_within(
     limits: &[AxisLimits],
     synchronization: Synchronization,
 ) -> Result<Trajectory, Error> {
-    let wanted = start.len();
-    for (field, found) in [("q1", end.len()), ("limits", limits.len())] {
-        if found != wanted {
-            return Err(Error::WrongLength { field, found, wanted });
-        }
+    if end.len() != start.len() {
+        return Err(Error::WrongLength { field: "q1", found: end.len(), wanted: start.len() });
     }
-    check_finite("q0", start)?;
-    check_finite("q1", end)?;
-    for limits in limits {
-        check("max_velocity", &[limits.velocity])?;
-        check("max_acceleration", &[limits.acceleration])?;
-        check("max_jerk", &[limits.jerk])?;
-    }
+    check_joints("q0", start)?;
+    check_joints("q1", end)?;
+    check_axes(limits, start.len())?;
     let axes = match synchronization {
         Synchronization::Time => slowed(profile, start, end, limits),
         Synchronization::Phase => along_line(profile, start, end, limits),
@@ -131,7 +119,8 @@ pub fn joint_within(
     let moving = start.iter().zip(end).position(|(start, end)| (end - start).abs() > 0.0);
     match moving {
         Some(joint) if arrives == 0.0 => Err(MotionFault::NoDuration { joint: joint + 1 }.into()),
-        _ => Ok(Trajectory::of_axes(&axes)),
+        Some(_) => check_duration(arrives).and_then(|()| Trajectory::of_axes(&axes).checked()),
+        None => Ok(Trajectory::of_axes(&axes)),
     }
 }
 

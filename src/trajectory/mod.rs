@@ -17,8 +17,8 @@
 //! ```
 
 mod axis;
+mod check;
 mod joint;
-mod limits;
 mod piece;
 mod piecewise;
 mod polynomial;
@@ -28,7 +28,9 @@ mod waypoints;
 
 pub use axis::{AxisLimits, AxisMotion, AxisState, Profile};
 pub use joint::{Synchronization, joint, joint_within};
-pub use piecewise::{JOINED_POSITION, Peaks, Trajectory};
+#[cfg(feature = "python")]
+pub(crate) use piecewise::TrajectoryParts;
+pub use piecewise::{Peaks, Trajectory};
 pub use retime::retime;
 pub use waypoints::{SplineKind, spline, through};
 

@@ -4,27 +4,68 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::axis::{AxisLimits, AxisMotion};
+use super::check::check_axes;
 use super::polynomial::{TERMS, derivative, derivatives, largest_size, shifted};
 use crate::error::{Error, MotionFault};
-
-/// How far joints may be apart where one trajectory goes on with another [rad].
-pub const JOINED_POSITION: f64 = 1e-9;
-
-/// How far a limit may be exceeded by rounding, as a part of it [1].
-const LIMIT_ROUNDING: f64 = 1e-9;
+use crate::kinematics::thresholds::{JOINED_POSITION, LIMIT_ROUNDING, MOST_SAMPLES};
 
 /// Joint angles, velocities and accelerations over time, exact at any time.
 ///
 /// Between two knots each joint is a polynomial of degree six at most, so what lies between two
 /// samples is known: limits are checked on the polynomials, not on samples.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "TrajectoryParts", into = "TrajectoryParts")
+)]
 pub struct Trajectory {
     dof: usize,
     /// Where each piece begins [s], and the end: one more than there are pieces.
     knots: Vec<f64>,
     /// By piece, by joint: the coefficients in the time since the piece began.
     terms: Vec<[f64; TERMS]>,
+}
+
+/// A trajectory as it is stored: reading checks it.
+#[derive(Clone)]
+#[cfg(any(feature = "serde", feature = "python"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename = "Trajectory"))]
+pub(crate) struct TrajectoryParts {
+    pub(crate) dof: usize,
+    pub(crate) knots: Vec<f64>,
+    pub(crate) terms: Vec<[f64; TERMS]>,
+}
+
+#[cfg(any(feature = "serde", feature = "python"))]
+impl From<Trajectory> for TrajectoryParts {
+    fn from(Trajectory { dof, knots, terms }: Trajectory) -> Self {
+        Self { dof, knots, terms }
+    }
+}
+
+#[cfg(any(feature = "serde", feature = "python"))]
+impl TryFrom<TrajectoryParts> for Trajectory {
+    type Error = Error;
+
+    fn try_from(TrajectoryParts { dof, knots, terms }: TrajectoryParts) -> Result<Self, Error> {
+        if dof == 0 || knots.len() < 2 {
+            return Err(MotionFault::NoJoints { field: "terms" }.into());
+        }
+        let wanted = dof.saturating_mul(knots.len() - 1);
+        if terms.len() != wanted {
+            return Err(Error::WrongLength { field: "terms", found: terms.len(), wanted });
+        }
+        let mut before = 0.0;
+        for (index, value) in knots.iter().copied().enumerate() {
+            if value < before || (index == 0 && value > 0.0) {
+                return Err(MotionFault::Order { index, value, before }.into());
+            }
+            before = value;
+        }
+        Self::new(dof, knots, terms).checked()
+    }
 }
 
 /// The largest velocity, acceleration and jerk of a joint.
@@ -42,6 +83,16 @@ pub struct Peaks {
 impl Trajectory {
     pub(super) fn new(dof: usize, knots: Vec<f64>, terms: Vec<[f64; TERMS]>) -> Self {
         Self { dof, knots, terms }
+    }
+
+    /// Refuses a trajectory that a double cannot hold: velocities of 1e300, knots of 1e-300 s.
+    pub(super) fn checked(self) -> Result<Self, Error> {
+        let numbers = self.knots.iter().chain(self.terms.as_flattened());
+        if numbers.copied().all(f64::is_finite) {
+            Ok(self)
+        } else {
+            Err(MotionFault::Overflow.into())
+        }
     }
 
     /// The motions of joints that begin together. A joint that arrives early waits.
@@ -78,6 +129,21 @@ impl Trajectory {
     #[must_use]
     pub fn dof(&self) -> usize {
         self.dof
+    }
+
+    /// So many times from 0 to the duration, evenly spaced [s].
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidMotion`] for fewer than two or more than [`MOST_SAMPLES`].
+    #[expect(clippy::cast_precision_loss, reason = "at most 1e7 samples")]
+    pub fn times(&self, steps: usize) -> Result<Vec<f64>, Error> {
+        if !(2..=MOST_SAMPLES).contains(&steps) {
+            return Err(MotionFault::Steps { found: steps, bounds: [2, MOST_SAMPLES] }.into());
+        }
+        let last = steps - 1;
+        let part = |step: usize| if step == last { 1.0 } else { step as f64 / last as f64 };
+        Ok((0..steps).map(|step| part(step) * self.duration()).collect())
     }
 
     /// Duration [s].
@@ -122,10 +188,12 @@ impl Trajectory {
             }
         }
         let mut piece = 0;
+        // Without joints there are no rows.
+        let width = self.dof.max(1);
         let rows = q
-            .chunks_exact_mut(self.dof)
-            .zip(dq.chunks_exact_mut(self.dof))
-            .zip(ddq.chunks_exact_mut(self.dof));
+            .chunks_exact_mut(width)
+            .zip(dq.chunks_exact_mut(width))
+            .zip(ddq.chunks_exact_mut(width));
         for ((index, time), ((q, dq), ddq)) in times.iter().enumerate().zip(rows) {
             if time.is_nan() {
                 return Err(MotionFault::NotFinite { field: "t", index, value: *time }.into());
@@ -158,10 +226,7 @@ impl Trajectory {
     /// [`Error::InvalidMotion`] with the joint, its largest velocity, acceleration or jerk and the
     /// limit; [`Error::WrongLength`] for another number of limits than of joints.
     pub fn within(&self, limits: &[AxisLimits]) -> Result<(), Error> {
-        if limits.len() != self.dof {
-            let (found, wanted) = (limits.len(), self.dof);
-            return Err(Error::WrongLength { field: "limits", found, wanted });
-        }
+        check_axes(limits, self.dof)?;
         for (index, (peaks, limits)) in self.peaks().iter().zip(limits).enumerate() {
             for (what, value, limit) in [
                 ("velocity", peaks.velocity, limits.velocity),
@@ -176,22 +241,6 @@ impl Trajectory {
             }
         }
         Ok(())
-    }
-
-    /// Number of joints, knots and coefficients.
-    #[cfg(feature = "python")]
-    pub(crate) fn to_parts(&self) -> (usize, &[f64], &[[f64; TERMS]]) {
-        (self.dof, &self.knots, &self.terms)
-    }
-
-    /// From what [`Self::to_parts`] gives, flattened.
-    #[cfg(feature = "python")]
-    pub(crate) fn from_parts(dof: usize, knots: Vec<f64>, terms: &[f64]) -> Result<Self, Error> {
-        let wanted = dof * (knots.len().max(2) - 1) * TERMS;
-        if dof == 0 || knots.len() < 2 || terms.len() != wanted {
-            return Err(Error::WrongLength { field: "terms", found: terms.len(), wanted });
-        }
-        Ok(Self { dof, knots, terms: terms.as_chunks().0.to_vec() })
     }
 
     /// The joint angles at the start and at the end [rad].
@@ -244,7 +293,7 @@ impl Trajectory {
                 power *= factor;
             }
         }
-        Ok(self)
+        self.checked()
     }
 
     /// This trajectory, then another one that begins where this one ends.

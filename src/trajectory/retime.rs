@@ -15,6 +15,7 @@ use nalgebra::ComplexField as _;
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::check::{check_duration, check_limits, check_rows};
 use super::piece::{Piece, Strips};
 use super::piecewise::Trajectory;
 use super::polynomial::{TERMS, shifted};
@@ -32,16 +33,17 @@ const LEAST_PIECES: usize = 1000;
 ///
 /// # Errors
 ///
-/// [`Error::InvalidMotion`] for a number that is not finite, a limit that is not positive, fewer
-/// than one row, or a path that no limit binds; [`Error::WrongLength`] for slices that do not fit.
+/// [`Error::InvalidMotion`] for an angle that is not finite, a limit that is not positive, no rows
+/// or no joints, a path that no limit binds, or a duration out of bounds; [`Error::WrongLength`] for
+/// slices that do not fit.
 pub fn retime(
     q: &[f64],
     max_velocity: &[f64],
     max_acceleration: &[f64],
 ) -> Result<Trajectory, Error> {
     let dof = max_velocity.len();
-    super::limits::check("max_velocity", max_velocity)?;
-    super::limits::check("max_acceleration", max_acceleration)?;
+    check_limits("max_velocity", max_velocity)?;
+    check_limits("max_acceleration", max_acceleration)?;
     if max_acceleration.len() != dof {
         let found = max_acceleration.len();
         return Err(Error::WrongLength { field: "max_acceleration", found, wanted: dof });
@@ -54,19 +56,18 @@ pub fn retime(
     let grid = Grid::of(&lengths, &cubic(&lengths, &points, dof, Ends::NotAKnot), dof);
     let pieces: Vec<Piece<'_>> = (0..grid.lengths.len()).map(|index| grid.piece(index)).collect();
     let paces = paces(&pieces, max_velocity, max_acceleration)?;
-    Ok(grid.timed(&paces))
+    let timed = grid.timed(&paces);
+    check_duration(timed.duration()).and_then(|()| timed.checked())
 }
 
 /// The rows that differ from the one before, and the length of the polygon up to each.
 fn polygon(q: &[f64], dof: usize) -> Result<(Vec<f64>, Vec<f64>), Error> {
-    if dof == 0 || !q.len().is_multiple_of(dof) {
+    check_rows("q", q, dof)?;
+    if !q.len().is_multiple_of(dof) {
         return Err(Error::WrongLength { field: "q", found: q.len(), wanted: dof });
     }
     if q.is_empty() {
         return Err(MotionFault::TooFew { field: "q", found: 0, least: 1 }.into());
-    }
-    if let Some(index) = q.iter().position(|angle| !angle.is_finite()) {
-        return Err(MotionFault::NotFinite { field: "q", index, value: q[index] }.into());
     }
     let (mut lengths, mut points) = (vec![0.0], q[..dof].to_vec());
     for row in q.chunks_exact(dof).skip(1) {

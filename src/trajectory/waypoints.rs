@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use nalgebra::ComplexField as _;
 
 use super::axis::AxisLimits;
-use super::limits::{check, check_finite};
+use super::check::{check_axes, check_duration, check_finite, check_rows};
 use super::piecewise::Trajectory;
 use super::spline::{Ends, cubic, quintic};
 use crate::error::{Error, MotionFault};
@@ -27,34 +27,41 @@ pub enum SplineKind {
 ///
 /// # Errors
 ///
-/// [`Error::InvalidMotion`] for a number that is not finite, fewer than two waypoints, or times
-/// that do not increase; [`Error::WrongLength`] for slices that do not fit.
+/// [`Error::InvalidMotion`] for an angle or a time that is not finite, no joints, fewer than two
+/// waypoints, times that do not increase or lie too close, or a duration out of bounds;
+/// [`Error::WrongLength`] for slices that do not fit.
 pub fn spline(
     kind: SplineKind,
     waypoints: &[f64],
     dof: usize,
     times: &[f64],
 ) -> Result<Trajectory, Error> {
+    check_rows("q", waypoints, dof)?;
     let wanted = dof * times.len();
-    if dof == 0 || waypoints.len() != wanted {
+    if waypoints.len() != wanted {
         return Err(Error::WrongLength { field: "q", found: waypoints.len(), wanted });
     }
     if times.len() < 2 {
         return Err(MotionFault::TooFew { field: "q", found: times.len(), least: 2 }.into());
     }
-    check_finite("q", waypoints)?;
     check_finite("t", times)?;
     if let Some(index) = (1..times.len()).find(|index| times[*index] <= times[index - 1]) {
         let (value, before) = (times[index], times[index - 1]);
         return Err(MotionFault::Order { index, value, before }.into());
     }
     let knots: Vec<f64> = times.iter().map(|time| time - times[0]).collect();
+    check_duration(knots[knots.len() - 1])?;
+    curve(kind, waypoints, dof, knots).checked()
+}
+
+/// The curve through waypoints at knots, the first of which is 0.
+fn curve(kind: SplineKind, waypoints: &[f64], dof: usize, knots: Vec<f64>) -> Trajectory {
     let rest = alloc::vec![0.0; dof];
     let terms = match kind {
         SplineKind::Cubic => cubic(&knots, waypoints, dof, Ends::Clamped([&rest, &rest])),
         SplineKind::Quintic => quintic(&knots, waypoints, dof),
     };
-    Ok(Trajectory::new(dof, knots, terms))
+    Trajectory::new(dof, knots, terms)
 }
 
 /// A curve through waypoints at times of its own, or by a duration [s], or as fast as limits allow.
@@ -74,23 +81,15 @@ pub fn through(
     duration: Option<f64>,
     limits: &[AxisLimits],
 ) -> Result<Trajectory, Error> {
-    for limits in limits {
-        check("max_velocity", &[limits.velocity])?;
-        check("max_acceleration", &[limits.acceleration])?;
-        check("max_jerk", &[limits.jerk])?;
-    }
+    check_axes(limits, dof)?;
     if let Some(times) = times {
         let motion = spline(kind, waypoints, dof, times)?;
         return motion.within(limits).map(|()| motion);
     }
-    let times = spaced(waypoints, dof, limits)?;
-    let motion = spline(kind, waypoints, dof, &times)?;
+    let motion = curve(kind, waypoints, dof, spaced(waypoints, dof, limits)?);
     if let Some(duration) = duration {
-        if !(duration > 0.0 && duration.is_finite()) {
-            let value = duration;
-            return Err(MotionFault::NotPositive { field: "duration", index: None, value }.into());
-        }
-        let motion = motion.stretched(duration / times[times.len() - 1])?;
+        check_duration(duration)?;
+        let motion = motion.stretched(duration)?;
         return motion.within(limits).map(|()| motion);
     }
     // A pace k times slower has k, k^2 and k^3 times smaller derivatives.
@@ -104,12 +103,17 @@ pub fn through(
     if factor == 0.0 {
         return Err(MotionFault::NoDuration { joint: 1 }.into());
     }
+    check_duration(factor)?;
     motion.stretched(factor)
 }
 
-/// Times of waypoints by their distances.
+/// Times of waypoints by their distances, of a duration of 1 s.
 fn spaced(waypoints: &[f64], dof: usize, limits: &[AxisLimits]) -> Result<Vec<f64>, Error> {
-    check_finite("q", waypoints)?;
+    check_rows("q", waypoints, dof)?;
+    let found = waypoints.len() / dof;
+    if found < 2 {
+        return Err(MotionFault::TooFew { field: "q", found, least: 2 }.into());
+    }
     let has_velocity = limits.iter().all(|limits| limits.velocity.is_finite());
     let mut times = alloc::vec![0.0];
     let rows = waypoints.chunks_exact(dof);
@@ -125,5 +129,6 @@ fn spaced(waypoints: &[f64], dof: usize, limits: &[AxisLimits]) -> Result<Vec<f6
         }
         times.push(times[index] + time);
     }
-    Ok(times)
+    let whole = times[times.len() - 1];
+    Ok(times.into_iter().map(|time| time / whole).collect())
 }

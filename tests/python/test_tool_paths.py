@@ -88,7 +88,9 @@ def test_a_polyline_of_one_pose_is_that_pose():
     [
         (lambda: paths.line(A, B), ValueError, "give steps, or step"),
         (lambda: paths.line(A, B, steps=5, step=0.1), ValueError, "give steps, or step"),
-        (lambda: paths.line(A, B, steps=1), InvalidMotionError, "steps has 1 rows, .* at least 2"),
+        (lambda: paths.line(A, B, steps=1), InvalidMotionError, "steps must be 2 to .*, got 1$"),
+        (lambda: paths.line(A, B, steps=10**18), InvalidMotionError, f"2 to .*, got {10**18}"),
+        (lambda: paths.polyline([A, B, C], 0, steps=2), InvalidMotionError, "3 to .*, got 2"),
         (lambda: paths.line(A, B, step=-0.1), InvalidMotionError, "step is -0.1, .* positive"),
         (lambda: paths.line(A, B, step=np.nan), InvalidMotionError, "step is NaN"),
         (lambda: paths.line(A, B, step=1e-12), InvalidMotionError, "is step in m"),

@@ -6,7 +6,7 @@ import pickle
 import irbkin
 import numpy as np
 import pytest
-from irbkin import InvalidJointsError, InvalidMotionError, trajectory
+from irbkin import InvalidJointsError, InvalidMotionError, IrbkinError, trajectory
 
 # The article's example, as axis angles of the Denavit-Hartenberg table.
 START = np.radians([0, -90, 0, 0, 90, -180])
@@ -179,14 +179,70 @@ NAN = [np.nan] * 6
             r"q1 must have shape \(6,\)",
         ),
         (lambda: trajectory.joint([START], END), InvalidJointsError, r"q0 must have shape \(n,\)"),
-        (lambda: trajectory.joint(START, NAN), InvalidMotionError, r"q\[0\] is NaN: every element"),
+        (lambda: trajectory.joint([], []), InvalidMotionError, "q0 has no joints"),
+        (
+            lambda: trajectory.joint(START, NAN),
+            InvalidJointsError,
+            "q1: joint 1 is NaN, every angle",
+        ),
+        (
+            lambda: trajectory.joint([1e300], [0]),
+            InvalidJointsError,
+            "q0: joint 1 is 1e300 rad, .* 1e5",
+        ),
+        (
+            lambda: trajectory.joint(START, END, duration=1e-100),
+            InvalidMotionError,
+            "takes 1e-100 s, it must take 1e-9 to 1e9 s",
+        ),
+        (
+            lambda: trajectory.joint(START, END, duration=1e300),
+            InvalidMotionError,
+            "takes 1e300 s, it must take 1e-9 to 1e9 s",
+        ),
+        (
+            lambda: trajectory.joint(START, END, max_velocity=1e-300),
+            InvalidMotionError,
+            "it must take 1e-9 to 1e9 s",
+        ),
+        (
+            lambda: trajectory.joint(START, END, duration=1, max_velocity=np.nan),
+            InvalidMotionError,
+            r"max_velocity\[0\] is NaN, it must be positive",
+        ),
+        (
+            lambda: trajectory.joint(START, END, duration=1, max_jerk=-1),
+            InvalidMotionError,
+            r"max_jerk\[0\] is -1.0, it must be positive",
+        ),
+        (
+            lambda: trajectory.joint(START, END, start_velocity=np.nan),
+            InvalidMotionError,
+            r"start_velocity\[0\] is NaN",
+        ),
         (lambda: trajectory.joint(START, END, duration=0), InvalidMotionError, "must be positive"),
         (lambda: trajectory.joint(START, END, duration=-1), InvalidMotionError, "duration is -1"),
         (
             lambda: trajectory.joint(START, END, steps=1),
-            ValueError,
-            "steps must be 2 or more, got 1",
+            InvalidMotionError,
+            "steps must be 2 to 10000000, got 1$",
         ),
+        (
+            lambda: trajectory.joint(START, END, steps=-1),
+            InvalidMotionError,
+            "steps must be 2 to 10000000, got -1",
+        ),
+        (
+            lambda: trajectory.joint(START, END, steps=10**30),
+            InvalidMotionError,
+            f"steps must be 2 to 10000000, got {10**30}",
+        ),
+        (
+            lambda: trajectory.joint(START, END).resampled(10**18),
+            InvalidMotionError,
+            f"steps must be 2 to 10000000, got {10**18}",
+        ),
+        (lambda: trajectory.joint(START, END, steps=5.5), TypeError, "float"),
         (
             lambda: trajectory.joint(START, END, profile="sine"),
             ValueError,
@@ -228,7 +284,24 @@ NAN = [np.nan] * 6
             InvalidMotionError,
             r"q\[1\] repeats the waypoint before it",
         ),
+        (
+            lambda: trajectory.spline([[0], [1], [2]], t=[0, 1e-320, 1]),
+            InvalidMotionError,
+            "the motion is not finite",
+        ),
+        (lambda: trajectory.spline([START, NAN]), InvalidJointsError, "row 1 of q: joint 1 is NaN"),
         (lambda: trajectory.retime(np.zeros((0, 6)), 1, 1), InvalidMotionError, "q has 0 rows"),
+        (
+            lambda: trajectory.retime(np.zeros((3, 0)), 1, 1),
+            InvalidJointsError,
+            r"q must have shape \(m, n\), got \(3, 0\)",
+        ),
+        (lambda: trajectory.retime([START, NAN], 1, 1), InvalidJointsError, "row 1 of q: joint 1"),
+        (
+            lambda: trajectory.retime([START, END], 1e300, 1e300),
+            InvalidMotionError,
+            "it must take 1e-9 to 1e9 s",
+        ),
         (
             lambda: trajectory.retime([START, END], np.inf, np.inf),
             InvalidMotionError,
@@ -246,3 +319,20 @@ NAN = [np.nan] * 6
 def test_what_makes_no_trajectory_is_refused(call, error, words):
     with pytest.raises(error, match=words):
         call()
+
+
+def test_a_damaged_pickle_is_refused():
+    restore, (dof, knots, terms, times) = trajectory.joint(START, END).__reduce__()
+    assert restore(dof, knots, terms, times) == trajectory.joint(START, END)
+    for damaged, words in (
+        ((0, knots, terms, times), "terms has no joints"),
+        ((dof, [], terms, times), "terms has no joints"),
+        ((10**18, knots, terms, times), "terms has 6 elements"),
+        ((dof, knots, terms[:1], times), "terms has 1 elements, it must have 6"),
+        ((dof, knots[::-1], terms, times), "it must be later"),
+        ((dof, knots, [[np.nan] * 7] * 6, times), "the motion is not finite"),
+        ((dof, [0.0, np.nan], terms, times), "the motion is not finite"),
+        ((dof, knots, terms, [np.nan]), r"t\[0\] is NaN"),
+    ):
+        with pytest.raises(IrbkinError, match=words):
+            restore(*damaged)
