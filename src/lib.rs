@@ -61,8 +61,8 @@
 //! | `serde` | | `Serialize` and `Deserialize`, see below |
 //! | `python` | | the extension module of the Python package; of no use to a crate |
 //!
-//! `serde` is implemented for robots ([`Robot`], with limits, velocities, base and tool; reading
-//! one runs every check of its constructors), for models ([`Definition`], [`OpwParameters`],
+//! `serde` is implemented for robots ([`Robot`] and [`AnyRobot`], with limits, velocities, base and
+//! tool; reading one runs every check of its constructors), for models ([`Definition`], [`OpwParameters`],
 //! [`Mdh`], [`Sdh`], [`DhRow`], [`JointAxis`], [`JointLimits`]), for answers ([`Solution`],
 //! [`Slot`], [`Status`], [`SingularityKind`], [`FreeJoint`], [`Configuration`], [`Singularity`],
 //! [`SingularDistances`], [`PoseDifference`]) and for options ([`FollowOptions`],
@@ -148,8 +148,8 @@ pub use error::{
 pub use error::{FrameFault, Missing, RapidFault, RapidFaultKind};
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use kinematics::{
-    Arity, Break, BreakReason, Definition, DhRow, FollowOptions, Followed, Follower, Inverse,
-    JacobianFrame, JointAxis, JointLimits, Joints, MOST_SLOTS, Mdh, OpwParameters, Pose,
+    AnyRobot, Arity, Break, BreakReason, Definition, DhRow, FollowOptions, Followed, Follower,
+    Inverse, JacobianFrame, JointAxis, JointLimits, Joints, MOST_SLOTS, Mdh, OpwParameters, Pose,
     PoseDifference, Redundancy, RedundancyOf, Robot, Sdh, SingularDistances, Singularity,
     SingularityKind, SingularityMode, Slot, SlotStatus, Solution, Solutions, Status,
     pose_from_euler_zyx, pose_from_isometry, pose_from_matrix, pose_from_rotation, pose_from_rows,

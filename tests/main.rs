@@ -5,6 +5,7 @@
 #![allow(unreachable_pub)]
 
 mod allocation;
+mod any_robot;
 mod bounds;
 mod catalog;
 mod catalog_page;

@@ -4,8 +4,8 @@
 use std::fmt::Debug;
 
 use irbkin::{
-    Arity, Configuration, FollowOptions, JointLimits, Joints, Mdh, OpwParameters, Robot, Sdh,
-    SingularityMode, Solution, Status, catalog, pose_from_euler_zyx,
+    AnyRobot, Arity, Configuration, FollowOptions, JointLimits, Joints, Mdh, OpwParameters, Robot,
+    Sdh, SingularityMode, Solution, Status, catalog, pose_from_euler_zyx,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -44,6 +44,7 @@ where
 #[test]
 fn robots_round_trip() {
     for arm in catalog() {
+        round_trips(&AnyRobot::from_catalog(arm).unwrap());
         match arm.dof() {
             6 => round_trips_with_settings(&Robot::<6>::from_catalog(arm).unwrap()),
             _ => round_trips_with_settings(&Robot::<7>::from_catalog(arm).unwrap()),

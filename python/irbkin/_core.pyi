@@ -646,7 +646,7 @@ class Robot:
         Raises:
             InvalidPoseError: T has a wrong shape or holds a matrix that is no pose; the message has
                 its index.
-            InvalidJointsError: A seed, weight or zone that is not finite.
+            InvalidJointsError: A seed or weight that is not finite, or a zone that is not 0 to 1.
             InvalidModelError: The arm has no closed form or seven joints; "wrist" or "lock_axis4"
                 for an arm without a spherical wrist.
             ValueError: Another `singularity_mode`.

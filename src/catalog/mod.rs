@@ -7,8 +7,9 @@ mod names;
 mod universal_robots;
 
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{Arity, Joints};
-use crate::kinematics::{DhRow, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh};
+use crate::kinematics::{
+    AnyRobot, Arity, DhRow, JointLimits, Joints, Mdh, OpwParameters, Pose, Robot, Sdh,
+};
 
 pub use left_out::left_out;
 pub use names::find;
@@ -122,6 +123,29 @@ impl CatalogArm {
     /// matter.
     pub fn aliases(&self) -> impl Iterator<Item = &'static str> {
         names::ALIASES.iter().filter(|(_, name)| *name == self.name).map(|(alias, _)| *alias)
+    }
+}
+
+impl AnyRobot {
+    /// The catalog arm with this name; [`find`] defines which spellings match.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::UnknownRobot`], as [`Robot::named`].
+    pub fn named(name: &str) -> Result<Self, Error> {
+        Self::from_catalog(find(name)?)
+    }
+
+    /// The robot of a catalog arm.
+    ///
+    /// # Errors
+    ///
+    /// None for the arms of [`catalog`].
+    pub fn from_catalog(arm: &CatalogArm) -> Result<Self, Error> {
+        match arm.dof() {
+            7 => Robot::<7>::from_catalog(arm).map(Self::from),
+            _ => Robot::<6>::from_catalog(arm).map(Self::from),
+        }
     }
 }
 

@@ -33,7 +33,7 @@ pub enum JointFault {
         /// The farthest that it may be [m, rad].
         bound: f64,
     },
-    /// The zone of a singularity mode is negative, NaN or infinite.
+    /// The zone of a singularity mode is no bound of a sine: NaN, or not between 0 and 1.
     Zone {
         /// The zone.
         value: f64,
@@ -77,7 +77,7 @@ impl fmt::Display for JointFault {
                 )
             }
             Self::Zone { value } => {
-                write!(f, "zone is {value}, it must be finite and not negative")
+                write!(f, "zone is {value}, it must be 0 to 1: a bound of |sin q5|")
             }
             Self::Configuration { field, value, bounds: [0, 0] } => {
                 write!(

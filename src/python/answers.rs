@@ -7,7 +7,7 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use super::arm::{Arm, on_robot};
+use super::arm::{Arm, on};
 use super::arrays::{Rows, addresses};
 use super::classes;
 use super::outputs::{checked_out, output, writable};
@@ -68,7 +68,7 @@ pub(super) fn singularity_arrays<'py>(
     detached(
         py,
         threads,
-        |pace| on_robot!(arm, robot => pace.singularity(robot, data, parts, write_part)),
+        |pace| on!(arm, robot => pace.singularity(robot, data, parts, write_part)),
     )?;
     let mut fields: Vec<Bound<'py, PyAny>> = columns.into_iter().map(Bound::into_any).collect();
     fields.push(kinds.into_any());

@@ -11,25 +11,39 @@ use super::outputs::{answer, output, writable};
 use super::signals::detached;
 use crate::batch::Pace;
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{Arity, JacobianFrame, Joints, Robot, check_joints, pose_to_rows};
+use crate::kinematics::{
+    AnyRobot, Arity, JacobianFrame, Joints, Robot, check_joints, pose_to_rows,
+};
 
-/// A robot of six or seven joints.
+/// What there is for a robot of six joints, or for one of seven.
 #[derive(Clone, PartialEq)]
-pub(super) enum Arm {
-    Six(Arc<Robot<6>>),
-    Seven(Arc<Robot<7>>),
+pub(super) enum ByJoints<S, V> {
+    Six(S),
+    Seven(V),
 }
 
-/// Runs the same expression on the robot, whatever its number of joints.
-macro_rules! on_robot {
-    ($arm:expr, $robot:ident => $body:expr) => {
-        match $arm {
-            $crate::python::arm::Arm::Six($robot) => $body,
-            $crate::python::arm::Arm::Seven($robot) => $body,
+/// Runs the same expression on either.
+macro_rules! on {
+    ($either:expr, $inner:ident => $body:expr) => {
+        match $either {
+            $crate::python::arm::ByJoints::Six($inner) => $body,
+            $crate::python::arm::ByJoints::Seven($inner) => $body,
         }
     };
 }
-pub(super) use on_robot;
+pub(super) use on;
+
+/// A robot of six or seven joints.
+pub(super) type Arm = ByJoints<Arc<Robot<6>>, Arc<Robot<7>>>;
+
+impl From<AnyRobot> for Arm {
+    fn from(robot: AnyRobot) -> Self {
+        match robot {
+            AnyRobot::Six(robot) => robot.into(),
+            AnyRobot::Seven(robot) => robot.into(),
+        }
+    }
+}
 
 impl From<Robot<6>> for Arm {
     fn from(robot: Robot<6>) -> Self {
@@ -80,7 +94,7 @@ impl Arm {
     }
 
     pub(super) fn slot_count(&self) -> usize {
-        on_robot!(self, robot => robot.slot_count())
+        on!(self, robot => robot.slot_count())
     }
 
     /// Joint vectors as an argument; a single one must be finite.
@@ -97,16 +111,11 @@ impl Arm {
         q: &Bound<'py, PyAny>,
         out: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        on_robot!(self, robot => if let Some(joints) = one(q)? {
+        on!(self, robot => if let Some(joints) = one(q)? {
             return answer(q, out, pose_to_rows(&robot.fk(&joints)).as_chunks::<4>().0);
         });
         Ok(self
-            .mapped(
-                q,
-                out,
-                &[4, 4],
-                |pace, q, poses| on_robot!(self, robot => pace.fk(robot, q, poses)),
-            )?
+            .mapped(q, out, &[4, 4], |pace, q, poses| on!(self, robot => pace.fk(robot, q, poses)))?
             .into_any())
     }
 
@@ -119,7 +128,7 @@ impl Arm {
             q,
             out,
             &[self.dof() + 1, 4, 4],
-            |pace, q, frames| on_robot!(self, robot => pace.link_frames(robot, q, frames)),
+            |pace, q, frames| on!(self, robot => pace.link_frames(robot, q, frames)),
         )
     }
 
@@ -129,14 +138,14 @@ impl Arm {
         frame: JacobianFrame,
         out: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        on_robot!(self, robot => if let Some(joints) = one(q)? {
+        on!(self, robot => if let Some(joints) = one(q)? {
             return answer(q, out, &robot.jacobian_rows(&joints, frame));
         });
         let rows = self.mapped(
             q,
             out,
             &[6, self.dof()],
-            |pace, q, rows| on_robot!(self, robot => pace.jacobian(robot, q, frame, rows)),
+            |pace, q, rows| on!(self, robot => pace.jacobian(robot, q, frame, rows)),
         );
         Ok(rows?.into_any())
     }
@@ -158,13 +167,14 @@ impl Arm {
         Ok(answer)
     }
 
-    /// The arm with its robot changed.
+    /// The arm with its robot changed, or the exception.
     pub(super) fn changed(&self, py: Python<'_>, change: &impl Change) -> PyResult<Self> {
-        let changed = match self {
-            Self::Six(robot) => change.apply(Robot::clone(robot)).map(Self::from),
-            Self::Seven(robot) => change.apply(Robot::clone(robot)).map(Self::from),
-        };
-        changed.map_err(|error: Error| to_py(py, &error))
+        self.edited(change).map_err(|error| to_py(py, &error))
+    }
+
+    /// The arm with its robot changed.
+    pub(super) fn edited(&self, change: &impl Change) -> Result<Self, Error> {
+        on!(self, robot => change.apply(Robot::clone(robot)).map(Self::from))
     }
 }
 

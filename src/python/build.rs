@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use super::arm::{Arm, on_robot};
+use super::arm::{Arm, on};
 use super::arrays::Rows;
 use super::edits::Edit;
 use super::errors::{Fault, to_py};
@@ -130,7 +130,7 @@ pub(super) type State =
 
 /// The state of an arm. Equal robots have equal states.
 pub(super) fn state(arm: &Arm) -> State {
-    on_robot!(arm, robot => {
+    on!(arm, robot => {
         let (definition, numbers) = match robot.definition() {
             Definition::Opw(opw) => ("opw", opw_numbers(opw)),
             Definition::Mdh(mdh) => ("mdh", mdh_numbers(mdh)),

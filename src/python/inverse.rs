@@ -5,7 +5,7 @@ use std::sync::Arc;
 use pyo3::prelude::*;
 
 use super::arguments::{read_singularity_mode, thread_count};
-use super::arm::{Arm, on_robot};
+use super::arm::{Arm, on};
 use super::batches::{self, needed_q7, no_q7, one_q7};
 use super::classes::pose_check_class;
 use super::configurations::{self, Fallback};
@@ -14,7 +14,7 @@ use super::found::{Found, read_weights};
 use super::nearest::{self, Seeded, read_seeded};
 use super::outputs::answer_row;
 use super::paths;
-use super::poses::{read_one_pose, read_single_pose};
+use super::poses::{read_ik_pose, read_single_pose};
 use super::robot::PyRobot;
 use super::solutions::PySolutions;
 use crate::kinematics::thresholds::WRIST_ZONE;
@@ -49,13 +49,13 @@ impl PyRobot {
         match self.arm() {
             Arm::Six(robot) => {
                 no_q7(q7.is_some())?;
-                let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_one_pose(T)?));
+                let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_ik_pose(T)?));
                 robot.ik_into(&mut found.solutions, ()).map_err(|error| to_py(py, &error))?;
                 Bound::new(py, PySolutions::from(found))
             }
             Arm::Seven(robot) => {
                 let q7 = one_q7(needed_q7(py, robot, q7)?)?;
-                let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_one_pose(T)?));
+                let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_ik_pose(T)?));
                 q7.check()
                     .and_then(|()| robot.ik_into(&mut found.solutions, q7))
                     .map_err(|error| to_py(py, &error))?;
@@ -125,7 +125,7 @@ impl PyRobot {
         threads: isize,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (py, threads) = (T.py(), thread_count(threads)?);
-        on_robot!(self.arm(), robot => {
+        on!(self.arm(), robot => {
             let (pose, seed) = match read_seeded(T, seed)? {
                 Seeded::One(pose, seed) => (pose, seed),
                 Seeded::Many(poses, seeds) => {
@@ -167,7 +167,7 @@ impl PyRobot {
     /// Raises:
     ///     InvalidPoseError: T has a wrong shape or holds a matrix that is no pose; the message has
     ///         its index.
-    ///     InvalidJointsError: A seed, weight or zone that is not finite.
+    ///     InvalidJointsError: A seed or weight that is not finite, or a zone that is not 0 to 1.
     ///     InvalidModelError: The arm has no closed form or seven joints; "wrist" or "lock_axis4"
     ///         for an arm without a spherical wrist.
     ///     ValueError: Another `singularity_mode`.
@@ -247,7 +247,7 @@ impl PyRobot {
     ///     InvalidPoseError, InvalidModelError: As `ik`.
     fn check_pose<'py>(&self, T: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let pose = read_single_pose(T, "check_pose")?;
-        let explanation = on_robot!(self.arm(), robot => robot.explain(&pose))
+        let explanation = on!(self.arm(), robot => robot.explain(&pose))
             .map_err(|error| to_py(T.py(), &error))?;
         let inside = matches!(explanation, Explanation::Found { .. });
         let reachable = inside

@@ -24,39 +24,35 @@ pub(super) fn read_pose(value: &Bound<'_, PyAny>, field: &str) -> PyResult<Pose>
     pose_from_rows(&rows).map_err(|error| to_py(value.py(), &error))
 }
 
-/// The argument T of a call that takes one pose, and of which `ik_batch` takes many.
+/// The argument T of `ik`, without NumPy's bookkeeping where it is plain.
 #[inline]
-pub(super) fn read_one_pose(value: &Bound<'_, PyAny>) -> PyResult<Pose> {
+pub(super) fn read_ik_pose(value: &Bound<'_, PyAny>) -> PyResult<Pose> {
     match copied_matrix4(value) {
         Some(rows) => pose_from_rows(&rows).map_err(|error| to_py(value.py(), &error)),
-        None => {
-            read_pose(value, "T").map_err(|error| match wording::many_hint(value, "ik_batch") {
-                none if none.is_empty() => error,
-                hint => Fault::Pose.error(value.py(), format!("{}{hint}", error.value(value.py()))),
-            })
-        }
+        None => read_one_pose(value, " (for many poses take ik_batch)"),
     }
 }
 
-/// The argument T of a method that takes one pose.
+/// The argument T of a method that takes one pose and has no batch.
 pub(super) fn read_single_pose(value: &Bound<'_, PyAny>, method: &str) -> PyResult<Pose> {
-    read_pose(value, "T").map_err(|error| match batch_shape(value) {
-        Some(sizes) => Fault::Pose.error(
-            value.py(),
-            format!(
-                "T must have shape (4, 4), got {}: {method} takes a single pose, call it for each",
-                wording::shape(&sizes)
-            ),
-        ),
-        None => error,
+    read_one_pose(value, &format!(": {method} takes a single pose, call it for each"))
+}
+
+/// The argument T of a call that takes one pose; a message on many ends with `many`.
+fn read_one_pose(value: &Bound<'_, PyAny>, many: &str) -> PyResult<Pose> {
+    read_pose(value, "T").map_err(|error| match shape_of(value).as_deref() {
+        Some(sizes @ [_, .., 4, 4]) => {
+            let got = wording::shape(sizes);
+            Fault::Pose.error(value.py(), format!("T must have shape (4, 4), got {got}{many}"))
+        }
+        _ => error,
     })
 }
 
-/// The shape of an argument that is many poses.
-fn batch_shape(value: &Bound<'_, PyAny>) -> Option<Vec<usize>> {
+/// The shape that NumPy sees in an argument.
+fn shape_of(value: &Bound<'_, PyAny>) -> Option<Vec<usize>> {
     let numpy = value.py().import("numpy").ok()?;
-    let shape: Vec<usize> = numpy.call_method1("shape", (value,)).ok()?.extract().ok()?;
-    (shape.len() > 2 && shape.ends_with(&[4, 4])).then_some(shape)
+    numpy.call_method1("shape", (value,)).ok()?.extract().ok()
 }
 
 /// A pose as a (4, 4) array.

@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 
 use super::answers::{singularity_arrays, singularity_record};
 use super::arguments::{read_frame, thread_count};
-use super::arm::on_robot;
+use super::arm::on;
 use super::configurations;
 use super::robot::PyRobot;
 
@@ -109,7 +109,7 @@ impl PyRobot {
         if out.is_some() {
             return Err(PyTypeError::new_err("out is for many joint vectors, shape (..., n)"));
         }
-        on_robot!(self.arm(), robot => match rows.data()?.first_chunk() {
+        on!(self.arm(), robot => match rows.data()?.first_chunk() {
             Some(q) => singularity_record(py, &robot.singularity(q)),
             None => Err(PyTypeError::new_err("q is empty")),
         })

@@ -4,15 +4,14 @@
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
-use super::arm::{Arm, on_robot};
+use super::arm::{Arm, on};
 use super::arrays::vector;
 use super::build::{self, State};
 use super::edits::Edit;
 use super::errors::{Fault, to_py};
 use super::poses::{pose_array, read_single_pose};
 use super::robot_repr;
-use crate::catalog;
-use crate::kinematics::Robot;
+use crate::kinematics::AnyRobot;
 
 /// A robot arm of six or seven joints: `Robot("IRB 2600-12/1.65")`.
 ///
@@ -56,17 +55,14 @@ pub(super) fn restore_robot(py: Python<'_>, state: State) -> PyResult<PyRobot> {
 impl PyRobot {
     #[new]
     fn new(py: Python<'_>, name: &str) -> PyResult<Self> {
-        let arm = catalog::find(name).and_then(|arm| match arm.dof() {
-            6 => Robot::<6>::from_catalog(arm).map(Arm::from),
-            _ => Robot::<7>::from_catalog(arm).map(Arm::from),
-        });
-        arm.map(Self::from).map_err(|error| to_py(py, &error))
+        let robot = AnyRobot::named(name).map_err(|error| to_py(py, &error))?;
+        Ok(Arm::from(robot).into())
     }
 
     /// Catalog name, or the name given by the caller.
     #[getter]
     fn name(&self) -> &str {
-        on_robot!(&self.arm, robot => robot.name())
+        on!(&self.arm, robot => robot.name())
     }
 
     /// Number of joints.
@@ -79,14 +75,14 @@ impl PyRobot {
     /// "unknown" where irbkin has no closed form.
     #[getter]
     fn structure(&self) -> &'static str {
-        on_robot!(&self.arm, robot => robot.structure())
+        on!(&self.arm, robot => robot.structure())
     }
 
     /// Modified Denavit-Hartenberg rows: alpha [rad], a [m], d [m], theta offset [rad], shape (n,
     /// 4). `flange` follows the last row.
     #[getter]
     fn mdh<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows: Vec<f64> = on_robot!(&self.arm, robot => {
+        let rows: Vec<f64> = on!(&self.arm, robot => {
             robot.mdh().rows.iter().flat_map(|row| row.to_array()).collect()
         });
         PyArray1::from_vec(py, rows).reshape([self.arm.dof(), 4])
@@ -95,38 +91,38 @@ impl PyRobot {
     /// Fixed transform from the base to the frame before the first row of `mdh`, shape (4, 4).
     #[getter]
     fn root<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        on_robot!(&self.arm, robot => pose_array(py, &robot.mdh().base))
+        on!(&self.arm, robot => pose_array(py, &robot.mdh().base))
     }
 
     /// Fixed transform from the last frame of `mdh` to the flange, shape (4, 4).
     #[getter]
     fn flange<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        on_robot!(&self.arm, robot => pose_array(py, &robot.mdh().flange))
+        on!(&self.arm, robot => pose_array(py, &robot.mdh().flange))
     }
 
     /// Pose of the base in the world, shape (4, 4).
     #[getter]
     fn base<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        on_robot!(&self.arm, robot => pose_array(py, robot.base()))
+        on!(&self.arm, robot => pose_array(py, robot.base()))
     }
 
     /// Pose of the tool center point in the flange frame, shape (4, 4).
     #[getter]
     fn tool<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        on_robot!(&self.arm, robot => pose_array(py, robot.tool()))
+        on!(&self.arm, robot => pose_array(py, robot.tool()))
     }
 
     /// Lower and upper limit of each joint [rad], shape (n, 2); infinite where a joint has none.
     #[getter]
     fn limits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let flat = on_robot!(&self.arm, robot => robot.limits().to_array().concat());
+        let flat = on!(&self.arm, robot => robot.limits().to_array().concat());
         PyArray1::from_vec(py, flat).reshape([self.arm.dof(), 2])
     }
 
     /// Largest velocity of each joint [rad/s], shape (n,), or None where it is not known.
     #[getter]
     fn max_velocity<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
-        on_robot!(&self.arm, robot => {
+        on!(&self.arm, robot => {
             robot.max_velocity().map(|velocity| PyArray1::from_slice(py, velocity))
         })
     }
@@ -170,14 +166,14 @@ impl PyRobot {
     /// the controller does.
     #[getter]
     fn is_coupled(&self) -> bool {
-        on_robot!(&self.arm, robot => robot.is_coupled())
+        on!(&self.arm, robot => robot.is_coupled())
     }
 
     /// Lower and upper limit of q3 - q2 [rad], shape (2,), of the parallelogram linkage; None where
     /// none are known.
     #[getter]
     fn linkage_limits<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
-        on_robot!(&self.arm, robot => robot.limits().linkage())
+        on!(&self.arm, robot => robot.limits().linkage())
             .map(|linkage| PyArray1::from_slice(py, &linkage))
     }
 

@@ -1,14 +1,14 @@
 //! `repr(robot)`: code where it is an arm of the catalog as it stands there, else what it differs
 //! in, in angle brackets.
 
-use super::arm::{Arm, on_robot};
+use super::arm::{Arm, on};
 use crate::catalog;
 use crate::error::Error;
 use crate::kinematics::{Arity, JointLimits, Joints, Pose, Robot, pose_to_wxyz};
 
 /// The text of an arm.
 pub(super) fn repr(arm: &Arm) -> String {
-    on_robot!(arm, robot => of_robot(robot))
+    on!(arm, robot => of_robot(robot))
 }
 
 fn of_robot<const N: usize>(robot: &Robot<N>) -> String

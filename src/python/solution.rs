@@ -8,7 +8,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyIterator, PyTuple};
 
-use super::arm::Arm;
+use super::arm::{Arm, ByJoints, on};
 use super::classes;
 use super::errors::{Fault, to_py};
 use super::found::{Found, is_same};
@@ -73,34 +73,18 @@ where
 /// picklable.
 #[pyclass(name = "Solution", module = "irbkin", frozen, weakref)]
 pub(super) struct PySolution {
-    of: AnyMember,
-}
-
-#[derive(PartialEq)]
-enum AnyMember {
-    Six(Member<6>),
-    Seven(Member<7>),
-}
-
-/// Runs the same expression on a solution, whatever its number of joints.
-macro_rules! on {
-    ($answer:expr, $inner:ident => $body:expr) => {
-        match $answer {
-            AnyMember::Six($inner) => $body,
-            AnyMember::Seven($inner) => $body,
-        }
-    };
+    of: ByJoints<Member<6>, Member<7>>,
 }
 
 impl From<Member<6>> for PySolution {
     fn from(member: Member<6>) -> Self {
-        Self { of: AnyMember::Six(member) }
+        Self { of: ByJoints::Six(member) }
     }
 }
 
 impl From<Member<7>> for PySolution {
     fn from(member: Member<7>) -> Self {
-        Self { of: AnyMember::Seven(member) }
+        Self { of: ByJoints::Seven(member) }
     }
 }
 
@@ -115,16 +99,10 @@ pub(super) fn restore_solution(
 ) -> PyResult<PySolution> {
     let py = robot.py();
     let pose = solution_state::pose(py, &pose)?;
-    match robot.get().arm() {
-        Arm::Six(robot) => {
-            let solution = solution_state::solution(py, robot, &state)?;
-            Ok(Member { robot: Arc::clone(robot), pose, solution }.into())
-        }
-        Arm::Seven(robot) => {
-            let solution = solution_state::solution(py, robot, &state)?;
-            Ok(Member { robot: Arc::clone(robot), pose, solution }.into())
-        }
-    }
+    on!(robot.get().arm(), robot => {
+        let solution = solution_state::solution(py, robot, &state)?;
+        Ok(Member { robot: Arc::clone(robot), pose, solution }.into())
+    })
 }
 
 #[pymethods]

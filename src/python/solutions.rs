@@ -8,7 +8,7 @@ use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyIterator, PySlice, PyTuple};
 
-use super::arm::Arm;
+use super::arm::{Arm, ByJoints, on};
 use super::found::Found;
 use super::outputs::matrix;
 use super::records;
@@ -26,34 +26,18 @@ use crate::kinematics::{Cost, Solution, Status};
 /// pose, picklable.
 #[pyclass(name = "Solutions", module = "irbkin", frozen, weakref, freelist = 8)]
 pub(super) struct PySolutions {
-    found: AnyFound,
-}
-
-#[derive(PartialEq)]
-enum AnyFound {
-    Six(Found<6>),
-    Seven(Found<7>),
-}
-
-/// Runs the same expression on an answer, whatever its number of joints.
-macro_rules! on {
-    ($answer:expr, $inner:ident => $body:expr) => {
-        match $answer {
-            AnyFound::Six($inner) => $body,
-            AnyFound::Seven($inner) => $body,
-        }
-    };
+    found: ByJoints<Found<6>, Found<7>>,
 }
 
 impl From<Found<6>> for PySolutions {
     fn from(found: Found<6>) -> Self {
-        Self { found: AnyFound::Six(found) }
+        Self { found: ByJoints::Six(found) }
     }
 }
 
 impl From<Found<7>> for PySolutions {
     fn from(found: Found<7>) -> Self {
-        Self { found: AnyFound::Seven(found) }
+        Self { found: ByJoints::Seven(found) }
     }
 }
 
@@ -68,16 +52,10 @@ pub(super) fn restore_solutions(
 ) -> PyResult<PySolutions> {
     let py = robot.py();
     let pose = solution_state::pose(py, &pose)?;
-    match robot.get().arm() {
-        Arm::Six(robot) => {
-            solution_state::restored(py, Found::empty(Arc::clone(robot), pose), &state)
-                .map(PySolutions::from)
-        }
-        Arm::Seven(robot) => {
-            solution_state::restored(py, Found::empty(Arc::clone(robot), pose), &state)
-                .map(PySolutions::from)
-        }
-    }
+    on!(robot.get().arm(), robot => {
+        solution_state::restored(py, Found::empty(Arc::clone(robot), pose), &state)
+            .map(PySolutions::from)
+    })
 }
 
 #[pymethods]

@@ -4,9 +4,9 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyString};
 
 use super::arm::Arm;
+use super::edits::Edit;
 use super::errors::to_py;
 use crate::error::{Error, UrdfFault};
-use crate::kinematics::{Arity, Joints, Robot};
 use crate::urdf::UrdfArm;
 
 /// What is taken of a URDF, and how.
@@ -33,22 +33,8 @@ fn arm_of(bytes: &[u8], wanted: Wanted<'_>) -> Result<Arm, Error> {
     let text =
         str::from_utf8(bytes).map_err(|error| UrdfFault::NotUtf8 { byte: error.valid_up_to() })?;
     let read = UrdfArm::read(text, wanted.base, wanted.tip, &[6, 7])?;
-    if read.dof() == 7 {
-        robot::<7>(&read, wanted).map(Arm::from)
-    } else {
-        robot::<6>(&read, wanted).map(Arm::from)
-    }
-}
-
-fn robot<const N: usize>(
-    read: &UrdfArm,
-    Wanted { name, closed_form, snap, .. }: Wanted<'_>,
-) -> Result<Robot<N>, Error>
-where
-    Joints<N>: Arity<N>,
-{
-    let robot = read.robot::<N>(closed_form, snap)?;
-    Ok(if name.is_empty() { robot } else { robot.with_name(name.to_owned()) })
+    let arm = Arm::from(read.any_robot(wanted.closed_form, wanted.snap)?);
+    if wanted.name.is_empty() { Ok(arm) } else { arm.edited(&Edit::Name(wanted.name)) }
 }
 
 /// The bytes of a text, or of the file at a path. A str that begins with `<`, blanks aside, is a

@@ -67,16 +67,3 @@ fn conversion(value: &Bound<'_, PyAny>) -> Option<&'static str> {
     }
     has(intern!(py, "matrix")).then_some(".matrix()")
 }
-
-/// " (...)" for an argument of many poses in place of one, naming the call that takes them.
-pub(super) fn many_hint(value: &Bound<'_, PyAny>, call: &str) -> String {
-    let py = value.py();
-    let sizes = py
-        .import(intern!(py, "numpy"))
-        .and_then(|numpy| numpy.call_method1(intern!(py, "shape"), (value,)))
-        .and_then(|sizes| sizes.extract::<Vec<usize>>());
-    match sizes.as_deref() {
-        Ok([_, .., 4, 4]) => format!(" (for many poses take {call})"),
-        _ => String::new(),
-    }
-}

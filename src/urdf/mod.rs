@@ -7,7 +7,6 @@ mod joint;
 mod shape;
 mod tree;
 
-use crate::kinematics::{Arity, Joints};
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
@@ -15,7 +14,9 @@ use self::chain::chain_between;
 use self::joint::{Joint, Motion, Placed};
 use self::tree::{Tree, parsed};
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{JointAxis, JointLimits, Mdh, Pose, Robot, SNAPS, check_snap};
+use crate::kinematics::{
+    AnyRobot, Arity, JointAxis, JointLimits, Joints, Mdh, Pose, Robot, SNAPS, check_snap,
+};
 
 impl<const N: usize> Robot<N>
 where
@@ -70,6 +71,17 @@ where
     }
 }
 
+impl AnyRobot {
+    /// The arm of six or seven joints between two links of a URDF; see [`Robot::from_urdf`].
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::from_urdf`].
+    pub fn from_urdf(text: &str, base: Option<&str>, tip: Option<&str>) -> Result<Self, Error> {
+        UrdfArm::read(text, base, tip, &[6, 7])?.any_robot(true, 0.0)
+    }
+}
+
 /// The arm of a URDF, with any number of joints.
 pub(crate) struct UrdfArm {
     name: String,
@@ -95,10 +107,12 @@ impl UrdfArm {
         self.joints.iter().filter_map(|joint| joint.motion.as_ref())
     }
 
-    /// Number of revolute joints.
-    #[cfg(feature = "python")]
-    pub(crate) fn dof(&self) -> usize {
-        self.motions().count()
+    /// As [`Self::robot`], of six or seven joints.
+    pub(crate) fn any_robot(&self, closed_form: bool, snap: f64) -> Result<AnyRobot, Error> {
+        match self.motions().count() {
+            7 => self.robot::<7>(closed_form, snap).map(AnyRobot::from),
+            _ => self.robot::<6>(closed_form, snap).map(AnyRobot::from),
+        }
     }
 
     /// The robot, which must have `N` joints; without `closed_form` an arm of unknown structure is

@@ -186,7 +186,9 @@ def test_a_path_with_a_bad_pose_names_it():
         ({"seed": [np.inf] * 6}, irbkin.InvalidJointsError, "seed: joint 1 is inf"),
         ({"weights": -np.ones(6)}, irbkin.InvalidJointsError, "weights: joint 1 is -1"),
         ({"singularity_mode": "wrists"}, ValueError, 'got "wrists"'),
-        ({"zone": -1.0}, irbkin.InvalidJointsError, "zone is -1"),
+        ({"zone": -1.0}, irbkin.InvalidJointsError, "zone is -1, it must be 0 to 1"),
+        ({"zone": 5.0}, irbkin.InvalidJointsError, "zone is 5, it must be 0 to 1"),
+        ({"zone": np.inf}, irbkin.InvalidJointsError, "zone is inf"),
         ({"zone": np.nan}, irbkin.InvalidJointsError, "zone is NaN"),
     ],
 )

@@ -252,8 +252,8 @@ def test_an_empty_path_has_an_empty_answer(robot):
             r"seed must have shape \(\.\.\., 6\), got \(5,\)",
         ),
         ({"weights": [-1] * 6}, InvalidJointsError, "weights: joint 1 is -1"),
-        ({"zone": np.nan}, InvalidJointsError, "zone is NaN, it must be finite and not negative"),
-        ({"zone": -1}, InvalidJointsError, "zone is -1, it must be finite and not negative"),
+        ({"zone": np.nan}, InvalidJointsError, "zone is NaN, it must be 0 to 1"),
+        ({"zone": -1}, InvalidJointsError, "zone is -1, it must be 0 to 1"),
         ({"zone": "x"}, TypeError, "real number"),
         (
             {"singularity_mode": "wrists"},

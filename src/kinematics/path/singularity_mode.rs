@@ -40,9 +40,8 @@ pub struct FollowOptions {
     pub weights: [f64; 6],
     /// How the path passes the wrist singularity.
     pub singularity_mode: SingularityMode,
-    /// sin q5
-    ///
-    /// below which joint 5 is in the zone of `singularity_mode` [1].
+    /// Absolute value of sin q5 below which joint 5 is in the zone of `singularity_mode`, 0 to 1
+    /// [1].
     pub zone: f64,
 }
 
@@ -86,7 +85,7 @@ impl Robot<6> {
         options: &FollowOptions,
         go_on: &mut dyn FnMut() -> bool,
     ) -> Result<Followed, Error> {
-        if !(options.zone.is_finite() && options.zone >= 0.0) {
+        if !(0.0..=1.0).contains(&options.zone) {
             return Err(JointFault::Zone { value: options.zone }.into());
         }
         if matches!(options.singularity_mode, SingularityMode::Wrist | SingularityMode::LockAxis4)

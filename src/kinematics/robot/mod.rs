@@ -1,5 +1,6 @@
 //! A robot: a chain, its limits and, where its structure is known, its inverse.
 
+pub(super) mod any;
 mod build;
 mod display;
 mod linkage;
