@@ -4,6 +4,9 @@ use alloc::vec::Vec;
 
 use super::polynomial::TERMS;
 
+/// What is left of a sum of numbers that cancel, as a part of them.
+const CANCELED: f64 = 64.0 * f64::EPSILON;
+
 /// Rounds of a search that ends after a few: each leaves a corner of a polygon behind.
 const MOST_ROUNDS: usize = 64;
 
@@ -84,7 +87,8 @@ impl Strips {
     }
 
     fn add(&mut self, by_before: f64, by_after: f64, limit: f64) {
-        if by_before == 0.0 {
+        // Where a path turns back, the parts of one of the paces cancel up to rounding.
+        if by_before.abs() <= CANCELED * by_after.abs() {
             if by_after != 0.0 {
                 self.most_after = self.most_after.min(limit / by_after.abs());
             }
@@ -163,13 +167,16 @@ impl Strips {
         low.max(high).min(bound).max(0.0)
     }
 
-    /// The largest y up to `bound` that is allowed after a pace of x.
+    /// The largest y up to `bound` that is allowed after a pace of x, which allows one.
     pub(super) fn most_after(&self, x: f64, bound: f64) -> f64 {
         let mut most = bound.min(self.most_after);
         for line in &self.lines {
-            // |x - slope y| <= half
+            // |x - slope y| <= half. Where y has a small part in it, x may be at the edge, and the
+            // rounding of x - half says nothing about y.
+            let is_small = line.slope.abs() * most <= line.half;
+            let half = if is_small { line.half * (1.0 + CANCELED) } else { line.half };
             if line.slope != 0.0 {
-                let ends = [(x - line.half) / line.slope, (x + line.half) / line.slope];
+                let ends = [(x - half) / line.slope, (x + half) / line.slope];
                 most = most.min(ends[0].max(ends[1]));
             }
         }

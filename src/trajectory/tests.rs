@@ -180,6 +180,27 @@ fn retimed_paths_keep_their_limits_and_use_them() {
     }
 }
 
+/// At the turning point every joint stands still along the path, whatever the pace: coefficients of
+/// the limits cancel there.
+#[test]
+fn a_path_that_goes_back_on_itself_keeps_its_limits() {
+    let mut rng = Rng::new(6);
+    for case in 0..500 {
+        let dof = 1 + case % 4;
+        let [there, turn]: [Vec<f64>; 2] =
+            [(); 2].map(|()| (0..dof).map(|_| rng.between(-3.0, 3.0)).collect());
+        let mut each = || (0..dof).map(|_| log_between(&mut rng, 1e-3, 1e3)).collect::<Vec<f64>>();
+        let [velocity, acceleration] = [(); 2].map(|()| each());
+        let timed =
+            retime(&[&there[..], &turn, &there].concat(), &velocity, &acceleration).unwrap();
+        for (joint, peaks) in timed.peaks().iter().enumerate() {
+            let excess = (peaks.velocity / velocity[joint] - 1.0)
+                .max(peaks.acceleration / acceleration[joint] - 1.0);
+            assert!(excess <= 1e-9, "{case}: {excess}");
+        }
+    }
+}
+
 #[test]
 fn a_straight_path_takes_the_time_of_a_trapezoid() {
     // Along a line the fastest pace is that of the trapezoid.
