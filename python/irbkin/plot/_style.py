@@ -1,0 +1,82 @@
+"""What the pictures share: colors, line styles, the look of axes, the check of an array."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+    from matplotlib.axes import Axes
+    from matplotlib.figure import SubFigure
+
+    from irbkin.errors import IrbkinError
+
+    Floats = npt.NDArray[np.float64]
+    Canvas = Figure | SubFigure
+
+# Okabe and Ito's colors, which color-blind readers can tell apart.
+BLUE, ORANGE, GREEN, PURPLE, VERMILION, SKY, BLACK = COLORS = (
+    "#0072b2",
+    "#e69f00",
+    "#009e73",
+    "#cc79a7",
+    "#d55e00",
+    "#56b4e9",
+    "#000000",
+)
+# With them, so that black and white does: solid, dashed, dash-dot, dotted, ...
+DASHES: tuple[Any, ...] = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (2, 1)), (0, (9, 2)))
+SHADE = "#f6d5c5"
+FONT = 9
+
+
+def line_style(index: int) -> dict[str, Any]:
+    """The color and the dashes of joint `index`, from 0."""
+    index %= len(COLORS)
+    return {"color": COLORS[index], "linestyle": DASHES[index], "linewidth": 1.6}
+
+
+def canvas(figure: Canvas | None, width: float, height: float) -> Canvas:
+    """The figure that is given, or a new one of a size [inch]."""
+    return Figure(figsize=(width, height), layout="constrained") if figure is None else figure
+
+
+def whole(figure: Canvas) -> Figure:
+    """The figure that a subfigure is in."""
+    top = figure.get_figure(root=True)
+    assert isinstance(top, Figure)
+    return top
+
+
+def tidy(axes: Axes) -> None:
+    """Give axes the look of all pictures."""
+    axes.grid(visible=True, color="#dddddd", linewidth=0.6)
+    axes.set_axisbelow(True)
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.tick_params(labelsize=FONT)
+
+
+def as_array(
+    value: npt.ArrayLike, name: str, shape: tuple[int | None, ...], error: type[IrbkinError]
+) -> Floats:
+    """An array of numbers; `None` in a shape is any length but 0.
+
+    Raises:
+        IrbkinError: Of the class that is given, for another shape or what is no number.
+    """
+    wanted = ", ".join("m" if size is None else str(size) for size in shape)
+    wanted = f"{name} must have shape ({wanted}{',' * (len(shape) == 1)})"
+    try:
+        array = np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError) as fault:
+        raise error(f"{wanted}, got what is no array of numbers: {fault}") from fault
+    is_fit = array.ndim == len(shape) and all(
+        size == found or (size is None and found > 0)
+        for size, found in zip(shape, array.shape, strict=True)
+    )
+    if not is_fit:
+        raise error(f"{wanted}, got {array.shape}")
+    return array
