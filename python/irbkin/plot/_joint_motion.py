@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from irbkin._arrays import as_array, limit_of_each
 from irbkin.errors import InvalidMotionError
-from irbkin.plot._style import FONT, SHADE, VERMILION, as_array, canvas, line_style, tidy, whole
+from irbkin.plot._style import FONT, SHADE, VERMILION, canvas, line_style, tidy, whole
 from irbkin.trajectory import Trajectory
 
 if TYPE_CHECKING:
@@ -16,7 +17,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from irbkin import Robot
-    from irbkin.plot._style import Canvas, Floats
+    from irbkin._arrays import Floats
+    from irbkin.plot._style import Canvas
 
 QUANTITIES = (("position", "deg"), ("velocity", "deg/s"), ("acceleration", "deg/s²"))
 POINTS = 241
@@ -127,11 +129,7 @@ def _symmetric(limit: npt.ArrayLike | None, name: str, dof: int) -> Floats | Non
     """A limit of size as lower and upper limits."""
     if limit is None:
         return None
-    shape = () if np.ndim(limit) == 0 else (dof,)
-    sizes = np.broadcast_to(as_array(limit, name, shape, InvalidMotionError), (dof,))
-    for joint, size in enumerate(sizes):
-        if not size > 0.0:
-            raise InvalidMotionError(f"{name}[{joint}] is {size}, it must be positive")
+    sizes = limit_of_each(limit, name, dof)
     return np.column_stack([-sizes, sizes])
 
 

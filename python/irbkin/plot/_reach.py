@@ -8,8 +8,9 @@ import numpy as np
 from matplotlib import colormaps
 from matplotlib.colors import BoundaryNorm, ListedColormap
 
+from irbkin._arrays import as_array
 from irbkin.errors import InvalidPoseError, UnreachableError
-from irbkin.plot._style import BLACK, FONT, as_array, canvas, whole
+from irbkin.plot._style import BLACK, FONT, canvas, whole
 from irbkin.records import Status
 
 if TYPE_CHECKING:
@@ -19,7 +20,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from irbkin import Robot
-    from irbkin.plot._style import Canvas, Floats
+    from irbkin._arrays import Floats
+    from irbkin.plot._style import Canvas
 
 COARSE = 61
 

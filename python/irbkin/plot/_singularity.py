@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from irbkin._arrays import as_array
 from irbkin.errors import InvalidJointsError
-from irbkin.plot._style import FONT, VERMILION, as_array, canvas, line_style, tidy, whole
+from irbkin.plot._style import FONT, VERMILION, canvas, line_style, tidy, whole
 
 if TYPE_CHECKING:
     import numpy.typing as npt

@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from irbkin import Robot, Solution
-    from irbkin.plot._style import Canvas, Floats
+    from irbkin._arrays import Floats
+    from irbkin.plot._style import Canvas
 
 # Seen from the front on the right, from above.
 AZIMUTH, ELEVATION = np.radians([-29.0, 20.0])

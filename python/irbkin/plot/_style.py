@@ -1,20 +1,15 @@
-"""What the pictures share: colors, line styles, the look of axes, the check of an array."""
+"""What the pictures share: colors, line styles, the look of axes."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from matplotlib.figure import Figure
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
     from matplotlib.axes import Axes
     from matplotlib.figure import SubFigure
 
-    from irbkin.errors import IrbkinError
-
-    Floats = npt.NDArray[np.float64]
     Canvas = Figure | SubFigure
 
 # Okabe and Ito's colors, which color-blind readers can tell apart.
@@ -57,26 +52,3 @@ def tidy(axes: Axes) -> None:
     axes.set_axisbelow(True)
     axes.spines[["top", "right"]].set_visible(False)
     axes.tick_params(labelsize=FONT)
-
-
-def as_array(
-    value: npt.ArrayLike, name: str, shape: tuple[int | None, ...], error: type[IrbkinError]
-) -> Floats:
-    """An array of numbers; `None` in a shape is any length but 0.
-
-    Raises:
-        IrbkinError: Of the class that is given, for another shape or what is no number.
-    """
-    wanted = ", ".join("m" if size is None else str(size) for size in shape)
-    wanted = f"{name} must have shape ({wanted}{',' * (len(shape) == 1)})"
-    try:
-        array = np.asarray(value, dtype=np.float64)
-    except (TypeError, ValueError) as fault:
-        raise error(f"{wanted}, got what is no array of numbers: {fault}") from fault
-    is_fit = array.ndim == len(shape) and all(
-        size == found or (size is None and found > 0)
-        for size, found in zip(shape, array.shape, strict=True)
-    )
-    if not is_fit:
-        raise error(f"{wanted}, got {array.shape}")
-    return array

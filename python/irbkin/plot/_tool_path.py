@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
+from irbkin._arrays import as_array
 from irbkin.errors import InvalidPoseError
 from irbkin.plot._style import (
     BLACK,
@@ -13,7 +14,6 @@ from irbkin.plot._style import (
     FONT,
     GREEN,
     VERMILION,
-    as_array,
     canvas,
     whole,
 )
@@ -23,7 +23,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from mpl_toolkits.mplot3d.axes3d import Axes3D
 
-    from irbkin.plot._style import Canvas, Floats
+    from irbkin._arrays import Floats
+    from irbkin.plot._style import Canvas
 
 # x, y and z of a frame: a color and dashes each.
 AXES: tuple[tuple[str, str, Any], ...] = (
