@@ -46,8 +46,8 @@ GHOST, GHOST_WIDTH = "#dcdcdc", 2.5
 # Parts of the size of the arm: the arrow along axis 5, and the radius of the base.
 ARROW, FOOT = 0.3, 0.13
 COLUMNS = 4
-# Width of a panel and height of the words above and below it [inch].
-WIDTH, WORDS = 2.25, 0.75
+# Width of a panel, height of the words above and below it, and of the legend [inch].
+WIDTH, ABOVE, BELOW, LEGEND = 2.25, 0.45, 0.42, 0.3
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,28 +114,37 @@ def solutions(
     heads = [s.axis_5[0] + ARROW * size * s.axis_5[1] for s in skeletons if has_axis_5]
     corners = on_paper(np.vstack([points, foot, *heads]))
     low, high = corners.min(axis=0) - 0.04 * size, corners.max(axis=0) + 0.04 * size
-    panel = WIDTH * (high - low)[1] / (high - low)[0] + WORDS
-    drawn = canvas(figure, WIDTH * max(columns, 3), panel * rows + 0.35)
-    grid = drawn.subplots(rows, columns, squeeze=False)
-    for axes in grid.flat[len(found) :]:
-        axes.set_visible(False)
-    for index, (solution, axes) in enumerate(zip(found, grid.flat, strict=False)):
+    panel = WIDTH * (high - low)[1] / (high - low)[0] + ABOVE + BELOW
+    drawn = canvas(figure, WIDTH * max(columns, 3), panel * rows + LEGEND, layout=None)
+    panels = _panels(drawn, len(found), columns)
+    for index, (solution, axes) in enumerate(zip(found, panels, strict=True)):
         for other in skeletons[:index] + skeletons[index + 1 :]:
             _stroke(axes, other.points(), GHOST, GHOST_WIDTH, 1.0)
         axes.fill(*on_paper(foot).T, color="#c8c8c8", zorder=1.5)
         _draw(axes, skeletons[index])
         if has_axis_5:
             _arrow(axes, skeletons[index], ARROW * size)
-        # All panels are of one size, so that all arms are of one scale; the words have their room.
-        axes.set_aspect("equal", adjustable="datalim")
-        axes.update_datalim([low, high])
-        axes.margins(0.0)
+        axes.set(aspect="equal", xlim=(low[0], high[0]), ylim=(low[1], high[1]))
         axes.set(xticks=[], yticks=[])
         axes.set_frame_on(False)
         axes.set_title(f"slot {solution.slot}", fontsize=9)
         _angles(axes, robot, solution)
     _legend(drawn, has_axis_5)
     return whole(drawn)
+
+
+def _panels(drawn: Canvas, count: int, columns: int) -> list[Axes]:
+    """Axes of one size, and so arms of one scale, with room for the words; no layout moves them."""
+    above, below, legend = np.array([ABOVE, BELOW, LEGEND]) / (drawn.bbox.height / drawn.dpi)
+    width, height = 1.0 / columns, (1.0 - legend) / -(-count // columns)
+    room = max(height - above - below, 0.2 * height)
+    places = [divmod(index, columns) for index in range(count)]
+    return [
+        drawn.add_axes(
+            ((column + 0.02) * width, 1 - (row + 1) * height + below, 0.96 * width, room)
+        )
+        for row, column in places
+    ]
 
 
 def on_paper(points: Floats) -> Floats:
@@ -199,6 +208,4 @@ def _legend(drawn: Canvas, has_axis_5: bool) -> None:
     lines = [
         Line2D([], [], color=color, linewidth=width, label=name) for name, color, width in rows
     ]
-    drawn.legend(
-        handles=lines, loc="outside lower center", ncols=len(lines), frameon=False, fontsize=8
-    )
+    drawn.legend(handles=lines, loc="lower center", ncols=len(lines), frameon=False, fontsize=8)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from matplotlib.figure import Figure
 
@@ -34,9 +34,14 @@ def line_style(index: int) -> dict[str, Any]:
     return {"color": COLORS[index], "linestyle": DASHES[index], "linewidth": 1.6}
 
 
-def canvas(figure: Canvas | None, width: float, height: float) -> Canvas:
+def canvas(
+    figure: Canvas | None,
+    width: float,
+    height: float,
+    layout: Literal["constrained"] | None = "constrained",
+) -> Canvas:
     """The figure that is given, or a new one of a size [inch]."""
-    return Figure(figsize=(width, height), layout="constrained") if figure is None else figure
+    return Figure(figsize=(width, height), layout=layout) if figure is None else figure
 
 
 def whole(figure: Canvas) -> Figure:
