@@ -238,6 +238,8 @@ def test_a_path_with_a_gap_or_of_one_pose_is_drawn():
     assert len(plot.path(poses[:1]).axes[0].lines) == 5
     poses[2] = np.nan
     assert len(plot.path(poses, frames=0).axes[0].lines) == 2
+    # As many frames as poses at most.
+    assert len(plot.path(poses, frames=10**9).axes[0].lines) == 2 + 3 * 4
     with pytest.raises(irbkin.InvalidPoseError, match="poses has no pose without NaN"):
         plot.path(poses[2:3])
     with pytest.raises(irbkin.InvalidPoseError, match=r"poses must have shape \(m, 4, 4\), got"):
@@ -310,6 +312,12 @@ def test_a_cell_of_the_reach_is_the_number_of_solutions_at_its_middle(name):
     assert (counts > 0).any()
     for edge in (counts[0], counts[-1], counts[:, 0], counts[:, -1]):
         assert not edge.any()
+
+
+def test_the_base_is_marked_where_it_is():
+    robot = ROBOT.with_base(irbkin.pose([0.3, 0.4, 0.5]))
+    axes = plot.reach(robot, DOWN, azimuth=np.pi / 2, steps=20).axes[0]
+    np.testing.assert_allclose(axes.lines[0].get_data(), [[0.4], [0.5]], atol=1e-15)
 
 
 def test_an_orientation_that_is_none_is_named():

@@ -36,14 +36,14 @@ def reach(
     figure: Canvas | None = None,
 ) -> Figure:
     """Draw how many solutions inside the limits a tool of fixed orientation has, in a vertical
-    plane through the z axis of the base frame.
+    plane through z of the frame that poses are in (the base frame of a robot without a base).
 
     Each cell is the exact answer of `ik_batch` at its middle, not an interpolation.
 
     Args:
         robot: The arm, with its tool, base and limits.
-        orientation: Orientation of the tool in the base frame, shape (3, 3), or (4, 4) of a pose.
-        azimuth: Direction of the plane [rad], from x of the base frame about its z.
+        orientation: Orientation of the tool, shape (3, 3), or (4, 4) of a pose.
+        azimuth: Direction of the plane [rad], from x about z.
         steps: Number of cells across the longer side.
         q7: Angle of joint 7 of a seven-axis arm [rad].
         figure: Where to draw; a new figure if not given.
@@ -95,10 +95,11 @@ def reach(
         norm=BoundaryNorm(np.arange(most + 2) - 0.5, most + 1),
         interpolation="none",
     )
-    axes.plot(0.0, 0.0, marker="+", markersize=10, color=BLACK, linestyle="none")
+    base = (float(robot.base[:3, 3] @ along), float(robot.base[2, 3]))
+    axes.plot(*base, marker="+", markersize=10, color=BLACK, linestyle="none")
     axes.annotate(
         "base",
-        (0.0, 0.0),
+        base,
         (7, 0),
         textcoords="offset points",
         va="center",

@@ -67,7 +67,8 @@ def path(poses: npt.ArrayLike, *, frames: int = 6, figure: Canvas | None = None)
     start = known[0, :3, 3]
     axes.plot(*start[:, None], color=BLACK, marker="o", linestyle="none", label="start")
     size = float(np.ptp(known[:, :3, 3], axis=0).max()) or 0.1
-    shown = known[np.unique(np.linspace(0, len(known) - 1, frames).round().astype(int))]
+    frames = min(frames, len(known))
+    shown = known[np.linspace(0, len(known) - 1, frames).round().astype(int)]
     for column, (name, color, dashes) in enumerate(AXES if frames else ()):
         ends = shown[:, :3, 3] + FRAME * size * shown[:, :3, column]
         for index, (tail, head) in enumerate(zip(shown[:, :3, 3], ends, strict=True)):
