@@ -5,15 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+import numpy.typing as npt
 
 from irbkin.errors import InvalidMotionError
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
-
     from irbkin.errors import IrbkinError
 
-    Floats = npt.NDArray[np.float64]
+Floats = npt.NDArray[np.float64]
 
 
 def as_array(

@@ -63,7 +63,7 @@ def state_to_state(
             ruckig's.
     """
     try:
-        import ruckig
+        import ruckig  # type: ignore[import-not-found]
     except ImportError as missing:
         raise ImportError(
             "irbkin.trajectory.state_to_state needs ruckig: pip install 'irbkin[time]'",

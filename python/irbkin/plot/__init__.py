@@ -15,10 +15,10 @@ from __future__ import annotations
 
 try:
     import matplotlib as _matplotlib  # noqa: F401
-except ImportError as missing:
+except ImportError as _missing:
     raise ImportError(
         "irbkin.plot needs matplotlib: pip install 'irbkin[plot]'", name="matplotlib"
-    ) from missing
+    ) from _missing
 
 from irbkin.plot._joint_motion import trajectory
 from irbkin.plot._reach import reach

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,7 +21,6 @@ from irbkin.plot._style import (
 if TYPE_CHECKING:
     import numpy.typing as npt
     from matplotlib.figure import Figure
-    from mpl_toolkits.mplot3d.axes3d import Axes3D
 
     from irbkin._arrays import Floats
     from irbkin.plot._style import Canvas
@@ -61,7 +60,8 @@ def path(poses: npt.ArrayLike, *, frames: int = 6, figure: Canvas | None = None)
     if not len(known):
         raise InvalidPoseError("poses has no pose without NaN or infinity")
     drawn = canvas(figure, 5.6, 4.6)
-    axes = cast("Axes3D", drawn.add_subplot(projection="3d"))
+    # matplotlib has no types of 3-D axes.
+    axes: Any = drawn.add_subplot(projection="3d")
     points = rows[:, :3, 3]
     axes.plot(*points.T, color=BLACK, linewidth=1.6, label="path of the tool")
     start = known[0, :3, 3]
@@ -90,7 +90,7 @@ def path(poses: npt.ArrayLike, *, frames: int = 6, figure: Canvas | None = None)
     return whole(drawn)
 
 
-def _view(axes: Axes3D, points: Floats, size: float) -> None:
+def _view(axes: Any, points: Floats, size: float) -> None:
     """One scale for all axes, none of them flat, the frames inside."""
     middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
     half = 0.5 * np.maximum(np.ptp(points, axis=0), LEAST * size) + FRAME * size
