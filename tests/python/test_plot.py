@@ -340,3 +340,14 @@ def test_a_figure_that_is_given_is_drawn_into():
     assert plot.trajectory(MOVE, figure=left) is figure
     assert plot.solutions(ROBOT, T, figure=right) is figure
     assert (len(left.axes), len(right.axes)) == (3, 8)
+
+
+def test_a_name_is_no_robot():
+    for call in (
+        lambda name: plot.trajectory(MOVE, robot=name),
+        lambda name: plot.solutions(name, T),
+        lambda name: plot.singularity(name, MOVE.q),
+        lambda name: plot.reach(name, DOWN),
+    ):
+        with pytest.raises(TypeError, match="robot must be a Robot, got str"):
+            call("IRB 2600-12/1.65")

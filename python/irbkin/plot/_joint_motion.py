@@ -8,7 +8,7 @@ import numpy as np
 
 from irbkin._arrays import as_array, limit_of_each
 from irbkin.errors import InvalidMotionError
-from irbkin.plot._style import FONT, SHADE, VERMILION, canvas, line_style, tidy, whole
+from irbkin.plot._style import FONT, SHADE, VERMILION, canvas, check_robot, line_style, tidy, whole
 from irbkin.trajectory import Trajectory
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def trajectory(
         The figure. Axes are in deg, deg/s and deg/s^2 over s.
 
     Raises:
-        TypeError: `motion` is no Trajectory.
+        TypeError: `motion` is no Trajectory, or `robot` no Robot.
         InvalidMotionError: A limit has a wrong shape, is NaN, or is not positive; a robot has
             another number of joints.
     """
@@ -58,6 +58,7 @@ def trajectory(
         raise TypeError(f"motion must be a Trajectory, got {type(motion).__name__}")
     dof = motion.dof
     if robot is not None:
+        check_robot(robot)
         if robot.dof != dof:
             raise InvalidMotionError(f"robot has {robot.dof} joints, motion has {dof}")
         limits = robot.limits if limits is None else limits

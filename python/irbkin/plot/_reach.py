@@ -10,7 +10,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 
 from irbkin._arrays import as_array
 from irbkin.errors import InvalidPoseError, UnreachableError
-from irbkin.plot._style import BLACK, FONT, canvas, whole
+from irbkin.plot._style import BLACK, FONT, canvas, check_robot, whole
 from irbkin.records import Status
 
 if TYPE_CHECKING:
@@ -55,8 +55,10 @@ def reach(
         InvalidPoseError: `orientation` has a wrong shape or is no rotation; `azimuth` is not
             finite.
         ValueError: Fewer than 2 or more than 2000 steps.
+        TypeError: `robot` is no Robot.
         UnreachableError: No cell has a solution inside the limits.
     """
+    check_robot(robot)
     if not 2 <= steps <= 2000:
         raise ValueError(f"steps must be 2 to 2000, got {steps}")
     if not np.isfinite(azimuth):

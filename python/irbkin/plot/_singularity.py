@@ -8,7 +8,7 @@ import numpy as np
 
 from irbkin._arrays import as_array
 from irbkin.errors import InvalidJointsError
-from irbkin.plot._style import FONT, VERMILION, canvas, line_style, tidy, whole
+from irbkin.plot._style import FONT, VERMILION, canvas, check_robot, line_style, tidy, whole
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -44,7 +44,9 @@ def singularity(
 
     Raises:
         InvalidJointsError: `q` or `t` has a wrong shape.
+        TypeError: `robot` is no Robot.
     """
+    check_robot(robot)
     rows = as_array(q, "q", (None, robot.dof), InvalidJointsError)
     along = np.arange(len(rows), dtype=np.float64)
     if t is not None:

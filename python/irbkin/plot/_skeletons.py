@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from irbkin.errors import UnreachableError
-from irbkin.plot._style import BLACK, BLUE, ORANGE, VERMILION, canvas, whole
+from irbkin.plot._style import BLACK, BLUE, ORANGE, VERMILION, canvas, check_robot, whole
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -100,7 +100,9 @@ def solutions(
     Raises:
         UnreachableError: The pose has no solution; the message has the reason.
         InvalidPoseError: `T` is no pose.
+        TypeError: `robot` is no Robot.
     """
+    check_robot(robot)
     found = robot.ik(T) if q7 is None else robot.ik(T, q7=q7)
     if not len(found):
         raise UnreachableError(f"T has no solution to draw: {found.explain()}")

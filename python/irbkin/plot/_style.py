@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from matplotlib.figure import Figure, SubFigure
 
+from irbkin._core import Robot
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
@@ -41,6 +43,12 @@ def canvas(
 ) -> Canvas:
     """The figure that is given, or a new one of a size [inch]."""
     return Figure(figsize=(width, height), layout=layout) if figure is None else figure
+
+
+def check_robot(robot: object) -> None:
+    """Refuse what is no robot, a name for instance."""
+    if not isinstance(robot, Robot):
+        raise TypeError(f"robot must be a Robot, got {type(robot).__name__}")
 
 
 def whole(figure: Canvas) -> Figure:
