@@ -45,14 +45,21 @@ def show(what: str, own: float, other: float | None = None, than: str = "") -> N
 
 
 def toppra_of(
-    q: np.ndarray, velocity: np.ndarray, acceleration: np.ndarray, points: int
+    q: np.ndarray, velocity: np.ndarray, acceleration: np.ndarray, points: int | None
 ) -> Callable[[], object]:
-    """A call that retimes a path with toppra, on the same spline."""
+    """A call that retimes a path with toppra, on the same spline: on a grid of so many points, or
+    as toppra does by default.
+    """
     import toppra
     from toppra import algorithm, constraint
 
     toppra.setup_logging("ERROR")
     lengths = np.r_[0, np.cumsum(np.linalg.norm(np.diff(q, axis=0), axis=1))]
+
+    grid = {
+        "gridpoints": np.linspace(0, lengths[-1], points or 2),
+        "parametrizer": "ParametrizeConstAccel",
+    }
 
     def call() -> object:
         return algorithm.TOPPRA(
@@ -61,8 +68,7 @@ def toppra_of(
                 constraint.JointAccelerationConstraint(np.c_[-acceleration, acceleration]),
             ],
             toppra.SplineInterpolator(lengths, q),
-            gridpoints=np.linspace(0, lengths[-1], points),
-            parametrizer="ParametrizeConstAccel",
+            **(grid if points else {}),
         ).compute_trajectory()
 
     return call

@@ -63,6 +63,7 @@ if TYPE_CHECKING:
     from types import ModuleType
 
     from irbkin import paths as paths
+    from irbkin import plot as plot
     from irbkin import rapid as rapid
     from irbkin import trajectory as trajectory
 
@@ -110,7 +111,8 @@ __all__ = [
     "use_instruction_set",
 ]
 
-_MODULES = ("paths", "rapid", "trajectory")
+# `plot` needs an extra: it is not in `__all__`, which a star import takes in whole.
+_MODULES = ("paths", "plot", "rapid", "trajectory")
 
 
 def __getattr__(name: str) -> ModuleType:

@@ -51,7 +51,7 @@ _OutcomeState = tuple[str, int, int, float]
 _FoundState = tuple[
     list[_SolutionState], _OutcomeState, _OutcomeState | None, list[_SolutionState] | None
 ]
-_TrajectoryState = tuple[int, list[float], list[float], list[float]]
+_TrajectoryState = tuple[int, list[float], list[list[float]], list[float]]
 # One joint vector, `Solution` too; the shape of an array is known at the call alone.
 _Vector = Sequence[float]
 
@@ -1201,7 +1201,7 @@ class Trajectory:
     ]: ...
 
 def _restore_trajectory(
-    dof: int, knots: list[float], terms: list[float], times: list[float]
+    dof: int, knots: list[float], terms: list[list[float]], times: list[float]
 ) -> Trajectory: ...
 def joint(
     q0: npt.ArrayLike,

@@ -11,6 +11,15 @@ array([ 0.9375, -1.875 ])
 from __future__ import annotations
 
 from irbkin._core import Trajectory, joint, retime, spline
+from irbkin._state_to_state import state_to_state
 from irbkin.records import MotionPeaks, TrajectorySample
 
-__all__ = ["MotionPeaks", "Trajectory", "TrajectorySample", "joint", "retime", "spline"]
+__all__ = [
+    "MotionPeaks",
+    "Trajectory",
+    "TrajectorySample",
+    "joint",
+    "retime",
+    "spline",
+    "state_to_state",
+]

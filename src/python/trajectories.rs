@@ -135,7 +135,8 @@ pub(super) fn joint(
     let motion = if given && duration.is_none() {
         if ends.iter().flatten().any(|number| *number != 0.0) {
             let message = "limits without a duration are for motions from rest to rest: give \
-                           duration for velocities or accelerations at the ends";
+                           duration for velocities or accelerations at the ends, or use \
+                           trajectory.state_to_state";
             return Err(Fault::Motion.error(py, message.to_owned()));
         }
         joint_within(profile, &start, &end, &limits, synchronization)

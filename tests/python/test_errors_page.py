@@ -7,7 +7,7 @@ from pathlib import Path
 
 import irbkin
 import numpy as np
-from irbkin import Robot, rapid
+from irbkin import Robot, plot, rapid, trajectory
 
 PAGE = Path(__file__).parents[2] / "docs" / "errors.md"
 START = "<!-- python: written by make errors -->\n"
@@ -19,6 +19,10 @@ POSE = SIX.fk(SEED)
 NAMES = {
     "irbkin": irbkin,
     "rapid": rapid,
+    "plot": plot,
+    "trajectory": trajectory,
+    "move": trajectory.joint(SEED, -SEED),
+    "limits": {"max_velocity": 2.0, "max_acceleration": 8.0, "max_jerk": 60.0},
     "np": np,
     "robot": SIX,
     "panda": SEVEN,
@@ -66,6 +70,25 @@ CALLS = [
     ("rapid.parse('hello world')", "give RAPID text"),
     ("rapid.parse('pick.mod')", "`rapid.load('pick.mod')`"),
     ("rapid.dump(True)", "give a record or a module"),
+    (
+        "trajectory.joint(seed, -seed, end_velocity=[1.0] * 6, max_velocity=2.0)",
+        "`trajectory.state_to_state`, or give `duration`",
+    ),
+    ("trajectory.state_to_state(seed, [0.0], **limits)", "as many angles as the start has"),
+    ("trajectory.state_to_state(seed, [np.nan] * 6, **limits)", "repair it"),
+    (
+        "trajectory.state_to_state(seed, -seed, end_velocity=[9.0] * 6, **limits)",
+        "a state inside the limits",
+    ),
+    ("plot.trajectory(seed)", "give a `Trajectory`, of `trajectory.joint` for instance"),
+    ("plot.trajectory(move, robot=panda)", "the robot of the motion"),
+    ("plot.trajectory(move, max_velocity=-1)", "give a positive limit"),
+    ("plot.trajectory(move, limits=[[1, -1]] * 6)", "lower, then upper"),
+    ("plot.path(T)", "give many poses, shape (m, 4, 4)"),
+    ("plot.path(many, frames=-1)", "0 for none"),
+    ("plot.singularity(robot, seed)", "give many joint vectors, shape (m, n)"),
+    ("plot.reach(robot, [0, 0, -1])", "give a rotation matrix"),
+    ("plot.reach(robot, np.eye(3), steps=1)", "two cells or more"),
 ]
 
 

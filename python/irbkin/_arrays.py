@@ -1,0 +1,61 @@
+"""Arguments that Python code reads as arrays; the extension reads its own."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+from irbkin.errors import InvalidMotionError
+
+if TYPE_CHECKING:
+    from irbkin.errors import IrbkinError
+
+Floats = npt.NDArray[np.float64]
+
+
+def as_array(
+    value: npt.ArrayLike, name: str, shape: tuple[int | None, ...], error: type[IrbkinError]
+) -> Floats:
+    """An array of numbers; `None` in a shape is any length but 0.
+
+    Raises:
+        IrbkinError: Of the class that is given, for another shape or what is no number.
+    """
+    wanted = ", ".join("m" if size is None else str(size) for size in shape)
+    wanted = f"{name} must have shape ({wanted}{',' * (len(shape) == 1)})"
+    try:
+        array = np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError) as fault:
+        raise error(f"{wanted}, got what is no array of numbers: {fault}") from fault
+    is_fit = array.ndim == len(shape) and all(
+        size == found or (size is None and found > 0)
+        for size, found in zip(shape, array.shape, strict=True)
+    )
+    if not is_fit:
+        raise error(f"{wanted}, got {array.shape}")
+    return array
+
+
+def finite(
+    value: npt.ArrayLike, name: str, shape: tuple[int | None, ...], error: type[IrbkinError]
+) -> Floats:
+    """An array without NaN and infinity, of one dimension."""
+    array = as_array(value, name, shape, error)
+    for index in np.flatnonzero(~np.isfinite(array)):
+        raise error(f"{name}[{index}] is {array[index]}: every element must be finite")
+    return array
+
+
+def limit_of_each(value: npt.ArrayLike, name: str, dof: int) -> Floats:
+    """A positive limit for each joint, from a number for all or one for each.
+
+    Raises:
+        InvalidMotionError: Another shape, or a limit that is not positive.
+    """
+    shape = () if np.ndim(value) == 0 else (dof,)
+    limits = np.broadcast_to(as_array(value, name, shape, InvalidMotionError), (dof,))
+    for index in np.flatnonzero(~(limits > 0.0)):
+        raise InvalidMotionError(f"{name}[{index}] is {limits[index]}, it must be positive")
+    return limits

@@ -1,0 +1,66 @@
+"""What the pictures share: colors, line styles, the look of axes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal
+
+from matplotlib.figure import Figure, SubFigure
+
+from irbkin._core import Robot
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Canvas = Figure | SubFigure
+
+# Okabe and Ito's colors, which color-blind readers can tell apart.
+BLUE, ORANGE, GREEN, PURPLE, VERMILION, SKY, BLACK = COLORS = (
+    "#0072b2",
+    "#e69f00",
+    "#009e73",
+    "#cc79a7",
+    "#d55e00",
+    "#56b4e9",
+    "#000000",
+)
+# With them, so that black and white does: solid, dashed, dash-dot, dotted, ...
+DASHES: tuple[Any, ...] = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (2, 1)), (0, (9, 2)))
+SHADE = "#f6d5c5"
+FONT = 9
+
+
+def line_style(index: int) -> dict[str, Any]:
+    """The color and the dashes of joint `index`, from 0."""
+    index %= len(COLORS)
+    return {"color": COLORS[index], "linestyle": DASHES[index], "linewidth": 1.6}
+
+
+def canvas(
+    figure: Canvas | None,
+    width: float,
+    height: float,
+    layout: Literal["constrained"] | None = "constrained",
+) -> Canvas:
+    """The figure that is given, or a new one of a size [inch]."""
+    return Figure(figsize=(width, height), layout=layout) if figure is None else figure
+
+
+def check_robot(robot: object) -> None:
+    """Refuse what is no robot, a name for instance."""
+    if not isinstance(robot, Robot):
+        raise TypeError(f"robot must be a Robot, got {type(robot).__name__}")
+
+
+def whole(figure: Canvas) -> Figure:
+    """The figure that a subfigure is in."""
+    top = figure.get_figure(root=True)
+    assert isinstance(top, Figure)
+    return top
+
+
+def tidy(axes: Axes) -> None:
+    """Give axes the look of all pictures."""
+    axes.grid(visible=True, color="#dddddd", linewidth=0.6)
+    axes.set_axisbelow(True)
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.tick_params(labelsize=FONT)

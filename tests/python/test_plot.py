@@ -1,0 +1,353 @@
+"""What the pictures of `irbkin.plot` show: data, labels, limits; and what they refuse."""
+
+import subprocess
+import sys
+
+import irbkin
+import matplotlib as mpl
+import numpy as np
+import pytest
+from irbkin import plot, trajectory
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+
+ROBOT = irbkin.Robot("IRB 2600-12/1.65")
+T = irbkin.pose([0.85, 0.32, 0.64], wxyz=[0.2588190, 0, 0.9659258, 0])
+START, END = np.radians([[0, 0, 0, 0, 90, 0], [90, -10, 40, 10, 60, 60]])
+LIMITS = {"max_velocity": ROBOT.max_velocity, "max_acceleration": 8.0}
+MOVE = trajectory.joint(START, END, profile="trapezoid", **LIMITS)
+DOWN = np.diag([1.0, -1.0, -1.0])
+
+
+def curves(axes):
+    """The curves of axes: lines of more than two points, limits are lines of two."""
+    return [line for line in axes.lines if len(line.get_xdata()) > 2]
+
+
+def shaded(axes):
+    """From where to where axes are shaded, from the bottom up."""
+    patches = [patch for patch in axes.patches if isinstance(patch, Rectangle)]
+    return sorted((patch.get_y(), patch.get_y() + patch.get_height()) for patch in patches)
+
+
+def every_picture():
+    """A picture of each function."""
+    q = MOVE.q
+    return {
+        "trajectory": plot.trajectory(MOVE),
+        "solutions": plot.solutions(ROBOT, T),
+        "path": plot.path(ROBOT.fk(q)),
+        "singularity": plot.singularity(ROBOT, q),
+        "reach": plot.reach(ROBOT, DOWN, steps=20),
+    }
+
+
+def test_every_function_returns_a_figure_and_leaves_no_state(tmp_path):
+    before = dict(mpl.rcParams)
+    pictures = every_picture()
+    assert set(pictures) == set(plot.__all__)
+    for name, figure in pictures.items():
+        assert isinstance(figure, Figure), name
+        figure.savefig(tmp_path / f"{name}.svg")
+        assert (tmp_path / f"{name}.svg").stat().st_size > 1000
+    assert dict(mpl.rcParams) == before
+
+
+def test_pyplot_is_not_imported_and_irbkin_does_not_import_matplotlib():
+    code = """
+import sys, irbkin, irbkin.trajectory
+assert "matplotlib" not in sys.modules
+import numpy as np
+move = irbkin.trajectory.joint(np.zeros(6), np.ones(6))
+robot = irbkin.Robot("IRB 2600-12/1.65")
+irbkin.plot.trajectory(move)
+irbkin.plot.solutions(robot, robot.fk(move.q[0] + 0.3))
+irbkin.plot.path(robot.fk(move.q))
+irbkin.plot.singularity(robot, move.q)
+irbkin.plot.reach(robot, np.diag([1.0, -1.0, -1.0]), steps=10)
+assert "matplotlib.pyplot" not in sys.modules
+"""
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_without_matplotlib_the_error_names_the_extra(monkeypatch):
+    for name in [name for name in sys.modules if name.startswith("irbkin.plot")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.delattr(irbkin, "plot", raising=False)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    with pytest.raises(ImportError, match=r"^irbkin\.plot needs .* pip install 'irbkin\[plot\]'$"):
+        _ = irbkin.plot
+    # The rest of the package does not need it.
+    namespace = {}
+    exec("from irbkin import *", namespace)
+    assert "plot" not in namespace
+    assert "trajectory" in namespace
+
+
+def test_a_motion_is_drawn_in_degrees_over_seconds():
+    figure = plot.trajectory(MOVE)
+    assert [axes.get_title() for axes in figure.axes] == ["position", "velocity", "acceleration"]
+    units = ["deg", "deg/s", "deg/s²"]
+    for axes, unit, name in zip(figure.axes, units, ("q", "dq", "ddq"), strict=True):
+        assert axes.get_xlabel() == "time [s]"
+        assert axes.get_ylabel().endswith(f"[{unit}]")
+        lines = curves(axes)
+        assert [line.get_label() for line in lines] == ["J1", "J2", "J3", "J4", "J5", "J6"]
+        for joint, line in enumerate(lines):
+            drawn = getattr(MOVE.sample(line.get_xdata()), name)[:, joint]
+            np.testing.assert_allclose(line.get_ydata(), np.degrees(drawn), rtol=0, atol=1e-9)
+        assert len({line.get_color() for line in lines}) == 6
+        # Black and white tells them apart as well.
+        assert len({str(line.get_linestyle()) + str(line._dash_pattern) for line in lines}) == 6
+        assert not shaded(axes)
+    assert [text.get_text() for text in figure.legends[0].get_texts()][-1] == "J6"
+
+
+def test_both_sides_of_a_jump_of_the_acceleration_are_drawn():
+    line = curves(plot.trajectory(MOVE).axes[2])[0]
+    t, y = line.get_data()
+    for knot in MOVE.knots[1:-1]:
+        before, after = y[t < knot][-1], y[t >= knot][0]
+        exact = np.degrees(MOVE.sample([np.nextafter(knot, 0), knot]).ddq[:, 0])
+        np.testing.assert_allclose([before, after], exact, rtol=0, atol=1e-9)
+
+
+def test_what_is_beyond_a_limit_is_shaded():
+    figure = plot.trajectory(MOVE, robot=ROBOT, max_acceleration=8.0)
+    assert len(figure.axes) == 18
+    grid = np.reshape(figure.axes, (6, 3))
+    for joint, (position, velocity, acceleration) in enumerate(grid):
+        speed, rate = np.degrees([ROBOT.max_velocity[joint], 8.0])
+        bounds = [np.degrees(ROBOT.limits[joint]), [-speed, speed], [-rate, rate]]
+        for axes, (lower, upper) in zip((position, velocity, acceleration), bounds, strict=True):
+            bottom, top = axes.get_ylim()
+            assert bottom < lower < upper < top
+            wanted = [(bottom, lower), (upper, top)]
+            np.testing.assert_allclose(shaded(axes), wanted, rtol=1e-12)
+            assert axes.get_ylabel().startswith(f"J{joint + 1} [")
+            assert len(curves(axes)) == 1
+
+
+def test_limits_that_are_given_come_before_those_of_the_robot():
+    limits = np.column_stack([ROBOT.limits[:, 0], np.full(6, 2.0)])
+    grid = np.reshape(plot.trajectory(MOVE, robot=ROBOT, limits=limits).axes, (6, 3))
+    assert all(abs(shaded(axes)[1][0] - np.degrees(2.0)) < 1e-9 for axes in grid[:, 0])
+    assert not any(shaded(axes) for axes in grid[:, 2])
+    # An infinite limit is none.
+    open_ends = np.column_stack([np.full(6, -np.inf), np.full(6, 2.0)])
+    grid = np.reshape(plot.trajectory(MOVE, limits=open_ends).axes, (6, 3))
+    assert all(len(shaded(axes)) == 1 for axes in grid[:, 0])
+
+
+def test_a_still_motion_is_drawn():
+    still = trajectory.joint([1.0], [1.0], max_velocity=1.0, max_acceleration=1.0)
+    figure = plot.trajectory(still, max_velocity=1.0)
+    assert set(figure.axes[0].lines[0].get_ydata()) == {np.degrees(1.0)}
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"limits": np.zeros((5, 2))}, r"limits must have shape \(6, 2\), got \(5, 2\)"),
+        ({"limits": np.tile([1.0, -1.0], (6, 1))}, r"limits\[0\] must be lower <= upper"),
+        ({"limits": np.full((6, 2), np.nan)}, r"limits\[0\] must be lower <= upper, got nan"),
+        ({"max_velocity": -1.0}, r"max_velocity\[0\] is -1\.0, it must be positive"),
+        ({"max_velocity": [1.0, 2.0]}, r"max_velocity must have shape \(6,\), got \(2,\)"),
+        ({"max_acceleration": "fast"}, r"max_acceleration must have shape \(\), got what is no"),
+        ({"max_acceleration": [np.nan] * 6}, r"max_acceleration\[0\] is nan"),
+        ({"robot": irbkin.Robot("Panda")}, "robot has 7 joints, motion has 6"),
+    ],
+)
+def test_limits_that_do_not_fit_are_named(options, words):
+    with pytest.raises(irbkin.InvalidMotionError, match=words):
+        plot.trajectory(MOVE, **options)
+
+
+def test_what_is_no_trajectory_is_named():
+    with pytest.raises(TypeError, match="motion must be a Trajectory, got ndarray"):
+        plot.trajectory(MOVE.q)
+
+
+def test_each_solution_is_a_skeleton_before_the_others():
+    figure = plot.solutions(ROBOT, T)
+    found = ROBOT.ik(T)
+    assert [axes.get_title() for axes in figure.axes] == [f"slot {s.slot}" for s in found]
+    for axes, solution in zip(figure.axes, found, strict=True):
+        gray = [line for line in axes.lines if line.get_color() == "#dcdcdc"]
+        assert len(gray) == len(found) - 1
+        degrees = " ".join(f"{angle:.0f}" for angle in solution.q_deg)
+        words = axes.get_xlabel().splitlines()
+        assert words[0] == f"{degrees} deg"
+        assert words[1].startswith("inside" if solution.is_within_limits else "outside limits: J")
+        assert axes.get_aspect() == 1.0
+    figure.draw_without_rendering()
+    scales = {tuple(np.round(axes.get_xlim(), 9)) for axes in figure.axes}
+    assert len(scales) == 1
+
+
+@pytest.mark.parametrize("name", ["IRB 2600-12/1.65", "IRB 6640-180/2.55", "UR5e", "Panda"])
+def test_a_skeleton_passes_the_frames_of_the_links(name):
+    base = irbkin.pose([0.3, -0.2, 0.5], euler_zyx=[0.4, 0.1, -0.2])
+    tool = irbkin.pose([0.1, 0.0, 0.2])
+    robot = irbkin.Robot(name).with_base(base).with_tool(tool)
+    q = np.array([0.3, -0.4, 0.2, -1.5, 0.7, 1.9, 0.3])[: robot.dof]
+    skeleton = plot._skeletons.Skeleton.of(robot, q)
+    points = skeleton.points()
+    for place in [base[:3, 3], *robot.link_frames(q)[:, :3, 3]]:
+        assert np.linalg.norm(points - place, axis=1).min() < 1e-12
+    np.testing.assert_allclose(points[0], base[:3, 3], atol=1e-12)
+    np.testing.assert_allclose(points[-1], robot.fk(q)[:3, 3], atol=1e-12)
+    for before, after in zip(skeleton.parts[:-1], skeleton.parts[1:], strict=True):
+        np.testing.assert_allclose(before[-1], after[0], atol=1e-12)
+
+
+def test_a_pose_out_of_reach_says_why():
+    far = T.copy()
+    far[0, 3] = 9.0
+    with pytest.raises(
+        irbkin.UnreachableError, match=r"T has no solution to draw: .* beyond reach"
+    ):
+        plot.solutions(ROBOT, far)
+    with pytest.raises(irbkin.InvalidPoseError):
+        plot.solutions(ROBOT, np.eye(3))
+
+
+def test_a_path_shows_its_points_and_frames():
+    poses = irbkin.paths.line(T, irbkin.pose([0.85, -0.3, 0.5], wxyz=[0, 0, 1, 0]), steps=40)
+    axes = plot.path(poses, frames=4).axes[0]
+    assert [axes.get_xlabel(), axes.get_ylabel(), axes.get_zlabel()] == ["x [m]", "y [m]", "z [m]"]
+    line, start, *frames = axes.lines
+    np.testing.assert_array_equal(np.array(line.get_data_3d()).T, poses[:, :3, 3])
+    np.testing.assert_array_equal(np.ravel(start.get_data_3d()), poses[0, :3, 3])
+    assert len(frames) == 12
+    shown = poses[[0, 13, 26, 39]]
+    for index, arrow in enumerate(frames):
+        column, place = divmod(index, 4)
+        tail, head = np.array(arrow.get_data_3d()).T
+        np.testing.assert_allclose(tail, shown[place, :3, 3], atol=1e-15)
+        direction = (head - tail) / np.linalg.norm(head - tail)
+        np.testing.assert_allclose(direction, shown[place, :3, column], atol=1e-12)
+    # One scale on all axes.
+    sides = [np.ptp(limits) for limits in (axes.get_xlim(), axes.get_ylim(), axes.get_zlim())]
+    ratios = np.array(sides) / np.array(axes._box_aspect)
+    np.testing.assert_allclose(ratios, ratios[0], rtol=1e-12)
+
+
+def test_a_path_with_a_gap_or_of_one_pose_is_drawn():
+    poses = np.tile(T, (5, 1, 1))
+    assert len(plot.path(poses[:1]).axes[0].lines) == 5
+    poses[2] = np.nan
+    assert len(plot.path(poses, frames=0).axes[0].lines) == 2
+    # As many frames as poses at most.
+    assert len(plot.path(poses, frames=10**9).axes[0].lines) == 2 + 3 * 4
+    with pytest.raises(irbkin.InvalidPoseError, match="poses has no pose without NaN"):
+        plot.path(poses[2:3])
+    with pytest.raises(irbkin.InvalidPoseError, match=r"poses must have shape \(m, 4, 4\), got"):
+        plot.path(T)
+    with pytest.raises(irbkin.InvalidPoseError, match=r"poses must .* got \(0, 4, 4\)"):
+        plot.path(np.empty((0, 4, 4)))
+    with pytest.raises(ValueError, match="frames is -1, it must be at least 0"):
+        plot.path(poses, frames=-1)
+
+
+def test_distances_from_singularities_are_those_of_the_robot():
+    q = np.linspace([0.3, 0.2, 0.1, 0.7, -0.4, 0.1], [0.3, 0.2, 0.1, 0.7, 0.4, 0.1], 41)
+    figure = plot.singularity(ROBOT, q)
+    at = ROBOT.singularity(q)
+    wanted = {
+        "wrist [deg]": np.degrees(at.wrist),
+        "elbow [deg]": np.degrees(at.elbow),
+        "shoulder [mm]": 1e3 * at.shoulder,
+        "smallest singular value [m or 1]": at.min_singular_value,
+        "manipulability [m³]": at.manipulability,
+    }
+    labels = [axes.get_ylabel().replace("\n", " ") for axes in figure.axes]
+    assert labels == list(wanted)
+    for axes, curve in zip(figure.axes, wanted.values(), strict=True):
+        np.testing.assert_allclose(axes.lines[0].get_ydata(), curve, rtol=1e-15)
+        # J5 is zero at the middle: a cross.
+        np.testing.assert_array_equal(axes.lines[1].get_xdata(), [20])
+        assert axes.get_ylim()[0] == 0.0
+    assert figure.axes[-1].get_xlabel() == "row of q"
+    timed = plot.singularity(ROBOT, MOVE.q, t=MOVE.t)
+    assert timed.axes[-1].get_xlabel() == "time [s]"
+    np.testing.assert_array_equal(timed.axes[0].lines[0].get_xdata(), MOVE.t)
+
+
+def test_gaps_of_a_followed_path_are_gaps():
+    q = MOVE.q.copy()
+    q[3] = np.nan
+    for axes in plot.singularity(ROBOT, q).axes:
+        assert np.flatnonzero(np.isnan(axes.lines[0].get_ydata())).tolist() == [3]
+
+
+def test_joints_that_do_not_fit_are_named():
+    with pytest.raises(
+        irbkin.InvalidJointsError, match=r"q must have shape \(m, 6\), got \(4, 7\)"
+    ):
+        plot.singularity(ROBOT, np.zeros((4, 7)))
+    with pytest.raises(irbkin.InvalidJointsError, match=r"t must have shape \(4,\), got \(3,\)"):
+        plot.singularity(ROBOT, np.zeros((4, 6)), t=np.zeros(3))
+
+
+@pytest.mark.parametrize("name", ["IRB 2600-12/1.65", "Panda"])
+def test_a_cell_of_the_reach_is_the_number_of_solutions_at_its_middle(name):
+    robot = irbkin.Robot(name)
+    options = {} if robot.dof == 6 else {"q7": 0.3}
+    axes = plot.reach(robot, DOWN, azimuth=0.4, steps=30, **options).axes[0]
+    image = axes.images[0]
+    counts, (left, right, bottom, top) = np.asarray(image.get_array()), image.get_extent()
+    assert max(counts.shape) == 30
+    assert axes.get_xlabel() == "along 23 deg [m]"
+    assert axes.get_ylabel() == "z [m]"
+    rows, columns = counts.shape
+    for row, column in np.random.default_rng(1).integers(0, counts.shape, (100, 2)):
+        across = left + (right - left) * (column + 0.5) / columns
+        pose = np.eye(4)
+        pose[:3, :3] = DOWN
+        pose[:3, 3] = [across * np.cos(0.4), across * np.sin(0.4), 0]
+        pose[2, 3] = bottom + (top - bottom) * (row + 0.5) / rows
+        assert counts[row, column] == len(robot.ik(pose, **options).within_limits())
+    # Nothing that is reached is left out: the edge is empty.
+    assert (counts > 0).any()
+    for edge in (counts[0], counts[-1], counts[:, 0], counts[:, -1]):
+        assert not edge.any()
+
+
+def test_the_base_is_marked_where_it_is():
+    robot = ROBOT.with_base(irbkin.pose([0.3, 0.4, 0.5]))
+    axes = plot.reach(robot, DOWN, azimuth=np.pi / 2, steps=20).axes[0]
+    np.testing.assert_allclose(axes.lines[0].get_data(), [[0.4], [0.5]], atol=1e-15)
+
+
+def test_an_orientation_that_is_none_is_named():
+    with pytest.raises(irbkin.InvalidPoseError, match=r"orientation must have shape \(3, 3\)"):
+        plot.reach(ROBOT, [0, 0, 1])
+    with pytest.raises(irbkin.InvalidPoseError, match="orientation: "):
+        plot.reach(ROBOT, np.diag([1.0, 1.0, -1.0]))
+    with pytest.raises(irbkin.InvalidPoseError, match="azimuth is nan, it must be finite"):
+        plot.reach(ROBOT, DOWN, azimuth=np.nan)
+    with pytest.raises(ValueError, match="steps must be 2 to 2000, got 1"):
+        plot.reach(ROBOT, DOWN, steps=1)
+    stuck = ROBOT.with_limits([[0.0, 1e-9]] * 6)
+    with pytest.raises(irbkin.UnreachableError, match="no cell has a solution inside the limits"):
+        plot.reach(stuck, DOWN)
+
+
+def test_a_figure_that_is_given_is_drawn_into():
+    figure = Figure(layout="constrained")
+    left, right = figure.subfigures(1, 2)
+    assert plot.trajectory(MOVE, figure=left) is figure
+    assert plot.solutions(ROBOT, T, figure=right) is figure
+    assert (len(left.axes), len(right.axes)) == (3, 8)
+
+
+def test_a_name_is_no_robot():
+    for call in (
+        lambda name: plot.trajectory(MOVE, robot=name),
+        lambda name: plot.solutions(name, T),
+        lambda name: plot.singularity(name, MOVE.q),
+        lambda name: plot.reach(name, DOWN),
+    ):
+        with pytest.raises(TypeError, match="robot must be a Robot, got str"):
+            call("IRB 2600-12/1.65")
