@@ -10,7 +10,24 @@ array([ 0.9375, -1.875 ])
 
 from __future__ import annotations
 
-from irbkin._core import Trajectory, joint, retime, spline
-from irbkin.records import MotionPeaks, TrajectorySample
+from irbkin._core import (
+    Trajectory,
+    at_tool_speed,
+    joint,
+    retime,
+    spline,
+    tool_speed_limits,
+)
+from irbkin.records import MotionPeaks, ToolSpeedLimits, TrajectorySample
 
-__all__ = ["MotionPeaks", "Trajectory", "TrajectorySample", "joint", "retime", "spline"]
+__all__ = [
+    "MotionPeaks",
+    "ToolSpeedLimits",
+    "Trajectory",
+    "TrajectorySample",
+    "at_tool_speed",
+    "joint",
+    "retime",
+    "spline",
+    "tool_speed_limits",
+]
