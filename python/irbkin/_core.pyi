@@ -74,6 +74,7 @@ __all__ = [
     "_restore_solutions",
     "_restore_trajectory",
     "arc",
+    "at_tool_speed",
     "calc_joint_t",
     "calc_moves",
     "calc_rob_t",
@@ -88,12 +89,14 @@ __all__ = [
     "line",
     "parse",
     "parse_record",
+    "path_spline",
     "polyline",
     "pose",
     "retime",
     "spline",
     "to_xyz_euler_zyx",
     "to_xyz_wxyz",
+    "tool_speed_limits",
     "use_instruction_set",
 ]
 
