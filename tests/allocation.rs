@@ -100,7 +100,7 @@ fn solve_allocates_nothing() {
 
 #[test]
 fn motions_of_axes_allocate_nothing_and_a_line_what_it_returns() {
-    use irbkin::paths::{Spacing, arc, line};
+    use irbkin::paths::{ArcOrientation, Spacing, arc, line};
     use irbkin::trajectory::{AxisLimits, AxisMotion, AxisState, Profile};
 
     let limits = AxisLimits { velocity: 3.0, acceleration: 8.0, jerk: 60.0 };
@@ -126,7 +126,7 @@ fn motions_of_axes_allocate_nothing_and_a_line_what_it_returns() {
     let spacing = Spacing::count(1000).unwrap();
     let count = allocations_of(|| {
         assert_eq!(line(&poses[0], &poses[2], spacing, None).unwrap().len(), 1000);
-        let path = arc(&poses[0], &poses[1], &poses[2], Default::default(), spacing);
+        let path = arc(&poses[0], &poses[1], &poses[2], ArcOrientation::default(), spacing);
         assert_eq!(path.unwrap().len(), 1000);
     });
     assert_eq!(count, 2);

@@ -17,7 +17,8 @@ use crate::kinematics::{Pose, checked_pose};
 /// # Errors
 ///
 /// [`Error::InvalidPose`] for a pose that is not a rigid transform; [`Error::InvalidMotion`] for a
-/// half turn without an axis, an axis that is not finite, or a spacing that leaves the number of poses open.
+/// half turn without an axis, an axis that is not finite, or a spacing that leaves the number of
+/// poses open.
 pub fn line(
     start: &Pose,
     end: &Pose,

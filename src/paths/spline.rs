@@ -17,7 +17,8 @@ use crate::spline::{Ends, cubic_slopes};
 const RATE_PARTS: usize = 16;
 
 /// What the largest rate of a turn may exceed that of the parts by, as a part of its excess over
-/// the mean rate [1]: the blend's rate, (1 - x^2)^2 near its top, falls by less within half a part.
+/// the mean rate [1]: the rate of the blend (27), as (1 - x^2)^2, falls by a hundredth within the
+/// part next to its top.
 const RATE_MARGIN: f64 = 0.05;
 
 /// Poses along a smooth curve through poses, all of which are met.

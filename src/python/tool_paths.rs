@@ -139,8 +139,8 @@ pub(super) fn line<'py>(
 ///     InvalidPoseError: A pose is not a rigid transform.
 ///     InvalidMotionError: The points lie on a line or coincide, or the tool turns by 180 deg.
 #[pyfunction]
-#[pyo3(signature = (T0, T_via, T1, *, orientation="path", steps=None, step=None, turn=None, speed=None,
-    dt=None))]
+#[pyo3(signature = (T0, T_via, T1, *, orientation="path", steps=None, step=None, turn=None,
+    speed=None, dt=None))]
 #[expect(non_snake_case, clippy::too_many_arguments, reason = "the keywords of one call")]
 pub(super) fn arc<'py>(
     T0: &Bound<'py, PyAny>,
