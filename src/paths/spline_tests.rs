@@ -1,4 +1,5 @@
 use core::f64::consts::PI;
+use std::string::ToString;
 use std::vec::Vec;
 
 use nalgebra::{Rotation3, Translation3, Vector3};

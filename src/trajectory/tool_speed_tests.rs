@@ -1,3 +1,4 @@
+use std::string::ToString;
 use std::vec::Vec;
 
 use super::*;
