@@ -100,9 +100,14 @@ def main() -> None:
     a = irbkin.pose([0.85, -0.4, 0.64], wxyz=[0.2588190, 0, 0.9659258, 0])
     b = irbkin.pose([0.85, 0.4, 0.64], wxyz=[0.5, 0.1, 0.8602325267, 0])
     show("line, 1,000 poses", least(lambda: paths.line(a, b, steps=1000), 500))
+    met = paths.line(a, b, steps=11)
+    met[1::2, 2, 3] += 0.05
+    show("spline through 11 poses, 1,000", least(lambda: paths.spline(met, steps=1000), 100))
     line = paths.line(a, b, steps=1000)
     show("that line followed", least(lambda: robot.follow(line, np.zeros(6)), 50))
     followed = robot.follow(line, np.zeros(6)).q
+    call = lambda: trajectory.at_tool_speed(followed, line, 0.3, velocity)  # noqa: E731
+    show("that line at a constant tool speed", least(call, 100))
     rng = np.random.default_rng(1)
     sets = {"that line": followed}
     sets |= {f"{n} random waypoints": rng.uniform(-2, 2, (n, 6)) for n in (5, 20, 100)}

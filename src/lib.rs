@@ -134,6 +134,8 @@ mod structures {
     pub mod shoulder_arm;
 }
 #[cfg(any(feature = "std", feature = "libm"))]
+mod spline;
+#[cfg(any(feature = "std", feature = "libm"))]
 pub mod trajectory;
 #[cfg(all(feature = "urdf", any(feature = "std", feature = "libm")))]
 mod urdf;

@@ -97,3 +97,37 @@ fn solve_allocates_nothing() {
     });
     assert_eq!(count, 0);
 }
+
+#[test]
+fn motions_of_axes_allocate_nothing_and_a_line_what_it_returns() {
+    use irbkin::paths::{ArcOrientation, Spacing, arc, line};
+    use irbkin::trajectory::{AxisLimits, AxisMotion, AxisState, Profile};
+
+    let limits = AxisLimits { velocity: 3.0, acceleration: 8.0, jerk: 60.0 };
+    let profiles = [Profile::Quintic, Profile::Cubic, Profile::Trapezoid, Profile::SCurve];
+    let count = allocations_of(|| {
+        for profile in profiles {
+            // Six joints that arrive together.
+            let ends = [0.1, -0.7, 1.9, 0.0, 2.0, -3.0];
+            let axes = ends.map(|end| AxisMotion::within(profile, 0.0, end, &limits));
+            let duration = axes.iter().map(AxisMotion::duration).fold(0.0, f64::max);
+            let axes = axes.map(|axis| axis.stretched(duration));
+            let middle = axes.map(|axis| axis.state(0.5 * duration).position);
+            assert!(
+                middle.iter().zip(ends).all(|(middle, end)| (middle - end / 2.0).abs() < 1e-12)
+            );
+        }
+        let start = AxisState { position: 0.0, velocity: 1.0, acceleration: 2.0 };
+        std::hint::black_box(AxisMotion::quintic(start, AxisState::at_rest(1.0), 2.0).state(0.3));
+    });
+    assert_eq!(count, 0);
+    let poses = [[0.8, -0.2, 0.6], [0.9, 0.0, 0.6], [0.8, 0.2, 0.6]]
+        .map(|xyz| irbkin::pose_from_euler_zyx(xyz, [xyz[1], 3.1, 0.0]).unwrap());
+    let spacing = Spacing::count(1000).unwrap();
+    let count = allocations_of(|| {
+        assert_eq!(line(&poses[0], &poses[2], spacing, None).unwrap().len(), 1000);
+        let path = arc(&poses[0], &poses[1], &poses[2], ArcOrientation::default(), spacing);
+        assert_eq!(path.unwrap().len(), 1000);
+    });
+    assert_eq!(count, 2);
+}

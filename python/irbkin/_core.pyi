@@ -31,6 +31,7 @@ from irbkin.records import (
     SingularityKind,
     SingularityMode,
     Status,
+    ToolSpeedLimits,
     TrajectorySample,
 )
 
@@ -73,6 +74,7 @@ __all__ = [
     "_restore_solutions",
     "_restore_trajectory",
     "arc",
+    "at_tool_speed",
     "calc_joint_t",
     "calc_moves",
     "calc_rob_t",
@@ -87,12 +89,14 @@ __all__ = [
     "line",
     "parse",
     "parse_record",
+    "path_spline",
     "polyline",
     "pose",
     "retime",
     "spline",
     "to_xyz_euler_zyx",
     "to_xyz_wxyz",
+    "tool_speed_limits",
     "use_instruction_set",
 ]
 
@@ -1290,6 +1294,8 @@ def retime(
     max_velocity: npt.ArrayLike,
     max_acceleration: npt.ArrayLike,
     *,
+    T: npt.ArrayLike | None = None,
+    max_tool_speed: float | None = None,
     steps: int | None = None,
 ) -> Trajectory:
     """Move along a path in the shortest time within limits, from rest to rest.
@@ -1301,15 +1307,115 @@ def retime(
         q: Samples of the path [rad], shape (m, n), of `robot.follow` for instance.
         max_velocity: Limits [rad/s], a number or shape (n,); `robot.max_velocity` has a robot's.
         max_acceleration: Limits [rad/s^2], a number or shape (n,).
+        T: With `max_tool_speed`, the poses of the tool at the samples, shape (m, 4, 4).
+        max_tool_speed: Speed along `T` [m/s] that is not exceeded: the tool has it where the limits
+            allow.
         steps: Number of samples of the answer; as many as `q` has where it is not given.
 
     Returns:
         The trajectory.
 
     Raises:
-        InvalidMotionError: No rows, a limit that is not positive, a path that no limit binds, or a
-            duration that is not between 1e-9 and 1e9 s.
+        InvalidMotionError: No rows, a limit that is not positive, a path that no limit binds, a
+            duration that is not between 1e-9 and 1e9 s or, with `max_tool_speed`, a part of the
+            path on which the tool only turns.
         InvalidJointsError: A wrong shape, or an angle that is not finite.
+        InvalidPoseError: A pose is not a rigid transform, or `T` has another number of poses.
+    """
+
+def at_tool_speed(
+    q: npt.ArrayLike,
+    T: npt.ArrayLike,
+    speed: float,
+    max_velocity: npt.ArrayLike,
+    max_acceleration: npt.ArrayLike | None = None,
+    *,
+    steps: int | None = None,
+) -> Trajectory:
+    """Move along a path at a constant speed of the tool, which moves at both ends.
+
+    The joints are a cubic spline over the length of the tool's path, a polygon through its poses.
+    `retime` with `max_tool_speed` begins and ends at rest, and is slower where limits demand it.
+
+    Args:
+        q: Samples of the path [rad], shape (m, n), of `robot.follow` for instance.
+        T: Poses of the tool at the samples, shape (m, 4, 4).
+        speed: Speed of the tool along `T` [m/s].
+        max_velocity: Limits [rad/s], a number or shape (n,); `robot.max_velocity` has a robot's.
+        max_acceleration: Limits [rad/s^2], a number or shape (n,); none where it is not given.
+        steps: Number of samples of the answer; as many as `q` has where it is not given.
+
+    Returns:
+        The trajectory.
+
+    Raises:
+        InvalidMotionError: A joint does not allow the speed: the message names it, the sample and
+            the speed that it allows; the speed or a limit is not positive, or the tool only turns
+            on a part of the path.
+        InvalidJointsError: A wrong shape, or an angle that is not finite.
+        InvalidPoseError: A pose is not a rigid transform, or `T` has another number of poses.
+    """
+
+def tool_speed_limits(
+    q: npt.ArrayLike,
+    T: npt.ArrayLike,
+    max_velocity: npt.ArrayLike,
+    max_acceleration: npt.ArrayLike | None = None,
+) -> ToolSpeedLimits:
+    """Return the highest constant speed of the tool that the limits of the joints allow, and which
+    joint limits it.
+
+    Args:
+        q: Samples of the path [rad], shape (m, n), of `robot.follow` for instance.
+        T: Poses of the tool at the samples, shape (m, 4, 4).
+        max_velocity: Limits [rad/s], a number or shape (n,); `robot.max_velocity` has a robot's.
+        max_acceleration: Limits [rad/s^2], a number or shape (n,); none where it is not given.
+
+    Returns:
+        ToolSpeedLimits(speed [m/s], joint, fastest [m/s], fastest_joint, fastest_index): speed and
+        joint for each sample, shape (m,), and the fastest constant speed of the whole path, between
+        the samples too, which `at_tool_speed` takes.
+
+    Raises:
+        InvalidMotionError: No rows, a limit that is not positive, or a part of the path on which
+            the tool only turns.
+        InvalidJointsError: A wrong shape, or an angle that is not finite.
+        InvalidPoseError: A pose is not a rigid transform, or `T` has another number of poses.
+    """
+
+def path_spline(
+    T: npt.ArrayLike,
+    *,
+    steps: int | None = None,
+    step: float | None = None,
+    turn: float | None = None,
+    speed: float | None = None,
+    dt: float | None = None,
+) -> _Floats:
+    """Move the tool on a smooth curve through poses, all of which are met.
+
+    The position is a cubic spline with continuous second derivative; angular velocity and
+    acceleration are continuous along it. Where the tool only turns it stops, and turns about one
+    axis. Through two poses the curve is a line.
+
+    Args:
+        T: Poses, shape (m, 4, 4). One that repeats the one before it, within 1e-9 m and rad, is
+            left out.
+        steps: Number of poses of the path.
+        step: Instead of `steps`, the largest distance of two poses along the curve [m].
+        turn: With or instead of `step`, the largest turn between two poses [rad].
+        speed: Instead of `step`, the speed of the tool [m/s]: poses `dt` apart in time move it so
+            fast or, where its way is no whole number of steps, a little slower.
+        dt: With `speed`, the time from one pose to the next [s].
+
+    Returns:
+        Poses, shape (k, 4, 4), those of `T` among them: from each to the next in equal steps along
+        the curve.
+
+    Raises:
+        InvalidPoseError: A pose is not a rigid transform.
+        InvalidMotionError: No pose, a turn by 180 deg between two poses, fewer `steps` than poses,
+            or a spacing that does not say how many poses there are.
     """
 
 def line(
@@ -1319,6 +1425,8 @@ def line(
     steps: int | None = None,
     step: float | None = None,
     turn: float | None = None,
+    speed: float | None = None,
+    dt: float | None = None,
     axis: npt.ArrayLike | None = None,
 ) -> _Floats:
     """Move the tool on a straight line, its orientation turning evenly about one axis (slerp).
@@ -1329,6 +1437,9 @@ def line(
         steps: Number of poses, both ends included.
         step: Instead of `steps`, the largest distance of two poses [m].
         turn: With or instead of `step`, the largest turn between two poses [rad].
+        speed: Instead of `step`, the speed of the tool [m/s]: poses `dt` apart in time move it so
+            fast or, where its way is no whole number of steps, a little slower.
+        dt: With `speed`, the time from one pose to the next [s].
         axis: Axis of a turn by 180 deg, shape (3,), in the frame of the poses: the tool turns
             counterclockwise about it. Without it such a turn is refused, for there are two ways.
 
@@ -1350,6 +1461,8 @@ def arc(
     steps: int | None = None,
     step: float | None = None,
     turn: float | None = None,
+    speed: float | None = None,
+    dt: float | None = None,
 ) -> _Floats:
     r"""Move the tool on a circular arc through three poses.
 
@@ -1363,6 +1476,9 @@ def arc(
         steps: Number of poses, both ends included.
         step: Instead of `steps`, the largest distance of two poses along the arc [m].
         turn: With or instead of `step`, the largest turn between two poses [rad].
+        speed: Instead of `step`, the speed of the tool [m/s]: poses `dt` apart in time move it so
+            fast or, where its way is no whole number of steps, a little slower.
+        dt: With `speed`, the time from one pose to the next [s].
 
     Returns:
         Poses, shape (m, 4, 4).
@@ -1379,6 +1495,8 @@ def polyline(
     steps: int | None = None,
     step: float | None = None,
     turn: float | None = None,
+    speed: float | None = None,
+    dt: float | None = None,
 ) -> _Floats:
     """Move the tool on lines from pose to pose, with rounded corners.
 
@@ -1392,6 +1510,9 @@ def polyline(
         steps: Number of poses of the path.
         step: Instead of `steps`, the largest distance of two poses along the lines [m].
         turn: With or instead of `step`, the largest turn between two poses along the lines [rad].
+        speed: Instead of `step`, the speed of the tool [m/s]: poses `dt` apart in time move it so
+            fast or, where its way is no whole number of steps, a little slower.
+        dt: With `speed`, the time from one pose to the next [s].
 
     Returns:
         Poses, shape (k, 4, 4). A corner with a zone of radius r, where the direction changes by an

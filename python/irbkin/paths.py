@@ -1,4 +1,4 @@
-"""Paths of the tool: lines, arcs and polylines with rounded corners, as poses.
+"""Paths of the tool: lines, arcs, polylines with rounded corners and splines, as poses.
 
 >>> import irbkin
 >>> from irbkin import paths
@@ -10,5 +10,6 @@ array([-0.2, -0.1,  0. ,  0.1,  0.2])
 from __future__ import annotations
 
 from irbkin._core import arc, line, polyline
+from irbkin._core import path_spline as spline
 
-__all__ = ["arc", "line", "polyline"]
+__all__ = ["arc", "line", "polyline", "spline"]

@@ -293,6 +293,22 @@ class MotionPeaks(NamedTuple):
     """Jerks [rad/s^3], shape (n,)."""
 
 
+@by_value
+class ToolSpeedLimits(NamedTuple):
+    """The constant speed of the tool along a path that the limits of the joints allow."""
+
+    speed: npt.NDArray[np.float64]
+    """The highest at each sample [m/s], shape (m,); infinite where no limit binds."""
+    joint: npt.NDArray[np.int64]
+    """The joint that limits it, from 1, shape (m,); 0 where none does."""
+    fastest: float
+    """The fastest constant speed on the whole path [m/s], between the samples too."""
+    fastest_joint: int
+    """The joint that limits that, from 1; 0 where none does."""
+    fastest_index: int
+    """The sample at which it does, or the last one before the place."""
+
+
 class PoseCheck(NamedTuple):
     """Whether a pose can be reached."""
 

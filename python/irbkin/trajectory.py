@@ -10,16 +10,26 @@ array([ 0.9375, -1.875 ])
 
 from __future__ import annotations
 
-from irbkin._core import Trajectory, joint, retime, spline
+from irbkin._core import (
+    Trajectory,
+    at_tool_speed,
+    joint,
+    retime,
+    spline,
+    tool_speed_limits,
+)
 from irbkin._state_to_state import state_to_state
-from irbkin.records import MotionPeaks, TrajectorySample
+from irbkin.records import MotionPeaks, ToolSpeedLimits, TrajectorySample
 
 __all__ = [
     "MotionPeaks",
+    "ToolSpeedLimits",
     "Trajectory",
     "TrajectorySample",
+    "at_tool_speed",
     "joint",
     "retime",
     "spline",
     "state_to_state",
+    "tool_speed_limits",
 ]

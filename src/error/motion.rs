@@ -137,6 +137,26 @@ pub enum MotionFault {
         /// How many it may have.
         most: f64,
     },
+    /// The joints of a path move where its tool does not: a speed of the tool says nothing there.
+    ToolStill {
+        /// The row to which they move, from 0.
+        row: usize,
+        /// The way of the tool from the row before [m].
+        way: f64,
+        /// The least way that counts [m].
+        bound: f64,
+    },
+    /// A joint does not allow a constant speed of the tool.
+    ToolSpeed {
+        /// The joint, from 1.
+        joint: usize,
+        /// The row at which it does not, or the last one before the place, from 0.
+        row: usize,
+        /// The speed that it allows [m/s].
+        most: f64,
+        /// The one that is asked for [m/s].
+        asked: f64,
+    },
     /// Neither the step nor the turn says how many poses a part of the path has.
     NoStep {
         /// Its length [m].
@@ -232,9 +252,21 @@ impl fmt::Display for MotionFault {
             Self::TooMany { found, most } => {
                 write!(
                     f,
-                    "the path has {found:.1e} poses, at most {most:.0e} are given: is step in m?"
+                    "the path has {found:.1e} poses, at most {most:.0e} are given: is step in m, or \
+                     speed in m/s and dt in s?"
                 )
             }
+            Self::ToolStill { row, way, bound } => write!(
+                f,
+                "the tool moves by {way:.1e} m to row {row} of q, where its joints move: at least \
+                 {bound:.0e} m is wanted, for its speed says nothing there: time a part in which \
+                 the tool only turns by itself, by joint limits or a duration"
+            ),
+            Self::ToolSpeed { joint, row, most, asked } => write!(
+                f,
+                "joint {joint} allows {most:.6} m/s at row {row} of q, {asked:.6} m/s is asked: \
+                 give a lower speed, or retime with max_tool_speed, which is slower there"
+            ),
             Self::NoStep { length, angle } => write!(
                 f,
                 "a part of the path is {length} m long and turns by {:.6} deg: give {}, or steps",

@@ -220,3 +220,10 @@ pub(crate) const LEAST_BEND: f64 = 1e-6;
 
 /// Part of a step of a path that is rounding and takes no step of its own [1].
 pub(crate) const STEP_ROUNDING: f64 = 1e-9;
+
+/// Way of the tool below which it stays at one place [m]: a pose that repeats another is known to
+/// rounding, and directions and speeds on such a way are not determined.
+pub const LEAST_WAY: f64 = 1e-9;
+
+/// Turn of the tool below which a pose at the same place repeats the one before it [rad].
+pub(crate) const LEAST_TURN: f64 = 1e-9;

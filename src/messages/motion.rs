@@ -52,11 +52,18 @@ fn faults() -> std::vec::Vec<Row> {
             "a spline without `t`", "give `t`, or leave the waypoint out";
         MotionFault::HalfTurn { .. } =>
             MotionFault::HalfTurn { index: 1, angle: core::f64::consts::PI },
-            "`line`, `arc`, `polyline`", "give `axis` to `line`, or a pose between the two";
+            "`line`, `arc`, `polyline`, `spline`", "give `axis` to `line`, or a pose between the two";
         MotionFault::Axis { .. } => MotionFault::Axis { along: 0.0 },
             "`axis` of `line`", "give one that points more along that of the turn";
         MotionFault::TooMany { .. } => MotionFault::TooMany { found: 2e9, most: 1e7 },
             "a step that is too small", "give a longer one, in m and rad";
+        MotionFault::ToolStill { .. } =>
+            MotionFault::ToolStill { row: 7, way: 0.0, bound: 1e-9 },
+            "`at_tool_speed`, `tool_speed_limits`, `retime` with `max_tool_speed`",
+            "split the path where the tool only turns";
+        MotionFault::ToolSpeed { .. } =>
+            MotionFault::ToolSpeed { joint: 4, row: 512, most: 0.213, asked: 0.25 },
+            "`at_tool_speed`", "give `tool_speed_limits(...).fastest`, or less";
         MotionFault::NoStep { .. } => MotionFault::NoStep { length: 0.0, angle: 0.5 },
             "`step` where the tool only turns", "give `turn` too, or `steps`";
         MotionFault::Zone { .. } => MotionFault::Zone { index: 1, value: -0.05 },

@@ -49,7 +49,7 @@ pub fn arc(
     let [start, via, end] = [checked_pose(start)?, checked_pose(via)?, checked_pose(end)?];
     let circle = Circle::through([&start, &via, &end].map(|pose| pose.translation.vector))?;
     let turns = Turns::new(&circle, orientation, [&start, &via, &end].map(|pose| pose.rotation))?;
-    let steps = spacing.steps(&[[circle.radius * circle.end, turns.angle(&circle)]])?[0];
+    let steps = spacing.steps_of_one([circle.radius * circle.end, turns.angle(&circle)])?;
     let mut poses = Vec::with_capacity(steps + 1);
     poses.push(start);
     poses.extend((1..steps).map(|step| {

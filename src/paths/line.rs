@@ -6,7 +6,7 @@ use nalgebra::{Translation3, Vector3};
 
 use super::spacing::Spacing;
 use super::turn::Turn;
-use crate::error::Error;
+use crate::error::{Error, MotionFault};
 use crate::kinematics::{Pose, checked_pose};
 
 /// Poses along a line, both ends included: the position goes straight, the orientation turns about
@@ -17,7 +17,8 @@ use crate::kinematics::{Pose, checked_pose};
 /// # Errors
 ///
 /// [`Error::InvalidPose`] for a pose that is not a rigid transform; [`Error::InvalidMotion`] for a
-/// half turn without an axis, or a spacing that leaves the number of poses open.
+/// half turn without an axis, an axis that is not finite, or a spacing that leaves the number of
+/// poses open.
 pub fn line(
     start: &Pose,
     end: &Pose,
@@ -25,10 +26,15 @@ pub fn line(
     axis: Option<[f64; 3]>,
 ) -> Result<Vec<Pose>, Error> {
     let (start, end) = (checked_pose(start)?, checked_pose(end)?);
+    if let Some(axis) = axis
+        && let Some(index) = axis.iter().position(|number| !number.is_finite())
+    {
+        return Err(MotionFault::NotFinite { field: "axis", index, value: axis[index] }.into());
+    }
     let axis = axis.map(Vector3::from);
     let turn = Turn::new(&start.rotation, &end.rotation, axis.as_ref(), 1)?;
     let way = end.translation.vector - start.translation.vector;
-    let steps = spacing.steps(&[[way.norm(), turn.angle]])?[0];
+    let steps = spacing.steps_of_one([way.norm(), turn.angle])?;
     let mut poses = Vec::with_capacity(steps + 1);
     poses.push(start);
     poses.extend((1..steps).map(|step| {

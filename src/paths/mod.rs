@@ -1,5 +1,5 @@
-//! Paths of the tool: lines, arcs and polylines with rounded corners, as poses. The equations are
-//! in docs/motion.md.
+//! Paths of the tool: lines, arcs, polylines with rounded corners and splines, as poses. The
+//! equations are in docs/motion.md.
 //!
 //! ```
 //! use irbkin::paths::{Spacing, line};
@@ -12,9 +12,11 @@
 //! ```
 
 mod arc;
+mod curve;
 mod line;
 mod polyline;
 mod spacing;
+mod spline;
 mod turn;
 mod zone;
 
@@ -22,7 +24,10 @@ pub use arc::{ArcOrientation, arc};
 pub use line::line;
 pub use polyline::{corner_distance, polyline};
 pub use spacing::Spacing;
+pub use spline::spline;
 pub use zone::Zone;
 
+#[cfg(test)]
+mod spline_tests;
 #[cfg(test)]
 mod tests;

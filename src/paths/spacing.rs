@@ -1,5 +1,7 @@
 //! How many poses a path has.
 
+use alloc::vec::Vec;
+
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
@@ -42,15 +44,44 @@ impl Spacing {
             }
         }
         if length.is_infinite() && angle.is_infinite() {
-            return Err(
-                MotionFault::NotPositive { field: "step", index: None, value: length }.into()
-            );
+            let field = "step or turn";
+            return Err(MotionFault::NotPositive { field, index: None, value: length }.into());
         }
         Ok(Self(Kind::Step { length, angle }))
     }
 
+    /// Steps that the tool takes in a period [s] at a speed [m/s], in which it turns by at most an
+    /// angle [rad]: [`Self::step`] of `speed * period`. So poses a period apart move the tool at
+    /// that speed or, where its way is no whole number of steps, a little slower.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidMotion`] unless speed and period are positive and finite and the angle is
+    /// positive.
+    pub fn speed(speed: f64, period: f64, angle: f64) -> Result<Self, Error> {
+        for (field, value) in [("speed", speed), ("dt", period), ("speed * dt", speed * period)] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(MotionFault::NotPositive { field, index: None, value }.into());
+            }
+        }
+        Self::step(speed * period, angle)
+    }
+
+    /// Whether the number of steps follows from the angles of the parts.
+    pub(super) fn is_by_angle(self) -> bool {
+        matches!(self.0, Kind::Step { angle, .. } if angle.is_finite())
+    }
+
+    /// The number of steps of a path of one part, by its length [m] and angle [rad].
+    pub(super) fn steps_of_one(self, part: [f64; 2]) -> Result<usize, Error> {
+        match self.0 {
+            Kind::Count(poses) => Ok(poses - 1),
+            Kind::Step { length, angle } => counted(part, length, angle),
+        }
+    }
+
     /// The number of steps of each part of a path, by its length [m] and angle [rad].
-    pub(super) fn steps(self, parts: &[[f64; 2]]) -> Result<alloc::vec::Vec<usize>, Error> {
+    pub(super) fn steps(self, parts: &[[f64; 2]]) -> Result<Vec<usize>, Error> {
         match self.0 {
             Kind::Count(poses) => shared(poses - 1, parts),
             Kind::Step { length, angle } => {
@@ -60,7 +91,7 @@ impl Spacing {
     }
 }
 
-/// Steps that are short enough.
+/// Steps that are short enough: one at least where anything moves.
 fn counted([length, angle]: [f64; 2], step: f64, turn: f64) -> Result<usize, Error> {
     let steps = (length / step).max(angle / turn);
     #[expect(clippy::cast_precision_loss, reason = "exact")]
@@ -68,16 +99,19 @@ fn counted([length, angle]: [f64; 2], step: f64, turn: f64) -> Result<usize, Err
     if steps > most {
         return Err(MotionFault::TooMany { found: steps, most }.into());
     }
-    if steps == 0.0 && (length > 0.0 || angle > 0.0) {
+    if length == 0.0 && angle == 0.0 {
+        return Ok(0);
+    }
+    if steps == 0.0 {
         return Err(MotionFault::NoStep { length, angle }.into());
     }
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 1e7")]
-    let steps = (steps - STEP_ROUNDING).max(0.0).ceil() as usize;
+    let steps = (steps - STEP_ROUNDING).ceil().max(1.0) as usize;
     Ok(steps)
 }
 
 /// Steps shared among parts by their lengths, one at least for each.
-fn shared(steps: usize, parts: &[[f64; 2]]) -> Result<alloc::vec::Vec<usize>, Error> {
+fn shared(steps: usize, parts: &[[f64; 2]]) -> Result<Vec<usize>, Error> {
     if steps < parts.len() {
         return Err(MotionFault::Steps {
             found: steps + 1,
@@ -90,7 +124,7 @@ fn shared(steps: usize, parts: &[[f64; 2]]) -> Result<alloc::vec::Vec<usize>, Er
     // A part where the tool only turns counts by its angle.
     let index = usize::from(total[0] == 0.0);
     let mut left = (total[index], steps);
-    let mut counts = alloc::vec::Vec::with_capacity(parts.len());
+    let mut counts = Vec::with_capacity(parts.len());
     for (number, part) in parts.iter().enumerate() {
         let rest = parts.len() - 1 - number;
         #[expect(

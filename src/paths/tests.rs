@@ -8,18 +8,18 @@ use super::*;
 use crate::kinematics::{Pose, PoseDifference, pose_from_euler_zyx};
 use crate::rng::Rng;
 
-fn random(rng: &mut Rng) -> Pose {
+pub(super) fn random(rng: &mut Rng) -> Pose {
     let xyz = [(); 3].map(|()| rng.between(-1.0, 1.0));
     pose_from_euler_zyx(xyz, [rng.between(-PI, PI), rng.between(-1.5, 1.5), rng.between(-PI, PI)])
         .unwrap()
 }
 
-fn apart(one: &Pose, other: &Pose) -> f64 {
+pub(super) fn apart(one: &Pose, other: &Pose) -> f64 {
     PoseDifference::between(one, other).largest()
 }
 
 /// Largest deviation of R^T R from the identity.
-fn skew(pose: &Pose) -> f64 {
+pub(super) fn skew(pose: &Pose) -> f64 {
     let r = pose.rotation.matrix();
     (r.transpose() * r - nalgebra::Matrix3::identity()).abs().max()
 }

@@ -16,6 +16,7 @@ pub(super) struct Turn {
     start: Matrix3<f64>,
     sin_part: Matrix3<f64>,
     cos_part: Matrix3<f64>,
+    axis: Vector3<f64>,
     pub(super) angle: f64,
 }
 
@@ -45,10 +46,27 @@ impl Turn {
         }
         let size = v.norm();
         let unit = if size > 0.0 { v / size } else { Vector3::zeros() };
-        let cross = unit.cross_matrix();
+        Ok(Self::about(start, &unit, 2.0 * size.atan2(w)))
+    }
+
+    /// By an angle [rad] about an axis of length 1, as seen from the orientation at the start; of
+    /// an angle of 0 it may have no length.
+    fn about(start: &Rotation3<f64>, unit: &Vector3<f64>, angle: f64) -> Self {
         let start = *start.matrix();
-        let sin_part = start * cross;
-        Ok(Self { start, sin_part, cos_part: sin_part * cross, angle: 2.0 * size.atan2(w) })
+        let sin_part = start * unit.cross_matrix();
+        Self { start, sin_part, cos_part: sin_part * unit.cross_matrix(), axis: *unit, angle }
+    }
+
+    /// By a rotation vector [rad], as seen from the orientation at the start.
+    pub(super) fn by(start: &Rotation3<f64>, vector: &Vector3<f64>) -> Self {
+        let angle = vector.norm();
+        let unit = if angle > 0.0 { vector / angle } else { Vector3::zeros() };
+        Self::about(start, &unit, angle)
+    }
+
+    /// The rotation vector from start to end [rad], the same as seen from either.
+    pub(super) fn vector(&self) -> Vector3<f64> {
+        self.axis * self.angle
     }
 
     /// The orientation at a part of the way, 0 to 1.

@@ -49,4 +49,5 @@ package_object!(break_reason_class, "irbkin.records", "BreakReason");
 package_object!(follow_result_class, "irbkin.records", "FollowResult");
 package_object!(trajectory_sample_class, "irbkin.records", "TrajectorySample");
 package_object!(motion_peaks_class, "irbkin.records", "MotionPeaks");
+package_object!(tool_speed_limits_class, "irbkin.records", "ToolSpeedLimits");
 package_object!(pose_check_class, "irbkin.records", "PoseCheck");

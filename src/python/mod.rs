@@ -24,6 +24,7 @@ mod poses;
 mod queries;
 mod rapid;
 mod records;
+mod retiming;
 mod robot;
 mod robot_repr;
 mod signals;
@@ -98,10 +99,14 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(trajectory::restore_trajectory, module)?)?;
     module.add_function(wrap_pyfunction!(trajectories::joint, module)?)?;
     module.add_function(wrap_pyfunction!(trajectories::spline, module)?)?;
-    module.add_function(wrap_pyfunction!(trajectories::retime, module)?)?;
+    module.add_function(wrap_pyfunction!(retiming::retime, module)?)?;
+    module.add_function(wrap_pyfunction!(retiming::at_tool_speed, module)?)?;
+    module.add_function(wrap_pyfunction!(retiming::tool_speed_limits, module)?)?;
     module.add_function(wrap_pyfunction!(tool_paths::line, module)?)?;
     module.add_function(wrap_pyfunction!(tool_paths::arc, module)?)?;
     module.add_function(wrap_pyfunction!(tool_paths::polyline, module)?)?;
+    // Beside that of trajectories: `irbkin.paths` calls it by its own name.
+    module.add("path_spline", wrap_pyfunction!(tool_paths::spline, module)?)?;
     module.add_class::<rapid::RapidModule>()?;
     module.add_function(wrap_pyfunction!(rapid::parse, module)?)?;
     module.add_function(wrap_pyfunction!(rapid::decode, module)?)?;

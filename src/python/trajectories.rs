@@ -21,7 +21,10 @@ fn read_vector(value: &Bound<'_, PyAny>, field: &'static str) -> PyResult<Vec<f6
 }
 
 /// Joint vectors, shape (m, n): the numbers, and n.
-fn read_rows(value: &Bound<'_, PyAny>, field: &'static str) -> PyResult<(Vec<f64>, usize)> {
+pub(super) fn read_rows(
+    value: &Bound<'_, PyAny>,
+    field: &'static str,
+) -> PyResult<(Vec<f64>, usize)> {
     let rows = Rows::read(value, &[], field, Fault::Joints)?;
     match rows.lead[..] {
         [_, dof] if dof > 0 => Ok((rows.data()?.to_vec(), dof)),
@@ -33,7 +36,7 @@ fn read_rows(value: &Bound<'_, PyAny>, field: &'static str) -> PyResult<(Vec<f64
 }
 
 /// A number for each joint, or one for all; `default` where none is given.
-fn read_each(
+pub(super) fn read_each(
     value: Option<&Bound<'_, PyAny>>,
     field: &'static str,
     dof: usize,
@@ -208,41 +211,5 @@ pub(super) fn spline(
         duration.or(if given { None } else { Some(1.0) }),
         &limits,
     );
-    PyTrajectory::even(py, motion.map_err(|error| to_py(py, &error))?, steps)
-}
-
-/// Move along a path in the shortest time within limits, from rest to rest.
-///
-/// The path is a cubic spline through the samples. No joint exceeds a limit anywhere, between the
-/// samples too. Catalogs have no accelerations: they are the caller's.
-///
-/// Args:
-///     q: Samples of the path [rad], shape (m, n), of `robot.follow` for instance.
-///     max_velocity: Limits [rad/s], a number or shape (n,); `robot.max_velocity` has a robot's.
-///     max_acceleration: Limits [rad/s^2], a number or shape (n,).
-///     steps: Number of samples of the answer; as many as `q` has where it is not given.
-///
-/// Returns:
-///     The trajectory.
-///
-/// Raises:
-///     InvalidMotionError: No rows, a limit that is not positive, a path that no limit binds, or a
-///         duration that is not between 1e-9 and 1e9 s.
-///     InvalidJointsError: A wrong shape, or an angle that is not finite.
-#[pyfunction]
-#[pyo3(signature = (q, max_velocity, max_acceleration, *, steps=None))]
-pub(super) fn retime(
-    q: &Bound<'_, PyAny>,
-    max_velocity: &Bound<'_, PyAny>,
-    max_acceleration: &Bound<'_, PyAny>,
-    steps: Option<&Bound<'_, PyAny>>,
-) -> PyResult<PyTrajectory> {
-    let py = q.py();
-    let (points, dof) = read_rows(q, "q")?;
-    let none = f64::INFINITY;
-    let velocity = read_each(Some(max_velocity), "max_velocity", dof, none)?;
-    let acceleration = read_each(Some(max_acceleration), "max_acceleration", dof, none)?;
-    let motion = py.detach(|| crate::trajectory::retime(&points, &velocity, &acceleration));
-    let steps = steps.map_or(Ok((points.len() / dof).max(2)), read_steps)?;
     PyTrajectory::even(py, motion.map_err(|error| to_py(py, &error))?, steps)
 }

@@ -4,6 +4,7 @@
 use nalgebra::ComplexField as _;
 
 use super::polynomial::{TERMS, derivatives};
+use crate::spline::hermite;
 
 /// Most pieces of one motion: the seven phases of a jerk-limited one.
 const MOST_PIECES: usize = 7;
@@ -55,7 +56,8 @@ pub enum Profile {
     SCurve,
 }
 
-/// The motion of one joint over a duration, on the stack.
+/// The motion of one joint over a duration, on the stack: an array of them is the trajectory of an
+/// arm without a heap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisMotion {
     count: usize,
@@ -112,12 +114,9 @@ impl AxisMotion {
     /// `duration` is positive [s]; the accelerations of the states are not looked at.
     #[must_use]
     pub fn cubic(start: AxisState, end: AxisState, duration: f64) -> Self {
-        let t = duration;
-        let way = end.position - start.position;
-        let (v0, v1) = (start.velocity, end.velocity);
-        let c2 = (3.0 * way - t * (2.0 * v0 + v1)) / (t * t);
-        let c3 = (-2.0 * way + t * (v0 + v1)) / (t * t * t);
-        Self::single([start.position, v0, c2, c3, 0.0, 0.0, 0.0], duration)
+        let positions = [start.position, end.position];
+        let [c0, c1, c2, c3] = hermite(positions, [start.velocity, end.velocity], duration);
+        Self::single([c0, c1, c2, c3, 0.0, 0.0, 0.0], duration)
     }
 
     /// From rest to rest over a duration, by constant acceleration for a third of it, constant

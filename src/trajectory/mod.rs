@@ -24,6 +24,7 @@ mod piecewise;
 mod polynomial;
 mod retime;
 mod spline;
+mod tool_speed;
 mod waypoints;
 
 pub use axis::{AxisLimits, AxisMotion, AxisState, Profile};
@@ -31,8 +32,11 @@ pub use joint::{Synchronization, joint, joint_within};
 #[cfg(feature = "python")]
 pub(crate) use piecewise::TrajectoryParts;
 pub use piecewise::{Peaks, Trajectory};
-pub use retime::retime;
+pub use retime::{retime, retime_tool};
+pub use tool_speed::{ToolSpeedLimits, at_tool_speed, tool_lengths, tool_speed_limits};
 pub use waypoints::{SplineKind, spline, through};
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tool_speed_tests;

@@ -19,15 +19,23 @@ pub(super) struct Piece<'a> {
 impl Piece<'_> {
     /// The largest pace at which no joint exceeds its velocity anywhere on the piece (eq. 14).
     pub(super) fn pace_bound(&self, max_velocity: &[f64]) -> f64 {
-        let bound = |(terms, limit): (&[f64; TERMS], &f64)| {
-            let ratio = limit / self.steepest(terms);
+        let bound = |(joint, limit): (usize, &f64)| {
+            let ratio = limit / self.steepest(joint);
             ratio * ratio
         };
-        self.terms.iter().zip(max_velocity).map(bound).fold(f64::INFINITY, f64::min)
+        max_velocity.iter().enumerate().map(bound).fold(f64::INFINITY, f64::min)
     }
 
-    /// The largest size of dq/ds on the piece: at an end or where its derivative is zero.
-    fn steepest(&self, [_, c1, c2, c3, ..]: &[f64; TERMS]) -> f64 {
+    /// dq/ds and d2q/ds2 of a joint, from 0, at a length from the start of the piece.
+    pub(super) fn slope_and_bend(&self, joint: usize, s: f64) -> [f64; 2] {
+        let [_, c1, c2, c3, ..] = self.terms[joint];
+        [c1 + s * (2.0 * c2 + s * 3.0 * c3), 2.0 * c2 + s * 6.0 * c3]
+    }
+
+    /// The largest size of dq/ds of a joint, from 0, on the piece: at an end or where its
+    /// derivative is zero.
+    pub(super) fn steepest(&self, joint: usize) -> f64 {
+        let [_, c1, c2, c3, ..] = self.terms[joint];
         let slope = |s: f64| (c1 + s * (2.0 * c2 + s * 3.0 * c3)).abs();
         let turn = -c2 / (3.0 * c3);
         let inner = if 0.0 < turn && turn < self.length { slope(turn) } else { 0.0 };

@@ -85,6 +85,12 @@ impl Trajectory {
         Self { dof, knots, terms }
     }
 
+    /// No motion, over no time.
+    pub(super) fn still(q: &[f64]) -> Self {
+        let terms = q.iter().map(|position| [*position, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        Self::new(q.len(), vec![0.0, 0.0], terms.collect())
+    }
+
     /// Refuses a trajectory that a double cannot hold: velocities of 1e300, knots of 1e-300 s.
     pub(super) fn checked(self) -> Result<Self, Error> {
         let numbers = self.knots.iter().chain(self.terms.as_flattened());

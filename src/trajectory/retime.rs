@@ -19,8 +19,10 @@ use super::check::{check_duration, check_limits, check_rows};
 use super::piece::{Piece, Strips};
 use super::piecewise::Trajectory;
 use super::polynomial::{TERMS, shifted};
-use super::spline::{Ends, cubic};
+use super::spline::cubic;
+use super::tool_speed::{ToolPath, check_speed};
 use crate::error::{Error, MotionFault};
+use crate::spline::Ends;
 
 /// Pieces of the grid, at least: a path of few waypoints is cut finer.
 const LEAST_PIECES: usize = 1000;
@@ -50,14 +52,38 @@ pub fn retime(
     }
     let (lengths, points) = polygon(q, dof)?;
     if lengths.len() == 1 {
-        let still = points.iter().map(|position| [*position, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-        return Ok(Trajectory::new(dof, vec![0.0, 0.0], still.collect()));
+        return Ok(Trajectory::still(&points));
     }
-    let grid = Grid::of(&lengths, &cubic(&lengths, &points, dof, Ends::NotAKnot), dof);
-    let pieces: Vec<Piece<'_>> = (0..grid.lengths.len()).map(|index| grid.piece(index)).collect();
-    let paces = paces(&pieces, max_velocity, max_acceleration)?;
-    let timed = grid.timed(&paces);
-    check_duration(timed.duration()).and_then(|()| timed.checked())
+    let spline = cubic(&lengths, &points, dof, Ends::NotAKnot);
+    Grid::of(&lengths, &spline, dof).retimed(max_velocity, max_acceleration, f64::INFINITY)
+}
+
+/// The fastest trajectory along samples of a path, from rest to rest, at which the tool is nowhere
+/// faster than a speed [m/s]: where the other limits allow, it has that speed (eq. 30).
+///
+/// As [`retime`], but over `lengths`, those of the tool's path up to each row [m], as
+/// [`tool_lengths`](super::tool_lengths) gives them: the same spline as that of
+/// [`at_tool_speed`](super::at_tool_speed).
+///
+/// # Errors
+///
+/// As [`retime`]; [`Error::InvalidMotion`] too for a speed that is not positive, a length that is
+/// not finite, or joints that move where the tool does not.
+pub fn retime_tool(
+    q: &[f64],
+    lengths: &[f64],
+    max_tool_speed: f64,
+    max_velocity: &[f64],
+    max_acceleration: &[f64],
+) -> Result<Trajectory, Error> {
+    check_speed("max_tool_speed", max_tool_speed)?;
+    let path = ToolPath::new(q, lengths, max_velocity, max_acceleration)?;
+    let dof = max_velocity.len();
+    if path.terms.is_empty() {
+        return Ok(Trajectory::still(&q[..dof]));
+    }
+    let most = max_tool_speed * max_tool_speed;
+    Grid::of(&path.knots, &path.terms, dof).retimed(max_velocity, max_acceleration, most)
 }
 
 /// The rows that differ from the one before, and the length of the polygon up to each.
@@ -108,6 +134,20 @@ impl Grid {
         grid
     }
 
+    /// The path at the largest paces within limits, of which none is above `most`.
+    fn retimed(
+        &self,
+        max_velocity: &[f64],
+        max_acceleration: &[f64],
+        most: f64,
+    ) -> Result<Trajectory, Error> {
+        let pieces: Vec<Piece<'_>> =
+            (0..self.lengths.len()).map(|index| self.piece(index)).collect();
+        let paces = paces(&pieces, max_velocity, max_acceleration, most)?;
+        let timed = self.timed(&paces);
+        check_duration(timed.duration()).and_then(|()| timed.checked())
+    }
+
     fn piece(&self, index: usize) -> Piece<'_> {
         Piece { length: self.lengths[index], terms: &self.terms[index * self.dof..][..self.dof] }
     }
@@ -137,14 +177,15 @@ impl Grid {
     }
 }
 
-/// The largest paces at the points of the grid, from rest to rest.
+/// The largest paces at the points of the grid up to `most`, from rest to rest.
 fn paces(
     pieces: &[Piece<'_>],
     max_velocity: &[f64],
     max_acceleration: &[f64],
+    most: f64,
 ) -> Result<Vec<f64>, Error> {
     let last = pieces.len();
-    let mut bounds = vec![f64::INFINITY; last + 1];
+    let mut bounds = vec![most; last + 1];
     for (index, piece) in pieces.iter().enumerate() {
         let bound = piece.pace_bound(max_velocity);
         bounds[index] = bounds[index].min(bound);

@@ -5,15 +5,7 @@ use alloc::vec::Vec;
 
 use super::axis::{AxisMotion, AxisState};
 use super::polynomial::TERMS;
-
-/// How a cubic spline ends.
-#[derive(Clone, Copy)]
-pub(super) enum Ends<'a> {
-    /// With given derivatives, a row each.
-    Clamped([&'a [f64]; 2]),
-    /// The first two pieces are one cubic, and so are the last two: nothing is assumed of the ends.
-    NotAKnot,
-}
+use crate::spline::{Ends, cubic_slopes};
 
 /// The pieces of a cubic spline with continuous second derivative, by piece and column.
 ///
@@ -35,94 +27,6 @@ pub(super) fn cubic(
         },
         AxisMotion::cubic,
     )
-}
-
-/// One row of a tridiagonal system: its coefficients, and its right sides by column.
-struct Row {
-    left: f64,
-    middle: f64,
-    right: f64,
-    sides: Vec<f64>,
-}
-
-fn cubic_slopes(knots: &[f64], points: &[f64], dof: usize, ends: Ends<'_>) -> Vec<f64> {
-    let last = knots.len() - 1;
-    let length = |piece: usize| knots[piece + 1] - knots[piece];
-    let slope = |piece: usize, joint: usize| {
-        (points[(piece + 1) * dof + joint] - points[piece * dof + joint]) / length(piece)
-    };
-    let columns = |side: &dyn Fn(usize) -> f64| (0..dof).map(side).collect::<Vec<_>>();
-    let fixed = |given: &[f64]| Row { left: 0.0, middle: 1.0, right: 0.0, sides: given.to_vec() };
-    let straight = |piece: usize| fixed(&columns(&|joint| slope(piece, joint)));
-    // The first and the last row. Of two points the curve without given ends is a line; of three it
-    // is a parabola, whose rows are those of the formula.
-    let edge = |near: usize, far: usize| {
-        let (h, next) = (length(near), length(far));
-        let both = h + next;
-        columns(&|joint| {
-            ((h + 2.0 * both) * next * slope(near, joint) + h * h * slope(far, joint)) / both
-        })
-    };
-    let mut rows = Vec::with_capacity(last + 1);
-    rows.push(match ends {
-        Ends::Clamped([start, _]) => fixed(start),
-        Ends::NotAKnot if last == 1 => straight(0),
-        Ends::NotAKnot => {
-            Row { left: 0.0, middle: length(1), right: length(0) + length(1), sides: edge(0, 1) }
-        }
-    });
-    for knot in 1..last {
-        let (before, after) = (1.0 / length(knot - 1), 1.0 / length(knot));
-        rows.push(Row {
-            left: before,
-            middle: 2.0 * (before + after),
-            right: after,
-            sides: columns(&|joint| {
-                3.0 * (slope(knot - 1, joint) * before + slope(knot, joint) * after)
-            }),
-        });
-    }
-    rows.push(match ends {
-        Ends::Clamped([_, end]) => fixed(end),
-        Ends::NotAKnot if last == 1 => straight(0),
-        Ends::NotAKnot if last == 2 => {
-            // Both ends would say the same of a parabola: its slope at the end is known.
-            fixed(&columns(&|joint| {
-                let (h, next) = (length(0), length(1));
-                let bend = (slope(1, joint) - slope(0, joint)) / (h + next);
-                slope(1, joint) + bend * next
-            }))
-        }
-        Ends::NotAKnot => Row {
-            left: length(last - 2) + length(last - 1),
-            middle: length(last - 2),
-            right: 0.0,
-            sides: edge(last - 1, last - 2),
-        },
-    });
-    solve(rows).concat()
-}
-
-/// Thomas' elimination; the right sides become the solution.
-fn solve(mut rows: Vec<Row>) -> Vec<Vec<f64>> {
-    for index in 1..rows.len() {
-        let (above, row) = rows.split_at_mut(index);
-        let (above, row) = (&above[index - 1], &mut row[0]);
-        let factor = row.left / above.middle;
-        row.middle -= factor * above.right;
-        for (side, above) in row.sides.iter_mut().zip(&above.sides) {
-            *side -= factor * above;
-        }
-    }
-    for index in (0..rows.len()).rev() {
-        let (row, below) = rows.split_at_mut(index + 1);
-        let row = &mut row[index];
-        for (joint, side) in row.sides.iter_mut().enumerate() {
-            let known = below.first().map_or(0.0, |below| row.right * below.sides[joint]);
-            *side = (*side - known) / row.middle;
-        }
-    }
-    rows.into_iter().map(|row| row.sides).collect()
 }
 
 type Block = [[f64; 2]; 2];

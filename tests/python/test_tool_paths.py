@@ -11,6 +11,7 @@ from reference import rotation_apart
 A = irbkin.pose([0.8, -0.2, 0.6], euler_zyx=[0.0, 3.0, 0.2])
 B = irbkin.pose([0.8, 0.3, 0.7], euler_zyx=[1.0, 2.5, -0.4])
 C = irbkin.pose([0.5, 0.4, 0.9], euler_zyx=[0.5, 2.0, 0.0])
+D = irbkin.pose([0.3, 0.0, 1.0], euler_zyx=[0.0, 2.2, 0.3])
 
 
 def test_a_line_meets_both_ends_in_equal_steps():
@@ -83,6 +84,91 @@ def test_a_polyline_of_one_pose_is_that_pose():
     np.testing.assert_array_equal(paths.line(A, A, step=0.01), [A])
 
 
+def test_a_spline_meets_every_pose_and_is_smooth():
+    path = paths.spline([A, B, C, D, A], step=0.001)
+    places = [np.flatnonzero((path == pose).all(axis=(1, 2))) for pose in (A, B, C, D)]
+    assert [len(found) for found in places] == [2, 1, 1, 1]
+    assert (places[0][0], places[0][-1]) == (0, len(path) - 1)
+    rotations = path[:, :3, :3]
+    assert abs(rotations @ rotations.swapaxes(1, 2) - np.eye(3)).max() < 4e-15
+    steps = np.linalg.norm(np.diff(path[:, :3, 3], axis=0), axis=1)
+    assert steps.max() <= 0.001 * (1 + 1e-9)
+    # No kink: neighboring steps differ by the curvature only.
+    assert np.linalg.norm(np.diff(path[:, :3, 3], n=2, axis=0), axis=1).max() < 2e-5
+    turns = [rotation_apart(one, other) for one, other in itertools.pairwise(path)]
+    assert abs(np.diff(turns)).max() < 4e-5
+
+
+def test_a_spline_is_that_of_scipy_over_its_chords():
+    interpolate = pytest.importorskip("scipy.interpolate")
+    rng = np.random.default_rng(5)
+    met = np.tile(A, (7, 1, 1))
+    met[:, :3, 3] = rng.uniform(-0.5, 0.5, (7, 3))
+    chords = np.linalg.norm(np.diff(met[:, :3, 3], axis=0), axis=1)
+    knots = np.r_[0, np.cumsum(chords)]
+    curve = interpolate.CubicSpline(knots, met[:, :3, 3], bc_type="not-a-knot")
+    dense = curve(np.linspace(0, knots[-1], 200_001))
+    for point in paths.spline(met, steps=60)[:, :3, 3]:
+        assert np.linalg.norm(dense - point, axis=1).min() < 2e-5
+    # And its length is that of the curve, to the chords' rounding off.
+    length = np.linalg.norm(np.diff(dense, axis=0), axis=1).sum()
+    own = paths.spline(met, step=1e-4)[:, :3, 3]
+    assert abs(np.linalg.norm(np.diff(own, axis=0), axis=1).sum() / length - 1) < 1e-6
+
+
+def test_a_spline_of_two_poses_is_the_line():
+    np.testing.assert_allclose(
+        paths.spline([A, B], steps=21), paths.line(A, B, steps=21), rtol=0, atol=1e-14
+    )
+
+
+def test_a_spline_stops_where_the_tool_only_turns():
+    turned = B.copy()
+    turned[:3, :3] = B[:3, :3] @ irbkin.pose([0, 0, 0], euler_zyx=[0.4, 0, 0])[:3, :3]
+    path = paths.spline([A, B, turned, C], step=0.01, turn=0.1)
+    still = path[(path[:, :3, 3] == B[:3, 3]).all(axis=1)]
+    np.testing.assert_allclose(still, paths.line(B, turned, turn=0.1), rtol=0, atol=1e-15)
+
+
+def test_poses_that_repeat_are_left_out_of_a_spline():
+    once = paths.spline([A, B, C], steps=50)
+    np.testing.assert_array_equal(paths.spline([A, A, B, C, C], steps=50), once)
+    np.testing.assert_array_equal(paths.spline([A], steps=5), [A])
+    np.testing.assert_array_equal(paths.spline([A, A], steps=3), [A, A, A])
+    np.testing.assert_array_equal(paths.spline([A, A], step=0.1), [A])
+
+
+def test_every_path_is_spaced_by_the_tool_s_speed():
+    calls = (
+        lambda **spacing: paths.line(A, B, **spacing),
+        lambda **spacing: paths.arc(A, B, C, **spacing),
+        lambda **spacing: paths.polyline([A, B, C], 0.05, **spacing),
+        lambda **spacing: paths.spline([A, B, C], **spacing),
+    )
+    for call in calls:
+        path = call(speed=0.25, dt=0.004)
+        np.testing.assert_array_equal(path, call(step=0.001))
+        speeds = np.linalg.norm(np.diff(path[:, :3, 3], axis=0), axis=1) / 0.004
+        assert speeds.max() <= 0.25 * (1 + 1e-9)
+        assert np.median(speeds) > 0.249
+        slow = call(speed=0.25, dt=0.004, turn=1e-3)
+        assert len(slow) > len(path)
+        turns = [rotation_apart(one, other) for one, other in itertools.pairwise(slow)]
+        assert max(turns) <= 1e-3 * (1 + 1e-9)
+
+
+def test_zones_are_cut_to_half_of_the_way():
+    path = paths.polyline([A, B, C], 5.0, steps=201)
+    half = paths.polyline([A, B, C], np.linalg.norm((C - B)[:3, 3]) / 2, steps=201)
+    ways = [np.linalg.norm((pose - B)[:3, 3]) for pose in (A, C)]
+    assert ways[1] < ways[0]
+    np.testing.assert_allclose(path[:, :3, 3], half[:, :3, 3], rtol=0, atol=1e-14)
+
+
+NAN = A.copy()
+NAN[0, 3] = np.nan
+
+
 @pytest.mark.parametrize(
     ("call", "error", "words"),
     [
@@ -93,6 +179,49 @@ def test_a_polyline_of_one_pose_is_that_pose():
         (lambda: paths.polyline([A, B, C], 0, steps=2), InvalidMotionError, "3 to .*, got 2"),
         (lambda: paths.line(A, B, step=-0.1), InvalidMotionError, "step is -0.1, .* positive"),
         (lambda: paths.line(A, B, step=np.nan), InvalidMotionError, "step is NaN"),
+        (lambda: paths.line(A, B, step=0), InvalidMotionError, "step is 0.0, .* positive"),
+        (lambda: paths.line(A, B, turn=0), InvalidMotionError, "turn is 0.0, .* positive"),
+        (lambda: paths.line(A, B, turn=np.inf), InvalidMotionError, "step or turn is inf"),
+        (lambda: paths.line(A, B, speed=0.25), ValueError, r"speed \[m/s\] with dt \[s\]"),
+        (lambda: paths.line(A, B, dt=0.004), ValueError, r"speed \[m/s\] with dt \[s\]"),
+        (lambda: paths.line(A, B, speed=0.2, dt=0.1, step=1), ValueError, "give steps, or step"),
+        (lambda: paths.line(A, B, speed=0, dt=0.1), InvalidMotionError, "speed is 0.0, it must"),
+        (lambda: paths.line(A, B, speed=-1, dt=0.1), InvalidMotionError, "speed is -1.0"),
+        (lambda: paths.line(A, B, speed=1, dt=np.nan), InvalidMotionError, "dt is NaN"),
+        (
+            lambda: paths.line(A, B, speed=1e-200, dt=1e-200),
+            InvalidMotionError,
+            r"speed \* dt is 0.0",
+        ),
+        (
+            lambda: paths.line(A, B, speed=1e-9, dt=1e-3),
+            InvalidMotionError,
+            "speed in m/s and dt in s",
+        ),
+        (
+            lambda: paths.line(A, B, steps=3, axis=[0, np.nan, 0]),
+            InvalidMotionError,
+            r"axis\[1\] is NaN",
+        ),
+        (lambda: paths.line(NAN, B, steps=2), InvalidPoseError, r"T0: pose\[0, 3\] is NaN"),
+        (lambda: paths.line(A, NAN, steps=2), InvalidPoseError, r"T1: pose\[0, 3\] is NaN"),
+        (lambda: paths.arc(A, NAN, C, steps=2), InvalidPoseError, r"T_via: pose\[0, 3\] is NaN"),
+        (lambda: paths.polyline([A, NAN], 0, steps=2), InvalidPoseError, r"T\[1\]: pose\[0, 3\]"),
+        (lambda: paths.spline([A, NAN], steps=2), InvalidPoseError, r"T\[1\]: pose\[0, 3\]"),
+        (lambda: paths.spline(np.zeros((0, 4, 4)), steps=2), InvalidMotionError, "T has 0 rows"),
+        (lambda: paths.spline([A, B, C], steps=2), InvalidMotionError, "steps must be 3 to"),
+        (lambda: paths.spline([A, B, C]), ValueError, "give steps, or step"),
+        (
+            lambda: paths.spline(A, steps=2),
+            InvalidPoseError,
+            r"T must have shape \(m, 4, 4\), got \(4, 4\)",
+        ),
+        (
+            lambda: paths.spline([A, B, B @ np.diag([-1.0, -1, 1, 1])], steps=9),
+            InvalidMotionError,
+            "180.000000 deg to pose 2, there are two ways",
+        ),
+        (lambda: paths.arc(A, B, A, steps=5), InvalidMotionError, "must not lie on a line"),
         (lambda: paths.line(A, B, step=1e-12), InvalidMotionError, "is step in m"),
         (lambda: paths.line(A, B[:3], steps=2), InvalidPoseError, r"T1 must have shape \(4, 4\)"),
         (lambda: paths.line(A, 2 * B, steps=2), InvalidPoseError, "row 3 must be"),
@@ -110,6 +239,8 @@ def test_a_polyline_of_one_pose_is_that_pose():
         ),
         (lambda: paths.polyline([A, B], "z7", steps=5), InvalidMotionError, "got 'z7'"),
         (lambda: paths.polyline([A, B], [0.1], steps=5), InvalidMotionError, "must have 2"),
+        (lambda: paths.polyline([A, B], None, steps=5), InvalidMotionError, "got None"),
+        (lambda: paths.polyline([A, B], np.nan, steps=5), InvalidMotionError, r"zones\[0\] is NaN"),
         (lambda: paths.polyline([A, B], -1, steps=5), InvalidMotionError, r"zones\[0\] is -1"),
     ],
 )

@@ -1,0 +1,200 @@
+//! The functions of `irbkin.trajectory` that time a path of joints.
+
+use numpy::PyArray1;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use super::arguments::read_steps;
+use super::classes;
+use super::errors::{Fault, to_py};
+use super::tool_paths::read_poses;
+use super::trajectories::{read_each, read_rows};
+use super::trajectory::PyTrajectory;
+use crate::error::Error;
+use crate::trajectory::{Trajectory, tool_lengths};
+
+/// A path of joints with their limits.
+struct Path {
+    q: Vec<f64>,
+    max_velocity: Vec<f64>,
+    max_acceleration: Vec<f64>,
+}
+
+impl Path {
+    fn read(
+        q: &Bound<'_, PyAny>,
+        max_velocity: &Bound<'_, PyAny>,
+        max_acceleration: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let (q, dof) = read_rows(q, "q")?;
+        let none = f64::INFINITY;
+        let max_velocity = read_each(Some(max_velocity), "max_velocity", dof, none)?;
+        let max_acceleration = read_each(max_acceleration, "max_acceleration", dof, none)?;
+        Ok(Self { q, max_velocity, max_acceleration })
+    }
+
+    fn rows(&self) -> usize {
+        self.q.len() / self.max_velocity.len()
+    }
+
+    /// The lengths of the tool's path `T` up to each row.
+    fn read_lengths(&self, tool: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+        let poses = read_poses(tool, "T")?;
+        let (found, wanted) = (poses.len(), self.rows());
+        if found != wanted {
+            let message = format!(
+                "T must have shape ({wanted}, 4, 4), a pose for each row of q, got {found}"
+            );
+            return Err(Fault::Pose.error(tool.py(), message));
+        }
+        Ok(tool_lengths(&poses))
+    }
+
+    /// The trajectory with `steps` samples, or with as many as there are rows.
+    fn timed(
+        &self,
+        py: Python<'_>,
+        steps: Option<&Bound<'_, PyAny>>,
+        time: impl FnOnce(&Self) -> Result<Trajectory, Error> + Send,
+    ) -> PyResult<PyTrajectory> {
+        let motion = py.detach(|| time(self));
+        let steps = steps.map_or(Ok(self.rows().max(2)), read_steps)?;
+        PyTrajectory::even(py, motion.map_err(|error| to_py(py, &error))?, steps)
+    }
+}
+
+/// Move along a path in the shortest time within limits, from rest to rest.
+///
+/// The path is a cubic spline through the samples. No joint exceeds a limit anywhere, between the
+/// samples too. Catalogs have no accelerations: they are the caller's.
+///
+/// Args:
+///     q: Samples of the path [rad], shape (m, n), of `robot.follow` for instance.
+///     max_velocity: Limits [rad/s], a number or shape (n,); `robot.max_velocity` has a robot's.
+///     max_acceleration: Limits [rad/s^2], a number or shape (n,).
+///     T: With `max_tool_speed`, the poses of the tool at the samples, shape (m, 4, 4).
+///     max_tool_speed: Speed along `T` [m/s] that is not exceeded: the tool has it where the limits
+///         allow.
+///     steps: Number of samples of the answer; as many as `q` has where it is not given.
+///
+/// Returns:
+///     The trajectory.
+///
+/// Raises:
+///     InvalidMotionError: No rows, a limit that is not positive, a path that no limit binds, a
+///         duration that is not between 1e-9 and 1e9 s or, with `max_tool_speed`, a part of the
+///         path on which the tool only turns.
+///     InvalidJointsError: A wrong shape, or an angle that is not finite.
+///     InvalidPoseError: A pose is not a rigid transform, or `T` has another number of poses.
+#[pyfunction]
+#[pyo3(signature = (q, max_velocity, max_acceleration, *, T=None, max_tool_speed=None, steps=None))]
+#[expect(non_snake_case, reason = "the name that users pass")]
+pub(super) fn retime(
+    q: &Bound<'_, PyAny>,
+    max_velocity: &Bound<'_, PyAny>,
+    max_acceleration: &Bound<'_, PyAny>,
+    T: Option<&Bound<'_, PyAny>>,
+    max_tool_speed: Option<f64>,
+    steps: Option<&Bound<'_, PyAny>>,
+) -> PyResult<PyTrajectory> {
+    let py = q.py();
+    let path = Path::read(q, max_velocity, Some(max_acceleration))?;
+    match (T, max_tool_speed) {
+        (None, None) => path.timed(py, steps, |Path { q, max_velocity, max_acceleration }| {
+            crate::trajectory::retime(q, max_velocity, max_acceleration)
+        }),
+        (Some(tool), Some(speed)) => {
+            let lengths = path.read_lengths(tool)?;
+            path.timed(py, steps, |Path { q, max_velocity, max_acceleration }| {
+                crate::trajectory::retime_tool(q, &lengths, speed, max_velocity, max_acceleration)
+            })
+        }
+        _ => Err(PyValueError::new_err("give T and max_tool_speed together, or neither")),
+    }
+}
+
+/// Move along a path at a constant speed of the tool, which moves at both ends.
+///
+/// The joints are a cubic spline over the length of the tool's path, a polygon through its poses.
+/// `retime` with `max_tool_speed` begins and ends at rest, and is slower where limits demand it.
+///
+/// Args:
+///     q: Samples of the path [rad], shape (m, n), of `robot.follow` for instance.
+///     T: Poses of the tool at the samples, shape (m, 4, 4).
+///     speed: Speed of the tool along `T` [m/s].
+///     max_velocity: Limits [rad/s], a number or shape (n,); `robot.max_velocity` has a robot's.
+///     max_acceleration: Limits [rad/s^2], a number or shape (n,); none where it is not given.
+///     steps: Number of samples of the answer; as many as `q` has where it is not given.
+///
+/// Returns:
+///     The trajectory.
+///
+/// Raises:
+///     InvalidMotionError: A joint does not allow the speed: the message names it, the sample and
+///         the speed that it allows; the speed or a limit is not positive, or the tool only turns
+///         on a part of the path.
+///     InvalidJointsError: A wrong shape, or an angle that is not finite.
+///     InvalidPoseError: A pose is not a rigid transform, or `T` has another number of poses.
+#[pyfunction]
+#[pyo3(signature = (q, T, speed, max_velocity, max_acceleration=None, *, steps=None))]
+#[expect(non_snake_case, reason = "the name that users pass")]
+pub(super) fn at_tool_speed(
+    q: &Bound<'_, PyAny>,
+    T: &Bound<'_, PyAny>,
+    speed: f64,
+    max_velocity: &Bound<'_, PyAny>,
+    max_acceleration: Option<&Bound<'_, PyAny>>,
+    steps: Option<&Bound<'_, PyAny>>,
+) -> PyResult<PyTrajectory> {
+    let path = Path::read(q, max_velocity, max_acceleration)?;
+    let lengths = path.read_lengths(T)?;
+    path.timed(q.py(), steps, |Path { q, max_velocity, max_acceleration }| {
+        crate::trajectory::at_tool_speed(q, &lengths, speed, max_velocity, max_acceleration)
+    })
+}
+
+/// Return the highest constant speed of the tool that the limits of the joints allow, and which
+/// joint limits it.
+///
+/// Args:
+///     q: Samples of the path [rad], shape (m, n), of `robot.follow` for instance.
+///     T: Poses of the tool at the samples, shape (m, 4, 4).
+///     max_velocity: Limits [rad/s], a number or shape (n,); `robot.max_velocity` has a robot's.
+///     max_acceleration: Limits [rad/s^2], a number or shape (n,); none where it is not given.
+///
+/// Returns:
+///     ToolSpeedLimits(speed [m/s], joint, fastest [m/s], fastest_joint, fastest_index): speed and
+///     joint for each sample, shape (m,), and the fastest constant speed of the whole path, between
+///     the samples too, which `at_tool_speed` takes.
+///
+/// Raises:
+///     InvalidMotionError: No rows, a limit that is not positive, or a part of the path on which
+///         the tool only turns.
+///     InvalidJointsError: A wrong shape, or an angle that is not finite.
+///     InvalidPoseError: A pose is not a rigid transform, or `T` has another number of poses.
+#[pyfunction]
+#[pyo3(signature = (q, T, max_velocity, max_acceleration=None))]
+#[expect(non_snake_case, reason = "the name that users pass")]
+pub(super) fn tool_speed_limits<'py>(
+    q: &Bound<'py, PyAny>,
+    T: &Bound<'py, PyAny>,
+    max_velocity: &Bound<'py, PyAny>,
+    max_acceleration: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let py = q.py();
+    let path = Path::read(q, max_velocity, max_acceleration)?;
+    let lengths = path.read_lengths(T)?;
+    let Path { q, max_velocity, max_acceleration } = &path;
+    let limits = py.detach(|| {
+        crate::trajectory::tool_speed_limits(q, &lengths, max_velocity, max_acceleration)
+    });
+    let limits = limits.map_err(|error| to_py(py, &error))?;
+    let joints = limits.joint.iter().map(|joint| i64::try_from(*joint).unwrap_or_default());
+    classes::tool_speed_limits_class(py)?.call1((
+        PyArray1::from_vec(py, limits.speed),
+        PyArray1::from_iter(py, joints),
+        limits.fastest,
+        limits.fastest_joint,
+        limits.fastest_row,
+    ))
+}
