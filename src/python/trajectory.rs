@@ -31,7 +31,7 @@ impl PyTrajectory {
         let t = PyArray1::from_vec(py, times);
         read_only(&t);
         let matrices = states.map(|array| -> PyResult<Py<PyArray2<f64>>> {
-            let array = array.reshape(shape)?;
+            let array = array.cast_into::<PyArray2<f64>>()?;
             read_only(&array);
             Ok(array.unbind())
         });

@@ -1,0 +1,92 @@
+//! Samples of a trajectory, the joints side by side in lanes.
+
+use super::polynomial::TERMS;
+use crate::lanes::{Column, Kernel, LANES};
+
+/// The polynomials of a trajectory, by piece and joint, sampled at times that are numbers.
+pub(super) struct Samples<'a> {
+    pub(super) dof: usize,
+    pub(super) knots: &'a [f64],
+    pub(super) terms: &'a [[f64; TERMS]],
+    pub(super) times: &'a [f64],
+    /// Joint angles, velocities and accelerations: a row of `dof` numbers a time.
+    pub(super) rows: [&'a mut [f64]; 3],
+}
+
+impl Kernel for Samples<'_> {
+    type Answer = ();
+    const WIDE: bool = true;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(mut self) {
+        // The last lanes first: what they write too much is written again by the first ones.
+        for first in (0..self.dof).step_by(LANES).rev() {
+            self.sample(first);
+        }
+    }
+}
+
+impl Samples<'_> {
+    /// Samples the joints from `first` on, as many as there are lanes.
+    #[inline(always)]
+    fn sample(&mut self, first: usize) {
+        let Self { dof, knots, terms, times, rows } = self;
+        let count = (*dof - first).min(LANES);
+        let (pieces, duration) = (knots.len() - 1, knots[knots.len() - 1]);
+        let (mut piece, mut here) = (0, columns(&terms[first..][..count]));
+        for (row, time) in times.iter().enumerate() {
+            let inside = time.clamp(0.0, duration);
+            // Times mostly come in order, a few to a piece; a knot belongs to the piece that
+            // begins there.
+            if !(knots[piece] <= inside && inside < knots[piece + 1]) {
+                let next = knots[1..pieces].partition_point(|knot| *knot <= inside);
+                if next != piece {
+                    (piece, here) = (next, columns(&terms[next * *dof + first..][..count]));
+                }
+            }
+            // At rest outside.
+            let is_outside = *time < 0.0 || *time > duration;
+            let moves = if is_outside { 0.0 } else { 1.0 };
+            let sample = derivatives(&here, inside - knots[piece], moves);
+            for (rows, numbers) in rows.iter_mut().zip(&sample) {
+                let rest = &mut rows[row * *dof + first..];
+                match rest.first_chunk_mut::<LANES>() {
+                    // The next row begins before the end of this one, and is written later.
+                    Some(lanes) => *lanes = *numbers,
+                    None => rest[..count].copy_from_slice(&numbers[..count]),
+                }
+            }
+        }
+    }
+}
+
+/// The coefficients of up to [`LANES`] joints, a column for each power.
+#[inline(always)]
+fn columns(terms: &[[f64; TERMS]]) -> [Column; TERMS] {
+    let mut columns = [[0.0; LANES]; TERMS];
+    for (lane, terms) in terms.iter().enumerate() {
+        for (column, term) in columns.iter_mut().zip(terms) {
+            column[lane] = *term;
+        }
+    }
+    columns
+}
+
+/// Value, first and second derivative of every lane, as
+/// [`derivatives`](super::polynomial::derivatives) has them; the derivatives times `moves`.
+#[inline(always)]
+fn derivatives(columns: &[Column; TERMS], t: f64, moves: f64) -> [Column; 3] {
+    let mut derivatives = [[0.0; LANES]; 3];
+    for lane in 0..LANES {
+        let [mut value, mut first, mut second] = [0.0; 3];
+        for power in (0..TERMS).rev() {
+            second = second * t + first;
+            first = first * t + value;
+            value = value * t + columns[power][lane];
+        }
+        derivatives[0][lane] = value;
+        derivatives[1][lane] = moves * first;
+        derivatives[2][lane] = moves * (2.0 * second);
+    }
+    derivatives
+}
