@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use super::axis::{AxisLimits, AxisMotion};
 use super::check::check_axes;
-use super::polynomial::{TERMS, derivative, derivatives, largest_size, shifted};
+use super::polynomial::{TERMS, derivative, derivatives, largest_size, shifted, size_bound};
 use super::sampling::Samples;
 use crate::error::{Error, MotionFault};
 use crate::kinematics::thresholds::{JOINED_POSITION, LIMIT_ROUNDING, MOST_SAMPLES};
@@ -250,9 +250,16 @@ impl Trajectory {
                 let velocity = derivative(&self.terms[piece * self.dof + joint]);
                 let acceleration = derivative(&velocity);
                 let jerk = derivative(&acceleration);
-                peaks.velocity = peaks.velocity.max(largest_size(&velocity, length));
-                peaks.acceleration = peaks.acceleration.max(largest_size(&acceleration, length));
-                peaks.jerk = peaks.jerk.max(largest_size(&jerk, length));
+                for (peak, polynomial) in [
+                    (&mut peaks.velocity, velocity),
+                    (&mut peaks.acceleration, acceleration),
+                    (&mut peaks.jerk, jerk),
+                ] {
+                    // Most of many pieces cannot be the one with the peak.
+                    if size_bound(&polynomial, length) > *peak {
+                        *peak = peak.max(largest_size(&polynomial, length));
+                    }
+                }
             }
         }
         peaks

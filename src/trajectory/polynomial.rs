@@ -60,6 +60,13 @@ pub(crate) fn largest_size(coefficients: &[f64; TERMS], end: f64) -> f64 {
         .max(derivatives(coefficients, end)[0].abs())
 }
 
+/// A number that [`largest_size`] does not exceed: the sum of the sizes of the terms, and more than
+/// their rounding.
+pub(crate) fn size_bound(coefficients: &[f64; TERMS], end: f64) -> f64 {
+    let sum = coefficients.iter().rev().fold(0.0, |sum, term| sum * end + term.abs());
+    sum * (1.0 + 1e-12)
+}
+
 /// The zeros of the derivative in 0 ..= `end`, in order; returns how many there are.
 fn critical_points(coefficients: &[f64; TERMS], end: f64, points: &mut [f64; TERMS + 1]) -> usize {
     let slope = derivative(coefficients);

@@ -25,6 +25,13 @@ use crate::error::{Error, MotionFault};
 /// Pieces of the grid, at least: a path of few waypoints is cut finer.
 const LEAST_PIECES: usize = 1000;
 
+/// Angle by which the path's direction in joint space may turn on a piece of the grid [rad]: that
+/// of a path through random waypoints takes 1 % longer than the shortest.
+const PIECE_TURN: f64 = 0.04;
+
+/// Most pieces between two samples: memory is linear in the samples.
+const MOST_PARTS: f64 = 100.0;
+
 /// The fastest trajectory along samples of a path, from rest to rest.
 ///
 /// `q` has rows of as many numbers as `max_velocity` has [rad]; between them the path is a cubic
@@ -92,10 +99,11 @@ struct Grid {
 
 impl Grid {
     fn of(knots: &[f64], spline: &[[f64; TERMS]], dof: usize) -> Self {
-        let parts = (LEAST_PIECES / (knots.len() - 1)).max(1);
+        let least = (LEAST_PIECES / (knots.len() - 1)).max(1);
         let mut grid = Self { dof, lengths: Vec::new(), terms: Vec::new() };
         for (piece, ends) in knots.windows(2).enumerate() {
             let terms = &spline[piece * dof..][..dof];
+            let parts = least.max(parts_of_turn(terms, ends[1] - ends[0]));
             let mut begin = 0.0;
             for part in 1..=parts {
                 #[expect(clippy::cast_precision_loss, reason = "counts of parts are small")]
@@ -135,6 +143,24 @@ impl Grid {
         }
         Trajectory::new(self.dof, knots, terms)
     }
+}
+
+/// The number of parts of a cubic piece that turn by [`PIECE_TURN`] at most, from 0 to
+/// [`MOST_PARTS`].
+///
+/// The path has unit speed to about the distance of its samples, so it turns by the integral of the
+/// size of q'', which is linear: the mean of both ends is an upper bound.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to MOST_PARTS")]
+fn parts_of_turn(terms: &[[f64; TERMS]], length: f64) -> usize {
+    let bend = |s: f64| {
+        let squares = terms.iter().map(|[_, _, c2, c3, ..]| {
+            let bend = 2.0 * c2 + 6.0 * c3 * s;
+            bend * bend
+        });
+        squares.sum::<f64>().sqrt()
+    };
+    let turn = 0.5 * length * (bend(0.0) + bend(length));
+    (turn / PIECE_TURN).ceil().min(MOST_PARTS) as usize
 }
 
 /// The largest paces at the points of the grid, from rest to rest.
