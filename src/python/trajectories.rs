@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyFloat;
 
 use super::arguments::{read_profile, read_spline, read_steps, read_synchronization};
-use super::arrays::Rows;
+use super::arrays::{Rows, copied_numbers};
 use super::errors::{Fault, to_py};
 use super::trajectory::PyTrajectory;
 use super::wording::shape;
@@ -13,6 +13,9 @@ use crate::trajectory::{AxisLimits, AxisState, joint_within};
 
 /// Numbers of one dimension.
 fn read_vector(value: &Bound<'_, PyAny>, field: &'static str) -> PyResult<Vec<f64>> {
+    if let Some(numbers) = copied_numbers(value) {
+        return Ok(numbers);
+    }
     let rows = Rows::read(value, &[], field, Fault::Joints)?;
     if rows.lead.len() != 1 {
         let message = format!("{field} must have shape (n,), got {}", shape(&rows.lead));
@@ -63,9 +66,12 @@ fn read_each(
     default: f64,
 ) -> PyResult<Each> {
     let Some(value) = value else { return Ok(Each::Same(default)) };
-    // The short way of one number, which needs no array.
+    // The short ways: one number needs no array, and an array of them no record of a borrow.
     if let Ok(one) = value.cast::<PyFloat>() {
         return Ok(Each::Same(one.value()));
+    }
+    if let Some(numbers) = copied_numbers(value).filter(|numbers| numbers.len() == dof) {
+        return Ok(Each::Own(numbers));
     }
     let rows = Rows::read(value, &[], field, Fault::Motion)?;
     match (&rows.lead[..], rows.data()?) {

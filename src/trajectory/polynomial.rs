@@ -128,6 +128,11 @@ mod tests {
         let cubic = [0.0, 2.0, -3.0, 1.0, 0.0, 0.0, 0.0];
         assert!((largest_size(&cubic, 2.0) - 2.0 / 27.0_f64.sqrt()).abs() < 1e-15);
         assert!((largest_size(&cubic, 3.0) - 6.0).abs() < 1e-15);
+        for polynomial in [[1.0, -2.0, 3.0, -4.0, 5.0, -6.0, 7.0], cubic, [0.1; TERMS]] {
+            for end in [0.0, 1e-3, 0.9, 4.0] {
+                assert!(largest_size(&polynomial, end) <= size_bound(&polynomial, end));
+            }
+        }
         assert_eq!(largest_size(&[-3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], 5.0), 3.0);
     }
 }

@@ -90,3 +90,61 @@ fn derivatives(columns: &[Column; TERMS], t: f64, moves: f64) -> [Column; 3] {
     }
     derivatives
 }
+
+#[cfg(test)]
+mod tests {
+    use std::vec::Vec;
+
+    use super::*;
+    use crate::lanes::on_each_set;
+    use crate::rng::Rng;
+    use crate::trajectory::Trajectory;
+    use crate::trajectory::polynomial::derivatives;
+
+    /// A row of joint angles, velocities and accelerations, number by number.
+    fn alone(knots: &[f64], terms: &[[f64; TERMS]], time: f64) -> [Vec<f64>; 3] {
+        let (pieces, end) = (knots.len() - 1, knots[knots.len() - 1]);
+        let dof = terms.len() / pieces;
+        let inside = time.clamp(0.0, end);
+        let piece = (1..pieces).rev().find(|piece| knots[*piece] <= inside).unwrap_or(0);
+        let moves = if inside < time || inside > time { 0.0 } else { 1.0 };
+        let states = terms[piece * dof..][..dof].iter().map(|terms| {
+            let [value, first, second, _] = derivatives(terms, inside - knots[piece]);
+            [value, moves * first, moves * second]
+        });
+        let states: Vec<[f64; 3]> = states.collect();
+        [0, 1, 2].map(|which| states.iter().map(|state| state[which]).collect())
+    }
+
+    #[test]
+    fn samples_are_those_of_each_number_alone_to_the_bit() {
+        on_each_set(|set| {
+            let mut rng = Rng::new(3);
+            for (dof, pieces) in [(1, 1), (2, 5), (6, 1), (6, 40), (7, 3), (8, 4), (9, 2), (19, 6)]
+            {
+                let mut knots = std::vec![0.0];
+                (0..pieces).for_each(|piece| knots.push(knots[piece] + rng.between(0.1, 2.0)));
+                let mut term = || core::array::from_fn(|_| rng.between(-2.0, 2.0));
+                let terms: Vec<[f64; TERMS]> = (0..pieces * dof).map(|_| term()).collect();
+                let end = knots[pieces];
+                let mut times: Vec<f64> = (0..57).map(|_| rng.between(-0.5, end + 0.5)).collect();
+                times.extend((0..100).map(|step| f64::from(step) / 99.0 * end));
+                times.extend_from_slice(&knots);
+                let motion = Trajectory::new(dof, knots.clone(), terms.clone());
+                let mut rows = [(); 3].map(|()| std::vec![7.0; times.len() * dof]);
+                let [q, dq, ddq] = &mut rows;
+                motion.sample(&times, q, dq, ddq).unwrap();
+                for (row, time) in times.iter().enumerate() {
+                    let alone = alone(&knots, &terms, *time);
+                    for (rows, alone) in rows.iter().zip(&alone) {
+                        let bits = |numbers: &[f64]| -> Vec<u64> {
+                            numbers.iter().map(|number| number.to_bits()).collect()
+                        };
+                        let row = &rows[row * dof..][..dof];
+                        assert_eq!(bits(row), bits(alone), "{}: {dof} at {time}", set.name());
+                    }
+                }
+            }
+        });
+    }
+}
