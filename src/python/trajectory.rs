@@ -60,7 +60,7 @@ fn states<'py>(
     flag: Flag,
 ) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 3]> {
     let arrays = [(); 3].map(|()| PyArrayDyn::<f64>::zeros(py, shape, false));
-    let mut views = arrays.each_ref().map(|array| array.readwrite());
+    let mut views = arrays.each_ref().map(PyArrayMethods::readwrite);
     {
         let [q, dq, ddq] = &mut views;
         let (q, dq, ddq) = (q.as_slice_mut()?, dq.as_slice_mut()?, ddq.as_slice_mut()?);

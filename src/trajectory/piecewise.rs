@@ -105,7 +105,7 @@ impl Trajectory {
     pub fn of_axes(axes: &[AxisMotion]) -> Self {
         let mut knots: Vec<f64> = axes.iter().flat_map(AxisMotion::knots).copied().collect();
         knots.push(0.0);
-        knots.sort_by(f64::total_cmp);
+        knots.sort_unstable_by(f64::total_cmp);
         knots.dedup();
         if knots.len() == 1 {
             knots.push(0.0);
@@ -208,7 +208,7 @@ impl Trajectory {
     pub fn within(&self, limits: &[AxisLimits]) -> Result<(), Error> {
         check_axes(limits, self.dof)?;
         let is_open = |limits: &AxisLimits| {
-            [limits.velocity, limits.acceleration, limits.jerk] == [f64::INFINITY; 3]
+            limits.velocity.min(limits.acceleration).min(limits.jerk).is_infinite()
         };
         if limits.iter().all(is_open) {
             return Ok(());

@@ -107,7 +107,7 @@ mod tests {
         let dof = terms.len() / pieces;
         let inside = time.clamp(0.0, end);
         let piece = (1..pieces).rev().find(|piece| knots[*piece] <= inside).unwrap_or(0);
-        let moves = if inside < time || inside > time { 0.0 } else { 1.0 };
+        let moves = if (0.0..=end).contains(&time) { 1.0 } else { 0.0 };
         let states = terms[piece * dof..][..dof].iter().map(|terms| {
             let [value, first, second, _] = derivatives(terms, inside - knots[piece]);
             [value, moves * first, moves * second]

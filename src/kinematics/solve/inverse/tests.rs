@@ -279,7 +279,8 @@ fn a_path_has_nothing_to_choose_where_the_lanes_solve_it() {
 fn heading(arm: &Arm, pose: &Pose, random: &mut Rng) -> [f64; 6] {
     let solutions = scalar(&arm.robot, checked_pose(pose).unwrap(), ());
     let mut heading = solutions.iter().next().map_or([0.3; 6], |solution| solution.q);
-    let off = [0.0, 1e-15, 1e-13, 1e-9, 1e-3, 3.0][(random.between(0.0, 6.0)) as usize % 6];
+    let exponent = random.between(-18.0, 0.5);
+    let off = if exponent < -16.0 { 0.0 } else { 10.0_f64.powf(exponent) };
     for angle in &mut heading {
         *angle += random.between(-off, off);
     }
