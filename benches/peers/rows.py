@@ -11,9 +11,10 @@ from typing import Any
 
 import numpy as np
 
+from . import motions
 from .arms import IRB2600, PANDA, UR3, Arm, Floats
 from .contenders import BUILDERS, OWN, Contender
-from .contenders.contender import BATCHES, Task
+from .contenders.contender import BATCHES, MOTIONS, Task
 from .measure import Effort, Timing, take_turns
 from .recall import EXACT, branches_of, hits, residuals
 
@@ -39,6 +40,12 @@ ROWS = (
     Row("IK of a batch, every solution, UR3", "ik_batch", UR3),
     Row("IK of one pose with q7 given, Panda", "ik", PANDA),
     Row("IK of a batch with q7 given, Panda", "ik_batch", PANDA),
+    Row("Quintic of six joints, 50 samples", "quintic", IRB2600),
+    Row("Quintic of six joints, 1,000 samples", "long_quintic", IRB2600),
+    Row("Six joints from rest to rest within limits of jerk", "s_curve", IRB2600),
+    Row("Line of the tool, 1,000 poses", "line", IRB2600),
+    Row("That line followed, IRB 2600", "follow", IRB2600),
+    Row("Path of 1,000 samples within limits of acceleration", "retime", IRB2600),
 )
 # How far from the joints a seed is drawn, in each joint [rad].
 SEED_OFF = 0.05
@@ -110,6 +117,8 @@ def yardstick(row: Row) -> Contender:
             lambda out: out.fill(0.0),
             lambda poses, joints: (np.empty((len(poses), *shape)),),
         )
+    if task in MOTIONS:
+        return Contender(task, "A @ B", operator.matmul, lambda poses, joints: (poses[0], poses[1]))
     return Contender(task, "A @ B", operator.matmul, lambda pose, joints: (pose, pose))
 
 
@@ -120,6 +129,8 @@ def check(row: Row, contender: Contender, poses: Floats, joints: Floats, seeds: 
         ArithmeticError: It is too far off for its time to mean anything.
     """
     arm, task = row.arm, row.task
+    if task in MOTIONS:
+        return motions.check(contender)
     if task in ("fk", "jacobian", "fk_batch", "jacobian_batch"):
         truth = arm.fk(joints) if task.startswith("fk") else arm.jacobian(joints)
         if task in BATCHES:
@@ -179,5 +190,8 @@ def run(row: Row, effort: Effort, missing: dict[str, str]) -> Result:
     cases: Sequence[tuple[Any, Any]] = (
         [(poses, joints)] if batch else list(zip(poses, second, strict=True))
     )
-    result.timings = take_turns(taking_part, cases, rounds, effort.turn, len(poses))
+    if row.task in MOTIONS:
+        cases = [motions.case(row.task)]
+    count = len(poses) if batch else len(cases)
+    result.timings = take_turns(taking_part, cases, rounds, effort.turn, count)
     return result

@@ -60,6 +60,10 @@ pub const SEEDED_FREE: f64 = 1e-12;
 /// forearm.
 pub(crate) const PATH_WRIST_SIN: f64 = 1e-3;
 
+/// Distance of the wrist center from axis 1, relative to the lengths of the arm, above which a path
+/// leaves joint 1 to the pose [1]: its uncertainty is below [`SEEDED_FREE`].
+pub(crate) const PATH_SHOULDER: f64 = POSITION_ROUNDING / SEEDED_FREE;
+
 /// Distance of the wrist center from axis 1, relative to the lengths of the arm, above which a
 /// branch is regular [1]: every decision is then far from its threshold, so that the branch can be
 /// solved in lanes. Nearer, the scalar solver decides; both agree to rounding.

@@ -120,6 +120,19 @@ pub(super) fn copied_vector<const N: usize>(value: &Bound<'_, PyAny>) -> Option<
     Some(array::from_fn(|index| array.get_owned([index]).unwrap_or(f64::NAN)))
 }
 
+/// As [`copied_vector`], of an array of shape (n,).
+#[inline]
+pub(super) fn copied_numbers(value: &Bound<'_, PyAny>) -> Option<Vec<f64>> {
+    if !PyUntypedArray::is_exact_type_of(value) {
+        return None;
+    }
+    let array = value.cast::<PyArray1<f64>>().ok()?;
+    if !array.is_aligned() || is_any_written() {
+        return None;
+    }
+    (0..array.len()).map(|index| array.get_owned([index])).collect()
+}
+
 /// As [`copied_vector`], of an array of shape (4, 4), in row-major order.
 #[inline]
 pub(super) fn copied_matrix4(value: &Bound<'_, PyAny>) -> Option<[f64; 16]> {

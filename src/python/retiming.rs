@@ -30,6 +30,8 @@ impl Path {
         let none = f64::INFINITY;
         let max_velocity = read_each(Some(max_velocity), "max_velocity", dof, none)?;
         let max_acceleration = read_each(max_acceleration, "max_acceleration", dof, none)?;
+        let [max_velocity, max_acceleration] =
+            [max_velocity, max_acceleration].map(|limits| limits.vector(dof));
         Ok(Self { q, max_velocity, max_acceleration })
     }
 

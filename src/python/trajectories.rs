@@ -2,9 +2,10 @@
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyFloat;
 
 use super::arguments::{read_profile, read_spline, read_steps, read_synchronization};
-use super::arrays::Rows;
+use super::arrays::{Rows, copied_numbers};
 use super::errors::{Fault, to_py};
 use super::trajectory::PyTrajectory;
 use super::wording::shape;
@@ -12,6 +13,9 @@ use crate::trajectory::{AxisLimits, AxisState, joint_within};
 
 /// Numbers of one dimension.
 fn read_vector(value: &Bound<'_, PyAny>, field: &'static str) -> PyResult<Vec<f64>> {
+    if let Some(numbers) = copied_numbers(value) {
+        return Ok(numbers);
+    }
     let rows = Rows::read(value, &[], field, Fault::Joints)?;
     if rows.lead.len() != 1 {
         let message = format!("{field} must have shape (n,), got {}", shape(&rows.lead));
@@ -35,18 +39,47 @@ pub(super) fn read_rows(
     }
 }
 
+/// A number for each joint.
+pub(super) enum Each {
+    Same(f64),
+    Own(Vec<f64>),
+}
+
+impl Each {
+    fn of(&self, joint: usize) -> f64 {
+        match self {
+            Self::Same(number) => *number,
+            Self::Own(numbers) => numbers[joint],
+        }
+    }
+
+    pub(super) fn vector(self, dof: usize) -> Vec<f64> {
+        match self {
+            Self::Same(number) => vec![number; dof],
+            Self::Own(numbers) => numbers,
+        }
+    }
+}
+
 /// A number for each joint, or one for all; `default` where none is given.
 pub(super) fn read_each(
     value: Option<&Bound<'_, PyAny>>,
     field: &'static str,
     dof: usize,
     default: f64,
-) -> PyResult<Vec<f64>> {
-    let Some(value) = value else { return Ok(vec![default; dof]) };
+) -> PyResult<Each> {
+    let Some(value) = value else { return Ok(Each::Same(default)) };
+    // The short ways: one number needs no array, and an array of them no record of a borrow.
+    if let Ok(one) = value.cast::<PyFloat>() {
+        return Ok(Each::Same(one.value()));
+    }
+    if let Some(numbers) = copied_numbers(value).filter(|numbers| numbers.len() == dof) {
+        return Ok(Each::Own(numbers));
+    }
     let rows = Rows::read(value, &[], field, Fault::Motion)?;
     match (&rows.lead[..], rows.data()?) {
-        ([], [one]) => Ok(vec![*one; dof]),
-        ([found], numbers) if *found == dof => Ok(numbers.to_vec()),
+        ([], [one]) => Ok(Each::Same(*one)),
+        ([found], numbers) if *found == dof => Ok(Each::Own(numbers.to_vec())),
         (sizes, _) => {
             let (one, got) = (shape(&[dof]), shape(sizes));
             let message = format!("{field} must be a number or have shape {one}, got {got}");
@@ -62,9 +95,9 @@ fn read_limits(given: [Option<&Bound<'_, PyAny>>; 3], dof: usize) -> PyResult<Ve
         [0, 1, 2].map(|which| read_each(given[which], fields[which], dof, f64::INFINITY));
     let (velocity, acceleration, jerk) = (velocity?, acceleration?, jerk?);
     let limits = (0..dof).map(|joint| AxisLimits {
-        velocity: velocity[joint],
-        acceleration: acceleration[joint],
-        jerk: jerk[joint],
+        velocity: velocity.of(joint),
+        acceleration: acceleration.of(joint),
+        jerk: jerk.of(joint),
     });
     Ok(limits.collect())
 }
@@ -127,16 +160,25 @@ pub(super) fn joint(
         let message = format!("q1 must have shape ({dof},) as q0 has, got ({},)", end.len());
         return Err(Fault::Joints.error(py, message));
     }
-    let ends = [
-        read_each(start_velocity, "start_velocity", dof, 0.0)?,
-        read_each(start_acceleration, "start_acceleration", dof, 0.0)?,
-        read_each(end_velocity, "end_velocity", dof, 0.0)?,
-        read_each(end_acceleration, "end_acceleration", dof, 0.0)?,
-    ];
+    let v0 = read_each(start_velocity, "start_velocity", dof, 0.0)?;
+    let a0 = read_each(start_acceleration, "start_acceleration", dof, 0.0)?;
+    let v1 = read_each(end_velocity, "end_velocity", dof, 0.0)?;
+    let a1 = read_each(end_acceleration, "end_acceleration", dof, 0.0)?;
+    let states = |q: &[f64], v: &Each, a: &Each| -> Vec<AxisState> {
+        let joints = q.iter().enumerate();
+        let state = |(joint, position): (usize, &f64)| AxisState {
+            position: *position,
+            velocity: v.of(joint),
+            acceleration: a.of(joint),
+        };
+        joints.map(state).collect()
+    };
+    let (from, to) = (states(&start, &v0, &a0), states(&end, &v1, &a1));
     let given = max_velocity.or(max_acceleration).or(max_jerk).is_some();
     let limits = read_limits([max_velocity, max_acceleration, max_jerk], dof)?;
     let motion = if given && duration.is_none() {
-        if ends.iter().flatten().any(|number| *number != 0.0) {
+        let is_at_rest = |state: &AxisState| state.velocity == 0.0 && state.acceleration == 0.0;
+        if !from.iter().chain(&to).all(is_at_rest) {
             let message = "limits without a duration are for motions from rest to rest: give \
                            duration for velocities or accelerations at the ends, or use \
                            trajectory.state_to_state";
@@ -144,14 +186,6 @@ pub(super) fn joint(
         }
         joint_within(profile, &start, &end, &limits, synchronization)
     } else {
-        let [v0, a0, v1, a1] = &ends;
-        let state = |q: &[f64], v: &[f64], a: &[f64], joint: usize| AxisState {
-            position: q[joint],
-            velocity: v[joint],
-            acceleration: a[joint],
-        };
-        let from: Vec<_> = (0..dof).map(|joint| state(&start, v0, a0, joint)).collect();
-        let to: Vec<_> = (0..dof).map(|joint| state(&end, v1, a1, joint)).collect();
         crate::trajectory::joint(profile, &from, &to, duration.unwrap_or(1.0))
             .and_then(|motion| motion.within(&limits).map(|()| motion))
     };

@@ -2,8 +2,7 @@
 
 use std::sync::Arc;
 
-use numpy::{Element, PyArray, PyArray1, PyArray2, PyArrayDyn, PyArrayMethods};
-use numpy::{PyUntypedArrayMethods, ndarray::Dimension};
+use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
@@ -27,15 +26,10 @@ pub(super) struct PyTrajectory {
 impl PyTrajectory {
     fn new(py: Python<'_>, motion: Trajectory, times: Vec<f64>) -> PyResult<Self> {
         let shape = [times.len(), motion.dof()];
-        let states = states(py, &motion, &times, &shape)?;
+        let states = states(py, &motion, &times, &shape, Flag::ReadOnly)?;
         let t = PyArray1::from_vec(py, times);
-        read_only(&t);
-        let matrices = states.map(|array| -> PyResult<Py<PyArray2<f64>>> {
-            let array = array.reshape(shape)?;
-            read_only(&array);
-            Ok(array.unbind())
-        });
-        let [q, dq, ddq] = matrices;
+        t.readwrite().make_nonwriteable();
+        let [q, dq, ddq] = states.map(|array| Ok::<_, PyErr>(array.cast_into()?.unbind()));
         Ok(Self { motion: Arc::new(motion), t: t.unbind(), states: [q?, dq?, ddq?] })
     }
 
@@ -50,8 +44,11 @@ impl PyTrajectory {
     }
 }
 
-fn read_only<T: Element, D: Dimension>(array: &Bound<'_, PyArray<T, D>>) {
-    array.readwrite().make_nonwriteable();
+/// Whether the caller may write to an array.
+#[derive(Clone, Copy, PartialEq)]
+enum Flag {
+    ReadOnly,
+    Writable,
 }
 
 /// Joint angles, velocities and accelerations at times, as arrays of a shape.
@@ -60,14 +57,21 @@ fn states<'py>(
     motion: &Trajectory,
     times: &[f64],
     shape: &[usize],
+    flag: Flag,
 ) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 3]> {
-    let [q, dq, ddq] = [(); 3].map(|()| PyArrayDyn::<f64>::zeros(py, shape, false));
+    let arrays = [(); 3].map(|()| PyArrayDyn::<f64>::zeros(py, shape, false));
+    let mut views = arrays.each_ref().map(PyArrayMethods::readwrite);
     {
-        let (mut q, mut dq, mut ddq) = (q.readwrite(), dq.readwrite(), ddq.readwrite());
+        let [q, dq, ddq] = &mut views;
         let (q, dq, ddq) = (q.as_slice_mut()?, dq.as_slice_mut()?, ddq.as_slice_mut()?);
         py.detach(|| motion.sample(times, q, dq, ddq)).map_err(|error| to_py(py, &error))?;
     }
-    Ok([q, dq, ddq])
+    if flag == Flag::ReadOnly {
+        for view in views {
+            view.make_nonwriteable();
+        }
+    }
+    Ok(arrays)
 }
 
 #[pymethods]
@@ -127,7 +131,7 @@ impl PyTrajectory {
     fn sample<'py>(&self, py: Python<'py>, t: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let times = Rows::read(t, &[], "t", Fault::Motion)?;
         let shape = times.shape_with(&[self.motion.dof()]);
-        let states = states(py, &self.motion, times.data()?, &shape)?;
+        let states = states(py, &self.motion, times.data()?, &shape, Flag::Writable)?;
         classes::trajectory_sample_class(py)?.call1(PyTuple::new(py, states)?)
     }
 

@@ -215,9 +215,16 @@ impl AxisMotion {
     /// The same way over another duration, as long or longer: no limit is exceeded that was kept.
     #[must_use]
     pub fn stretched(mut self, duration: f64) -> Self {
+        self.stretch(duration);
+        self
+    }
+
+    /// [`Self::stretched`] in place.
+    pub(super) fn stretch(&mut self, duration: f64) {
         let own = self.duration();
         if own == 0.0 {
-            return Self::still(self.terms[0][0], duration);
+            *self = Self::still(self.terms[0][0], duration);
+            return;
         }
         let factor = own / duration;
         for terms in &mut self.terms[..self.count] {
@@ -231,7 +238,6 @@ impl AxisMotion {
             *start /= factor;
         }
         self.starts[self.count] = duration;
-        self
     }
 
     /// A motion from 0 to 1 as one between two positions.

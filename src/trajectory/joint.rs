@@ -128,21 +128,18 @@ pub fn joint_within(
 fn slowed(profile: Profile, start: &[f64], end: &[f64], limits: &[AxisLimits]) -> Vec<AxisMotion> {
     let own = start.iter().zip(end).zip(limits);
     let own = own.map(|((start, end), limits)| AxisMotion::within(profile, *start, *end, limits));
-    let axes: Vec<AxisMotion> = own.collect();
+    let mut axes: Vec<AxisMotion> = own.collect();
     let duration = axes.iter().map(AxisMotion::duration).fold(0.0, f64::max);
-    let ends = start.iter().zip(end);
-    axes.into_iter()
-        .zip(ends)
-        .map(|(axis, (start, end))| {
-            // A joint that nothing limits has the time of the others.
-            if axis.duration() == 0.0 && (end - start).abs() > 0.0 && duration > 0.0 {
-                let [start, end] = [*start, *end].map(AxisState::at_rest);
-                AxisMotion::quintic(start, end, duration)
-            } else {
-                axis.stretched(duration)
-            }
-        })
-        .collect()
+    for (axis, (start, end)) in axes.iter_mut().zip(start.iter().zip(end)) {
+        // A joint that nothing limits has the time of the others.
+        if axis.duration() == 0.0 && (end - start).abs() > 0.0 && duration > 0.0 {
+            let [start, end] = [*start, *end].map(AxisState::at_rest);
+            *axis = AxisMotion::quintic(start, end, duration);
+        } else {
+            axis.stretch(duration);
+        }
+    }
+    axes
 }
 
 /// One profile from 0 to 1, within what the limits of each joint leave of its velocity,

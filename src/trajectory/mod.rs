@@ -23,6 +23,7 @@ mod piece;
 mod piecewise;
 mod polynomial;
 mod retime;
+mod sampling;
 mod spline;
 mod tool_speed;
 mod waypoints;

@@ -5,9 +5,11 @@ use alloc::vec::Vec;
 
 use super::axis::{AxisLimits, AxisMotion};
 use super::check::check_axes;
-use super::polynomial::{TERMS, derivative, derivatives, largest_size, shifted};
+use super::polynomial::{TERMS, derivative, derivatives, largest_size, shifted, size_bound};
+use super::sampling::Samples;
 use crate::error::{Error, MotionFault};
 use crate::kinematics::thresholds::{JOINED_POSITION, LIMIT_ROUNDING, MOST_SAMPLES};
+use crate::lanes::run;
 
 /// Joint angles, velocities and accelerations over time, exact at any time.
 ///
@@ -93,8 +95,11 @@ impl Trajectory {
 
     /// Refuses a trajectory that a double cannot hold: velocities of 1e300, knots of 1e-300 s.
     pub(super) fn checked(self) -> Result<Self, Error> {
-        let numbers = self.knots.iter().chain(self.terms.as_flattened());
-        if numbers.copied().all(f64::is_finite) {
+        // Without a way out, so that it runs in vectors.
+        let are_finite = |numbers: &[f64]| {
+            numbers.iter().fold(true, |finite, number| finite & number.is_finite())
+        };
+        if are_finite(&self.knots) & are_finite(self.terms.as_flattened()) {
             Ok(self)
         } else {
             Err(MotionFault::Overflow.into())
@@ -106,7 +111,7 @@ impl Trajectory {
     pub fn of_axes(axes: &[AxisMotion]) -> Self {
         let mut knots: Vec<f64> = axes.iter().flat_map(AxisMotion::knots).copied().collect();
         knots.push(0.0);
-        knots.sort_by(f64::total_cmp);
+        knots.sort_unstable_by(f64::total_cmp);
         knots.dedup();
         if knots.len() == 1 {
             knots.push(0.0);
@@ -142,14 +147,13 @@ impl Trajectory {
     /// # Errors
     ///
     /// [`Error::InvalidMotion`] for fewer than two or more than [`MOST_SAMPLES`].
-    #[expect(clippy::cast_precision_loss, reason = "at most 1e7 samples")]
     pub fn times(&self, steps: usize) -> Result<Vec<f64>, Error> {
-        if !(2..=MOST_SAMPLES).contains(&steps) {
+        let count = u32::try_from(steps).ok().filter(|_| (2..=MOST_SAMPLES).contains(&steps));
+        let Some(count) = count else {
             return Err(MotionFault::Steps { found: steps, bounds: [2, MOST_SAMPLES] }.into());
-        }
-        let last = steps - 1;
-        let part = |step: usize| if step == last { 1.0 } else { step as f64 / last as f64 };
-        Ok((0..steps).map(|step| part(step) * self.duration()).collect())
+        };
+        let (last, duration) = (f64::from(count - 1), self.duration());
+        Ok((0..count).map(|step| f64::from(step) / last * duration).collect())
     }
 
     /// Duration [s].
@@ -193,35 +197,11 @@ impl Trajectory {
                 return Err(Error::WrongLength { field, found, wanted });
             }
         }
-        let mut piece = 0;
-        // Without joints there are no rows.
-        let width = self.dof.max(1);
-        let rows = q
-            .chunks_exact_mut(width)
-            .zip(dq.chunks_exact_mut(width))
-            .zip(ddq.chunks_exact_mut(width));
-        for ((index, time), ((q, dq), ddq)) in times.iter().enumerate().zip(rows) {
-            if time.is_nan() {
-                return Err(MotionFault::NotFinite { field: "t", index, value: *time }.into());
-            }
-            let inside = time.clamp(0.0, self.duration());
-            // Times mostly come in order, a few to a piece.
-            let is_here = self.knots[piece] <= inside && inside < self.knots[piece + 1];
-            if !is_here {
-                piece = self.piece_at(inside);
-            }
-            let since = inside - self.knots[piece];
-            let terms = &self.terms[piece * self.dof..][..self.dof];
-            // At rest outside.
-            let is_outside = *time < 0.0 || *time > self.duration();
-            let moves = if is_outside { 0.0 } else { 1.0 };
-            for (joint, terms) in terms.iter().enumerate() {
-                let [position, velocity, acceleration, _] = derivatives(terms, since);
-                q[joint] = position;
-                dq[joint] = moves * velocity;
-                ddq[joint] = moves * acceleration;
-            }
+        if let Some(index) = times.iter().position(|time| time.is_nan()) {
+            return Err(MotionFault::NotFinite { field: "t", index, value: times[index] }.into());
         }
+        let Self { dof, ref knots, ref terms } = *self;
+        run(Samples { dof, knots, terms, times, rows: [q, dq, ddq] });
         Ok(())
     }
 
@@ -233,6 +213,12 @@ impl Trajectory {
     /// limit; [`Error::WrongLength`] for another number of limits than of joints.
     pub fn within(&self, limits: &[AxisLimits]) -> Result<(), Error> {
         check_axes(limits, self.dof)?;
+        let is_open = |limits: &AxisLimits| {
+            limits.velocity.min(limits.acceleration).min(limits.jerk).is_infinite()
+        };
+        if limits.iter().all(is_open) {
+            return Ok(());
+        }
         for (index, (peaks, limits)) in self.peaks().iter().zip(limits).enumerate() {
             for (what, value, limit) in [
                 ("velocity", peaks.velocity, limits.velocity),
@@ -270,9 +256,16 @@ impl Trajectory {
                 let velocity = derivative(&self.terms[piece * self.dof + joint]);
                 let acceleration = derivative(&velocity);
                 let jerk = derivative(&acceleration);
-                peaks.velocity = peaks.velocity.max(largest_size(&velocity, length));
-                peaks.acceleration = peaks.acceleration.max(largest_size(&acceleration, length));
-                peaks.jerk = peaks.jerk.max(largest_size(&jerk, length));
+                for (peak, polynomial) in [
+                    (&mut peaks.velocity, velocity),
+                    (&mut peaks.acceleration, acceleration),
+                    (&mut peaks.jerk, jerk),
+                ] {
+                    // Most of many pieces cannot be the one with the peak.
+                    if size_bound(&polynomial, length) > *peak {
+                        *peak = peak.max(largest_size(&polynomial, length));
+                    }
+                }
             }
         }
         peaks

@@ -60,6 +60,13 @@ pub(crate) fn largest_size(coefficients: &[f64; TERMS], end: f64) -> f64 {
         .max(derivatives(coefficients, end)[0].abs())
 }
 
+/// A number that [`largest_size`] does not exceed: the sum of the sizes of the terms, and more than
+/// their rounding.
+pub(crate) fn size_bound(coefficients: &[f64; TERMS], end: f64) -> f64 {
+    let sum = coefficients.iter().rev().fold(0.0, |sum, term| sum * end + term.abs());
+    sum * (1.0 + 1e-12)
+}
+
 /// The zeros of the derivative in 0 ..= `end`, in order; returns how many there are.
 fn critical_points(coefficients: &[f64; TERMS], end: f64, points: &mut [f64; TERMS + 1]) -> usize {
     let slope = derivative(coefficients);
@@ -121,6 +128,11 @@ mod tests {
         let cubic = [0.0, 2.0, -3.0, 1.0, 0.0, 0.0, 0.0];
         assert!((largest_size(&cubic, 2.0) - 2.0 / 27.0_f64.sqrt()).abs() < 1e-15);
         assert!((largest_size(&cubic, 3.0) - 6.0).abs() < 1e-15);
+        for polynomial in [[1.0, -2.0, 3.0, -4.0, 5.0, -6.0, 7.0], cubic, [0.1; TERMS]] {
+            for end in [0.0, 1e-3, 0.9, 4.0] {
+                assert!(largest_size(&polynomial, end) <= size_bound(&polynomial, end));
+            }
+        }
         assert_eq!(largest_size(&[-3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], 5.0), 3.0);
     }
 }

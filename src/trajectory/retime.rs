@@ -27,6 +27,13 @@ use crate::spline::Ends;
 /// Pieces of the grid, at least: a path of few waypoints is cut finer.
 const LEAST_PIECES: usize = 1000;
 
+/// Angle by which the path's direction in joint space may turn on a piece of the grid [rad]: that
+/// of a path through random waypoints takes 1 % longer than the shortest.
+const PIECE_TURN: f64 = 0.04;
+
+/// Most pieces between two samples: memory is linear in the samples.
+const MOST_PARTS: f64 = 100.0;
+
 /// The fastest trajectory along samples of a path, from rest to rest.
 ///
 /// `q` has rows of as many numbers as `max_velocity` has [rad]; between them the path is a cubic
@@ -118,10 +125,11 @@ struct Grid {
 
 impl Grid {
     fn of(knots: &[f64], spline: &[[f64; TERMS]], dof: usize) -> Self {
-        let parts = (LEAST_PIECES / (knots.len() - 1)).max(1);
+        let least = (LEAST_PIECES / (knots.len() - 1)).max(1);
         let mut grid = Self { dof, lengths: Vec::new(), terms: Vec::new() };
         for (piece, ends) in knots.windows(2).enumerate() {
             let terms = &spline[piece * dof..][..dof];
+            let parts = least.max(parts_of_turn(terms, ends[1] - ends[0]));
             let mut begin = 0.0;
             for part in 1..=parts {
                 #[expect(clippy::cast_precision_loss, reason = "counts of parts are small")]
@@ -175,6 +183,26 @@ impl Grid {
         }
         Trajectory::new(self.dof, knots, terms)
     }
+}
+
+/// The number of parts of a cubic piece that turn by [`PIECE_TURN`] at most, from 0 to
+/// [`MOST_PARTS`].
+///
+/// A path turns by less than the integral of the size of q'' by that of q'. Both are taken as the
+/// means of their ends.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to MOST_PARTS")]
+fn parts_of_turn(terms: &[[f64; TERMS]], length: f64) -> usize {
+    let ends = [0.0, length].map(|s| {
+        let (mut slope, mut bend) = (0.0, 0.0);
+        for [_, c1, c2, c3, ..] in terms {
+            slope += (c1 + s * (2.0 * c2 + s * 3.0 * c3)).powi(2);
+            bend += (2.0 * c2 + 6.0 * c3 * s).powi(2);
+        }
+        [slope.sqrt(), bend.sqrt()]
+    });
+    let [[slope, bend], [slope_after, bend_after]] = ends;
+    let turn = length * (bend + bend_after) / (slope + slope_after);
+    (turn / PIECE_TURN).ceil().min(MOST_PARTS) as usize
 }
 
 /// The largest paces at the points of the grid up to `most`, from rest to rest.

@@ -80,7 +80,7 @@ where
     counts
 }
 
-/// Next to joints, turns away from them, half a turn to rounding, anywhere, or no seed.
+/// Next to joints, at them, turns away from them, half a turn to rounding, anywhere, or no seed.
 fn seed<const N: usize>(row: usize, q: &[f64; N], rng: &mut Rng) -> [f64; N] {
     let turns = [-2.0 * TAU, -TAU, 0.0, TAU, 2.0 * TAU];
     let mut seed = q.map(|angle| if angle.is_finite() { angle } else { 0.1 });
@@ -92,6 +92,8 @@ fn seed<const N: usize>(row: usize, q: &[f64; N], rng: &mut Rng) -> [f64; N] {
             6 => -PI * (1.0 + f64::EPSILON),
             7 => PI + 1e-10 * rng.between(-1.0, 1.0),
             8 => 3.0 * PI + 1e-10 * rng.between(-1.0, 1.0),
+            // A solution: the same arm with its wrist flipped is half a turn away.
+            9 => 0.0,
             _ => 20.0 * rng.between(-1.0, 1.0),
         };
     }

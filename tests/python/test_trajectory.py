@@ -105,16 +105,12 @@ def test_retiming_keeps_limits_between_samples_too(count):
     np.testing.assert_allclose(move.q[[0, -1]], q[[0, -1]], rtol=0, atol=1e-11)
 
 
-def test_a_line_retimed_is_as_fast_as_toppra():
+def duration_of_toppra(path, velocity, acceleration):
+    """Of a path on the same spline, with 1,000 points of its grid."""
     toppra = pytest.importorskip("toppra")
     from toppra import algorithm, constraint
 
     toppra.setup_logging("ERROR")
-    robot = irbkin.Robot("IRB 2600-12/1.65")
-    start = irbkin.pose([0.85, -0.4, 0.64], wxyz=[0.2588190, 0, 0.9659258, 0])
-    end = irbkin.pose([0.85, 0.4, 0.64], wxyz=[0.5, 0.1, 0.8602325267, 0])
-    path = robot.follow(irbkin.paths.line(start, end, steps=1000), np.zeros(6)).q
-    velocity, acceleration = robot.max_velocity, 5 * robot.max_velocity
     lengths = np.r_[0, np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))]
     limits = [
         constraint.JointVelocityConstraint(np.c_[-velocity, velocity]),
@@ -126,8 +122,29 @@ def test_a_line_retimed_is_as_fast_as_toppra():
         gridpoints=np.linspace(0, lengths[-1], 1000),
         parametrizer="ParametrizeConstAccel",
     )
+    return solver.compute_trajectory().duration
+
+
+def test_a_line_retimed_is_as_fast_as_toppra():
+    robot = irbkin.Robot("IRB 2600-12/1.65")
+    start = irbkin.pose([0.85, -0.4, 0.64], wxyz=[0.2588190, 0, 0.9659258, 0])
+    end = irbkin.pose([0.85, 0.4, 0.64], wxyz=[0.5, 0.1, 0.8602325267, 0])
+    path = robot.follow(irbkin.paths.line(start, end, steps=1000), np.zeros(6)).q
+    velocity, acceleration = robot.max_velocity, 5 * robot.max_velocity
     move = trajectory.retime(path, velocity, acceleration)
-    assert move.duration <= 1.01 * solver.compute_trajectory().duration
+    assert move.duration <= 1.01 * duration_of_toppra(path, velocity, acceleration)
+
+
+@pytest.mark.parametrize("count", [5, 20, 100])
+def test_random_waypoints_retimed_are_as_fast_as_toppra_which_exceeds_limits(count):
+    robot = irbkin.Robot("IRB 2600-12/1.65")
+    path = np.random.default_rng(count).uniform(-2, 2, (count, 6))
+    velocity, acceleration = robot.max_velocity, 5 * robot.max_velocity
+    move = trajectory.retime(path, velocity, acceleration)
+    assert move.duration <= 1.01 * duration_of_toppra(path, velocity, acceleration)
+    peaks = move.peaks()
+    assert (peaks.velocity <= velocity * (1 + 1e-9)).all()
+    assert (peaks.acceleration <= acceleration * (1 + 1e-9)).all()
 
 
 def test_a_trajectory_is_a_value():

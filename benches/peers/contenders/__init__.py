@@ -12,6 +12,7 @@ from collections.abc import Callable
 from ..arms import Arm
 from .contender import Contender
 from .dynamics import dynibo, pinocchio
+from .motion import roboticstoolbox, ruckig, toppra
 from .one_arm import frankik, ur_analytic_ik
 from .opw import py_opw_kinematics, spherical_wrist
 from .own import irbkin
@@ -33,6 +34,9 @@ BUILDERS: dict[str, Builder] = {
     "frankik": frankik,
     "pin": pinocchio,
     "dynibo": dynibo,
+    "roboticstoolbox-python": roboticstoolbox,
+    "toppra": toppra,
+    "ruckig": ruckig,
 }
 
 __all__ = ["BUILDERS", "OWN", "Builder", "Contender"]

@@ -11,8 +11,23 @@ from numpy.typing import NDArray
 
 from ..arms import Floats
 
-Task = Literal["ik", "ik_nearest", "fk", "jacobian", "ik_batch", "fk_batch", "jacobian_batch"]
+Task = Literal[
+    "ik",
+    "ik_nearest",
+    "fk",
+    "jacobian",
+    "ik_batch",
+    "fk_batch",
+    "jacobian_batch",
+    "quintic",
+    "long_quintic",
+    "s_curve",
+    "line",
+    "follow",
+    "retime",
+]
 BATCHES: tuple[Task, ...] = ("ik_batch", "fk_batch", "jacobian_batch")
+MOTIONS: tuple[Task, ...] = ("quintic", "long_quintic", "s_curve", "line", "follow", "retime")
 
 
 def from_pose(pose: Floats, joints: Floats) -> tuple[Any, ...]:
@@ -46,7 +61,8 @@ class Contender:
         prepare: A pose (or a batch) and its joints to the arguments of `call`, not timed: frames
             are changed and the package's own layout is made here, in favor of the package.
         read: The answer of `call` to the common form, not timed: solutions (k, n), a pose (4, 4), a
-            Jacobian (6, n) with linear rows first; of a batch of poses one (k, n) each.
+            Jacobian (6, n) with linear rows first; of a batch of poses one (k, n) each; of motions
+            what `motions.check` compares.
         flagged: Which of the solutions the package itself calls least squares: near the pose, not
         on it.
         bound: How far a pose or a Jacobian may be off [m, m/rad, 1].

@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from ..arms import Arm, Floats
+from ..arms import IRB2600, Arm, Floats
 from .contender import Contender, from_both, from_joints, from_pose
+from .motion import own_motions
 
 
 def irbkin(arm: Arm) -> list[Contender]:
@@ -61,4 +62,5 @@ def irbkin(arm: Arm) -> list[Contender]:
             lambda q, out: robot.jacobian(q, out=out),
             with_room(6, arm.dof),
         ),
+        *(own_motions(robot) if arm is IRB2600 else ()),
     ]

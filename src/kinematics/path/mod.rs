@@ -2,3 +2,6 @@
 
 pub(crate) mod follow;
 pub(crate) mod singularity_mode;
+
+#[cfg(test)]
+mod tests;

@@ -69,6 +69,17 @@ impl Robot<6> {
         }
     }
 
+    /// The same arm without lanes.
+    #[cfg(test)]
+    pub(in crate::kinematics) fn without_lanes(mut self) -> Self {
+        self.structure = match self.structure {
+            SixJoints::SphericalWrist(solver) => SixJoints::SphericalWrist(solver.without_lanes()),
+            SixJoints::ThreeParallel(solver) => SixJoints::ThreeParallel(solver.without_lanes()),
+            unknown @ SixJoints::Unknown(_) => unknown,
+        };
+        self
+    }
+
     /// The geometry of an arm with a spherical wrist.
     pub(in crate::kinematics) fn spherical_wrist(&self) -> Option<&SphericalWrist> {
         self.wrist_solver().map(|solver| &solver.structure)

@@ -9,7 +9,7 @@ use crate::kinematics::solve::self_motion::meets;
 use crate::kinematics::structure::any::AnyStructure;
 use crate::kinematics::structure::arity::{Arity, Joints, RedundancyOf};
 use crate::kinematics::structure::arm::Rows;
-use crate::kinematics::structure::free_choice::FreeChoice;
+use crate::kinematics::structure::free_choice::{FreeChoice, SeedPolicy};
 use crate::kinematics::structure::lanes::PoseRow;
 use crate::kinematics::structure::redundancy::Redundancy;
 use crate::kinematics::thresholds::MOST_LENGTH;
@@ -161,7 +161,12 @@ where
     ) -> Result<Solutions<N>, Error> {
         let mut solutions = self.unsolved(pose);
         let redundancy = Redundancy::of(&free.q);
-        if !(free.leaves_regular_poses_alone() && self.solve_in_lanes(&mut solutions, redundancy)) {
+        let is_solved = match free.policy {
+            SeedPolicy::Pose | SeedPolicy::Seed => self.solve_in_lanes(&mut solutions, redundancy),
+            SeedPolicy::Path => self.solver().arm().solve_on_path(&mut solutions, redundancy),
+            SeedPolicy::Forced { .. } => false,
+        };
+        if !is_solved {
             self.solve_scalar(&mut solutions, free)?;
         }
         Ok(solutions)

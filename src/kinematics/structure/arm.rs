@@ -39,6 +39,12 @@ pub(crate) trait Arm<const N: usize, R> {
         free: &FreeChoice<N>,
     ) -> Result<(), UnknownStructure>;
 
+    /// Solve the answer's pose in lanes if it leaves a path nothing to choose; return whether it
+    /// does.
+    fn solve_on_path(&self, _solutions: &mut Solutions<N>, _redundancy: R) -> bool {
+        false
+    }
+
     /// Solve rows of poses into rows of slots; `by_itself` solves one row, by index, that is not
     /// regular.
     fn solve_rows(&self, rows: Rows<'_, R>, by_itself: &mut RowSolve<'_, N>);

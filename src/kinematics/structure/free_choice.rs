@@ -60,11 +60,6 @@ impl<const N: usize> FreeChoice<N> {
         Self { q, policy: SeedPolicy::Path }
     }
 
-    /// Whether the free choice matters only near singularities.
-    pub(crate) fn leaves_regular_poses_alone(&self) -> bool {
-        matches!(self.policy, SeedPolicy::Pose | SeedPolicy::Seed)
-    }
-
     /// The angle of joint `joint`, from 1, in `q`; for other joints only if rounding hides them.
     pub(crate) fn forced(q: [f64; N], joint: usize, behind: bool) -> Self {
         Self { q, policy: SeedPolicy::Forced { joint, behind } }

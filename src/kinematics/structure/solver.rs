@@ -40,6 +40,12 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Solver<T, N, S> {
         }
     }
 
+    /// The same without a kernel: every pose is solved by the scalar solver.
+    #[cfg(test)]
+    pub(crate) fn without_lanes(self) -> Self {
+        Self { lanes: None, ..self }
+    }
+
     /// Solve the answer's pose if it is regular; return whether it is.
     #[inline]
     pub(crate) fn solve_in_lanes(
@@ -48,6 +54,17 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Solver<T, N, S> {
         redundancy: T::Redundancy,
     ) -> bool {
         let Some((kernel, columns)) = &self.lanes else { return false };
+        self.solve_with(kernel, columns, solutions, redundancy)
+    }
+
+    #[inline]
+    fn solve_with(
+        &self,
+        kernel: &T::Kernel,
+        columns: &Columns<N>,
+        solutions: &mut Solutions<N>,
+        redundancy: T::Redundancy,
+    ) -> bool {
         let (seen, pose) = (&self.end_frames.seen, &solutions.pose);
         let Some(regular) = run(Single { kernel, columns, seen, pose, redundancy }) else {
             return false;
@@ -84,6 +101,13 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Arm<N, T::Redundancy> f
         }
         solutions.reach = branches.reach;
         Ok(())
+    }
+
+    fn solve_on_path(&self, solutions: &mut Solutions<N>, redundancy: T::Redundancy) -> bool {
+        let Some((kernel, columns)) = &self.lanes else { return false };
+        kernel
+            .for_path()
+            .is_some_and(|kernel| self.solve_with(&kernel, columns, solutions, redundancy))
     }
 
     fn solve_rows(&self, rows: Rows<'_, T::Redundancy>, by_itself: &mut RowSolve<'_, N>) {

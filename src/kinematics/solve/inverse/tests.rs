@@ -5,6 +5,7 @@ use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::{format, println, string::String, vec::Vec};
 
 mod arm;
+mod on_path;
 
 use super::*;
 use crate::kinematics::pose::{pose_from_euler_zyx, translation_z};
@@ -35,8 +36,11 @@ where
 {
     let mut solutions = robot.unsolved(*pose);
     let regular = robot.solve_in_lanes(&mut solutions, given);
-    let slot = |slot: usize| solutions.slot(slot).map(|found| (found.q, found.status));
-    regular.then(|| core::array::from_fn(slot))
+    regular.then(|| slots(&solutions))
+}
+
+fn slots<const N: usize>(solutions: &Solutions<N>) -> RegularAnswer<N> {
+    core::array::from_fn(|slot| solutions.slot(slot).map(|found| (found.q, found.status)))
 }
 
 fn scalar<const N: usize>(robot: &Robot<N>, pose: Pose, given: RedundancyOf<N>) -> Solutions<N>
@@ -64,7 +68,16 @@ impl Comparison {
     fn take(&mut self, arm: &Arm, pose: Pose, what: &str) {
         let pose = checked_pose(&pose).unwrap();
         let Some(regular) = arm.by_lanes(&pose) else { return };
-        let scalar = arm.scalar(pose);
+        self.compare(arm, &pose, (regular, arm.scalar(pose)), what);
+    }
+
+    fn compare(
+        &mut self,
+        arm: &Arm,
+        pose: &Pose,
+        (regular, scalar): (RegularAnswer<6>, Solutions<6>),
+        what: &str,
+    ) {
         self.regular += 1;
         assert_eq!(
             regular.map(|slot| slot.map_or(Status::empty(), |(_, status)| status)),
@@ -80,7 +93,7 @@ impl Comparison {
             let rounded_off =
                 f64::EPSILON * arm.offsets.iter().map(|offset| offset.abs()).sum::<f64>();
             let closed = [(3e-15 + rounded_off) * arm.extent, 1e-14 + rounded_off];
-            let PoseDifference { position, rotation } = arm.robot.residual(&q, &pose);
+            let PoseDifference { position, rotation } = arm.robot.residual(&q, pose);
             assert!(
                 position <= closed[0] && rotation <= closed[1],
                 "{what}: {position:e} m, {rotation:e} rad"

@@ -56,6 +56,12 @@ pub(crate) trait LaneKernel<const N: usize, const S: usize>:
     /// The slots of a block of poses.
     type Block: Block<Self, N, S>;
 
+    /// The same kernel for the poses of a path: regular are those whose every branch is determined
+    /// so well that a path has nothing to choose. `None` if there is no such bound.
+    fn for_path(self) -> Option<Self> {
+        None
+    }
+
     /// Solve for the last frame of the structure in its first frame; `None` if it is not regular.
     /// Must be `#[inline(always)]`.
     fn solve_one<const FUSED: bool>(

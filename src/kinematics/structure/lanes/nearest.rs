@@ -11,6 +11,10 @@ use crate::lanes::{Column, Flags, LANES, nearest_whole};
 /// order of its own [rad].
 const MARGIN: f64 = 1e-9;
 
+/// How much the cost of a solution may depend, as a part of it, on which of two turns is taken that
+/// are half a turn from the seed, to [`MARGIN`] [1]: ten times what that may change.
+const TIE: f64 = 1e-8;
+
 /// What a choice among solutions depends on, besides the seed.
 #[derive(Clone, Copy)]
 pub(crate) struct Choice<const N: usize> {
@@ -29,6 +33,9 @@ struct Priced<const N: usize> {
     inside: Flags,
     /// Whether that is for the scalar choice to say.
     open: Flags,
+    /// Whether two turns of a joint are equally near: the flipped wrist of a solution at the seed
+    /// is half a turn from it.
+    tied: Flags,
 }
 
 impl<const N: usize> Choice<N> {
@@ -60,6 +67,7 @@ impl<const N: usize> Choice<N> {
             }
         }
         let (mut best, mut least) = ([[f64::NAN; LANES]; N], [f64::INFINITY; LANES]);
+        let mut least_tied = [f64::INFINITY; LANES];
         for slot in 0..S {
             let status = block.status(slot);
             let priced = self.priced::<K, S>(block, slot, &seed);
@@ -67,6 +75,8 @@ impl<const N: usize> Choice<N> {
                 let found = u64::from(status[lane] != 0) & priced.inside[lane];
                 let cost = priced.cost[lane];
                 certain[lane] &= !(found & (priced.open[lane] | u64::from(cost >= f64::INFINITY)));
+                let is_tied = (found & priced.tied[lane] != 0) & (cost < least_tied[lane]);
+                least_tied[lane] = if is_tied { cost } else { least_tied[lane] };
                 let better = (found != 0) & (cost < least[lane]);
                 least[lane] = if better { cost } else { least[lane] };
                 for joint in 0..N {
@@ -76,6 +86,10 @@ impl<const N: usize> Choice<N> {
             }
         }
         for lane in 0..LANES {
+            // Whichever turn a tied solution takes, it costs more.
+            let is_clear = (least_tied[lane] >= f64::INFINITY)
+                | (least_tied[lane] > least[lane] * (1.0 + TIE));
+            certain[lane] &= u64::from(is_clear);
             for joint in 0..N {
                 q[lane][joint] = best[joint][lane];
             }
@@ -96,6 +110,7 @@ impl<const N: usize> Choice<N> {
             cost: [0.0; LANES],
             inside: [1; LANES],
             open: [0; LANES],
+            tied: [0; LANES],
         };
         for joint in 0..N {
             let (low, high, weight) = (self.low[joint], self.high[joint], self.weights[joint]);
@@ -116,13 +131,13 @@ impl<const N: usize> Choice<N> {
                 let two_in = (two >= low + MARGIN) & (two <= high - MARGIN);
                 let one_out = (one < low - MARGIN) | (one > high + MARGIN);
                 let two_out = (two < low - MARGIN) | (two > high + MARGIN);
-                let clear = ((size - PI).abs() > MARGIN)
-                    & ((size - 3.0 * PI).abs() > MARGIN)
-                    & (size < 5.0 * PI - MARGIN)
+                let tied = ((size - PI).abs() <= MARGIN) | ((size - 3.0 * PI).abs() <= MARGIN);
+                let clear = (size < 5.0 * PI - MARGIN)
                     & (one_in | one_out)
                     & (!farther | one_out | two_in | two_out);
                 priced.inside[lane] &= u64::from(!outside);
                 priced.open[lane] |= u64::from(!holds | (far & !clear));
+                priced.tied[lane] |= u64::from(far & tied);
                 let nearest = if far & one_in { one } else { angle };
                 let nearest = if farther & one_in & two_in { two } else { nearest };
                 priced.q[joint][lane] = nearest;

@@ -13,8 +13,8 @@ use crate::kinematics::structure::planar_arm::PlanarArm;
 use crate::kinematics::structure::triangle::Triangle;
 use crate::kinematics::structure::zyz::zyz_directions;
 use crate::kinematics::thresholds::{
-    REACH_TOLERANCE, REGULAR_FOREARM, REGULAR_REACH, REGULAR_SHOULDER, REGULAR_WRIST_SIN,
-    SHOULDER_MERGE,
+    PATH_SHOULDER, PATH_WRIST_SIN, REACH_TOLERANCE, REGULAR_FOREARM, REGULAR_REACH,
+    REGULAR_SHOULDER, REGULAR_WRIST_SIN, SHOULDER_MERGE,
 };
 use crate::lanes::mul_add;
 
@@ -30,6 +30,8 @@ pub(crate) struct Constants {
     /// Least x of the shoulder [m] and least size of m^2 (eq. 8) [m^4] of a regular branch.
     regular_x: f64,
     regular_m2: f64,
+    /// Least sin theta_5 of a regular branch [1].
+    regular_sin_5: f64,
 }
 
 impl Constants {
@@ -58,7 +60,14 @@ impl Constants {
                 f64::INFINITY
             },
             regular_m2,
+            regular_sin_5: REGULAR_WRIST_SIN,
         }
+    }
+
+    /// The same arm; only branches that leave a path nothing to choose are regular.
+    pub(super) fn on_path(self) -> Self {
+        let regular_x = self.regular_x * (PATH_SHOULDER / REGULAR_SHOULDER);
+        Self { regular_x, regular_sin_5: PATH_WRIST_SIN, ..self }
     }
 }
 
@@ -126,7 +135,7 @@ pub(super) fn branch<const FUSED: bool, const LATERAL: bool>(
         reached,
         regular: (size >= arm.regular_x)
             & (m2.abs() >= arm.regular_m2)
-            & (!reached | (sin_5 >= REGULAR_WRIST_SIN * length)),
+            & (!reached | (sin_5 >= arm.regular_sin_5 * length)),
     }
 }
 

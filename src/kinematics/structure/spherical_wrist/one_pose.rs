@@ -15,6 +15,10 @@ impl LaneKernel<6, 8> for Constants {
     type Regular = WristSlots;
     type Block = WristBlock;
 
+    fn for_path(self) -> Option<Self> {
+        Some(self.on_path())
+    }
+
     #[inline(always)]
     fn solve_one<const FUSED: bool>(
         &self,

@@ -12,8 +12,8 @@ use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::lanes::Direction;
 use crate::kinematics::structure::triangle::Triangle;
 use crate::kinematics::thresholds::{
-    REACH_TOLERANCE, REGULAR_FOREARM, REGULAR_REACH, REGULAR_SHOULDER, REGULAR_WRIST_SIN,
-    SHOULDER_MERGE,
+    PATH_SHOULDER, PATH_WRIST_SIN, REACH_TOLERANCE, REGULAR_FOREARM, REGULAR_REACH,
+    REGULAR_SHOULDER, REGULAR_WRIST_SIN, SHOULDER_MERGE,
 };
 use crate::lanes::mul_add;
 
@@ -30,6 +30,8 @@ pub(crate) struct Constants {
     /// Least x sin theta_5 of a regular branch [m]: a rounding of the pose over this rotates joint
     /// 6, and moves the end of the planar arm.
     regular_turn: f64,
+    /// Least sin theta_5 of a regular branch [1].
+    regular_sin_5: f64,
 }
 
 impl Constants {
@@ -49,7 +51,14 @@ impl Constants {
             regular_x: if sound { regular_x } else { f64::INFINITY },
             regular_m2: 2.0 * regular_reach * extent * c2 * k,
             regular_turn: 10.0 * planar.position_rounding() * arm.d5 / regular_reach,
+            regular_sin_5: REGULAR_WRIST_SIN,
         }
+    }
+
+    /// The same arm; only branches that leave a path nothing to choose are regular.
+    pub(super) fn on_path(self) -> Self {
+        let regular_x = self.regular_x * (PATH_SHOULDER / REGULAR_SHOULDER);
+        Self { regular_x, regular_sin_5: PATH_WRIST_SIN, ..self }
     }
 }
 
@@ -99,7 +108,7 @@ pub(super) fn facing<const FUSED: bool>(
         phi: [sin_phi, cos_phi],
         x,
         regular: (size >= arm.regular_x)
-            & (sin_5 >= REGULAR_WRIST_SIN * rho2)
+            & (sin_5 >= arm.regular_sin_5 * rho2)
             & (size * sin_5 >= arm.regular_turn * rho2),
     }
 }

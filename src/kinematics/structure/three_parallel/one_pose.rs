@@ -26,6 +26,10 @@ impl LaneKernel<6, SLOTS> for Constants {
     type Regular = RegularSlots<6, SLOTS>;
     type Block = ParallelBlock;
 
+    fn for_path(self) -> Option<Self> {
+        Some(self.on_path())
+    }
+
     #[inline(always)]
     fn solve_one<const FUSED: bool>(
         &self,
