@@ -192,7 +192,7 @@ fn reasons() -> Vec<Row> {
     all.extend(rows! { Unresolved;
         Unresolved::NotDeclared => Unresolved::NotDeclared, "-", "";
         Unresolved::LoopVariable => Unresolved::LoopVariable, "-", "";
-        Unresolved::OtherType { .. } => Unresolved::OtherType { type_name: "zonedata".into() },
+        Unresolved::OtherType { .. } => Unresolved::OtherType { type_name: "bool".into() },
             "-", "";
         Unresolved::Unfinished => Unresolved::Unfinished, "-", "";
         Unresolved::Type => Unresolved::Type, "-", "";
@@ -208,7 +208,7 @@ fn reasons() -> Vec<Row> {
     });
     for (why, trigger) in [
         (Unresolved::LoopVariable, "FOR"),
-        (Unresolved::OtherType { type_name: "zonedata".into() }, "a type that is not read"),
+        (Unresolved::OtherType { type_name: "bool".into() }, "a type that is not read"),
         (Unresolved::Unfinished, "a placeholder"),
         (Unresolved::Type, "the name of a type"),
         (Unresolved::Routine, "the name of a routine"),
@@ -248,7 +248,7 @@ fn skipped() -> Vec<Row> {
         NotRead::Datum { .. } => NotRead::Datum { name: "p10".into(), reason: Reason::Taught },
             "a value that is not known", "see the reasons above";
         NotRead::DatumOfType { .. } =>
-            NotRead::DatumOfType { name: "z1".into(), type_name: "zonedata".into() },
+            NotRead::DatumOfType { name: "z1".into(), type_name: "bool".into() },
             "a type that is not read", "-";
         NotRead::Record { .. } => NotRead::Record { name: name() }, "RECORD", "-";
         NotRead::Alias { .. } => NotRead::Alias { name: name() }, "ALIAS", "-";

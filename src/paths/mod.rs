@@ -16,7 +16,7 @@ mod line;
 mod polyline;
 mod spacing;
 mod turn;
-mod zone;
+pub(crate) mod zone;
 
 pub use arc::{ArcOrientation, arc};
 pub use line::line;

@@ -22,8 +22,24 @@ from typing import Any
 from irbkin import _core
 from irbkin._core import Module, calc_joint_t, calc_moves, calc_rob_t, calc_targets
 from irbkin.errors import RapidError
-from irbkin.rapid.program import Argument, Declaration, Move, Skipped, TargetTable
-from irbkin.rapid.records import JointTarget, LoadData, Pose, RobTarget, ToolData, WobjData
+from irbkin.rapid.program import (
+    Argument,
+    Declaration,
+    MotionSettings,
+    Move,
+    Skipped,
+    TargetTable,
+)
+from irbkin.rapid.records import (
+    JointTarget,
+    LoadData,
+    Pose,
+    RobTarget,
+    SpeedData,
+    ToolData,
+    WobjData,
+    ZoneData,
+)
 
 __all__ = [
     "Argument",
@@ -31,13 +47,16 @@ __all__ = [
     "JointTarget",
     "LoadData",
     "Module",
+    "MotionSettings",
     "Move",
     "Pose",
     "RobTarget",
     "Skipped",
+    "SpeedData",
     "TargetTable",
     "ToolData",
     "WobjData",
+    "ZoneData",
     "calc_joint_t",
     "calc_moves",
     "calc_rob_t",
@@ -97,8 +116,8 @@ def dump(value: Any, name: str = "Data") -> str:
     gives back what was dumped.
 
     Args:
-        value: RobTarget, JointTarget, ToolData, WobjData, Pose, LoadData, Configuration, a number,
-            a tuple of 3 (pos), 4 (orient) or 6 (extjoint) numbers, nested lists of these for an
+        value: RobTarget, JointTarget, ToolData, WobjData, Pose, LoadData, SpeedData, ZoneData,
+            Configuration, a number, a tuple of 3 (pos), 4 (orient) or 6 (extjoint) numbers, nested lists of these for an
             array: the text of the value. A Module, or a mapping of names to values: the text of a
             module, with tools and work objects as PERS, others as CONST.
         name: Name of the module that is made of a mapping.

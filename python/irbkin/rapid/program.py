@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from irbkin.rapid.records import JointTarget, RobTarget, ToolData, WobjData
+from irbkin.rapid.records import JointTarget, RobTarget, SpeedData, ToolData, WobjData, ZoneData
 from irbkin.records import ConfigurationBatch, by_value
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     _Elements: TypeAlias = list[Record] | list["_Elements"]
 
-__all__ = ["Argument", "Declaration", "Move", "Skipped", "TargetTable"]
+__all__ = ["Argument", "Declaration", "MotionSettings", "Move", "Skipped", "TargetTable"]
 
 
 class Declaration(NamedTuple):
@@ -49,10 +49,27 @@ class Argument(NamedTuple):
 
     text: str
     """The argument as it is written."""
-    value: RobTarget | JointTarget | ToolData | WobjData | None
+    value: RobTarget | JointTarget | ToolData | WobjData | SpeedData | ZoneData | float | None
     """What it is; None where the declarations do not give it."""
     reason: str | None
     """Why the value is not known, where it is None."""
+
+
+class MotionSettings(NamedTuple):
+    """How a move is made, by the instructions before it in its routine; by what a program starts
+    with where there are none.
+    """
+
+    conf_l: bool = True
+    """ConfL: whether MoveL and MoveC must arrive with the configuration of the target."""
+    conf_j: bool = True
+    """ConfJ: whether MoveJ must arrive with the configuration of the target."""
+    sing_area: Literal["Off", "Wrist", "LockAxis4"] = "Off"
+    """SingArea: what happens near the wrist singularity."""
+    cir_path_mode: Literal[
+        "PathFrame", "ObjectFrame", "CirPointOri", "Wrist45", "Wrist46", "Wrist56"
+    ] = "PathFrame"
+    """CirPathMode: what the orientation does in a MoveC."""
 
 
 class Move(NamedTuple):
@@ -82,6 +99,14 @@ class Move(NamedTuple):
     """Column of the text, from 1."""
     displaced: int | None
     """Line of the instruction that displaces it, which is not followed: PDispOn or PDispSet."""
+    speed_data: Argument
+    r"""The data of `speed`: a SpeedData, with the speed of \V."""
+    zone_data: Argument
+    r"""The data of `zone`: a ZoneData, with the radius of \Z."""
+    time: Argument | None
+    r"""The duration of \T, which replaces the speed [s]."""
+    settings: MotionSettings
+    """What ConfL, ConfJ, SingArea and CirPathMode set before it."""
 
 
 class Skipped(NamedTuple):
