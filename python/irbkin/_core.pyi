@@ -14,7 +14,7 @@ from typing import Any, ClassVar, Literal, Protocol, final, overload, type_check
 import numpy as np
 import numpy.typing as npt
 
-from irbkin.rapid.program import Declaration, Move, Skipped, TargetTable
+from irbkin.rapid.program import Declaration, Finding, MotionMove, Move, Skipped, TargetTable
 from irbkin.rapid.records import JointTarget, Record, RobTarget, ToolData, WobjData
 from irbkin.records import (
     CatalogEntry,
@@ -51,6 +51,9 @@ _OutcomeState = tuple[str, int, int, float]
 _FoundState = tuple[
     list[_SolutionState], _OutcomeState, _OutcomeState | None, list[_SolutionState] | None
 ]
+_MotionOptions = tuple[
+    list[float] | None, list[float] | None, list[float] | None, float, float
+]
 _TrajectoryState = tuple[int, list[float], list[float], list[float]]
 # One joint vector, `Solution` too; the shape of an array is known at the call alone.
 _Vector = Sequence[float]
@@ -64,10 +67,12 @@ class _Rotation(Protocol):
 __all__ = [
     "Module",
     "Robot",
+    "RoutineMotion",
     "Solution",
     "Solutions",
     "Trajectory",
     "__version__",
+    "_restore_motion",
     "_restore_robot",
     "_restore_solution",
     "_restore_solutions",
@@ -85,6 +90,7 @@ __all__ = [
     "instruction_sets",
     "joint",
     "line",
+    "motion",
     "parse",
     "parse_record",
     "polyline",
@@ -1107,6 +1113,51 @@ def calc_targets(
         InvalidPoseError, RapidError, InvalidModelError: As `calc_joint_t`, of the tool and the work
             object.
     """
+
+def motion(
+    robot: Robot,
+    module: Module,
+    routine: str | None = None,
+    *,
+    start: npt.ArrayLike | JointTarget | None = None,
+    max_velocity: npt.ArrayLike | None = None,
+    max_acceleration: npt.ArrayLike | None = None,
+    step: float = 0.005,
+    turn: float | None = None,
+) -> RoutineMotion: ...
+def _restore_motion(
+    robot: Robot, module: Module, routine: str | None, options: _MotionOptions
+) -> RoutineMotion: ...
+
+class RoutineMotion:
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+    @property
+    def routine(self) -> str | None: ...
+    @property
+    def duration(self) -> float: ...
+    @property
+    def trajectory(self) -> Trajectory: ...
+    @property
+    def t(self) -> _Floats: ...
+    @property
+    def q(self) -> _Floats: ...
+    @property
+    def move_index(self) -> npt.NDArray[np.int64]: ...
+    @property
+    def lines(self) -> npt.NDArray[np.int64]: ...
+    @property
+    def moves(self) -> tuple[MotionMove, ...]: ...
+    @property
+    def findings(self) -> tuple[Finding, ...]: ...
+    def to_module(self, name: str = "Motion") -> Module: ...
+    def __len__(self) -> int: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __reduce__(
+        self,
+    ) -> tuple[
+        Callable[[Robot, Module, str | None, _MotionOptions], RoutineMotion],
+        tuple[Robot, Module, str | None, _MotionOptions],
+    ]: ...
 
 @final
 class Trajectory:

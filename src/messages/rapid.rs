@@ -104,6 +104,21 @@ fn faults() -> Vec<Row> {
             "`rewrite` with another text", "pass the text that was read";
         Kind::TwoValues { .. } => Kind::TwoValues { thing: thing.clone() },
             "`rewrite` with two values for one place", "give one";
+        Kind::NoRoutine { .. } => Kind::NoRoutine {
+            name: "mian".into(), known: ["main"].into_iter().collect(),
+        },
+            "`motion` of another name", "give one of the module's";
+        Kind::WhichRoutine { .. } =>
+            Kind::WhichRoutine { moving: ["pick", "place"].into_iter().collect() },
+            "`motion` of a module without main", "give `routine`";
+        Kind::NoMoves { .. } => Kind::NoMoves { routine: "main".into() },
+            "`motion` of a routine that does not move", "give another one";
+        Kind::Branch { .. } => Kind::Branch { word: "WHILE".into() },
+            "`motion` of a routine with branches", "put the moves into a routine of their own";
+        Kind::NoMotion { .. } => Kind::NoMotion {
+            finding: "line 5: MoveL *: * is taught on the controller".into(),
+        },
+            "`motion` of targets that are all unknown or out of reach", "see its findings";
         Kind::NoSuchValue { missing: Missing::Datum { .. } } =>
             Kind::NoSuchValue { missing: Missing::Datum { index: 7, count: 3 } },
             "`rewrite` of a datum that the module does not have", "take one of the module's";

@@ -12,7 +12,9 @@
 //! ```
 
 mod arc;
-mod line;
+pub(crate) mod corner;
+pub(crate) mod leg;
+pub(crate) mod line;
 mod polyline;
 mod spacing;
 mod turn;

@@ -37,6 +37,8 @@ package_object!(zone_data_class, "irbkin.rapid.records", "ZoneData");
 package_object!(declaration_class, "irbkin.rapid.program", "Declaration");
 package_object!(argument_class, "irbkin.rapid.program", "Argument");
 package_object!(move_class, "irbkin.rapid.program", "Move");
+package_object!(motion_move_class, "irbkin.rapid.program", "MotionMove");
+package_object!(finding_class, "irbkin.rapid.program", "Finding");
 package_object!(motion_settings_class, "irbkin.rapid.program", "MotionSettings");
 package_object!(skipped_class, "irbkin.rapid.program", "Skipped");
 package_object!(target_table_class, "irbkin.rapid.program", "TargetTable");

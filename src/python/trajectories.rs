@@ -33,7 +33,7 @@ fn read_rows(value: &Bound<'_, PyAny>, field: &'static str) -> PyResult<(Vec<f64
 }
 
 /// A number for each joint, or one for all; `default` where none is given.
-fn read_each(
+pub(super) fn read_each(
     value: Option<&Bound<'_, PyAny>>,
     field: &'static str,
     dof: usize,

@@ -25,7 +25,7 @@ pub(super) struct PyTrajectory {
 }
 
 impl PyTrajectory {
-    fn new(py: Python<'_>, motion: Trajectory, times: Vec<f64>) -> PyResult<Self> {
+    pub(super) fn new(py: Python<'_>, motion: Trajectory, times: Vec<f64>) -> PyResult<Self> {
         let shape = [times.len(), motion.dof()];
         let states = states(py, &motion, &times, &shape)?;
         let t = PyArray1::from_vec(py, times);
@@ -50,7 +50,7 @@ impl PyTrajectory {
     }
 }
 
-fn read_only<T: Element, D: Dimension>(array: &Bound<'_, PyArray<T, D>>) {
+pub(super) fn read_only<T: Element, D: Dimension>(array: &Bound<'_, PyArray<T, D>>) {
     array.readwrite().make_nonwriteable();
 }
 

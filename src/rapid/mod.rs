@@ -35,11 +35,13 @@
 //! 5. `resolve`: names resolved, data in the order of their references, then moves.
 //! 6. `module`: whole modules read, made, written, and rewritten in place.
 //! 7. `calc`: joint angles of targets and back, one by one and in tables.
+//! 8. `motion`: a routine as one motion, followed, timed and checked.
 
 mod calc;
 mod data;
 mod expression;
 mod module;
+mod motion;
 mod resolve;
 mod statements;
 #[cfg(test)]
@@ -64,3 +66,6 @@ pub use self::expression::reader::DEEPEST_NESTING;
 pub use self::module::parse::{decode, parse};
 pub use self::module::record::parse_record;
 pub use self::module::rewrite::{NewValue, rewrite};
+pub use self::motion::finding::{Finding, FindingKind};
+pub use self::motion::options::MotionOptions;
+pub use self::motion::routine::{MotionMove, RoutineMotion, motion};

@@ -22,6 +22,8 @@ mod joint;
 mod piece;
 mod piecewise;
 mod polynomial;
+#[cfg(feature = "rapid")]
+mod programmed;
 mod retime;
 mod spline;
 mod waypoints;
@@ -31,6 +33,8 @@ pub use joint::{Synchronization, joint, joint_within};
 #[cfg(feature = "python")]
 pub(crate) use piecewise::TrajectoryParts;
 pub use piecewise::{Peaks, Trajectory};
+#[cfg(feature = "rapid")]
+pub(crate) use programmed::{evenly, within_times};
 pub use retime::retime;
 pub use waypoints::{SplineKind, spline, through};
 

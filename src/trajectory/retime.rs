@@ -53,9 +53,10 @@ pub fn retime(
         let still = points.iter().map(|position| [*position, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
         return Ok(Trajectory::new(dof, vec![0.0, 0.0], still.collect()));
     }
-    let grid = Grid::of(&lengths, &cubic(&lengths, &points, dof, Ends::NotAKnot), dof);
+    let parts = (LEAST_PIECES / (lengths.len() - 1)).max(1);
+    let grid = Grid::of(&lengths, &cubic(&lengths, &points, dof, Ends::NotAKnot), dof, parts);
     let pieces: Vec<Piece<'_>> = (0..grid.lengths.len()).map(|index| grid.piece(index)).collect();
-    let paces = paces(&pieces, max_velocity, max_acceleration)?;
+    let paces = paces(&pieces, max_velocity, max_acceleration, |_| f64::INFINITY)?;
     let timed = grid.timed(&paces);
     check_duration(timed.duration()).and_then(|()| timed.checked())
 }
@@ -83,16 +84,16 @@ fn polygon(q: &[f64], dof: usize) -> Result<(Vec<f64>, Vec<f64>), Error> {
 }
 
 /// The spline, cut into pieces that are short enough.
-struct Grid {
+pub(super) struct Grid {
     dof: usize,
-    lengths: Vec<f64>,
+    pub(super) lengths: Vec<f64>,
     /// By piece and joint.
     terms: Vec<[f64; TERMS]>,
 }
 
 impl Grid {
-    fn of(knots: &[f64], spline: &[[f64; TERMS]], dof: usize) -> Self {
-        let parts = (LEAST_PIECES / (knots.len() - 1)).max(1);
+    /// Each piece of a spline in so many parts.
+    pub(super) fn of(knots: &[f64], spline: &[[f64; TERMS]], dof: usize, parts: usize) -> Self {
         let mut grid = Self { dof, lengths: Vec::new(), terms: Vec::new() };
         for (piece, ends) in knots.windows(2).enumerate() {
             let terms = &spline[piece * dof..][..dof];
@@ -108,12 +109,12 @@ impl Grid {
         grid
     }
 
-    fn piece(&self, index: usize) -> Piece<'_> {
+    pub(super) fn piece(&self, index: usize) -> Piece<'_> {
         Piece { length: self.lengths[index], terms: &self.terms[index * self.dof..][..self.dof] }
     }
 
     /// The path at these paces: s = sqrt(x) t + (dx/ds) t^2 / 4 on each piece, put into its cubic.
-    fn timed(&self, paces: &[f64]) -> Trajectory {
+    pub(super) fn timed(&self, paces: &[f64]) -> Trajectory {
         let mut knots = Vec::with_capacity(paces.len());
         knots.push(0.0);
         let mut terms = Vec::with_capacity(self.terms.len());
@@ -137,16 +138,17 @@ impl Grid {
     }
 }
 
-/// The largest paces at the points of the grid, from rest to rest.
-fn paces(
+/// The largest paces at the points of the grid, from rest to rest; no piece exceeds its cap.
+pub(super) fn paces(
     pieces: &[Piece<'_>],
     max_velocity: &[f64],
     max_acceleration: &[f64],
+    cap: impl Fn(usize) -> f64,
 ) -> Result<Vec<f64>, Error> {
     let last = pieces.len();
     let mut bounds = vec![f64::INFINITY; last + 1];
     for (index, piece) in pieces.iter().enumerate() {
-        let bound = piece.pace_bound(max_velocity);
+        let bound = piece.pace_bound(max_velocity).min(cap(index));
         bounds[index] = bounds[index].min(bound);
         bounds[index + 1] = bounds[index + 1].min(bound);
     }

@@ -20,11 +20,21 @@ from pathlib import Path
 from typing import Any
 
 from irbkin import _core
-from irbkin._core import Module, calc_joint_t, calc_moves, calc_rob_t, calc_targets
+from irbkin._core import (
+    Module,
+    RoutineMotion,
+    calc_joint_t,
+    calc_moves,
+    calc_rob_t,
+    calc_targets,
+    motion,
+)
 from irbkin.errors import RapidError
 from irbkin.rapid.program import (
     Argument,
     Declaration,
+    Finding,
+    MotionMove,
     MotionSettings,
     Move,
     Skipped,
@@ -44,13 +54,16 @@ from irbkin.rapid.records import (
 __all__ = [
     "Argument",
     "Declaration",
+    "Finding",
     "JointTarget",
     "LoadData",
     "Module",
+    "MotionMove",
     "MotionSettings",
     "Move",
     "Pose",
     "RobTarget",
+    "RoutineMotion",
     "Skipped",
     "SpeedData",
     "TargetTable",
@@ -63,6 +76,7 @@ __all__ = [
     "calc_targets",
     "dump",
     "load",
+    "motion",
     "parse",
 ]
 

@@ -17,7 +17,16 @@ if TYPE_CHECKING:
 
     _Elements: TypeAlias = list[Record] | list["_Elements"]
 
-__all__ = ["Argument", "Declaration", "MotionSettings", "Move", "Skipped", "TargetTable"]
+__all__ = [
+    "Argument",
+    "Declaration",
+    "Finding",
+    "MotionMove",
+    "MotionSettings",
+    "Move",
+    "Skipped",
+    "TargetTable",
+]
 
 
 class Declaration(NamedTuple):
@@ -107,6 +116,67 @@ class Move(NamedTuple):
     r"""The duration of \T, which replaces the speed [s]."""
     settings: MotionSettings
     """What ConfL, ConfJ, SingArea and CirPathMode set before it."""
+
+
+@by_value
+class MotionMove(NamedTuple):
+    """A move of a motion."""
+
+    kind: Literal["MoveJ", "MoveL", "MoveC", "MoveAbsJ"]
+    """"MoveJ", "MoveL", "MoveC" or "MoveAbsJ"."""
+    index: int
+    """Its index in `Module.moves`."""
+    line: int
+    """Line of the instruction."""
+    start: float
+    """When it begins [s], halfway through the corner before it."""
+    end: float
+    """When it ends [s], halfway through the corner behind it."""
+    length: float
+    """The length of the tool's way in the work object [m]."""
+    q: npt.NDArray[np.float64] | None
+    """The joints at its target [rad], shape (6,), which is met or passed; None where it is left
+    out.
+    """
+    as_programmed: bool
+    """Whether it is made as it is programmed. Where not, the joints go straight to its target at
+    their limits or, where `q` is None, it is left out.
+    """
+
+
+class Finding(NamedTuple):
+    """What is wrong with a move of a motion."""
+
+    kind: Literal[
+        "unknown",
+        "not_read",
+        "setting",
+        "unreachable",
+        "limit",
+        "path",
+        "flip",
+        "singularity",
+        "configuration",
+        "joint_speed",
+        "duration",
+    ]
+    """What it is; docs/motion.md has the table."""
+    move: int
+    """Index of the move in `RoutineMotion.moves`; for an instruction that is not read, of the next
+    one.
+    """
+    line: int
+    """Line of the instruction."""
+    joint: int | None
+    """The joint that it is about, from 1."""
+    value: float | None
+    """What was found, in SI units: the speed of the joint, its step in a flip, how far outside
+    limits or reach, the distance from a singularity, the duration.
+    """
+    bound: float | None
+    """What the value must not exceed; of a singularity, what it must not be below."""
+    message: str
+    """Line, move and what is wrong, in words."""
 
 
 class Skipped(NamedTuple):

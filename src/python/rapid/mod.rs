@@ -1,6 +1,7 @@
 //! `irbkin.rapid`: modules read and written, `CalcJointT` and `CalcRobT`.
 
 mod module;
+mod routine_motion;
 mod records;
 
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
@@ -8,6 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
 
 pub(super) use self::module::RapidModule;
+pub(super) use self::routine_motion::{PyRoutineMotion, motion, restore_motion};
 use self::records::{
     Given, joint_target, read_content, read_joint_target, read_rob_target, read_tool, read_wobj,
     record, rob_target,
