@@ -66,10 +66,7 @@ pub(crate) struct Arc {
 }
 
 impl Arc {
-    pub(super) fn through(
-        poses: [&Pose; 3],
-        orientation: ArcOrientation,
-    ) -> Result<Self, Error> {
+    pub(super) fn through(poses: [&Pose; 3], orientation: ArcOrientation) -> Result<Self, Error> {
         let circle = Circle::through(poses.map(|pose| pose.translation.vector))?;
         let turns = Turns::new(&circle, orientation, poses.map(|pose| pose.rotation))?;
         Ok(Self { circle, turns })

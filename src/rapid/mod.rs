@@ -56,8 +56,7 @@ pub use self::data::module::{Content, Datum, Module, Routine, RoutineKind, Scope
 pub use self::data::moves::{Argument, Move, MoveKind, MoveOption, Target};
 pub use self::data::reason::{AssignedBy, Reason, Unresolved};
 pub use self::data::records::{
-    JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, SpeedData, ToolData, WobjData,
-    ZoneData,
+    JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, SpeedData, ToolData, WobjData, ZoneData,
 };
 pub use self::data::settings::{CirPathMode, MotionSettings, SingArea};
 pub use self::data::skipped::{NotRead, Skipped};

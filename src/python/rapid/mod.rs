@@ -1,19 +1,19 @@
 //! `irbkin.rapid`: modules read and written, `CalcJointT` and `CalcRobT`.
 
 mod module;
-mod routine_motion;
 mod records;
+mod routine_motion;
 
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
 
 pub(super) use self::module::RapidModule;
-pub(super) use self::routine_motion::{PyRoutineMotion, motion, restore_motion};
 use self::records::{
     Given, joint_target, read_content, read_joint_target, read_rob_target, read_tool, read_wobj,
     record, rob_target,
 };
+pub(super) use self::routine_motion::{PyRoutineMotion, motion, restore_motion};
 use super::classes;
 use super::configurations::{Fallback, counted};
 use super::errors::{rapid_fault, to_py};

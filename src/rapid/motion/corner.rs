@@ -73,9 +73,7 @@ impl Drive<'_, '_> {
             count: path.q.len() + 1,
         };
         // De Casteljau's construction, of joints.
-        let blended = |u: f64| {
-            mixed(&behind.at((1.0 - u) * radius), &ahead.at(u * radius), u)
-        };
+        let blended = |u: f64| mixed(&behind.at((1.0 - u) * radius), &ahead.at(u * radius), u);
         let (kept, entry_part) = behind.place(radius);
         let entry = behind.at(radius);
         let entry_way = ways[end - kept].map(|size| size * (1.0 - entry_part));

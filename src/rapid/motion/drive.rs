@@ -107,7 +107,8 @@ impl<'a, 'm> Drive<'a, 'm> {
             return Ok(self.begin(index));
         };
         let here = Here { q: from, flange };
-        if let (true, false, Some(Place::Tool(end, _))) = (goal.is_cartesian(), is_lost, goal.place) {
+        if let (true, false, Some(Place::Tool(end, _))) = (goal.is_cartesian(), is_lost, goal.place)
+        {
             match self.follow(index, &end, &here, entry)? {
                 Ok(made) => return Ok(made),
                 Err(kind) => self.found(index, kind),
@@ -342,10 +343,6 @@ fn apart(from: &[f64; 6], to: &[f64; 6], mode: SingularityMode) -> Option<BreakR
     }
     Some(match mode {
         SingularityMode::LockAxis4 => BreakReason::Locked,
-        _ => BreakReason::Jump {
-            joint: joint + 1,
-            by: by(joint),
-            kinds: SingularityKind::empty(),
-        },
+        _ => BreakReason::Jump { joint: joint + 1, by: by(joint), kinds: SingularityKind::empty() },
     })
 }

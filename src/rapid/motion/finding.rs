@@ -276,11 +276,7 @@ impl fmt::Display for FindingKind {
                     bound.to_degrees(),
                     slowed * 1e2
                 )?;
-                if *speed > 0.0 {
-                    write!(f, "{:.0} mm/s", speed * 1e3)
-                } else {
-                    f.write_str("it")
-                }
+                if *speed > 0.0 { write!(f, "{:.0} mm/s", speed * 1e3) } else { f.write_str("it") }
             }
             Self::Duration { value, bound } => {
                 write!(f, "takes {value:.3} s, \\T asks for {bound:.3} s")

@@ -103,18 +103,18 @@ impl<'m> Goal<'m> {
             }
         };
         let mode = step.settings.cir_path_mode;
-        let is_read =
-            matches!(mode, CirPathMode::PathFrame | CirPathMode::ObjectFrame | CirPathMode::CirPointOri);
+        let is_read = matches!(
+            mode,
+            CirPathMode::PathFrame | CirPathMode::ObjectFrame | CirPathMode::CirPointOri
+        );
         if step.kind == MoveKind::MoveC && !is_read {
             found(FindingKind::WristMode(mode));
         }
         let (zone, stops) = zone_of(step, &mut found);
         let (speed, time) = (speed_of(step, &mut found), time_of(step, &mut found));
         // The speed of the tool of joint angles counts at the flange if the tool is unknown.
-        let flange = Frames::Carried {
-            t_flange_tool: Pose::identity(),
-            t_world_wobj: Pose::identity(),
-        };
+        let flange =
+            Frames::Carried { t_flange_tool: Pose::identity(), t_world_wobj: Pose::identity() };
         let frames = frames.unwrap_or(flange);
         Self { step, place, frames, via, zone, stops, speed, time, from_unknown: false }
     }
@@ -179,8 +179,10 @@ fn zone_of(step: &Move, found: &mut impl FnMut(FindingKind)) -> (Option<Zone>, b
 fn speed_of(step: &Move, found: &mut impl FnMut(FindingKind)) -> [f64; 2] {
     match &step.speed_data {
         Ok(speed) => {
-            let numbers =
-                [("v_tcp", speed.v_tcp_mm_s, 1e-3), ("v_ori", speed.v_ori_deg_s, 1_f64.to_radians())];
+            let numbers = [
+                ("v_tcp", speed.v_tcp_mm_s, 1e-3),
+                ("v_ori", speed.v_ori_deg_s, 1_f64.to_radians()),
+            ];
             numbers.map(|(field, value, unit)| {
                 if value > 0.0 {
                     return value * unit;

@@ -126,10 +126,8 @@ fn checked(robot: &Robot<6>, options: &MotionOptions) -> Result<[f64; 6], Error>
     }
     let max_velocity = options.max_velocity.or(robot.max_velocity().copied());
     let max_velocity = max_velocity.ok_or(MotionFault::NoMaxVelocity)?;
-    let given = [
-        ("max_velocity", Some(max_velocity)),
-        ("max_acceleration", options.max_acceleration),
-    ];
+    let given =
+        [("max_velocity", Some(max_velocity)), ("max_acceleration", options.max_acceleration)];
     for (field, limits) in given {
         let is_wrong = |limit: &f64| !(*limit > 0.0 && limit.is_finite());
         if let Some(limits) = limits
@@ -197,7 +195,7 @@ fn moves(
             line: goal.step.line,
             start: t.get(begin).copied().unwrap_or(0.0),
             end: t.get(own.end.saturating_sub(1)).copied().unwrap_or(0.0),
-            length: ways.iter().map(|way| way[0]).sum(),
+            length: ways.iter().fold(0.0, |sum, way| sum + way[0]),
             q: made.q,
             as_programmed: made.as_programmed,
             step: goal.step.clone(),

@@ -138,9 +138,7 @@ impl<'m> Walk<'m> {
                     self.check_certain()?;
                     break;
                 }
-                NotRead::Instruction { name }
-                    if is_one_of(name, &MotionSettings::INSTRUCTIONS) =>
-                {
+                NotRead::Instruction { name } if is_one_of(name, &MotionSettings::INSTRUCTIONS) => {
                     self.check_certain()?;
                     steps.push(Step::NotRead(skipped));
                 }

@@ -31,12 +31,11 @@ impl RoutineMotion {
         for made in &self.moves {
             let Some(q) = made.q else { continue };
             let step = &made.step;
-            let extax = match &step.target.value {
-                Ok(Target::RobTarget(target)) => target.extax,
-                Ok(Target::JointTarget(target)) => target.extax,
-                Err(_) => [NOT_THERE; 6],
+            let target = match &step.target.value {
+                Ok(Target::JointTarget(target)) => *target,
+                Ok(Target::RobTarget(target)) => joint_target(&q, target.extax),
+                Err(_) => joint_target(&q, [NOT_THERE; 6]),
             };
-            let target = joint_target(&q, extax);
             let tool = data.tool(&step.tool);
             moves.push(Move {
                 kind: MoveKind::MoveAbsJ,

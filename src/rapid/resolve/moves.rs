@@ -59,14 +59,13 @@ impl<'a> Resolver<'a> {
     ) -> Result<(Result<SpeedData, Reason>, Result<ZoneData, Reason>), RapidFault> {
         let mut speed = known(self.evaluator(step, "speed").record(speed))?;
         if let Some(velocity) = self.option(step, "\\V", step.overrides.velocity.as_ref())? {
-            speed = speed.and_then(|speed| {
-                velocity.map(|v_tcp_mm_s| SpeedData { v_tcp_mm_s, ..speed })
-            });
+            speed = speed
+                .and_then(|speed| velocity.map(|v_tcp_mm_s| SpeedData { v_tcp_mm_s, ..speed }));
         }
         let mut zone = known(self.evaluator(step, "zone").record(zone))?;
         if let Some(radius) = self.option(step, "\\Z", step.overrides.zone.as_ref())? {
-            zone = zone
-                .and_then(|zone| radius.map(|pzone_tcp_mm| ZoneData { pzone_tcp_mm, ..zone }));
+            zone =
+                zone.and_then(|zone| radius.map(|pzone_tcp_mm| ZoneData { pzone_tcp_mm, ..zone }));
         }
         Ok((speed, zone))
     }
