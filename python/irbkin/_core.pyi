@@ -51,9 +51,7 @@ _OutcomeState = tuple[str, int, int, float]
 _FoundState = tuple[
     list[_SolutionState], _OutcomeState, _OutcomeState | None, list[_SolutionState] | None
 ]
-_MotionOptions = tuple[
-    list[float] | None, list[float] | None, list[float] | None, float, float
-]
+_MotionOptions = tuple[list[float] | None, list[float] | None, list[float] | None, float, float]
 _TrajectoryState = tuple[int, list[float], list[float], list[float]]
 # One joint vector, `Solution` too; the shape of an array is known at the call alone.
 _Vector = Sequence[float]

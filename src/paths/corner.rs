@@ -89,7 +89,7 @@ impl Inside<'_> {
         [1.0 - self.size / before.length(), self.size / after.length()]
     }
 
-    /// A cubic with the directions of both legs, between two lines a parabola (eq. 21).
+    /// A cubic with the directions of both legs, between two lines the parabola of eq. 21 (eq. 41).
     fn position(&self) -> Vector3<f64> {
         let ([entry, exit], [before, after]) = (self.parts(), self.legs);
         let (first, last) = (before.position(entry), after.position(exit));

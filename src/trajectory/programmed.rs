@@ -42,7 +42,7 @@ pub(crate) fn evenly<const N: usize>(times: &[f64], rows: &[[f64; N]]) -> Trajec
 
 /// The fastest trajectory along rows of joints [rad] from rest to rest, with the time of each row
 /// [s]. The path is a cubic spline as in `retime`, the limits hold in the same way (eq. 13 to 16),
-/// and from each row to the next it takes `least` [s] or more (eq. 25).
+/// and from each row to the next it takes `least` [s] or more (eq. 45).
 pub(crate) fn within_times<const N: usize>(
     rows: &[[f64; N]],
     least: &[f64],

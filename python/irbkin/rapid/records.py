@@ -59,9 +59,7 @@ def _set_number(record: object, field: str) -> None:
     except (TypeError, ValueError, OverflowError):
         number = math.nan
     if not math.isfinite(number):
-        raise RapidError(
-            f"{type(record).__name__}: {field} must be a finite number, got {value!r}"
-        )
+        raise RapidError(f"{type(record).__name__}: {field} must be a finite number, got {value!r}")
     object.__setattr__(record, field, number)
 
 

@@ -44,7 +44,7 @@ fn mixed(from: &[f64; 6], to: &[f64; 6], part: f64) -> [f64; 6] {
 
 impl Drive<'_, '_> {
     /// Round the corner between the last move and `path`, which begins at its end, with a zone [m]
-    /// (eq. 24). Returns whether it is rounded; `path` then begins halfway through the corner.
+    /// (eq. 44). Returns whether it is rounded; `path` then begins halfway through the corner.
     pub(super) fn round_joints(
         &mut self,
         zone: f64,

@@ -110,8 +110,8 @@ impl<'m> Goal<'m> {
         if step.kind == MoveKind::MoveC && !is_read {
             found(FindingKind::WristMode(mode));
         }
-        let (zone, stops) = zone_of(step, &mut found);
         let (speed, time) = (speed_of(step, &mut found), time_of(step, &mut found));
+        let (zone, stops) = zone_of(step, &mut found);
         // The speed of the tool of joint angles counts at the flange if the tool is unknown.
         let flange =
             Frames::Carried { t_flange_tool: Pose::identity(), t_world_wobj: Pose::identity() };

@@ -111,7 +111,7 @@ impl Pace<'_, '_> {
     }
 
     /// A line or an arc: each interval takes what the programmed speeds and the joints need
-    /// (eq. 23).
+    /// (eq. 42).
     fn add_cartesian(
         &self,
         intervals: core::ops::Range<usize>,
@@ -133,7 +133,7 @@ impl Pace<'_, '_> {
         too_fast
     }
 
-    /// A joint move: all joints arrive together, at a constant pace of the slowest.
+    /// A joint move: all joints arrive together, at a constant pace of the slowest (eq. 43).
     fn add_even(
         &self,
         intervals: core::ops::Range<usize>,

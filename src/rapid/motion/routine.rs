@@ -63,7 +63,7 @@ pub struct MotionMove {
 }
 
 /// The moves of a routine as one motion: `MoveAbsJ`, `MoveJ`, `MoveL` and `MoveC` in order, each
-/// followed, timed and checked (docs/motion.md, section 6).
+/// followed, timed and checked (docs/motion.md).
 ///
 /// Without a name, the routine is `main` or else the only one that moves. Everything that is wrong
 /// with a move is a finding: an unknown value, a target that cannot be reached, a flip, a
