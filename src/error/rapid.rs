@@ -4,7 +4,7 @@ use core::fmt;
 
 use alloc::string::String;
 
-use super::Names;
+use super::{Names, RoutineFault};
 
 /// What is wrong with a RAPID text, and where.
 #[derive(Clone, Debug, PartialEq)]
@@ -205,33 +205,8 @@ pub enum RapidFaultKind {
         /// Whose place.
         thing: String,
     },
-    /// A module has no such routine.
-    NoRoutine {
-        /// The name.
-        name: String,
-        /// Those that it has.
-        known: Names,
-    },
-    /// Several routines move, or none, and no name says which is meant.
-    WhichRoutine {
-        /// Those that move.
-        moving: Names,
-    },
-    /// A routine has no move.
-    NoMoves {
-        /// The routine.
-        routine: String,
-    },
-    /// A branch, a loop or a jump decides which moves of a routine are made.
-    Branch {
-        /// Its word.
-        word: String,
-    },
-    /// Not one move of a routine can be made.
-    NoMotion {
-        /// What is wrong with the first one.
-        finding: String,
-    },
+    /// A routine is no single motion.
+    Routine(RoutineFault),
     /// A value is to be put where there is none.
     NoSuchValue {
         /// What there is not.
@@ -402,19 +377,7 @@ impl fmt::Display for RapidFaultKind {
                 )
             }
             Self::TwoValues { thing } => write!(f, "{thing} is given two values, it must get one"),
-            Self::NoRoutine { name, known } => {
-                write!(f, "the module has no routine {name:?}; it has: {known}")
-            }
-            Self::WhichRoutine { moving } => {
-                write!(f, "give routine, one of those that move: {moving}")
-            }
-            Self::NoMoves { routine } => write!(f, "{routine} has no move that is read"),
-            Self::Branch { word } => write!(
-                f,
-                "{word} decides which moves are made: give a routine without branches, loops and \
-                 jumps around its moves"
-            ),
-            Self::NoMotion { finding } => write!(f, "no move can be made: {finding}"),
+            Self::Routine(fault) => fault.fmt(f),
             Self::NoSuchValue { missing } => write!(f, "there is no {missing}"),
         }
     }

@@ -231,4 +231,5 @@ pub const SHOULDER_ZONE: f64 = 1e-3;
 
 /// How far the joints at the end of a move may be from those with which the next one begins [rad]:
 /// more than the rounding of two solutions of one pose near a singularity.
+#[cfg(feature = "rapid")]
 pub(crate) const JOINED_MOVES: f64 = 1e-6;

@@ -4,7 +4,7 @@ use std::vec;
 use std::vec::Vec;
 
 use super::{Row, Table, rows};
-use crate::error::{FrameFault, Missing, PoseFault, RapidFault, RapidFaultKind};
+use crate::error::{FrameFault, Missing, PoseFault, RapidFault, RapidFaultKind, RoutineFault};
 use crate::kinematics::{BreakReason, SingularityKind};
 use crate::rapid::{
     AssignedBy, CirPathMode, Finding, FindingKind, NotRead, Problem, Reason, Unresolved,
@@ -22,10 +22,9 @@ pub(super) fn tables() -> Vec<Table> {
     ]
 }
 
-fn faults() -> Vec<Row> {
+fn broken_text() -> Vec<Row> {
     use RapidFaultKind as Kind;
-    let [thing, part] = ["robtarget p10", "robconf"].map(std::string::String::from);
-    let mut all = rows! { RapidFault;
+    rows! { RapidFault;
         RapidFault { .. } => RapidFault {
             line: 1,
             column: 12,
@@ -33,7 +32,13 @@ fn faults() -> Vec<Row> {
         },
             "`parse(\"hello world\")`: text that is not RAPID",
             "mend the place; `load` takes a path";
-    };
+    }
+}
+
+fn faults() -> Vec<Row> {
+    use RapidFaultKind as Kind;
+    let [thing, part] = ["robtarget p10", "robconf"].map(std::string::String::from);
+    let mut all = broken_text();
     all.extend(rows! { RapidFaultKind;
         Kind::UnterminatedString => Kind::UnterminatedString,
             "a string over two lines", "close it on its line";
@@ -108,21 +113,8 @@ fn faults() -> Vec<Row> {
             "`rewrite` with another text", "pass the text that was read";
         Kind::TwoValues { .. } => Kind::TwoValues { thing: thing.clone() },
             "`rewrite` with two values for one place", "give one";
-        Kind::NoRoutine { .. } => Kind::NoRoutine {
-            name: "mian".into(), known: ["main"].into_iter().collect(),
-        },
-            "`motion` of another name", "give one of the module's";
-        Kind::WhichRoutine { .. } =>
-            Kind::WhichRoutine { moving: ["pick", "place"].into_iter().collect() },
-            "`motion` of a module without main", "give `routine`";
-        Kind::NoMoves { .. } => Kind::NoMoves { routine: "main".into() },
+        Kind::Routine(_) => Kind::Routine(RoutineFault::NoMoves { routine: "main".into() }),
             "`motion` of a routine that does not move", "give another one";
-        Kind::Branch { .. } => Kind::Branch { word: "WHILE".into() },
-            "`motion` of a routine with branches", "put the moves into a routine of their own";
-        Kind::NoMotion { .. } => Kind::NoMotion {
-            finding: "line 5: MoveL *: * is taught on the controller".into(),
-        },
-            "`motion` of targets that are all unknown or out of reach", "see its findings";
         Kind::NoSuchValue { missing: Missing::Datum { .. } } =>
             Kind::NoSuchValue { missing: Missing::Datum { index: 7, count: 3 } },
             "`rewrite` of a datum that the module does not have", "take one of the module's";
@@ -136,7 +128,27 @@ fn faults() -> Vec<Row> {
             Kind::NoSuchValue { missing: Missing::Module { what: "num a".into() } },
             "data that RAPID cannot write", "leave the datum out";
     });
+    all.extend(routines());
     all
+}
+
+fn routines() -> Vec<Row> {
+    rows! { RoutineFault;
+        RoutineFault::Unknown { .. } => RoutineFault::Unknown {
+            name: "mian".into(), known: ["main"].into_iter().collect(),
+        },
+            "`motion` of another name", "give one of the module's";
+        RoutineFault::Which { .. } =>
+            RoutineFault::Which { moving: ["pick", "place"].into_iter().collect() },
+            "`motion` of a module without main", "give `routine`";
+        RoutineFault::NoMoves { .. } => RoutineFault::NoMoves { routine: "main".into() }, "-", "";
+        RoutineFault::Branch { .. } => RoutineFault::Branch { word: "WHILE".into() },
+            "`motion` of a routine with branches", "put the moves into a routine of their own";
+        RoutineFault::NoMotion { .. } => RoutineFault::NoMotion {
+            finding: "line 5: MoveL *: * is taught on the controller".into(),
+        },
+            "`motion` of targets that are all unknown or out of reach", "see its findings";
+    }
 }
 
 fn frames() -> Vec<Row> {
@@ -190,7 +202,8 @@ fn findings() -> Vec<Row> {
             Finding { move_index: 3, line: 12, what: "TriggL p10,v100;".into(), kind: one },
             "every finding begins with its line and its instruction", "see below";
     };
-    let singularity = |kind, distance| Kind::Singularity { kind, part: 0.4, distance, bound: 0.0175 };
+    let singularity =
+        |kind, distance| Kind::Singularity { kind, part: 0.4, distance, bound: 0.0175 };
     all.extend(rows! { FindingKind;
         Kind::Target(_) => Kind::Target(Problem::Target(Reason::Taught)),
             "`\"unknown\"`, `\"unreachable\"`, `\"limit\"`, `\"configuration\"`: the problems above",

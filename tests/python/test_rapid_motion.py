@@ -58,7 +58,7 @@ def test_moves_become_one_motion_with_the_move_and_the_line_of_each_sample():
     assert not motion.t.flags.writeable
     assert not motion.q.flags.writeable
     np.testing.assert_array_equal(motion.lines, np.array([4, 5, 6])[motion.move_index])
-    assert [(step.kind, step.index, step.line) for step in motion.moves] == [
+    assert [(step.kind, step.module_index, step.line) for step in motion.moves] == [
         ("MoveAbsJ", 0, 4),
         ("MoveJ", 1, 5),
         ("MoveL", 2, 6),

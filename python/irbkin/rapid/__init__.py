@@ -131,9 +131,9 @@ def dump(value: Any, name: str = "Data") -> str:
 
     Args:
         value: RobTarget, JointTarget, ToolData, WobjData, Pose, LoadData, SpeedData, ZoneData,
-            Configuration, a number, a tuple of 3 (pos), 4 (orient) or 6 (extjoint) numbers, nested lists of these for an
-            array: the text of the value. A Module, or a mapping of names to values: the text of a
-            module, with tools and work objects as PERS, others as CONST.
+            Configuration, a number, a tuple of 3 (pos), 4 (orient) or 6 (extjoint) numbers, nested
+            lists of these for an array: the text of the value. A Module, or a mapping of names to
+            values: the text of a module, with tools and work objects as PERS, others as CONST.
         name: Name of the module that is made of a mapping.
 
     Raises:

@@ -124,7 +124,7 @@ class MotionMove(NamedTuple):
 
     kind: Literal["MoveJ", "MoveL", "MoveC", "MoveAbsJ"]
     """"MoveJ", "MoveL", "MoveC" or "MoveAbsJ"."""
-    index: int
+    module_index: int
     """Its index in `Module.moves`."""
     line: int
     """Line of the instruction."""

@@ -198,6 +198,7 @@ struct WobjFields {
 }
 
 #[derive(FromPyObject)]
+#[expect(clippy::struct_field_names, reason = "RAPID's names")]
 struct SpeedFields {
     v_tcp_mm_s: f64,
     v_ori_deg_s: f64,

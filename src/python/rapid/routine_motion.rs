@@ -117,12 +117,10 @@ fn made(
     })
 }
 
-type Restored = (
-    Py<PyRobot>,
-    Py<RapidModule>,
-    Option<String>,
-    (Option<[f64; 6]>, Option<[f64; 6]>, Option<[f64; 6]>, f64, f64),
-);
+type Restored = (Py<PyRobot>, Py<RapidModule>, Option<String>, StoredOptions);
+
+/// Start, velocities, accelerations, step and turn.
+type StoredOptions = (Option<[f64; 6]>, Option<[f64; 6]>, Option<[f64; 6]>, f64, f64);
 
 /// A pickled motion.
 #[pyfunction(name = "_restore_motion")]
@@ -130,7 +128,7 @@ pub(crate) fn restore_motion(
     robot: &Bound<'_, PyRobot>,
     module: &Bound<'_, RapidModule>,
     routine: Option<&str>,
-    options: (Option<[f64; 6]>, Option<[f64; 6]>, Option<[f64; 6]>, f64, f64),
+    options: StoredOptions,
 ) -> PyResult<PyRoutineMotion> {
     let (start, max_velocity, max_acceleration, step, turn) = options;
     let options = MotionOptions { start, max_velocity, max_acceleration, step, turn };
@@ -277,8 +275,8 @@ impl PyRoutineMotion {
 
 fn motion_move<'py>(py: Python<'py>, step: &MotionMove) -> PyResult<Bound<'py, PyAny>> {
     let q = step.q.map(|q| PyArray1::from_slice(py, &q));
-    let MotionMove { kind, index, line, start, end, length, as_programmed, .. } = step;
-    let fields = (kind.name(), index, line, start, end, length, q, as_programmed);
+    let MotionMove { kind, module_index, line, start, end, length, as_programmed, .. } = step;
+    let fields = (kind.name(), module_index, line, start, end, length, q, as_programmed);
     classes::motion_move_class(py)?.call1(fields)
 }
 

@@ -38,16 +38,15 @@ impl Pace<'_, '_> {
         for index in 0..self.goals.len() {
             self.add_times(index, &mut least);
         }
-        let timed = match max_acceleration {
-            Some(max_acceleration) => self.between_rests(&least, max_acceleration)?,
-            None => {
-                let mut times = Vec::with_capacity(self.samples.q.len());
-                times.push(0.0);
-                for (index, least) in least.iter().enumerate() {
-                    times.push(times[index] + least);
-                }
-                (evenly(&times, &self.samples.q), times)
+        let timed = if let Some(max_acceleration) = max_acceleration {
+            self.between_rests(&least, max_acceleration)?
+        } else {
+            let mut times = Vec::with_capacity(self.samples.q.len());
+            times.push(0.0);
+            for (index, least) in least.iter().enumerate() {
+                times.push(times[index] + least);
             }
+            (evenly(&times, &self.samples.q), times)
         };
         let value = timed.0.duration();
         if value.is_nan() || value > MOST_DURATION {

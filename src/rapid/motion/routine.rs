@@ -10,7 +10,7 @@ use super::options::MotionOptions;
 use super::pace::Pace;
 use super::samples::Samples;
 use super::sequence::{Step, sequence};
-use crate::error::{Error, MotionFault, RapidFault, RapidFaultKind};
+use crate::error::{Error, MotionFault, RapidFault, RapidFaultKind, RoutineFault};
 use crate::kinematics::{Robot, check_seed};
 use crate::paths::Spacing;
 use crate::rapid::calc::target::with_flange;
@@ -44,7 +44,7 @@ pub struct MotionMove {
     /// The instruction.
     pub kind: MoveKind,
     /// Its index in [`Module::moves`].
-    pub index: usize,
+    pub module_index: usize,
     /// Line of the instruction.
     pub line: usize,
     /// When it begins [s], halfway through the corner before it.
@@ -93,7 +93,10 @@ pub fn motion(
     let (samples, made) = Drive::through([robot, &flange], &goals, options, &mut findings)?;
     if samples.q.is_empty() || made.iter().all(|made| made.q.is_none()) {
         let finding = findings.all.first().map(Finding::to_string).unwrap_or_default();
-        return Err(RapidFault::nowhere(RapidFaultKind::NoMotion { finding }).into());
+        return Err(RapidFault::nowhere(RapidFaultKind::Routine(RoutineFault::NoMotion {
+            finding,
+        }))
+        .into());
     }
     let pace = Pace {
         samples: &samples,
@@ -191,7 +194,7 @@ fn moves(
         let ways = &samples.ways[own.start.max(1).min(own.end)..own.end];
         MotionMove {
             kind: goal.step.kind,
-            index: indices[index],
+            module_index: indices[index],
             line: goal.step.line,
             start: t.get(begin).copied().unwrap_or(0.0),
             end: t.get(own.end.saturating_sub(1)).copied().unwrap_or(0.0),

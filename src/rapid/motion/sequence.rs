@@ -4,7 +4,7 @@ use alloc::collections::BTreeSet;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use crate::error::{Error, RapidFault, RapidFaultKind};
+use crate::error::{Error, RapidFault, RapidFaultKind, RoutineFault};
 use crate::rapid::data::module::Module;
 use crate::rapid::data::moves::Move;
 use crate::rapid::data::settings::MotionSettings;
@@ -41,10 +41,11 @@ pub(super) fn sequence<'m>(
         return Ok((name, steps));
     }
     let routine = name.unwrap_or_else(|| "the text".to_string());
-    Err(fault(0, RapidFaultKind::NoMoves { routine }))
+    Err(fault(0, RoutineFault::NoMoves { routine }))
 }
 
-fn fault(line: usize, kind: RapidFaultKind) -> Error {
+fn fault(line: usize, fault: RoutineFault) -> Error {
+    let kind = RapidFaultKind::Routine(fault);
     RapidFault { line, column: usize::from(line > 0), kind }.into()
 }
 
@@ -53,7 +54,7 @@ fn chosen(module: &Module, wanted: Option<&str>) -> Result<Option<String>, Error
     let names = || module.routines().iter().map(|routine| routine.name.as_str());
     if let Some(wanted) = wanted {
         let found = names().find(|name| name.eq_ignore_ascii_case(wanted));
-        let kind = || RapidFaultKind::NoRoutine { name: wanted.into(), known: names().collect() };
+        let kind = || RoutineFault::Unknown { name: wanted.into(), known: names().collect() };
         return found.map(|name| Some(name.into())).ok_or_else(|| fault(0, kind()));
     }
     if let Some(main) = names().find(|name| name.eq_ignore_ascii_case("main")) {
@@ -62,12 +63,12 @@ fn chosen(module: &Module, wanted: Option<&str>) -> Result<Option<String>, Error
     let moving: BTreeSet<Option<&str>> =
         module.moves().iter().map(|step| step.routine.as_deref()).collect();
     if moving.is_empty() {
-        return Err(fault(0, RapidFaultKind::NoMoves { routine: "the module".into() }));
+        return Err(fault(0, RoutineFault::NoMoves { routine: "the module".into() }));
     }
     if let (Some(only), 1) = (moving.first(), moving.len()) {
         return Ok(only.map(String::from));
     }
-    Err(fault(0, RapidFaultKind::WhichRoutine { moving: moving.into_iter().flatten().collect() }))
+    Err(fault(0, RoutineFault::Which { moving: moving.into_iter().flatten().collect() }))
 }
 
 /// The items of a routine in the order of the text.
@@ -131,7 +132,7 @@ impl<'m> Walk<'m> {
                     steps.push(Step::NotRead(skipped));
                 }
                 NotRead::Instruction { name } if name.eq_ignore_ascii_case("GOTO") => {
-                    let kind = RapidFaultKind::Branch { word: "GOTO".into() };
+                    let kind = RoutineFault::Branch { word: "GOTO".into() };
                     return Err(fault(skipped.line, kind));
                 }
                 NotRead::Instruction { name } if is_one_of(name, &LEAVING) => {
@@ -158,7 +159,7 @@ impl<'m> Walk<'m> {
         let single = self.single.map(|line| (line, "IF"));
         match single.or_else(|| self.open.last().copied()) {
             None => Ok(()),
-            Some((line, word)) => Err(fault(line, RapidFaultKind::Branch { word: word.into() })),
+            Some((line, word)) => Err(fault(line, RoutineFault::Branch { word: word.into() })),
         }
     }
 

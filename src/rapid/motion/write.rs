@@ -59,7 +59,7 @@ impl RoutineMotion {
                 settings: MotionSettings::default(),
             });
         }
-        Module::new(Some(name.to_string()), data.data, moves, &[])
+        Module::new(Some(name.to_string()), data.declared, moves, &[])
     }
 }
 
@@ -86,7 +86,7 @@ fn numbers<T: ToString>(text: &str, value: Option<&T>) -> String {
 /// The tools and work objects that moves name.
 #[derive(Default)]
 struct Data {
-    data: Vec<Datum>,
+    declared: Vec<Datum>,
     /// Names in lower case.
     known: BTreeSet<String>,
     /// Texts that are not names, with the names that they get.
@@ -125,7 +125,7 @@ impl Data {
             }
         }
         if self.known.insert(name.to_lowercase()) {
-            self.data.push(Datum::single(name.clone(), Storage::Pers, value));
+            self.declared.push(Datum::single(name.clone(), Storage::Pers, value));
         }
         if name != text {
             self.named.insert(text.to_string(), name.clone());

@@ -11,7 +11,10 @@ use crate::rapid::data::records::{SpeedData, ZoneData};
 use crate::rapid::data::value::Record;
 use crate::rapid::expression::evaluate::{Evaluator, Stop};
 use crate::rapid::expression::tree::Expression;
-use crate::rapid::statements::moves::WrittenMove;
+use crate::rapid::statements::moves::{Replacement, WrittenMove};
+
+/// A value, or the reason why it is unknown.
+type Known<T> = Result<T, Reason>;
 
 impl<'a> Resolver<'a> {
     /// An argument of a move, of a type.
@@ -42,12 +45,14 @@ impl<'a> Resolver<'a> {
         &self,
         step: &WrittenMove<'a>,
         role: &'static str,
-        option: Option<&Option<Expression<'a>>>,
+        option: Option<&Replacement<'a>>,
     ) -> Result<Option<Result<f64, Reason>>, RapidFault> {
         match option {
             None => Ok(None),
-            Some(None) => Ok(Some(Err(Reason::Unfinished))),
-            Some(Some(number)) => known(self.evaluator(step, role).number(number)).map(Some),
+            Some(Replacement::Nothing) => Ok(Some(Err(Reason::Unfinished))),
+            Some(Replacement::Value(number)) => {
+                known(self.evaluator(step, role).number(number)).map(Some)
+            }
         }
     }
 
@@ -56,7 +61,7 @@ impl<'a> Resolver<'a> {
         &self,
         step: &WrittenMove<'a>,
         [speed, zone]: [&Expression<'a>; 2],
-    ) -> Result<(Result<SpeedData, Reason>, Result<ZoneData, Reason>), RapidFault> {
+    ) -> Result<(Known<SpeedData>, Known<ZoneData>), RapidFault> {
         let mut speed = known(self.evaluator(step, "speed").record(speed))?;
         if let Some(velocity) = self.option(step, "\\V", step.overrides.velocity.as_ref())? {
             speed = speed
@@ -124,7 +129,7 @@ impl<'a> Resolver<'a> {
 }
 
 /// A value, or the reason why it is unknown.
-fn known<T>(value: Result<T, Stop>) -> Result<Result<T, Reason>, RapidFault> {
+fn known<T>(value: Result<T, Stop>) -> Result<Known<T>, RapidFault> {
     match value {
         Ok(value) => Ok(Ok(value)),
         Err(Stop::Unknown(reason)) => Ok(Err(reason)),

@@ -29,20 +29,27 @@ pub(crate) struct WrittenMove<'a> {
     pub(crate) settings: MotionSettings,
 }
 
-/// What replaces a part of the speed or of the zone; `Some(None)` without a value.
+/// What an option puts in the place of a part of the speed or of the zone.
+pub(crate) enum Replacement<'a> {
+    /// It has no value.
+    Nothing,
+    Value(Expression<'a>),
+}
+
+/// What replaces a part of the speed or of the zone.
 #[derive(Default)]
 pub(crate) struct Overrides<'a> {
     /// `\V`.
-    pub(crate) velocity: Option<Option<Expression<'a>>>,
+    pub(crate) velocity: Option<Replacement<'a>>,
     /// `\T`.
-    pub(crate) time: Option<Option<Expression<'a>>>,
+    pub(crate) time: Option<Replacement<'a>>,
     /// `\Z`.
-    pub(crate) zone: Option<Option<Expression<'a>>>,
+    pub(crate) zone: Option<Replacement<'a>>,
 }
 
 impl<'a> Overrides<'a> {
     /// The place of an option's value.
-    fn place(&mut self, name: &str) -> Option<&mut Option<Option<Expression<'a>>>> {
+    fn place(&mut self, name: &str) -> Option<&mut Option<Replacement<'a>>> {
         let places = [("V", &mut self.velocity), ("T", &mut self.time), ("Z", &mut self.zone)];
         let mut places = places.into_iter();
         places.find(|(own, _)| own.eq_ignore_ascii_case(name)).map(|(_, place)| place)
@@ -78,7 +85,7 @@ pub(crate) fn read_move<'a>(
                         text,
                     });
                     if let Some(place) = overrides.place(name) {
-                        place.get_or_insert(value);
+                        place.get_or_insert(value.map_or(Replacement::Nothing, Replacement::Value));
                     }
                 }
             }
