@@ -2,11 +2,12 @@
 
 use alloc::vec::Vec;
 
+use super::corner::round_joints;
 use super::finding::FindingKind;
 use super::goal::{Findings, Goal, Place};
-use super::joints::{Conf, Path};
+use super::joints::{Conf, joint_line, solved};
 use super::options::MotionOptions;
-use super::samples::{Samples, way};
+use super::samples::{Path, Samples, way};
 use crate::error::Error;
 use crate::kinematics::thresholds::{
     ELBOW_ZONE, JOINED_MOVES, MOST_SAMPLES, SHOULDER_ZONE, WRIST_ZONE,
@@ -98,6 +99,15 @@ impl<'a, 'm> Drive<'a, 'm> {
         self.findings.add(index, self.goals[index].step, kind);
     }
 
+    /// The joints at the target of a move; what is wrong with them is found.
+    fn solved(&mut self, index: usize, seed: Option<&[f64; 6]>, conf: Conf) -> Option<[f64; 6]> {
+        let (q, kind) = solved(self.flange, &self.goals[index], seed, conf);
+        if let Some(kind) = kind {
+            self.found(index, kind);
+        }
+        q
+    }
+
     /// Make a move.
     fn make(&mut self, index: usize) -> Result<Made, Error> {
         let goal = &self.goals[index];
@@ -116,10 +126,11 @@ impl<'a, 'm> Drive<'a, 'm> {
         }
         let is_replaced = goal.is_cartesian() || is_lost;
         let conf = if goal.is_cartesian() { Conf::Quiet } else { goal.conf() };
-        let Some(path) = self.joint_move(index, &from, conf)? else {
+        let Some(to) = self.solved(index, Some(&from), conf) else {
             (self.here, self.is_lost) = (Some(here), true);
             return Ok(Made::default());
         };
+        let path = joint_line(self.flange, self.options.turn, &goal.frames, [&from, &to])?;
         let q = path.q.last().copied().unwrap_or(from);
         self.append(index, path, !is_replaced);
         self.here = Some(Here { q, flange: self.flange.fk(&q) });
@@ -151,7 +162,8 @@ impl<'a, 'm> Drive<'a, 'm> {
             && let Some(zone) = self.goals[before].zone
         {
             let frames: [&Frames; 2] = [&self.goals[before].frames, &self.goals[index].frames];
-            let is_rounded = self.round_joints(zone.position, frames, &mut path);
+            let is_rounded =
+                round_joints(self.flange, &mut self.samples, zone.position, frames, &mut path);
             self.made[before].is_rounded = is_rounded;
         }
         self.samples.q.append(&mut path.q);

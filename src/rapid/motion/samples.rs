@@ -36,6 +36,25 @@ impl Samples {
     }
 }
 
+/// The joints of a move after those that it begins with, and the way of the tool to each.
+#[derive(Default)]
+pub(super) struct Path {
+    pub(super) q: Vec<[f64; 6]>,
+    pub(super) ways: Vec<Way>,
+}
+
+impl Path {
+    pub(super) fn push(&mut self, q: [f64; 6], way: Way) {
+        self.q.push(q);
+        self.ways.push(way);
+    }
+
+    /// The length of the tool's way [m].
+    pub(super) fn length(&self) -> f64 {
+        self.ways.iter().map(|way| way[0]).sum()
+    }
+}
+
 /// The way of the tool from one pose to another.
 pub(super) fn way(from: &Pose, to: &Pose) -> Way {
     let length = (to.translation.vector - from.translation.vector).norm();
