@@ -10,7 +10,7 @@ use super::options::MotionOptions;
 use super::samples::{Path, Samples, way};
 use crate::error::Error;
 use crate::kinematics::thresholds::{
-    ELBOW_ZONE, JOINED_MOVES, MOST_SAMPLES, SHOULDER_ZONE, WRIST_ZONE,
+    ELBOW_ZONE, JOINED_MOVES, MOST_REACH, MOST_SAMPLES, SHOULDER_ZONE, WRIST_ZONE,
 };
 use crate::kinematics::{
     BreakReason, FollowOptions, Pose, Robot, SingularityKind, SingularityMode,
@@ -218,7 +218,14 @@ impl<'a, 'm> Drive<'a, 'm> {
         };
         let exit = self.exit(index, &leg);
         let spacing = Spacing::step(self.options.step, self.options.turn)?;
-        let mut steps = spacing.steps(&[[leg.length(), leg.angle()]])?[0];
+        let mut steps = match spacing.steps(&[[leg.length(), leg.angle()]]) {
+            Ok(steps) => steps[0],
+            // No robot reaches both of its ends.
+            Err(error) if leg.length() > 2.0 * MOST_REACH => {
+                return Ok(Err(FindingKind::Path(error)));
+            }
+            Err(error) => return Err(error),
+        };
         if before.is_some() || exit.is_some() {
             steps = steps.max(LEAST_STEPS);
         }
