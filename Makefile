@@ -74,7 +74,7 @@ check: $(BUILT) $(VENV)/.groups ## Check format, lints, types, stubs, docs, benc
 	$(STEP) "benches run" cargo test --bench one_pose --bench batch --bench instructions -- --test
 	$(STEP) "examples in Rust run" bash -eu -c 'for example in examples/*.rs; do cargo run --quiet --example "$$(basename "$$example" .rs)" >/dev/null; done'
 	$(STEP) "benches in Python run" $(BIN)/python benches/python_calls.py >/dev/null
-	$(STEP) "the bench of motion runs" $(BIN)/python benches/motion.py >/dev/null
+	$(STEP) "the bench of motion runs" env MOVES=1000 $(BIN)/python benches/motion.py >/dev/null
 	$(STEP) "the bench of limits runs" env TRAJECTORIES=200 LINES=10 $(BIN)/python benches/motion_limits.py >/dev/null
 	$(STEP) "the bench of a module runs" env TARGETS=1000 $(BIN)/python benches/rapid_module.py >/dev/null
 	$(STEP) "peers are compared" $(BIN)/python -m benches.peers --quick >/dev/null

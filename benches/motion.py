@@ -1,19 +1,21 @@
 """Times of trajectories and paths, against other packages where they are installed.
 
 Each time is the least of many calls from Python to arrays, in one run. Packages: roboticstoolbox
-(`jtraj`), toppra, ruckig; one that is missing is named and left out.
+(`jtraj`), toppra, ruckig; one that is missing is named and left out. `MOVES` in the environment
+sets how many moves the RAPID routine has; 50,000.
 """
 
 from __future__ import annotations
 
 import importlib
+import os
 import time
 from collections.abc import Callable
 from types import ModuleType
 
 import irbkin
 import numpy as np
-from irbkin import paths, trajectory
+from irbkin import paths, rapid, trajectory
 
 START = np.radians([0, -90, 0, 0, 90, -180])
 END = np.radians([90, -100, 40, 10, 60, -120])
@@ -80,6 +82,37 @@ def excess(dq: np.ndarray, ddq: np.ndarray, velocity: np.ndarray, acceleration: 
     return f"velocity {parts[0]:+.1e}, acceleration {parts[1]:+.1e}"
 
 
+def routine(moves: int) -> rapid.Module:
+    """A seam of short lines with rounded corners, and of turns of the tool."""
+    i = np.arange(moves)
+    x, z = 900 + 200 * np.sin(i * 2 * np.pi / 97), 600 + 50 * np.cos(i * 2 * np.pi / 53)
+    y, half = -300 + 600 * i / moves, 0.1 * np.sin(i * 2 * np.pi / 71)
+    lines = [
+        f"MoveL [[{x:.2f},{y:.2f},{z:.2f}],[0,{a:.9f},{b:.9f},0],[0,0,0,0],"
+        "[9E9,9E9,9E9,9E9,9E9,9E9]],v200,z5,tGun;"
+        for x, y, z, a, b in zip(x, y, z, np.sin(half), np.cos(half), strict=True)
+    ]
+    tool = rapid.dump(rapid.ToolData(tframe=rapid.Pose((0, 0, 180))))
+    return rapid.parse(
+        f"MODULE Seam\nPERS tooldata tGun:={tool};\nPROC main()\nConfL\\Off;\n"
+        + "\n".join(lines)
+        + "\nENDPROC\nENDMODULE"
+    )
+
+
+def show_routine(robot: irbkin.Robot, moves: int) -> None:
+    """The row of a routine as one motion, against the same poses solved and not timed."""
+    seam = routine(moves)
+    poses = robot.fk(rapid.motion(robot, seam).q)
+
+    def call() -> object:
+        motion = rapid.motion(robot, seam)
+        return motion.t, motion.q, motion.move_index, motion.lines, motion.findings
+
+    own, other = least(call, 3), least(lambda: robot.ik_batch(poses), 3)
+    show(f"{moves:,} moves of RAPID, {len(poses):,} samples", own, other, "ik_batch of as many")
+
+
 def main() -> None:
     """Print the table."""
     toolbox, toppra = installed("roboticstoolbox"), installed("toppra")
@@ -125,6 +158,7 @@ def main() -> None:
         print(f"  duration {move.duration / theirs.duration:.4f} x toppra; largest excess")
         print(f"    irbkin  {excess(fine.dq, fine.ddq, velocity, acceleration)}")
         print(f"    toppra  {excess(theirs(t, 1), theirs(t, 2), velocity, acceleration)}")
+    show_routine(robot, int(os.environ.get("MOVES", "50000")))
 
 
 if __name__ == "__main__":

@@ -10,6 +10,8 @@ mod pose;
 #[cfg(feature = "rapid")]
 mod rapid;
 mod robot_name;
+#[cfg(feature = "rapid")]
+mod routine;
 mod urdf;
 
 use core::fmt;
@@ -25,6 +27,8 @@ pub use self::pose::PoseFault;
 #[cfg(feature = "rapid")]
 pub use self::rapid::{Missing, RapidFault, RapidFaultKind};
 pub use self::robot_name::{LeftOut, UnknownRobot};
+#[cfg(feature = "rapid")]
+pub use self::routine::RoutineFault;
 pub use self::urdf::{Names, UrdfFault};
 use crate::report::{Configuration, Explanation, FreeJoint};
 

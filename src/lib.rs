@@ -147,7 +147,7 @@ pub use error::{
     UnknownRobot, UrdfFault,
 };
 #[cfg(feature = "rapid")]
-pub use error::{FrameFault, Missing, RapidFault, RapidFaultKind};
+pub use error::{FrameFault, Missing, RapidFault, RapidFaultKind, RoutineFault};
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use kinematics::{
     AnyRobot, Arity, Break, BreakReason, Definition, DhRow, FollowOptions, Followed, Follower,

@@ -24,6 +24,8 @@ mod rapid;
 mod rapid_calc;
 #[cfg(feature = "rapid")]
 mod rapid_fuzz;
+#[cfg(feature = "rapid")]
+mod rapid_motion;
 mod reach_and_paths;
 mod recall;
 mod redundancy;

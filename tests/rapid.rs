@@ -143,7 +143,7 @@ fn real_looking_modules_are_read() {
     let alone = parse(WELD, &[]).unwrap();
     assert!(alone.moves().iter().all(|step| step.tool.value.is_err()));
     let weld = parse(WELD, &[&tools]).unwrap();
-    assert_eq!((weld.data().len(), weld.moves().len()), (10, 9));
+    assert_eq!((weld.data().len(), weld.moves().len()), (11, 9));
     for step in weld.moves() {
         assert!(
             step.target.value.is_ok() && step.tool.value.is_ok(),

@@ -15,7 +15,8 @@ use std::time::{Duration, Instant};
 
 use crate::common::Rng;
 use irbkin::rapid::{
-    Content, Module, Move, NewValue, Reason, Unresolved, Value, decode, parse, rewrite,
+    Content, Module, MotionOptions, Move, NewValue, Reason, Unresolved, Value, decode, parse,
+    rewrite,
 };
 
 const CORPUS: [&[u8]; 3] = [
@@ -280,6 +281,20 @@ fn check(text: &str, module: &Module) {
         same.data().iter().zip(module.data()).all(|(a, b)| a.content == b.content),
         "\n--- from\n{text}"
     );
+    check_motion(module);
+}
+
+/// Its moves are a motion with findings, or an error says why not.
+fn check_motion(module: &Module) {
+    let robot = irbkin::Robot::named("IRB 2600-12/1.65").unwrap();
+    match irbkin::rapid::motion(&robot, module, None, &MotionOptions::default()) {
+        Ok(motion) => {
+            assert!(motion.t.iter().all(|time| time.is_finite()) && motion.t.is_sorted());
+            assert!(motion.q.as_flattened().iter().all(|angle| angle.is_finite()));
+            assert!(motion.findings.iter().all(|finding| !finding.to_string().is_empty()));
+        }
+        Err(error) => assert!(!error.to_string().is_empty()),
+    }
 }
 
 fn own_values(datum: usize, content: &Content) -> Vec<NewValue> {

@@ -14,7 +14,7 @@ from typing import Any, ClassVar, Literal, Protocol, final, overload, type_check
 import numpy as np
 import numpy.typing as npt
 
-from irbkin.rapid.program import Declaration, Move, Skipped, TargetTable
+from irbkin.rapid.program import Declaration, Finding, MotionMove, Move, Skipped, TargetTable
 from irbkin.rapid.records import JointTarget, Record, RobTarget, ToolData, WobjData
 from irbkin.records import (
     CatalogEntry,
@@ -52,6 +52,7 @@ _OutcomeState = tuple[str, int, int, float]
 _FoundState = tuple[
     list[_SolutionState], _OutcomeState, _OutcomeState | None, list[_SolutionState] | None
 ]
+_MotionOptions = tuple[list[float] | None, list[float] | None, list[float] | None, float, float]
 _TrajectoryState = tuple[int, list[float], list[list[float]], list[float]]
 # One joint vector, `Solution` too; the shape of an array is known at the call alone.
 _Vector = Sequence[float]
@@ -65,10 +66,12 @@ class _Rotation(Protocol):
 __all__ = [
     "Module",
     "Robot",
+    "RoutineMotion",
     "Solution",
     "Solutions",
     "Trajectory",
     "__version__",
+    "_restore_motion",
     "_restore_robot",
     "_restore_solution",
     "_restore_solutions",
@@ -87,6 +90,7 @@ __all__ = [
     "instruction_sets",
     "joint",
     "line",
+    "motion",
     "parse",
     "parse_record",
     "path_spline",
@@ -1111,6 +1115,119 @@ def calc_targets(
         InvalidPoseError, RapidError, InvalidModelError: As `calc_joint_t`, of the tool and the work
             object.
     """
+
+def motion(
+    robot: Robot,
+    module: Module,
+    routine: str | None = None,
+    *,
+    start: npt.ArrayLike | JointTarget | None = None,
+    max_velocity: npt.ArrayLike | None = None,
+    max_acceleration: npt.ArrayLike | None = None,
+    step: float = 0.005,
+    turn: float | None = None,
+) -> RoutineMotion:
+    """Make one motion of the moves of a routine: MoveAbsJ, MoveJ, MoveL and MoveC in order, each
+    followed from the joints before it, timed at its programmed speed and checked.
+
+    Everything that is wrong with a move is a finding, no error: an unknown value, a target out of
+    reach, a flip on the way, a singularity, another configuration than the target's, a joint too
+    fast at the programmed speed. A MoveL or MoveC that cannot be followed is replaced by a joint
+    move to its target; a move whose target has no joints is left out.
+
+    Args:
+        robot: The arm. Work objects are given in the world, in which the robot's base is.
+        module: Module.
+        routine: Name of the routine; without it main, or the only one that moves. Its branches and
+            loops must not contain moves.
+        start: Joint angles [rad], shape (6,), or a JointTarget, from which the first move begins.
+            Without it the motion begins at the first target.
+        max_velocity: Limits [rad/s], a number or shape (6,); without it the robot's own.
+        max_acceleration: Limits [rad/s^2], a number or shape (6,). No catalog has them: without
+            them speeds change at once, and the duration is a kinematic lower bound.
+        step: Largest distance of the tool between two samples of a MoveL or MoveC [m].
+        turn: Largest turn of the tool between two samples of a MoveL or MoveC, and of a joint
+            between two of a MoveJ or MoveAbsJ [rad]; 5 deg without it.
+
+    Returns:
+        RoutineMotion. Its `findings` say what is wrong.
+
+    Raises:
+        RapidError: No such routine, no move in it, a branch, loop or jump around a move (with its
+            line), or not one move that can be made.
+        InvalidMotionError: A limit or a step that is not positive and finite, a robot without
+            velocities, or more than ten million samples.
+        InvalidJointsError: A start that is not finite or has a wrong shape.
+        InvalidModelError: The arm has no spherical wrist, so no confdata.
+    """
+
+def _restore_motion(
+    robot: Robot, module: Module, routine: str | None, options: _MotionOptions
+) -> RoutineMotion: ...
+
+@final
+class RoutineMotion:
+    """The moves of a routine as one motion: followed, timed and checked.
+
+    `motion` makes one. Frozen and picklable; a motion that is unpickled is made again.
+    """
+
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+    @property
+    def routine(self) -> str | None:
+        """The routine; None for moves outside routines."""
+    @property
+    def duration(self) -> float:
+        """Duration [s]; without `max_acceleration` a kinematic lower bound, no cycle time."""
+    @property
+    def trajectory(self) -> Trajectory:
+        """The joints over time: a Trajectory with these samples. Without `max_acceleration` the
+        joints go evenly from sample to sample.
+        """
+    @property
+    def t(self) -> _Floats:
+        """Times of the samples [s], shape (m,)."""
+    @property
+    def q(self) -> _Floats:
+        """Joint angles of the samples [rad], shape (m, 6)."""
+    @property
+    def move_index(self) -> npt.NDArray[np.int64]:
+        """The move, by its index in `moves`, that each sample belongs to, shape (m,). A corner
+        is shared by two: the sample halfway through it is the last one of the first move.
+        """
+    @property
+    def lines(self) -> npt.NDArray[np.int64]:
+        """Line of the instruction that each sample belongs to, shape (m,)."""
+    @property
+    def moves(self) -> tuple[MotionMove, ...]:
+        """The moves of the routine, in order: a tuple of `MotionMove`."""
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """What is wrong with moves, in order: a tuple of `Finding`."""
+    def to_module(self, name: str = "Motion") -> Module:
+        r"""Return the motion as a module: a MoveAbsJ to the joints of each target that is met or
+        passed, with its external axes, speed, zone, \T, tool and work object.
+
+        The path between the targets is that of the joints. Tools and work objects are declared as
+        PERS; speeds and zones that are not RAPID's own are written as numbers.
+
+        Args:
+            name: Name of the module.
+
+        Returns:
+            Module, which `dump` writes.
+
+        Raises:
+            RapidError: The name is none.
+        """
+    def __len__(self) -> int: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __reduce__(
+        self,
+    ) -> tuple[
+        Callable[[Robot, Module, str | None, _MotionOptions], RoutineMotion],
+        tuple[Robot, Module, str | None, _MotionOptions],
+    ]: ...
 
 @final
 class Trajectory:

@@ -164,6 +164,8 @@ pub enum MotionFault {
         /// The angle that the tool turns by [rad].
         angle: f64,
     },
+    /// A robot has no joint velocities, and none are given.
+    NoMaxVelocity,
     /// A zone is negative, NaN or infinite.
     Zone {
         /// The pose, from 0.
@@ -273,6 +275,9 @@ impl fmt::Display for MotionFault {
                 angle.to_degrees(),
                 if length > 0.0 { "step" } else { "turn" }
             ),
+            Self::NoMaxVelocity => {
+                f.write_str("the robot has no joint velocities: give max_velocity, in rad/s")
+            }
             Self::Zone { index, value } => {
                 write!(f, "zones[{index}] is {value:?}, it must be finite and not negative")
             }

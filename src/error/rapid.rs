@@ -4,7 +4,7 @@ use core::fmt;
 
 use alloc::string::String;
 
-use super::Names;
+use super::{Names, RoutineFault};
 
 /// What is wrong with a RAPID text, and where.
 #[derive(Clone, Debug, PartialEq)]
@@ -205,6 +205,8 @@ pub enum RapidFaultKind {
         /// Whose place.
         thing: String,
     },
+    /// A routine is no single motion.
+    Routine(RoutineFault),
     /// A value is to be put where there is none.
     NoSuchValue {
         /// What there is not.
@@ -375,6 +377,7 @@ impl fmt::Display for RapidFaultKind {
                 )
             }
             Self::TwoValues { thing } => write!(f, "{thing} is given two values, it must get one"),
+            Self::Routine(fault) => fault.fmt(f),
             Self::NoSuchValue { missing } => write!(f, "there is no {missing}"),
         }
     }

@@ -231,3 +231,16 @@ pub const LEAST_WAY: f64 = 1e-9;
 
 /// Turn of the tool below which a pose at the same place repeats the one before it [rad].
 pub(crate) const LEAST_TURN: f64 = 1e-9;
+
+/// Angle between upper arm and forearm from stretched or folded below which a move of a program
+/// passes the elbow singularity [rad]: one degree, as [`WRIST_ZONE`].
+pub const ELBOW_ZONE: f64 = 0.0175;
+
+/// Distance of the wrist center from axis 1 below which a move of a program passes the shoulder
+/// singularity [m]. At this distance axis 1 turns by 57 deg for each millimeter of the way.
+pub const SHOULDER_ZONE: f64 = 1e-3;
+
+/// How far the joints at the end of a move may be from those with which the next one begins [rad]:
+/// more than the rounding of two solutions of one pose near a singularity.
+#[cfg(feature = "rapid")]
+pub(crate) const JOINED_MOVES: f64 = 1e-6;

@@ -66,6 +66,8 @@ fn faults() -> std::vec::Vec<Row> {
             "`at_tool_speed`", "give `tool_speed_limits(...).fastest`, or less";
         MotionFault::NoStep { .. } => MotionFault::NoStep { length: 0.0, angle: 0.5 },
             "`step` where the tool only turns", "give `turn` too, or `steps`";
+        MotionFault::NoMaxVelocity => MotionFault::NoMaxVelocity,
+            "`rapid.motion` with a robot that is not of the catalog", "give `max_velocity`";
         MotionFault::Zone { .. } => MotionFault::Zone { index: 1, value: -0.05 },
             "`zones` of `polyline`", "give radii in m, or ABB's names";
         MotionFault::Collinear { .. } => MotionFault::Collinear { off: 0.0, bound: 4e-7 },

@@ -4,24 +4,27 @@ use std::vec;
 use std::vec::Vec;
 
 use super::{Row, Table, rows};
-use crate::error::{FrameFault, Missing, PoseFault, RapidFault, RapidFaultKind};
-use crate::rapid::{AssignedBy, NotRead, Problem, Reason, Unresolved};
-use crate::report::{Explanation, Reach};
+use crate::error::{FrameFault, Missing, PoseFault, RapidFault, RapidFaultKind, RoutineFault};
+use crate::kinematics::{BreakReason, SingularityKind};
+use crate::rapid::{
+    AssignedBy, CirPathMode, Finding, FindingKind, NotRead, Problem, Reason, Unresolved,
+};
+use crate::report::{Configuration, Explanation, Reach};
 
 pub(super) fn tables() -> Vec<Table> {
     vec![
         Table { name: "rapid", rows: faults() },
         Table { name: "rapid frames", rows: frames() },
         Table { name: "rapid problems", rows: problems() },
+        Table { name: "rapid findings", rows: findings() },
         Table { name: "rapid reasons", rows: reasons() },
         Table { name: "rapid skipped", rows: skipped() },
     ]
 }
 
-fn faults() -> Vec<Row> {
+fn broken_text() -> Vec<Row> {
     use RapidFaultKind as Kind;
-    let [thing, part] = ["robtarget p10", "robconf"].map(std::string::String::from);
-    let mut all = rows! { RapidFault;
+    rows! { RapidFault;
         RapidFault { .. } => RapidFault {
             line: 1,
             column: 12,
@@ -29,7 +32,13 @@ fn faults() -> Vec<Row> {
         },
             "`parse(\"hello world\")`: text that is not RAPID",
             "mend the place; `load` takes a path";
-    };
+    }
+}
+
+fn faults() -> Vec<Row> {
+    use RapidFaultKind as Kind;
+    let [thing, part] = ["robtarget p10", "robconf"].map(std::string::String::from);
+    let mut all = broken_text();
     all.extend(rows! { RapidFaultKind;
         Kind::UnterminatedString => Kind::UnterminatedString,
             "a string over two lines", "close it on its line";
@@ -104,6 +113,8 @@ fn faults() -> Vec<Row> {
             "`rewrite` with another text", "pass the text that was read";
         Kind::TwoValues { .. } => Kind::TwoValues { thing: thing.clone() },
             "`rewrite` with two values for one place", "give one";
+        Kind::Routine(_) => Kind::Routine(RoutineFault::NoMoves { routine: "main".into() }),
+            "`motion` of a routine that does not move", "give another one";
         Kind::NoSuchValue { missing: Missing::Datum { .. } } =>
             Kind::NoSuchValue { missing: Missing::Datum { index: 7, count: 3 } },
             "`rewrite` of a datum that the module does not have", "take one of the module's";
@@ -117,7 +128,27 @@ fn faults() -> Vec<Row> {
             Kind::NoSuchValue { missing: Missing::Module { what: "num a".into() } },
             "data that RAPID cannot write", "leave the datum out";
     });
+    all.extend(routines());
     all
+}
+
+fn routines() -> Vec<Row> {
+    rows! { RoutineFault;
+        RoutineFault::Unknown { .. } => RoutineFault::Unknown {
+            name: "mian".into(), known: ["main"].into_iter().collect(),
+        },
+            "`motion` of another name", "give one of the module's";
+        RoutineFault::Which { .. } =>
+            RoutineFault::Which { moving: ["pick", "place"].into_iter().collect() },
+            "`motion` of a module without main", "give `routine`";
+        RoutineFault::NoMoves { .. } => RoutineFault::NoMoves { routine: "main".into() }, "-", "";
+        RoutineFault::Branch { .. } => RoutineFault::Branch { word: "WHILE".into() },
+            "`motion` of a routine with branches", "put the moves into a routine of their own";
+        RoutineFault::NoMotion { .. } => RoutineFault::NoMotion {
+            finding: "line 5: MoveL *: * is taught on the controller".into(),
+        },
+            "`motion` of targets that are all unknown or out of reach", "see its findings";
+    }
 }
 
 fn frames() -> Vec<Row> {
@@ -163,6 +194,72 @@ fn problems() -> Vec<Row> {
     }
 }
 
+fn findings() -> Vec<Row> {
+    use FindingKind as Kind;
+    let one = Kind::NotRead(NotRead::Motion { name: "TriggL".into() });
+    let mut all = rows! { Finding;
+        Finding { .. } =>
+            Finding { move_index: 3, line: 12, what: "TriggL p10,v100;".into(), kind: one },
+            "every finding begins with its line and its instruction", "see below";
+    };
+    let singularity =
+        |kind, distance| Kind::Singularity { kind, part: 0.4, distance, bound: 0.0175 };
+    all.extend(rows! { FindingKind;
+        Kind::Target(_) => Kind::Target(Problem::Target(Reason::Taught)),
+            "`\"unknown\"`, `\"unreachable\"`, `\"limit\"`, `\"configuration\"`: the problems above",
+            "see there";
+        Kind::Speed { .. } => Kind::Speed { text: "vJob".into(), reason: Reason::Unfinished },
+            "`\"unknown\"`: a speed without a value", "see the reasons below";
+        Kind::Zone { .. } => Kind::Zone { text: "zJob".into(), reason: Reason::Unfinished },
+            "`\"unknown\"`: a zone without a value", "see the reasons below";
+        Kind::Time(_) => Kind::Time(Reason::OptionalArgument),
+            "`\"unknown\"`: `\\T` of an optional argument", "write the duration";
+        Kind::Number { .. } => Kind::Number { field: "v_tcp", value: 0.0 },
+            "`\"setting\"`: a speed of zero, a negative zone", "write a positive one";
+        Kind::WristMode(_) => Kind::WristMode(CirPathMode::Wrist45),
+            "`\"setting\"`: a mode of CirPathMode that is not followed", "take one of the others";
+        Kind::NotRead(_) => Kind::NotRead(NotRead::Motion { name: "TriggL".into() }),
+            "`\"not_read\"`: a move of another name, ConfL without \\On or \\Off",
+            "write MoveL, MoveJ, MoveC or MoveAbsJ";
+        Kind::Call { .. } => Kind::Call { name: "rPick".into() },
+            "`\"not_read\"`: a call of a routine that moves", "take the motion of that routine, too";
+        Kind::Path(_) => Kind::Path(crate::error::MotionFault::HalfTurn {
+            index: 1, angle: core::f64::consts::PI,
+        }.into()),
+            "`\"path\"`: a half turn, an arc through points of a line", "put a target between";
+        Kind::Break { reason: BreakReason::Jump { .. }, .. } => Kind::Break {
+            part: 0.4,
+            reason: BreakReason::Jump { joint: 6, by: 6.2, kinds: SingularityKind::empty() },
+        },
+            "`\"flip\"`: a line that a joint cannot follow", "take another configuration, or MoveJ";
+        Kind::Break { .. } => Kind::Break {
+            part: 0.4,
+            reason: BreakReason::Unreachable(Explanation::OutOfReach(Reach::TooFar {
+                shortfall: 0.012,
+            })),
+        },
+            "`\"unreachable\"`, `\"limit\"`: a line that leaves the reach or the limits",
+            "move the targets, or take MoveJ";
+        Kind::Singularity { .. } => singularity(SingularityKind::WRIST, 0.004),
+            "`\"singularity\"`: a line or an arc near one", "SingArea\\Wrist, or other targets";
+        Kind::Singularity { .. } => singularity(SingularityKind::SHOULDER, 0.0),
+            "`\"singularity\"`: a line or an arc through one", "the same";
+        Kind::Configuration { .. } => Kind::Configuration {
+            found: Configuration { cf1: -1, cf4: 0, cf6: -1, cfx: 0 },
+            wanted: Configuration::default(),
+        },
+            "`\"configuration\"`: confdata of a MoveL or MoveC under ConfL\\On",
+            "correct it: `calc_rob_t` has it";
+        Kind::JointSpeed { .. } => Kind::JointSpeed {
+            joint: 4, value: 12.0, bound: 6.3, slowed: 0.525, speed: 0.2,
+        },
+            "`\"joint_speed\"`: a line or an arc at its programmed speed", "program a lower one";
+        Kind::Duration { .. } => Kind::Duration { value: 1.4, bound: 1.0 },
+            "`\"duration\"`: `\\T` that the limits do not allow", "program a longer one";
+    });
+    all
+}
+
 fn reasons() -> Vec<Row> {
     let name = std::string::String::from("p10");
     let refers = |why| Reason::Reference { name: name.clone(), why };
@@ -192,7 +289,7 @@ fn reasons() -> Vec<Row> {
     all.extend(rows! { Unresolved;
         Unresolved::NotDeclared => Unresolved::NotDeclared, "-", "";
         Unresolved::LoopVariable => Unresolved::LoopVariable, "-", "";
-        Unresolved::OtherType { .. } => Unresolved::OtherType { type_name: "zonedata".into() },
+        Unresolved::OtherType { .. } => Unresolved::OtherType { type_name: "bool".into() },
             "-", "";
         Unresolved::Unfinished => Unresolved::Unfinished, "-", "";
         Unresolved::Type => Unresolved::Type, "-", "";
@@ -208,7 +305,7 @@ fn reasons() -> Vec<Row> {
     });
     for (why, trigger) in [
         (Unresolved::LoopVariable, "FOR"),
-        (Unresolved::OtherType { type_name: "zonedata".into() }, "a type that is not read"),
+        (Unresolved::OtherType { type_name: "bool".into() }, "a type that is not read"),
         (Unresolved::Unfinished, "a placeholder"),
         (Unresolved::Type, "the name of a type"),
         (Unresolved::Routine, "the name of a routine"),
@@ -248,7 +345,7 @@ fn skipped() -> Vec<Row> {
         NotRead::Datum { .. } => NotRead::Datum { name: "p10".into(), reason: Reason::Taught },
             "a value that is not known", "see the reasons above";
         NotRead::DatumOfType { .. } =>
-            NotRead::DatumOfType { name: "z1".into(), type_name: "zonedata".into() },
+            NotRead::DatumOfType { name: "z1".into(), type_name: "bool".into() },
             "a type that is not read", "-";
         NotRead::Record { .. } => NotRead::Record { name: name() }, "RECORD", "-";
         NotRead::Alias { .. } => NotRead::Alias { name: name() }, "ALIAS", "-";

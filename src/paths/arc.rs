@@ -46,19 +46,57 @@ pub fn arc(
     orientation: ArcOrientation,
     spacing: Spacing,
 ) -> Result<Vec<Pose>, Error> {
-    let [start, via, end] = [checked_pose(start)?, checked_pose(via)?, checked_pose(end)?];
-    let circle = Circle::through([&start, &via, &end].map(|pose| pose.translation.vector))?;
-    let turns = Turns::new(&circle, orientation, [&start, &via, &end].map(|pose| pose.rotation))?;
-    let steps = spacing.steps_of_one([circle.radius * circle.end, turns.angle(&circle)])?;
-    let mut poses = Vec::with_capacity(steps + 1);
-    poses.push(start);
-    poses.extend((1..steps).map(|step| {
+    let poses @ [start, _, end] = [checked_pose(start)?, checked_pose(via)?, checked_pose(end)?];
+    let arc = Arc::through([&poses[0], &poses[1], &poses[2]], orientation)?;
+    let steps = spacing.steps_of_one([arc.length(), arc.angle()])?;
+    let mut path = Vec::with_capacity(steps + 1);
+    path.push(start);
+    path.extend((1..steps).map(|step| {
         let part = part(step, steps);
-        let position = circle.at(part * circle.end);
-        Pose::from_parts(Translation3::from(position), turns.at(&circle, part))
+        Pose::from_parts(Translation3::from(arc.position(part)), arc.orientation(part))
     }));
-    poses.push(end);
-    Ok(poses)
+    path.push(end);
+    Ok(path)
+}
+
+/// An arc through three poses; parts of it are from 0 to 1.
+pub(crate) struct Arc {
+    circle: Circle,
+    turns: Turns,
+}
+
+impl Arc {
+    pub(super) fn through(poses: [&Pose; 3], orientation: ArcOrientation) -> Result<Self, Error> {
+        let circle = Circle::through(poses.map(|pose| pose.translation.vector))?;
+        let turns = Turns::new(&circle, orientation, poses.map(|pose| pose.rotation))?;
+        Ok(Self { circle, turns })
+    }
+
+    /// Its length [m].
+    pub(super) fn length(&self) -> f64 {
+        self.circle.radius * self.circle.end
+    }
+
+    /// An angle that the tool does not turn by more than [rad].
+    pub(super) fn angle(&self) -> f64 {
+        self.turns.angle(&self.circle)
+    }
+
+    /// The position at a part of the way (eq. 19).
+    pub(super) fn position(&self, part: f64) -> Vector3<f64> {
+        self.circle.at(part * self.circle.end)
+    }
+
+    /// The direction at a part of the way, of length one.
+    pub(super) fn direction(&self, part: f64) -> Vector3<f64> {
+        let (sin, cos) = (part * self.circle.end).sin_cos();
+        (self.circle.y * cos - self.circle.x * sin) / self.circle.radius
+    }
+
+    /// The orientation at a part of the way.
+    pub(super) fn orientation(&self, part: f64) -> Rotation3<f64> {
+        self.turns.at(&self.circle, part)
+    }
 }
 
 /// A circle by its center, two directions in its plane, and the angles of points on it.

@@ -50,6 +50,6 @@ pub fn line(
 
 /// A part of the way, exact at both ends.
 #[expect(clippy::cast_precision_loss, reason = "at most 1e7 steps")]
-pub(super) fn part(step: usize, steps: usize) -> f64 {
+pub(crate) fn part(step: usize, steps: usize) -> f64 {
     step as f64 / steps as f64
 }

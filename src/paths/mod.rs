@@ -12,13 +12,15 @@
 //! ```
 
 mod arc;
+pub(crate) mod corner;
 mod curve;
-mod line;
+pub(crate) mod leg;
+pub(crate) mod line;
 mod polyline;
 mod spacing;
 mod spline;
 mod turn;
-mod zone;
+pub(crate) mod zone;
 
 pub use arc::{ArcOrientation, arc};
 pub use line::line;

@@ -2,11 +2,10 @@
 
 use alloc::vec::Vec;
 
-use nalgebra::{Rotation3, Translation3, Vector3};
-
+use super::corner::{Corner, Rounded};
+use super::leg::Leg;
 use super::line::part;
 use super::spacing::Spacing;
-use super::turn::Turn;
 use super::zone::Zone;
 use crate::error::{Error, MotionFault};
 use crate::kinematics::{Pose, checked_pose};
@@ -46,121 +45,33 @@ pub fn polyline(poses: &[Pose], zones: &[Zone], spacing: Spacing) -> Result<Vec<
     let legs = poses
         .windows(2)
         .enumerate()
-        .map(|(index, ends)| Leg::new([&ends[0], &ends[1]], index + 1))
+        .map(|(index, ends)| Leg::line([&ends[0], &ends[1]], index + 1))
         .collect::<Result<Vec<_>, _>>()?;
     if legs.is_empty() {
         return Ok(poses);
     }
-    let corners: Vec<Corner> = (0..poses.len())
-        .map(|index: usize| {
-            match (index.checked_sub(1).map(|before| &legs[before]), legs.get(index)) {
-                (Some(before), Some(after)) => Corner::new(&zones[index], before, after),
-                _ => Corner::default(),
-            }
-        })
-        .collect();
-    let sizes: Vec<[f64; 2]> = legs.iter().map(|leg| [leg.length, leg.turn.angle]).collect();
+    let corner = |index: usize| match (index.checked_sub(1).map(|it| &legs[it]), legs.get(index)) {
+        (Some(before), Some(after)) => Corner::new(&zones[index], before, after),
+        _ => Corner::default(),
+    };
+    let sizes: Vec<[f64; 2]> = legs.iter().map(|leg| [leg.length(), leg.angle()]).collect();
     let steps = spacing.steps(&sizes)?;
     let mut path = Vec::with_capacity(steps.iter().sum::<usize>() + 1);
     path.push(poses[0]);
+    let mut last = corner(0);
     for (index, (leg, steps)) in legs.iter().zip(steps).enumerate() {
+        let next = corner(index + 1);
+        let rounded = Rounded {
+            before: index.checked_sub(1).map(|before| (&legs[before], last)),
+            leg,
+            after: legs.get(index + 1).map(|after| (after, next)),
+            index: index + 1,
+        };
         for step in 1..=steps {
-            if step == steps
-                && corners[index + 1].position == 0.0
-                && corners[index + 1].orientation == 0.0
-            {
-                path.push(poses[index + 1]);
-                continue;
-            }
-            let part = part(step, steps);
-            let place = Place { legs: &legs, corners: &corners, index, part };
-            let position = place.position(leg, &poses);
-            path.push(Pose::from_parts(Translation3::from(position), place.orientation(leg)?));
+            let is_met = step == steps && next.is_met();
+            path.push(if is_met { poses[index + 1] } else { rounded.at(part(step, steps))? });
         }
+        last = next;
     }
     Ok(path)
-}
-
-/// A line between two poses.
-struct Leg {
-    start: Vector3<f64>,
-    way: Vector3<f64>,
-    length: f64,
-    turn: Turn,
-}
-
-impl Leg {
-    fn new([start, end]: [&Pose; 2], index: usize) -> Result<Self, Error> {
-        let way = end.translation.vector - start.translation.vector;
-        let turn = Turn::new(&start.rotation, &end.rotation, None, index)?;
-        Ok(Self { start: start.translation.vector, way, length: way.norm(), turn })
-    }
-}
-
-/// The zones of a corner as they come out between its neighbors [m].
-#[derive(Clone, Copy, Default)]
-struct Corner {
-    position: f64,
-    orientation: f64,
-}
-
-impl Corner {
-    fn new(zone: &Zone, before: &Leg, after: &Leg) -> Self {
-        let half = 0.5 * before.length.min(after.length);
-        let position = zone.position.min(half);
-        if position == 0.0 {
-            return Self::default();
-        }
-        // An angle that is left to turn is a length of the way that turns by it.
-        let left = [before, after].map(|leg| zone.angle / leg.turn.angle * leg.length);
-        let orientation = zone.orientation.min(left[0].min(left[1])).max(position).min(half);
-        Self { position, orientation }
-    }
-}
-
-/// A part of a leg, with its corners.
-struct Place<'a> {
-    legs: &'a [Leg],
-    corners: &'a [Corner],
-    index: usize,
-    part: f64,
-}
-
-impl Place<'_> {
-    /// The corner whose zone the place is in, and how far through it, 0 to 1.
-    fn inside(&self, leg: &Leg, size: impl Fn(&Corner) -> f64) -> Option<(usize, f64)> {
-        let [behind, ahead] = [self.part, 1.0 - self.part].map(|part| part * leg.length);
-        let [last, next] = [size(&self.corners[self.index]), size(&self.corners[self.index + 1])];
-        if behind < last {
-            Some((self.index, 0.5 + 0.5 * behind / last))
-        } else if ahead < next {
-            Some((self.index + 1, 0.5 - 0.5 * ahead / next))
-        } else {
-            None
-        }
-    }
-
-    fn position(&self, leg: &Leg, poses: &[Pose]) -> Vector3<f64> {
-        let Some((corner, u)) = self.inside(leg, |corner| corner.position) else {
-            return leg.start + leg.way * self.part;
-        };
-        let (before, after) = (&self.legs[corner - 1], &self.legs[corner]);
-        let radius = self.corners[corner].position;
-        let met = poses[corner].translation.vector;
-        let [entry, exit] = [-radius / before.length, radius / after.length];
-        let v = 1.0 - u;
-        met + before.way * (entry * v * v) + after.way * (exit * u * u)
-    }
-
-    fn orientation(&self, leg: &Leg) -> Result<Rotation3<f64>, Error> {
-        let Some((corner, u)) = self.inside(leg, |corner| corner.orientation) else {
-            return Ok(leg.turn.at(self.part));
-        };
-        let (before, after) = (&self.legs[corner - 1], &self.legs[corner]);
-        let size = self.corners[corner].orientation;
-        // De Casteljau's construction of the parabola, with turns for lines.
-        let entry = before.turn.at(1.0 - (1.0 - u) * size / before.length);
-        let exit = after.turn.at(u * size / after.length);
-        Ok(Turn::new(&entry, &exit, None, corner)?.at(u))
-    }
 }

@@ -18,7 +18,7 @@ pub struct Zone {
 
 /// ABB's predefined zones: name, tool [mm], orientation [mm], orientation [deg].
 /// Source: the zonedata table of the RAPID reference manual.
-const PREDEFINED: [(&str, f64, f64, f64); 15] = [
+pub(crate) const PREDEFINED: [(&str, f64, f64, f64); 15] = [
     ("fine", 0.0, 0.0, 0.0),
     ("z0", 0.3, 0.3, 0.03),
     ("z1", 1.0, 1.0, 0.1),

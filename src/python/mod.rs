@@ -116,6 +116,9 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(rapid::calc_rob_t, module)?)?;
     module.add_function(wrap_pyfunction!(rapid::calc_moves, module)?)?;
     module.add_function(wrap_pyfunction!(rapid::calc_targets, module)?)?;
+    module.add_class::<rapid::PyRoutineMotion>()?;
+    module.add_function(wrap_pyfunction!(rapid::motion, module)?)?;
+    module.add_function(wrap_pyfunction!(rapid::restore_motion, module)?)?;
     let py = module.py();
     PySequence::register::<solution::PySolution>(py)?;
     PySequence::register::<solutions::PySolutions>(py)?;

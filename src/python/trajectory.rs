@@ -24,7 +24,7 @@ pub(super) struct PyTrajectory {
 }
 
 impl PyTrajectory {
-    fn new(py: Python<'_>, motion: Trajectory, times: Vec<f64>) -> PyResult<Self> {
+    pub(super) fn new(py: Python<'_>, motion: Trajectory, times: Vec<f64>) -> PyResult<Self> {
         let shape = [times.len(), motion.dof()];
         let states = states(py, &motion, &times, &shape, Flag::ReadOnly)?;
         let t = PyArray1::from_vec(py, times);

@@ -35,11 +35,13 @@
 //! 5. `resolve`: names resolved, data in the order of their references, then moves.
 //! 6. `module`: whole modules read, made, written, and rewritten in place.
 //! 7. `calc`: joint angles of targets and back, one by one and in tables.
+//! 8. `motion`: a routine as one motion, followed, timed and checked.
 
 mod calc;
 mod data;
 mod expression;
 mod module;
+mod motion;
 mod resolve;
 mod statements;
 #[cfg(test)]
@@ -54,11 +56,15 @@ pub use self::data::module::{Content, Datum, Module, Routine, RoutineKind, Scope
 pub use self::data::moves::{Argument, Move, MoveKind, MoveOption, Target};
 pub use self::data::reason::{AssignedBy, Reason, Unresolved};
 pub use self::data::records::{
-    JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, ToolData, WobjData,
+    JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, SpeedData, ToolData, WobjData, ZoneData,
 };
+pub use self::data::settings::{CirPathMode, MotionSettings, SingArea};
 pub use self::data::skipped::{NotRead, Skipped};
 pub use self::data::value::Value;
 pub use self::expression::reader::DEEPEST_NESTING;
 pub use self::module::parse::{decode, parse};
 pub use self::module::record::parse_record;
 pub use self::module::rewrite::{NewValue, rewrite};
+pub use self::motion::finding::{Finding, FindingKind};
+pub use self::motion::options::MotionOptions;
+pub use self::motion::routine::{MotionMove, RoutineMotion, motion};

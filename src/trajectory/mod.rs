@@ -22,6 +22,8 @@ mod joint;
 mod piece;
 mod piecewise;
 mod polynomial;
+#[cfg(feature = "rapid")]
+mod programmed;
 mod retime;
 mod sampling;
 mod spline;
@@ -33,6 +35,8 @@ pub use joint::{Synchronization, joint, joint_within};
 #[cfg(feature = "python")]
 pub(crate) use piecewise::TrajectoryParts;
 pub use piecewise::{Peaks, Trajectory};
+#[cfg(feature = "rapid")]
+pub(crate) use programmed::{evenly, within_times};
 pub use retime::{retime, retime_tool};
 pub use tool_speed::{ToolSpeedLimits, at_tool_speed, tool_lengths, tool_speed_limits};
 pub use waypoints::{SplineKind, spline, through};

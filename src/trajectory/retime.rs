@@ -62,7 +62,7 @@ pub fn retime(
         return Ok(Trajectory::still(&points));
     }
     let spline = cubic(&lengths, &points, dof, Ends::NotAKnot);
-    Grid::of(&lengths, &spline, dof).retimed(max_velocity, max_acceleration, f64::INFINITY)
+    Grid::fine(&lengths, &spline, dof).retimed(max_velocity, max_acceleration, f64::INFINITY)
 }
 
 /// The fastest trajectory along samples of a path, from rest to rest, at which the tool is nowhere
@@ -90,7 +90,7 @@ pub fn retime_tool(
         return Ok(Trajectory::still(&q[..dof]));
     }
     let most = max_tool_speed * max_tool_speed;
-    Grid::of(&path.knots, &path.terms, dof).retimed(max_velocity, max_acceleration, most)
+    Grid::fine(&path.knots, &path.terms, dof).retimed(max_velocity, max_acceleration, most)
 }
 
 /// The rows that differ from the one before, and the length of the polygon up to each.
@@ -116,20 +116,31 @@ fn polygon(q: &[f64], dof: usize) -> Result<(Vec<f64>, Vec<f64>), Error> {
 }
 
 /// The spline, cut into pieces that are short enough.
-struct Grid {
+pub(super) struct Grid {
     dof: usize,
-    lengths: Vec<f64>,
+    pub(super) lengths: Vec<f64>,
     /// By piece and joint.
     terms: Vec<[f64; TERMS]>,
 }
 
 impl Grid {
-    fn of(knots: &[f64], spline: &[[f64; TERMS]], dof: usize) -> Self {
+    /// Pieces on which the direction of the path turns little, [`LEAST_PIECES`] or more.
+    fn fine(knots: &[f64], spline: &[[f64; TERMS]], dof: usize) -> Self {
         let least = (LEAST_PIECES / (knots.len() - 1)).max(1);
+        Self::of(knots, spline, dof, |terms, length| least.max(parts_of_turn(terms, length)))
+    }
+
+    /// Each piece of a spline, cut into as many parts as `parts` says of its terms and length.
+    pub(super) fn of(
+        knots: &[f64],
+        spline: &[[f64; TERMS]],
+        dof: usize,
+        parts: impl Fn(&[[f64; TERMS]], f64) -> usize,
+    ) -> Self {
         let mut grid = Self { dof, lengths: Vec::new(), terms: Vec::new() };
         for (piece, ends) in knots.windows(2).enumerate() {
             let terms = &spline[piece * dof..][..dof];
-            let parts = least.max(parts_of_turn(terms, ends[1] - ends[0]));
+            let parts = parts(terms, ends[1] - ends[0]);
             let mut begin = 0.0;
             for part in 1..=parts {
                 #[expect(clippy::cast_precision_loss, reason = "counts of parts are small")]
@@ -151,17 +162,17 @@ impl Grid {
     ) -> Result<Trajectory, Error> {
         let pieces: Vec<Piece<'_>> =
             (0..self.lengths.len()).map(|index| self.piece(index)).collect();
-        let paces = paces(&pieces, max_velocity, max_acceleration, most)?;
+        let paces = paces(&pieces, max_velocity, max_acceleration, |_| most)?;
         let timed = self.timed(&paces);
         check_duration(timed.duration()).and_then(|()| timed.checked())
     }
 
-    fn piece(&self, index: usize) -> Piece<'_> {
+    pub(super) fn piece(&self, index: usize) -> Piece<'_> {
         Piece { length: self.lengths[index], terms: &self.terms[index * self.dof..][..self.dof] }
     }
 
     /// The path at these paces: s = sqrt(x) t + (dx/ds) t^2 / 4 on each piece, put into its cubic.
-    fn timed(&self, paces: &[f64]) -> Trajectory {
+    pub(super) fn timed(&self, paces: &[f64]) -> Trajectory {
         let mut knots = Vec::with_capacity(paces.len());
         knots.push(0.0);
         let mut terms = Vec::with_capacity(self.terms.len());
@@ -205,17 +216,17 @@ fn parts_of_turn(terms: &[[f64; TERMS]], length: f64) -> usize {
     (turn / PIECE_TURN).ceil().min(MOST_PARTS) as usize
 }
 
-/// The largest paces at the points of the grid up to `most`, from rest to rest.
-fn paces(
+/// The largest paces at the points of the grid, from rest to rest; no piece exceeds its cap.
+pub(super) fn paces(
     pieces: &[Piece<'_>],
     max_velocity: &[f64],
     max_acceleration: &[f64],
-    most: f64,
+    cap: impl Fn(usize) -> f64,
 ) -> Result<Vec<f64>, Error> {
     let last = pieces.len();
-    let mut bounds = vec![most; last + 1];
+    let mut bounds = vec![f64::INFINITY; last + 1];
     for (index, piece) in pieces.iter().enumerate() {
-        let bound = piece.pace_bound(max_velocity);
+        let bound = piece.pace_bound(max_velocity).min(cap(index));
         bounds[index] = bounds[index].min(bound);
         bounds[index + 1] = bounds[index + 1].min(bound);
     }

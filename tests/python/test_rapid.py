@@ -96,7 +96,7 @@ def test_arrays_of_two_dimensions_are_nested_lists(targets):
 def test_a_module_says_what_it_declares_and_how_it_moves():
     module = rapid.parse(PROGRAM)
     assert (module.name, module.attributes) == ("Weld", ("NOSTEPIN",))
-    assert list(module.data) == ["tGun", "wFix", "p10", "path", "free"]
+    assert list(module.data) == ["tGun", "wFix", "p10", "path", "free", "vSlow"]
     assert module["PATH"][1].trans_mm == (425, 325, 318)
     assert module["free"] is None
     assert "nothing" not in module
@@ -120,11 +120,10 @@ def test_a_module_says_what_it_declares_and_how_it_moves():
     # The tool looks down: 5 mm along its z are 5 mm less.
     np.testing.assert_allclose(line.target.value.trans_mm, (425, 325, 313), atol=1e-6)
     assert [(part.line, part.what) for part in module.skipped] == [
-        (12, "vSlow: type speeddata is not read"),
         (16, "SetDO is not an instruction that is read"),
     ]
     assert rapid.parse(rapid.dump(module)) == module
-    assert repr(module) == 'Module("Weld": 5 data, 2 moves, 2 skipped)'
+    assert repr(module) == 'Module("Weld": 6 data, 2 moves, 1 skipped)'
     with pytest.raises(TypeError):
         hash(module)
 

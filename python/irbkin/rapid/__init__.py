@@ -20,30 +20,63 @@ from pathlib import Path
 from typing import Any
 
 from irbkin import _core
-from irbkin._core import Module, calc_joint_t, calc_moves, calc_rob_t, calc_targets
+from irbkin._core import (
+    Module,
+    RoutineMotion,
+    calc_joint_t,
+    calc_moves,
+    calc_rob_t,
+    calc_targets,
+    motion,
+)
 from irbkin.errors import RapidError
-from irbkin.rapid.program import Argument, Declaration, Move, Skipped, TargetTable
-from irbkin.rapid.records import JointTarget, LoadData, Pose, RobTarget, ToolData, WobjData
+from irbkin.rapid.program import (
+    Argument,
+    Declaration,
+    Finding,
+    MotionMove,
+    MotionSettings,
+    Move,
+    Skipped,
+    TargetTable,
+)
+from irbkin.rapid.records import (
+    JointTarget,
+    LoadData,
+    Pose,
+    RobTarget,
+    SpeedData,
+    ToolData,
+    WobjData,
+    ZoneData,
+)
 
 __all__ = [
     "Argument",
     "Declaration",
+    "Finding",
     "JointTarget",
     "LoadData",
     "Module",
+    "MotionMove",
+    "MotionSettings",
     "Move",
     "Pose",
     "RobTarget",
+    "RoutineMotion",
     "Skipped",
+    "SpeedData",
     "TargetTable",
     "ToolData",
     "WobjData",
+    "ZoneData",
     "calc_joint_t",
     "calc_moves",
     "calc_rob_t",
     "calc_targets",
     "dump",
     "load",
+    "motion",
     "parse",
 ]
 
@@ -97,10 +130,10 @@ def dump(value: Any, name: str = "Data") -> str:
     gives back what was dumped.
 
     Args:
-        value: RobTarget, JointTarget, ToolData, WobjData, Pose, LoadData, Configuration, a number,
-            a tuple of 3 (pos), 4 (orient) or 6 (extjoint) numbers, nested lists of these for an
-            array: the text of the value. A Module, or a mapping of names to values: the text of a
-            module, with tools and work objects as PERS, others as CONST.
+        value: RobTarget, JointTarget, ToolData, WobjData, Pose, LoadData, SpeedData, ZoneData,
+            Configuration, a number, a tuple of 3 (pos), 4 (orient) or 6 (extjoint) numbers, nested
+            lists of these for an array: the text of the value. A Module, or a mapping of names to
+            values: the text of a module, with tools and work objects as PERS, others as CONST.
         name: Name of the module that is made of a mapping.
 
     Raises:

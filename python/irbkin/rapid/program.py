@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from irbkin.rapid.records import JointTarget, RobTarget, ToolData, WobjData
+from irbkin.rapid.records import JointTarget, RobTarget, SpeedData, ToolData, WobjData, ZoneData
 from irbkin.records import ConfigurationBatch, by_value
 
 if TYPE_CHECKING:
@@ -17,7 +17,16 @@ if TYPE_CHECKING:
 
     _Elements: TypeAlias = list[Record] | list["_Elements"]
 
-__all__ = ["Argument", "Declaration", "Move", "Skipped", "TargetTable"]
+__all__ = [
+    "Argument",
+    "Declaration",
+    "Finding",
+    "MotionMove",
+    "MotionSettings",
+    "Move",
+    "Skipped",
+    "TargetTable",
+]
 
 
 class Declaration(NamedTuple):
@@ -49,10 +58,27 @@ class Argument(NamedTuple):
 
     text: str
     """The argument as it is written."""
-    value: RobTarget | JointTarget | ToolData | WobjData | None
+    value: RobTarget | JointTarget | ToolData | WobjData | SpeedData | ZoneData | float | None
     """What it is; None where the declarations do not give it."""
     reason: str | None
     """Why the value is not known, where it is None."""
+
+
+class MotionSettings(NamedTuple):
+    """How a move is made, by the instructions before it in its routine; by what a program starts
+    with where there are none.
+    """
+
+    conf_l: bool = True
+    """ConfL: whether MoveL and MoveC must arrive with the configuration of the target."""
+    conf_j: bool = True
+    """ConfJ: whether MoveJ must arrive with the configuration of the target."""
+    sing_area: Literal["Off", "Wrist", "LockAxis4"] = "Off"
+    """SingArea: what happens near the wrist singularity."""
+    cir_path_mode: Literal[
+        "PathFrame", "ObjectFrame", "CirPointOri", "Wrist45", "Wrist46", "Wrist56"
+    ] = "PathFrame"
+    """CirPathMode: what the orientation does in a MoveC."""
 
 
 class Move(NamedTuple):
@@ -82,6 +108,75 @@ class Move(NamedTuple):
     """Column of the text, from 1."""
     displaced: int | None
     """Line of the instruction that displaces it, which is not followed: PDispOn or PDispSet."""
+    speed_data: Argument
+    r"""The data of `speed`: a SpeedData, with the speed of \V."""
+    zone_data: Argument
+    r"""The data of `zone`: a ZoneData, with the radius of \Z."""
+    time: Argument | None
+    r"""The duration of \T, which replaces the speed [s]."""
+    settings: MotionSettings
+    """What ConfL, ConfJ, SingArea and CirPathMode set before it."""
+
+
+@by_value
+class MotionMove(NamedTuple):
+    """A move of a motion."""
+
+    kind: Literal["MoveJ", "MoveL", "MoveC", "MoveAbsJ"]
+    """"MoveJ", "MoveL", "MoveC" or "MoveAbsJ"."""
+    module_index: int
+    """Its index in `Module.moves`."""
+    line: int
+    """Line of the instruction."""
+    start: float
+    """When it begins [s], halfway through the corner before it."""
+    end: float
+    """When it ends [s], halfway through the corner behind it."""
+    length: float
+    """The length of the tool's way in the work object [m]."""
+    q: npt.NDArray[np.float64] | None
+    """The joints at its target [rad], shape (6,), which is met or passed; None where it is left
+    out.
+    """
+    as_programmed: bool
+    """Whether it is made as it is programmed. Where not, the joints go straight to its target at
+    their limits or, where `q` is None, it is left out.
+    """
+
+
+class Finding(NamedTuple):
+    """What is wrong with a move of a motion."""
+
+    kind: Literal[
+        "unknown",
+        "not_read",
+        "setting",
+        "unreachable",
+        "limit",
+        "path",
+        "flip",
+        "singularity",
+        "configuration",
+        "joint_speed",
+        "duration",
+    ]
+    """What it is; docs/motion.md has the table."""
+    move: int
+    """Index of the move in `RoutineMotion.moves`; for an instruction that is not read, of the next
+    one.
+    """
+    line: int
+    """Line of the instruction."""
+    joint: int | None
+    """The joint that it is about, from 1."""
+    value: float | None
+    """What was found, in SI units: the speed of the joint, its step in a flip, how far outside
+    limits or reach, the distance from a singularity, the duration.
+    """
+    bound: float | None
+    """What the value must not exceed; of a singularity, what it must not be below."""
+    message: str
+    """Line, move and what is wrong, in words."""
 
 
 class Skipped(NamedTuple):

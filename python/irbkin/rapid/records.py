@@ -18,7 +18,16 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
-__all__ = ["JointTarget", "LoadData", "Pose", "RobTarget", "ToolData", "WobjData"]
+__all__ = [
+    "JointTarget",
+    "LoadData",
+    "Pose",
+    "RobTarget",
+    "SpeedData",
+    "ToolData",
+    "WobjData",
+    "ZoneData",
+]
 
 Vector = tuple[float, ...]
 NOT_THERE = 9e9
@@ -40,6 +49,18 @@ def _set_numbers(record: object, field: str, count: int) -> None:
             f"{type(record).__name__}: {field} must be {count} finite numbers, got {value!r}"
         )
     object.__setattr__(record, field, numbers)
+
+
+def _set_number(record: object, field: str) -> None:
+    """Makes a field a finite float."""
+    value: Any = getattr(record, field)
+    try:
+        number = float(value)
+    except (TypeError, ValueError, OverflowError):
+        number = math.nan
+    if not math.isfinite(number):
+        raise RapidError(f"{type(record).__name__}: {field} must be a finite number, got {value!r}")
+    object.__setattr__(record, field, number)
 
 
 def _demand(record: object, field: str, of: type, words: str) -> None:
@@ -173,13 +194,7 @@ class LoadData:
         _set_numbers(self, "cog_mm", 3)
         _set_numbers(self, "aom", 4)
         _set_numbers(self, "inertia", 3)
-        try:
-            mass_kg = float(self.mass_kg)
-        except (TypeError, ValueError, OverflowError):
-            mass_kg = math.nan
-        if not math.isfinite(mass_kg):
-            raise RapidError(f"LoadData: mass_kg must be a finite number, got {self.mass_kg!r}")
-        object.__setattr__(self, "mass_kg", mass_kg)
+        _set_number(self, "mass_kg")
 
 
 @dataclass(frozen=True, slots=True)
@@ -222,6 +237,51 @@ class WobjData:
         _set_pose(self, "oframe")
 
 
+@dataclass(frozen=True, slots=True)
+class SpeedData:
+    """`speeddata`: how fast a move is."""
+
+    v_tcp_mm_s: float
+    """Speed of the tool center point [mm/s]."""
+    v_ori_deg_s: float = 500.0
+    """Speed of its reorientation [deg/s]."""
+    v_leax_mm_s: float = 5000.0
+    """Speed of linear external axes [mm/s]."""
+    v_reax_deg_s: float = 1000.0
+    """Speed of rotating external axes [deg/s]."""
+
+    def __post_init__(self) -> None:
+        for field in ("v_tcp_mm_s", "v_ori_deg_s", "v_leax_mm_s", "v_reax_deg_s"):
+            _set_number(self, field)
+
+
+@dataclass(frozen=True, slots=True)
+class ZoneData:
+    """`zonedata`: how a move ends. The default is fine."""
+
+    finep: bool = True
+    """Whether the robot stops at the target."""
+    pzone_tcp_mm: float = 0.0
+    """Radius around the target in which the tool center point leaves the line [mm]."""
+    pzone_ori_mm: float = 0.0
+    """Radius in which the reorientation leaves its way [mm]."""
+    pzone_eax_mm: float = 0.0
+    """Radius for external axes [mm]."""
+    zone_ori_deg: float = 0.0
+    """Reorientation that is left where it leaves its way [deg]."""
+    zone_leax_mm: float = 0.0
+    """The same for linear external axes [mm]."""
+    zone_reax_deg: float = 0.0
+    """The same for rotating external axes [deg]."""
+
+    def __post_init__(self) -> None:
+        _set_truth(self, "finep")
+        for field in ("pzone_tcp_mm", "pzone_ori_mm", "pzone_eax_mm"):
+            _set_number(self, field)
+        for field in ("zone_ori_deg", "zone_leax_mm", "zone_reax_deg"):
+            _set_number(self, field)
+
+
 def _set_configuration(target: RobTarget) -> None:
     """Makes a target's `robconf` a Configuration of integers."""
     try:
@@ -238,7 +298,17 @@ def _set_configuration(target: RobTarget) -> None:
 
 
 Record = (
-    RobTarget | JointTarget | ToolData | WobjData | Pose | LoadData | Configuration | Vector | float
+    RobTarget
+    | JointTarget
+    | ToolData
+    | WobjData
+    | Pose
+    | LoadData
+    | SpeedData
+    | ZoneData
+    | Configuration
+    | Vector
+    | float
 )
 """The value of a RAPID datum: a record, a tuple of 3 (pos), 4 (orient) or 6 (extjoint) numbers, or
 a number.

@@ -64,8 +64,13 @@ pub enum BreakReason {
 
 impl fmt::Display for Break {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "pose {}: ", self.pose_index)?;
-        match self.reason {
+        write!(f, "pose {}: {}", self.pose_index, self.reason)
+    }
+}
+
+impl fmt::Display for BreakReason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
             BreakReason::Unreachable(explanation) => explanation.fmt(f),
             BreakReason::Jump { joint, by, kinds } => {
                 write!(f, "J{joint} must turn by {:.1} deg on the spot, ", by.to_degrees())?;

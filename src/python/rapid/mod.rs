@@ -2,6 +2,7 @@
 
 mod module;
 mod records;
+mod routine_motion;
 
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
@@ -12,6 +13,7 @@ use self::records::{
     Given, joint_target, read_content, read_joint_target, read_rob_target, read_tool, read_wobj,
     record, rob_target,
 };
+pub(super) use self::routine_motion::{PyRoutineMotion, motion, restore_motion};
 use super::classes;
 use super::configurations::{Fallback, counted};
 use super::errors::{rapid_fault, to_py};

@@ -5,10 +5,14 @@ use pyo3::pybacked::PyBackedStr;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyIterator, PyMappingProxy, PyTuple};
 
-use super::records::{content, joint_target, read_content, record, rob_target};
+use super::records::{
+    content, joint_target, read_content, record, rob_target, speed_data, zone_data,
+};
 use crate::python::classes;
 use crate::python::errors::{rapid_fault, to_py, unknown_name};
-use crate::rapid::{self, Argument, Content, Datum, Module, Move, NewValue, Target, Value};
+use crate::rapid::{
+    self, Argument, Content, Datum, Module, MotionSettings, Move, NewValue, Reason, Target, Value,
+};
 
 /// A RAPID module: its data by name, its moves in order, and what was skipped.
 ///
@@ -280,6 +284,13 @@ fn move_record<'py>(py: Python<'py>, step: &Move) -> PyResult<Bound<'py, PyAny>>
         .as_ref()
         .map(|wobj| argument(py, wobj, |wobj| record(py, &Value::WobjData(wobj.clone()))))
         .transpose()?;
+    let speed = known(py, &step.speed, &step.speed_data, |speed| speed_data(py, speed))?;
+    let zone = known(py, &step.zone, &step.zone_data, |zone| zone_data(py, zone))?;
+    let time = step.time.as_ref().map(|time| {
+        let is_time = |option: &&rapid::MoveOption| option.name.eq_ignore_ascii_case("T");
+        let text = step.options.iter().find(is_time).and_then(|option| option.text.as_deref());
+        known(py, text.unwrap_or_default(), time, |time| Ok(time.into_pyobject(py)?.into_any()))
+    });
     let options = PyTuple::new(py, step.options.iter().map(|option| (&option.name, &option.text)))?;
     let fields = [
         step.kind.name().into_pyobject(py)?.into_any(),
@@ -294,6 +305,10 @@ fn move_record<'py>(py: Python<'py>, step: &Move) -> PyResult<Bound<'py, PyAny>>
         step.line.into_pyobject(py)?.into_any(),
         step.column.into_pyobject(py)?.into_any(),
         step.displaced.into_pyobject(py)?.into_any(),
+        speed,
+        zone,
+        time.transpose()?.into_pyobject(py)?.into_any(),
+        motion_settings(py, step.settings)?,
     ];
     classes::move_class(py)?.call1(PyTuple::new(py, fields)?)
 }
@@ -303,11 +318,27 @@ fn argument<'py, T>(
     argument: &Argument<T>,
     record: impl FnOnce(&T) -> PyResult<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let (value, reason) = match &argument.value {
+    known(py, &argument.text, &argument.value, record)
+}
+
+/// What is written, with its value or the reason why that is not known.
+fn known<'py, T>(
+    py: Python<'py>,
+    text: &str,
+    value: &Result<T, Reason>,
+    record: impl FnOnce(&T) -> PyResult<Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let (value, reason) = match value {
         Ok(value) => (Some(record(value)?), None),
         Err(reason) => (None, Some(reason.to_string())),
     };
-    classes::argument_class(py)?.call1((&argument.text, value, reason))
+    classes::argument_class(py)?.call1((text, value, reason))
+}
+
+fn motion_settings(py: Python<'_>, settings: MotionSettings) -> PyResult<Bound<'_, PyAny>> {
+    let MotionSettings { conf_l, conf_j, sing_area, cir_path_mode } = settings;
+    let fields = (conf_l, conf_j, sing_area.name(), cir_path_mode.name());
+    classes::motion_settings_class(py)?.call1(fields)
 }
 
 /// Names that are spelled like another one, the closest first.

@@ -9,7 +9,8 @@ use crate::python::classes;
 use crate::python::errors::{Fault, rapid_fault, to_py};
 use crate::python::records as python_records;
 use crate::rapid::{
-    Content, JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, ToolData, Value, WobjData,
+    Content, JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, SpeedData, ToolData, Value,
+    WobjData, ZoneData,
 };
 use crate::report::Configuration;
 
@@ -35,6 +36,8 @@ pub(super) fn record<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py,
         Value::ConfData(configuration) => python_records::configuration(py, configuration),
         Value::ExtJoint(numbers) => Ok(PyTuple::new(py, numbers)?.into_any()),
         Value::LoadData(data) => load(py, data),
+        Value::SpeedData(speed) => speed_data(py, speed),
+        Value::ZoneData(zone) => zone_data(py, zone),
         Value::Num(number) => Ok(PyFloat::new(py, *number).into_any()),
     }
 }
@@ -67,6 +70,23 @@ fn load<'py>(py: Python<'py>, load: &LoadData) -> PyResult<Bound<'py, PyAny>> {
         tuple(py, *cog_mm)?,
         tuple(py, *aom)?,
         tuple(py, *inertia)?,
+    ))
+}
+
+pub(super) fn speed_data<'py>(py: Python<'py>, speed: &SpeedData) -> PyResult<Bound<'py, PyAny>> {
+    let SpeedData { v_tcp_mm_s, v_ori_deg_s, v_leax_mm_s, v_reax_deg_s } = *speed;
+    classes::speed_data_class(py)?.call1((v_tcp_mm_s, v_ori_deg_s, v_leax_mm_s, v_reax_deg_s))
+}
+
+pub(super) fn zone_data<'py>(py: Python<'py>, zone: &ZoneData) -> PyResult<Bound<'py, PyAny>> {
+    classes::zone_data_class(py)?.call1((
+        zone.finep,
+        zone.pzone_tcp_mm,
+        zone.pzone_ori_mm,
+        zone.pzone_eax_mm,
+        zone.zone_ori_deg,
+        zone.zone_leax_mm,
+        zone.zone_reax_deg,
     ))
 }
 
@@ -177,6 +197,47 @@ struct WobjFields {
     oframe: PoseFields,
 }
 
+#[derive(FromPyObject)]
+#[expect(clippy::struct_field_names, reason = "RAPID's names")]
+struct SpeedFields {
+    v_tcp_mm_s: f64,
+    v_ori_deg_s: f64,
+    v_leax_mm_s: f64,
+    v_reax_deg_s: f64,
+}
+
+#[derive(FromPyObject)]
+struct ZoneFields {
+    finep: bool,
+    pzone_tcp_mm: f64,
+    pzone_ori_mm: f64,
+    pzone_eax_mm: f64,
+    zone_ori_deg: f64,
+    zone_leax_mm: f64,
+    zone_reax_deg: f64,
+}
+
+impl From<SpeedFields> for SpeedData {
+    fn from(fields: SpeedFields) -> Self {
+        let SpeedFields { v_tcp_mm_s, v_ori_deg_s, v_leax_mm_s, v_reax_deg_s } = fields;
+        Self { v_tcp_mm_s, v_ori_deg_s, v_leax_mm_s, v_reax_deg_s }
+    }
+}
+
+impl From<ZoneFields> for ZoneData {
+    fn from(fields: ZoneFields) -> Self {
+        Self {
+            finep: fields.finep,
+            pzone_tcp_mm: fields.pzone_tcp_mm,
+            pzone_ori_mm: fields.pzone_ori_mm,
+            pzone_eax_mm: fields.pzone_eax_mm,
+            zone_ori_deg: fields.zone_ori_deg,
+            zone_leax_mm: fields.zone_leax_mm,
+            zone_reax_deg: fields.zone_reax_deg,
+        }
+    }
+}
+
 impl From<PoseFields> for RapidPose {
     fn from(PoseFields { trans_mm, rot }: PoseFields) -> Self {
         Self { trans_mm, rot }
@@ -250,6 +311,10 @@ fn read_value(given: &Bound<'_, PyAny>, thing: &str) -> PyResult<Value> {
         Value::Pose(given.extract::<PoseFields>()?.into())
     } else if is(classes::load_data_class(py))? {
         Value::LoadData(given.extract::<LoadFields>()?.into())
+    } else if is(classes::speed_data_class(py))? {
+        Value::SpeedData(given.extract::<SpeedFields>()?.into())
+    } else if is(classes::zone_data_class(py))? {
+        Value::ZoneData(given.extract::<ZoneFields>()?.into())
     } else if is(classes::configuration_class(py))? {
         let whole = given.extract::<[i32; 4]>();
         let [cf1, cf4, cf6, cfx] = whole.map_err(|_| {

@@ -6,7 +6,7 @@ use crate::rapid::data::records::{RapidPose, ToolData, WobjData};
 
 /// A tool and a work object, one of which the robot carries while the other is fixed in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Frames {
+pub(in crate::rapid) enum Frames {
     /// The robot carries the tool.
     Carried { t_flange_tool: Pose, t_world_wobj: Pose },
     /// The tool is stationary: the robot carries the work object.
@@ -15,7 +15,7 @@ pub(super) enum Frames {
 
 impl Frames {
     /// The frames of a tool, by default the robot's own, and a work object, by default the world.
-    pub(super) fn new(
+    pub(in crate::rapid) fn new(
         robot: &Robot<6>,
         tool: Option<&ToolData>,
         wobj: Option<&WobjData>,
@@ -44,7 +44,7 @@ impl Frames {
     }
 
     /// The flange in the world frame, for the tool in the work object.
-    pub(super) fn flange(&self, t_wobj_tool: &Pose) -> Pose {
+    pub(in crate::rapid) fn flange(&self, t_wobj_tool: &Pose) -> Pose {
         match self {
             Self::Carried { t_flange_tool, t_world_wobj } => {
                 t_world_wobj * t_wobj_tool * t_flange_tool.inverse()
@@ -56,7 +56,7 @@ impl Frames {
     }
 
     /// The tool in the work object, for the flange in the world frame.
-    pub(super) fn tool(&self, t_world_flange: &Pose) -> Pose {
+    pub(in crate::rapid) fn tool(&self, t_world_flange: &Pose) -> Pose {
         match self {
             Self::Carried { t_flange_tool, t_world_wobj } => {
                 t_world_wobj.inverse() * t_world_flange * t_flange_tool
@@ -69,7 +69,7 @@ impl Frames {
 }
 
 /// Convert a pose in millimeters to one in meters.
-pub(super) fn pose_in(pose: &RapidPose, field: &'static str) -> Result<Pose, Error> {
+pub(in crate::rapid) fn pose_in(pose: &RapidPose, field: &'static str) -> Result<Pose, Error> {
     pose_from_wxyz(pose.trans_mm.map(|mm| mm / 1e3), pose.rot).map_err(|error| match error {
         Error::InvalidPose(fault) => FrameFault::Pose { field, fault }.into(),
         other => other,
@@ -77,7 +77,7 @@ pub(super) fn pose_in(pose: &RapidPose, field: &'static str) -> Result<Pose, Err
 }
 
 /// Convert a pose in meters to one in millimeters.
-pub(super) fn rapid_pose(pose: &Pose) -> RapidPose {
+pub(in crate::rapid) fn rapid_pose(pose: &Pose) -> RapidPose {
     let (xyz, rot) = pose_to_wxyz(pose);
     RapidPose { trans_mm: xyz.map(|m| m * 1e3), rot }
 }

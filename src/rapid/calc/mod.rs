@@ -1,6 +1,6 @@
 //! Joint angles of targets and targets of joint angles, for single ones and for whole modules.
 
-mod frames;
+pub(super) mod frames;
 pub(super) mod problem;
 pub(super) mod table;
 pub(super) mod target;

@@ -118,8 +118,38 @@ pub fn calc_targets(
     Ok(table.rows)
 }
 
+/// The frames of a move.
+pub(in crate::rapid) fn frames_of(robot: &Robot<6>, step: &Move) -> Result<Frames, Problem> {
+    let Argument { text, value } = &step.tool;
+    let tool = value
+        .as_ref()
+        .map_err(|reason| Problem::Tool { text: text.clone(), reason: reason.clone() })?;
+    let wobj = step.wobj.as_ref().map(|Argument { text, value }| {
+        value
+            .as_ref()
+            .map_err(|reason| Problem::WorkObject { text: text.clone(), reason: reason.clone() })
+    });
+    Frames::new(robot, Some(tool), wobj.transpose()?).map_err(Problem::NotSolved)
+}
+
+/// The joint or linkage that is outside the limits, and the excess.
+pub(in crate::rapid) fn outside(robot: &Robot<6>, q: &[f64; 6]) -> Option<Problem> {
+    let limits = robot.limits();
+    if limits.contains(q) {
+        return None;
+    }
+    let farthest =
+        (0..6).max_by(|a, b| limits.excess(*a, q[*a]).total_cmp(&limits.excess(*b, q[*b])))?;
+    let excess = limits.excess(farthest, q[farthest]);
+    Some(if excess > 0.0 {
+        Problem::OutsideLimits { joint: farthest + 1, excess }
+    } else {
+        Problem::OutsideLinkageLimits { excess: limits.linkage_excess(q) }
+    })
+}
+
 /// The first axis that does not exist, by the joint angles [deg].
-fn absent_axis(robax_deg: &[f64; 6]) -> Option<Problem> {
+pub(in crate::rapid) fn absent_axis(robax_deg: &[f64; 6]) -> Option<Problem> {
     let axis = robax_deg.iter().position(|degrees| degrees.abs() > MOST_DEGREES)?;
     Some(Problem::AbsentAxis { axis: axis + 1, degrees: robax_deg[axis] })
 }
@@ -163,7 +193,7 @@ impl<'a> Table<'a> {
         }
         match argument.value.as_ref().map(read) {
             Ok(Ok(target)) => {
-                let frames = self.frames_of(step);
+                let frames = frames_of(self.robot, step);
                 self.add(kind, text, step.line, &target, frames);
             }
             Ok(Err(joints)) => match absent_axis(&joints) {
@@ -172,20 +202,6 @@ impl<'a> Table<'a> {
             },
             Err(reason) => self.add_problem(kind, text, step.line, Problem::Target(reason.clone())),
         }
-    }
-
-    fn frames_of(&self, step: &Move) -> Result<Frames, Problem> {
-        let Argument { text, value } = &step.tool;
-        let tool = value
-            .as_ref()
-            .map_err(|reason| Problem::Tool { text: text.clone(), reason: reason.clone() })?;
-        let wobj = step.wobj.as_ref().map(|Argument { text, value }| {
-            value.as_ref().map_err(|reason| Problem::WorkObject {
-                text: text.clone(),
-                reason: reason.clone(),
-            })
-        });
-        Frames::new(self.robot, Some(tool), wobj.transpose()?).map_err(Problem::NotSolved)
     }
 
     fn add_problem(&mut self, kind: &'static str, text: String, line: usize, problem: Problem) {
@@ -219,7 +235,7 @@ impl<'a> Table<'a> {
 
     fn add_joints(&mut self, kind: &'static str, text: String, line: usize, q: [f64; 6]) {
         let (configuration, distances) = self.seen(&q);
-        let problem = self.outside(&q);
+        let problem = outside(self.robot, &q);
         self.rows.push(TableRow {
             kind,
             text,
@@ -229,22 +245,6 @@ impl<'a> Table<'a> {
             distances,
             problem,
         });
-    }
-
-    /// The joint or linkage that is outside the limits, and the excess.
-    fn outside(&self, q: &[f64; 6]) -> Option<Problem> {
-        let limits = self.robot.limits();
-        if limits.contains(q) {
-            return None;
-        }
-        let farthest =
-            (0..6).max_by(|a, b| limits.excess(*a, q[*a]).total_cmp(&limits.excess(*b, q[*b])))?;
-        let excess = limits.excess(farthest, q[farthest]);
-        Some(if excess > 0.0 {
-            Problem::OutsideLimits { joint: farthest + 1, excess }
-        } else {
-            Problem::OutsideLinkageLimits { excess: limits.linkage_excess(q) }
-        })
     }
 
     /// The joint angles of a target, and the problem with them, if any.

@@ -79,15 +79,15 @@ pub fn error_name(error: &Error) -> Option<&'static str> {
 }
 
 /// The same robot with the flange as its tool.
-pub(super) fn with_flange(robot: &Robot<6>) -> Result<Robot<6>, Error> {
+pub(in crate::rapid) fn with_flange(robot: &Robot<6>) -> Result<Robot<6>, Error> {
     robot.clone().with_tool(&Pose::identity())
 }
 
 /// The tool in the work object [m].
-pub(super) fn target_pose(target: &RobTarget) -> Result<Pose, Error> {
+pub(in crate::rapid) fn target_pose(target: &RobTarget) -> Result<Pose, Error> {
     pose_in(&RapidPose { trans_mm: target.trans_mm, rot: target.rot }, "robtarget")
 }
 
-pub(super) fn joint_target(q: &[f64; 6], extax: [f64; 6]) -> JointTarget {
+pub(in crate::rapid) fn joint_target(q: &[f64; 6], extax: [f64; 6]) -> JointTarget {
     JointTarget { robax_deg: q.map(f64::to_degrees), extax }
 }

@@ -23,13 +23,17 @@ pub enum DataType {
     ExtJoint,
     /// `loaddata`.
     LoadData,
+    /// `speeddata`.
+    SpeedData,
+    /// `zonedata`.
+    ZoneData,
     /// `num`, and `dnum`, which is read as `num`.
     Num,
 }
 
 impl DataType {
     /// Every type, in the order of the enum.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 13] = [
         Self::RobTarget,
         Self::JointTarget,
         Self::ToolData,
@@ -40,6 +44,8 @@ impl DataType {
         Self::ConfData,
         Self::ExtJoint,
         Self::LoadData,
+        Self::SpeedData,
+        Self::ZoneData,
         Self::Num,
     ];
 
@@ -57,6 +63,8 @@ impl DataType {
             Self::ConfData => "confdata",
             Self::ExtJoint => "extjoint",
             Self::LoadData => "loaddata",
+            Self::SpeedData => "speeddata",
+            Self::ZoneData => "zonedata",
             Self::Num => "num",
         }
     }

@@ -8,5 +8,6 @@ pub(crate) mod moves;
 pub(crate) mod parts;
 pub(crate) mod reason;
 pub(crate) mod records;
+pub(crate) mod settings;
 pub(crate) mod skipped;
 pub(crate) mod value;

@@ -8,6 +8,7 @@ use alloc::vec::Vec;
 
 use super::data_type::DataType;
 use super::moves::Move;
+use super::settings::Setting;
 use super::skipped::Skipped;
 use super::value::Value;
 
@@ -178,6 +179,8 @@ pub struct Module {
     pub(crate) data: Vec<Datum>,
     pub(crate) moves: Vec<Move>,
     pub(crate) skipped: Vec<Skipped>,
+    /// What sets how moves are made.
+    pub(crate) settings: Vec<Setting>,
     /// Data of the module itself by their names in lower case.
     pub(crate) index: BTreeMap<String, usize>,
     /// Names in lower case that the module assigns: of its own data, with those that refer to them,
@@ -256,6 +259,9 @@ impl Module {
         }
         for skipped in &mut self.skipped {
             (skipped.line, skipped.column) = (0, 0);
+        }
+        for setting in &mut self.settings {
+            (setting.line, setting.column) = (0, 0);
         }
         self
     }

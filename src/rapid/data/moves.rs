@@ -4,7 +4,8 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::reason::Reason;
-use super::records::{JointTarget, RobTarget, ToolData, WobjData};
+use super::records::{JointTarget, RobTarget, SpeedData, ToolData, WobjData, ZoneData};
+use super::settings::MotionSettings;
 
 /// How the robot gets to the target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -106,6 +107,15 @@ pub struct Move {
     /// between: the robot does not move to `via` and `target` as written. Joint angles are not
     /// displaced.
     pub displaced: Option<usize>,
+    /// The data of `speed`, with the speed of the tool center point that `\V` gives, or the reason
+    /// why they are unknown.
+    pub speed_data: Result<SpeedData, Reason>,
+    /// The data of `zone`, with the radius that `\Z` gives, or the reason why they are unknown.
+    pub zone_data: Result<ZoneData, Reason>,
+    /// The duration that `\T` gives instead of the speed [s], or the reason why it is unknown.
+    pub time: Option<Result<f64, Reason>>,
+    /// What ConfL, ConfJ, SingArea and CirPathMode set before it in its routine.
+    pub settings: MotionSettings,
 }
 
 impl Move {
@@ -117,6 +127,9 @@ impl Move {
             self.target.value.as_mut().err(),
             self.tool.value.as_mut().err(),
             self.wobj.as_mut().and_then(|wobj| wobj.value.as_mut().err()),
+            self.speed_data.as_mut().err(),
+            self.zone_data.as_mut().err(),
+            self.time.as_mut().and_then(|time| time.as_mut().err()),
         ];
         reasons.into_iter().flatten().for_each(Reason::clear_line);
     }

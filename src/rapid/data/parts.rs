@@ -5,11 +5,13 @@ use core::fmt;
 use alloc::string::String;
 
 use super::literals::{write_number, write_text};
-use super::records::{JointTarget, LoadData, RapidPose, RobTarget, ToolData, WobjData};
+use super::records::{
+    JointTarget, LoadData, RapidPose, RobTarget, SpeedData, ToolData, WobjData, ZoneData,
+};
 use crate::report::Configuration;
 
-/// Most components of a type: those of loaddata.
-const MOST_COMPONENTS: usize = 6;
+/// Most components of a type: those of zonedata.
+const MOST_COMPONENTS: usize = 7;
 
 /// Components with their names, in order.
 type Components<P> = [Option<(&'static str, P)>; MOST_COMPONENTS];
@@ -40,6 +42,8 @@ macro_rules! parts {
             JointTarget(&'v $($mutable)? JointTarget),
             ToolData(&'v $($mutable)? ToolData),
             WobjData(&'v $($mutable)? WobjData),
+            SpeedData(&'v $($mutable)? SpeedData),
+            ZoneData(&'v $($mutable)? ZoneData),
         }
 
         impl<'v> $Part<'v> {
@@ -60,6 +64,8 @@ macro_rules! parts {
                     Self::JointTarget(_) => "jointtarget",
                     Self::ToolData(_) => "tooldata",
                     Self::WobjData(_) => "wobjdata",
+                    Self::SpeedData(_) => "speeddata",
+                    Self::ZoneData(_) => "zonedata",
                 }
             }
 
@@ -132,6 +138,26 @@ macro_rules! parts {
                             ("oframe", Pose(oframe)),
                         ])
                     }
+                    Self::SpeedData(SpeedData {
+                        v_tcp_mm_s,
+                        v_ori_deg_s,
+                        v_leax_mm_s,
+                        v_reax_deg_s,
+                    }) => in_order([
+                        ("v_tcp", Num(v_tcp_mm_s)),
+                        ("v_ori", Num(v_ori_deg_s)),
+                        ("v_leax", Num(v_leax_mm_s)),
+                        ("v_reax", Num(v_reax_deg_s)),
+                    ]),
+                    Self::ZoneData(zone) => in_order([
+                        ("finep", Bool(&$($mutable)? zone.finep)),
+                        ("pzone_tcp", Num(&$($mutable)? zone.pzone_tcp_mm)),
+                        ("pzone_ori", Num(&$($mutable)? zone.pzone_ori_mm)),
+                        ("pzone_eax", Num(&$($mutable)? zone.pzone_eax_mm)),
+                        ("zone_ori", Num(&$($mutable)? zone.zone_ori_deg)),
+                        ("zone_leax", Num(&$($mutable)? zone.zone_leax_mm)),
+                        ("zone_reax", Num(&$($mutable)? zone.zone_reax_deg)),
+                    ]),
                 }
             }
         }
@@ -212,6 +238,8 @@ impl PartMut<'_> {
             (PartMut::JointTarget(to), Part::JointTarget(from)) => to.clone_from(from),
             (PartMut::ToolData(to), Part::ToolData(from)) => to.clone_from(from),
             (PartMut::WobjData(to), Part::WobjData(from)) => to.clone_from(from),
+            (PartMut::SpeedData(to), Part::SpeedData(from)) => to.clone_from(from),
+            (PartMut::ZoneData(to), Part::ZoneData(from)) => to.clone_from(from),
             _ => return false,
         }
         true

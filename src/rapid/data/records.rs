@@ -77,6 +77,38 @@ pub struct WobjData {
     pub oframe: RapidPose,
 }
 
+/// `speeddata`: how fast a move is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpeedData {
+    /// Speed of the tool center point [mm/s].
+    pub v_tcp_mm_s: f64,
+    /// Speed of its reorientation [deg/s].
+    pub v_ori_deg_s: f64,
+    /// Speed of linear external axes [mm/s].
+    pub v_leax_mm_s: f64,
+    /// Speed of rotating external axes [deg/s].
+    pub v_reax_deg_s: f64,
+}
+
+/// `zonedata`: how a move ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ZoneData {
+    /// Whether the robot stops at the target.
+    pub finep: bool,
+    /// Radius around the target in which the tool center point leaves the line [mm].
+    pub pzone_tcp_mm: f64,
+    /// Radius in which the reorientation leaves its way [mm].
+    pub pzone_ori_mm: f64,
+    /// Radius for external axes [mm].
+    pub pzone_eax_mm: f64,
+    /// Reorientation that is left where it leaves its way [deg].
+    pub zone_ori_deg: f64,
+    /// The same for linear external axes [mm].
+    pub zone_leax_mm: f64,
+    /// The same for rotating external axes [deg].
+    pub zone_reax_deg: f64,
+}
+
 impl RapidPose {
     /// No displacement and no rotation.
     pub const IDENTITY: Self = Self { trans_mm: [0.0; 3], rot: [1.0, 0.0, 0.0, 0.0] };

@@ -6,7 +6,9 @@ use alloc::string::String;
 
 use super::data_type::DataType;
 use super::parts::{Part, PartMut};
-use super::records::{JointTarget, LoadData, RapidPose, RobTarget, ToolData, WobjData};
+use super::records::{
+    JointTarget, LoadData, RapidPose, RobTarget, SpeedData, ToolData, WobjData, ZoneData,
+};
 use crate::report::Configuration;
 
 /// A value of any type that is read.
@@ -32,6 +34,10 @@ pub enum Value {
     ExtJoint([f64; 6]),
     /// `loaddata`.
     LoadData(LoadData),
+    /// `speeddata`.
+    SpeedData(SpeedData),
+    /// `zonedata`.
+    ZoneData(ZoneData),
     /// `num` or `dnum`.
     Num(f64),
 }
@@ -51,6 +57,8 @@ impl Value {
             Self::ConfData(_) => DataType::ConfData,
             Self::ExtJoint(_) => DataType::ExtJoint,
             Self::LoadData(_) => DataType::LoadData,
+            Self::SpeedData(_) => DataType::SpeedData,
+            Self::ZoneData(_) => DataType::ZoneData,
             Self::Num(_) => DataType::Num,
         }
     }
@@ -74,6 +82,8 @@ impl Value {
             DataType::ConfData => Self::ConfData(NO_TURNS),
             DataType::ExtJoint => Self::ExtJoint([0.0; 6]),
             DataType::LoadData => Self::LoadData(Record::ZERO),
+            DataType::SpeedData => Self::SpeedData(Record::ZERO),
+            DataType::ZoneData => Self::ZoneData(Record::ZERO),
             DataType::Num => Self::Num(0.0),
         }
     }
@@ -91,6 +101,8 @@ impl Value {
             Self::ConfData(robconf) => Part::ConfData(robconf),
             Self::ExtJoint(numbers) => Part::ExtJoint(numbers),
             Self::LoadData(load) => Part::LoadData(load),
+            Self::SpeedData(speed) => Part::SpeedData(speed),
+            Self::ZoneData(zone) => Part::ZoneData(zone),
             Self::Num(number) => Part::Num(number),
         }
     }
@@ -108,6 +120,8 @@ impl Value {
             Self::ConfData(robconf) => PartMut::ConfData(robconf),
             Self::ExtJoint(numbers) => PartMut::ExtJoint(numbers),
             Self::LoadData(load) => PartMut::LoadData(load),
+            Self::SpeedData(speed) => PartMut::SpeedData(speed),
+            Self::ZoneData(zone) => PartMut::ZoneData(zone),
             Self::Num(number) => PartMut::Num(number),
         }
     }
@@ -171,5 +185,20 @@ records!(
         ufmec: String::new(),
         uframe: ZERO_POSE,
         oframe: ZERO_POSE,
+    };
+    SpeedData in SpeedData from SpeedData {
+        v_tcp_mm_s: 0.0,
+        v_ori_deg_s: 0.0,
+        v_leax_mm_s: 0.0,
+        v_reax_deg_s: 0.0,
+    };
+    ZoneData in ZoneData from ZoneData {
+        finep: false,
+        pzone_tcp_mm: 0.0,
+        pzone_ori_mm: 0.0,
+        pzone_eax_mm: 0.0,
+        zone_ori_deg: 0.0,
+        zone_leax_mm: 0.0,
+        zone_reax_deg: 0.0,
     };
 );

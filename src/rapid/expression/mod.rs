@@ -6,6 +6,7 @@ mod displaced;
 pub(crate) mod evaluate;
 mod functions;
 pub(crate) mod names;
+pub(crate) mod predefined;
 pub(crate) mod reader;
 mod reference;
 pub(crate) mod tree;

@@ -4,8 +4,8 @@ use alloc::borrow::Cow;
 use alloc::string::{String, ToString};
 
 use crate::rapid::data::module::Content;
+use crate::rapid::data::parts::Part;
 use crate::rapid::data::reason::{AssignedBy, Unresolved};
-use crate::rapid::data::value::Value;
 
 /// Looks names up.
 pub(crate) trait Names {
@@ -30,7 +30,8 @@ pub(crate) enum Found<'r> {
         /// Why its value may be different where the program moves.
         cause: Option<Cause<'r>>,
     },
-    Predefined(&'static Value),
+    /// Of RAPID's own data.
+    Predefined(Part<'static>),
     /// Nothing declares it.
     NotHere,
     /// It has no value, for this reason.

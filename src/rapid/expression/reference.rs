@@ -10,7 +10,6 @@ use crate::error::RapidFaultKind;
 use crate::rapid::data::module::Content;
 use crate::rapid::data::parts::{Part, PartMut};
 use crate::rapid::data::reason::{Reason, Unresolved};
-use crate::rapid::data::value::Value;
 
 impl Evaluator<'_, '_> {
     /// Write the value of a name with indices and components to its place.
@@ -23,7 +22,7 @@ impl Evaluator<'_, '_> {
         path: &Path<'_>,
     ) -> Result<(), Stop> {
         let text = || written(self.text, expression);
-        let mut part = self.referred(expression, name, indices)?.part();
+        let mut part = self.referred(expression, name, indices)?;
         for component in components {
             let of = part.type_name();
             part = part.component(component).ok_or_else(|| {
@@ -55,7 +54,7 @@ impl Evaluator<'_, '_> {
         expression: &Expression<'_>,
         name: &str,
         indices: &[Expression<'_>],
-    ) -> Result<&Value, Stop> {
+    ) -> Result<Part<'_>, Stop> {
         let unknown = |why| Err(Stop::Unknown(Reason::Reference { name: name.to_string(), why }));
         let count = |wanted| {
             let (text, found) = (written(self.text, expression), indices.len());
@@ -65,7 +64,7 @@ impl Evaluator<'_, '_> {
             Found::NotHere => return unknown(Unresolved::NotDeclared),
             Found::Unknown(why) => return unknown(why),
             Found::Predefined(_) if !indices.is_empty() => return count(0),
-            Found::Predefined(value) => return Ok(value),
+            Found::Predefined(part) => return Ok(part),
             Found::Datum { can_change: true, .. } if self.constant => {
                 return unknown(Unresolved::CanChange);
             }
@@ -77,12 +76,12 @@ impl Evaluator<'_, '_> {
         match content {
             Content::Uninitialized { .. } => unknown(Unresolved::NoValue),
             Content::Single(_) if !indices.is_empty() => count(0),
-            Content::Single(value) => Ok(value),
+            Content::Single(value) => Ok(value.part()),
             Content::Array { .. } if indices.is_empty() => unknown(Unresolved::WholeArray),
             Content::Array { sizes, .. } if sizes.len() != indices.len() => count(sizes.len()),
             Content::Array { sizes, values } => {
                 let element = values.get(self.element(name, indices, sizes)?);
-                element.map_or_else(|| unknown(Unresolved::NoSuchElement), Ok)
+                element.map_or_else(|| unknown(Unresolved::NoSuchElement), |value| Ok(value.part()))
             }
         }
     }

@@ -31,7 +31,8 @@ impl Module {
         check_names(name.as_deref(), &data, &moves)?;
         data.iter().try_for_each(check_numbers)?;
         let routines = routines(&data, &moves);
-        let (attributes, skipped, index) = (Vec::new(), Vec::new(), BTreeMap::new());
+        let (attributes, skipped, settings) = (Vec::new(), Vec::new(), Vec::new());
+        let index = BTreeMap::new();
         let (assigned, expressions) = (BTreeSet::new(), BTreeMap::new());
         let module = Self {
             name,
@@ -40,6 +41,7 @@ impl Module {
             data,
             moves,
             skipped,
+            settings,
             index,
             assigned,
             expressions,

@@ -10,9 +10,10 @@ use crate::rapid::statements::reader::StatementReader;
 
 /// Read the text of a module, or of declarations and moves without one.
 ///
-/// Names that it does not declare are RAPID's own `tool0`, `wobj0` and `load0`; otherwise they are
-/// looked up in `context`: the data of these modules that are not `LOCAL`, those of the first
-/// module first.
+/// Names that it does not declare are looked up in `context`: the data of these modules that are
+/// not `LOCAL`, those of the first module first. What none declares is RAPID's own: `tool0`,
+/// `wobj0`, `load0`, the speeds `v5` to `v7000` and `vmax`, the zones `fine` and `z0` to `z200`. A
+/// controller's `vmax` is that of its robot; here it is 10 m/s.
 ///
 /// A datum that a statement of the module assigns, wherever the statement is, has no known value in
 /// moves, nor has a datum that refers to it; all others have their declared values there. `name:=`

@@ -9,6 +9,7 @@ use alloc::vec::Vec;
 
 use crate::rapid::data::module::{Content, Datum, Module, Routine, Scope};
 use crate::rapid::data::moves::Move;
+use crate::rapid::data::settings::Setting;
 use crate::rapid::data::skipped::Skipped;
 
 impl fmt::Display for Content {
@@ -120,6 +121,7 @@ enum Item<'m> {
     Datum(&'m Datum, Option<&'m str>),
     Move(&'m Move),
     Skipped(&'m Skipped),
+    Setting(&'m Setting),
     Routine(&'m Routine),
 }
 
@@ -131,6 +133,7 @@ impl Item<'_> {
             Self::Datum(datum, _) => (in_routine, datum.line, datum.column),
             Self::Move(step) => (false, step.line, step.column),
             Self::Skipped(skipped) => (false, skipped.line, skipped.column),
+            Self::Setting(setting) => (false, setting.line, setting.column),
             Self::Routine(routine) => (false, routine.line, routine.column),
         };
         (!first, if line == 0 { usize::MAX } else { line }, column)
@@ -153,6 +156,7 @@ fn items(module: &Module) -> BTreeMap<String, Vec<Item<'_>>> {
         );
     }
     module.skipped.iter().for_each(|skipped| add(skipped.routine.as_ref(), Item::Skipped(skipped)));
+    module.settings.iter().for_each(|it| add(it.routine.as_ref(), Item::Setting(it)));
     module.moves.iter().for_each(|step| add(step.routine.as_ref(), Item::Move(step)));
     module.routines.iter().for_each(|routine| add(None, Item::Routine(routine)));
     for (name, items) in &mut items {
@@ -198,6 +202,7 @@ fn write_item(f: &mut fmt::Formatter<'_>, margin: &str, item: &Item<'_>) -> fmt:
         }
         Item::Move(step) => writeln!(f, "{margin}{step}"),
         Item::Skipped(skipped) => writeln!(f, "{margin}{}", skipped.text),
+        Item::Setting(setting) => writeln!(f, "{margin}{}", setting.text),
         Item::Routine(_) => Ok(()),
     }
 }

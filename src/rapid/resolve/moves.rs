@@ -6,10 +6,15 @@ use super::resolver::Resolver;
 use crate::error::RapidFault;
 use crate::rapid::data::module::{Routine, routine_name};
 use crate::rapid::data::moves::{Argument, Move, MoveKind, Target};
+use crate::rapid::data::reason::Reason;
+use crate::rapid::data::records::{SpeedData, ZoneData};
 use crate::rapid::data::value::Record;
 use crate::rapid::expression::evaluate::{Evaluator, Stop};
 use crate::rapid::expression::tree::Expression;
-use crate::rapid::statements::moves::WrittenMove;
+use crate::rapid::statements::moves::{Replacement, WrittenMove};
+
+/// A value, or the reason why it is unknown.
+type Known<T> = Result<T, Reason>;
 
 impl<'a> Resolver<'a> {
     /// An argument of a move, of a type.
@@ -19,20 +24,55 @@ impl<'a> Resolver<'a> {
         role: &'static str,
         expression: &Expression<'a>,
     ) -> Result<Argument<T>, RapidFault> {
-        let evaluator = Evaluator {
+        let value = known(self.evaluator(step, role).record(expression))?;
+        Ok(Argument { text: self.source(expression), value })
+    }
+
+    /// What evaluates an argument of a move.
+    fn evaluator<'r>(&'r self, step: &WrittenMove<'a>, role: &'static str) -> Evaluator<'r, 'a> {
+        Evaluator {
             text: self.text,
             names: self,
             at: step.at,
             thing: (step.kind.name(), role),
             constant: false,
             at_move: true,
-        };
-        let value = match evaluator.record(expression) {
-            Ok(value) => Ok(value),
-            Err(Stop::Unknown(reason)) => Err(reason),
-            Err(Stop::Fault(fault)) => return Err(fault),
-        };
-        Ok(Argument { text: self.source(expression), value })
+        }
+    }
+
+    /// The number of an option, if the move has it.
+    fn option(
+        &self,
+        step: &WrittenMove<'a>,
+        role: &'static str,
+        option: Option<&Replacement<'a>>,
+    ) -> Result<Option<Result<f64, Reason>>, RapidFault> {
+        match option {
+            None => Ok(None),
+            Some(Replacement::Nothing) => Ok(Some(Err(Reason::Unfinished))),
+            Some(Replacement::Value(number)) => {
+                known(self.evaluator(step, role).number(number)).map(Some)
+            }
+        }
+    }
+
+    /// The speed with `\V`, and the zone with `\Z`.
+    fn speed_and_zone(
+        &self,
+        step: &WrittenMove<'a>,
+        [speed, zone]: [&Expression<'a>; 2],
+    ) -> Result<(Known<SpeedData>, Known<ZoneData>), RapidFault> {
+        let mut speed = known(self.evaluator(step, "speed").record(speed))?;
+        if let Some(velocity) = self.option(step, "\\V", step.overrides.velocity.as_ref())? {
+            speed = speed
+                .and_then(|speed| velocity.map(|v_tcp_mm_s| SpeedData { v_tcp_mm_s, ..speed }));
+        }
+        let mut zone = known(self.evaluator(step, "zone").record(zone))?;
+        if let Some(radius) = self.option(step, "\\Z", step.overrides.zone.as_ref())? {
+            zone =
+                zone.and_then(|zone| radius.map(|pzone_tcp_mm| ZoneData { pzone_tcp_mm, ..zone }));
+        }
+        Ok((speed, zone))
     }
 
     fn source(&self, expression: &Expression<'_>) -> String {
@@ -61,6 +101,8 @@ impl<'a> Resolver<'a> {
             let Argument { text, value } = self.argument(step, "target", target)?;
             Argument { text, value: value.map(Target::RobTarget) }
         };
+        let (speed_data, zone_data) = self.speed_and_zone(step, [speed, zone])?;
+        let time = self.option(step, "\\T", step.overrides.time.as_ref())?;
         Ok(Some(Move {
             kind: step.kind,
             routine: routine_name(routines, step.at.routine),
@@ -78,6 +120,19 @@ impl<'a> Resolver<'a> {
                 .transpose()?,
             options,
             displaced: step.displaced,
+            speed_data,
+            zone_data,
+            time,
+            settings: step.settings,
         }))
+    }
+}
+
+/// A value, or the reason why it is unknown.
+fn known<T>(value: Result<T, Stop>) -> Result<Known<T>, RapidFault> {
+    match value {
+        Ok(value) => Ok(Ok(value)),
+        Err(Stop::Unknown(reason)) => Ok(Err(reason)),
+        Err(Stop::Fault(fault)) => Err(fault),
     }
 }

@@ -7,11 +7,10 @@ use super::assigned::{Causes, found_elsewhere};
 use crate::error::{Names as NamesOf, RapidFault, RapidFaultKind};
 use crate::rapid::data::module::{Module, Storage};
 use crate::rapid::data::reason::{Reason, Unresolved};
-use crate::rapid::data::records::{LoadData, ToolData, WobjData};
-use crate::rapid::data::value::Value;
 use crate::rapid::expression::content::Placed;
 use crate::rapid::expression::evaluate::Stop;
 use crate::rapid::expression::names::{At, Found, Names, lower};
+use crate::rapid::expression::predefined::predefined;
 use crate::rapid::statements::blocks::Blocks;
 use crate::rapid::statements::declarations::Declared;
 use crate::rapid::statements::scopes::{Named, Scopes};
@@ -41,16 +40,13 @@ impl Names for Resolver<'_> {
             Some(Named::Datum(index)) => return self.datum(*index),
             None => {}
         }
-        if let Some(value) = predefined(&lower) {
-            return Found::Predefined(value);
-        }
         match found_elsewhere(&lower, self.context) {
             Some((datum, home)) => Found::Datum {
                 content: &datum.content,
                 can_change: datum.storage != Storage::Const,
                 cause: self.causes.of_other(&lower, home, self.context),
             },
-            None => Found::NotHere,
+            None => predefined(&lower).map_or(Found::NotHere, Found::Predefined),
         }
     }
 }
@@ -128,7 +124,7 @@ impl Resolver<'_> {
 
     /// Record that a datum changes with one of another module, if that changes.
     fn add_cause_elsewhere(&mut self, datum: usize, lower: &str) {
-        let found = found_elsewhere(lower, self.context).filter(|_| predefined(lower).is_none());
+        let found = found_elsewhere(lower, self.context);
         if let Some(cause) =
             found.and_then(|(_, home)| self.causes.of_other(lower, home, self.context))
         {
@@ -160,17 +156,4 @@ enum State {
     New,
     Open,
     Done,
-}
-
-/// RAPID's own data that are read.
-fn predefined(lower: &str) -> Option<&'static Value> {
-    static TOOL0: Value = Value::ToolData(ToolData::TOOL0);
-    static WOBJ0: Value = Value::WobjData(WobjData::WOBJ0);
-    static LOAD0: Value = Value::LoadData(LoadData::LOAD0);
-    match lower {
-        "tool0" => Some(&TOOL0),
-        "wobj0" => Some(&WOBJ0),
-        "load0" => Some(&LOAD0),
-        _ => None,
-    }
 }

@@ -6,6 +6,7 @@ use alloc::string::ToString;
 use super::blocks::begins_another;
 use super::reader::{Assignment, StatementReader};
 use crate::error::RapidFault;
+use crate::rapid::data::settings::{MotionSettings, Setting};
 use crate::rapid::data::skipped::NotRead;
 use crate::rapid::text::skipping::skip_balanced;
 use crate::rapid::text::tokens::{Token, TokenKind};
@@ -104,6 +105,9 @@ impl<'a> StatementReader<'a> {
         if first.is(b'%') && next.is(b'%') {
             return Err(self.tokens.unexpected("the name of a procedure"));
         }
+        if !is_assignment && self.setting(first)? {
+            return Ok(());
+        }
         let assigned = if is_assignment { Some(name) } else { self.written_argument(name)? };
         skip_balanced(&mut self.tokens, |tokens, _| begins_another(tokens))?;
         self.tokens.demand(b';', "a semicolon")?;
@@ -123,6 +127,31 @@ impl<'a> StatementReader<'a> {
             self.written.assignments.push(Assignment { at: self.at(), name, line });
         }
         Ok(())
+    }
+
+    /// Read an instruction that sets how moves are made, whose name is already read. False, with
+    /// nothing read, for another instruction or one that is not as RAPID has it.
+    fn setting(&mut self, first: Token) -> Result<bool, RapidFault> {
+        let name = self.tokens.text_of(first);
+        if !MotionSettings::INSTRUCTIONS.iter().any(|own| own.eq_ignore_ascii_case(name)) {
+            return Ok(false);
+        }
+        let mark = self.tokens.mark();
+        let mut switch = None;
+        if self.tokens.take_if(b'\\')? && self.tokens.peek().kind == TokenKind::Name {
+            let token = self.tokens.take()?;
+            switch = Some(self.tokens.text_of(token));
+        }
+        if !self.tokens.peek().is(b';') || !self.settings.set(name, switch) {
+            self.tokens.rewind(mark);
+            return Ok(false);
+        }
+        self.tokens.take()?;
+        let (line, column) = self.tokens.line_and_column(first.start);
+        let text = self.written.text[first.start..self.tokens.last_end].to_string();
+        let routine = self.current_routine().map(|routine| routine.name.clone());
+        self.written.settings.push(Setting { line, column, routine, text });
+        Ok(true)
     }
 
     /// The name in the argument that an instruction writes to; reads up to it.

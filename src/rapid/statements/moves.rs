@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 
 use crate::error::{RapidFault, RapidFaultKind};
 use crate::rapid::data::moves::{MoveKind, MoveOption};
+use crate::rapid::data::settings::MotionSettings;
 use crate::rapid::expression::names::At;
 use crate::rapid::expression::reader::ExpressionReader;
 use crate::rapid::expression::tree::Expression;
@@ -24,6 +25,35 @@ pub(crate) struct WrittenMove<'a> {
     pub(crate) required: Vec<Expression<'a>>,
     pub(crate) wobj: Option<Expression<'a>>,
     pub(crate) options: Vec<MoveOption>,
+    pub(crate) overrides: Overrides<'a>,
+    pub(crate) settings: MotionSettings,
+}
+
+/// What an option puts in the place of a part of the speed or of the zone.
+pub(crate) enum Replacement<'a> {
+    /// It has no value.
+    Nothing,
+    Value(Expression<'a>),
+}
+
+/// What replaces a part of the speed or of the zone.
+#[derive(Default)]
+pub(crate) struct Overrides<'a> {
+    /// `\V`.
+    pub(crate) velocity: Option<Replacement<'a>>,
+    /// `\T`.
+    pub(crate) time: Option<Replacement<'a>>,
+    /// `\Z`.
+    pub(crate) zone: Option<Replacement<'a>>,
+}
+
+impl<'a> Overrides<'a> {
+    /// The place of an option's value.
+    fn place(&mut self, name: &str) -> Option<&mut Option<Replacement<'a>>> {
+        let places = [("V", &mut self.velocity), ("T", &mut self.time), ("Z", &mut self.zone)];
+        let mut places = places.into_iter();
+        places.find(|(own, _)| own.eq_ignore_ascii_case(name)).map(|(_, place)| place)
+    }
 }
 
 /// Read the arguments of a move up to its semicolon; the instruction's name at byte `start` is
@@ -36,6 +66,7 @@ pub(crate) fn read_move<'a>(
     let (line, column) = tokens.line_and_column(start);
     let (mut required, mut options, mut wobj): (Vec<Expression<'a>>, Vec<MoveOption>, _) =
         (Vec::with_capacity(MOST_ARGUMENTS), Vec::new(), None);
+    let mut overrides = Overrides::default();
     loop {
         // A comma may precede an optional argument too.
         let is_first = required.is_empty() && options.is_empty() && wobj.is_none();
@@ -47,12 +78,15 @@ pub(crate) fn read_move<'a>(
                     wobj = Some(value);
                 }
                 value => {
-                    let text = value.map(|value| tokens.text[value.start..value.end].to_string());
+                    let text = value.as_ref().map(|it| tokens.text[it.start..it.end].to_string());
                     options.push(MoveOption {
                         after: required.len(),
                         name: name.to_string(),
                         text,
                     });
+                    if let Some(place) = overrides.place(name) {
+                        place.get_or_insert(value.map_or(Replacement::Nothing, Replacement::Value));
+                    }
                 }
             }
         } else if !after_comma && tokens.peek().is(b';') {
@@ -84,5 +118,7 @@ pub(crate) fn read_move<'a>(
         required,
         wobj,
         options,
+        overrides,
+        settings: MotionSettings::default(),
     }))
 }

@@ -10,6 +10,7 @@ use super::moves::WrittenMove;
 use super::scopes::{Named, Scopes};
 use crate::error::RapidFault;
 use crate::rapid::data::module::Routine;
+use crate::rapid::data::settings::{MotionSettings, Setting};
 use crate::rapid::data::skipped::{NotRead, Skipped};
 use crate::rapid::expression::content::Placed;
 use crate::rapid::expression::names::At;
@@ -26,6 +27,7 @@ pub(crate) struct Written<'a> {
     pub(crate) contents: Vec<Option<Placed>>,
     pub(crate) moves: Vec<WrittenMove<'a>>,
     pub(crate) skipped: Vec<Skipped>,
+    pub(crate) settings: Vec<Setting>,
     pub(crate) assignments: Vec<Assignment<'a>>,
     pub(crate) scopes: Scopes,
     pub(crate) blocks: Blocks<'a>,
@@ -59,6 +61,8 @@ pub(crate) struct StatementReader<'a> {
     /// Index of the routine, from 1; 0 outside routines.
     pub(super) routine: usize,
     pub(super) displaced_by: DisplacedBy,
+    /// What the instructions of the routine have set.
+    pub(super) settings: MotionSettings,
 }
 
 impl<'a> StatementReader<'a> {
@@ -73,12 +77,14 @@ impl<'a> StatementReader<'a> {
             contents: Vec::new(),
             moves: Vec::new(),
             skipped: Vec::new(),
+            settings: Vec::new(),
             assignments: Vec::new(),
             scopes: Scopes::new(),
             blocks: Blocks::new(),
         };
         let (tokens, displaced_by) = (Tokens::new(text)?, DisplacedBy::default());
-        Ok(Self { tokens, written, stage: Stage::Beginning, routine: 0, displaced_by })
+        let settings = MotionSettings::default();
+        Ok(Self { tokens, written, stage: Stage::Beginning, routine: 0, displaced_by, settings })
     }
 
     /// The position, for looking up names.

@@ -4,7 +4,6 @@ use alloc::format;
 use alloc::string::{String, ToString};
 
 use super::declarations::read_name;
-use super::displaced_by::DisplacedBy;
 use super::reader::StatementReader;
 use super::scopes::{Named, is_placeholder};
 use crate::error::{RapidFault, RapidFaultKind};
@@ -40,7 +39,7 @@ impl StatementReader<'_> {
             column,
         });
         self.routine = self.written.routines.len();
-        self.displaced_by = DisplacedBy::default();
+        (self.displaced_by, self.settings) = Default::default();
         if self.tokens.peek().is(b'(') {
             self.parameters(name)?;
         }
@@ -121,7 +120,7 @@ impl StatementReader<'_> {
             }
         }
         self.routine = 0;
-        self.displaced_by = DisplacedBy::default();
+        (self.displaced_by, self.settings) = Default::default();
         self.tokens.take().map(|_| ())
     }
 }

@@ -213,7 +213,8 @@ impl<'a> StatementReader<'a> {
             return Ok(());
         };
         let (at, displaced) = (self.at(), self.displaced_by.line(kind));
-        self.written.moves.push(WrittenMove { at, displaced, ..step });
+        let settings = self.settings;
+        self.written.moves.push(WrittenMove { at, displaced, settings, ..step });
         Ok(())
     }
 

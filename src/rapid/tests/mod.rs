@@ -4,6 +4,7 @@ mod assigned;
 mod build;
 mod direct;
 mod functions;
+mod motion;
 mod moves;
 mod names;
 mod texts;

@@ -1,0 +1,367 @@
+//! Goes through the moves of a routine in order and follows each of them.
+
+use alloc::vec::Vec;
+
+use super::corner::round_joints;
+use super::finding::FindingKind;
+use super::goal::{Findings, Goal, Place};
+use super::joints::{Conf, joint_line, solved};
+use super::options::MotionOptions;
+use super::samples::{Path, Samples, way};
+use crate::error::Error;
+use crate::kinematics::thresholds::{
+    ELBOW_ZONE, JOINED_MOVES, MOST_REACH, MOST_SAMPLES, SHOULDER_ZONE, WRIST_ZONE,
+};
+use crate::kinematics::{
+    BreakReason, FollowOptions, Pose, Robot, SingularityKind, SingularityMode,
+};
+use crate::paths::corner::{Corner, Rounded};
+use crate::paths::leg::Leg;
+use crate::paths::line::part;
+use crate::paths::{ArcOrientation, Spacing};
+use crate::rapid::calc::frames::Frames;
+use crate::rapid::data::settings::{CirPathMode, SingArea};
+
+/// Least number of steps of a line or an arc with a rounded corner.
+const LEAST_STEPS: usize = 4;
+
+/// What became of a move.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Made {
+    /// The joints at its target, if it is met or passed.
+    pub(super) q: Option<[f64; 6]>,
+    /// Whether it is made as it is programmed.
+    pub(super) as_programmed: bool,
+    /// Whether the corner at its end is rounded.
+    pub(super) is_rounded: bool,
+}
+
+/// The next line or arc, with the corner that leads to it.
+struct Entry {
+    before: Leg,
+    corner: Corner,
+    leg: Leg,
+}
+
+/// Where the robot is.
+struct Here {
+    q: [f64; 6],
+    flange: Pose,
+}
+
+pub(super) struct Drive<'a, 'm> {
+    pub(super) robot: &'a Robot<6>,
+    /// The same robot with the flange as its tool.
+    pub(super) flange: &'a Robot<6>,
+    pub(super) goals: &'a [Goal<'m>],
+    pub(super) options: &'a MotionOptions,
+    pub(super) findings: &'a mut Findings,
+    pub(super) samples: Samples,
+    pub(super) made: Vec<Made>,
+    here: Option<Here>,
+    entry: Option<Entry>,
+    /// Whether the last target was not reached.
+    is_lost: bool,
+}
+
+impl<'a, 'm> Drive<'a, 'm> {
+    /// Go through the moves.
+    pub(super) fn through(
+        [robot, flange]: [&'a Robot<6>; 2],
+        goals: &'a [Goal<'m>],
+        options: &'a MotionOptions,
+        findings: &'a mut Findings,
+    ) -> Result<(Samples, Vec<Made>), Error> {
+        let (samples, made) = (Samples::default(), Vec::with_capacity(goals.len()));
+        let (here, entry, is_lost) = (None, None, false);
+        let mut drive =
+            Self { robot, flange, goals, options, findings, samples, made, here, entry, is_lost };
+        if let Some(start) = options.start {
+            drive.samples.push(start, [0.0; 2]);
+            drive.samples.first = 1;
+            drive.here = Some(Here { q: start, flange: flange.fk(&start) });
+        }
+        for index in 0..goals.len() {
+            let made = drive.make(index)?;
+            drive.made.push(made);
+            drive.samples.ends.push(drive.samples.q.len());
+            let found = drive.samples.q.len();
+            if found > MOST_SAMPLES {
+                #[expect(clippy::cast_precision_loss, reason = "some 1e7")]
+                let [found, most] = [found, MOST_SAMPLES].map(|count| count as f64);
+                return Err(crate::error::MotionFault::TooMany { found, most }.into());
+            }
+        }
+        Ok((drive.samples, drive.made))
+    }
+
+    pub(super) fn found(&mut self, index: usize, kind: FindingKind) {
+        self.findings.add(index, self.goals[index].step, kind);
+    }
+
+    /// The joints at the target of a move; what is wrong with them is found.
+    fn solved(&mut self, index: usize, seed: Option<&[f64; 6]>, conf: Conf) -> Option<[f64; 6]> {
+        let (q, kind) = solved(self.flange, &self.goals[index], seed, conf);
+        if let Some(kind) = kind {
+            self.found(index, kind);
+        }
+        q
+    }
+
+    /// Make a move.
+    fn make(&mut self, index: usize) -> Result<Made, Error> {
+        let goal = &self.goals[index];
+        let entry = self.entry.take();
+        let is_lost = core::mem::replace(&mut self.is_lost, false) || goal.from_unknown;
+        let Some(Here { q: from, flange }) = self.here.take() else {
+            return Ok(self.begin(index));
+        };
+        let here = Here { q: from, flange };
+        if let (true, false, Some(Place::Tool(end, _))) = (goal.is_cartesian(), is_lost, goal.place)
+        {
+            match self.follow(index, &end, &here, entry)? {
+                Ok(made) => return Ok(made),
+                Err(kind) => self.found(index, kind),
+            }
+        }
+        let is_replaced = goal.is_cartesian() || is_lost;
+        let conf = if goal.is_cartesian() { Conf::Quiet } else { goal.conf() };
+        let Some(to) = self.solved(index, Some(&from), conf) else {
+            (self.here, self.is_lost) = (Some(here), true);
+            return Ok(Made::default());
+        };
+        let path = joint_line(self.flange, self.options.turn, &goal.frames, [&from, &to])?;
+        let q = path.q.last().copied().unwrap_or(from);
+        self.append(index, path, !is_replaced);
+        self.here = Some(Here { q, flange: self.flange.fk(&q) });
+        Ok(Made { q: Some(q), as_programmed: !is_replaced, is_rounded: false })
+    }
+
+    /// The motion begins at the target of a move.
+    fn begin(&mut self, index: usize) -> Made {
+        let conf = match self.goals[index].conf() {
+            Conf::Off => Conf::Quiet,
+            conf => conf,
+        };
+        let Some(q) = self.solved(index, None, conf) else {
+            return Made::default();
+        };
+        self.samples.push(q, [0.0; 2]);
+        self.here = Some(Here { q, flange: self.flange.fk(&q) });
+        Made { q: Some(q), as_programmed: true, is_rounded: false }
+    }
+
+    /// Add the samples of a move, with the corner before it rounded in joint space if the last move
+    /// has a zone and its corner is not rounded yet.
+    fn append(&mut self, index: usize, mut path: Path, as_programmed: bool) {
+        if let Some(before) = index.checked_sub(1)
+            && let Some(last) = self.made.get(before).copied()
+            && as_programmed
+            && last.as_programmed
+            && !last.is_rounded
+            && let Some(zone) = self.goals[before].zone
+        {
+            let frames: [&Frames; 2] = [&self.goals[before].frames, &self.goals[index].frames];
+            let is_rounded =
+                round_joints(self.flange, &mut self.samples, zone.position, frames, &mut path);
+            self.made[before].is_rounded = is_rounded;
+        }
+        self.samples.q.append(&mut path.q);
+        self.samples.ways.append(&mut path.ways);
+    }
+
+    /// The line or the arc of a move between two poses of the tool.
+    fn leg(&self, index: usize, start: &Pose, end: &Pose) -> Result<Leg, Error> {
+        let goal = &self.goals[index];
+        let orientation = match goal.step.settings.cir_path_mode {
+            CirPathMode::ObjectFrame => ArcOrientation::Object,
+            CirPathMode::CirPointOri => ArcOrientation::Via,
+            _ => ArcOrientation::Path,
+        };
+        match &goal.via {
+            Some(via) => Leg::arc([start, via, end], orientation),
+            None => Leg::line([start, end], index),
+        }
+    }
+
+    /// The line or the arc after a move, with its rounded corner.
+    fn exit(&self, index: usize, leg: &Leg) -> Option<(Leg, Corner)> {
+        let (goal, next) = (&self.goals[index], self.goals.get(index + 1)?);
+        let zone = goal.zone?;
+        let (Some(Place::Tool(start, _)), Some(Place::Tool(end, _))) = (&goal.place, &next.place)
+        else {
+            return None;
+        };
+        if !next.is_cartesian() || next.from_unknown || next.frames != goal.frames {
+            return None;
+        }
+        let after = self.leg(index + 1, start, end).ok()?;
+        let corner = Corner::new(&zone, leg, &after);
+        (!corner.is_met()).then_some((after, corner))
+    }
+
+    /// Follow a line or an arc; a finding if that is not possible.
+    fn follow(
+        &mut self,
+        index: usize,
+        end: &Pose,
+        here: &Here,
+        entry: Option<Entry>,
+    ) -> Result<Result<Made, FindingKind>, Error> {
+        let goal = &self.goals[index];
+        let (before, leg) = match entry {
+            Some(Entry { before, corner, leg }) => (Some((before, corner)), leg),
+            None => match self.leg(index, &goal.frames.tool(&here.flange), end) {
+                Ok(leg) => (None, leg),
+                Err(error) => return Ok(Err(FindingKind::Path(error))),
+            },
+        };
+        let exit = self.exit(index, &leg);
+        let spacing = Spacing::step(self.options.step, self.options.turn)?;
+        let mut steps = match spacing.steps(&[[leg.length(), leg.angle()]]) {
+            Ok(steps) => steps[0],
+            // No robot reaches both of its ends.
+            Err(error) if leg.length() > 2.0 * MOST_REACH => {
+                return Ok(Err(FindingKind::Path(error)));
+            }
+            Err(error) => return Err(error),
+        };
+        if before.is_some() || exit.is_some() {
+            steps = steps.max(LEAST_STEPS);
+        }
+        let rounded = Rounded {
+            before: before.as_ref().map(|(before, corner)| (before, *corner)),
+            leg: &leg,
+            after: exit.as_ref().map(|(after, corner)| (after, *corner)),
+            index,
+        };
+        let mut poses = Vec::with_capacity(steps + 1);
+        for step in 0..=steps {
+            match rounded.at(part(step, steps.max(1))) {
+                Ok(_) if step == steps && exit.is_none() => poses.push(*end),
+                Ok(pose) => poses.push(pose),
+                Err(error) => return Ok(Err(FindingKind::Path(error))),
+            }
+        }
+        let path = match self.followed(index, here, &poses)? {
+            Ok(path) => path,
+            Err(kind) => return Ok(Err(kind)),
+        };
+        let end = path.q.last().copied().unwrap_or(here.q);
+        let q = self.arrived(index, &end, exit.is_some());
+        let is_rounded = exit.is_some();
+        self.append(index, path, true);
+        let flange = poses.last().map_or(here.flange, |pose| goal.frames.flange(pose));
+        self.here = Some(Here { q: end, flange });
+        self.entry = exit.map(|(after, corner)| Entry { before: leg, corner, leg: after });
+        Ok(Ok(Made { q: Some(q), as_programmed: true, is_rounded }))
+    }
+
+    /// The joints along poses of the tool in the work object, checked.
+    fn followed(
+        &mut self,
+        index: usize,
+        here: &Here,
+        poses: &[Pose],
+    ) -> Result<Result<Path, FindingKind>, Error> {
+        let goal = &self.goals[index];
+        if poses.len() < 2 {
+            return Ok(Ok(Path::default()));
+        }
+        let flanges: Vec<Pose> = poses.iter().map(|pose| goal.frames.flange(pose)).collect();
+        let singularity_mode = match goal.step.settings.sing_area {
+            SingArea::Off => SingularityMode::Through,
+            SingArea::Wrist => SingularityMode::Wrist,
+            SingArea::LockAxis4 => SingularityMode::LockAxis4,
+        };
+        let options = FollowOptions { singularity_mode, ..FollowOptions::default() };
+        let followed = self.flange.follow(&flanges, &here.q, &options)?;
+        let steps = poses.len() - 1;
+        if let Some(first) = followed.breaks.first() {
+            let (part, reason) = (part(first.pose_index, steps), first.reason);
+            return Ok(Err(FindingKind::Break { part, reason }));
+        }
+        let mut path = Path::default();
+        for (sample, q) in followed.q.into_iter().enumerate() {
+            let Some(q) = q else {
+                let reason = BreakReason::Locked;
+                return Ok(Err(FindingKind::Break { part: part(sample, steps), reason }));
+            };
+            if sample > 0 {
+                path.push(q, way(&poses[sample - 1], &poses[sample]));
+            } else if let Some(reason) = apart(&here.q, &q, singularity_mode) {
+                return Ok(Err(FindingKind::Break { part: 0.0, reason }));
+            }
+        }
+        self.check_singularities(index, here, &path);
+        Ok(Ok(path))
+    }
+
+    /// The joints at the target of a line or an arc, and whether they have its configuration.
+    fn arrived(&mut self, index: usize, end: &[f64; 6], is_rounded: bool) -> [f64; 6] {
+        let goal = &self.goals[index];
+        let Some(Place::Tool(pose, wanted)) = goal.place else { return *end };
+        let pose = goal.frames.flange(&pose);
+        let mut q = *end;
+        if is_rounded && let Ok(nearest) = self.flange.ik_nearest(&pose, end, &[1.0; 6]) {
+            q = nearest.q;
+        }
+        if !goal.step.settings.conf_l {
+            return q;
+        }
+        let found = self.flange.configuration(&q).unwrap_or_default();
+        let is_met = || {
+            self.flange
+                .ik_configured(&pose, wanted)
+                .is_ok_and(|solution| apart(&solution.q, &q, SingularityMode::Through).is_none())
+        };
+        if found != wanted && !is_met() {
+            self.found(index, FindingKind::Configuration { found, wanted });
+        }
+        q
+    }
+
+    /// Report the singularities that a line or an arc passes: of each kind the nearest place.
+    fn check_singularities(&mut self, index: usize, here: &Here, path: &Path) {
+        let is_off = self.goals[index].step.settings.sing_area == SingArea::Off;
+        let kinds = [
+            (SingularityKind::WRIST, 1, WRIST_ZONE),
+            (SingularityKind::ELBOW, 2, ELBOW_ZONE),
+            (SingularityKind::SHOULDER, 4, SHOULDER_ZONE),
+        ];
+        let mut nearest = [(f64::INFINITY, 0); 3];
+        let mut last = self.robot.slot_of(&here.q).map(crate::kinematics::Slot::index);
+        for (sample, q) in path.q.iter().enumerate() {
+            let Some(at) = self.robot.singular_distances(q) else { return };
+            let slot = self.robot.slot_of(q).map(crate::kinematics::Slot::index);
+            let crossed = slot.zip(last).map_or(0, |(slot, last)| slot ^ last);
+            last = slot;
+            let distances = [at.wrist, at.elbow, at.shoulder];
+            for ((kind, distance), near) in kinds.iter().zip(distances).zip(&mut nearest) {
+                let distance = if crossed & kind.1 == 0 { distance } else { 0.0 };
+                if distance < near.0 {
+                    *near = (distance, sample + 1);
+                }
+            }
+        }
+        for ((kind, _, bound), (distance, sample)) in kinds.into_iter().zip(nearest) {
+            if distance < bound && (is_off || kind != SingularityKind::WRIST) {
+                let part = part(sample, path.q.len());
+                self.found(index, FindingKind::Singularity { kind, part, distance, bound });
+            }
+        }
+    }
+}
+
+/// The reason if a path does not begin with the joints that the robot has.
+fn apart(from: &[f64; 6], to: &[f64; 6], mode: SingularityMode) -> Option<BreakReason> {
+    let by = |joint: usize| to[joint] - from[joint];
+    let joint = (1..6).fold(0, |most, i| if by(i).abs() > by(most).abs() { i } else { most });
+    if by(joint).abs() <= JOINED_MOVES {
+        return None;
+    }
+    Some(match mode {
+        SingularityMode::LockAxis4 => BreakReason::Locked,
+        _ => BreakReason::Jump { joint: joint + 1, by: by(joint), kinds: SingularityKind::empty() },
+    })
+}

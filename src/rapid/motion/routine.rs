@@ -1,0 +1,208 @@
+//! A routine as one motion.
+
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use super::drive::{Drive, Made};
+use super::finding::{Finding, FindingKind};
+use super::goal::{Findings, Goal};
+use super::options::MotionOptions;
+use super::pace::Pace;
+use super::samples::Samples;
+use super::sequence::{Step, sequence};
+use crate::error::{Error, MotionFault, RapidFault, RapidFaultKind, RoutineFault};
+use crate::kinematics::{Robot, check_seed};
+use crate::paths::Spacing;
+use crate::rapid::calc::target::with_flange;
+use crate::rapid::data::module::Module;
+use crate::rapid::data::moves::{Move, MoveKind};
+use crate::trajectory::Trajectory;
+
+/// The moves of a routine as one motion of the joints, checked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RoutineMotion {
+    /// The routine; `None` for moves outside routines.
+    pub routine: Option<String>,
+    /// The joints over time. Without accelerations they go evenly from sample to sample, and the
+    /// duration is a kinematic lower bound.
+    pub trajectory: Trajectory,
+    /// Times of the samples [s].
+    pub t: Vec<f64>,
+    /// Joint angles of the samples [rad].
+    pub q: Vec<[f64; 6]>,
+    /// The move, by its index in `moves`, that each sample belongs to.
+    pub move_index: Vec<usize>,
+    /// The moves of the routine, in order.
+    pub moves: Vec<MotionMove>,
+    /// What is wrong with moves, in order.
+    pub findings: Vec<Finding>,
+}
+
+/// A move of a motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MotionMove {
+    /// The instruction.
+    pub kind: MoveKind,
+    /// Its index in [`Module::moves`].
+    pub module_index: usize,
+    /// Line of the instruction.
+    pub line: usize,
+    /// When it begins [s], halfway through the corner before it.
+    pub start: f64,
+    /// When it ends [s], halfway through the corner behind it.
+    pub end: f64,
+    /// The length of the tool's way in the work object [m].
+    pub length: f64,
+    /// The joints at its target [rad], which is met or passed; `None` if it is left out.
+    pub q: Option<[f64; 6]>,
+    /// Whether it is made as it is programmed; otherwise the joints go straight to its target at
+    /// their limits or, without `q`, it is left out.
+    pub as_programmed: bool,
+    /// The instruction with its arguments.
+    pub(super) step: Move,
+}
+
+/// The moves of a routine as one motion: `MoveAbsJ`, `MoveJ`, `MoveL` and `MoveC` in order, each
+/// followed, timed and checked (docs/motion.md).
+///
+/// Without a name, the routine is `main` or else the only one that moves. Everything that is wrong
+/// with a move is a finding: an unknown value, a target that cannot be reached, a flip, a
+/// singularity, another configuration than the target's, a joint too fast at the programmed speed.
+/// A line or an arc that cannot be followed is replaced by a joint move to its target; a move whose
+/// target has no joints is left out, and a line after it is replaced in the same way.
+///
+/// # Errors
+///
+/// [`Error::Rapid`] for a routine that does not exist or has no moves, for branches, loops and jumps
+/// around moves, with their line, and if not one move can be made; [`Error::InvalidModel`] for an
+/// arm without configurations; [`Error::InvalidMotion`] for limits or steps that are not positive,
+/// for a robot without velocities if none are given, or for too many samples;
+/// [`Error::InvalidJoints`] for a start that is not finite.
+pub fn motion(
+    robot: &Robot<6>,
+    module: &Module,
+    routine: Option<&str>,
+    options: &MotionOptions,
+) -> Result<RoutineMotion, Error> {
+    robot.counted()?;
+    let max_velocity = checked(robot, options)?;
+    let (routine, steps) = sequence(module, routine)?;
+    let mut findings = Findings { all: Vec::new() };
+    let (goals, indices) = goals(robot, &steps, &mut findings);
+    let flange = with_flange(robot)?;
+    let (samples, made) = Drive::through([robot, &flange], &goals, options, &mut findings)?;
+    if samples.q.is_empty() || made.iter().all(|made| made.q.is_none()) {
+        let finding = findings.all.first().map(Finding::to_string).unwrap_or_default();
+        return Err(RapidFault::nowhere(RapidFaultKind::Routine(RoutineFault::NoMotion {
+            finding,
+        }))
+        .into());
+    }
+    let pace = Pace {
+        samples: &samples,
+        goals: &goals,
+        made: &made,
+        max_velocity: &max_velocity,
+        findings: &mut findings,
+    };
+    let (trajectory, t) = pace.timed(options.max_acceleration.as_ref())?;
+    let moves = moves(&goals, &indices, &samples, &made, &t);
+    let mut move_index = Vec::with_capacity(t.len());
+    for (index, end) in samples.ends.iter().enumerate() {
+        move_index.resize(*end, index);
+    }
+    let mut findings = findings.all;
+    findings.sort_by_key(|finding| finding.move_index);
+    Ok(RoutineMotion { routine, trajectory, t, q: samples.q, move_index, moves, findings })
+}
+
+/// Check the options; the velocities of the joints.
+fn checked(robot: &Robot<6>, options: &MotionOptions) -> Result<[f64; 6], Error> {
+    if let Some(start) = &options.start {
+        check_seed("start", start)?;
+    }
+    Spacing::step(options.step, options.turn)?;
+    for (field, value) in [("step", options.step), ("turn", options.turn)] {
+        if value.is_infinite() {
+            return Err(MotionFault::NotPositive { field, index: None, value }.into());
+        }
+    }
+    let max_velocity = options.max_velocity.or(robot.max_velocity().copied());
+    let max_velocity = max_velocity.ok_or(MotionFault::NoMaxVelocity)?;
+    let given =
+        [("max_velocity", Some(max_velocity)), ("max_acceleration", options.max_acceleration)];
+    for (field, limits) in given {
+        let is_wrong = |limit: &f64| !(*limit > 0.0 && limit.is_finite());
+        if let Some(limits) = limits
+            && let Some(index) = limits.iter().position(is_wrong)
+        {
+            let (index, value) = (Some(index), limits[index]);
+            return Err(MotionFault::NotPositive { field, index, value }.into());
+        }
+    }
+    Ok(max_velocity)
+}
+
+/// The moves with their indices in the module; what is not read is found.
+fn goals<'m>(
+    robot: &Robot<6>,
+    steps: &[Step<'m>],
+    findings: &mut Findings,
+) -> (Vec<Goal<'m>>, Vec<usize>) {
+    let (mut goals, mut indices) = (Vec::with_capacity(steps.len()), Vec::new());
+    let mut from_unknown = false;
+    for step in steps {
+        let move_index = goals.len();
+        match step {
+            Step::Move(index, step) => {
+                let goal = Goal::new(robot, step, move_index, findings);
+                goals.push(Goal { from_unknown: core::mem::take(&mut from_unknown), ..goal });
+                indices.push(*index);
+            }
+            Step::NotRead(skipped) => {
+                let kind = FindingKind::NotRead(skipped.what.clone());
+                let (line, what) = (skipped.line, skipped.text.clone());
+                findings.all.push(Finding { move_index, line, what, kind });
+                from_unknown = true;
+            }
+            Step::Call(skipped, name) => {
+                let kind = FindingKind::Call { name: (*name).to_string() };
+                let (line, what) = (skipped.line, skipped.text.clone());
+                findings.all.push(Finding { move_index, line, what, kind });
+                from_unknown = true;
+            }
+        }
+    }
+    for finding in &mut findings.all {
+        finding.move_index = finding.move_index.min(goals.len().saturating_sub(1));
+    }
+    (goals, indices)
+}
+
+/// The moves with their times.
+fn moves(
+    goals: &[Goal<'_>],
+    indices: &[usize],
+    samples: &Samples,
+    made: &[Made],
+    t: &[f64],
+) -> Vec<MotionMove> {
+    let one = |(index, (goal, made)): (usize, (&Goal<'_>, &Made))| {
+        let own = samples.own(index);
+        // It begins at the last sample of the move before it.
+        let begin = own.start.saturating_sub(1);
+        let ways = &samples.ways[own.start.max(1).min(own.end)..own.end];
+        MotionMove {
+            kind: goal.step.kind,
+            module_index: indices[index],
+            line: goal.step.line,
+            start: t.get(begin).copied().unwrap_or(0.0),
+            end: t.get(own.end.saturating_sub(1)).copied().unwrap_or(0.0),
+            length: ways.iter().fold(0.0, |sum, way| sum + way[0]),
+            q: made.q,
+            as_programmed: made.as_programmed,
+            step: goal.step.clone(),
+        }
+    };
+    goals.iter().zip(made).enumerate().map(one).collect()
+}

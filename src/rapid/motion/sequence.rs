@@ -1,0 +1,206 @@
+//! The moves of a routine in the order in which they are made.
+
+use alloc::collections::BTreeSet;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use crate::error::{Error, RapidFault, RapidFaultKind, RoutineFault};
+use crate::rapid::data::module::Module;
+use crate::rapid::data::moves::Move;
+use crate::rapid::data::settings::MotionSettings;
+use crate::rapid::data::skipped::{NotRead, Skipped};
+
+/// The words that leave a routine or jump inside it.
+const LEAVING: [&str; 7] = ["RETURN", "EXIT", "ExitCycle", "RAISE", "RETRY", "TRYNEXT", "Stop"];
+
+/// A step of a routine.
+pub(super) enum Step<'m> {
+    /// A move, by its index in the module.
+    Move(usize, &'m Move),
+    /// Something that may move the robot, or set how it moves, and is not read.
+    NotRead(&'m Skipped),
+    /// A call of a routine of the module.
+    Call(&'m Skipped, &'m str),
+}
+
+/// An item of a routine, for its place in the text.
+enum Item<'m> {
+    Move(usize, &'m Move),
+    Skipped(&'m Skipped),
+    Setting,
+}
+
+/// The steps of a routine, and its name; `None` for moves outside routines.
+pub(super) fn sequence<'m>(
+    module: &'m Module,
+    routine: Option<&str>,
+) -> Result<(Option<String>, Vec<Step<'m>>), Error> {
+    let name = chosen(module, routine)?;
+    let steps = Walk::default().through(module, items(module, name.as_deref()))?;
+    if steps.iter().any(|step| matches!(step, Step::Move(..))) {
+        return Ok((name, steps));
+    }
+    let routine = name.unwrap_or_else(|| "the text".to_string());
+    Err(fault(0, RoutineFault::NoMoves { routine }))
+}
+
+fn fault(line: usize, fault: RoutineFault) -> Error {
+    let kind = RapidFaultKind::Routine(fault);
+    RapidFault { line, column: usize::from(line > 0), kind }.into()
+}
+
+/// The routine of a name; without one main, or the only one that moves.
+fn chosen(module: &Module, wanted: Option<&str>) -> Result<Option<String>, Error> {
+    let names = || module.routines().iter().map(|routine| routine.name.as_str());
+    if let Some(wanted) = wanted {
+        let found = names().find(|name| name.eq_ignore_ascii_case(wanted));
+        let kind = || RoutineFault::Unknown { name: wanted.into(), known: names().collect() };
+        return found.map(|name| Some(name.into())).ok_or_else(|| fault(0, kind()));
+    }
+    if let Some(main) = names().find(|name| name.eq_ignore_ascii_case("main")) {
+        return Ok(Some(main.into()));
+    }
+    let moving: BTreeSet<Option<&str>> =
+        module.moves().iter().map(|step| step.routine.as_deref()).collect();
+    if moving.is_empty() {
+        return Err(fault(0, RoutineFault::NoMoves { routine: "the module".into() }));
+    }
+    if let (Some(only), 1) = (moving.first(), moving.len()) {
+        return Ok(only.map(String::from));
+    }
+    Err(fault(0, RoutineFault::Which { moving: moving.into_iter().flatten().collect() }))
+}
+
+/// The items of a routine in the order of the text.
+fn items<'m>(module: &'m Module, name: Option<&str>) -> Vec<(usize, usize, Item<'m>)> {
+    let is_here = |routine: &Option<String>| match (routine.as_deref(), name) {
+        (Some(routine), Some(name)) => routine.eq_ignore_ascii_case(name),
+        (None, None) => true,
+        _ => false,
+    };
+    let moves = module.moves().iter().enumerate();
+    let moves = moves.filter(|(_, step)| is_here(&step.routine));
+    let moves = moves.map(|(index, step)| (step.line, step.column, Item::Move(index, step)));
+    let skipped = module.skipped().iter().filter(|skipped| is_here(&skipped.routine));
+    let skipped = skipped.map(|it| (it.line, it.column, Item::Skipped(it)));
+    let settings = module.settings.iter().filter(|setting| is_here(&setting.routine));
+    let settings = settings.map(|it| (it.line, it.column, Item::Setting));
+    let mut items: Vec<_> = moves.chain(skipped).chain(settings).collect();
+    items.sort_by_key(|(line, column, _)| (*line, *column));
+    items
+}
+
+/// The blocks that are open.
+#[derive(Default)]
+struct Walk<'m> {
+    /// Line and word of the beginning of each.
+    open: Vec<(usize, &'m str)>,
+    /// Line of an IF without THEN, which the next item belongs to.
+    single: Option<usize>,
+}
+
+impl<'m> Walk<'m> {
+    fn through(
+        mut self,
+        module: &'m Module,
+        items: Vec<(usize, usize, Item<'m>)>,
+    ) -> Result<Vec<Step<'m>>, Error> {
+        let moving = moving(module);
+        let mut steps = Vec::with_capacity(items.len());
+        for (_, _, item) in items {
+            let skipped = match item {
+                Item::Move(index, step) => {
+                    self.check_certain()?;
+                    steps.push(Step::Move(index, step));
+                    continue;
+                }
+                Item::Setting => {
+                    self.check_certain()?;
+                    continue;
+                }
+                Item::Skipped(skipped) => skipped,
+            };
+            match &skipped.what {
+                NotRead::Flow { word } => {
+                    if !self.flow(skipped, word) {
+                        break;
+                    }
+                    continue;
+                }
+                NotRead::Motion { .. } | NotRead::Unfinished { .. } => {
+                    self.check_certain()?;
+                    steps.push(Step::NotRead(skipped));
+                }
+                NotRead::Instruction { name } if name.eq_ignore_ascii_case("GOTO") => {
+                    let kind = RoutineFault::Branch { word: "GOTO".into() };
+                    return Err(fault(skipped.line, kind));
+                }
+                NotRead::Instruction { name } if is_one_of(name, &LEAVING) => {
+                    self.check_certain()?;
+                    break;
+                }
+                NotRead::Instruction { name } if is_one_of(name, &MotionSettings::INSTRUCTIONS) => {
+                    self.check_certain()?;
+                    steps.push(Step::NotRead(skipped));
+                }
+                NotRead::Instruction { name } if moving.contains(&name.to_lowercase()) => {
+                    self.check_certain()?;
+                    steps.push(Step::Call(skipped, name));
+                }
+                _ => {}
+            }
+            self.single = None;
+        }
+        Ok(steps)
+    }
+
+    /// Refuse what a branch or a loop decides on.
+    fn check_certain(&self) -> Result<(), Error> {
+        let single = self.single.map(|line| (line, "IF"));
+        match single.or_else(|| self.open.last().copied()) {
+            None => Ok(()),
+            Some((line, word)) => Err(fault(line, RoutineFault::Branch { word: word.into() })),
+        }
+    }
+
+    /// Open or close a block; false where a handler begins, which is not part of the motion.
+    fn flow(&mut self, skipped: &'m Skipped, word: &'m str) -> bool {
+        self.single = None;
+        match word {
+            "IF" if !ends_with_then(&skipped.text) => self.single = Some(skipped.line),
+            "IF" | "FOR" | "WHILE" | "TEST" => self.open.push((skipped.line, word)),
+            "ENDIF" | "ENDFOR" | "ENDWHILE" | "ENDTEST" => {
+                self.open.pop();
+            }
+            "ERROR" | "UNDO" | "BACKWARD" => return false,
+            _ => {}
+        }
+        true
+    }
+}
+
+fn is_one_of(name: &str, names: &[&str]) -> bool {
+    names.iter().any(|own| own.eq_ignore_ascii_case(name))
+}
+
+fn ends_with_then(text: &str) -> bool {
+    let start = text.len().saturating_sub("THEN".len());
+    text.get(start..).is_some_and(|end| end.eq_ignore_ascii_case("THEN"))
+}
+
+/// The names in lower case of routines with moves, or with calls or instructions that may move.
+fn moving(module: &Module) -> BTreeSet<String> {
+    let of_moves = module.moves().iter().filter_map(|step| step.routine.as_deref());
+    let mut moving: BTreeSet<&str> = of_moves.collect();
+    let routines: BTreeSet<String> =
+        module.routines().iter().map(|routine| routine.name.to_lowercase()).collect();
+    moving.extend(module.skipped().iter().filter_map(|skipped| {
+        let may_move = match &skipped.what {
+            NotRead::Motion { .. } | NotRead::Unfinished { .. } => true,
+            NotRead::Instruction { name } => routines.contains(&name.to_lowercase()),
+            _ => false,
+        };
+        skipped.routine.as_deref().filter(|_| may_move)
+    }));
+    moving.into_iter().map(str::to_lowercase).collect()
+}
