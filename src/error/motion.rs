@@ -183,6 +183,7 @@ pub enum MotionFault {
 }
 
 impl fmt::Display for MotionFault {
+    #[expect(clippy::too_many_lines, reason = "one message a fault")]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::NotFinite { field, index, value } => {
