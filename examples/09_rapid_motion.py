@@ -25,8 +25,8 @@ def main() -> None:
     motion = rapid.motion(robot, module)
     print(f"{motion.routine}: at least {motion.duration:.3f} s, {len(motion)} samples")
     show(motion)
-    timed = rapid.motion(robot, module, max_acceleration=5 * robot.max_velocity)
-    print(f"with accelerations of 5 x the velocities: {timed.duration:.3f} s")
+    timed = rapid.motion(robot, module, max_acceleration=10.0)
+    print(f"with accelerations of at most 10 rad/s^2: {timed.duration:.3f} s")
     print(rapid.dump(motion.to_module("PickAndPlaceJoints"))[:400])
 
 

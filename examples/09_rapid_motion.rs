@@ -22,10 +22,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for finding in &motion.findings {
         println!("  {}: {finding}", finding.kind.name());
     }
-    let max_acceleration = robot.max_velocity().map(|velocity| velocity.map(|limit| 5.0 * limit));
-    let options = MotionOptions { max_acceleration, ..MotionOptions::default() };
+    let options = MotionOptions { max_acceleration: Some([10.0; 6]), ..MotionOptions::default() };
     let timed = rapid::motion(&robot, &module, None, &options)?;
-    println!("with accelerations of 5 x the velocities: {:.3} s", timed.trajectory.duration());
+    println!("with accelerations of at most 10 rad/s^2: {:.3} s", timed.trajectory.duration());
     println!("{}", motion.to_module("PickAndPlaceJoints")?);
     Ok(())
 }

@@ -175,3 +175,48 @@ fn zones_are_those_of_abb() {
     assert_eq!(Zone::named("fine"), Some(Zone::FINE));
     assert_eq!(Zone::named("z7"), None);
 }
+
+/// A line, then an arc, with a zone: the path goes on in its direction where the zone begins
+/// and where it ends, and is inside the zone halfway.
+#[cfg(feature = "rapid")]
+#[test]
+fn a_corner_between_a_line_and_an_arc_has_no_kink() {
+    use super::corner::{Corner, Rounded};
+    use super::leg::Leg;
+    let mut rng = Rng::new(31);
+    for _ in 0..200 {
+        let [a, b, c, d] = [(); 4].map(|()| random(&mut rng));
+        let legs = [
+            Leg::line([&a, &b], 1).unwrap(),
+            Leg::arc([&b, &c, &d], ArcOrientation::Object).unwrap(),
+        ];
+        let zone = Zone::radius(rng.between(0.01, 0.1));
+        let corner = Corner::new(&zone, &legs[0], &legs[1]);
+        let before =
+            Rounded { before: None, leg: &legs[0], after: Some((&legs[1], corner)), index: 1 };
+        let after =
+            Rounded { before: Some((&legs[0], corner)), leg: &legs[1], after: None, index: 2 };
+        // The place at a distance from the corner, negative before it.
+        let at = |distance: f64| {
+            let pose = if distance < 0.0 {
+                before.at(1.0 + distance / legs[0].length())
+            } else {
+                after.at(distance / legs[1].length())
+            };
+            pose.unwrap().translation.vector
+        };
+        let h = 1e-6;
+        let direction = |from: f64, to: f64| (at(to) - at(from)).normalize();
+        let radius = zone.position.min(0.5 * legs[0].length().min(legs[1].length()));
+        for place in [-radius, radius] {
+            let [behind, ahead] =
+                [direction(place - 2.0 * h, place - h), direction(place + h, place + 2.0 * h)];
+            // Chords next to the place, 3 h apart: the curvature of the cubic at its ends is at most
+            // 3 / radius, as its inner points are 2 / 3 radius from them.
+            let bend = (ahead - behind).norm();
+            assert!(bend < 2.0 * 3.0 * h * 3.0 / radius, "{place} {bend}");
+        }
+        assert!((at(-radius) - legs[0].position(1.0 - radius / legs[0].length())).norm() < 1e-12);
+        assert!((at(0.0) - b.translation.vector).norm() < radius);
+    }
+}

@@ -296,6 +296,20 @@ def test_accelerations_are_kept_and_take_time():
     assert late.findings[-1].bound == 0.7
 
 
+def test_the_robot_rests_before_a_move_that_is_replaced():
+    behind = target((-700, -200, 600), conf=(-2, 0, -2, 0))
+    motion = moved(
+        f"ConfL\\Off;\nMoveJ {target((900, 200, 600))},v1000,fine,t;\n"
+        f"MoveL {target((700, 200, 600))},v100,z20,t;\nMoveL {behind},v1000,fine,t;",
+        max_acceleration=5.0,
+    )
+    assert kinds(motion) == ["limit"]
+    assert [step.as_programmed for step in motion.moves] == [True, True, True, False]
+    corner = np.flatnonzero(motion.move_index == 2)[-1]
+    np.testing.assert_allclose(motion.trajectory.dq[corner], 0, atol=1e-9)
+    assert (motion.trajectory.peaks().acceleration <= 5 * (1 + 1e-9)).all()
+
+
 def test_what_is_not_known_is_found():
     motion = moved(
         f"MoveJ *,v1000,z10,t;\nMoveL {target(A)},vJob,zJob,t;\n"

@@ -4,6 +4,7 @@
 use super::joints::mixed;
 use super::samples::{Path, Samples, Way, way};
 use crate::kinematics::Robot;
+use crate::kinematics::thresholds::STEP_ROUNDING;
 use crate::paths::line::part;
 use crate::rapid::calc::frames::Frames;
 
@@ -84,7 +85,10 @@ pub(super) fn round_joints(
     // The samples of the last move up to the corner, the entry, and half of the corner.
     samples.q.truncate(end - kept);
     samples.ways.truncate(end - kept);
-    samples.push(entry, entry_way);
+    // Unless the zone begins at a sample.
+    if entry_part < 1.0 - STEP_ROUNDING {
+        samples.push(entry, entry_way);
+    }
     let mut pose = before.tool(&flange.fk(&entry));
     for row in &halves[0] {
         let next = before.tool(&flange.fk(row));
@@ -101,7 +105,9 @@ pub(super) fn round_joints(
     }
     for index in left - 1..path.q.len() {
         let share = if index == left - 1 { 1.0 - exit_part } else { 1.0 };
-        rounded.push(path.q[index], path.ways[index].map(|size| size * share));
+        if share > STEP_ROUNDING {
+            rounded.push(path.q[index], path.ways[index].map(|size| size * share));
+        }
     }
     *path = rounded;
     true

@@ -113,10 +113,7 @@ impl<'a, 'm> Drive<'a, 'm> {
         let goal = &self.goals[index];
         let entry = self.entry.take();
         let is_lost = core::mem::replace(&mut self.is_lost, false) || goal.from_unknown;
-        let Some(Here { q: from, flange }) = self.here.take() else {
-            return Ok(self.begin(index));
-        };
-        let here = Here { q: from, flange };
+        let Some(here) = self.here.take() else { return Ok(self.begin(index)) };
         if let (true, false, Some(Place::Tool(end, _))) = (goal.is_cartesian(), is_lost, goal.place)
         {
             match self.follow(index, &end, &here, entry)? {
@@ -126,12 +123,12 @@ impl<'a, 'm> Drive<'a, 'm> {
         }
         let is_replaced = goal.is_cartesian() || is_lost;
         let conf = if goal.is_cartesian() { Conf::Quiet } else { goal.conf() };
-        let Some(to) = self.solved(index, Some(&from), conf) else {
+        let Some(to) = self.solved(index, Some(&here.q), conf) else {
             (self.here, self.is_lost) = (Some(here), true);
             return Ok(Made::default());
         };
-        let path = joint_line(self.flange, self.options.turn, &goal.frames, [&from, &to])?;
-        let q = path.q.last().copied().unwrap_or(from);
+        let path = joint_line(self.flange, self.options.turn, &goal.frames, [&here.q, &to])?;
+        let q = path.q.last().copied().unwrap_or(here.q);
         self.append(index, path, !is_replaced);
         self.here = Some(Here { q, flange: self.flange.fk(&q) });
         Ok(Made { q: Some(q), as_programmed: !is_replaced, is_rounded: false })

@@ -169,8 +169,10 @@ impl Pace<'_, '_> {
         let mut motion = evenly(&[0.0], &q[..1]);
         let mut begin = 0;
         for (index, goal) in self.goals.iter().enumerate() {
-            let (end, is_last) = (self.samples.ends[index], index + 1 == self.goals.len());
-            let goes_on = self.made[index].is_rounded && !goal.stops && !is_last;
+            let end = self.samples.ends[index];
+            let next = self.made.get(index + 1);
+            let is_smooth = self.made[index].is_rounded && !goal.stops;
+            let goes_on = is_smooth && next.is_some_and(|next| next.as_programmed);
             if goes_on || end <= begin + 1 {
                 continue;
             }
