@@ -9,7 +9,9 @@ mod sets;
 use std::f64::consts::FRAC_PI_2;
 
 use crate::common::{Rng, asked_set, reach_of};
-use irbkin::{CatalogGeometry, Follower, JointLimits, Pose, Robot, Solution, catalog, thresholds};
+use irbkin::{
+    CatalogGeometry, Follower, JointLimits, Pose, Robot, Solution, Status, catalog, thresholds,
+};
 use sets::{Arm, DISTANCES, KINDS, Kind, random_frame};
 
 fn poses() -> usize {
@@ -277,6 +279,61 @@ fn a_lateral_offset() {
 #[test]
 fn universal_robots() {
     check(&["UR3", "UR5e", "UR10e"]);
+}
+
+/// A pose of a UR, made by joints near wrist, elbow and shoulder inside narrow limits: the limits
+/// leave a degree or two of a self-motion that no solution of the pose names.
+#[test]
+fn a_narrow_self_motion_of_an_undetermined_plane_is_found() {
+    let q = [-0.991964114, 0.0, 1e-9, -0.735444971, -1e-9, 3.175019999];
+    let low = [-0.9922312, 0.0, -0.0807124, -0.9254962, -0.2312294, 3.1735635];
+    let high = [-0.9752256, 0.0, 0.1836233, -0.6632307, 0.026145, 3.2017039];
+    let folded =
+        [6.002248552, 1.4790318388222463, -1e-8, -0.346564099, 3.141592663589793, -5.321067907];
+    let [folded_low, folded_high] = [
+        [5.8807318, 1.4636816, -0.2198838, -0.5268885, 2.9122368, -5.4174296],
+        [6.1188081, 1.5289721, 0.0292006, -0.3432221, 3.1729144, -5.2762266],
+    ];
+    for (name, q, low, high) in [
+        ("UR3", with(q, 1, 1.4483195419713675), with(low, 1, 1.4404163), with(high, 1, 1.6102139)),
+        ("UR5e", with(q, 1, 1.4873668987841953), with(low, 1, 1.4794637), with(high, 1, 1.6492613)),
+        ("UR10e", folded, folded_low, folded_high),
+    ] {
+        let limits = std::array::from_fn(|joint| [low[joint], high[joint]]);
+        let robot = Robot::<6>::named(name).unwrap();
+        let robot = robot.with_limits(JointLimits::new(limits).unwrap());
+        let pose = robot.fk(&q);
+        let solutions = robot.ik(&pose).unwrap();
+        assert!(solutions.iter().any(Solution::is_within_limits), "{name}: {solutions:?}");
+        for off in [0.2, -1.0, 2.0] {
+            let found = robot.ik_nearest(&pose, &q.map(|angle| angle + off), &[1.0; 6]).unwrap();
+            assert!(robot.limits().contains(&found.q) && met(&robot, &pose, &found.q), "{found:?}");
+        }
+    }
+}
+
+fn with(mut q: [f64; 6], joint: usize, angle: f64) -> [f64; 6] {
+    q[joint] = angle;
+    q
+}
+
+/// Next to the cylinder about axis 1 the wrist determines the plane of the arm to a root of its
+/// position: an arm from beyond reach by less than the tolerance stands for the other shoulder.
+#[test]
+fn an_arm_from_beyond_reach_is_not_a_second_shoulder() {
+    let q = [0.466465782, 1.6321143959982511, -1e-7, -4.123301488, 4.988790265958405, -1.225493932];
+    let robot = Robot::<6>::named("UR10e").unwrap().with_limits(JointLimits::UNLIMITED);
+    let pose = robot.fk(&q);
+    let solutions = robot.ik(&pose).unwrap();
+    for solution in &solutions {
+        assert!(met(&robot, &pose, &solution.q), "{solution:?}");
+    }
+    let merged = Status::SHOULDER | Status::MERGED;
+    assert!(solutions.slot(1).is_none() && solutions.status()[1].contains(merged));
+    for off in [0.0, 0.2, -1.0] {
+        let found = robot.ik_nearest(&pose, &q.map(|angle| angle + off), &[1.0; 6]).unwrap();
+        assert!(met(&robot, &pose, &found.q), "{found:?}");
+    }
 }
 
 /// Also where axes 1, 4 and 6 are within a hundredth of a degree of the edge of a quarter turn.

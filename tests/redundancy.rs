@@ -266,6 +266,30 @@ fn at_pairs_of_singularities_nearest_is_never_farther_than_the_known_joints() {
     }
 }
 
+/// Where the curve of self-motion nearly crosses itself, each of its branches has a nearest point.
+/// The second one is past a bend that a step of the descent skips.
+#[test]
+fn both_branches_of_a_near_crossing_are_searched() {
+    let arm = &arms()[1];
+    let cases = [
+        (
+            [-1.7010573, 0.5343285, 0.6598286, -2.6739607, 1.5708024, 8.5361e-5, -1.8453144],
+            [-1.7672549, 0.4551843, 0.6530477, -2.6463831, 1.4774713, 0.0575711, -1.9379571],
+        ),
+        (
+            [0.7081453, -2.4717117, 1.6090123, -2.0369784, 1.5449267, -0.0042728, -0.195416],
+            [0.6626271, -2.4435631, 1.5764817, -2.0653265, 1.4772378, 0.0592163, -0.2932272],
+        ),
+    ];
+    for (q, seed) in cases {
+        let pose = arm.robot.fk(&q);
+        let nearest = arm.robot.ik_nearest(&pose, &seed, &WEIGHTS).unwrap();
+        assert!(arm.robot.residual(&nearest.q, &pose).largest() <= MEETS);
+        let farther = distance(&nearest.q, &seed) - distance(&q, &seed);
+        assert!(farther <= 0.0, "{farther:e} {nearest:?}");
+    }
+}
+
 /// The pose of joints summed in another way than the robot does: both are a rounding off.
 fn other_rounding(robot: &Robot<7>, q: &[f64; 7]) -> Pose {
     let turned = Pose::rotation(nalgebra::Vector3::new(0.3, -0.2, 0.5));

@@ -112,6 +112,12 @@ pub(crate) const LARGEST_CURVE_STEP: f64 = 0.2;
 /// the rounding of a cost.
 pub(crate) const LEAST_CURVE_STEP: f64 = 1e-8;
 
+/// How near a curve of self-motion is to crossing itself where its other branch is searched: the
+/// least singular value of the Jacobian, relative to the greatest [1], and the distance from the
+/// singularity of the six other joints [rad, m]. Farther away, the samples of joint 7 tell the
+/// branches apart.
+pub(crate) const NEAR_CROSSING: f64 = 0.05;
+
 /// Largest difference of the two sides of an edge of joint 7, relative to their size, at which they
 /// touch [1]: the rounding of a double zero, with a margin. An angle that is tried in vain costs
 /// one solve.

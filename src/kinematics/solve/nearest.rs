@@ -270,12 +270,7 @@ where
             return Ok(());
         }
         self.look_at_wrist(solution);
-        let arm = self.robot.solver().arm();
-        if arm.spherical_wrist().is_none()
-            && (self.must_meet() || solution.singularities().contains(SingularityKind::WRIST))
-            && arm.sin_5(&solution.q).is_some_and(|sin_5| sin_5.abs() <= UNCERTAIN_PLANE_SIN)
-            && self.is_first_of(solution, 0)
-        {
+        if self.has_uncertain_plane(solution) && self.is_first_of(solution, 0) {
             self.search_uncertain_plane(solution)?;
         }
         for free in self.self_motions_of(solution).into_iter().flatten() {
@@ -300,7 +295,9 @@ where
     fn self_motions_of(&self, solution: &Solution<N>) -> [Option<FreeJoint>; 3] {
         let named = solution.free_joint.filter(|free| free.partner().is_none());
         if self.robot.solver().arm().spherical_wrist().is_none() {
-            return [named, None, None];
+            let parallel = Some(FreeJoint::Parallel);
+            let hidden = self.has_uncertain_plane(solution) && named != parallel;
+            return [named, parallel.filter(|_| hidden), None];
         }
         let hidden = |kind: SingularityKind, free: FreeJoint| {
             (solution.singularities().contains(kind) && named != Some(free)).then_some(free)
@@ -310,6 +307,15 @@ where
             hidden(SingularityKind::SHOULDER, FreeJoint::Base),
             hidden(SingularityKind::ELBOW, self.upper()),
         ]
+    }
+
+    /// Whether an undetermined plane of the arm may leave joint 6 of three parallel axes
+    /// undetermined.
+    fn has_uncertain_plane(&self, solution: &Solution<N>) -> bool {
+        let arm = self.robot.solver().arm();
+        arm.spherical_wrist().is_none()
+            && (self.must_meet() || solution.singularities().contains(SingularityKind::WRIST))
+            && arm.sin_5(&solution.q).is_some_and(|sin_5| sin_5.abs() <= UNCERTAIN_PLANE_SIN)
     }
 
     /// The free joint of an arm that is folded onto axis 2.

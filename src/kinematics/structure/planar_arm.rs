@@ -164,6 +164,12 @@ impl PlanarArm {
         if turns_outward { [-inward, outward] } else { [-outward, inward] }
     }
 
+    /// Whether the plane of a shoulder, turned to that of the other one, leaves the wrist center off
+    /// by no more than `off` on the way [m], for b != 0 (eq. 46).
+    pub(crate) fn is_one_shoulder(&self, shoulder: &Shoulder, off: f64) -> bool {
+        self.b != 0.0 && shoulder.x * shoulder.x <= 2.0 * self.b.abs() * off
+    }
+
     /// Angle between upper arm and forearm from stretched, for the angle of axis 3 [rad].
     #[inline]
     pub(crate) fn elbow_angle(&self, theta_3: f64) -> f64 {

@@ -24,10 +24,15 @@ impl Search<'_> {
     /// Descend from a point of the curve and, if the point is outside the limits, also from where
     /// the curve re-enters them.
     pub(super) fn descend(&mut self, start: Point) {
+        self.descend_by(start, FIRST_CURVE_STEP);
+    }
+
+    /// The same with a first step [rad].
+    pub(super) fn descend_by(&mut self, start: Point, first: f64) {
         for edge in self.edges(&start).into_iter().flatten() {
-            self.downhill(edge);
+            self.downhill(edge, first);
         }
-        self.downhill(start);
+        self.downhill(start, first);
     }
 
     /// Where the curve re-enters the limits: one of the joints outside them is at its limit, and
@@ -46,8 +51,8 @@ impl Search<'_> {
 
     /// Descend to the bottom of the valley that a point of the curve is in, inside the limits or
     /// not; keep the points inside.
-    fn downhill(&mut self, start: Point) {
-        let (mut point, mut step) = (start, FIRST_CURVE_STEP);
+    fn downhill(&mut self, start: Point, first: f64) {
+        let (mut point, mut step) = (start, first);
         self.keep(&point.joints());
         for _ in 0..STEPS {
             let slope = self.slope(&point);

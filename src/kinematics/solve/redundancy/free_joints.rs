@@ -4,6 +4,7 @@ use core::f64::consts::TAU;
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
+use nalgebra::{SMatrix, SVector};
 
 use super::Search;
 use super::samples::{Sample, Samples};
@@ -43,6 +44,16 @@ const LEAST_WEIGHT: f64 = 1e-8;
 
 /// Weight of a joint that is locked at its limit [1].
 const LOCKED: f64 = 1e24;
+
+/// The motions of the joints in the metric of the weights: each angle times the root of its weight.
+pub(super) struct Scaled {
+    pub(super) roots: Joints,
+    /// From the joints to the seed.
+    pub(super) way: Joints,
+    /// How far the tool moves with each of the six motions in `rows`, its singular values.
+    pub(super) sizes: SVector<f64, 6>,
+    pub(super) rows: SMatrix<f64, 6, 7>,
+}
 
 impl Search<'_> {
     /// Search the nearest of the joint vectors among which the undetermined joints choose, starting
@@ -88,22 +99,27 @@ impl Search<'_> {
     /// The part of the way to the seed that does not move the tool, without small moves of it: in
     /// the metric of `weights`, the nearest point in the seed's linear neighborhood.
     fn still_tool(&self, q: &[f64; 7], weights: &[f64; 7]) -> Option<[f64; 7]> {
-        let most = weights.iter().copied().fold(0.0, f64::max);
-        let roots = Joints::from(weights.map(|weight| weight.max(LEAST_WEIGHT * most).sqrt()));
-        let mut way = (Joints::from(self.seed) - Joints::from(*q)).component_mul(&roots);
-        let mut jacobian = self.robot.jacobian(q, JacobianFrame::Base);
-        for mut row in jacobian.row_iter_mut() {
-            row.component_div_assign(&roots.transpose());
-        }
-        let svd = jacobian.try_svd(false, true, f64::EPSILON, SWEEPS)?;
-        let greatest = svd.singular_values.max();
-        let rows = svd.v_t?;
-        for (row, size) in rows.row_iter().zip(&svd.singular_values) {
+        let Scaled { roots, mut way, sizes, rows } = self.scaled(q, weights)?;
+        let greatest = sizes.max();
+        for (row, size) in rows.row_iter().zip(&sizes) {
             if *size > STILL * greatest {
                 way -= row.transpose() * (row * way)[0];
             }
         }
         Some(way.component_div(&roots).into())
+    }
+
+    /// The motions of the joints at `q` in the metric of `weights`.
+    pub(super) fn scaled(&self, q: &[f64; 7], weights: &[f64; 7]) -> Option<Scaled> {
+        let most = weights.iter().copied().fold(0.0, f64::max);
+        let roots = Joints::from(weights.map(|weight| weight.max(LEAST_WEIGHT * most).sqrt()));
+        let way = (Joints::from(self.seed) - Joints::from(*q)).component_mul(&roots);
+        let mut jacobian = self.robot.jacobian(q, JacobianFrame::Base);
+        for mut row in jacobian.row_iter_mut() {
+            row.component_div_assign(&roots.transpose());
+        }
+        let svd = jacobian.try_svd(false, true, f64::EPSILON, SWEEPS)?;
+        Some(Scaled { roots, way, sizes: svd.singular_values, rows: svd.v_t? })
     }
 
     /// The fraction of a way that stays inside the limits, and the joint that ends it.

@@ -3,8 +3,10 @@
 //!
 //! docs/spherical_shoulder.md, section 5, has the method and its guarantees. [`grid`] samples joint
 //! 7 between the edges of reach, [`descent`] descends the valleys of the cost that it finds,
+//! [`crossing`] continues on the other branch where the curve nearly crosses itself, and
 //! [`free_joints`] chooses the joints that a pose leaves undetermined.
 
+mod crossing;
 mod descent;
 mod free_joints;
 mod grid;
@@ -161,6 +163,7 @@ impl Search<'_> {
         if self.best.is_none() && self.missed.shortfall == 0.0 {
             self.between_edges(JOINT_7_FINER_SPACING)?;
         }
+        self.look_across();
         if self.nearest().is_none() && self.missed.shortfall > 0.0 {
             self.least_shortfall(JOINT_7_SPACING)?;
         }

@@ -34,10 +34,11 @@ impl SphericalWrist {
             sides.map(|(base, shoulder)| self.fill_or_eased(&mut branches, base, shoulder, target));
         branches.reach = missed[0].nearer(missed[1]);
         // Beyond reach by less than the tolerance: that shoulder gets the stretched or folded arm;
-        // of two merged shoulders, only if neither reaches.
+        // of two shoulders that are one, to rounding or to that distance, only if neither reaches.
         let nearest = branches.reach;
         for ((base, shoulder), missed) in sides.into_iter().zip(missed) {
-            let shortfall = if *merged { nearest } else { missed }.shortfall();
+            let one = *merged || self.planar.is_one_shoulder(shoulder, missed.shortfall());
+            let shortfall = if one { nearest } else { missed }.shortfall();
             if shortfall > 0.0 && shortfall <= REACH_TOLERANCE {
                 let beyond = target.beyond(shortfall);
                 let filled = self.fill_or_eased(&mut branches, base, shoulder, &beyond);

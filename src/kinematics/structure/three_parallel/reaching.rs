@@ -19,6 +19,8 @@ pub(super) struct Reaching {
     pub(super) shoulder: Shoulder,
     pub(super) wrist: Wrist,
     pub(super) elbows: Elbows,
+    /// How far beyond reach the stretched or folded arm is [m].
+    pub(super) beyond: f64,
 }
 
 /// Greatest rotation of axis 5 for which the elbows that it straightens count as one [rad]: beyond,
@@ -66,7 +68,9 @@ impl ThreeParallel {
             if missed.shortfall() > REACH_TOLERANCE {
                 return Err(missed);
             }
-            self.reaching(shoulder, turn, &target.beyond(missed.shortfall()))
+            let beyond = missed.shortfall();
+            let reaching = self.reaching(shoulder, turn, &target.beyond(beyond))?;
+            Ok(Reaching { beyond, ..reaching })
         })
     }
 
@@ -167,7 +171,7 @@ impl ThreeParallel {
             target.wz - self.d5 * wrist.cos_phi,
         ];
         match self.planar.elbows(end, target.tolerance, target.free_theta[1], target.free.policy) {
-            Ok(elbows) => Ok(Reaching { shoulder, wrist, elbows }),
+            Ok(elbows) => Ok(Reaching { shoulder, wrist, elbows, beyond: 0.0 }),
             Err(missed) => Err((missed, wrist)),
         }
     }

@@ -56,12 +56,32 @@ impl ThreeParallel {
         branches.reach = match Asked::of(*merged, target.free.policy) {
             Asked::Front => fill(0, front),
             Asked::Behind => fill(4, behind),
-            Asked::Both => fill(0, front).nearer(fill(4, behind)),
+            Asked::Both => {
+                let reach = fill(0, front).nearer(fill(4, behind));
+                self.drop_beyond(&mut branches, front);
+                reach
+            }
         };
         if *merged {
             branches.merge_shoulders(false, false);
         }
         branches
+    }
+
+    /// Drop an arm from beyond reach if the other shoulder reaches and, to the distance that the
+    /// arm is beyond, is the same one.
+    fn drop_beyond(&self, branches: &mut Branches<6>, shoulder: &Shoulder) {
+        for slot in 0..8 {
+            let (other, beyond) = (slot ^ 4, branches.beyond[slot]);
+            if beyond > 0.0
+                && branches.q[other].is_some()
+                && branches.beyond[other] == 0.0
+                && self.planar.is_one_shoulder(shoulder, beyond)
+            {
+                (branches.q[slot], branches.free[slot]) = (None, None);
+                branches.flags[slot] |= Status::SHOULDER | Status::MERGED;
+            }
+        }
     }
 
     /// Fill slots `base` ..= `base` + 3 with the four branches of one shoulder.
@@ -154,7 +174,8 @@ impl ThreeParallel {
 
     /// Put both elbows of an arm into `slot` and `slot` + 2.
     fn put(&self, branches: &mut Branches<6>, slot: usize, reaching: &Reaching, flags: Status) {
-        let Reaching { shoulder, wrist, elbows } = reaching;
+        let Reaching { shoulder, wrist, elbows, beyond } = reaching;
+        branches.beyond[slot] = *beyond;
         let flags = if elbows.behind.is_none() { flags | Status::ELBOW } else { flags };
         (branches.flags[slot], branches.flags[slot + 2]) = (flags, flags);
         branches.q[slot] = Some(self.joints(shoulder, &elbows.front, wrist));
