@@ -300,6 +300,19 @@ fn a_narrow_self_motion_of_an_undetermined_plane_is_found() {
         [5.880_731_8, 1.463_681_6, -0.219_883_8, -0.526_888_5, 2.912_236_8, -5.417_429_6],
         [6.118_808_1, 1.528_972_1, 0.029_200_6, -0.343_222_1, 3.172_914_4, -5.276_226_6],
     ];
+    // 1e-7 off, the planes leave joint 6 undetermined by a tenth of a radian.
+    let partly = [
+        3.135_804_129,
+        -2.525_514_443_246_927_4,
+        3.141_592_553_589_793_3,
+        -3.462_714_498_057_433_6,
+        -1e-7,
+        3.148_038_347,
+    ];
+    let [partly_low, partly_high] = [
+        [3.061_905_4, -2.607_135_5, 3.048_614, -3.671_132_4, -0.208_499_5, 2.923_361_1],
+        [3.305_899_3, -2.522_329, 3.148_888_7, -3.446_968_6, 0.133_955_2, 3.339_486],
+    ];
     for (name, q, low, high) in [
         (
             "UR3",
@@ -314,6 +327,7 @@ fn a_narrow_self_motion_of_an_undetermined_plane_is_found() {
             with(high, 1, 1.649_261_3),
         ),
         ("UR10e", folded, folded_low, folded_high),
+        ("UR3", partly, partly_low, partly_high),
     ] {
         let limits = std::array::from_fn(|joint| [low[joint], high[joint]]);
         let robot = Robot::<6>::named(name).unwrap();
