@@ -28,6 +28,9 @@ const MOST_HALVINGS: i32 = 46;
 /// The part of the elbow's angle at a corner down to which the free joint is taken next to it [1].
 const NARROW: f64 = 0.02;
 
+/// Parts of an arc at whose ends it is tried whether the pose is met there.
+const ARC_PARTS: u32 = 16;
+
 /// A part of a turn of the free joint between two corners. Its angles are taken at a cosine: next
 /// to a corner the elbow, which moves with the root of the free joint, moves with that steadily.
 struct Arc {
@@ -79,12 +82,24 @@ where
         for (number, low) in corners.into_iter().enumerate() {
             let high = corners.get(number + 1).copied().unwrap_or(first + TAU);
             let arc = Arc::between([low, high]);
-            // The arm is in reach all along or nowhere.
-            if arc.half > 0.0 && self.sample(from, free, arc.middle)?.least_height().is_finite() {
+            if arc.half > 0.0 && self.is_met_on(from, free, &arc)? {
                 self.look_along_arc(from, free, &arc)?;
             }
         }
         Ok(())
+    }
+
+    /// Whether the pose is met on an arc. The arm is in reach all along or nowhere, but an
+    /// uncertain plane may determine the free joint on a part of it only.
+    fn is_met_on(&mut self, from: &Solution<N>, free: FreeJoint, arc: &Arc) -> Result<bool, Error> {
+        let parts = if from.free_joint == Some(free) { 2 } else { ARC_PARTS };
+        for number in 1..parts {
+            let angle = arc.at(PI * f64::from(number) / f64::from(parts));
+            if self.sample(from, free, angle)?.least_height().is_finite() {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     /// Looks where the arm turns from bending to straightening, ever closer to there.
