@@ -6,6 +6,7 @@ mod joints;
 mod model;
 mod motion;
 mod names;
+mod plan;
 mod pose;
 #[cfg(feature = "rapid")]
 mod rapid;
@@ -21,6 +22,7 @@ pub use self::frame::FrameFault;
 pub use self::joints::JointFault;
 pub use self::model::ModelFault;
 pub use self::motion::MotionFault;
+pub use self::plan::PlanFault;
 pub use self::pose::PoseFault;
 #[cfg(feature = "rapid")]
 pub use self::rapid::{Missing, RapidFault, RapidFaultKind};
@@ -40,6 +42,8 @@ pub enum Error {
     InvalidModel(ModelFault),
     /// A trajectory or a path is not what it must be.
     InvalidMotion(MotionFault),
+    /// What a plan is asked for does not fit.
+    InvalidPlan(PlanFault),
     /// The catalog has no arm of that name.
     UnknownRobot(UnknownRobot),
     /// The RAPID text is broken.
@@ -95,6 +99,7 @@ impl fmt::Display for Error {
             Self::InvalidJoints(fault) => fault.fmt(f),
             Self::InvalidModel(fault) => fault.fmt(f),
             Self::InvalidMotion(fault) => fault.fmt(f),
+            Self::InvalidPlan(fault) => fault.fmt(f),
             Self::UnknownRobot(fault) => fault.fmt(f),
             #[cfg(feature = "rapid")]
             Self::Rapid(fault) => fault.fmt(f),
@@ -172,6 +177,12 @@ impl From<FrameFault> for Error {
 impl From<MotionFault> for Error {
     fn from(fault: MotionFault) -> Self {
         Self::InvalidMotion(fault)
+    }
+}
+
+impl From<PlanFault> for Error {
+    fn from(fault: PlanFault) -> Self {
+        Self::InvalidPlan(fault)
     }
 }
 

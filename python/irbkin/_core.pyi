@@ -24,6 +24,7 @@ from irbkin.records import (
     FreeJoint,
     IkBatch,
     MotionPeaks,
+    Plan,
     PoseCheck,
     Reach,
     Singularity,
@@ -31,6 +32,7 @@ from irbkin.records import (
     SingularityKind,
     SingularityMode,
     Status,
+    ToolRotation,
     TrajectorySample,
 )
 
@@ -606,6 +608,19 @@ class Robot:
             InvalidPoseError, InvalidJointsError, InvalidModelError: As `ik`; a seed or weight that
                 is not finite; a single pose or seed for a whole batch that is invalid.
         """
+    def plan(
+        self,
+        T: npt.ArrayLike,
+        *,
+        rotation: ToolRotation | int | None = None,
+        times: npt.ArrayLike | None = None,
+        start: npt.ArrayLike | None = None,
+        end: npt.ArrayLike | None = None,
+        closed: bool = False,
+        weights: npt.ArrayLike | None = None,
+        accept: Callable[[_Floats], npt.ArrayLike] | None = None,
+    ) -> Plan:
+        """"""
     def follow(
         self,
         T: npt.ArrayLike,

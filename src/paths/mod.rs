@@ -22,6 +22,7 @@ pub use arc::{ArcOrientation, arc};
 pub use line::line;
 pub use polyline::{corner_distance, polyline};
 pub use spacing::Spacing;
+pub(crate) use turn::Turn;
 pub use zone::Zone;
 
 #[cfg(test)]

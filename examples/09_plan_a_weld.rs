@@ -1,0 +1,56 @@
+//! The joint path of a weld seam: fixed torch, then free to turn about its own axis.
+
+use std::f64::consts::{FRAC_PI_6, PI};
+
+use irbkin::plan::{Plan, PlanError, PlanOptions, ToolAxis, ToolRotation};
+use irbkin::{Error, Pose, Robot, pose_from_euler_zyx};
+
+const POSES: u32 = 201;
+
+/// Half a circle on a table, the torch 30 degrees off the vertical, turning with it.
+fn seam() -> Result<Vec<Pose>, Error> {
+    let angles = (0..POSES).map(|index| PI * f64::from(index) / f64::from(POSES - 1));
+    angles
+        .map(|angle| {
+            let xyz = [1.0 + 0.15 * angle.cos(), 0.15 * angle.sin(), 0.5];
+            pose_from_euler_zyx(xyz, [angle, 150_f64.to_radians(), 0.0])
+        })
+        .collect()
+}
+
+fn show(name: &str, plan: &Plan) {
+    let degrees = plan.tool_angle.iter().map(|angle| angle.to_degrees());
+    let (least, most) = (degrees.clone().reduce(f64::min), degrees.reduce(f64::max));
+    let slot = plan.slot[0].unwrap_or_default();
+    println!("{name}: slot {slot}, certified, at least {:.2} s", plan.bottleneck);
+    // Adding zero turns -0.0 into 0.0.
+    let [least, most] =
+        [least, most].map(|angle| (10.0 * angle.unwrap_or_default()).round() / 10.0 + 0.0);
+    println!("  torch turned by {least:.1} to {most:.1} deg");
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let tool = pose_from_euler_zyx([0.05, 0.0, 0.35], [0.0; 3])?;
+    let robot = Robot::<6>::named("IRB 2600-12/1.65")?.with_tool(&tool)?;
+    let mut path = seam()?;
+    let fixed = PlanOptions::default();
+    show("fixed torch", &robot.plan(&path, &fixed)?);
+    let free = PlanOptions { rotation: Some(ToolRotation::full(36)?), ..fixed.clone() };
+    show("free torch", &robot.plan(&path, &free)?);
+
+    let narrow = ToolRotation::new(7, -FRAC_PI_6, FRAC_PI_6, ToolAxis::Z)?;
+    let narrow = PlanOptions { rotation: Some(narrow), ..fixed };
+    show("free within 30 deg", &robot.plan(&path, &narrow)?);
+
+    path[120].translation.z += 2.0;
+    if let Err(PlanError::NoPlan(gap)) = robot.plan(&path, &free) {
+        let broken = gap.plan.breaks[0];
+        println!(
+            "pose {} moved away: leave at {}, enter at {}",
+            gap.pose_index,
+            broken.leave.unwrap_or_default(),
+            broken.enter.unwrap_or_default()
+        );
+    }
+    Ok(())
+}
