@@ -57,7 +57,7 @@ class PathError(UnreachableError):
     """The first pose that no branch reaches from the start."""
     reasons: tuple[StrandEnd, ...] = ()
     """Where and why each branch ends."""
-    plan: Plan | None = None
+    plan: Plan
     """The plan with the fewest breaks."""
 
 

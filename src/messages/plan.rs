@@ -61,6 +61,8 @@ fn ends() -> std::vec::Vec<Row> {
             joint: 4, by: 3.1, kinds: SingularityKind::WRIST,
         }), "a singularity, or a way out of reach between two poses",
             "free the tool rotation, or turn the tool a little";
+        StrandEnd { reason: StrandReason::Ended, .. } => at(StrandReason::Ended),
+            "the edge of reach, a singularity", "as above";
         StrandEnd { reason: StrandReason::Rejected, .. } => at(StrandReason::Rejected),
             "`accept`", "";
         StrandEnd { reason: StrandReason::NotAtEnd, .. } => at(StrandReason::NotAtEnd),

@@ -81,6 +81,8 @@ pub enum StrandReason {
         /// The singularities that are next to it.
         kinds: SingularityKind,
     },
+    /// It ends at a singularity or at the edge of reach: other branches reach that pose.
+    Ended,
     /// The caller's own test rejected it.
     Rejected,
     /// It does not lead to the joint angles that were asked for at the end.
@@ -174,6 +176,7 @@ impl fmt::Display for StrandReason {
                     _ => f.write_str(" between two poses"),
                 }
             }
+            Self::Ended => f.write_str("the branch has ended, other branches reach this pose"),
             Self::Rejected => f.write_str("rejected by accept"),
             Self::NotAtEnd => f.write_str("does not lead to the joint angles at the end"),
         }

@@ -19,6 +19,15 @@ use crate::lanes::nearest_whole;
 /// Poses that are solved at a time.
 const PART: usize = 512;
 
+/// Nodes whose joint angles depend on those of the layers next to theirs.
+#[derive(Default)]
+struct Special {
+    /// Layers and bins of singular poses.
+    singular: Vec<(usize, usize)>,
+    /// Nodes with a joint that may be at either end of its limits.
+    either_end: Vec<(usize, Node)>,
+}
+
 /// A robot with what turns poses and angles into nodes.
 #[derive(Clone, Copy)]
 pub(super) struct Arm<'a> {
@@ -47,7 +56,7 @@ impl Arm<'_> {
         let mut places = Vec::with_capacity(PART);
         let mut q = vec![0.0; PART * grid.slots * 6];
         let mut status = vec![0; PART * grid.slots];
-        let mut singular = Vec::new();
+        let mut special = Special::default();
         let mut directions: Vec<(f64, f64)> = Vec::new();
         let mut base = f64::NAN;
         for layer in range {
@@ -77,15 +86,16 @@ impl Arm<'_> {
                 places.push((layer, bin));
                 if poses.len() == PART {
                     self.solve_part(&poses, &mut q, &mut status);
-                    self.put(grid, layers, &places, (&q, &status), &mut singular);
+                    self.put(grid, layers, &places, (&q, &status), &mut special);
                     poses.clear();
                     places.clear();
                 }
             }
         }
         self.solve_part(&poses, &mut q, &mut status);
-        self.put(grid, layers, &places, (&q, &status), &mut singular);
-        self.join_singular(grid, layers, &singular);
+        self.put(grid, layers, &places, (&q, &status), &mut special);
+        self.join_singular(grid, layers, &special.singular);
+        self.choose_ends(grid, layers, &special.either_end);
     }
 
     /// Solve poses into slots.
@@ -99,14 +109,27 @@ impl Arm<'_> {
         });
     }
 
-    /// Put answers into layers; note those that are singular.
+    /// At nodes with a joint that may be at either end of its limits, choose that on the side of the
+    /// layer before, or of that after where there is none.
+    fn choose_ends(&self, grid: &Grid, layers: &mut [Layer], nodes: &[(usize, Node)]) {
+        for (layer, node) in nodes {
+            let beside = |layer: usize| layers.get(layer).and_then(|at| at.joints(grid, *node));
+            let neighbor = layer.checked_sub(1).and_then(beside).or_else(|| beside(layer + 1));
+            let own = layers[*layer].joints(grid, *node);
+            if let Some((own, neighbor)) = own.zip(neighbor) {
+                layers[*layer].put(grid, *node, Some(self.joints.beside(&own, &neighbor)));
+            }
+        }
+    }
+
+    /// Put answers into layers; note those that are special.
     fn put(
         &self,
         grid: &Grid,
         layers: &mut [Layer],
         places: &[(usize, usize)],
         (q, status): (&[f64], &[u8]),
-        singular: &mut Vec<(usize, usize)>,
+        special_nodes: &mut Special,
     ) {
         let special = (Status::WRIST | Status::SHOULDER | Status::ELBOW | Status::MERGED).bits();
         let inside = Status::WITHIN_LIMITS.bits();
@@ -123,12 +146,15 @@ impl Arm<'_> {
                 layer.present[slot] = true;
                 let start = slot * 6 * grid.bins + bin;
                 for joint in 0..6 {
-                    layer.q[start + joint * grid.bins] =
-                        self.joints.first_turn(joint, q[slot][joint]);
+                    let angle = self.joints.first_turn(joint, q[slot][joint]);
+                    layer.q[start + joint * grid.bins] = angle;
+                    if self.joints.is_either_end(joint, angle) {
+                        special_nodes.either_end.push((layer_number, Node { slot, bin: *bin }));
+                    }
                 }
             }
             if is_singular != 0 {
-                singular.push((layer_number, *bin));
+                special_nodes.singular.push((layer_number, *bin));
             }
         }
     }
@@ -188,7 +214,10 @@ impl Arm<'_> {
                 if most.iter().all(|most| *most <= CROSSING_JUMP) {
                     continue;
                 }
-                let ends = most.iter().enumerate().filter(|(_, most)| !(**most <= CROSSING_JUMP));
+                let ends = most
+                    .iter()
+                    .enumerate()
+                    .filter(|(_, most)| most.is_nan() || **most > CROSSING_JUMP);
                 for node in ends.map(|(bin, _)| Node { slot, bin }) {
                     let Some(q) = before.joints(grid, node) else { continue };
                     for other in (0..grid.slots).filter(|other| *other != slot) {

@@ -10,8 +10,10 @@ use super::planner::Planner;
 use super::step::Rates;
 use super::way::Way;
 use crate::error::Error;
+use crate::kinematics::SingularityKind;
 use crate::kinematics::thresholds::CROSSING_JUMP;
 use crate::lanes::nearest_whole;
+use crate::report::Explanation;
 
 impl Planner<'_> {
     /// Where and why each branch that begins at the first layer of a way ends.
@@ -58,7 +60,7 @@ impl Planner<'_> {
         };
         let rates = Rates::of(self.arm.joints, after.time - before.time);
         if rates.cost(&steps).0 > self.speed {
-            let part = |joint: &usize| steps[*joint].abs() * rates.rates[*joint];
+            let part = |joint: &usize| steps[*joint].abs() * rates.parts[*joint];
             let joint = (0..6).max_by(|a, b| part(a).total_cmp(&part(b))).unwrap_or_default();
             return Ok(StrandReason::Speed { joint: joint + 1, ratio: part(&joint) });
         }
@@ -77,7 +79,7 @@ impl Planner<'_> {
     }
 
     /// The singularity that is next to a jump: the nearest one of the joint angles.
-    fn kinds_between(&self, q: &[f64; 6], next: &[f64; 6]) -> crate::kinematics::SingularityKind {
+    fn kinds_between(&self, q: &[f64; 6], next: &[f64; 6]) -> SingularityKind {
         let middle = core::array::from_fn(|joint| 0.5 * (q[joint] + next[joint]));
         self.arm.robot.singularity(&middle).kinds
     }
@@ -93,7 +95,10 @@ impl Planner<'_> {
         let pose = self.arm.turned(&after.pose, after.tool_angle(&self.grid, bin));
         let solutions = self.arm.robot.ik(&pose)?;
         let Some(solution) = solutions.slot(slot) else {
-            return Ok(StrandReason::Unreachable(solutions.explain()));
+            return Ok(match solutions.explain() {
+                Explanation::Found { .. } => StrandReason::Ended,
+                explanation => StrandReason::Unreachable(explanation),
+            });
         };
         let limits = self.arm.robot.limits();
         let over = |joint: &usize| limits.overrun(*joint, solution.q[*joint]);

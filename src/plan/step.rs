@@ -11,14 +11,14 @@ use crate::lanes::{Column, Kernel, LANES, nearest_whole};
 #[derive(Clone, Copy)]
 pub(super) struct Rates {
     /// Factor of the step of each joint that makes it a part of its velocity limit.
-    pub(super) rates: [f64; 6],
+    pub(super) parts: [f64; 6],
     pub(super) weights: [f64; 6],
     pub(super) wraps: [bool; 6],
 }
 
 impl Rates {
     pub(super) fn of(joints: &PlannedJoints, time: f64) -> Self {
-        Self { rates: joints.rates(time), weights: joints.weights, wraps: joints.wraps }
+        Self { parts: joints.rates(time), weights: joints.weights, wraps: joints.wraps }
     }
 
     /// The largest part of a velocity limit and the weighted sum of squares of an edge (eq. 4): the
@@ -26,7 +26,7 @@ impl Rates {
     pub(super) fn cost(&self, steps: &[f64; 6]) -> (f64, f64) {
         let (mut most, mut squares) = (0.0, 0.0);
         for joint in 0..6 {
-            let part = steps[joint].abs() * self.rates[joint];
+            let part = steps[joint].abs() * self.parts[joint];
             most = if part > most { part } else { most };
             squares += self.weights[joint] * (steps[joint] * steps[joint]);
         }
@@ -172,7 +172,7 @@ impl<const SQUARES: bool> Step<'_, SQUARES> {
                 }
             }
             for lane in 0..LANES {
-                let part = step[lane].abs() * self.rates.rates[joint];
+                let part = step[lane].abs() * self.rates.parts[joint];
                 most[lane] = if part > most[lane] { part } else { most[lane] };
                 if SQUARES {
                     squares[lane] += self.rates.weights[joint] * (step[lane] * step[lane]);

@@ -12,6 +12,9 @@ use crate::lanes::{nearest_whole, whole_below};
 /// Turns of a joint without limits, where the search has to count them: two to each side.
 const FREE_TURNS: usize = 5;
 
+/// How far from a limit an angle is at it, or limits from a full turn are one [rad].
+const EITHER_END: f64 = 4.0 * LIMIT_TOLERANCE;
+
 /// Turns of a joint that has a limit on one side only.
 const HALF_FREE_TURNS: f64 = 64.0;
 
@@ -46,7 +49,12 @@ impl PlannedJoints {
         });
         let counts = core::array::from_fn(|joint| {
             let span = high[joint] - low[joint];
-            if span.is_finite() { 1 + count(whole_below(span / TAU)) } else { FREE_TURNS }
+            match span {
+                span if !span.is_finite() => FREE_TURNS,
+                // A full turn has two angles at its ends only: `beside` chooses.
+                span if span <= TAU + EITHER_END => 1,
+                span => 1 + count(whole_below(span / TAU)),
+            }
         });
         let velocity = robot.max_velocity().copied().unwrap_or([1.0; 6]);
         let (wraps, middle) = (counts.map(|count| count > 1), [0; 6]);
@@ -78,6 +86,28 @@ impl PlannedJoints {
         }
         let turns = whole_below((angle - self.low[joint]) / TAU);
         if turns == 0.0 { angle } else { angle - TAU * turns }
+    }
+
+    /// Whether an angle is at an end of limits that are a full turn apart: it may as well be at the
+    /// other.
+    pub(super) fn is_either_end(&self, joint: usize, angle: f64) -> bool {
+        let (low, high) = (self.low[joint], self.high[joint]);
+        !self.wraps[joint]
+            && high - low >= TAU
+            && (angle - low < EITHER_END || high - angle < EITHER_END)
+    }
+
+    /// Joint angles, those of them that may be at either end of their limits on the side of
+    /// neighboring ones.
+    pub(super) fn beside(&self, q: &[f64; 6], neighbor: &[f64; 6]) -> [f64; 6] {
+        core::array::from_fn(|joint| {
+            let step = q[joint] - neighbor[joint];
+            if self.is_either_end(joint, q[joint]) {
+                q[joint] - TAU * nearest_whole(step / TAU)
+            } else {
+                q[joint]
+            }
+        })
     }
 
     /// The last turn that an angle may have, counted from [`Self::first_turn`].

@@ -42,15 +42,15 @@ pub(super) fn raised(class: PyResult<&Bound<'_, PyAny>>, message: String) -> PyE
 /// The Python exception of a core error.
 pub(super) fn to_py(py: Python<'_>, error: &Error) -> PyErr {
     let class = match error {
-        Error::InvalidPose(_) | Error::Frame(FrameFault::Pose { .. }) => invalid_pose_error(py),
-        Error::InvalidJoints(_) | Error::InvalidMotion(MotionFault::Row { .. }) => {
+        Error::InvalidPose(_)
+        | Error::Frame(FrameFault::Pose { .. })
+        | Error::InvalidPlan(PlanFault::Pose { .. }) => invalid_pose_error(py),
+        Error::InvalidJoints(_)
+        | Error::InvalidMotion(MotionFault::Row { .. })
+        | Error::InvalidPlan(PlanFault::EndOff { .. } | PlanFault::EndOutside { .. }) => {
             invalid_joints_error(py)
         }
         Error::InvalidModel(_) | Error::WrongLength { .. } => invalid_model_error(py),
-        Error::InvalidPlan(PlanFault::Pose { .. }) => invalid_pose_error(py),
-        Error::InvalidPlan(PlanFault::EndOff { .. } | PlanFault::EndOutside { .. }) => {
-            invalid_joints_error(py)
-        }
         Error::InvalidMotion(_) | Error::InvalidPlan(_) => invalid_motion_error(py),
         Error::UnknownRobot(_) => unknown_robot_error(py),
         Error::Unreachable(_) => unreachable_error(py),

@@ -186,7 +186,8 @@ fn asked(accept: &Bound<'_, PyAny>, q: &[[f64; 6]]) -> PyResult<Vec<bool>> {
 fn plan_record<'py>(py: Python<'py>, plan: &Plan) -> PyResult<Bound<'py, PyAny>> {
     let rows = plan.q.iter().flat_map(|q| q.unwrap_or([f64::NAN; 6]));
     let q: Bound<'py, PyArray2<f64>> = PyArray1::from_iter(py, rows).reshape([plan.q.len(), 6])?;
-    let slot = plan.slot.iter().map(|slot| slot.map_or(-1, |slot| slot as i64));
+    let slot =
+        plan.slot.iter().map(|slot| slot.map_or(-1, |slot| i64::try_from(slot).unwrap_or(-1)));
     let breaks = plan
         .breaks
         .iter()
