@@ -44,7 +44,7 @@ def row(name: str, poses: int) -> None:
     robot, T = weld(poses)
     arguments = dict(ROWS[name])
     if arguments.pop("start", False):
-        arguments["start"] = robot.plan(T[:2]).q[0]
+        arguments["start"] = robot.plan(T).q[0]
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     times = []
     for _ in range(1 if QUICK or poses > 10_000 else 7):

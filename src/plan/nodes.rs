@@ -6,7 +6,7 @@ use core::f64::consts::TAU;
 use core::ops::Range;
 
 #[cfg(not(feature = "std"))]
-use nalgebra::RealField as _;
+use nalgebra::ComplexField as _;
 use nalgebra::{Matrix3, Rotation3};
 
 use super::layer::{Grid, Layer, Node};

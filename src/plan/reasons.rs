@@ -1,7 +1,7 @@
 //! Why the branches of a path end.
 
 use alloc::vec::Vec;
-use core::f64::consts::TAU;
+use core::f64::consts::{PI, TAU};
 
 use super::answer::{StrandEnd, StrandReason};
 use super::layer::{Layer, Node};
@@ -69,6 +69,12 @@ impl Planner<'_> {
         if after.refused.contains(&edge) || largest(&steps) > CROSSING_JUMP {
             let joint = (0..6).max_by(|a, b| steps[*a].abs().total_cmp(&steps[*b].abs()));
             let joint = joint.unwrap_or_default();
+            if steps[joint].abs() > PI {
+                // The short way round leads through the limits.
+                let value = q[joint] + steps[joint] - TAU.copysign(steps[joint]);
+                let bounds = self.arm.joints.limits(joint);
+                return Ok(StrandReason::Limit { joint: joint + 1, value, bounds });
+            }
             let next = after.joints(&self.grid, to).unwrap_or_default();
             let kinds = self.arm.robot.singularity(&q).kinds
                 | self.arm.robot.singularity(&next).kinds

@@ -94,7 +94,7 @@ fn exhaustive(field: &Field<'_>) -> (usize, f64, f64) {
 }
 
 fn below(rng: &mut Rng, count: usize) -> usize {
-    ((rng.between(0.0, count as f64)) as usize).min(count - 1)
+    usize::try_from(rng.bits() % u64::try_from(count).unwrap()).unwrap()
 }
 
 /// Layers with random joint angles: nothing of them is geometry.
@@ -106,9 +106,10 @@ fn random_layers(rng: &mut Rng, joints: &PlannedJoints) -> (Grid, Vec<Layer>) {
         cyclic: below(rng, 2) == 0,
     };
     let (start, end) = (Pose::identity(), pose_from_euler_zyx([0.0; 3], [3.0, 0.0, 0.0]).unwrap());
-    let mut layers = Vec::new();
+    let (mut layers, mut time) = (Vec::new(), 0.0);
     for index in 0..2 + below(rng, 3) {
-        let mut layer = Layer::new(start, index as f64 * 0.1, Some(index), &grid);
+        time += 0.1;
+        let mut layer = Layer::new(start, time, Some(index), &grid);
         // So large a turn that no window is narrower than all tool angles.
         layer.turn = Some(Turn::new(&start.rotation, &end.rotation, None, 0).unwrap());
         for number in 0..grid.len() {
