@@ -6,6 +6,7 @@ mod joints;
 mod model;
 mod motion;
 mod names;
+mod plan;
 mod pose;
 #[cfg(feature = "rapid")]
 mod rapid;
@@ -23,6 +24,7 @@ pub use self::frame::FrameFault;
 pub use self::joints::JointFault;
 pub use self::model::ModelFault;
 pub use self::motion::MotionFault;
+pub use self::plan::PlanFault;
 pub use self::pose::PoseFault;
 #[cfg(feature = "rapid")]
 pub use self::rapid::{Missing, RapidFault, RapidFaultKind};
@@ -44,6 +46,8 @@ pub enum Error {
     InvalidModel(ModelFault),
     /// A trajectory or a path is not what it must be.
     InvalidMotion(MotionFault),
+    /// What a plan is asked for does not fit.
+    InvalidPlan(PlanFault),
     /// The catalog has no arm of that name.
     UnknownRobot(UnknownRobot),
     /// The RAPID text is broken.
@@ -99,6 +103,7 @@ impl fmt::Display for Error {
             Self::InvalidJoints(fault) => fault.fmt(f),
             Self::InvalidModel(fault) => fault.fmt(f),
             Self::InvalidMotion(fault) => fault.fmt(f),
+            Self::InvalidPlan(fault) => fault.fmt(f),
             Self::UnknownRobot(fault) => fault.fmt(f),
             #[cfg(feature = "rapid")]
             Self::Rapid(fault) => fault.fmt(f),
@@ -176,6 +181,12 @@ impl From<FrameFault> for Error {
 impl From<MotionFault> for Error {
     fn from(fault: MotionFault) -> Self {
         Self::InvalidMotion(fault)
+    }
+}
+
+impl From<PlanFault> for Error {
+    fn from(fault: PlanFault) -> Self {
+        Self::InvalidPlan(fault)
     }
 }
 

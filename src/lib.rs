@@ -115,6 +115,8 @@ mod lanes;
 mod messages;
 #[cfg(any(feature = "std", feature = "libm"))]
 pub mod paths;
+#[cfg(any(feature = "std", feature = "libm"))]
+pub mod plan;
 #[cfg(feature = "python")]
 mod python;
 #[cfg(all(feature = "rapid", any(feature = "std", feature = "libm")))]
@@ -143,8 +145,8 @@ mod urdf;
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use catalog::{AngleUnit, CatalogArm, CatalogGeometry, catalog, find, left_out};
 pub use error::{
-    Error, JointFault, LeftOut, ModelFault, MotionFault, Names, NoConfiguration, PoseFault,
-    UnknownRobot, UrdfFault,
+    Error, JointFault, LeftOut, ModelFault, MotionFault, Names, NoConfiguration, PlanFault,
+    PoseFault, UnknownRobot, UrdfFault,
 };
 #[cfg(feature = "rapid")]
 pub use error::{FrameFault, Missing, RapidFault, RapidFaultKind, RoutineFault};

@@ -24,6 +24,7 @@ from irbkin.records import (
     FreeJoint,
     IkBatch,
     MotionPeaks,
+    Plan,
     PoseCheck,
     Reach,
     Singularity,
@@ -31,6 +32,7 @@ from irbkin.records import (
     SingularityKind,
     SingularityMode,
     Status,
+    ToolRotation,
     ToolSpeedLimits,
     TrajectorySample,
 )
@@ -613,6 +615,59 @@ class Robot:
                 is missing.
             InvalidPoseError, InvalidJointsError, InvalidModelError: As `ik`; a seed or weight that
                 is not finite; a single pose or seed for a whole batch that is invalid.
+        """
+    def plan(
+        self,
+        T: npt.ArrayLike,
+        *,
+        rotation: ToolRotation | int | None = None,
+        times: npt.ArrayLike | None = None,
+        start: npt.ArrayLike | None = None,
+        end: npt.ArrayLike | None = None,
+        closed: bool = False,
+        weights: npt.ArrayLike | None = None,
+        accept: Callable[[_Floats], npt.ArrayLike] | None = None,
+    ) -> Plan:
+        """The best joint path along a path of poses, over every branch, every turn of the joints
+        and, with `rotation`, every angle of the tool.
+
+        Of all continuous joint paths inside the limits, that with the smallest bottleneck: the
+        largest joint velocity relative to `max_velocity` (1 rad/s where that is not known). Of
+        those, that with the smallest weighted sum of squared joint steps. Both are exact over the
+        tool angles of `rotation`, which are then refined around the best ones, to half a degree.
+        Every step of the answer is shown to be continuous between its two poses.
+
+        Args:
+            T: Poses of the tool, shape (m, 4, 4), translation [m].
+            rotation: The angles by which the tool may be turned about its own axis: an
+                `irbkin.ToolRotation`, or the number of angles all around z. None where the poses
+                fix the orientation.
+            times: Time of each pose [s], shape (m,), increasing. Then no joint may exceed its
+                `max_velocity`, if that is known.
+            start: Joint vector at the first pose [rad], shape (6,); any when not given.
+            end: Joint vector at the last pose [rad], shape (6,); any when not given.
+            closed: Whether the joints must end where they start, turns included. The last pose
+                repeats the first.
+            weights: Cost of moving each joint, shape (6,); ones when not given.
+            accept: Your own test, of collisions for instance: called with joint vectors of shape
+                (k, 6), it returns k truth values. It is asked only for joint vectors near the best
+                path, and once for those that differ by full turns.
+
+        Returns:
+            Plan: joints [rad], shape (m, 6); tool angles; slots; cost; bottleneck; no breaks.
+
+        Raises:
+            PathError: No continuous joint path: `index` is the first pose that no branch reaches,
+                `reasons` says where and why each branch ends, `plan` is the plan with the fewest
+                breaks.
+            InvalidPoseError: T has a wrong shape or holds a matrix that is no pose; the message has
+                its index.
+            InvalidJointsError: A start, end or weight that is not finite, or a start or end that
+                does not fit its pose or the limits.
+            InvalidMotionError: No poses, two poses half a turn apart, times that do not increase, a
+                rotation that is empty, an open path with `closed`.
+            InvalidModelError: The arm has no closed form or seven joints.
+            Exception: Whatever `accept` raises.
         """
     def follow(
         self,

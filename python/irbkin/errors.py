@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal
 
 if TYPE_CHECKING:
-    from irbkin.records import Configuration
+    from irbkin.records import Configuration, Plan, StrandEnd
 
 __all__ = [
     "InvalidJointsError",
@@ -13,6 +13,7 @@ __all__ = [
     "InvalidMotionError",
     "InvalidPoseError",
     "IrbkinError",
+    "PathError",
     "RapidError",
     "UnknownNameError",
     "UnknownRobotError",
@@ -47,6 +48,17 @@ class UnreachableError(IrbkinError):
     """Those that exist, where another one was asked for."""
     rapid_error: Literal["ERR_OUTSIDE_REACH", "ERR_ROBLIMIT"] | None = None
     """RAPID's name of the error, in errors of `irbkin.rapid`: ERR_OUTSIDE_REACH or ERR_ROBLIMIT."""
+
+
+class PathError(UnreachableError):
+    """The joints cannot follow a path without a break; raised by `Robot.plan`."""
+
+    index: int = 0
+    """The first pose that no branch reaches from the start."""
+    reasons: tuple[StrandEnd, ...] = ()
+    """Where and why each branch ends."""
+    plan: Plan
+    """The plan with the fewest breaks."""
 
 
 class RapidError(IrbkinError):

@@ -8,6 +8,7 @@ tuples do.
 from __future__ import annotations
 
 import enum
+import math
 import operator
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar
 
@@ -25,6 +26,8 @@ __all__ = [
     "FreeJoint",
     "IkBatch",
     "MotionPeaks",
+    "Plan",
+    "PlanBreak",
     "PoseCheck",
     "Reach",
     "Singularity",
@@ -32,6 +35,8 @@ __all__ = [
     "SingularityKind",
     "SingularityMode",
     "Status",
+    "StrandEnd",
+    "ToolRotation",
     "TrajectorySample",
 ]
 
@@ -269,6 +274,67 @@ class SingularityBatch(NamedTuple):
     """sqrt(det(J J^T))."""
     kinds: npt.NDArray[np.uint8]
     """Values of `SingularityKind`."""
+
+
+class ToolRotation(NamedTuple):
+    """The angles by which `Robot.plan` may turn the tool about one of its axes at each pose.
+
+    Of a full turn the upper end is the lower one: 36 steps are 10 degrees apart. Of less, both ends
+    count: `ToolRotation(7, -np.pi / 6, np.pi / 6)` is every 10 degrees, too.
+    """
+
+    steps: int = 36
+    """Number of angles."""
+    lower: float = -math.pi
+    """Lower end [rad]."""
+    upper: float = math.pi
+    """Upper end [rad]."""
+    axis: Literal["x", "y", "z"] = "z"
+    """Axis of the tool."""
+
+
+class PlanBreak(NamedTuple):
+    """A part of a path that the joints cannot follow."""
+
+    leave: int | None
+    """The last pose before it; None where the path begins with it."""
+    enter: int | None
+    """The first pose after it; None where the path ends with it."""
+
+
+class StrandEnd(NamedTuple):
+    """Where and why a branch of a path ends."""
+
+    slot: int
+    """Its slot."""
+    pose_index: int
+    """The first pose that it does not reach."""
+    reason: str
+    """The reason in a sentence."""
+
+
+@by_value
+class Plan(NamedTuple):
+    """The best joint path along a path of poses."""
+
+    q: npt.NDArray[np.float64]
+    """Joint angles [rad], shape (m, n); NaN where a plan with breaks has none."""
+    tool_angle: npt.NDArray[np.float64]
+    """The angle that the tool is turned by at each pose [rad], shape (m,), without jumps of a full
+    turn; zeros without a free rotation.
+    """
+    slot: npt.NDArray[np.int64]
+    """The slot of the branch at each pose, shape (m,); -1 where there is none."""
+    cost: float
+    """Weighted sum of the squares of all joint steps [rad^2]."""
+    bottleneck: float
+    """The largest velocity of a joint as a part of its limit. Without `times`, the time [s] that
+    the path takes at least if its poses are equally far apart in time.
+    """
+    breaks: tuple[PlanBreak, ...]
+    """Where the joints cannot follow: empty, but of the plan of a `PathError`."""
+    certified: bool
+    """Whether every step, apart from breaks, was shown to be continuous between its two poses."""
 
 
 class TrajectorySample(NamedTuple):

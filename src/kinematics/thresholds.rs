@@ -250,3 +250,35 @@ pub const SHOULDER_ZONE: f64 = 1e-3;
 /// more than the rounding of two solutions of one pose near a singularity.
 #[cfg(feature = "rapid")]
 pub(crate) const JOINED_MOVES: f64 = 1e-6;
+
+/// How much a range of tool angles may differ from a full turn and still be one [rad].
+pub const FULL_TURN: f64 = 1e-9;
+
+/// Most tool angles of a plan at each pose [1]: a tenth of a degree apart.
+pub const MOST_TOOL_ANGLES: usize = 3600;
+
+/// Most combinations of turns that a plan tells apart at each node [1].
+pub const MOST_TURN_STATES: usize = 4096;
+
+/// How far the tool at the start or the end of a plan may be from the pose there, and the ends of a
+/// closed path from each other [m, rad]: poses written with six digits.
+pub const PLAN_END_OFF: f64 = 1e-6;
+
+/// Joint step that is small enough to be no jump [rad]: a twentieth of a degree.
+pub(crate) const CONTINUOUS_STEP: f64 = 1e-3;
+
+/// Largest joint step between two points at which the way between two poses is examined [rad].
+pub(crate) const EXAMINED_STEP: f64 = 0.1;
+
+/// Joint step from which a branch may have ended at a singularity, so that a plan looks for another
+/// one that continues it [rad].
+pub(crate) const CROSSING_JUMP: f64 = 1.0;
+
+/// Joint step up to which one branch may continue another one through a singularity [rad].
+pub(crate) const CROSSING_STEP: f64 = 0.5;
+
+/// Distance of tool angles down to which a plan refines them [rad]: half a degree.
+pub const REFINED_TOOL_STEP: f64 = 8.8e-3;
+
+/// How far rounding may raise the bottleneck of a step, relative to it [1].
+pub(crate) const BOTTLENECK_ROUNDING: f64 = 1e-12;

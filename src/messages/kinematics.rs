@@ -307,6 +307,8 @@ fn others() -> Vec<Row> {
         Error::InvalidModel(_) => ModelFault::NoLinkage.into(), "see [models](#models)", "";
         Error::InvalidMotion(_) => crate::error::MotionFault::Repeats { index: 3 }.into(),
             "see [trajectories](#trajectories)", "";
+        Error::InvalidPlan(_) => crate::error::PlanFault::NoPoses.into(),
+            "see [plans](#plans)", "";
         Error::UnknownRobot(_) => Robot::<6>::named("IRB 2600-12/1.66").unwrap_err(),
             "a name that is not in the catalog", "take one that is close, or `irbkin.catalog()`";
         Error::Unreachable(_) => Error::Unreachable(Explanation::FilteredOut),

@@ -6,6 +6,7 @@
 
 mod kinematics;
 mod motion;
+mod plan;
 mod rapid;
 mod urdf;
 
@@ -69,6 +70,7 @@ fn the_page_of_messages_has_every_message_as_it_is_printed() {
     for Table { name, rows } in kinematics::tables()
         .into_iter()
         .chain(motion::tables())
+        .chain(plan::tables())
         .chain(urdf::tables())
         .chain(rapid::tables())
     {

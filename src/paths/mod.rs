@@ -27,6 +27,7 @@ pub use line::line;
 pub use polyline::{corner_distance, polyline};
 pub use spacing::Spacing;
 pub use spline::spline;
+pub(crate) use turn::Turn;
 pub use zone::Zone;
 
 #[cfg(test)]

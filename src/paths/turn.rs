@@ -11,19 +11,19 @@ use crate::kinematics::{Pose, pose_to_wxyz};
 
 /// R(s) = R0 + sin(s angle) A + (1 - cos(s angle)) B, with A = R0 K, B = R0 K^2 and K the cross
 /// product with the axis (Rodrigues' formula, eq. 18).
-#[derive(Clone, Copy)]
-pub(super) struct Turn {
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Turn {
     start: Matrix3<f64>,
     sin_part: Matrix3<f64>,
     cos_part: Matrix3<f64>,
     axis: Vector3<f64>,
-    pub(super) angle: f64,
+    pub(crate) angle: f64,
 }
 
 impl Turn {
     /// The shortest turn; of a half turn that about the `axis` which points more the way that it
     /// is given, seen from the base. `index` is the pose that an error names.
-    pub(super) fn new(
+    pub(crate) fn new(
         start: &Rotation3<f64>,
         end: &Rotation3<f64>,
         axis: Option<&Vector3<f64>>,
@@ -70,7 +70,7 @@ impl Turn {
     }
 
     /// The orientation at a part of the way, 0 to 1.
-    pub(super) fn at(&self, part: f64) -> Rotation3<f64> {
+    pub(crate) fn at(&self, part: f64) -> Rotation3<f64> {
         let (sin, cos) = (part * self.angle).sin_cos();
         // 1 - cos without cancellation.
         let versine = if cos > 0.0 { sin * sin / (1.0 + cos) } else { 1.0 - cos };

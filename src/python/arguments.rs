@@ -12,7 +12,7 @@ use crate::paths::ArcOrientation;
 use crate::trajectory::{Profile, SplineKind, Synchronization};
 
 /// What a word stands for.
-fn one_of<T: Copy>(field: &str, word: &str, words: &[(&str, T)]) -> PyResult<T> {
+pub(super) fn one_of<T: Copy>(field: &str, word: &str, words: &[(&str, T)]) -> PyResult<T> {
     if let Some((_, value)) = words.iter().find(|(name, _)| *name == word) {
         return Ok(*value);
     }

@@ -79,15 +79,21 @@ impl Arm {
 
     /// The robot that follows paths.
     pub(super) fn follower(&self, py: Python<'_>) -> PyResult<&Arc<Robot<6>>> {
+        self.six_joints(py, "follow")
+    }
+
+    /// The robot of a call along a path, which is for six joints.
+    pub(super) fn six_joints(&self, py: Python<'_>, call: &str) -> PyResult<&Arc<Robot<6>>> {
         match self {
             Self::Six(robot) => Ok(robot),
             Self::Seven(robot) => Err(match robot.unknown_structure() {
                 Some(reason) => to_py(py, &ModelFault::UnknownStructure(reason).into()),
                 None => Fault::Model.error(
                     py,
-                    "follow is for arms of six joints: along a path of a seven-axis arm, pass the \
-                     joints of the pose before to ik_nearest as the seed"
-                        .to_owned(),
+                    format!(
+                        "{call} is for arms of six joints: along a path of a seven-axis arm, pass \
+                         the joints of the pose before to ik_nearest as the seed"
+                    ),
                 ),
             }),
         }

@@ -55,4 +55,8 @@ package_object!(follow_result_class, "irbkin.records", "FollowResult");
 package_object!(trajectory_sample_class, "irbkin.records", "TrajectorySample");
 package_object!(motion_peaks_class, "irbkin.records", "MotionPeaks");
 package_object!(tool_speed_limits_class, "irbkin.records", "ToolSpeedLimits");
+package_object!(path_error, "irbkin.errors", "PathError");
+package_object!(plan_class, "irbkin.records", "Plan");
+package_object!(plan_break_class, "irbkin.records", "PlanBreak");
+package_object!(strand_end_class, "irbkin.records", "StrandEnd");
 package_object!(pose_check_class, "irbkin.records", "PoseCheck");

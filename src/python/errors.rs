@@ -9,7 +9,7 @@ use super::classes::{
     rapid_error, unknown_name_error, unknown_robot_error, unreachable_error,
 };
 use super::records;
-use crate::error::{Error, FrameFault, MotionFault, NoConfiguration, RapidFault};
+use crate::error::{Error, FrameFault, MotionFault, NoConfiguration, PlanFault, RapidFault};
 
 /// What kind of input was wrong: which exception reports it.
 #[derive(Clone, Copy)]
@@ -33,7 +33,7 @@ impl Fault {
     }
 }
 
-fn raised(class: PyResult<&Bound<'_, PyAny>>, message: String) -> PyErr {
+pub(super) fn raised(class: PyResult<&Bound<'_, PyAny>>, message: String) -> PyErr {
     class
         .and_then(|class| class.call1((message,)))
         .map_or_else(|failure| failure, PyErr::from_value)
@@ -42,12 +42,16 @@ fn raised(class: PyResult<&Bound<'_, PyAny>>, message: String) -> PyErr {
 /// The Python exception of a core error.
 pub(super) fn to_py(py: Python<'_>, error: &Error) -> PyErr {
     let class = match error {
-        Error::InvalidPose(_) | Error::Frame(FrameFault::Pose { .. }) => invalid_pose_error(py),
-        Error::InvalidJoints(_) | Error::InvalidMotion(MotionFault::Row { .. }) => {
+        Error::InvalidPose(_)
+        | Error::Frame(FrameFault::Pose { .. })
+        | Error::InvalidPlan(PlanFault::Pose { .. }) => invalid_pose_error(py),
+        Error::InvalidJoints(_)
+        | Error::InvalidMotion(MotionFault::Row { .. })
+        | Error::InvalidPlan(PlanFault::EndOff { .. } | PlanFault::EndOutside { .. }) => {
             invalid_joints_error(py)
         }
         Error::InvalidModel(_) | Error::WrongLength { .. } => invalid_model_error(py),
-        Error::InvalidMotion(_) => invalid_motion_error(py),
+        Error::InvalidMotion(_) | Error::InvalidPlan(_) => invalid_motion_error(py),
         Error::UnknownRobot(_) => unknown_robot_error(py),
         Error::Unreachable(_) => unreachable_error(py),
         Error::NoConfiguration(fault) => return no_configuration(py, fault),

@@ -20,6 +20,7 @@ mod models;
 mod nearest;
 mod outputs;
 mod paths;
+mod plans;
 mod poses;
 mod queries;
 mod rapid;

@@ -57,7 +57,7 @@ pub(super) fn follow<'py>(
 }
 
 /// Every pose of paths of the shape `shape`, checked.
-fn read_path(py: Python<'_>, rows: &Rows<'_>, shape: &[usize]) -> PyResult<Vec<Pose>> {
+pub(super) fn read_path(py: Python<'_>, rows: &Rows<'_>, shape: &[usize]) -> PyResult<Vec<Pose>> {
     let rows = rows.data()?.as_chunks::<16>().0;
     let mut poses = Vec::with_capacity(rows.len());
     for row in rows {

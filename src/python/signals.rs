@@ -21,14 +21,21 @@ pub(super) fn detached<R: Send>(
     threads: Option<NonZeroUsize>,
     work: impl FnOnce(&mut Pace<'_>) -> Result<R, Error> + Send,
 ) -> PyResult<R> {
+    let answer = detached_while(py, |go_on| work(&mut Pace::until(threads, go_on)))?;
+    answer.map_err(|error| to_py(py, &error))
+}
+
+/// Works without the interpreter's lock, for as long as what it may ask now and then says so: until
+/// a signal's handler raises an exception.
+pub(super) fn detached_while<R: Send>(
+    py: Python<'_>,
+    work: impl FnOnce(&mut dyn FnMut() -> bool) -> R + Send,
+) -> PyResult<R> {
     let mut signals = Signals { asked: Instant::now(), is_deaf: false, raised: None };
-    let answer = py.detach(|| {
-        let mut go_on = || signals.is_quiet();
-        work(&mut Pace::until(threads, &mut go_on))
-    });
+    let answer = py.detach(|| work(&mut || signals.is_quiet()));
     match signals.raised {
         Some(raised) => Err(raised),
-        None => answer.map_err(|error| to_py(py, &error)),
+        None => Ok(answer),
     }
 }
 

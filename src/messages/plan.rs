@@ -1,0 +1,71 @@
+//! Messages of plans.
+
+use core::f64::consts::TAU;
+
+use super::{Row, Table, rows};
+use crate::error::{PlanFault, PoseFault};
+use crate::kinematics::SingularityKind;
+use crate::plan::{StrandEnd, StrandReason};
+use crate::report::{Explanation, Reach};
+
+pub(super) fn tables() -> [Table; 2] {
+    [Table { name: "plan", rows: faults() }, Table { name: "strands", rows: ends() }]
+}
+
+fn faults() -> std::vec::Vec<Row> {
+    rows! { PlanFault;
+        PlanFault::NoPoses => PlanFault::NoPoses, "an empty path", "give a pose";
+        PlanFault::Pose { .. } =>
+            PlanFault::Pose { index: 7, fault: PoseFault::Mirrored { determinant: -1.0 } },
+            "a pose of the path; in Python an `InvalidPoseError`", "leave it out, or repair it";
+        PlanFault::Time { .. } => PlanFault::Time { index: 3, value: 0.2, before: 0.2 },
+            "`times`", "give times that increase";
+        PlanFault::RotationSteps { .. } =>
+            PlanFault::RotationSteps { found: 0, bounds: [2, 3600] },
+            "`steps` of a tool rotation", "give a count between";
+        PlanFault::RotationRange { .. } =>
+            PlanFault::RotationRange { lower: -180.0, upper: 180.0 },
+            "`lower` and `upper` of a tool rotation", "give radians, lower <= upper";
+        PlanFault::EndOff { .. } =>
+            PlanFault::EndOff { field: "start", position: 0.02, rotation: 0.1, bound: 1e-6 },
+            "`start`, `end`; in Python an `InvalidJointsError`",
+            "take a solution of that pose, or begin the path where the arm is";
+        PlanFault::EndAngle { .. } =>
+            PlanFault::EndAngle { field: "start", angle: 1.0, bounds: [-0.5, 0.5] },
+            "`start`, `end`", "widen the tool rotation";
+        PlanFault::EndOutside { .. } =>
+            PlanFault::EndOutside { field: "end", joint: 5, value: 2.5, bounds: [-2.0, 2.0] },
+            "`start`, `end`; in Python an `InvalidJointsError`", "give one inside";
+        PlanFault::Open { .. } =>
+            PlanFault::Open { position: 0.01, rotation: 0.0, bound: 1e-6 },
+            "`closed`", "append the first pose, or leave it out";
+        PlanFault::ClosedEnd => PlanFault::ClosedEnd, "`closed` with `end`", "give `start` only";
+        PlanFault::Turns { .. } => PlanFault::Turns { found: TAU * 1000.0, most: 4096 },
+            "joints with many turns that all matter", "narrow the limits with `with_limits`";
+    }
+}
+
+fn ends() -> std::vec::Vec<Row> {
+    let at = |reason| StrandEnd { slot: 2, pose_index: 57, reason };
+    rows! { StrandEnd;
+        StrandEnd { reason: StrandReason::Unreachable(_), .. } => at(StrandReason::Unreachable(
+            Explanation::OutOfReach(Reach::TooFar { shortfall: 0.012 }),
+        )), "a pose out of reach", "move it, or the base";
+        StrandEnd { reason: StrandReason::Limit { .. }, .. } => at(StrandReason::Limit {
+            joint: 6, value: TAU + 1.0, bounds: [-TAU, TAU],
+        }), "a limit, turns regarded", "free the tool rotation, or begin at another turn";
+        StrandEnd { reason: StrandReason::Speed { .. }, .. } =>
+            at(StrandReason::Speed { joint: 4, ratio: 1.31 }),
+            "`times` too close", "give more time";
+        StrandEnd { reason: StrandReason::Jump { .. }, .. } => at(StrandReason::Jump {
+            joint: 4, by: 3.1, kinds: SingularityKind::WRIST,
+        }), "a singularity, or a way out of reach between two poses",
+            "free the tool rotation, or turn the tool a little";
+        StrandEnd { reason: StrandReason::Ended, .. } => at(StrandReason::Ended),
+            "the edge of reach, a singularity", "as above";
+        StrandEnd { reason: StrandReason::Rejected, .. } => at(StrandReason::Rejected),
+            "`accept`", "";
+        StrandEnd { reason: StrandReason::NotAtEnd, .. } => at(StrandReason::NotAtEnd),
+            "`end`, `closed`", "give another one, or leave it out";
+    }
+}

@@ -1,0 +1,184 @@
+//! What a plan answers.
+
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+use core::fmt;
+
+use crate::error::Error;
+use crate::kinematics::SingularityKind;
+use crate::report::Explanation;
+
+/// A joint path along a path of poses.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Joint angles at each pose [rad]; `None` where a plan with breaks has none.
+    pub q: Vec<Option<[f64; 6]>>,
+    /// The angle that the tool is turned by at each pose [rad], without jumps of a full turn; 0
+    /// without a free rotation.
+    pub tool_angle: Vec<f64>,
+    /// The slot of the branch at each pose.
+    pub slot: Vec<Option<usize>>,
+    /// Weighted sum of the squares of all joint steps [rad^2].
+    pub cost: f64,
+    /// The largest velocity of a joint, as a part of its limit. Without times, the time [s] that
+    /// the path takes at least, if its poses are equally far apart in time.
+    pub bottleneck: f64,
+    /// Where the joints cannot follow; empty of a whole plan.
+    pub breaks: Vec<PlanBreak>,
+    /// Whether every step, apart from breaks, was shown to be continuous between its two poses.
+    pub certified: bool,
+}
+
+/// A part of a path that the joints cannot follow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PlanBreak {
+    /// The last pose before it; `None` if the path begins with it.
+    pub leave: Option<usize>,
+    /// The first pose after it; `None` if the path ends with it.
+    pub enter: Option<usize>,
+}
+
+/// Where and why a branch ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StrandEnd {
+    /// Its slot.
+    pub slot: usize,
+    /// The first pose that it does not reach.
+    pub pose_index: usize,
+    /// The reason.
+    pub reason: StrandReason,
+}
+
+/// Why a branch ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum StrandReason {
+    /// It has no solution inside the limits at that pose.
+    Unreachable(Explanation),
+    /// The joint would leave its limits.
+    Limit {
+        /// The joint, from 1.
+        joint: usize,
+        /// The angle that it would have [rad].
+        value: f64,
+        /// Its limits [rad].
+        bounds: [f64; 2],
+    },
+    /// The joint would be faster than its limit.
+    Speed {
+        /// The joint, from 1.
+        joint: usize,
+        /// Its velocity as a part of the limit.
+        ratio: f64,
+    },
+    /// The joint would turn while the tool does not move, or the way leads out of reach between two
+    /// poses.
+    Jump {
+        /// The joint, from 1.
+        joint: usize,
+        /// The angle by which it turns [rad].
+        by: f64,
+        /// The singularities that are next to it.
+        kinds: SingularityKind,
+    },
+    /// It ends at a singularity or at the edge of reach: other branches reach that pose.
+    Ended,
+    /// The caller's own test rejected it.
+    Rejected,
+    /// It does not lead to the joint angles that were asked for at the end.
+    NotAtEnd,
+}
+
+/// There is no plan without breaks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NoPlan {
+    /// The first pose that no branch reaches from the start.
+    pub pose_index: usize,
+    /// Where and why each branch ends.
+    pub ends: Vec<StrandEnd>,
+    /// The plan with the fewest breaks, the best one between any two of them.
+    pub plan: Plan,
+}
+
+/// Why there is no plan.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum PlanError {
+    /// What was asked for does not fit.
+    Invalid(Error),
+    /// The path cannot be followed without a break.
+    NoPlan(Box<NoPlan>),
+    /// The caller's own test did not answer.
+    Stopped,
+}
+
+impl From<Error> for PlanError {
+    fn from(error: Error) -> Self {
+        Self::Invalid(error)
+    }
+}
+
+impl fmt::Display for PlanError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Invalid(error) => error.fmt(f),
+            Self::NoPlan(gap) => gap.fmt(f),
+            Self::Stopped => f.write_str("the plan was stopped"),
+        }
+    }
+}
+
+impl core::error::Error for PlanError {}
+
+impl fmt::Display for NoPlan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "no branch reaches pose {} from the start", self.pose_index)?;
+        for (number, end) in self.ends.iter().enumerate() {
+            write!(f, "{} {end}", if number == 0 { ":" } else { ";" })?;
+        }
+        let breaks = self.plan.breaks.len();
+        write!(f, " (the plan with the fewest breaks has {breaks})")
+    }
+}
+
+impl fmt::Display for StrandEnd {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "slot {} at pose {}: {}", self.slot, self.pose_index, self.reason)
+    }
+}
+
+impl fmt::Display for StrandReason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unreachable(explanation) => explanation.fmt(f),
+            Self::Limit { joint, value, bounds: [lower, upper] } => write!(
+                f,
+                "J{joint} would have to be at {:.1} deg, its limits are {:.1} to {:.1} deg",
+                value.to_degrees(),
+                lower.to_degrees(),
+                upper.to_degrees()
+            ),
+            Self::Speed { joint, ratio } => {
+                write!(f, "J{joint} would have to move at {ratio:.2} of its velocity limit")
+            }
+            Self::Jump { joint, by, kinds } => {
+                write!(f, "J{joint} would jump by {:.1} deg", by.to_degrees())?;
+                match *kinds {
+                    kinds if kinds.contains(SingularityKind::WRIST) => {
+                        f.write_str(" at the wrist singularity")
+                    }
+                    kinds if kinds.contains(SingularityKind::SHOULDER) => {
+                        f.write_str(" at the shoulder singularity")
+                    }
+                    kinds if kinds.contains(SingularityKind::ELBOW) => {
+                        f.write_str(" at the elbow singularity")
+                    }
+                    _ => f.write_str(" between two poses"),
+                }
+            }
+            Self::Ended => f.write_str("the branch has ended, other branches reach this pose"),
+            Self::Rejected => f.write_str("rejected by accept"),
+            Self::NotAtEnd => f.write_str("does not lead to the joint angles at the end"),
+        }
+    }
+}

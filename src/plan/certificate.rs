@@ -1,0 +1,180 @@
+//! Whether an arm can go from node to node without a jump: the steps of a way are halved until they
+//! shrink, as those of `follow` are (docs/plan.md, eq. 8).
+
+use alloc::vec;
+use alloc::vec::Vec;
+use core::f64::consts::TAU;
+
+use nalgebra::Translation3;
+
+use super::layer::{Grid, Layer, Node};
+use super::nodes::{Arm, largest};
+use super::way::Way;
+use crate::kinematics::thresholds::{CONTINUOUS_STEP, EXAMINED_STEP};
+use crate::kinematics::{Pose, Status, pose_to_rows};
+use crate::lanes::nearest_whole;
+
+/// How often a step is halved in search of a continuous way: down to a millionth of it.
+pub(super) const HALVINGS: u32 = 20;
+
+/// How much of a step its halves may have [1].
+const HALF: f64 = 0.75;
+
+/// How far a way that was followed may end from the joint angles that it leads to [rad].
+const ARRIVED: f64 = 1e-6;
+
+/// What is between two nodes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Between {
+    /// A continuous motion.
+    Continuous,
+    /// A continuous motion that leads elsewhere: to another turn or branch.
+    Elsewhere,
+    /// A jump, or a part of the way that no joint vector inside the limits reaches.
+    Jump,
+}
+
+/// Two nodes of neighboring layers, with joint angles whose difference is the step.
+#[derive(Clone, Copy)]
+pub(super) struct Hop<'a> {
+    layers: [&'a Layer; 2],
+    nodes: [Node; 2],
+    q: [[f64; 6]; 2],
+    angles: [f64; 2],
+}
+
+impl<'a> Hop<'a> {
+    pub(super) fn new(
+        arm: &Arm<'_>,
+        grid: &Grid,
+        layers: [&'a Layer; 2],
+        nodes: [Node; 2],
+        q: [[f64; 6]; 2],
+    ) -> Self {
+        let [first, second] = [0, 1].map(|end| layers[end].tool_angle(grid, nodes[end].bin));
+        let turn = arm.angle_step(first, second);
+        Self { layers, nodes, q, angles: [first, first + turn] }
+    }
+
+    /// The pose of the tool at a part of the way, 0 to 1: straight, at an even rate of rotation.
+    fn pose(&self, arm: &Arm<'_>, part: f64) -> Pose {
+        let [first, last] = self.angles;
+        arm.turned(&self.path_pose(part), first + part * (last - first))
+    }
+
+    fn path_pose(&self, part: f64) -> Pose {
+        let [from, to] = self.layers;
+        let rotation = to.turn.map_or(from.pose.rotation, |turn| turn.at(part));
+        let way = to.pose.translation.vector - from.pose.translation.vector;
+        Pose::from_parts(Translation3::from(from.pose.translation.vector + way * part), rotation)
+    }
+
+    /// The pose half way, without the turn of the tool.
+    pub(super) fn middle(&self) -> Pose {
+        self.path_pose(0.5)
+    }
+
+    fn step(&self) -> f64 {
+        largest(&difference(&self.q[1], &self.q[0]))
+    }
+
+    /// Whether the branch has, half way, joint angles between those of both nodes (eq. 8). Where it
+    /// has not, the way has to be followed.
+    fn is_halved_by(&self, arm: &Arm<'_>, q: &[[f64; 6]], status: &[u8]) -> bool {
+        let [from, to] = &self.q;
+        let slot = self.nodes[0].slot;
+        if slot != self.nodes[1].slot || status[slot] & Status::WITHIN_LIMITS.bits() == 0 {
+            return false;
+        }
+        let whole = self.step();
+        let middle = core::array::from_fn(|joint| {
+            let angle = q[slot][joint];
+            angle + TAU * nearest_whole((from[joint] - angle) / TAU)
+        });
+        let bound = (HALF * whole).max(CONTINUOUS_STEP);
+        whole <= EXAMINED_STEP
+            && arm.joints.contain(&middle)
+            && largest(&difference(&middle, from)) <= bound
+            && largest(&difference(to, &middle)) <= bound
+    }
+
+    /// Follow the branch from the first node to the second, in steps that are halved until they are
+    /// small; a jump does not shrink.
+    pub(super) fn followed(&self, arm: &Arm<'_>) -> Between {
+        let bound = (self.step() / 4.0).clamp(CONTINUOUS_STEP, EXAMINED_STEP);
+        let mut q = self.q[0];
+        let (mut done, mut width, mut depth) = (0.0, 1.0, 0);
+        while done < 1.0 {
+            let end = if done + width >= 1.0 { 1.0 } else { done + width };
+            let nearest = arm.robot.ik_nearest(&self.pose(arm, end), &q, &[1.0; 6]);
+            let next = nearest.ok().map(|next| next.q);
+            match next.filter(|next| largest(&difference(next, &q)) <= bound) {
+                Some(next) => {
+                    (q, done) = (next, end);
+                    if depth > 0 {
+                        (width, depth) = (width * 2.0, depth - 1);
+                    }
+                }
+                None if depth == HALVINGS => return Between::Jump,
+                None => (width, depth) = (width / 2.0, depth + 1),
+            }
+        }
+        if largest(&difference(&q, &self.q[1])) <= ARRIVED {
+            Between::Continuous
+        } else {
+            Between::Elsewhere
+        }
+    }
+}
+
+impl Arm<'_> {
+    /// The angle by which the tool turns from one tool angle to another: of a full circle, the
+    /// shorter way round.
+    pub(super) fn angle_step(&self, from: f64, to: f64) -> f64 {
+        let step = to - from;
+        match self.rotation {
+            Some(rotation) if rotation.is_full() => step - TAU * nearest_whole(step / TAU),
+            _ => step,
+        }
+    }
+
+    /// The steps of a way that are not continuous, by the layer that they lead to.
+    pub(super) fn doubts(&self, grid: &Grid, layers: &[Layer], way: &Way) -> Vec<(usize, Between)> {
+        /// Steps that are looked at together.
+        const PART: usize = 512;
+        let mut doubts = Vec::new();
+        let mut q = vec![0.0; PART * grid.slots * 6];
+        let mut status = vec![0; PART * grid.slots];
+        let hops = (1..way.nodes.len()).map(|step| {
+            let layer = way.from + step;
+            let nodes = [way.nodes[step - 1], way.nodes[step]];
+            let q = [way.q[step - 1], way.q[step]];
+            (layer, Hop::new(self, grid, [&layers[layer - 1], &layers[layer]], nodes, q))
+        });
+        let mut part: Vec<(usize, Hop<'_>)> = Vec::with_capacity(PART);
+        let mut poses = Vec::with_capacity(PART);
+        let mut hops = hops.peekable();
+        while hops.peek().is_some() {
+            part.clear();
+            part.extend(hops.by_ref().take(PART));
+            poses.clear();
+            poses.extend(part.iter().map(|(_, hop)| pose_to_rows(&hop.pose(self, 0.5))));
+            self.solve_part(&poses, &mut q, &mut status);
+            let rows = q.as_chunks::<6>().0.chunks(grid.slots).zip(status.chunks(grid.slots));
+            for ((layer, hop), (q, status)) in part.iter().zip(rows) {
+                if hop.is_halved_by(self, q, status) {
+                    continue;
+                }
+                match hop.followed(self) {
+                    Between::Continuous => {}
+                    doubt => doubts.push((*layer, doubt)),
+                }
+            }
+        }
+        doubts
+    }
+}
+
+fn difference(a: &[f64; 6], b: &[f64; 6]) -> [f64; 6] {
+    core::array::from_fn(|joint| a[joint] - b[joint])
+}

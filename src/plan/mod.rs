@@ -1,0 +1,41 @@
+//! The best joint path along a whole path of poses: over every branch, every turn and, where the
+//! tool may be turned, every tool angle. The equations are in docs/plan.md.
+//!
+//! ```
+//! use irbkin::paths::{Spacing, line};
+//! use irbkin::plan::{PlanOptions, ToolRotation};
+//! use irbkin::{Robot, pose_from_euler_zyx};
+//!
+//! let robot: Robot<6> = Robot::named("IRB 2600-12/1.65")?;
+//! let start = pose_from_euler_zyx([0.9, -0.3, 0.7], [0.0, 2.8, 0.0])?;
+//! let end = pose_from_euler_zyx([0.9, 0.3, 0.7], [0.0, 2.8, 0.0])?;
+//! let seam = line(&start, &end, Spacing::count(101)?, None)?;
+//! let rotation = Some(ToolRotation::full(36)?);
+//! let plan = robot.plan(&seam, &PlanOptions { rotation, ..PlanOptions::default() })?;
+//! assert!(plan.certified && plan.breaks.is_empty());
+//! # Ok::<(), Box<dyn core::error::Error>>(())
+//! ```
+
+mod answer;
+mod certificate;
+mod edges;
+mod ends;
+mod layer;
+mod nodes;
+mod options;
+mod planner;
+mod reasons;
+mod robot;
+mod search;
+mod step;
+mod turns;
+mod way;
+
+pub use answer::{NoPlan, Plan, PlanBreak, PlanError, StrandEnd, StrandReason};
+pub use options::{PlanOptions, ToolAxis, ToolRotation};
+pub use planner::Accept;
+#[cfg(feature = "python")]
+pub(crate) use planner::Caller;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,165 @@
+//! What a plan is asked for.
+
+use alloc::vec::Vec;
+use core::f64::consts::{PI, TAU};
+
+use crate::error::{Error, PlanFault};
+use crate::kinematics::check_weights;
+use crate::kinematics::thresholds::{FULL_TURN, MOST_TOOL_ANGLES};
+
+/// An axis of the tool frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ToolAxis {
+    /// x
+    X,
+    /// y
+    Y,
+    /// z, in which a tool points.
+    Z,
+}
+
+/// The angles by which the tool may be turned about one of its axes at each pose of a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ToolRotation {
+    steps: usize,
+    lower: f64,
+    upper: f64,
+    axis: ToolAxis,
+}
+
+impl ToolRotation {
+    /// `steps` angles from `lower` to `upper` [rad] about an axis of the tool.
+    ///
+    /// Of a full turn, the upper end is the lower one and does not count twice: 36 steps are 10
+    /// degrees apart. Of less, both ends count: 7 steps from -30 to 30 degrees are 10 apart.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidPlan`] for no steps or more than [`MOST_TOOL_ANGLES`], a range that is
+    /// empty, not finite or more than a full turn, and one step of a range that has a width.
+    pub fn new(steps: usize, lower: f64, upper: f64, axis: ToolAxis) -> Result<Self, Error> {
+        let width = upper - lower;
+        // NaN is in no range.
+        let fits = (0.0..=TAU + FULL_TURN).contains(&width) && lower.abs() <= 2.0 * TAU;
+        if !fits {
+            return Err(PlanFault::RotationRange { lower, upper }.into());
+        }
+        let least = if width == 0.0 { 1 } else { 2 };
+        if !(least..=MOST_TOOL_ANGLES).contains(&steps) {
+            let bounds = [least, MOST_TOOL_ANGLES];
+            return Err(PlanFault::RotationSteps { found: steps, bounds }.into());
+        }
+        Ok(Self { steps: if width == 0.0 { 1 } else { steps }, lower, upper, axis })
+    }
+
+    /// `steps` angles all around the tool's z axis.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::new`].
+    pub fn full(steps: usize) -> Result<Self, Error> {
+        Self::new(steps, -PI, PI, ToolAxis::Z)
+    }
+
+    /// Number of angles.
+    #[must_use]
+    pub fn steps(&self) -> usize {
+        self.steps
+    }
+
+    /// The lower and the upper end [rad].
+    #[must_use]
+    pub fn range(&self) -> [f64; 2] {
+        [self.lower, self.upper]
+    }
+
+    /// The axis.
+    #[must_use]
+    pub fn axis(&self) -> ToolAxis {
+        self.axis
+    }
+
+    /// Whether the angles go all around.
+    #[must_use]
+    pub fn is_full(&self) -> bool {
+        self.upper - self.lower >= TAU - FULL_TURN
+    }
+
+    /// The angle between two neighbors [rad].
+    #[must_use]
+    pub fn step(&self) -> f64 {
+        #[expect(clippy::cast_precision_loss, reason = "a small count")]
+        let steps = self.steps as f64;
+        match self.steps {
+            1 => 0.0,
+            _ if self.is_full() => TAU / steps,
+            _ => (self.upper - self.lower) / (steps - 1.0),
+        }
+    }
+}
+
+/// What a plan is asked for besides the path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlanOptions {
+    /// The free rotation of the tool; `None` if each pose fixes the orientation.
+    pub rotation: Option<ToolRotation>,
+    /// The time of each pose [s]. Then no joint may be faster than its limit. `None`: the poses are
+    /// equally far apart in time, and nothing is too fast.
+    pub times: Option<Vec<f64>>,
+    /// The joint angles at the first pose [rad].
+    pub start: Option<[f64; 6]>,
+    /// The joint angles at the last pose [rad].
+    pub end: Option<[f64; 6]>,
+    /// Whether the joints end where they start, turns included.
+    pub closed: bool,
+    /// Cost of moving each joint.
+    pub weights: [f64; 6],
+}
+
+impl Default for PlanOptions {
+    fn default() -> Self {
+        Self {
+            rotation: None,
+            times: None,
+            start: None,
+            end: None,
+            closed: false,
+            weights: [1.0; 6],
+        }
+    }
+}
+
+impl PlanOptions {
+    /// Check what does not depend on the robot, for a path of `count` poses.
+    pub(super) fn check(&self, count: usize) -> Result<(), Error> {
+        check_weights(&self.weights)?;
+        if count == 0 {
+            return Err(PlanFault::NoPoses.into());
+        }
+        if self.closed && self.end.is_some() {
+            return Err(PlanFault::ClosedEnd.into());
+        }
+        let Some(times) = &self.times else { return Ok(()) };
+        if times.len() != count {
+            return Err(Error::WrongLength { field: "times", found: times.len(), wanted: count });
+        }
+        let mut before = f64::NEG_INFINITY;
+        for (index, value) in times.iter().enumerate() {
+            if !(value.is_finite() && *value > before) {
+                return Err(PlanFault::Time { index, value: *value, before }.into());
+            }
+            before = *value;
+        }
+        Ok(())
+    }
+
+    /// The time of each of `count` poses [s].
+    pub(super) fn times_of(&self, count: usize) -> Vec<f64> {
+        #[expect(clippy::cast_precision_loss, reason = "counts of poses are small")]
+        let even = |index: usize| index as f64 / (count.max(2) - 1) as f64;
+        match &self.times {
+            Some(times) => times.clone(),
+            None => (0..count).map(even).collect(),
+        }
+    }
+}

@@ -1,0 +1,362 @@
+//! A plan from its parts: layers are solved, searched, proven and refined.
+
+use alloc::vec::Vec;
+
+use super::answer::PlanError;
+use super::certificate::{Between, HALVINGS, Hop};
+use super::ends::Given;
+use super::layer::{Grid, Layer, Node};
+use super::nodes::{Arm, largest};
+use super::options::PlanOptions;
+use super::turns::TurnStates;
+use super::way::{Ends, Field, Way};
+use crate::error::Error;
+use crate::kinematics::Pose;
+use crate::kinematics::thresholds::{BOTTLENECK_ROUNDING, LIMIT_TOLERANCE, REFINED_TOOL_STEP};
+use crate::paths::Turn;
+
+/// Tool angles of a refined layer to each side of the one that was found.
+const BAND: usize = 5;
+
+/// A caller's own test of joint vectors, asked for many at a time: whether each is accepted, or
+/// nothing to stop.
+pub type Accept<'a> = dyn FnMut(&[[f64; 6]]) -> Option<Vec<bool>> + 'a;
+
+/// What may be asked of the caller while a plan is made.
+pub(crate) struct Caller<'a, 'b> {
+    pub(crate) accept: Option<&'a mut Accept<'b>>,
+    pub(crate) go_on: &'a mut dyn FnMut() -> bool,
+}
+
+/// The state of a plan that is being made.
+pub(super) struct Planner<'a> {
+    pub(super) arm: Arm<'a>,
+    pub(super) grid: Grid,
+    pub(super) layers: Vec<Layer>,
+    pub(super) ends: Ends,
+    pub(super) speed: f64,
+    pub(super) closed: bool,
+    /// Joints whose turns mattered so far.
+    pub(super) states: TurnStates,
+}
+
+impl<'a> Planner<'a> {
+    /// The layers of a path whose poses were checked, solved.
+    pub(super) fn new(
+        arm: Arm<'a>,
+        path: &[Pose],
+        options: &PlanOptions,
+        given: [Option<Given>; 2],
+    ) -> Result<Self, Error> {
+        let (bins, step, cyclic, base) = match arm.rotation {
+            None => (1, 0.0, false, 0.0),
+            Some(rotation) => {
+                (rotation.steps(), rotation.step(), rotation.is_full(), rotation.range()[0])
+            }
+        };
+        let grid = Grid { slots: arm.robot.slot_count(), bins, step, cyclic };
+        let times = options.times_of(path.len());
+        let mut layers = Vec::with_capacity(path.len());
+        for (index, (pose, time)) in path.iter().zip(times).enumerate() {
+            let mut layer = Layer::new(*pose, time, Some(index), &grid);
+            layer.base = base;
+            if let Some(before) = index.checked_sub(1) {
+                let before = &path[before].rotation;
+                layer.turn = Some(Turn::new(before, &pose.rotation, None, index)?);
+            }
+            layers.push(layer);
+        }
+        let has_limits = options.times.is_some() && arm.robot.max_velocity().is_some();
+        let mut planner = Self {
+            arm,
+            grid,
+            layers,
+            ends: Ends::default(),
+            speed: if has_limits { 1.0 + LIMIT_TOLERANCE } else { f64::INFINITY },
+            closed: options.closed,
+            states: TurnStates::default(),
+        };
+        let [first, last] = given;
+        let closing = if options.closed { first } else { last };
+        let count = planner.layers.len();
+        planner.ends.first = first.map(|given| planner.fix(0, &given));
+        if count > 1 || planner.ends.first.is_none() {
+            planner.ends.last = closing.map(|given| planner.fix(count - 1, &given));
+        }
+        planner.solve(0..count);
+        Ok(planner)
+    }
+
+    /// Solve a range of layers, and find the edges between branches at them.
+    fn solve(&mut self, range: core::ops::Range<usize>) {
+        let angles = self.arm.rotation.filter(|rotation| !rotation.is_full()).map(|rotation| {
+            let [lower, upper] = rotation.range();
+            [lower - LIMIT_TOLERANCE, upper + LIMIT_TOLERANCE]
+        });
+        self.arm.solve(&self.grid, &mut self.layers, range.clone(), angles);
+        let last = self.layers.len() - 1;
+        if self.closed && range.contains(&last) {
+            let (q, present) = (self.layers[0].q.clone(), self.layers[0].present.clone());
+            (self.layers[last].q, self.layers[last].present) = (q, present);
+        }
+        let edges = range.start.max(1)..(range.end + 1).min(self.layers.len());
+        self.arm.find_crossings(&self.grid, &mut self.layers, edges);
+    }
+
+    /// Fix the joint angles at a layer; returns their turns.
+    fn fix(&mut self, layer: usize, given: &Given) -> [i32; 6] {
+        let joints = self.arm.joints;
+        let q = core::array::from_fn(|joint| joints.first_turn(joint, given.q[joint]));
+        let node = Node { slot: given.slot, bin: given.bin };
+        let layer = &mut self.layers[layer];
+        layer.own = Some((given.bin, given.angle));
+        layer.put(&self.grid, node, Some(q));
+        core::array::from_fn(|joint| joints.turn_of(joint, q[joint], given.q[joint]))
+    }
+
+    pub(super) fn field(&self) -> Field<'_> {
+        Field {
+            grid: self.grid,
+            joints: self.arm.joints,
+            layers: &self.layers,
+            speed: self.speed,
+            ends: self.ends,
+            cyclic_angles: self.arm.rotation.is_some_and(|rotation| rotation.is_full()),
+        }
+    }
+
+    /// [`Field::best_way`], with the turns told apart that mattered before.
+    fn best_way(&mut self, from: usize) -> Result<Option<Way>, Error> {
+        let mut states = core::mem::take(&mut self.states);
+        let way = self.field().best_way(from, &mut states);
+        self.states = states;
+        way
+    }
+
+    /// The best way from a layer on whose steps are all continuous and whose nodes the caller
+    /// accepts; `None` if there is none, not even to the layer itself.
+    pub(super) fn proven_way(
+        &mut self,
+        from: usize,
+        caller: &mut Caller<'_, '_>,
+    ) -> Result<Option<Way>, PlanError> {
+        let mut reach = 1;
+        loop {
+            if !(caller.go_on)() {
+                return Err(PlanError::Stopped);
+            }
+            let way =
+                if self.closed && from == 0 { self.closed_way()? } else { self.best_way(from)? };
+            let Some(way) = way else { return Ok(None) };
+            let doubts = self.arm.doubts(&self.grid, &self.layers, &way);
+            if !doubts.is_empty() {
+                // From the end, so that layers that are put in do not move those to come.
+                for (layer, doubt) in doubts.into_iter().rev() {
+                    self.resolve(&way, layer, doubt)?;
+                }
+                continue;
+            }
+            if self.is_accepted(&way, reach, caller)? {
+                return Ok(Some(way));
+            }
+            reach *= 2;
+        }
+    }
+
+    /// The best way that ends with the joint angles that it begins with; the best one that does not
+    /// if there is none.
+    fn closed_way(&mut self) -> Result<Option<Way>, Error> {
+        let last = self.layers.len() - 1;
+        let open = self.best_way(0)?;
+        let mut states = self.states.clone();
+        let mut field = self.field();
+        let Some(open) = open else { return Ok(None) };
+        let mut best: Option<Way> = None;
+        if open.reached() == last {
+            let begin = self.grid.number(open.nodes[0]);
+            let others = self.layers[0].nodes(&self.grid);
+            let others = others.map(|(node, _)| self.grid.number(node));
+            for number in [begin].into_iter().chain(others.filter(|number| *number != begin)) {
+                field.ends.closed_at = Some(number);
+                let way = field.best_way(0, &mut states)?.filter(|way| way.reached() == last);
+                let is_better =
+                    |way: &Way| best.as_ref().is_none_or(|best| way.is_better_than(best));
+                if let Some(way) = way.filter(is_better) {
+                    field.speed = field.speed.min(way.bottleneck * (1.0 + BOTTLENECK_ROUNDING));
+                    best = Some(way);
+                }
+            }
+        }
+        if best.is_none() && open.reached() == last && last > 0 {
+            let mut shorter = self.field();
+            shorter.layers = &self.layers[..last];
+            shorter.ends.last = None;
+            return shorter.best_way(0, &mut states);
+        }
+        Ok(best.or(Some(open)))
+    }
+
+    /// Deal with a step of a way that is not continuous.
+    fn resolve(&mut self, way: &Way, layer: usize, doubt: Between) -> Result<(), Error> {
+        let step = layer - way.from;
+        let nodes = [way.nodes[step - 1], way.nodes[step]];
+        let q = [way.q[step - 1], way.q[step]];
+        let edge = nodes.map(|node| self.grid.number(node));
+        if doubt == Between::Elsewhere && self.layers[layer].depth < HALVINGS {
+            return self.split(layer, nodes, q);
+        }
+        if !self.layers[layer].refused.contains(&edge) {
+            self.layers[layer].refused.push(edge);
+        }
+        if !self.layers[layer].is_examined {
+            let size = largest(&core::array::from_fn(|joint| q[1][joint] - q[0][joint]));
+            self.examine(layer, nodes, 0.5 * size);
+        }
+        Ok(())
+    }
+
+    /// Put a layer half way before a layer.
+    fn split(&mut self, layer: usize, nodes: [Node; 2], q: [[f64; 6]; 2]) -> Result<(), Error> {
+        let (before, after) = (&self.layers[layer - 1], &self.layers[layer]);
+        let hop = Hop::new(&self.arm, &self.grid, [before, after], nodes, q);
+        let pose = hop.middle();
+        let time = 0.5 * (before.time + after.time);
+        let mut middle = Layer::new(pose, time, None, &self.grid);
+        middle.base = before.base + 0.5 * self.arm.angle_step(before.base, after.base);
+        middle.depth = after.depth + 1;
+        let (first, last) = (before.pose.rotation, after.pose.rotation);
+        middle.turn = Some(Turn::new(&first, &pose.rotation, None, layer)?);
+        let after = &mut self.layers[layer];
+        after.turn = Some(Turn::new(&pose.rotation, &last, None, layer)?);
+        after.depth = middle.depth;
+        after.is_examined = false;
+        after.refused.clear();
+        self.layers.insert(layer, middle);
+        self.solve(layer..layer + 1);
+        Ok(())
+    }
+
+    /// Look at the other edges of a step where one is not continuous: at those about as large.
+    fn examine(&mut self, layer: usize, nodes: [Node; 2], least: f64) {
+        let grid = self.grid;
+        let (before, after) = (&self.layers[layer - 1], &self.layers[layer]);
+        let apart = nodes[0].bin.abs_diff(nodes[1].bin);
+        let apart = if grid.cyclic { apart.min(grid.bins - apart) } else { apart }.max(1);
+        let mut refused = Vec::new();
+        for (to, q) in after.nodes(&grid) {
+            for offset in 0..(2 * apart + 1).min(grid.bins) {
+                let bin = to.bin + grid.bins + offset - apart.min(grid.bins);
+                let from = Node { slot: to.slot, bin: bin % grid.bins };
+                let edge = [grid.number(from), grid.number(to)];
+                let Some(q_before) = before.joints(&grid, from) else { continue };
+                let steps = self.arm.joints.steps(&q_before, &q);
+                if largest(&steps) < least || after.refused.contains(&edge) {
+                    continue;
+                }
+                let Some(ends) = self.arm.joints.inside(&q_before, &steps) else { continue };
+                let hop = Hop::new(&self.arm, &grid, [before, after], [from, to], ends);
+                if hop.followed(&self.arm) == Between::Jump {
+                    refused.push(edge);
+                }
+            }
+        }
+        self.layers[layer].refused.extend(refused);
+        self.layers[layer].is_examined = true;
+    }
+
+    /// Whether the caller accepts every node of a way. If not, those around it that are `reach`
+    /// tool angles away are asked for, too.
+    fn is_accepted(
+        &mut self,
+        way: &Way,
+        reach: usize,
+        caller: &mut Caller<'_, '_>,
+    ) -> Result<bool, PlanError> {
+        let Some(accept) = &mut caller.accept else { return Ok(true) };
+        let grid = self.grid;
+        let number = |step: usize| (way.from + step, grid.number(way.nodes[step]));
+        let is_new = |layers: &[Layer], (layer, node): &(usize, usize)| -> bool {
+            !layers[*layer].accepted.contains(node) && !layers[*layer].rejected.contains(node)
+        };
+        let mut open: Vec<_> = (0..way.nodes.len()).map(number).collect();
+        open.retain(|place| is_new(&self.layers, place));
+        let q: Vec<_> = open.iter().map(|(layer, _)| way.q[layer - way.from]).collect();
+        let rejected = self.ask(&open, &q, accept)?;
+        if rejected.is_empty() {
+            return Ok(true);
+        }
+        let mut around = Vec::new();
+        for (layer, number) in &rejected {
+            let node = grid.node(*number);
+            for near in layer.saturating_sub(1)..(layer + 2).min(self.layers.len()) {
+                for (other, q) in self.layers[near].nodes(&grid) {
+                    let apart = other.bin.abs_diff(node.bin);
+                    let apart = if grid.cyclic { apart.min(grid.bins - apart) } else { apart };
+                    let place = (near, grid.number(other));
+                    if other.slot == node.slot && apart <= reach && is_new(&self.layers, &place) {
+                        around.push((place, q));
+                    }
+                }
+            }
+        }
+        around.sort_unstable_by_key(|(place, _)| *place);
+        around.dedup_by_key(|(place, _)| *place);
+        let (places, q): (Vec<_>, Vec<_>) = around.into_iter().unzip();
+        self.ask(&places, &q, accept)?;
+        Ok(false)
+    }
+
+    /// Ask the caller for nodes; take those away that are rejected, and return them.
+    fn ask(
+        &mut self,
+        places: &[(usize, usize)],
+        q: &[[f64; 6]],
+        accept: &mut Accept<'_>,
+    ) -> Result<Vec<(usize, usize)>, PlanError> {
+        if places.is_empty() {
+            return Ok(Vec::new());
+        }
+        let verdicts = accept(q).filter(|verdicts| verdicts.len() == q.len());
+        let verdicts = verdicts.ok_or(PlanError::Stopped)?;
+        let mut rejected = Vec::new();
+        for ((layer, number), is_accepted) in places.iter().zip(verdicts) {
+            let at = &mut self.layers[*layer];
+            if is_accepted {
+                at.accepted.push(*number);
+            } else {
+                at.rejected.push(*number);
+                at.put(&self.grid, self.grid.node(*number), None);
+                rejected.push((*layer, *number));
+            }
+        }
+        Ok(rejected)
+    }
+
+    /// Whether the tool angles are so far apart that they are to be refined.
+    pub(super) fn is_coarse(&self) -> bool {
+        self.grid.step > REFINED_TOOL_STEP
+    }
+
+    /// Layers of tool angles next to those of a way, a fifth as far apart.
+    pub(super) fn refine(&mut self, way: &Way) {
+        let coarse = self.grid;
+        #[expect(clippy::cast_precision_loss, reason = "a small count")]
+        let step = coarse.step / BAND as f64;
+        self.grid = Grid { bins: 2 * BAND + 1, step, cyclic: false, ..coarse };
+        let layers = self.layers.iter().zip(&way.nodes).map(|(layer, node)| {
+            let angle = layer.tool_angle(&coarse, node.bin);
+            let mut finer = Layer::new(layer.pose, layer.time, layer.index, &self.grid);
+            #[expect(clippy::cast_precision_loss, reason = "a small count")]
+            let base = angle - BAND as f64 * step;
+            (finer.base, finer.depth, finer.turn) = (base, layer.depth, layer.turn);
+            if layer.own.is_some() {
+                finer.own = Some((BAND, angle));
+                let q = layer.joints(&coarse, *node);
+                finer.put(&self.grid, Node { bin: BAND, ..*node }, q);
+            }
+            finer
+        });
+        self.layers = layers.collect();
+        self.solve(0..self.layers.len());
+    }
+}

@@ -1,0 +1,174 @@
+//! Why the branches of a path end.
+
+use alloc::vec::Vec;
+use core::f64::consts::{PI, TAU};
+
+use super::answer::{StrandEnd, StrandReason};
+use super::layer::{Layer, Node};
+use super::nodes::largest;
+use super::planner::Planner;
+use super::step::Rates;
+use super::way::Way;
+use crate::error::Error;
+use crate::kinematics::SingularityKind;
+use crate::kinematics::thresholds::CROSSING_JUMP;
+use crate::lanes::nearest_whole;
+use crate::report::Explanation;
+
+impl Planner<'_> {
+    /// Where and why each branch that begins at the first layer of a way ends.
+    pub(super) fn strand_ends(&self, way: &Way) -> Result<Vec<StrandEnd>, Error> {
+        let mut ends = Vec::new();
+        for slot in 0..self.grid.slots {
+            let layer = way.alive[slot] + 1;
+            let begins = self.layers[way.from..].first().is_some_and(|layer| layer.present[slot]);
+            let lived = way.alive[slot] > way.from || begins;
+            if !lived {
+                continue;
+            }
+            let pose_index = self.index_of(layer.min(self.layers.len() - 1));
+            let reason = if layer < self.layers.len() {
+                self.reason(slot, layer)?
+            } else {
+                StrandReason::NotAtEnd
+            };
+            ends.push(StrandEnd { slot, pose_index, reason });
+        }
+        Ok(ends)
+    }
+
+    /// The index of the pose of a layer, or of the next one that has an index.
+    pub(super) fn index_of(&self, layer: usize) -> usize {
+        let index = self.layers[layer..].iter().find_map(|layer| layer.index);
+        index.unwrap_or_default()
+    }
+
+    /// Why a branch does not go on to a layer.
+    fn reason(&self, slot: usize, layer: usize) -> Result<StrandReason, Error> {
+        let (before, after) = (&self.layers[layer - 1], &self.layers[layer]);
+        if !after.present[slot] {
+            if after.rejected.iter().any(|number| self.grid.node(*number).slot == slot) {
+                return Ok(StrandReason::Rejected);
+            }
+            if after.own.is_some() {
+                return Ok(StrandReason::NotAtEnd);
+            }
+            return self.unreachable(slot, [before, after]);
+        }
+        let Some((from, to, steps)) = self.smallest_edge(slot, [before, after]) else {
+            return self.unreachable(slot, [before, after]);
+        };
+        let rates = Rates::of(self.arm.joints, after.time - before.time);
+        if rates.cost(&steps).0 > self.speed {
+            let part = |joint: &usize| steps[*joint].abs() * rates.parts[*joint];
+            let joint = (0..6).max_by(|a, b| part(a).total_cmp(&part(b))).unwrap_or_default();
+            return Ok(StrandReason::Speed { joint: joint + 1, ratio: part(&joint) });
+        }
+        let edge = [from, to].map(|node| self.grid.number(node));
+        let q = before.joints(&self.grid, from).unwrap_or_default();
+        if after.refused.contains(&edge) || largest(&steps) > CROSSING_JUMP {
+            let joint = (0..6).max_by(|a, b| steps[*a].abs().total_cmp(&steps[*b].abs()));
+            let joint = joint.unwrap_or_default();
+            if steps[joint].abs() > PI {
+                // The short way round leads through the limits.
+                let value = q[joint] + steps[joint] - TAU.copysign(steps[joint]);
+                let bounds = self.arm.joints.limits(joint);
+                return Ok(StrandReason::Limit { joint: joint + 1, value, bounds });
+            }
+            let next = after.joints(&self.grid, to).unwrap_or_default();
+            let kinds = self.arm.robot.singularity(&q).kinds
+                | self.arm.robot.singularity(&next).kinds
+                | self.kinds_between(&q, &next);
+            return Ok(StrandReason::Jump { joint: joint + 1, by: steps[joint], kinds });
+        }
+        Ok(self.at_limit(&q, &steps))
+    }
+
+    /// The singularity that is next to a jump: the nearest one of the joint angles.
+    fn kinds_between(&self, q: &[f64; 6], next: &[f64; 6]) -> SingularityKind {
+        let middle = core::array::from_fn(|joint| 0.5 * (q[joint] + next[joint]));
+        self.arm.robot.singularity(&middle).kinds
+    }
+
+    /// That a branch has no node at a layer.
+    fn unreachable(
+        &self,
+        slot: usize,
+        [before, after]: [&Layer; 2],
+    ) -> Result<StrandReason, Error> {
+        let mut nodes = before.nodes(&self.grid).filter(|(node, _)| node.slot == slot);
+        let bin = nodes.next().map_or(0, |(node, _)| node.bin);
+        let pose = self.arm.turned(&after.pose, after.tool_angle(&self.grid, bin));
+        let solutions = self.arm.robot.ik(&pose)?;
+        let Some(solution) = solutions.slot(slot) else {
+            return Ok(match solutions.explain() {
+                Explanation::Found { .. } => StrandReason::Ended,
+                explanation => StrandReason::Unreachable(explanation),
+            });
+        };
+        let limits = self.arm.robot.limits();
+        let over = |joint: &usize| limits.overrun(*joint, solution.q[*joint]);
+        let joint = (0..6).max_by(|a, b| over(a).total_cmp(&over(b))).unwrap_or_default();
+        if over(&joint) <= 0.0 {
+            return Ok(StrandReason::Unreachable(solutions.explain()));
+        }
+        let bounds = self.arm.joints.limits(joint);
+        let middle = 0.5 * (bounds[0] + bounds[1]);
+        let value = solution.q[joint];
+        let value = value - TAU * nearest_whole((value - middle) / TAU);
+        Ok(StrandReason::Limit { joint: joint + 1, value, bounds })
+    }
+
+    /// The smallest step of a branch from one layer to the next.
+    fn smallest_edge(
+        &self,
+        slot: usize,
+        [before, after]: [&Layer; 2],
+    ) -> Option<(Node, Node, [f64; 6])> {
+        let of_slot = |layer: &Layer| -> Vec<(Node, [f64; 6])> {
+            layer.nodes(&self.grid).filter(|(node, _)| node.slot == slot).collect()
+        };
+        let (from, to) = (of_slot(before), of_slot(after));
+        let pairs = from.iter().flat_map(|from| to.iter().map(move |to| (from, to)));
+        let steps =
+            pairs.map(|((from, q), (to, next))| (*from, *to, self.arm.joints.steps(q, next)));
+        steps.min_by(|a, b| largest(&a.2).total_cmp(&largest(&b.2)))
+    }
+
+    /// The joint whose turns end at a step.
+    fn at_limit(&self, q: &[f64; 6], steps: &[f64; 6]) -> StrandReason {
+        let joints = self.arm.joints;
+        let over = |joint: &usize| {
+            let [lower, upper] = joints.limits(*joint);
+            let last = joints.last_turn(*joint, q[*joint]);
+            let next = joints.angle(*joint, q[*joint], last) + steps[*joint];
+            let first = q[*joint] + steps[*joint];
+            (next - upper).max(lower - first)
+        };
+        let limited = (0..6).filter(|joint| !joints.is_unlimited(*joint) && joints.wraps[*joint]);
+        let Some(joint) = limited.max_by(|a, b| over(a).total_cmp(&over(b))) else {
+            return StrandReason::NotAtEnd;
+        };
+        let bounds = joints.limits(joint);
+        let last = joints.angle(joint, q[joint], joints.last_turn(joint, q[joint])) + steps[joint];
+        let first = q[joint] + steps[joint];
+        let value = if last > bounds[1] { last } else { first };
+        StrandReason::Limit { joint: joint + 1, value, bounds }
+    }
+
+    /// Why no branch has a node at the first layer, if none has.
+    pub(super) fn none_at_start(&self) -> Result<Vec<StrandEnd>, Error> {
+        let first = &self.layers[0];
+        let slots = (0..self.grid.slots).filter(|slot| !first.present[*slot]);
+        let end = |slot| {
+            let reason = if first.rejected.iter().any(|number| self.grid.node(*number).slot == slot)
+            {
+                StrandReason::Rejected
+            } else {
+                self.unreachable(slot, [first, first])?
+            };
+            Ok(StrandEnd { slot, pose_index: 0, reason })
+        };
+        slots.map(end).collect()
+    }
+}

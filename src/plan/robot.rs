@@ -1,0 +1,177 @@
+//! `Robot::plan`.
+
+use alloc::boxed::Box;
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::answer::{NoPlan, Plan, PlanBreak, PlanError};
+use super::ends::Given;
+use super::nodes::Arm;
+use super::options::PlanOptions;
+use super::planner::{Accept, Caller, Planner};
+use super::turns::PlannedJoints;
+use super::way::Way;
+use crate::error::{Error, ModelFault, PlanFault};
+use crate::kinematics::thresholds::PLAN_END_OFF;
+use crate::kinematics::{Pose, PoseDifference, Robot, checked_pose};
+
+impl Robot<6> {
+    /// The best joint path along a path of poses.
+    ///
+    /// Of all joint paths that are continuous, on whatever branch, with whatever turns and tool
+    /// angles, that with the smallest bottleneck: the largest velocity of a joint, relative to its
+    /// limit ([`Robot::max_velocity`]; 1 rad/s of each joint if it is unknown). Of those, that with
+    /// the smallest weighted sum of squares of joint steps. Both are exact over the tool angles of
+    /// the grid, which is then refined around the best ones. Every step is shown to be continuous
+    /// between its two poses.
+    ///
+    /// # Errors
+    ///
+    /// [`PlanError::NoPlan`], with the first pose that is not reached, the reason for each branch,
+    /// and the plan with the fewest breaks; [`PlanError::Invalid`] for poses that are no rigid
+    /// transforms, or half a turn apart, options that do not fit, and an arm of unknown structure.
+    pub fn plan(&self, path: &[Pose], options: &PlanOptions) -> Result<Plan, PlanError> {
+        self.planned(path, options, &mut Caller { accept: None, go_on: &mut || true })
+    }
+
+    /// [`Self::plan`] through joint vectors that `accept` accepts: it is asked for many at a time,
+    /// where the best way goes. Joint vectors that differ by full turns are asked for once.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::plan`]; [`PlanError::Stopped`] if `accept` answers nothing, or not for each.
+    pub fn plan_accepted(
+        &self,
+        path: &[Pose],
+        options: &PlanOptions,
+        accept: &mut Accept<'_>,
+    ) -> Result<Plan, PlanError> {
+        self.planned(path, options, &mut Caller { accept: Some(accept), go_on: &mut || true })
+    }
+
+    /// [`Self::plan`], for a caller that may be asked.
+    pub(crate) fn planned(
+        &self,
+        path: &[Pose],
+        options: &PlanOptions,
+        caller: &mut Caller<'_, '_>,
+    ) -> Result<Plan, PlanError> {
+        options.check(path.len())?;
+        if let Some(reason) = self.unknown_structure() {
+            return Err(Error::from(ModelFault::UnknownStructure(reason)).into());
+        }
+        let path = checked_path(path, options)?;
+        let joints = PlannedJoints::of(self, options.weights);
+        let joints = match options.start.or(options.end) {
+            Some(q) if q.iter().all(|angle| angle.is_finite()) => joints.around(&q),
+            _ => joints,
+        };
+        let arm = Arm { robot: self, joints: &joints, rotation: options.rotation };
+        let given = |field, q: &Option<[f64; 6]>, pose: &Pose| {
+            q.as_ref().map(|q| Given::new(&arm, field, q, pose)).transpose()
+        };
+        let ends = [
+            given("start", &options.start, &path[0])?,
+            given("end", &options.end, &path[path.len() - 1])?,
+        ];
+        let mut planner = Planner::new(arm, &path, options, ends)?;
+        let mut ways = Vec::new();
+        let mut from = 0;
+        while from < planner.layers.len() {
+            match planner.proven_way(from, caller)? {
+                Some(way) => {
+                    from = way.reached() + 1;
+                    ways.push(way);
+                }
+                None => from += 1,
+            }
+        }
+        let is_whole = matches!(&ways[..], [way] if way.nodes.len() == planner.layers.len());
+        if is_whole {
+            while planner.is_coarse() {
+                planner.refine(&ways[0]);
+                if let Some(finer) = planner.proven_way(0, caller)? {
+                    ways = vec![finer];
+                }
+            }
+            return Ok(planner.plan_of(&ways));
+        }
+        let plan = planner.plan_of(&ways);
+        Err(PlanError::NoPlan(Box::new(planner.gap(&ways, plan)?)))
+    }
+}
+
+/// The poses of a path, checked; of a closed one, the last is the first.
+fn checked_path(path: &[Pose], options: &PlanOptions) -> Result<Vec<Pose>, Error> {
+    let mut checked = Vec::with_capacity(path.len());
+    for (index, pose) in path.iter().enumerate() {
+        checked.push(checked_pose(pose).map_err(|error| match error {
+            Error::InvalidPose(fault) => PlanFault::Pose { index, fault }.into(),
+            other => other,
+        })?);
+    }
+    if options.closed {
+        let last = checked.len() - 1;
+        let apart = PoseDifference::between(&checked[0], &checked[last]);
+        if apart.largest() > PLAN_END_OFF {
+            let PoseDifference { position, rotation } = apart;
+            return Err(PlanFault::Open { position, rotation, bound: PLAN_END_OFF }.into());
+        }
+        checked[last] = checked[0];
+    }
+    Ok(checked)
+}
+
+impl Planner<'_> {
+    /// The plan of ways, with breaks between them.
+    fn plan_of(&self, ways: &[Way]) -> Plan {
+        let count = self.layers.iter().filter(|layer| layer.index.is_some()).count();
+        let mut plan = Plan {
+            q: vec![None; count],
+            tool_angle: vec![0.0; count],
+            slot: vec![None; count],
+            cost: 0.0,
+            bottleneck: 0.0,
+            breaks: Vec::new(),
+            certified: true,
+        };
+        let mut leave = None;
+        for way in ways {
+            let mut angle: Option<f64> = None;
+            let mut enter = None;
+            for (step, node) in way.nodes.iter().enumerate() {
+                let layer = &self.layers[way.from + step];
+                let own = layer.tool_angle(&self.grid, node.bin);
+                let next = angle.map_or(own, |angle| angle + self.arm.angle_step(angle, own));
+                angle = Some(next);
+                let Some(index) = layer.index else { continue };
+                plan.q[index] = Some(way.q[step]);
+                plan.tool_angle[index] = next;
+                plan.slot[index] = Some(node.slot);
+                if enter.is_none() {
+                    enter = Some(index);
+                    if leave.is_some() || index > 0 {
+                        plan.breaks.push(PlanBreak { leave, enter });
+                    }
+                }
+                leave = Some(index);
+            }
+            plan.cost += way.squares;
+            plan.bottleneck = plan.bottleneck.max(way.bottleneck);
+        }
+        if leave.is_none_or(|leave| leave + 1 < count) {
+            plan.breaks.push(PlanBreak { leave, enter: None });
+        }
+        plan
+    }
+
+    /// Where and why the first way ends.
+    fn gap(&self, ways: &[Way], plan: Plan) -> Result<NoPlan, Error> {
+        let Some(way) = ways.first().filter(|way| way.from == 0) else {
+            let ends = self.none_at_start()?;
+            return Ok(NoPlan { pose_index: 0, ends, plan });
+        };
+        let pose_index = self.index_of((way.reached() + 1).min(self.layers.len() - 1));
+        Ok(NoPlan { pose_index, ends: self.strand_ends(way)?, plan })
+    }
+}

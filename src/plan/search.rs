@@ -1,0 +1,282 @@
+//! The cheapest way through layers, by dynamic programming: exact, linear in the number of layers,
+//! no edge stored (docs/plan.md, eq. 5, 6).
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::layer::{Grid, Layer, Node};
+use super::step::{Pass, Rates};
+use super::turns::{PlannedJoints, TurnStates};
+use crate::lanes::LANES;
+
+/// Marks a node that is entered by an edge from another branch, with the number of that edge.
+pub(super) const CROSSED: u16 = 1 << 15;
+
+/// A node and turns that a way must begin or end with.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Bound {
+    pub(super) node: Option<usize>,
+    pub(super) state: Option<usize>,
+}
+
+impl Bound {
+    fn admits(self, node: usize, state: usize) -> bool {
+        self.node.is_none_or(|only| only == node) && self.state.is_none_or(|only| only == state)
+    }
+}
+
+/// A search through layers.
+pub(super) struct Search<'a> {
+    pub(super) grid: Grid,
+    pub(super) joints: &'a PlannedJoints,
+    pub(super) states: &'a TurnStates,
+    pub(super) layers: &'a [Layer],
+    /// For the edges into each layer: they come from this many bins below to as many above.
+    pub(super) windows: &'a [[usize; 2]],
+    pub(super) first: Bound,
+    pub(super) last: Bound,
+}
+
+/// Costs of the best ways to the nodes of the layer that was reached last.
+pub(super) struct Passed {
+    /// That layer.
+    pub(super) reached: usize,
+    /// The last layer where each slot was reached.
+    pub(super) alive: Vec<usize>,
+    /// The places of the pass, which had layers up to the one that was asked for.
+    places: Places,
+    costs: Vec<f64>,
+    by: Vec<u16>,
+}
+
+/// Where the costs and columns of nodes stand.
+#[derive(Clone, Copy)]
+pub(super) struct Places {
+    pub(super) margin: usize,
+    pitch: usize,
+    /// Places of a column.
+    pub(super) count: usize,
+}
+
+impl Places {
+    fn of(grid: &Grid, widest: usize) -> Self {
+        let pitch = grid.bins + 2 * widest;
+        Self { margin: widest, pitch, count: 2 * widest + grid.slots * pitch + LANES }
+    }
+
+    pub(super) fn place(self, grid: &Grid, number: usize) -> usize {
+        let node = grid.node(number);
+        self.margin + node.slot * self.pitch + node.bin
+    }
+
+    /// First place of a slot's bins.
+    pub(super) fn slot(self, slot: usize) -> usize {
+        self.margin + slot * self.pitch
+    }
+}
+
+impl Search<'_> {
+    /// The best ways from layer `from` to each node of layer `to`, or of the last layer before it
+    /// that is reached.
+    pub(super) fn pass(&self, pass: Pass, from: usize, to: usize, cap: f64) -> Passed {
+        let grid = &self.grid;
+        let places = self.places(from, to);
+        let states = self.states.len();
+        let size = states * places.count;
+        let mut costs = [vec![f64::INFINITY; size], vec![f64::INFINITY; size]];
+        let mut q = [vec![f64::NAN; 6 * places.count], vec![f64::NAN; 6 * places.count]];
+        let mut by = if pass == Pass::Squares { vec![0; (to - from) * size] } else { Vec::new() };
+        let mut unused = vec![0; if pass == Pass::Squares { 0 } else { size }];
+        let mut alive = vec![from; grid.slots];
+        let mut room = Vec::new();
+        self.begin(from, places, &mut costs[0]);
+        self.load(places, &self.layers[from], &mut q[0]);
+        self.fill_margins(places, &mut costs[0]);
+        for layer in from + 1..=to {
+            let [before, after] = &mut q;
+            self.load(places, &self.layers[layer], after);
+            let [costs_before, costs_after] = &mut costs;
+            let by_step = match pass {
+                Pass::Squares => &mut by[(layer - from - 1) * size..(layer - from) * size],
+                Pass::Bottleneck => &mut unused[..],
+            };
+            let ends = Layers { layer, places, pass, cap };
+            if self.layers[layer].refused.is_empty() {
+                self.step(&ends, [before, after], [costs_before, costs_after], by_step, &mut room);
+            } else {
+                self.step_by_itself(&ends, [costs_before, costs_after], by_step);
+            }
+            self.cross(&ends, [costs_before, costs_after], by_step);
+            if !self.survives(places, costs_after, layer, &mut alive) {
+                let [costs, _] = costs;
+                return Passed { reached: layer - 1, alive, places, costs, by };
+            }
+            self.fill_margins(places, costs_after);
+            q.swap(0, 1);
+            costs.swap(0, 1);
+        }
+        let [costs, _] = costs;
+        Passed { reached: to, alive, places, costs, by }
+    }
+
+    /// The nodes that a way may begin at cost nothing so far.
+    fn begin(&self, from: usize, places: Places, costs: &mut [f64]) {
+        let bound = if from == 0 { self.first } else { Bound::default() };
+        for (node, q) in self.layers[from].nodes(&self.grid) {
+            let number = self.grid.number(node);
+            for state in 0..self.states.len() {
+                if bound.admits(number, state) && self.states.holds(self.joints, &q, state) {
+                    costs[state * places.count + places.place(&self.grid, number)] = 0.0;
+                }
+            }
+        }
+    }
+
+    /// The joint angles of a layer as columns, with those from around the circle in the margins.
+    fn load(&self, places: Places, layer: &Layer, q: &mut [f64]) {
+        let grid = &self.grid;
+        for slot in 0..grid.slots {
+            if !layer.present[slot] && grid.bins >= LANES {
+                continue;
+            }
+            for joint in 0..6 {
+                let angles = layer.angles(grid, slot, joint);
+                let start = joint * places.count + places.slot(slot);
+                q[start..start + grid.bins].copy_from_slice(angles);
+                if grid.cyclic {
+                    wrap(q, start, grid.bins, places.margin);
+                }
+            }
+        }
+    }
+
+    /// Costs in the margins: those from around the circle, or none.
+    fn fill_margins(&self, places: Places, costs: &mut [f64]) {
+        let (bins, margin) = (self.grid.bins, places.margin);
+        if margin == 0 {
+            return;
+        }
+        for costs in costs.chunks_mut(places.count) {
+            for slot in 0..self.grid.slots {
+                let start = places.slot(slot);
+                if self.grid.cyclic {
+                    wrap(costs, start, bins, margin);
+                } else {
+                    costs[start - margin..start].fill(f64::INFINITY);
+                    costs[start + bins..start + bins + margin].fill(f64::INFINITY);
+                }
+            }
+        }
+    }
+
+    pub(super) fn rates(&self, layer: usize) -> Rates {
+        let time = self.layers[layer].time - self.layers[layer - 1].time;
+        Rates::of(self.joints, time)
+    }
+
+    /// The bin of the layer before that an offset of the window leads to.
+    pub(super) fn bin_at(&self, bin: usize, offset: usize, below: usize) -> Option<usize> {
+        let bins = self.grid.bins;
+        if self.grid.cyclic {
+            return Some((bin + offset + bins - below % bins) % bins);
+        }
+        (bin + offset).checked_sub(below).filter(|bin| *bin < bins)
+    }
+
+    /// Whether any node of a layer is reached; notes the slots that are.
+    fn survives(&self, places: Places, costs: &[f64], layer: usize, alive: &mut [usize]) -> bool {
+        let mut any = false;
+        for (slot, last) in alive.iter_mut().enumerate() {
+            let start = places.slot(slot);
+            let is_reached = costs.chunks(places.count).any(|costs| {
+                costs[start..start + self.grid.bins].iter().any(|cost| *cost < f64::INFINITY)
+            });
+            if is_reached {
+                *last = layer;
+                any = true;
+            }
+        }
+        any
+    }
+
+    /// The cheapest node of the layer that was reached, with its turns and its cost; of the last
+    /// layer, among those where the way may end.
+    pub(super) fn cheapest(&self, passed: &Passed) -> Option<(usize, usize, f64)> {
+        let is_last = passed.reached + 1 == self.layers.len();
+        let bound = if is_last { self.last } else { Bound::default() };
+        let places = passed.places;
+        let mut best: Option<(usize, usize, f64)> = None;
+        for number in 0..self.grid.len() {
+            for state in 0..self.states.len() {
+                let place = places.place(&self.grid, number);
+                let cost = passed.costs[state * places.count + place];
+                let is_better = cost < best.map_or(f64::INFINITY, |(_, _, least)| least);
+                if is_better && bound.admits(number, state) {
+                    best = Some((number, state, cost));
+                }
+            }
+        }
+        best
+    }
+
+    /// The way to a node, from layer `from` on: its nodes, and its turns at the beginning.
+    pub(super) fn way_to(
+        &self,
+        passed: &Passed,
+        from: usize,
+        (mut number, mut state): (usize, usize),
+    ) -> (Vec<Node>, [i32; 6]) {
+        let grid = &self.grid;
+        let places = passed.places;
+        let size = self.states.len() * places.count;
+        let mut nodes = vec![grid.node(number)];
+        for layer in (from + 1..=passed.reached).rev() {
+            let at = (layer - from - 1) * size + state * places.count + places.place(grid, number);
+            let label = passed.by[at];
+            let to = grid.node(number);
+            let before = if label & CROSSED != 0 {
+                self.layers[layer].crossings[usize::from(label & !CROSSED)][0]
+            } else {
+                let [below, _] = self.windows[layer];
+                let bin = self.bin_at(to.bin, usize::from(label), below).unwrap_or(to.bin);
+                grid.number(Node { slot: to.slot, bin })
+            };
+            let q = self.layers[layer].joints(grid, to).unwrap_or_default();
+            let from = grid.node(before);
+            let q_before = self.layers[layer - 1].joints(grid, from).unwrap_or_default();
+            let turns = self.states.turns(state);
+            let turns_before = core::array::from_fn(|joint| {
+                turns[joint] + self.joints.step(joint, q_before[joint], q[joint]).1
+            });
+            state = self.states.state(&turns_before).unwrap_or_default();
+            number = before;
+            nodes.push(from);
+        }
+        nodes.reverse();
+        (nodes, self.states.turns(state))
+    }
+
+    fn places(&self, from: usize, to: usize) -> Places {
+        Places::of(&self.grid, self.widest(from, to))
+    }
+
+    fn widest(&self, from: usize, to: usize) -> usize {
+        self.windows[from + 1..=to].iter().flatten().fold(0, |most, own| most.max(*own))
+    }
+}
+
+/// The layers between which a step is taken, and how.
+pub(super) struct Layers {
+    /// The later one.
+    pub(super) layer: usize,
+    pub(super) places: Places,
+    pub(super) pass: Pass,
+    pub(super) cap: f64,
+}
+
+/// Copy both ends of a run of numbers to the margins beyond the opposite ends.
+fn wrap(numbers: &mut [f64], start: usize, bins: usize, margin: usize) {
+    let end = start + bins;
+    numbers.copy_within(end - margin..end, start - margin);
+    numbers.copy_within(start..start + margin, end);
+}

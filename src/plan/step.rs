@@ -1,0 +1,191 @@
+//! From one layer to the next: the cost of every edge, and the best edge into every node, in lanes
+//! (docs/plan.md, eq. 4 to 6).
+
+use alloc::vec::Vec;
+use core::f64::consts::TAU;
+
+use super::turns::PlannedJoints;
+use crate::lanes::{Column, Kernel, LANES, nearest_whole};
+
+/// What the edges of a step cost.
+#[derive(Clone, Copy)]
+pub(super) struct Rates {
+    /// Factor of the step of each joint that makes it a part of its velocity limit.
+    pub(super) parts: [f64; 6],
+    pub(super) weights: [f64; 6],
+    pub(super) wraps: [bool; 6],
+}
+
+impl Rates {
+    pub(super) fn of(joints: &PlannedJoints, time: f64) -> Self {
+        Self { parts: joints.rates(time), weights: joints.weights, wraps: joints.wraps }
+    }
+
+    /// The largest part of a velocity limit and the weighted sum of squares of an edge (eq. 4): the
+    /// same operations as in lanes.
+    pub(super) fn cost(&self, steps: &[f64; 6]) -> (f64, f64) {
+        let (mut most, mut squares) = (0.0, 0.0);
+        for joint in 0..6 {
+            let part = steps[joint].abs() * self.parts[joint];
+            most = if part > most { part } else { most };
+            squares += self.weights[joint] * (steps[joint] * steps[joint]);
+        }
+        (most, squares)
+    }
+}
+
+/// How an edge adds to the cost of the way to its first node.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Pass {
+    /// The larger of both (eq. 5).
+    Bottleneck,
+    /// The sum, over edges whose bottleneck is at most the cap (eq. 6).
+    Squares,
+}
+
+impl Pass {
+    /// The cost of a way that is continued by an edge; infinite if it may not be.
+    pub(super) fn continued(self, before: f64, (most, squares): (f64, f64), cap: f64) -> f64 {
+        if most > cap {
+            return f64::INFINITY;
+        }
+        match self {
+            Self::Bottleneck => before.max(most),
+            Self::Squares => before + squares,
+        }
+    }
+}
+
+/// The columns of a layer as the kernel reads them: for each joint, and one for the costs, a number
+/// for each place. The bins of a slot lie side by side, with a margin around them.
+pub(super) struct Columns<'a> {
+    pub(super) q: &'a [f64],
+    pub(super) costs: &'a [f64],
+}
+
+/// The best edge into every node of a layer, of those that stay on their branch and, of joints whose
+/// turns are told apart, on their turn.
+pub(super) struct Step<'a, const SQUARES: bool> {
+    /// Places of a column.
+    pub(super) places: usize,
+    pub(super) before: Columns<'a>,
+    /// Joint angles of the next layer.
+    pub(super) q: &'a [f64],
+    /// A column of costs for each combination of turns.
+    pub(super) costs: &'a mut [f64],
+    /// For each of those, by which offset of the window its best edge comes.
+    pub(super) by: &'a mut [u16],
+    /// First place and number of places of each run of slots that have nodes.
+    pub(super) runs: &'a [[usize; 2]],
+    /// The edges come from this many bins below to as many above.
+    pub(super) window: [usize; 2],
+    pub(super) rates: Rates,
+    /// Joints whose turns are told apart.
+    pub(super) told: [bool; 6],
+    pub(super) cap: f64,
+    /// Room for the costs of the edges of a window.
+    pub(super) room: &'a mut Vec<[Column; 2]>,
+}
+
+impl<const SQUARES: bool> Kernel for Step<'_, SQUARES> {
+    type Answer = ();
+    const WIDE: bool = true;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(mut self) {
+        let width = self.window[0] + self.window[1] + 1;
+        self.room.clear();
+        self.room.resize(width, [[0.0; LANES]; 2]);
+        for [first, count] in self.runs {
+            let mut place = *first;
+            while place < first + count {
+                let next: [Column; 6] =
+                    core::array::from_fn(|joint| column(self.q, joint * self.places + place));
+                for offset in 0..width {
+                    let edges = self.edges(place + offset - self.window[0], &next);
+                    self.room[offset] = edges;
+                }
+                let mut state = 0;
+                while state < self.costs.len() {
+                    self.enter(state, place, &next[0]);
+                    state += self.places;
+                }
+                place += LANES;
+            }
+        }
+    }
+}
+
+impl<const SQUARES: bool> Step<'_, SQUARES> {
+    /// The best edges into eight places of a column of costs, which begins at `state`.
+    #[inline(always)]
+    fn enter(&mut self, state: usize, place: usize, next: &Column) {
+        let (mut best, mut best_by) = ([f64::INFINITY; LANES], [0_u64; LANES]);
+        for (offset, [most, squares]) in self.room.iter().enumerate() {
+            let cost = column(self.before.costs, state + place + offset - self.window[0]);
+            for lane in 0..LANES {
+                let continued = if SQUARES {
+                    cost[lane] + squares[lane]
+                } else if cost[lane] > most[lane] {
+                    cost[lane]
+                } else {
+                    most[lane]
+                };
+                let better = (continued < best[lane]) & (most[lane] <= self.cap);
+                best[lane] = if better { continued } else { best[lane] };
+                best_by[lane] = if better { offset as u64 } else { best_by[lane] };
+            }
+        }
+        for lane in 0..LANES {
+            // Of a node that is not there the angles are NaN.
+            best[lane] = if next[lane].is_nan() { f64::INFINITY } else { best[lane] };
+        }
+        self.costs[state + place..state + place + LANES].copy_from_slice(&best);
+        if SQUARES {
+            let by = &mut self.by[state + place..state + place + LANES];
+            for (by, best) in by.iter_mut().zip(best_by) {
+                #[expect(clippy::cast_possible_truncation, reason = "a window is small")]
+                let best = best as u16;
+                *by = best;
+            }
+        }
+    }
+
+    /// The two costs of eight edges side by side (eq. 3, 4).
+    #[inline(always)]
+    fn edges(&self, from: usize, next: &[Column; 6]) -> [Column; 2] {
+        let (mut most, mut squares) = ([0.0; LANES], [0.0; LANES]);
+        for joint in 0..6 {
+            let before = column(self.before.q, joint * self.places + from);
+            let mut step = [0.0; LANES];
+            for lane in 0..LANES {
+                step[lane] = next[joint][lane] - before[lane];
+            }
+            if self.rates.wraps[joint] {
+                let told = self.told[joint];
+                for lane in 0..LANES {
+                    let turns = nearest_whole(step[lane] * (1.0 / TAU));
+                    step[lane] -= TAU * turns;
+                    // To another turn: not here.
+                    let leaves = told & (turns != 0.0);
+                    most[lane] = if leaves { f64::INFINITY } else { most[lane] };
+                }
+            }
+            for lane in 0..LANES {
+                let part = step[lane].abs() * self.rates.parts[joint];
+                most[lane] = if part > most[lane] { part } else { most[lane] };
+                if SQUARES {
+                    squares[lane] += self.rates.weights[joint] * (step[lane] * step[lane]);
+                }
+            }
+        }
+        [most, squares]
+    }
+}
+
+#[inline(always)]
+fn column(numbers: &[f64], first: usize) -> Column {
+    let mut column = [0.0; LANES];
+    column.copy_from_slice(&numbers[first..first + LANES]);
+    column
+}

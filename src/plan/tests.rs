@@ -1,0 +1,324 @@
+//! The search against exhaustive ones, and plans against what they promise.
+
+use std::vec::Vec;
+
+use core::f64::consts::{PI, TAU};
+
+use super::certificate::Between;
+use super::layer::{Grid, Layer, Node};
+use super::nodes::Arm;
+use super::planner::Planner;
+use super::turns::{PlannedJoints, TurnStates};
+use super::way::{Ends, Field, Way};
+use super::{PlanError, PlanOptions, ToolAxis, ToolRotation};
+use crate::kinematics::{JointLimits, Pose, Robot, pose_from_euler_zyx};
+use crate::paths::Turn;
+use crate::rng::Rng;
+
+/// A node with its turns.
+struct Turned {
+    number: usize,
+    slot: usize,
+    q: [f64; 6],
+}
+
+/// Every node of a layer at every turn inside the limits.
+fn turned(field: &Field<'_>, layer: &Layer) -> Vec<Turned> {
+    let mut all = Vec::new();
+    for (node, q) in layer.nodes(&field.grid) {
+        let mut rows = std::vec![q];
+        for joint in 0..6 {
+            let [lower, upper] = field.joints.limits(joint);
+            rows = rows
+                .into_iter()
+                .flat_map(|row: [f64; 6]| {
+                    (-4..=4).filter_map(move |turn| {
+                        let mut row = row;
+                        row[joint] += TAU * f64::from(turn);
+                        let is_inside = row[joint] >= lower && row[joint] <= upper;
+                        is_inside.then_some(row)
+                    })
+                })
+                .collect();
+        }
+        let number = field.grid.number(node);
+        all.extend(rows.into_iter().map(|q| Turned { number, slot: node.slot, q }));
+    }
+    all
+}
+
+/// The bottleneck and the squares of an edge; `None` if there is none.
+fn edge(field: &Field<'_>, layer: usize, from: &Turned, to: &Turned) -> Option<(f64, f64)> {
+    let after = &field.layers[layer];
+    let pair = [from.number, to.number];
+    if after.refused.contains(&pair) || (from.slot != to.slot && !after.crossings.contains(&pair)) {
+        return None;
+    }
+    let time = after.time - field.layers[layer - 1].time;
+    let (mut most, mut squares): (f64, f64) = (0.0, 0.0);
+    for joint in 0..6 {
+        let step = to.q[joint] - from.q[joint];
+        if field.joints.wraps[joint] && step.abs() > PI {
+            return None;
+        }
+        most = most.max(step.abs() / (field.joints.velocity[joint] * time));
+        squares += field.joints.weights[joint] * step * step;
+    }
+    (most <= field.speed).then_some((most, squares))
+}
+
+/// The best of all ways: how many layers it has, its bottleneck and its squares.
+fn exhaustive(field: &Field<'_>) -> (usize, f64, f64) {
+    let layers: Vec<_> = field.layers.iter().map(|layer| turned(field, layer)).collect();
+    let mut best = (0, f64::INFINITY, f64::INFINITY);
+    let mut open: Vec<(usize, usize, f64, f64)> =
+        (0..layers[0].len()).map(|node| (0, node, 0.0, 0.0)).collect();
+    while let Some((layer, node, most, squares)) = open.pop() {
+        let is_better = layer + 1 > best.0
+            || (layer + 1 == best.0
+                && (most < best.1 * (1.0 - 1e-12)
+                    || (most <= best.1 * (1.0 + 1e-12) && squares < best.2)));
+        if is_better {
+            best = (layer + 1, most, squares);
+        }
+        if layer + 1 == layers.len() {
+            continue;
+        }
+        for (next, to) in layers[layer + 1].iter().enumerate() {
+            if let Some((step, own)) = edge(field, layer + 1, &layers[layer][node], to) {
+                open.push((layer + 1, next, most.max(step), squares + own));
+            }
+        }
+    }
+    best
+}
+
+fn below(rng: &mut Rng, count: usize) -> usize {
+    usize::try_from(rng.bits() % u64::try_from(count).unwrap()).unwrap()
+}
+
+/// Layers with random joint angles: nothing of them is geometry.
+fn random_layers(rng: &mut Rng, joints: &PlannedJoints) -> (Grid, Vec<Layer>) {
+    let grid = Grid {
+        slots: 1 + below(rng, 2),
+        bins: 1 + below(rng, 3),
+        step: 0.1,
+        cyclic: below(rng, 2) == 0,
+    };
+    let (start, end) = (Pose::identity(), pose_from_euler_zyx([0.0; 3], [3.0, 0.0, 0.0]).unwrap());
+    let (mut layers, mut time) = (Vec::new(), 0.0);
+    for index in 0..2 + below(rng, 3) {
+        time += 0.1;
+        let mut layer = Layer::new(start, time, Some(index), &grid);
+        // So large a turn that no window is narrower than all tool angles.
+        layer.turn = Some(Turn::new(&start.rotation, &end.rotation, None, 0).unwrap());
+        for number in 0..grid.len() {
+            if below(rng, 6) > 0 {
+                let q = core::array::from_fn(|joint| {
+                    let [lower, upper] = joints.limits(joint);
+                    joints.first_turn(joint, rng.between(lower, upper))
+                });
+                layer.put(&grid, grid.node(number), Some(q));
+            }
+        }
+        if index > 0 {
+            let pair = |rng: &mut Rng| [below(rng, grid.len()), below(rng, grid.len())];
+            for _ in 0..below(rng, 3) {
+                let refused = pair(rng);
+                layer.refused.push(refused);
+                let crossing = pair(rng);
+                if grid.node(crossing[0]).slot != grid.node(crossing[1]).slot {
+                    layer.crossings.push(crossing);
+                }
+            }
+        }
+        layers.push(layer);
+    }
+    (grid, layers)
+}
+
+/// An arm whose joints 4 and 6 have several turns.
+fn wide(rng: &mut Rng) -> Robot<6> {
+    let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
+    let turns = rng.between(3.2, 7.0);
+    let limits = JointLimits::new([
+        [-2.0, 2.0],
+        [-1.0, 1.5],
+        [-2.0, 1.0],
+        [-turns, turns],
+        [-2.0, 2.0],
+        [-4.0, 7.5],
+    ]);
+    robot.with_limits(limits.unwrap())
+}
+
+fn close(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-9 * (1.0 + b.abs())
+}
+
+#[test]
+fn the_best_way_is_that_of_an_exhaustive_search() {
+    let (mut rng, mut whole) = (Rng::new(7), 0);
+    for case in 0..10_000 {
+        let robot = wide(&mut rng);
+        let weights = core::array::from_fn(|_| rng.between(0.1, 2.0));
+        let joints = PlannedJoints::of(&robot, weights);
+        let (grid, layers) = random_layers(&mut rng, &joints);
+        let speed = if case % 3 == 0 { rng.between(2.0, 12.0) } else { f64::INFINITY };
+        let field = Field {
+            grid,
+            joints: &joints,
+            layers: &layers,
+            speed,
+            ends: Ends::default(),
+            cyclic_angles: false,
+        };
+        let (count, bottleneck, squares) = exhaustive(&field);
+        let Some(way) = field.best_way(0, &mut TurnStates::default()).unwrap() else {
+            assert_eq!(count, 0, "case {case}");
+            continue;
+        };
+        assert_eq!(way.nodes.len(), count, "case {case}");
+        assert!(close(way.bottleneck, bottleneck), "case {case}: {} {bottleneck}", way.bottleneck);
+        assert!(close(way.squares, squares), "case {case}: {} {squares}", way.squares);
+        assert_is_a_way(&field, &way);
+        whole += usize::from(count == layers.len());
+    }
+    assert!(whole > 3_000, "{whole} whole ways");
+}
+
+/// A way's joint angles are those of its nodes, inside the limits, and cost what it says.
+fn assert_is_a_way(field: &Field<'_>, way: &Way) {
+    let (mut most, mut squares) = (0.0_f64, 0.0);
+    for (step, (node, q)) in way.nodes.iter().zip(&way.q).enumerate() {
+        let own = field.layers[step].joints(&field.grid, *node).unwrap();
+        for joint in 0..6 {
+            let turns = (q[joint] - own[joint]) / TAU;
+            assert!((turns - turns.round()).abs() < 1e-9);
+        }
+        assert!(field.joints.contain(q));
+        if step > 0 {
+            let turned = |node: &Node, q: [f64; 6]| Turned {
+                number: field.grid.number(*node),
+                slot: node.slot,
+                q,
+            };
+            let from = turned(&way.nodes[step - 1], way.q[step - 1]);
+            let (own_most, own) = edge(field, step, &from, &turned(node, *q)).unwrap();
+            (most, squares) = (most.max(own_most), squares + own);
+        }
+    }
+    assert!(close(most, way.bottleneck) && close(squares, way.squares));
+}
+
+/// A short random path of an arm.
+fn random_path(robot: &Robot<6>, rng: &mut Rng, count: usize, size: f64) -> Vec<Pose> {
+    let limits = robot.limits().to_array();
+    let mut q: [f64; 6] = core::array::from_fn(|joint| {
+        let [lower, upper] = limits[joint];
+        rng.between(lower.max(-PI), upper.min(PI))
+    });
+    let step: [f64; 6] = core::array::from_fn(|_| rng.between(-size, size));
+    let mut path = Vec::new();
+    for _ in 0..count {
+        path.push(robot.fk(&q));
+        q = core::array::from_fn(|joint| q[joint] + step[joint]);
+    }
+    path
+}
+
+#[test]
+fn no_wider_window_and_no_more_turns_find_a_better_way() {
+    let (mut rng, mut whole) = (Rng::new(11), 0);
+    for case in 0..60 {
+        let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
+        let path = random_path(&robot, &mut rng, 4, 0.15);
+        let rotation = Some(ToolRotation::full(24).unwrap());
+        let joints = PlannedJoints::of(&robot, [1.0; 6]);
+        let arm = Arm { robot: &robot, joints: &joints, rotation };
+        let options = PlanOptions { rotation, ..PlanOptions::default() };
+        let planner = Planner::new(arm, &path, &options, [None; 2]).unwrap();
+        let field = planner.field();
+        // All pairs, layer by layer.
+        let layers: Vec<_> = field.layers.iter().map(|layer| turned(&field, layer)).collect();
+        let mut costs = std::vec![0.0; layers[0].len()];
+        for layer in 1..layers.len() {
+            costs = layers[layer]
+                .iter()
+                .map(|to| {
+                    let ways = layers[layer - 1].iter().zip(&costs).filter_map(|(from, cost)| {
+                        edge(&field, layer, from, to).map(|(most, _)| most.max(*cost))
+                    });
+                    ways.fold(f64::INFINITY, f64::min)
+                })
+                .collect();
+        }
+        let least = costs.into_iter().fold(f64::INFINITY, f64::min);
+        let way = field.best_way(0, &mut TurnStates::default()).unwrap().unwrap();
+        assert_eq!(way.nodes.len() == 4, least.is_finite(), "case {case}");
+        if least.is_finite() {
+            assert!(close(way.bottleneck, least), "case {case}: {} {least}", way.bottleneck);
+            whole += 1;
+        }
+    }
+    assert!(whole >= 30, "{whole} whole ways");
+}
+
+#[test]
+fn a_step_through_a_flip_is_no_continuous_one() {
+    // At q5 = 0 the tool is met with q4 = 0 and with q4 = 180 deg: a flip between them is a jump.
+    let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
+    let joints = PlannedJoints::of(&robot, [1.0; 6]);
+    let arm = Arm { robot: &robot, joints: &joints, rotation: None };
+    let options = PlanOptions::default();
+    let path: Vec<Pose> = [0.01, -0.01].map(|q5| robot.fk(&[0.2, 0.1, 0.3, 0.0, q5, 0.4])).to_vec();
+    let mut planner = Planner::new(arm, &path, &options, [None; 2]).unwrap();
+    let way = planner.field().best_way(0, &mut TurnStates::default()).unwrap().unwrap();
+    assert!(way.bottleneck < 0.1, "the way through the singularity: {}", way.bottleneck);
+    assert!(arm.doubts(&planner.grid, &planner.layers, &way).is_empty());
+    // Without it, a flip is all that is left, and it is seen.
+    planner.layers[1].crossings.clear();
+    for number in 0..planner.grid.slots {
+        let node = Node { slot: number, bin: 0 };
+        if !way.nodes.contains(&node) {
+            planner.layers.iter_mut().for_each(|layer| layer.put(&planner.grid, node, None));
+        }
+    }
+    let way = planner.field().best_way(0, &mut TurnStates::default()).unwrap().unwrap();
+    assert!(way.q[0].iter().zip(&way.q[1]).any(|(a, b)| (a - b).abs() > 3.0));
+    let doubts = arm.doubts(&planner.grid, &planner.layers, &way);
+    assert!(matches!(doubts[..], [(1, Between::Jump | Between::Elsewhere)]), "{doubts:?}");
+}
+
+#[test]
+fn plans_meet_their_poses_and_their_options() {
+    let mut rng = Rng::new(3);
+    for name in ["IRB 2600-12/1.65", "UR5e", "IRB 2400-10/1.55", "IRB 6640-130/3.2"] {
+        let robot: Robot<6> = Robot::named(name).unwrap();
+        for case in 0..40 {
+            let path = random_path(&robot, &mut rng, 12, 0.03);
+            let rotation = match case % 3 {
+                0 => None,
+                1 => Some(ToolRotation::full(12).unwrap()),
+                _ => Some(ToolRotation::new(5, -0.2, 0.3, ToolAxis::X).unwrap()),
+            };
+            let options = PlanOptions { rotation, ..PlanOptions::default() };
+            let plan = match robot.plan(&path, &options) {
+                Ok(plan) => plan,
+                Err(PlanError::NoPlan(gap)) => {
+                    assert!(!gap.ends.is_empty() && !gap.plan.breaks.is_empty(), "{gap:?}");
+                    gap.plan
+                }
+                Err(error) => panic!("{name}: {error}"),
+            };
+            let joints = PlannedJoints::of(&robot, [1.0; 6]);
+            let arm = Arm { robot: &robot, joints: &joints, rotation };
+            for (index, q) in plan.q.iter().enumerate() {
+                let Some(q) = q else { continue };
+                let pose = arm.turned(&path[index], plan.tool_angle[index]);
+                assert!(robot.residual(q, &pose).largest() < 1e-9, "{name} {case} {index}");
+                assert!(robot.limits().contains(q));
+            }
+        }
+    }
+}

@@ -1,0 +1,286 @@
+//! Joints as a plan sees them: their limits, their turns, what a step of each costs.
+
+use alloc::vec;
+use alloc::vec::Vec;
+use core::f64::consts::TAU;
+
+use crate::error::{Error, PlanFault};
+use crate::kinematics::Robot;
+use crate::kinematics::thresholds::{LIMIT_TOLERANCE, MOST_TURN_STATES};
+use crate::lanes::{nearest_whole, whole_below};
+
+/// Turns of a joint without limits, where the search has to count them: two to each side.
+const FREE_TURNS: usize = 5;
+
+/// How far from a limit an angle is at it, or limits from a full turn are one [rad].
+const EITHER_END: f64 = 4.0 * LIMIT_TOLERANCE;
+
+/// Turns of a joint that has a limit on one side only.
+const HALF_FREE_TURNS: f64 = 64.0;
+
+/// The joints of an arm in a plan (docs/plan.md, eq. 2, 3).
+#[derive(Clone, Debug)]
+pub(super) struct PlannedJoints {
+    /// The least and the greatest angle that count as inside [rad].
+    low: [f64; 6],
+    high: [f64; 6],
+    /// How many turns an angle may have inside the limits.
+    counts: [usize; 6],
+    /// The turn around which those of a joint without limits are counted.
+    middle: [i32; 6],
+    /// Whether the step of a joint is taken modulo a turn: if it may have more than one.
+    pub(super) wraps: [bool; 6],
+    /// Velocity limits [rad/s]; ones where none is known.
+    pub(super) velocity: [f64; 6],
+    pub(super) weights: [f64; 6],
+}
+
+impl PlannedJoints {
+    pub(super) fn of(robot: &Robot<6>, weights: [f64; 6]) -> Self {
+        let limits = robot.limits().to_array();
+        let wide = TAU * HALF_FREE_TURNS;
+        let low = limits.map(|[lower, upper]| {
+            let least = if upper.is_finite() { upper - wide } else { f64::NEG_INFINITY };
+            lower.max(least) - LIMIT_TOLERANCE
+        });
+        let high = limits.map(|[lower, upper]| {
+            let most = if lower.is_finite() { lower + wide } else { f64::INFINITY };
+            upper.min(most) + LIMIT_TOLERANCE
+        });
+        let counts = core::array::from_fn(|joint| {
+            let span = high[joint] - low[joint];
+            match span {
+                span if !span.is_finite() => FREE_TURNS,
+                // A full turn has two angles at its ends only: `beside` chooses.
+                span if span <= TAU + EITHER_END => 1,
+                span => 1 + count(whole_below(span / TAU)),
+            }
+        });
+        let velocity = robot.max_velocity().copied().unwrap_or([1.0; 6]);
+        let (wraps, middle) = (counts.map(|count| count > 1), [0; 6]);
+        Self { low, high, counts, middle, wraps, velocity, weights }
+    }
+
+    /// Count the turns of joints without limits around those of `q`.
+    pub(super) fn around(mut self, q: &[f64; 6]) -> Self {
+        self.middle = core::array::from_fn(|joint| {
+            #[expect(clippy::cast_possible_truncation, reason = "angles are small")]
+            let turn = nearest_whole(q[joint] / TAU) as i32;
+            turn
+        });
+        self
+    }
+
+    pub(super) fn is_unlimited(&self, joint: usize) -> bool {
+        !(self.high[joint] - self.low[joint]).is_finite()
+    }
+
+    /// The 2 pi equivalent of an angle with which its turns are counted from 0: the first one
+    /// inside the limits.
+    pub(super) fn first_turn(&self, joint: usize, angle: f64) -> f64 {
+        if self.is_unlimited(joint) {
+            return angle - TAU * nearest_whole(angle / TAU);
+        }
+        if !self.wraps[joint] {
+            return angle;
+        }
+        let turns = whole_below((angle - self.low[joint]) / TAU);
+        if turns == 0.0 { angle } else { angle - TAU * turns }
+    }
+
+    /// Whether an angle is at an end of limits that are a full turn apart: it may as well be at the
+    /// other.
+    pub(super) fn is_either_end(&self, joint: usize, angle: f64) -> bool {
+        let (low, high) = (self.low[joint], self.high[joint]);
+        !self.wraps[joint]
+            && high - low >= TAU
+            && (angle - low < EITHER_END || high - angle < EITHER_END)
+    }
+
+    /// Joint angles, those of them that may be at either end of their limits on the side of
+    /// neighboring ones.
+    pub(super) fn beside(&self, q: &[f64; 6], neighbor: &[f64; 6]) -> [f64; 6] {
+        core::array::from_fn(|joint| {
+            let step = q[joint] - neighbor[joint];
+            if self.is_either_end(joint, q[joint]) {
+                q[joint] - TAU * nearest_whole(step / TAU)
+            } else {
+                q[joint]
+            }
+        })
+    }
+
+    /// The last turn that an angle may have, counted from [`Self::first_turn`].
+    pub(super) fn last_turn(&self, joint: usize, first: f64) -> i32 {
+        if self.is_unlimited(joint) {
+            return whole(FREE_TURNS) - 1;
+        }
+        #[expect(clippy::cast_possible_truncation, reason = "limits are a few turns wide")]
+        let last = whole_below((self.high[joint] - first) / TAU) as i32;
+        last
+    }
+
+    /// The angle of a joint at a turn.
+    pub(super) fn angle(&self, joint: usize, first: f64, turn: i32) -> f64 {
+        let turn = turn + self.offset(joint);
+        if turn == 0 { first } else { first + TAU * f64::from(turn) }
+    }
+
+    /// The turn of an angle, counted from [`Self::first_turn`].
+    pub(super) fn turn_of(&self, joint: usize, first: f64, angle: f64) -> i32 {
+        #[expect(clippy::cast_possible_truncation, reason = "angles are small")]
+        let turn = nearest_whole((angle - first) / TAU) as i32;
+        turn - self.offset(joint)
+    }
+
+    /// The turn with which an angle stays as it is.
+    pub(super) fn no_turn(&self, joint: usize) -> i32 {
+        -self.offset(joint)
+    }
+
+    fn offset(&self, joint: usize) -> i32 {
+        if self.is_unlimited(joint) { self.middle[joint] - whole(FREE_TURNS / 2) } else { 0 }
+    }
+
+    /// Whether a joint vector is inside the limits.
+    pub(super) fn contain(&self, q: &[f64; 6]) -> bool {
+        (0..6).all(|joint| q[joint] >= self.low[joint] && q[joint] <= self.high[joint])
+    }
+
+    /// How many turns a joint may have.
+    pub(super) fn count(&self, joint: usize) -> usize {
+        self.counts[joint]
+    }
+
+    /// The limits of a joint [rad].
+    pub(super) fn limits(&self, joint: usize) -> [f64; 2] {
+        [self.low[joint] + LIMIT_TOLERANCE, self.high[joint] - LIMIT_TOLERANCE]
+    }
+
+    /// What the step of each joint is divided by to be a part of its velocity limit, as a factor,
+    /// for a step that takes `time` [s].
+    pub(super) fn rates(&self, time: f64) -> [f64; 6] {
+        self.velocity.map(|velocity| 1.0 / (velocity * time))
+    }
+
+    /// The step of a joint from one angle to another, modulo a turn where that is free (eq. 3),
+    /// and the turns that were taken off.
+    pub(super) fn step(&self, joint: usize, from: f64, to: f64) -> (f64, i32) {
+        let step = to - from;
+        if !self.wraps[joint] {
+            return (step, 0);
+        }
+        let turns = nearest_whole(step * (1.0 / TAU));
+        #[expect(clippy::cast_possible_truncation, reason = "a few turns")]
+        let carried = turns as i32;
+        (step - TAU * turns, carried)
+    }
+
+    /// Joint angles inside the limits, and those that steps lead to from there, inside too.
+    pub(super) fn inside(&self, q: &[f64; 6], steps: &[f64; 6]) -> Option<[[f64; 6]; 2]> {
+        let (mut from, mut to) = (*q, *q);
+        for joint in 0..6 {
+            let turns = 0..=self.last_turn(joint, q[joint]);
+            let mut angles = turns.map(|turn| self.angle(joint, q[joint], turn));
+            from[joint] = angles.find(|angle| {
+                let next = angle + steps[joint];
+                next >= self.low[joint] && next <= self.high[joint]
+            })?;
+            to[joint] = from[joint] + steps[joint];
+        }
+        Some([from, to])
+    }
+
+    /// The steps of all joints.
+    pub(super) fn steps(&self, from: &[f64; 6], to: &[f64; 6]) -> [f64; 6] {
+        core::array::from_fn(|joint| self.step(joint, from[joint], to[joint]).0)
+    }
+}
+
+/// The joints whose turns a search tells apart: one state for each combination.
+#[derive(Clone, Debug)]
+pub(super) struct TurnStates {
+    /// Those joints, with the number of turns of each.
+    joints: [Option<usize>; 6],
+    /// The turns of each state; 0 of joints that are not told apart.
+    turns: Vec<[i32; 6]>,
+}
+
+impl Default for TurnStates {
+    fn default() -> Self {
+        Self { joints: [None; 6], turns: vec![[0; 6]] }
+    }
+}
+
+impl TurnStates {
+    /// Tell the turns of another joint apart.
+    pub(super) fn add(&mut self, joint: usize, joints: &PlannedJoints) -> Result<(), Error> {
+        let found = self.len().saturating_mul(joints.count(joint));
+        if found > MOST_TURN_STATES {
+            #[expect(clippy::cast_precision_loss, reason = "for a message")]
+            let found = found as f64;
+            return Err(PlanFault::Turns { found, most: MOST_TURN_STATES }.into());
+        }
+        self.joints[joint] = Some(joints.count(joint));
+        self.turns = (0..found).map(|state| self.decoded(state)).collect();
+        Ok(())
+    }
+
+    pub(super) fn has(&self, joint: usize) -> bool {
+        self.joints[joint].is_some()
+    }
+
+    /// Number of states.
+    pub(super) fn len(&self) -> usize {
+        self.turns.len()
+    }
+
+    /// The turn of each joint in a state; 0 of those that are not told apart.
+    pub(super) fn turns(&self, state: usize) -> [i32; 6] {
+        self.turns[state]
+    }
+
+    fn decoded(&self, mut state: usize) -> [i32; 6] {
+        core::array::from_fn(|joint| match self.joints[joint] {
+            None => 0,
+            Some(count) => {
+                let turn = state % count;
+                state /= count;
+                whole(turn)
+            }
+        })
+    }
+
+    /// The state of turns; `None` if there is none.
+    pub(super) fn state(&self, turns: &[i32; 6]) -> Option<usize> {
+        let (mut state, mut size) = (0, 1);
+        for (count, turn) in self.joints.iter().zip(turns) {
+            let Some(count) = count else { continue };
+            let turn = usize::try_from(*turn).ok().filter(|turn| turn < count)?;
+            state += size * turn;
+            size *= count;
+        }
+        Some(state)
+    }
+
+    /// Whether every joint that is told apart may have its turn of a state.
+    pub(super) fn holds(&self, joints: &PlannedJoints, q: &[f64; 6], state: usize) -> bool {
+        let turns = self.turns(state);
+        (0..6).all(|joint| !self.has(joint) || turns[joint] <= joints.last_turn(joint, q[joint]))
+    }
+}
+
+fn count(number: f64) -> usize {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "limits are a few turns wide"
+    )]
+    let count = number.max(0.0) as usize;
+    count
+}
+
+/// A count of turns as a number that may be negative.
+pub(super) fn whole(count: usize) -> i32 {
+    i32::try_from(count).unwrap_or(i32::MAX)
+}

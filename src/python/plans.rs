@@ -1,0 +1,224 @@
+//! `Robot.plan`: the best joint path along a path of poses.
+
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyTuple};
+
+use super::arguments::one_of;
+use super::arrays::{Rows, vector};
+use super::classes;
+use super::errors::{Fault, raised, to_py};
+use super::found::read_weights;
+use super::outputs::matrix;
+use super::paths::read_path;
+use super::robot::PyRobot;
+use super::signals::detached_while;
+use super::wording::shape;
+use crate::kinematics::thresholds::MOST_TOOL_ANGLES;
+use crate::plan::{Caller, NoPlan, Plan, PlanError, PlanOptions, ToolAxis, ToolRotation};
+
+#[pymethods]
+#[expect(non_snake_case, reason = "T is the name that users pass")]
+impl PyRobot {
+    /// The best joint path along a path of poses, over every branch, every turn of the joints and,
+    /// with `rotation`, every angle of the tool.
+    ///
+    /// Of all continuous joint paths inside the limits, that with the smallest bottleneck: the
+    /// largest joint velocity relative to `max_velocity` (1 rad/s where that is not known). Of
+    /// those, that with the smallest weighted sum of squared joint steps. Both are exact over the
+    /// tool angles of `rotation`, which are then refined around the best ones, to half a degree.
+    /// Every step of the answer is shown to be continuous between its two poses.
+    ///
+    /// Args:
+    ///     T: Poses of the tool, shape (m, 4, 4), translation [m].
+    ///     rotation: The angles by which the tool may be turned about its own axis: an
+    ///         `irbkin.ToolRotation`, or the number of angles all around z. None where the poses
+    ///         fix the orientation.
+    ///     times: Time of each pose [s], shape (m,), increasing. Then no joint may exceed its
+    ///         `max_velocity`, if that is known.
+    ///     start: Joint vector at the first pose [rad], shape (6,); any when not given.
+    ///     end: Joint vector at the last pose [rad], shape (6,); any when not given.
+    ///     closed: Whether the joints must end where they start, turns included. The last pose
+    ///         repeats the first.
+    ///     weights: Cost of moving each joint, shape (6,); ones when not given.
+    ///     accept: Your own test, of collisions for instance: called with joint vectors of shape
+    ///         (k, 6), it returns k truth values. It is asked only for joint vectors near the best
+    ///         path, and once for those that differ by full turns.
+    ///
+    /// Returns:
+    ///     Plan: joints [rad], shape (m, 6); tool angles; slots; cost; bottleneck; no breaks.
+    ///
+    /// Raises:
+    ///     PathError: No continuous joint path: `index` is the first pose that no branch reaches,
+    ///         `reasons` says where and why each branch ends, `plan` is the plan with the fewest
+    ///         breaks.
+    ///     InvalidPoseError: T has a wrong shape or holds a matrix that is no pose; the message has
+    ///         its index.
+    ///     InvalidJointsError: A start, end or weight that is not finite, or a start or end that
+    ///         does not fit its pose or the limits.
+    ///     InvalidMotionError: No poses, two poses half a turn apart, times that do not increase, a
+    ///         rotation that is empty, an open path with `closed`.
+    ///     InvalidModelError: The arm has no closed form or seven joints.
+    ///     Exception: Whatever `accept` raises.
+    #[pyo3(signature = (T, *, rotation=None, times=None, start=None, end=None, closed=false, weights=None, accept=None))]
+    #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
+    fn plan<'py>(
+        &self,
+        T: &Bound<'py, PyAny>,
+        rotation: Option<&Bound<'py, PyAny>>,
+        times: Option<&Bound<'py, PyAny>>,
+        start: Option<&Bound<'py, PyAny>>,
+        end: Option<&Bound<'py, PyAny>>,
+        closed: bool,
+        weights: Option<&Bound<'py, PyAny>>,
+        accept: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let py = T.py();
+        let robot = self.arm().six_joints(py, "plan")?;
+        let joints = |q: &Bound<'py, PyAny>, field| vector::<6>(q, field, Fault::Joints);
+        let options = PlanOptions {
+            rotation: rotation.map(read_rotation).transpose()?,
+            times: times.map(read_times).transpose()?,
+            start: start.map(|q| joints(q, "start")).transpose()?,
+            end: end.map(|q| joints(q, "end")).transpose()?,
+            closed,
+            weights: read_weights(weights)?,
+        };
+        let mut rows = Rows::read(T, &[4, 4], "T", Fault::Pose)?;
+        let length = rows.split_last().filter(|_| rows.is_single());
+        let Some(length) = length else {
+            let got = shape(rows.shape());
+            return Err(Fault::Pose.error(py, format!("T must have shape (m, 4, 4), got {got}")));
+        };
+        let path = read_path(py, &rows, &[length])?;
+        let accept = accept.map(|accept| accept.clone().unbind());
+        let (planned, failure) = detached_while(py, |go_on| {
+            let mut failure = None;
+            let mut ask = |q: &[[f64; 6]]| {
+                let accept = accept.as_ref()?;
+                let answers = Python::attach(|py| asked(accept.bind(py), q));
+                answers.map_err(|error| failure = Some(error)).ok()
+            };
+            let is_asked = accept.is_some();
+            let mut caller = Caller { accept: None, go_on };
+            if is_asked {
+                caller.accept = Some(&mut ask);
+            }
+            let planned = robot.planned(&path, &options, &mut caller);
+            (planned, failure)
+        })?;
+        match planned {
+            Ok(plan) => plan_record(py, &plan),
+            Err(PlanError::Invalid(error)) => Err(to_py(py, &error)),
+            Err(PlanError::NoPlan(gap)) => Err(path_error(py, &gap)),
+            Err(PlanError::Stopped) => {
+                Err(failure.unwrap_or_else(|| PyValueError::new_err("the plan was stopped")))
+            }
+        }
+    }
+}
+
+/// A rotation from a number of steps or from `irbkin.ToolRotation`.
+fn read_rotation(rotation: &Bound<'_, PyAny>) -> PyResult<ToolRotation> {
+    let py = rotation.py();
+    let wanted = || {
+        let got = rotation.repr().map_or_else(|_| String::new(), |text| format!(", got {text}"));
+        PyTypeError::new_err(format!(
+            "rotation must be an irbkin.ToolRotation or a number of angles{got}"
+        ))
+    };
+    if rotation.is_instance_of::<PyBool>() {
+        return Err(wanted());
+    }
+    let angles = |steps: &Bound<'_, PyAny>| -> PyResult<usize> {
+        let count: i128 = steps.extract().map_err(|_| wanted())?;
+        // What is no count at all is outside the bounds that are told.
+        Ok(usize::try_from(count.clamp(0, MOST_TOOL_ANGLES as i128 + 1)).unwrap_or_default())
+    };
+    let made = match rotation.cast::<PyTuple>() {
+        Ok(fields) if fields.len() == 4 => {
+            let number = |index| -> PyResult<f64> {
+                fields.get_item(index)?.extract().map_err(|_| wanted())
+            };
+            let axis: String = fields.get_item(3)?.extract().map_err(|_| wanted())?;
+            let words = [("x", ToolAxis::X), ("y", ToolAxis::Y), ("z", ToolAxis::Z)];
+            let axis = one_of("axis", &axis, &words)?;
+            ToolRotation::new(angles(&fields.get_item(0)?)?, number(1)?, number(2)?, axis)
+        }
+        Ok(_) => return Err(wanted()),
+        Err(_) => ToolRotation::full(angles(rotation)?),
+    };
+    made.map_err(|error| to_py(py, &error))
+}
+
+fn read_times(times: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+    let rows = Rows::read(times, &[], "times", Fault::Motion)?;
+    if rows.shape().len() != 1 {
+        let got = shape(rows.shape());
+        return Err(
+            Fault::Motion.error(times.py(), format!("times must have shape (m,), got {got}"))
+        );
+    }
+    Ok(rows.data()?.to_vec())
+}
+
+/// What the caller's test says of joint vectors.
+fn asked(accept: &Bound<'_, PyAny>, q: &[[f64; 6]]) -> PyResult<Vec<bool>> {
+    let py = accept.py();
+    let answers = accept.call1((matrix(py, q),))?;
+    let answers = py.import("numpy")?.call_method1("asarray", (answers,))?;
+    let found: Vec<usize> = answers.getattr("shape")?.extract()?;
+    if found != [q.len()] || answers.getattr("dtype")?.getattr("kind")?.extract::<String>()? != "b"
+    {
+        return Err(PyValueError::new_err(format!(
+            "accept must return {} truth values, one for each row of q; it returned an array of \
+             shape {} and dtype {}",
+            q.len(),
+            shape(&found),
+            answers.getattr("dtype")?
+        )));
+    }
+    answers.call_method0("tolist")?.extract()
+}
+
+/// `irbkin.Plan` of a plan.
+fn plan_record<'py>(py: Python<'py>, plan: &Plan) -> PyResult<Bound<'py, PyAny>> {
+    let rows = plan.q.iter().flat_map(|q| q.unwrap_or([f64::NAN; 6]));
+    let q: Bound<'py, PyArray2<f64>> = PyArray1::from_iter(py, rows).reshape([plan.q.len(), 6])?;
+    let slot =
+        plan.slot.iter().map(|slot| slot.map_or(-1, |slot| i64::try_from(slot).unwrap_or(-1)));
+    let breaks = plan
+        .breaks
+        .iter()
+        .map(|gap| classes::plan_break_class(py)?.call1((gap.leave, gap.enter)))
+        .collect::<PyResult<Vec<_>>>()?;
+    classes::plan_class(py)?.call1((
+        q,
+        PyArray1::from_slice(py, &plan.tool_angle),
+        PyArray1::from_iter(py, slot),
+        plan.cost,
+        plan.bottleneck,
+        PyTuple::new(py, breaks)?,
+        plan.certified,
+    ))
+}
+
+/// `irbkin.PathError` of a path without a plan.
+fn path_error(py: Python<'_>, gap: &NoPlan) -> PyErr {
+    let error = raised(classes::path_error(py), gap.to_string());
+    let tell = || -> PyResult<()> {
+        let value = error.value(py);
+        value.setattr("index", gap.pose_index)?;
+        let ends = gap.ends.iter().map(|end| {
+            let fields = (end.slot, end.pose_index, end.reason.to_string());
+            classes::strand_end_class(py)?.call1(fields)
+        });
+        value.setattr("reasons", PyTuple::new(py, ends.collect::<PyResult<Vec<_>>>()?)?)?;
+        value.setattr("plan", plan_record(py, &gap.plan)?)
+    };
+    match tell() {
+        Ok(()) => error,
+        Err(failure) => failure,
+    }
+}

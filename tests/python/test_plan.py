@@ -1,0 +1,215 @@
+"""`Robot.plan`: its answers are ways that an arm can go, its refusals have reasons."""
+
+import pickle
+
+import irbkin
+import numpy as np
+import pytest
+
+ROBOT = irbkin.Robot("IRB 2600-12/1.65").with_tool(irbkin.pose([0.05, 0, 0.35]))
+
+
+def weld(poses: int, robot: irbkin.Robot = ROBOT) -> np.ndarray:
+    """A circle, the torch 30 degrees off the vertical and turning with it."""
+    return np.array(
+        [
+            irbkin.pose(
+                [1.0 + 0.15 * np.cos(angle), 0.15 * np.sin(angle), 0.5],
+                euler_zyx=[angle, np.pi - np.radians(30), 0],
+            )
+            for angle in np.linspace(0, 2 * np.pi, poses)
+        ]
+    )
+
+
+def turned(T: np.ndarray, angles: np.ndarray) -> np.ndarray:
+    """Poses, each turned about its own z axis."""
+    return np.array(
+        [
+            pose @ irbkin.pose([0, 0, 0], euler_zyx=[a, 0, 0])
+            for pose, a in zip(T, angles, strict=False)
+        ]
+    )
+
+
+def random_path(robot: irbkin.Robot, rng: np.random.Generator, poses: int) -> np.ndarray:
+    """A straight line with an even turn between two poses that the arm reaches."""
+    low, high = np.clip(robot.limits, -np.pi, np.pi).T
+    start = rng.uniform(low, high)
+    end = start + rng.uniform(-0.6, 0.6, 6)
+    return irbkin.paths.line(robot.fk(start), robot.fk(end), steps=poses)
+
+
+def is_continuous(robot: irbkin.Robot, T: np.ndarray, plan: irbkin.Plan) -> bool:
+    """Halve every step, on its branch, until the joints move by 0.05 rad: none may jump."""
+    tool = turned(T, plan.tool_angle)
+    for step in range(len(T) - 1):
+        slots = {int(plan.slot[step]), int(plan.slot[step + 1])}
+        open_parts = [(tool[step], plan.q[step], tool[step + 1], plan.q[step + 1], 0)]
+        while open_parts:
+            first, q, last, q_last, depth = open_parts.pop()
+            size = np.abs(q_last - q).max()
+            if size < 1e-3:
+                continue
+            middle = irbkin.paths.line(first, last, steps=3)[1]
+            ways = robot.ik(middle).q_by_slot[sorted(slots)] if len(slots) == 1 else []
+            mean = (q + q_last) / 2
+            ways = [w - 2 * np.pi * np.round((w - mean) / (2 * np.pi)) for w in ways]
+            if len(slots) == 2:
+                ways = [robot.ik_nearest(middle, q)]
+            halves = max(np.abs(ways[0] - q).max(), np.abs(q_last - ways[0]).max())
+            low, high = robot.limits.T
+            inside = (ways[0] > low - 1e-9).all() and (ways[0] < high + 1e-9).all()
+            if not inside or not np.isfinite(halves):
+                return False
+            if size < 0.05 and halves < 0.8 * size:
+                continue
+            if depth == 22:
+                return False
+            open_parts.append((first, q, middle, ways[0], depth + 1))
+            open_parts.append((middle, ways[0], last, q_last, depth + 1))
+    return True
+
+
+@pytest.mark.parametrize("rotation", [None, 24, irbkin.ToolRotation(9, -0.4, 0.4)])
+def test_a_plan_meets_every_pose_and_limit(rotation):
+    T = weld(60)
+    plan = ROBOT.plan(T, rotation=rotation)
+    np.testing.assert_allclose(ROBOT.fk(plan.q), turned(T, plan.tool_angle), atol=1e-12)
+    low, high = ROBOT.limits.T
+    assert (plan.q >= low - 1e-9).all()
+    assert (plan.q <= high + 1e-9).all()
+    steps = np.diff(plan.q, axis=0)
+    assert plan.cost == pytest.approx((steps**2).sum(), rel=1e-9)
+    speed = np.abs(steps) / ROBOT.max_velocity * (len(T) - 1)
+    assert plan.bottleneck == pytest.approx(speed.max(), rel=1e-9)
+    assert plan.certified
+    assert plan.breaks == ()
+    assert pickle.loads(pickle.dumps(plan)) == plan
+
+
+def test_a_free_rotation_never_costs_more_than_a_fixed_one():
+    T = weld(60)
+    bottlenecks = [ROBOT.plan(T, rotation=steps).bottleneck for steps in (None, 4, 12, 36)]
+    assert bottlenecks == sorted(bottlenecks, reverse=True)
+
+
+@pytest.mark.parametrize("name", ["IRB 2600-12/1.65", "UR5e"])
+def test_no_plan_hides_a_jump(name):
+    robot, rng, found, gaps = irbkin.Robot(name), np.random.default_rng(5), 0, []
+    for _ in range(150):
+        T = random_path(robot, rng, 12)
+        try:
+            plan = robot.plan(T)
+        except irbkin.PathError as error:
+            gaps.append(error)
+            continue
+        found += 1
+        assert is_continuous(robot, T, plan)
+    assert found > 30
+    assert all(gap.reasons and gap.plan.breaks for gap in gaps)
+
+
+def test_where_follow_finds_a_way_plan_finds_one():
+    robot, rng, feasible, greedy = ROBOT, np.random.default_rng(6), 0, 0
+    for _ in range(100):
+        T = random_path(robot, rng, 20)
+        solutions = robot.ik(T[0]).within_limits()
+        strands = [not robot.follow(T, s.q).breaks for s in solutions.turns()]
+        if not any(strands):
+            continue
+        feasible += 1
+        assert robot.plan(T).breaks == ()
+        greedy += not robot.follow(T, robot.ik_nearest(T[0], np.zeros(6))).breaks
+    assert feasible > 20
+    assert greedy <= feasible
+
+
+def test_start_and_end_are_kept_with_their_turns():
+    T = weld(60)
+    free = ROBOT.plan(T, rotation=12)
+    start = free.q[0] + [0, 0, 0, 0, 0, -2 * np.pi if free.q[0, 5] > 0 else 2 * np.pi]
+    if not (ROBOT.limits[5, 0] <= start[5] <= ROBOT.limits[5, 1]):
+        start = free.q[0]
+    plan = ROBOT.plan(T, rotation=12, start=start)
+    np.testing.assert_allclose(plan.q[0], start, atol=1e-12)
+    again = ROBOT.plan(T, rotation=12, end=free.q[-1])
+    np.testing.assert_allclose(again.q[-1], free.q[-1], atol=1e-12)
+
+
+def test_a_closed_plan_ends_where_it_starts():
+    plan = ROBOT.plan(weld(40), rotation=12, closed=True)
+    np.testing.assert_allclose(plan.q[-1], plan.q[0], atol=1e-12)
+    assert plan.certified
+
+
+def test_times_bound_the_velocity():
+    T = weld(60)
+    least = ROBOT.plan(T).bottleneck
+    plan = ROBOT.plan(T, times=np.linspace(0, 1.01 * least, 60))
+    assert 0.98 < plan.bottleneck <= 1 + 1e-9
+    with pytest.raises(irbkin.PathError, match="of its velocity limit"):
+        ROBOT.plan(T, times=np.linspace(0, 0.5 * least, 60))
+
+
+def test_a_pose_out_of_reach_is_named():
+    T = weld(60)
+    T[17, 2, 3] += 3.0
+    with pytest.raises(irbkin.PathError) as caught:
+        ROBOT.plan(T, rotation=12)
+    error = caught.value
+    assert error.index == 17
+    assert all(end.pose_index <= 17 and end.reason for end in error.reasons)
+    assert error.plan.breaks == (irbkin.PlanBreak(16, 18),)
+    assert np.isnan(error.plan.q[17]).all()
+    assert np.isfinite(error.plan.q[18]).all()
+
+
+def test_accept_is_asked_in_blocks_and_obeyed():
+    T, asked = weld(60), []
+    free = ROBOT.plan(T, rotation=12)
+    bound = np.median(free.tool_angle)
+
+    def accept(q):
+        asked.append(len(q))
+        tool = ROBOT.fk(q)
+        return tool[:, 2, 0] < np.median(ROBOT.fk(free.q)[:, 2, 0]) + 0.2
+
+    assert np.isfinite(bound)
+    plan = ROBOT.plan(T, rotation=12, accept=accept)
+    assert accept(plan.q).all()
+    assert len(asked) < 100
+
+    def broken(q):
+        raise RuntimeError("no scene")
+
+    with pytest.raises(RuntimeError, match="no scene"):
+        ROBOT.plan(T, accept=broken)
+    with pytest.raises(ValueError, match="60 truth values"):
+        ROBOT.plan(T, accept=lambda q: True)
+    with pytest.raises(irbkin.PathError, match="rejected by accept"):
+        ROBOT.plan(T, accept=lambda q: np.zeros(len(q), bool))
+
+
+def test_bad_input_is_refused_with_its_place():
+    T = weld(6)
+    bad = T.copy()
+    bad[3, 0, 0] = np.nan
+    refused = [
+        ({"T": bad}, irbkin.InvalidPoseError, r"T\[3\]"),
+        ({"T": T[:0]}, irbkin.InvalidMotionError, "0 poses"),
+        ({"T": T[None]}, irbkin.InvalidPoseError, r"\(m, 4, 4\)"),
+        ({"T": T, "times": [0, 1, 1, 2, 3, 4]}, irbkin.InvalidMotionError, r"times\[2\]"),
+        ({"T": T, "rotation": 0}, irbkin.InvalidMotionError, "2 to 3600"),
+        ({"T": T, "rotation": (36, -180, 180, "z")}, irbkin.InvalidMotionError, "degrees"),
+        ({"T": T, "rotation": "z"}, TypeError, "ToolRotation"),
+        ({"T": T, "start": np.zeros(6)}, irbkin.InvalidJointsError, "start"),
+        ({"T": T[:3], "closed": True}, irbkin.InvalidMotionError, "closed"),
+        ({"T": T, "weights": [-1, 1, 1, 1, 1, 1]}, irbkin.InvalidJointsError, "weight"),
+    ]
+    for arguments, error, message in refused:
+        with pytest.raises(error, match=message):
+            ROBOT.plan(**arguments)
+    with pytest.raises(irbkin.InvalidModelError, match="ik_nearest"):
+        irbkin.Robot("Panda").plan(T)
+    assert ROBOT.plan(T[:1]).q.shape == (1, 6)
