@@ -325,6 +325,8 @@ class Plan(NamedTuple):
     """
     slot: npt.NDArray[np.int64]
     """The slot of the branch at each pose, shape (m,); -1 where there is none."""
+    external: npt.NDArray[np.float64]
+    """External axes at each pose, shape (m, k). A plan has none yet: k = 0."""
     cost: float
     """Weighted sum of the squares of all joint steps [rad^2]."""
     bottleneck: float

@@ -197,6 +197,7 @@ fn plan_record<'py>(py: Python<'py>, plan: &Plan) -> PyResult<Bound<'py, PyAny>>
         q,
         PyArray1::from_slice(py, &plan.tool_angle),
         PyArray1::from_iter(py, slot),
+        PyArray2::<f64>::zeros(py, [plan.q.len(), 0], false),
         plan.cost,
         plan.bottleneck,
         PyTuple::new(py, breaks)?,

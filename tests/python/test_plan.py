@@ -84,6 +84,7 @@ def test_a_plan_meets_every_pose_and_limit(rotation):
     speed = np.abs(steps) / ROBOT.max_velocity * (len(T) - 1)
     assert plan.bottleneck == pytest.approx(speed.max(), rel=1e-9)
     assert plan.certified
+    assert plan.external.shape == (len(plan.q), 0)
     assert plan.breaks == ()
     assert pickle.loads(pickle.dumps(plan)) == plan
 

@@ -331,6 +331,12 @@ def test_what_is_not_known_is_found():
     )
 
 
+def test_nothing_is_too_fast_for_a_speed_that_is_left_out():
+    v0 = "CONST speeddata v0:=[0,500,5000,1000];"
+    motion = moved(f"MoveJ {target(A)},v1000,fine,t;\nMoveL {target(B)},v0,fine,t;", v0)
+    assert [finding.kind for finding in motion.findings] == ["setting"]
+
+
 def test_instructions_and_calls_that_may_move_are_found():
     text = (
         f"MODULE M\nPERS tooldata t:={rapid.dump(TOOL)};\nPROC main()\n{joints(HOME)}\n"
@@ -398,7 +404,7 @@ def test_the_routine_is_named_main_or_the_only_one():
 
 def test_a_start_is_where_the_first_move_begins():
     lines = module(f"MoveL {target(A)},v100,fine,t;")
-    start = np.radians([30, 0, 0, 0, 60, 0])
+    start = np.array([0.1, 0.2, 0.3, 0.4, 1.0, 0.7])  # is no double of degrees
     motion = rapid.motion(ROBOT, lines, start=start)
     np.testing.assert_array_equal(motion.q[0], start)
     assert motion.moves[0].end > 0
@@ -422,8 +428,8 @@ def test_a_start_is_where_the_first_move_begins():
         ({"step": np.inf}, "step is inf, it must be positive and finite"),
         ({"turn": -0.1}, "turn is -0.1"),
         ({"step": 1e-12}, "at most 1e7 are given"),
-        ({"start": [np.nan] * 6}, "start|joints"),
-        ({"start": [0, 0]}, "shape"),
+        ({"start": [np.nan] * 6}, "start: joint 1 is NaN"),
+        ({"start": [0, 0]}, r"start must have shape \(6,\), got \(2,\)"),
     ],
 )
 def test_bad_options_are_refused(options, words):

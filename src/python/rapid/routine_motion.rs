@@ -8,8 +8,9 @@ use pyo3::types::PyTuple;
 use super::Cell;
 use super::module::RapidModule;
 use super::records::read_joint_target;
+use crate::python::arrays::vector;
 use crate::python::classes;
-use crate::python::errors::to_py;
+use crate::python::errors::{Fault, to_py};
 use crate::python::robot::PyRobot;
 use crate::python::trajectories::read_each;
 use crate::python::trajectory::PyTrajectory;
@@ -77,19 +78,27 @@ pub(crate) fn motion(
     step: f64,
     turn: Option<f64>,
 ) -> PyResult<PyRoutineMotion> {
-    let start = start.map(read_joint_target).transpose()?;
+    let start = start.map(read_start).transpose()?;
     let limits = |given: Option<&Bound<'_, PyAny>>, field| match given {
         None => Ok::<_, PyErr>(None),
         Some(_) => Ok(read_each(given, field, 6, 0.0)?.vector(6).try_into().ok()),
     };
     let options = MotionOptions {
-        start: start.map(|start| start.robax_deg.map(f64::to_radians)),
+        start,
         max_velocity: limits(max_velocity, "max_velocity")?,
         max_acceleration: limits(max_acceleration, "max_acceleration")?,
         step,
         turn: turn.unwrap_or(MotionOptions::default().turn),
     };
     made(robot, module, routine, options)
+}
+
+/// Joint angles [rad], or those of a JointTarget.
+fn read_start(given: &Bound<'_, PyAny>) -> PyResult<[f64; 6]> {
+    if given.is_instance(classes::joint_target_class(given.py())?)? {
+        return Ok(read_joint_target(given)?.robax_deg.map(f64::to_radians));
+    }
+    vector::<6>(given, "start", Fault::Joints)
 }
 
 fn made(

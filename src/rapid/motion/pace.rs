@@ -125,7 +125,9 @@ impl Pace<'_, '_> {
             let (joint, needed) = self.slowest(sample);
             least[sample - 1] = programmed.max(needed);
             let excess = needed / programmed;
-            if programmed > 0.0 && excess > most {
+            // Of a speed that was left out nothing can be too fast.
+            let is_known = programmed > 0.0 && (length == 0.0 || speed[0].is_finite());
+            if is_known && excess > most {
                 (most, too_fast) = (excess, Some(TooFast { joint, excess }));
             }
         }
