@@ -40,6 +40,7 @@ from irbkin.errors import (
     UnknownRobotError,
     UnreachableError,
 )
+from irbkin.freedom import Positioner, ToolCone, ToolOffset, ToolRotation, Track
 from irbkin.records import (
     Break,
     BreakReason,
@@ -60,7 +61,6 @@ from irbkin.records import (
     SingularityMode,
     Status,
     StrandEnd,
-    ToolRotation,
     TrajectorySample,
 )
 
@@ -91,6 +91,7 @@ __all__ = [
     "Plan",
     "PlanBreak",
     "PoseCheck",
+    "Positioner",
     "RapidError",
     "Reach",
     "Robot",
@@ -102,7 +103,10 @@ __all__ = [
     "Solutions",
     "Status",
     "StrandEnd",
+    "ToolCone",
+    "ToolOffset",
     "ToolRotation",
+    "Track",
     "TrajectorySample",
     "UnknownNameError",
     "UnknownRobotError",

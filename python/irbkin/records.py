@@ -36,7 +36,6 @@ __all__ = [
     "SingularityMode",
     "Status",
     "StrandEnd",
-    "ToolRotation",
     "TrajectorySample",
 ]
 
@@ -276,23 +275,6 @@ class SingularityBatch(NamedTuple):
     """Values of `SingularityKind`."""
 
 
-class ToolRotation(NamedTuple):
-    """The angles by which `Robot.plan` may turn the tool about one of its axes at each pose.
-
-    Of a full turn the upper end is the lower one: 36 steps are 10 degrees apart. Of less, both ends
-    count: `ToolRotation(7, -np.pi / 6, np.pi / 6)` is every 10 degrees, too.
-    """
-
-    steps: int = 36
-    """Number of angles."""
-    lower: float = -math.pi
-    """Lower end [rad]."""
-    upper: float = math.pi
-    """Upper end [rad]."""
-    axis: Literal["x", "y", "z"] = "z"
-    """Axis of the tool."""
-
-
 class PlanBreak(NamedTuple):
     """A part of a path that the joints cannot follow."""
 
@@ -326,7 +308,13 @@ class Plan(NamedTuple):
     slot: npt.NDArray[np.int64]
     """The slot of the branch at each pose, shape (m,); -1 where there is none."""
     external: npt.NDArray[np.float64]
-    """External axes at each pose, shape (m, k). A plan has none yet: k = 0."""
+    """Values of the external axes of `carrier` at each pose [m, rad], shape (m, k); NaN where a
+    plan with breaks has none.
+    """
+    tolerance: npt.NDArray[np.float64]
+    """What is used of `tolerance` at each pose, shape (m, t): of a cone the tilts about the two
+    axes that the tool does not point in [rad], of an offset the shift [m].
+    """
     cost: float
     """Weighted sum of the squares of all joint steps [rad^2]."""
     bottleneck: float

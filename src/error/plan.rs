@@ -60,6 +60,86 @@ pub enum PlanFault {
         /// The range [rad].
         bounds: [f64; 2],
     },
+    /// The range of an axis is empty, not finite or too large.
+    AxisRange {
+        /// The axis.
+        field: &'static str,
+        /// Its lower end [m, rad].
+        lower: f64,
+        /// Its upper end [m, rad].
+        upper: f64,
+        /// The largest value [m, rad].
+        most: f64,
+    },
+    /// An axis has too few or too many values.
+    AxisSteps {
+        /// The axis.
+        field: &'static str,
+        /// How many.
+        found: usize,
+        /// The least and the largest number.
+        bounds: [usize; 2],
+    },
+    /// The direction of an axis has no length, or a direction or a point is not finite.
+    AxisVector {
+        /// The axis.
+        field: &'static str,
+        /// The element, from 0.
+        index: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// The velocity limit of an external axis is not positive and finite.
+    AxisVelocity {
+        /// That limit [m/s, rad/s].
+        value: f64,
+    },
+    /// The weight of an external axis is negative or not finite.
+    AxisWeight {
+        /// That weight.
+        value: f64,
+    },
+    /// A cone has no positive angle, or one above a quarter turn.
+    ConeAngle {
+        /// Its angle [rad].
+        angle: f64,
+        /// The largest one [rad].
+        most: f64,
+    },
+    /// There are too many external axes.
+    External {
+        /// How many.
+        found: usize,
+        /// How many there may be.
+        most: usize,
+    },
+    /// A start or an end has not one value for each external axis.
+    EndExternal {
+        /// Name of the argument.
+        field: &'static str,
+        /// How many values it has.
+        found: usize,
+        /// How many external axes there are.
+        wanted: usize,
+    },
+    /// A start or an end has an external axis or a tolerance outside its range.
+    EndValue {
+        /// Name of the argument.
+        field: &'static str,
+        /// The axis, from 0: external ones, then tilts, then the offset.
+        index: usize,
+        /// Its value [m, rad].
+        value: f64,
+        /// Its range [m, rad].
+        bounds: [f64; 2],
+    },
+    /// Path, tool angles and axes have too many combinations.
+    Nodes {
+        /// How many there are.
+        found: usize,
+        /// How many there may be.
+        most: usize,
+    },
     /// The joint vector of an end is outside the limits.
     EndOutside {
         /// Name of the argument.
@@ -123,6 +203,51 @@ impl fmt::Display for PlanFault {
                 angle.to_degrees(),
                 lower.to_degrees(),
                 upper.to_degrees()
+            ),
+            Self::AxisRange { field, lower, upper, most } => write!(
+                f,
+                "{field}: the range from {lower} to {upper} (m or rad) must not be empty, its ends \
+                 must be at most {most}"
+            ),
+            Self::AxisSteps { field, found, bounds: [least, most] } => {
+                write!(f, "{field}: steps must be {least} to {most}, got {found}")?;
+                if field == "tool cone" { f.write_str(", and odd") } else { Ok(()) }
+            }
+            Self::AxisVector { field, index, value } => write!(
+                f,
+                "{field}: element {index} is {value}, a direction must have a length and all \
+                 elements must be finite"
+            ),
+            Self::AxisVelocity { value } => write!(
+                f,
+                "max_velocity of an external axis must be positive and finite, got {value} (m/s or \
+                 rad/s)"
+            ),
+            Self::AxisWeight { value } => {
+                write!(f, "weight of an external axis must be finite and not negative, got {value}")
+            }
+            Self::ConeAngle { angle, most } => write!(
+                f,
+                "the angle of the tool cone must be above 0 and at most {most:.4} rad, got {angle}: \
+                 did you pass degrees?"
+            ),
+            Self::External { found, most } => {
+                write!(f, "there may be at most {most} external axes, got {found}")
+            }
+            Self::EndExternal { field, found, wanted } => write!(
+                f,
+                "{field} must have 6 joint angles and a value for each of {wanted} external axes, \
+                 got {found} such values"
+            ),
+            Self::EndValue { field, index, value, bounds: [lower, upper] } => write!(
+                f,
+                "{field}: free axis {index} (external axes, tilts, offset) is at {value:.6}, its \
+                 range is {lower:.6} to {upper:.6} (m or rad)"
+            ),
+            Self::Nodes { found, most } => write!(
+                f,
+                "poses, tool angles and values of axes make {found} nodes, there may be {most}: \
+                 take fewer steps, or parts of the path"
             ),
             Self::EndOutside { field, joint, value, bounds: [lower, upper] } => write!(
                 f,

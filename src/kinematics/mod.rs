@@ -28,8 +28,10 @@ pub(crate) use chain::joint_axes::unit;
 pub use chain::limits::JointLimits;
 pub use path::follow::{Break, BreakReason, Followed, Follower};
 pub use path::singularity_mode::{FollowOptions, SingularityMode};
+pub(crate) use path::step::{largest, largest_step, steps};
 #[cfg(feature = "rapid")]
 pub(crate) use pose::angles::constant_sin_cos;
+pub(crate) use pose::angles::nearest_turn;
 #[cfg(feature = "urdf")]
 pub(crate) use pose::angles::snapped;
 pub(crate) use pose::checked_pose;

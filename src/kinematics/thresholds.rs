@@ -257,6 +257,22 @@ pub const FULL_TURN: f64 = 1e-9;
 /// Most tool angles of a plan at each pose [1]: a tenth of a degree apart.
 pub const MOST_TOOL_ANGLES: usize = 3600;
 
+/// Most values of an external axis or of a tolerance of a plan [1].
+pub const MOST_AXIS_STEPS: usize = 1001;
+
+/// Most external axes of a plan [1]: a track and a positioner of two axes.
+pub const MOST_EXTERNAL: usize = 3;
+
+/// Most axes beside the tool angle that are free in a plan [1]: [`MOST_EXTERNAL`], two of a cone
+/// and an offset.
+pub(crate) const MOST_FREE_AXES: usize = MOST_EXTERNAL + 3;
+
+/// Largest value of an external axis [m, rad].
+pub const MOST_EXTERNAL_VALUE: f64 = 1000.0;
+
+/// Most nodes of a plan in all [1]: its joint angles take 50 bytes each.
+pub const MOST_PLAN_NODES: usize = 1 << 28;
+
 /// Most combinations of turns that a plan tells apart at each node [1].
 pub const MOST_TURN_STATES: usize = 4096;
 
@@ -279,6 +295,12 @@ pub(crate) const CROSSING_STEP: f64 = 0.5;
 
 /// Distance of tool angles down to which a plan refines them [rad]: half a degree.
 pub const REFINED_TOOL_STEP: f64 = 8.8e-3;
+
+/// Distance of the values of a track down to which a plan refines them [m].
+pub const REFINED_TRACK: f64 = 5e-3;
+
+/// Distance of the offsets of a tool down to which a plan refines them [m].
+pub const REFINED_OFFSET: f64 = 5e-4;
 
 /// How far rounding may raise the bottleneck of a step, relative to it [1].
 pub(crate) const BOTTLENECK_ROUNDING: f64 = 1e-12;

@@ -1,6 +1,6 @@
 //! Messages of plans.
 
-use core::f64::consts::TAU;
+use core::f64::consts::{PI, TAU};
 
 use super::{Row, Table, rows};
 use crate::error::{PlanFault, PoseFault};
@@ -33,6 +33,32 @@ fn faults() -> std::vec::Vec<Row> {
         PlanFault::EndAngle { .. } =>
             PlanFault::EndAngle { field: "start", angle: 1.0, bounds: [-0.5, 0.5] },
             "`start`, `end`", "widen the tool rotation";
+        PlanFault::EndExternal { .. } =>
+            PlanFault::EndExternal { field: "start", found: 0, wanted: 1 },
+            "`start`, `end` with a carrier",
+            "append a value for each axis to the joint angles";
+        PlanFault::EndValue { .. } =>
+            PlanFault::EndValue { field: "start", index: 0, value: 2.5, bounds: [-1.0, 1.0] },
+            "`start`, `end` with a carrier or a tolerance", "give one inside";
+        PlanFault::AxisRange { .. } =>
+            PlanFault::AxisRange { field: "track", lower: 1.0, upper: -1.0, most: 1000.0 },
+            "`lower` and `upper` of an axis", "give meters or radians, lower < upper";
+        PlanFault::AxisSteps { .. } =>
+            PlanFault::AxisSteps { field: "track", found: 1, bounds: [2, 1001] },
+            "`steps` of an axis", "give a count between, an odd one of a cone";
+        PlanFault::AxisVector { .. } =>
+            PlanFault::AxisVector { field: "track", index: 0, value: 0.0 },
+            "`axis` or `point` of an external axis", "give three finite numbers, not all 0";
+        PlanFault::AxisVelocity { .. } => PlanFault::AxisVelocity { value: 0.0 },
+            "`max_velocity` of an external axis", "give a positive number";
+        PlanFault::AxisWeight { .. } => PlanFault::AxisWeight { value: -1.0 },
+            "`weight` of an external axis", "give 0 or more";
+        PlanFault::ConeAngle { .. } => PlanFault::ConeAngle { angle: 15.0, most: PI / 2.0 },
+            "`angle` of a tool cone", "give radians";
+        PlanFault::External { .. } => PlanFault::External { found: 4, most: 3 },
+            "`carrier`", "leave axes out, or plan for some values of them";
+        PlanFault::Nodes { .. } => PlanFault::Nodes { found: 1 << 29, most: 1 << 28 },
+            "a long path with many values of axes", "take fewer steps: they are refined";
         PlanFault::EndOutside { .. } =>
             PlanFault::EndOutside { field: "end", joint: 5, value: 2.5, bounds: [-2.0, 2.0] },
             "`start`, `end`; in Python an `InvalidJointsError`", "give one inside";

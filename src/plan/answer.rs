@@ -16,6 +16,12 @@ pub struct Plan {
     /// The angle that the tool is turned by at each pose [rad], without jumps of a full turn; 0
     /// without a free rotation.
     pub tool_angle: Vec<f64>,
+    /// The values of the external axes at each pose [m, rad]; none where a plan with breaks has no
+    /// joint angles.
+    pub external: Vec<Vec<f64>>,
+    /// What is used of the tolerances at each pose: the tilts about the two axes that the tool does
+    /// not point in [rad], if there is a cone, then the offset [m], if there is one.
+    pub tolerance: Vec<Vec<f64>>,
     /// The slot of the branch at each pose.
     pub slot: Vec<Option<usize>>,
     /// Weighted sum of the squares of all joint steps [rad^2].
@@ -163,17 +169,9 @@ impl fmt::Display for StrandReason {
             }
             Self::Jump { joint, by, kinds } => {
                 write!(f, "J{joint} would jump by {:.1} deg", by.to_degrees())?;
-                match *kinds {
-                    kinds if kinds.contains(SingularityKind::WRIST) => {
-                        f.write_str(" at the wrist singularity")
-                    }
-                    kinds if kinds.contains(SingularityKind::SHOULDER) => {
-                        f.write_str(" at the shoulder singularity")
-                    }
-                    kinds if kinds.contains(SingularityKind::ELBOW) => {
-                        f.write_str(" at the elbow singularity")
-                    }
-                    _ => f.write_str(" between two poses"),
+                match kinds.word() {
+                    Some(kind) => write!(f, " at the {kind} singularity"),
+                    None => f.write_str(" between two poses"),
                 }
             }
             Self::Ended => f.write_str("the branch has ended, other branches reach this pose"),

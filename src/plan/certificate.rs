@@ -3,16 +3,15 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
-use core::f64::consts::TAU;
 
 use nalgebra::Translation3;
 
+use super::freedom::Values;
 use super::layer::{Grid, Layer, Node};
-use super::nodes::{Arm, largest};
+use super::nodes::Arm;
 use super::way::Way;
 use crate::kinematics::thresholds::{CONTINUOUS_STEP, EXAMINED_STEP};
-use crate::kinematics::{Pose, Status, pose_to_rows};
-use crate::lanes::nearest_whole;
+use crate::kinematics::{Pose, Status, largest, nearest_turn, pose_to_rows, steps};
 
 /// How often a step is halved in search of a continuous way: down to a millionth of it.
 pub(super) const HALVINGS: u32 = 20;
@@ -41,6 +40,7 @@ pub(super) struct Hop<'a> {
     nodes: [Node; 2],
     q: [[f64; 6]; 2],
     angles: [f64; 2],
+    values: [Values; 2],
 }
 
 impl<'a> Hop<'a> {
@@ -52,14 +52,17 @@ impl<'a> Hop<'a> {
         q: [[f64; 6]; 2],
     ) -> Self {
         let [first, second] = [0, 1].map(|end| layers[end].tool_angle(grid, nodes[end].bin));
-        let turn = arm.angle_step(first, second);
-        Self { layers, nodes, q, angles: [first, first + turn] }
+        let turn = arm.freedom.angle_step(first, second);
+        let values = [0, 1].map(|end| layers[end].values(grid, nodes[end].station));
+        Self { layers, nodes, q, angles: [first, first + turn], values }
     }
 
     /// The pose of the tool at a part of the way, 0 to 1: straight, at an even rate of rotation.
     fn pose(&self, arm: &Arm<'_>, part: f64) -> Pose {
         let [first, last] = self.angles;
-        arm.turned(&self.path_pose(part), first + part * (last - first))
+        let [from, to] = &self.values;
+        let values = core::array::from_fn(|axis| from[axis] + part * (to[axis] - from[axis]));
+        arm.freedom.tool(&self.path_pose(part), &values, first + part * (last - first))
     }
 
     fn path_pose(&self, part: f64) -> Pose {
@@ -75,7 +78,7 @@ impl<'a> Hop<'a> {
     }
 
     fn step(&self) -> f64 {
-        largest(&difference(&self.q[1], &self.q[0]))
+        largest(&steps(&self.q[0], &self.q[1]))
     }
 
     /// Whether the branch has, half way, joint angles between those of both nodes (eq. 8). Where it
@@ -87,15 +90,12 @@ impl<'a> Hop<'a> {
             return false;
         }
         let whole = self.step();
-        let middle = core::array::from_fn(|joint| {
-            let angle = q[slot][joint];
-            angle + TAU * nearest_whole((from[joint] - angle) / TAU)
-        });
+        let middle = core::array::from_fn(|joint| nearest_turn(q[slot][joint], from[joint]));
         let bound = (HALF * whole).max(CONTINUOUS_STEP);
         whole <= EXAMINED_STEP
             && arm.joints.contain(&middle)
-            && largest(&difference(&middle, from)) <= bound
-            && largest(&difference(to, &middle)) <= bound
+            && largest(&steps(from, &middle)) <= bound
+            && largest(&steps(&middle, to)) <= bound
     }
 
     /// Follow the branch from the first node to the second, in steps that are halved until they are
@@ -108,7 +108,7 @@ impl<'a> Hop<'a> {
             let end = if done + width >= 1.0 { 1.0 } else { done + width };
             let nearest = arm.robot.ik_nearest(&self.pose(arm, end), &q, &[1.0; 6]);
             let next = nearest.ok().map(|next| next.q);
-            match next.filter(|next| largest(&difference(next, &q)) <= bound) {
+            match next.filter(|next| largest(&steps(&q, next)) <= bound) {
                 Some(next) => {
                     (q, done) = (next, end);
                     if depth > 0 {
@@ -119,7 +119,7 @@ impl<'a> Hop<'a> {
                 None => (width, depth) = (width / 2.0, depth + 1),
             }
         }
-        if largest(&difference(&q, &self.q[1])) <= ARRIVED {
+        if largest(&steps(&q, &self.q[1])) <= ARRIVED {
             Between::Continuous
         } else {
             Between::Elsewhere
@@ -128,16 +128,6 @@ impl<'a> Hop<'a> {
 }
 
 impl Arm<'_> {
-    /// The angle by which the tool turns from one tool angle to another: of a full circle, the
-    /// shorter way round.
-    pub(super) fn angle_step(&self, from: f64, to: f64) -> f64 {
-        let step = to - from;
-        match self.rotation {
-            Some(rotation) if rotation.is_full() => step - TAU * nearest_whole(step / TAU),
-            _ => step,
-        }
-    }
-
     /// The steps of a way that are not continuous, by the layer that they lead to.
     pub(super) fn doubts(&self, grid: &Grid, layers: &[Layer], way: &Way) -> Vec<(usize, Between)> {
         /// Steps that are looked at together.
@@ -173,8 +163,4 @@ impl Arm<'_> {
         }
         doubts
     }
-}
-
-fn difference(a: &[f64; 6], b: &[f64; 6]) -> [f64; 6] {
-    core::array::from_fn(|joint| a[joint] - b[joint])
 }

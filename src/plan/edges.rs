@@ -2,16 +2,24 @@
 
 use alloc::vec::Vec;
 
+use super::freedom::Values;
 use super::layer::{Edge, Node};
-use super::search::{CROSSED, Layers, Places, Search};
-use super::step::{Columns, Pass, Step};
+use super::search::{CROSSED, Layers, Places, Search, Window};
+use super::step::{Columns, Moved, Pass, Run, Source, Step};
 use super::turns::whole;
-use crate::kinematics::MOST_SLOTS;
 use crate::lanes::{Column, LANES, run};
 
 /// Difference of two angles of a joint that may lead to another turn [rad]: a little less than half
 /// a turn.
 const OTHER_TURN: f64 = 3.0;
+
+/// What a search needs from step to step, so that it allocates once.
+#[derive(Default)]
+pub(super) struct Room {
+    runs: Vec<Run>,
+    sources: Vec<Source>,
+    costs: Vec<[Column; 2]>,
+}
 
 impl Search<'_> {
     /// Edges on their own branch, in lanes.
@@ -20,61 +28,20 @@ impl Search<'_> {
         ends: &Layers,
         q: [&[f64]; 2],
         costs: [&mut [f64]; 2],
-        by: &mut [u16],
-        room: &mut Vec<[Column; 2]>,
+        by: &mut [u32],
+        room: &mut Room,
     ) {
-        let (grid, places) = (&self.grid, ends.places);
-        let next = &self.layers[ends.layer];
-        let mut runs = [[0; 2]; MOST_SLOTS];
-        let mut count = 0;
-        for slot in (0..grid.slots).filter(|slot| next.present[*slot]) {
-            let start = places.slot(slot);
-            // Slots of a few bins share the lanes.
-            match runs[..count].last_mut() {
-                Some([first, length]) if grid.bins < LANES && places.margin == 0 => {
-                    *length = start + grid.bins - *first;
-                }
-                _ => {
-                    runs[count] = [start, grid.bins];
-                    count += 1;
-                }
-            }
-        }
+        self.find_runs(ends, room);
         let [before, after] = costs;
-        let (q, q_next) = (q[0], q[1]);
-        let step = Step::<false> {
-            places: places.count,
-            before: Columns { q, costs: before },
-            q: q_next,
-            costs: &mut *after,
-            by: &mut [],
-            runs: &runs[..count],
-            window: self.windows[ends.layer],
-            rates: self.rates(ends.layer),
-            told: core::array::from_fn(|joint| self.states.has(joint)),
-            cap: ends.cap,
-            room,
-        };
         match ends.pass {
-            Pass::Bottleneck => run(step),
-            Pass::Squares => run(Step::<true> {
-                places: step.places,
-                before: step.before,
-                q: step.q,
-                costs: step.costs,
-                by,
-                runs: step.runs,
-                window: step.window,
-                rates: step.rates,
-                told: step.told,
-                cap: step.cap,
-                room: step.room,
-            }),
+            Pass::Bottleneck => run(self.kernel::<false>(ends, q, [before, after], &mut [], room)),
+            Pass::Squares => run(self.kernel::<true>(ends, q, [before, after], by, room)),
         }
-        // What lanes wrote next to a slot.
-        for slot in (0..grid.slots).filter(|slot| !next.present[*slot]) {
-            let start = places.slot(slot);
-            for costs in after.chunks_mut(places.count) {
+        // What lanes wrote next to a row.
+        let (grid, next) = (&self.grid, &self.layers[ends.layer]);
+        for row in (0..grid.rows()).filter(|row| !next.present[*row]) {
+            let start = ends.places.row(row);
+            for costs in after.chunks_mut(ends.places.count) {
                 costs[start..start + grid.bins].fill(f64::INFINITY);
             }
         }
@@ -83,27 +50,105 @@ impl Search<'_> {
         }
     }
 
+    fn kernel<'a, const SQUARES: bool>(
+        &self,
+        ends: &Layers,
+        [q, q_next]: [&'a [f64]; 2],
+        [before, after]: [&'a mut [f64]; 2],
+        by: &'a mut [u32],
+        room: &'a mut Room,
+    ) -> Step<'a, SQUARES> {
+        Step {
+            places: ends.places.count,
+            before: Columns { q, costs: before },
+            q: q_next,
+            costs: after,
+            by,
+            runs: &room.runs,
+            sources: &room.sources,
+            window: self.windows[ends.layer].bins,
+            rates: self.rates(ends.layer),
+            told: core::array::from_fn(|joint| self.states.has(joint)),
+            cap: ends.cap,
+            room: &mut room.costs,
+        }
+    }
+
+    /// The rows of a layer that have nodes, each with the rows that its edges come from.
+    fn find_runs(&self, ends: &Layers, room: &mut Room) {
+        let (grid, places) = (&self.grid, ends.places);
+        let (previous, next) = (&self.layers[ends.layer - 1], &self.layers[ends.layer]);
+        room.runs.clear();
+        room.sources.clear();
+        // Rows of a few bins share the lanes where all come from the row itself.
+        let is_shared = grid.bins < LANES && places.margin == 0 && grid.stations.len() == 1;
+        let reach = self.windows[ends.layer].stations;
+        for row in (0..grid.rows()).filter(|row| next.present[*row]) {
+            let first = places.row(row);
+            if let Some(last) = room.runs.last_mut().filter(|_| is_shared) {
+                last.count = first + grid.bins - last.first;
+                continue;
+            }
+            let begin = room.sources.len();
+            let (slot, station) = (row / grid.stations.len(), row % grid.stations.len());
+            let values = next.values(grid, station);
+            for from in grid.stations.around(station, reach) {
+                let moved = self.moved(ends.layer, &previous.values(grid, from), &values);
+                let place = places.row(grid.row(slot, from));
+                room.sources.push(Source { shift: place.wrapping_sub(first).cast_signed(), moved });
+            }
+            let sources = [begin, room.sources.len()];
+            room.runs.push(Run { first, count: grid.bins, sources });
+        }
+    }
+
+    /// What moving the free axes from the layer before costs.
+    fn moved(&self, layer: usize, from: &Values, to: &Values) -> Moved {
+        let time = self.layers[layer].time - self.layers[layer - 1].time;
+        self.freedom.moved(time, from, to)
+    }
+
+    /// The nodes of the layer before from which edges on the same branch come, with their labels.
+    pub(super) fn sources(&self, layer: usize, to: Node) -> impl Iterator<Item = (Node, u32)> {
+        let Window { bins: [below, above], stations } = self.windows[layer];
+        let width = below + above + 1;
+        let grid = self.grid;
+        let from = grid.stations.around(to.station, stations).enumerate();
+        from.flat_map(move |(number, station)| {
+            (0..width).filter_map(move |offset| {
+                let bin = grid.bin_at(to.bin, offset, below)?;
+                let label = u32::try_from(number * width + offset).unwrap_or_default();
+                Some((Node { station, bin, ..to }, label))
+            })
+        })
+    }
+
     /// Of joints whose turns are told apart: edges that lead to another turn, and nodes that have
     /// fewer turns.
-    fn turn(&self, ends: &Layers, [before, after]: [&mut [f64]; 2], by: &mut [u16]) {
+    fn turn(&self, ends: &Layers, [before, after]: [&mut [f64]; 2], by: &mut [u32]) {
         let grid = &self.grid;
         let (previous, next) = (&self.layers[ends.layer - 1], &self.layers[ends.layer]);
-        for slot in (0..grid.slots).filter(|slot| next.present[*slot]) {
+        let reach = self.windows[ends.layer].stations;
+        for row in (0..grid.rows()).filter(|row| next.present[*row]) {
+            let (slot, station) = (row / grid.stations.len(), row % grid.stations.len());
             let (mut has_fewer, mut leads_on) = (false, false);
             for joint in (0..6).filter(|joint| self.states.has(*joint)) {
-                let [least, most] = range(next.angles(grid, slot, joint));
-                let [least_before, most_before] = range(previous.angles(grid, slot, joint));
+                let [mut least, mut most] = range(next.angles(grid, row, joint));
                 let all = self.joints.count(joint);
                 has_fewer |= self.joints.last_turn(joint, most) + 1 < whole(all);
-                leads_on |= most.max(most_before) - least.min(least_before) > OTHER_TURN;
+                for from in grid.stations.around(station, reach) {
+                    let [low, high] = range(previous.angles(grid, grid.row(slot, from), joint));
+                    (least, most) = (least.min(low), most.max(high));
+                }
+                leads_on |= most - least > OTHER_TURN;
             }
             for bin in (0..grid.bins).filter(|_| has_fewer || leads_on) {
-                let to = Node { slot, bin };
+                let to = Node { slot, station, bin };
                 let Some(q) = next.joints(grid, to) else { continue };
                 if has_fewer {
                     self.leave_out(ends.places, after, grid.number(to), &q);
                 }
-                if leads_on && previous.present[slot] {
+                if leads_on {
                     self.turn_into(ends, (to, &q), (&*before, &mut *after), by);
                 }
             }
@@ -125,52 +170,45 @@ impl Search<'_> {
         ends: &Layers,
         (to, q): (Node, &[f64; 6]),
         costs: (&[f64], &mut [f64]),
-        by: &mut [u16],
+        by: &mut [u32],
     ) {
         let (grid, previous) = (&self.grid, &self.layers[ends.layer - 1]);
-        let [below, above] = self.windows[ends.layer];
         let (before, after) = costs;
-        for offset in 0..=below + above {
-            let Some(bin) = self.bin_at(to.bin, offset, below) else { continue };
+        for (from, label) in self.sources(ends.layer, to) {
+            let row = grid.row(from.slot, from.station);
             let is_far = |joint: usize| {
-                (q[joint] - previous.angles(grid, to.slot, joint)[bin]).abs() > OTHER_TURN
+                (q[joint] - previous.angles(grid, row, joint)[from.bin]).abs() > OTHER_TURN
             };
             if !(0..6).any(|joint| self.states.has(joint) && is_far(joint)) {
                 continue;
             }
-            let from = Node { slot: to.slot, bin };
             let Some(q_before) = previous.joints(grid, from) else { continue };
             let edge = [from, to].map(|node| grid.number(node));
-            let label = u16::try_from(offset).unwrap_or_default();
             self.relax(ends, edge, [&q_before, q], (before, &mut *after), (&mut *by, label));
         }
     }
 
     /// Edges on their own branch, one after the other: with turns told apart, or edges refused.
-    pub(super) fn step_by_itself(&self, ends: &Layers, costs: [&mut [f64]; 2], by: &mut [u16]) {
+    pub(super) fn step_by_itself(&self, ends: &Layers, costs: [&mut [f64]; 2], by: &mut [u32]) {
         let grid = &self.grid;
         let [before, after] = costs;
         after.fill(f64::INFINITY);
         let (previous, next) = (&self.layers[ends.layer - 1], &self.layers[ends.layer]);
-        let [below, above] = self.windows[ends.layer];
         for (to, q) in next.nodes(grid) {
             let number = grid.number(to);
-            for offset in 0..=below + above {
-                let Some(bin) = self.bin_at(to.bin, offset, below) else { continue };
-                let from = Node { slot: to.slot, bin };
+            for (from, label) in self.sources(ends.layer, to) {
                 let Some(q_before) = previous.joints(grid, from) else { continue };
                 let edge = [grid.number(from), number];
                 if next.refused.contains(&edge) {
                     continue;
                 }
-                let label = u16::try_from(offset).unwrap_or_default();
                 self.relax(ends, edge, [&q_before, &q], (&*before, &mut *after), (&mut *by, label));
             }
         }
     }
 
     /// Edges from one branch to another.
-    pub(super) fn cross(&self, ends: &Layers, costs: [&mut [f64]; 2], by: &mut [u16]) {
+    pub(super) fn cross(&self, ends: &Layers, costs: [&mut [f64]; 2], by: &mut [u32]) {
         let [before, after] = costs;
         let (previous, next) = (&self.layers[ends.layer - 1], &self.layers[ends.layer]);
         for (number, edge) in next.crossings.iter().enumerate() {
@@ -180,7 +218,7 @@ impl Search<'_> {
             let [from, to] = edge.map(|number| self.grid.node(number));
             let q = (previous.joints(&self.grid, from), next.joints(&self.grid, to));
             let (Some(q_before), Some(q)) = q else { continue };
-            let label = CROSSED | u16::try_from(number).unwrap_or_default();
+            let label = CROSSED | u32::try_from(number).unwrap_or_default();
             self.relax(ends, *edge, [&q_before, &q], (&*before, &mut *after), (&mut *by, label));
         }
     }
@@ -192,14 +230,18 @@ impl Search<'_> {
         [from, to]: Edge,
         [q_before, q]: [&[f64; 6]; 2],
         (before, after): (&[f64], &mut [f64]),
-        (by, label): (&mut [u16], u16),
+        (by, label): (&mut [u32], u32),
     ) {
         let places = ends.places;
         let (mut steps, mut carried) = ([0.0; 6], [0; 6]);
         for joint in 0..6 {
             (steps[joint], carried[joint]) = self.joints.step(joint, q_before[joint], q[joint]);
         }
-        let cost = self.rates(ends.layer).cost(&steps);
+        let values = |layer: usize, number: usize| {
+            self.layers[layer].values(&self.grid, self.grid.node(number).station)
+        };
+        let moved = self.moved(ends.layer, &values(ends.layer - 1, from), &values(ends.layer, to));
+        let cost = self.rates(ends.layer).cost(&steps, moved);
         if cost.0 > ends.cap {
             return;
         }

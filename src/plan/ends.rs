@@ -2,14 +2,13 @@
 
 use core::f64::consts::TAU;
 
-#[cfg(not(feature = "std"))]
-use nalgebra::RealField as _;
-
-use super::nodes::{Arm, largest};
-use super::options::ToolAxis;
+use super::freedom::Values;
+use super::layer::Own;
+use super::nodes::Arm;
+use super::stations::Stations;
 use crate::error::{Error, PlanFault};
-use crate::kinematics::thresholds::{LIMIT_TOLERANCE, PLAN_END_OFF};
-use crate::kinematics::{Pose, PoseDifference, check_seed};
+use crate::kinematics::thresholds::{LIMIT_TOLERANCE, MOST_FREE_AXES, PLAN_END_OFF};
+use crate::kinematics::{Pose, PoseDifference, check_seed, largest, nearest_turn};
 use crate::lanes::nearest_whole;
 
 /// Joint angles at an end of the path, as a node.
@@ -17,17 +16,16 @@ use crate::lanes::nearest_whole;
 pub(super) struct Given {
     pub(super) q: [f64; 6],
     pub(super) slot: usize,
-    /// The nearest bin, and the tool angle [rad].
-    pub(super) bin: usize,
-    pub(super) angle: f64,
+    /// The nearest node of the grid, and what is free there.
+    pub(super) own: Own,
 }
 
 impl Given {
-    /// Check joint angles against the pose of an end.
+    /// Check joint angles, and the values of the external axes, against the pose of an end.
     pub(super) fn new(
         arm: &Arm<'_>,
         field: &'static str,
-        q: &[f64; 6],
+        (q, external): (&[f64; 6], &[f64]),
         pose: &Pose,
     ) -> Result<Self, Error> {
         check_seed(field, q)?;
@@ -38,28 +36,35 @@ impl Given {
                 return Err(PlanFault::EndOutside { field, joint: joint + 1, value, bounds }.into());
             }
         }
+        if external.len() != arm.freedom.external {
+            let (found, wanted) = (external.len(), arm.freedom.external);
+            return Err(PlanFault::EndExternal { field, found, wanted }.into());
+        }
+        let mut values = Values::default();
+        values[..external.len()].copy_from_slice(external);
         let tool = arm.robot.fk(q);
-        let angle = arm.rotation.map_or(0.0, |rotation| angle_about(rotation.axis(), pose, &tool));
-        let turned = arm.turned(pose, angle);
+        let (angle, values) = arm.freedom.found(pose, &tool, values);
+        let turned = arm.freedom.tool(pose, &values, angle);
         let PoseDifference { position, rotation } = PoseDifference::between(&turned, &tool);
         if position.max(rotation) > PLAN_END_OFF {
             let bound = PLAN_END_OFF;
             return Err(PlanFault::EndOff { field, position, rotation, bound }.into());
         }
+        let station = station(arm, field, &values)?;
         let (bin, angle) = Self::bin(arm, field, angle)?;
         let slot = match arm.robot.slot_of(q) {
             Some(slot) => slot.index(),
             None => Self::nearest_slot(arm, q, &turned)?,
         };
-        Ok(Self { q: *q, slot, bin, angle })
+        Ok(Self { q: *q, slot, own: Own { station, bin, angle, values } })
     }
 
     /// The bin nearest to a tool angle, and the angle next to that of the bin.
     fn bin(arm: &Arm<'_>, field: &'static str, angle: f64) -> Result<(usize, f64), Error> {
-        let Some(rotation) = arm.rotation else { return Ok((0, angle)) };
+        let Some(rotation) = arm.freedom.rotation else { return Ok((0, angle)) };
         let [lower, upper] = rotation.range();
         let middle = 0.5 * (lower + upper);
-        let angle = middle + (angle - middle) - TAU * nearest_whole((angle - middle) / TAU);
+        let angle = nearest_turn(angle, middle);
         if angle < lower - PLAN_END_OFF || angle > upper + PLAN_END_OFF {
             return Err(PlanFault::EndAngle { field, angle, bounds: [lower, upper] }.into());
         }
@@ -85,25 +90,38 @@ impl Given {
     fn nearest_slot(arm: &Arm<'_>, q: &[f64; 6], pose: &Pose) -> Result<usize, Error> {
         let solutions = arm.robot.ik(pose)?;
         let off = |other: &[f64; 6]| {
-            largest(&core::array::from_fn(|joint| {
-                let step = q[joint] - other[joint];
-                step - TAU * nearest_whole(step / TAU)
-            }))
+            largest(&core::array::from_fn(|joint| nearest_turn(q[joint] - other[joint], 0.0)))
         };
         let nearest = solutions.iter().min_by(|a, b| off(&a.q).total_cmp(&off(&b.q)));
         Ok(nearest.map_or(0, |nearest| nearest.slot.index()))
     }
 }
 
-/// The angle about an axis of a pose by which another pose is turned from it, as far as it is.
-fn angle_about(axis: ToolAxis, from: &Pose, to: &Pose) -> f64 {
-    let relative = from.rotation.inverse() * to.rotation;
-    let (first, second) = match axis {
-        ToolAxis::X => (1, 2),
-        ToolAxis::Y => (2, 0),
-        ToolAxis::Z => (0, 1),
-    };
-    let matrix = relative.matrix();
-    let sin = matrix[(second, first)] - matrix[(first, second)];
-    sin.atan2(matrix[(first, first)] + matrix[(second, second)])
+/// The station nearest to values of the free axes.
+fn station(arm: &Arm<'_>, field: &'static str, values: &Values) -> Result<usize, Error> {
+    let mut numbers = [0; MOST_FREE_AXES];
+    for (index, axis) in arm.freedom.axes.iter().enumerate() {
+        let [lower, upper] = axis.range;
+        let value = values[index];
+        // NaN is in no range.
+        let is_inside = value >= lower - PLAN_END_OFF && value <= upper + PLAN_END_OFF;
+        if !is_inside {
+            let bounds = [lower, upper];
+            return Err(PlanFault::EndValue { field, index, value, bounds }.into());
+        }
+        let number = nearest_whole((value - lower) / axis.step()).max(0.0);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "at most the number of values"
+        )]
+        let number = number as usize;
+        numbers[index] = number.min(axis.steps - 1);
+    }
+    if !arm.freedom.allows(values) {
+        let rotation = arm.freedom.tilt(values) - arm.freedom.cone;
+        let (position, bound) = (0.0, PLAN_END_OFF);
+        return Err(PlanFault::EndOff { field, position, rotation, bound }.into());
+    }
+    Ok(Stations::of(&arm.freedom.axes).station(numbers))
 }

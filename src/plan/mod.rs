@@ -17,25 +17,37 @@
 //! ```
 
 mod answer;
+mod carrier;
 mod certificate;
+mod closed;
 mod edges;
 mod ends;
+mod freedom;
+mod guide;
 mod layer;
 mod nodes;
 mod options;
 mod planner;
 mod reasons;
+mod refine;
 mod robot;
 mod search;
+mod stations;
 mod step;
+mod tolerance;
 mod turns;
 mod way;
+mod window;
 
 pub use answer::{NoPlan, Plan, PlanBreak, PlanError, StrandEnd, StrandReason};
+pub use carrier::ExternalAxis;
 pub use options::{PlanOptions, ToolAxis, ToolRotation};
 pub use planner::Accept;
 #[cfg(feature = "python")]
 pub(crate) use planner::Caller;
+pub use tolerance::{ToolCone, ToolOffset};
 
+#[cfg(test)]
+mod carrier_tests;
 #[cfg(test)]
 mod tests;

@@ -1,4 +1,5 @@
-//! The nodes of layers: inverse kinematics of every tool angle, in lanes (docs/plan.md, eq. 1, 2).
+//! The nodes of layers: inverse kinematics of everything that is free, in lanes (docs/plan.md,
+//! eq. 1, 2).
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -7,13 +8,12 @@ use core::ops::Range;
 
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
-use nalgebra::{Matrix3, Rotation3};
 
+use super::freedom::Freedom;
 use super::layer::{Grid, Layer, Node};
-use super::options::{ToolAxis, ToolRotation};
 use super::turns::PlannedJoints;
 use crate::kinematics::thresholds::{CROSSING_JUMP, CROSSING_STEP};
-use crate::kinematics::{Pose, Robot, Rows, Status, pose_to_rows};
+use crate::kinematics::{Robot, Rows, Status, largest, pose_to_rows};
 use crate::lanes::nearest_whole;
 
 /// Poses that are solved at a time.
@@ -22,8 +22,8 @@ const PART: usize = 512;
 /// Nodes whose joint angles depend on those of the layers next to theirs.
 #[derive(Default)]
 struct Special {
-    /// Layers and bins of singular poses.
-    singular: Vec<(usize, usize)>,
+    /// Layers, with the nodes of singular poses; their slot is the first.
+    singular: Vec<(usize, Node)>,
     /// Nodes with a joint that may be at either end of its limits.
     either_end: Vec<(usize, Node)>,
 }
@@ -33,62 +33,49 @@ struct Special {
 pub(super) struct Arm<'a> {
     pub(super) robot: &'a Robot<6>,
     pub(super) joints: &'a PlannedJoints,
-    pub(super) rotation: Option<ToolRotation>,
+    pub(super) freedom: &'a Freedom,
 }
 
 impl Arm<'_> {
-    /// The pose of the tool, turned by an angle [rad] (eq. 1).
-    pub(super) fn turned(&self, pose: &Pose, angle: f64) -> Pose {
-        let Some(rotation) = self.rotation else { return *pose };
-        let turned = turned(&pose.rotation, rotation.axis(), angle.sin_cos());
-        Pose::from_parts(pose.translation, turned)
-    }
-
-    /// Solve every tool angle of a range of layers. `angles` is what they may be [rad].
-    pub(super) fn solve(
-        &self,
-        grid: &Grid,
-        layers: &mut [Layer],
-        range: Range<usize>,
-        angles: Option<[f64; 2]>,
-    ) {
+    /// Solve everything that is free of a range of layers.
+    pub(super) fn solve(&self, grid: &Grid, layers: &mut [Layer], range: Range<usize>) {
         let mut poses = Vec::with_capacity(PART);
         let mut places = Vec::with_capacity(PART);
         let mut q = vec![0.0; PART * grid.slots * 6];
         let mut status = vec![0; PART * grid.slots];
         let mut special = Special::default();
+        let angles = self.freedom.angles();
         let mut directions: Vec<(f64, f64)> = Vec::new();
         let mut base = f64::NAN;
         for layer in range {
+            if layers[layer].own.is_some() {
+                continue;
+            }
             if layers[layer].base.to_bits() != base.to_bits() {
                 base = layers[layer].base;
                 directions.clear();
-                directions.extend((0..grid.bins).map(|bin| {
-                    #[expect(clippy::cast_precision_loss, reason = "small counts")]
-                    let angle = base + bin as f64 * grid.step;
-                    angle.sin_cos()
-                }));
+                let angle = |bin| layers[layer].tool_angle(grid, bin);
+                directions.extend((0..grid.bins).map(|bin| angle(bin).sin_cos()));
             }
-            for bin in 0..grid.bins {
-                let angle = layers[layer].tool_angle(grid, bin);
-                let is_inside = angles.is_none_or(|[low, high]| angle >= low && angle <= high);
-                if !is_inside || layers[layer].own.is_some() {
+            for station in 0..grid.stations.len() {
+                let values = layers[layer].values(grid, station);
+                if !self.freedom.allows(&values) {
                     continue;
                 }
-                let pose = match self.rotation {
-                    None => layers[layer].pose,
-                    Some(rotation) => Pose::from_parts(
-                        layers[layer].pose.translation,
-                        turned(&layers[layer].pose.rotation, rotation.axis(), directions[bin]),
-                    ),
-                };
-                poses.push(pose_to_rows(&pose));
-                places.push((layer, bin));
-                if poses.len() == PART {
-                    self.solve_part(&poses, &mut q, &mut status);
-                    self.put(grid, layers, &places, (&q, &status), &mut special);
-                    poses.clear();
-                    places.clear();
+                let placed = self.freedom.placed(&layers[layer].pose, &values);
+                for (bin, direction) in directions.iter().enumerate() {
+                    let angle = layers[layer].tool_angle(grid, bin);
+                    if angles.is_some_and(|[low, high]| angle < low || angle > high) {
+                        continue;
+                    }
+                    poses.push(pose_to_rows(&self.freedom.turned(&placed, *direction)));
+                    places.push((layer, Node { slot: 0, station, bin }));
+                    if poses.len() == PART {
+                        self.solve_part(&poses, &mut q, &mut status);
+                        self.put(grid, layers, &places, (&q, &status), &mut special);
+                        poses.clear();
+                        places.clear();
+                    }
                 }
             }
         }
@@ -127,45 +114,45 @@ impl Arm<'_> {
         &self,
         grid: &Grid,
         layers: &mut [Layer],
-        places: &[(usize, usize)],
+        places: &[(usize, Node)],
         (q, status): (&[f64], &[u8]),
         special_nodes: &mut Special,
     ) {
         let special = (Status::WRIST | Status::SHOULDER | Status::ELBOW | Status::MERGED).bits();
         let inside = Status::WITHIN_LIMITS.bits();
         let rows = q.as_chunks::<6>().0.chunks(grid.slots).zip(status.chunks(grid.slots));
-        for ((layer, bin), (q, status)) in places.iter().zip(rows) {
+        for ((number, node), (q, status)) in places.iter().zip(rows) {
             let mut is_singular = 0;
-            let layer_number = *layer;
-            let layer = &mut layers[layer_number];
+            let layer = &mut layers[*number];
             for slot in 0..grid.slots {
                 is_singular |= status[slot] & special;
                 if status[slot] & inside == 0 {
                     continue;
                 }
-                layer.present[slot] = true;
-                let start = slot * 6 * grid.bins + bin;
+                let row = grid.row(slot, node.station);
+                layer.present[row] = true;
+                let start = row * 6 * grid.bins + node.bin;
                 for joint in 0..6 {
                     let angle = self.joints.first_turn(joint, q[slot][joint]);
                     layer.q[start + joint * grid.bins] = angle;
                     if self.joints.is_either_end(joint, angle) {
-                        special_nodes.either_end.push((layer_number, Node { slot, bin: *bin }));
+                        special_nodes.either_end.push((*number, Node { slot, ..*node }));
                     }
                 }
             }
             if is_singular != 0 {
-                special_nodes.singular.push((layer_number, *bin));
+                special_nodes.singular.push((*number, *node));
             }
         }
     }
 
     /// At singular poses, choose the joint angles on each branch that continue those before, or
     /// those after where there are none.
-    fn join_singular(&self, grid: &Grid, layers: &mut [Layer], singular: &[(usize, usize)]) {
+    fn join_singular(&self, grid: &Grid, layers: &mut [Layer], singular: &[(usize, Node)]) {
         let mut open = Vec::new();
-        for (layer, bin) in singular {
+        for (layer, node) in singular {
             for slot in 0..grid.slots {
-                let node = Node { slot, bin: *bin };
+                let node = Node { slot, ..*node };
                 let before = layer.checked_sub(1);
                 if !self.join(grid, layers, *layer, before, node) {
                     open.push((*layer, node));
@@ -190,7 +177,9 @@ impl Arm<'_> {
         let seed = neighbor.and_then(|neighbor| layers.get(neighbor));
         let seed = seed.and_then(|layer| layer.joints(grid, node));
         let Some(seed) = seed else { return false };
-        let pose = self.turned(&layers[layer].pose, layers[layer].tool_angle(grid, node.bin));
+        let at = &layers[layer];
+        let (values, angle) = (at.values(grid, node.station), at.tool_angle(grid, node.bin));
+        let pose = self.freedom.tool(&at.pose, &values, angle);
         let Ok(nearest) = self.robot.ik_nearest(&pose, &seed, &[1.0; 6]) else { return false };
         if largest(&self.joints.steps(&seed, &nearest.q)) > CROSSING_STEP {
             return false;
@@ -208,8 +197,8 @@ impl Arm<'_> {
             let (before, after) = layers.split_at_mut(layer);
             let (before, after) = (&before[layer - 1], &mut after[0]);
             let mut crossings = Vec::new();
-            for slot in (0..grid.slots).filter(|slot| before.present[*slot]) {
-                self.largest_steps(grid, [before, after], slot, &mut most);
+            for row in (0..grid.rows()).filter(|row| before.present[*row]) {
+                self.largest_steps(grid, [before, after], row, &mut most);
                 // Of a node that is not there, the step is NaN.
                 if most.iter().all(|most| *most <= CROSSING_JUMP) {
                     continue;
@@ -218,9 +207,9 @@ impl Arm<'_> {
                     .iter()
                     .enumerate()
                     .filter(|(_, most)| most.is_nan() || **most > CROSSING_JUMP);
-                for node in ends.map(|(bin, _)| Node { slot, bin }) {
+                for node in ends.map(|(bin, _)| grid.node(row * grid.bins + bin)) {
                     let Some(q) = before.joints(grid, node) else { continue };
-                    for other in (0..grid.slots).filter(|other| *other != slot) {
+                    for other in (0..grid.slots).filter(|other| *other != node.slot) {
                         let to = Node { slot: other, ..node };
                         let Some(next) = after.joints(grid, to) else { continue };
                         if largest(&self.joints.steps(&q, &next)) <= CROSSING_STEP {
@@ -233,17 +222,17 @@ impl Arm<'_> {
         }
     }
 
-    /// The largest step of a joint on a branch at each tool angle; NaN where a node is missing.
+    /// The largest step of a joint in a row at each tool angle; NaN where a node is missing.
     fn largest_steps(
         &self,
         grid: &Grid,
         [before, after]: [&Layer; 2],
-        slot: usize,
+        row: usize,
         most: &mut [f64],
     ) {
         most.fill(0.0);
         for joint in 0..6 {
-            let (from, to) = (before.angles(grid, slot, joint), after.angles(grid, slot, joint));
+            let (from, to) = (before.angles(grid, row, joint), after.angles(grid, row, joint));
             let turn = if self.joints.wraps[joint] { TAU } else { 0.0 };
             for ((most, from), to) in most.iter_mut().zip(from).zip(to) {
                 let step = to - from;
@@ -252,23 +241,4 @@ impl Arm<'_> {
             }
         }
     }
-}
-
-/// The largest size of the steps of joints [rad].
-pub(super) fn largest(steps: &[f64; 6]) -> f64 {
-    steps.iter().fold(0.0, |most, step| most.max(step.abs()))
-}
-
-/// A rotation, turned about one of its own axes by an angle of which sine and cosine are given.
-fn turned(rotation: &Rotation3<f64>, axis: ToolAxis, (sin, cos): (f64, f64)) -> Rotation3<f64> {
-    let (first, second) = match axis {
-        ToolAxis::X => (1, 2),
-        ToolAxis::Y => (2, 0),
-        ToolAxis::Z => (0, 1),
-    };
-    let mut turned: Matrix3<f64> = *rotation.matrix();
-    let (one, two) = (rotation.matrix().column(first), rotation.matrix().column(second));
-    turned.set_column(first, &(one * cos + two * sin));
-    turned.set_column(second, &(two * cos - one * sin));
-    Rotation3::from_matrix_unchecked(turned)
 }

@@ -3,9 +3,11 @@
 use alloc::vec::Vec;
 use core::f64::consts::{PI, TAU};
 
+use super::carrier::{ExternalAxis, checked_count};
+use super::tolerance::{ToolCone, ToolOffset};
 use crate::error::{Error, PlanFault};
 use crate::kinematics::check_weights;
-use crate::kinematics::thresholds::{FULL_TURN, MOST_TOOL_ANGLES};
+use crate::kinematics::thresholds::{FULL_TURN, MOST_EXTERNAL_VALUE, MOST_TOOL_ANGLES};
 
 /// An axis of the tool frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -16,6 +18,21 @@ pub enum ToolAxis {
     Y,
     /// z, in which a tool points.
     Z,
+}
+
+impl ToolAxis {
+    pub(super) fn index(self) -> usize {
+        match self {
+            Self::X => 0,
+            Self::Y => 1,
+            Self::Z => 2,
+        }
+    }
+
+    /// The other two, so that the three are right-handed.
+    pub(super) fn others(self) -> [usize; 2] {
+        [(self.index() + 1) % 3, (self.index() + 2) % 3]
+    }
 }
 
 /// The angles by which the tool may be turned about one of its axes at each pose of a path.
@@ -103,6 +120,12 @@ impl ToolRotation {
 pub struct PlanOptions {
     /// The free rotation of the tool; `None` if each pose fixes the orientation.
     pub rotation: Option<ToolRotation>,
+    /// Axes that carry the robot or the work object; of positioners, each carries those after it.
+    pub external: Vec<ExternalAxis>,
+    /// How far the tool may be tilted.
+    pub cone: Option<ToolCone>,
+    /// How far the tool may be shifted.
+    pub offset: Option<ToolOffset>,
     /// The time of each pose [s]. Then no joint may be faster than its limit. `None`: the poses are
     /// equally far apart in time, and nothing is too fast.
     pub times: Option<Vec<f64>>,
@@ -110,6 +133,10 @@ pub struct PlanOptions {
     pub start: Option<[f64; 6]>,
     /// The joint angles at the last pose [rad].
     pub end: Option<[f64; 6]>,
+    /// The values of the external axes at the first pose, if `start` is given [m, rad].
+    pub start_external: Vec<f64>,
+    /// The values of the external axes at the last pose, if `end` is given [m, rad].
+    pub end_external: Vec<f64>,
     /// Whether the joints end where they start, turns included.
     pub closed: bool,
     /// Cost of moving each joint.
@@ -120,9 +147,14 @@ impl Default for PlanOptions {
     fn default() -> Self {
         Self {
             rotation: None,
+            external: Vec::new(),
+            cone: None,
+            offset: None,
             times: None,
             start: None,
             end: None,
+            start_external: Vec::new(),
+            end_external: Vec::new(),
             closed: false,
             weights: [1.0; 6],
         }
@@ -133,6 +165,7 @@ impl PlanOptions {
     /// Check what does not depend on the robot, for a path of `count` poses.
     pub(super) fn check(&self, count: usize) -> Result<(), Error> {
         check_weights(&self.weights)?;
+        checked_count(&self.external)?;
         if count == 0 {
             return Err(PlanFault::NoPoses.into());
         }
@@ -162,4 +195,21 @@ impl PlanOptions {
             None => (0..count).map(even).collect(),
         }
     }
+}
+
+/// Check the range of an axis and its number of values.
+pub(super) fn checked_steps(
+    field: &'static str,
+    [lower, upper]: [f64; 2],
+    steps: usize,
+    most: usize,
+) -> Result<usize, Error> {
+    let fits = lower < upper && lower.abs().max(upper.abs()) <= MOST_EXTERNAL_VALUE;
+    if !fits {
+        return Err(PlanFault::AxisRange { field, lower, upper, most: MOST_EXTERNAL_VALUE }.into());
+    }
+    if !(2..=most).contains(&steps) {
+        return Err(PlanFault::AxisSteps { field, found: steps, bounds: [2, most] }.into());
+    }
+    Ok(steps)
 }

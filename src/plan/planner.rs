@@ -5,18 +5,21 @@ use alloc::vec::Vec;
 use super::answer::PlanError;
 use super::certificate::{Between, HALVINGS, Hop};
 use super::ends::Given;
-use super::layer::{Grid, Layer, Node};
-use super::nodes::{Arm, largest};
+use super::freedom::Values;
+use super::layer::{Grid, Layer, Node, Waypoint};
+use super::nodes::Arm;
 use super::options::PlanOptions;
+use super::stations::Stations;
+use super::step::Rates;
 use super::turns::TurnStates;
 use super::way::{Ends, Field, Way};
-use crate::error::Error;
-use crate::kinematics::Pose;
-use crate::kinematics::thresholds::{BOTTLENECK_ROUNDING, LIMIT_TOLERANCE, REFINED_TOOL_STEP};
+use crate::error::{Error, PlanFault};
+use crate::kinematics::thresholds::{LIMIT_TOLERANCE, MOST_PLAN_NODES};
+use crate::kinematics::{largest, steps};
 use crate::paths::Turn;
 
-/// Tool angles of a refined layer to each side of the one that was found.
-const BAND: usize = 5;
+/// How often a step with a jump is halved where there are free axes.
+const HALVINGS_OF_AXES: u32 = 6;
 
 /// A caller's own test of joint vectors, asked for many at a time: whether each is accepted, or
 /// nothing to stop.
@@ -26,6 +29,16 @@ pub type Accept<'a> = dyn FnMut(&[[f64; 6]]) -> Option<Vec<bool>> + 'a;
 pub(crate) struct Caller<'a, 'b> {
     pub(crate) accept: Option<&'a mut Accept<'b>>,
     pub(crate) go_on: &'a mut dyn FnMut() -> bool,
+}
+
+/// How the orientation turns to each pose of a path from the one before.
+pub(super) fn turns(path: &[Waypoint]) -> Result<Vec<Option<Turn>>, Error> {
+    let before = core::iter::once(None).chain(path.iter().map(Some));
+    let turn = |(point, before): (&Waypoint, Option<&Waypoint>)| {
+        let before = before.map(|before| &before.pose.rotation);
+        before.map(|from| Turn::new(from, &point.pose.rotation, None, point.index)).transpose()
+    };
+    path.iter().zip(before).map(turn).collect()
 }
 
 /// The state of a plan that is being made.
@@ -44,26 +57,30 @@ impl<'a> Planner<'a> {
     /// The layers of a path whose poses were checked, solved.
     pub(super) fn new(
         arm: Arm<'a>,
-        path: &[Pose],
+        path: &[Waypoint],
         options: &PlanOptions,
         given: [Option<Given>; 2],
     ) -> Result<Self, Error> {
-        let (bins, step, cyclic, base) = match arm.rotation {
+        let (bins, step, cyclic, base) = match arm.freedom.rotation {
             None => (1, 0.0, false, 0.0),
             Some(rotation) => {
                 (rotation.steps(), rotation.step(), rotation.is_full(), rotation.range()[0])
             }
         };
-        let grid = Grid { slots: arm.robot.slot_count(), bins, step, cyclic };
-        let times = options.times_of(path.len());
+        let stations = Stations::of(&arm.freedom.axes);
+        let grid = Grid { slots: arm.robot.slot_count(), stations, bins, step, cyclic };
+        let found = path.len().saturating_mul(grid.len());
+        if found > MOST_PLAN_NODES {
+            return Err(PlanFault::Nodes { found, most: MOST_PLAN_NODES }.into());
+        }
+        let mut bases = Values::default();
+        for (base, axis) in bases.iter_mut().zip(&arm.freedom.axes) {
+            *base = axis.range[0];
+        }
         let mut layers = Vec::with_capacity(path.len());
-        for (index, (pose, time)) in path.iter().zip(times).enumerate() {
-            let mut layer = Layer::new(*pose, time, Some(index), &grid);
-            layer.base = base;
-            if let Some(before) = index.checked_sub(1) {
-                let before = &path[before].rotation;
-                layer.turn = Some(Turn::new(before, &pose.rotation, None, index)?);
-            }
+        for (point, turn) in path.iter().zip(turns(path)?) {
+            let mut layer = Layer::new(point.pose, point.time, Some(point.index), &grid);
+            (layer.base, layer.bases, layer.turn) = (base, bases, turn);
             layers.push(layer);
         }
         let has_limits = options.times.is_some() && arm.robot.max_velocity().is_some();
@@ -88,12 +105,8 @@ impl<'a> Planner<'a> {
     }
 
     /// Solve a range of layers, and find the edges between branches at them.
-    fn solve(&mut self, range: core::ops::Range<usize>) {
-        let angles = self.arm.rotation.filter(|rotation| !rotation.is_full()).map(|rotation| {
-            let [lower, upper] = rotation.range();
-            [lower - LIMIT_TOLERANCE, upper + LIMIT_TOLERANCE]
-        });
-        self.arm.solve(&self.grid, &mut self.layers, range.clone(), angles);
+    pub(super) fn solve(&mut self, range: core::ops::Range<usize>) {
+        self.arm.solve(&self.grid, &mut self.layers, range.clone());
         let last = self.layers.len() - 1;
         if self.closed && range.contains(&last) {
             let (q, present) = (self.layers[0].q.clone(), self.layers[0].present.clone());
@@ -107,9 +120,9 @@ impl<'a> Planner<'a> {
     fn fix(&mut self, layer: usize, given: &Given) -> [i32; 6] {
         let joints = self.arm.joints;
         let q = core::array::from_fn(|joint| joints.first_turn(joint, given.q[joint]));
-        let node = Node { slot: given.slot, bin: given.bin };
+        let node = Node { slot: given.slot, station: given.own.station, bin: given.own.bin };
         let layer = &mut self.layers[layer];
-        layer.own = Some((given.bin, given.angle));
+        layer.own = Some(given.own);
         layer.put(&self.grid, node, Some(q));
         core::array::from_fn(|joint| joints.turn_of(joint, q[joint], given.q[joint]))
     }
@@ -118,10 +131,10 @@ impl<'a> Planner<'a> {
         Field {
             grid: self.grid,
             joints: self.arm.joints,
+            freedom: self.arm.freedom,
             layers: &self.layers,
             speed: self.speed,
             ends: self.ends,
-            cyclic_angles: self.arm.rotation.is_some_and(|rotation| rotation.is_full()),
         }
     }
 
@@ -167,33 +180,21 @@ impl<'a> Planner<'a> {
     /// if there is none.
     fn closed_way(&mut self) -> Result<Option<Way>, Error> {
         let last = self.layers.len() - 1;
-        let open = self.best_way(0)?;
+        let Some(open) = self.best_way(0)? else { return Ok(None) };
+        if open.reached() < last {
+            return Ok(Some(open));
+        }
         let mut states = self.states.clone();
         let mut field = self.field();
-        let Some(open) = open else { return Ok(None) };
-        let mut best: Option<Way> = None;
-        if open.reached() == last {
-            let begin = self.grid.number(open.nodes[0]);
-            let others = self.layers[0].nodes(&self.grid);
-            let others = others.map(|(node, _)| self.grid.number(node));
-            for number in [begin].into_iter().chain(others.filter(|number| *number != begin)) {
-                field.ends.closed_at = Some(number);
-                let way = field.best_way(0, &mut states)?.filter(|way| way.reached() == last);
-                let is_better =
-                    |way: &Way| best.as_ref().is_none_or(|best| way.is_better_than(best));
-                if let Some(way) = way.filter(is_better) {
-                    field.speed = field.speed.min(way.bottleneck * (1.0 + BOTTLENECK_ROUNDING));
-                    best = Some(way);
-                }
-            }
+        field.ends.closed = true;
+        let closed = field.closed_way(&mut states)?;
+        if closed.is_some() || last == 0 {
+            return Ok(Some(closed.unwrap_or(open)));
         }
-        if best.is_none() && open.reached() == last && last > 0 {
-            let mut shorter = self.field();
-            shorter.layers = &self.layers[..last];
-            shorter.ends.last = None;
-            return shorter.best_way(0, &mut states);
-        }
-        Ok(best.or(Some(open)))
+        let mut shorter = self.field();
+        shorter.layers = &self.layers[..last];
+        shorter.ends.last = None;
+        shorter.best_way(0, &mut states)
     }
 
     /// Deal with a step of a way that is not continuous.
@@ -202,17 +203,36 @@ impl<'a> Planner<'a> {
         let nodes = [way.nodes[step - 1], way.nodes[step]];
         let q = [way.q[step - 1], way.q[step]];
         let edge = nodes.map(|node| self.grid.number(node));
-        if doubt == Between::Elsewhere && self.layers[layer].depth < HALVINGS {
+        let depth = self.layers[layer].depth;
+        if doubt == Between::Elsewhere && depth < HALVINGS {
             return self.split(layer, nodes, q);
+        }
+        // Of many values of free axes, edges are not looked at one by one: a jump does not shrink.
+        if self.grid.stations.len() > 1 {
+            let stations = nodes.map(|node| node.station);
+            if depth < HALVINGS_OF_AXES && self.grid.stations.are_neighbors(stations) {
+                return self.split(layer, nodes, q);
+            }
+            self.layers[layer].cap = 0.5 * self.bottleneck(layer, nodes, &q);
+            return Ok(());
         }
         if !self.layers[layer].refused.contains(&edge) {
             self.layers[layer].refused.push(edge);
         }
         if !self.layers[layer].is_examined {
-            let size = largest(&core::array::from_fn(|joint| q[1][joint] - q[0][joint]));
+            let size = largest(&steps(&q[0], &q[1]));
             self.examine(layer, nodes, 0.5 * size);
         }
         Ok(())
+    }
+
+    /// The bottleneck of an edge.
+    fn bottleneck(&self, layer: usize, nodes: [Node; 2], q: &[[f64; 6]; 2]) -> f64 {
+        let layers = [&self.layers[layer - 1], &self.layers[layer]];
+        let [from, to] = [0, 1].map(|end| layers[end].values(&self.grid, nodes[end].station));
+        let time = layers[1].time - layers[0].time;
+        let moved = self.arm.freedom.moved(time, &from, &to);
+        Rates::of(self.arm.joints, time).cost(&steps(&q[0], &q[1]), moved).0
     }
 
     /// Put a layer half way before a layer.
@@ -222,13 +242,15 @@ impl<'a> Planner<'a> {
         let pose = hop.middle();
         let time = 0.5 * (before.time + after.time);
         let mut middle = Layer::new(pose, time, None, &self.grid);
-        middle.base = before.base + 0.5 * self.arm.angle_step(before.base, after.base);
+        middle.base = before.base + 0.5 * self.arm.freedom.angle_step(before.base, after.base);
+        middle.bases = core::array::from_fn(|axis| 0.5 * (before.bases[axis] + after.bases[axis]));
         middle.depth = after.depth + 1;
+        middle.cap = 2.0 * after.cap;
         let (first, last) = (before.pose.rotation, after.pose.rotation);
         middle.turn = Some(Turn::new(&first, &pose.rotation, None, layer)?);
         let after = &mut self.layers[layer];
         after.turn = Some(Turn::new(&pose.rotation, &last, None, layer)?);
-        after.depth = middle.depth;
+        (after.depth, after.cap) = (middle.depth, middle.cap);
         after.is_examined = false;
         after.refused.clear();
         self.layers.insert(layer, middle);
@@ -240,13 +262,12 @@ impl<'a> Planner<'a> {
     fn examine(&mut self, layer: usize, nodes: [Node; 2], least: f64) {
         let grid = self.grid;
         let (before, after) = (&self.layers[layer - 1], &self.layers[layer]);
-        let apart = nodes[0].bin.abs_diff(nodes[1].bin);
-        let apart = if grid.cyclic { apart.min(grid.bins - apart) } else { apart }.max(1);
+        let apart = grid.apart(nodes[0].bin, nodes[1].bin).max(1);
         let mut refused = Vec::new();
         for (to, q) in after.nodes(&grid) {
             for offset in 0..(2 * apart + 1).min(grid.bins) {
                 let bin = to.bin + grid.bins + offset - apart.min(grid.bins);
-                let from = Node { slot: to.slot, bin: bin % grid.bins };
+                let from = Node { bin: bin % grid.bins, ..to };
                 let edge = [grid.number(from), grid.number(to)];
                 let Some(q_before) = before.joints(&grid, from) else { continue };
                 let steps = self.arm.joints.steps(&q_before, &q);
@@ -290,8 +311,7 @@ impl<'a> Planner<'a> {
             let node = grid.node(*number);
             for near in layer.saturating_sub(1)..(layer + 2).min(self.layers.len()) {
                 for (other, q) in self.layers[near].nodes(&grid) {
-                    let apart = other.bin.abs_diff(node.bin);
-                    let apart = if grid.cyclic { apart.min(grid.bins - apart) } else { apart };
+                    let apart = grid.apart(other.bin, node.bin);
                     let place = (near, grid.number(other));
                     if other.slot == node.slot && apart <= reach && is_new(&self.layers, &place) {
                         around.push((place, q));
@@ -330,33 +350,5 @@ impl<'a> Planner<'a> {
             }
         }
         Ok(rejected)
-    }
-
-    /// Whether the tool angles are so far apart that they are to be refined.
-    pub(super) fn is_coarse(&self) -> bool {
-        self.grid.step > REFINED_TOOL_STEP
-    }
-
-    /// Layers of tool angles next to those of a way, a fifth as far apart.
-    pub(super) fn refine(&mut self, way: &Way) {
-        let coarse = self.grid;
-        #[expect(clippy::cast_precision_loss, reason = "a small count")]
-        let step = coarse.step / BAND as f64;
-        self.grid = Grid { bins: 2 * BAND + 1, step, cyclic: false, ..coarse };
-        let layers = self.layers.iter().zip(&way.nodes).map(|(layer, node)| {
-            let angle = layer.tool_angle(&coarse, node.bin);
-            let mut finer = Layer::new(layer.pose, layer.time, layer.index, &self.grid);
-            #[expect(clippy::cast_precision_loss, reason = "a small count")]
-            let base = angle - BAND as f64 * step;
-            (finer.base, finer.depth, finer.turn) = (base, layer.depth, layer.turn);
-            if layer.own.is_some() {
-                finer.own = Some((BAND, angle));
-                let q = layer.joints(&coarse, *node);
-                finer.put(&self.grid, Node { bin: BAND, ..*node }, q);
-            }
-            finer
-        });
-        self.layers = layers.collect();
-        self.solve(0..self.layers.len());
     }
 }

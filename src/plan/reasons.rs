@@ -5,14 +5,12 @@ use core::f64::consts::{PI, TAU};
 
 use super::answer::{StrandEnd, StrandReason};
 use super::layer::{Layer, Node};
-use super::nodes::largest;
 use super::planner::Planner;
-use super::step::Rates;
+use super::step::{Moved, Rates};
 use super::way::Way;
 use crate::error::Error;
-use crate::kinematics::SingularityKind;
 use crate::kinematics::thresholds::CROSSING_JUMP;
-use crate::lanes::nearest_whole;
+use crate::kinematics::{SingularityKind, largest, nearest_turn};
 use crate::report::Explanation;
 
 impl Planner<'_> {
@@ -21,7 +19,8 @@ impl Planner<'_> {
         let mut ends = Vec::new();
         for slot in 0..self.grid.slots {
             let layer = way.alive[slot] + 1;
-            let begins = self.layers[way.from..].first().is_some_and(|layer| layer.present[slot]);
+            let first = self.layers[way.from..].first();
+            let begins = first.is_some_and(|layer| layer.has_slot(&self.grid, slot));
             let lived = way.alive[slot] > way.from || begins;
             if !lived {
                 continue;
@@ -46,7 +45,7 @@ impl Planner<'_> {
     /// Why a branch does not go on to a layer.
     fn reason(&self, slot: usize, layer: usize) -> Result<StrandReason, Error> {
         let (before, after) = (&self.layers[layer - 1], &self.layers[layer]);
-        if !after.present[slot] {
+        if !after.has_slot(&self.grid, slot) {
             if after.rejected.iter().any(|number| self.grid.node(*number).slot == slot) {
                 return Ok(StrandReason::Rejected);
             }
@@ -59,7 +58,7 @@ impl Planner<'_> {
             return self.unreachable(slot, [before, after]);
         };
         let rates = Rates::of(self.arm.joints, after.time - before.time);
-        if rates.cost(&steps).0 > self.speed {
+        if rates.cost(&steps, Moved::default()).0 > self.speed {
             let part = |joint: &usize| steps[*joint].abs() * rates.parts[*joint];
             let joint = (0..6).max_by(|a, b| part(a).total_cmp(&part(b))).unwrap_or_default();
             return Ok(StrandReason::Speed { joint: joint + 1, ratio: part(&joint) });
@@ -97,8 +96,10 @@ impl Planner<'_> {
         [before, after]: [&Layer; 2],
     ) -> Result<StrandReason, Error> {
         let mut nodes = before.nodes(&self.grid).filter(|(node, _)| node.slot == slot);
-        let bin = nodes.next().map_or(0, |(node, _)| node.bin);
-        let pose = self.arm.turned(&after.pose, after.tool_angle(&self.grid, bin));
+        let (station, bin) = nodes.next().map_or((0, 0), |(node, _)| (node.station, node.bin));
+        let (values, angle) =
+            (after.values(&self.grid, station), after.tool_angle(&self.grid, bin));
+        let pose = self.arm.freedom.tool(&after.pose, &values, angle);
         let solutions = self.arm.robot.ik(&pose)?;
         let Some(solution) = solutions.slot(slot) else {
             return Ok(match solutions.explain() {
@@ -114,8 +115,7 @@ impl Planner<'_> {
         }
         let bounds = self.arm.joints.limits(joint);
         let middle = 0.5 * (bounds[0] + bounds[1]);
-        let value = solution.q[joint];
-        let value = value - TAU * nearest_whole((value - middle) / TAU);
+        let value = nearest_turn(solution.q[joint], middle);
         Ok(StrandReason::Limit { joint: joint + 1, value, bounds })
     }
 
@@ -159,7 +159,7 @@ impl Planner<'_> {
     /// Why no branch has a node at the first layer, if none has.
     pub(super) fn none_at_start(&self) -> Result<Vec<StrandEnd>, Error> {
         let first = &self.layers[0];
-        let slots = (0..self.grid.slots).filter(|slot| !first.present[*slot]);
+        let slots = (0..self.grid.slots).filter(|slot| !first.has_slot(&self.grid, *slot));
         let end = |slot| {
             let reason = if first.rejected.iter().any(|number| self.grid.node(*number).slot == slot)
             {

@@ -6,6 +6,9 @@ use alloc::vec::Vec;
 
 use super::answer::{NoPlan, Plan, PlanBreak, PlanError};
 use super::ends::Given;
+use super::freedom::Freedom;
+use super::guide::guided;
+use super::layer::Waypoint;
 use super::nodes::Arm;
 use super::options::PlanOptions;
 use super::planner::{Accept, Caller, Planner};
@@ -66,15 +69,29 @@ impl Robot<6> {
             Some(q) if q.iter().all(|angle| angle.is_finite()) => joints.around(&q),
             _ => joints,
         };
-        let arm = Arm { robot: self, joints: &joints, rotation: options.rotation };
-        let given = |field, q: &Option<[f64; 6]>, pose: &Pose| {
-            q.as_ref().map(|q| Given::new(&arm, field, q, pose)).transpose()
+        let freedom = Freedom::of(options);
+        let arm = Arm { robot: self, joints: &joints, freedom: &freedom };
+        let given = |field, (q, external): (&Option<[f64; 6]>, &[f64]), pose: &Pose| {
+            q.as_ref().map(|q| Given::new(&arm, field, (q, external), pose)).transpose()
         };
         let ends = [
-            given("start", &options.start, &path[0])?,
-            given("end", &options.end, &path[path.len() - 1])?,
+            given("start", (&options.start, &options.start_external), &path[0])?,
+            given("end", (&options.end, &options.end_external), &path[path.len() - 1])?,
         ];
-        let mut planner = Planner::new(arm, &path, options, ends)?;
+        let points = waypoints(&path, options);
+        let guided = guided(arm, &points, options, &ends, caller)?;
+        let mut planner = Planner::new(arm, &points, options, ends)?;
+        if let Some((guide, way)) = guided {
+            // A way of the whole grid is taken if it is better still.
+            planner.speed = planner.speed.min(way.bottleneck);
+            if let Some(other) = planner.whole_way(caller)? {
+                let other = planner.refined(other, caller)?;
+                if other.cost() < way.cost() {
+                    return Ok(planner.plan_of(&[other]));
+                }
+            }
+            return Ok(guide.plan_of(&[way]));
+        }
         let mut ways = Vec::new();
         let mut from = 0;
         while from < planner.layers.len() {
@@ -88,17 +105,19 @@ impl Robot<6> {
         }
         let is_whole = matches!(&ways[..], [way] if way.nodes.len() == planner.layers.len());
         if is_whole {
-            while planner.is_coarse() {
-                planner.refine(&ways[0]);
-                if let Some(finer) = planner.proven_way(0, caller)? {
-                    ways = vec![finer];
-                }
-            }
-            return Ok(planner.plan_of(&ways));
+            let way = planner.refined(ways.swap_remove(0), caller)?;
+            return Ok(planner.plan_of(&[way]));
         }
         let plan = planner.plan_of(&ways);
         Err(PlanError::NoPlan(Box::new(planner.gap(&ways, plan)?)))
     }
+}
+
+/// The poses of a path with their times.
+pub(super) fn waypoints(path: &[Pose], options: &PlanOptions) -> Vec<Waypoint> {
+    let times = options.times_of(path.len());
+    let points = path.iter().zip(times).enumerate();
+    points.map(|(index, (pose, time))| Waypoint { index, pose: *pose, time }).collect()
 }
 
 /// The poses of a path, checked; of a closed one, the last is the first.
@@ -129,12 +148,15 @@ impl Planner<'_> {
         let mut plan = Plan {
             q: vec![None; count],
             tool_angle: vec![0.0; count],
+            external: vec![Vec::new(); count],
+            tolerance: vec![Vec::new(); count],
             slot: vec![None; count],
             cost: 0.0,
             bottleneck: 0.0,
             breaks: Vec::new(),
             certified: true,
         };
+        let freedom = self.arm.freedom;
         let mut leave = None;
         for way in ways {
             let mut angle: Option<f64> = None;
@@ -142,11 +164,15 @@ impl Planner<'_> {
             for (step, node) in way.nodes.iter().enumerate() {
                 let layer = &self.layers[way.from + step];
                 let own = layer.tool_angle(&self.grid, node.bin);
-                let next = angle.map_or(own, |angle| angle + self.arm.angle_step(angle, own));
+                let next = angle.map_or(own, |angle| angle + freedom.angle_step(angle, own));
                 angle = Some(next);
                 let Some(index) = layer.index else { continue };
                 plan.q[index] = Some(way.q[step]);
                 plan.tool_angle[index] = next;
+                let values = layer.values(&self.grid, node.station);
+                let (external, tolerance) = values[..freedom.axes.len()].split_at(freedom.external);
+                plan.external[index] = external.to_vec();
+                plan.tolerance[index] = tolerance.to_vec();
                 plan.slot[index] = Some(node.slot);
                 if enter.is_none() {
                     enter = Some(index);

@@ -4,25 +4,41 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::edges::Room;
+use super::freedom::Freedom;
 use super::layer::{Grid, Layer, Node};
+use super::stations::Reach;
 use super::step::{Pass, Rates};
 use super::turns::{PlannedJoints, TurnStates};
 use crate::lanes::LANES;
 
 /// Marks a node that is entered by an edge from another branch, with the number of that edge.
-pub(super) const CROSSED: u16 = 1 << 15;
+pub(super) const CROSSED: u32 = 1 << 31;
 
-/// A node and turns that a way must begin or end with.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// The nodes and turns that a way may begin or end with: from the first to the last but one.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Bound {
-    pub(super) node: Option<usize>,
-    pub(super) state: Option<usize>,
+    pub(super) nodes: [usize; 2],
+    pub(super) states: [usize; 2],
 }
 
 impl Bound {
+    /// Everything.
+    pub(super) const NONE: Self = Self { nodes: [0, usize::MAX], states: [0, usize::MAX] };
+
     fn admits(self, node: usize, state: usize) -> bool {
-        self.node.is_none_or(|only| only == node) && self.state.is_none_or(|only| only == state)
+        let within = |[first, end]: [usize; 2], number| first <= number && number < end;
+        within(self.nodes, node) && within(self.states, state)
     }
+}
+
+/// For the edges into a layer: where in the layer before they come from.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Window {
+    /// How many bins below and above.
+    pub(super) bins: [usize; 2],
+    /// How far along each free axis.
+    pub(super) stations: Reach,
 }
 
 /// A search through layers.
@@ -31,8 +47,8 @@ pub(super) struct Search<'a> {
     pub(super) joints: &'a PlannedJoints,
     pub(super) states: &'a TurnStates,
     pub(super) layers: &'a [Layer],
-    /// For the edges into each layer: they come from this many bins below to as many above.
-    pub(super) windows: &'a [[usize; 2]],
+    pub(super) freedom: &'a Freedom,
+    pub(super) windows: &'a [Window],
     pub(super) first: Bound,
     pub(super) last: Bound,
 }
@@ -46,7 +62,7 @@ pub(super) struct Passed {
     /// The places of the pass, which had layers up to the one that was asked for.
     places: Places,
     costs: Vec<f64>,
-    by: Vec<u16>,
+    by: Vec<u32>,
 }
 
 /// Where the costs and columns of nodes stand.
@@ -61,17 +77,17 @@ pub(super) struct Places {
 impl Places {
     fn of(grid: &Grid, widest: usize) -> Self {
         let pitch = grid.bins + 2 * widest;
-        Self { margin: widest, pitch, count: 2 * widest + grid.slots * pitch + LANES }
+        Self { margin: widest, pitch, count: 2 * widest + grid.rows() * pitch + LANES }
     }
 
     pub(super) fn place(self, grid: &Grid, number: usize) -> usize {
         let node = grid.node(number);
-        self.margin + node.slot * self.pitch + node.bin
+        self.row(grid.row(node.slot, node.station)) + node.bin
     }
 
-    /// First place of a slot's bins.
-    pub(super) fn slot(self, slot: usize) -> usize {
-        self.margin + slot * self.pitch
+    /// First place of a row's bins.
+    pub(super) fn row(self, row: usize) -> usize {
+        self.margin + row * self.pitch
     }
 }
 
@@ -88,7 +104,7 @@ impl Search<'_> {
         let mut by = if pass == Pass::Squares { vec![0; (to - from) * size] } else { Vec::new() };
         let mut unused = vec![0; if pass == Pass::Squares { 0 } else { size }];
         let mut alive = vec![from; grid.slots];
-        let mut room = Vec::new();
+        let mut room = Room::default();
         self.begin(from, places, &mut costs[0]);
         self.load(places, &self.layers[from], &mut q[0]);
         self.fill_margins(places, &mut costs[0]);
@@ -100,6 +116,7 @@ impl Search<'_> {
                 Pass::Squares => &mut by[(layer - from - 1) * size..(layer - from) * size],
                 Pass::Bottleneck => &mut unused[..],
             };
+            let cap = cap.min(self.layers[layer].cap);
             let ends = Layers { layer, places, pass, cap };
             if self.layers[layer].refused.is_empty() {
                 self.step(&ends, [before, after], [costs_before, costs_after], by_step, &mut room);
@@ -121,7 +138,7 @@ impl Search<'_> {
 
     /// The nodes that a way may begin at cost nothing so far.
     fn begin(&self, from: usize, places: Places, costs: &mut [f64]) {
-        let bound = if from == 0 { self.first } else { Bound::default() };
+        let bound = if from == 0 { self.first } else { Bound::NONE };
         for (node, q) in self.layers[from].nodes(&self.grid) {
             let number = self.grid.number(node);
             for state in 0..self.states.len() {
@@ -135,13 +152,13 @@ impl Search<'_> {
     /// The joint angles of a layer as columns, with those from around the circle in the margins.
     fn load(&self, places: Places, layer: &Layer, q: &mut [f64]) {
         let grid = &self.grid;
-        for slot in 0..grid.slots {
-            if !layer.present[slot] && grid.bins >= LANES {
+        for row in 0..grid.rows() {
+            if !layer.present[row] && grid.bins >= LANES {
                 continue;
             }
             for joint in 0..6 {
-                let angles = layer.angles(grid, slot, joint);
-                let start = joint * places.count + places.slot(slot);
+                let angles = layer.angles(grid, row, joint);
+                let start = joint * places.count + places.row(row);
                 q[start..start + grid.bins].copy_from_slice(angles);
                 if grid.cyclic {
                     wrap(q, start, grid.bins, places.margin);
@@ -157,8 +174,8 @@ impl Search<'_> {
             return;
         }
         for costs in costs.chunks_mut(places.count) {
-            for slot in 0..self.grid.slots {
-                let start = places.slot(slot);
+            for row in 0..self.grid.rows() {
+                let start = places.row(row);
                 if self.grid.cyclic {
                     wrap(costs, start, bins, margin);
                 } else {
@@ -174,22 +191,16 @@ impl Search<'_> {
         Rates::of(self.joints, time)
     }
 
-    /// The bin of the layer before that an offset of the window leads to.
-    pub(super) fn bin_at(&self, bin: usize, offset: usize, below: usize) -> Option<usize> {
-        let bins = self.grid.bins;
-        if self.grid.cyclic {
-            return Some((bin + offset + bins - below % bins) % bins);
-        }
-        (bin + offset).checked_sub(below).filter(|bin| *bin < bins)
-    }
-
     /// Whether any node of a layer is reached; notes the slots that are.
     fn survives(&self, places: Places, costs: &[f64], layer: usize, alive: &mut [usize]) -> bool {
         let mut any = false;
+        let stations = self.grid.stations.len();
         for (slot, last) in alive.iter_mut().enumerate() {
-            let start = places.slot(slot);
             let is_reached = costs.chunks(places.count).any(|costs| {
-                costs[start..start + self.grid.bins].iter().any(|cost| *cost < f64::INFINITY)
+                (slot * stations..(slot + 1) * stations).any(|row| {
+                    let start = places.row(row);
+                    costs[start..start + self.grid.bins].iter().any(|cost| *cost < f64::INFINITY)
+                })
             });
             if is_reached {
                 *last = layer;
@@ -203,7 +214,7 @@ impl Search<'_> {
     /// layer, among those where the way may end.
     pub(super) fn cheapest(&self, passed: &Passed) -> Option<(usize, usize, f64)> {
         let is_last = passed.reached + 1 == self.layers.len();
-        let bound = if is_last { self.last } else { Bound::default() };
+        let bound = if is_last { self.last } else { Bound::NONE };
         let places = passed.places;
         let mut best: Option<(usize, usize, f64)> = None;
         for number in 0..self.grid.len() {
@@ -219,13 +230,13 @@ impl Search<'_> {
         best
     }
 
-    /// The way to a node, from layer `from` on: its nodes, and its turns at the beginning.
+    /// The way to a node, from layer `from` on: its nodes, and its state at the beginning.
     pub(super) fn way_to(
         &self,
         passed: &Passed,
         from: usize,
         (mut number, mut state): (usize, usize),
-    ) -> (Vec<Node>, [i32; 6]) {
+    ) -> (Vec<Node>, usize) {
         let grid = &self.grid;
         let places = passed.places;
         let size = self.states.len() * places.count;
@@ -235,11 +246,11 @@ impl Search<'_> {
             let label = passed.by[at];
             let to = grid.node(number);
             let before = if label & CROSSED != 0 {
-                self.layers[layer].crossings[usize::from(label & !CROSSED)][0]
+                self.layers[layer].crossings[(label & !CROSSED) as usize][0]
             } else {
-                let [below, _] = self.windows[layer];
-                let bin = self.bin_at(to.bin, usize::from(label), below).unwrap_or(to.bin);
-                grid.number(Node { slot: to.slot, bin })
+                let mut sources = self.sources(layer, to);
+                let from = sources.find(|(_, own)| *own == label);
+                grid.number(from.map_or(to, |(from, _)| from))
             };
             let q = self.layers[layer].joints(grid, to).unwrap_or_default();
             let from = grid.node(before);
@@ -253,7 +264,7 @@ impl Search<'_> {
             nodes.push(from);
         }
         nodes.reverse();
-        (nodes, self.states.turns(state))
+        (nodes, state)
     }
 
     fn places(&self, from: usize, to: usize) -> Places {
@@ -261,7 +272,8 @@ impl Search<'_> {
     }
 
     fn widest(&self, from: usize, to: usize) -> usize {
-        self.windows[from + 1..=to].iter().flatten().fold(0, |most, own| most.max(*own))
+        let bins = self.windows[from + 1..=to].iter().flat_map(|window| window.bins);
+        bins.fold(0, usize::max)
     }
 }
 

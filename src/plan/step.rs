@@ -23,8 +23,8 @@ impl Rates {
 
     /// The largest part of a velocity limit and the weighted sum of squares of an edge (eq. 4): the
     /// same operations as in lanes.
-    pub(super) fn cost(&self, steps: &[f64; 6]) -> (f64, f64) {
-        let (mut most, mut squares) = (0.0, 0.0);
+    pub(super) fn cost(&self, steps: &[f64; 6], moved: Moved) -> (f64, f64) {
+        let (mut most, mut squares) = (moved.most, moved.squares);
         for joint in 0..6 {
             let part = steps[joint].abs() * self.parts[joint];
             most = if part > most { part } else { most };
@@ -73,10 +73,12 @@ pub(super) struct Step<'a, const SQUARES: bool> {
     pub(super) q: &'a [f64],
     /// A column of costs for each combination of turns.
     pub(super) costs: &'a mut [f64],
-    /// For each of those, by which offset of the window its best edge comes.
-    pub(super) by: &'a mut [u16],
-    /// First place and number of places of each run of slots that have nodes.
-    pub(super) runs: &'a [[usize; 2]],
+    /// For each of those, by which edge of the window the best one comes.
+    pub(super) by: &'a mut [u32],
+    /// The places that have nodes.
+    pub(super) runs: &'a [Run],
+    /// Where the edges into each run come from.
+    pub(super) sources: &'a [Source],
     /// The edges come from this many bins below to as many above.
     pub(super) window: [usize; 2],
     pub(super) rates: Rates,
@@ -87,6 +89,31 @@ pub(super) struct Step<'a, const SQUARES: bool> {
     pub(super) room: &'a mut Vec<[Column; 2]>,
 }
 
+/// Places side by side, of one row or of several that have the same sources.
+#[derive(Clone, Copy)]
+pub(super) struct Run {
+    pub(super) first: usize,
+    pub(super) count: usize,
+    /// First and last but one of its sources.
+    pub(super) sources: [usize; 2],
+}
+
+/// A row that edges come from.
+#[derive(Clone, Copy)]
+pub(super) struct Source {
+    /// How many places it is behind the row of the run.
+    pub(super) shift: isize,
+    /// What moving the free axes costs.
+    pub(super) moved: Moved,
+}
+
+/// What moving the free axes costs: a part of a velocity limit, and a square (eq. 4).
+#[derive(Clone, Copy, Default)]
+pub(super) struct Moved {
+    pub(super) most: f64,
+    pub(super) squares: f64,
+}
+
 impl<const SQUARES: bool> Kernel for Step<'_, SQUARES> {
     type Answer = ();
     const WIDE: bool = true;
@@ -94,20 +121,24 @@ impl<const SQUARES: bool> Kernel for Step<'_, SQUARES> {
     #[inline(always)]
     fn run<const FUSED: bool>(mut self) {
         let width = self.window[0] + self.window[1] + 1;
-        self.room.clear();
-        self.room.resize(width, [[0.0; LANES]; 2]);
-        for [first, count] in self.runs {
-            let mut place = *first;
-            while place < first + count {
+        for run in self.runs {
+            let sources = &self.sources[run.sources[0]..run.sources[1]];
+            self.room.clear();
+            self.room.resize(sources.len() * width, [[0.0; LANES]; 2]);
+            let mut place = run.first;
+            while place < run.first + run.count {
                 let next: [Column; 6] =
                     core::array::from_fn(|joint| column(self.q, joint * self.places + place));
-                for offset in 0..width {
-                    let edges = self.edges(place + offset - self.window[0], &next);
-                    self.room[offset] = edges;
+                for (number, source) in sources.iter().enumerate() {
+                    let from = place.wrapping_add_signed(source.shift) - self.window[0];
+                    for offset in 0..width {
+                        let edges = self.edges(from + offset, &next, source.moved);
+                        self.room[number * width + offset] = edges;
+                    }
                 }
                 let mut state = 0;
                 while state < self.costs.len() {
-                    self.enter(state, place, &next[0]);
+                    self.enter(state, place, sources, &next[0]);
                     state += self.places;
                 }
                 place += LANES;
@@ -119,21 +150,27 @@ impl<const SQUARES: bool> Kernel for Step<'_, SQUARES> {
 impl<const SQUARES: bool> Step<'_, SQUARES> {
     /// The best edges into eight places of a column of costs, which begins at `state`.
     #[inline(always)]
-    fn enter(&mut self, state: usize, place: usize, next: &Column) {
+    fn enter(&mut self, state: usize, place: usize, sources: &[Source], next: &Column) {
+        let width = self.window[0] + self.window[1] + 1;
         let (mut best, mut best_by) = ([f64::INFINITY; LANES], [0_u64; LANES]);
-        for (offset, [most, squares]) in self.room.iter().enumerate() {
-            let cost = column(self.before.costs, state + place + offset - self.window[0]);
-            for lane in 0..LANES {
-                let continued = if SQUARES {
-                    cost[lane] + squares[lane]
-                } else if cost[lane] > most[lane] {
-                    cost[lane]
-                } else {
-                    most[lane]
-                };
-                let better = (continued < best[lane]) & (most[lane] <= self.cap);
-                best[lane] = if better { continued } else { best[lane] };
-                best_by[lane] = if better { offset as u64 } else { best_by[lane] };
+        for (number, source) in sources.iter().enumerate() {
+            let from = state + place.wrapping_add_signed(source.shift) - self.window[0];
+            for offset in 0..width {
+                let by = number * width + offset;
+                let [most, squares] = &self.room[by];
+                let cost = column(self.before.costs, from + offset);
+                for lane in 0..LANES {
+                    let continued = if SQUARES {
+                        cost[lane] + squares[lane]
+                    } else if cost[lane] > most[lane] {
+                        cost[lane]
+                    } else {
+                        most[lane]
+                    };
+                    let better = (continued < best[lane]) & (most[lane] <= self.cap);
+                    best[lane] = if better { continued } else { best[lane] };
+                    best_by[lane] = if better { by as u64 } else { best_by[lane] };
+                }
             }
         }
         for lane in 0..LANES {
@@ -145,7 +182,7 @@ impl<const SQUARES: bool> Step<'_, SQUARES> {
             let by = &mut self.by[state + place..state + place + LANES];
             for (by, best) in by.iter_mut().zip(best_by) {
                 #[expect(clippy::cast_possible_truncation, reason = "a window is small")]
-                let best = best as u16;
+                let best = best as u32;
                 *by = best;
             }
         }
@@ -153,8 +190,8 @@ impl<const SQUARES: bool> Step<'_, SQUARES> {
 
     /// The two costs of eight edges side by side (eq. 3, 4).
     #[inline(always)]
-    fn edges(&self, from: usize, next: &[Column; 6]) -> [Column; 2] {
-        let (mut most, mut squares) = ([0.0; LANES], [0.0; LANES]);
+    fn edges(&self, from: usize, next: &[Column; 6], moved: Moved) -> [Column; 2] {
+        let (mut most, mut squares) = ([moved.most; LANES], [moved.squares; LANES]);
         for joint in 0..6 {
             let before = column(self.before.q, joint * self.places + from);
             let mut step = [0.0; LANES];

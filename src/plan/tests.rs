@@ -5,20 +5,23 @@ use std::vec::Vec;
 use core::f64::consts::{PI, TAU};
 
 use super::certificate::Between;
+use super::freedom::Freedom;
 use super::layer::{Grid, Layer, Node};
 use super::nodes::Arm;
 use super::planner::Planner;
+use super::robot::waypoints;
+use super::stations::Stations;
 use super::turns::{PlannedJoints, TurnStates};
 use super::way::{Ends, Field, Way};
-use super::{PlanError, PlanOptions, ToolAxis, ToolRotation};
-use crate::kinematics::{JointLimits, Pose, Robot, pose_from_euler_zyx};
+use super::{ExternalAxis, PlanError, PlanOptions, ToolAxis, ToolRotation};
+use crate::kinematics::{JointLimits, Pose, Robot, largest, pose_from_euler_zyx, steps};
 use crate::paths::Turn;
 use crate::rng::Rng;
 
 /// A node with its turns.
 struct Turned {
     number: usize,
-    slot: usize,
+    node: Node,
     q: [f64; 6],
 }
 
@@ -42,7 +45,7 @@ fn turned(field: &Field<'_>, layer: &Layer) -> Vec<Turned> {
                 .collect();
         }
         let number = field.grid.number(node);
-        all.extend(rows.into_iter().map(|q| Turned { number, slot: node.slot, q }));
+        all.extend(rows.into_iter().map(|q| Turned { number, node, q }));
     }
     all
 }
@@ -51,7 +54,9 @@ fn turned(field: &Field<'_>, layer: &Layer) -> Vec<Turned> {
 fn edge(field: &Field<'_>, layer: usize, from: &Turned, to: &Turned) -> Option<(f64, f64)> {
     let after = &field.layers[layer];
     let pair = [from.number, to.number];
-    if after.refused.contains(&pair) || (from.slot != to.slot && !after.crossings.contains(&pair)) {
+    if after.refused.contains(&pair)
+        || (from.node.slot != to.node.slot && !after.crossings.contains(&pair))
+    {
         return None;
     }
     let time = after.time - field.layers[layer - 1].time;
@@ -64,16 +69,27 @@ fn edge(field: &Field<'_>, layer: usize, from: &Turned, to: &Turned) -> Option<(
         most = most.max(step.abs() / (field.joints.velocity[joint] * time));
         squares += field.joints.weights[joint] * step * step;
     }
+    let at = |layer: usize, node: Node| field.layers[layer].values(&field.grid, node.station);
+    let values = at(layer - 1, from.node).into_iter().zip(at(layer, to.node));
+    for (axis, (from, to)) in field.freedom.axes.iter().zip(values) {
+        most = most.max((to - from).abs() / (axis.velocity * time));
+        squares += axis.weight * (to - from) * (to - from);
+    }
     (most <= field.speed).then_some((most, squares))
 }
 
-/// The best of all ways: how many layers it has, its bottleneck and its squares.
-fn exhaustive(field: &Field<'_>) -> (usize, f64, f64) {
+/// The best of all ways that end with an end that fits their start: how many layers it has, its
+/// bottleneck and its squares.
+fn exhaustive(field: &Field<'_>, fits: impl Fn(&Turned, &Turned) -> bool) -> (usize, f64, f64) {
     let layers: Vec<_> = field.layers.iter().map(|layer| turned(field, layer)).collect();
     let mut best = (0, f64::INFINITY, f64::INFINITY);
-    let mut open: Vec<(usize, usize, f64, f64)> =
-        (0..layers[0].len()).map(|node| (0, node, 0.0, 0.0)).collect();
-    while let Some((layer, node, most, squares)) = open.pop() {
+    let mut open: Vec<(usize, usize, usize, f64, f64)> =
+        (0..layers[0].len()).map(|node| (0, node, node, 0.0, 0.0)).collect();
+    while let Some((layer, start, node, most, squares)) = open.pop() {
+        let is_whole = layer + 1 == layers.len();
+        if is_whole && !fits(&layers[0][start], &layers[layer][node]) {
+            continue;
+        }
         let is_better = layer + 1 > best.0
             || (layer + 1 == best.0
                 && (most < best.1 * (1.0 - 1e-12)
@@ -81,12 +97,12 @@ fn exhaustive(field: &Field<'_>) -> (usize, f64, f64) {
         if is_better {
             best = (layer + 1, most, squares);
         }
-        if layer + 1 == layers.len() {
+        if is_whole {
             continue;
         }
         for (next, to) in layers[layer + 1].iter().enumerate() {
             if let Some((step, own)) = edge(field, layer + 1, &layers[layer][node], to) {
-                open.push((layer + 1, next, most.max(step), squares + own));
+                open.push((layer + 1, start, next, most.max(step), squares + own));
             }
         }
     }
@@ -98,10 +114,12 @@ fn below(rng: &mut Rng, count: usize) -> usize {
 }
 
 /// Layers with random joint angles: nothing of them is geometry.
-fn random_layers(rng: &mut Rng, joints: &PlannedJoints) -> (Grid, Vec<Layer>) {
+fn random_layers(rng: &mut Rng, joints: &PlannedJoints, freedom: &Freedom) -> (Grid, Vec<Layer>) {
+    let stations = Stations::of(&freedom.axes);
     let grid = Grid {
         slots: 1 + below(rng, 2),
-        bins: 1 + below(rng, 3),
+        stations,
+        bins: 1 + below(rng, if stations.len() > 1 { 2 } else { 3 }),
         step: 0.1,
         cyclic: below(rng, 2) == 0,
     };
@@ -110,6 +128,7 @@ fn random_layers(rng: &mut Rng, joints: &PlannedJoints) -> (Grid, Vec<Layer>) {
     for index in 0..2 + below(rng, 3) {
         time += 0.1;
         let mut layer = Layer::new(start, time, Some(index), &grid);
+        layer.bases[0] = rng.between(-0.1, 0.1);
         // So large a turn that no window is narrower than all tool angles.
         layer.turn = Some(Turn::new(&start.rotation, &end.rotation, None, 0).unwrap());
         for number in 0..grid.len() {
@@ -163,17 +182,18 @@ fn the_best_way_is_that_of_an_exhaustive_search() {
         let robot = wide(&mut rng);
         let weights = core::array::from_fn(|_| rng.between(0.1, 2.0));
         let joints = PlannedJoints::of(&robot, weights);
-        let (grid, layers) = random_layers(&mut rng, &joints);
+        let freedom = random_freedom(&mut rng);
+        let (grid, layers) = random_layers(&mut rng, &joints, &freedom);
         let speed = if case % 3 == 0 { rng.between(2.0, 12.0) } else { f64::INFINITY };
         let field = Field {
             grid,
             joints: &joints,
+            freedom: &freedom,
             layers: &layers,
             speed,
             ends: Ends::default(),
-            cyclic_angles: false,
         };
-        let (count, bottleneck, squares) = exhaustive(&field);
+        let (count, bottleneck, squares) = exhaustive(&field, |_, _| true);
         let Some(way) = field.best_way(0, &mut TurnStates::default()).unwrap() else {
             assert_eq!(count, 0, "case {case}");
             continue;
@@ -185,6 +205,56 @@ fn the_best_way_is_that_of_an_exhaustive_search() {
         whole += usize::from(count == layers.len());
     }
     assert!(whole > 3_000, "{whole} whole ways");
+}
+
+/// Nothing free, or a track with a few places.
+fn random_freedom(rng: &mut Rng) -> Freedom {
+    let steps = below(rng, 4);
+    let external: Vec<_> = (steps > 1)
+        .then(|| {
+            let track = ExternalAxis::track([1.0, 0.0, 0.0], 0.0, 1.0, steps).unwrap();
+            let velocity = rng.between(0.2, 20.0);
+            let weight = rng.between(0.0, 2.0);
+            track.with_max_velocity(velocity).and_then(|axis| axis.with_weight(weight)).unwrap()
+        })
+        .into_iter()
+        .collect();
+    Freedom::of(&PlanOptions { external, ..PlanOptions::default() })
+}
+
+#[test]
+fn the_best_closed_way_is_that_of_an_exhaustive_search() {
+    let (mut rng, mut whole) = (Rng::new(8), 0);
+    for case in 0..4_000 {
+        let robot = wide(&mut rng);
+        let joints = PlannedJoints::of(&robot, core::array::from_fn(|_| rng.between(0.1, 2.0)));
+        let freedom = random_freedom(&mut rng);
+        let (grid, mut layers) = random_layers(&mut rng, &joints, &freedom);
+        let (first, rest) = layers.split_first_mut().unwrap();
+        let last = rest.last_mut().unwrap();
+        (last.q, last.present) = (first.q.clone(), first.present.clone());
+        last.bases = first.bases;
+        let field = Field {
+            grid,
+            joints: &joints,
+            freedom: &freedom,
+            layers: &layers,
+            speed: f64::INFINITY,
+            ends: Ends { closed: true, ..Ends::default() },
+        };
+        let is_closed = |first: &Turned, last: &Turned| {
+            first.number == last.number && largest(&steps(&first.q, &last.q)) < 1e-9
+        };
+        let (count, bottleneck, squares) = exhaustive(&field, is_closed);
+        let way = field.closed_way(&mut TurnStates::default()).unwrap();
+        assert_eq!(way.is_some(), count == layers.len(), "case {case}");
+        let Some(way) = way else { continue };
+        assert!(close(way.bottleneck, bottleneck), "case {case}: {} {bottleneck}", way.bottleneck);
+        assert!(close(way.squares, squares), "case {case}: {} {squares}", way.squares);
+        assert_is_a_way(&field, &way);
+        whole += 1;
+    }
+    assert!(whole > 1_000, "{whole} closed ways");
 }
 
 /// A way's joint angles are those of its nodes, inside the limits, and cost what it says.
@@ -200,7 +270,7 @@ fn assert_is_a_way(field: &Field<'_>, way: &Way) {
         if step > 0 {
             let turned = |node: &Node, q: [f64; 6]| Turned {
                 number: field.grid.number(*node),
-                slot: node.slot,
+                node: *node,
                 q,
             };
             let from = turned(&way.nodes[step - 1], way.q[step - 1]);
@@ -212,7 +282,7 @@ fn assert_is_a_way(field: &Field<'_>, way: &Way) {
 }
 
 /// A short random path of an arm.
-fn random_path(robot: &Robot<6>, rng: &mut Rng, count: usize, size: f64) -> Vec<Pose> {
+pub(super) fn random_path(robot: &Robot<6>, rng: &mut Rng, count: usize, size: f64) -> Vec<Pose> {
     let limits = robot.limits().to_array();
     let mut q: [f64; 6] = core::array::from_fn(|joint| {
         let [lower, upper] = limits[joint];
@@ -235,9 +305,10 @@ fn no_wider_window_and_no_more_turns_find_a_better_way() {
         let path = random_path(&robot, &mut rng, 4, 0.15);
         let rotation = Some(ToolRotation::full(24).unwrap());
         let joints = PlannedJoints::of(&robot, [1.0; 6]);
-        let arm = Arm { robot: &robot, joints: &joints, rotation };
         let options = PlanOptions { rotation, ..PlanOptions::default() };
-        let planner = Planner::new(arm, &path, &options, [None; 2]).unwrap();
+        let freedom = Freedom::of(&options);
+        let arm = Arm { robot: &robot, joints: &joints, freedom: &freedom };
+        let planner = Planner::new(arm, &waypoints(&path, &options), &options, [None; 2]).unwrap();
         let field = planner.field();
         // All pairs, layer by layer.
         let layers: Vec<_> = field.layers.iter().map(|layer| turned(&field, layer)).collect();
@@ -269,13 +340,14 @@ fn a_step_through_a_flip_is_no_continuous_one() {
     // At q5 = 0 the tool is met with q4 = 0 and with q4 = 180 deg: a flip between them is a jump.
     let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
     let joints = PlannedJoints::of(&robot, [1.0; 6]);
-    let arm = Arm { robot: &robot, joints: &joints, rotation: None };
     let options = PlanOptions::default();
+    let freedom = Freedom::of(&options);
+    let arm = Arm { robot: &robot, joints: &joints, freedom: &freedom };
     let path: Vec<Pose> = [0.01, -0.01].map(|q5| robot.fk(&[0.2, 0.1, 0.3, 0.0, q5, 0.4])).to_vec();
-    let mut planner = Planner::new(arm, &path, &options, [None; 2]).unwrap();
+    let mut planner = Planner::new(arm, &waypoints(&path, &options), &options, [None; 2]).unwrap();
     // Of the branches only the two that differ by the wrist: others have no singularity there.
     for slot in 2..planner.grid.slots {
-        let node = Node { slot, bin: 0 };
+        let node = Node { slot, station: 0, bin: 0 };
         planner.layers.iter_mut().for_each(|layer| layer.put(&planner.grid, node, None));
     }
     let way = planner.field().best_way(0, &mut TurnStates::default()).unwrap().unwrap();
@@ -310,11 +382,10 @@ fn plans_meet_their_poses_and_their_options() {
                 }
                 Err(error) => panic!("{name}: {error}"),
             };
-            let joints = PlannedJoints::of(&robot, [1.0; 6]);
-            let arm = Arm { robot: &robot, joints: &joints, rotation };
+            let freedom = Freedom::of(&options);
             for (index, q) in plan.q.iter().enumerate() {
                 let Some(q) = q else { continue };
-                let pose = arm.turned(&path[index], plan.tool_angle[index]);
+                let pose = freedom.tool(&path[index], &Default::default(), plan.tool_angle[index]);
                 assert!(robot.residual(q, &pose).largest() < 1e-9, "{name} {case} {index}");
                 assert!(robot.limits().contains(q));
             }

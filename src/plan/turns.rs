@@ -5,8 +5,8 @@ use alloc::vec::Vec;
 use core::f64::consts::TAU;
 
 use crate::error::{Error, PlanFault};
-use crate::kinematics::Robot;
 use crate::kinematics::thresholds::{LIMIT_TOLERANCE, MOST_TURN_STATES};
+use crate::kinematics::{Robot, nearest_turn};
 use crate::lanes::{nearest_whole, whole_below};
 
 /// Turns of a joint without limits, where the search has to count them: two to each side.
@@ -33,6 +33,8 @@ pub(super) struct PlannedJoints {
     /// Velocity limits [rad/s]; ones where none is known.
     pub(super) velocity: [f64; 6],
     pub(super) weights: [f64; 6],
+    /// How far the tool is from each axis at most [m].
+    pub(super) reach: f64,
 }
 
 impl PlannedJoints {
@@ -58,7 +60,7 @@ impl PlannedJoints {
         });
         let velocity = robot.max_velocity().copied().unwrap_or([1.0; 6]);
         let (wraps, middle) = (counts.map(|count| count > 1), [0; 6]);
-        Self { low, high, counts, middle, wraps, velocity, weights }
+        Self { low, high, counts, middle, wraps, velocity, weights, reach: longest(robot) }
     }
 
     /// Count the turns of joints without limits around those of `q`.
@@ -79,7 +81,7 @@ impl PlannedJoints {
     /// inside the limits.
     pub(super) fn first_turn(&self, joint: usize, angle: f64) -> f64 {
         if self.is_unlimited(joint) {
-            return angle - TAU * nearest_whole(angle / TAU);
+            return nearest_turn(angle, 0.0);
         }
         if !self.wraps[joint] {
             return angle;
@@ -283,4 +285,12 @@ fn count(number: f64) -> usize {
 /// A count of turns as a number that may be negative.
 pub(super) fn whole(count: usize) -> i32 {
     i32::try_from(count).unwrap_or(i32::MAX)
+}
+
+/// The length of an arm with its tool as a chain [m]: no axis is farther from the tool.
+fn longest(robot: &Robot<6>) -> f64 {
+    let rows = robot.mdh().rows;
+    let links: f64 = rows.iter().map(|row| row.a.abs() + row.d.abs()).sum();
+    let fixed = [robot.mdh().flange.translation, robot.tool().translation];
+    fixed.iter().fold(links, |length, own| length + own.vector.norm())
 }

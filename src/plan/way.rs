@@ -5,13 +5,14 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::f64::consts::TAU;
 
+use super::freedom::Freedom;
 use super::layer::{Grid, Layer, Node};
-use super::search::{Bound, Search};
+use super::search::{Bound, Search, Window};
 use super::step::Pass;
 use super::turns::{PlannedJoints, TurnStates};
 use crate::error::Error;
 use crate::kinematics::thresholds::BOTTLENECK_ROUNDING;
-use crate::lanes::{nearest_whole, whole_below};
+use crate::lanes::nearest_whole;
 
 /// How much wider the next window may be than one that was too narrow.
 const WIDER: usize = 4;
@@ -22,8 +23,8 @@ pub(super) struct Ends {
     /// The turns of the joints at the first and at the last pose of the path, where they are given.
     pub(super) first: Option<[i32; 6]>,
     pub(super) last: Option<[i32; 6]>,
-    /// The node where a closed way begins and ends.
-    pub(super) closed_at: Option<usize>,
+    /// Whether a way to the last layer ends with the joint angles that it begins with.
+    pub(super) closed: bool,
 }
 
 /// A way through layers: continuous, as far as its nodes tell.
@@ -41,14 +42,14 @@ pub(super) struct Way {
 }
 
 impl Way {
+    /// What is to be as small as possible, the bottleneck first.
+    pub(super) fn cost(&self) -> (f64, f64) {
+        (self.bottleneck, self.squares)
+    }
+
     /// The layer that the way ends at.
     pub(super) fn reached(&self) -> usize {
         self.from + self.nodes.len() - 1
-    }
-
-    /// Whether the bottleneck or, if it is the same, the sum of squares is smaller.
-    pub(super) fn is_better_than(&self, other: &Self) -> bool {
-        (self.bottleneck, self.squares) < (other.bottleneck, other.squares)
     }
 }
 
@@ -57,21 +58,20 @@ impl Way {
 pub(super) struct Field<'a> {
     pub(super) grid: Grid,
     pub(super) joints: &'a PlannedJoints,
+    pub(super) freedom: &'a Freedom,
     pub(super) layers: &'a [Layer],
     /// The part of the velocity limits that no joint may exceed.
     pub(super) speed: f64,
     pub(super) ends: Ends,
-    /// Whether tool angles a full turn apart are the same.
-    pub(super) cyclic_angles: bool,
 }
 
 /// A way modulo turns of the joints that are not told apart.
-struct Found {
-    nodes: Vec<Node>,
-    /// Turns of those that are, at the beginning.
-    begin: [i32; 6],
-    bottleneck: f64,
-    squares: f64,
+pub(super) struct Found {
+    pub(super) nodes: Vec<Node>,
+    /// The turns of those that are, at the beginning and at the end.
+    pub(super) states: [usize; 2],
+    pub(super) bottleneck: f64,
+    pub(super) squares: f64,
     alive: Vec<usize>,
 }
 
@@ -87,60 +87,31 @@ impl Field<'_> {
         states: &mut TurnStates,
     ) -> Result<Option<Way>, Error> {
         loop {
-            let Some(found) = self.found_with(from, states) else { return Ok(None) };
-            let mut begin = found.begin;
-            let outside = (0..6).filter(|joint| !states.has(*joint)).find(|joint| {
-                let turn = self.turn_along(&found.nodes, from, *joint);
-                begin[*joint] = turn.unwrap_or_default();
-                turn.is_none()
-            });
-            match outside {
-                Some(joint) => states.add(joint, self.joints)?,
-                None => return Ok(Some(self.unwound(found, from, begin))),
+            let Some(bounds) = self.bounds(from, states) else { return Ok(None) };
+            let Some(found) = self.found(from, states, bounds) else { return Ok(None) };
+            match self.unwound(found, from, states) {
+                Ok(way) => return Ok(Some(way)),
+                Err(joint) => states.add(joint, self.joints)?,
             }
         }
     }
 
-    /// The best way with the turns of some joints told apart. A closed one begins and ends with the
-    /// same.
-    fn found_with(&self, from: usize, states: &TurnStates) -> Option<Found> {
-        let state = |turns: &Option<[i32; 6]>| match turns {
-            None => Some(None),
-            // Turns that are given, but that no state has: no way.
-            Some(turns) => states.state(turns).map(Some),
+    /// The turns that a way must begin and end with; `None` if no state has those that are given.
+    pub(super) fn bounds(&self, from: usize, states: &TurnStates) -> Option<[Bound; 2]> {
+        let bound = |turns: Option<[i32; 6]>| match turns {
+            None => Some(Bound::NONE),
+            Some(turns) => {
+                let state = states.state(&turns)?;
+                Some(Bound { states: [state, state + 1], ..Bound::NONE })
+            }
         };
-        let first = if from == 0 { state(&self.ends.first)? } else { None };
-        let last = state(&self.ends.last)?;
-        let node = self.ends.closed_at;
-        if node.is_none() {
-            return self.found_between(
-                from,
-                states,
-                [first, last].map(|state| Bound { node, state }),
-            );
-        }
-        let mut best: Option<Found> = None;
-        for state in 0..states.len() {
-            if first.is_some_and(|first| first != state) {
-                continue;
-            }
-            let Some(found) =
-                self.found_between(from, states, [Bound { node, state: Some(state) }; 2])
-            else {
-                continue;
-            };
-            let cost = |found: &Found| (found.bottleneck, found.squares);
-            if best.as_ref().is_none_or(|best| {
-                found.nodes.len() > best.nodes.len()
-                    || (found.nodes.len() == best.nodes.len() && cost(&found) < cost(best))
-            }) {
-                best = Some(found);
-            }
-        }
-        best
+        let first = self.ends.first.filter(|_| from == 0);
+        Some([bound(first)?, bound(self.ends.last)?])
     }
 
-    fn found_between(
+    /// The best way between bounds, with the turns of some joints told apart: a closed one to the
+    /// last layer, or none; others as far as they can be.
+    pub(super) fn found(
         &self,
         from: usize,
         states: &TurnStates,
@@ -153,17 +124,16 @@ impl Field<'_> {
         } else {
             vec![full; self.layers.len()]
         };
-        let narrow = |own: &[usize; 2]| own.map(|size| size.min(1));
-        let mut windows: Vec<_> = widest.iter().map(narrow).collect();
+        let mut windows: Vec<_> = widest.iter().map(|own| own.each(|size| size.min(1))).collect();
         let mut to = self.layers.len() - 1;
-        let searched = |windows: &[[usize; 2]], pass: Pass, to: usize, cap: f64| {
-            let Self { grid, joints, layers, .. } = *self;
-            let search = Search { grid, joints, states, layers, windows, first, last };
+        let searched = |windows: &[Window], pass: Pass, to: usize, cap: f64| {
+            let Self { grid, joints, layers, freedom, .. } = *self;
+            let search = Search { grid, joints, states, layers, freedom, windows, first, last };
             let passed = search.pass(pass, from, to, cap);
             let cheapest = search.cheapest(&passed);
             let way = cheapest
                 .filter(|_| pass == Pass::Squares)
-                .map(|(number, state, _)| search.way_to(&passed, from, (number, state)));
+                .map(|(number, state, _)| (search.way_to(&passed, from, (number, state)), state));
             (passed.reached, passed.alive, cheapest.map(|(_, _, cost)| cost), way)
         };
         let mut ends = None;
@@ -173,21 +143,22 @@ impl Field<'_> {
             let farthest = ends.clone().unwrap_or(alive);
             if let Some(cost) = cost.filter(|_| reached == to) {
                 let needed = self.windows(cost);
-                let is_enough = |(own, needed): (&[usize; 2], &[usize; 2])| {
-                    own[0] >= needed[0] && own[1] >= needed[1]
-                };
-                if windows.iter().zip(&needed).all(is_enough) {
+                if windows
+                    .iter()
+                    .zip(&needed)
+                    .all(|(own, needed)| own.with(needed, usize::max) == *own)
+                {
                     windows = needed;
                     break (cost, farthest);
                 }
-                for (own, needed) in windows.iter_mut().zip(needed) {
-                    *own = [own[0].max(needed[0]), own[1].max(needed[1])];
+                for (own, needed) in windows.iter_mut().zip(&needed) {
+                    *own = own.with(needed, usize::max);
                 }
             } else if windows != widest {
                 for (own, most) in windows.iter_mut().zip(&widest) {
-                    *own = [(WIDER * own[0]).min(most[0]), (WIDER * own[1]).min(most[1])];
+                    *own = own.each(|size| WIDER * size).with(most, usize::min);
                 }
-            } else if self.ends.closed_at.is_some() {
+            } else if self.ends.closed {
                 return None;
             } else {
                 // What ends at the last layer, but not where it must, ends before it.
@@ -200,43 +171,8 @@ impl Field<'_> {
         };
         let cap = bottleneck * (1.0 + BOTTLENECK_ROUNDING);
         let (_, _, squares, way) = searched(&windows, Pass::Squares, to, cap);
-        let ((nodes, begin), squares) = way.zip(squares)?;
-        Some(Found { nodes, begin, bottleneck, squares, alive })
-    }
-
-    /// A window of all tool angles.
-    fn full_window(&self) -> [usize; 2] {
-        let bins = self.grid.bins;
-        if self.grid.cyclic { [(bins - 1) / 2, bins / 2] } else { [bins - 1; 2] }
-    }
-
-    /// Windows outside of which every edge has a larger bottleneck than `most` (eq. 7).
-    fn windows(&self, most: f64) -> Vec<[usize; 2]> {
-        let (full, step) = (self.full_window(), self.grid.step);
-        let fastest: f64 = self.joints.velocity.iter().sum();
-        let window = |(layer, before): (&Layer, &Layer)| {
-            let time = layer.time - before.time;
-            let turn = layer.turn.map_or(0.0, |turn| turn.angle);
-            // The angle of a joint vector that is given is next to that of its bin.
-            let beside = if before.own.or(layer.own).is_some() { step } else { 0.0 };
-            let angle = turn + most * time * fastest + beside;
-            let shift = before.base - layer.base;
-            let shift = if self.cyclic_angles { wrapped(shift) } else { shift };
-            let size = |angle: f64, full: usize| {
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    clippy::cast_precision_loss,
-                    reason = "at most the number of tool angles; NaN of a single one is 0"
-                )]
-                let size = whole_below(angle / step + 1e-6).clamp(0.0, full as f64) as usize;
-                size
-            };
-            [size(angle + shift, full[0]), size(angle - shift, full[1])]
-        };
-        // The first one has nothing before it.
-        let before = self.layers.iter().take(1).chain(self.layers);
-        self.layers.iter().zip(before).map(window).collect()
+        let (((nodes, begin), end), squares) = way.zip(squares)?;
+        Some(Found { nodes, states: [begin, end], bottleneck, squares, alive })
     }
 
     /// The turn of a joint at the beginning of a way, so that it stays inside its limits and meets
@@ -258,7 +194,7 @@ impl Field<'_> {
             (least, most) = (least.min(angle), most.max(angle));
         }
         let is_whole = from + nodes.len() == self.layers.len();
-        if self.ends.closed_at.is_some() && is_whole && shift != 0 {
+        if self.ends.closed && is_whole && shift != 0 {
             return None;
         }
         let end = self.ends.last.filter(|_| is_whole).map(|turns| turns[joint] - shift);
@@ -286,9 +222,19 @@ impl Field<'_> {
         }
     }
 
-    /// The joint angles of a way with their turns.
-    fn unwound(&self, found: Found, from: usize, mut turns: [i32; 6]) -> Way {
-        let Found { nodes, bottleneck, squares, alive, .. } = found;
+    /// The joint angles of a way with their turns; a joint whose turns have to be told apart, because
+    /// it would leave its limits or the ends, if there is one.
+    pub(super) fn unwound(
+        &self,
+        found: Found,
+        from: usize,
+        states: &TurnStates,
+    ) -> Result<Way, usize> {
+        let Found { nodes, states: [begin, _], bottleneck, squares, alive } = found;
+        let mut turns = states.turns(begin);
+        for joint in (0..6).filter(|joint| !states.has(*joint)) {
+            turns[joint] = self.turn_along(&nodes, from, joint).ok_or(joint)?;
+        }
         let mut before: Option<[f64; 6]> = None;
         let mut rows = Vec::with_capacity(nodes.len());
         for (layer, node) in self.layers[from..].iter().zip(&nodes) {
@@ -303,11 +249,6 @@ impl Field<'_> {
                 self.joints.angle(joint, q[joint], turns[joint])
             }));
         }
-        Way { from, nodes, q: rows, bottleneck, squares, alive }
+        Ok(Way { from, nodes, q: rows, bottleneck, squares, alive })
     }
-}
-
-/// The 2 pi equivalent of an angle that is nearest to zero.
-fn wrapped(angle: f64) -> f64 {
-    angle - TAU * nearest_whole(angle / TAU)
 }

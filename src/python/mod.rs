@@ -14,6 +14,7 @@ mod configurations;
 mod edits;
 mod errors;
 mod found;
+mod freedoms;
 mod inverse;
 mod masked;
 mod models;

@@ -1,22 +1,21 @@
 //! `Robot.plan`: the best joint path along a path of poses.
 
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyTuple};
+use pyo3::types::PyTuple;
 
-use super::arguments::one_of;
-use super::arrays::{Rows, vector};
+use super::arrays::Rows;
 use super::classes;
 use super::errors::{Fault, raised, to_py};
 use super::found::read_weights;
+use super::freedoms::{read_carrier, read_end, read_rotation, read_tolerance};
 use super::outputs::matrix;
 use super::paths::read_path;
 use super::robot::PyRobot;
 use super::signals::detached_while;
 use super::wording::shape;
-use crate::kinematics::thresholds::MOST_TOOL_ANGLES;
-use crate::plan::{Caller, NoPlan, Plan, PlanError, PlanOptions, ToolAxis, ToolRotation};
+use crate::plan::{Caller, NoPlan, Plan, PlanError, PlanOptions};
 
 #[pymethods]
 #[expect(non_snake_case, reason = "T is the name that users pass")]
@@ -37,17 +36,23 @@ impl PyRobot {
     ///         fix the orientation.
     ///     times: Time of each pose [s], shape (m,), increasing. Then no joint may exceed its
     ///         `max_velocity`, if that is known.
-    ///     start: Joint vector at the first pose [rad], shape (6,); any when not given.
-    ///     end: Joint vector at the last pose [rad], shape (6,); any when not given.
+    ///     start: Joint vector at the first pose [rad], shape (6,), with the values of the external
+    ///         axes behind it, if there are any, shape (6 + k,); any when not given.
+    ///     end: The same at the last pose.
     ///     closed: Whether the joints must end where they start, turns included. The last pose
     ///         repeats the first.
     ///     weights: Cost of moving each joint, shape (6,); ones when not given.
     ///     accept: Your own test, of collisions for instance: called with joint vectors of shape
     ///         (k, 6), it returns k truth values. It is asked only for joint vectors near the best
     ///         path, and once for those that differ by full turns.
+    ///     carrier: External axes: an `irbkin.Track`, an `irbkin.Positioner`, or up to three of
+    ///         them. Their steps count for bottleneck and cost as those of the joints do.
+    ///     tolerance: How far the tool may be from the poses: an `irbkin.ToolCone`, an
+    ///         `irbkin.ToolOffset`, or one of each.
     ///
     /// Returns:
-    ///     Plan: joints [rad], shape (m, 6); tool angles; slots; cost; bottleneck; no breaks.
+    ///     Plan: joints [rad], shape (m, 6); tool angles; slots; external axes, shape (m, k);
+    ///         tolerances; cost; bottleneck; no breaks.
     ///
     /// Raises:
     ///     PathError: No continuous joint path: `index` is the first pose that no branch reaches,
@@ -58,10 +63,10 @@ impl PyRobot {
     ///     InvalidJointsError: A start, end or weight that is not finite, or a start or end that
     ///         does not fit its pose or the limits.
     ///     InvalidMotionError: No poses, two poses half a turn apart, times that do not increase, a
-    ///         rotation that is empty, an open path with `closed`.
+    ///         rotation, carrier or tolerance that is empty, an open path with `closed`.
     ///     InvalidModelError: The arm has no closed form or seven joints.
     ///     Exception: Whatever `accept` raises.
-    #[pyo3(signature = (T, *, rotation=None, times=None, start=None, end=None, closed=false, weights=None, accept=None))]
+    #[pyo3(signature = (T, *, rotation=None, times=None, start=None, end=None, closed=false, weights=None, accept=None, carrier=None, tolerance=None))]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn plan<'py>(
         &self,
@@ -73,15 +78,25 @@ impl PyRobot {
         closed: bool,
         weights: Option<&Bound<'py, PyAny>>,
         accept: Option<&Bound<'py, PyAny>>,
+        carrier: Option<&Bound<'py, PyAny>>,
+        tolerance: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let py = T.py();
         let robot = self.arm().six_joints(py, "plan")?;
-        let joints = |q: &Bound<'py, PyAny>, field| vector::<6>(q, field, Fault::Joints);
+        let external = carrier.map(read_carrier).transpose()?.unwrap_or_default();
+        let (cone, offset) = tolerance.map(read_tolerance).transpose()?.unwrap_or_default();
+        let (start, start_external) = read_end(start, "start", external.len())?;
+        let (end, end_external) = read_end(end, "end", external.len())?;
         let options = PlanOptions {
             rotation: rotation.map(read_rotation).transpose()?,
+            external,
+            cone,
+            offset,
             times: times.map(read_times).transpose()?,
-            start: start.map(|q| joints(q, "start")).transpose()?,
-            end: end.map(|q| joints(q, "end")).transpose()?,
+            start,
+            end,
+            start_external,
+            end_external,
             closed,
             weights: read_weights(weights)?,
         };
@@ -117,39 +132,6 @@ impl PyRobot {
             }
         }
     }
-}
-
-/// A rotation from a number of steps or from `irbkin.ToolRotation`.
-fn read_rotation(rotation: &Bound<'_, PyAny>) -> PyResult<ToolRotation> {
-    let py = rotation.py();
-    let wanted = || {
-        let got = rotation.repr().map_or_else(|_| String::new(), |text| format!(", got {text}"));
-        PyTypeError::new_err(format!(
-            "rotation must be an irbkin.ToolRotation or a number of angles{got}"
-        ))
-    };
-    if rotation.is_instance_of::<PyBool>() {
-        return Err(wanted());
-    }
-    let angles = |steps: &Bound<'_, PyAny>| -> PyResult<usize> {
-        let count: i128 = steps.extract().map_err(|_| wanted())?;
-        // What is no count at all is outside the bounds that are told.
-        Ok(usize::try_from(count.clamp(0, MOST_TOOL_ANGLES as i128 + 1)).unwrap_or_default())
-    };
-    let made = match rotation.cast::<PyTuple>() {
-        Ok(fields) if fields.len() == 4 => {
-            let number = |index| -> PyResult<f64> {
-                fields.get_item(index)?.extract().map_err(|_| wanted())
-            };
-            let axis: String = fields.get_item(3)?.extract().map_err(|_| wanted())?;
-            let words = [("x", ToolAxis::X), ("y", ToolAxis::Y), ("z", ToolAxis::Z)];
-            let axis = one_of("axis", &axis, &words)?;
-            ToolRotation::new(angles(&fields.get_item(0)?)?, number(1)?, number(2)?, axis)
-        }
-        Ok(_) => return Err(wanted()),
-        Err(_) => ToolRotation::full(angles(rotation)?),
-    };
-    made.map_err(|error| to_py(py, &error))
 }
 
 fn read_times(times: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
@@ -197,12 +179,22 @@ fn plan_record<'py>(py: Python<'py>, plan: &Plan) -> PyResult<Bound<'py, PyAny>>
         q,
         PyArray1::from_slice(py, &plan.tool_angle),
         PyArray1::from_iter(py, slot),
-        PyArray2::<f64>::zeros(py, [plan.q.len(), 0], false),
+        rows_of(py, &plan.external)?,
+        rows_of(py, &plan.tolerance)?,
         plan.cost,
         plan.bottleneck,
         PyTuple::new(py, breaks)?,
         plan.certified,
     ))
+}
+
+/// Rows of equal length; NaN for one that is empty where others are not.
+fn rows_of<'py>(py: Python<'py>, rows: &[Vec<f64>]) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let width = rows.iter().map(Vec::len).max().unwrap_or_default();
+    let filled = rows
+        .iter()
+        .flat_map(|row| (0..width).map(|column| row.get(column).copied().unwrap_or(f64::NAN)));
+    PyArray1::from_iter(py, filled).reshape([rows.len(), width])
 }
 
 /// `irbkin.PathError` of a path without a plan.

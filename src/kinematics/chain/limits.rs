@@ -3,6 +3,7 @@
 use core::f64::consts::{PI, TAU};
 
 use crate::error::{Error, ModelFault};
+use crate::kinematics::pose::angles::nearest_turn;
 use crate::kinematics::thresholds::{DEGREE_LIMITS, LIMIT_TOLERANCE, MOST_ANGLE};
 use crate::lanes::{nearest_whole, whole_above, whole_below};
 
@@ -289,7 +290,7 @@ fn overrun(lower: f64, upper: f64, angle: f64) -> f64 {
     if !middle.is_finite() {
         return f64::NEG_INFINITY;
     }
-    let angle = angle + TAU * nearest_whole((middle - angle) / TAU);
+    let angle = nearest_turn(angle, middle);
     (lower - angle).max(angle - upper)
 }
 

@@ -13,6 +13,7 @@ use crate::kinematics::answer::check::{check_seed, check_weights};
 use crate::kinematics::answer::select::Cost;
 use crate::kinematics::answer::solutions::Solution;
 use crate::kinematics::answer::status::SingularityKind;
+use crate::kinematics::path::step::{largest, largest_step, steps};
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::seeded::Inverse as _;
@@ -74,17 +75,9 @@ impl fmt::Display for BreakReason {
             BreakReason::Unreachable(explanation) => explanation.fmt(f),
             BreakReason::Jump { joint, by, kinds } => {
                 write!(f, "J{joint} must turn by {:.1} deg on the spot, ", by.to_degrees())?;
-                match kinds {
-                    kinds if kinds.contains(SingularityKind::WRIST) => {
-                        write!(f, "at the wrist singularity")
-                    }
-                    kinds if kinds.contains(SingularityKind::SHOULDER) => {
-                        write!(f, "at the shoulder singularity")
-                    }
-                    kinds if kinds.contains(SingularityKind::ELBOW) => {
-                        write!(f, "at the elbow singularity")
-                    }
-                    _ => write!(f, "the branch ends at a joint limit or at the edge of reach"),
+                match kinds.word() {
+                    Some(kind) => write!(f, "at the {kind} singularity"),
+                    None => write!(f, "the branch ends at a joint limit or at the edge of reach"),
                 }
             }
             BreakReason::Locked => {
@@ -148,15 +141,12 @@ impl<'a> Follower<'a> {
         let mut jump = None;
         if let Some(last_pose) = self.last {
             let usual = largest(&self.velocity).max(JUMP_LEAST / JUMP_GROWTH);
-            if largest(&difference(&next.q, &self.q)) > JUMP_GROWTH * usual {
+            if largest(&steps(&self.q, &next.q)) > JUMP_GROWTH * usual {
                 jump = self.jump_between(&last_pose, &pose, &next)?;
             }
         }
-        self.velocity = if self.last.is_none() || jump.is_some() {
-            [0.0; 6]
-        } else {
-            difference(&next.q, &self.q)
-        };
+        self.velocity =
+            if self.last.is_none() || jump.is_some() { [0.0; 6] } else { steps(&self.q, &next.q) };
         self.q = next.q;
         self.last = Some(pose);
         Ok((Some(next), jump))
@@ -217,7 +207,7 @@ impl<'a> Follower<'a> {
         direct: &Solution<6>,
     ) -> Result<Option<BreakReason>, Error> {
         let mut scout = Self { velocity: [0.0; 6], ..self.clone() };
-        let whole = largest(&difference(&direct.q, &self.q));
+        let whole = largest(&steps(&self.q, &direct.q));
         let (mut done, mut width, mut depth) = (0.0, 1.0, 0);
         while done < 1.0 {
             let end = if done + width >= 1.0 { 1.0 } else { done + width };
@@ -231,7 +221,7 @@ impl<'a> Follower<'a> {
                     Ok(None)
                 };
             };
-            if largest(&difference(&next.q, &scout.q)) > whole / 4.0 {
+            if largest(&steps(&scout.q, &next.q)) > whole / 4.0 {
                 if depth == HALVINGS {
                     return self.jump(direct, &pose, &scout.q).map(Some);
                 }
@@ -274,19 +264,4 @@ fn between(from: &Pose, to: &Pose, part: f64) -> Pose {
     let turn = (from.rotation.inverse() * to.rotation).scaled_axis() * part;
     let position = from.translation.vector.lerp(&to.translation.vector, part);
     IsometryMatrix3::from_parts(Translation3::from(position), from.rotation * Rotation3::new(turn))
-}
-
-/// The joint (from 1) that moves most from one joint vector to another, and its step [rad].
-pub(in crate::kinematics) fn largest_step(from: &[f64; 6], to: &[f64; 6]) -> (usize, f64) {
-    let steps = difference(to, from);
-    let joint = (0..6).fold(0, |most, i| if steps[i].abs() > steps[most].abs() { i } else { most });
-    (joint + 1, steps[joint])
-}
-
-fn difference(a: &[f64; 6], b: &[f64; 6]) -> [f64; 6] {
-    core::array::from_fn(|i| a[i] - b[i])
-}
-
-fn largest(steps: &[f64; 6]) -> f64 {
-    steps.iter().fold(0.0, |most, step| most.max(step.abs()))
 }

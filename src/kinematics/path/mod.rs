@@ -2,6 +2,7 @@
 
 pub(crate) mod follow;
 pub(crate) mod singularity_mode;
+pub(crate) mod step;
 
 #[cfg(test)]
 mod tests;

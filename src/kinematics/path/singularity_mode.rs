@@ -6,7 +6,8 @@ use nalgebra::Vector3;
 
 use crate::error::{Error, JointFault, ModelFault};
 use crate::kinematics::answer::status::SingularityKind;
-use crate::kinematics::path::follow::{Break, BreakReason, Followed, Follower, largest_step};
+use crate::kinematics::path::follow::{Break, BreakReason, Followed, Follower};
+use crate::kinematics::path::step::largest_step;
 use crate::kinematics::pose::{Pose, PoseDifference, checked_pose};
 use crate::kinematics::robot::Robot;
 use crate::kinematics::structure::any::AnyStructure;

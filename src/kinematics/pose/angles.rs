@@ -21,6 +21,13 @@ pub(crate) fn wrap(angle: f64) -> f64 {
     if wrapped > PI { wrapped - TAU } else { wrapped }
 }
 
+/// The 2 pi equivalent of an angle that is nearest to another one [rad].
+#[must_use]
+#[inline(always)]
+pub(crate) fn nearest_turn(angle: f64, near: f64) -> f64 {
+    angle + TAU * nearest_whole((near - angle) / TAU)
+}
+
 /// 1, or -1 below zero.
 #[must_use]
 pub(crate) fn sign_of(value: f64) -> f64 {

@@ -13,7 +13,7 @@ use crate::kinematics::thresholds::{
     ELBOW_ZONE, JOINED_MOVES, MOST_REACH, MOST_SAMPLES, SHOULDER_ZONE, WRIST_ZONE,
 };
 use crate::kinematics::{
-    BreakReason, FollowOptions, Pose, Robot, SingularityKind, SingularityMode,
+    BreakReason, FollowOptions, Pose, Robot, SingularityKind, SingularityMode, largest_step,
 };
 use crate::paths::corner::{Corner, Rounded};
 use crate::paths::leg::Leg;
@@ -352,13 +352,12 @@ impl<'a, 'm> Drive<'a, 'm> {
 
 /// The reason if a path does not begin with the joints that the robot has.
 fn apart(from: &[f64; 6], to: &[f64; 6], mode: SingularityMode) -> Option<BreakReason> {
-    let by = |joint: usize| to[joint] - from[joint];
-    let joint = (1..6).fold(0, |most, i| if by(i).abs() > by(most).abs() { i } else { most });
-    if by(joint).abs() <= JOINED_MOVES {
+    let (joint, by) = largest_step(from, to);
+    if by.abs() <= JOINED_MOVES {
         return None;
     }
     Some(match mode {
         SingularityMode::LockAxis4 => BreakReason::Locked,
-        _ => BreakReason::Jump { joint: joint + 1, by: by(joint), kinds: SingularityKind::empty() },
+        _ => BreakReason::Jump { joint, by, kinds: SingularityKind::empty() },
     })
 }

@@ -1,0 +1,155 @@
+//! Long paths with free axes: what a plan along some of the poses gives to those between them
+//! (docs/plan.md, section 5).
+
+use alloc::vec::Vec;
+
+use super::answer::PlanError;
+use super::ends::Given;
+use super::layer::Waypoint;
+use super::nodes::Arm;
+use super::options::PlanOptions;
+use super::planner::{Caller, Planner, turns};
+use super::refine::{FINER, Middle};
+use super::way::Way;
+use crate::error::Error;
+
+/// Poses of the first, coarsest path, about.
+const FEWEST: usize = 16;
+
+/// How many times as many poses each next path has.
+const FINER_STRIDE: usize = 4;
+
+/// The plan along some poses of a long path, refined, then along more and more of them; `None` if
+/// nothing is free, or if that finds none.
+///
+/// What goes from value to value of its grid between two poses is fast. Between poses that are
+/// farther apart it is slower, and what is between those is a ramp.
+pub(super) fn guided<'a>(
+    arm: Arm<'a>,
+    points: &[Waypoint],
+    options: &PlanOptions,
+    ends: &[Option<Given>; 2],
+    caller: &mut Caller<'_, '_>,
+) -> Result<Option<(Planner<'a>, Way)>, PlanError> {
+    let mut stride = first_stride(points.len());
+    let is_fixed = arm.freedom.axes.is_empty() && arm.freedom.rotation.is_none();
+    if is_fixed || stride == 1 {
+        return Ok(None);
+    }
+    // Neighbors may be half a turn apart now: a matter of this way only.
+    let Ok(mut planner) = Planner::new(arm, &every(points, stride), options, *ends) else {
+        return Ok(None);
+    };
+    let Some(way) = planner.whole_way(caller)? else { return Ok(None) };
+    let mut way = planner.refined(way, caller)?;
+    while stride > 1 {
+        stride = (stride / FINER_STRIDE).max(1);
+        if planner.guide(&way, &every(points, stride)).is_err() {
+            return Ok(None);
+        }
+        let Some(finer) = planner.whole_way(caller)? else { return Ok(None) };
+        way = planner.polished(finer, caller)?;
+    }
+    Ok(Some((planner, way)))
+}
+
+/// The distance of the poses of the coarsest path.
+fn first_stride(count: usize) -> usize {
+    let mut stride = 1;
+    while count / (stride * FINER_STRIDE) >= FEWEST {
+        stride *= FINER_STRIDE;
+    }
+    stride
+}
+
+/// Every so many poses of a path, and the last one.
+fn every(points: &[Waypoint], stride: usize) -> Vec<Waypoint> {
+    let last = points.len() - 1;
+    let on_grid = points.iter().filter(|point| point.index % stride == 0 || point.index == last);
+    on_grid.copied().collect()
+}
+
+impl Planner<'_> {
+    /// The best way, if it goes through all layers.
+    pub(super) fn whole_way(
+        &mut self,
+        caller: &mut Caller<'_, '_>,
+    ) -> Result<Option<Way>, PlanError> {
+        let way = self.proven_way(0, caller)?;
+        Ok(way.filter(|way| way.reached() + 1 == self.layers.len()))
+    }
+
+    /// Layers for more poses of a path, in bands around a way through some of them.
+    fn guide(&mut self, way: &Way, points: &[Waypoint]) -> Result<(), Error> {
+        let turns = turns(points)?;
+        let known: Vec<(usize, Middle)> = self
+            .layers
+            .iter()
+            .zip(&way.nodes)
+            .filter_map(|(layer, node)| {
+                let given = layer.own.and(layer.joints(&self.grid, *node));
+                let middle = Middle {
+                    angle: layer.tool_angle(&self.grid, node.bin),
+                    values: layer.values(&self.grid, node.station),
+                    given: given.map(|q| (node.slot, q)),
+                    ..Middle::of(layer.pose, layer.time, layer.index)
+                };
+                Some((layer.index?, middle))
+            })
+            .collect();
+        let freedom = self.arm.freedom;
+        let mut at = 0;
+        let middles: Vec<Middle> = points
+            .iter()
+            .zip(turns)
+            .map(|(point, turn)| {
+                while at + 2 < known.len() && known[at + 1].0 <= point.index {
+                    at += 1;
+                }
+                let (from, to) = (&known[at].1, &known[(at + 1).min(known.len() - 1)].1);
+                let width = to.time - from.time;
+                let part = if width > 0.0 { (point.time - from.time) / width } else { 0.0 };
+                let end = [from, to].into_iter().find(|end| end.index == Some(point.index));
+                let angle = from.angle + part * freedom.angle_step(from.angle, to.angle);
+                let values = core::array::from_fn(|axis| {
+                    from.values[axis] + part * (to.values[axis] - from.values[axis])
+                });
+                Middle {
+                    angle: end.map_or(angle, |end| end.angle),
+                    values: end.map_or(values, |end| end.values),
+                    given: end.and_then(|end| end.given),
+                    turn,
+                    ..Middle::of(point.pose, point.time, Some(point.index))
+                }
+            })
+            .collect();
+        let step = freedom.axes.first().map(|_| (0, self.finest(0)));
+        self.band(middles.into_iter(), self.grid.step, step);
+        Ok(())
+    }
+
+    /// A way in bands of each free axis in turn.
+    fn polished(&mut self, mut way: Way, caller: &mut Caller<'_, '_>) -> Result<Way, PlanError> {
+        let turn = self.grid.step;
+        let turn_only = self.arm.freedom.axes.is_empty();
+        if turn_only {
+            return self.improved(way, turn, None, caller);
+        }
+        for axis in 0..self.arm.freedom.axes.len() {
+            for width in [FINER, 1.0] {
+                way = self.improved(way, turn, Some((axis, width * self.finest(axis))), caller)?;
+            }
+        }
+        Ok(way)
+    }
+
+    /// The distance of the values of an axis on its finest grid [m, rad].
+    fn finest(&self, axis: usize) -> f64 {
+        let axis = &self.arm.freedom.axes[axis];
+        let mut step = axis.step();
+        while step > axis.finest() {
+            step /= FINER;
+        }
+        step
+    }
+}

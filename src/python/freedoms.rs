@@ -1,0 +1,194 @@
+//! What `Robot.plan` may choose: the tuples of `irbkin.freedom`.
+
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyString, PyTuple};
+
+use super::arguments::one_of;
+use super::arrays::{Rows, vector};
+use super::classes;
+use super::errors::{Fault, to_py};
+use super::wording::shape;
+use crate::error::Error;
+use crate::kinematics::thresholds::MOST_TOOL_ANGLES;
+use crate::plan::{ExternalAxis, ToolAxis, ToolCone, ToolOffset, ToolRotation};
+
+const AXES: [(&str, ToolAxis); 3] = [("x", ToolAxis::X), ("y", ToolAxis::Y), ("z", ToolAxis::Z)];
+
+/// A tuple of `irbkin.freedom`, as the argument `field`.
+struct Fields<'a, 'py> {
+    tuple: Bound<'py, PyTuple>,
+    field: &'a str,
+}
+
+impl<'py> Fields<'_, 'py> {
+    fn get(&self, index: usize, wanted: &str) -> PyResult<(Bound<'py, PyAny>, PyErr)> {
+        let value = self.tuple.get_item(index)?;
+        let names = self.tuple.getattr("_fields")?;
+        let name = names.get_item(index)?;
+        let error = format!("{} of {} must be {wanted}, got {}", name, self.field, value.repr()?);
+        Ok((value, PyTypeError::new_err(error)))
+    }
+
+    fn number(&self, index: usize) -> PyResult<f64> {
+        let (value, error) = self.get(index, "a number")?;
+        value.extract().map_err(|_| error)
+    }
+
+    /// A count; what is none at all becomes one that is out of bounds.
+    fn count(&self, index: usize) -> PyResult<usize> {
+        let (value, error) = self.get(index, "a whole number")?;
+        count(&value).ok_or(error)
+    }
+
+    fn axis(&self, index: usize) -> PyResult<ToolAxis> {
+        let (value, error) = self.get(index, "\"x\", \"y\" or \"z\"")?;
+        let word: String = value.extract().map_err(|_| error)?;
+        one_of("axis", &word, &AXES)
+    }
+
+    /// A letter, or three numbers.
+    fn direction(&self, index: usize) -> PyResult<[f64; 3]> {
+        let (value, _) = self.get(index, "a direction")?;
+        if !value.is_instance_of::<PyString>() {
+            return vector::<3>(&value, "axis", Fault::Motion);
+        }
+        Ok(match self.axis(index)? {
+            ToolAxis::X => [1.0, 0.0, 0.0],
+            ToolAxis::Y => [0.0, 1.0, 0.0],
+            ToolAxis::Z => [0.0, 0.0, 1.0],
+        })
+    }
+}
+
+/// A count, as near as `usize` has it; `None` of what is no whole number.
+fn count(value: &Bound<'_, PyAny>) -> Option<usize> {
+    if value.is_instance_of::<PyBool>() {
+        return None;
+    }
+    let count: i128 = value.extract().ok()?;
+    // What is no count at all is outside the bounds that are told.
+    Some(usize::try_from(count.clamp(0, MOST_TOOL_ANGLES as i128 + 1)).unwrap_or_default())
+}
+
+/// A rotation from a number of steps or from `irbkin.ToolRotation`.
+pub(super) fn read_rotation(rotation: &Bound<'_, PyAny>) -> PyResult<ToolRotation> {
+    let py = rotation.py();
+    let made = if rotation.is_instance(classes::tool_rotation_class(py)?)? {
+        let fields = Fields { tuple: rotation.cast::<PyTuple>()?.clone(), field: "rotation" };
+        ToolRotation::new(fields.count(0)?, fields.number(1)?, fields.number(2)?, fields.axis(3)?)
+    } else {
+        let wanted = "rotation must be an irbkin.ToolRotation or a number of angles";
+        ToolRotation::full(count(rotation).ok_or_else(|| other(wanted, rotation))?)
+    };
+    made.map_err(|error| to_py(py, &error))
+}
+
+/// External axes from `irbkin.Track`, `irbkin.Positioner`, or several of them.
+pub(super) fn read_carrier(carrier: &Bound<'_, PyAny>) -> PyResult<Vec<ExternalAxis>> {
+    let py = carrier.py();
+    let wanted = "carrier must be an irbkin.Track, an irbkin.Positioner, or a sequence of them";
+    let (track, positioner) = (classes::track_class(py)?, classes::positioner_class(py)?);
+    let mut axes = Vec::new();
+    for one in each(carrier, [track, positioner], wanted)? {
+        let tuple = one.cast::<PyTuple>()?.clone();
+        let (made, rest) = if one.is_instance(track)? {
+            let fields = Fields { tuple, field: "Track" };
+            let (lower, upper) = (fields.number(1)?, fields.number(2)?);
+            let made = ExternalAxis::track(fields.direction(0)?, lower, upper, fields.count(3)?);
+            (made, [fields.number(4)?, fields.number(5)?])
+        } else {
+            let fields = Fields { tuple, field: "Positioner" };
+            let point = vector::<3>(&fields.tuple.get_item(0)?, "point", Fault::Motion)?;
+            let (lower, upper) = (fields.number(2)?, fields.number(3)?);
+            let (direction, steps) = (fields.direction(1)?, fields.count(4)?);
+            let made = ExternalAxis::positioner(point, direction, lower, upper, steps);
+            (made, [fields.number(5)?, fields.number(6)?])
+        };
+        let [max_velocity, weight] = rest;
+        let made = made.and_then(|axis| axis.with_max_velocity(max_velocity)?.with_weight(weight));
+        axes.push(made.map_err(|error| to_py(py, &error))?);
+    }
+    Ok(axes)
+}
+
+/// Tolerances from `irbkin.ToolCone`, `irbkin.ToolOffset`, or one of each.
+pub(super) fn read_tolerance(
+    tolerance: &Bound<'_, PyAny>,
+) -> PyResult<(Option<ToolCone>, Option<ToolOffset>)> {
+    let py = tolerance.py();
+    let wanted = "tolerance must be an irbkin.ToolCone, an irbkin.ToolOffset, or one of each";
+    let classes = [classes::tool_cone_class(py)?, classes::tool_offset_class(py)?];
+    let (mut cone, mut offset) = (None, None);
+    for one in each(tolerance, classes, wanted)? {
+        let tuple = one.cast::<PyTuple>()?.clone();
+        let told = |error: Error| to_py(py, &error);
+        let is_second = if one.is_instance(classes[0])? {
+            let fields = Fields { tuple, field: "ToolCone" };
+            let made = ToolCone::new(fields.number(0)?, fields.count(1)?).map_err(told)?;
+            cone.replace(made).is_some()
+        } else {
+            let fields = Fields { tuple, field: "ToolOffset" };
+            let (lower, upper) = (fields.number(0)?, fields.number(1)?);
+            let made = ToolOffset::new(lower, upper, fields.count(2)?, fields.axis(3)?);
+            offset.replace(made.map_err(told)?).is_some()
+        };
+        if is_second {
+            return Err(other(wanted, tolerance));
+        }
+    }
+    Ok((cone, offset))
+}
+
+/// One object of two classes, or each of a sequence of them.
+fn each<'py>(
+    given: &Bound<'py, PyAny>,
+    classes: [&Bound<'py, PyAny>; 2],
+    wanted: &str,
+) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    let fits = |one: &Bound<'py, PyAny>| -> PyResult<bool> {
+        Ok(one.is_instance(classes[0])? || one.is_instance(classes[1])?)
+    };
+    if fits(given)? {
+        return Ok(vec![given.clone()]);
+    }
+    let all = given.try_iter().map_err(|_| other(wanted, given))?.collect::<PyResult<Vec<_>>>()?;
+    for one in &all {
+        if !fits(one)? {
+            return Err(other(wanted, given));
+        }
+    }
+    Ok(all)
+}
+
+fn other(wanted: &str, got: &Bound<'_, PyAny>) -> PyErr {
+    let got = got.repr().map_or_else(|_| String::new(), |text| format!(", got {text}"));
+    PyTypeError::new_err(format!("{wanted}{got}"))
+}
+
+/// The joint vector of an end, with the values of external axes behind it.
+pub(super) fn read_end(
+    given: Option<&Bound<'_, PyAny>>,
+    field: &str,
+    external: usize,
+) -> PyResult<(Option<[f64; 6]>, Vec<f64>)> {
+    let Some(given) = given else { return Ok((None, Vec::new())) };
+    if external == 0 {
+        return Ok((Some(vector::<6>(given, field, Fault::Joints)?), Vec::new()));
+    }
+    let rows = Rows::read(given, &[], field, Fault::Joints)?;
+    let values = rows.data()?;
+    match values.split_first_chunk::<6>() {
+        Some((q, rest)) if rows.shape().len() == 1 && rest.len() == external => {
+            Ok((Some(*q), rest.to_vec()))
+        }
+        _ => {
+            let (wanted, got) = (6 + external, shape(rows.shape()));
+            let message = format!(
+                "{field} must have shape ({wanted},): 6 joint angles and {external} external axes, \
+                 got {got}"
+            );
+            Err(Fault::Joints.error(given.py(), message))
+        }
+    }
+}
