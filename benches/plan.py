@@ -22,7 +22,12 @@ ROWS: dict[str, dict[str, object]] = {
     "fixed orientation, start given": {"start": True},
     "36 rotations": {"rotation": 36},
     "36 rotations, start given": {"rotation": 36, "start": True},
+    "36 rotations, without turns": {"rotation": 36, "flat": True},
+    "36 rotations, closed": {"rotation": 36, "closed": True},
     "360 rotations": {"rotation": 360},
+    "cone of 10 deg": {"tolerance": irbkin.ToolCone(np.radians(10))},
+    "track along a seam of 5 m": {"carrier": irbkin.Track("y", -3, 3)},
+    "the same, 36 rotations": {"carrier": irbkin.Track("y", -3, 3), "rotation": 36},
 }
 
 
@@ -43,6 +48,11 @@ def row(name: str, poses: int) -> None:
     """Time one row and print it."""
     robot, T = weld(poses)
     arguments = dict(ROWS[name])
+    if "carrier" in arguments:
+        ends = [irbkin.pose([1.1, y, 0.6], euler_zyx=[0, 2.7, 0]) for y in (-2.5, 2.5)]
+        T = irbkin.paths.line(*ends, steps=poses)
+    if arguments.pop("flat", False):
+        robot = robot.with_limits(np.clip(robot.limits, -np.pi, np.pi))
     if arguments.pop("start", False):
         arguments["start"] = robot.plan(T).q[0]
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss

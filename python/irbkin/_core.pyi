@@ -644,28 +644,34 @@ class Robot:
                 fix the orientation.
             times: Time of each pose [s], shape (m,), increasing. Then no joint may exceed its
                 `max_velocity`, if that is known.
-            start: Joint vector at the first pose [rad], shape (6,); any when not given.
-            end: Joint vector at the last pose [rad], shape (6,); any when not given.
+            start: Joint vector at the first pose [rad], shape (6,), with the values of the external
+                axes behind it, if there are any, shape (6 + k,); any when not given.
+            end: The same at the last pose.
             closed: Whether the joints must end where they start, turns included. The last pose
                 repeats the first.
             weights: Cost of moving each joint, shape (6,); ones when not given.
             accept: Your own test, of collisions for instance: called with joint vectors of shape
                 (k, 6), it returns k truth values. It is asked only for joint vectors near the best
                 path, and once for those that differ by full turns.
+            carrier: External axes: an `irbkin.Track`, an `irbkin.Positioner`, or up to three of
+                them. Their steps count for bottleneck and cost as those of the joints do.
+            tolerance: How far the tool may be from the poses: an `irbkin.ToolCone`, an
+                `irbkin.ToolOffset`, or one of each.
 
         Returns:
-            Plan: joints [rad], shape (m, 6); tool angles; slots; cost; bottleneck; no breaks.
+            Plan: joints [rad], shape (m, 6); tool angles; slots; external axes, shape (m, k);
+                tolerances; cost; bottleneck; no breaks.
 
         Raises:
-            PathError: No continuous joint path: `index` is the first pose that no branch reaches,
-                `reasons` says where and why each branch ends, `plan` is the plan with the fewest
+            PathError: No continuous joint path: `index` is the first pose that no branch reaches
+                from the start, `end_index` the last one from which none reaches the end, `reasons` says where and why each branch ends, `plan` is the plan with the fewest
                 breaks.
             InvalidPoseError: T has a wrong shape or holds a matrix that is no pose; the message has
                 its index.
             InvalidJointsError: A start, end or weight that is not finite, or a start or end that
                 does not fit its pose or the limits.
             InvalidMotionError: No poses, two poses half a turn apart, times that do not increase, a
-                rotation that is empty, an open path with `closed`.
+                rotation, carrier or tolerance that is empty, an open path with `closed`.
             InvalidModelError: The arm has no closed form or seven joints.
             Exception: Whatever `accept` raises.
         """

@@ -55,6 +55,8 @@ class PathError(UnreachableError):
 
     index: int = 0
     """The first pose that no branch reaches from the start."""
+    end_index: int = 0
+    """The last pose from which no branch reaches the end."""
     reasons: tuple[StrandEnd, ...] = ()
     """Where and why each branch ends."""
     plan: Plan

@@ -296,6 +296,9 @@ pub(crate) const CROSSING_STEP: f64 = 0.5;
 /// Distance of tool angles down to which a plan refines them [rad]: half a degree.
 pub const REFINED_TOOL_STEP: f64 = 8.8e-3;
 
+/// Distance of the tool angles that a plan looks at first along a long path [rad]: ten degrees.
+pub(crate) const COARSEST_TOOL_STEP: f64 = 0.174_532_925_199_432_95;
+
 /// Distance of the values of a track down to which a plan refines them [m].
 pub const REFINED_TRACK: f64 = 5e-3;
 

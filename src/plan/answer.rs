@@ -100,6 +100,8 @@ pub enum StrandReason {
 pub struct NoPlan {
     /// The first pose that no branch reaches from the start.
     pub pose_index: usize,
+    /// The last pose from which no branch reaches the end.
+    pub end_index: usize,
     /// Where and why each branch ends.
     pub ends: Vec<StrandEnd>,
     /// The plan with the fewest breaks, the best one between any two of them.

@@ -129,7 +129,7 @@ fn tolerances_never_raise_the_bottleneck_and_are_kept() {
             0 => PlanOptions { cone, ..PlanOptions::default() },
             1 => PlanOptions { offset, ..PlanOptions::default() },
             2 => PlanOptions { cone, offset, ..PlanOptions::default() },
-            _ => PlanOptions { cone, rotation, ..PlanOptions::default() },
+            _ => PlanOptions { rotation, cone, ..PlanOptions::default() },
         };
         let narrow = PlanOptions { rotation: wide.rotation, ..PlanOptions::default() };
         let [narrow, plan] = [&narrow, &wide].map(|options| robot.plan(&path, options).ok());

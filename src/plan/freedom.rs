@@ -11,7 +11,8 @@ use super::carrier::Carried;
 use super::options::{PlanOptions, ToolAxis, ToolRotation};
 use super::step::Moved;
 use crate::kinematics::thresholds::{
-    LIMIT_TOLERANCE, MOST_FREE_AXES, REFINED_OFFSET, REFINED_TOOL_STEP, REFINED_TRACK,
+    COARSEST_TOOL_STEP, LIMIT_TOLERANCE, MOST_FREE_AXES, REFINED_OFFSET, REFINED_TOOL_STEP,
+    REFINED_TRACK,
 };
 use crate::kinematics::{Pose, nearest_turn};
 
@@ -105,6 +106,12 @@ impl Freedom {
         }
         let cone = options.cone.map_or(0.0, |cone| cone.angle());
         Self { rotation: options.rotation, axes, external: options.external.len(), cone }
+    }
+
+    /// The same with tool angles that are at least ten degrees apart, for a first search.
+    pub(super) fn coarser(&self) -> Self {
+        let rotation = self.rotation.map(|rotation| rotation.coarser(COARSEST_TOOL_STEP));
+        Self { rotation, axes: self.axes.clone(), ..*self }
     }
 
     /// The axis in which the tool points.

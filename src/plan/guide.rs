@@ -37,7 +37,7 @@ pub(super) fn guided<'a>(
         return Ok(None);
     }
     // Neighbors may be half a turn apart now: a matter of this way only.
-    let Ok(mut planner) = Planner::new(arm, &every(points, stride), options, *ends) else {
+    let Ok(mut planner) = Planner::new(arm, &every(points, stride), options, ends) else {
         return Ok(None);
     };
     let Some(way) = planner.whole_way(caller)? else { return Ok(None) };
@@ -70,13 +70,13 @@ fn every(points: &[Waypoint], stride: usize) -> Vec<Waypoint> {
 }
 
 impl Planner<'_> {
-    /// The best way, if it goes through all layers.
+    /// The best way, if it goes through all layers. From then on, no others are looked for.
     pub(super) fn whole_way(
         &mut self,
         caller: &mut Caller<'_, '_>,
     ) -> Result<Option<Way>, PlanError> {
-        let way = self.proven_way(0, caller)?;
-        Ok(way.filter(|way| way.reached() + 1 == self.layers.len()))
+        self.whole = true;
+        self.proven_way(0, caller)
     }
 
     /// Layers for more poses of a path, in bands around a way through some of them.

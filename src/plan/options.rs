@@ -8,6 +8,7 @@ use super::tolerance::{ToolCone, ToolOffset};
 use crate::error::{Error, PlanFault};
 use crate::kinematics::check_weights;
 use crate::kinematics::thresholds::{FULL_TURN, MOST_EXTERNAL_VALUE, MOST_TOOL_ANGLES};
+use crate::lanes::whole_below;
 
 /// An axis of the tool frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -82,6 +83,19 @@ impl ToolRotation {
     #[must_use]
     pub fn steps(&self) -> usize {
         self.steps
+    }
+
+    /// The same range with angles that are at least so far apart [rad].
+    pub(super) fn coarser(self, step: f64) -> Self {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a small count"
+        )]
+        let most = whole_below((self.upper - self.lower) / step + FULL_TURN) as usize;
+        let ends = usize::from(!self.is_full());
+        let least = if self.steps == 1 { 1 } else { 2 };
+        Self { steps: self.steps.min((most + ends).max(least)), ..self }
     }
 
     /// The lower and the upper end [rad].

@@ -49,6 +49,8 @@ pub(super) struct Planner<'a> {
     pub(super) ends: Ends,
     pub(super) speed: f64,
     pub(super) closed: bool,
+    /// Whether only ways through all layers count.
+    pub(super) whole: bool,
     /// Joints whose turns mattered so far.
     pub(super) states: TurnStates,
 }
@@ -59,7 +61,7 @@ impl<'a> Planner<'a> {
         arm: Arm<'a>,
         path: &[Waypoint],
         options: &PlanOptions,
-        given: [Option<Given>; 2],
+        given: &[Option<Given>; 2],
     ) -> Result<Self, Error> {
         let (bins, step, cyclic, base) = match arm.freedom.rotation {
             None => (1, 0.0, false, 0.0),
@@ -91,14 +93,15 @@ impl<'a> Planner<'a> {
             ends: Ends::default(),
             speed: if has_limits { 1.0 + LIMIT_TOLERANCE } else { f64::INFINITY },
             closed: options.closed,
+            whole: false,
             states: TurnStates::default(),
         };
         let [first, last] = given;
         let closing = if options.closed { first } else { last };
         let count = planner.layers.len();
-        planner.ends.first = first.map(|given| planner.fix(0, &given));
+        planner.ends.first = first.as_ref().map(|given| planner.fix(0, given));
         if count > 1 || planner.ends.first.is_none() {
-            planner.ends.last = closing.map(|given| planner.fix(count - 1, &given));
+            planner.ends.last = closing.as_ref().map(|given| planner.fix(count - 1, given));
         }
         planner.solve(0..count);
         Ok(planner)
@@ -135,6 +138,7 @@ impl<'a> Planner<'a> {
             layers: &self.layers,
             speed: self.speed,
             ends: self.ends,
+            whole: self.whole,
         }
     }
 
@@ -187,7 +191,11 @@ impl<'a> Planner<'a> {
         let mut states = self.states.clone();
         let mut field = self.field();
         field.ends.closed = true;
+        field.whole = true;
         let closed = field.closed_way(&mut states)?;
+        if self.whole {
+            return Ok(closed);
+        }
         if closed.is_some() || last == 0 {
             return Ok(Some(closed.unwrap_or(open)));
         }

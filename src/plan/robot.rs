@@ -71,16 +71,13 @@ impl Robot<6> {
         };
         let freedom = Freedom::of(options);
         let arm = Arm { robot: self, joints: &joints, freedom: &freedom };
-        let given = |field, (q, external): (&Option<[f64; 6]>, &[f64]), pose: &Pose| {
-            q.as_ref().map(|q| Given::new(&arm, field, (q, external), pose)).transpose()
-        };
-        let ends = [
-            given("start", (&options.start, &options.start_external), &path[0])?,
-            given("end", (&options.end, &options.end_external), &path[path.len() - 1])?,
-        ];
+        let ends = given_ends(&arm, &path, options)?;
         let points = waypoints(&path, options);
-        let guided = guided(arm, &points, options, &ends, caller)?;
-        let mut planner = Planner::new(arm, &points, options, ends)?;
+        let coarser = freedom.coarser();
+        let guide = Arm { freedom: &coarser, ..arm };
+        let guide_ends = given_ends(&guide, &path, options)?;
+        let guided = guided(guide, &points, options, &guide_ends, caller)?;
+        let mut planner = Planner::new(arm, &points, options, &ends)?;
         if let Some((guide, way)) = guided {
             // A way of the whole grid is taken if it is better still.
             planner.speed = planner.speed.min(way.bottleneck);
@@ -109,8 +106,53 @@ impl Robot<6> {
             return Ok(planner.plan_of(&[way]));
         }
         let plan = planner.plan_of(&ways);
-        Err(PlanError::NoPlan(Box::new(planner.gap(&ways, plan)?)))
+        let end_index = reached_from_the_end(arm, &path, options, caller)?;
+        Err(PlanError::NoPlan(Box::new(planner.gap(&ways, plan, end_index)?)))
     }
+}
+
+/// The last pose from which no branch reaches the end: where the path ends, gone backward.
+fn reached_from_the_end(
+    arm: Arm<'_>,
+    path: &[Pose],
+    options: &PlanOptions,
+    caller: &mut Caller<'_, '_>,
+) -> Result<usize, PlanError> {
+    let backward: Vec<Pose> = path.iter().rev().copied().collect();
+    let times = options.times.as_ref().map(|times| times.iter().rev().map(|time| -time).collect());
+    let (start, start_external) = if options.closed {
+        (options.start, &options.start_external)
+    } else {
+        (options.end, &options.end_external)
+    };
+    let options = PlanOptions {
+        times,
+        start,
+        start_external: start_external.clone(),
+        end: if options.closed { None } else { options.start },
+        end_external: options.start_external.clone(),
+        ..options.clone()
+    };
+    let ends = given_ends(&arm, &backward, &options)?;
+    let mut planner = Planner::new(arm, &waypoints(&backward, &options), &options, &ends)?;
+    let count = planner.layers.len();
+    let reached = planner.proven_way(0, caller)?.map_or(0, |way| way.reached() + 1);
+    Ok(path.len() - 1 - planner.index_of(reached.min(count - 1)))
+}
+
+/// The joint angles that are given for the ends, as nodes.
+fn given_ends(
+    arm: &Arm<'_>,
+    path: &[Pose],
+    options: &PlanOptions,
+) -> Result<[Option<Given>; 2], Error> {
+    let given = |field, (q, external): (&Option<[f64; 6]>, &[f64]), pose: &Pose| {
+        q.as_ref().map(|q| Given::new(arm, field, (q, external), pose)).transpose()
+    };
+    Ok([
+        given("start", (&options.start, &options.start_external), &path[0])?,
+        given("end", (&options.end, &options.end_external), &path[path.len() - 1])?,
+    ])
 }
 
 /// The poses of a path with their times.
@@ -192,12 +234,12 @@ impl Planner<'_> {
     }
 
     /// Where and why the first way ends.
-    fn gap(&self, ways: &[Way], plan: Plan) -> Result<NoPlan, Error> {
+    fn gap(&self, ways: &[Way], plan: Plan, end_index: usize) -> Result<NoPlan, Error> {
         let Some(way) = ways.first().filter(|way| way.from == 0) else {
             let ends = self.none_at_start()?;
-            return Ok(NoPlan { pose_index: 0, ends, plan });
+            return Ok(NoPlan { pose_index: 0, end_index, ends, plan });
         };
         let pose_index = self.index_of((way.reached() + 1).min(self.layers.len() - 1));
-        Ok(NoPlan { pose_index, ends: self.strand_ends(way)?, plan })
+        Ok(NoPlan { pose_index, end_index, ends: self.strand_ends(way)?, plan })
     }
 }

@@ -61,12 +61,12 @@ impl Stations {
     /// The stations within reach of one, from the one with the least numbers on.
     pub(super) fn around(self, station: usize, reach: Reach) -> impl Iterator<Item = usize> {
         let near = if self.len == 1 { Near::default() } else { self.near(station, reach) };
-        (0..near.stations.len).map(move |number| match near.stations.len {
-            1 => station,
-            _ => {
-                let numbers = near.stations.numbers(number);
-                self.station(core::array::from_fn(|axis| near.first[axis] + numbers[axis]))
+        (0..near.stations.len).map(move |number| {
+            if near.stations.len == 1 {
+                return station;
             }
+            let numbers = near.stations.numbers(number);
+            self.station(core::array::from_fn(|axis| near.first[axis] + numbers[axis]))
         })
     }
 

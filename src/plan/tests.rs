@@ -192,6 +192,7 @@ fn the_best_way_is_that_of_an_exhaustive_search() {
             layers: &layers,
             speed,
             ends: Ends::default(),
+            whole: false,
         };
         let (count, bottleneck, squares) = exhaustive(&field, |_, _| true);
         let Some(way) = field.best_way(0, &mut TurnStates::default()).unwrap() else {
@@ -241,6 +242,7 @@ fn the_best_closed_way_is_that_of_an_exhaustive_search() {
             layers: &layers,
             speed: f64::INFINITY,
             ends: Ends { closed: true, ..Ends::default() },
+            whole: true,
         };
         let is_closed = |first: &Turned, last: &Turned| {
             first.number == last.number && largest(&steps(&first.q, &last.q)) < 1e-9
@@ -308,7 +310,7 @@ fn no_wider_window_and_no_more_turns_find_a_better_way() {
         let options = PlanOptions { rotation, ..PlanOptions::default() };
         let freedom = Freedom::of(&options);
         let arm = Arm { robot: &robot, joints: &joints, freedom: &freedom };
-        let planner = Planner::new(arm, &waypoints(&path, &options), &options, [None; 2]).unwrap();
+        let planner = Planner::new(arm, &waypoints(&path, &options), &options, &[None; 2]).unwrap();
         let field = planner.field();
         // All pairs, layer by layer.
         let layers: Vec<_> = field.layers.iter().map(|layer| turned(&field, layer)).collect();
@@ -344,7 +346,7 @@ fn a_step_through_a_flip_is_no_continuous_one() {
     let freedom = Freedom::of(&options);
     let arm = Arm { robot: &robot, joints: &joints, freedom: &freedom };
     let path: Vec<Pose> = [0.01, -0.01].map(|q5| robot.fk(&[0.2, 0.1, 0.3, 0.0, q5, 0.4])).to_vec();
-    let mut planner = Planner::new(arm, &waypoints(&path, &options), &options, [None; 2]).unwrap();
+    let mut planner = Planner::new(arm, &waypoints(&path, &options), &options, &[None; 2]).unwrap();
     // Of the branches only the two that differ by the wrist: others have no singularity there.
     for slot in 2..planner.grid.slots {
         let node = Node { slot, station: 0, bin: 0 };

@@ -63,6 +63,8 @@ pub(super) struct Field<'a> {
     /// The part of the velocity limits that no joint may exceed.
     pub(super) speed: f64,
     pub(super) ends: Ends,
+    /// Whether only ways through all layers count.
+    pub(super) whole: bool,
 }
 
 /// A way modulo turns of the joints that are not told apart.
@@ -158,7 +160,7 @@ impl Field<'_> {
                 for (own, most) in windows.iter_mut().zip(&widest) {
                     *own = own.each(|size| WIDER * size).with(most, usize::min);
                 }
-            } else if self.ends.closed {
+            } else if self.whole {
                 return None;
             } else {
                 // What ends at the last layer, but not where it must, ends before it.

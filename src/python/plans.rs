@@ -55,8 +55,8 @@ impl PyRobot {
     ///         tolerances; cost; bottleneck; no breaks.
     ///
     /// Raises:
-    ///     PathError: No continuous joint path: `index` is the first pose that no branch reaches,
-    ///         `reasons` says where and why each branch ends, `plan` is the plan with the fewest
+    ///     PathError: No continuous joint path: `index` is the first pose that no branch reaches
+    ///         from the start, `end_index` the last one from which none reaches the end, `reasons` says where and why each branch ends, `plan` is the plan with the fewest
     ///         breaks.
     ///     InvalidPoseError: T has a wrong shape or holds a matrix that is no pose; the message has
     ///         its index.
@@ -203,6 +203,7 @@ fn path_error(py: Python<'_>, gap: &NoPlan) -> PyErr {
     let tell = || -> PyResult<()> {
         let value = error.value(py);
         value.setattr("index", gap.pose_index)?;
+        value.setattr("end_index", gap.end_index)?;
         let ends = gap.ends.iter().map(|end| {
             let fields = (end.slot, end.pose_index, end.reason.to_string());
             classes::strand_end_class(py)?.call1(fields)

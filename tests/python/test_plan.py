@@ -202,7 +202,7 @@ def test_bad_input_is_refused_with_its_place():
         ({"T": T[None]}, irbkin.InvalidPoseError, r"\(m, 4, 4\)"),
         ({"T": T, "times": [0, 1, 1, 2, 3, 4]}, irbkin.InvalidMotionError, r"times\[2\]"),
         ({"T": T, "rotation": 0}, irbkin.InvalidMotionError, "2 to 3600"),
-        ({"T": T, "rotation": (36, -180, 180, "z")}, irbkin.InvalidMotionError, "degrees"),
+        ({"T": T, "rotation": irbkin.ToolRotation(36, -180, 180)}, irbkin.InvalidMotionError, "degrees"),
         ({"T": T, "rotation": "z"}, TypeError, "ToolRotation"),
         ({"T": T, "start": np.zeros(6)}, irbkin.InvalidJointsError, "start"),
         ({"T": T[:3], "closed": True}, irbkin.InvalidMotionError, "closed"),
@@ -214,3 +214,128 @@ def test_bad_input_is_refused_with_its_place():
     with pytest.raises(irbkin.InvalidModelError, match="ik_nearest"):
         irbkin.Robot("Panda").plan(T)
     assert ROBOT.plan(T[:1]).q.shape == (1, 6)
+
+
+def seam(poses: int, length: float) -> np.ndarray:
+    ends = [irbkin.pose([1.1, y, 0.6], euler_zyx=[0, 2.7, 0]) for y in (-length, length)]
+    return irbkin.paths.line(*ends, steps=poses)
+
+
+@pytest.mark.parametrize("rotation", [None, 12])
+def test_a_track_carries_the_robot_along_a_seam(rotation):
+    T, track = seam(200, 2.5), irbkin.Track("y", -3, 3)
+    with pytest.raises(irbkin.PathError):
+        ROBOT.plan(T, rotation=rotation)
+    plan = ROBOT.plan(T, rotation=rotation, carrier=track)
+    assert plan.external.shape == (200, 1)
+    for q, x, pose in zip(plan.q, plan.external[:, 0], turned(T, plan.tool_angle), strict=True):
+        placed = ROBOT.with_base(irbkin.pose([0, x, 0]))
+        np.testing.assert_allclose(placed.fk(q), pose, atol=1e-9)
+    # The seam is 5 m long; a track that follows it all along would be as fast.
+    speed = np.abs(np.diff(plan.external[:, 0])).max() * 199
+    assert speed <= 5.0
+    # One in coordinates of its own is the same.
+    same = ROBOT.plan(T, rotation=rotation, carrier=[irbkin.Track([0, 7, 0], -3, 3)])
+    np.testing.assert_array_equal(same.q, plan.q)
+
+
+def test_a_positioner_turns_the_object():
+    point = np.array([1.1, 0.0, 0.4])
+    T = np.array(
+        [
+            irbkin.pose(
+                point + [0.3 * np.cos(a), 0.3 * np.sin(a), 0.2], euler_zyx=[a, np.radians(135), 0]
+            )
+            for a in np.linspace(0, 2 * np.pi, 120)
+        ]
+    )
+    wide = irbkin.Positioner(point, "z", -2 * np.pi, 2 * np.pi, 73, max_velocity=20)
+    plan = ROBOT.plan(T, carrier=wide)
+    for q, angle, pose in zip(plan.q, plan.external[:, 0], T, strict=True):
+        turn = irbkin.pose(point) @ irbkin.pose([0, 0, 0], euler_zyx=[angle, 0, 0])
+        turn = turn @ irbkin.pose(-point)
+        np.testing.assert_allclose(ROBOT.fk(q), turn @ pose, atol=1e-9)
+    # Turned against the path, the arm stays nearly where it is.
+    assert np.ptp(plan.external[:, 0]) > np.pi
+    assert plan.bottleneck < 0.7 * ROBOT.plan(T).bottleneck
+
+
+def test_tolerances_tilt_and_shift_the_tool():
+    T = weld(100)
+    plan = ROBOT.plan(T, tolerance=irbkin.ToolCone(0.2))
+    assert plan.tolerance.shape == (100, 2)
+    tilt = np.hypot(*plan.tolerance.T)
+    assert tilt.max() <= 0.2 + 1e-9
+    assert tilt.max() > 0.05
+    tool = ROBOT.fk(plan.q)
+    np.testing.assert_allclose(tool[:, :3, 3], T[:, :3, 3], atol=1e-9)
+    angles = np.arccos(np.clip(np.einsum("mi,mi->m", tool[:, :3, 2], T[:, :3, 2]), -1, 1))
+    np.testing.assert_allclose(angles, tilt, atol=1e-6)
+    assert plan.bottleneck < ROBOT.plan(T).bottleneck
+    plan = ROBOT.plan(T, tolerance=[irbkin.ToolOffset(-0.02, 0.01, axis="x")], rotation=12)
+    assert plan.tolerance.shape == (100, 1)
+    shift = np.einsum("mi,mi->m", ROBOT.fk(plan.q)[:, :3, 3] - T[:, :3, 3], T[:, :3, 0])
+    np.testing.assert_allclose(shift, plan.tolerance[:, 0], atol=1e-9)
+    assert shift.min() >= -0.02 - 1e-9
+    assert shift.max() <= 0.01 + 1e-9
+
+
+@pytest.mark.parametrize("rotation", [36, 360, irbkin.ToolRotation(181, -1.5, 1.5)])
+def test_a_given_end_stays_on_long_paths(rotation):
+    T = weld(300)
+    first = ROBOT.ik_nearest(turned(T[:1], np.array([0.123]))[0], np.zeros(6))
+    plan = ROBOT.plan(T, rotation=rotation, start=first)
+    np.testing.assert_allclose(plan.q[0], first, atol=1e-12)
+    np.testing.assert_allclose(plan.tool_angle[0], 0.123, atol=1e-9)
+
+
+def test_a_closed_path_with_a_free_tool_ends_where_it_starts():
+    T = weld(200)
+    plan = ROBOT.plan(T, rotation=36, closed=True)
+    np.testing.assert_allclose(plan.q[0], plan.q[-1], atol=1e-9)
+    assert is_continuous(ROBOT, T, plan)
+    assert plan.bottleneck >= ROBOT.plan(T, rotation=36).bottleneck * 0.9
+
+
+def test_ramps_are_better_than_steps_of_the_grid():
+    T = weld(1000)
+    plan = ROBOT.plan(T, rotation=36)
+    # Best way of the exact search over as many angles as ramps are refined to.
+    assert plan.bottleneck < 0.95
+    assert is_continuous(ROBOT, T, plan)
+
+
+def test_a_gap_is_seen_from_both_ends():
+    T = seam(81, 0.4)
+    T[30:50, 2, 3] += 3.0
+    with pytest.raises(irbkin.PathError) as caught:
+        ROBOT.plan(T)
+    assert (caught.value.index, caught.value.end_index) == (30, 49)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error", "message"),
+    [
+        ({"carrier": 3}, TypeError, "irbkin.Track"),
+        ({"carrier": [irbkin.Track("y", 0, 1), None]}, TypeError, "irbkin.Track"),
+        ({"carrier": irbkin.Track("w", 0, 1)}, ValueError, '"x", "y" or "z"'),
+        ({"carrier": irbkin.Track("y", 1, 0)}, irbkin.InvalidMotionError, "from 1 to 0"),
+        ({"carrier": irbkin.Track("y", 0, 1, 1)}, irbkin.InvalidMotionError, "2 to 1001"),
+        ({"carrier": irbkin.Track("y", 0, 1, 2.5)}, TypeError, "steps of Track"),
+        ({"carrier": irbkin.Track("y", 0, 1, 5, 0)}, irbkin.InvalidMotionError, "max_velocity"),
+        ({"carrier": [irbkin.Track("y", 0, 1)] * 4}, irbkin.InvalidMotionError, "at most 3"),
+        ({"carrier": irbkin.Positioner([0, 0, 0], [0, 0, 0])}, irbkin.InvalidMotionError, "length"),
+        ({"tolerance": irbkin.ToolCone(15)}, irbkin.InvalidMotionError, "degrees"),
+        ({"tolerance": irbkin.ToolCone(0.1, 4)}, irbkin.InvalidMotionError, "odd"),
+        ({"tolerance": [irbkin.ToolCone(0.1)] * 2}, TypeError, "one of each"),
+        ({"tolerance": irbkin.ToolOffset(0, 0)}, irbkin.InvalidMotionError, "empty"),
+        (
+            {"carrier": irbkin.Track("y", 0, 1), "start": np.zeros(6)},
+            irbkin.InvalidJointsError,
+            r"\(7,\)",
+        ),
+    ],
+)
+def test_carriers_and_tolerances_that_make_no_sense_are_refused(arguments, error, message):
+    with pytest.raises(error, match=message):
+        ROBOT.plan(weld(6), **arguments)
