@@ -14,6 +14,7 @@ from typing import Any, ClassVar, Literal, Protocol, final, overload, type_check
 import numpy as np
 import numpy.typing as npt
 
+from irbkin.freedom import Positioner, ToolCone, ToolOffset, ToolRotation, Track
 from irbkin.rapid.program import Declaration, Finding, MotionMove, Move, Skipped, TargetTable
 from irbkin.rapid.records import JointTarget, Record, RobTarget, ToolData, WobjData
 from irbkin.records import (
@@ -32,7 +33,6 @@ from irbkin.records import (
     SingularityKind,
     SingularityMode,
     Status,
-    ToolRotation,
     ToolSpeedLimits,
     TrajectorySample,
 )
@@ -627,6 +627,8 @@ class Robot:
         closed: bool = False,
         weights: npt.ArrayLike | None = None,
         accept: Callable[[_Floats], npt.ArrayLike] | None = None,
+        carrier: Track | Positioner | Sequence[Track | Positioner] | None = None,
+        tolerance: ToolCone | ToolOffset | Sequence[ToolCone | ToolOffset] | None = None,
     ) -> Plan:
         """The best joint path along a path of poses, over every branch, every turn of the joints
         and, with `rotation`, every angle of the tool.

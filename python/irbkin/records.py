@@ -8,7 +8,6 @@ tuples do.
 from __future__ import annotations
 
 import enum
-import math
 import operator
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar
 

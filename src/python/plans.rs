@@ -56,8 +56,8 @@ impl PyRobot {
     ///
     /// Raises:
     ///     PathError: No continuous joint path: `index` is the first pose that no branch reaches
-    ///         from the start, `end_index` the last one from which none reaches the end, `reasons` says where and why each branch ends, `plan` is the plan with the fewest
-    ///         breaks.
+    ///         from the start, `end_index` the last one from which none reaches the end, `reasons`
+    ///         says where and why each branch ends, `plan` is the plan with the fewest breaks.
     ///     InvalidPoseError: T has a wrong shape or holds a matrix that is no pose; the message has
     ///         its index.
     ///     InvalidJointsError: A start, end or weight that is not finite, or a start or end that

@@ -202,7 +202,11 @@ def test_bad_input_is_refused_with_its_place():
         ({"T": T[None]}, irbkin.InvalidPoseError, r"\(m, 4, 4\)"),
         ({"T": T, "times": [0, 1, 1, 2, 3, 4]}, irbkin.InvalidMotionError, r"times\[2\]"),
         ({"T": T, "rotation": 0}, irbkin.InvalidMotionError, "2 to 3600"),
-        ({"T": T, "rotation": irbkin.ToolRotation(36, -180, 180)}, irbkin.InvalidMotionError, "degrees"),
+        (
+            {"T": T, "rotation": irbkin.ToolRotation(36, -180, 180)},
+            irbkin.InvalidMotionError,
+            "degrees",
+        ),
         ({"T": T, "rotation": "z"}, TypeError, "ToolRotation"),
         ({"T": T, "start": np.zeros(6)}, irbkin.InvalidJointsError, "start"),
         ({"T": T[:3], "closed": True}, irbkin.InvalidMotionError, "closed"),
@@ -244,7 +248,8 @@ def test_a_positioner_turns_the_object():
     T = np.array(
         [
             irbkin.pose(
-                point + [0.3 * np.cos(a), 0.3 * np.sin(a), 0.2], euler_zyx=[a, np.radians(135), 0]
+                point + np.array([0.3 * np.cos(a), 0.3 * np.sin(a), 0.2]),
+                euler_zyx=[a, np.radians(135), 0],
             )
             for a in np.linspace(0, 2 * np.pi, 120)
         ]
