@@ -12,6 +12,8 @@ mod pace;
 #[cfg(feature = "python")]
 mod paths;
 #[cfg(feature = "python")]
+mod plans;
+#[cfg(feature = "python")]
 mod poses;
 mod rows;
 
@@ -19,3 +21,5 @@ pub use forward::{configuration, fk, jacobian, link_frames, singularity};
 pub use inverse::{NO_CONFIGURATION, ik, ik_configured, ik_nearest, ik_with};
 #[cfg(feature = "python")]
 pub(crate) use pace::Pace;
+#[cfg(feature = "python")]
+pub(crate) use plans::PlanJob;

@@ -14,6 +14,7 @@ from typing import Any, ClassVar, Literal, Protocol, final, overload, type_check
 import numpy as np
 import numpy.typing as npt
 
+from irbkin.errors import IrbkinError
 from irbkin.rapid.program import Declaration, Finding, MotionMove, Move, Skipped, TargetTable
 from irbkin.rapid.records import JointTarget, Record, RobTarget, ToolData, WobjData
 from irbkin.records import (
@@ -666,6 +667,46 @@ class Robot:
                 does not fit its pose or the limits.
             InvalidMotionError: No poses, two poses half a turn apart, times that do not increase, a
                 rotation that is empty, an open path with `closed`.
+            InvalidModelError: The arm has no closed form or seven joints.
+            Exception: Whatever `accept` raises.
+        """
+    def plan_batch(
+        self,
+        paths: Iterable[npt.ArrayLike],
+        *,
+        rotation: ToolRotation | int | None = None,
+        times: Iterable[npt.ArrayLike] | None = None,
+        start: npt.ArrayLike | None = None,
+        end: npt.ArrayLike | None = None,
+        closed: bool = False,
+        weights: npt.ArrayLike | None = None,
+        accept: Callable[[_Floats], npt.ArrayLike] | None = None,
+        threads: int = 1,
+    ) -> tuple[Plan | IrbkinError, ...]:
+        """`plan` of many paths at once, on several threads.
+
+        A path that has no plan, or is not a path, does not end the call: its exception is in its
+        place. The answer of a path does not depend on the others or on the number of threads.
+
+        Args:
+            paths: p paths, each of shape (m, 4, 4); their lengths may differ.
+            rotation: As for `plan`, of all paths.
+            times: p arrays, the times of the poses of each path [s], shape (m,).
+            start: Joint vector at the first pose [rad], shape (6,), or one for each path, (p, 6).
+            end: Joint vector at the last pose [rad], shape (6,), or one for each path, (p, 6).
+            closed: As for `plan`, of all paths.
+            weights: As for `plan`, of all paths.
+            accept: As for `plan`. Threads ask it one at a time.
+            threads: Number of threads; 0 for one a core.
+
+        Returns:
+            One answer for each path, in order: a Plan, or the PathError, InvalidPoseError,
+            InvalidJointsError or InvalidMotionError that `plan` raises for it.
+
+        Raises:
+            InvalidPoseError: A path that has a wrong shape; the message has its index.
+            InvalidJointsError: A start, end or weights of a wrong shape.
+            InvalidMotionError: Times of a wrong shape or number, or a rotation that is empty.
             InvalidModelError: The arm has no closed form or seven joints.
             Exception: Whatever `accept` raises.
         """

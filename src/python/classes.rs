@@ -15,6 +15,7 @@ macro_rules! package_object {
     };
 }
 
+package_object!(irbkin_error, "irbkin.errors", "IrbkinError");
 package_object!(invalid_pose_error, "irbkin.errors", "InvalidPoseError");
 package_object!(invalid_joints_error, "irbkin.errors", "InvalidJointsError");
 package_object!(invalid_model_error, "irbkin.errors", "InvalidModelError");

@@ -20,6 +20,7 @@ mod models;
 mod nearest;
 mod outputs;
 mod paths;
+mod plan_batches;
 mod plans;
 mod poses;
 mod queries;
