@@ -24,6 +24,8 @@ from irbkin.records import (
     FollowResult,
     FreeJoint,
     IkBatch,
+    IkMargin,
+    Margin,
     MotionPeaks,
     Plan,
     PoseCheck,
@@ -616,6 +618,40 @@ class Robot:
                 is missing.
             InvalidPoseError, InvalidJointsError, InvalidModelError: As `ik`; a seed or weight that
                 is not finite; a single pose or seed for a whole batch that is invalid.
+        """
+    def margin(self, q: npt.ArrayLike) -> Margin:
+        """How far joint vectors are from limits and singularities, as parts of the farthest that
+        they can be.
+
+        Args:
+            q: Joint angles [rad], shape (..., n).
+
+        Returns:
+            Margin: two arrays of shape (...), 1 in the middle, 0 at a limit or a singularity,
+            negative outside limits. A row with a NaN or inf gives NaN.
+
+        Raises:
+            InvalidJointsError: A wrong shape.
+        """
+    def ik_margin(
+        self, T: npt.ArrayLike, q7: npt.ArrayLike | None = None, *, threads: int = 1
+    ) -> IkMargin:
+        """How much room the solutions of poses leave to limits and singularities: `ik_batch` and
+        `margin` in one call, which keeps the best of each pose.
+
+        Args:
+            T: Poses of the tool, shape (..., 4, 4), translation [m].
+            q7: Angle of joint 7 [rad], shape (...), of an arm of seven joints.
+            threads: Number of threads; 0 for one a core.
+
+        Returns:
+            IkMargin: the largest margin of the solutions inside the limits, their largest distance
+            from singularities, and their number, arrays of shape (...).
+
+        Raises:
+            InvalidPoseError: A wrong shape. A matrix that is no pose has no solution.
+            InvalidModelError: The arm has no closed form.
+            TypeError: `q7` of an arm of six joints, or none of one of seven.
         """
     def plan(
         self,

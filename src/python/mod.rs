@@ -15,6 +15,7 @@ mod edits;
 mod errors;
 mod found;
 mod inverse;
+mod margins;
 mod masked;
 mod models;
 mod nearest;
