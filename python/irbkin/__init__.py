@@ -70,6 +70,7 @@ if TYPE_CHECKING:
     from types import ModuleType
 
     from irbkin import paths as paths
+    from irbkin import placement as placement
     from irbkin import plot as plot
     from irbkin import rapid as rapid
     from irbkin import trajectory as trajectory
@@ -117,6 +118,7 @@ __all__ = [
     "instruction_set",
     "instruction_sets",
     "paths",
+    "placement",
     "pose",
     "rapid",
     "to_xyz_euler_zyx",
@@ -126,7 +128,7 @@ __all__ = [
 ]
 
 # `plot` needs an extra: it is not in `__all__`, which a star import takes in whole.
-_MODULES = ("paths", "plot", "rapid", "trajectory")
+_MODULES = ("paths", "placement", "plot", "rapid", "trajectory")
 
 
 def __getattr__(name: str) -> ModuleType:

@@ -304,7 +304,7 @@ class IkMargin(NamedTuple):
     """
     singularities: npt.NDArray[np.float64]
     """Their largest `Margin.singularities`, shape (...). NaN where there is none."""
-    count: npt.NDArray[np.uint8]
+    solutions: npt.NDArray[np.uint8]
     """Their number, shape (...)."""
 
 

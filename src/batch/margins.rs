@@ -21,7 +21,7 @@ pub struct Margins<'a> {
     /// The largest [`Margin::singularities`] of them; NaN where there is none.
     pub singularities: &'a mut [f64],
     /// Their number.
-    pub count: &'a mut [u8],
+    pub solutions: &'a mut [u8],
 }
 
 /// How much room the solutions of poses leave to limits and singularities: rows of 16 pose
@@ -60,11 +60,11 @@ impl Pace<'_> {
     {
         check_structure(robot)?;
         let poses = rows::<16>("poses", poses)?;
-        let Margins { margin, singularities, count } = answers;
+        let Margins { margin, singularities, solutions: count } = answers;
         check_length("redundancy", redundancy.len(), poses.len())?;
         check_length("margin", margin.len(), poses.len())?;
         check_length("singularities", singularities.len(), poses.len())?;
-        check_length("count", count.len(), poses.len())?;
+        check_length("solutions", count.len(), poses.len())?;
         let asked = poses.chunks(PART).zip(redundancy.chunks(PART));
         let numbers = margin.chunks_mut(PART).zip(singularities.chunks_mut(PART));
         let parts = asked.zip(numbers.zip(count.chunks_mut(PART)));

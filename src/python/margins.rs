@@ -77,7 +77,7 @@ impl PyRobot {
         let answers = Margins {
             margin: to_margin.as_slice_mut()?,
             singularities: to_singularities.as_slice_mut()?,
-            count: to_count.as_slice_mut()?,
+            solutions: to_count.as_slice_mut()?,
         };
         detached(py, threads, |pace| match arm {
             Arm::Six(robot) => {

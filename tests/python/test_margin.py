@@ -46,7 +46,7 @@ def test_the_margin_of_a_pose_is_that_of_its_best_solution(name, threads):
     found = robot.ik_margin(T, threads=threads)
     for row, pose in enumerate(T):
         solutions = robot.ik(pose).within_limits()
-        assert found.count[row] == len(solutions)
+        assert found.solutions[row] == len(solutions)
         if not len(solutions):
             assert np.isnan([found.margin[row], found.singularities[row]]).all()
             continue
@@ -54,7 +54,7 @@ def test_the_margin_of_a_pose_is_that_of_its_best_solution(name, threads):
         limits, singularities = margin(robot, turns)
         assert found.margin[row] == pytest.approx(np.minimum(limits, singularities).max(), abs=1e-9)
         assert found.singularities[row] == pytest.approx(singularities.max(), abs=1e-9)
-    assert (found.count == 0).any()
+    assert (found.solutions == 0).any()
 
 
 def test_an_arm_of_seven_joints_needs_q7():
@@ -62,8 +62,10 @@ def test_an_arm_of_seven_joints_needs_q7():
     q = inside(robot, 50)
     T = robot.fk(q)
     found = robot.ik_margin(T, q[:, 6])
-    wanted = [len(robot.ik(pose, q7=q7).within_limits()) for pose, q7 in zip(T, q[:, 6], strict=True)]
-    assert found.count.tolist() == wanted
+    wanted = [
+        len(robot.ik(pose, q7=q7).within_limits()) for pose, q7 in zip(T, q[:, 6], strict=True)
+    ]
+    assert found.solutions.tolist() == wanted
     with pytest.raises(TypeError, match="q7"):
         robot.ik_margin(T)
 
@@ -72,7 +74,7 @@ def test_what_is_no_pose_has_no_solution():
     T = np.broadcast_to(ROBOT.fk(np.full(6, 0.3)), (3, 4, 4)).copy()
     T[1, 0, 0] = np.nan
     found = ROBOT.ik_margin(T)
-    assert (found.count > 0).tolist() == [True, False, True]
+    assert (found.solutions > 0).tolist() == [True, False, True]
     assert np.isnan(found.margin).tolist() == [False, True, False]
     assert np.isnan(ROBOT.margin([[0, 0, 0, 0, np.inf, 0]]).limits).all()
     assert ROBOT.ik_margin(np.empty((0, 4, 4))).margin.shape == (0,)

@@ -1,0 +1,196 @@
+"""The best base: on a grid, then around the best of it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from irbkin.placement._region import Bases
+from irbkin.placement._scene import NOT_REACHED, Scene, inverse
+from irbkin.placement.records import BaseGrid, Placement
+from irbkin.records import Plan, Status
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+
+    from irbkin import Robot
+    from irbkin._arrays import Floats
+    from irbkin.placement._scene import Scores
+    from irbkin.placement.records import Region
+    from irbkin.records import ToolRotation
+
+# Bases of the grid around which is searched, how often steps are halved, and how many steps of one
+# size are made at most.
+STARTS, HALVINGS, MOVES = 5, 10, 100
+
+
+def best_base(
+    robot: Robot,
+    T: npt.ArrayLike,
+    region: Region,
+    *,
+    path: bool = False,
+    rotation: ToolRotation | int | None = None,
+    steps: int | Sequence[int] = 9,
+    refine: bool = True,
+    frame: npt.ArrayLike | None = None,
+    threads: int = 1,
+) -> Placement:
+    """Where a robot should stand so that it reaches all targets with the largest margin.
+
+    The margin of a base is the smallest of all targets. That of a target is the largest of its
+    solutions inside the limits: their distance from limits and singularities, `Robot.margin`. With
+    `path`, it is that of the joints of `robot.plan`, without breaks. First each base of a grid is
+    tried, then steps that are halved ten times are made around the five best ones.
+
+    Args:
+        robot: The arm, with its tool. The orientation of its base is that of the mounting: a
+            hanging robot is one whose base is turned over. Its position does not count.
+        T: Targets, shape (m, 4, 4), translation [m].
+        region: Where the base may be.
+        path: Whether the targets are a path that the robot follows from one to the next.
+        rotation: The angles by which the tool may be turned, as for `robot.plan`.
+        steps: Number of values across each range of the region, or four such numbers.
+        refine: Whether to search around the best of the grid.
+        frame: Frame in which the region is given, shape (4, 4); the world where not given.
+        threads: Number of threads; 0 for one a core.
+
+    Returns:
+        The best base, with what was tried. Where no base reaches all targets, that which reaches
+        most; `reason` says which targets are reached nowhere. There is no exception for that.
+
+    Raises:
+        InvalidPoseError: T has a wrong shape or holds a matrix that is no pose, or a region, steps
+            or frame that are none.
+        InvalidMotionError: A rotation that is empty; of a path, two poses half a turn apart.
+        InvalidModelError: The arm has no closed form or seven joints.
+    """
+    bases = Bases.of(region, steps, frame, robot)
+    scene = Scene(robot, T, rotation, path, threads)
+    values = bases.grid()
+    scores = scene.scores(bases.poses(values))
+    best = int(scores.ranked()[0])
+    value, score = values[best], scores.of(best)
+    for start in scores.ranked()[: STARTS if refine else 0]:
+        found, worth = _refined(scene, bases, values[start], scores.of(int(start)))
+        if worth > score:
+            value, score = found, worth
+    return _answer(scene, bases, scores, value, score)
+
+
+def _refined(
+    scene: Scene, bases: Bases, value: Floats, score: tuple[float, float, float]
+) -> tuple[Floats, tuple[float, float, float]]:
+    """The best base that steps of falling size lead to."""
+    step = 0.5 * bases.spacing()
+    for _ in range(HALVINGS):
+        for _ in range(MOVES):
+            around = bases.around(value, step)
+            if not len(around):
+                return value, score
+            above = score[2] if score[1] == 1.0 else NOT_REACHED
+            scores = scene.scores(bases.poses(around), above)
+            best = int(scores.ranked()[0])
+            if scores.of(best) <= score:
+                break
+            value, score = around[best], scores.of(best)
+        step = 0.5 * step
+    return value, score
+
+
+def _answer(
+    scene: Scene,
+    bases: Bases,
+    scores: Scores,
+    value: Floats,
+    score: tuple[float, float, float],
+) -> Placement:
+    """The record of the best base."""
+    base = bases.poses(value[None])[0]
+    count = len(scene.targets)
+    is_reached = score[0] == count and score[1] == 1.0
+    q, angles, slack = _joints(scene, base)
+    plan, end = None, ""
+    if scene.path and score[0] == count:
+        answer = scene.plans(base[None])[0]
+        if isinstance(answer, Plan):
+            plan, q, angles = answer, answer.q, answer.tool_angle
+            slack = np.fmin(*scene.robot.margin(q))
+        else:
+            end = str(answer)
+    nowhere = tuple(np.flatnonzero(~scene.anywhere).tolist())
+    whole = (scores.reached == count) & (scores.progress == 1.0)
+    axes = bases.axes()
+    shape = tuple(map(len, axes))
+    x, y, z, turn = axes
+    grid = BaseGrid(
+        x=x,
+        y=y,
+        z=z,
+        turn=turn,
+        reachable=(scores.reached / count).reshape(shape),
+        margin=np.where(whole, scores.margin, np.nan).reshape(shape),
+        frame=bases.start,
+    )
+    *xyz, angle = value.tolist()
+    place = "({:.3f}, {:.3f}, {:.3f}) m, turned by {:.1f} deg".format(*xyz, np.degrees(angle))
+    if is_reached:
+        tight = int(np.argmin(slack))
+        reason = (
+            f"all {count} targets are reached from {place}, with a margin of {score[2]:.3f} at "
+            f"target {tight}"
+        )
+    elif score[0] == count:
+        reason = f"all {count} targets are reached from {place}, but no plan follows them: {end}"
+    else:
+        reason = f"at most {int(score[0])} of {count} targets are reached, from {place}"
+        if nowhere:
+            reason += f"; from no base that was tried: {_listed(nowhere)}"
+    return Placement(
+        base=base,
+        margin=score[2] if is_reached else np.nan,
+        reachable=score[0] / count,
+        slack=slack,
+        q=q,
+        tool_angle=angles,
+        nowhere=nowhere,
+        plan=plan,
+        grid=grid,
+        reason=reason,
+    )
+
+
+def _joints(scene: Scene, base: Floats) -> tuple[Floats, Floats, Floats]:
+    """Joint angles, tool angle and margin of each target from a base; NaN where it is not reached,
+    with tool angle 0.
+    """
+    by_angle = scene.slack(base)
+    count = len(by_angle)
+    best = np.argmax(np.where(np.isnan(by_angle), NOT_REACHED, by_angle), axis=1)
+    rows = np.arange(count)
+    poses = inverse(base) @ scene.turned[rows, best]
+    solved = scene.robot.ik_batch(poses, threads=scene.threads)
+    low, high = scene.robot.limits.T
+    middle = 0.5 * (low + high)
+    turns = np.round((middle - solved.q) / (2 * np.pi))
+    q = solved.q + 2 * np.pi * np.where(np.isfinite(turns), turns, 0.0)
+    margin = np.fmin(*scene.robot.margin(q))
+    margin[(solved.status & Status.WITHIN_LIMITS) == 0] = NOT_REACHED
+    slot = np.argmax(margin, axis=1)
+    slack = margin[rows, slot]
+    is_reached = slack > NOT_REACHED
+    return (
+        np.where(is_reached[:, None], q[rows, slot], np.nan),
+        np.where(is_reached, scene.angles[best], 0.0),
+        np.where(is_reached, slack, np.nan),
+    )
+
+
+def _listed(indices: Sequence[int]) -> str:
+    """Indices in words, the first ten of many."""
+    words = ", ".join(map(str, indices[:10]))
+    more = f" and {len(indices) - 10} more" if len(indices) > 10 else ""
+    return f"target{'s' * (len(indices) > 1)} {words}{more}"
