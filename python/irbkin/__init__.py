@@ -69,6 +69,7 @@ from irbkin.records import (
 if TYPE_CHECKING:
     from types import ModuleType
 
+    from irbkin import map as map
     from irbkin import paths as paths
     from irbkin import placement as placement
     from irbkin import plot as plot
@@ -127,8 +128,9 @@ __all__ = [
     "use_instruction_set",
 ]
 
-# `plot` needs an extra: it is not in `__all__`, which a star import takes in whole.
-_MODULES = ("paths", "placement", "plot", "rapid", "trajectory")
+# `plot` needs an extra: it is not in `__all__`, which a star import takes in whole. Nor is `map`,
+# which would then replace Python's own.
+_MODULES = ("map", "paths", "placement", "plot", "rapid", "trajectory")
 
 
 def __getattr__(name: str) -> ModuleType:
