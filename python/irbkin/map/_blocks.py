@@ -20,7 +20,7 @@ class Client(Protocol):
     def submit(self, function: Callable[..., Any], *args: Any, **options: Any) -> Any:
         """Run a function on a worker."""
 
-    def scatter(self, data: Any, *, broadcast: bool) -> Any:
+    def scatter(self, data: Any, *, broadcast: bool, hash: bool) -> Any:
         """Hand data to every worker."""
 
     def nthreads(self) -> dict[str, int]:
@@ -47,7 +47,8 @@ def worked(
         return
     import distributed
 
-    given = client.scatter(shared, broadcast=True)
+    # As one object, and not by its value: that of an earlier call may be on its way out.
+    [given] = client.scatter([shared], broadcast=True, hash=False)
     remaining, waiting = iter(blocks), {}
 
     def submit() -> Any:

@@ -61,14 +61,14 @@ class Store:
         Raises:
             FileExistsError: It is of another map.
         """
-        with _opened(path) as stored:
-            if "job" not in stored or str(stored["job"]) != self._job:
-                raise FileExistsError(
-                    f"{path} is of another map (robot, positions or orientations differ): delete "
-                    f"it or choose another output"
-                )
-            for name, field in self.fields.items():
-                field[first:last] = stored[name].reshape(-1)
+        stored = _arrays(path)
+        if str(stored.get("job")) != self._job:
+            raise FileExistsError(
+                f"{path} is of another map (robot, positions or orientations differ): delete it or "
+                f"choose another output"
+            )
+        for name, field in self.fields.items():
+            field[first:last] = stored[name].reshape(-1)
         self._is_done[first:last] = True
 
     def missing(self, size: int) -> list[tuple[int, int]]:
@@ -109,19 +109,18 @@ class Store:
             beside.unlink(missing_ok=True)
 
 
-def _opened(path: str | PathLike[str]) -> Any:
-    """A file of arrays.
+def _arrays(path: Path) -> dict[str, npt.NDArray[Any]]:
+    """The arrays of a file.
 
     Raises:
-        ValueError: It is none.
+        ValueError: It has none.
     """
-    try:
-        stored = np.load(path)
-    except (ValueError, EOFError, zipfile.BadZipFile) as fault:
-        raise ValueError(f"{path} is no map: {fault}") from fault
-    if not isinstance(stored, np.lib.npyio.NpzFile):
-        raise ValueError(f"{path} is no map: it is one array")
-    return stored
+    with path.open("rb") as file:
+        try:
+            stored = np.load(file)
+            return {name: stored[name] for name in stored.files}
+        except (AttributeError, ValueError, EOFError, zipfile.BadZipFile) as fault:
+            raise ValueError(f"{path} is no map: {fault}") from fault
 
 
 def load(path: str | PathLike[str]) -> ReachMap:
@@ -134,8 +133,8 @@ def load(path: str | PathLike[str]) -> ReachMap:
         OSError: The file cannot be read.
         ValueError: It is no map.
     """
-    with _opened(path) as stored:
-        missing = set(ReachMap._fields) - set(stored.files)
-        if missing:
-            raise ValueError(f"{path} is no map: it has no {sorted(missing)[0]}")
-        return ReachMap(**{name: stored[name] for name in ReachMap._fields})
+    stored = _arrays(Path(path))
+    missing = sorted(set(ReachMap._fields) - set(stored))
+    if missing:
+        raise ValueError(f"{path} is no map: it has no {missing[0]}")
+    return ReachMap(**{name: stored[name] for name in ReachMap._fields})
