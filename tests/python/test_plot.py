@@ -7,9 +7,9 @@ import irbkin
 import matplotlib as mpl
 import numpy as np
 import pytest
-from irbkin import paths, placement, plot, trajectory
+from irbkin import plot, trajectory
 from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
+from pictures import MAP, PLACED, PLAN, SEAM, curves, shaded
 
 ROBOT = irbkin.Robot("IRB 2600-12/1.65")
 T = irbkin.pose([0.85, 0.32, 0.64], wxyz=[0.2588190, 0, 0.9659258, 0])
@@ -17,21 +17,6 @@ START, END = np.radians([[0, 0, 0, 0, 90, 0], [90, -10, 40, 10, 60, 60]])
 LIMITS = {"max_velocity": ROBOT.max_velocity, "max_acceleration": 8.0}
 MOVE = trajectory.joint(START, END, profile="trapezoid", **LIMITS)
 DOWN = np.diag([1.0, -1.0, -1.0])
-SEAM = paths.line(*(irbkin.pose([0.9, y, 0.7], euler_zyx=[0, 2.8, 0]) for y in (-1, 1)), steps=21)
-PLAN = ROBOT.plan(SEAM, rotation=12)
-REGION = placement.Region(x=(-0.6, 0.4), y=(-0.6, 0.6), turn=(-1, 1))
-PLACED = placement.best_base(ROBOT, SEAM, REGION, steps=5, refine=False)
-
-
-def curves(axes):
-    """The curves of axes: lines of more than two points, limits are lines of two."""
-    return [line for line in axes.lines if len(line.get_xdata()) > 2]
-
-
-def shaded(axes):
-    """From where to where axes are shaded, from the bottom up."""
-    patches = [patch for patch in axes.patches if isinstance(patch, Rectangle)]
-    return sorted((patch.get_y(), patch.get_y() + patch.get_height()) for patch in patches)
 
 
 def every_picture():
@@ -45,6 +30,7 @@ def every_picture():
         "reach": plot.reach(ROBOT, DOWN, steps=20),
         "plan": plot.plan(ROBOT, PLAN),
         "placement": plot.placement(PLACED, SEAM),
+        "reach_map": plot.reach_map(MAP),
     }
 
 
@@ -338,77 +324,6 @@ def test_an_orientation_that_is_none_is_named():
     stuck = ROBOT.with_limits([[0.0, 1e-9]] * 6)
     with pytest.raises(irbkin.UnreachableError, match="no cell has a solution inside the limits"):
         plot.reach(stuck, DOWN)
-
-
-def test_a_plan_shows_tool_joints_and_velocities_as_parts_of_their_limits():
-    angle, joints, velocities = plot.plan(ROBOT, PLAN).axes
-    np.testing.assert_allclose(angle.lines[0].get_ydata(), np.degrees(PLAN.tool_angle))
-    low, high = ROBOT.limits.T
-    for joint, line in enumerate(curves(joints)):
-        wanted = 100 * (PLAN.q[:, joint] - low[joint]) / (high - low)[joint]
-        np.testing.assert_allclose(line.get_ydata(), wanted, atol=1e-9)
-    rows = np.array([line.get_ydata() for line in curves(velocities)])
-    # At the fastest even pace one joint reaches its limit.
-    assert rows.max() == pytest.approx(100.0)
-    assert shaded(joints)[0][1] == 0.0
-    assert shaded(joints)[1][0] == 100.0
-    times = np.linspace(0, 2 * PLAN.bottleneck, len(PLAN.q))
-    *_, velocities = plot.plan(ROBOT, PLAN, times=times).axes
-    assert max(line.get_ydata().max() for line in curves(velocities)) == pytest.approx(50.0)
-    assert velocities.get_xlabel() == "time [s]"
-
-
-def test_a_plan_with_breaks_has_gaps_and_without_a_tool_angle_no_panel():
-    broken = SEAM.copy()
-    broken[8:11, 2, 3] += 3.0
-    with pytest.raises(irbkin.PathError) as caught:
-        ROBOT.plan(broken)
-    figure = plot.plan(ROBOT, caught.value.plan)
-    assert len(figure.axes) == 2
-    assert np.isnan(curves(figure.axes[0])[0].get_ydata()[8:11]).all()
-    spans = [patch for patch in figure.axes[0].patches if patch.get_x() == 7]
-    assert spans[0].get_width() == 4
-    assert len(plot.plan(ROBOT, ROBOT.plan(SEAM[:1])).axes) == 2
-    with pytest.raises(TypeError, match="plan must be a Plan, got ndarray"):
-        plot.plan(ROBOT, PLAN.q)
-    with pytest.raises(irbkin.InvalidMotionError, match="times must increase"):
-        plot.plan(ROBOT, PLAN, times=np.zeros(21))
-
-
-def test_a_cell_of_a_placement_is_the_best_over_the_other_coordinates():
-    figure = plot.placement(PLACED, SEAM)
-    gray, colored = figure.axes[0].collections[:2]
-    margin = np.fmax.reduce(PLACED.grid.margin[:, :, 0], axis=-1)
-    shown = colored.get_array().reshape(margin.T.shape)
-    np.testing.assert_allclose(shown.filled(np.nan), margin.T)
-    share = PLACED.grid.reachable[:, :, 0].max(axis=-1)
-    np.testing.assert_allclose(
-        gray.get_array().reshape(share.T.shape).filled(-1.0),
-        np.where(np.isnan(margin), share, -1.0).T,
-    )
-    assert np.isnan(margin).any()
-    assert np.isfinite(margin).any()
-    targets, base = figure.axes[0].lines
-    np.testing.assert_allclose(targets.get_xydata(), SEAM[:, :2, 3])
-    np.testing.assert_allclose(base.get_xydata(), [PLACED.base[:2, 3]])
-
-
-def test_a_placement_is_drawn_across_any_two_coordinates_in_the_frame_of_its_region():
-    frame = irbkin.pose([1, 2, 0.3], euler_zyx=[0.4, 0.1, 0])
-    moved = placement.best_base(ROBOT, frame @ SEAM, REGION, steps=5, refine=False, frame=frame)
-    axes = plot.placement(moved, frame @ SEAM).axes[0]
-    np.testing.assert_allclose(axes.lines[0].get_xydata(), SEAM[:, :2, 3], atol=1e-12)
-    base = np.linalg.inv(frame) @ moved.base
-    np.testing.assert_allclose(axes.lines[1].get_xydata(), [base[:2, 3]])
-    axes = plot.placement(moved, across=("turn", "x")).axes[0]
-    assert (axes.get_xlabel(), axes.get_ylabel()) == ("turn [deg]", "x [m]")
-    colored = axes.collections[1].get_array()
-    wanted = np.fmax.reduce(np.fmax.reduce(moved.grid.margin, axis=2), axis=1)
-    np.testing.assert_allclose(colored.reshape(5, 5).filled(np.nan), wanted)
-    with pytest.raises(ValueError, match="two of"):
-        plot.placement(moved, across=("x", "x"))
-    with pytest.raises(TypeError, match="must be a Placement, got NoneType"):
-        plot.placement(None)
 
 
 def test_a_figure_that_is_given_is_drawn_into():

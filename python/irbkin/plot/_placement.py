@@ -11,7 +11,7 @@ from matplotlib.colors import ListedColormap
 from irbkin._arrays import as_array
 from irbkin.errors import InvalidPoseError
 from irbkin.placement import Placement
-from irbkin.plot._style import BLACK, FONT, VERMILION, canvas, tidy, whole
+from irbkin.plot._style import BLACK, FONT, VERMILION, canvas, edges_of, tidy, whole
 
 if TYPE_CHECKING:
     from typing import Literal
@@ -24,9 +24,8 @@ if TYPE_CHECKING:
     from irbkin.plot._style import Canvas
 
 NAMES = ("x", "y", "z", "turn")
-# Half the width of a coordinate that has one value [m] or [deg], and the length of the arrow of
-# the base as a part of the picture.
-ALONE, ARROW = 0.05, 0.12
+# The length of the arrow of the base as a part of the picture.
+ARROW = 0.12
 
 
 def placement(
@@ -62,7 +61,7 @@ def placement(
     grid = found.grid
     drawn = canvas(figure, 5.6, 4.6)
     axes = drawn.subplots()
-    edges = [_edges(_values(grid, name)) for name in (first, second)]
+    edges = [edges_of(_values(grid, name)) for name in (first, second)]
     share, margin = (_best(field, first, second) for field in (grid.reachable, grid.margin))
     gray = ListedColormap(colormaps["gray"](np.linspace(0.55, 1.0, 64))[::-1])
     short = np.ma.masked_array(share, mask=~np.isnan(margin))
@@ -108,16 +107,6 @@ def _values(grid: BaseGrid, coordinate: int) -> Floats:
     """The values of a coordinate, as they are drawn."""
     values: Floats = getattr(grid, NAMES[coordinate])
     return np.degrees(values) if NAMES[coordinate] == "turn" else values
-
-
-def _edges(values: Floats) -> Floats:
-    """The edges of cells around values."""
-    if len(values) == 1:
-        alone: Floats = values + np.array([-ALONE, ALONE])
-        return alone
-    half = 0.5 * (values[1] - values[0])
-    edges: Floats = np.r_[values - half, values[-1] + half]
-    return edges
 
 
 def _best(field: Floats, first: int, second: int) -> Floats:
