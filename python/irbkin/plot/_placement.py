@@ -14,7 +14,7 @@ from irbkin.placement import Placement
 from irbkin.plot._style import BLACK, FONT, VERMILION, canvas, edges_of, tidy, whole
 
 if TYPE_CHECKING:
-    from typing import Literal
+    from typing import Any, Literal
 
     import numpy.typing as npt
     from matplotlib.figure import Figure
@@ -65,8 +65,9 @@ def placement(
     share, margin = (_best(field, first, second) for field in (grid.reachable, grid.margin))
     gray = ListedColormap(colormaps["gray"](np.linspace(0.55, 1.0, 64))[::-1])
     short = np.ma.masked_array(share, mask=~np.isnan(margin))
-    missed = axes.pcolormesh(*edges, short.T, cmap=gray, vmin=0.0, vmax=1.0)
-    room = axes.pcolormesh(*edges, np.ma.masked_invalid(margin).T, cmap="viridis", vmin=0.0)
+    missed = axes.pcolormesh(*edges, short.T, cmap=gray, vmin=0.0, vmax=1.0, rasterized=True)
+    colored = np.ma.masked_invalid(margin)
+    room = axes.pcolormesh(*edges, colored.T, cmap="viridis", vmin=0.0, rasterized=True)
     if not np.isnan(margin).all():
         bar = drawn.colorbar(room, ax=axes, shrink=0.9)
         bar.set_label("margin", fontsize=FONT)
@@ -92,7 +93,14 @@ def placement(
     if max(first, second) < 3:
         size = max(abs(float(np.subtract(*axes.get_xlim()))), 1e-9)
         head = place + ARROW * size * base[[first, second], 0]
-        look = {"arrowstyle": "-|>", "color": VERMILION, "linewidth": 1.4, "shrinkA": 0}
+        look: dict[str, Any] = {
+            "arrowstyle": "-|>",
+            "color": VERMILION,
+            "linewidth": 1.4,
+            "shrinkA": 0,
+            "shrinkB": 0,
+        }
+        look["mutation_scale"] = 14
         axes.annotate("", (head[0], head[1]), (place[0], place[1]), arrowprops=look)
         axes.set_aspect("equal")
     axes.plot(*place, "x", color=VERMILION, markersize=9, markeredgewidth=2.0, label="best base")

@@ -81,6 +81,7 @@ def reach_map(
         cmap=colormaps["viridis"],
         vmin=0.0,
         vmax=100.0 if quantity == "share" else None,
+        rasterized=True,
     )
     tidy(axes)
     axes.set_aspect("equal")
