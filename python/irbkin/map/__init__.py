@@ -13,9 +13,9 @@ A cluster needs dask: `pip install 'irbkin[map]'`, and `client=distributed.Clien
 
 from __future__ import annotations
 
+from irbkin._grids import ReachMap
 from irbkin.map._plans import plan_batch
 from irbkin.map._reach import orientations, reach
 from irbkin.map._store import load
-from irbkin.map.records import ReachMap
 
 __all__ = ["ReachMap", "load", "orientations", "plan_batch", "reach"]

@@ -9,10 +9,10 @@ import numpy as np
 
 from irbkin._arrays import as_array, finite
 from irbkin._core import Robot, __version__
+from irbkin._grids import ReachMap
 from irbkin.errors import InvalidPoseError
 from irbkin.map._blocks import worked
 from irbkin.map._store import Store
-from irbkin.map.records import ReachMap
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from irbkin.map.records import ReachMap
+from irbkin._grids import ReachMap
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -13,7 +13,7 @@ True
 
 from __future__ import annotations
 
+from irbkin._grids import BaseGrid, Placement, Region
 from irbkin.placement._search import best_base
-from irbkin.placement.records import BaseGrid, Placement, Region
 
 __all__ = ["BaseGrid", "Placement", "Region", "best_base"]

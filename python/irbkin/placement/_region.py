@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from irbkin import Robot
     from irbkin._arrays import Floats
-    from irbkin.placement.records import Region
+    from irbkin._grids import Region
 
 FIELDS = ("x", "y", "z", "turn")
 MOST_BASES = 10**7

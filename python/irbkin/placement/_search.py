@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from irbkin._grids import BaseGrid, Placement
 from irbkin.placement._region import Bases
 from irbkin.placement._scene import NOT_REACHED, Scene, inverse
-from irbkin.placement.records import BaseGrid, Placement
 from irbkin.records import Plan, Status
 
 if TYPE_CHECKING:
@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
     from irbkin import Robot
     from irbkin._arrays import Floats
+    from irbkin._grids import Region
     from irbkin.placement._scene import Scores
-    from irbkin.placement.records import Region
     from irbkin.records import ToolRotation
 
 # Bases of the grid around which is searched, how often steps are halved, and how many steps of one

@@ -9,8 +9,8 @@ from matplotlib import colormaps
 from matplotlib.colors import ListedColormap
 
 from irbkin._arrays import as_array
+from irbkin._grids import Placement
 from irbkin.errors import InvalidPoseError
-from irbkin.placement import Placement
 from irbkin.plot._style import BLACK, FONT, VERMILION, canvas, edges_of, tidy, whole
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from irbkin._arrays import Floats
-    from irbkin.placement import BaseGrid
+    from irbkin._grids import BaseGrid
     from irbkin.plot._style import Canvas
 
 NAMES = ("x", "y", "z", "turn")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib import colormaps
 
-from irbkin.map import ReachMap
+from irbkin._grids import ReachMap
 from irbkin.plot._style import FONT, canvas, edges_of, tidy, whole
 
 if TYPE_CHECKING:
