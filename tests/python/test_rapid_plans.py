@@ -117,7 +117,7 @@ def test_what_is_no_plan_of_this_arm_is_refused():
     with pytest.raises(irbkin.InvalidModelError):
         rapid.plan_targets(robot, robot.plan(line))
     for arguments, words in [
-        ({"speed": "v17"}, "v17 is neither a speed nor a zone"),
+        ({"speed": "v17"}, "v17 is no speed or zone of RAPID's own"),
         ({"zone": "z1;"}, "MoveL"),
         ({"name": "1a"}, "1a"),
         ({"speed": "v100, v100"}, "arguments"),

@@ -67,8 +67,10 @@ def plan(
     along = np.arange(len(q), dtype=np.float64)
     if times is not None:
         along = as_array(times, "times", (len(q),), InvalidMotionError)
-        if not (np.diff(along) > 0).all():
-            raise InvalidMotionError("times must increase")
+        for index in np.flatnonzero(~(np.diff(along) > 0)):
+            raise InvalidMotionError(
+                f"times[{index + 1}] is {along[index + 1]} s, it must be after {along[index]} s"
+            )
     panels = [_joints, _velocities]
     if np.any(plan.tool_angle):
         panels.insert(0, _tool_angle)

@@ -125,8 +125,8 @@ def plan_module(
         for argument in (move.speed_data, move.zone_data):
             if argument.value is None:
                 raise RapidError(
-                    f"{argument.text} is neither a speed nor a zone that RAPID has: "
-                    f"{argument.reason}; pass SpeedData or ZoneData"
+                    f"{argument.text} is no speed or zone of RAPID's own ({argument.reason}): "
+                    f"pass SpeedData or ZoneData"
                 )
     if len(module.moves) != len(targets):
         raise RapidError(
@@ -145,8 +145,9 @@ def _external(plan: Plan, count: int, extax: npt.ArrayLike | None) -> npt.NDArra
                 f"plan.external has {planned} axes in rad or m: pass them as extax, in deg or mm"
             )
         return axes
-    given = as_array(extax, "extax", (None, None), RapidError)
-    if len(given) != count or not planned <= given.shape[1] <= MOST_EXTERNAL:
+    given = np.asarray(extax, dtype=np.float64)
+    is_fit = given.ndim == 2 and len(given) == count
+    if not is_fit or not max(planned, 1) <= given.shape[1] <= MOST_EXTERNAL:
         raise RapidError(
             f"extax must have shape ({count}, k), k from {planned or 1} to {MOST_EXTERNAL}, "
             f"got {given.shape}"
