@@ -44,8 +44,8 @@ class BaseGrid(NamedTuple):
     reachable: npt.NDArray[np.float64]
     """Share of the targets that are reached inside the limits, shape (i, j, k, l)."""
     margin: npt.NDArray[np.float64]
-    """The smallest margin of all targets, shape (i, j, k, l). NaN where not all are reached, where
-    a path has no plan, and where one was not planned since it cannot be the best.
+    """The smallest margin of all targets, shape (i, j, k, l). NaN where not all are reached, or
+    where a path has no plan.
     """
     frame: npt.NDArray[np.float64]
     """The frame of these positions in the world, shape (4, 4)."""

@@ -55,7 +55,8 @@ def _same(first: Any, second: Any) -> bool:
         return np.array_equal(first, second, equal_nan=is_real)
     if isinstance(first, tuple) and isinstance(second, tuple):
         return len(first) == len(second) and all(map(_same, first, second))
-    return bool(first == second)
+    # A number is equal to itself, NaN is not.
+    return bool(first == second or (first != first and second != second))
 
 
 def by_value(record: _Record) -> _Record:

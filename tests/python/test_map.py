@@ -15,18 +15,6 @@ X, Y, Z = np.linspace(-1.2, 1.6, 5), np.linspace(-0.9, 0.9, 3), np.linspace(0.1,
 SPREAD = irbkin.map.orientations(7, 2)
 
 
-@pytest.fixture(scope="module")
-def client():
-    """Two processes, as on two machines."""
-    distributed = pytest.importorskip("distributed")
-    options = {"threads_per_worker": 1, "processes": True, "dashboard_address": None}
-    with (
-        distributed.LocalCluster(n_workers=2, host="127.0.0.1", **options) as cluster,
-        distributed.Client(cluster) as client,
-    ):
-        yield client
-
-
 def whole() -> irbkin.map.ReachMap:
     return irbkin.map.reach(ROBOT, X, Y, Z, SPREAD)
 

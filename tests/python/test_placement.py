@@ -102,6 +102,20 @@ def test_the_answer_is_the_same_every_time_and_on_every_number_of_threads():
     assert pickle.loads(pickle.dumps(one)) == one
 
 
+@pytest.mark.parametrize("path", [False, True])
+def test_a_cluster_has_the_same_answer(client, monkeypatch, path):
+    from irbkin.placement import _search
+
+    ends = [irbkin.pose([1.3, y, 0.5], euler_zyx=[0, 2.8, 0]) for y in (-0.4, 0.4)]
+    T = irbkin.paths.line(*ends, steps=10) if path else targets()
+    T[0, 2, 3] += 0.0 if path else 9.0
+    wanted = best_base(ROBOT, T, REGION, steps=4, path=path)
+    assert wanted.nowhere == (() if path else (0,))
+    monkeypatch.setattr(_search, "IN_A_BLOCK", 100)
+    assert best_base(ROBOT, T, REGION, steps=4, path=path, client=client) == wanted
+    assert best_base(ROBOT, T, REGION, steps=4, path=path) == wanted
+
+
 def test_a_scene_that_is_moved_moves_the_answer():
     T, region = targets(), REGION._replace(turn=0.1)
     here = best_base(ROBOT, T, region, steps=5)

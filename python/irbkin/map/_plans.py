@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from irbkin._blocks import worked
 from irbkin.errors import InvalidMotionError
-from irbkin.map._blocks import worked
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from irbkin import IrbkinError, Plan, Robot, ToolRotation
     from irbkin._arrays import Floats
-    from irbkin.map._blocks import Client
+    from irbkin._blocks import Client
 
     Job = tuple[int, list[Any], dict[str, Any]]
 

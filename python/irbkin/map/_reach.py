@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from irbkin._arrays import as_array, finite
+from irbkin._blocks import worked
 from irbkin._core import Robot, __version__
 from irbkin._grids import ReachMap
 from irbkin.errors import InvalidPoseError
-from irbkin.map._blocks import worked
 from irbkin.map._store import Store
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from irbkin._arrays import Floats
-    from irbkin.map._blocks import Client
+    from irbkin._blocks import Client
     from irbkin.map._store import Part
 
 # Poses that are solved at a time, and poses of a block: a tenth of a second and more.

@@ -34,6 +34,8 @@ class Scores(NamedTuple):
     """Of a path that is reached, how far a plan comes: 1 for a whole one, shape (k,)."""
     margin: Floats
     """The smallest margin of the targets that are reached, shape (k,)."""
+    anywhere: Flags
+    """Which targets some of the bases reaches, shape (m,)."""
 
     def ranked(self) -> npt.NDArray[np.int64]:
         """Indices, the best first; of equal ones, the first first."""
@@ -76,8 +78,6 @@ class Scene:
         self.angles = np.zeros(1) if self.rotation is None else _angles(self.rotation)
         axis = "z" if self.rotation is None else self.rotation.axis
         self.turned = self.targets[:, None] @ _turns(axis, self.angles)
-        self.anywhere = np.zeros(len(self.targets), dtype=bool)
-        """Which targets some base reaches."""
 
     def _check(self) -> None:
         """Refuse what is no pose, and what no plan would take.
@@ -102,12 +102,13 @@ class Scene:
         """
         return self.robot.ik_margin(inverse(base) @ self.turned, threads=self.threads).margin
 
-    def scores(self, bases: Floats, above: float = NOT_REACHED) -> Scores:
+    def scores(self, bases: Floats, above: float | None = None) -> Scores:
         """What bases, shape (k, 4, 4), are worth.
 
-        Of a path, plans with a margin that cannot be above one are left out.
+        Of a path, plans are left out that cannot have a margin above one that is given.
         """
         reached, margin = np.zeros(len(bases)), np.full(len(bases), np.inf)
+        anywhere = np.zeros(len(self.targets), dtype=bool)
         views = inverse(bases)
         block = max(1, AT_A_TIME // len(self.angles))
         for first in range(0, len(self.targets), block):
@@ -118,34 +119,37 @@ class Scene:
                 found = self.robot.ik_margin(seen, threads=self.threads).margin
                 best = np.fmax.reduce(found, axis=2)
                 is_reached = ~np.isnan(best)
-                self.anywhere[first : first + block] |= is_reached.any(axis=0)
+                anywhere[first : first + block] |= is_reached.any(axis=0)
                 reached[base : base + at_once] += is_reached.sum(axis=1)
                 least = np.where(is_reached, best, np.inf).min(axis=1)
                 margin[base : base + at_once] = np.minimum(margin[base : base + at_once], least)
-        scores = Scores(reached, np.ones(len(bases)), np.where(reached > 0, margin, NOT_REACHED))
+        margin[reached == 0] = NOT_REACHED
+        scores = Scores(reached, np.ones(len(bases)), margin, anywhere)
         return self._planned(bases, scores, above) if self.path else scores
 
-    def _planned(self, bases: Floats, bounds: Scores, above: float) -> Scores:
-        """Plans from the bases that reach all of a path, by falling bound, as long as one can be
-        the best.
+    def _planned(self, bases: Floats, bounds: Scores, above: float | None) -> Scores:
+        """Plans from the bases that reach all of a path, by falling bound, and with `above` as long
+        as one can be the best.
         """
         progress, margin = np.zeros(len(bases)), bounds.margin.copy()
         whole = bounds.reached == len(self.targets)
         margin[whole] = NOT_REACHED
         order = [int(index) for index in bounds.ranked() if whole[index]]
         block = PLANS_AT_A_TIME * max(self.threads, 1)
+        best = NOT_REACHED if above is None else above
         while order:
             now, order = order[:block], order[block:]
             # The angles of a plan are not those of the grid alone: then its margin has no bound.
-            if self.rotation is None and bounds.margin[now[0]] <= above:
+            is_bounded = above is not None and self.rotation is None
+            if is_bounded and bounds.margin[now[0]] <= best:
                 break
             for index, answer in zip(now, self.plans(bases[now]), strict=True):
                 if isinstance(answer, Plan):
                     progress[index], margin[index] = 1.0, self.margin_of(answer)
-                    above = max(above, margin[index])
+                    best = max(best, margin[index])
                 else:
                     progress[index] = answer.index / len(self.targets)
-        return Scores(bounds.reached, progress, margin)
+        return Scores(bounds.reached, progress, margin, bounds.anywhere)
 
     def plans(self, bases: Floats) -> list[Plan | PathError]:
         """The plan of the path from each base."""

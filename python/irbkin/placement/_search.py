@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from irbkin._blocks import worked
 from irbkin._grids import BaseGrid, Placement
 from irbkin.placement._region import Bases
-from irbkin.placement._scene import NOT_REACHED, Scene, inverse
+from irbkin.placement._scene import NOT_REACHED, Scene, Scores, inverse
 from irbkin.records import Plan, Status
 
 if TYPE_CHECKING:
@@ -18,13 +19,16 @@ if TYPE_CHECKING:
 
     from irbkin import Robot
     from irbkin._arrays import Floats
+    from irbkin._blocks import Client
     from irbkin._grids import Region
-    from irbkin.placement._scene import Scores
+    from irbkin.placement._scene import Flags
     from irbkin.records import ToolRotation
 
 # Bases of the grid around which is searched, how often steps are halved, and how many steps of one
 # size are made at most.
 STARTS, HALVINGS, MOVES = 5, 10, 100
+# Poses of a block of bases: a tenth of a second and more.
+IN_A_BLOCK = 1 << 18
 
 
 def best_base(
@@ -37,6 +41,7 @@ def best_base(
     steps: int | Sequence[int] = 9,
     refine: bool = True,
     frame: npt.ArrayLike | None = None,
+    client: Client | None = None,
     threads: int = 1,
 ) -> Placement:
     """Where a robot should stand so that it reaches all targets with the largest margin.
@@ -56,6 +61,7 @@ def best_base(
         steps: Number of values across each range of the region, or four such numbers.
         refine: Whether to search around the best of the grid.
         frame: Frame in which the region is given, shape (4, 4); the world where not given.
+        client: A `distributed.Client`, whose workers take the bases: `pip install 'irbkin[map]'`.
         threads: Number of threads; 0 for one a core.
 
     Returns:
@@ -71,44 +77,77 @@ def best_base(
     bases = Bases.of(region, steps, frame, robot)
     scene = Scene(robot, T, rotation, path, threads)
     values = bases.grid()
-    scores = scene.scores(bases.poses(values))
-    best = int(scores.ranked()[0])
-    value, score = values[best], scores.of(best)
-    for start in scores.ranked()[: STARTS if refine else 0]:
-        found, worth = _refined(scene, bases, values[start], scores.of(int(start)))
-        if worth > score:
-            value, score = found, worth
-    return _answer(scene, bases, scores, value, score)
+    search = Search(scene, bases)
+    poses = scene.turned.shape[0] * scene.turned.shape[1]
+    size = max(1, IN_A_BLOCK // poses)
+    blocks = [(first, values[first : first + size]) for first in range(0, len(values), size)]
+    parts = {block[0]: part for block, part in worked(client, _scored, search, blocks)}
+    ordered = [parts[first] for first, _ in blocks]
+    scores = Scores(
+        reached=np.concatenate([part.reached for part in ordered]),
+        progress=np.concatenate([part.progress for part in ordered]),
+        margin=np.concatenate([part.margin for part in ordered]),
+        anywhere=np.any([part.anywhere for part in ordered], axis=0),
+    )
+    ranked = scores.ranked()
+    starts = [Start(values[i], scores.of(i), scores.anywhere) for i in ranked.tolist()[:STARTS]]
+    best = starts[0]
+    if refine:
+        numbers = range(len(starts))
+        jobs = [(number, starts[number]) for number in numbers]
+        ends = {job[0]: end for job, end in worked(client, _refined, search, jobs)}
+        for number in numbers:
+            best = best._replace(anywhere=best.anywhere | ends[number].anywhere)
+            if ends[number].score > best.score:
+                best = ends[number]._replace(anywhere=best.anywhere)
+    return _answer(search, scores, best)
 
 
-def _refined(
-    scene: Scene, bases: Bases, value: Floats, score: tuple[float, float, float]
-) -> tuple[Floats, tuple[float, float, float]]:
+class Search(NamedTuple):
+    """What all parts of a search share."""
+
+    scene: Scene
+    bases: Bases
+
+
+class Start(NamedTuple):
+    """A base from which is searched, or that was found."""
+
+    value: Floats
+    """x, y, z [m] and turn [rad]."""
+    score: tuple[float, float, float]
+    anywhere: Flags
+    """Which targets some base that was tried reaches."""
+
+
+def _scored(search: Search, block: tuple[int, Floats]) -> Scores:
+    """What bases of the grid are worth."""
+    return search.scene.scores(search.bases.poses(block[1]))
+
+
+def _refined(search: Search, job: tuple[int, Start]) -> Start:
     """The best base that steps of falling size lead to."""
+    (scene, bases), (_, (value, score, anywhere)) = search, job
     step = 0.5 * bases.spacing()
     for _ in range(HALVINGS):
         for _ in range(MOVES):
             around = bases.around(value, step)
             if not len(around):
-                return value, score
+                break
             above = score[2] if score[1] == 1.0 else NOT_REACHED
             scores = scene.scores(bases.poses(around), above)
+            anywhere = anywhere | scores.anywhere
             best = int(scores.ranked()[0])
             if scores.of(best) <= score:
                 break
             value, score = around[best], scores.of(best)
         step = 0.5 * step
-    return value, score
+    return Start(value, score, anywhere)
 
 
-def _answer(
-    scene: Scene,
-    bases: Bases,
-    scores: Scores,
-    value: Floats,
-    score: tuple[float, float, float],
-) -> Placement:
+def _answer(search: Search, scores: Scores, found: Start) -> Placement:
     """The record of the best base."""
+    (scene, bases), (value, score, anywhere) = search, found
     base = bases.poses(value[None])[0]
     count = len(scene.targets)
     is_reached = score[0] == count and score[1] == 1.0
@@ -121,7 +160,7 @@ def _answer(
             slack = np.fmin(*scene.robot.margin(q))
         else:
             end = str(answer)
-    nowhere = tuple(np.flatnonzero(~scene.anywhere).tolist())
+    nowhere = tuple(np.flatnonzero(~anywhere).tolist())
     whole = (scores.reached == count) & (scores.progress == 1.0)
     axes = bases.axes()
     shape = tuple(map(len, axes))
