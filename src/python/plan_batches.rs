@@ -170,7 +170,7 @@ impl<'py> Ends<'py> {
 }
 
 /// An exception as the answer of one path; one that is not about the path is raised.
-fn in_place<'py>(py: Python<'py>, error: PyErr) -> PyResult<Bound<'py, PyAny>> {
+fn in_place(py: Python<'_>, error: PyErr) -> PyResult<Bound<'_, PyAny>> {
     let is_of_path = error.is_instance(py, irbkin_error(py)?)
         && !error.is_instance(py, invalid_model_error(py)?);
     if is_of_path { Ok(error.into_value(py).into_bound(py).into_any()) } else { Err(error) }
