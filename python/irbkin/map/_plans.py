@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from irbkin._arrays import Floats
     from irbkin._blocks import Client
 
-    Job = tuple[int, list[Any], dict[str, Any]]
+# The number of the first path, the paths, and what each has of its own.
+Job = tuple[int, list[Any], dict[str, Any]]
 
 PATHS_IN_A_BLOCK = 32
 

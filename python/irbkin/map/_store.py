@@ -11,20 +11,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import numpy.typing as npt
 
+from irbkin._arrays import Floats
 from irbkin._grids import ReachMap
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from os import PathLike
 
-    import numpy.typing as npt
-
-    from irbkin._arrays import Floats
-
-    Counts = npt.NDArray[np.int64]
-    Part = tuple[Counts, Counts, Floats, Floats]
-
+Counts = npt.NDArray[np.int64]
+# The numbers of some positions, in the order of FIELDS.
+Part = tuple[Counts, Counts, Floats, Floats]
 FIELDS: dict[str, type[np.generic]] = {
     "reached": np.int64,
     "solutions": np.int64,

@@ -5,18 +5,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from irbkin._arrays import as_array
 from irbkin.errors import InvalidModelError, InvalidPoseError, PathError, UnreachableError
 from irbkin.records import Plan, Status, ToolRotation
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
-
     from irbkin import Robot
     from irbkin._arrays import Floats
 
-    Flags = npt.NDArray[np.bool_]
+Flags = npt.NDArray[np.bool_]
 
 # Poses that are solved at a time: some megabytes.
 AT_A_TIME = 1 << 15
