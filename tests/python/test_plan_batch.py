@@ -2,6 +2,7 @@
 
 import pickle
 import threading
+import time
 
 import irbkin
 import numpy as np
@@ -78,8 +79,8 @@ def test_starts_ends_and_times_are_of_each_path_or_of_all():
         assert_equal(answer, alone(path, start=starts[0]))
     times = [np.linspace(0, duration, len(path)) for duration in (0.01, 60.0)]
     answers = ROBOT.plan_batch([path, path], times=times)
-    for answer, time in zip(answers, times, strict=True):
-        assert_equal(answer, alone(path, times=time))
+    for answer, own in zip(answers, times, strict=True):
+        assert_equal(answer, alone(path, times=own))
     assert [type(answer) for answer in answers] == [irbkin.PathError, irbkin.Plan]
 
 
@@ -152,3 +153,14 @@ def test_answers_pickle():
     assert [type(answer) for answer in answers][3:] == [irbkin.Plan, irbkin.PathError]
     for found, wanted in zip(again, answers, strict=True):
         assert_equal(found, wanted)
+
+
+def test_other_threads_go_on_meanwhile():
+    worker = threading.Thread(target=lambda: ROBOT.plan_batch(seams(90), rotation=36, threads=2))
+    worker.start()
+    ticks = 0
+    while worker.is_alive():
+        time.sleep(1e-3)
+        ticks += 1
+    # With the interpreter's lock held there is a tick at the beginning and one at the end.
+    assert ticks > 20
