@@ -77,6 +77,7 @@ check: $(BUILT) $(VENV)/.groups ## Check format, lints, types, stubs, docs, benc
 	$(STEP) "the bench of motion runs" env MOVES=1000 $(BIN)/python benches/motion.py >/dev/null
 	$(STEP) "the bench of limits runs" env TRAJECTORIES=200 LINES=10 $(BIN)/python benches/motion_limits.py >/dev/null
 	$(STEP) "the bench of plans runs" env QUICK=1 $(BIN)/python benches/plan.py >/dev/null
+	$(STEP) "the bench of maps runs" env QUICK=1 $(BIN)/python benches/reach_map.py >/dev/null
 	$(STEP) "the bench of a module runs" env TARGETS=1000 $(BIN)/python benches/rapid_module.py >/dev/null
 	$(STEP) "peers are compared" $(BIN)/python -m benches.peers --quick >/dev/null
 	$(STEP) "instructions are counted" $(BIN)/python benches/instructions.py >/dev/null
@@ -92,6 +93,7 @@ bench: $(BUILT) ## Time single poses, batches, Python's calls and a RAPID module
 	$(BIN)/python benches/motion.py
 	$(BIN)/python benches/motion_limits.py
 	$(BIN)/python benches/plan.py
+	$(BIN)/python benches/reach_map.py
 	$(BIN)/python benches/rapid_module.py
 
 # One at a time: a peer without a wheel for this Python does not exclude the others.

@@ -8,14 +8,20 @@ mod forward;
 #[cfg(feature = "std")]
 mod helpers;
 mod inverse;
+mod margins;
 mod pace;
 #[cfg(feature = "python")]
 mod paths;
+#[cfg(feature = "python")]
+mod plans;
 #[cfg(feature = "python")]
 mod poses;
 mod rows;
 
 pub use forward::{configuration, fk, jacobian, link_frames, singularity};
 pub use inverse::{NO_CONFIGURATION, ik, ik_configured, ik_nearest, ik_with};
+pub use margins::{Margins, ik_margin};
 #[cfg(feature = "python")]
 pub(crate) use pace::Pace;
+#[cfg(feature = "python")]
+pub(crate) use plans::PlanJob;

@@ -50,6 +50,8 @@ from irbkin.records import (
     FollowResult,
     FreeJoint,
     IkBatch,
+    IkMargin,
+    Margin,
     MotionPeaks,
     Plan,
     PlanBreak,
@@ -67,7 +69,9 @@ from irbkin.records import (
 if TYPE_CHECKING:
     from types import ModuleType
 
+    from irbkin import map as map
     from irbkin import paths as paths
+    from irbkin import placement as placement
     from irbkin import plot as plot
     from irbkin import rapid as rapid
     from irbkin import trajectory as trajectory
@@ -81,11 +85,13 @@ __all__ = [
     "FollowResult",
     "FreeJoint",
     "IkBatch",
+    "IkMargin",
     "InvalidJointsError",
     "InvalidModelError",
     "InvalidMotionError",
     "InvalidPoseError",
     "IrbkinError",
+    "Margin",
     "MotionPeaks",
     "PathError",
     "Plan",
@@ -117,6 +123,7 @@ __all__ = [
     "instruction_set",
     "instruction_sets",
     "paths",
+    "placement",
     "pose",
     "rapid",
     "to_xyz_euler_zyx",
@@ -125,8 +132,9 @@ __all__ = [
     "use_instruction_set",
 ]
 
-# `plot` needs an extra: it is not in `__all__`, which a star import takes in whole.
-_MODULES = ("paths", "plot", "rapid", "trajectory")
+# `plot` needs an extra: it is not in `__all__`, which a star import takes in whole. Nor is `map`,
+# which would then replace Python's own.
+_MODULES = ("map", "paths", "placement", "plot", "rapid", "trajectory")
 
 
 def __getattr__(name: str) -> ModuleType:

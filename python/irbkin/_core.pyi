@@ -14,6 +14,7 @@ from typing import Any, ClassVar, Literal, Protocol, final, overload, type_check
 import numpy as np
 import numpy.typing as npt
 
+from irbkin.errors import IrbkinError
 from irbkin.freedom import Positioner, ToolCone, ToolOffset, ToolRotation, Track
 from irbkin.rapid.program import Declaration, Finding, MotionMove, Move, Skipped, TargetTable
 from irbkin.rapid.records import JointTarget, Record, RobTarget, ToolData, WobjData
@@ -24,6 +25,8 @@ from irbkin.records import (
     FollowResult,
     FreeJoint,
     IkBatch,
+    IkMargin,
+    Margin,
     MotionPeaks,
     Plan,
     PoseCheck,
@@ -616,6 +619,40 @@ class Robot:
             InvalidPoseError, InvalidJointsError, InvalidModelError: As `ik`; a seed or weight that
                 is not finite; a single pose or seed for a whole batch that is invalid.
         """
+    def margin(self, q: npt.ArrayLike) -> Margin:
+        """How far joint vectors are from limits and singularities, as parts of the farthest that
+        they can be.
+
+        Args:
+            q: Joint angles [rad], shape (..., n).
+
+        Returns:
+            Margin: two arrays of shape (...), 1 in the middle, 0 at a limit or a singularity,
+            negative outside limits. A row with a NaN or inf gives NaN.
+
+        Raises:
+            InvalidJointsError: A wrong shape.
+        """
+    def ik_margin(
+        self, T: npt.ArrayLike, q7: npt.ArrayLike | None = None, *, threads: int = 1
+    ) -> IkMargin:
+        """How much room the solutions of poses leave to limits and singularities: `ik_batch` and
+        `margin` in one call, which keeps the best of each pose.
+
+        Args:
+            T: Poses of the tool, shape (..., 4, 4), translation [m].
+            q7: Angle of joint 7 [rad], shape (...), of an arm of seven joints.
+            threads: Number of threads; 0 for one a core.
+
+        Returns:
+            IkMargin: the largest margin of the solutions inside the limits, their largest distance
+            from singularities, and their number, arrays of shape (...).
+
+        Raises:
+            InvalidPoseError: A wrong shape. A matrix that is no pose has no solution.
+            InvalidModelError: The arm has no closed form.
+            TypeError: `q7` of an arm of six joints, or none of one of seven.
+        """
     def plan(
         self,
         T: npt.ArrayLike,
@@ -674,6 +711,48 @@ class Robot:
                 does not fit its pose or the limits.
             InvalidMotionError: No poses, two poses half a turn apart, times that do not increase, a
                 rotation, carrier or tolerance that is empty, an open path with `closed`.
+            InvalidModelError: The arm has no closed form or seven joints.
+            Exception: Whatever `accept` raises.
+        """
+    def plan_batch(
+        self,
+        paths: Iterable[npt.ArrayLike],
+        *,
+        rotation: ToolRotation | int | None = None,
+        times: Iterable[npt.ArrayLike] | None = None,
+        start: npt.ArrayLike | None = None,
+        end: npt.ArrayLike | None = None,
+        closed: bool = False,
+        weights: npt.ArrayLike | None = None,
+        accept: Callable[[_Floats], npt.ArrayLike] | None = None,
+        carrier: Track | Positioner | Sequence[Track | Positioner] | None = None,
+        tolerance: ToolCone | ToolOffset | Sequence[ToolCone | ToolOffset] | None = None,
+        threads: int = 1,
+    ) -> tuple[Plan | IrbkinError, ...]:
+        """`plan` of many paths at once, on several threads.
+
+        A path that has no plan, or is not a path, does not end the call: its exception is in its
+        place. The answer of a path does not depend on the others or on the number of threads.
+
+        Args:
+            paths: p paths, each of shape (m, 4, 4); their lengths may differ.
+            rotation: As for `plan`, of all paths.
+            times: p arrays, the times of the poses of each path [s], shape (m,).
+            start: Joint vector at the first pose [rad], shape (6,), or one for each path, (p, 6).
+            end: Joint vector at the last pose [rad], shape (6,), or one for each path, (p, 6).
+            closed: As for `plan`, of all paths.
+            weights: As for `plan`, of all paths.
+            accept: As for `plan`. Threads ask it one at a time.
+            threads: Number of threads; 0 for one a core.
+
+        Returns:
+            One answer for each path, in order: a Plan, or the PathError, InvalidPoseError,
+            InvalidJointsError or InvalidMotionError that `plan` raises for it.
+
+        Raises:
+            InvalidPoseError: A path that has a wrong shape; the message has its index.
+            InvalidJointsError: A start, end or weights of a wrong shape.
+            InvalidMotionError: Times of a wrong shape or number, or a rotation that is empty.
             InvalidModelError: The arm has no closed form or seven joints.
             Exception: Whatever `accept` raises.
         """

@@ -24,6 +24,8 @@ __all__ = [
     "FollowResult",
     "FreeJoint",
     "IkBatch",
+    "IkMargin",
+    "Margin",
     "MotionPeaks",
     "Plan",
     "PlanBreak",
@@ -51,7 +53,8 @@ def _same(first: Any, second: Any) -> bool:
         return np.array_equal(first, second, equal_nan=is_real)
     if isinstance(first, tuple) and isinstance(second, tuple):
         return len(first) == len(second) and all(map(_same, first, second))
-    return bool(first == second)
+    # A number is equal to itself, NaN is not.
+    return bool(first == second or (first != first and second != second))
 
 
 def by_value(record: _Record) -> _Record:
@@ -272,6 +275,36 @@ class SingularityBatch(NamedTuple):
     """sqrt(det(J J^T))."""
     kinds: npt.NDArray[np.uint8]
     """Values of `SingularityKind`."""
+
+
+@by_value
+class Margin(NamedTuple):
+    """How far joint vectors are from limits and singularities, each as a part of the farthest that
+    they can be: 1 in the middle, 0 at one, negative outside limits.
+    """
+
+    limits: npt.NDArray[np.float64]
+    """The least over all joints of 1 - |q - middle| / half the range, shape (...)."""
+    singularities: npt.NDArray[np.float64]
+    """The least of three distances, each at most 1, shape (...): that from the wrist singularity
+    and that from the elbow singularity as a part of 90 deg, and that from the shoulder singularity
+    as a part of half the length of upper arm and forearm. NaN if the structure of the arm is
+    unknown.
+    """
+
+
+@by_value
+class IkMargin(NamedTuple):
+    """How much room the solutions of poses leave."""
+
+    margin: npt.NDArray[np.float64]
+    """The largest margin (the smaller part of `Margin`) of the solutions inside the limits, each
+    with the full turns that leave the most room, shape (...). NaN where there is none.
+    """
+    singularities: npt.NDArray[np.float64]
+    """Their largest `Margin.singularities`, shape (...). NaN where there is none."""
+    solutions: npt.NDArray[np.uint8]
+    """Their number, shape (...)."""
 
 
 class PlanBreak(NamedTuple):

@@ -243,7 +243,7 @@ impl Pace<'_> {
 }
 
 /// Whether the structure of an arm is known.
-fn check_structure<const N: usize>(robot: &Robot<N>) -> Result<(), Error>
+pub(super) fn check_structure<const N: usize>(robot: &Robot<N>) -> Result<(), Error>
 where
     Joints<N>: Arity<N>,
 {

@@ -4,12 +4,18 @@
 #[cfg(feature = "std")]
 use std::sync::atomic::{AtomicBool, Ordering};
 #[cfg(feature = "std")]
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+#[cfg(feature = "std")]
+use std::time::Duration;
 
 use core::num::NonZeroUsize;
 
 #[cfg(feature = "std")]
 use super::helpers::Helpers;
+
+/// How often the caller is asked while it waits for other threads.
+#[cfg(feature = "std")]
+const WAIT: Duration = Duration::from_millis(20);
 
 /// Whether to go on, asked now and then.
 pub(crate) type GoOn<'a> = dyn FnMut() -> bool + 'a;
@@ -78,9 +84,12 @@ impl Pace<'_> {
             if stopped.load(Ordering::Relaxed) { None } else { parts.next() }
         };
         let (next, work, stopped) = (&next, &work, &stopped);
+        let count = helpers.count().min(self.threads - 1);
+        let busy = Busy { count: Mutex::new(count), changed: Condvar::new() };
         helpers.pool().in_place_scope(|scope| {
-            for _ in 0..helpers.count().min(self.threads - 1) {
+            for _ in 0..count {
                 scope.spawn(|_| {
+                    let _counted = Ended(&busy);
                     while let Some(part) = next() {
                         work(part, &mut || !stopped.load(Ordering::Relaxed));
                     }
@@ -97,7 +106,44 @@ impl Pace<'_> {
                 work(part, &mut go_on);
                 go_on();
             }
+            // The last parts of others may take long.
+            while busy.is_any() {
+                go_on();
+            }
         });
+    }
+}
+
+/// The helpers that have not ended yet.
+#[cfg(feature = "std")]
+struct Busy {
+    count: Mutex<usize>,
+    changed: Condvar,
+}
+
+#[cfg(feature = "std")]
+impl Busy {
+    fn locked(&self) -> MutexGuard<'_, usize> {
+        self.count.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Whether there are any, after waiting a moment for them to end.
+    fn is_any(&self) -> bool {
+        let waited = self.changed.wait_timeout_while(self.locked(), WAIT, |count| *count > 0);
+        let (count, _) = waited.unwrap_or_else(PoisonError::into_inner);
+        *count > 0
+    }
+}
+
+/// Counts a helper out when it ends, in whatever way.
+#[cfg(feature = "std")]
+struct Ended<'a>(&'a Busy);
+
+#[cfg(feature = "std")]
+impl Drop for Ended<'_> {
+    fn drop(&mut self) {
+        *self.0.locked() -= 1;
+        self.0.changed.notify_one();
     }
 }
 
@@ -153,6 +199,33 @@ mod tests {
             let worked = worked.into_inner();
             assert!(if threads == 1 { worked == 3 } else { worked < 1_000_000 }, "{worked}");
         }
+    }
+
+    #[test]
+    fn the_caller_is_asked_while_it_waits_for_the_part_of_another_thread() {
+        let caller = thread::current().id();
+        let is_ended = || {
+            let (mut asked, ended) = (0, AtomicBool::new(false));
+            let mut go_on = || {
+                asked += 1;
+                asked < 4
+            };
+            let mut pace = Pace { threads: 2, go_on: Some(&mut go_on) };
+            pace.run(100_000, 0..2, |_, go_on| {
+                if thread::current().id() == caller {
+                    thread::sleep(Duration::from_millis(5));
+                    return;
+                }
+                while go_on() {
+                    thread::yield_now();
+                }
+                ended.store(true, Ordering::Relaxed);
+            });
+            ended.into_inner()
+        };
+        // Other tests may have the helpers, and the caller may take both parts.
+        let cores = thread::available_parallelism().map_or(1, NonZeroUsize::get);
+        assert!(cores == 1 || (0..100).any(|_| is_ended()), "no helper worked in 100 calls");
     }
 
     #[test]

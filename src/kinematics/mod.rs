@@ -45,7 +45,7 @@ pub use pose::{
 #[cfg(feature = "urdf")]
 pub(crate) use robot::SNAPS;
 pub use robot::any::AnyRobot;
-pub use robot::{Definition, Robot};
+pub use robot::{Definition, Margin, Robot};
 pub use solve::seeded::Inverse;
 pub use structure::arity::{Arity, Joints, RedundancyOf};
 pub(crate) use structure::arm::Rows;

@@ -27,6 +27,28 @@ pub(super) fn ik<'py>(
     threads: Option<NonZeroUsize>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = poses.py();
+    let (poses, given) = read_poses(arm, poses, q7)?;
+    let (q, status) = batch_output(py, out, &poses, [arm.slot_count(), arm.dof()])?;
+    let (data, mut q_view, mut status_view) = (
+        poses.data()?,
+        writable(&q, &[poses.addresses()])?,
+        writable(&status, &[poses.addresses(), addresses(&q)])?,
+    );
+    let (q_slice, status_slice) = (q_view.as_slice_mut()?, status_view.as_slice_mut()?);
+    detached(py, threads, |pace| match arm {
+        Arm::Six(robot) => pace.ik(robot, data, q_slice, status_slice),
+        Arm::Seven(robot) => pace.ik_with(robot, data, &given, q_slice, status_slice),
+    })?;
+    classes::ik_batch_class(py)?.call1((q, status))
+}
+
+/// Poses, shape (..., 4, 4), and joint 7 of each where the arm has seven.
+pub(super) fn read_poses<'py>(
+    arm: &Arm,
+    poses: &Bound<'py, PyAny>,
+    q7: Option<&Bound<'py, PyAny>>,
+) -> PyResult<(Rows<'py>, Vec<f64>)> {
+    let py = poses.py();
     let given = match arm {
         Arm::Six(robot) => {
             no_q7(q7.is_some())?;
@@ -40,18 +62,7 @@ pub(super) fn ik<'py>(
         Some(q7) => read_q7(q7, &mut poses)?,
         None => Vec::new(),
     };
-    let (q, status) = batch_output(py, out, &poses, [arm.slot_count(), arm.dof()])?;
-    let (data, mut q_view, mut status_view) = (
-        poses.data()?,
-        writable(&q, &[poses.addresses()])?,
-        writable(&status, &[poses.addresses(), addresses(&q)])?,
-    );
-    let (q_slice, status_slice) = (q_view.as_slice_mut()?, status_view.as_slice_mut()?);
-    detached(py, threads, |pace| match arm {
-        Arm::Six(robot) => pace.ik(robot, data, q_slice, status_slice),
-        Arm::Seven(robot) => pace.ik_with(robot, data, &given, q_slice, status_slice),
-    })?;
-    classes::ik_batch_class(py)?.call1((q, status))
+    Ok((poses, given))
 }
 
 /// An angle of joint 7 for each pose; both are broadcast.

@@ -15,6 +15,7 @@ macro_rules! package_object {
     };
 }
 
+package_object!(irbkin_error, "irbkin.errors", "IrbkinError");
 package_object!(invalid_pose_error, "irbkin.errors", "InvalidPoseError");
 package_object!(invalid_joints_error, "irbkin.errors", "InvalidJointsError");
 package_object!(invalid_model_error, "irbkin.errors", "InvalidModelError");
@@ -46,6 +47,8 @@ package_object!(kind_class, "irbkin.records", "SingularityKind");
 package_object!(status_class, "irbkin.records", "Status");
 package_object!(reach_class, "irbkin.records", "Reach");
 package_object!(ik_batch_class, "irbkin.records", "IkBatch");
+package_object!(margin_class, "irbkin.records", "Margin");
+package_object!(ik_margin_class, "irbkin.records", "IkMargin");
 package_object!(singularity_class, "irbkin.records", "Singularity");
 package_object!(singularity_batch_class, "irbkin.records", "SingularityBatch");
 package_object!(free_joint_class, "irbkin.records", "FreeJoint");

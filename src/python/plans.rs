@@ -92,7 +92,7 @@ impl PyRobot {
             external,
             cone,
             offset,
-            times: times.map(read_times).transpose()?,
+            times: times.map(|times| read_times(times, "times")).transpose()?,
             start,
             end,
             start_external,
@@ -100,13 +100,8 @@ impl PyRobot {
             closed,
             weights: read_weights(weights)?,
         };
-        let mut rows = Rows::read(T, &[4, 4], "T", Fault::Pose)?;
-        let length = rows.split_last().filter(|_| rows.is_single());
-        let Some(length) = length else {
-            let got = shape(rows.shape());
-            return Err(Fault::Pose.error(py, format!("T must have shape (m, 4, 4), got {got}")));
-        };
-        let path = read_path(py, &rows, &[length])?;
+        let rows = one_path(T, "T")?;
+        let path = read_path(py, &rows, &rows.shape()[..1])?;
         let accept = accept.map(|accept| accept.clone().unbind());
         let (planned, failure) = detached_while(py, |go_on| {
             let mut failure = None;
@@ -123,30 +118,49 @@ impl PyRobot {
             let planned = robot.planned(&path, &options, &mut caller);
             (planned, failure)
         })?;
-        match planned {
-            Ok(plan) => plan_record(py, &plan),
-            Err(PlanError::Invalid(error)) => Err(to_py(py, &error)),
-            Err(PlanError::NoPlan(gap)) => Err(path_error(py, &gap)),
-            Err(PlanError::Stopped) => {
-                Err(failure.unwrap_or_else(|| PyValueError::new_err("the plan was stopped")))
-            }
+        match failure {
+            Some(failure) => Err(failure),
+            None => answer(py, &planned),
         }
     }
 }
 
-fn read_times(times: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
-    let rows = Rows::read(times, &[], "times", Fault::Motion)?;
+/// The poses of one path, shape (m, 4, 4), as they are given.
+pub(super) fn one_path<'py>(path: &Bound<'py, PyAny>, field: &str) -> PyResult<Rows<'py>> {
+    let mut rows = Rows::read(path, &[4, 4], field, Fault::Pose)?;
+    if rows.split_last().is_some() && rows.is_single() {
+        return Ok(rows);
+    }
+    let got = shape(rows.shape());
+    Err(Fault::Pose.error(path.py(), format!("{field} must have shape (m, 4, 4), got {got}")))
+}
+
+/// A plan, or the exception of why there is none.
+pub(super) fn answer<'py>(
+    py: Python<'py>,
+    planned: &Result<Plan, PlanError>,
+) -> PyResult<Bound<'py, PyAny>> {
+    match planned {
+        Ok(plan) => plan_record(py, plan),
+        Err(PlanError::Invalid(error)) => Err(to_py(py, error)),
+        Err(PlanError::NoPlan(gap)) => Err(path_error(py, gap)),
+        Err(PlanError::Stopped) => Err(PyValueError::new_err("the plan was stopped")),
+    }
+}
+
+pub(super) fn read_times(times: &Bound<'_, PyAny>, field: &str) -> PyResult<Vec<f64>> {
+    let rows = Rows::read(times, &[], field, Fault::Motion)?;
     if rows.shape().len() != 1 {
         let got = shape(rows.shape());
         return Err(
-            Fault::Motion.error(times.py(), format!("times must have shape (m,), got {got}"))
+            Fault::Motion.error(times.py(), format!("{field} must have shape (m,), got {got}"))
         );
     }
     Ok(rows.data()?.to_vec())
 }
 
 /// What the caller's test says of joint vectors.
-fn asked(accept: &Bound<'_, PyAny>, q: &[[f64; 6]]) -> PyResult<Vec<bool>> {
+pub(super) fn asked(accept: &Bound<'_, PyAny>, q: &[[f64; 6]]) -> PyResult<Vec<bool>> {
     let py = accept.py();
     let answers = accept.call1((matrix(py, q),))?;
     let answers = py.import("numpy")?.call_method1("asarray", (answers,))?;

@@ -6,8 +6,9 @@ import os
 from pathlib import Path
 
 import irbkin
+import irbkin.map
 import numpy as np
-from irbkin import Robot, plot, rapid, trajectory
+from irbkin import Robot, paths, placement, plot, rapid, trajectory
 
 PAGE = Path(__file__).parents[2] / "docs" / "errors.md"
 START = "<!-- python: written by make errors -->\n"
@@ -16,11 +17,20 @@ SIX = Robot("IRB 2600-12/1.65")
 SEVEN = Robot("Panda")
 SEED = np.array([0.3, -0.2, 0.4, 0.5, -0.6, 0.7])
 POSE = SIX.fk(SEED)
+LINE = paths.line(POSE, SIX.fk(SEED + 0.1), steps=5)
+PLAN = SIX.plan(LINE)
 NAMES = {
     "irbkin": irbkin,
     "rapid": rapid,
     "plot": plot,
     "trajectory": trajectory,
+    "placement": placement,
+    "Region": placement.Region,
+    "line": LINE,
+    "plan": PLAN,
+    "broken": PLAN._replace(q=np.full((5, 6), np.nan)),
+    "tracked": PLAN._replace(external=np.zeros((5, 1))),
+    "eye": np.eye(3),
     "move": trajectory.joint(SEED, -SEED),
     "limits": {"max_velocity": 2.0, "max_acceleration": 8.0, "max_jerk": 60.0},
     "np": np,
@@ -89,6 +99,27 @@ CALLS = [
     ("plot.singularity(robot, seed)", "give many joint vectors, shape (m, n)"),
     ("plot.reach(robot, [0, 0, -1])", "give a rotation matrix"),
     ("plot.reach(robot, np.eye(3), steps=1)", "two cells or more"),
+    ("plot.plan(robot, seed)", "give a `Plan`, of `robot.plan`"),
+    ("plot.plan(robot, plan, times=np.zeros(5))", "those that `plan` was given"),
+    ("plot.placement(None)", "give a `Placement`, of `placement.best_base`"),
+    ("plot.reach_map(None)", "give a `ReachMap`, of `irbkin.map.reach`"),
+    ("robot.plan_batch(line)", "a list of paths"),
+    ("robot.plan_batch([line], times=[[0, 1]] * 2)", "one array for each path"),
+    ("robot.plan_batch([line], start=np.zeros((2, 6)))", "one start, or one for each path"),
+    ("rapid.plan_targets(robot, broken)", "plan what lies between its breaks"),
+    ("rapid.plan_targets(robot, tracked)", "give `extax`"),
+    ("rapid.plan_targets(robot, plan, extax=np.zeros(3))", "one row for each pose"),
+    ("rapid.plan_module(robot, plan, speed='v17')", "`rapid.SpeedData(17)`"),
+    ("placement.best_base(robot, line, Region(x=(1, 0)))", "(lower, upper)"),
+    ("placement.best_base(robot, line, Region(turn=(-180, 180)))", "give radians"),
+    ("placement.best_base(robot, line, Region(x='far'))", "a number or a pair"),
+    ("placement.best_base(robot, line, Region(), steps=0)", "1 or more"),
+    ("placement.best_base(robot, line, Region(), frame=eye)", "a pose, shape (4, 4)"),
+    ("placement.best_base(panda, line, Region())", "an arm of six joints"),
+    ("irbkin.map.reach(robot, [0, np.nan], 0, 0, eye)", "give finite positions"),
+    ("irbkin.map.reach(robot, 0, 0, 0, -eye)", "give rotation matrices"),
+    ("irbkin.map.reach(robot, 0, 0, 0, eye, output='a.csv')", "a name that ends with .npz"),
+    ("irbkin.map.orientations(0)", "1 or more"),
 ]
 
 

@@ -97,9 +97,10 @@ def test_the_tool_stays_where_the_free_joint_goes(q, value):
             continue
         moved = solution.with_free_joint(value)
         assert moved.q[solution.free_joint.joint - 1] == value
-        # To rounding at the singularity, by the distance from it next to it.
-        distances = ARM.singularity(solution.q)
-        off = distances.wrist if solution.free_joint.joint == 4 else distances.shoulder
+        # To rounding at the singularity, by the distance from it next to it: that of joint 5, or
+        # that of the wrist center of the pose, which a solution on the singularity does not have.
+        is_wrist = solution.free_joint.joint == 4
+        off = ARM.singularity(solution.q).wrist if is_wrist else ARM.singularity(q).shoulder
         assert moved.residual <= 2 * off + 1e-14
         if solution.free_joint.fixed == "q4 + q6":
             turned = moved.q[3] + moved.q[5] - solution.q[3] - solution.q[5]

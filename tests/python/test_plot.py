@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from irbkin import plot, trajectory
 from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
+from pictures import MAP, PLACED, PLAN, SEAM, curves, shaded
 
 ROBOT = irbkin.Robot("IRB 2600-12/1.65")
 T = irbkin.pose([0.85, 0.32, 0.64], wxyz=[0.2588190, 0, 0.9659258, 0])
@@ -17,17 +17,6 @@ START, END = np.radians([[0, 0, 0, 0, 90, 0], [90, -10, 40, 10, 60, 60]])
 LIMITS = {"max_velocity": ROBOT.max_velocity, "max_acceleration": 8.0}
 MOVE = trajectory.joint(START, END, profile="trapezoid", **LIMITS)
 DOWN = np.diag([1.0, -1.0, -1.0])
-
-
-def curves(axes):
-    """The curves of axes: lines of more than two points, limits are lines of two."""
-    return [line for line in axes.lines if len(line.get_xdata()) > 2]
-
-
-def shaded(axes):
-    """From where to where axes are shaded, from the bottom up."""
-    patches = [patch for patch in axes.patches if isinstance(patch, Rectangle)]
-    return sorted((patch.get_y(), patch.get_y() + patch.get_height()) for patch in patches)
 
 
 def every_picture():
@@ -39,6 +28,9 @@ def every_picture():
         "path": plot.path(ROBOT.fk(q)),
         "singularity": plot.singularity(ROBOT, q),
         "reach": plot.reach(ROBOT, DOWN, steps=20),
+        "plan": plot.plan(ROBOT, PLAN),
+        "placement": plot.placement(PLACED, SEAM),
+        "reach_map": plot.reach_map(MAP),
     }
 
 

@@ -3,9 +3,10 @@
 from collections.abc import Mapping, Sequence
 
 import irbkin
+import irbkin.map
 import numpy as np
 import numpy.typing as npt
-from irbkin import rapid
+from irbkin import placement, rapid
 
 
 def answers(robot: irbkin.Robot, T: npt.NDArray[np.float64]) -> None:
@@ -31,6 +32,19 @@ def records(robot: irbkin.Robot, q: Sequence[float], many: npt.NDArray[np.float6
     same = robot.follow(robot.fk(many), q, singularity_mode="wrist")
     reasons: set[irbkin.BreakReason] = {broken.kind for broken in path.breaks}
     print(quarter, distance, kinds, target, same, reasons)
+
+
+def plans(robot: irbkin.Robot, paths: Sequence[npt.NDArray[np.float64]]) -> None:
+    answers = robot.plan_batch(paths, rotation=36, threads=2)
+    planned: list[irbkin.Plan] = [each for each in answers if isinstance(each, irbkin.Plan)]
+    targets: list[rapid.RobTarget] = rapid.plan_targets(robot, planned[0])
+    text: str = rapid.dump(rapid.plan_module(robot, planned[0], speed=rapid.SpeedData(12.0)))
+    room: npt.NDArray[np.float64] = robot.margin(planned[0].q).limits
+    region = placement.Region(x=(-1.0, 1.0), turn=0.3)
+    found: placement.Placement = placement.best_base(robot, paths[0], region, steps=(5, 1, 1, 1))
+    spread = irbkin.map.orientations(20)
+    share: npt.NDArray[np.float64] = irbkin.map.reach(robot, [0.5], 0.0, [1.0], spread).share
+    print(targets, text, room, found.reason, share)
 
 
 def names(module: rapid.Module) -> None:

@@ -21,9 +21,21 @@ except ImportError as _missing:
     ) from _missing
 
 from irbkin.plot._joint_motion import trajectory
+from irbkin.plot._placement import placement
+from irbkin.plot._plan import plan
 from irbkin.plot._reach import reach
+from irbkin.plot._reach_map import reach_map
 from irbkin.plot._singularity import singularity
 from irbkin.plot._skeletons import solutions
 from irbkin.plot._tool_path import path
 
-__all__ = ["path", "reach", "singularity", "solutions", "trajectory"]
+__all__ = [
+    "path",
+    "placement",
+    "plan",
+    "reach",
+    "reach_map",
+    "singularity",
+    "solutions",
+    "trajectory",
+]

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Literal
 
+import numpy as np
 from matplotlib.figure import Figure, SubFigure
 
 from irbkin._core import Robot
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+    from irbkin._arrays import Floats
 
 Canvas = Figure | SubFigure
 
@@ -27,6 +30,8 @@ BLUE, ORANGE, GREEN, PURPLE, VERMILION, SKY, BLACK = COLORS = (
 DASHES: tuple[Any, ...] = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (2, 1)), (0, (9, 2)))
 SHADE = "#f6d5c5"
 FONT = 9
+# Half the width of a cell that has no neighbors.
+ALONE = 0.05
 
 
 def line_style(index: int) -> dict[str, Any]:
@@ -64,3 +69,10 @@ def tidy(axes: Axes) -> None:
     axes.set_axisbelow(True)
     axes.spines[["top", "right"]].set_visible(False)
     axes.tick_params(labelsize=FONT)
+
+
+def edges_of(values: Floats) -> Floats:
+    """The edges of cells around even values."""
+    half = 0.5 * (values[1] - values[0]) if len(values) > 1 else ALONE
+    edges: Floats = np.r_[values - half, values[-1] + half]
+    return edges

@@ -30,6 +30,7 @@ from irbkin._core import (
     motion,
 )
 from irbkin.errors import RapidError
+from irbkin.rapid.plans import plan_module, plan_targets
 from irbkin.rapid.program import (
     Argument,
     Declaration,
@@ -78,6 +79,8 @@ __all__ = [
     "load",
     "motion",
     "parse",
+    "plan_module",
+    "plan_targets",
 ]
 
 
@@ -145,4 +148,6 @@ def dump(value: Any, name: str = "Data") -> str:
 
 def __dir__() -> list[str]:
     """List what the module offers."""
-    return sorted({*__all__, "program", "records", *(n for n in globals() if n.startswith("__"))})
+    return sorted(
+        {*__all__, "plans", "program", "records", *(n for n in globals() if n.startswith("__"))}
+    )

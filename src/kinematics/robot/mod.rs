@@ -4,12 +4,15 @@ pub(super) mod any;
 mod build;
 mod display;
 mod linkage;
+mod margin;
 mod reading;
 #[cfg(feature = "serde")]
 mod stored;
 
 #[cfg(feature = "urdf")]
 pub(crate) use build::SNAPS;
+
+pub use margin::Margin;
 
 use alloc::borrow::Cow;
 
@@ -247,7 +250,7 @@ where
     /// Distances of `q` [rad] from the singularities of the structure; `None` if that is unknown.
     #[must_use]
     pub fn singular_distances(&self, q: &[f64; N]) -> Option<SingularDistances> {
-        self.structure.arm().singular(q).map(|(distances, _)| distances)
+        self.structure.arm().singular_distances(q)
     }
 
     /// The difference between the tool pose at `q` [rad] and `pose`.

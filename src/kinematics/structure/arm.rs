@@ -65,6 +65,11 @@ pub(crate) trait Arm<const N: usize, R> {
         None
     }
 
+    /// [`Structure::singular_distances`]
+    fn singular_distances(&self, _q: &[f64; N]) -> Option<SingularDistances> {
+        None
+    }
+
     /// [`Structure::jacobian_determinant`]
     fn jacobian_determinant(&self, _q: &[f64; N]) -> Option<f64> {
         None

@@ -154,6 +154,10 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Arm<N, T::Redundancy> f
         Some((self.structure.singular_distances(q), self.structure.singularities(q)))
     }
 
+    fn singular_distances(&self, q: &[f64; N]) -> Option<SingularDistances> {
+        Some(self.structure.singular_distances(q))
+    }
+
     fn jacobian_determinant(&self, q: &[f64; N]) -> Option<f64> {
         Some(self.structure.jacobian_determinant(q))
     }

@@ -1,0 +1,21 @@
+"""Maps of reach and dexterity, and plans of many paths: on one machine, or on a cluster by the
+same functions.
+
+A cluster needs dask: `pip install 'irbkin[map]'`, and `client=distributed.Client(...)`.
+
+>>> import irbkin, irbkin.map
+>>> robot = irbkin.Robot("IRB 2600-12/1.65")
+>>> spread = irbkin.map.orientations(20)
+>>> found = irbkin.map.reach(robot, [0.6, 0.9], 0.0, [0.5, 1.0], spread)
+>>> found.share.shape
+(2, 1, 2)
+"""
+
+from __future__ import annotations
+
+from irbkin._grids import ReachMap
+from irbkin.map._plans import plan_batch
+from irbkin.map._reach import orientations, reach
+from irbkin.map._store import load
+
+__all__ = ["ReachMap", "load", "orientations", "plan_batch", "reach"]

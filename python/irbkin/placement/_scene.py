@@ -1,0 +1,191 @@
+"""Targets as they are seen from bases: which are reached, and with what margin."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from irbkin._arrays import as_array
+from irbkin.errors import InvalidModelError, InvalidPoseError, PathError, UnreachableError
+from irbkin.records import Plan, Status, ToolRotation
+
+if TYPE_CHECKING:
+    from irbkin import Robot
+    from irbkin._arrays import Floats
+
+Flags = npt.NDArray[np.bool_]
+
+# Poses that are solved at a time: some megabytes.
+AT_A_TIME = 1 << 15
+# Paths that are planned between two looks at what is already better, for each thread.
+PLANS_AT_A_TIME = 8
+NOT_REACHED = -np.inf
+
+
+class Scores(NamedTuple):
+    """What bases are worth; the first that differs decides."""
+
+    reached: Floats
+    """Number of targets that are reached, shape (k,)."""
+    progress: Floats
+    """Of a path that is reached, how far a plan comes: 1 for a whole one, shape (k,)."""
+    margin: Floats
+    """The smallest margin of the targets that are reached, shape (k,)."""
+    anywhere: Flags
+    """Which targets some of the bases reaches, shape (m,)."""
+
+    def ranked(self) -> npt.NDArray[np.int64]:
+        """Indices, the best first; of equal ones, the first first."""
+        order = np.lexsort((-np.arange(len(self.margin)), self.margin, self.progress, self.reached))
+        return order[::-1]
+
+    def of(self, index: int) -> tuple[float, float, float]:
+        """Those of one base, to be compared."""
+        return (
+            float(self.reached[index]),
+            float(self.progress[index]),
+            float(self.margin[index]),
+        )
+
+
+class Scene:
+    """Targets or a path, and the arm that is to reach them."""
+
+    def __init__(
+        self,
+        robot: Robot,
+        T: npt.ArrayLike,
+        rotation: ToolRotation | int | None,
+        path: bool,
+        threads: int,
+    ) -> None:
+        if robot.dof != 6:
+            raise InvalidModelError(
+                f"best_base takes arms of six joints, {robot.name} has {robot.dof}"
+            )
+        self.robot = robot.with_base(np.eye(4))
+        self.targets = as_array(T, "T", (None, 4, 4), InvalidPoseError)
+        if rotation is not None and not isinstance(rotation, ToolRotation):
+            rotation = (
+                ToolRotation(*rotation) if isinstance(rotation, tuple) else ToolRotation(rotation)
+            )
+        self.rotation = rotation
+        self.path, self.threads = path, threads
+        self._check()
+        self.angles = np.zeros(1) if self.rotation is None else _angles(self.rotation)
+        axis = "z" if self.rotation is None else self.rotation.axis
+        self.turned = self.targets[:, None] @ _turns(axis, self.angles)
+
+    def _check(self) -> None:
+        """Refuse what is no pose, and what no plan would take.
+
+        Raises:
+            IrbkinError: Of the class that `ik` and `plan` raise.
+        """
+        invalid = (self.robot.ik_batch(self.targets).status & Status.INVALID).any(axis=1)
+        for index in np.flatnonzero(invalid):
+            try:
+                self.robot.ik(self.targets[index])
+            except InvalidPoseError as fault:
+                raise InvalidPoseError(f"T[{index}]: {fault}") from None
+        try:
+            self.robot.plan(self.targets if self.path else self.targets[:1], rotation=self.rotation)
+        except UnreachableError:
+            return
+
+    def slack(self, base: Floats) -> Floats:
+        """The margin of each target from one base with each tool angle, shape (m, b); NaN where it
+        is not reached.
+        """
+        return self.robot.ik_margin(inverse(base) @ self.turned, threads=self.threads).margin
+
+    def scores(self, bases: Floats, above: float | None = None) -> Scores:
+        """What bases, shape (k, 4, 4), are worth.
+
+        Of a path, plans are left out that cannot have a margin above one that is given.
+        """
+        reached, margin = np.zeros(len(bases)), np.full(len(bases), np.inf)
+        anywhere = np.zeros(len(self.targets), dtype=bool)
+        views = inverse(bases)
+        block = max(1, AT_A_TIME // len(self.angles))
+        for first in range(0, len(self.targets), block):
+            turned = self.turned[first : first + block]
+            at_once = max(1, AT_A_TIME // (len(turned) * len(self.angles)))
+            for base in range(0, len(bases), at_once):
+                seen = views[base : base + at_once, None, None] @ turned
+                found = self.robot.ik_margin(seen, threads=self.threads).margin
+                best = np.fmax.reduce(found, axis=2)
+                is_reached = ~np.isnan(best)
+                anywhere[first : first + block] |= is_reached.any(axis=0)
+                reached[base : base + at_once] += is_reached.sum(axis=1)
+                least = np.where(is_reached, best, np.inf).min(axis=1)
+                margin[base : base + at_once] = np.minimum(margin[base : base + at_once], least)
+        margin[reached == 0] = NOT_REACHED
+        scores = Scores(reached, np.ones(len(bases)), margin, anywhere)
+        return self._planned(bases, scores, above) if self.path else scores
+
+    def _planned(self, bases: Floats, bounds: Scores, above: float | None) -> Scores:
+        """Plans from the bases that reach all of a path, by falling bound, and with `above` as long
+        as one can be the best.
+        """
+        progress, margin = np.zeros(len(bases)), bounds.margin.copy()
+        whole = bounds.reached == len(self.targets)
+        margin[whole] = NOT_REACHED
+        order = [int(index) for index in bounds.ranked() if whole[index]]
+        block = PLANS_AT_A_TIME * max(self.threads, 1)
+        best = NOT_REACHED if above is None else above
+        while order:
+            now, order = order[:block], order[block:]
+            # The angles of a plan are not those of the grid alone: then its margin has no bound.
+            is_bounded = above is not None and self.rotation is None
+            if is_bounded and bounds.margin[now[0]] <= best:
+                break
+            for index, answer in zip(now, self.plans(bases[now]), strict=True):
+                if isinstance(answer, Plan):
+                    progress[index], margin[index] = 1.0, self.margin_of(answer)
+                    best = max(best, margin[index])
+                else:
+                    progress[index] = answer.index / len(self.targets)
+        return Scores(bounds.reached, progress, margin, bounds.anywhere)
+
+    def plans(self, bases: Floats) -> list[Plan | PathError]:
+        """The plan of the path from each base."""
+        paths = inverse(bases)[:, None] @ self.targets
+        answers = self.robot.plan_batch(paths, rotation=self.rotation, threads=self.threads)
+        kept: list[Plan | PathError] = []
+        for answer in answers:
+            if not isinstance(answer, (Plan, PathError)):
+                raise answer
+            kept.append(answer)
+        return kept
+
+    def margin_of(self, plan: Plan) -> float:
+        """The smallest margin along a plan."""
+        return float(np.fmin(*self.robot.margin(plan.q)).min())
+
+
+def inverse(poses: Floats) -> Floats:
+    """The inverse of rigid transforms, shape (..., 4, 4)."""
+    inverted = np.zeros_like(poses)
+    inverted[..., :3, :3] = np.swapaxes(poses[..., :3, :3], -1, -2)
+    inverted[..., :3, 3] = -(inverted[..., :3, :3] @ poses[..., :3, 3:])[..., 0]
+    inverted[..., 3, 3] = 1.0
+    return inverted
+
+
+def _angles(rotation: ToolRotation) -> Floats:
+    """The angles of a rotation [rad], shape (b,)."""
+    is_full = rotation.upper - rotation.lower > 2 * np.pi - 1e-9
+    return np.linspace(rotation.lower, rotation.upper, rotation.steps, endpoint=not is_full)
+
+
+def _turns(axis: str, angles: Floats) -> Floats:
+    """Turns about an axis of the tool, shape (b, 4, 4)."""
+    first, second = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}[axis]
+    turns = np.tile(np.eye(4), (len(angles), 1, 1))
+    turns[:, first, first] = turns[:, second, second] = np.cos(angles)
+    turns[:, second, first] = np.sin(angles)
+    turns[:, first, second] = -turns[:, second, first]
+    return turns

@@ -1,0 +1,235 @@
+"""The best base: on a grid, then around the best of it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from irbkin._blocks import worked
+from irbkin._grids import BaseGrid, Placement
+from irbkin.placement._region import Bases
+from irbkin.placement._scene import NOT_REACHED, Scene, Scores, inverse
+from irbkin.records import Plan, Status
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+
+    from irbkin import Robot
+    from irbkin._arrays import Floats
+    from irbkin._blocks import Client
+    from irbkin._grids import Region
+    from irbkin.placement._scene import Flags
+    from irbkin.records import ToolRotation
+
+# Bases of the grid around which is searched, how often steps are halved, and how many steps of one
+# size are made at most.
+STARTS, HALVINGS, MOVES = 5, 10, 100
+# Poses of a block of bases: a tenth of a second and more.
+IN_A_BLOCK = 1 << 18
+
+
+def best_base(
+    robot: Robot,
+    T: npt.ArrayLike,
+    region: Region,
+    *,
+    path: bool = False,
+    rotation: ToolRotation | int | None = None,
+    steps: int | Sequence[int] = 9,
+    refine: bool = True,
+    frame: npt.ArrayLike | None = None,
+    client: Client | None = None,
+    threads: int = 1,
+) -> Placement:
+    """Where a robot should stand so that it reaches all targets with the largest margin.
+
+    The margin of a base is the smallest of all targets. That of a target is the largest of its
+    solutions inside the limits: their distance from limits and singularities, `Robot.margin`. With
+    `path`, it is that of the joints of `robot.plan`, without breaks. First each base of a grid is
+    tried, then steps that are halved ten times are made around the five best ones.
+
+    Args:
+        robot: The arm, with its tool. The orientation of its base is that of the mounting: a
+            hanging robot is one whose base is turned over. Its position does not count.
+        T: Targets, shape (m, 4, 4), translation [m].
+        region: Where the base may be.
+        path: Whether the targets are a path that the robot follows from one to the next.
+        rotation: The angles by which the tool may be turned, as for `robot.plan`.
+        steps: Number of values across each range of the region, or four such numbers.
+        refine: Whether to search around the best of the grid.
+        frame: Frame in which the region is given, shape (4, 4); the world where not given.
+        client: A `distributed.Client`, whose workers take the bases: `pip install 'irbkin[map]'`.
+        threads: Number of threads; 0 for one a core.
+
+    Returns:
+        The best base, with what was tried. Where no base reaches all targets, that which reaches
+        most; `reason` says which targets are reached nowhere. There is no exception for that.
+
+    Raises:
+        InvalidPoseError: T has a wrong shape or holds a matrix that is no pose, or a region, steps
+            or frame that are none.
+        InvalidMotionError: A rotation that is empty; of a path, two poses half a turn apart.
+        InvalidModelError: The arm has no closed form or seven joints.
+    """
+    bases = Bases.of(region, steps, frame, robot)
+    scene = Scene(robot, T, rotation, path, threads)
+    values = bases.grid()
+    search = Search(scene, bases)
+    poses = scene.turned.shape[0] * scene.turned.shape[1]
+    size = max(1, IN_A_BLOCK // poses)
+    blocks = [(first, values[first : first + size]) for first in range(0, len(values), size)]
+    parts = {block[0]: part for block, part in worked(client, _scored, search, blocks)}
+    ordered = [parts[first] for first, _ in blocks]
+    scores = Scores(
+        reached=np.concatenate([part.reached for part in ordered]),
+        progress=np.concatenate([part.progress for part in ordered]),
+        margin=np.concatenate([part.margin for part in ordered]),
+        anywhere=np.any([part.anywhere for part in ordered], axis=0),
+    )
+    ranked = scores.ranked()
+    starts = [Start(values[i], scores.of(i), scores.anywhere) for i in ranked.tolist()[:STARTS]]
+    best = starts[0]
+    if refine:
+        numbers = range(len(starts))
+        jobs = [(number, starts[number]) for number in numbers]
+        ends = {job[0]: end for job, end in worked(client, _refined, search, jobs)}
+        for number in numbers:
+            best = best._replace(anywhere=best.anywhere | ends[number].anywhere)
+            if ends[number].score > best.score:
+                best = ends[number]._replace(anywhere=best.anywhere)
+    return _answer(search, scores, best)
+
+
+class Search(NamedTuple):
+    """What all parts of a search share."""
+
+    scene: Scene
+    bases: Bases
+
+
+class Start(NamedTuple):
+    """A base from which is searched, or that was found."""
+
+    value: Floats
+    """x, y, z [m] and turn [rad]."""
+    score: tuple[float, float, float]
+    anywhere: Flags
+    """Which targets some base that was tried reaches."""
+
+
+def _scored(search: Search, block: tuple[int, Floats]) -> Scores:
+    """What bases of the grid are worth."""
+    return search.scene.scores(search.bases.poses(block[1]))
+
+
+def _refined(search: Search, job: tuple[int, Start]) -> Start:
+    """The best base that steps of falling size lead to."""
+    (scene, bases), (_, (value, score, anywhere)) = search, job
+    step = 0.5 * bases.spacing()
+    for _ in range(HALVINGS):
+        for _ in range(MOVES):
+            around = bases.around(value, step)
+            if not len(around):
+                break
+            above = score[2] if score[1] == 1.0 else NOT_REACHED
+            scores = scene.scores(bases.poses(around), above)
+            anywhere = anywhere | scores.anywhere
+            best = int(scores.ranked()[0])
+            if scores.of(best) <= score:
+                break
+            value, score = around[best], scores.of(best)
+        step = 0.5 * step
+    return Start(value, score, anywhere)
+
+
+def _answer(search: Search, scores: Scores, found: Start) -> Placement:
+    """The record of the best base."""
+    (scene, bases), (value, score, anywhere) = search, found
+    base = bases.poses(value[None])[0]
+    count = len(scene.targets)
+    is_reached = score[0] == count and score[1] == 1.0
+    q, angles, slack = _joints(scene, base)
+    plan, end = None, ""
+    if scene.path and score[0] == count:
+        answer = scene.plans(base[None])[0]
+        if isinstance(answer, Plan):
+            plan, q, angles = answer, answer.q, answer.tool_angle
+            slack = np.fmin(*scene.robot.margin(q))
+        else:
+            end = str(answer)
+    nowhere = tuple(np.flatnonzero(~anywhere).tolist())
+    whole = (scores.reached == count) & (scores.progress == 1.0)
+    axes = bases.axes()
+    shape = tuple(map(len, axes))
+    x, y, z, turn = axes
+    grid = BaseGrid(
+        x=x,
+        y=y,
+        z=z,
+        turn=turn,
+        reachable=(scores.reached / count).reshape(shape),
+        margin=np.where(whole, scores.margin, np.nan).reshape(shape),
+        frame=bases.start,
+    )
+    *xyz, angle = value.tolist()
+    place = "({:.3f}, {:.3f}, {:.3f}) m, turned by {:.1f} deg".format(*xyz, np.degrees(angle))
+    if is_reached:
+        tight = int(np.argmin(slack))
+        reason = (
+            f"all {count} targets are reached from {place}, with a margin of {score[2]:.3f} at "
+            f"target {tight}"
+        )
+    elif score[0] == count:
+        reason = f"all {count} targets are reached from {place}, but no plan follows them: {end}"
+    else:
+        reason = f"at most {int(score[0])} of {count} targets are reached, from {place}"
+        if nowhere:
+            reason += f"; from no base that was tried: {_listed(nowhere)}"
+    return Placement(
+        base=base,
+        margin=score[2] if is_reached else np.nan,
+        reachable=score[0] / count,
+        slack=slack,
+        q=q,
+        tool_angle=angles,
+        nowhere=nowhere,
+        plan=plan,
+        grid=grid,
+        reason=reason,
+    )
+
+
+def _joints(scene: Scene, base: Floats) -> tuple[Floats, Floats, Floats]:
+    """Joint angles, tool angle and margin of each target from a base; NaN where it is not reached,
+    with tool angle 0.
+    """
+    by_angle = scene.slack(base)
+    count = len(by_angle)
+    best = np.argmax(np.where(np.isnan(by_angle), NOT_REACHED, by_angle), axis=1)
+    rows = np.arange(count)
+    poses = inverse(base) @ scene.turned[rows, best]
+    solved = scene.robot.ik_batch(poses, threads=scene.threads)
+    low, high = scene.robot.limits.T
+    middle = 0.5 * (low + high)
+    turns = np.round((middle - solved.q) / (2 * np.pi))
+    q = solved.q + 2 * np.pi * np.where(np.isfinite(turns), turns, 0.0)
+    margin = np.fmin(*scene.robot.margin(q))
+    margin[(solved.status & Status.WITHIN_LIMITS) == 0] = NOT_REACHED
+    slot = np.argmax(margin, axis=1)
+    slack = margin[rows, slot]
+    is_reached = slack > NOT_REACHED
+    return (
+        np.where(is_reached[:, None], q[rows, slot], np.nan),
+        np.where(is_reached, scene.angles[best], 0.0),
+        np.where(is_reached, slack, np.nan),
+    )
+
+
+def _listed(indices: Sequence[int]) -> str:
+    """Indices in words, the first ten of many."""
+    words = ", ".join(map(str, indices[:10]))
+    more = f" and {len(indices) - 10} more" if len(indices) > 10 else ""
+    return f"target{'s' * (len(indices) > 1)} {words}{more}"

@@ -1,0 +1,94 @@
+"""A slice of a map of reach."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib import colormaps
+
+from irbkin._grids import ReachMap
+from irbkin.plot._style import FONT, canvas, edges_of, tidy, whole
+
+if TYPE_CHECKING:
+    from typing import Literal
+
+    from matplotlib.figure import Figure
+
+    from irbkin.plot._style import Canvas
+
+NAMES = ("x", "y", "z")
+QUANTITIES = {
+    "share": "orientations that are reached [%]",
+    "solutions": "solutions of an orientation, in the mean",
+    "margin": "smallest margin",
+    "singularities": "smallest distance from singularities",
+}
+
+
+def reach_map(
+    found: ReachMap,
+    quantity: Literal["share", "solutions", "margin", "singularities"] = "share",
+    *,
+    across: tuple[Literal["x", "y", "z"], Literal["x", "y", "z"]] = ("x", "z"),
+    at: float | None = None,
+    figure: Canvas | None = None,
+) -> Figure:
+    """Draw a slice of a map. Where no orientation is reached, it is white.
+
+    Args:
+        found: The map, of `irbkin.map.reach`.
+        quantity: What is drawn: the share of the orientations that are reached, the mean number of
+            solutions of an orientation, the smallest margin or the smallest distance from
+            singularities of those that are reached.
+        across: The axes of the slice.
+        at: Where the slice is along the third axis [m]: the nearest position of the map; the middle
+            one when not given.
+        figure: Where to draw; a new figure if not given.
+
+    Returns:
+        The figure: axes in m.
+
+    Raises:
+        TypeError: `found` is no ReachMap.
+        ValueError: Another quantity, or `across` is no two axes.
+    """
+    if not isinstance(found, ReachMap):
+        raise TypeError(f"found must be a ReachMap, got {type(found).__name__}")
+    if quantity not in QUANTITIES:
+        raise ValueError(f"quantity must be one of {tuple(QUANTITIES)}, got {quantity!r}")
+    if len(across) != 2 or across[0] == across[1] or not set(across) <= set(NAMES):
+        raise ValueError(f"across must be two of {NAMES}, got {across!r}")
+    first, second = (NAMES.index(name) for name in across)
+    third = 3 - first - second
+    places = (found.x, found.y, found.z)
+    middle = len(places[third]) // 2
+    index = middle if at is None else int(np.argmin(np.abs(places[third] - at)))
+    values = {
+        "share": 100.0 * found.share,
+        "solutions": found.solutions / len(found.orientations),
+        "margin": found.margin,
+        "singularities": found.singularities,
+    }[quantity]
+    cut = np.where(found.reached > 0, values, np.nan).take(index, axis=third)
+    cut = cut.T if first < second else cut
+    drawn = canvas(figure, 5.6, 4.6)
+    axes = drawn.subplots()
+    colors = axes.pcolormesh(
+        edges_of(places[first]),
+        edges_of(places[second]),
+        np.ma.masked_invalid(cut),
+        cmap=colormaps["viridis"],
+        vmin=0.0,
+        vmax=100.0 if quantity == "share" else None,
+        rasterized=True,
+    )
+    tidy(axes)
+    axes.set_aspect("equal")
+    axes.set_xlabel(f"{across[0]} [m]", fontsize=FONT)
+    axes.set_ylabel(f"{across[1]} [m]", fontsize=FONT)
+    axes.set_title(f"{NAMES[third]} = {places[third][index]:.3f} m", fontsize=FONT)
+    bar = drawn.colorbar(colors, ax=axes, shrink=0.9)
+    bar.set_label(QUANTITIES[quantity], fontsize=FONT)
+    bar.ax.tick_params(labelsize=FONT)
+    return whole(drawn)

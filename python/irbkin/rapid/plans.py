@@ -1,0 +1,202 @@
+"""RAPID of a plan: its robtargets, and a module that moves through them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from irbkin import _core
+from irbkin._arrays import as_array
+from irbkin.errors import RapidError
+from irbkin.freedom import Positioner, Track
+from irbkin.rapid.records import (
+    NOT_THERE,
+    JointTarget,
+    Pose,
+    RobTarget,
+    SpeedData,
+    ToolData,
+    WobjData,
+    ZoneData,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    import numpy.typing as npt
+
+    from irbkin import Plan, Robot
+    from irbkin._core import Module
+    from irbkin.rapid.records import Record
+
+MOST_EXTERNAL = 6
+
+
+def plan_targets(
+    robot: Robot,
+    plan: Plan,
+    tool: ToolData | None = None,
+    wobj: WobjData | None = None,
+    *,
+    extax: npt.ArrayLike | None = None,
+    carrier: Track | Positioner | Sequence[Track | Positioner] | None = None,
+) -> list[RobTarget]:
+    """Return the robtargets of a plan: each pose with the tool rotation that was found, and the
+    confdata of its joints.
+
+    At a wrist singularity a robtarget does not determine q4 and q6: `JointTarget.of(q)` of such a
+    row does.
+
+    Args:
+        robot: The arm of the plan. Work objects are given in the world, in which its base is.
+        plan: The answer of `robot.plan`, without breaks.
+        tool: The tool; the robot's own where not given.
+        wobj: The work object; the world where not given.
+        extax: External axes at each pose [deg or mm], shape (m, k), k up to 6.
+        carrier: That of the plan, if it has external axes: then their values fill `extax`, in mm of
+            a track and in deg of a positioner, and the targets are in the world, or on the work
+            object as it is with all positioners at zero. In the cell the track is coordinated
+            with the base, and the work object is moved by the positioner (`ufprog` FALSE).
+
+    Returns:
+        One robtarget for each of the m poses. `calc_joint_t` gives the joints of the plan again.
+
+    Raises:
+        RapidError: The plan has breaks, or external axes that neither `extax` nor `carrier` gives.
+        InvalidModelError: The arm has no spherical wrist, so no confdata.
+    """
+    q = as_array(plan.q, "plan.q", (None, 6), RapidError)
+    for index in np.flatnonzero(~np.isfinite(q).all(axis=1)):
+        raise RapidError(f"plan.q[{index}] has no joint angles: a plan with breaks has no targets")
+    carriers = _carriers(plan, carrier)
+    if carriers and extax is None:
+        units = [1e3 if isinstance(one, Track) else np.degrees(1.0) for one in carriers]
+        extax = plan.external * units
+    axes = _external(plan, len(q), extax)
+    return [
+        _core.calc_rob_t(_standing(robot, carriers, values), JointTarget.of(row, more), tool, wobj)
+        for row, more, values in zip(q.tolist(), axes.tolist(), plan.external, strict=True)
+    ]
+
+
+def plan_module(
+    robot: Robot,
+    plan: Plan,
+    name: str = "Planned",
+    *,
+    tool: ToolData | None = None,
+    wobj: WobjData | None = None,
+    extax: npt.ArrayLike | None = None,
+    carrier: Track | Positioner | Sequence[Track | Positioner] | None = None,
+    speed: str | SpeedData = "v100",
+    zone: str | ZoneData = "z1",
+) -> Module:
+    r"""Return a module that moves along a plan in `main`: MoveJ to its first pose, then MoveL.
+
+    `dump` writes it, `calc_moves` gives the joints of the plan again, `motion` times it.
+
+    Args:
+        robot: The arm of the plan.
+        plan: The answer of `robot.plan`, without breaks.
+        name: Name of the module.
+        tool: The tool, declared as tPlan; the robot's own where not given.
+        wobj: The work object, declared as wPlan; without it the moves have no \WObj.
+        extax: As for `plan_targets`.
+        carrier: As for `plan_targets`.
+        speed: Speed of the moves, as RAPID writes it, or data.
+        zone: Zone of the moves between the first and the last, which are fine points.
+
+    Returns:
+        The module: the targets are p1 to pm.
+
+    Raises:
+        RapidError: As `plan_targets`; a name, speed or zone that RAPID does not read.
+        InvalidModelError: As `plan_targets`.
+    """
+    targets = plan_targets(robot, plan, tool, wobj, extax=extax, carrier=carrier)
+    data: Mapping[str, Record] = {
+        "tPlan": ToolData(tframe=Pose.of(robot.tool)) if tool is None else tool,
+        **({} if wobj is None else {"wPlan": wobj}),
+        **{f"p{number}": target for number, target in enumerate(targets, 1)},
+    }
+    frames = "tPlan" if wobj is None else r"tPlan\WObj:=wPlan"
+    speed, zone = (
+        value if isinstance(value, str) else _core.dump(value, "") for value in (speed, zone)
+    )
+    moves = []
+    for number in range(1, len(targets) + 1):
+        kind = "MoveJ" if number == 1 else "MoveL"
+        end = "fine" if number in (1, len(targets)) else zone
+        moves.append(f"        {kind} p{number},{speed},{end},{frames};")
+    declared = _core.dump(dict(data), name).rstrip().removesuffix("ENDMODULE").rstrip()
+    lines = [declared, "", "    PROC main()", *moves, "    ENDPROC", "ENDMODULE", ""]
+    module = _core.parse("\n".join(lines))
+    for move in module.moves:
+        for argument in (move.speed_data, move.zone_data):
+            if argument.value is None:
+                raise RapidError(
+                    f"{argument.text} is no speed or zone of RAPID's own ({argument.reason}): "
+                    f"pass SpeedData or ZoneData"
+                )
+    if len(module.moves) != len(targets):
+        raise RapidError(
+            f"speed {speed!r} and zone {zone!r} make no move: {module.skipped[0].what}"
+        )
+    return module
+
+
+def _carriers(
+    plan: Plan, carrier: Track | Positioner | Sequence[Track | Positioner] | None
+) -> list[Track | Positioner]:
+    if carrier is None:
+        return []
+    carriers = [carrier] if isinstance(carrier, (Track, Positioner)) else list(carrier)
+    planned = np.shape(plan.external)[1]
+    if len(carriers) != planned:
+        raise RapidError(f"carrier has {len(carriers)} axes, plan.external has {planned}")
+    return carriers
+
+
+def _standing(
+    robot: Robot, carriers: Sequence[Track | Positioner], values: npt.NDArray[np.float64]
+) -> Robot:
+    """The robot where it stands seen from the work object."""
+    if not carriers:
+        return robot
+    base = robot.base
+    # First along the tracks, then against the turns, from the axis on the floor on.
+    for one, value in sorted(
+        zip(carriers, values, strict=True), key=lambda pair: isinstance(pair[0], Positioner)
+    ):
+        axis = np.eye(3)["xyz".index(one.axis)] if isinstance(one.axis, str) else one.axis
+        axis = np.asarray(axis, dtype=float) / np.linalg.norm(axis)
+        if isinstance(one, Track):
+            base = _core.pose(value * axis) @ base
+        else:
+            turn = _core.pose([0, 0, 0], [np.cos(value / 2), *(-np.sin(value / 2) * axis)])
+            point = np.asarray(one.point, dtype=float)
+            base = _core.pose(point) @ turn @ _core.pose(-point) @ base
+    return robot.with_base(base)
+
+
+def _external(plan: Plan, count: int, extax: npt.ArrayLike | None) -> npt.NDArray[np.float64]:
+    """The six external axes of each pose, 9e9 where there is none."""
+    planned = np.shape(plan.external)[1]
+    axes = np.full((count, MOST_EXTERNAL), NOT_THERE)
+    if extax is None:
+        if planned:
+            raise RapidError(
+                f"plan.external has {planned} axes in rad or m: pass the carrier of the plan, or "
+                f"extax, in deg or mm"
+            )
+        return axes
+    given = np.asarray(extax, dtype=np.float64)
+    is_fit = given.ndim == 2 and len(given) == count
+    if not is_fit or not max(planned, 1) <= given.shape[1] <= MOST_EXTERNAL:
+        raise RapidError(
+            f"extax must have shape ({count}, k), k from {planned or 1} to {MOST_EXTERNAL}, "
+            f"got {given.shape}"
+        )
+    axes[:, : given.shape[1]] = given
+    return axes
