@@ -27,12 +27,14 @@ from irbkin._core import (
     calc_moves,
     calc_rob_t,
     calc_targets,
+    check,
     motion,
 )
 from irbkin.errors import RapidError
 from irbkin.rapid.program import (
     Argument,
     Declaration,
+    Diagnostic,
     Finding,
     MotionMove,
     MotionSettings,
@@ -54,6 +56,7 @@ from irbkin.rapid.records import (
 __all__ = [
     "Argument",
     "Declaration",
+    "Diagnostic",
     "Finding",
     "JointTarget",
     "LoadData",
@@ -74,6 +77,7 @@ __all__ = [
     "calc_moves",
     "calc_rob_t",
     "calc_targets",
+    "check",
     "dump",
     "load",
     "motion",
