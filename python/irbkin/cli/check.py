@@ -37,7 +37,7 @@ def add_arguments(parser: Parser) -> None:
     """The arguments of the verb."""
     add = parser.add
     add("files", metavar="FILE", nargs="*", help="RAPID modules (.mod, .sys, .prg), - for stdin")
-    robot = os.environ.get("IRBKIN_ROBOT")
+    robot = os.environ.get("IRBKIN_ROBOT") or None
     add("--robot", metavar="ROBOT", default=robot, help="name in the catalog, or a .urdf file")
     parser.add_frames()
     add("--select", metavar="CODES", help="codes or their beginnings, with commas; ALL for all")
@@ -69,8 +69,6 @@ def run(arguments: argparse.Namespace) -> int:
     sources = [Source.read(name) for name in arguments.files]
     if arguments.fix and any(source.is_stdin for source in sources):
         raise CommandError("--fix corrects files, stdin is none")
-    if robot.max_velocity is None and "V401" in codes:
-        complain(f"the speeds of the joints of {robot.name} are unknown: V401 is not checked")
     checker = Checker(robot, codes, arguments.step / 1e3)
     fixed = 0
     with Progress("files", len(sources)) as progress:
@@ -80,6 +78,8 @@ def run(arguments: argparse.Namespace) -> int:
                 fixed += checker.fix(source)
             found += checker.check(source)
             progress.add(1)
+    if robot.max_velocity is None and "V401" in codes:
+        complain(f"the speeds of the joints of {robot.name} are unknown: V401 is not checked")
     report(found, fixed, as_json=arguments.json, is_quiet=arguments.quiet)
     return FOUND if found else FINE
 

@@ -167,9 +167,9 @@ class Json(Table):
 
 
 def _plain(value: Any) -> Any:
-    """A value that JSON has."""
+    """A value that JSON has, with as many digits as in CSV."""
     if isinstance(value, float):
-        return value if math.isfinite(value) else None
+        return float(f"{value:.12g}") if math.isfinite(value) else None
     return value.item() if isinstance(value, np.generic) else value
 
 

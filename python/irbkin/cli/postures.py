@@ -28,7 +28,8 @@ def pose_values(poses: Floats) -> list[Values]:
 
 def euler_values(poses: Floats) -> list[Values]:
     """The columns EULER of poses."""
-    return list(_zeros(np.degrees(to_xyz_euler_zyx(poses)[1])).T)
+    degrees = _zeros(np.degrees(to_xyz_euler_zyx(poses)[1]))
+    return list(np.where(degrees < -180.0 + 1e-9, 180.0, degrees).T)
 
 
 def _zeros(values: Floats) -> Floats:

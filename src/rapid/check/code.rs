@@ -30,8 +30,6 @@ pub enum Code {
     OtherConfiguration,
     /// Many joint vectors have the confdata of a singular target.
     AmbiguousConfdata,
-    /// An axis is on the edge of its quarter.
-    ConfdataEdge,
     /// A line or an arc passes the wrist singularity.
     WristSingularity,
     /// A line or an arc passes the elbow singularity.
@@ -60,6 +58,8 @@ pub enum Code {
     UnknownValue,
     /// An instruction that moves the robot is not followed.
     NotFollowed,
+    /// An axis is on the edge of its quarter.
+    ConfdataEdge,
 }
 
 impl Code {
@@ -74,7 +74,6 @@ impl Code {
         Self::WrongConfdata,
         Self::OtherConfiguration,
         Self::AmbiguousConfdata,
-        Self::ConfdataEdge,
         Self::WristSingularity,
         Self::ElbowSingularity,
         Self::ShoulderSingularity,
@@ -89,6 +88,7 @@ impl Code {
         Self::InvalidNumber,
         Self::UnknownValue,
         Self::NotFollowed,
+        Self::ConfdataEdge,
     ];
 
     /// The code: a letter for its group and three digits.
@@ -103,11 +103,11 @@ impl Code {
         self.words().1
     }
 
-    /// Whether it is shown unless codes are selected: not where nothing is wrong but something is
-    /// unknown, or where controllers differ.
+    /// Whether it is shown unless codes are selected: not where nothing is wrong, but something is
+    /// unknown or undecided (group U).
     #[must_use]
     pub fn is_default(self) -> bool {
-        !matches!(self, Self::ConfdataEdge | Self::UnknownValue | Self::NotFollowed)
+        !matches!(self, Self::UnknownValue | Self::NotFollowed | Self::ConfdataEdge)
     }
 
     /// The type of the data that an unknown name of this code should have.
@@ -133,7 +133,6 @@ impl Code {
             Self::WrongConfdata => ("C201", "wrong-confdata"),
             Self::OtherConfiguration => ("C202", "other-configuration"),
             Self::AmbiguousConfdata => ("C203", "ambiguous-confdata"),
-            Self::ConfdataEdge => ("C204", "confdata-edge"),
             Self::WristSingularity => ("S301", "wrist-singularity"),
             Self::ElbowSingularity => ("S302", "elbow-singularity"),
             Self::ShoulderSingularity => ("S303", "shoulder-singularity"),
@@ -148,6 +147,7 @@ impl Code {
             Self::InvalidNumber => ("D702", "invalid-number"),
             Self::UnknownValue => ("U801", "unknown-value"),
             Self::NotFollowed => ("U802", "not-followed"),
+            Self::ConfdataEdge => ("U803", "confdata-edge"),
         }
     }
 
