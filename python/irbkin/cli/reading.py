@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -226,6 +227,8 @@ class _Text:
             raise CommandError(f"{self.name}: {error}") from None
         if rows.shape[1] != len(self.scales):
             self._find_fault(lines, begin)
+        if not np.isfinite(rows).all():
+            self._find_fault(lines, begin)
         return np.asarray(rows * self.scales, dtype=np.float64)
 
     def _find_fault(self, lines: list[str], begin: int) -> None:
@@ -241,9 +244,11 @@ class _Text:
             for place, field in enumerate(fields):
                 is_used = self.columns is None or place in self.columns
                 is_heading = number == 1 and self.columns is not None
-                if is_used and not is_heading and not _is_number(field):
+                if is_used and not is_heading and not _is_finite(field):
                     word = field.strip().encode("utf-8", "replace").decode()[:40]
-                    raise CommandError(f"{self.name}:{number}:{column}: {word!r} is no number")
+                    raise CommandError(
+                        f"{self.name}:{number}:{column}: {word!r} is no finite number"
+                    )
                 column += len(field) + 1
 
 
@@ -253,3 +258,7 @@ def _is_number(field: str) -> bool:
     except ValueError:
         return False
     return "_" not in field
+
+
+def _is_finite(field: str) -> bool:
+    return _is_number(field) and math.isfinite(float(field))
