@@ -78,6 +78,8 @@ check: $(BUILT) $(VENV)/.groups ## Check format, lints, types, stubs, docs, benc
 	$(STEP) "the bench of limits runs" env TRAJECTORIES=200 LINES=10 $(BIN)/python benches/motion_limits.py >/dev/null
 	$(STEP) "the bench of plans runs" env QUICK=1 $(BIN)/python benches/plan.py >/dev/null
 	$(STEP) "the bench of a module runs" env TARGETS=1000 $(BIN)/python benches/rapid_module.py >/dev/null
+	$(STEP) "the bench of a check runs" env MOVES=1000 $(BIN)/python benches/rapid_check.py >/dev/null
+	$(STEP) "the bench of the command runs" env CALLS=1 $(BIN)/python benches/command.py >/dev/null
 	$(STEP) "peers are compared" $(BIN)/python -m benches.peers --quick >/dev/null
 	$(STEP) "instructions are counted" $(BIN)/python benches/instructions.py >/dev/null
 	$(BIN)/ruff check --quiet .
@@ -93,6 +95,8 @@ bench: $(BUILT) ## Time single poses, batches, Python's calls and a RAPID module
 	$(BIN)/python benches/motion_limits.py
 	$(BIN)/python benches/plan.py
 	$(BIN)/python benches/rapid_module.py
+	$(BIN)/python benches/rapid_check.py
+	$(BIN)/python benches/command.py
 
 # One at a time: a peer without a wheel for this Python does not exclude the others.
 $(PEERS)/.made: benches/peers/requirements.txt | toolchains

@@ -1207,6 +1207,7 @@ def check(
         A tuple of `Diagnostic`, in the order of the text.
 
     Raises:
+        RapidError: A code that does not exist.
         InvalidMotionError: A limit or a step that is not positive and finite, or more than ten
             million samples.
         InvalidModelError: The arm has no spherical wrist, so no confdata.

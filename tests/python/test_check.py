@@ -179,6 +179,12 @@ def test_a_file_with_bytes_that_are_no_text_is_not_written(tmp_path):
     assert file.read_bytes() == content
 
 
+def test_a_code_that_does_not_exist_is_refused():
+    for codes in (["C999"], "C201"):
+        with pytest.raises(irbkin.RapidError, match="is no code; there are R101"):
+            rapid.check(ROBOT, rapid.parse(SEAM), codes=codes)
+
+
 def test_files_are_one_program(tmp_path):
     tools, program = tmp_path / "tools.sys", tmp_path / "program.mod"
     tools.write_text(f"MODULE Tools(SYSMODULE)\n{DATA.splitlines()[0]}\nENDMODULE\n")
@@ -216,6 +222,18 @@ def test_comments_silence(tmp_path):
     ):
         file.write_text(module(f"MoveJ pNear,v100,fine,tGum; {comment}\n"))
         assert check(file).returncode == (0 if is_silent else 1), comment
+
+
+def test_what_is_not_checked_is_counted(tmp_path):
+    file = tmp_path / "taught.mod"
+    file.write_text(module("MoveJ *,v100,fine,tGun;\nMoveJ pNear,v100,fine,tGun;\n"))
+    done = check(file)
+    assert done.returncode == 0
+    assert done.stdout == (b"All checks passed!\n1 place is not checked (--select U shows why).\n")
+    done = check(file, "--select", "U")
+    assert done.returncode == 1
+    assert b": U801 MoveJ *: " in done.stdout
+    assert b"not checked (" not in done.stdout
 
 
 def test_json_has_the_findings(tmp_path):
@@ -285,3 +303,62 @@ def test_what_is_no_file_is_one_line(tmp_path):
         assert done.returncode == 2
         assert done.stderr.startswith(b"irbkin: ")
         assert done.stderr.count(b"\n") == 1
+
+
+KINDS = {
+    "unreachable": "R",
+    "limit": "R",
+    "path": "R",
+    "flip": "R",
+    "configuration": "C",
+    "singularity": "S",
+    "joint_speed": "V",
+    "unknown": "NRU",
+    "setting": "DU",
+    "not_read": "U",
+}
+
+
+def test_a_routine_has_the_findings_of_its_motion():
+    before = "MoveJ pNear,v100,fine,tGun;\n"
+    codes = set(CODES) - {"Z501", "C203", "U803"}
+    examples = [f"{before}{BLOCKS[code]}" for code in BLOCKS if code[0] in "SRV"]
+    for text in (
+        SEAM.replace("tGum", "tGun"),
+        (ROOT / "examples" / "pick_and_place.mod").read_text(),
+        *map(module, examples),
+    ):
+        program = rapid.parse(text)
+        motion = rapid.motion(ROBOT, program)
+        found = rapid.check(ROBOT, program, codes=codes)
+        own = [(it.line, it.column, it.code[0]) for it in found]
+        others = [(it.line, it.column, KINDS[it.kind]) for it in motion.findings]
+        assert len(own) == len(others)
+        for (*place, letter), (*place_of_motion, letters) in zip(own, sorted(others), strict=True):
+            assert place == place_of_motion
+            assert letter in letters
+
+
+@settings(max_examples=60, deadline=None)
+@given(data=st.data())
+def test_no_text_breaks_the_check(data):
+    words = re.findall(r"\w+|[^\w\s]", SEAM)
+    words += ["IF", "THEN", "ENDIF", "GOTO", "ERROR", "FOR", "-9E9"]
+    count = data.draw(st.integers(1, 6))
+    parts = re.findall(r"\w+|\s+|[^\w\s]", SEAM)
+    for _ in range(count):
+        place = data.draw(st.integers(0, len(parts) - 1))
+        parts[place] = data.draw(st.sampled_from(words))
+    try:
+        program = rapid.parse("".join(parts))
+    except irbkin.RapidError:
+        return
+    source = program.source.encode()
+    for it in rapid.check(ROBOT, program):
+        assert 1 <= it.line <= program.source.count("\n") + 1
+        assert it.column >= 1
+        assert "\n" not in it.message
+        for begin, end, text in it.edits:
+            confdata = rb"[-+]?\s*[\d.]+(?:[eE]\d+)?|\[[^]]*\]|\w+"
+            assert re.fullmatch(confdata, source[begin:end])
+            assert text

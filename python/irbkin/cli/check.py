@@ -28,6 +28,8 @@ EXAMPLES = """  irbkin check --robot "IRB 2600-12/1.65" program.mod
   irbkin check --robot "IRB 2600-12/1.65" --fix *.mod
   irbkin check --robot "IRB 2600-12/1.65" --select R,C,N --json program.mod tools.sys
   irbkin check --robot "IRB 2600-12/1.65" --ignore S,Z501 - < program.mod"""
+UNCHECKED = ("U801", "U802")
+"""Codes of what is not checked."""
 NOQA = re.compile(r"!\s*noqa\b(?:\s*:\s*([A-Z0-9, ]+))?", re.IGNORECASE)
 PASSES = 10
 """How often corrections are looked for after corrections."""
@@ -70,17 +72,18 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.fix and any(source.is_stdin for source in sources):
         raise CommandError("--fix corrects files, stdin is none")
     checker = Checker(robot, codes, arguments.step / 1e3)
-    fixed = 0
+    fixed = unchecked = 0
     with Progress("files", len(sources)) as progress:
         found = read_modules(sources)
         for source in sources:
             if arguments.fix:
                 fixed += checker.fix(source)
             found += checker.check(source)
+            unchecked += checker.unchecked
             progress.add(1)
     if robot.max_velocity is None and "V401" in codes:
         complain(f"the speeds of the joints of {robot.name} are unknown: V401 is not checked")
-    report(found, fixed, as_json=arguments.json, is_quiet=arguments.quiet)
+    report(found, fixed, unchecked, as_json=arguments.json, is_quiet=arguments.quiet)
     return FOUND if found else FINE
 
 
@@ -118,17 +121,21 @@ class Checker:
     """Checks and corrects sources."""
 
     def __init__(self, robot: Robot, codes: Collection[str], step: float) -> None:
-        self.robot, self.codes, self.step = robot, sorted(codes), step
+        self.robot, self.codes, self.step = robot, codes, step
+        self.unchecked = 0
+        """How many places could not be checked, and are not reported."""
 
     def diagnostics(self, module: Module) -> list[Diagnostic]:
         """What is wrong with a module, without what its comments silence."""
         from irbkin._core import check
 
-        found = check(self.robot, module, codes=self.codes, step=self.step)
-        if "noqa" not in module.source.lower():
-            return list(found)
-        lines = module.source.split("\n")
-        return [it for it in found if not _is_silenced(lines[it.line - 1], it.code)]
+        found = check(self.robot, module, codes={*self.codes, *UNCHECKED}, step=self.step)
+        if "noqa" in module.source.lower():
+            lines = module.source.split("\n")
+            found = tuple(it for it in found if not _is_silenced(lines[it.line - 1], it.code))
+        wanted = [it for it in found if it.code in self.codes]
+        self.unchecked = len({(it.line, it.column) for it in found if it.code not in self.codes})
+        return wanted
 
     def check(self, source: Source) -> list[Found]:
         """What is wrong with a source."""

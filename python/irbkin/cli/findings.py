@@ -27,7 +27,9 @@ class Found(NamedTuple):
         return f"{self.file}:{self.line}:{self.column}: {self.code} {fixable}{self.message}"
 
 
-def report(found: Sequence[Found], fixed: int, *, as_json: bool, is_quiet: bool) -> None:
+def report(
+    found: Sequence[Found], fixed: int, unchecked: int, *, as_json: bool, is_quiet: bool
+) -> None:
     """Print what was found, and how many."""
     if as_json:
         import json
@@ -50,6 +52,9 @@ def report(found: Sequence[Found], fixed: int, *, as_json: bool, is_quiet: bool)
         print(f"Found {_errors(len(found))}{hint}.")
     else:
         print("All checks passed!")
+    if unchecked:
+        places = "1 place is" if unchecked == 1 else f"{unchecked} places are"
+        print(f"{places} not checked (--select U shows why).")
 
 
 def _errors(count: int) -> str:

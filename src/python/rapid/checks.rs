@@ -8,7 +8,7 @@ use super::Cell;
 use super::module::{RapidModule, close_names};
 use super::routine_motion::read_limits;
 use crate::python::classes;
-use crate::python::errors::to_py;
+use crate::python::errors::{rapid_fault, to_py};
 use crate::python::robot::PyRobot;
 use crate::rapid::{self, Code, Diagnostic, Module, MotionOptions};
 
@@ -30,16 +30,16 @@ use crate::rapid::{self, Code, Diagnostic, Module, MotionOptions};
 ///     A tuple of `Diagnostic`, in the order of the text.
 ///
 /// Raises:
+///     RapidError: A code that does not exist.
 ///     InvalidMotionError: A limit or a step that is not positive and finite, or more than ten
 ///         million samples.
 ///     InvalidModelError: The arm has no spherical wrist, so no confdata.
 #[pyfunction]
-#[expect(clippy::needless_pass_by_value, reason = "the type of an argument")]
 #[pyo3(signature = (robot, module, *, codes=None, max_velocity=None, step=0.005, turn=None))]
 pub(crate) fn check<'py>(
     robot: &Bound<'py, PyRobot>,
     module: &Bound<'py, RapidModule>,
-    codes: Option<Vec<PyBackedStr>>,
+    codes: Option<&Bound<'py, PyAny>>,
     max_velocity: Option<&Bound<'py, PyAny>>,
     step: f64,
     turn: Option<f64>,
@@ -58,12 +58,25 @@ pub(crate) fn check<'py>(
         .map_err(|error| to_py(py, &error))?;
     let others = context.iter().map(|other| &other.get().module);
     let modules: Vec<&Module> = core::iter::once(module).chain(others).collect();
-    let is_wanted = |code: Code| {
-        codes.as_ref().is_none_or(|codes| codes.iter().any(|wanted| **wanted == *code.id()))
-    };
+    let codes = codes.map(read_codes).transpose()?;
+    let is_wanted = |code: Code| codes.as_ref().is_none_or(|codes| codes.contains(&code));
     let wanted = found.iter().filter(|diagnostic| is_wanted(diagnostic.code));
     let records = wanted.map(|diagnostic| record(py, diagnostic, &modules));
     PyTuple::new(py, records.collect::<PyResult<Vec<_>>>()?)
+}
+
+/// Codes by their ids.
+fn read_codes(given: &Bound<'_, PyAny>) -> PyResult<Vec<Code>> {
+    let mut codes = Vec::new();
+    for id in given.try_iter()? {
+        let id: PyBackedStr = id?.extract()?;
+        let found = Code::ALL.into_iter().find(|code| code.id() == &*id);
+        codes.push(found.ok_or_else(|| {
+            let ids = Code::ALL.map(Code::id).join(", ");
+            rapid_fault(given.py(), format!("codes: {id:?} is no code; there are {ids}"))
+        })?);
+    }
+    Ok(codes)
 }
 
 /// `irbkin.rapid.Diagnostic`.
