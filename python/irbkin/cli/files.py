@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from typing import BinaryIO, cast
 
 STDIN = "-"
+"""The name of stdin, and of stdout as an output."""
 
 
 @contextlib.contextmanager

@@ -7,13 +7,13 @@ import contextlib
 import io
 import math
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, TypeAlias
 
 import numpy as np
 
 from irbkin.cli.errors import CommandError
-from irbkin.cli.files import replaced
+from irbkin.cli.files import STDIN, replaced
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -37,56 +37,89 @@ class Column(NamedTuple):
         return f"{self.name}_{unit}" if unit else self.name
 
 
-class Table:
-    """Rows on paper, as they are read by people."""
+class Rows:
+    """Where rows go: what each format has of its own is `begin`, `add` and `end`."""
 
     def __init__(self, file: BinaryIO, columns: Sequence[Column], heading: str) -> None:
         self.file, self.columns, self.heading = file, columns, heading
         self.notes: list[tuple[str, Any, str]] = []
-        self.rows = 0
+        self.count = 0
+        self._is_begun = False
 
     def put(self, text: str) -> None:
         """Write text."""
         self.file.write(text.encode("utf-8", "backslashreplace"))
 
-    def begin(self) -> None:
-        """What stands before the rows."""
-        self.widths = []
-        names, units = [], []
-        for column in self.columns:
-            unit = f"[{column.unit}]" if column.unit else ""
-            sample = format("" if column.form.endswith("s") else 0, column.form)
-            width = max(len(column.name), len(unit), len(sample))
-            align = "<" if column.form.startswith("<") else ">"
-            self.widths.append(f"{align}{width}")
-            names.append(format(column.name, self.widths[-1]))
-            units.append(format(unit, self.widths[-1]))
-        self.put(f"{self.heading}\n\n{'  '.join(names).rstrip()}\n")
-        if any(column.unit for column in self.columns):
-            self.put(f"{'  '.join(units).rstrip()}\n")
-
     def write(self, columns: Sequence[Values], array: npt.NDArray[Any] | None = None) -> None:
         """Some rows, by columns, and the same as an array."""
-        lists = [
-            values.tolist() if isinstance(values, np.ndarray) else values for values in columns
-        ]
-        forms = [column.form for column in self.columns]
-        self.rows += len(lists[0])
-        for row in zip(*lists, strict=True):
-            cells = (
-                format(_cell(value, form), width)
-                for value, form, width in zip(row, forms, self.widths, strict=True)
-            )
-            self.put(f"{'  '.join(cells).rstrip()}\n")
+        self._begin()
+        self.add(columns, array)
 
     def note(self, key: str, value: Any, words: str) -> None:
         """What is said of all rows, behind them."""
         self.notes.append((key, value, words))
 
+    def close(self) -> None:
+        """No more rows come."""
+        self._begin()
+        self.end()
+        self.file.flush()
+
+    def _begin(self) -> None:
+        # Not before the first rows are there: they may be refused.
+        if not self._is_begun:
+            self._is_begun = True
+            self.begin()
+
+    def begin(self) -> None:
+        """What stands before the rows."""
+        raise NotImplementedError
+
+    def add(self, columns: Sequence[Values], array: npt.NDArray[Any] | None) -> None:
+        """Some rows."""
+        raise NotImplementedError
+
     def end(self) -> None:
         """What stands behind the rows."""
+        raise NotImplementedError
+
+
+class Table(Rows):
+    """Rows on paper, as they are read by people; nothing where there is no row."""
+
+    def begin(self) -> None:
+        """The width of each column."""
+        self.units = [f"[{column.unit}]" if column.unit else "" for column in self.columns]
+        self.widths = []
+        for column, unit in zip(self.columns, self.units, strict=True):
+            sample = format("" if column.form.endswith("s") else 0, column.form)
+            width = max(len(column.name), len(unit), len(sample))
+            self.widths.append(f"{'<' if column.form.startswith('<') else '>'}{width}")
+
+    def _line(self, cells: Iterable[str]) -> str:
+        padded = (format(cell, width) for cell, width in zip(cells, self.widths, strict=True))
+        return "  ".join(padded).rstrip() + "\n"
+
+    def add(self, columns: Sequence[Values], array: npt.NDArray[Any] | None) -> None:
+        """Some rows, under the heading if they are the first."""
+        forms = [column.form for column in self.columns]
+        for row in zip(*_lists(columns), strict=True):
+            if not self.count:
+                names = self._line(column.name for column in self.columns)
+                units = self._line(self.units) if any(self.units) else ""
+                self.put(f"{self.heading}\n\n{names}{units}")
+            self.count += 1
+            self.put(self._line(map(_cell, row, forms)))
+
+    def end(self) -> None:
+        """The notes."""
         if self.notes:
             self.put("\n" + "".join(f"{words}\n" for _, _, words in self.notes))
+
+
+def _lists(columns: Sequence[Values]) -> list[Sequence[Any]]:
+    """Columns of Python's own numbers."""
+    return [values.tolist() if isinstance(values, np.ndarray) else values for values in columns]
 
 
 def _cell(value: Any, form: str) -> str:
@@ -96,7 +129,7 @@ def _cell(value: Any, form: str) -> str:
     return format(int(value) if form.endswith("d") else value, form.lstrip("<"))
 
 
-class Csv(Table):
+class Csv(Rows):
     """Rows for other programs: names with units, then numbers; nothing where there is none."""
 
     def begin(self) -> None:
@@ -104,7 +137,7 @@ class Csv(Table):
         self.put(",".join(column.key for column in self.columns) + "\n")
         self.form = ",".join("%s" if c.form.endswith("s") else "%.12g" for c in self.columns)
 
-    def write(self, columns: Sequence[Values], array: npt.NDArray[Any] | None = None) -> None:
+    def add(self, columns: Sequence[Values], array: npt.NDArray[Any] | None) -> None:
         """Some rows."""
         lists = []
         has_gaps = False
@@ -115,7 +148,7 @@ class Csv(Table):
             numbers = np.asarray(values, dtype=np.float64)
             has_gaps = has_gaps or bool(np.isnan(numbers).any())
             lists.append(numbers.tolist())
-        self.rows += len(lists[0])
+        self.count += len(lists[0])
         rows = zip(*lists, strict=True)
         if has_gaps:
             lines = [",".join(map(_number, row)) for row in rows]
@@ -137,7 +170,7 @@ def _quoted(text: str) -> str:
     return '"' + text.replace('"', '""') + '"' if any(it in text for it in ',"\n') else text
 
 
-class Json(Table):
+class Json(Rows):
     """One object with the rows, each an object, and what is said of all."""
 
     def begin(self) -> None:
@@ -147,16 +180,13 @@ class Json(Table):
         self.dumps = json.dumps
         self.put(f'{{"heading": {self.dumps(self.heading)},\n"rows": [')
 
-    def write(self, columns: Sequence[Values], array: npt.NDArray[Any] | None = None) -> None:
+    def add(self, columns: Sequence[Values], array: npt.NDArray[Any] | None) -> None:
         """Some rows."""
         keys = [column.key for column in self.columns]
-        lists = [
-            values.tolist() if isinstance(values, np.ndarray) else values for values in columns
-        ]
-        for row in zip(*lists, strict=True):
-            comma = ",\n" if self.rows else "\n"
+        for row in zip(*_lists(columns), strict=True):
+            comma = ",\n" if self.count else "\n"
             self.put(comma + self.dumps(dict(zip(keys, map(_plain, row), strict=True))))
-            self.rows += 1
+            self.count += 1
 
     def end(self) -> None:
         """Its end."""
@@ -173,7 +203,7 @@ def _plain(value: Any) -> Any:
     return value.item() if isinstance(value, np.generic) else value
 
 
-class Npy(Table):
+class Npy(Rows):
     """The rows of the array, in radians and meters."""
 
     def begin(self) -> None:
@@ -181,17 +211,17 @@ class Npy(Table):
         self.shape: tuple[int, ...] = ()
         self.put(" " * HEADER)
 
-    def write(self, columns: Sequence[Values], array: npt.NDArray[Any] | None = None) -> None:
+    def add(self, columns: Sequence[Values], array: npt.NDArray[Any] | None) -> None:
         """Some rows."""
         assert array is not None, "a verb with --output FILE.npy gives arrays"
         self.shape = array.shape[1:]
-        self.rows += len(array)
+        self.count += len(array)
         self.file.write(np.ascontiguousarray(array, dtype="<f8").tobytes())
 
     def end(self) -> None:
         """The header."""
         header = io.BytesIO()
-        content = {"descr": "<f8", "fortran_order": False, "shape": (self.rows, *self.shape)}
+        content = {"descr": "<f8", "fortran_order": False, "shape": (self.count, *self.shape)}
         text = repr(content)
         header.write(b"\x93NUMPY\x01\x00" + (HEADER - 10).to_bytes(2, "little"))
         header.write(text.ljust(HEADER - 11).encode() + b"\n")
@@ -203,27 +233,20 @@ ENDINGS = {".csv": Csv, ".json": Json, ".npy": Npy}
 
 
 @contextlib.contextmanager
-def table(
-    arguments: argparse.Namespace, columns: Sequence[Column], heading: str
-) -> Iterator[Table]:
+def table(arguments: argparse.Namespace, columns: Sequence[Column], heading: str) -> Iterator[Rows]:
     """Where the rows go, by the arguments."""
     output: str | None = arguments.output
-    ending = next((it for it in ENDINGS if output and output.lower().endswith(it)), None)
-    kind = Json if arguments.json else Csv if arguments.csv else ENDINGS.get(ending or "", Table)
-    if output == "-":
-        output = None
-    if output is None:
-        sys.stdout.flush()
-        yield from _filled(kind(sys.stdout.buffer, columns, heading))
+    ending = next((it for it in ENDINGS if output and output.lower().endswith(it)), "")
+    chosen = Json if arguments.json else Csv if arguments.csv else None
+    kind: type[Rows] = chosen or ENDINGS.get(ending, Table)
+    if output in (None, STDIN):
+        rows = kind(sys.stdout.buffer, columns, heading)
+        yield rows
+        rows.close()
         return
     with replaced(output) as file:
         if kind is Npy and not file.seekable():
             raise CommandError(f"{output}: an .npy file cannot be written into a pipe")
-        yield from _filled(kind(file, columns, heading))
-
-
-def _filled(rows: Table) -> Iterator[Table]:
-    rows.begin()
-    yield rows
-    rows.end()
-    rows.file.flush()
+        rows = kind(file, columns, heading)
+        yield rows
+        rows.close()
