@@ -15,6 +15,8 @@ from hypothesis import strategies as st
 from irbkin import rapid
 from irbkin._core import check_codes
 from irbkin.cli.check import selected
+from irbkin.cli.checker import Checker, fix
+from irbkin.cli.sources import Source, read_modules
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "check.md").read_text()
@@ -119,9 +121,6 @@ def test_a_fix_changes_confdata_and_nothing_else(tmp_path):
 @settings(max_examples=30, deadline=None)
 @given(data=st.data())
 def test_a_fixed_module_has_right_confdata_and_differs_in_nothing_else(data):
-    from irbkin.cli.check import Checker
-    from irbkin.cli.sources import Source, read_modules
-
     seed = data.draw(st.integers(0, 2**32 - 1))
     kinds = data.draw(st.lists(st.sampled_from(["MoveJ", "MoveL"]), min_size=1, max_size=6))
     rng = np.random.default_rng(seed)
@@ -137,15 +136,14 @@ def test_a_fixed_module_has_right_confdata_and_differs_in_nothing_else(data):
     source = Source("unused.mod", text.encode())
     assert read_modules([source]) == []
     written = []
-    source.write = lambda module: written.append(module)
+    source.write = written.append
     checker = Checker(ROBOT, ["C201", "C202"], 0.005)
-    before = checker.diagnostics(source.module)
-    fixed = checker.fix(source)
+    before = checker.wanted(source.module)
     assert all(it.edits for it in before), "each target is its own"
-    assert fixed == len(before)
-    after = written[0].source if written else text
-    if before:
-        assert checker.diagnostics(written[0]) == []
+    assert fix(checker, [source]) == len(before)
+    corrected = written[0] if written else source.module
+    assert checker.wanted(corrected) == []
+    after = corrected.source
     pattern = re.compile(r"(\[\[[^]]*\],\[[^]]*\],)\[[^]]*\]")
     assert pattern.sub(r"\1", after) == pattern.sub(r"\1", text)
 
@@ -162,6 +160,24 @@ def test_a_target_that_two_moves_need_differently_is_left(tmp_path):
     assert b"C202 MoveL pFar" in done.stdout
     assert b"fix" not in done.stdout
     assert file.read_text() == module(moves)
+
+
+def test_a_target_that_another_file_moves_to_is_left(tmp_path):
+    one, other = tmp_path / "one.mod", tmp_path / "other.mod"
+    # Both configurations exist: a correction would send the other file's move to another one.
+    target = f"CONST robtarget p:=[[900,-250,500],[0,0,1,0],[-1,2,1,1],{FAR}];\n"
+    one.write_text(module("MoveJ pNear,v100,fine,tGun; MoveL p,v100,fine,tGun;\n", DATA + target))
+    text = one.read_text()
+    for name, is_left in (("p", True), ("pFar", False)):
+        one.write_text(text)
+        other.write_text(
+            f"MODULE Other\nPROC go()\nMoveJ {name},v100,fine,tGun;\nENDPROC\nENDMODULE\n"
+        )
+        done = run("--robot", NAME, "--fix", one, other)
+        assert (done.returncode == 1) == is_left, done
+        assert (one.read_text() == text) == is_left
+        words = f"irbkin: {one}: is not corrected, {other} moves to a target of it\n".encode()
+        assert done.stderr == (words if is_left else b"")
 
 
 def test_a_file_with_bytes_that_are_no_text_is_not_written(tmp_path):
@@ -191,6 +207,10 @@ def test_files_are_one_program(tmp_path):
     program.write_text(module("MoveJ pNear,v100,fine,tGun;\n", DATA.partition("\n")[2]))
     assert check(program).returncode == 1
     done = run("--robot", NAME, program, tools)
+    assert (done.returncode, done.stdout) == (0, b"All checks passed!\n")
+    (tmp_path / "notes.txt").write_text("no module")
+    program.rename(tmp_path / "PROGRAM.MOD")
+    done = check(tmp_path)
     assert (done.returncode, done.stdout) == (0, b"All checks passed!\n")
 
 
@@ -298,8 +318,10 @@ def test_a_read_only_folder_is_left_as_it_is(tmp_path):
 
 
 def test_what_is_no_file_is_one_line(tmp_path):
-    for name in ("nowhere.mod", "."):
+    (tmp_path / "empty").mkdir()
+    for name, words in (("nowhere.mod", b"No such file"), ("empty", b"has no RAPID modules")):
         done = check(tmp_path / name)
+        assert words in done.stderr
         assert done.returncode == 2
         assert done.stderr.startswith(b"irbkin: ")
         assert done.stderr.count(b"\n") == 1

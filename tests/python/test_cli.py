@@ -14,7 +14,7 @@ from command import JOINTS, NAME, ROBOT, XYZ, joints_of, refused, rows, run
 from irbkin.cli import VERBS
 from irbkin.cli.arguments import Parser
 
-EVERY_VERB = [verb for verb in VERBS if verb != "urdf"]
+EVERY_VERB = list(VERBS)
 
 
 @pytest.fixture
@@ -356,3 +356,15 @@ def test_plots_are_files_of_their_format(tmp_path, joints_csv):
     assert ".foo is none of" in refused("plot", NAME, "solutions", *XYZ, "-o", "a.foo")
     assert "has no ending" in refused("plot", NAME, "solutions", *XYZ, "-o", "a")
     assert "takes a FILE" in refused("plot", NAME, "path", "-o", "a.svg")
+
+
+@pytest.mark.skipif(not hasattr(irbkin.Robot, "to_urdf"), reason="needs Robot.to_urdf")
+def test_urdf_is_read_back_as_the_same_arm(tmp_path):
+    file = tmp_path / "arm.urdf"
+    assert run("urdf", NAME, "-o", file).returncode == 0
+    assert run("urdf", NAME).stdout == file.read_bytes()
+    q = np.radians(JOINTS)
+    found = rows(run("fk", file, "-", "--csv", stdin="0,0,0,0,30,0\n"))
+    wanted = ROBOT.fk(np.radians([0, 0, 0, 0, 30, 0]))[:3, 3] * 1e3
+    np.testing.assert_allclose([found[f"{axis}_mm"][0] for axis in "xyz"], wanted, atol=1e-6)
+    np.testing.assert_allclose(irbkin.Robot.from_urdf(file).fk(q), ROBOT.fk(q), atol=1e-12)

@@ -33,12 +33,15 @@ def run(arguments: argparse.Namespace) -> int:
     from irbkin.cli.output import table
     from irbkin.cli.postures import EULER, POSE, Postures, euler_values, pose_values
     from irbkin.cli.progress import Progress
-    from irbkin.cli.reading import read_joints
 
     robot = read_robot(arguments)
     given: list[str] = [word.strip() for word in arguments.joints]
-    is_file = len(given) == 1
-    parts = read_joints(given[0], robot.dof) if is_file else iter([_one(given, robot.dof)])
+    if len(given) == 1:
+        from irbkin.cli.reading import read_joints
+
+        parts = read_joints(given[0], robot.dof)
+    else:
+        parts = iter([_one(given, robot.dof)])
     postures = Postures(robot, with_joints=False)
     columns = (*POSE, *EULER, *postures.columns)
     with table(arguments, columns, robot.name) as rows, Progress("joint vectors") as progress:

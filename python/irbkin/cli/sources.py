@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -13,6 +14,7 @@ if TYPE_CHECKING:
     from irbkin.errors import RapidError
     from irbkin.rapid import Module
 
+ENDINGS = (".mod", ".modx", ".sys", ".sysx", ".prg")
 MARKS = {b"\xff\xfe": "utf-16-le", b"\xfe\xff": "utf-16-be", b"\xef\xbb\xbf": "utf-8"}
 
 
@@ -26,6 +28,8 @@ class Source:
         self.mark = next((mark for mark in MARKS if content.startswith(mark)), b"")
         self.encoding = MARKS.get(self.mark) or _encoding(content)
         self.module: Module | None = None
+        self.alone: Module | None = None
+        """The module without its context."""
         self.context: Sequence[Module] = ()
 
     @classmethod
@@ -60,6 +64,23 @@ def _encoding(content: bytes) -> str:
     return "utf-8"
 
 
+def expanded(names: Sequence[str]) -> list[str]:
+    """The files of names, of which folders stand for the modules in them."""
+    found: list[str] = []
+    for name in names:
+        if not os.path.isdir(name):
+            found.append(name)
+            continue
+        inside = (
+            os.path.join(folder, file) for folder, _, files in os.walk(name) for file in files
+        )
+        modules = sorted(path for path in inside if path.lower().endswith(ENDINGS))
+        if not modules:
+            raise CommandError(f"{name}: has no RAPID modules ({', '.join(ENDINGS)})")
+        found += modules
+    return found
+
+
 def read_modules(sources: Sequence[Source]) -> list[Found]:
     """Parse sources, each with the others as its context; those that are broken have no module."""
     from irbkin._core import parse
@@ -68,15 +89,15 @@ def read_modules(sources: Sequence[Source]) -> list[Found]:
     broken = []
     for source in sources:
         try:
-            source.module = parse(source.content)
+            source.module = source.alone = parse(source.content)
         except RapidError as error:
             broken.append(_fault(source, error))
     if len(sources) == 1:
         return broken
-    alone = [source.module for source in sources]
-    for source, own in zip(sources, alone, strict=True):
-        source.context = [it for it in alone if it is not own and it is not None]
-        if own is None:
+    for source in sources:
+        others = (it.alone for it in sources if it is not source)
+        source.context = [it for it in others if it is not None]
+        if source.alone is None:
             continue
         try:
             source.module = parse(source.content, source.context)
