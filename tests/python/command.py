@@ -1,12 +1,16 @@
-"""The command `irbkin` in processes of its own."""
+"""The command `irbkin`, called in this process with streams of its own."""
 
 import csv
 import io
-import subprocess
+import os
+import signal
 import sys
+from types import SimpleNamespace
+from unittest import mock
 
 import irbkin
 import numpy as np
+from irbkin.cli import main
 
 NAME = "IRB 2600-12/1.65"
 ROBOT = irbkin.Robot(NAME)
@@ -15,14 +19,29 @@ JOINTS = np.degrees(np.random.default_rng(5).uniform(*(0.6 * ROBOT.limits.T), (4
 XYZ = ["--xyz", "850", "320", "640", "--wxyz", "0.2588190", "0", "0.9659258", "0"]
 
 
-def run(*arguments, stdin=None, **options):
-    """The command to its end: one line on stderr at most, and no traceback."""
+def run(*arguments, stdin=b"", **environment):
+    """The command to its end: its exit code and what it wrote. No traceback."""
     content = stdin.encode() if isinstance(stdin, str) else stdin
-    done = subprocess.run(
-        [*COMMAND, *map(str, arguments)], input=content, capture_output=True, timeout=60, **options
-    )
-    assert b"Traceback" not in done.stderr
-    return done
+    streams = {
+        "stdin": io.TextIOWrapper(io.BufferedReader(io.BytesIO(content))),
+        "stdout": io.TextIOWrapper(io.BytesIO(), write_through=False),
+        "stderr": io.TextIOWrapper(io.BytesIO(), write_through=True),
+    }
+    terminated = signal.getsignal(signal.SIGTERM)
+    try:
+        with mock.patch.multiple(sys, **streams), mock.patch.dict(os.environ, environment):
+            code = main([*map(str, arguments)])
+            streams["stdout"].flush()
+    except SystemExit as end:
+        # Of --help.
+        streams["stdout"].flush()
+        code = end.code
+    finally:
+        signal.signal(signal.SIGTERM, terminated)
+    stdout, stderr = (streams[name].buffer.getvalue() for name in ("stdout", "stderr"))
+    assert b"Traceback" not in stderr
+    assert b"internal error" not in stderr
+    return SimpleNamespace(returncode=code, stdout=stdout, stderr=stderr)
 
 
 def refused(*arguments, **options):

@@ -3,10 +3,9 @@
 import json
 import os
 import re
-import subprocess
-import sys
 from pathlib import Path
 
+import command
 import irbkin
 import numpy as np
 import pytest
@@ -33,16 +32,8 @@ def module(moves, data=DATA):
     return f"MODULE M\n{data}PROC main()\n{moves}ENDPROC\nENDMODULE\n"
 
 
-def run(*arguments, stdin=None, cwd=None, **environment):
-    """The command in a process of its own."""
-    return subprocess.run(
-        [sys.executable, "-m", "irbkin", "check", *map(str, arguments)],
-        capture_output=True,
-        input=stdin,
-        cwd=cwd,
-        env={**os.environ, **environment},
-        timeout=60,
-    )
+def run(*arguments, **options):
+    return command.run("check", *arguments, **options)
 
 
 def check(file, *arguments):

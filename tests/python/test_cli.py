@@ -24,6 +24,13 @@ def joints_csv(tmp_path):
     return file
 
 
+@pytest.fixture
+def corners(tmp_path):
+    file = tmp_path / "corners.csv"
+    file.write_text("900,-200,600,0,160,0\n900,200,600,0,160,0\n1000,200,600,0,160,0\n")
+    return file
+
+
 @pytest.mark.parametrize("verb", EVERY_VERB)
 def test_help_has_examples_that_can_be_parsed(verb):
     done = run(verb, "--help")
@@ -140,7 +147,8 @@ def test_seven_axes_take_q7():
         run("ik", "Panda", "--xyz", 400, 0, 500, "--wxyz", 0, 1, 0, 0, "--q7", 45, "--csv")
     )
     np.testing.assert_allclose(table["q7_deg"], 45.0)
-    assert "q7" in refused("ik", "Panda", "--xyz", 400, 0, 500)
+    assert "give --q7" in refused("ik", "Panda", "--xyz", 400, 0, 500)
+    assert "has 6" in refused("ik", NAME, "--xyz", 400, 0, 500, "--q7", 45)
 
 
 def test_json_has_the_rows_and_nulls():
@@ -226,6 +234,32 @@ def test_unknown_names_have_the_close_ones():
     assert "3 numbers" in refused("ik", NAME, *XYZ, "--tool", 1, 2)
 
 
+@pytest.mark.parametrize("number", ["0", "-5", "nan", "inf", "1e400", "-1e308", "1e12"])
+def test_numbers_that_cannot_be_are_refused_or_answered_in_a_line(number, corners):
+    # `run` asserts that no error is one of our own.
+    for words in (
+        ["catalog", "--reach", number],
+        ["catalog", "--payload", number],
+        ["fk", NAME, number, 0, 0, 0, 0, 0],
+        ["fk", NAME, 0, 0, 0, 0, 30, 0, "--tool", number, 0, 0],
+        ["fk", NAME, 0, 0, 0, 0, 30, 0, "--base", 0, 0, 0, number, 0, 0, 0],
+        ["ik", NAME, "--xyz", number, 0, 0],
+        ["ik", NAME, "--xyz", 900, 0, 900, "--wxyz", number, 0, 0, 0],
+        ["ik", NAME, "--xyz", 900, 0, 900, "--seed", number, 0, 0, 0, 0, 0],
+        ["ik", NAME, "--xyz", 900, 0, 900, "--confdata", number, 0, 0, 0],
+        ["ik", "Panda", "--xyz", 400, 0, 400, "--q7", number],
+        ["path", NAME, corners, "--through", "lines", "--step", number],
+        ["path", NAME, corners, "--through", "lines", "--zone", number],
+        ["path", NAME, corners, "--through", "spline", "--step", number],
+        ["plan", NAME, corners, "--start", number, 0, 0, 0, 0, 0],
+        ["plan", NAME, corners, "--rotation", number],
+    ):
+        done = run(*words)
+        assert done.returncode in (0, 1, 2)
+        assert done.returncode == 0 or done.stderr.startswith(b"irbkin: ")
+        assert done.returncode != 2 or done.stderr.count(b"\n") == 1, done.stderr
+
+
 def test_a_pose_out_of_reach_is_one_line_and_exit_code_1():
     done = run("ik", NAME, "--xyz", 8500, 0, 0)
     assert done.returncode == 1
@@ -241,13 +275,6 @@ def test_the_catalog_is_listed_and_filtered():
     np.testing.assert_allclose(np.radians(one["lower_deg"]), ROBOT.limits[:, 0])
     assert run("catalog", "irb2600-12/1.65").stdout == run("catalog", NAME).stdout
     assert "close" in refused("catalog", "IRB 99999")
-
-
-@pytest.fixture
-def corners(tmp_path):
-    file = tmp_path / "corners.csv"
-    file.write_text("900,-200,600,0,160,0\n900,200,600,0,160,0\n1000,200,600,0,160,0\n")
-    return file
 
 
 POSES = irbkin.pose(
@@ -284,6 +311,9 @@ def test_a_broken_path_is_reported(tmp_path):
     done = run("path", NAME, far)
     assert done.returncode == 1
     assert done.stderr.startswith(b"irbkin: pose 1: ")
+    assert done.stderr.count(b"\n") == 1
+    far.write_text("900,0,600,0,160,0\n" + "9000,0,600,0,160,0\n" * 30)
+    assert run("path", NAME, far).stderr.endswith(b"irbkin: 20 more breaks\n")
     done = run("plan", NAME, far)
     assert done.returncode == 1
     assert b"slot 0 ends at pose 1: " in done.stderr

@@ -84,7 +84,7 @@ def test_what_cannot_be_written_is_one_line(tmp_path):
 
 
 def test_closed_streams_are_no_traceback():
-    for closed in (">&-", "<&-"):
+    for closed, name in ((">&-", "stdout"), ("<&-", "stdin")):
         command = shlex.join([*COMMAND, "fk", NAME, "-"])
         done = subprocess.run(
             ["bash", "-c", f"{command} {closed}"],
@@ -93,8 +93,23 @@ def test_closed_streams_are_no_traceback():
             timeout=60,
         )
         assert done.returncode == 2, closed
-        assert done.stderr.startswith(b"irbkin: ")
-        assert done.stderr.count(b"\n") == 1
+        assert done.stderr == f"irbkin: {name} is closed\n".encode()
+
+
+def test_rows_before_a_broken_one_are_written_before_the_message():
+    content = "0,0,0,0,30,0\n" * 200_000 + "x,0,0,0,0,0\n"
+    command = [*COMMAND, "fk", NAME, "-", "--csv"]
+    done = subprocess.run(
+        command,
+        input=content.encode(),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        timeout=60,
+    )
+    *lines, last = done.stdout.decode().splitlines()
+    assert last == "irbkin: stdin:200001:1: 'x' is no finite number"
+    assert len(lines) > 100_000
+    assert len({line.count(",") for line in lines}) == 1
 
 
 def peak_memory(count, tmp_path):

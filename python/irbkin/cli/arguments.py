@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NoReturn
@@ -73,6 +74,14 @@ class Parser:
         )
 
 
+def whole(text: str) -> int:
+    """A whole number of 32 bits, as confdata has."""
+    number = int(text)
+    if abs(number) >= 2**31:
+        raise argparse.ArgumentTypeError(f"{text.strip()} is no number of a confdata")
+    return number
+
+
 class _Help(argparse.RawDescriptionHelpFormatter):
     """Help of one width: asking for that of the terminal would import what nothing else needs."""
 
@@ -117,6 +126,16 @@ def frame(numbers: Sequence[float], name: str) -> Floats:
         f"{name} takes 3 numbers (x y z [mm]), 6 (with rz ry rx [deg]) or 7 (with w x y z), "
         f"got {len(numbers)}"
     )
+
+
+def read_q7(arguments: argparse.Namespace, robot: Robot) -> float | None:
+    """The angle of joint 7 [rad], which the arm takes if it has seven joints."""
+    q7: float | None = arguments.q7
+    if robot.dof == 7 and q7 is None:
+        raise CommandError(f"{robot.name} has seven joints: give --q7, the angle of joint 7 [deg]")
+    if robot.dof != 7 and q7 is not None:
+        raise CommandError(f"--q7 is for arms of seven joints, {robot.name} has {robot.dof}")
+    return None if q7 is None else math.radians(q7)
 
 
 def joints(numbers: Sequence[float] | None, name: str, dof: int) -> Floats | None:

@@ -35,7 +35,10 @@ def run(arguments: argparse.Namespace) -> int:
     words = [word.strip() for word in arguments.words]
     name = " ".join(words)
     reach = None if arguments.reach is None else arguments.reach / 1e3
-    known = irbkin.catalog(reach=reach, payload=arguments.payload)
+    try:
+        known = irbkin.catalog(reach=reach, payload=arguments.payload)
+    except ValueError as error:
+        raise CommandError(f"--{error}") from None
     if name in irbkin.catalog():
         _show_one(arguments, irbkin.catalog_entry(name))
         return FINE

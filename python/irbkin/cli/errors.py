@@ -9,7 +9,7 @@ from collections.abc import Callable
 from types import FrameType
 from typing import NoReturn
 
-from irbkin.errors import IrbkinError, RapidError, UnreachableError
+from irbkin.errors import IrbkinError, UnreachableError
 
 FINE = 0
 FOUND = 1
@@ -44,9 +44,13 @@ def guarded(run: Callable[[], int]) -> int:
     if hasattr(signal, "SIGTERM"):
         signal.signal(signal.SIGTERM, _terminate)
     try:
-        code = run()
-        sys.stdout.flush()
-        return code
+        if sys.stdout is None:
+            raise CommandError("stdout is closed")
+        try:
+            return run()
+        finally:
+            # What was written stands before what is wrong.
+            sys.stdout.flush()
     except CommandError as failure:
         complain(failure)
         return failure.code
@@ -58,16 +62,10 @@ def guarded(run: Callable[[], int]) -> int:
         return INTERRUPTED
     except _Terminated:
         return 128 + signal.SIGTERM
-    except RapidError as error:
-        complain(error)
-        return WRONG
     except UnreachableError as error:
         complain(error)
         return FOUND
-    except IrbkinError as error:
-        complain(error)
-        return WRONG
-    except ImportError as error:
+    except (IrbkinError, ImportError) as error:
         complain(error)
         return WRONG
     except OSError as error:

@@ -8,6 +8,8 @@ import sys
 from collections.abc import Iterator
 from typing import BinaryIO, cast
 
+from irbkin.cli.errors import CommandError
+
 STDIN = "-"
 """The name of stdin, and of stdout as an output."""
 
@@ -16,6 +18,8 @@ STDIN = "-"
 def opened(name: str) -> Iterator[BinaryIO]:
     """The bytes of a file, or of stdin where the name is `-`."""
     if name == STDIN:
+        if sys.stdin is None:
+            raise CommandError("stdin is closed")
         yield cast(BinaryIO, sys.stdin.buffer)
         return
     with open(name, "rb") as file:

@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from irbkin.cli.arguments import Parser, frame, joints, read_robot
+from irbkin.cli.arguments import Parser, frame, joints, read_q7, read_robot, whole
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ def add_arguments(parser: Parser) -> None:
     add("--q7", type=float, metavar="Q7", help="angle of joint 7 of a seven-axis arm [deg]")
     add("--within", action="store_true", help="only solutions inside the limits")
     add("--seed", nargs="+", type=float, metavar="Q", help="only the nearest to these joints [deg]")
-    add("--confdata", nargs=4, type=int, metavar="CF", help="only the one with cf1 cf4 cf6 cfx")
+    add("--confdata", nargs=4, type=whole, metavar="CF", help="only the one with cf1 cf4 cf6 cfx")
     parser.add_formats("joint angles, shape (m, slots, n) or (m, n), in radians")
 
 
@@ -130,7 +130,7 @@ def _write_all(
     is_one = arguments.file is None
     first = () if is_one else (Column("pose", "", "6d"),)
     columns = (*first, Column("slot", "", "d"), *postures.columns)
-    q7 = None if arguments.q7 is None else float(np.radians(arguments.q7))
+    q7 = read_q7(arguments, robot)
     wanted = int(Status.WITHIN_LIMITS if arguments.within else Status.FOUND)
     with table(arguments, columns, heading) as rows, Progress("poses") as progress:
         for poses in parts:

@@ -16,6 +16,10 @@ EXAMPLES = """  irbkin path "IRB 2600-12/1.65" poses.csv
   irbkin path "IRB 2600-12/1.65" poses.csv --seed 0 0 0 0 30 0 --singularity wrist -o q.npy"""
 
 
+MOST_SHOWN = 10
+"""How many breaks are reported one by one."""
+
+
 def add_arguments(parser: Parser) -> None:
     """The arguments of the verb."""
     parser.add_robot()
@@ -62,6 +66,8 @@ def run(arguments: argparse.Namespace) -> int:
             speed, joint = best
             words = f"tool speed up to {speed * 1e3:.0f} mm/s, limited by J{joint}"
             rows.note("fastest_mm_s", speed * 1e3, words)
-    for broken in followed.breaks:
-        complain(f"pose {broken.pose_index}: {broken.reason}")
+    for broken in followed.breaks[:MOST_SHOWN]:
+        complain(broken.reason)
+    if len(followed.breaks) > MOST_SHOWN:
+        complain(f"{len(followed.breaks) - MOST_SHOWN} more breaks")
     return FOUND if followed.breaks else FINE

@@ -6,7 +6,7 @@ import argparse
 import os
 from typing import TYPE_CHECKING
 
-from irbkin.cli.arguments import Parser, frame, read_robot
+from irbkin.cli.arguments import Parser, frame, read_q7, read_robot
 from irbkin.cli.errors import FINE, CommandError
 from irbkin.cli.files import replaced
 
@@ -55,13 +55,11 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _drawn(arguments: argparse.Namespace, robot: Robot) -> Figure:
-    import numpy as np
-
     from irbkin import plot
 
     kind: str = arguments.kind
-    q7 = None if arguments.q7 is None else float(np.radians(arguments.q7))
     if kind in ("solutions", "reach"):
+        q7 = read_q7(arguments, robot)
         if arguments.xyz is None and kind == "solutions":
             raise CommandError("solutions takes a pose: --xyz and --wxyz or --euler")
         turn = arguments.wxyz or arguments.euler or []
