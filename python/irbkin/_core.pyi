@@ -95,6 +95,8 @@ __all__ = [
     "calc_targets",
     "catalog",
     "catalog_entry",
+    "check",
+    "check_codes",
     "decode",
     "dump",
     "instruction_set",

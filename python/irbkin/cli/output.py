@@ -18,7 +18,7 @@ from irbkin.cli.files import STDIN, replaced
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-Values: TypeAlias = "Sequence[Any] | npt.NDArray[Any]"
+Values: TypeAlias = Sequence[Any] | np.ndarray[Any, Any]
 HEADER = 128
 """Bytes of the header of an .npy file, whose shape is written when it is known."""
 
