@@ -11,6 +11,7 @@ use super::code::Code;
 use super::confdata::Finder;
 use super::diagnostic::Diagnostic;
 use super::fixes::{Demand, correct};
+use super::inherited::with_inherited;
 use super::runs::{Run, runs};
 use super::zones::Zones;
 use crate::error::{Error, RapidFault, RapidFaultKind};
@@ -57,6 +58,7 @@ pub fn check(
     }
     let max_velocity = velocities(robot, options)?.unwrap_or([f64::INFINITY; 6]);
     let flange = with_flange(robot)?;
+    let module = &*with_inherited(module);
     let mut checker = Checker {
         robots: [robot, &flange],
         options: *options,

@@ -5,5 +5,6 @@ pub(super) mod code;
 mod confdata;
 pub(super) mod diagnostic;
 mod fixes;
+mod inherited;
 mod runs;
 mod zones;

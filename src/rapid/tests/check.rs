@@ -2,6 +2,7 @@
 
 use std::format;
 use std::string::{String, ToString};
+use std::vec;
 use std::vec::Vec;
 
 use crate::error::Error;
@@ -177,6 +178,28 @@ fn a_target_that_moves_need_differently_is_not_corrected() {
     let found = checked(&text(moves));
     assert_eq!(found.iter().map(|it| it.code).collect::<Vec<_>>(), [Code::OtherConfiguration]);
     assert_eq!(found[0].edits, []);
+}
+
+#[test]
+fn settings_hold_across_calls() {
+    let weld = "ENDPROC PROC weld() MoveJ a,v100,fine,t; MoveL c{2},v100,fine,t;";
+    let settings = "ENDPROC PROC settings() ConfL\\Off; SingArea\\Wrist;";
+    for (main, wanted) in [
+        ("weld;", vec![Code::OtherConfiguration]),
+        ("ConfL\\Off; weld;", vec![]),
+        ("ConfL\\Off; ConfL\\On; weld;", vec![Code::OtherConfiguration]),
+        ("settings; weld;", vec![]),
+        ("weld; settings;", vec![Code::OtherConfiguration]),
+        // One of the callers does not mind.
+        ("weld; settings; weld;", vec![]),
+    ] {
+        let mut found = codes(&format!("{main} {weld} {settings}"));
+        found.retain(|code| *code != Code::NotFollowed);
+        assert_eq!(found, wanted, "{main}");
+    }
+    let own = weld.replace("MoveJ a", "ConfL\\On; MoveJ a");
+    let found = codes(&format!("ConfL\\Off; weld; {own}"));
+    assert_eq!(found, [Code::NotFollowed, Code::OtherConfiguration]);
 }
 
 #[test]
