@@ -79,6 +79,8 @@ check: $(BUILT) $(VENV)/.groups ## Check format, lints, types, stubs, docs, benc
 	$(STEP) "the bench of plans runs" env QUICK=1 $(BIN)/python benches/plan.py >/dev/null
 	$(STEP) "the bench of maps runs" env QUICK=1 $(BIN)/python benches/reach_map.py >/dev/null
 	$(STEP) "the bench of a module runs" env TARGETS=1000 $(BIN)/python benches/rapid_module.py >/dev/null
+	$(STEP) "the bench of a check runs" env MOVES=1000 $(BIN)/python benches/rapid_check.py >/dev/null
+	$(STEP) "the bench of the command runs" env CALLS=1 $(BIN)/python benches/command.py >/dev/null
 	$(STEP) "peers are compared" $(BIN)/python -m benches.peers --quick >/dev/null
 	$(STEP) "instructions are counted" $(BIN)/python benches/instructions.py >/dev/null
 	$(BIN)/ruff check --quiet .
@@ -95,6 +97,8 @@ bench: $(BUILT) ## Time single poses, batches, Python's calls and a RAPID module
 	$(BIN)/python benches/plan.py
 	$(BIN)/python benches/reach_map.py
 	$(BIN)/python benches/rapid_module.py
+	$(BIN)/python benches/rapid_check.py
+	$(BIN)/python benches/command.py
 
 # One at a time: a peer without a wheel for this Python does not exclude the others.
 $(PEERS)/.made: benches/peers/requirements.txt | toolchains
@@ -165,6 +169,7 @@ wheel: $(VENV)/.made ## Build the wheel, check its size and paths, and try it
 	$(PYTHON) -m venv dist/venv
 	dist/venv/bin/pip install --quiet --disable-pip-version-check dist/irbkin-*.whl
 	cd dist && venv/bin/python ../examples/01_solve_a_pose.py >/dev/null
+	dist/venv/bin/irbkin ik "IRB 2600-12/1.65" --xyz 850 320 640 >/dev/null
 
 packages: $(VENV)/.made ## Build the crate and the sdist, and run their unpacked examples
 	@tests/packages.sh $(abspath $(BIN))

@@ -1,5 +1,6 @@
 from collections.abc import (
     Callable,
+    Collection,
     ItemsView,
     Iterable,
     Iterator,
@@ -16,7 +17,15 @@ import numpy.typing as npt
 
 from irbkin.errors import IrbkinError
 from irbkin.freedom import Positioner, ToolCone, ToolOffset, ToolRotation, Track
-from irbkin.rapid.program import Declaration, Finding, MotionMove, Move, Skipped, TargetTable
+from irbkin.rapid.program import (
+    Declaration,
+    Diagnostic,
+    Finding,
+    MotionMove,
+    Move,
+    Skipped,
+    TargetTable,
+)
 from irbkin.rapid.records import JointTarget, Record, RobTarget, ToolData, WobjData
 from irbkin.records import (
     CatalogEntry,
@@ -89,6 +98,8 @@ __all__ = [
     "calc_targets",
     "catalog",
     "catalog_entry",
+    "check",
+    "check_codes",
     "decode",
     "dump",
     "instruction_set",
@@ -1257,6 +1268,42 @@ def calc_targets(
         InvalidPoseError, RapidError, InvalidModelError: As `calc_joint_t`, of the tool and the work
             object.
     """
+
+def check(
+    robot: Robot,
+    module: Module,
+    *,
+    codes: Collection[str] | None = None,
+    max_velocity: npt.ArrayLike | None = None,
+    step: float = 0.005,
+    turn: float | None = None,
+) -> tuple[Diagnostic, ...]:
+    """Check every move of a module, of all routines.
+
+    A branch or a loop is checked from where the robot is before it. Behind one that moves, behind
+    a label and in a handler, the next move is checked as a target only.
+
+    Args:
+        robot: The arm. Work objects are given in the world, in which the robot's base is.
+        module: Module.
+        codes: The codes that are wanted, such as "C201"; without it all.
+        max_velocity: Limits [rad/s], a number or shape (6,); without it the robot's own. Without
+            either no joint is found to be too fast.
+        step: Largest distance of the tool between two samples of a MoveL or MoveC [m].
+        turn: Largest turn of the tool between two samples [rad]; 5 deg without it.
+
+    Returns:
+        A tuple of `Diagnostic`, in the order of the text.
+
+    Raises:
+        RapidError: A code that does not exist.
+        InvalidMotionError: A limit or a step that is not positive and finite, or more than ten
+            million samples.
+        InvalidModelError: The arm has no spherical wrist, so no confdata.
+    """
+
+def check_codes() -> list[tuple[str, str, bool]]:
+    """Every code of a check, with its name and whether it is shown unless codes are selected."""
 
 def motion(
     robot: Robot,

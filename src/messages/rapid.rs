@@ -199,7 +199,7 @@ fn findings() -> Vec<Row> {
     let one = Kind::NotRead(NotRead::Motion { name: "TriggL".into() });
     let mut all = rows! { Finding;
         Finding { .. } =>
-            Finding { move_index: 3, line: 12, what: "TriggL p10,v100;".into(), kind: one },
+            Finding { move_index: 3, line: 12, column: 9, what: "TriggL p10,v100;".into(), kind: one },
             "every finding begins with its line and its instruction", "see below";
     };
     let singularity =

@@ -41,6 +41,7 @@ package_object!(move_class, "irbkin.rapid.program", "Move");
 package_object!(motion_move_class, "irbkin.rapid.program", "MotionMove");
 package_object!(finding_class, "irbkin.rapid.program", "Finding");
 package_object!(motion_settings_class, "irbkin.rapid.program", "MotionSettings");
+package_object!(diagnostic_class, "irbkin.rapid.program", "Diagnostic");
 package_object!(skipped_class, "irbkin.rapid.program", "Skipped");
 package_object!(target_table_class, "irbkin.rapid.program", "TargetTable");
 package_object!(kind_class, "irbkin.records", "SingularityKind");

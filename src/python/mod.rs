@@ -122,6 +122,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(rapid::calc_targets, module)?)?;
     module.add_class::<rapid::PyRoutineMotion>()?;
     module.add_function(wrap_pyfunction!(rapid::motion, module)?)?;
+    module.add_function(wrap_pyfunction!(rapid::check, module)?)?;
+    module.add_function(wrap_pyfunction!(rapid::check_codes, module)?)?;
     module.add_function(wrap_pyfunction!(rapid::restore_motion, module)?)?;
     let py = module.py();
     PySequence::register::<solution::PySolution>(py)?;

@@ -36,8 +36,10 @@
 //! 6. `module`: whole modules read, made, written, and rewritten in place.
 //! 7. `calc`: joint angles of targets and back, one by one and in tables.
 //! 8. `motion`: a routine as one motion, followed, timed and checked.
+//! 9. `check`: all moves of a module checked, with corrections of confdata.
 
 mod calc;
+mod check;
 mod data;
 mod expression;
 mod module;
@@ -51,6 +53,9 @@ mod text;
 pub use self::calc::problem::Problem;
 pub use self::calc::table::{Fallback, TableRow, calc_moves, calc_targets};
 pub use self::calc::target::{calc_joint_t, calc_joint_t_or_nearest, calc_rob_t, error_name};
+pub use self::check::checker::check;
+pub use self::check::code::Code;
+pub use self::check::diagnostic::{Diagnostic, Edit};
 pub use self::data::data_type::DataType;
 pub use self::data::module::{Content, Datum, Module, Routine, RoutineKind, Scope, Storage};
 pub use self::data::moves::{Argument, Move, MoveKind, MoveOption, Target};

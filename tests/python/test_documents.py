@@ -6,6 +6,8 @@ import contextlib
 import io
 import os
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -18,6 +20,12 @@ PAGES = [README, ROOT / "ARCHITECTURE.md", ROOT / "CONTRIBUTING.md", ROOT / "CHA
 BLOCK = re.compile(r"^```python\n(.*?)^```$(?:\n\n```text\n(.*?)^```$)?", re.MULTILINE | re.DOTALL)
 FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 RUN = [page for page in PAGES if BLOCK.search(page.read_text())]
+# Transcripts of a shell, and the files that they read: their names stand behind the fence.
+TRANSCRIBED = [ROOT / "docs" / "cli.md", ROOT / "docs" / "check.md"]
+SHELL = re.compile(
+    r"^```(?:console\n(?P<console>.*?)|\w+ (?P<file>[\w-]+\.\w+)\n(?P<content>.*?))^```$",
+    re.MULTILINE | re.DOTALL,
+)
 README_WORDS = 700
 LINE = 100
 
@@ -42,6 +50,42 @@ def test_the_readme_shows_what_its_blocks_print():
     assert len(blocks) >= 3
     for block, shown in blocks:
         assert shown or "print(" not in block, block
+
+
+def transcript(console, folder):
+    """The commands of a block with what they print."""
+    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    lines = []
+    for command in re.findall(r"^\$ (.*)$", console, re.MULTILINE):
+        done = subprocess.run(
+            ["bash", "-c", command],
+            cwd=folder,
+            env={**os.environ, "PATH": path},
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            timeout=60,
+        )
+        lines.append(f"$ {command}\n{done.stdout.decode()}")
+    return "".join(lines)
+
+
+@pytest.mark.parametrize("page", TRANSCRIBED, ids=lambda page: page.name)
+def test_the_transcripts_of_a_page_are_what_a_shell_prints(page, tmp_path):
+    pytest.importorskip("matplotlib", reason="a transcript draws")
+    text = page.read_text()
+
+    def printed(block):
+        if block["file"]:
+            (tmp_path / block["file"]).write_text(block["content"])
+            return block[0]
+        return f"```console\n{transcript(block['console'], tmp_path)}```"
+
+    own = SHELL.sub(printed, text)
+    assert own.count("\n$ ") >= 3
+    if os.environ.get("IRBKIN_WRITE") == "1":
+        page.write_text(own)
+    assert text == own, "IRBKIN_WRITE=1 pytest tests/python/test_documents.py writes it"
 
 
 def words(text):

@@ -27,6 +27,7 @@ from irbkin._core import (
     calc_moves,
     calc_rob_t,
     calc_targets,
+    check,
     motion,
 )
 from irbkin.errors import RapidError
@@ -34,6 +35,7 @@ from irbkin.rapid.plans import plan_module, plan_targets
 from irbkin.rapid.program import (
     Argument,
     Declaration,
+    Diagnostic,
     Finding,
     MotionMove,
     MotionSettings,
@@ -55,6 +57,7 @@ from irbkin.rapid.records import (
 __all__ = [
     "Argument",
     "Declaration",
+    "Diagnostic",
     "Finding",
     "JointTarget",
     "LoadData",
@@ -75,6 +78,7 @@ __all__ = [
     "calc_moves",
     "calc_rob_t",
     "calc_targets",
+    "check",
     "dump",
     "load",
     "motion",

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Argument",
     "Declaration",
+    "Diagnostic",
     "Finding",
     "MotionMove",
     "MotionSettings",
@@ -167,6 +168,8 @@ class Finding(NamedTuple):
     """
     line: int
     """Line of the instruction."""
+    column: int
+    """Column of the instruction, from 1."""
     joint: int | None
     """The joint that it is about, from 1."""
     value: float | None
@@ -177,6 +180,27 @@ class Finding(NamedTuple):
     """What the value must not exceed; of a singularity, what it must not be below."""
     message: str
     """Line, move and what is wrong, in words."""
+
+
+class Diagnostic(NamedTuple):
+    """Something that is wrong at a place of a module; docs/check.md has the codes."""
+
+    code: str
+    """A letter for the group and three digits, such as "C201"."""
+    name: str
+    """The code in words, such as "wrong-confdata"."""
+    line: int
+    """Line of the instruction, from 1."""
+    column: int
+    """Column of the instruction, from 1."""
+    routine: str | None
+    """The routine that it is in."""
+    message: str
+    """What is wrong, in one line."""
+    edits: tuple[tuple[int, int, str], ...]
+    """What corrects it: first byte and end in `Module.source` as UTF-8, and the text that takes
+    their place. Empty where nothing does.
+    """
 
 
 class Skipped(NamedTuple):

@@ -1,5 +1,6 @@
 //! `irbkin.rapid`: modules read and written, `CalcJointT` and `CalcRobT`.
 
+mod checks;
 mod module;
 mod records;
 mod routine_motion;
@@ -8,6 +9,7 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
 
+pub(super) use self::checks::{check, check_codes};
 pub(super) use self::module::RapidModule;
 use self::records::{
     Given, joint_target, read_content, read_joint_target, read_rob_target, read_tool, read_wobj,

@@ -23,9 +23,9 @@ use crate::rapid::{
 #[pyclass(name = "Module", module = "irbkin.rapid", frozen, weakref)]
 pub(crate) struct RapidModule {
     pub(super) module: Module,
-    source: String,
+    pub(super) source: String,
     /// The modules that names were looked for in.
-    context: Vec<Py<Self>>,
+    pub(super) context: Vec<Py<Self>>,
     data: PyOnceLock<Py<PyDict>>,
     moves: PyOnceLock<Py<PyTuple>>,
 }
@@ -342,7 +342,7 @@ fn motion_settings(py: Python<'_>, settings: MotionSettings) -> PyResult<Bound<'
 }
 
 /// Names that are spelled like another one, the closest first.
-fn close_names<'a>(wanted: &str, known: &[&'a str]) -> Vec<&'a str> {
+pub(super) fn close_names<'a>(wanted: &str, known: &[&'a str]) -> Vec<&'a str> {
     /// Share of the letters that must be right [1].
     const LEAST_SIMILARITY: f64 = 0.6;
     const MOST_CLOSE: usize = 4;

@@ -79,18 +79,25 @@ pub(crate) fn motion(
     turn: Option<f64>,
 ) -> PyResult<PyRoutineMotion> {
     let start = start.map(read_start).transpose()?;
-    let limits = |given: Option<&Bound<'_, PyAny>>, field| match given {
-        None => Ok::<_, PyErr>(None),
-        Some(_) => Ok(read_each(given, field, 6, 0.0)?.vector(6).try_into().ok()),
-    };
     let options = MotionOptions {
         start,
-        max_velocity: limits(max_velocity, "max_velocity")?,
-        max_acceleration: limits(max_acceleration, "max_acceleration")?,
+        max_velocity: read_limits(max_velocity, "max_velocity")?,
+        max_acceleration: read_limits(max_acceleration, "max_acceleration")?,
         step,
         turn: turn.unwrap_or(MotionOptions::default().turn),
     };
     made(robot, module, routine, options)
+}
+
+/// A limit of each joint, if it is given.
+pub(super) fn read_limits(
+    given: Option<&Bound<'_, PyAny>>,
+    field: &'static str,
+) -> PyResult<Option<[f64; 6]>> {
+    match given {
+        None => Ok(None),
+        Some(_) => Ok(read_each(given, field, 6, 0.0)?.vector(6).try_into().ok()),
+    }
 }
 
 /// Joint angles [rad], or those of a JointTarget.
@@ -295,6 +302,7 @@ fn finding_record<'py>(py: Python<'py>, finding: &Finding) -> PyResult<Bound<'py
         finding.kind.name(),
         finding.move_index,
         finding.line,
+        finding.column,
         finding.kind.joint(),
         figures.map(|[value, _]| value),
         figures.map(|[_, bound]| bound),

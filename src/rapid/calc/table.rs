@@ -120,11 +120,11 @@ pub fn calc_targets(
 
 /// The frames of a move.
 pub(in crate::rapid) fn frames_of(robot: &Robot<6>, step: &Move) -> Result<Frames, Problem> {
-    let Argument { text, value } = &step.tool;
+    let Argument { text, value, .. } = &step.tool;
     let tool = value
         .as_ref()
         .map_err(|reason| Problem::Tool { text: text.clone(), reason: reason.clone() })?;
-    let wobj = step.wobj.as_ref().map(|Argument { text, value }| {
+    let wobj = step.wobj.as_ref().map(|Argument { text, value, .. }| {
         value
             .as_ref()
             .map_err(|reason| Problem::WorkObject { text: text.clone(), reason: reason.clone() })

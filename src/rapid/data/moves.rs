@@ -1,5 +1,7 @@
 //! Move instructions.
 
+use core::ops::Range;
+
 use alloc::string::String;
 use alloc::vec::Vec;
 
@@ -51,6 +53,8 @@ impl MoveKind {
 pub struct Argument<T> {
     /// Source text.
     pub text: String,
+    /// Bytes of it in the text of the module; empty if it was not read from a text.
+    pub span: Range<usize>,
     /// The value, or the reason why it is unknown.
     pub value: Result<T, Reason>,
 }
@@ -122,6 +126,13 @@ impl Move {
     /// Clear its line and column, as for a move that was not read from a text.
     pub(crate) fn clear_lines(&mut self) {
         (self.line, self.column, self.displaced) = (0, 0, self.displaced.map(|_| 0));
+        self.target.span = 0..0;
+        self.tool.span = 0..0;
+        let optional = [
+            self.via.as_mut().map(|via| &mut via.span),
+            self.wobj.as_mut().map(|wobj| &mut wobj.span),
+        ];
+        optional.into_iter().flatten().for_each(|span| *span = 0..0);
         let reasons = [
             self.via.as_mut().and_then(|via| via.value.as_mut().err()),
             self.target.value.as_mut().err(),

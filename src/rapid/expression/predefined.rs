@@ -1,6 +1,11 @@
 //! RAPID's own data: tool0, wobj0, load0, speeds and zones.
 
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
 use crate::paths::zone::PREDEFINED as ZONES;
+use crate::rapid::data::data_type::DataType;
 use crate::rapid::data::parts::Part;
 use crate::rapid::data::records::{LoadData, SpeedData, ToolData, WobjData, ZoneData};
 
@@ -78,6 +83,18 @@ const fn zone(index: usize) -> ZoneData {
     }
 }
 
+/// The names of RAPID's own data of a type.
+pub(crate) fn predefined_names(data_type: DataType) -> Vec<String> {
+    match data_type {
+        DataType::ToolData => Vec::from(["tool0".to_string()]),
+        DataType::WobjData => Vec::from(["wobj0".to_string()]),
+        DataType::LoadData => Vec::from(["load0".to_string()]),
+        DataType::SpeedData => SPEEDS.iter().map(|(digits, _)| format!("v{digits}")).collect(),
+        DataType::ZoneData => ZONES.iter().map(|(name, ..)| (*name).to_string()).collect(),
+        _ => Vec::new(),
+    }
+}
+
 /// The datum of RAPID's own with a name in lower case.
 pub(crate) fn predefined(lower: &str) -> Option<Part<'static>> {
     match lower.as_bytes().first()? {
@@ -99,8 +116,6 @@ pub(crate) fn predefined(lower: &str) -> Option<Part<'static>> {
 
 #[cfg(test)]
 mod tests {
-    use std::format;
-
     use super::*;
 
     #[test]

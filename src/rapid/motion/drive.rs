@@ -27,13 +27,13 @@ const LEAST_STEPS: usize = 4;
 
 /// What became of a move.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Made {
+pub(in crate::rapid) struct Made {
     /// The joints at its target, if it is met or passed.
-    pub(super) q: Option<[f64; 6]>,
+    pub(in crate::rapid) q: Option<[f64; 6]>,
     /// Whether it is made as it is programmed.
-    pub(super) as_programmed: bool,
+    pub(in crate::rapid) as_programmed: bool,
     /// Whether the corner at its end is rounded.
-    pub(super) is_rounded: bool,
+    pub(in crate::rapid) is_rounded: bool,
 }
 
 /// The next line or arc, with the corner that leads to it.
@@ -122,7 +122,9 @@ impl<'a, 'm> Drive<'a, 'm> {
             }
         }
         let is_replaced = goal.is_cartesian() || is_lost;
-        let conf = if goal.is_cartesian() { Conf::Quiet } else { goal.conf() };
+        // What is wrong with the way is found already.
+        let is_broken = goal.is_cartesian() && !goal.from_unknown;
+        let conf = if is_broken { Conf::Quiet } else { goal.conf() };
         let Some(to) = self.solved(index, Some(&here.q), conf) else {
             (self.here, self.is_lost) = (Some(here), true);
             return Ok(Made::default());

@@ -19,6 +19,8 @@ pub struct Finding {
     pub move_index: usize,
     /// Line of the instruction.
     pub line: usize,
+    /// Column of the instruction.
+    pub column: usize,
     /// The words of the move, such as `MoveL p10`.
     pub what: String,
     /// What is wrong.

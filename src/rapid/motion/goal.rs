@@ -14,52 +14,65 @@ use crate::rapid::calc::target::target_pose;
 use crate::rapid::data::moves::{Argument, Move, MoveKind, Target};
 use crate::rapid::data::records::RobTarget;
 use crate::rapid::data::settings::CirPathMode;
+use crate::rapid::data::skipped::Skipped;
 use crate::report::Configuration;
 
 /// The destination of a move.
 #[derive(Clone, Copy)]
-pub(super) enum Place {
+pub(in crate::rapid) enum Place {
     /// The tool in the work object.
     Tool(Pose, Configuration),
     Joints([f64; 6]),
 }
 
 /// A move.
-pub(super) struct Goal<'m> {
-    pub(super) step: &'m Move,
+pub(in crate::rapid) struct Goal<'m> {
+    pub(in crate::rapid) step: &'m Move,
     /// Where it is known, with its tool and its work object.
-    pub(super) place: Option<Place>,
-    pub(super) frames: Frames,
+    pub(in crate::rapid) place: Option<Place>,
+    pub(in crate::rapid) frames: Frames,
     /// The point on the circle.
-    pub(super) via: Option<Pose>,
+    pub(in crate::rapid) via: Option<Pose>,
     /// The corner at its end; none if the target is met.
-    pub(super) zone: Option<Zone>,
+    pub(in crate::rapid) zone: Option<Zone>,
     /// Whether the robot stops at its end.
-    pub(super) stops: bool,
+    pub(in crate::rapid) stops: bool,
     /// Speed of the tool [m/s] and of its reorientation [rad/s]; infinite where they are unknown.
-    pub(super) speed: [f64; 2],
+    pub(in crate::rapid) speed: [f64; 2],
     /// The duration of `\T` [s].
-    pub(super) time: Option<f64>,
+    pub(in crate::rapid) time: Option<f64>,
     /// Whether something before it, which is not read, may have moved the robot.
-    pub(super) from_unknown: bool,
+    pub(in crate::rapid) from_unknown: bool,
 }
 
 impl Goal<'_> {
     /// Whether the tool goes on a line or an arc.
-    pub(super) fn is_cartesian(&self) -> bool {
+    pub(in crate::rapid) fn is_cartesian(&self) -> bool {
         matches!(self.step.kind, MoveKind::MoveL | MoveKind::MoveC)
     }
 }
 
 /// Collects findings.
-pub(super) struct Findings {
-    pub(super) all: Vec<Finding>,
+pub(in crate::rapid) struct Findings {
+    pub(in crate::rapid) all: Vec<Finding>,
 }
 
 impl Findings {
-    pub(super) fn add(&mut self, move_index: usize, step: &Move, kind: FindingKind) {
-        let (line, what) = (step.line, words(step));
-        self.all.push(Finding { move_index, line, what, kind });
+    pub(in crate::rapid) fn add(&mut self, move_index: usize, step: &Move, kind: FindingKind) {
+        let (line, column, what) = (step.line, step.column, words(step));
+        self.all.push(Finding { move_index, line, column, what, kind });
+    }
+
+    /// Something that is not read, before a move.
+    pub(in crate::rapid) fn not_read(
+        &mut self,
+        move_index: usize,
+        skipped: &Skipped,
+        kind: FindingKind,
+    ) {
+        let Skipped { line, column, text, .. } = skipped;
+        let (line, column, what) = (*line, *column, text.clone());
+        self.all.push(Finding { move_index, line, column, what, kind });
     }
 }
 
@@ -70,7 +83,7 @@ fn words(step: &Move) -> String {
 
 impl<'m> Goal<'m> {
     /// A move; what is wrong with it is found.
-    pub(super) fn new(
+    pub(in crate::rapid) fn new(
         robot: &Robot<6>,
         step: &'m Move,
         move_index: usize,

@@ -15,7 +15,7 @@ use crate::rapid::calc::problem::Problem;
 
 /// Whether a target must be met with its own configuration.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Conf {
+pub(in crate::rapid) enum Conf {
     /// It must; where no solution has it, that is a finding and the nearest one is taken.
     On,
     /// The nearest one is taken.
@@ -95,7 +95,7 @@ pub(super) fn mixed(from: &[f64; 6], to: &[f64; 6], part: f64) -> [f64; 6] {
 
 impl Goal<'_> {
     /// How its target is met by a joint move.
-    pub(super) fn conf(&self) -> Conf {
+    pub(in crate::rapid) fn conf(&self) -> Conf {
         let settings = self.step.settings;
         let on = if self.is_cartesian() { settings.conf_l } else { settings.conf_j };
         if on { Conf::On } else { Conf::Off }

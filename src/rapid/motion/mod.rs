@@ -1,13 +1,13 @@
 //! A routine as one motion: its moves in order, followed, timed and checked (docs/motion.md).
 
 mod corner;
-mod drive;
+pub(super) mod drive;
 pub(super) mod finding;
-mod goal;
-mod joints;
+pub(super) mod goal;
+pub(super) mod joints;
 pub(super) mod options;
 mod pace;
 pub(super) mod routine;
-mod samples;
-mod sequence;
+pub(super) mod samples;
+pub(super) mod sequence;
 mod write;

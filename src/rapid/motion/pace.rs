@@ -34,10 +34,7 @@ impl Pace<'_, '_> {
         mut self,
         max_acceleration: Option<&[f64; 6]>,
     ) -> Result<(Trajectory, Vec<f64>), Error> {
-        let mut least = vec![0.0; self.samples.q.len() - 1];
-        for index in 0..self.goals.len() {
-            self.add_times(index, &mut least);
-        }
+        let least = self.least_times();
         let timed = if let Some(max_acceleration) = max_acceleration {
             self.between_rests(&least, max_acceleration)?
         } else {
@@ -55,6 +52,15 @@ impl Pace<'_, '_> {
         }
         self.check_times(&timed.1);
         Ok(timed)
+    }
+
+    /// The times of the intervals between samples [s]; joints that are too fast are found.
+    pub(super) fn least_times(&mut self) -> Vec<f64> {
+        let mut least = vec![0.0; self.samples.q.len().saturating_sub(1)];
+        for index in 0..self.goals.len() {
+            self.add_times(index, &mut least);
+        }
+        least
     }
 
     /// The intervals of a move, by the samples that they end at.

@@ -85,12 +85,12 @@ pub fn motion(
     options: &MotionOptions,
 ) -> Result<RoutineMotion, Error> {
     robot.counted()?;
-    let max_velocity = checked(robot, options)?;
+    check(options)?;
+    let max_velocity = velocities(robot, options)?.ok_or(MotionFault::NoMaxVelocity)?;
     let (routine, steps) = sequence(module, routine)?;
-    let mut findings = Findings { all: Vec::new() };
-    let (goals, indices) = goals(robot, &steps, &mut findings);
     let flange = with_flange(robot)?;
-    let (samples, made) = Drive::through([robot, &flange], &goals, options, &mut findings)?;
+    let Followed { goals, indices, samples, made, mut findings } =
+        Followed::new([robot, &flange], &steps, options)?;
     if samples.q.is_empty() || made.iter().all(|made| made.q.is_none()) {
         let finding = findings.all.first().map(Finding::to_string).unwrap_or_default();
         return Err(RapidFault::nowhere(RapidFaultKind::Routine(RoutineFault::NoMotion {
@@ -116,8 +116,38 @@ pub fn motion(
     Ok(RoutineMotion { routine, trajectory, t, q: samples.q, move_index, moves, findings })
 }
 
-/// Check the options; the velocities of the joints.
-fn checked(robot: &Robot<6>, options: &MotionOptions) -> Result<[f64; 6], Error> {
+/// Steps that follow one another, gone through.
+pub(in crate::rapid) struct Followed<'m> {
+    pub(in crate::rapid) goals: Vec<Goal<'m>>,
+    /// The index of each goal in [`Module::moves`].
+    pub(in crate::rapid) indices: Vec<usize>,
+    samples: Samples,
+    pub(in crate::rapid) made: Vec<Made>,
+    pub(in crate::rapid) findings: Findings,
+}
+
+impl<'m> Followed<'m> {
+    /// The second robot is the first one with the flange as its tool.
+    pub(in crate::rapid) fn new(
+        robots: [&Robot<6>; 2],
+        steps: &[Step<'m>],
+        options: &MotionOptions,
+    ) -> Result<Self, Error> {
+        let mut findings = Findings { all: Vec::new() };
+        let (goals, indices) = goals(robots[0], steps, &mut findings);
+        let (samples, made) = Drive::through(robots, &goals, options, &mut findings)?;
+        Ok(Self { goals, indices, samples, made, findings })
+    }
+
+    /// Find the joints that are too fast at the programmed speeds.
+    pub(in crate::rapid) fn check_speeds(&mut self, max_velocity: &[f64; 6]) {
+        let Self { goals, samples, made, findings, .. } = self;
+        Pace { samples, goals, made, max_velocity, findings }.least_times();
+    }
+}
+
+/// Check the options.
+pub(in crate::rapid) fn check(options: &MotionOptions) -> Result<(), Error> {
     if let Some(start) = &options.start {
         check_seed("start", start)?;
     }
@@ -127,20 +157,33 @@ fn checked(robot: &Robot<6>, options: &MotionOptions) -> Result<[f64; 6], Error>
             return Err(MotionFault::NotPositive { field, index: None, value }.into());
         }
     }
-    let max_velocity = options.max_velocity.or(robot.max_velocity().copied());
-    let max_velocity = max_velocity.ok_or(MotionFault::NoMaxVelocity)?;
-    let given =
-        [("max_velocity", Some(max_velocity)), ("max_acceleration", options.max_acceleration)];
-    for (field, limits) in given {
-        let is_wrong = |limit: &f64| !(*limit > 0.0 && limit.is_finite());
-        if let Some(limits) = limits
-            && let Some(index) = limits.iter().position(is_wrong)
-        {
-            let (index, value) = (Some(index), limits[index]);
-            return Err(MotionFault::NotPositive { field, index, value }.into());
-        }
+    for (field, limits) in
+        [("max_velocity", options.max_velocity), ("max_acceleration", options.max_acceleration)]
+    {
+        check_limits(field, limits.as_ref())?;
     }
+    Ok(())
+}
+
+/// The velocities of the joints [rad/s], those of the robot unless the options have them.
+pub(in crate::rapid) fn velocities(
+    robot: &Robot<6>,
+    options: &MotionOptions,
+) -> Result<Option<[f64; 6]>, Error> {
+    let max_velocity = options.max_velocity.or(robot.max_velocity().copied());
+    check_limits("max_velocity", max_velocity.as_ref())?;
     Ok(max_velocity)
+}
+
+fn check_limits(field: &'static str, limits: Option<&[f64; 6]>) -> Result<(), Error> {
+    let is_wrong = |limit: &f64| !(*limit > 0.0 && limit.is_finite());
+    if let Some(limits) = limits
+        && let Some(index) = limits.iter().position(is_wrong)
+    {
+        let (index, value) = (Some(index), limits[index]);
+        return Err(MotionFault::NotPositive { field, index, value }.into());
+    }
+    Ok(())
 }
 
 /// The moves with their indices in the module; what is not read is found.
@@ -161,14 +204,12 @@ fn goals<'m>(
             }
             Step::NotRead(skipped) => {
                 let kind = FindingKind::NotRead(skipped.what.clone());
-                let (line, what) = (skipped.line, skipped.text.clone());
-                findings.all.push(Finding { move_index, line, what, kind });
+                findings.not_read(move_index, skipped, kind);
                 from_unknown = true;
             }
             Step::Call(skipped, name) => {
                 let kind = FindingKind::Call { name: (*name).to_string() };
-                let (line, what) = (skipped.line, skipped.text.clone());
-                findings.all.push(Finding { move_index, line, what, kind });
+                findings.not_read(move_index, skipped, kind);
                 from_unknown = true;
             }
         }

@@ -9,28 +9,28 @@ use core::ops::Range;
 use crate::kinematics::Pose;
 
 /// The way of the tool between two samples: a length [m] and an angle [rad].
-pub(super) type Way = [f64; 2];
+pub(in crate::rapid) type Way = [f64; 2];
 
 /// Samples in order, grouped by moves.
 #[derive(Default)]
-pub(super) struct Samples {
-    pub(super) q: Vec<[f64; 6]>,
+pub(in crate::rapid) struct Samples {
+    pub(in crate::rapid) q: Vec<[f64; 6]>,
     /// The way from the sample before.
-    pub(super) ways: Vec<Way>,
+    pub(in crate::rapid) ways: Vec<Way>,
     /// How many samples there are after each move.
-    pub(super) ends: Vec<usize>,
+    pub(in crate::rapid) ends: Vec<usize>,
     /// How many there are before the first move: 1 if a start is given.
-    pub(super) first: usize,
+    pub(in crate::rapid) first: usize,
 }
 
 impl Samples {
-    pub(super) fn push(&mut self, q: [f64; 6], way: Way) {
+    pub(in crate::rapid) fn push(&mut self, q: [f64; 6], way: Way) {
         self.q.push(q);
         self.ways.push(way);
     }
 
     /// The samples of a move.
-    pub(super) fn own(&self, index: usize) -> Range<usize> {
+    pub(in crate::rapid) fn own(&self, index: usize) -> Range<usize> {
         let begin = index.checked_sub(1).map_or(self.first, |before| self.ends[before]);
         begin..self.ends[index]
     }
@@ -38,25 +38,25 @@ impl Samples {
 
 /// The joints of a move after those that it begins with, and the way of the tool to each.
 #[derive(Default)]
-pub(super) struct Path {
-    pub(super) q: Vec<[f64; 6]>,
-    pub(super) ways: Vec<Way>,
+pub(in crate::rapid) struct Path {
+    pub(in crate::rapid) q: Vec<[f64; 6]>,
+    pub(in crate::rapid) ways: Vec<Way>,
 }
 
 impl Path {
-    pub(super) fn push(&mut self, q: [f64; 6], way: Way) {
+    pub(in crate::rapid) fn push(&mut self, q: [f64; 6], way: Way) {
         self.q.push(q);
         self.ways.push(way);
     }
 
     /// The length of the tool's way [m].
-    pub(super) fn length(&self) -> f64 {
+    pub(in crate::rapid) fn length(&self) -> f64 {
         self.ways.iter().map(|way| way[0]).sum()
     }
 }
 
 /// The way of the tool from one pose to another.
-pub(super) fn way(from: &Pose, to: &Pose) -> Way {
+pub(in crate::rapid) fn way(from: &Pose, to: &Pose) -> Way {
     let length = (to.translation.vector - from.translation.vector).norm();
     // |R1 - R0| in the Frobenius norm is 2 sqrt(2) sin(angle / 2).
     let apart = (to.rotation.matrix() - from.rotation.matrix()).norm();
@@ -65,7 +65,11 @@ pub(super) fn way(from: &Pose, to: &Pose) -> Way {
 }
 
 /// The joint (from 1) that takes longest between two samples at its limit, and how long [s].
-pub(super) fn slowest(from: &[f64; 6], to: &[f64; 6], max_velocity: &[f64; 6]) -> (usize, f64) {
+pub(in crate::rapid) fn slowest(
+    from: &[f64; 6],
+    to: &[f64; 6],
+    max_velocity: &[f64; 6],
+) -> (usize, f64) {
     let time = |joint: usize| (to[joint] - from[joint]).abs() / max_velocity[joint];
     let (mut slowest, mut longest) = (0, time(0));
     for joint in 1..6 {

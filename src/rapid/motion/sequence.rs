@@ -11,10 +11,11 @@ use crate::rapid::data::settings::MotionSettings;
 use crate::rapid::data::skipped::{NotRead, Skipped};
 
 /// The words that leave a routine or jump inside it.
-const LEAVING: [&str; 7] = ["RETURN", "EXIT", "ExitCycle", "RAISE", "RETRY", "TRYNEXT", "Stop"];
+pub(in crate::rapid) const LEAVING: [&str; 7] =
+    ["RETURN", "EXIT", "ExitCycle", "RAISE", "RETRY", "TRYNEXT", "Stop"];
 
 /// A step of a routine.
-pub(super) enum Step<'m> {
+pub(in crate::rapid) enum Step<'m> {
     /// A move, by its index in the module.
     Move(usize, &'m Move),
     /// Something that may move the robot, or set how it moves, and is not read.
@@ -24,7 +25,8 @@ pub(super) enum Step<'m> {
 }
 
 /// An item of a routine, for its place in the text.
-enum Item<'m> {
+#[derive(Clone, Copy)]
+pub(in crate::rapid) enum Item<'m> {
     Move(usize, &'m Move),
     Skipped(&'m Skipped),
     Setting,
@@ -73,11 +75,19 @@ fn chosen(module: &Module, wanted: Option<&str>) -> Result<Option<String>, Error
 
 /// The items of a routine in the order of the text.
 fn items<'m>(module: &'m Module, name: Option<&str>) -> Vec<(usize, usize, Item<'m>)> {
-    let is_here = |routine: &Option<String>| match (routine.as_deref(), name) {
+    items_where(module, |routine| match (routine, name) {
         (Some(routine), Some(name)) => routine.eq_ignore_ascii_case(name),
         (None, None) => true,
         _ => false,
-    };
+    })
+}
+
+/// The items of the routines that are wanted, in the order of the text, with lines and columns.
+pub(in crate::rapid) fn items_where(
+    module: &Module,
+    is_wanted: impl Fn(Option<&str>) -> bool,
+) -> Vec<(usize, usize, Item<'_>)> {
+    let is_here = |routine: &Option<String>| is_wanted(routine.as_deref());
     let moves = module.moves().iter().enumerate();
     let moves = moves.filter(|(_, step)| is_here(&step.routine));
     let moves = moves.map(|(index, step)| (step.line, step.column, Item::Move(index, step)));
@@ -179,17 +189,17 @@ impl<'m> Walk<'m> {
     }
 }
 
-fn is_one_of(name: &str, names: &[&str]) -> bool {
+pub(in crate::rapid) fn is_one_of(name: &str, names: &[&str]) -> bool {
     names.iter().any(|own| own.eq_ignore_ascii_case(name))
 }
 
-fn ends_with_then(text: &str) -> bool {
+pub(in crate::rapid) fn ends_with_then(text: &str) -> bool {
     let start = text.len().saturating_sub("THEN".len());
     text.get(start..).is_some_and(|end| end.eq_ignore_ascii_case("THEN"))
 }
 
 /// The names in lower case of routines with moves, or with calls or instructions that may move.
-fn moving(module: &Module) -> BTreeSet<String> {
+pub(in crate::rapid) fn moving(module: &Module) -> BTreeSet<String> {
     let of_moves = module.moves().iter().filter_map(|step| step.routine.as_deref());
     let mut moving: BTreeSet<&str> = of_moves.collect();
     let routines: BTreeSet<String> =

@@ -45,6 +45,7 @@ impl RoutineMotion {
                 via: None,
                 target: Argument {
                     text: target.to_string(),
+                    span: 0..0,
                     value: Ok(Target::JointTarget(target)),
                 },
                 speed: numbers(&step.speed, step.speed_data.as_ref().ok()),
@@ -99,14 +100,14 @@ impl Data {
         let value = value.map(|tool| Value::ToolData(*tool));
         let is_own = tool.value == Ok(ToolData::TOOL0);
         let text = if is_own { "tool0".to_string() } else { self.name("tool", &tool.text, value) };
-        Argument { text, value: tool.value.clone() }
+        Argument { text, span: 0..0, value: tool.value.clone() }
     }
 
     fn wobj(&mut self, wobj: &Argument<WobjData>) -> Argument<WobjData> {
         let value = wobj.value.as_ref().ok().map(|wobj| Value::WobjData(wobj.clone()));
         let is_own = wobj.value == Ok(WobjData::WOBJ0);
         let text = if is_own { "wobj0".to_string() } else { self.name("wobj", &wobj.text, value) };
-        Argument { text, value: wobj.value.clone() }
+        Argument { text, span: 0..0, value: wobj.value.clone() }
     }
 
     /// The name of a datum, which is declared with its value.

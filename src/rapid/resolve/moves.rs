@@ -25,7 +25,8 @@ impl<'a> Resolver<'a> {
         expression: &Expression<'a>,
     ) -> Result<Argument<T>, RapidFault> {
         let value = known(self.evaluator(step, role).record(expression))?;
-        Ok(Argument { text: self.source(expression), value })
+        let span = expression.start..expression.end;
+        Ok(Argument { text: self.source(expression), span, value })
     }
 
     /// What evaluates an argument of a move.
@@ -95,11 +96,11 @@ impl<'a> Resolver<'a> {
         };
         let [target, speed, zone, tool] = rest else { return Ok(None) };
         let target = if step.kind == MoveKind::MoveAbsJ {
-            let Argument { text, value } = self.argument(step, "target", target)?;
-            Argument { text, value: value.map(Target::JointTarget) }
+            let Argument { text, span, value } = self.argument(step, "target", target)?;
+            Argument { text, span, value: value.map(Target::JointTarget) }
         } else {
-            let Argument { text, value } = self.argument(step, "target", target)?;
-            Argument { text, value: value.map(Target::RobTarget) }
+            let Argument { text, span, value } = self.argument(step, "target", target)?;
+            Argument { text, span, value: value.map(Target::RobTarget) }
         };
         let (speed_data, zone_data) = self.speed_and_zone(step, [speed, zone])?;
         let time = self.option(step, "\\T", step.overrides.time.as_ref())?;

@@ -2,6 +2,7 @@
 
 mod assigned;
 mod build;
+mod check;
 mod direct;
 mod functions;
 mod motion;

@@ -1,0 +1,149 @@
+"""Arguments that verbs share: the arm, its tool and base, poses, formats."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import re
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NoReturn
+
+from irbkin.cli.errors import CommandError
+
+if TYPE_CHECKING:
+    from irbkin import Robot
+    from irbkin._arrays import Floats
+
+NUMBER = re.compile(r"-(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
+
+
+class Parser:
+    """The arguments of a verb."""
+
+    def __init__(self, verb: str, title: str, words: str, examples: str) -> None:
+        self.verb = verb
+        self.parser = _OneLine(
+            prog=f"irbkin {verb}",
+            description=f"{title[0].upper()}{title[1:]}.\n\n{words}",
+            epilog=f"examples:\n{examples}",
+            formatter_class=_Help,
+            allow_abbrev=False,
+        )
+        self.add = self.parser.add_argument
+
+    def parsed(self, given: Sequence[str]) -> argparse.Namespace:
+        """The arguments; a negative number is no option, with an exponent either."""
+        return self.parser.parse_args([f" {it}" if NUMBER.fullmatch(it) else it for it in given])
+
+    def add_robot(self) -> None:
+        """The arm, and what it carries."""
+        self.add("robot", metavar="ROBOT", help="name in the catalog, or a .urdf file")
+        self.add_frames()
+
+    def add_frames(self) -> None:
+        """The tool and the base."""
+        for name, frame in (("tool", "TCP in the flange"), ("base", "base in the world")):
+            self.add(
+                f"--{name}",
+                nargs="+",
+                type=float,
+                metavar="N",
+                help=f"{frame}: x y z [mm], then w x y z or rz ry rx [deg] if turned",
+            )
+
+    def add_rows(self, what: str, *, optional: bool = True) -> None:
+        """A file of rows."""
+        self.add(
+            "file",
+            metavar="FILE",
+            nargs="?" if optional else None,
+            help=f"{what}: a CSV or .npy file, - for stdin",
+        )
+
+    def add_formats(self, array: str) -> None:
+        """How rows are written."""
+        formats = self.parser.add_mutually_exclusive_group()
+        formats.add_argument("--json", action="store_true", help="write JSON")
+        formats.add_argument("--csv", action="store_true", help="write CSV")
+        self.add(
+            "-o",
+            "--output",
+            metavar="FILE",
+            help=f"write to a file, its format by its ending: .csv, .json, .npy ({array}), "
+            "else a table",
+        )
+
+
+def whole(text: str) -> int:
+    """A whole number of 32 bits, as confdata has."""
+    number = int(text)
+    if abs(number) >= 2**31:
+        raise argparse.ArgumentTypeError(f"{text.strip()} is no number of a confdata")
+    return number
+
+
+class _Help(argparse.RawDescriptionHelpFormatter):
+    """Help of one width: asking for that of the terminal would import what nothing else needs."""
+
+    def __init__(self, prog: str) -> None:
+        super().__init__(prog, width=96)
+
+
+class _OneLine(argparse.ArgumentParser):
+    """A parser whose errors are one line."""
+
+    def error(self, message: str) -> NoReturn:
+        """End the command."""
+        raise CommandError(f"{message} ({self.prog} --help)")
+
+
+def read_robot(arguments: argparse.Namespace) -> Robot:
+    """The arm of the arguments, with its tool and base."""
+    from irbkin import Robot
+
+    name: str = arguments.robot.strip()
+    robot = Robot.from_urdf(name) if name.lower().endswith(".urdf") else Robot(name)
+    if arguments.base is not None:
+        robot = robot.with_base(frame(arguments.base, "--base"))
+    return robot if arguments.tool is None else robot.with_tool(frame(arguments.tool, "--tool"))
+
+
+def frame(numbers: Sequence[float], name: str) -> Floats:
+    """A frame of 3, 6 or 7 numbers, shape (4, 4) [m]."""
+    import numpy as np
+
+    from irbkin import pose
+
+    xyz = np.asarray(numbers[:3], dtype=float) / 1e3
+    turn = list(numbers[3:])
+    if len(numbers) == 3:
+        return pose(xyz)
+    if len(numbers) == 6:
+        return pose(xyz, euler_zyx=np.radians(turn))
+    if len(numbers) == 7:
+        return pose(xyz, wxyz=turn)
+    raise CommandError(
+        f"{name} takes 3 numbers (x y z [mm]), 6 (with rz ry rx [deg]) or 7 (with w x y z), "
+        f"got {len(numbers)}"
+    )
+
+
+def read_q7(arguments: argparse.Namespace, robot: Robot) -> float | None:
+    """The angle of joint 7 [rad], which the arm takes if it has seven joints."""
+    q7: float | None = arguments.q7
+    if robot.dof == 7 and q7 is None:
+        raise CommandError(f"{robot.name} has seven joints: give --q7, the angle of joint 7 [deg]")
+    if robot.dof != 7 and q7 is not None:
+        raise CommandError(f"--q7 is for arms of seven joints, {robot.name} has {robot.dof}")
+    return None if q7 is None else math.radians(q7)
+
+
+def joints(numbers: Sequence[float] | None, name: str, dof: int) -> Floats | None:
+    """Joint angles [deg] as an array [rad], shape (dof,)."""
+    import numpy as np
+
+    if numbers is None:
+        return None
+    if len(numbers) != dof:
+        raise CommandError(f"{name} takes {dof} angles [deg] of this arm, got {len(numbers)}")
+    return np.radians(numbers)

@@ -1,0 +1,115 @@
+"""`irbkin catalog`: the arms that are known by name."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from irbkin.cli.arguments import Parser
+from irbkin.cli.errors import FINE, CommandError
+
+if TYPE_CHECKING:
+    from irbkin import CatalogEntry
+
+HELP = """Without words all arms are listed; with words, those whose names contain them all. The
+name of one arm shows its joints: limits, speeds and where the figures are from."""
+EXAMPLES = """  irbkin catalog
+  irbkin catalog 2600
+  irbkin catalog "IRB 2600-12/1.65"
+  irbkin catalog --reach 2500 --payload 100
+  irbkin catalog --csv > arms.csv"""
+
+
+def add_arguments(parser: Parser) -> None:
+    """The arguments of the verb."""
+    parser.add("words", metavar="WORD", nargs="*", help="a part of a name, or a whole one")
+    parser.add("--reach", type=float, metavar="MM", help="reach at least [mm]")
+    parser.add("--payload", type=float, metavar="KG", help="payload at least [kg]")
+    parser.add_formats("limits of one arm, shape (n, 2), in radians")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Run the verb."""
+    import irbkin
+
+    words = [word.strip() for word in arguments.words]
+    name = " ".join(words)
+    reach = None if arguments.reach is None else arguments.reach / 1e3
+    try:
+        known = irbkin.catalog(reach=reach, payload=arguments.payload)
+    except ValueError as error:
+        raise CommandError(f"--{error}") from None
+    if name in irbkin.catalog():
+        _show_one(arguments, irbkin.catalog_entry(name))
+        return FINE
+    found = [it for it in known if all(word.lower() in it.lower() for word in words)]
+    if words and not found:
+        # It may be another spelling; if not, the error has the close names.
+        _show_one(arguments, irbkin.catalog_entry(name))
+        return FINE
+    _show_all(arguments, [irbkin.catalog_entry(it) for it in found])
+    return FINE
+
+
+def _show_all(arguments: argparse.Namespace, entries: list[CatalogEntry]) -> None:
+    from irbkin.cli.output import Column, table
+
+    if arguments.output and arguments.output.lower().endswith(".npy"):
+        raise CommandError("names are no array: -o FILE.npy takes one arm")
+    columns = (
+        Column("name", "", "<24s"),
+        Column("maker", "", "<16s"),
+        Column("joints", "", "d"),
+        Column("payload", "kg", "7.1f"),
+        Column("reach", "mm", "6.0f"),
+        Column("coupled", "", "<3s"),
+        Column("speeds", "", "<3s"),
+        Column("sources", "", "d"),
+    )
+    with table(arguments, columns, f"{len(entries)} arms") as rows:
+        rows.write(
+            [
+                [it.name for it in entries],
+                [it.maker for it in entries],
+                [it.dof for it in entries],
+                [_number(it.payload) for it in entries],
+                [_number(it.reach) * 1e3 for it in entries],
+                ["yes" if it.is_coupled else "" for it in entries],
+                ["" if it.max_velocity is None else "yes" for it in entries],
+                [it.sources for it in entries],
+            ]
+        )
+
+
+def _number(value: float | None) -> float:
+    return float("nan") if value is None else value
+
+
+def _show_one(arguments: argparse.Namespace, entry: CatalogEntry) -> None:
+    import numpy as np
+
+    from irbkin.cli.output import Column, table
+
+    columns = (
+        Column("joint", "", "<5s"),
+        Column("lower", "deg", "8.1f"),
+        Column("upper", "deg", "8.1f"),
+        Column("speed", "deg/s", "7.1f"),
+    )
+    limits = np.degrees(entry.limits)
+    speeds = np.full(entry.dof, np.nan)
+    if entry.max_velocity is not None:
+        speeds = np.degrees(entry.max_velocity)
+    facts: list[str] = [entry.maker]
+    if entry.payload is not None:
+        facts.append(f"payload {entry.payload:g} kg")
+    if entry.reach is not None:
+        facts.append(f"reach {entry.reach * 1e3:g} mm")
+    if entry.is_coupled:
+        facts.append("axes 2 and 3 coupled")
+    with table(arguments, columns, f"{entry.name}: {', '.join(facts)}") as rows:
+        names = [f"J{number + 1}" for number in range(entry.dof)]
+        rows.write([names, limits[:, 0], limits[:, 1], speeds], entry.limits)
+        for other in entry.aliases:
+            rows.note("alias", other, f"also {other}")
+        rows.note("provenance", entry.provenance, f"sources: {entry.provenance}")

@@ -1,0 +1,99 @@
+"""Exit codes, and what ends the command: one line on stderr, never a traceback."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from collections.abc import Callable
+from types import FrameType
+from typing import NoReturn
+
+from irbkin.errors import IrbkinError, UnreachableError
+
+FINE = 0
+FOUND = 1
+"""Something is wrong with what was checked, or cannot be reached."""
+WRONG = 2
+"""Wrong usage, or input that is broken."""
+INTERRUPTED = 128 + signal.SIGINT
+CLOSED_PIPE = 141
+"""What a shell gives a program that writes into a closed pipe."""
+
+
+class CommandError(Exception):
+    """What ends the command, with its exit code."""
+
+    def __init__(self, message: str, code: int = WRONG) -> None:
+        super().__init__(message)
+        self.code = code
+
+
+class _Terminated(BaseException):
+    """SIGTERM: files that are being written are removed on the way out."""
+
+
+def complain(message: object) -> None:
+    """Print a line on stderr."""
+    line = " ".join(str(message).split())
+    print(f"irbkin: {line}", file=sys.stderr)
+
+
+def guarded(run: Callable[[], int]) -> int:
+    """Run the command and make an exit code of whatever ends it."""
+    if hasattr(signal, "SIGTERM"):
+        signal.signal(signal.SIGTERM, _terminate)
+    try:
+        if sys.stdout is None:
+            raise CommandError("stdout is closed")
+        try:
+            return run()
+        finally:
+            # What was written stands before what is wrong.
+            sys.stdout.flush()
+    except CommandError as failure:
+        complain(failure)
+        return failure.code
+    except BrokenPipeError:
+        _give_up(sys.stdout)
+        return CLOSED_PIPE
+    except KeyboardInterrupt:
+        complain("interrupted")
+        return INTERRUPTED
+    except _Terminated:
+        return 128 + signal.SIGTERM
+    except UnreachableError as error:
+        complain(error)
+        return FOUND
+    except (IrbkinError, ImportError) as error:
+        complain(error)
+        return WRONG
+    except OSError as error:
+        complain(f"{error.filename}: {error.strerror}" if error.filename else error)
+        _give_up(sys.stdout)
+        return WRONG
+    except MemoryError:
+        complain("not enough memory: give the rows in parts, or as a stream")
+        return WRONG
+    except Exception as error:
+        if os.environ.get("IRBKIN_TRACEBACK"):
+            raise
+        complain(
+            f"internal error, please report it ({type(error).__name__}: {error}); "
+            "IRBKIN_TRACEBACK=1 shows where"
+        )
+        return WRONG
+
+
+def _terminate(number: int, frame: FrameType | None) -> NoReturn:
+    raise _Terminated
+
+
+def _give_up(stream: object) -> None:
+    """Write no more to a stream that nobody reads: Python would flush it at its end."""
+    try:
+        null = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(null, stream.fileno())  # type: ignore[attr-defined]
+        os.close(null)
+    except (OSError, ValueError, AttributeError):
+        pass

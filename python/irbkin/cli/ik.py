@@ -1,0 +1,182 @@
+"""`irbkin ik`: joint angles of poses."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from irbkin.cli.arguments import Parser, frame, joints, read_q7, read_robot, whole
+from irbkin.cli.errors import FINE, FOUND, CommandError, complain
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from irbkin import Robot
+    from irbkin._arrays import Floats
+
+HELP = """Without --seed and --confdata all solutions are shown, each in its slot: confdata, angles,
+the least distance from a limit (negative outside) and its joint, and the distances from the wrist,
+elbow and shoulder singularities. A pose is given by --xyz and an orientation, or one a row in a
+file: x_mm, y_mm, z_mm and qw, qx, qy, qz or rz_deg, ry_deg, rx_deg. The exit code is 1 if a pose
+has no solution inside the limits."""
+EXAMPLES = """  irbkin ik "IRB 2600-12/1.65" --xyz 850 320 640 --wxyz 0.2588 0 0.9659 0
+  irbkin ik "IRB 2600-12/1.65" --xyz 850 320 640 --euler 0 150 0 --seed 0 0 0 0 0 0
+  irbkin ik "IRB 2600-12/1.65" poses.csv --within --csv > joints.csv
+  irbkin ik Panda --xyz 400 0 500 --wxyz 0 1 0 0 --q7 45
+  irbkin ik UR5e - --seed 0 -90 90 0 90 0 -o joints.npy < poses.npy"""
+
+
+def add_arguments(parser: Parser) -> None:
+    """The arguments of the verb."""
+    parser.add_robot()
+    parser.add_rows("poses")
+    add = parser.add
+    add("--xyz", nargs=3, type=float, metavar=("X", "Y", "Z"), help="position of the tool [mm]")
+    add("--wxyz", nargs=4, type=float, metavar=tuple("WXYZ"), help="its quaternion, w first")
+    add("--euler", nargs=3, type=float, metavar=("RZ", "RY", "RX"), help="or ZYX angles [deg]")
+    add("--q7", type=float, metavar="Q7", help="angle of joint 7 of a seven-axis arm [deg]")
+    add("--within", action="store_true", help="only solutions inside the limits")
+    add("--seed", nargs="+", type=float, metavar="Q", help="only the nearest to these joints [deg]")
+    add("--confdata", nargs=4, type=whole, metavar="CF", help="only the one with cf1 cf4 cf6 cfx")
+    parser.add_formats("joint angles, shape (m, slots, n) or (m, n), in radians")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Run the verb."""
+    robot = read_robot(arguments)
+    poses, heading = _poses(arguments, robot)
+    if arguments.seed is not None and arguments.confdata is not None:
+        raise CommandError("--seed and --confdata: give one of them")
+    missed = Missed(robot)
+    if arguments.seed is not None or arguments.confdata is not None:
+        _write_one(arguments, robot, poses, heading, missed)
+    else:
+        _write_all(arguments, robot, poses, heading, missed)
+    return missed.code()
+
+
+def _poses(arguments: argparse.Namespace, robot: Robot) -> tuple[Iterator[Floats], str]:
+    """The poses in parts, and the words before the table."""
+    if (arguments.file is None) == (arguments.xyz is None):
+        raise CommandError("give a pose by --xyz, or a FILE of poses (irbkin ik --help)")
+    if arguments.file is not None:
+        from irbkin.cli.reading import read_poses
+
+        return read_poses(arguments.file), robot.name
+    if arguments.wxyz is not None and arguments.euler is not None:
+        raise CommandError("--wxyz and --euler: give one of them")
+    turn = arguments.wxyz or arguments.euler or []
+    one = frame([*arguments.xyz, *turn], "--xyz with --wxyz or --euler")[None]
+    x, y, z = arguments.xyz
+    name = "wxyz" if arguments.wxyz else "rz ry rx"
+    words = f", {name} {' '.join(f'{number:g}' for number in turn)}" if turn else ""
+    return iter([one]), f"{robot.name}: tool at {x:g} {y:g} {z:g} mm{words}"
+
+
+class Missed:
+    """Poses without a solution inside the limits."""
+
+    def __init__(self, robot: Robot) -> None:
+        self.robot = robot
+        self.rows = 0
+        self.count = 0
+        self.first: tuple[int, Floats] | None = None
+
+    def add(self, poses: Floats, is_met: npt.ArrayLike) -> None:
+        """Some poses, and which have one."""
+        import numpy as np
+
+        wrong = np.flatnonzero(~np.asarray(is_met))
+        if len(wrong) and self.first is None:
+            self.first = (self.rows + int(wrong[0]), poses[wrong[0]])
+        self.rows += len(poses)
+        self.count += len(wrong)
+
+    def code(self) -> int:
+        """The exit code, with a word on stderr."""
+        if self.first is None:
+            return FINE
+        row, pose = self.first
+        why = (
+            self.robot.check_pose(pose).reason if self.robot.dof == 6 else "out of reach or limits"
+        )
+        if self.rows == 1:
+            complain(f"no solution inside the limits: {why}")
+        else:
+            complain(
+                f"{self.count} of {self.rows} poses have no solution inside the limits; "
+                f"the first is pose {row}: {why}"
+            )
+        return FOUND
+
+
+def _write_all(
+    arguments: argparse.Namespace,
+    robot: Robot,
+    parts: Iterator[Floats],
+    heading: str,
+    missed: Missed,
+) -> None:
+    """All solutions, a row each."""
+    import numpy as np
+
+    from irbkin import Status
+    from irbkin.cli.output import Column, table
+    from irbkin.cli.postures import Postures
+    from irbkin.cli.progress import Progress
+
+    postures = Postures(robot)
+    is_one = arguments.file is None
+    first = () if is_one else (Column("pose", "", "6d"),)
+    columns = (*first, Column("slot", "", "d"), *postures.columns)
+    q7 = read_q7(arguments, robot)
+    wanted = int(Status.WITHIN_LIMITS if arguments.within else Status.FOUND)
+    with table(arguments, columns, heading) as rows, Progress("poses") as progress:
+        for poses in parts:
+            found = robot.ik_batch(poses, q7)
+            is_within = (found.status & int(Status.WITHIN_LIMITS)).astype(bool)
+            index, slot = (found.status & wanted).nonzero()
+            q = found.q[index, slot]
+            numbers = [] if is_one else [index + missed.rows]
+            array = np.where((found.status & wanted)[..., None] != 0, found.q, np.nan)
+            rows.write([*numbers, slot, *postures.values(q)], array)
+            missed.add(poses, is_within.any(axis=1))
+            progress.add(len(poses))
+            if is_one:
+                for solution in robot.ik(poses[0]) if q7 is None else robot.ik(poses[0], q7=q7):
+                    if free := solution.free_joint:
+                        words = (
+                            f"slot {solution.slot}: J{free.joint} is free, {free.fixed} is fixed"
+                        )
+                        rows.note(f"free_joint_of_slot_{solution.slot}", free.joint, words)
+
+
+def _write_one(
+    arguments: argparse.Namespace,
+    robot: Robot,
+    parts: Iterator[Floats],
+    heading: str,
+    missed: Missed,
+) -> None:
+    """One solution of each pose, a row each."""
+    import numpy as np
+
+    from irbkin.cli.output import Column, table
+    from irbkin.cli.postures import Postures
+    from irbkin.cli.progress import Progress
+
+    postures = Postures(robot)
+    seed = joints(arguments.seed, "--seed", robot.dof)
+    columns = (Column("pose", "", "6d"), *postures.columns)
+    if seed is None:
+        heading = f"{heading}, confdata {arguments.confdata}"
+    with table(arguments, columns, heading) as rows, Progress("poses") as progress:
+        for poses in parts:
+            if seed is not None:
+                q = robot.ik_nearest(poses, seed)
+            else:
+                q = robot.ik_configured(poses, arguments.confdata)
+            rows.write([np.arange(len(q)) + missed.rows, *postures.values(q)], q)
+            missed.add(poses, np.isfinite(q).all(axis=1))
+            progress.add(len(poses))

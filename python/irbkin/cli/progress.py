@@ -1,0 +1,42 @@
+"""A progress bar on stderr for work that takes long, where stderr is a terminal."""
+
+from __future__ import annotations
+
+import sys
+import time
+
+AFTER = 1.0
+"""How long work must take before it is shown [s]."""
+EVERY = 0.1
+WIDTH = 30
+
+
+class Progress:
+    """Shows how much is done; as a context manager it leaves an empty line."""
+
+    def __init__(self, what: str, total: int | None = None) -> None:
+        self.what, self.total = what, total
+        self._done = 0
+        self._next = time.monotonic() + AFTER
+        self._is_shown = False
+        self._is_terminal = sys.stderr.isatty()
+
+    def __enter__(self) -> Progress:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._is_shown:
+            print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+
+    def add(self, count: int) -> None:
+        """So many more are done."""
+        self._done += count
+        if not self._is_terminal or time.monotonic() < self._next:
+            return
+        self._next = time.monotonic() + EVERY
+        self._is_shown = True
+        line = f"{self._done:,} {self.what}"
+        if self.total:
+            part = min(self._done / self.total, 1.0)
+            line = f"[{'#' * round(WIDTH * part):{WIDTH}}] {part:4.0%}  {line}"
+        print(f"\r\x1b[K{line}", end="", file=sys.stderr, flush=True)

@@ -1,0 +1,78 @@
+"""The path of poses that `path`, `plan` and `plot` read, made denser where it is asked for."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from irbkin.cli.arguments import Parser
+from irbkin.cli.errors import CommandError
+
+if TYPE_CHECKING:
+    from irbkin import Robot
+    from irbkin._arrays import Floats
+
+
+def add_path(parser: Parser) -> None:
+    """The arguments of a path."""
+    parser.add_rows("poses along the path", optional=False)
+    add = parser.add
+    add(
+        "--through",
+        choices=("points", "lines", "spline", "arc"),
+        default="points",
+        help="points: the poses themselves; lines, a spline or an arc (of 3) through them",
+    )
+    add("--step", type=float, default=5.0, metavar="MM", help="distance of poses on these [mm]: 5")
+    add(
+        "--zone",
+        default="fine",
+        metavar="ZONE",
+        help="corners of lines: fine, z0 .. z200 or a radius [mm]",
+    )
+
+
+def read_path(arguments: argparse.Namespace) -> Floats:
+    """The poses of the path, shape (m, 4, 4)."""
+    import numpy as np
+
+    from irbkin import paths
+    from irbkin.cli.reading import read_all, read_poses
+
+    poses = read_all(read_poses(arguments.file))
+    wrong = np.flatnonzero(~np.isfinite(poses).all(axis=(1, 2)))
+    if len(wrong):
+        raise CommandError(f"{arguments.file}: row {wrong[0] + 1} is no pose: it is not finite")
+    step = arguments.step / 1e3
+    if arguments.through == "lines":
+        return paths.polyline(poses, _zone(arguments.zone), step=step, turn=np.radians(2.0))
+    if arguments.through == "spline":
+        return paths.spline(poses, step=step, turn=np.radians(2.0))
+    if arguments.through == "arc":
+        if len(poses) != 3:
+            raise CommandError(f"--through arc takes 3 poses, {arguments.file} has {len(poses)}")
+        return paths.arc(*poses, step=step, turn=np.radians(2.0))
+    return poses
+
+
+def _zone(text: str) -> float | str:
+    try:
+        return float(text) / 1e3
+    except ValueError:
+        return text.strip()
+
+
+def fastest(robot: Robot, q: Floats, poses: Floats) -> tuple[float, int] | None:
+    """The fastest constant tool speed [m/s] that the joints allow, and the joint that limits it;
+    nothing where the speeds are unknown or the tool only turns somewhere.
+    """
+    from irbkin import trajectory
+    from irbkin.errors import InvalidMotionError
+
+    if robot.max_velocity is None or len(q) < 2:
+        return None
+    try:
+        speeds = trajectory.tool_speed_limits(q, poses, robot.max_velocity)
+    except InvalidMotionError:
+        return None
+    return speeds.fastest, speeds.fastest_joint

@@ -1,0 +1,108 @@
+//! `irbkin.rapid.check`: the moves of a module, checked.
+
+use pyo3::prelude::*;
+use pyo3::pybacked::PyBackedStr;
+use pyo3::types::PyTuple;
+
+use super::Cell;
+use super::module::{RapidModule, close_names};
+use super::routine_motion::read_limits;
+use crate::python::classes;
+use crate::python::errors::{rapid_fault, to_py};
+use crate::python::robot::PyRobot;
+use crate::rapid::{self, Code, Diagnostic, Module, MotionOptions};
+
+/// Check every move of a module, of all routines.
+///
+/// A branch or a loop is checked from where the robot is before it. Behind one that moves, behind
+/// a label and in a handler, the next move is checked as a target only.
+///
+/// Args:
+///     robot: The arm. Work objects are given in the world, in which the robot's base is.
+///     module: Module.
+///     codes: The codes that are wanted, such as "C201"; without it all.
+///     max_velocity: Limits [rad/s], a number or shape (6,); without it the robot's own. Without
+///         either no joint is found to be too fast.
+///     step: Largest distance of the tool between two samples of a MoveL or MoveC [m].
+///     turn: Largest turn of the tool between two samples [rad]; 5 deg without it.
+///
+/// Returns:
+///     A tuple of `Diagnostic`, in the order of the text.
+///
+/// Raises:
+///     RapidError: A code that does not exist.
+///     InvalidMotionError: A limit or a step that is not positive and finite, or more than ten
+///         million samples.
+///     InvalidModelError: The arm has no spherical wrist, so no confdata.
+#[pyfunction]
+#[pyo3(signature = (robot, module, *, codes=None, max_velocity=None, step=0.005, turn=None))]
+pub(crate) fn check<'py>(
+    robot: &Bound<'py, PyRobot>,
+    module: &Bound<'py, RapidModule>,
+    codes: Option<&Bound<'py, PyAny>>,
+    max_velocity: Option<&Bound<'py, PyAny>>,
+    step: f64,
+    turn: Option<f64>,
+) -> PyResult<Bound<'py, PyTuple>> {
+    let py = robot.py();
+    let Cell { robot, .. } = Cell::read(robot, None, None)?;
+    let options = MotionOptions {
+        max_velocity: read_limits(max_velocity, "max_velocity")?,
+        step,
+        turn: turn.unwrap_or(MotionOptions::default().turn),
+        ..MotionOptions::default()
+    };
+    let RapidModule { module, source, context, .. } = module.get();
+    let found = py
+        .detach(|| rapid::check(robot, module, source, &options))
+        .map_err(|error| to_py(py, &error))?;
+    let others = context.iter().map(|other| &other.get().module);
+    let modules: Vec<&Module> = core::iter::once(module).chain(others).collect();
+    let codes = codes.map(read_codes).transpose()?;
+    let is_wanted = |code: Code| codes.as_ref().is_none_or(|codes| codes.contains(&code));
+    let wanted = found.iter().filter(|diagnostic| is_wanted(diagnostic.code));
+    let records = wanted.map(|diagnostic| record(py, diagnostic, &modules));
+    PyTuple::new(py, records.collect::<PyResult<Vec<_>>>()?)
+}
+
+/// Codes by their ids.
+fn read_codes(given: &Bound<'_, PyAny>) -> PyResult<Vec<Code>> {
+    let mut codes = Vec::new();
+    for id in given.try_iter()? {
+        let id: PyBackedStr = id?.extract()?;
+        let found = Code::ALL.into_iter().find(|code| code.id() == &*id);
+        codes.push(found.ok_or_else(|| {
+            let ids = Code::ALL.map(Code::id).join(", ");
+            rapid_fault(given.py(), format!("codes: {id:?} is no code; there are {ids}"))
+        })?);
+    }
+    Ok(codes)
+}
+
+/// `irbkin.rapid.Diagnostic`.
+fn record<'py>(
+    py: Python<'py>,
+    diagnostic: &Diagnostic,
+    modules: &[&Module],
+) -> PyResult<Bound<'py, PyAny>> {
+    let Diagnostic { code, line, column, routine, message, unknown, edits } = diagnostic;
+    let mut message = message.clone();
+    if let Some(unknown) = unknown {
+        let names = diagnostic.candidates(modules);
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let close = close_names(unknown, &names);
+        if !close.is_empty() {
+            message = format!("{message}; did you mean {}?", close.join(", "));
+        }
+    }
+    let edits = edits.iter().map(|edit| (edit.span.start, edit.span.end, &edit.text));
+    let edits = PyTuple::new(py, edits)?;
+    let fields = (code.id(), code.name(), line, column, routine, message, edits);
+    classes::diagnostic_class(py)?.call1(fields)
+}
+
+/// Every code of a check, with its name and whether it is shown unless codes are selected.
+#[pyfunction]
+pub(crate) fn check_codes() -> Vec<(&'static str, &'static str, bool)> {
+    Code::ALL.iter().map(|code| (code.id(), code.name(), code.is_default())).collect()
+}

@@ -1,0 +1,218 @@
+//! A module checked: codes, places, branches, corrections.
+
+use std::format;
+use std::string::{String, ToString};
+use std::vec;
+use std::vec::Vec;
+
+use crate::error::Error;
+use crate::kinematics::Robot;
+use crate::rapid::{Code, Diagnostic, MotionOptions, check, parse};
+
+const DATA: &str = "PERS tooldata t:=[TRUE,[[0,0,180],[1,0,0,0]],[2,[0,0,50],[1,0,0,0],0,0,0]];
+    CONST robtarget a:=[[900,-300,500],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+    CONST robtarget b:=[[900,300,500],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+    CONST robtarget out:=[[2900,300,500],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+    CONST robtarget c{2}:=[[[900,-250,500],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]],
+        [[900,-200,500],[0,0,1,0],[ 0, 0 , 0,0 ],[9E9,9E9,9E9,9E9,9E9,9E9]]];";
+
+fn text(moves: &str) -> String {
+    format!("MODULE M\n{DATA}\nPROC main()\n{moves}\nENDPROC\nENDMODULE")
+}
+
+/// What a check finds, without the edges of quarters: these targets have axis 4 at zero.
+fn checked(text: &str) -> Vec<Diagnostic> {
+    let robot = Robot::named("IRB 2600-12/1.65").unwrap();
+    let module = parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let mut found = check(&robot, &module, text, &MotionOptions::default()).unwrap();
+    found.retain(|it| it.code != Code::ConfdataEdge);
+    found
+}
+
+fn codes(moves: &str) -> Vec<Code> {
+    checked(&text(moves)).iter().map(|it| it.code).collect()
+}
+
+/// A text with the corrections of its diagnostics.
+fn corrected(text: &str) -> String {
+    let mut edits: Vec<_> = checked(text).into_iter().flat_map(|it| it.edits).collect();
+    edits.sort_by_key(|edit| edit.span.start);
+    edits.dedup();
+    let mut corrected = text.to_string();
+    for edit in edits.iter().rev() {
+        corrected.replace_range(edit.span.clone(), &edit.text);
+    }
+    corrected
+}
+
+#[test]
+fn a_module_without_faults_has_none() {
+    assert_eq!(codes("MoveJ a,v1000,z20,t; MoveL b,v100,fine,t; MoveJ c{1},v500,fine,t;"), []);
+}
+
+#[test]
+fn every_code_has_an_id_and_a_name_of_its_own() {
+    let mut ids: Vec<_> = Code::ALL.iter().map(|code| code.id()).collect();
+    ids.sort_unstable();
+    ids.dedup();
+    assert_eq!(ids.len(), Code::ALL.len());
+    let mut names: Vec<_> = Code::ALL.iter().map(|code| code.name()).collect();
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(names.len(), Code::ALL.len());
+}
+
+#[test]
+fn each_fault_has_its_code() {
+    for (moves, wanted) in [
+        ("MoveJ out,v100,fine,t;", Code::OutOfReach),
+        ("MoveAbsJ [[190,0,0,0,9,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v9,fine,t;", Code::OutsideLimits),
+        ("MoveAbsJ [[9E9,0,0,0,9,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v5,fine,t;", Code::AbsentAxis),
+        ("MoveJ c{2},v100,fine,t;", Code::WrongConfdata),
+        ("MoveJ c{1},v100,fine,t; MoveL c{2},v100,fine,t;", Code::OtherConfiguration),
+        ("MoveJ a,v100,fine,t; MoveL b,v7000,fine,t;", Code::JointTooFast),
+        ("MoveJ a,v100,fine,t; MoveL c{1},v100,z50,t; MoveL a,v100,fine,t;", Code::ZoneTooLarge),
+        ("MoveJ nowhere,v100,fine,t;", Code::UnknownTarget),
+        ("MoveJ a,v100,fine,tt;", Code::UnknownTool),
+        ("MoveJ a,v100,fine,t\\WObj:=w;", Code::UnknownWorkObject),
+        ("MoveJ a,fast,fine,t;", Code::UnknownSpeed),
+        ("MoveJ a,v100,zz,t;", Code::UnknownZone),
+        ("MoveJ [[900,0,500],[0,0,2,0],[0,0,0,0],[0,0,0,0,0,0]],v5,fine,t;", Code::InvalidFrame),
+        ("MoveJ a,[0,500,1,1],fine,t;", Code::InvalidNumber),
+        ("MoveJ *,v100,fine,t;", Code::UnknownValue),
+        ("MoveJ a,v100,fine,t; TriggL b,v100,x,fine,t;", Code::NotFollowed),
+    ] {
+        let moves = moves.replace("v9,", "v100,");
+        assert_eq!(codes(&moves), [wanted], "{moves}");
+    }
+}
+
+#[test]
+fn a_singular_target_is_ambiguous_and_a_singular_line_is_found() {
+    let robot = Robot::named("IRB 2600-12/1.65").unwrap();
+    let target = |degrees: [f64; 6]| {
+        let joints = crate::rapid::JointTarget { robax_deg: degrees, extax: [9e9; 6] };
+        crate::rapid::calc_rob_t(&robot, &joints, None, None).unwrap()
+    };
+    let at = target([5.0, 10.0, 20.0, 30.0, 0.0, 40.0]);
+    assert_eq!(codes(&format!("MoveJ {at},v100,fine,tool0;")), [Code::AmbiguousConfdata]);
+    let [from, to] = [1.0, -1.0].map(|side| target([0.0, 10.0, 20.0, 0.0, 20.0 * side, 0.0]));
+    let line = format!("MoveJ {from},v100,fine,tool0; MoveL {to},v100,fine,tool0;");
+    assert!(codes(&line).contains(&Code::WristSingularity), "{:?}", codes(&line));
+}
+
+#[test]
+fn a_branch_is_checked_from_where_the_robot_is_before_it() {
+    let branch = "MoveJ a,v100,fine,t;
+        IF go THEN MoveL b,v7000,fine,t; ELSE MoveL b,v100,fine,t; ENDIF";
+    assert_eq!(codes(branch), [Code::JointTooFast]);
+    // Behind a branch that moves nothing is known: the line is not checked, its target is.
+    let behind = format!("{} MoveL a,v7000,fine,t;", branch.replace("v7000", "v100"));
+    assert_eq!(codes(&behind), []);
+    let behind = behind.replace("MoveL a", "MoveL c{2}");
+    assert_eq!(codes(&behind), [Code::WrongConfdata]);
+    for quiet in [
+        "IF go THEN Set do1; ENDIF",
+        "IF go RETURN;",
+        "IF go THEN MoveL a,v100,fine,t; \
+        RETURN; ENDIF",
+        "FOR i FROM 1 TO 3 DO Set do1; ENDFOR",
+    ] {
+        let moves = format!("MoveJ a,v100,fine,t; {quiet} MoveL b,v7000,fine,t;");
+        assert_eq!(codes(&moves), [Code::JointTooFast], "{quiet}");
+    }
+    for unknown in [
+        "IF go MoveL a,v100,fine,t;",
+        "again:",
+        "WHILE go DO MoveL a,v100,fine,t; \
+        ENDWHILE",
+        "GOTO away; away:",
+        "ENDPROC PROC other()",
+        "ERROR",
+    ] {
+        let moves = format!("MoveJ a,v100,fine,t; {unknown} MoveL b,v7000,fine,t;");
+        assert_eq!(codes(&moves), [], "{unknown}");
+    }
+}
+
+#[test]
+fn corrections_change_numbers_of_confdata_and_nothing_else() {
+    let before = text("MoveJ c{1},v100,fine,t; MoveL c{2},v100,fine,t;");
+    let after = corrected(&before);
+    assert_eq!(after, before.replace("[ 0, 0 , 0,0 ]", "[ -1, 0 , -1,0 ]"));
+    assert_eq!(checked(&after), []);
+}
+
+#[test]
+fn confdata_of_inline_targets_locals_and_references_is_found() {
+    let inline = "[[900,-250,500],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]";
+    for (moves, from, to) in [
+        (format!("MoveJ {inline},v100,fine,t;"), "[0,0,0,0],[9E9", "[-1,0,-1,0],[9E9"),
+        (
+            format!("VAR robtarget l:={inline}; CONST robtarget k:=l; MoveJ k,v100,fine,t;"),
+            "[0,0,0,0],[9E9",
+            "[-1,0,-1,0],[9E9",
+        ),
+        (
+            format!(
+                "CONST confdata q:=[0,0,0,0]; VAR robtarget l:={}; MoveJ Offs(l,0,0,9),v100,fine,t;",
+                inline.replace("[0,0,0,0]", "q")
+            ),
+            ",q,",
+            ",[-1,0,-1,0],",
+        ),
+    ] {
+        let before = text(&moves);
+        let (head, tail) = before.split_at(before.find("PROC").unwrap());
+        assert_eq!(corrected(&before), format!("{head}{}", tail.replace(from, to)));
+        assert_eq!(checked(&corrected(&before)), [], "{moves}");
+    }
+}
+
+#[test]
+fn a_target_that_moves_need_differently_is_not_corrected() {
+    // The first move asks for another configuration than the line that comes back arrives with.
+    let moves = "MoveJ a,v100,fine,t; MoveL b,v100,fine,t;
+        MoveJ [[900,-300,500],[0,0,1,0],[-1,2,-3,1],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,t;
+        MoveL b,v100,fine,t;";
+    let found = checked(&text(moves));
+    assert_eq!(found.iter().map(|it| it.code).collect::<Vec<_>>(), [Code::OtherConfiguration]);
+    assert_eq!(found[0].edits, []);
+}
+
+#[test]
+fn settings_hold_across_calls() {
+    let weld = "ENDPROC PROC weld() MoveJ a,v100,fine,t; MoveL c{2},v100,fine,t;";
+    let settings = "ENDPROC PROC settings() ConfL\\Off; SingArea\\Wrist;";
+    for (main, wanted) in [
+        ("weld;", vec![Code::OtherConfiguration]),
+        ("ConfL\\Off; weld;", vec![]),
+        ("ConfL\\Off; ConfL\\On; weld;", vec![Code::OtherConfiguration]),
+        ("settings; weld;", vec![]),
+        ("weld; settings;", vec![Code::OtherConfiguration]),
+        // One of the callers does not mind.
+        ("weld; settings; weld;", vec![]),
+    ] {
+        let mut found = codes(&format!("{main} {weld} {settings}"));
+        found.retain(|code| *code != Code::NotFollowed);
+        assert_eq!(found, wanted, "{main}");
+    }
+    let own = weld.replace("MoveJ a", "ConfL\\On; MoveJ a");
+    let found = codes(&format!("ConfL\\Off; weld; {own}"));
+    assert_eq!(found, [Code::NotFollowed, Code::OtherConfiguration]);
+}
+
+#[test]
+fn what_cannot_be_checked_is_an_error() {
+    let (module, options) = (parse(&text(""), &[]).unwrap(), MotionOptions::default());
+    let robot = Robot::named("IRB 2600-12/1.65").unwrap();
+    assert_eq!(check(&robot, &module, &text(""), &options).unwrap(), []);
+    let other = check(&robot, &module, "MODULE", &options).unwrap_err();
+    assert!(matches!(other, Error::Rapid(_)), "{other}");
+    let no_step = MotionOptions { step: 0.0, ..options };
+    let no_step = check(&robot, &module, &text(""), &no_step).unwrap_err();
+    assert!(matches!(no_step, Error::InvalidMotion(_)), "{no_step}");
+    let other_arm = Robot::named("UR5e").unwrap();
+    let other_arm = check(&other_arm, &module, &text(""), &options).unwrap_err();
+    assert!(matches!(other_arm, Error::InvalidModel(_)), "{other_arm}");
+}

@@ -1,0 +1,377 @@
+"""`irbkin check` and `rapid.check`: codes, places, corrections, manners of a linter."""
+
+import json
+import os
+import re
+from pathlib import Path
+
+import command
+import irbkin
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from irbkin import rapid
+from irbkin._core import check_codes
+from irbkin.cli.check import selected
+from irbkin.cli.checker import Checker, fix
+from irbkin.cli.sources import Source, read_modules
+
+ROOT = Path(__file__).parents[2]
+PAGE = (ROOT / "docs" / "check.md").read_text()
+NAME = "IRB 2600-12/1.65"
+ROBOT = irbkin.Robot(NAME)
+CODES = [code for code, _, _ in check_codes()]
+BLOCKS = dict(re.findall(r"^```rapid (\S+)\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL))
+DATA = BLOCKS.pop("data")
+SEAM = BLOCKS.pop("seam.mod")
+FAR = "[9E9,9E9,9E9,9E9,9E9,9E9]"
+
+
+def module(moves, data=DATA):
+    return f"MODULE M\n{data}PROC main()\n{moves}ENDPROC\nENDMODULE\n"
+
+
+def run(*arguments, **options):
+    return command.run("check", *arguments, **options)
+
+
+def check(file, *arguments):
+    return run("--robot", NAME, *arguments, file)
+
+
+@pytest.mark.parametrize("code", [code for code in BLOCKS if code != "E001"])
+def test_the_example_of_a_code_has_it(code):
+    found = rapid.check(ROBOT, rapid.parse(module(BLOCKS[code])))
+    assert code in {it.code for it in found}, found
+
+
+def test_the_page_has_every_code_with_its_name_in_order():
+    headings = re.findall(r"^### (\w\d+) (.*)$", PAGE, re.MULTILINE)
+    assert headings == [("E001", "syntax"), *((code, name) for code, name, _ in check_codes())]
+    assert list(BLOCKS) == ["E001", *CODES]
+
+
+def test_a_broken_text_has_its_line_and_column(tmp_path):
+    file = tmp_path / "broken.mod"
+    file.write_text(module(BLOCKS["E001"]))
+    done = check(file)
+    assert done.returncode == 1
+    line = module(BLOCKS["E001"]).splitlines().index(BLOCKS["E001"].strip()) + 1
+    first, last = done.stdout.decode().splitlines()
+    assert first.startswith(f"{file}:{line}:13: E001 expected ")
+    assert last == "Found 1 error."
+    assert done.stderr == b""
+
+
+def test_diagnostics_have_the_place_of_their_move():
+    found = rapid.check(ROBOT, rapid.parse(SEAM), codes=["N602", "R101"])
+    lines = SEAM.splitlines()
+    assert [it.code for it in found] == ["N602", "R101"]
+    for it, word in zip(found, ("MoveL Offs", "MoveJ pAway"), strict=True):
+        assert lines[it.line - 1][it.column - 1 :].startswith(word)
+        assert it.routine == "main"
+
+
+def test_names_that_are_spelled_alike_are_given():
+    texts = {code: BLOCKS[code] for code in ("N601", "N602", "N604", "N605")}
+    close = {"N601": "pNear", "N602": "tGun", "N604": "v1000", "N605": "z5"}
+    for code, moves in texts.items():
+        (found,) = rapid.check(ROBOT, rapid.parse(module(moves)), codes=[code])
+        assert "is not declared; did you mean " in found.message
+        assert close[code] in found.message.rpartition("did you mean")[2]
+
+
+def test_a_fix_changes_confdata_and_nothing_else(tmp_path):
+    for encoding, mark in (
+        ("utf-8", b""),
+        ("utf-8", b"\xef\xbb\xbf"),
+        ("utf-16-le", b"\xff\xfe"),
+        ("utf-16-be", b"\xfe\xff"),
+        ("latin-1", b""),
+    ):
+        for newline in ("\n", "\r\n"):
+            text = SEAM.replace("! zeros", "! zeros \xe4\xb5 \t ").replace("\n", newline)
+            file = tmp_path / "seam.mod"
+            file.write_bytes(mark + text.encode(encoding))
+            file.chmod(0o640)
+            before = check(file, "--select", "C")
+            assert before.stdout.count(b"[*]") == 1
+            assert b"Found 1 error (1 fixable with --fix)." in before.stdout
+            done = check(file, "--select", "C", "--fix")
+            assert done.stdout == b"Found 1 error (1 fixed, 0 remaining).\n", done
+            assert done.returncode == 0
+            wanted = text.replace(
+                "[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]; ! z", f"[-1,0,-1,0],{FAR}]; ! z"
+            )
+            assert file.read_bytes() == mark + wanted.encode(encoding)
+            assert file.stat().st_mode & 0o777 == 0o640
+            assert [it.name for it in tmp_path.iterdir()] == ["seam.mod"]
+
+
+@settings(max_examples=30, deadline=None)
+@given(data=st.data())
+def test_a_fixed_module_has_right_confdata_and_differs_in_nothing_else(data):
+    seed = data.draw(st.integers(0, 2**32 - 1))
+    kinds = data.draw(st.lists(st.sampled_from(["MoveJ", "MoveL"]), min_size=1, max_size=6))
+    rng = np.random.default_rng(seed)
+    targets, moves = [], []
+    for number, kind in enumerate(kinds):
+        q = np.radians(rng.uniform([-40, -15, -10, -40, 30, -40], [40, 20, 20, 40, 70, 40]))
+        T = ROBOT.fk(q)
+        confdata = rng.integers(-2, 3, 4) % [5, 5, 5, 8]
+        target = rapid.RobTarget.of(T, confdata.tolist())
+        targets.append(f"CONST robtarget p{number}:={rapid.dump(target)}; ! {seed}\r\n")
+        moves.append(f"{kind} p{number},v50,fine,tool0;\r\n")
+    text = module("".join(moves), "".join(targets))
+    source = Source("unused.mod", text.encode())
+    assert read_modules([source]) == []
+    written = []
+    source.write = written.append
+    checker = Checker(ROBOT, ["C201", "C202"], 0.005)
+    before = checker.wanted(source.module)
+    assert all(it.edits for it in before), "each target is its own"
+    assert fix(checker, [source]) == len(before)
+    corrected = written[0] if written else source.module
+    assert checker.wanted(corrected) == []
+    after = corrected.source
+    pattern = re.compile(r"(\[\[[^]]*\],\[[^]]*\],)\[[^]]*\]")
+    assert pattern.sub(r"\1", after) == pattern.sub(r"\1", text)
+
+
+def test_a_target_that_two_moves_need_differently_is_left(tmp_path):
+    moves = f"""MoveJ pNear,v100,fine,tGun; MoveL pFar,v100,fine,tGun;
+    MoveJ [[900,-300,500],[0,0,1,0],[-1,2,-3,1],{FAR}],v100,fine,tGun;
+    MoveL pFar,v100,fine,tGun;
+"""
+    file = tmp_path / "two.mod"
+    file.write_text(module(moves))
+    done = check(file, "--select", "C", "--fix")
+    assert done.returncode == 1
+    assert b"C202 MoveL pFar" in done.stdout
+    assert b"fix" not in done.stdout
+    assert file.read_text() == module(moves)
+
+
+def test_a_target_that_another_file_moves_to_is_left(tmp_path):
+    one, other = tmp_path / "one.mod", tmp_path / "other.mod"
+    # Both configurations exist: a correction would send the other file's move to another one.
+    target = f"CONST robtarget p:=[[900,-250,500],[0,0,1,0],[-1,2,1,1],{FAR}];\n"
+    one.write_text(module("MoveJ pNear,v100,fine,tGun; MoveL p,v100,fine,tGun;\n", DATA + target))
+    text = one.read_text()
+    for name, is_left in (("p", True), ("pFar", False)):
+        one.write_text(text)
+        other.write_text(
+            f"MODULE Other\nPROC go()\nMoveJ {name},v100,fine,tGun;\nENDPROC\nENDMODULE\n"
+        )
+        done = run("--robot", NAME, "--fix", one, other)
+        assert (done.returncode == 1) == is_left, done
+        assert (one.read_text() == text) == is_left
+        words = f"irbkin: {one}: is not corrected, {other} moves to a target of it\n".encode()
+        assert done.stderr == (words if is_left else b"")
+
+
+def test_a_file_with_bytes_that_are_no_text_is_not_written(tmp_path):
+    file = tmp_path / "odd.mod"
+    text = SEAM.replace("! zeros", "! zeros ")
+    content = b"\xff\xfe" + text.encode("utf-16-le")
+    # Half of a character, in a comment.
+    content = content.replace(
+        "zeros ".encode("utf-16-le"), "zeros".encode("utf-16-le") + b"\x00\xd8"
+    )
+    file.write_bytes(content)
+    done = check(file, "--fix")
+    assert done.returncode == 2
+    assert b"cannot be written back as it is" in done.stderr
+    assert file.read_bytes() == content
+
+
+def test_a_code_that_does_not_exist_is_refused():
+    for codes in (["C999"], "C201"):
+        with pytest.raises(irbkin.RapidError, match="is no code; there are R101"):
+            rapid.check(ROBOT, rapid.parse(SEAM), codes=codes)
+
+
+def test_files_are_one_program(tmp_path):
+    tools, program = tmp_path / "tools.sys", tmp_path / "program.mod"
+    tools.write_text(f"MODULE Tools(SYSMODULE)\n{DATA.splitlines()[0]}\nENDMODULE\n")
+    program.write_text(module("MoveJ pNear,v100,fine,tGun;\n", DATA.partition("\n")[2]))
+    assert check(program).returncode == 1
+    done = run("--robot", NAME, program, tools)
+    assert (done.returncode, done.stdout) == (0, b"All checks passed!\n")
+    (tmp_path / "notes.txt").write_text("no module")
+    program.rename(tmp_path / "PROGRAM.MOD")
+    done = check(tmp_path)
+    assert (done.returncode, done.stdout) == (0, b"All checks passed!\n")
+
+
+def test_codes_are_selected_and_ignored(tmp_path):
+    known = check_codes()
+    default = {code for code, _, is_default in known if is_default}
+    assert selected(None, "", known) == default
+    assert {code for code in CODES if code not in default} == {"U801", "U802", "U803"}
+    assert selected("ALL", "", known) == set(CODES)
+    assert selected("c2,R101", "C202", known) == {"C201", "C203", "R101"}
+    assert selected("wrong-confdata", "", known) == {"C201"}
+    file = tmp_path / "seam.mod"
+    file.write_text(SEAM)
+    done = check(file, "--select", "X1")
+    assert done.returncode == 2
+    assert done.stderr.startswith(b"irbkin: unknown code 'X1': did you mean ")
+    listed = run("--codes").stdout.decode()
+    assert [line.split()[0] for line in listed.splitlines()] == CODES
+
+
+def test_comments_silence(tmp_path):
+    file = tmp_path / "seam.mod"
+    for comment, is_silent in (
+        ("! noqa", True),
+        ("! NOQA: N602", True),
+        ("! noqa:R, N6", True),
+        ("! noqa: N601", False),
+        ("", False),
+    ):
+        file.write_text(module(f"MoveJ pNear,v100,fine,tGum; {comment}\n"))
+        assert check(file).returncode == (0 if is_silent else 1), comment
+
+
+def test_what_is_not_checked_is_counted(tmp_path):
+    file = tmp_path / "taught.mod"
+    file.write_text(module("MoveJ *,v100,fine,tGun;\nMoveJ pNear,v100,fine,tGun;\n"))
+    done = check(file)
+    assert done.returncode == 0
+    assert done.stdout == (b"All checks passed!\n1 place is not checked (--select U shows why).\n")
+    done = check(file, "--select", "U")
+    assert done.returncode == 1
+    assert b": U801 MoveJ *: " in done.stdout
+    assert b"not checked (" not in done.stdout
+
+
+def test_json_has_the_findings(tmp_path):
+    file = tmp_path / "seam.mod"
+    file.write_text(SEAM)
+    found = json.loads(check(file, "--json").stdout)
+    plain = check(file, "-q").stdout.decode().splitlines()
+    assert len(found) == len(plain) > 3
+    for it, line in zip(found, plain, strict=True):
+        mark = "[*] " if it["fixable"] else ""
+        place = f"{it['file']}:{it['line']}:{it['column']}"
+        assert line == f"{place}: {it['code']} {mark}{it['message']}"
+    nothing = check(file, "--json", "--select", "D")
+    assert (nothing.returncode, json.loads(nothing.stdout)) == (0, [])
+
+
+def test_the_robot_comes_from_the_environment_and_must_be_given(tmp_path):
+    file = tmp_path / "seam.mod"
+    file.write_text(SEAM)
+    assert run(file, IRBKIN_ROBOT=NAME).returncode == 1
+    done = run(file, IRBKIN_ROBOT="")
+    assert done.returncode == 2
+    assert b"--robot" in done.stderr
+    done = run("--robot", "IRB 2600", file)
+    assert done.returncode == 2
+    assert NAME.encode() in done.stderr
+    done = run("--robot", "UR5e", file)
+    assert done.returncode == 2
+    assert done.stderr.count(b"\n") == 1
+
+
+def test_an_arm_without_speeds_says_so(tmp_path):
+    file = tmp_path / "seam.mod"
+    file.write_text(module(BLOCKS["V401"]))
+    done = run("--robot", "IRB 2600-12/1.85", file)
+    assert done.returncode == 0
+    assert b"V401 is not checked" in done.stderr
+    done = run("--robot", "IRB 2600-12/1.85", "--ignore", "V", file)
+    assert done.stderr == b""
+
+
+def test_stdin_is_checked_and_not_fixed():
+    done = run("--robot", NAME, "-", stdin=SEAM.encode())
+    assert done.stdout.startswith(b"<stdin>:")
+    done = run("--robot", NAME, "--fix", "-", stdin=SEAM.encode())
+    assert done.returncode == 2
+    assert done.stderr.count(b"\n") == 1
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root writes everywhere")
+def test_a_read_only_folder_is_left_as_it_is(tmp_path):
+    file = tmp_path / "seam.mod"
+    file.write_text(SEAM)
+    tmp_path.chmod(0o555)
+    try:
+        done = check(file, "--fix")
+    finally:
+        tmp_path.chmod(0o755)
+    assert done.returncode == 2
+    assert b"seam.mod: cannot be written" in done.stderr
+    assert file.read_text() == SEAM
+
+
+def test_what_is_no_file_is_one_line(tmp_path):
+    (tmp_path / "empty").mkdir()
+    for name, words in (("nowhere.mod", b"No such file"), ("empty", b"has no RAPID modules")):
+        done = check(tmp_path / name)
+        assert words in done.stderr
+        assert done.returncode == 2
+        assert done.stderr.startswith(b"irbkin: ")
+        assert done.stderr.count(b"\n") == 1
+
+
+KINDS = {
+    "unreachable": "R",
+    "limit": "R",
+    "path": "R",
+    "flip": "R",
+    "configuration": "C",
+    "singularity": "S",
+    "joint_speed": "V",
+    "unknown": "NRU",
+    "setting": "DU",
+    "not_read": "U",
+}
+
+
+def test_a_routine_has_the_findings_of_its_motion():
+    before = "MoveJ pNear,v100,fine,tGun;\n"
+    codes = set(CODES) - {"Z501", "C203", "U803"}
+    examples = [f"{before}{BLOCKS[code]}" for code in BLOCKS if code[0] in "SRV"]
+    for text in (
+        SEAM.replace("tGum", "tGun"),
+        (ROOT / "examples" / "pick_and_place.mod").read_text(),
+        *map(module, examples),
+    ):
+        program = rapid.parse(text)
+        motion = rapid.motion(ROBOT, program)
+        found = rapid.check(ROBOT, program, codes=codes)
+        own = [(it.line, it.column, it.code[0]) for it in found]
+        others = [(it.line, it.column, KINDS[it.kind]) for it in motion.findings]
+        assert len(own) == len(others)
+        for (*place, letter), (*place_of_motion, letters) in zip(own, sorted(others), strict=True):
+            assert place == place_of_motion
+            assert letter in letters
+
+
+@settings(max_examples=60, deadline=None)
+@given(data=st.data())
+def test_no_text_breaks_the_check(data):
+    words = re.findall(r"\w+|[^\w\s]", SEAM)
+    words += ["IF", "THEN", "ENDIF", "GOTO", "ERROR", "FOR", "-9E9"]
+    count = data.draw(st.integers(1, 6))
+    parts = re.findall(r"\w+|\s+|[^\w\s]", SEAM)
+    for _ in range(count):
+        place = data.draw(st.integers(0, len(parts) - 1))
+        parts[place] = data.draw(st.sampled_from(words))
+    try:
+        program = rapid.parse("".join(parts))
+    except irbkin.RapidError:
+        return
+    source = program.source.encode()
+    for it in rapid.check(ROBOT, program):
+        assert 1 <= it.line <= program.source.count("\n") + 1
+        assert it.column >= 1
+        assert "\n" not in it.message
+        for begin, end, text in it.edits:
+            confdata = rb"[-+]?\s*[\d.]+(?:[eE]\d+)?|\[[^]]*\]|\w+"
+            assert re.fullmatch(confdata, source[begin:end])
+            assert text

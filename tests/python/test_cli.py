@@ -1,0 +1,400 @@
+"""The verbs of the command `irbkin`: what they read, what they write, what they refuse."""
+
+import importlib
+import json
+import re
+import shlex
+import subprocess
+import sys
+
+import irbkin
+import numpy as np
+import pytest
+from command import JOINTS, NAME, ROBOT, XYZ, joints_of, refused, rows, run
+from irbkin.cli import VERBS
+from irbkin.cli.arguments import Parser
+
+EVERY_VERB = list(VERBS)
+
+
+@pytest.fixture
+def joints_csv(tmp_path):
+    file = tmp_path / "joints.csv"
+    np.savetxt(file, JOINTS, delimiter=",")
+    return file
+
+
+@pytest.fixture
+def corners(tmp_path):
+    file = tmp_path / "corners.csv"
+    file.write_text("900,-200,600,0,160,0\n900,200,600,0,160,0\n1000,200,600,0,160,0\n")
+    return file
+
+
+@pytest.mark.parametrize("verb", EVERY_VERB)
+def test_help_has_examples_that_can_be_parsed(verb):
+    done = run(verb, "--help")
+    assert done.returncode == 0
+    text = done.stdout.decode()
+    examples = re.findall(r"^  irbkin (.*)$", text.partition("\nexamples:\n")[2], re.MULTILINE)
+    assert len(examples) >= 2
+    module = importlib.import_module(f"irbkin.cli.{verb}")
+    for example in examples:
+        own, *words = shlex.split(re.split(r" [<>|]", example)[0])
+        assert own == verb
+        parser = Parser(verb, VERBS[verb], module.HELP, module.EXAMPLES)
+        module.add_arguments(parser)
+        parser.parsed(words)
+
+
+def test_the_overview_lists_every_verb_and_needs_no_numpy():
+    code = (
+        "import sys; from irbkin.cli import main; code = main(['--help']); "
+        "print('numpy' in sys.modules, code)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True)
+    text = done.stdout.decode()
+    assert text.endswith("False 0\n")
+    for verb in VERBS:
+        assert f"\n  {verb} " in text
+    assert run().stdout.decode() == text.removesuffix("False 0\n")
+    assert run("--version").stdout.decode() == f"irbkin {irbkin.__version__}\n"
+
+
+def test_fk_gives_the_poses_of_the_library(joints_csv, tmp_path):
+    table = rows(run("fk", NAME, joints_csv, "--csv"))
+    wanted = ROBOT.fk(np.radians(JOINTS))
+    xyz, wxyz = irbkin.to_xyz_wxyz(wanted)
+    np.testing.assert_allclose(
+        np.column_stack([table[f"{axis}_mm"] for axis in "xyz"]), xyz * 1e3, atol=1e-8
+    )
+    np.testing.assert_allclose(
+        np.column_stack([table[it] for it in ("qw", "qx", "qy", "qz")]), wxyz, atol=1e-10
+    )
+    configuration = ROBOT.configuration(np.radians(JOINTS))
+    for name in ("cf1", "cf4", "cf6", "cfx"):
+        assert table[name].tolist() == getattr(configuration, name).tolist()
+    np.testing.assert_allclose(
+        table["wrist_deg"], np.degrees(ROBOT.singularity(np.radians(JOINTS)).wrist), atol=1e-9
+    )
+    file = tmp_path / "poses.npy"
+    assert run("fk", NAME, joints_csv, "-o", file).returncode == 0
+    np.testing.assert_allclose(np.load(file), wanted, atol=1e-12)
+
+
+def test_one_joint_vector_is_given_as_arguments():
+    table = rows(run("fk", NAME, 0, 0, "-1e-3", -10, 30, 0, "--csv", "--tool", 0, 0, 180))
+    tool = irbkin.pose([0, 0, 0.18])
+    wanted = ROBOT.with_tool(tool).fk(np.radians([0, 0, -1e-3, -10, 30, 0]))
+    found = [float(table[f"{axis}_mm"][0]) for axis in "xyz"]
+    np.testing.assert_allclose(found, wanted[:3, 3] * 1e3, atol=1e-8)
+    assert "6 angles" in refused("fk", NAME, 1, 2, 3)
+    assert "'x'" in refused("fk", NAME, 1, 2, 3, 4, 5, "x")
+
+
+def test_ik_shows_every_solution():
+    table = rows(run("ik", NAME, *XYZ, "--csv"))
+    solutions = ROBOT.ik(irbkin.pose([0.85, 0.32, 0.64], wxyz=[0.2588190, 0, 0.9659258, 0]))
+    assert table["slot"].tolist() == [it.slot for it in solutions]
+    np.testing.assert_allclose(joints_of(table), np.degrees(solutions.q), atol=1e-9)
+    within = [it.is_within_limits for it in solutions]
+    assert (table["limits"] == "inside").tolist() == within
+    assert (table["margin_deg"] >= 0).tolist() == within
+    inside = rows(run("ik", NAME, *XYZ, "--within", "--csv"))
+    assert len(inside["slot"]) == sum(within)
+
+
+def test_ik_takes_what_fk_gives(joints_csv, tmp_path):
+    poses = tmp_path / "poses.csv"
+    poses.write_bytes(run("fk", NAME, joints_csv, "--csv").stdout)
+    found = rows(run("ik", NAME, poses, "--csv"))
+    nearest = {}
+    for pose, q in zip(found["pose"], joints_of(found), strict=True):
+        # To a turn.
+        off = np.abs((q - JOINTS[int(pose)] + 180.0) % 360.0 - 180.0).max()
+        nearest[pose] = min(off, nearest.get(pose, np.inf))
+    assert len(nearest) == len(JOINTS)
+    assert max(nearest.values()) < 1e-6
+    seed = ["--seed", *map(str, JOINTS[0])]
+    q = tmp_path / "q.npy"
+    assert run("ik", NAME, poses, *seed, "-o", q).returncode == 0
+    wanted = ROBOT.ik_nearest(ROBOT.fk(np.radians(JOINTS)), np.radians(JOINTS[0]))
+    np.testing.assert_allclose(np.load(q), wanted, atol=1e-8)
+
+
+def test_ik_by_confdata_gives_the_joints_back(joints_csv, tmp_path):
+    q = np.radians(JOINTS[3])
+    confdata = list(ROBOT.configuration(q))
+    poses = tmp_path / "pose.npy"
+    np.save(poses, ROBOT.fk(q))
+    table = rows(run("ik", NAME, poses, "--confdata", *confdata, "--csv"))
+    np.testing.assert_allclose(joints_of(table)[0], JOINTS[3], atol=1e-8)
+
+
+def test_arrays_of_all_solutions_have_gaps(joints_csv, tmp_path):
+    poses, q = tmp_path / "poses.npy", tmp_path / "q.npy"
+    wanted = ROBOT.fk(np.radians(JOINTS))
+    wanted[7, 0, 3] += 9.0
+    np.save(poses, wanted)
+    done = run("ik", NAME, "-", "-o", q, stdin=poses.read_bytes())
+    assert done.returncode == 1
+    assert b"1 of 40 poses have no solution inside the limits; the first is pose 7" in done.stderr
+    np.testing.assert_array_equal(np.load(q), ROBOT.ik_batch(wanted).q)
+
+
+def test_seven_axes_take_q7():
+    table = rows(
+        run("ik", "Panda", "--xyz", 400, 0, 500, "--wxyz", 0, 1, 0, 0, "--q7", 45, "--csv")
+    )
+    np.testing.assert_allclose(table["q7_deg"], 45.0)
+    assert "give --q7" in refused("ik", "Panda", "--xyz", 400, 0, 500)
+    assert "has 6" in refused("ik", NAME, "--xyz", 400, 0, 500, "--q7", 45)
+
+
+def test_json_has_the_rows_and_nulls():
+    done = run("ik", NAME, *XYZ, "--json")
+    content = json.loads(done.stdout)
+    assert content["heading"].startswith(f"{NAME}: tool at 850 320 640 mm")
+    assert [row["slot"] for row in content["rows"]] == list(range(8))
+    nothing = run("ik", NAME, "--xyz", 8500, 320, 640, "--seed", *[0] * 6, "--json")
+    assert nothing.returncode == 1
+    assert json.loads(nothing.stdout)["rows"][0]["q1_deg"] is None
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        "900,0,600,0,160,0\n800,0,600,0,160,0\n",
+        "x_mm,y_mm,z_mm,rz_deg,ry_deg,rx_deg\n900,0,600,0,160,0\n800,0,600,0,160,0\n",
+        "\ufeffx,y,z,rz,ry,rx\r\n900,0,600,0,160,0\r\n800,0,600,0,160,0",
+        "# made by hand\n\n900 0 600 0 160 0\n\n800 0 600 0 160 0\n",
+        "900;0,0;600;0;160;0\n800;0;600;0;160;0\n",
+        "900\t0\t600\t0\t160\t0\n800\t0\t600\t0\t160\t0\n",
+        "ry [deg],rz [deg],rx [deg],name,z [m],y [m],x [m]\n160,0,0,a,.6,0,.9\n160,0,0,b,.6,0,.8\n",
+        "x_m,y_m,z_m,rz_rad,ry_rad,rx_rad\n.9,0,.6,0,2.792526803190927,0\n.8,0,.6,0,2.792526803190927,0",
+        "x,y,z,qw,qx,qy,qz\n900,0,600,0.17364818,0,0.98480775,0\n800,0,600,0.17364818,0,0.98480775,0\n",
+    ],
+)
+def test_rows_are_read_as_people_write_them(content):
+    done = run("ik", NAME, "-", "--seed", *[0] * 6, "--csv", stdin=content)
+    poses = irbkin.pose([[0.9, 0, 0.6], [0.8, 0, 0.6]], euler_zyx=np.radians([0, 160, 0]))
+    wanted = np.degrees(ROBOT.ik_nearest(poses, np.zeros(6)))
+    np.testing.assert_allclose(joints_of(rows(done)), wanted, atol=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        ("900,0,600,0,160,0\n900,O,600,0,160,0\n", "stdin:2:5: 'O' is no finite number"),
+        ("900,0,600,0,160,0\n\n900,0,600,0,160\n", "stdin:3: 5 columns, the first line has 6"),
+        ("x,y,z,rz,ry,rx\n900,0,600,,160,0\n", "stdin:2:11: '' is no finite number"),
+        ("x,y,z,rz,ry\n900,0,600,0,160\n", "stdin:1: no column 'qw'"),
+        ("900,0\n", "stdin:1: 2 columns; a pose has x_mm, y_mm, z_mm, qw"),
+        ("", "stdin: has no rows"),
+        ("x,y,z,rz,ry,rx\n", "stdin: has no rows"),
+        ("900,0,600,2,0,0,0\n", "stdin: row 1: the quaternion qw, qx, qy, qz has norm 2"),
+        ("900,0,1_0,0,160,0\n", "'1_0' is no finite number"),
+        (b"900,0,600,0,160,0\n900,\xff,600,0,160,0\n", "stdin:2:5: '?' is no finite number"),
+        (b"\xff\xfe9\x00", "UTF-16"),
+        (b"PK\x03\x04", "archive"),
+        (b"\x93NUMPY\x09", "is no .npy file that can be read"),
+    ],
+)
+def test_broken_rows_have_their_line_and_column(content, message):
+    assert message in refused("ik", NAME, "-", stdin=content)
+
+
+def test_broken_arrays_are_refused(tmp_path):
+    file = tmp_path / "a.npy"
+    for array, words in (
+        (
+            np.zeros((3, 6)),
+            "float64 of shape (3, 6), wanted an array of numbers of shape (m, 4",
+        ),
+        (np.asfortranarray(np.zeros((3, 4, 4))), "in Fortran's order"),
+        (np.zeros((3, 4, 4), dtype="U3"), "<U3"),
+        (np.zeros((0, 4, 4)), "has no rows"),
+    ):
+        np.save(file, array)
+        assert words in refused("ik", NAME, file)
+    np.save(file, np.zeros((3, 4, 4)))
+    file.write_bytes(file.read_bytes()[:-200])
+    assert "ends after row 1 of 3" in refused("ik", NAME, file)
+
+
+def test_unknown_names_have_the_close_ones():
+    assert "did you mean ik?" in refused("ikk")
+    assert '"IRB 2600-12/1.65"' in refused("ik", "IRB 2600-12", *XYZ)
+    assert "unrecognized arguments: --xzy" in refused("fk", NAME, "--xzy", 1)
+    assert "invalid choice" in refused("path", NAME, "-", "--through", "walls")
+    assert "No such file" in refused("fk", NAME, "nowhere.csv")
+    assert refused("ik", NAME) == (
+        "irbkin: give a pose by --xyz, or a FILE of poses (irbkin ik --help)\n"
+    )
+    assert "3 numbers" in refused("ik", NAME, *XYZ, "--tool", 1, 2)
+
+
+@pytest.mark.parametrize("number", ["0", "-5", "nan", "inf", "1e400", "-1e308", "1e12"])
+def test_numbers_that_cannot_be_are_refused_or_answered_in_a_line(number, corners):
+    # `run` asserts that no error is one of our own.
+    for words in (
+        ["catalog", "--reach", number],
+        ["catalog", "--payload", number],
+        ["fk", NAME, number, 0, 0, 0, 0, 0],
+        ["fk", NAME, 0, 0, 0, 0, 30, 0, "--tool", number, 0, 0],
+        ["fk", NAME, 0, 0, 0, 0, 30, 0, "--base", 0, 0, 0, number, 0, 0, 0],
+        ["ik", NAME, "--xyz", number, 0, 0],
+        ["ik", NAME, "--xyz", 900, 0, 900, "--wxyz", number, 0, 0, 0],
+        ["ik", NAME, "--xyz", 900, 0, 900, "--seed", number, 0, 0, 0, 0, 0],
+        ["ik", NAME, "--xyz", 900, 0, 900, "--confdata", number, 0, 0, 0],
+        ["ik", "Panda", "--xyz", 400, 0, 400, "--q7", number],
+        ["path", NAME, corners, "--through", "lines", "--step", number],
+        ["path", NAME, corners, "--through", "lines", "--zone", number],
+        ["path", NAME, corners, "--through", "spline", "--step", number],
+        ["plan", NAME, corners, "--start", number, 0, 0, 0, 0, 0],
+        ["plan", NAME, corners, "--rotation", number],
+    ):
+        done = run(*words)
+        assert done.returncode in (0, 1, 2)
+        assert done.returncode == 0 or done.stderr.startswith(b"irbkin: ")
+        assert done.returncode != 2 or done.stderr.count(b"\n") == 1, done.stderr
+
+
+def test_a_pose_out_of_reach_is_one_line_and_exit_code_1():
+    done = run("ik", NAME, "--xyz", 8500, 0, 0)
+    assert done.returncode == 1
+    reason = ROBOT.check_pose(irbkin.pose([8.5, 0, 0])).reason
+    assert done.stderr.decode() == f"irbkin: no solution inside the limits: {reason}\n"
+
+
+def test_the_catalog_is_listed_and_filtered():
+    assert tuple(rows(run("catalog", "--csv"))["name"]) == irbkin.catalog()
+    big = rows(run("catalog", "--reach", 2500, "--payload", 100, "--csv"))
+    assert tuple(big["name"]) == irbkin.catalog(reach=2.5, payload=100)
+    one = rows(run("catalog", NAME, "--csv"))
+    np.testing.assert_allclose(np.radians(one["lower_deg"]), ROBOT.limits[:, 0])
+    assert run("catalog", "irb2600-12/1.65").stdout == run("catalog", NAME).stdout
+    assert "close" in refused("catalog", "IRB 99999")
+
+
+POSES = irbkin.pose(
+    [[0.9, -0.2, 0.6], [0.9, 0.2, 0.6], [1.0, 0.2, 0.6]], euler_zyx=np.radians([0, 160, 0])
+)
+
+
+def test_a_path_is_that_of_the_library(corners, tmp_path):
+    q = tmp_path / "q.npy"
+    lines = irbkin.paths.polyline(POSES, 0.02, step=0.01, turn=np.radians(2))
+    assert (
+        run(
+            "path", NAME, corners, "--through", "lines", "--zone", 20, "--step", 10, "-o", q
+        ).returncode
+        == 0
+    )
+    np.testing.assert_allclose(np.load(q), ROBOT.follow(lines, np.zeros(6)).q, atol=1e-9)
+    round_ = corners.with_name("round.csv")
+    round_.write_text("900,-200,600,0,160,0\n950,0,600,0,160,0\n900,200,600,0,160,0\n")
+    via = irbkin.pose([0.95, 0.0, 0.6], euler_zyx=np.radians([0, 160, 0]))
+    arc = irbkin.paths.arc(POSES[0], via, POSES[1], step=0.005, turn=np.radians(2))
+    assert run("path", NAME, round_, "--through", "arc", "-o", q).returncode == 0
+    np.testing.assert_allclose(np.load(q), ROBOT.follow(arc, np.zeros(6)).q, atol=1e-9)
+    spline = irbkin.paths.spline(POSES, step=0.005, turn=np.radians(2))
+    done = run("path", NAME, corners, "--through", "spline", "--json")
+    assert len(json.loads(done.stdout)["rows"]) == len(spline)
+    assert json.loads(done.stdout)["fastest_mm_s"] > 0
+    assert "zone" in refused("path", NAME, corners, "--through", "lines", "--zone", "z7")
+
+
+def test_a_broken_path_is_reported(tmp_path):
+    far = tmp_path / "far.csv"
+    far.write_text("900,0,600,0,160,0\n9000,0,600,0,160,0\n")
+    done = run("path", NAME, far)
+    assert done.returncode == 1
+    assert done.stderr.startswith(b"irbkin: pose 1: ")
+    assert done.stderr.count(b"\n") == 1
+    far.write_text("900,0,600,0,160,0\n" + "9000,0,600,0,160,0\n" * 30)
+    assert run("path", NAME, far).stderr.endswith(b"irbkin: 20 more breaks\n")
+    done = run("plan", NAME, far)
+    assert done.returncode == 1
+    assert b"slot 0 ends at pose 1: " in done.stderr
+    far.write_text("900,0,600,0,160,0\nnan,0,600,0,160,0\n")
+    assert "far.csv:2:1: 'nan' is no finite number" in refused("plan", NAME, far)
+
+
+def test_a_plan_is_that_of_the_library(corners, tmp_path):
+    q = tmp_path / "q.npy"
+    lines = irbkin.paths.polyline(POSES, "fine", step=0.05, turn=np.radians(2))
+    for words, options in (
+        ([], {}),
+        (["--rotation", 12], {"rotation": 12}),
+        (
+            ["--start", *np.degrees(ROBOT.ik_nearest(POSES[0], np.zeros(6)))],
+            {"start": ROBOT.ik_nearest(POSES[0], np.zeros(6))},
+        ),
+    ):
+        done = run("plan", NAME, corners, "--through", "lines", "--step", 50, *words, "-o", q)
+        assert done.returncode == 0, done
+        np.testing.assert_allclose(np.load(q), ROBOT.plan(lines, **options).q, atol=1e-9)
+
+
+PROGRAM = """MODULE Weld
+    PERS tooldata tGun:=[TRUE,[[0,0,180],[1,0,0,0]],[2,[0,0,50],[1,0,0,0],0,0,0]];
+    CONST robtarget a:=[[900,-300,500],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+    CONST robtarget b:=[[900,300,500],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+    PROC main()
+        MoveJ a,v1000,z20,tGun;
+        MoveL b,v200,fine,tGun;
+    ENDPROC
+ENDMODULE
+"""
+
+
+def test_rapid_gives_moves_samples_and_a_module(tmp_path):
+    file, q, joints = (tmp_path / name for name in ("weld.mod", "q.npy", "joints.mod"))
+    file.write_text(PROGRAM)
+    motion = irbkin.rapid.motion(ROBOT, irbkin.rapid.parse(PROGRAM))
+    table = rows(run("rapid", NAME, file, "--csv"))
+    assert table["move"].tolist() == ["MoveJ", "MoveL"]
+    np.testing.assert_allclose(table["end_s"], [it.end for it in motion.moves])
+    assert run("rapid", NAME, file, "-o", q).returncode == 0
+    np.testing.assert_array_equal(np.load(q), np.column_stack([motion.t, motion.q]))
+    assert run("rapid", NAME, file, "-o", joints).returncode == 0
+    assert irbkin.rapid.load(joints) == motion.to_module()
+    slow = rows(run("rapid", NAME, file, "--acceleration", 500, "--csv"))
+    assert slow["end_s"][-1] > table["end_s"][-1]
+    assert "no routine" in refused("rapid", NAME, file, "--routine", "mian").lower()
+    file.write_text(PROGRAM.replace("MoveL b", "MoveL nowhere"))
+    done = run("rapid", NAME, file)
+    assert done.returncode == 1
+    assert done.stderr.startswith(f"irbkin: {file}:7:9: MoveL nowhere: ".encode())
+    file.write_text("MODULE M PROC main( ENDMODULE")
+    assert f"{file}: line 1, column " in refused("rapid", NAME, file)
+
+
+def test_plots_are_files_of_their_format(tmp_path, joints_csv):
+    pytest.importorskip("matplotlib")
+    for kind, words, ending, start in (
+        ("solutions", XYZ, "svg", b"<?xml"),
+        ("path", [joints_csv], "png", b"\x89PNG"),
+        ("singularity", [joints_csv], "pdf", b"%PDF"),
+        ("reach", ["--euler", 0, 180, 0], "png", b"\x89PNG"),
+    ):
+        file = tmp_path / f"{kind}.{ending}"
+        done = run("plot", NAME, kind, *words, "-o", file)
+        assert done.returncode == 0, done
+        assert file.read_bytes().startswith(start)
+    assert ".foo is none of" in refused("plot", NAME, "solutions", *XYZ, "-o", "a.foo")
+    assert "has no ending" in refused("plot", NAME, "solutions", *XYZ, "-o", "a")
+    assert "takes a FILE" in refused("plot", NAME, "path", "-o", "a.svg")
+
+
+@pytest.mark.skipif(not hasattr(irbkin.Robot, "to_urdf"), reason="needs Robot.to_urdf")
+def test_urdf_is_read_back_as_the_same_arm(tmp_path):
+    file = tmp_path / "arm.urdf"
+    assert run("urdf", NAME, "-o", file).returncode == 0
+    assert run("urdf", NAME).stdout == file.read_bytes()
+    q = np.radians(JOINTS)
+    found = rows(run("fk", file, "-", "--csv", stdin="0,0,0,0,30,0\n"))
+    wanted = ROBOT.fk(np.radians([0, 0, 0, 0, 30, 0]))[:3, 3] * 1e3
+    np.testing.assert_allclose([found[f"{axis}_mm"][0] for axis in "xyz"], wanted, atol=1e-6)
+    np.testing.assert_allclose(irbkin.Robot.from_urdf(file).fk(q), ROBOT.fk(q), atol=1e-12)
