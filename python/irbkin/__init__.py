@@ -70,6 +70,7 @@ if TYPE_CHECKING:
     from irbkin import paths as paths
     from irbkin import plot as plot
     from irbkin import rapid as rapid
+    from irbkin import ros as ros
     from irbkin import trajectory as trajectory
 
 __all__ = [
@@ -115,6 +116,7 @@ __all__ = [
     "paths",
     "pose",
     "rapid",
+    "ros",
     "to_xyz_euler_zyx",
     "to_xyz_wxyz",
     "trajectory",
@@ -122,7 +124,7 @@ __all__ = [
 ]
 
 # `plot` needs an extra: it is not in `__all__`, which a star import takes in whole.
-_MODULES = ("paths", "plot", "rapid", "trajectory")
+_MODULES = ("paths", "plot", "rapid", "ros", "trajectory")
 
 
 def __getattr__(name: str) -> ModuleType:

@@ -1,0 +1,142 @@
+"""The ROS 2 node over a real middleware: `make test-ros` runs it in ROS 2's environment."""
+
+import contextlib
+import json
+import os
+import random
+import sys
+import tempfile
+import threading
+import time
+from pathlib import Path
+
+import checks
+import rclpy
+from checks import KINDS, Process, wait_for
+from geometry_msgs.msg import Pose, PoseArray, PoseStamped
+from irbkin_interfaces import srv
+from rcl_interfaces.srv import DescribeParameters
+from sensor_msgs.msg import JointState
+
+INSTALLED = Path(__file__).parents[2] / ".venv-ros2/ws/install"
+NODE = INSTALLED / "irbkin_ros2/lib/irbkin_ros2/kinematics"
+
+
+class Node:
+    """The node as a client sees it."""
+
+    pose = Pose
+
+    def __init__(self, process):
+        self.log = process.text
+        self.states = []
+        self.clients = {}
+        self.node = rclpy.create_node("check")
+        self.targets = self.node.create_publisher(PoseStamped, "/target_pose", 10)
+        self.node.create_subscription(JointState, "/joint_states", self.states.append, 10)
+        # A client's `call` is answered by a thread that spins; it is ten times as fast as
+        # `spin_until_future_complete`.
+        threading.Thread(target=self.spin, daemon=True).start()
+        assert wait_for(lambda: self.services() >= checks.SERVICES, 20), process.text()
+        assert wait_for(lambda: self.node.count_subscribers("/target_pose"), 20), process.text()
+        assert wait_for(lambda: self.node.count_publishers("/joint_states"), 20), process.text()
+
+    def spin(self):
+        with contextlib.suppress(rclpy.executors.ExternalShutdownException):
+            rclpy.spin(self.node)
+
+    def services(self):
+        return {name for name, _ in self.node.get_service_names_and_types()}
+
+    def client(self, kind, name):
+        if name not in self.clients:
+            self.clients[name] = self.node.create_client(kind, name)
+            assert self.clients[name].wait_for_service(20), name
+        return self.clients[name]
+
+    def call(self, name, **fields):
+        kind = KINDS[name.rsplit("/", 1)[-1]]
+        client = self.client(getattr(srv, kind), name)
+        return client.call(self.request(kind, **fields))
+
+    def request(self, kind, **fields):
+        return getattr(srv, kind).Request(**fields)
+
+    def response(self, kind):
+        return getattr(srv, kind).Response()
+
+    def publish(self, pose, frame):
+        message = PoseStamped(pose=pose)
+        message.header.frame_id = frame
+        self.targets.publish(message)
+
+    def pose_array(self, poses, frame):
+        message = PoseArray(poses=[checks.fill(Pose(), T) for T in poses])
+        message.header.frame_id = frame
+        return message
+
+    def clear(self):
+        self.states.clear()
+
+    def joint_state(self, seconds):
+        return self.states[-1] if wait_for(lambda: self.states, seconds) else None
+
+    def stamp(self, message):
+        return self.seconds(message.header.stamp)
+
+    def seconds(self, duration):
+        return duration.sec + 1e-9 * duration.nanosec
+
+
+def parameters_are_described(node):
+    """Every parameter has its description, and cannot be changed while the node runs."""
+    names = [parameter.name for parameter in checks.ros.PARAMETERS]
+    client = node.client(DescribeParameters, "/irbkin/describe_parameters")
+    described = client.call(DescribeParameters.Request(names=names)).descriptors
+    assert [d.description for d in described] == [p.description for p in checks.ros.PARAMETERS]
+    assert all(d.read_only for d in described)
+    print("  parameters are described")
+
+
+def assignments(parameters):
+    pairs = (f"{name}:={json.dumps(value)}" for name, value in parameters.items())
+    return ["--ros-args", *(part for pair in pairs for part in ("-p", pair))] if parameters else []
+
+
+def main(folder):
+    began = time.perf_counter()
+    os.environ.update(
+        ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST",
+        ROS_DOMAIN_ID=str(random.randint(1, 101)),
+        ROS_LOG_DIR=str(folder),
+        PYTHONUNBUFFERED="1",
+    )
+    count = 0
+
+    def start_node(parameters):
+        nonlocal count
+        count += 1
+        log = folder / f"process_{count}.txt"
+        return Process([sys.executable, str(NODE), *assignments(parameters)], os.environ, log)
+
+    process = start_node(checks.PARAMETERS)
+    try:
+        rclpy.init()
+        node = Node(process)
+        print(f"  node is up and discovered: {time.perf_counter() - began:.2f} s")
+        checks.run(node)
+        parameters_are_described(node)
+        assert process.end() == 0, process.text()
+        assert "Traceback" not in process.text(), process.text()
+        checks.refuses_its_parameters(start_node, {"max_velocity": [1.0, -1.0, 1.0, 1.0, 1.0, 1.0]})
+        checks.refuses_its_parameters(start_node, {"max_velocity": "fast"})
+    finally:
+        process.end()
+        rclpy.try_shutdown()
+    print(f"ROS 2: {time.perf_counter() - began:.1f} s")
+
+
+if __name__ == "__main__":
+    print(f"ROS 2, Python {sys.version.split()[0]}")
+    with tempfile.TemporaryDirectory() as temporary:
+        main(Path(temporary))
