@@ -11,7 +11,7 @@ import numpy as np
 from irbkin._arrays import finite, limit_of_each
 from irbkin._core import retime
 from irbkin.errors import InvalidJointsError, InvalidMotionError, InvalidPoseError, IrbkinError
-from irbkin.ros.messages import Answer, Message, read_pose, write_pose
+from irbkin.ros.messages import Answer, Message, read_pose, read_poses, write_pose
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -144,12 +144,12 @@ class Kinematics:
 
         def answer(filled: Message) -> str:
             self._check_frame(request.path)
-            poses = [read_pose(pose) for pose in request.path.poses]
+            poses = read_poses(request.path.poses)
             if len(poses) < 2:
                 raise InvalidMotionError(
                     f"path has {len(poses)} poses, a trajectory needs at least 2"
                 )
-            trajectory = self._planned(np.array(poses), request)
+            trajectory = self._planned(poses, request)
             self._write_trajectory(trajectory, filled.trajectory, point)
             return f"{len(poses)} poses in {trajectory.duration:.3f} s"
 

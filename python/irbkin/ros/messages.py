@@ -23,6 +23,7 @@ __all__ = [
     "PoseStampedMessage",
     "Stamped",
     "read_pose",
+    "read_poses",
     "read_solutions",
     "write_pose",
 ]
@@ -108,6 +109,22 @@ def read_pose(message: PoseMessage) -> _Floats:
     """
     p, o = message.position, message.orientation
     return pose([p.x, p.y, p.z], xyzw=[o.x, o.y, o.z, o.w])
+
+
+def read_poses(messages: Sequence[PoseMessage]) -> _Floats:
+    """Return the homogeneous matrices of many `geometry_msgs/Pose`, shape (m, 4, 4).
+
+    Raises:
+        InvalidPoseError: As `read_pose`; the message has the index of the first.
+    """
+    if not messages:
+        return np.empty((0, 4, 4))
+    positions, orientations = (
+        [getattr(message, part) for message in messages] for part in ("position", "orientation")
+    )
+    return pose(
+        [[p.x, p.y, p.z] for p in positions], xyzw=[[o.x, o.y, o.z, o.w] for o in orientations]
+    )
 
 
 def write_pose(T: npt.ArrayLike, message: PoseMessage) -> None:
