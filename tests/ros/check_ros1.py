@@ -139,6 +139,9 @@ def main(folder):
         fk = shell(["rosservice", "call", f"{prefix}/fk", "[0, 0, 0, 0, 0, 0]"], env)
         assert "success: True" in fk
         assert "x: 0.815" in fk
+        pose = "pose: {position: {x: 0.9, y: 0.1, z: 0.8}, orientation: {y: 1.0}}"
+        ik = shell(["rosservice", "call", f"{prefix}/ik", pose], env)
+        assert "8 solutions" in ik
         pose = "pose: {position: {x: 5.0, z: 0.5}, orientation: {w: 1.0}}"
         assert "beyond reach" in shell(["rosservice", "call", f"{prefix}/check_pose", pose], env)
         assert node_process.end() == 0, node_process.text()

@@ -21,6 +21,26 @@ from sensor_msgs.msg import JointState
 INSTALLED = Path(__file__).parents[2] / ".venv-ros2/ws/install"
 NODE = INSTALLED / "irbkin_ros2/lib/irbkin_ros2/kinematics"
 
+# The node, shut down as by rclpy's signal handler if the node waits again too early: the handler
+# wakes who waits, and shuts the context down after that, without waking anybody. Run with rclpy's
+# own `spin`, the node then waits forever.
+LATE = """
+import sys, threading, rclpy, irbkin_ros2.node as node
+
+def shut_down():
+    handle = rclpy.get_default_context().handle
+    with handle:
+        handle.shutdown()
+
+if sys.argv.pop(1) == "spin":
+    class Executor(node.SingleThreadedExecutor):
+        def spin_once(self, timeout_sec=None):
+            super().spin_once()
+    node.SingleThreadedExecutor = Executor
+threading.Timer(2.0, shut_down).start()
+node.main()
+"""
+
 
 class Node:
     """The node as a client sees it."""
@@ -98,6 +118,24 @@ def parameters_are_described(node):
     print("  parameters are described")
 
 
+def a_shutdown_that_wakes_nobody_ends_the_node(start):
+    assert code_after_late_shutdown(start, "bounded") == 0
+    assert code_after_late_shutdown(start, "spin") is None
+    print("  a shutdown that wakes nobody ends the node; with rclpy's spin it waits forever")
+
+
+def code_after_late_shutdown(start, spin):
+    """The exit code, None for a node that has not ended."""
+    process = start(["-c", LATE, spin, *assignments(checks.PARAMETERS)])
+    try:
+        assert wait_for(lambda: "ready" in process.text()), process.text()
+        wait_for(lambda: process.process.poll() is not None, 5)
+        assert "Traceback" not in process.text(), process.text()
+        return process.process.poll()
+    finally:
+        process.end()
+
+
 def assignments(parameters):
     pairs = (f"{name}:={json.dumps(value)}" for name, value in parameters.items())
     return ["--ros-args", *(part for pair in pairs for part in ("-p", pair))] if parameters else []
@@ -113,11 +151,14 @@ def main(folder):
     )
     count = 0
 
-    def start_node(parameters):
+    def start(arguments):
         nonlocal count
         count += 1
         log = folder / f"process_{count}.txt"
-        return Process([sys.executable, str(NODE), *assignments(parameters)], os.environ, log)
+        return Process([sys.executable, *arguments], os.environ, log)
+
+    def start_node(parameters):
+        return start([str(NODE), *assignments(parameters)])
 
     process = start_node(checks.PARAMETERS)
     try:
@@ -130,6 +171,7 @@ def main(folder):
         assert "Traceback" not in process.text(), process.text()
         checks.refuses_its_parameters(start_node, {"max_velocity": [1.0, -1.0, 1.0, 1.0, 1.0, 1.0]})
         checks.refuses_its_parameters(start_node, {"max_velocity": "fast"})
+        a_shutdown_that_wakes_nobody_ends_the_node(start)
     finally:
         process.end()
         rclpy.try_shutdown()

@@ -63,10 +63,13 @@ def main(kind, count, folder):
         if master is not None:
             master.end()
     hung = sum(seconds is None for seconds, _ in endings)
-    failed = {how for _, how in endings if how}
+    failed = [how for _, how in endings if how]
     longest = max((seconds for seconds, _ in endings if seconds is not None), default=0.0)
-    print(f"{kind}: {count} starts, {hung} hung, the others ended within {longest:.2f} s")
-    for how in failed:
+    print(
+        f"{kind}: {count} starts, {hung} hung, {len(failed)} failed, the others ended within "
+        f"{longest:.2f} s"
+    )
+    for how in failed[:3]:
         print(how)
     return not hung and not failed
 
