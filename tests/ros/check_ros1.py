@@ -107,7 +107,7 @@ def main(folder):
         CMAKE_PREFIX_PATH=str(INSTALLED),
         PATH="/usr/bin:/bin",
     )
-    env = dict(os.environ, PYTHONUNBUFFERED="1")
+    env = dict(os.environ)
     python = ["/usr/bin/python3"]
     count = 0
 

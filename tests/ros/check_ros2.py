@@ -129,9 +129,9 @@ def code_after_late_shutdown(start, spin):
     process = start(["-c", LATE, spin, *assignments(checks.PARAMETERS)])
     try:
         assert wait_for(lambda: "ready" in process.text()), process.text()
-        wait_for(lambda: process.process.poll() is not None, 5)
+        code = process.code(5)
         assert "Traceback" not in process.text(), process.text()
-        return process.process.poll()
+        return code
     finally:
         process.end()
 
@@ -147,7 +147,6 @@ def main(folder):
         ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST",
         ROS_DOMAIN_ID=str(random.randint(1, 101)),
         ROS_LOG_DIR=str(folder),
-        PYTHONUNBUFFERED="1",
     )
     count = 0
 

@@ -4,6 +4,7 @@
 """
 
 import math
+import signal
 import subprocess
 import time
 from pathlib import Path
@@ -237,22 +238,33 @@ class Process:
         self.log = log
         with log.open("wb") as output:
             self.process = subprocess.Popen(
-                command, env=env, stdout=output, stderr=subprocess.STDOUT
+                command,
+                env={**env, "PYTHONFAULTHANDLER": "1", "PYTHONUNBUFFERED": "1"},
+                stdout=output,
+                stderr=subprocess.STDOUT,
             )
 
     def text(self):
         return self.log.read_text(errors="replace")
 
-    def end(self, seconds=5.0):
-        """Send SIGTERM. Returns the exit code, or None after it had to be killed."""
-        self.process.terminate()
+    def code(self, seconds):
+        """The exit code; None if it has not ended in time: then it is aborted, and its output ends
+        with what each of its threads was at.
+        """
         try:
             return self.process.wait(seconds)
         except subprocess.TimeoutExpired:
+            self.process.send_signal(signal.SIGABRT)
+            time.sleep(0.5)
             return None
         finally:
             self.process.kill()
             self.process.wait()
+
+    def end(self, seconds=5.0):
+        """Send SIGTERM. Returns the exit code, or None after it had to be aborted."""
+        self.process.terminate()
+        return self.code(seconds)
 
 
 def refuses_its_parameters(start, wrong):
@@ -264,10 +276,7 @@ def refuses_its_parameters(start, wrong):
         ({**PARAMETERS, **wrong}, "max_velocity"),
     ):
         process = start(parameters)
-        try:
-            assert process.process.wait(20) == 1, process.text()
-        finally:
-            process.end()
+        assert process.code(20) == 1, process.text()
         assert words in process.text(), process.text()
         assert "Traceback" not in process.text(), process.text()
     print("  wrong parameters are refused with the reason")

@@ -46,7 +46,6 @@ def main(kind, count, folder):
         ROS_DOMAIN_ID=str(random.randint(1, 101)),
         ROS_LOG_DIR=str(folder),
         ROS_HOME=str(folder),
-        PYTHONUNBUFFERED="1",
     )
     master = None
     if kind == "ros1":
@@ -84,7 +83,7 @@ def ended(kind, is_ready, environment, folder):
     start = time.monotonic()
     code = process.end()
     if code is None:
-        return None, ""
+        return None, process.text()
     # Before its middleware is up, the signal ends a process at once.
     is_good = code == 0 or (not is_ready and code == -15)
     wrong = "" if is_good and "Traceback" not in process.text() else f"{code}: {process.text()}"
