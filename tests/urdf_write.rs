@@ -66,9 +66,15 @@ fn assert_same_solutions(robot: &Robot<6>, read: &Robot<6>) {
 #[test]
 fn every_arm_of_the_catalog_is_read_back_with_its_solutions() {
     for arm in catalog() {
-        match AnyRobot::named(arm.name).unwrap() {
-            AnyRobot::Six(robot) => assert_same_solutions(&robot, &again(&robot)),
+        let any = AnyRobot::named(arm.name).unwrap();
+        let text = any.to_urdf();
+        match any {
+            AnyRobot::Six(robot) => {
+                assert_eq!(text, robot.to_urdf());
+                assert_same_solutions(&robot, &again(&robot));
+            }
             AnyRobot::Seven(robot) => {
+                assert_eq!(text, robot.to_urdf());
                 again(&robot);
             }
         }

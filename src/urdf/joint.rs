@@ -12,6 +12,10 @@ use crate::kinematics::{JointAxis, Pose, constant_pose, snapped, unit};
 /// Most characters of an attribute that a message repeats.
 const REPEATED: usize = 60;
 
+/// The element of a linkage's joint that has the limits of the linkage: irbkin's own, since URDF has
+/// none.
+pub(super) const LINKAGE: &str = "linkage";
+
 /// A joint between two links, which are given by their indices.
 pub(super) struct Joint<'a> {
     pub(super) name: &'a str,
@@ -169,7 +173,7 @@ impl<'a> Joint<'a> {
     }
 
     fn linkage(&self) -> Result<Linkage, UrdfFault> {
-        let limits = self.element("linkage")?.map(|linkage| {
+        let limits = self.element(LINKAGE)?.map(|linkage| {
             let limit = |name, field| match linkage.attribute(name) {
                 Some(text) => self.numbers::<1>(field, text, MOST_ANGLE).map(|[limit]| limit),
                 None => Ok(0.0),

@@ -6,6 +6,7 @@ use alloc::string::String;
 
 use nalgebra::Vector3;
 
+use super::joint::LINKAGE;
 use crate::kinematics::thresholds::MOST_ANGLE;
 use crate::kinematics::{Pose, pose_to_euler_zyx};
 
@@ -84,7 +85,7 @@ impl Text {
         self.push("    <mimic joint=\"joint_2\" multiplier=\"-1\" offset=\"0\"/>\n");
         if let Some([lower, upper]) = limits.map(finite) {
             self.push("    <!-- Limits of joint_3 - joint_2, for irbkin. -->\n");
-            self.line(format_args!("    <linkage lower=\"{lower}\" upper=\"{upper}\"/>"));
+            self.line(format_args!("    <{LINKAGE} lower=\"{lower}\" upper=\"{upper}\"/>"));
         }
         self.push("  </joint>\n");
     }

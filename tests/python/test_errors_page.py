@@ -7,7 +7,7 @@ from pathlib import Path
 
 import irbkin
 import numpy as np
-from irbkin import Robot, plot, rapid, trajectory
+from irbkin import Robot, plot, rapid, ros, trajectory
 
 PAGE = Path(__file__).parents[2] / "docs" / "errors.md"
 START = "<!-- python: written by make errors -->\n"
@@ -19,6 +19,7 @@ POSE = SIX.fk(SEED)
 NAMES = {
     "irbkin": irbkin,
     "rapid": rapid,
+    "ros": ros,
     "plot": plot,
     "trajectory": trajectory,
     "move": trajectory.joint(SEED, -SEED),
@@ -89,6 +90,10 @@ CALLS = [
     ("plot.singularity(robot, seed)", "give many joint vectors, shape (m, n)"),
     ("plot.reach(robot, [0, 0, -1])", "give a rotation matrix"),
     ("plot.reach(robot, np.eye(3), steps=1)", "two cells or more"),
+    ("ros.kinematics_of({})", "set the parameter of the node"),
+    ("ros.kinematics_of({'robot': 'UR5', 'start': 'zero'})", "give numbers"),
+    ("ros.kinematics_of({'robot_description': robot.to_urdf()})", "name them"),
+    ("ros.Kinematics(robot, joint_names=['a'])", "as many names as joints"),
 ]
 
 

@@ -433,6 +433,18 @@ def test_every_arm_of_the_catalog_has_a_name_for_its_services():
     assert all(re.fullmatch("[a-z][a-z0-9_]*", prefix) for prefix in prefixes)
 
 
+@pytest.mark.parametrize("name", ["IRB 1600-6/1.45", "IRB 2400-10/1.55", "Panda"])
+def test_joints_have_the_names_that_a_description_gives_them(name):
+    robot = Robot(name)
+    joints = ElementTree.fromstring(robot.to_urdf()).iter("joint")
+    names = [
+        joint.get("name")
+        for joint in joints
+        if joint.get("type") == "revolute" and joint.find("mimic") is None
+    ]
+    assert ros.Kinematics(robot).joint_names == names
+
+
 @pytest.mark.parametrize(
     "file",
     ["irbkin_ros1/launch/kinematics.launch", "irbkin_ros2/launch/kinematics.launch.xml"],

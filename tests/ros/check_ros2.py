@@ -16,6 +16,7 @@ from checks import KINDS, Process, wait_for
 from geometry_msgs.msg import Pose, PoseArray, PoseStamped
 from irbkin_interfaces import srv
 from rcl_interfaces.srv import DescribeParameters
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from sensor_msgs.msg import JointState
 
 INSTALLED = Path(__file__).parents[2] / ".venv-ros2/ws/install"
@@ -32,12 +33,18 @@ def shut_down():
     with handle:
         handle.shutdown()
 
+class Node(node.KinematicsNode):
+    def __init__(self):
+        super().__init__()
+        threading.Timer(1.0, shut_down).start()
+
+class Executor(node.SingleThreadedExecutor):
+    def spin_once(self, timeout_sec=None):
+        super().spin_once()
+
+node.KinematicsNode = Node
 if sys.argv.pop(1) == "spin":
-    class Executor(node.SingleThreadedExecutor):
-        def spin_once(self, timeout_sec=None):
-            super().spin_once()
     node.SingleThreadedExecutor = Executor
-threading.Timer(2.0, shut_down).start()
 node.main()
 """
 
@@ -56,14 +63,18 @@ class Node:
         self.node.create_subscription(JointState, "/joint_states", self.states.append, 10)
         # A client's `call` is answered by a thread that spins; it is ten times as fast as
         # `spin_until_future_complete`.
-        threading.Thread(target=self.spin, daemon=True).start()
+        threading.Thread(target=self.spin).start()
         assert wait_for(lambda: self.services() >= checks.SERVICES, 20), process.text()
         assert wait_for(lambda: self.node.count_subscribers("/target_pose"), 20), process.text()
         assert wait_for(lambda: self.node.count_publishers("/joint_states"), 20), process.text()
 
     def spin(self):
-        with contextlib.suppress(rclpy.executors.ExternalShutdownException):
-            rclpy.spin(self.node)
+        executor = SingleThreadedExecutor()
+        executor.add_node(self.node)
+        # As the node itself waits.
+        with contextlib.suppress(ExternalShutdownException):
+            while rclpy.ok():
+                executor.spin_once(timeout_sec=0.5)
 
     def services(self):
         return {name for name, _ in self.node.get_service_names_and_types()}
@@ -173,6 +184,7 @@ def main(folder):
         a_shutdown_that_wakes_nobody_ends_the_node(start)
     finally:
         process.end()
+        # Ends the thread that spins, too.
         rclpy.try_shutdown()
     print(f"ROS 2: {time.perf_counter() - began:.1f} s")
 
