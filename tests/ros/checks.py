@@ -15,7 +15,8 @@ from irbkin import ros
 
 ROBOT = "IRB 1600-6/1.45"
 PREFIX = "/irb1600_kinematics"
-PARAMETERS = {"robot": ROBOT, "max_acceleration": [8.0] * 6}
+# Whole numbers are numbers, too.
+PARAMETERS = {"robot": ROBOT, "max_acceleration": [8] * 6, "start": [0.0] * 6}
 SERVICES = {f"{PREFIX}/fk", f"{PREFIX}/ik", f"{PREFIX}/check_pose", "/plan_path"}
 KINDS = {"fk": "FK", "ik": "IK", "check_pose": "CheckPose", "plan_path": "PlanPath"}
 JOINT_NAMES = [f"joint_{i}" for i in range(1, 7)]
@@ -267,13 +268,15 @@ class Process:
         return self.code(seconds)
 
 
-def refuses_its_parameters(start, wrong):
+def refuses_its_parameters(start):
     """A node with a wrong parameter ends with 1 and the reason, without a traceback."""
     for parameters, words in (
         ({"robot": "IRB 1601"}, "IRB 1600-6/1.45"),
+        ({"robot": 1600}, "robot is 1600, it must be a text"),
         ({}, "robot is empty"),
         ({**PARAMETERS, "start": [0.0, 1.0]}, "start must have shape (6,), got (2,)"),
-        ({**PARAMETERS, **wrong}, "max_velocity"),
+        ({**PARAMETERS, "max_velocity": [-1] * 6}, "max_velocity[0] is -1.0, it must be positive"),
+        ({**PARAMETERS, "max_velocity": "fast"}, "max_velocity is 'fast', it must be an array of"),
     ):
         process = start(parameters)
         assert process.code(20) == 1, process.text()

@@ -14,10 +14,8 @@ from irbkin import IrbkinError, ros
 from irbkin_interfaces.srv import FK, IK, CheckPose, PlanPath
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.duration import Duration
-from rclpy.exceptions import InvalidParameterTypeException
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
-from rclpy.parameter import Parameter
 from sensor_msgs.msg import JointState
 from trajectory_msgs.msg import JointTrajectoryPoint
 
@@ -25,12 +23,6 @@ from trajectory_msgs.msg import JointTrajectoryPoint
 # node on SIGTERM and shuts down after that: a node that waits again in between, without a bound,
 # waits forever.
 LONGEST_WAIT = 0.5
-
-TYPES = {
-    (str, False): Parameter.Type.STRING,
-    (str, True): Parameter.Type.STRING_ARRAY,
-    (float, True): Parameter.Type.DOUBLE_ARRAY,
-}
 
 
 class KinematicsNode(Node):
@@ -55,15 +47,12 @@ class KinematicsNode(Node):
 
     def _declared(self, parameter: ros.Parameter) -> Any:
         """The value of a parameter; None for an array that is not set."""
-        descriptor = ParameterDescriptor(description=parameter.description, read_only=True)
-        kind = TYPES[parameter.kind, parameter.is_array]
-        try:
-            if not parameter.is_array:
-                return self.declare_parameter(parameter.name, parameter.default, descriptor).value
-            self.declare_parameter(parameter.name, kind, descriptor)
-        except InvalidParameterTypeException as error:
-            raise IrbkinError(f"parameter {parameter.name}: {error}") from error
-        return self.get_parameter_or(parameter.name).value
+        # Any type is read, and `irbkin.ros` checks it: whole numbers are numbers, too.
+        descriptor = ParameterDescriptor(
+            description=parameter.description, read_only=True, dynamic_typing=True
+        )
+        default = None if parameter.is_array else parameter.default
+        return self.declare_parameter(parameter.name, default, descriptor).value
 
     def _follow_target(self, target: PoseStamped) -> None:
         try:
