@@ -66,7 +66,16 @@ def kinematics_of(values: Mapping[str, Any]) -> Kinematics:
         IrbkinError: A value is invalid; the message names the parameter.
     """
     read = {parameter.name: _value(parameter, values) for parameter in PARAMETERS}
-    base_frame, joint_names = read["base_frame"], read["joint_names"]
+    base_frame, joint_names, prefix = (
+        read["base_frame"],
+        read["joint_names"],
+        read["service_prefix"],
+    )
+    if prefix and not re.fullmatch(r"/?[A-Za-z]\w*(/[A-Za-z]\w*)*", prefix, re.ASCII):
+        raise IrbkinError(
+            f"service_prefix is {prefix!r}, it must be a name: letters, digits and underscores, a "
+            "letter first"
+        )
     robot = _robot(read)
     if len(read["tool"]):
         tool = finite(read["tool"], "tool", (7,), InvalidPoseError)
