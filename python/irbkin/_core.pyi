@@ -361,19 +361,10 @@ class Robot:
     def to_urdf(self) -> str:
         """Return the text of a URDF of the robot, which `from_urdf` reads back.
 
-        Links are `base_link`, `base` (the same), `link_1` .. `link_n`, `flange` and `tool0`; joints
-        are `joint_1` .. `joint_n`, with limits [rad] and velocities [rad/s]. At zero joint angles
-        every link but `tool0` is parallel to `base_link`. `tool0` is irbkin's flange, with z out of
-        it; `flange` has x out of it. With a base, `base_link` is placed in `world`; with a tool,
-        `tool` is placed in `tool0`.
-
-        URDF has no element for some of a robot:
-
-        - An effort or velocity that is not known is 0. There are no masses and no shapes.
-        - If a parallelogram linkage couples axes 2 and 3, `joint_3` is the controller's. A passive
-          joint between them, `joint_2-linkage`, mimics `joint_2` with the multiplier -1; a program
-          that ignores mimic needs -q2 for it. `uncoupled().to_urdf()` has no such joint.
-        - A joint with a limit on one side only has 1e5 rad on the other.
+        Links are `base_link`, `link_1` .., `flange` and `tool0` (irbkin's flange, z out of it); with
+        a base `world`, with a tool `tool`. Joints are `joint_1` .., with limits [rad] and velocities
+        [rad/s], 0 where not known. A parallelogram linkage is a passive joint that mimics `joint_2`
+        with the multiplier -1; `uncoupled().to_urdf()` has none. See docs/conventions.md.
         """
     @property
     def name(self) -> str:

@@ -16,9 +16,9 @@ use alloc::vec::Vec;
 use nalgebra::Vector3;
 
 use self::chain::chain_between;
-use self::joint::{Joint, Linkage, Motion, Placed};
+use self::joint::{Joint, Motion, Placed};
 use self::tree::{Tree, parsed};
-use crate::error::{Error, ModelFault};
+use crate::error::{Error, ModelFault, UrdfFault};
 use crate::kinematics::thresholds::FORM_TOLERANCE;
 use crate::kinematics::{
     AnyRobot, Arity, JointAxis, JointLimits, Joints, Mdh, Pose, Robot, SNAPS, check_snap,
@@ -168,23 +168,28 @@ impl UrdfArm {
     where
         Joints<N>: Arity<N>,
     {
+        let (axes, t_base_tip) = self.axes(snap)?;
+        let axes = <[JointAxis; N]>::try_from(axes)
+            .map_err(|axes| ModelFault::JointCount { found: axes.len(), wanted: N })?;
+        Robot::serial_chain(Mdh::from_joint_axes(&axes, &t_base_tip)?)
+    }
+
+    /// The axes of the joints that turn, and the tip, both in the base at zero joint angles.
+    fn axes(&self, snap: f64) -> Result<(Vec<JointAxis>, Pose), UrdfFault> {
         let mut t_base_tip = Pose::identity();
-        let mut axes = Vec::with_capacity(N);
+        let mut axes = Vec::new();
         let mut linkage = None;
         for joint in &self.joints {
             t_base_tip *= joint.origin(snap);
             axes.extend(joint.motion.as_ref().map(|motion| motion.axis(&t_base_tip, snap)));
-            let axis_of = |joint: &Linkage| (joint.axis(&t_base_tip, snap), joint.fault.clone());
-            linkage = linkage.or(joint.linkage.as_ref().map(axis_of));
+            linkage = joint.linkage.as_ref().map(|l| (l.axis(&t_base_tip, snap), l)).or(linkage);
         }
-        let axes = <[JointAxis; N]>::try_from(axes)
-            .map_err(|axes| ModelFault::JointCount { found: axes.len(), wanted: N })?;
-        if let Some((axis, fault)) = linkage
-            && !are_one(&axis, &axes[2])
-        {
-            return Err(fault.into());
+        match (linkage, axes.get(2)) {
+            (Some((axis, linkage)), Some(third)) if !are_one(&axis, third) => {
+                Err(linkage.fault.clone())
+            }
+            _ => Ok((axes, t_base_tip)),
         }
-        Robot::serial_chain(Mdh::from_joint_axes(&axes, &t_base_tip)?)
     }
 
     /// The robot under its name, with limits and velocities.

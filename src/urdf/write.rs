@@ -12,10 +12,10 @@ use alloc::borrow::ToOwned;
 use alloc::format;
 use alloc::string::String;
 
-use nalgebra::Vector3;
+use nalgebra::{Translation3, Vector3};
 
 use super::text::{Hinge, Text};
-use crate::kinematics::{AnyRobot, Arity, Joints, Pose, Robot, constant_pose};
+use crate::kinematics::{AnyRobot, Arity, DhRow, Joints, Pose, Robot, constant_pose};
 
 /// What a file without masses and shapes needs to say.
 const HEAD: &[&str] = &[
@@ -58,11 +58,43 @@ where
     /// ```
     #[must_use]
     pub fn to_urdf(&self) -> String {
-        let mut text = Text::new(self.name());
+        let mdh = self.mdh();
+        let arm = Arm {
+            name: self.name(),
+            base: self.base(),
+            tool: self.tool(),
+            root: &mdh.base,
+            rows: &mdh.rows,
+            flange: &mdh.flange,
+            limits: &self.limits().to_array(),
+            velocity: self.max_velocity().map(|velocity| &velocity[..]),
+            linkage: self.is_coupled().then(|| self.limits().linkage()),
+        };
+        arm.urdf()
+    }
+}
+
+/// What is written of a robot, whatever its number of joints.
+struct Arm<'a> {
+    name: &'a str,
+    base: &'a Pose,
+    tool: &'a Pose,
+    root: &'a Pose,
+    rows: &'a [DhRow],
+    flange: &'a Pose,
+    limits: &'a [[f64; 2]],
+    velocity: Option<&'a [f64]>,
+    /// Limits of the linkage, if there is one.
+    linkage: Option<Option<[f64; 2]>>,
+}
+
+impl Arm<'_> {
+    fn urdf(&self) -> String {
+        let mut text = Text::new(self.name);
         text.lines(HEAD);
-        if *self.base() != Pose::identity() {
+        if *self.base != Pose::identity() {
             text.link("world");
-            text.fixed("world-base_link", ["world", "base_link"], self.base());
+            text.fixed("world-base_link", ["world", "base_link"], self.base);
         }
         text.link("base_link");
         text.link("base");
@@ -70,61 +102,49 @@ where
         let (last, t_last_flange) = self.write_chain(&mut text);
         // z of tool0 is x of the flange.
         let turn = constant_pose([0.0; 3], [0.0, FRAC_PI_2, 0.0]);
+        let joint = format!("joint_{}-flange", self.rows.len());
         text.link("flange");
-        text.fixed(
-            &format!("joint_{N}-flange"),
-            [&last, "flange"],
-            &(t_last_flange * turn.inverse()),
-        );
+        text.fixed(&joint, [&last, "flange"], &(t_last_flange * turn.inverse()));
         text.link("tool0");
         text.fixed("flange-tool0", ["flange", "tool0"], &turn);
-        if *self.tool() != Pose::identity() {
+        if *self.tool != Pose::identity() {
             text.link("tool");
-            text.fixed("tool0-tool", ["tool0", "tool"], self.tool());
+            text.fixed("tool0-tool", ["tool0", "tool"], self.tool);
         }
         text.finished()
     }
 
     /// Write the links that turn. Returns the last one, and the flange in it.
     fn write_chain(&self, text: &mut Text) -> (String, Pose) {
-        let mdh = self.mdh();
-        let (mut parent, mut origin) = ("base_link".to_owned(), mdh.base.translation.vector);
-        // Of the table's frame, relative to the link that has the same origin.
-        let mut rotation = mdh.base.rotation;
-        for (i, row) in mdh.rows.iter().enumerate() {
+        let mut parent = "base_link".to_owned();
+        // The table's frame in the parent, at zero joint angles.
+        let mut frame = *self.root;
+        for (i, row) in self.rows.iter().enumerate() {
             let twist = constant_pose([row.a, 0.0, 0.0], [0.0, 0.0, row.alpha]);
-            let axis = twist.rotation * Vector3::z();
-            origin += rotation * (twist.translation.vector + axis * row.d);
-            let hinge = self.hinge(i, origin, rotation * axis);
-            let joint = format!("joint_{}", i + 1);
-            let hinge = if i == 2 && self.is_coupled() {
+            frame *= twist * constant_pose([0.0, 0.0, row.d], [row.theta, 0.0, 0.0]);
+            let mut hinge = self.hinge(i, &frame);
+            if let (2, Some(limits)) = (i, self.linkage) {
                 text.lines(LINKAGE);
                 text.link("linkage");
-                text.linkage(
-                    [&parent, "linkage"],
-                    &self.hinge(1, origin, hinge.axis),
-                    self.limits().linkage(),
-                );
+                text.linkage([&parent, "linkage"], &self.hinge(1, &frame), limits);
                 "linkage".clone_into(&mut parent);
-                Hinge { origin: Vector3::zeros(), ..hinge }
-            } else {
-                hinge
-            };
-            let child = format!("link_{}", i + 1);
+                hinge.origin = Vector3::zeros();
+            }
+            let (joint, child) = (format!("joint_{}", i + 1), format!("link_{}", i + 1));
             text.link(&child);
             text.hinge(&joint, [&parent, &child], &hinge);
             parent = child;
-            origin = Vector3::zeros();
-            rotation *= twist.rotation * constant_pose([0.0; 3], [row.theta, 0.0, 0.0]).rotation;
+            // The link has its origin there, and is parallel to its parent.
+            frame.translation = Translation3::identity();
         }
-        let translation = rotation * mdh.flange.translation.vector;
-        (parent, Pose::from_parts(translation.into(), rotation * mdh.flange.rotation))
+        (parent, frame * self.flange)
     }
 
-    /// Joint `i`, counted from zero, at a place of its own.
-    fn hinge(&self, i: usize, origin: Vector3<f64>, axis: Vector3<f64>) -> Hinge {
-        let limits = self.limits().to_array()[i];
-        Hinge { origin, axis, limits, velocity: self.max_velocity().map(|velocity| velocity[i]) }
+    /// Joint `i`, counted from zero, about z of a frame.
+    fn hinge(&self, i: usize, frame: &Pose) -> Hinge {
+        let axis = frame.rotation.matrix().column(2).into_owned();
+        let velocity = self.velocity.map(|velocity| velocity[i]);
+        Hinge { origin: frame.translation.vector, axis, limits: self.limits[i], velocity }
     }
 }
 

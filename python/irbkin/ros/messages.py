@@ -36,16 +36,12 @@ Message = Any
 
 
 class _Point(Protocol):
-    """`geometry_msgs/Point`."""
-
     x: float
     y: float
     z: float
 
 
 class _Quaternion(_Point, Protocol):
-    """`geometry_msgs/Quaternion`."""
-
     w: float
 
 
@@ -62,8 +58,6 @@ class PoseMessage(Protocol):
 
 
 class _Header(Protocol):
-    """`std_msgs/Header`."""
-
     frame_id: str
 
 
@@ -84,7 +78,7 @@ class PoseStampedMessage(Stamped, Protocol):
 
 
 class Answer(Protocol):
-    """The part that responses have in common."""
+    """What responses have in common."""
 
     success: bool
     message: str
@@ -112,19 +106,10 @@ def read_pose(message: PoseMessage) -> _Floats:
 
 
 def read_poses(messages: Sequence[PoseMessage]) -> _Floats:
-    """Return the homogeneous matrices of many `geometry_msgs/Pose`, shape (m, 4, 4).
-
-    Raises:
-        InvalidPoseError: As `read_pose`; the message has the index of the first.
-    """
-    if not messages:
-        return np.empty((0, 4, 4))
-    positions, orientations = (
-        [getattr(message, part) for message in messages] for part in ("position", "orientation")
-    )
-    return pose(
-        [[p.x, p.y, p.z] for p in positions], xyzw=[[o.x, o.y, o.z, o.w] for o in orientations]
-    )
+    """As `read_pose` of many, shape (m, 4, 4); an error has the index of the first."""
+    p = [[m.position.x, m.position.y, m.position.z] for m in messages]
+    o = [[m.orientation.x, m.orientation.y, m.orientation.z, m.orientation.w] for m in messages]
+    return pose(p, xyzw=o) if p else np.empty((0, 4, 4))
 
 
 def write_pose(T: npt.ArrayLike, message: PoseMessage) -> None:
