@@ -361,10 +361,10 @@ class Robot:
     def to_urdf(self) -> str:
         """Return the text of a URDF of the robot, which `from_urdf` reads back.
 
-        Links are `base_link`, `link_1` .., `flange` and `tool0` (irbkin's flange, z out of it); with
-        a base `world`, with a tool `tool`. Joints are `joint_1` .., with limits [rad] and velocities
-        [rad/s], 0 where not known. A parallelogram linkage is a passive joint that mimics `joint_2`
-        with the multiplier -1; `uncoupled().to_urdf()` has none. See docs/conventions.md.
+        Links are `base_link`, `link_1` .., `flange` and `tool0` (irbkin's flange, z out of it);
+        `world` with a base, `tool` with a tool. Joints are `joint_1` .., velocities 0 if unknown. A
+        parallelogram linkage is a joint that mimics `joint_2`; `uncoupled().to_urdf()` has none.
+        See docs/conventions.md.
         """
     @property
     def name(self) -> str:

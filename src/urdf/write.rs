@@ -68,7 +68,8 @@ where
             flange: &mdh.flange,
             limits: &self.limits().to_array(),
             velocity: self.max_velocity().map(|velocity| &velocity[..]),
-            linkage: self.is_coupled().then(|| self.limits().linkage()),
+            is_coupled: self.is_coupled(),
+            linkage: self.limits().linkage(),
         };
         arm.urdf()
     }
@@ -84,8 +85,9 @@ struct Arm<'a> {
     flange: &'a Pose,
     limits: &'a [[f64; 2]],
     velocity: Option<&'a [f64]>,
-    /// Limits of the linkage, if there is one.
-    linkage: Option<Option<[f64; 2]>>,
+    is_coupled: bool,
+    /// Limits of the linkage [rad].
+    linkage: Option<[f64; 2]>,
 }
 
 impl Arm<'_> {
@@ -123,10 +125,10 @@ impl Arm<'_> {
             let twist = constant_pose([row.a, 0.0, 0.0], [0.0, 0.0, row.alpha]);
             frame *= twist * constant_pose([0.0, 0.0, row.d], [row.theta, 0.0, 0.0]);
             let mut hinge = self.hinge(i, &frame);
-            if let (2, Some(limits)) = (i, self.linkage) {
+            if i == 2 && self.is_coupled {
                 text.lines(LINKAGE);
                 text.link("linkage");
-                text.linkage([&parent, "linkage"], &self.hinge(1, &frame), limits);
+                text.linkage([&parent, "linkage"], &self.hinge(1, &frame), self.linkage);
                 "linkage".clone_into(&mut parent);
                 hinge.origin = Vector3::zeros();
             }
