@@ -21,7 +21,7 @@ ON_EACH_NARROWER_SET := \
 STEP := @tests/step.sh
 SKIPPED := target/skipped.txt
 
-.PHONY: help run test check stubs catalog errors bench bench-peers instructions stages ulp million configurations hardsets fuzz wheel packages clean toolchains
+.PHONY: help run test test-recipes test-ros ros-starts check stubs catalog errors bench bench-peers instructions stages ulp million configurations hardsets fuzz wheel packages clean toolchains
 
 help: ## List the targets
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -61,6 +61,17 @@ test: $(BUILT) $(VENV)/.groups ## Run all tests, in Rust and Python
 	$(STEP) "Laws without std" cargo test $(NO_STD),rapid --test suite -- laws:: coupled:: configuration:: allocation:: rapid:: rapid_calc::
 	@if [ -e $(SKIPPED) ]; then sort $(SKIPPED); fi; echo "Skipped in Rust: $$(cat $(SKIPPED) 2>/dev/null | wc -l)"
 	$(STEP) "Python tests" $(BIN)/python -m pytest
+
+test-recipes: $(BUILT) $(VENV)/.groups ## Install JAX, Polars and xarray, run docs/recipes.md
+	$(STEP) "Install what docs/recipes.md needs" $(BIN)/pip install --quiet --group recipes
+	$(STEP) "Recipes" $(BIN)/python -m pytest --quiet tests/python/test_documents.py -k recipes
+
+# In a ROS of its own each; only where one cannot be installed it is skipped, with the reason.
+test-ros: $(BUILT) ## Install ROS 1 and ROS 2, build the workspace, check both nodes
+	@tests/ros/test.sh $(abspath $(BIN)/python)
+
+ros-starts: $(BUILT) ## End COUNT (200) nodes of each ROS with SIGTERM: none may hang
+	@tests/ros/test.sh --starts $(or $(COUNT),200) $(abspath $(BIN)/python)
 
 check: $(BUILT) $(VENV)/.groups ## Check format, lints, types, stubs, docs, benches and examples
 	cargo fmt --check
@@ -175,4 +186,4 @@ packages: $(VENV)/.made ## Build the crate and the sdist, and run their unpacked
 	@tests/packages.sh $(abspath $(BIN))
 
 clean: ## Remove all build products
-	rm -rf $(VENV) $(PEERS) target dist
+	rm -rf $(VENV) $(PEERS) .venv-ros2 target dist

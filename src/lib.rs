@@ -56,7 +56,7 @@
 //! |---|---|---|
 //! | `std` | yes | threads in a batch, choice of the instruction set, close names |
 //! | `libm` | | square roots and angles without `std` (a solve never allocates, either way) |
-//! | `urdf` | yes | `Robot::from_urdf` |
+//! | `urdf` | yes | `Robot::from_urdf`, `Robot::to_urdf` |
 //! | `rapid` | yes | [`rapid`]: robtargets and moves of RAPID modules, read, solved and rewritten |
 //! | `serde` | | `Serialize` and `Deserialize`, see below |
 //! | `python` | | the extension module of the Python package; of no use to a crate |

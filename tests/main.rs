@@ -37,5 +37,7 @@ mod structures;
 mod urdf;
 #[cfg(feature = "urdf")]
 mod urdf_time;
+#[cfg(feature = "urdf")]
+mod urdf_write;
 
 use common::rng;

@@ -74,6 +74,7 @@ if TYPE_CHECKING:
     from irbkin import placement as placement
     from irbkin import plot as plot
     from irbkin import rapid as rapid
+    from irbkin import ros as ros
     from irbkin import trajectory as trajectory
 
 __all__ = [
@@ -126,6 +127,7 @@ __all__ = [
     "placement",
     "pose",
     "rapid",
+    "ros",
     "to_xyz_euler_zyx",
     "to_xyz_wxyz",
     "trajectory",
@@ -134,7 +136,7 @@ __all__ = [
 
 # `plot` needs an extra: it is not in `__all__`, which a star import takes in whole. Nor is `map`,
 # which would then replace Python's own.
-_MODULES = ("map", "paths", "placement", "plot", "rapid", "trajectory")
+_MODULES = ("map", "paths", "placement", "plot", "rapid", "ros", "trajectory")
 
 
 def __getattr__(name: str) -> ModuleType:

@@ -372,6 +372,14 @@ class Robot:
                 or the structure is unknown; the message names what is wrong.
             OSError: The file cannot be read.
         """
+    def to_urdf(self) -> str:
+        """Return the text of a URDF of the robot, which `from_urdf` reads back.
+
+        Links are `base_link`, `link_1` .., `flange` and `tool0` (irbkin's flange, z out of it);
+        `world` with a base, `tool` with a tool. Joints are `joint_1` .., velocities 0 if unknown. A
+        parallelogram linkage is a joint that mimics `joint_2`; `uncoupled().to_urdf()` has none.
+        See docs/conventions.md.
+        """
     @property
     def name(self) -> str:
         """Catalog name, or the name given by the caller."""

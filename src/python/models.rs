@@ -1,7 +1,8 @@
-//! `irbkin.Robot` from tables, parameters and descriptions.
+//! `irbkin.Robot` from tables, parameters and descriptions, and its description.
 
 use pyo3::prelude::*;
 
+use super::arm::on;
 use super::arrays::vector;
 use super::build::{self, Table};
 use super::errors::Fault;
@@ -148,5 +149,15 @@ impl PyRobot {
     ) -> PyResult<Self> {
         let wanted = Wanted { base, tip, name, closed_form, snap };
         urdf::from_urdf(text_or_path, wanted).map(Self::from)
+    }
+
+    /// Return the text of a URDF of the robot, which `from_urdf` reads back.
+    ///
+    /// Links are `base_link`, `link_1` .., `flange` and `tool0` (irbkin's flange, z out of it);
+    /// `world` with a base, `tool` with a tool. Joints are `joint_1` .., velocities 0 if unknown. A
+    /// parallelogram linkage is a joint that mimics `joint_2`; `uncoupled().to_urdf()` has none.
+    /// See docs/conventions.md.
+    fn to_urdf(&self) -> String {
+        on!(self.arm(), robot => robot.to_urdf())
     }
 }

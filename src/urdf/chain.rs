@@ -41,10 +41,8 @@ pub(super) fn chain_between<'t, 'a>(
         link = joint.parent;
     }
     chain.reverse();
-    for joint in &chain {
-        joint.fault()?;
-    }
-    let found = chain.iter().filter(|joint| joint.turns()).count();
+    let way = chain.iter().try_fold(Way::default(), |way, joint| way.through(joint))?;
+    let found = way.turning;
     if wanted.contains(&found) {
         return Ok(chain);
     }
@@ -103,11 +101,29 @@ fn only_root(tree: &Tree<'_>) -> Result<usize, UrdfFault> {
 
 /// The path from the base to a link.
 #[derive(Clone, Copy, Default)]
-struct Way {
+struct Way<'a> {
     /// Number of revolute joints.
     turning: usize,
+    /// Name of the last of them.
+    last: &'a str,
+    /// Whether the joint of a linkage is on it.
+    coupled: bool,
     /// The first joint that must not be on the path.
     barred_by: Option<usize>,
+}
+
+impl<'a> Way<'a> {
+    /// The path with one joint more, if that may be on it.
+    fn through(self, joint: &Joint<'a>) -> Result<Self, UrdfFault> {
+        joint.fault()?;
+        if joint.is_linkage() {
+            let is_behind_joint_2 = (self.turning, self.last) == (2, joint.followed());
+            let may_be = is_behind_joint_2 && !self.coupled;
+            return may_be.then_some(Self { coupled: true, ..self }).ok_or_else(|| joint.mimic());
+        }
+        let turning = self.turning + usize::from(joint.turns());
+        Ok(Self { turning, last: if joint.turns() { joint.name } else { self.last }, ..self })
+    }
 }
 
 /// The only link at the end of a chain whose number of joints is in `wanted`. A frame is never
@@ -118,10 +134,9 @@ fn only_tip(tree: &Tree<'_>, base: usize, wanted: &[usize]) -> Result<usize, Urd
     for link in tree.hanging_on([base].into_iter()) {
         for &index in &tree.below[link] {
             let joint = &tree.joints[index];
-            ways[joint.child] = Way {
-                turning: ways[link].turning + usize::from(joint.turns()),
-                barred_by: ways[link].barred_by.or_else(|| joint.fault().is_err().then_some(index)),
-            };
+            let way = ways[link];
+            let barred = Way { barred_by: way.barred_by.or(Some(index)), ..way };
+            ways[joint.child] = way.through(joint).unwrap_or(barred);
         }
         if tree.below[link].is_empty() {
             ends.push(link);
@@ -144,10 +159,10 @@ fn only_tip(tree: &Tree<'_>, base: usize, wanted: &[usize]) -> Result<usize, Urd
 }
 
 /// A link at the end of a chain, and the reason why it cannot be the tip.
-fn remark(tree: &Tree<'_>, link: usize, way: Way) -> String {
+fn remark(tree: &Tree<'_>, link: usize, way: Way<'_>) -> String {
     let name = tree.links[link];
     match way.barred_by.map(|joint| &tree.joints[joint]) {
-        Some(joint) if joint.turns() => {
+        Some(joint) if joint.turns() || joint.is_linkage() => {
             format!("{name:?} (behind joint {:?}, a mimic)", joint.name)
         }
         Some(joint) => format!("{name:?} (behind joint {:?}, {})", joint.name, joint.kind),

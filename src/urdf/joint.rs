@@ -12,6 +12,10 @@ use crate::kinematics::{JointAxis, Pose, constant_pose, snapped, unit};
 /// Most characters of an attribute that a message repeats.
 const REPEATED: usize = 60;
 
+/// The element of a linkage's joint that has the limits of the linkage: irbkin's own, since URDF has
+/// none.
+pub(super) const LINKAGE: &str = "linkage";
+
 /// A joint between two links, which are given by their indices.
 pub(super) struct Joint<'a> {
     pub(super) name: &'a str,
@@ -27,8 +31,10 @@ pub(super) struct Placed {
     xyz: [f64; 3],
     /// Roll, pitch and yaw of the child in the parent [rad].
     rpy: [f64; 3],
-    /// The motion; `None` for a fixed joint.
+    /// The motion; `None` for a fixed joint, and for that of a linkage.
     pub(super) motion: Option<Motion>,
+    /// The linkage that the joint stands for, if it does.
+    pub(super) linkage: Option<Linkage>,
 }
 
 /// A revolute joint: its axis in the child's frame, limits [rad] and velocity [rad/s].
@@ -36,6 +42,16 @@ pub(super) struct Motion {
     direction: Vector3<f64>,
     pub(super) limits: [f64; 2],
     pub(super) velocity: Option<f64>,
+}
+
+/// A parallelogram linkage that couples axes 2 and 3, as a joint between the two that takes joint 2
+/// back.
+pub(super) struct Linkage {
+    direction: Vector3<f64>,
+    /// Limits of q3 - q2 [rad].
+    pub(super) limits: Option<[f64; 2]>,
+    /// The fault of a joint that turns another way.
+    pub(super) fault: UrdfFault,
 }
 
 impl Placed {
@@ -50,9 +66,20 @@ impl Placed {
 impl Motion {
     /// The axis in the base frame, for the child's frame at zero joint angles.
     pub(super) fn axis(&self, t_base_child: &Pose, snap: f64) -> JointAxis {
-        let direction = t_base_child.rotation * snapped_direction(self.direction, snap);
-        JointAxis { direction: direction.into(), point: t_base_child.translation.vector.into() }
+        axis(self.direction, t_base_child, snap)
     }
+}
+
+impl Linkage {
+    /// The axis, as that of [`Motion`].
+    pub(super) fn axis(&self, t_base_child: &Pose, snap: f64) -> JointAxis {
+        axis(self.direction, t_base_child, snap)
+    }
+}
+
+fn axis(direction: Vector3<f64>, t_base_child: &Pose, snap: f64) -> JointAxis {
+    let direction = t_base_child.rotation * snapped_direction(direction, snap);
+    JointAxis { direction: direction.into(), point: t_base_child.translation.vector.into() }
 }
 
 /// The coordinate axis within `snap` of a unit direction [rad], or the direction.
@@ -85,26 +112,53 @@ impl<'a> Joint<'a> {
         Ok(Self { name, kind, parent, child: link("child", "<child link=\"...\">")?, node })
     }
 
-    /// Whether the joint is revolute.
+    /// Whether the joint is revolute and does not stand for a linkage.
     pub(super) fn turns(&self) -> bool {
+        self.is_revolute() && !self.is_linkage()
+    }
+
+    fn is_revolute(&self) -> bool {
         matches!(self.kind, "revolute" | "continuous")
+    }
+
+    /// Whether the joint turns as far as another one, the other way, as that of a linkage does;
+    /// whether it is one depends on the joints before it.
+    pub(super) fn is_linkage(&self) -> bool {
+        let is = |mimic: Node<'_, '_>, attribute, value: f64, default: f64| {
+            let given = mimic.attribute(attribute).map_or(Ok(default), |text| text.trim().parse());
+            given.is_ok_and(|given| given.total_cmp(&value).is_eq())
+        };
+        self.is_revolute()
+            && self.element("mimic").is_ok_and(|mimic| {
+                mimic.is_some_and(|mimic| {
+                    is(mimic, "multiplier", -1.0, 1.0) && is(mimic, "offset", 0.0, 0.0)
+                })
+            })
     }
 
     /// The reason why the joint may not be between base and tip.
     pub(super) fn fault(&self) -> Result<(), UrdfFault> {
-        if !self.turns() && self.kind != "fixed" {
+        if !self.is_revolute() && self.kind != "fixed" {
             return Err(UrdfFault::JointType {
                 joint: self.name.to_owned(),
                 kind: self.kind.to_owned(),
             });
         }
         match self.element("mimic")? {
-            Some(mimic) => {
-                let of = mimic.attribute("joint").unwrap_or_default().to_owned();
-                Err(UrdfFault::Mimic { joint: self.name.to_owned(), of })
-            }
-            None => Ok(()),
+            Some(_) if !self.is_linkage() => Err(self.mimic()),
+            _ => Ok(()),
         }
+    }
+
+    /// The fault of a joint that follows another one.
+    pub(super) fn mimic(&self) -> UrdfFault {
+        UrdfFault::Mimic { joint: self.name.to_owned(), of: self.followed().to_owned() }
+    }
+
+    /// The name of the joint that it follows; empty if it does not.
+    pub(super) fn followed(&self) -> &'a str {
+        let mimic = self.element("mimic").ok().flatten();
+        mimic.and_then(|mimic| mimic.attribute("joint")).unwrap_or_default()
     }
 
     /// The numbers of the joint.
@@ -114,21 +168,38 @@ impl<'a> Joint<'a> {
             xyz = self.three(origin, "xyz", "origin xyz", MOST_LENGTH)?.unwrap_or(xyz);
             rpy = self.three(origin, "rpy", "origin rpy", MOST_ANGLE)?.unwrap_or(rpy);
         }
-        Ok(Placed { xyz, rpy, motion: self.motion()? })
+        let linkage = if self.is_linkage() { Some(self.linkage()?) } else { None };
+        Ok(Placed { xyz, rpy, motion: self.motion()?, linkage })
     }
 
-    /// The motion; `None` for a fixed joint.
-    fn motion(&self) -> Result<Option<Motion>, UrdfFault> {
-        if !self.turns() {
-            return Ok(None);
-        }
+    fn linkage(&self) -> Result<Linkage, UrdfFault> {
+        let limits = self.element(LINKAGE)?.map(|linkage| {
+            let limit = |name, field| match linkage.attribute(name) {
+                Some(text) => self.numbers::<1>(field, text, MOST_ANGLE).map(|[limit]| limit),
+                None => Ok(0.0),
+            };
+            Ok([limit("lower", "linkage lower")?, limit("upper", "linkage upper")?])
+        });
+        let (direction, limits) = (self.direction()?, limits.transpose()?);
+        Ok(Linkage { direction, limits, fault: self.mimic() })
+    }
+
+    /// The direction of the axis.
+    fn direction(&self) -> Result<Vector3<f64>, UrdfFault> {
         let axis = match self.element("axis")? {
             Some(axis) => self.three(axis, "xyz", "axis", f64::MAX)?,
             None => None,
         };
-        let direction = unit(axis.unwrap_or([1.0, 0.0, 0.0]))
-            .ok_or_else(|| UrdfFault::NoAxis { joint: self.name.to_owned() })?;
-        let (limits, velocity) = self.limit()?;
+        unit(axis.unwrap_or([1.0, 0.0, 0.0]))
+            .ok_or_else(|| UrdfFault::NoAxis { joint: self.name.to_owned() })
+    }
+
+    /// The motion; `None` for a fixed joint, and for that of a linkage.
+    fn motion(&self) -> Result<Option<Motion>, UrdfFault> {
+        if !self.turns() {
+            return Ok(None);
+        }
+        let (direction, (limits, velocity)) = (self.direction()?, self.limit()?);
         Ok(Some(Motion { direction, limits, velocity }))
     }
 

@@ -1,19 +1,25 @@
-//! Robots from URDF: the chain between two links as joint axes, limits and velocities.
+//! Robots from URDF: the chain between two links as joint axes, limits and velocities. And back:
+//! the text of a robot.
 //!
 //! Reference: ROS wiki, urdf/XML/robot, link and joint.
 
 mod chain;
 mod joint;
 mod shape;
+mod text;
 mod tree;
+mod write;
 
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
+use nalgebra::Vector3;
+
 use self::chain::chain_between;
 use self::joint::{Joint, Motion, Placed};
 use self::tree::{Tree, parsed};
-use crate::error::{Error, ModelFault};
+use crate::error::{Error, ModelFault, UrdfFault};
+use crate::kinematics::thresholds::FORM_TOLERANCE;
 use crate::kinematics::{
     AnyRobot, Arity, JointAxis, JointLimits, Joints, Mdh, Pose, Robot, SNAPS, check_snap,
 };
@@ -29,7 +35,9 @@ where
     /// `N` revolute joints. Joints are numbered from base to tip; fixed joints, and joints that are
     /// not between them, are not counted. A joint turns in the sense of its axis. Limits and
     /// velocities are those of the text. A velocity that is missing or zero is unknown, and one
-    /// unknown velocity leaves the robot without velocities.
+    /// unknown velocity leaves the robot without velocities. A joint that mimics joint 2 with the
+    /// multiplier -1, on the axis of joint 3 and before it, is a parallelogram linkage: the arm is
+    /// then [`Robot::coupled`].
     ///
     /// # Errors
     ///
@@ -160,15 +168,28 @@ impl UrdfArm {
     where
         Joints<N>: Arity<N>,
     {
-        let mut t_base_tip = Pose::identity();
-        let mut axes = Vec::with_capacity(N);
-        for joint in &self.joints {
-            t_base_tip *= joint.origin(snap);
-            axes.extend(joint.motion.as_ref().map(|motion| motion.axis(&t_base_tip, snap)));
-        }
+        let (axes, t_base_tip) = self.axes(snap)?;
         let axes = <[JointAxis; N]>::try_from(axes)
             .map_err(|axes| ModelFault::JointCount { found: axes.len(), wanted: N })?;
         Robot::serial_chain(Mdh::from_joint_axes(&axes, &t_base_tip)?)
+    }
+
+    /// The axes of the joints that turn, and the tip, both in the base at zero joint angles.
+    fn axes(&self, snap: f64) -> Result<(Vec<JointAxis>, Pose), UrdfFault> {
+        let mut t_base_tip = Pose::identity();
+        let mut axes = Vec::new();
+        let mut linkage = None;
+        for joint in &self.joints {
+            t_base_tip *= joint.origin(snap);
+            axes.extend(joint.motion.as_ref().map(|motion| motion.axis(&t_base_tip, snap)));
+            linkage = joint.linkage.as_ref().map(|l| (l.axis(&t_base_tip, snap), l)).or(linkage);
+        }
+        match (linkage, axes.get(2)) {
+            (Some((axis, linkage)), Some(third)) if !are_one(&axis, third) => {
+                Err(linkage.fault.clone())
+            }
+            _ => Ok((axes, t_base_tip)),
+        }
     }
 
     /// The robot under its name, with limits and velocities.
@@ -182,9 +203,21 @@ impl UrdfArm {
             velocities[i] = motion.velocity.unwrap_or(f64::INFINITY);
             all_known &= motion.velocity.is_some();
         }
+        let mut robot = robot;
+        if let Some(linkage) = self.joints.iter().find_map(|joint| joint.linkage.as_ref()) {
+            robot = robot.coupled()?.with_linkage_limits(linkage.limits)?;
+        }
         robot
             .with_name(self.name.clone())
             .with_limits(JointLimits::new(limits)?)
             .with_max_velocity(all_known.then_some(velocities))
     }
+}
+
+/// Whether two axes are on one line and turn in one sense.
+fn are_one(one: &JointAxis, two: &JointAxis) -> bool {
+    let [direction, other] = [one, two].map(|axis| Vector3::from(axis.direction));
+    let between = Vector3::from(two.point) - Vector3::from(one.point);
+    (direction - other).norm() <= FORM_TOLERANCE
+        && direction.cross(&between).norm() <= FORM_TOLERANCE
 }

@@ -27,6 +27,8 @@ SHELL = re.compile(
     re.MULTILINE | re.DOTALL,
 )
 README_WORDS = 700
+# Packages of the group "recipes" that a page needs.
+NEEDED = {"recipes.md": ("jax", "polars", "xarray")}
 LINE = 100
 
 
@@ -34,6 +36,8 @@ LINE = 100
 def test_the_blocks_of_a_page_run_top_to_bottom_and_print_what_it_shows(
     page, tmp_path, monkeypatch
 ):
+    for package in NEEDED.get(page.name, ()):
+        pytest.importorskip(package, reason=f"{package} is missing: make test-recipes installs it")
     # An empty folder: no block reads a file of the checkout.
     monkeypatch.chdir(tmp_path)
     namespace = {}

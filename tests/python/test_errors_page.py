@@ -8,7 +8,7 @@ from pathlib import Path
 import irbkin
 import irbkin.map
 import numpy as np
-from irbkin import Robot, paths, placement, plot, rapid, trajectory
+from irbkin import Robot, paths, placement, plot, rapid, ros, trajectory
 
 PAGE = Path(__file__).parents[2] / "docs" / "errors.md"
 START = "<!-- python: written by make errors -->\n"
@@ -22,6 +22,7 @@ PLAN = SIX.plan(LINE)
 NAMES = {
     "irbkin": irbkin,
     "rapid": rapid,
+    "ros": ros,
     "plot": plot,
     "trajectory": trajectory,
     "placement": placement,
@@ -107,7 +108,7 @@ CALLS = [
     ("robot.plan_batch([line], times=[[0, 1]] * 2)", "one array for each path"),
     ("robot.plan_batch([line], start=np.zeros((2, 6)))", "one start, or one for each path"),
     ("rapid.plan_targets(robot, broken)", "plan what lies between its breaks"),
-    ("rapid.plan_targets(robot, tracked)", "give `extax`"),
+    ("rapid.plan_targets(robot, tracked)", "give `carrier`, or `extax`"),
     ("rapid.plan_targets(robot, plan, extax=np.zeros(3))", "one row for each pose"),
     ("rapid.plan_module(robot, plan, speed='v17')", "`rapid.SpeedData(17)`"),
     ("placement.best_base(robot, line, Region(x=(1, 0)))", "(lower, upper)"),
@@ -120,6 +121,10 @@ CALLS = [
     ("irbkin.map.reach(robot, 0, 0, 0, -eye)", "give rotation matrices"),
     ("irbkin.map.reach(robot, 0, 0, 0, eye, output='a.csv')", "a name that ends with .npz"),
     ("irbkin.map.orientations(0)", "1 or more"),
+    ("ros.kinematics_of({})", "set the parameter of the node"),
+    ("ros.kinematics_of({'robot': 'UR5', 'start': 'zero'})", "give numbers"),
+    ("ros.kinematics_of({'robot_description': robot.to_urdf()})", "name them"),
+    ("ros.Kinematics(robot, joint_names=['a'])", "as many names as joints"),
 ]
 
 

@@ -1,0 +1,224 @@
+"""The answers of a ROS node, without ROS."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
+
+from irbkin._arrays import finite, limit_of_each
+from irbkin._core import retime
+from irbkin.errors import InvalidJointsError, InvalidMotionError, InvalidPoseError, IrbkinError
+from irbkin.ros.messages import Answer, Message, read_pose, read_poses, write_pose
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from irbkin._core import Robot, Trajectory
+    from irbkin.ros.messages import PoseStampedMessage, Stamped
+
+    _Floats = npt.NDArray[np.float64]
+
+_A = TypeVar("_A", bound=Answer)
+
+# What a node makes a message of a trajectory's point of: positions [rad], velocities [rad/s],
+# accelerations [rad/s^2] and the time from the start [s].
+Point = Callable[[list[float], list[float], list[float], float], Any]
+
+
+class Kinematics:
+    """Answer the services of `irbkin_interfaces` and target poses, for one robot.
+
+    Each method reads a request, fills the response that it is given and returns it. What is wrong
+    with a request, or out of reach, is in the response: `success` is False, `message` is the
+    reason. No method but `joint_state` raises. Calls from several threads are safe.
+
+    Args:
+        robot: The arm. Poses are of its tool, in `base_frame`.
+        base_frame: Frame in which poses are given.
+        joint_names: Names of its joints; `joint_1` .. as in `robot.to_urdf()` when not given.
+        start: Joint vector [rad] to which the first target pose's solution is the nearest, shape
+            (n,); zeros, moved inside the limits, when not given.
+        weights: Cost of moving each joint, shape (n,); ones when not given.
+        max_velocity: Limits of planned paths [rad/s], shape (n,); the robot's when not given.
+        max_acceleration: Limits of planned paths [rad/s^2], shape (n,). No catalog has them:
+            without them `plan_path` plans nothing.
+
+    Raises:
+        InvalidJointsError, InvalidMotionError: A vector has a wrong length, is not finite or not
+            positive, or there are not as many names as joints.
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        *,
+        base_frame: str = "base_link",
+        joint_names: Sequence[str] | None = None,
+        start: npt.ArrayLike | None = None,
+        weights: npt.ArrayLike | None = None,
+        max_velocity: npt.ArrayLike | None = None,
+        max_acceleration: npt.ArrayLike | None = None,
+    ) -> None:
+        self.robot = robot
+        self.base_frame = base_frame
+        self.joint_names = list(joint_names or (f"joint_{i + 1}" for i in range(robot.dof)))
+        if len(self.joint_names) != robot.dof:
+            raise InvalidJointsError(
+                f"joint_names has {len(self.joint_names)} names, {robot.name} has {robot.dof} "
+                "joints"
+            )
+        shape = (robot.dof,)
+        if weights is not None:
+            weights = finite(weights, "weights", shape, InvalidJointsError)
+        lower, upper = robot.limits.T
+        start = np.clip(np.zeros(robot.dof), lower, upper) if start is None else start
+        self._weights = weights
+        self._lock = threading.Lock()
+        self._last = finite(start, "start", shape, InvalidJointsError)
+        limits = robot.max_velocity if max_velocity is None else max_velocity
+        self._max_velocity = (
+            None if limits is None else limit_of_each(limits, "max_velocity", robot.dof)
+        )
+        self._max_acceleration = (
+            None
+            if max_acceleration is None
+            else limit_of_each(max_acceleration, "max_acceleration", robot.dof)
+        )
+
+    @property
+    def last(self) -> _Floats:
+        """The last solution of a target pose, or the start [rad], shape (n,)."""
+        with self._lock:
+            return self._last.copy()
+
+    def fk(self, request: Message, response: _A) -> _A:
+        """Answer `FK`: the pose of the tool for joint angles."""
+
+        def answer(filled: Message) -> str:
+            write_pose(self.robot.fk(_vector(request.joints)), filled.pose.pose)
+            filled.pose.header.frame_id = self.base_frame
+            return ""
+
+        return _answered(response, answer)
+
+    def ik(self, request: Message, response: _A) -> _A:
+        """Answer `IK`: every solution of a pose, and the one that is nearest to a seed."""
+
+        def answer(filled: Message) -> str:
+            T = read_pose(request.pose)
+            seven = self.robot.dof == 7
+            solutions = self.robot.ik(T, request.q7) if seven else self.robot.ik(T)
+            filled.joints = solutions.q.ravel().tolist()
+            # bytes fit `uint8[]` of both: ROS 1 sends nothing else, ROS 2 takes any sequence.
+            filled.slots = bytes(solution.slot for solution in solutions)
+            filled.statuses = bytes(solution.status for solution in solutions)
+            # What is filled stays if no solution is inside the limits.
+            seed = _vector(request.seed) if len(request.seed) else self.last
+            filled.nearest = solutions.nearest(seed, self._weights).q.tolist()
+            return solutions.explain()
+
+        return _answered(response, answer)
+
+    def check_pose(self, request: Message, response: Message) -> Message:
+        """Answer `CheckPose`: whether a pose can be reached, and the reason if it cannot."""
+        try:
+            check = self.robot.check_pose(read_pose(request.pose))
+        except IrbkinError as error:
+            response.reachable, response.within_limits, response.reason = False, False, str(error)
+        else:
+            response.reachable, response.within_limits, response.reason = check
+        return response
+
+    def plan_path(self, request: Message, response: _A, point: Point) -> _A:
+        """Answer `PlanPath`: the best joint path along poses, in the shortest time.
+
+        Args:
+            request: `path`, `start`, `tool_angles` and `max_tool_speed`.
+            response: Its `trajectory` is filled, but for the time stamp.
+            point: Makes a `trajectory_msgs/JointTrajectoryPoint` of positions, velocities,
+                accelerations and the time from the start [s].
+        """
+
+        def answer(filled: Message) -> str:
+            self._check_frame(request.path)
+            poses = read_poses(request.path.poses)
+            if len(poses) < 2:
+                raise InvalidMotionError(
+                    f"path has {len(poses)} poses, a trajectory needs at least 2"
+                )
+            trajectory = self._planned(poses, request)
+            self._write_trajectory(trajectory, filled.trajectory, point)
+            return f"{len(poses)} poses in {trajectory.duration:.3f} s"
+
+        return _answered(response, answer)
+
+    def joint_state(self, target: PoseStampedMessage, message: Message) -> Message:
+        """Fill a `sensor_msgs/JointState` with the solution of a target pose that is nearest to the
+        last one, which it becomes.
+
+        Args:
+            target: `geometry_msgs/PoseStamped`.
+            message: Its `name` and `position` are filled, the time stamp is not.
+
+        Raises:
+            UnreachableError: No solution is inside the limits; the message says what is missing.
+            InvalidPoseError: The pose is invalid, or given in another frame.
+        """
+        self._check_frame(target)
+        T = read_pose(target.pose)
+        with self._lock:
+            self._last = self.robot.ik_nearest(T, self._last, self._weights)
+            position = self._last.tolist()
+        message.name, message.position = list(self.joint_names), position
+        return message
+
+    def _check_frame(self, message: Stamped) -> None:
+        frame = message.header.frame_id
+        # tf2 has no leading slash; old publishers do.
+        if frame.lstrip("/") not in ("", self.base_frame):
+            raise InvalidPoseError(
+                f'the pose is given in frame "{frame}", it must be in "{self.base_frame}": '
+                "transform it with tf2 first"
+            )
+
+    def _planned(self, T: _Floats, request: Message) -> Trajectory:
+        """The path in the shortest time within the limits."""
+        velocity, acceleration = self._max_velocity, self._max_acceleration
+        if velocity is None or acceleration is None:
+            missing = "max_velocity" if velocity is None else "max_acceleration"
+            raise InvalidMotionError(
+                f"the time of a path depends on limits of the joints that are not known: set the "
+                f"parameter {missing}"
+            )
+        start = _vector(request.start) if len(request.start) else None
+        plan = self.robot.plan(
+            T, rotation=request.tool_angles or None, start=start, weights=self._weights
+        )
+        if request.max_tool_speed == 0.0:
+            return retime(plan.q, velocity, acceleration)
+        return retime(plan.q, velocity, acceleration, T=T, max_tool_speed=request.max_tool_speed)
+
+    def _write_trajectory(self, trajectory: Trajectory, message: Message, point: Point) -> None:
+        message.header.frame_id = self.base_frame
+        message.joint_names = list(self.joint_names)
+        rows = (trajectory.q, trajectory.dq, trajectory.ddq, trajectory.t)
+        message.points = [
+            point(*row) for row in zip(*(part.tolist() for part in rows), strict=True)
+        ]
+
+
+def _answered(response: _A, answer: Callable[[Message], str]) -> _A:
+    """The response with what `answer` fills in, or with the reason of its failure."""
+    try:
+        response.message, response.success = answer(response), True
+    except IrbkinError as error:
+        response.message, response.success = str(error), False
+    return response
+
+
+def _vector(values: Sequence[float]) -> _Floats:
+    """Numbers of a sequence; a tuple in ROS 1, an `array.array` in ROS 2."""
+    return np.asarray(values, dtype=np.float64)

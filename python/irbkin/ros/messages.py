@@ -1,0 +1,148 @@
+"""Messages of ROS as far as irbkin reads and writes them: any object with these attributes.
+
+Those of ROS 1 (`geometry_msgs.msg.Pose` of genpy) and of ROS 2 (of rosidl) fit, as does a plain
+structure with the same fields. Numbers of a sequence arrive as a tuple, a list, an `array.array`
+or, of `uint8[]` in ROS 1, as `bytes`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from irbkin._core import pose, to_xyz_wxyz
+
+__all__ = [
+    "Answer",
+    "IkSolutions",
+    "Message",
+    "PoseMessage",
+    "PoseStampedMessage",
+    "Stamped",
+    "read_pose",
+    "read_poses",
+    "read_solutions",
+    "write_pose",
+]
+
+_Floats = npt.NDArray[np.float64]
+
+# A request or response of a service of irbkin_interfaces, or a message: its fields are in the .srv
+# and .msg files, which Python's types do not know.
+Message = Any
+
+
+class _Point(Protocol):
+    x: float
+    y: float
+    z: float
+
+
+class _Quaternion(_Point, Protocol):
+    w: float
+
+
+class PoseMessage(Protocol):
+    """`geometry_msgs/Pose`."""
+
+    @property
+    def position(self) -> _Point:
+        """Translation [m]."""
+
+    @property
+    def orientation(self) -> _Quaternion:
+        """Quaternion."""
+
+
+class _Header(Protocol):
+    frame_id: str
+
+
+class Stamped(Protocol):
+    """A message with a header."""
+
+    @property
+    def header(self) -> _Header:
+        """Frame and time."""
+
+
+class PoseStampedMessage(Stamped, Protocol):
+    """`geometry_msgs/PoseStamped`."""
+
+    @property
+    def pose(self) -> PoseMessage:
+        """The pose."""
+
+
+class Answer(Protocol):
+    """What responses have in common."""
+
+    success: bool
+    message: str
+
+
+class IkSolutions(NamedTuple):
+    """The solutions in the response of an IK service."""
+
+    q: _Floats
+    """Joint angles [rad], shape (k, n), inside the limits or not."""
+    slot: npt.NDArray[np.uint8]
+    """Slot of each, shape (k,)."""
+    status: npt.NDArray[np.uint8]
+    """`irbkin.Status` of each, shape (k,)."""
+
+
+def read_pose(message: PoseMessage) -> _Floats:
+    """Return the homogeneous matrix of a `geometry_msgs/Pose`, shape (4, 4).
+
+    Raises:
+        InvalidPoseError: A number is not finite, or the quaternion's norm is not one.
+    """
+    p, o = message.position, message.orientation
+    return pose([p.x, p.y, p.z], xyzw=[o.x, o.y, o.z, o.w])
+
+
+def read_poses(messages: Sequence[PoseMessage]) -> _Floats:
+    """As `read_pose` of many, shape (m, 4, 4); an error has the index of the first."""
+    p = [[m.position.x, m.position.y, m.position.z] for m in messages]
+    o = [[m.orientation.x, m.orientation.y, m.orientation.z, m.orientation.w] for m in messages]
+    return pose(p, xyzw=o) if p else np.empty((0, 4, 4))
+
+
+def write_pose(T: npt.ArrayLike, message: PoseMessage) -> None:
+    """Write a homogeneous matrix into a `geometry_msgs/Pose`."""
+    xyz, wxyz = to_xyz_wxyz(T)
+    p, o = message.position, message.orientation
+    p.x, p.y, p.z = xyz.tolist()
+    o.w, o.x, o.y, o.z = wxyz.tolist()
+
+
+def read_solutions(response: Message) -> IkSolutions:
+    """Return the solutions of the response of an IK service, of ROS 1 or ROS 2, as arrays.
+
+    Args:
+        response: `irbkin_interfaces/IK` response: its `joints`, `slots` and `statuses`.
+
+    Returns:
+        IkSolutions(q, slot, status).
+
+    Raises:
+        ValueError: The lengths do not fit together.
+    """
+    joints: Sequence[float] = response.joints
+    # `bytes` in ROS 1, `array.array` in ROS 2; both give integers when iterated.
+    slots, statuses = (_bytes(field) for field in (response.slots, response.statuses))
+    if len(slots) != len(statuses) or (len(joints) % len(slots) if len(slots) else len(joints)):
+        raise ValueError(
+            f"response has {len(joints)} joints, {len(slots)} slots and {len(statuses)} statuses: "
+            "there must be one slot, one status and as many joints as the arm has a solution"
+        )
+    q = np.asarray(joints, dtype=np.float64).reshape(len(slots), -1 if len(slots) else 0)
+    return IkSolutions(q, slots, statuses)
+
+
+def _bytes(values: Iterable[int]) -> npt.NDArray[np.uint8]:
+    return np.frombuffer(bytes(values), dtype=np.uint8)

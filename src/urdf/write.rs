@@ -1,0 +1,162 @@
+//! The text of a URDF of a robot.
+//!
+//! At zero joint angles the frame of every link is parallel to `base_link`, so that origins and
+//! axes can be read as those of a drawing. A number has all the digits that it needs to be read
+//! back as it is.
+//!
+//! References: ROS wiki, urdf/XML/robot, link and joint; REP 199 (`base`, `flange`, `tool0`).
+
+use core::f64::consts::FRAC_PI_2;
+
+use alloc::borrow::ToOwned;
+use alloc::format;
+use alloc::string::String;
+
+use nalgebra::{Translation3, Vector3};
+
+use super::text::{Hinge, Text};
+use crate::kinematics::{AnyRobot, Arity, DhRow, Joints, Pose, Robot, constant_pose};
+
+/// What a file without masses and shapes needs to say.
+const HEAD: &[&str] = &[
+    "<!-- Kinematics only, in meters and radians: no masses, no shapes. An effort or a velocity of",
+    "     0 is unknown. At zero joint angles every link but tool0 is parallel to base_link. -->",
+    "<!-- MuJoCo accepts no moving link without a mass; other programs ignore this. -->",
+    "<mujoco><compiler fusestatic=\"false\" boundmass=\"0.001\" boundinertia=\"0.001\"/></mujoco>",
+];
+
+/// Why an arm with a parallelogram linkage has one joint more.
+const LINKAGE: &[&str] = &[
+    "<!-- A parallelogram linkage couples axes 2 and 3: joint_3 is the controller's and is measured",
+    "     from the base. The joint of the linkage takes joint_2 back, so that link_3 turns by",
+    "     joint_3 - joint_2 relative to link_2. A program that ignores mimic needs -joint_2 for it.",
+    "     -->",
+];
+
+impl<const N: usize> Robot<N>
+where
+    Joints<N>: Arity<N>,
+{
+    /// The text of a URDF of the robot, which [`Self::from_urdf`] reads back.
+    ///
+    /// Links are `base_link`, `base` (the same), `link_1` to `link_N`, `flange` and `tool0`; joints
+    /// are `joint_1` to `joint_N`, with limits and velocities. `tool0` is the flange of this
+    /// crate, with z out of it; `flange` has x out of it. With a base, `base_link` is placed in
+    /// `world`; with a tool, `tool` is placed in `tool0`. If a parallelogram linkage couples axes
+    /// 2 and 3, a passive joint between them mimics joint 2, and joint 3 is the controller's;
+    /// [`Self::uncoupled`] has no such joint. A joint with a limit on one side only gets
+    /// [`MOST_ANGLE`](crate::thresholds::MOST_ANGLE) on the other.
+    ///
+    /// ```
+    /// use irbkin::Robot;
+    ///
+    /// let robot: Robot<6> = Robot::named("IRB 2600-12/1.65")?;
+    /// let again = Robot::<6>::from_urdf(&robot.to_urdf(), None, None)?;
+    /// let q = [0.3, -0.2, 0.4, 0.5, -0.6, 0.7];
+    /// assert!(again.residual(&q, &robot.fk(&q)).largest() < 1e-14);
+    /// # Ok::<(), irbkin::Error>(())
+    /// ```
+    #[must_use]
+    pub fn to_urdf(&self) -> String {
+        let mdh = self.mdh();
+        let arm = Arm {
+            name: self.name(),
+            base: self.base(),
+            tool: self.tool(),
+            root: &mdh.base,
+            rows: &mdh.rows,
+            flange: &mdh.flange,
+            limits: &self.limits().to_array(),
+            velocity: self.max_velocity().map(|velocity| &velocity[..]),
+            is_coupled: self.is_coupled(),
+            linkage: self.limits().linkage(),
+        };
+        arm.urdf()
+    }
+}
+
+/// What is written of a robot, whatever its number of joints.
+struct Arm<'a> {
+    name: &'a str,
+    base: &'a Pose,
+    tool: &'a Pose,
+    root: &'a Pose,
+    rows: &'a [DhRow],
+    flange: &'a Pose,
+    limits: &'a [[f64; 2]],
+    velocity: Option<&'a [f64]>,
+    is_coupled: bool,
+    /// Limits of the linkage [rad].
+    linkage: Option<[f64; 2]>,
+}
+
+impl Arm<'_> {
+    fn urdf(&self) -> String {
+        let mut text = Text::new(self.name);
+        text.lines(HEAD);
+        if *self.base != Pose::identity() {
+            text.link("world");
+            text.fixed("world-base_link", ["world", "base_link"], self.base);
+        }
+        text.link("base_link");
+        text.link("base");
+        text.fixed("base_link-base", ["base_link", "base"], &Pose::identity());
+        let (last, t_last_flange) = self.write_chain(&mut text);
+        // z of tool0 is x of the flange.
+        let turn = constant_pose([0.0; 3], [0.0, FRAC_PI_2, 0.0]);
+        let joint = format!("joint_{}-flange", self.rows.len());
+        text.link("flange");
+        text.fixed(&joint, [&last, "flange"], &(t_last_flange * turn.inverse()));
+        text.link("tool0");
+        text.fixed("flange-tool0", ["flange", "tool0"], &turn);
+        if *self.tool != Pose::identity() {
+            text.link("tool");
+            text.fixed("tool0-tool", ["tool0", "tool"], self.tool);
+        }
+        text.finished()
+    }
+
+    /// Write the links that turn. Returns the last one, and the flange in it.
+    fn write_chain(&self, text: &mut Text) -> (String, Pose) {
+        let mut parent = "base_link".to_owned();
+        // The table's frame in the parent, at zero joint angles.
+        let mut frame = *self.root;
+        for (i, row) in self.rows.iter().enumerate() {
+            let twist = constant_pose([row.a, 0.0, 0.0], [0.0, 0.0, row.alpha]);
+            frame *= twist * constant_pose([0.0, 0.0, row.d], [row.theta, 0.0, 0.0]);
+            let mut hinge = self.hinge(i, &frame);
+            if i == 2 && self.is_coupled {
+                text.lines(LINKAGE);
+                text.link("linkage");
+                text.linkage([&parent, "linkage"], &self.hinge(1, &frame), self.linkage);
+                "linkage".clone_into(&mut parent);
+                hinge.origin = Vector3::zeros();
+            }
+            let (joint, child) = (format!("joint_{}", i + 1), format!("link_{}", i + 1));
+            text.link(&child);
+            text.hinge(&joint, [&parent, &child], &hinge);
+            parent = child;
+            // The link has its origin there, and is parallel to its parent.
+            frame.translation = Translation3::identity();
+        }
+        (parent, frame * self.flange)
+    }
+
+    /// Joint `i`, counted from zero, about z of a frame.
+    fn hinge(&self, i: usize, frame: &Pose) -> Hinge {
+        let axis = frame.rotation.matrix().column(2).into_owned();
+        let velocity = self.velocity.map(|velocity| velocity[i]);
+        Hinge { origin: frame.translation.vector, axis, limits: self.limits[i], velocity }
+    }
+}
+
+impl AnyRobot {
+    /// The text of a URDF of the robot; see [`Robot::to_urdf`].
+    #[must_use]
+    pub fn to_urdf(&self) -> String {
+        match self {
+            Self::Six(robot) => robot.to_urdf(),
+            Self::Seven(robot) => robot.to_urdf(),
+        }
+    }
+}

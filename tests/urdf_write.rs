@@ -1,0 +1,220 @@
+//! The URDF of a robot is read back as the robot.
+#![allow(clippy::unwrap_used, clippy::float_cmp, missing_docs)]
+
+use std::f64::consts::PI;
+
+use crate::common::coupled_arm::{limited, odd, with_linkage};
+use crate::common::{Rng, apart, kuka_kr6, random_pose, reach_of};
+use irbkin::{
+    AnyRobot, Arity, Error, JointLimits, Joints, PoseDifference, Robot, catalog, thresholds,
+};
+
+const CASES: usize = 100;
+
+/// Rounding of a pose of the arm read back: two products of `N` transforms and three fixed ones,
+/// whose elements are sums of four terms.
+fn rounding<const N: usize>(robot: &Robot<N>) -> f64
+where
+    Joints<N>: Arity<N>,
+{
+    let lengths = [robot.base(), robot.tool()].map(|end| end.translation.vector.norm());
+    let transforms = f64::from(u8::try_from(2 * (N + 3)).unwrap());
+    4.0 * transforms * f64::EPSILON * (1.0 + reach_of(robot) + lengths.iter().sum::<f64>())
+}
+
+/// The robot of the text of `robot`, after a comparison of everything but its solutions.
+fn again<const N: usize>(robot: &Robot<N>) -> Robot<N>
+where
+    Joints<N>: Arity<N>,
+{
+    let read = Robot::<N>::from_urdf(&robot.to_urdf(), None, None).unwrap();
+    assert_eq!(read.name(), robot.name());
+    assert_eq!(read.limits(), robot.limits());
+    assert_eq!(read.max_velocity(), robot.max_velocity());
+    assert_eq!(read.is_coupled(), robot.is_coupled());
+    assert_eq!(read.structure(), robot.structure());
+    let (mut rng, bound) = (Rng::new(1), rounding(robot));
+    for _ in 0..CASES {
+        let q = rng.inside(robot.limits());
+        let off = PoseDifference::between(&read.fk(&q), &robot.fk(&q)).largest();
+        assert!(off <= bound, "{}: off by {off:e}, {bound:e}", robot.name());
+    }
+    read
+}
+
+/// Both robots solve a pose by the same joint vectors in the same slots.
+fn assert_same_solutions(robot: &Robot<6>, read: &Robot<6>) {
+    let (mut rng, mut compared) = (Rng::new(2), 0);
+    for _ in 0..CASES {
+        let pose = robot.fk(&rng.inside(robot.limits()));
+        let (wanted, found) = (robot.ik(&pose).unwrap(), read.ik(&pose).unwrap());
+        let least = |q| robot.singularity(q).min_singular_value;
+        let sigma = wanted.iter().map(|s| least(&s.q)).fold(f64::INFINITY, f64::min);
+        if sigma < 1e-3 {
+            continue;
+        }
+        compared += 1;
+        assert_eq!(found.len(), wanted.len());
+        for (a, b) in found.iter().zip(wanted.iter()) {
+            assert_eq!((a.slot, a.is_within_limits()), (b.slot, b.is_within_limits()));
+            assert!(apart(&a.q, &b.q) <= 4.0 * rounding(robot) / sigma, "{:?} {:?}", a.q, b.q);
+        }
+    }
+    assert!(compared > CASES / 4, "{}: {compared}", robot.name());
+}
+
+#[test]
+fn every_arm_of_the_catalog_is_read_back_with_its_solutions() {
+    for arm in catalog() {
+        let any = AnyRobot::named(arm.name).unwrap();
+        let text = any.to_urdf();
+        match any {
+            AnyRobot::Six(robot) => {
+                assert_eq!(text, robot.to_urdf());
+                assert_same_solutions(&robot, &again(&robot));
+            }
+            AnyRobot::Seven(robot) => {
+                assert_eq!(text, robot.to_urdf());
+                again(&robot);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_seven_axis_arm_is_read_back_with_its_solutions() {
+    let robot: Robot<7> = Robot::named("Panda").unwrap();
+    let (read, mut rng) = (again(&robot), Rng::new(3));
+    let mut found = 0;
+    for _ in 0..CASES {
+        let q = rng.inside(robot.limits());
+        let [one, two] = [&robot, &read].map(|robot| robot.ik_with(&robot.fk(&q), q[6]).unwrap());
+        assert_eq!(one.len(), two.len());
+        found += one.len();
+        assert!(two.iter().any(|s| apart(&s.q, &q) < 1e-9));
+    }
+    assert!(found >= CASES);
+}
+
+#[test]
+fn base_and_tool_are_links_of_their_own() {
+    let mut rng = Rng::new(4);
+    for robot in [limited(), kuka_kr6().unwrap(), Robot::named("UR5e").unwrap()] {
+        let robot = robot.with_base(&random_pose(&mut rng, 3.0)).unwrap();
+        let robot = robot.with_tool(&random_pose(&mut rng, 0.5)).unwrap();
+        again(&robot.clone().with_name("placed"));
+        // Each end can be left out.
+        let text = robot.to_urdf();
+        let between = |base, tip| Robot::<6>::from_urdf(&text, Some(base), Some(tip)).unwrap();
+        let q = rng.inside(robot.limits());
+        let inner = between("base_link", "tool0").fk(&q);
+        let off = PoseDifference::between(&(robot.base() * inner * robot.tool()), &robot.fk(&q));
+        assert!(off.largest() <= rounding(&robot), "{off:?}");
+        let flange = between("base_link", "flange");
+        // z of tool0 is x of the flange.
+        let x = flange.fk(&q).rotation * nalgebra::Vector3::x();
+        assert!((x - inner.rotation * nalgebra::Vector3::z()).norm() < 1e-14);
+    }
+}
+
+#[test]
+fn a_linkage_is_a_joint_that_mimics_joint_2_and_keeps_its_limits() {
+    for robot in [limited(), with_linkage()] {
+        let robot = robot.with_name("coupled");
+        let read = again(&robot);
+        assert_eq!(read.limits().linkage(), robot.limits().linkage());
+        assert_same_solutions(&robot, &read);
+    }
+    let text = limited().to_urdf();
+    assert!(text.contains("<mimic joint=\"joint_2\" multiplier=\"-1\" offset=\"0\"/>"));
+    assert!(!limited().uncoupled().to_urdf().contains("mimic"));
+    again(&limited().uncoupled().with_name("uncoupled"));
+    // Signs, offsets, a lateral offset; joints without limits.
+    let odd = odd().with_name("odd");
+    again(&odd);
+    assert!(odd.to_urdf().contains("<joint name=\"joint_2-linkage\" type=\"continuous\">"));
+}
+
+#[test]
+fn a_mimic_is_a_linkage_behind_joint_2_on_axis_3_alone() {
+    let text = limited().to_urdf();
+    let refused = |from: &str, to: &str| {
+        assert!(text.contains(from), "{from}");
+        let read = Robot::<6>::from_urdf(&text.replacen(from, to, 1), None, Some("tool0"));
+        assert!(matches!(read, Err(Error::InvalidModel(_))));
+        read.unwrap_err().to_string()
+    };
+    let wanted = |of: &str| {
+        format!(
+            "URDF: joint \"joint_2-linkage\" mimics \"{of}\", between base and tip each joint must \
+             turn by itself"
+        )
+    };
+    let mimic = "<mimic joint=\"joint_2\" multiplier=\"-1\" offset=\"0\"/>";
+    for other in [
+        "<mimic joint=\"joint_2\"/>",
+        "<mimic joint=\"joint_2\" multiplier=\"-1.5\" offset=\"0\"/>",
+        "<mimic joint=\"joint_2\" multiplier=\"-1\" offset=\"0.1\"/>",
+        "<mimic joint=\"joint_2\" multiplier=\"minus\"/>",
+    ] {
+        assert_eq!(refused(mimic, other), wanted("joint_2"));
+    }
+    assert_eq!(refused(mimic, "<mimic joint=\"joint_1\" multiplier=\"-1\"/>"), wanted("joint_1"));
+    let refuses = |origin: &str, axis: &str| {
+        let start = text.find("<joint name=\"joint_3\"").unwrap();
+        let (before, after) = text.split_at(start);
+        let moved = after.replacen("xyz=\"0 0 0\"", origin, 1);
+        let moved = moved.replacen("<axis xyz=\"0 1 0\"/>", axis, 1);
+        assert_ne!(moved, after);
+        let read = Robot::<6>::from_urdf(&format!("{before}{moved}"), None, None);
+        assert_eq!(read.unwrap_err().to_string(), wanted("joint_2"));
+    };
+    refuses("xyz=\"0 0 0.1\"", "<axis xyz=\"0 1 0\"/>");
+    refuses("xyz=\"0 0 0\"", "<axis xyz=\"0 -1 0\"/>");
+    // A gripper's finger that mimics another joint is no tip, and leaves the tip what it is.
+    let finger = text.replace(
+        "</robot>",
+        "<link name=\"finger\"/><joint name=\"f\" type=\"revolute\"><parent link=\"link_6\"/>\
+         <child link=\"finger\"/><mimic joint=\"joint_6\" multiplier=\"-1\"/></joint></robot>",
+    );
+    assert_eq!(Robot::<6>::from_urdf(&finger, None, None), Robot::from_urdf(&text, None, None));
+}
+
+#[test]
+fn a_joint_without_limits_is_continuous_and_one_side_gets_the_largest_angle() {
+    let robot = kuka_kr6().unwrap();
+    let mut limits = robot.limits().to_array();
+    limits[0] = [f64::NEG_INFINITY, f64::INFINITY];
+    limits[5] = [-PI, f64::INFINITY];
+    let robot = robot.with_limits(JointLimits::new(limits).unwrap());
+    let text = robot.to_urdf();
+    assert!(text.contains("<joint name=\"joint_1\" type=\"continuous\">"));
+    let read = Robot::<6>::from_urdf(&text, None, None).unwrap().limits().to_array();
+    assert_eq!(read[..5], limits[..5]);
+    assert_eq!(read[5], [-PI, thresholds::MOST_ANGLE]);
+}
+
+#[test]
+fn any_name_is_written_and_read_back() {
+    let named = |name: &str| kuka_kr6().unwrap().with_name(name.to_owned()).to_urdf();
+    let read = |text: &str| Robot::<6>::from_urdf(text, None, None).unwrap().name().to_owned();
+    for name in ["a\"b<c>&d'", "--><!--", "IRB 2600-12/1.65", "\t\n\r x", "ロボット", "]]>"] {
+        assert_eq!(read(&named(name)), name);
+    }
+    assert_eq!(read(&named("a\0b\u{1f}\u{fffe}")), "a\u{fffd}b\u{fffd}\u{fffd}");
+    assert_eq!(read(&named("")), "robot");
+}
+
+#[test]
+fn an_arm_of_unknown_structure_is_written_too() {
+    let text = include_str!("data/tilted.urdf");
+    let robot = Robot::<6>::serial_chain_from_urdf(text, None, None).unwrap();
+    assert!(robot.unknown_structure().is_some());
+    let read = Robot::<6>::serial_chain_from_urdf(&robot.to_urdf(), None, None).unwrap();
+    let mut rng = Rng::new(5);
+    for _ in 0..CASES {
+        let q = [0; 6].map(|_| rng.between(-PI, PI));
+        let off = PoseDifference::between(&read.fk(&q), &robot.fk(&q)).largest();
+        assert!(off <= 10.0 * rounding(&robot), "{off:e}");
+    }
+}
