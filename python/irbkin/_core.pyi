@@ -722,8 +722,8 @@ class Robot:
 
         Raises:
             PathError: No continuous joint path: `index` is the first pose that no branch reaches
-                from the start, `end_index` the last one from which none reaches the end, `reasons` says where and why each branch ends, `plan` is the plan with the fewest
-                breaks.
+                from the start, `end_index` the last one from which none reaches the end, `reasons`
+                says where and why each branch ends, `plan` is the plan with the fewest breaks.
             InvalidPoseError: T has a wrong shape or holds a matrix that is no pose; the message has
                 its index.
             InvalidJointsError: A start, end or weight that is not finite, or a start or end that
@@ -757,11 +757,14 @@ class Robot:
             paths: p paths, each of shape (m, 4, 4); their lengths may differ.
             rotation: As for `plan`, of all paths.
             times: p arrays, the times of the poses of each path [s], shape (m,).
-            start: Joint vector at the first pose [rad], shape (6,), or one for each path, (p, 6).
-            end: Joint vector at the last pose [rad], shape (6,), or one for each path, (p, 6).
+            start: Joint vector at the first pose [rad], shape (6,), or one for each path, (p, 6);
+                with the values of k external axes behind it, (6 + k,) or (p, 6 + k).
+            end: The same at the last pose.
             closed: As for `plan`, of all paths.
             weights: As for `plan`, of all paths.
             accept: As for `plan`. Threads ask it one at a time.
+            carrier: As for `plan`, of all paths.
+            tolerance: As for `plan`, of all paths.
             threads: Number of threads; 0 for one a core.
 
         Returns:

@@ -2,7 +2,7 @@
 
 use nalgebra::{Rotation3, Translation3, Unit, Vector3};
 
-use super::options::checked_steps;
+use super::axis::checked_steps;
 use crate::error::{Error, PlanFault};
 use crate::kinematics::Pose;
 use crate::kinematics::thresholds::{MOST_AXIS_STEPS, MOST_EXTERNAL};

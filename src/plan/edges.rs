@@ -1,25 +1,15 @@
 //! The edges between two layers: the best one into every node.
 
-use alloc::vec::Vec;
-
 use super::freedom::Values;
 use super::layer::{Edge, Node};
 use super::search::{CROSSED, Layers, Places, Search, Window};
-use super::step::{Columns, Moved, Pass, Run, Source, Step};
+use super::step::{Columns, Moved, Pass, Room, Run, Source, Step};
 use super::turns::whole;
-use crate::lanes::{Column, LANES, run};
+use crate::lanes::{LANES, run};
 
 /// Difference of two angles of a joint that may lead to another turn [rad]: a little less than half
 /// a turn.
 const OTHER_TURN: f64 = 3.0;
-
-/// What a search needs from step to step, so that it allocates once.
-#[derive(Default)]
-pub(super) struct Room {
-    runs: Vec<Run>,
-    sources: Vec<Source>,
-    costs: Vec<[Column; 2]>,
-}
 
 impl Search<'_> {
     /// Edges on their own branch, in lanes.

@@ -7,8 +7,9 @@ use alloc::vec::Vec;
 use nalgebra::{ComplexField as _, RealField as _};
 use nalgebra::{Matrix3, Rotation3, Translation3, Vector3};
 
+use super::axis::ToolAxis;
 use super::carrier::Carried;
-use super::options::{PlanOptions, ToolAxis, ToolRotation};
+use super::options::{PlanOptions, ToolRotation};
 use super::step::Moved;
 use crate::kinematics::thresholds::{
     COARSEST_TOOL_STEP, LIMIT_TOLERANCE, MOST_FREE_AXES, REFINED_OFFSET, REFINED_TOOL_STEP,

@@ -17,6 +17,7 @@
 //! ```
 
 mod answer;
+mod axis;
 mod carrier;
 mod certificate;
 mod closed;
@@ -40,8 +41,9 @@ mod way;
 mod window;
 
 pub use answer::{NoPlan, Plan, PlanBreak, PlanError, StrandEnd, StrandReason};
+pub use axis::ToolAxis;
 pub use carrier::ExternalAxis;
-pub use options::{PlanOptions, ToolAxis, ToolRotation};
+pub use options::{PlanOptions, ToolRotation};
 pub use planner::Accept;
 #[cfg(feature = "python")]
 pub(crate) use planner::Caller;

@@ -4,11 +4,10 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::edges::Room;
 use super::freedom::Freedom;
 use super::layer::{Grid, Layer, Node};
 use super::stations::Reach;
-use super::step::{Pass, Rates};
+use super::step::{Pass, Rates, Room};
 use super::turns::{PlannedJoints, TurnStates};
 use crate::lanes::LANES;
 

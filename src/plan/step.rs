@@ -114,6 +114,14 @@ pub(super) struct Moved {
     pub(super) squares: f64,
 }
 
+/// What a search needs from step to step, so that it allocates once.
+#[derive(Default)]
+pub(super) struct Room {
+    pub(super) runs: Vec<Run>,
+    pub(super) sources: Vec<Source>,
+    pub(super) costs: Vec<[Column; 2]>,
+}
+
 impl<const SQUARES: bool> Kernel for Step<'_, SQUARES> {
     type Answer = ();
     const WIDE: bool = true;

@@ -2,7 +2,7 @@
 
 use core::f64::consts::FRAC_PI_2;
 
-use super::options::{ToolAxis, checked_steps};
+use super::axis::{ToolAxis, checked_steps};
 use crate::error::{Error, PlanFault};
 use crate::kinematics::thresholds::MOST_AXIS_STEPS;
 

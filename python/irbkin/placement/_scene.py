@@ -9,7 +9,8 @@ import numpy.typing as npt
 
 from irbkin._arrays import as_array
 from irbkin.errors import InvalidModelError, InvalidPoseError, PathError, UnreachableError
-from irbkin.records import Plan, Status, ToolRotation
+from irbkin.freedom import ToolRotation
+from irbkin.records import Plan, Status
 
 if TYPE_CHECKING:
     from irbkin import Robot

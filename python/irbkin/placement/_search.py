@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from irbkin._arrays import Floats
     from irbkin._blocks import Client
     from irbkin._grids import Region
+    from irbkin.freedom import ToolRotation
     from irbkin.placement._scene import Flags
-    from irbkin.records import ToolRotation
 
 # Bases of the grid around which is searched, how often steps are halved, and how many steps of one
 # size are made at most.
