@@ -285,6 +285,33 @@ def test_a_planned_path_is_timed():
     np.testing.assert_allclose(ROBOT.fk(fixed.trajectory.points[0].q), T[0], atol=1e-9)
 
 
+def test_a_track_is_one_more_joint_of_a_planned_path():
+    kinematics = ros.kinematics_of(
+        {
+            "robot": ROBOT.name,
+            "max_acceleration": [8.0] * 6,
+            "track": [0, 1, 0, -3, 3, 0.8, 2.0],
+            "track_name": "rail",
+        }
+    )
+    ends = [irbkin.pose([0.9, y, 0.9], euler_zyx=[0, 2.8, 0]) for y in (-2.0, 2.0)]
+    T = irbkin.paths.line(*ends, steps=40)
+    answer = planned(kinematics, T)
+    assert answer.success, answer.message
+    assert answer.trajectory.joint_names[5:] == ["joint_6", "rail"]
+    points = answer.trajectory.points
+    tools = np.array(
+        [kinematics.robot.with_base(irbkin.pose([0, p.q[6], 0])).fk(p.q[:6]) for p in points]
+    )
+    np.testing.assert_allclose(tools[[0, -1]], T[[0, -1]], atol=1e-8)
+    # Between the poses the joints are splines.
+    np.testing.assert_allclose(tools[:, [0, 2], 3], np.full((40, 2), 0.9), atol=5e-3)
+    assert np.abs([point.dq[6] for point in points]).max() <= 0.8 + 1e-9
+    assert not planned(ros.kinematics_of({"robot": ROBOT.name}), T).success
+    with pytest.raises(irbkin.InvalidMotionError, match="track is"):
+        ros.kinematics_of({"robot": ROBOT.name, "track": [0, 0, 0, 0, 1, 1, 1]})
+
+
 def test_a_planned_path_begins_at_its_start():
     T = seam()
     starts = [s.q for s in ROBOT.ik(T[0]).within_limits()]

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from irbkin._core import Robot, Trajectory
+    from irbkin.freedom import Track
     from irbkin.ros.messages import PoseStampedMessage, Stamped
 
     _Floats = npt.NDArray[np.float64]
@@ -45,6 +46,9 @@ class Kinematics:
         max_velocity: Limits of planned paths [rad/s], shape (n,); the robot's when not given.
         max_acceleration: Limits of planned paths [rad/s^2], shape (n,). No catalog has them:
             without them `plan_path` plans nothing.
+        track: A track under the robot, along which `plan_path` may move it.
+        track_name: Its name, behind those of the joints.
+        track_acceleration: Its limit [m/s^2].
 
     Raises:
         InvalidJointsError, InvalidMotionError: A vector has a wrong length, is not finite or not
@@ -61,6 +65,9 @@ class Kinematics:
         weights: npt.ArrayLike | None = None,
         max_velocity: npt.ArrayLike | None = None,
         max_acceleration: npt.ArrayLike | None = None,
+        track: Track | None = None,
+        track_name: str = "track",
+        track_acceleration: float = 1.0,
     ) -> None:
         self.robot = robot
         self.base_frame = base_frame
@@ -87,6 +94,8 @@ class Kinematics:
             if max_acceleration is None
             else limit_of_each(max_acceleration, "max_acceleration", robot.dof)
         )
+        self._track, self._track_name = track, track_name
+        self._track_acceleration = track_acceleration
 
     @property
     def last(self) -> _Floats:
@@ -195,15 +204,24 @@ class Kinematics:
             )
         start = _vector(request.start) if len(request.start) else None
         plan = self.robot.plan(
-            T, rotation=request.tool_angles or None, start=start, weights=self._weights
+            T,
+            rotation=request.tool_angles or None,
+            start=start,
+            weights=self._weights,
+            carrier=self._track,
         )
+        q = np.hstack([plan.q, plan.external])
+        if self._track is not None:
+            velocity = np.append(velocity, self._track.max_velocity)
+            acceleration = np.append(acceleration, self._track_acceleration)
         if request.max_tool_speed == 0.0:
-            return retime(plan.q, velocity, acceleration)
-        return retime(plan.q, velocity, acceleration, T=T, max_tool_speed=request.max_tool_speed)
+            return retime(q, velocity, acceleration)
+        return retime(q, velocity, acceleration, T=T, max_tool_speed=request.max_tool_speed)
 
     def _write_trajectory(self, trajectory: Trajectory, message: Message, point: Point) -> None:
         message.header.frame_id = self.base_frame
-        message.joint_names = list(self.joint_names)
+        track = [] if self._track is None else [self._track_name]
+        message.joint_names = [*self.joint_names, *track]
         rows = (trajectory.q, trajectory.dq, trajectory.ddq, trajectory.t)
         message.points = [
             point(*row) for row in zip(*(part.tolist() for part in rows), strict=True)

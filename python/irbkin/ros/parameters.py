@@ -10,7 +10,8 @@ import numpy as np
 
 from irbkin._arrays import finite
 from irbkin._core import Robot, pose
-from irbkin.errors import InvalidModelError, InvalidPoseError, IrbkinError
+from irbkin.errors import InvalidModelError, InvalidMotionError, InvalidPoseError, IrbkinError
+from irbkin.freedom import Track
 from irbkin.ros.answers import Kinematics
 
 __all__ = ["PARAMETERS", "Parameter", "kinematics_of", "service_prefix"]
@@ -52,6 +53,12 @@ PARAMETERS = (
     _numbers("weights", "Cost of moving each joint; ones if empty"),
     _numbers("max_velocity", "Limits of planned paths [rad/s]; those of the robot if empty"),
     _numbers("max_acceleration", "Limits of planned paths [rad/s^2]; plan_path needs them"),
+    _numbers(
+        "track",
+        "Track under the robot: its direction x y z, lower and upper end [m], limits of "
+        "velocity [m/s] and acceleration [m/s^2]; none if empty",
+    ),
+    _text("track_name", "track", "Name of the track in planned trajectories"),
     _text("service_prefix", "", "Of the names of services; irb1600_kinematics for an IRB 1600"),
 )
 
@@ -86,6 +93,18 @@ def kinematics_of(values: Mapping[str, Any]) -> Kinematics:
         raise InvalidModelError(
             "joint_names is empty: with robot_description it must name the joints from base to tip"
         )
+    if len(read["track"]):
+        x, y, z, lower, upper, velocity, acceleration = finite(
+            read["track"], "track", (7,), InvalidMotionError
+        ).tolist()
+        if not (velocity > 0.0 and acceleration > 0.0 and lower < upper and (x, y, z) != (0, 0, 0)):
+            raise InvalidMotionError(
+                f"track is {read['track']!r}: its direction must have a length, its ends lower < "
+                "upper, its limits must be positive"
+            )
+        given["track"] = Track((x, y, z), lower, upper, max_velocity=velocity)
+        given["track_acceleration"] = acceleration
+        given["track_name"] = read["track_name"]
     return Kinematics(robot, base_frame=base_frame, **given)
 
 
