@@ -28,7 +28,9 @@ pub(crate) use chain::joint_axes::unit;
 pub use chain::limits::JointLimits;
 pub use path::follow::{Break, BreakReason, Followed, Follower};
 pub use path::singularity_mode::{FollowOptions, SingularityMode};
-pub(crate) use path::step::{largest, largest_step, steps};
+#[cfg(feature = "rapid")]
+pub(crate) use path::step::largest_step;
+pub(crate) use path::step::{largest, steps};
 #[cfg(feature = "rapid")]
 pub(crate) use pose::angles::constant_sin_cos;
 pub(crate) use pose::angles::nearest_turn;
