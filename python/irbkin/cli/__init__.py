@@ -10,7 +10,7 @@ from irbkin.cli.errors import FINE, CommandError, guarded
 __all__ = ["main"]
 
 # A verb is the module `irbkin.cli.<verb>`, which has HELP, EXAMPLES, `add_arguments` and `run`.
-# A new one, such as `map`, needs its file and its line here.
+# A new one needs its file and its line here. (`map` is here the verb, once it was called.)
 VERBS = {
     "catalog": "list the arms, or show one",
     "fk": "pose of the tool of joint angles",
@@ -19,6 +19,7 @@ VERBS = {
     "path": "joints along a path of poses, on one branch",
     "plan": "the best joints along a path of poses, over branches, turns and tool angles",
     "rapid": "the moves of a RAPID routine as one motion: times, joints, findings",
+    "map": "what an arm reaches: a grid of positions, each with many orientations",
     "plot": "draw solutions, paths and reach",
     "urdf": "write an arm as URDF",
 }
@@ -52,7 +53,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(given: list[str]) -> int:
     if not given or given[0] in ("-h", "--help", "help"):
-        width = max(map(len, VERBS))
+        width = max(len(verb) for verb in VERBS)
         lines = (f"  {verb:{width}}   {words}" for verb, words in VERBS.items())
         print(OVERVIEW.format(verbs="\n".join(lines)), end="")
         return FINE

@@ -1,0 +1,44 @@
+"""`irbkin map`: the shares of `irbkin.map`, level by level and position by position."""
+
+import irbkin
+import irbkin.map
+import numpy as np
+import pytest
+from command import NAME, ROBOT, refused, rows, run
+
+GRID = ["--x", "400", "1600", "--y", "-400", "400", "--z", "0", "1200", "--step", "400"]
+
+
+def test_levels_and_positions_are_those_of_the_map(tmp_path):
+    x, y, z = np.arange(0.4, 1.7, 0.4), np.arange(-0.4, 0.5, 0.4), np.arange(0.0, 1.3, 0.4)
+    found = irbkin.map.reach(ROBOT, x, y, z, irbkin.map.orientations(20))
+    done = run("map", NAME, *GRID, "--csv")
+    assert done.returncode == 0
+    table = rows(done)
+    np.testing.assert_allclose(table["reached_percent"], 100 * found.share.ravel(), atol=1e-9)
+    np.testing.assert_array_equal(table["solutions"], found.solutions.ravel())
+    told = run("map", NAME, *GRID).stdout.decode()
+    assert f"reached: {100 * found.share.mean():.1f} % of all poses" in told
+    assert len(told.splitlines()) == 2 + 2 + 4 + 2
+    store = tmp_path / "reach.npz"
+    assert run("map", NAME, *GRID, "-o", str(store)).stdout.decode() == told
+    np.testing.assert_array_equal(irbkin.map.load(store).reached, found.reached)
+
+
+def test_nothing_reached_is_a_finding():
+    far = ["--x", "9000", "9100", "--y", "0", "0", "--z", "0", "0"]
+    assert run("map", NAME, *far).returncode == 1
+
+
+@pytest.mark.parametrize(
+    ("changed", "words"),
+    [
+        (["--x", "1", "0"], "--x 1 0"),
+        (["--step", "0"], "--step 0"),
+        (["--step", "nan"], "--step nan"),
+        (["--step", "1e-9"], "more than"),
+        (["--directions", "0"], "directions is 0"),
+    ],
+)
+def test_grids_that_make_no_sense_are_refused(changed, words):
+    assert words in refused("map", NAME, *GRID, *changed)
