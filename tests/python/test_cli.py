@@ -398,3 +398,22 @@ def test_urdf_is_read_back_as_the_same_arm(tmp_path):
     wanted = ROBOT.fk(np.radians([0, 0, 0, 0, 30, 0]))[:3, 3] * 1e3
     np.testing.assert_allclose([found[f"{axis}_mm"][0] for axis in "xyz"], wanted, atol=1e-6)
     np.testing.assert_allclose(irbkin.Robot.from_urdf(file).fk(q), ROBOT.fk(q), atol=1e-12)
+
+
+def test_a_plan_with_a_track_has_its_place(tmp_path):
+    seam = tmp_path / "seam.csv"
+    seam.write_text("1100,-2000,600,0,155,0\n1100,2000,600,0,155,0\n")
+    words = ["plan", NAME, seam, "--through", "lines", "--step", "500"]
+    assert run(*words).returncode == 1
+    words += ["--track", "0", "1", "0", "-3000", "3000"]
+    table = rows(run(*words, "--csv"))
+    place = table["track_mm"]
+    assert place[0] < -300 < 300 < place[-1]
+    for index in (0, 4, 8):
+        q = np.radians([table[f"q{joint}_deg"][index] for joint in range(1, 7)])
+        tool = ROBOT.with_base(irbkin.pose([0, place[index] / 1e3, 0])).fk(q)
+        np.testing.assert_allclose(tool[:3, 3], [1.1, 0.5 * index - 2.0, 0.6], atol=1e-9)
+    start = [*(table[f"q{joint}_deg"][0] for joint in range(1, 7)), place[0]]
+    again = rows(run(*words, "--csv", "--start", *start))
+    np.testing.assert_allclose(again["track_mm"][0], place[0], atol=1e-6)
+    assert "6 angles" in refused(*words, "--start", "1", "2")

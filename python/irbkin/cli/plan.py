@@ -10,6 +10,7 @@ from irbkin.cli.errors import FINE, FOUND, complain
 from irbkin.cli.tool_paths import add_path, fastest, read_path
 
 if TYPE_CHECKING:
+    from irbkin import Robot, Track
     from irbkin._arrays import Floats
 
 HELP = """Branch, turns of the joints and, with --rotation, the angle of the tool about its z are
@@ -18,6 +19,7 @@ be continuous (docs/plan.md). Without a way the exit code is 1, and stderr says 
 branch ends."""
 EXAMPLES = """  irbkin plan "IRB 2600-12/1.65" poses.csv
   irbkin plan "IRB 2600-12/1.65" corners.csv --through lines --rotation 36 --csv
+  irbkin plan "IRB 2600-12/1.65" seam.csv --through lines --track 0 1 0 -3000 3000
   irbkin plan "IRB 2600-12/1.65" contour.npy --closed -o q.npy"""
 
 
@@ -27,10 +29,17 @@ def add_arguments(parser: Parser) -> None:
     add_path(parser)
     add = parser.add
     add("--rotation", type=int, metavar="STEPS", help="number of tool angles around z")
-    add("--start", nargs="+", type=float, metavar="Q", help="joints at the first pose [deg]")
-    add("--end", nargs="+", type=float, metavar="Q", help="joints at the last pose [deg]")
+    add(
+        "--track",
+        nargs=5,
+        type=float,
+        metavar=("X", "Y", "Z", "FROM", "TO"),
+        help="a track under the robot: its direction and its ends [mm]",
+    )
+    add("--start", nargs="+", type=float, metavar="Q", help="joints at the first pose [deg], track")
+    add("--end", nargs="+", type=float, metavar="Q", help="joints at the last pose [deg], track")
     add("--closed", action="store_true", help="the joints end where they start")
-    parser.add_formats("joint angles, shape (m, 6), in radians")
+    parser.add_formats("joint angles in radians, shape (m, 6), and the track in meters, (m, 7)")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -47,9 +56,10 @@ def run(arguments: argparse.Namespace) -> int:
         plan = robot.plan(
             poses,
             rotation=arguments.rotation,
-            start=joints(arguments.start, "--start", robot.dof),
-            end=joints(arguments.end, "--end", robot.dof),
+            start=_end(arguments, "start", robot),
+            end=_end(arguments, "end", robot),
             closed=arguments.closed,
+            carrier=_track(arguments.track),
         )
     except PathError as error:
         complain(error)
@@ -61,19 +71,46 @@ def run(arguments: argparse.Namespace) -> int:
         Column("pose", "", "6d"),
         *(Column(name, "mm", "8.2f") for name in "xyz"),
         Column("tool_angle", "deg", "8.2f"),
+        *([] if arguments.track is None else [Column("track", "mm", "8.1f")]),
         *postures.columns,
     )
     with table(arguments, columns, f"{robot.name}: {len(poses)} poses") as rows:
         places = (poses[:, axis, 3] * 1e3 for axis in range(3))
         angle = np.degrees(plan.tool_angle)
-        rows.write([np.arange(len(poses)), *places, angle, *postures.values(plan.q)], plan.q)
+        track = (plan.external * 1e3).T
+        rows.write(
+            [np.arange(len(poses)), *places, angle, *track, *postures.values(plan.q)],
+            np.hstack([plan.q, plan.external]),
+        )
         rows.note("certified", plan.certified, "every step is shown to be continuous")
         turned = poses @ _about_z(plan.tool_angle)
-        if best := fastest(robot, plan.q, turned):
+        # The speed of a tool that a track carries is not that of the arm alone.
+        if arguments.track is None and (best := fastest(robot, plan.q, turned)):
             speed, joint = best
             words = f"tool speed up to {speed * 1e3:.0f} mm/s, limited by J{joint}"
             rows.note("fastest_mm_s", speed * 1e3, words)
     return FINE
+
+
+def _track(numbers: list[float] | None) -> Track | None:
+    from irbkin.freedom import Track
+
+    if numbers is None:
+        return None
+    *direction, lower, upper = numbers
+    return Track(direction, lower / 1e3, upper / 1e3)
+
+
+def _end(arguments: argparse.Namespace, name: str, robot: Robot) -> Floats | None:
+    """Joints at an end [rad], with the place on the track [m] if there is one."""
+    import numpy as np
+
+    given: list[float] | None = getattr(arguments, name)
+    if given is None or arguments.track is None:
+        return joints(given, f"--{name}", robot.dof)
+    *angles, place = given
+    q = joints(angles, f"--{name} (with the track's place behind the joints)", robot.dof)
+    return None if q is None else np.append(q, place / 1e3)
 
 
 def _about_z(angles: Floats) -> Floats:
