@@ -23,7 +23,7 @@ fi
 )
 
 echo "The sdist"
-"$bin/maturin" sdist --quiet --out "$folder/dist"
+"$bin/maturin" sdist --out "$folder/dist"
 "$bin/python" -m venv "$folder/venv"
 "$folder/venv/bin/pip" install --quiet --disable-pip-version-check "$folder"/dist/irbkin-*.tar.gz
 mkdir "$folder/sdist"
