@@ -80,7 +80,7 @@ impl Search<'_> {
                 continue;
             }
             let begin = room.sources.len();
-            let (slot, station) = (row / grid.stations.len(), row % grid.stations.len());
+            let Node { slot, station, .. } = grid.node(row * grid.bins);
             let values = next.values(grid, station);
             for from in grid.stations.around(station, reach) {
                 let moved = self.moved(ends.layer, &previous.values(grid, from), &values);
@@ -120,7 +120,7 @@ impl Search<'_> {
         let (previous, next) = (&self.layers[ends.layer - 1], &self.layers[ends.layer]);
         let reach = self.windows[ends.layer].stations;
         for row in (0..grid.rows()).filter(|row| next.present[*row]) {
-            let (slot, station) = (row / grid.stations.len(), row % grid.stations.len());
+            let Node { slot, station, .. } = grid.node(row * grid.bins);
             let (mut has_fewer, mut leads_on) = (false, false);
             for joint in (0..6).filter(|joint| self.states.has(*joint)) {
                 let [mut least, mut most] = range(next.angles(grid, row, joint));

@@ -3,8 +3,9 @@
 use core::f64::consts::TAU;
 
 use super::freedom::Values;
-use super::layer::Own;
+use super::layer::{Own, Waypoint};
 use super::nodes::Arm;
+use super::options::PlanOptions;
 use super::stations::Stations;
 use crate::error::{Error, PlanFault};
 use crate::kinematics::thresholds::{LIMIT_TOLERANCE, MOST_FREE_AXES, PLAN_END_OFF};
@@ -21,8 +22,23 @@ pub(super) struct Given {
 }
 
 impl Given {
+    /// The joint angles that are given for the ends of a path.
+    pub(super) fn both(
+        arm: &Arm<'_>,
+        points: &[Waypoint],
+        options: &PlanOptions,
+    ) -> Result<[Option<Self>; 2], Error> {
+        let given = |field, q: &Option<[f64; 6]>, external: &[f64], point: &Waypoint| {
+            q.as_ref().map(|q| Self::new(arm, field, (q, external), &point.pose)).transpose()
+        };
+        Ok([
+            given("start", &options.start, &options.start_external, &points[0])?,
+            given("end", &options.end, &options.end_external, &points[points.len() - 1])?,
+        ])
+    }
+
     /// Check joint angles, and the values of the external axes, against the pose of an end.
-    pub(super) fn new(
+    fn new(
         arm: &Arm<'_>,
         field: &'static str,
         (q, external): (&[f64; 6], &[f64]),

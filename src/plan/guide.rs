@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 
 use super::answer::PlanError;
 use super::ends::Given;
+use super::freedom::Freedom;
 use super::layer::Waypoint;
 use super::nodes::Arm;
 use super::options::PlanOptions;
@@ -12,6 +13,7 @@ use super::planner::{Caller, Planner, turns};
 use super::refine::{FINER, Middle};
 use super::way::Way;
 use crate::error::Error;
+use crate::paths::Turn;
 
 /// Poses of the first, coarsest path, about.
 const FEWEST: usize = 16;
@@ -28,7 +30,6 @@ pub(super) fn guided<'a>(
     arm: Arm<'a>,
     points: &[Waypoint],
     options: &PlanOptions,
-    ends: &[Option<Given>; 2],
     caller: &mut Caller<'_, '_>,
 ) -> Result<Option<(Planner<'a>, Way)>, PlanError> {
     let mut stride = first_stride(points.len());
@@ -36,8 +37,9 @@ pub(super) fn guided<'a>(
     if is_fixed || stride == 1 {
         return Ok(None);
     }
+    let ends = Given::both(&arm, points, options)?;
     // Neighbors may be half a turn apart now: a matter of this way only.
-    let Ok(mut planner) = Planner::new(arm, &every(points, stride), options, ends) else {
+    let Ok(mut planner) = Planner::new(arm, &every(points, stride), options, &ends) else {
         return Ok(None);
     };
     let Some(way) = planner.whole_way(caller)? else { return Ok(None) };
@@ -82,45 +84,19 @@ impl Planner<'_> {
     /// Layers for more poses of a path, in bands around a way through some of them.
     fn guide(&mut self, way: &Way, points: &[Waypoint]) -> Result<(), Error> {
         let turns = turns(points)?;
-        let known: Vec<(usize, Middle)> = self
-            .layers
-            .iter()
-            .zip(&way.nodes)
-            .filter_map(|(layer, node)| {
-                let given = layer.own.and(layer.joints(&self.grid, *node));
-                let middle = Middle {
-                    angle: layer.tool_angle(&self.grid, node.bin),
-                    values: layer.values(&self.grid, node.station),
-                    given: given.map(|q| (node.slot, q)),
-                    ..Middle::of(layer.pose, layer.time, layer.index)
-                };
-                Some((layer.index?, middle))
-            })
-            .collect();
+        let along = self.layers.iter().zip(&way.nodes).filter(|(layer, _)| layer.index.is_some());
+        let known: Vec<Middle> =
+            along.map(|(layer, node)| Middle::of(&self.grid, layer, *node)).collect();
         let freedom = self.arm.freedom;
         let mut at = 0;
         let middles: Vec<Middle> = points
             .iter()
             .zip(turns)
             .map(|(point, turn)| {
-                while at + 2 < known.len() && known[at + 1].0 <= point.index {
+                while at + 2 < known.len() && known[at + 1].index <= Some(point.index) {
                     at += 1;
                 }
-                let (from, to) = (&known[at].1, &known[(at + 1).min(known.len() - 1)].1);
-                let width = to.time - from.time;
-                let part = if width > 0.0 { (point.time - from.time) / width } else { 0.0 };
-                let end = [from, to].into_iter().find(|end| end.index == Some(point.index));
-                let angle = from.angle + part * freedom.angle_step(from.angle, to.angle);
-                let values = core::array::from_fn(|axis| {
-                    from.values[axis] + part * (to.values[axis] - from.values[axis])
-                });
-                Middle {
-                    angle: end.map_or(angle, |end| end.angle),
-                    values: end.map_or(values, |end| end.values),
-                    given: end.and_then(|end| end.given),
-                    turn,
-                    ..Middle::of(point.pose, point.time, Some(point.index))
-                }
+                known[at].toward(&known[(at + 1).min(known.len() - 1)], point, turn, freedom)
             })
             .collect();
         let step = freedom.axes.first().map(|_| (0, self.finest(0)));
@@ -151,5 +127,30 @@ impl Planner<'_> {
             step /= FINER;
         }
         step
+    }
+}
+
+impl Middle {
+    /// The middle at a pose between two that are known, or at one of them.
+    fn toward(&self, to: &Self, point: &Waypoint, turn: Option<Turn>, freedom: &Freedom) -> Self {
+        let here = Self {
+            pose: point.pose,
+            time: point.time,
+            index: Some(point.index),
+            given: None,
+            depth: 0,
+            turn,
+            ..*self
+        };
+        if let Some(end) = [self, to].into_iter().find(|end| end.index == here.index) {
+            return Self { angle: end.angle, values: end.values, given: end.given, ..here };
+        }
+        let part = (point.time - self.time) / (to.time - self.time);
+        let between = |axis| self.values[axis] + part * (to.values[axis] - self.values[axis]);
+        Self {
+            angle: self.angle + part * freedom.angle_step(self.angle, to.angle),
+            values: core::array::from_fn(between),
+            ..here
+        }
     }
 }

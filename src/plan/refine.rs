@@ -14,7 +14,8 @@ use crate::paths::Turn;
 const BAND: usize = 5;
 
 /// How many finer steps are one coarser step [1]: so that a band reaches to the next values.
-pub(super) const FINER: f64 = 5.0;
+#[expect(clippy::cast_precision_loss, reason = "a small count")]
+pub(super) const FINER: f64 = BAND as f64;
 
 /// Gain of the bottleneck below which a grid is not searched once more [1].
 const GAIN: f64 = 0.02;
@@ -39,9 +40,18 @@ pub(super) struct Middle {
 }
 
 impl Middle {
-    pub(super) fn of(pose: Pose, time: f64, index: Option<usize>) -> Self {
-        let (angle, values) = (0.0, Values::default());
-        Self { pose, time, index, angle, values, given: None, depth: 0, turn: None }
+    /// Where a way goes through a layer.
+    pub(super) fn of(grid: &Grid, layer: &Layer, node: Node) -> Self {
+        Self {
+            pose: layer.pose,
+            time: layer.time,
+            index: layer.index,
+            angle: layer.tool_angle(grid, node.bin),
+            values: layer.values(grid, node.station),
+            given: layer.own.and(layer.joints(grid, node)).map(|q| (node.slot, q)),
+            depth: layer.depth,
+            turn: layer.turn,
+        }
     }
 }
 
@@ -88,14 +98,8 @@ impl Planner<'_> {
     ) -> Result<Way, PlanError> {
         for _ in 0..if axis.is_some() { AGAIN } else { 1 } {
             let (grid, layers) = (self.grid, core::mem::take(&mut self.layers));
-            let middles = layers.iter().zip(&way.nodes).map(|(layer, node)| Middle {
-                angle: layer.tool_angle(&grid, node.bin),
-                values: layer.values(&grid, node.station),
-                given: layer.own.and(layer.joints(&grid, *node)).map(|q| (node.slot, q)),
-                depth: layer.depth,
-                turn: layer.turn,
-                ..Middle::of(layer.pose, layer.time, layer.index)
-            });
+            let along = layers.iter().zip(&way.nodes);
+            let middles = along.map(|(layer, node)| Middle::of(&grid, layer, *node));
             self.band(middles, turn, axis);
             let finer = self.proven_way(0, caller)?;
             let is_whole = |finer: &Way| finer.reached() + 1 == self.layers.len();

@@ -71,12 +71,10 @@ impl Robot<6> {
         };
         let freedom = Freedom::of(options);
         let arm = Arm { robot: self, joints: &joints, freedom: &freedom };
-        let ends = given_ends(&arm, &path, options)?;
         let points = waypoints(&path, options);
+        let ends = Given::both(&arm, &points, options)?;
         let coarser = freedom.coarser();
-        let guide = Arm { freedom: &coarser, ..arm };
-        let guide_ends = given_ends(&guide, &path, options)?;
-        let guided = guided(guide, &points, options, &guide_ends, caller)?;
+        let guided = guided(Arm { freedom: &coarser, ..arm }, &points, options, caller)?;
         let mut planner = Planner::new(arm, &points, options, &ends)?;
         if let Some((guide, way)) = guided {
             // A way of the whole grid is taken if it is better still.
@@ -133,26 +131,12 @@ fn reached_from_the_end(
         end_external: options.start_external.clone(),
         ..options.clone()
     };
-    let ends = given_ends(&arm, &backward, &options)?;
-    let mut planner = Planner::new(arm, &waypoints(&backward, &options), &options, &ends)?;
+    let points = waypoints(&backward, &options);
+    let ends = Given::both(&arm, &points, &options)?;
+    let mut planner = Planner::new(arm, &points, &options, &ends)?;
     let count = planner.layers.len();
     let reached = planner.proven_way(0, caller)?.map_or(0, |way| way.reached() + 1);
     Ok(path.len() - 1 - planner.index_of(reached.min(count - 1)))
-}
-
-/// The joint angles that are given for the ends, as nodes.
-fn given_ends(
-    arm: &Arm<'_>,
-    path: &[Pose],
-    options: &PlanOptions,
-) -> Result<[Option<Given>; 2], Error> {
-    let given = |field, (q, external): (&Option<[f64; 6]>, &[f64]), pose: &Pose| {
-        q.as_ref().map(|q| Given::new(arm, field, (q, external), pose)).transpose()
-    };
-    Ok([
-        given("start", (&options.start, &options.start_external), &path[0])?,
-        given("end", (&options.end, &options.end_external), &path[path.len() - 1])?,
-    ])
 }
 
 /// The poses of a path with their times.

@@ -8,10 +8,11 @@ use super::arguments::one_of;
 use super::arrays::{Rows, vector};
 use super::classes;
 use super::errors::{Fault, to_py};
+use super::found::read_weights;
 use super::wording::shape;
 use crate::error::Error;
 use crate::kinematics::thresholds::MOST_TOOL_ANGLES;
-use crate::plan::{ExternalAxis, ToolAxis, ToolCone, ToolOffset, ToolRotation};
+use crate::plan::{ExternalAxis, PlanOptions, ToolAxis, ToolCone, ToolOffset, ToolRotation};
 
 const AXES: [(&str, ToolAxis); 3] = [("x", ToolAxis::X), ("y", ToolAxis::Y), ("z", ToolAxis::Z)];
 
@@ -71,8 +72,28 @@ fn count(value: &Bound<'_, PyAny>) -> Option<usize> {
     Some(usize::try_from(count.clamp(0, MOST_TOOL_ANGLES as i128 + 1)).unwrap_or_default())
 }
 
+/// What one path is asked for as well as many.
+pub(super) fn read_options(
+    rotation: Option<&Bound<'_, PyAny>>,
+    closed: bool,
+    weights: Option<&Bound<'_, PyAny>>,
+    carrier: Option<&Bound<'_, PyAny>>,
+    tolerance: Option<&Bound<'_, PyAny>>,
+) -> PyResult<PlanOptions> {
+    let (cone, offset) = tolerance.map(read_tolerance).transpose()?.unwrap_or_default();
+    Ok(PlanOptions {
+        rotation: rotation.map(read_rotation).transpose()?,
+        external: carrier.map(read_carrier).transpose()?.unwrap_or_default(),
+        cone,
+        offset,
+        closed,
+        weights: read_weights(weights)?,
+        ..PlanOptions::default()
+    })
+}
+
 /// A rotation from a number of steps or from `irbkin.ToolRotation`.
-pub(super) fn read_rotation(rotation: &Bound<'_, PyAny>) -> PyResult<ToolRotation> {
+fn read_rotation(rotation: &Bound<'_, PyAny>) -> PyResult<ToolRotation> {
     let py = rotation.py();
     let made = if rotation.is_instance(classes::tool_rotation_class(py)?)? {
         let fields = Fields { tuple: rotation.cast::<PyTuple>()?.clone(), field: "rotation" };
@@ -85,7 +106,7 @@ pub(super) fn read_rotation(rotation: &Bound<'_, PyAny>) -> PyResult<ToolRotatio
 }
 
 /// External axes from `irbkin.Track`, `irbkin.Positioner`, or several of them.
-pub(super) fn read_carrier(carrier: &Bound<'_, PyAny>) -> PyResult<Vec<ExternalAxis>> {
+fn read_carrier(carrier: &Bound<'_, PyAny>) -> PyResult<Vec<ExternalAxis>> {
     let py = carrier.py();
     let wanted = "carrier must be an irbkin.Track, an irbkin.Positioner, or a sequence of them";
     let (track, positioner) = (classes::track_class(py)?, classes::positioner_class(py)?);
@@ -113,7 +134,7 @@ pub(super) fn read_carrier(carrier: &Bound<'_, PyAny>) -> PyResult<Vec<ExternalA
 }
 
 /// Tolerances from `irbkin.ToolCone`, `irbkin.ToolOffset`, or one of each.
-pub(super) fn read_tolerance(
+fn read_tolerance(
     tolerance: &Bound<'_, PyAny>,
 ) -> PyResult<(Option<ToolCone>, Option<ToolOffset>)> {
     let py = tolerance.py();

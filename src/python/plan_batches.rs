@@ -9,8 +9,7 @@ use super::arguments::thread_count;
 use super::arrays::Rows;
 use super::classes::{invalid_model_error, irbkin_error};
 use super::errors::Fault;
-use super::found::read_weights;
-use super::freedoms::{read_carrier, read_rotation, read_tolerance};
+use super::freedoms::read_options;
 use super::paths::read_path;
 use super::plans::{answer, asked, one_path, read_times};
 use super::robot::PyRobot;
@@ -68,18 +67,8 @@ impl PyRobot {
     ) -> PyResult<Bound<'py, PyTuple>> {
         let py = paths.py();
         let (robot, threads) = (self.arm().six_joints(py, "plan_batch")?, thread_count(threads)?);
-        let external = carrier.map(read_carrier).transpose()?.unwrap_or_default();
-        let (cone, offset) = tolerance.map(read_tolerance).transpose()?.unwrap_or_default();
-        let axes = external.len();
-        let all = PlanOptions {
-            rotation: rotation.map(read_rotation).transpose()?,
-            external,
-            cone,
-            offset,
-            closed,
-            weights: read_weights(weights)?,
-            ..PlanOptions::default()
-        };
+        let all = read_options(rotation, closed, weights, carrier, tolerance)?;
+        let axes = all.external.len();
         let rows = read_rows(paths)?;
         let times = read_all_times(py, times, rows.len())?;
         let (start, end) = (

@@ -8,8 +8,7 @@ use pyo3::types::PyTuple;
 use super::arrays::Rows;
 use super::classes;
 use super::errors::{Fault, raised, to_py};
-use super::found::read_weights;
-use super::freedoms::{read_carrier, read_end, read_rotation, read_tolerance};
+use super::freedoms::{read_end, read_options};
 use super::outputs::matrix;
 use super::paths::read_path;
 use super::robot::PyRobot;
@@ -83,22 +82,16 @@ impl PyRobot {
     ) -> PyResult<Bound<'py, PyAny>> {
         let py = T.py();
         let robot = self.arm().six_joints(py, "plan")?;
-        let external = carrier.map(read_carrier).transpose()?.unwrap_or_default();
-        let (cone, offset) = tolerance.map(read_tolerance).transpose()?.unwrap_or_default();
-        let (start, start_external) = read_end(start, "start", external.len())?;
-        let (end, end_external) = read_end(end, "end", external.len())?;
+        let all = read_options(rotation, closed, weights, carrier, tolerance)?;
+        let (start, start_external) = read_end(start, "start", all.external.len())?;
+        let (end, end_external) = read_end(end, "end", all.external.len())?;
         let options = PlanOptions {
-            rotation: rotation.map(read_rotation).transpose()?,
-            external,
-            cone,
-            offset,
             times: times.map(|times| read_times(times, "times")).transpose()?,
             start,
             end,
             start_external,
             end_external,
-            closed,
-            weights: read_weights(weights)?,
+            ..all
         };
         let rows = one_path(T, "T")?;
         let path = read_path(py, &rows, &rows.shape()[..1])?;
