@@ -685,13 +685,17 @@ class Robot:
         accept: Callable[[_Floats], npt.ArrayLike] | None = None,
         carrier: Track | Positioner | Sequence[Track | Positioner] | None = None,
         tolerance: ToolCone | ToolOffset | Sequence[ToolCone | ToolOffset] | None = None,
+        order: Literal["bottleneck", "sum"] = "bottleneck",
+        limit_cost: float = 0.0,
+        singularity_cost: float = 0.0,
     ) -> Plan:
         """The best joint path along a path of poses, over every branch, every turn of the joints
         and, with `rotation`, every angle of the tool.
 
         Of all continuous joint paths inside the limits, that with the smallest bottleneck: the
         largest joint velocity relative to `max_velocity` (1 rad/s where that is not known). Of
-        those, that with the smallest weighted sum of squared joint steps. Both are exact over the
+        those, that with the smallest weighted sum of squared joint steps and of what being near
+        limits and singularities costs; `order` makes the sum come first. Both are exact over the
         tool angles of `rotation`, which are then refined around the best ones, to half a degree.
         Every step of the answer is shown to be continuous between its two poses.
 
@@ -715,6 +719,12 @@ class Robot:
                 them. Their steps count for bottleneck and cost as those of the joints do.
             tolerance: How far the tool may be from the poses: an `irbkin.ToolCone`, an
                 `irbkin.ToolOffset`, or one of each.
+            order: What of two paths makes the better one: "bottleneck", then the sum; or "sum"
+                alone.
+            limit_cost: What a joint at its limit costs [rad^2/s^2], added to the sum: as much as
+                one of weight 1 that moves with the root of it [rad/s]. Half way from the middle to
+                the limit it costs a quarter. Without `times` the path takes one second.
+            singularity_cost: The same of each of the singularities of wrist, elbow and shoulder.
 
         Returns:
             Plan: joints [rad], shape (m, 6); tool angles; slots; external axes, shape (m, k);
@@ -729,7 +739,9 @@ class Robot:
             InvalidJointsError: A start, end or weight that is not finite, or a start or end that
                 does not fit its pose or the limits.
             InvalidMotionError: No poses, two poses half a turn apart, times that do not increase, a
-                rotation, carrier or tolerance that is empty, an open path with `closed`.
+                rotation, carrier or tolerance that is empty, an open path with `closed`, a cost
+                that is negative or not finite.
+            ValueError: Another `order`.
             InvalidModelError: The arm has no closed form or seven joints.
             Exception: Whatever `accept` raises.
         """
@@ -746,6 +758,9 @@ class Robot:
         accept: Callable[[_Floats], npt.ArrayLike] | None = None,
         carrier: Track | Positioner | Sequence[Track | Positioner] | None = None,
         tolerance: ToolCone | ToolOffset | Sequence[ToolCone | ToolOffset] | None = None,
+        order: Literal["bottleneck", "sum"] = "bottleneck",
+        limit_cost: float = 0.0,
+        singularity_cost: float = 0.0,
         threads: int = 1,
     ) -> tuple[Plan | IrbkinError, ...]:
         """`plan` of many paths at once, on several threads.
@@ -765,6 +780,9 @@ class Robot:
             accept: As for `plan`. Threads ask it one at a time.
             carrier: As for `plan`, of all paths.
             tolerance: As for `plan`, of all paths.
+            order: As for `plan`, of all paths.
+            limit_cost: As for `plan`, of all paths.
+            singularity_cost: As for `plan`, of all paths.
             threads: Number of threads; 0 for one a core.
 
         Returns:

@@ -1,10 +1,11 @@
 //! Plans of many paths.
 
 use alloc::vec::Vec;
+use core::cell::RefCell;
 
 use super::pace::Pace;
 use crate::kinematics::{Pose, Robot};
-use crate::plan::{Caller, Plan, PlanError, PlanOptions};
+use crate::plan::{Caller, Plan, PlanError, PlanOptions, Watch};
 
 /// A path and what is asked of its plan.
 pub(crate) struct PlanJob {
@@ -32,7 +33,9 @@ impl Pace<'_> {
         let rows = if jobs.len() > 1 { rows } else { 0 };
         self.run(rows, jobs.iter().zip(&mut answers), |(job, answer), go_on| {
             let mut ask = |q: &[[f64; 6]]| accept.and_then(|accept| accept(q));
-            let mut caller = Caller { accept: None, go_on: &mut || go_on() };
+            let go_on = RefCell::new(&mut *go_on);
+            let goes_on = || go_on.borrow_mut()();
+            let mut caller = Caller { accept: None, watch: Watch(Some(&goes_on)) };
             if accept.is_some() {
                 caller.accept = Some(&mut ask);
             }

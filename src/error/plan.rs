@@ -60,6 +60,13 @@ pub enum PlanFault {
         /// The range [rad].
         bounds: [f64; 2],
     },
+    /// A cost is negative or not finite.
+    Cost {
+        /// Name of the argument.
+        field: &'static str,
+        /// The cost [rad^2/s^2].
+        value: f64,
+    },
     /// The range of an axis is empty, not finite or too large.
     AxisRange {
         /// The axis.
@@ -223,6 +230,9 @@ impl fmt::Display for PlanFault {
                 "max_velocity of an external axis must be positive and finite, got {value} (m/s or \
                  rad/s)"
             ),
+            Self::Cost { field, value } => {
+                write!(f, "{field} must be finite and not negative, got {value}")
+            }
             Self::AxisWeight { value } => {
                 write!(f, "weight of an external axis must be finite and not negative, got {value}")
             }

@@ -53,6 +53,8 @@ fn faults() -> std::vec::Vec<Row> {
             "`max_velocity` of an external axis", "give a positive number";
         PlanFault::AxisWeight { .. } => PlanFault::AxisWeight { value: -1.0 },
             "`weight` of an external axis", "give 0 or more";
+        PlanFault::Cost { .. } => PlanFault::Cost { field: "limit_cost", value: -1.0 },
+            "`limit_cost`, `singularity_cost` of a plan", "give 0 or more";
         PlanFault::ConeAngle { .. } => PlanFault::ConeAngle { angle: 15.0, most: PI / 2.0 },
             "`angle` of a tool cone", "give radians";
         PlanFault::External { .. } => PlanFault::External { found: 4, most: 3 },

@@ -24,7 +24,8 @@ pub struct Plan {
     pub tolerance: Vec<Vec<f64>>,
     /// The slot of the branch at each pose.
     pub slot: Vec<Option<usize>>,
-    /// Weighted sum of the squares of all joint steps [rad^2].
+    /// Weighted sum of the squares of all joint steps, with what being near limits and singularities
+    /// costs [rad^2].
     pub cost: f64,
     /// The largest velocity of a joint, as a part of its limit. Without times, the time [s] that
     /// the path takes at least, if its poses are equally far apart in time.

@@ -128,7 +128,8 @@ impl<'a> Hop<'a> {
 }
 
 impl Arm<'_> {
-    /// The steps of a way that are not continuous, by the layer that they lead to.
+    /// The steps of a way that are not continuous, by the layer that they lead to. Not all, if the
+    /// caller stops it.
     pub(super) fn doubts(&self, grid: &Grid, layers: &[Layer], way: &Way) -> Vec<(usize, Between)> {
         /// Steps that are looked at together.
         const PART: usize = 512;
@@ -144,7 +145,7 @@ impl Arm<'_> {
         let mut part: Vec<(usize, Hop<'_>)> = Vec::with_capacity(PART);
         let mut poses = Vec::with_capacity(PART);
         let mut hops = hops.peekable();
-        while hops.peek().is_some() {
+        while hops.peek().is_some() && self.watch.goes_on() {
             part.clear();
             part.extend(hops.by_ref().take(PART));
             poses.clear();

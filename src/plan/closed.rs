@@ -2,10 +2,11 @@
 
 use alloc::vec::Vec;
 
+use super::answer::PlanError;
+use super::field::Field;
 use super::search::Bound;
 use super::turns::TurnStates;
-use super::way::{Field, Found, Way};
-use crate::error::Error;
+use super::way::{Found, Way};
 
 /// Nodes and turns, with the best way that begins at one of them and ends at one of them: no closed
 /// way from one of them is better.
@@ -15,10 +16,6 @@ struct Region {
 }
 
 impl Region {
-    fn cost(&self) -> (f64, f64) {
-        (self.found.bottleneck, self.found.squares)
-    }
-
     /// Two parts that the ends of the way are not both in; `None` if it is closed.
     fn split(&self, numbers: [usize; 2]) -> Option<[Bound; 2]> {
         let cut = |[first, end]: [usize; 2], [one, other]: [usize; 2]| {
@@ -39,19 +36,19 @@ impl Field<'_> {
     ///
     /// Branch and bound: of the regions of nodes to begin at, that with the best way is halved
     /// between the ends of that way, until they are one.
-    pub(super) fn closed_way(&self, states: &mut TurnStates) -> Result<Option<Way>, Error> {
+    pub(super) fn closed_way(&self, states: &mut TurnStates) -> Result<Option<Way>, PlanError> {
         'with_turns: loop {
             let Some([whole, _]) = self.bounds(0, states) else { return Ok(None) };
             let mut regions: Vec<Region> = Vec::new();
             let mut open = Vec::from([whole]);
             loop {
                 for bound in open.drain(..) {
-                    let found = self.found(0, states, [bound; 2]);
+                    let found = self.found(0, states, [bound; 2])?;
                     regions.extend(found.map(|found| Region { bound, found }));
                 }
                 let costs = regions.iter().enumerate();
                 let best = costs.min_by(|(_, a), (_, b)| {
-                    a.cost().partial_cmp(&b.cost()).unwrap_or(core::cmp::Ordering::Equal)
+                    a.found.cost.partial_cmp(&b.found.cost).unwrap_or(core::cmp::Ordering::Equal)
                 });
                 let Some(best) = best.map(|(number, _)| number) else { return Ok(None) };
                 let region = regions.swap_remove(best);

@@ -15,7 +15,7 @@ impl Search<'_> {
     /// Edges on their own branch, in lanes.
     pub(super) fn step(
         &self,
-        ends: &Layers,
+        ends: &Layers<'_>,
         q: [&[f64]; 2],
         costs: [&mut [f64]; 2],
         by: &mut [u32],
@@ -42,7 +42,7 @@ impl Search<'_> {
 
     fn kernel<'a, const SQUARES: bool>(
         &self,
-        ends: &Layers,
+        ends: &Layers<'a>,
         [q, q_next]: [&'a [f64]; 2],
         [before, after]: [&'a mut [f64]; 2],
         by: &'a mut [u32],
@@ -60,12 +60,13 @@ impl Search<'_> {
             rates: self.rates(ends.layer),
             told: core::array::from_fn(|joint| self.states.has(joint)),
             cap: ends.cap,
+            soft: ends.soft,
             room: &mut room.costs,
         }
     }
 
     /// The rows of a layer that have nodes, each with the rows that its edges come from.
-    fn find_runs(&self, ends: &Layers, room: &mut Room) {
+    fn find_runs(&self, ends: &Layers<'_>, room: &mut Room) {
         let (grid, places) = (&self.grid, ends.places);
         let (previous, next) = (&self.layers[ends.layer - 1], &self.layers[ends.layer]);
         room.runs.clear();
@@ -115,7 +116,7 @@ impl Search<'_> {
 
     /// Of joints whose turns are told apart: edges that lead to another turn, and nodes that have
     /// fewer turns.
-    fn turn(&self, ends: &Layers, [before, after]: [&mut [f64]; 2], by: &mut [u32]) {
+    fn turn(&self, ends: &Layers<'_>, [before, after]: [&mut [f64]; 2], by: &mut [u32]) {
         let grid = &self.grid;
         let (previous, next) = (&self.layers[ends.layer - 1], &self.layers[ends.layer]);
         let reach = self.windows[ends.layer].stations;
@@ -157,7 +158,7 @@ impl Search<'_> {
     /// Edges into a node that lead to another turn.
     fn turn_into(
         &self,
-        ends: &Layers,
+        ends: &Layers<'_>,
         (to, q): (Node, &[f64; 6]),
         costs: (&[f64], &mut [f64]),
         by: &mut [u32],
@@ -179,7 +180,7 @@ impl Search<'_> {
     }
 
     /// Edges on their own branch, one after the other: with turns told apart, or edges refused.
-    pub(super) fn step_by_itself(&self, ends: &Layers, costs: [&mut [f64]; 2], by: &mut [u32]) {
+    pub(super) fn step_by_itself(&self, ends: &Layers<'_>, costs: [&mut [f64]; 2], by: &mut [u32]) {
         let grid = &self.grid;
         let [before, after] = costs;
         after.fill(f64::INFINITY);
@@ -198,7 +199,7 @@ impl Search<'_> {
     }
 
     /// Edges from one branch to another.
-    pub(super) fn cross(&self, ends: &Layers, costs: [&mut [f64]; 2], by: &mut [u32]) {
+    pub(super) fn cross(&self, ends: &Layers<'_>, costs: [&mut [f64]; 2], by: &mut [u32]) {
         let [before, after] = costs;
         let (previous, next) = (&self.layers[ends.layer - 1], &self.layers[ends.layer]);
         for (number, edge) in next.crossings.iter().enumerate() {
@@ -216,7 +217,7 @@ impl Search<'_> {
     /// Take an edge where it is better than what was taken, for every combination of turns.
     fn relax(
         &self,
-        ends: &Layers,
+        ends: &Layers<'_>,
         [from, to]: Edge,
         [q_before, q]: [&[f64; 6]; 2],
         (before, after): (&[f64], &mut [f64]),
@@ -244,8 +245,9 @@ impl Search<'_> {
             let turns_before = core::array::from_fn(|joint| turns[joint] + carried[joint]);
             let Some(state_before) = self.states.state(&turns_before) else { continue };
             let cost_before = before[state_before * places.count + from];
-            let continued = ends.pass.continued(cost_before, cost, ends.cap);
             let at = state * places.count + to;
+            let soft = ends.soft.get(at).copied().unwrap_or_default();
+            let continued = ends.pass.continued(cost_before, cost, ends.cap) + soft;
             if continued < after[at] {
                 after[at] = continued;
                 if ends.pass == Pass::Squares {

@@ -4,12 +4,13 @@
 use alloc::vec::Vec;
 
 use super::answer::PlanError;
+use super::caller::Caller;
 use super::ends::Given;
 use super::freedom::Freedom;
 use super::layer::Waypoint;
 use super::nodes::Arm;
 use super::options::PlanOptions;
-use super::planner::{Caller, Planner, turns};
+use super::planner::{Planner, turns};
 use super::refine::{FINER, Middle};
 use super::way::Way;
 use crate::error::Error;

@@ -18,11 +18,13 @@
 
 mod answer;
 mod axis;
+mod caller;
 mod carrier;
 mod certificate;
 mod closed;
 mod edges;
 mod ends;
+mod field;
 mod freedom;
 mod guide;
 mod layer;
@@ -33,6 +35,7 @@ mod reasons;
 mod refine;
 mod robot;
 mod search;
+mod soft;
 mod stations;
 mod step;
 mod tolerance;
@@ -42,14 +45,16 @@ mod window;
 
 pub use answer::{NoPlan, Plan, PlanBreak, PlanError, StrandEnd, StrandReason};
 pub use axis::ToolAxis;
-pub use carrier::ExternalAxis;
-pub use options::{PlanOptions, ToolRotation};
-pub use planner::Accept;
+pub use caller::Accept;
 #[cfg(feature = "python")]
-pub(crate) use planner::Caller;
+pub(crate) use caller::{Caller, Watch};
+pub use carrier::ExternalAxis;
+pub use options::{PlanOptions, PlanOrder, ToolRotation};
 pub use tolerance::{ToolCone, ToolOffset};
 
 #[cfg(test)]
 mod carrier_tests;
+#[cfg(test)]
+mod exhaustive;
 #[cfg(test)]
 mod tests;

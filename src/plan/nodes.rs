@@ -9,8 +9,10 @@ use core::ops::Range;
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
+use super::caller::Watch;
 use super::freedom::Freedom;
 use super::layer::{Grid, Layer, Node};
+use super::soft::Soft;
 use super::turns::PlannedJoints;
 use crate::kinematics::thresholds::{CROSSING_JUMP, CROSSING_STEP};
 use crate::kinematics::{Robot, Rows, Status, largest, pose_to_rows};
@@ -34,6 +36,8 @@ pub(super) struct Arm<'a> {
     pub(super) robot: &'a Robot<6>,
     pub(super) joints: &'a PlannedJoints,
     pub(super) freedom: &'a Freedom,
+    pub(super) soft: Option<Soft<'a>>,
+    pub(super) watch: Watch<'a>,
 }
 
 impl Arm<'_> {
@@ -50,6 +54,10 @@ impl Arm<'_> {
         for layer in range {
             if layers[layer].own.is_some() {
                 continue;
+            }
+            // The search, which is next, asks too.
+            if self.watch.ends_at(layer) {
+                return;
             }
             if layers[layer].base.to_bits() != base.to_bits() {
                 base = layers[layer].base;
@@ -194,6 +202,9 @@ impl Arm<'_> {
     pub(super) fn find_crossings(&self, grid: &Grid, layers: &mut [Layer], range: Range<usize>) {
         let mut most = vec![0.0; grid.bins];
         for layer in range {
+            if self.watch.ends_at(layer) {
+                return;
+            }
             let (before, after) = layers.split_at_mut(layer);
             let (before, after) = (&before[layer - 1], &mut after[0]);
             let mut crossings = Vec::new();

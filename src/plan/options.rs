@@ -104,6 +104,16 @@ impl ToolRotation {
     }
 }
 
+/// What of two ways without a break makes the better one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PlanOrder {
+    /// The smaller bottleneck; if they are equal, the smaller sum.
+    #[default]
+    Bottleneck,
+    /// The smaller sum.
+    Sum,
+}
+
 /// What a plan is asked for besides the path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanOptions {
@@ -130,6 +140,13 @@ pub struct PlanOptions {
     pub closed: bool,
     /// Cost of moving each joint.
     pub weights: [f64; 6],
+    /// What of two ways makes the better one.
+    pub order: PlanOrder,
+    /// What a joint at its limit costs [rad^2/s^2]: as much as one of weight 1 that moves with the
+    /// root of it. Half way from the middle to the limit it costs a quarter.
+    pub limit_cost: f64,
+    /// The same of each of the singularities of wrist, elbow and shoulder [rad^2/s^2].
+    pub singularity_cost: f64,
 }
 
 impl Default for PlanOptions {
@@ -146,6 +163,9 @@ impl Default for PlanOptions {
             end_external: Vec::new(),
             closed: false,
             weights: [1.0; 6],
+            order: PlanOrder::Bottleneck,
+            limit_cost: 0.0,
+            singularity_cost: 0.0,
         }
     }
 }
@@ -155,6 +175,12 @@ impl PlanOptions {
     pub(super) fn check(&self, count: usize) -> Result<(), Error> {
         check_weights(&self.weights)?;
         checked_count(&self.external)?;
+        let costs = [("limit_cost", self.limit_cost), ("singularity_cost", self.singularity_cost)];
+        for (field, value) in costs {
+            if !(value >= 0.0 && value.is_finite()) {
+                return Err(PlanFault::Cost { field, value }.into());
+            }
+        }
         if count == 0 {
             return Err(PlanFault::NoPoses.into());
         }

@@ -3,16 +3,18 @@
 use alloc::vec::Vec;
 
 use super::answer::PlanError;
+use super::caller::{Accept, Caller};
 use super::certificate::{Between, HALVINGS, Hop};
 use super::ends::Given;
+use super::field::{Ends, Field};
 use super::freedom::Values;
 use super::layer::{Grid, Layer, Node, Waypoint};
 use super::nodes::Arm;
-use super::options::PlanOptions;
+use super::options::{PlanOptions, PlanOrder};
 use super::stations::Stations;
 use super::step::Rates;
 use super::turns::TurnStates;
-use super::way::{Ends, Field, Way};
+use super::way::Way;
 use crate::error::{Error, PlanFault};
 use crate::kinematics::thresholds::{LIMIT_TOLERANCE, MOST_PLAN_NODES};
 use crate::kinematics::{largest, steps};
@@ -20,16 +22,6 @@ use crate::paths::Turn;
 
 /// How often a step with a jump is halved where there are free axes.
 const HALVINGS_OF_AXES: u32 = 6;
-
-/// A caller's own test of joint vectors, asked for many at a time: whether each is accepted, or
-/// nothing to stop.
-pub type Accept<'a> = dyn FnMut(&[[f64; 6]]) -> Option<Vec<bool>> + 'a;
-
-/// What may be asked of the caller while a plan is made.
-pub(crate) struct Caller<'a, 'b> {
-    pub(crate) accept: Option<&'a mut Accept<'b>>,
-    pub(crate) go_on: &'a mut dyn FnMut() -> bool,
-}
 
 /// How the orientation turns to each pose of a path from the one before.
 pub(super) fn turns(path: &[Waypoint]) -> Result<Vec<Option<Turn>>, Error> {
@@ -51,6 +43,7 @@ pub(super) struct Planner<'a> {
     pub(super) closed: bool,
     /// Whether only ways through all layers count.
     pub(super) whole: bool,
+    pub(super) order: PlanOrder,
     /// Joints whose turns mattered so far.
     pub(super) states: TurnStates,
 }
@@ -84,6 +77,9 @@ impl<'a> Planner<'a> {
             let mut layer = Layer::new(point.pose, point.time, Some(point.index), &grid);
             (layer.base, layer.bases, layer.turn) = (base, bases, turn);
             layers.push(layer);
+            if arm.watch.ends_at(layers.len()) {
+                break;
+            }
         }
         let has_limits = options.times.is_some() && arm.robot.max_velocity().is_some();
         let mut planner = Self {
@@ -94,8 +90,14 @@ impl<'a> Planner<'a> {
             speed: if has_limits { 1.0 + LIMIT_TOLERANCE } else { f64::INFINITY },
             closed: options.closed,
             whole: false,
+            order: options.order,
             states: TurnStates::default(),
         };
+        for joint in 0..6 {
+            if arm.soft.is_some_and(|soft| soft.tells(arm.joints, joint)) {
+                planner.states.add(joint, arm.joints)?;
+            }
+        }
         let [first, last] = given;
         let closing = if options.closed { first } else { last };
         let count = planner.layers.len();
@@ -139,11 +141,14 @@ impl<'a> Planner<'a> {
             speed: self.speed,
             ends: self.ends,
             whole: self.whole,
+            order: self.order,
+            soft: self.arm.soft,
+            watch: self.arm.watch,
         }
     }
 
     /// [`Field::best_way`], with the turns told apart that mattered before.
-    fn best_way(&mut self, from: usize) -> Result<Option<Way>, Error> {
+    fn best_way(&mut self, from: usize) -> Result<Option<Way>, PlanError> {
         let mut states = core::mem::take(&mut self.states);
         let way = self.field().best_way(from, &mut states);
         self.states = states;
@@ -159,13 +164,13 @@ impl<'a> Planner<'a> {
     ) -> Result<Option<Way>, PlanError> {
         let mut reach = 1;
         loop {
-            if !(caller.go_on)() {
-                return Err(PlanError::Stopped);
-            }
             let way =
                 if self.closed && from == 0 { self.closed_way()? } else { self.best_way(from)? };
             let Some(way) = way else { return Ok(None) };
             let doubts = self.arm.doubts(&self.grid, &self.layers, &way);
+            if !self.arm.watch.goes_on() {
+                return Err(PlanError::Stopped);
+            }
             if !doubts.is_empty() {
                 // From the end, so that layers that are put in do not move those to come.
                 for (layer, doubt) in doubts.into_iter().rev() {
@@ -182,7 +187,7 @@ impl<'a> Planner<'a> {
 
     /// The best way that ends with the joint angles that it begins with; the best one that does not
     /// if there is none.
-    fn closed_way(&mut self) -> Result<Option<Way>, Error> {
+    fn closed_way(&mut self) -> Result<Option<Way>, PlanError> {
         let last = self.layers.len() - 1;
         let Some(open) = self.best_way(0)? else { return Ok(None) };
         if open.reached() < last {

@@ -1,9 +1,10 @@
 //! Finer grids around a way (docs/plan.md, section 5).
 
 use super::answer::PlanError;
+use super::caller::Caller;
 use super::freedom::Values;
 use super::layer::{Grid, Layer, Node, Own};
-use super::planner::{Caller, Planner};
+use super::planner::Planner;
 use super::stations::Stations;
 use super::way::Way;
 use crate::kinematics::Pose;
@@ -17,7 +18,7 @@ const BAND: usize = 5;
 #[expect(clippy::cast_precision_loss, reason = "a small count")]
 pub(super) const FINER: f64 = BAND as f64;
 
-/// Gain of the bottleneck below which a grid is not searched once more [1].
+/// Gain of the cost that comes first below which a grid is not searched once more [1].
 const GAIN: f64 = 0.02;
 
 /// Most searches of grids that are as fine as the one before.
@@ -103,13 +104,13 @@ impl Planner<'_> {
             self.band(middles, turn, axis);
             let finer = self.proven_way(0, caller)?;
             let is_whole = |finer: &Way| finer.reached() + 1 == self.layers.len();
-            let better = finer.filter(|finer| is_whole(finer) && finer.cost() <= way.cost());
+            let better = finer.filter(|finer| is_whole(finer) && finer.cost <= way.cost);
             let Some(finer) = better else {
                 (self.grid, self.layers) = (grid, layers);
                 return Ok(way);
             };
             // Of joints that stay, it is no number.
-            let has_gained = 1.0 - finer.bottleneck / way.bottleneck >= GAIN;
+            let has_gained = 1.0 - finer.cost.0 / way.cost.0 >= GAIN;
             way = finer;
             if !has_gained {
                 return Ok(way);
@@ -135,7 +136,12 @@ impl Planner<'_> {
         self.grid = Grid { stations, bins, step: turn, cyclic: false, ..self.grid };
         let grid = self.grid;
         let (station, bin) = (stations.len() / 2, bins / 2);
-        let layers = middles.map(|middle| {
+        self.layers.clear();
+        self.layers.reserve(middles.size_hint().0);
+        for middle in middles {
+            if self.arm.watch.ends_at(self.layers.len()) {
+                break;
+            }
             let mut layer = Layer::new(middle.pose, middle.time, middle.index, &grid);
             layer.base = if bins > 1 { middle.angle - FINER * turn } else { middle.angle };
             layer.bases = middle.values;
@@ -148,9 +154,8 @@ impl Planner<'_> {
                 layer.own = Some(Own { station, bin, angle, values });
                 layer.put(&grid, Node { slot, station, bin }, Some(q));
             }
-            layer
-        });
-        self.layers = layers.collect();
+            self.layers.push(layer);
+        }
         self.solve(0..self.layers.len());
     }
 }

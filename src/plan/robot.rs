@@ -5,13 +5,15 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::answer::{NoPlan, Plan, PlanBreak, PlanError};
+use super::caller::{Accept, Caller, Watch};
 use super::ends::Given;
 use super::freedom::Freedom;
 use super::guide::guided;
 use super::layer::Waypoint;
 use super::nodes::Arm;
-use super::options::PlanOptions;
-use super::planner::{Accept, Caller, Planner};
+use super::options::{PlanOptions, PlanOrder};
+use super::planner::Planner;
+use super::soft::Soft;
 use super::turns::PlannedJoints;
 use super::way::Way;
 use crate::error::{Error, ModelFault, PlanFault};
@@ -24,7 +26,8 @@ impl Robot<6> {
     /// Of all joint paths that are continuous, on whatever branch, with whatever turns and tool
     /// angles, that with the smallest bottleneck: the largest velocity of a joint, relative to its
     /// limit ([`Robot::max_velocity`]; 1 rad/s of each joint if it is unknown). Of those, that with
-    /// the smallest weighted sum of squares of joint steps. Both are exact over the tool angles of
+    /// the smallest weighted sum of squares of joint steps, with what being near limits and
+    /// singularities costs; [`PlanOrder`] may be another. Both are exact over the tool angles of
     /// the grid, which is then refined around the best ones. Every step is shown to be continuous
     /// between its two poses.
     ///
@@ -34,7 +37,7 @@ impl Robot<6> {
     /// and the plan with the fewest breaks; [`PlanError::Invalid`] for poses that are no rigid
     /// transforms, or half a turn apart, options that do not fit, and an arm of unknown structure.
     pub fn plan(&self, path: &[Pose], options: &PlanOptions) -> Result<Plan, PlanError> {
-        self.planned(path, options, &mut Caller { accept: None, go_on: &mut || true })
+        self.planned(path, options, &mut Caller { accept: None, watch: Watch::default() })
     }
 
     /// [`Self::plan`] through joint vectors that `accept` accepts: it is asked for many at a time,
@@ -49,7 +52,8 @@ impl Robot<6> {
         options: &PlanOptions,
         accept: &mut Accept<'_>,
     ) -> Result<Plan, PlanError> {
-        self.planned(path, options, &mut Caller { accept: Some(accept), go_on: &mut || true })
+        let caller = &mut Caller { accept: Some(accept), watch: Watch::default() };
+        self.planned(path, options, caller)
     }
 
     /// [`Self::plan`], for a caller that may be asked.
@@ -70,7 +74,9 @@ impl Robot<6> {
             _ => joints,
         };
         let freedom = Freedom::of(options);
-        let arm = Arm { robot: self, joints: &joints, freedom: &freedom };
+        let soft = Soft::of(self, options);
+        let arm =
+            Arm { robot: self, joints: &joints, freedom: &freedom, soft, watch: caller.watch };
         let points = waypoints(&path, options);
         let ends = Given::both(&arm, &points, options)?;
         let coarser = freedom.coarser();
@@ -78,10 +84,12 @@ impl Robot<6> {
         let mut planner = Planner::new(arm, &points, options, &ends)?;
         if let Some((guide, way)) = guided {
             // A way of the whole grid is taken if it is better still.
-            planner.speed = planner.speed.min(way.bottleneck);
+            if options.order == PlanOrder::Bottleneck {
+                planner.speed = planner.speed.min(way.bottleneck);
+            }
             if let Some(other) = planner.whole_way(caller)? {
                 let other = planner.refined(other, caller)?;
-                if other.cost() < way.cost() {
+                if other.cost < way.cost {
                     return Ok(planner.plan_of(&[other]));
                 }
             }

@@ -4,8 +4,10 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::caller::Watch;
 use super::freedom::Freedom;
 use super::layer::{Grid, Layer, Node};
+use super::soft::Soft;
 use super::stations::Reach;
 use super::step::{Pass, Rates, Room};
 use super::turns::{PlannedJoints, TurnStates};
@@ -50,6 +52,8 @@ pub(super) struct Search<'a> {
     pub(super) windows: &'a [Window],
     pub(super) first: Bound,
     pub(super) last: Bound,
+    pub(super) soft: Option<Soft<'a>>,
+    pub(super) watch: Watch<'a>,
 }
 
 /// Costs of the best ways to the nodes of the layer that was reached last.
@@ -92,8 +96,8 @@ impl Places {
 
 impl Search<'_> {
     /// The best ways from layer `from` to each node of layer `to`, or of the last layer before it
-    /// that is reached.
-    pub(super) fn pass(&self, pass: Pass, from: usize, to: usize, cap: f64) -> Passed {
+    /// that is reached; `None` if the caller stops it.
+    pub(super) fn pass(&self, pass: Pass, from: usize, to: usize, cap: f64) -> Option<Passed> {
         let grid = &self.grid;
         let places = self.places(from, to);
         let states = self.states.len();
@@ -104,10 +108,21 @@ impl Search<'_> {
         let mut unused = vec![0; if pass == Pass::Squares { 0 } else { size }];
         let mut alive = vec![from; grid.slots];
         let mut room = Room::default();
+        let soft = self.soft.filter(|_| pass == Pass::Squares);
+        let mut soft_costs = vec![0.0; if soft.is_some() { size } else { 0 }];
         self.begin(from, places, &mut costs[0]);
         self.load(places, &self.layers[from], &mut q[0]);
         self.fill_margins(places, &mut costs[0]);
+        if !self.watch.goes_on() {
+            return None;
+        }
         for layer in from + 1..=to {
+            if self.watch.ends_at(layer) {
+                return None;
+            }
+            if let Some(soft) = soft {
+                self.load_soft(places, layer, soft, &mut soft_costs);
+            }
             let [before, after] = &mut q;
             self.load(places, &self.layers[layer], after);
             let [costs_before, costs_after] = &mut costs;
@@ -115,8 +130,9 @@ impl Search<'_> {
                 Pass::Squares => &mut by[(layer - from - 1) * size..(layer - from) * size],
                 Pass::Bottleneck => &mut unused[..],
             };
-            let cap = cap.min(self.layers[layer].cap);
-            let ends = Layers { layer, places, pass, cap };
+            // Edges that lanes leave out are infinitely fast.
+            let cap = cap.min(self.layers[layer].cap).min(f64::MAX);
+            let ends = Layers { layer, places, pass, cap, soft: &soft_costs };
             if self.layers[layer].refused.is_empty() {
                 self.step(&ends, [before, after], [costs_before, costs_after], by_step, &mut room);
             } else {
@@ -125,14 +141,28 @@ impl Search<'_> {
             self.cross(&ends, [costs_before, costs_after], by_step);
             if !self.survives(places, costs_after, layer, &mut alive) {
                 let [costs, _] = costs;
-                return Passed { reached: layer - 1, alive, places, costs, by };
+                return Some(Passed { reached: layer - 1, alive, places, costs, by });
             }
             self.fill_margins(places, costs_after);
             q.swap(0, 1);
             costs.swap(0, 1);
         }
         let [costs, _] = costs;
-        Passed { reached: to, alive, places, costs, by }
+        Some(Passed { reached: to, alive, places, costs, by })
+    }
+
+    /// What each node of a layer costs, with each combination of turns.
+    fn load_soft(&self, places: Places, layer: usize, soft: Soft<'_>, costs: &mut [f64]) {
+        let time = self.layers[layer].time - self.layers[layer - 1].time;
+        for (node, q) in self.layers[layer].nodes(&self.grid) {
+            let place = places.place(&self.grid, self.grid.number(node));
+            for state in 0..self.states.len() {
+                let turns = self.states.turns(state);
+                let q =
+                    core::array::from_fn(|joint| self.joints.angle(joint, q[joint], turns[joint]));
+                costs[state * places.count + place] = soft.cost(&q, time);
+            }
+        }
     }
 
     /// The nodes that a way may begin at cost nothing so far.
@@ -277,12 +307,14 @@ impl Search<'_> {
 }
 
 /// The layers between which a step is taken, and how.
-pub(super) struct Layers {
+pub(super) struct Layers<'a> {
     /// The later one.
     pub(super) layer: usize,
     pub(super) places: Places,
     pub(super) pass: Pass,
     pub(super) cap: f64,
+    /// What each node of it costs, for each combination of turns; empty if nothing.
+    pub(super) soft: &'a [f64],
 }
 
 /// Copy both ends of a run of numbers to the margins beyond the opposite ends.

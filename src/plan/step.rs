@@ -85,6 +85,8 @@ pub(super) struct Step<'a, const SQUARES: bool> {
     /// Joints whose turns are told apart.
     pub(super) told: [bool; 6],
     pub(super) cap: f64,
+    /// What each node costs, for each combination of turns; empty if nothing.
+    pub(super) soft: &'a [f64],
     /// Room for the costs of the edges of a window.
     pub(super) room: &'a mut Vec<[Column; 2]>,
 }
@@ -184,6 +186,12 @@ impl<const SQUARES: bool> Step<'_, SQUARES> {
         for lane in 0..LANES {
             // Of a node that is not there the angles are NaN.
             best[lane] = if next[lane].is_nan() { f64::INFINITY } else { best[lane] };
+        }
+        if SQUARES && !self.soft.is_empty() {
+            let soft = column(self.soft, state + place);
+            for lane in 0..LANES {
+                best[lane] += soft[lane];
+            }
         }
         self.costs[state + place..state + place + LANES].copy_from_slice(&best);
         if SQUARES {

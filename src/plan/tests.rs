@@ -4,110 +4,23 @@ use std::vec::Vec;
 
 use core::f64::consts::{PI, TAU};
 
+use super::caller::Watch;
 use super::certificate::Between;
+use super::exhaustive::{Turned, edge, exhaustive, turned};
+use super::field::{Ends, Field};
 use super::freedom::Freedom;
 use super::layer::{Grid, Layer, Node};
 use super::nodes::Arm;
 use super::planner::Planner;
 use super::robot::waypoints;
+use super::soft::Soft;
 use super::stations::Stations;
 use super::turns::{PlannedJoints, TurnStates};
-use super::way::{Ends, Field, Way};
-use super::{ExternalAxis, PlanError, PlanOptions, ToolAxis, ToolRotation};
+use super::way::Way;
+use super::{ExternalAxis, PlanError, PlanOptions, PlanOrder, ToolAxis, ToolRotation};
 use crate::kinematics::{JointLimits, Pose, Robot, largest, pose_from_euler_zyx, steps};
 use crate::paths::Turn;
 use crate::rng::Rng;
-
-/// A node with its turns.
-struct Turned {
-    number: usize,
-    node: Node,
-    q: [f64; 6],
-}
-
-/// Every node of a layer at every turn inside the limits.
-fn turned(field: &Field<'_>, layer: &Layer) -> Vec<Turned> {
-    let mut all = Vec::new();
-    for (node, q) in layer.nodes(&field.grid) {
-        let mut rows = std::vec![q];
-        for joint in 0..6 {
-            let [lower, upper] = field.joints.limits(joint);
-            rows = rows
-                .into_iter()
-                .flat_map(|row: [f64; 6]| {
-                    (-4..=4).filter_map(move |turn| {
-                        let mut row = row;
-                        row[joint] += TAU * f64::from(turn);
-                        let is_inside = row[joint] >= lower && row[joint] <= upper;
-                        is_inside.then_some(row)
-                    })
-                })
-                .collect();
-        }
-        let number = field.grid.number(node);
-        all.extend(rows.into_iter().map(|q| Turned { number, node, q }));
-    }
-    all
-}
-
-/// The bottleneck and the squares of an edge; `None` if there is none.
-fn edge(field: &Field<'_>, layer: usize, from: &Turned, to: &Turned) -> Option<(f64, f64)> {
-    let after = &field.layers[layer];
-    let pair = [from.number, to.number];
-    if after.refused.contains(&pair)
-        || (from.node.slot != to.node.slot && !after.crossings.contains(&pair))
-    {
-        return None;
-    }
-    let time = after.time - field.layers[layer - 1].time;
-    let (mut most, mut squares): (f64, f64) = (0.0, 0.0);
-    for joint in 0..6 {
-        let step = to.q[joint] - from.q[joint];
-        if field.joints.wraps[joint] && step.abs() > PI {
-            return None;
-        }
-        most = most.max(step.abs() / (field.joints.velocity[joint] * time));
-        squares += field.joints.weights[joint] * step * step;
-    }
-    let at = |layer: usize, node: Node| field.layers[layer].values(&field.grid, node.station);
-    let values = at(layer - 1, from.node).into_iter().zip(at(layer, to.node));
-    for (axis, (from, to)) in field.freedom.axes.iter().zip(values) {
-        most = most.max((to - from).abs() / (axis.velocity * time));
-        squares += axis.weight * (to - from) * (to - from);
-    }
-    (most <= field.speed).then_some((most, squares))
-}
-
-/// The best of all ways that end with an end that fits their start: how many layers it has, its
-/// bottleneck and its squares.
-fn exhaustive(field: &Field<'_>, fits: impl Fn(&Turned, &Turned) -> bool) -> (usize, f64, f64) {
-    let layers: Vec<_> = field.layers.iter().map(|layer| turned(field, layer)).collect();
-    let mut best = (0, f64::INFINITY, f64::INFINITY);
-    let mut open: Vec<(usize, usize, usize, f64, f64)> =
-        (0..layers[0].len()).map(|node| (0, node, node, 0.0, 0.0)).collect();
-    while let Some((layer, start, node, most, squares)) = open.pop() {
-        let is_whole = layer + 1 == layers.len();
-        if is_whole && !fits(&layers[0][start], &layers[layer][node]) {
-            continue;
-        }
-        let is_better = layer + 1 > best.0
-            || (layer + 1 == best.0
-                && (most < best.1 * (1.0 - 1e-12)
-                    || (most <= best.1 * (1.0 + 1e-12) && squares < best.2)));
-        if is_better {
-            best = (layer + 1, most, squares);
-        }
-        if is_whole {
-            continue;
-        }
-        for (next, to) in layers[layer + 1].iter().enumerate() {
-            if let Some((step, own)) = edge(field, layer + 1, &layers[layer][node], to) {
-                open.push((layer + 1, start, next, most.max(step), squares + own));
-            }
-        }
-    }
-    best
-}
 
 fn below(rng: &mut Rng, count: usize) -> usize {
     usize::try_from(rng.bits() % u64::try_from(count).unwrap()).unwrap()
@@ -185,6 +98,7 @@ fn the_best_way_is_that_of_an_exhaustive_search() {
         let freedom = random_freedom(&mut rng);
         let (grid, layers) = random_layers(&mut rng, &joints, &freedom);
         let speed = if case % 3 == 0 { rng.between(2.0, 12.0) } else { f64::INFINITY };
+        let (order, soft, mut states) = random_costs(&mut rng, &robot, &joints);
         let field = Field {
             grid,
             joints: &joints,
@@ -193,9 +107,12 @@ fn the_best_way_is_that_of_an_exhaustive_search() {
             speed,
             ends: Ends::default(),
             whole: false,
+            order,
+            soft,
+            watch: Watch::default(),
         };
         let (count, bottleneck, squares) = exhaustive(&field, |_, _| true);
-        let Some(way) = field.best_way(0, &mut TurnStates::default()).unwrap() else {
+        let Some(way) = field.best_way(0, &mut states).unwrap() else {
             assert_eq!(count, 0, "case {case}");
             continue;
         };
@@ -206,6 +123,24 @@ fn the_best_way_is_that_of_an_exhaustive_search() {
         whole += usize::from(count == layers.len());
     }
     assert!(whole > 3_000, "{whole} whole ways");
+}
+
+/// An order of costs and, in half of the cases, costs of being near limits and singularities, with
+/// the turns that they tell apart.
+fn random_costs<'a>(
+    rng: &mut Rng,
+    robot: &'a Robot<6>,
+    joints: &PlannedJoints,
+) -> (PlanOrder, Option<Soft<'a>>, TurnStates) {
+    let order = if below(rng, 2) == 0 { PlanOrder::Bottleneck } else { PlanOrder::Sum };
+    let mut cost = || if below(rng, 4) == 0 { rng.between(0.0, 1e4) } else { 0.0 };
+    let options =
+        PlanOptions { limit_cost: cost(), singularity_cost: cost(), ..PlanOptions::default() };
+    let (soft, mut states) = (Soft::of(robot, &options), TurnStates::default());
+    for joint in (0..6).filter(|joint| soft.is_some_and(|soft| soft.tells(joints, *joint))) {
+        states.add(joint, joints).unwrap();
+    }
+    (order, soft, states)
 }
 
 /// Nothing free, or a track with a few places.
@@ -235,6 +170,7 @@ fn the_best_closed_way_is_that_of_an_exhaustive_search() {
         let last = rest.last_mut().unwrap();
         (last.q, last.present) = (first.q.clone(), first.present.clone());
         last.bases = first.bases;
+        let (order, soft, mut states) = random_costs(&mut rng, &robot, &joints);
         let field = Field {
             grid,
             joints: &joints,
@@ -243,12 +179,15 @@ fn the_best_closed_way_is_that_of_an_exhaustive_search() {
             speed: f64::INFINITY,
             ends: Ends { closed: true, ..Ends::default() },
             whole: true,
+            order,
+            soft,
+            watch: Watch::default(),
         };
         let is_closed = |first: &Turned, last: &Turned| {
             first.number == last.number && largest(&steps(&first.q, &last.q)) < 1e-9
         };
         let (count, bottleneck, squares) = exhaustive(&field, is_closed);
-        let way = field.closed_way(&mut TurnStates::default()).unwrap();
+        let way = field.closed_way(&mut states).unwrap();
         assert_eq!(way.is_some(), count == layers.len(), "case {case}");
         let Some(way) = way else { continue };
         assert!(close(way.bottleneck, bottleneck), "case {case}: {} {bottleneck}", way.bottleneck);
@@ -307,9 +246,16 @@ fn no_wider_window_and_no_more_turns_find_a_better_way() {
         let path = random_path(&robot, &mut rng, 4, 0.15);
         let rotation = Some(ToolRotation::full(24).unwrap());
         let joints = PlannedJoints::of(&robot, [1.0; 6]);
-        let options = PlanOptions { rotation, ..PlanOptions::default() };
+        let (order, limit_cost, singularity_cost) = match case % 3 {
+            0 => (PlanOrder::Bottleneck, 0.0, 0.0),
+            1 => (PlanOrder::Sum, 0.0, 0.0),
+            _ => (PlanOrder::Sum, 3.0, 2.0),
+        };
+        let options =
+            PlanOptions { rotation, order, limit_cost, singularity_cost, ..PlanOptions::default() };
         let freedom = Freedom::of(&options);
-        let arm = Arm { robot: &robot, joints: &joints, freedom: &freedom };
+        let (soft, watch) = (Soft::of(&robot, &options), Watch::default());
+        let arm = Arm { robot: &robot, joints: &joints, freedom: &freedom, soft, watch };
         let planner = Planner::new(arm, &waypoints(&path, &options), &options, &[None; 2]).unwrap();
         let field = planner.field();
         // All pairs, layer by layer.
@@ -320,17 +266,21 @@ fn no_wider_window_and_no_more_turns_find_a_better_way() {
                 .iter()
                 .map(|to| {
                     let ways = layers[layer - 1].iter().zip(&costs).filter_map(|(from, cost)| {
-                        edge(&field, layer, from, to).map(|(most, _)| most.max(*cost))
+                        let (most, squares) = edge(&field, layer, from, to)?;
+                        Some(match order {
+                            PlanOrder::Bottleneck => most.max(*cost),
+                            PlanOrder::Sum => squares + cost,
+                        })
                     });
                     ways.fold(f64::INFINITY, f64::min)
                 })
                 .collect();
         }
         let least = costs.into_iter().fold(f64::INFINITY, f64::min);
-        let way = field.best_way(0, &mut TurnStates::default()).unwrap().unwrap();
+        let way = field.best_way(0, &mut planner.states.clone()).unwrap().unwrap();
         assert_eq!(way.nodes.len() == 4, least.is_finite(), "case {case}");
         if least.is_finite() {
-            assert!(close(way.bottleneck, least), "case {case}: {} {least}", way.bottleneck);
+            assert!(close(way.cost.0, least), "case {case}: {:?} {least}", way.cost);
             whole += 1;
         }
     }
@@ -344,7 +294,8 @@ fn a_step_through_a_flip_is_no_continuous_one() {
     let joints = PlannedJoints::of(&robot, [1.0; 6]);
     let options = PlanOptions::default();
     let freedom = Freedom::of(&options);
-    let arm = Arm { robot: &robot, joints: &joints, freedom: &freedom };
+    let (soft, watch) = (None, Watch::default());
+    let arm = Arm { robot: &robot, joints: &joints, freedom: &freedom, soft, watch };
     let path: Vec<Pose> = [0.01, -0.01].map(|q5| robot.fk(&[0.2, 0.1, 0.3, 0.0, q5, 0.4])).to_vec();
     let mut planner = Planner::new(arm, &waypoints(&path, &options), &options, &[None; 2]).unwrap();
     // Of the branches only the two that differ by the wrist: others have no singularity there.

@@ -5,27 +5,19 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::f64::consts::TAU;
 
-use super::freedom::Freedom;
-use super::layer::{Grid, Layer, Node};
+use super::answer::PlanError;
+use super::field::Field;
+use super::layer::Node;
+use super::options::PlanOrder;
 use super::search::{Bound, Search, Window};
 use super::step::Pass;
-use super::turns::{PlannedJoints, TurnStates};
-use crate::error::Error;
+use super::turns::TurnStates;
+use super::window::Most;
 use crate::kinematics::thresholds::BOTTLENECK_ROUNDING;
 use crate::lanes::nearest_whole;
 
 /// How much wider the next window may be than one that was too narrow.
 const WIDER: usize = 4;
-
-/// What a way must meet at its ends.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Ends {
-    /// The turns of the joints at the first and at the last pose of the path, where they are given.
-    pub(super) first: Option<[i32; 6]>,
-    pub(super) last: Option<[i32; 6]>,
-    /// Whether a way to the last layer ends with the joint angles that it begins with.
-    pub(super) closed: bool,
-}
 
 /// A way through layers: continuous, as far as its nodes tell.
 #[derive(Clone, Debug)]
@@ -36,35 +28,19 @@ pub(super) struct Way {
     /// Joint angles at each node, with their turns [rad].
     pub(super) q: Vec<[f64; 6]>,
     pub(super) bottleneck: f64,
+    /// With what its nodes cost.
     pub(super) squares: f64,
+    /// What is to be as small as possible, what comes first in order.
+    pub(super) cost: (f64, f64),
     /// The last layer where each slot was reached.
     pub(super) alive: Vec<usize>,
 }
 
 impl Way {
-    /// What is to be as small as possible, the bottleneck first.
-    pub(super) fn cost(&self) -> (f64, f64) {
-        (self.bottleneck, self.squares)
-    }
-
     /// The layer that the way ends at.
     pub(super) fn reached(&self) -> usize {
         self.from + self.nodes.len() - 1
     }
-}
-
-/// Layers with what a search through them needs.
-#[derive(Clone, Copy)]
-pub(super) struct Field<'a> {
-    pub(super) grid: Grid,
-    pub(super) joints: &'a PlannedJoints,
-    pub(super) freedom: &'a Freedom,
-    pub(super) layers: &'a [Layer],
-    /// The part of the velocity limits that no joint may exceed.
-    pub(super) speed: f64,
-    pub(super) ends: Ends,
-    /// Whether only ways through all layers count.
-    pub(super) whole: bool,
 }
 
 /// A way modulo turns of the joints that are not told apart.
@@ -74,6 +50,7 @@ pub(super) struct Found {
     pub(super) states: [usize; 2],
     pub(super) bottleneck: f64,
     pub(super) squares: f64,
+    pub(super) cost: (f64, f64),
     alive: Vec<usize>,
 }
 
@@ -87,10 +64,10 @@ impl Field<'_> {
         &self,
         from: usize,
         states: &mut TurnStates,
-    ) -> Result<Option<Way>, Error> {
+    ) -> Result<Option<Way>, PlanError> {
         loop {
             let Some(bounds) = self.bounds(from, states) else { return Ok(None) };
-            let Some(found) = self.found(from, states, bounds) else { return Ok(None) };
+            let Some(found) = self.found(from, states, bounds)? else { return Ok(None) };
             match self.unwound(found, from, states) {
                 Ok(way) => return Ok(Some(way)),
                 Err(joint) => states.add(joint, self.joints)?,
@@ -118,40 +95,51 @@ impl Field<'_> {
         from: usize,
         states: &TurnStates,
         [first, last]: [Bound; 2],
-    ) -> Option<Found> {
+    ) -> Result<Option<Found>, PlanError> {
         let full = self.full_window();
         // Beyond, every edge is too fast.
         let widest = if self.speed.is_finite() {
-            self.windows(self.speed)
+            self.windows(Most::Bottleneck(self.speed))
         } else {
             vec![full; self.layers.len()]
         };
         let mut windows: Vec<_> = widest.iter().map(|own| own.each(|size| size.min(1))).collect();
         let mut to = self.layers.len() - 1;
         let searched = |windows: &[Window], pass: Pass, to: usize, cap: f64| {
-            let Self { grid, joints, layers, freedom, .. } = *self;
-            let search = Search { grid, joints, states, layers, freedom, windows, first, last };
-            let passed = search.pass(pass, from, to, cap);
+            let Self { grid, joints, layers, freedom, soft, watch, .. } = *self;
+            let search =
+                Search { grid, joints, states, layers, freedom, windows, first, last, soft, watch };
+            let passed = search.pass(pass, from, to, cap).ok_or(PlanError::Stopped)?;
             let cheapest = search.cheapest(&passed);
             let way = cheapest
                 .filter(|_| pass == Pass::Squares)
                 .map(|(number, state, _)| (search.way_to(&passed, from, (number, state)), state));
-            (passed.reached, passed.alive, cheapest.map(|(_, _, cost)| cost), way)
+            Ok::<_, PlanError>((passed.reached, passed.alive, cheapest.map(|(_, _, at)| at), way))
+        };
+        let pass = match self.order {
+            PlanOrder::Bottleneck => Pass::Bottleneck,
+            PlanOrder::Sum => Pass::Squares,
         };
         let mut ends = None;
-        let (bottleneck, alive) = loop {
-            let (reached, alive, cost, _) = searched(&windows, Pass::Bottleneck, to, self.speed);
+        let (least, alive, way) = loop {
+            let (reached, alive, cost, way) = searched(&windows, pass, to, self.speed)?;
             // Where strands end shows when the search went farthest.
             let farthest = ends.clone().unwrap_or(alive);
             if let Some(cost) = cost.filter(|_| reached == to) {
-                let needed = self.windows(cost);
+                let mut needed = self.windows(match self.order {
+                    PlanOrder::Bottleneck => Most::Bottleneck(cost),
+                    PlanOrder::Sum => Most::Sum(cost),
+                });
+                for (needed, widest) in needed.iter_mut().zip(&widest) {
+                    *needed = needed.with(widest, usize::min);
+                }
                 if windows
                     .iter()
                     .zip(&needed)
                     .all(|(own, needed)| own.with(needed, usize::max) == *own)
                 {
                     windows = needed;
-                    break (cost, farthest);
+                    break (cost, farthest, way);
                 }
                 for (own, needed) in windows.iter_mut().zip(&needed) {
                     *own = own.with(needed, usize::max);
@@ -161,20 +149,34 @@ impl Field<'_> {
                     *own = own.each(|size| WIDER * size).with(most, usize::min);
                 }
             } else if self.whole {
-                return None;
+                return Ok(None);
             } else {
                 // What ends at the last layer, but not where it must, ends before it.
-                let before = if reached == to { to.checked_sub(1)? } else { reached };
-                if before < from || (reached == to && to == from) {
-                    return None;
-                }
+                let before = if reached == to { to.checked_sub(1) } else { Some(reached) };
+                let is_none = |before: usize| before < from || (reached == to && to == from);
+                let Some(before) = before.filter(|before| !is_none(*before)) else {
+                    return Ok(None);
+                };
                 (to, ends) = (before, Some(farthest));
             }
         };
-        let cap = bottleneck * (1.0 + BOTTLENECK_ROUNDING);
-        let (_, _, squares, way) = searched(&windows, Pass::Squares, to, cap);
-        let (((nodes, begin), end), squares) = way.zip(squares)?;
-        Some(Found { nodes, states: [begin, end], bottleneck, squares, alive })
+        let (way, squares) = match self.order {
+            PlanOrder::Sum => (way, Some(least)),
+            PlanOrder::Bottleneck => {
+                let cap = least * (1.0 + BOTTLENECK_ROUNDING);
+                let (_, _, squares, way) = searched(&windows, Pass::Squares, to, cap)?;
+                (way, squares)
+            }
+        };
+        let Some((((nodes, begin), end), squares)) = way.zip(squares) else { return Ok(None) };
+        let (bottleneck, cost) = match self.order {
+            PlanOrder::Bottleneck => (least, (least, squares)),
+            PlanOrder::Sum => {
+                let bottleneck = self.bottleneck_along(&nodes, from);
+                (bottleneck, (squares, bottleneck))
+            }
+        };
+        Ok(Some(Found { nodes, states: [begin, end], bottleneck, squares, cost, alive }))
     }
 
     /// The turn of a joint at the beginning of a way, so that it stays inside its limits and meets
@@ -232,7 +234,7 @@ impl Field<'_> {
         from: usize,
         states: &TurnStates,
     ) -> Result<Way, usize> {
-        let Found { nodes, states: [begin, _], bottleneck, squares, alive } = found;
+        let Found { nodes, states: [begin, _], bottleneck, squares, cost, alive } = found;
         let mut turns = states.turns(begin);
         for joint in (0..6).filter(|joint| !states.has(*joint)) {
             turns[joint] = self.turn_along(&nodes, from, joint).ok_or(joint)?;
@@ -251,6 +253,6 @@ impl Field<'_> {
                 self.joints.angle(joint, q[joint], turns[joint])
             }));
         }
-        Ok(Way { from, nodes, q: rows, bottleneck, squares, alive })
+        Ok(Way { from, nodes, q: rows, bottleneck, squares, cost, alive })
     }
 }

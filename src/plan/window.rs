@@ -7,11 +7,11 @@ use nalgebra::ComplexField as _;
 use nalgebra::Vector3;
 
 use super::carrier::Carried;
-use super::freedom::Motion;
+use super::field::Field;
+use super::freedom::{FreeAxis, Motion};
 use super::layer::Layer;
 use super::search::Window;
 use super::stations::Reach;
-use super::way::Field;
 use crate::kinematics::thresholds::MOST_FREE_AXES;
 use crate::lanes::whole_below;
 
@@ -39,13 +39,50 @@ impl Window {
     }
 }
 
-/// How fast the tool may be, if each joint and each external axis is at its limit.
-struct Fastest {
-    /// How fast it may turn [rad/s].
+/// What an edge may cost at most.
+#[derive(Clone, Copy)]
+pub(super) enum Most {
+    Bottleneck(f64),
+    Sum(f64),
+}
+
+impl Most {
+    /// The factor of [`Farthest`] for a step that takes `time` [s].
+    fn factor(self, time: f64) -> f64 {
+        match self {
+            Self::Bottleneck(most) => most * time,
+            Self::Sum(most) => most.sqrt(),
+        }
+    }
+
+    /// How far an axis may move for a factor of 1 [m, rad].
+    fn of_axis(self, velocity: f64, weight: f64) -> f64 {
+        match self {
+            Self::Bottleneck(_) => velocity,
+            // An axis that costs nothing may move as far as it likes.
+            Self::Sum(_) => 1.0 / weight.max(f64::MIN_POSITIVE).sqrt(),
+        }
+    }
+
+    /// How far axes may move together.
+    fn of_axes(self, each: impl Iterator<Item = f64>) -> f64 {
+        match self {
+            Self::Bottleneck(_) => each.sum(),
+            // By Cauchy and Schwarz.
+            Self::Sum(_) => each.map(|own| own * own).sum::<f64>().sqrt(),
+        }
+    }
+}
+
+/// How far the tool may come, times a factor, if each joint and each external axis does what it
+/// may.
+struct Farthest {
+    most: Most,
+    /// How far it may turn [rad].
     turn: f64,
-    /// How fast it may move [m/s], by joints and tracks.
+    /// How far it may move [m], by joints and tracks.
     shift: f64,
-    /// How fast positioners turn, with the points they turn about.
+    /// How far positioners may turn, with the points they turn about.
     positioners: Vec<(Vector3<f64>, f64)>,
 }
 
@@ -57,40 +94,44 @@ impl Field<'_> {
         Window { bins, stations: self.grid.stations.full_reach() }
     }
 
-    /// Windows outside of which every edge has a larger bottleneck than `most` (eq. 7).
-    pub(super) fn windows(&self, most: f64) -> Vec<Window> {
-        let fastest = self.fastest();
+    /// Windows outside of which every edge costs more than `most` (eq. 7).
+    pub(super) fn windows(&self, most: Most) -> Vec<Window> {
+        let farthest = self.farthest(most);
         // The first one has nothing before it.
         let before = self.layers.iter().take(1).chain(self.layers);
         self.layers
             .iter()
             .zip(before)
-            .map(|(layer, before)| self.window(before, layer, most, &fastest))
+            .map(|(layer, before)| self.window(before, layer, &farthest))
             .collect()
     }
 
-    fn fastest(&self) -> Fastest {
+    fn farthest(&self, most: Most) -> Farthest {
         let axes = || self.freedom.axes.iter();
-        let joints: f64 = self.joints.velocity.iter().sum();
+        let of_axis = |axis: &FreeAxis| most.of_axis(axis.velocity, axis.weight);
+        let each = self.joints.velocity.iter().zip(&self.joints.weights);
+        let joints = most.of_axes(each.map(|(velocity, weight)| most.of_axis(*velocity, *weight)));
         let positioners: Vec<_> = axes()
             .filter_map(|axis| match axis.motion {
-                Motion::Carrier(Carried::Object(_, point)) => Some((point, axis.velocity)),
+                Motion::Carrier(Carried::Object(_, point)) => Some((point, of_axis(axis))),
                 _ => None,
             })
             .collect();
         let tracks: f64 = axes()
             .filter(|axis| matches!(axis.motion, Motion::Carrier(Carried::Robot(_))))
-            .map(|axis| axis.velocity)
+            .map(of_axis)
             .sum();
-        Fastest {
-            turn: joints + positioners.iter().map(|(_, velocity)| velocity).sum::<f64>(),
+        Farthest {
+            most,
+            turn: joints + positioners.iter().map(|(_, turn)| turn).sum::<f64>(),
             shift: joints * self.joints.reach + tracks,
             positioners,
         }
     }
 
-    fn window(&self, before: &Layer, layer: &Layer, most: f64, fastest: &Fastest) -> Window {
-        let time = layer.time - before.time;
+    fn window(&self, before: &Layer, layer: &Layer, farthest: &Farthest) -> Window {
+        let most = farthest.most;
+        let factor = most.factor(layer.time - before.time);
         let turn = layer.turn.map_or(0.0, |turn| turn.angle);
         let has_own = before.own.or(layer.own).is_some();
         let full = self.full_window();
@@ -110,7 +151,7 @@ impl Field<'_> {
             let distance = distance + beside(step);
             [size(distance + shift, full[0]), size(distance - shift, full[1])]
         };
-        let turned = turn + most * time * fastest.turn;
+        let turned = turn + factor * farthest.turn;
         // How much faster the twist of a tilted tool is than the tool.
         let twisted = turned / (0.5 * self.freedom.cone).cos();
         let shift = self.freedom.angle_step(layer.base, before.base);
@@ -118,10 +159,10 @@ impl Field<'_> {
         let mut stations: Reach = [[0; 2]; MOST_FREE_AXES];
         for (number, axis) in self.freedom.axes.iter().enumerate() {
             let distance = match axis.motion {
-                Motion::Carrier(_) => most * time * axis.velocity,
+                Motion::Carrier(_) => factor * most.of_axis(axis.velocity, axis.weight),
                 // How much faster its two angles are than its direction.
                 Motion::Tilt(_) => turned * self.freedom.cone / self.freedom.cone.sin(),
-                Motion::Offset(_) => shifted(before, layer, most * time, fastest),
+                Motion::Offset(_) => shifted(before, layer, factor, farthest),
             };
             let shift = before.bases[number] - layer.bases[number];
             let step = self.grid.stations.steps[number];
@@ -134,11 +175,10 @@ impl Field<'_> {
 }
 
 /// How far the tool may move relative to the path [m].
-fn shifted(before: &Layer, layer: &Layer, time: f64, fastest: &Fastest) -> f64 {
+fn shifted(before: &Layer, layer: &Layer, factor: f64, farthest: &Farthest) -> f64 {
     let [from, to] = [before, layer].map(|layer| layer.pose.translation.vector);
-    let about = |(point, velocity): &(Vector3<f64>, f64)| {
-        velocity * (from - point).norm().max((to - point).norm())
-    };
-    let positioners: f64 = fastest.positioners.iter().map(about).sum();
-    (to - from).norm() + time * (fastest.shift + positioners)
+    let about =
+        |(point, turn): &(Vector3<f64>, f64)| turn * (from - point).norm().max((to - point).norm());
+    let positioners: f64 = farthest.positioners.iter().map(about).sum();
+    (to - from).norm() + factor * (farthest.shift + positioners)
 }

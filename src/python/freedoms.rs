@@ -12,7 +12,9 @@ use super::found::read_weights;
 use super::wording::shape;
 use crate::error::Error;
 use crate::kinematics::thresholds::MOST_TOOL_ANGLES;
-use crate::plan::{ExternalAxis, PlanOptions, ToolAxis, ToolCone, ToolOffset, ToolRotation};
+use crate::plan::{
+    ExternalAxis, PlanOptions, PlanOrder, ToolAxis, ToolCone, ToolOffset, ToolRotation,
+};
 
 const AXES: [(&str, ToolAxis); 3] = [("x", ToolAxis::X), ("y", ToolAxis::Y), ("z", ToolAxis::Z)];
 
@@ -72,13 +74,24 @@ fn count(value: &Bound<'_, PyAny>) -> Option<usize> {
     Some(usize::try_from(count.clamp(0, MOST_TOOL_ANGLES as i128 + 1)).unwrap_or_default())
 }
 
+const ORDERS: [(&str, PlanOrder); 2] =
+    [("bottleneck", PlanOrder::Bottleneck), ("sum", PlanOrder::Sum)];
+
+/// What makes one path better than another, as it is passed.
+pub(super) struct Costs<'a, 'py> {
+    pub(super) weights: Option<&'a Bound<'py, PyAny>>,
+    pub(super) order: &'a str,
+    pub(super) limit: f64,
+    pub(super) singularity: f64,
+}
+
 /// What one path is asked for as well as many.
 pub(super) fn read_options(
     rotation: Option<&Bound<'_, PyAny>>,
     closed: bool,
-    weights: Option<&Bound<'_, PyAny>>,
     carrier: Option<&Bound<'_, PyAny>>,
     tolerance: Option<&Bound<'_, PyAny>>,
+    costs: &Costs<'_, '_>,
 ) -> PyResult<PlanOptions> {
     let (cone, offset) = tolerance.map(read_tolerance).transpose()?.unwrap_or_default();
     Ok(PlanOptions {
@@ -87,7 +100,10 @@ pub(super) fn read_options(
         cone,
         offset,
         closed,
-        weights: read_weights(weights)?,
+        weights: read_weights(costs.weights)?,
+        order: one_of("order", costs.order, &ORDERS)?,
+        limit_cost: costs.limit,
+        singularity_cost: costs.singularity,
         ..PlanOptions::default()
     })
 }

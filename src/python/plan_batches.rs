@@ -9,7 +9,7 @@ use super::arguments::thread_count;
 use super::arrays::Rows;
 use super::classes::{invalid_model_error, irbkin_error};
 use super::errors::Fault;
-use super::freedoms::read_options;
+use super::freedoms::{Costs, read_options};
 use super::paths::read_path;
 use super::plans::{answer, asked, one_path, read_times};
 use super::robot::PyRobot;
@@ -37,6 +37,9 @@ impl PyRobot {
     ///     accept: As for `plan`. Threads ask it one at a time.
     ///     carrier: As for `plan`, of all paths.
     ///     tolerance: As for `plan`, of all paths.
+    ///     order: As for `plan`, of all paths.
+    ///     limit_cost: As for `plan`, of all paths.
+    ///     singularity_cost: As for `plan`, of all paths.
     ///     threads: Number of threads; 0 for one a core.
     ///
     /// Returns:
@@ -49,7 +52,7 @@ impl PyRobot {
     ///     InvalidMotionError: Times of a wrong shape or number, or a rotation that is empty.
     ///     InvalidModelError: The arm has no closed form or seven joints.
     ///     Exception: Whatever `accept` raises.
-    #[pyo3(signature = (paths, *, rotation=None, times=None, start=None, end=None, closed=false, weights=None, accept=None, carrier=None, tolerance=None, threads=1))]
+    #[pyo3(signature = (paths, *, rotation=None, times=None, start=None, end=None, closed=false, weights=None, accept=None, carrier=None, tolerance=None, order="bottleneck", limit_cost=0.0, singularity_cost=0.0, threads=1))]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn plan_batch<'py>(
         &self,
@@ -63,11 +66,15 @@ impl PyRobot {
         accept: Option<&Bound<'py, PyAny>>,
         carrier: Option<&Bound<'py, PyAny>>,
         tolerance: Option<&Bound<'py, PyAny>>,
+        order: &str,
+        limit_cost: f64,
+        singularity_cost: f64,
         threads: isize,
     ) -> PyResult<Bound<'py, PyTuple>> {
         let py = paths.py();
         let (robot, threads) = (self.arm().six_joints(py, "plan_batch")?, thread_count(threads)?);
-        let all = read_options(rotation, closed, weights, carrier, tolerance)?;
+        let costs = Costs { weights, order, limit: limit_cost, singularity: singularity_cost };
+        let all = read_options(rotation, closed, carrier, tolerance, &costs)?;
         let axes = all.external.len();
         let rows = read_rows(paths)?;
         let times = read_all_times(py, times, rows.len())?;

@@ -1,5 +1,7 @@
 //! `Robot.plan`: the best joint path along a path of poses.
 
+use std::cell::RefCell;
+
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -8,13 +10,13 @@ use pyo3::types::PyTuple;
 use super::arrays::Rows;
 use super::classes;
 use super::errors::{Fault, raised, to_py};
-use super::freedoms::{read_end, read_options};
+use super::freedoms::{Costs, read_end, read_options};
 use super::outputs::matrix;
 use super::paths::read_path;
 use super::robot::PyRobot;
 use super::signals::detached_while;
 use super::wording::shape;
-use crate::plan::{Caller, NoPlan, Plan, PlanError, PlanOptions};
+use crate::plan::{Caller, NoPlan, Plan, PlanError, PlanOptions, Watch};
 
 #[pymethods]
 #[expect(non_snake_case, reason = "T is the name that users pass")]
@@ -24,7 +26,8 @@ impl PyRobot {
     ///
     /// Of all continuous joint paths inside the limits, that with the smallest bottleneck: the
     /// largest joint velocity relative to `max_velocity` (1 rad/s where that is not known). Of
-    /// those, that with the smallest weighted sum of squared joint steps. Both are exact over the
+    /// those, that with the smallest weighted sum of squared joint steps and of what being near
+    /// limits and singularities costs; `order` makes the sum come first. Both are exact over the
     /// tool angles of `rotation`, which are then refined around the best ones, to half a degree.
     /// Every step of the answer is shown to be continuous between its two poses.
     ///
@@ -48,6 +51,12 @@ impl PyRobot {
     ///         them. Their steps count for bottleneck and cost as those of the joints do.
     ///     tolerance: How far the tool may be from the poses: an `irbkin.ToolCone`, an
     ///         `irbkin.ToolOffset`, or one of each.
+    ///     order: What of two paths makes the better one: "bottleneck", then the sum; or "sum"
+    ///         alone.
+    ///     limit_cost: What a joint at its limit costs [rad^2/s^2], added to the sum: as much as
+    ///         one of weight 1 that moves with the root of it [rad/s]. Half way from the middle to
+    ///         the limit it costs a quarter. Without `times` the path takes one second.
+    ///     singularity_cost: The same of each of the singularities of wrist, elbow and shoulder.
     ///
     /// Returns:
     ///     Plan: joints [rad], shape (m, 6); tool angles; slots; external axes, shape (m, k);
@@ -62,10 +71,12 @@ impl PyRobot {
     ///     InvalidJointsError: A start, end or weight that is not finite, or a start or end that
     ///         does not fit its pose or the limits.
     ///     InvalidMotionError: No poses, two poses half a turn apart, times that do not increase, a
-    ///         rotation, carrier or tolerance that is empty, an open path with `closed`.
+    ///         rotation, carrier or tolerance that is empty, an open path with `closed`, a cost
+    ///         that is negative or not finite.
+    ///     ValueError: Another `order`.
     ///     InvalidModelError: The arm has no closed form or seven joints.
     ///     Exception: Whatever `accept` raises.
-    #[pyo3(signature = (T, *, rotation=None, times=None, start=None, end=None, closed=false, weights=None, accept=None, carrier=None, tolerance=None))]
+    #[pyo3(signature = (T, *, rotation=None, times=None, start=None, end=None, closed=false, weights=None, accept=None, carrier=None, tolerance=None, order="bottleneck", limit_cost=0.0, singularity_cost=0.0))]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn plan<'py>(
         &self,
@@ -79,10 +90,14 @@ impl PyRobot {
         accept: Option<&Bound<'py, PyAny>>,
         carrier: Option<&Bound<'py, PyAny>>,
         tolerance: Option<&Bound<'py, PyAny>>,
+        order: &str,
+        limit_cost: f64,
+        singularity_cost: f64,
     ) -> PyResult<Bound<'py, PyAny>> {
         let py = T.py();
         let robot = self.arm().six_joints(py, "plan")?;
-        let all = read_options(rotation, closed, weights, carrier, tolerance)?;
+        let costs = Costs { weights, order, limit: limit_cost, singularity: singularity_cost };
+        let all = read_options(rotation, closed, carrier, tolerance, &costs)?;
         let (start, start_external) = read_end(start, "start", all.external.len())?;
         let (end, end_external) = read_end(end, "end", all.external.len())?;
         let options = PlanOptions {
@@ -104,7 +119,9 @@ impl PyRobot {
                 answers.map_err(|error| failure = Some(error)).ok()
             };
             let is_asked = accept.is_some();
-            let mut caller = Caller { accept: None, go_on };
+            let go_on = RefCell::new(go_on);
+            let goes_on = || go_on.borrow_mut()();
+            let mut caller = Caller { accept: None, watch: Watch(Some(&goes_on)) };
             if is_asked {
                 caller.accept = Some(&mut ask);
             }

@@ -37,13 +37,27 @@ where
     /// How far `q` [rad] is from limits and singularities.
     #[must_use]
     pub fn margin(&self, q: &[f64; N]) -> Margin {
-        let limits = of_limits(&self.limits, q);
-        let Some(distances) = self.singular_distances(q) else {
-            return Margin { limits, singularities: f64::NAN };
-        };
-        let angle = distances.wrist.min(distances.elbow) / FRAC_PI_2;
+        let singularities = self.of_singularities(q);
+        Margin {
+            limits: of_limits(&self.limits, q).fold(1.0, f64::min),
+            singularities: singularities
+                .map_or(f64::NAN, |each| each.into_iter().fold(1.0, f64::min)),
+        }
+    }
+
+    /// How near `q` is to each limit and to each singularity: the sums of the squares of 1 minus
+    /// its margin.
+    pub(crate) fn nearness(&self, q: &[f64; N]) -> [f64; 2] {
+        let square = |margin: f64| (1.0 - margin.min(1.0)) * (1.0 - margin.min(1.0));
+        let singularities = self.of_singularities(q).unwrap_or([1.0; 3]);
+        [of_limits(&self.limits, q).map(square).sum(), singularities.into_iter().map(square).sum()]
+    }
+
+    /// The margins to the singularities of wrist, elbow and shoulder; some are more than 1.
+    fn of_singularities(&self, q: &[f64; N]) -> Option<[f64; 3]> {
+        let distances = self.singular_distances(q)?;
         let shoulder = distances.shoulder / (0.5 * self.reach_of_wrist());
-        Margin { limits, singularities: angle.min(shoulder).min(1.0) }
+        Some([distances.wrist / FRAC_PI_2, distances.elbow / FRAC_PI_2, shoulder])
     }
 
     /// The same with each joint at the 2 pi equivalent that leaves the most room.
@@ -57,16 +71,14 @@ where
     }
 }
 
-/// The least of 1 - |q - middle| / half the range over all joints, and of the linkage at its best 2
-/// pi equivalent.
-fn of_limits<const N: usize>(limits: &JointLimits<N>, q: &[f64; N]) -> f64 {
-    let linkage =
-        limits.linkage().map_or(1.0, |range| part_of_half(range, limits.linkage_overrun(q)));
+/// 1 - |q - middle| / half the range of each joint, and of the linkage at its best 2 pi equivalent.
+fn of_limits<const N: usize>(limits: &JointLimits<N>, q: &[f64; N]) -> impl Iterator<Item = f64> {
+    let linkage = limits.linkage().map(|range| part_of_half(range, limits.linkage_overrun(q)));
     let joints = limits.to_array().into_iter().zip(q).map(|(range, angle)| {
         let [lower, upper] = range;
         part_of_half(range, (lower - angle).max(angle - upper))
     });
-    joints.fold(linkage, f64::min)
+    joints.chain(linkage)
 }
 
 /// The room to the nearer end of a range as a part of its half. One that has no ends, or no width,

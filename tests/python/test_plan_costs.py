@@ -1,0 +1,107 @@
+"""What makes one plan better than another: order, weights, costs of limits and singularities."""
+
+import irbkin
+import numpy as np
+import pytest
+from test_plan import ROBOT, random_path, weld
+
+SEAM = weld(60)
+WEIGHTS = np.array([1, 2, 0.5, 1, 3, 0.2])
+
+
+def cost(robot, q, times, weights=1.0, limit_cost=0.0, singularity_cost=0.0):
+    """Eq. 4 of docs/plan.md, summed over the steps of a path."""
+    dt = np.diff(times)
+    lower, upper = robot.limits.T
+    limits = np.abs(q[1:] - (lower + upper) / 2) / ((upper - lower) / 2)
+    at = robot.singularity(q[1:])
+    links = np.abs(robot.mdh[1:4, 1:3]).sum()
+    apart = np.array([at.wrist / (np.pi / 2), at.elbow / (np.pi / 2), at.shoulder / (links / 2)])
+    near = limit_cost * (limits**2).sum(axis=1)
+    near = near + singularity_cost * ((1 - np.minimum(apart, 1)) ** 2).sum(axis=0)
+    return float((weights * np.diff(q, axis=0) ** 2).sum() + (near * dt**2).sum())
+
+
+@pytest.mark.parametrize("order", ["bottleneck", "sum"])
+@pytest.mark.parametrize("costs", [{}, {"limit_cost": 50.0}, {"singularity_cost": 20.0}])
+def test_the_cost_is_that_of_the_joints(order, costs):
+    plan = ROBOT.plan(SEAM, rotation=12, weights=WEIGHTS, order=order, **costs)
+    times = np.linspace(0, 1, len(SEAM))
+    assert plan.cost == pytest.approx(cost(ROBOT, plan.q, times, WEIGHTS, **costs), rel=1e-9)
+    rates = np.abs(np.diff(plan.q, axis=0)) / ROBOT.max_velocity / np.diff(times)[:, None]
+    assert plan.bottleneck == pytest.approx(rates.max(), rel=1e-9)
+    assert plan.certified
+
+
+def test_each_order_is_best_at_what_comes_first():
+    """Of random lines, along which nothing is free but branches: both searches are exact."""
+    rng = np.random.default_rng(5)
+    differ = 0
+    for _ in range(250):
+        T = random_path(ROBOT, rng, 30)
+        try:
+            bottleneck = ROBOT.plan(T)
+        except irbkin.PathError:
+            with pytest.raises(irbkin.PathError):
+                ROBOT.plan(T, order="sum")
+            continue
+        total = ROBOT.plan(T, order="sum")
+        assert bottleneck.bottleneck <= total.bottleneck * (1 + 1e-12)
+        assert total.cost <= bottleneck.cost * (1 + 1e-12)
+        differ += total.cost < bottleneck.cost * (1 - 1e-6)
+    assert differ >= 5, differ
+
+
+def test_a_cost_of_singularities_leads_away_from_them():
+    """A line that most branches cover near the singularity of the wrist."""
+    rng = np.random.default_rng(6)
+    gained = 0
+    for _ in range(100):
+        T = random_path(ROBOT, rng, 30)
+        try:
+            near = ROBOT.plan(T, order="sum")
+        except irbkin.PathError:
+            continue
+        far = ROBOT.plan(T, order="sum", singularity_cost=1e4)
+        times = np.linspace(0, 1, len(T))
+        amount = [cost(ROBOT, p.q, times, np.zeros(6), 0, 1.0) for p in (near, far)]
+        assert amount[1] <= amount[0] * (1 + 1e-9)
+        gained += amount[1] < 0.9 * amount[0]
+    assert gained >= 5, gained
+
+
+def test_a_cost_of_limits_takes_the_turn_in_the_middle():
+    """Joint 6 has three turns: with the cost, the one farthest from its limits is taken."""
+    q = np.linspace([0.2, 0.1, 0.3, 0.4, 0.8, -5.5], [0.3, 0.2, 0.3, 0.5, 0.9, -5.0], 20)
+    T = ROBOT.fk(q)
+    plan = ROBOT.plan(T, start=None, order="sum", limit_cost=1e3)
+    turns = ROBOT.limits[5]
+    middle = turns.mean()
+    others = plan.q[:, 5][:, None] + 2 * np.pi * np.arange(-1, 2)
+    inside = ((others >= turns[0]) & (others <= turns[1])).all(axis=0)
+    worst = np.abs(others - middle).max(axis=0)[inside]
+    assert inside.sum() > 1
+    assert np.abs(plan.q[:, 5] - middle).max() == worst.min()
+    held = ROBOT.plan(T, start=q[0], order="sum", limit_cost=1e3)
+    assert np.allclose(held.q, q)
+
+
+def test_costs_hold_for_closed_paths_and_in_batches():
+    costs = {"rotation": 12, "order": "sum", "limit_cost": 5.0, "singularity_cost": 5.0}
+    closed = ROBOT.plan(SEAM, closed=True, **costs)
+    assert np.array_equal(closed.q[0], closed.q[-1])
+    assert closed.cost >= ROBOT.plan(SEAM, **costs).cost * (1 - 1e-12)
+    alone = ROBOT.plan(SEAM[:30], **costs)
+    assert ROBOT.plan_batch([SEAM[:30], SEAM[:30]], threads=2, **costs) == (alone, alone)
+
+
+@pytest.mark.parametrize("field", ["limit_cost", "singularity_cost"])
+@pytest.mark.parametrize("value", [-1.0, np.nan, np.inf])
+def test_a_bad_cost_is_named(field, value):
+    with pytest.raises(irbkin.InvalidMotionError, match=f"^{field} must be finite and not neg"):
+        ROBOT.plan(SEAM, **{field: value})
+
+
+def test_another_order_is_named():
+    with pytest.raises(ValueError, match='order must be "bottleneck" or "sum", got "time"'):
+        ROBOT.plan(SEAM, order="time")
