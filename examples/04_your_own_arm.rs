@@ -58,11 +58,7 @@ fn main() -> Result<(), Error> {
     let q = [10.0, 20.0, 30.0, 40.0, 50.0, 60.0].map(f64::to_radians);
     let solutions = arm.ik(&arm.fk(&q))?;
     let certainty = if solutions.is_certified() { "certified" } else { "not certified" };
-    println!(
-        "axes 5 and 6 apart: {}, {} solutions, {certainty}",
-        arm.structure(),
-        solutions.len()
-    );
+    println!("axes 5 and 6 apart: {}, {} solutions, {certainty}", arm.structure(), solutions.len());
     if let Some(missing) = arm.missing_form() {
         println!("  {missing}\n");
     }

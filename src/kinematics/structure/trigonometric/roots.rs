@@ -149,7 +149,8 @@ impl TrigonometricPolynomial {
                 noise += orders[k];
                 (s, c) = (s * cos + c * sin, c * cos - s * sin);
             }
-            let noise = self.noise * noise / (DEGREE + 1) as f64;
+            // The noise is that of the sum of all coefficients.
+            let noise = self.noise * noise * (1.0 / 9.0);
             if derivative.abs() > next * root.radius() + noise {
                 return order;
             }

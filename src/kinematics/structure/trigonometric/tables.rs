@@ -143,6 +143,7 @@ const fn middles() -> [[[Column; 2]; DEGREE + 1]; ARCS / LANES] {
 /// coefficient j, that of the sine its negative (eq. 94).
 pub(super) static BERNSTEIN: [[[f64; 2]; DEGREE + 1]; DEGREE + 1] = bernstein();
 
+#[expect(clippy::cast_precision_loss, reason = "numbers up to 16")]
 const fn bernstein() -> [[[f64; 2]; DEGREE + 1]; DEGREE + 1] {
     let mut table = [[[0.0; 2]; DEGREE + 1]; DEGREE + 1];
     let mut k = 0;

@@ -1,4 +1,5 @@
 //! Laws of the roots: all of them, no others, and what noise leaves of them.
+#![expect(clippy::cast_precision_loss, reason = "numbers up to 24")]
 
 use core::f64::consts::{PI, TAU};
 use std::vec::Vec;
