@@ -2,7 +2,8 @@
 
 use core::fmt;
 
-use super::{Candidates, Closure, Target};
+use super::chain::{Closure, Target};
+use super::newton::Candidates;
 use crate::kinematics::pose::angles::wrap;
 use crate::lanes::atan2;
 

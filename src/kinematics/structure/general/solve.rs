@@ -1,7 +1,7 @@
 //! Every solution of a pose: by the best split, and by others where its count is not certain.
 
-use super::General;
 use super::attempt::Attempt;
+use super::geometry::General;
 use super::moments::Motion;
 use crate::kinematics::answer::slot::MOST_SLOTS;
 use crate::kinematics::answer::status::SingularityKind;

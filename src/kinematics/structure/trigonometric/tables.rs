@@ -1,8 +1,10 @@
 //! Constants of the transforms: from samples to coefficients, and from those to Bernstein
 //! coefficients on each of 16 arcs. All are computed by the compiler.
 
-use super::DEGREE;
 use crate::lanes::{Column, LANES};
+
+/// Degree of the polynomials: they have up to twice as many real roots.
+pub(super) const DEGREE: usize = 8;
 
 /// Samples of a polynomial: 17 for its coefficients, 7 for its noise.
 pub(crate) const SAMPLES: usize = 24;

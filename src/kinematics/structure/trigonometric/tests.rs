@@ -5,6 +5,7 @@ use core::f64::consts::{PI, TAU};
 use std::vec::Vec;
 
 use super::*;
+use crate::lanes::{Column, LANES};
 use crate::rng::Rng;
 
 /// The polynomial with these real roots and pairs of complex ones, of size 1, sampled: each factor
