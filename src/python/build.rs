@@ -212,6 +212,6 @@ where
                 flange: pose_from_rows(flange.try_into().unwrap_or(&[f64::NAN; 16]))?,
             })
         })
-        .and_then(Robot::serial_chain);
+        .and_then(Robot::of_table);
     Some(built)
 }

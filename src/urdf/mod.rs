@@ -136,7 +136,7 @@ impl UrdfArm {
                 |snap| self.table::<N>(snap).is_ok_and(|mdh| Robot::has_closed_form(&mdh));
             SNAPS.into_iter().find(|snap| is_taken(*snap))
         };
-        let robot = match self.table::<N>(snap).and_then(Robot::serial_chain) {
+        let robot = match self.table::<N>(snap).and_then(Robot::of_table) {
             Ok(robot) if robot.missing_form().is_some() => robot.proposing(proposal()),
             Err(Error::InvalidModel(ModelFault::NearlyParallel {
                 axes,

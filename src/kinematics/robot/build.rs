@@ -51,7 +51,7 @@ where
     /// arm, without its inverse.
     pub fn from_mdh(mdh: Mdh<N>) -> Result<Self, Error> {
         let rows = mdh.rows;
-        Self::serial_chain(mdh)?.hinting(&rows, Convention::Modified).with_inverse()
+        Self::of_table(mdh)?.hinting(&rows, Convention::Modified).with_inverse()
     }
 
     /// Refuses an arm of six joints whose structure is unknown.
@@ -69,19 +69,35 @@ where
     /// As [`Robot::from_mdh`].
     pub fn from_sdh(sdh: Sdh<N>) -> Result<Self, Error> {
         let rows = sdh.rows;
-        Self::serial_chain(sdh.into())?.hinting(&rows, Convention::Standard).with_inverse()
+        Self::of_table(sdh.into())?.hinting(&rows, Convention::Standard).with_inverse()
     }
 
-    /// A robot from any modified Denavit-Hartenberg table, of joints that are not independent too:
-    /// then without the inverse.
+    /// A robot from any modified Denavit-Hartenberg table: with the closed form if its structure has
+    /// one, otherwise without the inverse, which takes milliseconds to prepare. Its joints need not
+    /// be independent.
     ///
     /// # Errors
     ///
     /// [`Error::InvalidModel`] when a number is not finite.
-    pub fn serial_chain(mut mdh: Mdh<N>) -> Result<Self, Error> {
+    pub fn serial_chain(mdh: Mdh<N>) -> Result<Self, Error> {
+        Self::recognized(mdh, |mdh| match StructureOf::<N>::closed_form(mdh) {
+            Ok(_) => StructureOf::<N>::recognize(mdh),
+            Err(reason) => (Chain::new(mdh.clone()), StructureOf::<N>::unknown(reason)),
+        })
+    }
+
+    /// A robot from any table, with its inverse if its joints are independent.
+    pub(crate) fn of_table(mdh: Mdh<N>) -> Result<Self, Error> {
+        Self::recognized(mdh, StructureOf::<N>::recognize)
+    }
+
+    fn recognized(
+        mut mdh: Mdh<N>,
+        recognize: impl FnOnce(&Mdh<N>) -> (Chain<N>, StructureOf<N>),
+    ) -> Result<Self, Error> {
         check_rows(&mdh.rows)?;
         (mdh.base, mdh.flange) = (checked_pose(&mdh.base)?, checked_pose(&mdh.flange)?);
-        let (chain, structure) = StructureOf::<N>::recognize(&mdh);
+        let (chain, structure) = recognize(&mdh);
         let mut robot = Self::new(Definition::Mdh(mdh), chain, structure);
         robot.check_reach()?;
         if robot.missing_form().is_some() {

@@ -37,6 +37,9 @@ pub(crate) trait AnyStructure<const N: usize>:
     /// The structure of a table, and the table with deviations within rounding removed.
     fn recognize(mdh: &Mdh<N>) -> (Chain<N>, Self);
 
+    /// No structure, for a reason.
+    fn unknown(reason: UnknownStructure) -> Self;
+
     /// The name of the structure of a table if that has a closed form; otherwise what the nearest
     /// asks for.
     fn closed_form(mdh: &Mdh<N>) -> Result<&'static str, UnknownStructure>;

@@ -39,6 +39,10 @@ macro_rules! structures {
                 (Chain::new(mdh.clone()), Self::Unknown(missed))
             }
 
+            fn unknown(reason: UnknownStructure) -> Self {
+                Self::Unknown(reason)
+            }
+
             fn closed_form(mdh: &Mdh<$joints>) -> Result<&'static str, UnknownStructure> {
                 let mut nearest: Option<UnknownStructure> = None;
                 $(if <$structure as Structure<$joints, $slots>>::IS_CLOSED_FORM {
