@@ -70,6 +70,7 @@ pub struct Solutions<const N: usize> {
     places: [Place<N>; MOST_SLOTS],
     slot_count: usize,
     pub(crate) reach: Reach,
+    pub(crate) is_certified: bool,
     pub(crate) pose: Pose,
     pub(crate) limits: JointLimits<N>,
     /// The reason why the last selection is empty.
@@ -81,7 +82,8 @@ impl<const N: usize> Solutions<N> {
     #[inline]
     pub(crate) fn none(slot_count: usize, pose: Pose, limits: JointLimits<N>) -> Self {
         let places = [Place::Empty; MOST_SLOTS];
-        Self { places, slot_count, reach: Reach::Reached, pose, limits, emptied: None }
+        let reach = Reach::Reached;
+        Self { places, slot_count, reach, is_certified: true, pose, limits, emptied: None }
     }
 
     /// Number of solutions, inside the limits or not.
@@ -117,7 +119,8 @@ impl<const N: usize> Solutions<N> {
     /// The status of each slot; empty flags if the branch does not exist.
     #[must_use]
     pub fn status(&self) -> SlotStatus {
-        SlotStatus::new(self.places.map(|place| place.status()), self.slot_count)
+        let uncertified = if self.is_certified { Status::empty() } else { Status::UNCERTIFIED };
+        SlotStatus::new(self.places.map(|place| place.status() | uncertified), self.slot_count)
     }
 
     /// The content of each slot.
@@ -150,10 +153,18 @@ impl<const N: usize> Solutions<N> {
         self.places[slot.index()] = Place::Merged(flags);
     }
 
-    /// Whether the wrist center gets to where the pose wants it.
+    /// Whether the arm gets to the pose, limits not regarded.
     #[must_use]
     pub fn reach(&self) -> Reach {
         self.reach
+    }
+
+    /// Whether these are certain to be all solutions of the pose, limits not regarded: for a
+    /// structure with a closed form always; for a general arm where their number is that of the
+    /// roots of a polynomial, and no self-motion is among them.
+    #[must_use]
+    pub fn is_certified(&self) -> bool {
+        self.is_certified
     }
 
     /// The pose that was solved.
@@ -173,6 +184,9 @@ impl<const N: usize> Solutions<N> {
     pub fn explain(&self) -> Explanation {
         if let Some(explanation) = self.emptied {
             return explanation;
+        }
+        if self.reach == Reach::NoRoots {
+            return Explanation::NoRoots { certified: self.is_certified };
         }
         if self.reach != Reach::Reached {
             return Explanation::OutOfReach(self.reach);

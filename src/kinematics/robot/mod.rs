@@ -78,7 +78,7 @@ impl Robot<6> {
         self.structure = match self.structure {
             SixJoints::SphericalWrist(solver) => SixJoints::SphericalWrist(solver.without_lanes()),
             SixJoints::ThreeParallel(solver) => SixJoints::ThreeParallel(solver.without_lanes()),
-            unknown @ SixJoints::Unknown(_) => unknown,
+            other @ (SixJoints::General(_) | SixJoints::Unknown(_)) => other,
         };
         self
     }
@@ -110,7 +110,7 @@ where
     }
 
     /// Name of the kinematic structure: "spherical wrist", "three parallel axes", "spherical
-    /// shoulder", or "unknown".
+    /// shoulder", "general" for any other arm of six joints, or "unknown".
     #[must_use]
     pub fn structure(&self) -> &'static str {
         self.structure.arm().name()
@@ -120,6 +120,14 @@ where
     #[must_use]
     pub fn unknown_structure(&self) -> Option<UnknownStructure> {
         self.structure.arm().unknown()
+    }
+
+    /// What keeps the arm from a structure with a closed form, and a `snap` or another reading of
+    /// its table that would give it one; `None` if it has one. A general arm is solved without.
+    #[must_use]
+    pub fn missing_form(&self) -> Option<UnknownStructure> {
+        let arm = self.structure.arm();
+        arm.unknown().or_else(|| arm.nearest())
     }
 
     /// Number of slots of an answer: zero if the structure is unknown.
@@ -240,7 +248,7 @@ where
     fn singularity_of(&self, q: &[f64; N], values: SingularValues) -> Singularity {
         let arm = self.structure.arm().singular(q);
         Singularity {
-            distances: arm.map(|(distances, _)| distances),
+            distances: arm.and_then(|(distances, _)| distances),
             min_singular_value: values.least,
             manipulability: values.product,
             kinds: arm.map_or(SingularityKind::empty(), |(_, singularities)| singularities),
@@ -259,9 +267,9 @@ where
         PoseDifference::between(&self.fk(q), pose)
     }
 
-    /// The determinant of the geometric Jacobian of joints 1 to 6, in closed form [m^3]. It is zero
-    /// at singularities only, and its factors are those of the structure. `None` if the structure
-    /// is unknown.
+    /// The determinant of the geometric Jacobian of joints 1 to 6 [m^3]. It is zero at
+    /// singularities only. In a closed form its factors are those of the structure. `None` if the
+    /// structure is unknown.
     #[must_use]
     pub fn jacobian_determinant(&self, q: &[f64; N]) -> Option<f64> {
         self.structure.arm().jacobian_determinant(q)

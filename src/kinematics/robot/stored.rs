@@ -62,7 +62,7 @@ impl<const N: usize> Stored<N> {
     {
         let mut robot = match self.definition {
             Definition::Opw(opw) => Robot::of_opw(opw)?,
-            Definition::Mdh(mdh) => Robot::serial_chain(mdh)?,
+            Definition::Mdh(mdh) => Robot::of_table(mdh)?,
         };
         if self.coupled {
             let may_be_coupled = robot.structure.arm().may_be_coupled();

@@ -1,0 +1,18 @@
+//! The closure of a chain of six joints between two frames: Newton's method on its six conditions,
+//! and the configurations that it accepts.
+//!
+//! Lengths are in units of the chain's own, so that positions and rotations weigh the same. Angles
+//! are those of the table, theta = q + offset (docs/general.md, eq. 97 to 104).
+
+mod accepted;
+mod chain;
+mod fold;
+mod freedom;
+mod newton;
+mod self_motion;
+#[cfg(test)]
+mod tests;
+
+pub(crate) use accepted::{Accepted, Configuration, Kind};
+pub(crate) use chain::{Closure, Target};
+pub(crate) use newton::Candidates;
