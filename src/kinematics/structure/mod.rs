@@ -16,6 +16,7 @@ pub(crate) mod end_frames;
 pub(crate) mod free_choice;
 pub(crate) mod joint_map;
 pub(crate) mod lanes;
+pub(crate) mod offset_wrist;
 pub(crate) mod planar_arm;
 pub(crate) mod recognition;
 pub(crate) mod redundancy;
