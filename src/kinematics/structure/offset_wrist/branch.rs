@@ -155,6 +155,11 @@ fn direction(([x, y], wanted): ([f64; 2], f64), side: f64, slack: f64) -> Option
 }
 
 impl Branch {
+    /// How far the upper arm is from having its length [m].
+    pub(super) fn misses(&self, lengths: &Lengths) -> f64 {
+        (self.elbow[0].hypot(self.elbow[1]) - lengths.upper.abs()).abs()
+    }
+
     /// Sines and cosines of all joints (eq. 61 to 63).
     #[inline(always)]
     pub(super) fn joints<const FUSED: bool>(

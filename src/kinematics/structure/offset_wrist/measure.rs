@@ -50,7 +50,8 @@ pub(super) fn measure(mdh: &Mdh<6>) -> Result<OffsetWrist, UnknownStructure> {
     let b = lateral.iter().sum::<f64>();
     let b = if b.abs() <= POSITION_ROUNDING * extent { 0.0 } else { b };
     let [a1, cos_4] = [links[1].a, links[4].cos_alpha];
-    let is_square = [a1, b, cos_3, cos_4, v[0] * v[1]].iter().all(|term| *term == 0.0);
+    let is_even = v[0] == 0.0 || (v[1] == 0.0 && cos_4 == 0.0);
+    let is_square = is_even && [a1, b, cos_3].iter().all(|term| *term == 0.0);
     let lengths = Lengths {
         a1,
         upper: links[2].a,

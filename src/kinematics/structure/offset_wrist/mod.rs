@@ -9,6 +9,7 @@ mod branch;
 mod geometry;
 mod measure;
 mod resultant;
+mod seeds;
 #[cfg(test)]
 mod tests;
 

@@ -4,10 +4,8 @@
 
 use super::geometry::Lengths;
 use crate::kinematics::structure::end_frames::Frame;
+use crate::kinematics::structure::trigonometric::{SAMPLE_COS, SAMPLE_SIN, SAMPLES};
 use crate::lanes::{Column, LANES, mul_add};
-
-/// Number of samples of the resultant: more than twice its degree, and a multiple of the lanes.
-pub(super) const SAMPLES: usize = 24;
 
 /// Wrist point and direction of axis 5, as they turn with joint 6: constant parts, factors of its
 /// cosine and factors of its sine (eq. 50).
@@ -128,36 +126,23 @@ fn resultant<const FUSED: bool>(
     [value, r2]
 }
 
-/// Sines of the sampled angles, multiples of 15 deg.
-#[rustfmt::skip]
-const SIN: [f64; SAMPLES] = {
-    const A: f64 = 0.258_819_045_102_520_74;
-    const B: f64 = core::f64::consts::FRAC_1_SQRT_2;
-    const C: f64 = 0.866_025_403_784_438_6;
-    const D: f64 = 0.965_925_826_289_068_3;
-    [0.0, A, 0.5, B, C, D, 1.0, D, C, B, 0.5, A,
-     0.0, -A, -0.5, -B, -C, -D, -1.0, -D, -C, -B, -0.5, -A]
-};
-
 /// The resultant at multiples of 15 deg of joint 6, and the least square of the distance of the
 /// wrist point from axis 1 among them.
 #[inline(always)]
 pub(super) fn samples<const FUSED: bool>(
     lengths: &Lengths,
     hand: &Hand,
-) -> ([f64; SAMPLES], f64) {
-    let (mut values, mut least) = ([0.0; SAMPLES], f64::INFINITY);
+) -> ([Column; SAMPLES / LANES], f64) {
+    let (mut values, mut least) = ([[0.0; LANES]; SAMPLES / LANES], f64::INFINITY);
     for block in 0..SAMPLES / LANES {
-        let (mut value, mut r2): (Column, Column) = ([0.0; LANES], [0.0; LANES]);
+        let mut r2 = [0.0; LANES];
         for lane in 0..LANES {
-            let number = LANES * block + lane;
-            let (sin, cos) = (SIN[number], SIN[(number + SAMPLES / 4) % SAMPLES]);
+            let (sin, cos) = (SAMPLE_SIN[block][lane], SAMPLE_COS[block][lane]);
             let (point, axis_5) = hand.at::<FUSED>([sin, cos]);
-            [value[lane], r2[lane]] = resultant::<FUSED>(lengths, point, axis_5);
+            [values[block][lane], r2[lane]] = resultant::<FUSED>(lengths, point, axis_5);
         }
-        for lane in 0..LANES {
-            values[LANES * block + lane] = value[lane];
-            least = if r2[lane] < least { r2[lane] } else { least };
+        for r2 in r2 {
+            least = if r2 < least { r2 } else { least };
         }
     }
     (values, least)

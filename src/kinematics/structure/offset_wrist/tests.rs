@@ -3,13 +3,16 @@
 use core::f64::consts::{PI, TAU};
 use std::vec::Vec;
 
-use super::branch::{SIDES, SinCos, Twists, branch_at};
+use super::branch::{SIDES, SinCos, branch_at};
 use super::geometry::OffsetWrist;
 use super::measure::{PATTERN, measure};
-use super::resultant::{Hand, SAMPLES, samples};
+use super::resultant::{Hand, samples};
+use super::seeds::{Seeds, seeds};
 use crate::kinematics::chain::dh::{DhRow, Mdh};
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::end_frames::Frame;
+use crate::kinematics::structure::trigonometric::SAMPLES;
+use crate::lanes::{Column, LANES};
 
 /// Rows of alpha [deg], a [m], d [m], theta [deg].
 fn arm(rows: [[f64; 4]; 6]) -> OffsetWrist {
@@ -30,6 +33,12 @@ fn arms() -> Vec<(&'static str, OffsetWrist)> {
             [-90.0, 0.0, 0.54, 0.0], [90.0, 0.0, 0.15, 0.0], [-90.0, 0.0, 0.16, 180.0]]),
         ("JACO2", [[0.0, 0.0, 0.2755, 0.0], [90.0, 0.0, 0.0, 0.0], [180.0, 0.41, 0.0, 0.0],
             [90.0, 0.0, -0.2073, 0.0], [60.0, 0.0, -0.0741, 0.0], [60.0, 0.0, -0.16, 0.0]]),
+        ("JACO2 b", [[0.0, 0.0, 0.2755, 0.0], [90.0, 0.0, 0.0, 0.0], [180.0, 0.41, 0.0, 0.0],
+            [90.0, 0.0, -0.2073, 0.0], [60.0, 0.0, -0.0741, 0.0], [60.0, 0.0, -0.16, 0.0]].map(|row: [f64; 4]| if row[1] == 0.41 { [180.0, 0.41, 0.0098, 0.0] } else { row })),
+        ("xArm6", [[0.0, 0.0, 0.267, 0.0], [-90.0, 0.0, 0.0, -79.34995], [0.0, 0.28948866, 0.0, 79.34995],
+            [-90.0, 0.0775, 0.3425, 0.0], [90.0, 0.0, 0.0, 0.0], [-90.0, 0.076, 0.097, 0.0]]),
+        ("CRX-10iA", [[0.0, 0.0, 0.245, 0.0], [-90.0, 0.0, 0.0, -90.0], [0.0, 0.54, 0.0, 0.0],
+            [-90.0, 0.0, 0.54, 0.0], [90.0, 0.0, 0.15, 0.0], [-90.0, 0.0, 0.16, 180.0]]),
         ("lateral", [[0.0, 0.0, 0.2755, 0.0], [90.0, 0.0, 0.12, 10.0], [180.0, 0.41, -0.03, 20.0],
             [90.0, 0.0, -0.2073, 30.0], [60.0, 0.0, -0.0741, 0.0], [60.0, 0.0, -0.16, 0.0]]),
         ("skew", [[0.0, 0.0, 0.2755, 0.0], [90.0, 0.1, 0.02, 10.0], [0.0, -0.41, -0.07, 20.0],
@@ -52,10 +61,10 @@ fn joints(seed: u64) -> impl Iterator<Item = [f64; 6]> {
 }
 
 /// Cosine and sine parts of harmonics 0 to 11 of samples at multiples of 15 deg.
-fn harmonics(values: &[f64; SAMPLES]) -> [[f64; 2]; 12] {
+fn harmonics(values: &[Column; SAMPLES / LANES]) -> [[f64; 2]; 12] {
     core::array::from_fn(|k| {
         let mut sum = [0.0; 2];
-        for (number, value) in values.iter().enumerate() {
+        for (number, value) in values.as_flattened().iter().enumerate() {
             let (sin, cos) = (k as f64 * number as f64 * PI / 12.0).sin_cos();
             sum = [sum[0] + value * cos, sum[1] + value * sin];
         }
@@ -71,7 +80,7 @@ fn the_resultant_has_degree_8_and_vanishes_at_joint_6_of_the_arm() {
             let frame = Frame::of(&arm.chain.fk(&q));
             let hand = Hand::of::<false>(&arm.lengths, &frame);
             let (values, _) = samples::<false>(&arm.lengths, &hand);
-            let size = values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+            let size = values.as_flattened().iter().fold(0.0_f64, |most, value| most.max(value.abs()));
             let parts = harmonics(&values);
             for [cos, sin] in &parts[9..] {
                 worst[0] = worst[0].max(cos.hypot(*sin) / size);
@@ -120,6 +129,52 @@ fn one_branch_at_joint_6_of_the_arm_is_the_arm() {
                 .min_by(|a, b| a.0.total_cmp(&b.0));
             let (apart, residual) = best.unwrap();
             assert!(apart < 1e-6 && residual.abs() < 1e-9, "{name}: {apart} {residual} {q:?}");
+        }
+    }
+}
+
+/// How far a joint vector is from the nearest of the seeds, on the circle.
+fn nearest(seeds: &Seeds, q: &[f64; 6]) -> f64 {
+    let apart = |a: f64, b: f64| ((a - b) / TAU - ((a - b) / TAU).round()).abs() * TAU;
+    seeds
+        .as_slice()
+        .iter()
+        .map(|seed| seed.iter().zip(q).map(|(a, b)| apart(*a, *b)).fold(0.0, f64::max))
+        .fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn the_arm_is_among_the_seeds() {
+    let quarter = |q: [f64; 6], step: f64| q.map(|angle| (angle / step).round() * step);
+    let with = |joint: usize, angle: f64| move |q: [f64; 6]| {
+        let mut q = q;
+        q[joint] = angle;
+        q
+    };
+    let sets: [(&str, std::boxed::Box<dyn Fn([f64; 6]) -> [f64; 6]>); 8] = [
+        ("random", std::boxed::Box::new(|q| q)),
+        ("q4 = 0", std::boxed::Box::new(with(3, 0.0))),
+        ("q4 = 1e-6", std::boxed::Box::new(with(3, 1e-6))),
+        ("q4 = 1e-4", std::boxed::Box::new(with(3, 1e-4))),
+        ("q5 = 0", std::boxed::Box::new(with(4, 0.0))),
+        ("q4 = q5 = 0", std::boxed::Box::new(move |q| with(3, 0.0)(with(4, 0.0)(q)))),
+        ("45 deg", std::boxed::Box::new(move |q| quarter(q, PI / 4.0))),
+        ("90 deg", std::boxed::Box::new(move |q| quarter(q, PI / 2.0))),
+    ];
+    for (name, arm) in arms() {
+        for (set, change) in &sets {
+            let count = 2000;
+            let (mut far, mut number, mut worst) = (0, 0, 0.0_f64);
+            for q in joints(3).take(count).map(change) {
+                let q = arm.joint_map.theta(&arm.joint_map.joints(q));
+                let frame = Frame::of(&arm.chain.fk(&q));
+                let seeds = seeds::<false>(&arm, &frame);
+                let off = nearest(&seeds, &q);
+                worst = worst.max(if off > 1e-3 { 0.0 } else { off });
+                far += usize::from(off > 1e-3);
+                number += seeds.as_slice().len();
+            }
+            std::println!("{name} {set}: {far} far of {count}, worst other {worst:e}, seeds {}", number as f64 / count as f64);
         }
     }
 }
