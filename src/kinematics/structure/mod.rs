@@ -26,6 +26,7 @@ pub(crate) mod spherical_shoulder;
 pub(crate) mod spherical_wrist;
 pub(crate) mod three_parallel;
 pub(crate) mod triangle;
+pub(crate) mod trigonometric;
 pub(crate) mod zyz;
 
 use core::fmt::Debug;
