@@ -2,6 +2,7 @@
 
 use super::branch::Twists;
 use crate::kinematics::chain::Chain;
+use crate::kinematics::structure::closure::Closure;
 use crate::kinematics::structure::joint_map::JointMap;
 
 /// An arm with an offset wrist: its table between the shoulder and the last joint, and the lengths
@@ -11,6 +12,7 @@ pub struct OffsetWrist {
     /// From the foot of the common normal of axes 1 and 2, to frame 6 with its origin at the foot
     /// of that of axes 5 and 6; joint angles are theta.
     pub(super) chain: Chain<6>,
+    pub(super) closure: Closure,
     pub(super) lengths: Lengths,
     pub(super) twists: Twists,
     pub(super) joint_map: JointMap<6>,

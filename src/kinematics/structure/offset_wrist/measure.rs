@@ -6,6 +6,7 @@ use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::axes::Link;
 use crate::kinematics::chain::dh::{DhRow, Mdh, screw_x};
 use crate::kinematics::pose::{Pose, translation_z};
+use crate::kinematics::structure::closure::Closure;
 use crate::kinematics::structure::joint_map::JointMap;
 use crate::kinematics::thresholds::{LEAST_TWIST_SIN, POSITION_ROUNDING};
 use crate::report::{Pattern, Relation, UnknownStructure};
@@ -75,6 +76,7 @@ pub(super) fn measure(mdh: &Mdh<6>) -> Result<OffsetWrist, UnknownStructure> {
     for row in &mut bare {
         row.theta = 0.0;
     }
+    let closure = Closure::of(&bare);
     let chain =
         Chain::new(Mdh { base: Pose::identity(), rows: bare, flange: Pose::identity() });
     let [first, .., last] = rows;
@@ -87,6 +89,7 @@ pub(super) fn measure(mdh: &Mdh<6>) -> Result<OffsetWrist, UnknownStructure> {
     };
     Ok(OffsetWrist {
         chain,
+        closure,
         lengths,
         twists,
         joint_map: JointMap {

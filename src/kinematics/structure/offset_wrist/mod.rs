@@ -6,10 +6,12 @@
 #![allow(dead_code)]
 
 mod branch;
+mod determinant;
 mod geometry;
 mod measure;
 mod resultant;
 mod seeds;
+mod solve;
 #[cfg(test)]
 mod tests;
 

@@ -10,6 +10,8 @@ use nalgebra::{ComplexField as _, RealField as _};
 use super::branch::{Branch, Plane, SIDES, branch_at};
 use super::geometry::OffsetWrist;
 use super::resultant::{Hand, samples};
+use crate::kinematics::pose::angles::wrap;
+use crate::kinematics::structure::closure::{Accepted, Kind};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::trigonometric::{Root, TrigonometricPolynomial};
 
@@ -29,6 +31,15 @@ const SEED_SLACK: f64 = 1e-3;
 const SPACING: f64 = 5e-3;
 const MOST_ANGLES: usize = 64;
 
+/// Most clusters of roots: each holds two.
+const MOST_CLUSTERS: usize = 8;
+
+/// How far the angle of a solution may be from the interval of its root [rad].
+const ROOT_ERROR: f64 = 1e-6;
+
+/// Curvature of z4 . z5 along joint 6 that no arm exceeds in a cluster [1].
+const MOST_CURVATURE: f64 = 100.0;
+
 /// Angles at which the branches are examined if nothing is known of the roots.
 const ALL_ANGLES: usize = 360;
 
@@ -36,17 +47,59 @@ const ALL_ANGLES: usize = 360;
 pub(super) struct Seeds {
     all: [[f64; 6]; MOST_SEEDS],
     count: usize,
-    /// Number of solutions, with those of clusters left out.
-    pub(super) simple: usize,
-    /// Whether all roots are simple.
-    pub(super) is_simple: bool,
+    /// Number of solutions at simple roots.
+    simple: usize,
+    /// The clusters of roots.
+    clusters: [Cluster; MOST_CLUSTERS],
+    cluster_count: usize,
+    /// Whether a root serves both sides of the shoulder.
+    is_square: bool,
     /// Whether nothing was left out.
-    pub(super) is_complete: bool,
+    is_complete: bool,
 }
 
 impl Seeds {
     pub(super) fn as_slice(&self) -> &[[f64; 6]] {
         &self.all[..self.count]
+    }
+
+    /// Whether these are as many solutions as the roots announce: one for each simple root, two, or
+    /// an even number, in each cluster.
+    pub(super) fn agrees(&self, accepted: &Accepted) -> bool {
+        if !self.is_complete || !accepted.is_certain || accepted.has_self_motion() {
+            return false;
+        }
+        let clusters = &self.clusters[..self.cluster_count];
+        let mut in_cluster = [0; MOST_CLUSTERS];
+        let mut at_simple = 0;
+        for one in accepted.as_slice() {
+            let holds = |cluster: &Cluster| {
+                let Cluster { low, high, .. } = *cluster;
+                let off = wrap(one.theta[5] - 0.5 * (low + high)).abs();
+                off <= 0.5 * (high - low)
+            };
+            let count = if one.kind == Kind::Fold { 2 } else { 1 };
+            match clusters.iter().position(holds) {
+                Some(index) => in_cluster[index] += count,
+                None => at_simple += count,
+            }
+        }
+        at_simple == self.simple
+            && clusters.iter().zip(in_cluster).all(|(cluster, count)| cluster.zeros == Some(count))
+    }
+
+    /// Replace the seeds by those of all angles.
+    #[cold]
+    pub(super) fn examine_all(&mut self, arm: &OffsetWrist, last: &Frame) {
+        let pose = Pose { arm, last, hand: Hand::of::<false>(&arm.lengths, last) };
+        self.count = 0;
+        pose.examine([-PI, PI], ALL_ANGLES, self);
+    }
+
+    #[cfg(test)]
+    fn show(&self) -> (usize, &[Cluster], std::vec::Vec<f64>, bool) {
+        let sixth = self.as_slice().iter().map(|q| q[5]).collect();
+        (self.simple, &self.clusters[..self.cluster_count], sixth, self.is_complete)
     }
 
     fn push(&mut self, seed: [f64; 6]) {
@@ -58,6 +111,15 @@ impl Seeds {
             None => self.is_complete = false,
         }
     }
+}
+
+/// A cluster of roots.
+#[derive(Clone, Copy, Debug, Default)]
+struct Cluster {
+    low: f64,
+    high: f64,
+    /// Number of solutions in it; `None` if the branches do not show it.
+    zeros: Option<usize>,
 }
 
 /// An arm and the frame that it is to reach.
@@ -77,14 +139,15 @@ pub(super) fn seeds<const FUSED: bool>(arm: &OffsetWrist, last: &Frame) -> Seeds
         all: [[0.0; 6]; MOST_SEEDS],
         count: 0,
         simple: 0,
-        is_simple: true,
+        clusters: [Cluster::default(); MOST_CLUSTERS],
+        cluster_count: 0,
+        is_square: arm.lengths.is_square,
         is_complete: roots.is_complete,
     };
     for root in roots.as_slice() {
         if root.is_simple {
             pose.at_root(root, &mut seeds);
         } else {
-            seeds.is_simple = false;
             pose.in_cluster(root, &mut seeds);
         }
     }
@@ -137,40 +200,63 @@ impl Pose<'_> {
     /// The seeds of a cluster of roots.
     fn in_cluster(&self, root: &Root, seeds: &mut Seeds) {
         let Root { low, high, .. } = *root;
-        let margin = 0.5 * (high - low) + 1e-7;
+        let (low, high) = (low - ROOT_ERROR, high + ROOT_ERROR);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "few")]
         let count = ((high - low) / SPACING) as usize;
-        self.examine([low - margin, high + margin], count.min(MOST_ANGLES), seeds);
+        let zeros = self.examine([low, high], count.min(MOST_ANGLES), seeds);
+        match seeds.clusters.get_mut(seeds.cluster_count) {
+            Some(place) => {
+                *place = Cluster { low, high, zeros };
+                seeds.cluster_count += 1;
+            }
+            None => seeds.is_complete = false,
+        }
         self.degenerate(root.angle(), seeds);
     }
 
     /// Examines the branches at angles of joint 6 in a range: seeds are where one changes its sign,
-    /// and where one is near zero without a change.
-    fn examine(&self, [low, high]: [f64; 2], inner: usize, seeds: &mut Seeds) {
+    /// and where one is near zero without a change. Returns the number of zeros, if it is certain.
+    fn examine(&self, [low, high]: [f64; 2], inner: usize, seeds: &mut Seeds) -> Option<usize> {
         let count = inner + 4;
+        #[expect(clippy::cast_precision_loss, reason = "few")]
+        let step = (high - low) / count as f64;
+        // Between two angles whose values differ by more than this the branch is monotone, and it
+        // has no zero where both are larger. Where it ends between them it changes by a root.
+        let (bend, end) = (MOST_CURVATURE * step * step, MOST_CURVATURE * step.sqrt());
+        let (mut zeros, mut is_certain) = (0, true);
         for sides in SIDES {
             let mut before: Option<(f64, f64)> = None;
             let mut best: Option<(f64, f64)> = None;
             let mut has_changed = false;
             for number in 0..=count {
                 #[expect(clippy::cast_precision_loss, reason = "few")]
-                let angle = low + (high - low) * number as f64 / count as f64;
-                let here = self.branch(sides, angle, SEED_SLACK).map(|branch| branch.off);
-                if let Some(off) = here {
-                    if best.is_none_or(|(_, least)| off.abs() < least) {
-                        best = Some((angle, off.abs()));
-                    }
-                    if let Some((at, was)) = before
-                        && (was < 0.0) != (off < 0.0)
-                    {
-                        has_changed = true;
-                        let zero = at + (angle - at) * was / (was - off);
-                        if let Some(branch) = self.branch(sides, zero, SEED_SLACK) {
-                            self.put(&branch, zero, seeds);
+                let angle = low + step * number as f64;
+                let here = self.branch(sides, angle, 0.0).map(|branch| (angle, branch.off));
+                if let Some((angle, off)) = here
+                    && best.is_none_or(|(_, least)| off.abs() < least)
+                {
+                    best = Some((angle, off.abs()));
+                }
+                match (before, here) {
+                    (Some((at, was)), Some((_, off))) => {
+                        let changes = (was < 0.0) != (off < 0.0);
+                        let is_clear = !changes && was.abs().min(off.abs()) > bend;
+                        is_certain &= is_clear || (off - was).abs() > bend;
+                        if changes {
+                            has_changed = true;
+                            zeros += 1;
+                            let zero = at + (angle - at) * was / (was - off);
+                            if let Some(branch) = self.branch(sides, zero, SEED_SLACK) {
+                                self.put(&branch, zero, seeds);
+                            }
                         }
                     }
+                    (Some((_, off)), None) | (None, Some((_, off))) if number > 0 => {
+                        is_certain &= off.abs() > end;
+                    }
+                    _ => {}
                 }
-                before = here.map(|off| (angle, off));
+                before = here;
             }
             if let Some((angle, off)) = best
                 && !has_changed
@@ -180,6 +266,7 @@ impl Pose<'_> {
                 self.put(&branch, angle, seeds);
             }
         }
+        is_certain.then_some(zeros)
     }
 
     /// The seeds with the wrist point on axis 1 or at the end of the upper arm's reach: there the
@@ -226,4 +313,11 @@ impl Pose<'_> {
 fn sin_cos(angle: f64) -> [f64; 2] {
     let (sin, cos) = angle.sin_cos();
     [sin, cos]
+}
+
+#[cfg(test)]
+impl core::fmt::Debug for Seeds {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        self.show().fmt(f)
+    }
 }

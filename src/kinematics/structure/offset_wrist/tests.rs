@@ -164,7 +164,7 @@ fn the_arm_is_among_the_seeds() {
     for (name, arm) in arms() {
         for (set, change) in &sets {
             let count = 2000;
-            let (mut far, mut number, mut worst) = (0, 0, 0.0_f64);
+            let (mut far, mut number, mut worst, mut odd, mut free, mut lost) = (0, 0, 0.0_f64, 0, 0, 0);
             for q in joints(3).take(count).map(change) {
                 let q = arm.joint_map.theta(&arm.joint_map.joints(q));
                 let frame = Frame::of(&arm.chain.fk(&q));
@@ -172,9 +172,56 @@ fn the_arm_is_among_the_seeds() {
                 let off = nearest(&seeds, &q);
                 worst = worst.max(if off > 1e-3 { 0.0 } else { off });
                 far += usize::from(off > 1e-3);
-                number += seeds.as_slice().len();
+                let found = arm.find::<false>(&frame);
+                number += found.accepted.as_slice().len();
+                let off = found.accepted.as_slice().iter().map(|one| one.distance(&q)).fold(f64::INFINITY, f64::min);
+                odd += usize::from(!found.is_certified);
+                free += usize::from(found.accepted.has_self_motion());
+                lost += usize::from(off > 1e-6 && !found.accepted.has_self_motion());
+                if off > 1e-6 && found.is_certified {
+                    std::println!("LOST {q:?} {off}");
+                }
             }
-            std::println!("{name} {set}: {far} far of {count}, worst other {worst:e}, seeds {}", number as f64 / count as f64);
+            std::println!("{name} {set}: far {far} lost {lost} uncertified {odd} free {free} of {count}, worst {worst:e}, solutions {}", number as f64 / count as f64);
+        }
+    }
+}
+
+#[test]
+#[ignore]
+fn diagnose() {
+    let arms = arms();
+    let gofa = &arms[0].1;
+    let mut shown = 0;
+    for (set, change) in [("random", 9.0), ("q4=0", 0.0), ("q4=1e-4", 1e-4)] {
+        shown = 0;
+        for q in joints(3).take(2000) {
+            let mut q = q;
+            if change < 0.0 { q[3] = change; }
+            let frame = Frame::of(&gofa.chain.fk(&q));
+            let found = gofa.find::<false>(&frame);
+            if !found.is_certified && shown < 6 {
+                shown += 1;
+                let seeds = seeds::<false>(gofa, &frame);
+                std::println!("{set} {seeds:?} certain {}", found.accepted.is_certain);
+                for one in found.accepted.as_slice() {
+                    std::println!("   {:.9?} {:e} {:e} {:?}", one.theta, one.residual, one.least, one.kind);
+                }
+            }
+        }
+    }
+    let r = |q: [f64; 6]| q.map(f64::to_radians);
+    for (arm, q) in [(4, r([-135.0, 90.0, 90.0, 180.0, -90.0, 45.0])), (4, r([45.0, 90.0, -90.0, 45.0, 0.0, 135.0])), (4, r([-90.0, 90.0, 90.0, -90.0, 180.0, -90.0]))] {
+        let (name, arm) = &arms[arm];
+        let frame = Frame::of(&arm.chain.fk(&q));
+        let found = arm.find::<false>(&frame);
+        let seeds = seeds::<false>(arm, &frame);
+        let target = arm.closure.target(&frame);
+        let settled = arm.closure.settle(&target, &q);
+        std::println!("{name} settle {:?} {}", settled.all, settled.is_certain);
+        std::println!("{name} {q:?} {seeds:?} certain {} {}", found.accepted.is_certain, found.is_certified);
+        for one in found.accepted.as_slice() {
+            std::println!("CRX   {:.9?} {:e} {:e} {:?}", one.theta, one.residual, one.least, one.kind);
         }
     }
 }
