@@ -11,6 +11,7 @@ pub(crate) mod any;
 pub(crate) mod arity;
 pub(crate) mod arm;
 pub(crate) mod branches;
+pub(crate) mod closure;
 mod declare;
 pub(crate) mod end_frames;
 pub(crate) mod free_choice;

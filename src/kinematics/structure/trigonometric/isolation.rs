@@ -93,10 +93,8 @@ impl TrigonometricPolynomial {
             let [cos, sin] = &MIDDLES[half][k];
             let (mut of_cos, mut of_sin) = ([0.0; LANES], [0.0; LANES]);
             for lane in 0..LANES {
-                of_cos[lane] =
-                    mul_add::<FUSED>(self.cos[k], cos[lane], self.sin[k] * sin[lane]);
-                of_sin[lane] =
-                    mul_add::<FUSED>(self.sin[k], cos[lane], -(self.cos[k] * sin[lane]));
+                of_cos[lane] = mul_add::<FUSED>(self.cos[k], cos[lane], self.sin[k] * sin[lane]);
+                of_sin[lane] = mul_add::<FUSED>(self.sin[k], cos[lane], -(self.cos[k] * sin[lane]));
             }
             for j in 0..=DEGREE {
                 let [weight_even, weight_odd] = BERNSTEIN[k][j];

@@ -45,11 +45,8 @@ impl TrigonometricPolynomial {
         for (sample, weights) in samples.as_flattened().iter().zip(&FOURIER) {
             for column in 0..3 {
                 for lane in 0..LANES {
-                    harmonics[column][lane] = mul_add::<FUSED>(
-                        *sample,
-                        weights[column][lane],
-                        harmonics[column][lane],
-                    );
+                    harmonics[column][lane] =
+                        mul_add::<FUSED>(*sample, weights[column][lane], harmonics[column][lane]);
                 }
             }
         }

@@ -38,8 +38,11 @@ pub(crate) struct Roots {
 }
 
 impl Roots {
-    pub(super) const NONE: Self =
-        Self { all: [Root { low: 0.0, high: 0.0, is_simple: false }; MOST_ROOTS], count: 0, is_complete: true };
+    pub(super) const NONE: Self = Self {
+        all: [Root { low: 0.0, high: 0.0, is_simple: false }; MOST_ROOTS],
+        count: 0,
+        is_complete: true,
+    };
 
     pub(super) fn push(&mut self, root: Root) {
         if self.count == MOST_ROOTS {
