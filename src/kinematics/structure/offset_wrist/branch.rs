@@ -35,8 +35,9 @@ pub(super) struct Plane {
     point: [f64; 2],
     /// Axis 5 along x1, z1 and axis 2.
     axis_5: [f64; 3],
-    /// Whether the wrist point is in reach of this plane.
-    pub(super) reached: bool,
+    /// The square of sigma, which is negative where the wrist point is nearer to axis 1 than the
+    /// plane of the arm [m^2].
+    sigma2: f64,
 }
 
 impl Plane {
@@ -58,7 +59,7 @@ impl Plane {
         ];
         let scale = 1.0 / mul_add::<FUSED>(x1[0], x1[0], x1[1] * x1[1]).sqrt();
         let x1 = if scale.is_finite() { x1.map(|part| part * scale) } else { [1.0, 0.0] };
-        Self::facing::<FUSED>(lengths, x1, [sigma, h], axis_5, sigma2 >= 0.0)
+        Self::facing::<FUSED>(lengths, x1, [sigma, h], axis_5, sigma2)
     }
 
     /// With x1 in a direction, and the wrist point at (sigma, h) from axis 1.
@@ -68,11 +69,11 @@ impl Plane {
         x1: [f64; 2],
         [sigma, h]: [f64; 2],
         [zx, zy, zz]: [f64; 3],
-        reached: bool,
+        sigma2: f64,
     ) -> Self {
         let radial = mul_add::<FUSED>(zx, x1[0], zy * x1[1]);
         let lateral = lengths.s1 * mul_add::<FUSED>(zx, x1[1], -(zy * x1[0]));
-        Self { x1, point: [sigma - lengths.a1, h], axis_5: [radial, zz, lateral], reached }
+        Self { x1, point: [sigma - lengths.a1, h], axis_5: [radial, zz, lateral], sigma2 }
     }
 
     /// Factors of cosine and sine of the forearm, and what their sum must be, for axis 5 to be at
@@ -245,5 +246,18 @@ pub(super) fn branch_at(
     slack: f64,
 ) -> Option<Branch> {
     let plane = Plane::of::<false>(lengths, hand.at::<false>(sin_cos_6), shoulder);
-    plane.reached.then(|| plane.with_elbow::<false>(lengths, elbow, slack)).flatten()
+    (plane.sigma2 >= 0.0).then(|| plane.with_elbow::<false>(lengths, elbow, slack)).flatten()
+}
+
+/// How far the arm is inside its reach with the shoulder on a given side, for sine and cosine of
+/// joint 6 [1]: negative where there is no branch.
+pub(super) fn room_at(lengths: &Lengths, hand: &Hand, shoulder: f64, sin_cos_6: [f64; 2]) -> f64 {
+    let plane = Plane::of::<false>(lengths, hand.at::<false>(sin_cos_6), shoulder);
+    let size = lengths.upper.abs() + lengths.forearm;
+    let at_shoulder = plane.sigma2 / (size * size);
+    if at_shoulder < 0.0 {
+        return at_shoulder;
+    }
+    let ([x, y], wanted) = plane.length_condition::<false>(lengths);
+    (x * x + y * y - wanted * wanted) / (size * size)
 }

@@ -7,7 +7,7 @@ use core::f64::consts::PI;
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use super::branch::{Branch, Plane, SIDES, branch_at};
+use super::branch::{Branch, Plane, SIDES, branch_at, room_at};
 use super::geometry::OffsetWrist;
 use super::resultant::{Hand, samples};
 use crate::kinematics::pose::angles::wrap;
@@ -228,6 +228,7 @@ impl Pose<'_> {
             let mut before: Option<(f64, f64)> = None;
             let mut best: Option<(f64, f64)> = None;
             let mut has_changed = false;
+            let mut room = f64::NEG_INFINITY;
             for number in 0..=count {
                 #[expect(clippy::cast_precision_loss, reason = "few")]
                 let angle = low + step * number as f64;
@@ -251,11 +252,20 @@ impl Pose<'_> {
                             }
                         }
                     }
-                    (Some((_, off)), None) | (None, Some((_, off))) if number > 0 => {
+                    (Some((_, off)), None) => is_certain &= off.abs() > end,
+                    (None, Some((_, off))) if number > 0 => {
                         is_certain &= off.abs() > end;
                     }
                     _ => {}
                 }
+                // Where the arm is out of reach at both ends, it must be so between them.
+                room = if here.is_none() {
+                    let next = room_at(&self.arm.lengths, &self.hand, sides[0], sin_cos(angle));
+                    is_certain &= next.max(room) < -bend;
+                    next
+                } else {
+                    f64::NEG_INFINITY
+                };
                 before = here;
             }
             if let Some((angle, off)) = best
@@ -290,7 +300,7 @@ impl Pose<'_> {
         for elbow in [1.0, -1.0] {
             let off = |theta_1: f64| {
                 let (sin, cos) = theta_1.sin_cos();
-                let plane = Plane::facing::<false>(lengths, [cos, sin], [0.0, point[2]], axis_5, true);
+                let plane = Plane::facing::<false>(lengths, [cos, sin], [0.0, point[2]], axis_5, 0.0);
                 plane.with_elbow::<false>(lengths, elbow, SEED_SLACK)
             };
             let [Some(zero), Some(quarter), Some(half)] = [0.0, 0.5 * PI, PI].map(&off) else {
