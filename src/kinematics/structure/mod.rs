@@ -101,8 +101,8 @@ pub(crate) trait Structure<const N: usize, const S: usize>:
         free: &FreeChoice<N>,
     ) -> Branches<N, S>;
 
-    /// Distances of `q` from the singularities.
-    fn singular_distances(&self, q: &[f64; N]) -> SingularDistances;
+    /// Distances of `q` from the singularities; `None` if they have no such names.
+    fn singular_distances(&self, q: &[f64; N]) -> Option<SingularDistances>;
 
     /// The singularities that `q` is at, by the thresholds that merge the branches of a solve.
     fn singularities(&self, q: &[f64; N]) -> SingularityKind;

@@ -53,10 +53,8 @@ impl Plane {
         let r = r2.sqrt();
         let sigma2 = (r - b) * (r + b);
         let sigma = shoulder * sigma2.max(0.0).sqrt();
-        let x1 = [
-            mul_add::<FUSED>(sigma, wx, -(s1 * b * wy)),
-            mul_add::<FUSED>(sigma, wy, s1 * b * wx),
-        ];
+        let x1 =
+            [mul_add::<FUSED>(sigma, wx, -(s1 * b * wy)), mul_add::<FUSED>(sigma, wy, s1 * b * wx)];
         let scale = 1.0 / mul_add::<FUSED>(x1[0], x1[0], x1[1] * x1[1]).sqrt();
         let x1 = if scale.is_finite() { x1.map(|part| part * scale) } else { [1.0, 0.0] };
         Self::facing::<FUSED>(lengths, x1, [sigma, h], axis_5, sigma2)
@@ -91,8 +89,7 @@ impl Plane {
         let Lengths { upper, forearm, v: [v1, v2], .. } = *lengths;
         let [r, h] = self.point;
         let square = mul_add::<FUSED>(r, r, h * h);
-        let factors =
-            [mul_add::<FUSED>(r, v1, h * v2), mul_add::<FUSED>(h, v1, -(r * v2))];
+        let factors = [mul_add::<FUSED>(r, v1, h * v2), mul_add::<FUSED>(h, v1, -(r * v2))];
         (factors, (square + (forearm - upper) * (forearm + upper)) / (2.0 * forearm))
     }
 
@@ -125,10 +122,7 @@ impl Plane {
     fn branch<const FUSED: bool>(&self, lengths: &Lengths, [cos, sin]: [f64; 2]) -> Branch {
         let Lengths { forearm, v: [v1, v2], .. } = *lengths;
         let ([of_cos, of_sin], wanted) = self.axis_condition(lengths);
-        let along = [
-            mul_add::<FUSED>(v1, cos, -(v2 * sin)),
-            mul_add::<FUSED>(v1, sin, v2 * cos),
-        ];
+        let along = [mul_add::<FUSED>(v1, cos, -(v2 * sin)), mul_add::<FUSED>(v1, sin, v2 * cos)];
         Branch {
             off: mul_add::<FUSED>(of_cos, cos, mul_add::<FUSED>(of_sin, sin, -wanted)),
             forearm: [cos, sin],
@@ -178,10 +172,8 @@ impl Branch {
         let [x2, y2] = self.elbow.map(|part| part * scale);
         // theta_2 and theta_2 + e theta_3 are angles in the plane, times s1.
         let second = [s1 * y2, x2];
-        let third = [
-            turn * mul_add::<FUSED>(sin, x2, -(cos * y2)),
-            mul_add::<FUSED>(cos, x2, sin * y2),
-        ];
+        let third =
+            [turn * mul_add::<FUSED>(sin, x2, -(cos * y2)), mul_add::<FUSED>(cos, x2, sin * y2)];
         // Axes of frame 3 in the shoulder frame.
         let x3 = [cos * c1, cos * n1, sin];
         let y3 = [-turn * sin * c1, -turn * sin * n1, turn * cos];
@@ -196,8 +188,10 @@ impl Branch {
         let z5 = combined::<FUSED>(across, constants.sin_5, z6, constants.cos_5);
         let y3_turned = combined::<FUSED>(y3, constants.cos_3, z3, constants.sin_3);
         // z5 = sin alpha_4 (sin theta_4 x3 - cos theta_4 y3') + ...
-        let (s4, c4) =
-            (dot::<FUSED>(z5, x3) / constants.sin_4, -dot::<FUSED>(z5, y3_turned) / constants.sin_4);
+        let (s4, c4) = (
+            dot::<FUSED>(z5, x3) / constants.sin_4,
+            -dot::<FUSED>(z5, y3_turned) / constants.sin_4,
+        );
         let size = 1.0 / mul_add::<FUSED>(s4, s4, c4 * c4).sqrt();
         let (s4, c4) = (s4 * size, c4 * size);
         let x4 = combined::<FUSED>(x3, c4, y3_turned, s4);

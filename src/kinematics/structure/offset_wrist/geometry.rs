@@ -1,5 +1,8 @@
 //! The stored geometry of an arm with an offset wrist.
 
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
 use super::branch::Twists;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::structure::closure::Closure;
@@ -50,4 +53,17 @@ pub(super) struct Lengths {
     pub(super) cos_5: f64,
     /// Whether the polynomial is a square (eq. 15).
     pub(super) is_square: bool,
+}
+
+impl OffsetWrist {
+    /// Distance of the wrist point from axis 1 along x1 [m], and the sine of the angle from the
+    /// upper arm to the forearm: their signs are the sides of shoulder and elbow.
+    pub(super) fn sides(&self, theta: &[f64; 6]) -> [f64; 2] {
+        let Lengths { a1, upper, forearm, v: [v1, v2], s1, e, .. } = self.lengths;
+        let second = s1 * theta[1];
+        let third = s1 * (theta[1] + e * theta[2]);
+        let reach = forearm * (v1 * third.cos() - v2 * third.sin());
+        let elbow = theta[2] * s1 * e + v2.atan2(v1);
+        [a1 + upper * second.cos() + reach, elbow.sin() * upper.signum()]
+    }
 }

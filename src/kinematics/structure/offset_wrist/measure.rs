@@ -77,8 +77,7 @@ pub(super) fn measure(mdh: &Mdh<6>) -> Result<OffsetWrist, UnknownStructure> {
         row.theta = 0.0;
     }
     let closure = Closure::of(&bare);
-    let chain =
-        Chain::new(Mdh { base: Pose::identity(), rows: bare, flange: Pose::identity() });
+    let chain = Chain::new(Mdh { base: Pose::identity(), rows: bare, flange: Pose::identity() });
     let [first, .., last] = rows;
     let twists = Twists {
         sin_3,

@@ -44,9 +44,8 @@ impl Hand {
 #[inline(always)]
 fn turned<const FUSED: bool>(parts: &[[f64; 3]; 3], sin: f64, cos: f64) -> [f64; 3] {
     let [constant, of_cos, of_sin] = parts;
-    let part = |i: usize| {
-        mul_add::<FUSED>(cos, of_cos[i], mul_add::<FUSED>(sin, of_sin[i], constant[i]))
-    };
+    let part =
+        |i: usize| mul_add::<FUSED>(cos, of_cos[i], mul_add::<FUSED>(sin, of_sin[i], constant[i]));
     [part(0), part(1), part(2)]
 }
 
@@ -90,28 +89,18 @@ fn resultant<const FUSED: bool>(
     let radial = Ring { u: s1 * b * across, v: along };
     let lateral = Ring { u: b * along, v: -s1 * across };
     let slant = e * cos_3;
-    let bend = Ring {
-        u: mul_add::<FUSED>(cos_4, r2, -(slant * lateral.u)),
-        v: -slant * lateral.v,
-    };
+    let bend = Ring { u: mul_add::<FUSED>(cos_4, r2, -(slant * lateral.u)), v: -slant * lateral.v };
     // The wrist point from axis 2.
-    let square = Ring {
-        u: mul_add::<FUSED>(h, h, mul_add::<FUSED>(a1, a1, sigma2)),
-        v: -2.0 * a1,
-    };
+    let square = Ring { u: mul_add::<FUSED>(h, h, mul_add::<FUSED>(a1, a1, sigma2)), v: -2.0 * a1 };
     let reach = Ring {
         u: (square.u + (forearm - upper) * (forearm + upper)) / (2.0 * forearm),
         v: -a1 / forearm,
     };
     let rise = m * r2 * zz;
-    let first = Ring {
-        u: rise * mul_add::<FUSED>(h, v2, -(a1 * v1)),
-        v: rise * v1,
-    };
+    let first = Ring { u: rise * mul_add::<FUSED>(h, v2, -(a1 * v1)), v: rise * v1 };
     let turn = Ring { u: m * mul_add::<FUSED>(h, v1, a1 * v2), v: -m * v2 };
-    let x = first
-        .minus(radial.times::<FUSED>(turn, sigma2))
-        .minus(bend.times::<FUSED>(reach, sigma2));
+    let x =
+        first.minus(radial.times::<FUSED>(turn, sigma2)).minus(bend.times::<FUSED>(reach, sigma2));
     let lateral = Ring { u: m * lateral.u, v: m * lateral.v };
     let y = Ring { u: (m * r2) * (m * r2), v: 0.0 }
         .minus(lateral.times::<FUSED>(lateral, sigma2))

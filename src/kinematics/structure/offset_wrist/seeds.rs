@@ -163,12 +163,8 @@ impl Pose<'_> {
     }
 
     fn put(&self, branch: &Branch, angle: f64, seeds: &mut Seeds) {
-        let joints = branch.joints::<false>(
-            &self.arm.lengths,
-            self.last,
-            sin_cos(angle),
-            &self.arm.twists,
-        );
+        let joints =
+            branch.joints::<false>(&self.arm.lengths, self.last, sin_cos(angle), &self.arm.twists);
         let mut seed = joints.map(|[sin, cos]| sin.atan2(cos));
         seed[5] = angle;
         if seed.iter().all(|angle| angle.is_finite()) {
@@ -300,7 +296,8 @@ impl Pose<'_> {
         for elbow in [1.0, -1.0] {
             let off = |theta_1: f64| {
                 let (sin, cos) = theta_1.sin_cos();
-                let plane = Plane::facing::<false>(lengths, [cos, sin], [0.0, point[2]], axis_5, 0.0);
+                let plane =
+                    Plane::facing::<false>(lengths, [cos, sin], [0.0, point[2]], axis_5, 0.0);
                 plane.with_elbow::<false>(lengths, elbow, SEED_SLACK)
             };
             let [Some(zero), Some(quarter), Some(half)] = [0.0, 0.5 * PI, PI].map(&off) else {
