@@ -75,6 +75,13 @@ impl Clusters {
             && clusters.iter().zip(in_cluster).all(|(cluster, count)| cluster.zeros == Some(count))
     }
 
+    #[cfg(test)]
+    pub(super) fn show(&self) {
+        for cluster in &self.all[..self.count] {
+            std::println!("SHOW cluster {} {} {:?}", cluster.low, cluster.high, cluster.zeros);
+        }
+    }
+
     /// Examine a cluster of roots.
     #[cold]
     pub(super) fn examine(&mut self, root: &Root, search: &mut Search<'_>) {

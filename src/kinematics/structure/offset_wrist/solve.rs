@@ -54,6 +54,19 @@ impl Kernel for Solve<'_> {
                 && !accepted.has_self_motion()
                 && clusters.agree(accepted.as_slice(), simple)
         };
+        #[cfg(test)]
+        if std::env::var("SHOW").is_ok() && !agree(&search.accepted) {
+            std::println!(
+                "SHOW simple {simple} certain {} {} {:?}",
+                search.accepted.is_certain,
+                roots.is_complete,
+                roots.as_slice()
+            );
+            clusters.show();
+            for one in search.accepted.as_slice() {
+                std::println!("SHOW   {:.6?} {:e} {:e}", one.theta, one.residual, one.least);
+            }
+        }
         if !agree(&search.accepted) {
             search.accepted.begin();
             search.everywhere();
