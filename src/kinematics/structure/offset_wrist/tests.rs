@@ -369,13 +369,3 @@ fn an_arm_with_a_spherical_wrist_has_the_solutions_of_its_closed_form() {
     }
     assert!(compared > 3000);
 }
-
-#[test]
-#[ignore]
-fn diagnose() {
-    let arms = arms();
-    for (set, change) in SETS.iter().take(2) {
-        std::println!("SHOW set {set}");
-        tally(&arms[0].1, *change, asked());
-    }
-}
