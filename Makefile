@@ -141,7 +141,7 @@ stages: | toolchains ## Show the time of a pose by stages, with perf; SETS="avx2
 ulp: | toolchains ## Compare arc tangent, sine and cosine with correctly rounded ones
 	IRBKIN_POINTS=10000000 cargo test --quiet --release --lib lanes::functions -- --nocapture --test-threads=1
 
-offset-wrists: | toolchains ## Count what is found of arms with an offset wrist; JOINT_VECTORS=1000 of each set
+offset-wrists: | toolchains ## Count what is found of arms with an offset wrist; JOINT_VECTORS (1000) of each set
 	JOINT_VECTORS=$(or $(JOINT_VECTORS),1000) cargo test --release --lib offset_wrist::tests::each_arm -- --nocapture
 
 million: | toolchains ## Solve a million poses of each arm; count missed and incorrect ones

@@ -1,11 +1,11 @@
 //! The joints before joint 6, from its angle: the branches of an arm with an offset wrist.
 //!
-//! Docs: offset_wrist.md, eq. 51 to 53 and 60 to 63.
+//! Docs: offset_wrist.md, eq. 122 to 124 and 131 to 132.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use super::geometry::Lengths;
+use super::geometry::{Lengths, Twists};
 use super::resultant::Hand;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::lanes::mul_add;
@@ -41,7 +41,7 @@ pub(super) struct Plane {
 }
 
 impl Plane {
-    /// With the wrist point in front of axis 1 or behind it: a sign (eq. 51).
+    /// With the wrist point in front of axis 1 or behind it: a sign (eq. 122).
     #[inline(always)]
     pub(super) fn of<const FUSED: bool>(
         lengths: &Lengths,
@@ -75,7 +75,7 @@ impl Plane {
     }
 
     /// Factors of cosine and sine of the forearm, and what their sum must be, for axis 5 to be at
-    /// its angle from axis 4 (eq. 52).
+    /// its angle from axis 4 (eq. 123).
     #[inline(always)]
     fn axis_condition(&self, lengths: &Lengths) -> ([f64; 2], f64) {
         let Lengths { m, e, cos_3, cos_4, .. } = *lengths;
@@ -83,7 +83,7 @@ impl Plane {
         ([m * rise, -m * radial], cos_4 - e * cos_3 * lateral)
     }
 
-    /// The same for the upper arm to have its length (eq. 53).
+    /// The same for the upper arm to have its length (eq. 124).
     #[inline(always)]
     fn length_condition<const FUSED: bool>(&self, lengths: &Lengths) -> ([f64; 2], f64) {
         let Lengths { upper, forearm, v: [v1, v2], .. } = *lengths;
@@ -93,7 +93,7 @@ impl Plane {
         (factors, (square + (forearm - upper) * (forearm + upper)) / (2.0 * forearm))
     }
 
-    /// The branch with the elbow on one side: a sign (eq. 60); `None` if the links do not span the
+    /// The branch with the elbow on one side: a sign (eq. 131); `None` if the links do not span the
     /// distance of the wrist point by more than `slack`, relative to it.
     #[inline(always)]
     pub(super) fn with_elbow<const FUSED: bool>(
@@ -155,7 +155,7 @@ impl Branch {
         (self.elbow[0].hypot(self.elbow[1]) - lengths.upper.abs()).abs()
     }
 
-    /// Sines and cosines of all joints (eq. 61 to 63).
+    /// Sines and cosines of all joints (eq. 132).
     #[inline(always)]
     pub(super) fn joints<const FUSED: bool>(
         &self,
@@ -199,16 +199,6 @@ impl Branch {
         let fifth = [dot::<FUSED>(x5, y4), dot::<FUSED>(x5, x4)];
         [[n1, c1], second, third, [s4, c4], fifth, sin_cos_6]
     }
-}
-
-/// Sines and cosines of the twists of rows 4 to 6.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Twists {
-    pub(super) sin_3: f64,
-    pub(super) cos_3: f64,
-    pub(super) sin_4: f64,
-    pub(super) sin_5: f64,
-    pub(super) cos_5: f64,
 }
 
 #[inline(always)]

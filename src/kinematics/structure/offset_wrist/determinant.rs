@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::geometry::OffsetWrist;
 
 impl OffsetWrist {
-    /// The determinant of the geometric Jacobian of all joints (eq. 66).
+    /// The determinant of the geometric Jacobian of all joints (eq. 136).
     ///
     /// Axes 4 and 5 run through the wrist point, so that joints 1 to 3 alone hold it against joint
     /// 6; what the hand then turns about the normal of axes 4 and 5 remains.

@@ -1,6 +1,5 @@
 //! The stored geometry of an arm with an offset wrist.
 
-use super::branch::Twists;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::structure::general::General;
 
@@ -48,6 +47,16 @@ pub(super) struct Lengths {
     pub(super) cos_5: f64,
     /// The sum of the lengths of the rows [m].
     pub(super) extent: f64,
-    /// Whether the polynomial is a square (eq. 15).
+    /// Whether the polynomial is a square (eq. 129).
     pub(super) is_square: bool,
+}
+
+/// Sines and cosines of the twists of rows 4 to 6.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Twists {
+    pub(super) sin_3: f64,
+    pub(super) cos_3: f64,
+    pub(super) sin_4: f64,
+    pub(super) sin_5: f64,
+    pub(super) cos_5: f64,
 }

@@ -1,7 +1,6 @@
 //! Recognizes an offset wrist in a modified Denavit-Hartenberg table.
 
-use super::branch::Twists;
-use super::geometry::{Lengths, OffsetWrist};
+use super::geometry::{Lengths, OffsetWrist, Twists};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::axes::Link;
 use crate::kinematics::chain::dh::{DhRow, Mdh};

@@ -1,7 +1,7 @@
 //! Arms with an offset wrist: axes 2 and 3 parallel, axis 4 meets axis 5, axis 6 does not meet
 //! them. Such are ABB's GoFa, FANUC's CRX, UFACTORY's xArm6 and Kinova's JACO2.
 //!
-//! `docs/offset_wrist.md` has the derivation, with the equation numbers (from 50 on) cited in the
+//! `docs/offset_wrist.md` has the derivation, with the equation numbers (from 121 on) cited in the
 //! code.
 
 mod branch;
@@ -73,7 +73,7 @@ impl Structure<6, SLOTS> for OffsetWrist {
         self.general.singularities(q)
     }
 
-    /// The determinant (eq. 66).
+    /// The determinant (eq. 136).
     fn jacobian_determinant(&self, q: &[f64; 6]) -> f64 {
         self.determinant(&self.joint_map().theta(q))
     }

@@ -10,7 +10,7 @@ use crate::kinematics::structure::trigonometric::{SAMPLE_COS, SAMPLE_SIN};
 use crate::report::Reach;
 
 impl OffsetWrist {
-    /// How far the circle of the wrist point is from where upper arm and forearm bring it (eq. 65).
+    /// How far the circle of the wrist point is from where upper arm and forearm bring it (eq. 135).
     pub(super) fn missed(&self, last: &Frame) -> Reach {
         let hand = Hand::of::<false>(&self.lengths, last);
         let angles = SAMPLE_SIN.as_flattened().iter().zip(SAMPLE_COS.as_flattened());

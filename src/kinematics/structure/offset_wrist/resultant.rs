@@ -1,6 +1,6 @@
 //! The resultant: a trigonometric polynomial of joint 6 whose zeros are the solutions.
 //!
-//! Docs: offset_wrist.md, eq. 50 to 58. Branch-free arithmetic, which runs in lanes.
+//! Docs: offset_wrist.md, eq. 121 to 128. Branch-free arithmetic, which runs in lanes.
 
 use super::geometry::Lengths;
 use crate::kinematics::structure::end_frames::Frame;
@@ -8,7 +8,7 @@ use crate::kinematics::structure::trigonometric::{SAMPLE_COS, SAMPLE_SIN, SAMPLE
 use crate::lanes::{Column, LANES, mul_add};
 
 /// Wrist point and direction of axis 5, as they turn with joint 6: constant parts, factors of its
-/// cosine and factors of its sine (eq. 50).
+/// cosine and factors of its sine (eq. 121).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hand {
     point: [[f64; 3]; 3],
@@ -50,7 +50,7 @@ fn turned<const FUSED: bool>(parts: &[[f64; 3]; 3], sin: f64, cos: f64) -> [f64;
 }
 
 /// A number `u + sigma v`, where sigma is the distance of the wrist point from axis 1 along the
-/// plane of the arm, known by its square (eq. 54).
+/// plane of the arm, known by its square (eq. 127).
 #[derive(Clone, Copy)]
 struct Ring {
     u: f64,
@@ -72,7 +72,7 @@ impl Ring {
     }
 }
 
-/// The resultant for a wrist point and an axis 5 (eq. 55 to 58).
+/// The resultant for a wrist point and an axis 5 (eq. 125 to 128).
 #[inline(always)]
 fn resultant<const FUSED: bool>(
     lengths: &Lengths,
