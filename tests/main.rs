@@ -19,6 +19,7 @@ mod hard_sets;
 mod joint_axes;
 mod laws;
 mod nearest;
+mod offset_wrist;
 #[cfg(feature = "rapid")]
 mod rapid;
 #[cfg(feature = "rapid")]

@@ -78,7 +78,9 @@ impl Robot<6> {
         self.structure = match self.structure {
             SixJoints::SphericalWrist(solver) => SixJoints::SphericalWrist(solver.without_lanes()),
             SixJoints::ThreeParallel(solver) => SixJoints::ThreeParallel(solver.without_lanes()),
-            other @ (SixJoints::General(_) | SixJoints::Unknown(_)) => other,
+            other @ (SixJoints::OffsetWrist(_) | SixJoints::General(_) | SixJoints::Unknown(_)) => {
+                other
+            }
         };
         self
     }

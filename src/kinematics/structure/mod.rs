@@ -18,6 +18,7 @@ pub(crate) mod free_choice;
 pub(crate) mod general;
 pub(crate) mod joint_map;
 pub(crate) mod lanes;
+pub(crate) mod offset_wrist;
 pub(crate) mod planar_arm;
 pub(crate) mod recognition;
 pub(crate) mod redundancy;

@@ -22,6 +22,7 @@ use measure::PATTERN;
 
 use super::Structure;
 use super::branches::Branches;
+use super::closure::Closure;
 use super::free_choice::FreeChoice;
 use super::joint_map::JointMap;
 use super::lanes::NoKernel;
@@ -31,6 +32,13 @@ use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::pose::Pose;
 use crate::report::{Pattern, UnknownStructure};
+
+impl General {
+    /// The closure of its joints.
+    pub(crate) fn closure(&self) -> &Closure {
+        &self.closure
+    }
+}
 
 impl Structure<6, MOST_SLOTS> for General {
     const PATTERN: &'static Pattern = &PATTERN;

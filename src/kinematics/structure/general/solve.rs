@@ -50,7 +50,6 @@ impl General {
         if accepted.has_self_motion() {
             accepted.thin(&self.closure, &target);
         }
-        accepted.as_mut_slice().sort_unstable_by(in_order);
         (accepted, is_certain)
     }
 
@@ -61,6 +60,16 @@ impl General {
         _free: &FreeChoice<6>,
     ) -> Branches<6, MOST_SLOTS> {
         let (accepted, is_certain) = self.solve_all(t_first_last);
+        self.slots(accepted, is_certain)
+    }
+
+    /// Solutions in slots.
+    pub(crate) fn slots(
+        &self,
+        mut accepted: Accepted,
+        is_certain: bool,
+    ) -> Branches<6, MOST_SLOTS> {
+        accepted.as_mut_slice().sort_unstable_by(in_order);
         let is_empty = accepted.as_slice().is_empty();
         let reach = if is_empty { Reach::NoRoots } else { Reach::Reached };
         let mut branches = Branches::empty(reach);

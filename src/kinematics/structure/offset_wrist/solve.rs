@@ -1,0 +1,106 @@
+//! Every solution of a pose.
+//!
+//! Docs: offset_wrist.md, section 5.
+
+use super::SLOTS;
+use super::clusters::Clusters;
+use super::geometry::OffsetWrist;
+use super::resultant::samples;
+use super::search::Search;
+use crate::kinematics::pose::Pose;
+use crate::kinematics::structure::branches::Branches;
+use crate::kinematics::structure::closure::Accepted;
+use crate::kinematics::structure::end_frames::Frame;
+use crate::kinematics::structure::trigonometric::TrigonometricPolynomial;
+use crate::lanes::{Kernel, run};
+
+/// What the rounding of a pose changes of the resultant, relative to its coefficients [1]: they are
+/// of degree 8 in the pose's elements, and no surplus harmonic shows it.
+const NOISE_OF_POSE: f64 = 64.0 * f64::EPSILON;
+
+/// The solutions of a pose.
+pub(super) struct Found {
+    pub(super) accepted: Accepted,
+    /// Whether they are all, by the number of roots.
+    pub(super) is_certified: bool,
+}
+
+/// The solve of one pose, compiled for each instruction set.
+struct Solve<'a> {
+    arm: &'a OffsetWrist,
+    last: &'a Frame,
+}
+
+impl Kernel for Solve<'_> {
+    type Answer = Found;
+    const WIDE: bool = true;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> Found {
+        let lengths = &self.arm.lengths;
+        let mut search = Search::new::<FUSED>(self.arm, self.last);
+        let values = samples::<FUSED>(lengths, &search.hand);
+        let mut polynomial = TrigonometricPolynomial::of_samples::<FUSED>(&values);
+        polynomial.noise += NOISE_OF_POSE * polynomial.size();
+        let roots = polynomial.roots::<FUSED>();
+        let is_complete = roots.is_complete;
+        let (mut clusters, mut simple) = (Clusters::NONE, 0);
+        for root in roots.as_slice() {
+            if root.is_simple {
+                simple += if lengths.is_square { 2 } else { 1 };
+                search.at_root::<FUSED>(root);
+            } else {
+                clusters.examine(root, &mut search);
+            }
+        }
+        search.converge::<FUSED>();
+        let agree = |accepted: &Accepted| {
+            is_complete
+                && accepted.is_certain
+                && !accepted.has_self_motion()
+                && clusters.agree(accepted.as_slice(), simple)
+        };
+        if !agree(&search.accepted) {
+            search.accepted.begin();
+            search.everywhere();
+            search.converge::<FUSED>();
+        }
+        Found { is_certified: agree(&search.accepted), accepted: search.accepted }
+    }
+}
+
+impl OffsetWrist {
+    /// Every solution of a pose of frame 6, in slots.
+    pub(super) fn solve_pose(&self, t_first_last: &Pose) -> Branches<6, SLOTS> {
+        let Found { accepted, is_certified } = self.solutions(t_first_last);
+        let mut branches = self.general.slots(accepted, is_certified);
+        if accepted.as_slice().is_empty() {
+            branches.reach = self.missed(&Frame::of(t_first_last));
+        }
+        branches
+    }
+
+    /// Every solution of a pose of frame 6, by its angles theta.
+    pub(super) fn solutions(&self, t_first_last: &Pose) -> Found {
+        let last = Frame::of(t_first_last);
+        let found = run(Solve { arm: self, last: &last });
+        if found.is_certified { found } else { self.rescued(found, t_first_last) }
+    }
+
+    /// The solutions of the general method, which shares no polynomial with this one, and those
+    /// that were found.
+    #[cold]
+    fn rescued(&self, found: Found, t_first_last: &Pose) -> Found {
+        let (mut accepted, is_certain) = self.general.solve_all(t_first_last);
+        let count = accepted.as_slice().len();
+        for one in found.accepted.as_slice() {
+            accepted.insert(self.general.closure(), *one);
+        }
+        let is_certified = is_certain && accepted.as_slice().len() == count;
+        if accepted.has_self_motion() {
+            let target = self.general.closure().target_of(t_first_last);
+            accepted.thin(self.general.closure(), &target);
+        }
+        Found { accepted, is_certified }
+    }
+}
