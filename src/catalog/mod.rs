@@ -1,10 +1,13 @@
 //! The catalog: arms by name.
 
 mod abb;
+mod confdata;
 mod franka;
 mod left_out;
 mod names;
 mod universal_robots;
+
+use nalgebra::{IsometryMatrix3, Rotation3, Vector3};
 
 use crate::error::{Error, ModelFault};
 use crate::kinematics::{
@@ -99,6 +102,31 @@ pub enum CatalogGeometry {
     },
     /// Modified Denavit-Hartenberg rows: alpha [deg], a [mm], d [mm], theta offset [deg].
     Mdh(&'static [[f64; 4]]),
+    /// The same of an arm that stands turned on a body, to whose frame poses refer.
+    StandingMdh {
+        /// Position of the frame before the first row [mm].
+        xyz: [f64; 3],
+        /// Its rotation: about x, then about its own y, then about its own z [rad].
+        turns: [f64; 3],
+        /// alpha [deg], a [mm], d [mm], theta offset [deg].
+        rows: &'static [[f64; 4]],
+    },
+}
+
+/// The rows of a table in meters and radians.
+fn table<const N: usize>(rows: &[[f64; 4]]) -> Option<[DhRow; N]> {
+    let rows = <[[f64; 4]; N]>::try_from(rows).ok()?;
+    Some(rows.map(|[alpha, a, d, theta]| {
+        DhRow::new(alpha.to_radians(), a / 1e3, d / 1e3, theta.to_radians())
+    }))
+}
+
+/// The frame on which an arm stands: its position [mm] and its rotations about x, y and z [rad].
+fn standing(xyz: [f64; 3], turns: [f64; 3]) -> Pose {
+    let axes = [Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()];
+    let [x, y, z] = core::array::from_fn(|i| Rotation3::from_axis_angle(&axes[i], turns[i]));
+    let position = Vector3::from(xyz.map(|mm| mm / 1e3));
+    IsometryMatrix3::from_parts(position.into(), x * y * z)
 }
 
 /// Every arm of the catalog: ABB's by type number, then those of other makers.
@@ -200,15 +228,18 @@ where
                 Self::from_sdh(Sdh { base: Pose::identity(), rows, flange: Pose::identity() })?
             }
             CatalogGeometry::Mdh(rows) => {
-                let rows = <[[f64; 4]; N]>::try_from(rows).map_err(|_| wrong_count())?;
-                let rows = rows.map(|[alpha, a, d, theta]| {
-                    DhRow::new(alpha.to_radians(), a / 1e3, d / 1e3, theta.to_radians())
-                });
+                let rows = table(rows).ok_or_else(wrong_count)?;
                 Self::from_mdh(Mdh { base: Pose::identity(), rows, flange: Pose::identity() })?
+            }
+            CatalogGeometry::StandingMdh { xyz, turns, rows } => {
+                let rows = table(rows).ok_or_else(wrong_count)?;
+                let base = standing(xyz, turns);
+                Self::from_mdh(Mdh { base, rows, flange: Pose::identity() })?
             }
         };
         let limits =
             JointLimits::new(limits.map(|limit| limit.map(|angle| arm.angles.to_radians(angle))))?;
-        robot.with_name(arm.name).with_limits(limits).with_max_velocity(velocity)
+        let robot = robot.with_name(arm.name).with_limits(limits).with_max_velocity(velocity)?;
+        Ok(robot.with_rule(arm.own_configuration_rule()))
     }
 }

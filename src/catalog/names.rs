@@ -16,6 +16,11 @@ pub(super) const ALIASES: &[(&str, &str)] = &[
     ("Franka Emika Robot", "Panda"),
     ("FER", "Panda"),
     ("Franka Research 3", "FR3"),
+    ("IRB 14050", "IRB 14050-0.5/0.5"),
+    ("YuMi left", "IRB 14000-0.5/0.5 (left)"),
+    ("YuMi right", "IRB 14000-0.5/0.5 (right)"),
+    ("IRB 14000 left", "IRB 14000-0.5/0.5 (left)"),
+    ("IRB 14000 right", "IRB 14000-0.5/0.5 (right)"),
 ];
 
 /// Finds an arm by its name or an alias, the maker's name before it or not; case, blanks, dashes,

@@ -8,7 +8,7 @@ use super::arguments::{read_singularity_mode, thread_count};
 use super::arm::{Arm, on};
 use super::batches::{self, needed_q7, no_q7, one_q7};
 use super::classes::pose_check_class;
-use super::configurations::{self, Fallback};
+use super::configured::{self, Options};
 use super::errors::{of_seed, to_py};
 use super::found::{Found, read_weights};
 use super::nearest::{self, Seeded, read_seeded};
@@ -195,20 +195,24 @@ impl PyRobot {
     /// The solution inside the limits that has a configuration, which chooses the turns of axes 1,
     /// 4 and 6, too.
     ///
-    /// An angle within 0.01 deg of the edge of a quarter turn is taken for either side of it.
+    /// An angle within 0.01 deg of the edge of a quarter turn is taken for either side of it. A
+    /// GoFa may have two solutions with one configuration: `ik_configured_all` returns both. Its
+    /// joints, and a YuMi's, may be up to 1.5 deg beyond the limits where none is inside.
     ///
     /// Args:
     ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
     ///     configuration: (cf1, cf4, cf6, cfx): an `irbkin.Configuration`, or whole numbers of
-    ///         shape (..., 4). T, configuration and seed are broadcast.
+    ///         shape (..., 4). T, configuration, arm_angle and seed are broadcast.
+    ///     arm_angle: Arm angles [rad] of a YuMi, shape (...): eax_a of its robtargets.
     ///     fallback: With "nearest", the solution nearest to `seed` where none has the
     ///         configuration: many programs write [0, 0, 0, 0] without having calculated it.
-    ///     seed: Joint vectors [rad] of the fallback, shape (..., 6).
-    ///     out: Array to write to, shape (..., 6), float64, C-contiguous; it is returned.
+    ///     seed: Joint vectors [rad], shape (..., n): of the fallback, and those to which the
+    ///         solution of a GoFa or YuMi is the nearest; angles of zero when not given.
+    ///     out: Array to write to, shape (..., n), float64, C-contiguous; it is returned.
     ///     threads: Number of threads; 0 for one a core.
     ///
     /// Returns:
-    ///     Joint vectors [rad], shape (..., 6). In a batch, a row without such a solution, or whose
+    ///     Joint vectors [rad], shape (..., n). In a batch, a row without such a solution, or whose
     ///     pose, seed or configuration (that which `configuration` gives an invalid row) is
     ///     invalid, is NaN.
     ///
@@ -217,21 +221,75 @@ impl PyRobot {
     ///         configuration; the message, and its attribute `configurations`, have those that
     ///         exist.
     ///     InvalidPoseError, InvalidJointsError: A wrong shape, a pose that is none, a number of
-    ///         the configuration that is not whole or that the arm does not have.
-    ///     InvalidModelError: As `configuration`.
-    ///     TypeError, ValueError: Another fallback, or one without a seed.
-    #[pyo3(signature = (T, configuration, *, fallback=None, seed=None, out=None, threads=1))]
+    ///         the configuration that is not whole or that the arm does not have, a YuMi without
+    ///         arm_angle.
+    ///     InvalidModelError: As `configuration`; arm_angle of another arm than a YuMi.
+    ///     TypeError, ValueError: Another fallback, or one without a seed; a seed alone where the
+    ///         configuration names one solution.
+    #[pyo3(signature = (T, configuration, *, arm_angle=None, fallback=None, seed=None, out=None, threads=1))]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn ik_configured<'py>(
         &self,
         T: &Bound<'py, PyAny>,
         configuration: &Bound<'py, PyAny>,
+        arm_angle: Option<&Bound<'py, PyAny>>,
         fallback: Option<&str>,
         seed: Option<&Bound<'py, PyAny>>,
         out: Option<&Bound<'py, PyAny>>,
         threads: isize,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let (fallback, threads) = (Fallback { name: fallback, seed }, thread_count(threads)?);
-        configurations::ik(self.arm(), T, configuration, &fallback, out, threads)
+        let (options, threads) = (Options { arm_angle, fallback, seed }, thread_count(threads)?);
+        configured::ik(self.arm(), T, configuration, &options, out, threads)
+    }
+
+    /// Every solution of a pose that has a configuration: one, and of a GoFa perhaps two.
+    ///
+    /// Args:
+    ///     T: Pose of the tool, shape (4, 4), translation [m].
+    ///     configuration: (cf1, cf4, cf6, cfx): an `irbkin.Configuration`, or four whole numbers.
+    ///     arm_angle: Arm angle [rad] of a YuMi: eax_a of its robtargets.
+    ///     seed: Joint vector [rad], shape (n,); angles of zero when not given.
+    ///
+    /// Returns:
+    ///     Joint vectors [rad], shape (k, n), the nearest to the seed first: that is the answer of
+    ///     `ik_configured`. If k is 2, configuration and pose do not tell which is meant.
+    ///
+    /// Raises:
+    ///     UnreachableError, InvalidPoseError, InvalidJointsError, InvalidModelError: As
+    ///         `ik_configured`.
+    #[pyo3(signature = (T, configuration, *, arm_angle=None, seed=None))]
+    fn ik_configured_all<'py>(
+        &self,
+        T: &Bound<'py, PyAny>,
+        configuration: &Bound<'py, PyAny>,
+        arm_angle: Option<&Bound<'py, PyAny>>,
+        seed: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let options = Options { arm_angle, fallback: None, seed };
+        configured::all(self.arm(), T, configuration, &options)
+    }
+
+    /// Every solution of a pose that has an arm angle, of a YuMi.
+    ///
+    /// All solutions are calculated for angles of the last joint half a degree apart: two that are
+    /// closer to each other may be missed.
+    ///
+    /// Args:
+    ///     T: Pose of the tool, shape (4, 4), translation [m].
+    ///     arm_angle: Arm angle [rad]: eax_a of the robtargets of a YuMi.
+    ///
+    /// Returns:
+    ///     Joint vectors [rad], shape (k, 7), inside the limits or not.
+    ///
+    /// Raises:
+    ///     InvalidPoseError, InvalidJointsError: As `ik`; an arm_angle that is not finite.
+    ///     InvalidModelError: The arm is no YuMi of the catalog.
+    fn ik_arm_angle<'py>(
+        &self,
+        T: &Bound<'py, PyAny>,
+        arm_angle: f64,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        configured::at_arm_angle(self.arm(), T, arm_angle)
     }
 
     /// Whether a pose can be reached, inside the limits or not, and why not; with seven joints,

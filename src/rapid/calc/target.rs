@@ -1,8 +1,9 @@
 //! `CalcJointT` and `CalcRobT`.
 
+use super::axes::{joint_target, joint_vector, request, with_arm_angle};
 use super::frames::{Frames, pose_in, rapid_pose};
 use crate::error::Error;
-use crate::kinematics::{Pose, Robot};
+use crate::kinematics::{Arity, ConfigurationRequest, Inverse, Joints, Pose, Robot};
 use crate::rapid::data::records::{JointTarget, RapidPose, RobTarget, ToolData, WobjData};
 use crate::report::Explanation;
 
@@ -10,60 +11,107 @@ use crate::report::Explanation;
 /// inside the limits.
 ///
 /// A tool replaces the robot's own, which is the default. A work object is in the world frame that
-/// [`Robot::with_base`] defines. External axes are copied unchanged.
+/// [`Robot::with_base`] defines. External axes are copied unchanged, except `eax_a` of a YuMi: it
+/// is the arm angle in a robtarget and axis 7 in a jointtarget.
 ///
 /// # Errors
 ///
 /// As [`Robot::ik_configured`]; [`error_name`] gives RAPID's names. [`Error::Frame`] for a tool and
 /// a work object that cannot be combined or are not poses.
-pub fn calc_joint_t(
-    robot: &Robot<6>,
+pub fn calc_joint_t<const N: usize>(
+    robot: &Robot<N>,
     target: &RobTarget,
     tool: Option<&ToolData>,
     wobj: Option<&WobjData>,
-) -> Result<JointTarget, Error> {
-    let frames = Frames::new(robot, tool, wobj)?;
-    let q =
-        with_flange(robot)?.ik_configured(&frames.flange(&target_pose(target)?), target.robconf)?.q;
-    Ok(joint_target(&q, target.extax))
+) -> Result<JointTarget, Error>
+where
+    Robot<N>: Inverse<N>,
+    Joints<N>: Arity<N>,
+{
+    calculated(robot, target, &Frames::new(robot, tool, wobj)?, |request| request)
 }
 
-/// [`calc_joint_t`] or, if no solution has the target's configuration, the solution nearest to
+/// [`calc_joint_t`] with the solution nearest to `seed` [rad] where the configuration names more
+/// than one, as that of a GoFa may.
+///
+/// # Errors
+///
+/// As [`calc_joint_t`].
+pub fn calc_joint_t_near<const N: usize>(
+    robot: &Robot<N>,
+    target: &RobTarget,
+    tool: Option<&ToolData>,
+    wobj: Option<&WobjData>,
+    seed: &[f64; N],
+) -> Result<JointTarget, Error>
+where
+    Robot<N>: Inverse<N>,
+    Joints<N>: Arity<N>,
+{
+    let frames = Frames::new(robot, tool, wobj)?;
+    calculated(robot, target, &frames, |request| request.near(*seed))
+}
+
+/// [`calc_joint_t_near`] or, if no solution has the target's configuration, the solution nearest to
 /// `seed` [rad].
 ///
 /// # Errors
 ///
 /// As [`calc_joint_t`], and never [`Error::NoConfiguration`].
-pub fn calc_joint_t_or_nearest(
-    robot: &Robot<6>,
+pub fn calc_joint_t_or_nearest<const N: usize>(
+    robot: &Robot<N>,
     target: &RobTarget,
     tool: Option<&ToolData>,
     wobj: Option<&WobjData>,
-    seed: &[f64; 6],
-) -> Result<JointTarget, Error> {
+    seed: &[f64; N],
+) -> Result<JointTarget, Error>
+where
+    Robot<N>: Inverse<N>,
+    Joints<N>: Arity<N>,
+{
     let frames = Frames::new(robot, tool, wobj)?;
-    let q = with_flange(robot)?
-        .ik_configured_or_nearest(&frames.flange(&target_pose(target)?), target.robconf, seed)?
-        .q;
+    calculated(robot, target, &frames, |request| request.or_nearest(*seed))
+}
+
+fn calculated<const N: usize>(
+    robot: &Robot<N>,
+    target: &RobTarget,
+    frames: &Frames,
+    chosen: impl FnOnce(ConfigurationRequest<N>) -> ConfigurationRequest<N>,
+) -> Result<JointTarget, Error>
+where
+    Robot<N>: Inverse<N>,
+    Joints<N>: Arity<N>,
+{
+    let pose = frames.flange(&target_pose(target)?);
+    let request = chosen(request(robot, target)?);
+    let q = with_flange(robot)?.ik_configured(&pose, request)?.q;
     Ok(joint_target(&q, target.extax))
 }
 
 /// The robtarget of joint angles, with its configuration, as by RAPID's `CalcRobT`.
 ///
+/// External axes are copied unchanged, except `eax_a` of a YuMi, as in [`calc_joint_t`].
+///
 /// # Errors
 ///
 /// As [`Robot::configuration`], and [`Error::Frame`] as [`calc_joint_t`]. Limits are not checked.
-pub fn calc_rob_t(
-    robot: &Robot<6>,
+pub fn calc_rob_t<const N: usize>(
+    robot: &Robot<N>,
     joints: &JointTarget,
     tool: Option<&ToolData>,
     wobj: Option<&WobjData>,
-) -> Result<RobTarget, Error> {
+) -> Result<RobTarget, Error>
+where
+    Robot<N>: Inverse<N>,
+    Joints<N>: Arity<N>,
+{
     let frames = Frames::new(robot, tool, wobj)?;
-    let q = joints.robax_deg.map(f64::to_radians);
+    let q = joint_vector(joints);
     let robconf = robot.configuration(&q)?;
+    let extax = with_arm_angle(robot, &q, joints.extax)?;
     let RapidPose { trans_mm, rot } = rapid_pose(&frames.tool(&with_flange(robot)?.fk(&q)));
-    Ok(RobTarget { trans_mm, rot, robconf, extax: joints.extax })
+    Ok(RobTarget { trans_mm, rot, robconf, extax })
 }
 
 /// RAPID's name of an error of [`calc_joint_t`]: `ERR_OUTSIDE_REACH` if the arm is too short or too
@@ -79,15 +127,14 @@ pub fn error_name(error: &Error) -> Option<&'static str> {
 }
 
 /// The same robot with the flange as its tool.
-pub(in crate::rapid) fn with_flange(robot: &Robot<6>) -> Result<Robot<6>, Error> {
+pub(in crate::rapid) fn with_flange<const N: usize>(robot: &Robot<N>) -> Result<Robot<N>, Error>
+where
+    Joints<N>: Arity<N>,
+{
     robot.clone().with_tool(&Pose::identity())
 }
 
 /// The tool in the work object [m].
 pub(in crate::rapid) fn target_pose(target: &RobTarget) -> Result<Pose, Error> {
     pose_in(&RapidPose { trans_mm: target.trans_mm, rot: target.rot }, "robtarget")
-}
-
-pub(in crate::rapid) fn joint_target(q: &[f64; 6], extax: [f64; 6]) -> JointTarget {
-    JointTarget { robax_deg: q.map(f64::to_degrees), extax }
 }

@@ -28,7 +28,7 @@ pub enum Code {
     WrongConfdata,
     /// A line or an arc arrives with another configuration than its target has.
     OtherConfiguration,
-    /// Many joint vectors have the confdata of a singular target.
+    /// More than one joint vector has the confdata of a target.
     AmbiguousConfdata,
     /// A line or an arc passes the wrist singularity.
     WristSingularity,
@@ -184,6 +184,7 @@ fn of_target(problem: &Problem) -> Code {
         Problem::WorkObject { reason, .. } => undeclared(reason, Code::UnknownWorkObject),
         Problem::Displaced { .. } => Code::NotFollowed,
         Problem::AbsentAxis { .. } => Code::AbsentAxis,
+        Problem::Ambiguous { .. } => Code::AmbiguousConfdata,
         Problem::NotSolved(Error::Unreachable(Explanation::OutOfReach(_))) => Code::OutOfReach,
         Problem::OutsideLimits { .. }
         | Problem::OutsideLinkageLimits { .. }

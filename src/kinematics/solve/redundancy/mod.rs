@@ -30,7 +30,9 @@ use crate::kinematics::structure::any::SevenJoints;
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::structure::solver::Solver;
 use crate::kinematics::structure::spherical_shoulder::{EDGES, SphericalShoulder};
-use crate::kinematics::thresholds::{JOINT_7_FINER_SPACING, JOINT_7_SPACING};
+use crate::kinematics::thresholds::{
+    JOINT_7_FINER_SPACING, JOINT_7_SPACING, POSITION_ROUNDING, ROTATION_ROUNDING,
+};
 use crate::report::Explanation;
 
 impl Robot<7> {
@@ -70,10 +72,9 @@ impl Robot<7> {
         if let Some(reason) = self.unknown_structure() {
             return Err(ModelFault::UnknownStructure(reason).into());
         }
-        let rounding = self.shoulder_solver().map_or(0.0, |solver| solver.structure.rounding());
         let mut search = Search {
             robot: self,
-            curve: SelfMotion { robot: self, pose, rounding },
+            curve: SelfMotion { robot: self, pose, rounding: self.rounding() },
             pose,
             seed: *seed,
             weights: *weights,
@@ -83,6 +84,17 @@ impl Robot<7> {
         };
         search.run()?;
         Ok(search)
+    }
+
+    /// Upper bound of the rounding of a pose of this arm [m, rad].
+    pub(super) fn rounding(&self) -> f64 {
+        if let Some(solver) = self.shoulder_solver() {
+            return solver.structure.rounding();
+        }
+        let rows = self.mdh().rows.iter().map(|row| row.a.abs() + row.d.abs());
+        let ends = [self.base(), &self.mdh().base, &self.mdh().flange, self.tool()];
+        let ends = ends.into_iter().map(|end| end.translation.vector.norm());
+        (POSITION_ROUNDING * rows.chain(ends).sum::<f64>()).max(ROTATION_ROUNDING)
     }
 
     /// The angles of joint 7 at which branches of the pose begin or end [rad].

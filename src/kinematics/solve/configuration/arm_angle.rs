@@ -1,0 +1,278 @@
+//! The arm angle of a YuMi: the seventh number that, with a pose, determines its joints.
+//!
+//! Reference: Elias and Wen, Redundancy Parameterization of the ABB YuMi Robot Arm,
+//! arXiv:2505.23111, 2025. docs/abb.md has the equations.
+
+use core::f64::consts::{PI, TAU};
+
+use alloc::vec::Vec;
+
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+use nalgebra::{Point3, Vector3};
+
+use super::request::ConfigurationRequest;
+use super::rule::Quarters;
+use crate::error::{Error, JointFault, ModelFault, NoConfiguration};
+use crate::kinematics::answer::check::{check_angle, check_seed};
+use crate::kinematics::answer::slot::Slot;
+use crate::kinematics::answer::solutions::Solution;
+use crate::kinematics::answer::status::Status;
+use crate::kinematics::pose::angles::wrap;
+use crate::kinematics::pose::{Pose, checked_pose};
+use crate::kinematics::robot::Robot;
+use crate::kinematics::solve::self_motion_curve::{Joints, SelfMotion};
+use crate::kinematics::thresholds::{
+    ARM_ANGLE_OFF, CONFIGURATION_EDGE, SAMPLE_LEAP, TAUGHT_BEYOND_LIMITS,
+};
+use crate::report::{Configuration, ConfigurationRule, Explanation};
+
+/// Spacing of the angles of the last joint at which all solutions are computed [rad]: half a
+/// degree. Solutions of one arm angle that are nearer to each other may be missed.
+const SPACING: f64 = PI / 360.0;
+
+/// How far the arm angle of a sample may be from the wanted one, beyond its change from sample to
+/// sample, for a search to start there [rad].
+const NEAR: f64 = 0.05;
+
+/// Angle by which joints differ from those of another solution, at least [rad].
+const APART: f64 = 1e-6;
+
+/// Number of solutions of one pose and arm angle that are kept: the most seen is sixteen.
+const MOST: usize = 48;
+
+/// What the arm angle of a pose is measured by (docs/abb.md, eq. A4).
+struct ArmAngle<'a> {
+    robot: &'a Robot<7>,
+    /// The unit vector from shoulder to wrist.
+    toward_wrist: Vector3<f64>,
+    /// Where the arm angle is zero: square to the plane of `toward_wrist` and the reference.
+    zero: Vector3<f64>,
+    /// Where it is a quarter turn: in that plane.
+    quarter: Vector3<f64>,
+}
+
+impl<'a> ArmAngle<'a> {
+    /// That of a pose; `None` if the wrist is at the shoulder, or straight along the reference.
+    fn of(robot: &'a Robot<7>, reference: [f64; 3], pose: &Pose) -> Option<Self> {
+        let t_world_last = pose * (robot.mdh().flange * robot.tool()).inverse();
+        let wrist = t_world_last * Point3::new(0.0, 0.0, -robot.mdh().rows[6].d);
+        let [first, ..] = robot.link_frames(&[0.0; 7]).0;
+        let along = wrist.coords - first.translation.vector;
+        let toward_wrist = along.try_normalize(0.0)?;
+        let reference = robot.base().rotation * Vector3::from(reference);
+        // -er . (e x (e x h)) = h . (er - e (e . er)) and er . (e x h) = h . (er x e).
+        let zero = reference.cross(&toward_wrist);
+        let quarter = reference - toward_wrist * toward_wrist.dot(&reference);
+        (zero.norm() > 0.0).then_some(Self { robot, toward_wrist, zero, quarter })
+    }
+
+    /// The arm angle of joint angles that reach the pose, and its gradient; `None` if axis 3 points
+    /// from the shoulder to the wrist.
+    fn at(&self, q: &[f64; 7]) -> Option<(f64, Joints)> {
+        let (frames, _) = self.robot.link_frames(q);
+        let axis = |frame: &Pose| frame.rotation * Vector3::z();
+        let elbow = axis(&frames[3]);
+        let (sine, cosine) = (elbow.dot(&self.quarter), elbow.dot(&self.zero));
+        let size = sine * sine + cosine * cosine;
+        let mut gradient = Joints::zeros();
+        for (joint, frame) in frames.iter().enumerate().take(3) {
+            let turned = axis(frame).cross(&elbow);
+            let (d_sine, d_cosine) = (turned.dot(&self.quarter), turned.dot(&self.zero));
+            gradient[joint] = (cosine * d_sine - sine * d_cosine) / size;
+        }
+        let is_determined = elbow.cross(&self.toward_wrist).norm() > f64::EPSILON;
+        is_determined.then(|| (sine.atan2(cosine), gradient))
+    }
+}
+
+/// A solution at one angle of the last joint, and how far its arm angle is from the wanted one.
+#[derive(Clone, Copy)]
+struct Sample {
+    q: [f64; 7],
+    off: f64,
+}
+
+impl Sample {
+    fn apart(&self, other: &Self) -> f64 {
+        largest_difference(&self.q, &other.q)
+    }
+}
+
+fn largest_difference(a: &[f64; 7], b: &[f64; 7]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| wrap(a - b).abs()).fold(0.0, f64::max)
+}
+
+/// The search for the joint vectors of a pose that have an arm angle.
+struct Search<'a> {
+    curve: SelfMotion<'a>,
+    angle: ArmAngle<'a>,
+    wanted: f64,
+    found: [Option<Solution<7>>; MOST],
+}
+
+impl Search<'_> {
+    /// The solutions with the last joint at an angle.
+    fn samples(&self, last: f64) -> Result<([Option<Sample>; 16], usize), Error> {
+        let solutions = self.curve.robot.ik_checked(*self.curve.pose, last)?;
+        let mut samples = [None; 16];
+        for (place, solution) in samples.iter_mut().zip(&solutions) {
+            let at = self.angle.at(&solution.q);
+            *place = at.map(|(angle, _)| Sample { q: solution.q, off: wrap(angle - self.wanted) });
+        }
+        Ok((samples, solutions.len()))
+    }
+
+    /// Search with the last joint between two angles.
+    fn run(&mut self, [from, to]: [f64; 2]) -> Result<(), Error> {
+        let count = ((to - from) / SPACING).ceil().max(1.0);
+        let (mut before, _) = self.samples(from)?;
+        let mut number = 1.0;
+        while number <= count {
+            let (after, _) = self.samples(from + (to - from) * number / count)?;
+            for (here, there) in [(&before, &after), (&after, &before)] {
+                for sample in here.iter().flatten() {
+                    self.start(sample, there);
+                }
+            }
+            (before, number) = (after, number + 1.0);
+        }
+        Ok(())
+    }
+
+    /// Start from a sample if the arm angle may be the wanted one between it and its neighbor.
+    fn start(&mut self, sample: &Sample, neighbors: &[Option<Sample>]) {
+        let nearest = neighbors
+            .iter()
+            .flatten()
+            .min_by(|a, b| sample.apart(a).total_cmp(&sample.apart(b)))
+            .filter(|nearest| sample.apart(nearest) <= SAMPLE_LEAP);
+        // Where a branch ends, another one begins that is not among the samples.
+        let change = nearest.map_or(PI, |nearest| wrap(sample.off - nearest.off).abs());
+        if sample.off.abs() > change + NEAR {
+            return;
+        }
+        let seventh = |q: &Joints| match self.angle.at(&(*q).into()) {
+            Some((angle, gradient)) => (gradient, wrap(self.wanted - angle)),
+            None => (Joints::zeros(), f64::NAN),
+        };
+        let Some(point) = self.curve.newton(sample.q.into(), seventh) else { return };
+        let q = self.curve.robot.limits().wrap(point.joints().map(wrap));
+        let off = self.angle.at(&q).map_or(PI, |(angle, _)| wrap(angle - self.wanted).abs());
+        if off <= ARM_ANGLE_OFF {
+            self.keep(q);
+        }
+    }
+
+    fn keep(&mut self, q: [f64; 7]) {
+        let known = |found: &&Solution<7>| largest_difference(&found.q, &q) <= APART;
+        if self.found.iter().flatten().any(|found| known(&found)) {
+            return;
+        }
+        let robot = self.curve.robot;
+        let mut status = Status::FOUND | Status::from(robot.singularity(&q).kinds);
+        status.set(Status::WITHIN_LIMITS, robot.limits().contains(&q));
+        let slot = robot.slot_of(&q).unwrap_or(Slot::new(0));
+        if let Some(place) = self.found.iter_mut().find(|place| place.is_none()) {
+            *place = Some(Solution { q, slot, status, free_joint: None });
+        }
+    }
+}
+
+impl Robot<7> {
+    /// The arm angle of joint angles [rad], as a YuMi's controller has it in the `eax_a` of a
+    /// robtarget; `None` where the arm leaves it undetermined.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidJoints`] when an angle is not finite; [`Error::InvalidModel`] for an arm
+    /// that is not a YuMi of the catalog.
+    pub fn arm_angle(&self, q: &[f64; 7]) -> Result<Option<f64>, Error> {
+        let reference = self.arm_angle_reference()?;
+        check_seed("q", q)?;
+        let pose = self.fk(q);
+        let angle = ArmAngle::of(self, reference, &pose);
+        Ok(angle.and_then(|angle| angle.at(q)).map(|(angle, _)| angle))
+    }
+
+    /// Every joint vector that brings the tool to `pose` with an arm angle [rad], inside the limits
+    /// or not.
+    ///
+    /// The search computes all solutions for angles of the last joint half a degree apart: two
+    /// solutions that are closer to each other may be missed.
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::arm_angle`] and [`Robot::ik_with`].
+    pub fn ik_arm_angle(&self, pose: &Pose, arm_angle: f64) -> Result<Vec<Solution<7>>, Error> {
+        check_angle("arm_angle", 7, arm_angle)?;
+        let found = self.at_arm_angle(&checked_pose(pose)?, arm_angle, [-PI, PI])?;
+        Ok(found.into_iter().flatten().collect())
+    }
+
+    /// Every joint vector that has the configuration and the arm angle of a request, the nearest to
+    /// a seed first.
+    pub(in crate::kinematics::solve) fn configured_list(
+        &self,
+        pose: &Pose,
+        request: &ConfigurationRequest<7>,
+        seed: &[f64; 7],
+    ) -> Result<Vec<Solution<7>>, Error> {
+        let (rule, wanted) = (self.configuration_rule()?, request.configuration);
+        wanted.check(false)?;
+        let arm_angle = request.arm_angle.ok_or(JointFault::MissingArmAngle)?;
+        let range = Quarters::of(&rule).ranges(wanted, CONFIGURATION_EDGE)[2];
+        let limits = self.limits().widened(TAUGHT_BEYOND_LIMITS).narrowed(&[range]);
+        if let Some(limits) = limits {
+            let found = self.at_arm_angle(pose, arm_angle, limits.to_array()[6])?;
+            if let Some(having) = self.having(&rule, found.iter().flatten().copied(), wanted) {
+                return Ok(having.all(seed));
+            }
+        }
+        Err(self.no_configuration_at(&rule, pose, wanted, arm_angle)?)
+    }
+
+    /// The reason why no joint vector has a configuration and an arm angle.
+    fn no_configuration_at(
+        &self,
+        rule: &ConfigurationRule,
+        pose: &Pose,
+        wanted: Configuration,
+        arm_angle: f64,
+    ) -> Result<Error, Error> {
+        let mut none = NoConfiguration { wanted, existing: Vec::new(), more: false, free: None };
+        for solution in self.ik_arm_angle(pose, arm_angle)? {
+            self.list_turns(rule, &solution, &mut none);
+        }
+        if !none.existing.is_empty() {
+            return Ok(Error::NoConfiguration(none));
+        }
+        Ok(Error::Unreachable(match self.explain_along_redundancy(pose)? {
+            Explanation::Found { .. } => Explanation::NoArmAngle { arm_angle },
+            other => other,
+        }))
+    }
+
+    /// The joint vectors of a pose that have an arm angle, with the last joint in a range, at most
+    /// a turn.
+    fn at_arm_angle(
+        &self,
+        pose: &Pose,
+        wanted: f64,
+        [from, to]: [f64; 2],
+    ) -> Result<[Option<Solution<7>>; MOST], Error> {
+        let reference = self.arm_angle_reference()?;
+        let Some(angle) = ArmAngle::of(self, reference, pose) else { return Ok([None; MOST]) };
+        let curve = SelfMotion { robot: self, pose, rounding: self.rounding() };
+        let mut search = Search { curve, angle, wanted, found: [None; MOST] };
+        search.run([from, to.min(from + TAU)])?;
+        Ok(search.found)
+    }
+
+    fn arm_angle_reference(&self) -> Result<[f64; 3], Error> {
+        match self.own_rule() {
+            Some(ConfigurationRule::ArmAngle { reference }) => Ok(reference),
+            _ => Err(ModelFault::NoArmAngle.into()),
+        }
+    }
+}
