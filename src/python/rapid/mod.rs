@@ -172,12 +172,8 @@ pub(super) fn calc_joint_t<'py>(
     let (arm, target) = (robot.get().arm(), read_rob_target(target)?);
     let Cell { tool, wobj } = Cell::read(py, arm, tool, wobj)?;
     let (tool, wobj) = (tool.as_ref(), wobj.as_ref());
-    let joints = on!(arm, robot => match read_choice(arm, fallback, seed)? {
-        Choice::OrNearest(seed) => {
-            rapid::calc_joint_t_or_nearest(robot, &target, tool, wobj, &seed)
-        }
-        Choice::Near(seed) => rapid::calc_joint_t_near(robot, &target, tool, wobj, &seed),
-        Choice::Alone => rapid::calc_joint_t(robot, &target, tool, wobj),
+    let joints = on!(arm, robot => {
+        rapid::joint_target_of(robot, &target, tool, wobj, read_fallback(arm, fallback, seed)?)
     });
     joint_target(py, &joints.map_err(|error| named(py, &error))?)
 }
@@ -209,7 +205,7 @@ pub(super) fn calc_rob_t<'py>(
     let (joints, Cell { tool, wobj }) =
         (read_joint_target(joints, arm.dof())?, Cell::read(py, arm, tool, wobj)?);
     let (tool, wobj) = (tool.as_ref(), wobj.as_ref());
-    let target = on!(arm, robot => rapid::calc_rob_t(robot, &joints, tool, wobj));
+    let target = on!(arm, robot => rapid::rob_target_of(robot, &joints, tool, wobj));
     rob_target(py, &target.map_err(|error| to_py(py, &error))?)
 }
 
@@ -242,7 +238,7 @@ pub(super) fn calc_moves<'py>(
     check_rule(py, arm)?;
     on!(arm, robot => {
         let fallback = read_fallback(arm, fallback, seed)?;
-        let rows = py.detach(|| rapid::calc_moves(robot, module, fallback));
+        let rows = py.detach(|| rapid::moves_table(robot, module, fallback));
         table(py, &rows.map_err(|error| to_py(py, &error))?)
     })
 }
@@ -281,7 +277,7 @@ pub(super) fn calc_targets<'py>(
     let (tool, wobj) = (tool.as_ref(), wobj.as_ref());
     on!(arm, robot => {
         let fallback = read_fallback(arm, fallback, seed)?;
-        let rows = py.detach(|| rapid::calc_targets(robot, module, tool, wobj, fallback));
+        let rows = py.detach(|| rapid::targets_table(robot, module, tool, wobj, fallback));
         table(py, &rows.map_err(|error| to_py(py, &error))?)
     })
 }
@@ -313,36 +309,15 @@ fn six_joints<'a>(robot: &'a Bound<'_, PyRobot>, call: &str) -> PyResult<&'a Arc
 }
 
 /// What a seed [rad] is for.
-enum Choice<const N: usize> {
-    /// There is none.
-    Alone,
-    /// Of the solutions with the configuration the nearest one.
-    Near([f64; N]),
-    /// The same and, if there is none, the nearest of all.
-    OrNearest([f64; N]),
-}
-
-fn read_choice<const N: usize>(
+fn read_fallback<const N: usize>(
     arm: &Arm,
     fallback: Option<&str>,
     seed: Option<&Bound<'_, PyAny>>,
-) -> PyResult<Choice<N>> {
-    let or_nearest = Options { arm_angle: None, fallback, seed }.or_nearest(arm)?;
-    let Some(seed) = seed else { return Ok(Choice::Alone) };
-    let (seed, _) = read_seed::<N>(seed, None)?;
-    Ok(if or_nearest { Choice::OrNearest(seed) } else { Choice::Near(seed) })
-}
-
-fn read_fallback<const N: usize>(
-    arm: &Arm,
-    name: Option<&str>,
-    seed: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<rapid::Fallback<N>> {
-    Ok(match read_choice(arm, name, seed)? {
-        Choice::Alone => rapid::Fallback::None,
-        Choice::Near(seed) => rapid::Fallback::Near(seed),
-        Choice::OrNearest(seed) => rapid::Fallback::Nearest(seed),
-    })
+    let or_nearest = Options { arm_angle: None, fallback, seed }.or_nearest(arm)?;
+    let Some(seed) = seed else { return Ok(rapid::Fallback::None) };
+    let (seed, _) = read_seed::<N>(seed, None)?;
+    Ok(if or_nearest { rapid::Fallback::Nearest(seed) } else { rapid::Fallback::Near(seed) })
 }
 
 /// With RAPID's name of the error.

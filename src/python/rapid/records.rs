@@ -10,7 +10,7 @@ use crate::python::errors::{Fault, rapid_fault, to_py};
 use crate::python::records as python_records;
 use crate::rapid::{
     Content, JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, SpeedData, ToolData, Value,
-    WobjData, ZoneData, joint_target_of,
+    WobjData, ZoneData, joint_target as rapid_joint_target,
 };
 use crate::report::Configuration;
 
@@ -270,7 +270,7 @@ pub(super) fn read_joint_target(given: &Bound<'_, PyAny>, dof: usize) -> PyResul
 fn of_vector<const N: usize>(given: &Bound<'_, PyAny>) -> PyResult<JointTarget> {
     let q = vector::<N>(given, "joints", Fault::Joints)?;
     check_joints("joints", &q).map_err(|error| to_py(given.py(), &error))?;
-    Ok(joint_target_of(&q, [NOT_THERE; 6]))
+    Ok(rapid_joint_target(&q, [NOT_THERE; 6]))
 }
 
 pub(super) fn read_tool(given: &Bound<'_, PyAny>) -> PyResult<ToolData> {

@@ -5,6 +5,7 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use super::axes::{absent_axis, joint_vector, request};
+use super::fallback::Fallback;
 use super::frames::Frames;
 use super::problem::Problem;
 use super::target::{target_pose, with_flange};
@@ -36,19 +37,6 @@ pub struct TableRow<const N: usize = 6> {
     pub problem: Option<Problem>,
 }
 
-/// The treatment of a target whose configuration no solution has.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Fallback<const N: usize = 6> {
-    /// It has no joint angles.
-    None,
-    /// It has no joint angles. If a configuration names more than one solution, it gets the one
-    /// nearest to the previous joint angles; these [rad] are before the first target.
-    Near([f64; N]),
-    /// It gets the solution nearest to the previous joint angles (for the first target, to these
-    /// [rad]), and the problem reports so.
-    Nearest([f64; N]),
-}
-
 /// The joint angles of every target of the module's moves, in order; a `MoveC` has two.
 ///
 /// Each is solved with its own tool and work object. A `MoveAbsJ` has the joint angles that it
@@ -59,7 +47,20 @@ pub enum Fallback<const N: usize = 6> {
 ///
 /// [`Error::InvalidModel`] for an arm without configurations. A problem with one target is reported
 /// in its row.
-pub fn calc_moves<const N: usize>(
+pub fn calc_moves(
+    robot: &Robot<6>,
+    module: &Module,
+    fallback: Fallback,
+) -> Result<Vec<TableRow>, Error> {
+    moves_table(robot, module, fallback)
+}
+
+/// [`calc_moves`] of an arm of any number of joints that has configurations.
+///
+/// # Errors
+///
+/// As [`calc_moves`].
+pub fn moves_table<const N: usize>(
     robot: &Robot<N>,
     module: &Module,
     fallback: Fallback<N>,
@@ -87,7 +88,22 @@ where
 /// # Errors
 ///
 /// As [`calc_moves`], and [`Error::Frame`] as [`calc_joint_t`](crate::rapid::calc_joint_t).
-pub fn calc_targets<const N: usize>(
+pub fn calc_targets(
+    robot: &Robot<6>,
+    module: &Module,
+    tool: Option<&ToolData>,
+    wobj: Option<&WobjData>,
+    fallback: Fallback,
+) -> Result<Vec<TableRow>, Error> {
+    targets_table(robot, module, tool, wobj, fallback)
+}
+
+/// [`calc_targets`] of an arm of any number of joints that has configurations.
+///
+/// # Errors
+///
+/// As [`calc_targets`].
+pub fn targets_table<const N: usize>(
     robot: &Robot<N>,
     module: &Module,
     tool: Option<&ToolData>,

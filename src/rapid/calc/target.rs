@@ -1,9 +1,10 @@
 //! `CalcJointT` and `CalcRobT`.
 
 use super::axes::{joint_target, joint_vector, request, with_arm_angle};
+use super::fallback::Fallback;
 use super::frames::{Frames, pose_in, rapid_pose};
 use crate::error::Error;
-use crate::kinematics::{Arity, ConfigurationRequest, Inverse, Joints, Pose, Robot};
+use crate::kinematics::{Arity, Inverse, Joints, Pose, Robot};
 use crate::rapid::data::records::{JointTarget, RapidPose, RobTarget, ToolData, WobjData};
 use crate::report::Explanation;
 
@@ -11,92 +12,87 @@ use crate::report::Explanation;
 /// inside the limits.
 ///
 /// A tool replaces the robot's own, which is the default. A work object is in the world frame that
-/// [`Robot::with_base`] defines. External axes are copied unchanged, except `eax_a` of a YuMi: it
-/// is the arm angle in a robtarget and axis 7 in a jointtarget.
+/// [`Robot::with_base`] defines. External axes are copied unchanged.
 ///
 /// # Errors
 ///
 /// As [`Robot::ik_configured`]; [`error_name`] gives RAPID's names. [`Error::Frame`] for a tool and
 /// a work object that cannot be combined or are not poses.
-pub fn calc_joint_t<const N: usize>(
-    robot: &Robot<N>,
+pub fn calc_joint_t(
+    robot: &Robot<6>,
     target: &RobTarget,
     tool: Option<&ToolData>,
     wobj: Option<&WobjData>,
-) -> Result<JointTarget, Error>
-where
-    Robot<N>: Inverse<N>,
-    Joints<N>: Arity<N>,
-{
-    calculated(robot, target, &Frames::new(robot, tool, wobj)?, |request| request)
+) -> Result<JointTarget, Error> {
+    joint_target_of(robot, target, tool, wobj, Fallback::None)
 }
 
-/// [`calc_joint_t`] with the solution nearest to `seed` [rad] where the configuration names more
-/// than one, as that of a GoFa may.
-///
-/// # Errors
-///
-/// As [`calc_joint_t`].
-pub fn calc_joint_t_near<const N: usize>(
-    robot: &Robot<N>,
-    target: &RobTarget,
-    tool: Option<&ToolData>,
-    wobj: Option<&WobjData>,
-    seed: &[f64; N],
-) -> Result<JointTarget, Error>
-where
-    Robot<N>: Inverse<N>,
-    Joints<N>: Arity<N>,
-{
-    let frames = Frames::new(robot, tool, wobj)?;
-    calculated(robot, target, &frames, |request| request.near(*seed))
-}
-
-/// [`calc_joint_t_near`] or, if no solution has the target's configuration, the solution nearest to
+/// [`calc_joint_t`] or, if no solution has the target's configuration, the solution nearest to
 /// `seed` [rad].
 ///
 /// # Errors
 ///
 /// As [`calc_joint_t`], and never [`Error::NoConfiguration`].
-pub fn calc_joint_t_or_nearest<const N: usize>(
+pub fn calc_joint_t_or_nearest(
+    robot: &Robot<6>,
+    target: &RobTarget,
+    tool: Option<&ToolData>,
+    wobj: Option<&WobjData>,
+    seed: &[f64; 6],
+) -> Result<JointTarget, Error> {
+    joint_target_of(robot, target, tool, wobj, Fallback::Nearest(*seed))
+}
+
+/// [`calc_joint_t`] of an arm of six joints or of a `YuMi`, whose `eax_a` is the arm angle in a
+/// robtarget and axis 7 in a jointtarget.
+///
+/// # Errors
+///
+/// As [`calc_joint_t`].
+pub fn joint_target_of<const N: usize>(
     robot: &Robot<N>,
     target: &RobTarget,
     tool: Option<&ToolData>,
     wobj: Option<&WobjData>,
-    seed: &[f64; N],
+    fallback: Fallback<N>,
 ) -> Result<JointTarget, Error>
 where
     Robot<N>: Inverse<N>,
     Joints<N>: Arity<N>,
 {
     let frames = Frames::new(robot, tool, wobj)?;
-    calculated(robot, target, &frames, |request| request.or_nearest(*seed))
-}
-
-fn calculated<const N: usize>(
-    robot: &Robot<N>,
-    target: &RobTarget,
-    frames: &Frames,
-    chosen: impl FnOnce(ConfigurationRequest<N>) -> ConfigurationRequest<N>,
-) -> Result<JointTarget, Error>
-where
-    Robot<N>: Inverse<N>,
-    Joints<N>: Arity<N>,
-{
     let pose = frames.flange(&target_pose(target)?);
-    let request = chosen(request(robot, target)?);
+    let request = request(robot, target)?;
+    let request = match fallback {
+        Fallback::None => request,
+        Fallback::Near(seed) => request.near(seed),
+        Fallback::Nearest(seed) => request.or_nearest(seed),
+    };
     let q = with_flange(robot)?.ik_configured(&pose, request)?.q;
     Ok(joint_target(&q, target.extax))
 }
 
 /// The robtarget of joint angles, with its configuration, as by RAPID's `CalcRobT`.
 ///
-/// External axes are copied unchanged, except `eax_a` of a YuMi, as in [`calc_joint_t`].
-///
 /// # Errors
 ///
 /// As [`Robot::configuration`], and [`Error::Frame`] as [`calc_joint_t`]. Limits are not checked.
-pub fn calc_rob_t<const N: usize>(
+pub fn calc_rob_t(
+    robot: &Robot<6>,
+    joints: &JointTarget,
+    tool: Option<&ToolData>,
+    wobj: Option<&WobjData>,
+) -> Result<RobTarget, Error> {
+    rob_target_of(robot, joints, tool, wobj)
+}
+
+/// [`calc_rob_t`] of an arm of six joints or of a `YuMi`, whose `eax_a` is axis 7 in a jointtarget
+/// and the arm angle in a robtarget.
+///
+/// # Errors
+///
+/// As [`calc_rob_t`].
+pub fn rob_target_of<const N: usize>(
     robot: &Robot<N>,
     joints: &JointTarget,
     tool: Option<&ToolData>,

@@ -23,11 +23,12 @@ use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::solutions::Solution;
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::pose::Pose;
+use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::self_motion::meets;
 use crate::kinematics::solve::self_motion_curve::{Joints, SelfMotion};
-use crate::kinematics::structure::any::SevenJoints;
 use crate::kinematics::structure::free_choice::FreeChoice;
+use crate::kinematics::structure::seven_joints::SevenJoints;
 use crate::kinematics::structure::solver::Solver;
 use crate::kinematics::structure::spherical_shoulder::{EDGES, SphericalShoulder};
 use crate::kinematics::thresholds::{
@@ -76,6 +77,7 @@ impl Robot<7> {
             robot: self,
             curve: SelfMotion { robot: self, pose, rounding: self.rounding() },
             pose,
+            are_named: self.slot_names().is_some(),
             seed: *seed,
             weights: *weights,
             best: None,
@@ -108,17 +110,21 @@ impl Robot<7> {
     fn shoulder_solver(&self) -> Option<&Solver<SphericalShoulder, 7, 8>> {
         match self.solver() {
             SevenJoints::SphericalShoulder(solver) => Some(solver),
-            SevenJoints::Unknown(_) => None,
+            SevenJoints::LastGiven(_) | SevenJoints::Unknown(_) => None,
         }
     }
 
     /// A joint vector of the pose, in its slot.
     fn solution_at(&self, pose: &Pose, q: [f64; 7]) -> Result<Solution<7>, Error> {
-        let slot = self.slot_of(&q).unwrap_or(Slot::new(0));
-        let free = self
-            .solve(*pose, &FreeChoice::seed(q))?
-            .slot(slot.index())
-            .and_then(|solution| solution.free_joint);
+        let solutions = self.solve(*pose, &FreeChoice::seed(q))?;
+        let own = self.slot_of(&q);
+        let apart = |solution: &&Solution<7>| {
+            (0..7).map(|joint| wrap(solution.q[joint] - q[joint]).powi(2)).sum::<f64>()
+        };
+        // The ordinal of the solution that this one is.
+        let nearest = solutions.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
+        let slot = own.or(nearest.map(|nearest| nearest.slot)).unwrap_or(Slot::new(0));
+        let free = solutions.slot(slot.index()).and_then(|solution| solution.free_joint);
         let status =
             Status::FOUND | Status::WITHIN_LIMITS | Status::from(self.singularity(&q).kinds);
         Ok(Solution { q, slot, status, free_joint: free })
@@ -147,6 +153,8 @@ struct Search<'a> {
     robot: &'a Robot<7>,
     curve: SelfMotion<'a>,
     pose: &'a Pose,
+    /// Whether slots are the same branches at every angle of joint 7, between edges that are known.
+    are_named: bool,
     seed: [f64; 7],
     weights: [f64; 7],
     /// The least cost and its joint vector.
