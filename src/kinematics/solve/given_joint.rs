@@ -187,7 +187,7 @@ impl GivenJoint {
     pub(crate) fn ik_checked(&self, pose: &Pose, angle: f64) -> Result<Solutions<7>, Error> {
         let found = self.six.ik_checked(self.seen(pose, angle), ())?;
         let mut solutions = self.unsolved(pose);
-        solutions.reach = found.reach();
+        (solutions.reach, solutions.is_certified) = (found.reach(), found.is_certified());
         for (place, from) in solutions.places_mut().iter_mut().zip(found.places()) {
             *place = match from {
                 Place::Empty => Place::Empty,

@@ -6,6 +6,7 @@ use super::Structure;
 use super::arm::Arm;
 use super::declare::structures;
 use super::general::General;
+use super::offset_wrist::OffsetWrist;
 use super::redundancy::Redundancy;
 use super::solver::Solver;
 use super::spherical_wrist::SphericalWrist;
@@ -18,7 +19,7 @@ use crate::report::UnknownStructure;
 
 structures! {
     /// Structures with six joints.
-    SixJoints, 6, (): SphericalWrist: 8, ThreeParallel: 8, General: 16
+    SixJoints, 6, (): SphericalWrist: 8, ThreeParallel: 8, OffsetWrist: 16, General: 16
 }
 
 /// The structure of an arm of `N` joints, whichever it is, between its base and its tool.

@@ -25,9 +25,6 @@ use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::{Pose, translation_z};
 use crate::report::{Pattern, UnknownStructure};
 
-const NOWHERE: SingularDistances =
-    SingularDistances { wrist: f64::INFINITY, elbow: f64::INFINITY, shoulder: f64::INFINITY };
-
 /// No conditions: the six joints have their own.
 static PATTERN: Pattern =
     Pattern { name: "general", title: "six joints before the last", conditions: &[] };
@@ -55,6 +52,7 @@ fn first_six(q: &[f64; 7]) -> [f64; 6] {
 
 impl Structure<7, MOST_SLOTS> for LastGiven {
     const PATTERN: &'static Pattern = &PATTERN;
+    const IS_CLOSED_FORM: bool = false;
     const SLOT_NAMES: Option<&'static [&'static str; MOST_SLOTS]> = None;
 
     type Redundancy = f64;
@@ -103,6 +101,7 @@ impl Structure<7, MOST_SLOTS> for LastGiven {
             let _ = self.six.arm().solve(&mut solutions, (), &free);
         }
         let mut branches = Branches::empty(solutions.reach());
+        branches.is_certified = solutions.is_certified();
         for (slot, status) in solutions.status().iter().enumerate() {
             branches.flags[slot] = *status - Status::FOUND - Status::WITHIN_LIMITS;
         }
@@ -115,13 +114,12 @@ impl Structure<7, MOST_SLOTS> for LastGiven {
         branches
     }
 
-    fn singular_distances(&self, q: &[f64; 7]) -> SingularDistances {
-        self.six.arm().singular_distances(&first_six(q)).unwrap_or(NOWHERE)
+    fn singular_distances(&self, q: &[f64; 7]) -> Option<SingularDistances> {
+        self.six.arm().singular_distances(&first_six(q))
     }
 
     fn singularities(&self, q: &[f64; 7]) -> SingularityKind {
-        let singular = self.six.arm().singular(&first_six(q));
-        singular.map_or(SingularityKind::empty(), |(_, singularities)| singularities)
+        self.six.arm().singular(&first_six(q)).1
     }
 
     fn jacobian_determinant(&self, q: &[f64; 7]) -> f64 {

@@ -19,6 +19,7 @@ pub(crate) mod general;
 pub(crate) mod joint_map;
 pub(crate) mod lanes;
 pub(crate) mod last_given;
+pub(crate) mod offset_wrist;
 pub(crate) mod planar_arm;
 pub(crate) mod recognition;
 pub(crate) mod redundancy;

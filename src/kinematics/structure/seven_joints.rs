@@ -1,5 +1,6 @@
 //! The structures that an arm of seven joints may have.
 
+use super::Structure;
 use super::any::{AnyStructure, recognized};
 use super::arm::Arm;
 use super::declare::structures;

@@ -11,38 +11,20 @@ use alloc::vec::Vec;
 use nalgebra::{ComplexField as _, RealField as _};
 use nalgebra::{Point3, Vector3};
 
+use super::arm_angle_search::{MOST, Search};
 use super::request::ConfigurationRequest;
 use super::rule::Quarters;
 use crate::error::{Error, JointFault, ModelFault, NoConfiguration};
 use crate::kinematics::answer::check::{check_angle, check_seed};
-use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::solutions::Solution;
-use crate::kinematics::answer::status::Status;
-use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::self_motion_curve::{Joints, SelfMotion};
-use crate::kinematics::thresholds::{
-    ARM_ANGLE_OFF, CONFIGURATION_EDGE, SAMPLE_LEAP, TAUGHT_BEYOND_LIMITS,
-};
+use crate::kinematics::thresholds::{CONFIGURATION_EDGE, TAUGHT_BEYOND_LIMITS};
 use crate::report::{Configuration, ConfigurationRule, Explanation};
 
-/// Spacing of the angles of the last joint at which all solutions are computed [rad]: half a
-/// degree. Solutions of one arm angle that are nearer to each other may be missed.
-const SPACING: f64 = PI / 360.0;
-
-/// How far the arm angle of a sample may be from the wanted one, beyond its change from sample to
-/// sample, for a search to start there [rad].
-const NEAR: f64 = 0.05;
-
-/// Angle by which joints differ from those of another solution, at least [rad].
-const APART: f64 = 1e-6;
-
-/// Number of solutions of one pose and arm angle that are kept: the most seen is sixteen.
-const MOST: usize = 48;
-
 /// What the arm angle of a pose is measured by (docs/abb.md, eq. A4).
-struct ArmAngle<'a> {
+pub(super) struct ArmAngle<'a> {
     robot: &'a Robot<7>,
     /// The unit vector from shoulder to wrist.
     toward_wrist: Vector3<f64>,
@@ -69,7 +51,7 @@ impl<'a> ArmAngle<'a> {
 
     /// The arm angle of joint angles that reach the pose, and its gradient; `None` if axis 3 points
     /// from the shoulder to the wrist.
-    fn at(&self, q: &[f64; 7]) -> Option<(f64, Joints)> {
+    pub(super) fn at(&self, q: &[f64; 7]) -> Option<(f64, Joints)> {
         let (frames, _) = self.robot.link_frames(q);
         let axis = |frame: &Pose| frame.rotation * Vector3::z();
         let elbow = axis(&frames[3]);
@@ -83,99 +65,6 @@ impl<'a> ArmAngle<'a> {
         }
         let is_determined = elbow.cross(&self.toward_wrist).norm() > f64::EPSILON;
         is_determined.then(|| (sine.atan2(cosine), gradient))
-    }
-}
-
-/// A solution at one angle of the last joint, and how far its arm angle is from the wanted one.
-#[derive(Clone, Copy)]
-struct Sample {
-    q: [f64; 7],
-    off: f64,
-}
-
-impl Sample {
-    fn apart(&self, other: &Self) -> f64 {
-        largest_difference(&self.q, &other.q)
-    }
-}
-
-fn largest_difference(a: &[f64; 7], b: &[f64; 7]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| wrap(a - b).abs()).fold(0.0, f64::max)
-}
-
-/// The search for the joint vectors of a pose that have an arm angle.
-struct Search<'a> {
-    curve: SelfMotion<'a>,
-    angle: ArmAngle<'a>,
-    wanted: f64,
-    found: [Option<Solution<7>>; MOST],
-}
-
-impl Search<'_> {
-    /// The solutions with the last joint at an angle.
-    fn samples(&self, last: f64) -> Result<([Option<Sample>; 16], usize), Error> {
-        let solutions = self.curve.robot.ik_checked(*self.curve.pose, last)?;
-        let mut samples = [None; 16];
-        for (place, solution) in samples.iter_mut().zip(&solutions) {
-            let at = self.angle.at(&solution.q);
-            *place = at.map(|(angle, _)| Sample { q: solution.q, off: wrap(angle - self.wanted) });
-        }
-        Ok((samples, solutions.len()))
-    }
-
-    /// Search with the last joint between two angles.
-    fn run(&mut self, [from, to]: [f64; 2]) -> Result<(), Error> {
-        let count = ((to - from) / SPACING).ceil().max(1.0);
-        let (mut before, _) = self.samples(from)?;
-        let mut number = 1.0;
-        while number <= count {
-            let (after, _) = self.samples(from + (to - from) * number / count)?;
-            for (here, there) in [(&before, &after), (&after, &before)] {
-                for sample in here.iter().flatten() {
-                    self.start(sample, there);
-                }
-            }
-            (before, number) = (after, number + 1.0);
-        }
-        Ok(())
-    }
-
-    /// Start from a sample if the arm angle may be the wanted one between it and its neighbor.
-    fn start(&mut self, sample: &Sample, neighbors: &[Option<Sample>]) {
-        let nearest = neighbors
-            .iter()
-            .flatten()
-            .min_by(|a, b| sample.apart(a).total_cmp(&sample.apart(b)))
-            .filter(|nearest| sample.apart(nearest) <= SAMPLE_LEAP);
-        // Where a branch ends, another one begins that is not among the samples.
-        let change = nearest.map_or(PI, |nearest| wrap(sample.off - nearest.off).abs());
-        if sample.off.abs() > change + NEAR {
-            return;
-        }
-        let seventh = |q: &Joints| match self.angle.at(&(*q).into()) {
-            Some((angle, gradient)) => (gradient, wrap(self.wanted - angle)),
-            None => (Joints::zeros(), f64::NAN),
-        };
-        let Some(point) = self.curve.newton(sample.q.into(), seventh) else { return };
-        let q = self.curve.robot.limits().wrap(point.joints().map(wrap));
-        let off = self.angle.at(&q).map_or(PI, |(angle, _)| wrap(angle - self.wanted).abs());
-        if off <= ARM_ANGLE_OFF {
-            self.keep(q);
-        }
-    }
-
-    fn keep(&mut self, q: [f64; 7]) {
-        let known = |found: &&Solution<7>| largest_difference(&found.q, &q) <= APART;
-        if self.found.iter().flatten().any(|found| known(&found)) {
-            return;
-        }
-        let robot = self.curve.robot;
-        let mut status = Status::FOUND | Status::from(robot.singularity(&q).kinds);
-        status.set(Status::WITHIN_LIMITS, robot.limits().contains(&q));
-        let slot = robot.slot_of(&q).unwrap_or(Slot::new(0));
-        if let Some(place) = self.found.iter_mut().find(|place| place.is_none()) {
-            *place = Some(Solution { q, slot, status, free_joint: None });
-        }
     }
 }
 
@@ -198,8 +87,8 @@ impl Robot<7> {
     /// Every joint vector that brings the tool to `pose` with an arm angle [rad], inside the limits
     /// or not.
     ///
-    /// The search computes all solutions for angles of the last joint half a degree apart: two
-    /// solutions that are closer to each other may be missed.
+    /// The search follows the arm's self-motion from all solutions at angles of the last joint four
+    /// degrees apart. It misses a self-motion that turns the last joint by less than that.
     ///
     /// # Errors
     ///

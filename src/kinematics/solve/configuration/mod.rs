@@ -2,6 +2,7 @@
 //! one.
 
 mod arm_angle;
+mod arm_angle_search;
 mod having;
 mod request;
 mod rule;
