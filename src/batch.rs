@@ -5,6 +5,8 @@
 //! neighbors.
 
 mod forward;
+#[cfg(feature = "python")]
+mod given;
 #[cfg(feature = "std")]
 mod helpers;
 mod inverse;

@@ -16,7 +16,7 @@ use crate::report::Configuration;
 const PART: usize = 512;
 
 /// The same where a pose may take a thousand times as long, next to a singularity.
-const SMALL_PART: usize = 64;
+pub(super) const SMALL_PART: usize = 64;
 
 /// What stands in each number of the configuration of a row that is invalid. Of such a
 /// configuration there is no solution.

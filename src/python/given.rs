@@ -8,7 +8,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping};
 
-use super::answers::batch_output;
+use super::answers::{batch_output, pose_check};
 use super::arguments::{read_singularity_mode, thread_count};
 use super::arm::Arm;
 use super::arrays::{Rows, addresses};
@@ -18,16 +18,15 @@ use super::classes;
 use super::errors::{Fault, of_seed, to_py};
 use super::found::{Found, read_weights};
 use super::nearest::{Seeded, read_seeded};
-use super::outputs::{answer, answer_row, output, writable};
+use super::outputs::{answer_row, output, writable};
 use super::paths;
 use super::poses::{read_ik_pose, read_single_pose};
-use super::queries::checked_pose;
 use super::robot::PyRobot;
 use super::signals::detached;
 use super::solution::compared;
 use super::solutions::PySolutions;
 use crate::kinematics::thresholds::WRIST_ZONE;
-use crate::kinematics::{FollowOptions, GivenJoint, Robot, pose_from_rows};
+use crate::kinematics::{FollowOptions, GivenJoint, Robot};
 
 /// A seven-axis arm with the angle of one joint given: `robot.given({3: 0.2})`.
 ///
@@ -86,7 +85,8 @@ fn read_pair<'py>(given: &Bound<'py, PyAny>) -> PyResult<(usize, Bound<'py, PyAn
     let number: i64 = joint.extract().map_err(|_| {
         PyTypeError::new_err(format!("given: {joint} is not the number of a joint, from 1"))
     })?;
-    let missing = || Fault::Joints.error(py, format!("given: there is no joint {number}, it must be 1 to 7"));
+    let missing =
+        || Fault::Joints.error(py, format!("given: there is no joint {number}, it must be 1 to 7"));
     let joint = usize::try_from(number).ok().filter(|joint| (1..=7).contains(joint));
     Ok((joint.ok_or_else(missing)?, angle))
 }
@@ -95,7 +95,9 @@ impl PyGiven {
     /// The prepared joint of `{3: 0.2}`.
     pub(super) fn of(arm: &Arm, given: &Bound<'_, PyAny>) -> PyResult<Self> {
         match Asked::read(arm, given)? {
-            Asked::Joint(joint, angle) => Self::prepared(arm, joint, one_angle(&angle, "given")?, given.py()),
+            Asked::Joint(joint, angle) => {
+                Self::prepared(arm, joint, one_angle(&angle, "given")?, given.py())
+            }
             Asked::Prepared(prepared) => {
                 let Self { robot, given } = prepared.get();
                 Ok(Self { robot: Arc::clone(robot), given: Arc::clone(given) })
@@ -175,9 +177,8 @@ pub(super) fn ik_batch<'py>(
     threads: Option<NonZeroUsize>,
 ) -> PyResult<Bound<'py, PyAny>> {
     match Asked::read(arm, given)? {
-        Asked::Joint(joint @ (1 | 7), angles) => {
-            PyGiven::prepared(arm, joint, 0.0, given.py())?.batch(poses, Some(&angles), out, threads)
-        }
+        Asked::Joint(joint @ (1 | 7), angles) => PyGiven::prepared(arm, joint, 0.0, given.py())?
+            .batch(poses, Some(&angles), out, threads),
         Asked::Joint(joint, angle) => {
             let angle = one_angle(&angle, "given")?;
             PyGiven::prepared(arm, joint, angle, given.py())?.batch(poses, None, out, threads)
@@ -379,7 +380,7 @@ impl PyGiven {
     fn check_pose<'py>(&self, T: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let pose = read_single_pose(T, "check_pose")?;
         let explanation = self.given.explain(&pose).map_err(|error| to_py(T.py(), &error))?;
-        checked_pose(T.py(), &explanation)
+        pose_check(T.py(), &explanation)
     }
 
     fn __richcmp__<'py>(
@@ -395,7 +396,10 @@ impl PyGiven {
         (self.robot(), self.joint(), self.angle()).into_pyobject(py)?.hash()
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyDict>,))> {
+    fn __reduce__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyDict>,))> {
         let robot = Bound::new(py, self.robot())?;
         let pair = PyDict::new(py);
         pair.set_item(self.joint(), self.angle())?;
@@ -403,6 +407,11 @@ impl PyGiven {
     }
 
     fn __repr__(&self) -> String {
-        format!("Given({}, joint {} at {} rad)", self.given.robot().name(), self.joint(), self.angle())
+        format!(
+            "Given({}, joint {} at {} rad)",
+            self.given.robot().name(),
+            self.joint(),
+            self.angle()
+        )
     }
 }

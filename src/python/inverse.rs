@@ -2,15 +2,17 @@
 
 use std::sync::Arc;
 
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
+use super::answers::pose_check;
 use super::arguments::{read_singularity_mode, thread_count};
 use super::arm::{Arm, on};
-use super::batches::{self, needed_q7, no_q7, one_q7};
-use super::classes::pose_check_class;
+use super::batches::{self, needed_q7, no_q7, one_angle};
 use super::configured::{self, Options};
 use super::errors::{of_seed, to_py};
 use super::found::{Found, read_weights};
+use super::given::{self, PyGiven};
 use super::nearest::{self, Seeded, read_seeded};
 use super::outputs::answer_row;
 use super::paths;
@@ -19,7 +21,6 @@ use super::robot::PyRobot;
 use super::solutions::PySolutions;
 use crate::kinematics::thresholds::WRIST_ZONE;
 use crate::kinematics::{FollowOptions, Inverse, Redundancy};
-use crate::report::Explanation;
 
 #[pymethods]
 #[expect(non_snake_case, reason = "T is the name that users pass")]
@@ -29,6 +30,9 @@ impl PyRobot {
     /// Args:
     ///     T: Pose of the tool, shape (4, 4), translation [m].
     ///     q7: Angle of joint 7 [rad], of an arm of seven joints.
+    ///     given: In place of q7, another joint of seven with its angle, as {3: 0.2}: joints count
+    ///         from 1. For a joint between the first and the last this prepares a chain of the
+    ///         other six, some milliseconds; for many poses, pass `robot.given({3: 0.2})`.
     ///
     /// Returns:
     ///     Solutions, each in its slot, limits not regarded; empty with `reach` and `shortfall`
@@ -36,16 +40,22 @@ impl PyRobot {
     ///
     /// Raises:
     ///     InvalidPoseError: T has a wrong shape, is not finite or is no rigid transform.
-    ///     InvalidJointsError: q7 is not finite.
-    ///     InvalidModelError: The arm has no closed form.
-    ///     TypeError: q7 is missing, or the arm has six joints and it is not.
-    #[pyo3(signature = (T, q7=None))]
+    ///     InvalidJointsError: q7 is not finite, there is no such joint.
+    ///     InvalidModelError: The other six joints do not move the tool in six independent ways.
+    ///     TypeError, ValueError: q7 is missing, or the arm has six joints and it is not; given is
+    ///         no mapping of one joint, or given beside q7.
+    #[pyo3(signature = (T, q7=None, *, given=None))]
     fn ik<'py>(
         &self,
         T: &Bound<'py, PyAny>,
         q7: Option<&Bound<'py, PyAny>>,
+        given: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PySolutions>> {
         let py = T.py();
+        if let Some(given) = given {
+            no_q7_beside_given(q7)?;
+            return given::ik(self.arm(), T, given);
+        }
         match self.arm() {
             Arm::Six(robot) => {
                 no_q7(q7.is_some())?;
@@ -54,7 +64,7 @@ impl PyRobot {
                 Bound::new(py, PySolutions::from(found))
             }
             Arm::Seven(robot) => {
-                let q7 = one_q7(needed_q7(py, robot, q7)?)?;
+                let q7 = one_angle(needed_q7(py, robot, q7)?, "q7")?;
                 let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_ik_pose(T)?));
                 q7.check()
                     .and_then(|()| robot.ik_into(&mut found.solutions, q7))
@@ -70,6 +80,9 @@ impl PyRobot {
     ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
     ///     q7: Angles of joint 7 [rad] of an arm of seven joints, of a shape that goes with (...):
     ///         T and q7 are broadcast.
+    ///     given: In place of q7, another joint of seven with its angle, as {3: 0.2}, or
+    ///         `robot.given({3: 0.2})`. The angles of the first and the last joint may be an array
+    ///         that goes with (...).
     ///     out: Where to write: an IkBatch or tuple of arrays (..., 8, n) float64 and (..., 8)
     ///         uint8, or the first of them alone.
     ///     threads: Number of threads; 0 for one a core.
@@ -84,15 +97,37 @@ impl PyRobot {
     ///     InvalidJointsError: q7 has a wrong shape.
     ///     InvalidModelError: The arm has no closed form.
     ///     TypeError: q7 is missing, or the arm has six joints and it is not.
-    #[pyo3(signature = (T, q7=None, *, out=None, threads=1))]
+    #[pyo3(signature = (T, q7=None, *, given=None, out=None, threads=1))]
     fn ik_batch<'py>(
         &self,
         T: &Bound<'py, PyAny>,
         q7: Option<&Bound<'py, PyAny>>,
+        given: Option<&Bound<'py, PyAny>>,
         out: Option<&Bound<'py, PyAny>>,
         threads: isize,
     ) -> PyResult<Bound<'py, PyAny>> {
-        batches::ik(self.arm(), T, q7, out, thread_count(threads)?)
+        let threads = thread_count(threads)?;
+        if let Some(given) = given {
+            no_q7_beside_given(q7)?;
+            return given::ik_batch(self.arm(), T, given, out, threads);
+        }
+        batches::ik(self.arm(), T, q7, out, threads)
+    }
+
+    /// Prepare a seven-axis arm with the angle of one joint given, for many poses.
+    ///
+    /// Args:
+    ///     given: A joint and its angle [rad], as {3: 0.2}: joints count from 1.
+    ///
+    /// Returns:
+    ///     Given, whose `ik`, `ik_batch`, `ik_nearest`, `follow` and `check_pose` take poses alone.
+    ///
+    /// Raises:
+    ///     InvalidJointsError: There is no such joint, or its angle is not finite.
+    ///     InvalidModelError: The other six joints do not move the tool in six independent ways.
+    ///     TypeError, ValueError: The arm has six joints; given is no mapping of one joint.
+    fn given(&self, given: &Bound<'_, PyAny>) -> PyResult<PyGiven> {
+        PyGiven::of(self.arm(), given)
     }
 
     /// The solution inside the limits that is nearest to `seed`, turns considered.
@@ -307,12 +342,14 @@ impl PyRobot {
         let pose = read_single_pose(T, "check_pose")?;
         let explanation = on!(self.arm(), robot => robot.explain(&pose))
             .map_err(|error| to_py(T.py(), &error))?;
-        let inside = matches!(explanation, Explanation::Found { .. });
-        let reachable = inside
-            || matches!(
-                explanation,
-                Explanation::OutsideLimits { .. } | Explanation::OutsideLinkage { .. }
-            );
-        pose_check_class(T.py())?.call1((reachable, inside, explanation.to_string()))
+        pose_check(T.py(), &explanation)
+    }
+}
+
+/// Of q7 and given, one says all.
+fn no_q7_beside_given(q7: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
+    match q7 {
+        Some(_) => Err(PyTypeError::new_err("q7 and given: pass one of them")),
+        None => Ok(()),
     }
 }

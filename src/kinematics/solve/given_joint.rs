@@ -114,6 +114,12 @@ impl GivenJoint {
         self.joints_at(q, self.angle)
     }
 
+    /// What belongs to the other six joints, of what belongs to the seven of the arm.
+    #[must_use]
+    pub fn others<T: Copy>(&self, all: &[T; 7]) -> [T; 6] {
+        others(all, self.joint)
+    }
+
     fn joints_at(&self, q: &[f64; 6], angle: f64) -> [f64; 7] {
         core::array::from_fn(|i| match i.cmp(&self.joint) {
             core::cmp::Ordering::Less => q[i],
@@ -237,7 +243,7 @@ impl GivenJoint {
         if self.robot.limits().excess(self.joint, self.angle) > 0.0 {
             return Err(Error::Unreachable(self.explain(pose)?));
         }
-        let [seed, weights] = [seed, weights].map(|all| others(all, self.joint));
+        let [seed, weights] = [seed, weights].map(|all| self.others(all));
         let found = self.six.nearest_checked(*pose, &seed, &weights);
         match found {
             Ok(solution) => Ok(self.extended(&solution, self.angle)),
