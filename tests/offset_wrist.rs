@@ -234,3 +234,33 @@ fn a_pose_out_of_reach_says_by_how_much() {
         assert!(shortfall > 30.0 - reach && shortfall < 31.0, "{shortfall}");
     }
 }
+
+#[test]
+fn the_crx_10ia_has_the_solutions_of_an_article() {
+    let robot: Robot<6> = Robot::named("CRX-10iA").unwrap();
+    let text = include_str!("data/crx_10ia_poses.csv");
+    let rows: Vec<Vec<f64>> = text
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').map(|number| number.parse().unwrap()).collect())
+        .collect();
+    let mut counts = Vec::new();
+    for rows in rows.chunk_by(|a, b| a[..6] == b[..6]) {
+        let [x, y, z, w, p, r] = rows[0][..6].try_into().unwrap();
+        let xyz = [x / 1e3, y / 1e3, (z + 245.0) / 1e3];
+        let angles = [r, p, w].map(|angle: f64| angle.to_radians());
+        let pose = pose_from_euler_zyx(xyz, angles).unwrap();
+        let solutions = robot.ik(&pose).unwrap();
+        counts.push(solutions.len());
+        assert_eq!(solutions.len(), rows.len(), "{:?}", &rows[0][..6]);
+        for row in rows {
+            let [j1, j2, j3, j4, j5, j6] = row[6..].try_into().unwrap();
+            let q = [j1, j2, j2 + j3, j4, j5, j6].map(|angle: f64| angle.to_radians());
+            let off = solutions.iter().map(|solution| apart(&solution.q, &q));
+            let off = off.fold(f64::INFINITY, f64::min);
+            // Three decimals of a degree, and what the poses' do to joints next to a singularity.
+            assert!(off < 2e-4, "{q:?}: {off}");
+        }
+    }
+    assert_eq!(counts, [8, 12, 16]);
+}

@@ -21,6 +21,10 @@ pub(super) const ALIASES: &[(&str, &str)] = &[
     ("YuMi right", "IRB 14000-0.5/0.5 (right)"),
     ("IRB 14000 left", "IRB 14000-0.5/0.5 (left)"),
     ("IRB 14000 right", "IRB 14000-0.5/0.5 (right)"),
+    ("GoFa 5", "CRB 15000-5/0.95"),
+    ("GoFa 10", "CRB 15000-10/1.52"),
+    ("GoFa 12", "CRB 15000-12/1.27"),
+    ("UFACTORY xArm 6", "xArm6"),
 ];
 
 /// Finds an arm by its name or an alias, the maker's name before it or not; case, blanks, dashes,

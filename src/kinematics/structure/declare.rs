@@ -33,7 +33,10 @@ macro_rules! structures {
                         solver.structure = solver.structure.noting(nearest);
                         return (chain, Self::$structure(solver));
                     }
-                    Err(missed) => nearest = Some(missed.nearer_of(nearest)),
+                    Err(missed) if <$structure as Structure<$joints, $slots>>::IS_CLOSED_FORM => {
+                        nearest = Some(missed.nearer_of(nearest));
+                    }
+                    Err(missed) => nearest = nearest.or(Some(missed)),
                 })+
                 let missed = nearest.unwrap_or(UnknownStructure::joint_count($joints));
                 (Chain::new(mdh.clone()), Self::Unknown(missed))

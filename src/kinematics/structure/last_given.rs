@@ -119,7 +119,8 @@ impl Structure<7, MOST_SLOTS> for LastGiven {
     }
 
     fn singularities(&self, q: &[f64; 7]) -> SingularityKind {
-        self.six.arm().singular(&first_six(q)).1
+        let singular = self.six.arm().singular(&first_six(q));
+        singular.map_or(SingularityKind::empty(), |(_, singularities)| singularities)
     }
 
     fn jacobian_determinant(&self, q: &[f64; 7]) -> f64 {

@@ -151,8 +151,8 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Arm<N, T::Redundancy> f
         }
     }
 
-    fn singular(&self, q: &[f64; N]) -> (Option<SingularDistances>, SingularityKind) {
-        (self.structure.singular_distances(q), self.structure.singularities(q))
+    fn singular(&self, q: &[f64; N]) -> Option<(Option<SingularDistances>, SingularityKind)> {
+        Some((self.structure.singular_distances(q), self.structure.singularities(q)))
     }
 
     fn singular_distances(&self, q: &[f64; N]) -> Option<SingularDistances> {

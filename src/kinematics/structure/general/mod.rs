@@ -45,6 +45,13 @@ pub(crate) struct General {
     nearest: Option<UnknownStructure>,
 }
 
+impl General {
+    /// The closure of its joints.
+    pub(crate) fn closure(&self) -> &Closure {
+        &self.closure
+    }
+}
+
 impl Structure<6, MOST_SLOTS> for General {
     const PATTERN: &'static Pattern = &PATTERN;
     const IS_CLOSED_FORM: bool = false;

@@ -42,7 +42,6 @@ impl General {
         if accepted.has_self_motion() {
             accepted.thin(&self.closure, &target);
         }
-        accepted.as_mut_slice().sort_unstable_by(in_order);
         (accepted, is_certain)
     }
 
@@ -53,6 +52,16 @@ impl General {
         _free: &FreeChoice<6>,
     ) -> Branches<6, MOST_SLOTS> {
         let (accepted, is_certain) = self.solve_all(t_first_last);
+        self.slots(accepted, is_certain)
+    }
+
+    /// Solutions in slots.
+    pub(crate) fn slots(
+        &self,
+        mut accepted: Accepted,
+        is_certain: bool,
+    ) -> Branches<6, MOST_SLOTS> {
+        accepted.as_mut_slice().sort_unstable_by(in_order);
         let mut branches = Branches::empty(Reach::Reached);
         branches.is_certified = is_certain;
         for (slot, one) in accepted.as_slice().iter().enumerate() {
