@@ -11,7 +11,7 @@ use alloc::vec::Vec;
 use nalgebra::{ComplexField as _, RealField as _};
 use nalgebra::{Point3, Vector3};
 
-use super::arm_angle_search::{MOST, Search};
+use super::arm_angle_search::{Found, MOST, Search};
 use super::request::ConfigurationRequest;
 use super::rule::Quarters;
 use crate::error::{Error, JointFault, ModelFault, NoConfiguration};
@@ -87,15 +87,17 @@ impl Robot<7> {
     /// Every joint vector that brings the tool to `pose` with an arm angle [rad], inside the limits
     /// or not.
     ///
-    /// The search follows the arm's self-motion from all solutions at angles of the last joint four
-    /// degrees apart. It misses a self-motion that turns the last joint by less than that.
+    /// The search follows the arm's self-motion from all solutions at angles of the last joint, then
+    /// of the first joint, one degree apart. It may miss a self-motion that turns both by less.
     ///
     /// # Errors
     ///
     /// As [`Robot::arm_angle`] and [`Robot::ik_with`].
     pub fn ik_arm_angle(&self, pose: &Pose, arm_angle: f64) -> Result<Vec<Solution<7>>, Error> {
         check_angle("arm_angle", 7, arm_angle)?;
-        let found = self.at_arm_angle(&checked_pose(pose)?, arm_angle, [-PI, PI])?;
+        let (pose, turn) = (checked_pose(pose)?, [-PI, PI]);
+        let found = self.at_arm_angle(&pose, arm_angle, turn, None)?;
+        let found = self.at_arm_angle(&pose, arm_angle, turn, Some(found))?;
         Ok(found.into_iter().flatten().collect())
     }
 
@@ -110,10 +112,16 @@ impl Robot<7> {
         let (rule, wanted) = (self.configuration_rule()?, request.configuration);
         wanted.check(false)?;
         let arm_angle = request.arm_angle.ok_or(JointFault::MissingArmAngle)?;
-        let range = Quarters::of(&rule).ranges(wanted, CONFIGURATION_EDGE)[2];
-        let limits = self.limits().widened(TAUGHT_BEYOND_LIMITS).narrowed(&[range]);
-        if let Some(limits) = limits {
-            let found = self.at_arm_angle(pose, arm_angle, limits.to_array()[6])?;
+        let [first, _, last] = Quarters::of(&rule).ranges(wanted, CONFIGURATION_EDGE);
+        let limits = self.limits().widened(TAUGHT_BEYOND_LIMITS).narrowed(&[first, last]);
+        if let Some([first, .., last]) = limits.map(|limits| limits.to_array()) {
+            let mut found = self.at_arm_angle(pose, arm_angle, last, None)?;
+            let has_it = |found: &Found| {
+                self.having(&rule, found.iter().flatten().copied(), wanted).is_some()
+            };
+            if !has_it(&found) {
+                found = self.at_arm_angle(pose, arm_angle, first, Some(found))?;
+            }
             if let Some(having) = self.having(&rule, found.iter().flatten().copied(), wanted) {
                 return Ok(having.all(seed));
             }
@@ -143,17 +151,20 @@ impl Robot<7> {
     }
 
     /// The joint vectors of a pose that have an arm angle, with the last joint in a range, at most
-    /// a turn.
+    /// a turn; or, with what that search has found, with the first joint in a range.
     fn at_arm_angle(
         &self,
         pose: &Pose,
         wanted: f64,
         [from, to]: [f64; 2],
-    ) -> Result<[Option<Solution<7>>; MOST], Error> {
+        before: Option<Found>,
+    ) -> Result<Found, Error> {
         let reference = self.arm_angle_reference()?;
-        let Some(angle) = ArmAngle::of(self, reference, pose) else { return Ok([None; MOST]) };
+        let found = before.unwrap_or([None; MOST]);
+        let Some(angle) = ArmAngle::of(self, reference, pose) else { return Ok(found) };
+        let first = before.map(|_| self.given(1, 0.0)).transpose()?;
         let curve = SelfMotion { robot: self, pose, rounding: self.rounding() };
-        let mut search = Search { curve, angle, wanted, found: [None; MOST] };
+        let mut search = Search { curve, angle, wanted, first, found };
         search.run([from, to.min(from + TAU)])?;
         Ok(search.found)
     }

@@ -1,9 +1,9 @@
 //! Searches the joint vectors of a pose that have an arm angle.
 //!
-//! All solutions at some angles of the last joint are points of the curves on which the arm moves
-//! while its tool stands still. Each curve is followed from one of these angles to the next, past
-//! the places where the last joint turns back; where the arm angle passes the wanted one, Newton's
-//! method finds it.
+//! All solutions at some angles of one joint, the last or the first, are points of the curves on
+//! which the arm moves while its tool stands still. Each curve is followed from one of these angles
+//! to the next, past the places where the joint turns back; where the arm angle passes the wanted
+//! one, Newton's method finds it.
 
 use core::f64::consts::PI;
 
@@ -16,12 +16,13 @@ use crate::kinematics::answer::slot::{MOST_SLOTS, Slot};
 use crate::kinematics::answer::solutions::Solution;
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::pose::angles::wrap;
+use crate::kinematics::solve::given_joint::GivenJoint;
 use crate::kinematics::solve::self_motion_curve::{Joints, Point, SelfMotion};
 use crate::kinematics::thresholds::ARM_ANGLE_OFF;
 
-/// Spacing of the angles of the last joint at which all solutions are computed [rad]: a self-motion
-/// that turns it by less may be missed.
-const SPACING: f64 = PI / 45.0;
+/// Spacing of the angles of the joint at which all solutions are computed [rad]: a self-motion that
+/// turns it by less may be missed.
+const SPACING: f64 = PI / 180.0;
 
 /// Largest and least step along a curve [rad].
 const STEP: f64 = 0.06;
@@ -46,10 +47,14 @@ const APART: f64 = 1e-6;
 /// Number of solutions of one pose and arm angle that are kept: the most seen is sixteen.
 pub(super) const MOST: usize = 48;
 
-/// The solutions with the last joint at one angle, and which of them a curve has passed.
+/// Those that are found.
+pub(super) type Found = [Option<Solution<7>>; MOST];
+
+/// The solutions with one joint at an angle, and which of them a curve has passed.
 #[derive(Clone, Copy)]
 struct Section {
-    last: f64,
+    /// The angle of the joint [rad].
+    at: f64,
     solutions: [Option<[f64; 7]>; MOST_SLOTS],
     passed: [bool; MOST_SLOTS],
 }
@@ -59,7 +64,9 @@ pub(super) struct Search<'a> {
     pub(super) curve: SelfMotion<'a>,
     pub(super) angle: ArmAngle<'a>,
     pub(super) wanted: f64,
-    pub(super) found: [Option<Solution<7>>; MOST],
+    /// The arm with its first joint given, if that one has the sections; otherwise the last has.
+    pub(super) first: Option<GivenJoint>,
+    pub(super) found: Found,
 }
 
 fn largest_difference(a: &[f64; 7], b: &[f64; 7]) -> f64 {
@@ -67,7 +74,12 @@ fn largest_difference(a: &[f64; 7], b: &[f64; 7]) -> f64 {
 }
 
 impl Search<'_> {
-    /// Search with the last joint between two angles.
+    /// The joint of the sections, from 0.
+    fn joint(&self) -> usize {
+        if self.first.is_some() { 0 } else { 6 }
+    }
+
+    /// Search with the joint of the sections between two angles.
     pub(super) fn run(&mut self, [from, to]: [f64; 2]) -> Result<(), Error> {
         let count = ((to - from) / SPACING).ceil().max(1.0);
         let mut before = self.section(from)?;
@@ -88,13 +100,16 @@ impl Search<'_> {
         Ok(())
     }
 
-    fn section(&self, last: f64) -> Result<Section, Error> {
-        let found = self.curve.robot.ik_checked(*self.curve.pose, last)?;
+    fn section(&self, at: f64) -> Result<Section, Error> {
+        let found = match &self.first {
+            Some(first) => first.ik_checked(self.curve.pose, at)?,
+            None => self.curve.robot.ik_checked(*self.curve.pose, at)?,
+        };
         let mut solutions = [None; MOST_SLOTS];
         for (place, solution) in solutions.iter_mut().zip(&found) {
             *place = Some(solution.q);
         }
-        Ok(Section { last, solutions, passed: [false; MOST_SLOTS] })
+        Ok(Section { at, solutions, passed: [false; MOST_SLOTS] })
     }
 
     /// How far the arm angle is from the wanted one.
@@ -102,8 +117,8 @@ impl Search<'_> {
         self.angle.at(q).map(|(angle, _)| wrap(angle - self.wanted))
     }
 
-    /// Follow the curve of a solution into the strip between two sections, the last joint turning
-    /// by the sign of `way` at first, to where it leaves the strip.
+    /// Follow the curve of a solution into the strip between two sections, the joint turning by the
+    /// sign of `way` at first, to where it leaves the strip.
     fn follow_from(&mut self, from: &mut Section, slot: usize, to: &mut Section, way: f64) {
         let Some(start) = from.solutions[slot].filter(|_| !from.passed[slot]) else { return };
         from.passed[slot] = true;
@@ -111,7 +126,8 @@ impl Search<'_> {
             self.refine(&start);
             return;
         };
-        if point.along[6] * way < 0.0 {
+        let joint = self.joint();
+        if point.along[joint] * way < 0.0 {
             point.along = -point.along;
         }
         let (mut step, mut slope) = (STEP, 0.0);
@@ -133,13 +149,13 @@ impl Search<'_> {
                 // The nearest that the arm angle comes, here or next to it.
                 self.refine(&point.joints());
             }
-            let turned = way * (next.q[6] - from.last);
+            let turned = way * (next.q[joint] - from.at);
             let crossed = [
                 (turned < 0.0).then_some(&mut *from),
-                (way * (next.q[6] - to.last) > 0.0).then_some(&mut *to),
+                (way * (next.q[joint] - to.at) > 0.0).then_some(&mut *to),
             ];
             if let Some(section) = crossed.into_iter().flatten().next() {
-                section.pass(&self.curve, &next);
+                section.pass(&self.curve, joint, &next);
                 return;
             }
             (point, off, slope) = (next, next_off, change);
@@ -187,8 +203,8 @@ impl Search<'_> {
 
 impl Section {
     /// Note the solution at which a curve passes the section, of which a point near it is given.
-    fn pass(&mut self, curve: &SelfMotion<'_>, near: &Point) {
-        let Some(at) = curve.with_joint_at(&near.q, 6, self.last) else { return };
+    fn pass(&mut self, curve: &SelfMotion<'_>, joint: usize, near: &Point) {
+        let Some(at) = curve.with_joint_at(&near.q, joint, self.at) else { return };
         let at = at.joints();
         for (solution, passed) in self.solutions.iter().zip(&mut self.passed) {
             if solution.is_some_and(|solution| largest_difference(&solution, &at) <= 1e3 * APART) {
