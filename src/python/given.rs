@@ -92,11 +92,11 @@ fn read_pair<'py>(given: &Bound<'py, PyAny>) -> PyResult<(usize, Bound<'py, PyAn
 }
 
 impl PyGiven {
-    /// The prepared joint of `{3: 0.2}`.
-    pub(super) fn of(arm: &Arm, given: &Bound<'_, PyAny>) -> PyResult<Self> {
-        match Asked::read(arm, given)? {
+    /// The prepared joint of an argument `given`.
+    pub(super) fn of(py: Python<'_>, arm: &Arm, asked: Asked<'_>) -> PyResult<Self> {
+        match asked {
             Asked::Joint(joint, angle) => {
-                Self::prepared(arm, joint, one_angle(&angle, "given")?, given.py())
+                Self::prepared(arm, joint, one_angle(&angle, "given")?, py)
             }
             Asked::Prepared(prepared) => {
                 let Self { robot, given } = prepared.get();
@@ -163,27 +163,26 @@ impl PyGiven {
 pub(super) fn ik<'py>(
     arm: &Arm,
     pose: &Bound<'py, PyAny>,
-    given: &Bound<'py, PyAny>,
+    asked: Asked<'py>,
 ) -> PyResult<Bound<'py, PySolutions>> {
-    PyGiven::of(arm, given)?.solutions(pose.py(), pose)
+    let py = pose.py();
+    PyGiven::of(py, arm, asked)?.solutions(py, pose)
 }
 
 /// The solutions of many poses with a joint given.
 pub(super) fn ik_batch<'py>(
     arm: &Arm,
     poses: &Bound<'py, PyAny>,
-    given: &Bound<'py, PyAny>,
+    asked: Asked<'py>,
     out: Option<&Bound<'py, PyAny>>,
     threads: Option<NonZeroUsize>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    match Asked::read(arm, given)? {
-        Asked::Joint(joint @ (1 | 7), angles) => PyGiven::prepared(arm, joint, 0.0, given.py())?
-            .batch(poses, Some(&angles), out, threads),
-        Asked::Joint(joint, angle) => {
-            let angle = one_angle(&angle, "given")?;
-            PyGiven::prepared(arm, joint, angle, given.py())?.batch(poses, None, out, threads)
+    let py = poses.py();
+    match asked {
+        Asked::Joint(1, angles) => {
+            PyGiven::prepared(arm, 1, 0.0, py)?.batch(poses, Some(&angles), out, threads)
         }
-        Asked::Prepared(prepared) => prepared.get().batch(poses, None, out, threads),
+        asked => PyGiven::of(py, arm, asked)?.batch(poses, None, out, threads),
     }
 }
 

@@ -12,7 +12,7 @@ use super::batches::{self, needed_q7, no_q7, one_angle};
 use super::configured::{self, Options};
 use super::errors::{of_seed, to_py};
 use super::found::{Found, read_weights};
-use super::given::{self, PyGiven};
+use super::given::{self, Asked, PyGiven};
 use super::nearest::{self, Seeded, read_seeded};
 use super::outputs::answer_row;
 use super::paths;
@@ -54,7 +54,11 @@ impl PyRobot {
         let py = T.py();
         if let Some(given) = given {
             no_q7_beside_given(q7)?;
-            return given::ik(self.arm(), T, given);
+            match Asked::read(self.arm(), given)? {
+                // What every arm of seven joints is given anyway.
+                Asked::Joint(7, q7) => return self.ik(T, Some(&q7), None),
+                asked => return given::ik(self.arm(), T, asked),
+            }
         }
         match self.arm() {
             Arm::Six(robot) => {
@@ -109,7 +113,12 @@ impl PyRobot {
         let threads = thread_count(threads)?;
         if let Some(given) = given {
             no_q7_beside_given(q7)?;
-            return given::ik_batch(self.arm(), T, given, out, threads);
+            match Asked::read(self.arm(), given)? {
+                Asked::Joint(7, q7) => {
+                    return batches::ik(self.arm(), T, Some(&q7), out, threads);
+                }
+                asked => return given::ik_batch(self.arm(), T, asked, out, threads),
+            }
         }
         batches::ik(self.arm(), T, q7, out, threads)
     }
@@ -127,7 +136,7 @@ impl PyRobot {
     ///     InvalidModelError: The other six joints do not move the tool in six independent ways.
     ///     TypeError, ValueError: The arm has six joints; given is no mapping of one joint.
     fn given(&self, given: &Bound<'_, PyAny>) -> PyResult<PyGiven> {
-        PyGiven::of(self.arm(), given)
+        PyGiven::of(given.py(), self.arm(), Asked::read(self.arm(), given)?)
     }
 
     /// The solution inside the limits that is nearest to `seed`, turns considered.

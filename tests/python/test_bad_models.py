@@ -159,7 +159,6 @@ def test_a_name_without_close_ones_is_reported_so(name):
     [
         ("GoFa", "no spherical wrist: axes 5 and 6 pass 80 mm apart"),
         ("CRB 15000-5/0.95", "no spherical wrist: axes 5 and 6 pass 80 mm apart"),
-        ("YuMi", "seven axes of no form that irbkin solves"),
         ("IRB 910SC", "four axes, one of them prismatic"),
         ("abb irb 460", "four axes, a second linkage keeps the flange level"),
         ("IRB 6400/2.8-120", "its one source has a forearm of 1705 mm"),
