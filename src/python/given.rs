@@ -105,7 +105,7 @@ impl PyGiven {
         }
     }
 
-    fn prepared(arm: &Arm, joint: usize, angle: f64, py: Python<'_>) -> PyResult<Self> {
+    pub(super) fn prepared(arm: &Arm, joint: usize, angle: f64, py: Python<'_>) -> PyResult<Self> {
         let Arm::Seven(robot) = arm else {
             return Err(PyTypeError::new_err("given is for arms of seven joints"));
         };
@@ -156,33 +156,6 @@ impl PyGiven {
         let given = &*self.given;
         detached(py, threads, |pace| pace.ik_given(given, data, angles, q_slice, status_slice))?;
         classes::ik_batch_class(py)?.call1((q, status))
-    }
-}
-
-/// The solutions of one pose with a joint given.
-pub(super) fn ik<'py>(
-    arm: &Arm,
-    pose: &Bound<'py, PyAny>,
-    asked: Asked<'py>,
-) -> PyResult<Bound<'py, PySolutions>> {
-    let py = pose.py();
-    PyGiven::of(py, arm, asked)?.solutions(py, pose)
-}
-
-/// The solutions of many poses with a joint given.
-pub(super) fn ik_batch<'py>(
-    arm: &Arm,
-    poses: &Bound<'py, PyAny>,
-    asked: Asked<'py>,
-    out: Option<&Bound<'py, PyAny>>,
-    threads: Option<NonZeroUsize>,
-) -> PyResult<Bound<'py, PyAny>> {
-    let py = poses.py();
-    match asked {
-        Asked::Joint(1, angles) => {
-            PyGiven::prepared(arm, 1, 0.0, py)?.batch(poses, Some(&angles), out, threads)
-        }
-        asked => PyGiven::of(py, arm, asked)?.batch(poses, None, out, threads),
     }
 }
 

@@ -12,7 +12,8 @@ use super::batches::{self, needed_q7, no_q7, one_angle};
 use super::configured::{self, Options};
 use super::errors::{of_seed, to_py};
 use super::found::{Found, read_weights};
-use super::given::{self, Asked, PyGiven};
+use super::given::{Asked, PyGiven};
+use super::given_calls;
 use super::nearest::{self, Seeded, read_seeded};
 use super::outputs::answer_row;
 use super::paths;
@@ -57,7 +58,7 @@ impl PyRobot {
             match Asked::read(self.arm(), given)? {
                 // What every arm of seven joints is given anyway.
                 Asked::Joint(7, q7) => return self.ik(T, Some(&q7), None),
-                asked => return given::ik(self.arm(), T, asked),
+                asked => return given_calls::ik(self.arm(), T, asked),
             }
         }
         match self.arm() {
@@ -117,7 +118,7 @@ impl PyRobot {
                 Asked::Joint(7, q7) => {
                     return batches::ik(self.arm(), T, Some(&q7), out, threads);
                 }
-                asked => return given::ik_batch(self.arm(), T, asked, out, threads),
+                asked => return given_calls::ik_batch(self.arm(), T, asked, out, threads),
             }
         }
         batches::ik(self.arm(), T, q7, out, threads)

@@ -17,6 +17,7 @@ mod errors;
 mod found;
 mod freedoms;
 mod given;
+mod given_calls;
 mod inverse;
 mod margins;
 mod masked;

@@ -8,6 +8,7 @@ mod request;
 mod rule;
 mod six_axes;
 mod spherical_wrist;
+mod yumi;
 
 pub use request::ConfigurationRequest;
 
