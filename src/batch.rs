@@ -5,6 +5,8 @@
 //! neighbors.
 
 mod forward;
+#[cfg(feature = "python")]
+mod given;
 #[cfg(feature = "std")]
 mod helpers;
 mod inverse;
@@ -19,6 +21,8 @@ mod poses;
 mod rows;
 
 pub use forward::{configuration, fk, jacobian, link_frames, singularity};
+#[cfg(feature = "python")]
+pub(crate) use inverse::Configured;
 pub use inverse::{NO_CONFIGURATION, ik, ik_configured, ik_nearest, ik_with};
 pub use margins::{Margins, ik_margin};
 #[cfg(feature = "python")]

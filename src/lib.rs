@@ -152,20 +152,21 @@ pub use error::{
 pub use error::{FrameFault, Missing, RapidFault, RapidFaultKind, RoutineFault};
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use kinematics::{
-    AnyRobot, Arity, Break, BreakReason, Definition, DhRow, FollowOptions, Followed, Follower,
-    Inverse, JacobianFrame, JointAxis, JointLimits, Joints, MOST_SLOTS, Margin, Mdh, OpwParameters,
-    Pose, PoseDifference, Redundancy, RedundancyOf, Robot, Sdh, SingularDistances, Singularity,
-    SingularityKind, SingularityMode, Slot, SlotStatus, Solution, Solutions, Status,
-    pose_from_euler_zyx, pose_from_isometry, pose_from_matrix, pose_from_rotation, pose_from_rows,
-    pose_from_wxyz, pose_from_xyzw, pose_to_euler_zyx, pose_to_isometry, pose_to_matrix,
-    pose_to_rows, pose_to_wxyz, thresholds,
+    AnyRobot, Arity, Break, BreakReason, ConfigurationRequest, Definition, DhRow, FollowOptions,
+    Followed, Follower, GivenJoint, Inverse, JacobianFrame, JointAxis, JointLimits, Joints,
+    MOST_SLOTS, Margin, Mdh, OpwParameters, Pose, PoseDifference, Redundancy, RedundancyOf, Robot,
+    Sdh, SingularDistances, Singularity, SingularityKind, SingularityMode, Slot, SlotStatus,
+    Solution, Solutions, Status, pose_from_euler_zyx, pose_from_isometry, pose_from_matrix,
+    pose_from_rotation, pose_from_rows, pose_from_wxyz, pose_from_xyzw, pose_to_euler_zyx,
+    pose_to_isometry, pose_to_matrix, pose_to_rows, pose_to_wxyz, thresholds,
 };
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use lanes::InstructionSet;
 /// The linear algebra of poses and matrices, in the version that this crate uses.
 pub use nalgebra;
 pub use report::{
-    Condition, Configuration, Explanation, FreeJoint, Reach, Relation, UnknownStructure,
+    Condition, Configuration, ConfigurationRule, Explanation, FreeJoint, Reach, Relation,
+    UnknownStructure,
 };
 
 /// The Rust blocks of the README, run as documentation tests.

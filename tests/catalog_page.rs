@@ -12,10 +12,11 @@ const COMMON_TAIL: [&str; 4] =
     ["limits of axes 1 to n", "speeds", "sources", "disagreements and remarks"];
 
 /// Name of a table in the page, the columns that describe its geometry.
-const TABLES: [(&str, &[&str]); 4] = [
+const TABLES: [(&str, &[&str]); 5] = [
     ("abb", &["a1", "a2", "c1", "c2", "c3", "c4", "coupled"]),
     ("universal robots", &["d1", "a2", "a3", "d4", "d5", "d6"]),
     ("franka", &[]),
+    ("yumi", &[]),
     ("offset wrists", &["d1", "a1", "a2", "a3", "d4", "d5", "a5", "d6"]),
 ];
 
@@ -39,6 +40,8 @@ fn geometry(arm: &CatalogArm) -> (&'static str, Vec<String>) {
             let lengths = [one[2], two[1], three[1], four[1], four[2], five[2], six[1], six[2]];
             ("offset wrists", lengths.map(|length| length.to_string()).to_vec())
         }
+        CatalogGeometry::StandingMdh { .. } => ("yumi", Vec::new()),
+        CatalogGeometry::Mdh(_) if arm.maker == "ABB" => ("yumi", Vec::new()),
         CatalogGeometry::Mdh(_) => ("franka", Vec::new()),
         other => unreachable!("{other:?} has no table on the page"),
     }

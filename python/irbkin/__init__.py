@@ -15,6 +15,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from irbkin._core import (
+    Given,
     Robot,
     Solution,
     Solutions,
@@ -85,6 +86,7 @@ __all__ = [
     "ConfigurationBatch",
     "FollowResult",
     "FreeJoint",
+    "Given",
     "IkBatch",
     "IkMargin",
     "InvalidJointsError",

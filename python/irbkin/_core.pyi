@@ -59,6 +59,7 @@ _State = tuple[
     list[float],
     list[float] | None,
     list[float] | None,
+    list[float] | None,
 ]
 
 _SolutionState = tuple[int, int, list[float], tuple[int, str] | None]
@@ -78,6 +79,7 @@ class _Rotation(Protocol):
     def as_matrix(self) -> npt.NDArray[Any]: ...
 
 __all__ = [
+    "Given",
     "Module",
     "Robot",
     "RoutineMotion",
@@ -230,6 +232,151 @@ def to_xyz_euler_zyx(T: npt.ArrayLike) -> tuple[_Floats, _Floats]:
     Raises:
         InvalidPoseError: A wrong shape, or a single pose that is no rigid transform.
     """
+
+@final
+class Given:
+    """A seven-axis arm with the angle of one joint given: `robot.given({3: 0.2})`.
+
+    The other six joints are a chain of their own, which is prepared once, here. Answers have seven
+    joints. Frozen, equal by value, picklable.
+    """
+
+    @property
+    def joint(self) -> int:
+        """The joint whose angle is given, from 1."""
+
+    @property
+    def angle(self) -> float:
+        """Its angle [rad]."""
+
+    @property
+    def robot(self) -> Robot:
+        """The seven-axis arm."""
+
+    @property
+    def six_joints(self) -> Robot:
+        """The other six joints as a robot, with the arm's base, tool, limits and velocities. Its
+        own joints are numbered 1 to 6; `joints` makes seven of them.
+        """
+
+    def joints(self, q: npt.ArrayLike) -> _Floats:
+        """Return joint vectors of the arm for those of its other six joints.
+
+        Args:
+            q: Joint angles [rad] of `six_joints`, shape (..., 6).
+
+        Returns:
+            Joint angles [rad], shape (..., 7), the given one among them.
+
+        Raises:
+            InvalidJointsError: A wrong shape.
+        """
+
+    def ik(self, T: npt.ArrayLike) -> Solutions:
+        """Every joint vector that brings the tool to a pose.
+
+        Args:
+            T: Pose of the tool, shape (4, 4), translation [m].
+
+        Returns:
+            Solutions of seven joints, limits not regarded. A joint that a singular pose leaves free
+            is reported by `six_joints.ik(T)`.
+
+        Raises:
+            InvalidPoseError: T has a wrong shape, is not finite or is no rigid transform.
+        """
+
+    def ik_batch(
+        self,
+        T: npt.ArrayLike,
+        *,
+        out: tuple[_Floats, npt.NDArray[np.uint8]] | _Floats | None = None,
+        threads: int = 1,
+    ) -> IkBatch:
+        """Every joint vector of many poses.
+
+        Args:
+            T: Poses of the tool, shape (..., 4, 4), translation [m].
+            out: Where to write, as `Robot.ik_batch` has it.
+            threads: Number of threads; 0 for one a core.
+
+        Returns:
+            IkBatch(q, status), q of shape (..., slots, 7).
+
+        Raises:
+            InvalidPoseError: T has a wrong shape.
+        """
+
+    def ik_nearest(
+        self,
+        T: npt.ArrayLike,
+        seed: npt.ArrayLike,
+        weights: npt.ArrayLike | None = None,
+        *,
+        out: _Floats | None = None,
+        threads: int = 1,
+    ) -> _Floats:
+        """The solution inside the limits that is nearest to `seed`, turns considered. The given
+        joint does not count.
+
+        Args:
+            T: Poses of the tool, shape (..., 4, 4), translation [m].
+            seed: Joint vectors [rad], shape (..., 7). T and seed are broadcast.
+            weights: Cost of moving each joint, shape (7,); ones when not given.
+            out: Array to write to, shape (..., 7), float64, C-contiguous; it is returned.
+            threads: Number of threads; 0 for one a core.
+
+        Returns:
+            Joint vectors [rad], shape (..., 7); in a batch, NaN for a row without a solution.
+
+        Raises:
+            UnreachableError: A single pose has no solution inside the limits.
+            InvalidPoseError, InvalidJointsError: As `Robot.ik_nearest`.
+        """
+
+    def follow(
+        self,
+        T: npt.ArrayLike,
+        seed: npt.ArrayLike,
+        weights: npt.ArrayLike | None = None,
+        *,
+        singularity_mode: SingularityMode = "through",
+        threads: int = 1,
+    ) -> FollowResult:
+        """Follow a path of poses with the other six joints, each time with the solution that
+        continues the one before.
+
+        Args:
+            T: Poses of the tool, shape (..., m, 4, 4), translation [m].
+            seed: Joint vectors [rad] to start from, shape (..., 7).
+            weights: Cost of moving each joint, shape (7,); ones when not given.
+            singularity_mode: "through" or "error", as `Robot.follow` has it; the other modes are
+                for six joints with a spherical wrist.
+            threads: Number of threads, for several paths; 0 for one a core.
+
+        Returns:
+            FollowResult: joints [rad], shape (..., m, 7); orientation error; the breaks, whose
+            sentences have the numbers of `six_joints`.
+
+        Raises:
+            InvalidPoseError, InvalidJointsError, InvalidModelError: As `Robot.follow`.
+        """
+
+    def check_pose(self, T: npt.ArrayLike) -> PoseCheck:
+        """Whether a pose can be reached with the joint at its angle, and why not.
+
+        Args:
+            T: Pose of the tool, shape (4, 4), translation [m].
+
+        Returns:
+            PoseCheck(reachable, within_limits, reason).
+
+        Raises:
+            InvalidPoseError: As `ik`.
+        """
+
+    def __eq__(self, other: object) -> bool: ...
+    def __hash__(self) -> int: ...
 
 def _restore_robot(state: _State) -> Robot: ...
 def _restore_solution(robot: Robot, pose: list[float], state: _SolutionState) -> Solution: ...
@@ -560,12 +707,21 @@ class Robot:
         out: SingularityBatch | tuple[npt.NDArray[Any], ...] | None = None,
         threads: int = 1,
     ) -> Singularity | SingularityBatch: ...
-    def ik(self, T: npt.ArrayLike, q7: float | None = None) -> Solutions:
+    def ik(
+        self,
+        T: npt.ArrayLike,
+        q7: float | None = None,
+        *,
+        given: Mapping[int, float] | Given | None = None,
+    ) -> Solutions:
         """Every joint vector that brings the tool to a pose.
 
         Args:
             T: Pose of the tool, shape (4, 4), translation [m].
             q7: Angle of joint 7 [rad], of an arm of seven joints.
+            given: In place of q7, another joint of seven with its angle, as {3: 0.2}: joints count
+                from 1. For a joint between the first and the last this prepares a chain of the
+                other six, some milliseconds; for many poses, pass `robot.given({3: 0.2})`.
 
         Returns:
             Solutions, each in its slot, limits not regarded; empty with `reach` and `shortfall`
@@ -573,15 +729,17 @@ class Robot:
 
         Raises:
             InvalidPoseError: T has a wrong shape, is not finite or is no rigid transform.
-            InvalidJointsError: q7 is not finite.
-            InvalidModelError: The arm has no closed form.
-            TypeError: q7 is missing, or the arm has six joints and it is not.
+            InvalidJointsError: q7 is not finite, there is no such joint.
+            InvalidModelError: The other six joints do not move the tool in six independent ways.
+            TypeError, ValueError: q7 is missing, or the arm has six joints and it is not; given is
+                no mapping of one joint, or given beside q7.
         """
     def ik_batch(
         self,
         T: npt.ArrayLike,
         q7: npt.ArrayLike | None = None,
         *,
+        given: Mapping[int, npt.ArrayLike] | Given | None = None,
         out: tuple[_Floats, npt.NDArray[np.uint8]] | _Floats | None = None,
         threads: int = 1,
     ) -> IkBatch:
@@ -591,6 +749,9 @@ class Robot:
             T: Poses of the tool, shape (..., 4, 4), translation [m].
             q7: Angles of joint 7 [rad] of an arm of seven joints, of a shape that goes with (...):
                 T and q7 are broadcast.
+            given: In place of q7, another joint of seven with its angle, as {3: 0.2}, or
+                `robot.given({3: 0.2})`. The angles of the first and the last joint may be an array
+                that goes with (...).
             out: Where to write: an IkBatch or tuple of arrays (..., 8, n) float64 and (..., 8)
                 uint8, or the first of them alone.
             threads: Number of threads; 0 for one a core.
@@ -841,29 +1002,110 @@ class Robot:
         """
     @overload
     def configuration(self, q: _Vector) -> Configuration:
-        """ABB's confdata of joint vectors: quarter turns of axes 1, 4 and 6, and the slot.
+        """ABB's confdata of joint vectors: quarter turns of axes 1, 4 and 6, and the branch.
 
         Args:
-            q: Joint angles [rad], shape (..., 6).
+            q: Joint angles [rad], shape (..., n).
 
         Returns:
             Configuration(cf1, cf4, cf6, cfx): integers for one joint vector, int32 arrays of shape
-            (...) for many. cf is floor(angle / 90 deg). cfx is the slot, 0 for an arm with coupled
-            axes 2 and 3, whose controller does not use it. In a batch, a row that is not finite, or
-            has an angle beyond 1e5 rad, has -2147483648, the least int32, in all four:
-            `ik_configured` gives NaN for it.
+            (...) for many. cf is floor(angle / 90 deg), of a YuMi the nearest whole number. cfx is
+            the slot of a spherical wrist, 0 for an arm with coupled axes 2 and 3, whose controller
+            does not use it; docs/abb.md has the rules of GoFa and YuMi. In a batch, a row that is
+            not finite, or has an angle beyond 1e5 rad, has -2147483648, the least int32, in all
+            four: `ik_configured` gives NaN for it.
 
         Raises:
             InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
-            InvalidModelError: The arm has no spherical wrist: its controller counts otherwise.
+            InvalidModelError: The arm has no spherical wrist and is no GoFa or YuMi of the catalog:
+                its controller counts otherwise.
         """
     @overload
     def configuration(self, q: npt.ArrayLike) -> Configuration | ConfigurationBatch: ...
+    def given(self, given: Mapping[int, float] | Given) -> Given:
+        """Prepare a seven-axis arm with the angle of one joint given, for many poses.
+
+        Args:
+            given: A joint and its angle [rad], as {3: 0.2}: joints count from 1.
+
+        Returns:
+            Given, whose `ik`, `ik_batch`, `ik_nearest`, `follow` and `check_pose` take poses alone.
+
+        Raises:
+            InvalidJointsError: There is no such joint, or its angle is not finite.
+            InvalidModelError: The other six joints do not move the tool in six independent ways.
+            TypeError, ValueError: The arm has six joints; given is no mapping of one joint.
+        """
+
+    @overload
+    def arm_angle(self, q: _Vector) -> float:
+        """The arm angle of a YuMi's joint vectors: eax_a of a robtarget.
+
+        Args:
+            q: Joint angles [rad], shape (..., 7), in the order of the axes from the base: 1, 2, 7,
+                3, 4, 5, 6.
+
+        Returns:
+            Arm angles [rad]: a number for one joint vector, shape (...) for many; NaN where axis 3
+            points from the shoulder to the wrist, and for a row of a batch that is not finite.
+
+        Raises:
+            InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
+            InvalidModelError: The arm is no YuMi of the catalog.
+        """
+    @overload
+    def arm_angle(self, q: npt.ArrayLike) -> float | _Floats:
+        """"""
+
+    def ik_configured_all(
+        self,
+        T: npt.ArrayLike,
+        configuration: Configuration | npt.ArrayLike,
+        *,
+        arm_angle: float | None = None,
+        seed: npt.ArrayLike | None = None,
+    ) -> _Floats:
+        """Every solution of a pose that has a configuration: one, and of a GoFa perhaps two.
+
+        Args:
+            T: Pose of the tool, shape (4, 4), translation [m].
+            configuration: (cf1, cf4, cf6, cfx): an `irbkin.Configuration`, or four whole numbers.
+            arm_angle: Arm angle [rad] of a YuMi: eax_a of its robtargets.
+            seed: Joint vector [rad], shape (n,); angles of zero when not given.
+
+        Returns:
+            Joint vectors [rad], shape (k, n), the nearest to the seed first: that is the answer of
+            `ik_configured`. If k is 2, configuration and pose do not tell which is meant.
+
+        Raises:
+            UnreachableError, InvalidPoseError, InvalidJointsError, InvalidModelError: As
+                `ik_configured`.
+        """
+
+    def ik_arm_angle(self, T: npt.ArrayLike, arm_angle: float) -> _Floats:
+        """Every solution of a pose that has an arm angle, of a YuMi.
+
+        All solutions are calculated for angles of the last joint half a degree apart: two that are
+        closer to each other may be missed.
+
+        Args:
+            T: Pose of the tool, shape (4, 4), translation [m].
+            arm_angle: Arm angle [rad]: eax_a of the robtargets of a YuMi.
+
+        Returns:
+            Joint vectors [rad], shape (k, 7), inside the limits or not.
+
+        Raises:
+            InvalidPoseError, InvalidJointsError: As `ik`; an arm_angle that is not finite.
+            InvalidModelError: The arm is no YuMi of the catalog.
+        """
+
     def ik_configured(
         self,
         T: npt.ArrayLike,
         configuration: Configuration | ConfigurationBatch | npt.ArrayLike,
         *,
+        arm_angle: npt.ArrayLike | None = None,
         fallback: Literal["nearest"] | None = None,
         seed: npt.ArrayLike | None = None,
         out: _Floats | None = None,
@@ -872,20 +1114,24 @@ class Robot:
         """The solution inside the limits that has a configuration, which chooses the turns of axes
         1, 4 and 6, too.
 
-        An angle within 0.01 deg of the edge of a quarter turn is taken for either side of it.
+        An angle within 0.01 deg of the edge of a quarter turn is taken for either side of it. A
+        GoFa may have two solutions with one configuration: `ik_configured_all` returns both. Its
+        joints, and a YuMi's, may be up to 1.5 deg beyond the limits where none is inside.
 
         Args:
             T: Poses of the tool, shape (..., 4, 4), translation [m].
             configuration: (cf1, cf4, cf6, cfx): an `irbkin.Configuration`, or whole numbers of
-                shape (..., 4). T, configuration and seed are broadcast.
+                shape (..., 4). T, configuration, arm_angle and seed are broadcast.
+            arm_angle: Arm angles [rad] of a YuMi, shape (...): eax_a of its robtargets.
             fallback: With "nearest", the solution nearest to `seed` where none has the
                 configuration: many programs write [0, 0, 0, 0] without having calculated it.
-            seed: Joint vectors [rad] of the fallback, shape (..., 6).
-            out: Array to write to, shape (..., 6), float64, C-contiguous; it is returned.
+            seed: Joint vectors [rad], shape (..., n): of the fallback, and those to which the
+                solution of a GoFa or YuMi is the nearest; angles of zero when not given.
+            out: Array to write to, shape (..., n), float64, C-contiguous; it is returned.
             threads: Number of threads; 0 for one a core.
 
         Returns:
-            Joint vectors [rad], shape (..., 6). In a batch, a row without such a solution, or whose
+            Joint vectors [rad], shape (..., n). In a batch, a row without such a solution, or whose
             pose, seed or configuration (that which `configuration` gives an invalid row) is
             invalid, is NaN.
 
@@ -894,9 +1140,11 @@ class Robot:
                 configuration; the message, and its attribute `configurations`, have those that
                 exist.
             InvalidPoseError, InvalidJointsError: A wrong shape, a pose that is none, a number of
-                the configuration that is not whole or that the arm does not have.
-            InvalidModelError: As `configuration`.
-            TypeError, ValueError: Another fallback, or one without a seed.
+                the configuration that is not whole or that the arm does not have, a YuMi without
+                arm_angle.
+            InvalidModelError: As `configuration`; arm_angle of another arm than a YuMi.
+            TypeError, ValueError: Another fallback, or one without a seed; a seed alone where the
+                configuration names one solution.
         """
     def check_pose(self, T: npt.ArrayLike) -> PoseCheck:
         """Whether a pose can be reached, inside the limits or not, and why not; with seven joints,
@@ -1210,10 +1458,12 @@ def calc_joint_t(
         tool: ToolData; the robot's own tool where not given.
         wobj: WobjData; the world where not given.
         fallback: With "nearest", the solution nearest to `seed` where none has the configuration.
-        seed: Joint vector [rad] of the fallback, shape (6,).
+        seed: Joint vector [rad], shape (n,), of the fallback, and to which the solution of a GoFa
+            is the nearest where its configuration names two.
 
     Returns:
-        JointTarget, with the target's external axes.
+        JointTarget, with the target's external axes. eax_a of a YuMi is the arm angle in the target
+        and axis 7 in the answer.
 
     Raises:
         UnreachableError: Its `rapid_error` is "ERR_OUTSIDE_REACH" where the arm is too short or too
@@ -1223,7 +1473,8 @@ def calc_joint_t(
         InvalidJointsError: The arm has no such cfx.
         RapidError: The robot holds both tool and work object or neither, or a mechanical unit moves
             the work object.
-        InvalidModelError: The arm has no spherical wrist, so no confdata.
+        InvalidModelError: The arm has no confdata: no spherical wrist, and it is no GoFa or YuMi of
+            the catalog.
     """
 
 def calc_rob_t(
@@ -1237,12 +1488,12 @@ def calc_rob_t(
 
     Args:
         robot: The arm. Work objects are given in the world, in which the robot's base is.
-        joints: JointTarget, or joint angles [rad], shape (6,).
+        joints: JointTarget, or joint angles [rad], shape (n,).
         tool: ToolData; the robot's own tool where not given.
         wobj: WobjData; the world where not given.
 
     Returns:
-        RobTarget, with the external axes of `joints`.
+        RobTarget, with the external axes of `joints`; eax_a of a YuMi is its arm angle.
 
     Raises:
         InvalidPoseError, RapidError, InvalidModelError: As `calc_joint_t`.
@@ -1264,13 +1515,14 @@ def calc_moves(
         module: Module.
         fallback: With "nearest", a target whose configuration no solution has gets the one nearest
             to the joints before it.
-        seed: Joint vector [rad] before the first target, shape (6,).
+        seed: Joint vector [rad] before the first target, shape (n,).
 
     Returns:
         TargetTable. `problems` says what is wrong with the target of a row.
 
     Raises:
-        InvalidModelError: The arm has no spherical wrist, so no confdata.
+        InvalidModelError: The arm has no confdata: no spherical wrist, and it is no GoFa or YuMi of
+            the catalog.
     """
 
 def calc_targets(
@@ -1292,7 +1544,7 @@ def calc_targets(
         wobj: WobjData; the world where not given.
         fallback: With "nearest", a target whose configuration no solution has gets the one nearest
             to the joints before it.
-        seed: Joint vector [rad] before the first target, shape (6,).
+        seed: Joint vector [rad] before the first target, shape (n,).
 
     Returns:
         TargetTable. `problems` says what is wrong with the target of a row.

@@ -79,7 +79,7 @@ pub fn configuration<'a>(
     robot: &'a Robot<6>,
     q: &'a [f64],
 ) -> Result<impl Iterator<Item = Result<Configuration, Error>> + 'a, Error> {
-    robot.counted()?;
+    robot.configuration_rule()?;
     Ok(rows::<6>("q", q)?.iter().map(|q| robot.configuration(q)))
 }
 

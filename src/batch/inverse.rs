@@ -7,7 +7,8 @@ use super::pace::Pace;
 use super::rows::{check_length, rows, rows_for, rows_out};
 use crate::error::{Error, ModelFault};
 use crate::kinematics::{
-    Arity, Inverse, Joints, RedundancyOf, Robot, Rows, check_seed, check_weights, pose_from_rows,
+    Arity, ConfigurationRequest, Inverse, Joints, RedundancyOf, Robot, Rows, check_weights,
+    pose_from_rows,
 };
 use crate::report::Configuration;
 
@@ -15,7 +16,7 @@ use crate::report::Configuration;
 const PART: usize = 512;
 
 /// The same where a pose may take a thousand times as long, next to a singularity.
-const SMALL_PART: usize = 64;
+pub(super) const SMALL_PART: usize = 64;
 
 /// What stands in each number of the configuration of a row that is invalid. Of such a
 /// configuration there is no solution.
@@ -112,7 +113,19 @@ pub fn ik_configured(
     q: &mut [f64],
     threads: Option<NonZeroUsize>,
 ) -> Result<(), Error> {
-    Pace::steady(threads).ik_configured(robot, poses, configurations, seeds, q)
+    let asked = Configured { configurations, arm_angles: None, seeds, or_nearest: seeds.is_some() };
+    Pace::steady(threads).ik_configured(robot, poses, &asked, q)
+}
+
+/// What is asked of the solutions of rows of poses.
+pub(crate) struct Configured<'a> {
+    pub(crate) configurations: &'a [Configuration],
+    /// The arm angle of each [rad].
+    pub(crate) arm_angles: Option<&'a [f64]>,
+    /// A joint vector for each [rad].
+    pub(crate) seeds: Option<&'a [f64]>,
+    /// Whether a row without its configuration gets the solution nearest to its seed.
+    pub(crate) or_nearest: bool,
 }
 
 impl Pace<'_> {
@@ -180,52 +193,83 @@ impl Pace<'_> {
     }
 
     /// [`ik_configured`]
-    pub(crate) fn ik_configured(
+    pub(crate) fn ik_configured<const N: usize>(
         &mut self,
-        robot: &Robot<6>,
+        robot: &Robot<N>,
         poses: &[f64],
-        configurations: &[Configuration],
-        seeds: Option<&[f64]>,
+        asked: &Configured<'_>,
         q: &mut [f64],
-    ) -> Result<(), Error> {
-        robot.counted()?;
-        let poses = rows::<16>("poses", poses)?;
+    ) -> Result<(), Error>
+    where
+        Robot<N>: Inverse<N>,
+        Joints<N>: Arity<N>,
+    {
+        robot.configuration_rule()?;
+        let (poses, configurations) = (rows::<16>("poses", poses)?, asked.configurations);
         check_length("configurations", configurations.len(), poses.len())?;
         for configuration in configurations.iter().filter(|configuration| **configuration != NONE) {
             configuration.check(robot.is_coupled())?;
         }
-        let seeds = match seeds {
-            Some(seeds) => Some(rows_for::<6>("seeds", seeds, poses.len())?),
+        let seeds = match asked.seeds {
+            Some(seeds) => Some(rows_for::<N>("seeds", seeds, poses.len())?),
             None => None,
         };
+        if let Some(arm_angles) = asked.arm_angles {
+            check_length("arm_angles", arm_angles.len(), poses.len())?;
+        }
         let solve = |row: usize| {
-            let pose = pose_from_rows(&poses[row])?;
-            let Some(seeds) = seeds else {
-                return robot.ik_configured_checked(pose, configurations[row]);
+            let request = ConfigurationRequest {
+                configuration: configurations[row],
+                arm_angle: asked.arm_angles.map(|angles| angles[row]),
+                seed: seeds.map(|seeds| seeds[row]),
+                or_nearest: asked.or_nearest,
             };
-            check_seed("seed", &seeds[row])?;
-            robot.ik_configured_or_nearest_checked(pose, configurations[row], &seeds[row])
+            request.check()?;
+            robot.configured_checked(pose_from_rows(&poses[row])?, &request)
         };
-        let q = rows_out::<6, f64>("q", q, poses.len())?;
+        let q = rows_out::<N, f64>("q", q, poses.len())?;
         self.run(poses.len(), q.chunks_mut(SMALL_PART).enumerate(), |(part, q), _| {
             for (row, q) in (SMALL_PART * part..).zip(q) {
-                *q = solve(row).map_or([f64::NAN; 6], |solution| solution.q);
+                *q = solve(row).map_or([f64::NAN; N], |solution| solution.q);
             }
         });
         Ok(())
     }
 
-    /// The configurations of rows of six joint angles, number by number; [`NO_CONFIGURATION`] of a
-    /// row that is invalid.
+    /// The arm angles of rows of seven joint angles [rad]; NaN where there is none.
     #[cfg(feature = "python")]
-    pub(crate) fn configurations(
+    pub(crate) fn arm_angles(
         &mut self,
-        robot: &Robot<6>,
+        robot: &Robot<7>,
+        q: &[f64],
+        angles: &mut [f64],
+    ) -> Result<(), Error> {
+        robot.arm_angle(&[0.0; 7])?;
+        let q = rows::<7>("q", q)?;
+        check_length("arm_angles", angles.len(), q.len())?;
+        let parts = q.chunks(PART).zip(angles.chunks_mut(PART));
+        self.run(q.len(), parts, |(q, angles), _| {
+            for (q, angle) in q.iter().zip(angles) {
+                *angle = robot.arm_angle(q).ok().flatten().unwrap_or(f64::NAN);
+            }
+        });
+        Ok(())
+    }
+
+    /// The configurations of rows of joint angles, number by number; [`NO_CONFIGURATION`] of a row
+    /// that is invalid.
+    #[cfg(feature = "python")]
+    pub(crate) fn configurations<const N: usize>(
+        &mut self,
+        robot: &Robot<N>,
         q: &[f64],
         numbers: [&mut [i32]; 4],
-    ) -> Result<(), Error> {
-        robot.counted()?;
-        let q = rows::<6>("q", q)?;
+    ) -> Result<(), Error>
+    where
+        Joints<N>: Arity<N>,
+    {
+        robot.configuration_rule()?;
+        let q = rows::<N>("q", q)?;
         for numbers in &numbers {
             check_length("configurations", numbers.len(), q.len())?;
         }

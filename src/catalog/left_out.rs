@@ -65,11 +65,6 @@ const ENTRIES: &[Entry] = &[
         "no spherical wrist: hollow, with bends of 35 deg",
     ),
     entry(
-        "IRB 14000, 14050 (YuMi)",
-        &["IRB 14000", "IRB 14050", "YuMi"],
-        "seven axes of no form that irbkin solves, axis 7 between 2 and 3; sources disagree",
-    ),
-    entry(
         "IRB 260, 460, 660-180, 660-250, 760 (palletizers)",
         &["IRB 260", "IRB 460", "IRB 660", "IRB 760"],
         "four axes, a second linkage keeps the flange level",

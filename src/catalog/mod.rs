@@ -1,13 +1,14 @@
 //! The catalog: arms by name.
 
 mod abb;
+mod confdata;
 mod franka;
 mod left_out;
 mod names;
 mod offset_wrists;
 mod universal_robots;
 
-use nalgebra::{Matrix3, Rotation3, Translation3, Vector3};
+use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Translation3, Vector3};
 
 use crate::error::{Error, ModelFault};
 use crate::kinematics::{
@@ -115,6 +116,31 @@ pub enum CatalogGeometry {
     },
     /// Modified Denavit-Hartenberg rows: alpha [deg], a [mm], d [mm], theta offset [deg].
     Mdh(&'static [[f64; 4]]),
+    /// The same of an arm that stands turned on a body, to whose frame poses refer.
+    StandingMdh {
+        /// Position of the frame before the first row [mm].
+        xyz: [f64; 3],
+        /// Its rotation: about x, then about its own y, then about its own z [rad].
+        turns: [f64; 3],
+        /// alpha [deg], a [mm], d [mm], theta offset [deg].
+        rows: &'static [[f64; 4]],
+    },
+}
+
+/// The rows of a table in meters and radians.
+fn table<const N: usize>(rows: &[[f64; 4]]) -> Option<[DhRow; N]> {
+    let rows = <[[f64; 4]; N]>::try_from(rows).ok()?;
+    Some(rows.map(|[alpha, a, d, theta]| {
+        DhRow::new(alpha.to_radians(), a / 1e3, d / 1e3, theta.to_radians())
+    }))
+}
+
+/// The frame on which an arm stands: its position [mm] and its rotations about x, y and z [rad].
+fn standing(xyz: [f64; 3], turns: [f64; 3]) -> Pose {
+    let axes = [Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()];
+    let [x, y, z] = core::array::from_fn(|i| Rotation3::from_axis_angle(&axes[i], turns[i]));
+    let position = Vector3::from(xyz.map(|mm| mm / 1e3));
+    IsometryMatrix3::from_parts(position.into(), x * y * z)
 }
 
 /// Every arm of the catalog: ABB's by type number, then those of other makers.
@@ -143,11 +169,6 @@ impl CatalogArm {
     pub fn aliases(&self) -> impl Iterator<Item = &'static str> {
         names::ALIASES.iter().filter(|(_, name)| *name == self.name).map(|(alias, _)| *alias)
     }
-}
-
-/// A row from alpha [deg], a [mm], d [mm] and theta [deg].
-fn row_of([alpha, a, d, theta]: [f64; 4]) -> DhRow {
-    DhRow::new(alpha.to_radians(), a / 1e3, d / 1e3, theta.to_radians())
 }
 
 impl AnyRobot {
@@ -232,23 +253,28 @@ where
                     [90.0, 0.0, d5, 0.0],
                     [-90.0, 0.0, -d6, 0.0],
                 ];
-                let rows = <[[f64; 4]; N]>::try_from(&rows[..]).map_err(|_| wrong_count())?;
+                let rows = table(&rows).ok_or_else(wrong_count)?;
                 // The flange faces away from axis 6, which points back.
                 let half_turn = Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0));
                 let flange = Pose::from_parts(
                     Translation3::identity(),
                     Rotation3::from_matrix_unchecked(half_turn),
                 );
-                Self::from_mdh(Mdh { base: Pose::identity(), rows: rows.map(row_of), flange })?
+                Self::from_mdh(Mdh { base: Pose::identity(), rows, flange })?
             }
             CatalogGeometry::Mdh(rows) => {
-                let rows = <[[f64; 4]; N]>::try_from(rows).map_err(|_| wrong_count())?;
-                let rows = rows.map(row_of);
+                let rows = table(rows).ok_or_else(wrong_count)?;
                 Self::from_mdh(Mdh { base: Pose::identity(), rows, flange: Pose::identity() })?
+            }
+            CatalogGeometry::StandingMdh { xyz, turns, rows } => {
+                let rows = table(rows).ok_or_else(wrong_count)?;
+                let base = standing(xyz, turns);
+                Self::from_mdh(Mdh { base, rows, flange: Pose::identity() })?
             }
         };
         let limits =
             JointLimits::new(limits.map(|limit| limit.map(|angle| arm.angles.to_radians(angle))))?;
-        robot.with_name(arm.name).with_limits(limits).with_max_velocity(velocity)
+        let robot = robot.with_name(arm.name).with_limits(limits).with_max_velocity(velocity)?;
+        Ok(robot.with_rule(arm.own_configuration_rule()))
     }
 }

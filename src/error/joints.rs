@@ -47,6 +47,15 @@ pub enum JointFault {
         /// The least and the largest that it may be.
         bounds: [i32; 2],
     },
+    /// The arm has no joint with this number.
+    NoJoint {
+        /// The joint, from 1.
+        joint: usize,
+        /// The number of joints.
+        dof: usize,
+    },
+    /// A configuration of an arm that needs the arm angle with it comes without one.
+    MissingArmAngle,
     /// A weight is negative, NaN or infinite.
     Weight {
         /// The joint, from 1.
@@ -89,6 +98,14 @@ impl fmt::Display for JointFault {
             Self::Configuration { field, value, bounds: [least, most] } => {
                 write!(f, "configuration: {field} is {value}, it must be {least} to {most}")
             }
+            Self::NoJoint { joint, dof } => {
+                write!(f, "given: there is no joint {joint}, it must be 1 to {dof}")
+            }
+            Self::MissingArmAngle => write!(
+                f,
+                "arm_angle is missing: the pose and the configuration of a YuMi leave its elbow \
+                 undetermined (in a robtarget it is eax_a)"
+            ),
             Self::Weight { joint, value } => write!(
                 f,
                 "weights: joint {joint} is {value}, a weight must be finite and not negative"

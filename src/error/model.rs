@@ -138,6 +138,8 @@ pub enum ModelFault {
         /// Name of the structure.
         structure: &'static str,
     },
+    /// The arm angle is a YuMi's.
+    NoArmAngle,
     /// A singularity mode locks a wrist that the arm does not have.
     NoSphericalWrist,
     /// The direction of an axis has no length.
@@ -234,7 +236,14 @@ impl fmt::Display for ModelFault {
                     f,
                     "this robot has no ABB configuration: its structure is \"{structure}\", not a \
                      six-axis arm with a spherical wrist"
-                )
+                )?;
+                match *structure {
+                    "offset wrist" | "general" => write!(f, ", nor a GoFa or YuMi of the catalog"),
+                    _ => Ok(()),
+                }
+            }
+            Self::NoArmAngle => {
+                write!(f, "this robot has no arm angle: it is no YuMi of the catalog")
             }
             Self::NoSphericalWrist => write!(
                 f,

@@ -48,6 +48,8 @@ pub use pose::{
 pub(crate) use robot::SNAPS;
 pub use robot::any::AnyRobot;
 pub use robot::{Definition, Margin, Robot};
+pub use solve::configuration::ConfigurationRequest;
+pub use solve::given_joint::GivenJoint;
 pub use solve::seeded::Inverse;
 pub use structure::arity::{Arity, Joints, RedundancyOf};
 pub(crate) use structure::arm::Rows;

@@ -199,6 +199,14 @@ pub const WRIST_ZONE: f64 = 0.0175;
 /// [rad]: 0.01 deg, the rounding of a robtarget's printed digits.
 pub const CONFIGURATION_EDGE: f64 = 0.01 * core::f64::consts::PI / 180.0;
 
+/// How far beyond its limits a joint of a GoFa or YuMi may be in a taught target [rad]: arms that
+/// are guided by hand pass their limits, by 1.1 deg in controllers' backups.
+pub const TAUGHT_BEYOND_LIMITS: f64 = 1.5 * core::f64::consts::PI / 180.0;
+
+/// Difference between an arm angle and the one that is asked for [rad] up to which they are the
+/// same: robtargets hold it with nine digits of a degree, and a controller computes it to seven.
+pub const ARM_ANGLE_OFF: f64 = 1e-6;
+
 /// Square of a length below which a mirror does not turn it [(m/rad)^2, 1]: the least whose digits,
 /// and those of what it is summed from, are all there. The length counts as zero, which moves a
 /// singular value by no more than its root.

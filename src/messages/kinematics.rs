@@ -84,6 +84,10 @@ fn joints() -> Vec<Row> {
         JointFault::Configuration { .. } =>
             JointFault::Configuration { field: "cfx", value: 9, bounds: [0, 7] },
             "a number that no configuration has", "write one of the range";
+        JointFault::NoJoint { .. } => JointFault::NoJoint { joint: 8, dof: 7 },
+            "`given={8: 0.2}`", "count joints from 1";
+        JointFault::MissingArmAngle => JointFault::MissingArmAngle,
+            "`ik_configured` of a YuMi, a robtarget whose eax_a is 9E9", "give `arm_angle`";
         JointFault::Weight { .. } => JointFault::Weight { joint: 6, value: -2.0 },
             "`weights`", "give costs of moving each joint, 0 or more";
     }
@@ -149,6 +153,8 @@ fn models() -> Vec<Row> {
         ModelFault::NoConfiguration { .. } =>
             ModelFault::NoConfiguration { structure: "three parallel axes" },
             "`configuration`, `ik_configured`", "take `slot` of a solution";
+        ModelFault::NoArmAngle => ModelFault::NoArmAngle,
+            "`arm_angle` of another arm than a YuMi", "give the angle of a joint: `given`";
         ModelFault::NoSphericalWrist => ModelFault::NoSphericalWrist,
             "`follow(singularity_mode=)` \"wrist\" or \"lock_axis4\"",
             "take \"through\" or \"error\"";
@@ -264,6 +270,8 @@ fn answers() -> Vec<Row> {
         Explanation::FreeOutOfReach { .. } =>
             Explanation::FreeOutOfReach { joint: 6, value: 1.0 },
             "`with_free_joint`", "choose another angle";
+        Explanation::NoArmAngle { .. } => Explanation::NoArmAngle { arm_angle: 1.8 },
+            "a target of a YuMi", "take another arm angle: `ik_nearest` finds one";
         Explanation::FilteredOut => Explanation::FilteredOut,
             "`filter`", "look at the condition";
     };

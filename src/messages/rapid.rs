@@ -183,6 +183,9 @@ fn problems() -> Vec<Row> {
             "PDispSet, PDispOn, EOffsSet", "displace the targets yourself";
         Problem::AbsentAxis { .. } => Problem::AbsentAxis { axis: 6, degrees: 9e9 },
             "9E9 as a joint angle", "write the angle";
+        Problem::Ambiguous { .. } => Problem::Ambiguous { count: 2 },
+            "a robtarget of a GoFa, whose confdata may name two solutions",
+            "give joint angles, by `MoveAbsJ` or a seed";
         Problem::OutsideLimits { .. } => Problem::OutsideLimits { joint: 5, excess: 0.05 },
             "a jointtarget outside the limits", "move it inside";
         Problem::OutsideLinkageLimits { .. } => Problem::OutsideLinkageLimits { excess: 0.05 },

@@ -9,12 +9,13 @@ use pyo3::types::PyTuple;
 
 use super::arm::{Arm, on};
 use super::arrays::{Rows, addresses};
-use super::classes;
+use super::classes::{self, pose_check_class};
 use super::outputs::{checked_out, output, writable};
 use super::records;
 use super::signals::detached;
 use crate::batch::Pace;
 use crate::kinematics::{Singularity, Status};
+use crate::report::Explanation;
 
 /// `irbkin.Singularity` of one joint vector.
 pub(super) fn singularity_record<'py>(
@@ -118,4 +119,18 @@ pub(super) fn batch_output<'py>(
         ))),
         None => Ok((output(py, out, &q_shape)?, PyArrayDyn::zeros(py, status_shape, false))),
     }
+}
+
+/// `irbkin.PoseCheck` of the outcome of a solve.
+pub(super) fn pose_check<'py>(
+    py: Python<'py>,
+    explanation: &Explanation,
+) -> PyResult<Bound<'py, PyAny>> {
+    let inside = matches!(explanation, Explanation::Found { .. });
+    let reachable = inside
+        || matches!(
+            explanation,
+            Explanation::OutsideLimits { .. } | Explanation::OutsideLinkage { .. }
+        );
+    pose_check_class(py)?.call1((reachable, inside, explanation.to_string()))
 }

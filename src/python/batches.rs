@@ -90,18 +90,20 @@ pub(super) fn no_q7(given: bool) -> PyResult<()> {
     }
 }
 
-/// Joint 7 as one angle [rad]; a seed is not one.
-pub(super) fn one_q7(q7: &Bound<'_, PyAny>) -> PyResult<f64> {
-    q7.extract().map_err(|_| {
-        let got = match q7.getattr(intern!(q7.py(), "shape")).and_then(|sizes| sizes.extract()) {
-            Ok::<Vec<usize>, _>(sizes) => format!("an array of shape {}", shape(&sizes)),
-            Err(_) => q7.get_type().name().map_or_else(
-                |_| "another object".to_owned(),
-                |name| format!("an object of type {name}"),
-            ),
-        };
+/// The angle of one joint [rad]; a seed is not one.
+pub(super) fn one_angle(angle: &Bound<'_, PyAny>, field: &str) -> PyResult<f64> {
+    angle.extract().map_err(|_| {
+        let got =
+            match angle.getattr(intern!(angle.py(), "shape")).and_then(|sizes| sizes.extract()) {
+                Ok::<Vec<usize>, _>(sizes) => format!("an array of shape {}", shape(&sizes)),
+                Err(_) => angle.get_type().name().map_or_else(
+                    |_| "another object".to_owned(),
+                    |name| format!("an object of type {name}"),
+                ),
+            };
+        let of = if field == "q7" { "joint 7" } else { "its joint" };
         PyTypeError::new_err(format!(
-            "q7 must be one real number, the angle of joint 7 [rad], got {got} (for the solution \
+            "{field} must be one real number, the angle of {of} [rad], got {got} (for the solution \
              nearest to a seed take ik_nearest(T, seed))"
         ))
     })

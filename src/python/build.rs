@@ -13,7 +13,7 @@ use crate::kinematics::{
     Arity, Definition, DhRow, Joints, Mdh, OpwParameters, Pose, Robot, Sdh, pose_from_rows,
     pose_to_rows,
 };
-use crate::report::Convention;
+use crate::report::{ConfigurationRule, Convention};
 
 /// How a Denavit-Hartenberg table is to be read.
 #[derive(Clone, Copy)]
@@ -112,9 +112,20 @@ pub(super) fn with_limits(arm: &Arm, limits: &Bound<'_, PyAny>) -> PyResult<Arm>
 }
 
 /// Everything that a robot was built from: (name, definition, numbers of it, limits, base, tool,
-/// velocities, linkage). The last is of coupled arms alone: limits of the linkage, or no numbers.
-pub(super) type State =
-    (String, String, Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>, Option<Vec<f64>>, Option<Vec<f64>>);
+/// velocities, linkage, rule). The linkage is of coupled arms alone: its limits, or no numbers. The
+/// rule is of arms whose controllers count configurations in a way of their own: the reference of a
+/// YuMi's arm angle, no numbers of a GoFa.
+pub(super) type State = (
+    String,
+    String,
+    Vec<f64>,
+    Vec<f64>,
+    Vec<f64>,
+    Vec<f64>,
+    Option<Vec<f64>>,
+    Option<Vec<f64>>,
+    Option<Vec<f64>>,
+);
 
 /// The state of an arm. Equal robots have equal states.
 pub(super) fn state(arm: &Arm) -> State {
@@ -132,6 +143,10 @@ pub(super) fn state(arm: &Arm) -> State {
             pose_to_rows(robot.tool()).to_vec(),
             robot.max_velocity().map(|velocity| velocity.to_vec()),
             robot.is_coupled().then(|| robot.limits().linkage().map_or_else(Vec::new, Vec::from)),
+            robot.own_rule().map(|rule| match rule {
+                ConfigurationRule::ArmAngle { reference } => Vec::from(reference),
+                _ => Vec::new(),
+            }),
         )
     })
 }
@@ -148,18 +163,17 @@ fn mdh_numbers<const N: usize>(mdh: &Mdh<N>) -> Vec<f64> {
 
 /// Hash of a robot's value.
 pub(super) fn hash(py: Python<'_>, arm: &Arm) -> PyResult<isize> {
-    let (name, definition, numbers, limits, base, tool, velocity, linkage) = state(arm);
-    let coupled = linkage.is_some();
-    let numbers =
-        [numbers, limits, base, tool, velocity.unwrap_or_default(), linkage.unwrap_or_default()]
-            .concat();
+    let (name, definition, numbers, limits, base, tool, velocity, linkage, rule) = state(arm);
+    let (coupled, ruled) = (linkage.is_some(), rule.is_some());
+    let others = [velocity, linkage, rule].map(Option::unwrap_or_default).concat();
+    let numbers = [numbers, limits, base, tool, others].concat();
     // Python's own hash of floats holds 0.0 and -0.0 for one, as the comparison does.
-    (name, definition, coupled, PyTuple::new(py, numbers)?).into_pyobject(py)?.hash()
+    (name, definition, coupled, ruled, PyTuple::new(py, numbers)?).into_pyobject(py)?.hash()
 }
 
 /// The arm of a state, for pickle.
 pub(super) fn restored(py: Python<'_>, state: &State) -> PyResult<Arm> {
-    let (name, definition, numbers, limits, base, tool, velocity, linkage) = state;
+    let (name, definition, numbers, limits, base, tool, velocity, linkage, rule) = state;
     let (limit_rows, rest) = limits.as_chunks::<2>();
     let broken = || Fault::Model.error(py, "the pickled robot is damaged".to_owned());
     if !rest.is_empty() {
@@ -182,7 +196,15 @@ pub(super) fn restored(py: Python<'_>, state: &State) -> PyResult<Arm> {
         .changed(py, &Edit::StoredLimits(limit_rows))?
         .changed(py, &Edit::Base(pose(base)?))?
         .changed(py, &Edit::Tool(pose(tool)?))?
-        .changed(py, &Edit::MaxVelocity(velocity.as_deref()))
+        .changed(py, &Edit::MaxVelocity(velocity.as_deref()))?
+        .changed(py, &Edit::Rule(rule.as_deref().map(rule_of)))
+}
+
+fn rule_of(numbers: &[f64]) -> ConfigurationRule {
+    match numbers.first_chunk::<3>() {
+        Some(reference) => ConfigurationRule::ArmAngle { reference: *reference },
+        None => ConfigurationRule::OffsetWrist,
+    }
 }
 
 fn opw_of(numbers: &[f64]) -> Option<Result<Robot<6>, Error>> {

@@ -3,6 +3,7 @@
 use super::arm::Change;
 use crate::error::{Error, ModelFault};
 use crate::kinematics::{Arity, JointLimits, Joints, Pose, Robot};
+use crate::report::ConfigurationRule;
 
 /// A change of a robot.
 pub(super) enum Edit<'a> {
@@ -23,6 +24,8 @@ pub(super) enum Edit<'a> {
     /// The coupling of a pickled robot: none, or the limits of its linkage, which may be no
     /// numbers.
     Coupling(Option<&'a [f64]>),
+    /// How its controller counts configurations, if in a way of its own.
+    Rule(Option<ConfigurationRule>),
     /// Other velocities, as many as joints [rad/s], or none.
     MaxVelocity(Option<&'a [f64]>),
 }
@@ -53,6 +56,7 @@ impl Change for Edit<'_> {
                 let linkage = <[f64; 2]>::try_from(*linkage).map_err(damaged)?;
                 robot.coupled()?.with_linkage_limits(Some(linkage))
             }
+            Self::Rule(rule) => Ok(robot.with_rule(*rule)),
             Self::MaxVelocity(velocity) => {
                 robot.with_max_velocity(velocity.map(of_joints).transpose()?)
             }

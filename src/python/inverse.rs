@@ -2,15 +2,18 @@
 
 use std::sync::Arc;
 
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
+use super::answers::pose_check;
 use super::arguments::{read_singularity_mode, thread_count};
 use super::arm::{Arm, on};
-use super::batches::{self, needed_q7, no_q7, one_q7};
-use super::classes::pose_check_class;
-use super::configurations::{self, Fallback};
+use super::batches::{self, needed_q7, no_q7, one_angle};
+use super::configured::{self, Options};
 use super::errors::{of_seed, to_py};
 use super::found::{Found, read_weights};
+use super::given::{Asked, PyGiven};
+use super::given_calls;
 use super::nearest::{self, Seeded, read_seeded};
 use super::outputs::answer_row;
 use super::paths;
@@ -19,7 +22,6 @@ use super::robot::PyRobot;
 use super::solutions::PySolutions;
 use crate::kinematics::thresholds::WRIST_ZONE;
 use crate::kinematics::{FollowOptions, Inverse, Redundancy};
-use crate::report::Explanation;
 
 #[pymethods]
 #[expect(non_snake_case, reason = "T is the name that users pass")]
@@ -29,6 +31,9 @@ impl PyRobot {
     /// Args:
     ///     T: Pose of the tool, shape (4, 4), translation [m].
     ///     q7: Angle of joint 7 [rad], of an arm of seven joints.
+    ///     given: In place of q7, another joint of seven with its angle, as {3: 0.2}: joints count
+    ///         from 1. For a joint between the first and the last this prepares a chain of the
+    ///         other six, some milliseconds; for many poses, pass `robot.given({3: 0.2})`.
     ///
     /// Returns:
     ///     Solutions, each in its slot, limits not regarded; empty with `reach` and `shortfall`
@@ -36,16 +41,26 @@ impl PyRobot {
     ///
     /// Raises:
     ///     InvalidPoseError: T has a wrong shape, is not finite or is no rigid transform.
-    ///     InvalidJointsError: q7 is not finite.
-    ///     InvalidModelError: The arm has no closed form.
-    ///     TypeError: q7 is missing, or the arm has six joints and it is not.
-    #[pyo3(signature = (T, q7=None))]
+    ///     InvalidJointsError: q7 is not finite, there is no such joint.
+    ///     InvalidModelError: The other six joints do not move the tool in six independent ways.
+    ///     TypeError, ValueError: q7 is missing, or the arm has six joints and it is not; given is
+    ///         no mapping of one joint, or given beside q7.
+    #[pyo3(signature = (T, q7=None, *, given=None))]
     fn ik<'py>(
         &self,
         T: &Bound<'py, PyAny>,
         q7: Option<&Bound<'py, PyAny>>,
+        given: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PySolutions>> {
         let py = T.py();
+        if let Some(given) = given {
+            no_q7_beside_given(q7)?;
+            match Asked::read(self.arm(), given)? {
+                // What every arm of seven joints is given anyway.
+                Asked::Joint(7, q7) => return self.ik(T, Some(&q7), None),
+                asked => return given_calls::ik(self.arm(), T, asked),
+            }
+        }
         match self.arm() {
             Arm::Six(robot) => {
                 no_q7(q7.is_some())?;
@@ -54,7 +69,7 @@ impl PyRobot {
                 Bound::new(py, PySolutions::from(found))
             }
             Arm::Seven(robot) => {
-                let q7 = one_q7(needed_q7(py, robot, q7)?)?;
+                let q7 = one_angle(needed_q7(py, robot, q7)?, "q7")?;
                 let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_ik_pose(T)?));
                 q7.check()
                     .and_then(|()| robot.ik_into(&mut found.solutions, q7))
@@ -70,6 +85,9 @@ impl PyRobot {
     ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
     ///     q7: Angles of joint 7 [rad] of an arm of seven joints, of a shape that goes with (...):
     ///         T and q7 are broadcast.
+    ///     given: In place of q7, another joint of seven with its angle, as {3: 0.2}, or
+    ///         `robot.given({3: 0.2})`. The angles of the first and the last joint may be an array
+    ///         that goes with (...).
     ///     out: Where to write: an IkBatch or tuple of arrays (..., 8, n) float64 and (..., 8)
     ///         uint8, or the first of them alone.
     ///     threads: Number of threads; 0 for one a core.
@@ -84,15 +102,42 @@ impl PyRobot {
     ///     InvalidJointsError: q7 has a wrong shape.
     ///     InvalidModelError: The arm has no closed form.
     ///     TypeError: q7 is missing, or the arm has six joints and it is not.
-    #[pyo3(signature = (T, q7=None, *, out=None, threads=1))]
+    #[pyo3(signature = (T, q7=None, *, given=None, out=None, threads=1))]
     fn ik_batch<'py>(
         &self,
         T: &Bound<'py, PyAny>,
         q7: Option<&Bound<'py, PyAny>>,
+        given: Option<&Bound<'py, PyAny>>,
         out: Option<&Bound<'py, PyAny>>,
         threads: isize,
     ) -> PyResult<Bound<'py, PyAny>> {
-        batches::ik(self.arm(), T, q7, out, thread_count(threads)?)
+        let threads = thread_count(threads)?;
+        if let Some(given) = given {
+            no_q7_beside_given(q7)?;
+            match Asked::read(self.arm(), given)? {
+                Asked::Joint(7, q7) => {
+                    return batches::ik(self.arm(), T, Some(&q7), out, threads);
+                }
+                asked => return given_calls::ik_batch(self.arm(), T, asked, out, threads),
+            }
+        }
+        batches::ik(self.arm(), T, q7, out, threads)
+    }
+
+    /// Prepare a seven-axis arm with the angle of one joint given, for many poses.
+    ///
+    /// Args:
+    ///     given: A joint and its angle [rad], as {3: 0.2}: joints count from 1.
+    ///
+    /// Returns:
+    ///     Given, whose `ik`, `ik_batch`, `ik_nearest`, `follow` and `check_pose` take poses alone.
+    ///
+    /// Raises:
+    ///     InvalidJointsError: There is no such joint, or its angle is not finite.
+    ///     InvalidModelError: The other six joints do not move the tool in six independent ways.
+    ///     TypeError, ValueError: The arm has six joints; given is no mapping of one joint.
+    fn given(&self, given: &Bound<'_, PyAny>) -> PyResult<PyGiven> {
+        PyGiven::of(given.py(), self.arm(), Asked::read(self.arm(), given)?)
     }
 
     /// The solution inside the limits that is nearest to `seed`, turns considered.
@@ -195,20 +240,24 @@ impl PyRobot {
     /// The solution inside the limits that has a configuration, which chooses the turns of axes 1,
     /// 4 and 6, too.
     ///
-    /// An angle within 0.01 deg of the edge of a quarter turn is taken for either side of it.
+    /// An angle within 0.01 deg of the edge of a quarter turn is taken for either side of it. A
+    /// GoFa may have two solutions with one configuration: `ik_configured_all` returns both. Its
+    /// joints, and a YuMi's, may be up to 1.5 deg beyond the limits where none is inside.
     ///
     /// Args:
     ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
     ///     configuration: (cf1, cf4, cf6, cfx): an `irbkin.Configuration`, or whole numbers of
-    ///         shape (..., 4). T, configuration and seed are broadcast.
+    ///         shape (..., 4). T, configuration, arm_angle and seed are broadcast.
+    ///     arm_angle: Arm angles [rad] of a YuMi, shape (...): eax_a of its robtargets.
     ///     fallback: With "nearest", the solution nearest to `seed` where none has the
     ///         configuration: many programs write [0, 0, 0, 0] without having calculated it.
-    ///     seed: Joint vectors [rad] of the fallback, shape (..., 6).
-    ///     out: Array to write to, shape (..., 6), float64, C-contiguous; it is returned.
+    ///     seed: Joint vectors [rad], shape (..., n): of the fallback, and those to which the
+    ///         solution of a GoFa or YuMi is the nearest; angles of zero when not given.
+    ///     out: Array to write to, shape (..., n), float64, C-contiguous; it is returned.
     ///     threads: Number of threads; 0 for one a core.
     ///
     /// Returns:
-    ///     Joint vectors [rad], shape (..., 6). In a batch, a row without such a solution, or whose
+    ///     Joint vectors [rad], shape (..., n). In a batch, a row without such a solution, or whose
     ///     pose, seed or configuration (that which `configuration` gives an invalid row) is
     ///     invalid, is NaN.
     ///
@@ -217,21 +266,75 @@ impl PyRobot {
     ///         configuration; the message, and its attribute `configurations`, have those that
     ///         exist.
     ///     InvalidPoseError, InvalidJointsError: A wrong shape, a pose that is none, a number of
-    ///         the configuration that is not whole or that the arm does not have.
-    ///     InvalidModelError: As `configuration`.
-    ///     TypeError, ValueError: Another fallback, or one without a seed.
-    #[pyo3(signature = (T, configuration, *, fallback=None, seed=None, out=None, threads=1))]
+    ///         the configuration that is not whole or that the arm does not have, a YuMi without
+    ///         arm_angle.
+    ///     InvalidModelError: As `configuration`; arm_angle of another arm than a YuMi.
+    ///     TypeError, ValueError: Another fallback, or one without a seed; a seed alone where the
+    ///         configuration names one solution.
+    #[pyo3(signature = (T, configuration, *, arm_angle=None, fallback=None, seed=None, out=None, threads=1))]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn ik_configured<'py>(
         &self,
         T: &Bound<'py, PyAny>,
         configuration: &Bound<'py, PyAny>,
+        arm_angle: Option<&Bound<'py, PyAny>>,
         fallback: Option<&str>,
         seed: Option<&Bound<'py, PyAny>>,
         out: Option<&Bound<'py, PyAny>>,
         threads: isize,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let (fallback, threads) = (Fallback { name: fallback, seed }, thread_count(threads)?);
-        configurations::ik(self.arm(), T, configuration, &fallback, out, threads)
+        let (options, threads) = (Options { arm_angle, fallback, seed }, thread_count(threads)?);
+        configured::ik(self.arm(), T, configuration, &options, out, threads)
+    }
+
+    /// Every solution of a pose that has a configuration: one, and of a GoFa perhaps two.
+    ///
+    /// Args:
+    ///     T: Pose of the tool, shape (4, 4), translation [m].
+    ///     configuration: (cf1, cf4, cf6, cfx): an `irbkin.Configuration`, or four whole numbers.
+    ///     arm_angle: Arm angle [rad] of a YuMi: eax_a of its robtargets.
+    ///     seed: Joint vector [rad], shape (n,); angles of zero when not given.
+    ///
+    /// Returns:
+    ///     Joint vectors [rad], shape (k, n), the nearest to the seed first: that is the answer of
+    ///     `ik_configured`. If k is 2, configuration and pose do not tell which is meant.
+    ///
+    /// Raises:
+    ///     UnreachableError, InvalidPoseError, InvalidJointsError, InvalidModelError: As
+    ///         `ik_configured`.
+    #[pyo3(signature = (T, configuration, *, arm_angle=None, seed=None))]
+    fn ik_configured_all<'py>(
+        &self,
+        T: &Bound<'py, PyAny>,
+        configuration: &Bound<'py, PyAny>,
+        arm_angle: Option<&Bound<'py, PyAny>>,
+        seed: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let options = Options { arm_angle, fallback: None, seed };
+        configured::all(self.arm(), T, configuration, &options)
+    }
+
+    /// Every solution of a pose that has an arm angle, of a YuMi.
+    ///
+    /// All solutions are calculated for angles of the last joint half a degree apart: two that are
+    /// closer to each other may be missed.
+    ///
+    /// Args:
+    ///     T: Pose of the tool, shape (4, 4), translation [m].
+    ///     arm_angle: Arm angle [rad]: eax_a of the robtargets of a YuMi.
+    ///
+    /// Returns:
+    ///     Joint vectors [rad], shape (k, 7), inside the limits or not.
+    ///
+    /// Raises:
+    ///     InvalidPoseError, InvalidJointsError: As `ik`; an arm_angle that is not finite.
+    ///     InvalidModelError: The arm is no YuMi of the catalog.
+    fn ik_arm_angle<'py>(
+        &self,
+        T: &Bound<'py, PyAny>,
+        arm_angle: f64,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        configured::at_arm_angle(self.arm(), T, arm_angle)
     }
 
     /// Whether a pose can be reached, inside the limits or not, and why not; with seven joints,
@@ -249,12 +352,14 @@ impl PyRobot {
         let pose = read_single_pose(T, "check_pose")?;
         let explanation = on!(self.arm(), robot => robot.explain(&pose))
             .map_err(|error| to_py(T.py(), &error))?;
-        let inside = matches!(explanation, Explanation::Found { .. });
-        let reachable = inside
-            || matches!(
-                explanation,
-                Explanation::OutsideLimits { .. } | Explanation::OutsideLinkage { .. }
-            );
-        pose_check_class(T.py())?.call1((reachable, inside, explanation.to_string()))
+        pose_check(T.py(), &explanation)
+    }
+}
+
+/// Of q7 and given, one says all.
+fn no_q7_beside_given(q7: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
+    match q7 {
+        Some(_) => Err(PyTypeError::new_err("q7 and given: pass one of them")),
+        None => Ok(()),
     }
 }

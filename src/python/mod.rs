@@ -11,10 +11,13 @@ mod build;
 mod catalog;
 mod classes;
 mod configurations;
+mod configured;
 mod edits;
 mod errors;
 mod found;
 mod freedoms;
+mod given;
+mod given_calls;
 mod inverse;
 mod margins;
 mod masked;
@@ -86,6 +89,7 @@ fn use_instruction_set(name: &str) -> PyResult<()> {
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<robot::PyRobot>()?;
+    module.add_class::<given::PyGiven>()?;
     module.add_class::<solutions::PySolutions>()?;
     module.add_class::<solution::PySolution>()?;
     module.add_function(wrap_pyfunction!(catalog::catalog, module)?)?;

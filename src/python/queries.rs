@@ -115,22 +115,41 @@ impl PyRobot {
         })
     }
 
-    /// ABB's confdata of joint vectors: quarter turns of axes 1, 4 and 6, and the slot.
+    /// ABB's confdata of joint vectors: quarter turns of axes 1, 4 and 6, and the branch.
     ///
     /// Args:
-    ///     q: Joint angles [rad], shape (..., 6).
+    ///     q: Joint angles [rad], shape (..., n).
     ///
     /// Returns:
     ///     Configuration(cf1, cf4, cf6, cfx): integers for one joint vector, int32 arrays of shape
-    ///     (...) for many. cf is floor(angle / 90 deg). cfx is the slot, 0 for an arm with coupled
-    ///     axes 2 and 3, whose controller does not use it. In a batch, a row that is not finite, or
-    ///     has an angle beyond 1e5 rad, has -2147483648, the least int32, in all four:
-    ///     `ik_configured` gives NaN for it.
+    ///     (...) for many. cf is floor(angle / 90 deg), of a YuMi the nearest whole number. cfx is
+    ///     the slot of a spherical wrist, 0 for an arm with coupled axes 2 and 3, whose controller
+    ///     does not use it; docs/abb.md has the rules of GoFa and YuMi. In a batch, a row that is
+    ///     not finite, or has an angle beyond 1e5 rad, has -2147483648, the least int32, in all
+    ///     four: `ik_configured` gives NaN for it.
     ///
     /// Raises:
     ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
-    ///     InvalidModelError: The arm has no spherical wrist: its controller counts otherwise.
+    ///     InvalidModelError: The arm has no spherical wrist and is no GoFa or YuMi of the catalog:
+    ///         its controller counts otherwise.
     fn configuration<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         configurations::configuration(self.arm(), q)
+    }
+
+    /// The arm angle of a YuMi's joint vectors: eax_a of a robtarget.
+    ///
+    /// Args:
+    ///     q: Joint angles [rad], shape (..., 7), in the order of the axes from the base: 1, 2, 7,
+    ///         3, 4, 5, 6.
+    ///
+    /// Returns:
+    ///     Arm angles [rad]: a number for one joint vector, shape (...) for many; NaN where axis 3
+    ///     points from the shoulder to the wrist, and for a row of a batch that is not finite.
+    ///
+    /// Raises:
+    ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
+    ///     InvalidModelError: The arm is no YuMi of the catalog.
+    fn arm_angle<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        configurations::arm_angle(self.arm(), q)
     }
 }

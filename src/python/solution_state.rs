@@ -145,6 +145,7 @@ fn of_outcome(outcome: Explanation) -> OutcomeState {
         Explanation::NoRoots { certified } => ("without roots", usize::from(certified), 0, 0.0),
         Explanation::OutOfReach(Reach::TooNear { shortfall }) => ("too near", 0, 0, shortfall),
         Explanation::FreeOutOfReach { joint, value } => ("free out of reach", 0, joint, value),
+        Explanation::NoArmAngle { arm_angle } => ("no arm angle", 0, 0, arm_angle),
         Explanation::FilteredOut => ("filtered out", 0, 0, 0.0),
     };
     (what.to_owned(), count, other, figure)
@@ -162,6 +163,7 @@ fn outcome(py: Python<'_>, (what, count, other, figure): &OutcomeState) -> PyRes
         "without roots" => Explanation::NoRoots { certified: solutions == 1 },
         "too near" => Explanation::OutOfReach(Reach::TooNear { shortfall: figure }),
         "free out of reach" => Explanation::FreeOutOfReach { joint: other, value: figure },
+        "no arm angle" => Explanation::NoArmAngle { arm_angle: figure },
         "filtered out" => Explanation::FilteredOut,
         _ => return Err(damaged(py)),
     })

@@ -50,9 +50,14 @@ mod statements;
 mod tests;
 mod text;
 
+#[cfg(feature = "python")]
+pub(crate) use self::calc::axes::joint_target;
+pub use self::calc::fallback::Fallback;
 pub use self::calc::problem::Problem;
-pub use self::calc::table::{Fallback, TableRow, calc_moves, calc_targets};
-pub use self::calc::target::{calc_joint_t, calc_joint_t_or_nearest, calc_rob_t, error_name};
+pub use self::calc::table::{TableRow, calc_moves, calc_targets, moves_table, targets_table};
+pub use self::calc::target::{
+    calc_joint_t, calc_joint_t_or_nearest, calc_rob_t, error_name, joint_target_of, rob_target_of,
+};
 pub use self::check::checker::check;
 pub use self::check::code::Code;
 pub use self::check::diagnostic::{Diagnostic, Edit};

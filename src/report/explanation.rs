@@ -86,6 +86,11 @@ pub enum Explanation {
         /// Whether that is certain.
         certified: bool,
     },
+    /// Solutions inside the limits exist, none with this arm angle.
+    NoArmAngle {
+        /// The arm angle [rad].
+        arm_angle: f64,
+    },
     /// The caller's own condition rejected every solution.
     FilteredOut,
 }
@@ -134,6 +139,13 @@ impl fmt::Display for Explanation {
                     f,
                     "the robot does not reach the pose with J{joint} at {:.3} deg",
                     value.to_degrees()
+                )
+            }
+            Self::NoArmAngle { arm_angle } => {
+                write!(
+                    f,
+                    "no solution inside the limits has the arm angle {:.3} deg",
+                    arm_angle.to_degrees()
                 )
             }
             Self::FilteredOut => write!(f, "the filter rejected every solution"),

@@ -8,7 +8,7 @@ mod explanation;
 mod free_joint;
 mod unknown_structure;
 
-pub use configuration::Configuration;
+pub use configuration::{Configuration, ConfigurationRule};
 pub use explanation::{Explanation, Reach};
 pub use free_joint::FreeJoint;
 pub(crate) use unknown_structure::{

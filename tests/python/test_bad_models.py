@@ -158,7 +158,6 @@ def test_a_name_without_close_ones_is_reported_so(name):
     ("name", "reason"),
     [
         ("CRX-30iA", "one source, the maker's URDF"),
-        ("YuMi", "seven axes of no form that irbkin solves"),
         ("IRB 910SC", "four axes, one of them prismatic"),
         ("abb irb 460", "four axes, a second linkage keeps the flange level"),
         ("IRB 6400/2.8-120", "its one source has a forearm of 1705 mm"),

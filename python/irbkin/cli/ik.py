@@ -24,6 +24,7 @@ EXAMPLES = """  irbkin ik "IRB 2600-12/1.65" --xyz 850 320 640 --wxyz 0.2588 0 0
   irbkin ik "IRB 2600-12/1.65" --xyz 850 320 640 --euler 0 150 0 --seed 0 0 0 0 0 0
   irbkin ik "IRB 2600-12/1.65" poses.csv --within --csv > joints.csv
   irbkin ik Panda --xyz 400 0 500 --wxyz 0 1 0 0 --q7 45
+  irbkin ik Panda --xyz 400 0 500 --wxyz 0 1 0 0 --given 3=11.5
   irbkin ik UR5e - --seed 0 -90 90 0 90 0 -o joints.npy < poses.npy"""
 
 
@@ -36,15 +37,27 @@ def add_arguments(parser: Parser) -> None:
     add("--wxyz", nargs=4, type=float, metavar=tuple("WXYZ"), help="its quaternion, w first")
     add("--euler", nargs=3, type=float, metavar=("RZ", "RY", "RX"), help="or ZYX angles [deg]")
     add("--q7", type=float, metavar="Q7", help="angle of joint 7 of a seven-axis arm [deg]")
+    add("--given", type=_given, metavar="J=Q", help="or of another joint of it, as 3=11.5 [deg]")
     add("--within", action="store_true", help="only solutions inside the limits")
     add("--seed", nargs="+", type=float, metavar="Q", help="only the nearest to these joints [deg]")
     add("--confdata", nargs=4, type=whole, metavar="CF", help="only the one with cf1 cf4 cf6 cfx")
+    add("--arm-angle", type=float, metavar="A", help="with --confdata of a YuMi: its eax_a [deg]")
     parser.add_formats("joint angles, shape (m, slots, n) or (m, n), in radians")
+
+
+def _given(text: str) -> tuple[int, float]:
+    """A joint, from 1, and its angle [deg]."""
+    joint, _, angle = text.partition("=")
+    return int(joint), float(angle)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Run the verb."""
     robot = read_robot(arguments)
+    if arguments.arm_angle is not None and arguments.confdata is None:
+        raise CommandError("--arm-angle goes with --confdata")
+    if arguments.given is not None and (arguments.seed or arguments.confdata or arguments.q7):
+        raise CommandError("--given goes without --q7, --seed and --confdata")
     poses, heading = _poses(arguments, robot)
     if arguments.seed is not None and arguments.confdata is not None:
         raise CommandError("--seed and --confdata: give one of them")
@@ -130,11 +143,15 @@ def _write_all(
     is_one = arguments.file is None
     first = () if is_one else (Column("pose", "", "6d"),)
     columns = (*first, Column("slot", "", "d"), *postures.columns)
-    q7 = read_q7(arguments, robot)
+    if arguments.given is None:
+        q7, given = read_q7(arguments, robot), None
+    else:
+        joint, angle = arguments.given
+        q7, given = None, robot.given({joint: np.radians(angle)})
     wanted = int(Status.WITHIN_LIMITS if arguments.within else Status.FOUND)
     with table(arguments, columns, heading) as rows, Progress("poses") as progress:
         for poses in parts:
-            found = robot.ik_batch(poses, q7)
+            found = robot.ik_batch(poses, q7, given=given)
             is_within = (found.status & int(Status.WITHIN_LIMITS)).astype(bool)
             index, slot = (found.status & wanted).nonzero()
             q = found.q[index, slot]
@@ -144,7 +161,7 @@ def _write_all(
             missed.add(poses, is_within.any(axis=1))
             progress.add(len(poses))
             if is_one:
-                for solution in robot.ik(poses[0]) if q7 is None else robot.ik(poses[0], q7=q7):
+                for solution in robot.ik(poses[0], q7, given=given):
                     if free := solution.free_joint:
                         words = (
                             f"slot {solution.slot}: J{free.joint} is free, {free.fixed} is fixed"
@@ -169,6 +186,7 @@ def _write_one(
     postures = Postures(robot)
     seed = joints(arguments.seed, "--seed", robot.dof)
     columns = (Column("pose", "", "6d"), *postures.columns)
+    arm_angle = None if arguments.arm_angle is None else np.radians(arguments.arm_angle)
     if seed is None:
         heading = f"{heading}, confdata {arguments.confdata}"
     with table(arguments, columns, heading) as rows, Progress("poses") as progress:
@@ -176,7 +194,7 @@ def _write_one(
             if seed is not None:
                 q = robot.ik_nearest(poses, seed)
             else:
-                q = robot.ik_configured(poses, arguments.confdata)
+                q = robot.ik_configured(poses, arguments.confdata, arm_angle=arm_angle)
             rows.write([np.arange(len(q)) + missed.rows, *postures.values(q)], q)
             missed.add(poses, np.isfinite(q).all(axis=1))
             progress.add(len(poses))

@@ -8,6 +8,7 @@ import numpy as np
 
 from irbkin import to_xyz_euler_zyx, to_xyz_wxyz
 from irbkin.cli.output import Column, Values
+from irbkin.errors import InvalidModelError
 
 if TYPE_CHECKING:
     from irbkin import Robot
@@ -37,12 +38,21 @@ def _zeros(values: Floats) -> Floats:
     return np.where(np.abs(values) < 1e-9, 0.0, values)
 
 
+def has_confdata(robot: Robot) -> bool:
+    """Whether the controller of a robot has configurations."""
+    try:
+        robot.configuration(np.zeros(robot.dof))
+    except InvalidModelError:
+        return False
+    return True
+
+
 class Postures:
     """Joint vectors of a robot: confdata, angles, limits, singularities."""
 
     def __init__(self, robot: Robot, *, with_joints: bool = True) -> None:
         self.robot, self.with_joints = robot, with_joints
-        self.has_confdata = robot.dof == 6 and robot.structure == "spherical wrist"
+        self.has_confdata = has_confdata(robot)
         confdata = ("cf1", "cf4", "cf6", "cfx") if self.has_confdata else ()
         self.columns = (
             *(Column(name, "", "3d") for name in confdata),

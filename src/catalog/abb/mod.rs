@@ -12,7 +12,11 @@ mod heavy;
 mod large;
 mod medium;
 mod small;
+mod yumi;
+
+pub(super) use yumi::RULES as YUMI_RULES;
 
 use super::CatalogArm;
 
-pub(super) const SERIES: [&[CatalogArm]; 4] = [small::ARMS, medium::ARMS, large::ARMS, heavy::ARMS];
+pub(super) const SERIES: [&[CatalogArm]; 5] =
+    [small::ARMS, medium::ARMS, large::ARMS, heavy::ARMS, yumi::ARMS];

@@ -143,6 +143,13 @@ impl<const N: usize> JointLimits<N> {
         Some(self)
     }
 
+    /// These limits, each wider by `beyond` [rad].
+    pub(crate) fn widened(mut self, beyond: f64) -> Self {
+        self.lower = self.lower.map(|lower| lower - beyond);
+        self.upper = self.upper.map(|upper| upper + beyond);
+        self
+    }
+
     /// Whether every joint is inside its limits, within [`LIMIT_TOLERANCE`].
     #[must_use]
     pub fn contains(&self, q: &[f64; N]) -> bool {

@@ -14,7 +14,7 @@ use crate::kinematics::structure::any::AnyStructure;
 use crate::kinematics::structure::arity::{Arity, Joints, StructureOf};
 use crate::kinematics::structure::spherical_wrist::OpwParameters;
 use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH, MOST_REACH, MOST_SNAP};
-use crate::report::Convention;
+use crate::report::{ConfigurationRule, Convention};
 
 /// Values of `snap` that are proposed for an arm that needs one [rad]; the least that helps is
 /// named.
@@ -173,7 +173,14 @@ where
 
     fn new(definition: Definition<N>, chain: Chain<N>, structure: StructureOf<N>) -> Self {
         let limits = JointLimits::UNLIMITED;
-        Self { name: Cow::Borrowed(""), definition, chain, structure, limits, max_velocity: None }
+        let name = Cow::Borrowed("");
+        Self { name, definition, chain, structure, limits, max_velocity: None, rule: None }
+    }
+
+    /// The same robot, whose controller counts configurations in a way of its own.
+    pub(crate) fn with_rule(mut self, rule: Option<ConfigurationRule>) -> Self {
+        self.rule = rule;
+        self
     }
 
     /// The same robot under another name.

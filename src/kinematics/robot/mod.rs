@@ -33,7 +33,7 @@ use crate::kinematics::structure::arity::{Arity, Joints, StructureOf};
 use crate::kinematics::structure::solver::Solver;
 use crate::kinematics::structure::spherical_wrist::{OpwParameters, SphericalWrist};
 use crate::lanes::{LANES, run};
-use crate::report::UnknownStructure;
+use crate::report::{ConfigurationRule, UnknownStructure};
 
 /// A robot arm of `N` revolute joints.
 ///
@@ -51,6 +51,8 @@ where
     structure: StructureOf<N>,
     limits: JointLimits<N>,
     max_velocity: Option<[f64; N]>,
+    /// How its controller counts configurations, if in a way of its own.
+    rule: Option<ConfigurationRule>,
 }
 
 /// What a robot was built from.
@@ -185,6 +187,11 @@ where
     #[must_use]
     pub fn max_velocity(&self) -> Option<&[f64; N]> {
         self.max_velocity.as_ref()
+    }
+
+    /// How the controller of the arm counts configurations, if in a way of its own.
+    pub(crate) fn own_rule(&self) -> Option<ConfigurationRule> {
+        self.rule
     }
 
     /// The pose of the tool for the joint angles `q` [rad].

@@ -13,6 +13,7 @@ use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::any::AnyStructure;
 use crate::kinematics::structure::arity::{Arity, Joints};
+use crate::report::ConfigurationRule;
 
 #[derive(Serialize, Deserialize)]
 #[serde(rename = "Robot")]
@@ -25,6 +26,9 @@ struct Stored<const N: usize> {
     tool: Pose,
     /// `None` for a joint whose velocity is not limited: text has no infinity.
     max_velocity: Option<Vec<Option<f64>>>,
+    /// How its controller counts configurations, if in a way of its own.
+    #[serde(default)]
+    rule: Option<ConfigurationRule>,
 }
 
 impl<const N: usize> Serialize for Robot<N>
@@ -41,6 +45,7 @@ where
             base: *self.base(),
             tool: *self.tool(),
             max_velocity: self.max_velocity().map(|all| all.iter().map(finite).collect()),
+            rule: self.own_rule(),
         }
         .serialize(serializer)
     }
@@ -78,6 +83,7 @@ impl<const N: usize> Stored<N> {
             None => None,
         };
         robot
+            .with_rule(self.rule)
             .with_name(self.name)
             .with_limits(self.limits)
             .with_linkage_limits(self.limits.linkage())?

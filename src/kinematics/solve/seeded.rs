@@ -1,11 +1,14 @@
 //! The solution nearest to a seed, for every number of joints that has an inverse.
 
-use crate::error::Error;
+use alloc::vec::Vec;
+
+use crate::error::{Error, ModelFault};
 use crate::kinematics::answer::check::{check_seed, check_weights};
 use crate::kinematics::answer::select::Cost;
 use crate::kinematics::answer::solutions::Solution;
 use crate::kinematics::pose::{Pose, checked_pose, pose_from_rows};
 use crate::kinematics::robot::Robot;
+use crate::kinematics::solve::configuration::ConfigurationRequest;
 use crate::kinematics::solve::nearest::Wanted;
 use crate::kinematics::structure::any::AnyStructure as _;
 use crate::kinematics::structure::arity::{Arity, Joints};
@@ -50,6 +53,29 @@ pub trait Inverse<const N: usize>: sealed::Sealed {
     /// The outcome of the search in a sentence, for a pose that was checked.
     #[doc(hidden)]
     fn explain(&self, pose: &Pose) -> Result<Explanation, Error>;
+
+    /// The arm angle of joint angles, of an arm that has one.
+    #[doc(hidden)]
+    fn arm_angle_of(&self, q: &[f64; N]) -> Result<Option<f64>, Error>;
+
+    /// The solution with the configuration of a request, of several the one nearest to a seed; the
+    /// arguments are already checked.
+    #[doc(hidden)]
+    fn configured(
+        &self,
+        pose: &Pose,
+        request: &ConfigurationRequest<N>,
+        seed: &[f64; N],
+    ) -> Result<Solution<N>, Error>;
+
+    /// All of them, the nearest first.
+    #[doc(hidden)]
+    fn all_configured(
+        &self,
+        pose: &Pose,
+        request: &ConfigurationRequest<N>,
+        seed: &[f64; N],
+    ) -> Result<Vec<Solution<N>>, Error>;
 }
 
 mod sealed {
@@ -99,6 +125,28 @@ impl Inverse<6> for Robot<6> {
         }
         Ok(solutions.explain())
     }
+
+    fn arm_angle_of(&self, _: &[f64; 6]) -> Result<Option<f64>, Error> {
+        Err(ModelFault::NoArmAngle.into())
+    }
+
+    fn configured(
+        &self,
+        pose: &Pose,
+        request: &ConfigurationRequest<6>,
+        seed: &[f64; 6],
+    ) -> Result<Solution<6>, Error> {
+        self.configured_near(pose, request, seed)
+    }
+
+    fn all_configured(
+        &self,
+        pose: &Pose,
+        request: &ConfigurationRequest<6>,
+        seed: &[f64; 6],
+    ) -> Result<Vec<Solution<6>>, Error> {
+        self.configured_list(pose, request, seed)
+    }
 }
 
 impl Inverse<7> for Robot<7> {
@@ -113,6 +161,29 @@ impl Inverse<7> for Robot<7> {
 
     fn explain(&self, pose: &Pose) -> Result<Explanation, Error> {
         self.explain_along_redundancy(pose)
+    }
+
+    fn arm_angle_of(&self, q: &[f64; 7]) -> Result<Option<f64>, Error> {
+        self.arm_angle(q)
+    }
+
+    fn configured(
+        &self,
+        pose: &Pose,
+        request: &ConfigurationRequest<7>,
+        seed: &[f64; 7],
+    ) -> Result<Solution<7>, Error> {
+        let list = self.configured_list(pose, request, seed)?;
+        list.first().copied().ok_or(Error::Unreachable(Explanation::FilteredOut))
+    }
+
+    fn all_configured(
+        &self,
+        pose: &Pose,
+        request: &ConfigurationRequest<7>,
+        seed: &[f64; 7],
+    ) -> Result<Vec<Solution<7>>, Error> {
+        self.configured_list(pose, request, seed)
     }
 }
 

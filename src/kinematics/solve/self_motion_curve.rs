@@ -56,7 +56,8 @@ impl SelfMotion<'_> {
 
     /// The point of the curve in the plane through `q` perpendicular to `along`.
     pub(in crate::kinematics) fn across(&self, q: &Joints, along: &Joints) -> Option<Point> {
-        self.newton(*q, along, along.dot(q))
+        let value = along.dot(q);
+        self.newton(*q, |q| (*along, value - along.dot(q)))
     }
 
     /// The point of the curve near `q` at which joint `joint`, from 0, is at `angle`.
@@ -66,16 +67,21 @@ impl SelfMotion<'_> {
         joint: usize,
         angle: f64,
     ) -> Option<Point> {
-        self.newton(*q, &Joints::ith(joint, 1.0), angle)
+        self.newton(*q, |q| (Joints::ith(joint, 1.0), angle - q[joint]))
     }
 
-    /// The point of the curve near `q` at which `border . q` has a given value.
-    fn newton(&self, mut q: Joints, border: &Joints, value: f64) -> Option<Point> {
+    /// The point of the curve near `q` at which a seventh quantity has the value that is wanted:
+    /// `seventh` returns its gradient, and how far it is from that value.
+    pub(in crate::kinematics) fn newton(
+        &self,
+        mut q: Joints,
+        seventh: impl Fn(&Joints) -> (Joints, f64),
+    ) -> Option<Point> {
         let mut rest = f64::INFINITY;
         for _ in 0..ROUNDS {
-            let mut wanted = self.off(&q).push(0.0);
-            wanted[6] = value - border.dot(&q);
-            let bordered = self.bordered(&q, border).lu();
+            let (border, off) = seventh(&q);
+            let wanted = self.off(&q).push(off);
+            let bordered = self.bordered(&q, &border).lu();
             let correction = bordered.solve(&wanted)?;
             let size = correction.amax();
             // Near a singularity of the curve, rounding keeps corrections large that do not change

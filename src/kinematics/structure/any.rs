@@ -9,7 +9,6 @@ use super::general::General;
 use super::offset_wrist::OffsetWrist;
 use super::redundancy::Redundancy;
 use super::solver::Solver;
-use super::spherical_shoulder::SphericalShoulder;
 use super::spherical_wrist::SphericalWrist;
 use super::three_parallel::ThreeParallel;
 use crate::kinematics::answer::solutions::Solutions;
@@ -21,11 +20,6 @@ use crate::report::UnknownStructure;
 structures! {
     /// Structures with six joints.
     SixJoints, 6, (): SphericalWrist: 8, ThreeParallel: 8, OffsetWrist: 16, General: 16
-}
-
-structures! {
-    /// Structures with seven joints, of which the caller gives the last.
-    SevenJoints, 7, f64: SphericalShoulder: 8
 }
 
 /// The structure of an arm of `N` joints, whichever it is, between its base and its tool.

@@ -1,8 +1,9 @@
 //! The numbers of joints that an arm may have.
 
-use super::any::{AnyStructure, SevenJoints, SixJoints};
+use super::any::{AnyStructure, SixJoints};
 use super::arm::Arm;
 use super::redundancy::Redundancy;
+use super::seven_joints::SevenJoints;
 use super::solver::Solver;
 use super::spherical_wrist::{OpwParameters, SphericalWrist};
 use crate::kinematics::answer::solutions::Solutions;

@@ -4,9 +4,9 @@ use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedStr;
 use pyo3::types::PyTuple;
 
-use super::Cell;
 use super::module::{RapidModule, close_names};
 use super::routine_motion::read_limits;
+use super::six_joints;
 use crate::python::classes;
 use crate::python::errors::{rapid_fault, to_py};
 use crate::python::robot::PyRobot;
@@ -45,7 +45,7 @@ pub(crate) fn check<'py>(
     turn: Option<f64>,
 ) -> PyResult<Bound<'py, PyTuple>> {
     let py = robot.py();
-    let Cell { robot, .. } = Cell::read(robot, None, None)?;
+    let robot = six_joints(robot, "check")?;
     let options = MotionOptions {
         max_velocity: read_limits(max_velocity, "max_velocity")?,
         step,

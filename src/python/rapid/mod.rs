@@ -5,6 +5,8 @@ mod module;
 mod records;
 mod routine_motion;
 
+use std::sync::Arc;
+
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
@@ -16,8 +18,9 @@ use self::records::{
     record, rob_target,
 };
 pub(super) use self::routine_motion::{PyRoutineMotion, motion, restore_motion};
+use super::arm::{Arm, on};
 use super::classes;
-use super::configurations::{Fallback, counted};
+use super::configured::{Options, check_rule};
 use super::errors::{rapid_fault, to_py};
 use super::found::read_seed;
 use super::robot::PyRobot;
@@ -138,10 +141,12 @@ fn datum(name: String, value: &Bound<'_, PyAny>) -> PyResult<Datum> {
 ///     tool: ToolData; the robot's own tool where not given.
 ///     wobj: WobjData; the world where not given.
 ///     fallback: With "nearest", the solution nearest to `seed` where none has the configuration.
-///     seed: Joint vector [rad] of the fallback, shape (6,).
+///     seed: Joint vector [rad], shape (n,), of the fallback, and to which the solution of a GoFa
+///         is the nearest where its configuration names two.
 ///
 /// Returns:
-///     JointTarget, with the target's external axes.
+///     JointTarget, with the target's external axes. eax_a of a YuMi is the arm angle in the target
+///     and axis 7 in the answer.
 ///
 /// Raises:
 ///     UnreachableError: Its `rapid_error` is "ERR_OUTSIDE_REACH" where the arm is too short or too
@@ -151,7 +156,8 @@ fn datum(name: String, value: &Bound<'_, PyAny>) -> PyResult<Datum> {
 ///     InvalidJointsError: The arm has no such cfx.
 ///     RapidError: The robot holds both tool and work object or neither, or a mechanical unit moves
 ///         the work object.
-///     InvalidModelError: The arm has no spherical wrist, so no confdata.
+///     InvalidModelError: The arm has no confdata: no spherical wrist, and it is no GoFa or YuMi of
+///         the catalog.
 #[pyfunction]
 #[pyo3(signature = (robot, target, tool=None, wobj=None, *, fallback=None, seed=None))]
 pub(super) fn calc_joint_t<'py>(
@@ -163,15 +169,12 @@ pub(super) fn calc_joint_t<'py>(
     seed: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = robot.py();
-    let (target, Cell { robot, tool, wobj }) =
-        (read_rob_target(target)?, Cell::read(robot, tool, wobj)?);
+    let (arm, target) = (robot.get().arm(), read_rob_target(target)?);
+    let Cell { tool, wobj } = Cell::read(py, arm, tool, wobj)?;
     let (tool, wobj) = (tool.as_ref(), wobj.as_ref());
-    let joints = match read_fallback(fallback, seed)? {
-        rapid::Fallback::Nearest(seed) => {
-            rapid::calc_joint_t_or_nearest(robot, &target, tool, wobj, &seed)
-        }
-        rapid::Fallback::None => rapid::calc_joint_t(robot, &target, tool, wobj),
-    };
+    let joints = on!(arm, robot => {
+        rapid::joint_target_of(robot, &target, tool, wobj, read_fallback(arm, fallback, seed)?)
+    });
     joint_target(py, &joints.map_err(|error| named(py, &error))?)
 }
 
@@ -180,12 +183,12 @@ pub(super) fn calc_joint_t<'py>(
 ///
 /// Args:
 ///     robot: The arm. Work objects are given in the world, in which the robot's base is.
-///     joints: JointTarget, or joint angles [rad], shape (6,).
+///     joints: JointTarget, or joint angles [rad], shape (n,).
 ///     tool: ToolData; the robot's own tool where not given.
 ///     wobj: WobjData; the world where not given.
 ///
 /// Returns:
-///     RobTarget, with the external axes of `joints`.
+///     RobTarget, with the external axes of `joints`; eax_a of a YuMi is its arm angle.
 ///
 /// Raises:
 ///     InvalidPoseError, RapidError, InvalidModelError: As `calc_joint_t`.
@@ -198,9 +201,11 @@ pub(super) fn calc_rob_t<'py>(
     wobj: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = robot.py();
-    let (joints, Cell { robot, tool, wobj }) =
-        (read_joint_target(joints)?, Cell::read(robot, tool, wobj)?);
-    let target = rapid::calc_rob_t(robot, &joints, tool.as_ref(), wobj.as_ref());
+    let arm = robot.get().arm();
+    let (joints, Cell { tool, wobj }) =
+        (read_joint_target(joints, arm.dof())?, Cell::read(py, arm, tool, wobj)?);
+    let (tool, wobj) = (tool.as_ref(), wobj.as_ref());
+    let target = on!(arm, robot => rapid::rob_target_of(robot, &joints, tool, wobj));
     rob_target(py, &target.map_err(|error| to_py(py, &error))?)
 }
 
@@ -212,13 +217,14 @@ pub(super) fn calc_rob_t<'py>(
 ///     module: Module.
 ///     fallback: With "nearest", a target whose configuration no solution has gets the one nearest
 ///         to the joints before it.
-///     seed: Joint vector [rad] before the first target, shape (6,).
+///     seed: Joint vector [rad] before the first target, shape (n,).
 ///
 /// Returns:
 ///     TargetTable. `problems` says what is wrong with the target of a row.
 ///
 /// Raises:
-///     InvalidModelError: The arm has no spherical wrist, so no confdata.
+///     InvalidModelError: The arm has no confdata: no spherical wrist, and it is no GoFa or YuMi of
+///         the catalog.
 #[pyfunction]
 #[pyo3(signature = (robot, module, *, fallback=None, seed=None))]
 pub(super) fn calc_moves<'py>(
@@ -228,14 +234,13 @@ pub(super) fn calc_moves<'py>(
     seed: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = robot.py();
-    let (Cell { robot, .. }, fallback) =
-        (Cell::read(robot, None, None)?, read_fallback(fallback, seed)?);
-    let module = &module.get().module;
-    table(
-        py,
-        &py.detach(|| rapid::calc_moves(robot, module, fallback))
-            .map_err(|error| to_py(py, &error))?,
-    )
+    let (arm, module) = (robot.get().arm(), &module.get().module);
+    check_rule(py, arm)?;
+    on!(arm, robot => {
+        let fallback = read_fallback(arm, fallback, seed)?;
+        let rows = py.detach(|| rapid::moves_table(robot, module, fallback));
+        table(py, &rows.map_err(|error| to_py(py, &error))?)
+    })
 }
 
 /// Return the joint angles of every robtarget that a module declares, in the order of the text, all
@@ -248,7 +253,7 @@ pub(super) fn calc_moves<'py>(
 ///     wobj: WobjData; the world where not given.
 ///     fallback: With "nearest", a target whose configuration no solution has gets the one nearest
 ///         to the joints before it.
-///     seed: Joint vector [rad] before the first target, shape (6,).
+///     seed: Joint vector [rad] before the first target, shape (n,).
 ///
 /// Returns:
 ///     TargetTable. `problems` says what is wrong with the target of a row.
@@ -267,37 +272,52 @@ pub(super) fn calc_targets<'py>(
     seed: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = robot.py();
-    let (Cell { robot, tool, wobj }, fallback) =
-        (Cell::read(robot, tool, wobj)?, read_fallback(fallback, seed)?);
-    let module = &module.get().module;
-    let rows =
-        py.detach(|| rapid::calc_targets(robot, module, tool.as_ref(), wobj.as_ref(), fallback));
-    table(py, &rows.map_err(|error| to_py(py, &error))?)
+    let (arm, module) = (robot.get().arm(), &module.get().module);
+    let Cell { tool, wobj } = Cell::read(py, arm, tool, wobj)?;
+    let (tool, wobj) = (tool.as_ref(), wobj.as_ref());
+    on!(arm, robot => {
+        let fallback = read_fallback(arm, fallback, seed)?;
+        let rows = py.detach(|| rapid::targets_table(robot, module, tool, wobj, fallback));
+        table(py, &rows.map_err(|error| to_py(py, &error))?)
+    })
 }
 
-/// An arm that has configurations, a tool and a work object.
-struct Cell<'a> {
-    robot: &'a Robot<6>,
+/// A tool and a work object, of an arm that has configurations.
+struct Cell {
     tool: Option<ToolData>,
     wobj: Option<WobjData>,
 }
 
-impl<'a> Cell<'a> {
+impl Cell {
     fn read(
-        robot: &'a Bound<'_, PyRobot>,
+        py: Python<'_>,
+        arm: &Arm,
         tool: Option<&Bound<'_, PyAny>>,
         wobj: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let (tool, wobj) = (tool.map(read_tool).transpose()?, wobj.map(read_wobj).transpose()?);
-        Ok(Self { robot: counted(robot.py(), robot.get().arm())?, tool, wobj })
+        check_rule(py, arm)?;
+        Ok(Self { tool, wobj })
     }
 }
 
-fn read_fallback(name: Option<&str>, seed: Option<&Bound<'_, PyAny>>) -> PyResult<rapid::Fallback> {
-    match (Fallback { name, seed }).checked()? {
-        Some(seed) => Ok(rapid::Fallback::Nearest(read_seed(seed, None)?.0)),
-        None => Ok(rapid::Fallback::None),
-    }
+/// The robot of a call that follows moves.
+fn six_joints<'a>(robot: &'a Bound<'_, PyRobot>, call: &str) -> PyResult<&'a Arc<Robot<6>>> {
+    let (py, arm) = (robot.py(), robot.get().arm());
+    check_rule(py, arm)?;
+    arm.six_joints(py, call)
+}
+
+/// What a seed [rad] is for.
+fn read_fallback<const N: usize>(
+    arm: &Arm,
+    fallback: Option<&str>,
+    seed: Option<&Bound<'_, PyAny>>,
+) -> PyResult<rapid::Fallback<N>> {
+    let or_nearest = Options { arm_angle: None, fallback, seed }.or_nearest(arm)?;
+    let Some(seed) = seed else { return Ok(rapid::Fallback::None) };
+    let (seed, _) = read_seed::<N>(seed, None)?;
+    Ok(if or_nearest { rapid::Fallback::Nearest(seed) } else { rapid::Fallback::Near(seed) })
 }
 
 /// With RAPID's name of the error.
@@ -312,8 +332,11 @@ fn named(py: Python<'_>, error: &Error) -> PyErr {
 }
 
 /// `irbkin.rapid.TargetTable`.
-fn table<'py>(py: Python<'py>, rows: &[TableRow]) -> PyResult<Bound<'py, PyAny>> {
-    let joints: Vec<f64> = rows.iter().flat_map(|row| row.q.unwrap_or([f64::NAN; 6])).collect();
+fn table<'py, const N: usize>(
+    py: Python<'py>,
+    rows: &[TableRow<N>],
+) -> PyResult<Bound<'py, PyAny>> {
+    let joints: Vec<f64> = rows.iter().flat_map(|row| row.q.unwrap_or([f64::NAN; N])).collect();
     let integers = |of: fn(&Configuration) -> i32| {
         PyArray1::from_iter(py, rows.iter().map(move |row| of(&row.configuration)))
     };
@@ -330,7 +353,7 @@ fn table<'py>(py: Python<'py>, rows: &[TableRow]) -> PyResult<Bound<'py, PyAny>>
         PyTuple::new(py, rows.iter().map(|row| &row.text))?.into_any(),
         PyArray1::from_iter(py, rows.iter().map(|row| i64::try_from(row.line).unwrap_or(0)))
             .into_any(),
-        (PyArray1::from_vec(py, joints).reshape([rows.len(), 6])? as Bound<'_, PyArray2<f64>>)
+        (PyArray1::from_vec(py, joints).reshape([rows.len(), N])? as Bound<'_, PyArray2<f64>>)
             .into_any(),
         classes::configuration_batch_class(py)?.call1((cf1, cf4, cf6, cfx))?,
         distance(|d| d.wrist).into_any(),

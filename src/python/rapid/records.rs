@@ -10,7 +10,7 @@ use crate::python::errors::{Fault, rapid_fault, to_py};
 use crate::python::records as python_records;
 use crate::rapid::{
     Content, JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, SpeedData, ToolData, Value,
-    WobjData, ZoneData,
+    WobjData, ZoneData, joint_target as rapid_joint_target,
 };
 use crate::report::Configuration;
 
@@ -258,14 +258,19 @@ pub(super) fn read_rob_target(given: &Bound<'_, PyAny>) -> PyResult<RobTarget> {
 }
 
 /// A jointtarget, or joint angles [rad].
-pub(super) fn read_joint_target(given: &Bound<'_, PyAny>) -> PyResult<JointTarget> {
+/// A jointtarget, or the joint angles [rad] of an arm with `dof` joints.
+pub(super) fn read_joint_target(given: &Bound<'_, PyAny>, dof: usize) -> PyResult<JointTarget> {
     if given.is_instance(classes::joint_target_class(given.py())?)? {
         let JointTargetFields { robax_deg, extax } = given.extract()?;
         return Ok(JointTarget { robax_deg, extax });
     }
-    let q = vector::<6>(given, "joints", Fault::Joints)?;
+    if dof == 7 { of_vector::<7>(given) } else { of_vector::<6>(given) }
+}
+
+fn of_vector<const N: usize>(given: &Bound<'_, PyAny>) -> PyResult<JointTarget> {
+    let q = vector::<N>(given, "joints", Fault::Joints)?;
     check_joints("joints", &q).map_err(|error| to_py(given.py(), &error))?;
-    Ok(JointTarget { robax_deg: q.map(f64::to_degrees), extax: [NOT_THERE; 6] })
+    Ok(rapid_joint_target(&q, [NOT_THERE; 6]))
 }
 
 pub(super) fn read_tool(given: &Bound<'_, PyAny>) -> PyResult<ToolData> {
@@ -302,7 +307,7 @@ fn read_value(given: &Bound<'_, PyAny>, thing: &str) -> PyResult<Value> {
     let value = if is(classes::rob_target_class(py))? {
         Value::RobTarget(read_rob_target(given)?)
     } else if is(classes::joint_target_class(py))? {
-        Value::JointTarget(read_joint_target(given)?)
+        Value::JointTarget(read_joint_target(given, 6)?)
     } else if is(classes::tool_data_class(py))? {
         Value::ToolData(read_tool(given)?)
     } else if is(classes::wobj_data_class(py))? {

@@ -5,9 +5,9 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyTuple;
 
-use super::Cell;
 use super::module::RapidModule;
 use super::records::read_joint_target;
+use super::six_joints;
 use crate::python::arrays::vector;
 use crate::python::classes;
 use crate::python::errors::{Fault, to_py};
@@ -103,7 +103,7 @@ pub(super) fn read_limits(
 /// Joint angles [rad], or those of a JointTarget.
 fn read_start(given: &Bound<'_, PyAny>) -> PyResult<[f64; 6]> {
     if given.is_instance(classes::joint_target_class(given.py())?)? {
-        return Ok(read_joint_target(given)?.robax_deg.map(f64::to_radians));
+        return Ok(read_joint_target(given, 6)?.robax_deg.map(f64::to_radians));
     }
     vector::<6>(given, "start", Fault::Joints)
 }
@@ -115,7 +115,7 @@ fn made(
     options: MotionOptions,
 ) -> PyResult<PyRoutineMotion> {
     let py = robot.py();
-    let Cell { robot: arm, .. } = Cell::read(robot, None, None)?;
+    let arm = six_joints(robot, "motion")?;
     let own = &module.get().module;
     let motion = py
         .detach(|| rapid::motion(arm, own, routine, &options))

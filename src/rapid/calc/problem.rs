@@ -57,6 +57,12 @@ pub enum Problem {
         /// How far outside [rad].
         excess: f64,
     },
+    /// More than one solution has the configuration: the joint angles are those nearest to the
+    /// previous ones.
+    Ambiguous {
+        /// How many have it.
+        count: usize,
+    },
     /// No joint angles were found, for this reason.
     NotSolved(Error),
     /// No solution has the configuration: the joint angles are those nearest to the previous ones.
@@ -101,6 +107,10 @@ impl fmt::Display for Problem {
                 f,
                 "ERR_ROBLIMIT: the linkage (q3 - q2) is outside its limits by {:.1} deg",
                 excess.to_degrees()
+            ),
+            Self::Ambiguous { count } => write!(
+                f,
+                "{count} solutions have its confdata; the nearest to the joints before is taken"
             ),
             Self::NotSolved(error) => Named(error).fmt(f),
             Self::Nearest(error) => {

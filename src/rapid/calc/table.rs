@@ -4,26 +4,22 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
+use super::axes::{absent_axis, joint_vector, request};
+use super::fallback::Fallback;
 use super::frames::Frames;
 use super::problem::Problem;
 use super::target::{target_pose, with_flange};
 use crate::error::Error;
-use crate::kinematics::{Robot, SingularDistances};
+use crate::kinematics::{Arity, Inverse, Joints, Robot, SingularDistances, Solution};
 use crate::rapid::data::module::{Content, Module};
 use crate::rapid::data::moves::{Argument, Move, Target};
-use crate::rapid::data::records::{RobTarget, ToolData, WobjData};
+use crate::rapid::data::records::{JointTarget, RobTarget, ToolData, WobjData};
 use crate::rapid::data::value::Value;
-use crate::report::Configuration;
-
-/// joint angle
-///
-/// above which an axis of a jointtarget does not exist [deg]: no joint turns so far, and RAPID
-/// writes 9E9.
-const MOST_DEGREES: f64 = 1e6;
+use crate::report::{Configuration, Explanation};
 
 /// The result for one target.
 #[derive(Clone, Debug, PartialEq)]
-pub struct TableRow {
+pub struct TableRow<const N: usize = 6> {
     /// The instruction, `MoveL` and the like, or `robtarget`.
     pub kind: &'static str,
     /// The target as it is written, or the name of its declaration.
@@ -31,7 +27,7 @@ pub struct TableRow {
     /// Line of the instruction or of the declaration.
     pub line: usize,
     /// Joint angles [rad]; `None` if there are none.
-    pub q: Option<[f64; 6]>,
+    pub q: Option<[f64; N]>,
     /// The configuration of the joint angles; if there are none, that of the target, or zeros if it
     /// is unknown too.
     pub configuration: Configuration,
@@ -39,16 +35,6 @@ pub struct TableRow {
     pub distances: Option<SingularDistances>,
     /// The reason why there are no joint angles, or others than the target requests.
     pub problem: Option<Problem>,
-}
-
-/// The treatment of a target whose configuration no solution has.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Fallback {
-    /// It has no joint angles.
-    None,
-    /// It gets the solution nearest to the previous joint angles (for the first target, to these
-    /// [rad]), and the problem reports so.
-    Nearest([f64; 6]),
 }
 
 /// The joint angles of every target of the module's moves, in order; a `MoveC` has two.
@@ -66,6 +52,23 @@ pub fn calc_moves(
     module: &Module,
     fallback: Fallback,
 ) -> Result<Vec<TableRow>, Error> {
+    moves_table(robot, module, fallback)
+}
+
+/// [`calc_moves`] of an arm of any number of joints that has configurations.
+///
+/// # Errors
+///
+/// As [`calc_moves`].
+pub fn moves_table<const N: usize>(
+    robot: &Robot<N>,
+    module: &Module,
+    fallback: Fallback<N>,
+) -> Result<Vec<TableRow<N>>, Error>
+where
+    Robot<N>: Inverse<N>,
+    Joints<N>: Arity<N>,
+{
     let mut table = Table::new(robot, fallback)?;
     for step in module.moves() {
         if let Some(via) = &step.via {
@@ -73,7 +76,7 @@ pub fn calc_moves(
         }
         table.add_move(step, &step.target, |target| match target {
             Target::RobTarget(target) => Ok(*target),
-            Target::JointTarget(joints) => Err(joints.robax_deg),
+            Target::JointTarget(joints) => Err(*joints),
         });
     }
     Ok(table.rows)
@@ -92,6 +95,25 @@ pub fn calc_targets(
     wobj: Option<&WobjData>,
     fallback: Fallback,
 ) -> Result<Vec<TableRow>, Error> {
+    targets_table(robot, module, tool, wobj, fallback)
+}
+
+/// [`calc_targets`] of an arm of any number of joints that has configurations.
+///
+/// # Errors
+///
+/// As [`calc_targets`].
+pub fn targets_table<const N: usize>(
+    robot: &Robot<N>,
+    module: &Module,
+    tool: Option<&ToolData>,
+    wobj: Option<&WobjData>,
+    fallback: Fallback<N>,
+) -> Result<Vec<TableRow<N>>, Error>
+where
+    Robot<N>: Inverse<N>,
+    Joints<N>: Arity<N>,
+{
     let frames = Frames::new(robot, tool, wobj)?;
     let mut table = Table::new(robot, fallback)?;
     for datum in module.data().iter().filter(|datum| datum.routine.is_none()) {
@@ -119,7 +141,13 @@ pub fn calc_targets(
 }
 
 /// The frames of a move.
-pub(in crate::rapid) fn frames_of(robot: &Robot<6>, step: &Move) -> Result<Frames, Problem> {
+pub(in crate::rapid) fn frames_of<const N: usize>(
+    robot: &Robot<N>,
+    step: &Move,
+) -> Result<Frames, Problem>
+where
+    Joints<N>: Arity<N>,
+{
     let Argument { text, value, .. } = &step.tool;
     let tool = value
         .as_ref()
@@ -133,25 +161,22 @@ pub(in crate::rapid) fn frames_of(robot: &Robot<6>, step: &Move) -> Result<Frame
 }
 
 /// The joint or linkage that is outside the limits, and the excess.
-pub(in crate::rapid) fn outside(robot: &Robot<6>, q: &[f64; 6]) -> Option<Problem> {
+pub(in crate::rapid) fn outside<const N: usize>(robot: &Robot<N>, q: &[f64; N]) -> Option<Problem>
+where
+    Joints<N>: Arity<N>,
+{
     let limits = robot.limits();
     if limits.contains(q) {
         return None;
     }
     let farthest =
-        (0..6).max_by(|a, b| limits.excess(*a, q[*a]).total_cmp(&limits.excess(*b, q[*b])))?;
+        (0..N).max_by(|a, b| limits.excess(*a, q[*a]).total_cmp(&limits.excess(*b, q[*b])))?;
     let excess = limits.excess(farthest, q[farthest]);
     Some(if excess > 0.0 {
         Problem::OutsideLimits { joint: farthest + 1, excess }
     } else {
         Problem::OutsideLinkageLimits { excess: limits.linkage_excess(q) }
     })
-}
-
-/// The first axis that does not exist, by the joint angles [deg].
-pub(in crate::rapid) fn absent_axis(robax_deg: &[f64; 6]) -> Option<Problem> {
-    let axis = robax_deg.iter().position(|degrees| degrees.abs() > MOST_DEGREES)?;
-    Some(Problem::AbsentAxis { axis: axis + 1, degrees: robax_deg[axis] })
 }
 
 /// The name of an element of an array, by its index in the order of the values.
@@ -165,27 +190,33 @@ fn element(name: &str, sizes: &[usize], mut number: usize) -> String {
     format!("{name}{{{}}}", indices.join(","))
 }
 
-struct Table<'a> {
-    robot: &'a Robot<6>,
+struct Table<'a, const N: usize>
+where
+    Joints<N>: Arity<N>,
+{
+    robot: &'a Robot<N>,
     /// The same robot with the flange as its tool.
-    flange: Robot<6>,
-    fallback: Fallback,
-    rows: Vec<TableRow>,
+    flange: Robot<N>,
+    fallback: Fallback<N>,
+    rows: Vec<TableRow<N>>,
 }
 
-impl<'a> Table<'a> {
-    fn new(robot: &'a Robot<6>, fallback: Fallback) -> Result<Self, Error> {
-        robot.counted()?;
+impl<'a, const N: usize> Table<'a, N>
+where
+    Robot<N>: Inverse<N>,
+    Joints<N>: Arity<N>,
+{
+    fn new(robot: &'a Robot<N>, fallback: Fallback<N>) -> Result<Self, Error> {
+        robot.configuration_rule()?;
         Ok(Self { robot, flange: with_flange(robot)?, fallback, rows: Vec::new() })
     }
 
-    /// Add a row for an argument of a move, which `read` converts to a robtarget or to joint angles
-    /// [deg].
+    /// Add a row for an argument of a move, which `read` converts to a robtarget or a jointtarget.
     fn add_move<T>(
         &mut self,
         step: &Move,
         argument: &Argument<T>,
-        read: impl Fn(&T) -> Result<RobTarget, [f64; 6]>,
+        read: impl Fn(&T) -> Result<RobTarget, JointTarget>,
     ) {
         let (kind, text) = (step.kind.name(), argument.text.clone());
         if let Some(line) = step.displaced {
@@ -196,9 +227,12 @@ impl<'a> Table<'a> {
                 let frames = frames_of(self.robot, step);
                 self.add(kind, text, step.line, &target, frames);
             }
-            Ok(Err(joints)) => match absent_axis(&joints) {
-                Some(problem) => self.add_problem(kind, text, step.line, problem),
-                None => self.add_joints(kind, text, step.line, joints.map(f64::to_radians)),
+            Ok(Err(joints)) => match absent_axis::<N>(&joints) {
+                Some((axis, degrees)) => {
+                    let problem = Problem::AbsentAxis { axis, degrees };
+                    self.add_problem(kind, text, step.line, problem);
+                }
+                None => self.add_joints(kind, text, step.line, joint_vector(&joints)),
             },
             Err(reason) => self.add_problem(kind, text, step.line, Problem::Target(reason.clone())),
         }
@@ -233,7 +267,7 @@ impl<'a> Table<'a> {
         self.rows.push(TableRow { kind, text, line, q, configuration, distances, problem });
     }
 
-    fn add_joints(&mut self, kind: &'static str, text: String, line: usize, q: [f64; 6]) {
+    fn add_joints(&mut self, kind: &'static str, text: String, line: usize, q: [f64; N]) {
         let (configuration, distances) = self.seen(&q);
         let problem = outside(self.robot, &q);
         self.rows.push(TableRow {
@@ -252,22 +286,37 @@ impl<'a> Table<'a> {
         &self,
         target: &RobTarget,
         frames: &Frames,
-    ) -> Result<([f64; 6], Option<Problem>), Problem> {
+    ) -> Result<([f64; N], Option<Problem>), Problem> {
         let pose = frames.flange(&target_pose(target).map_err(Problem::NotSolved)?);
-        let missed = match self.flange.ik_configured(&pose, target.robconf) {
-            Ok(solution) => return Ok((solution.q, None)),
+        let mut asked = request(&self.flange, target).map_err(Problem::NotSolved)?;
+        let first = match self.fallback {
+            Fallback::None => None,
+            Fallback::Near(first) | Fallback::Nearest(first) => Some(first),
+        };
+        asked.seed = self.rows.iter().rev().find_map(|row| row.q).or(first);
+        let missed = match self.flange.ik_configured_all(&pose, asked) {
+            Ok(all) => return chosen(&all),
             Err(error) => error,
         };
-        let (Error::NoConfiguration(_), Fallback::Nearest(first)) = (&missed, self.fallback) else {
+        let (Error::NoConfiguration(_), Fallback::Nearest(_), Some(seed)) =
+            (&missed, self.fallback, asked.seed)
+        else {
             return Err(Problem::NotSolved(missed));
         };
-        let before = self.rows.iter().rev().find_map(|row| row.q).unwrap_or(first);
-        let nearest = self.flange.ik_nearest(&pose, &before, &[1.0; 6]);
+        let nearest = self.flange.ik_nearest(&pose, &seed, &[1.0; N]);
         Ok((nearest.map_err(Problem::NotSolved)?.q, Some(Problem::Nearest(missed))))
     }
 
-    fn seen(&self, q: &[f64; 6]) -> (Configuration, Option<SingularDistances>) {
+    fn seen(&self, q: &[f64; N]) -> (Configuration, Option<SingularDistances>) {
         let configuration = self.robot.configuration(q).unwrap_or_default();
         (configuration, self.robot.singular_distances(q))
     }
+}
+
+/// The first of the solutions that a configuration names, and that there are more.
+fn chosen<const N: usize>(all: &[Solution<N>]) -> Result<([f64; N], Option<Problem>), Problem> {
+    let first =
+        all.first().ok_or(Problem::NotSolved(Error::Unreachable(Explanation::FilteredOut)))?;
+    let count = all.len();
+    Ok((first.q, (count > 1).then_some(Problem::Ambiguous { count })))
 }

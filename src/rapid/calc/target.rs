@@ -1,8 +1,10 @@
 //! `CalcJointT` and `CalcRobT`.
 
+use super::axes::{joint_target, joint_vector, request, with_arm_angle};
+use super::fallback::Fallback;
 use super::frames::{Frames, pose_in, rapid_pose};
 use crate::error::Error;
-use crate::kinematics::{Pose, Robot};
+use crate::kinematics::{Arity, Inverse, Joints, Pose, Robot};
 use crate::rapid::data::records::{JointTarget, RapidPose, RobTarget, ToolData, WobjData};
 use crate::report::Explanation;
 
@@ -22,10 +24,7 @@ pub fn calc_joint_t(
     tool: Option<&ToolData>,
     wobj: Option<&WobjData>,
 ) -> Result<JointTarget, Error> {
-    let frames = Frames::new(robot, tool, wobj)?;
-    let q =
-        with_flange(robot)?.ik_configured(&frames.flange(&target_pose(target)?), target.robconf)?.q;
-    Ok(joint_target(&q, target.extax))
+    joint_target_of(robot, target, tool, wobj, Fallback::None)
 }
 
 /// [`calc_joint_t`] or, if no solution has the target's configuration, the solution nearest to
@@ -41,10 +40,35 @@ pub fn calc_joint_t_or_nearest(
     wobj: Option<&WobjData>,
     seed: &[f64; 6],
 ) -> Result<JointTarget, Error> {
+    joint_target_of(robot, target, tool, wobj, Fallback::Nearest(*seed))
+}
+
+/// [`calc_joint_t`] of an arm of six joints or of a `YuMi`, whose `eax_a` is the arm angle in a
+/// robtarget and axis 7 in a jointtarget.
+///
+/// # Errors
+///
+/// As [`calc_joint_t`].
+pub fn joint_target_of<const N: usize>(
+    robot: &Robot<N>,
+    target: &RobTarget,
+    tool: Option<&ToolData>,
+    wobj: Option<&WobjData>,
+    fallback: Fallback<N>,
+) -> Result<JointTarget, Error>
+where
+    Robot<N>: Inverse<N>,
+    Joints<N>: Arity<N>,
+{
     let frames = Frames::new(robot, tool, wobj)?;
-    let q = with_flange(robot)?
-        .ik_configured_or_nearest(&frames.flange(&target_pose(target)?), target.robconf, seed)?
-        .q;
+    let pose = frames.flange(&target_pose(target)?);
+    let request = request(robot, target)?;
+    let request = match fallback {
+        Fallback::None => request,
+        Fallback::Near(seed) => request.near(seed),
+        Fallback::Nearest(seed) => request.or_nearest(seed),
+    };
+    let q = with_flange(robot)?.ik_configured(&pose, request)?.q;
     Ok(joint_target(&q, target.extax))
 }
 
@@ -59,11 +83,31 @@ pub fn calc_rob_t(
     tool: Option<&ToolData>,
     wobj: Option<&WobjData>,
 ) -> Result<RobTarget, Error> {
+    rob_target_of(robot, joints, tool, wobj)
+}
+
+/// [`calc_rob_t`] of an arm of six joints or of a `YuMi`, whose `eax_a` is axis 7 in a jointtarget
+/// and the arm angle in a robtarget.
+///
+/// # Errors
+///
+/// As [`calc_rob_t`].
+pub fn rob_target_of<const N: usize>(
+    robot: &Robot<N>,
+    joints: &JointTarget,
+    tool: Option<&ToolData>,
+    wobj: Option<&WobjData>,
+) -> Result<RobTarget, Error>
+where
+    Robot<N>: Inverse<N>,
+    Joints<N>: Arity<N>,
+{
     let frames = Frames::new(robot, tool, wobj)?;
-    let q = joints.robax_deg.map(f64::to_radians);
+    let q = joint_vector(joints);
     let robconf = robot.configuration(&q)?;
+    let extax = with_arm_angle(robot, &q, joints.extax)?;
     let RapidPose { trans_mm, rot } = rapid_pose(&frames.tool(&with_flange(robot)?.fk(&q)));
-    Ok(RobTarget { trans_mm, rot, robconf, extax: joints.extax })
+    Ok(RobTarget { trans_mm, rot, robconf, extax })
 }
 
 /// RAPID's name of an error of [`calc_joint_t`]: `ERR_OUTSIDE_REACH` if the arm is too short or too
@@ -81,15 +125,14 @@ pub fn error_name(error: &Error) -> Option<&'static str> {
 }
 
 /// The same robot with the flange as its tool.
-pub(in crate::rapid) fn with_flange(robot: &Robot<6>) -> Result<Robot<6>, Error> {
+pub(in crate::rapid) fn with_flange<const N: usize>(robot: &Robot<N>) -> Result<Robot<N>, Error>
+where
+    Joints<N>: Arity<N>,
+{
     robot.clone().with_tool(&Pose::identity())
 }
 
 /// The tool in the work object [m].
 pub(in crate::rapid) fn target_pose(target: &RobTarget) -> Result<Pose, Error> {
     pose_in(&RapidPose { trans_mm: target.trans_mm, rot: target.rot }, "robtarget")
-}
-
-pub(in crate::rapid) fn joint_target(q: &[f64; 6], extax: [f64; 6]) -> JointTarget {
-    JointTarget { robax_deg: q.map(f64::to_degrees), extax }
 }

@@ -15,8 +15,8 @@ use super::inherited::with_inherited;
 use super::runs::{Run, runs};
 use super::zones::Zones;
 use crate::error::{Error, RapidFault, RapidFaultKind};
-use crate::kinematics::Robot;
 use crate::kinematics::thresholds::CONFIGURATION_EDGE;
+use crate::kinematics::{Pose, Robot};
 use crate::rapid::calc::problem::Problem;
 use crate::rapid::calc::target::with_flange;
 use crate::rapid::data::module::Module;
@@ -27,7 +27,7 @@ use crate::rapid::motion::joints::Conf;
 use crate::rapid::motion::options::MotionOptions;
 use crate::rapid::motion::routine::{Followed, check as check_options, velocities};
 use crate::rapid::text::place::excerpt;
-use crate::report::Configuration;
+use crate::report::{Configuration, ConfigurationRule};
 
 /// Axes of a configuration, from 0, and their names in it.
 const AXES: [(usize, &str); 3] = [(0, "cf1"), (3, "cf4"), (5, "cf6")];
@@ -50,7 +50,7 @@ pub fn check(
     source: &str,
     options: &MotionOptions,
 ) -> Result<Vec<Diagnostic>, Error> {
-    robot.counted()?;
+    robot.configuration_rule()?;
     check_options(options)?;
     if source.len() != module.text_length {
         let (found, wanted) = (source.len(), module.text_length);
@@ -112,13 +112,17 @@ impl<'m> Checker<'_, 'm> {
             if let Some(message) = zones.checked(index) {
                 self.push(run, (Code::ZoneTooLarge, place.0, place.1), message, None);
             }
-            let (Some(Place::Tool(_, from)), Some(q)) = (goal.place, made[index].q) else {
+            let (Some(Place::Tool(pose, from)), Some(q)) = (goal.place, made[index].q) else {
                 continue;
             };
             if goal.conf() == Conf::Off {
                 continue;
             }
-            for (code, message) in self.ambiguous(&q, goal.is_cartesian()) {
+            let pose = goal.frames.flange(&pose);
+            let named = if goal.is_cartesian() { None } else { self.ambiguous(&pose, from, &q) };
+            let edges = on_edges(&q).map(|message| (Code::ConfdataEdge, message));
+            let named = named.map(|message| (Code::AmbiguousConfdata, message));
+            for (code, message) in named.into_iter().chain(edges) {
                 self.push(run, (code, place.0, place.1), message, None);
             }
             let (step, diagnostic) = (goal.step, wrong[index]);
@@ -141,35 +145,43 @@ impl<'m> Checker<'_, 'm> {
         self.found.push(Diagnostic { code, line, column, routine, message, unknown, edits });
     }
 
-    /// How the confdata of joints at a target is ambiguous.
-    fn ambiguous(&self, q: &[f64; 6], is_cartesian: bool) -> Vec<(Code, String)> {
-        let mut found = Vec::new();
-        let wrist = self.robots[1].singular_distances(q).map_or(1.0, |at| at.wrist);
-        // A line or an arc arrives with the joints that it comes with.
-        if wrist < CONFIGURATION_EDGE && !is_cartesian {
-            let message = format!(
+    /// Why the confdata of a target, to which a joint move brings the joints `q`, is ambiguous. A
+    /// line or an arc arrives with the joints that it comes with.
+    fn ambiguous(&self, flange: &Pose, confdata: Configuration, q: &[f64; 6]) -> Option<String> {
+        let robot = self.robots[1];
+        if robot.configuration_rule().ok()? != ConfigurationRule::SphericalWrist {
+            let named = robot.ik_configured_all(flange, confdata).map_or(0, |all| all.len());
+            return (named > 1).then(|| {
+                format!("{named} joint vectors have the confdata {confdata} there; use MoveAbsJ")
+            });
+        }
+        let wrist = robot.singular_distances(q).map_or(1.0, |at| at.wrist);
+        (wrist < CONFIGURATION_EDGE).then(|| {
+            format!(
                 "the target is {:.4} deg from the wrist singularity: axes 4 and 6 coincide, many \
                  joint angles have its confdata; use MoveAbsJ",
                 wrist.to_degrees()
-            );
-            found.push((Code::AmbiguousConfdata, message));
-        }
-        for (axis, name) in AXES {
-            let degrees = q[axis].to_degrees();
-            let edge = (degrees / 90.0).round();
-            if (degrees - 90.0 * edge).abs() < CONFIGURATION_EDGE.to_degrees() {
-                let message = format!(
-                    "axis {} is {:.4} deg, on the edge of a quarter: {name} {} and {edge:.0} both \
-                     name it",
-                    axis + 1,
-                    degrees + 0.0,
-                    edge - 1.0,
-                );
-                found.push((Code::ConfdataEdge, message));
-            }
-        }
-        found
+            )
+        })
     }
+}
+
+/// The axes of joints that are on the edge of a quarter, in sentences.
+fn on_edges(q: &[f64; 6]) -> impl Iterator<Item = String> {
+    AXES.into_iter().filter_map(|(axis, name)| {
+        let degrees = q[axis].to_degrees();
+        let edge = (degrees / 90.0).round();
+        let is_near = (degrees - 90.0 * edge).abs() < CONFIGURATION_EDGE.to_degrees();
+        is_near.then(|| {
+            format!(
+                "axis {} is {:.4} deg, on the edge of a quarter: {name} {} and {edge:.0} both \
+                 name it",
+                axis + 1,
+                degrees + 0.0,
+                edge - 1.0,
+            )
+        })
+    })
 }
 
 /// What is wrong, in one line. `nearest` is the configuration of the joints that the move arrives

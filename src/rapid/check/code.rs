@@ -28,7 +28,7 @@ pub enum Code {
     WrongConfdata,
     /// A line or an arc arrives with another configuration than its target has.
     OtherConfiguration,
-    /// Many joint vectors have the confdata of a singular target.
+    /// More than one joint vector has the confdata of a target.
     AmbiguousConfdata,
     /// A line or an arc passes the wrist singularity.
     WristSingularity,
@@ -187,6 +187,7 @@ fn of_target(problem: &Problem) -> Code {
         Problem::NotSolved(Error::Unreachable(
             Explanation::OutOfReach(_) | Explanation::NoRoots { .. },
         )) => Code::OutOfReach,
+        Problem::Ambiguous { .. } => Code::AmbiguousConfdata,
         Problem::OutsideLimits { .. }
         | Problem::OutsideLinkageLimits { .. }
         | Problem::NotSolved(Error::Unreachable(_)) => Code::OutsideLimits,

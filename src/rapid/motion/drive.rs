@@ -13,7 +13,8 @@ use crate::kinematics::thresholds::{
     ELBOW_ZONE, JOINED_MOVES, MOST_REACH, MOST_SAMPLES, SHOULDER_ZONE, WRIST_ZONE,
 };
 use crate::kinematics::{
-    BreakReason, FollowOptions, Pose, Robot, SingularityKind, SingularityMode, largest_step,
+    BreakReason, ConfigurationRequest, FollowOptions, Pose, Robot, SingularityKind,
+    SingularityMode, largest_step,
 };
 use crate::paths::corner::{Corner, Rounded};
 use crate::paths::leg::Leg;
@@ -311,7 +312,7 @@ impl<'a, 'm> Drive<'a, 'm> {
         let found = self.flange.configuration(&q).unwrap_or_default();
         let is_met = || {
             self.flange
-                .ik_configured(&pose, wanted)
+                .ik_configured(&pose, ConfigurationRequest::from(wanted).near(q))
                 .is_ok_and(|solution| apart(&solution.q, &q, SingularityMode::Through).is_none())
         };
         if found != wanted && !is_met() {

@@ -7,9 +7,10 @@ use alloc::vec::Vec;
 use super::finding::{Finding, FindingKind};
 use crate::kinematics::{Pose, Robot};
 use crate::paths::Zone;
+use crate::rapid::calc::axes::{absent_axis, joint_vector};
 use crate::rapid::calc::frames::Frames;
 use crate::rapid::calc::problem::Problem;
-use crate::rapid::calc::table::{absent_axis, frames_of, outside};
+use crate::rapid::calc::table::{frames_of, outside};
 use crate::rapid::calc::target::target_pose;
 use crate::rapid::data::moves::{Argument, Move, MoveKind, Target};
 use crate::rapid::data::records::RobTarget;
@@ -140,9 +141,9 @@ fn placed(step: &Move, frames: &Result<Frames, Problem>) -> Result<Place, Proble
     }
     match &step.target.value {
         Err(reason) => Err(Problem::Target(reason.clone())),
-        Ok(Target::JointTarget(joints)) => match absent_axis(&joints.robax_deg) {
-            Some(problem) => Err(problem),
-            None => Ok(Place::Joints(joints.robax_deg.map(f64::to_radians))),
+        Ok(Target::JointTarget(joints)) => match absent_axis::<6>(joints) {
+            Some((axis, degrees)) => Err(Problem::AbsentAxis { axis, degrees }),
+            None => Ok(Place::Joints(joint_vector(joints))),
         },
         Ok(Target::RobTarget(target)) => {
             frames.as_ref().map_err(Problem::clone)?;

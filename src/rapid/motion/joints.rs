@@ -7,8 +7,8 @@ use super::finding::FindingKind;
 use super::goal::{Goal, Place};
 use super::samples::{Path, way};
 use crate::error::{Error, MotionFault};
-use crate::kinematics::Robot;
 use crate::kinematics::thresholds::{MOST_SAMPLES, STEP_ROUNDING};
+use crate::kinematics::{ConfigurationRequest, Robot};
 use crate::paths::line::part;
 use crate::rapid::calc::frames::Frames;
 use crate::rapid::calc::problem::Problem;
@@ -40,7 +40,8 @@ pub(super) fn solved(
     };
     let mut missed = None;
     if conf != Conf::Off || seed.is_none() {
-        match flange.ik_configured(&pose, robconf) {
+        let request = ConfigurationRequest { seed: seed.copied(), ..robconf.into() };
+        match flange.ik_configured(&pose, request) {
             Ok(solution) => return (Some(solution.q), None),
             Err(error @ (Error::NoConfiguration(_) | Error::InvalidJoints(_))) => {
                 missed = Some(error).filter(|_| conf == Conf::On);

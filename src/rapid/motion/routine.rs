@@ -84,7 +84,7 @@ pub fn motion(
     routine: Option<&str>,
     options: &MotionOptions,
 ) -> Result<RoutineMotion, Error> {
-    robot.counted()?;
+    robot.configuration_rule()?;
     check(options)?;
     let max_velocity = velocities(robot, options)?.ok_or(MotionFault::NoMaxVelocity)?;
     let (routine, steps) = sequence(module, routine)?;

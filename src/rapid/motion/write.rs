@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 
 use super::routine::RoutineMotion;
 use crate::error::Error;
-use crate::rapid::calc::target::joint_target;
+use crate::rapid::calc::axes::joint_target;
 use crate::rapid::data::module::{Datum, Module, Storage};
 use crate::rapid::data::moves::{Argument, Move, MoveKind, MoveOption, Target};
 use crate::rapid::data::records::{NOT_THERE, ToolData, WobjData};

@@ -34,7 +34,8 @@ impl Search<'_> {
     /// Whether the arm with joint 7 fixed is near a singularity: away from it, the curve does not
     /// cross itself.
     fn may_cross(&self, q: &[f64; 7]) -> bool {
-        self.robot.singular_distances(q).is_some_and(|distances| {
+        // The singular values decide where the singularities have no names.
+        self.robot.singular_distances(q).is_none_or(|distances| {
             distances.wrist.min(distances.elbow).min(distances.shoulder) <= NEAR_CROSSING
         })
     }

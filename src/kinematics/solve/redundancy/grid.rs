@@ -57,7 +57,8 @@ impl Search<'_> {
                 continue;
             }
             let right = self.samples_at(high)?;
-            if self.samples_at(0.5 * (low + high))?.are_none() {
+            let is_unreachable = self.are_named && self.samples_at(0.5 * (low + high))?.are_none();
+            if is_unreachable {
                 // The edges may touch: the only reachable angle is then the mark itself.
                 self.step(&mut seen, &Samples::NONE)?;
                 seen = [Samples::NONE, right];
@@ -124,7 +125,7 @@ impl Search<'_> {
         let mut free: Option<Sample> = None;
         for slot in 0..MOST_SLOTS {
             let Some(sample) = here.slots[slot] else { continue };
-            let neighbors = neighbors.map(|samples| samples.slots[slot].as_ref());
+            let neighbors = neighbors.map(|samples| samples.same_branch(slot, &sample));
             // If more joints are outside than at the neighbor, there may be no sample between.
             let edge = |other: Option<&Sample>| {
                 other.is_none_or(|other| other.joints_outside != sample.joints_outside)

@@ -23,14 +23,17 @@ use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::solutions::Solution;
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::pose::Pose;
+use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::self_motion::meets;
 use crate::kinematics::solve::self_motion_curve::{Joints, SelfMotion};
-use crate::kinematics::structure::any::SevenJoints;
 use crate::kinematics::structure::free_choice::FreeChoice;
+use crate::kinematics::structure::seven_joints::SevenJoints;
 use crate::kinematics::structure::solver::Solver;
 use crate::kinematics::structure::spherical_shoulder::{EDGES, SphericalShoulder};
-use crate::kinematics::thresholds::{JOINT_7_FINER_SPACING, JOINT_7_SPACING};
+use crate::kinematics::thresholds::{
+    JOINT_7_FINER_SPACING, JOINT_7_SPACING, POSITION_ROUNDING, ROTATION_ROUNDING,
+};
 use crate::report::Explanation;
 
 impl Robot<7> {
@@ -70,11 +73,11 @@ impl Robot<7> {
         if let Some(reason) = self.unknown_structure() {
             return Err(ModelFault::UnknownStructure(reason).into());
         }
-        let rounding = self.shoulder_solver().map_or(0.0, |solver| solver.structure.rounding());
         let mut search = Search {
             robot: self,
-            curve: SelfMotion { robot: self, pose, rounding },
+            curve: SelfMotion { robot: self, pose, rounding: self.rounding() },
             pose,
+            are_named: self.slot_names().is_some(),
             seed: *seed,
             weights: *weights,
             best: None,
@@ -83,6 +86,17 @@ impl Robot<7> {
         };
         search.run()?;
         Ok(search)
+    }
+
+    /// Upper bound of the rounding of a pose of this arm [m, rad].
+    pub(super) fn rounding(&self) -> f64 {
+        if let Some(solver) = self.shoulder_solver() {
+            return solver.structure.rounding();
+        }
+        let rows = self.mdh().rows.iter().map(|row| row.a.abs() + row.d.abs());
+        let ends = [self.base(), &self.mdh().base, &self.mdh().flange, self.tool()];
+        let ends = ends.into_iter().map(|end| end.translation.vector.norm());
+        (POSITION_ROUNDING * rows.chain(ends).sum::<f64>()).max(ROTATION_ROUNDING)
     }
 
     /// The angles of joint 7 at which branches of the pose begin or end [rad].
@@ -96,17 +110,21 @@ impl Robot<7> {
     fn shoulder_solver(&self) -> Option<&Solver<SphericalShoulder, 7, 8>> {
         match self.solver() {
             SevenJoints::SphericalShoulder(solver) => Some(solver),
-            SevenJoints::Unknown(_) => None,
+            SevenJoints::LastGiven(_) | SevenJoints::Unknown(_) => None,
         }
     }
 
     /// A joint vector of the pose, in its slot.
     fn solution_at(&self, pose: &Pose, q: [f64; 7]) -> Result<Solution<7>, Error> {
-        let slot = self.slot_of(&q).unwrap_or(Slot::new(0));
-        let free = self
-            .solve(*pose, &FreeChoice::seed(q))?
-            .slot(slot.index())
-            .and_then(|solution| solution.free_joint);
+        let solutions = self.solve(*pose, &FreeChoice::seed(q))?;
+        let own = self.slot_of(&q);
+        let apart = |solution: &&Solution<7>| {
+            (0..7).map(|joint| wrap(solution.q[joint] - q[joint]).powi(2)).sum::<f64>()
+        };
+        // The ordinal of the solution that this one is.
+        let nearest = solutions.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
+        let slot = own.or(nearest.map(|nearest| nearest.slot)).unwrap_or(Slot::new(0));
+        let free = solutions.slot(slot.index()).and_then(|solution| solution.free_joint);
         let status =
             Status::FOUND | Status::WITHIN_LIMITS | Status::from(self.singularity(&q).kinds);
         Ok(Solution { q, slot, status, free_joint: free })
@@ -135,6 +153,8 @@ struct Search<'a> {
     robot: &'a Robot<7>,
     curve: SelfMotion<'a>,
     pose: &'a Pose,
+    /// Whether slots are the same branches at every angle of joint 7, between edges that are known.
+    are_named: bool,
     seed: [f64; 7],
     weights: [f64; 7],
     /// The least cost and its joint vector.

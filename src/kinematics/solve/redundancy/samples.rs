@@ -10,6 +10,7 @@ use super::Search;
 use crate::error::Error;
 use crate::kinematics::answer::slot::MOST_SLOTS;
 use crate::kinematics::answer::status::Status;
+use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::thresholds::SAMPLE_LEAP;
 
@@ -35,6 +36,11 @@ impl Sample {
         self.q.iter().zip(&other.q).any(leaps)
     }
 
+    /// Sum of the squared angles between two samples, whole turns not regarded.
+    fn apart(&self, other: &Self) -> f64 {
+        self.q.iter().zip(&other.q).map(|(a, b)| wrap(a - b).powi(2)).sum()
+    }
+
     pub(super) fn is_better_than(&self, other: Option<&Self>) -> bool {
         let better = |other: &Self| {
             (self.outside, self.cost).partial_cmp(&(other.outside, other.cost))
@@ -47,20 +53,39 @@ impl Sample {
 #[derive(Clone, Copy)]
 pub(super) struct Samples {
     pub(super) q7: f64,
+    /// Whether a slot is the same branch at every angle of joint 7. Where slots are ordinals, the
+    /// nearest sample is the same branch.
+    pub(super) are_named: bool,
     pub(super) slots: [Option<Sample>; MOST_SLOTS],
 }
 
 impl Samples {
-    pub(super) const NONE: Self = Self { q7: 0.0, slots: [None; MOST_SLOTS] };
+    pub(super) const NONE: Self = Self { q7: 0.0, are_named: true, slots: [None; MOST_SLOTS] };
 
     pub(super) fn are_none(&self) -> bool {
         self.slots.iter().all(Option::is_none)
+    }
+
+    /// The sample of the same branch as one in a slot of neighboring samples.
+    pub(super) fn same_branch(&self, slot: usize, sample: &Sample) -> Option<&Sample> {
+        if self.are_named {
+            return self.slots[slot].as_ref();
+        }
+        let others = self.slots.iter().flatten().filter(|other| !sample.leaps_to(other));
+        others.min_by(|a, b| sample.apart(a).total_cmp(&sample.apart(b)))
     }
 
     /// Whether a joint of some slot moves so far to the other samples that something may be missed
     /// between them. At an edge of reach a slot continues in a twin with another elbow or wrist but
     /// the same shoulder.
     pub(super) fn leap_to(&self, other: &Self) -> bool {
+        if !(self.are_named && other.are_named) {
+            let is_alone = |sample: &Sample, others: &Self| {
+                others.slots.iter().flatten().all(|other| sample.leaps_to(other))
+            };
+            return self.slots.iter().flatten().any(|sample| is_alone(sample, other))
+                || other.slots.iter().flatten().any(|sample| is_alone(sample, self));
+        }
         let ends = |slot: usize, end: &Sample, others: &Self| {
             let shoulder = slot / 4 * 4;
             let mut twins = others.slots[shoulder..shoulder + 4].iter().flatten();
@@ -105,7 +130,7 @@ impl Search<'_> {
             .map(|sample: &Sample| sample.outside)
             .fold(f64::INFINITY, f64::min);
         self.miss(solutions.reach().shortfall(), outside, solutions.explain());
-        Ok(Samples { q7: rest[6], slots })
+        Ok(Samples { q7: rest[6], are_named: self.are_named, slots })
     }
 
     /// The solutions with joint 7 at an angle, the other undetermined joints at the seed's.

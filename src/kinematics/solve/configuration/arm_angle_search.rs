@@ -1,0 +1,215 @@
+//! Searches the joint vectors of a pose that have an arm angle.
+//!
+//! All solutions at some angles of one joint, the last or the first, are points of the curves on
+//! which the arm moves while its tool stands still. Each curve is followed from one of these angles
+//! to the next, past the places where the joint turns back; where the arm angle passes the wanted
+//! one, Newton's method finds it.
+
+use core::f64::consts::PI;
+
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
+use super::arm_angle::ArmAngle;
+use crate::error::Error;
+use crate::kinematics::answer::slot::{MOST_SLOTS, Slot};
+use crate::kinematics::answer::solutions::Solution;
+use crate::kinematics::answer::status::Status;
+use crate::kinematics::pose::angles::wrap;
+use crate::kinematics::solve::given_joint::GivenJoint;
+use crate::kinematics::solve::self_motion_curve::{Joints, Point, SelfMotion};
+use crate::kinematics::thresholds::ARM_ANGLE_OFF;
+
+/// Spacing of the angles of the joint at which all solutions are computed [rad]: a self-motion that
+/// turns it by less may be missed.
+const SPACING: f64 = PI / 180.0;
+
+/// Largest and least step along a curve [rad].
+const STEP: f64 = 0.06;
+const LEAST_STEP: f64 = 1e-7;
+
+/// Largest change of the arm angle in a step [rad].
+const LARGEST_CHANGE: f64 = 0.3;
+
+/// Cosine of the largest angle between the directions of a curve at the ends of a step [1].
+const LEAST_COSINE: f64 = 0.95;
+
+/// Steps along one piece of a curve, after which it is given up.
+const STEPS: u32 = 2000;
+
+/// How far the arm angle may be from the wanted one where it is the nearest, for Newton's method to
+/// start there [rad].
+const NEAR: f64 = 0.02;
+
+/// Angle by which joints differ from those of another solution, at least [rad].
+const APART: f64 = 1e-6;
+
+/// Number of solutions of one pose and arm angle that are kept: the most seen is sixteen.
+pub(super) const MOST: usize = 48;
+
+/// Those that are found.
+pub(super) type Found = [Option<Solution<7>>; MOST];
+
+/// The solutions with one joint at an angle, and which of them a curve has passed.
+#[derive(Clone, Copy)]
+struct Section {
+    /// The angle of the joint [rad].
+    at: f64,
+    solutions: [Option<[f64; 7]>; MOST_SLOTS],
+    passed: [bool; MOST_SLOTS],
+}
+
+/// The search for the joint vectors of a pose that have an arm angle.
+pub(super) struct Search<'a> {
+    pub(super) curve: SelfMotion<'a>,
+    pub(super) angle: ArmAngle<'a>,
+    pub(super) wanted: f64,
+    /// The arm with its first joint given, if that one has the sections; otherwise the last has.
+    pub(super) first: Option<GivenJoint>,
+    pub(super) found: Found,
+}
+
+fn largest_difference(a: &[f64; 7], b: &[f64; 7]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| wrap(a - b).abs()).fold(0.0, f64::max)
+}
+
+impl Search<'_> {
+    /// The joint of the sections, from 0.
+    fn joint(&self) -> usize {
+        if self.first.is_some() { 0 } else { 6 }
+    }
+
+    /// Search with the joint of the sections between two angles.
+    pub(super) fn run(&mut self, [from, to]: [f64; 2]) -> Result<(), Error> {
+        let count = ((to - from) / SPACING).ceil().max(1.0);
+        let mut before = self.section(from)?;
+        let mut number = 1.0;
+        while number <= count {
+            let mut after = self.section(from + (to - from) * number / count)?;
+            for slot in 0..MOST_SLOTS {
+                self.follow_from(&mut before, slot, &mut after, 1.0);
+            }
+            for slot in 0..MOST_SLOTS {
+                if !after.passed[slot] {
+                    self.follow_from(&mut after, slot, &mut before, -1.0);
+                }
+            }
+            after.passed = [false; MOST_SLOTS];
+            (before, number) = (after, number + 1.0);
+        }
+        Ok(())
+    }
+
+    fn section(&self, at: f64) -> Result<Section, Error> {
+        let found = match &self.first {
+            Some(first) => first.ik_checked(self.curve.pose, at)?,
+            None => self.curve.robot.ik_checked(*self.curve.pose, at)?,
+        };
+        let mut solutions = [None; MOST_SLOTS];
+        for (place, solution) in solutions.iter_mut().zip(&found) {
+            *place = Some(solution.q);
+        }
+        Ok(Section { at, solutions, passed: [false; MOST_SLOTS] })
+    }
+
+    /// How far the arm angle is from the wanted one.
+    fn off(&self, q: &[f64; 7]) -> Option<f64> {
+        self.angle.at(q).map(|(angle, _)| wrap(angle - self.wanted))
+    }
+
+    /// Follow the curve of a solution into the strip between two sections, the joint turning by the
+    /// sign of `way` at first, to where it leaves the strip.
+    fn follow_from(&mut self, from: &mut Section, slot: usize, to: &mut Section, way: f64) {
+        let Some(start) = from.solutions[slot].filter(|_| !from.passed[slot]) else { return };
+        from.passed[slot] = true;
+        let Some(mut point) = self.curve.nearest(&Joints::from(start)) else {
+            self.refine(&start);
+            return;
+        };
+        let joint = self.joint();
+        if point.along[joint] * way < 0.0 {
+            point.along = -point.along;
+        }
+        let (mut step, mut slope) = (STEP, 0.0);
+        let Some(mut off) = self.off(&point.joints()) else { return };
+        for _ in 0..STEPS {
+            let Some((next, next_off)) = self.step(&point, off, step) else {
+                step *= 0.5;
+                if step < LEAST_STEP {
+                    return;
+                }
+                continue;
+            };
+            let change = wrap(next_off - off);
+            // Both signs also meet half a turn away from the wanted angle.
+            if off * next_off <= 0.0 && off.abs() < 1.0 {
+                let part = if change == 0.0 { 0.0 } else { -off / change };
+                self.refine(&(point.q + part * (next.q - point.q)).into());
+            } else if slope * change <= 0.0 && off.abs() <= NEAR {
+                // The nearest that the arm angle comes, here or next to it.
+                self.refine(&point.joints());
+            }
+            let turned = way * (next.q[joint] - from.at);
+            let crossed = [
+                (turned < 0.0).then_some(&mut *from),
+                (way * (next.q[joint] - to.at) > 0.0).then_some(&mut *to),
+            ];
+            if let Some(section) = crossed.into_iter().flatten().next() {
+                section.pass(&self.curve, joint, &next);
+                return;
+            }
+            (point, off, slope) = (next, next_off, change);
+            step = (2.0 * step).min(STEP);
+        }
+    }
+
+    /// A step along the curve, if neither the curve nor the arm angle turns far on it.
+    fn step(&self, point: &Point, off: f64, step: f64) -> Option<(Point, f64)> {
+        let next = self.curve.across(&(point.q + step * point.along), &point.along)?;
+        let next_off = self.off(&next.joints())?;
+        let is_small = next.along.dot(&point.along) >= LEAST_COSINE
+            && (next.q - point.q).norm() <= 2.0 * step
+            && wrap(next_off - off).abs() <= LARGEST_CHANGE;
+        is_small.then_some((next, next_off))
+    }
+
+    /// Find the wanted arm angle near joint angles of the pose.
+    fn refine(&mut self, near: &[f64; 7]) {
+        let seventh = |q: &Joints| match self.angle.at(&(*q).into()) {
+            Some((angle, gradient)) => (gradient, wrap(self.wanted - angle)),
+            None => (Joints::zeros(), f64::NAN),
+        };
+        let Some(point) = self.curve.newton(Joints::from(*near), seventh) else { return };
+        let q = self.curve.robot.limits().wrap(point.joints().map(wrap));
+        if self.off(&q).is_some_and(|off| off.abs() <= ARM_ANGLE_OFF) {
+            self.keep(q);
+        }
+    }
+
+    fn keep(&mut self, q: [f64; 7]) {
+        let known = |found: &Solution<7>| largest_difference(&found.q, &q) <= APART;
+        if self.found.iter().flatten().any(known) {
+            return;
+        }
+        let robot = self.curve.robot;
+        let mut status = Status::FOUND | Status::from(robot.singularity(&q).kinds);
+        status.set(Status::WITHIN_LIMITS, robot.limits().contains(&q));
+        let slot = robot.slot_of(&q).unwrap_or(Slot::new(0));
+        if let Some(place) = self.found.iter_mut().find(|place| place.is_none()) {
+            *place = Some(Solution { q, slot, status, free_joint: None });
+        }
+    }
+}
+
+impl Section {
+    /// Note the solution at which a curve passes the section, of which a point near it is given.
+    fn pass(&mut self, curve: &SelfMotion<'_>, joint: usize, near: &Point) {
+        let Some(at) = curve.with_joint_at(&near.q, joint, self.at) else { return };
+        let at = at.joints();
+        for (solution, passed) in self.solutions.iter().zip(&mut self.passed) {
+            if solution.is_some_and(|solution| largest_difference(&solution, &at) <= 1e3 * APART) {
+                *passed = true;
+            }
+        }
+    }
+}
