@@ -11,6 +11,7 @@ mod catalog;
 mod catalog_page;
 mod common;
 mod configuration;
+mod corrections;
 mod coupled;
 mod display;
 mod follow;

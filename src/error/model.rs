@@ -117,6 +117,8 @@ pub enum ModelFault {
         /// Why not.
         reason: &'static str,
     },
+    /// The table of an arm with coupled axes 2 and 3 cannot be corrected.
+    CoupledTable,
     /// A velocity limit is not positive.
     Velocity {
         /// The joint, from 1.
@@ -223,6 +225,11 @@ impl fmt::Display for ModelFault {
                  robot with coupled axes 2 and 3 (see coupled)"
             ),
             Self::NotCoupled { reason } => write!(f, "axes 2 and 3 cannot be coupled: {reason}"),
+            Self::CoupledTable => write!(
+                f,
+                "the table of a robot with coupled axes 2 and 3 cannot be corrected: correct its \
+                 uncoupled() twin, whose q3 is q3 - q2"
+            ),
             Self::Velocity { joint, value } => {
                 write!(f, "joint {joint} velocity is {value} rad/s, it must be positive")
             }

@@ -143,6 +143,12 @@ pub(crate) const LEAST_LINK: f64 = 1e-6;
 /// longer.
 pub const MOST_LENGTH: f64 = 1e6;
 
+/// Farthest that the common normal of two axes of a corrected table may be [m]: half of
+/// [`MOST_LENGTH`], since the offset of an axis is the sum of two. Rounding of such an offset moves
+/// the tool by a nanometer; axes that are nearer to parallel count as parallel, which moves it by
+/// at most a micrometer for each meter of reach.
+pub(crate) const FARTHEST_NORMAL: f64 = MOST_LENGTH / 2.0;
+
 /// Longest tool that is taken [m]: the distance of its center point from the flange. No arm carries
 /// one of 50 m, and a pointer or laser is aimed less far; a tool of 50 mm in millimeters is one.
 pub const MOST_TOOL: f64 = 50.0;

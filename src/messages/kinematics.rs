@@ -139,6 +139,9 @@ fn models() -> Vec<Row> {
         ModelFault::NotCoupled { .. } =>
             ModelFault::NotCoupled { reason: "they turn in opposite senses" },
             "`coupled()`", "give axes 2 and 3 the same sign";
+        ModelFault::CoupledTable => ModelFault::CoupledTable,
+            "`with_corrections`, `calibrate` of a robot with a linkage",
+            "take its `uncoupled()` twin";
         ModelFault::Velocity { .. } => ModelFault::Velocity { joint: 2, value: -1.0 },
             "a velocity limit", "give a positive one";
         ModelFault::JointCount { .. } => ModelFault::JointCount { found: 7, wanted: 6 },

@@ -11,6 +11,7 @@ mod build;
 mod catalog;
 mod classes;
 mod configurations;
+mod corrections;
 mod edits;
 mod errors;
 mod found;

@@ -2,6 +2,7 @@
 
 pub(super) mod any;
 mod build;
+mod corrected;
 mod display;
 mod linkage;
 mod margin;
