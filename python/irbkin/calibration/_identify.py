@@ -94,7 +94,8 @@ def condition(jacobian: Floats) -> float:
 def _combination(jacobian: Floats, kept: Sequence[int], index: int) -> tuple[Floats, float]:
     """The combination of kept columns nearest to another one, and its distance."""
     scaled = _unit_columns(jacobian)
-    factors: Floats = np.linalg.lstsq(scaled[:, kept], scaled[:, index], rcond=None)[0]
+    solved = np.linalg.lstsq(scaled[:, kept], scaled[:, index], rcond=None)
+    factors = np.asarray(solved[0], dtype=np.float64)
     return factors, float(np.linalg.norm(scaled[:, kept] @ factors - scaled[:, index]))
 
 

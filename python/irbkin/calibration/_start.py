@@ -96,7 +96,8 @@ def _shifts(
     else:
         wanted = wanted - levers @ tool[:3, 3]
     matrix = np.concatenate(columns, axis=2).reshape(3 * len(flange), -1)
-    found: Floats = np.linalg.lstsq(matrix, wanted.ravel(), rcond=None)[0]
+    solved = np.linalg.lstsq(matrix, wanted.ravel(), rcond=None)
+    found = np.asarray(solved[0], dtype=np.float64)
     base_at = found[:3] if fits_base else base[:3, 3]
     tool_at = found[-3:] if fits_tool else tool[:3, 3]
     return _frame(turn_base, base_at), _frame(turn_tool, tool_at)
