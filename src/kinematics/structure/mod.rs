@@ -11,6 +11,7 @@ pub(crate) mod any;
 pub(crate) mod arity;
 pub(crate) mod arm;
 pub(crate) mod branches;
+pub(crate) mod closure;
 mod declare;
 pub(crate) mod end_frames;
 pub(crate) mod free_choice;
@@ -25,6 +26,7 @@ pub(crate) mod spherical_shoulder;
 pub(crate) mod spherical_wrist;
 pub(crate) mod three_parallel;
 pub(crate) mod triangle;
+pub(crate) mod trigonometric;
 pub(crate) mod zyz;
 
 use core::fmt::Debug;
