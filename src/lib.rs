@@ -145,8 +145,8 @@ mod urdf;
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use catalog::{AngleUnit, CatalogArm, CatalogGeometry, catalog, find, left_out};
 pub use error::{
-    Error, JointFault, LeftOut, ModelFault, MotionFault, Names, NoConfiguration, PlanFault,
-    PoseFault, UnknownRobot, UrdfFault,
+    CalibratedFault, Error, JointFault, LeftOut, ModelFault, MotionFault, Names, NoConfiguration,
+    PlanFault, PoseFault, UnknownRobot, UrdfFault,
 };
 #[cfg(feature = "rapid")]
 pub use error::{FrameFault, Missing, RapidFault, RapidFaultKind, RoutineFault};

@@ -1,7 +1,7 @@
 //! Corrections of the parameters of an arm: poses, Jacobian, and the table they make.
 
 use irbkin::nalgebra::{Rotation3, Vector3};
-use irbkin::{Corrections, Error, JacobianFrame, Mdh, ModelFault, Pose, Robot};
+use irbkin::{CalibratedFault, Corrections, JacobianFrame, Mdh, Pose, Robot};
 
 use crate::common::Rng;
 
@@ -130,7 +130,7 @@ fn a_corrected_robot_has_the_corrected_poses() {
             let mut corrections = drawn(&mut rng, size);
             if robot.is_coupled() {
                 let refusal = robot.with_corrections(&corrections).unwrap_err();
-                assert_eq!(refusal, Error::InvalidModel(ModelFault::CoupledTable));
+                assert_eq!(refusal, CalibratedFault::Coupled.into());
                 corrections.rows = Corrections::NONE.rows;
             }
             let corrected = robot.with_corrections(&corrections).unwrap();

@@ -5,7 +5,7 @@ use core::fmt;
 
 use crate::report::UnknownStructure;
 
-use super::UrdfFault;
+use super::{CalibratedFault, UrdfFault};
 
 /// What is wrong with the description of an arm.
 #[derive(Clone, Debug, PartialEq)]
@@ -117,8 +117,6 @@ pub enum ModelFault {
         /// Why not.
         reason: &'static str,
     },
-    /// The table of an arm with coupled axes 2 and 3 cannot be corrected.
-    CoupledTable,
     /// A velocity limit is not positive.
     Velocity {
         /// The joint, from 1.
@@ -161,6 +159,8 @@ pub enum ModelFault {
         /// it; none where none does.
         snap: Option<f64>,
     },
+    /// The arm cannot be corrected, or is not that of its nominal one.
+    Calibrated(CalibratedFault),
     /// The URDF describes no arm that can be taken.
     Urdf(UrdfFault),
 }
@@ -225,11 +225,6 @@ impl fmt::Display for ModelFault {
                  robot with coupled axes 2 and 3 (see coupled)"
             ),
             Self::NotCoupled { reason } => write!(f, "axes 2 and 3 cannot be coupled: {reason}"),
-            Self::CoupledTable => write!(
-                f,
-                "the table of a robot with coupled axes 2 and 3 cannot be corrected: correct its \
-                 uncoupled() twin, whose q3 is q3 - q2"
-            ),
             Self::Velocity { joint, value } => {
                 write!(f, "joint {joint} velocity is {value} rad/s, it must be positive")
             }
@@ -268,6 +263,7 @@ impl fmt::Display for ModelFault {
                     None => write!(f, " (are the angles written with all their digits?)"),
                 }
             }
+            Self::Calibrated(fault) => fault.fmt(f),
             Self::Urdf(fault) => write!(f, "URDF: {fault}"),
         }
     }

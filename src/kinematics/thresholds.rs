@@ -170,6 +170,10 @@ pub const MOST_ANGLE: f64 = 1e5;
 /// [rad, m]: the rounding of a table in text. The deviation is removed.
 pub const FORM_TOLERANCE: f64 = 1e-9;
 
+/// How far the tool of a calibrated arm may be from that of its nominal one [rad, or part of the
+/// reach]: Newton's method starts from the nominal joints, and no maker's arm is so far off.
+pub const FAR_FROM_NOMINAL: f64 = 0.05;
+
 /// Greatest `snap` [rad]: how far an angle may be from a multiple of 90 deg and still be made exact
 /// on request. Text with three digits is inside. Beyond, the arm would be a different one: a tenth
 /// of a degree moves the tool of a long arm by millimeters.

@@ -7,8 +7,8 @@ use super::arm::{Arm, on};
 use super::arrays::Rows;
 use super::errors::{Fault, to_py};
 use super::robot::PyRobot;
-use crate::error::Error;
-use crate::kinematics::{Arity, Corrections, Joints, Robot};
+use crate::error::{Error, ModelFault};
+use crate::kinematics::{AnyRobot, Arity, Corrections, Joints, Robot};
 
 #[pymethods]
 impl PyRobot {
@@ -29,6 +29,32 @@ impl PyRobot {
         let numbers = read(corrections, self.arm().dof())?;
         let corrected = on!(self.arm(), robot => corrected(robot, numbers.data()?).map(Arm::from));
         corrected.map(Self::from).map_err(|error| to_py(corrections.py(), &error))
+    }
+
+    /// Return the robot, of a calibrated table, solved from the branches of its nominal robot: each
+    /// is brought onto the pose by Newton's method, in a microsecond more than the closed form.
+    ///
+    /// Slots are the nominal robot's. The answer is not complete: a pair of branches that the
+    /// nominal robot does not have is not seen, which happens next to a fold; and a branch whose
+    /// refinement fails has its slot flagged MERGED. Meant for tracking, `ik_nearest`, `follow` and
+    /// `plan`. Rates: docs/calibrate.md.
+    ///
+    /// Args:
+    ///     nominal: A Robot with a closed form, or its catalog name. Its base, tool and limits do
+    ///         not count.
+    ///
+    /// Raises:
+    ///     UnknownRobotError: No arm of that name.
+    ///     InvalidModelError: The nominal robot has no closed form, coupled axes, or its tool is
+    ///         more than 0.05 rad, or 0.05 of its reach, from that of this robot.
+    fn with_nominal(&self, nominal: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let py = nominal.py();
+        if let Ok(nominal) = nominal.cast::<Self>() {
+            return self.refined(py, nominal.get().arm());
+        }
+        let named =
+            AnyRobot::named(nominal.extract::<&str>()?).map_err(|error| to_py(py, &error))?;
+        self.refined(py, &Arm::from(named))
     }
 
     /// Jacobian of the tool in the parameters of the robot: how each of them moves it.
@@ -88,6 +114,19 @@ impl PyRobot {
                 pace.corrected_fk(robot, &corrections, q, poses)
             })
         })
+    }
+}
+
+impl PyRobot {
+    fn refined(&self, py: Python<'_>, nominal: &Arm) -> PyResult<Self> {
+        let refined = match (self.arm(), nominal) {
+            (Arm::Six(robot), Arm::Six(nominal)) => robot.with_nominal(nominal).map(Arm::from),
+            (Arm::Seven(robot), Arm::Seven(nominal)) => robot.with_nominal(nominal).map(Arm::from),
+            (robot, nominal) => {
+                Err(ModelFault::JointCount { found: nominal.dof(), wanted: robot.dof() }.into())
+            }
+        };
+        refined.map(Self::from).map_err(|error| to_py(py, &error))
     }
 }
 

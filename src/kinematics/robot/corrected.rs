@@ -1,7 +1,7 @@
 //! A robot with corrected parameters: what a calibration makes of it.
 
 use super::Robot;
-use crate::error::{Error, ModelFault};
+use crate::error::{CalibratedFault, Error};
 use crate::kinematics::chain::corrections::{Corrections, correction};
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::arity::{Arity, Joints};
@@ -25,18 +25,18 @@ where
         corrections.check()?;
         let (mut base, mut tool) = (*self.base(), *self.tool());
         // An end that is not corrected keeps every bit.
-        if corrections.base != Corrections::<N>::NONE.base {
+        if !is_zero(&corrections.base) {
             let root = self.mdh().base;
             base = base * root * correction(corrections.base) * root.inverse();
         }
-        if corrections.tool != Corrections::<N>::NONE.tool {
+        if !is_zero(&corrections.tool) {
             tool *= correction(corrections.tool);
         }
-        let robot = if corrections.rows == Corrections::<N>::NONE.rows {
+        let robot = if is_zero(corrections.rows.as_flattened()) {
             self.clone()
         } else {
             if self.is_coupled() {
-                return Err(ModelFault::CoupledTable.into());
+                return Err(CalibratedFault::Coupled.into());
             }
             Self::serial_chain(corrections.table(self.mdh()))?
                 .with_name(self.name.clone())
@@ -77,4 +77,8 @@ where
     pub fn corrected_fk(&self, corrections: &Corrections<N>, q: &[f64; N]) -> Pose {
         self.chain.corrected_fk(corrections, q)
     }
+}
+
+fn is_zero(corrections: &[f64]) -> bool {
+    corrections.iter().all(|correction| *correction == 0.0)
 }

@@ -6,6 +6,7 @@ mod corrected;
 mod display;
 mod linkage;
 mod margin;
+mod nominal;
 mod reading;
 #[cfg(feature = "serde")]
 mod stored;
@@ -16,6 +17,7 @@ pub(crate) use build::SNAPS;
 pub use margin::Margin;
 
 use alloc::borrow::Cow;
+use alloc::boxed::Box;
 
 use nalgebra::SMatrix;
 
@@ -62,6 +64,13 @@ pub enum Definition<const N: usize> {
     Opw(OpwParameters),
     /// A modified Denavit-Hartenberg table with its end transforms.
     Mdh(Mdh<N>),
+    /// A calibrated table that is solved by way of its nominal arm.
+    Refined {
+        /// The calibrated table.
+        mdh: Mdh<N>,
+        /// The nominal arm.
+        nominal: Box<Definition<N>>,
+    },
 }
 
 impl Robot<6> {
@@ -79,7 +88,7 @@ impl Robot<6> {
         self.structure = match self.structure {
             SixJoints::SphericalWrist(solver) => SixJoints::SphericalWrist(solver.without_lanes()),
             SixJoints::ThreeParallel(solver) => SixJoints::ThreeParallel(solver.without_lanes()),
-            unknown @ SixJoints::Unknown(_) => unknown,
+            other @ (SixJoints::Refined(_) | SixJoints::Unknown(_)) => other,
         };
         self
     }

@@ -6,6 +6,7 @@ use super::Structure;
 use super::arm::Arm;
 use super::declare::structures;
 use super::redundancy::Redundancy;
+use super::refined::{Nominal, Refined};
 use super::solver::Solver;
 use super::spherical_shoulder::SphericalShoulder;
 use super::spherical_wrist::SphericalWrist;
@@ -18,12 +19,32 @@ use crate::report::UnknownStructure;
 
 structures! {
     /// Structures with six joints.
-    SixJoints, 6, (): SphericalWrist: 8, ThreeParallel: 8
+    SixJoints, 6, (): SphericalWrist: 8, ThreeParallel: 8;
+    /// The calibrated arm of one of them.
+    Refined(Refined<SixJoints>)
 }
 
 structures! {
     /// Structures with seven joints, of which the caller gives the last.
     SevenJoints, 7, f64: SphericalShoulder: 8
+}
+
+impl Nominal for SixJoints {
+    fn arm(&self) -> &dyn Arm<6, ()> {
+        AnyStructure::arm(self)
+    }
+
+    fn slot_count(&self) -> usize {
+        AnyStructure::slot_count(self)
+    }
+
+    fn solve_in_lanes(&self, solutions: &mut Solutions<6>) -> bool {
+        AnyStructure::solve_in_lanes(self, solutions, ())
+    }
+
+    fn between(self, chain: &Chain<6>, limits: &JointLimits<6>) -> Self {
+        AnyStructure::between(self, chain, limits)
+    }
 }
 
 /// The structure of an arm of `N` joints, whichever it is, between its base and its tool.
@@ -39,6 +60,17 @@ pub(crate) trait AnyStructure<const N: usize>:
     /// The same structure between the base and the tool of `chain`, with its coupling and limits.
     #[must_use]
     fn between(self, chain: &Chain<N>, limits: &JointLimits<N>) -> Self;
+
+    /// The structure of the calibrated arm `chain`, of an arm with this structure; `None` if there
+    /// is none to refine.
+    fn refining(
+        self,
+        _nominal: &Chain<N>,
+        _chain: &Chain<N>,
+        _limits: &JointLimits<N>,
+    ) -> Option<Self> {
+        None
+    }
 
     /// The same unknown structure with the `snap` that would make it known; a known one is returned
     /// unchanged.

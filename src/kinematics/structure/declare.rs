@@ -6,6 +6,7 @@ macro_rules! structures {
     (
         $(#[$doc:meta])* $name:ident, $joints:literal, $redundancy:ty:
         $($structure:ident: $slots:literal),+
+        $(; $(#[$refined_doc:meta])* $refined:ident($inner:ty))?
     ) => {
         $(#[$doc])*
         #[derive(Clone, Debug, PartialEq)]
@@ -19,6 +20,10 @@ macro_rules! structures {
                 #[doc = concat!("[`", stringify!($structure), "`]")]
                 $structure(Solver<$structure, $joints, $slots>),
             )+
+            $(
+                $(#[$refined_doc])*
+                $refined($inner),
+            )?
             /// None of them.
             Unknown(UnknownStructure),
         }
@@ -41,9 +46,24 @@ macro_rules! structures {
                     $(Self::$structure(solver) => {
                         Self::$structure(Solver::new(solver.structure, chain, limits))
                     })+
+                    $(Self::$refined(refined) => Self::$refined(refined.between(chain, limits)),)?
                     Self::Unknown(reason) => Self::Unknown(reason),
                 }
             }
+
+            $(fn refining(
+                self,
+                nominal: &Chain<$joints>,
+                chain: &Chain<$joints>,
+                limits: &JointLimits<$joints>,
+            ) -> Option<Self> {
+                match self {
+                    Self::$refined(_) | Self::Unknown(_) => None,
+                    known => {
+                        Some(Self::$refined(<$inner>::new(known, nominal.clone(), chain, limits)))
+                    }
+                }
+            })?
 
             fn hinting(self, hint: impl FnOnce(UnknownStructure) -> UnknownStructure) -> Self {
                 match self {
@@ -56,6 +76,7 @@ macro_rules! structures {
             fn slot_count(&self) -> usize {
                 match self {
                     $(Self::$structure(_) => $slots,)+
+                    $(Self::$refined(refined) => refined.slot_count(),)?
                     Self::Unknown(_) => 0,
                 }
             }
@@ -63,6 +84,7 @@ macro_rules! structures {
             fn arm(&self) -> &dyn Arm<$joints, $redundancy> {
                 match self {
                     $(Self::$structure(solver) => solver,)+
+                    $(Self::$refined(refined) => refined,)?
                     Self::Unknown(reason) => reason,
                 }
             }
@@ -75,6 +97,7 @@ macro_rules! structures {
             ) -> bool {
                 match self {
                     $(Self::$structure(solver) => solver.solve_in_lanes(solutions, redundancy),)+
+                    $(Self::$refined(refined) => refined.solve_in_lanes(solutions, redundancy),)?
                     Self::Unknown(_) => false,
                 }
             }

@@ -20,6 +20,7 @@ pub(crate) mod lanes;
 pub(crate) mod planar_arm;
 pub(crate) mod recognition;
 pub(crate) mod redundancy;
+pub(crate) mod refined;
 pub(crate) mod singular_wrist;
 pub(crate) mod solver;
 pub(crate) mod spherical_shoulder;
