@@ -30,6 +30,7 @@ mod rapid_motion;
 mod reach_and_paths;
 mod recall;
 mod redundancy;
+mod refined;
 mod serde;
 #[cfg(feature = "urdf")]
 mod snap;
