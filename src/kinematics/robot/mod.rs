@@ -88,7 +88,9 @@ impl Robot<6> {
         self.structure = match self.structure {
             SixJoints::SphericalWrist(solver) => SixJoints::SphericalWrist(solver.without_lanes()),
             SixJoints::ThreeParallel(solver) => SixJoints::ThreeParallel(solver.without_lanes()),
-            other @ (SixJoints::Refined(_) | SixJoints::Unknown(_)) => other,
+            other @ (SixJoints::General(_) | SixJoints::Refined(_) | SixJoints::Unknown(_)) => {
+                other
+            }
         };
         self
     }
@@ -250,7 +252,7 @@ where
     fn singularity_of(&self, q: &[f64; N], values: SingularValues) -> Singularity {
         let arm = self.structure.arm().singular(q);
         Singularity {
-            distances: arm.map(|(distances, _)| distances),
+            distances: arm.and_then(|(distances, _)| distances),
             min_singular_value: values.least,
             manipulability: values.product,
             kinds: arm.map_or(SingularityKind::empty(), |(_, singularities)| singularities),

@@ -84,12 +84,20 @@ impl<const N: usize> AnyStructure<N> for NoStructure {
         (Chain::new(mdh.clone()), Self(UnknownStructure::joint_count(N)))
     }
 
+    fn closed_form(_: &Mdh<N>) -> Result<&'static str, UnknownStructure> {
+        Err(UnknownStructure::joint_count(N))
+    }
+
     fn between(self, _: &Chain<N>, _: &JointLimits<N>) -> Self {
         self
     }
 
     fn hinting(self, _: impl FnOnce(UnknownStructure) -> UnknownStructure) -> Self {
         self
+    }
+
+    fn is_closed_form(&self) -> bool {
+        false
     }
 
     fn slot_count(&self) -> usize {

@@ -34,11 +34,25 @@ macro_rules! structures {
             fn recognize(mdh: &Mdh<$joints>) -> (Chain<$joints>, Self) {
                 let mut nearest: Option<UnknownStructure> = None;
                 $(match recognized::<$structure, $joints, $slots>(mdh) {
-                    Ok((chain, solver)) => return (chain, Self::$structure(solver)),
+                    Ok((chain, mut solver)) => {
+                        solver.structure = solver.structure.noting(nearest);
+                        return (chain, Self::$structure(solver));
+                    }
                     Err(missed) => nearest = Some(missed.nearer_of(nearest)),
                 })+
                 let missed = nearest.unwrap_or(UnknownStructure::joint_count($joints));
                 (Chain::new(mdh.clone()), Self::Unknown(missed))
+            }
+
+            fn closed_form(mdh: &Mdh<$joints>) -> Result<&'static str, UnknownStructure> {
+                let mut nearest: Option<UnknownStructure> = None;
+                $(if <$structure as Structure<$joints, $slots>>::IS_CLOSED_FORM {
+                    match recognized::<$structure, $joints, $slots>(mdh) {
+                        Ok(_) => return Ok(<$structure as Structure<$joints, $slots>>::PATTERN.name),
+                        Err(missed) => nearest = Some(missed.nearer_of(nearest)),
+                    }
+                })+
+                Err(nearest.unwrap_or(UnknownStructure::joint_count($joints)))
             }
 
             fn between(self, chain: &Chain<$joints>, limits: &JointLimits<$joints>) -> Self {
@@ -57,18 +71,30 @@ macro_rules! structures {
                 chain: &Chain<$joints>,
                 limits: &JointLimits<$joints>,
             ) -> Option<Self> {
-                match self {
-                    Self::$refined(_) | Self::Unknown(_) => None,
-                    known => {
-                        Some(Self::$refined(<$inner>::new(known, nominal.clone(), chain, limits)))
-                    }
-                }
+                let nominal = nominal.clone();
+                self.is_closed_form()
+                    .then(|| Self::$refined(<$inner>::new(self, nominal, chain, limits)))
             })?
+
+            fn is_closed_form(&self) -> bool {
+                match self {
+                    $(Self::$structure(_) => {
+                        <$structure as Structure<$joints, $slots>>::IS_CLOSED_FORM
+                    })+
+                    $(Self::$refined(_) => false,)?
+                    Self::Unknown(_) => false,
+                }
+            }
 
             fn hinting(self, hint: impl FnOnce(UnknownStructure) -> UnknownStructure) -> Self {
                 match self {
+                    $(Self::$structure(mut solver) => {
+                        let nearest = solver.structure.nearest().map(hint);
+                        solver.structure = solver.structure.noting(nearest);
+                        Self::$structure(solver)
+                    })+
+                    $(refined @ Self::$refined(_) => refined,)?
                     Self::Unknown(reason) => Self::Unknown(hint(reason)),
-                    known => known,
                 }
             }
 

@@ -12,7 +12,7 @@ use core::fmt::Debug;
 use newton::{Refinement, refined};
 
 use super::arm::{Arm, RowSolve, Rows};
-use super::closure::Closure;
+use super::closure::{Accepted, Candidates, Closure};
 use super::end_frames::EndFrames;
 use super::free_choice::{FreeChoice, SeedPolicy};
 use super::joint_map::JointMap;
@@ -103,6 +103,8 @@ impl<A: Nominal> Refined<A> {
 
     /// Bring the solutions of the nominal arm onto the pose.
     fn refine(&self, solutions: &mut Solutions<6>) -> Outcome {
+        // A pair of branches that the nominal arm has not is not seen.
+        solutions.is_certified = false;
         let mut outcome = Outcome { is_whole: true, lost: [None; MOST_SLOTS] };
         let (pose, limits) = (solutions.pose, solutions.limits);
         let mut are_near = false;
@@ -157,9 +159,12 @@ impl<A: Nominal> Refined<A> {
         let places = solutions.places_mut();
         for slot in 0..places.len() {
             let Some(theta) = &outcome.lost[slot] else { continue };
-            let found = self.closure.settle(&target, theta).all;
-            for theta in found.into_iter().flatten().map(|found| found.theta) {
-                let place = self.place(theta, Slot::new(slot), &limits);
+            let (mut candidates, mut found) = (Candidates::NEW, Accepted::NONE);
+            candidates.put(0, theta);
+            self.closure.converge::<false>(&target, &mut candidates);
+            found.take(&self.closure, &target, &candidates, 1);
+            for found in found.as_slice() {
+                let place = self.place(found.theta, Slot::new(slot), &limits);
                 if places[slot].found().is_none() && !is_known(places, &place) {
                     places[slot] = place;
                 }
@@ -267,7 +272,7 @@ impl<A: Nominal> Arm<6, ()> for Refined<A> {
         }
     }
 
-    fn singular(&self, q: &[f64; 6]) -> Option<(SingularDistances, SingularityKind)> {
+    fn singular(&self, q: &[f64; 6]) -> Option<(Option<SingularDistances>, SingularityKind)> {
         self.nominal.arm().singular(q)
     }
 

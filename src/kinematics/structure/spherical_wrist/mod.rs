@@ -79,13 +79,13 @@ impl Structure<6, 8> for SphericalWrist {
     }
 
     #[inline]
-    fn singular_distances(&self, q: &[f64; 6]) -> SingularDistances {
+    fn singular_distances(&self, q: &[f64; 6]) -> Option<SingularDistances> {
         let [_, _, t3, _, t5, _] = self.theta(q);
-        SingularDistances {
+        Some(SingularDistances {
             wrist: distance_from_half_turns(t5),
             elbow: distance_from_half_turns(self.planar.elbow_angle(t3)),
             shoulder: self.factors(q)[1].abs(),
-        }
+        })
     }
 
     /// A solve, which does not know `q`, also merges wrists within the uncertainty of the forearm.
