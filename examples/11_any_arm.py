@@ -35,7 +35,7 @@ def offset_wrist() -> None:
 
 
 def measurements(robot: irbkin.Robot) -> tuple[np.ndarray, np.ndarray]:
-    """Sixty joint vectors, and poses of an arm whose parameters are all a little off, with noise."""
+    """Sixty joint vectors, and noisy poses of an arm whose parameters are all a little off."""
     rng = np.random.default_rng(9)
     arm = robot.with_corrections(rng.normal(0, 5e-4, 42))
     low, high = robot.limits.clip(-3, 3).T

@@ -67,6 +67,36 @@ fn every_solution_closes_and_few_branches_are_missing() {
 }
 
 #[test]
+fn the_general_solver_finds_every_branch_of_a_calibrated_arm() {
+    for name in ARMS {
+        let nominal = nominal(name);
+        for skew in [1e-5, 1e-3] {
+            let mut rng = Rng::new(28);
+            let arm = calibrated(&nominal, skew, &mut rng);
+            let refined = arm.with_nominal(&nominal).unwrap();
+            assert_eq!(arm.structure(), "general");
+            let (mut more, mut uncertified) = (0, 0);
+            for _ in 0..300 {
+                let q: [f64; 6] = rng.angles();
+                let pose = arm.fk(&q);
+                let (all, some) = (arm.ik(&pose).unwrap(), refined.ik(&pose).unwrap());
+                assert!(!some.is_certified());
+                if !all.is_certified() {
+                    uncertified += 1;
+                    continue;
+                }
+                let has = |q: &[f64; 6]| all.iter().any(|found| apart(&found.q, q) < 1e-6);
+                assert!(has(&q), "{name} {skew:e}: {q:?}");
+                assert!(some.iter().all(|solution| has(&solution.q)), "{name} {skew:e}: {q:?}");
+                more += all.len() - some.len();
+            }
+            assert!(uncertified <= 3, "{name} {skew:e}: {uncertified}");
+            assert!(skew < 1e-4 || more > 0, "{name} {skew:e}");
+        }
+    }
+}
+
+#[test]
 fn without_corrections_the_branches_are_those_of_the_nominal_arm() {
     let mut rng = Rng::new(22);
     for name in ARMS {

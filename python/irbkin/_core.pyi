@@ -535,6 +535,25 @@ class Robot:
             InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
             ValueError: Another frame.
         """
+    def with_nominal(self, nominal: Robot | str) -> Robot:
+        """Return the robot, of a calibrated table, solved from the branches of its nominal robot:
+        each is brought onto the pose by Newton's method, in a microsecond more than the closed
+        form.
+
+        Slots are the nominal robot's. The answer is not complete: a pair of branches that the
+        nominal robot does not have is not seen, which happens next to a fold; and a branch whose
+        refinement fails has its slot flagged MERGED. Meant for tracking, `ik_nearest`, `follow` and
+        `plan`. Rates: docs/calibrate.md.
+
+        Args:
+            nominal: A Robot with a closed form, or its catalog name. Its base, tool and limits do
+                not count.
+
+        Raises:
+            UnknownRobotError: No arm of that name.
+            InvalidModelError: The nominal robot has no closed form, coupled axes, or its tool is
+                more than 0.05 rad, or 0.05 of its reach, from that of this robot.
+        """
     def with_corrections(self, corrections: npt.ArrayLike) -> Robot:
         """Return the robot with corrected base, table and tool: what `irbkin.calibrate` makes of
         it.

@@ -215,7 +215,7 @@ fn about_x(angle: f64) -> Rotation3<f64> {
     screw_x(angle, 0.0).rotation
 }
 
-fn about_y(angle: f64) -> Rotation3<f64> {
+pub(in crate::kinematics) fn about_y(angle: f64) -> Rotation3<f64> {
     let (sin, cos) = constant_sin_cos(angle);
     Rotation3::from_matrix_unchecked(Matrix3::new(cos, 0.0, sin, 0.0, 1.0, 0.0, -sin, 0.0, cos))
 }

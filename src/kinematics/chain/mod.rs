@@ -9,7 +9,7 @@ pub(crate) mod jacobian;
 pub(crate) mod joint_axes;
 pub(crate) mod limits;
 pub(crate) mod singular_values;
-mod skew;
+pub(crate) mod skew;
 
 use crate::kinematics::chain::axes::Link;
 use crate::kinematics::chain::coupling::uncoupled;

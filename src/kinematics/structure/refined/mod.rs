@@ -23,6 +23,7 @@ use crate::kinematics::answer::solutions::{Place, Solution, Solutions};
 use crate::kinematics::answer::status::{SingularityKind, Status};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::limits::JointLimits;
+use crate::kinematics::chain::skew::{TiltedRow, tilted_rows};
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::wrap;
 use crate::lanes::LANES;
@@ -68,6 +69,7 @@ impl<A: Nominal> Refined<A> {
     ) -> Self {
         let nominal_chain = nominal_chain.with_base(*chain.base()).with_tool(*chain.tool());
         let mdh = chain.mdh();
+        let tilted = tilted_rows(&mdh.rows);
         let map = JointMap {
             signs: [1.0; 6],
             offsets: [0.0; 6],
@@ -80,9 +82,9 @@ impl<A: Nominal> Refined<A> {
         Self {
             nominal: Box::new(nominal.between(&nominal_chain, limits)),
             nominal_chain,
-            closure: Closure::of(&mdh.rows).between(ends),
+            closure: Closure::of_tilted(&tilted).between(ends),
             end_frames: EndFrames::new(&map, chain),
-            offsets: mdh.rows.map(|row| row.theta),
+            offsets: tilted.map(|TiltedRow { row, .. }| row.theta),
         }
     }
 
