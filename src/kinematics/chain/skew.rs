@@ -56,10 +56,10 @@ const FAR: f64 = 10.0;
 
 /// A row with Hayati's rotation: `Rx(alpha) Tx(a) Ry(beta) Rz(theta + q) Tz(d)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::kinematics) struct TiltedRow {
-    pub(in crate::kinematics) row: DhRow,
+pub(crate) struct TiltedRow {
+    pub(crate) row: DhRow,
     /// Rotation about y [rad].
-    pub(in crate::kinematics) beta: f64,
+    pub(crate) beta: f64,
 }
 
 /// The rows of a table without common normals that are far away: of nearly parallel axes, the
