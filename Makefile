@@ -21,7 +21,7 @@ ON_EACH_NARROWER_SET := \
 STEP := @tests/step.sh
 SKIPPED := target/skipped.txt
 
-.PHONY: help run test test-recipes test-ros ros-starts check stubs catalog errors bench bench-peers instructions stages ulp million configurations hardsets fuzz wheel packages clean toolchains
+.PHONY: help run test test-recipes test-ros ros-starts check stubs catalog errors bench bench-peers instructions stages ulp million general configurations hardsets fuzz wheel packages clean toolchains
 
 help: ## List the targets
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -143,6 +143,9 @@ ulp: | toolchains ## Compare arc tangent, sine and cosine with correctly rounded
 
 million: | toolchains ## Solve a million poses of each arm; count missed and incorrect ones
 	$(ON_EACH_SET) IRBKIN_POSES=1000000 cargo test --quiet --release --test suite -- recall:: --nocapture --test-threads=1; done
+
+general: | toolchains ## Solve POSES (20,000) poses of arms without a closed form; count what is lost
+	IRBKIN_POSES=$(or $(POSES),20000) cargo test --quiet --release --lib structure::general -- --nocapture --test-threads=1
 
 configurations: | toolchains ## Check confdata at 100,000 poses of every ABB arm
 	IRBKIN_POSES=100000 cargo test --quiet --release --test suite -- configuration:: --nocapture --test-threads=1

@@ -15,6 +15,7 @@ mod corrections;
 mod coupled;
 mod display;
 mod follow;
+mod general;
 mod hard_sets;
 mod joint_axes;
 mod laws;

@@ -36,8 +36,7 @@ const ENTRIES: &[Entry] = &[
     entry(
         "CRB 15000 (GoFa) -5/0.95, -10/1.52, -12/1.27",
         &["CRB 15000", "GoFa"],
-        "no spherical wrist: axes 5 and 6 pass 80 mm apart. `from_mdh` with closed_form=False \
-         gives forward kinematics of its own table",
+        "no spherical wrist: axes 5 and 6 pass 80 mm apart. `from_mdh` of its own table solves it",
     ),
     entry(
         "IRB 5400-22, 5500-23, 5500-27, 580-12S, 580-16 (painters)",

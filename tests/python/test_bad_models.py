@@ -77,7 +77,7 @@ def test_missing_parameters_are_named():
 LIMIT_SETTERS = {
     "with_limits": ROBOT.with_limits,
     "from_mdh": lambda limits: Robot.from_mdh(ROWS, limits=limits),
-    "from_sdh": lambda limits: Robot.from_sdh(ROWS, limits=limits, closed_form=False),
+    "from_sdh": lambda limits: Robot.from_sdh(ROWS, limits=limits),
     "from_opw": lambda limits: Robot.from_opw(**IRB2400, limits=limits),
 }
 

@@ -69,7 +69,7 @@ def test_positions_are_recovered_from_exact_positions(name):
 def test_any_table_is_recovered(seed):
     rng = np.random.default_rng(seed)
     rows = rng.uniform(-1, 1, (6, 4)) * [np.pi, 0.5, 0.5, np.pi]
-    robot = irbkin.Robot.from_mdh(rows, closed_form=False)
+    robot = irbkin.Robot.from_mdh(rows)
     truth = robot.with_corrections(rng.normal(0, 2e-3, 42))
     q, fresh = rng.uniform(-3, 3, (2, 60, 6))
     calibration = irbkin.calibrate(robot, q, truth.fk(q))

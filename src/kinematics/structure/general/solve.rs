@@ -53,7 +53,9 @@ impl General {
         _free: &FreeChoice<6>,
     ) -> Branches<6, MOST_SLOTS> {
         let (accepted, is_certain) = self.solve_all(t_first_last);
-        let mut branches = Branches::empty(Reach::Reached);
+        let is_empty = accepted.as_slice().is_empty();
+        let reach = if is_empty { Reach::NoRoots } else { Reach::Reached };
+        let mut branches = Branches::empty(reach);
         branches.is_certified = is_certain;
         for (slot, one) in accepted.as_slice().iter().enumerate() {
             branches.q[slot] = Some(self.joint_map.joints(one.theta));

@@ -26,7 +26,7 @@ use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::chain::skew::{TiltedRow, tilted_rows};
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::wrap;
-use crate::lanes::LANES;
+use crate::lanes::{LANES, sin_cos};
 use crate::report::UnknownStructure;
 
 /// Largest difference of two solutions that are the same [rad].
@@ -162,7 +162,9 @@ impl<A: Nominal> Refined<A> {
         for slot in 0..places.len() {
             let Some(theta) = &outcome.lost[slot] else { continue };
             let (mut candidates, mut found) = (Candidates::NEW, Accepted::NONE);
-            candidates.put(0, theta);
+            for (joint, theta) in theta.iter().enumerate() {
+                (candidates.sin[joint][0], candidates.cos[joint][0]) = sin_cos::<false>(*theta);
+            }
             self.closure.converge::<false>(&target, &mut candidates);
             found.take(&self.closure, &target, &candidates, 1);
             for found in found.as_slice() {
