@@ -62,11 +62,17 @@ pub(crate) struct TiltedRow {
     pub(crate) beta: f64,
 }
 
+impl From<DhRow> for TiltedRow {
+    fn from(row: DhRow) -> Self {
+        Self { row, beta: 0.0 }
+    }
+}
+
 /// The rows of a table without common normals that are far away: of nearly parallel axes, the
 /// second is met in the plane across the first. Offsets that cancel would cost the arm its digits.
 pub(in crate::kinematics) fn tilted_rows<const N: usize>(rows: &[DhRow; N]) -> [TiltedRow; N] {
     let far = FAR * rows.iter().map(|row| row.a.abs()).sum::<f64>();
-    let mut tilted = rows.map(|row| TiltedRow { row, beta: 0.0 });
+    let mut tilted = rows.map(TiltedRow::from);
     for i in 1..N {
         let before = tilted[i - 1].row.d;
         let (sin, cos) = tilted[i].row.alpha.sin_cos();
@@ -135,7 +141,7 @@ mod tests {
                 assert!(longest <= FAR * 4.2, "{longest} of {farthest}");
                 for _ in 0..5 {
                     let q = core::array::from_fn(|_| rng.between(-3.0, 3.0));
-                    let plain = table.map(|row| TiltedRow { row, beta: 0.0 });
+                    let plain = table.map(TiltedRow::from);
                     let off = product(&tilted, &q).to_homogeneous()
                         - product(&plain, &q).to_homogeneous();
                     assert!(off.amax() < 40.0 * farthest * f64::EPSILON, "{off} {farthest}");
@@ -147,6 +153,6 @@ mod tests {
     #[test]
     fn rows_without_nearly_parallel_axes_are_kept() {
         let rows = [0.0, -1.6, 0.0, 1e-3, 1.6, -1.6].map(|alpha| DhRow::new(alpha, 0.3, 0.4, 0.5));
-        assert_eq!(tilted_rows(&rows), rows.map(|row| TiltedRow { row, beta: 0.0 }));
+        assert_eq!(tilted_rows(&rows), rows.map(TiltedRow::from));
     }
 }

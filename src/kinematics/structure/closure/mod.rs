@@ -54,13 +54,10 @@ struct Conditions<const W: usize> {
 const ROUNDING: f64 = 2e-15;
 
 impl Closure {
-    /// The chain of these rows; their theta does not count.
-    pub(crate) fn of(rows: &[DhRow; 6]) -> Self {
-        Self::of_tilted(&rows.map(|row| TiltedRow { row, beta: 0.0 }))
-    }
-
-    /// The same with rotations about y of nearly parallel axes.
-    pub(crate) fn of_tilted(tilted: &[TiltedRow; 6]) -> Self {
+    /// The chain of these rows, with rotations about y of nearly parallel axes or without; their
+    /// theta does not count.
+    pub(crate) fn of<R: Copy + Into<TiltedRow>>(rows: &[R; 6]) -> Self {
+        let tilted: [TiltedRow; 6] = rows.map(Into::into);
         let rows = tilted.map(|TiltedRow { row, .. }| row);
         let tilts = tilted.map(|TiltedRow { beta, .. }| (beta != 0.0).then(|| beta.sin_cos()));
         let reach: f64 = rows.iter().map(|row| row.a.abs() + row.d.abs()).sum();

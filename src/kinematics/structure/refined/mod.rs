@@ -82,7 +82,7 @@ impl<A: Nominal> Refined<A> {
         Self {
             nominal: Box::new(nominal.between(&nominal_chain, limits)),
             nominal_chain,
-            closure: Closure::of_tilted(&tilted).between(ends),
+            closure: Closure::of(&tilted).between(ends),
             end_frames: EndFrames::new(&map, chain),
             offsets: tilted.map(|TiltedRow { row, .. }| row.theta),
         }
