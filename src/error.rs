@@ -192,6 +192,12 @@ impl From<PlanFault> for Error {
     }
 }
 
+impl From<CalibratedFault> for Error {
+    fn from(fault: CalibratedFault) -> Self {
+        Self::InvalidModel(ModelFault::Calibrated(fault))
+    }
+}
+
 impl From<ModelFault> for Error {
     fn from(fault: ModelFault) -> Self {
         Self::InvalidModel(fault)

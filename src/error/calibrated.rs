@@ -2,8 +2,6 @@
 
 use core::fmt;
 
-use super::{Error, ModelFault};
-
 /// Why an arm cannot be corrected, or solved by way of its nominal one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -45,11 +43,5 @@ impl fmt::Display for CalibratedFault {
                  the same zero pose?)"
             ),
         }
-    }
-}
-
-impl From<CalibratedFault> for Error {
-    fn from(fault: CalibratedFault) -> Self {
-        ModelFault::Calibrated(fault).into()
     }
 }
