@@ -100,10 +100,12 @@ class Count:
             else:
                 self.flagged += 1
 
-    def check(self, poses, flagged=0.02):
-        """Nothing that a certified answer lacks; few answers that are not certified."""
+    def check(self, kind):
+        """A certified answer lacks nothing. Random poses are all found; of structured ones, which
+        have self-motions and folds among them, what is missing is flagged.
+        """
         assert not self.lost, f"{len(self.lost)} lost, the first {self.lost[0]}"
-        assert self.flagged <= flagged * poses * 2
+        assert self.flagged == 0 if kind == "random" else self.flagged < self.found, self.flagged
         assert self.found > 0
 
 
@@ -120,7 +122,7 @@ def test_what_newton_finds_from_many_seeds_is_found(arm, kind):
     joints = structured(rows, kind, POSES // 2)
     for q in joints:
         count.compare(robot, q, [multi_start_newton(rows, fk(rows, q), rng=rng)])
-    count.check(len(joints))
+    count.check(kind)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -136,7 +138,7 @@ def test_what_crx_kinematics_finds_is_found(kind):
         # J3 counts from the floor, J4 and J6 the other way round.
         found = np.deg2rad(np.column_stack([j1, j2, -j3 - j2, 180.0 - j4, j5, -j6]))
         count.compare(robot, q, [found])
-    count.check(3 * POSES)
+    count.check(kind)
 
 
 @pytest.fixture(scope="module")
@@ -159,4 +161,4 @@ def test_what_ssik_finds_is_found(arm, by_ssik, kind):
     for q in joints:
         found = np.array(by_ssik(fk(rows, q)), dtype=float).reshape(-1, 6)
         count.compare(robot, q, [found])
-    count.check(len(joints))
+    count.check(kind)
