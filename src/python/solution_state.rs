@@ -60,7 +60,10 @@ where
             Some((joint, fixed)) => Some(FreeJoint::named(*joint, fixed)?),
             None => None,
         };
-        Some(Solution { q, slot, status: Status::from_bits(*flags)?, free_joint })
+        let status = Status::from_bits(*flags)?;
+        let of_others = Status::MERGED | Status::INVALID | Status::UNCERTIFIED;
+        let is_whole = status.contains(Status::FOUND) && !status.intersects(of_others);
+        is_whole.then_some(Solution { q, slot, status, free_joint })
     };
     read().ok_or_else(|| damaged(py))
 }

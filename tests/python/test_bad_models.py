@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from arms import ABB, IRB2400
+from arms import ABB, IRB2400, ur_rows
 from irbkin import InvalidModelError, Robot, UnknownRobotError
 
 ROBOT = Robot("IRB 2600-12/1.65")
@@ -77,7 +77,7 @@ def test_missing_parameters_are_named():
 LIMIT_SETTERS = {
     "with_limits": ROBOT.with_limits,
     "from_mdh": lambda limits: Robot.from_mdh(ROWS, limits=limits),
-    "from_sdh": lambda limits: Robot.from_sdh(ROWS, limits=limits),
+    "from_sdh": lambda limits: Robot.from_sdh(ur_rows("ur5e"), limits=limits),
     "from_opw": lambda limits: Robot.from_opw(**IRB2400, limits=limits),
 }
 

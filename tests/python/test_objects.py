@@ -27,6 +27,7 @@ DUPLICATES = [
 def answers():
     """Answers that differ from one another, of every outcome and both numbers of joints."""
     robot, ur, panda = Robot("IRB 2600-12/1.65"), Robot("UR5e"), Robot("Panda")
+    general = Robot.from_mdh(robot.mdh + np.array([0.01, 0, 0, 0]))
     stretched = np.arctan2(0.115, 0.795) - np.pi / 2
     regular = robot.ik(robot.fk(REGULAR))
     seven = panda.ik(panda.fk([0.1, 0.2, 0.3, -1.5, 0.5, 1.6, 0.7]), q7=0.7)
@@ -48,6 +49,8 @@ def answers():
         "tool": robot.with_tool(move(0, 0, 0.1)).ik(robot.fk(REGULAR)),
         "UR": ur.ik(ur.fk(REGULAR)),
         "UR, wrist": ur.ik(ur.fk([0.3, -1.2, 1.4, 0.5, 0.0, 0.7])),
+        "general": general.ik(general.fk(REGULAR)),
+        "general, too far": general.ik(move(9, 0, 0)),
         "seven": seven,
         "seven, within limits": seven.within_limits(),
     }
@@ -244,7 +247,7 @@ def test_html_has_a_row_for_each_solution():
 @pytest.mark.parametrize("change", ["slot", "flags", "angles", "free", "pose", "reach"])
 def test_a_damaged_answer_is_refused(change):
     restore, (robot, pose, state) = ANSWERS["wrist"].__reduce__()
-    slots, reach, emptied, turned = state
+    slots, reach, emptied, turned, certified = state
     (slot, flags, angles, free), *others = slots
     if change == "slot":
         slots = [(8, flags, angles, free), *others]
@@ -259,7 +262,7 @@ def test_a_damaged_answer_is_refused(change):
     elif change == "reach":
         reach = ("elsewhere", *reach[1:])
     with pytest.raises(irbkin.InvalidModelError, match="the pickled solution is damaged"):
-        restore(robot, pose, (slots, reach, emptied, turned))
+        restore(robot, pose, (slots, reach, emptied, turned, certified))
 
 
 def test_the_representation_of_a_robot_shows_what_is_not_the_catalogs():

@@ -10,7 +10,7 @@ from pathlib import Path
 import irbkin
 import numpy as np
 import pytest
-from arms import ABB, CATALOG, IRB2400, KUKA_KR6, LATERAL
+from arms import ABB, CATALOG, IRB2400, KUKA_KR6, LATERAL, ur_rows
 from irbkin import Robot, SingularityKind, Status
 from reference import move, random_pose
 
@@ -32,7 +32,7 @@ def variants():
         "opw, signs": Robot.from_opw(**KUKA_KR6),
         "mdh": Robot.from_mdh(rows),
         "mdh, limits": Robot.from_mdh(rows, limits=np.array([[-1.0, 1.0]] * 6), name="mine"),
-        "sdh": Robot.from_sdh(rows),
+        "sdh": Robot.from_sdh(ur_rows("ur5e")),
         "seven": Robot.from_mdh(CATALOG["Panda"].rows),
         "everything": Robot.from_opw(**KUKA_KR6, name="ü")
         .with_tool(random_pose(np.random.default_rng(1)))
@@ -195,7 +195,7 @@ def test_status_and_kind_have_the_bits_of_rust():
         name: int(value)
         for name, value in re.findall(r"^ +const (\w+) = (\d+);", source, re.MULTILINE)
     }
-    assert len(bits) == 7
+    assert len(bits) == 8
     assert {flag.name: flag.value for flag in Status} == bits
     assert {flag.name: flag.value for flag in SingularityKind} == {
         name: bits[name] for name in ("WRIST", "ELBOW", "SHOULDER")

@@ -1,4 +1,4 @@
-//! Kinematic structures: arms with a closed-form inverse.
+//! Kinematic structures: arms with a closed-form inverse, and any other six joints.
 //!
 //! A structure is a folder here that implements [`Structure`], and a variant in [`any`]. It
 //! contains its pattern (the conditions on the axes), the measurement of its geometry from a table,

@@ -2,7 +2,8 @@
 
 use core::fmt;
 
-use super::{Candidates, Closure, Target};
+use super::chain::{Closure, Target};
+use super::newton::Candidates;
 use crate::kinematics::pose::angles::wrap;
 use crate::lanes::atan2;
 
@@ -19,6 +20,12 @@ const CLOSES: f64 = 20.0;
 
 /// How far a candidate may be from closing and still be examined [1].
 const EXAMINED: f64 = 0.05;
+
+/// How far from an examined configuration others are the same [rad]: the curve is searched farther.
+const EXTENT: f64 = 1e-3;
+
+/// Candidates that are examined in an attempt, at most.
+const MOST_EXAMINED: usize = 24;
 
 /// Largest distance of two regular configurations that are the same [rad]: their least singular
 /// value is above [`SINGULAR`], and two different ones are as far apart as that.
@@ -60,6 +67,8 @@ pub(crate) struct Accepted {
     pub(crate) is_certain: bool,
     /// How often two solutions were looked for that are not: the pose misses their fold.
     pub(crate) nothing: usize,
+    /// How many candidates next to a singularity may still be examined.
+    left: usize,
 }
 
 impl fmt::Debug for Accepted {
@@ -103,8 +112,13 @@ impl Closure {
 }
 
 impl Accepted {
-    pub(crate) const NONE: Self =
-        Self { all: [Configuration::NONE; MOST], count: 0, is_certain: true, nothing: 0 };
+    pub(crate) const NONE: Self = Self {
+        all: [Configuration::NONE; MOST],
+        count: 0,
+        is_certain: true,
+        nothing: 0,
+        left: MOST_EXAMINED,
+    };
 
     pub(crate) fn as_slice(&self) -> &[Configuration] {
         &self.all[..self.count]
@@ -120,9 +134,12 @@ impl Accepted {
         self.as_slice().iter().map(Configuration::multiplicity).sum()
     }
 
+    /// No configurations yet, and none that are singular will be examined.
+    pub(crate) const REGULAR_ONLY: Self = Self { left: 0, ..Self::NONE };
+
     /// Begin another attempt: what is uncertain about an earlier one no longer counts.
     pub(crate) fn begin(&mut self) {
-        (self.is_certain, self.nothing) = (true, 0);
+        (self.is_certain, self.nothing, self.left) = (true, 0, MOST_EXAMINED);
     }
 
     /// Whether the chain can move with its ends standing still.
@@ -161,6 +178,18 @@ impl Accepted {
     #[cold]
     #[inline(never)]
     fn examine(&mut self, closure: &Closure, target: &Target, theta: &[f64; 6]) {
+        // What was examined next to here has told everything about it.
+        let is_known = |one: &Configuration| {
+            (one.kind != Kind::Regular || one.least <= SINGULAR) && one.distance(theta) < EXTENT
+        };
+        if self.as_slice().iter().any(is_known) {
+            return;
+        }
+        if self.left == 0 {
+            self.is_certain = false;
+            return;
+        }
+        self.left -= 1;
         let settled = closure.settle(target, theta);
         self.is_certain &= settled.is_certain;
         self.nothing += usize::from(settled.is_certain && settled.all == [None; 2]);

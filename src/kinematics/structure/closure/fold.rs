@@ -19,7 +19,7 @@ use nalgebra::{SMatrix, SVector};
 use nalgebra::ComplexField as _;
 
 use super::accepted::{Configuration, Kind};
-use super::{Closure, Target, largest, sines};
+use super::chain::{Closure, Target, largest, sines};
 
 /// Steps of Newton's method along the curve, at most.
 const MOST_STEPS: usize = 8;

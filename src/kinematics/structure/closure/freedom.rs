@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use super::Closure;
+use super::chain::Closure;
 use crate::kinematics::chain::dh::DhRow;
 use crate::kinematics::thresholds::FORM_TOLERANCE;
 use crate::report::{Freedom, UnknownStructure};

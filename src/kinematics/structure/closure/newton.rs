@@ -1,6 +1,6 @@
 //! Newton's method on the closure, for eight candidates at once.
 
-use super::{Closure, Conditions, Target, largest};
+use super::chain::{Closure, Conditions, Target, largest};
 #[cfg(test)]
 use crate::lanes::sin_cos;
 use crate::lanes::{Column, LANES, mul_add};

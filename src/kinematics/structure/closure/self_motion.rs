@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use super::accepted::{Accepted, Configuration, Kind};
-use super::{Closure, Target};
+use super::chain::{Closure, Target};
 use crate::kinematics::pose::angles::wrap;
 
 /// Step along a self-motion [rad].

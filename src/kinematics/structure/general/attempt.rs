@@ -7,7 +7,7 @@ use super::split::{Posed, Split};
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::closure::{Accepted, Closure, Configuration, Target};
 use crate::kinematics::structure::trigonometric::{
-    MOST_ROOTS, Root, SAMPLE_COS, SAMPLE_SIN, TrigonometricPolynomial,
+    MOST_ROOTS, Root, SAMPLE_COS, SAMPLE_SIN, SAMPLES, TrigonometricPolynomial,
 };
 use crate::lanes::{Column, Kernel, LANES, sin_cos};
 
@@ -43,8 +43,8 @@ impl Kernel for Attempt<'_> {
     fn run<const FUSED: bool>(self) -> bool {
         let Self { split, closure, target, t_last_first, accepted } = self;
         let posed = split.posed::<FUSED>(t_last_first);
-        let mut samples = [[0.0; LANES]; 3];
-        for block in 0..3 {
+        let mut samples = [[0.0; LANES]; SAMPLES / LANES];
+        for block in 0..SAMPLES / LANES {
             let rest = Rest::at::<FUSED>(&posed.equations, &SAMPLE_SIN[block], &SAMPLE_COS[block]);
             samples[block] = rest.determinant;
         }

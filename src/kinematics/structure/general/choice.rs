@@ -112,7 +112,7 @@ pub(super) fn chosen(links: &[Motion; 5], closure: &Closure, offsets: &[f64; 6])
 /// Points of a split for a pose: two if it finds the joints that made it, one if it is certain.
 fn score(split: &Split, closure: &Closure, pose: &(Target, Motion, [f64; 6])) -> usize {
     let (target, t_last_first, theta) = pose;
-    let mut accepted = Accepted::NONE;
+    let mut accepted = Accepted::REGULAR_ONLY;
     let accepted_to = &mut accepted;
     let attempt = Attempt { split, closure, target, t_last_first, accepted: accepted_to };
     let is_certain = run(attempt);

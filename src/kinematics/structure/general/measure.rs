@@ -2,8 +2,8 @@
 
 use alloc::sync::Arc;
 
-use super::General;
 use super::choice::chosen;
+use super::geometry::General;
 use super::moments::Motion;
 use crate::kinematics::chain::corrections::about_y;
 use crate::kinematics::chain::dh::{DhRow, Mdh, screw_x};

@@ -8,6 +8,7 @@ mod attempt;
 mod back;
 mod choice;
 mod determinant;
+mod geometry;
 mod measure;
 mod moments;
 mod solve;
@@ -15,15 +16,12 @@ mod split;
 #[cfg(test)]
 mod tests;
 
-use alloc::sync::Arc;
-use alloc::vec::Vec;
+pub(crate) use geometry::General;
 
 use measure::PATTERN;
-use split::Split;
 
 use super::Structure;
 use super::branches::Branches;
-use super::closure::Closure;
 use super::free_choice::FreeChoice;
 use super::joint_map::JointMap;
 use super::lanes::NoKernel;
@@ -33,17 +31,6 @@ use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::pose::Pose;
 use crate::report::{Pattern, UnknownStructure};
-
-/// An arm of six joints without parallel or coincident neighbors that cost it a degree of freedom.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct General {
-    closure: Closure,
-    joint_map: JointMap<6>,
-    /// The splits, the best first. They are the same for an arm with any base, tool and limits.
-    splits: Arc<Vec<Split>>,
-    /// How far the table is from a structure with a closed form.
-    nearest: Option<UnknownStructure>,
-}
 
 impl Structure<6, MOST_SLOTS> for General {
     const PATTERN: &'static Pattern = &PATTERN;

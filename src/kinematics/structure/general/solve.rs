@@ -1,7 +1,7 @@
 //! Every solution of a pose: by the best split, and by others where its count is not certain.
 
-use super::General;
 use super::attempt::Attempt;
+use super::geometry::General;
 use super::moments::Motion;
 use crate::kinematics::answer::slot::MOST_SLOTS;
 use crate::kinematics::answer::status::SingularityKind;
@@ -16,6 +16,9 @@ use crate::report::Reach;
 /// singular [1]: the root of rounding, at which two solutions merge.
 const SINGULAR: f64 = 1e-7;
 
+/// How far beyond the sum of its lengths nothing is in reach of an arm, relative to it [1].
+const BEYOND: f64 = 1e-9;
+
 /// Difference of two angles that are the same for the order of solutions [rad].
 const TIED: f64 = 1e-6;
 
@@ -25,6 +28,11 @@ impl General {
         let target = self.closure.target_of(t_first_last);
         let t_last_first = Motion { r: target.frame.rotation, t: target.frame.origin }.inverse();
         let mut accepted = Accepted::NONE;
+        // Farther away than the sum of the lengths.
+        let distance = target.frame.origin.iter().map(|x| x * x).sum::<f64>();
+        if distance > (1.0 + BEYOND) * (1.0 + BEYOND) {
+            return (accepted, true);
+        }
         let mut is_certain = false;
         for split in self.splits.iter() {
             accepted.begin();

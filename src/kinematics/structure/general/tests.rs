@@ -216,7 +216,8 @@ fn at_and_next_to_a_fold_every_solution_is_found_or_the_answer_says_so() {
                 q[2] = low + off;
                 draws.push(q);
             }
-            let report = report(&mdh, draws.into_iter(), 1e-5);
+            // Where two solutions merge, rounding moves them by its root over their curvature.
+            let report = report(&mdh, draws.into_iter(), 1e-3);
             std::println!("{name}, det J = 0 + {off:e}: {report:?}");
             let Report { missed_unflagged, wrong, duplicates, .. } = report;
             assert_eq!(

@@ -10,8 +10,9 @@ use core::f64::consts::PI;
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use super::tables::{ARCS, BERNSTEIN, FIRST_MIDDLE, HALF_ARC_TAN, MIDDLES, POWERS};
-use super::{DEGREE, Root, Roots, TrigonometricPolynomial};
+use super::polynomial::TrigonometricPolynomial;
+use super::roots::{Root, Roots};
+use super::tables::{ARCS, BERNSTEIN, DEGREE, FIRST_MIDDLE, HALF_ARC_TAN, MIDDLES, POWERS};
 use crate::lanes::{Column, LANES, mul_add};
 
 /// Width of a part of an arc that is not divided [1]: 5e-8 rad.

@@ -1,6 +1,7 @@
 //! Simple roots by Newton's method, held inside their intervals.
 
-use super::{MOST_ROOTS, Root, Roots, TrigonometricPolynomial};
+use super::polynomial::TrigonometricPolynomial;
+use super::roots::{MOST_ROOTS, Root, Roots};
 use crate::lanes::{Column, LANES, sin_cos};
 
 /// Step of Newton's method after which a root is taken, relative to the width of its interval [1]:

@@ -1,8 +1,10 @@
 //! Constants of the transforms: from samples to coefficients, and from those to Bernstein
 //! coefficients on each of 16 arcs. All are computed by the compiler.
 
-use super::DEGREE;
 use crate::lanes::{Column, LANES};
+
+/// Degree of the polynomials: they have up to twice as many real roots.
+pub(super) const DEGREE: usize = 8;
 
 /// Samples of a polynomial: 17 for its coefficients, 7 for its noise.
 pub(crate) const SAMPLES: usize = 24;
@@ -143,6 +145,7 @@ const fn middles() -> [[[Column; 2]; DEGREE + 1]; ARCS / LANES] {
 /// coefficient j, that of the sine its negative (eq. 94).
 pub(super) static BERNSTEIN: [[[f64; 2]; DEGREE + 1]; DEGREE + 1] = bernstein();
 
+#[expect(clippy::cast_precision_loss, reason = "numbers up to 16")]
 const fn bernstein() -> [[[f64; 2]; DEGREE + 1]; DEGREE + 1] {
     let mut table = [[[0.0; 2]; DEGREE + 1]; DEGREE + 1];
     let mut k = 0;

@@ -1,9 +1,11 @@
 //! Laws of the roots: all of them, no others, and what noise leaves of them.
+#![expect(clippy::cast_precision_loss, reason = "numbers up to 24")]
 
 use core::f64::consts::{PI, TAU};
 use std::vec::Vec;
 
 use super::*;
+use crate::lanes::{Column, LANES};
 use crate::rng::Rng;
 
 /// The polynomial with these real roots and pairs of complex ones, of size 1, sampled: each factor

@@ -1,0 +1,20 @@
+//! The constants of a general arm.
+
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+
+use super::split::Split;
+use crate::kinematics::structure::closure::Closure;
+use crate::kinematics::structure::joint_map::JointMap;
+use crate::report::UnknownStructure;
+
+/// An arm of six joints without parallel or coincident neighbors that cost it a degree of freedom.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct General {
+    pub(super) closure: Closure,
+    pub(super) joint_map: JointMap<6>,
+    /// The splits, the best first. They are the same for an arm with any base, tool and limits.
+    pub(super) splits: Arc<Vec<Split>>,
+    /// How far the table is from a structure with a closed form.
+    pub(super) nearest: Option<UnknownStructure>,
+}
