@@ -12,6 +12,7 @@ mod helpers;
 mod inverse;
 mod margins;
 mod pace;
+mod parameters;
 #[cfg(feature = "python")]
 mod paths;
 #[cfg(feature = "python")]
@@ -27,5 +28,6 @@ pub use inverse::{NO_CONFIGURATION, ik, ik_configured, ik_nearest, ik_with};
 pub use margins::{Margins, ik_margin};
 #[cfg(feature = "python")]
 pub(crate) use pace::Pace;
+pub use parameters::{corrected_fk, parameter_jacobian};
 #[cfg(feature = "python")]
 pub(crate) use plans::PlanJob;

@@ -1,5 +1,6 @@
 //! What can be wrong with an input, each fault with the field, the value and the bound.
 
+mod calibrated;
 #[cfg(feature = "rapid")]
 mod frame;
 mod joints;
@@ -19,6 +20,7 @@ use core::fmt;
 
 use alloc::vec::Vec;
 
+pub use self::calibrated::CalibratedFault;
 #[cfg(feature = "rapid")]
 pub use self::frame::FrameFault;
 pub use self::joints::JointFault;
@@ -187,6 +189,12 @@ impl From<MotionFault> for Error {
 impl From<PlanFault> for Error {
     fn from(fault: PlanFault) -> Self {
         Self::InvalidPlan(fault)
+    }
+}
+
+impl From<CalibratedFault> for Error {
+    fn from(fault: CalibratedFault) -> Self {
+        Self::InvalidModel(ModelFault::Calibrated(fault))
     }
 }
 

@@ -145,20 +145,21 @@ mod urdf;
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use catalog::{AngleUnit, CatalogArm, CatalogGeometry, catalog, find, left_out};
 pub use error::{
-    Error, JointFault, LeftOut, ModelFault, MotionFault, Names, NoConfiguration, PlanFault,
-    PoseFault, UnknownRobot, UrdfFault,
+    CalibratedFault, Error, JointFault, LeftOut, ModelFault, MotionFault, Names, NoConfiguration,
+    PlanFault, PoseFault, UnknownRobot, UrdfFault,
 };
 #[cfg(feature = "rapid")]
 pub use error::{FrameFault, Missing, RapidFault, RapidFaultKind, RoutineFault};
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use kinematics::{
-    AnyRobot, Arity, Break, BreakReason, ConfigurationRequest, Definition, DhRow, FollowOptions,
-    Followed, Follower, GivenJoint, Inverse, JacobianFrame, JointAxis, JointLimits, Joints,
-    MOST_SLOTS, Margin, Mdh, OpwParameters, Pose, PoseDifference, Redundancy, RedundancyOf, Robot,
-    Sdh, SingularDistances, Singularity, SingularityKind, SingularityMode, Slot, SlotStatus,
-    Solution, Solutions, Status, pose_from_euler_zyx, pose_from_isometry, pose_from_matrix,
-    pose_from_rotation, pose_from_rows, pose_from_wxyz, pose_from_xyzw, pose_to_euler_zyx,
-    pose_to_isometry, pose_to_matrix, pose_to_rows, pose_to_wxyz, thresholds,
+    AnyRobot, Arity, Break, BreakReason, ConfigurationRequest, Corrections, Definition, DhRow,
+    FRAME_PARAMETERS, FollowOptions, Followed, Follower, GivenJoint, Inverse, JacobianFrame,
+    JointAxis, JointLimits, Joints, MOST_SLOTS, Margin, Mdh, OpwParameters, Pose, PoseDifference,
+    ROW_PARAMETERS, Redundancy, RedundancyOf, Robot, Sdh, SingularDistances, Singularity,
+    SingularityKind, SingularityMode, Slot, SlotStatus, Solution, Solutions, Status,
+    pose_from_euler_zyx, pose_from_isometry, pose_from_matrix, pose_from_rotation, pose_from_rows,
+    pose_from_wxyz, pose_from_xyzw, pose_to_euler_zyx, pose_to_isometry, pose_to_matrix,
+    pose_to_rows, pose_to_wxyz, thresholds,
 };
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use lanes::InstructionSet;

@@ -4,7 +4,7 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use irbkin::{Follower, JacobianFrame, Robot};
+use irbkin::{Corrections, Follower, JacobianFrame, Robot};
 
 /// The system's allocator, counting the allocations of the test's own thread.
 struct Counting;
@@ -50,6 +50,9 @@ fn solve_allocates_nothing() {
     let coupled = coupled.with_linkage_limits(Some([-2.0, 1.0])).unwrap();
     let q = [0.3, -0.2, 0.4, 0.5, -0.6, 0.7];
     let pose = robot.fk(&q);
+    let mut corrections = Corrections::NONE;
+    corrections.rows = [[1e-3; 5]; 6];
+    let refined = robot.with_corrections(&corrections).unwrap().with_nominal(&robot).unwrap();
     let count = allocations_of(|| {
         let solutions = std::hint::black_box(robot.ik(&pose).unwrap());
         assert_eq!(solutions.len(), 8);
@@ -89,6 +92,13 @@ fn solve_allocates_nothing() {
         for (arm, q) in [(&robot, q), (&robot, [0.1, 0.2, 0.3, -2.0, 0.0, 1.0]), (&coupled, q)] {
             let configuration = arm.configuration(&q).unwrap();
             std::hint::black_box(arm.ik_configured(&arm.fk(&q), configuration).unwrap());
+        }
+        // Next to a singularity, too, where Newton's method alone does not do.
+        for q in [q, [0.3, -0.2, 0.4, 0.5, 1e-4, 0.7]] {
+            let pose = refined.fk(&q);
+            assert!(!std::hint::black_box(refined.ik(&pose).unwrap()).is_empty());
+            std::hint::black_box(refined.ik_nearest(&pose, &q, &[1.0; 6]).is_ok());
+            std::hint::black_box(refined.corrected_fk(&corrections, &q));
         }
         for q in [q, [0.0; 6]] {
             assert!(!std::hint::black_box(ur3.ik(&ur3.fk(&q)).unwrap()).is_empty());

@@ -11,6 +11,7 @@ mod catalog;
 mod catalog_page;
 mod common;
 mod configuration;
+mod corrections;
 mod coupled;
 mod display;
 mod follow;
@@ -31,6 +32,7 @@ mod rapid_motion;
 mod reach_and_paths;
 mod recall;
 mod redundancy;
+mod refined;
 mod serde;
 #[cfg(feature = "urdf")]
 mod snap;

@@ -4,8 +4,8 @@
 use std::fmt::Debug;
 
 use irbkin::{
-    AnyRobot, Arity, Configuration, FollowOptions, JointLimits, Joints, Mdh, OpwParameters, Robot,
-    Sdh, SingularityMode, Solution, Status, catalog, pose_from_euler_zyx,
+    AnyRobot, Arity, Configuration, Corrections, FollowOptions, JointLimits, Joints, Mdh,
+    OpwParameters, Robot, Sdh, SingularityMode, Solution, Status, catalog, pose_from_euler_zyx,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -52,6 +52,11 @@ fn robots_round_trip() {
     }
     let coupled: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap().coupled().unwrap();
     round_trips_with_settings(&coupled);
+    let nominal: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
+    let mut corrections = Corrections::NONE;
+    corrections.rows[2] = [1e-4, 2e-4, 3e-4, 4e-4, 5e-4];
+    let calibrated = nominal.with_corrections(&corrections).unwrap();
+    round_trips_with_settings(&calibrated.with_nominal(&nominal).unwrap());
     round_trips(&coupled.clone().with_linkage_limits(None).unwrap());
     round_trips(&coupled.with_linkage_limits(Some([-1.0, f64::INFINITY])).unwrap());
 }

@@ -11,6 +11,7 @@ from pathlib import Path
 from . import machine, plot, report
 from .arms import IRB2600
 from .contenders import BUILDERS
+from .general_arms import GENERAL
 from .measure import QUICK, Effort
 from .recall import recall, sets_of
 from .rows import ROWS, gather, run
@@ -38,18 +39,22 @@ def main() -> None:
     about = machine.describe(BUILDERS)
     print(*about, sep="\n")
     missing: dict[str, str] = {}
-    built, _ = gather(IRB2600, missing)
-    for package, word in missing.items():
-        print(f"{package}: skipped ({word})")
-
-    solvers = [contender for contender in built if contender.task == "ik"]
-    recalls = [
-        recall(IRB2600, solvers, poses)
-        for poses in sets_of(IRB2600, effort.recall, effort.singular)
-    ]
-    print(
-        "\nSolutions missed, IRB 2600", report.plain(report.losses(recalls)), sep="\n", flush=True
-    )
+    recalls = {}
+    for arm in (IRB2600, *GENERAL):
+        built, absent = gather(arm, missing)
+        if arm is IRB2600:
+            print(*(f"{package}: skipped ({word})" for package, word in missing.items()), sep="\n")
+        solvers = [contender for contender in built if contender.task == "ik"]
+        recalls[arm.name] = [
+            recall(arm, solvers, poses) for poses in sets_of(arm, effort.recall, effort.singular)
+        ]
+        print(
+            f"\nSolutions missed, {arm.name}",
+            report.plain(report.losses(recalls[arm.name])),
+            *(absent if arm is not IRB2600 else ()),
+            sep="\n",
+            flush=True,
+        )
 
     results = []
     for row in ROWS:

@@ -30,6 +30,7 @@ class Arm:
         branch: Joints that tell two solutions apart; of a spherical wrist without J4 and J6, which
             only turn along a family when J5 is zero.
         opw: Brandstoetter's parameters, where the arm has them.
+        table: Its modified Denavit-Hartenberg table, if it is built from that and not by its name.
     """
 
     name: str
@@ -39,6 +40,7 @@ class Arm:
     limits: Floats
     branch: tuple[int, ...]
     opw: dict[str, Any] = field(default_factory=dict)
+    table: Floats | None = None
 
     @property
     def dof(self) -> int:

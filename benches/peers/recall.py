@@ -56,8 +56,8 @@ class Recall:
 
 
 def sets_of(arm: Arm, count: int, singular: int) -> list[PoseSet]:
-    """Random poses and, for an arm with a spherical wrist, the home pose and poses with axis 5 at
-    zero.
+    """Random poses; for an arm with a spherical wrist also the home pose and poses with axis 5 at
+    zero, for one without a closed form poses with axis 4 at zero.
     """
     rng = np.random.default_rng(1)
     joints = {f"{count} random poses": arm.draw(rng, count)}
@@ -65,6 +65,10 @@ def sets_of(arm: Arm, count: int, singular: int) -> list[PoseSet]:
         straight = arm.draw(rng, singular)
         straight[:, 4] = 0.0
         joints |= {"home pose": np.zeros((1, arm.dof)), f"{singular} poses, J5 = 0": straight}
+    if arm.table is not None:
+        straight = arm.draw(rng, singular)
+        straight[:, 3] = 0.0
+        joints[f"{singular} poses, J4 = 0"] = straight
     return [PoseSet(name, arm.fk(q), q) for name, q in joints.items()]
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from .contenders.contender import BATCHES
@@ -79,12 +79,14 @@ def markdown(table: Table) -> str:
 
 def document(
     machine: Sequence[str],
-    recalls: Sequence[Recall],
+    recalls: Mapping[str, Sequence[Recall]],
     results: Sequence[Result],
     missing: dict[str, str],
 ) -> str:
     """The generated part of docs/benchmarks.md."""
-    parts = ["\n\n".join(machine), "### Solutions missed, IRB 2600", markdown(losses(recalls))]
+    parts = ["\n\n".join(machine)]
+    for arm, tallies in recalls.items():
+        parts += [f"### Solutions missed, {arm}", markdown(losses(tallies))]
     for result in results:
         parts += [f"### {result.row.title}", markdown(times(result))]
         parts += ["\n".join(f"- {line}" for line in result.absent)] if result.absent else []

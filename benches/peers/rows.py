@@ -15,17 +15,19 @@ from . import motions
 from .arms import IRB2600, PANDA, UR3, Arm, Floats
 from .contenders import BUILDERS, OWN, Contender
 from .contenders.contender import BATCHES, MOTIONS, Task
+from .general_arms import CRX10IAL, GOFA5, MANSEUR_DOTY
 from .measure import Effort, Timing, take_turns
 from .recall import EXACT, branches_of, hits, residuals
 
 
 @dataclass(frozen=True)
 class Row:
-    """A task of an arm."""
+    """A task of an arm; `still` are joints (from 0) that stay at zero."""
 
     title: str
     task: Task
     arm: Arm
+    still: tuple[int, ...] = ()
 
 
 ROWS = (
@@ -40,6 +42,13 @@ ROWS = (
     Row("IK of a batch, every solution, UR3", "ik_batch", UR3),
     Row("IK of one pose with q7 given, Panda", "ik", PANDA),
     Row("IK of a batch with q7 given, Panda", "ik_batch", PANDA),
+    Row("IK of one pose, every solution, GoFa 5", "ik", GOFA5),
+    Row("IK of one pose with axis 4 at zero, every solution, GoFa 5", "ik", GOFA5, (3,)),
+    Row("IK of a batch, every solution, GoFa 5", "ik_batch", GOFA5),
+    Row("IK of one pose, every solution, CRX-10iA/L", "ik", CRX10IAL),
+    Row("IK of a batch, every solution, CRX-10iA/L", "ik_batch", CRX10IAL),
+    Row("IK of one pose, every solution, Manseur and Doty's arm", "ik", MANSEUR_DOTY),
+    Row("IK of a batch, every solution, Manseur and Doty's arm", "ik_batch", MANSEUR_DOTY),
     Row("Quintic of six joints, 50 samples", "quintic", IRB2600),
     Row("Quintic of six joints, 1,000 samples", "long_quintic", IRB2600),
     Row("Six joints from rest to rest within limits of jerk", "s_curve", IRB2600),
@@ -77,10 +86,21 @@ class Result:
         return next((name for name in self.timings if name.split(",")[0] == OWN), None)
 
 
+# By name of the arm: some packages prepare an arm for a minute.
+_BUILT: dict[str, tuple[list[Contender], list[str]]] = {}
+
+
 def gather(arm: Arm, missing: dict[str, str]) -> tuple[list[Contender], list[str]]:
     """All contenders for an arm, and who could not be built for it; packages that do not import go
     to `missing`.
     """
+    if arm.name not in _BUILT:
+        _BUILT[arm.name] = _gathered(arm, missing)
+    contenders, absent = _BUILT[arm.name]
+    return list(contenders), list(absent)
+
+
+def _gathered(arm: Arm, missing: dict[str, str]) -> tuple[list[Contender], list[str]]:
     contenders, absent = [], []
     for package, builder in BUILDERS.items():
         if package in missing:
@@ -105,7 +125,7 @@ def yardstick(row: Row) -> Contender:
     """The product of two 4x4 arrays, or filling the array of a batch's answers."""
     task, dof = row.task, row.arm.dof
     shapes: dict[Task, tuple[int, ...]] = {
-        "ik_batch": (8, dof),
+        "ik_batch": (8 if row.arm.table is None else 16, dof),
         "fk_batch": (4, 4),
         "jacobian_batch": (6, dof),
     }
@@ -171,6 +191,7 @@ def run(row: Row, effort: Effort, missing: dict[str, str]) -> Result:
     rng = np.random.default_rng(2)
     batch = row.task in BATCHES
     joints = row.arm.draw(rng, effort.batch if batch else effort.singles)
+    joints[:, row.still] = 0.0
     poses, seeds = row.arm.fk(joints), joints + rng.uniform(-SEED_OFF, SEED_OFF, joints.shape)
     few = slice(0, effort.singles)
     taking_part = [stick]

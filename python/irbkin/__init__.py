@@ -12,7 +12,7 @@ radians, float64; poses are 4x4 homogeneous matrices.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from irbkin._core import (
     Given,
@@ -30,6 +30,7 @@ from irbkin._core import (
     use_instruction_set,
 )
 from irbkin.errors import (
+    CalibrationError,
     InvalidJointsError,
     InvalidModelError,
     InvalidMotionError,
@@ -68,8 +69,10 @@ from irbkin.records import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from types import ModuleType
 
+    from irbkin import calibration as calibration
     from irbkin import map as map
     from irbkin import paths as paths
     from irbkin import placement as placement
@@ -77,10 +80,12 @@ if TYPE_CHECKING:
     from irbkin import rapid as rapid
     from irbkin import ros as ros
     from irbkin import trajectory as trajectory
+    from irbkin.calibration import calibrate as calibrate
 
 __all__ = [
     "Break",
     "BreakReason",
+    "CalibrationError",
     "CatalogEntry",
     "Configuration",
     "ConfigurationBatch",
@@ -121,6 +126,8 @@ __all__ = [
     "UnknownRobotError",
     "UnreachableError",
     "__version__",
+    "calibrate",
+    "calibration",
     "catalog",
     "catalog_entry",
     "instruction_set",
@@ -138,11 +145,15 @@ __all__ = [
 
 # `plot` needs an extra: it is not in `__all__`, which a star import takes in whole. Nor is `map`,
 # which would then replace Python's own.
-_MODULES = ("map", "paths", "placement", "plot", "rapid", "ros", "trajectory")
+_MODULES = ("calibration", "map", "paths", "placement", "plot", "rapid", "ros", "trajectory")
 
 
-def __getattr__(name: str) -> ModuleType:
+def __getattr__(name: str) -> ModuleType | Callable[..., Any]:
     """Import `irbkin.rapid` and the like when they are first asked for."""
+    if name == "calibrate":
+        from irbkin.calibration import calibrate
+
+        return calibrate
     if name in _MODULES:
         import importlib
 

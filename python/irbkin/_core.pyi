@@ -680,6 +680,64 @@ class Robot:
             InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
             ValueError: Another frame.
         """
+    def with_nominal(self, nominal: Robot | str) -> Robot:
+        """Return the robot, of a calibrated table, solved from the branches of its nominal robot:
+        each is brought onto the pose by Newton's method, in a microsecond more than the closed
+        form.
+
+        Slots are the nominal robot's. The answer is not complete: a pair of branches that the
+        nominal robot does not have is not seen, which happens next to a fold; and a branch whose
+        refinement fails has its slot flagged MERGED. Meant for tracking, `ik_nearest`, `follow` and
+        `plan`. Rates: docs/calibrate.md.
+
+        Args:
+            nominal: A Robot with a closed form, or its catalog name. Its base, tool and limits do
+                not count.
+
+        Raises:
+            UnknownRobotError: No arm of that name.
+            InvalidModelError: The nominal robot has no closed form, coupled axes, or its tool is
+                more than 0.05 rad, or 0.05 of its reach, from that of this robot.
+        """
+    def with_corrections(self, corrections: npt.ArrayLike) -> Robot:
+        """Return the robot with corrected base, table and tool: what `irbkin.calibrate` makes of
+        it.
+
+        Corrections of base and tool alone leave the structure as it is. See docs/calibrate.md.
+
+        Args:
+            corrections: What is added to each parameter, shape (12 + 5 n,): x, y, z [m], rx, ry, rz
+                [rad] of the frame before the first row of `mdh`, along and about its own axes; of
+                each row alpha [rad], a [m], d [m], theta [rad] and beta [rad], a rotation about y
+                after alpha and a; x, y, z, rx, ry, rz of the tool.
+
+        Raises:
+            InvalidModelError: A correction is not finite, the shape is wrong, the corrected table
+                is none, or the table of a robot with coupled axes 2 and 3 is corrected.
+        """
+    def parameter_jacobian(
+        self,
+        q: npt.ArrayLike,
+        corrections: npt.ArrayLike | None = None,
+        out: _Floats | None = None,
+    ) -> _Floats:
+        """Jacobian of the tool in the parameters of the robot: how each of them moves it.
+
+        Args:
+            q: Joint angles [rad], shape (..., n).
+            corrections: Where it is taken, shape (12 + 5 n,), as in `with_corrections`; at the
+                robot as it is when not given.
+            out: Array to write to, shape (..., 6, 12 + 5 n), float64, C-contiguous; it is returned.
+
+        Returns:
+            Shape (..., 6, 12 + 5 n), columns as the corrections: three linear rows [m/rad] or
+            [m/m], then three angular [1] or [rad/m], in the frame of the poses.
+
+        Raises:
+            InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
+            InvalidModelError: Corrections of a wrong shape, or one that is not finite.
+        """
+    def _corrected_fk(self, q: npt.ArrayLike, corrections: npt.ArrayLike) -> _Floats: ...
     @overload
     def singularity(self, q: _Vector) -> Singularity:
         """How far joint vectors are from the singularities.

@@ -8,6 +8,7 @@ if TYPE_CHECKING:
     from irbkin.records import Configuration, Plan, StrandEnd
 
 __all__ = [
+    "CalibrationError",
     "InvalidJointsError",
     "InvalidModelError",
     "InvalidMotionError",
@@ -39,6 +40,10 @@ class InvalidModelError(IrbkinError):
 
 class InvalidMotionError(IrbkinError):
     """A trajectory, a path or a limit of it cannot be what was asked for."""
+
+
+class CalibrationError(IrbkinError):
+    """Measurements cannot calibrate the arm; raised by `irbkin.calibrate`."""
 
 
 class UnreachableError(IrbkinError):

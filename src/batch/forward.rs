@@ -1,7 +1,7 @@
 //! Poses, frames, Jacobians and distances from singularities of many joint vectors.
 
 use super::pace::Pace;
-use super::rows::{rows, rows_out};
+use super::rows::{is_finite, rows, rows_out};
 use crate::error::Error;
 use crate::kinematics::{Arity, JacobianFrame, Joints, Robot, Singularity, pose_to_rows};
 use crate::report::Configuration;
@@ -175,8 +175,4 @@ impl Pace<'_> {
     /// Rows of a part of [`Self::singularity`].
     #[cfg(feature = "python")]
     pub(crate) const SINGULARITIES: usize = 256;
-}
-
-fn is_finite(q: &[f64]) -> bool {
-    q.iter().all(|angle| angle.is_finite())
 }

@@ -40,3 +40,7 @@ pub(super) fn rows_out<'a, const R: usize, T>(
 pub(super) fn check_length(field: &'static str, found: usize, wanted: usize) -> Result<(), Error> {
     if found == wanted { Ok(()) } else { Err(Error::WrongLength { field, found, wanted }) }
 }
+
+pub(super) fn is_finite(q: &[f64]) -> bool {
+    q.iter().all(|angle| angle.is_finite())
+}

@@ -5,7 +5,7 @@ use core::fmt;
 
 use crate::report::UnknownStructure;
 
-use super::UrdfFault;
+use super::{CalibratedFault, UrdfFault};
 
 /// What is wrong with the description of an arm.
 #[derive(Clone, Debug, PartialEq)]
@@ -161,6 +161,8 @@ pub enum ModelFault {
         /// it; none where none does.
         snap: Option<f64>,
     },
+    /// The arm cannot be corrected, or is not that of its nominal one.
+    Calibrated(CalibratedFault),
     /// The URDF describes no arm that can be taken.
     Urdf(UrdfFault),
 }
@@ -270,6 +272,7 @@ impl fmt::Display for ModelFault {
                     None => write!(f, " (are the angles written with all their digits?)"),
                 }
             }
+            Self::Calibrated(fault) => fault.fmt(f),
             Self::Urdf(fault) => write!(f, "URDF: {fault}"),
         }
     }

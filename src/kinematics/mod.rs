@@ -18,6 +18,7 @@ pub use answer::singularity::{SingularDistances, Singularity};
 pub use answer::slot::{MOST_SLOTS, Slot, SlotStatus};
 pub use answer::solutions::{Solution, Solutions};
 pub use answer::status::{SingularityKind, Status};
+pub use chain::corrections::{Corrections, FRAME_PARAMETERS, ROW_PARAMETERS};
 #[cfg(feature = "urdf")]
 pub(crate) use chain::dh::check_snap;
 pub use chain::dh::{DhRow, Mdh, Sdh};

@@ -147,6 +147,12 @@ pub(crate) const LEAST_TWIST_SIN: f64 = 1e-2;
 /// longer.
 pub const MOST_LENGTH: f64 = 1e6;
 
+/// Farthest that the common normal of two axes of a corrected table may be [m]: half of
+/// [`MOST_LENGTH`], since the offset of an axis is the sum of two. Rounding of such an offset moves
+/// the tool by a nanometer; axes that are nearer to parallel count as parallel, which moves it by
+/// at most a micrometer for each meter of reach.
+pub(crate) const FARTHEST_NORMAL: f64 = MOST_LENGTH / 2.0;
+
 /// Longest tool that is taken [m]: the distance of its center point from the flange. No arm carries
 /// one of 50 m, and a pointer or laser is aimed less far; a tool of 50 mm in millimeters is one.
 pub const MOST_TOOL: f64 = 50.0;
@@ -167,6 +173,10 @@ pub const MOST_ANGLE: f64 = 1e5;
 /// How far a Denavit-Hartenberg table may deviate from a known structure and still be recognized
 /// [rad, m]: the rounding of a table in text. The deviation is removed.
 pub const FORM_TOLERANCE: f64 = 1e-9;
+
+/// How far the tool of a calibrated arm may be from that of its nominal one [rad, or part of the
+/// reach]: Newton's method starts from the nominal joints, and no maker's arm is so far off.
+pub const FAR_FROM_NOMINAL: f64 = 0.05;
 
 /// Greatest `snap` [rad]: how far an angle may be from a multiple of 90 deg and still be made exact
 /// on request. Text with three digits is inside. Beyond, the arm would be a different one: a tenth

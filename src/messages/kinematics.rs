@@ -5,7 +5,7 @@ use std::vec;
 use std::vec::Vec;
 
 use super::{Row, Table, rows};
-use crate::error::{Error, JointFault, ModelFault, NoConfiguration, PoseFault};
+use crate::error::{CalibratedFault, Error, JointFault, ModelFault, NoConfiguration, PoseFault};
 use crate::kinematics::thresholds::{
     MOST_ANGLE, MOST_EULER, MOST_LENGTH, MOST_REACH, MOST_SNAP, MOST_TOOL, QUATERNION_NORM_BOUND,
     ROTATION_REPAIR_BOUND,
@@ -168,6 +168,18 @@ fn models() -> Vec<Row> {
             axes: (1, 2), off: 1e-8, distance: 2e7, bound: MOST_LENGTH, snap: None,
         },
             "the same where no `snap` helps", "write all digits";
+        ModelFault::Calibrated(CalibratedFault::Coupled) =>
+            ModelFault::Calibrated(CalibratedFault::Coupled),
+            "`with_corrections`, `calibrate` or `with_nominal` of a robot with a linkage",
+            "take its `uncoupled()` twin";
+        ModelFault::Calibrated(CalibratedFault::Structure { .. }) =>
+            ModelFault::Calibrated(CalibratedFault::Structure { structure: "unknown" }),
+            "`with_nominal`", "give the arm of the data sheet";
+        ModelFault::Calibrated(CalibratedFault::Far { .. }) =>
+            ModelFault::Calibrated(CalibratedFault::Far {
+                position: 0.7, rotation: 0.3, bound: [0.1, 0.05],
+            }),
+            "`with_nominal` of another arm", "give the arm that was calibrated";
         ModelFault::Urdf(_) => ModelFault::Urdf(crate::error::UrdfFault::NotUtf8 { byte: 13 }),
             "`from_urdf`", "see [URDF](#urdf)";
     }

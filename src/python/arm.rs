@@ -158,7 +158,7 @@ impl Arm {
 
     /// An answer of shape (..., `tail`) for joint vectors (..., n), computed without the
     /// interpreter's lock.
-    fn mapped<'py>(
+    pub(super) fn mapped<'py>(
         &self,
         q: &Bound<'py, PyAny>,
         out: Option<&Bound<'py, PyAny>>,

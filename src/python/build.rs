@@ -133,6 +133,15 @@ pub(super) fn state(arm: &Arm) -> State {
         let (definition, numbers) = match robot.definition() {
             Definition::Opw(opw) => ("opw", opw_numbers(opw)),
             Definition::Mdh(mdh) => ("mdh", mdh_numbers(mdh)),
+            Definition::Refined { mdh, nominal } => {
+                let nominal = match &**nominal {
+                    Definition::Opw(opw) => opw_numbers(opw),
+                    Definition::Mdh(nominal) | Definition::Refined { mdh: nominal, .. } => {
+                        mdh_numbers(nominal)
+                    }
+                };
+                ("refined", [mdh_numbers(mdh), nominal].concat())
+            }
         };
         (
             robot.name().to_owned(),
@@ -182,6 +191,7 @@ pub(super) fn restored(py: Python<'_>, state: &State) -> PyResult<Arm> {
     let built = match (definition.as_str(), numbers.len()) {
         ("opw", 19) => opw_of(numbers).ok_or_else(broken)?.map(Arm::from),
         ("mdh", 56) => mdh_of::<6>(numbers).ok_or_else(broken)?.map(Arm::from),
+        ("refined", 75 | 112) => refined_of(numbers).ok_or_else(broken)?.map(Arm::from),
         ("mdh", 60) => mdh_of::<7>(numbers).ok_or_else(broken)?.map(Arm::from),
         _ => return Err(broken()),
     };
@@ -216,6 +226,13 @@ fn opw_of(numbers: &[f64]) -> Option<Result<Robot<6>, Error>> {
     }
     let signs = signs.map(|sign| if sign < 0.0 { -1 } else { 1 });
     Some(Robot::from_opw(OpwParameters { a1, a2, b, c1, c2, c3, c4, offsets: *offsets, signs }))
+}
+
+fn refined_of(numbers: &[f64]) -> Option<Result<Robot<6>, Error>> {
+    let (calibrated, nominal) = numbers.split_at_checked(56)?;
+    let calibrated = mdh_of::<6>(calibrated)?;
+    let nominal = if nominal.len() == 19 { opw_of(nominal)? } else { mdh_of::<6>(nominal)? };
+    Some(calibrated.and_then(|robot| robot.with_nominal(&nominal?)))
 }
 
 fn mdh_of<const N: usize>(numbers: &[f64]) -> Option<Result<Robot<N>, Error>>

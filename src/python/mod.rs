@@ -12,6 +12,7 @@ mod catalog;
 mod classes;
 mod configurations;
 mod configured;
+mod corrections;
 mod edits;
 mod errors;
 mod found;

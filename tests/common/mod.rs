@@ -119,7 +119,9 @@ where
 {
     match robot.definition() {
         Definition::Opw(opw) => opw.a1.abs() + opw.c2 + opw.a2.hypot(opw.c3) + opw.c4,
-        Definition::Mdh(mdh) => mdh.rows.iter().map(|row| row.a.hypot(row.d)).sum(),
+        Definition::Mdh(mdh) | Definition::Refined { mdh, .. } => {
+            mdh.rows.iter().map(|row| row.a.hypot(row.d)).sum()
+        }
     }
 }
 

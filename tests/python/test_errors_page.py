@@ -21,6 +21,7 @@ LINE = paths.line(POSE, SIX.fk(SEED + 0.1), steps=5)
 PLAN = SIX.plan(LINE)
 NAMES = {
     "irbkin": irbkin,
+    "POSES": np.random.default_rng(1).uniform(-1, 1, (30, 6)),
     "rapid": rapid,
     "ros": ros,
     "plot": plot,
@@ -121,6 +122,25 @@ CALLS = [
     ("irbkin.map.reach(robot, 0, 0, 0, -eye)", "give rotation matrices"),
     ("irbkin.map.reach(robot, 0, 0, 0, eye, output='a.csv')", "a name that ends with .npz"),
     ("irbkin.map.orientations(0)", "1 or more"),
+    ("robot.with_corrections(np.zeros(30))", "one number for each parameter"),
+    ("robot.with_nominal(panda)", "the arm that was calibrated"),
+    ("irbkin.calibrate(robot, np.degrees(POSES), robot.fk(POSES))", "`np.radians(q)`"),
+    (
+        "irbkin.calibrate(robot, POSES, 1e3 * robot.fk(POSES)[:, :3, 3])",
+        "divide the positions by 1000",
+    ),
+    ("irbkin.calibrate(robot, POSES, robot.fk(POSES)[:-1])", "one measurement for each row of q"),
+    ("irbkin.calibrate(robot, POSES[:5], robot.fk(POSES[:5]))", "measure more, or fit less"),
+    ("irbkin.calibrate(robot, POSES[[0] * 30], robot.fk(POSES[[0] * 30]))", "do what it says"),
+    (
+        "irbkin.calibrate(robot, POSES * [1, 1, 0, 1, 1, 1], robot.fk(POSES))",
+        "move every joint, or fit less",
+    ),
+    ("irbkin.calibrate(robot, POSES[::-1], robot.fk(POSES))", "do what it asks"),
+    ("irbkin.calibrate(robot, POSES, robot.fk(POSES), fit=())", "one or more of the three"),
+    ("irbkin.calibrate(robot, POSES, robot.fk(POSES), loss='lp')", "one of those"),
+    ("irbkin.calibrate(robot, POSES, robot.fk(POSES), position_std=0)", "give meters above zero"),
+    ("irbkin.calibrate(robot, POSES, robot.fk(POSES), folds=1)", "give 0, or 2 and more"),
     ("ros.kinematics_of({})", "set the parameter of the node"),
     ("ros.kinematics_of({'robot': 'UR5', 'start': 'zero'})", "give numbers"),
     ("ros.kinematics_of({'robot_description': robot.to_urdf()})", "name them"),

@@ -13,7 +13,7 @@ from ..arms import Arm
 from .contender import Contender
 from .dynamics import dynibo, pinocchio
 from .motion import roboticstoolbox, ruckig, toppra
-from .one_arm import frankik, ur_analytic_ik
+from .one_arm import crx_kinematics, frankik, ur_analytic_ik
 from .opw import py_opw_kinematics, spherical_wrist
 from .own import irbkin
 from .subproblems import eaik, ik_geo, py_ikgeo_kinematics, ssik
@@ -32,6 +32,7 @@ BUILDERS: dict[str, Builder] = {
     "ssik": ssik,
     "ur-analytic-ik": ur_analytic_ik,
     "frankik": frankik,
+    "crx-kinematics": crx_kinematics,
     "pin": pinocchio,
     "dynibo": dynibo,
     "roboticstoolbox-python": roboticstoolbox,

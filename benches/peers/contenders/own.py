@@ -16,7 +16,8 @@ def irbkin(arm: Arm) -> list[Contender]:
     """`ik` of an arm of seven joints takes q7; batches write into arrays made beforehand."""
     import irbkin
 
-    robot = irbkin.Robot(arm.name)
+    robot = irbkin.Robot(arm.name) if arm.table is None else irbkin.Robot.from_mdh(arm.table)
+    slots = 8 if arm.table is None else 16
 
     def ik_given_q7(pose: Floats, q7: float) -> Floats:
         return robot.ik(pose, q7=q7).q
@@ -28,7 +29,7 @@ def irbkin(arm: Arm) -> list[Contender]:
 
     def for_batch(poses: Floats, joints: Floats) -> tuple[Floats, Floats | None, irbkin.IkBatch]:
         out = irbkin.IkBatch(
-            np.empty((len(poses), 8, arm.dof)), np.empty((len(poses), 8), np.uint8)
+            np.empty((len(poses), slots, arm.dof)), np.empty((len(poses), slots), np.uint8)
         )
         return poses, np.ascontiguousarray(joints[..., 6]) if arm.dof == 7 else None, out
 

@@ -1,6 +1,7 @@
 //! A serial chain of revolute joints.
 
 pub(crate) mod axes;
+pub(crate) mod corrections;
 pub(crate) mod coupling;
 pub(crate) mod dh;
 pub(crate) mod forward;
@@ -8,6 +9,7 @@ pub(crate) mod jacobian;
 pub(crate) mod joint_axes;
 pub(crate) mod limits;
 pub(crate) mod singular_values;
+pub(crate) mod skew;
 
 use crate::kinematics::chain::axes::Link;
 use crate::kinematics::chain::coupling::uncoupled;

@@ -107,6 +107,18 @@ where
         Ok(robot)
     }
 
+    /// The robot of a definition.
+    #[cfg(feature = "serde")]
+    pub(super) fn of_definition(definition: Definition<N>) -> Result<Self, Error> {
+        match definition {
+            Definition::Opw(opw) => Self::of_opw(opw),
+            Definition::Mdh(mdh) => Self::of_table(mdh),
+            Definition::Refined { mdh, nominal } => {
+                Self::serial_chain(mdh)?.with_nominal(&Self::of_definition(*nominal)?)
+            }
+        }
+    }
+
     /// Checks that the flange is no farther from an axis than [`MOST_REACH`]. Lengths by themselves
     /// say nothing: next to parallel axes they are large and cancel.
     fn check_reach(&self) -> Result<(), Error> {

@@ -2,9 +2,11 @@
 
 pub(super) mod any;
 mod build;
+mod corrected;
 mod display;
 mod linkage;
 mod margin;
+mod nominal;
 mod reading;
 #[cfg(feature = "serde")]
 mod stored;
@@ -15,6 +17,7 @@ pub(crate) use build::SNAPS;
 pub use margin::Margin;
 
 use alloc::borrow::Cow;
+use alloc::boxed::Box;
 
 use nalgebra::SMatrix;
 
@@ -63,6 +66,13 @@ pub enum Definition<const N: usize> {
     Opw(OpwParameters),
     /// A modified Denavit-Hartenberg table with its end transforms.
     Mdh(Mdh<N>),
+    /// A calibrated table that is solved by way of its nominal arm.
+    Refined {
+        /// The calibrated table.
+        mdh: Mdh<N>,
+        /// The nominal arm.
+        nominal: Box<Definition<N>>,
+    },
 }
 
 impl Robot<6> {
@@ -80,9 +90,10 @@ impl Robot<6> {
         self.structure = match self.structure {
             SixJoints::SphericalWrist(solver) => SixJoints::SphericalWrist(solver.without_lanes()),
             SixJoints::ThreeParallel(solver) => SixJoints::ThreeParallel(solver.without_lanes()),
-            other @ (SixJoints::OffsetWrist(_) | SixJoints::General(_) | SixJoints::Unknown(_)) => {
-                other
-            }
+            other @ (SixJoints::OffsetWrist(_)
+            | SixJoints::General(_)
+            | SixJoints::Refined(_)
+            | SixJoints::Unknown(_)) => other,
         };
         self
     }

@@ -65,10 +65,7 @@ impl<const N: usize> Stored<N> {
     where
         Joints<N>: Arity<N>,
     {
-        let mut robot = match self.definition {
-            Definition::Opw(opw) => Robot::of_opw(opw)?,
-            Definition::Mdh(mdh) => Robot::of_table(mdh)?,
-        };
+        let mut robot = Robot::of_definition(self.definition)?;
         if self.coupled {
             let may_be_coupled = robot.structure.arm().may_be_coupled();
             may_be_coupled.map_err(|reason| ModelFault::NotCoupled { reason })?;

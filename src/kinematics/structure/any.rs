@@ -8,6 +8,7 @@ use super::declare::structures;
 use super::general::General;
 use super::offset_wrist::OffsetWrist;
 use super::redundancy::Redundancy;
+use super::refined::{Nominal, Refined};
 use super::solver::Solver;
 use super::spherical_wrist::SphericalWrist;
 use super::three_parallel::ThreeParallel;
@@ -19,7 +20,27 @@ use crate::report::UnknownStructure;
 
 structures! {
     /// Structures with six joints.
-    SixJoints, 6, (): SphericalWrist: 8, ThreeParallel: 8, OffsetWrist: 16, General: 16
+    SixJoints, 6, (): SphericalWrist: 8, ThreeParallel: 8, OffsetWrist: 16, General: 16;
+    /// The calibrated arm of one of them.
+    Refined(Refined<SixJoints>)
+}
+
+impl Nominal for SixJoints {
+    fn arm(&self) -> &dyn Arm<6, ()> {
+        AnyStructure::arm(self)
+    }
+
+    fn slot_count(&self) -> usize {
+        AnyStructure::slot_count(self)
+    }
+
+    fn solve_in_lanes(&self, solutions: &mut Solutions<6>) -> bool {
+        AnyStructure::solve_in_lanes(self, solutions, ())
+    }
+
+    fn between(self, chain: &Chain<6>, limits: &JointLimits<6>) -> Self {
+        AnyStructure::between(self, chain, limits)
+    }
 }
 
 /// The structure of an arm of `N` joints, whichever it is, between its base and its tool.
@@ -42,6 +63,20 @@ pub(crate) trait AnyStructure<const N: usize>:
     /// The same structure between the base and the tool of `chain`, with its coupling and limits.
     #[must_use]
     fn between(self, chain: &Chain<N>, limits: &JointLimits<N>) -> Self;
+
+    /// Whether the arm has a structure with a closed form.
+    fn is_closed_form(&self) -> bool;
+
+    /// The structure of the calibrated arm `chain`, of an arm with this structure; `None` if there
+    /// is none to refine.
+    fn refining(
+        self,
+        _nominal: &Chain<N>,
+        _chain: &Chain<N>,
+        _limits: &JointLimits<N>,
+    ) -> Option<Self> {
+        None
+    }
 
     /// The same structure with what gives it a closed form; one that has it is returned unchanged.
     #[must_use]

@@ -101,6 +101,10 @@ impl<const N: usize> AnyStructure<N> for NoStructure {
         self
     }
 
+    fn is_closed_form(&self) -> bool {
+        false
+    }
+
     fn slot_count(&self) -> usize {
         0
     }

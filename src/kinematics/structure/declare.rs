@@ -6,6 +6,7 @@ macro_rules! structures {
     (
         $(#[$doc:meta])* $name:ident, $joints:literal, $redundancy:ty:
         $($structure:ident: $slots:literal),+
+        $(; $(#[$refined_doc:meta])* $refined:ident($inner:ty))?
     ) => {
         $(#[$doc])*
         #[derive(Clone, Debug, PartialEq)]
@@ -19,6 +20,10 @@ macro_rules! structures {
                 #[doc = concat!("[`", stringify!($structure), "`]")]
                 $structure(Solver<$structure, $joints, $slots>),
             )+
+            $(
+                $(#[$refined_doc])*
+                $refined($inner),
+            )?
             /// None of them.
             Unknown(UnknownStructure),
         }
@@ -62,7 +67,29 @@ macro_rules! structures {
                     $(Self::$structure(solver) => {
                         Self::$structure(Solver::new(solver.structure, chain, limits))
                     })+
+                    $(Self::$refined(refined) => Self::$refined(refined.between(chain, limits)),)?
                     Self::Unknown(reason) => Self::Unknown(reason),
+                }
+            }
+
+            $(fn refining(
+                self,
+                nominal: &Chain<$joints>,
+                chain: &Chain<$joints>,
+                limits: &JointLimits<$joints>,
+            ) -> Option<Self> {
+                let nominal = nominal.clone();
+                self.is_closed_form()
+                    .then(|| Self::$refined(<$inner>::new(self, nominal, chain, limits)))
+            })?
+
+            fn is_closed_form(&self) -> bool {
+                match self {
+                    $(Self::$structure(_) => {
+                        <$structure as Structure<$joints, $slots>>::IS_CLOSED_FORM
+                    })+
+                    $(Self::$refined(_) => false,)?
+                    Self::Unknown(_) => false,
                 }
             }
 
@@ -73,6 +100,7 @@ macro_rules! structures {
                         solver.structure = solver.structure.noting(nearest);
                         Self::$structure(solver)
                     })+
+                    $(refined @ Self::$refined(_) => refined,)?
                     Self::Unknown(reason) => Self::Unknown(hint(reason)),
                 }
             }
@@ -81,6 +109,7 @@ macro_rules! structures {
             fn slot_count(&self) -> usize {
                 match self {
                     $(Self::$structure(_) => $slots,)+
+                    $(Self::$refined(refined) => refined.slot_count(),)?
                     Self::Unknown(_) => 0,
                 }
             }
@@ -88,6 +117,7 @@ macro_rules! structures {
             fn arm(&self) -> &dyn Arm<$joints, $redundancy> {
                 match self {
                     $(Self::$structure(solver) => solver,)+
+                    $(Self::$refined(refined) => refined,)?
                     Self::Unknown(reason) => reason,
                 }
             }
@@ -100,6 +130,7 @@ macro_rules! structures {
             ) -> bool {
                 match self {
                     $(Self::$structure(solver) => solver.solve_in_lanes(solutions, redundancy),)+
+                    $(Self::$refined(refined) => refined.solve_in_lanes(solutions, redundancy),)?
                     Self::Unknown(_) => false,
                 }
             }

@@ -23,6 +23,7 @@ pub(crate) mod offset_wrist;
 pub(crate) mod planar_arm;
 pub(crate) mod recognition;
 pub(crate) mod redundancy;
+pub(crate) mod refined;
 pub(crate) mod seven_joints;
 pub(crate) mod singular_wrist;
 pub(crate) mod solver;

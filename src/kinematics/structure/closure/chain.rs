@@ -4,6 +4,7 @@ use nalgebra::SMatrix;
 
 use crate::kinematics::chain::axes::{Axes, Link};
 use crate::kinematics::chain::dh::DhRow;
+use crate::kinematics::chain::skew::TiltedRow;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::lanes::{LANES, mul_add, sin_cos};
@@ -12,6 +13,8 @@ use crate::lanes::{LANES, mul_add, sin_cos};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Closure {
     links: [Link; 6],
+    /// Sine and cosine of the rotation about y of each link, between x and z of it, if it has one.
+    tilts: [Option<(f64, f64)>; 6],
     /// The sum of all lengths [m].
     pub(crate) reach: f64,
     /// Rounding of the closure [1].
@@ -36,13 +39,17 @@ pub(super) struct Conditions<const W: usize> {
 const ROUNDING: f64 = 2e-15;
 
 impl Closure {
-    /// The chain of these rows; their theta does not count.
-    pub(crate) fn of(rows: &[DhRow; 6]) -> Self {
+    /// The chain of these rows, with rotations about y of nearly parallel axes or without; their
+    /// theta does not count.
+    pub(crate) fn of<R: Copy + Into<TiltedRow>>(rows: &[R; 6]) -> Self {
+        let tilted: [TiltedRow; 6] = rows.map(Into::into);
+        let rows = tilted.map(|TiltedRow { row, .. }| row);
+        let tilts = tilted.map(|TiltedRow { beta, .. }| (beta != 0.0).then(|| beta.sin_cos()));
         let reach: f64 = rows.iter().map(|row| row.a.abs() + row.d.abs()).sum();
         let unit = if reach > 0.0 { reach } else { 1.0 };
         let links = rows
             .map(|row| Link::new(DhRow { a: row.a / unit, d: row.d / unit, theta: 0.0, ..row }));
-        Self { links, reach: unit, rounding: ROUNDING }
+        Self { links, tilts, reach: unit, rounding: ROUNDING }
     }
 
     /// The same between end frames with these lengths [m], which add to the rounding.
@@ -132,7 +139,16 @@ impl Closure {
         let mut frame = Axes::of(&Pose::identity());
         let mut frames = [frame; 6];
         for joint in 0..6 {
-            frame.advance::<FUSED>(self.links[joint], &sin[joint], &cos[joint]);
+            let link = self.links[joint];
+            if let Some((sin_beta, cos_beta)) = self.tilts[joint] {
+                let still = Link { d: 0.0, ..link };
+                frame.advance::<FUSED>(still, &[0.0; W], &[1.0; W]);
+                frame.tilt::<FUSED>(sin_beta, cos_beta);
+                let rest = Link { sin_alpha: 0.0, cos_alpha: 1.0, a: 0.0, ..link };
+                frame.advance::<FUSED>(rest, &sin[joint], &cos[joint]);
+            } else {
+                frame.advance::<FUSED>(link, &sin[joint], &cos[joint]);
+            }
             frames[joint] = frame;
         }
         (frame, frames)

@@ -5,7 +5,9 @@ use alloc::sync::Arc;
 use super::choice::chosen;
 use super::geometry::General;
 use super::moments::Motion;
+use crate::kinematics::chain::corrections::about_y;
 use crate::kinematics::chain::dh::{DhRow, Mdh, screw_x};
+use crate::kinematics::chain::skew::{TiltedRow, tilted_rows};
 use crate::kinematics::pose::translation_z;
 use crate::kinematics::structure::closure::Closure;
 use crate::kinematics::structure::joint_map::JointMap;
@@ -19,19 +21,19 @@ impl General {
     /// The arm of a table. The first and the last row's constants before joint 1 and behind joint 6
     /// are part of the base and the flange.
     pub(crate) fn of(mdh: &Mdh<6>) -> Result<Self, UnknownStructure> {
-        let mut rows = mdh.rows;
+        let mut tilted = tilted_rows(&mdh.rows);
+        let rows = tilted.map(|TiltedRow { row, .. }| row);
         let offsets = rows.map(|row| -row.theta);
         let [first, .., last] = rows;
-        (rows[0], rows[5].d) = (DhRow::default(), 0.0);
-        let closure = Closure::of(&rows);
+        (tilted[0].row, tilted[5].row.d) = (DhRow::default(), 0.0);
+        let closure = Closure::of(&tilted);
         let links: [Motion; 5] = core::array::from_fn(|i| {
             // From joint i to the next: along z of row i, then about and along x of the next row.
-            let before = if i == 0 { 0.0 } else { rows[i].d };
-            let next = rows[i + 1];
-            let link = translation_z(before) * screw_x(next.alpha, next.a);
+            let TiltedRow { row: next, beta } = tilted[i + 1];
+            let link = translation_z(tilted[i].row.d) * screw_x(next.alpha, next.a) * about_y(beta);
             Motion::of(&link, closure.reach)
         });
-        closure.check_freedom(&rows)?;
+        closure.check_freedom(&tilted.map(|TiltedRow { row, .. }| row))?;
         let splits = chosen(&links, &closure, &offsets);
         let joint_map = JointMap {
             signs: [1.0; 6],

@@ -48,7 +48,7 @@ impl Arm {
                 }
             }
             // As `parallel_arm` or the maker defines it.
-            Definition::Mdh(ref mdh) => {
+            Definition::Mdh(ref mdh) | Definition::Refined { ref mdh, .. } => {
                 let rows = mdh.rows;
                 let ([a1, c2, k], [c1, b, d5, d6]) =
                     ([1, 2, 3].map(|i| rows[i].a.abs()), [0, 3, 4, 5].map(|i| rows[i].d));

@@ -1,0 +1,252 @@
+"""`irbkin.calibrate`."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from irbkin.calibration import _fit, _identify, _measurements, _parameters, _start
+from irbkin.calibration._records import (
+    CalibratedParameter,
+    Calibration,
+    CalibrationResiduals,
+    LeftOutParameter,
+    Residuals,
+)
+from irbkin.errors import CalibrationError
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Sequence
+
+    import numpy.typing as npt
+
+    from irbkin._arrays import Floats
+    from irbkin._core import Robot
+    from irbkin.calibration._measurements import Measurements
+
+FITS: tuple[Literal["base", "table", "tool"], ...] = ("base", "table", "tool")
+LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
+
+# Angle and part of the spread of positions that a robot may be off before its base and tool are
+# aligned first, and after that at most: a calibration corrects an arm, it does not find one.
+FAR_ANGLE, FAR_PART = 0.2, 0.1
+# Distance that it may be off in any case [m]: those of short moves are small.
+FAR_LENGTH = 0.02
+# Joint vectors all over the joint space, by which parameters are told from one another [1].
+EVERYWHERE = 100
+
+
+def calibrate(
+    robot: Robot,
+    q: npt.ArrayLike,
+    measured: npt.ArrayLike,
+    *,
+    fit: Collection[Literal["base", "table", "tool"]] = FITS,
+    position_std: float = 1e-4,
+    rotation_std: float = 5e-4,
+    loss: Literal["linear", "soft_l1", "huber", "cauchy", "arctan"] = "linear",
+    folds: int = 5,
+) -> Calibration:
+    """Fit the parameters of an arm to measured poses or positions of its tool. It needs scipy:
+    `pip install 'irbkin[calibrate]'`.
+
+    Parameters are the frame of the base, the Denavit-Hartenberg table with joint offsets and, next
+    to parallel axes, Hayati's rotation about y, and the frame of the tool. Of these, the ones that
+    the measurements determine are fitted. A base or a tool that is far off is aligned first. See
+    docs/calibrate.md.
+
+    Args:
+        robot: The nominal robot, with its nominal base and tool.
+        q: Joint angles at each measurement [rad], shape (m, n).
+        measured: Poses of the tool, shape (m, 4, 4), or its positions, shape (m, 3), [m].
+        fit: What is fitted: some of "base", "table" and "tool".
+        position_std: Standard deviation of a measured coordinate [m].
+        rotation_std: The same of an angle [rad]. Only their ratio matters: 0.1 mm and 0.5 mrad are
+            those of targets 0.2 m apart.
+        loss: "linear" for least squares; any other of scipy's, such as "huber" or "cauchy", gives
+            measurements less weight that are more than three times the scatter off.
+        folds: Number of parts for cross-validation, each left out once; 0 for none.
+
+    Returns:
+        The calibrated robot, its parameters with standard errors, what was left out and why, and
+        the residuals before and after.
+
+    Raises:
+        ImportError: scipy is not installed.
+        InvalidJointsError: `q` has a wrong shape, is not finite or in degrees.
+        InvalidPoseError: `measured` has a wrong shape, is not finite or holds a matrix that is no
+            pose.
+        InvalidModelError: The table of a robot with coupled axes 2 and 3 is to be fitted.
+        CalibrationError: Too few poses, a joint that does not move, positions in millimeters, or
+            joints and measurements that do not belong together.
+        ValueError: Another `fit`, `loss`, standard deviation or number of folds.
+    """
+    try:
+        import scipy.optimize  # type: ignore[import-untyped]  # noqa: F401
+    except ImportError as missing:
+        raise ImportError(
+            "irbkin.calibrate needs scipy: pip install 'irbkin[calibrate]'", name="scipy"
+        ) from missing
+    wanted = _options(fit, position_std, rotation_std, loss, folds)
+    if "table" in wanted and robot.is_coupled:
+        # Refused with the words of the core.
+        robot.with_corrections(_only(len(_parameters.FRAME), robot.dof))
+    measurements = _measurements.read(robot, q, measured)
+    problem = _fit.Problem(robot, measurements, position_std, rotation_std, loss)
+    tiers = _parameters.tiers(robot, wanted)
+    everywhere = _everywhere(problem, np.zeros(len(_parameters.names(robot.dof))))
+    needed = len(_identify.chosen(everywhere, tiers, _identify.INDEPENDENT))
+    _measurements.check_poses(measurements, "table" in wanted, needed)
+
+    problem = _aligned(problem, wanted)
+    none = np.zeros(len(_parameters.names(robot.dof)))
+    ends = tiers[0] and _identify.chosen(problem.jacobian(none), tiers[:1], _identify.DETERMINED)
+    start = _fit.fit(problem, ends, none) if ends else none
+    _check_near(problem, start)
+    jacobian = problem.jacobian(start)
+    kept = _identify.chosen(jacobian, tiers, _identify.DETERMINED)
+    if not kept:
+        raise CalibrationError("measured determines no parameter: move the joints farther")
+    corrections = _fit.fit(problem, kept, start) if "table" in wanted else start
+    return _calibration(problem, tiers, kept, start, corrections, folds)
+
+
+def _options(
+    fit: Collection[str], position_std: float, rotation_std: float, loss: str, folds: int
+) -> frozenset[str]:
+    wanted = frozenset([fit] if isinstance(fit, str) else fit)
+    if not wanted or not wanted <= set(FITS):
+        raise ValueError(f"fit must be some of {', '.join(FITS)}, got {tuple(sorted(wanted))}")
+    for name, value in (("position_std", position_std), ("rotation_std", rotation_std)):
+        if not 0.0 < value < np.inf:
+            raise ValueError(f"{name} is {value}, it must be positive and finite")
+    if loss not in LOSSES:
+        raise ValueError(f'loss must be one of {", ".join(LOSSES)}, got "{loss}"')
+    if folds < 0 or folds == 1:
+        raise ValueError(f"folds is {folds}, it must be 0 for none, or 2 at least")
+    return wanted
+
+
+def _only(index: int, dof: int) -> Floats:
+    """Corrections that are zero but for one."""
+    corrections = np.zeros(len(_parameters.names(dof)))
+    corrections[index] = 1e-3
+    return corrections
+
+
+def _everywhere(problem: _fit.Problem, corrections: Floats) -> Floats:
+    """Weighted Jacobian at joint vectors all over the joint space."""
+    limits = np.clip(problem.robot.limits, -np.pi, np.pi)
+    q = np.random.default_rng(0).uniform(
+        limits[:, 0], limits[:, 1], (EVERYWHERE, problem.robot.dof)
+    )
+    jacobian = problem.robot.parameter_jacobian(q, corrections)
+    weights = np.r_[np.full(3, 1 / problem.position_std), np.full(3, 1 / problem.rotation_std)]
+    rows = (jacobian * weights[:, None])[:, : problem.measurements.numbers]
+    flat: Floats = rows.reshape(-1, jacobian.shape[-1])
+    return flat
+
+
+def _bound(problem: _fit.Problem) -> float:
+    """How far the positions of a robot may be off [m]."""
+    return max(FAR_PART * _measurements.spread(problem.measurements.position), FAR_LENGTH)
+
+
+def _residuals(robot: Robot, measurements: Measurements) -> tuple[Residuals, Floats, Floats]:
+    position, rotation = _fit.errors_of(robot.fk(measurements.q), measurements)
+    distance, angle = np.linalg.norm(position, axis=1), np.linalg.norm(rotation, axis=1)
+    if measurements.rotation is None:
+        angle = np.zeros(0)
+    return Residuals.of(distance, angle), distance, angle
+
+
+def _aligned(problem: _fit.Problem, wanted: frozenset[str]) -> _fit.Problem:
+    """The problem with base and tool aligned, if the robot as it is is far off."""
+    off = _residuals(problem.robot, problem.measurements)[0]
+    is_near = off.position_rms <= _bound(problem) and not off.rotation_rms > FAR_ANGLE
+    if is_near or not wanted & {"base", "tool"}:
+        return problem
+    return replace(problem, robot=_start.aligned(problem.robot, problem.measurements, wanted))
+
+
+def _check_near(problem: _fit.Problem, corrections: Floats) -> None:
+    robot = problem.robot.with_corrections(corrections)
+    off, bound = _residuals(robot, problem.measurements)[0], _bound(problem)
+    if off.position_rms <= bound and not off.rotation_rms > FAR_ANGLE:
+        return
+    angle = "" if np.isnan(off.rotation_rms) else f" and {off.rotation_rms:.2g} rad"
+    raise CalibrationError(
+        f"the nominal arm is {off.position_rms:.3g} m{angle} off measured (rms), with the base and "
+        f"tool that fit best: at most {bound:.3g} m and {FAR_ANGLE} rad can be calibrated (is q in "
+        "radians, in the order of measured? are these poses of the tool in the base?)"
+    )
+
+
+def _calibration(
+    problem: _fit.Problem,
+    tiers: Sequence[Sequence[int]],
+    kept: Sequence[int],
+    start: Floats,
+    corrections: Floats,
+    folds: int,
+) -> Calibration:
+    robot, measurements = problem.robot, problem.measurements
+    names, nominal = _parameters.names(robot.dof), _parameters.nominal(robot)
+    errors = _fit.standard_errors(problem, kept, corrections)
+    fitted = robot.with_corrections(corrections)
+    after, distance, angle = _residuals(fitted, measurements)
+    jacobian, everywhere = problem.jacobian(corrections), _everywhere(problem, corrections)
+    left_out = sorted({index for tier in tiers for index in tier} - set(kept))
+    return Calibration(
+        robot=fitted,
+        nominal=robot,
+        parameters=tuple(
+            CalibratedParameter(
+                names[index],
+                _parameters.unit(names[index]),
+                float(nominal[index]),
+                float(nominal[index] + corrections[index]),
+                float(error),
+            )
+            for index, error in zip(kept, errors, strict=True)
+        ),
+        left_out=tuple(
+            LeftOutParameter(
+                names[index], _identify.reason(jacobian, everywhere, kept, index, names)
+            )
+            for index in left_out
+        ),
+        residuals=CalibrationResiduals(
+            _residuals(robot, measurements)[0],
+            _residuals(robot.with_corrections(start), measurements)[0],
+            after,
+            _cross_validated(problem, kept, corrections, folds),
+        ),
+        position_error=distance,
+        rotation_error=angle,
+        condition=_identify.condition(jacobian[:, kept]),
+    )
+
+
+def _cross_validated(
+    problem: _fit.Problem, kept: Sequence[int], corrections: Floats, folds: int
+) -> Residuals | None:
+    """Residuals of each part of the measurements with the corrections that the others give."""
+    measurements = problem.measurements
+    count, numbers = len(measurements), measurements.numbers
+    if folds == 0 or folds > count or numbers * (count - -(-count // folds)) <= len(kept):
+        return None
+    order = np.random.default_rng(0).permutation(count)
+    fold = np.empty(count, dtype=int)
+    fold[order] = np.arange(count) % folds
+    distances, angles = [], []
+    for part in range(folds):
+        others = replace(problem, measurements=measurements.part(fold != part))
+        found = _fit.fit(others, kept, corrections)
+        held_out = measurements.part(fold == part)
+        _, distance, angle = _residuals(problem.robot.with_corrections(found), held_out)
+        distances.append(distance)
+        angles.append(angle)
+    return Residuals.of(np.concatenate(distances), np.concatenate(angles))

@@ -1,0 +1,186 @@
+"""Nonlinear least squares over corrections of an arm, and the spread of what they give."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from irbkin.errors import CalibrationError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from irbkin._arrays import Floats
+    from irbkin._core import Robot
+    from irbkin.calibration._measurements import Measurements
+
+# Steps within which least squares of corrections converge; the first guess is near.
+MOST_STEPS = 200
+# Relative change of parameters at which they have; the next step would be its square. And that of
+# the sum of squares: rounding.
+CONVERGED, SETTLED = 1e-10, 1e-15
+# Median absolute deviation of a normal distribution to its standard deviation.
+FROM_MEDIAN = 1.4826
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A robot, measurements and their weights."""
+
+    robot: Robot
+    measurements: Measurements
+    position_std: float
+    rotation_std: float
+    loss: str = "linear"
+    outlier: float = 3.0
+
+    def errors(self, corrections: Floats) -> tuple[Floats, Floats]:
+        """Vectors from the measured position to the arm's [m], and rotation vectors from the
+        measured orientation to the arm's [rad], each of shape (m, 3) (eq. 14).
+        """
+        poses = self.robot._corrected_fk(self.measurements.q, corrections)
+        return errors_of(poses, self.measurements)
+
+    def residuals(self, corrections: Floats) -> Floats:
+        """Errors as parts of their standard deviations, shape (k,) (eq. 15)."""
+        position, rotation = self.errors(corrections)
+        return np.concatenate(
+            [position / self.position_std, rotation / self.rotation_std], axis=1
+        ).ravel()
+
+    def jacobian(self, corrections: Floats) -> Floats:
+        """Derivatives of the residuals, shape (k, p) (eq. 16)."""
+        jacobian = self.robot.parameter_jacobian(self.measurements.q, corrections)
+        if self.measurements.rotation is None:
+            return _flat(jacobian[:, :3] / self.position_std)
+        _, rotation = self.errors(corrections)
+        angular = _inverse_left_jacobian(rotation) @ jacobian[:, 3:]
+        return _flat(
+            np.concatenate(
+                [jacobian[:, :3] / self.position_std, angular / self.rotation_std], axis=1
+            )
+        )
+
+
+def errors_of(poses: Floats, measurements: Measurements) -> tuple[Floats, Floats]:
+    """As `Problem.errors`, of poses; rotation vectors of shape (m, 0) of measured positions."""
+    position = poses[:, :3, 3] - measurements.position
+    if measurements.rotation is None:
+        return position, np.zeros((len(poses), 0))
+    turned = poses[:, :3, :3] @ np.swapaxes(measurements.rotation, 1, 2)
+    return position, _rotation_vectors(turned)
+
+
+def _flat(jacobian: Floats) -> Floats:
+    return jacobian.reshape(-1, jacobian.shape[-1])
+
+
+def _rotation_vectors(rotation: Floats) -> Floats:
+    """Axis times angle of rotations, (m, 3, 3) to (m, 3)."""
+    odd = (rotation - np.swapaxes(rotation, 1, 2)) / 2
+    axis = np.stack([odd[:, 2, 1], odd[:, 0, 2], odd[:, 1, 0]], axis=1)
+    sine = np.linalg.norm(axis, axis=1)
+    angle = np.arctan2(sine, (np.trace(rotation, axis1=1, axis2=2) - 1) / 2)
+    # Less than 1e-8 from none, the sine is the angle.
+    scale = np.divide(angle, sine, out=np.ones_like(sine), where=sine > 1e-8)
+    vectors: Floats = axis * scale[:, None]
+    return vectors
+
+
+def _inverse_left_jacobian(vectors: Floats) -> Floats:
+    """How a rotation vector changes with an angular velocity, (m, 3) to (m, 3, 3) (eq. 17)."""
+    x, y, z = vectors.T
+    zero = np.zeros_like(x)
+    cross = np.stack([zero, -z, y, z, zero, -x, -y, x, zero], axis=1).reshape(-1, 3, 3)
+    angle = np.linalg.norm(vectors, axis=1)
+    half = angle / 2
+    near = angle < 1e-4
+    safe = np.where(near, 1.0, half)
+    factor = np.where(near, 1 / 12, (1 - safe / np.tan(safe)) / (4 * safe**2))
+    matrix: Floats = np.eye(3) - cross / 2 + factor[:, None, None] * (cross @ cross)
+    return matrix
+
+
+def fit(problem: Problem, kept: Sequence[int], start: Floats) -> Floats:
+    """The corrections that fit best; only those kept differ from the start.
+
+    Raises:
+        CalibrationError: It does not converge.
+    """
+    if problem.loss == "linear":
+        return _solve(problem, kept, start, 1.0)
+    # What counts as far is measured by the scatter of all: twice, for the first fit has outliers.
+    found = _solve(replace(problem, loss="linear"), kept, start, 1.0)
+    for _ in range(2):
+        found = _solve(problem, kept, found, _outlying(problem, found))
+    return found
+
+
+def _outlying(problem: Problem, corrections: Floats) -> float:
+    """Residual from which on a measurement counts less."""
+    scatter = FROM_MEDIAN * float(np.median(np.abs(problem.residuals(corrections))))
+    return max(problem.outlier * scatter, np.finfo(float).tiny)
+
+
+def _solve(problem: Problem, kept: Sequence[int], start: Floats, far: float) -> Floats:
+    from scipy.optimize import least_squares  # type: ignore[import-untyped]
+
+    def whole(values: Floats) -> Floats:
+        corrections = start.copy()
+        corrections[kept] = values
+        return corrections
+
+    solved = least_squares(
+        lambda values: problem.residuals(whole(values)),
+        start[kept],
+        jac=lambda values: problem.jacobian(whole(values))[:, kept],
+        method="lm" if problem.loss == "linear" else "trf",
+        x_scale="jac",
+        loss=problem.loss,
+        f_scale=far,
+        ftol=SETTLED,
+        xtol=CONVERGED,
+        gtol=SETTLED,
+        max_nfev=MOST_STEPS,
+    )
+    if solved.status == 0:
+        raise CalibrationError(
+            f"the fit has not converged after {MOST_STEPS} steps: measured positions and q may not "
+            "belong together"
+        )
+    return whole(solved.x)
+
+
+def standard_errors(problem: Problem, kept: Sequence[int], corrections: Floats) -> Floats:
+    """Standard deviations of fitted parameters, by the scatter of the residuals (eq. 18, 19)."""
+    residuals, jacobian = problem.residuals(corrections), problem.jacobian(corrections)[:, kept]
+    if problem.loss == "linear":
+        influence, slope = residuals, 1.0
+    else:
+        far = _outlying(problem, corrections)
+        weight, slopes = _influence(problem.loss, residuals / far)
+        influence, slope = weight * residuals, float(np.mean(slopes))
+    sizes = np.linalg.norm(jacobian, axis=0)
+    _, values, axes = np.linalg.svd(jacobian / sizes, full_matrices=False)
+    freedom = len(residuals) - len(kept)
+    scatter = np.sqrt(influence @ influence / freedom) / slope
+    errors: Floats = scatter * np.linalg.norm(axes.T / values, axis=1) / sizes
+    return errors
+
+
+def _influence(loss: str, parts: Floats) -> tuple[Floats, Floats]:
+    """Half the derivative of a loss by a residual, as a part of the residual; and its slope.
+
+    Reference: Huber, Robust Statistics, 1981, section 7.6.
+    """
+    squares = np.square(parts)
+    if loss == "soft_l1":
+        return 1 / np.sqrt(1 + squares), (1 + squares) ** -1.5
+    if loss == "huber":
+        return 1 / np.sqrt(np.maximum(squares, 1)), np.where(squares > 1, 0.0, 1.0)
+    if loss == "cauchy":
+        return 1 / (1 + squares), (1 - squares) / np.square(1 + squares)
+    fourth = np.square(squares)
+    return 1 / (1 + fourth), (1 - 3 * fourth) / np.square(1 + fourth)

@@ -1,0 +1,109 @@
+"""Which parameters the measurements determine: a QR decomposition with column pivoting, tier by
+tier.
+
+Reference: Golub and Van Loan, Matrix Computations, 2013, section 5.4; for arms Khalil, Gautier and
+Enguehard, Identifiable Parameters and Optimum Configurations for Robots Calibration, 1991.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from irbkin._arrays import Floats
+
+# Part of a column that is not a combination of those chosen, above which it is chosen [1]: less,
+# and its standard error is ten thousand times that of a parameter by itself.
+DETERMINED = 1e-4
+# The same where it can only be rounding: of poses all over the joint space.
+INDEPENDENT = 1e-7
+# Most parameters that a reason names, and their least part of the largest.
+PARTNERS, PARTNER = 3, 0.2
+
+
+def chosen(jacobian: Floats, tiers: Sequence[Sequence[int]], least: float) -> list[int]:
+    """Indices of independent columns, those of earlier tiers first.
+
+    Args:
+        jacobian: Weighted Jacobian, shape (k, p).
+        tiers: Columns to choose from, preferred ones first.
+        least: Part of a column that must be independent.
+    """
+    scaled = _unit_columns(jacobian)
+    basis = np.zeros((len(jacobian), 0))
+    found: list[int] = []
+    for tier in tiers:
+        rest = list(tier)
+        while rest:
+            parts = scaled[:, rest]
+            # Twice: once leaves rounding of the removed part.
+            for _ in range(2):
+                parts = parts - basis @ (basis.T @ parts)
+            sizes = np.linalg.norm(parts, axis=0)
+            largest = int(np.argmax(sizes))
+            if sizes[largest] <= least:
+                break
+            basis = np.column_stack([basis, parts[:, largest] / sizes[largest]])
+            found.append(rest.pop(largest))
+    return sorted(found)
+
+
+def reason(
+    jacobian: Floats, everywhere: Floats, kept: Sequence[int], index: int, names: Sequence[str]
+) -> str:
+    """Why a parameter is left out.
+
+    Args:
+        jacobian: Weighted Jacobian of the measurements, shape (k, p).
+        everywhere: That of poses all over the joint space.
+        kept: Columns that are fitted.
+        index: The column that is not.
+        names: Names of the columns.
+    """
+    if not np.any(everywhere[:, index]):
+        return "which does not move what was measured"
+    if not np.any(jacobian[:, index]):
+        return "which does not move what was measured at these poses"
+    structural, off = _combination(everywhere, kept, index)
+    if off <= INDEPENDENT:
+        return f"which moves the tool as {_listed(structural, kept, names)} in every pose"
+    partners, _ = _combination(jacobian, kept, index)
+    return (
+        f"which these poses do not separate from {_listed(partners, kept, names)}: "
+        "measure at poses that differ more"
+    )
+
+
+def _unit_columns(jacobian: Floats) -> Floats:
+    """The columns scaled to one; those that are zero stay so."""
+    sizes = np.linalg.norm(jacobian, axis=0)
+    scaled: Floats = jacobian / np.where(sizes > 0.0, sizes, 1.0)
+    return scaled
+
+
+def condition(jacobian: Floats) -> float:
+    """Condition number with columns scaled to one."""
+    values = np.linalg.svd(_unit_columns(jacobian), compute_uv=False)
+    return float(values[0] / values[-1])
+
+
+def _combination(jacobian: Floats, kept: Sequence[int], index: int) -> tuple[Floats, float]:
+    """The combination of kept columns nearest to another one, and its distance."""
+    scaled = _unit_columns(jacobian)
+    solved = np.linalg.lstsq(scaled[:, kept], scaled[:, index], rcond=None)
+    factors = np.asarray(solved[0], dtype=np.float64)
+    return factors, float(np.linalg.norm(scaled[:, kept] @ factors - scaled[:, index]))
+
+
+def _listed(factors: Floats, kept: Sequence[int], names: Sequence[str]) -> str:
+    """The parameters with the largest factors, in words."""
+    sizes = np.abs(factors)
+    order = [i for i in np.argsort(-sizes, kind="stable") if sizes[i] >= PARTNER * sizes.max()]
+    words = [names[kept[i]] for i in order[:PARTNERS]]
+    if len(order) > PARTNERS:
+        return f"{', '.join(words)} and others"
+    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"

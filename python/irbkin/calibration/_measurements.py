@@ -1,0 +1,152 @@
+"""Joint vectors and what was measured at them, checked."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from irbkin._arrays import as_array
+from irbkin._core import pose
+from irbkin.errors import CalibrationError, InvalidJointsError, InvalidPoseError
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from irbkin._arrays import Floats
+    from irbkin._core import Robot
+
+# Ratio of the spreads of measured and nominal positions from which the units differ [1]: those of
+# inches and centimeters are 39 and 100, that of any two arms is not.
+UNITS = 25.0
+# Largest angle between joint vectors that count as one [rad].
+SAME_JOINTS = 1e-6
+# Least range of a joint that shows its axis [rad].
+LEAST_RANGE = 0.05
+
+
+@dataclass(frozen=True)
+class Measurements:
+    """Joint vectors with the poses, or positions, that were measured at them."""
+
+    q: Floats
+    """Joint angles [rad], shape (m, n)."""
+    position: Floats
+    """Measured positions [m], shape (m, 3)."""
+    rotation: Floats | None
+    """Measured rotations, shape (m, 3, 3); None where positions were measured."""
+
+    def __len__(self) -> int:
+        """Number of measurements."""
+        return len(self.q)
+
+    @property
+    def numbers(self) -> int:
+        """Numbers of one measurement: 3 of a position, 6 of a pose."""
+        return 3 if self.rotation is None else 6
+
+    def part(self, rows: npt.NDArray[np.bool_]) -> Measurements:
+        """Some of them."""
+        rotation = None if self.rotation is None else self.rotation[rows]
+        return Measurements(self.q[rows], self.position[rows], rotation)
+
+
+def read(robot: Robot, q: npt.ArrayLike, measured: npt.ArrayLike) -> Measurements:
+    """The arguments of a calibration.
+
+    Raises:
+        InvalidJointsError: `q` has a wrong shape or is not finite.
+        InvalidPoseError: `measured` has a wrong shape, is not finite or holds a matrix that is no
+            pose.
+        CalibrationError: Their units do not fit the robot, or all joint vectors are one.
+    """
+    joints = as_array(q, "q", (None, robot.dof), InvalidJointsError)
+    _check_finite(joints, "q", InvalidJointsError)
+    count = len(joints)
+    found = np.asarray(measured)
+    if found.shape == (count, 4, 4):
+        poses = as_array(measured, "measured", (count, 4, 4), InvalidPoseError)
+        _check_finite(poses, "measured", InvalidPoseError)
+        poses = np.array([_pose(matrix, index) for index, matrix in enumerate(poses)])
+        measurements = Measurements(joints, poses[:, :3, 3], poses[:, :3, :3])
+    elif found.shape == (count, 3):
+        points = as_array(measured, "measured", (count, 3), InvalidPoseError)
+        _check_finite(points, "measured", InvalidPoseError)
+        measurements = Measurements(joints, points, None)
+    else:
+        raise InvalidPoseError(
+            f"measured must have shape ({count}, 4, 4) or ({count}, 3), as q has {count} rows, got "
+            f"{found.shape}"
+        )
+    _check_units(robot, measurements)
+    return measurements
+
+
+def _check_finite(
+    array: Floats, name: str, error: type[InvalidJointsError] | type[InvalidPoseError]
+) -> None:
+    for index in np.argwhere(~np.isfinite(array)):
+        at = ", ".join(str(i) for i in index)
+        raise error(f"{name}[{at}] is {array[tuple(index)]}: every element must be finite")
+
+
+def _pose(matrix: Floats, index: int) -> Floats:
+    """A measured pose, its rotation made exact."""
+    last = np.abs(matrix[3] - [0.0, 0.0, 0.0, 1.0]).max()
+    if last > 1e-9:
+        raise InvalidPoseError(
+            f"measured[{index}]: the last row must be 0 0 0 1, it is off by {last:.1e}"
+        )
+    try:
+        return pose(matrix[:3, 3], rotation=matrix[:3, :3])
+    except InvalidPoseError as fault:
+        raise InvalidPoseError(f"measured[{index}]: {fault}") from None
+
+
+def spread(points: Floats) -> float:
+    """Root mean square distance of points from their middle [m]."""
+    return float(np.sqrt(np.mean(np.sum(np.square(points - points.mean(axis=0)), axis=1))))
+
+
+def _check_units(robot: Robot, measurements: Measurements) -> None:
+    limits = robot.limits
+    turns = np.abs(measurements.q) > np.maximum(np.abs(limits).max(axis=1), 4.0 * np.pi)
+    bounded = np.isfinite(limits).all(axis=1)
+    for row, joint in np.argwhere(turns & bounded):
+        raise InvalidJointsError(
+            f"q[{row}, {joint}] is {measurements.q[row, joint]:g} rad, limits of joint {joint + 1} "
+            f"are {limits[joint, 0]:.4g} to {limits[joint, 1]:.4g} rad (did you pass degrees?)"
+        )
+    own, theirs = spread(robot.fk(measurements.q)[:, :3, 3]), spread(measurements.position)
+    if theirs > UNITS * own:
+        raise CalibrationError(
+            f"measured positions are spread by {theirs:.4g} m, those of the robot at q by "
+            f"{own:.4g} m: meters are wanted (did you pass millimeters?)"
+        )
+
+
+def check_poses(measurements: Measurements, table: bool, parameters: int) -> None:
+    """Check that there are enough different poses for a number of parameters.
+
+    Raises:
+        CalibrationError: There are fewer numbers than parameters, or a joint does not move.
+    """
+    rounded = np.round(measurements.q / SAME_JOINTS)
+    different = len(np.unique(rounded, axis=0))
+    needed = -(-(parameters + 1) // measurements.numbers)
+    if different < needed:
+        what = "poses" if measurements.numbers == 6 else "positions"
+        raise CalibrationError(
+            f"q has {different} different joint vectors, {needed} are needed at least for "
+            f"{parameters} parameters from {what} (twice as many are good): measure more, or fit "
+            "less, such as fit=('base', 'tool')"
+        )
+    if not table:
+        return
+    moved = np.ptp(measurements.q, axis=0)
+    for joint in np.flatnonzero(moved < LEAST_RANGE):
+        raise CalibrationError(
+            f"joint {joint + 1} moves by {moved[joint]:.2g} rad in q, {LEAST_RANGE} rad are needed "
+            "at least to see its axis: move every joint, or fit=('base', 'tool')"
+        )

@@ -1,0 +1,290 @@
+//! A calibrated arm by way of its nominal one: every branch of the nominal arm, brought onto the
+//! pose by Newton's method (docs/calibrate.md, section 5).
+//!
+//! What it finds are the branches of the nominal arm. A pair of branches that the calibrated arm
+//! has and the nominal one has not is not seen: that happens next to folds.
+
+mod newton;
+
+use alloc::boxed::Box;
+use core::fmt::Debug;
+
+use newton::{Refinement, refined};
+
+use super::arm::{Arm, RowSolve, Rows};
+use super::closure::{Accepted, Candidates, Closure};
+use super::end_frames::EndFrames;
+use super::free_choice::{FreeChoice, SeedPolicy};
+use super::joint_map::JointMap;
+use super::lanes::{Choice, PoseRow};
+use crate::kinematics::answer::singularity::SingularDistances;
+use crate::kinematics::answer::slot::{MOST_SLOTS, Slot};
+use crate::kinematics::answer::solutions::{Place, Solution, Solutions};
+use crate::kinematics::answer::status::{SingularityKind, Status};
+use crate::kinematics::chain::Chain;
+use crate::kinematics::chain::limits::JointLimits;
+use crate::kinematics::chain::skew::{TiltedRow, tilted_rows};
+use crate::kinematics::pose::Pose;
+use crate::kinematics::pose::angles::wrap;
+use crate::lanes::{LANES, sin_cos};
+use crate::report::UnknownStructure;
+
+/// Largest difference of two solutions that are the same [rad].
+const SAME: f64 = 1e-6;
+
+/// Least singular value below which two branches may have met [1].
+const MET: f64 = 1e-3;
+
+/// A structure that a calibrated arm nominally has.
+pub(crate) trait Nominal: Clone + Debug + PartialEq + Send + Sync {
+    fn arm(&self) -> &dyn Arm<6, ()>;
+
+    fn slot_count(&self) -> usize;
+
+    fn solve_in_lanes(&self, solutions: &mut Solutions<6>) -> bool;
+
+    /// The same between the base and the tool of `chain`, with limits.
+    fn between(self, chain: &Chain<6>, limits: &JointLimits<6>) -> Self;
+}
+
+/// A calibrated arm with the structure that it nominally has.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Refined<A> {
+    nominal: Box<A>,
+    /// The nominal arm between the base and the tool of the calibrated one.
+    nominal_chain: Chain<6>,
+    closure: Closure,
+    end_frames: EndFrames,
+    /// Theta of the calibrated table at zero joint angles [rad].
+    offsets: [f64; 6],
+}
+
+impl<A: Nominal> Refined<A> {
+    /// The calibrated arm `chain` by way of its nominal one.
+    pub(crate) fn new(
+        nominal: A,
+        nominal_chain: Chain<6>,
+        chain: &Chain<6>,
+        limits: &JointLimits<6>,
+    ) -> Self {
+        let nominal_chain = nominal_chain.with_base(*chain.base()).with_tool(*chain.tool());
+        let mdh = chain.mdh();
+        let tilted = tilted_rows(&mdh.rows);
+        let map = JointMap {
+            signs: [1.0; 6],
+            offsets: [0.0; 6],
+            coupled: false,
+            t_base_shoulder: mdh.base,
+            t_wrist_flange: mdh.flange,
+        };
+        let ends = [chain.base(), &mdh.base, &mdh.flange, chain.tool()];
+        let ends = ends.iter().map(|pose| pose.translation.vector.norm()).sum();
+        Self {
+            nominal: Box::new(nominal.between(&nominal_chain, limits)),
+            nominal_chain,
+            closure: Closure::of(&tilted).between(ends),
+            end_frames: EndFrames::new(&map, chain),
+            offsets: tilted.map(|TiltedRow { row, .. }| row.theta),
+        }
+    }
+
+    /// The same between the base and the tool of `chain`, with limits.
+    pub(crate) fn between(self, chain: &Chain<6>, limits: &JointLimits<6>) -> Self {
+        Self::new(*self.nominal, self.nominal_chain, chain, limits)
+    }
+
+    pub(crate) fn slot_count(&self) -> usize {
+        self.nominal.slot_count()
+    }
+
+    /// Solve the answer's pose if it is regular for the nominal arm and every branch of that leads
+    /// to one of the calibrated arm; return whether it is.
+    pub(crate) fn solve_in_lanes(&self, solutions: &mut Solutions<6>, (): ()) -> bool {
+        self.nominal.solve_in_lanes(solutions) && self.refine(solutions).is_whole
+    }
+
+    /// Bring the solutions of the nominal arm onto the pose.
+    fn refine(&self, solutions: &mut Solutions<6>) -> Outcome {
+        // A pair of branches that the nominal arm has not is not seen.
+        solutions.is_certified = false;
+        let mut outcome = Outcome { is_whole: true, lost: [None; MOST_SLOTS] };
+        let (pose, limits) = (solutions.pose, solutions.limits);
+        let mut are_near = false;
+        for (part, places) in solutions.places_mut().chunks_mut(LANES).enumerate() {
+            let q = core::array::from_fn(|lane| places.get(lane)?.found().map(|found| found.q));
+            let Some(Refinement { theta, residual, least }) = self.refined_of(&pose, &q) else {
+                continue;
+            };
+            for (lane, place) in places.iter_mut().enumerate() {
+                let Place::Found(solution) = place else { continue };
+                are_near |= least[lane] < MET;
+                let theta = theta.map(|column| column[lane]);
+                if residual[lane] <= self.closure.accepts() {
+                    *place = self.place(theta, solution.slot, &limits);
+                } else {
+                    outcome.is_whole = false;
+                    outcome.lost[LANES * part + lane] = Some(theta);
+                    *place = Place::Merged(Status::MERGED);
+                }
+            }
+        }
+        if are_near {
+            outcome.is_whole &= !merge(solutions.places_mut());
+        }
+        outcome
+    }
+
+    /// Up to eight joint vectors, brought onto a pose; `None` if there is none.
+    fn refined_of(&self, pose: &Pose, q: &[Option<[f64; 6]>; LANES]) -> Option<Refinement> {
+        // Empty lanes follow another one: they must not take more steps.
+        let any = q.iter().flatten().next()?;
+        let theta = core::array::from_fn(|joint| {
+            q.map(|q| q.as_ref().unwrap_or(any)[joint] + self.offsets[joint])
+        });
+        Some(refined(&self.closure, &self.end_frames.seen, pose, &theta))
+    }
+
+    /// A solution of the calibrated arm, inside the limits if it can be.
+    fn place(&self, theta: [f64; 6], slot: Slot, limits: &JointLimits<6>) -> Place<6> {
+        let q = limits.wrap(core::array::from_fn(|joint| wrap(theta[joint] - self.offsets[joint])));
+        let mut status = Status::FOUND;
+        status.set(Status::WITHIN_LIMITS, limits.contains(&q));
+        Place::Found(Solution { q, slot, status, free_joint: None })
+    }
+
+    /// Look for the solutions that branches next to a fold have lost, where Newton's method ended,
+    /// and for the one that continues from a seed.
+    #[cold]
+    fn recover(&self, solutions: &mut Solutions<6>, outcome: &Outcome, free: &FreeChoice<6>) {
+        let (pose, limits) = (solutions.pose, solutions.limits);
+        let target = self.closure.target_of(&self.end_frames.wrist_pose(&pose));
+        let places = solutions.places_mut();
+        for slot in 0..places.len() {
+            let Some(theta) = &outcome.lost[slot] else { continue };
+            let (mut candidates, mut found) = (Candidates::NEW, Accepted::NONE);
+            for (joint, theta) in theta.iter().enumerate() {
+                (candidates.sin[joint][0], candidates.cos[joint][0]) = sin_cos::<false>(*theta);
+            }
+            self.closure.converge::<false>(&target, &mut candidates);
+            found.take(&self.closure, &target, &candidates, 1);
+            for found in found.as_slice() {
+                let place = self.place(found.theta, Slot::new(slot), &limits);
+                if places[slot].found().is_none() && !is_known(places, &place) {
+                    places[slot] = place;
+                }
+            }
+        }
+        if !matches!(free.policy, SeedPolicy::Seed | SeedPolicy::Path) {
+            return;
+        }
+        let mut seeds = [None; LANES];
+        seeds[0] = Some(free.q);
+        let Some(Refinement { theta, residual, .. }) = self.refined_of(&pose, &seeds) else {
+            return;
+        };
+        let empty = places.iter().position(|place| matches!(place, Place::Merged(_)));
+        if let Some(slot) = empty.filter(|_| residual[0] <= self.closure.accepts()) {
+            let theta = theta.map(|column| column[0]);
+            let place = self.place(theta, Slot::new(slot), &limits);
+            if !is_known(places, &place) {
+                places[slot] = place;
+            }
+        }
+    }
+}
+
+/// What came of the branches of the nominal arm.
+struct Outcome {
+    /// Whether each led to a solution of its own.
+    is_whole: bool,
+    /// Where Newton's method ended of those that did not close.
+    lost: [Option<[f64; 6]>; MOST_SLOTS],
+}
+
+/// Merge solutions that have become the same; returns whether there are any.
+#[cold]
+fn merge(places: &mut [Place<6>]) -> bool {
+    let mut has_merged = false;
+    for slot in 1..places.len() {
+        let (before, place) = places.split_at_mut(slot);
+        if is_known(before, &place[0]) {
+            (place[0], has_merged) = (Place::Merged(Status::MERGED), true);
+        }
+    }
+    has_merged
+}
+
+/// Whether a solution is among others, turns not counted.
+fn is_known(places: &[Place<6>], place: &Place<6>) -> bool {
+    let Some(new) = place.found() else { return false };
+    places
+        .iter()
+        .filter_map(Place::found)
+        .any(|known| known.q.iter().zip(new.q).all(|(known, new)| wrap(known - new).abs() <= SAME))
+}
+
+impl<A: Nominal> Arm<6, ()> for Refined<A> {
+    fn name(&self) -> &'static str {
+        match self.nominal.arm().name() {
+            "spherical wrist" => "refined spherical wrist",
+            "three parallel axes" => "refined three parallel axes",
+            _ => "refined",
+        }
+    }
+
+    fn slot_names(&self) -> Option<&'static [&'static str]> {
+        self.nominal.arm().slot_names()
+    }
+
+    fn solve(
+        &self,
+        solutions: &mut Solutions<6>,
+        (): (),
+        free: &FreeChoice<6>,
+    ) -> Result<(), UnknownStructure> {
+        self.nominal.arm().solve(solutions, (), free)?;
+        let outcome = self.refine(solutions);
+        if !outcome.is_whole || solutions.status().iter().any(|s| s.contains(Status::MERGED)) {
+            self.recover(solutions, &outcome, free);
+        }
+        Ok(())
+    }
+
+    fn solve_on_path(&self, solutions: &mut Solutions<6>, (): ()) -> bool {
+        self.nominal.arm().solve_on_path(solutions, ()) && self.refine(solutions).is_whole
+    }
+
+    fn solve_rows(&self, rows: Rows<'_, ()>, by_itself: &mut RowSolve<'_, 6>) {
+        let Rows { poses, q, status, .. } = rows;
+        let (slots, q) = (self.slot_count(), q.as_chunks_mut::<6>().0);
+        let rows = q.chunks_mut(slots).zip(status.chunks_mut(slots));
+        for (row, (_, (q, status))) in poses.iter().zip(rows).enumerate() {
+            by_itself(row, q, status);
+        }
+    }
+
+    fn nearest_rows(
+        &self,
+        _: &[PoseRow],
+        _: &[[f64; 6]],
+        _: Choice<6>,
+        q: &mut [[f64; 6]],
+        by_itself: &mut RowSolve<'_, 6>,
+    ) {
+        for (row, q) in q.iter_mut().enumerate() {
+            by_itself(row, core::slice::from_mut(q), &mut []);
+        }
+    }
+
+    fn singular(&self, q: &[f64; 6]) -> Option<(Option<SingularDistances>, SingularityKind)> {
+        self.nominal.arm().singular(q)
+    }
+
+    fn singular_distances(&self, q: &[f64; 6]) -> Option<SingularDistances> {
+        self.nominal.arm().singular_distances(q)
+    }
+
+    fn slot(&self, q: &[f64; 6]) -> Option<Slot> {
+        self.nominal.arm().slot(q)
+    }
+}
