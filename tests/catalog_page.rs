@@ -12,10 +12,11 @@ const COMMON_TAIL: [&str; 4] =
     ["limits of axes 1 to n", "speeds", "sources", "disagreements and remarks"];
 
 /// Name of a table in the page, the columns that describe its geometry.
-const TABLES: [(&str, &[&str]); 3] = [
+const TABLES: [(&str, &[&str]); 4] = [
     ("abb", &["a1", "a2", "c1", "c2", "c3", "c4", "coupled"]),
     ("universal robots", &["d1", "a2", "a3", "d4", "d5", "d6"]),
     ("franka", &[]),
+    ("offset wrists", &["d1", "a1", "a2", "a3", "d4", "d5", "a5", "d6"]),
 ];
 
 /// The table that lists an arm, and its cells there.
@@ -29,6 +30,14 @@ fn geometry(arm: &CatalogArm) -> (&'static str, Vec<String>) {
         }
         CatalogGeometry::ThreeParallel { d1, a2, a3, d4, d5, d6 } => {
             ("universal robots", lengths([d1, a2, a3, d4, d5, d6]))
+        }
+        CatalogGeometry::Crx { d1, a2, d4, d5, d6 } => {
+            let lengths = [d1, 0.0, a2, 0.0, d4, d5, 0.0, d6];
+            ("offset wrists", lengths.map(|length: f64| length.to_string()).to_vec())
+        }
+        CatalogGeometry::Mdh([one, two, three, four, five, six]) => {
+            let lengths = [one[2], two[1], three[1], four[1], four[2], five[2], six[1], six[2]];
+            ("offset wrists", lengths.map(|length| length.to_string()).to_vec())
         }
         CatalogGeometry::Mdh(_) => ("franka", Vec::new()),
         other => unreachable!("{other:?} has no table on the page"),

@@ -18,6 +18,7 @@ mod hard_sets;
 mod joint_axes;
 mod laws;
 mod nearest;
+mod offset_wrist;
 #[cfg(feature = "rapid")]
 mod rapid;
 #[cfg(feature = "rapid")]

@@ -414,8 +414,8 @@ class CatalogEntry(NamedTuple):
 
     name: str
     """The maker's type name."""
-    maker: Literal["ABB", "Universal Robots", "Franka"]
-    """"ABB", "Universal Robots" or "Franka"."""
+    maker: Literal["ABB", "Universal Robots", "Franka", "FANUC", "UFACTORY"]
+    """"ABB", "Universal Robots", "Franka", "FANUC" or "UFACTORY"."""
     aliases: tuple[str, ...]
     """Other names that `Robot` takes for it, beside spellings in which case, blanks and dashes
     differ.

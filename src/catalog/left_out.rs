@@ -34,10 +34,30 @@ const ENTRIES: &[Entry] = &[
         "unsettled: its one source has a forearm of 1705 mm, which reaches 3.01 m and not 2.8",
     ),
     entry(
-        "CRB 15000 (GoFa) -5/0.95, -10/1.52, -12/1.27",
-        &["CRB 15000", "GoFa"],
-        "no spherical wrist: axes 5 and 6 pass 80 mm apart. `from_mdh` with closed_form=False \
-         gives forward kinematics of its own table",
+        "CRX-5iA, 20iA/L, 30iA",
+        &["CRX-5iA", "CRX-20iA/L", "CRX-30iA"],
+        "one source, the maker's URDF: `from_urdf` takes it",
+    ),
+    entry(
+        "HC10, HC10DT",
+        &["HC10", "HC10DT"],
+        "one source, the URDF of ros-industrial: `from_urdf` takes it",
+    ),
+    entry(
+        "xMate SR3, SR4, CR7",
+        &["xMate"],
+        "one source for the CR7, none that was read for the others",
+    ),
+    entry(
+        "JACO2 (j2n6)",
+        &["JACO2", "JACO 2", "j2n6"],
+        "one source, the maker's URDF: `from_urdf` takes it",
+    ),
+    entry(
+        "Gen3 lite",
+        &["Gen3 lite"],
+        "unsettled: the maker's URDF and robotkinematicscatalogue agree on the lengths, not on the \
+         limits nor on the zeros of the joints",
     ),
     entry(
         "IRB 5400-22, 5500-23, 5500-27, 580-12S, 580-16 (painters)",
@@ -120,9 +140,11 @@ mod tests {
     #[test]
     fn a_name_means_the_arm_with_the_most_of_its_words() {
         for (name, arm) in [
-            ("GoFa", Some("CRB 15000")),
-            ("ABB gofa 5", Some("CRB 15000")),
-            ("crb15000-5/0.95", Some("CRB 15000")),
+            ("CRX-30iA", Some("CRX-5iA")),
+            ("fanuc crx 20ia/l", Some("CRX-5iA")),
+            ("CRX-10iA/L", None),
+            ("GoFa", None),
+            ("Kinova Gen3 lite", Some("Gen3 lite")),
             ("IRB 260", Some("IRB 260")),
             ("irb_460", Some("IRB 260")),
             ("IRB 4600", None),

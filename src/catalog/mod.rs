@@ -4,7 +4,10 @@ mod abb;
 mod franka;
 mod left_out;
 mod names;
+mod offset_wrists;
 mod universal_robots;
+
+use nalgebra::{Matrix3, Rotation3, Translation3, Vector3};
 
 use crate::error::{Error, ModelFault};
 use crate::kinematics::{
@@ -19,7 +22,7 @@ pub use names::find;
 pub struct CatalogArm {
     /// The maker's type name.
     pub name: &'static str,
-    /// "ABB", "Universal Robots" or "Franka".
+    /// "ABB", "Universal Robots", "Franka", "FANUC" or "UFACTORY".
     pub maker: &'static str,
     /// What it carries [kg], as its type name or the maker's data sheet has it; of several
     /// generations the least.
@@ -97,13 +100,29 @@ pub enum CatalogGeometry {
         /// Wrist to flange.
         d6: f64,
     },
+    /// FANUC's CRX in the joints of the maker's URDF [mm]: joint 3 is measured from the upper arm.
+    Crx {
+        /// Height of axis 2.
+        d1: f64,
+        /// Upper arm.
+        a2: f64,
+        /// Forearm.
+        d4: f64,
+        /// Distance of axis 6 from axis 4.
+        d5: f64,
+        /// Axis 5 to flange.
+        d6: f64,
+    },
     /// Modified Denavit-Hartenberg rows: alpha [deg], a [mm], d [mm], theta offset [deg].
     Mdh(&'static [[f64; 4]]),
 }
 
 /// Every arm of the catalog: ABB's by type number, then those of other makers.
 pub fn catalog() -> impl Iterator<Item = &'static CatalogArm> {
-    abb::SERIES.into_iter().chain([universal_robots::ARMS, franka::ARMS]).flatten()
+    abb::SERIES
+        .into_iter()
+        .chain([universal_robots::ARMS, franka::ARMS, offset_wrists::ARMS])
+        .flatten()
 }
 
 impl CatalogArm {
@@ -124,6 +143,11 @@ impl CatalogArm {
     pub fn aliases(&self) -> impl Iterator<Item = &'static str> {
         names::ALIASES.iter().filter(|(_, name)| *name == self.name).map(|(alias, _)| *alias)
     }
+}
+
+/// A row from alpha [deg], a [mm], d [mm] and theta [deg].
+fn row_of([alpha, a, d, theta]: [f64; 4]) -> DhRow {
+    DhRow::new(alpha.to_radians(), a / 1e3, d / 1e3, theta.to_radians())
 }
 
 impl AnyRobot {
@@ -199,11 +223,27 @@ where
                 let rows = <[DhRow; N]>::try_from(&rows[..]).map_err(|_| wrong_count())?;
                 Self::from_sdh(Sdh { base: Pose::identity(), rows, flange: Pose::identity() })?
             }
+            CatalogGeometry::Crx { d1, a2, d4, d5, d6 } => {
+                let rows = [
+                    [0.0, 0.0, d1, 0.0],
+                    [-90.0, 0.0, 0.0, -90.0],
+                    [180.0, a2, 0.0, 0.0],
+                    [-90.0, 0.0, -d4, 0.0],
+                    [90.0, 0.0, d5, 0.0],
+                    [-90.0, 0.0, -d6, 0.0],
+                ];
+                let rows = <[[f64; 4]; N]>::try_from(&rows[..]).map_err(|_| wrong_count())?;
+                // The flange faces away from axis 6, which points back.
+                let half_turn = Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0));
+                let flange = Pose::from_parts(
+                    Translation3::identity(),
+                    Rotation3::from_matrix_unchecked(half_turn),
+                );
+                Self::from_mdh(Mdh { base: Pose::identity(), rows: rows.map(row_of), flange })?
+            }
             CatalogGeometry::Mdh(rows) => {
                 let rows = <[[f64; 4]; N]>::try_from(rows).map_err(|_| wrong_count())?;
-                let rows = rows.map(|[alpha, a, d, theta]| {
-                    DhRow::new(alpha.to_radians(), a / 1e3, d / 1e3, theta.to_radians())
-                });
+                let rows = rows.map(row_of);
                 Self::from_mdh(Mdh { base: Pose::identity(), rows, flange: Pose::identity() })?
             }
         };

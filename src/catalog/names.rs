@@ -16,6 +16,10 @@ pub(super) const ALIASES: &[(&str, &str)] = &[
     ("Franka Emika Robot", "Panda"),
     ("FER", "Panda"),
     ("Franka Research 3", "FR3"),
+    ("GoFa 5", "CRB 15000-5/0.95"),
+    ("GoFa 10", "CRB 15000-10/1.52"),
+    ("GoFa 12", "CRB 15000-12/1.27"),
+    ("UFACTORY xArm 6", "xArm6"),
 ];
 
 /// Finds an arm by its name or an alias, the maker's name before it or not; case, blanks, dashes,

@@ -139,6 +139,10 @@ pub(crate) const LIMIT_SLACK: f64 = 1e-2;
 /// Least length of an upper arm or forearm [m].
 pub(crate) const LEAST_LINK: f64 = 1e-6;
 
+/// Least sine of the angles between axes 3 and 4 and between axes 4 and 5 of an offset wrist [1]:
+/// where they are parallel, axis 5 does not depend on the elbow, or axes 4 and 5 are one.
+pub(crate) const LEAST_TWIST_SIN: f64 = 1e-2;
+
 /// Greatest length of a model [m]: squares and sums of it stay exact to rounding, and no arm is
 /// longer.
 pub const MOST_LENGTH: f64 = 1e6;

@@ -174,7 +174,7 @@ def test_an_entry_of_the_catalog_has_what_the_robot_has(name):
     assert (entry.name, entry.dof, entry.is_coupled) == (name, robot.dof, robot.is_coupled)
     np.testing.assert_array_equal(entry.limits, robot.limits)
     np.testing.assert_array_equal(entry.max_velocity, robot.max_velocity)
-    assert entry.maker in ("ABB", "Universal Robots", "Franka")
+    assert entry.maker in ("ABB", "Universal Robots", "Franka", "FANUC", "UFACTORY")
     assert entry.sources >= 1
     assert entry.provenance
     assert all(Robot(alias) == robot for alias in entry.aliases)

@@ -20,7 +20,6 @@ use nalgebra::SMatrix;
 
 use crate::kinematics::answer::singularity::{SingularDistances, Singularity};
 use crate::kinematics::answer::slot::Slot;
-use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::chain::forward::{Poses, is_finite};
@@ -238,12 +237,12 @@ where
     }
 
     fn singularity_of(&self, q: &[f64; N], values: SingularValues) -> Singularity {
-        let arm = self.structure.arm().singular(q);
+        let (distances, kinds) = self.structure.arm().singular(q);
         Singularity {
-            distances: arm.map(|(distances, _)| distances),
+            distances,
             min_singular_value: values.least,
             manipulability: values.product,
-            kinds: arm.map_or(SingularityKind::empty(), |(_, singularities)| singularities),
+            kinds,
         }
     }
 

@@ -267,8 +267,7 @@ impl Robot<6> {
         if slot == wanted.cfx {
             return true;
         }
-        let (near, singularities) =
-            (arm.singular_distances(&solution.q), arm.singularities(&solution.q));
+        let (near, singularities) = (arm.distances(&solution.q), arm.singularities(&solution.q));
         let open = match closeness {
             Closeness::Same => [near.wrist <= SEEDED_FREE, false, false],
             Closeness::Bent => {

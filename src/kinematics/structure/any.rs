@@ -5,6 +5,7 @@ use core::fmt::Debug;
 use super::Structure;
 use super::arm::Arm;
 use super::declare::structures;
+use super::offset_wrist::OffsetWrist;
 use super::redundancy::Redundancy;
 use super::solver::Solver;
 use super::spherical_shoulder::SphericalShoulder;
@@ -18,7 +19,7 @@ use crate::report::UnknownStructure;
 
 structures! {
     /// Structures with six joints.
-    SixJoints, 6, (): SphericalWrist: 8, ThreeParallel: 8
+    SixJoints, 6, (): SphericalWrist: 8, ThreeParallel: 8, OffsetWrist: 16
 }
 
 structures! {

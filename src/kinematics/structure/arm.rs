@@ -61,8 +61,8 @@ pub(crate) trait Arm<const N: usize, R> {
     );
 
     /// How far a joint vector is from each singularity, and at which of them it stands.
-    fn singular(&self, _q: &[f64; N]) -> Option<(SingularDistances, SingularityKind)> {
-        None
+    fn singular(&self, _q: &[f64; N]) -> (Option<SingularDistances>, SingularityKind) {
+        (None, SingularityKind::empty())
     }
 
     /// [`Structure::singular_distances`]

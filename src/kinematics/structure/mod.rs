@@ -11,11 +11,13 @@ pub(crate) mod any;
 pub(crate) mod arity;
 pub(crate) mod arm;
 pub(crate) mod branches;
+pub(crate) mod closure;
 mod declare;
 pub(crate) mod end_frames;
 pub(crate) mod free_choice;
 pub(crate) mod joint_map;
 pub(crate) mod lanes;
+pub(crate) mod offset_wrist;
 pub(crate) mod planar_arm;
 pub(crate) mod recognition;
 pub(crate) mod redundancy;
@@ -25,6 +27,7 @@ pub(crate) mod spherical_shoulder;
 pub(crate) mod spherical_wrist;
 pub(crate) mod three_parallel;
 pub(crate) mod triangle;
+pub(crate) mod trigonometric;
 pub(crate) mod zyz;
 
 use core::fmt::Debug;
@@ -98,8 +101,8 @@ pub(crate) trait Structure<const N: usize, const S: usize>:
         free: &FreeChoice<N>,
     ) -> Branches<N, S>;
 
-    /// Distances of `q` from the singularities.
-    fn singular_distances(&self, q: &[f64; N]) -> SingularDistances;
+    /// Distances of `q` from the singularities; `None` if they have no such names.
+    fn singular_distances(&self, q: &[f64; N]) -> Option<SingularDistances>;
 
     /// The singularities that `q` is at, by the thresholds that merge the branches of a solve.
     fn singularities(&self, q: &[f64; N]) -> SingularityKind;

@@ -150,12 +150,12 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Arm<N, T::Redundancy> f
         }
     }
 
-    fn singular(&self, q: &[f64; N]) -> Option<(SingularDistances, SingularityKind)> {
-        Some((self.structure.singular_distances(q), self.structure.singularities(q)))
+    fn singular(&self, q: &[f64; N]) -> (Option<SingularDistances>, SingularityKind) {
+        (self.structure.singular_distances(q), self.structure.singularities(q))
     }
 
     fn singular_distances(&self, q: &[f64; N]) -> Option<SingularDistances> {
-        Some(self.structure.singular_distances(q))
+        self.structure.singular_distances(q)
     }
 
     fn jacobian_determinant(&self, q: &[f64; N]) -> Option<f64> {

@@ -55,7 +55,7 @@ impl Structure<6, 16> for Ordinals {
         branches
     }
 
-    fn singular_distances(&self, q: &[f64; 6]) -> SingularDistances {
+    fn singular_distances(&self, q: &[f64; 6]) -> Option<SingularDistances> {
         self.0.singular_distances(q)
     }
 

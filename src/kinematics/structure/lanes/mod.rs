@@ -4,8 +4,6 @@ mod block;
 mod columns;
 mod directions;
 mod nearest;
-// Every structure so far has a kernel; the test of the contract has none.
-#[cfg(test)]
 mod no_kernel;
 mod poses;
 mod rows;
@@ -15,7 +13,6 @@ pub(crate) use block::Block;
 pub(crate) use columns::{Columns, JointColumn};
 pub(crate) use directions::{Direction, Directions};
 pub(crate) use nearest::Choice;
-#[cfg(test)]
 pub(crate) use no_kernel::NoKernel;
 pub(crate) use poses::{PoseRow, Poses};
 pub(crate) use rows::{Blocks, Wanted};

@@ -81,14 +81,14 @@ impl Structure<7, 8> for SphericalShoulder {
     }
 
     #[inline]
-    fn singular_distances(&self, q: &[f64; 7]) -> SingularDistances {
+    fn singular_distances(&self, q: &[f64; 7]) -> Option<SingularDistances> {
         let [_, theta_2, _, theta_4, theta_5, ..] = self.theta(q);
         let elbow = self.links.elbow_at(theta_4);
-        SingularDistances {
+        Some(SingularDistances {
             wrist: self.aside(q).abs().atan2((elbow.across * theta_5.sin()).hypot(elbow.along)),
             elbow: distance_from_half_turns(self.links.elbow_angle(theta_4)),
             shoulder: self.links.c3 * theta_2.sin().abs(),
-        }
+        })
     }
 
     /// A solve, which does not know `q`, also merges shoulders within the uncertainty of elbow and

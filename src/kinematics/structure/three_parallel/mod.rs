@@ -78,13 +78,13 @@ impl Structure<6, 8> for ThreeParallel {
     }
 
     #[inline]
-    fn singular_distances(&self, q: &[f64; 6]) -> SingularDistances {
+    fn singular_distances(&self, q: &[f64; 6]) -> Option<SingularDistances> {
         let [_, _, theta_3, _, theta_5, _] = self.joint_map.theta(q);
-        SingularDistances {
+        Some(SingularDistances {
             wrist: distance_from_half_turns(theta_5),
             elbow: distance_from_half_turns(self.planar.elbow_angle(theta_3)),
             shoulder: self.x_of_wrist(q).abs(),
-        }
+        })
     }
 
     /// A solve, which does not know `q`, also merges wrists within the uncertainty of axis 1.

@@ -1,0 +1,193 @@
+//! The configurations that a solve has accepted: each solution once.
+
+use core::fmt;
+
+use super::{Candidates, Closure, Target};
+use crate::kinematics::pose::angles::wrap;
+use crate::lanes::atan2;
+
+/// Most solutions of a six-joint chain, apart from self-motions.
+/// Reference: Primrose, On the input-output equation of the general 7R-mechanism, 1986.
+pub(crate) const MOST: usize = 16;
+
+/// Least singular value below which a candidate is examined as one of a fold or a self-motion [1].
+const SINGULAR: f64 = 1e-4;
+
+/// Residual, in roundings, up to which a configuration closes [1]: near a fold the last step is
+/// the root of rounding.
+const CLOSES: f64 = 20.0;
+
+/// How far a candidate may be from closing and still be examined [1].
+const EXAMINED: f64 = 0.05;
+
+/// Largest distance of two regular configurations that are the same [rad]: their least singular
+/// value is above [`SINGULAR`], and two different ones are as far apart as that.
+const SAME: f64 = 1e-6;
+
+/// What the chain can do at a configuration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Kind {
+    /// Nothing: an isolated solution.
+    Regular,
+    /// Two solutions have merged here.
+    Fold,
+    /// Move, its ends standing still.
+    Free {
+        /// By how much each joint moves.
+        direction: [f64; 6],
+    },
+}
+
+/// A solution.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Configuration {
+    /// Angles of the table [rad].
+    pub(crate) theta: [f64; 6],
+    /// The largest condition that is left [1].
+    pub(crate) residual: f64,
+    /// The least singular value of the conditions' derivatives, to a small factor [1].
+    pub(crate) least: f64,
+    pub(crate) kind: Kind,
+}
+
+/// The configurations of a pose.
+#[derive(Clone, Copy)]
+pub(crate) struct Accepted {
+    all: [Configuration; MOST],
+    count: usize,
+    /// Whether everything that was tried is understood: no candidate near a singularity remained
+    /// without a decision, and nothing was left out.
+    pub(crate) is_certain: bool,
+}
+
+impl fmt::Debug for Accepted {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "certain: {}, {:#?}", self.is_certain, self.as_slice())
+    }
+}
+
+impl Configuration {
+    const NONE: Self = Self { theta: [0.0; 6], residual: 1.0, least: 0.0, kind: Kind::Regular };
+
+    /// Within what distance another one is the same [rad].
+    fn radius(&self, rounding: f64) -> f64 {
+        match self.kind {
+            // Half of the distance of a solution that merges with this one is of the order of the
+            // least singular value; rounding moves it by its inverse.
+            Kind::Regular => {
+                (0.1 * self.least).max(2.0 * rounding / self.least.max(1e-9)).min(SAME)
+            }
+            // Its distance from the exact fold is the root of rounding.
+            Kind::Fold | Kind::Free { .. } => 1e-6,
+        }
+    }
+
+    /// The largest difference of a joint [rad].
+    pub(crate) fn distance(&self, other: &[f64; 6]) -> f64 {
+        (0..6).fold(0.0, |most, i| wrap(self.theta[i] - other[i]).abs().max(most))
+    }
+}
+
+impl Closure {
+    /// Residual up to which a configuration closes [1].
+    pub(crate) fn accepts(&self) -> f64 {
+        CLOSES * self.rounding
+    }
+}
+
+impl Accepted {
+    pub(crate) const NONE: Self =
+        Self { all: [Configuration::NONE; MOST], count: 0, is_certain: true };
+
+    pub(crate) fn as_slice(&self) -> &[Configuration] {
+        &self.all[..self.count]
+    }
+
+    pub(crate) fn as_mut_slice(&mut self) -> &mut [Configuration] {
+        &mut self.all[..self.count]
+    }
+
+    /// Solutions with their multiplicity: those that polynomials have as roots, if no self-motion
+    /// is among them.
+    pub(crate) fn root_count(&self) -> usize {
+        self.as_slice().iter().map(|one| if one.kind == Kind::Fold { 2 } else { 1 }).sum()
+    }
+
+    /// Whether the chain can move with its ends standing still.
+    pub(crate) fn has_self_motion(&self) -> bool {
+        self.as_slice().iter().any(|one| matches!(one.kind, Kind::Free { .. }))
+    }
+
+    /// Take what the candidates in these lanes, which have converged, lead to. Returns how many
+    /// solutions are new.
+    #[inline(always)]
+    pub(crate) fn take(
+        &mut self,
+        closure: &Closure,
+        target: &Target,
+        candidates: &Candidates,
+        lanes: usize,
+    ) -> usize {
+        let before = self.count;
+        for lane in 0..lanes {
+            let residual = candidates.residual[lane];
+            let is_near = residual < EXAMINED;
+            if !is_near {
+                continue;
+            }
+            let (theta, least) = (candidates.theta(lane), candidates.least[lane]);
+            if residual <= closure.accepts() && least > SINGULAR {
+                self.insert(closure, Configuration { theta, residual, least, kind: Kind::Regular });
+            } else if least <= 10.0 * SINGULAR || residual < 1e-3 {
+                self.examine(closure, target, &theta);
+            }
+        }
+        self.count - before
+    }
+
+    /// Take what is at a configuration next to a singular one.
+    #[cold]
+    #[inline(never)]
+    fn examine(&mut self, closure: &Closure, target: &Target, theta: &[f64; 6]) {
+        let settled = closure.settle(target, theta);
+        self.is_certain &= settled.is_certain;
+        for one in settled.all.into_iter().flatten() {
+            self.insert(closure, one);
+        }
+    }
+
+    /// Take a configuration if it is new.
+    pub(crate) fn insert(&mut self, closure: &Closure, new: Configuration) {
+        let rounding = closure.rounding;
+        let new_radius = new.radius(rounding);
+        for one in &mut self.all[..self.count] {
+            if one.distance(&new.theta) <= one.radius(rounding).max(new_radius) {
+                // Of two findings, the one that knows more.
+                if one.kind == Kind::Regular && new.kind != Kind::Regular {
+                    *one = new;
+                }
+                return;
+            }
+        }
+        match self.all.get_mut(self.count) {
+            Some(place) => {
+                *place = new;
+                self.count += 1;
+            }
+            None => self.is_certain = false,
+        }
+    }
+
+    /// Remove a configuration.
+    pub(crate) fn remove(&mut self, index: usize) {
+        self.all.copy_within(index + 1..self.count, index);
+        self.count -= 1;
+    }
+}
+
+impl Candidates {
+    /// The angles in a lane [rad].
+    pub(crate) fn theta(&self, lane: usize) -> [f64; 6] {
+        core::array::from_fn(|joint| atan2::<false>(self.sin[joint][lane], self.cos[joint][lane]))
+    }
+}

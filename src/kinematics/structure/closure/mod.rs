@@ -1,0 +1,174 @@
+//! The closure of a chain of six joints between two frames: Newton's method on its six conditions,
+//! and the configurations that it accepts.
+//!
+//! Lengths are in units of the chain's own, so that positions and rotations weigh the same. Angles
+//! are those of the table, theta = q + offset (docs/general.md, eq. 97 to 104).
+
+mod accepted;
+mod fold;
+mod newton;
+mod self_motion;
+#[cfg(test)]
+mod tests;
+
+pub(crate) use accepted::{Accepted, Configuration, Kind};
+pub(crate) use newton::Candidates;
+
+use crate::kinematics::chain::axes::{Axes, Link};
+use crate::kinematics::chain::dh::DhRow;
+use crate::kinematics::pose::Pose;
+use crate::kinematics::structure::end_frames::Frame;
+use crate::lanes::{LANES, mul_add};
+
+/// A chain of six joints, its lengths in units of their sum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Closure {
+    links: [Link; 6],
+    /// The sum of all lengths [m].
+    pub(crate) reach: f64,
+    /// Rounding of the closure [1].
+    pub(crate) rounding: f64,
+}
+
+/// The last frame that a chain is to reach, in units of its lengths.
+#[derive(Clone, Copy)]
+pub(crate) struct Target {
+    pub(crate) frame: Frame,
+}
+
+/// The six conditions at a configuration, and their derivatives by each joint.
+struct Conditions<const W: usize> {
+    /// What is missing to the target: along, then about, each axis.
+    missing: [[f64; W]; 6],
+    /// By joint and condition.
+    columns: [[[f64; W]; 6]; 6],
+}
+
+/// Rounding of the closure by a product of six links and of the pose, in units of the reach [1].
+const ROUNDING: f64 = 2e-15;
+
+impl Closure {
+    /// The chain of these rows; their theta does not count.
+    pub(crate) fn of(rows: &[DhRow; 6]) -> Self {
+        let reach: f64 = rows.iter().map(|row| row.a.abs() + row.d.abs()).sum();
+        let unit = if reach > 0.0 { reach } else { 1.0 };
+        let links = rows
+            .map(|row| Link::new(DhRow { a: row.a / unit, d: row.d / unit, theta: 0.0, ..row }));
+        Self { links, reach: unit, rounding: ROUNDING }
+    }
+
+    /// The same between end frames with these lengths [m], which add to the rounding.
+    pub(crate) fn between(self, ends: f64) -> Self {
+        Self { rounding: ROUNDING * (1.0 + ends / self.reach), ..self }
+    }
+
+    /// A last frame in units of the chain.
+    #[inline(always)]
+    pub(crate) fn target(&self, t_first_last: &Frame) -> Target {
+        let unit = 1.0 / self.reach;
+        let [x, y, z] = t_first_last.origin;
+        Target { frame: Frame { origin: [x * unit, y * unit, z * unit], ..*t_first_last } }
+    }
+
+    pub(crate) fn target_of(&self, t_first_last: &Pose) -> Target {
+        self.target(&Frame::of(t_first_last))
+    }
+
+    /// The conditions in lanes: the position of the last frame and half of the sum of the products
+    /// of its axes and the target's, which is the sine of the angle between them along its axis.
+    #[inline(always)]
+    fn conditions<const W: usize, const FUSED: bool>(
+        &self,
+        target: &Target,
+        sin: &[[f64; W]; 6],
+        cos: &[[f64; W]; 6],
+    ) -> Conditions<W> {
+        let (last, frames) = self.frames::<W, FUSED>(sin, cos);
+        let missing = missing::<W, FUSED>(&last, target);
+        let mut columns = [[[0.0; W]; 6]; 6];
+        for joint in 0..6 {
+            let Axes { z, origin, .. } = &frames[joint];
+            for lane in 0..W {
+                let [x, y, w] = [z[0][lane], z[1][lane], z[2][lane]];
+                let arm: [f64; 3] = [0, 1, 2].map(|i| last.origin[i][lane] - origin[i][lane]);
+                columns[joint][0][lane] = mul_add::<FUSED>(y, arm[2], -(w * arm[1]));
+                columns[joint][1][lane] = mul_add::<FUSED>(w, arm[0], -(x * arm[2]));
+                columns[joint][2][lane] = mul_add::<FUSED>(x, arm[1], -(y * arm[0]));
+                (columns[joint][3][lane], columns[joint][4][lane]) = (x, y);
+                columns[joint][5][lane] = w;
+            }
+        }
+        Conditions { missing, columns }
+    }
+
+    /// What is missing to the target, alone.
+    #[inline(always)]
+    fn missing<const W: usize, const FUSED: bool>(
+        &self,
+        target: &Target,
+        sin: &[[f64; W]; 6],
+        cos: &[[f64; W]; 6],
+    ) -> [[f64; W]; 6] {
+        let (last, _) = self.frames::<W, FUSED>(sin, cos);
+        missing::<W, FUSED>(&last, target)
+    }
+
+    #[inline(always)]
+    fn frames<const W: usize, const FUSED: bool>(
+        &self,
+        sin: &[[f64; W]; 6],
+        cos: &[[f64; W]; 6],
+    ) -> (Axes<W>, [Axes<W>; 6]) {
+        let mut frame = Axes::of(&Pose::identity());
+        let mut frames = [frame; 6];
+        for joint in 0..6 {
+            frame.advance::<FUSED>(self.links[joint], &sin[joint], &cos[joint]);
+            frames[joint] = frame;
+        }
+        (frame, frames)
+    }
+}
+
+#[inline(always)]
+fn missing<const W: usize, const FUSED: bool>(last: &Axes<W>, target: &Target) -> [[f64; W]; 6] {
+    let Frame { rotation, origin } = target.frame;
+    let mut missing = [[0.0; W]; 6];
+    for lane in 0..W {
+        for i in 0..3 {
+            missing[i][lane] = origin[i] - last.origin[i][lane];
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            let mut sum = 0.0;
+            for (column, axis) in [&last.x, &last.y, &last.z].into_iter().enumerate() {
+                sum = mul_add::<FUSED>(axis[j][lane], rotation[k][column], sum);
+                sum = mul_add::<FUSED>(-axis[k][lane], rotation[j][column], sum);
+            }
+            missing[3 + i][lane] = 0.5 * sum;
+        }
+        // Half a turn away the sum is zero too: it counts as a radian.
+        let mut trace = 0.0;
+        for i in 0..3 {
+            trace = mul_add::<FUSED>(last.x[i][lane], rotation[i][0], trace);
+            trace = mul_add::<FUSED>(last.y[i][lane], rotation[i][1], trace);
+            trace = mul_add::<FUSED>(last.z[i][lane], rotation[i][2], trace);
+        }
+        missing[3][lane] = if trace > 0.0 { missing[3][lane] } else { 1.0 };
+    }
+    missing
+}
+
+/// The greatest of six sizes, by lane.
+#[inline(always)]
+fn largest<const W: usize>(of: &[[f64; W]; 6]) -> [f64; W] {
+    let mut largest = [0.0_f64; W];
+    for row in of {
+        for lane in 0..W {
+            let size = row[lane].abs();
+            // Not a number is larger than all.
+            let is_larger = (size > largest[lane]) | size.is_nan();
+            largest[lane] = if is_larger { size } else { largest[lane] };
+        }
+    }
+    largest
+}
+
+const _: () = assert!(LANES == 8, "candidates come in eights");

@@ -1,0 +1,69 @@
+//! The stored geometry of an arm with an offset wrist.
+
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
+use super::branch::Twists;
+use crate::kinematics::chain::Chain;
+use crate::kinematics::structure::closure::Closure;
+use crate::kinematics::structure::joint_map::JointMap;
+
+/// An arm with an offset wrist: its table between the shoulder and the last joint, and the lengths
+/// and angles of the equations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OffsetWrist {
+    /// From the foot of the common normal of axes 1 and 2, to frame 6 with its origin at the foot
+    /// of that of axes 5 and 6; joint angles are theta.
+    pub(super) chain: Chain<6>,
+    pub(super) closure: Closure,
+    pub(super) lengths: Lengths,
+    pub(super) twists: Twists,
+    pub(super) joint_map: JointMap<6>,
+    /// The sum of the lengths that contribute to a position of the tool [m].
+    pub(super) extent: f64,
+}
+
+/// The lengths and angles of the equations (docs/offset_wrist.md, section 1).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Lengths {
+    /// Distance of axis 2 from axis 1 [m].
+    pub(super) a1: f64,
+    /// Upper arm, along x of frame 2 [m]; may be negative.
+    pub(super) upper: f64,
+    /// Forearm, from axis 3 to the wrist point in the plane of the arm [m].
+    pub(super) forearm: f64,
+    /// Unit vector along the forearm, in x3 and the direction a quarter turn on in the plane.
+    pub(super) v: [f64; 2],
+    /// Distance of the wrist point along axis 2 [m].
+    pub(super) b: f64,
+    /// 1, or -1 where axis 2 is at -y of frame 1.
+    pub(super) s1: f64,
+    /// 1, or -1 where axes 2 and 3 have opposite directions.
+    pub(super) e: f64,
+    /// Cosines of the angles between axes 3 and 4 and between axes 4 and 5.
+    pub(super) cos_3: f64,
+    pub(super) cos_4: f64,
+    /// Component of axis 4 a quarter turn on from x3 in the plane of the arm.
+    pub(super) m: f64,
+    /// From axis 6 to axis 5 and along axis 5 to the wrist point [m].
+    pub(super) a5: f64,
+    pub(super) d5: f64,
+    /// Sine and cosine of the angle between axes 5 and 6.
+    pub(super) sin_5: f64,
+    pub(super) cos_5: f64,
+    /// Whether the polynomial is a square (eq. 15).
+    pub(super) is_square: bool,
+}
+
+impl OffsetWrist {
+    /// Distance of the wrist point from axis 1 along x1 [m], and the sine of the angle from the
+    /// upper arm to the forearm: their signs are the sides of shoulder and elbow.
+    pub(super) fn sides(&self, theta: &[f64; 6]) -> [f64; 2] {
+        let Lengths { a1, upper, forearm, v: [v1, v2], s1, e, .. } = self.lengths;
+        let second = s1 * theta[1];
+        let third = s1 * (theta[1] + e * theta[2]);
+        let reach = forearm * (v1 * third.cos() - v2 * third.sin());
+        let elbow = theta[2] * s1 * e + v2.atan2(v1);
+        [a1 + upper * second.cos() + reach, elbow.sin() * upper.signum()]
+    }
+}

@@ -1,0 +1,85 @@
+//! Arms with an offset wrist: axes 2 and 3 parallel, axis 4 meets axis 5, axis 6 does not meet
+//! them. Such are ABB's GoFa, FANUC's CRX, UFACTORY's xArm6 and Kinova's JACO2.
+//!
+//! `docs/offset_wrist.md` has the derivation, with the equation numbers (from 50 on) cited in the
+//! code.
+
+mod branch;
+mod determinant;
+mod geometry;
+mod measure;
+mod reach;
+mod resultant;
+mod seeds;
+mod solve;
+#[cfg(test)]
+mod tests;
+
+pub(crate) use geometry::OffsetWrist;
+
+use super::Structure;
+use super::branches::Branches;
+use super::free_choice::FreeChoice;
+use super::joint_map::JointMap;
+use super::lanes::NoKernel;
+use crate::kinematics::answer::singularity::SingularDistances;
+use crate::kinematics::answer::slot::Slot;
+use crate::kinematics::answer::status::SingularityKind;
+use crate::kinematics::chain::dh::Mdh;
+use crate::kinematics::pose::Pose;
+use crate::report::{Pattern, UnknownStructure};
+
+/// Slots of the structure: an arm has up to sixteen solutions, which have no names.
+const SLOTS: usize = 16;
+
+impl Structure<6, SLOTS> for OffsetWrist {
+    const PATTERN: &'static Pattern = &measure::PATTERN;
+    const SLOT_NAMES: Option<&'static [&'static str; SLOTS]> = None;
+
+    type Redundancy = ();
+    // A pose is solved in lanes of its own: angles, arcs, roots and candidates.
+    type Kernel = NoKernel;
+
+    fn measure(mdh: &mut Mdh<6>) -> Result<Self, UnknownStructure> {
+        measure::measure(mdh)
+    }
+
+    fn joint_map(&self) -> &JointMap<6> {
+        &self.joint_map
+    }
+
+    fn between(self, base: &Pose, tool: &Pose, _coupled: bool) -> Self {
+        let fixed = [base, &self.joint_map.t_base_shoulder, &self.joint_map.t_wrist_flange, tool];
+        let ends = fixed.map(|end| end.translation.vector.norm()).iter().sum();
+        Self { closure: self.closure.between(ends), ..self }
+    }
+
+    fn kernel(&self) -> Option<NoKernel> {
+        None
+    }
+
+    #[inline]
+    fn solve(&self, t_first_last: &Pose, (): (), _free: &FreeChoice<6>) -> Branches<6, SLOTS> {
+        self.solve_pose(t_first_last)
+    }
+
+    /// The determinant has no factors that tell wrist, elbow and shoulder apart.
+    fn singular_distances(&self, _q: &[f64; 6]) -> Option<SingularDistances> {
+        None
+    }
+
+    fn singularities(&self, _q: &[f64; 6]) -> SingularityKind {
+        SingularityKind::empty()
+    }
+
+    /// The determinant (eq. 66).
+    fn jacobian_determinant(&self, q: &[f64; 6]) -> f64 {
+        self.determinant(&self.joint_map.theta(q))
+    }
+
+    /// Such arms change their branch without passing a singularity: no bit of a joint vector names
+    /// it.
+    fn slot(&self, _q: &[f64; 6]) -> Option<Slot> {
+        None
+    }
+}

@@ -1,0 +1,117 @@
+//! The real roots of a polynomial: each as an interval.
+
+use super::TrigonometricPolynomial;
+
+/// Most intervals that are kept: twice as many as there can be roots.
+pub(crate) const MOST_ROOTS: usize = 32;
+
+/// A root, or a cluster of roots that noise does not separate.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Root {
+    /// Ends of the interval that holds it [rad].
+    pub(crate) low: f64,
+    pub(crate) high: f64,
+    /// Whether it is certain to be one simple root.
+    pub(crate) is_simple: bool,
+}
+
+impl Root {
+    /// Middle of the interval [rad].
+    pub(crate) fn angle(self) -> f64 {
+        0.5 * (self.low + self.high)
+    }
+
+    /// Half the width of the interval [rad].
+    pub(crate) fn radius(self) -> f64 {
+        0.5 * (self.high - self.low)
+    }
+}
+
+/// All real roots of a polynomial, by increasing angle, in a range of a full turn.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Roots {
+    all: [Root; MOST_ROOTS],
+    count: usize,
+    /// Whether nothing was left out: false for a polynomial that is noise, or with more intervals
+    /// than there is room for.
+    pub(crate) is_complete: bool,
+}
+
+impl Roots {
+    pub(super) const NONE: Self = Self {
+        all: [Root { low: 0.0, high: 0.0, is_simple: false }; MOST_ROOTS],
+        count: 0,
+        is_complete: true,
+    };
+
+    pub(super) fn push(&mut self, root: Root) {
+        if self.count == MOST_ROOTS {
+            self.join();
+        }
+        match self.all.get_mut(self.count) {
+            Some(place) => {
+                *place = root;
+                self.count += 1;
+            }
+            None => self.is_complete = false,
+        }
+    }
+
+    pub(crate) fn as_slice(&self) -> &[Root] {
+        &self.all[..self.count]
+    }
+
+    pub(super) fn as_mut_slice(&mut self) -> &mut [Root] {
+        &mut self.all[..self.count]
+    }
+
+    /// Number of simple roots if there is nothing else: the number of solutions.
+    pub(crate) fn count_if_simple(&self) -> Option<usize> {
+        let is_simple = self.is_complete && self.as_slice().iter().all(|root| root.is_simple);
+        is_simple.then_some(self.count)
+    }
+
+    /// Sort by angle, and join clusters that touch one another.
+    pub(super) fn join(&mut self) {
+        let roots = &mut self.all[..self.count];
+        // An insertion sort: the few roots are nearly in order.
+        for end in 1..roots.len() {
+            let mut place = end;
+            while place > 0 && roots[place].low < roots[place - 1].low {
+                roots.swap(place, place - 1);
+                place -= 1;
+            }
+        }
+        let mut kept = 0_usize;
+        for index in 0..self.count {
+            let root = self.all[index];
+            let last = kept.checked_sub(1).map(|last| &mut self.all[last]);
+            match last {
+                Some(last) if !last.is_simple && !root.is_simple && root.low <= last.high => {
+                    last.high = last.high.max(root.high);
+                }
+                _ => {
+                    self.all[kept] = root;
+                    kept += 1;
+                }
+            }
+        }
+        self.count = kept;
+    }
+}
+
+impl TrigonometricPolynomial {
+    /// Every real root, in a range of a full turn: complete up to the noise (eq. 96).
+    #[inline(always)]
+    pub(crate) fn roots<const FUSED: bool>(&self) -> Roots {
+        let mut roots = Roots::NONE;
+        if self.is_noise() {
+            roots.is_complete = false;
+            return roots;
+        }
+        self.isolate::<FUSED>(&mut roots);
+        self.refine::<FUSED>(&mut roots);
+        roots.join();
+        roots
+    }
+}
