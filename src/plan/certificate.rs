@@ -85,17 +85,23 @@ impl<'a> Hop<'a> {
     /// has not, the way has to be followed.
     fn is_halved_by(&self, arm: &Arm<'_>, q: &[[f64; 6]], status: &[u8]) -> bool {
         let [from, to] = &self.q;
-        let slot = self.nodes[0].slot;
-        if slot != self.nodes[1].slot || status[slot] & Status::WITHIN_LIMITS.bits() == 0 {
-            return false;
-        }
+        let slots = self.nodes.map(|node| node.slot);
+        let slots = match arm.has_names() {
+            true if slots[0] != slots[1] => return false,
+            true => slots[0]..slots[0] + 1,
+            false => 0..q.len(),
+        };
         let whole = self.step();
-        let middle = core::array::from_fn(|joint| nearest_turn(q[slot][joint], from[joint]));
         let bound = (HALF * whole).max(CONTINUOUS_STEP);
         whole <= EXAMINED_STEP
-            && arm.joints.contain(&middle)
-            && largest(&steps(from, &middle)) <= bound
-            && largest(&steps(&middle, to)) <= bound
+            && slots.into_iter().any(|slot| {
+                let middle =
+                    core::array::from_fn(|joint| nearest_turn(q[slot][joint], from[joint]));
+                status[slot] & Status::WITHIN_LIMITS.bits() != 0
+                    && arm.joints.contain(&middle)
+                    && largest(&steps(from, &middle)) <= bound
+                    && largest(&steps(&middle, to)) <= bound
+            })
     }
 
     /// Follow the branch from the first node to the second, in steps that are halved until they are

@@ -77,7 +77,7 @@ impl Robot<6> {
         self.structure = match self.structure {
             SixJoints::SphericalWrist(solver) => SixJoints::SphericalWrist(solver.without_lanes()),
             SixJoints::ThreeParallel(solver) => SixJoints::ThreeParallel(solver.without_lanes()),
-            unknown @ SixJoints::Unknown(_) => unknown,
+            other => other,
         };
         self
     }
