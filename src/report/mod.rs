@@ -12,6 +12,6 @@ pub use configuration::Configuration;
 pub use explanation::{Explanation, Reach};
 pub use free_joint::FreeJoint;
 pub(crate) use unknown_structure::{
-    Columns, Convention, MOST_CONDITIONS, ORDERS, Pattern, Reading,
+    Columns, Convention, Freedom, MOST_CONDITIONS, ORDERS, Pattern, Reading,
 };
 pub use unknown_structure::{Condition, Relation, UnknownStructure};

@@ -100,12 +100,26 @@ impl PartialEq for UnknownStructure {
     }
 }
 
+/// Why six joints do not move the flange in six independent ways.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Freedom {
+    /// Every link has length zero.
+    NoLengths,
+    /// This axis, from 1, and the next are one line.
+    OneLine(usize),
+    /// This axis, from 1, and the next three are parallel.
+    FourParallel(usize),
+    Other,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Reason {
     /// No structure has this number of joints.
     JointCount(usize),
     /// How far each condition of the structure is off; zero where it is met.
     Off { pattern: &'static Pattern, off: [f64; MOST_CONDITIONS] },
+    /// Six joints that do not move the flange in six independent ways, but in so many.
+    Freedom { freedom: Freedom, freedoms: usize },
     /// A length that the structure needs and the arm does not have [m].
     TooShort { pattern: &'static Pattern, field: &'static str, value: f64, bound: f64 },
 }
@@ -114,6 +128,11 @@ impl UnknownStructure {
     /// An arm whose number of joints alone rules a closed form out.
     pub(crate) fn joint_count(joints: usize) -> Self {
         Self::new(Reason::JointCount(joints))
+    }
+
+    /// An arm whose joints are not independent.
+    pub(crate) fn freedom(freedom: Freedom, freedoms: usize) -> Self {
+        Self::new(Reason::Freedom { freedom, freedoms })
     }
 
     fn new(reason: Reason) -> Self {
@@ -173,7 +192,9 @@ impl UnknownStructure {
     pub fn conditions(&self) -> impl Iterator<Item = Condition> {
         let (conditions, off) = match self.reason {
             Reason::Off { pattern, off } => (pattern.conditions, off),
-            Reason::JointCount(_) | Reason::TooShort { .. } => (&[][..], [0.0; MOST_CONDITIONS]),
+            Reason::JointCount(_) | Reason::Freedom { .. } | Reason::TooShort { .. } => {
+                (&[][..], [0.0; MOST_CONDITIONS])
+            }
         };
         let off = conditions.iter().zip(off).filter(|(_, off)| *off > 0.0);
         off.map(|((relation, axes), off)| Condition { relation: *relation, axes: *axes, off })
@@ -221,6 +242,19 @@ impl fmt::Display for UnknownStructure {
         match self.reason {
             Reason::JointCount(joints) => {
                 write!(f, "it has {joints} joints, the known structures have 6 or 7")
+            }
+            Reason::Freedom { freedom, freedoms } => {
+                match freedom {
+                    Freedom::NoLengths => write!(f, "every a and d is zero"),
+                    Freedom::OneLine(i) => write!(f, "axes {i} and {} are one line", i + 1),
+                    Freedom::FourParallel(i) => write!(f, "axes {i} to {} are parallel", i + 3),
+                    Freedom::Other => write!(f, "its joints are not independent"),
+                }?;
+                write!(
+                    f,
+                    ", so that the flange moves in {freedoms} independent ways, it must be 6: \
+                     change the table, or use fk and jacobian of its joints alone"
+                )
             }
             Reason::TooShort { pattern, field, value, bound } => {
                 write!(

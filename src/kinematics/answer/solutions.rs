@@ -70,6 +70,7 @@ pub struct Solutions<const N: usize> {
     places: [Place<N>; MOST_SLOTS],
     slot_count: usize,
     pub(crate) reach: Reach,
+    pub(crate) is_certified: bool,
     pub(crate) pose: Pose,
     pub(crate) limits: JointLimits<N>,
     /// The reason why the last selection is empty.
@@ -81,7 +82,8 @@ impl<const N: usize> Solutions<N> {
     #[inline]
     pub(crate) fn none(slot_count: usize, pose: Pose, limits: JointLimits<N>) -> Self {
         let places = [Place::Empty; MOST_SLOTS];
-        Self { places, slot_count, reach: Reach::Reached, pose, limits, emptied: None }
+        let reach = Reach::Reached;
+        Self { places, slot_count, reach, is_certified: true, pose, limits, emptied: None }
     }
 
     /// Number of solutions, inside the limits or not.
@@ -154,6 +156,14 @@ impl<const N: usize> Solutions<N> {
     #[must_use]
     pub fn reach(&self) -> Reach {
         self.reach
+    }
+
+    /// Whether these are certain to be all solutions of the pose, limits not regarded: for a
+    /// structure with a closed form always; for a general arm where their number is that of the
+    /// roots of a polynomial, and no self-motion is among them.
+    #[must_use]
+    pub fn is_certified(&self) -> bool {
+        self.is_certified
     }
 
     /// The pose that was solved.

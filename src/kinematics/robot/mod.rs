@@ -20,6 +20,7 @@ use nalgebra::SMatrix;
 
 use crate::kinematics::answer::singularity::{SingularDistances, Singularity};
 use crate::kinematics::answer::slot::Slot;
+use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::chain::forward::{Poses, is_finite};
@@ -77,7 +78,9 @@ impl Robot<6> {
         self.structure = match self.structure {
             SixJoints::SphericalWrist(solver) => SixJoints::SphericalWrist(solver.without_lanes()),
             SixJoints::ThreeParallel(solver) => SixJoints::ThreeParallel(solver.without_lanes()),
-            other => other,
+            other @ (SixJoints::OffsetWrist(_) | SixJoints::General(_) | SixJoints::Unknown(_)) => {
+                other
+            }
         };
         self
     }
@@ -237,12 +240,12 @@ where
     }
 
     fn singularity_of(&self, q: &[f64; N], values: SingularValues) -> Singularity {
-        let (distances, kinds) = self.structure.arm().singular(q);
+        let arm = self.structure.arm().singular(q);
         Singularity {
-            distances,
+            distances: arm.and_then(|(distances, _)| distances),
             min_singular_value: values.least,
             manipulability: values.product,
-            kinds,
+            kinds: arm.map_or(SingularityKind::empty(), |(_, singularities)| singularities),
         }
     }
 

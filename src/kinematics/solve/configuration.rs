@@ -267,7 +267,8 @@ impl Robot<6> {
         if slot == wanted.cfx {
             return true;
         }
-        let (near, singularities) = (arm.distances(&solution.q), arm.singularities(&solution.q));
+        let Some(near) = arm.singular_distances(&solution.q) else { return false };
+        let singularities = arm.singularities(&solution.q);
         let open = match closeness {
             Closeness::Same => [near.wrist <= SEEDED_FREE, false, false],
             Closeness::Bent => {

@@ -84,8 +84,10 @@ where
     pub(super) fn bend_elbow(&mut self, from: &Solution<N>) {
         let arm = self.robot.solver().arm();
         let Some(wrist) = arm.spherical_wrist() else { return };
-        let (_, singularities) = arm.singular(&from.q);
-        if !singularities.contains(SingularityKind::ELBOW) {
+        if !arm
+            .singular(&from.q)
+            .is_some_and(|(_, singularities)| singularities.contains(SingularityKind::ELBOW))
+        {
             return;
         }
         let pose = self.known.pose();

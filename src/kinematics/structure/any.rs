@@ -5,6 +5,7 @@ use core::fmt::Debug;
 use super::Structure;
 use super::arm::Arm;
 use super::declare::structures;
+use super::general::General;
 use super::offset_wrist::OffsetWrist;
 use super::redundancy::Redundancy;
 use super::solver::Solver;
@@ -19,7 +20,7 @@ use crate::report::UnknownStructure;
 
 structures! {
     /// Structures with six joints.
-    SixJoints, 6, (): SphericalWrist: 8, ThreeParallel: 8, OffsetWrist: 16
+    SixJoints, 6, (): SphericalWrist: 8, ThreeParallel: 8, OffsetWrist: 16, General: 16
 }
 
 structures! {
@@ -37,12 +38,15 @@ pub(crate) trait AnyStructure<const N: usize>:
     /// The structure of a table, and the table with deviations within rounding removed.
     fn recognize(mdh: &Mdh<N>) -> (Chain<N>, Self);
 
+    /// The name of the structure of a table if that has a closed form; otherwise what the nearest
+    /// asks for.
+    fn closed_form(mdh: &Mdh<N>) -> Result<&'static str, UnknownStructure>;
+
     /// The same structure between the base and the tool of `chain`, with its coupling and limits.
     #[must_use]
     fn between(self, chain: &Chain<N>, limits: &JointLimits<N>) -> Self;
 
-    /// The same unknown structure with the `snap` that would make it known; a known one is returned
-    /// unchanged.
+    /// The same structure with what gives it a closed form; one that has it is returned unchanged.
     #[must_use]
     fn hinting(self, hint: impl FnOnce(UnknownStructure) -> UnknownStructure) -> Self;
 

@@ -84,6 +84,10 @@ impl<const N: usize> AnyStructure<N> for NoStructure {
         (Chain::new(mdh.clone()), Self(UnknownStructure::joint_count(N)))
     }
 
+    fn closed_form(_: &Mdh<N>) -> Result<&'static str, UnknownStructure> {
+        Err(UnknownStructure::joint_count(N))
+    }
+
     fn between(self, _: &Chain<N>, _: &JointLimits<N>) -> Self {
         self
     }

@@ -61,12 +61,17 @@ pub(crate) trait Arm<const N: usize, R> {
     );
 
     /// How far a joint vector is from each singularity, and at which of them it stands.
-    fn singular(&self, _q: &[f64; N]) -> (Option<SingularDistances>, SingularityKind) {
-        (None, SingularityKind::empty())
+    fn singular(&self, _q: &[f64; N]) -> Option<(Option<SingularDistances>, SingularityKind)> {
+        None
     }
 
     /// [`Structure::singular_distances`]
     fn singular_distances(&self, _q: &[f64; N]) -> Option<SingularDistances> {
+        None
+    }
+
+    /// [`Structure::nearest`]
+    fn nearest(&self) -> Option<UnknownStructure> {
         None
     }
 

@@ -16,13 +16,22 @@ pub(crate) struct Branches<const N: usize, const S: usize = 8> {
     /// The joint that the pose leaves undetermined in each slot.
     pub(crate) free: [Option<FreeJoint>; S],
     pub(crate) reach: Reach,
+    /// Whether these are certain to be all.
+    pub(crate) is_certified: bool,
     /// How far beyond reach the stretched or folded arm in each slot is [m].
     pub(crate) beyond: [f64; S],
 }
 
 impl<const N: usize, const S: usize> Branches<N, S> {
     pub(crate) fn empty(reach: Reach) -> Self {
-        Self { q: [None; S], flags: [Status::empty(); S], free: [None; S], reach, beyond: [0.0; S] }
+        Self {
+            q: [None; S],
+            flags: [Status::empty(); S],
+            free: [None; S],
+            reach,
+            is_certified: true,
+            beyond: [0.0; S],
+        }
     }
 
     /// Whether a slot holds a solution or is merged into another.

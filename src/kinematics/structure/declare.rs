@@ -29,11 +29,28 @@ macro_rules! structures {
             fn recognize(mdh: &Mdh<$joints>) -> (Chain<$joints>, Self) {
                 let mut nearest: Option<UnknownStructure> = None;
                 $(match recognized::<$structure, $joints, $slots>(mdh) {
-                    Ok((chain, solver)) => return (chain, Self::$structure(solver)),
-                    Err(missed) => nearest = Some(missed.nearer_of(nearest)),
+                    Ok((chain, mut solver)) => {
+                        solver.structure = solver.structure.noting(nearest);
+                        return (chain, Self::$structure(solver));
+                    }
+                    Err(missed) if <$structure as Structure<$joints, $slots>>::IS_CLOSED_FORM => {
+                        nearest = Some(missed.nearer_of(nearest));
+                    }
+                    Err(missed) => nearest = nearest.or(Some(missed)),
                 })+
                 let missed = nearest.unwrap_or(UnknownStructure::joint_count($joints));
                 (Chain::new(mdh.clone()), Self::Unknown(missed))
+            }
+
+            fn closed_form(mdh: &Mdh<$joints>) -> Result<&'static str, UnknownStructure> {
+                let mut nearest: Option<UnknownStructure> = None;
+                $(if <$structure as Structure<$joints, $slots>>::IS_CLOSED_FORM {
+                    match recognized::<$structure, $joints, $slots>(mdh) {
+                        Ok(_) => return Ok(<$structure as Structure<$joints, $slots>>::PATTERN.name),
+                        Err(missed) => nearest = Some(missed.nearer_of(nearest)),
+                    }
+                })+
+                Err(nearest.unwrap_or(UnknownStructure::joint_count($joints)))
             }
 
             fn between(self, chain: &Chain<$joints>, limits: &JointLimits<$joints>) -> Self {
@@ -47,8 +64,12 @@ macro_rules! structures {
 
             fn hinting(self, hint: impl FnOnce(UnknownStructure) -> UnknownStructure) -> Self {
                 match self {
+                    $(Self::$structure(mut solver) => {
+                        let nearest = solver.structure.nearest().map(hint);
+                        solver.structure = solver.structure.noting(nearest);
+                        Self::$structure(solver)
+                    })+
                     Self::Unknown(reason) => Self::Unknown(hint(reason)),
-                    known => known,
                 }
             }
 

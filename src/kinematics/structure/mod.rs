@@ -15,6 +15,7 @@ pub(crate) mod closure;
 mod declare;
 pub(crate) mod end_frames;
 pub(crate) mod free_choice;
+pub(crate) mod general;
 pub(crate) mod joint_map;
 pub(crate) mod lanes;
 pub(crate) mod offset_wrist;
@@ -68,6 +69,9 @@ pub(crate) trait Structure<const N: usize, const S: usize>:
     /// The conditions on the axes, and the name.
     const PATTERN: &'static Pattern;
 
+    /// Whether the solutions are in closed form.
+    const IS_CLOSED_FORM: bool = true;
+
     /// The name of each slot; `None` if branches have no names and slots are ordinals.
     const SLOT_NAMES: Option<&'static [&'static str; S]>;
 
@@ -101,7 +105,7 @@ pub(crate) trait Structure<const N: usize, const S: usize>:
         free: &FreeChoice<N>,
     ) -> Branches<N, S>;
 
-    /// Distances of `q` from the singularities; `None` if they have no such names.
+    /// Distances of `q` from the singularities; `None` if those have no names.
     fn singular_distances(&self, q: &[f64; N]) -> Option<SingularDistances>;
 
     /// The singularities that `q` is at, by the thresholds that merge the branches of a solve.
@@ -129,6 +133,17 @@ pub(crate) trait Structure<const N: usize, const S: usize>:
 
     /// The arm as one with a spherical wrist, if it has one.
     fn singular_wrist(&self) -> Option<&dyn SingularWrist<N>> {
+        None
+    }
+
+    /// The same arm, which is this far from a structure with a closed form.
+    #[must_use]
+    fn noting(self, _nearest: Option<UnknownStructure>) -> Self {
+        self
+    }
+
+    /// How far the arm is from a structure with a closed form; `None` if it has one.
+    fn nearest(&self) -> Option<UnknownStructure> {
         None
     }
 

@@ -100,6 +100,7 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Arm<N, T::Redundancy> f
             *place = branches.place(index, &limits, redundancy);
         }
         solutions.reach = branches.reach;
+        solutions.is_certified = branches.is_certified;
         Ok(())
     }
 
@@ -150,12 +151,16 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Arm<N, T::Redundancy> f
         }
     }
 
-    fn singular(&self, q: &[f64; N]) -> (Option<SingularDistances>, SingularityKind) {
-        (self.structure.singular_distances(q), self.structure.singularities(q))
+    fn singular(&self, q: &[f64; N]) -> Option<(Option<SingularDistances>, SingularityKind)> {
+        Some((self.structure.singular_distances(q), self.structure.singularities(q)))
     }
 
     fn singular_distances(&self, q: &[f64; N]) -> Option<SingularDistances> {
         self.structure.singular_distances(q)
+    }
+
+    fn nearest(&self) -> Option<UnknownStructure> {
+        self.structure.nearest()
     }
 
     fn jacobian_determinant(&self, q: &[f64; N]) -> Option<f64> {

@@ -58,6 +58,8 @@ pub(crate) struct Accepted {
     /// Whether everything that was tried is understood: no candidate near a singularity remained
     /// without a decision, and nothing was left out.
     pub(crate) is_certain: bool,
+    /// How often two solutions were looked for that are not: the pose misses their fold.
+    pub(crate) nothing: usize,
 }
 
 impl fmt::Debug for Accepted {
@@ -68,6 +70,11 @@ impl fmt::Debug for Accepted {
 
 impl Configuration {
     const NONE: Self = Self { theta: [0.0; 6], residual: 1.0, least: 0.0, kind: Kind::Regular };
+
+    /// How many solutions this one is.
+    pub(crate) fn multiplicity(&self) -> usize {
+        if self.kind == Kind::Fold { 2 } else { 1 }
+    }
 
     /// Within what distance another one is the same [rad].
     fn radius(&self, rounding: f64) -> f64 {
@@ -97,7 +104,7 @@ impl Closure {
 
 impl Accepted {
     pub(crate) const NONE: Self =
-        Self { all: [Configuration::NONE; MOST], count: 0, is_certain: true };
+        Self { all: [Configuration::NONE; MOST], count: 0, is_certain: true, nothing: 0 };
 
     pub(crate) fn as_slice(&self) -> &[Configuration] {
         &self.all[..self.count]
@@ -110,7 +117,12 @@ impl Accepted {
     /// Solutions with their multiplicity: those that polynomials have as roots, if no self-motion
     /// is among them.
     pub(crate) fn root_count(&self) -> usize {
-        self.as_slice().iter().map(|one| if one.kind == Kind::Fold { 2 } else { 1 }).sum()
+        self.as_slice().iter().map(Configuration::multiplicity).sum()
+    }
+
+    /// Begin another attempt: what is uncertain about an earlier one no longer counts.
+    pub(crate) fn begin(&mut self) {
+        (self.is_certain, self.nothing) = (true, 0);
     }
 
     /// Whether the chain can move with its ends standing still.
@@ -151,6 +163,7 @@ impl Accepted {
     fn examine(&mut self, closure: &Closure, target: &Target, theta: &[f64; 6]) {
         let settled = closure.settle(target, theta);
         self.is_certain &= settled.is_certain;
+        self.nothing += usize::from(settled.is_certain && settled.all == [None; 2]);
         for one in settled.all.into_iter().flatten() {
             self.insert(closure, one);
         }

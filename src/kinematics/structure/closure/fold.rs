@@ -19,8 +19,7 @@ use nalgebra::{SMatrix, SVector};
 use nalgebra::ComplexField as _;
 
 use super::accepted::{Configuration, Kind};
-use super::{Closure, Target, largest};
-use crate::lanes::sin_cos;
+use super::{Closure, Target, largest, sines};
 
 /// Steps of Newton's method along the curve, at most.
 const MOST_STEPS: usize = 8;
@@ -47,10 +46,10 @@ const SECOND: f64 = 1e-6;
 
 /// What is at a configuration that hardly closes better in one direction.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Settled {
-    pub(crate) all: [Option<Configuration>; 2],
+pub(super) struct Settled {
+    pub(super) all: [Option<Configuration>; 2],
     /// Whether the analysis holds: rank 5, and a curve of second order.
-    pub(crate) is_certain: bool,
+    pub(super) is_certain: bool,
 }
 
 /// The curve through a start: along v, with the closure left along u.
@@ -66,7 +65,7 @@ pub(super) struct Curve<'a> {
 
 impl Closure {
     /// The solutions next to a configuration whose derivatives are nearly singular.
-    pub(crate) fn settle(&self, target: &Target, theta: &[f64; 6]) -> Settled {
+    pub(super) fn settle(&self, target: &Target, theta: &[f64; 6]) -> Settled {
         self.settled(target, theta).unwrap_or_default()
     }
 
@@ -129,11 +128,6 @@ impl Closure {
             SVector::from_fn(|row, _| conditions.missing[row][0]),
         )
     }
-}
-
-fn sines(theta: &[f64; 6]) -> ([[f64; 1]; 6], [[f64; 1]; 6]) {
-    let both = theta.map(|angle| sin_cos::<false>(angle));
-    (both.map(|(sin, _)| [sin]), both.map(|(_, cos)| [cos]))
 }
 
 /// A point of a curve.

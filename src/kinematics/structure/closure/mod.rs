@@ -6,6 +6,7 @@
 
 mod accepted;
 mod fold;
+mod freedom;
 mod newton;
 mod self_motion;
 #[cfg(test)]
@@ -14,11 +15,13 @@ mod tests;
 pub(crate) use accepted::{Accepted, Configuration, Kind};
 pub(crate) use newton::Candidates;
 
+use nalgebra::SMatrix;
+
 use crate::kinematics::chain::axes::{Axes, Link};
 use crate::kinematics::chain::dh::DhRow;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::end_frames::Frame;
-use crate::lanes::{LANES, mul_add};
+use crate::lanes::{LANES, mul_add, sin_cos};
 
 /// A chain of six joints, its lengths in units of their sum.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,6 +71,28 @@ impl Closure {
         let unit = 1.0 / self.reach;
         let [x, y, z] = t_first_last.origin;
         Target { frame: Frame { origin: [x * unit, y * unit, z * unit], ..*t_first_last } }
+    }
+
+    /// What a configuration reaches.
+    pub(crate) fn reached(&self, theta: &[f64; 6]) -> Target {
+        let (sin, cos) = sines(theta);
+        let (last, _) = self.frames::<1, false>(&sin, &cos);
+        Target { frame: Frame::of(&last.pose(0)) }
+    }
+
+    /// The derivatives of the conditions at a configuration [1].
+    pub(crate) fn derivatives(&self, theta: &[f64; 6]) -> SMatrix<f64, 6, 6> {
+        self.linear(&self.reached(theta), theta).0
+    }
+
+    /// The determinant of the geometric Jacobian [m^3].
+    pub(crate) fn determinant(&self, theta: &[f64; 6]) -> f64 {
+        self.derivatives(theta).determinant() * self.reach * self.reach * self.reach
+    }
+
+    /// The least singular value of the derivatives [1].
+    pub(crate) fn least_singular_value(&self, theta: &[f64; 6]) -> f64 {
+        self.derivatives(theta).singular_values()[5]
     }
 
     pub(crate) fn target_of(&self, t_first_last: &Pose) -> Target {
@@ -154,6 +179,12 @@ fn missing<const W: usize, const FUSED: bool>(last: &Axes<W>, target: &Target) -
         missing[3][lane] = if trace > 0.0 { missing[3][lane] } else { 1.0 };
     }
     missing
+}
+
+/// Sines and cosines of one configuration.
+fn sines(theta: &[f64; 6]) -> ([[f64; 1]; 6], [[f64; 1]; 6]) {
+    let both = theta.map(|angle| sin_cos::<false>(angle));
+    (both.map(|(sin, _)| [sin]), both.map(|(_, cos)| [cos]))
 }
 
 /// The greatest of six sizes, by lane.

@@ -27,13 +27,6 @@ fn random(rng: &mut Rng) -> Closure {
     }))
 }
 
-/// The target of a configuration.
-fn reached(closure: &Closure, theta: &[f64; 6]) -> Target {
-    let (sin, cos) = (theta.map(|t| [t.sin()]), theta.map(|t| [t.cos()]));
-    let (last, _) = closure.frames::<1, false>(&sin, &cos);
-    Target { frame: Frame::of(&last.pose(0)) }
-}
-
 /// Candidates around a configuration, converged and taken.
 fn found(closure: &Closure, target: &Target, around: &[f64; 6], off: f64) -> Accepted {
     let mut rng = Rng::new(3);
@@ -54,7 +47,7 @@ fn candidates_converge_to_one_solution() {
     for _ in 0..2000 {
         let closure = random(&mut rng);
         let theta: [f64; 6] = rng.angles();
-        let target = reached(&closure, &theta);
+        let target = closure.reached(&theta);
         let accepted = found(&closure, &target, &theta, 1e-4);
         let nearest =
             accepted.as_slice().iter().map(|one| one.distance(&theta)).fold(9.0, f64::min);
@@ -76,7 +69,7 @@ fn the_least_singular_value_is_estimated() {
     for _ in 0..1000 {
         let closure = random(&mut rng);
         let theta: [f64; 6] = rng.angles();
-        let target = reached(&closure, &theta);
+        let target = closure.reached(&theta);
         let mut candidates = Candidates::NEW;
         candidates.put(0, &theta);
         closure.converge::<false>(&target, &mut candidates);
@@ -98,7 +91,7 @@ fn two_solutions_next_to_a_fold_are_two_and_at_it_one() {
             // The arm from axis 3 to the wrist is in line with the upper arm.
             theta[2] = -FRAC_PI_2 + off;
             theta[4] = rng.between(0.3, 2.8) * rng.sign();
-            let target = reached(&closure, &theta);
+            let target = closure.reached(&theta);
             let (jacobian, _) = closure.linear(&target, &theta);
             if jacobian.singular_values()[4] < 0.01 {
                 continue;
@@ -127,7 +120,7 @@ fn a_self_motion_stands_once_with_its_direction() {
     for _ in 0..200 {
         let mut theta: [f64; 6] = rng.angles();
         theta[4] = 0.0;
-        let target = reached(&closure, &theta);
+        let target = closure.reached(&theta);
         let (jacobian, _) = closure.linear(&target, &theta);
         if jacobian.singular_values()[4] < 0.02 {
             continue;
@@ -157,7 +150,7 @@ fn a_self_motion_stands_once_with_its_direction() {
 #[test]
 fn out_of_reach_nothing_is_accepted() {
     let closure = elbow();
-    let mut target = reached(&closure, &[0.1, 0.2, 0.3, 0.4, 0.5, 0.6]);
+    let mut target = closure.reached(&[0.1, 0.2, 0.3, 0.4, 0.5, 0.6]);
     target.frame.origin[0] += 2.0;
     assert!(found(&closure, &target, &[0.1, 0.2, 0.3, 0.4, 0.5, 0.6], 1.0).as_slice().is_empty());
 }

@@ -1,12 +1,8 @@
 //! The stored geometry of an arm with an offset wrist.
 
-#[cfg(not(feature = "std"))]
-use nalgebra::{ComplexField as _, RealField as _};
-
 use super::branch::Twists;
 use crate::kinematics::chain::Chain;
-use crate::kinematics::structure::closure::Closure;
-use crate::kinematics::structure::joint_map::JointMap;
+use crate::kinematics::structure::general::General;
 
 /// An arm with an offset wrist: its table between the shoulder and the last joint, and the lengths
 /// and angles of the equations.
@@ -15,12 +11,11 @@ pub struct OffsetWrist {
     /// From the foot of the common normal of axes 1 and 2, to frame 6 with its origin at the foot
     /// of that of axes 5 and 6; joint angles are theta.
     pub(super) chain: Chain<6>,
-    pub(super) closure: Closure,
     pub(super) lengths: Lengths,
     pub(super) twists: Twists,
-    pub(super) joint_map: JointMap<6>,
-    /// The sum of the lengths that contribute to a position of the tool [m].
-    pub(super) extent: f64,
+    /// The same arm as one in general: it has the closure, and is asked where the count of roots
+    /// and that of solutions differ.
+    pub(super) general: General,
 }
 
 /// The lengths and angles of the equations (docs/offset_wrist.md, section 1).
@@ -51,19 +46,8 @@ pub(super) struct Lengths {
     /// Sine and cosine of the angle between axes 5 and 6.
     pub(super) sin_5: f64,
     pub(super) cos_5: f64,
+    /// The sum of the lengths of the rows [m].
+    pub(super) extent: f64,
     /// Whether the polynomial is a square (eq. 15).
     pub(super) is_square: bool,
-}
-
-impl OffsetWrist {
-    /// Distance of the wrist point from axis 1 along x1 [m], and the sine of the angle from the
-    /// upper arm to the forearm: their signs are the sides of shoulder and elbow.
-    pub(super) fn sides(&self, theta: &[f64; 6]) -> [f64; 2] {
-        let Lengths { a1, upper, forearm, v: [v1, v2], s1, e, .. } = self.lengths;
-        let second = s1 * theta[1];
-        let third = s1 * (theta[1] + e * theta[2]);
-        let reach = forearm * (v1 * third.cos() - v2 * third.sin());
-        let elbow = theta[2] * s1 * e + v2.atan2(v1);
-        [a1 + upper * second.cos() + reach, elbow.sin() * upper.signum()]
-    }
 }

@@ -4,10 +4,9 @@ use super::branch::Twists;
 use super::geometry::{Lengths, OffsetWrist};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::axes::Link;
-use crate::kinematics::chain::dh::{DhRow, Mdh, screw_x};
-use crate::kinematics::pose::{Pose, translation_z};
-use crate::kinematics::structure::closure::Closure;
-use crate::kinematics::structure::joint_map::JointMap;
+use crate::kinematics::chain::dh::{DhRow, Mdh};
+use crate::kinematics::pose::Pose;
+use crate::kinematics::structure::general::General;
 use crate::kinematics::thresholds::{LEAST_TWIST_SIN, POSITION_ROUNDING};
 use crate::report::{Pattern, Relation, UnknownStructure};
 
@@ -68,6 +67,7 @@ pub(super) fn measure(mdh: &Mdh<6>) -> Result<OffsetWrist, UnknownStructure> {
         d5: links[4].d,
         sin_5: links[5].sin_alpha,
         cos_5: links[5].cos_alpha,
+        extent,
         is_square,
     };
     let mut bare = *rows;
@@ -76,9 +76,7 @@ pub(super) fn measure(mdh: &Mdh<6>) -> Result<OffsetWrist, UnknownStructure> {
     for row in &mut bare {
         row.theta = 0.0;
     }
-    let closure = Closure::of(&bare);
     let chain = Chain::new(Mdh { base: Pose::identity(), rows: bare, flange: Pose::identity() });
-    let [first, .., last] = rows;
     let twists = Twists {
         sin_3,
         cos_3,
@@ -86,18 +84,5 @@ pub(super) fn measure(mdh: &Mdh<6>) -> Result<OffsetWrist, UnknownStructure> {
         sin_5: links[5].sin_alpha,
         cos_5: links[5].cos_alpha,
     };
-    Ok(OffsetWrist {
-        chain,
-        closure,
-        lengths,
-        twists,
-        joint_map: JointMap {
-            signs: [1.0; 6],
-            offsets: rows.map(|row| -row.theta),
-            coupled: false,
-            t_base_shoulder: mdh.base * screw_x(first.alpha, first.a) * translation_z(first.d),
-            t_wrist_flange: translation_z(last.d) * mdh.flange,
-        },
-        extent,
-    })
+    Ok(OffsetWrist { chain, lengths, twists, general: General::of(mdh)? })
 }

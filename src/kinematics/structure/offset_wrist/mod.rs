@@ -5,12 +5,13 @@
 //! code.
 
 mod branch;
+mod clusters;
 mod determinant;
 mod geometry;
 mod measure;
 mod reach;
 mod resultant;
-mod seeds;
+mod search;
 mod solve;
 #[cfg(test)]
 mod tests;
@@ -34,6 +35,8 @@ const SLOTS: usize = 16;
 
 impl Structure<6, SLOTS> for OffsetWrist {
     const PATTERN: &'static Pattern = &measure::PATTERN;
+    const IS_CLOSED_FORM: bool = false;
+
     const SLOT_NAMES: Option<&'static [&'static str; SLOTS]> = None;
 
     type Redundancy = ();
@@ -45,13 +48,11 @@ impl Structure<6, SLOTS> for OffsetWrist {
     }
 
     fn joint_map(&self) -> &JointMap<6> {
-        &self.joint_map
+        self.general.joint_map()
     }
 
-    fn between(self, base: &Pose, tool: &Pose, _coupled: bool) -> Self {
-        let fixed = [base, &self.joint_map.t_base_shoulder, &self.joint_map.t_wrist_flange, tool];
-        let ends = fixed.map(|end| end.translation.vector.norm()).iter().sum();
-        Self { closure: self.closure.between(ends), ..self }
+    fn between(self, base: &Pose, tool: &Pose, coupled: bool) -> Self {
+        Self { general: self.general.between(base, tool, coupled), ..self }
     }
 
     fn kernel(&self) -> Option<NoKernel> {
@@ -68,18 +69,26 @@ impl Structure<6, SLOTS> for OffsetWrist {
         None
     }
 
-    fn singularities(&self, _q: &[f64; 6]) -> SingularityKind {
-        SingularityKind::empty()
+    fn singularities(&self, q: &[f64; 6]) -> SingularityKind {
+        self.general.singularities(q)
     }
 
     /// The determinant (eq. 66).
     fn jacobian_determinant(&self, q: &[f64; 6]) -> f64 {
-        self.determinant(&self.joint_map.theta(q))
+        self.determinant(&self.joint_map().theta(q))
     }
 
     /// Such arms change their branch without passing a singularity: no bit of a joint vector names
     /// it.
     fn slot(&self, _q: &[f64; 6]) -> Option<Slot> {
         None
+    }
+
+    fn noting(self, nearest: Option<UnknownStructure>) -> Self {
+        Self { general: self.general.noting(nearest), ..self }
+    }
+
+    fn nearest(&self) -> Option<UnknownStructure> {
+        self.general.nearest()
     }
 }

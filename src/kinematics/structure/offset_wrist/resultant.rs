@@ -72,14 +72,13 @@ impl Ring {
     }
 }
 
-/// The resultant for a wrist point and an axis 5, and the square of the distance of the point from
-/// axis 1 (eq. 55 to 58).
+/// The resultant for a wrist point and an axis 5 (eq. 55 to 58).
 #[inline(always)]
 fn resultant<const FUSED: bool>(
     lengths: &Lengths,
     [wx, wy, h]: [f64; 3],
     [zx, zy, zz]: [f64; 3],
-) -> [f64; 2] {
+) -> f64 {
     let Lengths { a1, upper, forearm, v: [v1, v2], b, s1, e, cos_3, cos_4, m, .. } = *lengths;
     let r2 = mul_add::<FUSED>(wx, wx, wy * wy);
     let along = mul_add::<FUSED>(zx, wx, zy * wy);
@@ -107,32 +106,28 @@ fn resultant<const FUSED: bool>(
         .minus(bend.times::<FUSED>(bend, sigma2));
     let z = square.minus(reach.times::<FUSED>(reach, sigma2));
     let f = x.times::<FUSED>(x, sigma2).minus(y.times::<FUSED>(z, sigma2));
-    let value = if lengths.is_square {
-        f.u / r2
+    // On axis 1 the resultant of an arm without lateral offset is zero.
+    let inverse = if r2 > 0.0 { 1.0 / r2 } else { 0.0 };
+    if lengths.is_square {
+        f.u * inverse
     } else {
-        mul_add::<FUSED>(f.u, f.u, -(sigma2 * (f.v * f.v))) / (r2 * r2)
-    };
-    [value, r2]
+        mul_add::<FUSED>(f.u, f.u, -(sigma2 * (f.v * f.v))) * (inverse * inverse)
+    }
 }
 
-/// The resultant at multiples of 15 deg of joint 6, and the least square of the distance of the
-/// wrist point from axis 1 among them.
+/// The resultant at multiples of 15 deg of joint 6.
 #[inline(always)]
 pub(super) fn samples<const FUSED: bool>(
     lengths: &Lengths,
     hand: &Hand,
-) -> ([Column; SAMPLES / LANES], f64) {
-    let (mut values, mut least) = ([[0.0; LANES]; SAMPLES / LANES], f64::INFINITY);
+) -> [Column; SAMPLES / LANES] {
+    let mut values = [[0.0; LANES]; SAMPLES / LANES];
     for block in 0..SAMPLES / LANES {
-        let mut r2 = [0.0; LANES];
         for lane in 0..LANES {
             let (sin, cos) = (SAMPLE_SIN[block][lane], SAMPLE_COS[block][lane]);
             let (point, axis_5) = hand.at::<FUSED>([sin, cos]);
-            [values[block][lane], r2[lane]] = resultant::<FUSED>(lengths, point, axis_5);
-        }
-        for r2 in r2 {
-            least = if r2 < least { r2 } else { least };
+            values[block][lane] = resultant::<FUSED>(lengths, point, axis_5);
         }
     }
-    (values, least)
+    values
 }

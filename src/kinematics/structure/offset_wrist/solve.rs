@@ -1,17 +1,18 @@
-//! Every solution of a pose: seeds from the roots of the resultant, brought to the pose by the
-//! closure of the chain.
+//! Every solution of a pose.
 //!
 //! Docs: offset_wrist.md, section 5.
 
+use super::SLOTS;
+use super::clusters::Clusters;
 use super::geometry::OffsetWrist;
-use super::seeds::{Seeds, seeds};
-use crate::kinematics::answer::status::Status;
+use super::resultant::samples;
+use super::search::Search;
 use crate::kinematics::pose::Pose;
-use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::branches::Branches;
-use crate::kinematics::structure::closure::{Accepted, Candidates, Closure, Kind, Target};
+use crate::kinematics::structure::closure::Accepted;
 use crate::kinematics::structure::end_frames::Frame;
-use crate::lanes::{Kernel, LANES, run};
+use crate::kinematics::structure::trigonometric::TrigonometricPolynomial;
+use crate::lanes::{Kernel, run};
 use crate::report::Reach;
 
 /// The solutions of a pose.
@@ -33,74 +34,67 @@ impl Kernel for Solve<'_> {
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> Found {
-        self.arm.find::<FUSED>(self.last)
+        let lengths = &self.arm.lengths;
+        let mut search = Search::new::<FUSED>(self.arm, self.last);
+        let values = samples::<FUSED>(lengths, &search.hand);
+        let roots = TrigonometricPolynomial::of_samples::<FUSED>(&values).roots::<FUSED>();
+        let (mut clusters, mut simple) = (Clusters::NONE, 0);
+        for root in roots.as_slice() {
+            if root.is_simple {
+                simple += if lengths.is_square { 2 } else { 1 };
+                search.at_root::<FUSED>(root);
+            } else {
+                clusters.examine(root, &mut search);
+            }
+        }
+        search.converge::<FUSED>();
+        let agree = |accepted: &Accepted| {
+            roots.is_complete
+                && accepted.is_certain
+                && !accepted.has_self_motion()
+                && clusters.agree(accepted.as_slice(), simple)
+        };
+        if !agree(&search.accepted) {
+            search.accepted.begin();
+            search.everywhere();
+            search.converge::<FUSED>();
+        }
+        Found { is_certified: agree(&search.accepted), accepted: search.accepted }
     }
 }
 
 impl OffsetWrist {
-    /// Every solution of a pose of frame 6, in the order of sides of shoulder and elbow, then of
-    /// joint 6.
-    pub(super) fn solve_pose(&self, t_first_last: &Pose) -> Branches<6, 16> {
-        let last = Frame::of(t_first_last);
-        let found = run(Solve { arm: self, last: &last });
-        let mut branches = Branches::empty(Reach::Reached);
-        let mut solutions = found.accepted;
-        let solutions = solutions.as_mut_slice();
-        if solutions.is_empty() {
-            return Branches::empty(self.missed(&last));
-        }
-        solutions.sort_unstable_by(|a, b| self.order(&a.theta).total_cmp(&self.order(&b.theta)));
-        let mut merged = 0;
-        for (slot, one) in solutions.iter().enumerate() {
-            branches.q[slot] = Some(self.joint_map.joints(one.theta));
-            merged += usize::from(one.kind == Kind::Fold);
-        }
-        let free = solutions.len();
-        for flags in branches.flags.iter_mut().skip(free).take(merged) {
-            *flags |= Status::MERGED;
+    /// Every solution of a pose of frame 6, in slots.
+    pub(super) fn solve_pose(&self, t_first_last: &Pose) -> Branches<6, SLOTS> {
+        let Found { accepted, is_certified } = self.solutions(t_first_last);
+        let mut branches = self.general.slots(accepted, is_certified);
+        if accepted.as_slice().is_empty() && branches.reach == Reach::Reached {
+            branches.reach = self.missed(&Frame::of(t_first_last));
         }
         branches
     }
 
-    /// Every solution for a frame 6 in the shoulder frame, by its angles theta.
-    #[inline(always)]
-    pub(super) fn find<const FUSED: bool>(&self, last: &Frame) -> Found {
-        let target = self.closure.target(last);
-        let mut accepted = Accepted::NONE;
-        let mut seeds = seeds::<FUSED>(self, last);
-        converge::<FUSED>(&self.closure, &target, &seeds, &mut accepted);
-        if !seeds.agrees(&accepted) {
-            seeds.examine_all(self, last);
-            converge::<FUSED>(&self.closure, &target, &seeds, &mut accepted);
-        }
-        accepted.thin(&self.closure, &target);
-        Found { is_certified: seeds.agrees(&accepted), accepted }
+    /// Every solution of a pose of frame 6, by its angles theta.
+    pub(super) fn solutions(&self, t_first_last: &Pose) -> Found {
+        let last = Frame::of(t_first_last);
+        let found = run(Solve { arm: self, last: &last });
+        if found.is_certified { found } else { self.rescued(found, t_first_last) }
     }
-}
 
-/// Brings the seeds to the target, eight at once.
-fn converge<const FUSED: bool>(
-    closure: &Closure,
-    target: &Target,
-    seeds: &Seeds,
-    accepted: &mut Accepted,
-) {
-    for block in seeds.as_slice().chunks(LANES) {
-        let mut candidates = Candidates::NEW;
-        for (lane, seed) in block.iter().enumerate() {
-            candidates.put(lane, seed);
+    /// The solutions of the general method, which shares no polynomial with this one, and those
+    /// that were found.
+    #[cold]
+    fn rescued(&self, found: Found, t_first_last: &Pose) -> Found {
+        let (mut accepted, is_certain) = self.general.solve_all(t_first_last);
+        let count = accepted.as_slice().len();
+        for one in found.accepted.as_slice() {
+            accepted.insert(self.general.closure(), *one);
         }
-        closure.converge::<FUSED>(target, &mut candidates);
-        accepted.take(closure, target, &candidates, block.len());
-    }
-}
-
-impl OffsetWrist {
-    /// A number by which solutions are put in order: the sides of shoulder and elbow, and joint 6.
-    fn order(&self, theta: &[f64; 6]) -> f64 {
-        let [shoulder, elbow] = self.sides(theta);
-        let behind = if shoulder < 0.0 { 16.0 } else { 0.0 };
-        let bent = if elbow < 0.0 { 8.0 } else { 0.0 };
-        behind + bent + wrap(theta[5])
+        let is_certified = is_certain && accepted.as_slice().len() == count;
+        if accepted.has_self_motion() {
+            let target = self.general.closure().target_of(t_first_last);
+            accepted.thin(self.general.closure(), &target);
+        }
+        Found { accepted, is_certified }
     }
 }

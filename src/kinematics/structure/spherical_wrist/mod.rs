@@ -38,19 +38,6 @@ use crate::kinematics::structure::joint_map::JointMap;
 use crate::kinematics::thresholds::WRIST_MERGE_SIN;
 use crate::report::{Pattern, UnknownStructure};
 
-impl SphericalWrist {
-    /// Distances of `q` from the singularities.
-    #[inline]
-    pub(crate) fn distances(&self, q: &[f64; 6]) -> SingularDistances {
-        let [_, _, t3, _, t5, _] = self.theta(q);
-        SingularDistances {
-            wrist: distance_from_half_turns(t5),
-            elbow: distance_from_half_turns(self.planar.elbow_angle(t3)),
-            shoulder: self.factors(q)[1].abs(),
-        }
-    }
-}
-
 impl Structure<6, 8> for SphericalWrist {
     const PATTERN: &'static Pattern = &PATTERN;
 
@@ -93,7 +80,12 @@ impl Structure<6, 8> for SphericalWrist {
 
     #[inline]
     fn singular_distances(&self, q: &[f64; 6]) -> Option<SingularDistances> {
-        Some(self.distances(q))
+        let [_, _, t3, _, t5, _] = self.theta(q);
+        Some(SingularDistances {
+            wrist: distance_from_half_turns(t5),
+            elbow: distance_from_half_turns(self.planar.elbow_angle(t3)),
+            shoulder: self.factors(q)[1].abs(),
+        })
     }
 
     /// A solve, which does not know `q`, also merges wrists within the uncertainty of the forearm.

@@ -132,7 +132,12 @@ impl TrigonometricPolynomial {
         let (first, last) = (coefficients[0], coefficients[POWERS]);
         let are_certain = first.abs() > self.noise && last.abs() > self.noise;
         if changes < 1.5 && are_certain && (first < 0.0) != (last < 0.0) {
-            roots.push(Root { low: part.angle(low), high: part.angle(high), is_simple: true });
+            roots.push(Root {
+                low: part.angle(low),
+                high: part.angle(high),
+                is_simple: true,
+                most: 1,
+            });
         } else if coefficients.iter().all(|b| b.abs() <= self.noise)
             || high - low < 1.5 * LEAST_WIDTH
             || parts.count == MOST_PARTS
@@ -154,7 +159,7 @@ impl Part {
     }
 
     fn cluster(&self) -> Root {
-        Root { low: self.angle(self.low), high: self.angle(self.high), is_simple: false }
+        Root { low: self.angle(self.low), high: self.angle(self.high), is_simple: false, most: 0 }
     }
 }
 

@@ -36,8 +36,12 @@ impl TrigonometricPolynomial {
             let (angle, radius) = self.bracketed::<FUSED>(low, high);
             for (lane, index) in block.iter().enumerate() {
                 let radius = radius[lane];
-                roots[*index] =
-                    Root { low: angle[lane] - radius, high: angle[lane] + radius, is_simple: true };
+                roots[*index] = Root {
+                    low: angle[lane] - radius,
+                    high: angle[lane] + radius,
+                    is_simple: true,
+                    most: 1,
+                };
             }
         }
     }

@@ -1,9 +1,14 @@
 //! The real roots of a polynomial: each as an interval.
 
-use super::TrigonometricPolynomial;
+use super::tables::ORDERS;
+use super::{DEGREE, TrigonometricPolynomial};
+use crate::lanes::sin_cos;
 
 /// Most intervals that are kept: twice as many as there can be roots.
 pub(crate) const MOST_ROOTS: usize = 32;
+
+/// Highest order of a derivative that bounds the number of roots.
+const MOST_MULTIPLICITY: usize = 6;
 
 /// A root, or a cluster of roots that noise does not separate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -13,6 +18,8 @@ pub(crate) struct Root {
     pub(crate) high: f64,
     /// Whether it is certain to be one simple root.
     pub(crate) is_simple: bool,
+    /// Most roots that are in the interval, with their multiplicity.
+    pub(crate) most: usize,
 }
 
 impl Root {
@@ -39,7 +46,7 @@ pub(crate) struct Roots {
 
 impl Roots {
     pub(super) const NONE: Self = Self {
-        all: [Root { low: 0.0, high: 0.0, is_simple: false }; MOST_ROOTS],
+        all: [Root { low: 0.0, high: 0.0, is_simple: false, most: 0 }; MOST_ROOTS],
         count: 0,
         is_complete: true,
     };
@@ -112,6 +119,40 @@ impl TrigonometricPolynomial {
         self.isolate::<FUSED>(&mut roots);
         self.refine::<FUSED>(&mut roots);
         roots.join();
+        for root in roots.as_mut_slice().iter_mut().filter(|root| !root.is_simple) {
+            root.most = self.most_roots(*root);
+        }
         roots
+    }
+
+    /// Most roots in an interval: k if the derivative of order k has no zero there, by Rolle's
+    /// theorem. The derivative is that in the middle, less what it changes up to the ends and what
+    /// noise may be of it.
+    fn most_roots(&self, root: Root) -> usize {
+        let (sin, cos) = sin_cos::<false>(root.angle());
+        let mut orders: [f64; DEGREE + 1] = [1.0; DEGREE + 1];
+        for order in 1..=MOST_MULTIPLICITY {
+            let (mut derivative, mut next, mut noise) = (0.0, 0.0, 0.0);
+            let (mut s, mut c) = (0.0, 1.0);
+            for k in 0..=DEGREE {
+                orders[k] *= ORDERS[k];
+                // The derivative of order 1 of a cosine is minus the sine, and so on.
+                let (a, b) = (self.cos[k] * orders[k], self.sin[k] * orders[k]);
+                derivative += match order % 4 {
+                    1 => b * c - a * s,
+                    2 => -a * c - b * s,
+                    3 => a * s - b * c,
+                    _ => a * c + b * s,
+                };
+                next += ORDERS[k] * orders[k] * (self.cos[k].abs() + self.sin[k].abs());
+                noise += orders[k];
+                (s, c) = (s * cos + c * sin, c * cos - s * sin);
+            }
+            let noise = self.noise * noise / (DEGREE + 1) as f64;
+            if derivative.abs() > next * root.radius() + noise {
+                return order;
+            }
+        }
+        2 * DEGREE
     }
 }

@@ -1,0 +1,155 @@
+//! All solutions that one split finds, and whether their number is certain (eq. 95 to 104).
+
+use super::back::{Angle, completed, eliminated, pencil};
+use super::determinant::Rest;
+use super::moments::Motion;
+use super::split::{Posed, Split};
+use crate::kinematics::pose::angles::wrap;
+use crate::kinematics::structure::closure::{Accepted, Closure, Configuration, Target};
+use crate::kinematics::structure::trigonometric::{
+    MOST_ROOTS, Root, SAMPLE_COS, SAMPLE_SIN, TrigonometricPolynomial,
+};
+use crate::lanes::{Column, Kernel, LANES, sin_cos};
+
+/// How far from its interval a solution of a cluster may be [rad]: what rounding moves a double
+/// root.
+const BESIDE: f64 = 1e-5;
+
+/// Places in the interval of a cluster from which solutions are searched, as parts of its radius.
+const PLACES: Column = [0.0, -0.15, 0.15, -0.4, 0.4, -0.7, 0.7, 1.0];
+
+/// Radius of a simple root above which it is searched for like a cluster [rad].
+const UNCERTAIN: f64 = 1e-3;
+
+/// A split applied to a pose.
+pub(super) struct Attempt<'a> {
+    pub(super) split: &'a Split,
+    pub(super) closure: &'a Closure,
+    pub(super) target: &'a Target,
+    pub(super) t_last_first: &'a Motion,
+    /// Solutions of earlier attempts, and those that this one adds.
+    pub(super) accepted: &'a mut Accepted,
+}
+
+impl Kernel for Attempt<'_> {
+    /// Whether the accepted solutions are certain to be all.
+    type Answer = bool;
+    const WIDE: bool = true;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> bool {
+        let Self { split, closure, target, t_last_first, accepted } = self;
+        let posed = split.posed::<FUSED>(t_last_first);
+        let mut samples = [[0.0; LANES]; 3];
+        for block in 0..3 {
+            let rest = Rest::at::<FUSED>(&posed.equations, &SAMPLE_SIN[block], &SAMPLE_COS[block]);
+            samples[block] = rest.determinant;
+        }
+        let polynomial = TrigonometricPolynomial::of_samples::<FUSED>(&samples);
+        let roots = polynomial.roots::<FUSED>();
+        let search =
+            Search { split, closure, target, posed: &posed, weights: posed.left.weights_of_1() };
+        let mut simple = [Root::default(); MOST_ROOTS];
+        let mut count = 0;
+        for root in roots.as_slice().iter().filter(|root| root.is_simple) {
+            simple[count] = *root;
+            count += 1;
+        }
+        for block in simple[..count].chunks(LANES) {
+            let mut angles = [block[0].angle(); LANES];
+            for (angle, root) in angles.iter_mut().zip(block) {
+                *angle = root.angle();
+            }
+            search.simple::<FUSED>(&angles, block.len(), accepted);
+        }
+        let is_cluster = |root: &&Root| !root.is_simple || root.radius() > UNCERTAIN;
+        let mut is_certain = roots.is_complete;
+        let mut in_clusters = 0;
+        for root in roots.as_slice().iter().filter(is_cluster) {
+            let nothing = accepted.nothing;
+            search.cluster::<FUSED>(root, accepted);
+            if root.is_simple {
+                continue;
+            }
+            let found = split.solutions_at(root, accepted);
+            let missed = root.most.wrapping_sub(found);
+            // Roots that come and go in pairs.
+            let is_understood = missed == 0 || missed == 2 && accepted.nothing > nothing;
+            is_certain &= is_understood;
+            in_clusters += found;
+        }
+        is_certain
+            && accepted.is_certain
+            && !accepted.has_self_motion()
+            && accepted.root_count() == count + in_clusters
+    }
+}
+
+impl Split {
+    /// Number of solutions in the interval of a cluster, with their multiplicity.
+    fn solutions_at(&self, root: &Root, accepted: &Accepted) -> usize {
+        let is_in = |one: &&Configuration| {
+            let angle = self.sign * one.theta[self.searched()];
+            wrap(angle - root.angle()).abs() <= root.radius() + BESIDE
+        };
+        accepted.as_slice().iter().filter(is_in).map(Configuration::multiplicity).sum()
+    }
+}
+
+/// The search for solutions at angles of the searched joint.
+struct Search<'a> {
+    split: &'a Split,
+    closure: &'a Closure,
+    target: &'a Target,
+    posed: &'a Posed,
+    weights: [[f64; 6]; 2],
+}
+
+impl Search<'_> {
+    #[inline(always)]
+    fn simple<const FUSED: bool>(&self, angles: &Column, lanes: usize, accepted: &mut Accepted) {
+        let t5 = Self::searched::<FUSED>(angles);
+        let rest = Rest::at::<FUSED>(&self.posed.equations, &t5.sin, &t5.cos);
+        let [null, _] = rest.null_vectors::<FUSED>(false);
+        self.take::<FUSED>(&null, &t5, lanes, accepted);
+    }
+
+    /// The solutions in an interval: from one null vector, and from the pencil of two.
+    #[inline(always)]
+    fn cluster<const FUSED: bool>(&self, root: &Root, accepted: &mut Accepted) {
+        let (middle, radius) = (root.angle(), root.radius());
+        let t5 = Self::searched::<FUSED>(&PLACES.map(|place| middle + place * radius));
+        let rest = Rest::at::<FUSED>(&self.posed.equations, &t5.sin, &t5.cos);
+        let null = rest.null_vectors::<FUSED>(true);
+        let pair = pencil::<FUSED>(&null);
+        // Where the interval is narrow, its places are one.
+        let lanes = if radius < 1e-7 { 1 } else { LANES };
+        for powers in [&pair[0], &pair[1], &null[0]] {
+            self.take::<FUSED>(powers, &t5, lanes, accepted);
+        }
+    }
+
+    #[inline(always)]
+    fn searched<const FUSED: bool>(angles: &Column) -> Angle {
+        let mut t5 = Angle { sin: [0.0; LANES], cos: [0.0; LANES] };
+        for lane in 0..LANES {
+            (t5.sin[lane], t5.cos[lane]) = sin_cos::<FUSED>(angles[lane]);
+        }
+        t5
+    }
+
+    #[inline(always)]
+    fn take<const FUSED: bool>(
+        &self,
+        powers: &[Column; 6],
+        t5: &Angle,
+        lanes: usize,
+        accepted: &mut Accepted,
+    ) {
+        let [t4, t3] = eliminated::<FUSED>(powers);
+        let mut candidates =
+            completed::<FUSED>(self.split, self.posed, &self.weights, [&t3, &t4, t5]);
+        self.closure.converge::<FUSED>(self.target, &mut candidates);
+        accepted.take(self.closure, self.target, &candidates, lanes);
+    }
+}

@@ -1,0 +1,100 @@
+//! The choice of splits for an arm: those that find every solution of poses that are drawn, random
+//! ones and structured ones.
+
+use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+
+use alloc::vec::Vec;
+
+use super::attempt::Attempt;
+use super::moments::Motion;
+use super::split::{SPLITS, Split};
+use crate::kinematics::structure::closure::{Accepted, Closure, Target};
+use crate::lanes::run;
+
+/// Splits that an arm keeps: one that is tried first, and others where its count is not certain.
+pub(super) const KEPT: usize = 3;
+
+/// Random joint vectors, and structured ones of each kind, on which splits are scored.
+const RANDOM: usize = 24;
+const STRUCTURED: usize = 6;
+
+/// Angles of a quasi-random sequence: multiples of powers of the inverse of the root of
+/// x^7 = x + 1. Reference: Roberts, The unreasonable effectiveness of quasirandom sequences, 2018.
+fn quasi_random(index: usize) -> [f64; 6] {
+    let root = 1.112_775_684_278_705_5_f64;
+    let mut step = 1.0;
+    core::array::from_fn(|_| {
+        step /= root;
+        #[expect(clippy::cast_precision_loss, reason = "a small number")]
+        let part = 0.5 + step * (index + 1) as f64;
+        let whole = crate::lanes::whole_below(part);
+        PI * (2.0 * (part - whole) - 1.0)
+    })
+}
+
+/// The joint vectors on which splits are scored: in general position; with joint 4 or 5, or both,
+/// at zero or a half turn; and at multiples of 90 and 45 deg.
+fn drawn(offsets: &[f64; 6]) -> Vec<[f64; 6]> {
+    let mut all: Vec<_> = (0..RANDOM).map(quasi_random).collect();
+    let mut index = RANDOM;
+    let mut next = || {
+        index += 1;
+        quasi_random(index)
+    };
+    let rounded = |q: f64, step: f64| step * (q / step).round();
+    for _ in 0..STRUCTURED {
+        for joints in [&[3][..], &[4], &[3, 4], &[2], &[1]] {
+            let mut q = next();
+            for joint in joints {
+                q[*joint] = 0.0;
+            }
+            all.push(q);
+        }
+        all.push(next().map(|q| rounded(q, FRAC_PI_2)));
+        all.push(next().map(|q| rounded(q, FRAC_PI_4)));
+    }
+    // Joint angles are zero where the table's theta is its constant.
+    for q in &mut all {
+        for (q, offset) in q.iter_mut().zip(offsets) {
+            *q -= offset;
+        }
+    }
+    all
+}
+
+/// The splits of an arm, the best first; the searched joints of the kept ones differ.
+pub(super) fn chosen(links: &[Motion; 5], closure: &Closure, offsets: &[f64; 6]) -> Vec<Split> {
+    let poses: Vec<(Target, Motion, [f64; 6])> = drawn(offsets)
+        .into_iter()
+        .map(|theta| {
+            let target = closure.reached(&theta);
+            let frame = Motion { r: target.frame.rotation, t: target.frame.origin };
+            (target, frame.inverse(), theta)
+        })
+        .collect();
+    let mut splits: Vec<(usize, Split)> = (0..SPLITS)
+        .map(|number| {
+            let split = Split::new(links, number);
+            (poses.iter().map(|pose| score(&split, closure, pose)).sum(), split)
+        })
+        .collect();
+    splits.sort_by_key(|(score, _)| core::cmp::Reverse(*score));
+    let mut kept: Vec<Split> = Vec::new();
+    for (_, split) in splits {
+        if kept.len() < KEPT && kept.iter().all(|other| other.searched() != split.searched()) {
+            kept.push(split);
+        }
+    }
+    kept
+}
+
+/// Points of a split for a pose: two if it finds the joints that made it, one if it is certain.
+fn score(split: &Split, closure: &Closure, pose: &(Target, Motion, [f64; 6])) -> usize {
+    let (target, t_last_first, theta) = pose;
+    let mut accepted = Accepted::NONE;
+    let accepted_to = &mut accepted;
+    let attempt = Attempt { split, closure, target, t_last_first, accepted: accepted_to };
+    let is_certain = run(attempt);
+    let is_found = accepted.as_slice().iter().any(|one| one.distance(theta) < 1e-6);
+    2 * usize::from(is_found) + usize::from(is_certain)
+}

@@ -1,0 +1,112 @@
+//! Arms of six joints in general: every solution of any chain, by eliminating five joints from the
+//! closure of the loop and searching the sixth.
+//!
+//! `docs/general.md` has the derivation, with the equation numbers (from 81 on) cited in the code.
+
+mod annihilator;
+mod attempt;
+mod back;
+mod choice;
+mod determinant;
+mod measure;
+mod moments;
+mod solve;
+mod split;
+#[cfg(test)]
+mod tests;
+
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+
+use measure::PATTERN;
+use split::Split;
+
+use super::Structure;
+use super::branches::Branches;
+use super::closure::Closure;
+use super::free_choice::FreeChoice;
+use super::joint_map::JointMap;
+use super::lanes::NoKernel;
+use crate::kinematics::answer::singularity::SingularDistances;
+use crate::kinematics::answer::slot::{MOST_SLOTS, Slot};
+use crate::kinematics::answer::status::SingularityKind;
+use crate::kinematics::chain::dh::Mdh;
+use crate::kinematics::pose::Pose;
+use crate::report::{Pattern, UnknownStructure};
+
+/// An arm of six joints without parallel or coincident neighbors that cost it a degree of freedom.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct General {
+    closure: Closure,
+    joint_map: JointMap<6>,
+    /// The splits, the best first. They are the same for an arm with any base, tool and limits.
+    splits: Arc<Vec<Split>>,
+    /// How far the table is from a structure with a closed form.
+    nearest: Option<UnknownStructure>,
+}
+
+impl General {
+    /// The closure of its joints.
+    pub(crate) fn closure(&self) -> &Closure {
+        &self.closure
+    }
+}
+
+impl Structure<6, MOST_SLOTS> for General {
+    const PATTERN: &'static Pattern = &PATTERN;
+    const IS_CLOSED_FORM: bool = false;
+
+    /// Arms of this kind may pass from one branch to another without a singularity: no property of
+    /// a joint vector names its branch.
+    const SLOT_NAMES: Option<&'static [&'static str; MOST_SLOTS]> = None;
+
+    type Redundancy = ();
+    type Kernel = NoKernel;
+
+    fn measure(mdh: &mut Mdh<6>) -> Result<Self, UnknownStructure> {
+        Self::of(mdh)
+    }
+
+    fn joint_map(&self) -> &JointMap<6> {
+        &self.joint_map
+    }
+
+    fn between(self, base: &Pose, tool: &Pose, _coupled: bool) -> Self {
+        let map = &self.joint_map;
+        let fixed = [base, &map.t_base_shoulder, &map.t_wrist_flange, tool];
+        let ends = fixed.iter().map(|pose| pose.translation.vector.norm()).sum();
+        Self { closure: self.closure.between(ends), ..self }
+    }
+
+    fn kernel(&self) -> Option<NoKernel> {
+        None
+    }
+
+    fn solve(&self, t_first_last: &Pose, (): (), free: &FreeChoice<6>) -> Branches<6, MOST_SLOTS> {
+        self.branches(t_first_last, free)
+    }
+
+    fn singular_distances(&self, _q: &[f64; 6]) -> Option<SingularDistances> {
+        None
+    }
+
+    fn singularities(&self, q: &[f64; 6]) -> SingularityKind {
+        self.kinds(q)
+    }
+
+    fn jacobian_determinant(&self, q: &[f64; 6]) -> f64 {
+        self.closure.determinant(&self.joint_map.theta(q))
+    }
+
+    fn slot(&self, _q: &[f64; 6]) -> Option<Slot> {
+        None
+    }
+
+    fn noting(self, nearest: Option<UnknownStructure>) -> Self {
+        Self { nearest, ..self }
+    }
+
+    fn nearest(&self) -> Option<UnknownStructure> {
+        self.nearest
+    }
+}

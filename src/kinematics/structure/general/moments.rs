@@ -1,0 +1,130 @@
+//! The moments of a line, on which rigid motions act linearly (docs/general.md, eq. 82, 83).
+
+use crate::kinematics::pose::Pose;
+use crate::kinematics::structure::end_frames::Frame;
+
+/// Number of moments: `1, p, l, p.p, p.l, p x l, (p.p) l - 2 (p.l) p` of a point p and a direction
+/// l.
+pub(super) const MOMENTS: usize = 15;
+
+/// Moments that a rotation about z leaves alone: of p, l, p.p, p.l, p x l and the last vector.
+pub(super) const ALONG: [usize; 6] = [3, 6, 7, 8, 11, 14];
+
+/// First of the two moments that a rotation about z turns: x and y of the four vectors.
+pub(super) const ACROSS: [usize; 4] = [1, 4, 9, 12];
+
+/// Moments, or derivatives of moments: any vector of their space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Moments(pub(super) [f64; MOMENTS]);
+
+/// A rigid motion with its rotation by rows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Motion {
+    pub(super) r: [[f64; 3]; 3],
+    pub(super) t: [f64; 3],
+}
+
+impl Motion {
+    pub(super) const IDENTITY: Self =
+        Self { r: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], t: [0.0; 3] };
+
+    /// The motion of a pose with its lengths in units.
+    pub(super) fn of(pose: &Pose, unit: f64) -> Self {
+        let Frame { rotation, origin } = Frame::of(pose);
+        Self { r: rotation, t: origin.map(|x| x / unit) }
+    }
+
+    pub(super) fn inverse(&self) -> Self {
+        let r = core::array::from_fn(|i| core::array::from_fn(|j| self.r[j][i]));
+        let inverse = Self { r, t: [0.0; 3] };
+        let t = inverse.turned(self.t);
+        Self { r, t: t.map(|x| -x) }
+    }
+
+    #[inline(always)]
+    pub(super) fn turned(&self, v: [f64; 3]) -> [f64; 3] {
+        let [a, b, c] = self.r;
+        [dot(a, v), dot(b, v), dot(c, v)]
+    }
+}
+
+#[inline(always)]
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[inline(always)]
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+impl Moments {
+    /// The moments of the z axis.
+    pub(super) const AXIS: Self = {
+        let mut moments = [0.0; MOMENTS];
+        (moments[0], moments[6]) = (1.0, 1.0);
+        Self(moments)
+    };
+
+    pub(super) fn unit(k: usize) -> Self {
+        let mut moments = [0.0; MOMENTS];
+        moments[k] = 1.0;
+        Self(moments)
+    }
+
+    /// The moments after a rigid motion (eq. 83).
+    #[inline(always)]
+    pub(super) fn moved(&self, by: &Motion) -> Self {
+        let m = &self.0;
+        let t = by.t;
+        let vector = |at: usize| by.turned([m[at], m[at + 1], m[at + 2]]);
+        let (p, l, w, v) = (vector(1), vector(4), vector(9), vector(12));
+        let (tt, tl) = (dot(t, t), dot(t, l));
+        let (t_l, t_w) = (cross(t, l), cross(t, w));
+        let mut moved = [0.0; MOMENTS];
+        moved[0] = m[0];
+        moved[7] = m[7] + 2.0 * dot(t, p) + tt * m[0];
+        moved[8] = m[8] + tl;
+        for i in 0..3 {
+            moved[1 + i] = p[i] + t[i] * m[0];
+            moved[4 + i] = l[i];
+            moved[9 + i] = w[i] + t_l[i];
+            moved[12 + i] = v[i] - 2.0 * t_w[i] + tt * l[i] - 2.0 * (m[8] + tl) * t[i];
+        }
+        Self(moved)
+    }
+
+    /// What a rotation about z by an angle leaves alone, what it multiplies by the cosine, and by
+    /// the sine (eq. 84).
+    pub(super) fn harmonics(&self) -> [Self; 3] {
+        let (mut along, mut cos, mut sin) = (*self, Self([0.0; MOMENTS]), Self([0.0; MOMENTS]));
+        for at in ACROSS {
+            let (x, y) = (self.0[at], self.0[at + 1]);
+            (along.0[at], along.0[at + 1]) = (0.0, 0.0);
+            (cos.0[at], cos.0[at + 1]) = (x, y);
+            (sin.0[at], sin.0[at + 1]) = (-y, x);
+        }
+        [along, cos, sin]
+    }
+
+    /// The harmonics of a rotation back, by the angle.
+    pub(super) fn back(&self) -> [Self; 3] {
+        let [along, cos, sin] = self.harmonics();
+        [along, cos, sin.times(-1.0)]
+    }
+
+    /// Those of a rotation back times `1 + x^2`, by powers of x, the tangent of half the angle
+    /// (eq. 88).
+    pub(super) fn powers_back(&self) -> [Self; 3] {
+        let [along, cos, sin] = self.back();
+        [along.plus(&cos, 1.0), sin.times(2.0), along.plus(&cos, -1.0)]
+    }
+
+    fn times(&self, factor: f64) -> Self {
+        Self(self.0.map(|x| x * factor))
+    }
+
+    fn plus(&self, other: &Self, factor: f64) -> Self {
+        Self(core::array::from_fn(|k| self.0[k] + factor * other.0[k]))
+    }
+}

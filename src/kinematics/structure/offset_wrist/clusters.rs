@@ -1,0 +1,189 @@
+//! Clusters of roots: the zeros of each branch in an interval of joint 6, counted where that is
+//! certain.
+//!
+//! Docs: offset_wrist.md, section 5.
+
+use core::f64::consts::PI;
+
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
+use super::branch::{SIDES, room_at};
+use super::search::{Search, sin_cos};
+use crate::kinematics::pose::angles::wrap;
+use crate::kinematics::structure::closure::Configuration;
+use crate::kinematics::structure::trigonometric::Root;
+
+/// Distance of the angles at which the branches are examined in a cluster of roots [rad], and the
+/// most of them; four more are always examined.
+const SPACING: f64 = 5e-3;
+const MOST_ANGLES: usize = 64;
+
+/// Curvature of z4 . z5 along joint 6 that no branch exceeds in a cluster [1].
+const MOST_CURVATURE: f64 = 100.0;
+
+/// Most clusters of roots: each holds two.
+const MOST_CLUSTERS: usize = 8;
+
+/// How far the angle of a solution may be from the interval of its root [rad].
+const ROOT_ERROR: f64 = 1e-6;
+
+/// Angles at which the branches are examined if the roots are not understood.
+const ALL_ANGLES: usize = 360;
+
+/// A cluster of roots.
+#[derive(Clone, Copy, Default)]
+struct Cluster {
+    low: f64,
+    high: f64,
+    /// Number of solutions in it; `None` if the branches do not show it.
+    zeros: Option<usize>,
+}
+
+/// The clusters of a pose.
+pub(super) struct Clusters {
+    all: [Cluster; MOST_CLUSTERS],
+    count: usize,
+    is_complete: bool,
+}
+
+impl Clusters {
+    pub(super) const NONE: Self = Self {
+        all: [Cluster { low: 0.0, high: 0.0, zeros: None }; MOST_CLUSTERS],
+        count: 0,
+        is_complete: true,
+    };
+
+    /// Whether there are as many solutions as the roots announce: in each cluster the zeros of the
+    /// branches, and one for each simple root beside them.
+    pub(super) fn agree(&self, solutions: &[Configuration], simple: usize) -> bool {
+        let clusters = &self.all[..self.count];
+        let mut in_cluster = [0; MOST_CLUSTERS];
+        let mut at_simple = 0;
+        for one in solutions {
+            let holds = |cluster: &Cluster| {
+                let Cluster { low, high, .. } = *cluster;
+                wrap(one.theta[5] - 0.5 * (low + high)).abs() <= 0.5 * (high - low)
+            };
+            match clusters.iter().position(holds) {
+                Some(index) => in_cluster[index] += one.multiplicity(),
+                None => at_simple += one.multiplicity(),
+            }
+        }
+        self.is_complete
+            && at_simple == simple
+            && clusters.iter().zip(in_cluster).all(|(cluster, count)| cluster.zeros == Some(count))
+    }
+
+    /// Examine a cluster of roots.
+    #[cold]
+    pub(super) fn examine(&mut self, root: &Root, search: &mut Search<'_>) {
+        let (low, high) = (root.low - ROOT_ERROR, root.high + ROOT_ERROR);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "few")]
+        let count = ((high - low) / SPACING) as usize;
+        let zeros = search.zeros([low, high], count.min(MOST_ANGLES));
+        match self.all.get_mut(self.count) {
+            Some(place) => {
+                *place = Cluster { low, high, zeros };
+                self.count += 1;
+            }
+            None => self.is_complete = false,
+        }
+        search.at_degenerate(root.angle());
+    }
+}
+
+impl Search<'_> {
+    /// Examine all angles of joint 6.
+    #[cold]
+    pub(super) fn everywhere(&mut self) {
+        self.zeros([-PI, PI], ALL_ANGLES);
+    }
+
+    /// Candidates where a branch changes its sign in an interval, and where it may touch zero.
+    /// Returns the number of zeros, if it is certain.
+    fn zeros(&mut self, interval: [f64; 2], inner: usize) -> Option<usize> {
+        let counts = SIDES.map(|sides| self.zeros_of(sides, interval, inner + 4));
+        counts.into_iter().sum()
+    }
+
+    fn zeros_of(&mut self, sides: [f64; 2], [low, high]: [f64; 2], steps: usize) -> Option<usize> {
+        #[expect(clippy::cast_precision_loss, reason = "few")]
+        let step = (high - low) / steps as f64;
+        let bounds = Bounds::of(step);
+        let (mut zeros, mut is_certain) = (0, true);
+        let mut before: Option<Seen> = None;
+        let mut best = (low, f64::INFINITY);
+        for number in 0..=steps {
+            #[expect(clippy::cast_precision_loss, reason = "few")]
+            let angle = low + step * number as f64;
+            let here = self.seen(sides, angle);
+            if let Seen::At(off) = here
+                && off.abs() < best.1
+            {
+                best = (angle, off.abs());
+            }
+            if let Some(before) = before {
+                is_certain &= bounds.are_clear(before, here);
+                if let (Seen::At(was), Seen::At(off)) = (before, here)
+                    && (was < 0.0) != (off < 0.0)
+                {
+                    zeros += 1;
+                    self.put_at(sides, angle - step + step * was / (was - off));
+                }
+            }
+            before = Some(here);
+        }
+        if !is_certain && zeros == 0 && best.1 < f64::INFINITY {
+            self.put_at(sides, best.0);
+        }
+        is_certain.then_some(zeros)
+    }
+
+    fn seen(&self, sides: [f64; 2], angle: f64) -> Seen {
+        match self.branch(sides, angle, 0.0) {
+            Some(branch) => Seen::At(branch.off),
+            None => {
+                let lengths = &self.arm.lengths;
+                Seen::Beyond(room_at(lengths, &self.hand, sides[0], sin_cos(angle)))
+            }
+        }
+    }
+}
+
+/// A branch at an angle of joint 6.
+#[derive(Clone, Copy)]
+enum Seen {
+    /// z4 . z5 - cos alpha_4 [1].
+    At(f64),
+    /// Out of reach: by how much [1], negative.
+    Beyond(f64),
+}
+
+/// What a branch may do between two angles.
+struct Bounds {
+    /// Its change from which on it is monotone, and its size from which on it has no zero.
+    bend: f64,
+    /// Its size from which on it has no zero before it ends.
+    end: f64,
+}
+
+impl Bounds {
+    fn of(step: f64) -> Self {
+        Self { bend: MOST_CURVATURE * step * step, end: MOST_CURVATURE * step.sqrt() }
+    }
+
+    /// Whether the zeros between two angles are those that the values there show (eq. 133).
+    fn are_clear(&self, one: Seen, other: Seen) -> bool {
+        match (one, other) {
+            (Seen::At(a), Seen::At(b)) => {
+                let has_none = (a < 0.0) == (b < 0.0) && a.abs().min(b.abs()) > self.bend;
+                has_none || (b - a).abs() > self.bend
+            }
+            (Seen::At(off), Seen::Beyond(_)) | (Seen::Beyond(_), Seen::At(off)) => {
+                off.abs() > self.end
+            }
+            (Seen::Beyond(a), Seen::Beyond(b)) => a.max(b) < -self.bend,
+        }
+    }
+}
