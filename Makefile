@@ -21,7 +21,7 @@ ON_EACH_NARROWER_SET := \
 STEP := @tests/step.sh
 SKIPPED := target/skipped.txt
 
-.PHONY: help run test test-recipes test-ros ros-starts check stubs catalog errors bench bench-peers instructions stages ulp million plans configurations hardsets fuzz wheel packages clean toolchains
+.PHONY: help run test test-recipes test-ros ros-starts check stubs catalog errors bench bench-peers instructions stages ulp million general offset-wrists plans configurations hardsets fuzz wheel packages clean toolchains
 
 help: ## List the targets
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -141,11 +141,17 @@ stages: | toolchains ## Show the time of a pose by stages, with perf; SETS="avx2
 ulp: | toolchains ## Compare arc tangent, sine and cosine with correctly rounded ones
 	IRBKIN_POINTS=10000000 cargo test --quiet --release --lib lanes::functions -- --nocapture --test-threads=1
 
+offset-wrists: | toolchains ## Count what is found of arms with an offset wrist; JOINT_VECTORS=1000 of each set
+	JOINT_VECTORS=$(or $(JOINT_VECTORS),1000) cargo test --release --lib offset_wrist::tests::each_arm -- --nocapture
+
 million: | toolchains ## Solve a million poses of each arm; count missed and incorrect ones
 	$(ON_EACH_SET) IRBKIN_POSES=1000000 cargo test --quiet --release --test suite -- recall:: --nocapture --test-threads=1; done
 
 plans: $(BUILT) $(VENV)/.groups ## Plan 100,000 random lines, halve each step of each plan
 	IRBKIN_PLANS=50000 $(BIN)/python -m pytest --quiet -s -k hides_a_jump tests/python/test_plan.py
+
+general: | toolchains ## Solve POSES (20,000) poses of arms without a closed form; count what is lost
+	IRBKIN_POSES=$(or $(POSES),20000) cargo test --quiet --release --lib structure::general -- --nocapture --test-threads=1
 
 configurations: | toolchains ## Check confdata at 100,000 poses of every ABB arm
 	IRBKIN_POSES=100000 cargo test --quiet --release --test suite -- configuration:: --nocapture --test-threads=1

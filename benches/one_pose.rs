@@ -1,5 +1,5 @@
 //! One pose of an IRB 2600: forward kinematics, Jacobian, inverse kinematics, singularity; the
-//! inverse of a UR3 and a Panda; on every instruction set.
+//! inverse of a UR3, a Panda and a GoFa; on every instruction set.
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use std::hint::black_box;
@@ -34,6 +34,12 @@ fn other_structures(criterion: &mut Criterion) {
     let (pose_ur3, pose_panda, above) =
         (ur3.fk(&q_ur3), panda.fk(&q_panda), panda.fk(&q_panda.map(|angle| angle + 0.01)));
     let singular = ur3.fk(&[0.4, -1.9, 1.5, -0.6, 0.0, 0.3]);
+    let gofa = Robot::<6>::named("CRB 15000-5/0.95").unwrap();
+    let q_gofa = [0.4, -0.3, 0.5, 0.7, 0.9, 0.3];
+    let [pose_gofa, parallel] = [0.7, 0.0].map(|q4| {
+        let [q1, q2, q3, _, q5, q6] = q_gofa;
+        gofa.fk(&[q1, q2, q3, q4, q5, q6])
+    });
     assert_eq!(
         (ur3.ik(&pose_ur3).unwrap().len(), panda.ik(&pose_panda, q_panda[6]).unwrap().len()),
         (8, 8)
@@ -49,6 +55,8 @@ fn other_structures(criterion: &mut Criterion) {
         group.bench_function("Panda: ik, 8 solutions", |b| {
             b.iter(|| panda.ik(black_box(&pose_panda), q_panda[6]));
         });
+        group.bench_function("GoFa 5: ik", |b| b.iter(|| gofa.ik(black_box(&pose_gofa))));
+        group.bench_function("GoFa 5: ik, q4 = 0", |b| b.iter(|| gofa.ik(black_box(&parallel))));
         group.bench_function("Panda: ik_nearest", |b| {
             b.iter(|| panda.ik_nearest(black_box(&above), black_box(&q_panda), &[1.0; 7]));
         });

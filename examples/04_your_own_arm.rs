@@ -51,16 +51,17 @@ fn main() -> Result<(), Error> {
     let q = [0.0, -90.0, 90.0, 0.0, 30.0, 0.0].map(f64::to_radians);
     println!("{}: {}, {}\n", kuka.name(), kuka.structure(), kuka.ik(&kuka.fk(&q))?.explain());
 
-    // A wrist whose axes 5 and 6 are 80 mm apart has no closed form; forward kinematics works.
+    // A wrist whose axes 5 and 6 are 80 mm apart has no closed form: the general solver takes it.
     let mut offset_wrist = mdh;
     offset_wrist.rows[5].a = 0.080;
-    refused("axes 5 and 6 apart", Robot::from_mdh(offset_wrist.clone()));
-    let arm = Robot::serial_chain(offset_wrist)?;
-    println!(
-        "  without its inverse: {}, tool at z = {:.1} mm\n",
-        arm.structure(),
-        1e3 * arm.fk(&[0.0; 6]).translation.z
-    );
+    let arm = Robot::from_mdh(offset_wrist)?;
+    let q = [10.0, 20.0, 30.0, 40.0, 50.0, 60.0].map(f64::to_radians);
+    let solutions = arm.ik(&arm.fk(&q))?;
+    let certainty = if solutions.is_certified() { "certified" } else { "not certified" };
+    println!("axes 5 and 6 apart: {}, {} solutions, {certainty}", arm.structure(), solutions.len());
+    if let Some(missing) = arm.missing_form() {
+        println!("  {missing}\n");
+    }
 
     let mut mirrored = [0.0; 16];
     (mirrored[0], mirrored[5], mirrored[10], mirrored[15]) = (1.0, 1.0, -1.0, 1.0);

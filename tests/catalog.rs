@@ -459,7 +459,7 @@ fn an_unknown_name_lists_close_ones_and_is_never_guessed() {
     assert_eq!(close("IRB 6700").len(), 6);
     assert_eq!(close("IRB 2601")[..5], all_2600);
     assert_eq!(close("UR3f")[..2], ["UR3", "UR3e"]);
-    for unlike in ["", "?", "KUKA KR 6 R700", "IRB 9999", "CRB 15000-5/0.95"] {
+    for unlike in ["", "?", "KUKA KR 6 R700", "IRB 9999", "IRB 910SC-3/0.45"] {
         assert_eq!(close(unlike), [""; 0], "{unlike}");
     }
 }

@@ -14,6 +14,7 @@ mod configuration;
 mod coupled;
 mod display;
 mod follow;
+mod general;
 mod hard_sets;
 mod joint_axes;
 mod laws;

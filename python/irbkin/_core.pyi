@@ -258,7 +258,6 @@ class Robot:
         limits: npt.ArrayLike | None = None,
         name: str = "",
         *,
-        closed_form: bool = True,
         snap: float = 0.0,
     ) -> Robot:
         """Robot from a modified (Craig) Denavit-Hartenberg table: Rx(alpha) Tx(a) Rz(theta + q)
@@ -269,15 +268,13 @@ class Robot:
                 4).
             limits: Lower and upper limit of each joint [rad], shape (n, 2); none when not given.
             name: A name of your own.
-            closed_form: With False, a six-axis arm of unknown structure is accepted, too: forward
-                kinematics and Jacobian work, `ik` raises. A seven-axis one is always accepted.
             snap: An alpha or theta offset within this of a multiple of 90 deg is made exact [rad],
                 at most 1e-3: 1e-5 takes 1.5708 for a right angle. Lengths stay as they are.
 
         Raises:
-            InvalidModelError: A number is not finite, a limit is empty, a link has no length, or
-                the structure is unknown: the message names the axes that do not meet or are not
-                parallel, by how much, and a `snap` that suffices.
+            InvalidModelError: A number is not finite, a limit is empty, or six joints are not
+                independent: the message names the axes. `missing_form` of a robot of structure
+                "general" has what keeps it from a closed form, and a `snap` that suffices.
         """
     @staticmethod
     def from_sdh(
@@ -285,7 +282,6 @@ class Robot:
         limits: npt.ArrayLike | None = None,
         name: str = "",
         *,
-        closed_form: bool = True,
         snap: float = 0.0,
     ) -> Robot:
         """Robot from a standard Denavit-Hartenberg table: Rz(theta + q) Tz(d) Tx(a) Rx(alpha).
@@ -295,8 +291,6 @@ class Robot:
                 shape (6, 4) or (7, 4).
             limits: Lower and upper limit of each joint [rad], shape (n, 2); none when not given.
             name: A name of your own.
-            closed_form: With False, a six-axis arm of unknown structure is accepted, too: forward
-                kinematics and Jacobian work, `ik` raises. A seven-axis one is always accepted.
             snap: An alpha or theta offset within this of a multiple of 90 deg is made exact [rad],
                 at most 1e-3: 1e-5 takes 1.5708 for a right angle. Lengths stay as they are.
 
@@ -347,7 +341,6 @@ class Robot:
         tip: str | None = None,
         name: str = "",
         *,
-        closed_form: bool = True,
         snap: float = 0.0,
     ) -> Robot:
         """Robot from a URDF: the revolute and continuous joints between two links, with their
@@ -360,8 +353,6 @@ class Robot:
             tip: Link that poses are of; when not given, the only one at the end of a chain of six
                 or seven joints.
             name: A name of your own; the URDF's when not given.
-            closed_form: With False, a six-axis arm of unknown structure is accepted, too: forward
-                kinematics and Jacobian work, `ik` raises. A seven-axis one is always accepted.
             snap: An angle of an origin, or an axis, within this of a multiple of 90 deg is made
                 exact [rad], at most 1e-3: 1e-5 takes 1.5708 for a right angle. Lengths stay as they
                 are.
@@ -369,7 +360,7 @@ class Robot:
         Raises:
             InvalidModelError: The text is no URDF, several links could be meant, there are not six
                 or seven joints, a joint between base and tip is not revolute, continuous or fixed,
-                or the structure is unknown; the message names what is wrong.
+                or six joints are not independent; the message names what is wrong.
             OSError: The file cannot be read.
         """
     def to_urdf(self) -> str:
@@ -389,9 +380,16 @@ class Robot:
     @property
     def structure(
         self,
-    ) -> Literal["spherical wrist", "three parallel axes", "spherical shoulder", "unknown"]:
+    ) -> Literal[
+        "spherical wrist", "three parallel axes", "spherical shoulder", "general", "unknown"
+    ]:
         """Kinematic structure: "spherical wrist", "three parallel axes", "spherical shoulder",
-        or "unknown" where irbkin has no closed form.
+        "general" for any other arm of six joints, or "unknown" for another of seven.
+        """
+    @property
+    def missing_form(self) -> str | None:
+        """What keeps the arm from a structure with a closed form, which is faster, by how much,
+        and a `snap` or another reading of its table that would give it one; None if it has one.
         """
     @property
     def mdh(self) -> _Floats:
@@ -1020,6 +1018,12 @@ class Solutions(Sequence[Solution]):
         `q_by_slot`.
         """
     @property
+    def certified(self) -> bool:
+        """Whether these are certain to be all solutions of the pose, limits not regarded. Always
+        where the structure has a closed form. For a general arm: their number is that of the
+        roots of a polynomial, and no joint moves freely.
+        """
+    @property
     def reach(self) -> Reach:
         """Whether the arm reaches the pose, limits not regarded, or is too short or too long for
         it: an `irbkin.Reach`.
@@ -1027,7 +1031,7 @@ class Solutions(Sequence[Solution]):
     @property
     def shortfall(self) -> float:
         """Distance missing to reach [m]: of the wrist center from where the arm can bring it; 0
-        when it is reached.
+        when it is reached, NaN for a general arm that does not.
         """
     def explain(self) -> str:
         """Return the outcome in a sentence: how many solutions, or why there are none."""

@@ -92,10 +92,13 @@ class Status(Flags):
     WRIST = 4
     """sin q5 = 0: axes 4 and 6 of a spherical wrist coincide, only q4 + q6 or q4 - q6 is
     determined; axis 6 of a three-parallel arm is parallel to axes 2 to 4. Of seven axes: the
-    shoulder is in the plane of axes 5 and 6.
+    shoulder is in the plane of axes 5 and 6. Of a general arm: its joints can move with the tool
+    standing still.
     """
     ELBOW = 8
-    """The arm is stretched or folded: both elbow branches coincide."""
+    """The arm is stretched or folded: both elbow branches coincide. Of a general arm: any two
+    branches coincide.
+    """
     SHOULDER = 16
     """The wrist center is on axis 1: q1 is not determined. With a lateral offset: front and back
     meet. Of seven axes: axes 1 and 3 coincide.
@@ -106,6 +109,10 @@ class Status(Flags):
     """
     INVALID = 64
     """The input of this row was invalid."""
+    UNCERTIFIED = 128
+    """It is not certain that the slots hold every solution of the pose: on every slot of a row, or
+    on none. Never where the structure has a closed form.
+    """
 
 
 class SingularityKind(Flags):
@@ -130,6 +137,8 @@ class Reach(enum.Enum):
     """The wrist center lies closer than the folded arm, or inside the cylinder of the lateral
     offset.
     """
+    NO_ROOTS = "no roots"
+    """A general arm has no solution; how far the pose is out of reach is not known."""
 
 
 class SingularityMode(str, enum.Enum):

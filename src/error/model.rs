@@ -131,7 +131,7 @@ pub enum ModelFault {
         /// Joints that were asked for.
         wanted: usize,
     },
-    /// The geometry has no closed-form inverse here.
+    /// The joints are not independent, or the structure of the arm is unknown.
     UnknownStructure(UnknownStructure),
     /// ABB's confdata means nothing, or something else, for arms of this structure.
     NoConfiguration {
@@ -242,7 +242,7 @@ impl fmt::Display for ModelFault {
                  \"through\" or \"error\""
             ),
             Self::UnknownStructure(reason) => {
-                write!(f, "no closed-form inverse kinematics for this arm: {reason}")
+                write!(f, "no inverse kinematics for this arm: {reason}")
             }
             Self::AxisDirection { axis } => {
                 write!(f, "direction of axis {axis} is zero, it must have a length")

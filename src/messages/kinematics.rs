@@ -143,9 +143,9 @@ fn models() -> Vec<Row> {
             "a velocity limit", "give a positive one";
         ModelFault::JointCount { .. } => ModelFault::JointCount { found: 7, wanted: 6 },
             "`Robot<6>` of an arm of seven joints", "take `Robot<7>`";
-        ModelFault::UnknownStructure(_) => ModelFault::UnknownStructure(offset_wrist()),
-            "an arm whose axes have no closed form here",
-            "see below; `closed_form=False` gives forward kinematics and Jacobian";
+        ModelFault::UnknownStructure(_) => ModelFault::UnknownStructure(dependent()),
+            "six joints that are not independent; `ik` of a seven-axis arm of unknown structure",
+            "see below";
         ModelFault::NoConfiguration { .. } =>
             ModelFault::NoConfiguration { structure: "three parallel axes" },
             "`configuration`, `ik_configured`", "take `slot` of a solution";
@@ -173,15 +173,21 @@ fn table_of(name: &str, change: impl FnOnce(&mut Mdh<6>)) -> Mdh<6> {
     table
 }
 
-fn refused(table: Mdh<6>) -> crate::UnknownStructure {
+/// What keeps the arm of a table from a closed form.
+fn missing(table: Mdh<6>) -> crate::UnknownStructure {
     match Robot::from_mdh(table) {
+        Ok(robot) => robot.missing_form().unwrap(),
         Err(Error::InvalidModel(ModelFault::UnknownStructure(reason))) => reason,
         other => panic!("{other:?}"),
     }
 }
 
-fn offset_wrist() -> crate::UnknownStructure {
-    refused(table_of("IRB 2600-12/1.65", |table| table.rows[4].a = 0.07))
+fn dependent() -> crate::UnknownStructure {
+    let table = table_of("IRB 2600-12/1.65", |table| table.rows[4].alpha = 0.0);
+    match Robot::from_mdh(table) {
+        Err(Error::InvalidModel(ModelFault::UnknownStructure(reason))) => reason,
+        other => panic!("{other:?}"),
+    }
 }
 
 /// Conditions by themselves, and what else a refusal says.
@@ -195,12 +201,12 @@ fn structures() -> Vec<Row> {
             "an alpha that is not 0", "look at the order of columns";
         Condition { relation: Relation::Meeting, .. } =>
             Condition { relation: Relation::Meeting, axes: (4, 5), off: 0.07 },
-            "a wrist with an offset, as of GoFa", "`closed_form=False`: no `ik`";
+            "a wrist with an offset, as of GoFa", "nothing: the general solver takes it";
         Condition { relation: Relation::Coplanar, .. } =>
             Condition { relation: Relation::Coplanar, axes: (3, 5), off: 0.01 },
             "a seven-axis arm with another elbow", "no `ik`";
     };
-    let few_digits = refused(table_of("UR5e", |table| {
+    let few_digits = missing(table_of("UR5e", |table| {
         for row in &mut table.rows {
             row.alpha = (row.alpha * 1e4).round() / 1e4;
         }
@@ -212,7 +218,7 @@ fn structures() -> Vec<Row> {
     });
     let standard = crate::Sdh::from(Robot::<6>::named("UR5e").unwrap().mdh().clone());
     let identity = crate::Pose::identity();
-    let swapped = refused(Mdh { base: identity, rows: standard.rows, flange: identity });
+    let swapped = missing(Mdh { base: identity, rows: standard.rows, flange: identity });
     all.push(Row {
         message: std::format!("...{}", tail(&swapped)),
         trigger: "standard rows given to `from_mdh`, columns in another order",
@@ -251,6 +257,10 @@ fn answers() -> Vec<Row> {
         Explanation::OutOfReach(_) =>
             Explanation::OutOfReach(Reach::TooFar { shortfall: 1423.4115 }),
             "a pose in millimeters", "divide its translation by 1000";
+        Explanation::NoRoots { certified: true } => Explanation::NoRoots { certified: true },
+            "a pose out of reach of a general arm", "move the pose";
+        Explanation::NoRoots { .. } => Explanation::NoRoots { certified: false },
+            "the same next to a singularity", "move the pose, even by 1e-6 m";
         Explanation::FreeOutOfReach { .. } =>
             Explanation::FreeOutOfReach { joint: 6, value: 1.0 },
             "`with_free_joint`", "choose another angle";

@@ -5,13 +5,19 @@ use std::vec::Vec;
 use super::tests::random_path;
 use super::{PlanError, PlanOptions, ToolRotation};
 use crate::kinematics::{Pose, PoseDifference, Robot, largest, nearest_turn, steps};
+use crate::paths::{Spacing, line};
 use crate::rng::Rng;
 
-/// Whether any solution of the first pose can be followed to the end in small steps.
+/// Whether any solution of the first pose can be followed to the end in small steps, of a path in
+/// parts so small that no gap between two folds is stepped over.
 fn is_followed(robot: &Robot<6>, path: &[Pose]) -> bool {
+    let parts: Vec<Pose> = path
+        .windows(2)
+        .flat_map(|two| line(&two[0], &two[1], Spacing::count(61).unwrap(), None).unwrap())
+        .collect();
     robot.ik(&path[0]).unwrap().turns().any(|start| {
         let mut q = start.q;
-        path[1..].iter().all(|pose| match robot.ik_nearest(pose, &q, &[1.0; 6]) {
+        parts.iter().all(|pose| match robot.ik_nearest(pose, &q, &[1.0; 6]) {
             Ok(next) if largest(&steps(&q, &next.q)) < 0.2 => {
                 q = next.q;
                 true
@@ -75,42 +81,9 @@ fn a_free_rotation_lowers_the_bottleneck_of_ordinals_too() {
         planned += 1;
         let start = free.q[0];
         let held = robot.plan(&path, &PlanOptions { start, ..options }).unwrap();
+        std::eprintln!("{} {}", held.bottleneck, free.bottleneck);
         assert!(held.bottleneck <= free.bottleneck * 1.05);
         assert_eq!(held.q[0], start);
     }
     assert!(planned >= 4, "{planned}");
-}
-
-#[test]
-#[ignore]
-fn zz_debug() {
-    let mut rng = Rng::new(17);
-    let robot: Robot<6> = Robot::named("CRB 15000-5/0.95").unwrap();
-    for case in 0..27 {
-        let path = random_path(&robot, &mut rng, 25, 0.04);
-        if case < 26 { continue; }
-        for k in 1..25 {
-            for start in robot.ik(&path[k - 1]).unwrap().iter() {
-                let mut q = start.q;
-                let turn = crate::paths::Turn::new(&path[k - 1].rotation, &path[k].rotation, None, 0).unwrap();
-                let (mut most, mut at) = (0.0, 0);
-                for part in 1..=200 {
-                    let f = part as f64 / 200.0;
-                    let t = path[k - 1].translation.vector * (1.0 - f) + path[k].translation.vector * f;
-                    let mid = Pose::from_parts(nalgebra::Translation3::from(t), turn.at(f));
-                    match robot.ik_nearest(&mid, &q, &[1.0; 6]) {
-                        Ok(next) => {
-                            let size = largest(&steps(&q, &next.q));
-                            if size > most { (most, at) = (size, part); }
-                            q = next.q;
-                        }
-                        Err(_) => { most = 99.0; break; }
-                    }
-                }
-                if most > 0.01 {
-                    std::eprintln!("0 {k} slot {} {:?} most {most} at {at}", start.slot.index(), start.q);
-                }
-            }
-        }
-    }
 }

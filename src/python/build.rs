@@ -19,8 +19,6 @@ use crate::report::Convention;
 #[derive(Clone, Copy)]
 pub(super) struct Table {
     pub(super) convention: Convention,
-    /// Whether an arm of no known form is refused.
-    pub(super) closed_form: bool,
     /// How far an angle may be from a multiple of 90 deg and still be made one [rad].
     pub(super) snap: f64,
 }
@@ -51,7 +49,7 @@ pub(super) fn from_table(
 
 fn robot_of_table<const N: usize>(
     numbers: &[[f64; 4]],
-    Table { convention, closed_form, snap }: Table,
+    Table { convention, snap }: Table,
 ) -> Result<Robot<N>, Error>
 where
     Joints<N>: Arity<N>,
@@ -62,18 +60,8 @@ where
     let rows = numbers.map(|[alpha, a, d, theta]| DhRow::new(alpha, a, d, theta));
     let (base, flange) = (Pose::identity(), Pose::identity());
     match convention {
-        Convention::Modified if closed_form => {
-            Robot::from_mdh(Mdh { base, rows, flange }.snapped(snap)?)
-        }
-        Convention::Standard if closed_form => {
-            Robot::from_sdh(Sdh { base, rows, flange }.snapped(snap)?)
-        }
-        Convention::Modified => Robot::serial_chain(Mdh { base, rows, flange }.snapped(snap)?)
-            .map(|robot| robot.hinting(&rows, convention)),
-        Convention::Standard => {
-            Robot::serial_chain(Sdh { base, rows, flange }.snapped(snap)?.into())
-                .map(|robot| robot.hinting(&rows, convention))
-        }
+        Convention::Modified => Robot::from_mdh(Mdh { base, rows, flange }.snapped(snap)?),
+        Convention::Standard => Robot::from_sdh(Sdh { base, rows, flange }.snapped(snap)?),
     }
 }
 

@@ -20,25 +20,22 @@ impl PyRobot {
     ///         4).
     ///     limits: Lower and upper limit of each joint [rad], shape (n, 2); none when not given.
     ///     name: A name of your own.
-    ///     closed_form: With False, a six-axis arm of unknown structure is accepted, too: forward
-    ///         kinematics and Jacobian work, `ik` raises. A seven-axis one is always accepted.
     ///     snap: An alpha or theta offset within this of a multiple of 90 deg is made exact [rad],
     ///         at most 1e-3: 1e-5 takes 1.5708 for a right angle. Lengths stay as they are.
     ///
     /// Raises:
-    ///     InvalidModelError: A number is not finite, a limit is empty, a link has no length, or
-    ///         the structure is unknown: the message names the axes that do not meet or are not
-    ///         parallel, by how much, and a `snap` that suffices.
+    ///     InvalidModelError: A number is not finite, a limit is empty, or six joints are not
+    ///         independent: the message names the axes. `missing_form` of a robot of structure
+    ///         "general" has what keeps it from a closed form, and a `snap` that suffices.
     #[staticmethod]
-    #[pyo3(signature = (rows, limits=None, name="", *, closed_form=true, snap=0.0))]
+    #[pyo3(signature = (rows, limits=None, name="", *, snap=0.0))]
     fn from_mdh(
         rows: &Bound<'_, PyAny>,
         limits: Option<&Bound<'_, PyAny>>,
         name: &str,
-        closed_form: bool,
         snap: f64,
     ) -> PyResult<Self> {
-        let table = Table { convention: Convention::Modified, closed_form, snap };
+        let table = Table { convention: Convention::Modified, snap };
         build::from_table(rows, limits, name, table).map(Self::from)
     }
 
@@ -49,23 +46,20 @@ impl PyRobot {
     ///         shape (6, 4) or (7, 4).
     ///     limits: Lower and upper limit of each joint [rad], shape (n, 2); none when not given.
     ///     name: A name of your own.
-    ///     closed_form: With False, a six-axis arm of unknown structure is accepted, too: forward
-    ///         kinematics and Jacobian work, `ik` raises. A seven-axis one is always accepted.
     ///     snap: An alpha or theta offset within this of a multiple of 90 deg is made exact [rad],
     ///         at most 1e-3: 1e-5 takes 1.5708 for a right angle. Lengths stay as they are.
     ///
     /// Raises:
     ///     InvalidModelError: As `from_mdh`.
     #[staticmethod]
-    #[pyo3(signature = (rows, limits=None, name="", *, closed_form=true, snap=0.0))]
+    #[pyo3(signature = (rows, limits=None, name="", *, snap=0.0))]
     fn from_sdh(
         rows: &Bound<'_, PyAny>,
         limits: Option<&Bound<'_, PyAny>>,
         name: &str,
-        closed_form: bool,
         snap: f64,
     ) -> PyResult<Self> {
-        let table = Table { convention: Convention::Standard, closed_form, snap };
+        let table = Table { convention: Convention::Standard, snap };
         build::from_table(rows, limits, name, table).map(Self::from)
     }
 
@@ -126,8 +120,6 @@ impl PyRobot {
     ///     tip: Link that poses are of; when not given, the only one at the end of a chain of six
     ///         or seven joints.
     ///     name: A name of your own; the URDF's when not given.
-    ///     closed_form: With False, a six-axis arm of unknown structure is accepted, too: forward
-    ///         kinematics and Jacobian work, `ik` raises. A seven-axis one is always accepted.
     ///     snap: An angle of an origin, or an axis, within this of a multiple of 90 deg is made
     ///         exact [rad], at most 1e-3: 1e-5 takes 1.5708 for a right angle. Lengths stay as they
     ///         are.
@@ -135,19 +127,18 @@ impl PyRobot {
     /// Raises:
     ///     InvalidModelError: The text is no URDF, several links could be meant, there are not six
     ///         or seven joints, a joint between base and tip is not revolute, continuous or fixed,
-    ///         or the structure is unknown; the message names what is wrong.
+    ///         or six joints are not independent; the message names what is wrong.
     ///     OSError: The file cannot be read.
     #[staticmethod]
-    #[pyo3(signature = (text_or_path, base=None, tip=None, name="", *, closed_form=true, snap=0.0))]
+    #[pyo3(signature = (text_or_path, base=None, tip=None, name="", *, snap=0.0))]
     fn from_urdf(
         text_or_path: &Bound<'_, PyAny>,
         base: Option<&str>,
         tip: Option<&str>,
         name: &str,
-        closed_form: bool,
         snap: f64,
     ) -> PyResult<Self> {
-        let wanted = Wanted { base, tip, name, closed_form, snap };
+        let wanted = Wanted { base, tip, name, snap };
         urdf::from_urdf(text_or_path, wanted).map(Self::from)
     }
 

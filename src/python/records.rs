@@ -31,5 +31,6 @@ pub(super) fn reach(py: Python<'_>, reach: Reach) -> PyResult<Bound<'_, PyAny>> 
         Reach::Reached => "REACHED",
         Reach::TooFar { .. } => "TOO_FAR",
         Reach::TooNear { .. } => "TOO_NEAR",
+        Reach::NoRoots => "NO_ROOTS",
     })
 }

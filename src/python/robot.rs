@@ -71,11 +71,18 @@ impl PyRobot {
         self.arm.dof()
     }
 
-    /// Kinematic structure: "spherical wrist", "three parallel axes", "spherical shoulder", or
-    /// "unknown" where irbkin has no closed form.
+    /// Kinematic structure: "spherical wrist", "three parallel axes", "spherical shoulder",
+    /// "general" for any other arm of six joints, or "unknown" for another of seven.
     #[getter]
     fn structure(&self) -> &'static str {
         on!(&self.arm, robot => robot.structure())
+    }
+
+    /// What keeps the arm from a structure with a closed form, which is faster, by how much, and a
+    /// `snap` or another reading of its table that would give it one; None if it has one.
+    #[getter]
+    fn missing_form(&self) -> Option<String> {
+        on!(&self.arm, robot => robot.missing_form().map(|missing| missing.to_string()))
     }
 
     /// Modified Denavit-Hartenberg rows: alpha [rad], a [m], d [m], theta offset [rad], shape (n,

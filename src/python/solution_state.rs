@@ -19,9 +19,10 @@ pub(super) type SolutionState = (usize, u8, Vec<f64>, Option<(usize, String)>);
 /// (what, a count, a count or a joint, a length or an angle).
 type OutcomeState = (String, usize, usize, f64);
 
-/// (what the slots hold, reach, why the last selection left nothing, the list of turns).
+/// (what the slots hold, reach, why the last selection left nothing, the list of turns, whether the
+/// solutions are certain to be all).
 pub(super) type FoundState =
-    (Vec<SolutionState>, OutcomeState, Option<OutcomeState>, Option<Vec<SolutionState>>);
+    (Vec<SolutionState>, OutcomeState, Option<OutcomeState>, Option<Vec<SolutionState>>, bool);
 
 fn damaged(py: Python<'_>) -> PyErr {
     Fault::Model.error(py, "the pickled solution is damaged".to_owned())
@@ -81,18 +82,19 @@ where
 {
     let solutions = &found.solutions;
     let status = solutions.status();
-    let slots =
-        status.iter().enumerate().filter(|(_, flags)| !flags.is_empty()).map(|(slot, flags)| {
-            match solutions.slot(slot) {
-                Some(solution) => of_solution(solution),
-                None => (slot, flags.bits(), Vec::new(), None),
-            }
-        });
+    let slots = status.iter().enumerate().filter_map(|(slot, flags)| match solutions.slot(slot) {
+        Some(solution) => Some(of_solution(solution)),
+        None if flags.contains(Status::MERGED) => {
+            Some((slot, (*flags - Status::UNCERTIFIED).bits(), Vec::new(), None))
+        }
+        None => None,
+    });
     (
         slots.collect(),
         of_outcome(Explanation::OutOfReach(solutions.reach())),
         solutions.emptied.map(of_outcome),
         found.turned.as_ref().map(|turned| turned.iter().map(of_solution).collect()),
+        solutions.is_certified(),
     )
 }
 
@@ -100,7 +102,7 @@ where
 pub(super) fn restored<const N: usize>(
     py: Python<'_>,
     mut found: Found<N>,
-    (slots, reach, emptied, turned): &FoundState,
+    (slots, reach, emptied, turned, certified): &FoundState,
 ) -> PyResult<Found<N>>
 where
     Joints<N>: Arity<N>,
@@ -119,6 +121,7 @@ where
         Explanation::OutOfReach(reach) => reach,
         _ => return Err(damaged(py)),
     };
+    found.solutions.is_certified = *certified;
     found.solutions.emptied = emptied.as_ref().map(|emptied| outcome(py, emptied)).transpose()?;
     found.turned = turned.as_ref().map(|turned| solutions(py, robot, turned)).transpose()?;
     Ok(found)
@@ -135,6 +138,8 @@ fn of_outcome(outcome: Explanation) -> OutcomeState {
         }
         Explanation::OutOfReach(Reach::Reached) => ("reached", 0, 0, 0.0),
         Explanation::OutOfReach(Reach::TooFar { shortfall }) => ("too far", 0, 0, shortfall),
+        Explanation::OutOfReach(Reach::NoRoots) => ("no roots", 0, 0, 0.0),
+        Explanation::NoRoots { certified } => ("without roots", usize::from(certified), 0, 0.0),
         Explanation::OutOfReach(Reach::TooNear { shortfall }) => ("too near", 0, 0, shortfall),
         Explanation::FreeOutOfReach { joint, value } => ("free out of reach", 0, joint, value),
         Explanation::FilteredOut => ("filtered out", 0, 0, 0.0),
@@ -150,6 +155,8 @@ fn outcome(py: Python<'_>, (what, count, other, figure): &OutcomeState) -> PyRes
         "outside linkage" => Explanation::OutsideLinkage { solutions, excess: figure },
         "reached" => Explanation::OutOfReach(Reach::Reached),
         "too far" => Explanation::OutOfReach(Reach::TooFar { shortfall: figure }),
+        "no roots" => Explanation::OutOfReach(Reach::NoRoots),
+        "without roots" => Explanation::NoRoots { certified: solutions == 1 },
         "too near" => Explanation::OutOfReach(Reach::TooNear { shortfall: figure }),
         "free out of reach" => Explanation::FreeOutOfReach { joint: other, value: figure },
         "filtered out" => Explanation::FilteredOut,

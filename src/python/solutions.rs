@@ -92,6 +92,14 @@ impl PySolutions {
         PyArray1::from_iter(py, status.iter().map(Status::bits))
     }
 
+    /// Whether these are certain to be all solutions of the pose, limits not regarded. Always where
+    /// the structure has a closed form. For a general arm: their number is that of the roots of a
+    /// polynomial, and no joint moves freely.
+    #[getter]
+    fn certified(&self) -> bool {
+        on!(&self.found, found => found.solutions.is_certified())
+    }
+
     /// Whether the arm reaches the pose, limits not regarded, or is too short or too long for it:
     /// an `irbkin.Reach`.
     #[getter]
@@ -100,7 +108,7 @@ impl PySolutions {
     }
 
     /// Distance missing to reach [m]: of the wrist center from where the arm can bring it; 0 when
-    /// it is reached.
+    /// it is reached, NaN for a general arm that does not.
     #[getter]
     fn shortfall(&self) -> f64 {
         on!(&self.found, found => found.solutions.reach().shortfall())

@@ -16,8 +16,6 @@ pub(super) struct Wanted<'a> {
     pub(super) tip: Option<&'a str>,
     /// The robot's name; that of the URDF where it is empty.
     pub(super) name: &'a str,
-    /// Whether an arm of no known form is refused.
-    pub(super) closed_form: bool,
     /// How far an angle may be from a multiple of 90 deg and still be made one [rad].
     pub(super) snap: f64,
 }
@@ -33,7 +31,7 @@ fn arm_of(bytes: &[u8], wanted: Wanted<'_>) -> Result<Arm, Error> {
     let text =
         str::from_utf8(bytes).map_err(|error| UrdfFault::NotUtf8 { byte: error.valid_up_to() })?;
     let read = UrdfArm::read(text, wanted.base, wanted.tip, &[6, 7])?;
-    let arm = Arm::from(read.any_robot(wanted.closed_form, wanted.snap)?);
+    let arm = Arm::from(read.any_robot(wanted.snap)?);
     if wanted.name.is_empty() { Ok(arm) } else { arm.edited(&Edit::Name(wanted.name)) }
 }
 

@@ -18,14 +18,19 @@ pub enum Reach {
         /// How far inside [m].
         shortfall: f64,
     },
+    /// A general arm has no solution: its polynomial has no real root. How far the pose is out of
+    /// reach is not known.
+    NoRoots,
 }
 
 impl Reach {
-    /// How far the wrist center is from where the arm can bring it [m]; zero when reached.
+    /// How far the wrist center is from where the arm can bring it [m]; zero when reached, NaN where
+    /// it is not known.
     #[must_use]
     pub fn shortfall(self) -> f64 {
         match self {
             Self::Reached => 0.0,
+            Self::NoRoots => f64::NAN,
             Self::TooFar { shortfall } | Self::TooNear { shortfall } => shortfall,
         }
     }
@@ -76,6 +81,11 @@ pub enum Explanation {
         /// The angle [rad].
         value: f64,
     },
+    /// A general arm has no solution.
+    NoRoots {
+        /// Whether that is certain.
+        certified: bool,
+    },
     /// The caller's own condition rejected every solution.
     FilteredOut,
 }
@@ -103,6 +113,12 @@ impl fmt::Display for Explanation {
             }
             Self::OutOfReach(Reach::TooNear { shortfall }) => {
                 write!(f, "wrist center {} too near to be reached", Millimeters(shortfall))
+            }
+            Self::NoRoots { certified: true } | Self::OutOfReach(Reach::NoRoots) => {
+                write!(f, "out of reach: no closed form; 0 real roots")
+            }
+            Self::NoRoots { certified: false } => {
+                write!(f, "no solution found, which is not certain: no closed form")
             }
             Self::OutOfReach(reach) => {
                 let shortfall = reach.shortfall();

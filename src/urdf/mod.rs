@@ -28,7 +28,8 @@ impl<const N: usize> Robot<N>
 where
     Joints<N>: Arity<N>,
 {
-    /// A robot from the text of a URDF, with the closed form of its kinematic structure.
+    /// A robot from the text of a URDF, with the closed form of its kinematic structure or the
+    /// general solver of six joints.
     ///
     /// `base` is the link in whose frame poses are given; by default the link without a parent.
     /// `tip` is the link whose poses are given; by default the only one at the end of a chain of
@@ -42,10 +43,10 @@ where
     /// # Errors
     ///
     /// [`Error::InvalidModel`] when the text is not a URDF, `base` or `tip` are not links of a
-    /// chain of `N` revolute joints or are ambiguous, or, for six axes, the arm has no known
-    /// structure. [`Robot::serial_chain_from_urdf`] accepts such an arm, without its inverse.
+    /// chain of `N` revolute joints or are ambiguous, or six joints are not independent.
+    /// [`Robot::serial_chain_from_urdf`] accepts such an arm, without its inverse.
     pub fn from_urdf(text: &str, base: Option<&str>, tip: Option<&str>) -> Result<Self, Error> {
-        UrdfArm::read(text, base, tip, &[N])?.robot(true, 0.0)
+        UrdfArm::read(text, base, tip, &[N])?.robot(0.0)?.with_inverse()
     }
 
     /// As [`Robot::from_urdf`], with each angle of an origin, and each axis, that is within `snap`
@@ -61,21 +62,20 @@ where
         tip: Option<&str>,
         snap: f64,
     ) -> Result<Self, Error> {
-        UrdfArm::read(text, base, tip, &[N])?.robot(true, snap)
+        UrdfArm::read(text, base, tip, &[N])?.robot(snap)?.with_inverse()
     }
 
-    /// As [`Robot::from_urdf`]: with the closed form if the structure is known, otherwise without
-    /// the inverse.
+    /// As [`Robot::from_urdf`], of joints that are not independent too: then without the inverse.
     ///
     /// # Errors
     ///
-    /// As [`Robot::from_urdf`], except that an arm of unknown structure is accepted.
+    /// As [`Robot::from_urdf`], except that such an arm is accepted.
     pub fn serial_chain_from_urdf(
         text: &str,
         base: Option<&str>,
         tip: Option<&str>,
     ) -> Result<Self, Error> {
-        UrdfArm::read(text, base, tip, &[N])?.robot(false, 0.0)
+        UrdfArm::read(text, base, tip, &[N])?.robot(0.0)
     }
 }
 
@@ -86,7 +86,7 @@ impl AnyRobot {
     ///
     /// As [`Robot::from_urdf`].
     pub fn from_urdf(text: &str, base: Option<&str>, tip: Option<&str>) -> Result<Self, Error> {
-        UrdfArm::read(text, base, tip, &[6, 7])?.any_robot(true, 0.0)
+        UrdfArm::read(text, base, tip, &[6, 7])?.any_robot(0.0)
     }
 }
 
@@ -116,33 +116,28 @@ impl UrdfArm {
     }
 
     /// As [`Self::robot`], of six or seven joints.
-    pub(crate) fn any_robot(&self, closed_form: bool, snap: f64) -> Result<AnyRobot, Error> {
+    pub(crate) fn any_robot(&self, snap: f64) -> Result<AnyRobot, Error> {
         match self.motions().count() {
-            7 => self.robot::<7>(closed_form, snap).map(AnyRobot::from),
-            _ => self.robot::<6>(closed_form, snap).map(AnyRobot::from),
+            7 => self.robot::<7>(snap)?.with_inverse().map(AnyRobot::from),
+            _ => self.robot::<6>(snap)?.with_inverse().map(AnyRobot::from),
         }
     }
 
-    /// The robot, which must have `N` joints; without `closed_form` an arm of unknown structure is
-    /// accepted too. Angles within `snap` of a multiple of 90 deg [rad] are made exact. If the arm
-    /// has no known structure, or no table, and would have one with a larger snap, that is
-    /// proposed.
-    pub(crate) fn robot<const N: usize>(
-        &self,
-        closed_form: bool,
-        snap: f64,
-    ) -> Result<Robot<N>, Error>
+    /// The robot, which must have `N` joints. Angles within `snap` of a multiple of 90 deg [rad] are
+    /// made exact. If the arm has no closed form, or no table, and would have one with a larger
+    /// snap, that is proposed.
+    pub(crate) fn robot<const N: usize>(&self, snap: f64) -> Result<Robot<N>, Error>
     where
         Joints<N>: Arity<N>,
     {
         check_snap(snap)?;
         let proposal = || {
             let is_taken =
-                |snap| self.chain::<N>(snap).is_ok_and(|robot| robot.unknown_structure().is_none());
+                |snap| self.table::<N>(snap).is_ok_and(|mdh| Robot::has_closed_form(&mdh));
             SNAPS.into_iter().find(|snap| is_taken(*snap))
         };
-        let robot = match self.chain::<N>(snap) {
-            Ok(robot) if robot.unknown_structure().is_some() => robot.proposing(proposal()),
+        let robot = match self.table::<N>(snap).and_then(Robot::serial_chain) {
+            Ok(robot) if robot.missing_form().is_some() => robot.proposing(proposal()),
             Err(Error::InvalidModel(ModelFault::NearlyParallel {
                 axes,
                 off,
@@ -155,23 +150,15 @@ impl UrdfArm {
             }
             other => other?,
         };
-        match robot.unknown_structure() {
-            Some(reason) if closed_form && N == 6 => {
-                Err(ModelFault::UnknownStructure(reason).into())
-            }
-            _ => self.limited(robot),
-        }
+        self.limited(robot)
     }
 
-    /// The chain, with the closed form if its structure is known.
-    fn chain<const N: usize>(&self, snap: f64) -> Result<Robot<N>, Error>
-    where
-        Joints<N>: Arity<N>,
-    {
+    /// The table of the chain.
+    fn table<const N: usize>(&self, snap: f64) -> Result<Mdh<N>, Error> {
         let (axes, t_base_tip) = self.axes(snap)?;
         let axes = <[JointAxis; N]>::try_from(axes)
             .map_err(|axes| ModelFault::JointCount { found: axes.len(), wanted: N })?;
-        Robot::serial_chain(Mdh::from_joint_axes(&axes, &t_base_tip)?)
+        Mdh::from_joint_axes(&axes, &t_base_tip)
     }
 
     /// The axes of the joints that turn, and the tip, both in the base at zero joint angles.

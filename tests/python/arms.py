@@ -154,13 +154,33 @@ def ur_arm(name):
 
 
 UR = {name: ur_arm(name) for name in UR_FIGURES}
-CATALOG = {**ABB, **UR, "Panda": PANDA, "FR3": FR3}
 
 # CRB 15000-5/0.95: axes 5 and 6 pass 80 mm apart.
 GOFA_ROWS_MM_DEG = (
     (0, 0, 265, 0), (-90, 0, 0, -90), (0, 444, 0, 0), (-90, 110, 470, 0), (90, 0, 0, 0),
     (-90, 80, 101, 180),
 )  # fmt: skip
+GOFA = Arm(
+    "CRB 15000-5/0.95",
+    GOFA_ROWS_MM_DEG,
+    ((-180, 180), (-180, 180), (-225, 85), (-180, 180), (-180, 180), (-270, 270)),
+    (125, 125, 140, 200, 200, 200),
+)
+# Of the upper arm, 53.5 mm are forward and 284.5 mm up (UFACTORY's documentation).
+XARM6 = Arm(
+    "xArm6",
+    (
+        (0, 0, 267, 0),
+        (-90, 0, 0, -np.rad2deg(np.arctan2(284.5, 53.5))),
+        (0, np.hypot(284.5, 53.5), 0, np.rad2deg(np.arctan2(284.5, 53.5))),
+        (-90, 77.5, 342.5, 0),
+        (90, 0, 0, 0),
+        (-90, 76, 97, 0),
+    ),
+    ((-360, 360), (-118, 120), (-225, 11), (-360, 360), (-97, 180), (-360, 360)),
+    (180,) * 6,
+)
+CATALOG = {**ABB, **UR, "Panda": PANDA, "FR3": FR3, GOFA.name: GOFA, "xArm6": XARM6}
 
 # An article's table of an IRB 1410-4/1.45, with the upper arm along -x of its frame.
 IRB1410 = Arm(

@@ -77,7 +77,7 @@ def test_missing_parameters_are_named():
 LIMIT_SETTERS = {
     "with_limits": ROBOT.with_limits,
     "from_mdh": lambda limits: Robot.from_mdh(ROWS, limits=limits),
-    "from_sdh": lambda limits: Robot.from_sdh(ROWS, limits=limits, closed_form=False),
+    "from_sdh": lambda limits: Robot.from_sdh(ROWS, limits=limits),
     "from_opw": lambda limits: Robot.from_opw(**IRB2400, limits=limits),
 }
 
@@ -157,8 +157,7 @@ def test_a_name_without_close_ones_is_reported_so(name):
 @pytest.mark.parametrize(
     ("name", "reason"),
     [
-        ("GoFa", "no spherical wrist: axes 5 and 6 pass 80 mm apart"),
-        ("CRB 15000-5/0.95", "no spherical wrist: axes 5 and 6 pass 80 mm apart"),
+        ("CRX-30iA", "one source, the maker's URDF"),
         ("YuMi", "seven axes of no form that irbkin solves"),
         ("IRB 910SC", "four axes, one of them prismatic"),
         ("abb irb 460", "four axes, a second linkage keeps the flange level"),

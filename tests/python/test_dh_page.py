@@ -257,7 +257,7 @@ def test_the_toolbox_has_the_same_frames_and_jacobian(kind, make, rows, tables):
     links = [kind(alpha=alpha, a=a, d=d, offset=theta) for alpha, a, d, theta in rows]
     tool = move(0.1, -0.2, 0.3) @ turn("x", 0.7)
     chain = roboticstoolbox.DHRobot(links)
-    robot = make(rows, closed_form=False)
+    robot = make(rows)
     for q in np.random.default_rng(13).uniform(-3, 3, (20, len(rows))):
         close(np.array([pose.A for pose in chain.fkine_all(q)]), tables(rows, q), reach(rows))
         close(robot.jacobian(q), chain.jacob0(q), 2 * (reach(rows) + 1))

@@ -65,7 +65,7 @@ def test_every_description_is_tried():
 @pytest.mark.parametrize("name", CHAINS)
 def test_poses_are_those_of_pinocchio(name):
     base, tip, last = CHAINS[name]
-    robot = Robot.from_urdf(TEXTS[name], base, tip, closed_form=False)
+    robot = Robot.from_urdf(TEXTS[name], base, tip)
     # Right angles with nine decimals are 2e-10 off, and are taken as such: for six joints, on the
     # way there and back.
     bound = (
@@ -79,7 +79,7 @@ def test_poses_are_those_of_pinocchio(name):
 )
 def test_poses_from_and_to_other_links(base, tip):
     text = TEXTS["tilted"]
-    robot = Robot.from_urdf(text, base, tip, closed_form=False)
+    robot = Robot.from_urdf(text, base, tip)
     assert_agrees(robot, by_pinocchio(text, base, tip), 2 * rounding(reach(robot) + 1))
 
 
@@ -93,9 +93,9 @@ def test_a_chain_of_too_few_joints_is_counted():
 
 
 def test_the_table_with_both_ends_is_the_arm():
-    robot = Robot.from_urdf(TEXTS["tilted"], closed_form=False)
+    robot = Robot.from_urdf(TEXTS["tilted"])
     assert np.abs(robot.root - np.eye(4)).max() > 0.1
-    rows = Robot.from_mdh(robot.mdh, closed_form=False)
+    rows = Robot.from_mdh(robot.mdh)
     q = np.linspace(-1, 1, 6)
     np.testing.assert_allclose(robot.root @ rows.fk(q) @ robot.flange, robot.fk(q), atol=1e-14)
     for other in ("irb2600", "kr6_r700", "iiwa14"):
@@ -160,7 +160,7 @@ def test_limits_velocities_and_names_arrive():
     np.testing.assert_array_equal(robot.max_velocity, catalog.max_velocity)
     assert robot.name == "irb2600"
     assert Robot.from_urdf(TEXTS["irb2600"], name="mine").name == "mine"
-    tilted = Robot.from_urdf(TEXTS["tilted"], closed_form=False)
+    tilted = Robot.from_urdf(TEXTS["tilted"])
     np.testing.assert_array_equal(
         tilted.limits, [[-np.inf, np.inf], *[[-2.0, 2.5]] * 4, [-np.inf, np.inf]]
     )
@@ -168,12 +168,8 @@ def test_limits_velocities_and_names_arrive():
 
 
 def test_a_robot_of_a_urdf_is_a_value():
-    robot = Robot.from_urdf(TEXTS["tilted"], closed_form=False)
-    assert (
-        pickle.loads(pickle.dumps(robot))
-        == robot
-        == Robot.from_urdf(TEXTS["tilted"], closed_form=False)
-    )
+    robot = Robot.from_urdf(TEXTS["tilted"])
+    assert pickle.loads(pickle.dumps(robot)) == robot == Robot.from_urdf(TEXTS["tilted"])
     assert hash(robot) == hash(pickle.loads(pickle.dumps(robot)))
 
 
@@ -269,7 +265,7 @@ def chain(kinds, extra=""):
 )
 def test_a_refusal_reports_the_reason(text, words):
     with pytest.raises(InvalidModelError) as refused:
-        Robot.from_urdf(text, closed_form=False)
+        Robot.from_urdf(text)
     assert str(refused.value) == f"URDF: {words}"
 
 
@@ -286,11 +282,9 @@ def test_an_unknown_link_is_named():
         Robot.from_urdf(TEXTS["irb2600"], "link_1", "base")
 
 
-def test_without_closed_form_an_arm_of_unknown_structure_is_accepted():
+def test_an_arm_without_closed_form_is_general():
     text = chain(["revolute", "continuous"] * 3)
-    with pytest.raises(InvalidModelError, match="no closed-form inverse kinematics"):
-        Robot.from_urdf(text)
-    robot = Robot.from_urdf(text, closed_form=False)
+    robot = Robot.from_urdf(text)
     assert_agrees(robot, by_pinocchio(text, None, "l6"), 2 * rounding(reach(robot) + 1))
 
 

@@ -32,7 +32,7 @@ def variants():
         "opw, signs": Robot.from_opw(**KUKA_KR6),
         "mdh": Robot.from_mdh(rows),
         "mdh, limits": Robot.from_mdh(rows, limits=np.array([[-1.0, 1.0]] * 6), name="mine"),
-        "sdh": Robot.from_sdh(rows, closed_form=False),
+        "sdh": Robot.from_sdh(rows),
         "seven": Robot.from_mdh(CATALOG["Panda"].rows),
         "everything": Robot.from_opw(**KUKA_KR6, name="ü")
         .with_tool(random_pose(np.random.default_rng(1)))

@@ -119,7 +119,8 @@ impl<const N: usize> Solutions<N> {
     /// The status of each slot; empty flags if the branch does not exist.
     #[must_use]
     pub fn status(&self) -> SlotStatus {
-        SlotStatus::new(self.places.map(|place| place.status()), self.slot_count)
+        let uncertified = if self.is_certified { Status::empty() } else { Status::UNCERTIFIED };
+        SlotStatus::new(self.places.map(|place| place.status() | uncertified), self.slot_count)
     }
 
     /// The content of each slot.
@@ -152,7 +153,7 @@ impl<const N: usize> Solutions<N> {
         self.places[slot.index()] = Place::Merged(flags);
     }
 
-    /// Whether the wrist center gets to where the pose wants it.
+    /// Whether the arm gets to the pose, limits not regarded.
     #[must_use]
     pub fn reach(&self) -> Reach {
         self.reach
@@ -183,6 +184,9 @@ impl<const N: usize> Solutions<N> {
     pub fn explain(&self) -> Explanation {
         if let Some(explanation) = self.emptied {
             return explanation;
+        }
+        if self.reach == Reach::NoRoots {
+            return Explanation::NoRoots { certified: self.is_certified };
         }
         if self.reach != Reach::Reached {
             return Explanation::OutOfReach(self.reach);

@@ -11,9 +11,11 @@ bitflags::bitflags! {
         const WITHIN_LIMITS = 2;
         /// sin q5 = 0. Axes 4 and 6 of a spherical wrist coincide: only q4 + q6 or q4 - q6 is
         /// determined. For a three-parallel arm, axis 6 is parallel to axes 2 to 4. For seven axes,
-        /// the shoulder is in the plane of axes 5 and 6.
+        /// the shoulder is in the plane of axes 5 and 6. For a general arm: its joints can move with
+        /// the tool standing still.
         const WRIST = 4;
-        /// The arm is stretched or folded: both elbow branches coincide.
+        /// The arm is stretched or folded: both elbow branches coincide. For a general arm: any two
+        /// branches coincide.
         const ELBOW = 8;
         /// The wrist center is on axis 1: q1 is not determined. With a lateral offset: on the edge
         /// of its cylinder, where the front and back branch meet. For seven axes: axes 1 and 3
@@ -24,6 +26,9 @@ bitflags::bitflags! {
         const MERGED = 32;
         /// The input of this row was invalid.
         const INVALID = 64;
+        /// It is not certain that the slots hold every solution of the pose. On every slot of an
+        /// answer, or on none; never where the structure has a closed form.
+        const UNCERTIFIED = 128;
     }
 }
 

@@ -37,24 +37,25 @@ where
     Joints<N>: Arity<N>,
 {
     /// A robot from a modified (Craig) Denavit-Hartenberg table, with the closed form of its
-    /// kinematic structure.
+    /// kinematic structure, or the general solver of six joints.
     ///
-    /// A six-axis table may have its frames and its zero pose anywhere. Deviations from the
-    /// structure of at most 1e-9 rad or m are removed. A seven-axis arm of unknown structure has
-    /// forward kinematics and the Jacobian. For angles with few digits, see [`Mdh::snapped`].
+    /// A six-axis table may have its frames and its zero pose anywhere. Deviations from a closed
+    /// form of at most 1e-9 rad or m are removed; [`Robot::missing_form`] says what keeps a general
+    /// arm from one. A seven-axis arm of unknown structure has forward kinematics and the Jacobian.
+    /// For angles with few digits, see [`Mdh::snapped`].
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidModel`] when a number is not finite, a link has no length, or a six-axis arm
-    /// has no known structure: the message names the axes and their deviations.
-    /// [`Robot::serial_chain`] accepts such an arm, without its inverse.
+    /// [`Error::InvalidModel`] when a number is not finite, or six joints do not move the flange in
+    /// six independent ways: the message names the axes. [`Robot::serial_chain`] accepts such an
+    /// arm, without its inverse.
     pub fn from_mdh(mdh: Mdh<N>) -> Result<Self, Error> {
         let rows = mdh.rows;
-        Self::serial_chain(mdh)?.hinting(&rows, Convention::Modified).with_closed_form()
+        Self::serial_chain(mdh)?.hinting(&rows, Convention::Modified).with_inverse()
     }
 
     /// Refuses an arm of six joints whose structure is unknown.
-    fn with_closed_form(self) -> Result<Self, Error> {
+    pub(crate) fn with_inverse(self) -> Result<Self, Error> {
         match self.unknown_structure() {
             Some(reason) if N == 6 => Err(ModelFault::UnknownStructure(reason).into()),
             _ => Ok(self),
@@ -68,23 +69,22 @@ where
     /// As [`Robot::from_mdh`].
     pub fn from_sdh(sdh: Sdh<N>) -> Result<Self, Error> {
         let rows = sdh.rows;
-        Self::serial_chain(sdh.into())?.hinting(&rows, Convention::Standard).with_closed_form()
+        Self::serial_chain(sdh.into())?.hinting(&rows, Convention::Standard).with_inverse()
     }
 
-    /// A robot from any modified Denavit-Hartenberg table: with the closed form if its structure is
-    /// known, otherwise without the inverse.
+    /// A robot from any modified Denavit-Hartenberg table, of joints that are not independent too:
+    /// then without the inverse.
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidModel`] when a number is not finite or a recognized arm's link has no
-    /// length.
+    /// [`Error::InvalidModel`] when a number is not finite.
     pub fn serial_chain(mut mdh: Mdh<N>) -> Result<Self, Error> {
         check_rows(&mdh.rows)?;
         (mdh.base, mdh.flange) = (checked_pose(&mdh.base)?, checked_pose(&mdh.flange)?);
         let (chain, structure) = StructureOf::<N>::recognize(&mdh);
         let mut robot = Self::new(Definition::Mdh(mdh), chain, structure);
         robot.check_reach()?;
-        if robot.unknown_structure().is_some() {
+        if robot.missing_form().is_some() {
             let snap = robot.helpful_snap();
             robot.structure = robot.structure.hinting(|reason| reason.proposing(snap));
         }
@@ -108,27 +108,33 @@ where
         Ok(())
     }
 
-    /// The same robot; where its structure is unknown, with another reading of the rows of its
-    /// table, in which it is known.
+    /// The same robot; where it has no closed form, with another reading of the rows of its table,
+    /// in which it has one.
     #[must_use]
     pub(crate) fn hinting(mut self, rows: &[DhRow; N], convention: Convention) -> Self {
-        if self.unknown_structure().is_some_and(|reason| reason.snap().is_none()) {
+        if self.missing_form().is_some_and(|reason| reason.snap().is_none()) {
             let reading = other_reading(rows, convention);
             self.structure = self.structure.hinting(|reason| reason.reading_as(reading));
         }
         self
     }
 
-    /// The least of the snaps that are proposed with which a table has a known structure.
+    /// The least of the snaps that are proposed with which a table has a closed form.
     fn helpful_snap(&self) -> Option<f64> {
         let Definition::Mdh(mdh) = &self.definition else { return None };
         SNAPS.into_iter().find(|snap| {
             let snapped = mdh.clone().snapped(*snap);
-            snapped.is_ok_and(|mdh| StructureOf::<N>::recognize(&mdh).1.arm().unknown().is_none())
+            snapped.is_ok_and(|mdh| StructureOf::<N>::closed_form(&mdh).is_ok())
         })
     }
 
-    /// The same robot with another `snap` proposed, if its structure is unknown.
+    /// Whether a table has the structure of a closed form.
+    #[cfg(feature = "urdf")]
+    pub(crate) fn has_closed_form(mdh: &Mdh<N>) -> bool {
+        StructureOf::<N>::closed_form(mdh).is_ok()
+    }
+
+    /// The same robot with another `snap` proposed, if it has no closed form.
     #[cfg(feature = "urdf")]
     pub(crate) fn proposing(mut self, snap: Option<f64>) -> Self {
         self.structure = self.structure.hinting(|reason| reason.proposing(snap));

@@ -112,7 +112,7 @@ where
     }
 
     /// Name of the kinematic structure: "spherical wrist", "three parallel axes", "spherical
-    /// shoulder", or "unknown".
+    /// shoulder", "general" for any other arm of six joints, or "unknown".
     #[must_use]
     pub fn structure(&self) -> &'static str {
         self.structure.arm().name()
@@ -122,6 +122,14 @@ where
     #[must_use]
     pub fn unknown_structure(&self) -> Option<UnknownStructure> {
         self.structure.arm().unknown()
+    }
+
+    /// What keeps the arm from a structure with a closed form, and a `snap` or another reading of
+    /// its table that would give it one; `None` if it has one. A general arm is solved without.
+    #[must_use]
+    pub fn missing_form(&self) -> Option<UnknownStructure> {
+        let arm = self.structure.arm();
+        arm.unknown().or_else(|| arm.nearest())
     }
 
     /// Number of slots of an answer: zero if the structure is unknown.
@@ -261,9 +269,9 @@ where
         PoseDifference::between(&self.fk(q), pose)
     }
 
-    /// The determinant of the geometric Jacobian of joints 1 to 6, in closed form [m^3]. It is zero
-    /// at singularities only, and its factors are those of the structure. `None` if the structure
-    /// is unknown.
+    /// The determinant of the geometric Jacobian of joints 1 to 6 [m^3]. It is zero at
+    /// singularities only. In a closed form its factors are those of the structure. `None` if the
+    /// structure is unknown.
     #[must_use]
     pub fn jacobian_determinant(&self, q: &[f64; N]) -> Option<f64> {
         self.structure.arm().jacobian_determinant(q)

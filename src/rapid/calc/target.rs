@@ -72,7 +72,9 @@ pub fn calc_rob_t(
 #[must_use]
 pub fn error_name(error: &Error) -> Option<&'static str> {
     match error {
-        Error::Unreachable(Explanation::OutOfReach(_)) => Some("ERR_OUTSIDE_REACH"),
+        Error::Unreachable(Explanation::OutOfReach(_) | Explanation::NoRoots { .. }) => {
+            Some("ERR_OUTSIDE_REACH")
+        }
         Error::Unreachable(_) | Error::NoConfiguration(_) => Some("ERR_ROBLIMIT"),
         _ => None,
     }

@@ -184,7 +184,9 @@ fn of_target(problem: &Problem) -> Code {
         Problem::WorkObject { reason, .. } => undeclared(reason, Code::UnknownWorkObject),
         Problem::Displaced { .. } => Code::NotFollowed,
         Problem::AbsentAxis { .. } => Code::AbsentAxis,
-        Problem::NotSolved(Error::Unreachable(Explanation::OutOfReach(_))) => Code::OutOfReach,
+        Problem::NotSolved(Error::Unreachable(
+            Explanation::OutOfReach(_) | Explanation::NoRoots { .. },
+        )) => Code::OutOfReach,
         Problem::OutsideLimits { .. }
         | Problem::OutsideLinkageLimits { .. }
         | Problem::NotSolved(Error::Unreachable(_)) => Code::OutsideLimits,

@@ -1,7 +1,9 @@
 //! Newton's method on the closure, for eight candidates at once.
 
 use super::{Closure, Conditions, Target, largest};
-use crate::lanes::{Column, LANES, mul_add, sin_cos};
+#[cfg(test)]
+use crate::lanes::sin_cos;
+use crate::lanes::{Column, LANES, mul_add};
 
 /// Sizes of the step after which a candidate has converged [rad]: the next would be its square.
 const CONVERGED: f64 = 1e-8;
@@ -48,6 +50,7 @@ impl Candidates {
     }
 
     /// Take these angles [rad] in a lane.
+    #[cfg(test)]
     pub(crate) fn put(&mut self, lane: usize, theta: &[f64; 6]) {
         for joint in 0..6 {
             (self.sin[joint][lane], self.cos[joint][lane]) = sin_cos::<false>(theta[joint]);

@@ -21,6 +21,9 @@ const PLACES: Column = [0.0, -0.15, 0.15, -0.4, 0.4, -0.7, 0.7, 1.0];
 /// Radius of a simple root above which it is searched for like a cluster [rad].
 const UNCERTAIN: f64 = 1e-3;
 
+/// Radius below which an interval is one place [rad].
+const NARROW: f64 = 1e-7;
+
 /// A split applied to a pose.
 pub(super) struct Attempt<'a> {
     pub(super) split: &'a Split,
@@ -55,34 +58,50 @@ impl Kernel for Attempt<'_> {
             simple[count] = *root;
             count += 1;
         }
-        for block in simple[..count].chunks(LANES) {
-            let mut angles = [block[0].angle(); LANES];
-            for (angle, root) in angles.iter_mut().zip(block) {
-                *angle = root.angle();
-            }
-            search.simple::<FUSED>(&angles, block.len(), accepted);
-        }
-        let is_cluster = |root: &&Root| !root.is_simple || root.radius() > UNCERTAIN;
+        let (mut done, mut clusters) = (0, roots.as_slice().iter().filter(is_cluster));
         let mut is_certain = roots.is_complete;
         let mut in_clusters = 0;
-        for root in roots.as_slice().iter().filter(is_cluster) {
+        // Simple roots, eight at a time, then the clusters: in one place, for it is long.
+        loop {
+            let mut places = [0.0; LANES];
+            let cluster = if done < count {
+                let block = &simple[done..count.min(done + LANES)];
+                for lane in 0..LANES {
+                    places[lane] = block[if lane < block.len() { lane } else { 0 }].angle();
+                }
+                None
+            } else {
+                let Some(root) = clusters.next() else { break };
+                places = PLACES.map(|place| root.angle() + place * root.radius());
+                Some(root)
+            };
             let nothing = accepted.nothing;
-            search.cluster::<FUSED>(root, accepted);
-            if root.is_simple {
-                continue;
+            let lanes = match cluster {
+                None => LANES.min(count - done),
+                // Where the interval is narrow, its places are one.
+                Some(root) if root.radius() < NARROW => 1,
+                Some(_) => LANES,
+            };
+            search.look::<FUSED>(&places, lanes, cluster.is_some(), accepted);
+            done += LANES;
+            if let Some(root) = cluster.filter(|root| !root.is_simple) {
+                let found = split.solutions_at(root, accepted);
+                let missed = root.most.wrapping_sub(found);
+                // Roots that come and go in pairs.
+                is_certain &= missed == 0 || missed == 2 && accepted.nothing > nothing;
+                in_clusters += found;
             }
-            let found = split.solutions_at(root, accepted);
-            let missed = root.most.wrapping_sub(found);
-            // Roots that come and go in pairs.
-            let is_understood = missed == 0 || missed == 2 && accepted.nothing > nothing;
-            is_certain &= is_understood;
-            in_clusters += found;
         }
         is_certain
             && accepted.is_certain
             && !accepted.has_self_motion()
             && accepted.root_count() == count + in_clusters
     }
+}
+
+/// Whether a root is searched for in its whole interval.
+fn is_cluster(root: &&Root) -> bool {
+    !root.is_simple || root.radius() > UNCERTAIN
 }
 
 impl Split {
@@ -106,25 +125,22 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
+    /// Take what is at these angles of the searched joint: from one null vector, in a cluster from
+    /// the pencil of two as well.
     #[inline(always)]
-    fn simple<const FUSED: bool>(&self, angles: &Column, lanes: usize, accepted: &mut Accepted) {
+    fn look<const FUSED: bool>(
+        &self,
+        angles: &Column,
+        lanes: usize,
+        is_cluster: bool,
+        accepted: &mut Accepted,
+    ) {
         let t5 = Self::searched::<FUSED>(angles);
         let rest = Rest::at::<FUSED>(&self.posed.equations, &t5.sin, &t5.cos);
-        let [null, _] = rest.null_vectors::<FUSED>(false);
-        self.take::<FUSED>(&null, &t5, lanes, accepted);
-    }
-
-    /// The solutions in an interval: from one null vector, and from the pencil of two.
-    #[inline(always)]
-    fn cluster<const FUSED: bool>(&self, root: &Root, accepted: &mut Accepted) {
-        let (middle, radius) = (root.angle(), root.radius());
-        let t5 = Self::searched::<FUSED>(&PLACES.map(|place| middle + place * radius));
-        let rest = Rest::at::<FUSED>(&self.posed.equations, &t5.sin, &t5.cos);
-        let null = rest.null_vectors::<FUSED>(true);
-        let pair = pencil::<FUSED>(&null);
-        // Where the interval is narrow, its places are one.
-        let lanes = if radius < 1e-7 { 1 } else { LANES };
-        for powers in [&pair[0], &pair[1], &null[0]] {
+        let null = rest.null_vectors::<FUSED>(is_cluster);
+        let pair = if is_cluster { pencil::<FUSED>(&null) } else { null };
+        let ways = [&null[0], &pair[0], &pair[1]];
+        for powers in &ways[..if is_cluster { 3 } else { 1 }] {
             self.take::<FUSED>(powers, &t5, lanes, accepted);
         }
     }

@@ -14,9 +14,14 @@ use crate::lanes::run;
 /// Splits that an arm keeps: one that is tried first, and others where its count is not certain.
 pub(super) const KEPT: usize = 3;
 
-/// Random joint vectors, and structured ones of each kind, on which splits are scored.
-const RANDOM: usize = 24;
-const STRUCTURED: usize = 6;
+/// Random joint vectors, on the first of which all splits are scored, and structured ones of each
+/// kind.
+const RANDOM: usize = 16;
+const FIRST: usize = 6;
+const STRUCTURED: usize = 3;
+
+/// Splits that are scored on the rest.
+const TRIED: usize = 6;
 
 /// Angles of a quasi-random sequence: multiples of powers of the inverse of the root of
 /// x^7 = x + 1. Reference: Roberts, The unreasonable effectiveness of quasirandom sequences, 2018.
@@ -72,16 +77,32 @@ pub(super) fn chosen(links: &[Motion; 5], closure: &Closure, offsets: &[f64; 6])
             (target, frame.inverse(), theta)
         })
         .collect();
-    let mut splits: Vec<(usize, Split)> = (0..SPLITS)
-        .map(|number| {
-            let split = Split::new(links, number);
-            (poses.iter().map(|pose| score(&split, closure, pose)).sum(), split)
-        })
-        .collect();
+    let (first, rest) = poses.split_at(FIRST);
+    let total = |split: &Split, poses: &[_]| {
+        poses.iter().map(|pose| score(split, closure, pose)).sum::<usize>()
+    };
+    let new = |number| {
+        let split = Split::new(links, number);
+        (total(&split, first), split)
+    };
+    let mut splits: Vec<(usize, Split)> = (0..SPLITS).map(new).collect();
     splits.sort_by_key(|(score, _)| core::cmp::Reverse(*score));
+    for (score, split) in splits.iter_mut().take(TRIED) {
+        // A split that finds next to nothing is not tried further.
+        if *score > FIRST {
+            *score += total(split, rest);
+        }
+    }
+    splits.sort_by_key(|(score, _)| core::cmp::Reverse(*score));
+    let best = splits.first().map_or(0, |(score, _)| *score);
     let mut kept: Vec<Split> = Vec::new();
-    for (_, split) in splits {
-        if kept.len() < KEPT && kept.iter().all(|other| other.searched() != split.searched()) {
+    for (score, split) in splits {
+        // One whose determinant vanishes for the arm is of no use.
+        let is_good = kept.is_empty() || 2 * score >= best;
+        if is_good
+            && kept.len() < KEPT
+            && kept.iter().all(|other| other.searched() != split.searched())
+        {
             kept.push(split);
         }
     }

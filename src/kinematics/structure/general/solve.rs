@@ -62,7 +62,9 @@ impl General {
         is_certain: bool,
     ) -> Branches<6, MOST_SLOTS> {
         accepted.as_mut_slice().sort_unstable_by(in_order);
-        let mut branches = Branches::empty(Reach::Reached);
+        let is_empty = accepted.as_slice().is_empty();
+        let reach = if is_empty { Reach::NoRoots } else { Reach::Reached };
+        let mut branches = Branches::empty(reach);
         branches.is_certified = is_certain;
         for (slot, one) in accepted.as_slice().iter().enumerate() {
             branches.q[slot] = Some(self.joint_map.joints(one.theta));

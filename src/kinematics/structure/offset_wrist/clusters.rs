@@ -38,6 +38,15 @@ struct Cluster {
     high: f64,
     /// Number of solutions in it; `None` if the branches do not show it.
     zeros: Option<usize>,
+    /// Most solutions that can be in it.
+    most: usize,
+}
+
+impl Cluster {
+    /// Whether so many solutions are all that it has.
+    fn holds(&self, count: usize) -> bool {
+        self.zeros == Some(count) || self.most == count
+    }
 }
 
 /// The clusters of a pose.
@@ -49,7 +58,7 @@ pub(super) struct Clusters {
 
 impl Clusters {
     pub(super) const NONE: Self = Self {
-        all: [Cluster { low: 0.0, high: 0.0, zeros: None }; MOST_CLUSTERS],
+        all: [Cluster { low: 0.0, high: 0.0, zeros: None, most: 0 }; MOST_CLUSTERS],
         count: 0,
         is_complete: true,
     };
@@ -72,7 +81,7 @@ impl Clusters {
         }
         self.is_complete
             && at_simple == simple
-            && clusters.iter().zip(in_cluster).all(|(cluster, count)| cluster.zeros == Some(count))
+            && clusters.iter().zip(in_cluster).all(|(cluster, count)| cluster.holds(count))
     }
 
     /// Examine a cluster of roots.
@@ -84,7 +93,8 @@ impl Clusters {
         let zeros = search.zeros([low, high], count.min(MOST_ANGLES));
         match self.all.get_mut(self.count) {
             Some(place) => {
-                *place = Cluster { low, high, zeros };
+                let per_root = if search.arm.lengths.is_square { 2 } else { 1 };
+                *place = Cluster { low, high, zeros, most: per_root * root.most };
                 self.count += 1;
             }
             None => self.is_complete = false,

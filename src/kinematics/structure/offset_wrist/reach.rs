@@ -14,9 +14,10 @@ impl OffsetWrist {
     pub(super) fn missed(&self, last: &Frame) -> Reach {
         let hand = Hand::of::<false>(&self.lengths, last);
         let angles = SAMPLE_SIN.as_flattened().iter().zip(SAMPLE_COS.as_flattened());
-        angles
+        let missed = angles
             .map(|(sin, cos)| self.missed_by(&hand, [*sin, *cos]))
-            .fold(Reach::TooFar { shortfall: f64::INFINITY }, Reach::nearer)
+            .fold(Reach::TooFar { shortfall: f64::INFINITY }, Reach::nearer);
+        if missed.shortfall() > 0.0 { missed } else { Reach::NoRoots }
     }
 
     /// How far the wrist point is from there, for an angle of joint 6.

@@ -13,7 +13,10 @@ use crate::kinematics::structure::closure::Accepted;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::trigonometric::TrigonometricPolynomial;
 use crate::lanes::{Kernel, run};
-use crate::report::Reach;
+
+/// What the rounding of a pose changes of the resultant, relative to its coefficients [1]: they are
+/// of degree 8 in the pose's elements, and no surplus harmonic shows it.
+const NOISE_OF_POSE: f64 = 64.0 * f64::EPSILON;
 
 /// The solutions of a pose.
 pub(super) struct Found {
@@ -37,7 +40,10 @@ impl Kernel for Solve<'_> {
         let lengths = &self.arm.lengths;
         let mut search = Search::new::<FUSED>(self.arm, self.last);
         let values = samples::<FUSED>(lengths, &search.hand);
-        let roots = TrigonometricPolynomial::of_samples::<FUSED>(&values).roots::<FUSED>();
+        let mut polynomial = TrigonometricPolynomial::of_samples::<FUSED>(&values);
+        polynomial.noise += NOISE_OF_POSE * polynomial.size();
+        let roots = polynomial.roots::<FUSED>();
+        let is_complete = roots.is_complete;
         let (mut clusters, mut simple) = (Clusters::NONE, 0);
         for root in roots.as_slice() {
             if root.is_simple {
@@ -49,7 +55,7 @@ impl Kernel for Solve<'_> {
         }
         search.converge::<FUSED>();
         let agree = |accepted: &Accepted| {
-            roots.is_complete
+            is_complete
                 && accepted.is_certain
                 && !accepted.has_self_motion()
                 && clusters.agree(accepted.as_slice(), simple)
@@ -68,7 +74,7 @@ impl OffsetWrist {
     pub(super) fn solve_pose(&self, t_first_last: &Pose) -> Branches<6, SLOTS> {
         let Found { accepted, is_certified } = self.solutions(t_first_last);
         let mut branches = self.general.slots(accepted, is_certified);
-        if accepted.as_slice().is_empty() && branches.reach == Reach::Reached {
+        if accepted.as_slice().is_empty() {
             branches.reach = self.missed(&Frame::of(t_first_last));
         }
         branches

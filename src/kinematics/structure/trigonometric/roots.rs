@@ -73,6 +73,7 @@ impl Roots {
     }
 
     /// Number of simple roots if there is nothing else: the number of solutions.
+    #[cfg(test)]
     pub(crate) fn count_if_simple(&self) -> Option<usize> {
         let is_simple = self.is_complete && self.as_slice().iter().all(|root| root.is_simple);
         is_simple.then_some(self.count)
