@@ -294,9 +294,6 @@ pub(crate) const EXAMINED_STEP: f64 = 0.1;
 /// one that continues it [rad].
 pub(crate) const CROSSING_JUMP: f64 = 1.0;
 
-/// The same of an arm whose slots are ordinals, which may change at any pose [rad].
-pub(crate) const CROSSING_JUMP_OF_ORDINALS: f64 = 0.1;
-
 /// Joint step up to which one branch may continue another one through a singularity [rad].
 pub(crate) const CROSSING_STEP: f64 = 0.5;
 

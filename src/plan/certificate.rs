@@ -20,7 +20,7 @@ pub(super) const HALVINGS: u32 = 20;
 const HALF: f64 = 0.75;
 
 /// How far a way that was followed may end from the joint angles that it leads to [rad].
-const ARRIVED: f64 = 1e-6;
+pub(super) const ARRIVED: f64 = 1e-6;
 
 /// What is between two nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,6 +108,15 @@ impl<'a> Hop<'a> {
     /// small; a jump does not shrink.
     pub(super) fn followed(&self, arm: &Arm<'_>) -> Between {
         let bound = (self.step() / 4.0).clamp(CONTINUOUS_STEP, EXAMINED_STEP);
+        match self.end(arm, bound) {
+            None => Between::Jump,
+            Some(q) if largest(&steps(&q, &self.q[1])) <= ARRIVED => Between::Continuous,
+            Some(_) => Between::Elsewhere,
+        }
+    }
+
+    /// Where the branch of the first node leads, in steps up to a bound; `None` if it jumps.
+    pub(super) fn end(&self, arm: &Arm<'_>, bound: f64) -> Option<[f64; 6]> {
         let mut q = self.q[0];
         let (mut done, mut width, mut depth) = (0.0, 1.0, 0);
         while done < 1.0 {
@@ -121,15 +130,11 @@ impl<'a> Hop<'a> {
                         (width, depth) = (width * 2.0, depth - 1);
                     }
                 }
-                None if depth == HALVINGS => return Between::Jump,
+                None if depth == HALVINGS => return None,
                 None => (width, depth) = (width / 2.0, depth + 1),
             }
         }
-        if largest(&steps(&q, &self.q[1])) <= ARRIVED {
-            Between::Continuous
-        } else {
-            Between::Elsewhere
-        }
+        Some(q)
     }
 }
 

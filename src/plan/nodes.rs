@@ -14,7 +14,7 @@ use super::freedom::Freedom;
 use super::layer::{Grid, Layer, Node};
 use super::soft::Soft;
 use super::turns::PlannedJoints;
-use crate::kinematics::thresholds::{CROSSING_JUMP, CROSSING_JUMP_OF_ORDINALS, CROSSING_STEP};
+use crate::kinematics::thresholds::{CONTINUOUS_STEP, CROSSING_JUMP, CROSSING_STEP};
 use crate::kinematics::{Robot, Rows, Status, largest, pose_to_rows};
 use crate::lanes::nearest_whole;
 
@@ -216,7 +216,8 @@ impl Arm<'_> {
     pub(super) fn find_crossings(&self, grid: &Grid, layers: &mut [Layer], range: Range<usize>) {
         let mut most = vec![0.0; grid.bins];
         let has_names = self.has_names();
-        let jump = if has_names { CROSSING_JUMP } else { CROSSING_JUMP_OF_ORDINALS };
+        // A strand may go on in any other slot: where that is nearer.
+        let jump = if has_names { CROSSING_JUMP } else { CONTINUOUS_STEP };
         for layer in range {
             if self.watch.ends_at(layer) {
                 return;

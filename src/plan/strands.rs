@@ -1,10 +1,11 @@
 //! Branches of an arm whose slots are ordinals (docs/plan.md, section 1): those of each pose are put
 //! in the order of those before, so that a row of nodes is a strand.
 
+use super::certificate::{ARRIVED, Hop};
 use super::layer::{Grid, Layer, Node};
 use super::nodes::Arm;
 use crate::error::Error;
-use crate::kinematics::thresholds::CROSSING_STEP;
+use crate::kinematics::thresholds::{CROSSING_STEP, EXAMINED_STEP};
 use crate::kinematics::{MOST_SLOTS, Solution, Solutions, largest, nearest_turn};
 
 /// The joint angles of each slot at one pose.
@@ -35,8 +36,13 @@ impl Arm<'_> {
                     Some(beside) => Some(at(layer, station, beside)),
                     None => station.checked_sub(1).map(|station| at(layer, station, bin)),
                 };
-                let before = before.map(|before| at(before, station, bin));
-                let joined = self.joined(own, [before, beside]);
+                let follow = |slot: usize, q: &[f64; 6]| {
+                    let nodes = [Node { slot, station, bin }; 2];
+                    let hop = Hop::new(self, grid, [before?, layer], nodes, [*q; 2]);
+                    hop.end(self, EXAMINED_STEP)
+                };
+                let slots_before = before.map(|before| at(before, station, bin));
+                let joined = self.joined(own, [slots_before, beside], follow);
                 for (slot, q) in joined.into_iter().enumerate().take(grid.slots) {
                     layer.put(grid, Node { slot, station, bin }, q);
                 }
@@ -44,13 +50,30 @@ impl Arm<'_> {
         }
     }
 
-    /// Joint angles, each in the slot of those that it is nearest to; the others where there is
-    /// room.
-    fn joined(&self, mut own: Slots, references: [Option<Slots>; 2]) -> Slots {
+    /// Joint angles, each in the slot of those that it is nearest to, or that lead to it; the
+    /// others where there is room.
+    fn joined(
+        &self,
+        mut own: Slots,
+        references: [Option<Slots>; 2],
+        follow: impl Fn(usize, &[f64; 6]) -> Option<[f64; 6]>,
+    ) -> Slots {
         let mut joined = Slots::default();
-        for reference in references.iter().flatten() {
+        for (number, reference) in references.iter().enumerate() {
+            let Some(reference) = reference else { continue };
             while let Some((from, to)) = self.nearest_pair(&own, reference, &joined) {
                 joined[to] = own[from].take();
+            }
+            for (slot, q) in reference.iter().enumerate().filter(|_| number == 0) {
+                let Some(q) = q.filter(|_| joined[slot].is_none()) else { continue };
+                if own.iter().all(Option::is_none) {
+                    break;
+                }
+                let Some(end) = follow(slot, &q) else { continue };
+                let is_there = |own: &Option<[f64; 6]>| {
+                    own.is_some_and(|own| largest(&self.joints.steps(&own, &end)) <= ARRIVED)
+                };
+                joined[slot] = own.iter_mut().find(|own| is_there(own)).and_then(Option::take);
             }
         }
         for q in own.into_iter().flatten() {
