@@ -20,7 +20,7 @@ pub(super) const HALVINGS: u32 = 20;
 const HALF: f64 = 0.75;
 
 /// How far a way that was followed may end from the joint angles that it leads to [rad].
-const ARRIVED: f64 = 1e-6;
+pub(super) const ARRIVED: f64 = 1e-6;
 
 /// What is between two nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,23 +85,38 @@ impl<'a> Hop<'a> {
     /// has not, the way has to be followed.
     fn is_halved_by(&self, arm: &Arm<'_>, q: &[[f64; 6]], status: &[u8]) -> bool {
         let [from, to] = &self.q;
-        let slot = self.nodes[0].slot;
-        if slot != self.nodes[1].slot || status[slot] & Status::WITHIN_LIMITS.bits() == 0 {
-            return false;
-        }
+        let slots = self.nodes.map(|node| node.slot);
+        let slots = match arm.has_names() {
+            true if slots[0] != slots[1] => return false,
+            true => slots[0]..slots[0] + 1,
+            false => 0..q.len(),
+        };
         let whole = self.step();
-        let middle = core::array::from_fn(|joint| nearest_turn(q[slot][joint], from[joint]));
         let bound = (HALF * whole).max(CONTINUOUS_STEP);
         whole <= EXAMINED_STEP
-            && arm.joints.contain(&middle)
-            && largest(&steps(from, &middle)) <= bound
-            && largest(&steps(&middle, to)) <= bound
+            && slots.into_iter().any(|slot| {
+                let middle =
+                    core::array::from_fn(|joint| nearest_turn(q[slot][joint], from[joint]));
+                status[slot] & Status::WITHIN_LIMITS.bits() != 0
+                    && arm.joints.contain(&middle)
+                    && largest(&steps(from, &middle)) <= bound
+                    && largest(&steps(&middle, to)) <= bound
+            })
     }
 
     /// Follow the branch from the first node to the second, in steps that are halved until they are
     /// small; a jump does not shrink.
     pub(super) fn followed(&self, arm: &Arm<'_>) -> Between {
         let bound = (self.step() / 4.0).clamp(CONTINUOUS_STEP, EXAMINED_STEP);
+        match self.end(arm, bound) {
+            None => Between::Jump,
+            Some(q) if largest(&steps(&q, &self.q[1])) <= ARRIVED => Between::Continuous,
+            Some(_) => Between::Elsewhere,
+        }
+    }
+
+    /// Where the branch of the first node leads, in steps up to a bound; `None` if it jumps.
+    pub(super) fn end(&self, arm: &Arm<'_>, bound: f64) -> Option<[f64; 6]> {
         let mut q = self.q[0];
         let (mut done, mut width, mut depth) = (0.0, 1.0, 0);
         while done < 1.0 {
@@ -115,15 +130,11 @@ impl<'a> Hop<'a> {
                         (width, depth) = (width * 2.0, depth - 1);
                     }
                 }
-                None if depth == HALVINGS => return Between::Jump,
+                None if depth == HALVINGS => return None,
                 None => (width, depth) = (width / 2.0, depth + 1),
             }
         }
-        if largest(&steps(&q, &self.q[1])) <= ARRIVED {
-            Between::Continuous
-        } else {
-            Between::Elsewhere
-        }
+        Some(q)
     }
 }
 

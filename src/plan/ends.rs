@@ -9,7 +9,7 @@ use super::options::PlanOptions;
 use super::stations::Stations;
 use crate::error::{Error, PlanFault};
 use crate::kinematics::thresholds::{LIMIT_TOLERANCE, MOST_FREE_AXES, PLAN_END_OFF};
-use crate::kinematics::{Pose, PoseDifference, check_seed, largest, nearest_turn};
+use crate::kinematics::{Pose, PoseDifference, check_seed, nearest_turn};
 use crate::lanes::nearest_whole;
 
 /// Joint angles at an end of the path, as a node.
@@ -70,7 +70,7 @@ impl Given {
         let (bin, angle) = Self::bin(arm, field, angle)?;
         let slot = match arm.robot.slot_of(q) {
             Some(slot) => slot.index(),
-            None => Self::nearest_slot(arm, q, &turned)?,
+            None => arm.ordinal(q)?,
         };
         Ok(Self { q: *q, slot, own: Own { station, bin, angle, values } })
     }
@@ -100,16 +100,6 @@ impl Given {
             return Ok((number - rotation.steps(), angle - TAU));
         }
         Ok((number.min(rotation.steps() - 1), angle))
-    }
-
-    /// The slot of the solution nearest to joint angles, of an arm whose slots are ordinals.
-    fn nearest_slot(arm: &Arm<'_>, q: &[f64; 6], pose: &Pose) -> Result<usize, Error> {
-        let solutions = arm.robot.ik(pose)?;
-        let off = |other: &[f64; 6]| {
-            largest(&core::array::from_fn(|joint| nearest_turn(q[joint] - other[joint], 0.0)))
-        };
-        let nearest = solutions.iter().min_by(|a, b| off(&a.q).total_cmp(&off(&b.q)));
-        Ok(nearest.map_or(0, |nearest| nearest.slot.index()))
     }
 }
 

@@ -38,6 +38,7 @@ mod search;
 mod soft;
 mod stations;
 mod step;
+mod strands;
 mod tolerance;
 mod turns;
 mod way;
@@ -56,5 +57,7 @@ pub use tolerance::{ToolCone, ToolOffset};
 mod carrier_tests;
 #[cfg(test)]
 mod exhaustive;
+#[cfg(test)]
+mod strand_tests;
 #[cfg(test)]
 mod tests;

@@ -14,7 +14,7 @@ use super::freedom::Freedom;
 use super::layer::{Grid, Layer, Node};
 use super::soft::Soft;
 use super::turns::PlannedJoints;
-use crate::kinematics::thresholds::{CROSSING_JUMP, CROSSING_STEP};
+use crate::kinematics::thresholds::{CONTINUOUS_STEP, CROSSING_JUMP, CROSSING_STEP};
 use crate::kinematics::{Robot, Rows, Status, largest, pose_to_rows};
 use crate::lanes::nearest_whole;
 
@@ -48,6 +48,7 @@ impl Arm<'_> {
         let mut q = vec![0.0; PART * grid.slots * 6];
         let mut status = vec![0; PART * grid.slots];
         let mut special = Special::default();
+        let solved = range.clone();
         let angles = self.freedom.angles();
         let mut directions: Vec<(f64, f64)> = Vec::new();
         let mut base = f64::NAN;
@@ -89,6 +90,11 @@ impl Arm<'_> {
         }
         self.solve_part(&poses, &mut q, &mut status);
         self.put(grid, layers, &places, (&q, &status), &mut special);
+        if !self.has_names() {
+            for layer in solved {
+                self.join_strands(grid, layers, layer);
+            }
+        }
         self.join_singular(grid, layers, &special.singular);
         self.choose_ends(grid, layers, &special.either_end);
     }
@@ -107,12 +113,20 @@ impl Arm<'_> {
     /// At nodes with a joint that may be at either end of its limits, choose that on the side of the
     /// layer before, or of that after where there is none.
     fn choose_ends(&self, grid: &Grid, layers: &mut [Layer], nodes: &[(usize, Node)]) {
-        for (layer, node) in nodes {
-            let beside = |layer: usize| layers.get(layer).and_then(|at| at.joints(grid, *node));
+        let slots = |node: &Node| match self.has_names() {
+            true => node.slot..node.slot + 1,
+            false => 0..grid.slots,
+        };
+        let of_slots = |(layer, node): &(usize, Node)| {
+            let (layer, node) = (*layer, *node);
+            slots(&node).map(move |slot| (layer, Node { slot, ..node }))
+        };
+        for (layer, node) in nodes.iter().flat_map(of_slots) {
+            let beside = |layer: usize| layers.get(layer).and_then(|at| at.joints(grid, node));
             let neighbor = layer.checked_sub(1).and_then(beside).or_else(|| beside(layer + 1));
-            let own = layers[*layer].joints(grid, *node);
+            let own = layers[layer].joints(grid, node);
             if let Some((own, neighbor)) = own.zip(neighbor) {
-                layers[*layer].put(grid, *node, Some(self.joints.beside(&own, &neighbor)));
+                layers[layer].put(grid, node, Some(self.joints.beside(&own, &neighbor)));
             }
         }
     }
@@ -201,6 +215,9 @@ impl Arm<'_> {
     /// jumps, and another one continues it.
     pub(super) fn find_crossings(&self, grid: &Grid, layers: &mut [Layer], range: Range<usize>) {
         let mut most = vec![0.0; grid.bins];
+        let has_names = self.has_names();
+        // A strand may go on in any other slot: where that is nearer.
+        let jump = if has_names { CROSSING_JUMP } else { CONTINUOUS_STEP };
         for layer in range {
             if self.watch.ends_at(layer) {
                 return;
@@ -211,19 +228,19 @@ impl Arm<'_> {
             for row in (0..grid.rows()).filter(|row| before.present[*row]) {
                 self.largest_steps(grid, [before, after], row, &mut most);
                 // Of a node that is not there, the step is NaN.
-                if most.iter().all(|most| *most <= CROSSING_JUMP) {
+                if most.iter().all(|most| *most <= jump) {
                     continue;
                 }
-                let ends = most
-                    .iter()
-                    .enumerate()
-                    .filter(|(_, most)| most.is_nan() || **most > CROSSING_JUMP);
-                for node in ends.map(|(bin, _)| grid.node(row * grid.bins + bin)) {
+                let ends =
+                    most.iter().enumerate().filter(|(_, most)| most.is_nan() || **most > jump);
+                for (bin, own) in ends {
+                    let node = grid.node(row * grid.bins + bin);
+                    let bound = if has_names { CROSSING_STEP } else { own.min(CROSSING_STEP) };
                     let Some(q) = before.joints(grid, node) else { continue };
                     for other in (0..grid.slots).filter(|other| *other != node.slot) {
                         let to = Node { slot: other, ..node };
                         let Some(next) = after.joints(grid, to) else { continue };
-                        if largest(&self.joints.steps(&q, &next)) <= CROSSING_STEP {
+                        if largest(&self.joints.steps(&q, &next)) <= bound {
                             crossings.push([grid.number(node), grid.number(to)]);
                         }
                     }

@@ -7,9 +7,10 @@ use super::answer::{StrandEnd, StrandReason};
 use super::layer::{Layer, Node};
 use super::planner::Planner;
 use super::step::{Moved, Rates};
+use super::strands::nearest_solution;
 use super::way::Way;
 use crate::error::Error;
-use crate::kinematics::thresholds::CROSSING_JUMP;
+use crate::kinematics::thresholds::{CROSSING_JUMP, CROSSING_STEP};
 use crate::kinematics::{SingularityKind, largest, nearest_turn};
 use crate::report::Explanation;
 
@@ -95,13 +96,20 @@ impl Planner<'_> {
         slot: usize,
         [before, after]: [&Layer; 2],
     ) -> Result<StrandReason, Error> {
-        let mut nodes = before.nodes(&self.grid).filter(|(node, _)| node.slot == slot);
-        let (station, bin) = nodes.next().map_or((0, 0), |(node, _)| (node.station, node.bin));
+        let last = before.nodes(&self.grid).find(|(node, _)| node.slot == slot);
+        let (station, bin) = last.map_or((0, 0), |(node, _)| (node.station, node.bin));
         let (values, angle) =
             (after.values(&self.grid, station), after.tool_angle(&self.grid, bin));
         let pose = self.arm.freedom.tool(&after.pose, &values, angle);
         let solutions = self.arm.robot.ik(&pose)?;
-        let Some(solution) = solutions.slot(slot) else {
+        let continued = if self.arm.has_names() {
+            solutions.slot(slot).copied()
+        } else {
+            last.and_then(|(_, q)| nearest_solution(&solutions, &q))
+                .filter(|(_, off)| *off <= CROSSING_STEP)
+                .map(|(solution, _)| solution)
+        };
+        let Some(solution) = continued else {
             return Ok(match solutions.explain() {
                 Explanation::Found { .. } => StrandReason::Ended,
                 explanation => StrandReason::Unreachable(explanation),

@@ -90,10 +90,10 @@ impl Robot<6> {
             if let Some(other) = planner.whole_way(caller)? {
                 let other = planner.refined(other, caller)?;
                 if other.cost < way.cost {
-                    return Ok(planner.plan_of(&[other]));
+                    return Ok(planner.plan_of(&[other])?);
                 }
             }
-            return Ok(guide.plan_of(&[way]));
+            return Ok(guide.plan_of(&[way])?);
         }
         let mut ways = Vec::new();
         let mut from = 0;
@@ -109,9 +109,9 @@ impl Robot<6> {
         let is_whole = matches!(&ways[..], [way] if way.nodes.len() == planner.layers.len());
         if is_whole {
             let way = planner.refined(ways.swap_remove(0), caller)?;
-            return Ok(planner.plan_of(&[way]));
+            return Ok(planner.plan_of(&[way])?);
         }
-        let plan = planner.plan_of(&ways);
+        let plan = planner.plan_of(&ways)?;
         let end_index = reached_from_the_end(arm, &path, options, caller)?;
         Err(PlanError::NoPlan(Box::new(planner.gap(&ways, plan, end_index)?)))
     }
@@ -177,7 +177,7 @@ fn checked_path(path: &[Pose], options: &PlanOptions) -> Result<Vec<Pose>, Error
 
 impl Planner<'_> {
     /// The plan of ways, with breaks between them.
-    fn plan_of(&self, ways: &[Way]) -> Plan {
+    fn plan_of(&self, ways: &[Way]) -> Result<Plan, Error> {
         let count = self.layers.iter().filter(|layer| layer.index.is_some()).count();
         let mut plan = Plan {
             q: vec![None; count],
@@ -207,7 +207,11 @@ impl Planner<'_> {
                 let (external, tolerance) = values[..freedom.axes.len()].split_at(freedom.external);
                 plan.external[index] = external.to_vec();
                 plan.tolerance[index] = tolerance.to_vec();
-                plan.slot[index] = Some(node.slot);
+                plan.slot[index] = Some(if self.arm.has_names() {
+                    node.slot
+                } else {
+                    self.arm.ordinal(&way.q[step])?
+                });
                 if enter.is_none() {
                     enter = Some(index);
                     if leave.is_some() || index > 0 {
@@ -222,7 +226,7 @@ impl Planner<'_> {
         if leave.is_none_or(|leave| leave + 1 < count) {
             plan.breaks.push(PlanBreak { leave, enter: None });
         }
-        plan
+        Ok(plan)
     }
 
     /// Where and why the first way ends.

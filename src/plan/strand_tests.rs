@@ -1,0 +1,89 @@
+//! Plans of arms whose slots are ordinals.
+
+use std::vec::Vec;
+
+use super::tests::random_path;
+use super::{PlanError, PlanOptions, ToolRotation};
+use crate::kinematics::{Pose, PoseDifference, Robot, largest, nearest_turn, steps};
+use crate::paths::{Spacing, line};
+use crate::rng::Rng;
+
+/// Whether any solution of the first pose can be followed to the end in small steps, each interval
+/// of the path in so many parts that no gap between two folds is stepped over.
+fn is_followed(robot: &Robot<6>, path: &[Pose], parts: usize, most: f64) -> bool {
+    let parts: Vec<Pose> = path
+        .windows(2)
+        .flat_map(|two| line(&two[0], &two[1], Spacing::count(parts).unwrap(), None).unwrap())
+        .collect();
+    robot.ik(&path[0]).unwrap().turns().any(|start| {
+        let mut q = start.q;
+        parts.iter().all(|pose| match robot.ik_nearest(pose, &q, &[1.0; 6]) {
+            Ok(next) if largest(&steps(&q, &next.q)) < most => {
+                q = next.q;
+                true
+            }
+            _ => false,
+        })
+    })
+}
+
+#[test]
+fn a_path_that_can_be_followed_has_a_plan_that_goes_on_without_jumps() {
+    let mut rng = Rng::new(17);
+    for name in ["CRB 15000-5/0.95", "CRX-10iA/L"] {
+        let robot: Robot<6> = Robot::named(name).unwrap();
+        let (mut followed, mut more) = (0, 0);
+        for case in 0..60 {
+            let path = random_path(&robot, &mut rng, 25, 0.04);
+            let wanted = is_followed(&robot, &path, 61, 0.2);
+            followed += usize::from(wanted);
+            match robot.plan(&path, &PlanOptions::default()) {
+                Ok(plan) => {
+                    more += usize::from(!wanted);
+                    assert!(plan.certified && plan.breaks.is_empty());
+                    let q: Vec<_> = plan.q.iter().map(|q| q.unwrap()).collect();
+                    for (index, (q, pose)) in q.iter().zip(&path).enumerate() {
+                        let apart = PoseDifference::between(&robot.fk(q), pose);
+                        assert!(apart.largest() < 1e-9, "{name}, case {case}: {apart:?}");
+                        // The slot is that of the solution.
+                        let own = robot.ik(pose).unwrap();
+                        let slot = own.slot(plan.slot[index].unwrap()).unwrap();
+                        let off = |joint: usize| nearest_turn(slot.q[joint] - q[joint], 0.0);
+                        assert!(largest(&core::array::from_fn(off)) < 1e-6, "{name}, {case}");
+                    }
+                    let step = q.windows(2).map(|two| largest(&steps(&two[0], &two[1])));
+                    assert!(step.fold(0.0, f64::max) < 1.0, "{name}, case {case}");
+                }
+                Err(PlanError::NoPlan(gap)) => {
+                    let is_missed = wanted && is_followed(&robot, &path, 3_001, 0.01);
+                    assert!(!is_missed, "{name}, case {case}: {gap}");
+                    assert!(!gap.ends.is_empty());
+                }
+                Err(error) => panic!("{error}"),
+            }
+        }
+        std::eprintln!("{name}: {followed} followed, {more} more planned");
+        assert!(followed >= 30, "{name}: {followed} followed");
+    }
+}
+
+#[test]
+fn a_free_rotation_lowers_the_bottleneck_of_ordinals_too() {
+    let robot: Robot<6> = Robot::named("CRB 15000-5/0.95").unwrap();
+    let mut rng = Rng::new(3);
+    let mut planned = 0;
+    for _ in 0..8 {
+        let path = random_path(&robot, &mut rng, 20, 0.03);
+        let Ok(fixed) = robot.plan(&path, &PlanOptions::default()) else { continue };
+        let rotation = Some(ToolRotation::full(24).unwrap());
+        let options = PlanOptions { rotation, ..PlanOptions::default() };
+        let free = robot.plan(&path, &options).unwrap();
+        assert!(free.bottleneck <= fixed.bottleneck * (1.0 + 1e-9));
+        planned += 1;
+        let start = free.q[0];
+        let held = robot.plan(&path, &PlanOptions { start, ..options }).unwrap();
+        assert!(held.certified && held.breaks.is_empty());
+        assert_eq!(held.q[0], start);
+    }
+    assert!(planned >= 4, "{planned}");
+}
