@@ -24,7 +24,7 @@ use crate::kinematics::pose::Pose;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[expect(clippy::large_enum_variant, reason = "a robot has 3 kB, and there are few")]
+#[allow(clippy::large_enum_variant, reason = "a robot has 3 kB, and there are few")]
 pub enum AnyRobot {
     /// Six joints.
     Six(Robot<6>),

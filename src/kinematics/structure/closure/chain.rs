@@ -28,6 +28,7 @@ pub(crate) struct Target {
 }
 
 /// The six conditions at a configuration, and their derivatives by each joint.
+#[derive(Clone, Copy)]
 pub(super) struct Conditions<const W: usize> {
     /// What is missing to the target: along, then about, each axis.
     pub(super) missing: [[f64; W]; 6],
@@ -184,7 +185,7 @@ fn missing<const W: usize, const FUSED: bool>(last: &Axes<W>, target: &Target) -
 
 /// Sines and cosines of one configuration.
 pub(super) fn sines(theta: &[f64; 6]) -> ([[f64; 1]; 6], [[f64; 1]; 6]) {
-    let both = theta.map(|angle| sin_cos::<false>(angle));
+    let both = theta.map(sin_cos::<false>);
     (both.map(|(sin, _)| [sin]), both.map(|(_, cos)| [cos]))
 }
 

@@ -2,6 +2,9 @@
 
 use core::f64::consts::PI;
 
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
 use super::chain::Closure;
 use crate::kinematics::chain::dh::DhRow;
 use crate::kinematics::thresholds::FORM_TOLERANCE;

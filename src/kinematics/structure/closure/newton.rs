@@ -1,5 +1,8 @@
 //! Newton's method on the closure, for eight candidates at once.
 
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
 use super::chain::{Closure, Conditions, Target, largest};
 #[cfg(test)]
 use crate::lanes::sin_cos;
@@ -67,7 +70,7 @@ impl Closure {
         for _ in 0..MOST_STEPS {
             let conditions = self.conditions::<LANES, FUSED>(target, &on.sin, &on.cos);
             best.keep(on, &largest(&conditions.missing));
-            let triangle = Triangle::of::<FUSED>(conditions);
+            let triangle = Triangle::of::<FUSED>(&conditions);
             let step = triangle.step::<FUSED>();
             let size = largest(&step);
             let least = triangle.least::<FUSED>();
@@ -93,7 +96,8 @@ impl Closure {
         on.residual = largest(&self.missing::<LANES, FUSED>(target, &on.sin, &on.cos));
         // One that wanders about a singularity returns to where it closed best.
         for lane in 0..LANES {
-            let is_better = !(on.residual[lane] <= 2.0 * best.residual[lane]);
+            let last = on.residual[lane];
+            let is_better = (last > 2.0 * best.residual[lane]) | last.is_nan();
             for joint in 0..6 {
                 let better = [best.sin[joint][lane], best.cos[joint][lane]];
                 let last = [on.sin[joint][lane], on.cos[joint][lane]];
@@ -129,8 +133,8 @@ struct Triangle {
 impl Triangle {
     /// Householder's reflections, a column after the other.
     #[inline(always)]
-    fn of<const FUSED: bool>(conditions: Conditions<LANES>) -> Self {
-        let Conditions { missing: mut right, mut columns } = conditions;
+    fn of<const FUSED: bool>(conditions: &Conditions<LANES>) -> Self {
+        let Conditions { missing: mut right, mut columns } = *conditions;
         let mut inverse = [[0.0; LANES]; 6];
         for k in 0..6 {
             let (done, rest) = columns.split_at_mut(k + 1);

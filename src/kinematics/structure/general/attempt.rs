@@ -58,7 +58,8 @@ impl Kernel for Attempt<'_> {
             simple[count] = *root;
             count += 1;
         }
-        let (mut done, mut clusters) = (0, roots.as_slice().iter().filter(is_cluster));
+        let (mut done, mut clusters) =
+            (0, roots.as_slice().iter().filter(|root| is_cluster(**root)));
         let mut is_certain = roots.is_complete;
         let mut in_clusters = 0;
         // Simple roots, eight at a time, then the clusters: in one place, for it is long.
@@ -100,7 +101,7 @@ impl Kernel for Attempt<'_> {
 }
 
 /// Whether a root is searched for in its whole interval.
-fn is_cluster(root: &&Root) -> bool {
+fn is_cluster(root: Root) -> bool {
     !root.is_simple || root.radius() > UNCERTAIN
 }
 

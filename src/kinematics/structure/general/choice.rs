@@ -5,6 +5,9 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use alloc::vec::Vec;
 
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
 use super::attempt::Attempt;
 use super::moments::Motion;
 use super::split::{SPLITS, Split};

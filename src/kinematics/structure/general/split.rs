@@ -85,22 +85,16 @@ impl Split {
                 break;
             }
             let back = self.links[k].inverse();
-            all.iter_mut().for_each(|moments| *moments = moments.moved(&back));
+            for moments in &mut all {
+                *moments = moments.moved(&back);
+            }
             // Behind link 5 there is no joint.
             if k < 5 {
-                all = self.turned_back(k + 1, &all);
+                all = turned_back(k + 1, &all);
             }
         }
         // The joint before the pose link.
         all
-    }
-
-    /// Every product with those of joint k: the power of joint 4 and the harmonic of joint 5 come
-    /// first in the order.
-    fn turned_back(&self, k: usize, all: &[Moments]) -> Vec<Moments> {
-        let parts = |moments: &Moments| if k == 5 { moments.back() } else { moments.powers_back() };
-        let all: Vec<_> = all.iter().map(parts).collect();
-        (0..3).flat_map(|i| all.iter().map(move |parts| parts[i])).collect()
     }
 
     /// For a pose on the right: the annihilator after what is before the pose.
@@ -113,9 +107,11 @@ impl Split {
         for k in 0..MOMENTS {
             let mut all = alloc::vec![Moments::unit(k)];
             for joint in self.place + 1..6 {
-                all = self.turned_back(joint, &all);
+                all = turned_back(joint, &all);
                 let back = self.links[joint].inverse();
-                all.iter_mut().for_each(|moments| *moments = moments.moved(&back));
+                for moments in &mut all {
+                    *moments = moments.moved(&back);
+                }
             }
             for (weights, moments) in before.iter_mut().zip(&all) {
                 for (moment, column) in moments.0.iter().zip(annihilator) {
@@ -168,4 +164,12 @@ fn add<const FUSED: bool>(column: &mut Column, weights: &[Column; MOMENTS], mome
         }
     }
     *column = sum;
+}
+
+/// Every product with those of joint k: the power of joint 4 and the harmonic of joint 5 come
+/// first in the order.
+fn turned_back(k: usize, all: &[Moments]) -> Vec<Moments> {
+    let parts = |moments: &Moments| if k == 5 { moments.back() } else { moments.powers_back() };
+    let all: Vec<_> = all.iter().map(parts).collect();
+    (0..3).flat_map(|i| all.iter().map(move |parts| parts[i])).collect()
 }
