@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::unreadable_literal, clippy::panic, missing_docs)]
 
 use std::collections::BTreeMap;
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 use crate::common::{Rng, apart, reach_of};
 use irbkin::{CatalogGeometry, Error, JointLimits, Pose, Robot, catalog, pose_to_wxyz};
@@ -275,7 +275,7 @@ const YUMI: [YumiPose; 3] = [
         "IRB 14050-0.5/0.5",
         [0.0; 7],
         [341.5, 0.0, 598.0],
-        [0.707_106_781, 0.0, 0.707_106_781, 0.0],
+        [FRAC_1_SQRT_2, 0.0, FRAC_1_SQRT_2, 0.0],
         0.0,
     ),
     (
@@ -501,7 +501,7 @@ fn an_unknown_name_lists_close_ones_and_is_never_guessed() {
     assert_eq!(close("IRB 2600"), all_2600);
     assert_eq!(close("2600"), all_2600);
     assert_eq!(close("IRB 1600-6"), ["IRB 1600-6/1.2", "IRB 1600-6/1.45"]);
-    assert_eq!(close("IRB 140"), ["IRB 140-6/0.81"]);
+    assert_eq!(close("IRB 140")[0], "IRB 140-6/0.81");
     assert_eq!(close("2600-12/1.65"), ["IRB 2600-12/1.65"]);
     assert_eq!(close("irb2600-12-165")[0], "IRB 2600-12/1.65");
     assert_eq!(close("IRB 6700-220/2.65"), ["IRB 6700-220/2.65 (MH6, LeanID)"]);

@@ -1,4 +1,5 @@
 //! Corrections of the parameters of an arm: poses, Jacobian, and the table they make.
+#![allow(clippy::unwrap_used, missing_docs)]
 
 use irbkin::nalgebra::{Rotation3, Vector3};
 use irbkin::{CalibratedFault, Corrections, JacobianFrame, Mdh, Pose, Robot};

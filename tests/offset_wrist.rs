@@ -177,7 +177,9 @@ fn base_tool_and_the_zeros_of_joints_do_not_change_the_solutions() {
         let plain = robot(table);
         let moved = robot(table).with_base(&base).unwrap().with_tool(&tool).unwrap();
         let mut shifted = table.1;
-        shifted.iter_mut().for_each(|row| row[3] += 33.0);
+        for row in &mut shifted {
+            row[3] += 33.0;
+        }
         let shifted = robot(&(table.0, shifted));
         for q in drawn(3, 300) {
             let pose = plain.fk(&q);

@@ -1,5 +1,6 @@
 //! A calibrated arm by way of its nominal one. `IRBKIN_POSES` sets the number of poses of the rates
 //! in docs/calibrate.md, which `--nocapture` prints.
+#![allow(clippy::unwrap_used, missing_docs)]
 
 use irbkin::{
     CalibratedFault, Corrections, Follower, Mdh, Robot, SingularityKind, Solution, Status,

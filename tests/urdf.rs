@@ -416,12 +416,13 @@ fn absent_numbers_have_the_values_of_the_format() {
 }
 
 #[test]
-fn an_arm_of_unknown_structure_is_reported_and_accepted_without_inverse() {
+fn an_arm_without_a_closed_form_is_reported_and_solved() {
     let bent = third("xyz=\"0 1 0\"", "xyz=\"0 1 0.1\"");
-    let error = Robot::<6>::from_urdf(&bent, None, None).unwrap_err();
-    assert!(matches!(error, Error::InvalidModel(ModelFault::UnknownStructure(_))), "{error}");
-    assert!(six(&bent, None, None).unwrap().unknown_structure().is_some());
-    assert_eq!(six(&bent, None, None).unwrap().structure(), "unknown");
+    let robot = Robot::<6>::from_urdf(&bent, None, None).unwrap();
+    assert!(robot.missing_form().is_some());
+    let q = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
+    let solutions = robot.ik(&robot.fk(&q)).unwrap();
+    assert!(solutions.iter().any(|found| crate::common::apart(&found.q, &q) < 1e-9));
 }
 
 /// A chain of fixed joints with an arm's six joints at its end, or links side by side.

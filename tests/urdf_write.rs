@@ -209,7 +209,7 @@ fn any_name_is_written_and_read_back() {
 fn an_arm_of_unknown_structure_is_written_too() {
     let text = include_str!("data/tilted.urdf");
     let robot = Robot::<6>::serial_chain_from_urdf(text, None, None).unwrap();
-    assert!(robot.unknown_structure().is_some());
+    assert!(robot.missing_form().is_some());
     let read = Robot::<6>::serial_chain_from_urdf(&robot.to_urdf(), None, None).unwrap();
     let mut rng = Rng::new(5);
     for _ in 0..CASES {

@@ -340,7 +340,7 @@ class Given:
         seed: npt.ArrayLike,
         weights: npt.ArrayLike | None = None,
         *,
-        singularity_mode: SingularityMode = "through",
+        singularity_mode: SingularityMode | Literal["through", "error"] = "through",
         threads: int = 1,
     ) -> FollowResult:
         """Follow a path of poses with the other six joints, each time with the solution that
@@ -1112,9 +1112,7 @@ class Robot:
             InvalidModelError: The arm is no YuMi of the catalog.
         """
     @overload
-    def arm_angle(self, q: npt.ArrayLike) -> float | _Floats:
-        """"""
-
+    def arm_angle(self, q: npt.ArrayLike) -> float | _Floats: ...
     def ik_configured_all(
         self,
         T: npt.ArrayLike,

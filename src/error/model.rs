@@ -168,6 +168,7 @@ pub enum ModelFault {
 }
 
 impl fmt::Display for ModelFault {
+    #[expect(clippy::too_many_lines, reason = "a message for each fault")]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotFinite { field, index: 0, value } => {

@@ -86,10 +86,12 @@ impl<'a> Hop<'a> {
     fn is_halved_by(&self, arm: &Arm<'_>, q: &[[f64; 6]], status: &[u8]) -> bool {
         let [from, to] = &self.q;
         let slots = self.nodes.map(|node| node.slot);
-        let slots = match arm.has_names() {
-            true if slots[0] != slots[1] => return false,
-            true => slots[0]..slots[0] + 1,
-            false => 0..q.len(),
+        let slots = if !arm.has_names() {
+            0..q.len()
+        } else if slots[0] == slots[1] {
+            slots[0]..slots[0] + 1
+        } else {
+            return false;
         };
         let whole = self.step();
         let bound = (HALF * whole).max(CONTINUOUS_STEP);

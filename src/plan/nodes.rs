@@ -113,10 +113,8 @@ impl Arm<'_> {
     /// At nodes with a joint that may be at either end of its limits, choose that on the side of the
     /// layer before, or of that after where there is none.
     fn choose_ends(&self, grid: &Grid, layers: &mut [Layer], nodes: &[(usize, Node)]) {
-        let slots = |node: &Node| match self.has_names() {
-            true => node.slot..node.slot + 1,
-            false => 0..grid.slots,
-        };
+        let has_names = self.has_names();
+        let slots = |node: &Node| if has_names { node.slot..node.slot + 1 } else { 0..grid.slots };
         let of_slots = |(layer, node): &(usize, Node)| {
             let (layer, node) = (*layer, *node);
             slots(&node).map(move |slot| (layer, Node { slot, ..node }))

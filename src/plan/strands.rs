@@ -42,7 +42,7 @@ impl Arm<'_> {
                     hop.end(self, EXAMINED_STEP)
                 };
                 let slots_before = before.map(|before| at(before, station, bin));
-                let joined = self.joined(own, [slots_before, beside], follow);
+                let joined = self.joined(own, &[slots_before, beside], follow);
                 for (slot, q) in joined.into_iter().enumerate().take(grid.slots) {
                     layer.put(grid, Node { slot, station, bin }, q);
                 }
@@ -55,7 +55,7 @@ impl Arm<'_> {
     fn joined(
         &self,
         mut own: Slots,
-        references: [Option<Slots>; 2],
+        references: &[Option<Slots>; 2],
         follow: impl Fn(usize, &[f64; 6]) -> Option<[f64; 6]>,
     ) -> Slots {
         let mut joined = Slots::default();

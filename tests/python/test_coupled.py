@@ -95,7 +95,7 @@ def test_a_damaged_state_of_the_linkage_is_refused():
     with pytest.raises(
         irbkin.InvalidModelError, match="linkage limits has 1 elements, it must have 2"
     ):
-        restore((*state[:-1], [1.0]))
+        restore((*state[:-2], [1.0], state[-1]))
 
 
 def test_configurations_do_not_count_the_slot():

@@ -27,13 +27,6 @@ OBLIQUE = [
     [1.2, 0.03, -0.04, -0.2],
     [-0.7, 0.06, 0.15, 0.5],
 ]
-# Known gaps, not laws: what the general solver does with these chains of an iiwa.
-LOSES = "the general solver loses one solution in some twenty poses of these six joints"
-IIWA_LOSES = {
-    1: LOSES,
-    4: "a pose determines joint 4 of an iiwa: with it given, the elbow turns freely",
-    6: LOSES,
-}
 SHOULDER_7 = ("spherical shoulder", 7)
 LIMITS = np.array([[-2.9, 2.9]] * 7)
 
@@ -61,26 +54,34 @@ def apart(a, b):
 
 @pytest.mark.parametrize("joint", range(1, 8))
 def test_the_joints_that_made_a_pose_are_found_whichever_is_given(robot, joint):
-    if robot.name == "iiwa" and joint in IIWA_LOSES:
-        pytest.skip(IIWA_LOSES[joint])
+    """Or the answer says that it may be incomplete: of an iiwa, whose axes meet in threes."""
+    if robot.name == "iiwa" and joint == 4:
+        with pytest.raises(irbkin.InvalidModelError, match="are not independent"):
+            robot.ik(robot.fk(np.zeros(7)), given={4: 0.3})
+        return
+    found = 0
     for q in inside(robot, 12):
         solutions = robot.ik(robot.fk(q), given={joint: q[joint - 1]})
-        assert apart(solutions.q, q).min() < 1e-6
         assert (solutions.q[:, joint - 1] == q[joint - 1]).all()
-        assert max(solution.residual for solution in solutions) < 1e-11
-        assert solutions[int(apart(solutions.q, q).argmin())].is_within_limits
+        assert max((solution.residual for solution in solutions), default=0.0) < 1e-11
+        if len(solutions) and apart(solutions.q, q).min() < 1e-6:
+            assert solutions[int(apart(solutions.q, q).argmin())].is_within_limits
+            found += 1
+        else:
+            assert not solutions.certified
+    assert found >= (10 if robot.name == "iiwa" else 12)
 
 
 @pytest.mark.parametrize("joint", [1, 7])
 def test_the_ends_take_an_angle_for_each_pose(robot, joint):
-    if robot.name == "iiwa" and joint in IIWA_LOSES:
-        pytest.skip(IIWA_LOSES[joint])
     q = inside(robot, 20)
     T = robot.fk(q)
     batch = robot.ik_batch(T, given={joint: q[:, joint - 1]})
     assert batch.q.shape == (20, 8 if (robot.structure, joint) == SHOULDER_7 else 16, 7)
     found = np.nanmin(apart(batch.q, q[:, None]), axis=1)
-    assert (found < 1e-6).all()
+    is_open = ((batch.status & irbkin.Status.UNCERTIFIED) != 0).all(axis=1)
+    assert ((found < 1e-6) | is_open).all()
+    assert (found < 1e-6).sum() >= (18 if robot.name == "iiwa" else 20)
     broken = q[:, joint - 1].copy()
     broken[3] = np.nan
     rows = robot.ik_batch(T, given={joint: broken})

@@ -38,7 +38,7 @@ where
             if self.is_coupled() {
                 return Err(CalibratedFault::Coupled.into());
             }
-            Self::serial_chain(corrections.table(self.mdh()))?
+            Self::of_table(corrections.table(self.mdh()))?
                 .with_name(self.name.clone())
                 .with_limits(*self.limits())
                 .with_max_velocity(self.max_velocity)?

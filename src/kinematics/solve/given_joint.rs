@@ -152,7 +152,7 @@ impl GivenJoint {
         } else {
             six.with_tool(&(self.six.tool() * by))?
         };
-        Ok(Self { six, angle, ..self.clone() })
+        Ok(Self { angle, six, ..self.clone() })
     }
 
     /// How far the joint turns what is behind it, from its angle here to another: about its axis in

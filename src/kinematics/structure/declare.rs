@@ -33,6 +33,8 @@ macro_rules! structures {
 
             fn recognize(mdh: &Mdh<$joints>) -> (Chain<$joints>, Self) {
                 let mut nearest: Option<UnknownStructure> = None;
+                // The last one takes every table whose joints are independent.
+                let mut refused = None;
                 $(match recognized::<$structure, $joints, $slots>(mdh) {
                     Ok((chain, mut solver)) => {
                         solver.structure = solver.structure.noting(nearest);
@@ -41,9 +43,9 @@ macro_rules! structures {
                     Err(missed) if <$structure as Structure<$joints, $slots>>::IS_CLOSED_FORM => {
                         nearest = Some(missed.nearer_of(nearest));
                     }
-                    Err(missed) => nearest = nearest.or(Some(missed)),
+                    Err(missed) => refused = Some(missed),
                 })+
-                let missed = nearest.unwrap_or(UnknownStructure::joint_count($joints));
+                let missed = refused.or(nearest).unwrap_or(UnknownStructure::joint_count($joints));
                 (Chain::new(mdh.clone()), Self::Unknown(missed))
             }
 

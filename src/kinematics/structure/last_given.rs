@@ -35,6 +35,8 @@ pub(crate) struct LastGiven {
     six: SixJoints,
     last: DhRow,
     joint_map: JointMap<7>,
+    /// How far the table is from a structure with a closed form.
+    nearest: Option<UnknownStructure>,
 }
 
 impl LastGiven {
@@ -73,7 +75,7 @@ impl Structure<7, MOST_SLOTS> for LastGiven {
             t_base_shoulder: mdh.base,
             t_wrist_flange: mdh.flange,
         };
-        Ok(Self { six, last, joint_map })
+        Ok(Self { six, last, joint_map, nearest: None })
     }
 
     fn joint_map(&self) -> &JointMap<7> {
@@ -83,6 +85,14 @@ impl Structure<7, MOST_SLOTS> for LastGiven {
     fn between(self, base: &Pose, tool: &Pose, coupled: bool) -> Self {
         let _ = (base, tool, coupled);
         self
+    }
+
+    fn noting(self, nearest: Option<UnknownStructure>) -> Self {
+        Self { nearest, ..self }
+    }
+
+    fn nearest(&self) -> Option<UnknownStructure> {
+        self.nearest
     }
 
     fn kernel(&self) -> Option<NoKernel<f64>> {

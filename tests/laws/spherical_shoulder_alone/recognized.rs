@@ -162,7 +162,7 @@ fn the_condition_that_a_table_violates_is_named() {
     table.rows[3].d = 0.002;
     table.rows[5].a = 0.0005;
     assert_eq!(
-        Robot::from_mdh(table).unwrap().unknown_structure().unwrap().to_string(),
+        Robot::from_mdh(table).unwrap().missing_form().unwrap().to_string(),
         "for a spherical shoulder and an offset elbow, axes 2 and 3 must be at right angles, \
          they are 0.010000 deg \
          off; axes 5 and 6 must meet, they pass 0.500000 mm apart; axes 3 and 5 must lie in one \

@@ -38,7 +38,7 @@ where
     pub(super) fn having<'a, S: Iterator<Item = Solution<N>> + Clone>(
         &'a self,
         rule: &'a ConfigurationRule,
-        solutions: S,
+        solutions: &S,
         wanted: Configuration,
     ) -> Option<Having<'a, N, S>> {
         CLOSENESS.into_iter().find_map(|[edge, beyond]| {

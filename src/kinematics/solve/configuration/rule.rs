@@ -123,7 +123,9 @@ where
         let [cf1, cf4, cf6] = quarters.joints.map(|joint| quarters.quarter(q[joint]));
         let cfx = match rule {
             ConfigurationRule::SphericalWrist if self.is_coupled() => 0,
-            ConfigurationRule::SphericalWrist => self.slot_of(q).map_or(0, |slot| slot.number()),
+            ConfigurationRule::SphericalWrist => {
+                self.slot_of(q).map_or(0, crate::kinematics::Slot::number)
+            }
             _ => self.sides(rule, q).iter().fold(0, |bits, side| 2 * bits + i32::from(*side < 0.0)),
         };
         Configuration { cf1, cf4, cf6, cfx }

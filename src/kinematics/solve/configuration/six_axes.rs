@@ -42,7 +42,7 @@ impl Robot<6> {
             return self.configured_wrist(arm, *pose, wanted);
         }
         let solutions = self.ik_checked(*pose, ())?;
-        let having = self.having(&rule, solutions.iter().copied(), wanted);
+        let having = self.having(&rule, &solutions.iter().copied(), wanted);
         match having.and_then(|having| having.nearest(seed)) {
             Some(nearest) => Ok(nearest),
             None => Err(self.no_configuration(&rule, &solutions, wanted)?),
@@ -61,7 +61,7 @@ impl Robot<6> {
             return Ok(Vec::from([self.configured_near(pose, request, seed)?]));
         }
         let solutions = self.ik_checked(*pose, ())?;
-        match self.having(&rule, solutions.iter().copied(), wanted) {
+        match self.having(&rule, &solutions.iter().copied(), wanted) {
             Some(having) => Ok(having.all(seed)),
             None => Err(self.no_configuration(&rule, &solutions, wanted)?),
         }

@@ -46,7 +46,7 @@ impl Robot<7> {
         check_angle("arm_angle", 7, arm_angle)?;
         let (pose, turn) = (checked_pose(pose)?, [-PI, PI]);
         let found = self.at_arm_angle(&pose, arm_angle, turn, None)?;
-        let found = self.at_arm_angle(&pose, arm_angle, turn, Some(found))?;
+        let found = self.at_arm_angle(&pose, arm_angle, turn, Some(&found))?;
         Ok(found.into_iter().flatten().collect())
     }
 
@@ -66,12 +66,12 @@ impl Robot<7> {
         if let Some([first, .., last]) = limits.map(|limits| limits.to_array()) {
             let mut found = self.at_arm_angle(pose, arm_angle, last, None)?;
             let has_it = |found: &Found| {
-                self.having(&rule, found.iter().flatten().copied(), wanted).is_some()
+                self.having(&rule, &found.iter().flatten().copied(), wanted).is_some()
             };
             if !has_it(&found) {
-                found = self.at_arm_angle(pose, arm_angle, first, Some(found))?;
+                found = self.at_arm_angle(pose, arm_angle, first, Some(&found))?;
             }
-            if let Some(having) = self.having(&rule, found.iter().flatten().copied(), wanted) {
+            if let Some(having) = self.having(&rule, &found.iter().flatten().copied(), wanted) {
                 return Ok(having.all(seed));
             }
         }
@@ -106,10 +106,10 @@ impl Robot<7> {
         pose: &Pose,
         wanted: f64,
         [from, to]: [f64; 2],
-        before: Option<Found>,
+        before: Option<&Found>,
     ) -> Result<Found, Error> {
         let reference = self.arm_angle_reference()?;
-        let found = before.unwrap_or([None; MOST]);
+        let found = before.copied().unwrap_or([None; MOST]);
         let Some(angle) = ArmAngle::of(self, reference, pose) else { return Ok(found) };
         let first = before.map(|_| self.given(1, 0.0)).transpose()?;
         let curve = SelfMotion { robot: self, pose, rounding: self.rounding() };

@@ -1,4 +1,5 @@
 //! Laws of the closure: candidates converge, folds are one or two, self-motions stand once.
+#![allow(clippy::cast_precision_loss, clippy::unreadable_literal, clippy::too_many_lines)]
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -107,7 +108,7 @@ fn two_solutions_next_to_a_fold_are_two_and_at_it_one() {
             assert!(nearest < 1e-6 && (off < 1e-5 || nearest < 1e-9), "{off:e}: {nearest:e}");
         }
         assert!(off > 1e-9 || counts[2] == 0, "{counts:?}");
-        assert!(off < 1e-6 || off > 1e-4 || counts[1] == 0, "{counts:?}");
+        assert!(!(1e-6..=1e-4).contains(&off) || counts[1] == 0, "{counts:?}");
         assert!(counts[1] + counts[2] > 200, "{counts:?}");
     }
 }

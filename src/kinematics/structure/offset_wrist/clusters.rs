@@ -151,13 +151,10 @@ impl Search<'_> {
     }
 
     fn seen(&self, sides: [f64; 2], angle: f64) -> Seen {
-        match self.branch(sides, angle, 0.0) {
-            Some(branch) => Seen::At(branch.off),
-            None => {
-                let lengths = &self.arm.lengths;
-                Seen::Beyond(room_at(lengths, &self.hand, sides[0], sin_cos(angle)))
-            }
+        if let Some(branch) = self.branch(sides, angle, 0.0) {
+            return Seen::At(branch.off);
         }
+        Seen::Beyond(room_at(&self.arm.lengths, &self.hand, sides[0], sin_cos(angle)))
     }
 }
 

@@ -84,13 +84,13 @@ impl OffsetWrist {
     pub(super) fn solutions(&self, t_first_last: &Pose) -> Found {
         let last = Frame::of(t_first_last);
         let found = run(Solve { arm: self, last: &last });
-        if found.is_certified { found } else { self.rescued(found, t_first_last) }
+        if found.is_certified { found } else { self.rescued(&found, t_first_last) }
     }
 
     /// The solutions of the general method, which shares no polynomial with this one, and those
     /// that were found.
     #[cold]
-    fn rescued(&self, found: Found, t_first_last: &Pose) -> Found {
+    fn rescued(&self, found: &Found, t_first_last: &Pose) -> Found {
         let (mut accepted, is_certain) = self.general.solve_all(t_first_last);
         let count = accepted.as_slice().len();
         for one in found.accepted.as_slice() {

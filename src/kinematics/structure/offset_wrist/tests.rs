@@ -1,4 +1,5 @@
 //! The resultant and the branches against forward kinematics, without a root finder.
+#![allow(clippy::cast_precision_loss, clippy::unreadable_literal, clippy::too_many_lines)]
 
 use core::f64::consts::{PI, TAU};
 use std::vec::Vec;
