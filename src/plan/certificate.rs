@@ -19,6 +19,9 @@ pub(super) const HALVINGS: u32 = 20;
 /// How much of a step its halves may have [1].
 const HALF: f64 = 0.75;
 
+/// Parts of a step at which an arm whose slots are ordinals is looked at, at least [1].
+const WIDEST_OF_ORDINALS: f64 = 1.0 / 16.0;
+
 /// How far a way that was followed may end from the joint angles that it leads to [rad].
 pub(super) const ARRIVED: f64 = 1e-6;
 
@@ -85,25 +88,21 @@ impl<'a> Hop<'a> {
     /// has not, the way has to be followed.
     fn is_halved_by(&self, arm: &Arm<'_>, q: &[[f64; 6]], status: &[u8]) -> bool {
         let [from, to] = &self.q;
-        let slots = self.nodes.map(|node| node.slot);
-        let slots = if !arm.has_names() {
-            0..q.len()
-        } else if slots[0] == slots[1] {
-            slots[0]..slots[0] + 1
-        } else {
+        let slot = self.nodes[0].slot;
+        // The branches of ordinals may end at a fold, and others begin next to it.
+        if slot != self.nodes[1].slot
+            || !arm.has_names()
+            || status[slot] & Status::WITHIN_LIMITS.bits() == 0
+        {
             return false;
-        };
+        }
         let whole = self.step();
+        let middle = core::array::from_fn(|joint| nearest_turn(q[slot][joint], from[joint]));
         let bound = (HALF * whole).max(CONTINUOUS_STEP);
         whole <= EXAMINED_STEP
-            && slots.into_iter().any(|slot| {
-                let middle =
-                    core::array::from_fn(|joint| nearest_turn(q[slot][joint], from[joint]));
-                status[slot] & Status::WITHIN_LIMITS.bits() != 0
-                    && arm.joints.contain(&middle)
-                    && largest(&steps(from, &middle)) <= bound
-                    && largest(&steps(&middle, to)) <= bound
-            })
+            && arm.joints.contain(&middle)
+            && largest(&steps(from, &middle)) <= bound
+            && largest(&steps(&middle, to)) <= bound
     }
 
     /// Follow the branch from the first node to the second, in steps that are halved until they are
@@ -120,7 +119,8 @@ impl<'a> Hop<'a> {
     /// Where the branch of the first node leads, in steps up to a bound; `None` if it jumps.
     pub(super) fn end(&self, arm: &Arm<'_>, bound: f64) -> Option<[f64; 6]> {
         let mut q = self.q[0];
-        let (mut done, mut width, mut depth) = (0.0, 1.0, 0);
+        let widest = if arm.has_names() { 1.0 } else { WIDEST_OF_ORDINALS };
+        let (mut done, mut width, mut depth) = (0.0, widest, 0);
         while done < 1.0 {
             let end = if done + width >= 1.0 { 1.0 } else { done + width };
             let nearest = arm.robot.ik_nearest(&self.pose(arm, end), &q, &[1.0; 6]);

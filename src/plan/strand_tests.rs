@@ -42,7 +42,7 @@ fn a_path_that_can_be_followed_has_a_plan_that_goes_on_without_jumps() {
     for name in ["CRB 15000-5/0.95", "CRX-10iA/L"] {
         let robot: Robot<6> = Robot::named(name).unwrap();
         let mut count = 0;
-        for case in 0..60 {
+        for case in 0..24 {
             let path = random_path(&robot, &mut rng, 25, 0.04);
             let wanted = is_followed(&robot, &path, 61, 0.2);
             count += usize::from(wanted);
@@ -60,9 +60,12 @@ fn a_path_that_can_be_followed_has_a_plan_that_goes_on_without_jumps() {
                         assert!(largest(&core::array::from_fn(off)) < 1e-6, "{name}, {case}");
                     }
                     for (two, poses) in q.windows(2).zip(path.windows(2)) {
-                        let end = followed(&robot, poses, two[0], 401, 0.1);
-                        let off = end.map(|end| largest(&steps(&end, &two[1])));
-                        assert!(off.is_some_and(|off| off < 1e-6), "{name}, {case}: {off:?}");
+                        // Coarse parts may step over a gap between two folds.
+                        let arrives = |parts: &usize| {
+                            let end = followed(&robot, poses, two[0], *parts, 0.1);
+                            end.is_some_and(|end| largest(&steps(&end, &two[1])) < 1e-6)
+                        };
+                        assert!([401, 40_001].iter().any(arrives), "{name}, case {case}");
                     }
                 }
                 Err(PlanError::NoPlan(gap)) => {
@@ -73,7 +76,7 @@ fn a_path_that_can_be_followed_has_a_plan_that_goes_on_without_jumps() {
                 Err(error) => panic!("{error}"),
             }
         }
-        assert!(count >= 30, "{name}: {count} followed");
+        assert!(count >= 12, "{name}: {count} followed");
     }
 }
 

@@ -173,6 +173,11 @@ impl UnknownStructure {
         Self::new(Reason::TooShort { pattern, field, value, bound })
     }
 
+    /// Whether a link is too short.
+    pub(crate) fn is_length(&self) -> bool {
+        matches!(self.reason, Reason::TooShort { .. })
+    }
+
     /// This, or another that was missed by less: by fewer conditions, then by less of them.
     pub(crate) fn nearer_of(self, other: Option<Self>) -> Self {
         let miss = |reason: &Self| {

@@ -178,13 +178,10 @@ def test_a_table_in_text_is_made_exact(off, taken):
         assert "axes 5 and 6 must meet" in irbkin.Robot.from_mdh(rows).missing_form
 
 
-@pytest.mark.parametrize(
-    ("row", "words"),
-    [(2, "axes 2 and 3 are one line"), (3, "its joints are not independent")],
-    ids=["upper arm", "forearm"],
-)
-def test_a_link_without_length_is_told(row, words):
+@pytest.mark.parametrize("row", [2, 3], ids=["upper arm", "forearm"])
+def test_a_link_without_length_is_told(row):
     rows = ABB["IRB 140-6/0.81"].rows.copy()
     rows[row, 1:3] = 0
-    with pytest.raises(irbkin.InvalidModelError, match=words + ", so that the flange moves in 5"):
+    words = r"(upper arm|forearm) .*is 0 m, it must be at least 1e-6 m"
+    with pytest.raises(irbkin.InvalidModelError, match=words):
         irbkin.Robot.from_mdh(rows)

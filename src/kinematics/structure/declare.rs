@@ -45,7 +45,9 @@ macro_rules! structures {
                     }
                     Err(missed) => refused = Some(missed),
                 })+
-                let missed = refused.or(nearest).unwrap_or(UnknownStructure::joint_count($joints));
+                // A link that is too short says more than what depends on it.
+                let short = nearest.filter(UnknownStructure::is_length);
+                let missed = short.or(refused).or(nearest).unwrap_or(UnknownStructure::joint_count($joints));
                 (Chain::new(mdh.clone()), Self::Unknown(missed))
             }
 
