@@ -1,5 +1,7 @@
 //! The chain whose closure is solved, and the conditions of a configuration.
 
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
 use nalgebra::SMatrix;
 
 use crate::kinematics::chain::axes::{Axes, Link};

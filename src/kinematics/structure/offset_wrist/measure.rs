@@ -1,5 +1,8 @@
 //! Recognizes an offset wrist in a modified Denavit-Hartenberg table.
 
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
 use super::geometry::{Lengths, OffsetWrist, Twists};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::axes::Link;

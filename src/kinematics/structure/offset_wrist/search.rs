@@ -64,7 +64,7 @@ impl<'a> Search<'a> {
     fn put<const FUSED: bool>(&mut self, branch: &Branch, sin_cos_6: [f64; 2]) {
         let OffsetWrist { lengths, twists, .. } = self.arm;
         let joints = branch.joints::<FUSED>(lengths, self.last, sin_cos_6, twists);
-        if !joints.as_flattened().iter().all(|part| part.is_finite()) {
+        if !joints.as_flattened().iter().copied().all(f64::is_finite) {
             return;
         }
         for (joint, [sin, cos]) in joints.into_iter().enumerate() {
