@@ -9,7 +9,7 @@ const WATCHED: usize = 64;
 /// nothing to stop.
 pub type Accept<'a> = dyn FnMut(&[[f64; 6]]) -> Option<Vec<bool>> + 'a;
 
-/// What may be asked of the caller while a plan is made.
+/// A caller: its test of joint vectors, if it has one, and whether to go on.
 pub(crate) struct Caller<'a, 'b> {
     pub(crate) accept: Option<&'a mut Accept<'b>>,
     pub(crate) watch: Watch<'a>,

@@ -19,7 +19,8 @@ pub(super) const HALVINGS: u32 = 20;
 /// How much of a step its halves may have [1].
 const HALF: f64 = 0.75;
 
-/// Parts of a step at which an arm whose slots are ordinals is looked at, at least [1].
+/// Part of a step that is followed at once, at most, of an arm whose slots are ordinals [1]: its
+/// branches may end at a fold, and others begin next to it.
 const WIDEST_OF_ORDINALS: f64 = 1.0 / 16.0;
 
 /// How far a way that was followed may end from the joint angles that it leads to [rad].
@@ -89,11 +90,7 @@ impl<'a> Hop<'a> {
     fn is_halved_by(&self, arm: &Arm<'_>, q: &[[f64; 6]], status: &[u8]) -> bool {
         let [from, to] = &self.q;
         let slot = self.nodes[0].slot;
-        // The branches of ordinals may end at a fold, and others begin next to it.
-        if slot != self.nodes[1].slot
-            || !arm.has_names()
-            || status[slot] & Status::WITHIN_LIMITS.bits() == 0
-        {
+        if slot != self.nodes[1].slot || status[slot] & Status::WITHIN_LIMITS.bits() == 0 {
             return false;
         }
         let whole = self.step();
@@ -144,29 +141,33 @@ impl Arm<'_> {
     /// The steps of a way that are not continuous, by the layer that they lead to. Not all, if the
     /// caller stops it.
     pub(super) fn doubts(&self, grid: &Grid, layers: &[Layer], way: &Way) -> Vec<(usize, Between)> {
-        /// Steps that are looked at together.
-        const PART: usize = 512;
+        /// Steps that are looked at together, of named slots and of ordinals: those are followed.
+        const PARTS: [usize; 2] = [512, 16];
+        let has_names = self.has_names();
+        let count = PARTS[usize::from(!has_names)];
         let mut doubts = Vec::new();
-        let mut q = vec![0.0; PART * grid.slots * 6];
-        let mut status = vec![0; PART * grid.slots];
+        let mut q = vec![0.0; count * grid.slots * 6];
+        let mut status = vec![0; count * grid.slots];
         let hops = (1..way.nodes.len()).map(|step| {
             let layer = way.from + step;
             let nodes = [way.nodes[step - 1], way.nodes[step]];
             let q = [way.q[step - 1], way.q[step]];
             (layer, Hop::new(self, grid, [&layers[layer - 1], &layers[layer]], nodes, q))
         });
-        let mut part: Vec<(usize, Hop<'_>)> = Vec::with_capacity(PART);
-        let mut poses = Vec::with_capacity(PART);
+        let mut part: Vec<(usize, Hop<'_>)> = Vec::with_capacity(count);
+        let mut poses = Vec::with_capacity(count);
         let mut hops = hops.peekable();
         while hops.peek().is_some() && self.watch.goes_on() {
             part.clear();
-            part.extend(hops.by_ref().take(PART));
-            poses.clear();
-            poses.extend(part.iter().map(|(_, hop)| pose_to_rows(&hop.pose(self, 0.5))));
-            self.solve_part(&poses, &mut q, &mut status);
+            part.extend(hops.by_ref().take(count));
+            if has_names {
+                poses.clear();
+                poses.extend(part.iter().map(|(_, hop)| pose_to_rows(&hop.pose(self, 0.5))));
+                self.solve_part(&poses, &mut q, &mut status);
+            }
             let rows = q.as_chunks::<6>().0.chunks(grid.slots).zip(status.chunks(grid.slots));
             for ((layer, hop), (q, status)) in part.iter().zip(rows) {
-                if hop.is_halved_by(self, q, status) {
+                if has_names && hop.is_halved_by(self, q, status) {
                     continue;
                 }
                 match hop.followed(self) {

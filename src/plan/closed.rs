@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 
 use super::answer::PlanError;
 use super::field::Field;
+use super::options::PlanOrder;
 use super::search::Bound;
 use super::turns::TurnStates;
 use super::way::{Found, Way};
@@ -16,6 +17,10 @@ struct Region {
 }
 
 impl Region {
+    fn cost(&self, order: PlanOrder) -> (f64, f64) {
+        order.cost(self.found.bottleneck, self.found.squares)
+    }
+
     /// Two parts that the ends of the way are not both in; `None` if it is closed.
     fn split(&self, numbers: [usize; 2]) -> Option<[Bound; 2]> {
         let cut = |[first, end]: [usize; 2], [one, other]: [usize; 2]| {
@@ -48,7 +53,8 @@ impl Field<'_> {
                 }
                 let costs = regions.iter().enumerate();
                 let best = costs.min_by(|(_, a), (_, b)| {
-                    a.found.cost.partial_cmp(&b.found.cost).unwrap_or(core::cmp::Ordering::Equal)
+                    let [a, b] = [a, b].map(|region| region.cost(self.order));
+                    a.partial_cmp(&b).unwrap_or(core::cmp::Ordering::Equal)
                 });
                 let Some(best) = best.map(|(number, _)| number) else { return Ok(None) };
                 let region = regions.swap_remove(best);

@@ -36,20 +36,21 @@ pub(super) struct Field<'a> {
 }
 
 impl Field<'_> {
+    /// The bottleneck of an edge into a layer.
+    pub(super) fn bottleneck(&self, layer: usize, [from, to]: [Node; 2]) -> f64 {
+        let (before, layer) = (&self.layers[layer - 1], &self.layers[layer]);
+        let q = [before.joints(&self.grid, from), layer.joints(&self.grid, to)];
+        let [q_before, q] = q.map(Option::unwrap_or_default);
+        let time = layer.time - before.time;
+        let values = before.values(&self.grid, from.station);
+        let moved = self.freedom.moved(time, &values, &layer.values(&self.grid, to.station));
+        Rates::of(self.joints, time).cost(&self.joints.steps(&q_before, &q), moved).0
+    }
+
     /// The largest bottleneck of the edges along nodes.
     pub(super) fn bottleneck_along(&self, nodes: &[Node], from: usize) -> f64 {
-        let at = |step: usize| {
-            let (layer, node) = (&self.layers[from + step], nodes[step]);
-            (layer, layer.joints(&self.grid, node).unwrap_or_default(), node.station)
-        };
-        let edge = |step: usize| {
-            let ((before, q_before, station_before), (layer, q, station)) =
-                (at(step - 1), at(step));
-            let time = layer.time - before.time;
-            let from = before.values(&self.grid, station_before);
-            let moved = self.freedom.moved(time, &from, &layer.values(&self.grid, station));
-            Rates::of(self.joints, time).cost(&self.joints.steps(&q_before, &q), moved).0
-        };
-        (1..nodes.len()).map(edge).fold(0.0, f64::max)
+        let edges = nodes.windows(2).enumerate();
+        let each = edges.map(|(step, two)| self.bottleneck(from + step + 1, [two[0], two[1]]));
+        each.fold(0.0, f64::max)
     }
 }

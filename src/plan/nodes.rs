@@ -114,17 +114,16 @@ impl Arm<'_> {
     /// layer before, or of that after where there is none.
     fn choose_ends(&self, grid: &Grid, layers: &mut [Layer], nodes: &[(usize, Node)]) {
         let has_names = self.has_names();
-        let slots = |node: &Node| if has_names { node.slot..node.slot + 1 } else { 0..grid.slots };
-        let of_slots = |(layer, node): &(usize, Node)| {
-            let (layer, node) = (*layer, *node);
-            slots(&node).map(move |slot| (layer, Node { slot, ..node }))
-        };
-        for (layer, node) in nodes.iter().flat_map(of_slots) {
-            let beside = |layer: usize| layers.get(layer).and_then(|at| at.joints(grid, node));
-            let neighbor = layer.checked_sub(1).and_then(beside).or_else(|| beside(layer + 1));
-            let own = layers[layer].joints(grid, node);
-            if let Some((own, neighbor)) = own.zip(neighbor) {
-                layers[layer].put(grid, node, Some(self.joints.beside(&own, &neighbor)));
+        for (layer, node) in nodes {
+            // Strands have been joined since: it may stand in any slot.
+            let slots = if has_names { node.slot..node.slot + 1 } else { 0..grid.slots };
+            for node in slots.map(|slot| Node { slot, ..*node }) {
+                let beside = |layer: usize| layers.get(layer).and_then(|at| at.joints(grid, node));
+                let neighbor = layer.checked_sub(1).and_then(beside).or_else(|| beside(layer + 1));
+                let own = layers[*layer].joints(grid, node);
+                if let Some((own, neighbor)) = own.zip(neighbor) {
+                    layers[*layer].put(grid, node, Some(self.joints.beside(&own, &neighbor)));
+                }
             }
         }
     }

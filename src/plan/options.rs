@@ -114,6 +114,16 @@ pub enum PlanOrder {
     Sum,
 }
 
+impl PlanOrder {
+    /// What is to be as small as possible, what comes first in front.
+    pub(super) fn cost(self, bottleneck: f64, sum: f64) -> (f64, f64) {
+        match self {
+            Self::Bottleneck => (bottleneck, sum),
+            Self::Sum => (sum, bottleneck),
+        }
+    }
+}
+
 /// What a plan is asked for besides the path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanOptions {
@@ -145,7 +155,8 @@ pub struct PlanOptions {
     /// What a joint at its limit costs [rad^2/s^2]: as much as one of weight 1 that moves with the
     /// root of it. Half way from the middle to the limit it costs a quarter.
     pub limit_cost: f64,
-    /// The same of each of the singularities of wrist, elbow and shoulder [rad^2/s^2].
+    /// The same of each of the singularities of wrist, elbow and shoulder [rad^2/s^2]; nothing of
+    /// an arm whose structure does not have these.
     pub singularity_cost: f64,
 }
 

@@ -12,7 +12,6 @@ use super::layer::{Grid, Layer, Node, Waypoint};
 use super::nodes::Arm;
 use super::options::{PlanOptions, PlanOrder};
 use super::stations::Stations;
-use super::step::Rates;
 use super::turns::TurnStates;
 use super::way::Way;
 use crate::error::{Error, PlanFault};
@@ -226,7 +225,7 @@ impl<'a> Planner<'a> {
             if depth < HALVINGS_OF_AXES && self.grid.stations.are_neighbors(stations) {
                 return self.split(layer, nodes, q);
             }
-            self.layers[layer].cap = 0.5 * self.bottleneck(layer, nodes, &q);
+            self.layers[layer].cap = 0.5 * self.field().bottleneck(layer, nodes);
             return Ok(());
         }
         if !self.layers[layer].refused.contains(&edge) {
@@ -237,15 +236,6 @@ impl<'a> Planner<'a> {
             self.examine(layer, nodes, 0.5 * size);
         }
         Ok(())
-    }
-
-    /// The bottleneck of an edge.
-    fn bottleneck(&self, layer: usize, nodes: [Node; 2], q: &[[f64; 6]; 2]) -> f64 {
-        let layers = [&self.layers[layer - 1], &self.layers[layer]];
-        let [from, to] = [0, 1].map(|end| layers[end].values(&self.grid, nodes[end].station));
-        let time = layers[1].time - layers[0].time;
-        let moved = self.arm.freedom.moved(time, &from, &to);
-        Rates::of(self.arm.joints, time).cost(&steps(&q[0], &q[1]), moved).0
     }
 
     /// Put a layer half way before a layer.

@@ -104,13 +104,14 @@ impl Planner<'_> {
             self.band(middles, turn, axis);
             let finer = self.proven_way(0, caller)?;
             let is_whole = |finer: &Way| finer.reached() + 1 == self.layers.len();
-            let better = finer.filter(|finer| is_whole(finer) && finer.cost <= way.cost);
+            let cost = |way: &Way| way.cost(self.order);
+            let better = finer.filter(|finer| is_whole(finer) && cost(finer) <= cost(&way));
             let Some(finer) = better else {
                 (self.grid, self.layers) = (grid, layers);
                 return Ok(way);
             };
             // Of joints that stay, it is no number.
-            let has_gained = 1.0 - finer.cost.0 / way.cost.0 >= GAIN;
+            let has_gained = 1.0 - cost(&finer).0 / cost(&way).0 >= GAIN;
             way = finer;
             if !has_gained {
                 return Ok(way);

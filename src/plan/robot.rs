@@ -89,7 +89,7 @@ impl Robot<6> {
             }
             if let Some(other) = planner.whole_way(caller)? {
                 let other = planner.refined(other, caller)?;
-                if other.cost < way.cost {
+                if other.cost(options.order) < way.cost(options.order) {
                     return Ok(planner.plan_of(&[other])?);
                 }
             }

@@ -130,7 +130,7 @@ impl Search<'_> {
                 Pass::Squares => &mut by[(layer - from - 1) * size..(layer - from) * size],
                 Pass::Bottleneck => &mut unused[..],
             };
-            // Edges that lanes leave out are infinitely fast.
+            // Edges to another turn are infinitely fast in lanes, and are left out there.
             let cap = cap.min(self.layers[layer].cap).min(f64::MAX);
             let ends = Layers { layer, places, pass, cap, soft: &soft_costs };
             if self.layers[layer].refused.is_empty() {

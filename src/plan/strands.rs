@@ -42,7 +42,7 @@ impl Arm<'_> {
                     hop.end(self, EXAMINED_STEP)
                 };
                 let slots_before = before.map(|before| at(before, station, bin));
-                let joined = self.joined(own, &[slots_before, beside], follow);
+                let joined = self.joined(own, slots_before.as_ref(), beside.as_ref(), follow);
                 for (slot, q) in joined.into_iter().enumerate().take(grid.slots) {
                     layer.put(grid, Node { slot, station, bin }, q);
                 }
@@ -50,21 +50,19 @@ impl Arm<'_> {
         }
     }
 
-    /// Joint angles, each in the slot of those that it is nearest to, or that lead to it; the
-    /// others where there is room.
+    /// Joint angles, each in the slot of those before that it is nearest to, or that lead to it, then
+    /// of those beside; the others where there is room.
     fn joined(
         &self,
         mut own: Slots,
-        references: &[Option<Slots>; 2],
+        before: Option<&Slots>,
+        beside: Option<&Slots>,
         follow: impl Fn(usize, &[f64; 6]) -> Option<[f64; 6]>,
     ) -> Slots {
         let mut joined = Slots::default();
-        for (number, reference) in references.iter().enumerate() {
-            let Some(reference) = reference else { continue };
-            while let Some((from, to)) = self.nearest_pair(&own, reference, &joined) {
-                joined[to] = own[from].take();
-            }
-            for (slot, q) in reference.iter().enumerate().filter(|_| number == 0) {
+        if let Some(before) = before {
+            self.take_nearest(&mut own, before, &mut joined);
+            for (slot, q) in before.iter().enumerate() {
                 let Some(q) = q.filter(|_| joined[slot].is_none()) else { continue };
                 if own.iter().all(Option::is_none) {
                     break;
@@ -76,18 +74,27 @@ impl Arm<'_> {
                 joined[slot] = own.iter_mut().find(|own| is_there(own)).and_then(Option::take);
             }
         }
+        if let Some(beside) = beside {
+            self.take_nearest(&mut own, beside, &mut joined);
+        }
         for q in own.into_iter().flatten() {
+            let is_free = |slot: &usize| joined[*slot].is_none();
+            let is_used =
+                |slot: usize| [before, beside].iter().flatten().any(|at| at[slot].is_some());
             // Nobody's slot before one that has only ended.
-            let is_nobodys = |slot: &usize| {
-                joined[*slot].is_none() && references.iter().flatten().all(|at| at[*slot].is_none())
-            };
-            let mut free = (0..MOST_SLOTS).filter(|slot| joined[*slot].is_none());
-            let room = (0..MOST_SLOTS).find(is_nobodys).or_else(|| free.next());
-            if let Some(room) = room {
+            let nobodys = (0..MOST_SLOTS).find(|slot| is_free(slot) && !is_used(*slot));
+            if let Some(room) = nobodys.or_else(|| (0..MOST_SLOTS).find(is_free)) {
                 joined[room] = Some(q);
             }
         }
         joined
+    }
+
+    /// Take joint angles into the free slots of others, the nearest first.
+    fn take_nearest(&self, own: &mut Slots, others: &Slots, joined: &mut Slots) {
+        while let Some((from, to)) = self.nearest_pair(own, others, joined) {
+            joined[to] = own[from].take();
+        }
     }
 
     /// The nearest of joint angles and those of free slots that one step leads between.

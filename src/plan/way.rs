@@ -30,13 +30,15 @@ pub(super) struct Way {
     pub(super) bottleneck: f64,
     /// With what its nodes cost.
     pub(super) squares: f64,
-    /// What is to be as small as possible, what comes first in order.
-    pub(super) cost: (f64, f64),
     /// The last layer where each slot was reached.
     pub(super) alive: Vec<usize>,
 }
 
 impl Way {
+    pub(super) fn cost(&self, order: PlanOrder) -> (f64, f64) {
+        order.cost(self.bottleneck, self.squares)
+    }
+
     /// The layer that the way ends at.
     pub(super) fn reached(&self) -> usize {
         self.from + self.nodes.len() - 1
@@ -50,7 +52,6 @@ pub(super) struct Found {
     pub(super) states: [usize; 2],
     pub(super) bottleneck: f64,
     pub(super) squares: f64,
-    pub(super) cost: (f64, f64),
     alive: Vec<usize>,
 }
 
@@ -169,14 +170,11 @@ impl Field<'_> {
             }
         };
         let Some((((nodes, begin), end), squares)) = way.zip(squares) else { return Ok(None) };
-        let (bottleneck, cost) = match self.order {
-            PlanOrder::Bottleneck => (least, (least, squares)),
-            PlanOrder::Sum => {
-                let bottleneck = self.bottleneck_along(&nodes, from);
-                (bottleneck, (squares, bottleneck))
-            }
+        let bottleneck = match self.order {
+            PlanOrder::Sum => self.bottleneck_along(&nodes, from),
+            PlanOrder::Bottleneck => least,
         };
-        Ok(Some(Found { nodes, states: [begin, end], bottleneck, squares, cost, alive }))
+        Ok(Some(Found { nodes, states: [begin, end], bottleneck, squares, alive }))
     }
 
     /// The turn of a joint at the beginning of a way, so that it stays inside its limits and meets
@@ -234,7 +232,7 @@ impl Field<'_> {
         from: usize,
         states: &TurnStates,
     ) -> Result<Way, usize> {
-        let Found { nodes, states: [begin, _], bottleneck, squares, cost, alive } = found;
+        let Found { nodes, states: [begin, _], bottleneck, squares, alive } = found;
         let mut turns = states.turns(begin);
         for joint in (0..6).filter(|joint| !states.has(*joint)) {
             turns[joint] = self.turn_along(&nodes, from, joint).ok_or(joint)?;
@@ -253,6 +251,6 @@ impl Field<'_> {
                 self.joints.angle(joint, q[joint], turns[joint])
             }));
         }
-        Ok(Way { from, nodes, q: rows, bottleneck, squares, cost, alive })
+        Ok(Way { from, nodes, q: rows, bottleneck, squares, alive })
     }
 }

@@ -57,6 +57,7 @@ impl PyRobot {
     ///         one of weight 1 that moves with the root of it [rad/s]. Half way from the middle to
     ///         the limit it costs a quarter. Without `times` the path takes one second.
     ///     singularity_cost: The same of each of the singularities of wrist, elbow and shoulder.
+    ///         Nothing for arms without a closed form.
     ///
     /// Returns:
     ///     Plan: joints [rad], shape (m, 6); tool angles; slots; external axes, shape (m, k);

@@ -105,3 +105,13 @@ def test_a_bad_cost_is_named(field, value):
 def test_another_order_is_named():
     with pytest.raises(ValueError, match='order must be "bottleneck" or "sum", got "time"'):
         ROBOT.plan(SEAM, order="time")
+
+
+def test_an_arm_without_these_singularities_has_no_cost_of_them():
+    robot = irbkin.Robot("GoFa 5")
+    q = np.linspace([0.1, 0.2, 0.3, 0.4, 0.9, 0.6], [0.3, 0.3, 0.2, 0.5, 1.0, 0.5], 12)
+    T = robot.fk(q)
+    assert np.isnan(robot.margin(q).singularities).all()
+    plain = robot.plan(T, order="sum")
+    assert robot.plan(T, order="sum", singularity_cost=1e3) == plain
+    assert plain.cost <= (np.diff(q, axis=0) ** 2).sum() * (1 + 1e-9)
