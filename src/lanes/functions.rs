@@ -178,3 +178,6 @@ fn six<const FUSED: bool>(c: &[f64; 6], z: f64, z2: f64) -> f64 {
 
 #[cfg(test)]
 mod tests;
+mod vectors;
+
+pub(crate) use vectors::{atan2_of, sin_cos_of};

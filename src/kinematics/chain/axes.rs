@@ -67,18 +67,6 @@ impl<const W: usize> Axes<W> {
         }
     }
 
-    /// Turns the frames about their y axis.
-    #[inline(always)]
-    pub(crate) fn tilt<const FUSED: bool>(&mut self, sin: f64, cos: f64) {
-        for lane in 0..W {
-            for i in 0..3 {
-                let (x, z) = (self.x[i][lane], self.z[i][lane]);
-                self.x[i][lane] = mul_add::<FUSED>(x, cos, -(z * sin));
-                self.z[i][lane] = mul_add::<FUSED>(x, sin, z * cos);
-            }
-        }
-    }
-
     /// One component of the step in one lane.
     #[inline(always)]
     fn turn<const FUSED: bool>(&mut self, link: Link, sin: f64, cos: f64, i: usize, lane: usize) {

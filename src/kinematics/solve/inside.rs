@@ -6,6 +6,7 @@ use crate::kinematics::answer::solutions::{Place, Solution, Solutions};
 use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::nearest::{NearestSearch, Wanted};
 use crate::kinematics::solve::self_motion::meets;
+use crate::kinematics::structure::any::AnyStructure as _;
 use crate::kinematics::structure::arity::{Arity, Joints};
 use crate::kinematics::structure::redundancy::Redundancy;
 
@@ -63,6 +64,11 @@ where
     ) -> Result<(), Error> {
         // For seven axes, one is searched along the redundancy.
         if N != 6 || solutions.is_empty() || solutions.iter().any(Solution::is_within_limits) {
+            return Ok(());
+        }
+        // Newton's method on the closure leaves nothing of a regular solution to be chosen.
+        let is_regular = |solution: &Solution<N>| solution.singularities().is_empty();
+        if !self.solver().is_closed_form() && solutions.iter().all(is_regular) {
             return Ok(());
         }
         let wanted = Wanted {

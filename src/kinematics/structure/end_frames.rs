@@ -6,7 +6,7 @@ use crate::kinematics::chain::Chain;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::rotation::Rows3;
 use crate::kinematics::structure::joint_map::JointMap;
-use crate::lanes::mul_add;
+use crate::lanes::{dot, mul_add};
 
 /// The constant factors of eq. 1, which remove base, shoulder height, flange and tool from a pose.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,11 +96,33 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
+    pub(crate) const IDENTITY: Self = Self { rotation: UNTURNED, origin: [0.0; 3] };
+
     pub(crate) fn of(pose: &Pose) -> Self {
         Self {
             rotation: pose.rotation.matrix().transpose().into(),
             origin: pose.translation.vector.into(),
         }
+    }
+
+    /// The same with lengths in units.
+    pub(crate) fn in_units(self, unit: f64) -> Self {
+        let [x, y, z] = self.origin;
+        Self { origin: [x * unit, y * unit, z * unit], ..self }
+    }
+
+    pub(crate) fn inverse(&self) -> Self {
+        let [a, b, c] = self.rotation;
+        let rotation = [[a[0], b[0], c[0]], [a[1], b[1], c[1]], [a[2], b[2], c[2]]];
+        let [x, y, z] = Self { rotation, ..*self }.turned(self.origin);
+        Self { rotation, origin: [-x, -y, -z] }
+    }
+
+    /// A vector turned by the rotation.
+    #[inline(always)]
+    pub(crate) fn turned(&self, v: [f64; 3]) -> [f64; 3] {
+        let [a, b, c] = self.rotation;
+        [dot(a, v), dot(b, v), dot(c, v)]
     }
 }
 

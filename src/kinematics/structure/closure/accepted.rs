@@ -5,7 +5,6 @@ use core::fmt;
 use super::chain::{Closure, Target};
 use super::newton::Candidates;
 use crate::kinematics::pose::angles::wrap;
-use crate::lanes::atan2;
 
 /// Most solutions of a six-joint chain, apart from self-motions.
 /// Reference: Primrose, On the input-output equation of the general 7R-mechanism, 1986.
@@ -98,6 +97,11 @@ impl Configuration {
         }
     }
 
+    /// Whether no joint differs by more than a radius [rad].
+    fn is_within(&self, radius: f64, other: &[f64; 6]) -> bool {
+        self.theta.iter().zip(other).all(|(a, b)| wrap(a - b).abs() <= radius)
+    }
+
     /// The largest difference of a joint [rad].
     pub(crate) fn distance(&self, other: &[f64; 6]) -> f64 {
         (0..6).fold(0.0, |most, i| wrap(self.theta[i] - other[i]).abs().max(most))
@@ -122,10 +126,6 @@ impl Accepted {
 
     pub(crate) fn as_slice(&self) -> &[Configuration] {
         &self.all[..self.count]
-    }
-
-    pub(crate) fn as_mut_slice(&mut self) -> &mut [Configuration] {
-        &mut self.all[..self.count]
     }
 
     /// Solutions with their multiplicity: those that polynomials have as roots, if no self-motion
@@ -203,7 +203,7 @@ impl Accepted {
         let rounding = closure.rounding;
         let new_radius = new.radius(rounding);
         for one in &mut self.all[..self.count] {
-            if one.distance(&new.theta) <= one.radius(rounding).max(new_radius) {
+            if one.is_within(one.radius(rounding).max(new_radius), &new.theta) {
                 // Of two findings, the one that knows more.
                 if one.kind == Kind::Regular && new.kind != Kind::Regular {
                     *one = new;
@@ -224,12 +224,5 @@ impl Accepted {
     pub(crate) fn remove(&mut self, index: usize) {
         self.all.copy_within(index + 1..self.count, index);
         self.count -= 1;
-    }
-}
-
-impl Candidates {
-    /// The angles in a lane [rad].
-    pub(crate) fn theta(&self, lane: usize) -> [f64; 6] {
-        core::array::from_fn(|joint| atan2::<false>(self.sin[joint][lane], self.cos[joint][lane]))
     }
 }

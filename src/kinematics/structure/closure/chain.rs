@@ -4,12 +4,13 @@
 use nalgebra::ComplexField as _;
 use nalgebra::SMatrix;
 
-use crate::kinematics::chain::axes::{Axes, Link};
+use super::placed::Placed;
+use crate::kinematics::chain::axes::Link;
 use crate::kinematics::chain::dh::DhRow;
 use crate::kinematics::chain::skew::TiltedRow;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::end_frames::Frame;
-use crate::lanes::{LANES, mul_add, sin_cos};
+use crate::lanes::{Number, cross, sin_cos};
 
 /// A chain of six joints, its lengths in units of their sum.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,11 +32,11 @@ pub(crate) struct Target {
 
 /// The six conditions at a configuration, and their derivatives by each joint.
 #[derive(Clone, Copy)]
-pub(super) struct Conditions<const W: usize> {
+pub(super) struct Conditions<T> {
     /// What is missing to the target: along, then about, each axis.
-    pub(super) missing: [[f64; W]; 6],
+    pub(super) missing: [T; 6],
     /// By joint and condition.
-    pub(super) columns: [[[f64; W]; 6]; 6],
+    pub(super) columns: [[T; 6]; 6],
 }
 
 /// Rounding of the closure by a product of six links and of the pose, in units of the reach [1].
@@ -71,8 +72,9 @@ impl Closure {
     /// What a configuration reaches.
     pub(crate) fn reached(&self, theta: &[f64; 6]) -> Target {
         let (sin, cos) = sines(theta);
-        let (last, _) = self.frames::<1, false>(&sin, &cos);
-        Target { frame: Frame::of(&last.pose(0)) }
+        let (Placed { x, y, z, origin }, _) = self.frames(&sin, &cos);
+        let rotation = core::array::from_fn(|i| [x[i], y[i], z[i]]);
+        Target { frame: Frame { rotation, origin } }
     }
 
     /// The derivatives of the conditions at a configuration [1].
@@ -94,116 +96,88 @@ impl Closure {
         self.target(&Frame::of(t_first_last))
     }
 
-    /// The conditions in lanes: the position of the last frame and half of the sum of the products
-    /// of its axes and the target's, which is the sine of the angle between them along its axis.
+    /// The conditions: the position of the last frame and half of the sum of the products of its
+    /// axes and the target's, which is the sine of the angle between them along its axis.
     #[inline(always)]
-    pub(super) fn conditions<const W: usize, const FUSED: bool>(
+    pub(super) fn conditions<T: Number>(
         &self,
         target: &Target,
-        sin: &[[f64; W]; 6],
-        cos: &[[f64; W]; 6],
-    ) -> Conditions<W> {
-        let (last, frames) = self.frames::<W, FUSED>(sin, cos);
-        let missing = missing::<W, FUSED>(&last, target);
-        let mut columns = [[[0.0; W]; 6]; 6];
+        sin: &[T; 6],
+        cos: &[T; 6],
+    ) -> Conditions<T> {
+        let (last, axes) = self.frames(sin, cos);
+        let mut columns = [[sin[0]; 6]; 6];
         for joint in 0..6 {
-            let Axes { z, origin, .. } = &frames[joint];
-            for lane in 0..W {
-                let [x, y, w] = [z[0][lane], z[1][lane], z[2][lane]];
-                let arm: [f64; 3] = [0, 1, 2].map(|i| last.origin[i][lane] - origin[i][lane]);
-                columns[joint][0][lane] = mul_add::<FUSED>(y, arm[2], -(w * arm[1]));
-                columns[joint][1][lane] = mul_add::<FUSED>(w, arm[0], -(x * arm[2]));
-                columns[joint][2][lane] = mul_add::<FUSED>(x, arm[1], -(y * arm[0]));
-                (columns[joint][3][lane], columns[joint][4][lane]) = (x, y);
-                columns[joint][5][lane] = w;
+            let (axis, origin) = axes[joint];
+            let mut arm = origin;
+            for i in 0..3 {
+                arm[i] = last.origin[i] - origin[i];
             }
+            let [x, y, z] = cross(axis, arm);
+            columns[joint] = [x, y, z, axis[0], axis[1], axis[2]];
         }
-        Conditions { missing, columns }
+        Conditions { missing: missing(&last, target), columns }
     }
 
     /// What is missing to the target, alone.
     #[inline(always)]
-    pub(super) fn missing<const W: usize, const FUSED: bool>(
-        &self,
-        target: &Target,
-        sin: &[[f64; W]; 6],
-        cos: &[[f64; W]; 6],
-    ) -> [[f64; W]; 6] {
-        let (last, _) = self.frames::<W, FUSED>(sin, cos);
-        missing::<W, FUSED>(&last, target)
+    pub(super) fn missing<T: Number>(&self, target: &Target, sin: &[T; 6], cos: &[T; 6]) -> [T; 6] {
+        missing(&self.frames(sin, cos).0, target)
     }
 
+    /// The last frame, and each joint's axis and a point on it.
     #[inline(always)]
-    pub(super) fn frames<const W: usize, const FUSED: bool>(
-        &self,
-        sin: &[[f64; W]; 6],
-        cos: &[[f64; W]; 6],
-    ) -> (Axes<W>, [Axes<W>; 6]) {
-        let mut frame = Axes::of(&Pose::identity());
-        let mut frames = [frame; 6];
+    fn frames<T: Number>(&self, sin: &[T; 6], cos: &[T; 6]) -> (Placed<T>, [([T; 3], [T; 3]); 6]) {
+        let mut frame = Placed::of(&Frame::IDENTITY, sin[0]);
+        let mut axes = [(frame.z, frame.origin); 6];
         for joint in 0..6 {
-            let link = self.links[joint];
-            if let Some((sin_beta, cos_beta)) = self.tilts[joint] {
-                let still = Link { d: 0.0, ..link };
-                frame.advance::<FUSED>(still, &[0.0; W], &[1.0; W]);
-                frame.tilt::<FUSED>(sin_beta, cos_beta);
-                let rest = Link { sin_alpha: 0.0, cos_alpha: 1.0, a: 0.0, ..link };
-                frame.advance::<FUSED>(rest, &sin[joint], &cos[joint]);
-            } else {
-                frame.advance::<FUSED>(link, &sin[joint], &cos[joint]);
+            let link = &self.links[joint];
+            frame = frame.screwed(link);
+            if let Some(tilt) = self.tilts[joint] {
+                frame = frame.tilted(tilt);
             }
-            frames[joint] = frame;
+            frame = frame.turned(sin[joint], cos[joint]).raised(link.d);
+            axes[joint] = (frame.z, frame.origin);
         }
-        (frame, frames)
+        (frame, axes)
     }
 }
 
 #[inline(always)]
-fn missing<const W: usize, const FUSED: bool>(last: &Axes<W>, target: &Target) -> [[f64; W]; 6] {
+fn missing<T: Number>(last: &Placed<T>, target: &Target) -> [T; 6] {
     let Frame { rotation, origin } = target.frame;
-    let mut missing = [[0.0; W]; 6];
-    for lane in 0..W {
-        for i in 0..3 {
-            missing[i][lane] = origin[i] - last.origin[i][lane];
-            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-            let mut sum = 0.0;
-            for (column, axis) in [&last.x, &last.y, &last.z].into_iter().enumerate() {
-                sum = mul_add::<FUSED>(axis[j][lane], rotation[k][column], sum);
-                sum = mul_add::<FUSED>(-axis[k][lane], rotation[j][column], sum);
-            }
-            missing[3 + i][lane] = 0.5 * sum;
-        }
-        // Half a turn away the sum is zero too: it counts as a radian.
-        let mut trace = 0.0;
-        for i in 0..3 {
-            trace = mul_add::<FUSED>(last.x[i][lane], rotation[i][0], trace);
-            trace = mul_add::<FUSED>(last.y[i][lane], rotation[i][1], trace);
-            trace = mul_add::<FUSED>(last.z[i][lane], rotation[i][2], trace);
-        }
-        missing[3][lane] = if trace > 0.0 { missing[3][lane] } else { 1.0 };
+    let zero = last.x[0].like(0.0);
+    let mut missing = [zero; 6];
+    let mut trace = zero;
+    for i in 0..3 {
+        missing[i] = last.origin[i].like(origin[i]) - last.origin[i];
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        let (a, b) = (&rotation[j], &rotation[k]);
+        let ahead = last.z[j].scaled_plus(b[2], last.z[k] * -a[2]);
+        let ahead = last.y[j].scaled_plus(b[1], last.y[k].scaled_plus(-a[1], ahead));
+        missing[3 + i] = last.x[j].scaled_plus(b[0], last.x[k].scaled_plus(-a[0], ahead)) * 0.5;
+        let [x, y, z] = rotation[i];
+        let along = last.y[i].scaled_plus(y, last.z[i].scaled_plus(z, trace));
+        trace = last.x[i].scaled_plus(x, along);
     }
+    // Half a turn away the sum is zero too: it counts as a radian.
+    missing[3] = trace.if_above(zero, missing[3], zero.like(1.0));
     missing
 }
 
 /// Sines and cosines of one configuration.
-pub(super) fn sines(theta: &[f64; 6]) -> ([[f64; 1]; 6], [[f64; 1]; 6]) {
+pub(super) fn sines(theta: &[f64; 6]) -> ([f64; 6], [f64; 6]) {
     let both = theta.map(sin_cos::<false>);
-    (both.map(|(sin, _)| [sin]), both.map(|(_, cos)| [cos]))
+    (both.map(|(sin, _)| sin), both.map(|(_, cos)| cos))
 }
 
-/// The greatest of six sizes, by lane.
+/// The greatest of six sizes; not a number if one of them is not, or not finite.
 #[inline(always)]
-pub(super) fn largest<const W: usize>(of: &[[f64; W]; 6]) -> [f64; W] {
-    let mut largest = [0.0_f64; W];
-    for row in of {
-        for lane in 0..W {
-            let size = row[lane].abs();
-            // Not a number is larger than all.
-            let is_larger = (size > largest[lane]) | size.is_nan();
-            largest[lane] = if is_larger { size } else { largest[lane] };
-        }
+pub(super) fn largest<T: Number>(of: &[T; 6]) -> T {
+    let (mut largest, mut sum) = (of[0].size(), of[0]);
+    for number in &of[1..] {
+        largest = number.size().or_more(largest);
+        sum = sum + *number;
     }
-    largest
+    sum.scaled_plus(0.0, largest)
 }
-
-const _: () = assert!(LANES == 8, "candidates come in eights");

@@ -110,7 +110,7 @@ impl Closure {
         kind: Kind,
     ) -> Option<Configuration> {
         let (sin, cos) = sines(&theta);
-        let [residual] = largest(&self.missing::<1, false>(target, &sin, &cos));
+        let residual = largest(&self.missing(target, &sin, &cos));
         let configuration = Configuration { theta, residual, least, kind };
         (residual <= self.accepts()).then_some(configuration)
     }
@@ -122,10 +122,10 @@ impl Closure {
         theta: &[f64; 6],
     ) -> (SMatrix<f64, 6, 6>, SVector<f64, 6>) {
         let (sin, cos) = sines(theta);
-        let conditions = self.conditions::<1, false>(target, &sin, &cos);
+        let conditions = self.conditions(target, &sin, &cos);
         (
-            SMatrix::from_fn(|row, joint| conditions.columns[joint][row][0]),
-            SVector::from_fn(|row, _| conditions.missing[row][0]),
+            SMatrix::from_fn(|row, joint| conditions.columns[joint][row]),
+            SVector::from_fn(|row, _| conditions.missing[row]),
         )
     }
 }

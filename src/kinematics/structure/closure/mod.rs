@@ -9,10 +9,12 @@ mod chain;
 mod fold;
 mod freedom;
 mod newton;
+mod placed;
 mod self_motion;
 #[cfg(test)]
 mod tests;
 
 pub(crate) use accepted::{Accepted, Configuration, Kind};
 pub(crate) use chain::{Closure, Target};
-pub(crate) use newton::Candidates;
+pub(crate) use newton::{Candidates, Six};
+pub(crate) use placed::Placed;

@@ -1,12 +1,11 @@
 //! Newton's method on the closure, for eight candidates at once.
 
-#[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
+use fearless_simd::prelude::*;
 
 use super::chain::{Closure, Conditions, Target, largest};
-#[cfg(test)]
-use crate::lanes::sin_cos;
-use crate::lanes::{Column, LANES, mul_add};
+use crate::lanes::{
+    Column, LANES, Number as _, Vector, VectorKernel, atan2_of, run_vectors, sin_cos_of,
+};
 
 /// Sizes of the step after which a candidate has converged [rad]: the next would be its square.
 const CONVERGED: f64 = 1e-8;
@@ -22,8 +21,8 @@ const MOST_STEPS: usize = 6;
 /// Joint angles of eight candidates, and how well they close.
 #[derive(Clone, Copy)]
 pub(crate) struct Candidates {
-    pub(crate) sin: [Column; 6],
-    pub(crate) cos: [Column; 6],
+    /// Angles of the table [rad].
+    pub(crate) theta: [Column; 6],
     /// The largest of the six conditions that is left [1].
     pub(crate) residual: Column,
     /// The least singular value of the conditions' derivatives, to a small factor [1].
@@ -31,173 +30,153 @@ pub(crate) struct Candidates {
 }
 
 impl Candidates {
-    pub(crate) const NEW: Self = Self {
-        sin: [[0.0; LANES]; 6],
-        cos: [[1.0; LANES]; 6],
-        residual: [1.0; LANES],
-        least: [0.0; LANES],
-    };
-
-    /// Take the angles of others in the lanes where they close better.
-    #[inline(always)]
-    fn keep(&mut self, other: &Self, residual: &Column) {
-        for lane in 0..LANES {
-            let is_better = residual[lane] < self.residual[lane];
-            self.residual[lane] = if is_better { residual[lane] } else { self.residual[lane] };
-            for joint in 0..6 {
-                let (sin, cos) = (self.sin[joint][lane], self.cos[joint][lane]);
-                self.sin[joint][lane] = if is_better { other.sin[joint][lane] } else { sin };
-                self.cos[joint][lane] = if is_better { other.cos[joint][lane] } else { cos };
-            }
-        }
+    /// The angles in a lane [rad].
+    pub(crate) fn theta(&self, lane: usize) -> [f64; 6] {
+        core::array::from_fn(|joint| self.theta[joint][lane])
     }
+}
 
-    /// Take these angles [rad] in a lane.
-    #[cfg(test)]
-    pub(crate) fn put(&mut self, lane: usize, theta: &[f64; 6]) {
+/// Six numbers for each lane.
+pub(crate) type Six<S> = [Vector<S>; 6];
+
+/// Newton's method from angles of the table [rad].
+struct Converge<'a> {
+    closure: &'a Closure,
+    target: &'a Target,
+    theta: &'a [Column; 6],
+}
+
+impl VectorKernel for Converge<'_> {
+    type Answer = Candidates;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> Candidates {
+        let zero = Vector::splat(simd, 0.0);
+        let (mut sin, mut cos) = ([zero; 6], [zero; 6]);
         for joint in 0..6 {
-            (self.sin[joint][lane], self.cos[joint][lane]) = sin_cos::<false>(theta[joint]);
+            let angle = Vector::load_array_ref(simd, &self.theta[joint]);
+            (sin[joint], cos[joint]) = sin_cos_of(angle);
         }
+        self.closure.converge(self.target, sin, cos)
     }
 }
 
 impl Closure {
+    /// Bring configurations, by angles of the table [rad], to the target.
+    pub(crate) fn converged(&self, target: &Target, theta: &[Column; 6]) -> Candidates {
+        run_vectors(Converge { closure: self, target, theta })
+    }
+
     /// Bring candidates to the target (eq. 98). One that does not converge keeps its last angles.
     #[inline(always)]
-    pub(crate) fn converge<const FUSED: bool>(&self, target: &Target, on: &mut Candidates) {
-        let mut is_moving = [true; LANES];
-        let mut best = Candidates { residual: [f64::INFINITY; LANES], ..*on };
+    pub(crate) fn converge<S: Simd>(
+        &self,
+        target: &Target,
+        mut sin: Six<S>,
+        mut cos: Six<S>,
+    ) -> Candidates {
+        let zero = sin[0].like(0.0);
+        let (mut least, mut best) = (zero, zero.like(f64::INFINITY));
+        let (mut best_sin, mut best_cos) = (sin, cos);
+        // A lane stops by itself: its answer does not depend on the others.
+        let mut is_moving = zero.simd_eq(zero);
         for _ in 0..MOST_STEPS {
-            let conditions = self.conditions::<LANES, FUSED>(target, &on.sin, &on.cos);
-            best.keep(on, &largest(&conditions.missing));
-            let triangle = Triangle::of::<FUSED>(&conditions);
-            let step = triangle.step::<FUSED>();
+            let conditions = self.conditions(target, &sin, &cos);
+            let residual = largest(&conditions.missing);
+            let is_better = residual.simd_lt(best);
+            best = is_better.select(residual, best);
+            let triangle = Triangle::of(&conditions);
+            let step = triangle.back(triangle.right);
             let size = largest(&step);
-            let least = triangle.least::<FUSED>();
-            let mut moving = 0;
-            for lane in 0..LANES {
-                on.least[lane] = if is_moving[lane] { least[lane] } else { on.least[lane] };
-                // A singular candidate stays where it is.
-                is_moving[lane] &= size[lane] < f64::INFINITY;
-                let part = MOST_STEP / size[lane];
-                let part = if part < 1.0 { part } else { 1.0 };
-                for joint in 0..6 {
-                    let (s, c) = (on.sin[joint][lane], on.cos[joint][lane]);
-                    let turn = if is_moving[lane] { part * step[joint][lane] } else { 0.0 };
-                    (on.sin[joint][lane], on.cos[joint][lane]) = turned::<FUSED>(s, c, turn);
-                }
-                is_moving[lane] &= size[lane] > CONVERGED;
-                moving |= u64::from(is_moving[lane]);
+            least = is_moving.select(triangle.least(), least);
+            // A singular candidate stays where it is.
+            is_moving &= size.simd_lt(f64::INFINITY);
+            let part = size.like(MOST_STEP) / size;
+            let part = part.if_above(zero.like(1.0), zero.like(1.0), part);
+            for joint in 0..6 {
+                let (s, c) = (sin[joint], cos[joint]);
+                best_sin[joint] = is_better.select(s, best_sin[joint]);
+                best_cos[joint] = is_better.select(c, best_cos[joint]);
+                let turn = is_moving.select(part * step[joint], zero);
+                (sin[joint], cos[joint]) = turned(s, c, turn);
             }
-            if moving == 0 {
+            is_moving &= size.simd_gt(CONVERGED);
+            if !is_moving.any_true() {
                 break;
             }
         }
-        on.residual = largest(&self.missing::<LANES, FUSED>(target, &on.sin, &on.cos));
         // One that wanders about a singularity returns to where it closed best.
-        for lane in 0..LANES {
-            let last = on.residual[lane];
-            let is_better = (last > 2.0 * best.residual[lane]) | last.is_nan();
-            for joint in 0..6 {
-                let better = [best.sin[joint][lane], best.cos[joint][lane]];
-                let last = [on.sin[joint][lane], on.cos[joint][lane]];
-                [on.sin[joint][lane], on.cos[joint][lane]] = if is_better { better } else { last };
-            }
-            let better = best.residual[lane];
-            on.residual[lane] = if is_better { better } else { on.residual[lane] };
+        let last = largest(&self.missing(target, &sin, &cos));
+        let is_last = last.simd_le(best * 2.0);
+        let mut candidates = Candidates {
+            theta: [[0.0; LANES]; 6],
+            residual: is_last.select(last, best).to_array(),
+            least: least.to_array(),
+        };
+        for joint in 0..6 {
+            let sin = is_last.select(sin[joint], best_sin[joint]);
+            let cos = is_last.select(cos[joint], best_cos[joint]);
+            candidates.theta[joint] = atan2_of(sin, cos).to_array();
         }
+        candidates
     }
 }
 
 /// Sine and cosine of an angle after a small turn.
 #[inline(always)]
-fn turned<const FUSED: bool>(s: f64, c: f64, turn: f64) -> (f64, f64) {
+fn turned<S: Simd>(s: Vector<S>, c: Vector<S>, turn: Vector<S>) -> (Vector<S>, Vector<S>) {
     let z = turn * turn;
-    let sin = mul_add::<FUSED>(z, mul_add::<FUSED>(z, 1.0 / 120.0, -1.0 / 6.0), 1.0) * turn;
-    let cos = mul_add::<FUSED>(z, mul_add::<FUSED>(z, 1.0 / 24.0, -0.5), 1.0);
-    let (s, c) = (mul_add::<FUSED>(s, cos, c * sin), mul_add::<FUSED>(c, cos, -(s * sin)));
+    let one = z.like(1.0);
+    let sin = z.mul_add(z.mul_add(1.0 / 120.0, z.like(-1.0 / 6.0)), one) * turn;
+    let cos = z.mul_add(z.mul_add(1.0 / 24.0, z.like(-0.5)), one);
+    let (s, c) = (s.mul_add(cos, c * sin), c.mul_add(cos, -(s * sin)));
     // Back to a unit vector.
-    let factor = mul_add::<FUSED>(-0.5, mul_add::<FUSED>(s, s, c * c), 1.5);
+    let factor = s.mul_add(s, c * c).mul_add(-0.5, z.like(1.5));
     (s * factor, c * factor)
 }
 
 /// The triangle that reflections make of the derivatives, and the conditions with it.
-struct Triangle {
+struct Triangle<S: Simd> {
     /// By column and row; below the diagonal is what is left of the reflections.
-    columns: [[Column; 6]; 6],
-    right: [Column; 6],
+    columns: [Six<S>; 6],
+    right: Six<S>,
     /// Inverses of the diagonal.
-    inverse: [Column; 6],
+    inverse: Six<S>,
 }
 
-impl Triangle {
+impl<S: Simd> Triangle<S> {
     /// Householder's reflections, a column after the other.
     #[inline(always)]
-    fn of<const FUSED: bool>(conditions: &Conditions<LANES>) -> Self {
+    fn of(conditions: &Conditions<Vector<S>>) -> Self {
         let Conditions { missing: mut right, mut columns } = *conditions;
-        let mut inverse = [[0.0; LANES]; 6];
+        let mut inverse = right;
         for k in 0..6 {
             let (done, rest) = columns.split_at_mut(k + 1);
             let mirror = &mut done[k];
-            let mut square = [0.0; LANES];
-            for row in k..6 {
-                for lane in 0..LANES {
-                    square[lane] =
-                        mul_add::<FUSED>(mirror[row][lane], mirror[row][lane], square[lane]);
-                }
+            let mut square = mirror[k] * mirror[k];
+            for row in k + 1..6 {
+                square = mirror[row].mul_add(mirror[row], square);
             }
-            let (mut scale, mut diagonal) = ([0.0; LANES], [0.0; LANES]);
-            for lane in 0..LANES {
-                let length = square[lane].sqrt();
-                let first = mirror[k][lane];
-                scale[lane] = -1.0 / (length * (length + first.abs()));
-                diagonal[lane] = -length.copysign(first);
-                inverse[k][lane] = 1.0 / diagonal[lane];
-                mirror[k][lane] = first - diagonal[lane];
+            let (length, first) = (square.sqrt(), mirror[k]);
+            let scale = first.like(-1.0) / (length * (length + first.abs()));
+            let diagonal = -length.copysign(first);
+            inverse[k] = diagonal.inverse();
+            mirror[k] = first - diagonal;
+            for column in rest {
+                reflect(mirror, scale, column, k);
             }
-            for column in rest.iter_mut().chain([&mut right]) {
-                let mut dot = [0.0; LANES];
-                for row in k..6 {
-                    for lane in 0..LANES {
-                        dot[lane] =
-                            mul_add::<FUSED>(mirror[row][lane], column[row][lane], dot[lane]);
-                    }
-                }
-                for lane in 0..LANES {
-                    dot[lane] *= scale[lane];
-                }
-                for row in k..6 {
-                    for lane in 0..LANES {
-                        column[row][lane] =
-                            mul_add::<FUSED>(mirror[row][lane], dot[lane], column[row][lane]);
-                    }
-                }
-            }
+            reflect(mirror, scale, &mut right, k);
         }
         Self { columns, right, inverse }
     }
 
-    /// The joint step.
-    #[inline(always)]
-    fn step<const FUSED: bool>(&self) -> [Column; 6] {
-        self.back::<FUSED>(self.right)
-    }
-
     /// The solution for a right side.
     #[inline(always)]
-    fn back<const FUSED: bool>(&self, mut right: [Column; 6]) -> [Column; 6] {
+    fn back(&self, mut right: Six<S>) -> Six<S> {
         for k in (0..6).rev() {
-            for lane in 0..LANES {
-                right[k][lane] *= self.inverse[k][lane];
-            }
+            right[k] *= self.inverse[k];
             for row in 0..k {
-                for lane in 0..LANES {
-                    right[row][lane] = mul_add::<FUSED>(
-                        -self.columns[k][row][lane],
-                        right[k][lane],
-                        right[row][lane],
-                    );
-                }
+                right[row] = self.columns[k][row].mul_add(-right[k], right[row]);
             }
         }
         right
@@ -207,33 +186,36 @@ impl Triangle {
     /// for which y grows, and `R x = y`. Reference: Cline, Moler, Stewart and Wilkinson, An
     /// estimate for the condition number of a matrix, SIAM J. Numer. Anal. 16, 1979.
     #[inline(always)]
-    fn least<const FUSED: bool>(&self) -> Column {
-        let mut y = [[0.0; LANES]; 6];
+    fn least(&self) -> Vector<S> {
+        let zero = self.right[0].like(0.0);
+        let mut y = [zero; 6];
         for k in 0..6 {
-            let mut sum = [0.0; LANES];
+            let mut sum = zero;
             for row in 0..k {
-                for lane in 0..LANES {
-                    sum[lane] =
-                        mul_add::<FUSED>(-self.columns[k][row][lane], y[row][lane], sum[lane]);
-                }
+                sum = self.columns[k][row].mul_add(-y[row], sum);
             }
-            for lane in 0..LANES {
-                let grown = sum[lane] + 1.0_f64.copysign(sum[lane]);
-                y[k][lane] = grown * self.inverse[k][lane];
-            }
+            y[k] = (sum + zero.like(1.0).copysign(sum)) * self.inverse[k];
         }
-        let x = self.back::<FUSED>(y);
-        let mut least = [0.0; LANES];
-        for lane in 0..LANES {
-            let (mut of_y, mut of_x) = (0.0, 0.0);
-            for k in 0..6 {
-                of_y = mul_add::<FUSED>(y[k][lane], y[k][lane], of_y);
-                of_x = mul_add::<FUSED>(x[k][lane], x[k][lane], of_x);
-            }
-            let ratio = (of_y / of_x).sqrt();
-            // Infinite or not a number: singular.
-            least[lane] = if ratio > 0.0 { ratio } else { 0.0 };
+        let x = self.back(y);
+        let (mut of_y, mut of_x) = (zero, zero);
+        for k in 0..6 {
+            of_y = y[k].mul_add(y[k], of_y);
+            of_x = x[k].mul_add(x[k], of_x);
         }
-        least
+        // Infinite or not a number: singular.
+        (of_y / of_x).sqrt().or_more(zero)
+    }
+}
+
+/// Reflect rows k and below of a column.
+#[inline(always)]
+fn reflect<S: Simd>(mirror: &Six<S>, scale: Vector<S>, column: &mut Six<S>, k: usize) {
+    let mut along = mirror[k] * column[k];
+    for row in k + 1..6 {
+        along = mirror[row].mul_add(column[row], along);
+    }
+    along *= scale;
+    for row in k..6 {
+        column[row] = mirror[row].mul_add(along, column[row]);
     }
 }

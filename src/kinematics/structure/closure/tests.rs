@@ -32,11 +32,13 @@ fn random(rng: &mut Rng) -> Closure {
 fn found(closure: &Closure, target: &Target, around: &[f64; 6], off: f64) -> Accepted {
     let mut rng = Rng::new(3);
     let mut accepted = Accepted::NONE;
-    let mut candidates = Candidates::NEW;
+    let mut theta = [[0.0; LANES]; 6];
     for lane in 0..LANES {
-        candidates.put(lane, &around.map(|angle| angle + rng.between(-off, off)));
+        for joint in 0..6 {
+            theta[joint][lane] = around[joint] + rng.between(-off, off);
+        }
     }
-    closure.converge::<false>(target, &mut candidates);
+    let candidates = closure.converged(target, &theta);
     accepted.take(closure, target, &candidates, LANES);
     accepted
 }
@@ -71,9 +73,7 @@ fn the_least_singular_value_is_estimated() {
         let closure = random(&mut rng);
         let theta: [f64; 6] = rng.angles();
         let target = closure.reached(&theta);
-        let mut candidates = Candidates::NEW;
-        candidates.put(0, &theta);
-        closure.converge::<false>(&target, &mut candidates);
+        let candidates = closure.converged(&target, &theta.map(|angle| [angle; LANES]));
         let (jacobian, _) = closure.linear(&target, &theta);
         let least = jacobian.singular_values()[5];
         let ratio = candidates.least[0] / least;
@@ -129,14 +129,13 @@ fn a_self_motion_stands_once_with_its_direction() {
         compared += 1;
         // Points all along the self-motion.
         let mut accepted = Accepted::NONE;
-        let mut candidates = Candidates::NEW;
+        let mut points = theta.map(|angle| [angle; LANES]);
         for lane in 0..LANES {
             let turn = 0.7 * lane as f64;
-            let mut point = theta;
-            (point[3], point[5]) = (point[3] + turn, point[5] - turn);
-            candidates.put(lane, &point);
+            points[3][lane] += turn;
+            points[5][lane] -= turn;
         }
-        closure.converge::<false>(&target, &mut candidates);
+        let candidates = closure.converged(&target, &points);
         accepted.take(&closure, &target, &candidates, LANES);
         accepted.thin(&closure, &target);
         assert!(accepted.is_certain && accepted.as_slice().len() == 1, "{accepted:?}");

@@ -4,7 +4,8 @@
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
-use super::moments::{ACROSS, ALONG, MOMENTS, Moments, Motion};
+use super::moments::{ACROSS, ALONG, MOMENTS, Moments};
+use crate::kinematics::structure::end_frames::Frame;
 use crate::lanes::{Column, LANES};
 
 /// The left side of a split: moments of axis 2 before axis 0, as `of_1[0] + c1 of_1[1] + s1 of_1[2]`
@@ -28,7 +29,7 @@ fn difference(a: Complex, b: Complex) -> Complex {
 }
 
 impl Left {
-    pub(super) fn of(m0: &Motion, m1: &Motion) -> Self {
+    pub(super) fn of(m0: &Frame, m1: &Frame) -> Self {
         let of_1 = Moments::AXIS.moved(m1).harmonics();
         Self { of_1: of_1.map(|moments| moments.moved(m0)) }
     }

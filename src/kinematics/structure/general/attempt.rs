@@ -1,15 +1,16 @@
 //! All solutions that one split finds, and whether their number is certain (eq. 95 to 104).
 
+use fearless_simd::prelude::*;
+
 use super::back::{Angle, completed, eliminated, pencil};
 use super::determinant::Rest;
-use super::moments::Motion;
 use super::split::{Posed, Split};
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::closure::{Accepted, Closure, Configuration, Target};
 use crate::kinematics::structure::trigonometric::{
     MOST_ROOTS, Root, SAMPLE_COS, SAMPLE_SIN, SAMPLES, TrigonometricPolynomial,
 };
-use crate::lanes::{Column, Kernel, LANES, sin_cos};
+use crate::lanes::{Column, LANES, Vector, VectorKernel, sin_cos_of};
 
 /// How far from its interval a solution of a cluster may be [rad]: what rounding moves a double
 /// root.
@@ -29,27 +30,26 @@ pub(super) struct Attempt<'a> {
     pub(super) split: &'a Split,
     pub(super) closure: &'a Closure,
     pub(super) target: &'a Target,
-    pub(super) t_last_first: &'a Motion,
     /// Solutions of earlier attempts, and those that this one adds.
     pub(super) accepted: &'a mut Accepted,
 }
 
-impl Kernel for Attempt<'_> {
+impl VectorKernel for Attempt<'_> {
     /// Whether the accepted solutions are certain to be all.
     type Answer = bool;
-    const WIDE: bool = true;
 
     #[inline(always)]
-    fn run<const FUSED: bool>(self) -> bool {
-        let Self { split, closure, target, t_last_first, accepted } = self;
-        let posed = split.posed::<FUSED>(t_last_first);
-        let mut samples = [[0.0; LANES]; SAMPLES / LANES];
+    fn run<S: Simd>(self, simd: S) -> bool {
+        let Self { split, closure, target, accepted } = self;
+        let posed = split.posed(simd, &target.frame.inverse());
+        let mut samples = [Vector::splat(simd, 0.0); SAMPLES / LANES];
         for block in 0..SAMPLES / LANES {
-            let rest = Rest::at::<FUSED>(&posed.equations, &SAMPLE_SIN[block], &SAMPLE_COS[block]);
-            samples[block] = rest.determinant;
+            let sin = Vector::load_array_ref(simd, &SAMPLE_SIN[block]);
+            let cos = Vector::load_array_ref(simd, &SAMPLE_COS[block]);
+            samples[block] = Rest::at(&posed.equations, sin, cos).determinant;
         }
-        let polynomial = TrigonometricPolynomial::of_samples::<FUSED>(&samples);
-        let roots = polynomial.roots::<FUSED>();
+        let polynomial = TrigonometricPolynomial::of_samples(&samples);
+        let roots = polynomial.roots(simd);
         let search =
             Search { split, closure, target, posed: &posed, weights: posed.left.weights_of_1() };
         let mut simple = [Root::default(); MOST_ROOTS];
@@ -83,7 +83,7 @@ impl Kernel for Attempt<'_> {
                 Some(root) if root.radius() < NARROW => 1,
                 Some(_) => LANES,
             };
-            search.look::<FUSED>(&places, lanes, cluster.is_some(), accepted);
+            search.look(simd, &places, lanes, cluster.is_some(), accepted);
             done += LANES;
             if let Some(root) = cluster.filter(|root| !root.is_simple) {
                 let found = split.solutions_at(root, accepted);
@@ -129,44 +129,24 @@ impl Search<'_> {
     /// Take what is at these angles of the searched joint: from one null vector, in a cluster from
     /// the pencil of two as well.
     #[inline(always)]
-    fn look<const FUSED: bool>(
+    fn look<S: Simd>(
         &self,
+        simd: S,
         angles: &Column,
         lanes: usize,
         is_cluster: bool,
         accepted: &mut Accepted,
     ) {
-        let t5 = Self::searched::<FUSED>(angles);
-        let rest = Rest::at::<FUSED>(&self.posed.equations, &t5.sin, &t5.cos);
-        let null = rest.null_vectors::<FUSED>(is_cluster);
-        let pair = if is_cluster { pencil::<FUSED>(&null) } else { null };
+        let (sin, cos) = sin_cos_of(Vector::load_array_ref(simd, angles));
+        let t5 = Angle { sin, cos };
+        let null = Rest::at(&self.posed.equations, sin, cos).null_vectors(is_cluster);
+        let pair = if is_cluster { pencil(&null) } else { null };
         let ways = [&null[0], &pair[0], &pair[1]];
         for powers in &ways[..if is_cluster { 3 } else { 1 }] {
-            self.take::<FUSED>(powers, &t5, lanes, accepted);
+            let [t4, t3] = eliminated(powers);
+            let [sin, cos] = completed(self.split, self.posed, &self.weights, [t3, t4, t5]);
+            let candidates = self.closure.converge(self.target, sin, cos);
+            accepted.take(self.closure, self.target, &candidates, lanes);
         }
-    }
-
-    #[inline(always)]
-    fn searched<const FUSED: bool>(angles: &Column) -> Angle {
-        let mut t5 = Angle { sin: [0.0; LANES], cos: [0.0; LANES] };
-        for lane in 0..LANES {
-            (t5.sin[lane], t5.cos[lane]) = sin_cos::<FUSED>(angles[lane]);
-        }
-        t5
-    }
-
-    #[inline(always)]
-    fn take<const FUSED: bool>(
-        &self,
-        powers: &[Column; 6],
-        t5: &Angle,
-        lanes: usize,
-        accepted: &mut Accepted,
-    ) {
-        let [t4, t3] = eliminated::<FUSED>(powers);
-        let mut candidates =
-            completed::<FUSED>(self.split, self.posed, &self.weights, [&t3, &t4, t5]);
-        self.closure.converge::<FUSED>(self.target, &mut candidates);
-        accepted.take(self.closure, self.target, &candidates, lanes);
     }
 }

@@ -9,10 +9,10 @@ use alloc::vec::Vec;
 use nalgebra::ComplexField as _;
 
 use super::attempt::Attempt;
-use super::moments::Motion;
 use super::split::{SPLITS, Split};
 use crate::kinematics::structure::closure::{Accepted, Closure, Target};
-use crate::lanes::run;
+use crate::kinematics::structure::end_frames::Frame;
+use crate::lanes::run_vectors;
 
 /// Splits that an arm keeps: one that is tried first, and others where its count is not certain.
 pub(super) const KEPT: usize = 3;
@@ -71,15 +71,9 @@ fn drawn(offsets: &[f64; 6]) -> Vec<[f64; 6]> {
 }
 
 /// The splits of an arm, the best first; the searched joints of the kept ones differ.
-pub(super) fn chosen(links: &[Motion; 5], closure: &Closure, offsets: &[f64; 6]) -> Vec<Split> {
-    let poses: Vec<(Target, Motion, [f64; 6])> = drawn(offsets)
-        .into_iter()
-        .map(|theta| {
-            let target = closure.reached(&theta);
-            let frame = Motion { r: target.frame.rotation, t: target.frame.origin };
-            (target, frame.inverse(), theta)
-        })
-        .collect();
+pub(super) fn chosen(links: &[Frame; 5], closure: &Closure, offsets: &[f64; 6]) -> Vec<Split> {
+    let poses: Vec<(Target, [f64; 6])> =
+        drawn(offsets).into_iter().map(|theta| (closure.reached(&theta), theta)).collect();
     let (first, rest) = poses.split_at(FIRST);
     let total = |split: &Split, poses: &[_]| {
         poses.iter().map(|pose| score(split, closure, pose)).sum::<usize>()
@@ -113,12 +107,11 @@ pub(super) fn chosen(links: &[Motion; 5], closure: &Closure, offsets: &[f64; 6])
 }
 
 /// Points of a split for a pose: two if it finds the joints that made it, one if it is certain.
-fn score(split: &Split, closure: &Closure, pose: &(Target, Motion, [f64; 6])) -> usize {
-    let (target, t_last_first, theta) = pose;
+fn score(split: &Split, closure: &Closure, (target, theta): &(Target, [f64; 6])) -> usize {
     let mut accepted = Accepted::REGULAR_ONLY;
     let accepted_to = &mut accepted;
-    let attempt = Attempt { split, closure, target, t_last_first, accepted: accepted_to };
-    let is_certain = run(attempt);
+    let attempt = Attempt { split, closure, target, accepted: accepted_to };
+    let is_certain = run_vectors(attempt);
     let is_found = accepted.as_slice().iter().any(|one| one.distance(theta) < 1e-6);
     2 * usize::from(is_found) + usize::from(is_certain)
 }

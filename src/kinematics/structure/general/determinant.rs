@@ -11,44 +11,41 @@
 //! Reflections of six rows take E0 to a triangle U, and the same for both copies; then F1 and U to
 //! another one; what is left are six rows of six.
 
-#[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
+use fearless_simd::prelude::*;
 
 use super::split::Equations;
-use crate::lanes::{Column, LANES, mul_add};
-
-type Rows = [Column; 6];
+use crate::kinematics::structure::closure::Six;
+use crate::lanes::{Number as _, Vector};
 
 /// What is left of the matrix: six rows of six, for the powers 2 and 3 of x4, as a triangle.
-pub(super) struct Rest {
-    columns: [Rows; 6],
-    diagonal: [Column; 6],
+pub(super) struct Rest<S: Simd> {
+    columns: [Six<S>; 6],
+    diagonal: Six<S>,
     /// The determinant.
-    pub(super) determinant: Column,
+    pub(super) determinant: Vector<S>,
 }
 
-impl Rest {
+impl<S: Simd> Rest<S> {
     /// The matrix at angles t5 with these sines and cosines.
     #[inline(always)]
-    pub(super) fn at<const FUSED: bool>(equations: &Equations, sin: &Column, cos: &Column) -> Self {
-        let mut first = [[[0.0; LANES]; 6]; 9];
-        for (product, rows) in first.iter_mut().enumerate() {
-            let [constant, of_cos, of_sin] = [0, 9, 18].map(|i| &equations[i + product]);
-            for (row, column) in rows.iter_mut().enumerate() {
-                for lane in 0..LANES {
-                    let along = mul_add::<FUSED>(of_cos[row], cos[lane], constant[row]);
-                    column[lane] = mul_add::<FUSED>(of_sin[row], sin[lane], along);
-                }
+    pub(super) fn at(equations: &Equations, sin: Vector<S>, cos: Vector<S>) -> Self {
+        let zero = sin.like(0.0);
+        let mut first = [[zero; 6]; 9];
+        for product in 0..9 {
+            let constant = &equations[product];
+            let (of_cos, of_sin) = (&equations[9 + product], &equations[18 + product]);
+            for row in 0..6 {
+                let along = cos.scaled_plus(of_cos[row], sin.like(constant[row]));
+                first[product][row] = sin.scaled_plus(of_sin[row], along);
             }
         }
-        let mut determinant = [1.0; LANES];
         let u = [
-            reflect::<0, 9, FUSED>(&mut first),
-            reflect::<1, 9, FUSED>(&mut first),
-            reflect::<2, 9, FUSED>(&mut first),
+            reflect::<0, 9, S>(&mut first),
+            reflect::<1, 9, S>(&mut first),
+            reflect::<2, 9, S>(&mut first),
         ];
         // [F1 F2 0; U A1 A2], with zeros where reflections left their normals.
-        let mut second = [[[0.0; LANES]; 6]; 9];
+        let mut second = [[zero; 6]; 9];
         for j in 0..3 {
             for row in 0..3 {
                 second[j][row] = first[3 + j][3 + row];
@@ -62,12 +59,12 @@ impl Rest {
             second[j][3 + j] = u[j];
         }
         let v = [
-            reflect::<0, 9, FUSED>(&mut second),
-            reflect::<1, 9, FUSED>(&mut second),
-            reflect::<2, 9, FUSED>(&mut second),
+            reflect::<0, 9, S>(&mut second),
+            reflect::<1, 9, S>(&mut second),
+            reflect::<2, 9, S>(&mut second),
         ];
         // [G1 G2; F1 F2]
-        let mut columns = [[[0.0; LANES]; 6]; 6];
+        let mut columns = [[zero; 6]; 6];
         for j in 0..6 {
             for row in 0..3 {
                 columns[j][row] = second[3 + j][3 + row];
@@ -75,168 +72,141 @@ impl Rest {
             }
         }
         let diagonal = [
-            reflect::<0, 6, FUSED>(&mut columns),
-            reflect::<1, 6, FUSED>(&mut columns),
-            reflect::<2, 6, FUSED>(&mut columns),
-            reflect::<3, 6, FUSED>(&mut columns),
-            reflect::<4, 6, FUSED>(&mut columns),
+            reflect::<0, 6, S>(&mut columns),
+            reflect::<1, 6, S>(&mut columns),
+            reflect::<2, 6, S>(&mut columns),
+            reflect::<3, 6, S>(&mut columns),
+            reflect::<4, 6, S>(&mut columns),
             columns[5][5],
         ];
-        for factor in u.iter().chain(&v).chain(&diagonal) {
-            for lane in 0..LANES {
-                determinant[lane] *= factor[lane];
-            }
+        let mut determinant = u[0] * u[1] * u[2] * v[0] * v[1] * v[2];
+        for factor in &diagonal {
+            determinant *= *factor;
         }
         Self { columns, diagonal, determinant }
     }
 
     /// Two orthonormal vectors that the rest takes nearest to zero, by inverse iteration.
     #[inline(always)]
-    pub(super) fn null_vectors<const FUSED: bool>(&self, want_second: bool) -> [Rows; 2] {
-        let mut first = START[0].map(|x| [x; LANES]);
+    pub(super) fn null_vectors(&self, want_second: bool) -> [Six<S>; 2] {
+        let mut inverse = self.diagonal;
+        for k in 0..6 {
+            let element = self.diagonal[k];
+            // Huge, and finite, for zero.
+            inverse[k] = element.size().or_more(element.like(LEAST)).copysign(element).inverse();
+        }
+        let mut first = self.start(&START[0]);
         for _ in 0..2 {
-            first = self.inverted::<FUSED>(&first);
+            first = self.inverted(&inverse, &first);
         }
         if !want_second {
             return [first, first];
         }
-        let mut second = START[1].map(|x| [x; LANES]);
+        let mut second = self.start(&START[1]);
         for _ in 0..3 {
-            orthogonalize::<FUSED>(&mut second, &first);
-            second = self.inverted::<FUSED>(&second);
+            orthogonalize(&mut second, &first);
+            second = self.inverted(&inverse, &second);
         }
-        orthogonalize::<FUSED>(&mut second, &first);
-        [first, normalized::<FUSED>(&second)]
+        orthogonalize(&mut second, &first);
+        [first, normalized(&second)]
+    }
+
+    #[inline(always)]
+    fn start(&self, constants: &[f64; 6]) -> Six<S> {
+        let mut start = self.diagonal;
+        for k in 0..6 {
+            start[k] = self.determinant.like(constants[k]);
+        }
+        start
     }
 
     /// `(R^T R)^-1 v`, normalized.
     #[inline(always)]
-    fn inverted<const FUSED: bool>(&self, v: &Rows) -> Rows {
+    fn inverted(&self, inverse: &Six<S>, v: &Six<S>) -> Six<S> {
         let mut x = *v;
         for k in 0..6 {
             for row in 0..k {
-                for lane in 0..LANES {
-                    x[k][lane] =
-                        mul_add::<FUSED>(-self.columns[k][row][lane], x[row][lane], x[k][lane]);
-                }
+                x[k] = self.columns[k][row].mul_add(-x[row], x[k]);
             }
-            for lane in 0..LANES {
-                x[k][lane] *= inverse(self.diagonal[k][lane]);
-            }
+            x[k] *= inverse[k];
         }
-        let mut x = normalized::<FUSED>(&x);
+        let mut x = normalized(&x);
         for k in (0..6).rev() {
-            for lane in 0..LANES {
-                x[k][lane] *= inverse(self.diagonal[k][lane]);
-            }
+            x[k] *= inverse[k];
             for row in 0..k {
-                for lane in 0..LANES {
-                    x[row][lane] =
-                        mul_add::<FUSED>(-self.columns[k][row][lane], x[k][lane], x[row][lane]);
-                }
+                x[row] = self.columns[k][row].mul_add(-x[k], x[row]);
             }
         }
-        normalized::<FUSED>(&x)
+        normalized(&x)
     }
 }
 
 /// Vectors that inverse iteration starts from: orthogonal to nothing in particular.
 const START: [[f64; 6]; 2] = [[0.9, -0.7, 0.6, 0.8, 0.5, -1.1], [-0.4, 0.9, 1.0, -0.6, 0.7, 0.3]];
 
-/// The inverse of a diagonal element; huge, and finite, for zero.
-#[inline(always)]
-fn inverse(element: f64) -> f64 {
-    let size = element.abs();
-    1.0 / (if size < LEAST { LEAST } else { size }).copysign(element)
-}
-
 /// Least size of a diagonal element [1]: its inverse has a square.
 const LEAST: f64 = 1e-60;
 
 #[inline(always)]
-fn dot<const FUSED: bool>(a: &Rows, b: &Rows) -> Column {
-    let mut sum = [0.0; LANES];
-    for k in 0..6 {
-        for lane in 0..LANES {
-            sum[lane] = mul_add::<FUSED>(a[k][lane], b[k][lane], sum[lane]);
-        }
+fn dot<S: Simd>(a: &Six<S>, b: &Six<S>) -> Vector<S> {
+    let mut sum = a[0] * b[0];
+    for k in 1..6 {
+        sum = a[k].mul_add(b[k], sum);
     }
     sum
 }
 
 #[inline(always)]
-fn normalized<const FUSED: bool>(v: &Rows) -> Rows {
+fn normalized<S: Simd>(v: &Six<S>) -> Six<S> {
     // Elements may be as large as the inverse of the least.
-    let mut most = [0.0; LANES];
-    for k in 0..6 {
-        for lane in 0..LANES {
-            let size = v[k][lane].abs();
-            most[lane] = if size > most[lane] { size } else { most[lane] };
-        }
+    let mut most = v[0].size();
+    for k in 1..6 {
+        most = v[k].size().or_more(most);
     }
-    let mut unit = *v;
+    let (mut unit, scale) = (*v, most.inverse());
     for k in 0..6 {
-        for lane in 0..LANES {
-            unit[k][lane] /= most[lane];
-        }
+        unit[k] *= scale;
     }
-    let square = dot::<FUSED>(&unit, &unit);
+    let scale = dot(&unit, &unit).sqrt().inverse();
     for k in 0..6 {
-        for lane in 0..LANES {
-            unit[k][lane] /= square[lane].sqrt();
-        }
+        unit[k] *= scale;
     }
     unit
 }
 
 #[inline(always)]
-fn orthogonalize<const FUSED: bool>(v: &mut Rows, to: &Rows) {
-    let along = dot::<FUSED>(v, to);
+fn orthogonalize<S: Simd>(v: &mut Six<S>, to: &Six<S>) {
+    let along = dot(v, to);
     for k in 0..6 {
-        for lane in 0..LANES {
-            v[k][lane] = mul_add::<FUSED>(-along[lane], to[k][lane], v[k][lane]);
-        }
+        v[k] = to[k].mul_add(-along, v[k]);
     }
 }
 
 /// Reflect rows K and below so that column K is zero below row K; returns its element there, up to
 /// a sign that all have in common.
 #[inline(always)]
-fn reflect<const K: usize, const C: usize, const FUSED: bool>(columns: &mut [Rows; C]) -> Column {
-    let mut square = [0.0; LANES];
-    for row in K..6 {
-        for lane in 0..LANES {
-            let element = columns[K][row][lane];
-            square[lane] = mul_add::<FUSED>(element, element, square[lane]);
-        }
-    }
-    let (mut scale, mut diagonal) = ([0.0; LANES], [0.0; LANES]);
-    for lane in 0..LANES {
-        let first = columns[K][K][lane];
-        let length = square[lane].sqrt();
-        let product = mul_add::<FUSED>(length, first.abs(), square[lane]);
-        // A column of zeros needs no reflection.
-        scale[lane] = if product > 0.0 { -1.0 / product } else { 0.0 };
-        diagonal[lane] = -length.copysign(first);
-        columns[K][K][lane] = first - diagonal[lane];
-    }
+fn reflect<const K: usize, const C: usize, S: Simd>(columns: &mut [Six<S>; C]) -> Vector<S> {
     let (mirrors, rest) = columns.split_at_mut(K + 1);
-    let mirror = &mirrors[K];
+    let mirror = &mut mirrors[K];
+    let mut square = mirror[K] * mirror[K];
+    for row in K + 1..6 {
+        square = mirror[row].mul_add(mirror[row], square);
+    }
+    let (length, first) = (square.sqrt(), mirror[K]);
+    let product = length.mul_add(first.abs(), square);
+    // A column of zeros needs no reflection.
+    let zero = first.like(0.0);
+    let scale = product.if_above(zero, first.like(-1.0) / product, zero);
+    let diagonal = -length.copysign(first);
+    mirror[K] = first - diagonal;
     for column in rest {
-        let mut along = [0.0; LANES];
-        for row in K..6 {
-            for lane in 0..LANES {
-                along[lane] = mul_add::<FUSED>(mirror[row][lane], column[row][lane], along[lane]);
-            }
+        let mut along = mirror[K] * column[K];
+        for row in K + 1..6 {
+            along = mirror[row].mul_add(column[row], along);
         }
-        for lane in 0..LANES {
-            along[lane] *= scale[lane];
-        }
+        along *= scale;
         for row in K..6 {
-            for lane in 0..LANES {
-                column[row][lane] =
-                    mul_add::<FUSED>(mirror[row][lane], along[lane], column[row][lane]);
-            }
+            column[row] = mirror[row].mul_add(along, column[row]);
         }
     }
     diagonal

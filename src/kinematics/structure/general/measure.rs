@@ -4,12 +4,12 @@ use alloc::sync::Arc;
 
 use super::choice::chosen;
 use super::geometry::General;
-use super::moments::Motion;
 use crate::kinematics::chain::corrections::about_y;
 use crate::kinematics::chain::dh::{DhRow, Mdh, screw_x};
 use crate::kinematics::chain::skew::{TiltedRow, tilted_rows};
 use crate::kinematics::pose::translation_z;
 use crate::kinematics::structure::closure::Closure;
+use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::joint_map::JointMap;
 use crate::report::{Pattern, UnknownStructure};
 
@@ -27,11 +27,11 @@ impl General {
         let [first, .., last] = rows;
         (tilted[0].row, tilted[5].row.d) = (DhRow::default(), 0.0);
         let closure = Closure::of(&tilted);
-        let links: [Motion; 5] = core::array::from_fn(|i| {
+        let links: [Frame; 5] = core::array::from_fn(|i| {
             // From joint i to the next: along z of row i, then about and along x of the next row.
             let TiltedRow { row: next, beta } = tilted[i + 1];
             let link = translation_z(tilted[i].row.d) * screw_x(next.alpha, next.a) * about_y(beta);
-            Motion::of(&link, closure.reach)
+            Frame::of(&link).in_units(1.0 / closure.reach)
         });
         closure.check_freedom(&tilted.map(|TiltedRow { row, .. }| row))?;
         let splits = chosen(&links, &closure, &offsets);

@@ -1,7 +1,7 @@
 //! The moments of a line, on which rigid motions act linearly (docs/general.md, eq. 82, 83).
 
-use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::end_frames::Frame;
+use crate::lanes::{cross, dot};
 
 /// Number of moments: `1, p, l, p.p, p.l, p x l, (p.p) l - 2 (p.l) p` of a point p and a direction
 /// l.
@@ -16,47 +16,6 @@ pub(super) const ACROSS: [usize; 4] = [1, 4, 9, 12];
 /// Moments, or derivatives of moments: any vector of their space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Moments(pub(super) [f64; MOMENTS]);
-
-/// A rigid motion with its rotation by rows.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Motion {
-    pub(super) r: [[f64; 3]; 3],
-    pub(super) t: [f64; 3],
-}
-
-impl Motion {
-    pub(super) const IDENTITY: Self =
-        Self { r: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], t: [0.0; 3] };
-
-    /// The motion of a pose with its lengths in units.
-    pub(super) fn of(pose: &Pose, unit: f64) -> Self {
-        let Frame { rotation, origin } = Frame::of(pose);
-        Self { r: rotation, t: origin.map(|x| x / unit) }
-    }
-
-    pub(super) fn inverse(&self) -> Self {
-        let r = core::array::from_fn(|i| core::array::from_fn(|j| self.r[j][i]));
-        let inverse = Self { r, t: [0.0; 3] };
-        let t = inverse.turned(self.t);
-        Self { r, t: t.map(|x| -x) }
-    }
-
-    #[inline(always)]
-    pub(super) fn turned(&self, v: [f64; 3]) -> [f64; 3] {
-        let [a, b, c] = self.r;
-        [dot(a, v), dot(b, v), dot(c, v)]
-    }
-}
-
-#[inline(always)]
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-#[inline(always)]
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
 
 impl Moments {
     /// The moments of the z axis.
@@ -74,9 +33,9 @@ impl Moments {
 
     /// The moments after a rigid motion (eq. 83).
     #[inline(always)]
-    pub(super) fn moved(&self, by: &Motion) -> Self {
+    pub(super) fn moved(&self, by: &Frame) -> Self {
         let m = &self.0;
-        let t = by.t;
+        let t = by.origin;
         let vector = |at: usize| by.turned([m[at], m[at + 1], m[at + 2]]);
         let (p, l, w, v) = (vector(1), vector(4), vector(9), vector(12));
         let (tt, tl) = (dot(t, t), dot(t, l));

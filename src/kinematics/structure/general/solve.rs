@@ -2,14 +2,13 @@
 
 use super::attempt::Attempt;
 use super::geometry::General;
-use super::moments::Motion;
 use crate::kinematics::answer::slot::MOST_SLOTS;
 use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::branches::Branches;
 use crate::kinematics::structure::closure::{Accepted, Configuration, Kind};
 use crate::kinematics::structure::free_choice::FreeChoice;
-use crate::lanes::run;
+use crate::lanes::run_vectors;
 use crate::report::Reach;
 
 /// Least singular value of the closure, lengths in units of the arm, below which a joint vector is
@@ -26,7 +25,6 @@ impl General {
     /// Every solution of a pose, and whether their number is certain.
     pub(crate) fn solve_all(&self, t_first_last: &Pose) -> (Accepted, bool) {
         let target = self.closure.target_of(t_first_last);
-        let t_last_first = Motion { r: target.frame.rotation, t: target.frame.origin }.inverse();
         let mut accepted = Accepted::NONE;
         // Farther away than the sum of the lengths.
         let distance = target.frame.origin.iter().map(|x| x * x).sum::<f64>();
@@ -36,13 +34,8 @@ impl General {
         let mut is_certain = false;
         for split in self.splits.iter() {
             accepted.begin();
-            is_certain = run(Attempt {
-                split,
-                closure: &self.closure,
-                target: &target,
-                t_last_first: &t_last_first,
-                accepted: &mut accepted,
-            });
+            let (closure, target) = (&self.closure, &target);
+            is_certain = run_vectors(Attempt { split, closure, target, accepted: &mut accepted });
             if is_certain {
                 break;
             }
@@ -60,23 +53,21 @@ impl General {
         _free: &FreeChoice<6>,
     ) -> Branches<6, MOST_SLOTS> {
         let (accepted, is_certain) = self.solve_all(t_first_last);
-        self.slots(accepted, is_certain)
+        self.slots(&accepted, is_certain)
     }
 
     /// Solutions in slots.
-    pub(crate) fn slots(
-        &self,
-        mut accepted: Accepted,
-        is_certain: bool,
-    ) -> Branches<6, MOST_SLOTS> {
-        accepted.as_mut_slice().sort_unstable_by(in_order);
-        let is_empty = accepted.as_slice().is_empty();
-        let reach = if is_empty { Reach::NoRoots } else { Reach::Reached };
+    pub(crate) fn slots(&self, accepted: &Accepted, is_certain: bool) -> Branches<6, MOST_SLOTS> {
+        let all = accepted.as_slice();
+        let reach = if all.is_empty() { Reach::NoRoots } else { Reach::Reached };
         let mut branches = Branches::empty(reach);
         branches.is_certified = is_certain;
-        for (slot, one) in accepted.as_slice().iter().enumerate() {
-            branches.q[slot] = Some(self.joint_map.joints(one.theta));
-            branches.flags[slot] = kinds_of(one).into();
+        let mut order: [usize; MOST_SLOTS] = core::array::from_fn(|index| index);
+        let order = &mut order[..all.len()];
+        order.sort_unstable_by(|a, b| in_order(&all[*a], &all[*b]));
+        for (slot, index) in order.iter().enumerate() {
+            branches.q[slot] = Some(self.joint_map.joints(all[*index].theta));
+            branches.flags[slot] = kinds_of(&all[*index]).into();
         }
         branches
     }

@@ -3,9 +3,12 @@
 
 use alloc::vec::Vec;
 
+use fearless_simd::prelude::*;
+
 use super::annihilator::Left;
-use super::moments::{MOMENTS, Moments, Motion};
-use crate::lanes::{Column, LANES, mul_add};
+use super::moments::{MOMENTS, Moments};
+use crate::kinematics::structure::end_frames::Frame;
+use crate::lanes::{Column, LANES, Number as _, Vector};
 
 /// Products of a harmonic of t5 with powers of the half-angle tangents of t4 and t3.
 pub(super) const PRODUCTS: usize = 27;
@@ -24,7 +27,8 @@ pub(super) struct Split {
     /// 1, or -1 where the loop is read backwards and t is the negative of the joint's angle.
     pub(super) sign: f64,
     /// The links; that of the pose is the identity.
-    pub(super) links: [Motion; 6],
+    pub(super) links: [Frame; 6],
+    inverses: [Frame; 6],
     /// The link that is the pose.
     pub(super) place: usize,
     /// The left side, for a pose on the right.
@@ -40,30 +44,40 @@ pub(super) struct Split {
 /// The links of a split with a pose, its left side and its equations.
 #[derive(Clone, Copy)]
 pub(super) struct Posed {
-    pub(super) links: [Motion; 6],
+    pub(super) links: [Frame; 6],
+    pub(super) inverses: [Frame; 6],
     pub(super) left: Left,
     pub(super) equations: Equations,
 }
 
 impl Split {
     /// Split `number` of a loop of links; the last of them is the pose.
-    pub(super) fn new(links: &[Motion; 5], number: usize) -> Self {
+    pub(super) fn new(links: &[Frame; 5], number: usize) -> Self {
         let (turn, is_reversed) = (number % 6, number >= 6);
         let around = |k: usize| (turn + k) % 6;
         let joints: [usize; 6] =
             core::array::from_fn(|k| if is_reversed { 5 - around(k) } else { around(k) });
         // Link i is behind joint i; read backwards, the one behind joint i is link i - 1, inverted.
         let link = |k: usize| if is_reversed { (joints[k] + 5) % 6 } else { joints[k] };
-        let all: [Motion; 6] = core::array::from_fn(|k| match links.get(link(k)) {
+        let all: [Frame; 6] = core::array::from_fn(|k| match links.get(link(k)) {
             Some(motion) if is_reversed => motion.inverse(),
             Some(motion) => *motion,
-            None => Motion::IDENTITY,
+            None => Frame::IDENTITY,
         });
         let place = (0..6).find(|k| link(*k) == 5).unwrap_or(5);
         let sign = if is_reversed { -1.0 } else { 1.0 };
+        let inverses = all.map(|link| link.inverse());
         let left = Left::of(&all[0], &all[1]);
-        let mut split =
-            Self { joints, sign, links: all, place, left, before: Vec::new(), behind: Vec::new() };
+        let mut split = Self {
+            joints,
+            sign,
+            links: all,
+            inverses,
+            place,
+            left,
+            before: Vec::new(),
+            behind: Vec::new(),
+        };
         split.behind = split.behind_pose();
         if place > 1 {
             let annihilator = left.annihilator();
@@ -126,28 +140,32 @@ impl Split {
 
     /// The equations for a pose link, in the direction in which the arm is read (eq. 87).
     #[inline(always)]
-    pub(super) fn posed<const FUSED: bool>(&self, t_last_first: &Motion) -> Posed {
+    pub(super) fn posed<S: Simd>(&self, simd: S, t_last_first: &Frame) -> Posed {
         let pose = if self.sign < 0.0 { t_last_first.inverse() } else { *t_last_first };
-        let mut posed =
-            Posed { links: self.links, left: self.left, equations: [[0.0; LANES]; PRODUCTS] };
-        posed.links[self.place] = pose;
+        let mut posed = Posed {
+            links: self.links,
+            inverses: self.inverses,
+            left: self.left,
+            equations: [[0.0; LANES]; PRODUCTS],
+        };
+        (posed.links[self.place], posed.inverses[self.place]) = (pose, pose.inverse());
         if self.place < 2 {
             posed.left = Left::of(&posed.links[0], &posed.links[1]);
             let annihilator = posed.left.annihilator();
             for (column, moments) in posed.equations.iter_mut().zip(&self.behind) {
-                add::<FUSED>(column, &annihilator, moments);
+                *column = product(simd, &annihilator, moments);
             }
         } else {
-            let back = pose.inverse();
+            let back = &posed.inverses[self.place];
             let mut behind = [Moments::AXIS; PRODUCTS];
             let behind = &mut behind[..self.behind.len()];
             for (moved, moments) in behind.iter_mut().zip(&self.behind) {
-                *moved = moments.moved(&back);
+                *moved = moments.moved(back);
             }
             let columns = posed.equations.chunks_mut(behind.len());
             for (columns, before) in columns.zip(&self.before) {
                 for (column, moments) in columns.iter_mut().zip(behind.iter()) {
-                    add::<FUSED>(column, before, moments);
+                    *column = product(simd, before, moments);
                 }
             }
         }
@@ -155,15 +173,15 @@ impl Split {
     }
 }
 
+/// The weights' columns times moments.
 #[inline(always)]
-fn add<const FUSED: bool>(column: &mut Column, weights: &[Column; MOMENTS], moments: &Moments) {
-    let mut sum = [0.0; LANES];
-    for k in 0..MOMENTS {
-        for lane in 0..LANES {
-            sum[lane] = mul_add::<FUSED>(weights[k][lane], moments.0[k], sum[lane]);
-        }
+fn product<S: Simd>(simd: S, weights: &[Column; MOMENTS], moments: &Moments) -> Column {
+    let mut sum = Vector::load_array_ref(simd, &weights[0]) * moments.0[0];
+    for k in 1..MOMENTS {
+        let column = Vector::load_array_ref(simd, &weights[k]);
+        sum = column.scaled_plus(moments.0[k], sum);
     }
-    *column = sum;
+    sum.to_array()
 }
 
 /// Every product with those of joint k: the power of joint 4 and the harmonic of joint 5 come

@@ -2,220 +2,230 @@
 //!
 //! Docs: offset_wrist.md, eq. 122 to 124 and 131 to 132.
 
-#[cfg(not(feature = "std"))]
-use nalgebra::{ComplexField as _, RealField as _};
+use fearless_simd::prelude::*;
 
 use super::geometry::{Lengths, Twists};
 use super::resultant::Hand;
 use crate::kinematics::structure::end_frames::Frame;
-use crate::lanes::mul_add;
+use crate::lanes::{Column, Number, Vector, VectorKernel, cross, dot, sin_cos_of};
 
-/// Sines and cosines of joints 1 to 6.
-pub(super) type SinCos = [[f64; 2]; 6];
+/// Square of a length that has a direction, relative to those of the arm [1].
+const LEAST_SQUARE: f64 = 1e-300;
 
 /// The arm with joint 6 given, on one branch.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Branch {
-    /// z4 . z5 - cos alpha_4: zero where the branch is a solution [1].
-    pub(super) off: f64,
+pub(super) struct Branch<T> {
+    /// z4 . z5 - cos alpha_4: zero where the branch is a solution, infinite where the links do not
+    /// span the distance [1].
+    pub(super) off: T,
     /// x3 in the plane of the arm: cosine and sine of its angle above x1.
-    forearm: [f64; 2],
+    forearm: [T; 2],
     /// x1: cosine and sine of theta_1.
-    shoulder: [f64; 2],
+    shoulder: [T; 2],
     /// Elbow from axis 2, in the plane of the arm.
-    elbow: [f64; 2],
+    elbow: [T; 2],
 }
 
 /// The plane of the arm for a wrist point and an axis 5.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Plane {
+pub(super) struct Plane<T> {
     /// x1: cosine and sine of theta_1.
-    x1: [f64; 2],
+    x1: [T; 2],
     /// Wrist point from axis 2 [m].
-    point: [f64; 2],
+    point: [T; 2],
     /// Axis 5 along x1, z1 and axis 2.
-    axis_5: [f64; 3],
+    axis_5: [T; 3],
     /// The square of sigma, which is negative where the wrist point is nearer to axis 1 than the
     /// plane of the arm [m^2].
-    sigma2: f64,
+    sigma2: T,
 }
 
-impl Plane {
+impl<T: Number> Plane<T> {
     /// With the wrist point in front of axis 1 or behind it: a sign (eq. 122).
     #[inline(always)]
-    pub(super) fn of<const FUSED: bool>(
+    pub(super) fn of(
         lengths: &Lengths,
-        ([wx, wy, h], axis_5): ([f64; 3], [f64; 3]),
+        ([wx, wy, h], axis_5): ([T; 3], [T; 3]),
         shoulder: f64,
     ) -> Self {
         let Lengths { b, s1, .. } = *lengths;
-        let r2 = mul_add::<FUSED>(wx, wx, wy * wy);
-        let r = r2.sqrt();
-        let sigma2 = (r - b) * (r + b);
-        let sigma = shoulder * sigma2.max(0.0).sqrt();
-        let x1 =
-            [mul_add::<FUSED>(sigma, wx, -(s1 * b * wy)), mul_add::<FUSED>(sigma, wy, s1 * b * wx)];
-        let scale = 1.0 / mul_add::<FUSED>(x1[0], x1[0], x1[1] * x1[1]).sqrt();
-        let x1 = if scale.is_finite() { x1.map(|part| part * scale) } else { [1.0, 0.0] };
-        Self::facing::<FUSED>(lengths, x1, [sigma, h], axis_5, sigma2)
+        let zero = h.like(0.0);
+        let r = wx.times_plus(wx, wy * wy).root();
+        let sigma2 = (r - r.like(b)) * (r + r.like(b));
+        let sigma = sigma2.or_more(zero).root() * shoulder;
+        let x1 = [sigma.times_plus(wx, wy * -(s1 * b)), sigma.times_plus(wy, wx * (s1 * b))];
+        let square = x1[0].times_plus(x1[0], x1[1] * x1[1]);
+        let (scale, least) = (square.root().inverse(), zero.like(LEAST_SQUARE));
+        let x1 = [
+            square.if_above(least, x1[0] * scale, zero.like(1.0)),
+            square.if_above(least, x1[1] * scale, zero),
+        ];
+        Self::facing(lengths, x1, [sigma, h], axis_5, sigma2)
     }
 
     /// With x1 in a direction, and the wrist point at (sigma, h) from axis 1.
     #[inline(always)]
-    pub(super) fn facing<const FUSED: bool>(
+    pub(super) fn facing(
         lengths: &Lengths,
-        x1: [f64; 2],
-        [sigma, h]: [f64; 2],
-        [zx, zy, zz]: [f64; 3],
-        sigma2: f64,
+        x1: [T; 2],
+        [sigma, h]: [T; 2],
+        [zx, zy, zz]: [T; 3],
+        sigma2: T,
     ) -> Self {
-        let radial = mul_add::<FUSED>(zx, x1[0], zy * x1[1]);
-        let lateral = lengths.s1 * mul_add::<FUSED>(zx, x1[1], -(zy * x1[0]));
-        Self { x1, point: [sigma - lengths.a1, h], axis_5: [radial, zz, lateral], sigma2 }
+        let radial = zx.times_plus(x1[0], zy * x1[1]);
+        let lateral = zx.times_minus(x1[1], zy * x1[0]) * lengths.s1;
+        let point = [sigma - sigma.like(lengths.a1), h];
+        Self { x1, point, axis_5: [radial, zz, lateral], sigma2 }
     }
 
     /// Factors of cosine and sine of the forearm, and what their sum must be, for axis 5 to be at
     /// its angle from axis 4 (eq. 123).
     #[inline(always)]
-    fn axis_condition(&self, lengths: &Lengths) -> ([f64; 2], f64) {
+    fn axis_condition(&self, lengths: &Lengths) -> ([T; 2], T) {
         let Lengths { m, e, cos_3, cos_4, .. } = *lengths;
         let [radial, rise, lateral] = self.axis_5;
-        ([m * rise, -m * radial], cos_4 - e * cos_3 * lateral)
+        ([rise * m, radial * -m], lateral.scaled_plus(-(e * cos_3), lateral.like(cos_4)))
     }
 
     /// The same for the upper arm to have its length (eq. 124).
     #[inline(always)]
-    fn length_condition<const FUSED: bool>(&self, lengths: &Lengths) -> ([f64; 2], f64) {
+    fn length_condition(&self, lengths: &Lengths) -> ([T; 2], T) {
         let Lengths { upper, forearm, v: [v1, v2], .. } = *lengths;
         let [r, h] = self.point;
-        let square = mul_add::<FUSED>(r, r, h * h);
-        let factors = [mul_add::<FUSED>(r, v1, h * v2), mul_add::<FUSED>(h, v1, -(r * v2))];
-        (factors, (square + (forearm - upper) * (forearm + upper)) / (2.0 * forearm))
+        let square = r.times_plus(r, h * h);
+        let factors = [r.scaled_plus(v1, h * v2), h.scaled_plus(v1, r * -v2)];
+        let excess = r.like((forearm - upper) * (forearm + upper));
+        (factors, (square + excess) / r.like(2.0 * forearm))
     }
 
-    /// The branch with the elbow on one side: a sign (eq. 131); `None` if the links do not span the
+    /// The branch with the elbow on one side: a sign (eq. 131); none if the links do not span the
     /// distance of the wrist point by more than `slack`, relative to it.
     #[inline(always)]
-    pub(super) fn with_elbow<const FUSED: bool>(
-        &self,
-        lengths: &Lengths,
-        side: f64,
-        slack: f64,
-    ) -> Option<Branch> {
-        let forearm = direction(self.length_condition::<FUSED>(lengths), side, slack)?;
-        Some(self.branch::<FUSED>(lengths, forearm))
+    pub(super) fn with_elbow(&self, lengths: &Lengths, side: f64, slack: f64) -> Branch<T> {
+        self.branch(lengths, self.length_condition(lengths), side, slack)
     }
 
     /// The branch that meets the condition of axis 5, where the distance of the wrist point leaves
     /// the forearm undetermined; a sign chooses one of two.
-    pub(super) fn with_axis_5<const FUSED: bool>(
-        &self,
-        lengths: &Lengths,
-        side: f64,
-        slack: f64,
-    ) -> Option<Branch> {
-        let forearm = direction(self.axis_condition(lengths), side, slack)?;
-        Some(self.branch::<FUSED>(lengths, forearm))
+    #[inline(always)]
+    pub(super) fn with_axis_5(&self, lengths: &Lengths, side: f64, slack: f64) -> Branch<T> {
+        self.branch(lengths, self.axis_condition(lengths), side, slack)
     }
 
+    /// How far the arm is inside its reach [1]: negative where there is no branch.
     #[inline(always)]
-    fn branch<const FUSED: bool>(&self, lengths: &Lengths, [cos, sin]: [f64; 2]) -> Branch {
+    fn room(&self, lengths: &Lengths) -> T {
+        let scale = 1.0 / (lengths.upper.abs() + lengths.forearm);
+        let ([x, y], wanted) = self.length_condition(lengths);
+        let at_elbow = x.times_plus(x, y * y) - wanted * wanted;
+        let zero = x.like(0.0);
+        zero.if_above(self.sigma2, self.sigma2, at_elbow) * (scale * scale)
+    }
+
+    /// The branch with the forearm along the unit vector with a given product with `factors`, on
+    /// one side of them.
+    #[inline(always)]
+    fn branch(
+        &self,
+        lengths: &Lengths,
+        ([x, y], wanted): ([T; 2], T),
+        side: f64,
+        slack: f64,
+    ) -> Branch<T> {
+        let (zero, none) = (x.like(0.0), x.like(f64::INFINITY));
+        let square = x.times_plus(x, y * y);
+        let rest = square - wanted * wanted;
+        let across = rest.or_more(zero).root() * side;
+        let (cos, sin) = (wanted * x - across * y, wanted * y + across * x);
+        let scale = cos.times_plus(cos, sin * sin).root().inverse();
+        let (cos, sin) = (cos * scale, sin * scale);
+
         let Lengths { forearm, v: [v1, v2], .. } = *lengths;
         let ([of_cos, of_sin], wanted) = self.axis_condition(lengths);
-        let along = [mul_add::<FUSED>(v1, cos, -(v2 * sin)), mul_add::<FUSED>(v1, sin, v2 * cos)];
+        let off = of_cos.times_plus(cos, of_sin.times_plus(sin, -wanted));
+        let off = (square * -slack).if_above(rest, none, off);
+        let along = [cos.scaled_plus(v1, sin * -v2), sin.scaled_plus(v1, cos * v2)];
         Branch {
-            off: mul_add::<FUSED>(of_cos, cos, mul_add::<FUSED>(of_sin, sin, -wanted)),
+            off: square.if_above(zero, off, none),
             forearm: [cos, sin],
             shoulder: self.x1,
             elbow: [
-                mul_add::<FUSED>(-forearm, along[0], self.point[0]),
-                mul_add::<FUSED>(-forearm, along[1], self.point[1]),
+                along[0].scaled_plus(-forearm, self.point[0]),
+                along[1].scaled_plus(-forearm, self.point[1]),
             ],
         }
     }
 }
 
-/// The unit vector with a given product with `factors`, on one side of them.
-#[inline(always)]
-fn direction(([x, y], wanted): ([f64; 2], f64), side: f64, slack: f64) -> Option<[f64; 2]> {
-    let square = x * x + y * y;
-    let rest = square - wanted * wanted;
-    if rest < -slack * square || square <= 0.0 {
-        return None;
-    }
-    let across = side * rest.max(0.0).sqrt();
-    let (cos, sin) = (wanted * x - across * y, wanted * y + across * x);
-    let length = cos.hypot(sin);
-    (length > 0.0).then(|| [cos / length, sin / length])
-}
-
-impl Branch {
+impl<T: Number> Branch<T> {
     /// How far the upper arm is from having its length [m].
-    pub(super) fn misses(&self, lengths: &Lengths) -> f64 {
-        (self.elbow[0].hypot(self.elbow[1]) - lengths.upper.abs()).abs()
+    pub(super) fn misses(&self, lengths: &Lengths) -> T {
+        let [x, y] = self.elbow;
+        (x.times_plus(x, y * y).root() - x.like(lengths.upper.abs())).size()
+    }
+
+    /// This branch where it is nearer to a solution, else another.
+    #[inline(always)]
+    pub(super) fn or_nearer(&self, other: &Self) -> Self {
+        let (one, two) = (other.off.size(), self.off.size());
+        let mut nearer = *self;
+        nearer.off = one.if_above(two, self.off, other.off);
+        for i in 0..2 {
+            nearer.forearm[i] = one.if_above(two, self.forearm[i], other.forearm[i]);
+            nearer.shoulder[i] = one.if_above(two, self.shoulder[i], other.shoulder[i]);
+            nearer.elbow[i] = one.if_above(two, self.elbow[i], other.elbow[i]);
+        }
+        nearer
     }
 
     /// Sines and cosines of all joints (eq. 132).
     #[inline(always)]
-    pub(super) fn joints<const FUSED: bool>(
+    pub(super) fn joints(
         &self,
         lengths: &Lengths,
         last: &Frame,
-        sin_cos_6: [f64; 2],
+        [s6, c6]: [T; 2],
         constants: &Twists,
-    ) -> SinCos {
+    ) -> [[T; 6]; 2] {
         let Lengths { upper, s1, e, .. } = *lengths;
         let turn = s1 * e;
         let [c1, n1] = self.shoulder;
         let [cos, sin] = self.forearm;
         let scale = 1.0 / upper;
-        let [x2, y2] = self.elbow.map(|part| part * scale);
+        let [x2, y2] = [self.elbow[0] * scale, self.elbow[1] * scale];
         // theta_2 and theta_2 + e theta_3 are angles in the plane, times s1.
-        let second = [s1 * y2, x2];
-        let third =
-            [turn * mul_add::<FUSED>(sin, x2, -(cos * y2)), mul_add::<FUSED>(cos, x2, sin * y2)];
+        let second = [y2 * s1, x2];
+        let third = [sin.times_minus(x2, cos * y2) * turn, cos.times_plus(x2, sin * y2)];
         // Axes of frame 3 in the shoulder frame.
+        let zero = sin.like(0.0);
         let x3 = [cos * c1, cos * n1, sin];
-        let y3 = [-turn * sin * c1, -turn * sin * n1, turn * cos];
-        let z3 = [e * s1 * n1, -e * s1 * c1, 0.0];
+        let y3 = [sin * c1 * -turn, sin * n1 * -turn, cos * turn];
+        let z3 = [n1 * (e * s1), c1 * -(e * s1), zero];
         // Frame 5: frame 6 turned back by joint 6, with its twist removed.
-        let [s6, c6] = sin_cos_6;
-        let r = &last.rotation;
-        let column = |j: usize| [r[0][j], r[1][j], r[2][j]];
-        let (x6, y6, z6) = (column(0), column(1), column(2));
-        let x5 = combined::<FUSED>(x6, c6, y6, -s6);
-        let across = combined::<FUSED>(x6, s6, y6, c6);
-        let z5 = combined::<FUSED>(across, constants.sin_5, z6, constants.cos_5);
-        let y3_turned = combined::<FUSED>(y3, constants.cos_3, z3, constants.sin_3);
+        let (mut x5, mut z5) = (x3, x3);
+        for i in 0..3 {
+            let [x6, y6, z6] = last.rotation[i];
+            x5[i] = c6.scaled_plus(x6, s6 * -y6);
+            let across = s6.scaled_plus(x6, c6 * y6);
+            z5[i] = across.scaled_plus(constants.sin_5, zero.like(z6 * constants.cos_5));
+        }
+        let (sin_3, cos_3) = (zero.like(constants.sin_3), zero.like(constants.cos_3));
+        let y3_turned = combined(y3, cos_3, z3, sin_3);
         // z5 = sin alpha_4 (sin theta_4 x3 - cos theta_4 y3') + ...
-        let (s4, c4) = (
-            dot::<FUSED>(z5, x3) / constants.sin_4,
-            -dot::<FUSED>(z5, y3_turned) / constants.sin_4,
-        );
-        let size = 1.0 / mul_add::<FUSED>(s4, s4, c4 * c4).sqrt();
+        let scale = 1.0 / constants.sin_4;
+        let (s4, c4) = (dot(z5, x3) * scale, dot(z5, y3_turned) * -scale);
+        let size = s4.times_plus(s4, c4 * c4).root().inverse();
         let (s4, c4) = (s4 * size, c4 * size);
-        let x4 = combined::<FUSED>(x3, c4, y3_turned, s4);
-        let y4 = cross::<FUSED>(z5, x4);
-        let fifth = [dot::<FUSED>(x5, y4), dot::<FUSED>(x5, x4)];
-        [[n1, c1], second, third, [s4, c4], fifth, sin_cos_6]
+        let x4 = combined(x3, c4, y3_turned, s4);
+        let y4 = cross(z5, x4);
+        let (s5, c5) = (dot(x5, y4), dot(x5, x4));
+        [[n1, second[0], third[0], s4, s5, s6], [c1, second[1], third[1], c4, c5, c6]]
     }
 }
 
 #[inline(always)]
-fn combined<const FUSED: bool>(a: [f64; 3], x: f64, b: [f64; 3], y: f64) -> [f64; 3] {
-    let part = |i: usize| mul_add::<FUSED>(a[i], x, b[i] * y);
-    [part(0), part(1), part(2)]
-}
-
-#[inline(always)]
-fn dot<const FUSED: bool>(a: [f64; 3], b: [f64; 3]) -> f64 {
-    mul_add::<FUSED>(a[0], b[0], mul_add::<FUSED>(a[1], b[1], a[2] * b[2]))
-}
-
-#[inline(always)]
-fn cross<const FUSED: bool>(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    let part = |i: usize, j: usize| mul_add::<FUSED>(a[i], b[j], -(a[j] * b[i]));
-    [part(1, 2), part(2, 0), part(0, 1)]
+fn combined<T: Number>(a: [T; 3], x: T, b: [T; 3], y: T) -> [T; 3] {
+    [a[0].times_plus(x, b[0] * y), a[1].times_plus(x, b[1] * y), a[2].times_plus(x, b[2] * y)]
 }
 
 /// The four branches of an arm for an angle of joint 6: shoulder and elbow on either side.
@@ -228,20 +238,51 @@ pub(super) fn branch_at(
     [shoulder, elbow]: [f64; 2],
     sin_cos_6: [f64; 2],
     slack: f64,
-) -> Option<Branch> {
-    let plane = Plane::of::<false>(lengths, hand.at::<false>(sin_cos_6), shoulder);
-    (plane.sigma2 >= 0.0).then(|| plane.with_elbow::<false>(lengths, elbow, slack)).flatten()
+) -> Option<Branch<f64>> {
+    let plane = Plane::of(lengths, hand.at(sin_cos_6), shoulder);
+    let branch = plane.with_elbow(lengths, elbow, slack);
+    (plane.sigma2 >= 0.0 && branch.off < f64::INFINITY).then_some(branch)
 }
 
-/// How far the arm is inside its reach with the shoulder on a given side, for sine and cosine of
-/// joint 6 [1]: negative where there is no branch.
-pub(super) fn room_at(lengths: &Lengths, hand: &Hand, shoulder: f64, sin_cos_6: [f64; 2]) -> f64 {
-    let plane = Plane::of::<false>(lengths, hand.at::<false>(sin_cos_6), shoulder);
-    let size = lengths.upper.abs() + lengths.forearm;
-    let at_shoulder = plane.sigma2 / (size * size);
-    if at_shoulder < 0.0 {
-        return at_shoulder;
+/// Branches at eight angles of joint 6.
+pub(super) struct Seen {
+    /// z4 . z5 - cos alpha_4; infinite where there is no branch [1].
+    pub(super) off: Column,
+    /// How far the arm is inside its reach [1].
+    pub(super) room: Column,
+}
+
+/// The view of all branches, in the order of [`SIDES`], at eight angles [rad].
+pub(super) struct Look<'a> {
+    pub(super) lengths: &'a Lengths,
+    pub(super) hand: &'a Hand,
+    pub(super) angles: &'a Column,
+}
+
+impl VectorKernel for Look<'_> {
+    type Answer = [Seen; 4];
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> [Seen; 4] {
+        let (sin, cos) = sin_cos_of(Vector::load_array_ref(simd, self.angles));
+        let hand = self.hand.at([sin, cos]);
+        let front = Plane::of(self.lengths, hand, 1.0);
+        let behind = Plane::of(self.lengths, hand, -1.0);
+        [
+            front.seen(self.lengths, 1.0),
+            front.seen(self.lengths, -1.0),
+            behind.seen(self.lengths, 1.0),
+            behind.seen(self.lengths, -1.0),
+        ]
     }
-    let ([x, y], wanted) = plane.length_condition::<false>(lengths);
-    (x * x + y * y - wanted * wanted) / (size * size)
+}
+
+impl<S: Simd> Plane<Vector<S>> {
+    #[inline(always)]
+    fn seen(&self, lengths: &Lengths, elbow: f64) -> Seen {
+        let zero = self.sigma2.like(0.0);
+        let off = self.with_elbow(lengths, elbow, 0.0).off;
+        let off = zero.if_above(self.sigma2, zero.like(f64::INFINITY), off);
+        Seen { off: off.to_array(), room: self.room(lengths).to_array() }
+    }
 }

@@ -8,11 +8,12 @@ use core::f64::consts::PI;
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use super::branch::{SIDES, room_at};
-use super::search::{Search, sin_cos};
+use super::branch::{Look, SIDES};
+use super::search::Search;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::closure::Configuration;
 use crate::kinematics::structure::trigonometric::Root;
+use crate::lanes::{LANES, run_vectors};
 
 /// Distance of the angles at which the branches are examined in a cluster of roots [rad], and the
 /// most of them; four more are always examined.
@@ -112,59 +113,78 @@ impl Search<'_> {
 
     /// Candidates where a branch changes its sign in an interval, and where it may touch zero.
     /// Returns the number of zeros, if it is certain.
-    fn zeros(&mut self, interval: [f64; 2], inner: usize) -> Option<usize> {
-        let counts = SIDES.map(|sides| self.zeros_of(sides, interval, inner + 4));
-        counts.into_iter().sum()
-    }
-
-    fn zeros_of(&mut self, sides: [f64; 2], [low, high]: [f64; 2], steps: usize) -> Option<usize> {
+    fn zeros(&mut self, [low, high]: [f64; 2], inner: usize) -> Option<usize> {
+        let steps = inner + 4;
         #[expect(clippy::cast_precision_loss, reason = "few")]
-        let step = (high - low) / steps as f64;
+        let (step, at) = ((high - low) / steps as f64, |number: usize| number as f64);
         let bounds = Bounds::of(step);
-        let (mut zeros, mut is_certain) = (0, true);
-        let mut before: Option<Seen> = None;
-        let mut best = (low, f64::INFINITY);
-        for number in 0..=steps {
-            #[expect(clippy::cast_precision_loss, reason = "few")]
-            let angle = low + step * number as f64;
-            let here = self.seen(sides, angle);
-            if let Seen::At(off) = here
-                && off.abs() < best.1
-            {
-                best = (angle, off.abs());
-            }
-            if let Some(before) = before {
-                is_certain &= bounds.are_clear(before, here);
-                if let (Seen::At(was), Seen::At(off)) = (before, here)
-                    && (was < 0.0) != (off < 0.0)
-                {
-                    zeros += 1;
-                    self.put_at(sides, angle - step + step * was / (was - off));
+        let mut scans = [Scan { zeros: 0, is_certain: true, before: None, best: None }; 4];
+        for first in (0..=steps).step_by(LANES) {
+            let angles = core::array::from_fn(|lane| low + step * at(first + lane));
+            let (lengths, hand) = (&self.arm.lengths, &self.hand);
+            let seen = run_vectors(Look { lengths, hand, angles: &angles });
+            let lanes = LANES.min(steps + 1 - first);
+            for (scan, (seen, sides)) in scans.iter_mut().zip(seen.iter().zip(SIDES)) {
+                for lane in 0..lanes {
+                    let here = View { off: seen.off[lane], room: seen.room[lane] };
+                    if let Some(back) = scan.pass(here, angles[lane], &bounds) {
+                        self.put_at(sides, angles[lane] - back * step);
+                    }
                 }
             }
-            before = Some(here);
         }
-        if !is_certain && zeros == 0 && best.1 < f64::INFINITY {
-            self.put_at(sides, best.0);
+        for (scan, sides) in scans.iter().zip(SIDES) {
+            if !scan.is_certain
+                && scan.zeros == 0
+                && let Some((angle, _)) = scan.best
+            {
+                self.put_at(sides, angle);
+            }
         }
-        is_certain.then_some(zeros)
-    }
-
-    fn seen(&self, sides: [f64; 2], angle: f64) -> Seen {
-        if let Some(branch) = self.branch(sides, angle, 0.0) {
-            return Seen::At(branch.off);
-        }
-        Seen::Beyond(room_at(&self.arm.lengths, &self.hand, sides[0], sin_cos(angle)))
+        scans.iter().map(|scan| scan.is_certain.then_some(scan.zeros)).sum()
     }
 }
 
 /// A branch at an angle of joint 6.
 #[derive(Clone, Copy)]
-enum Seen {
-    /// z4 . z5 - cos alpha_4 [1].
-    At(f64),
+struct View {
+    /// z4 . z5 - cos alpha_4 [1]; infinite out of reach.
+    off: f64,
     /// Out of reach: by how much [1], negative.
-    Beyond(f64),
+    room: f64,
+}
+
+impl View {
+    fn is_reached(self) -> bool {
+        self.off < f64::INFINITY
+    }
+}
+
+/// A branch along joint 6.
+#[derive(Clone, Copy)]
+struct Scan {
+    /// Changes of sign.
+    zeros: usize,
+    /// Whether these are all zeros.
+    is_certain: bool,
+    before: Option<View>,
+    /// The angle where the branch is nearest to a solution, and how near.
+    best: Option<(f64, f64)>,
+}
+
+impl Scan {
+    /// Pass an angle. Returns how many steps ago the branch had a zero, if it changed its sign.
+    fn pass(&mut self, here: View, angle: f64, bounds: &Bounds) -> Option<f64> {
+        if here.is_reached() && self.best.is_none_or(|(_, best)| here.off.abs() < best) {
+            self.best = Some((angle, here.off.abs()));
+        }
+        let before = self.before.replace(here)?;
+        self.is_certain &= bounds.are_clear(before, here);
+        let is_zero =
+            before.is_reached() && here.is_reached() && (before.off < 0.0) != (here.off < 0.0);
+        self.zeros += usize::from(is_zero);
+        is_zero.then(|| here.off / (here.off - before.off))
+    }
 }
 
 /// What a branch may do between two angles.
@@ -181,16 +201,16 @@ impl Bounds {
     }
 
     /// Whether the zeros between two angles are those that the values there show (eq. 133).
-    fn are_clear(&self, one: Seen, other: Seen) -> bool {
-        match (one, other) {
-            (Seen::At(a), Seen::At(b)) => {
+    fn are_clear(&self, one: View, other: View) -> bool {
+        match [one, other].map(View::is_reached) {
+            [true, true] => {
+                let (a, b) = (one.off, other.off);
                 let has_none = (a < 0.0) == (b < 0.0) && a.abs().min(b.abs()) > self.bend;
                 has_none || (b - a).abs() > self.bend
             }
-            (Seen::At(off), Seen::Beyond(_)) | (Seen::Beyond(_), Seen::At(off)) => {
-                off.abs() > self.end
-            }
-            (Seen::Beyond(a), Seen::Beyond(b)) => a.max(b) < -self.bend,
+            [true, false] => one.off.abs() > self.end,
+            [false, true] => other.off.abs() > self.end,
+            [false, false] => one.room.max(other.room) < -self.bend,
         }
     }
 }

@@ -2,10 +2,12 @@
 //!
 //! Docs: offset_wrist.md, eq. 121 to 128. Branch-free arithmetic, which runs in lanes.
 
+use fearless_simd::prelude::*;
+
 use super::geometry::Lengths;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::trigonometric::{SAMPLE_COS, SAMPLE_SIN, SAMPLES};
-use crate::lanes::{Column, LANES, mul_add};
+use crate::lanes::{LANES, Number, Vector};
 
 /// Wrist point and direction of axis 5, as they turn with joint 6: constant parts, factors of its
 /// cosine and factors of its sine (eq. 121).
@@ -18,15 +20,15 @@ pub(super) struct Hand {
 impl Hand {
     /// For frame 6 at theta_6 = 0, which is this frame turned back by joint 6.
     #[inline(always)]
-    pub(super) fn of<const FUSED: bool>(lengths: &Lengths, last: &Frame) -> Self {
+    pub(super) fn of(lengths: &Lengths, last: &Frame) -> Self {
         let Lengths { a5, d5, sin_5, cos_5, .. } = *lengths;
         let mut hand = Self { point: [[0.0; 3]; 3], axis_5: [[0.0; 3]; 3] };
         for i in 0..3 {
             let [x, y, z] = last.rotation[i];
             let (along, across) = (d5 * cos_5, d5 * sin_5);
-            hand.point[0][i] = mul_add::<FUSED>(-along, z, last.origin[i]);
-            hand.point[1][i] = mul_add::<FUSED>(-a5, x, -(across * y));
-            hand.point[2][i] = mul_add::<FUSED>(a5, y, -(across * x));
+            hand.point[0][i] = last.origin[i] - along * z;
+            hand.point[1][i] = -a5 * x - across * y;
+            hand.point[2][i] = a5 * y - across * x;
             hand.axis_5[0][i] = cos_5 * z;
             hand.axis_5[1][i] = sin_5 * y;
             hand.axis_5[2][i] = sin_5 * x;
@@ -36,33 +38,35 @@ impl Hand {
 
     /// Wrist point and direction of axis 5 for joint 6.
     #[inline(always)]
-    pub(super) fn at<const FUSED: bool>(&self, [sin, cos]: [f64; 2]) -> ([f64; 3], [f64; 3]) {
-        (turned::<FUSED>(&self.point, sin, cos), turned::<FUSED>(&self.axis_5, sin, cos))
+    pub(super) fn at<T: Number>(&self, [sin, cos]: [T; 2]) -> ([T; 3], [T; 3]) {
+        (turned(&self.point, sin, cos), turned(&self.axis_5, sin, cos))
     }
 }
 
 #[inline(always)]
-fn turned<const FUSED: bool>(parts: &[[f64; 3]; 3], sin: f64, cos: f64) -> [f64; 3] {
+fn turned<T: Number>(parts: &[[f64; 3]; 3], sin: T, cos: T) -> [T; 3] {
     let [constant, of_cos, of_sin] = parts;
-    let part =
-        |i: usize| mul_add::<FUSED>(cos, of_cos[i], mul_add::<FUSED>(sin, of_sin[i], constant[i]));
-    [part(0), part(1), part(2)]
+    let mut turned = [sin; 3];
+    for i in 0..3 {
+        turned[i] = cos.scaled_plus(of_cos[i], sin.scaled_plus(of_sin[i], sin.like(constant[i])));
+    }
+    turned
 }
 
 /// A number `u + sigma v`, where sigma is the distance of the wrist point from axis 1 along the
 /// plane of the arm, known by its square (eq. 127).
 #[derive(Clone, Copy)]
-struct Ring {
-    u: f64,
-    v: f64,
+struct Ring<T> {
+    u: T,
+    v: T,
 }
 
-impl Ring {
+impl<T: Number> Ring<T> {
     #[inline(always)]
-    fn times<const FUSED: bool>(self, other: Self, sigma2: f64) -> Self {
+    fn times(self, other: Self, sigma2: T) -> Self {
         Self {
-            u: mul_add::<FUSED>(self.u, other.u, sigma2 * (self.v * other.v)),
-            v: mul_add::<FUSED>(self.u, other.v, self.v * other.u),
+            u: self.u.times_plus(other.u, sigma2 * (self.v * other.v)),
+            v: self.u.times_plus(other.v, self.v * other.u),
         }
     }
 
@@ -74,60 +78,59 @@ impl Ring {
 
 /// The resultant for a wrist point and an axis 5 (eq. 125 to 128).
 #[inline(always)]
-fn resultant<const FUSED: bool>(
+pub(super) fn resultant<T: Number>(
     lengths: &Lengths,
-    [wx, wy, h]: [f64; 3],
-    [zx, zy, zz]: [f64; 3],
-) -> f64 {
+    [wx, wy, h]: [T; 3],
+    [zx, zy, zz]: [T; 3],
+) -> T {
     let Lengths { a1, upper, forearm, v: [v1, v2], b, s1, e, cos_3, cos_4, m, .. } = *lengths;
-    let r2 = mul_add::<FUSED>(wx, wx, wy * wy);
-    let along = mul_add::<FUSED>(zx, wx, zy * wy);
-    let across = mul_add::<FUSED>(zy, wx, -(zx * wy));
-    let sigma2 = mul_add::<FUSED>(-b, b, r2);
+    let zero = h.like(0.0);
+    let r2 = wx.times_plus(wx, wy * wy);
+    let along = zx.times_plus(wx, zy * wy);
+    let across = zy.times_minus(wx, zx * wy);
+    let sigma2 = r2 - r2.like(b * b);
     // Axis 5 in the axes of the plane, times r2.
-    let radial = Ring { u: s1 * b * across, v: along };
-    let lateral = Ring { u: b * along, v: -s1 * across };
+    let radial = Ring { u: across * (s1 * b), v: along };
+    let lateral = Ring { u: along * b, v: across * -s1 };
     let slant = e * cos_3;
-    let bend = Ring { u: mul_add::<FUSED>(cos_4, r2, -(slant * lateral.u)), v: -slant * lateral.v };
+    let bend = Ring { u: lateral.u.scaled_plus(-slant, r2 * cos_4), v: lateral.v * -slant };
     // The wrist point from axis 2.
-    let square = Ring { u: mul_add::<FUSED>(h, h, mul_add::<FUSED>(a1, a1, sigma2)), v: -2.0 * a1 };
-    let reach = Ring {
-        u: (square.u + (forearm - upper) * (forearm + upper)) / (2.0 * forearm),
-        v: -a1 / forearm,
-    };
-    let rise = m * r2 * zz;
-    let first = Ring { u: rise * mul_add::<FUSED>(h, v2, -(a1 * v1)), v: rise * v1 };
-    let turn = Ring { u: m * mul_add::<FUSED>(h, v1, a1 * v2), v: -m * v2 };
-    let x =
-        first.minus(radial.times::<FUSED>(turn, sigma2)).minus(bend.times::<FUSED>(reach, sigma2));
-    let lateral = Ring { u: m * lateral.u, v: m * lateral.v };
-    let y = Ring { u: (m * r2) * (m * r2), v: 0.0 }
-        .minus(lateral.times::<FUSED>(lateral, sigma2))
-        .minus(bend.times::<FUSED>(bend, sigma2));
-    let z = square.minus(reach.times::<FUSED>(reach, sigma2));
-    let f = x.times::<FUSED>(x, sigma2).minus(y.times::<FUSED>(z, sigma2));
+    let square = Ring { u: h.times_plus(h, sigma2 + zero.like(a1 * a1)), v: zero.like(-2.0 * a1) };
+    let excess = zero.like((forearm - upper) * (forearm + upper));
+    let reach = Ring { u: (square.u + excess) * (0.5 / forearm), v: zero.like(-a1 / forearm) };
+    let rise = r2 * zz * m;
+    let first = Ring { u: rise * h.scaled_plus(v2, zero.like(-a1 * v1)), v: rise * v1 };
+    let turn = Ring { u: h.scaled_plus(v1, zero.like(a1 * v2)) * m, v: zero.like(-m * v2) };
+    let x = first.minus(radial.times(turn, sigma2)).minus(bend.times(reach, sigma2));
+    let lateral = Ring { u: lateral.u * m, v: lateral.v * m };
+    let whole = r2 * m;
+    let y = Ring { u: whole * whole, v: zero }
+        .minus(lateral.times(lateral, sigma2))
+        .minus(bend.times(bend, sigma2));
+    let z = square.minus(reach.times(reach, sigma2));
+    let f = x.times(x, sigma2).minus(y.times(z, sigma2));
     // On axis 1 the resultant of an arm without lateral offset is zero.
-    let inverse = if r2 > 0.0 { 1.0 / r2 } else { 0.0 };
+    let inverse = r2.if_above(zero, r2.inverse(), zero);
     if lengths.is_square {
         f.u * inverse
     } else {
-        mul_add::<FUSED>(f.u, f.u, -(sigma2 * (f.v * f.v))) * (inverse * inverse)
+        f.u.times_minus(f.u, sigma2 * (f.v * f.v)) * (inverse * inverse)
     }
 }
 
 /// The resultant at multiples of 15 deg of joint 6.
 #[inline(always)]
-pub(super) fn samples<const FUSED: bool>(
+pub(super) fn samples<S: Simd>(
+    simd: S,
     lengths: &Lengths,
     hand: &Hand,
-) -> [Column; SAMPLES / LANES] {
-    let mut values = [[0.0; LANES]; SAMPLES / LANES];
+) -> [Vector<S>; SAMPLES / LANES] {
+    let mut values = [Vector::splat(simd, 0.0); SAMPLES / LANES];
     for block in 0..SAMPLES / LANES {
-        for lane in 0..LANES {
-            let (sin, cos) = (SAMPLE_SIN[block][lane], SAMPLE_COS[block][lane]);
-            let (point, axis_5) = hand.at::<FUSED>([sin, cos]);
-            values[block][lane] = resultant::<FUSED>(lengths, point, axis_5);
-        }
+        let sin = Vector::load_array_ref(simd, &SAMPLE_SIN[block]);
+        let cos = Vector::load_array_ref(simd, &SAMPLE_COS[block]);
+        let (point, axis_5) = hand.at([sin, cos]);
+        values[block] = resultant(lengths, point, axis_5);
     }
     values
 }

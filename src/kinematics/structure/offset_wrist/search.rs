@@ -5,16 +5,17 @@
 
 use core::f64::consts::PI;
 
+use fearless_simd::prelude::*;
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::branch::{Branch, Plane, SIDES, branch_at};
 use super::geometry::OffsetWrist;
 use super::resultant::Hand;
-use crate::kinematics::structure::closure::{Accepted, Candidates, Target};
+use crate::kinematics::structure::closure::{Accepted, Target};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::trigonometric::Root;
-use crate::lanes::LANES;
+use crate::lanes::{Column, LANES, Number as _, Vector, atan2, sin_cos_of};
 
 /// Size of z4 . z5 - cos alpha_4 at a root, by which a branch may be worse than the best one and
 /// still be a candidate: at once [1], and as a multiple of the radius of the root [1/rad].
@@ -36,80 +37,114 @@ pub(super) struct Search<'a> {
     pub(super) hand: Hand,
     pub(super) target: Target,
     pub(super) accepted: Accepted,
-    candidates: Candidates,
+    /// Angles of the candidates that wait [rad].
+    candidates: [Column; 6],
     /// Number of candidates that wait.
     waiting: usize,
 }
 
 impl<'a> Search<'a> {
-    #[inline(always)]
-    pub(super) fn new<const FUSED: bool>(arm: &'a OffsetWrist, last: &'a Frame) -> Self {
+    pub(super) fn new(arm: &'a OffsetWrist, last: &'a Frame) -> Self {
         Self {
             arm,
             last,
-            hand: Hand::of::<FUSED>(&arm.lengths, last),
+            hand: Hand::of(&arm.lengths, last),
             target: arm.general.closure().target(last),
             accepted: Accepted::NONE,
-            candidates: Candidates::NEW,
+            candidates: [[0.0; LANES]; 6],
             waiting: 0,
         }
     }
 
-    pub(super) fn branch(&self, sides: [f64; 2], angle: f64, slack: f64) -> Option<Branch> {
+    fn branch(&self, sides: [f64; 2], angle: f64, slack: f64) -> Option<Branch<f64>> {
         branch_at(&self.arm.lengths, &self.hand, sides, sin_cos(angle), slack)
     }
 
     /// Take a branch as a candidate.
-    #[inline(always)]
-    fn put<const FUSED: bool>(&mut self, branch: &Branch, sin_cos_6: [f64; 2]) {
+    fn put(&mut self, branch: &Branch<f64>, sin_cos_6: [f64; 2]) {
         let OffsetWrist { lengths, twists, .. } = self.arm;
-        let joints = branch.joints::<FUSED>(lengths, self.last, sin_cos_6, twists);
-        if !joints.as_flattened().iter().copied().all(f64::is_finite) {
+        let [sin, cos] = branch.joints(lengths, self.last, sin_cos_6, twists);
+        if !sin.iter().chain(&cos).copied().all(f64::is_finite) {
             return;
         }
-        for (joint, [sin, cos]) in joints.into_iter().enumerate() {
-            self.candidates.sin[joint][self.waiting] = sin;
-            self.candidates.cos[joint][self.waiting] = cos;
+        for joint in 0..6 {
+            self.candidates[joint][self.waiting] = atan2::<false>(sin[joint], cos[joint]);
         }
         self.waiting += 1;
         if self.waiting == LANES {
-            self.converge::<FUSED>();
+            self.converge();
         }
     }
 
     /// Bring the waiting candidates to the pose.
-    #[inline(always)]
-    pub(super) fn converge<const FUSED: bool>(&mut self) {
+    pub(super) fn converge(&mut self) {
         if self.waiting > 0 {
             let closure = self.arm.general.closure();
-            closure.converge::<FUSED>(&self.target, &mut self.candidates);
-            self.accepted.take(closure, &self.target, &self.candidates, self.waiting);
+            let candidates = closure.converged(&self.target, &self.candidates);
+            self.accepted.take(closure, &self.target, &candidates, self.waiting);
             self.waiting = 0;
         }
     }
 
-    /// The candidates at a simple root: the branch that is nearest to a solution, one on each side
-    /// of the shoulder if a root serves both.
+    /// The solutions at up to eight simple roots: of the branch that is nearest to one, on each
+    /// side of the shoulder if a root serves both.
     #[inline(always)]
-    pub(super) fn at_root<const FUSED: bool>(&mut self, root: &Root) {
-        let sin_cos_6 = sin_cos(root.angle());
+    pub(super) fn at_roots<S: Simd>(&mut self, simd: S, roots: &[Root]) {
         let lengths = &self.arm.lengths;
-        let hand = self.hand.at::<FUSED>(sin_cos_6);
-        let branches = [1.0, -1.0].map(|shoulder| {
-            let plane = Plane::of::<FUSED>(lengths, hand, shoulder);
-            [1.0, -1.0].map(|elbow| plane.with_elbow::<FUSED>(lengths, elbow, SLACK))
-        });
-        let off = |branch: &Option<Branch>| branch.map_or(f64::INFINITY, |found| found.off.abs());
-        let best = branches.each_ref().map(|[one, other]| off(one).min(off(other)));
-        let [front, behind] = best;
-        let best = if lengths.is_square { best } else { [front.min(behind); 2] };
-        let also = ALSO + ALSO_BY_RADIUS * root.radius();
-        for (branches, best) in branches.iter().zip(best) {
-            for branch in branches {
-                if off(branch) <= best + also
-                    && let Some(branch) = branch
-                {
-                    self.put::<FUSED>(branch, sin_cos_6);
+        let mut angles = [0.0; LANES];
+        for lane in 0..LANES {
+            // Lanes without a root repeat the first.
+            angles[lane] = roots[if lane < roots.len() { lane } else { 0 }].angle();
+        }
+        let (sin, cos) = sin_cos_of(Vector::load_array(simd, angles));
+        let hand = self.hand.at([sin, cos]);
+        let (front, behind) = (Plane::of(lengths, hand, 1.0), Plane::of(lengths, hand, -1.0));
+        let branches = [
+            front.with_elbow(lengths, 1.0, SLACK),
+            front.with_elbow(lengths, -1.0, SLACK),
+            behind.with_elbow(lengths, 1.0, SLACK),
+            behind.with_elbow(lengths, -1.0, SLACK),
+        ];
+        // A root serves both sides of the shoulder, or one.
+        let served = if lengths.is_square { 2 } else { 4 };
+        for (sides, branches) in SIDES.chunks(served).zip(branches.chunks(served)) {
+            let mut nearest = branches[0];
+            for branch in &branches[1..] {
+                nearest = nearest.or_nearer(branch);
+            }
+            let [sin, cos] = nearest.joints(lengths, self.last, [sin, cos], &self.arm.twists);
+            let closure = self.arm.general.closure();
+            let candidates = closure.converge(&self.target, sin, cos);
+            self.accepted.take(closure, &self.target, &candidates, roots.len());
+            self.beside(roots, sides, branches, &nearest);
+        }
+    }
+
+    /// Candidates where several branches are hardly worse than the nearest one.
+    #[inline(always)]
+    fn beside<S: Simd>(
+        &mut self,
+        roots: &[Root],
+        sides: &[[f64; 2]],
+        branches: &[Branch<Vector<S>>],
+        nearest: &Branch<Vector<S>>,
+    ) {
+        let mut also = [0.0; LANES];
+        for (also, root) in also.iter_mut().zip(roots) {
+            *also = ALSO + ALSO_BY_RADIUS * root.radius();
+        }
+        let most = nearest.off.abs() + Vector::load_array(nearest.off.token(), also);
+        let (zero, one) = (most.like(0.0), most.like(1.0));
+        let mut count = zero;
+        for branch in branches {
+            count += branch.off.abs().if_above(most, zero, one);
+        }
+        if count.simd_gt(1.5).any_true() {
+            for (lane, root) in roots.iter().enumerate().filter(|(lane, _)| count[*lane] > 1.5) {
+                for (sides, branch) in sides.iter().zip(branches) {
+                    if branch.off[lane].abs() <= most[lane] {
+                        self.put_at(*sides, root.angle());
+                    }
                 }
             }
         }
@@ -118,7 +153,7 @@ impl<'a> Search<'a> {
     /// A candidate at an angle of joint 6, even if it is a little out of reach.
     pub(super) fn put_at(&mut self, sides: [f64; 2], angle: f64) {
         if let Some(branch) = self.branch(sides, angle, SLACK) {
-            self.put::<false>(&branch, sin_cos(angle));
+            self.put(&branch, sin_cos(angle));
         }
     }
 
@@ -127,13 +162,12 @@ impl<'a> Search<'a> {
     pub(super) fn at_degenerate(&mut self, angle: f64) {
         let lengths = &self.arm.lengths;
         let sin_cos_6 = sin_cos(angle);
-        let (point, axis_5) = self.hand.at::<false>(sin_cos_6);
+        let (point, axis_5) = self.hand.at(sin_cos_6);
         for [shoulder, side] in SIDES {
-            let plane = Plane::of::<false>(lengths, (point, axis_5), shoulder);
-            if let Some(branch) = plane.with_axis_5::<false>(lengths, side, SLACK)
-                && branch.misses(lengths) < NEAR * lengths.extent
-            {
-                self.put::<false>(&branch, sin_cos_6);
+            let plane = Plane::of(lengths, (point, axis_5), shoulder);
+            let branch = plane.with_axis_5(lengths, side, SLACK);
+            if branch.off < f64::INFINITY && branch.misses(lengths) < NEAR * lengths.extent {
+                self.put(&branch, sin_cos_6);
             }
         }
         if point[0].hypot(point[1]) > NEAR * lengths.extent || lengths.b != 0.0 {
@@ -142,21 +176,22 @@ impl<'a> Search<'a> {
         for elbow in [1.0, -1.0] {
             let branch = |theta_1: f64| {
                 let [sin, cos] = sin_cos(theta_1);
-                let plane =
-                    Plane::facing::<false>(lengths, [cos, sin], [0.0, point[2]], axis_5, 0.0);
-                plane.with_elbow::<false>(lengths, elbow, SLACK)
+                let plane = Plane::facing(lengths, [cos, sin], [0.0, point[2]], axis_5, 0.0);
+                plane.with_elbow(lengths, elbow, SLACK)
             };
-            let [Some(zero), Some(quarter), Some(half)] = [0.0, 0.5 * PI, PI].map(branch) else {
+            let [zero, quarter, half] = [0.0, 0.5 * PI, PI].map(branch);
+            if zero.off.max(quarter.off).max(half.off) == f64::INFINITY {
                 continue;
-            };
+            }
             // middle + radius cos(theta_1 - at) by three values.
             let middle = 0.5 * (zero.off + half.off);
             let (x, y) = (0.5 * (zero.off - half.off), quarter.off - middle);
             let (radius, at) = (x.hypot(y), y.atan2(x));
             let turn = (-middle / radius).clamp(-1.0, 1.0).acos();
             for theta_1 in [at + turn, at - turn] {
-                if let Some(branch) = branch(theta_1) {
-                    self.put::<false>(&branch, sin_cos_6);
+                let branch = branch(theta_1);
+                if branch.off < f64::INFINITY {
+                    self.put(&branch, sin_cos_6);
                 }
             }
         }

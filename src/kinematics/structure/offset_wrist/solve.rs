@@ -2,6 +2,8 @@
 //!
 //! Docs: offset_wrist.md, section 5.
 
+use fearless_simd::Simd;
+
 use super::SLOTS;
 use super::clusters::Clusters;
 use super::geometry::OffsetWrist;
@@ -11,8 +13,8 @@ use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::branches::Branches;
 use crate::kinematics::structure::closure::Accepted;
 use crate::kinematics::structure::end_frames::Frame;
-use crate::kinematics::structure::trigonometric::TrigonometricPolynomial;
-use crate::lanes::{Kernel, run};
+use crate::kinematics::structure::trigonometric::{MOST_ROOTS, Root, TrigonometricPolynomial};
+use crate::lanes::{LANES, VectorKernel, run_vectors};
 
 /// What the rounding of a pose changes of the resultant, relative to its coefficients [1]: they are
 /// of degree 8 in the pose's elements, and no surplus harmonic shows it.
@@ -31,29 +33,33 @@ struct Solve<'a> {
     last: &'a Frame,
 }
 
-impl Kernel for Solve<'_> {
+impl VectorKernel for Solve<'_> {
     type Answer = Found;
-    const WIDE: bool = true;
 
     #[inline(always)]
-    fn run<const FUSED: bool>(self) -> Found {
+    fn run<S: Simd>(self, simd: S) -> Found {
         let lengths = &self.arm.lengths;
-        let mut search = Search::new::<FUSED>(self.arm, self.last);
-        let values = samples::<FUSED>(lengths, &search.hand);
-        let mut polynomial = TrigonometricPolynomial::of_samples::<FUSED>(&values);
+        let mut search = Search::new(self.arm, self.last);
+        let values = samples(simd, lengths, &search.hand);
+        let mut polynomial = TrigonometricPolynomial::of_samples(&values);
         polynomial.noise += NOISE_OF_POSE * polynomial.size();
-        let roots = polynomial.roots::<FUSED>();
+        let roots = polynomial.roots(simd);
         let is_complete = roots.is_complete;
-        let (mut clusters, mut simple) = (Clusters::NONE, 0);
+        let mut clusters = Clusters::NONE;
+        let (mut simple, mut count) = ([Root::default(); MOST_ROOTS], 0);
         for root in roots.as_slice() {
             if root.is_simple {
-                simple += if lengths.is_square { 2 } else { 1 };
-                search.at_root::<FUSED>(root);
+                simple[count] = *root;
+                count += 1;
             } else {
                 clusters.examine(root, &mut search);
             }
         }
-        search.converge::<FUSED>();
+        for roots in simple[..count].chunks(LANES) {
+            search.at_roots(simd, roots);
+        }
+        search.converge();
+        let simple = if lengths.is_square { 2 * count } else { count };
         let agree = |accepted: &Accepted| {
             is_complete
                 && accepted.is_certain
@@ -63,7 +69,7 @@ impl Kernel for Solve<'_> {
         if !agree(&search.accepted) {
             search.accepted.begin();
             search.everywhere();
-            search.converge::<FUSED>();
+            search.converge();
         }
         Found { is_certified: agree(&search.accepted), accepted: search.accepted }
     }
@@ -73,7 +79,7 @@ impl OffsetWrist {
     /// Every solution of a pose of frame 6, in slots.
     pub(super) fn solve_pose(&self, t_first_last: &Pose) -> Branches<6, SLOTS> {
         let Found { accepted, is_certified } = self.solutions(t_first_last);
-        let mut branches = self.general.slots(accepted, is_certified);
+        let mut branches = self.general.slots(&accepted, is_certified);
         if accepted.as_slice().is_empty() {
             branches.reach = self.missed(&Frame::of(t_first_last));
         }
@@ -83,7 +89,7 @@ impl OffsetWrist {
     /// Every solution of a pose of frame 6, by its angles theta.
     pub(super) fn solutions(&self, t_first_last: &Pose) -> Found {
         let last = Frame::of(t_first_last);
-        let found = run(Solve { arm: self, last: &last });
+        let found = run_vectors(Solve { arm: self, last: &last });
         if found.is_certified { found } else { self.rescued(&found, t_first_last) }
     }
 

@@ -5,10 +5,10 @@ use core::f64::consts::{PI, TAU};
 use std::vec::Vec;
 
 use super::Structure as _;
-use super::branch::{SIDES, SinCos, branch_at};
+use super::branch::{SIDES, branch_at};
 use super::geometry::OffsetWrist;
 use super::measure::{PATTERN, measure};
-use super::resultant::{Hand, samples};
+use super::resultant::{Hand, resultant};
 use crate::kinematics::answer::solutions::{Solution, Solutions};
 use crate::kinematics::chain::dh::{DhRow, Mdh};
 use crate::kinematics::chain::limits::JointLimits;
@@ -21,7 +21,6 @@ use crate::kinematics::structure::closure::Configuration;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::structure::trigonometric::SAMPLES;
-use crate::lanes::{Column, LANES};
 
 /// Rows of alpha [deg], a [m], d [m], theta [deg].
 fn arm(rows: [[f64; 4]; 6]) -> OffsetWrist {
@@ -165,10 +164,10 @@ fn joints(seed: u64) -> impl Iterator<Item = [f64; 6]> {
 }
 
 /// Cosine and sine parts of harmonics 0 to 11 of samples at multiples of 15 deg.
-fn harmonics(values: &[Column; SAMPLES / LANES]) -> [[f64; 2]; 12] {
+fn harmonics(values: &[f64; SAMPLES]) -> [[f64; 2]; 12] {
     core::array::from_fn(|k| {
         let mut sum = [0.0; 2];
-        for (number, value) in values.as_flattened().iter().enumerate() {
+        for (number, value) in values.iter().enumerate() {
             let (sin, cos) = (k as f64 * number as f64 * PI / 12.0).sin_cos();
             sum = [sum[0] + value * cos, sum[1] + value * sin];
         }
@@ -182,10 +181,13 @@ fn the_resultant_has_degree_8_and_vanishes_at_joint_6_of_the_arm() {
         let mut worst = [0.0_f64; 2];
         for q in joints(1).take(500) {
             let frame = Frame::of(&arm.chain.fk(&q));
-            let hand = Hand::of::<false>(&arm.lengths, &frame);
-            let values = samples::<false>(&arm.lengths, &hand);
-            let size =
-                values.as_flattened().iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+            let hand = Hand::of(&arm.lengths, &frame);
+            let values: [f64; SAMPLES] = core::array::from_fn(|number| {
+                let (sin, cos) = (number as f64 * PI / 12.0).sin_cos();
+                let (point, axis_5) = hand.at([sin, cos]);
+                resultant(&arm.lengths, point, axis_5)
+            });
+            let size = values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
             let parts = harmonics(&values);
             for [cos, sin] in &parts[9..] {
                 worst[0] = worst[0].max(cos.hypot(*sin) / size);
@@ -205,8 +207,8 @@ fn the_resultant_has_degree_8_and_vanishes_at_joint_6_of_the_arm() {
     }
 }
 
-pub(super) fn angles(joints: &SinCos) -> [f64; 6] {
-    joints.map(|[sin, cos]| sin.atan2(cos))
+fn angles([sin, cos]: &[[f64; 6]; 2]) -> [f64; 6] {
+    core::array::from_fn(|joint| sin[joint].atan2(cos[joint]))
 }
 
 #[test]
@@ -214,7 +216,7 @@ fn one_branch_at_joint_6_of_the_arm_is_the_arm() {
     for (name, arm) in arms() {
         for q in joints(2).take(500) {
             let frame = Frame::of(&arm.chain.fk(&q));
-            let hand = Hand::of::<false>(&arm.lengths, &frame);
+            let hand = Hand::of(&arm.lengths, &frame);
             let (sin, cos) = q[5].sin_cos();
             let off = |found: &[f64; 6]| {
                 found
@@ -227,8 +229,7 @@ fn one_branch_at_joint_6_of_the_arm_is_the_arm() {
                 .iter()
                 .filter_map(|sides| branch_at(&arm.lengths, &hand, *sides, [sin, cos], 1e-12))
                 .map(|branch| {
-                    let joints =
-                        branch.joints::<false>(&arm.lengths, &frame, [sin, cos], &arm.twists);
+                    let joints = branch.joints(&arm.lengths, &frame, [sin, cos], &arm.twists);
                     (off(&angles(&joints)), branch.off)
                 })
                 .min_by(|a, b| a.0.total_cmp(&b.0));

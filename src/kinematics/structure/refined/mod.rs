@@ -4,16 +4,13 @@
 //! What it finds are the branches of the nominal arm. A pair of branches that the calibrated arm
 //! has and the nominal one has not is not seen: that happens next to folds.
 
-mod newton;
-
 use alloc::boxed::Box;
 use core::fmt::Debug;
-
-use newton::{Refinement, refined};
 
 use super::arm::{Arm, RowSolve, Rows};
 use super::closure::{Accepted, Candidates, Closure};
 use super::end_frames::EndFrames;
+use super::end_frames::Frame;
 use super::free_choice::{FreeChoice, SeedPolicy};
 use super::joint_map::JointMap;
 use super::lanes::{Choice, PoseRow};
@@ -26,7 +23,7 @@ use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::chain::skew::{TiltedRow, tilted_rows};
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::wrap;
-use crate::lanes::{LANES, sin_cos};
+use crate::lanes::LANES;
 use crate::report::UnknownStructure;
 
 /// Largest difference of two solutions that are the same [rad].
@@ -112,7 +109,7 @@ impl<A: Nominal> Refined<A> {
         let mut are_near = false;
         for (part, places) in solutions.places_mut().chunks_mut(LANES).enumerate() {
             let q = core::array::from_fn(|lane| places.get(lane)?.found().map(|found| found.q));
-            let Some(Refinement { theta, residual, least }) = self.refined_of(&pose, &q) else {
+            let Some(Candidates { theta, residual, least }) = self.refined_of(&pose, &q) else {
                 continue;
             };
             for (lane, place) in places.iter_mut().enumerate() {
@@ -135,13 +132,14 @@ impl<A: Nominal> Refined<A> {
     }
 
     /// Up to eight joint vectors, brought onto a pose; `None` if there is none.
-    fn refined_of(&self, pose: &Pose, q: &[Option<[f64; 6]>; LANES]) -> Option<Refinement> {
+    fn refined_of(&self, pose: &Pose, q: &[Option<[f64; 6]>; LANES]) -> Option<Candidates> {
         // Empty lanes follow another one: they must not take more steps.
         let any = q.iter().flatten().next()?;
         let theta = core::array::from_fn(|joint| {
             q.map(|q| q.as_ref().unwrap_or(any)[joint] + self.offsets[joint])
         });
-        Some(refined(&self.closure, &self.end_frames.seen, pose, &theta))
+        let target = self.closure.target(&self.end_frames.seen.of::<false>(&Frame::of(pose)));
+        Some(self.closure.converged(&target, &theta))
     }
 
     /// A solution of the calibrated arm, inside the limits if it can be.
@@ -161,11 +159,8 @@ impl<A: Nominal> Refined<A> {
         let places = solutions.places_mut();
         for slot in 0..places.len() {
             let Some(theta) = &outcome.lost[slot] else { continue };
-            let (mut candidates, mut found) = (Candidates::NEW, Accepted::NONE);
-            for (joint, theta) in theta.iter().enumerate() {
-                (candidates.sin[joint][0], candidates.cos[joint][0]) = sin_cos::<false>(*theta);
-            }
-            self.closure.converge::<false>(&target, &mut candidates);
+            let candidates = self.closure.converged(&target, &theta.map(|theta| [theta; LANES]));
+            let mut found = Accepted::NONE;
             found.take(&self.closure, &target, &candidates, 1);
             for found in found.as_slice() {
                 let place = self.place(found.theta, Slot::new(slot), &limits);
@@ -179,7 +174,7 @@ impl<A: Nominal> Refined<A> {
         }
         let mut seeds = [None; LANES];
         seeds[0] = Some(free.q);
-        let Some(Refinement { theta, residual, .. }) = self.refined_of(&pose, &seeds) else {
+        let Some(Candidates { theta, residual, .. }) = self.refined_of(&pose, &seeds) else {
             return;
         };
         let empty = places.iter().position(|place| matches!(place, Place::Merged(_)));

@@ -10,10 +10,12 @@ use core::f64::consts::PI;
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
+use fearless_simd::prelude::*;
+
 use super::polynomial::TrigonometricPolynomial;
 use super::roots::{Root, Roots};
 use super::tables::{ARCS, BERNSTEIN, DEGREE, FIRST_MIDDLE, HALF_ARC_TAN, MIDDLES, POWERS};
-use crate::lanes::{Column, LANES, mul_add};
+use crate::lanes::{Column, LANES, Number as _, Vector};
 
 /// Width of a part of an arc that is not divided [1]: 5e-8 rad.
 const LEAST_WIDTH: f64 = 1.0 / (1 << 23) as f64;
@@ -23,6 +25,10 @@ const MOST_PARTS: usize = 32;
 
 /// Divisions of eight parts each, at most: a double root takes one for each width.
 const MOST_DIVISIONS: usize = 96;
+
+/// Series of the arc tangent, behind its first term: good to 1e-17 on half an arc.
+const ATAN: [f64; 7] =
+    [-1.0 / 3.0, 1.0 / 5.0, -1.0 / 7.0, 1.0 / 9.0, -1.0 / 11.0, 1.0 / 13.0, -1.0 / 15.0];
 
 /// A count of changes that no coefficients have: stands for an impossible sign.
 const NEVER: f64 = -1e3;
@@ -47,12 +53,13 @@ struct Parts {
 impl TrigonometricPolynomial {
     /// Find an interval for every root; those of simple roots are as wide as they can be.
     #[inline(always)]
-    pub(super) fn isolate<const FUSED: bool>(&self, roots: &mut Roots) {
+    pub(super) fn isolate<S: Simd>(&self, simd: S, roots: &mut Roots) {
         let none = Part { arc: 0, low: 0.0, high: 1.0, coefficients: [0.0; POWERS + 1] };
         let mut parts = Parts { all: [none; MOST_PARTS], count: 0 };
         for half in 0..ARCS / LANES {
-            let columns = self.on_arcs::<FUSED>(half);
+            let columns = self.on_arcs(simd, half);
             let most = most_changes(&columns, self.noise);
+            let columns = stored(&columns);
             for lane in 0..LANES {
                 let arc = LANES * half + lane;
                 self.take(&columns, most[lane], lane, (arc, 0.0, 1.0), &mut parts, roots);
@@ -67,12 +74,13 @@ impl TrigonometricPolynomial {
                 parts.all[..parts.count].iter().for_each(|part| roots.push(part.cluster()));
                 break;
             }
-            let [left, right] = divide(&parts.all[first..parts.count]);
+            let [left, right] = divide(simd, &parts.all[first..parts.count]);
             let changes = [most_changes(&left, self.noise), most_changes(&right, self.noise)];
-            let divided: [_; LANES] = core::array::from_fn(|lane| {
-                let part = &parts.all[first + if lane < count { lane } else { 0 }];
-                (part.arc, part.low, part.high)
-            });
+            let (left, right) = (stored(&left), stored(&right));
+            let mut divided = [(0, 0.0, 0.0); LANES];
+            for (divided, part) in divided.iter_mut().zip(&parts.all[first..parts.count]) {
+                *divided = (part.arc, part.low, part.high);
+            }
             parts.count = first;
             for (lane, (arc, low, high)) in divided[..count].iter().copied().enumerate() {
                 let middle = 0.5 * (low + high);
@@ -85,31 +93,25 @@ impl TrigonometricPolynomial {
 
     /// Bernstein coefficients on eight arcs (eq. 94).
     #[inline(always)]
-    fn on_arcs<const FUSED: bool>(&self, half: usize) -> Coefficients<Column> {
-        let mut columns = [[0.0; LANES]; POWERS + 1];
+    fn on_arcs<S: Simd>(&self, simd: S, half: usize) -> Coefficients<Vector<S>> {
+        let zero = Vector::splat(simd, 0.0);
+        let mut columns = [zero; POWERS + 1];
         // The sums of cosines and of sines, which are even and odd about the middle.
-        let mut even = [[0.0; LANES]; DEGREE + 1];
-        let mut odd = [[0.0; LANES]; DEGREE + 1];
+        let (mut even, mut odd) = ([zero; DEGREE + 1], [zero; DEGREE + 1]);
         for k in 0..=DEGREE {
             let [cos, sin] = &MIDDLES[half][k];
-            let (mut of_cos, mut of_sin) = ([0.0; LANES], [0.0; LANES]);
-            for lane in 0..LANES {
-                of_cos[lane] = mul_add::<FUSED>(self.cos[k], cos[lane], self.sin[k] * sin[lane]);
-                of_sin[lane] = mul_add::<FUSED>(self.sin[k], cos[lane], -(self.cos[k] * sin[lane]));
-            }
+            let (cos, sin) = (Vector::load_array_ref(simd, cos), Vector::load_array_ref(simd, sin));
+            let of_cos = cos.scaled_plus(self.cos[k], sin * self.sin[k]);
+            let of_sin = cos.scaled_plus(self.sin[k], sin * -self.cos[k]);
             for j in 0..=DEGREE {
                 let [weight_even, weight_odd] = BERNSTEIN[k][j];
-                for lane in 0..LANES {
-                    even[j][lane] = mul_add::<FUSED>(weight_even, of_cos[lane], even[j][lane]);
-                    odd[j][lane] = mul_add::<FUSED>(weight_odd, of_sin[lane], odd[j][lane]);
-                }
+                even[j] = of_cos.scaled_plus(weight_even, even[j]);
+                odd[j] = of_sin.scaled_plus(weight_odd, odd[j]);
             }
         }
         for j in 0..=DEGREE {
-            for lane in 0..LANES {
-                columns[j][lane] = even[j][lane] + odd[j][lane];
-                columns[POWERS - j][lane] = even[j][lane] - odd[j][lane];
-            }
+            columns[j] = even[j] + odd[j];
+            columns[POWERS - j] = even[j] - odd[j];
         }
         columns
     }
@@ -156,7 +158,10 @@ impl Part {
     fn angle(&self, place: f64) -> f64 {
         #[expect(clippy::cast_precision_loss, reason = "one of 16")]
         let middle = FIRST_MIDDLE + self.arc as f64 * (2.0 * PI / ARCS as f64);
-        middle + 2.0 * (HALF_ARC_TAN * (2.0 * place - 1.0)).atan()
+        let tan = HALF_ARC_TAN * (2.0 * place - 1.0);
+        let square = tan * tan;
+        let series = ATAN.iter().rev().fold(0.0, |sum, part| sum * square + part);
+        middle + 2.0 * tan * (1.0 + square * series)
     }
 
     fn cluster(&self) -> Root {
@@ -167,43 +172,47 @@ impl Part {
 /// The most changes of sign that the coefficients of each lane have, if those below the noise have
 /// any sign.
 #[inline(always)]
-fn most_changes(columns: &Coefficients<Column>, noise: f64) -> Column {
+fn most_changes<S: Simd>(columns: &Coefficients<Vector<S>>, noise: f64) -> Column {
     // Most changes of a sequence that ends above zero, and of one that ends below.
     // The first coefficient is no change.
-    let (mut above, mut below) = ([-1.0; LANES], [-1.0; LANES]);
+    let never = columns[0].like(NEVER);
+    let (mut above, mut below) = (columns[0].like(-1.0), columns[0].like(-1.0));
     for column in columns {
-        for lane in 0..LANES {
-            let (after_above, after_below) = (above[lane], below[lane]);
-            let rises = after_below + 1.0;
-            let falls = after_above + 1.0;
-            let up = if rises > after_above { rises } else { after_above };
-            let down = if falls > after_below { falls } else { after_below };
-            above[lane] = if column[lane] >= -noise { up } else { NEVER };
-            below[lane] = if column[lane] <= noise { down } else { NEVER };
-        }
+        let up = (below + 1.0).or_more(above);
+        let down = (above + 1.0).or_more(below);
+        above = column.simd_ge(-noise).select(up, never);
+        below = column.simd_le(noise).select(down, never);
     }
-    let mut most = [0.0; LANES];
-    for lane in 0..LANES {
-        most[lane] = if above[lane] > below[lane] { above[lane] } else { below[lane] };
-    }
-    most
+    above.or_more(below).to_array()
 }
 
-/// Both halves of up to eight parts, by de Casteljau's algorithm.
+/// The columns of coefficients.
 #[inline(always)]
-fn divide(parts: &[Part]) -> [Coefficients<Column>; 2] {
-    let mut right = [[0.0; LANES]; POWERS + 1];
+fn stored<S: Simd>(columns: &Coefficients<Vector<S>>) -> Coefficients<Column> {
+    let mut stored = [[0.0; LANES]; POWERS + 1];
+    for j in 0..=POWERS {
+        stored[j] = columns[j].to_array();
+    }
+    stored
+}
+
+/// Divide up to eight parts in their middles, by de Casteljau's algorithm.
+#[inline(always)]
+fn divide<S: Simd>(simd: S, parts: &[Part]) -> [Coefficients<Vector<S>>; 2] {
+    let mut columns = [[0.0; LANES]; POWERS + 1];
     for (lane, part) in parts.iter().enumerate() {
         for j in 0..=POWERS {
-            right[j][lane] = part.coefficients[j];
+            columns[j][lane] = part.coefficients[j];
         }
+    }
+    let mut right = [Vector::splat(simd, 0.0); POWERS + 1];
+    for j in 0..=POWERS {
+        right[j] = Vector::load_array_ref(simd, &columns[j]);
     }
     let mut left = right;
     for row in 1..=POWERS {
         for j in 0..=POWERS - row {
-            for lane in 0..LANES {
-                right[j][lane] = 0.5 * (right[j][lane] + right[j + 1][lane]);
-            }
+            right[j] = (right[j] + right[j + 1]) * 0.5;
         }
         left[row] = right[0];
     }

@@ -1,7 +1,9 @@
 //! A trigonometric polynomial of degree 8: its coefficients, noise and values.
 
+use fearless_simd::prelude::*;
+
 use super::tables::{DEGREE, FOURIER, ORDERS, SAMPLES};
-use crate::lanes::{Column, LANES, mul_add};
+use crate::lanes::{LANES, Number, Vector};
 
 /// Size of the noise of a value, as a multiple of the largest surplus harmonic: the noise of a
 /// value is the sum of that of 17 coefficients, of which seven surplus ones are a sample.
@@ -23,23 +25,28 @@ impl TrigonometricPolynomial {
     /// The polynomial through values at the [`SAMPLES`] angles `2 pi j / 24`, in that order. The
     /// harmonics 9 to 12 that the values contain are its noise (eq. 92).
     #[inline(always)]
-    pub(crate) fn of_samples<const FUSED: bool>(samples: &[Column; SAMPLES / LANES]) -> Self {
-        let mut harmonics = [[0.0; LANES]; 3];
-        for (sample, weights) in samples.as_flattened().iter().zip(&FOURIER) {
+    pub(crate) fn of_samples<S: Simd>(samples: &[Vector<S>; SAMPLES / LANES]) -> Self {
+        let zero = samples[0].like(0.0);
+        let simd = zero.token();
+        let mut harmonics = [zero; 3];
+        for j in 0..SAMPLES {
+            let sample = zero.like(samples[j / LANES][j % LANES]);
             for column in 0..3 {
-                for lane in 0..LANES {
-                    harmonics[column][lane] =
-                        mul_add::<FUSED>(*sample, weights[column][lane], harmonics[column][lane]);
-                }
+                let weights = Vector::load_array_ref(simd, &FOURIER[j][column]);
+                harmonics[column] = sample.mul_add(weights, harmonics[column]);
             }
         }
-        let [low_cos, [cos_8, surplus @ ..], high_sin] = harmonics;
+        let [low_cos, [cos_8, surplus @ ..], high_sin] =
+            [harmonics[0].to_array(), harmonics[1].to_array(), harmonics[2].to_array()];
         let mut polynomial = Self { cos: [0.0; 9], sin: [0.0; 9], noise: 0.0 };
         polynomial.cos[..8].copy_from_slice(&low_cos);
         polynomial.cos[8] = cos_8;
         polynomial.sin[1..].copy_from_slice(&high_sin);
-        let surplus = surplus.iter().fold(0.0_f64, |most, harmonic| most.max(harmonic.abs()));
-        polynomial.noise = NOISE_OF_SURPLUS * surplus + NOISE_OF_ROUNDING * polynomial.size();
+        let mut most = 0.0_f64;
+        for harmonic in surplus {
+            most = most.max(harmonic.abs());
+        }
+        polynomial.noise = NOISE_OF_SURPLUS * most + NOISE_OF_ROUNDING * polynomial.size();
         polynomial
     }
 
@@ -57,28 +64,19 @@ impl TrigonometricPolynomial {
 
     /// The values and the derivatives at angles with these sines and cosines.
     #[inline(always)]
-    pub(crate) fn values<const FUSED: bool>(&self, sin: &Column, cos: &Column) -> [Column; 2] {
+    pub(crate) fn values<T: Number>(&self, sin: T, cos: T) -> [T; 2] {
         // Horner's rule in powers of exp(i x): the value is the real part of the sum of
         // (cos[k] - i sin[k]) exp(i k x), the derivative that of its k i fold.
-        let mut sums = [[[0.0; LANES]; 2]; 2];
+        let zero = sin.like(0.0);
+        let ([mut re, mut im], [mut slope_re, mut slope_im]) = ([zero; 2], [zero; 2]);
         for k in (1..=DEGREE).rev() {
-            let (of_cos, of_sin) = (self.cos[k], -self.sin[k]);
-            let [[re, im], [slope_re, slope_im]] = &mut sums;
-            for lane in 0..LANES {
-                let (a, b) = (re[lane] + of_cos, im[lane] + of_sin);
-                re[lane] = mul_add::<FUSED>(a, cos[lane], -(b * sin[lane]));
-                im[lane] = mul_add::<FUSED>(a, sin[lane], b * cos[lane]);
-                let a = mul_add::<FUSED>(ORDERS[k], of_cos, slope_re[lane]);
-                let b = mul_add::<FUSED>(ORDERS[k], of_sin, slope_im[lane]);
-                slope_re[lane] = mul_add::<FUSED>(a, cos[lane], -(b * sin[lane]));
-                slope_im[lane] = mul_add::<FUSED>(a, sin[lane], b * cos[lane]);
-            }
+            let (of_cos, of_sin) = (zero.like(self.cos[k]), zero.like(-self.sin[k]));
+            let (a, b) = (re + of_cos, im + of_sin);
+            (re, im) = (a.times_minus(cos, b * sin), a.times_plus(sin, b * cos));
+            let a = of_cos.scaled_plus(ORDERS[k], slope_re);
+            let b = of_sin.scaled_plus(ORDERS[k], slope_im);
+            (slope_re, slope_im) = (a.times_minus(cos, b * sin), a.times_plus(sin, b * cos));
         }
-        let [[mut value, _], [_, mut slope]] = sums;
-        for lane in 0..LANES {
-            value[lane] += self.cos[0];
-            slope[lane] = -slope[lane];
-        }
-        [value, slope]
+        [re + zero.like(self.cos[0]), -slope_im]
     }
 }

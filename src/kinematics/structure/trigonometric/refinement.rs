@@ -1,8 +1,10 @@
 //! Simple roots by Newton's method, held inside their intervals.
 
+use fearless_simd::prelude::*;
+
 use super::polynomial::TrigonometricPolynomial;
 use super::roots::{MOST_ROOTS, Root, Roots};
-use crate::lanes::{Column, LANES, sin_cos};
+use crate::lanes::{Column, LANES, Number as _, Vector, sin_cos_of};
 
 /// Step of Newton's method after which a root is taken, relative to the width of its interval [1]:
 /// its error is of the order of the square.
@@ -17,7 +19,7 @@ const MOST_STEPS: usize = 48;
 impl TrigonometricPolynomial {
     /// Narrow the interval of each simple root to what the noise leaves.
     #[inline(always)]
-    pub(super) fn refine<const FUSED: bool>(&self, roots: &mut Roots) {
+    pub(super) fn refine<S: Simd>(&self, simd: S, roots: &mut Roots) {
         let mut simple = [0; MOST_ROOTS];
         let mut count = 0;
         for (index, root) in roots.as_slice().iter().enumerate() {
@@ -34,7 +36,8 @@ impl TrigonometricPolynomial {
                 let root = roots[block[if lane < block.len() { lane } else { 0 }]];
                 (low[lane], high[lane]) = (root.low, root.high);
             }
-            let (angle, radius) = self.bracketed::<FUSED>(low, high);
+            let [low, high] = [Vector::load_array(simd, low), Vector::load_array(simd, high)];
+            let (angle, radius) = self.bracketed(low, high);
             for (lane, index) in block.iter().enumerate() {
                 let radius = radius[lane];
                 roots[*index] = Root {
@@ -50,57 +53,45 @@ impl TrigonometricPolynomial {
     /// The roots between angles where the signs differ, and what the noise leaves of them: angles
     /// and radii [rad].
     #[inline(always)]
-    fn bracketed<const FUSED: bool>(&self, mut low: Column, mut high: Column) -> (Column, Column) {
-        let [at_low, _] = self.at::<FUSED>(&low);
-        let [at_high, _] = self.at::<FUSED>(&high);
-        let (mut angle, mut width) = ([0.0; LANES], [0.0; LANES]);
-        for lane in 0..LANES {
-            width[lane] = high[lane] - low[lane];
-            let part = at_low[lane] / (at_low[lane] - at_high[lane]);
-            let part = if part < 0.05 { 0.05 } else { part };
-            let part = if part > 0.95 { 0.95 } else { part };
-            angle[lane] = low[lane] + part * (high[lane] - low[lane]);
-        }
-        let (mut slopes, mut is_moving) = ([0.0; LANES], [true; LANES]);
+    fn bracketed<S: Simd>(&self, mut low: Vector<S>, mut high: Vector<S>) -> (Column, Column) {
+        let [at_low, _] = self.at(low);
+        let [at_high, _] = self.at(high);
+        let zero = low.like(0.0);
+        let width = high - low;
+        let part = at_low / (at_low - at_high);
+        let part = part.or_more(zero.like(0.05));
+        let part = part.if_above(zero.like(0.95), zero.like(0.95), part);
+        let mut angle = part.mul_add(width, low);
+        let mut slopes = zero;
+        let mut is_moving = zero.simd_eq(zero);
         for _ in 0..MOST_STEPS {
-            let [value, slope] = self.at::<FUSED>(&angle);
-            let mut moving = 0;
-            for lane in 0..LANES {
-                let (x, y) = (angle[lane], value[lane]);
-                let is_before = (y < 0.0) == (at_low[lane] < 0.0);
-                low[lane] = if is_before { x } else { low[lane] };
-                high[lane] = if is_before { high[lane] } else { x };
-                let newton = x - y / slope[lane];
-                let is_inside = (newton >= low[lane]) & (newton <= high[lane]);
-                let next = if is_inside { newton } else { 0.5 * (low[lane] + high[lane]) };
-                // A lane stops by itself: its root does not depend on the others.
-                angle[lane] = if is_moving[lane] { next } else { x };
-                slopes[lane] = slope[lane];
-                let (noise, most) = (self.noise / slope[lane].abs(), MOST_NOISE * width[lane]);
-                let noise = if noise < most { noise } else { most };
-                is_moving[lane] &= (next - x).abs() > CONVERGED * width[lane] + noise;
-                moving |= u64::from(is_moving[lane]);
-            }
-            if moving == 0 {
+            let [value, slope] = self.at(angle);
+            let is_before = !(value.simd_lt(0.0) ^ at_low.simd_lt(0.0));
+            low = is_before.select(angle, low);
+            high = is_before.select(high, angle);
+            let newton = angle - value / slope;
+            let is_inside = newton.simd_ge(low) & newton.simd_le(high);
+            let next = is_inside.select(newton, (low + high) * 0.5);
+            slopes = slope;
+            let (noise, most) = (slope.abs().like(self.noise) / slope.abs(), width * MOST_NOISE);
+            let noise = most.if_above(noise, noise, most);
+            let stays = (next - angle).abs().simd_gt(width.mul_add(CONVERGED, noise));
+            // A lane stops by itself: its root does not depend on the others.
+            angle = is_moving.select(next, angle);
+            is_moving &= stays;
+            if !is_moving.any_true() {
                 break;
             }
         }
-        let mut radius = [0.0; LANES];
-        for lane in 0..LANES {
-            let left = self.noise / slopes[lane].abs();
-            // A slope of zero leaves the interval.
-            radius[lane] = if left < width[lane] { left } else { width[lane] };
-        }
-        (angle, radius)
+        let left = slopes.like(self.noise) / slopes.abs();
+        // A slope of zero leaves the interval.
+        (angle.to_array(), width.if_above(left, left, width).to_array())
     }
 
     /// Values and derivatives at angles.
     #[inline(always)]
-    fn at<const FUSED: bool>(&self, angles: &Column) -> [Column; 2] {
-        let (mut sin, mut cos) = ([0.0; LANES], [0.0; LANES]);
-        for lane in 0..LANES {
-            (sin[lane], cos[lane]) = sin_cos::<FUSED>(angles[lane]);
-        }
-        self.values::<FUSED>(&sin, &cos)
+    fn at<S: Simd>(&self, angles: Vector<S>) -> [Vector<S>; 2] {
+        let (sin, cos) = sin_cos_of(angles);
+        self.values(sin, cos)
     }
 }

@@ -1,5 +1,7 @@
 //! All real roots of a polynomial.
 
+use fearless_simd::Simd;
+
 use super::polynomial::TrigonometricPolynomial;
 use super::roots::{Root, Roots};
 use super::tables::{DEGREE, ORDERS};
@@ -11,14 +13,14 @@ const MOST_MULTIPLICITY: usize = 6;
 impl TrigonometricPolynomial {
     /// Every real root, in a range of a full turn: complete up to the noise (eq. 96).
     #[inline(always)]
-    pub(crate) fn roots<const FUSED: bool>(&self) -> Roots {
+    pub(crate) fn roots<S: Simd>(&self, simd: S) -> Roots {
         let mut roots = Roots::NONE;
         if self.is_noise() {
             roots.is_complete = false;
             return roots;
         }
-        self.isolate::<FUSED>(&mut roots);
-        self.refine::<FUSED>(&mut roots);
+        self.isolate(simd, &mut roots);
+        self.refine(simd, &mut roots);
         roots.join();
         for root in roots.as_mut_slice().iter_mut().filter(|root| !root.is_simple) {
             root.most = self.most_roots(*root);

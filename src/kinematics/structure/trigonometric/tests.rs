@@ -4,8 +4,11 @@
 use core::f64::consts::{PI, TAU};
 use std::vec::Vec;
 
+use fearless_simd::prelude::*;
+
+use super::roots::Roots;
 use super::*;
-use crate::lanes::{Column, LANES};
+use crate::lanes::{Column, InstructionSet, LANES, Vector, VectorKernel, run_on, run_vectors};
 use crate::rng::Rng;
 
 /// The polynomial with these real roots and pairs of complex ones, of size 1, sampled: each factor
@@ -21,9 +24,46 @@ fn samples(roots: &[f64], complex: &[(f64, f64)]) -> [Column; 3] {
     core::array::from_fn(|c| core::array::from_fn(|lane| all[LANES * c + lane] / size))
 }
 
+/// The polynomial through samples.
+struct OfSamples<'a>(&'a [Column; 3]);
+
+impl VectorKernel for OfSamples<'_> {
+    type Answer = TrigonometricPolynomial;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> TrigonometricPolynomial {
+        let mut samples = [Vector::splat(simd, 0.0); 3];
+        for block in 0..3 {
+            samples[block] = Vector::load_array_ref(simd, &self.0[block]);
+        }
+        TrigonometricPolynomial::of_samples(&samples)
+    }
+}
+
+fn of_samples(samples: &[Column; 3]) -> TrigonometricPolynomial {
+    run_vectors(OfSamples(samples))
+}
+
+struct RootsOf<'a>(&'a TrigonometricPolynomial);
+
+impl VectorKernel for RootsOf<'_> {
+    type Answer = Roots;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> Roots {
+        self.0.roots(simd)
+    }
+}
+
+impl TrigonometricPolynomial {
+    fn all_roots(&self) -> Roots {
+        run_vectors(RootsOf(self))
+    }
+}
+
 fn polynomial(roots: &[f64], complex: &[(f64, f64)]) -> TrigonometricPolynomial {
     assert_eq!(roots.len() + 2 * complex.len(), 16);
-    TrigonometricPolynomial::of_samples::<false>(&samples(roots, complex))
+    of_samples(&samples(roots, complex))
 }
 
 /// Distance of two angles on the circle.
@@ -54,17 +94,16 @@ fn values_are_those_of_the_samples() {
     for _ in 0..200 {
         let (roots, complex) = (separate(&mut rng, 8, 0.01), pairs(&mut rng, 4));
         let samples = samples(&roots, &complex);
-        let polynomial = TrigonometricPolynomial::of_samples::<false>(&samples);
+        let polynomial = of_samples(&samples);
         assert!(polynomial.noise < 1e-13, "{}", polynomial.noise);
         for c in 0..3 {
-            let [value, slope] = polynomial.values::<false>(&SAMPLE_SIN[c], &SAMPLE_COS[c]);
             for lane in 0..LANES {
-                assert!((value[lane] - samples[c][lane]).abs() < 1e-14);
+                let [value, slope] = polynomial.values(SAMPLE_SIN[c][lane], SAMPLE_COS[c][lane]);
+                assert!((value - samples[c][lane]).abs() < 1e-14);
                 let x = TAU * (LANES * c + lane) as f64 / 24.0;
                 let step = 1e-5;
-                let sides = [x - step, x + step].map(|x| ([x.sin(); 8], [x.cos(); 8]));
-                let [a, b] = sides.map(|(s, c)| polynomial.values::<false>(&s, &c)[0][0]);
-                assert!((slope[lane] - (b - a) / (2.0 * step)).abs() < 1e-8);
+                let [a, b] = [x - step, x + step].map(|x| polynomial.values(x.sin(), x.cos())[0]);
+                assert!((slope - (b - a) / (2.0 * step)).abs() < 1e-8);
             }
         }
     }
@@ -78,7 +117,7 @@ fn every_simple_root_is_found_and_no_other() {
         let real = 2 * (draw % 9);
         let roots = separate(&mut rng, real, 1e-3);
         let complex = pairs(&mut rng, 8 - real / 2);
-        let found = polynomial(&roots, &complex).roots::<false>();
+        let found = polynomial(&roots, &complex).all_roots();
         // Close roots next to others are in clusters where the noise hides them.
         let Some(count) = found.count_if_simple() else {
             assert!(found.is_complete, "{found:?}");
@@ -108,7 +147,7 @@ fn two_near_roots_are_two_or_a_cluster_that_holds_them() {
         for _ in 0..500 {
             let mut roots = separate(&mut rng, 5, 0.3);
             roots.push(roots[4] + gap);
-            let found = polynomial(&roots, &pairs(&mut rng, 5)).roots::<false>();
+            let found = polynomial(&roots, &pairs(&mut rng, 5)).all_roots();
             assert!(found.is_complete, "{found:?}");
             for root in &roots {
                 let holds = |r: &Root| apart(r.angle(), *root) <= r.radius() + 1e-7;
@@ -129,7 +168,7 @@ fn a_pair_that_just_misses_is_no_root_or_a_cluster() {
             let roots = separate(&mut rng, 4, 0.3);
             let mut complex = pairs(&mut rng, 5);
             complex.push((roots[3] + 0.15, gap));
-            let found = polynomial(&roots, &complex).roots::<false>();
+            let found = polynomial(&roots, &complex).all_roots();
             for root in found.as_slice() {
                 let is_root = roots.iter().any(|other| apart(*other, root.angle()) < 1e-6);
                 let is_pair = apart(complex[5].0, root.angle()) <= root.radius() + 1e-6;
@@ -149,9 +188,9 @@ fn noise_is_measured_and_roots_stay_in_their_intervals() {
             let roots = separate(&mut rng, 6, 0.1);
             let mut samples = samples(&roots, &pairs(&mut rng, 5));
             samples.as_flattened_mut().iter_mut().for_each(|f| *f += rng.between(-level, level));
-            let polynomial = TrigonometricPolynomial::of_samples::<false>(&samples);
+            let polynomial = of_samples(&samples);
             assert!(polynomial.noise > 0.3 * level && polynomial.noise < 20.0 * level);
-            let found = polynomial.roots::<false>();
+            let found = polynomial.all_roots();
             for root in &roots {
                 let holds = |r: &Root| apart(r.angle(), *root) <= r.radius() + 1e-7;
                 lost += usize::from(!found.as_slice().iter().any(holds));
@@ -164,27 +203,34 @@ fn noise_is_measured_and_roots_stay_in_their_intervals() {
 
 #[test]
 fn what_is_not_a_polynomial_is_not_complete() {
-    let zero = TrigonometricPolynomial::of_samples::<false>(&[[0.0; LANES]; 3]);
-    assert!(zero.is_noise() && !zero.roots::<false>().is_complete);
-    let nan = TrigonometricPolynomial::of_samples::<false>(&[[f64::NAN; LANES]; 3]);
-    assert!(nan.is_noise() && !nan.roots::<false>().is_complete);
+    let zero = of_samples(&[[0.0; LANES]; 3]);
+    assert!(zero.is_noise() && !zero.all_roots().is_complete);
+    let nan = of_samples(&[[f64::NAN; LANES]; 3]);
+    assert!(nan.is_noise() && !nan.all_roots().is_complete);
     let mut rng = Rng::new(6);
     let noise = core::array::from_fn(|_| core::array::from_fn(|_| rng.between(-1.0, 1.0)));
-    let noise = TrigonometricPolynomial::of_samples::<false>(&noise);
+    let noise = of_samples(&noise);
     assert!(noise.is_noise());
 }
 
 #[test]
-fn fused_and_not_agree() {
+fn instruction_sets_agree() {
     let mut rng = Rng::new(7);
     for _ in 0..500 {
         let roots = separate(&mut rng, 8, 0.05);
         let samples = samples(&roots, &pairs(&mut rng, 4));
-        let plain = TrigonometricPolynomial::of_samples::<false>(&samples).roots::<false>();
-        let fused = TrigonometricPolynomial::of_samples::<true>(&samples).roots::<true>();
-        for (a, b) in plain.as_slice().iter().zip(fused.as_slice()) {
-            assert!(apart(a.angle(), b.angle()) <= a.radius() + b.radius() + 1e-10);
+        let on = |set| run_on(set, RootsOf(&run_on(set, OfSamples(&samples))));
+        let found: Vec<Roots> = InstructionSet::available().map(on).collect();
+        let [plain, fused @ ..] = &found[..] else { panic!() };
+        for fused in fused {
+            for (a, b) in plain.as_slice().iter().zip(fused.as_slice()) {
+                assert!(apart(a.angle(), b.angle()) <= a.radius() + b.radius() + 1e-10);
+            }
+            assert_eq!(plain.as_slice().len(), fused.as_slice().len());
         }
-        assert_eq!(plain.as_slice().len(), fused.as_slice().len());
+        // With one rounding for a product and a sum, the bits are the same.
+        for pair in fused.windows(2) {
+            assert_eq!(pair[0].as_slice(), pair[1].as_slice());
+        }
     }
 }
