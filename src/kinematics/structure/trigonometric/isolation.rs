@@ -5,16 +5,15 @@
 //! and more are divided by de Casteljau's algorithm. A coefficient below the noise counts as either
 //! sign. Reference: Lane and Riesenfeld, Bounds on a polynomial, BIT 21, 1981.
 
-use core::f64::consts::PI;
-
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
 use fearless_simd::prelude::*;
 
+use super::part::{Coefficients, Part};
 use super::polynomial::TrigonometricPolynomial;
 use super::roots::{Root, Roots};
-use super::tables::{ARCS, BERNSTEIN, DEGREE, FIRST_MIDDLE, HALF_ARC_TAN, MIDDLES, POWERS};
+use super::tables::{ARCS, BERNSTEIN, DEGREE, MIDDLES, POWERS};
 use crate::lanes::{Column, LANES, Number as _, Vector};
 
 /// Width of a part of an arc that is not divided [1]: 5e-8 rad.
@@ -26,23 +25,8 @@ const MOST_PARTS: usize = 32;
 /// Divisions of eight parts each, at most: a double root takes one for each width.
 const MOST_DIVISIONS: usize = 96;
 
-/// Series of the arc tangent, behind its first term: good to 1e-17 on half an arc.
-const ATAN: [f64; 7] =
-    [-1.0 / 3.0, 1.0 / 5.0, -1.0 / 7.0, 1.0 / 9.0, -1.0 / 11.0, 1.0 / 13.0, -1.0 / 15.0];
-
 /// A count of changes that no coefficients have: stands for an impossible sign.
 const NEVER: f64 = -1e3;
-
-type Coefficients<T> = [T; POWERS + 1];
-
-/// A part of an arc: ends in 0 ..= 1, and the Bernstein coefficients between them.
-#[derive(Clone, Copy)]
-struct Part {
-    arc: usize,
-    low: f64,
-    high: f64,
-    coefficients: Coefficients<f64>,
-}
 
 /// Parts to be divided.
 struct Parts {
@@ -146,26 +130,10 @@ impl TrigonometricPolynomial {
             || parts.count == MOST_PARTS
         {
             roots.push(part.cluster());
-        } else {
+        } else if changes > 2.5 || !part.take_pair(self.noise, roots) {
             parts.all[parts.count] = part;
             parts.count += 1;
         }
-    }
-}
-
-impl Part {
-    /// The angle at a place of its arc [rad].
-    fn angle(&self, place: f64) -> f64 {
-        #[expect(clippy::cast_precision_loss, reason = "one of 16")]
-        let middle = FIRST_MIDDLE + self.arc as f64 * (2.0 * PI / ARCS as f64);
-        let tan = HALF_ARC_TAN * (2.0 * place - 1.0);
-        let square = tan * tan;
-        let series = ATAN.iter().rev().fold(0.0, |sum, part| sum * square + part);
-        middle + 2.0 * tan * (1.0 + square * series)
-    }
-
-    fn cluster(&self) -> Root {
-        Root { low: self.angle(self.low), high: self.angle(self.high), is_simple: false, most: 0 }
     }
 }
 

@@ -5,6 +5,8 @@
 //! 96).
 
 mod isolation;
+mod pair;
+mod part;
 mod polynomial;
 mod refinement;
 mod roots;

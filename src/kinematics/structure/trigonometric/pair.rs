@@ -1,0 +1,82 @@
+//! Parts of arcs on which the polynomial bends one way: none, two or a double root (eq. 96).
+//!
+//! Where the second differences of the Bernstein coefficients have one sign, the polynomial is
+//! convex, or concave, and has one extreme value, which decides. Dividing a part with a double root
+//! would take twenty steps.
+
+use super::part::{Coefficients, Part};
+use super::roots::{Root, Roots};
+use super::tables::POWERS;
+
+/// Steps towards the extreme value, at most: Newton's method on the derivative, bracketed.
+const MOST_STEPS: usize = 12;
+
+/// How much of the noise the extreme value may be off [1].
+const OFF: f64 = 0.1;
+
+#[expect(clippy::cast_precision_loss, reason = "16")]
+const N: f64 = POWERS as f64;
+
+impl Part {
+    /// Take the roots of a part whose ends are on the same certain side of zero, if it bends one
+    /// way; returns whether it was decided.
+    pub(super) fn take_pair(&self, noise: f64, roots: &mut Roots) -> bool {
+        let b = &self.coefficients;
+        // Bent upward, with ends above zero.
+        let sign = 1.0_f64.copysign(b[0]);
+        let bend = |j: usize| sign * ((b[j + 2] - b[j + 1]) - (b[j + 1] - b[j]));
+        let least = (0..POWERS - 1).map(bend).fold(f64::INFINITY, f64::min) - 4.0 * noise;
+        let are_above = sign * b[0] > noise && sign * b[POWERS] > noise;
+        if !(are_above && least > 0.0) {
+            return false;
+        }
+        // A lower bound of the second derivative.
+        let curvature = N * (N - 1.0) * least;
+        let (mut low, mut high) = (0.0, 1.0);
+        let mut place = 0.5;
+        for _ in 0..MOST_STEPS {
+            let [value, slope, second] = values(b, place).map(|part| sign * part);
+            let below = slope * slope / (2.0 * curvature);
+            if value - below > noise {
+                return true;
+            }
+            if value < -noise {
+                for [low, high] in [[self.low, self.at(place)], [self.at(place), self.high]] {
+                    let (low, high) = (self.angle(low), self.angle(high));
+                    roots.push(Root { low, high, is_simple: true, most: 1 });
+                }
+                return true;
+            }
+            if below <= OFF * noise {
+                let room = 2.0 * curvature * (noise - value).max(0.0);
+                let radius = (slope.abs() + (slope * slope + room).sqrt()) / curvature;
+                let (low, high) = ((place - radius).max(0.0), (place + radius).min(1.0));
+                roots.push(Part { low: self.at(low), high: self.at(high), ..*self }.cluster());
+                return true;
+            }
+            (low, high) = if slope < 0.0 { (place, high) } else { (low, place) };
+            let next = place - slope / second;
+            place = if next > low && next < high { next } else { 0.5 * (low + high) };
+        }
+        false
+    }
+
+    /// A place of this part as one of its arc.
+    fn at(&self, place: f64) -> f64 {
+        self.low + place * (self.high - self.low)
+    }
+}
+
+/// The value at a place in 0 ..= 1 and its first two derivatives, by de Casteljau's algorithm.
+fn values(coefficients: &Coefficients<f64>, place: f64) -> [f64; 3] {
+    let mut b = *coefficients;
+    for row in 1..POWERS - 1 {
+        for j in 0..=POWERS - row {
+            b[j] += place * (b[j + 1] - b[j]);
+        }
+    }
+    let [a, b, c] = [b[0], b[1], b[2]];
+    let (left, right) = (b - a, c - b);
+    let slope = left + place * (right - left);
+    [a + place * (left + slope), N * slope, N * (N - 1.0) * (right - left)]
+}
