@@ -41,7 +41,7 @@ def main() -> None:
     q = np.radians([0, -90, 90, 0, 30, 0])
     print(f"{kuka.name}: {kuka.structure}, {kuka.ik(kuka.fk(q)).explain()}\n")
 
-    # A wrist whose axes 5 and 6 are 80 mm apart has no closed form: the general solver takes it.
+    # A wrist whose axes 5 and 6 are 80 mm apart has no closed form: polynomials solve it.
     offset_wrist = table.copy()
     offset_wrist[5, 1] = 0.080
     arm = irbkin.Robot.from_mdh(offset_wrist)

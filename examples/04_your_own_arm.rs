@@ -51,7 +51,7 @@ fn main() -> Result<(), Error> {
     let q = [0.0, -90.0, 90.0, 0.0, 30.0, 0.0].map(f64::to_radians);
     println!("{}: {}, {}\n", kuka.name(), kuka.structure(), kuka.ik(&kuka.fk(&q))?.explain());
 
-    // A wrist whose axes 5 and 6 are 80 mm apart has no closed form: the general solver takes it.
+    // A wrist whose axes 5 and 6 are 80 mm apart has no closed form: polynomials solve it.
     let mut offset_wrist = mdh;
     offset_wrist.rows[5].a = 0.080;
     let arm = Robot::from_mdh(offset_wrist)?;

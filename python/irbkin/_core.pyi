@@ -531,7 +531,9 @@ class Robot:
         "spherical wrist", "three parallel axes", "spherical shoulder", "general", "unknown"
     ]:
         """Kinematic structure: "spherical wrist", "three parallel axes", "spherical shoulder",
-        "general" for any other arm of six joints, or "unknown" for another of seven.
+        "offset wrist", or "general" for any other; "refined spherical wrist" or "refined three
+        parallel axes" after `with_nominal`; "unknown" if the first six joints are not
+        independent.
         """
     @property
     def missing_form(self) -> str | None:
@@ -810,19 +812,20 @@ class Robot:
             given: In place of q7, another joint of seven with its angle, as {3: 0.2}, or
                 `robot.given({3: 0.2})`. The angles of the first and the last joint may be an array
                 that goes with (...).
-            out: Where to write: an IkBatch or tuple of arrays (..., 8, n) float64 and (..., 8)
-                uint8, or the first of them alone.
+            out: Where to write: an IkBatch or tuple of arrays (..., slots, n) float64 and (...,
+                slots) uint8, or the first of them alone.
             threads: Number of threads; 0 for one a core.
 
         Returns:
-            IkBatch(q, status): joint angles [rad], shape (..., 8, n), NaN where a slot is empty,
-            and `irbkin.Status` of each slot, shape (..., 8), uint8. A row that is no pose, or whose
-            q7 is none, has status INVALID; the others are not touched by it.
+            IkBatch(q, status): joint angles [rad], shape (..., slots, n), NaN where a slot is
+            empty, and `irbkin.Status` of each slot, shape (..., slots), uint8. Slots are 8 or 16,
+            as the structure has them. A row that is no pose, or whose q7 is none, has status
+            INVALID; the others are not touched by it.
 
         Raises:
             InvalidPoseError: T has a wrong shape.
             InvalidJointsError: q7 has a wrong shape.
-            InvalidModelError: The arm has no closed form.
+            InvalidModelError: The first six joints do not move the tool in six independent ways.
             TypeError: q7 is missing, or the arm has six joints and it is not.
         """
     def ik_nearest(
@@ -886,7 +889,7 @@ class Robot:
 
         Raises:
             InvalidPoseError: A wrong shape. A matrix that is no pose has no solution.
-            InvalidModelError: The arm has no closed form.
+            InvalidModelError: The first six joints do not move the tool in six independent ways.
             TypeError: `q7` of an arm of six joints, or none of one of seven.
         """
     def plan(
@@ -960,7 +963,7 @@ class Robot:
                 rotation, carrier or tolerance that is empty, an open path with `closed`, a cost
                 that is negative or not finite.
             ValueError: Another `order`.
-            InvalidModelError: The arm has no closed form or seven joints.
+            InvalidModelError: The arm has seven joints.
             Exception: Whatever `accept` raises.
         """
     def plan_batch(
@@ -1011,7 +1014,7 @@ class Robot:
             InvalidPoseError: A path that has a wrong shape; the message has its index.
             InvalidJointsError: A start, end or weights of a wrong shape.
             InvalidMotionError: Times of a wrong shape or number, or a rotation that is empty.
-            InvalidModelError: The arm has no closed form or seven joints.
+            InvalidModelError: The arm has seven joints.
             Exception: Whatever `accept` raises.
         """
     def follow(
@@ -1055,8 +1058,8 @@ class Robot:
             InvalidPoseError: T has a wrong shape or holds a matrix that is no pose; the message has
                 its index.
             InvalidJointsError: A seed or weight that is not finite, or a zone that is not 0 to 1.
-            InvalidModelError: The arm has no closed form or seven joints; "wrist" or "lock_axis4"
-                for an arm without a spherical wrist.
+            InvalidModelError: The arm has seven joints; "wrist" or "lock_axis4" for an arm without
+                a spherical wrist.
             ValueError: Another `singularity_mode`.
         """
     @overload
@@ -1325,8 +1328,8 @@ class Solutions(Sequence[Solution]):
     @property
     def certified(self) -> bool:
         """Whether these are certain to be all solutions of the pose, limits not regarded. Always
-        where the structure has a closed form. For a general arm: their number is that of the
-        roots of a polynomial, and no joint moves freely.
+        where the structure has a closed form, never where it is a refined one. For other arms:
+        their number is that of the roots of a polynomial, and no joint moves freely.
         """
     @property
     def reach(self) -> Reach:
@@ -1336,7 +1339,7 @@ class Solutions(Sequence[Solution]):
     @property
     def shortfall(self) -> float:
         """Distance missing to reach [m]: of the wrist center from where the arm can bring it; 0
-        when it is reached, NaN for a general arm that does not.
+        when it is reached, NaN where it is not and the structure has no closed form.
         """
     def explain(self) -> str:
         """Return the outcome in a sentence: how many solutions, or why there are none."""
@@ -1641,7 +1644,8 @@ def check(
         RapidError: A code that does not exist.
         InvalidMotionError: A limit or a step that is not positive and finite, or more than ten
             million samples.
-        InvalidModelError: The arm has no spherical wrist, so no confdata.
+        InvalidModelError: The arm has no confdata: no spherical wrist, and it is no GoFa of the
+            catalog.
     """
 
 def check_codes() -> list[tuple[str, str, bool]]:
@@ -1689,7 +1693,8 @@ def motion(
         InvalidMotionError: A limit or a step that is not positive and finite, a robot without
             velocities, or more than ten million samples.
         InvalidJointsError: A start that is not finite or has a wrong shape.
-        InvalidModelError: The arm has no spherical wrist, so no confdata.
+        InvalidModelError: The arm has no confdata: no spherical wrist, and it is no GoFa of the
+            catalog.
     """
 
 def _restore_motion(

@@ -92,12 +92,12 @@ class Status(Flags):
     WRIST = 4
     """sin q5 = 0: axes 4 and 6 of a spherical wrist coincide, only q4 + q6 or q4 - q6 is
     determined; axis 6 of a three-parallel arm is parallel to axes 2 to 4. Of seven axes: the
-    shoulder is in the plane of axes 5 and 6. Of a general arm: its joints can move with the tool
-    standing still.
+    shoulder is in the plane of axes 5 and 6. Of an arm without a closed form: its joints can move
+    with the tool standing still.
     """
     ELBOW = 8
-    """The arm is stretched or folded: both elbow branches coincide. Of a general arm: any two
-    branches coincide.
+    """The arm is stretched or folded: both elbow branches coincide. Of an arm without a closed
+    form: any two branches coincide.
     """
     SHOULDER = 16
     """The wrist center is on axis 1: q1 is not determined. With a lateral offset: front and back
@@ -138,7 +138,8 @@ class Reach(enum.Enum):
     offset.
     """
     NO_ROOTS = "no roots"
-    """A general arm has no solution; how far the pose is out of reach is not known."""
+    """An arm without a closed form has no solution; how far the pose is out of reach is not known.
+    """
 
 
 class SingularityMode(str, enum.Enum):

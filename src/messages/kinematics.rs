@@ -148,7 +148,7 @@ fn models() -> Vec<Row> {
         ModelFault::JointCount { .. } => ModelFault::JointCount { found: 7, wanted: 6 },
             "`Robot<6>` of an arm of seven joints", "take `Robot<7>`";
         ModelFault::UnknownStructure(_) => ModelFault::UnknownStructure(dependent()),
-            "six joints that are not independent; `ik` of a seven-axis arm of unknown structure",
+            "six joints that are not independent; `ik` of seven whose first six are not",
             "see below";
         ModelFault::NoConfiguration { .. } =>
             ModelFault::NoConfiguration { structure: "three parallel axes" },
@@ -173,7 +173,7 @@ fn models() -> Vec<Row> {
             "`with_corrections`, `calibrate` or `with_nominal` of a robot with a linkage",
             "take its `uncoupled()` twin";
         ModelFault::Calibrated(CalibratedFault::Structure { .. }) =>
-            ModelFault::Calibrated(CalibratedFault::Structure { structure: "unknown" }),
+            ModelFault::Calibrated(CalibratedFault::Structure { structure: "offset wrist" }),
             "`with_nominal`", "give the arm of the data sheet";
         ModelFault::Calibrated(CalibratedFault::Far { .. }) =>
             ModelFault::Calibrated(CalibratedFault::Far {
@@ -219,10 +219,10 @@ fn structures() -> Vec<Row> {
             "an alpha that is not 0", "look at the order of columns";
         Condition { relation: Relation::Meeting, .. } =>
             Condition { relation: Relation::Meeting, axes: (4, 5), off: 0.07 },
-            "a wrist with an offset, as of GoFa", "nothing: the general solver takes it";
+            "a wrist with an offset, as of GoFa", "nothing: it is solved by a polynomial";
         Condition { relation: Relation::Coplanar, .. } =>
             Condition { relation: Relation::Coplanar, axes: (3, 5), off: 0.01 },
-            "a seven-axis arm with another elbow", "no `ik`";
+            "a seven-axis arm with another elbow", "nothing: it is solved by a polynomial";
     };
     let few_digits = missing(table_of("UR5e", |table| {
         for row in &mut table.rows {
@@ -276,7 +276,7 @@ fn answers() -> Vec<Row> {
             Explanation::OutOfReach(Reach::TooFar { shortfall: 1423.4115 }),
             "a pose in millimeters", "divide its translation by 1000";
         Explanation::NoRoots { certified: true } => Explanation::NoRoots { certified: true },
-            "a pose out of reach of a general arm", "move the pose";
+            "a pose out of reach of an arm without a closed form", "move the pose";
         Explanation::NoRoots { .. } => Explanation::NoRoots { certified: false },
             "the same next to a singularity", "move the pose, even by 1e-6 m";
         Explanation::FreeOutOfReach { .. } =>

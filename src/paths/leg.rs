@@ -5,7 +5,7 @@ use nalgebra::{Rotation3, Vector3};
 use super::arc::Arc;
 #[cfg(feature = "rapid")]
 use super::arc::ArcOrientation;
-use super::turn::Turn;
+use super::line::Line;
 use crate::error::Error;
 use crate::kinematics::Pose;
 
@@ -17,20 +17,10 @@ pub(crate) enum Leg {
     Arc(Arc),
 }
 
-/// A line whose orientation turns evenly about one axis (eq. 17, 18).
-pub(crate) struct Line {
-    start: Vector3<f64>,
-    way: Vector3<f64>,
-    length: f64,
-    turn: Turn,
-}
-
 impl Leg {
     /// A line between two poses; `index` is the pose that an error names.
     pub(crate) fn line([start, end]: [&Pose; 2], index: usize) -> Result<Self, Error> {
-        let way = end.translation.vector - start.translation.vector;
-        let turn = Turn::new(&start.rotation, &end.rotation, None, index)?;
-        Ok(Self::Line(Line { start: start.translation.vector, way, length: way.norm(), turn }))
+        Ok(Self::Line(Line::new([start, end], None, index)?))
     }
 
     /// An arc through three poses.
@@ -42,7 +32,7 @@ impl Leg {
     /// Its length [m].
     pub(crate) fn length(&self) -> f64 {
         match self {
-            Self::Line(line) => line.length,
+            Self::Line(line) => line.length(),
             Self::Arc(arc) => arc.length(),
         }
     }
@@ -50,7 +40,7 @@ impl Leg {
     /// An angle that the tool does not turn by more than [rad].
     pub(crate) fn angle(&self) -> f64 {
         match self {
-            Self::Line(line) => line.turn.angle,
+            Self::Line(line) => line.angle(),
             Self::Arc(arc) => arc.angle(),
         }
     }
@@ -58,7 +48,7 @@ impl Leg {
     /// The position at a part of the way.
     pub(super) fn position(&self, part: f64) -> Vector3<f64> {
         match self {
-            Self::Line(line) => line.start + line.way * part,
+            Self::Line(line) => line.position(part),
             Self::Arc(arc) => arc.position(part),
         }
     }
@@ -67,8 +57,7 @@ impl Leg {
     /// length.
     pub(super) fn direction(&self, part: f64) -> Vector3<f64> {
         match self {
-            Self::Line(line) if line.length == 0.0 => line.way,
-            Self::Line(line) => line.way / line.length,
+            Self::Line(line) => line.direction(),
             Self::Arc(arc) => arc.direction(part),
         }
     }
@@ -76,7 +65,7 @@ impl Leg {
     /// The orientation at a part of the way.
     pub(super) fn orientation(&self, part: f64) -> Rotation3<f64> {
         match self {
-            Self::Line(line) => line.turn.at(part),
+            Self::Line(line) => line.orientation(part),
             Self::Arc(arc) => arc.orientation(part),
         }
     }

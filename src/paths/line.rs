@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use nalgebra::{Translation3, Vector3};
+use nalgebra::{Rotation3, Translation3, Vector3};
 
 use super::spacing::Spacing;
 use super::turn::Turn;
@@ -31,21 +31,64 @@ pub fn line(
     {
         return Err(MotionFault::NotFinite { field: "axis", index, value: axis[index] }.into());
     }
-    let axis = axis.map(Vector3::from);
-    let turn = Turn::new(&start.rotation, &end.rotation, axis.as_ref(), 1)?;
-    let way = end.translation.vector - start.translation.vector;
-    let steps = spacing.steps_of_one([way.norm(), turn.angle])?;
+    let line = Line::new([&start, &end], axis.map(Vector3::from).as_ref(), 1)?;
+    let steps = spacing.steps_of_one([line.length(), line.angle()])?;
     let mut poses = Vec::with_capacity(steps + 1);
     poses.push(start);
     poses.extend((1..steps).map(|step| {
         let part = part(step, steps);
-        let position = start.translation.vector + way * part;
-        Pose::from_parts(Translation3::from(position), turn.at(part))
+        Pose::from_parts(Translation3::from(line.position(part)), line.orientation(part))
     }));
     if steps > 0 {
         poses.push(end);
     }
     Ok(poses)
+}
+
+/// A line whose orientation turns evenly about one axis (eq. 17, 18); parts of it are from 0 to 1.
+pub(crate) struct Line {
+    start: Vector3<f64>,
+    way: Vector3<f64>,
+    length: f64,
+    turn: Turn,
+}
+
+impl Line {
+    /// Of a half turn, `axis` chooses the way; `index` is the pose that an error names.
+    pub(super) fn new(
+        [start, end]: [&Pose; 2],
+        axis: Option<&Vector3<f64>>,
+        index: usize,
+    ) -> Result<Self, Error> {
+        let way = end.translation.vector - start.translation.vector;
+        let turn = Turn::new(&start.rotation, &end.rotation, axis, index)?;
+        Ok(Self { start: start.translation.vector, way, length: way.norm(), turn })
+    }
+
+    /// Its length [m].
+    pub(super) fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// The angle that the tool turns by [rad].
+    pub(super) fn angle(&self) -> f64 {
+        self.turn.angle
+    }
+
+    /// The position at a part of the way.
+    pub(super) fn position(&self, part: f64) -> Vector3<f64> {
+        self.start + self.way * part
+    }
+
+    /// The direction: a vector of length one, or zero of a line without length.
+    pub(super) fn direction(&self) -> Vector3<f64> {
+        if self.length == 0.0 { self.way } else { self.way / self.length }
+    }
+
+    /// The orientation at a part of the way.
+    pub(super) fn orientation(&self, part: f64) -> Rotation3<f64> {
+        self.turn.at(part)
+    }
 }
 
 /// A part of the way, exact at both ends.

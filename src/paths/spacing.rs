@@ -73,7 +73,7 @@ impl Spacing {
     }
 
     /// The number of steps of a path of one part, by its length [m] and angle [rad].
-    pub(super) fn steps_of_one(self, part: [f64; 2]) -> Result<usize, Error> {
+    pub(crate) fn steps_of_one(self, part: [f64; 2]) -> Result<usize, Error> {
         match self.0 {
             Kind::Count(poses) => Ok(poses - 1),
             Kind::Step { length, angle } => counted(part, length, angle),
@@ -81,7 +81,7 @@ impl Spacing {
     }
 
     /// The number of steps of each part of a path, by its length [m] and angle [rad].
-    pub(crate) fn steps(self, parts: &[[f64; 2]]) -> Result<Vec<usize>, Error> {
+    pub(super) fn steps(self, parts: &[[f64; 2]]) -> Result<Vec<usize>, Error> {
         match self.0 {
             Kind::Count(poses) => shared(poses - 1, parts),
             Kind::Step { length, angle } => {

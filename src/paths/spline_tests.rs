@@ -256,7 +256,8 @@ fn a_speed_is_a_step_in_a_period() {
         spline(&met, speed).unwrap(),
     ];
     for path in paths {
-        let way: f64 = path.windows(2).map(|pair| apart_by(&pair[0], &pair[1])).sum();
+        let way: f64 =
+            path.windows(2).map(|pair| PoseDifference::between(&pair[0], &pair[1]).position).sum();
         #[expect(clippy::cast_precision_loss, reason = "a few thousand poses")]
         let speed = way / (0.004 * (path.len() - 1) as f64);
         assert!(speed <= 0.25 * (1.0 + 1e-9) && speed > 0.24, "{speed}");
@@ -272,8 +273,4 @@ fn a_speed_is_a_step_in_a_period() {
         let refused = Spacing::speed(speed, period, 1.0).unwrap_err().to_string();
         assert!(refused.contains(words), "{refused}");
     }
-}
-
-fn apart_by(one: &Pose, other: &Pose) -> f64 {
-    PoseDifference::between(one, other).position
 }

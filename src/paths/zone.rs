@@ -51,11 +51,16 @@ impl Zone {
     pub fn named(name: &str) -> Option<Self> {
         let (_, position, orientation, angle) =
             PREDEFINED.iter().find(|(own, ..)| own.eq_ignore_ascii_case(name))?;
-        Some(Self {
+        Some(Self::of_zonedata([*position, *orientation], *angle))
+    }
+
+    /// A zone in the units of zonedata: position and orientation [mm], angle [deg].
+    pub(crate) fn of_zonedata([position, orientation]: [f64; 2], angle: f64) -> Self {
+        Self {
             position: position * 1e-3,
             orientation: orientation * 1e-3,
             angle: angle.to_radians(),
-        })
+        }
     }
 
     pub(super) fn check(&self, index: usize) -> Result<(), Error> {

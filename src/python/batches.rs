@@ -6,7 +6,7 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::intern;
 use pyo3::prelude::*;
 
-use super::answers::batch_output;
+use super::answers::{BatchArrays, batch_output};
 use super::arm::Arm;
 use super::arrays::{Rows, addresses};
 use super::broadcast::{Argument, together};
@@ -15,7 +15,8 @@ use super::errors::{Fault, to_py};
 use super::outputs::writable;
 use super::signals::detached;
 use super::wording::shape;
-use crate::error::ModelFault;
+use crate::batch::Pace;
+use crate::error::{Error, ModelFault};
 use crate::kinematics::{Arity, Joints, Robot};
 
 /// `irbkin.IkBatch` of poses, shape (..., 4, 4), and of joint 7 for each where the arm has seven.
@@ -28,17 +29,28 @@ pub(super) fn ik<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = poses.py();
     let (poses, given) = read_poses(arm, poses, q7)?;
-    let (q, status) = batch_output(py, out, &poses, [arm.slot_count(), arm.dof()])?;
+    let answers = batch_output(py, out, &poses, [arm.slot_count(), arm.dof()])?;
+    filled(py, &poses, answers, threads, |pace, poses, q, status| match arm {
+        Arm::Six(robot) => pace.ik(robot, poses, q, status),
+        Arm::Seven(robot) => pace.ik_with(robot, poses, &given, q, status),
+    })
+}
+
+/// `irbkin.IkBatch` of poses, whose arrays `solve` writes from those of the poses.
+pub(super) fn filled<'py>(
+    py: Python<'py>,
+    poses: &Rows<'py>,
+    (q, status): BatchArrays<'py>,
+    threads: Option<NonZeroUsize>,
+    solve: impl FnOnce(&mut Pace<'_>, &[f64], &mut [f64], &mut [u8]) -> Result<(), Error> + Send,
+) -> PyResult<Bound<'py, PyAny>> {
     let (data, mut q_view, mut status_view) = (
         poses.data()?,
         writable(&q, &[poses.addresses()])?,
         writable(&status, &[poses.addresses(), addresses(&q)])?,
     );
     let (q_slice, status_slice) = (q_view.as_slice_mut()?, status_view.as_slice_mut()?);
-    detached(py, threads, |pace| match arm {
-        Arm::Six(robot) => pace.ik(robot, data, q_slice, status_slice),
-        Arm::Seven(robot) => pace.ik_with(robot, data, &given, q_slice, status_slice),
-    })?;
+    detached(py, threads, |pace| solve(pace, data, q_slice, status_slice))?;
     classes::ik_batch_class(py)?.call1((q, status))
 }
 
@@ -59,23 +71,27 @@ pub(super) fn read_poses<'py>(
     };
     let mut poses = Rows::read(poses, &[4, 4], "T", Fault::Pose)?;
     let given = match given {
-        Some(q7) => read_q7(q7, &mut poses)?,
+        Some(q7) => read_angles(q7, "q7", &mut poses)?.data()?.to_vec(),
         None => Vec::new(),
     };
     Ok((poses, given))
 }
 
-/// An angle of joint 7 for each pose; both are broadcast.
-fn read_q7<'py>(q7: &Bound<'py, PyAny>, poses: &mut Rows<'py>) -> PyResult<Vec<f64>> {
-    let mut rows = Rows::read(q7, &[], "q7", Fault::Joints)?;
+/// An angle of a joint for each pose; both are broadcast.
+pub(super) fn read_angles<'py>(
+    angles: &Bound<'py, PyAny>,
+    field: &'static str,
+    poses: &mut Rows<'py>,
+) -> PyResult<Rows<'py>> {
+    let mut rows = Rows::read(angles, &[], field, Fault::Joints)?;
     together(
-        q7.py(),
+        angles.py(),
         &mut [
             Argument { field: "T", fault: Fault::Pose, rows: poses },
-            Argument { field: "q7", fault: Fault::Joints, rows: &mut rows },
+            Argument { field, fault: Fault::Joints, rows: &mut rows },
         ],
     )?;
-    Ok(rows.data()?.to_vec())
+    Ok(rows)
 }
 
 /// An arm of six joints has no joint 7.

@@ -11,9 +11,8 @@ use pyo3::types::{PyDict, PyMapping};
 use super::answers::{batch_output, pose_check};
 use super::arguments::{read_singularity_mode, thread_count};
 use super::arm::Arm;
-use super::arrays::{Rows, addresses};
-use super::batches::one_angle;
-use super::broadcast::{Argument, together};
+use super::arrays::Rows;
+use super::batches::{filled, one_angle, read_angles};
 use super::classes;
 use super::errors::{Fault, of_seed, to_py};
 use super::found::{Found, read_weights};
@@ -134,28 +133,13 @@ impl PyGiven {
     ) -> PyResult<Bound<'py, PyAny>> {
         let py = poses.py();
         let mut rows = Rows::read(poses, &[4, 4], "T", Fault::Pose)?;
-        let mut angles =
-            angles.map(|angles| Rows::read(angles, &[], "given", Fault::Joints)).transpose()?;
-        if let Some(angles) = &mut angles {
-            together(
-                py,
-                &mut [
-                    Argument { field: "T", fault: Fault::Pose, rows: &mut rows },
-                    Argument { field: "given", fault: Fault::Joints, rows: angles },
-                ],
-            )?;
-        }
-        let slots = self.given.six_joints().slot_count();
-        let (q, status) = batch_output(py, out, &rows, [slots, 7])?;
-        let (mut q_view, mut status_view) = (
-            writable(&q, &[rows.addresses()])?,
-            writable(&status, &[rows.addresses(), addresses(&q)])?,
-        );
-        let (q_slice, status_slice) = (q_view.as_slice_mut()?, status_view.as_slice_mut()?);
-        let (data, angles) = (rows.data()?, angles.as_ref().map(Rows::data).transpose()?);
-        let given = &*self.given;
-        detached(py, threads, |pace| pace.ik_given(given, data, angles, q_slice, status_slice))?;
-        classes::ik_batch_class(py)?.call1((q, status))
+        let angles = angles.map(|angles| read_angles(angles, "given", &mut rows)).transpose()?;
+        let angles = angles.as_ref().map(Rows::data).transpose()?;
+        let (given, slots) = (&*self.given, self.given.six_joints().slot_count());
+        let answers = batch_output(py, out, &rows, [slots, 7])?;
+        filled(py, &rows, answers, threads, |pace, poses, q, status| {
+            pace.ik_given(given, poses, angles, q, status)
+        })
     }
 }
 

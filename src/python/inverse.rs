@@ -88,19 +88,20 @@ impl PyRobot {
     ///     given: In place of q7, another joint of seven with its angle, as {3: 0.2}, or
     ///         `robot.given({3: 0.2})`. The angles of the first and the last joint may be an array
     ///         that goes with (...).
-    ///     out: Where to write: an IkBatch or tuple of arrays (..., 8, n) float64 and (..., 8)
-    ///         uint8, or the first of them alone.
+    ///     out: Where to write: an IkBatch or tuple of arrays (..., slots, n) float64 and (...,
+    ///         slots) uint8, or the first of them alone.
     ///     threads: Number of threads; 0 for one a core.
     ///
     /// Returns:
-    ///     IkBatch(q, status): joint angles [rad], shape (..., 8, n), NaN where a slot is empty,
-    ///     and `irbkin.Status` of each slot, shape (..., 8), uint8. A row that is no pose, or whose
-    ///     q7 is none, has status INVALID; the others are not touched by it.
+    ///     IkBatch(q, status): joint angles [rad], shape (..., slots, n), NaN where a slot is
+    ///     empty, and `irbkin.Status` of each slot, shape (..., slots), uint8. Slots are 8 or 16,
+    ///     as the structure has them. A row that is no pose, or whose q7 is none, has status
+    ///     INVALID; the others are not touched by it.
     ///
     /// Raises:
     ///     InvalidPoseError: T has a wrong shape.
     ///     InvalidJointsError: q7 has a wrong shape.
-    ///     InvalidModelError: The arm has no closed form.
+    ///     InvalidModelError: The first six joints do not move the tool in six independent ways.
     ///     TypeError: q7 is missing, or the arm has six joints and it is not.
     #[pyo3(signature = (T, q7=None, *, given=None, out=None, threads=1))]
     fn ik_batch<'py>(
@@ -213,8 +214,8 @@ impl PyRobot {
     ///     InvalidPoseError: T has a wrong shape or holds a matrix that is no pose; the message has
     ///         its index.
     ///     InvalidJointsError: A seed or weight that is not finite, or a zone that is not 0 to 1.
-    ///     InvalidModelError: The arm has no closed form or seven joints; "wrist" or "lock_axis4"
-    ///         for an arm without a spherical wrist.
+    ///     InvalidModelError: The arm has seven joints; "wrist" or "lock_axis4" for an arm without
+    ///         a spherical wrist.
     ///     ValueError: Another `singularity_mode`.
     #[pyo3(signature = (T, seed, weights=None, *, singularity_mode="through", zone=None, out=None, threads=1))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]

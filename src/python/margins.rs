@@ -57,7 +57,7 @@ impl PyRobot {
     ///
     /// Raises:
     ///     InvalidPoseError: A wrong shape. A matrix that is no pose has no solution.
-    ///     InvalidModelError: The arm has no closed form.
+    ///     InvalidModelError: The first six joints do not move the tool in six independent ways.
     ///     TypeError: `q7` of an arm of six joints, or none of one of seven.
     #[pyo3(signature = (T, q7=None, *, threads=1))]
     fn ik_margin<'py>(

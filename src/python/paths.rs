@@ -56,6 +56,22 @@ pub(super) fn follow<'py>(
     answers.filled(py, &rows.lead, &followed)
 }
 
+/// The poses of one path, shape (m, 4, 4), as they are given.
+pub(super) fn one_path<'py>(path: &Bound<'py, PyAny>, field: &str) -> PyResult<Rows<'py>> {
+    let mut rows = Rows::read(path, &[4, 4], field, Fault::Pose)?;
+    if rows.split_last().is_some() && rows.is_single() {
+        return Ok(rows);
+    }
+    let got = shape(rows.shape());
+    Err(Fault::Pose.error(path.py(), format!("{field} must have shape (m, 4, 4), got {got}")))
+}
+
+/// The poses of one path `T`, shape (m, 4, 4), checked.
+pub(super) fn read_poses(path: &Bound<'_, PyAny>) -> PyResult<Vec<Pose>> {
+    let rows = one_path(path, "T")?;
+    read_path(path.py(), &rows, &rows.shape()[..1])
+}
+
 /// Every pose of paths of the shape `shape`, checked.
 pub(super) fn read_path(py: Python<'_>, rows: &Rows<'_>, shape: &[usize]) -> PyResult<Vec<Pose>> {
     let rows = rows.data()?.as_chunks::<16>().0;

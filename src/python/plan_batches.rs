@@ -10,8 +10,8 @@ use super::arrays::Rows;
 use super::classes::{invalid_model_error, irbkin_error};
 use super::errors::Fault;
 use super::freedoms::{Costs, read_options};
-use super::paths::read_path;
-use super::plans::{answer, asked, one_path, read_times};
+use super::paths::{one_path, read_path};
+use super::plans::{answer, asked, read_times};
 use super::robot::PyRobot;
 use super::signals::detached_while;
 use super::wording::shape;
@@ -50,7 +50,7 @@ impl PyRobot {
     ///     InvalidPoseError: A path that has a wrong shape; the message has its index.
     ///     InvalidJointsError: A start, end or weights of a wrong shape.
     ///     InvalidMotionError: Times of a wrong shape or number, or a rotation that is empty.
-    ///     InvalidModelError: The arm has no closed form or seven joints.
+    ///     InvalidModelError: The arm has seven joints.
     ///     Exception: Whatever `accept` raises.
     #[pyo3(signature = (paths, *, rotation=None, times=None, start=None, end=None, closed=false, weights=None, accept=None, carrier=None, tolerance=None, order="bottleneck", limit_cost=0.0, singularity_cost=0.0, threads=1))]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]

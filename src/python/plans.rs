@@ -12,7 +12,7 @@ use super::classes;
 use super::errors::{Fault, raised, to_py};
 use super::freedoms::{Costs, read_end, read_options};
 use super::outputs::matrix;
-use super::paths::read_path;
+use super::paths::read_poses;
 use super::robot::PyRobot;
 use super::signals::detached_while;
 use super::wording::shape;
@@ -75,7 +75,7 @@ impl PyRobot {
     ///         rotation, carrier or tolerance that is empty, an open path with `closed`, a cost
     ///         that is negative or not finite.
     ///     ValueError: Another `order`.
-    ///     InvalidModelError: The arm has no closed form or seven joints.
+    ///     InvalidModelError: The arm has seven joints.
     ///     Exception: Whatever `accept` raises.
     #[pyo3(signature = (T, *, rotation=None, times=None, start=None, end=None, closed=false, weights=None, accept=None, carrier=None, tolerance=None, order="bottleneck", limit_cost=0.0, singularity_cost=0.0))]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
@@ -109,8 +109,7 @@ impl PyRobot {
             end_external,
             ..all
         };
-        let rows = one_path(T, "T")?;
-        let path = read_path(py, &rows, &rows.shape()[..1])?;
+        let path = read_poses(T)?;
         let accept = accept.map(|accept| accept.clone().unbind());
         let (planned, failure) = detached_while(py, |go_on| {
             let mut failure = None;
@@ -134,16 +133,6 @@ impl PyRobot {
             None => answer(py, &planned),
         }
     }
-}
-
-/// The poses of one path, shape (m, 4, 4), as they are given.
-pub(super) fn one_path<'py>(path: &Bound<'py, PyAny>, field: &str) -> PyResult<Rows<'py>> {
-    let mut rows = Rows::read(path, &[4, 4], field, Fault::Pose)?;
-    if rows.split_last().is_some() && rows.is_single() {
-        return Ok(rows);
-    }
-    let got = shape(rows.shape());
-    Err(Fault::Pose.error(path.py(), format!("{field} must have shape (m, 4, 4), got {got}")))
 }
 
 /// A plan, or the exception of why there is none.

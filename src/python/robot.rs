@@ -71,8 +71,9 @@ impl PyRobot {
         self.arm.dof()
     }
 
-    /// Kinematic structure: "spherical wrist", "three parallel axes", "spherical shoulder",
-    /// "general" for any other arm of six joints, or "unknown" for another of seven.
+    /// Kinematic structure: "spherical wrist", "three parallel axes", "spherical shoulder", "offset
+    /// wrist", or "general" for any other; "refined spherical wrist" or "refined three parallel
+    /// axes" after `with_nominal`; "unknown" if the first six joints are not independent.
     #[getter]
     fn structure(&self) -> &'static str {
         on!(&self.arm, robot => robot.structure())

@@ -93,8 +93,8 @@ impl PySolutions {
     }
 
     /// Whether these are certain to be all solutions of the pose, limits not regarded. Always where
-    /// the structure has a closed form. For a general arm: their number is that of the roots of a
-    /// polynomial, and no joint moves freely.
+    /// the structure has a closed form, never where it is a refined one. For other arms: their
+    /// number is that of the roots of a polynomial, and no joint moves freely.
     #[getter]
     fn certified(&self) -> bool {
         on!(&self.found, found => found.solutions.is_certified())
@@ -108,7 +108,7 @@ impl PySolutions {
     }
 
     /// Distance missing to reach [m]: of the wrist center from where the arm can bring it; 0 when
-    /// it is reached, NaN for a general arm that does not.
+    /// it is reached, NaN where it is not and the structure has no closed form.
     #[getter]
     fn shortfall(&self) -> f64 {
         on!(&self.found, found => found.solutions.reach().shortfall())

@@ -6,9 +6,9 @@ use pyo3::prelude::*;
 use pyo3::types::PyString;
 
 use super::arguments::{read_orientation, read_steps};
-use super::arrays::{Rows, matrix4, vector};
+use super::arrays::{matrix4, vector};
 use super::errors::{Fault, to_py};
-use super::wording::shape;
+use super::paths::read_poses;
 use crate::error::Error;
 use crate::kinematics::{Pose, pose_from_rows, pose_to_rows};
 use crate::paths::{Spacing, Zone};
@@ -20,23 +20,6 @@ fn pose_rows(py: Python<'_>, poses: Result<Vec<Pose>, Error>) -> PyResult<PoseAr
     let poses = poses.map_err(|error| to_py(py, &error))?;
     let rows: Vec<f64> = poses.iter().flat_map(pose_to_rows).collect();
     numpy::PyArray1::from_vec(py, rows).reshape([poses.len(), 4, 4])
-}
-
-/// Poses of shape (m, 4, 4).
-pub(super) fn read_poses(value: &Bound<'_, PyAny>, field: &'static str) -> PyResult<Vec<Pose>> {
-    let py = value.py();
-    let rows = Rows::read(value, &[4, 4], field, Fault::Pose)?;
-    if rows.lead.len() != 1 {
-        let got = shape(&rows.shape_with(&[4, 4]));
-        let message = format!("{field} must have shape (m, 4, 4), got {got}");
-        return Err(Fault::Pose.error(py, message));
-    }
-    let poses = rows.data()?.as_chunks::<16>().0.iter().enumerate();
-    let poses = poses.map(|(index, row)| {
-        let located = |error| Fault::Pose.error(py, format!("{field}[{index}]: {error}"));
-        pose_from_rows(row).map_err(located)
-    });
-    poses.collect()
 }
 
 /// One pose of shape (4, 4), named in what is wrong with it.
@@ -198,7 +181,7 @@ pub(super) fn polyline<'py>(
     dt: Option<f64>,
 ) -> PyResult<PoseArray<'py>> {
     let py = T.py();
-    let poses = read_poses(T, "T")?;
+    let poses = read_poses(T)?;
     let zones = read_zones(zones, poses.len())?;
     let spacing = SpacingArguments { steps, step, turn, speed, dt }.read(py)?;
     pose_rows(py, crate::paths::polyline(&poses, &zones, spacing))
@@ -240,7 +223,7 @@ pub(super) fn spline<'py>(
     dt: Option<f64>,
 ) -> PyResult<PoseArray<'py>> {
     let py = T.py();
-    let poses = read_poses(T, "T")?;
+    let poses = read_poses(T)?;
     let spacing = SpacingArguments { steps, step, turn, speed, dt }.read(py)?;
     pose_rows(py, py.detach(|| crate::paths::spline(&poses, spacing)))
 }

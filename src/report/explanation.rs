@@ -18,8 +18,8 @@ pub enum Reach {
         /// How far inside [m].
         shortfall: f64,
     },
-    /// A general arm has no solution: its polynomial has no real root. How far the pose is out of
-    /// reach is not known.
+    /// An arm without a closed form has no solution: its polynomial has no real root. How far the
+    /// pose is out of reach is not known.
     NoRoots,
 }
 
@@ -81,7 +81,7 @@ pub enum Explanation {
         /// The angle [rad].
         value: f64,
     },
-    /// A general arm has no solution.
+    /// An arm without a closed form has no solution.
     NoRoots {
         /// Whether that is certain.
         certified: bool,

@@ -125,7 +125,7 @@ enum Reason {
 }
 
 impl UnknownStructure {
-    /// An arm whose number of joints alone rules a closed form out.
+    /// An arm whose number of joints alone rules a structure out.
     pub(crate) fn joint_count(joints: usize) -> Self {
         Self::new(Reason::JointCount(joints))
     }

@@ -16,6 +16,20 @@ pub(super) fn check_limits(field: &'static str, limits: &[f64]) -> Result<(), Er
     }
 }
 
+/// Check limits along a path, and return how many joints they are for.
+pub(super) fn check_path_limits(
+    max_velocity: &[f64],
+    max_acceleration: &[f64],
+) -> Result<usize, Error> {
+    check_limits("max_velocity", max_velocity)?;
+    check_limits("max_acceleration", max_acceleration)?;
+    let (found, wanted) = (max_acceleration.len(), max_velocity.len());
+    if found != wanted {
+        return Err(Error::WrongLength { field: "max_acceleration", found, wanted });
+    }
+    Ok(wanted)
+}
+
 /// Check the limits of `dof` joints.
 pub(super) fn check_axes(limits: &[AxisLimits], dof: usize) -> Result<(), Error> {
     if limits.len() != dof {

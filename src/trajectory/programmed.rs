@@ -6,10 +6,9 @@ use nalgebra::ComplexField as _;
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::piece::Piece;
 use super::piecewise::Trajectory;
 use super::polynomial::TERMS;
-use super::retime::{Grid, paces};
+use super::retime::Grid;
 use super::spline::cubic;
 use crate::error::Error;
 use crate::spline::Ends;
@@ -66,9 +65,8 @@ pub(crate) fn within_times<const N: usize>(
     let parts = LEAST_PIECES.div_ceil(lengths.len() - 1);
     let spline = cubic(&lengths, &points, N, Ends::NotAKnot);
     let grid = Grid::of(&lengths, &spline, N, |_, _| parts);
-    let pieces: Vec<Piece<'_>> = (0..grid.lengths.len()).map(|index| grid.piece(index)).collect();
-    let paces = paces(&pieces, max_velocity, max_acceleration, |piece| caps[piece / parts])?;
-    let timed = grid.timed(&paces).checked()?;
+    let timed =
+        grid.paced(max_velocity, max_acceleration, |piece| caps[piece / parts])?.checked()?;
     let times = knots.iter().map(|knot| timed.knots()[knot * parts]).collect();
     Ok((timed, times))
 }

@@ -15,7 +15,7 @@ use nalgebra::ComplexField as _;
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::check::{check_duration, check_limits, check_rows};
+use super::check::{check_duration, check_path_limits, check_rows};
 use super::piece::{Piece, Strips};
 use super::piecewise::Trajectory;
 use super::polynomial::{TERMS, shifted};
@@ -50,13 +50,7 @@ pub fn retime(
     max_velocity: &[f64],
     max_acceleration: &[f64],
 ) -> Result<Trajectory, Error> {
-    let dof = max_velocity.len();
-    check_limits("max_velocity", max_velocity)?;
-    check_limits("max_acceleration", max_acceleration)?;
-    if max_acceleration.len() != dof {
-        let found = max_acceleration.len();
-        return Err(Error::WrongLength { field: "max_acceleration", found, wanted: dof });
-    }
+    let dof = check_path_limits(max_velocity, max_acceleration)?;
     let (lengths, points) = polygon(q, dof)?;
     if lengths.len() == 1 {
         return Ok(Trajectory::still(&points));
@@ -118,7 +112,7 @@ fn polygon(q: &[f64], dof: usize) -> Result<(Vec<f64>, Vec<f64>), Error> {
 /// The spline, cut into pieces that are short enough.
 pub(super) struct Grid {
     dof: usize,
-    pub(super) lengths: Vec<f64>,
+    lengths: Vec<f64>,
     /// By piece and joint.
     terms: Vec<[f64; TERMS]>,
 }
@@ -160,19 +154,28 @@ impl Grid {
         max_acceleration: &[f64],
         most: f64,
     ) -> Result<Trajectory, Error> {
-        let pieces: Vec<Piece<'_>> =
-            (0..self.lengths.len()).map(|index| self.piece(index)).collect();
-        let paces = paces(&pieces, max_velocity, max_acceleration, |_| most)?;
-        let timed = self.timed(&paces);
+        let timed = self.paced(max_velocity, max_acceleration, |_| most)?;
         check_duration(timed.duration()).and_then(|()| timed.checked())
     }
 
-    pub(super) fn piece(&self, index: usize) -> Piece<'_> {
+    /// The path at the largest paces within limits, of which none exceeds the cap of its piece.
+    pub(super) fn paced(
+        &self,
+        max_velocity: &[f64],
+        max_acceleration: &[f64],
+        cap: impl Fn(usize) -> f64,
+    ) -> Result<Trajectory, Error> {
+        let pieces: Vec<Piece<'_>> =
+            (0..self.lengths.len()).map(|index| self.piece(index)).collect();
+        Ok(self.timed(&paces(&pieces, max_velocity, max_acceleration, cap)?))
+    }
+
+    fn piece(&self, index: usize) -> Piece<'_> {
         Piece { length: self.lengths[index], terms: &self.terms[index * self.dof..][..self.dof] }
     }
 
     /// The path at these paces: s = sqrt(x) t + (dx/ds) t^2 / 4 on each piece, put into its cubic.
-    pub(super) fn timed(&self, paces: &[f64]) -> Trajectory {
+    fn timed(&self, paces: &[f64]) -> Trajectory {
         let mut knots = Vec::with_capacity(paces.len());
         knots.push(0.0);
         let mut terms = Vec::with_capacity(self.terms.len());
@@ -217,7 +220,7 @@ fn parts_of_turn(terms: &[[f64; TERMS]], length: f64) -> usize {
 }
 
 /// The largest paces at the points of the grid, from rest to rest; no piece exceeds its cap.
-pub(super) fn paces(
+fn paces(
     pieces: &[Piece<'_>],
     max_velocity: &[f64],
     max_acceleration: &[f64],

@@ -9,7 +9,7 @@ use nalgebra::ComplexField as _;
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::check::{check_duration, check_finite, check_limits, check_rows};
+use super::check::{check_duration, check_finite, check_path_limits, check_rows};
 use super::piece::Piece;
 use super::piecewise::Trajectory;
 use super::polynomial::TERMS;
@@ -137,13 +137,7 @@ impl ToolPath {
         max_velocity: &[f64],
         max_acceleration: &[f64],
     ) -> Result<Self, Error> {
-        let dof = max_velocity.len();
-        check_limits("max_velocity", max_velocity)?;
-        check_limits("max_acceleration", max_acceleration)?;
-        let found = max_acceleration.len();
-        if found != dof {
-            return Err(Error::WrongLength { field: "max_acceleration", found, wanted: dof });
-        }
+        let dof = check_path_limits(max_velocity, max_acceleration)?;
         check_rows("q", q, dof)?;
         check_finite("lengths", lengths)?;
         let wanted = dof * lengths.len();

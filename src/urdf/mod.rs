@@ -28,8 +28,7 @@ impl<const N: usize> Robot<N>
 where
     Joints<N>: Arity<N>,
 {
-    /// A robot from the text of a URDF, with the closed form of its kinematic structure or the
-    /// general solver of six joints.
+    /// A robot from the text of a URDF, with the solver of its kinematic structure.
     ///
     /// `base` is the link in whose frame poses are given; by default the link without a parent.
     /// `tip` is the link whose poses are given; by default the only one at the end of a chain of

@@ -14,7 +14,8 @@ import checks
 import rospy
 import rosservice
 from checks import KINDS, Process, wait_for
-from geometry_msgs.msg import Pose, PoseArray, PoseStamped
+from client import Client
+from geometry_msgs.msg import PoseStamped
 from irbkin_interfaces import srv
 from sensor_msgs.msg import JointState
 
@@ -22,14 +23,11 @@ INSTALLED = Path(__file__).parents[2] / "target/ros1/install_isolated"
 NODE = INSTALLED / "lib/irbkin_ros1/kinematics"
 
 
-class Node:
+class Node(Client):
     """The node as a client sees it."""
 
-    pose = Pose
-
     def __init__(self, process):
-        self.log = process.text
-        self.states = []
+        super().__init__(process)
         self.proxies = {}
         self.targets = rospy.Publisher("/target_pose", PoseStamped, queue_size=10)
         states = rospy.Subscriber("/joint_states", JointState, self.states.append)
@@ -51,22 +49,6 @@ class Node:
 
     def response(self, kind):
         return getattr(srv, f"{kind}Response")()
-
-    def publish(self, pose, frame):
-        message = PoseStamped(pose=pose)
-        message.header.frame_id = frame
-        self.targets.publish(message)
-
-    def pose_array(self, poses, frame):
-        message = PoseArray(poses=[checks.fill(Pose(), T) for T in poses])
-        message.header.frame_id = frame
-        return message
-
-    def clear(self):
-        self.states.clear()
-
-    def joint_state(self, seconds):
-        return self.states[-1] if wait_for(lambda: self.states, seconds) else None
 
     def stamp(self, message):
         return message.header.stamp.to_sec()

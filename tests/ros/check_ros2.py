@@ -13,7 +13,8 @@ from pathlib import Path
 import checks
 import rclpy
 from checks import KINDS, Process, wait_for
-from geometry_msgs.msg import Pose, PoseArray, PoseStamped
+from client import Client
+from geometry_msgs.msg import PoseStamped
 from irbkin_interfaces import srv
 from rcl_interfaces.srv import DescribeParameters
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
@@ -49,14 +50,11 @@ node.main()
 """
 
 
-class Node:
+class Node(Client):
     """The node as a client sees it."""
 
-    pose = Pose
-
     def __init__(self, process):
-        self.log = process.text
-        self.states = []
+        super().__init__(process)
         self.clients = {}
         self.node = rclpy.create_node("check")
         self.targets = self.node.create_publisher(PoseStamped, "/target_pose", 10)
@@ -95,22 +93,6 @@ class Node:
 
     def response(self, kind):
         return getattr(srv, kind).Response()
-
-    def publish(self, pose, frame):
-        message = PoseStamped(pose=pose)
-        message.header.frame_id = frame
-        self.targets.publish(message)
-
-    def pose_array(self, poses, frame):
-        message = PoseArray(poses=[checks.fill(Pose(), T) for T in poses])
-        message.header.frame_id = frame
-        return message
-
-    def clear(self):
-        self.states.clear()
-
-    def joint_state(self, seconds):
-        return self.states[-1] if wait_for(lambda: self.states, seconds) else None
 
     def stamp(self, message):
         return self.seconds(message.header.stamp)

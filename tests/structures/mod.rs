@@ -1,4 +1,5 @@
-//! The test subjects: arms of every structure, with the independent knowledge of their tests.
+//! The test subjects: arms of every structure with a closed form, with the independent knowledge of
+//! their tests.
 //!
 //! A new structure is one line of `on_every_structure` and one folder here that implements [`Arm`];
 //! laws, hard sets, recall and lanes then run on it.

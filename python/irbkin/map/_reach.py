@@ -119,7 +119,7 @@ def reach(
     Raises:
         InvalidPoseError: Positions that are not finite or have a wrong shape, or a matrix that is
             no rotation; the message has its index.
-        InvalidModelError: The arm has no closed form.
+        InvalidModelError: The first six joints do not move the tool in six independent ways.
         TypeError: `q7` of an arm of six joints, or none of one of seven.
         FileExistsError: `output` is the map of something else.
     """

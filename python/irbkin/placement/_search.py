@@ -72,7 +72,7 @@ def best_base(
         InvalidPoseError: T has a wrong shape or holds a matrix that is no pose, or a region, steps
             or frame that are none.
         InvalidMotionError: A rotation that is empty; of a path, two poses half a turn apart.
-        InvalidModelError: The arm has no closed form or seven joints.
+        InvalidModelError: The arm has seven joints.
     """
     bases = Bases.of(region, steps, frame, robot)
     scene = Scene(robot, T, rotation, path, threads)

@@ -64,7 +64,8 @@ def plan_targets(
 
     Raises:
         RapidError: The plan has breaks, or external axes that neither `extax` nor `carrier` gives.
-        InvalidModelError: The arm has no spherical wrist, so no confdata.
+        InvalidModelError: The arm has no confdata: no spherical wrist, and it is no GoFa of the
+            catalog.
     """
     q = as_array(plan.q, "plan.q", (None, 6), RapidError)
     for index in np.flatnonzero(~np.isfinite(q).all(axis=1)):

@@ -2,7 +2,8 @@
 
 use crate::kinematics::answer::status::SingularityKind;
 
-/// Distances of a joint vector from the singularities of an arm with a closed form.
+/// Distances of a joint vector from the singularities of an arm with a closed form, each by its
+/// name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SingularDistances {

@@ -160,8 +160,8 @@ impl<const N: usize> Solutions<N> {
     }
 
     /// Whether these are certain to be all solutions of the pose, limits not regarded: for a
-    /// structure with a closed form always; for a general arm where their number is that of the
-    /// roots of a polynomial, and no self-motion is among them.
+    /// structure with a closed form always, for a refined one never; for others where their number
+    /// is that of the roots of a polynomial, and no self-motion is among them.
     #[must_use]
     pub fn is_certified(&self) -> bool {
         self.is_certified

@@ -11,11 +11,11 @@ bitflags::bitflags! {
         const WITHIN_LIMITS = 2;
         /// sin q5 = 0. Axes 4 and 6 of a spherical wrist coincide: only q4 + q6 or q4 - q6 is
         /// determined. For a three-parallel arm, axis 6 is parallel to axes 2 to 4. For seven axes,
-        /// the shoulder is in the plane of axes 5 and 6. For a general arm: its joints can move with
-        /// the tool standing still.
+        /// the shoulder is in the plane of axes 5 and 6. For an arm without a closed form: its
+        /// joints can move with the tool standing still.
         const WRIST = 4;
-        /// The arm is stretched or folded: both elbow branches coincide. For a general arm: any two
-        /// branches coincide.
+        /// The arm is stretched or folded: both elbow branches coincide. For an arm without a
+        /// closed form: any two branches coincide.
         const ELBOW = 8;
         /// The wrist center is on axis 1: q1 is not determined. With a lateral offset: on the edge
         /// of its cylinder, where the front and back branch meet. For seven axes: axes 1 and 3

@@ -36,13 +36,13 @@ impl<const N: usize> Robot<N>
 where
     Joints<N>: Arity<N>,
 {
-    /// A robot from a modified (Craig) Denavit-Hartenberg table, with the closed form of its
-    /// kinematic structure, or the general solver of six joints.
+    /// A robot from a modified (Craig) Denavit-Hartenberg table, with the solver of its kinematic
+    /// structure.
     ///
     /// A six-axis table may have its frames and its zero pose anywhere. Deviations from a closed
-    /// form of at most 1e-9 rad or m are removed; [`Robot::missing_form`] says what keeps a general
-    /// arm from one. A seven-axis arm of unknown structure has forward kinematics and the Jacobian.
-    /// For angles with few digits, see [`Mdh::snapped`].
+    /// form of at most 1e-9 rad or m are removed; [`Robot::missing_form`] says what keeps an arm
+    /// from one. Seven joints whose first six are not independent have forward kinematics and the
+    /// Jacobian only. For angles with few digits, see [`Mdh::snapped`].
     ///
     /// # Errors
     ///

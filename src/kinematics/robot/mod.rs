@@ -125,7 +125,9 @@ where
     }
 
     /// Name of the kinematic structure: "spherical wrist", "three parallel axes", "spherical
-    /// shoulder", "general" for any other arm of six joints, or "unknown".
+    /// shoulder", "offset wrist", or "general" for any other; "refined spherical wrist" or "refined
+    /// three parallel axes" after [`Robot::with_nominal`]; "unknown" if the first six joints are
+    /// not independent, and of a [`Robot::serial_chain`] without a closed form.
     #[must_use]
     pub fn structure(&self) -> &'static str {
         self.structure.arm().name()
@@ -138,7 +140,7 @@ where
     }
 
     /// What keeps the arm from a structure with a closed form, and a `snap` or another reading of
-    /// its table that would give it one; `None` if it has one. A general arm is solved without.
+    /// its table that would give it one; `None` if it has one. Such an arm is solved without.
     #[must_use]
     pub fn missing_form(&self) -> Option<UnknownStructure> {
         let arm = self.structure.arm();

@@ -33,7 +33,8 @@ use crate::rapid::{self, Code, Diagnostic, Module, MotionOptions};
 ///     RapidError: A code that does not exist.
 ///     InvalidMotionError: A limit or a step that is not positive and finite, or more than ten
 ///         million samples.
-///     InvalidModelError: The arm has no spherical wrist, so no confdata.
+///     InvalidModelError: The arm has no confdata: no spherical wrist, and it is no GoFa of the
+///         catalog.
 #[pyfunction]
 #[pyo3(signature = (robot, module, *, codes=None, max_velocity=None, step=0.005, turn=None))]
 pub(crate) fn check<'py>(

@@ -257,7 +257,6 @@ pub(super) fn read_rob_target(given: &Bound<'_, PyAny>) -> PyResult<RobTarget> {
     Ok(RobTarget { trans_mm, rot, robconf: Configuration { cf1, cf4, cf6, cfx }, extax })
 }
 
-/// A jointtarget, or joint angles [rad].
 /// A jointtarget, or the joint angles [rad] of an arm with `dof` joints.
 pub(super) fn read_joint_target(given: &Bound<'_, PyAny>, dof: usize) -> PyResult<JointTarget> {
     if given.is_instance(classes::joint_target_class(given.py())?)? {

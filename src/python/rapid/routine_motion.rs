@@ -63,7 +63,8 @@ pub(crate) struct PyRoutineMotion {
 ///     InvalidMotionError: A limit or a step that is not positive and finite, a robot without
 ///         velocities, or more than ten million samples.
 ///     InvalidJointsError: A start that is not finite or has a wrong shape.
-///     InvalidModelError: The arm has no spherical wrist, so no confdata.
+///     InvalidModelError: The arm has no confdata: no spherical wrist, and it is no GoFa of the
+///         catalog.
 #[pyfunction]
 #[pyo3(signature = (robot, module, routine=None, *, start=None, max_velocity=None,
     max_acceleration=None, step=0.005, turn=None))]

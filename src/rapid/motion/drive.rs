@@ -55,7 +55,7 @@ pub(super) struct Drive<'a, 'm> {
     /// The same robot with the flange as its tool.
     pub(super) flange: &'a Robot<6>,
     pub(super) goals: &'a [Goal<'m>],
-    pub(super) options: &'a MotionOptions,
+    spacing: Spacing,
     pub(super) findings: &'a mut Findings,
     pub(super) samples: Samples,
     pub(super) made: Vec<Made>,
@@ -70,13 +70,14 @@ impl<'a, 'm> Drive<'a, 'm> {
     pub(super) fn through(
         [robot, flange]: [&'a Robot<6>; 2],
         goals: &'a [Goal<'m>],
-        options: &'a MotionOptions,
+        options: &MotionOptions,
         findings: &'a mut Findings,
     ) -> Result<(Samples, Vec<Made>), Error> {
         let (samples, made) = (Samples::default(), Vec::with_capacity(goals.len()));
         let (here, entry, is_lost) = (None, None, false);
+        let spacing = Spacing::step(options.step, options.turn)?;
         let mut drive =
-            Self { robot, flange, goals, options, findings, samples, made, here, entry, is_lost };
+            Self { robot, flange, goals, spacing, findings, samples, made, here, entry, is_lost };
         if let Some(start) = options.start {
             drive.samples.push(start, [0.0; 2]);
             drive.samples.first = 1;
@@ -130,7 +131,7 @@ impl<'a, 'm> Drive<'a, 'm> {
             (self.here, self.is_lost) = (Some(here), true);
             return Ok(Made::default());
         };
-        let path = joint_line(self.flange, self.options.turn, &goal.frames, [&here.q, &to])?;
+        let path = joint_line(self.flange, self.spacing, &goal.frames, [&here.q, &to])?;
         let q = path.q.last().copied().unwrap_or(here.q);
         self.append(index, path, !is_replaced);
         self.here = Some(Here { q, flange: self.flange.fk(&q) });
@@ -217,9 +218,8 @@ impl<'a, 'm> Drive<'a, 'm> {
             },
         };
         let exit = self.exit(index, &leg);
-        let spacing = Spacing::step(self.options.step, self.options.turn)?;
-        let mut steps = match spacing.steps(&[[leg.length(), leg.angle()]]) {
-            Ok(steps) => steps[0],
+        let mut steps = match self.spacing.steps_of_one([leg.length(), leg.angle()]) {
+            Ok(steps) => steps,
             // No robot reaches both of its ends.
             Err(error) if leg.length() > 2.0 * MOST_REACH => {
                 return Ok(Err(FindingKind::Path(error)));

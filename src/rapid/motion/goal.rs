@@ -181,11 +181,7 @@ fn zone_of(step: &Move, found: &mut impl FnMut(FindingKind)) -> (Option<Zone>, b
         found(FindingKind::Number { field, value });
         return (None, true);
     }
-    let corner = Zone {
-        position: zone.pzone_tcp_mm * 1e-3,
-        orientation: zone.pzone_ori_mm * 1e-3,
-        angle: zone.zone_ori_deg.to_radians(),
-    };
+    let corner = Zone::of_zonedata([zone.pzone_tcp_mm, zone.pzone_ori_mm], zone.zone_ori_deg);
     ((!zone.finep && corner.position > 0.0).then_some(corner), zone.finep)
 }
 

@@ -1,14 +1,11 @@
 //! Moves of the joints: where they go, and the straight line in joint space that gets there.
 
-#[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
-
 use super::finding::FindingKind;
 use super::goal::{Goal, Place};
 use super::samples::{Path, way};
-use crate::error::{Error, MotionFault};
-use crate::kinematics::thresholds::{MOST_SAMPLES, STEP_ROUNDING};
+use crate::error::Error;
 use crate::kinematics::{ConfigurationRequest, Robot};
+use crate::paths::Spacing;
 use crate::paths::line::part;
 use crate::rapid::calc::frames::Frames;
 use crate::rapid::calc::problem::Problem;
@@ -58,27 +55,17 @@ pub(super) fn solved(
     }
 }
 
-/// The straight line in joint space between joints [rad], with steps of a joint of at most `turn`
-/// [rad].
+/// The straight line in joint space between joints [rad]; `spacing` bounds the steps of a joint as
+/// it does turns of the tool.
 pub(super) fn joint_line(
     flange: &Robot<6>,
-    turn: f64,
+    spacing: Spacing,
     frames: &Frames,
     [from, to]: [&[f64; 6]; 2],
 ) -> Result<Path, Error> {
     let longest = from.iter().zip(to).map(|(a, b)| (b - a).abs()).fold(0.0, f64::max);
-    let steps = longest / turn;
-    #[expect(clippy::cast_precision_loss, reason = "exact")]
-    let most = MOST_SAMPLES as f64;
-    if steps > most {
-        return Err(MotionFault::TooMany { found: steps, most }.into());
-    }
+    let count = spacing.steps_of_one([0.0, longest])?;
     let mut path = Path::default();
-    if longest == 0.0 {
-        return Ok(path);
-    }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 1e7")]
-    let count = (steps - STEP_ROUNDING).max(1.0).ceil() as usize;
     let mut last = frames.tool(&flange.fk(from));
     for step in 1..=count {
         let q = if step == count { *to } else { mixed(from, to, part(step, count)) };

@@ -63,12 +63,6 @@ impl Pace<'_, '_> {
         least
     }
 
-    /// The intervals of a move, by the samples that they end at.
-    fn intervals(&self, index: usize) -> core::ops::Range<usize> {
-        let own = self.samples.own(index);
-        own.start.max(1).min(own.end)..own.end
-    }
-
     /// The joint that is slowest from the sample before one, and how long it takes [s].
     fn slowest(&self, sample: usize) -> (usize, f64) {
         let q = &self.samples.q;
@@ -77,7 +71,7 @@ impl Pace<'_, '_> {
 
     /// The times of the intervals of a move [s], the first one at index 0 for sample 1.
     fn add_times(&mut self, index: usize, least: &mut [f64]) {
-        let (intervals, goal) = (self.intervals(index), &self.goals[index]);
+        let (intervals, goal) = (self.samples.intervals(index), &self.goals[index]);
         let mut sums = [0.0; 2];
         for way in &self.samples.ways[intervals.clone()] {
             sums = [sums[0] + way[0], sums[1] + way[1]];
@@ -198,7 +192,7 @@ impl Pace<'_, '_> {
     /// Report moves that take longer than `\T` says.
     fn check_times(&mut self, times: &[f64]) {
         for (index, goal) in self.goals.iter().enumerate() {
-            let (own, Some(bound)) = (self.intervals(index), goal.time) else { continue };
+            let (own, Some(bound)) = (self.samples.intervals(index), goal.time) else { continue };
             if own.is_empty() || !self.made[index].as_programmed {
                 continue;
             }

@@ -196,23 +196,18 @@ fn goals<'m>(
     let mut from_unknown = false;
     for step in steps {
         let move_index = goals.len();
-        match step {
+        let (skipped, kind) = match step {
             Step::Move(index, step) => {
                 let goal = Goal::new(robot, step, move_index, findings);
                 goals.push(Goal { from_unknown: core::mem::take(&mut from_unknown), ..goal });
                 indices.push(*index);
+                continue;
             }
-            Step::NotRead(skipped) => {
-                let kind = FindingKind::NotRead(skipped.what.clone());
-                findings.not_read(move_index, skipped, kind);
-                from_unknown = true;
-            }
-            Step::Call(skipped, name) => {
-                let kind = FindingKind::Call { name: (*name).to_string() };
-                findings.not_read(move_index, skipped, kind);
-                from_unknown = true;
-            }
-        }
+            Step::NotRead(skipped) => (skipped, FindingKind::NotRead(skipped.what.clone())),
+            Step::Call(skipped, name) => (skipped, FindingKind::Call { name: (*name).to_string() }),
+        };
+        findings.not_read(move_index, skipped, kind);
+        from_unknown = true;
     }
     for finding in &mut findings.all {
         finding.move_index = finding.move_index.min(goals.len().saturating_sub(1));
@@ -232,7 +227,7 @@ fn moves(
         let own = samples.own(index);
         // It begins at the last sample of the move before it.
         let begin = own.start.saturating_sub(1);
-        let ways = &samples.ways[own.start.max(1).min(own.end)..own.end];
+        let ways = &samples.ways[samples.intervals(index)];
         MotionMove {
             kind: goal.step.kind,
             module_index: indices[index],

@@ -34,6 +34,12 @@ impl Samples {
         let begin = index.checked_sub(1).map_or(self.first, |before| self.ends[before]);
         begin..self.ends[index]
     }
+
+    /// The intervals of a move, by the samples that they end at.
+    pub(in crate::rapid) fn intervals(&self, index: usize) -> Range<usize> {
+        let own = self.own(index);
+        own.start.max(1).min(own.end)..own.end
+    }
 }
 
 /// The joints of a move after those that it begins with, and the way of the tool to each.

@@ -1,13 +1,14 @@
 //! The lanes and the scalar solver agree on every pose that the lanes accept, up to the margins
 //! where they accept none.
 
-use core::f64::consts::{FRAC_PI_2, PI, TAU};
+use core::f64::consts::{FRAC_PI_2, PI};
 use std::{format, println, string::String, vec::Vec};
 
 mod arm;
 mod on_path;
 
 use super::*;
+use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::pose::{pose_from_euler_zyx, translation_z};
 use crate::kinematics::structure::spherical_wrist::OpwParameters;
 use crate::kinematics::thresholds::{
@@ -24,6 +25,11 @@ const POSES: usize = 300;
 /// Distance of the poses of a set from a threshold, relative to the margin: regular from one on.
 /// With a lateral offset b near the shoulder, x^2 = rho^2 - b^2 is rounded to 1e-5 of itself.
 const BEYOND: [f64; 7] = [0.5, 0.99, 1.0 - 1e-4, 1.0 + 1e-4, 1.01, 10.0, 100.0];
+
+/// The largest angle between joint vectors, whole turns not regarded [rad].
+fn apart<const N: usize>(q: &[f64; N], other: &[f64; N]) -> f64 {
+    q.iter().zip(other).map(|(a, b)| wrap(a - b).abs()).fold(0.0, f64::max)
+}
 
 /// The slots computed in lanes; `None` if the pose is not regular or has no solution.
 fn by_lanes<const N: usize>(
@@ -100,11 +106,7 @@ impl Comparison {
             );
             let bound =
                 2.0 * closed[0].hypot(closed[1]) / arm.robot.singularity(&q).min_singular_value;
-            let apart = q
-                .iter()
-                .zip(&scalar.q)
-                .map(|(a, b)| (a - b - TAU * ((a - b) / TAU).round()).abs())
-                .fold(0.0, f64::max);
+            let apart = apart(&q, &scalar.q);
             assert!(
                 apart <= bound,
                 "{what}: {apart:e} rad apart, bound {bound:e}: {q:?} and {:?}",
@@ -282,11 +284,7 @@ where
                 let jacobian =
                     robot.jacobian(&q, JacobianFrame::Base).fixed_columns::<6>(0).into_owned();
                 let bound = 2.0 * (3e-15 * reach).hypot(1e-14) / jacobian.singular_values()[5];
-                let apart = q
-                    .iter()
-                    .zip(&scalar.q)
-                    .map(|(a, b)| (a - b - TAU * ((a - b) / TAU).round()).abs())
-                    .fold(0.0, f64::max);
+                let apart = apart(&q, &scalar.q);
                 assert!(
                     apart <= bound,
                     "{apart:e} rad apart, bound {bound:e}: {q:?} and {:?}",

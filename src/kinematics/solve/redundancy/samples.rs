@@ -1,7 +1,6 @@
 //! The solutions of all slots for an angle of joint 7.
 
 use core::cmp::Ordering;
-use core::f64::consts::TAU;
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -29,11 +28,7 @@ pub(super) struct Sample {
 
 impl Sample {
     fn leaps_to(&self, other: &Self) -> bool {
-        let leaps = |(a, b): (&f64, &f64)| {
-            let rotated = a - b;
-            (rotated - TAU * (rotated / TAU).round()).abs() > SAMPLE_LEAP
-        };
-        self.q.iter().zip(&other.q).any(leaps)
+        self.q.iter().zip(&other.q).any(|(a, b)| wrap(a - b).abs() > SAMPLE_LEAP)
     }
 
     /// Sum of the squared angles between two samples, whole turns not regarded.
