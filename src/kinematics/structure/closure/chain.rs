@@ -39,6 +39,13 @@ pub(super) struct Conditions<T> {
     pub(super) columns: [[T; 6]; 6],
 }
 
+/// The axis of a joint.
+#[derive(Clone, Copy)]
+struct Axis<T> {
+    direction: [T; 3],
+    point: [T; 3],
+}
+
 /// Rounding of the closure by a product of six links and of the pose, in units of the reach [1].
 const ROUNDING: f64 = 2e-15;
 
@@ -108,13 +115,13 @@ impl Closure {
         let (last, axes) = self.frames(sin, cos);
         let mut columns = [[sin[0]; 6]; 6];
         for joint in 0..6 {
-            let (axis, origin) = axes[joint];
-            let mut arm = origin;
+            let Axis { direction, point } = axes[joint];
+            let mut arm = point;
             for i in 0..3 {
-                arm[i] = last.origin[i] - origin[i];
+                arm[i] = last.origin[i] - point[i];
             }
-            let [x, y, z] = cross(axis, arm);
-            columns[joint] = [x, y, z, axis[0], axis[1], axis[2]];
+            let ([x, y, z], [a, b, c]) = (cross(direction, arm), direction);
+            columns[joint] = [x, y, z, a, b, c];
         }
         Conditions { missing: missing(&last, target), columns }
     }
@@ -127,9 +134,9 @@ impl Closure {
 
     /// The last frame, and each joint's axis and a point on it.
     #[inline(always)]
-    fn frames<T: Number>(&self, sin: &[T; 6], cos: &[T; 6]) -> (Placed<T>, [([T; 3], [T; 3]); 6]) {
+    fn frames<T: Number>(&self, sin: &[T; 6], cos: &[T; 6]) -> (Placed<T>, [Axis<T>; 6]) {
         let mut frame = Placed::of(&Frame::IDENTITY, sin[0]);
-        let mut axes = [(frame.z, frame.origin); 6];
+        let mut axes = [Axis { direction: frame.z, point: frame.origin }; 6];
         for joint in 0..6 {
             let link = &self.links[joint];
             frame = frame.screwed(link);
@@ -137,7 +144,7 @@ impl Closure {
                 frame = frame.tilted(tilt);
             }
             frame = frame.turned(sin[joint], cos[joint]).raised(link.d);
-            axes[joint] = (frame.z, frame.origin);
+            axes[joint] = Axis { direction: frame.z, point: frame.origin };
         }
         (frame, axes)
     }

@@ -57,7 +57,7 @@ impl VectorKernel for Converge<'_> {
             let angle = Vector::load_array_ref(simd, &self.theta[joint]);
             (sin[joint], cos[joint]) = sin_cos_of(angle);
         }
-        self.closure.converge(self.target, sin, cos)
+        self.closure.converge(self.target, &sin, &cos)
     }
 }
 
@@ -68,8 +68,21 @@ impl Closure {
     }
 
     /// Bring candidates to the target (eq. 98). One that does not converge keeps its last angles.
-    #[inline(always)]
     pub(crate) fn converge<S: Simd>(
+        &self,
+        target: &Target,
+        sin: &Six<S>,
+        cos: &Six<S>,
+    ) -> Candidates {
+        // A function of its own for each instruction set: it is long.
+        sin[0].token().vectorize(
+            #[inline(always)]
+            || self.converge_from(target, *sin, *cos),
+        )
+    }
+
+    #[inline(always)]
+    fn converge_from<S: Simd>(
         &self,
         target: &Target,
         mut sin: Six<S>,

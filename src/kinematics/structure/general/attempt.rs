@@ -46,7 +46,7 @@ impl VectorKernel for Attempt<'_> {
         for block in 0..SAMPLES / LANES {
             let sin = Vector::load_array_ref(simd, &SAMPLE_SIN[block]);
             let cos = Vector::load_array_ref(simd, &SAMPLE_COS[block]);
-            samples[block] = Rest::at(&posed.equations, sin, cos).determinant;
+            samples[block] = Rest::at(&posed.equations, &sin, &cos).determinant;
         }
         let polynomial = TrigonometricPolynomial::of_samples(&samples);
         let roots = polynomial.roots(simd);
@@ -139,13 +139,13 @@ impl Search<'_> {
     ) {
         let (sin, cos) = sin_cos_of(Vector::load_array_ref(simd, angles));
         let t5 = Angle { sin, cos };
-        let null = Rest::at(&self.posed.equations, sin, cos).null_vectors(is_cluster);
+        let null = Rest::at(&self.posed.equations, &sin, &cos).null_vectors(is_cluster);
         let pair = if is_cluster { pencil(&null) } else { null };
         let ways = [&null[0], &pair[0], &pair[1]];
         for powers in &ways[..if is_cluster { 3 } else { 1 }] {
             let [t4, t3] = eliminated(powers);
             let [sin, cos] = completed(self.split, self.posed, &self.weights, [t3, t4, t5]);
-            let candidates = self.closure.converge(self.target, sin, cos);
+            let candidates = self.closure.converge(self.target, &sin, &cos);
             accepted.take(self.closure, self.target, &candidates, lanes);
         }
     }

@@ -27,8 +27,16 @@ pub(super) struct Rest<S: Simd> {
 
 impl<S: Simd> Rest<S> {
     /// The matrix at angles t5 with these sines and cosines.
+    pub(super) fn at(equations: &Equations, sin: &Vector<S>, cos: &Vector<S>) -> Self {
+        // A function of its own for each instruction set: it is long.
+        sin.token().vectorize(
+            #[inline(always)]
+            || Self::reduced(equations, *sin, *cos),
+        )
+    }
+
     #[inline(always)]
-    pub(super) fn at(equations: &Equations, sin: Vector<S>, cos: Vector<S>) -> Self {
+    fn reduced(equations: &Equations, sin: Vector<S>, cos: Vector<S>) -> Self {
         let zero = sin.like(0.0);
         let mut first = [[zero; 6]; 9];
         for product in 0..9 {

@@ -114,7 +114,7 @@ impl<'a> Search<'a> {
             }
             let [sin, cos] = nearest.joints(lengths, self.last, [sin, cos], &self.arm.twists);
             let closure = self.arm.general.closure();
-            let candidates = closure.converge(&self.target, sin, cos);
+            let candidates = closure.converge(&self.target, &sin, &cos);
             self.accepted.take(closure, &self.target, &candidates, roots.len());
             self.beside(roots, sides, branches, &nearest);
         }

@@ -12,7 +12,7 @@ use fearless_simd::prelude::*;
 
 use super::part::{Coefficients, Part};
 use super::polynomial::TrigonometricPolynomial;
-use super::roots::{Root, Roots};
+use super::roots::Roots;
 use super::tables::{ARCS, BERNSTEIN, DEGREE, MIDDLES, POWERS};
 use crate::lanes::{Column, LANES, Number as _, Vector};
 
@@ -119,12 +119,7 @@ impl TrigonometricPolynomial {
         let (first, last) = (coefficients[0], coefficients[POWERS]);
         let are_certain = first.abs() > self.noise && last.abs() > self.noise;
         if changes < 1.5 && are_certain && (first < 0.0) != (last < 0.0) {
-            roots.push(Root {
-                low: part.angle(low),
-                high: part.angle(high),
-                is_simple: true,
-                most: 1,
-            });
+            roots.push(part.simple());
         } else if coefficients.iter().all(|b| b.abs() <= self.noise)
             || high - low < 1.5 * LEAST_WIDTH
             || parts.count == MOST_PARTS

@@ -4,8 +4,11 @@
 //! convex, or concave, and has one extreme value, which decides. Dividing a part with a double root
 //! would take twenty steps.
 
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
 use super::part::{Coefficients, Part};
-use super::roots::{Root, Roots};
+use super::roots::Roots;
 use super::tables::POWERS;
 
 /// Steps towards the extreme value, at most: Newton's method on the derivative, bracketed.
@@ -40,18 +43,21 @@ impl Part {
             if value - below > noise {
                 return true;
             }
+            // How far from here the polynomial may be below a value.
+            let within = |most: f64| {
+                let room = 2.0 * curvature * (most - value).max(0.0);
+                (slope.abs() + (slope * slope + room).sqrt()) / curvature
+            };
+            let around = |radius: f64| [(place - radius).max(0.0), (place + radius).min(1.0)];
             if value < -noise {
-                for [low, high] in [[self.low, self.at(place)], [self.at(place), self.high]] {
-                    let (low, high) = (self.angle(low), self.angle(high));
-                    roots.push(Root { low, high, is_simple: true, most: 1 });
-                }
+                let [first, last] = around(within(2.0 * noise));
+                roots.push(self.between(first, place).simple());
+                roots.push(self.between(place, last).simple());
                 return true;
             }
             if below <= OFF * noise {
-                let room = 2.0 * curvature * (noise - value).max(0.0);
-                let radius = (slope.abs() + (slope * slope + room).sqrt()) / curvature;
-                let (low, high) = ((place - radius).max(0.0), (place + radius).min(1.0));
-                roots.push(Part { low: self.at(low), high: self.at(high), ..*self }.cluster());
+                let [first, last] = around(within(noise));
+                roots.push(self.between(first, last).cluster());
                 return true;
             }
             (low, high) = if slope < 0.0 { (place, high) } else { (low, place) };
@@ -61,9 +67,10 @@ impl Part {
         false
     }
 
-    /// A place of this part as one of its arc.
-    fn at(&self, place: f64) -> f64 {
-        self.low + place * (self.high - self.low)
+    /// What is between two places of this part.
+    fn between(&self, first: f64, last: f64) -> Self {
+        let at = |place: f64| self.low + place * (self.high - self.low);
+        Self { low: at(first), high: at(last), ..*self }
     }
 }
 

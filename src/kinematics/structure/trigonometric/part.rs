@@ -31,6 +31,11 @@ impl Part {
         middle + 2.0 * tan * (1.0 + square * series)
     }
 
+    /// One simple root.
+    pub(super) fn simple(&self) -> Root {
+        Root { is_simple: true, most: 1, ..self.cluster() }
+    }
+
     pub(super) fn cluster(&self) -> Root {
         Root { low: self.angle(self.low), high: self.angle(self.high), is_simple: false, most: 0 }
     }

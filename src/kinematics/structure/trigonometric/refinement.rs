@@ -6,8 +6,8 @@ use super::polynomial::TrigonometricPolynomial;
 use super::roots::{MOST_ROOTS, Root, Roots};
 use crate::lanes::{Column, LANES, Number as _, Vector, sin_cos_of};
 
-/// Step of Newton's method after which a root is taken, relative to the width of its interval [1]:
-/// its error is of the order of the square.
+/// Step of Newton's method after which a root is taken, relative to the width of its interval, or
+/// to the length on which the slope changes [1]: its error is of the order of the square.
 const CONVERGED: f64 = 1e-5;
 
 /// Largest step that may count as noise, relative to the width of the interval [1].
@@ -54,7 +54,7 @@ impl TrigonometricPolynomial {
     /// and radii [rad].
     #[inline(always)]
     fn bracketed<S: Simd>(&self, mut low: Vector<S>, mut high: Vector<S>) -> (Column, Column) {
-        let [at_low, _] = self.at(low);
+        let [at_low, slope_low] = self.at(low);
         let [at_high, _] = self.at(high);
         let zero = low.like(0.0);
         let width = high - low;
@@ -62,7 +62,7 @@ impl TrigonometricPolynomial {
         let part = part.or_more(zero.like(0.05));
         let part = part.if_above(zero.like(0.95), zero.like(0.95), part);
         let mut angle = part.mul_add(width, low);
-        let mut slopes = zero;
+        let (mut before, mut slopes) = (low, slope_low);
         let mut is_moving = zero.simd_eq(zero);
         for _ in 0..MOST_STEPS {
             let [value, slope] = self.at(angle);
@@ -72,10 +72,14 @@ impl TrigonometricPolynomial {
             let newton = angle - value / slope;
             let is_inside = newton.simd_ge(low) & newton.simd_le(high);
             let next = is_inside.select(newton, (low + high) * 0.5);
-            slopes = slope;
+            // The length on which the slope changes: the distance of a root from the next, if that
+            // is near.
+            let turning = (slope * (angle - before) / (slope - slopes)).abs();
+            let length = width.if_above(turning, turning, width);
+            (before, slopes) = (angle, slope);
             let (noise, most) = (slope.abs().like(self.noise) / slope.abs(), width * MOST_NOISE);
             let noise = most.if_above(noise, noise, most);
-            let stays = (next - angle).abs().simd_gt(width.mul_add(CONVERGED, noise));
+            let stays = (next - angle).abs().simd_gt(length.mul_add(CONVERGED, noise));
             // A lane stops by itself: its root does not depend on the others.
             angle = is_moving.select(next, angle);
             is_moving &= stays;

@@ -12,8 +12,16 @@ const MOST_MULTIPLICITY: usize = 6;
 
 impl TrigonometricPolynomial {
     /// Every real root, in a range of a full turn: complete up to the noise (eq. 96).
-    #[inline(always)]
     pub(crate) fn roots<S: Simd>(&self, simd: S) -> Roots {
+        // A function of its own for each instruction set: it is long.
+        simd.vectorize(
+            #[inline(always)]
+            || self.roots_in(simd),
+        )
+    }
+
+    #[inline(always)]
+    fn roots_in<S: Simd>(&self, simd: S) -> Roots {
         let mut roots = Roots::NONE;
         if self.is_noise() {
             roots.is_complete = false;
