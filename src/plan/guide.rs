@@ -7,10 +7,10 @@ use super::answer::PlanError;
 use super::caller::Caller;
 use super::ends::Given;
 use super::freedom::Freedom;
-use super::layer::Waypoint;
+use super::layer::{Waypoint, turns};
 use super::nodes::Arm;
 use super::options::PlanOptions;
-use super::planner::{Planner, turns};
+use super::planner::Planner;
 use super::refine::{FINER, Middle};
 use super::way::Way;
 use crate::error::Error;
@@ -20,7 +20,7 @@ use crate::paths::Turn;
 const FEWEST: usize = 16;
 
 /// How many times as many poses each next path has.
-const FINER_STRIDE: usize = 4;
+pub(super) const FINER_STRIDE: usize = 4;
 
 /// The plan along some poses of a long path, refined, then along more and more of them; `None` if
 /// nothing is free, or if that finds none.
@@ -57,7 +57,7 @@ pub(super) fn guided<'a>(
 }
 
 /// The distance of the poses of the coarsest path.
-fn first_stride(count: usize) -> usize {
+pub(super) fn first_stride(count: usize) -> usize {
     let mut stride = 1;
     while count / (stride * FINER_STRIDE) >= FEWEST {
         stride *= FINER_STRIDE;

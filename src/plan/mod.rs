@@ -35,6 +35,7 @@ mod reasons;
 mod refine;
 mod robot;
 mod search;
+mod sieve;
 mod soft;
 mod stations;
 mod step;

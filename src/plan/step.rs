@@ -121,6 +121,8 @@ pub(super) struct Moved {
 pub(super) struct Room {
     pub(super) runs: Vec<Run>,
     pub(super) sources: Vec<Source>,
+    /// Rows that no edge in lanes leads into.
+    pub(super) unreached: Vec<usize>,
     pub(super) costs: Vec<[Column; 2]>,
 }
 
