@@ -186,8 +186,13 @@ impl Arm<'_> {
                 layer.present[row] = true;
                 let start = row * grid.bins + node.bin;
                 for joint in 0..6 {
+                    let at = joint * grid.len() + start;
+                    if self.joints.has_one_angle(joint) {
+                        layer.q[at] = q[slot][joint];
+                        continue;
+                    }
                     let angle = self.joints.first_turn(joint, q[slot][joint]);
-                    layer.q[joint * grid.len() + start] = angle;
+                    layer.q[at] = angle;
                     if self.joints.is_either_end(joint, angle) {
                         special_nodes.either_end.push((*number, Node { slot, ..*node }));
                     }

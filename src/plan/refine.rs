@@ -103,7 +103,7 @@ impl Planner<'_> {
             let along = layers.iter().zip(&way.nodes);
             let middles = along.map(|(layer, node)| Middle::of(&grid, layer, *node));
             self.band(middles, turn, axis);
-            let finer = self.way_within(&way, caller)?;
+            let finer = self.way_within(way.bottleneck, caller)?;
             let cost = |way: &Way| way.cost(self.order);
             let better = finer.filter(|finer| cost(finer) <= cost(&way));
             let Some(finer) = better else {
@@ -120,18 +120,17 @@ impl Planner<'_> {
         Ok(way)
     }
 
-    /// The best way through all layers, if its bottleneck is not larger than that of a way that is
-    /// known.
+    /// The best way through all layers; where the bottleneck comes first, `None` if that is larger
+    /// than one that is known.
     pub(super) fn way_within(
         &mut self,
-        known: &Way,
+        bottleneck: f64,
         caller: &mut Caller<'_, '_>,
     ) -> Result<Option<Way>, PlanError> {
         let speed = self.speed;
         if self.order == PlanOrder::Bottleneck {
-            self.speed = speed.min(known.bottleneck * (1.0 + BOTTLENECK_ROUNDING));
+            self.speed = speed.min(bottleneck * (1.0 + BOTTLENECK_ROUNDING));
         }
-        self.expected = Some(known.cost(self.order).0);
         let way = self.whole_way(caller);
         self.speed = speed;
         way

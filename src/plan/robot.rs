@@ -91,7 +91,8 @@ impl Robot<6> {
                 return Ok(guide.plan_of(&[way])?);
             }
             let mut planner = Planner::new(arm, &points, options, &ends)?;
-            if let Some(other) = planner.way_within(&way, caller)? {
+            planner.expected = Some(way.cost(options.order).0);
+            if let Some(other) = planner.way_within(way.bottleneck, caller)? {
                 let other = planner.refined(other, caller)?;
                 if other.cost(options.order) < way.cost(options.order) {
                     return Ok(planner.plan_of(&[other])?);
