@@ -61,7 +61,7 @@ impl Search<'_> {
             told: core::array::from_fn(|joint| self.states.has(joint)),
             cap: ends.cap,
             soft: ends.soft,
-            room: &mut room.costs,
+            room: &mut room.edges,
         }
     }
 

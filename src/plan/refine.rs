@@ -130,6 +130,7 @@ impl Planner<'_> {
         let speed = self.speed;
         if self.order == PlanOrder::Bottleneck {
             self.speed = speed.min(bottleneck * (1.0 + BOTTLENECK_ROUNDING));
+            self.expected = Some(self.speed);
         }
         let way = self.whole_way(caller);
         self.speed = speed;

@@ -199,7 +199,7 @@ impl Search<'_> {
             for joint in 0..6 {
                 let angles = layer.angles(grid, row, joint);
                 let start = joint * places.count + places.row(row);
-                q[start..start + grid.bins].copy_from_slice(angles);
+                copy(angles, &mut q[start..]);
                 if grid.cyclic {
                     wrap(q, start, grid.bins, places.margin);
                 }
@@ -321,6 +321,18 @@ pub(super) struct Layers<'a> {
     pub(super) soft: &'a [f64],
     /// Which rows of the earlier one are reached.
     pub(super) live: &'a [bool],
+}
+
+/// Copy a few numbers: by lanes, without a call.
+fn copy(from: &[f64], to: &mut [f64]) {
+    let (lanes, rest) = from.as_chunks::<LANES>();
+    let (to_lanes, _) = to.as_chunks_mut::<LANES>();
+    for (from, to) in lanes.iter().zip(to_lanes) {
+        *to = *from;
+    }
+    for (from, to) in rest.iter().zip(&mut to[LANES * lanes.len()..]) {
+        *to = *from;
+    }
 }
 
 /// Copy both ends of a run of numbers to the margins beyond the opposite ends.
