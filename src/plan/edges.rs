@@ -75,8 +75,9 @@ impl Search<'_> {
         // Rows of a few bins share the lanes where all come from the row itself.
         let is_shared = grid.bins < LANES && places.margin == 0 && grid.stations.len() == 1;
         let reach = self.windows[ends.layer].stations;
-        for row in 0..grid.rows() {
-            let Node { slot, station, .. } = grid.node(row * grid.bins);
+        let stations = grid.stations.len();
+        let rows = (0..grid.slots).flat_map(|slot| (0..stations).map(move |at| (slot, at)));
+        for (row, (slot, station)) in rows.enumerate() {
             let sources = || grid.stations.around(station, reach);
             let is_live = |from: usize| ends.live[grid.row(slot, from)];
             if !next.present[row] || !sources().any(is_live) {

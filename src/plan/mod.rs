@@ -59,6 +59,8 @@ mod carrier_tests;
 #[cfg(test)]
 mod exhaustive;
 #[cfg(test)]
+mod sieve_tests;
+#[cfg(test)]
 mod strand_tests;
 #[cfg(test)]
 mod tests;

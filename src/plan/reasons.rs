@@ -6,13 +6,16 @@ use core::f64::consts::{PI, TAU};
 use super::answer::{StrandEnd, StrandReason};
 use super::layer::{Layer, Node};
 use super::planner::Planner;
-use super::step::{Moved, Rates};
+use super::step::Rates;
 use super::strands::nearest_solution;
 use super::way::Way;
 use crate::error::Error;
 use crate::kinematics::thresholds::{CROSSING_JUMP, CROSSING_STEP};
 use crate::kinematics::{SingularityKind, largest, nearest_turn};
 use crate::report::Explanation;
+
+/// Two nodes of neighboring layers, with the steps of the joints between them [rad].
+type Step = (Node, Node, [f64; 6]);
 
 impl Planner<'_> {
     /// Where and why each branch that begins at the first layer of a way ends.
@@ -55,14 +58,12 @@ impl Planner<'_> {
             }
             return self.unreachable(slot, [before, after]);
         }
-        let Some((from, to, steps)) = self.smallest_edge(slot, [before, after]) else {
+        let smallest = self.least_step(slot, [before, after], |(_, _, steps)| largest(steps));
+        let Some((from, to, steps)) = smallest else {
             return self.unreachable(slot, [before, after]);
         };
-        let rates = Rates::of(self.arm.joints, after.time - before.time);
-        if rates.cost(&steps, Moved::default()).0 > self.speed {
-            let part = |joint: &usize| steps[*joint].abs() * rates.parts[*joint];
-            let joint = (0..6).max_by(|a, b| part(a).total_cmp(&part(b))).unwrap_or_default();
-            return Ok(StrandReason::Speed { joint: joint + 1, ratio: part(&joint) });
+        if let Some(too_fast) = self.too_fast(slot, [before, after]) {
+            return Ok(too_fast);
         }
         let edge = [from, to].map(|node| self.grid.number(node));
         let q = before.joints(&self.grid, from).unwrap_or_default();
@@ -127,12 +128,34 @@ impl Planner<'_> {
         Ok(StrandReason::Limit { joint: joint + 1, value, bounds })
     }
 
-    /// The smallest step of a branch from one layer to the next.
-    fn smallest_edge(
+    /// What is too fast of the slowest step of a branch from one layer to the next, if any is.
+    fn too_fast(&self, slot: usize, [before, after]: [&Layer; 2]) -> Option<StrandReason> {
+        let time = after.time - before.time;
+        let rates = Rates::of(self.arm.joints, time);
+        let fastest = |(from, to, steps): &Step| {
+            let values = [(before, from), (after, to)];
+            let [from, to] = values.map(|(layer, node)| layer.values(&self.grid, node.station));
+            let joints = steps.iter().zip(rates.parts).map(|(step, rate)| step.abs() * rate);
+            let axes = self.arm.freedom.axes.iter().zip(from.iter().zip(to));
+            let axes = axes.map(|(axis, (from, to))| (to - from).abs() / (axis.velocity * time));
+            let parts = joints.chain(axes).enumerate();
+            parts.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default()
+        };
+        let slowest = self.least_step(slot, [before, after], |step| fastest(step).1)?;
+        let (number, ratio) = fastest(&slowest);
+        (ratio > self.speed).then_some(match number.checked_sub(6) {
+            None => StrandReason::Speed { joint: number + 1, ratio },
+            Some(axis) => StrandReason::AxisSpeed { axis: axis + 1, ratio },
+        })
+    }
+
+    /// The least step of a branch from one layer to the next.
+    fn least_step(
         &self,
         slot: usize,
         [before, after]: [&Layer; 2],
-    ) -> Option<(Node, Node, [f64; 6])> {
+        size: impl Fn(&Step) -> f64,
+    ) -> Option<Step> {
         let of_slot = |layer: &Layer| -> Vec<(Node, [f64; 6])> {
             layer.nodes(&self.grid).filter(|(node, _)| node.slot == slot).collect()
         };
@@ -140,7 +163,7 @@ impl Planner<'_> {
         let pairs = from.iter().flat_map(|from| to.iter().map(move |to| (from, to)));
         let steps =
             pairs.map(|((from, q), (to, next))| (*from, *to, self.arm.joints.steps(q, next)));
-        steps.min_by(|a, b| largest(&a.2).total_cmp(&largest(&b.2)))
+        steps.min_by(|a, b| size(a).total_cmp(&size(b)))
     }
 
     /// The joint whose turns end at a step.

@@ -162,6 +162,14 @@ def test_times_bound_the_velocity():
         ROBOT.plan(T, times=np.linspace(0, 0.5 * least, 60))
 
 
+def test_an_axis_that_is_too_slow_is_named():
+    T = seam(200, 2.5)
+    track = irbkin.Track("y", -3, 3, max_velocity=0.2)
+    reason = r"external axis 1 would have to move at \d+\.\d+ of its velocity limit"
+    with pytest.raises(irbkin.PathError, match=reason):
+        ROBOT.plan(T, carrier=track, times=np.linspace(0, 5, 200))
+
+
 def test_a_pose_out_of_reach_is_named():
     T = weld(60)
     T[17, 2, 3] += 3.0
