@@ -177,7 +177,7 @@ impl Sieve<'_> {
         cells
     }
 
-    /// How far a way may go from a layer to a later one: as far as all its edges together.
+    /// How far a way may go from a layer to a later one: as far as all its edges together (eq. 10).
     fn window(&self, [layer, next]: [usize; 2]) -> Window {
         let field = self.field();
         let all = self.windows[layer + 1..=next].iter();
