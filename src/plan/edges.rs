@@ -29,7 +29,7 @@ impl Search<'_> {
         }
         // Rows without a way, where lanes may have written next to another row.
         let grid = &self.grid;
-        for row in room.unreached.iter() {
+        for row in &room.unreached {
             let start = ends.places.row(*row);
             for costs in after.chunks_mut(ends.places.count) {
                 costs[start..start + grid.bins].fill(f64::INFINITY);

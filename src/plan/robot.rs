@@ -86,7 +86,7 @@ impl Robot<6> {
             // A way of the whole grid is taken if it is better still.
             let ends = [ends[0], if options.closed { ends[0] } else { ends[1] }];
             let is_best = options.order == PlanOrder::Bottleneck
-                && !may_be_passed(arm, &points, ends, way.bottleneck)?;
+                && !may_be_passed(arm, &points, &ends, way.bottleneck)?;
             if is_best {
                 return Ok(guide.plan_of(&[way])?);
             }

@@ -43,7 +43,7 @@ struct Sieve<'a> {
     /// Without nodes.
     layers: Vec<Layer>,
     /// The joint angles that are given for the first and for the last layer.
-    given: [Option<Given>; 2],
+    given: &'a [Option<Given>; 2],
     /// The windows of all edges of a way with a bottleneck of at most `most` (eq. 7).
     windows: Vec<Window>,
     most: f64,
@@ -55,13 +55,13 @@ struct Sieve<'a> {
 pub(super) fn may_be_passed(
     arm: Arm<'_>,
     points: &[Waypoint],
-    given: [Option<Given>; 2],
+    given: &[Option<Given>; 2],
     most: f64,
 ) -> Result<bool, Error> {
     let grid = arm.grid();
     let mut layers = arm.layers(&Grid { slots: 0, ..grid }, points)?;
     let last = layers.len() - 1;
-    for (layer, given) in [0, last].into_iter().zip(&given) {
+    for (layer, given) in [0, last].into_iter().zip(given) {
         layers[layer].own = given.map(|given| given.own);
     }
     let left = layers.len() * grid.stations.len() * grid.bins / WORTH;

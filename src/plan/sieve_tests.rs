@@ -46,7 +46,7 @@ fn no_way_is_better_than_its_bound() {
         let mut caller = Caller { accept: None, watch };
         let Some(way) = planner.whole_way(&mut caller).unwrap() else { continue };
         let is_passed =
-            |part: f64| may_be_passed(arm, &points, given, part * way.bottleneck).unwrap();
+            |part: f64| may_be_passed(arm, &points, &given, part * way.bottleneck).unwrap();
         assert!(is_passed(1.0) && is_passed(1.5), "case {case}: {}", way.bottleneck);
         ways += 1;
         tight += usize::from(!is_passed(0.8));
