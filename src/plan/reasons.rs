@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use core::f64::consts::{PI, TAU};
 
 use super::answer::{StrandEnd, StrandReason};
-use super::layer::{Layer, Node};
+use super::layer::{Grid, Layer, Node};
 use super::planner::Planner;
 use super::step::Rates;
 use super::strands::nearest_solution;
@@ -31,7 +31,7 @@ impl Planner<'_> {
             }
             let pose_index = self.index_of(layer.min(self.layers.len() - 1));
             let reason = if layer < self.layers.len() {
-                self.reason(slot, layer)?
+                self.reason(slot, way.from, layer)?
             } else {
                 StrandReason::NotAtEnd
             };
@@ -47,7 +47,7 @@ impl Planner<'_> {
     }
 
     /// Why a branch does not go on to a layer.
-    fn reason(&self, slot: usize, layer: usize) -> Result<StrandReason, Error> {
+    fn reason(&self, slot: usize, from: usize, layer: usize) -> Result<StrandReason, Error> {
         let (before, after) = (&self.layers[layer - 1], &self.layers[layer]);
         if !after.has_slot(&self.grid, slot) {
             if after.rejected.iter().any(|number| self.grid.node(*number).slot == slot) {
@@ -58,15 +58,16 @@ impl Planner<'_> {
             }
             return self.unreachable(slot, [before, after]);
         }
-        let smallest = self.least_step(slot, [before, after], |(_, _, steps)| largest(steps));
-        let Some((from, to, steps)) = smallest else {
+        let all = of_slot(&self.grid, before, slot);
+        let smallest = self.least_step(slot, (&all, after), |(_, _, steps)| largest(steps));
+        let Some((first, to, steps)) = smallest else {
             return self.unreachable(slot, [before, after]);
         };
-        if let Some(too_fast) = self.too_fast(slot, [before, after]) {
+        if let Some(too_fast) = self.too_fast(slot, from, layer) {
             return Ok(too_fast);
         }
-        let edge = [from, to].map(|node| self.grid.number(node));
-        let q = before.joints(&self.grid, from).unwrap_or_default();
+        let edge = [first, to].map(|node| self.grid.number(node));
+        let q = before.joints(&self.grid, first).unwrap_or_default();
         if after.refused.contains(&edge) || largest(&steps) > CROSSING_JUMP {
             let joint = (0..6).max_by(|a, b| steps[*a].abs().total_cmp(&steps[*b].abs()));
             let joint = joint.unwrap_or_default();
@@ -128,8 +129,13 @@ impl Planner<'_> {
         Ok(StrandReason::Limit { joint: joint + 1, value, bounds })
     }
 
-    /// What is too fast of the slowest step of a branch from one layer to the next, if any is.
-    fn too_fast(&self, slot: usize, [before, after]: [&Layer; 2]) -> Option<StrandReason> {
+    /// What is too fast of the slowest step of a branch to a layer, from where ways that begin at
+    /// layer `from` reach, if any is.
+    fn too_fast(&self, slot: usize, from: usize, layer: usize) -> Option<StrandReason> {
+        if self.speed.is_infinite() {
+            return None;
+        }
+        let (before, after) = (&self.layers[layer - 1], &self.layers[layer]);
         let time = after.time - before.time;
         let rates = Rates::of(self.arm.joints, time);
         let fastest = |(from, to, steps): &Step| {
@@ -141,7 +147,10 @@ impl Planner<'_> {
             let parts = joints.chain(axes).enumerate();
             parts.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default()
         };
-        let slowest = self.least_step(slot, [before, after], |step| fastest(step).1)?;
+        let reached = self.field().reached(from, layer - 1, &self.states)?;
+        let mut sources = of_slot(&self.grid, before, slot);
+        sources.retain(|(node, _)| reached.contains(&self.grid.number(*node)));
+        let slowest = self.least_step(slot, (&sources, after), |step| fastest(step).1)?;
         let (number, ratio) = fastest(&slowest);
         (ratio > self.speed).then_some(match number.checked_sub(6) {
             None => StrandReason::Speed { joint: number + 1, ratio },
@@ -149,18 +158,15 @@ impl Planner<'_> {
         })
     }
 
-    /// The least step of a branch from one layer to the next.
+    /// The least step from nodes of a branch to those of a layer.
     fn least_step(
         &self,
         slot: usize,
-        [before, after]: [&Layer; 2],
+        (sources, layer): (&[(Node, [f64; 6])], &Layer),
         size: impl Fn(&Step) -> f64,
     ) -> Option<Step> {
-        let of_slot = |layer: &Layer| -> Vec<(Node, [f64; 6])> {
-            layer.nodes(&self.grid).filter(|(node, _)| node.slot == slot).collect()
-        };
-        let (from, to) = (of_slot(before), of_slot(after));
-        let pairs = from.iter().flat_map(|from| to.iter().map(move |to| (from, to)));
+        let ends = of_slot(&self.grid, layer, slot);
+        let pairs = sources.iter().flat_map(|from| ends.iter().map(move |to| (from, to)));
         let steps =
             pairs.map(|((from, q), (to, next))| (*from, *to, self.arm.joints.steps(q, next)));
         steps.min_by(|a, b| size(a).total_cmp(&size(b)))
@@ -202,4 +208,9 @@ impl Planner<'_> {
         };
         slots.map(end).collect()
     }
+}
+
+/// The nodes of a branch in a layer.
+fn of_slot(grid: &Grid, layer: &Layer, slot: usize) -> Vec<(Node, [f64; 6])> {
+    layer.nodes(grid).filter(|(node, _)| node.slot == slot).collect()
 }

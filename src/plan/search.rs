@@ -263,6 +263,16 @@ impl Search<'_> {
         best
     }
 
+    /// The nodes of the layer that was reached, with any turns.
+    pub(super) fn reached(&self, passed: &Passed) -> Vec<usize> {
+        let is_reached = |number: &usize| {
+            let place = passed.places.place(&self.grid, *number);
+            let mut columns = passed.costs.chunks(passed.places.count);
+            columns.any(|costs| costs[place] < f64::INFINITY)
+        };
+        (0..self.grid.len()).filter(is_reached).collect()
+    }
+
     /// The way to a node, from layer `from` on: its nodes, and its state at the beginning.
     pub(super) fn way_to(
         &self,

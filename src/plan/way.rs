@@ -184,6 +184,23 @@ impl Field<'_> {
         Ok(Some(Found { nodes, states: [begin, end], bottleneck, squares, alive }))
     }
 
+    /// The nodes of a layer that ways of bounded speed from layer `from` reach; `None` if no turns
+    /// fit the ends, or the caller stops it.
+    pub(super) fn reached(
+        &self,
+        from: usize,
+        to: usize,
+        states: &TurnStates,
+    ) -> Option<Vec<usize>> {
+        let Self { grid, joints, layers, freedom, soft, watch, .. } = *self;
+        let [first, last] = self.bounds(from, states)?;
+        let windows = &self.windows(Most::Bottleneck(self.speed));
+        let search =
+            Search { grid, joints, states, layers, freedom, windows, first, last, soft, watch };
+        let passed = search.pass(Pass::Bottleneck, from, to, self.speed)?;
+        Some(search.reached(&passed))
+    }
+
     /// The turn of a joint at the beginning of a way, so that it stays inside its limits and meets
     /// the ends; `None` if there is none. Of several, that around which the limits are even.
     fn turn_along(&self, nodes: &[Node], from: usize, joint: usize) -> Option<i32> {
