@@ -21,7 +21,6 @@ SECONDS = 2.0  # of calls in each row
 ROWS: dict[str, dict[str, object]] = {
     "fixed orientation": {},
     "fixed orientation, start given": {"start": True},
-    "fixed orientation, closed": {"closed": True},
     "36 rotations": {"rotation": 36},
     "36 rotations, start given": {"rotation": 36, "start": True},
     "36 rotations, without turns": {"rotation": 36, "flat": True},
