@@ -56,7 +56,7 @@ def is_continuous(robot: irbkin.Robot, T: np.ndarray, plan: irbkin.Plan) -> bool
                 continue
             pose = irbkin.paths.line(pose, pose_last, steps=3)[1]
             angle = (angle + angle_last) / 2
-            tool = pose @ irbkin.pose([0, 0, 0], euler_zyx=[angle, 0, 0])
+            tool = pose @ irbkin.pose([0, 0, 0], euler_zyx=[np.remainder(angle, 2 * np.pi), 0, 0])
             if len(slots) == 1:
                 way = robot.ik(tool).q_by_slot[slots[0]]
                 way = way - 2 * np.pi * np.round((way - (q + q_last) / 2) / (2 * np.pi))
