@@ -85,6 +85,9 @@ fn ends() -> std::vec::Vec<Row> {
         StrandEnd { reason: StrandReason::Speed { .. }, .. } =>
             at(StrandReason::Speed { joint: 4, ratio: 1.31 }),
             "`times` too close", "give more time";
+        StrandEnd { reason: StrandReason::AxisSpeed { .. }, .. } =>
+            at(StrandReason::AxisSpeed { axis: 1, ratio: 1.31 }),
+            "`times` too close for a `carrier`", "give more time, or a faster axis";
         StrandEnd { reason: StrandReason::Jump { .. }, .. } => at(StrandReason::Jump {
             joint: 4, by: 3.1, kinds: SingularityKind::WRIST,
         }), "a singularity, or a way out of reach between two poses",

@@ -78,6 +78,13 @@ pub enum StrandReason {
         /// Its velocity as a part of the limit.
         ratio: f64,
     },
+    /// An external axis would be faster than its limit.
+    AxisSpeed {
+        /// The axis, from 1.
+        axis: usize,
+        /// Its velocity as a part of the limit.
+        ratio: f64,
+    },
     /// The joint would turn while the tool does not move, or the way leads out of reach between two
     /// poses.
     Jump {
@@ -170,6 +177,10 @@ impl fmt::Display for StrandReason {
             Self::Speed { joint, ratio } => {
                 write!(f, "J{joint} would have to move at {ratio:.2} of its velocity limit")
             }
+            Self::AxisSpeed { axis, ratio } => write!(
+                f,
+                "external axis {axis} would have to move at {ratio:.2} of its velocity limit"
+            ),
             Self::Jump { joint, by, kinds } => {
                 write!(f, "J{joint} would jump by {:.1} deg", by.to_degrees())?;
                 match kinds.word() {

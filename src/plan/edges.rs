@@ -27,10 +27,10 @@ impl Search<'_> {
             Pass::Bottleneck => run(self.kernel::<false>(ends, q, [before, after], &mut [], room)),
             Pass::Squares => run(self.kernel::<true>(ends, q, [before, after], by, room)),
         }
-        // What lanes wrote next to a row.
-        let (grid, next) = (&self.grid, &self.layers[ends.layer]);
-        for row in (0..grid.rows()).filter(|row| !next.present[*row]) {
-            let start = ends.places.row(row);
+        // Rows without a way, where lanes may have written next to another row.
+        let grid = &self.grid;
+        for row in &room.unreached {
+            let start = ends.places.row(*row);
             for costs in after.chunks_mut(ends.places.count) {
                 costs[start..start + grid.bins].fill(f64::INFINITY);
             }
@@ -61,7 +61,7 @@ impl Search<'_> {
             told: core::array::from_fn(|joint| self.states.has(joint)),
             cap: ends.cap,
             soft: ends.soft,
-            room: &mut room.costs,
+            room: &mut room.edges,
         }
     }
 
@@ -71,19 +71,27 @@ impl Search<'_> {
         let (previous, next) = (&self.layers[ends.layer - 1], &self.layers[ends.layer]);
         room.runs.clear();
         room.sources.clear();
+        room.unreached.clear();
         // Rows of a few bins share the lanes where all come from the row itself.
         let is_shared = grid.bins < LANES && places.margin == 0 && grid.stations.len() == 1;
         let reach = self.windows[ends.layer].stations;
-        for row in (0..grid.rows()).filter(|row| next.present[*row]) {
+        let stations = grid.stations.len();
+        let rows = (0..grid.slots).flat_map(|slot| (0..stations).map(move |at| (slot, at)));
+        for (row, (slot, station)) in rows.enumerate() {
+            let sources = || grid.stations.around(station, reach);
+            let is_live = |from: usize| ends.live[grid.row(slot, from)];
+            if !next.present[row] || !sources().any(is_live) {
+                room.unreached.push(row);
+                continue;
+            }
             let first = places.row(row);
             if let Some(last) = room.runs.last_mut().filter(|_| is_shared) {
                 last.count = first + grid.bins - last.first;
                 continue;
             }
             let begin = room.sources.len();
-            let Node { slot, station, .. } = grid.node(row * grid.bins);
             let values = next.values(grid, station);
-            for from in grid.stations.around(station, reach) {
+            for from in sources() {
                 let moved = self.moved(ends.layer, &previous.values(grid, from), &values);
                 let place = places.row(grid.row(slot, from));
                 room.sources.push(Source { shift: place.wrapping_sub(first).cast_signed(), moved });

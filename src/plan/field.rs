@@ -27,6 +27,8 @@ pub(super) struct Field<'a> {
     pub(super) layers: &'a [Layer],
     /// The part of the velocity limits that no joint may exceed.
     pub(super) speed: f64,
+    /// What the best way costs, about, if that is known: of the cost that comes first.
+    pub(super) expected: Option<f64>,
     pub(super) ends: Ends,
     /// Whether only ways through all layers count.
     pub(super) whole: bool,

@@ -1,16 +1,17 @@
 //! Long paths with free axes: what a plan along some of the poses gives to those between them
 //! (docs/plan.md, section 5).
 
+use alloc::vec;
 use alloc::vec::Vec;
 
 use super::answer::PlanError;
 use super::caller::Caller;
 use super::ends::Given;
 use super::freedom::Freedom;
-use super::layer::Waypoint;
+use super::layer::{Node, Waypoint, turns};
 use super::nodes::Arm;
 use super::options::PlanOptions;
-use super::planner::{Planner, turns};
+use super::planner::Planner;
 use super::refine::{FINER, Middle};
 use super::way::Way;
 use crate::error::Error;
@@ -20,7 +21,7 @@ use crate::paths::Turn;
 const FEWEST: usize = 16;
 
 /// How many times as many poses each next path has.
-const FINER_STRIDE: usize = 4;
+pub(super) const FINER_STRIDE: usize = 4;
 
 /// The plan along some poses of a long path, refined, then along more and more of them; `None` if
 /// nothing is free, or if that finds none.
@@ -50,14 +51,19 @@ pub(super) fn guided<'a>(
         if planner.guide(&way, &every(points, stride)).is_err() {
             return Ok(None);
         }
-        let Some(finer) = planner.whole_way(caller)? else { return Ok(None) };
+        let within = match planner.middle_bottleneck(&way) {
+            Some(most) => planner.way_within(most, caller)?,
+            None => None,
+        };
+        let finer = if within.is_some() { within } else { planner.whole_way(caller)? };
+        let Some(finer) = finer else { return Ok(None) };
         way = planner.polished(finer, caller)?;
     }
     Ok(Some((planner, way)))
 }
 
 /// The distance of the poses of the coarsest path.
-fn first_stride(count: usize) -> usize {
+pub(super) fn first_stride(count: usize) -> usize {
     let mut stride = 1;
     while count / (stride * FINER_STRIDE) >= FEWEST {
         stride *= FINER_STRIDE;
@@ -103,6 +109,18 @@ impl Planner<'_> {
         let step = freedom.axes.first().map(|_| (0, self.finest(0)));
         self.band(middles.into_iter(), self.grid.step, step);
         Ok(())
+    }
+
+    /// The bottleneck of the middle of the bands around a way that stays on one branch: no best way
+    /// of the bands has a larger one, unless steps of the middle jump.
+    fn middle_bottleneck(&self, way: &Way) -> Option<f64> {
+        let slot = way.nodes[0].slot;
+        let stays = way.nodes.iter().all(|node| node.slot == slot);
+        let (station, bin) = (self.grid.stations.len() / 2, self.grid.bins / 2);
+        let nodes = vec![Node { slot, station, bin }; self.layers.len()];
+        let mut along = self.layers.iter().zip(&nodes);
+        let is_whole = along.all(|(layer, node)| layer.joints(&self.grid, *node).is_some());
+        (stays && is_whole).then(|| self.field().bottleneck_along(&nodes, 0))
     }
 
     /// A way in bands of each free axis in turn.

@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 
 use super::freedom::Values;
 use super::stations::Stations;
+use crate::error::Error;
 use crate::kinematics::Pose;
 use crate::paths::Turn;
 
@@ -79,6 +80,16 @@ pub(super) struct Waypoint {
     pub(super) time: f64,
 }
 
+/// How the orientation turns to each pose of a path from the one before.
+pub(super) fn turns(path: &[Waypoint]) -> Result<Vec<Option<Turn>>, Error> {
+    let before = core::iter::once(None).chain(path.iter().map(Some));
+    let turn = |(point, before): (&Waypoint, Option<&Waypoint>)| {
+        let before = before.map(|before| &before.pose.rotation);
+        before.map(|from| Turn::new(from, &point.pose.rotation, None, point.index)).transpose()
+    };
+    path.iter().zip(before).map(turn).collect()
+}
+
 /// Where a joint vector that is given stands, and what is free there.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Own {
@@ -107,8 +118,8 @@ pub(super) struct Layer {
     pub(super) bases: Values,
     /// The one node that is not where the grid has it: that of a joint vector that is given.
     pub(super) own: Option<Own>,
-    /// Joint angles, each at its first turn [rad]: of each row, of each joint, of each bin. NaN
-    /// where no turn is inside the limits.
+    /// Joint angles, each at its first turn [rad]: of each joint, of each node. NaN where no turn is
+    /// inside the limits.
     pub(super) q: Vec<f64>,
     /// Whether each row has a node.
     pub(super) present: Vec<bool>,
@@ -152,17 +163,16 @@ impl Layer {
 
     /// The joint angles of a node [rad]; `None` if it has none inside the limits.
     pub(super) fn joints(&self, grid: &Grid, node: Node) -> Option<[f64; 6]> {
-        let start = grid.row(node.slot, node.station) * 6 * grid.bins + node.bin;
-        let q: [f64; 6] = core::array::from_fn(|joint| self.q[start + joint * grid.bins]);
+        let number = grid.number(node);
+        let q: [f64; 6] = core::array::from_fn(|joint| self.q[joint * grid.len() + number]);
         (!q[0].is_nan()).then_some(q)
     }
 
     /// Put joint angles at a node; `None` takes it away.
     pub(super) fn put(&mut self, grid: &Grid, node: Node, q: Option<[f64; 6]>) {
-        let row = grid.row(node.slot, node.station);
-        let start = row * 6 * grid.bins + node.bin;
+        let (row, number) = (grid.row(node.slot, node.station), grid.number(node));
         for (joint, angle) in q.unwrap_or([f64::NAN; 6]).into_iter().enumerate() {
-            self.q[start + joint * grid.bins] = angle;
+            self.q[joint * grid.len() + number] = angle;
         }
         self.present[row] = match q {
             Some(_) => true,
@@ -172,8 +182,13 @@ impl Layer {
 
     /// The angles of a joint at the bins of a row.
     pub(super) fn angles(&self, grid: &Grid, row: usize, joint: usize) -> &[f64] {
-        let start = (row * 6 + joint) * grid.bins;
-        &self.q[start..start + grid.bins]
+        let start = row * grid.bins;
+        &self.column(grid, joint)[start..start + grid.bins]
+    }
+
+    /// The angles of a joint at all nodes.
+    pub(super) fn column(&self, grid: &Grid, joint: usize) -> &[f64] {
+        &self.q[joint * grid.len()..(joint + 1) * grid.len()]
     }
 
     /// The nodes, by branch, then by the values of the free axes, then by tool angle.

@@ -35,6 +35,7 @@ mod reasons;
 mod refine;
 mod robot;
 mod search;
+mod sieve;
 mod soft;
 mod stations;
 mod step;
@@ -57,6 +58,8 @@ pub use tolerance::{ToolCone, ToolOffset};
 mod carrier_tests;
 #[cfg(test)]
 mod exhaustive;
+#[cfg(test)]
+mod sieve_tests;
 #[cfg(test)]
 mod strand_tests;
 #[cfg(test)]

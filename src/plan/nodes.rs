@@ -10,16 +10,22 @@ use core::ops::Range;
 use nalgebra::ComplexField as _;
 
 use super::caller::Watch;
-use super::freedom::Freedom;
-use super::layer::{Grid, Layer, Node};
+use super::freedom::{Freedom, Values};
+use super::layer::{Grid, Layer, Node, Waypoint, turns};
 use super::soft::Soft;
+use super::stations::Stations;
 use super::turns::PlannedJoints;
+use crate::error::Error;
 use crate::kinematics::thresholds::{CONTINUOUS_STEP, CROSSING_JUMP, CROSSING_STEP};
 use crate::kinematics::{Robot, Rows, Status, largest, pose_to_rows};
-use crate::lanes::nearest_whole;
+use crate::lanes::{Kernel, nearest_whole, run};
 
 /// Poses that are solved at a time.
 const PART: usize = 512;
+
+/// What the status of a pose has whose joint angles depend on those of the layers next to it.
+pub(super) const SPECIAL: Status =
+    Status::WRIST.union(Status::SHOULDER).union(Status::ELBOW).union(Status::MERGED);
 
 /// Nodes whose joint angles depend on those of the layers next to theirs.
 #[derive(Default)]
@@ -41,6 +47,35 @@ pub(super) struct Arm<'a> {
 }
 
 impl Arm<'_> {
+    /// The whole grid of a layer.
+    pub(super) fn grid(&self) -> Grid {
+        let (bins, step, cyclic) = match self.freedom.rotation {
+            None => (1, 0.0, false),
+            Some(rotation) => (rotation.steps(), rotation.step(), rotation.is_full()),
+        };
+        let stations = Stations::of(&self.freedom.axes);
+        Grid { slots: self.robot.slot_count(), stations, bins, step, cyclic }
+    }
+
+    /// Layers with the whole grid, without nodes yet.
+    pub(super) fn layers(&self, grid: &Grid, path: &[Waypoint]) -> Result<Vec<Layer>, Error> {
+        let base = self.freedom.rotation.map_or(0.0, |rotation| rotation.range()[0]);
+        let mut bases = Values::default();
+        for (base, axis) in bases.iter_mut().zip(&self.freedom.axes) {
+            *base = axis.range[0];
+        }
+        let mut layers = Vec::with_capacity(path.len());
+        for (point, turn) in path.iter().zip(turns(path)?) {
+            let mut layer = Layer::new(point.pose, point.time, Some(point.index), grid);
+            (layer.base, layer.bases, layer.turn) = (base, bases, turn);
+            layers.push(layer);
+            if self.watch.ends_at(layers.len()) {
+                break;
+            }
+        }
+        Ok(layers)
+    }
+
     /// Solve everything that is free of a range of layers.
     pub(super) fn solve(&self, grid: &Grid, layers: &mut [Layer], range: Range<usize>) {
         let mut poses = Vec::with_capacity(PART);
@@ -137,23 +172,27 @@ impl Arm<'_> {
         (q, status): (&[f64], &[u8]),
         special_nodes: &mut Special,
     ) {
-        let special = (Status::WRIST | Status::SHOULDER | Status::ELBOW | Status::MERGED).bits();
         let inside = Status::WITHIN_LIMITS.bits();
         let rows = q.as_chunks::<6>().0.chunks(grid.slots).zip(status.chunks(grid.slots));
         for ((number, node), (q, status)) in places.iter().zip(rows) {
             let mut is_singular = 0;
             let layer = &mut layers[*number];
             for slot in 0..grid.slots {
-                is_singular |= status[slot] & special;
+                is_singular |= status[slot] & SPECIAL.bits();
                 if status[slot] & inside == 0 {
                     continue;
                 }
                 let row = grid.row(slot, node.station);
                 layer.present[row] = true;
-                let start = row * 6 * grid.bins + node.bin;
+                let start = row * grid.bins + node.bin;
                 for joint in 0..6 {
+                    let at = joint * grid.len() + start;
+                    if self.joints.has_one_angle(joint) {
+                        layer.q[at] = q[slot][joint];
+                        continue;
+                    }
                     let angle = self.joints.first_turn(joint, q[slot][joint]);
-                    layer.q[start + joint * grid.bins] = angle;
+                    layer.q[at] = angle;
                     if self.joints.is_either_end(joint, angle) {
                         special_nodes.either_end.push((*number, Node { slot, ..*node }));
                     }
@@ -211,7 +250,7 @@ impl Arm<'_> {
     /// Find the edges into layers that lead from one branch to another: where a branch ends or
     /// jumps, and another one continues it.
     pub(super) fn find_crossings(&self, grid: &Grid, layers: &mut [Layer], range: Range<usize>) {
-        let mut most = vec![0.0; grid.bins];
+        let mut most = vec![0.0; grid.len()];
         let has_names = self.has_names();
         // A strand may go on in any other slot: where that is nearer.
         let jump = if has_names { CROSSING_JUMP } else { CONTINUOUS_STEP };
@@ -221,13 +260,12 @@ impl Arm<'_> {
             }
             let (before, after) = layers.split_at_mut(layer);
             let (before, after) = (&before[layer - 1], &mut after[0]);
+            let (wraps, most) = (self.joints.wraps, &mut most[..]);
+            run(LargestSteps { before: &before.q, after: &after.q, wraps, most: &mut *most });
             let mut crossings = Vec::new();
             for row in (0..grid.rows()).filter(|row| before.present[*row]) {
-                self.largest_steps(grid, [before, after], row, &mut most);
+                let most = &most[row * grid.bins..(row + 1) * grid.bins];
                 // Of a node that is not there, the step is NaN.
-                if most.iter().all(|most| *most <= jump) {
-                    continue;
-                }
                 let ends =
                     most.iter().enumerate().filter(|(_, most)| most.is_nan() || **most > jump);
                 for (bin, own) in ends {
@@ -246,20 +284,33 @@ impl Arm<'_> {
             after.crossings = crossings;
         }
     }
+}
 
-    /// The largest step of a joint in a row at each tool angle; NaN where a node is missing.
-    fn largest_steps(
-        &self,
-        grid: &Grid,
-        [before, after]: [&Layer; 2],
-        row: usize,
-        most: &mut [f64],
-    ) {
-        most.fill(0.0);
+/// The largest step of a joint from each node of a layer to that of the next one with the same
+/// number; NaN where one is missing.
+struct LargestSteps<'a> {
+    /// Joint angles, of each joint, of each node [rad].
+    before: &'a [f64],
+    after: &'a [f64],
+    /// Whether the step of a joint is taken modulo a turn.
+    wraps: [bool; 6],
+    /// The answer for each node [rad].
+    most: &'a mut [f64],
+}
+
+impl Kernel for LargestSteps<'_> {
+    type Answer = ();
+    const WIDE: bool = true;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) {
+        let nodes = self.most.len();
+        self.most.fill(0.0);
         for joint in 0..6 {
-            let (from, to) = (before.angles(grid, row, joint), after.angles(grid, row, joint));
-            let turn = if self.joints.wraps[joint] { TAU } else { 0.0 };
-            for ((most, from), to) in most.iter_mut().zip(from).zip(to) {
+            let column = joint * nodes..(joint + 1) * nodes;
+            let (from, to) = (&self.before[column.clone()], &self.after[column]);
+            let turn = if self.wraps[joint] { TAU } else { 0.0 };
+            for ((most, from), to) in self.most.iter_mut().zip(from).zip(to) {
                 let step = to - from;
                 let size = (step - turn * nearest_whole(step * (1.0 / TAU))).abs();
                 *most = if size <= *most { *most } else { size };

@@ -7,11 +7,9 @@ use super::caller::{Accept, Caller};
 use super::certificate::{Between, HALVINGS, Hop};
 use super::ends::Given;
 use super::field::{Ends, Field};
-use super::freedom::Values;
 use super::layer::{Grid, Layer, Node, Waypoint};
 use super::nodes::Arm;
 use super::options::{PlanOptions, PlanOrder};
-use super::stations::Stations;
 use super::turns::TurnStates;
 use super::way::Way;
 use crate::error::{Error, PlanFault};
@@ -22,16 +20,6 @@ use crate::paths::Turn;
 /// How often a step with a jump is halved where there are free axes.
 const HALVINGS_OF_AXES: u32 = 6;
 
-/// How the orientation turns to each pose of a path from the one before.
-pub(super) fn turns(path: &[Waypoint]) -> Result<Vec<Option<Turn>>, Error> {
-    let before = core::iter::once(None).chain(path.iter().map(Some));
-    let turn = |(point, before): (&Waypoint, Option<&Waypoint>)| {
-        let before = before.map(|before| &before.pose.rotation);
-        before.map(|from| Turn::new(from, &point.pose.rotation, None, point.index)).transpose()
-    };
-    path.iter().zip(before).map(turn).collect()
-}
-
 /// The state of a plan that is being made.
 pub(super) struct Planner<'a> {
     pub(super) arm: Arm<'a>,
@@ -39,6 +27,8 @@ pub(super) struct Planner<'a> {
     pub(super) layers: Vec<Layer>,
     pub(super) ends: Ends,
     pub(super) speed: f64,
+    /// What the best way costs, about, if that is known: of the cost that comes first.
+    pub(super) expected: Option<f64>,
     pub(super) closed: bool,
     /// Whether only ways through all layers count.
     pub(super) whole: bool,
@@ -55,31 +45,12 @@ impl<'a> Planner<'a> {
         options: &PlanOptions,
         given: &[Option<Given>; 2],
     ) -> Result<Self, Error> {
-        let (bins, step, cyclic, base) = match arm.freedom.rotation {
-            None => (1, 0.0, false, 0.0),
-            Some(rotation) => {
-                (rotation.steps(), rotation.step(), rotation.is_full(), rotation.range()[0])
-            }
-        };
-        let stations = Stations::of(&arm.freedom.axes);
-        let grid = Grid { slots: arm.robot.slot_count(), stations, bins, step, cyclic };
+        let grid = arm.grid();
         let found = path.len().saturating_mul(grid.len());
         if found > MOST_PLAN_NODES {
             return Err(PlanFault::Nodes { found, most: MOST_PLAN_NODES }.into());
         }
-        let mut bases = Values::default();
-        for (base, axis) in bases.iter_mut().zip(&arm.freedom.axes) {
-            *base = axis.range[0];
-        }
-        let mut layers = Vec::with_capacity(path.len());
-        for (point, turn) in path.iter().zip(turns(path)?) {
-            let mut layer = Layer::new(point.pose, point.time, Some(point.index), &grid);
-            (layer.base, layer.bases, layer.turn) = (base, bases, turn);
-            layers.push(layer);
-            if arm.watch.ends_at(layers.len()) {
-                break;
-            }
-        }
+        let layers = arm.layers(&grid, path)?;
         let has_limits = options.times.is_some() && arm.robot.max_velocity().is_some();
         let mut planner = Self {
             arm,
@@ -87,6 +58,7 @@ impl<'a> Planner<'a> {
             layers,
             ends: Ends::default(),
             speed: if has_limits { 1.0 + LIMIT_TOLERANCE } else { f64::INFINITY },
+            expected: None,
             closed: options.closed,
             whole: false,
             order: options.order,
@@ -138,6 +110,7 @@ impl<'a> Planner<'a> {
             freedom: self.arm.freedom,
             layers: &self.layers,
             speed: self.speed,
+            expected: self.expected,
             ends: self.ends,
             whole: self.whole,
             order: self.order,
@@ -149,9 +122,12 @@ impl<'a> Planner<'a> {
     /// [`Field::best_way`], with the turns told apart that mattered before.
     fn best_way(&mut self, from: usize) -> Result<Option<Way>, PlanError> {
         let mut states = core::mem::take(&mut self.states);
-        let way = self.field().best_way(from, &mut states);
+        let way = self.field().best_way(from, &mut states)?;
         self.states = states;
-        way
+        if let Some(way) = &way {
+            self.expected = Some(way.cost(self.order).0);
+        }
+        Ok(way)
     }
 
     /// The best way from a layer on whose steps are all continuous and whose nodes the caller

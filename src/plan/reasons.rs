@@ -4,15 +4,18 @@ use alloc::vec::Vec;
 use core::f64::consts::{PI, TAU};
 
 use super::answer::{StrandEnd, StrandReason};
-use super::layer::{Layer, Node};
+use super::layer::{Grid, Layer, Node};
 use super::planner::Planner;
-use super::step::{Moved, Rates};
+use super::step::Rates;
 use super::strands::nearest_solution;
 use super::way::Way;
 use crate::error::Error;
 use crate::kinematics::thresholds::{CROSSING_JUMP, CROSSING_STEP};
 use crate::kinematics::{SingularityKind, largest, nearest_turn};
 use crate::report::Explanation;
+
+/// Two nodes of neighboring layers, with the steps of the joints between them [rad].
+type Step = (Node, Node, [f64; 6]);
 
 impl Planner<'_> {
     /// Where and why each branch that begins at the first layer of a way ends.
@@ -28,7 +31,7 @@ impl Planner<'_> {
             }
             let pose_index = self.index_of(layer.min(self.layers.len() - 1));
             let reason = if layer < self.layers.len() {
-                self.reason(slot, layer)?
+                self.reason(slot, way.from, layer)?
             } else {
                 StrandReason::NotAtEnd
             };
@@ -44,7 +47,7 @@ impl Planner<'_> {
     }
 
     /// Why a branch does not go on to a layer.
-    fn reason(&self, slot: usize, layer: usize) -> Result<StrandReason, Error> {
+    fn reason(&self, slot: usize, from: usize, layer: usize) -> Result<StrandReason, Error> {
         let (before, after) = (&self.layers[layer - 1], &self.layers[layer]);
         if !after.has_slot(&self.grid, slot) {
             if after.rejected.iter().any(|number| self.grid.node(*number).slot == slot) {
@@ -55,17 +58,16 @@ impl Planner<'_> {
             }
             return self.unreachable(slot, [before, after]);
         }
-        let Some((from, to, steps)) = self.smallest_edge(slot, [before, after]) else {
+        let all = of_slot(&self.grid, before, slot);
+        let smallest = self.least_step(slot, (&all, after), |(_, _, steps)| largest(steps));
+        let Some((first, to, steps)) = smallest else {
             return self.unreachable(slot, [before, after]);
         };
-        let rates = Rates::of(self.arm.joints, after.time - before.time);
-        if rates.cost(&steps, Moved::default()).0 > self.speed {
-            let part = |joint: &usize| steps[*joint].abs() * rates.parts[*joint];
-            let joint = (0..6).max_by(|a, b| part(a).total_cmp(&part(b))).unwrap_or_default();
-            return Ok(StrandReason::Speed { joint: joint + 1, ratio: part(&joint) });
+        if let Some(too_fast) = self.too_fast(slot, from, layer) {
+            return Ok(too_fast);
         }
-        let edge = [from, to].map(|node| self.grid.number(node));
-        let q = before.joints(&self.grid, from).unwrap_or_default();
+        let edge = [first, to].map(|node| self.grid.number(node));
+        let q = before.joints(&self.grid, first).unwrap_or_default();
         if after.refused.contains(&edge) || largest(&steps) > CROSSING_JUMP {
             let joint = (0..6).max_by(|a, b| steps[*a].abs().total_cmp(&steps[*b].abs()));
             let joint = joint.unwrap_or_default();
@@ -127,20 +129,47 @@ impl Planner<'_> {
         Ok(StrandReason::Limit { joint: joint + 1, value, bounds })
     }
 
-    /// The smallest step of a branch from one layer to the next.
-    fn smallest_edge(
+    /// What is too fast of the slowest step of a branch to a layer, from where ways that begin at
+    /// layer `from` reach, if any is.
+    fn too_fast(&self, slot: usize, from: usize, layer: usize) -> Option<StrandReason> {
+        if self.speed.is_infinite() {
+            return None;
+        }
+        let (before, after) = (&self.layers[layer - 1], &self.layers[layer]);
+        let time = after.time - before.time;
+        let rates = Rates::of(self.arm.joints, time);
+        let fastest = |(from, to, steps): &Step| {
+            let values = [(before, from), (after, to)];
+            let [from, to] = values.map(|(layer, node)| layer.values(&self.grid, node.station));
+            let joints = steps.iter().zip(rates.parts).map(|(step, rate)| step.abs() * rate);
+            let axes = self.arm.freedom.axes.iter().zip(from.iter().zip(to));
+            let axes = axes.map(|(axis, (from, to))| (to - from).abs() / (axis.velocity * time));
+            let parts = joints.chain(axes).enumerate();
+            parts.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default()
+        };
+        let reached = self.field().reached(from, layer - 1, &self.states)?;
+        let mut sources = of_slot(&self.grid, before, slot);
+        sources.retain(|(node, _)| reached.contains(&self.grid.number(*node)));
+        let slowest = self.least_step(slot, (&sources, after), |step| fastest(step).1)?;
+        let (number, ratio) = fastest(&slowest);
+        (ratio > self.speed).then_some(match number.checked_sub(6) {
+            None => StrandReason::Speed { joint: number + 1, ratio },
+            Some(axis) => StrandReason::AxisSpeed { axis: axis + 1, ratio },
+        })
+    }
+
+    /// The least step from nodes of a branch to those of a layer.
+    fn least_step(
         &self,
         slot: usize,
-        [before, after]: [&Layer; 2],
-    ) -> Option<(Node, Node, [f64; 6])> {
-        let of_slot = |layer: &Layer| -> Vec<(Node, [f64; 6])> {
-            layer.nodes(&self.grid).filter(|(node, _)| node.slot == slot).collect()
-        };
-        let (from, to) = (of_slot(before), of_slot(after));
-        let pairs = from.iter().flat_map(|from| to.iter().map(move |to| (from, to)));
+        (sources, layer): (&[(Node, [f64; 6])], &Layer),
+        size: impl Fn(&Step) -> f64,
+    ) -> Option<Step> {
+        let ends = of_slot(&self.grid, layer, slot);
+        let pairs = sources.iter().flat_map(|from| ends.iter().map(move |to| (from, to)));
         let steps =
             pairs.map(|((from, q), (to, next))| (*from, *to, self.arm.joints.steps(q, next)));
-        steps.min_by(|a, b| largest(&a.2).total_cmp(&largest(&b.2)))
+        steps.min_by(|a, b| size(a).total_cmp(&size(b)))
     }
 
     /// The joint whose turns end at a step.
@@ -179,4 +208,9 @@ impl Planner<'_> {
         };
         slots.map(end).collect()
     }
+}
+
+/// The nodes of a branch in a layer.
+fn of_slot(grid: &Grid, layer: &Layer, slot: usize) -> Vec<(Node, [f64; 6])> {
+    layer.nodes(grid).filter(|(node, _)| node.slot == slot).collect()
 }

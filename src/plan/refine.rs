@@ -4,11 +4,12 @@ use super::answer::PlanError;
 use super::caller::Caller;
 use super::freedom::Values;
 use super::layer::{Grid, Layer, Node, Own};
+use super::options::PlanOrder;
 use super::planner::Planner;
 use super::stations::Stations;
 use super::way::Way;
 use crate::kinematics::Pose;
-use crate::kinematics::thresholds::{MOST_FREE_AXES, REFINED_TOOL_STEP};
+use crate::kinematics::thresholds::{BOTTLENECK_ROUNDING, MOST_FREE_AXES, REFINED_TOOL_STEP};
 use crate::paths::Turn;
 
 /// Values of a refined layer to each side of the one that was found.
@@ -102,10 +103,9 @@ impl Planner<'_> {
             let along = layers.iter().zip(&way.nodes);
             let middles = along.map(|(layer, node)| Middle::of(&grid, layer, *node));
             self.band(middles, turn, axis);
-            let finer = self.proven_way(0, caller)?;
-            let is_whole = |finer: &Way| finer.reached() + 1 == self.layers.len();
+            let finer = self.way_within(way.bottleneck, caller)?;
             let cost = |way: &Way| way.cost(self.order);
-            let better = finer.filter(|finer| is_whole(finer) && cost(finer) <= cost(&way));
+            let better = finer.filter(|finer| cost(finer) <= cost(&way));
             let Some(finer) = better else {
                 (self.grid, self.layers) = (grid, layers);
                 return Ok(way);
@@ -118,6 +118,23 @@ impl Planner<'_> {
             }
         }
         Ok(way)
+    }
+
+    /// The best way through all layers; where the bottleneck comes first, `None` if that is larger
+    /// than one that is known.
+    pub(super) fn way_within(
+        &mut self,
+        bottleneck: f64,
+        caller: &mut Caller<'_, '_>,
+    ) -> Result<Option<Way>, PlanError> {
+        let speed = self.speed;
+        if self.order == PlanOrder::Bottleneck {
+            self.speed = speed.min(bottleneck * (1.0 + BOTTLENECK_ROUNDING));
+            self.expected = Some(self.speed);
+        }
+        let way = self.whole_way(caller);
+        self.speed = speed;
+        way
     }
 
     /// Layers with a band of tool angles, and of the values of an axis.

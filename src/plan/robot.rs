@@ -13,6 +13,7 @@ use super::layer::Waypoint;
 use super::nodes::Arm;
 use super::options::{PlanOptions, PlanOrder};
 use super::planner::Planner;
+use super::sieve::may_be_passed;
 use super::soft::Soft;
 use super::turns::PlannedJoints;
 use super::way::Way;
@@ -81,13 +82,17 @@ impl Robot<6> {
         let ends = Given::both(&arm, &points, options)?;
         let coarser = freedom.coarser();
         let guided = guided(Arm { freedom: &coarser, ..arm }, &points, options, caller)?;
-        let mut planner = Planner::new(arm, &points, options, &ends)?;
         if let Some((guide, way)) = guided {
             // A way of the whole grid is taken if it is better still.
-            if options.order == PlanOrder::Bottleneck {
-                planner.speed = planner.speed.min(way.bottleneck);
+            let ends = [ends[0], if options.closed { ends[0] } else { ends[1] }];
+            let is_best = options.order == PlanOrder::Bottleneck
+                && !may_be_passed(arm, &points, &ends, way.bottleneck)?;
+            if is_best {
+                return Ok(guide.plan_of(&[way])?);
             }
-            if let Some(other) = planner.whole_way(caller)? {
+            let mut planner = Planner::new(arm, &points, options, &ends)?;
+            planner.expected = Some(way.cost(options.order).0);
+            if let Some(other) = planner.way_within(way.bottleneck, caller)? {
                 let other = planner.refined(other, caller)?;
                 if other.cost(options.order) < way.cost(options.order) {
                     return Ok(planner.plan_of(&[other])?);
@@ -95,6 +100,7 @@ impl Robot<6> {
             }
             return Ok(guide.plan_of(&[way])?);
         }
+        let mut planner = Planner::new(arm, &points, options, &ends)?;
         let mut ways = Vec::new();
         let mut from = 0;
         while from < planner.layers.len() {

@@ -107,6 +107,7 @@ impl Search<'_> {
         let mut by = if pass == Pass::Squares { vec![0; (to - from) * size] } else { Vec::new() };
         let mut unused = vec![0; if pass == Pass::Squares { 0 } else { size }];
         let mut alive = vec![from; grid.slots];
+        let mut live = vec![true; grid.rows()];
         let mut room = Room::default();
         let soft = self.soft.filter(|_| pass == Pass::Squares);
         let mut soft_costs = vec![0.0; if soft.is_some() { size } else { 0 }];
@@ -132,16 +133,19 @@ impl Search<'_> {
             };
             // Edges to another turn are infinitely fast in lanes, and are left out there.
             let cap = cap.min(self.layers[layer].cap).min(f64::MAX);
-            let ends = Layers { layer, places, pass, cap, soft: &soft_costs };
+            let ends = Layers { layer, places, pass, cap, soft: &soft_costs, live: &live };
             if self.layers[layer].refused.is_empty() {
                 self.step(&ends, [before, after], [costs_before, costs_after], by_step, &mut room);
             } else {
                 self.step_by_itself(&ends, [costs_before, costs_after], by_step);
             }
             self.cross(&ends, [costs_before, costs_after], by_step);
-            if !self.survives(places, costs_after, layer, &mut alive) {
+            if !self.survives(places, costs_after, &mut live) {
                 let [costs, _] = costs;
                 return Some(Passed { reached: layer - 1, alive, places, costs, by });
+            }
+            for (last, rows) in alive.iter_mut().zip(live.chunks(grid.stations.len())) {
+                *last = if rows.contains(&true) { layer } else { *last };
             }
             self.fill_margins(places, costs_after);
             q.swap(0, 1);
@@ -181,6 +185,13 @@ impl Search<'_> {
     /// The joint angles of a layer as columns, with those from around the circle in the margins.
     fn load(&self, places: Places, layer: &Layer, q: &mut [f64]) {
         let grid = &self.grid;
+        if places.margin == 0 {
+            // Without margins the places are the nodes.
+            for (joint, q) in q.chunks_mut(places.count).enumerate() {
+                q[..grid.len()].copy_from_slice(layer.column(grid, joint));
+            }
+            return;
+        }
         for row in 0..grid.rows() {
             if !layer.present[row] && grid.bins >= LANES {
                 continue;
@@ -188,7 +199,7 @@ impl Search<'_> {
             for joint in 0..6 {
                 let angles = layer.angles(grid, row, joint);
                 let start = joint * places.count + places.row(row);
-                q[start..start + grid.bins].copy_from_slice(angles);
+                copy(angles, &mut q[start..]);
                 if grid.cyclic {
                     wrap(q, start, grid.bins, places.margin);
                 }
@@ -220,23 +231,16 @@ impl Search<'_> {
         Rates::of(self.joints, time)
     }
 
-    /// Whether any node of a layer is reached; notes the slots that are.
-    fn survives(&self, places: Places, costs: &[f64], layer: usize, alive: &mut [usize]) -> bool {
-        let mut any = false;
-        let stations = self.grid.stations.len();
-        for (slot, last) in alive.iter_mut().enumerate() {
-            let is_reached = costs.chunks(places.count).any(|costs| {
-                (slot * stations..(slot + 1) * stations).any(|row| {
-                    let start = places.row(row);
-                    costs[start..start + self.grid.bins].iter().any(|cost| *cost < f64::INFINITY)
-                })
-            });
-            if is_reached {
-                *last = layer;
-                any = true;
-            }
+    /// Whether any node of a layer is reached; notes the rows that are.
+    fn survives(&self, places: Places, costs: &[f64], live: &mut [bool]) -> bool {
+        let bins = self.grid.bins;
+        for (row, live) in live.iter_mut().enumerate() {
+            let start = places.row(row);
+            let mut columns = costs.chunks(places.count);
+            *live = columns
+                .any(|costs| costs[start..start + bins].iter().any(|cost| *cost < f64::INFINITY));
         }
-        any
+        live.contains(&true)
     }
 
     /// The cheapest node of the layer that was reached, with its turns and its cost; of the last
@@ -257,6 +261,16 @@ impl Search<'_> {
             }
         }
         best
+    }
+
+    /// The nodes of the layer that was reached, with any turns.
+    pub(super) fn reached(&self, passed: &Passed) -> Vec<usize> {
+        let is_reached = |number: &usize| {
+            let place = passed.places.place(&self.grid, *number);
+            let mut columns = passed.costs.chunks(passed.places.count);
+            columns.any(|costs| costs[place] < f64::INFINITY)
+        };
+        (0..self.grid.len()).filter(is_reached).collect()
     }
 
     /// The way to a node, from layer `from` on: its nodes, and its state at the beginning.
@@ -315,6 +329,20 @@ pub(super) struct Layers<'a> {
     pub(super) cap: f64,
     /// What each node of it costs, for each combination of turns; empty if nothing.
     pub(super) soft: &'a [f64],
+    /// Which rows of the earlier one are reached.
+    pub(super) live: &'a [bool],
+}
+
+/// Copy a few numbers: by lanes, without a call.
+fn copy(from: &[f64], to: &mut [f64]) {
+    let (lanes, rest) = from.as_chunks::<LANES>();
+    let (to_lanes, _) = to.as_chunks_mut::<LANES>();
+    for (from, to) in lanes.iter().zip(to_lanes) {
+        *to = *from;
+    }
+    for (from, to) in rest.iter().zip(&mut to[LANES * lanes.len()..]) {
+        *to = *from;
+    }
 }
 
 /// Copy both ends of a run of numbers to the margins beyond the opposite ends.

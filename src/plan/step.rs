@@ -87,8 +87,8 @@ pub(super) struct Step<'a, const SQUARES: bool> {
     pub(super) cap: f64,
     /// What each node costs, for each combination of turns; empty if nothing.
     pub(super) soft: &'a [f64],
-    /// Room for the costs of the edges of a window.
-    pub(super) room: &'a mut Vec<[Column; 2]>,
+    /// Room for the edges of a window.
+    pub(super) room: &'a mut Vec<Edges>,
 }
 
 /// Places side by side, of one row or of several that have the same sources.
@@ -121,7 +121,19 @@ pub(super) struct Moved {
 pub(super) struct Room {
     pub(super) runs: Vec<Run>,
     pub(super) sources: Vec<Source>,
-    pub(super) costs: Vec<[Column; 2]>,
+    /// Rows that no edge in lanes leads into.
+    pub(super) unreached: Vec<usize>,
+    pub(super) edges: Vec<Edges>,
+}
+
+/// Edges side by side, from a place and those after it.
+#[derive(Clone, Copy)]
+pub(super) struct Edges {
+    /// By which edge of the window they come.
+    by: usize,
+    from: usize,
+    most: Column,
+    squares: Column,
 }
 
 impl<const SQUARES: bool> Kernel for Step<'_, SQUARES> {
@@ -133,22 +145,25 @@ impl<const SQUARES: bool> Kernel for Step<'_, SQUARES> {
         let width = self.window[0] + self.window[1] + 1;
         for run in self.runs {
             let sources = &self.sources[run.sources[0]..run.sources[1]];
-            self.room.clear();
-            self.room.resize(sources.len() * width, [[0.0; LANES]; 2]);
             let mut place = run.first;
             while place < run.first + run.count {
                 let next: [Column; 6] =
                     core::array::from_fn(|joint| column(self.q, joint * self.places + place));
+                self.room.clear();
                 for (number, source) in sources.iter().enumerate() {
-                    let from = place.wrapping_add_signed(source.shift) - self.window[0];
+                    let first = place.wrapping_add_signed(source.shift) - self.window[0];
                     for offset in 0..width {
-                        let edges = self.edges(from + offset, &next, source.moved);
-                        self.room[number * width + offset] = edges;
+                        let (by, from) = (number * width + offset, first + offset);
+                        if self.are_too_fast(from, &next) {
+                            continue;
+                        }
+                        let [most, squares] = self.edges(from, &next, source.moved);
+                        self.room.push(Edges { by, from, most, squares });
                     }
                 }
                 let mut state = 0;
                 while state < self.costs.len() {
-                    self.enter(state, place, sources, &next[0]);
+                    self.enter(state, place, &next[0]);
                     state += self.places;
                 }
                 place += LANES;
@@ -160,27 +175,21 @@ impl<const SQUARES: bool> Kernel for Step<'_, SQUARES> {
 impl<const SQUARES: bool> Step<'_, SQUARES> {
     /// The best edges into eight places of a column of costs, which begins at `state`.
     #[inline(always)]
-    fn enter(&mut self, state: usize, place: usize, sources: &[Source], next: &Column) {
-        let width = self.window[0] + self.window[1] + 1;
+    fn enter(&mut self, state: usize, place: usize, next: &Column) {
         let (mut best, mut best_by) = ([f64::INFINITY; LANES], [0_u64; LANES]);
-        for (number, source) in sources.iter().enumerate() {
-            let from = state + place.wrapping_add_signed(source.shift) - self.window[0];
-            for offset in 0..width {
-                let by = number * width + offset;
-                let [most, squares] = &self.room[by];
-                let cost = column(self.before.costs, from + offset);
-                for lane in 0..LANES {
-                    let continued = if SQUARES {
-                        cost[lane] + squares[lane]
-                    } else if cost[lane] > most[lane] {
-                        cost[lane]
-                    } else {
-                        most[lane]
-                    };
-                    let better = (continued < best[lane]) & (most[lane] <= self.cap);
-                    best[lane] = if better { continued } else { best[lane] };
-                    best_by[lane] = if better { by as u64 } else { best_by[lane] };
-                }
+        for Edges { by, from, most, squares } in self.room.iter() {
+            let cost = column(self.before.costs, state + from);
+            for lane in 0..LANES {
+                let continued = if SQUARES {
+                    cost[lane] + squares[lane]
+                } else if cost[lane] > most[lane] {
+                    cost[lane]
+                } else {
+                    most[lane]
+                };
+                let better = (continued < best[lane]) & (most[lane] <= self.cap);
+                best[lane] = if better { continued } else { best[lane] };
+                best_by[lane] = if better { *by as u64 } else { best_by[lane] };
             }
         }
         for lane in 0..LANES {
@@ -202,6 +211,23 @@ impl<const SQUARES: bool> Step<'_, SQUARES> {
                 *by = best;
             }
         }
+    }
+
+    /// Whether none of eight edges counts, by the step of the last joint alone: of all joints, the
+    /// tool angle moves it most.
+    #[inline(always)]
+    fn are_too_fast(&self, from: usize, next: &[Column; 6]) -> bool {
+        const LAST: usize = 5;
+        let before = column(self.before.q, LAST * self.places + from);
+        let turn = if self.rates.wraps[LAST] { TAU } else { 0.0 };
+        let mut any = false;
+        for lane in 0..LANES {
+            let step = next[LAST][lane] - before[lane];
+            let step = step - turn * nearest_whole(step * (1.0 / TAU));
+            // Of a node that is not there it is NaN.
+            any |= step.abs() * self.rates.parts[LAST] <= self.cap;
+        }
+        !any
     }
 
     /// The two costs of eight edges side by side (eq. 3, 4).

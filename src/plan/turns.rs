@@ -24,6 +24,8 @@ pub(super) struct PlannedJoints {
     /// The least and the greatest angle that count as inside [rad].
     low: [f64; 6],
     high: [f64; 6],
+    /// Whether the limits are less than a turn apart.
+    are_narrow: [bool; 6],
     /// How many turns an angle may have inside the limits.
     counts: [usize; 6],
     /// The turn around which those of a joint without limits are counted.
@@ -58,9 +60,20 @@ impl PlannedJoints {
                 span => 1 + count(whole_below(span / TAU)),
             }
         });
+        let are_narrow = core::array::from_fn(|joint| high[joint] - low[joint] < TAU);
         let velocity = robot.max_velocity().copied().unwrap_or([1.0; 6]);
         let (wraps, middle) = (counts.map(|count| count > 1), [0; 6]);
-        Self { low, high, counts, middle, wraps, velocity, weights, reach: longest(robot) }
+        Self {
+            low,
+            high,
+            are_narrow,
+            counts,
+            middle,
+            wraps,
+            velocity,
+            weights,
+            reach: longest(robot),
+        }
     }
 
     /// Count the turns of joints without limits around those of `q`.
@@ -88,6 +101,11 @@ impl PlannedJoints {
         }
         let turns = whole_below((angle - self.low[joint]) / TAU);
         if turns == 0.0 { angle } else { angle - TAU * turns }
+    }
+
+    /// Whether no direction of a joint has more than one angle inside the limits.
+    pub(super) fn has_one_angle(&self, joint: usize) -> bool {
+        self.are_narrow[joint]
     }
 
     /// Whether an angle is at an end of limits that are a full turn apart: it may as well be at the

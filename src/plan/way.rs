@@ -104,7 +104,20 @@ impl Field<'_> {
         } else {
             vec![full; self.layers.len()]
         };
-        let mut windows: Vec<_> = widest.iter().map(|own| own.each(|size| size.min(1))).collect();
+        let needed_for = |most: f64| match self.order {
+            PlanOrder::Bottleneck => self.windows(Most::Bottleneck(most)),
+            PlanOrder::Sum => self.windows(Most::Sum(most)),
+        };
+        let within = |mut windows: Vec<Window>| {
+            for (own, widest) in windows.iter_mut().zip(&widest) {
+                *own = own.with(widest, usize::min);
+            }
+            windows
+        };
+        let mut windows = match self.expected {
+            Some(expected) => within(needed_for(expected)),
+            None => widest.iter().map(|own| own.each(|size| size.min(1))).collect(),
+        };
         let mut to = self.layers.len() - 1;
         let searched = |windows: &[Window], pass: Pass, to: usize, cap: f64| {
             let Self { grid, joints, layers, freedom, soft, watch, .. } = *self;
@@ -127,13 +140,7 @@ impl Field<'_> {
             // Where strands end shows when the search went farthest.
             let farthest = ends.clone().unwrap_or(alive);
             if let Some(cost) = cost.filter(|_| reached == to) {
-                let mut needed = self.windows(match self.order {
-                    PlanOrder::Bottleneck => Most::Bottleneck(cost),
-                    PlanOrder::Sum => Most::Sum(cost),
-                });
-                for (needed, widest) in needed.iter_mut().zip(&widest) {
-                    *needed = needed.with(widest, usize::min);
-                }
+                let needed = within(needed_for(cost));
                 if windows
                     .iter()
                     .zip(&needed)
@@ -147,7 +154,7 @@ impl Field<'_> {
                 }
             } else if windows != widest {
                 for (own, most) in windows.iter_mut().zip(&widest) {
-                    *own = own.each(|size| WIDER * size).with(most, usize::min);
+                    *own = own.each(|size| WIDER * size.max(1)).with(most, usize::min);
                 }
             } else if self.whole {
                 return Ok(None);
@@ -175,6 +182,23 @@ impl Field<'_> {
             PlanOrder::Bottleneck => least,
         };
         Ok(Some(Found { nodes, states: [begin, end], bottleneck, squares, alive }))
+    }
+
+    /// The nodes of a layer that ways of bounded speed from layer `from` reach; `None` if no turns
+    /// fit the ends, or the caller stops it.
+    pub(super) fn reached(
+        &self,
+        from: usize,
+        to: usize,
+        states: &TurnStates,
+    ) -> Option<Vec<usize>> {
+        let Self { grid, joints, layers, freedom, soft, watch, .. } = *self;
+        let [first, last] = self.bounds(from, states)?;
+        let windows = &self.windows(Most::Bottleneck(self.speed));
+        let search =
+            Search { grid, joints, states, layers, freedom, windows, first, last, soft, watch };
+        let passed = search.pass(Pass::Bottleneck, from, to, self.speed)?;
+        Some(search.reached(&passed))
     }
 
     /// The turn of a joint at the beginning of a way, so that it stays inside its limits and meets

@@ -56,7 +56,7 @@ def is_continuous(robot: irbkin.Robot, T: np.ndarray, plan: irbkin.Plan) -> bool
                 continue
             pose = irbkin.paths.line(pose, pose_last, steps=3)[1]
             angle = (angle + angle_last) / 2
-            tool = pose @ irbkin.pose([0, 0, 0], euler_zyx=[angle, 0, 0])
+            tool = pose @ irbkin.pose([0, 0, 0], euler_zyx=[np.remainder(angle, 2 * np.pi), 0, 0])
             if len(slots) == 1:
                 way = robot.ik(tool).q_by_slot[slots[0]]
                 way = way - 2 * np.pi * np.round((way - (q + q_last) / 2) / (2 * np.pi))
@@ -160,6 +160,14 @@ def test_times_bound_the_velocity():
     assert 0.98 < plan.bottleneck <= 1 + 1e-9
     with pytest.raises(irbkin.PathError, match="of its velocity limit"):
         ROBOT.plan(T, times=np.linspace(0, 0.5 * least, 60))
+
+
+def test_an_axis_that_is_too_slow_is_named():
+    T = seam(200, 2.5)
+    track = irbkin.Track("y", -3, 3, max_velocity=0.2)
+    reason = r"external axis 1 would have to move at \d+\.\d+ of its velocity limit"
+    with pytest.raises(irbkin.PathError, match=reason):
+        ROBOT.plan(T, carrier=track, times=np.linspace(0, 5, 200))
 
 
 def test_a_pose_out_of_reach_is_named():

@@ -63,8 +63,6 @@ def run(arguments: argparse.Namespace) -> int:
         )
     except PathError as error:
         complain(error)
-        for end in error.reasons:
-            complain(f"slot {end.slot} ends at pose {end.pose_index}: {end.reason}")
         return FOUND
     postures = Postures(robot)
     columns = (
