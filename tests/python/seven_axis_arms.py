@@ -2,8 +2,8 @@
 
 Rethink's Sawyer: RethinkRobotics/sawyer_robot @ 2fe61d9148, sawyer_base.urdf.xacro. Kinova's Gen3
 with seven joints: Kinovarobotics/ros_kortex @ 5fce8b7ab9, arms/gen3/7dof/urdf/gen3_macro.xacro.
-Flexiv's Rizon 4: flexivrobotics/flexiv_description @ 1f5dc02cec, config/Rizon4. The second source of
-each is google-deepmind/mujoco_menagerie: @ 28ffb48b5c, @ 3966424703 and @ 946194e0bd.
+Flexiv's Rizon 4: flexivrobotics/flexiv_description @ 1f5dc02cec, config/Rizon4. The second source
+of each is google-deepmind/mujoco_menagerie: @ 28ffb48b5c, @ 3966424703 and @ 946194e0bd.
 """
 
 from dataclasses import dataclass
