@@ -150,7 +150,8 @@ million: | toolchains ## Solve a million poses of each arm; count missed and inc
 plans: $(BUILT) $(VENV)/.groups ## Plan 100,000 random lines, halve each step of each plan
 	IRBKIN_PLANS=50000 $(BIN)/python -m pytest --quiet -s -k hides_a_jump tests/python/test_plan.py
 
-general: | toolchains ## Solve POSES (20,000) poses of arms without a closed form; count what is lost
+general: | toolchains ## Solve POSES (20,000) poses of 20 arms without a closed form; count what is lost
+	IRBKIN_POSES=$(or $(POSES),20000) cargo test --quiet --release --test suite -- recall::general recall::offset_wrist --nocapture --test-threads=1
 	IRBKIN_POSES=$(or $(POSES),20000) cargo test --quiet --release --lib structure::general -- --nocapture --test-threads=1
 
 configurations: | toolchains ## Check confdata at 100,000 poses of every ABB arm

@@ -166,7 +166,7 @@ pub use lanes::InstructionSet;
 /// The linear algebra of poses and matrices, in the version that this crate uses.
 pub use nalgebra;
 pub use report::{
-    Condition, Configuration, ConfigurationRule, Explanation, FreeJoint, Reach, Relation,
+    Approach, Condition, Configuration, ConfigurationRule, Explanation, FreeJoint, Reach, Relation,
     UnknownStructure,
 };
 

@@ -190,10 +190,37 @@ fn out_of_reach_an_answer_says_so() {
         let pose = Pose::translation(90.0, 0.0, 0.0);
         let solutions = robot.ik(&pose).unwrap();
         assert!(solutions.is_empty() && solutions.is_certified(), "{name}");
-        assert_eq!(solutions.explain(), Explanation::NoRoots { certified: true }, "{name}");
+        assert_eq!(
+            solutions.explain(),
+            Explanation::NoRoots { certified: true, approach: None },
+            "{name}"
+        );
         assert!(solutions.reach().shortfall().is_nan());
         let words = robot.ik_nearest(&pose, &[0.0; 6], &[1.0; 6]).unwrap_err().to_string();
         assert!(words.contains("0 real roots"), "{words}");
+    }
+}
+
+#[test]
+fn nothing_is_nearer_than_the_nearest_approach() {
+    let mut rng = Rng::new(4);
+    for (name, _, robot) in cases() {
+        let lengths: f64 = robot.mdh().rows.iter().map(|row| row.a.abs() + row.d.abs()).sum();
+        let reached = robot.nearest_approach(&robot.fk(&rng.angles())).unwrap();
+        assert!(reached.position.max(reached.rotation) < 1e-9, "{name}: {reached:?}");
+        for distance in [0.9, 1.2, 4.0] {
+            let mut pose = robot.fk(&rng.angles());
+            pose.translation.vector = pose.translation.vector.normalize() * (distance * lengths);
+            let nearest = robot.nearest_approach(&pose).unwrap();
+            let size = |position: f64, rotation: f64| position.hypot(lengths * rotation);
+            let least = size(nearest.position, nearest.rotation);
+            assert!(least >= (distance - 1.0) * lengths, "{name}: {nearest:?}");
+            for _ in 0..3000 {
+                let other = robot.residual(&rng.angles(), &pose);
+                let other = size(other.position, other.rotation);
+                assert!(other >= least, "{name} {distance}: {other} and {nearest:?}");
+            }
+        }
     }
 }
 

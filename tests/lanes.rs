@@ -25,8 +25,6 @@ use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Vector3};
 use structures::{Structure, Subject};
 use subjects::{PoseRow, Row, joint_rows, rows, subjects};
 
-const SLOTS: usize = 8;
-
 on_every_structure!(
     the_rows_are_of_every_kind,
     batch_equals_single_bit_for_bit,
@@ -38,12 +36,21 @@ on_every_structure!(
     poses_of_many_turns_are_those_of_the_table,
 );
 
+on_structures_of_ordinals!(
+    batch_equals_single_bit_for_bit,
+    a_row_does_not_depend_on_its_neighbors,
+    an_invalid_row_is_flagged_and_the_others_are_solved,
+    avx2_and_avx512_agree_to_the_bit,
+    poses_of_many_turns_are_those_of_the_table,
+);
+
 /// Not a multiple of any lane count; every kind of row in every lane.
 const ROWS: usize = 24 * 18 + 5;
 
 const FRAMES: [JacobianFrame; 2] = [JacobianFrame::Base, JacobianFrame::Tool];
 
-type AnswerRow<const N: usize> = [[f64; N]; SLOTS];
+/// The slots of a row.
+type AnswerRow<const N: usize> = Vec<[f64; N]>;
 
 /// The slots and their status of each row.
 #[derive(Clone, Debug)]
@@ -52,7 +59,7 @@ where
     Joints<N>: Arity<N>,
 {
     q: Vec<AnswerRow<N>>,
-    status: Vec<[u8; SLOTS]>,
+    status: Vec<Vec<u8>>,
 }
 
 impl<const N: usize> Answers<N>
@@ -60,14 +67,17 @@ where
     Joints<N>: Arity<N>,
 {
     fn in_a_batch(subject: &Subject<N>, rows: &[Row<N>], threads: usize) -> Self {
-        let mut answers =
-            Self { q: vec![[[7.0; N]; SLOTS]; rows.len()], status: vec![[255; SLOTS]; rows.len()] };
+        let slots = subject.robot.slot_count();
+        let mut q = vec![[7.0; N]; slots * rows.len()];
+        let mut status = vec![255; slots * rows.len()];
         let (poses, joints): (Vec<PoseRow>, Vec<[f64; N]>) = rows.iter().copied().unzip();
-        let q = answers.q.as_flattened_mut().as_flattened_mut();
-        let status = answers.status.as_flattened_mut();
-        let poses = poses.as_flattened();
-        (subject.calls.ik_rows)(&subject.robot, poses, &joints, q, status, threads).unwrap();
-        answers
+        let (poses, flat) = (poses.as_flattened(), q.as_flattened_mut());
+        (subject.calls.ik_rows)(&subject.robot, poses, &joints, flat, &mut status, threads)
+            .unwrap();
+        Self {
+            q: q.chunks(slots).map(<[_]>::to_vec).collect(),
+            status: status.chunks(slots).map(<[_]>::to_vec).collect(),
+        }
     }
 
     fn one_by_one(subject: &Subject<N>, rows: &[Row<N>]) -> Self {
@@ -82,30 +92,27 @@ where
             self.q.iter().zip(&other.q).zip(self.status.iter().zip(&other.status)).enumerate()
         {
             assert_eq!(flags, others, "{what}, row {i}");
-            let same = same_bits(a.as_flattened(), b.as_flattened());
-            assert!(same, "{what}, row {i}:\n{a:?}\n{b:?}");
+            let is_same = same_bits(a.as_flattened(), b.as_flattened());
+            assert!(is_same, "{what}, row {i}:\n{a:?}\n{b:?}");
         }
     }
 }
 
 /// The answer to one row, as in a batch.
-fn alone<const N: usize>(
-    subject: &Subject<N>,
-    (row, joints): &Row<N>,
-) -> (AnswerRow<N>, [u8; SLOTS])
+fn alone<const N: usize>(subject: &Subject<N>, (row, joints): &Row<N>) -> (AnswerRow<N>, Vec<u8>)
 where
     Joints<N>: Arity<N>,
 {
-    let mut q = [[f64::NAN; N]; SLOTS];
+    let slots = subject.robot.slot_count();
+    let mut q = vec![[f64::NAN; N]; slots];
     let solve = |pose| (subject.calls.ik)(&subject.robot, &pose, joints);
     let Ok(solutions) = pose_from_rows(row).and_then(solve) else {
-        return (q, [Status::INVALID.bits(); SLOTS]);
+        return (q, vec![Status::INVALID.bits(); slots]);
     };
     for solution in &solutions {
         q[solution.slot.index()] = solution.q;
     }
-    let status = solutions.status();
-    (q, std::array::from_fn(|slot| status[slot].bits()))
+    (q, solutions.status().iter().map(Status::bits).collect())
 }
 
 /// Every NaN equals every other: their bits have no meaning.
@@ -168,8 +175,8 @@ where
         let has = |kind: Status| {
             answers
                 .status
-                .as_flattened()
                 .iter()
+                .flatten()
                 .any(|flags| Status::from_bits_retain(*flags).contains(kind))
         };
         // Closed forms are always certain.
@@ -184,11 +191,10 @@ where
             .iter()
             .filter(|row| row.iter().all(|flags| flags & Status::FOUND.bits() != 0))
             .count();
-        let none = answers.status.iter().filter(|row| **row == [0; SLOTS]).count();
+        let none = answers.status.iter().filter(|row| row.iter().all(|flags| *flags == 0)).count();
         assert!(full > ROWS / 4 && none > 10, "{}: {full} full, {none} out of reach", subject.name);
-        let empty =
-            |row: &[u8; SLOTS]| row.iter().map(|flags| usize::from(*flags == 0)).sum::<usize>();
-        halves += answers.status.iter().filter(|row| empty(row) == SLOTS / 2).count();
+        let empty = |row: &[u8]| row.iter().map(|flags| usize::from(*flags == 0)).sum::<usize>();
+        halves += answers.status.iter().filter(|row| 2 * empty(row) == row.len()).count();
     }
     // Without a shoulder offset both shoulders reach or none does.
     assert!(halves > 100, "{halves} with one shoulder");
@@ -260,8 +266,8 @@ where
             let order = shuffled(ROWS);
             let mixed: Vec<_> = order.iter().map(|i| rows[*i]).collect();
             let wanted = Answers {
-                q: order.iter().map(|i| whole.q[*i]).collect(),
-                status: order.iter().map(|i| whole.status[*i]).collect(),
+                q: order.iter().map(|i| whole.q[*i].clone()).collect(),
+                status: order.iter().map(|i| whole.status[*i].clone()).collect(),
             };
             Answers::in_a_batch(subject, &mixed, 1).assert_same(&wanted, &what);
         }
@@ -365,13 +371,14 @@ fn an_invalid_row_leaves_alone<const N: usize>(
 {
     on_each_set(|set| {
         let whole = Answers::in_a_batch(subject, rows, 1);
-        assert!(whole.status.as_flattened().iter().all(|flags| *flags != Status::INVALID.bits()));
+        assert!(whole.status.iter().flatten().all(|flags| *flags != Status::INVALID.bits()));
+        let slots = subject.robot.slot_count();
         for (name, spoil) in spoils {
             for place in 0..rows.len() {
                 let (mut spoiled, mut wanted) = (rows.to_vec(), whole.clone());
                 spoil(&mut spoiled[place].0);
                 (wanted.q[place], wanted.status[place]) =
-                    ([[f64::NAN; N]; SLOTS], [Status::INVALID.bits(); SLOTS]);
+                    (vec![[f64::NAN; N]; slots], vec![Status::INVALID.bits(); slots]);
                 Answers::in_a_batch(subject, &spoiled, 1)
                     .assert_same(&wanted, &format!("{name}, {}", set.name()));
             }

@@ -10,12 +10,11 @@ use std::f64::consts::PI;
 use irbkin::{Arity, JointLimits, Joints, Pose, Robot, SingularityKind, Status, pose_to_rows};
 
 use crate::common::tally::Tally;
-use crate::common::{Rng, apart, asked_set, poses_or};
+use crate::common::{Rng, apart, poses_or};
 use crate::structures::{self, Structure, Subject};
 
-const SLOTS: usize = 8;
-
 crate::on_every_structure!(every_generating_joint_vector_is_found);
+crate::on_structures_of_ordinals!(every_generating_joint_vector_is_found);
 
 /// Poses per batch: a million at once would take half a gigabyte. Not a multiple of any lane count.
 const PART: usize = 1003;
@@ -24,7 +23,8 @@ fn every_generating_joint_vector_is_found<const N: usize>(structure: &Structure<
 where
     Joints<N>: Arity<N>,
 {
-    structure.subjects.iter().for_each(check);
+    let report: String = structure.subjects.iter().map(check).collect();
+    assert!(report.is_empty(), "{report}");
 }
 
 #[test]
@@ -32,16 +32,19 @@ fn other_arms_of_abb_miss_no_solution() {
     for name in ["IRB 140-6/0.81", "IRB 1600-6/1.45", "IRB 6700-150/3.2", "IRB 2400-10/1.55"] {
         let robot: Robot<6> = Robot::named(name).unwrap();
         // As it is, with its axes coupled or not.
-        check(&structures::spherical_wrist::named(name).with_robot(|_| robot));
+        let report = check(&structures::spherical_wrist::named(name).with_robot(|_| robot));
+        assert!(report.is_empty(), "{report}");
     }
 }
 
 #[test]
 fn the_largest_arm_of_universal_robots_misses_no_solution() {
-    check(&structures::three_parallel::named("UR20"));
+    let report = check(&structures::three_parallel::named("UR20"));
+    assert!(report.is_empty(), "{report}");
 }
 
-fn check<const N: usize>(subject: &Subject<N>)
+/// Prints what is found of an arm; returns what is not as it must be.
+fn check<const N: usize>(subject: &Subject<N>) -> String
 where
     Joints<N>: Arity<N>,
 {
@@ -53,9 +56,9 @@ where
     } else {
         subject.clone()
     };
-    let set = asked_set().name();
+    let mut reports = String::new();
     for (way, tally) in ["one by one", "in a batch"].iter().zip(tallies(&subject)) {
-        let report = tally.row(&subject.name, way);
+        reports += &tally.row(&subject.name, way);
         println!(
             "    {} found only to worse than 1e-9 rad, the worst {:.1e} rad; position {:.2e} x \
              reach",
@@ -63,8 +66,14 @@ where
             tally.recall,
             tally.position / subject.reach()
         );
-        assert!(report.is_empty(), "{} {way} on {set}:\n{report}", subject.name);
+        // Of arms without a closed form, one pose in 10^4 may say that it is not certain; fewer
+        // than three are no rate.
+        if tally.uncertain > 2 + tally.poses / 10_000 {
+            let uncertain = tally.uncertain.to_string();
+            reports.extend([&subject.name, " ", way, ": ", &uncertain, " uncertain\n"]);
+        }
     }
+    reports
 }
 
 /// Solves random poses inside the limits, one by one and in batches.
@@ -74,7 +83,7 @@ where
 {
     let mut rng = Rng::new(0x5eed);
     let [mut alone, mut together] = [Tally::default(), Tally::default()];
-    let mut left = poses_or(20_000);
+    let mut left = poses_or(if subject.has_ordinals() { 3_000 } else { 20_000 });
     while left > 0 {
         let joints: Vec<_> =
             (0..left.min(PART)).map(|_| rng.inside(subject.robot.limits())).collect();
@@ -82,8 +91,9 @@ where
         let answers = solved_together(subject, &poses, &joints);
         for ((q, pose), answers) in joints.iter().zip(&poses).zip(answers) {
             let solutions = subject.ik(pose, q);
-            let solved: Vec<_> =
+            let solved =
                 solutions.iter().map(|s| (usize::from(s.slot), s.q, s.singularities())).collect();
+            let solved = (solved, solutions.is_certified());
             take(&mut alone, subject, q, pose, &solved);
             take(&mut together, subject, q, pose, &answers);
         }
@@ -95,17 +105,21 @@ where
 /// A solution: its slot, its joint angles, the reported singularities.
 type Answer<const N: usize> = (usize, [f64; N], SingularityKind);
 
+/// The solutions of a pose, and whether they are certified.
+type Answers<const N: usize> = (Vec<Answer<N>>, bool);
+
 /// The solutions of each pose of a batch.
 fn solved_together<const N: usize>(
     subject: &Subject<N>,
     poses: &[Pose],
     joints: &[[f64; N]],
-) -> Vec<Vec<Answer<N>>>
+) -> Vec<Answers<N>>
 where
     Joints<N>: Arity<N>,
 {
     let rows: Vec<f64> = poses.iter().flat_map(pose_to_rows).collect();
-    let (mut q, mut status) = (vec![[0.0; N]; SLOTS * poses.len()], vec![0; SLOTS * poses.len()]);
+    let slots = subject.robot.slot_count();
+    let (mut q, mut status) = (vec![[0.0; N]; slots * poses.len()], vec![0; slots * poses.len()]);
     (subject.calls.ik_rows)(&subject.robot, &rows, joints, q.as_flattened_mut(), &mut status, 1)
         .unwrap();
     let found = |(slot, (q, flags)): (usize, (&[f64; N], &u8))| {
@@ -113,9 +127,10 @@ where
         status.contains(Status::FOUND).then_some((slot, *q, status.singularities()))
     };
     let of_a_pose = |(q, status): (&[[f64; N]], &[u8])| {
-        q.iter().zip(status).enumerate().filter_map(found).collect()
+        let is_certified = !Status::from_bits_retain(status[0]).contains(Status::UNCERTIFIED);
+        (q.iter().zip(status).enumerate().filter_map(found).collect(), is_certified)
     };
-    q.chunks(SLOTS).zip(status.chunks(SLOTS)).map(of_a_pose).collect()
+    q.chunks(slots).zip(status.chunks(slots)).map(of_a_pose).collect()
 }
 
 /// Judges the answers for a pose by forward kinematics, by the joint vector that made it and by its
@@ -125,26 +140,31 @@ fn take<const N: usize>(
     subject: &Subject<N>,
     q: &[f64; N],
     pose: &Pose,
-    answers: &[Answer<N>],
+    (answers, is_certified): &Answers<N>,
 ) where
     Joints<N>: Arity<N>,
 {
     let before = tally.amiss();
     // Singular values take longer than everything else.
     let sampled = tally.poses.is_multiple_of(8);
-    let bounds = [3e-15 * subject.reach(), 1e-14];
+    // Newton's steps on a closure end where one is not better than the last.
+    let roundings = if subject.has_ordinals() { 1e-14 } else { 3e-15 };
+    let bounds = [roundings * subject.reach(), 1e-14];
     tally.take_residuals(&subject.robot, pose, answers.iter().map(|(_, q, _)| (q, bounds)));
     let nearest =
         answers.iter().map(|(_, answer, _)| apart(answer, q)).fold(f64::INFINITY, f64::min);
     tally.recall = tally.recall.max(nearest);
-    tally.found += usize::from(nearest <= 1e-9 || nearest <= rounding_bound(subject, q));
+    let is_found = nearest <= 1e-9 || nearest <= rounding_bound(subject, q);
+    tally.found += usize::from(is_found);
+    tally.uncertain += usize::from(!is_found && !is_certified);
     tally.coarse += usize::from(nearest > 1e-9);
     for (i, (slot, answer, kinds)) in answers.iter().enumerate() {
         tally.duplicates +=
             answers.iter().skip(i + 1).filter(|(_, other, _)| apart(other, answer) < 1e-9).count();
         // This near a singularity, rounding decides.
         let is_clear = |answer| subject.clearance(answer) > 1e-6;
-        tally.incorrect += usize::from(*slot != subject.slot(answer) && is_clear(answer));
+        let is_elsewhere = || !subject.has_ordinals() && *slot != subject.slot(answer);
+        tally.incorrect += usize::from(is_elsewhere() && is_clear(answer));
         let is_flagged = || *kinds == subject.robot.singularity(answer).kinds;
         tally.flags += usize::from(sampled && is_clear(answer) && !is_flagged());
     }

@@ -1342,7 +1342,10 @@ class Solutions(Sequence[Solution]):
         when it is reached, NaN where it is not and the structure has no closed form.
         """
     def explain(self) -> str:
-        """Return the outcome in a sentence: how many solutions, or why there are none."""
+        """Return the outcome in a sentence: how many solutions, or why there are none. For an
+        arm without a closed form that has none, how near it gets is then searched, which takes
+        milliseconds.
+        """
     def within_limits(self) -> Solutions:
         """Return the solutions inside the joint limits."""
     def turns(self) -> Solutions:

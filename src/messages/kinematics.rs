@@ -11,7 +11,7 @@ use crate::kinematics::thresholds::{
     ROTATION_REPAIR_BOUND,
 };
 use crate::kinematics::{Break, BreakReason, Mdh, Robot, SingularityKind};
-use crate::report::{Condition, Configuration, Explanation, FreeJoint, Reach, Relation};
+use crate::report::{Approach, Condition, Configuration, Explanation, FreeJoint, Reach, Relation};
 
 pub(super) fn tables() -> Vec<Table> {
     vec![
@@ -275,9 +275,13 @@ fn answers() -> Vec<Row> {
         Explanation::OutOfReach(_) =>
             Explanation::OutOfReach(Reach::TooFar { shortfall: 1423.4115 }),
             "a pose in millimeters", "divide its translation by 1000";
-        Explanation::NoRoots { certified: true } => Explanation::NoRoots { certified: true },
+        Explanation::NoRoots { certified: true, .. } => Explanation::NoRoots {
+                certified: true,
+                approach: Some(Approach { position: 0.012, rotation: 0.02 }),
+            },
             "a pose out of reach of an arm without a closed form", "move the pose";
-        Explanation::NoRoots { .. } => Explanation::NoRoots { certified: false },
+        Explanation::NoRoots { .. } =>
+            Explanation::NoRoots { certified: false, approach: None },
             "the same next to a singularity", "move the pose, even by 1e-6 m";
         Explanation::FreeOutOfReach { .. } =>
             Explanation::FreeOutOfReach { joint: 6, value: 1.0 },

@@ -8,8 +8,10 @@ use super::arrays::vector;
 use super::errors::{Fault, to_py};
 use crate::error::Error;
 use crate::kinematics::{
-    Arity, Cost, Joints, MOST_SLOTS, Pose, Robot, Solution, Solutions, check_seed, check_weights,
+    Arity, Cost, Inverse, Joints, MOST_SLOTS, Pose, Robot, Solution, Solutions, check_seed,
+    check_weights,
 };
+use crate::report::Explanation;
 
 /// More turns than any robot has inside its limits: a list this long means limits in degrees, or
 /// none.
@@ -49,6 +51,7 @@ where
 impl<const N: usize> Found<N>
 where
     Joints<N>: Arity<N>,
+    Robot<N>: Inverse<N>,
 {
     pub(super) fn new(robot: Arc<Robot<N>>, solutions: Solutions<N>) -> Self {
         Self { robot, solutions, turned: None }
@@ -123,6 +126,11 @@ where
         Ok(self.with(self.solutions.clone(), Some(self.solutions.turns().collect())))
     }
 
+    /// The outcome in a sentence.
+    pub(super) fn explain(&self) -> Explanation {
+        self.robot.explained_answer(&self.solutions)
+    }
+
     /// The cheapest solution inside the limits from `seed`, or why there is none. Solutions that
     /// were turned stand as they are.
     pub(super) fn cheapest(
@@ -138,7 +146,7 @@ where
             Some(turned) => turned.iter().copied().min_by(|a, b| total(a).total_cmp(&total(b))),
             None => self.solutions.cheapest(&seed, &weights, cost),
         };
-        cheapest.ok_or_else(|| to_py(py, &Error::Unreachable(self.solutions.explain())))
+        cheapest.ok_or_else(|| to_py(py, &Error::Unreachable(self.explain())))
     }
 
     /// Those that `accept` takes; an error of it ends the search.

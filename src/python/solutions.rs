@@ -114,9 +114,11 @@ impl PySolutions {
         on!(&self.found, found => found.solutions.reach().shortfall())
     }
 
-    /// Return the outcome in a sentence: how many solutions, or why there are none.
+    /// Return the outcome in a sentence: how many solutions, or why there are none. For an arm
+    /// without a closed form that has none, how near it gets is then searched, which takes
+    /// milliseconds.
     fn explain(&self) -> String {
-        on!(&self.found, found => found.solutions.explain().to_string())
+        on!(&self.found, found => found.explain().to_string())
     }
 
     /// Return the solutions inside the joint limits.

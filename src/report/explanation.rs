@@ -41,6 +41,15 @@ impl Reach {
     }
 }
 
+/// How near a robot gets to a pose that it does not reach.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Approach {
+    /// Distance of the tool from the pose [m].
+    pub position: f64,
+    /// Angle between them [rad].
+    pub rotation: f64,
+}
+
 /// One sentence on the outcome of a solve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -85,6 +94,8 @@ pub enum Explanation {
     NoRoots {
         /// Whether that is certain.
         certified: bool,
+        /// How near the arm gets, if that was searched.
+        approach: Option<Approach>,
     },
     /// Solutions inside the limits exist, none with this arm angle.
     NoArmAngle {
@@ -119,11 +130,15 @@ impl fmt::Display for Explanation {
             Self::OutOfReach(Reach::TooNear { shortfall }) => {
                 write!(f, "wrist center {} too near to be reached", Millimeters(shortfall))
             }
-            Self::NoRoots { certified: true } | Self::OutOfReach(Reach::NoRoots) => {
+            Self::NoRoots { certified: true, approach } => {
+                write!(f, "out of reach: no closed form; 0 real roots{}", Nearest(approach))
+            }
+            Self::OutOfReach(Reach::NoRoots) => {
                 write!(f, "out of reach: no closed form; 0 real roots")
             }
-            Self::NoRoots { certified: false } => {
-                write!(f, "no solution found, which is not certain: no closed form")
+            Self::NoRoots { certified: false, approach } => {
+                let nearest = Nearest(approach);
+                write!(f, "no solution found, which is not certain: no closed form{nearest}")
             }
             Self::OutOfReach(reach) => {
                 let shortfall = reach.shortfall();
@@ -149,6 +164,21 @@ impl fmt::Display for Explanation {
                 )
             }
             Self::FilteredOut => write!(f, "the filter rejected every solution"),
+        }
+    }
+}
+
+/// The end of a sentence: how near the arm gets.
+struct Nearest(Option<Approach>);
+
+impl fmt::Display for Nearest {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Some(Approach { position, rotation }) => {
+                let degrees = rotation.to_degrees();
+                write!(f, "; nearest approach {} and {degrees:.1} deg", Millimeters(position))
+            }
+            None => Ok(()),
         }
     }
 }

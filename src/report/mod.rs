@@ -9,7 +9,7 @@ mod free_joint;
 mod unknown_structure;
 
 pub use configuration::{Configuration, ConfigurationRule};
-pub use explanation::{Explanation, Reach};
+pub use explanation::{Approach, Explanation, Reach};
 pub use free_joint::FreeJoint;
 pub(crate) use unknown_structure::{
     Columns, Convention, Freedom, MOST_CONDITIONS, ORDERS, Pattern, Reading,

@@ -5,7 +5,7 @@ use irbkin::{Pose, Robot, Solutions};
 
 use super::asked_set;
 
-const SLOTS: usize = 8;
+const SLOTS: usize = 16;
 
 /// Counts of a set of poses.
 #[derive(Debug, Default)]
@@ -13,7 +13,9 @@ pub struct Tally {
     pub poses: usize,
     /// Poses whose own joint vector is among the answers.
     pub found: usize,
-    /// Of these, found only to worse than 1e-9 rad.
+    /// Poses whose own joint vector is not, and whose answer says that it is not certain.
+    pub uncertain: usize,
+    /// Of those found, found only to worse than 1e-9 rad.
     pub coarse: usize,
     /// Solutions that do not close, or are in an incorrect slot.
     pub incorrect: usize,
@@ -76,7 +78,7 @@ impl Tally {
 
     /// The sum of the counts that must be zero.
     pub fn amiss(&self) -> usize {
-        self.missed() + self.incorrect + self.duplicates + self.flags
+        self.missed() - self.uncertain + self.incorrect + self.duplicates + self.flags
     }
 
     /// Prints the row; returns it if a count is not zero.
@@ -87,11 +89,12 @@ impl Tally {
             self.solutions as f64 / self.poses as f64,
         );
         let row = format!(
-            "{name:22} {:8} {set:34} {:7} poses  found {found:6.2} %  missed {}  incorrect {}  \
-             duplicates {}  flags missing {}  worst {:.1e} m {:.1e} rad  {mean:.2} solutions",
+            "{name:22} {:8} {set:34} {:7} poses  found {found:6.2} %  missed {} (of which uncertain \
+             {})  incorrect {}  duplicates {}  flags missing {}  worst {:.1e} m {:.1e} rad  {mean:.2} solutions",
             asked_set().name(),
             self.poses,
             self.missed(),
+            self.uncertain,
             self.incorrect,
             self.duplicates,
             self.flags,

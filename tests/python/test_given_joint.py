@@ -5,6 +5,7 @@ import pickle
 import irbkin
 import numpy as np
 import pytest
+from seven_axis_arms import ARMS, fk
 
 # Modified rows alpha [rad], a [m], d [m], theta [rad]. An arm like KUKA's iiwa, and one with no
 # special relation between its axes.
@@ -31,13 +32,15 @@ SHOULDER_7 = ("spherical shoulder", 7)
 LIMITS = np.array([[-2.9, 2.9]] * 7)
 
 
-@pytest.fixture(params=["Panda", "IRB 14050", "iiwa", "oblique"], scope="module")
+@pytest.fixture(params=["Panda", "IRB 14050", "iiwa", "oblique", *ARMS], scope="module")
 def robot(request):
     tables = {"iiwa": IIWA, "oblique": OBLIQUE}
     tool = irbkin.pose([0.02, -0.03, 0.11], euler_zyx=[0.2, -0.4, 0.9])
     base = irbkin.pose([0.4, 0.1, -0.2], euler_zyx=[-0.7, 0.3, 0.5])
     if request.param in tables:
         bare = irbkin.Robot.from_mdh(tables[request.param], limits=LIMITS, name=request.param)
+    elif request.param in ARMS:
+        bare = irbkin.Robot.from_urdf(ARMS[request.param].urdf(), name=request.param)
     else:
         bare = irbkin.Robot(request.param)
     return bare.with_tool(tool).with_base(base)
@@ -50,6 +53,14 @@ def inside(robot, count, seed=11):
 
 def apart(a, b):
     return np.abs((np.asarray(a) - b + np.pi) % (2 * np.pi) - np.pi).max(axis=-1)
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_two_sources_describe_an_arm_alike(name):
+    robot = irbkin.Robot.from_urdf(ARMS[name].urdf())
+    # Up to the digits of a quarter turn in both: 4e-6 rad each.
+    for q in np.random.default_rng(3).uniform(-np.pi, np.pi, (20, 7)):
+        assert np.abs(robot.fk(q) - fk(ARMS[name], q)).max() < 3e-5
 
 
 @pytest.mark.parametrize("joint", range(1, 8))

@@ -119,7 +119,12 @@ def test_a_general_arm_out_of_reach_says_so():
     assert solutions.certified
     assert solutions.reach is irbkin.Reach.NO_ROOTS
     assert np.isnan(solutions.shortfall)
-    assert solutions.explain() == "out of reach: no closed form; 0 real roots"
+    words = r"out of reach: no closed form; 0 real roots; nearest approach (.+) mm and (.+) deg"
+    nearest = re.fullmatch(words, solutions.explain())
+    # The arm with its lengths in a line toward the pose, turned as the lengths are worth.
+    assert 9000 - 1390 < float(nearest[1]) < 9000
+    assert 0 <= float(nearest[2]) < 180
+    assert robot.check_pose(far).reason == solutions.explain()
     assert not robot.check_pose(far).reachable
     with pytest.raises(irbkin.UnreachableError, match="0 real roots"):
         robot.ik_nearest(far, np.zeros(6))

@@ -2,9 +2,14 @@
 //! their tests.
 //!
 //! A new structure is one line of `on_every_structure` and one folder here that implements [`Arm`];
-//! laws, hard sets, recall and lanes then run on it.
+//! laws, hard sets, recall and lanes then run on it. One whose slots are ordinals is its tables and
+//! one line of `on_structures_of_ordinals`: laws, recall and lanes run on it, as far as they ask
+//! for nothing but the table.
 #![allow(dead_code, clippy::unwrap_used)]
 
+pub mod by_table;
+pub mod general;
+pub mod offset_wrist;
 pub mod place;
 pub mod spherical_shoulder;
 pub mod spherical_wrist;
@@ -30,6 +35,15 @@ macro_rules! on_every_structure {
         $crate::on_a_structure!(spherical_wrist, 6: $($law),*);
         $crate::on_a_structure!(three_parallel, 6: $($law),*);
         $crate::on_a_structure!(spherical_shoulder, 7: $($law),*);
+    };
+}
+
+/// Makes a test of each law for each structure whose slots are ordinals.
+#[macro_export]
+macro_rules! on_structures_of_ordinals {
+    ($($law:ident),* $(,)?) => {
+        $crate::on_a_structure!(offset_wrist, 6: $($law),*);
+        $crate::on_a_structure!(general, 6: $($law),*);
     };
 }
 
@@ -90,9 +104,14 @@ where
     fn wrist_flip(&self, slots: [&Solution<N>; 2]) -> Result<(), String>;
 
     /// Whether the bits of a slot follow from the angles of the derivation: not if a link has no
-    /// length and its axis points either way.
+    /// length and its axis points either way, nor if slots are ordinals.
     fn has_slots(&self) -> bool {
         true
+    }
+
+    /// Bounds of a residual: roundings of the lengths and of a rotation [m, rad].
+    fn closure(&self, reach: f64) -> [f64; 2] {
+        [3e-15 * (1.0 + reach), 1e-14]
     }
 
     /// The residual of a singular pose, relative to the reach.
@@ -211,9 +230,14 @@ where
         self.arm.reach() + ends.map(|end| end.translation.vector.norm()).iter().sum::<f64>()
     }
 
-    /// Bounds of a residual: roundings of the lengths and of a rotation [m, rad].
+    /// Bounds of a residual [m, rad].
     pub fn closure(&self) -> [f64; 2] {
-        [3e-15 * (1.0 + self.reach()), 1e-14]
+        self.arm.closure(self.reach())
+    }
+
+    /// Whether slots are ordinals, without names.
+    pub fn has_ordinals(&self) -> bool {
+        self.robot.slot_names().is_none()
     }
 
     /// The slot of a joint vector.
@@ -221,16 +245,20 @@ where
         self.arm.slot(&self.arm.theta(q))
     }
 
-    /// The least distance of a joint vector from a singularity [rad, m].
+    /// The least distance of a joint vector from a singularity [rad, m]; the least singular value
+    /// of an arm whose singularities have no distances [m/rad, 1].
     pub fn clearance(&self, q: &[f64; N]) -> f64 {
-        let distances = self.robot.singularity(q).distances.unwrap();
-        distances.wrist.min(distances.elbow).min(distances.shoulder)
+        match self.robot.singularity(q).distances {
+            Some(distances) => distances.wrist.min(distances.elbow).min(distances.shoulder),
+            None => self.least_singular_value(q),
+        }
     }
 
     /// Whether a joint vector is so far from singularities that its slot and its branches are those
     /// of its neighbors.
     pub fn is_regular(&self, q: &[f64; N]) -> bool {
-        self.clearance(q) > 0.05
+        // A singular value is a distance times what it changes.
+        self.clearance(q) > if self.has_ordinals() { 0.02 } else { 0.05 }
     }
 
     /// How far rounding of the pose moves the joints that are solved for: 40 roundings over the

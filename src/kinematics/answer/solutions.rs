@@ -186,7 +186,7 @@ impl<const N: usize> Solutions<N> {
             return explanation;
         }
         if self.reach == Reach::NoRoots {
-            return Explanation::NoRoots { certified: self.is_certified };
+            return Explanation::NoRoots { certified: self.is_certified, approach: None };
         }
         if self.reach != Reach::Reached {
             return Explanation::OutOfReach(self.reach);

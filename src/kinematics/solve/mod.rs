@@ -1,6 +1,7 @@
 //! The inverse of a robot: for one pose, for rows, near a seed, by configuration, along the
 //! redundancy.
 
+mod approach;
 pub(crate) mod configuration;
 mod corner_search;
 mod correction;

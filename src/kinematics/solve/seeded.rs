@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use crate::error::{Error, ModelFault};
 use crate::kinematics::answer::check::{check_seed, check_weights};
 use crate::kinematics::answer::select::Cost;
-use crate::kinematics::answer::solutions::Solution;
+use crate::kinematics::answer::solutions::{Solution, Solutions};
 use crate::kinematics::pose::{Pose, checked_pose, pose_from_rows};
 use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::configuration::ConfigurationRequest;
@@ -53,6 +53,12 @@ pub trait Inverse<const N: usize>: sealed::Sealed {
     /// The outcome of the search in a sentence, for a pose that was checked.
     #[doc(hidden)]
     fn explain(&self, pose: &Pose) -> Result<Explanation, Error>;
+
+    /// The outcome of a solve in a sentence, with what only the arm knows of it.
+    #[doc(hidden)]
+    fn explained_answer(&self, solutions: &Solutions<N>) -> Explanation {
+        solutions.explain()
+    }
 
     /// The arm angle of joint angles, of an arm that has one.
     #[doc(hidden)]
@@ -123,7 +129,11 @@ impl Inverse<6> for Robot<6> {
         {
             return Ok(Explanation::Found { solutions: solutions.len(), inside: 1 });
         }
-        Ok(solutions.explain())
+        Ok(self.explained(&solutions))
+    }
+
+    fn explained_answer(&self, solutions: &Solutions<6>) -> Explanation {
+        self.explained(solutions)
     }
 
     fn arm_angle_of(&self, _: &[f64; 6]) -> Result<Option<f64>, Error> {
