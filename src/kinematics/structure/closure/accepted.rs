@@ -64,8 +64,9 @@ pub(crate) struct Accepted {
     /// Whether everything that was tried is understood: no candidate near a singularity remained
     /// without a decision, and nothing was left out.
     pub(crate) is_certain: bool,
-    /// How often two solutions were looked for that are not: the pose misses their fold.
-    pub(crate) nothing: usize,
+    /// Where two solutions were looked for that are not: the pose misses their fold.
+    missed: [[f64; 6]; MOST_EXAMINED],
+    missed_count: usize,
     /// How many candidates next to a singularity may still be examined.
     left: usize,
 }
@@ -120,7 +121,8 @@ impl Accepted {
         all: [Configuration::NONE; MOST],
         count: 0,
         is_certain: true,
-        nothing: 0,
+        missed: [[0.0; 6]; MOST_EXAMINED],
+        missed_count: 0,
         left: MOST_EXAMINED,
     };
 
@@ -139,7 +141,12 @@ impl Accepted {
 
     /// Begin another attempt: what is uncertain about an earlier one no longer counts.
     pub(crate) fn begin(&mut self) {
-        (self.is_certain, self.nothing, self.left) = (true, 0, MOST_EXAMINED);
+        (self.is_certain, self.missed_count, self.left) = (true, 0, MOST_EXAMINED);
+    }
+
+    /// Where this attempt looked for two solutions that the pose misses.
+    pub(crate) fn missed(&self) -> &[[f64; 6]] {
+        &self.missed[..self.missed_count]
     }
 
     /// Whether the chain can move with its ends standing still.
@@ -192,7 +199,12 @@ impl Accepted {
         self.left -= 1;
         let settled = closure.settle(target, theta);
         self.is_certain &= settled.is_certain;
-        self.nothing += usize::from(settled.is_certain && settled.all == [None; 2]);
+        if let Some(missed) = settled.missed
+            && let Some(place) = self.missed.get_mut(self.missed_count)
+        {
+            *place = missed;
+            self.missed_count += 1;
+        }
         for one in settled.all.into_iter().flatten() {
             self.insert(closure, one);
         }

@@ -50,6 +50,14 @@ pub(super) struct Settled {
     pub(super) all: [Option<Configuration>; 2],
     /// Whether the analysis holds: rank 5, and a curve of second order.
     pub(super) is_certain: bool,
+    /// Where two solutions would merge, if the pose misses them.
+    pub(super) missed: Option<[f64; 6]>,
+}
+
+impl Settled {
+    fn of(all: [Option<Configuration>; 2], is_certain: bool) -> Self {
+        Self { all, is_certain, missed: None }
+    }
 }
 
 /// The curve through a start: along v, with the closure left along u.
@@ -80,7 +88,7 @@ impl Closure {
         if is_free(&start) && is_free(&ahead) {
             let kind = Kind::Free { direction: curve.v.into() };
             let free = self.accepted(target, start.theta, curve.least, kind);
-            return Some(Settled { all: [free, None], is_certain: free.is_some() });
+            return Some(Settled::of([free, None], free.is_some()));
         }
         curve.solutions(start, ahead)
     }
@@ -98,7 +106,7 @@ impl Closure {
     /// A configuration with two free directions: taken if it closes, without a claim.
     fn unanalyzed(&self, target: &Target, theta: &[f64; 6]) -> Option<Settled> {
         let one = self.accepted(target, *theta, 0.0, Kind::Fold)?;
-        Some(Settled { all: [Some(one), None], is_certain: false })
+        Some(Settled::of([Some(one), None], false))
     }
 
     /// The configuration if it closes.
@@ -179,21 +187,21 @@ impl Curve<'_> {
         // Too flat for two solutions in sight: one.
         if c2.abs() * FARTHEST < 0.5 * start.slope.abs() {
             let one = self.root(start);
-            return Some(Settled { all: [one, None], is_certain: one.is_some() });
+            return Some(Settled::of([one, None], one.is_some()));
         }
         let (turning, c2) = self.turning(ahead, start)?;
         let extreme = turning.left;
         if extreme.abs() <= MERGED * self.closure.rounding {
             let merged = self.closure.accepted(self.target, turning.theta, 0.0, Kind::Fold);
-            return Some(Settled { all: [merged, None], is_certain: merged.is_some() });
+            return Some(Settled::of([merged, None], merged.is_some()));
         }
         if extreme / c2 > 0.0 {
-            return Some(Settled { all: [None; 2], is_certain: true });
+            return Some(Settled { missed: Some(turning.theta), ..Settled::of([None; 2], true) });
         }
         let half = (-extreme / c2).sqrt();
         let root = |s: f64| self.root(self.at(s, &turning.theta)?);
         let (one, other) = (root(turning.s - half), root(turning.s + half));
-        Some(Settled { all: [one, other], is_certain: one.is_some() && other.is_some() })
+        Some(Settled::of([one, other], one.is_some() && other.is_some()))
     }
 
     /// Where the closure along the curve has its extreme value, by the secant method on its slope,

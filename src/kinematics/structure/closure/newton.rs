@@ -15,8 +15,8 @@ const CONVERGED: f64 = 1e-8;
 const MOST_STEP: f64 = 0.3;
 
 /// Steps at most. Candidates are within 1e-3 rad of a solution, from where three are enough; more
-/// are left to those that are not.
-const MOST_STEPS: usize = 6;
+/// are left to those that are not, or are next to a fold.
+const MOST_STEPS: usize = 8;
 
 /// Joint angles of eight candidates, and how well they close.
 #[derive(Clone, Copy)]

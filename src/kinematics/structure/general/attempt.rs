@@ -48,7 +48,7 @@ impl VectorKernel for Attempt<'_> {
             let cos = Vector::load_array_ref(simd, &SAMPLE_COS[block]);
             samples[block] = Rest::at(&posed.equations, &sin, &cos).determinant;
         }
-        let polynomial = TrigonometricPolynomial::of_samples(&samples);
+        let polynomial = TrigonometricPolynomial::of_samples(&samples).of_pose();
         let roots = polynomial.roots(simd);
         let search =
             Search { split, closure, target, posed: &posed, weights: posed.left.weights_of_1() };
@@ -76,7 +76,6 @@ impl VectorKernel for Attempt<'_> {
                 places = PLACES.map(|place| root.angle() + place * root.radius());
                 Some(root)
             };
-            let nothing = accepted.nothing;
             let lanes = match cluster {
                 None => LANES.min(count - done),
                 // Where the interval is narrow, its places are one.
@@ -89,7 +88,8 @@ impl VectorKernel for Attempt<'_> {
                 let found = split.solutions_at(root, accepted);
                 let missed = root.most.wrapping_sub(found);
                 // Roots that come and go in pairs.
-                is_certain &= missed == 0 || missed == 2 && accepted.nothing > nothing;
+                let is_fold = |theta: &[f64; 6]| split.is_in(root, theta);
+                is_certain &= missed == 0 || missed == 2 && accepted.missed().iter().any(is_fold);
                 in_clusters += found;
             }
         }
@@ -108,11 +108,14 @@ fn is_cluster(root: Root) -> bool {
 impl Split {
     /// Number of solutions in the interval of a cluster, with their multiplicity.
     fn solutions_at(&self, root: &Root, accepted: &Accepted) -> usize {
-        let is_in = |one: &&Configuration| {
-            let angle = self.sign * one.theta[self.searched()];
-            wrap(angle - root.angle()).abs() <= root.radius() + BESIDE
-        };
+        let is_in = |one: &&Configuration| self.is_in(root, &one.theta);
         accepted.as_slice().iter().filter(is_in).map(Configuration::multiplicity).sum()
+    }
+
+    /// Whether a configuration is in the interval of a cluster.
+    fn is_in(&self, root: &Root, theta: &[f64; 6]) -> bool {
+        let angle = self.sign * theta[self.searched()];
+        wrap(angle - root.angle()).abs() <= root.radius() + BESIDE
     }
 }
 

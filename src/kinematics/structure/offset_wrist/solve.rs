@@ -41,7 +41,7 @@ impl VectorKernel for Solve<'_> {
         let lengths = &self.arm.lengths;
         let mut search = Search::new(self.arm, self.last);
         let values = samples(simd, lengths, &search.hand);
-        let mut polynomial = TrigonometricPolynomial::of_samples(&values);
+        let mut polynomial = TrigonometricPolynomial::of_samples(&values).of_pose();
         polynomial.noise += NOISE_OF_POSE * polynomial.size();
         let roots = polynomial.roots(simd);
         let is_complete = roots.is_complete;
