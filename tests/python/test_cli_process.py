@@ -39,7 +39,13 @@ def test_a_signal_leaves_no_traceback_and_no_half_written_file(number, code, wor
     file = tmp_path / "poses.csv"
     file.write_text("as it was\n")
     command = [*COMMAND, "fk", NAME, "-", "-o", str(file)]
-    process = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE)
+    process = subprocess.Popen(
+        command,
+        stdin=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        # A shell's background job ignores it.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
     process.stdin.write(b"0,0,0,0,30,0\n" * 300000)
     process.stdin.flush()
     deadline = time.monotonic() + 30
