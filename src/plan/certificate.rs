@@ -23,6 +23,13 @@ const HALF: f64 = 0.75;
 /// branches may end at a fold, and others begin next to it.
 const WIDEST_OF_ORDINALS: f64 = 1.0 / 16.0;
 
+/// Part of the distance of two branches that a motion next to their fold may have [1]: to the fold
+/// and back would be as much as half of it at either end.
+const OF_FOLD: f64 = 0.25;
+
+/// Motion next to a fold that is not looked into [rad].
+const AT_FOLD: f64 = 1e-4;
+
 /// How far a way that was followed may end from the joint angles that it leads to [rad].
 pub(super) const ARRIVED: f64 = 1e-6;
 
@@ -100,31 +107,39 @@ impl<'a> Hop<'a> {
             && arm.joints.contain(&middle)
             && largest(&steps(from, &middle)) <= bound
             && largest(&steps(&middle, to)) <= bound
+            && !(0..q.len()).any(|other| other != slot && are_within(whole, &q[slot], &q[other]))
     }
 
     /// Follow the branch from the first node to the second, in steps that are halved until they are
     /// small; a jump does not shrink.
     pub(super) fn followed(&self, arm: &Arm<'_>) -> Between {
         let bound = (self.step() / 4.0).clamp(CONTINUOUS_STEP, EXAMINED_STEP);
-        match self.end(arm, bound) {
+        match self.end(arm, bound, arm.has_names()) {
             None => Between::Jump,
             Some(q) if largest(&steps(&q, &self.q[1])) <= ARRIVED => Between::Continuous,
             Some(_) => Between::Elsewhere,
         }
     }
 
-    /// Where the branch of the first node leads, in steps up to a bound; `None` if it jumps.
-    pub(super) fn end(&self, arm: &Arm<'_>, bound: f64) -> Option<[f64; 6]> {
+    /// Where the branch of the first node leads, in steps up to a bound; `None` if it jumps. If the
+    /// folds of branches are asked for, no step is taken over one.
+    pub(super) fn end(&self, arm: &Arm<'_>, bound: f64, at_folds: bool) -> Option<[f64; 6]> {
         let mut q = self.q[0];
+        let mut room = if at_folds { arm.room(&self.pose(arm, 0.0), &q) } else { f64::INFINITY };
         let widest = if arm.has_names() { 1.0 } else { WIDEST_OF_ORDINALS };
         let (mut done, mut width, mut depth) = (0.0, widest, 0);
         while done < 1.0 {
             let end = if done + width >= 1.0 { 1.0 } else { done + width };
             let nearest = arm.robot.ik_nearest(&self.pose(arm, end), &q, &[1.0; 6]);
-            let next = nearest.ok().map(|next| next.q);
-            match next.filter(|next| largest(&steps(&q, next)) <= bound) {
-                Some(next) => {
-                    (q, done) = (next, end);
+            let next = nearest.ok().map(|next| next.q).and_then(|next| {
+                let moved = largest(&steps(&q, &next));
+                let ahead = if at_folds { arm.room(&self.pose(arm, end), &next) } else { room };
+                let is_clear = moved <= (OF_FOLD * (room + ahead)).max(AT_FOLD);
+                (moved <= bound && is_clear).then_some((next, ahead))
+            });
+            match next {
+                Some((next, ahead)) => {
+                    (q, room, done) = (next, ahead, end);
                     if depth > 0 {
                         (width, depth) = (width * 2.0, depth - 1);
                     }
@@ -137,7 +152,28 @@ impl<'a> Hop<'a> {
     }
 }
 
+/// Whether no joint differs by more than a distance, whole turns apart [rad].
+fn are_within(distance: f64, q: &[f64; 6], other: &[f64; 6]) -> bool {
+    (0..6).all(|joint| (nearest_turn(other[joint], q[joint]) - q[joint]).abs() <= distance)
+}
+
 impl Arm<'_> {
+    /// How far the other branches are from a joint vector at a pose, the nearest one [rad].
+    fn room(&self, pose: &Pose, q: &[f64; 6]) -> f64 {
+        let Ok(solutions) = self.robot.ik(pose) else { return f64::INFINITY };
+        let apart = |other: [f64; 6]| {
+            let parts = other.iter().zip(q).map(|(other, q)| (nearest_turn(*other, *q) - q).abs());
+            parts.fold(0.0, f64::max)
+        };
+        // The branch itself is the nearest of all.
+        let mut two = [f64::INFINITY; 2];
+        for distance in solutions.iter().map(|solution| apart(solution.q)) {
+            two =
+                if distance < two[0] { [distance, two[0]] } else { [two[0], two[1].min(distance)] };
+        }
+        two[1]
+    }
+
     /// The steps of a way that are not continuous, by the layer that they lead to. Not all, if the
     /// caller stops it.
     pub(super) fn doubts(&self, grid: &Grid, layers: &[Layer], way: &Way) -> Vec<(usize, Between)> {

@@ -39,7 +39,7 @@ impl Arm<'_> {
                 let follow = |slot: usize, q: &[f64; 6]| {
                     let nodes = [Node { slot, station, bin }; 2];
                     let hop = Hop::new(self, grid, [before?, layer], nodes, [*q; 2]);
-                    hop.end(self, EXAMINED_STEP)
+                    hop.end(self, EXAMINED_STEP, false)
                 };
                 let slots_before = before.map(|before| at(before, station, bin));
                 let joined = self.joined(own, slots_before.as_ref(), beside.as_ref(), follow);
