@@ -11,7 +11,7 @@ use super::layer::{Grid, Layer, Node};
 use super::nodes::Arm;
 use super::way::Way;
 use crate::kinematics::thresholds::{CONTINUOUS_STEP, EXAMINED_STEP};
-use crate::kinematics::{Pose, Status, largest, nearest_turn, pose_to_rows, steps};
+use crate::kinematics::{Pose, Slot, Solution, Status, largest, nearest_turn, pose_to_rows, steps};
 
 /// How often a step is halved in search of a continuous way: down to a millionth of it.
 pub(super) const HALVINGS: u32 = 20;
@@ -29,6 +29,9 @@ const OF_FOLD: f64 = 0.25;
 
 /// Motion next to a fold that is not looked into [rad].
 const AT_FOLD: f64 = 1e-4;
+
+/// Motion in which a branch may pass into another, through the singularity that they share [rad].
+const AT_CHANGE: f64 = 1e-5;
 
 /// How far a way that was followed may end from the joint angles that it leads to [rad].
 pub(super) const ARRIVED: f64 = 1e-6;
@@ -122,24 +125,26 @@ impl<'a> Hop<'a> {
     }
 
     /// Where the branch of the first node leads, in steps up to a bound; `None` if it jumps. If the
-    /// folds of branches are asked for, no step is taken over one.
+    /// folds of branches are asked for, no step is taken over one, and none to another branch but
+    /// through the singularity that they share.
     pub(super) fn end(&self, arm: &Arm<'_>, bound: f64, at_folds: bool) -> Option<[f64; 6]> {
-        let mut q = self.q[0];
+        let (mut q, mut slot) = (self.q[0], Slot::new(self.nodes[0].slot));
         let mut room = if at_folds { arm.room(&self.pose(arm, 0.0), &q) } else { f64::INFINITY };
         let widest = if arm.has_names() { 1.0 } else { WIDEST_OF_ORDINALS };
         let (mut done, mut width, mut depth) = (0.0, widest, 0);
         while done < 1.0 {
             let end = if done + width >= 1.0 { 1.0 } else { done + width };
             let nearest = arm.robot.ik_nearest(&self.pose(arm, end), &q, &[1.0; 6]);
-            let next = nearest.ok().map(|next| next.q).and_then(|next| {
+            let next = nearest.ok().and_then(|Solution { q: next, slot: at, .. }| {
                 let moved = largest(&steps(&q, &next));
                 let ahead = if at_folds { arm.room(&self.pose(arm, end), &next) } else { room };
-                let is_clear = moved <= (OF_FOLD * (room + ahead)).max(AT_FOLD);
-                (moved <= bound && is_clear).then_some((next, ahead))
+                let is_change = at_folds && at != slot && moved > AT_CHANGE;
+                let is_clear = moved <= (OF_FOLD * (room + ahead)).max(AT_FOLD) && !is_change;
+                (moved <= bound && is_clear).then_some((next, at, ahead))
             });
             match next {
-                Some((next, ahead)) => {
-                    (q, room, done) = (next, ahead, end);
+                Some((next, at, ahead)) => {
+                    (q, slot, room, done) = (next, at, ahead, end);
                     if depth > 0 {
                         (width, depth) = (width * 2.0, depth - 1);
                     }
