@@ -17,7 +17,7 @@ from pathlib import Path
 # arms without a closed form, whose determinant is compiled for each instruction set, 0.74 more. A
 # build with `-C llvm-args=-inline-threshold=100` is 7 % smaller, but its batches of singularities
 # and configurations are 17 % and 60 % slower: it was not taken.
-MOST_BYTES = 2_900_000
+MOST_BYTES = 2_700_000
 
 
 def machine_paths() -> set[bytes]:

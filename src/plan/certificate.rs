@@ -97,7 +97,7 @@ impl<'a> Hop<'a> {
 
     /// Whether the branch has, half way, joint angles between those of both nodes (eq. 8). Where it
     /// has not, the way has to be followed.
-    fn is_halved_by(&self, arm: &Arm<'_>, q: &[[f64; 6]], status: &[u8]) -> bool {
+    fn is_halved_by(&self, arm: &Arm<'_>, grid: &Grid, q: &[[f64; 6]], status: &[u8]) -> bool {
         let [from, to] = &self.q;
         let slot = self.nodes[0].slot;
         if slot != self.nodes[1].slot || status[slot] & Status::WITHIN_LIMITS.bits() == 0 {
@@ -111,6 +111,16 @@ impl<'a> Hop<'a> {
             && largest(&steps(from, &middle)) <= bound
             && largest(&steps(&middle, to)) <= bound
             && !(0..q.len()).any(|other| other != slot && are_within(whole, &q[slot], &q[other]))
+            && !(0..2).any(|end| self.is_at_fold(grid, end, whole))
+    }
+
+    /// Whether another branch is nearer than a distance to one of the nodes.
+    fn is_at_fold(&self, grid: &Grid, end: usize, distance: f64) -> bool {
+        let (layer, node) = (self.layers[end], self.nodes[end]);
+        (0..grid.slots).filter(|slot| *slot != node.slot).any(|slot| {
+            let other = layer.joints(grid, Node { slot, ..node });
+            other.is_some_and(|other| are_within(distance, &self.q[end], &other))
+        })
     }
 
     /// Follow the branch from the first node to the second, in steps that are halved until they are
@@ -208,7 +218,7 @@ impl Arm<'_> {
             }
             let rows = q.as_chunks::<6>().0.chunks(grid.slots).zip(status.chunks(grid.slots));
             for ((layer, hop), (q, status)) in part.iter().zip(rows) {
-                if has_names && hop.is_halved_by(self, q, status) {
+                if has_names && hop.is_halved_by(self, grid, q, status) {
                     continue;
                 }
                 match hop.followed(self) {
