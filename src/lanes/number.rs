@@ -21,7 +21,7 @@ pub(crate) trait Number:
     /// A constant, in as many lanes.
     fn like(self, constant: f64) -> Self;
 
-    /// `self * by + plus`, in one rounding where the instruction set has it.
+    /// `self * by + plus`; of vectors in one rounding where the instruction set has it.
     fn times_plus(self, by: Self, plus: Self) -> Self;
 
     /// The square root.

@@ -35,6 +35,8 @@ def eaik(arm: Arm) -> list[Contender]:
     if arm.dof != 6:
         return []
     robot = HPRobot(arm.axes, arm.offsets)
+    # Its batch ends the process where one pose raises an error.
+    threads_of = ((1, ""), (2, "s")) if robot.hasKnownDecomposition() else ()
 
     def own_frame(pose: Floats, joints: Floats) -> tuple[Any, ...]:
         return (turned(pose, arm.tool.T),)
@@ -58,7 +60,7 @@ def eaik(arm: Arm) -> list[Contender]:
                 own_frame,
                 read=lambda answer: [each.Q for each in answer],
             )
-            for threads, plural in ((1, ""), (2, "s"))
+            for threads, plural in threads_of
         ),
     ]
 
