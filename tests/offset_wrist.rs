@@ -7,7 +7,8 @@ use irbkin::{
     DhRow, JacobianFrame, Mdh, Pose, Robot, Status, batch, pose_from_euler_zyx, pose_to_rows,
 };
 
-use crate::common::{Rng, apart, on_each_set};
+use crate::common::{Rng, apart};
+use crate::structures::offset_wrist::{JACO2, ODD};
 
 /// Name; alpha [deg], a [m], d [m], theta [deg] of each row.
 type Table = (&'static str, [[f64; 4]; 6]);
@@ -45,30 +46,7 @@ const CRX_10IAL: Table = (
         [-90.0, 0.0, 0.16, 180.0],
     ],
 );
-const JACO2: Table = (
-    "JACO2",
-    [
-        [0.0, 0.0, 0.2755, 0.0],
-        [90.0, 0.0, 0.0, 0.0],
-        [180.0, 0.41, 0.0098, 0.0],
-        [90.0, 0.0, -0.2073, 0.0],
-        [60.0, 0.0, -0.0741, 0.0],
-        [60.0, 0.0, -0.16, 0.0],
-    ],
-);
-/// Not a real arm: every parameter has an effect.
-const ODD: Table = (
-    "odd",
-    [
-        [20.0, 0.1, 0.2755, 30.0],
-        [90.0, 0.1, 0.02, 10.0],
-        [0.0, -0.41, -0.07, 20.0],
-        [70.0, 0.05, -0.3, 30.0],
-        [50.0, 0.0, -0.0741, 40.0],
-        [40.0, 0.07, -0.16, 50.0],
-    ],
-);
-const TABLES: [Table; 5] = [GOFA_5, GOFA_10, CRX_10IAL, JACO2, ODD];
+const TABLES: [Table; 5] = [GOFA_5, GOFA_10, CRX_10IAL, ("JACO2", JACO2), ("odd", ODD)];
 
 fn robot((_, rows): &Table) -> Robot<6> {
     of_rows(rows.map(|[alpha, a, d, theta]| [alpha.to_radians(), a, d, theta.to_radians()]))
@@ -199,30 +177,29 @@ fn base_tool_and_the_zeros_of_joints_do_not_change_the_solutions() {
     }
 }
 
+/// On the set in use; `tests/lanes.rs` runs the like on every one.
 #[test]
 fn a_row_of_a_batch_has_the_bits_of_the_pose_alone() {
-    on_each_set(|_| {
-        for table in &TABLES {
-            let robot = robot(table);
-            let joints: Vec<[f64; 6]> = drawn(4, 50).collect();
-            let rows: Vec<f64> = joints.iter().flat_map(|q| pose_to_rows(&robot.fk(q))).collect();
-            let (mut q, mut status) = (vec![0.0; 50 * 16 * 6], vec![0; 50 * 16]);
-            batch::ik(&robot, &rows, &mut q, &mut status, NonZeroUsize::new(2)).unwrap();
-            for (row, made) in joints.iter().enumerate() {
-                let alone = robot.ik(&robot.fk(made)).unwrap();
-                for slot in 0..16 {
-                    let place = 16 * row + slot;
-                    let found = Status::from_bits_retain(status[place]);
-                    assert_eq!(found, alone.status()[slot]);
-                    if let Some(solution) = alone.slot(slot) {
-                        assert_eq!(q[6 * place..6 * place + 6], solution.q);
-                    } else {
-                        assert!(q[6 * place..6 * place + 6].iter().all(|angle| angle.is_nan()));
-                    }
+    for table in &TABLES {
+        let robot = robot(table);
+        let joints: Vec<[f64; 6]> = drawn(4, 50).collect();
+        let rows: Vec<f64> = joints.iter().flat_map(|q| pose_to_rows(&robot.fk(q))).collect();
+        let (mut q, mut status) = (vec![0.0; 50 * 16 * 6], vec![0; 50 * 16]);
+        batch::ik(&robot, &rows, &mut q, &mut status, NonZeroUsize::new(2)).unwrap();
+        for (row, made) in joints.iter().enumerate() {
+            let alone = robot.ik(&robot.fk(made)).unwrap();
+            for slot in 0..16 {
+                let place = 16 * row + slot;
+                let found = Status::from_bits_retain(status[place]);
+                assert_eq!(found, alone.status()[slot]);
+                if let Some(solution) = alone.slot(slot) {
+                    assert_eq!(q[6 * place..6 * place + 6], solution.q);
+                } else {
+                    assert!(q[6 * place..6 * place + 6].iter().all(|angle| angle.is_nan()));
                 }
             }
         }
-    });
+    }
 }
 
 #[test]

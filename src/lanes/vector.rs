@@ -2,8 +2,8 @@
 //! vectors by itself.
 //!
 //! A loop over lanes becomes vector instructions where its columns are stored soon. An elimination
-//! of nine columns by six rows keeps hundreds of numbers between its stores; as loops it was four
-//! times slower than as vectors. The vectors are those of `fearless_simd`.
+//! of nine columns by six rows keeps hundreds of numbers between its stores; as loops it
+//! is much slower than as vectors. The vectors are those of `fearless_simd`.
 
 use fearless_simd::{Level, Simd, dispatch, f64x8};
 

@@ -7,7 +7,7 @@ use super::by_table::{named, structure as of_tables, subject, table};
 use crate::rng::Rng;
 
 /// Not a real arm: every parameter has an effect.
-const ODD: [[f64; 4]; 6] = [
+pub const ODD: [[f64; 4]; 6] = [
     [20.0, 0.1, 0.2755, 30.0],
     [90.0, 0.1, 0.02, 10.0],
     [0.0, -0.41, -0.07, 20.0],
@@ -17,7 +17,7 @@ const ODD: [[f64; 4]; 6] = [
 ];
 
 /// Kinova's JACO2 with its lateral offset.
-const JACO2: [[f64; 4]; 6] = [
+pub const JACO2: [[f64; 4]; 6] = [
     [0.0, 0.0, 0.2755, 0.0],
     [90.0, 0.0, 0.0, 0.0],
     [180.0, 0.41, 0.0098, 0.0],

@@ -71,9 +71,7 @@ impl Closure {
     /// A last frame in units of the chain.
     #[inline(always)]
     pub(crate) fn target(&self, t_first_last: &Frame) -> Target {
-        let unit = 1.0 / self.reach;
-        let [x, y, z] = t_first_last.origin;
-        Target { frame: Frame { origin: [x * unit, y * unit, z * unit], ..*t_first_last } }
+        Target { frame: t_first_last.in_units(1.0 / self.reach) }
     }
 
     /// What a configuration reaches.

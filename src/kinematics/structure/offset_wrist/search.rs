@@ -56,10 +56,6 @@ impl<'a> Search<'a> {
         }
     }
 
-    fn branch(&self, sides: [f64; 2], angle: f64, slack: f64) -> Option<Branch<f64>> {
-        branch_at(&self.arm.lengths, &self.hand, sides, sin_cos(angle), slack)
-    }
-
     /// Take a branch as a candidate.
     fn put(&mut self, branch: &Branch<f64>, sin_cos_6: [f64; 2]) {
         let OffsetWrist { lengths, twists, .. } = self.arm;
@@ -152,8 +148,9 @@ impl<'a> Search<'a> {
 
     /// A candidate at an angle of joint 6, even if it is a little out of reach.
     pub(super) fn put_at(&mut self, sides: [f64; 2], angle: f64) {
-        if let Some(branch) = self.branch(sides, angle, SLACK) {
-            self.put(&branch, sin_cos(angle));
+        let sin_cos_6 = sin_cos(angle);
+        if let Some(branch) = branch_at(&self.arm.lengths, &self.hand, sides, sin_cos_6, SLACK) {
+            self.put(&branch, sin_cos_6);
         }
     }
 

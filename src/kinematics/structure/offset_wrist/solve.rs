@@ -18,7 +18,7 @@ use crate::lanes::{LANES, VectorKernel, run_vectors};
 
 /// What the rounding of a pose changes of the resultant, relative to its coefficients [1]: they are
 /// of degree 8 in the pose's elements, and no surplus harmonic shows it.
-const NOISE_OF_POSE: f64 = 64.0 * f64::EPSILON;
+const NOISE_OF_DEGREE_8: f64 = 64.0 * f64::EPSILON;
 
 /// The solutions of a pose.
 pub(super) struct Found {
@@ -42,7 +42,7 @@ impl VectorKernel for Solve<'_> {
         let mut search = Search::new(self.arm, self.last);
         let values = samples(simd, lengths, &search.hand);
         let mut polynomial = TrigonometricPolynomial::of_samples(&values).of_pose();
-        polynomial.noise += NOISE_OF_POSE * polynomial.size();
+        polynomial.noise += NOISE_OF_DEGREE_8 * polynomial.size();
         let roots = polynomial.roots(simd);
         let is_complete = roots.is_complete;
         let mut clusters = Clusters::NONE;
