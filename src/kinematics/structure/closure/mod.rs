@@ -16,5 +16,5 @@ mod tests;
 
 pub(crate) use accepted::{Accepted, Configuration, Kind};
 pub(crate) use chain::{Closure, Target};
-pub(crate) use newton::{Candidates, Six};
+pub(crate) use newton::{Candidates, Six, reflect};
 pub(crate) use placed::Placed;

@@ -220,9 +220,10 @@ impl<S: Simd> Triangle<S> {
     }
 }
 
-/// Reflect rows k and below of a column.
+/// Reflect rows k and below of a column in a mirror with this normal; the scale is minus two over
+/// the square of its length.
 #[inline(always)]
-fn reflect<S: Simd>(mirror: &Six<S>, scale: Vector<S>, column: &mut Six<S>, k: usize) {
+pub(crate) fn reflect<S: Simd>(mirror: &Six<S>, scale: Vector<S>, column: &mut Six<S>, k: usize) {
     let mut along = mirror[k] * column[k];
     for row in k + 1..6 {
         along = mirror[row].mul_add(column[row], along);

@@ -14,7 +14,7 @@
 use fearless_simd::prelude::*;
 
 use super::split::Equations;
-use crate::kinematics::structure::closure::Six;
+use crate::kinematics::structure::closure::{Six, reflect};
 use crate::lanes::{Number as _, Vector};
 
 /// What is left of the matrix: six rows of six, for the powers 2 and 3 of x4, as a triangle.
@@ -48,9 +48,9 @@ impl<S: Simd> Rest<S> {
             }
         }
         let u = [
-            reflect::<0, 9, S>(&mut first),
-            reflect::<1, 9, S>(&mut first),
-            reflect::<2, 9, S>(&mut first),
+            triangulate::<0, 9, S>(&mut first),
+            triangulate::<1, 9, S>(&mut first),
+            triangulate::<2, 9, S>(&mut first),
         ];
         // [F1 F2 0; U A1 A2], with zeros where reflections left their normals.
         let mut second = [[zero; 6]; 9];
@@ -67,9 +67,9 @@ impl<S: Simd> Rest<S> {
             second[j][3 + j] = u[j];
         }
         let v = [
-            reflect::<0, 9, S>(&mut second),
-            reflect::<1, 9, S>(&mut second),
-            reflect::<2, 9, S>(&mut second),
+            triangulate::<0, 9, S>(&mut second),
+            triangulate::<1, 9, S>(&mut second),
+            triangulate::<2, 9, S>(&mut second),
         ];
         // [G1 G2; F1 F2]
         let mut columns = [[zero; 6]; 6];
@@ -80,11 +80,11 @@ impl<S: Simd> Rest<S> {
             }
         }
         let diagonal = [
-            reflect::<0, 6, S>(&mut columns),
-            reflect::<1, 6, S>(&mut columns),
-            reflect::<2, 6, S>(&mut columns),
-            reflect::<3, 6, S>(&mut columns),
-            reflect::<4, 6, S>(&mut columns),
+            triangulate::<0, 6, S>(&mut columns),
+            triangulate::<1, 6, S>(&mut columns),
+            triangulate::<2, 6, S>(&mut columns),
+            triangulate::<3, 6, S>(&mut columns),
+            triangulate::<4, 6, S>(&mut columns),
             columns[5][5],
         ];
         let mut determinant = u[0] * u[1] * u[2] * v[0] * v[1] * v[2];
@@ -193,7 +193,7 @@ fn orthogonalize<S: Simd>(v: &mut Six<S>, to: &Six<S>) {
 /// Reflect rows K and below so that column K is zero below row K; returns its element there, up to
 /// a sign that all have in common.
 #[inline(always)]
-fn reflect<const K: usize, const C: usize, S: Simd>(columns: &mut [Six<S>; C]) -> Vector<S> {
+fn triangulate<const K: usize, const C: usize, S: Simd>(columns: &mut [Six<S>; C]) -> Vector<S> {
     let (mirrors, rest) = columns.split_at_mut(K + 1);
     let mirror = &mut mirrors[K];
     let mut square = mirror[K] * mirror[K];
@@ -208,14 +208,7 @@ fn reflect<const K: usize, const C: usize, S: Simd>(columns: &mut [Six<S>; C]) -
     let diagonal = -length.copysign(first);
     mirror[K] = first - diagonal;
     for column in rest {
-        let mut along = mirror[K] * column[K];
-        for row in K + 1..6 {
-            along = mirror[row].mul_add(column[row], along);
-        }
-        along *= scale;
-        for row in K..6 {
-            column[row] = mirror[row].mul_add(along, column[row]);
-        }
+        reflect(mirror, scale, column, K);
     }
     diagonal
 }
