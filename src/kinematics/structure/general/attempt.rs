@@ -49,7 +49,7 @@ impl VectorKernel for Attempt<'_> {
             samples[block] = Rest::at(&posed.equations, &sin, &cos).determinant;
         }
         let polynomial = TrigonometricPolynomial::of_samples(&samples).of_pose();
-        let roots = polynomial.roots(simd);
+        let roots = polynomial.roots(simd, &[]);
         let search =
             Search { split, closure, target, posed: &posed, weights: posed.left.weights_of_1() };
         let mut simple = [Root::default(); MOST_ROOTS];

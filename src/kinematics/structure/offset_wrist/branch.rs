@@ -37,7 +37,7 @@ pub(super) struct Plane<T> {
     axis_5: [T; 3],
     /// The square of sigma, which is negative where the wrist point is nearer to axis 1 than the
     /// plane of the arm [m^2].
-    sigma2: T,
+    pub(super) sigma2: T,
 }
 
 impl<T: Number> Plane<T> {
@@ -46,7 +46,7 @@ impl<T: Number> Plane<T> {
     pub(super) fn of(
         lengths: &Lengths,
         ([wx, wy, h], axis_5): ([T; 3], [T; 3]),
-        shoulder: f64,
+        shoulder: T,
     ) -> Self {
         let Lengths { b, s1, .. } = *lengths;
         let zero = h.like(0.0);
@@ -101,25 +101,25 @@ impl<T: Number> Plane<T> {
     /// The branch with the elbow on one side: a sign (eq. 131); none if the links do not span the
     /// distance of the wrist point by more than `slack`, relative to it.
     #[inline(always)]
-    pub(super) fn with_elbow(&self, lengths: &Lengths, side: f64, slack: f64) -> Branch<T> {
+    pub(super) fn with_elbow(&self, lengths: &Lengths, side: T, slack: f64) -> Branch<T> {
         self.branch(lengths, self.length_condition(lengths), side, slack)
     }
 
     /// The branch that meets the condition of axis 5, where the distance of the wrist point leaves
     /// the forearm undetermined; a sign chooses one of two.
     #[inline(always)]
-    pub(super) fn with_axis_5(&self, lengths: &Lengths, side: f64, slack: f64) -> Branch<T> {
+    pub(super) fn with_axis_5(&self, lengths: &Lengths, side: T, slack: f64) -> Branch<T> {
         self.branch(lengths, self.axis_condition(lengths), side, slack)
     }
 
-    /// How far the arm is inside its reach [1]: negative where there is no branch.
+    /// How far shoulder and elbow are inside their reach [1]: one of them is negative where there is
+    /// no branch.
     #[inline(always)]
-    fn room(&self, lengths: &Lengths) -> T {
+    fn room(&self, lengths: &Lengths) -> [T; 2] {
         let scale = 1.0 / (lengths.upper.abs() + lengths.forearm);
         let ([x, y], wanted) = self.length_condition(lengths);
         let at_elbow = x.times_plus(x, y * y) - wanted * wanted;
-        let zero = x.like(0.0);
-        zero.if_above(self.sigma2, self.sigma2, at_elbow) * (scale * scale)
+        [self.sigma2 * (scale * scale), at_elbow * (scale * scale)]
     }
 
     /// The branch with the forearm along the unit vector with a given product with `factors`, on
@@ -129,7 +129,7 @@ impl<T: Number> Plane<T> {
         &self,
         lengths: &Lengths,
         ([x, y], wanted): ([T; 2], T),
-        side: f64,
+        side: T,
         slack: f64,
     ) -> Branch<T> {
         let (zero, none) = (x.like(0.0), x.like(f64::INFINITY));
@@ -159,6 +159,7 @@ impl<T: Number> Plane<T> {
 
 impl<T: Number> Branch<T> {
     /// How far the upper arm is from having its length [m].
+    #[inline(always)]
     pub(super) fn misses(&self, lengths: &Lengths) -> T {
         let [x, y] = self.elbow;
         (x.times_plus(x, y * y).root() - x.like(lengths.upper.abs())).size()
@@ -231,25 +232,13 @@ fn combined<T: Number>(a: [T; 3], x: T, b: [T; 3], y: T) -> [T; 3] {
 /// The four branches of an arm for an angle of joint 6: shoulder and elbow on either side.
 pub(super) const SIDES: [[f64; 2]; 4] = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
 
-/// The branch with shoulder and elbow on given sides, for sine and cosine of joint 6.
-pub(super) fn branch_at(
-    lengths: &Lengths,
-    hand: &Hand,
-    [shoulder, elbow]: [f64; 2],
-    sin_cos_6: [f64; 2],
-    slack: f64,
-) -> Option<Branch<f64>> {
-    let plane = Plane::of(lengths, hand.at(sin_cos_6), shoulder);
-    let branch = plane.with_elbow(lengths, elbow, slack);
-    (plane.sigma2 >= 0.0 && branch.off < f64::INFINITY).then_some(branch)
-}
-
 /// Branches at eight angles of joint 6.
 pub(super) struct Seen {
     /// z4 . z5 - cos alpha_4; infinite where there is no branch [1].
     pub(super) off: Column,
-    /// How far the arm is inside its reach [1].
-    pub(super) room: Column,
+    /// How far shoulder and elbow are inside their reach [1].
+    pub(super) shoulder: Column,
+    pub(super) elbow: Column,
 }
 
 /// The view of all branches, in the order of [`SIDES`], at eight angles [rad].
@@ -266,8 +255,8 @@ impl VectorKernel for Look<'_> {
     fn run<S: Simd>(self, simd: S) -> [Seen; 4] {
         let (sin, cos) = sin_cos_of(Vector::load_array_ref(simd, self.angles));
         let hand = self.hand.at([sin, cos]);
-        let front = Plane::of(self.lengths, hand, 1.0);
-        let behind = Plane::of(self.lengths, hand, -1.0);
+        let front = Plane::of(self.lengths, hand, sin.like(1.0));
+        let behind = Plane::of(self.lengths, hand, sin.like(-1.0));
         [
             front.seen(self.lengths, 1.0),
             front.seen(self.lengths, -1.0),
@@ -279,10 +268,11 @@ impl VectorKernel for Look<'_> {
 
 impl<S: Simd> Plane<Vector<S>> {
     #[inline(always)]
-    fn seen(&self, lengths: &Lengths, elbow: f64) -> Seen {
+    fn seen(&self, lengths: &Lengths, side: f64) -> Seen {
         let zero = self.sigma2.like(0.0);
-        let off = self.with_elbow(lengths, elbow, 0.0).off;
+        let off = self.with_elbow(lengths, zero.like(side), 0.0).off;
         let off = zero.if_above(self.sigma2, zero.like(f64::INFINITY), off);
-        Seen { off: off.to_array(), room: self.room(lengths).to_array() }
+        let [shoulder, elbow] = self.room(lengths);
+        Seen { off: off.to_array(), shoulder: shoulder.to_array(), elbow: elbow.to_array() }
     }
 }

@@ -9,6 +9,7 @@ use core::f64::consts::PI;
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::branch::{Look, SIDES};
+use super::geometry::Lengths;
 use super::search::Search;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::closure::Configuration;
@@ -20,7 +21,20 @@ use crate::lanes::{LANES, run_vectors};
 const SPACING: f64 = 5e-3;
 const MOST_ANGLES: usize = 64;
 
-/// Curvature of z4 . z5 along joint 6 that no branch exceeds in a cluster [1].
+/// Curvature of the shoulder's part of the wrist point up to which the elbow's room has no more
+/// than [`MOST_CURVATURE`] [1].
+const SMOOTH: f64 = 20.0;
+
+/// How much more a branch may bend between two angles than where it is seen [1].
+const MOST_BEND: f64 = 4.0;
+
+/// Differences of changes that show how a branch bends.
+const LEAST_BENDS: usize = 2;
+
+/// Rounding of z4 . z5 [1].
+const ROUNDING: f64 = 1e-13;
+
+/// Curvature that no branch exceeds where it ends, or is out of reach [1].
 const MOST_CURVATURE: f64 = 100.0;
 
 /// Most clusters of roots: each holds two.
@@ -28,6 +42,9 @@ const MOST_CLUSTERS: usize = 8;
 
 /// How far the angle of a solution may be from the interval of its root [rad].
 const ROOT_ERROR: f64 = 1e-6;
+
+/// Most changes of sign that are kept: twice as many as there are solutions.
+const MOST_CROSSINGS: usize = 32;
 
 /// Angles at which the branches are examined if the roots are not understood.
 const ALL_ANGLES: usize = 360;
@@ -91,7 +108,10 @@ impl Clusters {
         let (low, high) = (root.low - ROOT_ERROR, root.high + ROOT_ERROR);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "few")]
         let count = ((high - low) / SPACING) as usize;
-        let zeros = search.zeros([low, high], count.min(MOST_ANGLES));
+        let few = search.view([low, high], count.min(MOST_ANGLES));
+        let view = if few.zeros().is_some() { few } else { search.view([low, high], MOST_ANGLES) };
+        search.put_view(&view);
+        let zeros = view.zeros();
         match self.all.get_mut(self.count) {
             Some(place) => {
                 let per_root = if search.arm.lengths.is_square { 2 } else { 1 };
@@ -108,53 +128,89 @@ impl Search<'_> {
     /// Examine all angles of joint 6.
     #[cold]
     pub(super) fn everywhere(&mut self) {
-        self.zeros([-PI, PI], ALL_ANGLES);
+        let view = self.view([-PI, PI], ALL_ANGLES);
+        self.put_view(&view);
     }
 
-    /// Candidates where a branch changes its sign in an interval, and where it may touch zero.
-    /// Returns the number of zeros, if it is certain.
-    fn zeros(&mut self, [low, high]: [f64; 2], inner: usize) -> Option<usize> {
+    /// View the branches in an interval.
+    fn view(&self, [low, high]: [f64; 2], inner: usize) -> View {
         let steps = inner + 4;
         #[expect(clippy::cast_precision_loss, reason = "few")]
         let (step, at) = ((high - low) / steps as f64, |number: usize| number as f64);
-        let bounds = Bounds::of(step);
-        let mut scans = [Scan { zeros: 0, is_certain: true, before: None, best: None }; 4];
+        let ends = Ends::of(&self.arm.lengths, step);
+        let mut view = View::NONE;
         for first in (0..=steps).step_by(LANES) {
             let angles = core::array::from_fn(|lane| low + step * at(first + lane));
             let (lengths, hand) = (&self.arm.lengths, &self.hand);
             let seen = run_vectors(Look { lengths, hand, angles: &angles });
             let lanes = LANES.min(steps + 1 - first);
-            for (scan, (seen, sides)) in scans.iter_mut().zip(seen.iter().zip(SIDES)) {
+            for (side, seen) in seen.iter().enumerate() {
                 for lane in 0..lanes {
-                    let here = View { off: seen.off[lane], room: seen.room[lane] };
-                    if let Some(back) = scan.pass(here, angles[lane], &bounds) {
-                        self.put_at(sides, angles[lane] - back * step);
+                    let room = [seen.shoulder[lane], seen.elbow[lane]];
+                    let here = Place { off: seen.off[lane], room };
+                    if let Some(back) = view.scans[side].pass(here, angles[lane], &ends) {
+                        view.cross(side, angles[lane] - back * step);
                     }
                 }
             }
         }
-        for (scan, sides) in scans.iter().zip(SIDES) {
-            if !scan.is_certain
-                && scan.zeros == 0
+        view
+    }
+
+    /// Candidates where a branch changes its sign, and where it is nearest to that.
+    fn put_view(&mut self, view: &View) {
+        for (side, angle) in &view.crossings[..view.count] {
+            self.put_at(SIDES[*side], *angle);
+        }
+        for (scan, sides) in view.scans.iter().zip(SIDES) {
+            if scan.zeros == 0
                 && let Some((angle, _)) = scan.best
             {
                 self.put_at(sides, angle);
             }
         }
-        scans.iter().map(|scan| scan.is_certain.then_some(scan.zeros)).sum()
+    }
+}
+
+/// The branches in an interval of joint 6.
+struct View {
+    /// By branch, in the order of [`SIDES`].
+    scans: [Scan; 4],
+    /// Branches and angles at which they change their sign [rad].
+    crossings: [(usize, f64); MOST_CROSSINGS],
+    count: usize,
+}
+
+impl View {
+    const NONE: Self =
+        Self { scans: [Scan::NONE; 4], crossings: [(0, 0.0); MOST_CROSSINGS], count: 0 };
+
+    fn cross(&mut self, side: usize, angle: f64) {
+        match self.crossings.get_mut(self.count) {
+            Some(place) => {
+                *place = (side, angle);
+                self.count += 1;
+            }
+            None => self.scans[side].is_clear = false,
+        }
+    }
+
+    /// The number of zeros, if it is certain.
+    fn zeros(&self) -> Option<usize> {
+        self.scans.iter().map(|scan| scan.is_certain().then_some(scan.zeros)).sum()
     }
 }
 
 /// A branch at an angle of joint 6.
 #[derive(Clone, Copy)]
-struct View {
+struct Place {
     /// z4 . z5 - cos alpha_4 [1]; infinite out of reach.
     off: f64,
-    /// Out of reach: by how much [1], negative.
-    room: f64,
+    /// How far shoulder and elbow are inside their reach [1].
+    room: [f64; 2],
 }
 
-impl View {
+impl Place {
     fn is_reached(self) -> bool {
         self.off < f64::INFINITY
     }
@@ -165,52 +221,92 @@ impl View {
 struct Scan {
     /// Changes of sign.
     zeros: usize,
-    /// Whether these are all zeros.
-    is_certain: bool,
-    before: Option<View>,
+    /// Whether the branch has no zero where it ends between two angles.
+    is_clear: bool,
+    /// Of the steps between two angles, the least that speaks for the zeros which the signs show: a
+    /// change, or a distance from zero.
+    least: f64,
+    /// The largest difference of two changes in a row, and how many there are.
+    bend: f64,
+    bends: usize,
+    before: Option<Place>,
+    change: Option<f64>,
     /// The angle where the branch is nearest to a solution, and how near.
     best: Option<(f64, f64)>,
 }
 
 impl Scan {
+    const NONE: Self = Self {
+        zeros: 0,
+        is_clear: true,
+        least: f64::INFINITY,
+        bend: 0.0,
+        bends: 0,
+        before: None,
+        change: None,
+        best: None,
+    };
+
+    /// Whether the branch has no other zeros than its changes of sign (eq. 133).
+    fn is_certain(&self) -> bool {
+        let is_seen = self.best.is_none() || self.bends >= LEAST_BENDS;
+        self.is_clear && is_seen && self.least > MOST_BEND * self.bend + ROUNDING
+    }
+
     /// Pass an angle. Returns how many steps ago the branch had a zero, if it changed its sign.
-    fn pass(&mut self, here: View, angle: f64, bounds: &Bounds) -> Option<f64> {
+    fn pass(&mut self, here: Place, angle: f64, ends: &Ends) -> Option<f64> {
         if here.is_reached() && self.best.is_none_or(|(_, best)| here.off.abs() < best) {
             self.best = Some((angle, here.off.abs()));
         }
         let before = self.before.replace(here)?;
-        self.is_certain &= bounds.are_clear(before, here);
-        let is_zero =
-            before.is_reached() && here.is_reached() && (before.off < 0.0) != (here.off < 0.0);
-        self.zeros += usize::from(is_zero);
-        is_zero.then(|| here.off / (here.off - before.off))
-    }
-}
-
-/// What a branch may do between two angles.
-struct Bounds {
-    /// Its change from which on it is monotone, and its size from which on it has no zero.
-    bend: f64,
-    /// Its size from which on it has no zero before it ends.
-    end: f64,
-}
-
-impl Bounds {
-    fn of(step: f64) -> Self {
-        Self { bend: MOST_CURVATURE * step * step, end: MOST_CURVATURE * step.sqrt() }
-    }
-
-    /// Whether the zeros between two angles are those that the values there show (eq. 133).
-    fn are_clear(&self, one: View, other: View) -> bool {
-        match [one, other].map(View::is_reached) {
-            [true, true] => {
-                let (a, b) = (one.off, other.off);
-                let has_none = (a < 0.0) == (b < 0.0) && a.abs().min(b.abs()) > self.bend;
-                has_none || (b - a).abs() > self.bend
-            }
-            [true, false] => one.off.abs() > self.end,
-            [false, true] => other.off.abs() > self.end,
-            [false, false] => one.room.max(other.room) < -self.bend,
+        match [before, here].map(Place::is_reached) {
+            [true, true] => return self.step(before.off, here.off),
+            [true, false] => self.is_clear &= before.off.abs() > ends.end,
+            [false, true] => self.is_clear &= here.off.abs() > ends.end,
+            [false, false] => self.is_clear &= ends.are_out_of_reach(before.room, here.room),
         }
+        self.change = None;
+        None
+    }
+
+    /// A step between two angles with a branch.
+    fn step(&mut self, a: f64, b: f64) -> Option<f64> {
+        let (change, has_zero) = (b - a, (a < 0.0) != (b < 0.0));
+        let away = if has_zero { 0.0 } else { a.abs().min(b.abs()) };
+        self.least = self.least.min(away.max(change.abs()));
+        if let Some(before) = self.change.replace(change) {
+            self.bend = self.bend.max((change - before).abs());
+            self.bends += 1;
+        }
+        self.zeros += usize::from(has_zero);
+        has_zero.then(|| b / change)
+    }
+}
+
+/// What a branch may do between two angles where it ends.
+struct Ends {
+    /// Change of the room of shoulder or elbow by its curvature [1].
+    bend: f64,
+    /// Change of what has a root at the end [1].
+    end: f64,
+    /// Squares of the lateral offset and of the wrist point's distance from axis 6 [1].
+    squares: [f64; 2],
+}
+
+impl Ends {
+    fn of(lengths: &Lengths, step: f64) -> Self {
+        let Lengths { upper, forearm, b, a5, d5, sin_5, .. } = *lengths;
+        let unit = upper.abs() + forearm;
+        let squares = [b, a5.hypot(d5 * sin_5)].map(|length| (length / unit) * (length / unit));
+        Self { bend: MOST_CURVATURE * step * step, end: MOST_CURVATURE * step.sqrt(), squares }
+    }
+
+    /// Whether there is no branch between two angles at which there is none. The room of the elbow
+    /// depends on the square root of that of the shoulder, and bends as it does.
+    fn are_out_of_reach(&self, a: [f64; 2], b: [f64; 2]) -> bool {
+        let [shoulder, elbow] = [a[0].max(b[0]), a[1].max(b[1])];
+        let (least, [lateral, circle]) = (a[0].min(b[0]).max(0.0), self.squares);
+        let is_smooth = circle * (least + lateral) < SMOOTH * least * least.sqrt();
+        shoulder < -self.bend || elbow < -if is_smooth { self.bend } else { self.end }
     }
 }

@@ -9,6 +9,7 @@ mod clusters;
 mod determinant;
 mod geometry;
 mod measure;
+mod parallel;
 mod reach;
 mod resultant;
 mod search;

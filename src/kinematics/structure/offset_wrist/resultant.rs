@@ -36,6 +36,11 @@ impl Hand {
         hand
     }
 
+    /// The vertical component of axis 5: constant, factors of the cosine and sine of joint 6.
+    pub(super) fn rise_of_axis_5(&self) -> [f64; 3] {
+        self.axis_5.map(|part| part[2])
+    }
+
     /// Wrist point and direction of axis 5 for joint 6.
     #[inline(always)]
     pub(super) fn at<T: Number>(&self, [sin, cos]: [T; 2]) -> ([T; 3], [T; 3]) {

@@ -9,13 +9,15 @@ use fearless_simd::prelude::*;
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use super::branch::{Branch, Plane, SIDES, branch_at};
+use super::branch::{Branch, Plane, SIDES};
 use super::geometry::OffsetWrist;
 use super::resultant::Hand;
-use crate::kinematics::structure::closure::{Accepted, Target};
+use crate::kinematics::structure::closure::{Accepted, Candidates, Target};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::trigonometric::Root;
-use crate::lanes::{Column, LANES, Number as _, Vector, atan2, sin_cos_of};
+use crate::lanes::{
+    Column, LANES, Number as _, Vector, VectorKernel, atan2, run_vectors, sin_cos_of,
+};
 
 /// Size of z4 . z5 - cos alpha_4 at a root, by which a branch may be worse than the best one and
 /// still be a candidate: at once [1], and as a multiple of the radius of the root [1/rad].
@@ -36,50 +38,135 @@ pub(super) struct Search<'a> {
     pub(super) last: &'a Frame,
     pub(super) hand: Hand,
     pub(super) target: Target,
-    pub(super) accepted: Accepted,
-    /// Angles of the candidates that wait [rad].
-    candidates: [Column; 6],
-    /// Number of candidates that wait.
-    waiting: usize,
+    pub(super) accepted: &'a mut Accepted,
+    places: Places,
+}
+
+/// Candidates that wait: branches at angles of joint 6.
+struct Places {
+    /// Sides of shoulder and elbow: signs.
+    shoulders: Column,
+    elbows: Column,
+    /// Joint 6 [rad].
+    angles: Column,
+    count: usize,
+}
+
+impl Places {
+    const NONE: Self =
+        Self { shoulders: [1.0; LANES], elbows: [1.0; LANES], angles: [0.0; LANES], count: 0 };
+
+    fn put(&mut self, angle: f64, [shoulder, elbow]: [f64; 2]) {
+        let Self { shoulders, elbows, angles, count } = self;
+        (shoulders[*count], elbows[*count], angles[*count]) = (shoulder, elbow, angle);
+        *count += 1;
+    }
+
+    /// With the first candidate repeated in the lanes that none waits in.
+    fn filled(mut self) -> Self {
+        for lanes in [&mut self.shoulders, &mut self.elbows, &mut self.angles] {
+            let first = lanes[0];
+            lanes[self.count..].fill(first);
+        }
+        self
+    }
+}
+
+/// Candidates, brought to the pose.
+struct AtPlaces<'a, 'b> {
+    search: &'a Search<'b>,
+    places: &'a Places,
+    /// Which condition the forearm is to meet.
+    by: Condition,
+}
+
+/// A condition that determines the direction of the forearm.
+#[derive(Clone, Copy, PartialEq)]
+enum Condition {
+    /// The upper arm has its length (eq. 124).
+    Length,
+    /// Axis 5 has its angle from axis 4 (eq. 123), the length being nearly met.
+    Axis5,
+}
+
+impl VectorKernel for AtPlaces<'_, '_> {
+    /// None where there is no branch.
+    type Answer = Option<Candidates>;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> Option<Candidates> {
+        let Search {
+            arm: OffsetWrist { lengths, twists, general, .. }, last, hand, target, ..
+        } = self.search;
+        let Places { shoulders, elbows, angles, .. } = self.places;
+        let (sin, cos) = sin_cos_of(Vector::load_array_ref(simd, angles));
+        let shoulders = Vector::load_array_ref(simd, shoulders);
+        let elbows = Vector::load_array_ref(simd, elbows);
+        let plane = Plane::of(lengths, hand.at([sin, cos]), shoulders);
+        let (branch, is_near) = if self.by == Condition::Length {
+            let least = -SLACK * lengths.extent * lengths.extent;
+            (plane.with_elbow(lengths, elbows, SLACK), plane.sigma2.simd_ge(least))
+        } else {
+            let branch = plane.with_axis_5(lengths, elbows, SLACK);
+            (branch, branch.misses(lengths).simd_lt(NEAR * lengths.extent))
+        };
+        let is_one = branch.off.simd_lt(f64::INFINITY) & is_near;
+        if !is_one.any_true() {
+            return None;
+        }
+        let [mut sin, mut cos] = branch.joints(lengths, last, [sin, cos], twists);
+        // Far from a solution they are no unit vectors.
+        for joint in 0..6 {
+            let scale = sin[joint].mul_add(sin[joint], cos[joint] * cos[joint]).sqrt().inverse();
+            (sin[joint], cos[joint]) = (sin[joint] * scale, cos[joint] * scale);
+        }
+        sin[0] = is_one.select(sin[0], shoulders.like(f64::NAN));
+        Some(general.closure().converge(target, &sin, &cos))
+    }
 }
 
 impl<'a> Search<'a> {
-    pub(super) fn new(arm: &'a OffsetWrist, last: &'a Frame) -> Self {
+    pub(super) fn new(arm: &'a OffsetWrist, last: &'a Frame, accepted: &'a mut Accepted) -> Self {
         Self {
             arm,
             last,
             hand: Hand::of(&arm.lengths, last),
             target: arm.general.closure().target(last),
-            accepted: Accepted::NONE,
-            candidates: [[0.0; LANES]; 6],
-            waiting: 0,
+            accepted,
+            places: Places::NONE,
         }
     }
 
-    /// Take a branch as a candidate.
-    fn put(&mut self, branch: &Branch<f64>, sin_cos_6: [f64; 2]) {
-        let OffsetWrist { lengths, twists, .. } = self.arm;
-        let [sin, cos] = branch.joints(lengths, self.last, sin_cos_6, twists);
-        if !sin.iter().chain(&cos).copied().all(f64::is_finite) {
-            return;
-        }
-        for joint in 0..6 {
-            self.candidates[joint][self.waiting] = atan2::<false>(sin[joint], cos[joint]);
-        }
-        self.waiting += 1;
-        if self.waiting == LANES {
+    /// Take a branch at an angle of joint 6 as a candidate, even if it is a little out of reach.
+    pub(super) fn put_at(&mut self, sides: [f64; 2], angle: f64) {
+        self.places.put(angle, sides);
+        if self.places.count == LANES {
             self.converge();
         }
     }
 
     /// Bring the waiting candidates to the pose.
     pub(super) fn converge(&mut self) {
-        if self.waiting > 0 {
-            let closure = self.arm.general.closure();
-            let candidates = closure.converged(&self.target, &self.candidates);
-            self.accepted.take(closure, &self.target, &candidates, self.waiting);
-            self.waiting = 0;
+        if self.places.count > 0 {
+            let places = core::mem::replace(&mut self.places, Places::NONE);
+            self.converge_at(&places.filled(), Condition::Length);
         }
+    }
+
+    fn converge_at(&mut self, places: &Places, by: Condition) {
+        if let Some(candidates) = run_vectors(AtPlaces { search: self, places, by }) {
+            let closure = self.arm.general.closure();
+            self.accepted.take(closure, &self.target, &candidates, places.count);
+        }
+    }
+
+    /// Take a branch as the only candidate.
+    fn put(&mut self, branch: &Branch<f64>, sin_cos_6: [f64; 2]) {
+        let OffsetWrist { lengths, twists, general, .. } = self.arm;
+        let [sin, cos] = branch.joints(lengths, self.last, sin_cos_6, twists);
+        let theta = core::array::from_fn(|joint| [atan2::<false>(sin[joint], cos[joint]); LANES]);
+        let candidates = general.closure().converged(&self.target, &theta);
+        self.accepted.take(general.closure(), &self.target, &candidates, 1);
     }
 
     /// The solutions at up to eight simple roots: of the branch that is nearest to one, on each
@@ -94,12 +181,13 @@ impl<'a> Search<'a> {
         }
         let (sin, cos) = sin_cos_of(Vector::load_array(simd, angles));
         let hand = self.hand.at([sin, cos]);
-        let (front, behind) = (Plane::of(lengths, hand, 1.0), Plane::of(lengths, hand, -1.0));
+        let (one, other) = (sin.like(1.0), sin.like(-1.0));
+        let (front, behind) = (Plane::of(lengths, hand, one), Plane::of(lengths, hand, other));
         let branches = [
-            front.with_elbow(lengths, 1.0, SLACK),
-            front.with_elbow(lengths, -1.0, SLACK),
-            behind.with_elbow(lengths, 1.0, SLACK),
-            behind.with_elbow(lengths, -1.0, SLACK),
+            front.with_elbow(lengths, one, SLACK),
+            front.with_elbow(lengths, other, SLACK),
+            behind.with_elbow(lengths, one, SLACK),
+            behind.with_elbow(lengths, other, SLACK),
         ];
         // A root serves both sides of the shoulder, or one.
         let served = if lengths.is_square { 2 } else { 4 };
@@ -146,27 +234,17 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// A candidate at an angle of joint 6, even if it is a little out of reach.
-    pub(super) fn put_at(&mut self, sides: [f64; 2], angle: f64) {
-        let sin_cos_6 = sin_cos(angle);
-        if let Some(branch) = branch_at(&self.arm.lengths, &self.hand, sides, sin_cos_6, SLACK) {
-            self.put(&branch, sin_cos_6);
-        }
-    }
-
     /// The candidates with the wrist point on axis 1, or at the end of the upper arm's reach: there
     /// the condition of axis 5 determines joint 1 or the forearm (eq. 134).
     pub(super) fn at_degenerate(&mut self, angle: f64) {
         let lengths = &self.arm.lengths;
         let sin_cos_6 = sin_cos(angle);
         let (point, axis_5) = self.hand.at(sin_cos_6);
+        let mut places = Places::NONE;
         for [shoulder, side] in SIDES {
-            let plane = Plane::of(lengths, (point, axis_5), shoulder);
-            let branch = plane.with_axis_5(lengths, side, SLACK);
-            if branch.off < f64::INFINITY && branch.misses(lengths) < NEAR * lengths.extent {
-                self.put(&branch, sin_cos_6);
-            }
+            places.put(angle, [shoulder, side]);
         }
+        self.converge_at(&places.filled(), Condition::Axis5);
         if point[0].hypot(point[1]) > NEAR * lengths.extent || lengths.b != 0.0 {
             return;
         }

@@ -7,6 +7,7 @@ use fearless_simd::Simd;
 use super::SLOTS;
 use super::clusters::Clusters;
 use super::geometry::OffsetWrist;
+use super::parallel::Parallel;
 use super::resultant::samples;
 use super::search::Search;
 use crate::kinematics::pose::Pose;
@@ -20,30 +21,27 @@ use crate::lanes::{LANES, VectorKernel, run_vectors};
 /// of degree 8 in the pose's elements, and no surplus harmonic shows it.
 const NOISE_OF_DEGREE_8: f64 = 64.0 * f64::EPSILON;
 
-/// The solutions of a pose.
-pub(super) struct Found {
-    pub(super) accepted: Accepted,
-    /// Whether they are all, by the number of roots.
-    pub(super) is_certified: bool,
-}
-
 /// The solve of one pose, compiled for each instruction set.
 struct Solve<'a> {
     arm: &'a OffsetWrist,
     last: &'a Frame,
+    accepted: &'a mut Accepted,
 }
 
 impl VectorKernel for Solve<'_> {
-    type Answer = Found;
+    /// Whether the accepted solutions are all, by the number of roots.
+    type Answer = bool;
 
     #[inline(always)]
-    fn run<S: Simd>(self, simd: S) -> Found {
+    fn run<S: Simd>(self, simd: S) -> bool {
         let lengths = &self.arm.lengths;
-        let mut search = Search::new(self.arm, self.last);
+        let mut search = Search::new(self.arm, self.last, self.accepted);
         let values = samples(simd, lengths, &search.hand);
         let mut polynomial = TrigonometricPolynomial::of_samples(&values).of_pose();
         polynomial.noise += NOISE_OF_DEGREE_8 * polynomial.size();
-        let roots = polynomial.roots(simd);
+        let has_parallel = lengths.has_parallel();
+        let known = if has_parallel { Parallel::of(lengths, &search.hand) } else { Parallel::NONE };
+        let roots = polynomial.roots(simd, known.as_slice());
         let is_complete = roots.is_complete;
         let mut clusters = Clusters::NONE;
         let (mut simple, mut count) = ([Root::default(); MOST_ROOTS], 0);
@@ -66,19 +64,20 @@ impl VectorKernel for Solve<'_> {
                 && !accepted.has_self_motion()
                 && clusters.agree(accepted.as_slice(), simple)
         };
-        if !agree(&search.accepted) {
+        agree(search.accepted) || {
             search.accepted.begin();
             search.everywhere();
             search.converge();
+            agree(search.accepted)
         }
-        Found { is_certified: agree(&search.accepted), accepted: search.accepted }
     }
 }
 
 impl OffsetWrist {
     /// Every solution of a pose of frame 6, in slots.
     pub(super) fn solve_pose(&self, t_first_last: &Pose) -> Branches<6, SLOTS> {
-        let Found { accepted, is_certified } = self.solutions(t_first_last);
+        let mut accepted = Accepted::NONE;
+        let is_certified = self.solutions(t_first_last, &mut accepted);
         let mut branches = self.general.slots(&accepted, is_certified);
         if accepted.as_slice().is_empty() {
             branches.reach = self.missed(&Frame::of(t_first_last));
@@ -86,27 +85,28 @@ impl OffsetWrist {
         branches
     }
 
-    /// Every solution of a pose of frame 6, by its angles theta.
-    pub(super) fn solutions(&self, t_first_last: &Pose) -> Found {
-        let last = Frame::of(t_first_last);
-        let found = run_vectors(Solve { arm: self, last: &last });
-        if found.is_certified { found } else { self.rescued(&found, t_first_last) }
+    /// Find every solution of a pose of frame 6, by its angles theta. Returns whether they are all,
+    /// by the number of roots.
+    pub(super) fn solutions(&self, t_first_last: &Pose, accepted: &mut Accepted) -> bool {
+        let last = &Frame::of(t_first_last);
+        run_vectors(Solve { arm: self, last, accepted }) || self.rescue(t_first_last, accepted)
     }
 
-    /// The solutions of the general method, which shares no polynomial with this one, and those
-    /// that were found.
+    /// Add the solutions of the general method, which shares no polynomial with this one.
     #[cold]
-    fn rescued(&self, found: &Found, t_first_last: &Pose) -> Found {
-        let (mut accepted, is_certain) = self.general.solve_all(t_first_last);
+    fn rescue(&self, t_first_last: &Pose, accepted: &mut Accepted) -> bool {
+        let found = *accepted;
+        let is_certain;
+        (*accepted, is_certain) = self.general.solve_all(t_first_last);
         let count = accepted.as_slice().len();
-        for one in found.accepted.as_slice() {
-            accepted.insert(self.general.closure(), *one);
+        let closure = self.general.closure();
+        for one in found.as_slice() {
+            accepted.insert(closure, *one);
         }
         let is_certified = is_certain && accepted.as_slice().len() == count;
         if accepted.has_self_motion() {
-            let target = self.general.closure().target_of(t_first_last);
-            accepted.thin(self.general.closure(), &target);
+            accepted.thin(closure, &closure.target_of(t_first_last));
         }
-        Found { accepted, is_certified }
+        is_certified
     }
 }

@@ -5,7 +5,7 @@ use core::f64::consts::{PI, TAU};
 use std::vec::Vec;
 
 use super::Structure as _;
-use super::branch::{SIDES, branch_at};
+use super::branch::{Plane, SIDES};
 use super::geometry::OffsetWrist;
 use super::measure::{PATTERN, measure};
 use super::resultant::{Hand, resultant};
@@ -17,7 +17,7 @@ use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::robot::Robot;
 use crate::kinematics::structure::any::recognized;
 use crate::kinematics::structure::arm::Arm as _;
-use crate::kinematics::structure::closure::Configuration;
+use crate::kinematics::structure::closure::{Accepted, Configuration};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::structure::trigonometric::SAMPLES;
@@ -227,7 +227,11 @@ fn one_branch_at_joint_6_of_the_arm_is_the_arm() {
             };
             let best = SIDES
                 .iter()
-                .filter_map(|sides| branch_at(&arm.lengths, &hand, *sides, [sin, cos], 1e-12))
+                .map(|[shoulder, elbow]| {
+                    let plane = Plane::of(&arm.lengths, hand.at([sin, cos]), *shoulder);
+                    plane.with_elbow(&arm.lengths, *elbow, 1e-12)
+                })
+                .filter(|branch| branch.off < f64::INFINITY)
                 .map(|branch| {
                     let joints = branch.joints(&arm.lengths, &frame, [sin, cos], &arm.twists);
                     (off(&angles(&joints)), branch.off)
@@ -309,18 +313,19 @@ fn tally(
     for q in joints(3).take(count).filter_map(|q| change(arm, q)) {
         let q = arm.joint_map().theta(&arm.joint_map().joints(q));
         tally.count += 1;
-        let found = arm.solutions(&arm.chain.fk(&q));
-        let all = found.accepted.as_slice();
+        let mut found = Accepted::NONE;
+        let is_certified = arm.solutions(&arm.chain.fk(&q), &mut found);
+        let all = found.as_slice();
         // A regular solution is where it was. Of two that nearly merge, rounding moves each by the
         // root of itself over the curvature of the closure, which is 5e-10 at least: what is
         // flatter counts as free.
         let is_same =
             |one: &Configuration| one.distance(&q) < if one.least > 1e-4 { 1e-8 } else { 3e-3 };
         let is_found = all.iter().any(is_same);
-        let is_free = found.accepted.has_self_motion();
+        let is_free = found.has_self_motion();
         tally.missed += usize::from(!is_found && !is_free);
-        tally.missed_though_certified += usize::from(!is_found && found.is_certified);
-        tally.uncertified += usize::from(!found.is_certified);
+        tally.missed_though_certified += usize::from(!is_found && is_certified);
+        tally.uncertified += usize::from(!is_certified);
         tally.free += usize::from(is_free);
         tally.solutions += all.len();
         for (index, one) in all.iter().enumerate() {
@@ -384,9 +389,10 @@ fn a_fold_that_rounding_of_the_pose_opens_is_found() {
         let (_, arm) = arms().into_iter().find(|(other, _)| *other == name).unwrap();
         for q in joints(3).take(4000).filter_map(|q| singular(&arm, q, 0.0)) {
             let q = arm.joint_map().theta(&arm.joint_map().joints(q));
-            let found = arm.solutions(&arm.chain.fk(&q));
-            let is_found = found.accepted.as_slice().iter().any(|one| one.distance(&q) < 3e-3);
-            assert!(is_found || !found.is_certified, "{name} {q:?}");
+            let mut found = Accepted::NONE;
+            let is_certified = arm.solutions(&arm.chain.fk(&q), &mut found);
+            let is_found = found.as_slice().iter().any(|one| one.distance(&q) < 3e-3);
+            assert!(is_found || !is_certified, "{name} {q:?}");
         }
     }
 }

@@ -12,7 +12,7 @@ use fearless_simd::prelude::*;
 
 use super::part::{Coefficients, Part};
 use super::polynomial::TrigonometricPolynomial;
-use super::roots::Roots;
+use super::roots::{Root, Roots};
 use super::tables::{ARCS, BERNSTEIN, DEGREE, MIDDLES, POWERS};
 use crate::lanes::{Column, LANES, Number as _, Vector};
 
@@ -35,19 +35,29 @@ struct Parts {
 }
 
 impl TrigonometricPolynomial {
-    /// Find an interval for every root; those of simple roots are as wide as they can be.
+    /// Find an interval for every root beside the known clusters; those of simple roots are as wide
+    /// as they can be.
     #[inline(always)]
-    pub(super) fn isolate<S: Simd>(&self, simd: S, roots: &mut Roots) {
-        let none = Part { arc: 0, low: 0.0, high: 1.0, coefficients: [0.0; POWERS + 1] };
-        let mut parts = Parts { all: [none; MOST_PARTS], count: 0 };
+    pub(super) fn isolate<S: Simd>(&self, simd: S, known: &[Root], roots: &mut Roots) {
+        let mut parts = Parts { all: [Part::whole(0); MOST_PARTS], count: 0 };
         for half in 0..ARCS / LANES {
             let columns = self.on_arcs(simd, half);
             let most = most_changes(&columns, self.noise);
             let columns = stored(&columns);
             for lane in 0..LANES {
                 let arc = LANES * half + lane;
-                self.take(&columns, most[lane], lane, (arc, 0.0, 1.0), &mut parts, roots);
+                let whole = (arc, 0.0, 1.0);
+                match known.iter().find(|cluster| cluster.touches(arc)) {
+                    None => self.take(&columns, most[lane], lane, whole, &mut parts, roots),
+                    Some(cluster) => {
+                        let rest = Part::of(&columns, lane, whole).without(cluster);
+                        rest.into_iter().flatten().for_each(|part| parts.push(part));
+                    }
+                }
             }
+        }
+        for cluster in known {
+            roots.push(*cluster);
         }
         let mut divisions = 0;
         while parts.count > 0 {
@@ -61,16 +71,18 @@ impl TrigonometricPolynomial {
             let [left, right] = divide(simd, &parts.all[first..parts.count]);
             let changes = [most_changes(&left, self.noise), most_changes(&right, self.noise)];
             let (left, right) = (stored(&left), stored(&right));
-            let mut divided = [(0, 0.0, 0.0); LANES];
+            let mut divided = [Divided::default(); LANES];
             for (divided, part) in divided.iter_mut().zip(&parts.all[first..parts.count]) {
-                *divided = (part.arc, part.low, part.high);
+                *divided = part.divided();
             }
             parts.count = first;
-            for (lane, (arc, low, high)) in divided[..count].iter().copied().enumerate() {
-                let middle = 0.5 * (low + high);
-                let ends = [(arc, low, middle), (arc, middle, high)];
-                self.take(&left, changes[0][lane], lane, ends[0], &mut parts, roots);
-                self.take(&right, changes[1][lane], lane, ends[1], &mut parts, roots);
+            for (lane, Divided { ends, keeps }) in divided[..count].iter().enumerate() {
+                if keeps[0] {
+                    self.take(&left, changes[0][lane], lane, ends[0], &mut parts, roots);
+                }
+                if keeps[1] {
+                    self.take(&right, changes[1][lane], lane, ends[1], &mut parts, roots);
+                }
             }
         }
     }
@@ -107,28 +119,50 @@ impl TrigonometricPolynomial {
         columns: &Coefficients<Column>,
         changes: f64,
         lane: usize,
-        (arc, low, high): (usize, f64, f64),
+        place: (usize, f64, f64),
         parts: &mut Parts,
         roots: &mut Roots,
     ) {
         if changes < 0.5 {
             return;
         }
-        let coefficients: Coefficients<f64> = core::array::from_fn(|j| columns[j][lane]);
-        let part = Part { arc, low, high, coefficients };
+        let part = Part::of(columns, lane, place);
+        let coefficients = &part.coefficients;
         let (first, last) = (coefficients[0], coefficients[POWERS]);
         let are_certain = first.abs() > self.noise && last.abs() > self.noise;
         if changes < 1.5 && are_certain && (first < 0.0) != (last < 0.0) {
             roots.push(part.simple());
         } else if coefficients.iter().all(|b| b.abs() <= self.noise)
-            || high - low < 1.5 * LEAST_WIDTH
+            || part.high - part.low < 1.5 * LEAST_WIDTH
             || parts.count == MOST_PARTS
         {
             roots.push(part.cluster());
         } else if changes > 2.5 || !part.take_pair(self.noise, roots) {
-            parts.all[parts.count] = part;
-            parts.count += 1;
+            parts.push(part);
         }
+    }
+}
+
+impl Parts {
+    fn push(&mut self, part: Part) {
+        self.all[self.count] = part;
+        self.count += 1;
+    }
+}
+
+/// The arc and the ends of the two parts of a divided one, and which count.
+#[derive(Clone, Copy, Default)]
+struct Divided {
+    ends: [(usize, f64, f64); 2],
+    keeps: [bool; 2],
+}
+
+impl Part {
+    #[inline(always)]
+    fn divided(&self) -> Divided {
+        let Self { arc, low, high, cut, keeps, .. } = *self;
+        let middle = low + cut * (high - low);
+        Divided { ends: [(arc, low, middle), (arc, middle, high)], keeps }
     }
 }
 
@@ -136,6 +170,24 @@ impl TrigonometricPolynomial {
 /// any sign.
 #[inline(always)]
 fn most_changes<S: Simd>(columns: &Coefficients<Vector<S>>, noise: f64) -> Column {
+    let (zero, one) = (columns[0].like(0.0), columns[0].like(1.0));
+    let (mut count, mut least) = (zero, columns[0].abs());
+    let mut before = columns[0].simd_lt(zero);
+    for column in &columns[1..] {
+        let is_below = column.simd_lt(zero);
+        count += (is_below ^ before).select(one, zero);
+        least = least.min(column.abs());
+        before = is_below;
+    }
+    if least.simd_gt(noise).all_true() {
+        return count.to_array();
+    }
+    most_changes_of_any_sign(columns, noise)
+}
+
+/// The same where coefficients are below the noise.
+#[inline(always)]
+fn most_changes_of_any_sign<S: Simd>(columns: &Coefficients<Vector<S>>, noise: f64) -> Column {
     // Most changes of a sequence that ends above zero, and of one that ends below.
     // The first coefficient is no change.
     let never = columns[0].like(NEVER);
@@ -159,15 +211,17 @@ fn stored<S: Simd>(columns: &Coefficients<Vector<S>>) -> Coefficients<Column> {
     stored
 }
 
-/// Divide up to eight parts in their middles, by de Casteljau's algorithm.
+/// Divide up to eight parts, by de Casteljau's algorithm.
 #[inline(always)]
 fn divide<S: Simd>(simd: S, parts: &[Part]) -> [Coefficients<Vector<S>>; 2] {
-    let mut columns = [[0.0; LANES]; POWERS + 1];
+    let (mut columns, mut cuts) = ([[0.0; LANES]; POWERS + 1], [0.0; LANES]);
     for (lane, part) in parts.iter().enumerate() {
         for j in 0..=POWERS {
             columns[j][lane] = part.coefficients[j];
         }
+        cuts[lane] = part.cut;
     }
+    let cut = Vector::load_array(simd, cuts);
     let mut right = [Vector::splat(simd, 0.0); POWERS + 1];
     for j in 0..=POWERS {
         right[j] = Vector::load_array_ref(simd, &columns[j]);
@@ -175,7 +229,7 @@ fn divide<S: Simd>(simd: S, parts: &[Part]) -> [Coefficients<Vector<S>>; 2] {
     let mut left = right;
     for row in 1..=POWERS {
         for j in 0..=POWERS - row {
-            right[j] = (right[j] + right[j + 1]) * 0.5;
+            right[j] = (right[j + 1] - right[j]).mul_add(cut, right[j]);
         }
         left[row] = right[0];
     }

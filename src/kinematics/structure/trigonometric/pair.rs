@@ -35,10 +35,11 @@ impl Part {
         }
         // A lower bound of the second derivative.
         let curvature = N * (N - 1.0) * least;
+        let weighted = Weighted::of(b);
         let (mut low, mut high) = (0.0, 1.0);
         let mut place = 0.5;
         for _ in 0..MOST_STEPS {
-            let [value, slope, second] = values(b, place).map(|part| sign * part);
+            let [value, slope, second] = weighted.at(place).map(|part| sign * part);
             let below = slope * slope / (2.0 * curvature);
             if value - below > noise {
                 return true;
@@ -74,16 +75,61 @@ impl Part {
     }
 }
 
-/// The value at a place in 0 ..= 1 and its first two derivatives, by de Casteljau's algorithm.
-fn values(coefficients: &Coefficients<f64>, place: f64) -> [f64; 3] {
-    let mut b = *coefficients;
-    for row in 1..POWERS - 1 {
-        for j in 0..=POWERS - row {
-            b[j] += place * (b[j + 1] - b[j]);
+/// The Bernstein coefficients of a polynomial and of its first two derivatives, each times its
+/// binomial coefficient.
+struct Weighted {
+    value: [f64; POWERS + 1],
+    slope: [f64; POWERS],
+    second: [f64; POWERS - 1],
+}
+
+impl Weighted {
+    fn of(b: &Coefficients<f64>) -> Self {
+        let change = |j: usize| b[j + 1] - b[j];
+        Self {
+            value: core::array::from_fn(|j| BINOMIALS[0][j] * b[j]),
+            slope: core::array::from_fn(|j| BINOMIALS[1][j] * N * change(j)),
+            second: core::array::from_fn(|j| {
+                BINOMIALS[2][j] * N * (N - 1.0) * (change(j + 1) - change(j))
+            }),
         }
     }
-    let [a, b, c] = [b[0], b[1], b[2]];
-    let (left, right) = (b - a, c - b);
-    let slope = left + place * (right - left);
-    [a + place * (left + slope), N * slope, N * (N - 1.0) * (right - left)]
+
+    /// The value at a place in 0 ..= 1 and its first two derivatives, by Horner's rule from the
+    /// farther end.
+    fn at(&self, place: f64) -> [f64; 3] {
+        let (rest, is_first) = (1.0 - place, place <= 0.5);
+        let (near, ratio) = if is_first { (rest, place / rest) } else { (place, rest / place) };
+        let [square, power_4, power_8] = [near * near, near.powi(4), near.powi(8)];
+        [
+            power_8 * power_8 * sum(&self.value, ratio, is_first),
+            power_8 * power_4 * square * near * sum(&self.slope, ratio, is_first),
+            power_8 * power_4 * square * sum(&self.second, ratio, is_first),
+        ]
+    }
+}
+
+/// The sum of numbers times powers of a ratio, from the first number on or from the last.
+fn sum(numbers: &[f64], ratio: f64, is_first: bool) -> f64 {
+    let add = |sum: f64, number: &f64| sum * ratio + number;
+    if is_first { numbers.iter().rev().fold(0.0, add) } else { numbers.iter().fold(0.0, add) }
+}
+
+/// Binomial coefficients of degree 16, 15 and 14.
+const BINOMIALS: [[f64; POWERS + 1]; 3] = binomials();
+
+#[expect(clippy::cast_precision_loss, reason = "numbers up to 16")]
+const fn binomials() -> [[f64; POWERS + 1]; 3] {
+    let mut rows = [[0.0; POWERS + 1]; 3];
+    let mut less = 0;
+    while less < 3 {
+        rows[less][0] = 1.0;
+        let mut j = 1;
+        while j <= POWERS - less {
+            rows[less][j] = rows[less][j - 1] * (POWERS - less + 1 - j) as f64 / j as f64;
+            j += 1;
+        }
+        less += 1;
+    }
+    rows
 }

@@ -1,9 +1,8 @@
 //! A part of an arc, by its Bernstein coefficients.
 
-use core::f64::consts::PI;
-
 use super::roots::Root;
-use super::tables::{ARCS, FIRST_MIDDLE, HALF_ARC_TAN, POWERS};
+use super::tables::{FIRST_MIDDLE, HALF_ARC, HALF_ARC_TAN, POWERS};
+use crate::lanes::Column;
 
 /// Series of the arc tangent, behind its first term: good to 1e-17 on half an arc.
 const ATAN: [f64; 7] =
@@ -17,18 +16,37 @@ pub(super) struct Part {
     pub(super) arc: usize,
     pub(super) low: f64,
     pub(super) high: f64,
+    /// Where it is to be divided, as a part of it, and which of its two parts count.
+    pub(super) cut: f64,
+    pub(super) keeps: [bool; 2],
     pub(super) coefficients: Coefficients<f64>,
 }
 
 impl Part {
+    /// A whole arc, to be divided in the middle; without coefficients.
+    #[inline(always)]
+    pub(super) fn whole(arc: usize) -> Self {
+        let coefficients = [0.0; POWERS + 1];
+        Self { arc, low: 0.0, high: 1.0, cut: 0.5, keeps: [true; 2], coefficients }
+    }
+
+    /// The part in a lane of coefficients: its arc and its ends.
+    #[inline(always)]
+    pub(super) fn of(
+        columns: &Coefficients<Column>,
+        lane: usize,
+        (arc, low, high): (usize, f64, f64),
+    ) -> Self {
+        let coefficients = core::array::from_fn(|j| columns[j][lane]);
+        Self { low, high, coefficients, ..Self::whole(arc) }
+    }
+
     /// The angle at a place of its arc [rad].
     pub(super) fn angle(&self, place: f64) -> f64 {
-        #[expect(clippy::cast_precision_loss, reason = "one of 16")]
-        let middle = FIRST_MIDDLE + self.arc as f64 * (2.0 * PI / ARCS as f64);
         let tan = HALF_ARC_TAN * (2.0 * place - 1.0);
         let square = tan * tan;
         let series = ATAN.iter().rev().fold(0.0, |sum, part| sum * square + part);
-        middle + 2.0 * tan * (1.0 + square * series)
+        middle(self.arc) + 2.0 * tan * (1.0 + square * series)
     }
 
     /// One simple root.
@@ -39,4 +57,10 @@ impl Part {
     pub(super) fn cluster(&self) -> Root {
         Root { low: self.angle(self.low), high: self.angle(self.high), is_simple: false, most: 0 }
     }
+}
+
+/// The middle of an arc [rad].
+#[expect(clippy::cast_precision_loss, reason = "one of 16")]
+pub(super) fn middle(arc: usize) -> f64 {
+    FIRST_MIDDLE + arc as f64 * (2.0 * HALF_ARC)
 }

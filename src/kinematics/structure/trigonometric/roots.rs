@@ -1,5 +1,9 @@
 //! The real roots of a polynomial: each as an interval.
 
+use core::f64::consts::TAU;
+
+use super::tables::{FIRST_MIDDLE, HALF_ARC};
+
 /// Most intervals that are kept: twice as many as there can be roots.
 pub(crate) const MOST_ROOTS: usize = 32;
 
@@ -16,6 +20,13 @@ pub(crate) struct Root {
 }
 
 impl Root {
+    /// A cluster about an angle in -pi ..= pi [rad].
+    pub(crate) fn cluster(angle: f64, radius: f64) -> Self {
+        // In the range of the arcs.
+        let angle = if angle < FIRST_MIDDLE - HALF_ARC { angle + TAU } else { angle };
+        Self { low: angle - radius, high: angle + radius, ..Self::default() }
+    }
+
     /// Middle of the interval [rad].
     pub(crate) fn angle(self) -> f64 {
         0.5 * (self.low + self.high)

@@ -11,23 +11,24 @@ use crate::lanes::sin_cos;
 const MOST_MULTIPLICITY: usize = 6;
 
 impl TrigonometricPolynomial {
-    /// Every real root, in a range of a full turn: complete up to the noise (eq. 96).
-    pub(crate) fn roots<S: Simd>(&self, simd: S) -> Roots {
+    /// Every real root, in a range of a full turn: complete up to the noise (eq. 96). Clusters that
+    /// are known are taken as they are.
+    pub(crate) fn roots<S: Simd>(&self, simd: S, known: &[Root]) -> Roots {
         // A function of its own for each instruction set: it is long.
         simd.vectorize(
             #[inline(always)]
-            || self.roots_in(simd),
+            || self.roots_in(simd, known),
         )
     }
 
     #[inline(always)]
-    fn roots_in<S: Simd>(&self, simd: S) -> Roots {
+    fn roots_in<S: Simd>(&self, simd: S, known: &[Root]) -> Roots {
         let mut roots = Roots::NONE;
         if self.is_noise() {
             roots.is_complete = false;
             return roots;
         }
-        self.isolate(simd, &mut roots);
+        self.isolate(simd, known, &mut roots);
         self.refine(simd, &mut roots);
         roots.join();
         for root in roots.as_mut_slice().iter_mut().filter(|root| !root.is_simple) {

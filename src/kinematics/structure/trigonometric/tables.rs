@@ -19,6 +19,9 @@ pub(super) const POWERS: usize = 2 * DEGREE;
 /// poses have their roots.
 pub(super) const FIRST_MIDDLE: f64 = 0.11;
 
+/// Half of an arc [rad].
+pub(super) const HALF_ARC: f64 = core::f64::consts::PI / 16.0;
+
 /// Tangent of half of half an arc, pi / 32.
 pub(super) const HALF_ARC_TAN: f64 = 0.098_491_403_357_164_25;
 
