@@ -52,7 +52,7 @@ impl VectorKernel for Attempt<'_> {
         let roots = polynomial.roots(simd, &[]);
         let search =
             Search { split, closure, target, posed: &posed, weights: posed.left.weights_of_1() };
-        let mut simple = [Root::default(); MOST_ROOTS];
+        let mut simple = [Root::NONE; MOST_ROOTS];
         let mut count = 0;
         for root in roots.as_slice().iter().filter(|root| root.is_simple) {
             simple[count] = *root;

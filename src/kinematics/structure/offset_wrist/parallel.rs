@@ -35,8 +35,7 @@ pub(super) struct Parallel {
 }
 
 impl Parallel {
-    pub(super) const NONE: Self =
-        Self { clusters: [Root { low: 0.0, high: 0.0, is_simple: false, most: 0 }; 2], count: 0 };
+    pub(super) const NONE: Self = Self { clusters: [Root::NONE; 2], count: 0 };
 
     /// The angles of joint 6 at which axis 5 is horizontal and the wrist point is perpendicular to
     /// it.

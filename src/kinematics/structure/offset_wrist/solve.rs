@@ -14,7 +14,7 @@ use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::branches::Branches;
 use crate::kinematics::structure::closure::Accepted;
 use crate::kinematics::structure::end_frames::Frame;
-use crate::kinematics::structure::trigonometric::{MOST_ROOTS, Root, TrigonometricPolynomial};
+use crate::kinematics::structure::trigonometric::{Root, TrigonometricPolynomial};
 use crate::lanes::{LANES, VectorKernel, run_vectors};
 
 /// What the rounding of a pose changes of the resultant, relative to its coefficients [1]: they are
@@ -44,17 +44,22 @@ impl VectorKernel for Solve<'_> {
         let roots = polynomial.roots(simd, known.as_slice());
         let is_complete = roots.is_complete;
         let mut clusters = Clusters::NONE;
-        let (mut simple, mut count) = ([Root::default(); MOST_ROOTS], 0);
-        for root in roots.as_slice() {
-            if root.is_simple {
-                simple[count] = *root;
-                count += 1;
-            } else {
-                clusters.examine(root, &mut search);
-            }
+        for root in roots.as_slice().iter().filter(|root| !root.is_simple) {
+            clusters.examine(root, &mut search);
         }
-        for roots in simple[..count].chunks(LANES) {
-            search.at_roots(simd, roots);
+        let mut rest = roots.as_slice().iter().filter(|root| root.is_simple);
+        let mut count = 0;
+        loop {
+            let (mut block, mut lanes) = ([Root::NONE; LANES], 0);
+            for (place, root) in block.iter_mut().zip(&mut rest) {
+                *place = *root;
+                lanes += 1;
+            }
+            if lanes == 0 {
+                break;
+            }
+            search.at_roots(simd, &block[..lanes]);
+            count += lanes;
         }
         search.converge();
         let simple = if lengths.is_square { 2 * count } else { count };

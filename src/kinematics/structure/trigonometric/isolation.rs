@@ -10,6 +10,7 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use fearless_simd::prelude::*;
 
+use super::brackets::Brackets;
 use super::part::{Coefficients, Part};
 use super::polynomial::TrigonometricPolynomial;
 use super::roots::{Root, Roots};
@@ -35,10 +36,11 @@ struct Parts {
 }
 
 impl TrigonometricPolynomial {
-    /// Find an interval for every root beside the known clusters; those of simple roots are as wide
-    /// as they can be.
+    /// Find an interval for every root beside the known clusters: brackets of simple roots, as wide
+    /// as they can be, and clusters.
     #[inline(always)]
-    pub(super) fn isolate<S: Simd>(&self, simd: S, known: &[Root], roots: &mut Roots) {
+    pub(super) fn isolate<S: Simd>(&self, simd: S, known: &[Root], roots: &mut Roots) -> Brackets {
+        let mut brackets = Brackets::NONE;
         let mut parts = Parts { all: [Part::whole(0); MOST_PARTS], count: 0 };
         for half in 0..ARCS / LANES {
             let columns = self.on_arcs(simd, half);
@@ -48,7 +50,15 @@ impl TrigonometricPolynomial {
                 let arc = LANES * half + lane;
                 let whole = (arc, 0.0, 1.0);
                 match known.iter().find(|cluster| cluster.touches(arc)) {
-                    None => self.take(&columns, most[lane], lane, whole, &mut parts, roots),
+                    None => self.take(
+                        &columns,
+                        most[lane],
+                        lane,
+                        whole,
+                        &mut parts,
+                        &mut brackets,
+                        roots,
+                    ),
                     Some(cluster) => {
                         let rest = Part::of(&columns, lane, whole).without(cluster);
                         rest.into_iter().flatten().for_each(|part| parts.push(part));
@@ -78,13 +88,30 @@ impl TrigonometricPolynomial {
             parts.count = first;
             for (lane, Divided { ends, keeps }) in divided[..count].iter().enumerate() {
                 if keeps[0] {
-                    self.take(&left, changes[0][lane], lane, ends[0], &mut parts, roots);
+                    self.take(
+                        &left,
+                        changes[0][lane],
+                        lane,
+                        ends[0],
+                        &mut parts,
+                        &mut brackets,
+                        roots,
+                    );
                 }
                 if keeps[1] {
-                    self.take(&right, changes[1][lane], lane, ends[1], &mut parts, roots);
+                    self.take(
+                        &right,
+                        changes[1][lane],
+                        lane,
+                        ends[1],
+                        &mut parts,
+                        &mut brackets,
+                        roots,
+                    );
                 }
             }
         }
+        brackets
     }
 
     /// Bernstein coefficients on eight arcs (eq. 94).
@@ -121,6 +148,7 @@ impl TrigonometricPolynomial {
         lane: usize,
         place: (usize, f64, f64),
         parts: &mut Parts,
+        brackets: &mut Brackets,
         roots: &mut Roots,
     ) {
         if changes < 0.5 {
@@ -131,13 +159,13 @@ impl TrigonometricPolynomial {
         let (first, last) = (coefficients[0], coefficients[POWERS]);
         let are_certain = first.abs() > self.noise && last.abs() > self.noise;
         if changes < 1.5 && are_certain && (first < 0.0) != (last < 0.0) {
-            roots.push(part.simple());
+            brackets.push(&part, part.crossing(), first);
         } else if coefficients.iter().all(|b| b.abs() <= self.noise)
             || part.high - part.low < 1.5 * LEAST_WIDTH
             || parts.count == MOST_PARTS
         {
             roots.push(part.cluster());
-        } else if changes > 2.5 || !part.take_pair(self.noise, roots) {
+        } else if changes > 2.5 || !part.take_pair(self.noise, brackets, roots) {
             parts.push(part);
         }
     }

@@ -7,6 +7,7 @@
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
+use super::brackets::Brackets;
 use super::part::{Coefficients, Part};
 use super::roots::Roots;
 use super::tables::POWERS;
@@ -23,7 +24,7 @@ const N: f64 = POWERS as f64;
 impl Part {
     /// Take the roots of a part whose ends are on the same certain side of zero, if it bends one
     /// way; returns whether it was decided.
-    pub(super) fn take_pair(&self, noise: f64, roots: &mut Roots) -> bool {
+    pub(super) fn take_pair(&self, noise: f64, brackets: &mut Brackets, roots: &mut Roots) -> bool {
         let b = &self.coefficients;
         // Bent upward, with ends above zero.
         let sign = 1.0_f64.copysign(b[0]);
@@ -52,8 +53,14 @@ impl Part {
             let around = |radius: f64| [(place - radius).max(0.0), (place + radius).min(1.0)];
             if value < -noise {
                 let [first, last] = around(within(2.0 * noise));
-                roots.push(self.between(first, place).simple());
-                roots.push(self.between(place, last).simple());
+                // Where the parabola with this value, slope and bend has its zeros.
+                let vertex = place - slope / second;
+                let away = (slope * slope / second - 2.0 * value) / second;
+                let [left, right] = [-1.0, 1.0].map(|side| vertex + side * away.sqrt());
+                let (left, right) = (left.clamp(first, place), right.clamp(place, last));
+                let [left, right] = [left, right].map(|at| self.place(at));
+                brackets.push(&self.between(first, place), left, sign);
+                brackets.push(&self.between(place, last), right, -sign);
                 return true;
             }
             if below <= OFF * noise {
@@ -70,8 +77,12 @@ impl Part {
 
     /// What is between two places of this part.
     fn between(&self, first: f64, last: f64) -> Self {
-        let at = |place: f64| self.low + place * (self.high - self.low);
-        Self { low: at(first), high: at(last), ..*self }
+        Self { low: self.place(first), high: self.place(last), ..*self }
+    }
+
+    /// The place of its arc at a place of this part.
+    fn place(&self, place: f64) -> f64 {
+        self.low + place * (self.high - self.low)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::roots::Root;
 use super::tables::{FIRST_MIDDLE, HALF_ARC, HALF_ARC_TAN, POWERS};
-use crate::lanes::Column;
+use crate::lanes::{Column, Number};
 
 /// Series of the arc tangent, behind its first term: good to 1e-17 on half an arc.
 const ATAN: [f64; 7] =
@@ -41,21 +41,20 @@ impl Part {
         Self { low, high, coefficients, ..Self::whole(arc) }
     }
 
-    /// The angle at a place of its arc [rad].
-    pub(super) fn angle(&self, place: f64) -> f64 {
-        let tan = HALF_ARC_TAN * (2.0 * place - 1.0);
-        let square = tan * tan;
-        let series = ATAN.iter().rev().fold(0.0, |sum, part| sum * square + part);
-        middle(self.arc) + 2.0 * tan * (1.0 + square * series)
-    }
-
-    /// One simple root.
-    pub(super) fn simple(&self) -> Root {
-        Root { is_simple: true, most: 1, ..self.cluster() }
+    /// The place of its arc where the control polygon crosses zero, between ends of different
+    /// signs.
+    pub(super) fn crossing(&self) -> f64 {
+        let b = &self.coefficients;
+        let after = (1..POWERS).find(|j| (b[*j] < 0.0) != (b[0] < 0.0)).unwrap_or(POWERS);
+        let (one, other) = (b[after - 1], b[after]);
+        #[expect(clippy::cast_precision_loss, reason = "up to 16")]
+        let place = (after as f64 - other / (other - one)) / POWERS as f64;
+        self.low + place * (self.high - self.low)
     }
 
     pub(super) fn cluster(&self) -> Root {
-        Root { low: self.angle(self.low), high: self.angle(self.high), is_simple: false, most: 0 }
+        let [low, high] = [self.low, self.high].map(|place| angle(middle(self.arc), place));
+        Root { low, high, ..Root::NONE }
     }
 }
 
@@ -63,4 +62,16 @@ impl Part {
 #[expect(clippy::cast_precision_loss, reason = "one of 16")]
 pub(super) fn middle(arc: usize) -> f64 {
     FIRST_MIDDLE + arc as f64 * (2.0 * HALF_ARC)
+}
+
+/// The angle at a place of an arc with this middle [rad].
+#[inline(always)]
+pub(super) fn angle<T: Number>(middle: T, place: T) -> T {
+    let tan = place.scaled_plus(2.0 * HALF_ARC_TAN, place.like(-HALF_ARC_TAN));
+    let square = tan * tan;
+    let mut series = place.like(ATAN[ATAN.len() - 1]);
+    for part in ATAN[..ATAN.len() - 1].iter().rev() {
+        series = series.times_plus(square, place.like(*part));
+    }
+    (tan * 2.0).times_plus(series.times_plus(square, place.like(1.0)), middle)
 }

@@ -2,8 +2,9 @@
 
 use fearless_simd::prelude::*;
 
+use super::brackets::{Bracket, Brackets};
 use super::polynomial::TrigonometricPolynomial;
-use super::roots::{MOST_ROOTS, Root, Roots};
+use super::roots::{Root, Roots};
 use crate::lanes::{Column, LANES, Number as _, Vector, sin_cos_of};
 
 /// Step of Newton's method after which a root is taken, relative to the width of its interval, or
@@ -17,56 +18,35 @@ const MOST_NOISE: f64 = 1e-3;
 const MOST_STEPS: usize = 48;
 
 impl TrigonometricPolynomial {
-    /// Narrow the interval of each simple root to what the noise leaves.
+    /// Narrow brackets of simple roots to what the noise leaves of them.
     #[inline(always)]
-    pub(super) fn refine<S: Simd>(&self, simd: S, roots: &mut Roots) {
-        let mut simple = [0; MOST_ROOTS];
-        let mut count = 0;
-        for (index, root) in roots.as_slice().iter().enumerate() {
-            if root.is_simple {
-                simple[count] = index;
-                count += 1;
-            }
-        }
-        let roots = roots.as_mut_slice();
-        for block in simple[..count].chunks(LANES) {
-            let (mut low, mut high) = ([0.0; LANES], [0.0; LANES]);
-            for lane in 0..LANES {
-                // Lanes without a root repeat the first.
-                let root = roots[block[if lane < block.len() { lane } else { 0 }]];
-                (low[lane], high[lane]) = (root.low, root.high);
-            }
-            let [low, high] = [Vector::load_array(simd, low), Vector::load_array(simd, high)];
-            let (angle, radius) = self.bracketed(low, high);
-            for (lane, index) in block.iter().enumerate() {
-                let radius = radius[lane];
-                roots[*index] = Root {
-                    low: angle[lane] - radius,
-                    high: angle[lane] + radius,
+    pub(super) fn refine<S: Simd>(&self, simd: S, brackets: &Brackets, roots: &mut Roots) {
+        for first in (0..brackets.count).step_by(LANES) {
+            let (angle, radius) = self.bracketed(&brackets.block(simd, first / LANES));
+            for lane in 0..LANES.min(brackets.count - first) {
+                roots.push(Root {
+                    low: angle[lane] - radius[lane],
+                    high: angle[lane] + radius[lane],
                     is_simple: true,
                     most: 1,
-                };
+                });
             }
         }
     }
 
-    /// The roots between angles where the signs differ, and what the noise leaves of them: angles
-    /// and radii [rad].
+    /// The roots in brackets, and what the noise leaves of them: angles and radii [rad].
     #[inline(always)]
-    fn bracketed<S: Simd>(&self, mut low: Vector<S>, mut high: Vector<S>) -> (Column, Column) {
-        let [at_low, slope_low] = self.at(low);
-        let [at_high, _] = self.at(high);
+    fn bracketed<S: Simd>(&self, bracket: &Bracket<S>) -> (Column, Column) {
+        let Bracket { mut low, mut high, start, sign } = *bracket;
         let zero = low.like(0.0);
         let width = high - low;
-        let part = at_low / (at_low - at_high);
-        let part = part.or_more(zero.like(0.05));
-        let part = part.if_above(zero.like(0.95), zero.like(0.95), part);
-        let mut angle = part.mul_add(width, low);
-        let (mut before, mut slopes) = (low, slope_low);
+        let mut angle = start;
+        // Before the first step no change of the slope is known.
+        let (mut before, mut slopes) = (start, zero.like(f64::NAN));
         let mut is_moving = zero.simd_eq(zero);
         for _ in 0..MOST_STEPS {
             let [value, slope] = self.at(angle);
-            let is_before = !(value.simd_lt(0.0) ^ at_low.simd_lt(0.0));
+            let is_before = !(value.simd_lt(0.0) ^ sign.simd_lt(0.0));
             low = is_before.select(angle, low);
             high = is_before.select(high, angle);
             let newton = angle - value / slope;

@@ -8,7 +8,7 @@ use super::tables::{FIRST_MIDDLE, HALF_ARC};
 pub(crate) const MOST_ROOTS: usize = 32;
 
 /// A root, or a cluster of roots that noise does not separate.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Root {
     /// Ends of the interval that holds it [rad].
     pub(crate) low: f64,
@@ -20,11 +20,13 @@ pub(crate) struct Root {
 }
 
 impl Root {
+    pub(crate) const NONE: Self = Self { low: 0.0, high: 0.0, is_simple: false, most: 0 };
+
     /// A cluster about an angle in -pi ..= pi [rad].
     pub(crate) fn cluster(angle: f64, radius: f64) -> Self {
         // In the range of the arcs.
         let angle = if angle < FIRST_MIDDLE - HALF_ARC { angle + TAU } else { angle };
-        Self { low: angle - radius, high: angle + radius, ..Self::default() }
+        Self { low: angle - radius, high: angle + radius, ..Self::NONE }
     }
 
     /// Middle of the interval [rad].
@@ -49,11 +51,8 @@ pub(crate) struct Roots {
 }
 
 impl Roots {
-    pub(super) const NONE: Self = Self {
-        all: [Root { low: 0.0, high: 0.0, is_simple: false, most: 0 }; MOST_ROOTS],
-        count: 0,
-        is_complete: true,
-    };
+    pub(super) const NONE: Self =
+        Self { all: [Root::NONE; MOST_ROOTS], count: 0, is_complete: true };
 
     pub(super) fn push(&mut self, root: Root) {
         if self.count == MOST_ROOTS {

@@ -28,8 +28,9 @@ impl TrigonometricPolynomial {
             roots.is_complete = false;
             return roots;
         }
-        self.isolate(simd, known, &mut roots);
-        self.refine(simd, &mut roots);
+        let brackets = self.isolate(simd, known, &mut roots);
+        roots.is_complete &= brackets.is_complete;
+        self.refine(simd, &brackets, &mut roots);
         roots.join();
         for root in roots.as_mut_slice().iter_mut().filter(|root| !root.is_simple) {
             root.most = self.most_roots(*root);
