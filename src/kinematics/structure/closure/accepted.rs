@@ -5,6 +5,7 @@ use core::fmt;
 use super::chain::{Closure, Target};
 use super::newton::Candidates;
 use crate::kinematics::pose::angles::wrap;
+use crate::lanes::LANES;
 
 /// Most solutions of a six-joint chain, apart from self-motions.
 /// Reference: Primrose, On the input-output equation of the general 7R-mechanism, 1986.
@@ -206,7 +207,9 @@ impl Accepted {
         }
         // It is a solution, whatever could be told about what is next to it.
         if is_isolated || !is_told && closes && least * SAME > closure.accepts() {
-            self.insert(closure, *candidate);
+            let again = closure.converged(target, &theta.map(|angle| [angle; LANES]));
+            let (theta, residual) = (again.theta(0), again.residual[0]);
+            self.insert(closure, Configuration { theta, residual, ..*candidate });
         }
     }
 

@@ -18,8 +18,9 @@ const MOST_STEP: f64 = 0.3;
 /// are left to those that are not, or are next to a fold.
 const MOST_STEPS: usize = 8;
 
-/// Steps beyond that for a candidate whose last one was below [`NEAR`]: two make 1e-3 to 1e-12.
-const LAST_STEPS: usize = 2;
+/// Steps beyond that for a candidate whose last one was below [`NEAR`]: a step is halved until it
+/// is below the least singular value, 1e-4 for one that is not examined, then squared.
+const LAST_STEPS: usize = 6;
 
 /// Size of a step from which on the next is its square, away from a fold [rad].
 const NEAR: f64 = 1e-3;
