@@ -5,6 +5,7 @@ use core::fmt;
 use super::chain::{Closure, Target};
 use super::newton::Candidates;
 use crate::kinematics::pose::angles::wrap;
+use crate::lanes::LANES;
 
 /// Most solutions of a six-joint chain, apart from self-motions.
 /// Reference: Primrose, On the input-output equation of the general 7R-mechanism, 1986.
@@ -12,6 +13,11 @@ pub(crate) const MOST: usize = 16;
 
 /// Least singular value below which a candidate is examined as one of a fold or a self-motion [1].
 const SINGULAR: f64 = 1e-4;
+
+/// Least singular value above which what closes is next to a solution of its own [1]: by the
+/// theorem of Newton and Kantorovich, where `6 residual / least^2` is at most a half, six bounding
+/// the second derivatives of the conditions.
+const ISOLATED: f64 = 1e-6;
 
 /// Residual, in roundings, up to which a configuration closes [1]: near a fold the last step is
 /// the root of rounding.
@@ -172,42 +178,59 @@ impl Accepted {
                 continue;
             }
             let (theta, least) = (candidates.theta(lane), candidates.least[lane]);
-            if residual <= closure.accepts() && least > SINGULAR {
-                self.insert(closure, Configuration { theta, residual, least, kind: Kind::Regular });
+            let one = Configuration { theta, residual, least, kind: Kind::Regular };
+            let closes = residual <= closure.accepts();
+            if closes && least > SINGULAR {
+                self.insert(closure, one);
             } else if least <= 10.0 * SINGULAR || residual < 1e-3 {
-                self.examine(closure, target, &theta);
+                self.examine(closure, target, &one);
             }
         }
-        self.count - before
+        self.count.saturating_sub(before)
     }
 
-    /// Take what is at a configuration next to a singular one.
+    /// Take what is at a candidate next to a singular configuration.
     #[cold]
     #[inline(never)]
-    fn examine(&mut self, closure: &Closure, target: &Target, theta: &[f64; 6]) {
+    fn examine(&mut self, closure: &Closure, target: &Target, candidate: &Configuration) {
+        let Configuration { theta, residual, least, .. } = *candidate;
+        let closes = residual <= closure.accepts();
+        let is_isolated = closes && least > ISOLATED;
         // What was examined next to here has told everything about it.
         let is_known = |one: &Configuration| {
-            (one.kind != Kind::Regular || one.least <= SINGULAR) && one.distance(theta) < EXTENT
+            (one.kind != Kind::Regular || one.least <= SINGULAR) && one.distance(&theta) < EXTENT
         };
-        if self.as_slice().iter().any(is_known) {
-            return;
+        let mut is_told = true;
+        if !self.as_slice().iter().any(is_known) {
+            is_told = self.left > 0 && self.settle(closure, target, &theta);
+            self.is_certain &= is_told || is_isolated;
         }
-        if self.left == 0 {
-            self.is_certain = false;
-            return;
+        // It is a solution, whatever could be told about what is next to it.
+        if is_isolated || !is_told && closes && least * SAME > closure.accepts() {
+            let again = closure.converged(target, &theta.map(|angle| [angle; LANES]));
+            let (theta, residual) = (again.theta(0), again.residual[0]);
+            self.insert(closure, Configuration { theta, residual, ..*candidate });
         }
+    }
+
+    /// Take the solutions next to a configuration. Returns whether these are certain to be all.
+    fn settle(&mut self, closure: &Closure, target: &Target, theta: &[f64; 6]) -> bool {
         self.left -= 1;
         let settled = closure.settle(target, theta);
-        self.is_certain &= settled.is_certain;
         if let Some(missed) = settled.missed
             && let Some(place) = self.missed.get_mut(self.missed_count)
         {
             *place = missed;
             self.missed_count += 1;
         }
+        // A self-motion has filled the room.
+        if self.count + settled.all.len() > MOST && self.has_self_motion() {
+            self.thin(closure, target);
+        }
         for one in settled.all.into_iter().flatten() {
             self.insert(closure, one);
         }
+        settled.is_certain
     }
 
     /// Take a configuration if it is new.

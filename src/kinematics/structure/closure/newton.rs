@@ -18,6 +18,13 @@ const MOST_STEP: f64 = 0.3;
 /// are left to those that are not, or are next to a fold.
 const MOST_STEPS: usize = 8;
 
+/// Steps beyond that for a candidate whose last one was below [`NEAR`]: a step is halved until it
+/// is below the least singular value, 1e-4 for one that is not examined, then squared.
+const LAST_STEPS: usize = 6;
+
+/// Size of a step from which on the next is its square, away from a fold [rad].
+const NEAR: f64 = 1e-3;
+
 /// Joint angles of eight candidates, and how well they close.
 #[derive(Clone, Copy)]
 pub(crate) struct Candidates {
@@ -93,7 +100,7 @@ impl Closure {
         let (mut best_sin, mut best_cos) = (sin, cos);
         // A lane stops by itself: its answer does not depend on the others.
         let mut is_moving = zero.simd_eq(zero);
-        for _ in 0..MOST_STEPS {
+        for count in 1..=MOST_STEPS + LAST_STEPS {
             let conditions = self.conditions(target, &sin, &cos);
             let residual = largest(&conditions.missing);
             let is_better = residual.simd_lt(best);
@@ -114,6 +121,9 @@ impl Closure {
                 (sin[joint], cos[joint]) = turned(s, c, turn);
             }
             is_moving &= size.simd_gt(CONVERGED);
+            if count >= MOST_STEPS {
+                is_moving &= size.simd_lt(NEAR);
+            }
             if !is_moving.any_true() {
                 break;
             }

@@ -67,6 +67,23 @@ fn candidates_converge_to_one_solution() {
 }
 
 #[test]
+fn candidates_from_afar_close_to_rounding() {
+    let mut rng = Rng::new(6);
+    let mut taken = 0;
+    for _ in 0..5000 {
+        let closure = random(&mut rng);
+        let theta: [f64; 6] = rng.angles();
+        let target = closure.reached(&theta);
+        // Some of them need all steps.
+        for one in found(&closure, &target, &theta, 0.7).as_slice() {
+            taken += 1;
+            assert!(one.residual <= closure.rounding, "{one:?}");
+        }
+    }
+    assert!(taken > 5000, "{taken}");
+}
+
+#[test]
 fn the_least_singular_value_is_estimated() {
     let mut rng = Rng::new(2);
     for _ in 0..1000 {

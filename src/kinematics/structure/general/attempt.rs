@@ -1,5 +1,7 @@
 //! All solutions that one split finds, and whether their number is certain (eq. 95 to 104).
 
+use core::f64::consts::PI;
+
 use fearless_simd::prelude::*;
 
 use super::back::{Angle, completed, eliminated, pencil};
@@ -7,9 +9,7 @@ use super::determinant::Rest;
 use super::split::{Posed, Split};
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::closure::{Accepted, Closure, Configuration, Target};
-use crate::kinematics::structure::trigonometric::{
-    MOST_ROOTS, Root, SAMPLE_COS, SAMPLE_SIN, SAMPLES, TrigonometricPolynomial,
-};
+use crate::kinematics::structure::trigonometric::{MOST_ROOTS, Root};
 use crate::lanes::{Column, LANES, Vector, VectorKernel, sin_cos_of};
 
 /// How far from its interval a solution of a cluster may be [rad]: what rounding moves a double
@@ -24,6 +24,9 @@ const UNCERTAIN: f64 = 1e-3;
 
 /// Radius below which an interval is one place [rad].
 const NARROW: f64 = 1e-7;
+
+/// The whole circle.
+const ANYWHERE: Root = Root { low: -PI, high: PI, is_simple: false, most: usize::MAX };
 
 /// A split applied to a pose.
 pub(super) struct Attempt<'a> {
@@ -42,14 +45,9 @@ impl VectorKernel for Attempt<'_> {
     fn run<S: Simd>(self, simd: S) -> bool {
         let Self { split, closure, target, accepted } = self;
         let posed = split.posed(simd, &target.frame.inverse());
-        let mut samples = [Vector::splat(simd, 0.0); SAMPLES / LANES];
-        for block in 0..SAMPLES / LANES {
-            let sin = Vector::load_array_ref(simd, &SAMPLE_SIN[block]);
-            let cos = Vector::load_array_ref(simd, &SAMPLE_COS[block]);
-            samples[block] = Rest::at(&posed.equations, &sin, &cos).determinant;
-        }
-        let polynomial = TrigonometricPolynomial::of_samples(&samples).of_pose();
-        let roots = polynomial.roots(simd, &[]);
+        let roots = posed.polynomial(simd, closure.rounding).roots(simd, &[]);
+        // A determinant that is zero at every angle: each may have a solution.
+        let is_free = !roots.is_complete && roots.as_slice().is_empty();
         let search =
             Search { split, closure, target, posed: &posed, weights: posed.left.weights_of_1() };
         let mut simple = [Root::NONE; MOST_ROOTS];
@@ -58,8 +56,8 @@ impl VectorKernel for Attempt<'_> {
             simple[count] = *root;
             count += 1;
         }
-        let (mut done, mut clusters) =
-            (0, roots.as_slice().iter().filter(|root| is_cluster(**root)));
+        let clusters = roots.as_slice().iter().filter(|root| is_cluster(**root));
+        let (mut done, mut clusters) = (0, clusters.chain(is_free.then_some(&ANYWHERE)));
         let mut is_certain = roots.is_complete;
         let mut in_clusters = 0;
         // Simple roots, eight at a time, then the clusters: in one place, for it is long.

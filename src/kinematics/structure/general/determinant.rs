@@ -13,9 +13,21 @@
 
 use fearless_simd::prelude::*;
 
-use super::split::Equations;
+use super::split::{Equations, Posed};
 use crate::kinematics::structure::closure::{Six, reflect};
-use crate::lanes::{Number as _, Vector};
+use crate::kinematics::structure::trigonometric::{
+    SAMPLE_COS, SAMPLE_SIN, SAMPLES, TrigonometricPolynomial,
+};
+use crate::lanes::{LANES, Number as _, Vector};
+
+/// Least factor of the determinant, in roundings of the closure, that is more than what rounding
+/// makes of zero [1]. Measured: up to 3 where it should be zero.
+const VANISHES: f64 = 16.0;
+
+/// Change of the matrix by the rounding of a pose, in roundings of the closure [1]: its elements
+/// are of second degree in the pose, lengths in units of the arm. Measured next to folds: with 2,
+/// one answer of 5000 is certified that is not complete.
+const OF_THE_POSE: f64 = 4.0;
 
 /// What is left of the matrix: six rows of six, for the powers 2 and 3 of x4, as a triangle.
 pub(super) struct Rest<S: Simd> {
@@ -23,6 +35,33 @@ pub(super) struct Rest<S: Simd> {
     diagonal: Six<S>,
     /// The determinant.
     pub(super) determinant: Vector<S>,
+    /// The least of its twelve factors, by size.
+    least: Vector<S>,
+}
+
+impl Posed {
+    /// The determinant as a polynomial of t5 (eq. 91), with the noise of a pose that is rounded
+    /// (eq. 92): all of it is noise where it is zero at every angle.
+    #[inline(always)]
+    pub(super) fn polynomial<S: Simd>(&self, simd: S, rounding: f64) -> TrigonometricPolynomial {
+        let zero = Vector::splat(simd, 0.0);
+        let (mut samples, mut regular, mut others) = ([zero; SAMPLES / LANES], zero, zero);
+        for block in 0..SAMPLES / LANES {
+            let sin = Vector::load_array_ref(simd, &SAMPLE_SIN[block]);
+            let cos = Vector::load_array_ref(simd, &SAMPLE_COS[block]);
+            let rest = Rest::at(&self.equations, &sin, &cos);
+            samples[block] = rest.determinant;
+            regular = regular.max(rest.least);
+            others = others.max(rest.others());
+        }
+        let mut polynomial = TrigonometricPolynomial::of_samples(&samples).of_pose();
+        let of_pose = others * (OF_THE_POSE * rounding);
+        polynomial.noise = of_pose.to_array().into_iter().fold(polynomial.noise, f64::max);
+        if !regular.simd_gt(VANISHES * rounding).any_true() {
+            polynomial.noise = f64::INFINITY;
+        }
+        polynomial
+    }
 }
 
 impl<S: Simd> Rest<S> {
@@ -87,11 +126,18 @@ impl<S: Simd> Rest<S> {
             triangulate::<4, 6, S>(&mut columns),
             columns[5][5],
         ];
-        let mut determinant = u[0] * u[1] * u[2] * v[0] * v[1] * v[2];
-        for factor in &diagonal {
+        let (mut determinant, mut least) = (u[0], u[0].abs());
+        for factor in u[1..].iter().chain(&v).chain(&diagonal) {
             determinant *= *factor;
+            least = least.min(factor.abs());
         }
-        Self { columns, diagonal, determinant }
+        Self { columns, diagonal, determinant, least }
+    }
+
+    /// The determinant but for its least factor: what a change of an element makes of it, at most.
+    #[inline(always)]
+    fn others(&self) -> Vector<S> {
+        self.determinant.abs() / self.least.max(LEAST)
     }
 
     /// Two orthonormal vectors that the rest takes nearest to zero, by inverse iteration.
