@@ -9,7 +9,7 @@ use super::determinant::Rest;
 use super::split::{Posed, Split};
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::closure::{Accepted, Closure, Configuration, Target};
-use crate::kinematics::structure::trigonometric::{MOST_ROOTS, Root};
+use crate::kinematics::structure::trigonometric::Root;
 use crate::lanes::{Column, LANES, Vector, VectorKernel, sin_cos_of};
 
 /// How far from its interval a solution of a cluster may be [rad]: what rounding moves a double
@@ -50,38 +50,29 @@ impl VectorKernel for Attempt<'_> {
         let is_free = !roots.is_complete && roots.as_slice().is_empty();
         let search =
             Search { split, closure, target, posed: &posed, weights: posed.left.weights_of_1() };
-        let mut simple = [Root::NONE; MOST_ROOTS];
-        let mut count = 0;
-        for root in roots.as_slice().iter().filter(|root| root.is_simple) {
-            simple[count] = *root;
-            count += 1;
-        }
+        let mut simple = roots.as_slice().iter().filter(|root| root.is_simple);
         let clusters = roots.as_slice().iter().filter(|root| is_cluster(**root));
-        let (mut done, mut clusters) = (0, clusters.chain(is_free.then_some(&ANYWHERE)));
+        let (mut count, mut clusters) = (0, clusters.chain(is_free.then_some(&ANYWHERE)));
         let mut is_certain = roots.is_complete;
         let mut in_clusters = 0;
         // Simple roots, eight at a time, then the clusters: in one place, for it is long.
         loop {
-            let mut places = [0.0; LANES];
-            let cluster = if done < count {
-                let block = &simple[done..count.min(done + LANES)];
-                for lane in 0..LANES {
-                    places[lane] = block[if lane < block.len() { lane } else { 0 }].angle();
-                }
-                None
-            } else {
+            let (mut places, mut lanes) = ([0.0; LANES], 0);
+            for root in simple.by_ref().take(LANES) {
+                // Lanes without a root repeat the last.
+                places[lanes..].fill(root.angle());
+                lanes += 1;
+            }
+            count += lanes;
+            let mut cluster = None;
+            if lanes == 0 {
                 let Some(root) = clusters.next() else { break };
                 places = PLACES.map(|place| root.angle() + place * root.radius());
-                Some(root)
-            };
-            let lanes = match cluster {
-                None => LANES.min(count - done),
                 // Where the interval is narrow, its places are one.
-                Some(root) if root.radius() < NARROW => 1,
-                Some(_) => LANES,
-            };
+                lanes = if root.radius() < NARROW { 1 } else { LANES };
+                cluster = Some(root);
+            }
             search.look(simd, &places, lanes, cluster.is_some(), accepted);
-            done += LANES;
             if let Some(root) = cluster.filter(|root| !root.is_simple) {
                 let found = split.solutions_at(root, accepted);
                 let missed = root.most.wrapping_sub(found);

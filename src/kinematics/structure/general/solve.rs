@@ -22,20 +22,19 @@ const BEYOND: f64 = 1e-9;
 const TIED: f64 = 1e-6;
 
 impl General {
-    /// Every solution of a pose, and whether their number is certain.
-    pub(crate) fn solve_all(&self, t_first_last: &Pose) -> (Accepted, bool) {
+    /// Take every solution of a pose; returns whether their number is certain.
+    pub(crate) fn solve_all(&self, t_first_last: &Pose, accepted: &mut Accepted) -> bool {
         let target = self.closure.target_of(t_first_last);
-        let mut accepted = Accepted::NONE;
         // Farther away than the sum of the lengths.
         let distance = target.frame.origin.iter().map(|x| x * x).sum::<f64>();
         if distance > (1.0 + BEYOND) * (1.0 + BEYOND) {
-            return (accepted, true);
+            return true;
         }
         let mut is_certain = false;
         for split in self.splits.iter() {
             accepted.begin();
             let (closure, target) = (&self.closure, &target);
-            is_certain = run_vectors(Attempt { split, closure, target, accepted: &mut accepted });
+            is_certain = run_vectors(Attempt { split, closure, target, accepted });
             if is_certain {
                 break;
             }
@@ -43,7 +42,7 @@ impl General {
         if accepted.has_self_motion() {
             accepted.thin(&self.closure, &target);
         }
-        (accepted, is_certain)
+        is_certain
     }
 
     /// The solutions as slots, which are ordinals.
@@ -52,7 +51,8 @@ impl General {
         t_first_last: &Pose,
         _free: &FreeChoice<6>,
     ) -> Branches<6, MOST_SLOTS> {
-        let (accepted, is_certain) = self.solve_all(t_first_last);
+        let mut accepted = Accepted::NONE;
+        let is_certain = self.solve_all(t_first_last, &mut accepted);
         self.slots(&accepted, is_certain)
     }
 

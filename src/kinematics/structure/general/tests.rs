@@ -87,7 +87,8 @@ fn report(mdh: &Mdh<6>, draws: impl Iterator<Item = [f64; 6]>, close: f64) -> Re
     for q in draws {
         let pose = chain.fk(&q);
         let t = map.t_base_shoulder.inverse() * pose * map.t_wrist_flange.inverse();
-        let (accepted, is_certain) = arm.solve_all(&t);
+        let mut accepted = Accepted::NONE;
+        let is_certain = arm.solve_all(&t, &mut accepted);
         let found: Vec<_> =
             accepted.as_slice().iter().map(|one| arm.joint_map.joints(one.theta)).collect();
         report.poses += 1;
@@ -269,7 +270,8 @@ fn the_closed_forms_find_the_same() {
             let pose = robot.fk(&rng.angles());
             let known = robot.ik(&pose).unwrap();
             let t = map.t_base_shoulder.inverse() * pose * map.t_wrist_flange.inverse();
-            let (accepted, is_certain) = arm.solve_all(&t);
+            let mut accepted = Accepted::NONE;
+            let is_certain = arm.solve_all(&t, &mut accepted);
             if !is_certain {
                 left_out += 1;
                 continue;
@@ -293,7 +295,8 @@ fn out_of_reach_there_is_no_solution() {
     let arm = General::of(&gofa_5()).unwrap();
     for distance in [1.2, 3.0, 100.0] {
         let pose = Pose::translation(distance, 0.1, 0.2);
-        let (accepted, is_certain) = arm.solve_all(&pose);
+        let mut accepted = Accepted::NONE;
+        let is_certain = arm.solve_all(&pose, &mut accepted);
         assert!(accepted.as_slice().is_empty() && is_certain, "{distance}: {accepted:?}");
     }
 }

@@ -100,9 +100,8 @@ impl OffsetWrist {
     /// Add the solutions of the general method, which shares no polynomial with this one.
     #[cold]
     fn rescue(&self, t_first_last: &Pose, accepted: &mut Accepted) -> bool {
-        let found = *accepted;
-        let is_certain;
-        (*accepted, is_certain) = self.general.solve_all(t_first_last);
+        let found = core::mem::replace(accepted, Accepted::NONE);
+        let is_certain = self.general.solve_all(t_first_last, accepted);
         let count = accepted.as_slice().len();
         let closure = self.general.closure();
         for one in found.as_slice() {

@@ -2,7 +2,7 @@
 
 use fearless_simd::prelude::*;
 
-use super::part::{Part, angle, middle};
+use super::part::{angle, middle};
 use crate::lanes::{Column, LANES, Vector};
 
 /// Columns of lanes that hold brackets: one more than there can be roots for.
@@ -43,9 +43,9 @@ impl Brackets {
         is_complete: true,
     };
 
-    /// Take a root of a part, sought first at a place of its arc, with the sign of the value before
-    /// it.
-    pub(super) fn push(&mut self, part: &Part, start: f64, sign: f64) {
+    /// Take a root between two places of an arc, sought first at a part of the way between them,
+    /// with the sign of the value before it.
+    pub(super) fn push(&mut self, (arc, low, high): (usize, f64, f64), part: f64, sign: f64) {
         let (block, lane) = (self.count / LANES, self.count % LANES);
         if block == BLOCKS {
             self.is_complete = false;
@@ -53,10 +53,10 @@ impl Brackets {
         }
         // The first of a block stands in its other lanes until there are others.
         let lanes = if lane == 0 { 0..LANES } else { lane..lane + 1 };
-        self.middles[block][lanes.clone()].fill(middle(part.arc));
-        self.lows[block][lanes.clone()].fill(part.low);
-        self.highs[block][lanes.clone()].fill(part.high);
-        self.starts[block][lanes.clone()].fill(start);
+        self.middles[block][lanes.clone()].fill(middle(arc));
+        self.lows[block][lanes.clone()].fill(low);
+        self.highs[block][lanes.clone()].fill(high);
+        self.starts[block][lanes.clone()].fill(low + part * (high - low));
         self.signs[block][lanes].fill(sign);
         self.count += 1;
     }

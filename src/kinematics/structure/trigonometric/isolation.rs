@@ -21,7 +21,7 @@ use crate::lanes::{Column, LANES, Number as _, Vector};
 const LEAST_WIDTH: f64 = 1.0 / (1 << 23) as f64;
 
 /// Parts of arcs that wait for their division: a double root leaves two or three of each width.
-const MOST_PARTS: usize = 32;
+const MOST_PARTS: usize = 24;
 
 /// Divisions of eight parts each, at most: a double root takes one for each width.
 const MOST_DIVISIONS: usize = 96;
@@ -154,13 +154,14 @@ impl TrigonometricPolynomial {
         if changes < 0.5 {
             return;
         }
-        let part = Part::of(columns, lane, place);
-        let coefficients = &part.coefficients;
-        let (first, last) = (coefficients[0], coefficients[POWERS]);
+        let (first, last) = (columns[0][lane], columns[POWERS][lane]);
         let are_certain = first.abs() > self.noise && last.abs() > self.noise;
         if changes < 1.5 && are_certain && (first < 0.0) != (last < 0.0) {
-            brackets.push(&part, part.crossing(), first);
-        } else if coefficients.iter().all(|b| b.abs() <= self.noise)
+            brackets.push(place, crossing(columns, lane), first);
+            return;
+        }
+        let part = Part::of(columns, lane, place);
+        if part.coefficients.iter().all(|b| b.abs() <= self.noise)
             || part.high - part.low < 1.5 * LEAST_WIDTH
             || parts.count == MOST_PARTS
         {
@@ -192,6 +193,17 @@ impl Part {
         let middle = low + cut * (high - low);
         Divided { ends: [(arc, low, middle), (arc, middle, high)], keeps }
     }
+}
+
+/// Where the control polygon in a lane crosses zero between ends of different signs, in 0 ..= 1.
+#[inline(always)]
+fn crossing(columns: &Coefficients<Column>, lane: usize) -> f64 {
+    let is_below = columns[0][lane] < 0.0;
+    let after = (1..POWERS).find(|j| (columns[*j][lane] < 0.0) != is_below).unwrap_or(POWERS);
+    let (one, other) = (columns[after - 1][lane], columns[after][lane]);
+    #[expect(clippy::cast_precision_loss, reason = "up to 16")]
+    let after = after as f64;
+    (after - other / (other - one)) * (1.0 / POWERS as f64)
 }
 
 /// The most changes of sign that the coefficients of each lane have, if those below the noise have

@@ -18,5 +18,5 @@ mod tables;
 mod tests;
 
 pub(crate) use polynomial::TrigonometricPolynomial;
-pub(crate) use roots::{MOST_ROOTS, Root};
+pub(crate) use roots::Root;
 pub(crate) use tables::{SAMPLE_COS, SAMPLE_SIN, SAMPLES};

@@ -57,10 +57,13 @@ impl Part {
                 let vertex = place - slope / second;
                 let away = (slope * slope / second - 2.0 * value) / second;
                 let [left, right] = [-1.0, 1.0].map(|side| vertex + side * away.sqrt());
-                let (left, right) = (left.clamp(first, place), right.clamp(place, last));
-                let [left, right] = [left, right].map(|at| self.place(at));
-                brackets.push(&self.between(first, place), left, sign);
-                brackets.push(&self.between(place, last), right, -sign);
+                let part = |at: f64, low: f64, high: f64| {
+                    let part = (at - low) / (high - low);
+                    if part >= 0.0 && part <= 1.0 { part } else { 0.5 }
+                };
+                let [low, middle, high] = [first, place, last].map(|place| self.place(place));
+                brackets.push((self.arc, low, middle), part(left, first, place), sign);
+                brackets.push((self.arc, middle, high), part(right, place, last), -sign);
                 return true;
             }
             if below <= OFF * noise {

@@ -41,17 +41,6 @@ impl Part {
         Self { low, high, coefficients, ..Self::whole(arc) }
     }
 
-    /// The place of its arc where the control polygon crosses zero, between ends of different
-    /// signs.
-    pub(super) fn crossing(&self) -> f64 {
-        let b = &self.coefficients;
-        let after = (1..POWERS).find(|j| (b[*j] < 0.0) != (b[0] < 0.0)).unwrap_or(POWERS);
-        let (one, other) = (b[after - 1], b[after]);
-        #[expect(clippy::cast_precision_loss, reason = "up to 16")]
-        let place = (after as f64 - other / (other - one)) / POWERS as f64;
-        self.low + place * (self.high - self.low)
-    }
-
     pub(super) fn cluster(&self) -> Root {
         let [low, high] = [self.low, self.high].map(|place| angle(middle(self.arc), place));
         Root { low, high, ..Root::NONE }

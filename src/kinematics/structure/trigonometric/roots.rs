@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use super::tables::{FIRST_MIDDLE, HALF_ARC};
 
 /// Most intervals that are kept: twice as many as there can be roots.
-pub(crate) const MOST_ROOTS: usize = 32;
+const MOST_ROOTS: usize = 32;
 
 /// A root, or a cluster of roots that noise does not separate.
 #[derive(Clone, Copy, Debug, PartialEq)]
