@@ -1,5 +1,5 @@
-"""Arms without a closed form: a GoFa with its sixteen solutions, and an IRB 2600 after its
-calibration, solved completely and tracked.
+"""Arms without a closed form: a GoFa with its sixteen solutions, an IRB 2600 after its calibration,
+solved completely and tracked, and a YuMi with one of its seven joints given.
 
 The calibration needs scipy: pip install 'irbkin[calibrate]'.
 """
@@ -69,9 +69,24 @@ def calibrated() -> None:
     )
 
 
+def seven_axes() -> None:
+    yumi = irbkin.Robot("IRB 14050")
+    q = np.radians([10, -60, 40, 20, 30, 70, 50])
+    T = yumi.fk(q)
+    print(f"\n{yumi.name}, seven axes")
+    for joint in (7, 3):
+        elbow = yumi.given({joint: q[joint - 1]})
+        certainty = "certain to be all" if elbow.ik(T).certified else "not certain to be all"
+        print(f"  joint {joint} given: {len(elbow.ik(T))} solutions, {certainty}")
+    seed = q + 0.1
+    away = [np.degrees(np.linalg.norm(joints - seed)) for joints in (q, yumi.ik_nearest(T, seed))]
+    print(f"  {away[0]:.1f} deg from a seed; with joint 7 chosen, the nearest is {away[1]:.1f} deg")
+
+
 def main() -> None:
     offset_wrist()
     calibrated()
+    seven_axes()
 
 
 if __name__ == "__main__":

@@ -136,6 +136,10 @@ impl Accepted {
         &self.all[..self.count]
     }
 
+    pub(super) fn as_mut_slice(&mut self) -> &mut [Configuration] {
+        &mut self.all[..self.count]
+    }
+
     /// Solutions with their multiplicity: those that polynomials have as roots, if no self-motion
     /// is among them.
     pub(crate) fn root_count(&self) -> usize {

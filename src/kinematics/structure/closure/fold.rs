@@ -68,7 +68,7 @@ pub(super) struct Curve<'a> {
     u: SVector<f64, 6>,
     pub(super) v: SVector<f64, 6>,
     /// The least singular value.
-    least: f64,
+    pub(super) least: f64,
 }
 
 impl Closure {
@@ -110,7 +110,7 @@ impl Closure {
     }
 
     /// The configuration if it closes.
-    fn accepted(
+    pub(super) fn accepted(
         &self,
         target: &Target,
         theta: [f64; 6],

@@ -5,6 +5,7 @@
 //! are those of the table, theta = q + offset (docs/general.md, eq. 97 to 104).
 
 mod accepted;
+mod at_rest;
 mod chain;
 mod fold;
 mod freedom;

@@ -10,7 +10,7 @@ use crate::kinematics::pose::angles::wrap;
 const STEP: f64 = 0.1;
 
 /// Steps along a self-motion, at most: four turns of its fastest joint.
-const MOST_STEPS: usize = 400;
+pub(super) const MOST_STEPS: usize = 400;
 
 /// How far a configuration of the self-motion may be from its points [rad]: half of a step, and
 /// what the curve bends in it.
@@ -77,7 +77,7 @@ impl Accepted {
 
 impl Closure {
     /// A step ahead on a self-motion, and its direction there.
-    fn advanced(
+    pub(super) fn advanced(
         &self,
         target: &Target,
         theta: &[f64; 6],

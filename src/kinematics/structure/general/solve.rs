@@ -53,11 +53,21 @@ impl General {
     ) -> Branches<6, MOST_SLOTS> {
         let mut accepted = Accepted::NONE;
         let is_certain = self.solve_all(t_first_last, &mut accepted);
-        self.slots(&accepted, is_certain)
+        self.slots(t_first_last, &mut accepted, is_certain)
     }
 
-    /// Solutions in slots.
-    pub(crate) fn slots(&self, accepted: &Accepted, is_certain: bool) -> Branches<6, MOST_SLOTS> {
+    /// Solutions of a pose in slots.
+    pub(crate) fn slots(
+        &self,
+        t_first_last: &Pose,
+        accepted: &mut Accepted,
+        is_certain: bool,
+    ) -> Branches<6, MOST_SLOTS> {
+        if accepted.has_self_motion() {
+            let (target, rest) =
+                (self.closure.target_of(t_first_last), self.joint_map.theta(&[0.0; 6]));
+            accepted.bring_to_rest(&self.closure, &target, &rest);
+        }
         let all = accepted.as_slice();
         let reach = if all.is_empty() { Reach::NoRoots } else { Reach::Reached };
         let mut branches = Branches::empty(reach);

@@ -83,7 +83,7 @@ impl OffsetWrist {
     pub(super) fn solve_pose(&self, t_first_last: &Pose) -> Branches<6, SLOTS> {
         let mut accepted = Accepted::NONE;
         let is_certified = self.solutions(t_first_last, &mut accepted);
-        let mut branches = self.general.slots(&accepted, is_certified);
+        let mut branches = self.general.slots(t_first_last, &mut accepted, is_certified);
         if accepted.as_slice().is_empty() {
             branches.reach = self.missed(&Frame::of(t_first_last));
         }
