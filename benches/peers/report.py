@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -84,7 +85,7 @@ def document(
     missing: dict[str, str],
 ) -> str:
     """The generated part of docs/benchmarks.md."""
-    parts = ["\n\n".join(machine)]
+    parts = ["\n\n".join(textwrap.fill(line, 100) for line in machine)]
     for arm, tallies in recalls.items():
         parts += [f"### Solutions missed, {arm}", markdown(losses(tallies))]
     for result in results:

@@ -35,20 +35,22 @@ def eaik(arm: Arm) -> list[Contender]:
     if arm.dof != 6:
         return []
     robot = HPRobot(arm.axes, arm.offsets)
-    # Its batch ends the process where one pose raises an error.
-    threads_of = ((1, ""), (2, "s")) if robot.hasKnownDecomposition() else ()
+    # Where it knows no decomposition, a pose raises an error, and a batch ends the process.
+    is_solved = robot.hasKnownDecomposition()
+    threads_of = ((1, ""), (2, "s")) if is_solved else ()
 
     def own_frame(pose: Floats, joints: Floats) -> tuple[Any, ...]:
         return (turned(pose, arm.tool.T),)
 
+    one_pose = Contender(
+        "ik",
+        "eaik",
+        lambda T: np.array(robot.IK(T).Q),
+        own_frame,
+        flagged=lambda T: np.array(robot.IK(T).is_LS, dtype=bool),
+    )
     return [
-        Contender(
-            "ik",
-            "eaik",
-            lambda T: np.array(robot.IK(T).Q),
-            own_frame,
-            flagged=lambda T: np.array(robot.IK(T).is_LS, dtype=bool),
-        ),
+        *([one_pose] if is_solved else []),
         Contender(
             "fk", "eaik", robot.fwdKin, from_joints, read=lambda answer: turned(answer, arm.tool)
         ),
