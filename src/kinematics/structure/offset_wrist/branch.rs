@@ -113,13 +113,13 @@ impl<T: Number> Plane<T> {
     }
 
     /// How far shoulder and elbow are inside their reach [1]: one of them is negative where there is
-    /// no branch.
+    /// no branch. Then the square of the wrist point's distance from axis 2 [1].
     #[inline(always)]
-    fn room(&self, lengths: &Lengths) -> [T; 2] {
+    fn room(&self, lengths: &Lengths) -> [T; 3] {
         let scale = 1.0 / (lengths.upper.abs() + lengths.forearm);
         let ([x, y], wanted) = self.length_condition(lengths);
-        let at_elbow = x.times_plus(x, y * y) - wanted * wanted;
-        [self.sigma2 * (scale * scale), at_elbow * (scale * scale)]
+        let square = x.times_plus(x, y * y);
+        [self.sigma2, square - wanted * wanted, square].map(|part| part * (scale * scale))
     }
 
     /// The branch with the forearm along the unit vector with a given product with `factors`, on
@@ -239,6 +239,8 @@ pub(super) struct Seen {
     /// How far shoulder and elbow are inside their reach [1].
     pub(super) shoulder: Column,
     pub(super) elbow: Column,
+    /// The square of the wrist point's distance from axis 2 in the plane of the arm [1].
+    pub(super) distance: Column,
 }
 
 /// The view of all branches, in the order of [`SIDES`], at eight angles [rad].
@@ -272,7 +274,7 @@ impl<S: Simd> Plane<Vector<S>> {
         let zero = self.sigma2.like(0.0);
         let off = self.with_elbow(lengths, zero.like(side), 0.0).off;
         let off = zero.if_above(self.sigma2, zero.like(f64::INFINITY), off);
-        let [shoulder, elbow] = self.room(lengths);
-        Seen { off: off.to_array(), shoulder: shoulder.to_array(), elbow: elbow.to_array() }
+        let [shoulder, elbow, distance] = self.room(lengths).map(Vector::to_array);
+        Seen { off: off.to_array(), shoulder, elbow, distance }
     }
 }

@@ -34,8 +34,12 @@ const LEAST_BENDS: usize = 2;
 /// Rounding of z4 . z5 [1].
 const ROUNDING: f64 = 1e-13;
 
-/// Curvature that no branch exceeds where it ends, or is out of reach [1].
+/// Curvature that no branch exceeds where it ends, or is out of reach, if the forearm is as long as
+/// the wrist point's distance from axis 6; else as the square of their ratio [1].
 const MOST_CURVATURE: f64 = 100.0;
+
+/// Steps that the wrist point would take at least to axis 1, or to axis 2 [1].
+const LEAST_STEPS: f64 = 4.0;
 
 /// Most clusters of roots: each holds two.
 const MOST_CLUSTERS: usize = 8;
@@ -147,7 +151,7 @@ impl Search<'_> {
             for (side, seen) in seen.iter().enumerate() {
                 for lane in 0..lanes {
                     let room = [seen.shoulder[lane], seen.elbow[lane]];
-                    let here = Place { off: seen.off[lane], room };
+                    let here = Place { off: seen.off[lane], room, distance: seen.distance[lane] };
                     if let Some(back) = view.scans[side].pass(here, angles[lane], &ends) {
                         view.cross(side, angles[lane] - back * step);
                     }
@@ -208,6 +212,8 @@ struct Place {
     off: f64,
     /// How far shoulder and elbow are inside their reach [1].
     room: [f64; 2],
+    /// The square of the wrist point's distance from axis 2 [1].
+    distance: f64,
 }
 
 impl Place {
@@ -258,6 +264,7 @@ impl Scan {
         if here.is_reached() && self.best.is_none_or(|(_, best)| here.off.abs() < best) {
             self.best = Some((angle, here.off.abs()));
         }
+        self.is_clear &= !here.is_reached() || ends.is_slow(&here);
         let before = self.before.replace(here)?;
         match [before, here].map(Place::is_reached) {
             [true, true] => return self.step(before.off, here.off),
@@ -291,14 +298,32 @@ struct Ends {
     end: f64,
     /// Squares of the lateral offset and of the wrist point's distance from axis 6 [1].
     squares: [f64; 2],
+    /// The square of the angle by which joint 6 turns in a few steps [rad^2].
+    turn: f64,
 }
 
 impl Ends {
     fn of(lengths: &Lengths, step: f64) -> Self {
         let Lengths { upper, forearm, b, a5, d5, sin_5, .. } = *lengths;
         let unit = upper.abs() + forearm;
-        let squares = [b, a5.hypot(d5 * sin_5)].map(|length| (length / unit) * (length / unit));
-        Self { bend: MOST_CURVATURE * step * step, end: MOST_CURVATURE * step.sqrt(), squares }
+        let circle = a5.hypot(d5 * sin_5);
+        let squares = [b, circle].map(|length| (length / unit) * (length / unit));
+        let curvature = MOST_CURVATURE * (circle / forearm).max(1.0).powi(2);
+        Self {
+            bend: curvature * step * step,
+            end: curvature * step.sqrt(),
+            squares,
+            turn: (LEAST_STEPS * step) * (LEAST_STEPS * step),
+        }
+    }
+
+    /// Whether the wrist point is so far from where shoulder and elbow have no direction that these
+    /// turn little in a step: it moves by its distance from axis 6 at most, and the sides of the
+    /// shoulder meet where sigma has a root.
+    fn is_slow(&self, here: &Place) -> bool {
+        let ([sigma2, _], [lateral, circle]) = (here.room, self.squares);
+        sigma2 > self.turn * (circle + (circle * lateral).sqrt())
+            && here.distance * sigma2 > self.turn * circle * (2.0 * sigma2 + lateral)
     }
 
     /// Whether there is no branch between two angles at which there is none. The room of the elbow

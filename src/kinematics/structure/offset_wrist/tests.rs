@@ -4,6 +4,9 @@
 use core::f64::consts::{PI, TAU};
 use std::vec::Vec;
 
+mod self_motions;
+mod turns;
+
 use super::Structure as _;
 use super::branch::{Plane, SIDES};
 use super::geometry::OffsetWrist;
@@ -21,7 +24,6 @@ use crate::kinematics::structure::closure::{Accepted, Configuration};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::structure::trigonometric::SAMPLES;
-use crate::rng::Rng;
 
 /// Rows of alpha [deg], a [m], d [m], theta [deg].
 fn arm(rows: [[f64; 4]; 6]) -> OffsetWrist {
@@ -276,12 +278,22 @@ fn with<const K: usize>(mut q: [f64; 6], angles: [(usize, f64); K]) -> Option<[f
 
 /// The singular joint vector on the way of joint 5 by up to half a turn, and so far ahead.
 fn singular(arm: &OffsetWrist, q: [f64; 6], ahead: f64) -> Option<[f64; 6]> {
+    at_zero(|q| arm.determinant(q), q, 4, ahead)
+}
+
+/// Where a value is zero on the way of a joint by up to half a turn, and so far ahead.
+fn at_zero(
+    value: impl Fn(&[f64; 6]) -> f64,
+    q: [f64; 6],
+    joint: usize,
+    ahead: f64,
+) -> Option<[f64; 6]> {
     let at = |turn: f64| {
         let mut q = q;
-        q[4] += turn;
+        q[joint] += turn;
         q
     };
-    let is_positive = |turn: f64| arm.determinant(&at(turn)) > 0.0;
+    let is_positive = |turn: f64| value(&at(turn)) > 0.0;
     let start = is_positive(0.0);
     let (mut low, mut high) = (0..60)
         .map(|step| f64::from(step) * PI / 60.0)
@@ -381,51 +393,4 @@ fn an_arm_with_a_spherical_wrist_has_the_solutions_of_its_closed_form() {
         }
     }
     assert!(compared > 3000);
-}
-
-#[test]
-fn a_fold_that_rounding_of_the_pose_opens_is_found() {
-    // Poses whose resultant at the fold is up to four times what its surplus harmonics show.
-    for name in ["GoFa 5", "GoFa 10", "xArm6"] {
-        let (_, arm) = arms().into_iter().find(|(other, _)| *other == name).unwrap();
-        for q in joints(3).take(4000).filter_map(|q| singular(&arm, q, 0.0)) {
-            let q = arm.joint_map().theta(&arm.joint_map().joints(q));
-            let mut found = Accepted::NONE;
-            let is_certified = arm.solutions(&arm.chain.fk(&q), &mut found);
-            let is_found = found.as_slice().iter().any(|one| one.distance(&q) < 3e-3);
-            assert!(is_found || !is_certified, "{name} {q:?}");
-        }
-    }
-}
-
-#[test]
-fn a_self_motion_is_represented_with_its_first_joint_at_zero() {
-    let zero = |q: f64| wrap(q).abs() < 1e-12;
-    // Axes 1 and 6 of a GoFa in one line turn against one another, whatever the others are.
-    let gofa = Robot::<6>::named("GoFa 5").unwrap().with_limits(JointLimits::UNLIMITED);
-    for (height, turn) in [(0.9, 0.3), (0.8, -1.4), (0.7, 2.9)] {
-        let turn = Pose::rotation(nalgebra::Vector3::z() * turn);
-        let pose = Pose::translation(0.0, 0.0, height) * turn;
-        let solutions = gofa.ik(&pose).unwrap();
-        assert!(solutions.len() > 0 && !solutions.is_certified(), "{height}");
-        for one in &solutions {
-            assert!(one.status.contains(crate::Status::WRIST) && zero(one.q[0]), "{one:?}");
-            assert!(gofa.residual(&one.q, &pose).largest() < 1e-13);
-        }
-    }
-    // A CRX with equal links moves where the wrist point is on axis 2: where joint 1 passes zero.
-    let crx = Robot::<6>::named("CRX-10iA").unwrap().with_limits(JointLimits::UNLIMITED);
-    let mut rng = Rng::new(8);
-    let (mut at_zero, mut elsewhere) = (0, 0);
-    for _ in 0..100 {
-        let mut q: [f64; 6] = rng.angles();
-        q[2] = -0.5 * PI;
-        for one in crx.ik(&crx.fk(&q)).unwrap().iter() {
-            if one.status.contains(crate::Status::WRIST) {
-                *(if zero(one.q[0]) { &mut at_zero } else { &mut elsewhere }) += 1;
-            }
-        }
-    }
-    std::println!("joint 1 at zero: {at_zero}, not: {elsewhere}");
-    assert!(at_zero > elsewhere, "{at_zero} {elsewhere}");
 }

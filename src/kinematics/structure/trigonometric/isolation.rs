@@ -29,6 +29,13 @@ const MOST_DIVISIONS: usize = 96;
 /// A count of changes that no coefficients have: stands for an impossible sign.
 const NEVER: f64 = -1e3;
 
+/// What is found, and what is to be divided.
+struct Found<'a> {
+    parts: Parts,
+    brackets: Brackets,
+    roots: &'a mut Roots,
+}
+
 /// Parts to be divided.
 struct Parts {
     all: [Part; MOST_PARTS],
@@ -40,8 +47,8 @@ impl TrigonometricPolynomial {
     /// as they can be, and clusters.
     #[inline(always)]
     pub(super) fn isolate<S: Simd>(&self, simd: S, known: &[Root], roots: &mut Roots) -> Brackets {
-        let mut brackets = Brackets::NONE;
-        let mut parts = Parts { all: [Part::whole(0); MOST_PARTS], count: 0 };
+        let parts = Parts { all: [Part::whole(0); MOST_PARTS], count: 0 };
+        let mut found = Found { parts, brackets: Brackets::NONE, roots };
         for half in 0..ARCS / LANES {
             let columns = self.on_arcs(simd, half);
             let most = most_changes(&columns, self.noise);
@@ -50,68 +57,48 @@ impl TrigonometricPolynomial {
                 let arc = LANES * half + lane;
                 let whole = (arc, 0.0, 1.0);
                 match known.iter().find(|cluster| cluster.touches(arc)) {
-                    None => self.take(
-                        &columns,
-                        most[lane],
-                        lane,
-                        whole,
-                        &mut parts,
-                        &mut brackets,
-                        roots,
-                    ),
+                    None => self.take(&columns, most[lane], lane, whole, &mut found),
                     Some(cluster) => {
                         let rest = Part::of(&columns, lane, whole).without(cluster);
-                        rest.into_iter().flatten().for_each(|part| parts.push(part));
+                        rest.into_iter().flatten().for_each(|part| found.parts.push(part));
                     }
                 }
             }
         }
         for cluster in known {
-            roots.push(*cluster);
+            found.roots.push(*cluster);
         }
         let mut divisions = 0;
-        while parts.count > 0 {
-            let first = parts.count.saturating_sub(LANES);
-            let count = parts.count - first;
+        while found.parts.count > 0 {
+            let first = found.parts.count.saturating_sub(LANES);
+            let count = found.parts.count - first;
             divisions += 1;
             if divisions > MOST_DIVISIONS {
-                parts.all[..parts.count].iter().for_each(|part| roots.push(part.cluster()));
+                for part in &found.parts.all[..found.parts.count] {
+                    found.roots.push(part.cluster());
+                }
                 break;
             }
-            let [left, right] = divide(simd, &parts.all[first..parts.count]);
+            let [left, right] = divide(simd, &found.parts.all[first..found.parts.count]);
             let changes = [most_changes(&left, self.noise), most_changes(&right, self.noise)];
             let (left, right) = (stored(&left), stored(&right));
             let mut divided = [Divided::default(); LANES];
-            for (divided, part) in divided.iter_mut().zip(&parts.all[first..parts.count]) {
+            for (divided, part) in
+                divided.iter_mut().zip(&found.parts.all[first..found.parts.count])
+            {
                 *divided = part.divided();
             }
-            parts.count = first;
+            found.parts.count = first;
             for (lane, Divided { ends, keeps }) in divided[..count].iter().enumerate() {
                 if keeps[0] {
-                    self.take(
-                        &left,
-                        changes[0][lane],
-                        lane,
-                        ends[0],
-                        &mut parts,
-                        &mut brackets,
-                        roots,
-                    );
+                    self.take(&left, changes[0][lane], lane, ends[0], &mut found);
                 }
                 if keeps[1] {
-                    self.take(
-                        &right,
-                        changes[1][lane],
-                        lane,
-                        ends[1],
-                        &mut parts,
-                        &mut brackets,
-                        roots,
-                    );
+                    self.take(&right, changes[1][lane], lane, ends[1], &mut found);
                 }
             }
         }
-        brackets
+        found.brackets
     }
 
     /// Bernstein coefficients on eight arcs (eq. 94).
@@ -147,9 +134,7 @@ impl TrigonometricPolynomial {
         changes: f64,
         lane: usize,
         place: (usize, f64, f64),
-        parts: &mut Parts,
-        brackets: &mut Brackets,
-        roots: &mut Roots,
+        found: &mut Found<'_>,
     ) {
         if changes < 0.5 {
             return;
@@ -157,17 +142,17 @@ impl TrigonometricPolynomial {
         let (first, last) = (columns[0][lane], columns[POWERS][lane]);
         let are_certain = first.abs() > self.noise && last.abs() > self.noise;
         if changes < 1.5 && are_certain && (first < 0.0) != (last < 0.0) {
-            brackets.push(place, crossing(columns, lane), first);
+            found.brackets.push(place, crossing(columns, lane), first);
             return;
         }
         let part = Part::of(columns, lane, place);
         if part.coefficients.iter().all(|b| b.abs() <= self.noise)
             || part.high - part.low < 1.5 * LEAST_WIDTH
-            || parts.count == MOST_PARTS
+            || found.parts.count == MOST_PARTS
         {
-            roots.push(part.cluster());
-        } else if changes > 2.5 || !part.take_pair(self.noise, brackets, roots) {
-            parts.push(part);
+            found.roots.push(part.cluster());
+        } else if changes > 2.5 || !part.take_pair(self.noise, &mut found.brackets, found.roots) {
+            found.parts.push(part);
         }
     }
 }
@@ -202,8 +187,8 @@ fn crossing(columns: &Coefficients<Column>, lane: usize) -> f64 {
     let after = (1..POWERS).find(|j| (columns[*j][lane] < 0.0) != is_below).unwrap_or(POWERS);
     let (one, other) = (columns[after - 1][lane], columns[after][lane]);
     #[expect(clippy::cast_precision_loss, reason = "up to 16")]
-    let after = after as f64;
-    (after - other / (other - one)) * (1.0 / POWERS as f64)
+    let (after, last) = (after as f64, POWERS as f64);
+    (after - other / (other - one)) / last
 }
 
 /// The most changes of sign that the coefficients of each lane have, if those below the noise have

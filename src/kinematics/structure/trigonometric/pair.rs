@@ -59,7 +59,7 @@ impl Part {
                 let [left, right] = [-1.0, 1.0].map(|side| vertex + side * away.sqrt());
                 let part = |at: f64, low: f64, high: f64| {
                     let part = (at - low) / (high - low);
-                    if part >= 0.0 && part <= 1.0 { part } else { 0.5 }
+                    if (0.0..=1.0).contains(&part) { part } else { 0.5 }
                 };
                 let [low, middle, high] = [first, place, last].map(|place| self.place(place));
                 brackets.push((self.arc, low, middle), part(left, first, place), sign);

@@ -1,0 +1,96 @@
+//! Branches that turn, begin, end or merge between two angles at which a cluster is examined (eq.
+//! 133).
+
+use super::*;
+
+/// Joint vectors with the wrist point this far from axis 1, or from axis 2, by a joint [rad].
+const AHEAD: [f64; 6] = [1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3];
+
+/// Joint 4 at which axis 5 is parallel to axis 2, and nearly so [rad].
+const PARALLEL: [f64; 4] = [0.0, 1e-6, 1e-4, 3e-3];
+
+/// The wrist point's distance from axis 1 along the plane of the arm [m].
+fn sigma(arm: &OffsetWrist, q: &[f64; 6]) -> f64 {
+    let (frames, _) = arm.chain.link_frames(q);
+    frames[0].rotation.matrix().column(0).dot(&frames[3].translation.vector)
+}
+
+/// Twice the area between upper arm and forearm: zero where the elbow is stretched or folded [m^2].
+fn area(arm: &OffsetWrist, q: &[f64; 6]) -> f64 {
+    let (frames, _) = arm.chain.link_frames(q);
+    let [shoulder, elbow, wrist] = [1, 2, 3].map(|joint| frames[joint].translation.vector);
+    let normal = frames[1].rotation.matrix().column(2).into_owned();
+    (elbow - shoulder).cross(&(wrist - elbow)).dot(&normal)
+}
+
+fn assert_found_or_not_certified(name: &str, arm: &OffsetWrist, q: [f64; 6]) {
+    let q = arm.joint_map().theta(&arm.joint_map().joints(q));
+    let mut found = Accepted::NONE;
+    let is_certified = arm.solutions(&arm.chain.fk(&q), &mut found);
+    let is_same =
+        |one: &Configuration| one.distance(&q) < if one.least > 1e-4 { 1e-6 } else { 3e-3 };
+    assert!(!is_certified || found.as_slice().iter().any(is_same), "{name} {q:?}");
+}
+
+/// An arm with a lateral offset [m] and a long hand.
+fn lateral(b: f64) -> OffsetWrist {
+    arm([
+        [0.0, 0.0, 0.49, 0.0],
+        [-90.0, 0.0, b, 0.0],
+        [180.0, 0.224, 0.0, 0.0],
+        [90.0, -0.57, -0.449, 0.0],
+        [90.0, 0.0, 0.0, 0.0],
+        [-87.0, -0.708, -0.131, 0.0],
+    ])
+}
+
+#[test]
+fn a_wrist_point_that_passes_an_axis_between_two_angles_is_not_certain() {
+    let (_, folding) = arms().into_iter().find(|(name, _)| *name == "CRX-10iA").unwrap();
+    for (number, q) in joints(6).take(1000).enumerate() {
+        let (ahead, parallel) = (AHEAD[number % 6], PARALLEL[number / 6 % 4]);
+        for q in [q, with(q, [(3, parallel)]).unwrap()] {
+            if let Some(q) = at_zero(|q| area(&folding, q), q, 2, ahead) {
+                assert_found_or_not_certified("folding", &folding, q);
+            }
+            for b in [1.5e-9, 1.5e-6] {
+                let lateral = lateral(b);
+                if let Some(q) = at_zero(|q| sigma(&lateral, q), q, 1, ahead) {
+                    assert_found_or_not_certified("lateral", &lateral, q);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_branch_that_begins_and_ends_between_two_angles_is_not_certain() {
+    // Its wrist point is within reach for a hundredth of a turn at most.
+    let small = arm([
+        [0.0, 0.0, 0.0, 0.0],
+        [90.0, 0.0, 0.0, 0.0],
+        [180.0, 0.18, 0.0, 0.0],
+        [90.0, 0.0, -0.0022, 0.0],
+        [90.0, 0.0, -39.0, 0.0],
+        [-123.0, 20.0, 0.56, 0.0],
+    ]);
+    for (number, q) in joints(7).take(200).enumerate() {
+        let q = with(q, [(3, PARALLEL[number % 4])]).unwrap();
+        assert_found_or_not_certified("small", &small, q);
+    }
+}
+
+#[test]
+fn a_fold_that_rounding_of_the_pose_opens_is_found() {
+    // Poses whose resultant at the fold is up to four times what its surplus harmonics show.
+    for name in ["GoFa 5", "GoFa 10", "xArm6"] {
+        let (_, arm) = arms().into_iter().find(|(other, _)| *other == name).unwrap();
+        for q in joints(3).take(4000).filter_map(|q| singular(&arm, q, 0.0)) {
+            let q = arm.joint_map().theta(&arm.joint_map().joints(q));
+            let mut found = Accepted::NONE;
+            let is_certified = arm.solutions(&arm.chain.fk(&q), &mut found);
+            let is_found = found.as_slice().iter().any(|one| one.distance(&q) < 3e-3);
+            assert!(is_found || !is_certified, "{name} {q:?}");
+        }
+    }
+}
