@@ -113,13 +113,27 @@ impl<T: Number> Plane<T> {
     }
 
     /// How far shoulder and elbow are inside their reach [1]: one of them is negative where there is
-    /// no branch. Then the square of the wrist point's distance from axis 2 [1].
+    /// no branch.
     #[inline(always)]
-    fn room(&self, lengths: &Lengths) -> [T; 3] {
+    fn room(&self, lengths: &Lengths) -> [T; 2] {
         let scale = 1.0 / (lengths.upper.abs() + lengths.forearm);
         let ([x, y], wanted) = self.length_condition(lengths);
-        let square = x.times_plus(x, y * y);
-        [self.sigma2, square - wanted * wanted, square].map(|part| part * (scale * scale))
+        let at_elbow = x.times_plus(x, y * y) - wanted * wanted;
+        [self.sigma2 * (scale * scale), at_elbow * (scale * scale)]
+    }
+
+    /// Above zero if joint 6 must turn by more than an angle, known by its square, before the wrist
+    /// point can reach axis 1, where the sides of the shoulder meet, or axis 2 (eq. 133). It moves
+    /// by its distance from axis 6 at most.
+    #[inline(always)]
+    fn away(&self, lengths: &Lengths, turn: f64) -> T {
+        let Lengths { circle, b, .. } = *lengths;
+        let ([r, h], sigma2, zero) = (self.point, self.sigma2, self.sigma2.like(0.0));
+        let moved2 = turn * circle * circle;
+        let shoulder = sigma2 - zero.like(moved2 + turn * circle * b.abs());
+        let from_axis_2 = r.times_plus(r, h * h) - zero.like(2.0 * moved2);
+        let elbow = sigma2.times_plus(from_axis_2, zero.like(-moved2 * b * b));
+        shoulder.if_above(zero, elbow, shoulder)
     }
 
     /// The branch with the forearm along the unit vector with a given product with `factors`, on
@@ -239,8 +253,8 @@ pub(super) struct Seen {
     /// How far shoulder and elbow are inside their reach [1].
     pub(super) shoulder: Column,
     pub(super) elbow: Column,
-    /// The square of the wrist point's distance from axis 2 in the plane of the arm [1].
-    pub(super) distance: Column,
+    /// Above zero where shoulder and forearm turn slowly.
+    pub(super) away: Column,
 }
 
 /// The view of all branches, in the order of [`SIDES`], at eight angles [rad].
@@ -248,6 +262,8 @@ pub(super) struct Look<'a> {
     pub(super) lengths: &'a Lengths,
     pub(super) hand: &'a Hand,
     pub(super) angles: &'a Column,
+    /// The square of the angle in which shoulder and forearm are not to turn round [rad^2].
+    pub(super) turn: f64,
 }
 
 impl VectorKernel for Look<'_> {
@@ -260,21 +276,27 @@ impl VectorKernel for Look<'_> {
         let front = Plane::of(self.lengths, hand, sin.like(1.0));
         let behind = Plane::of(self.lengths, hand, sin.like(-1.0));
         [
-            front.seen(self.lengths, 1.0),
-            front.seen(self.lengths, -1.0),
-            behind.seen(self.lengths, 1.0),
-            behind.seen(self.lengths, -1.0),
+            front.seen(&self, 1.0),
+            front.seen(&self, -1.0),
+            behind.seen(&self, 1.0),
+            behind.seen(&self, -1.0),
         ]
     }
 }
 
 impl<S: Simd> Plane<Vector<S>> {
     #[inline(always)]
-    fn seen(&self, lengths: &Lengths, side: f64) -> Seen {
+    fn seen(&self, look: &Look<'_>, side: f64) -> Seen {
+        let Look { lengths, turn, .. } = *look;
         let zero = self.sigma2.like(0.0);
         let off = self.with_elbow(lengths, zero.like(side), 0.0).off;
         let off = zero.if_above(self.sigma2, zero.like(f64::INFINITY), off);
-        let [shoulder, elbow, distance] = self.room(lengths).map(Vector::to_array);
-        Seen { off: off.to_array(), shoulder, elbow, distance }
+        let ([shoulder, elbow], away) = (self.room(lengths), self.away(lengths, turn));
+        Seen {
+            off: off.to_array(),
+            shoulder: shoulder.to_array(),
+            elbow: elbow.to_array(),
+            away: away.to_array(),
+        }
     }
 }

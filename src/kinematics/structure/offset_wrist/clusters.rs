@@ -146,12 +146,12 @@ impl Search<'_> {
         for first in (0..=steps).step_by(LANES) {
             let angles = core::array::from_fn(|lane| low + step * at(first + lane));
             let (lengths, hand) = (&self.arm.lengths, &self.hand);
-            let seen = run_vectors(Look { lengths, hand, angles: &angles });
+            let seen = run_vectors(Look { lengths, hand, angles: &angles, turn: ends.turn });
             let lanes = LANES.min(steps + 1 - first);
             for (side, seen) in seen.iter().enumerate() {
                 for lane in 0..lanes {
                     let room = [seen.shoulder[lane], seen.elbow[lane]];
-                    let here = Place { off: seen.off[lane], room, distance: seen.distance[lane] };
+                    let here = Place { off: seen.off[lane], room, is_slow: seen.away[lane] > 0.0 };
                     if let Some(back) = view.scans[side].pass(here, angles[lane], &ends) {
                         view.cross(side, angles[lane] - back * step);
                     }
@@ -212,8 +212,8 @@ struct Place {
     off: f64,
     /// How far shoulder and elbow are inside their reach [1].
     room: [f64; 2],
-    /// The square of the wrist point's distance from axis 2 [1].
-    distance: f64,
+    /// Whether shoulder and forearm turn little in a step.
+    is_slow: bool,
 }
 
 impl Place {
@@ -264,7 +264,7 @@ impl Scan {
         if here.is_reached() && self.best.is_none_or(|(_, best)| here.off.abs() < best) {
             self.best = Some((angle, here.off.abs()));
         }
-        self.is_clear &= !here.is_reached() || ends.is_slow(&here);
+        self.is_clear &= here.is_slow || !here.is_reached();
         let before = self.before.replace(here)?;
         match [before, here].map(Place::is_reached) {
             [true, true] => return self.step(before.off, here.off),
@@ -298,32 +298,23 @@ struct Ends {
     end: f64,
     /// Squares of the lateral offset and of the wrist point's distance from axis 6 [1].
     squares: [f64; 2],
-    /// The square of the angle by which joint 6 turns in a few steps [rad^2].
+    /// The square of the angle of a few steps [rad^2]: a shoulder or forearm that could turn round
+    /// within it may turn too much in one.
     turn: f64,
 }
 
 impl Ends {
     fn of(lengths: &Lengths, step: f64) -> Self {
-        let Lengths { upper, forearm, b, a5, d5, sin_5, .. } = *lengths;
+        let Lengths { upper, forearm, b, circle, .. } = *lengths;
         let unit = upper.abs() + forearm;
-        let circle = a5.hypot(d5 * sin_5);
         let squares = [b, circle].map(|length| (length / unit) * (length / unit));
-        let curvature = MOST_CURVATURE * (circle / forearm).max(1.0).powi(2);
+        let curvature = MOST_CURVATURE * (circle / forearm).powi(2).max(1.0);
         Self {
             bend: curvature * step * step,
             end: curvature * step.sqrt(),
             squares,
             turn: (LEAST_STEPS * step) * (LEAST_STEPS * step),
         }
-    }
-
-    /// Whether the wrist point is so far from where shoulder and elbow have no direction that these
-    /// turn little in a step: it moves by its distance from axis 6 at most, and the sides of the
-    /// shoulder meet where sigma has a root.
-    fn is_slow(&self, here: &Place) -> bool {
-        let ([sigma2, _], [lateral, circle]) = (here.room, self.squares);
-        sigma2 > self.turn * (circle + (circle * lateral).sqrt())
-            && here.distance * sigma2 > self.turn * circle * (2.0 * sigma2 + lateral)
     }
 
     /// Whether there is no branch between two angles at which there is none. The room of the elbow

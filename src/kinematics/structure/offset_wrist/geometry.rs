@@ -45,6 +45,8 @@ pub(super) struct Lengths {
     /// Sine and cosine of the angle between axes 5 and 6.
     pub(super) sin_5: f64,
     pub(super) cos_5: f64,
+    /// The distance of the wrist point from axis 6 [m].
+    pub(super) circle: f64,
     /// The sum of the lengths of the rows [m].
     pub(super) extent: f64,
     /// Whether the polynomial is a square (eq. 129).

@@ -69,6 +69,7 @@ pub(super) fn measure(mdh: &Mdh<6>) -> Result<OffsetWrist, UnknownStructure> {
         d5: links[4].d,
         sin_5: links[5].sin_alpha,
         cos_5: links[5].cos_alpha,
+        circle: links[5].a.hypot(links[4].d * links[5].sin_alpha),
         extent,
         is_square,
     };
