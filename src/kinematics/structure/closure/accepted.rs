@@ -17,7 +17,7 @@ const SINGULAR: f64 = 1e-4;
 /// Least singular value above which what closes is next to a solution of its own [1]: by the
 /// theorem of Newton and Kantorovich, where `6 residual / least^2` is at most a half, six bounding
 /// the second derivatives of the conditions.
-const ISOLATED: f64 = 1e-6;
+pub(super) const ISOLATED: f64 = 1e-6;
 
 /// Residual, in roundings, up to which a configuration closes [1]: near a fold the last step is
 /// the root of rounding.

@@ -18,7 +18,7 @@ use nalgebra::{SMatrix, SVector};
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
-use super::accepted::{Configuration, Kind};
+use super::accepted::{Configuration, ISOLATED, Kind};
 use super::chain::{Closure, Target, largest, sines};
 
 /// Steps of Newton's method along the curve, at most.
@@ -37,6 +37,10 @@ const FREE: f64 = 100.0;
 
 /// Closure at its extreme value, in roundings, up to which two solutions are one [1].
 const MERGED: f64 = 2.0;
+
+/// How near the place of an extreme value must be known for what is there to be certain [rad]:
+/// rounding moves it by its root over the curvature.
+const PLACED: f64 = 1e-5;
 
 /// How far from the start the curve is searched for solutions [rad].
 const FARTHEST: f64 = 0.2;
@@ -187,21 +191,27 @@ impl Curve<'_> {
         // Too flat for two solutions in sight: one.
         if c2.abs() * FARTHEST < 0.5 * start.slope.abs() {
             let one = self.root(start);
-            return Some(Settled::of([one, None], one.is_some()));
+            let is_certain = one.is_some_and(|one| one.least > ISOLATED);
+            return Some(Settled::of([one, None], is_certain));
         }
         let (turning, c2) = self.turning(ahead, start)?;
         let extreme = turning.left;
-        if extreme.abs() <= MERGED * self.closure.rounding {
+        // Next to a self-motion the closure is flat to rounding: where it has its extreme value, and
+        // how many points close, is not certain (eq. 102b).
+        let rounding = self.closure.rounding;
+        let is_bent = c2.abs() * PLACED * PLACED > MERGED * rounding;
+        if extreme.abs() <= MERGED * rounding {
             let merged = self.closure.accepted(self.target, turning.theta, 0.0, Kind::Fold);
-            return Some(Settled::of([merged, None], merged.is_some()));
+            return Some(Settled::of([merged, None], is_bent && merged.is_some()));
         }
         if extreme / c2 > 0.0 {
-            return Some(Settled { missed: Some(turning.theta), ..Settled::of([None; 2], true) });
+            let none = Settled::of([None; 2], is_bent);
+            return Some(Settled { missed: Some(turning.theta), ..none });
         }
         let half = (-extreme / c2).sqrt();
         let root = |s: f64| self.root(self.at(s, &turning.theta)?);
         let (one, other) = (root(turning.s - half), root(turning.s + half));
-        Some(Settled::of([one, other], one.is_some() && other.is_some()))
+        Some(Settled::of([one, other], is_bent && one.is_some() && other.is_some()))
     }
 
     /// Where the closure along the curve has its extreme value, by the secant method on its slope,
