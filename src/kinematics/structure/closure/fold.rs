@@ -196,7 +196,7 @@ impl Curve<'_> {
         }
         let (turning, c2) = self.turning(ahead, start)?;
         let extreme = turning.left;
-        // Next to a self-motion the closure is flat to rounding: where it has its extreme value, and
+        // Next to a self-motion the closure is flat to rounding: where its extreme value is, and
         // how many points close, is not certain (eq. 102b).
         let rounding = self.closure.rounding;
         let is_bent = c2.abs() * PLACED * PLACED > MERGED * rounding;

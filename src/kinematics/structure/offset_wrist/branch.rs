@@ -112,8 +112,8 @@ impl<T: Number> Plane<T> {
         self.branch(lengths, self.axis_condition(lengths), side, slack)
     }
 
-    /// How far shoulder and elbow are inside their reach [1]: one of them is negative where there is
-    /// no branch.
+    /// How far shoulder and elbow are inside their reach [1]: one of them is negative where there
+    /// is no branch.
     #[inline(always)]
     fn room(&self, lengths: &Lengths) -> [T; 2] {
         let scale = 1.0 / (lengths.upper.abs() + lengths.forearm);
