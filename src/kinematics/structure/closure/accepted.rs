@@ -164,8 +164,7 @@ impl Accepted {
         self.as_slice().iter().any(|one| matches!(one.kind, Kind::Free { .. }))
     }
 
-    /// Take what the candidates in these lanes, which have converged, lead to. Returns how many
-    /// solutions are new.
+    /// Take what the candidates in these lanes, which have converged, lead to.
     #[inline(always)]
     pub(crate) fn take(
         &mut self,
@@ -173,8 +172,7 @@ impl Accepted {
         target: &Target,
         candidates: &Candidates,
         lanes: usize,
-    ) -> usize {
-        let before = self.count;
+    ) {
         for lane in 0..lanes {
             let residual = candidates.residual[lane];
             let is_near = residual < EXAMINED;
@@ -190,7 +188,6 @@ impl Accepted {
                 self.examine(closure, target, &one);
             }
         }
-        self.count.saturating_sub(before)
     }
 
     /// Take what is at a candidate next to a singular configuration.

@@ -241,8 +241,8 @@ impl<'a> Search<'a> {
         let sin_cos_6 = sin_cos(angle);
         let (point, axis_5) = self.hand.at(sin_cos_6);
         let mut places = Places::NONE;
-        for [shoulder, side] in SIDES {
-            places.put(angle, [shoulder, side]);
+        for sides in SIDES {
+            places.put(angle, sides);
         }
         self.converge_at(&places.filled(), Condition::Axis5);
         if point[0].hypot(point[1]) > NEAR * lengths.extent || lengths.b != 0.0 {

@@ -11,9 +11,8 @@ const NOISE_OF_SURPLUS: f64 = 8.0;
 
 /// Size of the noise of a value that comes of a pose, as a multiple of that of the arithmetic: a
 /// pose is rounded ten times as often as what is calculated of it, and that changes the polynomial
-/// without leaving its degree, where no surplus harmonic shows it: with
-/// det J = 0 to rounding, a value that should be zero may be several times the noise of the
-/// arithmetic.
+/// without leaving its degree, where no surplus harmonic shows it: with det J = 0 to rounding, a
+/// value that should be zero may be several times the noise of the arithmetic.
 const NOISE_OF_POSE: f64 = 8.0;
 
 /// Rounding of a value, relative to the sum of the sizes of the coefficients.
