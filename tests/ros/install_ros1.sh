@@ -19,8 +19,8 @@ packages=(
 if ! dpkg -s "${packages[@]}" >/dev/null 2>&1; then
     command -v apt-get >/dev/null || skip "ROS 1 comes from Debian's packages, and there is no apt-get"
     [ "$(id -u)" = 0 ] || skip "ROS 1: apt-get needs root to install ${packages[*]}"
-    apt-get update -qq || skip "ROS 1: apt-get update failed"
-    DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${packages[@]}" >/dev/null ||
+    tests/retry.sh apt-get update -qq || skip "ROS 1: apt-get update failed"
+    DEBIAN_FRONTEND=noninteractive tests/retry.sh apt-get install -y -qq --no-install-recommends "${packages[@]}" >/dev/null ||
         skip "ROS 1: these packages cannot be installed: ${packages[*]}"
 fi
 

