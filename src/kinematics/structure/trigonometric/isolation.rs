@@ -20,6 +20,10 @@ use crate::lanes::{Column, LANES, Number as _, Vector};
 /// Width of a part of an arc that is not divided [1]: 5e-8 rad.
 const LEAST_WIDTH: f64 = 1.0 / (1 << 23) as f64;
 
+/// How much wider a cluster is than a part beside it that is taken into it [1]: where the values
+/// leave the noise need not be known better.
+const WIDER: f64 = 8.0;
+
 /// Parts of arcs that wait for their division: a double root leaves two or three of each width.
 const MOST_PARTS: usize = 24;
 
@@ -36,10 +40,62 @@ struct Found<'a> {
     roots: &'a mut Roots,
 }
 
-/// Parts to be divided.
+/// Parts to be divided, in blocks of lanes.
 struct Parts {
+    columns: [Coefficients<Column>; MOST_PARTS / LANES],
     all: [Part; MOST_PARTS],
     count: usize,
+}
+
+impl Parts {
+    // Coefficients that are above all noise, for the lanes without a part.
+    const NONE: Self = Self {
+        columns: [[[1.0; LANES]; POWERS + 1]; MOST_PARTS / LANES],
+        all: [Part::new(0, 0.0, 1.0); MOST_PARTS],
+        count: 0,
+    };
+
+    #[inline(always)]
+    fn push<S: Simd>(&mut self, columns: &Coefficients<Vector<S>>, lane: usize, part: Part) {
+        let to = &mut self.columns[self.count / LANES];
+        for j in 0..=POWERS {
+            to[j][self.count % LANES] = columns[j][lane];
+        }
+        self.all[self.count] = part;
+        self.count += 1;
+    }
+
+    fn as_slice(&self) -> &[Part] {
+        &self.all[..self.count]
+    }
+
+    /// Divide the last block by de Casteljau's algorithm, and remove it. Returns its parts.
+    #[inline(always)]
+    fn divide<S: Simd>(
+        &mut self,
+        left: &mut Coefficients<Vector<S>>,
+        right: &mut Coefficients<Vector<S>>,
+    ) -> Option<([Part; LANES], usize)> {
+        let block = self.count.checked_sub(1)? / LANES;
+        let first = LANES * block;
+        let mut parts = [self.all[first]; LANES];
+        parts.copy_from_slice(&self.all[first..first + LANES]);
+        let simd = left[0].token();
+        let cut = Vector::load_array(simd, parts.map(|part| part.cut));
+        for j in 0..=POWERS {
+            right[j] = Vector::load_array_ref(simd, &self.columns[block][j]);
+        }
+        left[0] = right[0];
+        for row in 1..=POWERS {
+            for j in 0..=POWERS - row {
+                right[j] = (right[j + 1] - right[j]).mul_add(cut, right[j]);
+            }
+            left[row] = right[0];
+        }
+        let count = self.count - first;
+        self.count = first;
+        Some((parts, count))
+    }
 }
 
 impl TrigonometricPolynomial {
@@ -47,20 +103,19 @@ impl TrigonometricPolynomial {
     /// as they can be, and clusters.
     #[inline(always)]
     pub(super) fn isolate<S: Simd>(&self, simd: S, known: &[Root], roots: &mut Roots) -> Brackets {
-        let parts = Parts { all: [Part::whole(0); MOST_PARTS], count: 0 };
-        let mut found = Found { parts, brackets: Brackets::NONE, roots };
+        let mut found = Found { parts: Parts::NONE, brackets: Brackets::NONE, roots };
         for half in 0..ARCS / LANES {
             let columns = self.on_arcs(simd, half);
             let most = most_changes(&columns, self.noise);
-            let columns = stored(&columns);
             for lane in 0..LANES {
                 let arc = LANES * half + lane;
-                let whole = (arc, 0.0, 1.0);
+                let whole = Part::new(arc, 0.0, 1.0);
                 match known.iter().find(|cluster| cluster.touches(arc)) {
                     None => self.take(&columns, most[lane], lane, whole, &mut found),
                     Some(cluster) => {
-                        let rest = Part::of(&columns, lane, whole).without(cluster);
-                        rest.into_iter().flatten().for_each(|part| found.parts.push(part));
+                        for part in whole.without(cluster).into_iter().flatten() {
+                            found.parts.push(&columns, lane, part);
+                        }
                     }
                 }
             }
@@ -68,35 +123,23 @@ impl TrigonometricPolynomial {
         for cluster in known {
             found.roots.push(*cluster);
         }
-        let mut divisions = 0;
-        while found.parts.count > 0 {
-            let first = found.parts.count.saturating_sub(LANES);
-            let count = found.parts.count - first;
-            divisions += 1;
-            if divisions > MOST_DIVISIONS {
-                for part in &found.parts.all[..found.parts.count] {
-                    found.roots.push(part.cluster());
-                }
-                break;
-            }
-            let [left, right] = divide(simd, &found.parts.all[first..found.parts.count]);
+        let zero = Vector::splat(simd, 0.0);
+        let (mut left, mut right) = ([zero; POWERS + 1], [zero; POWERS + 1]);
+        for _ in 0..MOST_DIVISIONS {
+            let Some((parts, count)) = found.parts.divide(&mut left, &mut right) else { break };
             let changes = [most_changes(&left, self.noise), most_changes(&right, self.noise)];
-            let (left, right) = (stored(&left), stored(&right));
-            let mut divided = [Divided::default(); LANES];
-            for (divided, part) in
-                divided.iter_mut().zip(&found.parts.all[first..found.parts.count])
-            {
-                *divided = part.divided();
-            }
-            found.parts.count = first;
-            for (lane, Divided { ends, keeps }) in divided[..count].iter().enumerate() {
-                if keeps[0] {
-                    self.take(&left, changes[0][lane], lane, ends[0], &mut found);
+            for (lane, part) in parts[..count].iter().enumerate() {
+                let [before, behind] = part.divided();
+                if part.keeps[0] {
+                    self.take(&left, changes[0][lane], lane, before, &mut found);
                 }
-                if keeps[1] {
-                    self.take(&right, changes[1][lane], lane, ends[1], &mut found);
+                if part.keeps[1] {
+                    self.take(&right, changes[1][lane], lane, behind, &mut found);
                 }
             }
+        }
+        for part in found.parts.as_slice() {
+            found.roots.push(part.cluster());
         }
         found.brackets
     }
@@ -128,61 +171,43 @@ impl TrigonometricPolynomial {
 
     /// Decide on one lane: nothing, a simple root, a cluster, or a part to be divided.
     #[inline(always)]
-    fn take(
+    fn take<S: Simd>(
         &self,
-        columns: &Coefficients<Column>,
+        columns: &Coefficients<Vector<S>>,
         changes: f64,
         lane: usize,
-        place: (usize, f64, f64),
+        part: Part,
         found: &mut Found<'_>,
     ) {
         if changes < 0.5 {
             return;
         }
+        let Found { parts, brackets, roots } = found;
         let (first, last) = (columns[0][lane], columns[POWERS][lane]);
         let are_certain = first.abs() > self.noise && last.abs() > self.noise;
         if changes < 1.5 && are_certain && (first < 0.0) != (last < 0.0) {
-            found.brackets.push(place, crossing(columns, lane), first);
+            brackets.push((part.arc, part.low, part.high), crossing(columns, lane), first);
             return;
         }
-        let part = Part::of(columns, lane, place);
-        if part.coefficients.iter().all(|b| b.abs() <= self.noise)
-            || part.high - part.low < 1.5 * LEAST_WIDTH
-            || found.parts.count == MOST_PARTS
-        {
-            found.roots.push(part.cluster());
-        } else if changes > 2.5 || !part.take_pair(self.noise, &mut found.brackets, found.roots) {
-            found.parts.push(part);
+        let mut coefficients = [0.0; POWERS + 1];
+        for j in 0..=POWERS {
+            coefficients[j] = columns[j][lane];
         }
-    }
-}
-
-impl Parts {
-    fn push(&mut self, part: Part) {
-        self.all[self.count] = part;
-        self.count += 1;
-    }
-}
-
-/// The arc and the ends of the two parts of a divided one, and which count.
-#[derive(Clone, Copy, Default)]
-struct Divided {
-    ends: [(usize, f64, f64); 2],
-    keeps: [bool; 2],
-}
-
-impl Part {
-    #[inline(always)]
-    fn divided(&self) -> Divided {
-        let Self { arc, low, high, cut, keeps, .. } = *self;
-        let middle = low + cut * (high - low);
-        Divided { ends: [(arc, low, middle), (arc, middle, high)], keeps }
+        if coefficients.iter().all(|b| b.abs() <= self.noise)
+            || part.high - part.low < 1.5 * LEAST_WIDTH
+            || parts.count == MOST_PARTS
+            || !are_certain && part.is_beside_wider(roots.as_slice(), WIDER)
+        {
+            roots.take_cluster(&part.cluster());
+        } else if changes > 2.5 || !part.take_pair(&coefficients, self.noise, brackets, roots) {
+            parts.push(columns, lane, part);
+        }
     }
 }
 
 /// Where the control polygon in a lane crosses zero between ends of different signs, in 0 ..= 1.
 #[inline(always)]
-fn crossing(columns: &Coefficients<Column>, lane: usize) -> f64 {
+fn crossing<S: Simd>(columns: &Coefficients<Vector<S>>, lane: usize) -> f64 {
     let is_below = columns[0][lane] < 0.0;
     let after = (1..POWERS).find(|j| (columns[*j][lane] < 0.0) != is_below).unwrap_or(POWERS);
     let (one, other) = (columns[after - 1][lane], columns[after][lane]);
@@ -224,39 +249,4 @@ fn most_changes_of_any_sign<S: Simd>(columns: &Coefficients<Vector<S>>, noise: f
         below = column.simd_le(noise).select(down, never);
     }
     above.or_more(below).to_array()
-}
-
-/// The columns of coefficients.
-#[inline(always)]
-fn stored<S: Simd>(columns: &Coefficients<Vector<S>>) -> Coefficients<Column> {
-    let mut stored = [[0.0; LANES]; POWERS + 1];
-    for j in 0..=POWERS {
-        stored[j] = columns[j].to_array();
-    }
-    stored
-}
-
-/// Divide up to eight parts, by de Casteljau's algorithm.
-#[inline(always)]
-fn divide<S: Simd>(simd: S, parts: &[Part]) -> [Coefficients<Vector<S>>; 2] {
-    let (mut columns, mut cuts) = ([[0.0; LANES]; POWERS + 1], [0.0; LANES]);
-    for (lane, part) in parts.iter().enumerate() {
-        for j in 0..=POWERS {
-            columns[j][lane] = part.coefficients[j];
-        }
-        cuts[lane] = part.cut;
-    }
-    let cut = Vector::load_array(simd, cuts);
-    let mut right = [Vector::splat(simd, 0.0); POWERS + 1];
-    for j in 0..=POWERS {
-        right[j] = Vector::load_array_ref(simd, &columns[j]);
-    }
-    let mut left = right;
-    for row in 1..=POWERS {
-        for j in 0..=POWERS - row {
-            right[j] = (right[j + 1] - right[j]).mul_add(cut, right[j]);
-        }
-        left[row] = right[0];
-    }
-    [left, right]
 }

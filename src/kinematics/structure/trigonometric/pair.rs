@@ -23,9 +23,14 @@ const N: f64 = POWERS as f64;
 
 impl Part {
     /// Take the roots of a part whose ends are on the same certain side of zero, if it bends one
-    /// way; returns whether it was decided.
-    pub(super) fn take_pair(&self, noise: f64, brackets: &mut Brackets, roots: &mut Roots) -> bool {
-        let b = &self.coefficients;
+    /// way, by its Bernstein coefficients; returns whether it was decided.
+    pub(super) fn take_pair(
+        &self,
+        b: &Coefficients<f64>,
+        noise: f64,
+        brackets: &mut Brackets,
+        roots: &mut Roots,
+    ) -> bool {
         // Bent upward, with ends above zero.
         let sign = 1.0_f64.copysign(b[0]);
         let bend = |j: usize| sign * ((b[j + 2] - b[j + 1]) - (b[j + 1] - b[j]));

@@ -1,16 +1,17 @@
-//! A part of an arc, by its Bernstein coefficients.
+//! A part of an arc.
 
 use super::roots::Root;
 use super::tables::{FIRST_MIDDLE, HALF_ARC, HALF_ARC_TAN, POWERS};
-use crate::lanes::{Column, Number};
+use crate::lanes::Number;
 
 /// Series of the arc tangent, behind its first term: good to 1e-17 on half an arc.
 const ATAN: [f64; 7] =
     [-1.0 / 3.0, 1.0 / 5.0, -1.0 / 7.0, 1.0 / 9.0, -1.0 / 11.0, 1.0 / 13.0, -1.0 / 15.0];
 
+/// Bernstein coefficients between the ends of a part.
 pub(super) type Coefficients<T> = [T; POWERS + 1];
 
-/// A part of an arc: ends in 0 ..= 1, and the Bernstein coefficients between them.
+/// A part of an arc, in 0 ..= 1.
 #[derive(Clone, Copy)]
 pub(super) struct Part {
     pub(super) arc: usize,
@@ -19,31 +20,35 @@ pub(super) struct Part {
     /// Where it is to be divided, as a part of it, and which of its two parts count.
     pub(super) cut: f64,
     pub(super) keeps: [bool; 2],
-    pub(super) coefficients: Coefficients<f64>,
 }
 
 impl Part {
-    /// A whole arc, to be divided in the middle; without coefficients.
+    /// A part to be divided in the middle.
     #[inline(always)]
-    pub(super) fn whole(arc: usize) -> Self {
-        let coefficients = [0.0; POWERS + 1];
-        Self { arc, low: 0.0, high: 1.0, cut: 0.5, keeps: [true; 2], coefficients }
+    pub(super) const fn new(arc: usize, low: f64, high: f64) -> Self {
+        Self { arc, low, high, cut: 0.5, keeps: [true; 2] }
     }
 
-    /// The part in a lane of coefficients: its arc and its ends.
+    /// Its two parts.
     #[inline(always)]
-    pub(super) fn of(
-        columns: &Coefficients<Column>,
-        lane: usize,
-        (arc, low, high): (usize, f64, f64),
-    ) -> Self {
-        let coefficients = core::array::from_fn(|j| columns[j][lane]);
-        Self { low, high, coefficients, ..Self::whole(arc) }
+    pub(super) fn divided(&self) -> [Self; 2] {
+        let Self { arc, low, high, cut, .. } = *self;
+        let middle = low + cut * (high - low);
+        [Self::new(arc, low, middle), Self::new(arc, middle, high)]
     }
 
     pub(super) fn cluster(&self) -> Root {
         let [low, high] = [self.low, self.high].map(|place| angle(middle(self.arc), place));
         Root { low, high, ..Root::NONE }
+    }
+
+    /// Whether a cluster touches it that is wider by a factor.
+    pub(super) fn is_beside_wider(&self, clusters: &[Root], factor: f64) -> bool {
+        let Root { low, high, .. } = self.cluster();
+        let least = factor * (high - low);
+        let is_wider = |one: &Root| one.high - one.low > least;
+        let touches = |one: &Root| one.low <= high && low <= one.high;
+        clusters.iter().any(|one| is_wider(one) && touches(one))
     }
 }
 

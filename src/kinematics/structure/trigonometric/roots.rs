@@ -67,6 +67,16 @@ impl Roots {
         }
     }
 
+    /// Take a cluster: as a part of one that it touches, if there is one.
+    pub(super) fn take_cluster(&mut self, new: &Root) {
+        let touches =
+            |one: &&mut Root| !one.is_simple && one.low <= new.high && new.low <= one.high;
+        match self.as_mut_slice().iter_mut().find(touches) {
+            Some(one) => (one.low, one.high) = (one.low.min(new.low), one.high.max(new.high)),
+            None => self.push(*new),
+        }
+    }
+
     pub(crate) fn as_slice(&self) -> &[Root] {
         &self.all[..self.count]
     }
