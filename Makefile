@@ -22,6 +22,12 @@ STEP := @tests/step.sh
 # A download that breaks off is no reason to fail.
 PIP_INSTALL := tests/retry.sh $(BIN)/pip install --quiet --disable-pip-version-check
 SKIPPED := target/skipped.txt
+# Panic messages name source files: without the folders of this machine, and those of the toolchain
+# as in a toolchain without its sources. The compiler adds no path of this crate: its are relative.
+REMAPPED = --remap-path-prefix=$${CARGO_HOME:-$$HOME/.cargo}/registry/src/= \
+	--remap-path-prefix=$$(rustc --print sysroot)/lib/rustlib/src/rust=/rustc
+# The same flags for the environment and for the wheel: one build serves both.
+EXTENSION_FLAGS = RUSTFLAGS="$${RUSTFLAGS:-} $(REMAPPED)"
 
 .PHONY: help run test test-recipes test-ros ros-starts check stubs catalog errors bench bench-peers instructions stages ulp million general offset-wrists plans configurations hardsets fuzz wheel packages clean toolchains
 
@@ -41,7 +47,7 @@ $(VENV)/.made: | toolchains
 	@touch $@
 
 $(BUILT): $(VENV)/.made $(RUST_SOURCES) pyproject.toml | toolchains
-	$(STEP) "Build irbkin into $(VENV) (about a minute)" env VIRTUAL_ENV=$(abspath $(VENV)) \
+	$(STEP) "Build irbkin into $(VENV) (about a minute)" env VIRTUAL_ENV=$(abspath $(VENV)) $(EXTENSION_FLAGS) \
 		bash -c '$(BIN)/maturin develop --release >$(VENV)/build.log 2>&1 || { cat $(VENV)/build.log; exit 1; }'
 	@touch $@
 
@@ -98,7 +104,8 @@ check: $(BUILT) $(VENV)/.groups ## Check format, lints, types, stubs, docs, benc
 	$(STEP) "the bench of a check runs" env MOVES=1000 $(BIN)/python benches/rapid_check.py >/dev/null
 	$(STEP) "the bench of the command runs" env CALLS=1 $(BIN)/python benches/command.py >/dev/null
 	$(STEP) "peers are compared" $(BIN)/python -m benches.peers --quick >/dev/null
-	$(STEP) "instructions are counted" $(BIN)/python benches/instructions.py >/dev/null
+	$(STEP) "instructions are counted" env CARGO_PROFILE_BENCH_LTO=off CARGO_PROFILE_BENCH_CODEGEN_UNITS=16 \
+		$(BIN)/python benches/instructions.py >/dev/null
 	$(BIN)/ruff check --quiet .
 	$(BIN)/ruff format --check --quiet .
 	$(STEP) "mypy" $(BIN)/mypy --no-error-summary
@@ -182,14 +189,9 @@ errors: $(BUILT) $(VENV)/.groups ## Write docs/errors.md: every message, as it i
 fuzz: | toolchains ## Read four million invalid RAPID texts: no panic, linear time
 	IRBKIN_INPUTS=1000000 cargo test --quiet --release --test suite -- rapid_fuzz:: --nocapture --test-threads=1
 
-# Panic messages name source files: without the folders of this machine, and those of the toolchain
-# as in a toolchain without its sources. The compiler adds no path of this crate: its are relative.
-REMAPPED = --remap-path-prefix=$${CARGO_HOME:-$$HOME/.cargo}/registry/src/= \
-	--remap-path-prefix=$$(rustc --print sysroot)/lib/rustlib/src/rust=/rustc
-
 wheel: $(VENV)/.made ## Build the wheel, check its size and paths, and try it
 	rm -rf dist/venv dist/irbkin-*.whl
-	RUSTFLAGS="$${RUSTFLAGS:-} $(REMAPPED)" $(BIN)/maturin build --release --quiet \
+	$(EXTENSION_FLAGS) $(BIN)/maturin build --release --quiet \
 		--compression-level 9 --out dist
 	$(BIN)/python tests/check_wheel.py dist/irbkin-*.whl
 	$(PYTHON) -m venv dist/venv

@@ -1,5 +1,6 @@
 """Maps: each number by its definition, whatever the blocks, threads, workers and interruptions."""
 
+import inspect
 import pickle
 import signal
 import subprocess
@@ -99,8 +100,21 @@ def assert_same(found: tuple[object, ...], wanted: tuple[object, ...]) -> None:
             assert getattr(one, "plan", None) == getattr(other, "plan", None)
 
 
+def test_a_cluster_takes_every_option_of_the_robot():
+    def taken(function):
+        return inspect.signature(function).parameters.keys()
+
+    assert taken(ROBOT.plan_batch) < taken(irbkin.map.plan_batch)
+
+
 @pytest.mark.parametrize(
-    "options", [{}, {"rotation": 12, "block": 2}, {"weights": [2, 1, 1, 1, 1, 1]}]
+    "options",
+    [
+        {},
+        {"rotation": 12, "block": 2},
+        {"weights": [2, 1, 1, 1, 1, 1]},
+        {"order": "sum", "limit_cost": 0.1, "singularity_cost": 0.2},
+    ],
 )
 def test_plans_of_a_cluster_are_those_of_the_robot(client, options):
     given = paths(9)

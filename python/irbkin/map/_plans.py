@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -46,6 +46,9 @@ def plan_batch(
     accept: Callable[[Floats], npt.ArrayLike] | None = None,
     carrier: Track | Positioner | Sequence[Track | Positioner] | None = None,
     tolerance: ToolCone | ToolOffset | Sequence[ToolCone | ToolOffset] | None = None,
+    order: Literal["bottleneck", "sum"] = "bottleneck",
+    limit_cost: float = 0.0,
+    singularity_cost: float = 0.0,
     client: Client | None = None,
     threads: int = 1,
     block: int = PATHS_IN_A_BLOCK,
@@ -65,6 +68,9 @@ def plan_batch(
         accept: As for `Robot.plan`; for a cluster a function that pickles.
         carrier: As for `Robot.plan`, of all paths.
         tolerance: As for `Robot.plan`, of all paths.
+        order: As for `Robot.plan`, of all paths.
+        limit_cost: As for `Robot.plan`, of all paths.
+        singularity_cost: As for `Robot.plan`, of all paths.
         client: A `distributed.Client`; without one it is `Robot.plan_batch` itself.
         threads: Number of threads for each block; 0 for one a core.
         block: Paths of a block.
@@ -74,7 +80,7 @@ def plan_batch(
 
     Raises:
         IrbkinError: As `Robot.plan_batch`.
-        ValueError: A block below 1.
+        ValueError: A block below 1, or another `order`.
     """
     if block < 1:
         raise ValueError(f"block is {block}, it must be at least 1")
@@ -85,6 +91,9 @@ def plan_batch(
         "accept": accept,
         "carrier": carrier,
         "tolerance": tolerance,
+        "order": order,
+        "limit_cost": limit_cost,
+        "singularity_cost": singularity_cost,
         "threads": threads,
     }
     if client is None:
