@@ -13,8 +13,8 @@ use crate::report::{Explanation, FreeJoint, Reach};
 /// The pose that was solved, 4x4 in row-major order.
 pub(super) type PoseState = Vec<f64>;
 
-/// (slot, flags, joint angles, the free joint and what stays fixed). A merged slot has no angles.
-pub(super) type SolutionState = (usize, u8, Vec<f64>, Option<(usize, String)>);
+/// (slot, flags, joint angles, the free joint). A merged slot has no angles.
+pub(super) type SolutionState = (usize, u8, Vec<f64>, Option<String>);
 
 /// (what, a count, a count or a joint, a length or an angle).
 type OutcomeState = (String, usize, usize, f64);
@@ -39,7 +39,7 @@ pub(super) fn pose(py: Python<'_>, state: &[f64]) -> PyResult<Pose> {
 }
 
 pub(super) fn of_solution<const N: usize>(solution: &Solution<N>) -> SolutionState {
-    let free = solution.free_joint.map(|free| (free.joint(), free.fixed().to_owned()));
+    let free = solution.free_joint.map(|free| format!("{free:?}"));
     (solution.slot.index(), solution.status.bits(), solution.q.to_vec(), free)
 }
 
@@ -57,7 +57,7 @@ where
         let slot = (*slot < robot.slot_count()).then(|| Slot::new(*slot))?;
         let q = <[f64; N]>::try_from(&q[..]).ok()?;
         let free_joint = match free {
-            Some((joint, fixed)) => Some(FreeJoint::named(*joint, fixed)?),
+            Some(name) => Some(FreeJoint::all().find(|free| format!("{free:?}") == *name)?),
             None => None,
         };
         let status = Status::from_bits(*flags)?;

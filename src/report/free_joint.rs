@@ -28,6 +28,12 @@ pub enum FreeJoint {
     /// The shoulder of a seven-axis arm is on axis 6: q6 is free, q4 and q5 are fixed, the
     /// shoulder's joints follow.
     Hand,
+    /// A chain without a closed form moves with its ends standing still: the first joint that moves
+    /// is free.
+    Chain {
+        /// Which joints move, one bit each, the first joint the lowest.
+        moving: u8,
+    },
 }
 
 /// How the arm moves along a self-motion, the tool standing still.
@@ -54,8 +60,46 @@ enum Rest {
 
 const ONE_BRANCH: &[&[usize]] = &[&[0, 1]];
 
+/// Joints of a chain that moves with its ends standing still.
+const JOINTS: usize = 6;
+
+/// Length of the longest words for what stands still: of five joints.
+const MOST_LETTERS: usize = 4 * JOINTS;
+
+/// The words for what stands still, by the joints that move, and their lengths.
+static STANDING: [([u8; MOST_LETTERS], usize); 1 << JOINTS] = {
+    let mut words = [([0; MOST_LETTERS], 0); 1 << JOINTS];
+    let mut moving = 0;
+    while moving < words.len() {
+        let mut joint = 0;
+        while joint < JOINTS {
+            if moving >> joint & 1 == 0 {
+                let (letters, length) = &mut words[moving];
+                if *length > 0 {
+                    (letters[*length], letters[*length + 1]) = (b',', b' ');
+                    *length += 2;
+                }
+                [letters[*length], letters[*length + 1]] = [b'q', b"123456"[joint]];
+                *length += 2;
+            }
+            joint += 1;
+        }
+        moving += 1;
+    }
+    words
+};
+
+/// The joints of a chain that stand still, in words.
+const fn standing(moving: u8) -> &'static str {
+    let (letters, length) = &STANDING[moving as usize % (1 << JOINTS)];
+    match core::str::from_utf8(letters.split_at(*length).0) {
+        Ok(words) if *length > 0 => words,
+        _ => "nothing",
+    }
+}
+
 impl FreeJoint {
-    /// Every one of them.
+    /// Every one of them but those of a chain.
     #[cfg(any(test, feature = "python"))]
     const ALL: [Self; 10] = [
         Self::Base,
@@ -70,10 +114,16 @@ impl FreeJoint {
         Self::Hand,
     ];
 
-    /// The one with this joint, from 1, and these words for what stays fixed.
+    /// Every one of them.
     #[cfg(any(test, feature = "python"))]
-    pub(crate) fn named(joint: usize, fixed: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|free| free.joint() == joint && free.fixed() == fixed)
+    pub(crate) fn all() -> impl Iterator<Item = Self> {
+        Self::ALL.into_iter().chain((1..1 << JOINTS).map(|moving| Self::Chain { moving }))
+    }
+
+    /// That of a chain of which these joints move; `None` if none does.
+    pub(crate) fn of_chain(moving: [bool; JOINTS]) -> Option<Self> {
+        let bits = moving.iter().rev().fold(0, |bits, moves| 2 * bits + u8::from(*moves));
+        (bits > 0).then_some(Self::Chain { moving: bits })
     }
 
     const fn motion(self) -> SelfMotion {
@@ -88,11 +138,15 @@ impl FreeJoint {
             Self::ShoulderDifference => (1, "q1 - q3", Rest::Partner(3, -1.0)),
             Self::Forearm => (5, "q4, q6", Rest::Still(&[4, 6])),
             Self::Hand => (6, "q4, q5", Rest::Still(&[4, 5])),
+            Self::Chain { moving } => {
+                (moving.trailing_zeros() as usize + 1, standing(moving), Rest::Still(&[]))
+            }
         };
         let branches: &[&[usize]] = match self {
             Self::ShoulderSum | Self::ShoulderDifference => &[&[0, 4]],
             Self::Forearm | Self::Hand => &[&[0, 1, 4, 5]],
             Self::Parallel => &[&[0, 1], &[2, 3]],
+            Self::Chain { .. } => &[&[0]],
             _ => ONE_BRANCH,
         };
         SelfMotion { joint, fixed, rest, branches }
@@ -119,7 +173,8 @@ impl FreeJoint {
         }
     }
 
-    /// Numbers of the joints, from 1, that stand still along a self-motion of more than a partner.
+    /// Numbers of the joints, from 1, that stand still along a self-motion of more than a partner;
+    /// none of a chain.
     pub(crate) const fn still(self) -> &'static [usize] {
         match self.motion().rest {
             Rest::Partner(..) => &[],
@@ -140,9 +195,16 @@ mod tests {
     #[test]
     fn each_has_its_own_joint_and_words() {
         for (index, free) in FreeJoint::ALL.into_iter().enumerate() {
-            assert_eq!(free as usize, index, "ALL has every one, in order");
-            assert_eq!(FreeJoint::named(free.joint(), free.fixed()), Some(free));
+            for other in &FreeJoint::ALL[..index] {
+                assert!((free.joint(), free.fixed()) != (other.joint(), other.fixed()));
+            }
         }
-        assert_eq!(FreeJoint::named(7, "q4 + q6"), None);
+        let chain = |moving| FreeJoint::of_chain(moving).unwrap();
+        let ends = chain([true, false, false, false, false, true]);
+        assert_eq!((ends.joint(), ends.fixed()), (1, "q2, q3, q4, q5"));
+        assert_eq!(chain([true; 6]).fixed(), "nothing");
+        assert_eq!(chain([false, true, true, true, true, true]).joint(), 2);
+        assert_eq!(FreeJoint::of_chain([false; 6]), None);
+        assert_eq!(FreeJoint::all().count(), 10 + 63);
     }
 }

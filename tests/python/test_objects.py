@@ -256,7 +256,7 @@ def test_a_damaged_answer_is_refused(change):
     elif change == "angles":
         slots = [(slot, flags, angles[:-1], free), *others]
     elif change == "free":
-        slots = [(slot, flags, angles, (9, "q9")), *others]
+        slots = [(slot, flags, angles, "Elsewhere"), *others]
     elif change == "pose":
         pose = pose[:-1]
     elif change == "reach":

@@ -6,7 +6,6 @@ use crate::kinematics::answer::solutions::{Place, Solution, Solutions};
 use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::nearest::{NearestSearch, Wanted};
 use crate::kinematics::solve::self_motion::meets;
-use crate::kinematics::structure::any::AnyStructure as _;
 use crate::kinematics::structure::arity::{Arity, Joints};
 use crate::kinematics::structure::redundancy::Redundancy;
 
@@ -48,6 +47,7 @@ where
             search.look_at_twins(&outside)?;
             if search.best.is_none() {
                 search.look_along(&outside)?;
+                search.look_along_chain(&outside)?;
             }
             if let Some(inside) = search.best.map(|best| best.solution) {
                 solutions.replace(slot, inside);
@@ -66,9 +66,7 @@ where
         if N != 6 || solutions.is_empty() || solutions.iter().any(Solution::is_within_limits) {
             return Ok(());
         }
-        // Newton's method on the closure leaves nothing of a regular solution to be chosen.
-        let is_regular = |solution: &Solution<N>| solution.singularities().is_empty();
-        if !self.solver().is_closed_form() && solutions.iter().all(is_regular) {
+        if self.are_regular(solutions) {
             return Ok(());
         }
         let wanted = Wanted {

@@ -2,6 +2,7 @@
 //! redundancy.
 
 mod approach;
+mod chain_search;
 pub(crate) mod configuration;
 mod corner_search;
 mod correction;

@@ -60,11 +60,22 @@ where
         weights: &[f64; N],
     ) -> Result<Option<Solution<N>>, Error> {
         let nearest = solutions.cheapest(seed, weights, Cost::Distance);
-        if nearest.is_some() || self.is_regular(solutions.pose(), Redundancy::of(seed)) {
+        if nearest.is_some()
+            || self.are_regular(solutions)
+            || self.is_regular(solutions.pose(), Redundancy::of(seed))
+        {
             return Ok(nearest);
         }
         let wanted = Wanted { limits: *self.limits(), seed, weights, accepts: &|_| true };
         self.nearest_at_singularity(solutions, &wanted)
+    }
+
+    /// Whether nothing of these solutions is left to be chosen: they are regular, and Newton's
+    /// method has brought them to the pose. Those of a closed form may be beside a singularity that
+    /// rounding hides.
+    pub(super) fn are_regular(&self, solutions: &Solutions<N>) -> bool {
+        let is_regular = |solution: &Solution<N>| solution.singularities().is_empty();
+        !self.solver().is_closed_form() && solutions.iter().all(is_regular)
     }
 
     /// The wanted solution of a pose that is not regular, of which the solutions `known` are given.
@@ -164,6 +175,7 @@ where
         }
         for solution in known {
             self.look_along(solution)?;
+            self.look_along_chain(solution)?;
         }
         if self.best.is_none() && self.must_meet() {
             for solution in known {
@@ -293,7 +305,10 @@ where
     /// The joints that may be undetermined at a solution and move more than a partner: the one that
     /// it names and, near another singularity, that of axis 1 or 2, which a singular wrist hides.
     fn self_motions_of(&self, solution: &Solution<N>) -> [Option<FreeJoint>; 3] {
-        let named = solution.free_joint.filter(|free| free.partner().is_none());
+        // That of a chain is walked along.
+        let is_searched =
+            |free: &FreeJoint| free.partner().is_none() && !matches!(free, FreeJoint::Chain { .. });
+        let named = solution.free_joint.filter(is_searched);
         if self.robot.solver().arm().spherical_wrist().is_none() {
             let parallel = Some(FreeJoint::Parallel);
             let hidden = self.has_uncertain_plane(solution) && named != parallel;

@@ -103,8 +103,12 @@ impl Inverse<6> for Robot<6> {
             solutions.cheapest(seed, weights, Cost::Distance)
         } else {
             self.solve_at_rest(&mut solutions, ())?;
-            let wanted = Wanted { limits: solutions.limits, seed, weights, accepts: &|_| true };
-            self.nearest_at_singularity(&solutions, &wanted)?
+            if self.are_regular(&solutions) {
+                solutions.cheapest(seed, weights, Cost::Distance)
+            } else {
+                let wanted = Wanted { limits: solutions.limits, seed, weights, accepts: &|_| true };
+                self.nearest_at_singularity(&solutions, &wanted)?
+            }
         };
         nearest.ok_or_else(|| Error::Unreachable(solutions.explain()))
     }

@@ -6,6 +6,7 @@ use crate::kinematics::answer::solutions::{Solution, Solutions};
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
+use crate::kinematics::structure::any::AnyStructure as _;
 use crate::kinematics::structure::arity::{Arity, Joints};
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::thresholds::{POSITION_ROUNDING, SEEDED_FREE, SOLUTION_OFF};
@@ -53,13 +54,18 @@ where
         free: FreeJoint,
         value: f64,
     ) -> Result<Option<Solution<N>>, Error> {
-        let solutions = self.solve_with_free_joint(pose, solution, free, value)?;
-        // The same branch, or the one that it becomes.
-        let mut slots =
-            free.branches().iter().copied().flatten().map(|other| solution.slot.index() ^ other);
-        Ok(slots.find_map(|slot| solutions.slot(slot)).map(|found| {
-            let mut moved = *found;
-            moved.q[free.joint() - 1] = value;
+        let joint = free.joint() - 1;
+        let found = if let FreeJoint::Chain { .. } = free {
+            let member = self.solver().arm().member(pose, &solution.q, joint, value);
+            member.map(|q| Solution { q: self.limits().wrap(q), ..*solution })
+        } else {
+            let solutions = self.solve_with_free_joint(pose, solution, free, value)?;
+            // The same branch, or the one that it becomes.
+            let mut slots = free.branches().iter().copied().flatten();
+            slots.find_map(|other| solutions.slot(solution.slot.index() ^ other).copied())
+        };
+        Ok(found.map(|mut moved| {
+            moved.q[joint] = value;
             moved.status.set(Status::WITHIN_LIMITS, self.limits().contains(&moved.q));
             moved
         }))

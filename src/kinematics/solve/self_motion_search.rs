@@ -234,14 +234,20 @@ where
     }
 
     fn height(&self, solutions: &Solutions<N>, slot: usize) -> f64 {
-        let Wanted { limits, seed, weights, .. } = self.wanted;
         let met = |solution: &&Solution<N>| {
             self.robot.residual(&solution.q, self.known.pose()).largest() <= self.allowed
         };
-        let Some(solution) = solutions.slot(slot).filter(met) else { return f64::INFINITY };
-        match limits.wrapped_near(&solution.q, seed) {
+        let found = solutions.slot(slot).filter(met);
+        found.map_or(f64::INFINITY, |solution| self.height_of(&solution.q))
+    }
+
+    /// How far the farthest joint is outside its limits or, inside them, less than zero and the
+    /// less the nearer to the seed.
+    pub(super) fn height_of(&self, q: &[f64; N]) -> f64 {
+        let Wanted { limits, seed, weights, .. } = self.wanted;
+        match limits.wrapped_near(q, seed) {
             Some(q) => -1.0 / (1.0 + Cost::Distance.total(&q, seed, weights)),
-            None => limits.worst_overrun(&solution.q),
+            None => limits.worst_overrun(q),
         }
     }
 

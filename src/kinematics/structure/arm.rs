@@ -1,9 +1,9 @@
 //! The interface of every structure.
 
-use super::NO_LINKAGE;
 use super::free_choice::FreeChoice;
 use super::lanes::{Choice, PoseRow};
 use super::singular_wrist::SingularWrist;
+use super::{NO_LINKAGE, TakeStep};
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::solutions::Solutions;
@@ -94,6 +94,14 @@ pub(crate) trait Arm<const N: usize, R> {
     fn corners(&self, _q: &[f64; N], _free: FreeJoint) -> Option<[f64; 6]> {
         None
     }
+
+    /// [`Structure::member`], for a pose of the tool.
+    fn member(&self, _pose: &Pose, _q: &[f64; N], _joint: usize, _value: f64) -> Option<[f64; N]> {
+        None
+    }
+
+    /// [`Structure::walk`], for a pose of the tool.
+    fn walk(&self, _pose: &Pose, _q: &[f64; N], _pass: &mut TakeStep<'_, N>) {}
 
     /// [`Structure::singular_wrist`]
     fn spherical_wrist(&self) -> Option<&dyn SingularWrist<N>> {

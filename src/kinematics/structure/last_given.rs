@@ -10,12 +10,12 @@
 
 use nalgebra::{Rotation3, Vector3};
 
-use super::Structure;
 use super::any::{AnyStructure, SixJoints};
 use super::branches::Branches;
 use super::free_choice::{FreeChoice, SeedPolicy};
 use super::joint_map::JointMap;
 use super::lanes::NoKernel;
+use super::{Structure, TakeStep};
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::{MOST_SLOTS, Slot};
 use crate::kinematics::answer::solutions::Solutions;
@@ -139,5 +139,18 @@ impl Structure<7, MOST_SLOTS> for LastGiven {
 
     fn slot(&self, q: &[f64; 7]) -> Option<Slot> {
         self.six.arm().slot(&first_six(q))
+    }
+
+    fn member(&self, t: &Pose, q: &[f64; 7], joint: usize, value: f64) -> Option<[f64; 7]> {
+        let pose = self.before_last(t, q[6]);
+        let [q1, q2, q3, q4, q5, q6] = self.six.arm().member(&pose, &first_six(q), joint, value)?;
+        Some([q1, q2, q3, q4, q5, q6, q[6]])
+    }
+
+    fn walk(&self, t: &Pose, q: &[f64; 7], pass: &mut TakeStep<'_, 7>) {
+        let seven = |[q1, q2, q3, q4, q5, q6]: [f64; 6]| [q1, q2, q3, q4, q5, q6, q[6]];
+        let pose = self.before_last(t, q[6]);
+        let pass = &mut |start: &[f64; 6], end: &[f64; 6]| pass(&seven(*start), &seven(*end));
+        self.six.arm().walk(&pose, &first_six(q), pass);
     }
 }

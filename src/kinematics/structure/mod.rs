@@ -53,6 +53,9 @@ use crate::report::{FreeJoint, Pattern, UnknownStructure};
 /// The reason why most structures cannot have a linkage that couples axes.
 pub(crate) const NO_LINKAGE: &str = "the arm has no spherical wrist";
 
+/// Take the ends of a step along a self-motion.
+pub(crate) type TakeStep<'a, const N: usize> = dyn FnMut(&[f64; N], &[f64; N]) + 'a;
+
 /// A kinematic structure of `N` joints with `S` slots.
 ///
 /// Let `theta` be the derivation's joint angles, `T_first_last` the last frame of the derivation in
@@ -133,6 +136,22 @@ pub(crate) trait Structure<const N: usize, const S: usize>:
     fn corners(&self, _q: &[f64; N], _free: FreeJoint) -> Option<[f64; 6]> {
         None
     }
+
+    /// The member of the self-motion of `q`, which reaches `t_first_last`, with a joint, from 0, at
+    /// an angle: of several the nearest; for a [`FreeJoint::Chain`].
+    fn member(
+        &self,
+        _t_first_last: &Pose,
+        _q: &[f64; N],
+        _joint: usize,
+        _value: f64,
+    ) -> Option<[f64; N]> {
+        None
+    }
+
+    /// Walk along the self-motion of `q`, as far as [`Self::member`] does: `pass` gets the ends of
+    /// each step.
+    fn walk(&self, _t_first_last: &Pose, _q: &[f64; N], _pass: &mut TakeStep<'_, N>) {}
 
     /// The arm as one with a spherical wrist, if it has one.
     fn singular_wrist(&self) -> Option<&dyn SingularWrist<N>> {

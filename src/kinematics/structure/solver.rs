@@ -1,12 +1,12 @@
 //! An arm between the frames in which poses are given, with its limits: the solve that is common to
 //! all structures.
 
-use super::Structure;
 use super::arm::{Arm, RowSolve, Rows};
 use super::end_frames::{EndFrames, Frame, Seen};
 use super::free_choice::FreeChoice;
 use super::lanes::{Blocks, Choice, Columns, LaneKernel, PoseRow, RegularPose, Wanted};
 use super::singular_wrist::SingularWrist;
+use super::{Structure, TakeStep};
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::solutions::{Place, Solution, Solutions};
@@ -177,6 +177,14 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Arm<N, T::Redundancy> f
 
     fn corners(&self, q: &[f64; N], free: FreeJoint) -> Option<[f64; 6]> {
         self.structure.corners(q, free)
+    }
+
+    fn member(&self, pose: &Pose, q: &[f64; N], joint: usize, value: f64) -> Option<[f64; N]> {
+        self.structure.member(&self.end_frames.wrist_pose(pose), q, joint, value)
+    }
+
+    fn walk(&self, pose: &Pose, q: &[f64; N], pass: &mut TakeStep<'_, N>) {
+        self.structure.walk(&self.end_frames.wrist_pose(pose), q, pass);
     }
 
     fn spherical_wrist(&self) -> Option<&dyn SingularWrist<N>> {

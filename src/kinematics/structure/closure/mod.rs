@@ -5,10 +5,10 @@
 //! are those of the table, theta = q + offset (docs/general.md, eq. 97 to 104).
 
 mod accepted;
-mod at_rest;
 mod chain;
 mod fold;
 mod freedom;
+mod members;
 mod newton;
 mod placed;
 mod self_motion;

@@ -7,7 +7,7 @@ use super::chain::{Closure, Target};
 use crate::kinematics::pose::angles::wrap;
 
 /// Step along a self-motion [rad].
-const STEP: f64 = 0.1;
+pub(super) const STEP: f64 = 0.1;
 
 /// Steps along a self-motion, at most: four turns of its fastest joint.
 pub(super) const MOST_STEPS: usize = 400;

@@ -20,12 +20,12 @@ pub(crate) use geometry::General;
 
 use measure::PATTERN;
 
-use super::Structure;
 use super::branches::Branches;
 use super::closure::Closure;
 use super::free_choice::FreeChoice;
 use super::joint_map::JointMap;
 use super::lanes::NoKernel;
+use super::{Structure, TakeStep};
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::{MOST_SLOTS, Slot};
 use crate::kinematics::answer::status::SingularityKind;
@@ -88,6 +88,14 @@ impl Structure<6, MOST_SLOTS> for General {
 
     fn slot(&self, _q: &[f64; 6]) -> Option<Slot> {
         None
+    }
+
+    fn member(&self, t: &Pose, q: &[f64; 6], joint: usize, value: f64) -> Option<[f64; 6]> {
+        self.member_of(t, q, joint, value)
+    }
+
+    fn walk(&self, t: &Pose, q: &[f64; 6], pass: &mut TakeStep<'_, 6>) {
+        self.walk_along(t, q, pass);
     }
 
     fn noting(self, nearest: Option<UnknownStructure>) -> Self {

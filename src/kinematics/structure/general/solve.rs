@@ -5,11 +5,12 @@ use super::geometry::General;
 use crate::kinematics::answer::slot::MOST_SLOTS;
 use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::pose::Pose;
+use crate::kinematics::structure::TakeStep;
 use crate::kinematics::structure::branches::Branches;
 use crate::kinematics::structure::closure::{Accepted, Configuration, Kind};
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::lanes::run_vectors;
-use crate::report::Reach;
+use crate::report::{FreeJoint, Reach};
 
 /// Least singular value of the closure, lengths in units of the arm, below which a joint vector is
 /// singular [1]: the root of rounding, at which two solutions merge.
@@ -49,24 +50,28 @@ impl General {
     pub(super) fn branches(
         &self,
         t_first_last: &Pose,
-        _free: &FreeChoice<6>,
+        free: &FreeChoice<6>,
     ) -> Branches<6, MOST_SLOTS> {
         let mut accepted = Accepted::NONE;
         let is_certain = self.solve_all(t_first_last, &mut accepted);
-        self.slots(t_first_last, &mut accepted, is_certain)
+        self.slots(t_first_last, &mut accepted, is_certain, free)
     }
 
-    /// Solutions of a pose in slots.
+    /// Solutions of a pose in slots; of a self-motion the member that the free joint's angle of
+    /// `free` chooses.
     pub(crate) fn slots(
         &self,
         t_first_last: &Pose,
         accepted: &mut Accepted,
         is_certain: bool,
+        free: &FreeChoice<6>,
     ) -> Branches<6, MOST_SLOTS> {
+        let mut moving = [[false; 6]; MOST_SLOTS];
         if accepted.has_self_motion() {
-            let (target, rest) =
-                (self.closure.target_of(t_first_last), self.joint_map.theta(&[0.0; 6]));
-            accepted.bring_to_rest(&self.closure, &target, &rest);
+            let (target, near) =
+                (self.closure.target_of(t_first_last), self.joint_map.theta(&free.q));
+            let all = accepted.bring_to(&self.closure, &target, &near);
+            moving.iter_mut().zip(all).for_each(|(place, moving)| *place = moving);
         }
         let all = accepted.as_slice();
         let reach = if all.is_empty() { Reach::NoRoots } else { Reach::Reached };
@@ -78,8 +83,38 @@ impl General {
         for (slot, index) in order.iter().enumerate() {
             branches.q[slot] = Some(self.joint_map.joints(all[*index].theta));
             branches.flags[slot] = kinds_of(&all[*index]).into();
+            branches.free[slot] = FreeJoint::of_chain(moving[*index]);
         }
         branches
+    }
+
+    /// The member of the self-motion of a joint vector of a pose with a joint at an angle: of
+    /// several the nearest.
+    pub(super) fn member_of(
+        &self,
+        t_first_last: &Pose,
+        q: &[f64; 6],
+        joint: usize,
+        value: f64,
+    ) -> Option<[f64; 6]> {
+        let (target, start) = (self.closure.target_of(t_first_last), self.joint_map.theta(q));
+        let direction = self.closure.direction(&target, &start)?;
+        let mut near = *q;
+        near[joint] = value;
+        let near = self.joint_map.theta(&near);
+        let member = self.closure.member(&target, &start, &direction, joint, &near)?;
+        Some(self.joint_map.joints(member.theta))
+    }
+
+    /// Walk along the self-motion of a joint vector of a pose.
+    pub(super) fn walk_along(&self, t_first_last: &Pose, q: &[f64; 6], pass: &mut TakeStep<'_, 6>) {
+        let (target, start) = (self.closure.target_of(t_first_last), self.joint_map.theta(q));
+        let joints = |theta: &[f64; 6]| self.joint_map.joints(*theta);
+        if let Some(direction) = self.closure.direction(&target, &start) {
+            self.closure.around(&target, &start, &direction, |theta, next| {
+                pass(&joints(theta), &joints(next));
+            });
+        }
     }
 
     /// The singularities of a joint vector.

@@ -19,11 +19,11 @@ mod tests;
 
 pub(crate) use geometry::OffsetWrist;
 
-use super::Structure;
 use super::branches::Branches;
 use super::free_choice::FreeChoice;
 use super::joint_map::JointMap;
 use super::lanes::NoKernel;
+use super::{Structure, TakeStep};
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::status::SingularityKind;
@@ -61,8 +61,8 @@ impl Structure<6, SLOTS> for OffsetWrist {
     }
 
     #[inline]
-    fn solve(&self, t_first_last: &Pose, (): (), _free: &FreeChoice<6>) -> Branches<6, SLOTS> {
-        self.solve_pose(t_first_last)
+    fn solve(&self, t_first_last: &Pose, (): (), free: &FreeChoice<6>) -> Branches<6, SLOTS> {
+        self.solve_pose(t_first_last, free)
     }
 
     /// The determinant has no factors that tell wrist, elbow and shoulder apart.
@@ -83,6 +83,14 @@ impl Structure<6, SLOTS> for OffsetWrist {
     /// it.
     fn slot(&self, _q: &[f64; 6]) -> Option<Slot> {
         None
+    }
+
+    fn member(&self, t: &Pose, q: &[f64; 6], joint: usize, value: f64) -> Option<[f64; 6]> {
+        self.general.member(t, q, joint, value)
+    }
+
+    fn walk(&self, t: &Pose, q: &[f64; 6], pass: &mut TakeStep<'_, 6>) {
+        self.general.walk(t, q, pass);
     }
 
     fn noting(self, nearest: Option<UnknownStructure>) -> Self {

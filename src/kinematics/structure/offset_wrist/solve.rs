@@ -14,6 +14,7 @@ use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::branches::Branches;
 use crate::kinematics::structure::closure::Accepted;
 use crate::kinematics::structure::end_frames::Frame;
+use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::structure::trigonometric::{Root, TrigonometricPolynomial};
 use crate::lanes::{LANES, VectorKernel, run_vectors};
 
@@ -80,10 +81,14 @@ impl VectorKernel for Solve<'_> {
 
 impl OffsetWrist {
     /// Every solution of a pose of frame 6, in slots.
-    pub(super) fn solve_pose(&self, t_first_last: &Pose) -> Branches<6, SLOTS> {
+    pub(super) fn solve_pose(
+        &self,
+        t_first_last: &Pose,
+        free: &FreeChoice<6>,
+    ) -> Branches<6, SLOTS> {
         let mut accepted = Accepted::NONE;
         let is_certified = self.solutions(t_first_last, &mut accepted);
-        let mut branches = self.general.slots(t_first_last, &mut accepted, is_certified);
+        let mut branches = self.general.slots(t_first_last, &mut accepted, is_certified, free);
         if accepted.as_slice().is_empty() {
             branches.reach = self.missed(&Frame::of(t_first_last));
         }

@@ -3,10 +3,13 @@
 use core::f64::consts::PI;
 
 use crate::Status;
+use crate::error::Error;
+use crate::kinematics::answer::solutions::Solution;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::robot::Robot;
+use crate::report::{Explanation, FreeJoint};
 use crate::rng::Rng;
 
 #[test]
@@ -39,4 +42,101 @@ fn a_self_motion_is_represented_with_its_first_joint_at_zero() {
     }
     std::println!("joint 1 at zero: {at_zero}, not: {elsewhere}");
     assert!(at_zero > elsewhere, "{at_zero} {elsewhere}");
+}
+
+/// A pose with axes 1 and 6 of a GoFa in one line, at this height and angle.
+fn upright(height: f64, angle: f64) -> Pose {
+    Pose::translation(0.0, 0.0, height) * Pose::rotation(nalgebra::Vector3::z() * angle)
+}
+
+#[test]
+fn the_free_joint_is_named_and_moves_along_the_self_motion() {
+    let gofa = Robot::<6>::named("GoFa 5").unwrap().with_limits(JointLimits::UNLIMITED);
+    let pose = upright(0.8, 0.4);
+    for one in &gofa.ik(&pose).unwrap() {
+        let free = one.free_joint.unwrap();
+        assert_eq!((free.joint(), free.fixed()), (1, "q2, q3, q4, q5"));
+        for value in [-3.0, 0.0, 1.2, 4.0] {
+            let moved = gofa.with_free_joint(&pose, one, value).unwrap().unwrap();
+            assert_eq!(moved.q[0], value);
+            assert!(gofa.residual(&moved.q, &pose).largest() < 1e-13, "{moved:?}");
+            for joint in 1..5 {
+                assert!(wrap(moved.q[joint] - one.q[joint]).abs() < 1e-12, "{moved:?} {one:?}");
+            }
+        }
+    }
+    // All joints but axis 6 may move where the wrist point of a CRX with equal links is on axis 2:
+    // some angles of the free joint are out of reach.
+    let crx = Robot::<6>::named("CRX-10iA").unwrap().with_limits(JointLimits::UNLIMITED);
+    let mut rng = Rng::new(9);
+    let (mut moved_count, mut out_of_reach) = (0, 0);
+    for _ in 0..30 {
+        let mut q: [f64; 6] = rng.angles();
+        q[2] = -0.5 * PI;
+        let pose = crx.fk(&q);
+        let is_free = |one: &&Solution<6>| one.free_joint.is_some();
+        for one in crx.ik(&pose).unwrap().iter().filter(is_free) {
+            let joint = one.free_joint.unwrap().joint() - 1;
+            for value in rng.angles::<2>() {
+                match crx.with_free_joint(&pose, one, value) {
+                    Ok(moved) => {
+                        let moved = moved.unwrap();
+                        assert_eq!(moved.q[joint], value);
+                        assert!(crx.residual(&moved.q, &pose).largest() < 1e-13, "{moved:?}");
+                        moved_count += 1;
+                    }
+                    Err(Error::Unreachable(Explanation::FreeOutOfReach { .. })) => {
+                        out_of_reach += 1;
+                    }
+                    Err(error) => panic!("{error}"),
+                }
+            }
+        }
+    }
+    assert!(moved_count > 20 && out_of_reach > 0, "{moved_count} {out_of_reach}");
+}
+
+#[test]
+fn the_nearest_member_of_a_self_motion_is_found_inside_the_limits() {
+    let gofa = Robot::<6>::named("GoFa 5").unwrap().with_limits(JointLimits::UNLIMITED);
+    let (pose, weights) = (upright(0.8, 0.4), [1.0, 1.0, 1.0, 1.0, 1.0, 4.0]);
+    // q1 + q6 is fixed: the one that costs less moves more.
+    let one = gofa.ik(&pose).unwrap().iter().next().copied().unwrap();
+    let mut seed = one.q;
+    (seed[0], seed[5]) = (one.q[0] + 1.0, one.q[5] + 0.5);
+    let nearest = gofa.ik_nearest(&pose, &seed, &weights).unwrap();
+    // With x off joint 1 and 1.5 - x off joint 6: x^2 + 4 (1.5 - x)^2 is least at x = 1.2.
+    assert!((nearest.q[0] - (seed[0] - 1.2)).abs() < 1e-6, "{nearest:?} {seed:?}");
+    assert!((nearest.q[5] - (seed[5] - 0.3)).abs() < 1e-6, "{nearest:?} {seed:?}");
+    assert!(gofa.residual(&nearest.q, &pose).largest() < 1e-13);
+    // A member is inside limits that exclude the one with joint 1 at zero.
+    let mut limits = [[-PI, PI]; 6];
+    limits[0] = [0.5, 0.9];
+    let narrow = gofa.with_limits(JointLimits::new(limits).unwrap());
+    let solutions = narrow.ik(&pose).unwrap();
+    assert!(solutions.iter().all(Solution::is_within_limits), "{solutions}");
+    limits[0] = [-PI, PI];
+    limits[5] = [one.q[5] + 0.3, one.q[5] + 0.4];
+    let narrow = narrow.with_limits(JointLimits::new(limits).unwrap());
+    let inside = narrow.ik_nearest(&pose, &[0.0; 6], &[1.0; 6]).unwrap();
+    assert!(inside.is_within_limits() && narrow.residual(&inside.q, &pose).largest() < 1e-13);
+    assert!(narrow.ik(&pose).unwrap().iter().any(Solution::is_within_limits));
+}
+
+#[test]
+fn a_seed_on_a_self_motion_is_its_nearest_solution() {
+    let gofa = Robot::<6>::named("GoFa 5").unwrap().with_limits(JointLimits::UNLIMITED);
+    let pose = upright(0.8, 0.4);
+    let one = gofa.ik(&pose).unwrap().iter().next().copied().unwrap();
+    let on_it = gofa.with_free_joint(&pose, &one, 1.3).unwrap().unwrap();
+    let crx = Robot::<6>::named("CRX-10iA").unwrap().with_limits(JointLimits::UNLIMITED);
+    let folded = [0.3, 0.5, -0.5 * PI, 0.7, 0.9, 1.1];
+    for (robot, seed) in [(gofa, on_it.q), (crx, folded)] {
+        let pose = robot.fk(&seed);
+        let nearest = robot.ik_nearest(&pose, &seed, &[1.0; 6]).unwrap();
+        assert!(matches!(nearest.free_joint, Some(FreeJoint::Chain { .. })), "{nearest:?}");
+        for (found, wanted) in nearest.q.iter().zip(seed) {
+            assert!(wrap(found - wanted).abs() < 1e-9, "{nearest:?} {seed:?}");
+        }
+    }
 }

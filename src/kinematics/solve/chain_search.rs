@@ -1,0 +1,79 @@
+//! The self-motion of a chain without a closed form: its member nearest to a seed.
+
+use crate::error::Error;
+use crate::kinematics::answer::solutions::Solution;
+use crate::kinematics::chain::limits::JointLimits;
+use crate::kinematics::pose::angles::wrap;
+use crate::kinematics::solve::correction::DETERMINED;
+use crate::kinematics::solve::golden_section::golden_section;
+use crate::kinematics::solve::nearest::NearestSearch;
+use crate::kinematics::solve::self_motion_search::VALLEYS;
+use crate::kinematics::structure::any::AnyStructure as _;
+use crate::kinematics::structure::arity::{Arity, Joints};
+use crate::report::FreeJoint;
+
+/// The last two members that were passed, with their heights.
+struct Passed<const N: usize> {
+    before: Option<([f64; N], f64)>,
+    here: Option<([f64; N], f64)>,
+    /// Valleys that may still be looked into.
+    valleys: u32,
+}
+
+impl<const N: usize> NearestSearch<'_, N>
+where
+    Joints<N>: Arity<N>,
+{
+    /// Walk along the self-motion of a chain.
+    pub(super) fn look_along_chain(&mut self, from: &Solution<N>) -> Result<(), Error> {
+        if self.is_done() || !matches!(from.free_joint, Some(FreeJoint::Chain { .. })) {
+            return Ok(());
+        }
+        let mut passed = Passed { before: None, here: None, valleys: VALLEYS };
+        let mut outcome = Ok(());
+        self.robot.solver().arm().walk(self.known.pose(), &from.q, &mut |start, end| {
+            if outcome.is_ok() {
+                outcome = self.pass(&mut passed, start, end, from);
+            }
+        });
+        outcome
+    }
+
+    /// Take the next member, and look into the valley that it ends.
+    fn pass(
+        &mut self,
+        passed: &mut Passed<N>,
+        start: &[f64; N],
+        end: &[f64; N],
+        from: &Solution<N>,
+    ) -> Result<(), Error> {
+        let is_start = |(here, _): ([f64; N], f64)| {
+            here.iter().zip(start).all(|(angle, start)| angle.total_cmp(start).is_eq())
+        };
+        if !passed.here.is_some_and(is_start) {
+            (passed.before, passed.here) = (None, Some((*start, self.height_of(start))));
+        }
+        let next = (*end, self.height_of(end));
+        self.take_if_met(&Solution { q: *end, ..*from }, from);
+        if let (Some(before), Some(here)) = (passed.before, passed.here)
+            && here.1 < before.1
+            && here.1 <= next.1
+            && passed.valleys > 0
+        {
+            passed.valleys -= 1;
+            let at = |part: f64| {
+                let to = if part < 0.0 { &before.0 } else { &next.0 };
+                let between = core::array::from_fn(|joint| {
+                    here.0[joint] + part.abs() * wrap(to[joint] - here.0[joint])
+                });
+                let (pose, free) = (self.known.pose(), &JointLimits::UNLIMITED);
+                let (q, _) = self.robot.corrected(pose, between, free, &[], DETERMINED);
+                self.take_if_met(&Solution { q, ..*from }, from);
+                Ok(self.height_of(&q))
+            };
+            golden_section(at, -1.0, 1.0)?;
+        }
+        (passed.before, passed.here) = (passed.here, Some(next));
+        Ok(())
+    }
+}
