@@ -136,8 +136,11 @@ impl Accepted {
         &self.all[..self.count]
     }
 
-    pub(super) fn as_mut_slice(&mut self) -> &mut [Configuration] {
-        &mut self.all[..self.count]
+    /// Remove the configurations; returns them.
+    pub(super) fn emptied(&mut self) -> Self {
+        let all = *self;
+        self.count = 0;
+        all
     }
 
     /// Solutions with their multiplicity: those that polynomials have as roots, if no self-motion

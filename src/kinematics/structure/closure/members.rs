@@ -2,7 +2,9 @@
 //!
 //! Docs: general.md, eq. 103.
 
-use super::accepted::{Accepted, Configuration, Kind};
+use core::ops::ControlFlow;
+
+use super::accepted::{Accepted, Configuration, Kind, MOST};
 use super::chain::{Closure, Target};
 use super::self_motion::{MOST_STEPS, STEP};
 use crate::kinematics::pose::angles::wrap;
@@ -20,36 +22,61 @@ const AT_PLACE: f64 = 1e-14;
 const MOST_SECANTS: usize = 8;
 
 impl Accepted {
-    /// Bring self-motions to the member whose first joint that moves has its angle of `near`, where
-    /// they have one, and to the nearest of several. Returns which joints move in each.
+    /// Bring self-motions to a member whose first joint that moves has its angle of `near`, if they
+    /// have one; what then is the same stands once. Returns which joints move in each.
     pub(crate) fn bring_to(
         &mut self,
         closure: &Closure,
         target: &Target,
         near: &[f64; 6],
-    ) -> impl Iterator<Item = [bool; 6]> {
-        self.as_mut_slice().iter_mut().map(|one| {
-            let Kind::Free { direction } = one.kind else { return [false; 6] };
-            let moving = closure.moving(target, &one.theta, &direction);
-            if let Some(first) = moving.iter().position(|moves| *moves) {
-                let member = closure.member(target, &one.theta, &direction, first, near);
-                *one = member.unwrap_or(*one);
+    ) -> [[bool; 6]; MOST] {
+        let brought = self.emptied();
+        let mut moving = [[false; 6]; MOST];
+        for one in brought.as_slice() {
+            let Kind::Free { direction } = one.kind else {
+                self.insert(closure, *one);
+                continue;
+            };
+            let moves = closure.moving(target, &one.theta, &direction);
+            let member = moves.iter().position(|moves| *moves).and_then(|first| {
+                closure.first_member(target, &one.theta, &direction, first, near)
+            });
+            let count = self.as_slice().len();
+            self.insert(closure, member.unwrap_or(*one));
+            if let Some(place) = moving.get_mut(count) {
+                *place = moves;
             }
-            moving
-        })
+        }
+        moving
     }
 }
 
 impl Closure {
-    /// Which joints move along a self-motion.
+    /// Which joints move along a self-motion: the curve is analytic, so that what moves does so in
+    /// any part of it.
     fn moving(&self, target: &Target, start: &[f64; 6], direction: &[f64; 6]) -> [bool; 6] {
-        let mut moving = [false; 6];
+        let next = self.advanced(target, start, direction);
+        core::array::from_fn(|joint| {
+            let step = next.map_or(0.0, |(next, _)| next[joint] - start[joint]);
+            step.abs().max(STEP * direction[joint].abs()) > MOVES * STEP
+        })
+    }
+
+    /// The first member on the way, in either direction, with a joint at its angle of `near`.
+    fn first_member(
+        &self,
+        target: &Target,
+        start: &[f64; 6],
+        direction: &[f64; 6],
+        joint: usize,
+        near: &[f64; 6],
+    ) -> Option<Configuration> {
+        let mut first = None;
         self.around(target, start, direction, |theta, next| {
-            for joint in 0..6 {
-                moving[joint] |= (next[joint] - theta[joint]).abs() > MOVES * STEP;
-            }
+            first = self.member_between(target, [theta, next], joint, near);
+            if first.is_none() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         });
-        moving
+        first
     }
 
     /// The member of a self-motion with a joint at its angle of `near`; of several the nearest.
@@ -61,24 +88,33 @@ impl Closure {
         joint: usize,
         near: &[f64; 6],
     ) -> Option<Configuration> {
-        let away = |theta: &[f64; 6]| wrap(theta[joint] - near[joint]);
         let mut nearest = None::<Configuration>;
-        let mut take = |one: Option<Configuration>| {
+        self.around(target, start, direction, |theta, next| {
             let is_nearer = |one: &Configuration| {
                 nearest.is_none_or(|other| one.distance(near) < other.distance(near))
             };
+            let one = self.member_between(target, [theta, next], joint, near);
             nearest = one.filter(is_nearer).or(nearest);
-        };
-        if away(start).abs() <= AT_PLACE {
-            take(self.with_kind(target, start));
-        }
-        self.around(target, start, direction, |theta, next| {
-            let (here, there) = (away(theta), away(next));
-            if (here < 0.0) != (there < 0.0) && here.abs() + there.abs() < FAR {
-                take(self.where_zero(target, theta, next, away));
-            }
+            ControlFlow::Continue(())
         });
         nearest
+    }
+
+    /// The member between two of them, ends included, with a joint at its angle of `near`.
+    fn member_between(
+        &self,
+        target: &Target,
+        [start, end]: [&[f64; 6]; 2],
+        joint: usize,
+        near: &[f64; 6],
+    ) -> Option<Configuration> {
+        let away = |theta: &[f64; 6]| wrap(theta[joint] - near[joint]);
+        let (here, there) = (away(start), away(end));
+        if here.abs() <= AT_PLACE {
+            return self.with_kind(target, start);
+        }
+        let is_passed = (here < 0.0) != (there < 0.0) && here.abs() + there.abs() < FAR;
+        if is_passed { self.where_zero(target, start, end, away) } else { None }
     }
 
     /// The direction of a self-motion at a configuration of it.
@@ -86,14 +122,14 @@ impl Closure {
         self.curve(target, theta).map(|curve| curve.v.into())
     }
 
-    /// Walk along a self-motion in both directions, or once around; `pass` gets the ends of each
-    /// step.
+    /// Walk along a self-motion in both directions, or once around, until `pass` breaks off: it gets
+    /// the ends of each step.
     pub(crate) fn around(
         &self,
         target: &Target,
         start: &[f64; 6],
         direction: &[f64; 6],
-        mut pass: impl FnMut(&[f64; 6], &[f64; 6]),
+        mut pass: impl FnMut(&[f64; 6], &[f64; 6]) -> ControlFlow<()>,
     ) {
         let apart = |theta: &[f64; 6]| {
             theta.iter().zip(start).fold(0.0, |most: f64, (a, b)| most.max(wrap(a - b).abs()))
@@ -103,9 +139,8 @@ impl Closure {
             let mut is_back = false;
             for step in 0..MOST_STEPS {
                 let Some((next, ahead)) = self.advanced(target, &theta, &way) else { break };
-                pass(&theta, &next);
-                // One step more, which passes the start.
-                if is_back {
+                // One step more than around, which passes the start.
+                if pass(&theta, &next).is_break() || is_back {
                     return;
                 }
                 is_back = step > 2 && apart(&next) < 0.6 * STEP;

@@ -105,25 +105,44 @@ fn reflected(v: [f64; 6], normal: &[f64; 6]) -> [f64; 6] {
     core::array::from_fn(|k| v[k] - along * normal[k])
 }
 
-/// The unit vector n with `sum of n_k a_k = 0` for three complex vectors: their minors.
+/// A unit vector n with `sum of n_k a_k = 0` for three complex vectors, which may depend on one
+/// another: by three reflections that take their conjugates to the first three axes.
 #[inline(always)]
-fn orthogonal([a, b, c]: [[Complex; 4]; 3]) -> [Complex; 4] {
-    // The 2x2 minors of the last two.
-    let minor = |i: usize, j: usize| difference(product(b[i], c[j]), product(b[j], c[i]));
-    let mut n: [Complex; 4] = core::array::from_fn(|without| {
-        let mut left = [0, 1, 2].map(|k| if k < without { k } else { k + 1 });
-        if without % 2 == 1 {
-            left.swap(0, 1);
-        }
-        let [i, j, k] = left;
-        let (x, y, z) =
-            (product(a[i], minor(j, k)), product(a[j], minor(k, i)), product(a[k], minor(i, j)));
-        [x[0] + y[0] + z[0], x[1] + y[1] + z[1]]
-    });
-    let square: f64 = n.iter().map(|[re, im]| re * re + im * im).sum();
-    let scale = 1.0 / square.sqrt();
-    for part in n.iter_mut().flatten() {
-        *part *= scale;
+fn orthogonal(vectors: [[Complex; 4]; 3]) -> [Complex; 4] {
+    let mut normals = [[[0.0; 2]; 4]; 3];
+    for (from, vector) in vectors.iter().enumerate() {
+        let conjugate = vector.map(|[re, im]| [re, -im]);
+        let turned = normals[..from].iter().fold(conjugate, complex_reflected);
+        normals[from] = complex_mirror(turned, from);
     }
-    n
+    let last = [[0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [1.0, 0.0]];
+    // What is orthogonal to the conjugates is so without them.
+    normals.iter().rev().fold(last, complex_reflected)
+}
+
+/// [`mirror`] of a complex vector.
+#[inline(always)]
+fn complex_mirror(of: [Complex; 4], from: usize) -> [Complex; 4] {
+    let mut normal = of;
+    normal[..from].fill([0.0; 2]);
+    let square = |v: &[Complex; 4]| v.iter().map(|[re, im]| re * re + im * im).sum::<f64>();
+    let length = square(&normal).sqrt();
+    let [re, im] = normal[from];
+    let size = (re * re + im * im).sqrt();
+    let ahead = if size > 0.0 { [re / size, im / size] } else { [1.0, 0.0] };
+    normal[from] = [re + length * ahead[0], im + length * ahead[1]];
+    let left = square(&normal);
+    let scale = if left > 0.0 { (2.0 / left).sqrt() } else { 0.0 };
+    normal.map(|[re, im]| [re * scale, im * scale])
+}
+
+/// `v - n (n* v)`, which is unitary.
+#[inline(always)]
+fn complex_reflected(v: [Complex; 4], normal: &[Complex; 4]) -> [Complex; 4] {
+    let mut along = [0.0; 2];
+    for k in 0..4 {
+        let [re, im] = product([normal[k][0], -normal[k][1]], v[k]);
+        along = [along[0] + re, along[1] + im];
+    }
+    core::array::from_fn(|k| difference(v[k], product(normal[k], along)))
 }

@@ -20,9 +20,13 @@ use crate::kinematics::structure::trigonometric::{
 };
 use crate::lanes::{LANES, Number as _, Vector};
 
-/// Least factor of the determinant, in roundings of the closure, that is more than what rounding
+/// Least singular value of the matrix, in roundings of the closure, that is more than what rounding
 /// makes of zero [1]. Measured: up to 3 where it should be zero.
 const VANISHES: f64 = 16.0;
+
+/// Least factor of the determinant above which no singular value is that small, in the same unit.
+/// Measured: up to 1e4 where one should be zero, above 1e9 elsewhere.
+const REGULAR: f64 = 1e7;
 
 /// Change of the matrix by the rounding of a pose, in roundings of the closure [1]: its elements
 /// are of second degree in the pose, lengths in units of the arm. Measured next to folds: with 2,
@@ -35,8 +39,9 @@ pub(super) struct Rest<S: Simd> {
     diagonal: Six<S>,
     /// The determinant.
     pub(super) determinant: Vector<S>,
-    /// The least of its twelve factors, by size.
+    /// The least of its twelve factors, by size, and of the six before the rest.
     least: Vector<S>,
+    least_before: Vector<S>,
 }
 
 impl Posed {
@@ -51,16 +56,30 @@ impl Posed {
             let cos = Vector::load_array_ref(simd, &SAMPLE_COS[block]);
             let rest = Rest::at(&self.equations, &sin, &cos);
             samples[block] = rest.determinant;
-            regular = regular.max(rest.least);
+            regular = regular.max(rest.least * rest.least_before);
             others = others.max(rest.others());
         }
         let mut polynomial = TrigonometricPolynomial::of_samples(&samples).of_pose();
         let of_pose = others * (OF_THE_POSE * rounding);
         polynomial.noise = of_pose.to_array().into_iter().fold(polynomial.noise, f64::max);
-        if !regular.simd_gt(VANISHES * rounding).any_true() {
+        if !regular.simd_gt(REGULAR * rounding).any_true() && self.vanishes(simd, rounding) {
             polynomial.noise = f64::INFINITY;
         }
         polynomial
+    }
+
+    /// Whether the matrix is singular to rounding at every angle.
+    #[cold]
+    #[inline(never)]
+    fn vanishes<S: Simd>(&self, simd: S, rounding: f64) -> bool {
+        (0..SAMPLES / LANES).all(|block| {
+            let sin = Vector::load_array_ref(simd, &SAMPLE_SIN[block]);
+            let cos = Vector::load_array_ref(simd, &SAMPLE_COS[block]);
+            let rest = Rest::at(&self.equations, &sin, &cos);
+            // The reflections before the rest have enlarged rounding by their least factor.
+            let size = rest.least_singular_value() * rest.least_before;
+            !size.simd_gt(VANISHES * rounding).any_true()
+        })
     }
 }
 
@@ -127,11 +146,31 @@ impl<S: Simd> Rest<S> {
             columns[5][5],
         ];
         let (mut determinant, mut least) = (u[0], u[0].abs());
-        for factor in u[1..].iter().chain(&v).chain(&diagonal) {
+        for factor in u[1..].iter().chain(&v) {
             determinant *= *factor;
             least = least.min(factor.abs());
         }
-        Self { columns, diagonal, determinant, least }
+        let least_before = least;
+        for factor in &diagonal {
+            determinant *= *factor;
+            least = least.min(factor.abs());
+        }
+        Self { columns, diagonal, determinant, least, least_before }
+    }
+
+    /// The least singular value of the rest, by inverse iteration.
+    #[inline(always)]
+    fn least_singular_value(&self) -> Vector<S> {
+        let [null, _] = self.null_vectors(false);
+        let mut square = self.determinant.like(0.0);
+        for row in 0..6 {
+            let mut sum = self.diagonal[row] * null[row];
+            for column in row + 1..6 {
+                sum = self.columns[column][row].mul_add(null[column], sum);
+            }
+            square = sum.mul_add(sum, square);
+        }
+        square.sqrt()
     }
 
     /// The determinant but for its least factor: what a change of an element makes of it, at most.

@@ -1,5 +1,7 @@
 //! Every solution of a pose: by the best split, and by others where its count is not certain.
 
+use core::ops::ControlFlow;
+
 use super::attempt::Attempt;
 use super::geometry::General;
 use crate::kinematics::answer::slot::MOST_SLOTS;
@@ -70,8 +72,7 @@ impl General {
         if accepted.has_self_motion() {
             let (target, near) =
                 (self.closure.target_of(t_first_last), self.joint_map.theta(&free.q));
-            let all = accepted.bring_to(&self.closure, &target, &near);
-            moving.iter_mut().zip(all).for_each(|(place, moving)| *place = moving);
+            moving = accepted.bring_to(&self.closure, &target, &near);
         }
         let all = accepted.as_slice();
         let reach = if all.is_empty() { Reach::NoRoots } else { Reach::Reached };
@@ -113,6 +114,7 @@ impl General {
         if let Some(direction) = self.closure.direction(&target, &start) {
             self.closure.around(&target, &start, &direction, |theta, next| {
                 pass(&joints(theta), &joints(next));
+                ControlFlow::Continue(())
             });
         }
     }
