@@ -109,6 +109,21 @@ impl Configuration {
         self.theta.iter().zip(other).all(|(a, b)| wrap(a - b).abs() <= radius)
     }
 
+    /// Whether it is next to a singularity.
+    pub(super) fn is_singular(&self) -> bool {
+        self.kind != Kind::Regular || self.least <= SINGULAR
+    }
+
+    /// Whether the chain can move there.
+    pub(super) fn is_free(&self) -> bool {
+        matches!(self.kind, Kind::Free { .. })
+    }
+
+    /// Angles at a part of the way to another one.
+    pub(super) fn between(&self, other: &Self, part: f64) -> [f64; 6] {
+        core::array::from_fn(|i| self.theta[i] + part * wrap(other.theta[i] - self.theta[i]))
+    }
+
     /// The largest difference of a joint [rad].
     pub(crate) fn distance(&self, other: &[f64; 6]) -> f64 {
         (0..6).fold(0.0, |most, i| wrap(self.theta[i] - other[i]).abs().max(most))
@@ -164,7 +179,12 @@ impl Accepted {
 
     /// Whether the chain can move with its ends standing still.
     pub(crate) fn has_self_motion(&self) -> bool {
-        self.as_slice().iter().any(|one| matches!(one.kind, Kind::Free { .. }))
+        self.as_slice().iter().any(Configuration::is_free)
+    }
+
+    /// Whether a configuration is next to a singularity.
+    pub(crate) fn has_singular(&self) -> bool {
+        self.as_slice().iter().any(Configuration::is_singular)
     }
 
     /// Take what the candidates in these lanes, which have converged, lead to.
@@ -201,9 +221,7 @@ impl Accepted {
         let closes = residual <= closure.accepts();
         let is_isolated = closes && least > ISOLATED;
         // What was examined next to here has told everything about it.
-        let is_known = |one: &Configuration| {
-            (one.kind != Kind::Regular || one.least <= SINGULAR) && one.distance(&theta) < EXTENT
-        };
+        let is_known = |one: &Configuration| one.is_singular() && one.distance(&theta) < EXTENT;
         let mut is_told = true;
         if !self.as_slice().iter().any(is_known) {
             is_told = self.left > 0 && self.settle(closure, target, &theta);
@@ -257,6 +275,11 @@ impl Accepted {
             }
             None => self.is_certain = false,
         }
+    }
+
+    /// Put another configuration in the place of one.
+    pub(super) fn replace(&mut self, index: usize, with: Configuration) {
+        self.all[index] = with;
     }
 
     /// Remove a configuration.

@@ -6,6 +6,7 @@
 
 mod accepted;
 mod chain;
+mod flat;
 mod fold;
 mod freedom;
 mod members;
