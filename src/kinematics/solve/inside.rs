@@ -6,6 +6,7 @@ use crate::kinematics::answer::solutions::{Place, Solution, Solutions};
 use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::nearest::{NearestSearch, Wanted};
 use crate::kinematics::solve::self_motion::meets;
+use crate::kinematics::structure::any::AnyStructure as _;
 use crate::kinematics::structure::arity::{Arity, Joints};
 use crate::kinematics::structure::redundancy::Redundancy;
 
@@ -43,11 +44,13 @@ where
                 accepts: &accepts,
             };
             let mut search = NearestSearch::new(self, solutions, &wanted, allowed);
-            // A twin meets the pose to rounding; between the twins the residual may be larger.
-            search.look_at_twins(&outside)?;
-            if search.best.is_none() {
-                search.look_along(&outside)?;
-                search.look_along_chain(&outside)?;
+            search.look_along_chain(&outside)?;
+            if self.solver().is_closed_form() {
+                // A twin meets the pose to rounding; between the twins the residual may be larger.
+                search.look_at_twins(&outside)?;
+                if search.best.is_none() {
+                    search.look_along(&outside)?;
+                }
             }
             if let Some(inside) = search.best.map(|best| best.solution) {
                 solutions.replace(slot, inside);
