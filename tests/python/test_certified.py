@@ -1,0 +1,84 @@
+"""What is certified is complete, where arms and poses are all but degenerate."""
+
+import itertools
+
+import irbkin
+import numpy as np
+import pytest
+
+
+def apart(found: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """The largest difference of a joint [rad], of the nearest slot of each row."""
+    off = np.abs((found - wanted[:, None] + np.pi) % (2 * np.pi) - np.pi).max(-1)
+    return np.where(np.isnan(off), 9, off).min(-1)
+
+
+def certified(batch: irbkin.IkBatch) -> np.ndarray:
+    return ((batch.status & irbkin.Status.UNCERTIFIED) == 0).all(-1)
+
+
+@pytest.mark.parametrize("angle", [90, 89.99, 89, -89])
+def test_a_given_joint_that_makes_axes_parallel_or_nearly_so(angle):
+    yumi = irbkin.Robot("IRB 14050")
+    q = np.random.default_rng(4).uniform(-np.pi, np.pi, (1000, 7))
+    q[:, 3] = np.radians(angle)
+    found = yumi.given({4: q[0, 3]}).ik_batch(yumi.fk(q))
+    assert (apart(found.q, q) < 1e-6).all()
+    assert certified(found).all()
+
+
+@pytest.mark.parametrize("angle", [3e-7, 5e-7, 1e-6])
+def test_axes_that_are_nearly_one_line(angle):
+    rows = [
+        [0, 0, 0.1, 0],
+        [1.1, 0.2, -0.1, 0.3],
+        [-0.7, 0.3, 0.2, 0.1],
+        [angle, angle / 10, 0.1, 0],
+        [0.9, -0.2, 0.3, 0.4],
+        [-1.2, 0.1, 0.15, -0.2],
+    ]
+    arm = irbkin.Robot.from_mdh(rows)
+    q = np.random.default_rng(0).uniform(-2, 2, (500, 6))
+    found = arm.ik_batch(arm.fk(q))
+    # Where the least singular value is that of rounding, a joint vector is one of many.
+    assert not (certified(found) & (apart(found.q, q) > 1e-2)).any()
+
+
+@pytest.mark.parametrize("name", ["IRB 2600-12/1.65", "GoFa 5"])
+def test_calibrated_arms_at_a_fold(name):
+    rng = np.random.default_rng(1)
+    arm = irbkin.Robot(name).with_corrections(rng.normal(0, 5e-4, 42))
+
+    def determinant(q):
+        return np.linalg.det(arm.jacobian(q))
+
+    low = rng.uniform(-np.pi, np.pi, (1500, 6))
+    high = low.copy()
+    high[:, 2] += 1
+    between = determinant(low) * determinant(high) < 0
+    low, high = low[between], high[between]
+    sign = determinant(low)
+    for _ in range(60):
+        middle = (low + high) / 2
+        same = (determinant(middle) * sign > 0)[:, None]
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    found = arm.ik_batch(arm.fk(low))
+    assert len(low) > 400
+    assert certified(found).sum() > 50
+    assert not (certified(found) & (apart(found.q, low) > 1e-2)).any()
+
+
+@pytest.mark.parametrize("name", ["GoFa 5", "CRX-10iA/L", "xArm6"])
+def test_where_many_solutions_merge_there_is_one(name):
+    arm = irbkin.Robot(name)
+    heaps = poses = 0
+    for rest in itertools.product(range(-1, 3), repeat=4):
+        q = np.array([0, *rest, 0]) * np.pi / 2
+        found = arm.ik(arm.fk(q)).q
+        off = np.abs((found[:, None] - found + np.pi) % (2 * np.pi) - np.pi).max(-1)
+        near = (off + 9 * np.eye(len(found))) < 1e-2
+        poses += 1
+        # Of three, some are two that rounding parts.
+        heaps += (near.sum(-1) > 2).any()
+        assert not ((off + 9 * np.eye(len(found))) < 1e-6).any(), rest
+    assert heaps <= poses // 50, f"{heaps} of {poses}"
