@@ -125,7 +125,6 @@ __all__ = [
 __version__: str
 
 def catalog(
-    *,
     reach: float | tuple[float, float] | None = None,
     payload: float | tuple[float, float] | None = None,
 ) -> tuple[str, ...]:
