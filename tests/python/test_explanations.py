@@ -180,3 +180,27 @@ def test_a_given_angle_is_outside_by_what_it_is():
     words = robot.ik(T, q7=q[6] + 2 * np.pi).explain()
     excess = np.degrees(q[6] + 2 * np.pi - robot.limits[6, 1])
     assert words.endswith(f"outside limits; nearest: J7 by {excess:.1f} deg")
+
+
+def test_an_arm_angle_is_no_joint():
+    robot = irbkin.Robot("IRB 14050")
+    T = robot.fk(np.full(7, 0.3))
+    for angle, figure in ((np.nan, "NaN"), (np.inf, "inf"), (1e9, "1000000000")):
+        words = f"arm_angle is {figure} rad, it must be finite and at most 1e5 rad in size"
+        for call in (
+            lambda angle=angle: robot.ik_arm_angle(T, angle),
+            lambda angle=angle: robot.ik_configured(T, (0, 0, 0, 0), arm_angle=angle),
+        ):
+            with pytest.raises(irbkin.InvalidJointsError) as refused:
+                call()
+            assert str(refused.value) == words
+
+
+def test_a_seven_axis_arm_is_told_that_any_joint_may_be_given():
+    robot = irbkin.Robot("IRB 14050")
+    T = robot.fk(np.full(7, 0.3))
+    for call in (robot.ik, robot.ik_batch):
+        with pytest.raises(TypeError, match=r"needs q7, .*given=\{3: 0\.2\}"):
+            call(T)
+    with pytest.raises(irbkin.InvalidModelError, match=r"given\(\{3: 0\.2\}\)\.follow"):
+        robot.follow(T[None], np.zeros(7))

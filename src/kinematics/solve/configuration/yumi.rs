@@ -9,7 +9,7 @@ use super::arm_angle_search::{Found, MOST, Search};
 use super::request::ConfigurationRequest;
 use super::rule::Quarters;
 use crate::error::{Error, JointFault, ModelFault, NoConfiguration};
-use crate::kinematics::answer::check::{check_angle, check_seed};
+use crate::kinematics::answer::check::{check_arm_angle, check_seed};
 use crate::kinematics::answer::solutions::Solution;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
@@ -43,7 +43,7 @@ impl Robot<7> {
     ///
     /// As [`Robot::arm_angle`] and [`Robot::ik_with`].
     pub fn ik_arm_angle(&self, pose: &Pose, arm_angle: f64) -> Result<Vec<Solution<7>>, Error> {
-        check_angle("arm_angle", 7, arm_angle)?;
+        check_arm_angle(arm_angle)?;
         let found = self.at_arm_angle_anywhere(&checked_pose(pose)?, arm_angle)?;
         Ok(found.into_iter().flatten().collect())
     }
