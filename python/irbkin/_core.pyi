@@ -65,7 +65,12 @@ _State = tuple[
 _SolutionState = tuple[int, int, list[float], tuple[int, str] | None]
 _OutcomeState = tuple[str, int, int, float]
 _FoundState = tuple[
-    list[_SolutionState], _OutcomeState, _OutcomeState | None, list[_SolutionState] | None
+    list[_SolutionState],
+    _OutcomeState,
+    _OutcomeState | None,
+    list[_SolutionState] | None,
+    bool,
+    tuple[int, float] | None,
 ]
 _MotionOptions = tuple[list[float] | None, list[float] | None, list[float] | None, float, float]
 _TrajectoryState = tuple[int, list[float], list[list[float]], list[float]]

@@ -74,7 +74,7 @@ impl PyRobot {
                 q7.check()
                     .and_then(|()| robot.ik_into(&mut found.solutions, q7))
                     .map_err(|error| to_py(py, &error))?;
-                Bound::new(py, PySolutions::from(found))
+                Bound::new(py, PySolutions::from(found.with_given(7, q7)))
             }
         }
     }

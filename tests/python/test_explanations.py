@@ -1,5 +1,7 @@
 """Why there is no solution: reach, shortfall, limits, and the sentences that say so."""
 
+import pickle
+
 import irbkin
 import numpy as np
 import pytest
@@ -180,6 +182,66 @@ def test_a_given_angle_is_outside_by_what_it_is():
     words = robot.ik(T, q7=q[6] + 2 * np.pi).explain()
     excess = np.degrees(q[6] + 2 * np.pi - robot.limits[6, 1])
     assert words.endswith(f"outside limits; nearest: J7 by {excess:.1f} deg")
+
+
+def out_of_reach_of_a_yumi():
+    """A YuMi and a pose 5 m away, whose nearest approach is that far at least less two arms."""
+    robot = irbkin.Robot("IRB 14050")
+    T = robot.fk(np.zeros(7))
+    T[0, 3] += 5.0
+    return robot, T
+
+
+def approach_of(words):
+    """The distance [mm] of the nearest approach that a sentence has."""
+    return float(words.split("nearest approach ")[1].split(" mm")[0])
+
+
+def test_a_seven_axis_arm_without_a_closed_form_says_how_near_it_gets():
+    robot, T = out_of_reach_of_a_yumi()
+    check = robot.check_pose(T)
+    assert (check.reachable, check.within_limits) == (False, False)
+    assert check.reason.startswith("no solution found, which is not certain: no closed form")
+    rng = np.random.default_rng(3)
+    q = rng.uniform(*robot.limits.T, (20000, 7))
+    away = np.linalg.norm(robot.fk(q)[:, :3, 3] - T[:3, 3], axis=-1).min() * 1e3
+    assert away - 300 < approach_of(check.reason) < away + 100
+    for call in (
+        lambda: robot.ik_nearest(T, np.zeros(7)),
+        lambda: robot.ik_configured(T, (0, 0, 0, 0), arm_angle=0.1),
+    ):
+        with pytest.raises(UnreachableError, match="no solution found, which is not certain"):
+            call()
+
+
+def test_joint_7_inside_its_limits_that_reaches_nothing_is_no_filter():
+    robot = irbkin.Robot("IRB 14050")
+    limits = robot.limits.copy()
+    limits[6] = [-0.1, 0.1]
+    narrow = robot.with_limits(limits)
+    # The arm all but stretched, joint 7 far from there.
+    T = narrow.fk([-1.809, -1.733, -0.464, -1.122, 3.355, 0.647, -2.258])
+    assert len(narrow.ik(T, q7=-2.258)) == 2
+    reason = narrow.check_pose(T).reason
+    assert reason.startswith("no solution found, which is not certain: no closed form; nearest")
+    # With any joint 7 it would be 0 mm.
+    assert 10.0 < approach_of(reason) < 100.0
+    with pytest.raises(UnreachableError, match="no solution found, which is not certain"):
+        narrow.ik_nearest(T, np.zeros(7))
+
+
+@pytest.mark.parametrize("joint", range(1, 8))
+def test_with_a_joint_given_the_nearest_approach_is_that_of_the_other_six(joint):
+    robot, T = out_of_reach_of_a_yumi()
+    given = robot.given({joint: 0.1})
+    words = given.six_joints.check_pose(T).reason
+    assert "nearest approach" in words
+    solutions = robot.ik(T, given={joint: 0.1})
+    assert solutions.explain() == words
+    assert given.check_pose(T).reason == words
+    assert given.ik(T).explain() == words
+    assert pickle.loads(pickle.dumps(solutions)) == solutions
+    assert pickle.loads(pickle.dumps(solutions)).explain() == words
 
 
 def test_an_arm_angle_is_no_joint():

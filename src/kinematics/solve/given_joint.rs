@@ -253,20 +253,25 @@ impl GivenJoint {
         weights: &[f64; 7],
     ) -> Result<Solution<7>, Error> {
         if self.robot.limits().excess(self.joint, self.angle) > 0.0 {
-            return Err(Error::Unreachable(self.explain(pose)?));
+            return Err(self.unreachable(pose)?);
         }
         let [seed, weights] = [seed, weights].map(|all| self.others(all));
         let found = self.six.nearest_checked(*pose, &seed, &weights);
         match found {
             Ok(solution) => Ok(self.extended(&solution, self.angle)),
             // With the arm's numbers of joints.
-            Err(Error::Unreachable(_)) => Err(Error::Unreachable(self.explain(pose)?)),
+            Err(Error::Unreachable(_)) => Err(self.unreachable(pose)?),
             Err(error) => Err(error),
         }
     }
 
+    fn unreachable(&self, pose: &Pose) -> Result<Error, Error> {
+        Ok(Error::Unreachable(self.ik_checked(pose, self.angle)?.explain()))
+    }
+
     /// The outcome of a solve in a sentence, for a pose that is checked.
     pub(crate) fn explain(&self, pose: &Pose) -> Result<Explanation, Error> {
-        Ok(self.ik_checked(pose, self.angle)?.explain())
+        let explanation = self.ik_checked(pose, self.angle)?.explain();
+        Ok(self.six.with_approach(explanation, pose))
     }
 }
