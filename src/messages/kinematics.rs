@@ -284,7 +284,8 @@ fn answers() -> Vec<Row> {
             "a pose out of reach of an arm without a closed form", "move the pose";
         Explanation::NoRoots { .. } =>
             Explanation::NoRoots { certified: false, approach: None },
-            "the same next to a singularity", "move the pose, even by 1e-6 m";
+            "the same next to a singularity, or over all angles of joint 7",
+            "move the pose, next to a singularity by 1e-6 m";
         Explanation::FreeOutOfReach { .. } =>
             Explanation::FreeOutOfReach { joint: 6, value: 1.0 },
             "`with_free_joint`", "choose another angle";

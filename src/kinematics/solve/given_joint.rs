@@ -270,6 +270,7 @@ impl GivenJoint {
     }
 
     /// The outcome of a solve in a sentence, for a pose that is checked.
+    #[cfg(feature = "python")]
     pub(crate) fn explain(&self, pose: &Pose) -> Result<Explanation, Error> {
         let explanation = self.ik_checked(pose, self.angle)?.explain();
         Ok(self.six.with_approach(explanation, pose))
