@@ -65,7 +65,12 @@ _State = tuple[
 _SolutionState = tuple[int, int, list[float], tuple[int, str] | None]
 _OutcomeState = tuple[str, int, int, float]
 _FoundState = tuple[
-    list[_SolutionState], _OutcomeState, _OutcomeState | None, list[_SolutionState] | None
+    list[_SolutionState],
+    _OutcomeState,
+    _OutcomeState | None,
+    list[_SolutionState] | None,
+    bool,
+    tuple[int, float] | None,
 ]
 _MotionOptions = tuple[list[float] | None, list[float] | None, list[float] | None, float, float]
 _TrajectoryState = tuple[int, list[float], list[list[float]], list[float]]
@@ -125,7 +130,6 @@ __all__ = [
 __version__: str
 
 def catalog(
-    *,
     reach: float | tuple[float, float] | None = None,
     payload: float | tuple[float, float] | None = None,
 ) -> tuple[str, ...]:
@@ -1145,8 +1149,8 @@ class Robot:
     def ik_arm_angle(self, T: npt.ArrayLike, arm_angle: float) -> _Floats:
         """Every solution of a pose that has an arm angle, of a YuMi.
 
-        All solutions are calculated for angles of the last joint half a degree apart: two that are
-        closer to each other may be missed.
+        The search follows the arm's self-motion from all solutions at angles of the last joint,
+        then of the first, one degree apart. It may miss a self-motion that turns both by less.
 
         Args:
             T: Pose of the tool, shape (4, 4), translation [m].

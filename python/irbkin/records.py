@@ -369,6 +369,15 @@ class Plan(NamedTuple):
     certified: bool
     """Whether every step, apart from breaks, was shown to be continuous between its two poses."""
 
+    def __repr__(self) -> str:
+        count = len(self.breaks)
+        breaks = "no breaks" if count == 0 else "1 break" if count == 1 else f"{count} breaks"
+        proof = "certified" if self.certified else "not certified"
+        return (
+            f"Plan({len(self.q)} poses, cost {self.cost:.6g}, bottleneck {self.bottleneck:.6g}, "
+            f"{breaks}, {proof})"
+        )
+
 
 class TrajectorySample(NamedTuple):
     """The state of the joints at times."""

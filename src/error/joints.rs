@@ -56,6 +56,13 @@ pub enum JointFault {
     },
     /// A configuration of an arm that needs the arm angle with it comes without one.
     MissingArmAngle,
+    /// An arm angle is NaN, infinite, or too large to be given.
+    ArmAngle {
+        /// The arm angle [rad].
+        value: f64,
+        /// Its largest size [rad].
+        bound: f64,
+    },
     /// A weight is negative, NaN or infinite.
     Weight {
         /// The joint, from 1.
@@ -105,6 +112,10 @@ impl fmt::Display for JointFault {
                 f,
                 "arm_angle is missing: the pose and the configuration of a YuMi leave its elbow \
                  undetermined (in a robtarget it is eax_a)"
+            ),
+            Self::ArmAngle { value, bound } => write!(
+                f,
+                "arm_angle is {value} rad, it must be finite and at most {bound:e} rad in size"
             ),
             Self::Weight { joint, value } => write!(
                 f,

@@ -88,6 +88,8 @@ fn joints() -> Vec<Row> {
             "`given={8: 0.2}`", "count joints from 1";
         JointFault::MissingArmAngle => JointFault::MissingArmAngle,
             "`ik_configured` of a YuMi, a robtarget whose eax_a is 9E9", "give `arm_angle`";
+        JointFault::ArmAngle { .. } => JointFault::ArmAngle { value: f64::NAN, bound: MOST_ANGLE },
+            "NaN or inf in `arm_angle`, or many turns", "leave the row out, or remove whole turns";
         JointFault::Weight { .. } => JointFault::Weight { joint: 6, value: -2.0 },
             "`weights`", "give costs of moving each joint, 0 or more";
     }
@@ -282,7 +284,8 @@ fn answers() -> Vec<Row> {
             "a pose out of reach of an arm without a closed form", "move the pose";
         Explanation::NoRoots { .. } =>
             Explanation::NoRoots { certified: false, approach: None },
-            "the same next to a singularity", "move the pose, even by 1e-6 m";
+            "the same next to a singularity, or over all angles of joint 7",
+            "move the pose, next to a singularity by 1e-6 m";
         Explanation::FreeOutOfReach { .. } =>
             Explanation::FreeOutOfReach { joint: 6, value: 1.0 },
             "`with_free_joint`", "choose another angle";

@@ -79,11 +79,16 @@ impl Arm {
 
     /// The robot that follows paths.
     pub(super) fn follower(&self, py: Python<'_>) -> PyResult<&Arc<Robot<6>>> {
-        self.six_joints(py, "follow")
+        self.six_joints_or(py, "follow", ", or take given({3: 0.2}).follow")
     }
 
     /// The robot of a call along a path, which is for six joints.
     pub(super) fn six_joints(&self, py: Python<'_>, call: &str) -> PyResult<&Arc<Robot<6>>> {
+        self.six_joints_or(py, call, "")
+    }
+
+    /// The same with another remedy for seven.
+    fn six_joints_or(&self, py: Python<'_>, call: &str, or: &str) -> PyResult<&Arc<Robot<6>>> {
         match self {
             Self::Six(robot) => Ok(robot),
             Self::Seven(robot) => Err(match robot.unknown_structure() {
@@ -92,7 +97,7 @@ impl Arm {
                     py,
                     format!(
                         "{call} is for arms of six joints: along a path of a seven-axis arm, pass \
-                         the joints of the pose before to ik_nearest as the seed"
+                         the joints of the pose before to ik_nearest as the seed{or}"
                     ),
                 ),
             }),

@@ -141,7 +141,8 @@ pub(super) fn needed_q7<T>(py: Python<'_>, robot: &Robot<7>, q7: Option<T>) -> P
     known_structure(py, robot)?;
     q7.ok_or_else(|| {
         PyTypeError::new_err(
-            "an arm of seven joints needs q7, the angle of joint 7 [rad]; or take ik_nearest",
+            "an arm of seven joints needs q7, the angle of joint 7 [rad], or another joint as \
+             given={3: 0.2}; or take ik_nearest",
         )
     })
 }

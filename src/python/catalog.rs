@@ -61,7 +61,7 @@ pub(super) fn catalog_entry<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<
 ///     ValueError: A filter is neither a number nor a pair, is NaN or negative, or its least is
 ///         more than its most.
 #[pyfunction]
-#[pyo3(signature = (*, reach=None, payload=None))]
+#[pyo3(signature = (reach=None, payload=None))]
 pub(super) fn catalog<'py>(
     py: Python<'py>,
     reach: Option<&Bound<'py, PyAny>>,

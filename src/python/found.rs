@@ -27,6 +27,8 @@ where
     pub(super) solutions: Solutions<N>,
     /// The list of turns, where the solutions were turned.
     pub(super) turned: Option<Vec<Solution<N>>>,
+    /// Of seven joints the one, from 1, whose angle [rad] was given.
+    pub(super) given: Option<(usize, f64)>,
 }
 
 impl<const N: usize> PartialEq for Found<N>
@@ -35,6 +37,7 @@ where
 {
     fn eq(&self, other: &Self) -> bool {
         self.solutions == other.solutions
+            && self.given == other.given
             && self.turned == other.turned
             && is_same(&self.robot, &other.robot)
     }
@@ -54,7 +57,12 @@ where
     Robot<N>: Inverse<N>,
 {
     pub(super) fn new(robot: Arc<Robot<N>>, solutions: Solutions<N>) -> Self {
-        Self { robot, solutions, turned: None }
+        Self { robot, solutions, turned: None, given: None }
+    }
+
+    /// The solutions with the angle of one joint given.
+    pub(super) fn with_given(self, joint: usize, angle: f64) -> Self {
+        Self { given: Some((joint, angle)), ..self }
     }
 
     /// An answer of a pose without solutions.
@@ -64,7 +72,7 @@ where
     }
 
     fn with(&self, solutions: Solutions<N>, turned: Option<Vec<Solution<N>>>) -> Self {
-        Self { robot: Arc::clone(&self.robot), solutions, turned }
+        Self { robot: Arc::clone(&self.robot), solutions, turned, given: self.given }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -128,7 +136,7 @@ where
 
     /// The outcome in a sentence.
     pub(super) fn explain(&self) -> Explanation {
-        self.robot.explained_answer(&self.solutions)
+        self.robot.explained_answer(&self.solutions, self.given)
     }
 
     /// The cheapest solution inside the limits from `seed`, or why there is none. Solutions that

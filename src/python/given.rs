@@ -120,7 +120,8 @@ impl PyGiven {
         let pose = read_ik_pose(pose)?;
         let found = self.given.ik_checked(&pose, self.given.angle());
         let found = found.map_err(|error| to_py(py, &error))?;
-        Bound::new(py, PySolutions::from(Found::new(Arc::clone(&self.robot), found)))
+        let found = Found::new(Arc::clone(&self.robot), found);
+        Bound::new(py, PySolutions::from(found.with_given(self.joint(), self.angle())))
     }
 
     /// `irbkin.IkBatch` of poses and, for the first and the last joint, an angle for each.

@@ -74,7 +74,7 @@ impl PyRobot {
                 q7.check()
                     .and_then(|()| robot.ik_into(&mut found.solutions, q7))
                     .map_err(|error| to_py(py, &error))?;
-                Bound::new(py, PySolutions::from(found))
+                Bound::new(py, PySolutions::from(found.with_given(7, q7)))
             }
         }
     }
@@ -317,8 +317,8 @@ impl PyRobot {
 
     /// Every solution of a pose that has an arm angle, of a YuMi.
     ///
-    /// All solutions are calculated for angles of the last joint half a degree apart: two that are
-    /// closer to each other may be missed.
+    /// The search follows the arm's self-motion from all solutions at angles of the last joint,
+    /// then of the first, one degree apart. It may miss a self-motion that turns both by less.
     ///
     /// Args:
     ///     T: Pose of the tool, shape (4, 4), translation [m].

@@ -20,9 +20,15 @@ pub(super) type SolutionState = (usize, u8, Vec<f64>, Option<String>);
 type OutcomeState = (String, usize, usize, f64);
 
 /// (what the slots hold, reach, why the last selection left nothing, the list of turns, whether the
-/// solutions are certain to be all).
-pub(super) type FoundState =
-    (Vec<SolutionState>, OutcomeState, Option<OutcomeState>, Option<Vec<SolutionState>>, bool);
+/// solutions are certain to be all, the joint that was given and its angle).
+pub(super) type FoundState = (
+    Vec<SolutionState>,
+    OutcomeState,
+    Option<OutcomeState>,
+    Option<Vec<SolutionState>>,
+    bool,
+    Option<(usize, f64)>,
+);
 
 fn damaged(py: Python<'_>) -> PyErr {
     Fault::Model.error(py, "the pickled solution is damaged".to_owned())
@@ -98,6 +104,7 @@ where
         solutions.emptied.map(of_outcome),
         found.turned.as_ref().map(|turned| turned.iter().map(of_solution).collect()),
         solutions.is_certified(),
+        found.given,
     )
 }
 
@@ -105,7 +112,7 @@ where
 pub(super) fn restored<const N: usize>(
     py: Python<'_>,
     mut found: Found<N>,
-    (slots, reach, emptied, turned, certified): &FoundState,
+    (slots, reach, emptied, turned, certified, given): &FoundState,
 ) -> PyResult<Found<N>>
 where
     Joints<N>: Arity<N>,
@@ -126,6 +133,7 @@ where
     };
     found.solutions.is_certified = *certified;
     found.solutions.emptied = emptied.as_ref().map(|emptied| outcome(py, emptied)).transpose()?;
+    found.given = *given;
     found.turned = turned.as_ref().map(|turned| solutions(py, robot, turned)).transpose()?;
     Ok(found)
 }

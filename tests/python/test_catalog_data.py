@@ -85,6 +85,9 @@ def test_an_invalid_filter_is_refused(filters, message):
         irbkin.catalog(**filters)
 
 
-def test_filters_are_named():
+def test_filters_are_named_or_in_order():
+    assert irbkin.catalog(4, 500) == irbkin.catalog(reach=4, payload=500) != ()
+    assert irbkin.catalog((1.65, 1.65)) == irbkin.catalog(reach=(1.65, 1.65)) != ()
+    assert irbkin.catalog(None, 500) == irbkin.catalog(payload=500) != ()
     with pytest.raises(TypeError):
-        irbkin.catalog(1.5)
+        irbkin.catalog(1.5, 3, 5)

@@ -149,6 +149,55 @@ def test_seven_axes_take_q7():
     np.testing.assert_allclose(table["q7_deg"], 45.0)
     assert "give --q7" in refused("ik", "Panda", "--xyz", 400, 0, 500)
     assert "has 6" in refused("ik", NAME, "--xyz", 400, 0, 500, "--q7", 45)
+    assert "has 6" in refused("ik", NAME, "--xyz", 400, 0, 500, "--given", "3=1")
+    both = refused("ik", "Panda", "--xyz", 400, 0, 500, "--q7", 0, "--given", "3=1")
+    assert both == "irbkin: --given goes without --q7, --seed and --confdata\n"
+
+
+def test_a_confdata_has_an_arm_angle_for_a_yumi_and_for_no_other():
+    asked = ["--xyz", 300, 100, 300, "--confdata", 0, 0, 0, 0]
+    assert "give --arm-angle with --confdata" in refused("ik", "IRB 14050", *asked)
+    assert "has 6" in refused("ik", "GoFa 5", *asked, "--arm-angle", 5)
+    assert "no ABB configuration" in refused("ik", "Panda", *asked)
+
+
+@pytest.mark.parametrize(
+    ("name", "x", "choice", "call"),
+    [
+        ("Panda", 5000, ["--given", "3=11.5"], lambda robot, T: _given(robot, T, {3: 11.5})),
+        ("IRB 14050", 5000, ["--q7", 11.5], lambda robot, T: _given(robot, T, {7: 11.5})),
+        ("IRB 14050", 300, ["--q7", 11.5], lambda robot, T: _given(robot, T, {7: 11.5})),
+        ("Panda", 5000, ["--seed", *[0] * 7], lambda robot, T: robot.ik_nearest(T, np.zeros(7))),
+        (
+            "GoFa 5",
+            300,
+            ["--confdata", 3, 3, 3, 0],
+            lambda robot, T: robot.ik_configured(T, [3, 3, 3, 0]),
+        ),
+        (
+            "GoFa 5",
+            5000,
+            ["--confdata", 3, 3, 3, 0],
+            lambda robot, T: robot.ik_configured(T, [3, 3, 3, 0]),
+        ),
+    ],
+)
+def test_what_has_no_solution_has_the_reason_of_the_library(name, x, choice, call):
+    done = run("ik", name, "--xyz", x, 0, 900, *choice)
+    with pytest.raises(irbkin.UnreachableError) as unreachable:
+        call(irbkin.Robot(name), irbkin.pose([x / 1e3, 0, 0.9]))
+    nothing, words = "no solution inside the limits", str(unreachable.value)
+    assert done.returncode == 1
+    wanted = words if words.startswith(nothing) else f"{nothing}: {words}"
+    assert done.stderr.decode() == f"irbkin: {wanted}\n"
+
+
+def _given(robot, T, given):
+    """Why no solution with a joint [deg] given is inside the limits."""
+    ((joint, angle),) = given.items()
+    solutions = robot.ik(T, given={joint: np.radians(angle)})
+    assert not len(solutions.within_limits())
+    raise irbkin.UnreachableError(solutions.explain())
 
 
 def test_json_has_the_rows_and_nulls():

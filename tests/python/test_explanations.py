@@ -1,5 +1,7 @@
 """Why there is no solution: reach, shortfall, limits, and the sentences that say so."""
 
+import pickle
+
 import irbkin
 import numpy as np
 import pytest
@@ -153,3 +155,114 @@ def test_a_pose_at_a_limit_is_inside():
         q = np.array([0.3, robot.limits[1, 1] + off, 0.2, 0.4, 0.5, 0.6])
         found = min(robot.ik(robot.fk(q)), key=lambda solution: np.abs(solution.q - q).max())
         assert found.is_within_limits is inside
+
+
+@pytest.mark.parametrize("name", ["GoFa 5", "IRB 2600-12/1.65", "UR5e", "IRB 14050", "Panda"])
+def test_how_far_a_joint_is_outside_is_counted_at_its_best_turn(name):
+    robot = irbkin.Robot(name)
+    limits = np.full((robot.dof, 2), [-np.pi, np.pi])
+    limits[0] = np.radians([-150, -149.9])
+    arm = robot.with_limits(limits)
+    for q in np.random.default_rng(4).uniform(-1.2, 1.2, (12, robot.dof)):
+        q[0] = np.radians(175)
+        solutions = arm.ik(arm.fk(q), *q[6:])
+        # Every joint but the first has a full turn.
+        off = (solutions.q[:, 0] - limits[0].mean() + np.pi) % (2 * np.pi) - np.pi
+        least = np.degrees(np.abs(off).min()) - 0.05
+        words = f"all {len(solutions)} outside limits; nearest: J1 by {least:.1f} deg"
+        assert solutions.explain() == words
+        assert least <= 35.0 + 1e-9
+
+
+def test_a_given_angle_is_outside_by_what_it_is():
+    robot = irbkin.Robot("Panda")
+    q = np.array([0.1, -0.3, 0.2, -1.8, 0.3, 1.9, 0.4])
+    T = robot.fk(q)
+    # A turn more, which is not the angle that was asked for, is inside.
+    words = robot.ik(T, q7=q[6] + 2 * np.pi).explain()
+    excess = np.degrees(q[6] + 2 * np.pi - robot.limits[6, 1])
+    assert words.endswith(f"outside limits; nearest: J7 by {excess:.1f} deg")
+
+
+def out_of_reach_of_a_yumi():
+    """A YuMi and a pose 5 m away, whose nearest approach is that far at least less two arms."""
+    robot = irbkin.Robot("IRB 14050")
+    T = robot.fk(np.zeros(7))
+    T[0, 3] += 5.0
+    return robot, T
+
+
+def approach_of(words):
+    """The distance [mm] of the nearest approach that a sentence has."""
+    return float(words.split("nearest approach ")[1].split(" mm")[0])
+
+
+def test_a_seven_axis_arm_without_a_closed_form_says_how_near_it_gets():
+    robot, T = out_of_reach_of_a_yumi()
+    check = robot.check_pose(T)
+    assert (check.reachable, check.within_limits) == (False, False)
+    assert check.reason.startswith("no solution found, which is not certain: no closed form")
+    rng = np.random.default_rng(3)
+    q = rng.uniform(*robot.limits.T, (20000, 7))
+    away = np.linalg.norm(robot.fk(q)[:, :3, 3] - T[:3, 3], axis=-1).min() * 1e3
+    assert away - 300 < approach_of(check.reason) < away + 100
+    for call in (
+        lambda: robot.ik_nearest(T, np.zeros(7)),
+        lambda: robot.ik_configured(T, (0, 0, 0, 0), arm_angle=0.1),
+    ):
+        with pytest.raises(UnreachableError, match="no solution found, which is not certain"):
+            call()
+
+
+def test_joint_7_inside_its_limits_that_reaches_nothing_is_no_filter():
+    robot = irbkin.Robot("IRB 14050")
+    limits = robot.limits.copy()
+    limits[6] = [-0.1, 0.1]
+    narrow = robot.with_limits(limits)
+    # The arm all but stretched, joint 7 far from there.
+    T = narrow.fk([-1.809, -1.733, -0.464, -1.122, 3.355, 0.647, -2.258])
+    assert len(narrow.ik(T, q7=-2.258)) == 2
+    reason = narrow.check_pose(T).reason
+    assert reason.startswith("no solution found, which is not certain: no closed form; nearest")
+    # With any joint 7 it would be 0 mm.
+    assert 10.0 < approach_of(reason) < 100.0
+    with pytest.raises(UnreachableError, match="no solution found, which is not certain"):
+        narrow.ik_nearest(T, np.zeros(7))
+
+
+@pytest.mark.parametrize("joint", range(1, 8))
+def test_with_a_joint_given_the_nearest_approach_is_that_of_the_other_six(joint):
+    robot, T = out_of_reach_of_a_yumi()
+    given = robot.given({joint: 0.1})
+    words = given.six_joints.check_pose(T).reason
+    assert "nearest approach" in words
+    solutions = robot.ik(T, given={joint: 0.1})
+    assert solutions.explain() == words
+    assert given.check_pose(T).reason == words
+    assert given.ik(T).explain() == words
+    assert pickle.loads(pickle.dumps(solutions)) == solutions
+    assert pickle.loads(pickle.dumps(solutions)).explain() == words
+
+
+def test_an_arm_angle_is_no_joint():
+    robot = irbkin.Robot("IRB 14050")
+    T = robot.fk(np.full(7, 0.3))
+    for angle, figure in ((np.nan, "NaN"), (np.inf, "inf"), (1e9, "1000000000")):
+        words = f"arm_angle is {figure} rad, it must be finite and at most 1e5 rad in size"
+        for call in (
+            lambda angle=angle: robot.ik_arm_angle(T, angle),
+            lambda angle=angle: robot.ik_configured(T, (0, 0, 0, 0), arm_angle=angle),
+        ):
+            with pytest.raises(irbkin.InvalidJointsError) as refused:
+                call()
+            assert str(refused.value) == words
+
+
+def test_a_seven_axis_arm_is_told_that_any_joint_may_be_given():
+    robot = irbkin.Robot("IRB 14050")
+    T = robot.fk(np.full(7, 0.3))
+    for call in (robot.ik, robot.ik_batch):
+        with pytest.raises(TypeError, match=r"needs q7, .*given=\{3: 0\.2\}"):
+            call(T)
+    with pytest.raises(irbkin.InvalidModelError, match=r"given\(\{3: 0\.2\}\)\.follow"):
+        robot.follow(T[None], np.zeros(7))

@@ -191,3 +191,35 @@ def test_six_joints_take_nothing_and_another_robots_preparation_is_refused():
         irbkin.Robot("Panda").ik(np.eye(4), 0.3, given={3: 0.2})
     with pytest.raises(ValueError, match="prepared for another robot"):
         irbkin.Robot("Panda").ik(np.eye(4), given=irbkin.Robot("FR3").given({3: 0.2}))
+
+
+@pytest.mark.parametrize("joint", [1, 7])
+def test_a_joint_at_an_end_fills_the_same_slots_alone_in_rows_and_prepared(robot, joint):
+    for q in inside(robot, 20, seed=5):
+        T, given = robot.fk(q), {joint: q[joint - 1]}
+        alone = robot.ik(T, given=given).q_by_slot
+        for rows in (robot.ik_batch(T, given=given).q, robot.ik_batch([T], given=given).q[0]):
+            np.testing.assert_array_equal(rows, alone)
+        prepared = robot.given(given)
+        np.testing.assert_array_equal(prepared.ik_batch(T).q, prepared.ik(T).q_by_slot)
+        if joint == 1:
+            np.testing.assert_array_equal(prepared.ik(T).q_by_slot, alone)
+
+
+def test_slots_do_not_depend_on_how_the_first_joint_is_given():
+    robot = irbkin.Robot("IRB 14000-0.5/0.5 (left)")
+    q = np.array(
+        [
+            -1.796795876136143,
+            0.21686754447093204,
+            0.4966708583483306,
+            0.9978618712725247,
+            1.8298147142471244,
+            -0.5810295112785746,
+            -np.pi / 2,
+        ]
+    )
+    T, given = robot.fk(q), {1: q[0]}
+    alone = robot.ik(T, given=given)
+    assert len(alone) == 8
+    np.testing.assert_array_equal(robot.ik_batch(T, given=given).q, alone.q_by_slot)

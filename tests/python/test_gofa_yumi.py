@@ -199,3 +199,27 @@ def test_pose_and_arm_angle_of_a_yumi_are_those_of_robotstudio(q, xyz, rpy, psi)
     assert np.abs(T - wanted)[:3, 3].max() <= 0.005e-3 + 1e-12
     assert np.abs(T - wanted)[:3, :3].max() <= 2 * np.radians(0.005)
     assert abs(np.degrees(robot.arm_angle(np.radians(q))) - psi) <= 0.005 + 1e-9
+
+
+def test_a_configuration_that_exists_is_found_where_its_ranges_hold_little_of_the_self_motion():
+    robot = YUMI["14050"]
+    q = np.array(
+        [
+            2.7491147909635814,
+            -0.8310588642157108,
+            -1.6171478990323427,
+            -1.5618444414842263,
+            1.2193109719513,
+            2.037376409171085,
+            3.102833805887342,
+        ]
+    )
+    T, confdata, psi = robot.fk(q), robot.configuration(q), robot.arm_angle(q)
+    every = robot.ik_configured_all(T, confdata, arm_angle=psi)
+    assert np.abs(every - q).max(axis=1).min() <= 1e-9
+    for found in every:
+        assert robot.configuration(found) == confdata
+        assert abs(robot.arm_angle(found) - psi) <= 1e-9
+        assert np.abs(robot.fk(found) - T).max() <= 1e-9
+    assert np.array_equal(robot.ik_configured(T, confdata, arm_angle=psi), every[0])
+    assert np.abs(robot.ik_configured(T, confdata, arm_angle=psi, seed=q) - q).max() <= 1e-9

@@ -247,7 +247,7 @@ def test_html_has_a_row_for_each_solution():
 @pytest.mark.parametrize("change", ["slot", "flags", "angles", "free", "pose", "reach"])
 def test_a_damaged_answer_is_refused(change):
     restore, (robot, pose, state) = ANSWERS["wrist"].__reduce__()
-    slots, reach, emptied, turned, certified = state
+    slots, reach, emptied, turned, certified, given = state
     (slot, flags, angles, free), *others = slots
     if change == "slot":
         slots = [(8, flags, angles, free), *others]
@@ -262,7 +262,7 @@ def test_a_damaged_answer_is_refused(change):
     elif change == "reach":
         reach = ("elsewhere", *reach[1:])
     with pytest.raises(irbkin.InvalidModelError, match="the pickled solution is damaged"):
-        restore(robot, pose, (slots, reach, emptied, turned, certified))
+        restore(robot, pose, (slots, reach, emptied, turned, certified, given))
 
 
 def test_the_representation_of_a_robot_shows_what_is_not_the_catalogs():

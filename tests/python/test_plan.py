@@ -361,3 +361,17 @@ def test_a_gap_is_seen_from_both_ends():
 def test_carriers_and_tolerances_that_make_no_sense_are_refused(arguments, error, message):
     with pytest.raises(error, match=message):
         ROBOT.plan(weld(6), **arguments)
+
+
+def test_a_plan_is_shown_in_a_line():
+    T = weld(40)
+    plan = ROBOT.plan(T, rotation=8)
+    words = f"cost {plan.cost:.6g}, bottleneck {plan.bottleneck:.6g}"
+    assert repr(plan) == str(plan) == f"Plan(40 poses, {words}, no breaks, certified)"
+    T[7, 0, 3] += 9.0
+    with pytest.raises(irbkin.PathError) as broken:
+        ROBOT.plan(T)
+    shown = repr(broken.value.plan)
+    assert shown.startswith("Plan(40 poses, cost ")
+    assert "\n" not in shown
+    assert ", 1 break, " in shown

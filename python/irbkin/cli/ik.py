@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 from irbkin.cli.arguments import Parser, frame, joints, read_q7, read_robot, whole
@@ -56,17 +56,18 @@ def run(arguments: argparse.Namespace) -> int:
     robot = read_robot(arguments)
     if arguments.arm_angle is not None and arguments.confdata is None:
         raise CommandError("--arm-angle goes with --confdata")
-    if arguments.given is not None and (arguments.seed or arguments.confdata or arguments.q7):
-        raise CommandError("--given goes without --q7, --seed and --confdata")
+    if arguments.given is not None:
+        others = (arguments.q7, arguments.seed, arguments.confdata)
+        if any(other is not None for other in others):
+            raise CommandError("--given goes without --q7, --seed and --confdata")
+        if robot.dof != 7:
+            raise CommandError(f"--given is for arms of seven joints, {robot.name} has {robot.dof}")
     poses, heading = _poses(arguments, robot)
     if arguments.seed is not None and arguments.confdata is not None:
         raise CommandError("--seed and --confdata: give one of them")
-    missed = Missed(robot)
     if arguments.seed is not None or arguments.confdata is not None:
-        _write_one(arguments, robot, poses, heading, missed)
-    else:
-        _write_all(arguments, robot, poses, heading, missed)
-    return missed.code()
+        return _write_one(arguments, robot, poses, heading)
+    return _write_all(arguments, robot, poses, heading)
 
 
 def _poses(arguments: argparse.Namespace, robot: Robot) -> tuple[Iterator[Floats], str]:
@@ -88,10 +89,10 @@ def _poses(arguments: argparse.Namespace, robot: Robot) -> tuple[Iterator[Floats
 
 
 class Missed:
-    """Poses without a solution inside the limits."""
+    """Poses without a solution inside the limits; `reason` says why one has none."""
 
-    def __init__(self, robot: Robot) -> None:
-        self.robot = robot
+    def __init__(self, reason: Callable[[Floats], str]) -> None:
+        self.reason = reason
         self.rows = 0
         self.count = 0
         self.first: tuple[int, Floats] | None = None
@@ -111,11 +112,10 @@ class Missed:
         if self.first is None:
             return FINE
         row, pose = self.first
-        why = (
-            self.robot.check_pose(pose).reason if self.robot.dof == 6 else "out of reach or limits"
-        )
+        why = self.reason(pose)
         if self.rows == 1:
-            complain(f"no solution inside the limits: {why}")
+            nothing = "no solution inside the limits"
+            complain(why if why.startswith(nothing) else f"{nothing}: {why}")
         else:
             complain(
                 f"{self.count} of {self.rows} poses have no solution inside the limits; "
@@ -129,9 +129,8 @@ def _write_all(
     robot: Robot,
     parts: Iterator[Floats],
     heading: str,
-    missed: Missed,
-) -> None:
-    """All solutions, a row each."""
+) -> int:
+    """All solutions, a row each; the exit code."""
     import numpy as np
 
     from irbkin import Status
@@ -148,6 +147,13 @@ def _write_all(
     else:
         joint, angle = arguments.given
         q7, given = None, robot.given({joint: np.radians(angle)})
+
+    def reason(pose: Floats) -> str:
+        if robot.dof == 6:
+            return robot.check_pose(pose).reason
+        return robot.ik(pose, q7, given=given).explain()
+
+    missed = Missed(reason)
     wanted = int(Status.WITHIN_LIMITS if arguments.within else Status.FOUND)
     with table(arguments, columns, heading) as rows, Progress("poses") as progress:
         for poses in parts:
@@ -167,6 +173,7 @@ def _write_all(
                             f"slot {solution.slot}: J{free.joint} is free, {free.fixed} is fixed"
                         )
                         rows.note(f"free_joint_of_slot_{solution.slot}", free.joint, words)
+    return missed.code()
 
 
 def _write_one(
@@ -174,11 +181,11 @@ def _write_one(
     robot: Robot,
     parts: Iterator[Floats],
     heading: str,
-    missed: Missed,
-) -> None:
-    """One solution of each pose, a row each."""
+) -> int:
+    """One solution of each pose, a row each; the exit code."""
     import numpy as np
 
+    from irbkin import UnreachableError
     from irbkin.cli.output import Column, table
     from irbkin.cli.postures import Postures
     from irbkin.cli.progress import Progress
@@ -189,12 +196,37 @@ def _write_one(
     arm_angle = None if arguments.arm_angle is None else np.radians(arguments.arm_angle)
     if seed is None:
         heading = f"{heading}, confdata {arguments.confdata}"
+        _check_arm_angle(arguments, robot)
+
+    def solve(poses: Floats) -> Floats:
+        if seed is not None:
+            return robot.ik_nearest(poses, seed)
+        return robot.ik_configured(poses, arguments.confdata, arm_angle=arm_angle)
+
+    def reason(pose: Floats) -> str:
+        try:
+            solve(pose)
+        except UnreachableError as error:
+            return str(error)
+        return robot.check_pose(pose).reason
+
+    missed = Missed(reason)
     with table(arguments, columns, heading) as rows, Progress("poses") as progress:
         for poses in parts:
-            if seed is not None:
-                q = robot.ik_nearest(poses, seed)
-            else:
-                q = robot.ik_configured(poses, arguments.confdata, arm_angle=arm_angle)
+            q = solve(poses)
             rows.write([np.arange(len(q)) + missed.rows, *postures.values(q)], q)
             missed.add(poses, np.isfinite(q).all(axis=1))
             progress.add(len(poses))
+    return missed.code()
+
+
+def _check_arm_angle(arguments: argparse.Namespace, robot: Robot) -> None:
+    """A YuMi takes an arm angle with a confdata, other arms take none."""
+    import numpy as np
+
+    # Refused for an arm without confdata.
+    robot.configuration(np.zeros(robot.dof))
+    if robot.dof == 7 and arguments.arm_angle is None:
+        raise CommandError(f"{robot.name} has seven joints: give --arm-angle with --confdata")
+    if robot.dof != 7 and arguments.arm_angle is not None:
+        raise CommandError(f"--arm-angle is for arms of seven joints, {robot.name} has {robot.dof}")

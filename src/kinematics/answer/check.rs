@@ -29,6 +29,15 @@ pub(crate) fn check_angle(field: &'static str, joint: usize, value: f64) -> Resu
     Ok(())
 }
 
+/// Check an arm angle, as [`check_angle`] does that of a joint.
+pub(crate) fn check_arm_angle(value: f64) -> Result<(), Error> {
+    if value.abs() <= MOST_ANGLE {
+        Ok(())
+    } else {
+        Err(JointFault::ArmAngle { value, bound: MOST_ANGLE }.into())
+    }
+}
+
 /// Check that weights are finite and not negative.
 pub(crate) fn check_weights(weights: &[f64]) -> Result<(), Error> {
     match weights.iter().position(|weight| !(weight.is_finite() && *weight >= 0.0)) {

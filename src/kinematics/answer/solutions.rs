@@ -199,7 +199,7 @@ impl<const N: usize> Solutions<N> {
         // The solution whose worst joint, or linkage, exceeds its limits least.
         let worst = |solution: &Solution<N>| {
             (0..N)
-                .map(|joint| (Some(joint + 1), self.limits.excess(joint, solution.q[joint])))
+                .map(|joint| (Some(joint + 1), self.limits.least_excess(joint, solution.q[joint])))
                 .fold((None, self.limits.linkage_excess(&solution.q)), |worst, joint| {
                     if joint.1 > worst.1 { joint } else { worst }
                 })

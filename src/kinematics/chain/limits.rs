@@ -190,6 +190,13 @@ impl<const N: usize> JointLimits<N> {
         overrun(self.lower[joint], self.upper[joint], angle)
     }
 
+    /// How far the angle of a solution is outside its limits [rad], at its best 2 pi equivalent; zero
+    /// inside. One that has an equivalent inside was given as it is, and counts so.
+    pub(crate) fn least_excess(&self, joint: usize, angle: f64) -> f64 {
+        let overrun = self.overrun(joint, angle);
+        if overrun > 0.0 { overrun } else { self.excess(joint, angle) }
+    }
+
     /// [`Self::overrun`] of the joint that exceeds its limits most.
     pub(crate) fn worst_overrun(&self, q: &[f64; N]) -> f64 {
         let linkage = self.linkage_overrun(q);

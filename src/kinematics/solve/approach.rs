@@ -5,14 +5,14 @@ use core::f64::consts::PI;
 
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
-use nalgebra::{Matrix6, UnitQuaternion, Vector6};
+use nalgebra::{SMatrix, UnitQuaternion, Vector6};
 
 use crate::error::Error;
-use crate::kinematics::answer::solutions::Solutions;
 use crate::kinematics::chain::jacobian::JacobianFrame;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
+use crate::kinematics::structure::arity::{Arity, Joints};
 use crate::report::{Approach, Explanation};
 
 /// Joint vectors from which the way is minimized.
@@ -41,13 +41,18 @@ impl Robot<6> {
     pub fn nearest_approach(&self, pose: &Pose) -> Result<Approach, Error> {
         Ok(self.approach_of(&checked_pose(pose)?))
     }
+}
 
-    /// The outcome of a solve in a sentence, with the nearest approach where no solution is.
-    pub(crate) fn explained(&self, solutions: &Solutions<6>) -> Explanation {
-        match solutions.explain() {
+impl<const N: usize> Robot<N>
+where
+    Joints<N>: Arity<N>,
+{
+    /// An explanation, with the nearest approach to the pose where no solution is. Joint 7, which a
+    /// search keeps inside its limits, is inside them; those of other joints are not regarded.
+    pub(super) fn with_approach(&self, explanation: Explanation, pose: &Pose) -> Explanation {
+        match explanation {
             Explanation::NoRoots { certified, .. } => {
-                let approach = Some(self.approach_of(solutions.pose()));
-                Explanation::NoRoots { certified, approach }
+                Explanation::NoRoots { certified, approach: Some(self.approach_of(pose)) }
             }
             explanation => explanation,
         }
@@ -56,7 +61,7 @@ impl Robot<6> {
     fn approach_of(&self, pose: &Pose) -> Approach {
         let rows = &self.mdh().rows;
         let lengths: f64 = rows.iter().map(|row| row.a.abs() + row.d.abs()).sum();
-        let mut nearest = (f64::INFINITY, [0.0; 6]);
+        let mut nearest = (f64::INFINITY, [0.0; N]);
         for index in 0..STARTS {
             let found = self.minimized(pose, lengths, start(index));
             nearest = if found.0 < nearest.0 { found } else { nearest };
@@ -66,17 +71,20 @@ impl Robot<6> {
     }
 
     /// The square of the way that is left at a minimum, and its joints.
-    fn minimized(&self, pose: &Pose, lengths: f64, start: [f64; 6]) -> (f64, [f64; 6]) {
-        let (mut q, mut way) = (start, self.way(pose, lengths, &start));
+    fn minimized(&self, pose: &Pose, lengths: f64, start: [f64; N]) -> (f64, [f64; N]) {
+        let mut q = self.with_joint_7_inside(start);
+        let mut way = self.way(pose, lengths, &q);
         let mut damping = DAMPING;
         for _ in 0..STEPS {
             let mut jacobian = self.jacobian(&q, JacobianFrame::Base);
             jacobian.fixed_rows_mut::<3>(3).scale_mut(lengths);
+            self.lock_joint_7(&mut jacobian, &q, &way);
             let square = jacobian.transpose() * jacobian;
-            let damped = square + Matrix6::identity() * (damping * lengths * lengths);
+            let damped = square + SMatrix::<f64, N, N>::identity() * (damping * lengths * lengths);
             let Some(factors) = damped.cholesky() else { break };
             let step = factors.solve(&(jacobian.transpose() * way));
             let ahead = core::array::from_fn(|joint| q[joint] + step[joint]);
+            let ahead = self.with_joint_7_inside(ahead);
             let next = self.way(pose, lengths, &ahead);
             if next.norm_squared() < way.norm_squared() {
                 (q, way, damping) = (ahead, next, (damping / 4.0).max(LEAST_DAMPING));
@@ -90,8 +98,25 @@ impl Robot<6> {
         (way.norm_squared(), q)
     }
 
+    fn with_joint_7_inside(&self, mut q: [f64; N]) -> [f64; N] {
+        if let (Some(angle), Some([low, high])) = (q.get_mut(6), self.limits().to_array().get(6)) {
+            *angle = angle.clamp(*low, *high);
+        }
+        q
+    }
+
+    /// Leave joint 7 out of a step where it is at a limit and the way is beyond it.
+    fn lock_joint_7(&self, jacobian: &mut SMatrix<f64, 6, N>, q: &[f64; N], way: &Vector6<f64>) {
+        let limits = self.limits().to_array();
+        let (Some(angle), Some([low, high])) = (q.get(6), limits.get(6)) else { return };
+        let ahead = jacobian.column(6).dot(way);
+        if (ahead < 0.0 && angle <= low) || (ahead > 0.0 && angle >= high) {
+            jacobian.column_mut(6).fill(0.0);
+        }
+    }
+
     /// What is missing to a pose: along, then about, each axis of the base [m].
-    fn way(&self, pose: &Pose, lengths: f64, q: &[f64; 6]) -> Vector6<f64> {
+    fn way(&self, pose: &Pose, lengths: f64, q: &[f64; N]) -> Vector6<f64> {
         let tool = self.fk(q);
         let along = pose.translation.vector - tool.translation.vector;
         // By the arc tangent of a quaternion: the arc cosine of a matrix has half of the digits.
@@ -104,8 +129,9 @@ impl Robot<6> {
 
 /// Joint vectors all over the range of joints: multiples of the roots of primes, which have no
 /// common measure.
-fn start(index: usize) -> [f64; 6] {
-    const PRIMES: [f64; 6] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0];
+fn start<const N: usize>(index: usize) -> [f64; N] {
+    const PRIMES: [f64; 7] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0];
     #[expect(clippy::cast_precision_loss, reason = "a small number")]
-    PRIMES.map(|prime| wrap(index as f64 * prime.sqrt() * PI))
+    let angle = |prime: &f64| wrap(index as f64 * prime.sqrt() * PI);
+    core::array::from_fn(|joint| PRIMES.get(joint).map_or(0.0, angle))
 }

@@ -39,6 +39,10 @@ pub struct GivenJoint {
     joint: usize,
     angle: f64,
     six: Robot<6>,
+    /// The chain that is solved, the same for every angle of the first and of the last joint, so
+    /// that its slots are; and the angle that it was prepared with.
+    solved: Robot<6>,
+    solved_at: f64,
 }
 
 impl Robot<7> {
@@ -54,8 +58,12 @@ impl Robot<7> {
             return Err(JointFault::NoJoint { joint, dof: 7 }.into());
         }
         check_angle("given", joint, angle)?;
-        let six = self.without(joint - 1, angle)?;
-        Ok(GivenJoint { robot: self.clone(), joint: joint - 1, angle, six })
+        let joint = joint - 1;
+        let solved_at = if is_end(joint) { 0.0 } else { angle };
+        let solved = self.without(joint, solved_at)?;
+        let (robot, six) = (self.clone(), solved.clone());
+        let prepared = GivenJoint { robot, joint, angle: solved_at, six, solved, solved_at };
+        if is_end(joint) { prepared.at(angle) } else { Ok(prepared) }
     }
 
     /// The robot of the other six joints with joint `joint`, from 0, locked at an angle [rad].
@@ -79,6 +87,11 @@ impl Robot<7> {
 /// All elements but one.
 fn others<T: Copy>(all: &[T; 7], left_out: usize) -> [T; 6] {
     core::array::from_fn(|i| all[if i < left_out { i } else { i + 1 }])
+}
+
+/// Whether a joint, from 0, is the first or the last.
+fn is_end(joint: usize) -> bool {
+    matches!(joint, 0 | 6)
 }
 
 impl GivenJoint {
@@ -131,7 +144,7 @@ impl GivenJoint {
     /// Whether another angle of the joint needs no other chain: the first joint and the last.
     #[must_use]
     pub fn is_at_end(&self) -> bool {
-        matches!(self.joint, 0 | 6)
+        is_end(self.joint)
     }
 
     /// The same with another angle [rad]. This costs a solve nothing for the first and the last
@@ -145,31 +158,30 @@ impl GivenJoint {
         if !self.is_at_end() {
             return self.robot.given(self.joint(), angle);
         }
-        let by = self.turned_by(angle);
-        let six = self.six.clone();
+        let (by, six) = (self.turned_by(angle), self.solved.clone());
         let six = if self.joint == 0 {
-            six.with_base(&(by * self.six.base()))?
+            six.with_base(&(by * self.solved.base()))?
         } else {
-            six.with_tool(&(self.six.tool() * by))?
+            six.with_tool(&(self.solved.tool() * by))?
         };
         Ok(Self { angle, six, ..self.clone() })
     }
 
-    /// How far the joint turns what is behind it, from its angle here to another: about its axis in
-    /// the world for the first joint, in the frame of the tool for the last.
+    /// How far the joint turns what is behind it, from its angle in the solved chain to another:
+    /// about its axis in the world for the first joint, in the frame of the tool for the last.
     fn turned_by(&self, angle: f64) -> Pose {
         let (frames, tool) = self.robot.link_frames(&[0.0; 7]);
         let axis = if self.joint == 0 { frames[0] } else { tool.inverse() * frames[6] };
         let direction = Unit::new_normalize(axis.rotation * Vector3::z());
-        let rotation = Rotation3::from_axis_angle(&direction, angle - self.angle);
+        let rotation = Rotation3::from_axis_angle(&direction, angle - self.solved_at);
         let point = axis.translation.vector;
         IsometryMatrix3::from_parts(Translation3::from(point - rotation * point), rotation)
     }
 
-    /// The pose that the six joints must reach for the arm to reach `pose` with its joint at an
+    /// The pose that the solved chain must reach for the arm to reach `pose` with its joint at an
     /// angle.
     fn seen(&self, pose: &Pose, angle: f64) -> Pose {
-        if angle.to_bits() == self.angle.to_bits() {
+        if angle.to_bits() == self.solved_at.to_bits() {
             return *pose;
         }
         let back = self.turned_by(angle).inverse();
@@ -191,7 +203,7 @@ impl GivenJoint {
 
     /// [`Self::ik`] of a pose that is checked, with the first or the last joint at any angle.
     pub(crate) fn ik_checked(&self, pose: &Pose, angle: f64) -> Result<Solutions<7>, Error> {
-        let found = self.six.ik_checked(self.seen(pose, angle), ())?;
+        let found = self.solved.ik_checked(self.seen(pose, angle), ())?;
         let mut solutions = self.unsolved(pose);
         (solutions.reach, solutions.is_certified) = (found.reach(), found.is_certified());
         for (place, from) in solutions.places_mut().iter_mut().zip(found.places()) {
@@ -241,20 +253,26 @@ impl GivenJoint {
         weights: &[f64; 7],
     ) -> Result<Solution<7>, Error> {
         if self.robot.limits().excess(self.joint, self.angle) > 0.0 {
-            return Err(Error::Unreachable(self.explain(pose)?));
+            return Err(self.unreachable(pose)?);
         }
         let [seed, weights] = [seed, weights].map(|all| self.others(all));
         let found = self.six.nearest_checked(*pose, &seed, &weights);
         match found {
             Ok(solution) => Ok(self.extended(&solution, self.angle)),
             // With the arm's numbers of joints.
-            Err(Error::Unreachable(_)) => Err(Error::Unreachable(self.explain(pose)?)),
+            Err(Error::Unreachable(_)) => Err(self.unreachable(pose)?),
             Err(error) => Err(error),
         }
     }
 
+    fn unreachable(&self, pose: &Pose) -> Result<Error, Error> {
+        Ok(Error::Unreachable(self.ik_checked(pose, self.angle)?.explain()))
+    }
+
     /// The outcome of a solve in a sentence, for a pose that is checked.
+    #[cfg(feature = "python")]
     pub(crate) fn explain(&self, pose: &Pose) -> Result<Explanation, Error> {
-        Ok(self.ik_checked(pose, self.angle)?.explain())
+        let explanation = self.ik_checked(pose, self.angle)?.explain();
+        Ok(self.six.with_approach(explanation, pose))
     }
 }

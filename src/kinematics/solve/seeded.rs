@@ -54,11 +54,14 @@ pub trait Inverse<const N: usize>: sealed::Sealed {
     #[doc(hidden)]
     fn explain(&self, pose: &Pose) -> Result<Explanation, Error>;
 
-    /// The outcome of a solve in a sentence, with what only the arm knows of it.
+    /// The outcome of a solve in a sentence, with what only the arm knows of it; of seven joints
+    /// with the joint, from 1, whose angle [rad] was given.
     #[doc(hidden)]
-    fn explained_answer(&self, solutions: &Solutions<N>) -> Explanation {
-        solutions.explain()
-    }
+    fn explained_answer(
+        &self,
+        solutions: &Solutions<N>,
+        given: Option<(usize, f64)>,
+    ) -> Explanation;
 
     /// The arm angle of joint angles, of an arm that has one.
     #[doc(hidden)]
@@ -133,11 +136,11 @@ impl Inverse<6> for Robot<6> {
         {
             return Ok(Explanation::Found { solutions: solutions.len(), inside: 1 });
         }
-        Ok(self.explained(&solutions))
+        Ok(self.with_approach(solutions.explain(), pose))
     }
 
-    fn explained_answer(&self, solutions: &Solutions<6>) -> Explanation {
-        self.explained(solutions)
+    fn explained_answer(&self, solutions: &Solutions<6>, _: Option<(usize, f64)>) -> Explanation {
+        self.with_approach(solutions.explain(), solutions.pose())
     }
 
     fn arm_angle_of(&self, _: &[f64; 6]) -> Result<Option<f64>, Error> {
@@ -175,6 +178,19 @@ impl Inverse<7> for Robot<7> {
 
     fn explain(&self, pose: &Pose) -> Result<Explanation, Error> {
         self.explain_along_redundancy(pose)
+    }
+
+    fn explained_answer(
+        &self,
+        solutions: &Solutions<7>,
+        given: Option<(usize, f64)>,
+    ) -> Explanation {
+        let explanation = solutions.explain();
+        let Explanation::NoRoots { .. } = explanation else { return explanation };
+        let Some(Ok(given)) = given.map(|(joint, angle)| self.given(joint, angle)) else {
+            return explanation;
+        };
+        given.six_joints().with_approach(explanation, solutions.pose())
     }
 
     fn arm_angle_of(&self, q: &[f64; 7]) -> Result<Option<f64>, Error> {

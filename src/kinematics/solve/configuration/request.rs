@@ -1,7 +1,7 @@
 //! What is asked of a solution besides its pose: its configuration, and what completes it.
 
 use crate::error::Error;
-use crate::kinematics::answer::check::{check_angle, check_seed};
+use crate::kinematics::answer::check::{check_arm_angle, check_seed};
 use crate::report::Configuration;
 
 /// A configuration, with what a pose and a configuration may leave open.
@@ -56,7 +56,7 @@ impl<const N: usize> ConfigurationRequest<N> {
     /// Check the seed and the arm angle.
     pub(crate) fn check(&self) -> Result<(), Error> {
         if let Some(angle) = self.arm_angle {
-            check_angle("arm_angle", N, angle)?;
+            check_arm_angle(angle)?;
         }
         self.seed.map_or(Ok(()), |seed| check_seed("seed", &seed))
     }

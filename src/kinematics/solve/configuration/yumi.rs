@@ -9,7 +9,7 @@ use super::arm_angle_search::{Found, MOST, Search};
 use super::request::ConfigurationRequest;
 use super::rule::Quarters;
 use crate::error::{Error, JointFault, ModelFault, NoConfiguration};
-use crate::kinematics::answer::check::{check_angle, check_seed};
+use crate::kinematics::answer::check::{check_arm_angle, check_seed};
 use crate::kinematics::answer::solutions::Solution;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
@@ -36,17 +36,15 @@ impl Robot<7> {
     /// Every joint vector that brings the tool to `pose` with an arm angle [rad], inside the limits
     /// or not.
     ///
-    /// The search follows the arm's self-motion from all solutions at angles of the last joint, then
-    /// of the first joint, one degree apart. It may miss a self-motion that turns both by less.
+    /// The search follows the arm's self-motion from all solutions at angles of the last joint,
+    /// then of the first, one degree apart. It may miss a self-motion that turns both by less.
     ///
     /// # Errors
     ///
     /// As [`Robot::arm_angle`] and [`Robot::ik_with`].
     pub fn ik_arm_angle(&self, pose: &Pose, arm_angle: f64) -> Result<Vec<Solution<7>>, Error> {
-        check_angle("arm_angle", 7, arm_angle)?;
-        let (pose, turn) = (checked_pose(pose)?, [-PI, PI]);
-        let found = self.at_arm_angle(&pose, arm_angle, turn, None)?;
-        let found = self.at_arm_angle(&pose, arm_angle, turn, Some(&found))?;
+        check_arm_angle(arm_angle)?;
+        let found = self.at_arm_angle_anywhere(&checked_pose(pose)?, arm_angle)?;
         Ok(found.into_iter().flatten().collect())
     }
 
@@ -75,7 +73,12 @@ impl Robot<7> {
                 return Ok(having.all(seed));
             }
         }
-        Err(self.no_configuration_at(&rule, pose, wanted, arm_angle)?)
+        // A self-motion that turns little inside the ranges may still be met from outside them.
+        let found = self.at_arm_angle_anywhere(pose, arm_angle)?;
+        match self.having(&rule, &found.iter().flatten().copied(), wanted) {
+            Some(having) => Ok(having.all(seed)),
+            None => Err(self.no_configuration_at(&rule, pose, wanted, arm_angle, &found)?),
+        }
     }
 
     /// The reason why no joint vector has a configuration and an arm angle.
@@ -85,10 +88,11 @@ impl Robot<7> {
         pose: &Pose,
         wanted: Configuration,
         arm_angle: f64,
+        found: &Found,
     ) -> Result<Error, Error> {
         let mut none = NoConfiguration { wanted, existing: Vec::new(), more: false, free: None };
-        for solution in self.ik_arm_angle(pose, arm_angle)? {
-            self.list_turns(rule, &solution, &mut none);
+        for solution in found.iter().flatten() {
+            self.list_turns(rule, solution, &mut none);
         }
         if !none.existing.is_empty() {
             return Ok(Error::NoConfiguration(none));
@@ -97,6 +101,14 @@ impl Robot<7> {
             Explanation::Found { .. } => Explanation::NoArmAngle { arm_angle },
             other => other,
         }))
+    }
+
+    /// The joint vectors of a pose that have an arm angle, with any angle of the last joint and of
+    /// the first.
+    fn at_arm_angle_anywhere(&self, pose: &Pose, wanted: f64) -> Result<Found, Error> {
+        let turn = [-PI, PI];
+        let found = self.at_arm_angle(pose, wanted, turn, None)?;
+        self.at_arm_angle(pose, wanted, turn, Some(&found))
     }
 
     /// The joint vectors of a pose that have an arm angle, with the last joint in a range, at most

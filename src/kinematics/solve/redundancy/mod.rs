@@ -56,7 +56,9 @@ impl Robot<7> {
         pose: &Pose,
     ) -> Result<Explanation, Error> {
         let found = self.search(pose, &self.limits().rest(), &[1.0; 7])?;
-        let Some(q) = found.nearest() else { return Ok(found.missed.explanation) };
+        let Some(q) = found.nearest() else {
+            return Ok(self.with_approach(found.missed.explanation, pose));
+        };
         Ok(match self.ik_checked(*pose, q[6])?.explain() {
             found @ Explanation::Found { .. } => found,
             // Inside the limits only within their tolerance.
@@ -131,7 +133,8 @@ impl Robot<7> {
     }
 }
 
-/// The nearest approach to a solution inside the limits.
+/// The nearest approach to a solution inside the limits: none at first. Angles of joint 7 between
+/// the samples may have solutions, so that it is not certain.
 struct Missed {
     /// How far the pose is out of reach [m].
     shortfall: f64,
@@ -144,7 +147,7 @@ impl Missed {
     const NOTHING: Self = Self {
         shortfall: f64::INFINITY,
         outside: f64::INFINITY,
-        explanation: Explanation::FilteredOut,
+        explanation: Explanation::NoRoots { certified: false, approach: None },
     };
 }
 

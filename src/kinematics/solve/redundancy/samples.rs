@@ -119,10 +119,11 @@ impl Search<'_> {
             })
         });
         slots.iter().flatten().for_each(|sample: &Sample| self.keep(&sample.q));
+        // As the explanation counts it: at the best turn.
         let outside = slots
             .iter()
             .flatten()
-            .map(|sample: &Sample| sample.outside)
+            .map(|sample: &Sample| self.robot.limits().worst_overrun(&sample.q).max(0.0))
             .fold(f64::INFINITY, f64::min);
         self.miss(solutions.reach().shortfall(), outside, solutions.explain());
         Ok(Samples { q7: rest[6], are_named: self.are_named, slots })
