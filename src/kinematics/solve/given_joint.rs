@@ -14,6 +14,7 @@ use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::seeded::Inverse;
+#[cfg(feature = "python")]
 use crate::report::Explanation;
 
 /// A seven-axis arm of which the angle of one joint is given.
