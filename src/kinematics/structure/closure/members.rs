@@ -43,8 +43,8 @@ impl Accepted {
             });
             let count = self.as_slice().len();
             self.insert(closure, member.unwrap_or(*one));
-            if let Some(place) = moving.get_mut(count) {
-                *place = moves;
+            if self.as_slice().len() > count {
+                moving[count] = moves;
             }
         }
         moving
