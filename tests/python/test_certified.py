@@ -84,3 +84,25 @@ def test_where_many_solutions_merge_there_is_one(name):
         heaps += (near.sum(-1) > 2).any()
         assert not ((off + 9 * np.eye(len(found))) < 1e-6).any(), rest
     assert heaps <= poses // 50, f"{heaps} of {poses}"
+
+
+def test_what_vanishing_determinants_hide_is_found():
+    half = np.pi / 2
+    rows = [
+        [0, 0, 0, -half],
+        [0, 0.2, 0, 0],
+        [half, 0.4, -0.15, -2 * half],
+        [-2 * half, 0.4, 0.3, 0],
+        [-half, 0, 0.3, -2 * half],
+        [-half, 0.4, -0.15, -half],
+    ]
+    arm = irbkin.Robot.from_mdh(rows)
+    q = np.array([*itertools.product(range(-1, 3), repeat=5)]) * half
+    q = np.insert(q, 0, 0.0, axis=1)
+    regular = np.linalg.svd(arm.jacobian(q))[1].min(-1) > 1e-3
+    found = arm.ik_batch(arm.fk(q))
+    assert regular.sum() > 100
+    assert not certified(found).all()
+    assert (apart(found.q, q)[regular] < 1e-9).all()
+    pose = arm.fk(np.radians([0, -90, -180, 0, -90, 90]))
+    assert arm.check_pose(pose).reachable

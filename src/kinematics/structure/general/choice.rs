@@ -28,7 +28,7 @@ const TRIED: usize = 6;
 
 /// Angles of a quasi-random sequence: multiples of powers of the inverse of the root of
 /// x^7 = x + 1. Reference: Roberts, The unreasonable effectiveness of quasirandom sequences, 2018.
-fn quasi_random(index: usize) -> [f64; 6] {
+pub(super) fn quasi_random(index: usize) -> [f64; 6] {
     let root = 1.112_775_684_278_705_5_f64;
     let mut step = 1.0;
     core::array::from_fn(|_| {

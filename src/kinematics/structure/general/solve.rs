@@ -3,15 +3,16 @@
 use core::ops::ControlFlow;
 
 use super::attempt::Attempt;
+use super::choice::quasi_random;
 use super::geometry::General;
 use crate::kinematics::answer::slot::MOST_SLOTS;
 use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::TakeStep;
 use crate::kinematics::structure::branches::Branches;
-use crate::kinematics::structure::closure::{Accepted, Configuration, Kind};
+use crate::kinematics::structure::closure::{Accepted, Configuration, Kind, Target};
 use crate::kinematics::structure::free_choice::FreeChoice;
-use crate::lanes::run_vectors;
+use crate::lanes::{LANES, run_vectors};
 use crate::report::{FreeJoint, Reach};
 
 /// Least singular value of the closure, lengths in units of the arm, below which a joint vector is
@@ -20,6 +21,12 @@ const SINGULAR: f64 = 1e-7;
 
 /// How far beyond the sum of its lengths nothing is in reach of an arm, relative to it [1].
 const BEYOND: f64 = 1e-9;
+
+/// Joint vectors from which Newton's method starts where no count is certain.
+const STARTS: usize = 128;
+
+/// How often Newton's method, which takes eight steps, goes on from there.
+const ROUNDS: usize = 4;
 
 /// Difference of two angles that are the same for the order of solutions [rad].
 const TIED: f64 = 1e-6;
@@ -44,8 +51,29 @@ impl General {
         }
         if accepted.has_self_motion() {
             accepted.thin(&self.closure, &target);
+        } else if !is_certain {
+            self.start_anywhere(&target, accepted);
         }
         is_certain
+    }
+
+    /// Take what Newton's method leads to from all over the joints (eq. 104a).
+    #[cold]
+    fn start_anywhere(&self, target: &Target, accepted: &mut Accepted) {
+        for block in 0..STARTS / LANES {
+            let mut starts = [[0.0; LANES]; 6];
+            for lane in 0..LANES {
+                let start = quasi_random(LANES * block + lane);
+                for joint in 0..6 {
+                    starts[joint][lane] = start[joint];
+                }
+            }
+            let mut candidates = self.closure.converged(target, &starts);
+            for _ in 1..ROUNDS {
+                candidates = self.closure.converged(target, &candidates.theta);
+            }
+            accepted.take(&self.closure, target, &candidates, LANES);
+        }
     }
 
     /// The solutions as slots, which are ordinals.
