@@ -55,11 +55,10 @@ impl Parts {
         count: 0,
     };
 
-    #[inline(always)]
-    fn push<S: Simd>(&mut self, columns: &Coefficients<Vector<S>>, lane: usize, part: Part) {
-        let to = &mut self.columns[self.count / LANES];
+    fn push(&mut self, coefficients: &Coefficients<f64>, part: Part) {
+        let columns = &mut self.columns[self.count / LANES];
         for j in 0..=POWERS {
-            to[j][self.count % LANES] = columns[j][lane];
+            columns[j][self.count % LANES] = coefficients[j];
         }
         self.all[self.count] = part;
         self.count += 1;
@@ -114,7 +113,7 @@ impl TrigonometricPolynomial {
                     None => self.take(&columns, most[lane], lane, whole, &mut found),
                     Some(cluster) => {
                         for part in whole.without(cluster).into_iter().flatten() {
-                            found.parts.push(&columns, lane, part);
+                            found.parts.push(&in_lane(&columns, lane), part);
                         }
                     }
                 }
@@ -182,27 +181,48 @@ impl TrigonometricPolynomial {
         if changes < 0.5 {
             return;
         }
-        let Found { parts, brackets, roots } = found;
         let (first, last) = (columns[0][lane], columns[POWERS][lane]);
         let are_certain = first.abs() > self.noise && last.abs() > self.noise;
         if changes < 1.5 && are_certain && (first < 0.0) != (last < 0.0) {
-            brackets.push((part.arc, part.low, part.high), crossing(columns, lane), first);
+            let place = (part.arc, part.low, part.high);
+            found.brackets.push(place, crossing(columns, lane), first);
             return;
         }
-        let mut coefficients = [0.0; POWERS + 1];
-        for j in 0..=POWERS {
-            coefficients[j] = columns[j][lane];
-        }
+        self.take_rest(&in_lane(columns, lane), changes > 2.5, are_certain, part, found);
+    }
+
+    /// Decide where there is more than one simple root: a function of its own, for it is called in
+    /// several places.
+    #[inline(never)]
+    fn take_rest(
+        &self,
+        coefficients: &Coefficients<f64>,
+        has_many: bool,
+        are_certain: bool,
+        part: Part,
+        found: &mut Found<'_>,
+    ) {
+        let Found { parts, brackets, roots } = found;
         if coefficients.iter().all(|b| b.abs() <= self.noise)
             || part.high - part.low < 1.5 * LEAST_WIDTH
             || parts.count == MOST_PARTS
             || !are_certain && part.is_beside_wider(roots.as_slice(), WIDER)
         {
             roots.take_cluster(&part.cluster());
-        } else if changes > 2.5 || !part.take_pair(&coefficients, self.noise, brackets, roots) {
-            parts.push(columns, lane, part);
+        } else if has_many || !part.take_pair(coefficients, self.noise, brackets, roots) {
+            parts.push(coefficients, part);
         }
     }
+}
+
+/// The coefficients in a lane.
+#[inline(always)]
+fn in_lane<S: Simd>(columns: &Coefficients<Vector<S>>, lane: usize) -> Coefficients<f64> {
+    let mut coefficients = [0.0; POWERS + 1];
+    for j in 0..=POWERS {
+        coefficients[j] = columns[j][lane];
+    }
+    coefficients
 }
 
 /// Where the control polygon in a lane crosses zero between ends of different signs, in 0 ..= 1.
