@@ -91,7 +91,10 @@ fn the_general_solver_finds_every_branch_of_a_calibrated_arm() {
                 assert!(some.iter().all(|solution| has(&solution.q)), "{name} {skew:e}: {q:?}");
                 more += all.len() - some.len();
             }
-            assert!(uncertified <= 3, "{name} {skew:e}: {uncertified}");
+            // The less skew, the farther the common normals by which poses are computed: with 1e-5
+            // they are hundreds of kilometers away, and a pose is rounded to 1e-11 m.
+            let most = if skew < 1e-4 { 9 } else { 3 };
+            assert!(uncertified <= most, "{name} {skew:e}: {uncertified}");
             assert!(skew < 1e-4 || more > 0, "{name} {skew:e}");
         }
     }

@@ -62,9 +62,10 @@ impl Robot<7> {
         let joint = joint - 1;
         let solved_at = if is_end(joint) { 0.0 } else { angle };
         let solved = self.without(joint, solved_at)?;
-        let (robot, six) = (self.clone(), solved.clone());
-        let prepared = GivenJoint { robot, joint, angle: solved_at, six, solved, solved_at };
-        if is_end(joint) { prepared.at(angle) } else { Ok(prepared) }
+        let is_same = angle.to_bits() == solved_at.to_bits();
+        // With the arm's own base and tool, at any angle.
+        let six = if is_same { solved.clone() } else { self.without(joint, angle)? };
+        Ok(GivenJoint { robot: self.clone(), joint, angle, six, solved, solved_at })
     }
 
     /// The robot of the other six joints with joint `joint`, from 0, locked at an angle [rad].
