@@ -20,10 +20,6 @@ use crate::lanes::{Column, LANES, Number as _, Vector};
 /// Width of a part of an arc that is not divided [1]: 5e-8 rad.
 const LEAST_WIDTH: f64 = 1.0 / (1 << 23) as f64;
 
-/// How much wider a cluster is than a part beside it that is taken into it [1]: where the values
-/// leave the noise need not be known better.
-const WIDER: f64 = 8.0;
-
 /// Parts of arcs that wait for their division: a double root leaves two or three of each width.
 const MOST_PARTS: usize = 24;
 
@@ -188,7 +184,7 @@ impl TrigonometricPolynomial {
             found.brackets.push(place, crossing(columns, lane), first);
             return;
         }
-        self.take_rest(&in_lane(columns, lane), changes > 2.5, are_certain, part, found);
+        self.take_rest(&in_lane(columns, lane), changes > 2.5, part, found);
     }
 
     /// Decide where there is more than one simple root: a function of its own, for it is called in
@@ -198,7 +194,6 @@ impl TrigonometricPolynomial {
         &self,
         coefficients: &Coefficients<f64>,
         has_many: bool,
-        are_certain: bool,
         part: Part,
         found: &mut Found<'_>,
     ) {
@@ -206,7 +201,6 @@ impl TrigonometricPolynomial {
         if coefficients.iter().all(|b| b.abs() <= self.noise)
             || part.high - part.low < 1.5 * LEAST_WIDTH
             || parts.count == MOST_PARTS
-            || !are_certain && part.is_beside_wider(roots.as_slice(), WIDER)
         {
             roots.take_cluster(&part.cluster());
         } else if has_many || !part.take_pair(coefficients, self.noise, brackets, roots) {

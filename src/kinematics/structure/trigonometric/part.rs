@@ -41,15 +41,6 @@ impl Part {
         let [low, high] = [self.low, self.high].map(|place| angle(middle(self.arc), place));
         Root { low, high, ..Root::NONE }
     }
-
-    /// Whether a cluster touches it that is wider by a factor.
-    pub(super) fn is_beside_wider(&self, clusters: &[Root], factor: f64) -> bool {
-        let Root { low, high, .. } = self.cluster();
-        let least = factor * (high - low);
-        let is_wider = |one: &Root| one.high - one.low > least;
-        let touches = |one: &Root| one.low <= high && low <= one.high;
-        clusters.iter().any(|one| is_wider(one) && touches(one))
-    }
 }
 
 /// The middle of an arc [rad].
