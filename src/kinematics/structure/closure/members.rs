@@ -21,6 +21,15 @@ const AT_PLACE: f64 = 1e-14;
 /// Steps of the secant method, at most.
 const MOST_SECANTS: usize = 8;
 
+/// A self-motion.
+pub(crate) struct SelfMotion<'a> {
+    closure: &'a Closure,
+    target: &'a Target,
+    /// A member of it, and by how much each joint moves there.
+    start: [f64; 6],
+    direction: [f64; 6],
+}
+
 impl Accepted {
     /// Bring self-motions to a member whose first joint that moves has its angle of `near`, if they
     /// have one; what then is the same stands once. Returns which joints move in each.
@@ -37,10 +46,10 @@ impl Accepted {
                 self.insert(closure, *one);
                 continue;
             };
-            let moves = closure.moving(target, &one.theta, &direction);
-            let member = moves.iter().position(|moves| *moves).and_then(|first| {
-                closure.first_member(target, &one.theta, &direction, first, near)
-            });
+            let motion = SelfMotion { closure, target, start: one.theta, direction };
+            let moves = motion.moving();
+            let first = moves.iter().position(|moves| *moves);
+            let member = first.and_then(|first| motion.first_member(first, near));
             let count = self.as_slice().len();
             self.insert(closure, member.unwrap_or(*one));
             if self.as_slice().len() > count {
@@ -51,53 +60,72 @@ impl Accepted {
     }
 }
 
-impl Closure {
-    /// Which joints move along a self-motion: the curve is analytic, so that what moves does so in
-    /// any part of it.
-    fn moving(&self, target: &Target, start: &[f64; 6], direction: &[f64; 6]) -> [bool; 6] {
-        let next = self.advanced(target, start, direction);
+impl SelfMotion<'_> {
+    /// Which joints move: the curve is analytic, so that what moves does so in any part of it.
+    fn moving(&self) -> [bool; 6] {
+        let next = self.closure.advanced(self.target, &self.start, &self.direction);
         core::array::from_fn(|joint| {
-            let step = next.map_or(0.0, |(next, _)| next[joint] - start[joint]);
-            step.abs().max(STEP * direction[joint].abs()) > MOVES * STEP
+            let step = next.map_or(0.0, |(next, _)| next[joint] - self.start[joint]);
+            step.abs().max(STEP * self.direction[joint].abs()) > MOVES * STEP
         })
     }
 
     /// The first member on the way, in either direction, with a joint at its angle of `near`.
-    fn first_member(
-        &self,
-        target: &Target,
-        start: &[f64; 6],
-        direction: &[f64; 6],
-        joint: usize,
-        near: &[f64; 6],
-    ) -> Option<Configuration> {
+    fn first_member(&self, joint: usize, near: &[f64; 6]) -> Option<Configuration> {
         let mut first = None;
-        self.around(target, start, direction, |theta, next| {
-            first = self.member_between(target, [theta, next], joint, near);
+        self.around(|theta, next| {
+            first = self.closure.member_between(self.target, [theta, next], joint, near);
             if first.is_none() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         });
         first
     }
 
-    /// The member of a self-motion with a joint at its angle of `near`; of several the nearest.
-    pub(crate) fn member(
-        &self,
-        target: &Target,
-        start: &[f64; 6],
-        direction: &[f64; 6],
-        joint: usize,
-        near: &[f64; 6],
-    ) -> Option<Configuration> {
+    /// The member with a joint at its angle of `near`; of several the nearest.
+    pub(crate) fn member(&self, joint: usize, near: &[f64; 6]) -> Option<Configuration> {
         let mut nearest = None::<Configuration>;
-        self.around(target, start, direction, |theta, next| {
+        self.around(|theta, next| {
             let is_nearer = |one: &Configuration| {
                 nearest.is_none_or(|other| one.distance(near) < other.distance(near))
             };
-            let one = self.member_between(target, [theta, next], joint, near);
+            let one = self.closure.member_between(self.target, [theta, next], joint, near);
             nearest = one.filter(is_nearer).or(nearest);
             ControlFlow::Continue(())
         });
         nearest
+    }
+
+    /// Walk along it in both directions, or once around, until `pass` breaks off: it gets the ends
+    /// of each step.
+    pub(crate) fn around(&self, mut pass: impl FnMut(&[f64; 6], &[f64; 6]) -> ControlFlow<()>) {
+        let Self { closure, target, start, direction } = self;
+        let apart = |theta: &[f64; 6]| {
+            theta.iter().zip(start).fold(0.0, |most: f64, (a, b)| most.max(wrap(a - b).abs()))
+        };
+        for way in [*direction, direction.map(|part| -part)] {
+            let (mut theta, mut way) = (*start, way);
+            let mut is_back = false;
+            for step in 0..MOST_STEPS {
+                let Some((next, ahead)) = closure.advanced(target, &theta, &way) else { break };
+                // One step more than around, which passes the start.
+                if pass(&theta, &next).is_break() || is_back {
+                    return;
+                }
+                is_back = step > 2 && apart(&next) < 0.6 * STEP;
+                (theta, way) = (next, ahead);
+            }
+        }
+    }
+}
+
+impl Closure {
+    /// The self-motion through a configuration.
+    pub(crate) fn self_motion<'a>(
+        &'a self,
+        target: &'a Target,
+        theta: &[f64; 6],
+    ) -> Option<SelfMotion<'a>> {
+        let direction = self.curve(target, theta)?.v.into();
+        Some(SelfMotion { closure: self, target, start: *theta, direction })
     }
 
     /// The member between two of them, ends included, with a joint at its angle of `near`.
@@ -115,38 +143,6 @@ impl Closure {
         }
         let is_passed = (here < 0.0) != (there < 0.0) && here.abs() + there.abs() < FAR;
         if is_passed { self.where_zero(target, start, end, away) } else { None }
-    }
-
-    /// The direction of a self-motion at a configuration of it.
-    pub(crate) fn direction(&self, target: &Target, theta: &[f64; 6]) -> Option<[f64; 6]> {
-        self.curve(target, theta).map(|curve| curve.v.into())
-    }
-
-    /// Walk along a self-motion in both directions, or once around, until `pass` breaks off: it gets
-    /// the ends of each step.
-    pub(crate) fn around(
-        &self,
-        target: &Target,
-        start: &[f64; 6],
-        direction: &[f64; 6],
-        mut pass: impl FnMut(&[f64; 6], &[f64; 6]) -> ControlFlow<()>,
-    ) {
-        let apart = |theta: &[f64; 6]| {
-            theta.iter().zip(start).fold(0.0, |most: f64, (a, b)| most.max(wrap(a - b).abs()))
-        };
-        for way in [*direction, direction.map(|part| -part)] {
-            let (mut theta, mut way) = (*start, way);
-            let mut is_back = false;
-            for step in 0..MOST_STEPS {
-                let Some((next, ahead)) = self.advanced(target, &theta, &way) else { break };
-                // One step more than around, which passes the start.
-                if pass(&theta, &next).is_break() || is_back {
-                    return;
-                }
-                is_back = step > 2 && apart(&next) < 0.6 * STEP;
-                (theta, way) = (next, ahead);
-            }
-        }
     }
 
     /// The member between two of them where a number of it is zero, by the secant method.

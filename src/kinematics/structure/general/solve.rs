@@ -128,21 +128,20 @@ impl General {
         joint: usize,
         value: f64,
     ) -> Option<[f64; 6]> {
-        let (target, start) = (self.closure.target_of(t_first_last), self.joint_map.theta(q));
-        let direction = self.closure.direction(&target, &start)?;
+        let target = self.closure.target_of(t_first_last);
+        let motion = self.closure.self_motion(&target, &self.joint_map.theta(q))?;
         let mut near = *q;
         near[joint] = value;
-        let near = self.joint_map.theta(&near);
-        let member = self.closure.member(&target, &start, &direction, joint, &near)?;
+        let member = motion.member(joint, &self.joint_map.theta(&near))?;
         Some(self.joint_map.joints(member.theta))
     }
 
     /// Walk along the self-motion of a joint vector of a pose.
     pub(super) fn walk_along(&self, t_first_last: &Pose, q: &[f64; 6], pass: &mut TakeStep<'_, 6>) {
-        let (target, start) = (self.closure.target_of(t_first_last), self.joint_map.theta(q));
+        let target = self.closure.target_of(t_first_last);
         let joints = |theta: &[f64; 6]| self.joint_map.joints(*theta);
-        if let Some(direction) = self.closure.direction(&target, &start) {
-            self.closure.around(&target, &start, &direction, |theta, next| {
+        if let Some(motion) = self.closure.self_motion(&target, &self.joint_map.theta(q)) {
+            motion.around(|theta, next| {
                 pass(&joints(theta), &joints(next));
                 ControlFlow::Continue(())
             });
