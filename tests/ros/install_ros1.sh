@@ -12,7 +12,7 @@ skip() {
 
 packages=(
     build-essential catkin ros-message-generation ros-message-runtime
-    lib{std,geometry,sensor,trajectory}-msgs-dev
+    lib{std,geometry,sensor,trajectory}-msgs-dev ros-{std,geometry,sensor,trajectory}-msgs
     python3-{rospy,rosmaster,roslaunch,rosservice,rostopic,genpy,rospkg,numpy}
     python3-{std,sensor,geometry,trajectory}-msgs
 )
