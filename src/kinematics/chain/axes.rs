@@ -67,6 +67,29 @@ impl<const W: usize> Axes<W> {
         }
     }
 
+    /// Takes the frames on by `Rx(alpha) Tx(a) Ry(beta) Rz(theta + q) Tz(d)`, with the sines and
+    /// cosines of beta and q (docs/calibrate.md, eq. 20 to 22).
+    #[inline(always)]
+    pub(crate) fn advance_tilted<const FUSED: bool>(
+        &mut self,
+        link: Link,
+        (sin_beta, cos_beta): (f64, f64),
+        sin_q: &[f64; W],
+        cos_q: &[f64; W],
+    ) {
+        let screw = Link { d: 0.0, sin_theta: 0.0, cos_theta: 1.0, ..link };
+        self.advance::<FUSED>(screw, &[0.0; W], &[1.0; W]);
+        for i in 0..3 {
+            for lane in 0..W {
+                let (x, z) = (self.x[i][lane], self.z[i][lane]);
+                self.x[i][lane] = mul_add::<FUSED>(x, cos_beta, -(z * sin_beta));
+                self.z[i][lane] = mul_add::<FUSED>(z, cos_beta, x * sin_beta);
+            }
+        }
+        let turn = Link { sin_alpha: 0.0, cos_alpha: 1.0, a: 0.0, ..link };
+        self.advance::<FUSED>(turn, sin_q, cos_q);
+    }
+
     /// One component of the step in one lane.
     #[inline(always)]
     fn turn<const FUSED: bool>(&mut self, link: Link, sin: f64, cos: f64, i: usize, lane: usize) {

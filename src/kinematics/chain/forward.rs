@@ -12,7 +12,10 @@ impl<const N: usize> Chain<N> {
     /// Pose of the tool for the joint angles `q` [rad].
     #[must_use]
     pub fn fk(&self, q: &[f64; N]) -> Pose {
-        run(OnePose { chain: self, q })
+        match self.tilts() {
+            None => run(OnePose::<N, false> { chain: self, q }),
+            Some(_) => run(OnePose::<N, true> { chain: self, q }),
+        }
     }
 
     /// Frame `i` of the modified table after joint `i + 1`, for each joint, and the pose of the
@@ -30,10 +33,10 @@ pub(crate) struct Poses<'a, const N: usize> {
     pub(crate) out: &'a mut [[f64; 16]],
 }
 
-/// The pose of one joint vector.
-pub(crate) struct OnePose<'a, const N: usize> {
-    pub(crate) chain: &'a Chain<N>,
-    pub(crate) q: &'a [f64; N],
+/// The pose of one joint vector, of a chain with tilts or without.
+struct OnePose<'a, const N: usize, const TILTS: bool> {
+    chain: &'a Chain<N>,
+    q: &'a [f64; N],
 }
 
 /// The frames of one joint vector, and the pose of the tool.
@@ -52,7 +55,7 @@ impl<const N: usize> Kernel for Poses<'_, N> {
         for (q, poses) in self.q.chunks(LANES).zip(self.out.chunks_mut(LANES)) {
             let (mut sin, mut cos) = ([[0.0; LANES]; N], [[0.0; LANES]; N]);
             sines_of_rows::<N, FUSED>(self.chain, q, &mut sin, &mut cos);
-            tool::<N, LANES, FUSED>(self.chain, first, &sin, &cos).write(poses);
+            tool::<N, LANES, true, FUSED>(self.chain, first, &sin, &cos).write(poses);
             for (_, pose) in q.iter().zip(poses).filter(|(q, _)| !is_finite(q)) {
                 *pose = [f64::NAN; 16];
             }
@@ -60,14 +63,15 @@ impl<const N: usize> Kernel for Poses<'_, N> {
     }
 }
 
-impl<const N: usize> Kernel for OnePose<'_, N> {
+impl<const N: usize, const TILTS: bool> Kernel for OnePose<'_, N, TILTS> {
     type Answer = Pose;
     const WIDE: bool = false;
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> Pose {
         let (sin, cos) = sines_of_joints::<N, FUSED>(&self.chain.uncoupled(self.q));
-        tool::<N, 1, FUSED>(self.chain, Axes::of(self.chain.first()), &sin, &cos).pose(0)
+        let first = Axes::of(self.chain.first());
+        tool::<N, 1, TILTS, FUSED>(self.chain, first, &sin, &cos).pose(0)
     }
 }
 
@@ -78,27 +82,38 @@ impl<const N: usize> Kernel for OneFrames<'_, N> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> ([Pose; N], Pose) {
         let (sin, cos) = sines_of_joints::<N, FUSED>(&self.chain.uncoupled(self.q));
-        let mut frame = Axes::<1>::of(self.chain.first());
-        let mut frames = [Pose::identity(); N];
-        for (joint, (link, pose)) in self.chain.links().iter().zip(&mut frames).enumerate() {
+        let first = Axes::<1>::of(self.chain.first());
+        let (mut frame, mut frames) = (first, [Pose::identity(); N]);
+        for (joint, (link, pose)) in self.chain.table_links().iter().zip(&mut frames).enumerate() {
             frame.advance::<FUSED>(*link, &sin[joint], &cos[joint]);
             *pose = frame.pose(0);
         }
-        (frames, frame.times::<FUSED>(self.chain.last()).pose(0))
+        (frames, tool::<N, 1, true, FUSED>(self.chain, first, &sin, &cos).pose(0))
     }
 }
 
-/// The tool's frames, starting from the frame before the first link.
+/// The tool's frames, starting from the frame before the first link; of a chain that may have tilts
+/// or of one without.
 #[inline(always)]
-fn tool<const N: usize, const W: usize, const FUSED: bool>(
+fn tool<const N: usize, const W: usize, const TILTS: bool, const FUSED: bool>(
     chain: &Chain<N>,
     first: Axes<W>,
     sin: &[[f64; W]; N],
     cos: &[[f64; W]; N],
 ) -> Axes<W> {
     let mut frame = first;
-    for (joint, link) in chain.links().iter().enumerate() {
-        frame.advance::<FUSED>(*link, &sin[joint], &cos[joint]);
+    let links = chain.links().iter().enumerate();
+    match chain.tilts().filter(|_| TILTS) {
+        None => {
+            for (joint, link) in links {
+                frame.advance::<FUSED>(*link, &sin[joint], &cos[joint]);
+            }
+        }
+        Some(tilts) => {
+            for (joint, link) in links {
+                frame.advance_tilted::<FUSED>(*link, tilts[joint], &sin[joint], &cos[joint]);
+            }
+        }
     }
     frame.times::<FUSED>(chain.last())
 }

@@ -34,7 +34,10 @@ impl<const N: usize> Chain<N> {
 
     /// The rows of [`Self::jacobian`].
     pub(crate) fn jacobian_rows(&self, q: &[f64; N], frame: JacobianFrame) -> [[f64; N]; 6] {
-        run(OneJacobian { chain: self, frame, q })
+        match self.tilts() {
+            None => run(OneJacobian::<N, false> { chain: self, frame, q }),
+            Some(_) => run(OneJacobian::<N, true> { chain: self, frame, q }),
+        }
     }
 }
 
@@ -47,11 +50,11 @@ pub(crate) struct Jacobians<'a, const N: usize> {
     pub(crate) out: &'a mut [[[f64; N]; 6]],
 }
 
-/// The Jacobian of one joint vector, in six rows.
-pub(crate) struct OneJacobian<'a, const N: usize> {
-    pub(crate) chain: &'a Chain<N>,
-    pub(crate) frame: JacobianFrame,
-    pub(crate) q: &'a [f64; N],
+/// The Jacobian of one joint vector, in six rows, of a chain with tilts or without.
+struct OneJacobian<'a, const N: usize, const TILTS: bool> {
+    chain: &'a Chain<N>,
+    frame: JacobianFrame,
+    q: &'a [f64; N],
 }
 
 impl<const N: usize> Kernel for Jacobians<'_, N> {
@@ -63,7 +66,7 @@ impl<const N: usize> Kernel for Jacobians<'_, N> {
         for (q, jacobians) in self.q.chunks(LANES).zip(self.out.chunks_mut(LANES)) {
             let (mut sin, mut cos) = ([[0.0; LANES]; N], [[0.0; LANES]; N]);
             sines_of_rows::<N, FUSED>(self.chain, q, &mut sin, &mut cos);
-            let rows = jacobian_rows::<N, LANES, FUSED>(self.chain, self.frame, &sin, &cos);
+            let rows = jacobian_rows::<N, LANES, true, FUSED>(self.chain, self.frame, &sin, &cos);
             for (lane, jacobian) in jacobians.iter_mut().enumerate() {
                 for (to, from) in jacobian.iter_mut().zip(&rows) {
                     for (to, from) in to.iter_mut().zip(from) {
@@ -78,14 +81,14 @@ impl<const N: usize> Kernel for Jacobians<'_, N> {
     }
 }
 
-impl<const N: usize> Kernel for OneJacobian<'_, N> {
+impl<const N: usize, const TILTS: bool> Kernel for OneJacobian<'_, N, TILTS> {
     type Answer = [[f64; N]; 6];
     const WIDE: bool = false;
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> [[f64; N]; 6] {
         let (sin, cos) = sines_of_joints::<N, FUSED>(&self.chain.uncoupled(self.q));
-        let rows = jacobian_rows::<N, 1, FUSED>(self.chain, self.frame, &sin, &cos);
+        let rows = jacobian_rows::<N, 1, TILTS, FUSED>(self.chain, self.frame, &sin, &cos);
         let mut jacobian = [[0.0; N]; 6];
         for (to, from) in jacobian.iter_mut().zip(&rows) {
             for (to, from) in to.iter_mut().zip(from) {
@@ -97,9 +100,14 @@ impl<const N: usize> Kernel for OneJacobian<'_, N> {
 }
 
 /// The rows of the Jacobian, each with a column per joint: `z_i x (p_tool - p_i)` over `z_i`, in
-/// the base frame.
+/// the base frame; of a chain that may have tilts or of one without.
 #[inline(always)]
-pub(in crate::kinematics) fn jacobian_rows<const N: usize, const W: usize, const FUSED: bool>(
+pub(in crate::kinematics) fn jacobian_rows<
+    const N: usize,
+    const W: usize,
+    const TILTS: bool,
+    const FUSED: bool,
+>(
     chain: &Chain<N>,
     in_frame: JacobianFrame,
     sin: &[[f64; W]; N],
@@ -107,9 +115,20 @@ pub(in crate::kinematics) fn jacobian_rows<const N: usize, const W: usize, const
 ) -> [[[f64; W]; N]; 6] {
     let mut frame = Axes::of(chain.first());
     let mut frames = [frame; N];
-    for (joint, (link, place)) in chain.links().iter().zip(&mut frames).enumerate() {
-        frame.advance::<FUSED>(*link, &sin[joint], &cos[joint]);
-        *place = frame;
+    let links = chain.links().iter().zip(&mut frames);
+    match chain.tilts().filter(|_| TILTS) {
+        None => {
+            for (joint, (link, place)) in links.enumerate() {
+                frame.advance::<FUSED>(*link, &sin[joint], &cos[joint]);
+                *place = frame;
+            }
+        }
+        Some(tilts) => {
+            for (joint, (link, place)) in links.enumerate() {
+                frame.advance_tilted::<FUSED>(*link, tilts[joint], &sin[joint], &cos[joint]);
+                *place = frame;
+            }
+        }
     }
     let tool = frame.times::<FUSED>(chain.last());
     let mut rows = [[[0.0; W]; N]; 6];

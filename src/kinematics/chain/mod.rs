@@ -14,6 +14,7 @@ pub(crate) mod skew;
 use crate::kinematics::chain::axes::Link;
 use crate::kinematics::chain::coupling::uncoupled;
 use crate::kinematics::chain::dh::Mdh;
+use crate::kinematics::chain::skew::{TiltedRow, tilted_rows};
 use crate::kinematics::pose::Pose;
 
 /// `N` revolute joints between a base and a tool, described by a modified Denavit-Hartenberg table.
@@ -22,7 +23,10 @@ pub struct Chain<const N: usize> {
     mdh: Mdh<N>,
     t_world_base: Pose,
     t_flange_tool: Pose,
+    /// Without common normals that are far away.
     links: [Link; N],
+    /// Sine and cosine of Hayati's rotation in each link, if there is one.
+    tilts: Option<[(f64, f64); N]>,
     coupled: bool,
     t_world_first: Pose,
     t_last_tool: Pose,
@@ -32,12 +36,16 @@ impl<const N: usize> Chain<N> {
     /// A chain with its base at the origin and its tool at the flange.
     #[must_use]
     pub fn new(mdh: Mdh<N>) -> Self {
-        let links = mdh.rows.map(Link::new);
+        let rows = tilted_rows(&mdh.rows);
+        let is_tilted = rows.iter().any(|row| row.beta != 0.0);
+        let links = rows.map(|TiltedRow { row, .. }| Link::new(row));
+        let tilts = is_tilted.then(|| rows.map(|TiltedRow { beta, .. }| beta.sin_cos()));
         let mut chain = Self {
             mdh,
             t_world_base: Pose::identity(),
             t_flange_tool: Pose::identity(),
             links,
+            tilts,
             coupled: false,
             t_world_first: Pose::identity(),
             t_last_tool: Pose::identity(),
@@ -106,8 +114,20 @@ impl<const N: usize> Chain<N> {
         if self.coupled { uncoupled(*q) } else { *q }
     }
 
+    /// The links of the table: they differ from those that lead to the tool if the table has a
+    /// common normal that is far away.
+    pub(in crate::kinematics) fn table_links(&self) -> [Link; N] {
+        if self.tilts.is_some() { self.mdh.rows.map(Link::new) } else { self.links }
+    }
+
+    /// The links that lead to the tool.
     pub(in crate::kinematics) fn links(&self) -> &[Link; N] {
         &self.links
+    }
+
+    /// Sine and cosine of Hayati's rotation in each link, if there is one.
+    pub(in crate::kinematics) fn tilts(&self) -> Option<&[(f64, f64); N]> {
+        self.tilts.as_ref()
     }
 
     /// The transform before the first link.

@@ -91,7 +91,7 @@ fn singular_values<const N: usize, const W: usize, const FUSED: bool>(
     sin: &[[f64; W]; N],
     cos: &[[f64; W]; N],
 ) -> [SingularValues; W] {
-    let rows = jacobian_rows::<N, W, FUSED>(chain, JacobianFrame::Base, sin, cos);
+    let rows = jacobian_rows::<N, W, true, FUSED>(chain, JacobianFrame::Base, sin, cos);
     let squares = Bidiagonal::of::<N, FUSED>(rows);
     let (least, product) = (squares.least_root::<FUSED>(), squares.product());
     core::array::from_fn(|lane| SingularValues {

@@ -71,8 +71,8 @@ where
         Ok(())
     }
 
-    /// The pose of the tool of the corrected robot: that of [`Robot::with_corrections`], without
-    /// the rounding of a common normal that is far away.
+    /// The pose of the tool of the corrected robot: that of [`Robot::with_corrections`], whose table
+    /// may be rounded by a common normal that is far away.
     #[must_use]
     pub fn corrected_fk(&self, corrections: &Corrections<N>, q: &[f64; N]) -> Pose {
         self.chain.corrected_fk(corrections, q)

@@ -22,9 +22,6 @@ pub(crate) struct Closure {
     pub(crate) reach: f64,
     /// Rounding of the closure [1].
     pub(crate) rounding: f64,
-    /// Lengths [m] of the arm's table that are none of the chain's: to a common normal far away, by
-    /// which the poses are computed that the chain is to reach.
-    detour: f64,
 }
 
 /// The last frame that a chain is to reach, in units of its lengths.
@@ -52,9 +49,6 @@ struct Axis<T> {
 /// Rounding of the closure by a product of six links and of the pose, in units of the reach [1].
 const ROUNDING: f64 = 2e-15;
 
-/// Rounding by a way there and back, in units of its length [1]. Measured: up to 9e-17.
-const OF_DETOUR: f64 = 1e-16;
-
 impl Closure {
     /// The chain of these rows, with rotations about y of nearly parallel axes or without; their
     /// theta does not count.
@@ -66,19 +60,12 @@ impl Closure {
         let unit = if reach > 0.0 { reach } else { 1.0 };
         let links = rows
             .map(|row| Link::new(DhRow { a: row.a / unit, d: row.d / unit, theta: 0.0, ..row }));
-        Self { links, tilts, reach: unit, rounding: ROUNDING, detour: 0.0 }
-    }
-
-    /// The same for a table with these rows.
-    pub(crate) fn of_table(self, rows: &[DhRow; 6]) -> Self {
-        let lengths: f64 = rows.iter().map(|row| row.a.abs() + row.d.abs()).sum();
-        Self { detour: (lengths - self.reach).max(0.0), ..self }.between(0.0)
+        Self { links, tilts, reach: unit, rounding: ROUNDING }
     }
 
     /// The same between end frames with these lengths [m], which add to the rounding.
     pub(crate) fn between(self, ends: f64) -> Self {
-        let of_detour = OF_DETOUR * self.detour / self.reach;
-        Self { rounding: ROUNDING * (1.0 + ends / self.reach) + of_detour, ..self }
+        Self { rounding: ROUNDING * (1.0 + ends / self.reach), ..self }
     }
 
     /// A last frame in units of the chain.

@@ -26,9 +26,7 @@ impl General {
         let offsets = rows.map(|row| -row.theta);
         let [first, .., last] = rows;
         (tilted[0].row, tilted[5].row.d) = (DhRow::default(), 0.0);
-        let mut table = mdh.rows;
-        (table[0], table[5].d) = (DhRow::default(), 0.0);
-        let closure = Closure::of(&tilted).of_table(&table);
+        let closure = Closure::of(&tilted);
         let links: [Frame; 5] = core::array::from_fn(|i| {
             // From joint i to the next: along z of row i, then about and along x of the next row.
             let TiltedRow { row: next, beta } = tilted[i + 1];
