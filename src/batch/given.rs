@@ -17,7 +17,7 @@ impl Pace<'_> {
         q: &mut [f64],
         status: &mut [u8],
     ) -> Result<(), Error> {
-        let (poses, slots) = (rows::<16>("poses", poses)?, given.six_joints().slot_count());
+        let (poses, slots) = (rows::<16>("poses", poses)?, given.six().slot_count());
         if let Some(angles) = angles {
             check_length("given", angles.len(), poses.len())?;
         }

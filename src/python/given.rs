@@ -136,7 +136,7 @@ impl PyGiven {
         let mut rows = Rows::read(poses, &[4, 4], "T", Fault::Pose)?;
         let angles = angles.map(|angles| read_angles(angles, "given", &mut rows)).transpose()?;
         let angles = angles.as_ref().map(Rows::data).transpose()?;
-        let (given, slots) = (&*self.given, self.given.six_joints().slot_count());
+        let (given, slots) = (&*self.given, self.given.six().slot_count());
         let answers = batch_output(py, out, &rows, [slots, 7])?;
         filled(py, &rows, answers, threads, |pace, poses, q, status| {
             pace.ik_given(given, poses, angles, q, status)
@@ -168,8 +168,9 @@ impl PyGiven {
     /// The other six joints as a robot, with the arm's base, tool, limits and velocities. Its own
     /// joints are numbered 1 to 6; `joints` makes seven of them.
     #[getter]
-    fn six_joints(&self) -> PyRobot {
-        Arm::from(self.given.six_joints().clone()).into()
+    fn six_joints(&self, py: Python<'_>) -> PyResult<PyRobot> {
+        let six = self.given.six_joints().map_err(|error| to_py(py, &error))?;
+        Ok(Arm::from(six).into())
     }
 
     /// Return joint vectors of the arm for those of its other six joints.
@@ -317,7 +318,7 @@ impl PyGiven {
                 *to = self.given.others(q);
             }
         }
-        let robot = self.given.six_joints();
+        let robot = self.given.six();
         let found = paths::follow(robot, T, six.as_any(), &options, None, thread_count(threads)?)?;
         let (q, error, breaks): (Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>) =
             found.extract()?;

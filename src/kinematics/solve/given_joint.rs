@@ -39,6 +39,7 @@ pub struct GivenJoint {
     /// The joint, from 0.
     joint: usize,
     angle: f64,
+    /// The other joints, with a base or tool that the first or the last joint turns.
     six: Robot<6>,
     /// The chain that is solved, the same for every angle of the first and of the last joint, so
     /// that its slots are; and the angle that it was prepared with.
@@ -62,10 +63,9 @@ impl Robot<7> {
         let joint = joint - 1;
         let solved_at = if is_end(joint) { 0.0 } else { angle };
         let solved = self.without(joint, solved_at)?;
-        let is_same = angle.to_bits() == solved_at.to_bits();
-        // With the arm's own base and tool, at any angle.
-        let six = if is_same { solved.clone() } else { self.without(joint, angle)? };
-        Ok(GivenJoint { robot: self.clone(), joint, angle, six, solved, solved_at })
+        let (robot, six) = (self.clone(), solved.clone());
+        let prepared = GivenJoint { robot, joint, angle: solved_at, six, solved, solved_at };
+        if is_end(joint) { prepared.at(angle) } else { Ok(prepared) }
     }
 
     /// The robot of the other six joints with joint `joint`, from 0, locked at an angle [rad].
@@ -117,9 +117,21 @@ impl GivenJoint {
 
     /// The other six joints as a robot, with the arm's base, tool, limits and velocities.
     ///
-    /// Its joints are numbered 1 to 6, in its answers and its messages.
-    #[must_use]
-    pub fn six_joints(&self) -> &Robot<6> {
+    /// Its joints are numbered 1 to 6, in its answers and its messages. Of the first and the last
+    /// joint at another angle than zero this prepares a chain.
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::given`].
+    pub fn six_joints(&self) -> Result<Robot<6>, Error> {
+        if self.angle.to_bits() == self.solved_at.to_bits() {
+            return Ok(self.solved.clone());
+        }
+        self.robot.without(self.joint, self.angle)
+    }
+
+    /// The other six joints as a robot, whose base or tool the first or the last joint turns.
+    pub(crate) fn six(&self) -> &Robot<6> {
         &self.six
     }
 

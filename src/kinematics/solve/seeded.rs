@@ -190,7 +190,7 @@ impl Inverse<7> for Robot<7> {
         let Some(Ok(given)) = given.map(|(joint, angle)| self.given(joint, angle)) else {
             return explanation;
         };
-        given.six_joints().with_approach(explanation, solutions.pose())
+        given.six().with_approach(explanation, solutions.pose())
     }
 
     fn arm_angle_of(&self, q: &[f64; 7]) -> Result<Option<f64>, Error> {
