@@ -11,6 +11,9 @@ pub(crate) mod limits;
 pub(crate) mod singular_values;
 pub(crate) mod skew;
 
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
 use crate::kinematics::chain::axes::Link;
 use crate::kinematics::chain::coupling::uncoupled;
 use crate::kinematics::chain::dh::Mdh;

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use super::chain::{Closure, Target};
+use super::fold::Missed;
 use super::newton::Candidates;
 use crate::kinematics::pose::angles::wrap;
 use crate::lanes::LANES;
@@ -71,7 +72,7 @@ pub(crate) struct Accepted {
     /// without a decision, and nothing was left out.
     pub(crate) is_certain: bool,
     /// Where two solutions were looked for that are not: the pose misses their fold.
-    missed: [[f64; 6]; MOST_EXAMINED],
+    missed: [Missed; MOST_EXAMINED],
     missed_count: usize,
     /// How many candidates next to a singularity may still be examined.
     left: usize,
@@ -142,7 +143,7 @@ impl Accepted {
         all: [Configuration::NONE; MOST],
         count: 0,
         is_certain: true,
-        missed: [[0.0; 6]; MOST_EXAMINED],
+        missed: [Missed::NONE; MOST_EXAMINED],
         missed_count: 0,
         left: MOST_EXAMINED,
     };
@@ -173,7 +174,7 @@ impl Accepted {
     }
 
     /// Where this attempt looked for two solutions that the pose misses.
-    pub(crate) fn missed(&self) -> &[[f64; 6]] {
+    pub(crate) fn missed(&self) -> &[Missed] {
         &self.missed[..self.missed_count]
     }
 

@@ -55,7 +55,20 @@ pub(super) struct Settled {
     /// Whether the analysis holds: rank 5, and a curve of second order.
     pub(super) is_certain: bool,
     /// Where two solutions would merge, if the pose misses them.
-    pub(super) missed: Option<[f64; 6]>,
+    pub(super) missed: Option<Missed>,
+}
+
+/// A fold that a pose misses: its solutions are complex.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Missed {
+    /// Their real part, where they would merge.
+    pub(crate) theta: [f64; 6],
+    /// Their imaginary part, by size.
+    pub(crate) aside: [f64; 6],
+}
+
+impl Missed {
+    pub(super) const NONE: Self = Self { theta: [0.0; 6], aside: [0.0; 6] };
 }
 
 impl Settled {
@@ -206,7 +219,10 @@ impl Curve<'_> {
         }
         if extreme / c2 > 0.0 {
             let none = Settled::of([None; 2], is_bent);
-            return Some(Settled { missed: Some(turning.theta), ..none });
+            let half = (extreme / c2).sqrt();
+            let aside = core::array::from_fn(|joint| (half * self.v[joint]).abs());
+            let missed = Some(Missed { theta: turning.theta, aside });
+            return Some(Settled { missed, ..none });
         }
         let half = (-extreme / c2).sqrt();
         let root = |s: f64| self.root(self.at(s, &turning.theta)?);

@@ -18,5 +18,6 @@ mod tests;
 
 pub(crate) use accepted::{Accepted, Configuration, Kind};
 pub(crate) use chain::{Closure, Target};
+pub(crate) use fold::Missed;
 pub(crate) use newton::{Candidates, Six, reflect};
 pub(crate) use placed::Placed;

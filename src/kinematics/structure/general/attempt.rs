@@ -8,7 +8,7 @@ use super::back::{Angle, completed, eliminated, pencil};
 use super::determinant::Rest;
 use super::split::{Posed, Split};
 use crate::kinematics::pose::angles::wrap;
-use crate::kinematics::structure::closure::{Accepted, Closure, Configuration, Target};
+use crate::kinematics::structure::closure::{Accepted, Closure, Configuration, Missed, Target};
 use crate::kinematics::structure::trigonometric::Root;
 use crate::lanes::{Column, LANES, Vector, VectorKernel, sin_cos_of};
 
@@ -77,7 +77,7 @@ impl VectorKernel for Attempt<'_> {
                 let found = split.solutions_at(root, accepted);
                 let missed = root.most.wrapping_sub(found);
                 // Roots that come and go in pairs.
-                let is_fold = |theta: &[f64; 6]| split.is_in(root, theta);
+                let is_fold = |missed: &Missed| split.holds_missed(root, missed);
                 is_certain &= missed == 0 || missed == 2 && accepted.missed().iter().any(is_fold);
                 in_clusters += found;
             }
@@ -99,6 +99,13 @@ impl Split {
     fn solutions_at(&self, root: &Root, accepted: &Accepted) -> usize {
         let is_in = |one: &&Configuration| self.is_in(root, &one.theta);
         accepted.as_slice().iter().filter(is_in).map(Configuration::multiplicity).sum()
+    }
+
+    /// Whether a missed fold is what an interval without solutions is about: both complex ones are
+    /// within it.
+    fn holds_missed(&self, root: &Root, missed: &Missed) -> bool {
+        let aside = missed.aside[self.searched()];
+        aside <= root.radius() + BESIDE && self.is_in(root, &missed.theta)
     }
 
     /// Whether a configuration is in the interval of a cluster.
@@ -131,7 +138,7 @@ impl Search<'_> {
     ) {
         let (sin, cos) = sin_cos_of(Vector::load_array_ref(simd, angles));
         let t5 = Angle { sin, cos };
-        let null = Rest::at(&self.posed.equations, &sin, &cos).null_vectors(is_cluster);
+        let null = Rest::at(&self.posed.equations, &sin, &cos, false).null_vectors(is_cluster);
         let pair = if is_cluster { pencil(&null) } else { null };
         let ways = [&null[0], &pair[0], &pair[1]];
         for powers in &ways[..if is_cluster { 3 } else { 1 }] {

@@ -28,20 +28,30 @@ const VANISHES: f64 = 16.0;
 /// Measured: up to 1e4 where one should be zero, above 1e9 elsewhere.
 const REGULAR: f64 = 1e7;
 
-/// Change of the matrix by the rounding of a pose, in roundings of the closure [1]: its elements
-/// are of second degree in the pose, lengths in units of the arm. Measured next to folds: with 2,
-/// one answer of 5000 is certified that is not complete.
-const OF_THE_POSE: f64 = 4.0;
+/// Change of the matrix by the rounding of a pose, in roundings of the closure [1]: an element of a
+/// pose is rounded by a sixth of one, and the matrix is of second degree in it. Measured at det J = 0
+/// of calibrated arms: one answer of 80,000 is certified that is not complete.
+const OF_THE_POSE: f64 = 0.5;
 
 /// What is left of the matrix: six rows of six, for the powers 2 and 3 of x4, as a triangle.
 pub(super) struct Rest<S: Simd> {
     columns: [Six<S>; 6],
-    diagonal: Six<S>,
+    pivots: [Pivot<S>; 6],
     /// The determinant.
     pub(super) determinant: Vector<S>,
     /// The least of its twelve factors, by size, and of the six before the rest.
     least: Vector<S>,
     least_before: Vector<S>,
+    /// By how much it changes with the matrix; zero if it was not asked for.
+    change: Vector<S>,
+}
+
+/// An element of the diagonal of a triangle.
+#[derive(Clone, Copy)]
+struct Pivot<S: Simd> {
+    value: Vector<S>,
+    /// Huge, and finite, for zero.
+    inverse: Vector<S>,
 }
 
 impl Posed {
@@ -50,17 +60,17 @@ impl Posed {
     #[inline(always)]
     pub(super) fn polynomial<S: Simd>(&self, simd: S, rounding: f64) -> TrigonometricPolynomial {
         let zero = Vector::splat(simd, 0.0);
-        let (mut samples, mut regular, mut others) = ([zero; SAMPLES / LANES], zero, zero);
+        let (mut samples, mut regular, mut change) = ([zero; SAMPLES / LANES], zero, zero);
         for block in 0..SAMPLES / LANES {
             let sin = Vector::load_array_ref(simd, &SAMPLE_SIN[block]);
             let cos = Vector::load_array_ref(simd, &SAMPLE_COS[block]);
-            let rest = Rest::at(&self.equations, &sin, &cos);
+            let rest = Rest::at(&self.equations, &sin, &cos, true);
             samples[block] = rest.determinant;
             regular = regular.max(rest.least * rest.least_before);
-            others = others.max(rest.others());
+            change = change.max(rest.change);
         }
         let mut polynomial = TrigonometricPolynomial::of_samples(&samples).of_pose();
-        let of_pose = others * (OF_THE_POSE * rounding);
+        let of_pose = change * (OF_THE_POSE * rounding);
         polynomial.noise = of_pose.to_array().into_iter().fold(polynomial.noise, f64::max);
         if !regular.simd_gt(REGULAR * rounding).any_true() && self.vanishes(simd, rounding) {
             polynomial.noise = f64::INFINITY;
@@ -75,7 +85,7 @@ impl Posed {
         (0..SAMPLES / LANES).all(|block| {
             let sin = Vector::load_array_ref(simd, &SAMPLE_SIN[block]);
             let cos = Vector::load_array_ref(simd, &SAMPLE_COS[block]);
-            let rest = Rest::at(&self.equations, &sin, &cos);
+            let rest = Rest::at(&self.equations, &sin, &cos, false);
             // The reflections before the rest have enlarged rounding by their least factor.
             let size = rest.least_singular_value() * rest.least_before;
             !size.simd_gt(VANISHES * rounding).any_true()
@@ -85,16 +95,21 @@ impl Posed {
 
 impl<S: Simd> Rest<S> {
     /// The matrix at angles t5 with these sines and cosines.
-    pub(super) fn at(equations: &Equations, sin: &Vector<S>, cos: &Vector<S>) -> Self {
+    pub(super) fn at(
+        equations: &Equations,
+        sin: &Vector<S>,
+        cos: &Vector<S>,
+        want_change: bool,
+    ) -> Self {
         // A function of its own for each instruction set: it is long.
         sin.token().vectorize(
             #[inline(always)]
-            || Self::reduced(equations, *sin, *cos),
+            || Self::reduced(equations, *sin, *cos, want_change),
         )
     }
 
     #[inline(always)]
-    fn reduced(equations: &Equations, sin: Vector<S>, cos: Vector<S>) -> Self {
+    fn reduced(equations: &Equations, sin: Vector<S>, cos: Vector<S>, want_change: bool) -> Self {
         let zero = sin.like(0.0);
         let mut first = [[zero; 6]; 9];
         for product in 0..9 {
@@ -122,7 +137,7 @@ impl<S: Simd> Rest<S> {
                     second[j][3 + row] = first[j][row];
                 }
             }
-            second[j][3 + j] = u[j];
+            second[j][3 + j] = u[j].value;
         }
         let v = [
             triangulate::<0, 9, S>(&mut second),
@@ -137,25 +152,32 @@ impl<S: Simd> Rest<S> {
                 columns[j][3 + row] = first[3 + j][3 + row];
             }
         }
-        let diagonal = [
+        let pivots = [
             triangulate::<0, 6, S>(&mut columns),
             triangulate::<1, 6, S>(&mut columns),
             triangulate::<2, 6, S>(&mut columns),
             triangulate::<3, 6, S>(&mut columns),
             triangulate::<4, 6, S>(&mut columns),
-            columns[5][5],
+            Pivot::of(columns[5][5]),
         ];
-        let (mut determinant, mut least) = (u[0], u[0].abs());
-        for factor in u[1..].iter().chain(&v) {
-            determinant *= *factor;
-            least = least.min(factor.abs());
+        let (mut others, mut least) = (u[0].value, u[0].value.abs());
+        for pivot in u[1..].iter().chain(&v) {
+            others *= pivot.value;
+            least = least.min(pivot.value.abs());
         }
         let least_before = least;
-        for factor in &diagonal {
-            determinant *= *factor;
-            least = least.min(factor.abs());
+        for pivot in &pivots[..5] {
+            others *= pivot.value;
+            least = least.min(pivot.value.abs());
         }
-        Self { columns, diagonal, determinant, least, least_before }
+        let determinant = others * pivots[5].value;
+        least = least.min(pivots[5].value.abs());
+        let mut change = zero;
+        if want_change {
+            // The pivots but the last, alone, would do without elements above the diagonal.
+            change = others.abs() * last_column([&first, &second], &columns, [&u, &v], &pivots);
+        }
+        Self { columns, pivots, determinant, least, least_before, change }
     }
 
     /// The least singular value of the rest, by inverse iteration.
@@ -164,7 +186,7 @@ impl<S: Simd> Rest<S> {
         let [null, _] = self.null_vectors(false);
         let mut square = self.determinant.like(0.0);
         for row in 0..6 {
-            let mut sum = self.diagonal[row] * null[row];
+            let mut sum = self.pivots[row].value * null[row];
             for column in row + 1..6 {
                 sum = self.columns[column][row].mul_add(null[column], sum);
             }
@@ -173,24 +195,12 @@ impl<S: Simd> Rest<S> {
         square.sqrt()
     }
 
-    /// The determinant but for its least factor: what a change of an element makes of it, at most.
-    #[inline(always)]
-    fn others(&self) -> Vector<S> {
-        self.determinant.abs() / self.least.max(LEAST)
-    }
-
     /// Two orthonormal vectors that the rest takes nearest to zero, by inverse iteration.
     #[inline(always)]
     pub(super) fn null_vectors(&self, want_second: bool) -> [Six<S>; 2] {
-        let mut inverse = self.diagonal;
-        for k in 0..6 {
-            let element = self.diagonal[k];
-            // Huge, and finite, for zero.
-            inverse[k] = element.size().or_more(element.like(LEAST)).copysign(element).inverse();
-        }
         let mut first = self.start(&START[0]);
         for _ in 0..2 {
-            first = self.inverted(&inverse, &first);
+            first = self.inverted(&first);
         }
         if !want_second {
             return [first, first];
@@ -198,7 +208,7 @@ impl<S: Simd> Rest<S> {
         let mut second = self.start(&START[1]);
         for _ in 0..3 {
             orthogonalize(&mut second, &first);
-            second = self.inverted(&inverse, &second);
+            second = self.inverted(&second);
         }
         orthogonalize(&mut second, &first);
         [first, normalized(&second)]
@@ -206,26 +216,22 @@ impl<S: Simd> Rest<S> {
 
     #[inline(always)]
     fn start(&self, constants: &[f64; 6]) -> Six<S> {
-        let mut start = self.diagonal;
-        for k in 0..6 {
-            start[k] = self.determinant.like(constants[k]);
-        }
-        start
+        constants.map(|constant| self.determinant.like(constant))
     }
 
     /// `(R^T R)^-1 v`, normalized.
     #[inline(always)]
-    fn inverted(&self, inverse: &Six<S>, v: &Six<S>) -> Six<S> {
+    fn inverted(&self, v: &Six<S>) -> Six<S> {
         let mut x = *v;
         for k in 0..6 {
             for row in 0..k {
                 x[k] = self.columns[k][row].mul_add(-x[row], x[k]);
             }
-            x[k] *= inverse[k];
+            x[k] *= self.pivots[k].inverse;
         }
         let mut x = normalized(&x);
         for k in (0..6).rev() {
-            x[k] *= inverse[k];
+            x[k] *= self.pivots[k].inverse;
             for row in 0..k {
                 x[row] = self.columns[k][row].mul_add(-x[k], x[row]);
             }
@@ -275,10 +281,48 @@ fn orthogonalize<S: Simd>(v: &mut Six<S>, to: &Six<S>) {
     }
 }
 
-/// Reflect rows K and below so that column K is zero below row K; returns its element there, up to
-/// a sign that all have in common.
+/// The length of the last column of the inverse of the matrix, times the last pivot: of the vector
+/// that ends with one and is taken to the last row alone.
 #[inline(always)]
-fn triangulate<const K: usize, const C: usize, S: Simd>(columns: &mut [Six<S>; C]) -> Vector<S> {
+fn last_column<S: Simd>(
+    [first, second]: [&[Six<S>; 9]; 2],
+    rest: &[Six<S>; 6],
+    [u, v]: [&[Pivot<S>; 3]; 2],
+    pivots: &[Pivot<S>; 6],
+) -> Vector<S> {
+    let one = rest[0][0].like(1.0);
+    let (mut sums, mut square) = ([one.like(0.0); 12], one.like(0.0));
+    for k in (0..12).rev() {
+        let x = match k {
+            11 => one,
+            6.. => -(sums[k] * pivots[k - 6].inverse),
+            3.. => -(sums[k] * v[k - 3].inverse),
+            _ => -(sums[k] * u[k].inverse),
+        };
+        square = x.mul_add(x, square);
+        for row in 0..k {
+            let element = match row {
+                6.. => rest[k - 6][row - 6],
+                3.. => second[k - 3][row - 3],
+                _ if k < 9 => first[k][row],
+                _ => continue,
+            };
+            sums[row] = element.mul_add(x, sums[row]);
+        }
+    }
+    square.sqrt()
+}
+
+impl<S: Simd> Pivot<S> {
+    fn of(value: Vector<S>) -> Self {
+        let inverse = value.abs().max(LEAST).copysign(value).inverse();
+        Self { value, inverse }
+    }
+}
+
+/// Reflect rows K and below so that column K is zero below row K; returns its element there.
+#[inline(always)]
+fn triangulate<const K: usize, const C: usize, S: Simd>(columns: &mut [Six<S>; C]) -> Pivot<S> {
     let (mirrors, rest) = columns.split_at_mut(K + 1);
     let mirror = &mut mirrors[K];
     let mut square = mirror[K] * mirror[K];
@@ -286,14 +330,17 @@ fn triangulate<const K: usize, const C: usize, S: Simd>(columns: &mut [Six<S>; C
         square = mirror[row].mul_add(mirror[row], square);
     }
     let (length, first) = (square.sqrt(), mirror[K]);
-    let product = length.mul_add(first.abs(), square);
+    let sum = length + first.abs();
+    let product = length * sum;
     // A column of zeros needs no reflection.
     let zero = first.like(0.0);
     let scale = product.if_above(zero, first.like(-1.0) / product, zero);
-    let diagonal = -length.copysign(first);
-    mirror[K] = first - diagonal;
+    // 1 / length, without another division.
+    let inverse = product.if_above(zero, -(scale * sum), first.like(1.0 / LEAST));
+    let pivot = Pivot { value: -length.copysign(first), inverse: -inverse.copysign(first) };
+    mirror[K] = first - pivot.value;
     for column in rest {
         reflect(mirror, scale, column, K);
     }
-    diagonal
+    pivot
 }
