@@ -161,6 +161,19 @@ pub enum ModelFault {
         /// it; none where none does.
         snap: Option<f64>,
     },
+    /// A joint at this angle leaves two axes of the others so nearly parallel.
+    LeftNearlyParallel {
+        /// The joint, from 1.
+        joint: usize,
+        /// Its angle [rad].
+        angle: f64,
+        /// The axes, from 1.
+        axes: (usize, usize),
+        /// How far they are off parallel [rad].
+        off: f64,
+        /// How far off parallel they must be, if not parallel [rad].
+        bound: f64,
+    },
     /// The arm cannot be corrected, or is not that of its nominal one.
     Calibrated(CalibratedFault),
     /// The URDF describes no arm that can be taken.
@@ -273,6 +286,11 @@ impl fmt::Display for ModelFault {
                     None => write!(f, " (are the angles written with all their digits?)"),
                 }
             }
+            Self::LeftNearlyParallel { joint, angle, axes: (i, j), off, bound } => write!(
+                f,
+                "joint {joint} at {angle} rad leaves axes {i} and {j} {off:.1e} rad off parallel, \
+                 they must be parallel or at least {bound:.1e} rad off"
+            ),
             Self::Calibrated(fault) => fault.fmt(f),
             Self::Urdf(fault) => write!(f, "URDF: {fault}"),
         }

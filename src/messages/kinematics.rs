@@ -170,6 +170,10 @@ fn models() -> Vec<Row> {
             axes: (1, 2), off: 1e-8, distance: 2e7, bound: MOST_LENGTH, snap: None,
         },
             "the same where no `snap` helps", "write all digits";
+        ModelFault::LeftNearlyParallel { .. } => ModelFault::LeftNearlyParallel {
+            joint: 4, angle: 1.570_796_336_794_897, axes: (3, 5), off: 1e-8, bound: 8.1e-8,
+        },
+            "`given`", "give the angle that makes them parallel, or one farther from it";
         ModelFault::Calibrated(CalibratedFault::Coupled) =>
             ModelFault::Calibrated(CalibratedFault::Coupled),
             "`with_corrections`, `calibrate` or `with_nominal` of a robot with a linkage",

@@ -223,3 +223,13 @@ def test_slots_do_not_depend_on_how_the_first_joint_is_given():
     alone = robot.ik(T, given=given)
     assert len(alone) == 8
     np.testing.assert_array_equal(robot.ik_batch(T, given=given).q, alone.q_by_slot)
+
+
+def test_an_angle_that_leaves_axes_nearly_parallel_is_refused_by_name():
+    with pytest.raises(irbkin.InvalidModelError) as refusal:
+        irbkin.Robot("IRB 14050").given({4: np.pi / 2 + 1e-8})
+    assert str(refusal.value) == (
+        "joint 4 at 1.5707963367948965 rad leaves axes 3 and 5 1.0e-8 rad off parallel, they must "
+        "be parallel or at least 8.1e-8 rad off"
+    )
+    irbkin.Robot("IRB 14050").given({4: np.pi / 2 + 9e-8})

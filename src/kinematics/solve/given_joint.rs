@@ -4,7 +4,7 @@ use alloc::format;
 
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Unit, Vector3};
 
-use crate::error::{Error, JointFault};
+use crate::error::{Error, JointFault, ModelFault};
 use crate::kinematics::answer::check::{check_angle, check_seed, check_weights};
 use crate::kinematics::answer::solutions::{Place, Solution, Solutions};
 use crate::kinematics::answer::status::Status;
@@ -78,12 +78,32 @@ impl Robot<7> {
             direction: (frame.rotation * Vector3::z()).into(),
             point: frame.translation.vector.into(),
         });
-        let six = Robot::from_mdh(Mdh::from_joint_axes(&axes, &tip)?)?
+        let mdh = Mdh::from_joint_axes(&axes, &tip)
+            .map_err(|error| with_names_of_seven(error, joint, angle))?;
+        let six = Robot::from_mdh(mdh)?
             .with_name(format!("{}, J{} locked", self.name(), joint + 1))
             .with_limits(JointLimits::stored(others(&self.limits().to_array(), joint))?)
             .with_max_velocity(self.max_velocity().map(|velocity| others(velocity, joint)))?;
         six.with_base(self.base())?.with_tool(self.tool())
     }
+}
+
+/// An error about two axes, with their numbers in the arm and the joint that leaves them so.
+fn with_names_of_seven(error: Error, joint: usize, angle: f64) -> Error {
+    let Error::InvalidModel(ModelFault::NearlyParallel { axes, off, distance, bound, .. }) = error
+    else {
+        return error;
+    };
+    let number = |axis: usize| if axis <= joint { axis } else { axis + 1 };
+    ModelFault::LeftNearlyParallel {
+        joint: joint + 1,
+        angle,
+        axes: (number(axes.0), number(axes.1)),
+        off,
+        // The distance goes with the inverse of the angle.
+        bound: off * distance / bound,
+    }
+    .into()
 }
 
 /// All elements but one.

@@ -23,11 +23,11 @@ const MOST_SECANTS: usize = 8;
 
 /// A self-motion.
 pub(crate) struct SelfMotion<'a> {
-    closure: &'a Closure,
-    target: &'a Target,
+    pub(super) closure: &'a Closure,
+    pub(super) target: &'a Target,
     /// A member of it, and by how much each joint moves there.
-    start: [f64; 6],
-    direction: [f64; 6],
+    pub(super) start: [f64; 6],
+    pub(super) direction: [f64; 6],
 }
 
 impl Accepted {

@@ -1,9 +1,12 @@
 //! Self-motions: one configuration stands for each.
 
+use core::ops::ControlFlow;
+
 use nalgebra::SVector;
 
 use super::accepted::{Accepted, Configuration, Kind};
 use super::chain::{Closure, Target};
+use super::members::SelfMotion;
 use crate::kinematics::pose::angles::wrap;
 
 /// Step along a self-motion [rad].
@@ -26,52 +29,37 @@ impl Accepted {
             if let Kind::Free { direction } = one.kind
                 && self.as_slice().len() > 1
             {
-                for way in [direction, direction.map(|part| -part)] {
-                    let is_closed = self.thin_along(closure, target, index, &one, way);
-                    if is_closed {
-                        break;
-                    }
-                }
+                let motion = SelfMotion { closure, target, start: one.theta, direction };
+                motion.around(|theta, next| {
+                    self.remove_between(&motion, &one, [theta, next]);
+                    ControlFlow::Continue(())
+                });
             }
-            index += 1;
+            // It is kept, though earlier ones may have been removed.
+            index = self.as_slice().iter().position(|kept| *kept == one).map_or(index, |at| at + 1);
         }
     }
 
-    /// Remove what is on the self-motion of a configuration in one direction; whether it returned
-    /// to its start.
-    fn thin_along(
+    /// Remove what is on a self-motion near the end of a step, but for the one that is kept.
+    fn remove_between(
         &mut self,
-        closure: &Closure,
-        target: &Target,
-        index: usize,
-        start: &Configuration,
-        mut way: [f64; 6],
-    ) -> bool {
-        let mut theta = start.theta;
-        for step in 0..MOST_STEPS {
-            let Some((next, ahead)) = closure.advanced(target, &theta, &way) else { return false };
-            (theta, way) = (next, ahead);
-            let mut other = 0;
-            while other < self.as_slice().len() {
-                let one = self.as_slice()[other];
-                let is_met = other != index
-                    && one.kind != Kind::Regular
-                    && one.distance(&theta) < ON_CURVE
-                    && closure.is_on_curve(target, &theta, &way, &one.theta);
-                if is_met {
-                    self.remove(other);
-                    if other < index {
-                        return false;
-                    }
-                } else {
-                    other += 1;
-                }
-            }
-            if step > 2 && start.distance(&theta) < 0.6 * STEP {
-                return true;
+        motion: &SelfMotion<'_>,
+        kept: &Configuration,
+        step: [&[f64; 6]; 2],
+    ) {
+        let mut other = 0;
+        while other < self.as_slice().len() {
+            let one = self.as_slice()[other];
+            let is_met = one != *kept
+                && one.kind != Kind::Regular
+                && one.distance(step[1]) < ON_CURVE
+                && motion.closure.is_on_curve(motion.target, step, &one.theta);
+            if is_met {
+                self.remove(other);
+            } else {
+                other += 1;
             }
         }
-        false
     }
 }
 
@@ -91,19 +79,18 @@ impl Closure {
             return None;
         }
         let next = next.theta;
-        let ahead = SVector::<f64, 6>::from_fn(|i, _| next[i] - theta[i]).normalize();
-        Some((next, ahead.into()))
+        Some((next, ahead(theta, &next)))
     }
 
-    /// Whether a configuration near a point of a self-motion is on it.
+    /// Whether a configuration near the end of a step along a self-motion is on it.
     fn is_on_curve(
         &self,
         target: &Target,
-        point: &[f64; 6],
-        way: &[f64; 6],
+        [before, point]: [&[f64; 6]; 2],
         theta: &[f64; 6],
     ) -> bool {
         let Some(curve) = self.curve(target, point) else { return false };
+        let way = ahead(before, point);
         let apart: [f64; 6] = core::array::from_fn(|i| wrap(theta[i] - point[i]));
         let s: f64 = (0..6).map(|i| curve.v[i] * apart[i]).sum();
         let guess = core::array::from_fn(|i| point[i] + s * way[i]);
@@ -111,4 +98,9 @@ impl Closure {
             |on_curve: [f64; 6]| (0..6).all(|i| wrap(theta[i] - on_curve[i]).abs() < 1e-5);
         curve.at(s, &guess).is_some_and(|on_curve| is_same(on_curve.theta))
     }
+}
+
+/// The direction of a step.
+fn ahead(from: &[f64; 6], to: &[f64; 6]) -> [f64; 6] {
+    SVector::<f64, 6>::from_fn(|i, _| to[i] - from[i]).normalize().into()
 }
