@@ -3,7 +3,6 @@
 use core::fmt;
 
 use super::chain::{Closure, Target};
-use super::fold::Missed;
 use super::newton::Candidates;
 use crate::kinematics::pose::angles::wrap;
 use crate::lanes::LANES;
@@ -61,6 +60,19 @@ pub(crate) struct Configuration {
     /// The least singular value of the conditions' derivatives, to a small factor [1].
     pub(crate) least: f64,
     pub(crate) kind: Kind,
+}
+
+/// A fold that a pose misses: its solutions are complex.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Missed {
+    /// Their real part, where they would merge.
+    pub(crate) theta: [f64; 6],
+    /// Their imaginary part, by size.
+    pub(crate) aside: [f64; 6],
+}
+
+impl Missed {
+    const NONE: Self = Self { theta: [0.0; 6], aside: [0.0; 6] };
 }
 
 /// The configurations of a pose.

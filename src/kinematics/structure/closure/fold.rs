@@ -18,7 +18,7 @@ use nalgebra::{SMatrix, SVector};
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
-use super::accepted::{Configuration, ISOLATED, Kind};
+use super::accepted::{Configuration, ISOLATED, Kind, Missed};
 use super::chain::{Closure, Target, largest, sines};
 
 /// Steps of Newton's method along the curve, at most.
@@ -56,19 +56,6 @@ pub(super) struct Settled {
     pub(super) is_certain: bool,
     /// Where two solutions would merge, if the pose misses them.
     pub(super) missed: Option<Missed>,
-}
-
-/// A fold that a pose misses: its solutions are complex.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Missed {
-    /// Their real part, where they would merge.
-    pub(crate) theta: [f64; 6],
-    /// Their imaginary part, by size.
-    pub(crate) aside: [f64; 6],
-}
-
-impl Missed {
-    pub(super) const NONE: Self = Self { theta: [0.0; 6], aside: [0.0; 6] };
 }
 
 impl Settled {

@@ -6,7 +6,7 @@ use core::ops::ControlFlow;
 
 use super::accepted::{Accepted, Configuration, Kind, MOST};
 use super::chain::{Closure, Target};
-use super::self_motion::{MOST_STEPS, STEP};
+use super::self_motion::{STEP, SelfMotion};
 use crate::kinematics::pose::angles::wrap;
 
 /// Part of a step along a self-motion from which on a joint moves [1].
@@ -20,15 +20,6 @@ const AT_PLACE: f64 = 1e-14;
 
 /// Steps of the secant method, at most.
 const MOST_SECANTS: usize = 8;
-
-/// A self-motion.
-pub(crate) struct SelfMotion<'a> {
-    pub(super) closure: &'a Closure,
-    pub(super) target: &'a Target,
-    /// A member of it, and by how much each joint moves there.
-    pub(super) start: [f64; 6],
-    pub(super) direction: [f64; 6],
-}
 
 impl Accepted {
     /// Bring self-motions to a member whose first joint that moves has its angle of `near`, if they
@@ -93,41 +84,9 @@ impl SelfMotion<'_> {
         });
         nearest
     }
-
-    /// Walk along it in both directions, or once around, until `pass` breaks off: it gets the ends
-    /// of each step.
-    pub(crate) fn around(&self, mut pass: impl FnMut(&[f64; 6], &[f64; 6]) -> ControlFlow<()>) {
-        let Self { closure, target, start, direction } = self;
-        let apart = |theta: &[f64; 6]| {
-            theta.iter().zip(start).fold(0.0, |most: f64, (a, b)| most.max(wrap(a - b).abs()))
-        };
-        for way in [*direction, direction.map(|part| -part)] {
-            let (mut theta, mut way) = (*start, way);
-            let mut is_back = false;
-            for step in 0..MOST_STEPS {
-                let Some((next, ahead)) = closure.advanced(target, &theta, &way) else { break };
-                // One step more than around, which passes the start.
-                if pass(&theta, &next).is_break() || is_back {
-                    return;
-                }
-                is_back = step > 2 && apart(&next) < 0.6 * STEP;
-                (theta, way) = (next, ahead);
-            }
-        }
-    }
 }
 
 impl Closure {
-    /// The self-motion through a configuration.
-    pub(crate) fn self_motion<'a>(
-        &'a self,
-        target: &'a Target,
-        theta: &[f64; 6],
-    ) -> Option<SelfMotion<'a>> {
-        let direction = self.curve(target, theta)?.v.into();
-        Some(SelfMotion { closure: self, target, start: *theta, direction })
-    }
-
     /// The member between two of them, ends included, with a joint at its angle of `near`.
     fn member_between(
         &self,

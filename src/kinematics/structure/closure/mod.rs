@@ -16,8 +16,7 @@ mod self_motion;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use accepted::{Accepted, Configuration, Kind};
+pub(crate) use accepted::{Accepted, Configuration, Kind, Missed};
 pub(crate) use chain::{Closure, Target};
-pub(crate) use fold::Missed;
 pub(crate) use newton::{Candidates, Six, reflect};
 pub(crate) use placed::Placed;

@@ -6,18 +6,50 @@ use nalgebra::SVector;
 
 use super::accepted::{Accepted, Configuration, Kind};
 use super::chain::{Closure, Target};
-use super::members::SelfMotion;
 use crate::kinematics::pose::angles::wrap;
 
 /// Step along a self-motion [rad].
 pub(super) const STEP: f64 = 0.1;
 
 /// Steps along a self-motion, at most: four turns of its fastest joint.
-pub(super) const MOST_STEPS: usize = 400;
+const MOST_STEPS: usize = 400;
 
 /// How far a configuration of the self-motion may be from its points [rad]: half of a step, and
 /// what the curve bends in it.
 const ON_CURVE: f64 = 0.07;
+
+/// A self-motion.
+pub(crate) struct SelfMotion<'a> {
+    pub(super) closure: &'a Closure,
+    pub(super) target: &'a Target,
+    /// A member of it, and by how much each joint moves there.
+    pub(super) start: [f64; 6],
+    pub(super) direction: [f64; 6],
+}
+
+impl SelfMotion<'_> {
+    /// Walk along it in both directions, or once around, until `pass` breaks off: it gets the ends
+    /// of each step.
+    pub(crate) fn around(&self, mut pass: impl FnMut(&[f64; 6], &[f64; 6]) -> ControlFlow<()>) {
+        let Self { closure, target, start, direction } = self;
+        let apart = |theta: &[f64; 6]| {
+            theta.iter().zip(start).fold(0.0, |most: f64, (a, b)| most.max(wrap(a - b).abs()))
+        };
+        for way in [*direction, direction.map(|part| -part)] {
+            let (mut theta, mut way) = (*start, way);
+            let mut is_back = false;
+            for step in 0..MOST_STEPS {
+                let Some((next, ahead)) = closure.advanced(target, &theta, &way) else { break };
+                // One step more than around, which passes the start.
+                if pass(&theta, &next).is_break() || is_back {
+                    return;
+                }
+                is_back = step > 2 && apart(&next) < 0.6 * STEP;
+                (theta, way) = (next, ahead);
+            }
+        }
+    }
+}
 
 impl Accepted {
     /// Keep the first configuration of each self-motion. What a self-motion passes through is one
@@ -64,6 +96,16 @@ impl Accepted {
 }
 
 impl Closure {
+    /// The self-motion through a configuration.
+    pub(crate) fn self_motion<'a>(
+        &'a self,
+        target: &'a Target,
+        theta: &[f64; 6],
+    ) -> Option<SelfMotion<'a>> {
+        let direction = self.curve(target, theta)?.v.into();
+        Some(SelfMotion { closure: self, target, start: *theta, direction })
+    }
+
     /// A step ahead on a self-motion, and its direction there.
     pub(super) fn advanced(
         &self,
