@@ -88,7 +88,12 @@ impl<const N: usize> Kernel for OneFrames<'_, N> {
             frame.advance::<FUSED>(*link, &sin[joint], &cos[joint]);
             *pose = frame.pose(0);
         }
-        (frames, tool::<N, 1, true, FUSED>(self.chain, first, &sin, &cos).pose(0))
+        let tool = match self.chain.tilts() {
+            None => frame.times::<FUSED>(self.chain.last()),
+            // Not by the common normals of the table.
+            Some(_) => tool::<N, 1, true, FUSED>(self.chain, first, &sin, &cos),
+        };
+        (frames, tool.pose(0))
     }
 }
 

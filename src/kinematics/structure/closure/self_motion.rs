@@ -1,4 +1,4 @@
-//! Self-motions: one configuration stands for each.
+//! Self-motions: the walk along one, and the one configuration that stands for it.
 
 use core::ops::ControlFlow;
 
@@ -63,7 +63,7 @@ impl Accepted {
             {
                 let motion = SelfMotion { closure, target, start: one.theta, direction };
                 motion.around(|theta, next| {
-                    self.remove_between(&motion, &one, [theta, next]);
+                    self.remove_met(&motion, &one, [theta, next]);
                     ControlFlow::Continue(())
                 });
             }
@@ -73,12 +73,7 @@ impl Accepted {
     }
 
     /// Remove what is on a self-motion near the end of a step, but for the one that is kept.
-    fn remove_between(
-        &mut self,
-        motion: &SelfMotion<'_>,
-        kept: &Configuration,
-        step: [&[f64; 6]; 2],
-    ) {
+    fn remove_met(&mut self, motion: &SelfMotion<'_>, kept: &Configuration, step: [&[f64; 6]; 2]) {
         let mut other = 0;
         while other < self.as_slice().len() {
             let one = self.as_slice()[other];
