@@ -25,7 +25,7 @@ use super::chain::{Closure, Target, largest, sines};
 const MOST_STEPS: usize = 8;
 
 /// Sweeps of a singular value decomposition, at most.
-const SWEEPS: usize = 60;
+pub(super) const SWEEPS: usize = 60;
 
 /// How far along the curve its closure is sampled [rad]: for a fold of rounding's size, 1e5 times
 /// the distance of its solutions; the third power is then below 1e-5.
@@ -46,7 +46,7 @@ const PLACED: f64 = 1e-5;
 const FARTHEST: f64 = 0.2;
 
 /// Second singular value below which two directions are free, which is not analyzed [1].
-const SECOND: f64 = 1e-6;
+pub(super) const SECOND: f64 = 1e-6;
 
 /// What is at a configuration that hardly closes better in one direction.
 #[derive(Clone, Copy, Debug, Default)]

@@ -6,11 +6,13 @@ use core::ops::ControlFlow;
 
 use super::accepted::{Accepted, Configuration, Kind, MOST};
 use super::chain::{Closure, Target};
+use super::member::Member;
 use super::self_motion::{STEP, SelfMotion};
 use crate::kinematics::pose::angles::wrap;
 
-/// Part of a step along a self-motion from which on a joint moves [1].
-const MOVES: f64 = 1e-4;
+/// Angle by which a joint that moves does so in some steps [rad].
+const MOVES: f64 = 1e-3;
+const STEPS_TO_MOVE: usize = 5;
 
 /// Angle from which on a joint passes half a turn rather than its place [rad].
 const FAR: f64 = 1.0;
@@ -37,7 +39,8 @@ impl Accepted {
                 self.insert(closure, *one);
                 continue;
             };
-            let motion = SelfMotion { closure, target, start: one.theta, direction };
+            let start = Member { theta: one.theta, direction };
+            let motion = SelfMotion { closure, target, start };
             let moves = motion.moving();
             let first = moves.iter().position(|moves| *moves);
             let member = first.and_then(|first| motion.first_member(first, near));
@@ -54,18 +57,29 @@ impl Accepted {
 impl SelfMotion<'_> {
     /// Which joints move: the curve is analytic, so that what moves does so in any part of it.
     fn moving(&self) -> [bool; 6] {
-        let next = self.closure.advanced(self.target, &self.start, &self.direction);
-        core::array::from_fn(|joint| {
-            let step = next.map_or(0.0, |(next, _)| next[joint] - self.start[joint]);
-            step.abs().max(STEP * self.direction[joint].abs()) > MOVES * STEP
-        })
+        // Where self-motions cross, a start that is off closes to rounding too: the members behind
+        // it count, if there are two.
+        let (mut first, mut most) = (None, [0.0; 6]);
+        let mut left = STEPS_TO_MOVE;
+        self.around(|_, next| {
+            let from = first.get_or_insert(next.theta);
+            for joint in 0..6 {
+                most[joint] = (next.theta[joint] - from[joint]).abs().max(most[joint]);
+            }
+            left -= 1;
+            if left > 0 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        });
+        if left > STEPS_TO_MOVE - 2 {
+            most = self.start.direction.map(|part| STEP * part.abs());
+        }
+        most.map(|most| most > MOVES)
     }
 
     /// The first member on the way, in either direction, with a joint at its angle of `near`.
     fn first_member(&self, joint: usize, near: &[f64; 6]) -> Option<Configuration> {
         let mut first = None;
-        self.around(|theta, next| {
-            first = self.closure.member_between(self.target, [theta, next], joint, near);
+        self.around(|one, next| {
+            first = self.member_between([one, next], joint, near);
             if first.is_none() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         });
         first
@@ -74,62 +88,58 @@ impl SelfMotion<'_> {
     /// The member with a joint at its angle of `near`; of several the nearest.
     pub(crate) fn member(&self, joint: usize, near: &[f64; 6]) -> Option<Configuration> {
         let mut nearest = None::<Configuration>;
-        self.around(|theta, next| {
+        self.around(|one, next| {
             let is_nearer = |one: &Configuration| {
                 nearest.is_none_or(|other| one.distance(near) < other.distance(near))
             };
-            let one = self.closure.member_between(self.target, [theta, next], joint, near);
-            nearest = one.filter(is_nearer).or(nearest);
+            let member = self.member_between([one, next], joint, near);
+            nearest = member.filter(is_nearer).or(nearest);
             ControlFlow::Continue(())
         });
         nearest
     }
-}
 
-impl Closure {
     /// The member between two of them, ends included, with a joint at its angle of `near`.
     fn member_between(
         &self,
-        target: &Target,
-        [start, end]: [&[f64; 6]; 2],
+        [start, end]: [&Member; 2],
         joint: usize,
         near: &[f64; 6],
     ) -> Option<Configuration> {
-        let away = |theta: &[f64; 6]| wrap(theta[joint] - near[joint]);
+        let away = |one: &Member| wrap(one.theta[joint] - near[joint]);
         let (here, there) = (away(start), away(end));
         if here.abs() <= AT_PLACE {
-            return self.with_kind(target, start);
+            return self.configuration(start);
         }
         let is_passed = (here < 0.0) != (there < 0.0) && here.abs() + there.abs() < FAR;
-        if is_passed { self.where_zero(target, start, end, away) } else { None }
+        if is_passed { self.where_zero(start, end, away) } else { None }
     }
 
     /// The member between two of them where a number of it is zero, by the secant method.
     fn where_zero(
         &self,
-        target: &Target,
-        start: &[f64; 6],
-        end: &[f64; 6],
-        number: impl Fn(&[f64; 6]) -> f64,
+        start: &Member,
+        end: &Member,
+        number: impl Fn(&Member) -> f64,
     ) -> Option<Configuration> {
-        let curve = self.curve(target, start)?;
-        let s_end = (0..6).map(|i| curve.v[i] * (end[i] - start[i])).sum();
-        let (mut before, mut last) = ((0.0, number(start)), (s_end, number(end)));
-        let mut theta = *end;
+        let along = |i: usize| start.direction[i] * (end.theta[i] - start.theta[i]);
+        let (mut before, mut last) =
+            ((0.0, number(start)), ((0..6).map(along).sum::<f64>(), number(end)));
+        let mut member = *end;
         for _ in 0..MOST_SECANTS {
             if last.1.abs() <= AT_PLACE {
                 break;
             }
             let s = last.0 - last.1 * (last.0 - before.0) / (last.1 - before.1);
-            theta = curve.at(s, &theta)?.theta;
-            (before, last) = (last, (s, number(&theta)));
+            member = self.closure.member_ahead(self.target, start, s, member.theta)?;
+            (before, last) = (last, (s, number(&member)));
         }
-        self.with_kind(target, &theta)
+        self.configuration(&member)
     }
 
-    /// A member of a self-motion as a configuration.
-    fn with_kind(&self, target: &Target, theta: &[f64; 6]) -> Option<Configuration> {
-        let there = self.curve(target, theta)?;
-        self.accepted(target, *theta, there.least, Kind::Free { direction: there.v.into() })
+    /// A member as a configuration.
+    fn configuration(&self, member: &Member) -> Option<Configuration> {
+        let kind = Kind::Free { direction: member.direction };
+        self.closure.accepted(self.target, member.theta, 0.0, kind)
     }
 }

@@ -6,9 +6,11 @@
 
 mod accepted;
 mod chain;
+mod crossing;
 mod flat;
 mod fold;
 mod freedom;
+mod member;
 mod members;
 mod newton;
 mod placed;

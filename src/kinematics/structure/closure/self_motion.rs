@@ -1,4 +1,6 @@
 //! Self-motions: the walk along one, and the one configuration that stands for it.
+//!
+//! Docs: general.md, eq. 103.
 
 use core::ops::ControlFlow;
 
@@ -6,6 +8,7 @@ use nalgebra::SVector;
 
 use super::accepted::{Accepted, Configuration, Kind};
 use super::chain::{Closure, Target};
+use super::member::{Member, interpolated};
 use crate::kinematics::pose::angles::wrap;
 
 /// Step along a self-motion [rad].
@@ -14,73 +17,107 @@ pub(super) const STEP: f64 = 0.1;
 /// Steps along a self-motion, at most: four turns of its fastest joint.
 const MOST_STEPS: usize = 400;
 
-/// How far a configuration of the self-motion may be from its points [rad]: half of a step, and
-/// what the curve bends in it.
-const ON_CURVE: f64 = 0.07;
+/// How far a configuration of the self-motion may be from the polynomial between two members [rad].
+const ON_CURVE: f64 = 0.02;
+
+/// How far it may be from the place of the self-motion that is found for it [rad].
+const SAME: f64 = 1e-5;
+
+/// How far beyond the ends of a step it may be, as a part of it [1].
+const BEYOND: f64 = 0.05;
 
 /// A self-motion.
 pub(crate) struct SelfMotion<'a> {
     pub(super) closure: &'a Closure,
     pub(super) target: &'a Target,
-    /// A member of it, and by how much each joint moves there.
-    pub(super) start: [f64; 6],
-    pub(super) direction: [f64; 6],
+    pub(super) start: Member,
 }
 
 impl SelfMotion<'_> {
     /// Walk along it in both directions, or once around, until `pass` breaks off: it gets the ends
     /// of each step.
-    pub(crate) fn around(&self, mut pass: impl FnMut(&[f64; 6], &[f64; 6]) -> ControlFlow<()>) {
-        let Self { closure, target, start, direction } = self;
-        let apart = |theta: &[f64; 6]| {
-            theta.iter().zip(start).fold(0.0, |most: f64, (a, b)| most.max(wrap(a - b).abs()))
+    pub(crate) fn around(&self, mut pass: impl FnMut(&Member, &Member) -> ControlFlow<()>) {
+        let Self { closure, target, start: Member { theta, direction } } = *self;
+        let apart = |other: &[f64; 6]| {
+            theta.iter().zip(other).fold(0.0, |most: f64, (a, b)| most.max(wrap(a - b).abs()))
         };
-        for way in [*direction, direction.map(|part| -part)] {
-            let (mut theta, mut way) = (*start, way);
+        for direction in [direction, direction.map(|part| -part)] {
+            let mut one = Member { theta, direction };
+            let mut before = direction;
             let mut is_back = false;
             for step in 0..MOST_STEPS {
-                let Some((next, ahead)) = closure.advanced(target, &theta, &way) else { break };
+                // As the direction has changed, it will.
+                let guess = core::array::from_fn(|i| {
+                    one.theta[i] + STEP * (1.5 * one.direction[i] - 0.5 * before[i])
+                });
+                let Some(next) = closure.member_ahead(target, &one, STEP, guess) else { break };
                 // One step more than around, which passes the start.
-                if pass(&theta, &next).is_break() || is_back {
+                if pass(&one, &next).is_break() || is_back {
                     return;
                 }
-                is_back = step > 2 && apart(&next) < 0.6 * STEP;
-                (theta, way) = (next, ahead);
+                is_back = step > 2 && apart(&next.theta) < 0.6 * STEP;
+                (before, one) = (one.direction, next);
             }
         }
+    }
+
+    /// Whether a configuration is on the way between two members.
+    fn passes(&self, ends: [&Member; 2], theta: &[f64; 6]) -> bool {
+        let [one, next] = ends.map(|end| SVector::from(end.theta));
+        let place = one.zip_map(&SVector::from(*theta), |one, angle| one + wrap(angle - one));
+        let chord = next - one;
+        let part = (place - one).dot(&chord) / chord.norm_squared();
+        // What is next to an end counts for both steps.
+        if !(-BEYOND..=1.0 + BEYOND).contains(&part) {
+            return false;
+        }
+        let between = interpolated(ends, part);
+        let off = (place - between).amax();
+        off < SAME
+            || off < ON_CURVE && {
+                let s = SVector::from(ends[0].direction).dot(&(between - one));
+                let member = self.closure.member_ahead(self.target, ends[0], s, between.into());
+                member.is_some_and(|member| (place - SVector::from(member.theta)).amax() < SAME)
+            }
     }
 }
 
 impl Accepted {
     /// Keep the first configuration of each self-motion. What a self-motion passes through is one
-    /// of its own.
+    /// of its own; what does not move a step is none.
     pub(crate) fn thin(&mut self, closure: &Closure, target: &Target) {
         let mut index = 0;
         while index < self.as_slice().len() {
             let one = self.as_slice()[index];
-            if let Kind::Free { direction } = one.kind
-                && self.as_slice().len() > 1
-            {
-                let motion = SelfMotion { closure, target, start: one.theta, direction };
+            if let Kind::Free { direction } = one.kind {
+                let start = Member { theta: one.theta, direction };
+                let motion = SelfMotion { closure, target, start };
+                let mut moves = false;
                 motion.around(|theta, next| {
+                    moves = true;
+                    if self.as_slice().len() == 1 {
+                        return ControlFlow::Break(());
+                    }
                     self.remove_met(&motion, &one, [theta, next]);
                     ControlFlow::Continue(())
                 });
+                // It is kept, though earlier ones may have been removed.
+                index = self.as_slice().iter().position(|kept| *kept == one).unwrap_or(index);
+                if !moves {
+                    self.replace(index, Configuration { kind: Kind::Fold, ..one });
+                }
             }
-            // It is kept, though earlier ones may have been removed.
-            index = self.as_slice().iter().position(|kept| *kept == one).map_or(index, |at| at + 1);
+            index += 1;
         }
     }
 
-    /// Remove what is on a self-motion near the end of a step, but for the one that is kept.
-    fn remove_met(&mut self, motion: &SelfMotion<'_>, kept: &Configuration, step: [&[f64; 6]; 2]) {
+    /// Remove what is on a step of a self-motion, but for the one that is kept.
+    fn remove_met(&mut self, motion: &SelfMotion<'_>, kept: &Configuration, ends: [&Member; 2]) {
         let mut other = 0;
         while other < self.as_slice().len() {
             let one = self.as_slice()[other];
-            let is_met = one != *kept
-                && one.kind != Kind::Regular
-                && one.distance(step[1]) < ON_CURVE
-                && motion.closure.is_on_curve(motion.target, step, &one.theta);
+            let is_met =
+                one != *kept && one.kind != Kind::Regular && motion.passes(ends, &one.theta);
             if is_met {
                 self.remove(other);
             } else {
@@ -88,56 +125,4 @@ impl Accepted {
             }
         }
     }
-}
-
-impl Closure {
-    /// The self-motion through a configuration.
-    pub(crate) fn self_motion<'a>(
-        &'a self,
-        target: &'a Target,
-        theta: &[f64; 6],
-    ) -> Option<SelfMotion<'a>> {
-        let direction = self.curve(target, theta)?.v.into();
-        Some(SelfMotion { closure: self, target, start: *theta, direction })
-    }
-
-    /// A step ahead on a self-motion, and its direction there.
-    pub(super) fn advanced(
-        &self,
-        target: &Target,
-        theta: &[f64; 6],
-        way: &[f64; 6],
-    ) -> Option<([f64; 6], [f64; 6])> {
-        let guess = core::array::from_fn(|i| theta[i] + STEP * way[i]);
-        let curve = self.curve(target, theta)?;
-        let forward: f64 = (0..6).map(|i| curve.v[i] * way[i]).sum();
-        let next = curve.at(STEP.copysign(forward), &guess)?;
-        if next.left.abs() > self.accepts() {
-            return None;
-        }
-        let next = next.theta;
-        Some((next, ahead(theta, &next)))
-    }
-
-    /// Whether a configuration near the end of a step along a self-motion is on it.
-    fn is_on_curve(
-        &self,
-        target: &Target,
-        [before, point]: [&[f64; 6]; 2],
-        theta: &[f64; 6],
-    ) -> bool {
-        let Some(curve) = self.curve(target, point) else { return false };
-        let way = ahead(before, point);
-        let apart: [f64; 6] = core::array::from_fn(|i| wrap(theta[i] - point[i]));
-        let s: f64 = (0..6).map(|i| curve.v[i] * apart[i]).sum();
-        let guess = core::array::from_fn(|i| point[i] + s * way[i]);
-        let is_same =
-            |on_curve: [f64; 6]| (0..6).all(|i| wrap(theta[i] - on_curve[i]).abs() < 1e-5);
-        curve.at(s, &guess).is_some_and(|on_curve| is_same(on_curve.theta))
-    }
-}
-
-/// The direction of a step.
-fn ahead(from: &[f64; 6], to: &[f64; 6]) -> [f64; 6] {
-    SVector::<f64, 6>::from_fn(|i, _| to[i] - from[i]).normalize().into()
 }

@@ -51,7 +51,8 @@ impl General {
         }
         if accepted.has_self_motion() {
             accepted.thin(&self.closure, &target);
-        } else if !is_certain {
+        }
+        if !is_certain && !accepted.has_self_motion() {
             self.start_anywhere(&target, accepted);
         }
         is_certain
@@ -129,20 +130,21 @@ impl General {
         value: f64,
     ) -> Option<[f64; 6]> {
         let target = self.closure.target_of(t_first_last);
-        let motion = self.closure.self_motion(&target, &self.joint_map.theta(q))?;
         let mut near = *q;
         near[joint] = value;
-        let member = motion.member(joint, &self.joint_map.theta(&near))?;
+        let near = self.joint_map.theta(&near);
+        let mut motions = self.closure.self_motions(&target, &self.joint_map.theta(q));
+        let member = motions.find_map(|motion| motion.member(joint, &near))?;
         Some(self.joint_map.joints(member.theta))
     }
 
-    /// Walk along the self-motion of a joint vector of a pose.
+    /// Walk along the self-motions of a joint vector of a pose.
     pub(super) fn walk_along(&self, t_first_last: &Pose, q: &[f64; 6], pass: &mut TakeStep<'_, 6>) {
         let target = self.closure.target_of(t_first_last);
         let joints = |theta: &[f64; 6]| self.joint_map.joints(*theta);
-        if let Some(motion) = self.closure.self_motion(&target, &self.joint_map.theta(q)) {
-            motion.around(|theta, next| {
-                pass(&joints(theta), &joints(next));
+        for motion in self.closure.self_motions(&target, &self.joint_map.theta(q)) {
+            motion.around(|one, next| {
+                pass(&joints(&one.theta), &joints(&next.theta));
                 ControlFlow::Continue(())
             });
         }

@@ -5,6 +5,7 @@ use core::f64::consts::PI;
 use crate::Status;
 use crate::error::Error;
 use crate::kinematics::answer::solutions::Solution;
+use crate::kinematics::chain::dh::{DhRow, Mdh};
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::wrap;
@@ -66,34 +67,46 @@ fn the_free_joint_is_named_and_moves_along_the_self_motion() {
         }
     }
     // All joints but axis 6 may move where the wrist point of a CRX with equal links is on axis 2:
-    // some angles of the free joint are out of reach.
+    // each of them by a full turn. Some of these self-motions have a sharp bend.
     let crx = Robot::<6>::named("CRX-10iA").unwrap().with_limits(JointLimits::UNLIMITED);
     let mut rng = Rng::new(9);
-    let (mut moved_count, mut out_of_reach) = (0, 0);
+    let mut count = 0;
     for _ in 0..30 {
         let mut q: [f64; 6] = rng.angles();
         q[2] = -0.5 * PI;
-        let pose = crx.fk(&q);
-        let is_free = |one: &&Solution<6>| one.free_joint.is_some();
-        for one in crx.ik(&pose).unwrap().iter().filter(is_free) {
-            let joint = one.free_joint.unwrap().joint() - 1;
-            for value in rng.angles::<2>() {
-                match crx.with_free_joint(&pose, one, value) {
-                    Ok(moved) => {
-                        let moved = moved.unwrap();
-                        assert_eq!(moved.q[joint], value);
-                        assert!(crx.residual(&moved.q, &pose).largest() < 1e-13, "{moved:?}");
-                        moved_count += 1;
-                    }
-                    Err(Error::Unreachable(Explanation::FreeOutOfReach { .. })) => {
-                        out_of_reach += 1;
-                    }
-                    Err(error) => panic!("{error}"),
-                }
-            }
-        }
+        count += every_angle_is_reached(&crx, &crx.fk(&q), rng.angles());
     }
-    assert!(moved_count > 20 && out_of_reach > 0, "{moved_count} {out_of_reach}");
+    assert!(count > 40, "{count}");
+}
+
+/// Turn the free joint of each solution to these angles; returns how many are free.
+fn every_angle_is_reached(robot: &Robot<6>, pose: &Pose, angles: [f64; 2]) -> usize {
+    let mut count = 0;
+    for one in &robot.ik(pose).unwrap() {
+        let Some(free) = one.free_joint else { continue };
+        for value in angles {
+            let moved = robot.with_free_joint(pose, one, value).unwrap().unwrap();
+            assert_eq!(moved.q[free.joint() - 1], value);
+            assert!(robot.residual(&moved.q, pose).largest() < 1e-13, "{moved:?}");
+        }
+        count += 1;
+    }
+    count
+}
+
+#[test]
+fn the_free_joint_moves_where_self_motions_cross() {
+    let mut rng = Rng::new(10);
+    for (name, least) in [("CRX-10iA", 20), ("CRX-10iA/L", 10)] {
+        let robot = Robot::<6>::named(name).unwrap().with_limits(JointLimits::UNLIMITED);
+        let count: usize = (0..60)
+            .map(|_| {
+                let q = core::array::from_fn(|_| 0.5 * PI * rng.between(-2.0, 2.0).round());
+                every_angle_is_reached(&robot, &robot.fk(&q), [0.3, -2.0])
+            })
+            .sum();
+        assert!(count > least, "{name}: {count}");
+    }
 }
 
 #[test]
@@ -139,4 +152,33 @@ fn a_seed_on_a_self_motion_is_its_nearest_solution() {
             assert!(wrap(found - wanted).abs() < 1e-9, "{nearest:?} {seed:?}");
         }
     }
+}
+
+#[test]
+fn a_free_joint_that_cannot_turn_round_is_out_of_reach() {
+    // Axis 1 meets those of an oblique wrist: joints 1, 4, 5, 6 are a spherical linkage, whose
+    // sides let joint 1 turn by a part of a turn only.
+    let rows = [
+        DhRow::new(0.0, 0.0, 0.4, 0.0),
+        DhRow::new(-PI / 2.0, 0.0, 0.0, 0.0),
+        DhRow::new(0.0, 0.7, 0.0, 0.0),
+        DhRow::new(-PI / 2.0, 0.0, 0.6, 0.0),
+        DhRow::new(PI / 6.0, 0.0, 0.0, 0.0),
+        DhRow::new(-PI / 6.0, 0.0, 0.0, 0.0),
+    ];
+    let table = Mdh { base: Pose::identity(), rows, flange: Pose::identity() };
+    let robot = Robot::<6>::from_mdh(table).unwrap();
+    // The wrist point at 0.7 cos q2 - 0.6 sin(q2 + q3) from axis 1.
+    let q_2 = -0.9_f64;
+    let q = [0.5, q_2, (0.7 * q_2.cos() / 0.6).asin() - q_2, 1.1, 0.8, -0.4];
+    let pose = robot.fk(&q);
+    let solutions = robot.ik(&pose).unwrap();
+    let one = solutions.iter().find(|one| one.free_joint.is_some()).unwrap();
+    let turn = |value: f64| robot.with_free_joint(&pose, one, value);
+    let reached = (-31..=31).filter(|tenth| turn(0.1 * f64::from(*tenth)).is_ok()).count();
+    assert!((10..50).contains(&reached), "{reached}");
+    let moved = turn(one.q[0] + 0.1).unwrap().unwrap();
+    assert!(robot.residual(&moved.q, &pose).largest() < 1e-13, "{moved:?}");
+    let error = turn(one.q[0] + 3.0).unwrap_err();
+    assert!(matches!(error, Error::Unreachable(Explanation::FreeOutOfReach { joint: 1, .. })));
 }
