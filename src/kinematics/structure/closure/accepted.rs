@@ -37,17 +37,14 @@ const MOST_EXAMINED: usize = 24;
 const SAME: f64 = 1e-6;
 
 /// What the chain can do at a configuration.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// Nothing: an isolated solution.
     Regular,
     /// Two solutions have merged here.
     Fold,
     /// Move, its ends standing still.
-    Free {
-        /// By how much each joint moves.
-        direction: [f64; 6],
-    },
+    Free,
 }
 
 /// A solution.
@@ -73,6 +70,10 @@ pub(crate) struct Missed {
 
 impl Missed {
     const NONE: Self = Self { theta: [0.0; 6], aside: [0.0; 6] };
+
+    fn is(&self, other: &Self) -> bool {
+        self.theta.iter().zip(&other.theta).all(|(a, b)| wrap(a - b).abs() < EXTENT)
+    }
 }
 
 /// The configurations of a pose.
@@ -84,7 +85,7 @@ pub(crate) struct Accepted {
     /// without a decision, and nothing was left out.
     pub(crate) is_certain: bool,
     /// Where two solutions were looked for that are not: the pose misses their fold.
-    missed: [Missed; MOST_EXAMINED],
+    missed: [Missed; MOST / 2],
     missed_count: usize,
     /// How many candidates next to a singularity may still be examined.
     left: usize,
@@ -113,7 +114,7 @@ impl Configuration {
                 (0.1 * self.least).max(2.0 * rounding / self.least.max(1e-9)).min(SAME)
             }
             // Its distance from the exact fold is the root of rounding.
-            Kind::Fold | Kind::Free { .. } => 1e-6,
+            Kind::Fold | Kind::Free => 1e-6,
         }
     }
 
@@ -129,7 +130,7 @@ impl Configuration {
 
     /// Whether the chain can move there.
     pub(super) fn is_free(&self) -> bool {
-        matches!(self.kind, Kind::Free { .. })
+        self.kind == Kind::Free
     }
 
     /// Angles at a part of the way to another one.
@@ -155,7 +156,7 @@ impl Accepted {
         all: [Configuration::NONE; MOST],
         count: 0,
         is_certain: true,
-        missed: [Missed::NONE; MOST_EXAMINED],
+        missed: [Missed::NONE; MOST / 2],
         missed_count: 0,
         left: MOST_EXAMINED,
     };
@@ -253,6 +254,7 @@ impl Accepted {
         self.left -= 1;
         let settled = closure.settle(target, theta);
         if let Some(missed) = settled.missed
+            && !self.missed().iter().any(|one| one.is(&missed))
             && let Some(place) = self.missed.get_mut(self.missed_count)
         {
             *place = missed;

@@ -90,8 +90,7 @@ impl Closure {
         let free = FREE * self.rounding;
         let is_free = |point: &Point| point.left.abs().max(SAMPLED * point.slope.abs()) <= free;
         if is_free(&start) && is_free(&ahead) {
-            let kind = Kind::Free { direction: curve.v.into() };
-            let free = self.accepted(target, start.theta, curve.least, kind);
+            let free = self.accepted(target, start.theta, curve.least, Kind::Free);
             return Some(Settled::of([free, None], free.is_some()));
         }
         curve.solutions(start, ahead)

@@ -35,12 +35,11 @@ impl Accepted {
         let brought = self.emptied();
         let mut moving = [[false; 6]; MOST];
         for one in brought.as_slice() {
-            let Kind::Free { direction } = one.kind else {
+            let motion = one.is_free().then(|| closure.self_motions(target, &one.theta).next());
+            let Some(motion) = motion.flatten() else {
                 self.insert(closure, *one);
                 continue;
             };
-            let start = Member { theta: one.theta, direction };
-            let motion = SelfMotion { closure, target, start };
             let moves = motion.moving();
             let first = moves.iter().position(|moves| *moves);
             let member = first.and_then(|first| motion.first_member(first, near));
@@ -139,7 +138,6 @@ impl SelfMotion<'_> {
 
     /// A member as a configuration.
     fn configuration(&self, member: &Member) -> Option<Configuration> {
-        let kind = Kind::Free { direction: member.direction };
-        self.closure.accepted(self.target, member.theta, 0.0, kind)
+        self.closure.accepted(self.target, member.theta, 0.0, Kind::Free)
     }
 }

@@ -89,18 +89,18 @@ impl Accepted {
         let mut index = 0;
         while index < self.as_slice().len() {
             let one = self.as_slice()[index];
-            if let Kind::Free { direction } = one.kind {
-                let start = Member { theta: one.theta, direction };
-                let motion = SelfMotion { closure, target, start };
+            if one.is_free() {
                 let mut moves = false;
-                motion.around(|theta, next| {
-                    moves = true;
-                    if self.as_slice().len() == 1 {
-                        return ControlFlow::Break(());
-                    }
-                    self.remove_met(&motion, &one, [theta, next]);
-                    ControlFlow::Continue(())
-                });
+                if let Some(motion) = closure.self_motions(target, &one.theta).next() {
+                    motion.around(|theta, next| {
+                        moves = true;
+                        if self.as_slice().len() == 1 {
+                            return ControlFlow::Break(());
+                        }
+                        self.remove_met(&motion, &one, [theta, next]);
+                        ControlFlow::Continue(())
+                    });
+                }
                 // It is kept, though earlier ones may have been removed.
                 index = self.as_slice().iter().position(|kept| *kept == one).unwrap_or(index);
                 if !moves {

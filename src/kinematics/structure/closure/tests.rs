@@ -156,7 +156,9 @@ fn a_self_motion_stands_once_with_its_direction() {
         accepted.take(&closure, &target, &candidates, LANES);
         accepted.thin(&closure, &target);
         assert!(accepted.is_certain && accepted.as_slice().len() == 1, "{accepted:?}");
-        let Kind::Free { direction } = accepted.as_slice()[0].kind else { panic!("{accepted:?}") };
+        assert!(accepted.as_slice()[0].is_free(), "{accepted:?}");
+        let motion = closure.self_motions(&target, &accepted.as_slice()[0].theta).next();
+        let direction = motion.unwrap().start.direction;
         let expected = core::f64::consts::FRAC_1_SQRT_2;
         assert!((direction[3] + direction[5]).abs() < 1e-9);
         assert!((direction[3].abs() - expected).abs() < 1e-9);

@@ -163,7 +163,7 @@ fn kinds_of(one: &Configuration) -> SingularityKind {
     match one.kind {
         Kind::Regular if one.least >= SINGULAR => SingularityKind::empty(),
         Kind::Regular | Kind::Fold => SingularityKind::ELBOW,
-        Kind::Free { .. } => SingularityKind::WRIST,
+        Kind::Free => SingularityKind::WRIST,
     }
 }
 

@@ -257,7 +257,7 @@ fn a_determinant_that_only_rounding_keeps_from_zero_certifies_nothing() {
         let t = map.t_base_shoulder.inverse() * pose * map.t_wrist_flange.inverse();
         let mut accepted = Accepted::NONE;
         assert!(!arm.solve_all(&t, &mut accepted), "{accepted:?}");
-        let moves = |one: &&Configuration| matches!(one.kind, Kind::Free { .. });
+        let moves = |one: &&Configuration| one.kind == Kind::Free;
         assert_eq!(accepted.as_slice().iter().filter(moves).count(), 1, "{accepted:?}");
     }
 }

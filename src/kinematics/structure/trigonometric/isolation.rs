@@ -44,16 +44,19 @@ struct Parts {
 }
 
 impl Parts {
-    // Coefficients that are above all noise, for the lanes without a part.
     const NONE: Self = Self {
-        columns: [[[1.0; LANES]; POWERS + 1]; MOST_PARTS / LANES],
-        all: [Part::new(0, 0.0, 1.0); MOST_PARTS],
+        columns: [[[0.0; LANES]; POWERS + 1]; MOST_PARTS / LANES],
+        all: [Part::NONE; MOST_PARTS],
         count: 0,
     };
 
     fn push(&mut self, coefficients: &Coefficients<f64>, part: Part) {
         let columns = &mut self.columns[self.count / LANES];
         for j in 0..=POWERS {
+            // The first of a block stands in its other lanes until there are others.
+            if self.count.is_multiple_of(LANES) {
+                columns[j] = [coefficients[j]; LANES];
+            }
             columns[j][self.count % LANES] = coefficients[j];
         }
         self.all[self.count] = part;
@@ -101,18 +104,20 @@ impl TrigonometricPolynomial {
         let mut found = Found { parts: Parts::NONE, brackets: Brackets::NONE, roots };
         for half in 0..ARCS / LANES {
             let columns = self.on_arcs(simd, half);
-            let most = most_changes(&columns, self.noise);
-            for lane in 0..LANES {
-                let arc = LANES * half + lane;
-                let whole = Part::new(arc, 0.0, 1.0);
-                match known.iter().find(|cluster| cluster.touches(arc)) {
-                    None => self.take(&columns, most[lane], lane, whole, &mut found),
-                    Some(cluster) => {
-                        for part in whole.without(cluster).into_iter().flatten() {
-                            found.parts.push(&in_lane(&columns, lane), part);
-                        }
+            let seen = Seen::of(&columns, self.noise);
+            let whole = |lane: usize| Part::new(LANES * half + lane, 0.0, 1.0);
+            let mut cut = 0;
+            for lane in if known.is_empty() { 0..0 } else { 0..LANES } {
+                let whole = whole(lane);
+                if let Some(cluster) = known.iter().find(|cluster| cluster.touches(whole.arc)) {
+                    cut |= 1 << lane;
+                    for part in whole.without(cluster).into_iter().flatten() {
+                        found.parts.push(&in_lane(&columns, lane), part);
                     }
                 }
+            }
+            for lane in lanes_of(seen.open & !cut) {
+                self.take(&seen, lane, whole(lane), &mut found);
             }
         }
         for cluster in known {
@@ -122,14 +127,12 @@ impl TrigonometricPolynomial {
         let (mut left, mut right) = ([zero; POWERS + 1], [zero; POWERS + 1]);
         for _ in 0..MOST_DIVISIONS {
             let Some((parts, count)) = found.parts.divide(&mut left, &mut right) else { break };
-            let changes = [most_changes(&left, self.noise), most_changes(&right, self.noise)];
-            for (lane, part) in parts[..count].iter().enumerate() {
-                let [before, behind] = part.divided();
-                if part.keeps[0] {
-                    self.take(&left, changes[0][lane], lane, before, &mut found);
-                }
-                if part.keeps[1] {
-                    self.take(&right, changes[1][lane], lane, behind, &mut found);
+            for (end, columns) in [&left, &right].into_iter().enumerate() {
+                let seen = Seen::of(columns, self.noise);
+                for lane in lanes_of(seen.open).take_while(|lane| *lane < count) {
+                    if parts[lane].keeps[end] {
+                        self.take(&seen, lane, parts[lane].divided()[end], &mut found);
+                    }
                 }
             }
         }
@@ -164,27 +167,15 @@ impl TrigonometricPolynomial {
         columns
     }
 
-    /// Decide on one lane: nothing, a simple root, a cluster, or a part to be divided.
+    /// Decide on one lane that is open: a simple root, a cluster, or a part to be divided.
     #[inline(always)]
-    fn take<S: Simd>(
-        &self,
-        columns: &Coefficients<Vector<S>>,
-        changes: f64,
-        lane: usize,
-        part: Part,
-        found: &mut Found<'_>,
-    ) {
-        if changes < 0.5 {
-            return;
-        }
-        let (first, last) = (columns[0][lane], columns[POWERS][lane]);
-        let are_certain = first.abs() > self.noise && last.abs() > self.noise;
-        if changes < 1.5 && are_certain && (first < 0.0) != (last < 0.0) {
+    fn take<S: Simd>(&self, seen: &Seen<'_, S>, lane: usize, part: Part, found: &mut Found<'_>) {
+        if seen.simple >> lane & 1 == 1 {
             let place = (part.arc, part.low, part.high);
-            found.brackets.push(place, crossing(columns, lane), first);
-            return;
+            found.brackets.push(place, seen.places[lane], seen.columns[0][lane]);
+        } else {
+            self.take_rest(&in_lane(seen.columns, lane), seen.many >> lane & 1 == 1, part, found);
         }
-        self.take_rest(&in_lane(columns, lane), changes > 2.5, part, found);
     }
 
     /// Decide where there is more than one simple root: a function of its own, for it is called in
@@ -209,6 +200,45 @@ impl TrigonometricPolynomial {
     }
 }
 
+/// What coefficients show of roots: sets of lanes as bits.
+struct Seen<'a, S: Simd> {
+    columns: &'a Coefficients<Vector<S>>,
+    /// With a root, perhaps; with one simple root; with more than two, perhaps.
+    open: u64,
+    simple: u64,
+    many: u64,
+    /// Where the control polygon crosses zero, in 0 ..= 1, if there is a simple root.
+    places: Column,
+}
+
+impl<'a, S: Simd> Seen<'a, S> {
+    #[inline(always)]
+    fn of(columns: &'a Coefficients<Vector<S>>, noise: f64) -> Self {
+        let changes = most_changes(columns, noise);
+        let (first, last) = (columns[0], columns[POWERS]);
+        let are_certain = first.abs().simd_gt(noise) & last.abs().simd_gt(noise);
+        let differ = first.simd_lt(0.0) ^ last.simd_lt(0.0);
+        let simple = changes.simd_gt(0.5) & changes.simd_lt(1.5) & are_certain & differ;
+        Self {
+            columns,
+            open: changes.simd_gt(0.5).to_bitmask(),
+            simple: simple.to_bitmask(),
+            many: changes.simd_gt(2.5).to_bitmask(),
+            places: crossings(columns).to_array(),
+        }
+    }
+}
+
+/// The lanes of a set, in order.
+#[inline(always)]
+fn lanes_of(mut set: u64) -> impl Iterator<Item = usize> {
+    core::iter::from_fn(move || {
+        let lane = set.trailing_zeros() as usize;
+        set &= set.wrapping_sub(1);
+        (lane < LANES).then_some(lane)
+    })
+}
+
 /// The coefficients in a lane.
 #[inline(always)]
 fn in_lane<S: Simd>(columns: &Coefficients<Vector<S>>, lane: usize) -> Coefficients<f64> {
@@ -219,21 +249,37 @@ fn in_lane<S: Simd>(columns: &Coefficients<Vector<S>>, lane: usize) -> Coefficie
     coefficients
 }
 
-/// Where the control polygon in a lane crosses zero between ends of different signs, in 0 ..= 1.
+/// Where the control polygon first crosses zero between ends of different signs, in 0 ..= 1.
 #[inline(always)]
-fn crossing<S: Simd>(columns: &Coefficients<Vector<S>>, lane: usize) -> f64 {
-    let is_below = columns[0][lane] < 0.0;
-    let after = (1..POWERS).find(|j| (columns[*j][lane] < 0.0) != is_below).unwrap_or(POWERS);
-    let (one, other) = (columns[after - 1][lane], columns[after][lane]);
-    #[expect(clippy::cast_precision_loss, reason = "up to 16")]
-    let (after, last) = (after as f64, POWERS as f64);
-    (after - other / (other - one)) / last
+fn crossings<S: Simd>(columns: &Coefficients<Vector<S>>) -> Vector<S> {
+    let is_below = columns[0].simd_lt(0.0);
+    let [mut one, mut other] = [columns[POWERS - 1], columns[POWERS]];
+    let mut after = one.like(PLACES[POWERS]);
+    for j in (1..POWERS).rev() {
+        let is_after = columns[j].simd_lt(0.0) ^ is_below;
+        one = is_after.select(columns[j - 1], one);
+        other = is_after.select(columns[j], other);
+        after = is_after.select(after.like(PLACES[j]), after);
+    }
+    after - other / (other - one) * PLACES[1]
 }
+
+/// Places of the coefficients, in 0 ..= 1.
+#[expect(clippy::cast_precision_loss, reason = "up to 16")]
+const PLACES: [f64; POWERS + 1] = {
+    let mut places = [0.0; POWERS + 1];
+    let mut j = 0;
+    while j <= POWERS {
+        places[j] = j as f64 / POWERS as f64;
+        j += 1;
+    }
+    places
+};
 
 /// The most changes of sign that the coefficients of each lane have, if those below the noise have
 /// any sign.
 #[inline(always)]
-fn most_changes<S: Simd>(columns: &Coefficients<Vector<S>>, noise: f64) -> Column {
+fn most_changes<S: Simd>(columns: &Coefficients<Vector<S>>, noise: f64) -> Vector<S> {
     let (zero, one) = (columns[0].like(0.0), columns[0].like(1.0));
     let (mut count, mut least) = (zero, columns[0].abs());
     let mut before = columns[0].simd_lt(zero);
@@ -244,14 +290,14 @@ fn most_changes<S: Simd>(columns: &Coefficients<Vector<S>>, noise: f64) -> Colum
         before = is_below;
     }
     if least.simd_gt(noise).all_true() {
-        return count.to_array();
+        return count;
     }
     most_changes_of_any_sign(columns, noise)
 }
 
 /// The same where coefficients are below the noise.
 #[inline(always)]
-fn most_changes_of_any_sign<S: Simd>(columns: &Coefficients<Vector<S>>, noise: f64) -> Column {
+fn most_changes_of_any_sign<S: Simd>(columns: &Coefficients<Vector<S>>, noise: f64) -> Vector<S> {
     // Most changes of a sequence that ends above zero, and of one that ends below.
     // The first coefficient is no change.
     let never = columns[0].like(NEVER);
@@ -262,5 +308,5 @@ fn most_changes_of_any_sign<S: Simd>(columns: &Coefficients<Vector<S>>, noise: f
         above = column.simd_ge(-noise).select(up, never);
         below = column.simd_le(noise).select(down, never);
     }
-    above.or_more(below).to_array()
+    above.or_more(below)
 }

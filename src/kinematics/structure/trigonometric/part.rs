@@ -23,6 +23,9 @@ pub(super) struct Part {
 }
 
 impl Part {
+    /// Zeros: no part.
+    pub(super) const NONE: Self = Self { cut: 0.0, keeps: [false; 2], ..Self::new(0, 0.0, 0.0) };
+
     /// A part to be divided in the middle.
     #[inline(always)]
     pub(super) const fn new(arc: usize, low: f64, high: f64) -> Self {
