@@ -32,6 +32,9 @@ def cpu() -> tuple[str, str]:
             key, _, value = line.partition(":")
             fields.setdefault(key.strip(), value.strip())
     model = fields.get("model name") or platform.processor() or platform.machine()
+    if "cpu family" in fields and "model" in fields:
+        # The name alone does not tell the generation, and with it how wide its units are.
+        model += f" (family {fields['cpu family']}, model {fields['model']})"
     flags = (fields.get("flags") or fields.get("Features") or "").split()
     return model, next(
         (name for flag, name in INSTRUCTION_SETS.items() if flag in flags), platform.machine()

@@ -202,7 +202,6 @@ impl Accepted {
     }
 
     /// Take what the candidates in these lanes, which have converged, lead to.
-    #[inline(always)]
     pub(crate) fn take(
         &mut self,
         closure: &Closure,

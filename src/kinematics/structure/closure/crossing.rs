@@ -42,12 +42,14 @@ impl Closure {
         let origin = SVector::from(*theta);
         let mut found = [SVector::<f64, 6>::zeros(); MOST_CROSSING];
         let mut count = 0;
-        for [one, other] in pairs() {
-            // What is free of two joints that turn against, or with, one another.
+        for number in 0..36 {
+            // What is free of one joint, or of two that turn with, or against, one another.
+            let (one, other) = (number / 6, number % 6);
+            let sign = f64::from(u8::from(one < other)) - f64::from(u8::from(one > other));
             let mut way = SVector::<f64, 6>::zeros();
             for row in (0..6).filter(|row| values[*row] <= SECOND) {
                 let free = v_t.row(row).transpose();
-                way += free * (one.1 * free[one.0] + other.1 * free[other.0]);
+                way += free * (free[one] + sign * free[other]);
             }
             let way = way.normalize();
             let from = Member { theta: *theta, direction: way.into() };
@@ -62,11 +64,4 @@ impl Closure {
         }
         Some(starts)
     }
-}
-
-/// Each two joints, with one angle or with opposite ones.
-fn pairs() -> impl Iterator<Item = [(usize, f64); 2]> {
-    (1..6)
-        .flat_map(|one| (0..one).map(move |other| (one, other)))
-        .flat_map(|(one, other)| [1.0, -1.0].map(|sign| [(one, 1.0), (other, sign)]))
 }

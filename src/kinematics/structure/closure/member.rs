@@ -35,24 +35,17 @@ impl Closure {
         let mut theta = guess;
         for _ in 0..MOST_CORRECTIONS {
             let (jacobian, missing) = self.linear(target, &theta);
-            let mut conditions = SMatrix::<f64, 7, 6>::zeros();
-            conditions.fixed_rows_mut::<6>(0).copy_from(&jacobian);
-            conditions.fixed_rows_mut::<1>(6).copy_from(&along.transpose());
-            // The correction, and the derivatives by s.
-            let mut right = SMatrix::<f64, 7, 2>::zeros();
-            right.fixed_view_mut::<6, 1>(0, 0).copy_from(&missing);
             let done: f64 = (0..6).map(|i| along[i] * (theta[i] - from.theta[i])).sum();
-            (right[(6, 0)], right[(6, 1)]) = (s - done, 1.0);
-            let solved = least_squares(&conditions, right)?;
-            let correction = solved.column(0).amax();
-            if correction.is_nan() || correction > 1.0 {
+            let (correction, ahead) = least_squares(&jacobian, &missing, &along, s - done)?;
+            let size = correction.amax();
+            if size.is_nan() || size > 1.0 {
                 return None;
             }
             for joint in 0..6 {
-                theta[joint] += solved[(joint, 0)];
+                theta[joint] += correction[joint];
             }
-            if correction < CONVERGED {
-                let direction = solved.column(1).normalize().into();
+            if size < CONVERGED {
+                let direction = ahead.normalize().into();
                 return self.closes(target, &theta).then_some(Member { theta, direction });
             }
         }
@@ -65,20 +58,29 @@ impl Closure {
     }
 }
 
-/// The joint vectors that meet the conditions best. Where self-motions cross, of all that do the
-/// shortest.
+/// The correction that meets the conditions and the step along a direction best, and its derivative
+/// by the step: by the normal equations. Where self-motions cross, of all that do the shortest.
 fn least_squares(
-    conditions: &SMatrix<f64, 7, 6>,
-    mut right: SMatrix<f64, 7, 2>,
-) -> Option<SMatrix<f64, 6, 2>> {
-    let qr = conditions.qr();
-    let triangle = qr.r();
-    if triangle.diagonal().amin() < SECOND {
-        let svd = conditions.try_svd(true, true, f64::EPSILON, SWEEPS)?;
-        return svd.solve(&right, SECOND).ok();
+    jacobian: &SMatrix<f64, 6, 6>,
+    missing: &SVector<f64, 6>,
+    along: &SVector<f64, 6>,
+    step: f64,
+) -> Option<(SVector<f64, 6>, SVector<f64, 6>)> {
+    let normal = jacobian.transpose() * jacobian + along * along.transpose();
+    if let Some(triangle) = normal.cholesky()
+        && triangle.l_dirty().diagonal().amin() > SECOND
+    {
+        let right = jacobian.transpose() * missing + along * step;
+        return Some((triangle.solve(&right), triangle.solve(along)));
     }
-    qr.q_tr_mul(&mut right);
-    triangle.solve_upper_triangular(&right.fixed_rows::<6>(0).into_owned())
+    let svd = jacobian.try_svd(true, true, f64::EPSILON, SWEEPS)?;
+    let (u, v_t) = (svd.u?, svd.v_t?);
+    let mut shortest = SVector::<f64, 6>::zeros();
+    for (row, value) in svd.singular_values.iter().enumerate().filter(|(_, value)| **value > SECOND)
+    {
+        shortest += v_t.row(row).transpose() * (u.column(row).dot(missing) / value);
+    }
+    Some((shortest + along * (step - along.dot(&shortest)), *along))
 }
 
 /// The place at a part of the way between two members, by a cubic polynomial.

@@ -60,7 +60,7 @@ impl SelfMotion<'_> {
         // it count, if there are two.
         let (mut first, mut most) = (None, [0.0; 6]);
         let mut left = STEPS_TO_MOVE;
-        self.around(|_, next| {
+        self.around(&mut |_, next| {
             let from = first.get_or_insert(next.theta);
             for joint in 0..6 {
                 most[joint] = (next.theta[joint] - from[joint]).abs().max(most[joint]);
@@ -77,7 +77,7 @@ impl SelfMotion<'_> {
     /// The first member on the way, in either direction, with a joint at its angle of `near`.
     fn first_member(&self, joint: usize, near: &[f64; 6]) -> Option<Configuration> {
         let mut first = None;
-        self.around(|one, next| {
+        self.around(&mut |one, next| {
             first = self.member_between([one, next], joint, near);
             if first.is_none() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         });
@@ -87,7 +87,7 @@ impl SelfMotion<'_> {
     /// The member with a joint at its angle of `near`; of several the nearest.
     pub(crate) fn member(&self, joint: usize, near: &[f64; 6]) -> Option<Configuration> {
         let mut nearest = None::<Configuration>;
-        self.around(|one, next| {
+        self.around(&mut |one, next| {
             let is_nearer = |one: &Configuration| {
                 nearest.is_none_or(|other| one.distance(near) < other.distance(near))
             };

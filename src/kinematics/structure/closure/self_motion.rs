@@ -36,7 +36,7 @@ pub(crate) struct SelfMotion<'a> {
 impl SelfMotion<'_> {
     /// Walk along it in both directions, or once around, until `pass` breaks off: it gets the ends
     /// of each step.
-    pub(crate) fn around(&self, mut pass: impl FnMut(&Member, &Member) -> ControlFlow<()>) {
+    pub(crate) fn around(&self, pass: &mut dyn FnMut(&Member, &Member) -> ControlFlow<()>) {
         let Self { closure, target, start: Member { theta, direction } } = *self;
         let apart = |other: &[f64; 6]| {
             theta.iter().zip(other).fold(0.0, |most: f64, (a, b)| most.max(wrap(a - b).abs()))
@@ -92,7 +92,7 @@ impl Accepted {
             if one.is_free() {
                 let mut moves = false;
                 if let Some(motion) = closure.self_motions(target, &one.theta).next() {
-                    motion.around(|theta, next| {
+                    motion.around(&mut |theta, next| {
                         moves = true;
                         if self.as_slice().len() == 1 {
                             return ControlFlow::Break(());

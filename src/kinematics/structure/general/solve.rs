@@ -61,17 +61,31 @@ impl General {
     /// Take what Newton's method leads to from all over the joints (eq. 104a).
     #[cold]
     fn start_anywhere(&self, target: &Target, accepted: &mut Accepted) {
-        for block in 0..STARTS / LANES {
-            let mut starts = [[0.0; LANES]; 6];
+        let mut starts = (0..STARTS).map(quasi_random);
+        // Rounds that are left in each lane: one that closes, or has none left, takes a new start.
+        let (mut theta, mut left) = ([[0.0; LANES]; 6], [0; LANES]);
+        loop {
             for lane in 0..LANES {
-                let start = quasi_random(LANES * block + lane);
-                for joint in 0..6 {
-                    starts[joint][lane] = start[joint];
+                if left[lane] == 0
+                    && let Some(start) = starts.next()
+                {
+                    left[lane] = ROUNDS;
+                    for joint in 0..6 {
+                        theta[joint][lane] = start[joint];
+                    }
                 }
             }
-            let mut candidates = self.closure.converged(target, &starts);
-            for _ in 1..ROUNDS {
-                candidates = self.closure.converged(target, &candidates.theta);
+            if left == [0; LANES] {
+                break;
+            }
+            let mut candidates = self.closure.converged(target, &theta);
+            theta = candidates.theta;
+            for (residual, left) in candidates.residual.iter_mut().zip(&mut left) {
+                let is_done = *left == 1 || *left > 0 && *residual <= self.closure.accepts();
+                *left = if is_done { 0 } else { left.saturating_sub(1) };
+                if !is_done {
+                    *residual = f64::INFINITY;
+                }
             }
             accepted.take(&self.closure, target, &candidates, LANES);
         }
@@ -143,7 +157,7 @@ impl General {
         let target = self.closure.target_of(t_first_last);
         let joints = |theta: &[f64; 6]| self.joint_map.joints(*theta);
         for motion in self.closure.self_motions(&target, &self.joint_map.theta(q)) {
-            motion.around(|one, next| {
+            motion.around(&mut |one, next| {
                 pass(&joints(&one.theta), &joints(&next.theta));
                 ControlFlow::Continue(())
             });
