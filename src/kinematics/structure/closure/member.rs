@@ -21,6 +21,13 @@ pub(crate) struct Member {
     pub(super) direction: [f64; 6],
 }
 
+impl Member {
+    /// Whether no joint differs by more than this [rad].
+    pub(super) fn is_within(&self, radius: f64, theta: &[f64; 6]) -> bool {
+        self.theta.iter().zip(theta).all(|(a, b)| (a - b).abs() <= radius)
+    }
+}
+
 impl Closure {
     /// The member that is s ahead of another one along its direction (eq. 103), by Newton's method
     /// from a guess.

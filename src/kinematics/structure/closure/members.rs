@@ -7,12 +7,11 @@ use core::ops::ControlFlow;
 use super::accepted::{Accepted, Configuration, Kind, MOST};
 use super::chain::{Closure, Target};
 use super::member::Member;
-use super::self_motion::{STEP, SelfMotion};
+use super::self_motion::SelfMotion;
 use crate::kinematics::pose::angles::wrap;
 
-/// Angle by which a joint that moves does so in some steps [rad].
+/// Angle by which a joint that moves does so on the way [rad].
 const MOVES: f64 = 1e-3;
-const STEPS_TO_MOVE: usize = 5;
 
 /// Angle from which on a joint passes half a turn rather than its place [rad].
 const FAR: f64 = 1.0;
@@ -54,23 +53,20 @@ impl Accepted {
 }
 
 impl SelfMotion<'_> {
-    /// Which joints move: the curve is analytic, so that what moves does so in any part of it.
+    /// Which joints move: anywhere, for those of two self-motions that nearly cross may stand still
+    /// to rounding on a long part of the way.
     fn moving(&self) -> [bool; 6] {
         // Where self-motions cross, a start that is off closes to rounding too: the members behind
-        // it count, if there are two.
+        // it count.
         let (mut first, mut most) = (None, [0.0; 6]);
-        let mut left = STEPS_TO_MOVE;
         self.around(&mut |_, next| {
             let from = first.get_or_insert(next.theta);
             for joint in 0..6 {
                 most[joint] = (next.theta[joint] - from[joint]).abs().max(most[joint]);
             }
-            left -= 1;
-            if left > 0 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            let is_left = most.iter().any(|most| *most <= MOVES);
+            if is_left { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         });
-        if left > STEPS_TO_MOVE - 2 {
-            most = self.start.direction.map(|part| STEP * part.abs());
-        }
         most.map(|most| most > MOVES)
     }
 

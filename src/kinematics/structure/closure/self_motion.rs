@@ -11,8 +11,13 @@ use super::chain::{Closure, Target};
 use super::member::{Member, interpolated};
 use crate::kinematics::pose::angles::wrap;
 
-/// Step along a self-motion [rad].
+/// Step along a self-motion [rad], and the least where it bends.
 pub(super) const STEP: f64 = 0.1;
+const LEAST_STEP: f64 = STEP / 256.0;
+
+/// How far from where it is foreseen a member may be, as a part of the step [1]: farther away it is
+/// one of another self-motion, which nearly crosses this one, or the way bends sharply.
+const FORESEEN: f64 = 0.05;
 
 /// Steps along a self-motion, at most: four turns of its fastest joint.
 const MOST_STEPS: usize = 400;
@@ -43,20 +48,31 @@ impl SelfMotion<'_> {
         };
         for direction in [direction, direction.map(|part| -part)] {
             let mut one = Member { theta, direction };
-            let mut before = direction;
-            let mut is_back = false;
-            for step in 0..MOST_STEPS {
-                // As the direction has changed, it will.
+            // The change of the direction along the way.
+            let mut bend = [0.0; 6];
+            let (mut length, mut walked, mut is_back) = (STEP, 0.0, false);
+            for _ in 0..MOST_STEPS {
                 let guess = core::array::from_fn(|i| {
-                    one.theta[i] + STEP * (1.5 * one.direction[i] - 0.5 * before[i])
+                    one.theta[i] + length * (one.direction[i] + 0.5 * length * bend[i])
                 });
-                let Some(next) = closure.member_ahead(target, &one, STEP, guess) else { break };
+                let next = closure.member_ahead(target, &one, length, guess);
+                let is_near = |next: &Member| next.is_within(FORESEEN * length, &guess);
+                // A crossing that is nearer than the least step is passed straight on.
+                let Some(next) = next.filter(|next| length == LEAST_STEP || is_near(next)) else {
+                    if length == LEAST_STEP {
+                        break;
+                    }
+                    length = (0.5 * length).max(LEAST_STEP);
+                    continue;
+                };
                 // One step more than around, which passes the start.
                 if pass(&one, &next).is_break() || is_back {
                     return;
                 }
-                is_back = step > 2 && apart(&next.theta) < 0.6 * STEP;
-                (before, one) = (one.direction, next);
+                walked += length;
+                is_back = walked > 3.5 * STEP && apart(&next.theta) < 0.6 * STEP;
+                bend = core::array::from_fn(|i| (next.direction[i] - one.direction[i]) / length);
+                (one, length) = (next, (2.0 * length).min(STEP));
             }
         }
     }
@@ -93,8 +109,8 @@ impl Accepted {
                 let mut moves = false;
                 if let Some(motion) = closure.self_motions(target, &one.theta).next() {
                     motion.around(&mut |theta, next| {
-                        moves = true;
-                        if self.as_slice().len() == 1 {
+                        moves |= one.distance(&next.theta) > 0.2 * STEP;
+                        if moves && self.as_slice().len() == 1 {
                             return ControlFlow::Break(());
                         }
                         self.remove_met(&motion, &one, [theta, next]);
