@@ -56,7 +56,7 @@ impl Closure {
             let guess = (origin + way * STEP).into();
             let Some(member) = self.member_ahead(target, &from, STEP, guess) else { continue };
             let way = (SVector::from(member.theta) - origin).normalize();
-            let is_new = found[..count].iter().all(|one| one.dot(&way).abs() < ALIKE);
+            let is_new = found.iter().all(|one| one.dot(&way).abs() < ALIKE);
             if is_new && count < MOST_CROSSING {
                 (found[count], starts[count]) = (way, Some(member));
                 count += 1;

@@ -64,8 +64,7 @@ impl SelfMotion<'_> {
             for joint in 0..6 {
                 most[joint] = (next.theta[joint] - from[joint]).abs().max(most[joint]);
             }
-            let is_left = most.iter().any(|most| *most <= MOVES);
-            if is_left { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            ControlFlow::Continue(())
         });
         most.map(|most| most > MOVES)
     }

@@ -110,9 +110,6 @@ impl Accepted {
                 if let Some(motion) = closure.self_motions(target, &one.theta).next() {
                     motion.around(&mut |theta, next| {
                         moves |= one.distance(&next.theta) > 0.2 * STEP;
-                        if moves && self.as_slice().len() == 1 {
-                            return ControlFlow::Break(());
-                        }
                         self.remove_met(&motion, &one, [theta, next]);
                         ControlFlow::Continue(())
                     });
