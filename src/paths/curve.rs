@@ -63,7 +63,7 @@ impl Curve {
                 next += 1;
             }
         }
-        curve.edges.sort_by(f64::total_cmp);
+        curve.edges.sort_unstable_by(f64::total_cmp);
         let mut sum = 0.0;
         for panel in 0..PANELS {
             sum += curve.between(curve.edges[panel], curve.edges[panel + 1]);

@@ -8,11 +8,21 @@ macro_rules! package_object {
     ($name:ident, $module:literal, $attribute:literal) => {
         pub(super) fn $name(py: Python<'_>) -> PyResult<&Bound<'_, PyAny>> {
             static OBJECT: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
-            OBJECT
-                .get_or_try_init(py, || Ok(py.import($module)?.getattr($attribute)?.unbind()))
-                .map(|object| object.bind(py))
+            looked_up(py, &OBJECT, [$module, $attribute])
         }
     };
+}
+
+/// The body of all of them, compiled once.
+#[inline(never)]
+fn looked_up<'py>(
+    py: Python<'py>,
+    object: &'static PyOnceLock<Py<PyAny>>,
+    [module, attribute]: [&str; 2],
+) -> PyResult<&'py Bound<'py, PyAny>> {
+    object
+        .get_or_try_init(py, || Ok(py.import(module)?.getattr(attribute)?.unbind()))
+        .map(|object| object.bind(py))
 }
 
 package_object!(irbkin_error, "irbkin.errors", "IrbkinError");

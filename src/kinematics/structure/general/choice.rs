@@ -83,14 +83,14 @@ pub(super) fn chosen(links: &[Frame; 5], closure: &Closure, offsets: &[f64; 6]) 
         (total(&split, first), split)
     };
     let mut splits: Vec<(usize, Split)> = (0..SPLITS).map(new).collect();
-    splits.sort_by_key(|(score, _)| core::cmp::Reverse(*score));
+    sort(&mut splits);
     for (score, split) in splits.iter_mut().take(TRIED) {
         // A split that finds next to nothing is not tried further.
         if *score > FIRST {
             *score += total(split, rest);
         }
     }
-    splits.sort_by_key(|(score, _)| core::cmp::Reverse(*score));
+    sort(&mut splits);
     let best = splits.first().map_or(0, |(score, _)| *score);
     let mut kept: Vec<Split> = Vec::new();
     for (score, split) in splits {
@@ -104,6 +104,10 @@ pub(super) fn chosen(links: &[Frame; 5], closure: &Closure, offsets: &[f64; 6]) 
         }
     }
     kept
+}
+
+fn sort(splits: &mut [(usize, Split)]) {
+    splits.sort_by_key(|(score, _)| core::cmp::Reverse(*score));
 }
 
 /// Points of a split for a pose: two if it finds the joints that made it, one if it is certain.
