@@ -135,6 +135,8 @@ mod structures {
     #[path = "spherical_shoulder/arm.rs"]
     pub mod shoulder_arm;
 }
+#[cfg(feature = "std")]
+mod spelling;
 #[cfg(any(feature = "std", feature = "libm"))]
 mod spline;
 #[cfg(any(feature = "std", feature = "libm"))]

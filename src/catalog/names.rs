@@ -6,6 +6,8 @@ use alloc::vec::Vec;
 
 use super::{CatalogArm, catalog, left_out};
 use crate::error::{Error, UnknownRobot};
+#[cfg(feature = "std")]
+use crate::spelling::similar;
 
 /// Number of close names in the message for an unknown one.
 const MOST_CLOSE: usize = 6;
@@ -125,19 +127,16 @@ fn spelled_like(wanted: &str) -> Vec<&'static str> {
     /// Fraction of the letters that must match [1]: with a smaller one, an arm of another series
     /// and maker would be close.
     const LEAST_SIMILARITY: f64 = 0.7;
-    let similarity = |arm: &CatalogArm| {
-        let name = squeezed(arm.name);
+    let similarity = |name: &str| {
+        let name = squeezed(name);
         let start: String = name.chars().take(wanted.chars().count()).collect();
         let [whole, start] =
             [name, start].map(|name| strsim::normalized_damerau_levenshtein(&name, wanted));
         whole.max(start)
     };
-    let mut ranked: Vec<_> = catalog()
-        .map(|arm| (similarity(arm), arm.name))
-        .filter(|(s, _)| *s >= LEAST_SIMILARITY)
-        .collect();
-    ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
-    ranked.into_iter().map(|(_, name)| name).take(MOST_CLOSE).collect()
+    let mut close = similar(catalog().map(|arm| arm.name), similarity, LEAST_SIMILARITY);
+    close.truncate(MOST_CLOSE);
+    close
 }
 
 #[cfg(not(feature = "std"))]

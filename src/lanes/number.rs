@@ -30,6 +30,9 @@ pub(crate) trait Number:
     /// The absolute value.
     fn size(self) -> Self;
 
+    /// The same size with the sign of another number.
+    fn signed_as(self, sign: Self) -> Self;
+
     /// `yes` where this number is above another, else `no`: also where one is not a number.
     fn if_above(self, other: Self, yes: Self, no: Self) -> Self;
 
@@ -96,6 +99,11 @@ impl Number for f64 {
     }
 
     #[inline(always)]
+    fn signed_as(self, sign: Self) -> Self {
+        self.copysign(sign)
+    }
+
+    #[inline(always)]
     fn if_above(self, other: Self, yes: Self, no: Self) -> Self {
         if self > other { yes } else { no }
     }
@@ -120,6 +128,11 @@ impl<S: Simd> Number for Vector<S> {
     #[inline(always)]
     fn size(self) -> Self {
         self.abs()
+    }
+
+    #[inline(always)]
+    fn signed_as(self, sign: Self) -> Self {
+        self.copysign(sign)
     }
 
     #[inline(always)]

@@ -9,6 +9,8 @@ use alloc::vec::Vec;
 use super::joint::Joint;
 use super::tree::{Tree, quoted};
 use crate::error::{Names, UrdfFault};
+#[cfg(feature = "std")]
+use crate::spelling::similar;
 
 /// Number of links up to which a message for an unknown one lists all names.
 const FEW: usize = 12;
@@ -72,14 +74,8 @@ fn close_to(tree: &Tree<'_>, wanted: &str) -> Names {
         _ if name.len().max(wanted.len()) > LONGEST => 0.0,
         _ => strsim::jaro_winkler(name, wanted),
     };
-    let mut ranked: Vec<_> = tree
-        .links
-        .iter()
-        .map(|name| (similarity(name), name))
-        .filter(|(s, _)| *s >= LEAST_SIMILARITY)
-        .collect();
-    ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
-    ranked.into_iter().map(|(_, name)| quoted(name)).collect()
+    let names = tree.links.iter().copied();
+    similar(names, similarity, LEAST_SIMILARITY).into_iter().map(quoted).collect()
 }
 
 #[cfg(not(feature = "std"))]

@@ -12,6 +12,10 @@ use crate::kinematics::structure::any::AnyStructure as _;
 use crate::kinematics::structure::arity::{Arity, Joints};
 use crate::report::FreeJoint;
 
+/// How much nearer to its limits a joint may come in a valley than at the member in it [rad]: twice
+/// a step of the walk.
+const MOST_GAIN: f64 = 0.2;
+
 /// The last two members that were passed, with their heights.
 struct Passed<const N: usize> {
     before: Option<([f64; N], f64)>,
@@ -58,6 +62,7 @@ where
         if let (Some(before), Some(here)) = (passed.before, passed.here)
             && here.1 < before.1
             && here.1 <= next.1
+            && here.1 < MOST_GAIN
             && passed.valleys > 0
         {
             passed.valleys -= 1;

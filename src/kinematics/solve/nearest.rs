@@ -163,15 +163,13 @@ where
     fn run(&mut self) -> Result<(), Error> {
         let known = self.known;
         known.iter().for_each(|solution| self.take(solution, solution));
-        for q in self.choices() {
-            let solutions = self.robot.solve(*known.pose(), &FreeChoice::seed(q))?;
-            for solution in &solutions {
-                self.move_onto_pose(&solution.q, 0.0, solution);
+        if self.robot.solver().arm().slot_names().is_some() {
+            for q in self.choices() {
+                self.look_around(&self.robot.solve(*known.pose(), &FreeChoice::seed(q))?)?;
             }
-            self.start_from_seed(&solutions);
-            for solution in &solutions {
-                self.look_along(solution)?;
-            }
+        } else {
+            // No branches have merged, and self-motions are walked along.
+            self.look_around(known)?;
         }
         for solution in known {
             self.look_along(solution)?;
@@ -183,6 +181,18 @@ where
                 self.bend_elbow(solution);
                 self.turn_other_joints(solution)?;
             }
+        }
+        Ok(())
+    }
+
+    /// Search next to solutions and to the seed, and along the solutions' undetermined joints.
+    fn look_around(&mut self, solutions: &Solutions<N>) -> Result<(), Error> {
+        for solution in solutions {
+            self.move_onto_pose(&solution.q, 0.0, solution);
+        }
+        self.start_from_seed(solutions);
+        for solution in solutions {
+            self.look_along(solution)?;
         }
         Ok(())
     }

@@ -13,6 +13,7 @@ use crate::python::errors::{rapid_fault, to_py, unknown_name};
 use crate::rapid::{
     self, Argument, Content, Datum, Module, MotionSettings, Move, NewValue, Reason, Target, Value,
 };
+use crate::spelling::similar;
 
 /// A RAPID module: its data by name, its moves in order, and what was skipped.
 ///
@@ -347,11 +348,9 @@ pub(super) fn close_names<'a>(wanted: &str, known: &[&'a str]) -> Vec<&'a str> {
     const LEAST_SIMILARITY: f64 = 0.6;
     const MOST_CLOSE: usize = 4;
     let wanted = wanted.to_lowercase();
-    let mut ranked: Vec<(f64, &str)> = known
-        .iter()
-        .map(|name| (strsim::normalized_damerau_levenshtein(&wanted, &name.to_lowercase()), *name))
-        .filter(|(similarity, _)| *similarity >= LEAST_SIMILARITY)
-        .collect();
-    ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
-    ranked.into_iter().map(|(_, name)| name).take(MOST_CLOSE).collect()
+    let similarity =
+        |name: &str| strsim::normalized_damerau_levenshtein(&wanted, &name.to_lowercase());
+    let mut close = similar(known.iter().copied(), similarity, LEAST_SIMILARITY);
+    close.truncate(MOST_CLOSE);
+    close
 }

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use super::chain::{Closure, Target};
+use super::fold::Settled;
 use super::newton::Candidates;
 use crate::kinematics::pose::angles::wrap;
 use crate::lanes::LANES;
@@ -10,6 +11,10 @@ use crate::lanes::LANES;
 /// Most solutions of a six-joint chain, apart from self-motions.
 /// Reference: Primrose, On the input-output equation of the general 7R-mechanism, 1986.
 pub(crate) const MOST: usize = 16;
+
+/// Configurations that there is room for: members of a self-motion are many until it is walked
+/// along.
+const ROOM: usize = 2 * MOST;
 
 /// Least singular value below which a candidate is examined as one of a fold or a self-motion [1].
 const SINGULAR: f64 = 1e-4;
@@ -79,7 +84,7 @@ impl Missed {
 /// The configurations of a pose.
 #[derive(Clone, Copy)]
 pub(crate) struct Accepted {
-    all: [Configuration; MOST],
+    all: [Configuration; ROOM],
     count: usize,
     /// Whether everything that was tried is understood: no candidate near a singularity remained
     /// without a decision, and nothing was left out.
@@ -153,7 +158,7 @@ impl Closure {
 
 impl Accepted {
     pub(crate) const NONE: Self = Self {
-        all: [Configuration::NONE; MOST],
+        all: [Configuration::NONE; ROOM],
         count: 0,
         is_certain: true,
         missed: [Missed::NONE; MOST / 2],
@@ -209,6 +214,7 @@ impl Accepted {
         candidates: &Candidates,
         lanes: usize,
     ) {
+        let (mut singular, mut count) = ([Configuration::NONE; LANES], 0);
         for lane in 0..lanes {
             let residual = candidates.residual[lane];
             let is_near = residual < EXAMINED;
@@ -221,37 +227,56 @@ impl Accepted {
             if closes && least > SINGULAR {
                 self.insert(closure, one);
             } else if least <= 10.0 * SINGULAR || residual < 1e-3 {
-                self.examine(closure, target, &one);
+                singular[count] = one;
+                count += 1;
+            }
+        }
+        if count > 0 {
+            self.examine(closure, target, &singular[..count]);
+        }
+    }
+
+    /// Take what is at candidates next to singular configurations.
+    #[cold]
+    #[inline(never)]
+    fn examine(&mut self, closure: &Closure, target: &Target, all: &[Configuration]) {
+        let mut theta = [all[0].theta; LANES];
+        for (theta, candidate) in theta.iter_mut().zip(all) {
+            *theta = candidate.theta;
+        }
+        // What was examined next to here has told everything about it.
+        let is_known = |accepted: &Self, theta: &[f64; 6]| {
+            let is = |one: &Configuration| one.is_singular() && one.distance(theta) < EXTENT;
+            accepted.as_slice().iter().any(is)
+        };
+        let closes = |one: &Configuration| one.residual <= closure.accepts();
+        let is_new = all.iter().any(|one| !is_known(self, &one.theta));
+        let mut settled = [Settled::default(); LANES];
+        if is_new && self.left > 0 {
+            settled = closure.settle(target, &theta[..all.len()]);
+        }
+        let columns = core::array::from_fn(|joint| theta.map(|theta| theta[joint]));
+        let mut again = None;
+        for (lane, (candidate, settled)) in all.iter().zip(&settled).enumerate() {
+            let closes = closes(candidate);
+            let is_isolated = closes && candidate.least > ISOLATED;
+            let mut is_told = true;
+            if !is_known(self, &candidate.theta) {
+                is_told = self.left > 0 && self.settle(closure, target, settled);
+                self.is_certain &= is_told || is_isolated;
+            }
+            // It is a solution, whatever could be told about what is next to it.
+            if is_isolated || !is_told && closes && candidate.least * SAME > closure.accepts() {
+                let again = again.get_or_insert_with(|| closure.converged(target, &columns));
+                let (theta, residual) = (again.theta(lane), again.residual[lane]);
+                self.insert(closure, Configuration { theta, residual, ..*candidate });
             }
         }
     }
 
-    /// Take what is at a candidate next to a singular configuration.
-    #[cold]
-    #[inline(never)]
-    fn examine(&mut self, closure: &Closure, target: &Target, candidate: &Configuration) {
-        let Configuration { theta, residual, least, .. } = *candidate;
-        let closes = residual <= closure.accepts();
-        let is_isolated = closes && least > ISOLATED;
-        // What was examined next to here has told everything about it.
-        let is_known = |one: &Configuration| one.is_singular() && one.distance(&theta) < EXTENT;
-        let mut is_told = true;
-        if !self.as_slice().iter().any(is_known) {
-            is_told = self.left > 0 && self.settle(closure, target, &theta);
-            self.is_certain &= is_told || is_isolated;
-        }
-        // It is a solution, whatever could be told about what is next to it.
-        if is_isolated || !is_told && closes && least * SAME > closure.accepts() {
-            let again = closure.converged(target, &theta.map(|angle| [angle; LANES]));
-            let (theta, residual) = (again.theta(0), again.residual[0]);
-            self.insert(closure, Configuration { theta, residual, ..*candidate });
-        }
-    }
-
     /// Take the solutions next to a configuration. Returns whether these are certain to be all.
-    fn settle(&mut self, closure: &Closure, target: &Target, theta: &[f64; 6]) -> bool {
+    fn settle(&mut self, closure: &Closure, target: &Target, settled: &Settled) -> bool {
         self.left -= 1;
-        let settled = closure.settle(target, theta);
         if let Some(missed) = settled.missed
             && !self.missed().iter().any(|one| one.is(&missed))
             && let Some(place) = self.missed.get_mut(self.missed_count)
@@ -260,7 +285,7 @@ impl Accepted {
             self.missed_count += 1;
         }
         // A self-motion has filled the room.
-        if self.count + settled.all.len() > MOST && self.has_self_motion() {
+        if self.count + settled.all.len() > ROOM && self.has_self_motion() {
             self.thin(closure, target);
         }
         for one in settled.all.into_iter().flatten() {
@@ -289,6 +314,13 @@ impl Accepted {
             }
             None => self.is_certain = false,
         }
+    }
+
+    /// Keep no more than there can be. Returns whether others were dropped.
+    pub(crate) fn cut(&mut self) -> bool {
+        let is_cut = self.count > MOST;
+        self.count = self.count.min(MOST);
+        is_cut
     }
 
     /// Put another configuration in the place of one.

@@ -5,8 +5,9 @@
 use nalgebra::SVector;
 
 use super::chain::{Closure, Target};
-use super::fold::{SECOND, SWEEPS};
+use super::curve::SECOND;
 use super::member::Member;
+use super::member::SWEEPS;
 use super::self_motion::{STEP, SelfMotion};
 
 /// Self-motions that cross in one configuration, at most.

@@ -4,7 +4,7 @@
 
 use super::accepted::{Accepted, Configuration, Kind};
 use super::chain::{Closure, Target};
-use crate::kinematics::pose::angles::wrap;
+use super::curve::Point;
 
 /// How far two findings of one solution may be apart [rad]: where solutions of multiplicity six
 /// merge, the closure is below its rounding as far as the sixth root of that.
@@ -49,11 +49,14 @@ impl Closure {
             return false;
         }
         let Some(curve) = self.curve(target, &one.theta) else { return false };
-        let apart: f64 = (0..6).map(|i| curve.v[i] * wrap(other.theta[i] - one.theta[i])).sum();
-        [0.25, 0.5, 0.75, 1.0].into_iter().all(|part| {
-            let point = curve.at(part * apart, &one.between(other, part));
-            let is_end = |theta: &[f64; 6]| part < 1.0 || other.distance(theta) < SAME_END;
-            point.is_some_and(|point| point.left.abs() <= self.accepts() && is_end(&point.theta))
-        })
+        let way = one.between(other, 1.0);
+        let apart: f64 = (0..6).map(|i| curve.direction()[i] * (way[i] - one.theta[i])).sum();
+        let parts = [0.25, 0.5, 0.75, 1.0];
+        let wanted = parts.map(|part| Some(curve.at(part * apart, one.between(other, part))));
+        let points = self.points(target, &wanted);
+        let are_closed =
+            points.iter().flatten().filter(|point| point.left.abs() <= self.accepts()).count();
+        let is_end = |point: &Point| other.distance(&point.theta) < SAME_END;
+        are_closed == parts.len() && points[3].as_ref().is_some_and(is_end)
     }
 }

@@ -1,31 +1,21 @@
-//! Solutions next to a singular configuration: along the direction in which the closure hardly
-//! changes, it is a function of one variable (eq. 99 to 102).
+//! Solutions next to a singular configuration: where the closure is zero along the curve through it
+//! (eq. 99 to 102).
 //!
-//! With the least singular vectors u, v of the derivatives J, the configurations `q(s)` that close
-//! up to a part `g(s) u`, and are s ahead along v, are a curve: the bordered system
-//!
-//! ```text
-//! [ J    u ] [ dq ]   [ missing              ]
-//! [ v^T  0 ] [ g  ] = [ s - v (q - q_start)  ]
-//! ```
-//!
-//! is regular where J has rank 5. The solutions are the roots of `g(s) = c0 + c1 s + c2 s^2 + ..`:
-//! two, one that two merge into, or every s: a self-motion.
+//! The solutions are the roots of `g(s) = c0 + c1 s + c2 s^2 + ..`: two, one that two merge into, or
+//! every s: a self-motion.
 //! Reference: Golubitsky and Schaeffer, Singularities and groups in bifurcation theory I, 1985.
-
-use nalgebra::{SMatrix, SVector};
 
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
+use nalgebra::{SMatrix, SVector};
 
 use super::accepted::{Configuration, ISOLATED, Kind, Missed};
 use super::chain::{Closure, Target, largest, sines};
+use super::curve::{Curve, Point, Wanted};
+use crate::lanes::LANES;
 
-/// Steps of Newton's method along the curve, at most.
-const MOST_STEPS: usize = 8;
-
-/// Sweeps of a singular value decomposition, at most.
-pub(super) const SWEEPS: usize = 60;
+/// Points to an extreme value or to a root, at most.
+const MOST_POINTS: usize = 8;
 
 /// How far along the curve its closure is sampled [rad]: for a fold of rounding's size, 1e5 times
 /// the distance of its solutions; the third power is then below 1e-5.
@@ -45,8 +35,9 @@ const PLACED: f64 = 1e-5;
 /// How far from the start the curve is searched for solutions [rad].
 const FARTHEST: f64 = 0.2;
 
-/// Second singular value below which two directions are free, which is not analyzed [1].
-pub(super) const SECOND: f64 = 1e-6;
+/// How far the closure may be off a parabola, as a part of its value, for the complex roots to be
+/// where that has them [1].
+const PARABOLIC: f64 = 0.1;
 
 /// What is at a configuration that hardly closes better in one direction.
 #[derive(Clone, Copy, Debug, Default)]
@@ -64,52 +55,51 @@ impl Settled {
     }
 }
 
-/// The curve through a start: along v, with the closure left along u.
-pub(super) struct Curve<'a> {
+/// The extreme value of the closure along a curve.
+#[derive(Clone, Copy)]
+struct Turning {
+    point: Point,
+    /// Half of the second derivative there.
+    c2: f64,
+}
+
+impl Turning {
+    /// Whether these points, a root of `-left / c2` to either side of it, are on a parabola.
+    fn is_of(&self, points: [Option<Point>; 2]) -> bool {
+        let twice = 2.0 * self.point.left;
+        let is_on = |point: Point| (point.left - twice).abs() <= PARABOLIC * twice.abs();
+        points.into_iter().all(|point| point.is_some_and(is_on))
+    }
+}
+
+/// Of the curve in each lane.
+type Each<T> = [Option<T>; LANES];
+
+/// The curves through eight configurations, for a target.
+struct Curves<'a> {
     closure: &'a Closure,
     target: &'a Target,
-    start: [f64; 6],
-    u: SVector<f64, 6>,
-    pub(super) v: SVector<f64, 6>,
-    /// The least singular value.
-    pub(super) least: f64,
+    all: Each<Curve>,
 }
 
 impl Closure {
-    /// The solutions next to a configuration whose derivatives are nearly singular.
-    pub(super) fn settle(&self, target: &Target, theta: &[f64; 6]) -> Settled {
-        self.settled(target, theta).unwrap_or_default()
-    }
-
-    fn settled(&self, target: &Target, theta: &[f64; 6]) -> Option<Settled> {
-        let Some(curve) = self.curve(target, theta) else {
-            return self.unanalyzed(target, theta);
-        };
-        let start = curve.at(0.0, theta)?;
-        let ahead = curve.at(SAMPLED, &start.theta)?;
-        let free = FREE * self.rounding;
-        let is_free = |point: &Point| point.left.abs().max(SAMPLED * point.slope.abs()) <= free;
-        if is_free(&start) && is_free(&ahead) {
-            let free = self.accepted(target, start.theta, curve.least, Kind::Free);
-            return Some(Settled::of([free, None], free.is_some()));
+    /// The solutions next to configurations, at most eight, whose derivatives are nearly singular.
+    pub(super) fn settle(&self, target: &Target, all: &[[f64; 6]]) -> [Settled; LANES] {
+        let mut curves = Curves { closure: self, target, all: [None; LANES] };
+        let mut settled = [Settled::default(); LANES];
+        for (index, theta) in all.iter().enumerate() {
+            match self.curve(target, theta) {
+                None => settled[index] = self.unanalyzed(target, theta),
+                curve => curves.all[index] = curve,
+            }
         }
-        curve.solutions(start, ahead)
-    }
-
-    /// The curve through a configuration; none where two directions are free.
-    pub(super) fn curve<'a>(&'a self, target: &'a Target, theta: &[f64; 6]) -> Option<Curve<'a>> {
-        let (jacobian, _) = self.linear(target, theta);
-        let svd = jacobian.try_svd(true, true, f64::EPSILON, SWEEPS)?;
-        // The decomposition sorts by size.
-        let (second, least) = (svd.singular_values[4], svd.singular_values[5]);
-        let (u, v) = (svd.u?.column(5).into_owned(), svd.v_t?.row(5).transpose());
-        (second > SECOND).then_some(Curve { closure: self, target, start: *theta, u, v, least })
+        curves.settle(&mut settled);
+        settled
     }
 
     /// A configuration with two free directions: taken if it closes, without a claim.
-    fn unanalyzed(&self, target: &Target, theta: &[f64; 6]) -> Option<Settled> {
-        let one = self.accepted(target, *theta, 0.0, Kind::Fold)?;
-        Some(Settled::of([Some(one), None], false))
+    fn unanalyzed(&self, target: &Target, theta: &[f64; 6]) -> Settled {
+        Settled::of([self.accepted(target, *theta, 0.0, Kind::Fold), None], false)
     }
 
     /// The configuration if it closes.
@@ -141,113 +131,154 @@ impl Closure {
     }
 }
 
-/// A point of a curve.
-#[derive(Clone, Copy)]
-pub(super) struct Point {
-    s: f64,
-    pub(super) theta: [f64; 6],
-    /// The closure that is left along u, and its derivative by s.
-    pub(super) left: f64,
-    slope: f64,
-}
-
-impl Curve<'_> {
-    /// The point s ahead, by Newton's method from a guess.
-    pub(super) fn at(&self, s: f64, guess: &[f64; 6]) -> Option<Point> {
-        let mut theta = *guess;
-        let mut before = f64::INFINITY;
-        for _ in 0..MOST_STEPS {
-            let (jacobian, missing) = self.closure.linear(self.target, &theta);
-            let mut bordered = SMatrix::<f64, 7, 7>::zeros();
-            bordered.fixed_view_mut::<6, 6>(0, 0).copy_from(&jacobian);
-            bordered.fixed_view_mut::<6, 1>(0, 6).copy_from(&self.u);
-            bordered.fixed_view_mut::<1, 6>(6, 0).copy_from(&self.v.transpose());
-            let ahead: f64 = (0..6).map(|i| self.v[i] * (theta[i] - self.start[i])).sum();
-            // The step, and the derivatives by s.
-            let mut right = SMatrix::<f64, 7, 2>::zeros();
-            right.fixed_view_mut::<6, 1>(0, 0).copy_from(&missing);
-            (right[(6, 0)], right[(6, 1)]) = (s - ahead, 1.0);
-            let step = bordered.lu().solve(&right)?;
-            let size = step.fixed_view::<6, 1>(0, 0).amax();
-            if size.is_nan() || size > 1.0 {
-                return None;
+impl Curves<'_> {
+    /// Find the solutions on the curves: between the samples and the roots is the extreme value.
+    fn settle(&self, settled: &mut [Settled; LANES]) {
+        let starts = self.points(&|_, curve| Some(curve.at_start()));
+        let aheads = self.points(&|lane, curve| Some(curve.at(SAMPLED, starts[lane]?.theta)));
+        let (mut singles, mut samples) = ([None; LANES], [None; LANES]);
+        for lane in 0..LANES {
+            let (Some(start), Some(ahead)) = (starts[lane], aheads[lane]) else { continue };
+            let c2 = (ahead.slope - start.slope) / (2.0 * (ahead.s - start.s));
+            if self.is_free(&start) && self.is_free(&ahead) {
+                let free = self.accepted(lane, &start, Kind::Free);
+                settled[lane] = Settled::of([free, None], free.is_some());
+            } else if c2.abs() * FARTHEST < 0.5 * start.slope.abs() {
+                // Too flat for two solutions in sight: one.
+                singles[lane] = Some(start);
+            } else {
+                samples[lane] = Some([ahead, start]);
             }
-            for joint in 0..6 {
-                theta[joint] += step[(joint, 0)];
-            }
-            // From here on rounding no longer shrinks it.
-            if size < 1e-15 || (size < 1e-8 && size > 0.01 * before) {
-                return Some(Point { s, theta, left: step[(6, 0)], slope: step[(6, 1)] });
-            }
-            before = size;
         }
-        None
+        let turnings = self.turnings(samples);
+        let mut halves = [None; LANES];
+        for (lane, turning) in turnings.iter().enumerate() {
+            if let Some(turning) = turning {
+                (settled[lane], halves[lane]) = self.at_extreme(lane, turning);
+            }
+        }
+        let mut sides = [-1.0, 1.0].map(|sign| {
+            self.points(&|lane, curve| {
+                let point = turnings[lane]?.point;
+                Some(curve.at(within(point.s + sign * halves[lane]?)?, point.theta))
+            })
+        });
+        for lane in 0..LANES {
+            if settled[lane].missed.is_some() {
+                // Nothing real is there; what is complex is where a parabola has it, or anywhere.
+                let both = sides.each_mut().map(|side| side[lane].take());
+                let is_parabola = turnings[lane].is_some_and(|turning| turning.is_of(both));
+                settled[lane].missed = settled[lane].missed.filter(|_| is_parabola);
+                halves[lane] = None;
+            }
+        }
+        let [before, after] = sides.map(|near| self.roots(near));
+        let single = self.roots(singles);
+        for lane in 0..LANES {
+            if singles[lane].is_some() {
+                let is_certain = single[lane].is_some_and(|one| one.least > ISOLATED);
+                settled[lane] = Settled::of([single[lane], None], is_certain);
+            } else if halves[lane].is_some() {
+                let pair = [before[lane], after[lane]];
+                let are_found = pair.iter().all(Option::is_some);
+                settled[lane] = Settled::of(pair, settled[lane].is_certain && are_found);
+            }
+        }
     }
 
-    /// The roots of the closure along the curve.
-    fn solutions(&self, start: Point, ahead: Point) -> Option<Settled> {
-        let c2 = (ahead.slope - start.slope) / (2.0 * (ahead.s - start.s));
-        // Too flat for two solutions in sight: one.
-        if c2.abs() * FARTHEST < 0.5 * start.slope.abs() {
-            let one = self.root(start);
-            let is_certain = one.is_some_and(|one| one.least > ISOLATED);
-            return Some(Settled::of([one, None], is_certain));
+    /// Whether the closure is zero to rounding about a point.
+    fn is_free(&self, point: &Point) -> bool {
+        point.left.abs().max(SAMPLED * point.slope.abs()) <= FREE * self.closure.rounding
+    }
+
+    /// Points of the curves, where one is wanted.
+    #[inline(never)]
+    fn points(&self, wanted: &dyn Fn(usize, &Curve) -> Option<Wanted>) -> Each<Point> {
+        let of_lane = |lane: usize| wanted(lane, self.all[lane].as_ref()?);
+        self.closure.points(self.target, &core::array::from_fn(of_lane))
+    }
+
+    fn accepted(&self, lane: usize, point: &Point, kind: Kind) -> Option<Configuration> {
+        let least = match kind {
+            Kind::Regular => point.slope.abs(),
+            Kind::Fold => 0.0,
+            Kind::Free => self.all[lane]?.least,
+        };
+        self.closure.accepted(self.target, point.theta, least, kind)
+    }
+
+    /// Where the closure along the curves has its extreme value, by the secant method on its slope.
+    fn turnings(&self, mut samples: Each<[Point; 2]>) -> Each<Turning> {
+        let mut turnings = [None; LANES];
+        for _ in 0..MOST_POINTS {
+            let mut ahead = [None; LANES];
+            for lane in 0..LANES {
+                let Some([before, point]) = samples[lane] else { continue };
+                let c2 = (point.slope - before.slope) / (2.0 * (point.s - before.s));
+                let step = -0.5 * point.slope / c2;
+                // The extreme value is then known to less than rounding.
+                if c2.abs() * step * step <= 0.1 * self.closure.rounding && step.abs() < SAMPLED {
+                    turnings[lane] = Some(Turning { point, c2 });
+                } else {
+                    ahead[lane] = within(point.s + step);
+                }
+            }
+            let points = self.points(&|lane, curve| {
+                let [_, point] = samples[lane]?;
+                Some(curve.at(ahead[lane]?, point.theta))
+            });
+            for (sample, point) in samples.iter_mut().zip(points) {
+                *sample = sample.zip(point).map(|([_, before], point)| [before, point]);
+            }
         }
-        let (turning, c2) = self.turning(ahead, start)?;
-        let extreme = turning.left;
+        turnings
+    }
+
+    /// What an extreme value tells, and how far to either side of it the roots are, real or not.
+    fn at_extreme(&self, lane: usize, turning: &Turning) -> (Settled, Option<f64>) {
+        let Turning { point, c2 } = *turning;
+        let rounding = self.closure.rounding;
         // Next to a self-motion the closure is flat to rounding: where its extreme value is, and
         // how many points close, is not certain (eq. 102b).
-        let rounding = self.closure.rounding;
         let is_bent = c2.abs() * PLACED * PLACED > MERGED * rounding;
-        if extreme.abs() <= MERGED * rounding {
-            let merged = self.closure.accepted(self.target, turning.theta, 0.0, Kind::Fold);
-            return Some(Settled::of([merged, None], is_bent && merged.is_some()));
+        if point.left.abs() <= MERGED * rounding {
+            let merged = self.accepted(lane, &point, Kind::Fold);
+            return (Settled::of([merged, None], is_bent && merged.is_some()), None);
         }
-        if extreme / c2 > 0.0 {
-            let none = Settled::of([None; 2], is_bent);
-            let half = (extreme / c2).sqrt();
-            let aside = core::array::from_fn(|joint| (half * self.v[joint]).abs());
-            let missed = Some(Missed { theta: turning.theta, aside });
-            return Some(Settled { missed, ..none });
+        let half = (point.left / c2).abs().sqrt();
+        let none = Settled::of([None; 2], is_bent);
+        if point.left / c2 < 0.0 {
+            return (none, Some(half));
         }
-        let half = (-extreme / c2).sqrt();
-        let root = |s: f64| self.root(self.at(s, &turning.theta)?);
-        let (one, other) = (root(turning.s - half), root(turning.s + half));
-        Some(Settled::of([one, other], is_bent && one.is_some() && other.is_some()))
+        let aside = self.all[lane].map(|curve| curve.direction().map(|part| (half * part).abs()));
+        let missed = aside.map(|aside| Missed { theta: point.theta, aside });
+        (Settled { missed, ..none }, Some(half))
     }
 
-    /// Where the closure along the curve has its extreme value, by the secant method on its slope,
-    /// and half of its second derivative there.
-    fn turning(&self, mut before: Point, mut point: Point) -> Option<(Point, f64)> {
-        for _ in 0..MOST_STEPS {
-            let c2 = (point.slope - before.slope) / (2.0 * (point.s - before.s));
-            let step = -0.5 * point.slope / c2;
-            // The extreme value is then known to less than rounding.
-            if c2.abs() * step * step <= 0.1 * self.closure.rounding && step.abs() < SAMPLED {
-                return Some((point, c2));
+    /// The roots of the closure near points, by Newton's method.
+    fn roots(&self, mut near: Each<Point>) -> Each<Configuration> {
+        for _ in 0..MOST_POINTS {
+            let mut ahead = [None; LANES];
+            for (point, ahead) in near.iter_mut().zip(&mut ahead) {
+                let Some(one) = point else { continue };
+                if one.left.abs() > 0.5 * self.closure.rounding {
+                    *ahead = within(one.s - one.left / one.slope);
+                    *point = point.filter(|_| ahead.is_some());
+                }
             }
-            let s = point.s + step;
-            if s.is_nan() || s.abs() > FARTHEST {
-                return None;
+            let points =
+                self.points(&|lane, curve| Some(curve.at(ahead[lane]?, near[lane]?.theta)));
+            for lane in 0..LANES {
+                if ahead[lane].is_some() {
+                    near[lane] = points[lane];
+                }
             }
-            (before, point) = (point, self.at(s, &point.theta)?);
         }
-        None
+        core::array::from_fn(|lane| self.accepted(lane, near[lane].as_ref()?, Kind::Regular))
     }
+}
 
-    /// A root of the closure near a point, by Newton's method.
-    fn root(&self, mut point: Point) -> Option<Configuration> {
-        for _ in 0..MOST_STEPS {
-            let step = -point.left / point.slope;
-            if point.left.abs() <= 0.5 * self.closure.rounding {
-                break;
-            }
-            let s = point.s + step;
-            if s.is_nan() || s.abs() > FARTHEST {
-                return None;
-            }
-            point = self.at(s, &point.theta)?;
-        }
-        self.closure.accepted(self.target, point.theta, point.slope.abs(), Kind::Regular)
-    }
+/// A place on a curve, if it is in sight.
+fn within(s: f64) -> Option<f64> {
+    (s.abs() <= FARTHEST).then_some(s)
 }

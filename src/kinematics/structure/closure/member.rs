@@ -5,10 +5,13 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::chain::{Closure, Target, largest, sines};
-use super::fold::{SECOND, SWEEPS};
+use super::curve::SECOND;
 
 /// Steps of Newton's method to a member, at most.
 const MOST_CORRECTIONS: usize = 8;
+
+/// Sweeps of a singular value decomposition, at most.
+pub(super) const SWEEPS: usize = 60;
 
 /// Correction of a member that is its last [rad]: the next would be its square.
 const CONVERGED: f64 = 1e-8;

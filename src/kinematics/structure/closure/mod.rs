@@ -7,6 +7,7 @@
 mod accepted;
 mod chain;
 mod crossing;
+mod curve;
 mod flat;
 mod fold;
 mod freedom;
@@ -17,8 +18,10 @@ mod placed;
 mod self_motion;
 #[cfg(test)]
 mod tests;
+mod triangle;
 
 pub(crate) use accepted::{Accepted, Configuration, Kind, Missed};
 pub(crate) use chain::{Closure, Target};
-pub(crate) use newton::{Candidates, Six, reflect};
+pub(crate) use newton::{Candidates, Six};
 pub(crate) use placed::Placed;
+pub(crate) use triangle::reflect;

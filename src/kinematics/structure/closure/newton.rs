@@ -2,7 +2,8 @@
 
 use fearless_simd::prelude::*;
 
-use super::chain::{Closure, Conditions, Target, largest};
+use super::chain::{Closure, Target, largest};
+use super::triangle::Triangle;
 use crate::lanes::{
     Column, LANES, Number as _, Vector, VectorKernel, atan2_of, run_vectors, sin_cos_of,
 };
@@ -105,10 +106,10 @@ impl Closure {
             let residual = largest(&conditions.missing);
             let is_better = residual.simd_lt(best);
             best = is_better.select(residual, best);
-            let triangle = Triangle::of(&conditions);
-            let step = triangle.back(triangle.right);
+            let triangle = Triangle::unrolled(conditions.columns, [conditions.missing]);
+            let step = triangle.back(triangle.right[0]);
             let size = largest(&step);
-            least = is_moving.select(triangle.least(), least);
+            let was_moving = is_moving;
             // A singular candidate stays where it is.
             is_moving &= size.simd_lt(f64::INFINITY);
             let part = size.like(MOST_STEP) / size;
@@ -123,6 +124,10 @@ impl Closure {
             is_moving &= size.simd_gt(CONVERGED);
             if count >= MOST_STEPS {
                 is_moving &= size.simd_lt(NEAR);
+            }
+            let has_stopped = (was_moving ^ is_moving).any_true();
+            if has_stopped || count == MOST_STEPS + LAST_STEPS {
+                least = was_moving.select(triangle.least(), least);
             }
             if !is_moving.any_true() {
                 break;
@@ -156,90 +161,4 @@ fn turned<S: Simd>(s: Vector<S>, c: Vector<S>, turn: Vector<S>) -> (Vector<S>, V
     // Back to a unit vector.
     let factor = s.mul_add(s, c * c).mul_add(-0.5, z.like(1.5));
     (s * factor, c * factor)
-}
-
-/// The triangle that reflections make of the derivatives, and the conditions with it.
-struct Triangle<S: Simd> {
-    /// By column and row; below the diagonal is what is left of the reflections.
-    columns: [Six<S>; 6],
-    right: Six<S>,
-    /// Inverses of the diagonal.
-    inverse: Six<S>,
-}
-
-impl<S: Simd> Triangle<S> {
-    /// Householder's reflections, a column after the other.
-    #[inline(always)]
-    fn of(conditions: &Conditions<Vector<S>>) -> Self {
-        let Conditions { missing: mut right, mut columns } = *conditions;
-        let mut inverse = right;
-        for k in 0..6 {
-            let (done, rest) = columns.split_at_mut(k + 1);
-            let mirror = &mut done[k];
-            let mut square = mirror[k] * mirror[k];
-            for row in k + 1..6 {
-                square = mirror[row].mul_add(mirror[row], square);
-            }
-            let (length, first) = (square.sqrt(), mirror[k]);
-            let scale = first.like(-1.0) / (length * (length + first.abs()));
-            let diagonal = -length.copysign(first);
-            inverse[k] = diagonal.inverse();
-            mirror[k] = first - diagonal;
-            for column in rest {
-                reflect(mirror, scale, column, k);
-            }
-            reflect(mirror, scale, &mut right, k);
-        }
-        Self { columns, right, inverse }
-    }
-
-    /// The solution for a right side.
-    #[inline(always)]
-    fn back(&self, mut right: Six<S>) -> Six<S> {
-        for k in (0..6).rev() {
-            right[k] *= self.inverse[k];
-            for row in 0..k {
-                right[row] = self.columns[k][row].mul_add(-right[k], right[row]);
-            }
-        }
-        right
-    }
-
-    /// The least singular value to a small factor: `|y| / |x|` for `R^T y = +-1`, with the signs
-    /// for which y grows, and `R x = y`. Reference: Cline, Moler, Stewart and Wilkinson, An
-    /// estimate for the condition number of a matrix, SIAM J. Numer. Anal. 16, 1979.
-    #[inline(always)]
-    fn least(&self) -> Vector<S> {
-        let zero = self.right[0].like(0.0);
-        let mut y = [zero; 6];
-        for k in 0..6 {
-            let mut sum = zero;
-            for row in 0..k {
-                sum = self.columns[k][row].mul_add(-y[row], sum);
-            }
-            y[k] = (sum + zero.like(1.0).copysign(sum)) * self.inverse[k];
-        }
-        let x = self.back(y);
-        let (mut of_y, mut of_x) = (zero, zero);
-        for k in 0..6 {
-            of_y = y[k].mul_add(y[k], of_y);
-            of_x = x[k].mul_add(x[k], of_x);
-        }
-        // Infinite or not a number: singular.
-        (of_y / of_x).sqrt().or_more(zero)
-    }
-}
-
-/// Reflect rows k and below of a column in a mirror with this normal; the scale is minus two over
-/// the square of its length.
-#[inline(always)]
-pub(crate) fn reflect<S: Simd>(mirror: &Six<S>, scale: Vector<S>, column: &mut Six<S>, k: usize) {
-    let mut along = mirror[k] * column[k];
-    for row in k + 1..6 {
-        along = mirror[row].mul_add(column[row], along);
-    }
-    along *= scale;
-    for row in k..6 {
-        column[row] = mirror[row].mul_add(along, column[row]);
-    }
 }

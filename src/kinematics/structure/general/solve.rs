@@ -114,6 +114,7 @@ impl General {
         let mut moving = [[false; 6]; MOST_SLOTS];
         let is_flat = accepted.has_singular()
             && accepted.merge_flat(&self.closure, &self.closure.target_of(t_first_last));
+        let is_cut = accepted.cut();
         if accepted.has_self_motion() {
             let (target, near) =
                 (self.closure.target_of(t_first_last), self.joint_map.theta(&free.q));
@@ -122,7 +123,7 @@ impl General {
         let all = accepted.as_slice();
         let reach = if all.is_empty() { Reach::NoRoots } else { Reach::Reached };
         let mut branches = Branches::empty(reach);
-        branches.is_certified = is_certain && !is_flat;
+        branches.is_certified = is_certain && !is_flat && !is_cut;
         let mut order: [usize; MOST_SLOTS] = core::array::from_fn(|index| index);
         let order = &mut order[..all.len()];
         order.sort_unstable_by(|a, b| in_order(&all[*a], &all[*b]));
