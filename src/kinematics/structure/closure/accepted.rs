@@ -3,9 +3,9 @@
 use core::fmt;
 
 use super::chain::{Closure, Target};
+use super::configuration::{Configuration, EXTENT, ISOLATED, Kind, Missed, SAME, SINGULAR};
 use super::fold::Settled;
 use super::newton::Candidates;
-use crate::kinematics::pose::angles::wrap;
 use crate::lanes::LANES;
 
 /// Most solutions of a six-joint chain, apart from self-motions.
@@ -16,14 +16,6 @@ pub(crate) const MOST: usize = 16;
 /// along.
 const ROOM: usize = 2 * MOST;
 
-/// Least singular value below which a candidate is examined as one of a fold or a self-motion [1].
-const SINGULAR: f64 = 1e-4;
-
-/// Least singular value above which what closes is next to a solution of its own [1]: by the
-/// theorem of Newton and Kantorovich, where `6 residual / least^2` is at most a half, six bounding
-/// the second derivatives of the conditions.
-pub(super) const ISOLATED: f64 = 1e-6;
-
 /// Residual, in roundings, up to which a configuration closes [1]: near a fold the last step is
 /// the root of rounding.
 const CLOSES: f64 = 20.0;
@@ -31,55 +23,8 @@ const CLOSES: f64 = 20.0;
 /// How far a candidate may be from closing and still be examined [1].
 const EXAMINED: f64 = 0.05;
 
-/// How far from an examined configuration others are the same [rad]: the curve is searched farther.
-const EXTENT: f64 = 1e-3;
-
 /// Candidates that are examined in an attempt, at most.
 const MOST_EXAMINED: usize = 24;
-
-/// Largest distance of two regular configurations that are the same [rad]: their least singular
-/// value is above [`SINGULAR`], and two different ones are as far apart as that.
-const SAME: f64 = 1e-6;
-
-/// What the chain can do at a configuration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
-    /// Nothing: an isolated solution.
-    Regular,
-    /// Two solutions have merged here.
-    Fold,
-    /// Move, its ends standing still.
-    Free,
-}
-
-/// A solution.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Configuration {
-    /// Angles of the table [rad].
-    pub(crate) theta: [f64; 6],
-    /// The largest condition that is left [1].
-    pub(crate) residual: f64,
-    /// The least singular value of the conditions' derivatives, to a small factor [1].
-    pub(crate) least: f64,
-    pub(crate) kind: Kind,
-}
-
-/// A fold that a pose misses: its solutions are complex.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Missed {
-    /// Their real part, where they would merge.
-    pub(crate) theta: [f64; 6],
-    /// Their imaginary part, by size.
-    pub(crate) aside: [f64; 6],
-}
-
-impl Missed {
-    const NONE: Self = Self { theta: [0.0; 6], aside: [0.0; 6] };
-
-    fn is(&self, other: &Self) -> bool {
-        self.theta.iter().zip(&other.theta).all(|(a, b)| wrap(a - b).abs() < EXTENT)
-    }
-}
 
 /// The configurations of a pose.
 #[derive(Clone, Copy)]
@@ -99,53 +44,6 @@ pub(crate) struct Accepted {
 impl fmt::Debug for Accepted {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "certain: {}, {:#?}", self.is_certain, self.as_slice())
-    }
-}
-
-impl Configuration {
-    const NONE: Self = Self { theta: [0.0; 6], residual: 1.0, least: 0.0, kind: Kind::Regular };
-
-    /// How many solutions this one is.
-    pub(crate) fn multiplicity(&self) -> usize {
-        if self.kind == Kind::Fold { 2 } else { 1 }
-    }
-
-    /// Within what distance another one is the same [rad].
-    fn radius(&self, rounding: f64) -> f64 {
-        match self.kind {
-            // Half of the distance of a solution that merges with this one is of the order of the
-            // least singular value; rounding moves it by its inverse.
-            Kind::Regular => {
-                (0.1 * self.least).max(2.0 * rounding / self.least.max(1e-9)).min(SAME)
-            }
-            // Its distance from the exact fold is the root of rounding.
-            Kind::Fold | Kind::Free => 1e-6,
-        }
-    }
-
-    /// Whether no joint differs by more than a radius [rad].
-    fn is_within(&self, radius: f64, other: &[f64; 6]) -> bool {
-        self.theta.iter().zip(other).all(|(a, b)| wrap(a - b).abs() <= radius)
-    }
-
-    /// Whether it is next to a singularity.
-    pub(super) fn is_singular(&self) -> bool {
-        self.kind != Kind::Regular || self.least <= SINGULAR
-    }
-
-    /// Whether the chain can move there.
-    pub(super) fn is_free(&self) -> bool {
-        self.kind == Kind::Free
-    }
-
-    /// Angles at a part of the way to another one.
-    pub(super) fn between(&self, other: &Self, part: f64) -> [f64; 6] {
-        core::array::from_fn(|i| self.theta[i] + part * wrap(other.theta[i] - self.theta[i]))
-    }
-
-    /// The largest difference of a joint [rad].
-    pub(crate) fn distance(&self, other: &[f64; 6]) -> f64 {
-        (0..6).fold(0.0, |most, i| wrap(self.theta[i] - other[i]).abs().max(most))
     }
 }
 

@@ -9,7 +9,7 @@ use fearless_simd::prelude::*;
 
 use super::chain::{Closure, Conditions, Target, largest, sines};
 use super::newton::Six;
-use super::triangle::Triangle;
+use super::reflections::Triangle;
 use crate::lanes::{Column, LANES, Number as _, Vector, VectorKernel, run_vectors, sin_cos_of};
 
 /// Steps of Newton's method to a point, at most.

@@ -2,8 +2,9 @@
 //!
 //! Docs: general.md, eq. 103a.
 
-use super::accepted::{Accepted, Configuration, Kind};
+use super::accepted::Accepted;
 use super::chain::{Closure, Target};
+use super::configuration::{Configuration, Kind};
 use super::curve::Point;
 
 /// How far two findings of one solution may be apart [rad]: where solutions of multiplicity six

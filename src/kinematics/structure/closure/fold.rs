@@ -9,8 +9,8 @@
 use nalgebra::ComplexField as _;
 use nalgebra::{SMatrix, SVector};
 
-use super::accepted::{Configuration, ISOLATED, Kind, Missed};
 use super::chain::{Closure, Target, largest, sines};
+use super::configuration::{Configuration, ISOLATED, Kind, Missed};
 use super::curve::{Curve, Point, Wanted};
 use crate::lanes::LANES;
 

@@ -4,8 +4,9 @@
 
 use core::ops::ControlFlow;
 
-use super::accepted::{Accepted, Configuration, Kind, MOST};
+use super::accepted::{Accepted, MOST};
 use super::chain::{Closure, Target};
+use super::configuration::{Configuration, Kind};
 use super::member::Member;
 use super::self_motion::SelfMotion;
 use crate::kinematics::pose::angles::wrap;

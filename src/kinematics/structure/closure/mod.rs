@@ -6,6 +6,7 @@
 
 mod accepted;
 mod chain;
+mod configuration;
 mod crossing;
 mod curve;
 mod flat;
@@ -15,13 +16,14 @@ mod member;
 mod members;
 mod newton;
 mod placed;
+mod reflections;
 mod self_motion;
 #[cfg(test)]
 mod tests;
-mod triangle;
 
-pub(crate) use accepted::{Accepted, Configuration, Kind, Missed};
+pub(crate) use accepted::Accepted;
 pub(crate) use chain::{Closure, Target};
+pub(crate) use configuration::{Configuration, Kind, Missed};
 pub(crate) use newton::{Candidates, Six};
 pub(crate) use placed::Placed;
-pub(crate) use triangle::reflect;
+pub(crate) use reflections::reflect;

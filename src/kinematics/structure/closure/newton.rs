@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 
 use super::chain::{Closure, Target, largest};
-use super::triangle::Triangle;
+use super::reflections::Triangle;
 use crate::lanes::{
     Column, LANES, Number as _, Vector, VectorKernel, atan2_of, run_vectors, sin_cos_of,
 };

@@ -6,8 +6,9 @@ use core::ops::ControlFlow;
 
 use nalgebra::SVector;
 
-use super::accepted::{Accepted, Configuration, Kind};
+use super::accepted::Accepted;
 use super::chain::{Closure, Target};
+use super::configuration::{Configuration, Kind};
 use super::member::{Member, interpolated};
 use crate::kinematics::pose::angles::wrap;
 
