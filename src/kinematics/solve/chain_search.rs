@@ -10,11 +10,12 @@ use crate::kinematics::solve::nearest::NearestSearch;
 use crate::kinematics::solve::self_motion_search::VALLEYS;
 use crate::kinematics::structure::any::AnyStructure as _;
 use crate::kinematics::structure::arity::{Arity, Joints};
+use crate::kinematics::structure::closure::STEP;
 use crate::report::FreeJoint;
 
 /// How much nearer to its limits a joint may come in a valley than at the member in it [rad]: twice
 /// a step of the walk.
-const MOST_GAIN: f64 = 0.2;
+const MOST_GAIN: f64 = 2.0 * STEP;
 
 /// The last two members that were passed, with their heights.
 struct Passed<const N: usize> {

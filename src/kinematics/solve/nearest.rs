@@ -168,7 +168,7 @@ where
                 self.look_around(&self.robot.solve(*known.pose(), &FreeChoice::seed(q))?)?;
             }
         } else {
-            // No branches have merged, and self-motions are walked along.
+            // Slots are ordinals: no branches have merged, and self-motions are walked along.
             self.look_around(known)?;
         }
         for solution in known {

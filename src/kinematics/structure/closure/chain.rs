@@ -2,7 +2,7 @@
 
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, SVector};
 
 use super::placed::Placed;
 use crate::kinematics::chain::axes::Link;
@@ -85,6 +85,20 @@ impl Closure {
     /// The derivatives of the conditions at a configuration [1].
     pub(crate) fn derivatives(&self, theta: &[f64; 6]) -> SMatrix<f64, 6, 6> {
         self.linear(&self.reached(theta), theta).0
+    }
+
+    /// Derivatives and missing conditions at angles.
+    pub(super) fn linear(
+        &self,
+        target: &Target,
+        theta: &[f64; 6],
+    ) -> (SMatrix<f64, 6, 6>, SVector<f64, 6>) {
+        let (sin, cos) = sines(theta);
+        let conditions = self.conditions(target, &sin, &cos);
+        (
+            SMatrix::from_fn(|row, joint| conditions.columns[joint][row]),
+            SVector::from_fn(|row, _| conditions.missing[row]),
+        )
     }
 
     /// The determinant of the geometric Jacobian [m^3].

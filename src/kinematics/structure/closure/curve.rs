@@ -1,7 +1,8 @@
 //! The curve through a configuration along which the closure hardly changes, eight at once.
 //!
 //! With the least singular vectors u, v of the derivatives J, the configurations `q(s)` that close
-//! up to a part `g(s) u`, and are s ahead along v, are a curve, regular where J has rank 5 (eq. 99).
+//! up to a part `g(s) u`, and are s ahead along v, are a curve (eq. 99). It is regular where J has
+//! rank 5.
 //!
 //! Docs: general.md, section 6.
 

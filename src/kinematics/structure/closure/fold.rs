@@ -1,13 +1,12 @@
 //! Solutions next to a singular configuration: where the closure is zero along the curve through it
 //! (eq. 99 to 102).
 //!
-//! The solutions are the roots of `g(s) = c0 + c1 s + c2 s^2 + ..`: two, one that two merge into, or
-//! every s: a self-motion.
+//! The solutions are the roots of `g(s) = c0 + c1 s + c2 s^2 + ..`: two, one that two merge into,
+//! or every s: a self-motion.
 //! Reference: Golubitsky and Schaeffer, Singularities and groups in bifurcation theory I, 1985.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
-use nalgebra::{SMatrix, SVector};
 
 use super::chain::{Closure, Target, largest, sines};
 use super::configuration::{Configuration, ISOLATED, Kind, Missed};
@@ -114,20 +113,6 @@ impl Closure {
         let residual = largest(&self.missing(target, &sin, &cos));
         let configuration = Configuration { theta, residual, least, kind };
         (residual <= self.accepts()).then_some(configuration)
-    }
-
-    /// Derivatives and missing conditions at angles.
-    pub(super) fn linear(
-        &self,
-        target: &Target,
-        theta: &[f64; 6],
-    ) -> (SMatrix<f64, 6, 6>, SVector<f64, 6>) {
-        let (sin, cos) = sines(theta);
-        let conditions = self.conditions(target, &sin, &cos);
-        (
-            SMatrix::from_fn(|row, joint| conditions.columns[joint][row]),
-            SVector::from_fn(|row, _| conditions.missing[row]),
-        )
     }
 }
 

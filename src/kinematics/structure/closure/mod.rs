@@ -27,3 +27,4 @@ pub(crate) use configuration::{Configuration, Kind, Missed};
 pub(crate) use newton::{Candidates, Six};
 pub(crate) use placed::Placed;
 pub(crate) use reflections::reflect;
+pub(crate) use self_motion::STEP;

@@ -31,7 +31,8 @@ impl<T: Number, const N: usize> Triangle<T, N> {
         triangle
     }
 
-    /// The same, with the columns written out: a twentieth of a solve faster, and thrice as long.
+    /// The same, with the columns written out, for Newton's method: solves take a twentieth less,
+    /// for 23 kB of code in three instruction sets.
     #[inline(always)]
     pub(super) fn unrolled(columns: [[T; 6]; 6], right: [[T; 6]; N]) -> Self {
         let mut triangle = Self { columns, right, inverse: columns[0] };
@@ -135,7 +136,7 @@ impl Triangle<f64, 0> {
     fn mirrored(&self, mut y: [f64; 6]) -> [f64; 6] {
         for k in (0..6).rev() {
             let mirror = &self.columns[k];
-            let square: f64 = mirror[k..].iter().map(|part| part * part).sum();
+            let square = product_below(mirror, mirror, k);
             if square > 0.0 {
                 reflect(mirror, -2.0 / square, &mut y, k);
             }

@@ -13,7 +13,7 @@ use super::member::{Member, interpolated};
 use crate::kinematics::pose::angles::wrap;
 
 /// Step along a self-motion [rad], and the least where it bends.
-pub(super) const STEP: f64 = 0.1;
+pub(crate) const STEP: f64 = 0.1;
 const LEAST_STEP: f64 = STEP / 256.0;
 
 /// How far from where it is foreseen a member may be, as a part of the step [1]: farther away it is

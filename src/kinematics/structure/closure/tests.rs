@@ -173,3 +173,26 @@ fn out_of_reach_nothing_is_accepted() {
     target.frame.origin[0] += 2.0;
     assert!(found(&closure, &target, &[0.1, 0.2, 0.3, 0.4, 0.5, 0.6], 1.0).as_slice().is_empty());
 }
+
+#[test]
+fn the_curve_has_the_least_singular_value_and_its_direction() {
+    let mut rng = Rng::new(7);
+    let mut near = 0;
+    for _ in 0..20_000 {
+        let closure = random(&mut rng);
+        let theta: [f64; 6] = rng.angles();
+        let target = closure.reached(&theta);
+        let (jacobian, _) = closure.linear(&target, &theta);
+        let values = jacobian.singular_values();
+        // The error shrinks by the square of this ratio in a round.
+        if values[5] > 0.1 * values[4] {
+            continue;
+        }
+        near += 1;
+        let curve = closure.curve(&target, &theta).unwrap();
+        let along = jacobian * nalgebra::SVector::from(*curve.direction());
+        assert!((curve.least - values[5]).abs() < 1e-4 * values[5], "{} {values}", curve.least);
+        assert!((along.norm() - values[5]).abs() < 1e-3 * values[5], "{along} {values}");
+    }
+    assert!(near > 1000, "{near}");
+}

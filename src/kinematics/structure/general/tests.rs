@@ -163,6 +163,19 @@ fn every_solution_of_random_poses_is_found() {
     }
 }
 
+#[test]
+fn a_missed_fold_that_is_no_parabola_excuses_no_cluster() {
+    // Five solutions are within 3 deg of joint 6, and the fold that the pose misses beside them is
+    // too far for two complex ones among them.
+    let is_it = |(name, _): &(String, Mdh<6>)| name == "IRB 2600-12/1.65 1e-3";
+    let (_, mdh) = arms().into_iter().find(is_it).unwrap();
+    let [q_1, q_2, q_3] =
+        [2.366_847_165_144_587_7, -1.235_280_253_087_079_2, -1.400_758_830_235_902_9];
+    let q = [q_1, q_2, q_3, 0.0, 0.0, 1.256_336_108_809_491_3];
+    let report = report(&mdh, core::iter::once(q), 1e-3);
+    assert_eq!(report.missed_unflagged, 0, "{report:?}");
+}
+
 type Change = fn([f64; 6]) -> [f64; 6];
 
 /// Poses with double roots, folds, and self-motions.
