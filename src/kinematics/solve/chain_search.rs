@@ -10,12 +10,11 @@ use crate::kinematics::solve::nearest::NearestSearch;
 use crate::kinematics::solve::self_motion_search::VALLEYS;
 use crate::kinematics::structure::any::AnyStructure as _;
 use crate::kinematics::structure::arity::{Arity, Joints};
-use crate::kinematics::structure::closure::STEP;
 use crate::report::FreeJoint;
 
-/// How much nearer to its limits a joint may come in a valley than at the member in it [rad]: twice
-/// a step of the walk.
-const MOST_GAIN: f64 = 2.0 * STEP;
+/// How far below a member its valley may be, as a multiple of how far the way rises beside it [1]:
+/// once where it bends sharply, less where it is smooth.
+const MOST_DEPTH: f64 = 2.0;
 
 /// The last two members that were passed, with their heights.
 struct Passed<const N: usize> {
@@ -63,7 +62,7 @@ where
         if let (Some(before), Some(here)) = (passed.before, passed.here)
             && here.1 < before.1
             && here.1 <= next.1
-            && here.1 < MOST_GAIN
+            && here.1 < MOST_DEPTH * (before.1.max(next.1) - here.1)
             && passed.valleys > 0
         {
             passed.valleys -= 1;

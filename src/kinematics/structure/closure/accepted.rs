@@ -14,7 +14,7 @@ pub(crate) const MOST: usize = 16;
 
 /// Configurations that there is room for: members of a self-motion are many until it is walked
 /// along.
-const ROOM: usize = 2 * MOST;
+pub(super) const ROOM: usize = 2 * MOST;
 
 /// Residual, in roundings, up to which a configuration closes [1]: near a fold the last step is
 /// the root of rounding.
@@ -182,14 +182,26 @@ impl Accepted {
             *place = missed;
             self.missed_count += 1;
         }
-        // A self-motion has filled the room.
-        if self.count + settled.all.len() > ROOM && self.has_self_motion() {
-            self.thin(closure, target);
-        }
+        self.make_room(closure, target, settled.all.len());
         for one in settled.all.into_iter().flatten() {
             self.insert(closure, one);
         }
         settled.is_certain
+    }
+
+    /// Add what is known from elsewhere.
+    pub(crate) fn add(&mut self, closure: &Closure, target: &Target, known: &Self) {
+        self.make_room(closure, target, known.count);
+        for one in known.as_slice() {
+            self.insert(closure, *one);
+        }
+    }
+
+    /// Make room for so many if a self-motion has filled it.
+    fn make_room(&mut self, closure: &Closure, target: &Target, count: usize) {
+        if self.count + count > ROOM && self.has_self_motion() {
+            self.thin(closure, target);
+        }
     }
 
     /// Take a configuration if it is new.

@@ -24,8 +24,13 @@ pub(crate) enum Kind {
     Regular,
     /// Two solutions have merged here.
     Fold,
-    /// Move, its ends standing still.
-    Free,
+    /// Move, its ends standing still: these joints, as far as is known.
+    Free([bool; 6]),
+}
+
+impl Kind {
+    /// What moves, but was not walked along yet.
+    pub(super) const FREE: Self = Self::Free([false; 6]);
 }
 
 /// A solution.
@@ -75,7 +80,7 @@ impl Configuration {
                 (0.1 * self.least).max(2.0 * rounding / self.least.max(1e-9)).min(SAME)
             }
             // Its distance from the exact fold is the root of rounding.
-            Kind::Fold | Kind::Free => 1e-6,
+            Kind::Fold | Kind::Free(_) => 1e-6,
         }
     }
 
@@ -90,8 +95,8 @@ impl Configuration {
     }
 
     /// Whether the chain can move there.
-    pub(super) fn is_free(&self) -> bool {
-        self.kind == Kind::Free
+    pub(crate) fn is_free(&self) -> bool {
+        matches!(self.kind, Kind::Free(_))
     }
 
     /// Angles at a part of the way to another one.

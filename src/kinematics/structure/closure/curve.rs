@@ -50,8 +50,8 @@ pub(super) struct Point {
 
 /// A point that is wanted: s ahead on a curve, near a guess.
 #[derive(Clone, Copy)]
-pub(super) struct Wanted {
-    curve: Curve,
+pub(super) struct Wanted<'a> {
+    curve: &'a Curve,
     s: f64,
     guess: [f64; 6],
 }
@@ -62,12 +62,12 @@ impl Curve {
         &self.v
     }
 
-    pub(super) fn at(&self, s: f64, guess: [f64; 6]) -> Wanted {
-        Wanted { curve: *self, s, guess }
+    pub(super) fn at(&self, s: f64, guess: [f64; 6]) -> Wanted<'_> {
+        Wanted { curve: self, s, guess }
     }
 
     /// The start itself, brought to the curve.
-    pub(super) fn at_start(&self) -> Wanted {
+    pub(super) fn at_start(&self) -> Wanted<'_> {
         self.at(0.0, self.start)
     }
 }
@@ -88,7 +88,7 @@ impl Closure {
     pub(super) fn points<const N: usize>(
         &self,
         target: &Target,
-        wanted: &[Option<Wanted>; N],
+        wanted: &[Option<Wanted<'_>>; N],
     ) -> [Option<Point>; N] {
         let mut points = [None; N];
         let mut waiting = wanted.iter().zip(&mut points).filter_map(|(one, place)| {
@@ -125,13 +125,13 @@ struct Lanes {
 
 impl Lanes {
     /// With one in all lanes.
-    fn filled(wanted: &Wanted) -> Self {
+    fn filled(wanted: &Wanted<'_>) -> Self {
         let Wanted { curve: Curve { start, u, v, .. }, s, guess } = *wanted;
         let of = |six: [f64; 6]| six.map(|one| [one; LANES]);
-        Self { start: of(start), u: of(u), v: of(v), guess: of(guess), s: [s; LANES] }
+        Self { start: of(*start), u: of(*u), v: of(*v), guess: of(guess), s: [s; LANES] }
     }
 
-    fn put(&mut self, lane: usize, wanted: &Wanted) {
+    fn put(&mut self, lane: usize, wanted: &Wanted<'_>) {
         let Wanted { curve, s, guess } = wanted;
         for joint in 0..6 {
             self.start[joint][lane] = curve.start[joint];

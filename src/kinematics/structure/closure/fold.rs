@@ -126,7 +126,7 @@ impl Curves<'_> {
             let (Some(start), Some(ahead)) = (starts[lane], aheads[lane]) else { continue };
             let c2 = (ahead.slope - start.slope) / (2.0 * (ahead.s - start.s));
             if self.is_free(&start) && self.is_free(&ahead) {
-                let free = self.accepted(lane, &start, Kind::Free);
+                let free = self.accepted(lane, &start, Kind::FREE);
                 settled[lane] = Settled::of([free, None], free.is_some());
             } else if c2.abs() * FARTHEST < 0.5 * start.slope.abs() {
                 // Too flat for two solutions in sight: one.
@@ -157,8 +157,8 @@ impl Curves<'_> {
                 halves[lane] = None;
             }
         }
-        let [before, after] = sides.map(|near| self.roots(near));
-        let single = self.roots(singles);
+        let [before, after] = sides.each_mut().map(|near| self.roots(near));
+        let single = self.roots(&mut singles);
         for lane in 0..LANES {
             if singles[lane].is_some() {
                 let is_certain = single[lane].is_some_and(|one| one.least > ISOLATED);
@@ -178,7 +178,7 @@ impl Curves<'_> {
 
     /// Points of the curves, where one is wanted.
     #[inline(never)]
-    fn points(&self, wanted: &dyn Fn(usize, &Curve) -> Option<Wanted>) -> Each<Point> {
+    fn points(&self, wanted: &dyn Fn(usize, &Curve) -> Option<Wanted<'_>>) -> Each<Point> {
         let of_lane = |lane: usize| wanted(lane, self.all[lane].as_ref()?);
         self.closure.points(self.target, &core::array::from_fn(of_lane))
     }
@@ -187,7 +187,7 @@ impl Curves<'_> {
         let least = match kind {
             Kind::Regular => point.slope.abs(),
             Kind::Fold => 0.0,
-            Kind::Free => self.all[lane]?.least,
+            Kind::Free(_) => self.all[lane]?.least,
         };
         self.closure.accepted(self.target, point.theta, least, kind)
     }
@@ -207,6 +207,9 @@ impl Curves<'_> {
                 } else {
                     ahead[lane] = within(point.s + step);
                 }
+            }
+            if ahead.iter().all(Option::is_none) {
+                break;
             }
             let points = self.points(&|lane, curve| {
                 let [_, point] = samples[lane]?;
@@ -241,7 +244,7 @@ impl Curves<'_> {
     }
 
     /// The roots of the closure near points, by Newton's method.
-    fn roots(&self, mut near: Each<Point>) -> Each<Configuration> {
+    fn roots(&self, near: &mut Each<Point>) -> Each<Configuration> {
         for _ in 0..MOST_POINTS {
             let mut ahead = [None; LANES];
             for (point, ahead) in near.iter_mut().zip(&mut ahead) {
@@ -250,6 +253,9 @@ impl Curves<'_> {
                     *ahead = within(one.s - one.left / one.slope);
                     *point = point.filter(|_| ahead.is_some());
                 }
+            }
+            if ahead.iter().all(Option::is_none) {
+                break;
             }
             let points =
                 self.points(&|lane, curve| Some(curve.at(ahead[lane]?, near[lane]?.theta)));

@@ -20,6 +20,7 @@ mod reflections;
 mod self_motion;
 #[cfg(test)]
 mod tests;
+mod walked;
 
 pub(crate) use accepted::Accepted;
 pub(crate) use chain::{Closure, Target};
@@ -27,4 +28,3 @@ pub(crate) use configuration::{Configuration, Kind, Missed};
 pub(crate) use newton::{Candidates, Six};
 pub(crate) use placed::Placed;
 pub(crate) use reflections::reflect;
-pub(crate) use self_motion::STEP;

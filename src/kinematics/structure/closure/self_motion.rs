@@ -1,4 +1,4 @@
-//! Self-motions: the walk along one, and the one configuration that stands for it.
+//! Self-motions: the walk along one.
 //!
 //! Docs: general.md, eq. 103.
 
@@ -6,21 +6,19 @@ use core::ops::ControlFlow;
 
 use nalgebra::SVector;
 
-use super::accepted::Accepted;
 use super::chain::{Closure, Target};
-use super::configuration::{Configuration, Kind};
 use super::member::{Member, interpolated};
 use crate::kinematics::pose::angles::wrap;
 
 /// Step along a self-motion [rad], and the least where it bends.
-pub(crate) const STEP: f64 = 0.1;
-const LEAST_STEP: f64 = STEP / 256.0;
+pub(super) const STEP: f64 = 0.2;
+const LEAST_STEP: f64 = STEP / 512.0;
 
 /// How far from where it is foreseen a member may be, as a part of the step [1]: farther away it is
 /// one of another self-motion, which nearly crosses this one, or the way bends sharply.
 const FORESEEN: f64 = 0.05;
 
-/// Steps along a self-motion, at most: four turns of its fastest joint.
+/// Steps along a self-motion, at most: eight turns of its fastest joint.
 const MOST_STEPS: usize = 400;
 
 /// How far a configuration of the self-motion may be from the polynomial between two members [rad].
@@ -79,7 +77,7 @@ impl SelfMotion<'_> {
     }
 
     /// Whether a configuration is on the way between two members.
-    fn passes(&self, ends: [&Member; 2], theta: &[f64; 6]) -> bool {
+    pub(super) fn passes(&self, ends: [&Member; 2], theta: &[f64; 6]) -> bool {
         let [one, next] = ends.map(|end| SVector::from(end.theta));
         let place = one.zip_map(&SVector::from(*theta), |one, angle| one + wrap(angle - one));
         let chord = next - one;
@@ -96,47 +94,5 @@ impl SelfMotion<'_> {
                 let member = self.closure.member_ahead(self.target, ends[0], s, between.into());
                 member.is_some_and(|member| (place - SVector::from(member.theta)).amax() < SAME)
             }
-    }
-}
-
-impl Accepted {
-    /// Keep the first configuration of each self-motion. What a self-motion passes through is one
-    /// of its own; what does not move a step is none.
-    pub(crate) fn thin(&mut self, closure: &Closure, target: &Target) {
-        let mut index = 0;
-        while index < self.as_slice().len() {
-            let one = self.as_slice()[index];
-            if one.is_free() {
-                let mut moves = false;
-                if let Some(motion) = closure.self_motions(target, &one.theta).next() {
-                    motion.around(&mut |theta, next| {
-                        moves |= one.distance(&next.theta) > 0.2 * STEP;
-                        self.remove_met(&motion, &one, [theta, next]);
-                        ControlFlow::Continue(())
-                    });
-                }
-                // It is kept, though earlier ones may have been removed.
-                index = self.as_slice().iter().position(|kept| *kept == one).unwrap_or(index);
-                if !moves {
-                    self.replace(index, Configuration { kind: Kind::Fold, ..one });
-                }
-            }
-            index += 1;
-        }
-    }
-
-    /// Remove what is on a step of a self-motion, but for the one that is kept.
-    fn remove_met(&mut self, motion: &SelfMotion<'_>, kept: &Configuration, ends: [&Member; 2]) {
-        let mut other = 0;
-        while other < self.as_slice().len() {
-            let one = self.as_slice()[other];
-            let is_met =
-                one != *kept && one.kind != Kind::Regular && motion.passes(ends, &one.theta);
-            if is_met {
-                self.remove(other);
-            } else {
-                other += 1;
-            }
-        }
     }
 }

@@ -154,7 +154,7 @@ fn a_self_motion_stands_once_with_its_direction() {
         }
         let candidates = closure.converged(&target, &points);
         accepted.take(&closure, &target, &candidates, LANES);
-        accepted.thin(&closure, &target);
+        accepted.represent(&closure, &target, &[0.0; 6]);
         assert!(accepted.is_certain && accepted.as_slice().len() == 1, "{accepted:?}");
         assert!(accepted.as_slice()[0].is_free(), "{accepted:?}");
         let motion = closure.self_motions(&target, &accepted.as_slice()[0].theta).next();

@@ -33,7 +33,21 @@ const TIED: f64 = 1e-6;
 
 impl General {
     /// Take every solution of a pose; returns whether their number is certain.
-    pub(crate) fn solve_all(&self, t_first_last: &Pose, accepted: &mut Accepted) -> bool {
+    pub(super) fn solve_all(
+        &self,
+        t_first_last: &Pose,
+        free: &FreeChoice<6>,
+        accepted: &mut Accepted,
+    ) -> bool {
+        let is_certain = self.attempt_all(t_first_last, accepted);
+        if !is_certain {
+            self.complete(t_first_last, free, accepted);
+        }
+        is_certain
+    }
+
+    /// Take what the splits find; returns whether it is certain to be all.
+    pub(crate) fn attempt_all(&self, t_first_last: &Pose, accepted: &mut Accepted) -> bool {
         let target = self.closure.target_of(t_first_last);
         // Farther away than the sum of the lengths.
         let distance = target.frame.origin.iter().map(|x| x * x).sum::<f64>();
@@ -49,13 +63,29 @@ impl General {
                 break;
             }
         }
-        if accepted.has_self_motion() {
-            accepted.thin(&self.closure, &target);
-        }
-        if !is_certain && !accepted.has_self_motion() {
-            self.start_anywhere(&target, accepted);
-        }
         is_certain
+    }
+
+    /// Keep one member of each self-motion, that which the free joint's angle of `free` chooses.
+    /// Without one look for solutions all over the joints.
+    #[cold]
+    pub(crate) fn complete(
+        &self,
+        t_first_last: &Pose,
+        free: &FreeChoice<6>,
+        accepted: &mut Accepted,
+    ) {
+        let target = self.closure.target_of(t_first_last);
+        let near = self.joint_map.theta(&free.q);
+        if accepted.has_self_motion() {
+            accepted.represent(&self.closure, &target, &near);
+        }
+        if !accepted.has_self_motion() {
+            self.start_anywhere(&target, accepted);
+            if accepted.has_self_motion() {
+                accepted.represent(&self.closure, &target, &near);
+            }
+        }
     }
 
     /// Take what Newton's method leads to from all over the joints (eq. 104a).
@@ -98,28 +128,20 @@ impl General {
         free: &FreeChoice<6>,
     ) -> Branches<6, MOST_SLOTS> {
         let mut accepted = Accepted::NONE;
-        let is_certain = self.solve_all(t_first_last, &mut accepted);
-        self.slots(t_first_last, &mut accepted, is_certain, free)
+        let is_certain = self.solve_all(t_first_last, free, &mut accepted);
+        self.slots(t_first_last, &mut accepted, is_certain)
     }
 
-    /// Solutions of a pose in slots; of a self-motion the member that the free joint's angle of
-    /// `free` chooses.
+    /// Solutions of a pose in slots.
     pub(crate) fn slots(
         &self,
         t_first_last: &Pose,
         accepted: &mut Accepted,
         is_certain: bool,
-        free: &FreeChoice<6>,
     ) -> Branches<6, MOST_SLOTS> {
-        let mut moving = [[false; 6]; MOST_SLOTS];
         let is_flat = accepted.has_singular()
             && accepted.merge_flat(&self.closure, &self.closure.target_of(t_first_last));
         let is_cut = accepted.cut();
-        if accepted.has_self_motion() {
-            let (target, near) =
-                (self.closure.target_of(t_first_last), self.joint_map.theta(&free.q));
-            moving = accepted.bring_to(&self.closure, &target, &near);
-        }
         let all = accepted.as_slice();
         let reach = if all.is_empty() { Reach::NoRoots } else { Reach::Reached };
         let mut branches = Branches::empty(reach);
@@ -130,7 +152,9 @@ impl General {
         for (slot, index) in order.iter().enumerate() {
             branches.q[slot] = Some(self.joint_map.joints(all[*index].theta));
             branches.flags[slot] = kinds_of(&all[*index]).into();
-            branches.free[slot] = FreeJoint::of_chain(moving[*index]);
+            if let Kind::Free(moving) = all[*index].kind {
+                branches.free[slot] = FreeJoint::of_chain(moving);
+            }
         }
         branches
     }
@@ -178,7 +202,7 @@ fn kinds_of(one: &Configuration) -> SingularityKind {
     match one.kind {
         Kind::Regular if one.least >= SINGULAR => SingularityKind::empty(),
         Kind::Regular | Kind::Fold => SingularityKind::ELBOW,
-        Kind::Free => SingularityKind::WRIST,
+        Kind::Free(_) => SingularityKind::WRIST,
     }
 }
 

@@ -9,7 +9,7 @@ use super::*;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::dh::DhRow;
 use crate::kinematics::pose::angles::wrap;
-use crate::kinematics::structure::closure::{Accepted, Configuration, Kind};
+use crate::kinematics::structure::closure::{Accepted, Configuration};
 use crate::lanes::run_vectors;
 use crate::rng::Rng;
 use crate::{JointLimits, Robot, Solution};
@@ -88,7 +88,7 @@ fn report(mdh: &Mdh<6>, draws: impl Iterator<Item = [f64; 6]>, close: f64) -> Re
         let pose = chain.fk(&q);
         let t = map.t_base_shoulder.inverse() * pose * map.t_wrist_flange.inverse();
         let mut accepted = Accepted::NONE;
-        let is_certain = arm.solve_all(&t, &mut accepted);
+        let is_certain = arm.solve_all(&t, &FreeChoice::rest([0.0; 6]), &mut accepted);
         let found: Vec<_> =
             accepted.as_slice().iter().map(|one| arm.joint_map.joints(one.theta)).collect();
         report.poses += 1;
@@ -269,8 +269,8 @@ fn a_determinant_that_only_rounding_keeps_from_zero_certifies_nothing() {
         let pose = robot.fk(&q);
         let t = map.t_base_shoulder.inverse() * pose * map.t_wrist_flange.inverse();
         let mut accepted = Accepted::NONE;
-        assert!(!arm.solve_all(&t, &mut accepted), "{accepted:?}");
-        let moves = |one: &&Configuration| one.kind == Kind::Free;
+        assert!(!arm.solve_all(&t, &FreeChoice::rest([0.0; 6]), &mut accepted), "{accepted:?}");
+        let moves = |one: &&Configuration| one.is_free();
         assert_eq!(accepted.as_slice().iter().filter(moves).count(), 1, "{accepted:?}");
     }
 }
@@ -288,7 +288,7 @@ fn the_closed_forms_find_the_same() {
             let known = robot.ik(&pose).unwrap();
             let t = map.t_base_shoulder.inverse() * pose * map.t_wrist_flange.inverse();
             let mut accepted = Accepted::NONE;
-            let is_certain = arm.solve_all(&t, &mut accepted);
+            let is_certain = arm.solve_all(&t, &FreeChoice::rest([0.0; 6]), &mut accepted);
             if !is_certain {
                 left_out += 1;
                 continue;
@@ -313,7 +313,7 @@ fn out_of_reach_there_is_no_solution() {
     for distance in [1.2, 3.0, 100.0] {
         let pose = Pose::translation(distance, 0.1, 0.2);
         let mut accepted = Accepted::NONE;
-        let is_certain = arm.solve_all(&pose, &mut accepted);
+        let is_certain = arm.solve_all(&pose, &FreeChoice::rest([0.0; 6]), &mut accepted);
         assert!(accepted.as_slice().is_empty() && is_certain, "{distance}: {accepted:?}");
     }
 }

@@ -87,8 +87,8 @@ impl OffsetWrist {
         free: &FreeChoice<6>,
     ) -> Branches<6, SLOTS> {
         let mut accepted = Accepted::NONE;
-        let is_certified = self.solutions(t_first_last, &mut accepted);
-        let mut branches = self.general.slots(t_first_last, &mut accepted, is_certified, free);
+        let is_certified = self.solutions(t_first_last, free, &mut accepted);
+        let mut branches = self.general.slots(t_first_last, &mut accepted, is_certified);
         if accepted.as_slice().is_empty() {
             branches.reach = self.missed(&Frame::of(t_first_last));
         }
@@ -97,24 +97,28 @@ impl OffsetWrist {
 
     /// Find every solution of a pose of frame 6, by its angles theta. Returns whether they are all,
     /// by the number of roots.
-    pub(super) fn solutions(&self, t_first_last: &Pose, accepted: &mut Accepted) -> bool {
+    pub(super) fn solutions(
+        &self,
+        t_first_last: &Pose,
+        free: &FreeChoice<6>,
+        accepted: &mut Accepted,
+    ) -> bool {
         let last = &Frame::of(t_first_last);
-        run_vectors(Solve { arm: self, last, accepted }) || self.rescue(t_first_last, accepted)
+        run_vectors(Solve { arm: self, last, accepted })
+            || self.rescue(t_first_last, free, accepted)
     }
 
     /// Add the solutions of the general method, which shares no polynomial with this one.
     #[cold]
-    fn rescue(&self, t_first_last: &Pose, accepted: &mut Accepted) -> bool {
+    fn rescue(&self, t_first_last: &Pose, free: &FreeChoice<6>, accepted: &mut Accepted) -> bool {
         let found = core::mem::replace(accepted, Accepted::NONE);
-        let is_certain = self.general.solve_all(t_first_last, accepted);
+        let is_certain = self.general.attempt_all(t_first_last, accepted);
         let count = accepted.as_slice().len();
         let closure = self.general.closure();
-        for one in found.as_slice() {
-            accepted.insert(closure, *one);
-        }
+        accepted.add(closure, &closure.target_of(t_first_last), &found);
         let is_certified = is_certain && accepted.as_slice().len() == count;
-        if accepted.has_self_motion() {
-            accepted.thin(closure, &closure.target_of(t_first_last));
+        if !is_certain || accepted.has_self_motion() {
+            self.general.complete(t_first_last, free, accepted);
         }
         is_certified
     }

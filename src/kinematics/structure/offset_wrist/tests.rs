@@ -327,7 +327,8 @@ fn tally(
         let q = arm.joint_map().theta(&arm.joint_map().joints(q));
         tally.count += 1;
         let mut found = Accepted::NONE;
-        let is_certified = arm.solutions(&arm.chain.fk(&q), &mut found);
+        let is_certified =
+            arm.solutions(&arm.chain.fk(&q), &FreeChoice::rest([0.0; 6]), &mut found);
         let all = found.as_slice();
         // A regular solution is where it was. Of two that nearly merge, rounding moves each by the
         // root of itself over the curvature of the closure, which is 5e-10 at least: what is

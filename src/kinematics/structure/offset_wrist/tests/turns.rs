@@ -26,7 +26,7 @@ fn area(arm: &OffsetWrist, q: &[f64; 6]) -> f64 {
 fn assert_found_or_not_certified(name: &str, arm: &OffsetWrist, q: [f64; 6]) {
     let q = arm.joint_map().theta(&arm.joint_map().joints(q));
     let mut found = Accepted::NONE;
-    let is_certified = arm.solutions(&arm.chain.fk(&q), &mut found);
+    let is_certified = arm.solutions(&arm.chain.fk(&q), &FreeChoice::rest([0.0; 6]), &mut found);
     let is_same =
         |one: &Configuration| one.distance(&q) < if one.least > 1e-4 { 1e-6 } else { 3e-3 };
     assert!(!is_certified || found.as_slice().iter().any(is_same), "{name} {q:?}");
@@ -88,7 +88,8 @@ fn a_fold_that_rounding_of_the_pose_opens_is_found() {
         for q in joints(3).take(4000).filter_map(|q| singular(&arm, q, 0.0)) {
             let q = arm.joint_map().theta(&arm.joint_map().joints(q));
             let mut found = Accepted::NONE;
-            let is_certified = arm.solutions(&arm.chain.fk(&q), &mut found);
+            let is_certified =
+                arm.solutions(&arm.chain.fk(&q), &FreeChoice::rest([0.0; 6]), &mut found);
             let is_found = found.as_slice().iter().any(|one| one.distance(&q) < 3e-3);
             assert!(is_found || !is_certified, "{name} {q:?}");
         }
