@@ -5,8 +5,9 @@ use core::fmt;
 use super::chain::{Closure, Target};
 use super::configuration::{Configuration, EXTENT, ISOLATED, Kind, Missed, SAME, SINGULAR};
 use super::fold::Settled;
+use super::merged::Merged;
 use super::newton::Candidates;
-use crate::lanes::LANES;
+use crate::lanes::{Column, LANES};
 
 /// Most solutions of a six-joint chain, apart from self-motions.
 /// Reference: Primrose, On the input-output equation of the general 7R-mechanism, 1986.
@@ -19,6 +20,9 @@ pub(super) const ROOM: usize = 2 * MOST;
 /// Residual, in roundings, up to which a configuration closes [1]: near a fold the last step is
 /// the root of rounding.
 const CLOSES: f64 = 20.0;
+
+/// Places where more than two solutions have merged, at most.
+const MOST_MERGED: usize = MOST / 3;
 
 /// How far a candidate may be from closing and still be examined [1].
 const EXAMINED: f64 = 0.05;
@@ -37,6 +41,9 @@ pub(crate) struct Accepted {
     /// Where two solutions were looked for that are not: the pose misses their fold.
     missed: [Missed; MOST / 2],
     missed_count: usize,
+    /// Where more than two solutions have merged.
+    merged: [Merged; MOST_MERGED],
+    merged_count: usize,
     /// How many candidates next to a singularity may still be examined.
     left: usize,
 }
@@ -61,6 +68,8 @@ impl Accepted {
         is_certain: true,
         missed: [Missed::NONE; MOST / 2],
         missed_count: 0,
+        merged: [Merged::NONE; MOST_MERGED],
+        merged_count: 0,
         left: MOST_EXAMINED,
     };
 
@@ -92,6 +101,10 @@ impl Accepted {
     /// Where this attempt looked for two solutions that the pose misses.
     pub(crate) fn missed(&self) -> &[Missed] {
         &self.missed[..self.missed_count]
+    }
+
+    fn merged(&self) -> &[Merged] {
+        &self.merged[..self.merged_count]
     }
 
     /// Whether the chain can move with its ends standing still.
@@ -130,46 +143,64 @@ impl Accepted {
             }
         }
         if count > 0 {
-            self.examine(closure, target, &singular[..count]);
+            self.examine(closure, target, &mut singular[..count]);
         }
     }
 
     /// Take what is at candidates next to singular configurations.
     #[cold]
     #[inline(never)]
-    fn examine(&mut self, closure: &Closure, target: &Target, all: &[Configuration]) {
-        let mut theta = [all[0].theta; LANES];
-        for (theta, candidate) in theta.iter_mut().zip(all) {
-            *theta = candidate.theta;
-        }
-        // What was examined next to here has told everything about it.
-        let is_known = |accepted: &Self, theta: &[f64; 6]| {
-            let is = |one: &Configuration| one.is_singular() && one.distance(theta) < EXTENT;
-            accepted.as_slice().iter().any(is)
-        };
+    fn examine(&mut self, closure: &Closure, target: &Target, all: &mut [Configuration]) {
         let closes = |one: &Configuration| one.residual <= closure.accepts();
-        let is_new = all.iter().any(|one| !is_known(self, &one.theta));
-        let mut settled = [Settled::default(); LANES];
-        if is_new && self.left > 0 {
-            settled = closure.settle(target, &theta[..all.len()]);
+        if !all.iter().all(closes) {
+            // The more solutions merge, the slower Newton's method nears them.
+            let nearer = closure.converged(target, &columns(all));
+            for (lane, one) in all.iter_mut().enumerate().filter(|(_, one)| !closes(one)) {
+                one.theta = nearer.theta(lane);
+                (one.residual, one.least) = (nearer.residual[lane], nearer.least[lane]);
+            }
         }
-        let columns = core::array::from_fn(|joint| theta.map(|theta| theta[joint]));
+        let (mut new, mut places, mut count) = ([[0.0; 6]; LANES], [None; LANES], 0);
+        for (one, place) in all.iter().zip(&mut places) {
+            if !self.explains(&one.theta) {
+                *place = Some(count);
+                new[count] = one.theta;
+                count += 1;
+            }
+        }
+        let mut settled = [Settled::default(); LANES];
+        if count > 0 && self.left > 0 {
+            settled = closure.settle(target, &new[..count]);
+        }
+        let settled = places.map(|place| place.map(|place: usize| settled[place]));
+        let certain = settled.each_ref().map(|one| one.is_some_and(|one| one.is_certain));
         let mut again = None;
-        for (lane, (candidate, settled)) in all.iter().zip(&settled).enumerate() {
+        // What is certain explains some of the rest.
+        let lanes = [true, false].map(|is| (0..all.len()).filter(move |lane| certain[*lane] == is));
+        for lane in lanes.into_iter().flatten() {
+            let candidate = &all[lane];
             let closes = closes(candidate);
             let is_isolated = closes && candidate.least > ISOLATED;
             let mut is_told = true;
-            if !is_known(self, &candidate.theta) {
+            if let Some(settled) = &settled[lane]
+                && !self.explains(&candidate.theta)
+            {
                 is_told = self.left > 0 && self.settle(closure, target, settled);
                 self.is_certain &= is_told || is_isolated;
             }
             // It is a solution, whatever could be told about what is next to it.
             if is_isolated || !is_told && closes && candidate.least * SAME > closure.accepts() {
-                let again = again.get_or_insert_with(|| closure.converged(target, &columns));
+                let again = again.get_or_insert_with(|| closure.converged(target, &columns(all)));
                 let (theta, residual) = (again.theta(lane), again.residual[lane]);
                 self.insert(closure, Configuration { theta, residual, ..*candidate });
             }
         }
+    }
+
+    /// Whether what was examined next to a configuration has told everything about it.
+    fn explains(&self, theta: &[f64; 6]) -> bool {
+        let is = |one: &Configuration| one.is_singular() && one.distance(theta) < EXTENT;
+        self.as_slice().iter().any(is) || self.merged().iter().any(|one| one.explains(theta))
     }
 
     /// Take the solutions next to a configuration. Returns whether these are certain to be all.
@@ -182,26 +213,21 @@ impl Accepted {
             *place = missed;
             self.missed_count += 1;
         }
-        self.make_room(closure, target, settled.all.len());
+        if let Some(merged) = settled.merged
+            && !self.merged().iter().any(|one| one.explains(&merged.at.theta))
+            && let Some(place) = self.merged.get_mut(self.merged_count)
+        {
+            *place = merged;
+            self.merged_count += 1;
+        }
+        // A self-motion has filled the room.
+        if self.count + settled.all.len() > ROOM && self.has_self_motion() {
+            self.thin(closure, target);
+        }
         for one in settled.all.into_iter().flatten() {
             self.insert(closure, one);
         }
         settled.is_certain
-    }
-
-    /// Add what is known from elsewhere.
-    pub(crate) fn add(&mut self, closure: &Closure, target: &Target, known: &Self) {
-        self.make_room(closure, target, known.count);
-        for one in known.as_slice() {
-            self.insert(closure, *one);
-        }
-    }
-
-    /// Make room for so many if a self-motion has filled it.
-    fn make_room(&mut self, closure: &Closure, target: &Target, count: usize) {
-        if self.count + count > ROOM && self.has_self_motion() {
-            self.thin(closure, target);
-        }
     }
 
     /// Take a configuration if it is new.
@@ -243,4 +269,11 @@ impl Accepted {
         self.all.copy_within(index + 1..self.count, index);
         self.count -= 1;
     }
+}
+
+/// The angles of configurations, lane beside lane; the first is in the lanes that are left.
+fn columns(all: &[Configuration]) -> [Column; 6] {
+    core::array::from_fn(|joint| {
+        core::array::from_fn(|lane| all.get(lane).unwrap_or(&all[0]).theta[joint])
+    })
 }

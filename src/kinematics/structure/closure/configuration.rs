@@ -22,13 +22,16 @@ pub(super) const SAME: f64 = 1e-6;
 pub(crate) enum Kind {
     /// Nothing: an isolated solution.
     Regular,
-    /// Two solutions have merged here.
-    Fold,
+    /// So many solutions have merged here.
+    Merged(u8),
     /// Move, its ends standing still: these joints, as far as is known.
     Free([bool; 6]),
 }
 
 impl Kind {
+    /// Two solutions have merged.
+    pub(super) const FOLD: Self = Self::Merged(2);
+
     /// What moves, but was not walked along yet.
     pub(super) const FREE: Self = Self::Free([false; 6]);
 }
@@ -68,7 +71,7 @@ impl Configuration {
 
     /// How many solutions this one is.
     pub(crate) fn multiplicity(&self) -> usize {
-        if self.kind == Kind::Fold { 2 } else { 1 }
+        if let Kind::Merged(count) = self.kind { count.into() } else { 1 }
     }
 
     /// Within what distance another one is the same [rad].
@@ -80,7 +83,7 @@ impl Configuration {
                 (0.1 * self.least).max(2.0 * rounding / self.least.max(1e-9)).min(SAME)
             }
             // Its distance from the exact fold is the root of rounding.
-            Kind::Fold | Kind::Free(_) => 1e-6,
+            Kind::Merged(_) | Kind::Free(_) => 1e-6,
         }
     }
 

@@ -26,7 +26,7 @@ impl Accepted {
                 let pair = [self.as_slice()[first], self.as_slice()[second]];
                 if closure.is_flat_between(target, &pair) {
                     let kept = usize::from(pair[1].residual < pair[0].residual);
-                    self.replace(first, Configuration { kind: Kind::Fold, ..pair[kept] });
+                    self.replace(first, Configuration { kind: Kind::FOLD, ..pair[kept] });
                     self.remove(second);
                     // What is next to the one that is kept may be anywhere.
                     second = first + 1;

@@ -11,6 +11,7 @@ use nalgebra::ComplexField as _;
 use super::chain::{Closure, Target, largest, sines};
 use super::configuration::{Configuration, ISOLATED, Kind, Missed};
 use super::curve::{Curve, Point, Wanted};
+use super::merged::Merged;
 use crate::lanes::LANES;
 
 /// Points to an extreme value or to a root, at most.
@@ -34,6 +35,9 @@ const PLACED: f64 = 1e-5;
 /// How far from the start the curve is searched for solutions [rad].
 const FARTHEST: f64 = 0.2;
 
+/// Half of the second derivative below which more than two solutions may have merged [1].
+const FLAT: f64 = 0.03;
+
 /// How far the closure may be off a parabola, as a part of its value, for the complex roots to be
 /// where that has them [1].
 const PARABOLIC: f64 = 0.1;
@@ -46,11 +50,13 @@ pub(super) struct Settled {
     pub(super) is_certain: bool,
     /// Where two solutions would merge, if the pose misses them.
     pub(super) missed: Option<Missed>,
+    /// Where more than two solutions have merged.
+    pub(super) merged: Option<Merged>,
 }
 
 impl Settled {
     fn of(all: [Option<Configuration>; 2], is_certain: bool) -> Self {
-        Self { all, is_certain, missed: None }
+        Self { all, is_certain, missed: None, merged: None }
     }
 }
 
@@ -98,7 +104,7 @@ impl Closure {
 
     /// A configuration with two free directions: taken if it closes, without a claim.
     fn unanalyzed(&self, target: &Target, theta: &[f64; 6]) -> Settled {
-        Settled::of([self.accepted(target, *theta, 0.0, Kind::Fold), None], false)
+        Settled::of([self.accepted(target, *theta, 0.0, Kind::FOLD), None], false)
     }
 
     /// The configuration if it closes.
@@ -128,6 +134,10 @@ impl Curves<'_> {
             if self.is_free(&start) && self.is_free(&ahead) {
                 let free = self.accepted(lane, &start, Kind::FREE);
                 settled[lane] = Settled::of([free, None], free.is_some());
+            } else if let Some(curve) = self.all[lane].as_ref().filter(|_| c2.abs() < FLAT)
+                && let Some(merged) = self.merged(curve, settled)
+            {
+                settled[lane] = merged;
             } else if c2.abs() * FARTHEST < 0.5 * start.slope.abs() {
                 // Too flat for two solutions in sight: one.
                 singles[lane] = Some(start);
@@ -168,7 +178,22 @@ impl Curves<'_> {
                 let are_found = pair.iter().all(Option::is_some);
                 settled[lane] = Settled::of(pair, settled[lane].is_certain && are_found);
             }
+            // More than two have merged, perhaps, nearer to what was found than to the start.
+            if let Settled { all: [Some(one), _], is_certain: false, .. } = settled[lane]
+                && let Some(curve) = self.closure.curve(self.target, &one.theta)
+                && let Some(merged) = self.merged(&curve, settled)
+            {
+                settled[lane] = merged;
+            }
         }
+    }
+
+    /// Where more than two solutions have merged near the start of a curve, if they have.
+    fn merged(&self, curve: &Curve, settled: &[Settled; LANES]) -> Option<Settled> {
+        let mut known = settled.iter().filter_map(|one| one.merged);
+        let known = known.find(|one| one.explains(&curve.start));
+        let merged = known.or_else(|| self.closure.merged(self.target, curve))?;
+        Some(Settled { merged: Some(merged), ..Settled::of([Some(merged.at), None], true) })
     }
 
     /// Whether the closure is zero to rounding about a point.
@@ -186,7 +211,7 @@ impl Curves<'_> {
     fn accepted(&self, lane: usize, point: &Point, kind: Kind) -> Option<Configuration> {
         let least = match kind {
             Kind::Regular => point.slope.abs(),
-            Kind::Fold => 0.0,
+            Kind::Merged(_) => 0.0,
             Kind::Free(_) => self.all[lane]?.least,
         };
         self.closure.accepted(self.target, point.theta, least, kind)
@@ -230,7 +255,7 @@ impl Curves<'_> {
         // how many points close, is not certain (eq. 102b).
         let is_bent = c2.abs() * PLACED * PLACED > MERGED * rounding;
         if point.left.abs() <= MERGED * rounding {
-            let merged = self.accepted(lane, &point, Kind::Fold);
+            let merged = self.accepted(lane, &point, Kind::FOLD);
             return (Settled::of([merged, None], is_bent && merged.is_some()), None);
         }
         let half = (point.left / c2).abs().sqrt();

@@ -14,6 +14,7 @@ mod fold;
 mod freedom;
 mod member;
 mod members;
+mod merged;
 mod newton;
 mod placed;
 mod reflections;

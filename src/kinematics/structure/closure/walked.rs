@@ -6,7 +6,7 @@ use core::ops::ControlFlow;
 
 use super::accepted::{Accepted, ROOM};
 use super::chain::{Closure, Target};
-use super::configuration::{Configuration, Kind};
+use super::configuration::{Configuration, ISOLATED, Kind};
 use super::member::Member;
 use super::members::part_with;
 use super::self_motion::SelfMotion;
@@ -125,7 +125,7 @@ impl Accepted {
                 index = self.as_slice().iter().position(|kept| *kept == one).unwrap_or(index);
                 match motion.filter(|_| way.moves_at_all()) {
                     Some(motion) => take(&one, &motion, &way),
-                    None => self.replace(index, Configuration { kind: Kind::Fold, ..one }),
+                    None => self.replace(index, Configuration { kind: Kind::FOLD, ..one }),
                 }
             }
             index += 1;
@@ -137,9 +137,9 @@ impl Accepted {
         let mut other = 0;
         while other < self.as_slice().len() {
             let one = self.as_slice()[other];
-            let is_met =
-                one != *kept && one.kind != Kind::Regular && motion.passes(ends, &one.theta);
-            if is_met {
+            // A solution of its own is not singular, to rounding.
+            let may_be = one != *kept && (one.kind != Kind::Regular || one.least <= ISOLATED);
+            if may_be && motion.passes(ends, &one.theta) {
                 self.remove(other);
             } else {
                 other += 1;

@@ -33,7 +33,7 @@ const TIED: f64 = 1e-6;
 
 impl General {
     /// Take every solution of a pose; returns whether their number is certain.
-    pub(super) fn solve_all(
+    pub(crate) fn solve_all(
         &self,
         t_first_last: &Pose,
         free: &FreeChoice<6>,
@@ -47,7 +47,7 @@ impl General {
     }
 
     /// Take what the splits find; returns whether it is certain to be all.
-    pub(crate) fn attempt_all(&self, t_first_last: &Pose, accepted: &mut Accepted) -> bool {
+    fn attempt_all(&self, t_first_last: &Pose, accepted: &mut Accepted) -> bool {
         let target = self.closure.target_of(t_first_last);
         // Farther away than the sum of the lengths.
         let distance = target.frame.origin.iter().map(|x| x * x).sum::<f64>();
@@ -69,12 +69,7 @@ impl General {
     /// Keep one member of each self-motion, that which the free joint's angle of `free` chooses.
     /// Without one look for solutions all over the joints.
     #[cold]
-    pub(crate) fn complete(
-        &self,
-        t_first_last: &Pose,
-        free: &FreeChoice<6>,
-        accepted: &mut Accepted,
-    ) {
+    fn complete(&self, t_first_last: &Pose, free: &FreeChoice<6>, accepted: &mut Accepted) {
         let target = self.closure.target_of(t_first_last);
         let near = self.joint_map.theta(&free.q);
         if accepted.has_self_motion() {
@@ -201,7 +196,7 @@ impl General {
 fn kinds_of(one: &Configuration) -> SingularityKind {
     match one.kind {
         Kind::Regular if one.least >= SINGULAR => SingularityKind::empty(),
-        Kind::Regular | Kind::Fold => SingularityKind::ELBOW,
+        Kind::Regular | Kind::Merged(_) => SingularityKind::ELBOW,
         Kind::Free(_) => SingularityKind::WRIST,
     }
 }

@@ -111,15 +111,6 @@ impl OffsetWrist {
     /// Add the solutions of the general method, which shares no polynomial with this one.
     #[cold]
     fn rescue(&self, t_first_last: &Pose, free: &FreeChoice<6>, accepted: &mut Accepted) -> bool {
-        let found = core::mem::replace(accepted, Accepted::NONE);
-        let is_certain = self.general.attempt_all(t_first_last, accepted);
-        let count = accepted.as_slice().len();
-        let closure = self.general.closure();
-        accepted.add(closure, &closure.target_of(t_first_last), &found);
-        let is_certified = is_certain && accepted.as_slice().len() == count;
-        if !is_certain || accepted.has_self_motion() {
-            self.general.complete(t_first_last, free, accepted);
-        }
-        is_certified
+        self.general.solve_all(t_first_last, free, accepted)
     }
 }

@@ -4,6 +4,7 @@
 use core::f64::consts::{PI, TAU};
 use std::vec::Vec;
 
+mod merged;
 mod self_motions;
 mod turns;
 
