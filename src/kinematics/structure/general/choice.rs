@@ -15,7 +15,7 @@ use crate::kinematics::structure::end_frames::Frame;
 use crate::lanes::run_vectors;
 
 /// Splits that an arm keeps: one that is tried first, and others where its count is not certain.
-pub(super) const KEPT: usize = 3;
+pub(super) const KEPT: usize = 4;
 
 /// Random joint vectors, on the first of which all splits are scored, and structured ones of each
 /// kind.

@@ -8,7 +8,10 @@ use super::tables::{DEGREE, ORDERS};
 use crate::lanes::sin_cos;
 
 /// Highest order of a derivative that bounds the number of roots.
-const MOST_MULTIPLICITY: usize = 6;
+const MOST_MULTIPLICITY: usize = 8;
+
+/// Order of the derivative that is only bounded, in the series of the others.
+const TAYLOR: usize = 14;
 
 impl TrigonometricPolynomial {
     /// Every real root, in a range of a full turn: complete up to the noise (eq. 96). Clusters that
@@ -39,34 +42,42 @@ impl TrigonometricPolynomial {
     }
 
     /// Most roots in an interval: k if the derivative of order k has no zero there, by Rolle's
-    /// theorem. The derivative is that in the middle, less what it changes up to the ends and what
-    /// noise may be of it.
+    /// theorem. It is that in the middle, less what the derivatives of higher order change it by up
+    /// to the ends, and what noise may be of it.
     fn most_roots(&self, root: Root) -> usize {
         let (sin, cos) = sin_cos::<false>(root.angle());
         let mut orders: [f64; DEGREE + 1] = [1.0; DEGREE + 1];
-        for order in 1..=MOST_MULTIPLICITY {
-            let (mut derivative, mut next, mut noise) = (0.0, 0.0, 0.0);
+        let (mut derivatives, mut noises) = ([0.0; TAYLOR + 1], [0.0; TAYLOR + 1]);
+        // What the last one may be anywhere.
+        let mut bound = 0.0;
+        for order in 0..=TAYLOR {
             let (mut s, mut c) = (0.0, 1.0);
+            bound = 0.0;
             for k in 0..=DEGREE {
-                orders[k] *= ORDERS[k];
                 // The derivative of order 1 of a cosine is minus the sine, and so on.
                 let (a, b) = (self.cos[k] * orders[k], self.sin[k] * orders[k]);
-                derivative += match order % 4 {
+                derivatives[order] += match order % 4 {
+                    0 => a * c + b * s,
                     1 => b * c - a * s,
                     2 => -a * c - b * s,
-                    3 => a * s - b * c,
-                    _ => a * c + b * s,
+                    _ => a * s - b * c,
                 };
-                next += ORDERS[k] * orders[k] * (self.cos[k].abs() + self.sin[k].abs());
-                noise += orders[k];
+                bound += a.abs() + b.abs();
+                // The noise is that of the sum of all coefficients.
+                noises[order] += self.noise * orders[k] * (1.0 / 9.0);
+                orders[k] *= ORDERS[k];
                 (s, c) = (s * cos + c * sin, c * cos - s * sin);
             }
-            // The noise is that of the sum of all coefficients.
-            let noise = self.noise * noise * (1.0 / 9.0);
-            if derivative.abs() > next * root.radius() + noise {
-                return order;
-            }
         }
-        2 * DEGREE
+        derivatives[TAYLOR] = bound;
+        let has_no_zero = |order: &usize| {
+            let (mut others, mut scale) = (noises[*order], 1.0);
+            for (count, above) in (1_u8..).zip(&derivatives[order + 1..]) {
+                scale *= root.radius() / f64::from(count);
+                others += scale * above.abs();
+            }
+            derivatives[*order].abs() > others
+        };
+        (1..=MOST_MULTIPLICITY).find(has_no_zero).unwrap_or(2 * DEGREE)
     }
 }
