@@ -40,10 +40,15 @@ impl SelfMotion<'_> {
         joint: usize,
         near: &[f64; 6],
     ) -> Option<Configuration> {
-        if part_with([start, end], joint, near[joint])? == 0.0 {
-            return self.configuration(start);
+        let off = |one: &Member| wrap(one.theta[joint] - near[joint]);
+        let starts_there = part_with([start, end], joint, near[joint])? == 0.0;
+        let mut member = if starts_there { *start } else { self.where_zero(start, end, off)? };
+        // Its last rounding goes, too: who asks for zero gets zero.
+        let rounding = off(&member);
+        if rounding.abs() <= AT_PLACE {
+            member.theta[joint] -= rounding;
         }
-        self.where_zero(start, end, |one| wrap(one.theta[joint] - near[joint]))
+        self.closure.accepted(self.target, member.theta, 0.0, Kind::FREE)
     }
 
     /// The member between two of them where a number of it is zero, by the secant method.
@@ -52,7 +57,7 @@ impl SelfMotion<'_> {
         start: &Member,
         end: &Member,
         number: impl Fn(&Member) -> f64,
-    ) -> Option<Configuration> {
+    ) -> Option<Member> {
         let along = |i: usize| start.direction[i] * (end.theta[i] - start.theta[i]);
         let (mut before, mut last) =
             ((0.0, number(start)), ((0..6).map(along).sum::<f64>(), number(end)));
@@ -65,12 +70,7 @@ impl SelfMotion<'_> {
             member = self.closure.member_ahead(self.target, start, s, member.theta)?;
             (before, last) = (last, (s, number(&member)));
         }
-        self.configuration(&member)
-    }
-
-    /// A member as a configuration.
-    fn configuration(&self, member: &Member) -> Option<Configuration> {
-        self.closure.accepted(self.target, member.theta, 0.0, Kind::FREE)
+        Some(member)
     }
 }
 
