@@ -27,6 +27,9 @@ const MOST_MERGED: usize = MOST / 3;
 /// How far a candidate may be from closing and still be examined [1].
 const EXAMINED: f64 = 0.05;
 
+/// Least singular value, or residual, up to which a candidate that does not close is examined [1].
+const NEARLY: f64 = 1e-3;
+
 /// Candidates that are examined in an attempt, at most.
 const MOST_EXAMINED: usize = 24;
 
@@ -35,9 +38,9 @@ const MOST_EXAMINED: usize = 24;
 pub(crate) struct Accepted {
     all: [Configuration; ROOM],
     count: usize,
-    /// Whether everything that was tried is understood: no candidate near a singularity remained
-    /// without a decision, and nothing was left out.
-    pub(crate) is_certain: bool,
+    /// Whether what was tried is understood: nothing was left out, and no candidate near a
+    /// singularity remained without a decision.
+    is_certain: bool,
     /// Where two solutions were looked for that are not: the pose misses their fold.
     missed: [Missed; MOST / 2],
     missed_count: usize,
@@ -98,6 +101,11 @@ impl Accepted {
         (self.is_certain, self.missed_count, self.left) = (true, 0, MOST_EXAMINED);
     }
 
+    /// Whether everything that was tried is understood, and the place of each configuration known.
+    pub(crate) fn is_certain(&self) -> bool {
+        self.is_certain && self.as_slice().iter().all(|one| one.is_placed)
+    }
+
     /// Where this attempt looked for two solutions that the pose misses.
     pub(crate) fn missed(&self) -> &[Missed] {
         &self.missed[..self.missed_count]
@@ -133,11 +141,11 @@ impl Accepted {
                 continue;
             }
             let (theta, least) = (candidates.theta(lane), candidates.least[lane]);
-            let one = Configuration { theta, residual, least, kind: Kind::Regular };
+            let one = Configuration { theta, residual, least, ..Configuration::NONE };
             let closes = residual <= closure.accepts();
             if closes && least > SINGULAR {
                 self.insert(closure, one);
-            } else if least <= 10.0 * SINGULAR || residual < 1e-3 {
+            } else if least.min(residual) <= NEARLY {
                 singular[count] = one;
                 count += 1;
             }

@@ -46,6 +46,8 @@ pub(crate) struct Configuration {
     /// The least singular value of the conditions' derivatives, to a small factor [1].
     pub(crate) least: f64,
     pub(crate) kind: Kind,
+    /// Whether rounding leaves it where it is, to [`EXTENT`].
+    pub(super) is_placed: bool,
 }
 
 /// A fold that a pose misses: its solutions are complex.
@@ -67,7 +69,7 @@ impl Missed {
 
 impl Configuration {
     pub(super) const NONE: Self =
-        Self { theta: [0.0; 6], residual: 1.0, least: 0.0, kind: Kind::Regular };
+        Self { theta: [0.0; 6], residual: 1.0, least: 0.0, kind: Kind::Regular, is_placed: true };
 
     /// How many solutions this one is.
     pub(crate) fn multiplicity(&self) -> usize {

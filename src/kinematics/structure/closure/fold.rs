@@ -9,7 +9,7 @@
 use nalgebra::ComplexField as _;
 
 use super::chain::{Closure, Target, largest, sines};
-use super::configuration::{Configuration, ISOLATED, Kind, Missed};
+use super::configuration::{Configuration, EXTENT, ISOLATED, Kind, Missed};
 use super::curve::{Curve, Point, Wanted};
 use super::merged::Merged;
 use crate::lanes::LANES;
@@ -117,7 +117,7 @@ impl Closure {
     ) -> Option<Configuration> {
         let (sin, cos) = sines(&theta);
         let residual = largest(&self.missing(target, &sin, &cos));
-        let configuration = Configuration { theta, residual, least, kind };
+        let configuration = Configuration { theta, residual, least, kind, is_placed: true };
         (residual <= self.accepts()).then_some(configuration)
     }
 }
@@ -255,7 +255,9 @@ impl Curves<'_> {
         // how many points close, is not certain (eq. 102b).
         let is_bent = c2.abs() * PLACED * PLACED > MERGED * rounding;
         if point.left.abs() <= MERGED * rounding {
+            let is_placed = c2.abs() * EXTENT * EXTENT > MERGED * rounding;
             let merged = self.accepted(lane, &point, Kind::FOLD);
+            let merged = merged.map(|one| Configuration { is_placed, ..one });
             return (Settled::of([merged, None], is_bent && merged.is_some()), None);
         }
         let half = (point.left / c2).abs().sqrt();

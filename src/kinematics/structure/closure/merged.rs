@@ -35,6 +35,10 @@ const MOST_MERGED: u8 = 6;
 const FARTHEST: f64 = 0.5;
 const EXTENT: f64 = 0.5;
 
+/// How far from the place what is below the lowest power may move a solution, as a part of the
+/// sampled way.
+const NEAR: f64 = 0.06;
+
 /// Steps to the place about which the power before the lowest vanishes.
 const MOST_STEPS: usize = 6;
 
@@ -154,14 +158,20 @@ impl Lowest {
             about = shifted(&about, step);
             place += step;
         }
-        let is_lowest = about[..index].iter().all(|below| below.abs() <= noise);
+        let size = about[index];
+        // What is below it moves no root far.
+        let mut most = size.abs() * NEAR.powi(power.into());
+        let mut is_lowest = true;
+        for below in &about[..index] {
+            is_lowest &= below.abs() <= noise.min(most);
+            most /= NEAR;
+        }
         // It is greater than all others together: by Rouche's theorem, so many roots are there.
         let (mut others, mut scale) = (order * noise / EXTENT.powi(power.into()), 1.0);
         for above in &about[index + 1..] {
             scale *= EXTENT;
             others += above.abs() * scale;
         }
-        let size = about[index];
         let is_found = is_lowest && place.abs() <= FARTHEST && size.abs() > 2.0 * others;
         is_found.then_some(Self { power, size, place })
     }
@@ -194,6 +204,9 @@ mod tests {
         assert!(Lowest::of(&interpolated(SAMPLES.map(apart)), noise).is_none());
         let beside = |x: f64| 1e-3 * (x - 0.1).powi(4) + 1e-11;
         assert!(Lowest::of(&interpolated(SAMPLES.map(beside)), noise).is_none());
+        // Apart, though the closure hardly tells.
+        let flat = |x: f64| 1.2e-12 * (x - 0.26) * (x + 0.06);
+        assert!(Lowest::of(&interpolated(SAMPLES.map(flat)), noise).is_none());
         // One root, none, and what is zero everywhere.
         for values in [SAMPLES, [1.0; LANES], [0.0; LANES], [1e-13; LANES]] {
             assert!(Lowest::of(&interpolated(values), noise).is_none(), "{values:?}");

@@ -20,7 +20,7 @@ const MOST_STEP: f64 = 0.3;
 const MOST_STEPS: usize = 8;
 
 /// Steps beyond that for a candidate whose last one was below [`NEAR`]: a step is halved until it
-/// is below the least singular value, 1e-4 for one that is not examined, then squared.
+/// is below the least singular value, 1e-5 for one that is not examined, then squared.
 const LAST_STEPS: usize = 6;
 
 /// Size of a step from which on the next is its square, away from a fold [rad].

@@ -116,7 +116,7 @@ fn two_solutions_next_to_a_fold_are_two_and_at_it_one() {
             }
             let accepted = found(&closure, &target, &theta, 1e-3);
             let count = accepted.as_slice().len();
-            assert!(accepted.is_certain && (1..=2).contains(&count), "{off:e} {accepted:?}");
+            assert!(accepted.is_certain() && (1..=2).contains(&count), "{off:e} {accepted:?}");
             // Farther away, both are regular, and each has its own basin.
             assert!(off > 1e-4 || accepted.root_count() == 2, "{off:e}: {accepted:?}");
             counts[count] += 1;
@@ -155,7 +155,7 @@ fn a_self_motion_stands_once_with_its_direction() {
         let candidates = closure.converged(&target, &points);
         accepted.take(&closure, &target, &candidates, LANES);
         accepted.represent(&closure, &target, &[0.0; 6]);
-        assert!(accepted.is_certain && accepted.as_slice().len() == 1, "{accepted:?}");
+        assert!(accepted.is_certain() && accepted.as_slice().len() == 1, "{accepted:?}");
         assert!(accepted.as_slice()[0].is_free(), "{accepted:?}");
         let motion = closure.self_motions(&target, &accepted.as_slice()[0].theta).next();
         let direction = motion.unwrap().start.direction;

@@ -83,7 +83,7 @@ impl VectorKernel for Attempt<'_> {
             }
         }
         is_certain
-            && accepted.is_certain
+            && accepted.is_certain()
             && !accepted.has_self_motion()
             && accepted.root_count() == count + in_clusters
     }

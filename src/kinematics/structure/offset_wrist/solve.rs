@@ -66,7 +66,7 @@ impl VectorKernel for Solve<'_> {
         let simple = if lengths.is_square { 2 * count } else { count };
         let agree = |accepted: &Accepted| {
             is_complete
-                && accepted.is_certain
+                && accepted.is_certain()
                 && !accepted.has_self_motion()
                 && clusters.agree(accepted.as_slice(), simple)
         };

@@ -11,7 +11,7 @@ use crate::kinematics::pose::angles::wrap;
 
 impl Root {
     /// Whether a cluster has something of an arc.
-    pub(super) fn touches(&self, arc: usize) -> bool {
+    pub(super) fn reaches(&self, arc: usize) -> bool {
         wrap(self.angle() - middle(arc)).abs() < self.radius() + HALF_ARC
     }
 }

@@ -20,6 +20,10 @@ use crate::lanes::{Column, LANES, Number as _, Vector};
 /// Width of a part of an arc that is not divided [1]: 5e-8 rad.
 const LEAST_WIDTH: f64 = 1.0 / (1 << 23) as f64;
 
+/// Width of a part at the edge of a cluster, relative to the cluster's, up to which it is taken as
+/// part of it [1].
+const EDGE: f64 = 0.125;
+
 /// Parts of arcs that wait for their division: a double root leaves two or three of each width.
 const MOST_PARTS: usize = 24;
 
@@ -109,7 +113,7 @@ impl TrigonometricPolynomial {
             let mut cut = 0;
             for lane in if known.is_empty() { 0..0 } else { 0..LANES } {
                 let whole = whole(lane);
-                if let Some(cluster) = known.iter().find(|cluster| cluster.touches(whole.arc)) {
+                if let Some(cluster) = known.iter().find(|cluster| cluster.reaches(whole.arc)) {
                     cut |= 1 << lane;
                     for part in whole.without(cluster).into_iter().flatten() {
                         found.parts.push(&in_lane(&columns, lane), part);
@@ -189,9 +193,15 @@ impl TrigonometricPolynomial {
         found: &mut Found<'_>,
     ) {
         let Found { parts, brackets, roots } = found;
-        if coefficients.iter().all(|b| b.abs() <= self.noise)
+        let is_noise = |b: &f64| b.abs() <= self.noise;
+        let is_at_edge = || {
+            let may_be = is_noise(&coefficients[0]) || is_noise(&coefficients[POWERS]);
+            may_be && roots.have_at_edge(&part.cluster(), EDGE)
+        };
+        if coefficients.iter().all(is_noise)
             || part.high - part.low < 1.5 * LEAST_WIDTH
             || parts.count == MOST_PARTS
+            || is_at_edge()
         {
             roots.take_cluster(&part.cluster());
         } else if has_many || !part.take_pair(coefficients, self.noise, brackets, roots) {

@@ -38,6 +38,11 @@ impl Root {
     pub(crate) fn radius(self) -> f64 {
         0.5 * (self.high - self.low)
     }
+
+    /// Whether this is a cluster that has an angle of an interval.
+    fn touches(&self, other: &Self) -> bool {
+        !self.is_simple && self.low <= other.high && other.low <= self.high
+    }
 }
 
 /// All real roots of a polynomial, by increasing angle, in a range of a full turn.
@@ -67,11 +72,14 @@ impl Roots {
         }
     }
 
+    /// Whether an interval touches a cluster, and is narrower than a part of that.
+    pub(super) fn have_at_edge(&self, new: &Root, part: f64) -> bool {
+        self.as_slice().iter().any(|one| one.touches(new) && new.radius() <= part * one.radius())
+    }
+
     /// Take a cluster: as a part of one that it touches, if there is one.
     pub(super) fn take_cluster(&mut self, new: &Root) {
-        let touches =
-            |one: &&mut Root| !one.is_simple && one.low <= new.high && new.low <= one.high;
-        match self.as_mut_slice().iter_mut().find(touches) {
+        match self.as_mut_slice().iter_mut().find(|one| one.touches(new)) {
             Some(one) => (one.low, one.high) = (one.low.min(new.low), one.high.max(new.high)),
             None => self.push(*new),
         }
