@@ -39,6 +39,10 @@ const EXTENT: f64 = 0.5;
 /// sampled way.
 const NEAR: f64 = 0.06;
 
+/// What rounding may make of the closure there, as a part of what still closes [1]; its powers have
+/// more of it.
+const ROUNDED: f64 = 0.1;
+
 /// Steps to the place about which the power before the lowest vanishes.
 const MOST_STEPS: usize = 6;
 
@@ -161,7 +165,7 @@ impl Lowest {
         let size = about[index];
         // What is below it moves no root far.
         let mut most = size.abs() * NEAR.powi(power.into());
-        let mut is_lowest = true;
+        let mut is_lowest = about[0].abs() <= ROUNDED * noise;
         for below in &about[..index] {
             is_lowest &= below.abs() <= noise.min(most);
             most /= NEAR;
@@ -207,6 +211,8 @@ mod tests {
         // Apart, though the closure hardly tells.
         let flat = |x: f64| 1.2e-12 * (x - 0.26) * (x + 0.06);
         assert!(Lowest::of(&interpolated(SAMPLES.map(flat)), noise).is_none());
+        let near = |x: f64| 1e-4 * x.powi(2) - 5e-15;
+        assert!(Lowest::of(&interpolated(SAMPLES.map(near)), noise).is_none());
         // One root, none, and what is zero everywhere.
         for values in [SAMPLES, [1.0; LANES], [0.0; LANES], [1e-13; LANES]] {
             assert!(Lowest::of(&interpolated(values), noise).is_none(), "{values:?}");
