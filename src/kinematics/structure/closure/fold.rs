@@ -26,7 +26,7 @@ const SAMPLED: f64 = 0.02;
 const FREE: f64 = 100.0;
 
 /// Closure at its extreme value, in roundings, up to which two solutions are one [1].
-const MERGED: f64 = 2.0;
+pub(super) const MERGED: f64 = 2.0;
 
 /// How near the place of an extreme value must be known for what is there to be certain [rad]:
 /// rounding moves it by its root over the curvature.

@@ -9,6 +9,7 @@ use nalgebra::ComplexField as _;
 use super::chain::{Closure, Target};
 use super::configuration::{Configuration, Kind};
 use super::curve::{Curve, Point};
+use super::fold::MERGED;
 use crate::kinematics::pose::angles::wrap;
 use crate::lanes::LANES;
 
@@ -38,10 +39,6 @@ const EXTENT: f64 = 0.5;
 /// How far from the place what is below the lowest power may move a solution, as a part of the
 /// sampled way.
 const NEAR: f64 = 0.06;
-
-/// What rounding may make of the closure there, as a part of what still closes [1]; its powers have
-/// more of it.
-const ROUNDED: f64 = 0.1;
 
 /// Steps to the place about which the power before the lowest vanishes.
 const MOST_STEPS: usize = 6;
@@ -92,7 +89,8 @@ impl Closure {
         for (value, point) in values.iter_mut().zip(&points) {
             *value = point.as_ref()?.left;
         }
-        let Lowest { power, size, place } = Lowest::of(&interpolated(values), self.accepts())?;
+        let noise = [MERGED * self.rounding, self.accepts()];
+        let Lowest { power, size, place } = Lowest::of(&interpolated(values), noise)?;
         let s = place * SAMPLED;
         let beyond = |at: usize| [s, s - BEYOND[at / 2], s + BEYOND[at / 2]][1 + at % 2];
         let [point] = self.points(target, &[Some(curve.at(s, ahead(s)))]);
@@ -150,11 +148,12 @@ struct Lowest {
 }
 
 impl Lowest {
-    fn of(powers: &Powers, noise: f64) -> Option<Self> {
+    /// The noise is that of the closure, and of its powers.
+    fn of(powers: &Powers, noise: [f64; 2]) -> Option<Self> {
         (2..=MOST_MERGED).find_map(|power| Self::if_lowest(powers, power, noise))
     }
 
-    fn if_lowest(powers: &Powers, power: u8, noise: f64) -> Option<Self> {
+    fn if_lowest(powers: &Powers, power: u8, [rounding, noise]: [f64; 2]) -> Option<Self> {
         let (index, order) = (usize::from(power), f64::from(power));
         let (mut about, mut place) = (*powers, 0.0);
         for _ in 0..MOST_STEPS {
@@ -165,7 +164,7 @@ impl Lowest {
         let size = about[index];
         // What is below it moves no root far.
         let mut most = size.abs() * NEAR.powi(power.into());
-        let mut is_lowest = about[0].abs() <= ROUNDED * noise;
+        let mut is_lowest = about[0].abs() <= rounding;
         for below in &about[..index] {
             is_lowest &= below.abs() <= noise.min(most);
             most /= NEAR;
@@ -194,7 +193,7 @@ mod tests {
     fn a_multiple_root_is_found_where_it_is_with_its_multiplicity() {
         for power in 2..=5 {
             for place in [-0.4, -0.1, 0.0, 0.3, 0.49] {
-                let lowest = Lowest::of(&of_root(power, place, 1e-3), 4e-14).unwrap();
+                let lowest = Lowest::of(&of_root(power, place, 1e-3), [4e-15, 4e-14]).unwrap();
                 assert_eq!(i32::from(lowest.power), power);
                 assert!((lowest.place - place).abs() < 1e-10, "{power} {place} {}", lowest.place);
             }
@@ -203,7 +202,7 @@ mod tests {
 
     #[test]
     fn roots_that_are_apart_or_no_roots_have_not_merged() {
-        let noise = 4e-14;
+        let noise = [4e-15, 4e-14];
         let apart = |x: f64| 1e-3 * (x - 0.1).powi(2) * (x - 0.15).powi(2);
         assert!(Lowest::of(&interpolated(SAMPLES.map(apart)), noise).is_none());
         let beside = |x: f64| 1e-3 * (x - 0.1).powi(4) + 1e-11;
