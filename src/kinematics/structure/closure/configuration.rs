@@ -3,12 +3,15 @@
 use crate::kinematics::pose::angles::wrap;
 
 /// Least singular value below which a candidate is examined as one of a fold or a self-motion [1].
-pub(super) const SINGULAR: f64 = 1e-4;
+pub(super) const SINGULAR: f64 = 1e-5;
 
 /// Least singular value above which what closes is next to a solution of its own [1]: by the
 /// theorem of Newton and Kantorovich, where `6 residual / least^2` is at most a half, six bounding
 /// the second derivatives of the conditions.
 pub(super) const ISOLATED: f64 = 1e-6;
+
+/// Closure at its extreme value, in roundings, up to which two solutions are one [1].
+pub(super) const MERGED: f64 = 2.0;
 
 /// How far from an examined configuration others are the same [rad]: the curve is searched farther.
 pub(super) const EXTENT: f64 = 1e-3;

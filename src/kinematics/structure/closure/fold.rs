@@ -9,7 +9,7 @@
 use nalgebra::ComplexField as _;
 
 use super::chain::{Closure, Target, largest, sines};
-use super::configuration::{Configuration, EXTENT, ISOLATED, Kind, Missed};
+use super::configuration::{Configuration, EXTENT, ISOLATED, Kind, MERGED, Missed};
 use super::curve::{Curve, Point, Wanted};
 use super::merged::Merged;
 use crate::lanes::LANES;
@@ -24,9 +24,6 @@ const SAMPLED: f64 = 0.02;
 /// Closure at all samples below which a configuration moves freely, in roundings [1]: a curvature
 /// of 1e-9, where those of arms are of the order of one.
 const FREE: f64 = 100.0;
-
-/// Closure at its extreme value, in roundings, up to which two solutions are one [1].
-pub(super) const MERGED: f64 = 2.0;
 
 /// How near the place of an extreme value must be known for what is there to be certain [rad]:
 /// rounding moves it by its root over the curvature.

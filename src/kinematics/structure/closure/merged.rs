@@ -7,9 +7,8 @@
 use nalgebra::ComplexField as _;
 
 use super::chain::{Closure, Target};
-use super::configuration::{Configuration, Kind};
+use super::configuration::{Configuration, Kind, MERGED};
 use super::curve::{Curve, Point};
-use super::fold::MERGED;
 use crate::kinematics::pose::angles::wrap;
 use crate::lanes::LANES;
 
