@@ -1,12 +1,13 @@
 //! The end frames of an arm's geometry: base, shoulder, flange and tool.
 
+use fearless_simd::prelude::*;
 use nalgebra::Vector3;
 
 use crate::kinematics::chain::Chain;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::rotation::Rows3;
 use crate::kinematics::structure::joint_map::JointMap;
-use crate::lanes::{dot, mul_add};
+use crate::lanes::{LANES, Number, Vector, dot, mul_add};
 
 /// The constant factors of eq. 1, which remove base, shoulder height, flange and tool from a pose.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,11 +89,11 @@ impl Seen {
     }
 }
 
-/// A transform as kernels take it: the rows of its rotation, and its origin.
+/// A transform as kernels take it, or one in each lane: the rows of its rotation, and its origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Frame {
-    pub(crate) rotation: Rows3,
-    pub(crate) origin: [f64; 3],
+pub(crate) struct Frame<T = f64> {
+    pub(crate) rotation: [[T; 3]; 3],
+    pub(crate) origin: [T; 3],
 }
 
 impl Frame {
@@ -105,10 +106,18 @@ impl Frame {
         }
     }
 
-    /// The same with lengths in units.
-    pub(crate) fn in_units(self, unit: f64) -> Self {
-        let [x, y, z] = self.origin;
-        Self { origin: [x * unit, y * unit, z * unit], ..self }
+    /// The same frame, in the lanes of a number.
+    #[inline(always)]
+    pub(crate) fn in_lanes<T: Number>(&self, like: T) -> Frame<T> {
+        let zero = like.like(0.0);
+        let mut lanes = Frame { rotation: [[zero; 3]; 3], origin: [zero; 3] };
+        for i in 0..3 {
+            for j in 0..3 {
+                lanes.rotation[i][j] = zero.like(self.rotation[i][j]);
+            }
+            lanes.origin[i] = zero.like(self.origin[i]);
+        }
+        lanes
     }
 
     pub(crate) fn inverse(&self) -> Self {
@@ -123,6 +132,44 @@ impl Frame {
     pub(crate) fn turned(&self, v: [f64; 3]) -> [f64; 3] {
         let [a, b, c] = self.rotation;
         [dot(a, v), dot(b, v), dot(c, v)]
+    }
+}
+
+impl<S: Simd> Frame<Vector<S>> {
+    /// Those of these frames with the given numbers, a lane for each.
+    #[inline(always)]
+    pub(crate) fn of_lanes(simd: S, all: &[Frame], numbers: &[usize; LANES]) -> Self {
+        if let [one] = all {
+            return one.in_lanes(Vector::splat(simd, 0.0));
+        }
+        let (mut rotation, mut origin) = ([[[0.0; LANES]; 3]; 3], [[0.0; LANES]; 3]);
+        for lane in 0..LANES {
+            let one = &all[numbers[lane]];
+            for i in 0..3 {
+                for j in 0..3 {
+                    rotation[i][j][lane] = one.rotation[i][j];
+                }
+                origin[i][lane] = one.origin[i];
+            }
+        }
+        let zero = Vector::splat(simd, 0.0);
+        let mut lanes = Self { rotation: [[zero; 3]; 3], origin: [zero; 3] };
+        for i in 0..3 {
+            for j in 0..3 {
+                lanes.rotation[i][j] = Vector::load_array_ref(simd, &rotation[i][j]);
+            }
+            lanes.origin[i] = Vector::load_array_ref(simd, &origin[i]);
+        }
+        lanes
+    }
+}
+
+impl<T: Number> Frame<T> {
+    /// The same with lengths in units.
+    #[inline(always)]
+    pub(crate) fn in_units(self, unit: f64) -> Self {
+        let [x, y, z] = self.origin;
+        Self { origin: [x * unit, y * unit, z * unit], ..self }
     }
 }
 

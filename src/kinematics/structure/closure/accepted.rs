@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::chain::{Closure, Target};
-use super::configuration::{Configuration, EXTENT, ISOLATED, Kind, Missed, SAME, SINGULAR};
+use super::configuration::{Configuration, EXTENT, ISOLATED, Kind, Missed, SAME};
 use super::fold::Settled;
 use super::merged::Merged;
 use super::newton::Candidates;
@@ -142,8 +142,7 @@ impl Accepted {
             }
             let (theta, least) = (candidates.theta(lane), candidates.least[lane]);
             let one = Configuration { theta, residual, least, ..Configuration::NONE };
-            let closes = residual <= closure.accepts();
-            if closes && least > SINGULAR {
+            if candidates.is_regular(closure, lane) {
                 self.insert(closure, one);
             } else if least.min(residual) <= NEARLY {
                 singular[count] = one;

@@ -24,10 +24,18 @@ pub(crate) struct Closure {
     pub(crate) rounding: f64,
 }
 
-/// The last frame that a chain is to reach, in units of its lengths.
+/// The last frame that a chain is to reach, in units of its lengths, or one in each lane.
 #[derive(Clone, Copy)]
-pub(crate) struct Target {
-    pub(crate) frame: Frame,
+pub(crate) struct Target<T = f64> {
+    pub(crate) frame: Frame<T>,
+}
+
+impl Target {
+    /// The same, in the lanes of a number.
+    #[inline(always)]
+    pub(crate) fn in_lanes<T: Number>(&self, like: T) -> Target<T> {
+        Target { frame: self.frame.in_lanes(like) }
+    }
 }
 
 /// The six conditions at a configuration, and their derivatives by each joint.
@@ -70,7 +78,7 @@ impl Closure {
 
     /// A last frame in units of the chain.
     #[inline(always)]
-    pub(crate) fn target(&self, t_first_last: &Frame) -> Target {
+    pub(crate) fn target<T: Number>(&self, t_first_last: Frame<T>) -> Target<T> {
         Target { frame: t_first_last.in_units(1.0 / self.reach) }
     }
 
@@ -112,7 +120,7 @@ impl Closure {
     }
 
     pub(crate) fn target_of(&self, t_first_last: &Pose) -> Target {
-        self.target(&Frame::of(t_first_last))
+        self.target(Frame::of(t_first_last))
     }
 
     /// The conditions: the position of the last frame and half of the sum of the products of its
@@ -120,7 +128,7 @@ impl Closure {
     #[inline(always)]
     pub(super) fn conditions<T: Number>(
         &self,
-        target: &Target,
+        target: &Target<T>,
         sin: &[T; 6],
         cos: &[T; 6],
     ) -> Conditions<T> {
@@ -140,7 +148,12 @@ impl Closure {
 
     /// What is missing to the target, alone.
     #[inline(always)]
-    pub(super) fn missing<T: Number>(&self, target: &Target, sin: &[T; 6], cos: &[T; 6]) -> [T; 6] {
+    pub(super) fn missing<T: Number>(
+        &self,
+        target: &Target<T>,
+        sin: &[T; 6],
+        cos: &[T; 6],
+    ) -> [T; 6] {
         missing(&self.frames(sin, cos).0, target)
     }
 
@@ -163,21 +176,21 @@ impl Closure {
 }
 
 #[inline(always)]
-fn missing<T: Number>(last: &Placed<T>, target: &Target) -> [T; 6] {
+fn missing<T: Number>(last: &Placed<T>, target: &Target<T>) -> [T; 6] {
     let Frame { rotation, origin } = target.frame;
     let zero = last.x[0].like(0.0);
     let mut missing = [zero; 6];
     let mut trace = zero;
     for i in 0..3 {
-        missing[i] = last.origin[i].like(origin[i]) - last.origin[i];
+        missing[i] = origin[i] - last.origin[i];
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         let (a, b) = (&rotation[j], &rotation[k]);
-        let ahead = last.z[j].scaled_plus(b[2], last.z[k] * -a[2]);
-        let ahead = last.y[j].scaled_plus(b[1], last.y[k].scaled_plus(-a[1], ahead));
-        missing[3 + i] = last.x[j].scaled_plus(b[0], last.x[k].scaled_plus(-a[0], ahead)) * 0.5;
+        let ahead = last.z[j].times_plus(b[2], last.z[k] * -a[2]);
+        let ahead = last.y[j].times_plus(b[1], last.y[k].times_plus(-a[1], ahead));
+        missing[3 + i] = last.x[j].times_plus(b[0], last.x[k].times_plus(-a[0], ahead)) * 0.5;
         let [x, y, z] = rotation[i];
-        let along = last.y[i].scaled_plus(y, last.z[i].scaled_plus(z, trace));
-        trace = last.x[i].scaled_plus(x, along);
+        let along = last.y[i].times_plus(y, last.z[i].times_plus(z, trace));
+        trace = last.x[i].times_plus(x, along);
     }
     // Half a turn away the sum is zero too: it counts as a radian.
     missing[3] = trace.if_above(zero, missing[3], zero.like(1.0));

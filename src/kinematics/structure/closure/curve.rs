@@ -176,6 +176,7 @@ impl VectorKernel for Along<'_> {
         let (start, u, v) = (loaded(simd, start), loaded(simd, u), loaded(simd, v));
         let (mut theta, s) = (loaded(simd, guess), Vector::load_array_ref(simd, s));
         let (zero, one) = (s.like(0.0), s.like(1.0));
+        let target = self.target.in_lanes(zero);
         let (mut left, mut slope, mut is_found) = (zero, zero, zero);
         let mut before = zero.like(f64::INFINITY);
         let mut is_moving = zero.simd_eq(zero);
@@ -184,8 +185,7 @@ impl VectorKernel for Along<'_> {
             for joint in 0..6 {
                 (sin[joint], cos[joint]) = sin_cos_of(theta[joint]);
             }
-            let Conditions { missing, mut columns } =
-                self.closure.conditions(self.target, &sin, &cos);
+            let Conditions { missing, mut columns } = self.closure.conditions(&target, &sin, &cos);
             border(&mut columns, &u, &v);
             let triangle = Triangle::of(columns, [missing, u]);
             // Equation 99a.

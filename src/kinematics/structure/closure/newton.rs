@@ -3,6 +3,7 @@
 use fearless_simd::prelude::*;
 
 use super::chain::{Closure, Target, largest};
+use super::configuration::SINGULAR;
 use super::reflections::Triangle;
 use crate::lanes::{
     Column, LANES, Number as _, Vector, VectorKernel, atan2_of, run_vectors, sin_cos_of,
@@ -38,6 +39,11 @@ pub(crate) struct Candidates {
 }
 
 impl Candidates {
+    /// Whether what is in a lane closes, away from every singularity.
+    pub(crate) fn is_regular(&self, closure: &Closure, lane: usize) -> bool {
+        self.residual[lane] <= closure.accepts() && self.least[lane] > SINGULAR
+    }
+
     /// The angles in a lane [rad].
     pub(crate) fn theta(&self, lane: usize) -> [f64; 6] {
         core::array::from_fn(|joint| self.theta[joint][lane])
@@ -65,7 +71,7 @@ impl VectorKernel for Converge<'_> {
             let angle = Vector::load_array_ref(simd, &self.theta[joint]);
             (sin[joint], cos[joint]) = sin_cos_of(angle);
         }
-        self.closure.converge(self.target, &sin, &cos)
+        self.closure.converge(&self.target.in_lanes(zero), &sin, &cos)
     }
 }
 
@@ -75,10 +81,10 @@ impl Closure {
         run_vectors(Converge { closure: self, target, theta })
     }
 
-    /// Bring candidates to the target (eq. 98). One that does not converge keeps its last angles.
+    /// Bring candidates to their targets (eq. 98). One that does not converge keeps its last angles.
     pub(crate) fn converge<S: Simd>(
         &self,
-        target: &Target,
+        target: &Target<Vector<S>>,
         sin: &Six<S>,
         cos: &Six<S>,
     ) -> Candidates {
@@ -92,7 +98,7 @@ impl Closure {
     #[inline(always)]
     fn converge_from<S: Simd>(
         &self,
-        target: &Target,
+        target: &Target<Vector<S>>,
         mut sin: Six<S>,
         mut cos: Six<S>,
     ) -> Candidates {
@@ -118,8 +124,9 @@ impl Closure {
                 let (s, c) = (sin[joint], cos[joint]);
                 best_sin[joint] = is_better.select(s, best_sin[joint]);
                 best_cos[joint] = is_better.select(c, best_cos[joint]);
-                let turn = is_moving.select(part * step[joint], zero);
-                (sin[joint], cos[joint]) = turned(s, c, turn);
+                let (next_s, next_c) = turned(s, c, part * step[joint]);
+                sin[joint] = is_moving.select(next_s, s);
+                cos[joint] = is_moving.select(next_c, c);
             }
             is_moving &= size.simd_gt(CONVERGED);
             if count >= MOST_STEPS {

@@ -141,10 +141,11 @@ impl Search<'_> {
         let null = Rest::at(&self.posed.equations, &sin, &cos, false).null_vectors(is_cluster);
         let pair = if is_cluster { pencil(&null) } else { null };
         let ways = [&null[0], &pair[0], &pair[1]];
+        let target = self.target.in_lanes(t5.sin);
         for powers in &ways[..if is_cluster { 3 } else { 1 }] {
             let [t4, t3] = eliminated(powers);
             let [sin, cos] = completed(self.split, self.posed, &self.weights, [t3, t4, t5]);
-            let candidates = self.closure.converge(self.target, &sin, &cos);
+            let candidates = self.closure.converge(&target, &sin, &cos);
             accepted.take(self.closure, self.target, &candidates, lanes);
         }
     }

@@ -10,7 +10,7 @@ use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::TakeStep;
 use crate::kinematics::structure::branches::Branches;
-use crate::kinematics::structure::closure::{Accepted, Configuration, Kind, Target};
+use crate::kinematics::structure::closure::{Accepted, Configuration, Kind, Target, in_order};
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::lanes::{LANES, run_vectors};
 use crate::report::{FreeJoint, Reach};
@@ -27,9 +27,6 @@ const STARTS: usize = 128;
 
 /// How often Newton's method, which takes eight steps, goes on from there.
 const ROUNDS: usize = 4;
-
-/// Difference of two angles that are the same for the order of solutions [rad].
-const TIED: f64 = 1e-6;
 
 impl General {
     /// Take every solution of a pose; returns whether their number is certain.
@@ -143,7 +140,7 @@ impl General {
         branches.is_certified = is_certain && !is_flat && !is_cut;
         let mut order: [usize; MOST_SLOTS] = core::array::from_fn(|index| index);
         let order = &mut order[..all.len()];
-        order.sort_unstable_by(|a, b| in_order(&all[*a], &all[*b]));
+        order.sort_unstable_by(|a, b| in_order(&all[*a].theta, &all[*b].theta));
         for (slot, index) in order.iter().enumerate() {
             branches.q[slot] = Some(self.joint_map.joints(all[*index].theta));
             branches.flags[slot] = kinds_of(&all[*index]).into();
@@ -199,11 +196,4 @@ fn kinds_of(one: &Configuration) -> SingularityKind {
         Kind::Regular | Kind::Merged(_) => SingularityKind::ELBOW,
         Kind::Free(_) => SingularityKind::WRIST,
     }
-}
-
-/// The order of solutions: by their first angles that differ.
-fn in_order(a: &Configuration, b: &Configuration) -> core::cmp::Ordering {
-    let pairs = a.theta.iter().zip(&b.theta);
-    let differ = |(a, b): &(&f64, &f64)| (**a - **b).abs() > TIED;
-    pairs.into_iter().find(differ).map_or(core::cmp::Ordering::Equal, |(a, b)| a.total_cmp(b))
 }

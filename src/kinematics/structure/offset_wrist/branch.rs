@@ -198,7 +198,7 @@ impl<T: Number> Branch<T> {
     pub(super) fn joints(
         &self,
         lengths: &Lengths,
-        last: &Frame,
+        last: &Frame<T>,
         [s6, c6]: [T; 2],
         constants: &Twists,
     ) -> [[T; 6]; 2] {
@@ -220,9 +220,9 @@ impl<T: Number> Branch<T> {
         let (mut x5, mut z5) = (x3, x3);
         for i in 0..3 {
             let [x6, y6, z6] = last.rotation[i];
-            x5[i] = c6.scaled_plus(x6, s6 * -y6);
-            let across = s6.scaled_plus(x6, c6 * y6);
-            z5[i] = across.scaled_plus(constants.sin_5, zero.like(z6 * constants.cos_5));
+            x5[i] = c6.times_plus(x6, s6 * -y6);
+            let across = s6.times_plus(x6, c6 * y6);
+            z5[i] = across.scaled_plus(constants.sin_5, z6 * constants.cos_5);
         }
         let (sin_3, cos_3) = (zero.like(constants.sin_3), zero.like(constants.cos_3));
         let y3_turned = combined(y3, cos_3, z3, sin_3);
@@ -272,7 +272,7 @@ impl VectorKernel for Look<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> [Seen; 4] {
         let (sin, cos) = sin_cos_of(Vector::load_array_ref(simd, self.angles));
-        let hand = self.hand.at([sin, cos]);
+        let hand = self.hand.in_lanes(sin).at([sin, cos]);
         let front = Plane::of(self.lengths, hand, sin.like(1.0));
         let behind = Plane::of(self.lengths, hand, sin.like(-1.0));
         [

@@ -118,7 +118,7 @@ impl Clusters {
         let zeros = view.zeros();
         match self.all.get_mut(self.count) {
             Some(place) => {
-                let per_root = if search.arm.lengths.is_square { 2 } else { 1 };
+                let per_root = if search.arm.constants.lengths.is_square { 2 } else { 1 };
                 *place = Cluster { low, high, zeros, most: per_root * root.most };
                 self.count += 1;
             }
@@ -141,11 +141,11 @@ impl Search<'_> {
         let steps = inner + 4;
         #[expect(clippy::cast_precision_loss, reason = "few")]
         let (step, at) = ((high - low) / steps as f64, |number: usize| number as f64);
-        let ends = Ends::of(&self.arm.lengths, step);
+        let ends = Ends::of(&self.arm.constants.lengths, step);
         let mut view = View::NONE;
         for first in (0..=steps).step_by(LANES) {
             let angles = core::array::from_fn(|lane| low + step * at(first + lane));
-            let (lengths, hand) = (&self.arm.lengths, &self.hand);
+            let (lengths, hand) = (&self.arm.constants.lengths, &self.hand);
             let seen = run_vectors(Look { lengths, hand, angles: &angles, turn: ends.turn });
             let lanes = LANES.min(steps + 1 - first);
             for (side, seen) in seen.iter().enumerate() {

@@ -1,6 +1,7 @@
 //! The stored geometry of an arm with an offset wrist.
 
 use crate::kinematics::chain::Chain;
+use crate::kinematics::structure::closure::Closure;
 use crate::kinematics::structure::general::General;
 
 /// An arm with an offset wrist: its table between the shoulder and the last joint, and the lengths
@@ -10,11 +11,19 @@ pub struct OffsetWrist {
     /// From the foot of the common normal of axes 1 and 2, to frame 6 with its origin at the foot
     /// of that of axes 5 and 6; joint angles are theta.
     pub(super) chain: Chain<6>,
+    pub(super) constants: Constants,
+    /// The same arm as one in general, which is asked where the count of roots and that of
+    /// solutions differ.
+    pub(super) general: General,
+}
+
+/// What a solve needs of an arm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Constants {
     pub(super) lengths: Lengths,
     pub(super) twists: Twists,
-    /// The same arm as one in general: it has the closure, and is asked where the count of roots
-    /// and that of solutions differ.
-    pub(super) general: General,
+    /// That of the arm in general.
+    pub(super) closure: Closure,
 }
 
 /// The lengths and angles of the equations (docs/offset_wrist.md, section 1).

@@ -3,7 +3,7 @@
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
-use super::geometry::{Lengths, OffsetWrist, Twists};
+use super::geometry::{Constants, Lengths, OffsetWrist, Twists};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::axes::Link;
 use crate::kinematics::chain::dh::{DhRow, Mdh};
@@ -87,5 +87,7 @@ pub(super) fn measure(mdh: &Mdh<6>) -> Result<OffsetWrist, UnknownStructure> {
         sin_5: links[5].sin_alpha,
         cos_5: links[5].cos_alpha,
     };
-    Ok(OffsetWrist { chain, lengths, twists, general: General::of(mdh)? })
+    let general = General::of(mdh)?;
+    let constants = Constants { lengths, twists, closure: *general.closure() };
+    Ok(OffsetWrist { chain, constants, general })
 }

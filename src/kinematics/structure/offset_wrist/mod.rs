@@ -4,6 +4,8 @@
 //! `docs/offset_wrist.md` has the derivation, with the equation numbers (from 121 on) cited in the
 //! code.
 
+mod at_roots;
+mod block;
 mod branch;
 mod clusters;
 mod determinant;
@@ -11,18 +13,18 @@ mod geometry;
 mod measure;
 mod parallel;
 mod reach;
+mod regular;
 mod resultant;
 mod search;
 mod solve;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use geometry::OffsetWrist;
+pub(crate) use geometry::{Constants, OffsetWrist};
 
 use super::branches::Branches;
 use super::free_choice::FreeChoice;
 use super::joint_map::JointMap;
-use super::lanes::NoKernel;
 use super::{Structure, TakeStep};
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
@@ -41,8 +43,7 @@ impl Structure<6, SLOTS> for OffsetWrist {
     const SLOT_NAMES: Option<&'static [&'static str; SLOTS]> = None;
 
     type Redundancy = ();
-    // A pose is solved in lanes of its own: angles, arcs, roots and candidates.
-    type Kernel = NoKernel;
+    type Kernel = Constants;
 
     fn measure(mdh: &mut Mdh<6>) -> Result<Self, UnknownStructure> {
         measure::measure(mdh)
@@ -53,11 +54,13 @@ impl Structure<6, SLOTS> for OffsetWrist {
     }
 
     fn between(self, base: &Pose, tool: &Pose, coupled: bool) -> Self {
-        Self { general: self.general.between(base, tool, coupled), ..self }
+        let general = self.general.between(base, tool, coupled);
+        let constants = Constants { closure: *general.closure(), ..self.constants };
+        Self { constants, general, ..self }
     }
 
-    fn kernel(&self) -> Option<NoKernel> {
-        None
+    fn kernel(&self) -> Option<Constants> {
+        Some(self.constants)
     }
 
     #[inline]

@@ -37,6 +37,11 @@ pub(super) struct Parallel {
 impl Parallel {
     pub(super) const NONE: Self = Self { clusters: [Root::NONE; 2], count: 0 };
 
+    /// Whether there is one.
+    pub(super) fn is_near(lengths: &Lengths, hand: &Hand) -> bool {
+        Self::of(lengths, hand).count > 0
+    }
+
     /// The angles of joint 6 at which axis 5 is horizontal and the wrist point is perpendicular to
     /// it.
     pub(super) fn of(lengths: &Lengths, hand: &Hand) -> Self {

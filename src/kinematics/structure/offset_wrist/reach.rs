@@ -23,7 +23,7 @@ impl OffsetWrist {
     /// 135).
     #[cold]
     pub(super) fn missed(&self, last: &Frame) -> Reach {
-        let hand = Hand::of(&self.lengths, last);
+        let hand = Hand::of(&self.constants.lengths, last);
         let at = |angle: f64| self.missed_by(&hand, sin_cos(angle));
         let step = TAU / ANGLES as f64;
         let (mut best, mut least) = (0.0, f64::INFINITY);
@@ -47,7 +47,7 @@ impl OffsetWrist {
 
     /// How far the wrist point is from there, for an angle of joint 6.
     fn missed_by(&self, hand: &Hand, sin_cos_6: [f64; 2]) -> Reach {
-        let lengths = &self.lengths;
+        let lengths = &self.constants.lengths;
         let ([x, y, z], _) = hand.at(sin_cos_6);
         let r = x.hypot(y);
         if r < lengths.b.abs() {

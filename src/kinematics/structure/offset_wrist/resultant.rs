@@ -6,54 +6,76 @@ use fearless_simd::prelude::*;
 
 use super::geometry::Lengths;
 use crate::kinematics::structure::end_frames::Frame;
-use crate::kinematics::structure::trigonometric::{SAMPLE_COS, SAMPLE_SIN, SAMPLES};
+use crate::kinematics::structure::trigonometric::{
+    SAMPLE_COS, SAMPLE_SIN, SAMPLES, TrigonometricPolynomial,
+};
 use crate::lanes::{LANES, Number, Vector};
+
+/// What the rounding of a pose changes of the resultant, relative to its coefficients [1]: they are
+/// of degree 8 in the pose's elements, and no surplus harmonic shows it.
+const NOISE_OF_DEGREE_8: f64 = 64.0 * f64::EPSILON;
 
 /// Wrist point and direction of axis 5, as they turn with joint 6: constant parts, factors of its
 /// cosine and factors of its sine (eq. 121).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Hand {
-    point: [[f64; 3]; 3],
-    axis_5: [[f64; 3]; 3],
+pub(super) struct Hand<T = f64> {
+    point: [[T; 3]; 3],
+    axis_5: [[T; 3]; 3],
 }
 
-impl Hand {
+impl<T: Number> Hand<T> {
     /// For frame 6 at theta_6 = 0, which is this frame turned back by joint 6.
     #[inline(always)]
-    pub(super) fn of(lengths: &Lengths, last: &Frame) -> Self {
+    pub(super) fn of(lengths: &Lengths, last: &Frame<T>) -> Self {
         let Lengths { a5, d5, sin_5, cos_5, .. } = *lengths;
-        let mut hand = Self { point: [[0.0; 3]; 3], axis_5: [[0.0; 3]; 3] };
+        let zero = last.origin[0].like(0.0);
+        let mut hand = Self { point: [[zero; 3]; 3], axis_5: [[zero; 3]; 3] };
         for i in 0..3 {
             let [x, y, z] = last.rotation[i];
             let (along, across) = (d5 * cos_5, d5 * sin_5);
-            hand.point[0][i] = last.origin[i] - along * z;
-            hand.point[1][i] = -a5 * x - across * y;
-            hand.point[2][i] = a5 * y - across * x;
-            hand.axis_5[0][i] = cos_5 * z;
-            hand.axis_5[1][i] = sin_5 * y;
-            hand.axis_5[2][i] = sin_5 * x;
+            hand.point[0][i] = last.origin[i] - z * along;
+            hand.point[1][i] = x * -a5 - y * across;
+            hand.point[2][i] = y * a5 - x * across;
+            hand.axis_5[0][i] = z * cos_5;
+            hand.axis_5[1][i] = y * sin_5;
+            hand.axis_5[2][i] = x * sin_5;
         }
         hand
     }
 
     /// The vertical component of axis 5: constant, factors of the cosine and sine of joint 6.
-    pub(super) fn rise_of_axis_5(&self) -> [f64; 3] {
+    pub(super) fn rise_of_axis_5(&self) -> [T; 3] {
         self.axis_5.map(|part| part[2])
     }
 
     /// Wrist point and direction of axis 5 for joint 6.
     #[inline(always)]
-    pub(super) fn at<T: Number>(&self, [sin, cos]: [T; 2]) -> ([T; 3], [T; 3]) {
+    pub(super) fn at(&self, [sin, cos]: [T; 2]) -> ([T; 3], [T; 3]) {
         (turned(&self.point, sin, cos), turned(&self.axis_5, sin, cos))
     }
 }
 
+impl Hand {
+    /// The same, in the lanes of a number.
+    #[inline(always)]
+    pub(super) fn in_lanes<T: Number>(&self, like: T) -> Hand<T> {
+        let zero = like.like(0.0);
+        let mut hand = Hand { point: [[zero; 3]; 3], axis_5: [[zero; 3]; 3] };
+        for part in 0..3 {
+            for i in 0..3 {
+                hand.point[part][i] = zero.like(self.point[part][i]);
+                hand.axis_5[part][i] = zero.like(self.axis_5[part][i]);
+            }
+        }
+        hand
+    }
+}
+
 #[inline(always)]
-fn turned<T: Number>(parts: &[[f64; 3]; 3], sin: T, cos: T) -> [T; 3] {
-    let [constant, of_cos, of_sin] = parts;
+fn turned<T: Number>([constant, of_cos, of_sin]: &[[T; 3]; 3], sin: T, cos: T) -> [T; 3] {
     let mut turned = [sin; 3];
     for i in 0..3 {
-        turned[i] = cos.scaled_plus(of_cos[i], sin.scaled_plus(of_sin[i], sin.like(constant[i])));
+        turned[i] = cos.times_plus(of_cos[i], sin.times_plus(of_sin[i], constant[i]));
     }
     turned
 }
@@ -123,19 +145,23 @@ pub(super) fn resultant<T: Number>(
     }
 }
 
-/// The resultant at multiples of 15 deg of joint 6.
+/// The resultant as a polynomial, through its values at multiples of 15 deg of joint 6, for the hand
+/// of a pose.
 #[inline(always)]
-pub(super) fn samples<S: Simd>(
+pub(super) fn polynomial<S: Simd>(
     simd: S,
     lengths: &Lengths,
     hand: &Hand,
-) -> [Vector<S>; SAMPLES / LANES] {
-    let mut values = [Vector::splat(simd, 0.0); SAMPLES / LANES];
+) -> TrigonometricPolynomial {
+    let zero = Vector::splat(simd, 0.0);
+    let (hand, mut values) = (hand.in_lanes(zero), [zero; SAMPLES / LANES]);
     for block in 0..SAMPLES / LANES {
         let sin = Vector::load_array_ref(simd, &SAMPLE_SIN[block]);
         let cos = Vector::load_array_ref(simd, &SAMPLE_COS[block]);
         let (point, axis_5) = hand.at([sin, cos]);
         values[block] = resultant(lengths, point, axis_5);
     }
-    values
+    let mut polynomial = TrigonometricPolynomial::of_samples(&values).of_pose();
+    polynomial.noise += NOISE_OF_DEGREE_8 * polynomial.size();
+    polynomial
 }

@@ -9,8 +9,9 @@ use fearless_simd::prelude::*;
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
+use super::at_roots::AtRoots;
 use super::branch::{Branch, Plane, SIDES};
-use super::geometry::OffsetWrist;
+use super::geometry::{Constants, OffsetWrist};
 use super::resultant::Hand;
 use crate::kinematics::structure::closure::{Accepted, Candidates, Target};
 use crate::kinematics::structure::end_frames::Frame;
@@ -19,14 +20,9 @@ use crate::lanes::{
     Column, LANES, Number as _, Vector, VectorKernel, atan2, run_vectors, sin_cos_of,
 };
 
-/// Size of z4 . z5 - cos alpha_4 at a root, by which a branch may be worse than the best one and
-/// still be a candidate: at once [1], and as a multiple of the radius of the root [1/rad].
-const ALSO: f64 = 1e-9;
-const ALSO_BY_RADIUS: f64 = 30.0;
-
 /// How far a branch may be out of reach and still be a candidate, relative to the squares of the
 /// lengths [1].
-const SLACK: f64 = 1e-3;
+pub(super) const SLACK: f64 = 1e-3;
 
 /// How far the wrist point may be from axis 1, or the upper arm from its length, for the condition
 /// of axis 5 to decide there, relative to the lengths of the arm [1].
@@ -95,13 +91,13 @@ impl VectorKernel for AtPlaces<'_, '_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> Option<Candidates> {
-        let Search {
-            arm: OffsetWrist { lengths, twists, general, .. }, last, hand, target, ..
-        } = self.search;
+        let Search { arm, last, hand, target, .. } = self.search;
+        let Constants { lengths, twists, closure } = &arm.constants;
         let Places { shoulders, elbows, angles, .. } = self.places;
         let (sin, cos) = sin_cos_of(Vector::load_array_ref(simd, angles));
         let shoulders = Vector::load_array_ref(simd, shoulders);
         let elbows = Vector::load_array_ref(simd, elbows);
+        let (hand, last) = (hand.in_lanes(sin), last.in_lanes(sin));
         let plane = Plane::of(lengths, hand.at([sin, cos]), shoulders);
         let (branch, is_near) = if self.by == Condition::Length {
             let least = -SLACK * lengths.extent * lengths.extent;
@@ -114,14 +110,14 @@ impl VectorKernel for AtPlaces<'_, '_> {
         if !is_one.any_true() {
             return None;
         }
-        let [mut sin, mut cos] = branch.joints(lengths, last, [sin, cos], twists);
+        let [mut sin, mut cos] = branch.joints(lengths, &last, [sin, cos], twists);
         // Far from a solution they are no unit vectors.
         for joint in 0..6 {
             let scale = sin[joint].mul_add(sin[joint], cos[joint] * cos[joint]).sqrt().inverse();
             (sin[joint], cos[joint]) = (sin[joint] * scale, cos[joint] * scale);
         }
         sin[0] = is_one.select(sin[0], shoulders.like(f64::NAN));
-        Some(general.closure().converge(target, &sin, &cos))
+        Some(closure.converge(&target.in_lanes(cos[0]), &sin, &cos))
     }
 }
 
@@ -130,8 +126,8 @@ impl<'a> Search<'a> {
         Self {
             arm,
             last,
-            hand: Hand::of(&arm.lengths, last),
-            target: arm.general.closure().target(last),
+            hand: Hand::of(&arm.constants.lengths, last),
+            target: arm.constants.closure.target(*last),
             accepted,
             places: Places::NONE,
         }
@@ -155,77 +151,44 @@ impl<'a> Search<'a> {
 
     fn converge_at(&mut self, places: &Places, by: Condition) {
         if let Some(candidates) = run_vectors(AtPlaces { search: self, places, by }) {
-            let closure = self.arm.general.closure();
+            let closure = &self.arm.constants.closure;
             self.accepted.take(closure, &self.target, &candidates, places.count);
         }
     }
 
     /// Take a branch as the only candidate.
     fn put(&mut self, branch: &Branch<f64>, sin_cos_6: [f64; 2]) {
-        let OffsetWrist { lengths, twists, general, .. } = self.arm;
+        let Constants { lengths, twists, closure } = &self.arm.constants;
         let [sin, cos] = branch.joints(lengths, self.last, sin_cos_6, twists);
         let theta = core::array::from_fn(|joint| [atan2::<false>(sin[joint], cos[joint]); LANES]);
-        let candidates = general.closure().converged(&self.target, &theta);
-        self.accepted.take(general.closure(), &self.target, &candidates, 1);
+        let candidates = closure.converged(&self.target, &theta);
+        self.accepted.take(closure, &self.target, &candidates, 1);
     }
 
-    /// The solutions at up to eight simple roots: of the branch that is nearest to one, on each
-    /// side of the shoulder if a root serves both.
+    /// The solutions at up to eight simple roots: of the branch that is nearest to one, and of those
+    /// that are hardly worse.
     #[inline(always)]
     pub(super) fn at_roots<S: Simd>(&mut self, simd: S, roots: &[Root]) {
-        let lengths = &self.arm.lengths;
-        let mut angles = [0.0; LANES];
+        let (mut angles, mut radii) = ([0.0; LANES], [0.0; LANES]);
         for lane in 0..LANES {
             // Lanes without a root repeat the first.
-            angles[lane] = roots[if lane < roots.len() { lane } else { 0 }].angle();
+            let root = &roots[if lane < roots.len() { lane } else { 0 }];
+            (angles[lane], radii[lane]) = (root.angle(), root.radius());
         }
-        let (sin, cos) = sin_cos_of(Vector::load_array(simd, angles));
-        let hand = self.hand.at([sin, cos]);
-        let (one, other) = (sin.like(1.0), sin.like(-1.0));
-        let (front, behind) = (Plane::of(lengths, hand, one), Plane::of(lengths, hand, other));
-        let branches = [
-            front.with_elbow(lengths, one, SLACK),
-            front.with_elbow(lengths, other, SLACK),
-            behind.with_elbow(lengths, one, SLACK),
-            behind.with_elbow(lengths, other, SLACK),
-        ];
-        // A root serves both sides of the shoulder, or one.
-        let served = if lengths.is_square { 2 } else { 4 };
-        for (sides, branches) in SIDES.chunks(served).zip(branches.chunks(served)) {
-            let mut nearest = branches[0];
-            for branch in &branches[1..] {
-                nearest = nearest.or_nearer(branch);
+        let constants = &self.arm.constants;
+        let angles = Vector::load_array(simd, angles);
+        let at_roots = AtRoots::new(constants, self.last.in_lanes(angles), angles);
+        for number in 0..at_roots.per_root() {
+            let served = at_roots.served(number);
+            let candidates = at_roots.converge(&served.nearest);
+            self.accepted.take(&constants.closure, &self.target, &candidates, roots.len());
+            let [most, count] = served.candidates(&radii);
+            if !count.simd_gt(1.5).any_true() {
+                continue;
             }
-            let [sin, cos] = nearest.joints(lengths, self.last, [sin, cos], &self.arm.twists);
-            let closure = self.arm.general.closure();
-            let candidates = closure.converge(&self.target, &sin, &cos);
-            self.accepted.take(closure, &self.target, &candidates, roots.len());
-            self.beside(roots, sides, branches, &nearest);
-        }
-    }
-
-    /// Candidates where several branches are hardly worse than the nearest one.
-    #[inline(always)]
-    fn beside<S: Simd>(
-        &mut self,
-        roots: &[Root],
-        sides: &[[f64; 2]],
-        branches: &[Branch<Vector<S>>],
-        nearest: &Branch<Vector<S>>,
-    ) {
-        let mut also = [0.0; LANES];
-        for (also, root) in also.iter_mut().zip(roots) {
-            *also = ALSO + ALSO_BY_RADIUS * root.radius();
-        }
-        let most = nearest.off.abs() + Vector::load_array(nearest.off.token(), also);
-        let (zero, one) = (most.like(0.0), most.like(1.0));
-        let mut count = zero;
-        for branch in branches {
-            count += branch.off.abs().if_above(most, zero, one);
-        }
-        if count.simd_gt(1.5).any_true() {
+            let sides = &SIDES[number * served.branches.len()..];
             for (lane, root) in roots.iter().enumerate().filter(|(lane, _)| count[*lane] > 1.5) {
-                for (sides, branch) in sides.iter().zip(branches) {
+                for (sides, branch) in sides.iter().zip(served.branches) {
                     if branch.off[lane].abs() <= most[lane] {
                         self.put_at(*sides, root.angle());
                     }
@@ -237,7 +200,7 @@ impl<'a> Search<'a> {
     /// The candidates with the wrist point on axis 1, or at the end of the upper arm's reach: there
     /// the condition of axis 5 determines joint 1 or the forearm (eq. 134).
     pub(super) fn at_degenerate(&mut self, angle: f64) {
-        let lengths = &self.arm.lengths;
+        let lengths = &self.arm.constants.lengths;
         let sin_cos_6 = sin_cos(angle);
         let (point, axis_5) = self.hand.at(sin_cos_6);
         let mut places = Places::NONE;

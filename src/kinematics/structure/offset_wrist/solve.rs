@@ -8,19 +8,15 @@ use super::SLOTS;
 use super::clusters::Clusters;
 use super::geometry::OffsetWrist;
 use super::parallel::Parallel;
-use super::resultant::samples;
+use super::resultant::polynomial;
 use super::search::Search;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::branches::Branches;
 use crate::kinematics::structure::closure::Accepted;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::free_choice::FreeChoice;
-use crate::kinematics::structure::trigonometric::{Root, TrigonometricPolynomial};
+use crate::kinematics::structure::trigonometric::Root;
 use crate::lanes::{LANES, VectorKernel, run_vectors};
-
-/// What the rounding of a pose changes of the resultant, relative to its coefficients [1]: they are
-/// of degree 8 in the pose's elements, and no surplus harmonic shows it.
-const NOISE_OF_DEGREE_8: f64 = 64.0 * f64::EPSILON;
 
 /// The solve of one pose, compiled for each instruction set.
 struct Solve<'a> {
@@ -35,11 +31,9 @@ impl VectorKernel for Solve<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> bool {
-        let lengths = &self.arm.lengths;
+        let lengths = &self.arm.constants.lengths;
         let mut search = Search::new(self.arm, self.last, self.accepted);
-        let values = samples(simd, lengths, &search.hand);
-        let mut polynomial = TrigonometricPolynomial::of_samples(&values).of_pose();
-        polynomial.noise += NOISE_OF_DEGREE_8 * polynomial.size();
+        let polynomial = polynomial(simd, lengths, &search.hand);
         let has_parallel = lengths.has_parallel();
         let known = if has_parallel { Parallel::of(lengths, &search.hand) } else { Parallel::NONE };
         let roots = polynomial.roots(simd, known.as_slice());

@@ -185,11 +185,11 @@ fn the_resultant_has_degree_8_and_vanishes_at_joint_6_of_the_arm() {
         let mut worst = [0.0_f64; 2];
         for q in joints(1).take(500) {
             let frame = Frame::of(&arm.chain.fk(&q));
-            let hand = Hand::of(&arm.lengths, &frame);
+            let hand = Hand::of(&arm.constants.lengths, &frame);
             let values: [f64; SAMPLES] = core::array::from_fn(|number| {
                 let (sin, cos) = (number as f64 * PI / 12.0).sin_cos();
                 let (point, axis_5) = hand.at([sin, cos]);
-                resultant(&arm.lengths, point, axis_5)
+                resultant(&arm.constants.lengths, point, axis_5)
             });
             let size = values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
             let parts = harmonics(&values);
@@ -220,7 +220,7 @@ fn one_branch_at_joint_6_of_the_arm_is_the_arm() {
     for (name, arm) in arms() {
         for q in joints(2).take(500) {
             let frame = Frame::of(&arm.chain.fk(&q));
-            let hand = Hand::of(&arm.lengths, &frame);
+            let hand = Hand::of(&arm.constants.lengths, &frame);
             let (sin, cos) = q[5].sin_cos();
             let off = |found: &[f64; 6]| {
                 found
@@ -232,12 +232,17 @@ fn one_branch_at_joint_6_of_the_arm_is_the_arm() {
             let best = SIDES
                 .iter()
                 .map(|[shoulder, elbow]| {
-                    let plane = Plane::of(&arm.lengths, hand.at([sin, cos]), *shoulder);
-                    plane.with_elbow(&arm.lengths, *elbow, 1e-12)
+                    let plane = Plane::of(&arm.constants.lengths, hand.at([sin, cos]), *shoulder);
+                    plane.with_elbow(&arm.constants.lengths, *elbow, 1e-12)
                 })
                 .filter(|branch| branch.off < f64::INFINITY)
                 .map(|branch| {
-                    let joints = branch.joints(&arm.lengths, &frame, [sin, cos], &arm.twists);
+                    let joints = branch.joints(
+                        &arm.constants.lengths,
+                        &frame,
+                        [sin, cos],
+                        &arm.constants.twists,
+                    );
                     (off(&angles(&joints)), branch.off)
                 })
                 .min_by(|a, b| a.0.total_cmp(&b.0));

@@ -138,7 +138,7 @@ impl<A: Nominal> Refined<A> {
         let theta = core::array::from_fn(|joint| {
             q.map(|q| q.as_ref().unwrap_or(any)[joint] + self.offsets[joint])
         });
-        let target = self.closure.target(&self.end_frames.seen.of::<false>(&Frame::of(pose)));
+        let target = self.closure.target(self.end_frames.seen.of::<false>(&Frame::of(pose)));
         Some(self.closure.converged(&target, &theta))
     }
 

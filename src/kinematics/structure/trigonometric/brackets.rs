@@ -2,22 +2,49 @@
 
 use fearless_simd::prelude::*;
 
-use super::part::{angle, middle};
+use super::part::{Part, angle, middle};
 use crate::lanes::{Column, LANES, Vector};
 
-/// Columns of lanes that hold brackets: one more than there can be roots for.
-const BLOCKS: usize = 3;
-
-/// Brackets of simple roots, in columns of lanes.
-pub(super) struct Brackets {
+/// Up to eight brackets of simple roots, lane beside lane.
+#[derive(Clone, Copy)]
+pub(super) struct BracketBlock {
+    /// Which of several polynomials.
+    pub(super) of: [usize; LANES],
     /// Middles of the arcs [rad].
-    middles: [Column; BLOCKS],
+    middles: Column,
     /// Ends of each bracket and the place where the root is sought first, on the arc.
-    lows: [Column; BLOCKS],
-    highs: [Column; BLOCKS],
-    starts: [Column; BLOCKS],
+    lows: Column,
+    highs: Column,
+    starts: Column,
     /// Sign of the value before each root.
-    signs: [Column; BLOCKS],
+    signs: Column,
+}
+
+impl BracketBlock {
+    pub(super) const NONE: Self = Self {
+        of: [0; LANES],
+        middles: [0.0; LANES],
+        lows: [0.0; LANES],
+        highs: [0.0; LANES],
+        starts: [0.0; LANES],
+        signs: [0.0; LANES],
+    };
+
+    #[inline(always)]
+    pub(super) fn in_lanes<S: Simd>(&self, simd: S) -> Bracket<S> {
+        let middle = Vector::load_array_ref(simd, &self.middles);
+        Bracket {
+            low: angle(middle, Vector::load_array_ref(simd, &self.lows)),
+            high: angle(middle, Vector::load_array_ref(simd, &self.highs)),
+            start: angle(middle, Vector::load_array_ref(simd, &self.starts)),
+            sign: Vector::load_array_ref(simd, &self.signs),
+        }
+    }
+}
+
+/// Brackets of simple roots, in blocks of lanes.
+pub(super) struct Brackets<'a> {
+    pub(super) blocks: &'a mut [BracketBlock],
     pub(super) count: usize,
     /// Whether there was room for all.
     pub(super) is_complete: bool,
@@ -32,44 +59,28 @@ pub(super) struct Bracket<S: Simd> {
     pub(super) sign: Vector<S>,
 }
 
-impl Brackets {
-    pub(super) const NONE: Self = Self {
-        middles: [[0.0; LANES]; BLOCKS],
-        lows: [[0.0; LANES]; BLOCKS],
-        highs: [[0.0; LANES]; BLOCKS],
-        starts: [[0.0; LANES]; BLOCKS],
-        signs: [[0.0; LANES]; BLOCKS],
-        count: 0,
-        is_complete: true,
-    };
-
-    /// Take a root between two places of an arc, sought first at a part of the way between them,
-    /// with the sign of the value before it.
-    pub(super) fn push(&mut self, (arc, low, high): (usize, f64, f64), part: f64, sign: f64) {
-        let (block, lane) = (self.count / LANES, self.count % LANES);
-        if block == BLOCKS {
-            self.is_complete = false;
-            return;
-        }
-        // The first of a block stands in its other lanes until there are others.
-        let lanes = if lane == 0 { 0..LANES } else { lane..lane + 1 };
-        self.middles[block][lanes.clone()].fill(middle(arc));
-        self.lows[block][lanes.clone()].fill(low);
-        self.highs[block][lanes.clone()].fill(high);
-        self.starts[block][lanes.clone()].fill(low + part * (high - low));
-        self.signs[block][lanes].fill(sign);
-        self.count += 1;
+impl<'a> Brackets<'a> {
+    pub(super) fn none(blocks: &'a mut [BracketBlock]) -> Self {
+        Self { blocks, count: 0, is_complete: true }
     }
 
-    /// A block of lanes.
-    #[inline(always)]
-    pub(super) fn block<S: Simd>(&self, simd: S, block: usize) -> Bracket<S> {
-        let middle = Vector::load_array_ref(simd, &self.middles[block]);
-        Bracket {
-            low: angle(middle, Vector::load_array_ref(simd, &self.lows[block])),
-            high: angle(middle, Vector::load_array_ref(simd, &self.highs[block])),
-            start: angle(middle, Vector::load_array_ref(simd, &self.starts[block])),
-            sign: Vector::load_array_ref(simd, &self.signs[block]),
-        }
+    /// Take a root in a part of an arc, sought first at a part of the way through it, with the sign
+    /// of the value before it.
+    pub(super) fn push(&mut self, at: &Part, part: f64, sign: f64) {
+        let lane = self.count % LANES;
+        let Some(block) = self.blocks.get_mut(self.count / LANES) else {
+            self.is_complete = false;
+            return;
+        };
+        // The first of a block stands in its other lanes until there are others.
+        let lanes = if lane == 0 { 0..LANES } else { lane..lane + 1 };
+        let Part { of, arc, low, high, .. } = *at;
+        block.of[lanes.clone()].fill(of);
+        block.middles[lanes.clone()].fill(middle(arc));
+        block.lows[lanes.clone()].fill(low);
+        block.highs[lanes.clone()].fill(high);
+        block.starts[lanes.clone()].fill(low + part * (high - low));
+        block.signs[lanes].fill(sign);
+        self.count += 1;
     }
 }

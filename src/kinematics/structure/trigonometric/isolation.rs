@@ -10,22 +10,13 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use fearless_simd::prelude::*;
 
-use super::brackets::Brackets;
+use super::brackets::{BracketBlock, Brackets};
+use super::clusters::Clusters;
 use super::part::{Coefficients, Part};
 use super::polynomial::TrigonometricPolynomial;
-use super::roots::{Root, Roots};
+use super::roots::Root;
 use super::tables::{ARCS, BERNSTEIN, DEGREE, MIDDLES, POWERS};
 use crate::lanes::{Column, LANES, Number as _, Vector};
-
-/// Width of a part of an arc that is not divided [1]: 5e-8 rad.
-const LEAST_WIDTH: f64 = 1.0 / (1 << 23) as f64;
-
-/// Width of a part at the edge of a cluster, relative to the cluster's, up to which it is taken as
-/// part of it [1].
-const EDGE: f64 = 0.125;
-
-/// Parts of arcs that wait for their division: a double root leaves two or three of each width.
-const MOST_PARTS: usize = 24;
 
 /// Divisions of eight parts each, at most: a double root takes one for each width.
 const MOST_DIVISIONS: usize = 96;
@@ -33,27 +24,57 @@ const MOST_DIVISIONS: usize = 96;
 /// A count of changes that no coefficients have: stands for an impossible sign.
 const NEVER: f64 = -1e3;
 
+/// Room for what is found, and for what is to be divided: blocks of lanes.
+pub(super) struct Room<const PARTS: usize, const BRACKETS: usize> {
+    columns: [Coefficients<Column>; PARTS],
+    parts: [[Part; LANES]; PARTS],
+    brackets: [BracketBlock; BRACKETS],
+}
+
+impl<const PARTS: usize, const BRACKETS: usize> Room<PARTS, BRACKETS> {
+    pub(super) const NEW: Self = Self {
+        columns: [[[0.0; LANES]; POWERS + 1]; PARTS],
+        parts: [[Part::NONE; LANES]; PARTS],
+        brackets: [BracketBlock::NONE; BRACKETS],
+    };
+
+    pub(super) fn space(&mut self) -> Space<'_> {
+        let Self { columns, parts, brackets } = self;
+        Space { columns, parts: parts.as_flattened_mut(), brackets }
+    }
+}
+
+/// The same, of any size.
+pub(super) struct Space<'a> {
+    columns: &'a mut [Coefficients<Column>],
+    parts: &'a mut [Part],
+    pub(super) brackets: &'a mut [BracketBlock],
+}
+
+impl Space<'_> {
+    /// A search in it, which has found nothing yet.
+    pub(super) fn search<'a>(&'a mut self, clusters: Clusters<'a>) -> Search<'a> {
+        let Self { columns, parts, brackets } = self;
+        let parts = Parts { columns, all: parts, count: 0 };
+        Search { parts, brackets: Brackets::none(brackets), clusters }
+    }
+}
+
 /// What is found, and what is to be divided.
-struct Found<'a> {
-    parts: Parts,
-    brackets: Brackets,
-    roots: &'a mut Roots,
+pub(super) struct Search<'a> {
+    parts: Parts<'a>,
+    pub(super) brackets: Brackets<'a>,
+    clusters: Clusters<'a>,
 }
 
 /// Parts to be divided, in blocks of lanes.
-struct Parts {
-    columns: [Coefficients<Column>; MOST_PARTS / LANES],
-    all: [Part; MOST_PARTS],
+struct Parts<'a> {
+    columns: &'a mut [Coefficients<Column>],
+    all: &'a mut [Part],
     count: usize,
 }
 
-impl Parts {
-    const NONE: Self = Self {
-        columns: [[[0.0; LANES]; POWERS + 1]; MOST_PARTS / LANES],
-        all: [Part::NONE; MOST_PARTS],
-        count: 0,
-    };
-
+impl Parts<'_> {
     fn push(&mut self, coefficients: &Coefficients<f64>, part: Part) {
         let columns = &mut self.columns[self.count / LANES];
         for j in 0..=POWERS {
@@ -67,18 +88,21 @@ impl Parts {
         self.count += 1;
     }
 
-    fn as_slice(&self) -> &[Part] {
-        &self.all[..self.count]
+    fn is_full(&self) -> bool {
+        self.count == self.all.len()
     }
 
-    /// Divide the last block by de Casteljau's algorithm, and remove it. Returns its parts.
+    /// Divide a block by de Casteljau's algorithm, and remove it: the last full one. Returns its
+    /// parts.
     #[inline(always)]
     fn divide<S: Simd>(
         &mut self,
         left: &mut Coefficients<Vector<S>>,
         right: &mut Coefficients<Vector<S>>,
-    ) -> Option<([Part; LANES], usize)> {
-        let block = self.count.checked_sub(1)? / LANES;
+    ) -> ([Part; LANES], usize) {
+        let last = self.count.saturating_sub(1) / LANES;
+        let rest = (self.count % LANES) * usize::from(last > 0);
+        let block = if rest > 0 { last - 1 } else { last };
         let first = LANES * block;
         let mut parts = [self.all[first]; LANES];
         parts.copy_from_slice(&self.all[first..first + LANES]);
@@ -94,58 +118,140 @@ impl Parts {
             }
             left[row] = right[0];
         }
-        let count = self.count - first;
-        self.count = first;
-        Some((parts, count))
+        let count = LANES.min(self.count - first);
+        if rest > 0 {
+            self.columns.copy_within(last..=last, block);
+            self.all.copy_within(first + LANES..self.count, first);
+        }
+        self.count -= count;
+        (parts, count)
     }
 }
 
-impl TrigonometricPolynomial {
+impl Search<'_> {
     /// Find an interval for every root beside the known clusters: brackets of simple roots, as wide
     /// as they can be, and clusters.
+    pub(super) fn isolate<S: Simd>(
+        &mut self,
+        simd: S,
+        all: &[TrigonometricPolynomial],
+        known: &[Root],
+    ) {
+        // A function of its own for each instruction set: it is long.
+        simd.vectorize(
+            #[inline(always)]
+            || self.isolate_in(simd, all, known),
+        );
+    }
+
     #[inline(always)]
-    pub(super) fn isolate<S: Simd>(&self, simd: S, known: &[Root], roots: &mut Roots) -> Brackets {
-        let mut found = Found { parts: Parts::NONE, brackets: Brackets::NONE, roots };
+    fn isolate_in<S: Simd>(&mut self, simd: S, all: &[TrigonometricPolynomial], known: &[Root]) {
+        let zero = Vector::splat(simd, 0.0);
+        let (mut left, mut right) = ([zero; POWERS + 1], [zero; POWERS + 1]);
+        let mut divisions = 0;
+        for of in 0..=all.len() {
+            // Blocks of parts are divided when they are full, in the end all.
+            let most = if of == all.len() { 0 } else { LANES - 1 };
+            while self.parts.count > most && divisions < MOST_DIVISIONS * all.len() {
+                self.divide(&mut left, &mut right);
+                divisions += 1;
+            }
+            if let Some(polynomial) = all.get(of)
+                && !self.clusters.is_left(of)
+            {
+                self.begin(simd, (of, polynomial), known);
+            }
+        }
+        for part in &self.parts.all[..self.parts.count] {
+            self.clusters.take(part);
+        }
+    }
+
+    /// Begin with a polynomial: on all arcs, without what is in a known cluster.
+    #[inline(always)]
+    fn begin<S: Simd>(
+        &mut self,
+        simd: S,
+        (of, polynomial): (usize, &TrigonometricPolynomial),
+        known: &[Root],
+    ) {
+        let noise = polynomial.noise;
         for half in 0..ARCS / LANES {
-            let columns = self.on_arcs(simd, half);
-            let seen = Seen::of(&columns, self.noise);
-            let whole = |lane: usize| Part::new(LANES * half + lane, 0.0, 1.0);
+            let columns = polynomial.on_arcs(simd, half);
+            let seen = Seen::of(&columns, Vector::splat(simd, noise));
+            let whole = |lane: usize| Part::whole(of, noise, LANES * half + lane);
             let mut cut = 0;
             for lane in if known.is_empty() { 0..0 } else { 0..LANES } {
                 let whole = whole(lane);
                 if let Some(cluster) = known.iter().find(|cluster| cluster.reaches(whole.arc)) {
                     cut |= 1 << lane;
                     for part in whole.without(cluster).into_iter().flatten() {
-                        found.parts.push(&in_lane(&columns, lane), part);
+                        self.parts.push(&in_lane(&columns, lane), part);
                     }
                 }
             }
             for lane in lanes_of(seen.open & !cut) {
-                self.take(&seen, lane, whole(lane), &mut found);
+                self.take(&seen, lane, whole(lane));
             }
         }
-        for cluster in known {
-            found.roots.push(*cluster);
-        }
-        let zero = Vector::splat(simd, 0.0);
-        let (mut left, mut right) = ([zero; POWERS + 1], [zero; POWERS + 1]);
-        for _ in 0..MOST_DIVISIONS {
-            let Some((parts, count)) = found.parts.divide(&mut left, &mut right) else { break };
-            for (end, columns) in [&left, &right].into_iter().enumerate() {
-                let seen = Seen::of(columns, self.noise);
-                for lane in lanes_of(seen.open).take_while(|lane| *lane < count) {
-                    if parts[lane].keeps[end] {
-                        self.take(&seen, lane, parts[lane].divided()[end], &mut found);
-                    }
+    }
+
+    /// Divide a block of parts.
+    #[inline(always)]
+    fn divide<S: Simd>(
+        &mut self,
+        left: &mut Coefficients<Vector<S>>,
+        right: &mut Coefficients<Vector<S>>,
+    ) {
+        let (parts, count) = self.parts.divide(left, right);
+        let noise = Vector::load_array(left[0].token(), parts.map(|part| part.noise));
+        for (end, columns) in [&*left, &*right].into_iter().enumerate() {
+            let seen = Seen::of(columns, noise);
+            for lane in lanes_of(seen.open).take_while(|lane| *lane < count) {
+                if parts[lane].keeps[end] {
+                    self.take(&seen, lane, parts[lane].divided()[end]);
                 }
             }
         }
-        for part in found.parts.as_slice() {
-            found.roots.push(part.cluster());
-        }
-        found.brackets
     }
 
+    /// Decide on one lane that is open: a simple root, a cluster, or a part to be divided.
+    #[inline(always)]
+    fn take<S: Simd>(&mut self, seen: &Seen<'_, S>, lane: usize, part: Part) {
+        if seen.simple >> lane & 1 == 1 {
+            self.brackets.push(&part, seen.places[lane], seen.columns[0][lane]);
+        } else {
+            self.take_rest(&in_lane(seen.columns, lane), seen.many >> lane & 1 == 1, part);
+        }
+    }
+
+    /// Decide where there is more than one simple root: a function of its own, for it is called in
+    /// several places.
+    #[inline(never)]
+    fn take_rest(&mut self, coefficients: &Coefficients<f64>, has_many: bool, part: Part) {
+        let Self { parts, brackets, clusters } = self;
+        if clusters.is_left(part.of) {
+            return;
+        }
+        let is_noise = |b: &f64| b.abs() <= part.noise;
+        let is_at_edge = || {
+            let may_be = is_noise(&coefficients[0]) || is_noise(&coefficients[POWERS]);
+            may_be && clusters.have_at_edge(&part)
+        };
+        if coefficients.iter().all(is_noise)
+            || clusters.is_narrow(&part)
+            || parts.is_full()
+            || is_at_edge()
+        {
+            clusters.take(&part);
+        } else if has_many || !part.take_pair(coefficients, brackets, clusters) {
+            clusters.pass(&part);
+            parts.push(coefficients, part);
+        }
+    }
+}
+
+impl TrigonometricPolynomial {
     /// Bernstein coefficients on eight arcs (eq. 94).
     #[inline(always)]
     fn on_arcs<S: Simd>(&self, simd: S, half: usize) -> Coefficients<Vector<S>> {
@@ -170,44 +276,6 @@ impl TrigonometricPolynomial {
         }
         columns
     }
-
-    /// Decide on one lane that is open: a simple root, a cluster, or a part to be divided.
-    #[inline(always)]
-    fn take<S: Simd>(&self, seen: &Seen<'_, S>, lane: usize, part: Part, found: &mut Found<'_>) {
-        if seen.simple >> lane & 1 == 1 {
-            let place = (part.arc, part.low, part.high);
-            found.brackets.push(place, seen.places[lane], seen.columns[0][lane]);
-        } else {
-            self.take_rest(&in_lane(seen.columns, lane), seen.many >> lane & 1 == 1, part, found);
-        }
-    }
-
-    /// Decide where there is more than one simple root: a function of its own, for it is called in
-    /// several places.
-    #[inline(never)]
-    fn take_rest(
-        &self,
-        coefficients: &Coefficients<f64>,
-        has_many: bool,
-        part: Part,
-        found: &mut Found<'_>,
-    ) {
-        let Found { parts, brackets, roots } = found;
-        let is_noise = |b: &f64| b.abs() <= self.noise;
-        let is_at_edge = || {
-            let may_be = is_noise(&coefficients[0]) || is_noise(&coefficients[POWERS]);
-            may_be && roots.have_at_edge(&part.cluster(), EDGE)
-        };
-        if coefficients.iter().all(is_noise)
-            || part.high - part.low < 1.5 * LEAST_WIDTH
-            || parts.count == MOST_PARTS
-            || is_at_edge()
-        {
-            roots.take_cluster(&part.cluster());
-        } else if has_many || !part.take_pair(coefficients, self.noise, brackets, roots) {
-            parts.push(coefficients, part);
-        }
-    }
 }
 
 /// What coefficients show of roots: sets of lanes as bits.
@@ -223,7 +291,7 @@ struct Seen<'a, S: Simd> {
 
 impl<'a, S: Simd> Seen<'a, S> {
     #[inline(always)]
-    fn of(columns: &'a Coefficients<Vector<S>>, noise: f64) -> Self {
+    fn of(columns: &'a Coefficients<Vector<S>>, noise: Vector<S>) -> Self {
         let changes = most_changes(columns, noise);
         let (first, last) = (columns[0], columns[POWERS]);
         let are_certain = first.abs().simd_gt(noise) & last.abs().simd_gt(noise);
@@ -289,7 +357,7 @@ const PLACES: [f64; POWERS + 1] = {
 /// The most changes of sign that the coefficients of each lane have, if those below the noise have
 /// any sign.
 #[inline(always)]
-fn most_changes<S: Simd>(columns: &Coefficients<Vector<S>>, noise: f64) -> Vector<S> {
+fn most_changes<S: Simd>(columns: &Coefficients<Vector<S>>, noise: Vector<S>) -> Vector<S> {
     let (zero, one) = (columns[0].like(0.0), columns[0].like(1.0));
     let (mut count, mut least) = (zero, columns[0].abs());
     let mut before = columns[0].simd_lt(zero);
@@ -307,7 +375,10 @@ fn most_changes<S: Simd>(columns: &Coefficients<Vector<S>>, noise: f64) -> Vecto
 
 /// The same where coefficients are below the noise.
 #[inline(always)]
-fn most_changes_of_any_sign<S: Simd>(columns: &Coefficients<Vector<S>>, noise: f64) -> Vector<S> {
+fn most_changes_of_any_sign<S: Simd>(
+    columns: &Coefficients<Vector<S>>,
+    noise: Vector<S>,
+) -> Vector<S> {
     // Most changes of a sequence that ends above zero, and of one that ends below.
     // The first coefficient is no change.
     let never = columns[0].like(NEVER);

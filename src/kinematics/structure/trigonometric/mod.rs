@@ -5,6 +5,7 @@
 //! 96).
 
 mod brackets;
+mod clusters;
 mod cut;
 mod isolation;
 mod pair;
@@ -13,10 +14,12 @@ mod polynomial;
 mod refinement;
 mod roots;
 mod search;
+mod simple_roots;
 mod tables;
 #[cfg(test)]
 mod tests;
 
 pub(crate) use polynomial::TrigonometricPolynomial;
 pub(crate) use roots::Root;
+pub(crate) use simple_roots::{ManyRoots, RootBlock, SimpleRoots};
 pub(crate) use tables::{SAMPLE_COS, SAMPLE_SIN, SAMPLES};

@@ -8,8 +8,8 @@
 use nalgebra::ComplexField as _;
 
 use super::brackets::Brackets;
+use super::clusters::Clusters;
 use super::part::{Coefficients, Part};
-use super::roots::Roots;
 use super::tables::POWERS;
 
 /// Steps towards the extreme value, at most: Newton's method on the derivative, bracketed.
@@ -27,10 +27,10 @@ impl Part {
     pub(super) fn take_pair(
         &self,
         b: &Coefficients<f64>,
-        noise: f64,
-        brackets: &mut Brackets,
-        roots: &mut Roots,
+        brackets: &mut Brackets<'_>,
+        clusters: &mut Clusters<'_>,
     ) -> bool {
+        let noise = self.noise;
         // Bent upward, with ends above zero.
         let sign = 1.0_f64.copysign(b[0]);
         let bend = |j: usize| sign * ((b[j + 2] - b[j + 1]) - (b[j + 1] - b[j]));
@@ -67,13 +67,14 @@ impl Part {
                     if (0.0..=1.0).contains(&part) { part } else { 0.5 }
                 };
                 let [low, middle, high] = [first, place, last].map(|place| self.place(place));
-                brackets.push((self.arc, low, middle), part(left, first, place), sign);
-                brackets.push((self.arc, middle, high), part(right, place, last), -sign);
+                brackets.push(&self.within(low, middle), part(left, first, place), sign);
+                brackets.push(&self.within(middle, high), part(right, place, last), -sign);
                 return true;
             }
             if below <= OFF * noise {
                 let [first, last] = around(within(noise));
-                roots.push(self.between(first, last).cluster());
+                let [first, last] = [first, last].map(|place| self.place(place));
+                clusters.take(&self.within(first, last));
                 return true;
             }
             (low, high) = if slope < 0.0 { (place, high) } else { (low, place) };
@@ -81,11 +82,6 @@ impl Part {
             place = if next > low && next < high { next } else { 0.5 * (low + high) };
         }
         false
-    }
-
-    /// What is between two places of this part.
-    fn between(&self, first: f64, last: f64) -> Self {
-        Self { low: self.place(first), high: self.place(last), ..*self }
     }
 
     /// The place of its arc at a place of this part.

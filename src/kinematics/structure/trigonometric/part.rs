@@ -14,6 +14,9 @@ pub(super) type Coefficients<T> = [T; POWERS + 1];
 /// A part of an arc, in 0 ..= 1.
 #[derive(Clone, Copy)]
 pub(super) struct Part {
+    /// Which of several polynomials, and its noise.
+    pub(super) of: usize,
+    pub(super) noise: f64,
     pub(super) arc: usize,
     pub(super) low: f64,
     pub(super) high: f64,
@@ -24,20 +27,26 @@ pub(super) struct Part {
 
 impl Part {
     /// Zeros: no part.
-    pub(super) const NONE: Self = Self { cut: 0.0, keeps: [false; 2], ..Self::new(0, 0.0, 0.0) };
+    pub(super) const NONE: Self =
+        Self { high: 0.0, cut: 0.0, keeps: [false; 2], ..Self::whole(0, 0.0, 0) };
 
-    /// A part to be divided in the middle.
+    /// A whole arc of a polynomial, to be divided in the middle.
     #[inline(always)]
-    pub(super) const fn new(arc: usize, low: f64, high: f64) -> Self {
-        Self { arc, low, high, cut: 0.5, keeps: [true; 2] }
+    pub(super) const fn whole(of: usize, noise: f64, arc: usize) -> Self {
+        Self { of, noise, arc, low: 0.0, high: 1.0, cut: 0.5, keeps: [true; 2] }
     }
 
     /// Its two parts.
     #[inline(always)]
     pub(super) fn divided(&self) -> [Self; 2] {
-        let Self { arc, low, high, cut, .. } = *self;
-        let middle = low + cut * (high - low);
-        [Self::new(arc, low, middle), Self::new(arc, middle, high)]
+        let middle = self.low + self.cut * (self.high - self.low);
+        [self.within(self.low, middle), self.within(middle, self.high)]
+    }
+
+    /// What is between two places of the arc.
+    #[inline(always)]
+    pub(super) fn within(&self, low: f64, high: f64) -> Self {
+        Self { low, high, ..Self::whole(self.of, self.noise, self.arc) }
     }
 
     pub(super) fn cluster(&self) -> Root {

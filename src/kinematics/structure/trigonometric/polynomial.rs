@@ -18,16 +18,20 @@ const NOISE_OF_POSE: f64 = 8.0;
 /// Rounding of a value, relative to the sum of the sizes of the coefficients.
 const NOISE_OF_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// `T(x) = sum over k = 0 .. 8 of cos[k] cos(k x) + sin[k] sin(k x)` (eq. 91).
+/// `T(x) = sum over k = 0 .. 8 of cos[k] cos(k x) + sin[k] sin(k x)` (eq. 91), or one in each lane.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct TrigonometricPolynomial {
-    pub(crate) cos: [f64; DEGREE + 1],
-    pub(crate) sin: [f64; DEGREE + 1],
+pub(crate) struct TrigonometricPolynomial<T = f64> {
+    pub(crate) cos: [T; DEGREE + 1],
+    pub(crate) sin: [T; DEGREE + 1],
     /// Size below which a value counts as either sign.
-    pub(crate) noise: f64,
+    pub(crate) noise: T,
 }
 
 impl TrigonometricPolynomial {
+    /// Zero everywhere.
+    pub(super) const NONE: Self =
+        Self { cos: [0.0; DEGREE + 1], sin: [0.0; DEGREE + 1], noise: 0.0 };
+
     /// The polynomial through values at the [`SAMPLES`] angles `2 pi j / 24`, in that order. The
     /// harmonics 9 to 12 that the values contain are its noise (eq. 92).
     #[inline(always)]
@@ -72,22 +76,60 @@ impl TrigonometricPolynomial {
         let most = self.cos.iter().chain(&self.sin).fold(0.0_f64, |most, c| most.max(c.abs()));
         !(most > self.noise && self.size().is_finite())
     }
+}
 
-    /// The values and the derivatives at angles with these sines and cosines.
+impl<T: Number> TrigonometricPolynomial<T> {
+    /// The value and the derivative at an angle with this sine and cosine.
     #[inline(always)]
-    pub(crate) fn values<T: Number>(&self, sin: T, cos: T) -> [T; 2] {
+    pub(crate) fn values(&self, sin: T, cos: T) -> [T; 2] {
         // Horner's rule in powers of exp(i x): the value is the real part of the sum of
         // (cos[k] - i sin[k]) exp(i k x), the derivative that of its k i fold.
         let zero = sin.like(0.0);
         let ([mut re, mut im], [mut slope_re, mut slope_im]) = ([zero; 2], [zero; 2]);
         for k in (1..=DEGREE).rev() {
-            let (of_cos, of_sin) = (zero.like(self.cos[k]), zero.like(-self.sin[k]));
+            let (of_cos, of_sin) = (self.cos[k], -self.sin[k]);
             let (a, b) = (re + of_cos, im + of_sin);
             (re, im) = (a.times_minus(cos, b * sin), a.times_plus(sin, b * cos));
             let a = of_cos.scaled_plus(ORDERS[k], slope_re);
             let b = of_sin.scaled_plus(ORDERS[k], slope_im);
             (slope_re, slope_im) = (a.times_minus(cos, b * sin), a.times_plus(sin, b * cos));
         }
-        [re + zero.like(self.cos[0]), -slope_im]
+        [re + self.cos[0], -slope_im]
+    }
+}
+
+impl<S: Simd> TrigonometricPolynomial<Vector<S>> {
+    /// Those of these with the given numbers, a lane for each.
+    #[inline(always)]
+    pub(super) fn of_lanes(
+        simd: S,
+        all: &[TrigonometricPolynomial],
+        numbers: &[usize; LANES],
+    ) -> Self {
+        let zero = Vector::splat(simd, 0.0);
+        let mut lanes = Self { cos: [zero; DEGREE + 1], sin: [zero; DEGREE + 1], noise: zero };
+        if let [one] = all {
+            for k in 0..=DEGREE {
+                (lanes.cos[k], lanes.sin[k]) = (zero.like(one.cos[k]), zero.like(one.sin[k]));
+            }
+            lanes.noise = zero.like(one.noise);
+            return lanes;
+        }
+        let mut columns = [[[0.0; LANES]; DEGREE + 1]; 2];
+        let mut noise = [0.0; LANES];
+        for lane in 0..LANES {
+            let one = &all[numbers[lane]];
+            for k in 0..=DEGREE {
+                columns[0][k][lane] = one.cos[k];
+                columns[1][k][lane] = one.sin[k];
+            }
+            noise[lane] = one.noise;
+        }
+        for k in 0..=DEGREE {
+            lanes.cos[k] = Vector::load_array_ref(simd, &columns[0][k]);
+            lanes.sin[k] = Vector::load_array_ref(simd, &columns[1][k]);
+        }
+        lanes.noise = Vector::load_array_ref(simd, &noise);
+        lanes
     }
 }

@@ -22,6 +22,11 @@ pub(crate) struct Root {
 impl Root {
     pub(crate) const NONE: Self = Self { low: 0.0, high: 0.0, is_simple: false, most: 0 };
 
+    /// A simple root [rad].
+    pub(super) fn simple(angle: f64, radius: f64) -> Self {
+        Self { low: angle - radius, high: angle + radius, is_simple: true, most: 1 }
+    }
+
     /// A cluster about an angle in -pi ..= pi [rad].
     pub(crate) fn cluster(angle: f64, radius: f64) -> Self {
         // In the range of the arcs.

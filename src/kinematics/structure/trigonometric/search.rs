@@ -2,10 +2,14 @@
 
 use fearless_simd::Simd;
 
+use super::brackets::Brackets;
+use super::clusters::Clusters;
+use super::isolation::Room;
 use super::polynomial::TrigonometricPolynomial;
+use super::refinement::Refined;
 use super::roots::{Root, Roots};
 use super::tables::{DEGREE, ORDERS};
-use crate::lanes::sin_cos;
+use crate::lanes::{LANES, sin_cos};
 
 /// Highest order of a derivative that bounds the number of roots.
 const MOST_MULTIPLICITY: usize = 8;
@@ -17,23 +21,26 @@ impl TrigonometricPolynomial {
     /// Every real root, in a range of a full turn: complete up to the noise (eq. 96). Clusters that
     /// are known are taken as they are.
     pub(crate) fn roots<S: Simd>(&self, simd: S, known: &[Root]) -> Roots {
-        // A function of its own for each instruction set: it is long.
-        simd.vectorize(
-            #[inline(always)]
-            || self.roots_in(simd, known),
-        )
-    }
-
-    #[inline(always)]
-    fn roots_in<S: Simd>(&self, simd: S, known: &[Root]) -> Roots {
         let mut roots = Roots::NONE;
         if self.is_noise() {
             roots.is_complete = false;
             return roots;
         }
-        let brackets = self.isolate(simd, known, &mut roots);
-        roots.is_complete &= brackets.is_complete;
-        self.refine(simd, &brackets, &mut roots);
+        for cluster in known {
+            roots.push(*cluster);
+        }
+        let mut room = Room::<3, 3>::NEW;
+        let (mut space, all) = (room.space(), core::slice::from_ref(self));
+        let mut search = space.search(Clusters::Kept(&mut roots));
+        search.isolate(simd, all, known);
+        let Brackets { count, is_complete, .. } = search.brackets;
+        roots.is_complete &= is_complete;
+        for (first, block) in (0..count).step_by(LANES).zip(space.brackets) {
+            let Refined { angles, radii } = block.refined(simd, all);
+            for lane in 0..LANES.min(count - first) {
+                roots.push(Root::simple(angles[lane], radii[lane]));
+            }
+        }
         roots.join();
         for root in roots.as_mut_slice().iter_mut().filter(|root| !root.is_simple) {
             root.most = self.most_roots(*root);

@@ -1,0 +1,96 @@
+//! The branches at roots of the resultant, of several poses or of one, and the candidates that they
+//! are.
+//!
+//! Docs: offset_wrist.md, section 5.
+
+use fearless_simd::prelude::*;
+
+use super::branch::{Branch, Plane};
+use super::geometry::Constants;
+use super::resultant::Hand;
+use super::search::SLACK;
+use crate::kinematics::structure::closure::{Candidates, Target};
+use crate::kinematics::structure::end_frames::Frame;
+use crate::lanes::{Column, Number as _, Vector, sin_cos_of};
+
+/// Size of z4 . z5 - cos alpha_4 at a root, by which a branch may be worse than the best one and
+/// still be a candidate: at once [1], and as a multiple of the radius of the root [1/rad].
+const ALSO: f64 = 1e-9;
+const ALSO_BY_RADIUS: f64 = 30.0;
+
+/// Up to eight roots, each of a pose.
+pub(super) struct AtRoots<'a, S: Simd> {
+    constants: &'a Constants,
+    last: Frame<Vector<S>>,
+    target: Target<Vector<S>>,
+    sin_cos_6: [Vector<S>; 2],
+    /// In the order of [`SIDES`](super::branch::SIDES).
+    branches: [Branch<Vector<S>>; 4],
+}
+
+/// The branches of which a root serves one: the nearest to a solution.
+pub(super) struct Served<'a, S: Simd> {
+    pub(super) branches: &'a [Branch<Vector<S>>],
+    pub(super) nearest: Branch<Vector<S>>,
+}
+
+impl<'a, S: Simd> AtRoots<'a, S> {
+    /// At angles of joint 6 [rad], of poses of frame 6.
+    #[inline(always)]
+    pub(super) fn new(constants: &'a Constants, last: Frame<Vector<S>>, angles: Vector<S>) -> Self {
+        let lengths = &constants.lengths;
+        let (sin, cos) = sin_cos_of(angles);
+        let hand = Hand::of(lengths, &last).at([sin, cos]);
+        let (one, other) = (sin.like(1.0), sin.like(-1.0));
+        let (front, behind) = (Plane::of(lengths, hand, one), Plane::of(lengths, hand, other));
+        let branches = [
+            front.with_elbow(lengths, one, SLACK),
+            front.with_elbow(lengths, other, SLACK),
+            behind.with_elbow(lengths, one, SLACK),
+            behind.with_elbow(lengths, other, SLACK),
+        ];
+        let target = constants.closure.target(last);
+        Self { constants, last, target, sin_cos_6: [sin, cos], branches }
+    }
+
+    /// How many solutions a root has: one for each side of the shoulder, or one.
+    pub(super) fn per_root(&self) -> usize {
+        if self.constants.lengths.is_square { 2 } else { 1 }
+    }
+
+    /// The branches of solution `number` of each root.
+    #[inline(always)]
+    pub(super) fn served(&self, number: usize) -> Served<'_, S> {
+        let count = self.branches.len() / self.per_root();
+        let branches = &self.branches[number * count..][..count];
+        let mut nearest = branches[0];
+        for branch in &branches[1..] {
+            nearest = nearest.or_nearer(branch);
+        }
+        Served { branches, nearest }
+    }
+
+    /// Bring a branch of each root to its pose.
+    #[inline(always)]
+    pub(super) fn converge(&self, branch: &Branch<Vector<S>>) -> Candidates {
+        let Constants { lengths, twists, closure } = self.constants;
+        let [sin, cos] = branch.joints(lengths, &self.last, self.sin_cos_6, twists);
+        closure.converge(&self.target, &sin, &cos)
+    }
+}
+
+impl<S: Simd> Served<'_, S> {
+    /// How far from a solution branches are candidates, for roots with these radii [rad], and how
+    /// many are.
+    #[inline(always)]
+    pub(super) fn candidates(&self, radii: &Column) -> [Vector<S>; 2] {
+        let off = self.nearest.off;
+        let radii = Vector::load_array_ref(off.token(), radii);
+        let most = off.abs() + radii.scaled_plus(ALSO_BY_RADIUS, off.like(ALSO));
+        let (mut count, one) = (off.like(0.0), off.like(1.0));
+        for branch in self.branches {
+            count += branch.off.abs().if_above(most, off.like(0.0), one);
+        }
+        [most, count]
+    }
+}

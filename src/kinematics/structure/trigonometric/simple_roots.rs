@@ -1,0 +1,84 @@
+//! The roots of several polynomials, each of which has simple ones alone.
+
+use fearless_simd::Simd;
+
+use super::brackets::Brackets;
+use super::clusters::{Clusters, Progress};
+use super::isolation::{Room, Space};
+use super::polynomial::TrigonometricPolynomial;
+use super::refinement::Refined;
+use crate::lanes::{Column, LANES};
+
+/// Room for the roots of several polynomials, with so many blocks of parts and of roots.
+pub(crate) struct ManyRoots<const MANY: usize, const PARTS: usize, const ROOTS: usize> {
+    polynomials: [TrigonometricPolynomial; MANY],
+    progress: [Progress; MANY],
+    room: Room<PARTS, ROOTS>,
+}
+
+impl<const MANY: usize, const PARTS: usize, const ROOTS: usize> ManyRoots<MANY, PARTS, ROOTS> {
+    pub(crate) const NEW: Self = Self {
+        polynomials: [TrigonometricPolynomial::NONE; MANY],
+        progress: [Progress::LEFT; MANY],
+        room: Room::NEW,
+    };
+
+    pub(crate) fn search(&mut self) -> SimpleRoots<'_> {
+        let Self { polynomials, progress, room } = self;
+        SimpleRoots { polynomials, progress, space: room.space(), count: 0, is_complete: true }
+    }
+}
+
+/// The search for the roots of several polynomials. One is left, without an answer, as soon as it
+/// has a cluster of roots, or takes many divisions: its answer does not depend on the others.
+pub(crate) struct SimpleRoots<'a> {
+    polynomials: &'a mut [TrigonometricPolynomial],
+    progress: &'a mut [Progress],
+    space: Space<'a>,
+    count: usize,
+    is_complete: bool,
+}
+
+/// Up to eight roots, and what the noise leaves of them [rad]: lanes without a root repeat the
+/// first.
+pub(crate) struct RootBlock {
+    /// Numbers of the polynomials.
+    pub(crate) of: [usize; LANES],
+    pub(crate) angles: Column,
+    pub(crate) radii: Column,
+    pub(crate) count: usize,
+}
+
+impl SimpleRoots<'_> {
+    /// Put a polynomial in a place; `None` leaves that out.
+    pub(crate) fn put(&mut self, number: usize, polynomial: Option<TrigonometricPolynomial>) {
+        let polynomial = polynomial.filter(|polynomial| !polynomial.is_noise());
+        self.progress[number] = if polynomial.is_some() { Progress::NEW } else { Progress::LEFT };
+        if let Some(polynomial) = polynomial {
+            self.polynomials[number] = polynomial;
+        }
+    }
+
+    /// Isolate the roots of the first polynomials. Returns the number of blocks.
+    pub(crate) fn isolate<S: Simd>(&mut self, simd: S, many: usize) -> usize {
+        let Self { polynomials, progress, space, .. } = self;
+        let mut search = space.search(Clusters::Left(progress));
+        search.isolate(simd, &polynomials[..many], &[]);
+        let Brackets { count, is_complete, .. } = search.brackets;
+        (self.count, self.is_complete) = (count, is_complete);
+        count.div_ceil(LANES)
+    }
+
+    /// The roots of a block.
+    pub(crate) fn block<S: Simd>(&self, simd: S, number: usize, many: usize) -> RootBlock {
+        let block = &self.space.brackets[number];
+        let Refined { angles, radii } = block.refined(simd, &self.polynomials[..many]);
+        let count = LANES.min(self.count - LANES * number);
+        RootBlock { of: block.of, angles, radii, count }
+    }
+
+    /// Whether the roots of a polynomial are all that it has.
+    pub(crate) fn are_all(&self, number: usize) -> bool {
+        self.is_complete && !self.progress[number].is_left
+    }
+}
