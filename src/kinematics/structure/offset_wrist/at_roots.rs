@@ -5,10 +5,9 @@
 
 use fearless_simd::prelude::*;
 
-use super::branch::{Branch, Plane};
+use super::branch::{Branch, Plane, SLACK};
 use super::geometry::Constants;
 use super::resultant::Hand;
-use super::search::SLACK;
 use crate::kinematics::structure::closure::{Candidates, Target};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::lanes::{Column, Number as _, Vector, sin_cos_of};
@@ -36,11 +35,23 @@ pub(super) struct Served<'a, S: Simd> {
 
 impl<'a, S: Simd> AtRoots<'a, S> {
     /// At angles of joint 6 [rad], of poses of frame 6.
+    pub(super) fn new(
+        constants: &'a Constants,
+        last: &Frame<Vector<S>>,
+        angles: Vector<S>,
+    ) -> Self {
+        // A function of its own for each instruction set: it is long.
+        angles.token().vectorize(
+            #[inline(always)]
+            || Self::at(constants, last, angles),
+        )
+    }
+
     #[inline(always)]
-    pub(super) fn new(constants: &'a Constants, last: Frame<Vector<S>>, angles: Vector<S>) -> Self {
+    fn at(constants: &'a Constants, last: &Frame<Vector<S>>, angles: Vector<S>) -> Self {
         let lengths = &constants.lengths;
         let (sin, cos) = sin_cos_of(angles);
-        let hand = Hand::of(lengths, &last).at([sin, cos]);
+        let hand = Hand::of(lengths, last).at([sin, cos]);
         let (one, other) = (sin.like(1.0), sin.like(-1.0));
         let (front, behind) = (Plane::of(lengths, hand, one), Plane::of(lengths, hand, other));
         let branches = [
@@ -49,8 +60,8 @@ impl<'a, S: Simd> AtRoots<'a, S> {
             behind.with_elbow(lengths, one, SLACK),
             behind.with_elbow(lengths, other, SLACK),
         ];
-        let target = constants.closure.target(last);
-        Self { constants, last, target, sin_cos_6: [sin, cos], branches }
+        let target = constants.closure.target(*last);
+        Self { constants, last: *last, target, sin_cos_6: [sin, cos], branches }
     }
 
     /// How many solutions a root has: one for each side of the shoulder, or one.
@@ -71,11 +82,15 @@ impl<'a, S: Simd> AtRoots<'a, S> {
     }
 
     /// Bring a branch of each root to its pose.
-    #[inline(always)]
     pub(super) fn converge(&self, branch: &Branch<Vector<S>>) -> Candidates {
-        let Constants { lengths, twists, closure } = self.constants;
-        let [sin, cos] = branch.joints(lengths, &self.last, self.sin_cos_6, twists);
-        closure.converge(&self.target, &sin, &cos)
+        branch.off.token().vectorize(
+            #[inline(always)]
+            || {
+                let Constants { lengths, twists, closure } = self.constants;
+                let [sin, cos] = branch.joints(lengths, &self.last, self.sin_cos_6, twists);
+                closure.converge(&self.target, &sin, &cos)
+            },
+        )
     }
 }
 

@@ -17,6 +17,11 @@ impl LaneKernel<6, SLOTS> for Constants {
     type Regular = RegularSlots<6, SLOTS>;
     type Block = OffsetBlock;
 
+    /// A regular pose leaves nothing to choose.
+    fn for_path(self) -> Option<Self> {
+        Some(self)
+    }
+
     #[inline(always)]
     fn solve_one<const FUSED: bool>(
         &self,

@@ -12,6 +12,10 @@ use crate::lanes::{Column, Number, Vector, VectorKernel, cross, dot, sin_cos_of}
 /// Square of a length that has a direction, relative to those of the arm [1].
 const LEAST_SQUARE: f64 = 1e-300;
 
+/// How far a branch may be out of reach and still be a candidate, relative to the squares of the
+/// lengths [1].
+pub(super) const SLACK: f64 = 1e-3;
+
 /// The arm with joint 6 given, on one branch.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Branch<T> {

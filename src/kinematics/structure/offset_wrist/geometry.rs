@@ -1,5 +1,7 @@
 //! The stored geometry of an arm with an offset wrist.
 
+use alloc::boxed::Box;
+
 use crate::kinematics::chain::Chain;
 use crate::kinematics::structure::closure::Closure;
 use crate::kinematics::structure::general::General;
@@ -14,7 +16,7 @@ pub struct OffsetWrist {
     pub(super) constants: Constants,
     /// The same arm as one in general, which is asked where the count of roots and that of
     /// solutions differ.
-    pub(super) general: General,
+    pub(super) general: Box<General>,
 }
 
 /// What a solve needs of an arm.

@@ -3,6 +3,8 @@
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
+use alloc::boxed::Box;
+
 use super::geometry::{Constants, Lengths, OffsetWrist, Twists};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::axes::Link;
@@ -87,7 +89,7 @@ pub(super) fn measure(mdh: &Mdh<6>) -> Result<OffsetWrist, UnknownStructure> {
         sin_5: links[5].sin_alpha,
         cos_5: links[5].cos_alpha,
     };
-    let general = General::of(mdh)?;
+    let general = Box::new(General::of(mdh)?);
     let constants = Constants { lengths, twists, closure: *general.closure() };
     Ok(OffsetWrist { chain, constants, general })
 }

@@ -20,6 +20,8 @@ mod solve;
 #[cfg(test)]
 mod tests;
 
+use alloc::boxed::Box;
+
 pub(crate) use geometry::{Constants, OffsetWrist};
 
 use super::branches::Branches;
@@ -54,7 +56,7 @@ impl Structure<6, SLOTS> for OffsetWrist {
     }
 
     fn between(self, base: &Pose, tool: &Pose, coupled: bool) -> Self {
-        let general = self.general.between(base, tool, coupled);
+        let general = Box::new(self.general.between(base, tool, coupled));
         let constants = Constants { closure: *general.closure(), ..self.constants };
         Self { constants, general, ..self }
     }
@@ -97,7 +99,7 @@ impl Structure<6, SLOTS> for OffsetWrist {
     }
 
     fn noting(self, nearest: Option<UnknownStructure>) -> Self {
-        Self { general: self.general.noting(nearest), ..self }
+        Self { general: Box::new(self.general.noting(nearest)), ..self }
     }
 
     fn nearest(&self) -> Option<UnknownStructure> {

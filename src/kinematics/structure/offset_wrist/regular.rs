@@ -97,7 +97,7 @@ impl VectorKernel for Solve<'_> {
             let RootBlock { of, angles, radii, count } = self.roots.block(simd, number, many);
             let last = Frame::of_lanes(simd, self.poses, &of);
             let at_roots =
-                AtRoots::new(self.constants, last, Vector::load_array_ref(simd, &angles));
+                AtRoots::new(self.constants, &last, Vector::load_array_ref(simd, &angles));
             for number in 0..at_roots.per_root() {
                 let served = at_roots.served(number);
                 let candidates = at_roots.converge(&served.nearest);

@@ -147,12 +147,25 @@ pub(super) fn resultant<T: Number>(
 
 /// The resultant as a polynomial, through its values at multiples of 15 deg of joint 6, for the hand
 /// of a pose.
-#[inline(always)]
 pub(super) fn polynomial<S: Simd>(
     simd: S,
     lengths: &Lengths,
     hand: &Hand,
 ) -> TrigonometricPolynomial {
+    // A function of its own for each instruction set: it is long.
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let values = samples(simd, lengths, hand);
+            let mut polynomial = TrigonometricPolynomial::of_samples(&values).of_pose();
+            polynomial.noise += NOISE_OF_DEGREE_8 * polynomial.size();
+            polynomial
+        },
+    )
+}
+
+#[inline(always)]
+fn samples<S: Simd>(simd: S, lengths: &Lengths, hand: &Hand) -> [Vector<S>; SAMPLES / LANES] {
     let zero = Vector::splat(simd, 0.0);
     let (hand, mut values) = (hand.in_lanes(zero), [zero; SAMPLES / LANES]);
     for block in 0..SAMPLES / LANES {
@@ -161,7 +174,5 @@ pub(super) fn polynomial<S: Simd>(
         let (point, axis_5) = hand.at([sin, cos]);
         values[block] = resultant(lengths, point, axis_5);
     }
-    let mut polynomial = TrigonometricPolynomial::of_samples(&values).of_pose();
-    polynomial.noise += NOISE_OF_DEGREE_8 * polynomial.size();
-    polynomial
+    values
 }

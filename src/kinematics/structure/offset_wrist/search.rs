@@ -10,7 +10,7 @@ use fearless_simd::prelude::*;
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::at_roots::AtRoots;
-use super::branch::{Branch, Plane, SIDES};
+use super::branch::{Branch, Plane, SIDES, SLACK};
 use super::geometry::{Constants, OffsetWrist};
 use super::resultant::Hand;
 use crate::kinematics::structure::closure::{Accepted, Candidates, Target};
@@ -19,10 +19,6 @@ use crate::kinematics::structure::trigonometric::Root;
 use crate::lanes::{
     Column, LANES, Number as _, Vector, VectorKernel, atan2, run_vectors, sin_cos_of,
 };
-
-/// How far a branch may be out of reach and still be a candidate, relative to the squares of the
-/// lengths [1].
-pub(super) const SLACK: f64 = 1e-3;
 
 /// How far the wrist point may be from axis 1, or the upper arm from its length, for the condition
 /// of axis 5 to decide there, relative to the lengths of the arm [1].
@@ -177,7 +173,7 @@ impl<'a> Search<'a> {
         }
         let constants = &self.arm.constants;
         let angles = Vector::load_array(simd, angles);
-        let at_roots = AtRoots::new(constants, self.last.in_lanes(angles), angles);
+        let at_roots = AtRoots::new(constants, &self.last.in_lanes(angles), angles);
         for number in 0..at_roots.per_root() {
             let served = at_roots.served(number);
             let candidates = at_roots.converge(&served.nearest);

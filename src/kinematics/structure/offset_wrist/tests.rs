@@ -2,21 +2,21 @@
 #![allow(clippy::cast_precision_loss, clippy::unreadable_literal, clippy::too_many_lines)]
 
 use core::f64::consts::{PI, TAU};
-use std::vec::Vec;
 
+mod arms;
+mod company;
 mod merged;
 mod self_motions;
 mod turns;
 
+use arms::{arm, arms};
+
 use super::Structure as _;
 use super::branch::{Plane, SIDES};
 use super::geometry::OffsetWrist;
-use super::measure::{PATTERN, measure};
 use super::resultant::{Hand, resultant};
 use crate::kinematics::answer::solutions::{Solution, Solutions};
-use crate::kinematics::chain::dh::{DhRow, Mdh};
 use crate::kinematics::chain::limits::JointLimits;
-use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::robot::Robot;
 use crate::kinematics::structure::any::recognized;
@@ -25,133 +25,6 @@ use crate::kinematics::structure::closure::{Accepted, Configuration};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::structure::trigonometric::SAMPLES;
-
-/// Rows of alpha [deg], a [m], d [m], theta [deg].
-fn arm(rows: [[f64; 4]; 6]) -> OffsetWrist {
-    let rows =
-        rows.map(|[alpha, a, d, theta]| DhRow::new(alpha.to_radians(), a, d, theta.to_radians()));
-    let mdh = Mdh { base: Pose::identity(), rows, flange: Pose::identity() };
-    measure(&PATTERN.square_up(&mdh).unwrap()).unwrap()
-}
-
-fn arms() -> Vec<(&'static str, OffsetWrist)> {
-    [
-        (
-            "GoFa 5",
-            [
-                [0.0, 0.0, 0.265, 0.0],
-                [-90.0, 0.0, 0.0, -90.0],
-                [0.0, 0.444, 0.0, 0.0],
-                [-90.0, 0.11, 0.47, 0.0],
-                [90.0, 0.0, 0.0, 0.0],
-                [-90.0, 0.08, 0.101, 180.0],
-            ],
-        ),
-        (
-            "GoFa 10",
-            [
-                [0.0, 0.0, 0.4, 0.0],
-                [-90.0, 0.15, 0.0, -90.0],
-                [0.0, 0.707, 0.0, 0.0],
-                [-90.0, 0.11, 0.637, 0.0],
-                [90.0, 0.0, 0.0, 0.0],
-                [-90.0, 0.08, 0.101, 180.0],
-            ],
-        ),
-        (
-            "CRX-10iA/L",
-            [
-                [0.0, 0.0, 0.245, 0.0],
-                [-90.0, 0.0, 0.0, -90.0],
-                [0.0, 0.71, 0.0, 0.0],
-                [-90.0, 0.0, 0.54, 0.0],
-                [90.0, 0.0, 0.15, 0.0],
-                [-90.0, 0.0, 0.16, 180.0],
-            ],
-        ),
-        (
-            "JACO2",
-            [
-                [0.0, 0.0, 0.2755, 0.0],
-                [90.0, 0.0, 0.0, 0.0],
-                [180.0, 0.41, 0.0, 0.0],
-                [90.0, 0.0, -0.2073, 0.0],
-                [60.0, 0.0, -0.0741, 0.0],
-                [60.0, 0.0, -0.16, 0.0],
-            ],
-        ),
-        (
-            "JACO2 b",
-            [
-                [0.0, 0.0, 0.2755, 0.0],
-                [90.0, 0.0, 0.0, 0.0],
-                [180.0, 0.41, 0.0, 0.0],
-                [90.0, 0.0, -0.2073, 0.0],
-                [60.0, 0.0, -0.0741, 0.0],
-                [60.0, 0.0, -0.16, 0.0],
-            ]
-            .map(|row: [f64; 4]| if row[1] == 0.41 { [180.0, 0.41, 0.0098, 0.0] } else { row }),
-        ),
-        (
-            "xArm6",
-            [
-                [0.0, 0.0, 0.267, 0.0],
-                [-90.0, 0.0, 0.0, -79.34995],
-                [0.0, 0.28948866, 0.0, 79.34995],
-                [-90.0, 0.0775, 0.3425, 0.0],
-                [90.0, 0.0, 0.0, 0.0],
-                [-90.0, 0.076, 0.097, 0.0],
-            ],
-        ),
-        (
-            "CRX-10iA",
-            [
-                [0.0, 0.0, 0.245, 0.0],
-                [-90.0, 0.0, 0.0, -90.0],
-                [0.0, 0.54, 0.0, 0.0],
-                [-90.0, 0.0, 0.54, 0.0],
-                [90.0, 0.0, 0.15, 0.0],
-                [-90.0, 0.0, 0.16, 180.0],
-            ],
-        ),
-        (
-            "lateral",
-            [
-                [0.0, 0.0, 0.2755, 0.0],
-                [90.0, 0.0, 0.12, 10.0],
-                [180.0, 0.41, -0.03, 20.0],
-                [90.0, 0.0, -0.2073, 30.0],
-                [60.0, 0.0, -0.0741, 0.0],
-                [60.0, 0.0, -0.16, 0.0],
-            ],
-        ),
-        (
-            "skew",
-            [
-                [0.0, 0.0, 0.2755, 0.0],
-                [90.0, 0.1, 0.02, 10.0],
-                [0.0, -0.41, -0.07, 20.0],
-                [70.0, 0.05, -0.3, 30.0],
-                [50.0, 0.0, -0.0741, 0.0],
-                [40.0, 0.07, -0.16, 0.0],
-            ],
-        ),
-        (
-            "IRB 2600",
-            [
-                [0.0, 0.0, 0.445, 0.0],
-                [-90.0, 0.15, 0.0, -90.0],
-                [0.0, 0.7, 0.0, 0.0],
-                [-90.0, 0.115, 0.795, 0.0],
-                [90.0, 0.0, 0.0, 0.0],
-                [-90.0, 0.0, 0.085, 180.0],
-            ],
-        ),
-    ]
-    .map(|(name, rows)| (name, arm(rows)))
-    .into_iter()
-    .collect()
-}
 
 /// Joint angles between -pi and pi, the same each time.
 fn joints(seed: u64) -> impl Iterator<Item = [f64; 6]> {

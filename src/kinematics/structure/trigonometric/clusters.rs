@@ -6,8 +6,8 @@ use super::roots::Roots;
 /// Width of a part of an arc that is not divided [1]: 5e-8 rad.
 const LEAST_WIDTH: f64 = 1.0 / (1 << 23) as f64;
 
-/// The same for a polynomial that is left if it has a cluster: 6e-3 rad.
-const WIDE: f64 = 1.0 / 64.0;
+/// The same for a polynomial that is left if it has a cluster: 4e-4 rad.
+const WIDE: f64 = 1.0 / 1024.0;
 
 /// Parts that wait for their division in a polynomial that is not left, at most.
 const MOST_PARTS: usize = 24;
