@@ -212,7 +212,7 @@ struct Single<'a, K: LaneKernel<N, S>, const N: usize, const S: usize> {
 impl<K: LaneKernel<N, S>, const N: usize, const S: usize> Kernel for Single<'_, K, N, S> {
     /// `None` if a branch is not regular, or none reaches: the scalar solver then decides.
     type Answer = Option<K::Regular>;
-    const WIDE: bool = true;
+    const WIDE: bool = K::WIDE;
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> Self::Answer {

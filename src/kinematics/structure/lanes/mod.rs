@@ -44,6 +44,9 @@ pub(crate) trait LaneKernel<const N: usize, const S: usize>:
     /// turn.
     const DIFFERENCES: &'static [usize];
 
+    /// [`Kernel::WIDE`](crate::lanes::Kernel::WIDE): not if most of it runs in explicit vectors.
+    const WIDE: bool = true;
+
     /// The redundancy parameter that a caller gives with a pose.
     type Redundancy: Redundancy;
 

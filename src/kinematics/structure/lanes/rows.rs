@@ -30,7 +30,7 @@ where
     F: FnMut(usize, &mut [[f64; N]], &mut [u8]),
 {
     type Answer = ();
-    const WIDE: bool = true;
+    const WIDE: bool = K::WIDE;
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) {

@@ -12,6 +12,7 @@ use crate::lanes::{Column, Flags, LANES};
 
 impl LaneKernel<6, SLOTS> for Constants {
     const DIFFERENCES: &'static [usize] = &[];
+    const WIDE: bool = false;
 
     type Redundancy = ();
     type Regular = RegularSlots<6, SLOTS>;
