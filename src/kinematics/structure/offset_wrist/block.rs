@@ -2,7 +2,7 @@
 
 use super::SLOTS;
 use super::geometry::Constants;
-use super::regular::Regular;
+use super::regular::{Eight, One, Solved};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::lanes::{
     AnswerRow, Block, Columns, FOUND_INSIDE, LaneKernel, Poses, RegularSlots, SlotColumns,
@@ -30,7 +30,10 @@ impl LaneKernel<6, SLOTS> for Constants {
         t_first_last: &Frame,
         (): (),
     ) -> Option<RegularSlots<6, SLOTS>> {
-        let mut one = Regular::<1, 3, 3>::NEW;
+        if self.lengths.is_parallel_at(t_first_last) {
+            return None;
+        }
+        let mut one = One::NEW;
         let [solved] = one.solve(self, &[*t_first_last]) else { return None };
         if !solved.is_regular || solved.as_slice().is_empty() {
             return None;
@@ -48,12 +51,12 @@ impl LaneKernel<6, SLOTS> for Constants {
 
 /// A block of poses with their solutions.
 pub(crate) struct OffsetBlock {
-    regular: Regular<LANES, 6, 17>,
+    regular: Eight,
     slots: SlotColumns<6, SLOTS>,
 }
 
 impl Block<Constants, 6, SLOTS> for OffsetBlock {
-    const NEW: Self = Self { regular: Regular::NEW, slots: SlotColumns::NEW };
+    const NEW: Self = Self { regular: Eight::NEW, slots: SlotColumns::NEW };
 
     #[inline(always)]
     fn solve<const FUSED: bool>(
@@ -63,13 +66,13 @@ impl Block<Constants, 6, SLOTS> for OffsetBlock {
         poses: &mut Poses,
         (): (),
     ) -> Flags {
-        let (frames, count, places) = different(poses);
+        let (frames, count, places) = different(kernel, poses);
         let solved = self.regular.solve(kernel, &frames[..count]);
         let mut regular = [0; LANES];
         for (lane, place) in places.into_iter().enumerate() {
-            let solved = &solved[place];
-            regular[lane] = u64::from(solved.is_regular);
-            let mut all = solved.as_slice().iter();
+            let solved = place.map(|place: usize| &solved[place]);
+            regular[lane] = u64::from(solved.is_some_and(|solved| solved.is_regular));
+            let mut all = solved.map_or(&[][..], Solved::as_slice).iter();
             for slot in 0..SLOTS {
                 let theta = all.next();
                 self.slots.status[slot][lane] = if theta.is_some() { FOUND_INSIDE } else { 0 };
@@ -98,17 +101,23 @@ impl Block<Constants, 6, SLOTS> for OffsetBlock {
     }
 }
 
-/// The poses of a block, those that repeat the one before left out; how many there are, and which
-/// of them each lane has.
-fn different(poses: &Poses) -> ([Frame; LANES], usize, [usize; LANES]) {
-    let (mut frames, mut count, mut places) = ([Frame::IDENTITY; LANES], 0, [0; LANES]);
+/// The poses of a block that may be regular, those that repeat the one before left out; how many
+/// there are, and which of them each lane has.
+fn different(
+    constants: &Constants,
+    poses: &Poses,
+) -> ([Frame; LANES], usize, [Option<usize>; LANES]) {
+    let (mut frames, mut count, mut places) = ([Frame::IDENTITY; LANES], 0, [None; LANES]);
     for (lane, place) in places.iter_mut().enumerate() {
         let frame = poses.frame(lane);
+        if constants.lengths.is_parallel_at(&frame) {
+            continue;
+        }
         if count == 0 || frames[count - 1] != frame {
             frames[count] = frame;
             count += 1;
         }
-        *place = count - 1;
+        *place = Some(count - 1);
     }
     (frames, count, places)
 }

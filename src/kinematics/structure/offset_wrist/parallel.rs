@@ -8,6 +8,7 @@ use nalgebra::{ComplexField as _, RealField as _};
 use super::geometry::Lengths;
 use super::resultant::Hand;
 use crate::kinematics::pose::angles::wrap;
+use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::trigonometric::Root;
 
 /// Half the width of the cluster of roots [rad]: at its ends the resultant is above its noise.
@@ -26,6 +27,11 @@ impl Lengths {
     pub(super) fn has_parallel(&self) -> bool {
         [self.cos_3, self.cos_4, self.b].iter().all(|term| *term == 0.0) && !self.is_square
     }
+
+    /// Whether it vanishes at a pose of frame 6, or nearly so.
+    pub(super) fn is_parallel_at(&self, last: &Frame) -> bool {
+        self.has_parallel() && Parallel::of(self, &Hand::of(self, last)).count > 0
+    }
 }
 
 /// Clusters where axis 5 is parallel to axes 2 and 3, or nearly so.
@@ -36,11 +42,6 @@ pub(super) struct Parallel {
 
 impl Parallel {
     pub(super) const NONE: Self = Self { clusters: [Root::NONE; 2], count: 0 };
-
-    /// Whether there is one.
-    pub(super) fn is_near(lengths: &Lengths, hand: &Hand) -> bool {
-        Self::of(lengths, hand).count > 0
-    }
 
     /// The angles of joint 6 at which axis 5 is horizontal and the wrist point is perpendicular to
     /// it.

@@ -8,25 +8,31 @@ use fearless_simd::prelude::*;
 use super::SLOTS;
 use super::at_roots::AtRoots;
 use super::geometry::Constants;
-use super::parallel::Parallel;
 use super::resultant::{Hand, polynomial};
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::closure::in_order;
 use crate::kinematics::structure::end_frames::Frame;
-use crate::kinematics::structure::trigonometric::{ManyRoots, RootBlock, SimpleRoots};
-use crate::lanes::{Vector, VectorKernel, run_vectors};
+use crate::kinematics::structure::trigonometric::{RootBlock, RootRoom, SimpleRoots};
+use crate::lanes::{LANES, Vector, VectorKernel, run_vectors};
 
-/// How far a solution may be from its root [rad]: others are farther away.
+/// How far a solution may be from its root [rad]: what is farther away may be that of another root.
 const AT_ROOT: f64 = 1e-6;
 
-/// Regular poses, and room for their solution.
+/// Room for the solution of one pose.
+pub(super) type One = Regular<1, 3, 3>;
+
+/// The same for eight, with sixteen roots each. Parts that wait are divided before they are more
+/// than those of one.
+pub(super) type Eight = Regular<LANES, 6, 17>;
+
+/// Room for the solution of regular poses, with so many blocks of parts of arcs and of roots.
 pub(super) struct Regular<const POSES: usize, const PARTS: usize, const ROOTS: usize> {
-    roots: ManyRoots<POSES, PARTS, ROOTS>,
+    roots: RootRoom<POSES, PARTS, ROOTS>,
     solved: [Solved; POSES],
 }
 
 impl<const POSES: usize, const PARTS: usize, const ROOTS: usize> Regular<POSES, PARTS, ROOTS> {
-    pub(super) const NEW: Self = Self { roots: ManyRoots::NEW, solved: [Solved::NONE; POSES] };
+    pub(super) const NEW: Self = Self { roots: RootRoom::NEW, solved: [Solved::NONE; POSES] };
 
     /// Solve for some poses of frame 6.
     pub(super) fn solve(&mut self, constants: &Constants, poses: &[Frame]) -> &[Solved] {
@@ -71,7 +77,7 @@ impl Solved {
     }
 }
 
-/// The solve of regular poses, compiled for each instruction set.
+/// The solve of poses that may be regular, compiled for each instruction set.
 struct Solve<'a> {
     constants: &'a Constants,
     poses: &'a [Frame],
@@ -86,10 +92,7 @@ impl VectorKernel for Solve<'_> {
     fn run<S: Simd>(mut self, simd: S) {
         let Constants { lengths, closure, .. } = self.constants;
         for (number, pose) in self.poses.iter().enumerate() {
-            let hand = Hand::of(lengths, pose);
-            let is_open = !(lengths.has_parallel() && Parallel::is_near(lengths, &hand));
-            let polynomial = is_open.then(|| polynomial(simd, lengths, &hand));
-            self.roots.put(number, polynomial);
+            self.roots.put(number, polynomial(simd, lengths, &Hand::of(lengths, pose)));
             (self.solved[number].count, self.solved[number].is_regular) = (0, true);
         }
         let many = self.poses.len();

@@ -10,13 +10,13 @@ use super::refinement::Refined;
 use crate::lanes::{Column, LANES};
 
 /// Room for the roots of several polynomials, with so many blocks of parts and of roots.
-pub(crate) struct ManyRoots<const MANY: usize, const PARTS: usize, const ROOTS: usize> {
+pub(crate) struct RootRoom<const MANY: usize, const PARTS: usize, const ROOTS: usize> {
     polynomials: [TrigonometricPolynomial; MANY],
     progress: [Progress; MANY],
     room: Room<PARTS, ROOTS>,
 }
 
-impl<const MANY: usize, const PARTS: usize, const ROOTS: usize> ManyRoots<MANY, PARTS, ROOTS> {
+impl<const MANY: usize, const PARTS: usize, const ROOTS: usize> RootRoom<MANY, PARTS, ROOTS> {
     pub(crate) const NEW: Self = Self {
         polynomials: [TrigonometricPolynomial::NONE; MANY],
         progress: [Progress::LEFT; MANY],
@@ -50,13 +50,11 @@ pub(crate) struct RootBlock {
 }
 
 impl SimpleRoots<'_> {
-    /// Put a polynomial in a place; `None` leaves that out.
-    pub(crate) fn put(&mut self, number: usize, polynomial: Option<TrigonometricPolynomial>) {
-        let polynomial = polynomial.filter(|polynomial| !polynomial.is_noise());
-        self.progress[number] = if polynomial.is_some() { Progress::NEW } else { Progress::LEFT };
-        if let Some(polynomial) = polynomial {
-            self.polynomials[number] = polynomial;
-        }
+    /// Put a polynomial in a place.
+    pub(crate) fn put(&mut self, number: usize, polynomial: TrigonometricPolynomial) {
+        let is_noise = polynomial.is_noise();
+        self.progress[number] = if is_noise { Progress::LEFT } else { Progress::NEW };
+        self.polynomials[number] = polynomial;
     }
 
     /// Isolate the roots of the first polynomials. Returns the number of blocks.

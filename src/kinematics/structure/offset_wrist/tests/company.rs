@@ -6,7 +6,7 @@ use super::{OffsetWrist, SETS, arms, asked, joints};
 use crate::kinematics::structure::closure::Accepted;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::free_choice::FreeChoice;
-use crate::kinematics::structure::offset_wrist::regular::Regular;
+use crate::kinematics::structure::offset_wrist::regular::{Eight, One};
 use crate::lanes::{LANES, on_each_set};
 
 /// Joint vectors of all sets, those of one set far from one another.
@@ -24,7 +24,7 @@ fn a_pose_has_the_bits_in_company_that_it_has_alone() {
     on_each_set(|_| {
         for (name, arm) in arms() {
             let frames = frames(&arm, &mixed(&arm, 20));
-            let (mut alone, mut company) = (Regular::<1, 3, 3>::NEW, Regular::<LANES, 6, 17>::NEW);
+            let (mut alone, mut company) = (One::NEW, Eight::NEW);
             let mut count = 0;
             for block in frames.chunks(LANES) {
                 let all = company.solve(&arm.constants, block);
@@ -46,7 +46,7 @@ fn a_pose_has_the_bits_in_company_that_it_has_alone() {
 fn a_regular_pose_has_the_solutions_of_the_whole_search() {
     for (name, arm) in arms() {
         let all = mixed(&arm, asked());
-        let (mut regular, mut count) = (Regular::<1, 3, 3>::NEW, 0);
+        let (mut regular, mut count) = (One::NEW, 0);
         for (q, frame) in all.iter().zip(frames(&arm, &all)) {
             let [solved] = regular.solve(&arm.constants, &[frame]) else { unreachable!() };
             if !solved.is_regular {
@@ -70,7 +70,7 @@ fn a_regular_pose_has_the_solutions_of_the_whole_search() {
 fn nearly_all_random_poses_are_regular() {
     for (name, arm) in arms() {
         let all: Vec<_> = joints(8).take(50 * asked()).collect();
-        let (mut alone, mut count) = (Regular::<1, 3, 3>::NEW, 0);
+        let (mut alone, mut count) = (One::NEW, 0);
         for frame in frames(&arm, &all) {
             count += usize::from(alone.solve(&arm.constants, &[frame])[0].is_regular);
         }
