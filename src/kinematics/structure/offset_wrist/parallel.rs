@@ -22,15 +22,21 @@ const NEAR: f64 = 3e-4;
 const APART: f64 = 0.5;
 
 impl Lengths {
-    /// Whether the condition of axis 5 vanishes where it is parallel to axes 2 and 3, whichever
-    /// side of the shoulder.
+    /// Whether the roots where axis 5 is parallel to axes 2 and 3 are a cluster. In the square case
+    /// they are a double root.
     pub(super) fn has_parallel(&self) -> bool {
-        [self.cos_3, self.cos_4, self.b].iter().all(|term| *term == 0.0) && !self.is_square
+        self.vanishes() && !self.is_square
     }
 
-    /// Whether it vanishes at a pose of frame 6, or nearly so.
+    /// Whether axis 5 is parallel to axes 2 and 3 at a pose of frame 6, or nearly so.
     pub(super) fn is_parallel_at(&self, last: &Frame) -> bool {
-        self.has_parallel() && Parallel::of(self, &Hand::of(self, last)).count > 0
+        self.vanishes() && Parallel::of(self, &Hand::of(self, last)).count > 0
+    }
+
+    /// Whether the condition of axis 5 vanishes where it is parallel to axes 2 and 3, whichever
+    /// side of the shoulder.
+    fn vanishes(&self) -> bool {
+        [self.cos_3, self.cos_4, self.b].iter().all(|term| *term == 0.0)
     }
 }
 

@@ -97,19 +97,18 @@ impl VectorKernel for Solve<'_> {
         }
         let many = self.poses.len();
         for number in 0..self.roots.isolate(simd, many) {
-            let RootBlock { of, angles, radii, count } = self.roots.block(simd, number, many);
+            let Some(RootBlock { of, angles, count }) = self.roots.block(simd, number, many) else {
+                continue;
+            };
             let last = Frame::of_lanes(simd, self.poses, &of);
             let at_roots =
                 AtRoots::new(self.constants, &last, Vector::load_array_ref(simd, &angles));
             for number in 0..at_roots.per_root() {
-                let served = at_roots.served(number);
-                let candidates = at_roots.converge(&served.nearest);
-                let [_, crowd] = served.candidates(&radii);
+                let candidates = at_roots.converge(&at_roots.served(number).nearest);
                 for lane in 0..count {
                     let (theta, solved) = (candidates.theta(lane), &mut self.solved[of[lane]]);
                     solved.is_regular &= candidates.is_regular(closure, lane)
-                        && wrap(theta[5] - angles[lane]).abs() <= AT_ROOT
-                        && crowd[lane] < 1.5;
+                        && wrap(theta[5] - angles[lane]).abs() <= AT_ROOT;
                     solved.push(theta);
                 }
             }

@@ -39,13 +39,11 @@ pub(crate) struct SimpleRoots<'a> {
     is_complete: bool,
 }
 
-/// Up to eight roots, and what the noise leaves of them [rad]: lanes without a root repeat the
-/// first.
+/// Up to eight roots [rad]: lanes without one repeat the first.
 pub(crate) struct RootBlock {
     /// Numbers of the polynomials.
     pub(crate) of: [usize; LANES],
     pub(crate) angles: Column,
-    pub(crate) radii: Column,
     pub(crate) count: usize,
 }
 
@@ -67,12 +65,15 @@ impl SimpleRoots<'_> {
         count.div_ceil(LANES)
     }
 
-    /// The roots of a block.
-    pub(crate) fn block<S: Simd>(&self, simd: S, number: usize, many: usize) -> RootBlock {
+    /// The roots of a block; `None` if their polynomials are left.
+    pub(crate) fn block<S: Simd>(&self, simd: S, number: usize, many: usize) -> Option<RootBlock> {
         let block = &self.space.brackets[number];
-        let Refined { angles, radii } = block.refined(simd, &self.polynomials[..many]);
         let count = LANES.min(self.count - LANES * number);
-        RootBlock { of: block.of, angles, radii, count }
+        if block.of[..count].iter().all(|of| self.progress[*of].is_left) {
+            return None;
+        }
+        let Refined { angles, .. } = block.refined(simd, &self.polynomials[..many]);
+        Some(RootBlock { of: block.of, angles, count })
     }
 
     /// Whether the roots of a polynomial are all that it has.
