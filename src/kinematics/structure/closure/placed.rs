@@ -17,14 +17,8 @@ impl<T: Number> Placed<T> {
     /// A constant frame, in the lanes of a number.
     #[inline(always)]
     pub(crate) fn of(frame: &Frame, like: T) -> Self {
-        let [a, b, c] = frame.rotation;
-        let [x, y, z] = frame.origin;
-        Self {
-            x: [like.like(a[0]), like.like(b[0]), like.like(c[0])],
-            y: [like.like(a[1]), like.like(b[1]), like.like(c[1])],
-            z: [like.like(a[2]), like.like(b[2]), like.like(c[2])],
-            origin: [like.like(x), like.like(y), like.like(z)],
-        }
+        let Frame { rotation: [a, b, c], origin } = frame.in_lanes(like);
+        Self { x: [a[0], b[0], c[0]], y: [a[1], b[1], c[1]], z: [a[2], b[2], c[2]], origin }
     }
 
     /// This frame times a constant one.

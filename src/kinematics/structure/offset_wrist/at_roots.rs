@@ -64,15 +64,10 @@ impl<'a, S: Simd> AtRoots<'a, S> {
         Self { constants, last: *last, target, sin_cos_6: [sin, cos], branches }
     }
 
-    /// How many solutions a root has: one for each side of the shoulder, or one.
-    pub(super) fn per_root(&self) -> usize {
-        if self.constants.lengths.is_square { 2 } else { 1 }
-    }
-
     /// The branches of solution `number` of each root.
     #[inline(always)]
     pub(super) fn served(&self, number: usize) -> Served<'_, S> {
-        let count = self.branches.len() / self.per_root();
+        let count = self.branches.len() / self.constants.lengths.per_root();
         let branches = &self.branches[number * count..][..count];
         let mut nearest = branches[0];
         for branch in &branches[1..] {

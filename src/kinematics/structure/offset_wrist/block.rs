@@ -34,7 +34,7 @@ impl LaneKernel<6, SLOTS> for Constants {
             return None;
         }
         let mut one = One::NEW;
-        let [solved] = one.solve(self, &[*t_first_last]) else { return None };
+        let solved = one.solve(self, &[*t_first_last]).first()?;
         if !solved.is_regular || solved.as_slice().is_empty() {
             return None;
         }
@@ -86,6 +86,7 @@ impl Block<Constants, 6, SLOTS> for OffsetBlock {
         regular
     }
 
+    #[inline(never)]
     fn write(&self, q: &mut [AnswerRow<6, SLOTS>; LANES], status: &mut [StatusRow<SLOTS>; LANES]) {
         self.slots.write(q, status);
     }

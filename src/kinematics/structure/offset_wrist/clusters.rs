@@ -118,7 +118,7 @@ impl Clusters {
         let zeros = view.zeros();
         match self.all.get_mut(self.count) {
             Some(place) => {
-                let per_root = if search.arm.constants.lengths.is_square { 2 } else { 1 };
+                let per_root = search.arm.constants.lengths.per_root();
                 *place = Cluster { low, high, zeros, most: per_root * root.most };
                 self.count += 1;
             }

@@ -64,6 +64,13 @@ pub(super) struct Lengths {
     pub(super) is_square: bool,
 }
 
+impl Lengths {
+    /// How many solutions a root has: one for each side of the shoulder, or one.
+    pub(super) fn per_root(&self) -> usize {
+        if self.is_square { 2 } else { 1 }
+    }
+}
+
 /// Sines and cosines of the twists of rows 4 to 6.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Twists {

@@ -37,7 +37,7 @@ impl<const POSES: usize, const PARTS: usize, const ROOTS: usize> Regular<POSES, 
     /// Solve for some poses of frame 6.
     pub(super) fn solve(&mut self, constants: &Constants, poses: &[Frame]) -> &[Solved] {
         let solved = &mut self.solved[..poses.len()];
-        run_vectors(Solve { constants, poses, roots: self.roots.search(), solved });
+        run_vectors(Solve { constants, poses, roots: self.roots.search(poses.len()), solved });
         &self.solved[..poses.len()]
     }
 }
@@ -95,15 +95,14 @@ impl VectorKernel for Solve<'_> {
             self.roots.put(number, polynomial(simd, lengths, &Hand::of(lengths, pose)));
             (self.solved[number].count, self.solved[number].is_regular) = (0, true);
         }
-        let many = self.poses.len();
-        for number in 0..self.roots.isolate(simd, many) {
-            let Some(RootBlock { of, angles, count }) = self.roots.block(simd, number, many) else {
+        for number in 0..self.roots.isolate(simd) {
+            let Some(RootBlock { of, angles, count }) = self.roots.block(simd, number) else {
                 continue;
             };
             let last = Frame::of_lanes(simd, self.poses, &of);
             let at_roots =
                 AtRoots::new(self.constants, &last, Vector::load_array_ref(simd, &angles));
-            for number in 0..at_roots.per_root() {
+            for number in 0..lengths.per_root() {
                 let candidates = at_roots.converge(&at_roots.served(number).nearest);
                 for lane in 0..count {
                     let (theta, solved) = (candidates.theta(lane), &mut self.solved[of[lane]]);

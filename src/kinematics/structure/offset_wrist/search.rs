@@ -174,7 +174,7 @@ impl<'a> Search<'a> {
         let constants = &self.arm.constants;
         let angles = Vector::load_array(simd, angles);
         let at_roots = AtRoots::new(constants, &self.last.in_lanes(angles), angles);
-        for number in 0..at_roots.per_root() {
+        for number in 0..constants.lengths.per_root() {
             let served = at_roots.served(number);
             let candidates = at_roots.converge(&served.nearest);
             self.accepted.take(&constants.closure, &self.target, &candidates, roots.len());

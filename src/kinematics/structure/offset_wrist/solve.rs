@@ -57,7 +57,7 @@ impl VectorKernel for Solve<'_> {
             count += lanes;
         }
         search.converge();
-        let simple = if lengths.is_square { 2 * count } else { count };
+        let simple = lengths.per_root() * count;
         let agree = |accepted: &Accepted| {
             is_complete
                 && accepted.is_certain()

@@ -23,8 +23,10 @@ impl<const MANY: usize, const PARTS: usize, const ROOTS: usize> RootRoom<MANY, P
         room: Room::NEW,
     };
 
-    pub(crate) fn search(&mut self) -> SimpleRoots<'_> {
+    /// A search for the roots of so many polynomials, which are to be put.
+    pub(crate) fn search(&mut self, many: usize) -> SimpleRoots<'_> {
         let Self { polynomials, progress, room } = self;
+        let (polynomials, progress) = (&mut polynomials[..many], &mut progress[..many]);
         SimpleRoots { polynomials, progress, space: room.space(), count: 0, is_complete: true }
     }
 }
@@ -55,24 +57,24 @@ impl SimpleRoots<'_> {
         self.polynomials[number] = polynomial;
     }
 
-    /// Isolate the roots of the first polynomials. Returns the number of blocks.
-    pub(crate) fn isolate<S: Simd>(&mut self, simd: S, many: usize) -> usize {
+    /// Isolate the roots. Returns the number of blocks.
+    pub(crate) fn isolate<S: Simd>(&mut self, simd: S) -> usize {
         let Self { polynomials, progress, space, .. } = self;
         let mut search = space.search(Clusters::Left(progress));
-        search.isolate(simd, &polynomials[..many], &[]);
+        search.isolate(simd, polynomials, &[]);
         let Brackets { count, is_complete, .. } = search.brackets;
         (self.count, self.is_complete) = (count, is_complete);
         count.div_ceil(LANES)
     }
 
     /// The roots of a block; `None` if their polynomials are left.
-    pub(crate) fn block<S: Simd>(&self, simd: S, number: usize, many: usize) -> Option<RootBlock> {
+    pub(crate) fn block<S: Simd>(&self, simd: S, number: usize) -> Option<RootBlock> {
         let block = &self.space.brackets[number];
         let count = LANES.min(self.count - LANES * number);
         if block.of[..count].iter().all(|of| self.progress[*of].is_left) {
             return None;
         }
-        let Refined { angles, .. } = block.refined(simd, &self.polynomials[..many]);
+        let Refined { angles, .. } = block.refined(simd, self.polynomials);
         Some(RootBlock { of: block.of, angles, count })
     }
 
