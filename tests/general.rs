@@ -10,7 +10,7 @@ use irbkin::{
 };
 use serde_json::Value;
 
-use crate::common::{Rng, apart};
+use crate::common::{Rng, apart, company};
 
 const CASES: &str = include_str!("data/general_6r.json");
 
@@ -54,6 +54,13 @@ fn cases() -> Vec<(String, Value, Robot<6>)> {
             (name, case, robot)
         })
         .collect()
+}
+
+#[test]
+fn a_row_among_bad_and_repeated_ones_has_the_bits_that_it_has_alone() {
+    for (_, _, robot) in cases() {
+        company::check_rows(&robot);
+    }
 }
 
 #[test]

@@ -4,11 +4,10 @@
 use std::num::NonZeroUsize;
 
 use irbkin::{
-    DhRow, JacobianFrame, Mdh, Pose, Robot, Status, batch, pose_from_euler_zyx, pose_from_rows,
-    pose_to_rows,
+    DhRow, JacobianFrame, Mdh, Pose, Robot, Status, batch, pose_from_euler_zyx, pose_to_rows,
 };
 
-use crate::common::{Rng, apart};
+use crate::common::{Rng, apart, company};
 use crate::structures::offset_wrist::{JACO2, ODD};
 
 /// Name; alpha [deg], a [m], d [m], theta [deg] of each row.
@@ -203,60 +202,10 @@ fn a_row_of_a_batch_has_the_bits_of_the_pose_alone() {
     }
 }
 
-/// Rows of a batch: random ones, one with axis 4 at zero, one out of reach, one that is no pose, and
-/// one that repeats the row before.
-fn rows_of_every_kind(robot: &Robot<6>, count: usize) -> Vec<[f64; 16]> {
-    let mut rows: Vec<[f64; 16]> = Vec::new();
-    for (number, mut q) in drawn(6, count).enumerate() {
-        let kind = number % 8;
-        q[3] *= f64::from(u8::from(kind != 2));
-        let mut row = pose_to_rows(&robot.fk(&q));
-        match (kind, rows.last()) {
-            (3, _) => row[3] = 30.0,
-            (4, _) => row[5] = f64::NAN,
-            (5 | 6, Some(before)) => row = *before,
-            _ => {}
-        }
-        rows.push(row);
-    }
-    rows
-}
-
 #[test]
 fn a_row_among_bad_and_repeated_ones_has_the_bits_that_it_has_alone() {
     for table in &TABLES {
-        let robot = robot(table);
-        for count in [0, 1, 7, 8, 9, 35] {
-            let rows = rows_of_every_kind(&robot, count);
-            let (mut q, mut status) = (vec![0.0; count * 16 * 6], vec![0; count * 16]);
-            batch::ik(&robot, rows.as_flattened(), &mut q, &mut status, None).unwrap();
-            let seeds: Vec<[f64; 6]> = drawn(8, count).collect();
-            let mut nearest = vec![0.0; count * 6];
-            let (poses, flat) = (rows.as_flattened(), seeds.as_flattened());
-            batch::ik_nearest(&robot, poses, flat, &[1.0; 6], &mut nearest, None).unwrap();
-            for (row, elements) in rows.iter().enumerate() {
-                let (q, status) = (&q[96 * row..][..96], &status[16 * row..][..16]);
-                let nearest = &nearest[6 * row..][..6];
-                let Ok(pose) = pose_from_rows(elements) else {
-                    assert!(status.iter().all(|flags| *flags == Status::INVALID.bits()));
-                    assert!(q.iter().chain(nearest).all(|angle| angle.is_nan()));
-                    continue;
-                };
-                let alone = robot.ik(&pose).unwrap();
-                for slot in 0..16 {
-                    assert_eq!(status[slot], alone.status()[slot].bits());
-                    let there = &q[6 * slot..][..6];
-                    match alone.slot(slot) {
-                        Some(solution) => assert_eq!(there, solution.q),
-                        None => assert!(there.iter().all(|angle| angle.is_nan())),
-                    }
-                }
-                match robot.ik_nearest(&pose, &seeds[row], &[1.0; 6]) {
-                    Ok(solution) => assert_eq!(nearest, solution.q),
-                    Err(_) => assert!(nearest.iter().all(|angle| angle.is_nan())),
-                }
-            }
-        }
+        company::check_rows(&robot(table));
     }
 }
 

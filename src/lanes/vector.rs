@@ -5,12 +5,33 @@
 //! of nine columns by six rows keeps hundreds of numbers between its stores; as loops it
 //! is much slower than as vectors. The vectors are those of `fearless_simd`.
 
-use fearless_simd::{Level, Simd, dispatch, f64x8};
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, dispatch, f64x8};
 
+use super::LANES;
 use super::dispatch::InstructionSet;
 
 /// A number for each lane, in registers of an instruction set.
 pub(crate) type Vector<S> = f64x8<S>;
+
+/// The numbers of eight rows in lanes: one vector for each place in a row.
+#[inline(always)]
+pub(crate) fn transposed<S: Simd, const N: usize>(
+    simd: S,
+    rows: &[&[f64; N]; LANES],
+) -> [Vector<S>; N] {
+    let mut columns = [[0.0; LANES]; N];
+    for lane in 0..LANES {
+        for place in 0..N {
+            columns[place][lane] = rows[lane][place];
+        }
+    }
+    let mut vectors = [Vector::splat(simd, 0.0); N];
+    for place in 0..N {
+        vectors[place] = Vector::load_array_ref(simd, &columns[place]);
+    }
+    vectors
+}
 
 /// A computation in vectors, which is compiled for each instruction set.
 ///

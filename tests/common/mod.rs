@@ -1,6 +1,7 @@
 //! Shared by several tests: random numbers, arms, distances.
 #![allow(dead_code, unreachable_pub, missing_docs, clippy::unwrap_used, clippy::panic)]
 
+pub mod company;
 pub mod coupled_arm;
 pub mod rng;
 pub mod skip;

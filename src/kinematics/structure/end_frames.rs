@@ -7,7 +7,7 @@ use crate::kinematics::chain::Chain;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::rotation::Rows3;
 use crate::kinematics::structure::joint_map::JointMap;
-use crate::lanes::{LANES, Number, Vector, dot, mul_add};
+use crate::lanes::{LANES, Number, Vector, dot, mul_add, transposed};
 
 /// The constant factors of eq. 1, which remove base, shoulder height, flange and tool from a pose.
 #[derive(Clone, Debug, PartialEq)]
@@ -126,13 +126,6 @@ impl Frame {
         let [x, y, z] = Self { rotation, ..*self }.turned(self.origin);
         Self { rotation, origin: [-x, -y, -z] }
     }
-
-    /// A vector turned by the rotation.
-    #[inline(always)]
-    pub(crate) fn turned(&self, v: [f64; 3]) -> [f64; 3] {
-        let [a, b, c] = self.rotation;
-        [dot(a, v), dot(b, v), dot(c, v)]
-    }
 }
 
 impl<S: Simd> Frame<Vector<S>> {
@@ -142,29 +135,37 @@ impl<S: Simd> Frame<Vector<S>> {
         if let [one] = all {
             return one.in_lanes(Vector::splat(simd, 0.0));
         }
-        let (mut rotation, mut origin) = ([[[0.0; LANES]; 3]; 3], [[0.0; LANES]; 3]);
+        let mut each = [&all[0]; LANES];
         for lane in 0..LANES {
-            let one = &all[numbers[lane]];
-            for i in 0..3 {
-                for j in 0..3 {
-                    rotation[i][j][lane] = one.rotation[i][j];
-                }
-                origin[i][lane] = one.origin[i];
-            }
+            each[lane] = &all[numbers[lane]];
         }
-        let zero = Vector::splat(simd, 0.0);
-        let mut lanes = Self { rotation: [[zero; 3]; 3], origin: [zero; 3] };
-        for i in 0..3 {
-            for j in 0..3 {
-                lanes.rotation[i][j] = Vector::load_array_ref(simd, &rotation[i][j]);
-            }
-            lanes.origin[i] = Vector::load_array_ref(simd, &origin[i]);
+        Self::of_each(simd, &each)
+    }
+
+    /// Eight frames, one in each lane.
+    #[inline(always)]
+    pub(crate) fn of_each(simd: S, each: &[&Frame; LANES]) -> Self {
+        let ([mut a, mut b, mut c], mut origins) =
+            ([[&each[0].origin; LANES]; 3], [&each[0].origin; LANES]);
+        for lane in 0..LANES {
+            let Frame { rotation, origin } = each[lane];
+            ([a[lane], b[lane], c[lane]], origins[lane]) = (rotation.each_ref(), origin);
         }
-        lanes
+        Self {
+            rotation: [transposed(simd, &a), transposed(simd, &b), transposed(simd, &c)],
+            origin: transposed(simd, &origins),
+        }
     }
 }
 
 impl<T: Number> Frame<T> {
+    /// A vector turned by the rotation.
+    #[inline(always)]
+    pub(crate) fn turned(&self, v: [T; 3]) -> [T; 3] {
+        let [a, b, c] = self.rotation;
+        [dot(a, v), dot(b, v), dot(c, v)]
+    }
+
     /// The same with lengths in units.
     #[inline(always)]
     pub(crate) fn in_units(self, unit: f64) -> Self {

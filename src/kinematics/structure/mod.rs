@@ -11,6 +11,7 @@ pub(crate) mod any;
 pub(crate) mod arity;
 pub(crate) mod arm;
 pub(crate) mod branches;
+pub(crate) mod by_roots;
 pub(crate) mod closure;
 mod declare;
 pub(crate) mod end_frames;

@@ -36,6 +36,12 @@ impl Target {
     pub(crate) fn in_lanes<T: Number>(&self, like: T) -> Target<T> {
         Target { frame: self.frame.in_lanes(like) }
     }
+
+    /// Whether it is farther away than the sum of the lengths.
+    pub(crate) fn is_beyond(&self) -> bool {
+        let square = self.frame.origin.iter().map(|x| x * x).sum::<f64>();
+        square > (1.0 + BEYOND) * (1.0 + BEYOND)
+    }
 }
 
 /// The six conditions at a configuration, and their derivatives by each joint.
@@ -53,6 +59,9 @@ struct Axis<T> {
     direction: [T; 3],
     point: [T; 3],
 }
+
+/// How far beyond the sum of its lengths nothing is in reach of a chain, relative to it [1].
+const BEYOND: f64 = 1e-9;
 
 /// Rounding of the closure by a product of six links and of the pose, in units of the reach [1].
 const ROUNDING: f64 = 2e-15;
@@ -88,6 +97,11 @@ impl Closure {
         let (Placed { x, y, z, origin }, _) = self.frames(&sin, &cos);
         let rotation = core::array::from_fn(|i| [x[i], y[i], z[i]]);
         Target { frame: Frame { rotation, origin } }
+    }
+
+    /// The last frame of a configuration [m].
+    pub(crate) fn last_frame(&self, theta: &[f64; 6]) -> Frame {
+        self.reached(theta).frame.in_units(self.reach)
     }
 
     /// The derivatives of the conditions at a configuration [1].
@@ -160,7 +174,7 @@ impl Closure {
     /// The last frame, and each joint's axis and a point on it.
     #[inline(always)]
     fn frames<T: Number>(&self, sin: &[T; 6], cos: &[T; 6]) -> (Placed<T>, [Axis<T>; 6]) {
-        let mut frame = Placed::of(&Frame::IDENTITY, sin[0]);
+        let mut frame = Placed::of(Frame::IDENTITY.in_lanes(sin[0]));
         let mut axes = [Axis { direction: frame.z, point: frame.origin }; 6];
         for joint in 0..6 {
             let link = &self.links[joint];

@@ -14,16 +14,15 @@ pub(crate) struct Placed<T> {
 }
 
 impl<T: Number> Placed<T> {
-    /// A constant frame, in the lanes of a number.
     #[inline(always)]
-    pub(crate) fn of(frame: &Frame, like: T) -> Self {
-        let Frame { rotation: [a, b, c], origin } = frame.in_lanes(like);
+    pub(crate) fn of(frame: Frame<T>) -> Self {
+        let Frame { rotation: [a, b, c], origin } = frame;
         Self { x: [a[0], b[0], c[0]], y: [a[1], b[1], c[1]], z: [a[2], b[2], c[2]], origin }
     }
 
-    /// This frame times a constant one.
+    /// This frame times another one.
     #[inline(always)]
-    pub(crate) fn times(&self, by: &Frame) -> Self {
+    pub(crate) fn times(&self, by: &Frame<T>) -> Self {
         let mut product = *self;
         for i in 0..3 {
             let row = [self.x[i], self.y[i], self.z[i]];
@@ -82,8 +81,7 @@ impl<T: Number> Placed<T> {
     }
 }
 
-/// The product with a constant vector.
 #[inline(always)]
-fn along<T: Number>(row: [T; 3], by: [f64; 3]) -> T {
-    row[0].scaled_plus(by[0], row[1].scaled_plus(by[1], row[2] * by[2]))
+fn along<T: Number>(row: [T; 3], by: [T; 3]) -> T {
+    row[0].times_plus(by[0], row[1].times_plus(by[1], row[2] * by[2]))
 }

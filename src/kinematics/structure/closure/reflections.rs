@@ -50,7 +50,7 @@ impl<T: Number, const N: usize> Triangle<T, N> {
     fn reflect(&mut self, k: usize) {
         let (done, rest) = self.columns.split_at_mut(k + 1);
         let mirror = &mut done[k];
-        let (length, first) = (product_below(mirror, mirror, k).root(), mirror[k]);
+        let (length, first) = (product_of::<6, T>(mirror, mirror, k).root(), mirror[k]);
         let (sum, zero) = (length + first.size(), first.like(0.0));
         let product = length * sum;
         // What is zero already needs no reflection.
@@ -60,10 +60,10 @@ impl<T: Number, const N: usize> Triangle<T, N> {
         self.inverse[k] = -of_length.signed_as(first);
         mirror[k] = first + length.signed_as(first);
         for column in rest {
-            reflect(mirror, scale, column, k);
+            reflect::<6, T>(mirror, scale, column, k);
         }
         for right in &mut self.right {
-            reflect(mirror, scale, right, k);
+            reflect::<6, T>(mirror, scale, right, k);
         }
     }
 
@@ -136,30 +136,35 @@ impl Triangle<f64, 0> {
     fn mirrored(&self, mut y: [f64; 6]) -> [f64; 6] {
         for k in (0..6).rev() {
             let mirror = &self.columns[k];
-            let square = product_below(mirror, mirror, k);
+            let square = product_of::<6, f64>(mirror, mirror, k);
             if square > 0.0 {
-                reflect(mirror, -2.0 / square, &mut y, k);
+                reflect::<6, f64>(mirror, -2.0 / square, &mut y, k);
             }
         }
         y
     }
 }
 
-/// Reflect rows k and below of a column in a mirror with this normal; the scale is minus two over
+/// Reflect rows k to `END - 1` of a column in a mirror with this normal; the scale is minus two over
 /// the square of its length.
 #[inline(always)]
-pub(crate) fn reflect<T: Number>(mirror: &[T; 6], scale: T, column: &mut [T; 6], k: usize) {
-    let along = product_below(mirror, column, k) * scale;
-    for row in k..6 {
+pub(crate) fn reflect<const END: usize, T: Number>(
+    mirror: &[T; 6],
+    scale: T,
+    column: &mut [T; 6],
+    k: usize,
+) {
+    let along = product_of::<END, T>(mirror, column, k) * scale;
+    for row in k..END {
         column[row] = mirror[row].times_plus(along, column[row]);
     }
 }
 
-/// The product of two columns in rows k and below, by two sums that do not wait for one another.
+/// The product of two columns in rows k to `END - 1`, by two sums that do not wait for one another.
 #[inline(always)]
-fn product_below<T: Number>(a: &[T; 6], b: &[T; 6], k: usize) -> T {
+fn product_of<const END: usize, T: Number>(a: &[T; 6], b: &[T; 6], k: usize) -> T {
     let mut sums = [a[k] * b[k], a[k].like(0.0)];
-    for row in k + 1..6 {
+    for row in k + 1..END {
         let sum = &mut sums[(row - k) % 2];
         *sum = a[row].times_plus(b[row], *sum);
     }

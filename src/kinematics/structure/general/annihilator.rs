@@ -12,7 +12,16 @@ use crate::lanes::{Column, LANES};
 /// before it is turned by t0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Left {
-    pub(super) of_1: [Moments; 3],
+    of_1: [Moments; 3],
+}
+
+/// What the left side tells of t1, or one in each lane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Second<T = f64> {
+    /// The moments along z that do not depend on t1.
+    pub(super) along: [T; 6],
+    /// Weights of what the moments along z differ from these, in cos t1 and sin t1.
+    pub(super) weights: [[T; 6]; 2],
 }
 
 /// A complex number.
@@ -56,16 +65,18 @@ impl Left {
         weights
     }
 
-    /// The weights of the moments along z, less those for t1 = none, in cos t1 and sin t1: least
-    /// squares (eq. 89).
-    pub(super) fn weights_of_1(&self) -> [[f64; 6]; 2] {
-        let [_, c, s] = self.of_1.map(|moments| ALONG.map(|at| moments.0[at]));
+    /// t1, by least squares (eq. 89).
+    pub(super) fn second(&self) -> Second {
+        let [along, c, s] = self.of_1.map(|moments| ALONG.map(|at| moments.0[at]));
         let (cc, cs, ss) = (dot(c, c), dot(c, s), dot(s, s));
         let determinant = cc * ss - cs * cs;
-        [
-            core::array::from_fn(|k| (ss * c[k] - cs * s[k]) / determinant),
-            core::array::from_fn(|k| (cc * s[k] - cs * c[k]) / determinant),
-        ]
+        Second {
+            along,
+            weights: [
+                core::array::from_fn(|k| (ss * c[k] - cs * s[k]) / determinant),
+                core::array::from_fn(|k| (cc * s[k] - cs * c[k]) / determinant),
+            ],
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use core::f64::consts::PI;
 use fearless_simd::prelude::*;
 
 use super::back::{Angle, completed, eliminated, pencil};
-use super::determinant::Rest;
+use super::determinant::{Equated, Rest};
 use super::split::{Posed, Split};
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::closure::{Accepted, Closure, Configuration, Missed, Target};
@@ -48,8 +48,7 @@ impl VectorKernel for Attempt<'_> {
         let roots = posed.polynomial(simd, closure.rounding).roots(simd, &[]);
         // A determinant that is zero at every angle: each may have a solution.
         let is_free = !roots.is_complete && roots.as_slice().is_empty();
-        let search =
-            Search { split, closure, target, posed: &posed, weights: posed.left.weights_of_1() };
+        let search = Search { split, closure, target, posed: &posed };
         let mut simple = roots.as_slice().iter().filter(|root| root.is_simple);
         let clusters = roots.as_slice().iter().filter(|root| is_cluster(**root));
         let (mut count, mut clusters) = (0, clusters.chain(is_free.then_some(&ANYWHERE)));
@@ -121,7 +120,6 @@ struct Search<'a> {
     closure: &'a Closure,
     target: &'a Target,
     posed: &'a Posed,
-    weights: [[f64; 6]; 2],
 }
 
 impl Search<'_> {
@@ -138,13 +136,19 @@ impl Search<'_> {
     ) {
         let (sin, cos) = sin_cos_of(Vector::load_array_ref(simd, angles));
         let t5 = Angle { sin, cos };
-        let null = Rest::at(&self.posed.equations, &sin, &cos, false).null_vectors(is_cluster);
-        let pair = if is_cluster { pencil(&null) } else { null };
-        let ways = [&null[0], &pair[0], &pair[1]];
+        let Posed { link, equations } = self.posed;
+        let (pose, equations) = (link.in_lanes(sin), Equated::One(equations));
+        let rest = Rest::at(&equations, &sin, &cos, false);
+        let mut ways = [rest.null_vector(); 3];
+        if is_cluster {
+            let null = rest.null_vectors();
+            let [one, other] = pencil(&null);
+            ways = [null[0], one, other];
+        }
         let target = self.target.in_lanes(t5.sin);
         for powers in &ways[..if is_cluster { 3 } else { 1 }] {
             let [t4, t3] = eliminated(powers);
-            let [sin, cos] = completed(self.split, self.posed, &self.weights, [t3, t4, t5]);
+            let [sin, cos] = completed(self.split, &pose, [t3, t4, t5]);
             let candidates = self.closure.converge(&target, &sin, &cos);
             accepted.take(self.closure, self.target, &candidates, lanes);
         }

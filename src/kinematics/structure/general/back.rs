@@ -2,8 +2,9 @@
 
 use fearless_simd::prelude::*;
 
-use super::moments::ALONG;
-use super::split::{Posed, Split};
+use super::annihilator::Second;
+use super::pose_link::PoseLink;
+use super::split::Split;
 use crate::kinematics::structure::closure::{Placed, Six};
 use crate::lanes::{Number as _, Vector, cross, dot};
 
@@ -98,21 +99,21 @@ fn tipped<S: Simd>(vector: &Powers<S>) -> ([Vector<S>; 3], [Vector<S>; 3]) {
 #[inline(always)]
 pub(super) fn completed<S: Simd>(
     split: &Split,
-    posed: &Posed,
-    weights: &[[f64; 6]; 2],
+    pose: &PoseLink<Vector<S>>,
     [t3, t4, t5]: [Angle<S>; 3],
 ) -> [Six<S>; 2] {
     // The frame behind axis 2, from the right.
-    let [_, _, back_2, back_3, back_4, back_5] = &posed.inverses;
-    let right = Placed::of(back_5, t5.sin)
+    let right = Placed::of(split.back(5, pose, t5.sin))
         .turned(-t5.sin, t5.cos)
-        .times(back_4)
+        .times(&split.back(4, pose, t5.sin))
         .turned(-t4.sin, t4.cos)
-        .times(back_3)
+        .times(&split.back(3, pose, t5.sin))
         .turned(-t3.sin, t3.cos)
-        .times(back_2);
-    let t1 = second(posed, weights, &right);
-    let left = Placed::of(&posed.links[0], t5.sin).turned(t1.sin, t1.cos).times(&posed.links[1]);
+        .times(&split.back(2, pose, t5.sin));
+    let t1 = second(&pose.second, &right);
+    let left = Placed::of(split.link(0, pose, t5.sin))
+        .turned(t1.sin, t1.cos)
+        .times(&split.link(1, pose, t5.sin));
     let [t0, t2] = outer(&left, &right);
     let (mut sin, mut cos) = ([t5.sin; 6], [t5.cos; 6]);
     for (angle, joint) in [t0, t1, t2, t3, t4, t5].into_iter().zip(split.joints) {
@@ -123,16 +124,19 @@ pub(super) fn completed<S: Simd>(
 
 /// t1, from the moments along z by least squares.
 #[inline(always)]
-fn second<S: Simd>(posed: &Posed, weights: &[[f64; 6]; 2], right: &Placed<Vector<S>>) -> Angle<S> {
+fn second<S: Simd>(
+    Second { along, weights }: &Second<Vector<S>>,
+    right: &Placed<Vector<S>>,
+) -> Angle<S> {
     let (p, l) = (right.origin, right.z);
     let (pp, pl) = (dot(p, p), dot(p, l));
     let last = pp.mul_add(l[2], -(pl * p[2] * 2.0));
     let moments = [p[2], l[2], pp, pl, cross(p, l)[2], last];
     let (mut sin, mut cos) = (pp.like(0.0), pp.like(0.0));
     for k in 0..6 {
-        let rest = moments[k] - posed.left.of_1[0].0[ALONG[k]];
-        cos = rest.scaled_plus(weights[0][k], cos);
-        sin = rest.scaled_plus(weights[1][k], sin);
+        let rest = moments[k] - along[k];
+        cos = rest.mul_add(weights[0][k], cos);
+        sin = rest.mul_add(weights[1][k], sin);
     }
     Angle::of(sin, cos)
 }

@@ -8,8 +8,10 @@ use alloc::vec::Vec;
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
+use super::at_roots::FirstSplit;
 use super::attempt::Attempt;
 use super::split::{SPLITS, Split};
+use crate::kinematics::structure::by_roots::{ByRoots as _, regular_of};
 use crate::kinematics::structure::closure::{Accepted, Closure, Target};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::lanes::run_vectors;
@@ -104,6 +106,14 @@ pub(super) fn chosen(links: &[Frame; 5], closure: &Closure, offsets: &[f64; 6]) 
         }
     }
     kept
+}
+
+/// Whether most of the random poses are regular in the first split. Those of an arm that is next to
+/// one with a spherical wrist are not: their roots are pairs.
+pub(super) fn is_mostly_regular(method: &FirstSplit) -> bool {
+    let closure = method.closure();
+    let all: Vec<Frame> = (0..RANDOM).map(|i| closure.last_frame(&quasi_random(i))).collect();
+    2 * regular_of(method, &all) > RANDOM
 }
 
 fn sort(splits: &mut [(usize, Split)]) {

@@ -34,6 +34,12 @@ const REGULAR: f64 = 1e7;
 /// fold; with 4, none of 60,000.
 const OF_THE_POSE: f64 = 4.0;
 
+/// The equations of the pose of all lanes, or of one in each.
+pub(super) enum Equated<'a> {
+    One(&'a Equations),
+    Each([&'a Equations; LANES]),
+}
+
 /// What is left of the matrix: six rows of six, for the powers 2 and 3 of x4, as a triangle.
 pub(super) struct Rest<S: Simd> {
     columns: [Six<S>; 6],
@@ -65,7 +71,7 @@ impl Posed {
         for block in 0..SAMPLES / LANES {
             let sin = Vector::load_array_ref(simd, &SAMPLE_SIN[block]);
             let cos = Vector::load_array_ref(simd, &SAMPLE_COS[block]);
-            let rest = Rest::at(&self.equations, &sin, &cos, true);
+            let rest = Rest::at(&Equated::One(&self.equations), &sin, &cos, true);
             samples[block] = rest.determinant;
             regular = regular.max(rest.least * rest.least_before);
             change = change.max(rest.change);
@@ -86,7 +92,7 @@ impl Posed {
         (0..SAMPLES / LANES).all(|block| {
             let sin = Vector::load_array_ref(simd, &SAMPLE_SIN[block]);
             let cos = Vector::load_array_ref(simd, &SAMPLE_COS[block]);
-            let rest = Rest::at(&self.equations, &sin, &cos, false);
+            let rest = Rest::at(&Equated::One(&self.equations), &sin, &cos, false);
             // The reflections before the rest have enlarged rounding by their least factor.
             let size = rest.least_singular_value() * rest.least_before;
             !size.simd_gt(VANISHES * rounding).any_true()
@@ -94,10 +100,52 @@ impl Posed {
     }
 }
 
+impl Equated<'_> {
+    /// The equations at angles t5 with these sines and cosines: by powers of x3 and x4, and rows.
+    #[inline(always)]
+    fn at<S: Simd>(&self, sin: Vector<S>, cos: Vector<S>) -> [Six<S>; 9] {
+        let mut at = [[sin.like(0.0); 6]; 9];
+        match self {
+            Self::One(all) => {
+                for product in 0..9 {
+                    let [constant, of_cos, of_sin] =
+                        [&all[product], &all[9 + product], &all[18 + product]];
+                    for row in 0..6 {
+                        let along = cos.scaled_plus(of_cos[row], sin.like(constant[row]));
+                        at[product][row] = sin.scaled_plus(of_sin[row], along);
+                    }
+                }
+            }
+            Self::Each(each) => {
+                let mut rows = [[[0.0; LANES]; 9]; LANES];
+                for lane in 0..LANES {
+                    let (all, sin, cos) = (each[lane], sin.like(sin[lane]), sin.like(cos[lane]));
+                    for product in 0..9 {
+                        let [constant, of_cos, of_sin] = [product, 9 + product, 18 + product]
+                            .map(|at| Vector::load_array_ref(sin.token(), &all[at]));
+                        let along = cos.times_plus(of_cos, constant);
+                        rows[lane][product] = sin.times_plus(of_sin, along).to_array();
+                    }
+                }
+                for product in 0..9 {
+                    for row in 0..6 {
+                        let mut lanes = [0.0; LANES];
+                        for lane in 0..LANES {
+                            lanes[lane] = rows[lane][product][row];
+                        }
+                        at[product][row] = Vector::load_array(sin.token(), lanes);
+                    }
+                }
+            }
+        }
+        at
+    }
+}
+
 impl<S: Simd> Rest<S> {
     /// The matrix at angles t5 with these sines and cosines.
     pub(super) fn at(
-        equations: &Equations,
+        equations: &Equated<'_>,
         sin: &Vector<S>,
         cos: &Vector<S>,
         want_change: bool,
@@ -110,23 +158,16 @@ impl<S: Simd> Rest<S> {
     }
 
     #[inline(always)]
-    fn reduced(equations: &Equations, sin: Vector<S>, cos: Vector<S>, want_change: bool) -> Self {
+    fn reduced(equations: &Equated<'_>, sin: Vector<S>, cos: Vector<S>, want_change: bool) -> Self {
         let zero = sin.like(0.0);
-        let mut first = [[zero; 6]; 9];
-        for product in 0..9 {
-            let constant = &equations[product];
-            let (of_cos, of_sin) = (&equations[9 + product], &equations[18 + product]);
-            for row in 0..6 {
-                let along = cos.scaled_plus(of_cos[row], sin.like(constant[row]));
-                first[product][row] = sin.scaled_plus(of_sin[row], along);
-            }
-        }
+        let mut first = equations.at(sin, cos);
         let u = [
-            triangulate::<0, 9, S>(&mut first),
-            triangulate::<1, 9, S>(&mut first),
-            triangulate::<2, 9, S>(&mut first),
+            triangulate::<0, 6, 9, S>(&mut first),
+            triangulate::<1, 6, 9, S>(&mut first),
+            triangulate::<2, 6, 9, S>(&mut first),
         ];
-        // [F1 F2 0; U A1 A2], with zeros where reflections left their normals.
+        // [F1 F2 0; U A1 A2], with zeros where reflections left their normals: column k has none
+        // of its elements below row k + 3.
         let mut second = [[zero; 6]; 9];
         for j in 0..3 {
             for row in 0..3 {
@@ -141,9 +182,9 @@ impl<S: Simd> Rest<S> {
             second[j][3 + j] = u[j].value;
         }
         let v = [
-            triangulate::<0, 9, S>(&mut second),
-            triangulate::<1, 9, S>(&mut second),
-            triangulate::<2, 9, S>(&mut second),
+            triangulate::<0, 4, 9, S>(&mut second),
+            triangulate::<1, 5, 9, S>(&mut second),
+            triangulate::<2, 6, 9, S>(&mut second),
         ];
         // [G1 G2; F1 F2]
         let mut columns = [[zero; 6]; 6];
@@ -154,11 +195,11 @@ impl<S: Simd> Rest<S> {
             }
         }
         let pivots = [
-            triangulate::<0, 6, S>(&mut columns),
-            triangulate::<1, 6, S>(&mut columns),
-            triangulate::<2, 6, S>(&mut columns),
-            triangulate::<3, 6, S>(&mut columns),
-            triangulate::<4, 6, S>(&mut columns),
+            triangulate::<0, 6, 6, S>(&mut columns),
+            triangulate::<1, 6, 6, S>(&mut columns),
+            triangulate::<2, 6, 6, S>(&mut columns),
+            triangulate::<3, 6, 6, S>(&mut columns),
+            triangulate::<4, 6, 6, S>(&mut columns),
             Pivot::of(columns[5][5]),
         ];
         let (mut others, mut least) = (u[0].value, u[0].value.abs());
@@ -186,7 +227,7 @@ impl<S: Simd> Rest<S> {
     /// The least singular value of the rest, by inverse iteration.
     #[inline(always)]
     fn least_singular_value(&self) -> Vector<S> {
-        let [null, _] = self.null_vectors(false);
+        let null = normalized(&self.null_vector());
         let mut square = self.determinant.like(0.0);
         for row in 0..6 {
             let mut sum = self.pivots[row].value * null[row];
@@ -198,16 +239,20 @@ impl<S: Simd> Rest<S> {
         square.sqrt()
     }
 
-    /// Two orthonormal vectors that the rest takes nearest to zero, by inverse iteration.
+    /// A vector, of any length, that the rest takes nearest to zero, by inverse iteration.
     #[inline(always)]
-    pub(super) fn null_vectors(&self, want_second: bool) -> [Six<S>; 2] {
-        let mut first = self.start(&START[0]);
+    pub(super) fn null_vector(&self) -> Six<S> {
+        let mut vector = self.start(&START[0]);
         for _ in 0..2 {
-            first = self.inverted(&first);
+            vector = self.inverted(&vector);
         }
-        if !want_second {
-            return [first, first];
-        }
+        vector
+    }
+
+    /// Two orthonormal vectors that the rest takes nearest to zero.
+    #[inline(always)]
+    pub(super) fn null_vectors(&self) -> [Six<S>; 2] {
+        let first = normalized(&self.null_vector());
         let mut second = self.start(&START[1]);
         for _ in 0..3 {
             orthogonalize(&mut second, &first);
@@ -222,7 +267,7 @@ impl<S: Simd> Rest<S> {
         constants.map(|constant| self.determinant.like(constant))
     }
 
-    /// `(R^T R)^-1 v`, normalized.
+    /// `(R^T R)^-1 v`, with a largest element of 1.
     #[inline(always)]
     fn inverted(&self, v: &Six<S>) -> Six<S> {
         let mut x = *v;
@@ -232,14 +277,14 @@ impl<S: Simd> Rest<S> {
             }
             x[k] *= self.pivots[k].inverse;
         }
-        let mut x = normalized(&x);
+        let mut x = scaled(&x);
         for k in (0..6).rev() {
             x[k] *= self.pivots[k].inverse;
             for row in 0..k {
                 x[row] = self.columns[k][row].mul_add(-x[k], x[row]);
             }
         }
-        normalized(&x)
+        scaled(&x)
     }
 }
 
@@ -258,22 +303,28 @@ fn dot<S: Simd>(a: &Six<S>, b: &Six<S>) -> Vector<S> {
     sum
 }
 
+/// With a largest element of 1: before, it may be as large as the inverse of the least.
 #[inline(always)]
-fn normalized<S: Simd>(v: &Six<S>) -> Six<S> {
-    // Elements may be as large as the inverse of the least.
+fn scaled<S: Simd>(v: &Six<S>) -> Six<S> {
     let mut most = v[0].size();
     for k in 1..6 {
         most = v[k].size().or_more(most);
     }
-    let (mut unit, scale) = (*v, most.inverse());
+    times(v, most.inverse())
+}
+
+#[inline(always)]
+fn normalized<S: Simd>(v: &Six<S>) -> Six<S> {
+    times(v, dot(v, v).sqrt().inverse())
+}
+
+#[inline(always)]
+fn times<S: Simd>(v: &Six<S>, scale: Vector<S>) -> Six<S> {
+    let mut scaled = *v;
     for k in 0..6 {
-        unit[k] *= scale;
+        scaled[k] *= scale;
     }
-    let scale = dot(&unit, &unit).sqrt().inverse();
-    for k in 0..6 {
-        unit[k] *= scale;
-    }
-    unit
+    scaled
 }
 
 #[inline(always)]
@@ -333,13 +384,16 @@ impl<S: Simd> Pivot<S> {
     }
 }
 
-/// Reflect rows K and below so that column K is zero below row K; returns its element there.
+/// Reflect rows K to END - 1 so that column K is zero below row K, as it is from row END on; returns
+/// its element there.
 #[inline(always)]
-fn triangulate<const K: usize, const C: usize, S: Simd>(columns: &mut [Six<S>; C]) -> Pivot<S> {
+fn triangulate<const K: usize, const END: usize, const C: usize, S: Simd>(
+    columns: &mut [Six<S>; C],
+) -> Pivot<S> {
     let (mirrors, rest) = columns.split_at_mut(K + 1);
     let mirror = &mut mirrors[K];
     let mut square = mirror[K] * mirror[K];
-    for row in K + 1..6 {
+    for row in K + 1..END {
         square = mirror[row].mul_add(mirror[row], square);
     }
     let (length, first) = (square.sqrt(), mirror[K]);
@@ -353,7 +407,7 @@ fn triangulate<const K: usize, const C: usize, S: Simd>(columns: &mut [Six<S>; C
     let pivot = Pivot { value: -length.copysign(first), inverse: -inverse.copysign(first) };
     mirror[K] = first - pivot.value;
     for column in rest {
-        reflect(mirror, scale, column, K);
+        reflect::<END, _>(mirror, scale, column, K);
     }
     pivot
 }

@@ -15,6 +15,8 @@ pub(crate) struct General {
     pub(super) joint_map: JointMap<6>,
     /// The splits, the best first. They are the same for an arm with any base, tool and limits.
     pub(super) splits: Arc<Vec<Split>>,
+    /// Whether most poses are regular in the first split: not where roots are pairs.
+    pub(super) is_mostly_regular: bool,
     /// How far the table is from a structure with a closed form.
     pub(super) nearest: Option<UnknownStructure>,
 }

@@ -2,7 +2,8 @@
 
 use alloc::sync::Arc;
 
-use super::choice::chosen;
+use super::at_roots::FirstSplit;
+use super::choice::{chosen, is_mostly_regular};
 use super::geometry::General;
 use crate::kinematics::chain::corrections::about_y;
 use crate::kinematics::chain::dh::{DhRow, Mdh, screw_x};
@@ -34,7 +35,8 @@ impl General {
             Frame::of(&link).in_units(1.0 / closure.reach)
         });
         closure.check_freedom(&tilted.map(|TiltedRow { row, .. }| row))?;
-        let splits = chosen(&links, &closure, &offsets);
+        let splits = Arc::new(chosen(&links, &closure, &offsets));
+        let is_mostly_regular = is_mostly_regular(&FirstSplit::new(&closure, &splits));
         let joint_map = JointMap {
             signs: [1.0; 6],
             offsets,
@@ -42,6 +44,6 @@ impl General {
             t_base_shoulder: mdh.base * screw_x(first.alpha, first.a) * translation_z(first.d),
             t_wrist_flange: translation_z(last.d) * mdh.flange,
         };
-        Ok(Self { closure, joint_map, splits: Arc::new(splits), nearest: None })
+        Ok(Self { closure, joint_map, splits, is_mostly_regular, nearest: None })
     }
 }

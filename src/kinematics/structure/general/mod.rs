@@ -4,6 +4,7 @@
 //! `docs/general.md` has the derivation, with the equation numbers (from 81 on) cited in the code.
 
 mod annihilator;
+mod at_roots;
 mod attempt;
 mod back;
 mod choice;
@@ -11,6 +12,7 @@ mod determinant;
 mod geometry;
 mod measure;
 mod moments;
+mod pose_link;
 mod solve;
 mod split;
 #[cfg(test)]
@@ -18,16 +20,17 @@ mod tests;
 
 pub(crate) use geometry::General;
 
+use at_roots::FirstSplit;
 use measure::PATTERN;
 
 use super::branches::Branches;
+use super::by_roots::{RootKernel, SLOTS};
 use super::closure::Closure;
 use super::free_choice::FreeChoice;
 use super::joint_map::JointMap;
-use super::lanes::NoKernel;
 use super::{Structure, TakeStep};
 use crate::kinematics::answer::singularity::SingularDistances;
-use crate::kinematics::answer::slot::{MOST_SLOTS, Slot};
+use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::pose::Pose;
@@ -40,16 +43,16 @@ impl General {
     }
 }
 
-impl Structure<6, MOST_SLOTS> for General {
+impl Structure<6, SLOTS> for General {
     const PATTERN: &'static Pattern = &PATTERN;
     const IS_CLOSED_FORM: bool = false;
 
     /// Arms of this kind may pass from one branch to another without a singularity: no property of
     /// a joint vector names its branch.
-    const SLOT_NAMES: Option<&'static [&'static str; MOST_SLOTS]> = None;
+    const SLOT_NAMES: Option<&'static [&'static str; SLOTS]> = None;
 
     type Redundancy = ();
-    type Kernel = NoKernel;
+    type Kernel = RootKernel<FirstSplit>;
 
     fn measure(mdh: &mut Mdh<6>) -> Result<Self, UnknownStructure> {
         Self::of(mdh)
@@ -66,11 +69,11 @@ impl Structure<6, MOST_SLOTS> for General {
         Self { closure: self.closure.between(ends), ..self }
     }
 
-    fn kernel(&self) -> Option<NoKernel> {
-        None
+    fn kernel(&self) -> Option<RootKernel<FirstSplit>> {
+        self.is_mostly_regular.then(|| RootKernel(FirstSplit::of(self)))
     }
 
-    fn solve(&self, t_first_last: &Pose, (): (), free: &FreeChoice<6>) -> Branches<6, MOST_SLOTS> {
+    fn solve(&self, t_first_last: &Pose, (): (), free: &FreeChoice<6>) -> Branches<6, SLOTS> {
         self.branches(t_first_last, free)
     }
 

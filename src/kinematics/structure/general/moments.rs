@@ -1,7 +1,9 @@
 //! The moments of a line, on which rigid motions act linearly (docs/general.md, eq. 82, 83).
 
+use fearless_simd::prelude::*;
+
 use crate::kinematics::structure::end_frames::Frame;
-use crate::lanes::{cross, dot};
+use crate::lanes::{Column, LANES, Number, Vector, cross, dot};
 
 /// Number of moments: `1, p, l, p.p, p.l, p x l, (p.p) l - 2 (p.l) p` of a point p and a direction
 /// l.
@@ -13,9 +15,61 @@ pub(super) const ALONG: [usize; 6] = [3, 6, 7, 8, 11, 14];
 /// First of the two moments that a rotation about z turns: x and y of the four vectors.
 pub(super) const ACROSS: [usize; 4] = [1, 4, 9, 12];
 
-/// Moments, or derivatives of moments: any vector of their space.
+/// Moments, or derivatives of moments: any vector of their space, or one in each lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Moments(pub(super) [f64; MOMENTS]);
+pub(super) struct Moments<T = f64>(pub(super) [T; MOMENTS]);
+
+impl Moments<Column> {
+    /// Up to eight, one in each lane.
+    pub(super) fn columns(all: &[Moments]) -> Self {
+        let mut columns = [[0.0; LANES]; MOMENTS];
+        for (lane, moments) in all.iter().enumerate() {
+            for (column, moment) in columns.iter_mut().zip(moments.0) {
+                column[lane] = moment;
+            }
+        }
+        Self(columns)
+    }
+
+    /// The moments after a rigid motion.
+    #[inline(always)]
+    pub(super) fn all_moved<S: Simd>(&self, simd: S, by: &Frame) -> Self {
+        let mut moments = Moments([Vector::splat(simd, 0.0); MOMENTS]);
+        for k in 0..MOMENTS {
+            moments.0[k] = Vector::load_array_ref(simd, &self.0[k]);
+        }
+        let moved = moments.moved(&by.in_lanes(moments.0[0]));
+        let mut columns = *self;
+        for k in 0..MOMENTS {
+            columns.0[k] = moved.0[k].to_array();
+        }
+        columns
+    }
+}
+
+impl<T: Number> Moments<T> {
+    /// The moments after a rigid motion (eq. 83).
+    #[inline(always)]
+    pub(super) fn moved(&self, by: &Frame<T>) -> Self {
+        let (m, t) = (&self.0, by.origin);
+        let [p, l] = [by.turned([m[1], m[2], m[3]]), by.turned([m[4], m[5], m[6]])];
+        let [w, v] = [by.turned([m[9], m[10], m[11]]), by.turned([m[12], m[13], m[14]])];
+        let (tt, tl) = (dot(t, t), dot(t, l));
+        let (t_l, t_w) = (cross(t, l), cross(t, w));
+        let mut moved = *m;
+        moved[7] = dot(t, p).scaled_plus(2.0, tt.times_plus(m[0], m[7]));
+        let along = m[8] + tl;
+        moved[8] = along;
+        for i in 0..3 {
+            moved[1 + i] = t[i].times_plus(m[0], p[i]);
+            moved[4 + i] = l[i];
+            moved[9 + i] = w[i] + t_l[i];
+            let rest = t_w[i] + along * t[i];
+            moved[12 + i] = rest.scaled_plus(-2.0, tt.times_plus(l[i], v[i]));
+        }
+        Self(moved)
+    }
+}
 
 impl Moments {
     /// The moments of the z axis.
@@ -29,28 +83,6 @@ impl Moments {
         let mut moments = [0.0; MOMENTS];
         moments[k] = 1.0;
         Self(moments)
-    }
-
-    /// The moments after a rigid motion (eq. 83).
-    #[inline(always)]
-    pub(super) fn moved(&self, by: &Frame) -> Self {
-        let m = &self.0;
-        let t = by.origin;
-        let vector = |at: usize| by.turned([m[at], m[at + 1], m[at + 2]]);
-        let (p, l, w, v) = (vector(1), vector(4), vector(9), vector(12));
-        let (tt, tl) = (dot(t, t), dot(t, l));
-        let (t_l, t_w) = (cross(t, l), cross(t, w));
-        let mut moved = [0.0; MOMENTS];
-        moved[0] = m[0];
-        moved[7] = m[7] + 2.0 * dot(t, p) + tt * m[0];
-        moved[8] = m[8] + tl;
-        for i in 0..3 {
-            moved[1 + i] = p[i] + t[i] * m[0];
-            moved[4 + i] = l[i];
-            moved[9 + i] = w[i] + t_l[i];
-            moved[12 + i] = v[i] - 2.0 * t_w[i] + tt * l[i] - 2.0 * (m[8] + tl) * t[i];
-        }
-        Self(moved)
     }
 
     /// What a rotation about z by an angle leaves alone, what it multiplies by the cosine, and by

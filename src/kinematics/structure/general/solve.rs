@@ -5,11 +5,11 @@ use core::ops::ControlFlow;
 use super::attempt::Attempt;
 use super::choice::quasi_random;
 use super::geometry::General;
-use crate::kinematics::answer::slot::MOST_SLOTS;
 use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::TakeStep;
 use crate::kinematics::structure::branches::Branches;
+use crate::kinematics::structure::by_roots::SLOTS;
 use crate::kinematics::structure::closure::{Accepted, Configuration, Kind, Target, in_order};
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::lanes::{LANES, run_vectors};
@@ -18,9 +18,6 @@ use crate::report::{FreeJoint, Reach};
 /// Least singular value of the closure, lengths in units of the arm, below which a joint vector is
 /// singular [1]: the root of rounding, at which two solutions merge.
 const SINGULAR: f64 = 1e-7;
-
-/// How far beyond the sum of its lengths nothing is in reach of an arm, relative to it [1].
-const BEYOND: f64 = 1e-9;
 
 /// Joint vectors from which Newton's method starts where no count is certain.
 const STARTS: usize = 128;
@@ -46,9 +43,7 @@ impl General {
     /// Take what the splits find; returns whether it is certain to be all.
     fn attempt_all(&self, t_first_last: &Pose, accepted: &mut Accepted) -> bool {
         let target = self.closure.target_of(t_first_last);
-        // Farther away than the sum of the lengths.
-        let distance = target.frame.origin.iter().map(|x| x * x).sum::<f64>();
-        if distance > (1.0 + BEYOND) * (1.0 + BEYOND) {
+        if target.is_beyond() {
             return true;
         }
         let mut is_certain = false;
@@ -114,11 +109,7 @@ impl General {
     }
 
     /// The solutions as slots, which are ordinals.
-    pub(super) fn branches(
-        &self,
-        t_first_last: &Pose,
-        free: &FreeChoice<6>,
-    ) -> Branches<6, MOST_SLOTS> {
+    pub(super) fn branches(&self, t_first_last: &Pose, free: &FreeChoice<6>) -> Branches<6, SLOTS> {
         let mut accepted = Accepted::NONE;
         let is_certain = self.solve_all(t_first_last, free, &mut accepted);
         self.slots(t_first_last, &mut accepted, is_certain)
@@ -130,7 +121,7 @@ impl General {
         t_first_last: &Pose,
         accepted: &mut Accepted,
         is_certain: bool,
-    ) -> Branches<6, MOST_SLOTS> {
+    ) -> Branches<6, SLOTS> {
         let is_flat = accepted.has_singular()
             && accepted.merge_flat(&self.closure, &self.closure.target_of(t_first_last));
         let is_cut = accepted.cut();
@@ -138,7 +129,7 @@ impl General {
         let reach = if all.is_empty() { Reach::NoRoots } else { Reach::Reached };
         let mut branches = Branches::empty(reach);
         branches.is_certified = is_certain && !is_flat && !is_cut;
-        let mut order: [usize; MOST_SLOTS] = core::array::from_fn(|index| index);
+        let mut order: [usize; SLOTS] = core::array::from_fn(|index| index);
         let order = &mut order[..all.len()];
         order.sort_unstable_by(|a, b| in_order(&all[*a].theta, &all[*b].theta));
         for (slot, index) in order.iter().enumerate() {

@@ -7,8 +7,9 @@ use fearless_simd::prelude::*;
 
 use super::annihilator::Left;
 use super::moments::{MOMENTS, Moments};
+use super::pose_link::PoseLink;
 use crate::kinematics::structure::end_frames::Frame;
-use crate::lanes::{Column, LANES, Number as _, Vector};
+use crate::lanes::{Column, LANES, Number, Vector};
 
 /// Products of a harmonic of t5 with powers of the half-angle tangents of t4 and t3.
 pub(super) const PRODUCTS: usize = 27;
@@ -27,27 +28,31 @@ pub(super) struct Split {
     /// 1, or -1 where the loop is read backwards and t is the negative of the joint's angle.
     pub(super) sign: f64,
     /// The links; that of the pose is the identity.
-    pub(super) links: [Frame; 6],
+    links: [Frame; 6],
     inverses: [Frame; 6],
     /// The link that is the pose.
-    pub(super) place: usize,
+    place: usize,
     /// The left side, for a pose on the right.
-    pub(super) left: Left,
+    left: Left,
     /// What is before the pose, times the annihilator: by products of the angles before it. One
     /// entry, unused, for a pose on the left.
     before: Vec<[Column; MOMENTS]>,
-    /// What is behind the pose: by products of the angles behind it. For a pose on the left, the
-    /// whole right side.
-    behind: Vec<Moments>,
+    /// What is behind the pose, by products of the angles behind it, in lanes; and their number.
+    /// For a pose on the left, the whole right side.
+    behind: Vec<Moments<Column>>,
+    behind_count: usize,
 }
 
-/// The links of a split with a pose, its left side and its equations.
+/// A pose in a split: its link, and its equations.
 #[derive(Clone, Copy)]
 pub(super) struct Posed {
-    pub(super) links: [Frame; 6],
-    pub(super) inverses: [Frame; 6],
-    pub(super) left: Left,
+    pub(super) link: PoseLink,
     pub(super) equations: Equations,
+}
+
+impl Posed {
+    pub(super) const NONE: Self =
+        Self { link: PoseLink::NONE, equations: [[0.0; LANES]; PRODUCTS] };
 }
 
 impl Split {
@@ -77,13 +82,28 @@ impl Split {
             left,
             before: Vec::new(),
             behind: Vec::new(),
+            behind_count: 0,
         };
-        split.behind = split.behind_pose();
+        let behind = split.behind_pose();
+        split.behind = behind.chunks(LANES).map(Moments::columns).collect();
+        split.behind_count = behind.len();
         if place > 1 {
             let annihilator = left.annihilator();
             split.before = split.before_pose(&annihilator);
         }
         split
+    }
+
+    /// Link 0 or 1 of a pose, in lanes.
+    #[inline(always)]
+    pub(super) fn link<T: Number>(&self, k: usize, pose: &PoseLink<T>, like: T) -> Frame<T> {
+        if k == self.place { pose.link } else { self.links[k].in_lanes(like) }
+    }
+
+    /// The inverse of a link of a pose, in lanes.
+    #[inline(always)]
+    pub(super) fn back<T: Number>(&self, k: usize, pose: &PoseLink<T>, like: T) -> Frame<T> {
+        if k == self.place { pose.inverse } else { self.inverses[k].in_lanes(like) }
     }
 
     /// The joint that is searched, from 0.
@@ -142,30 +162,28 @@ impl Split {
     #[inline(always)]
     pub(super) fn posed<S: Simd>(&self, simd: S, t_last_first: &Frame) -> Posed {
         let pose = if self.sign < 0.0 { t_last_first.inverse() } else { *t_last_first };
-        let mut posed = Posed {
-            links: self.links,
-            inverses: self.inverses,
-            left: self.left,
-            equations: [[0.0; LANES]; PRODUCTS],
-        };
-        (posed.links[self.place], posed.inverses[self.place]) = (pose, pose.inverse());
+        let (inverse, mut left) = (pose.inverse(), self.left);
         if self.place < 2 {
-            posed.left = Left::of(&posed.links[0], &posed.links[1]);
-            let annihilator = posed.left.annihilator();
-            for (column, moments) in posed.equations.iter_mut().zip(&self.behind) {
-                *column = product(simd, &annihilator, moments);
+            let mut links = [self.links[0], self.links[1]];
+            links[self.place] = pose;
+            left = Left::of(&links[0], &links[1]);
+        }
+        let link = PoseLink { link: pose, inverse, second: left.second() };
+        let mut posed = Posed { link, ..Posed::NONE };
+        if self.place < 2 {
+            let annihilator = left.annihilator();
+            for (number, column) in posed.equations.iter_mut().enumerate() {
+                *column = product(simd, &annihilator, &self.behind, number);
             }
         } else {
-            let back = &posed.inverses[self.place];
-            let mut behind = [Moments::AXIS; PRODUCTS];
-            let behind = &mut behind[..self.behind.len()];
+            let mut behind = [Moments([[0.0; LANES]; MOMENTS]); PRODUCTS.div_ceil(LANES)];
             for (moved, moments) in behind.iter_mut().zip(&self.behind) {
-                *moved = moments.moved(back);
+                *moved = moments.all_moved(simd, &inverse);
             }
-            let columns = posed.equations.chunks_mut(behind.len());
+            let columns = posed.equations.chunks_mut(self.behind_count);
             for (columns, before) in columns.zip(&self.before) {
-                for (column, moments) in columns.iter_mut().zip(behind.iter()) {
-                    *column = product(simd, before, moments);
+                for (number, column) in columns.iter_mut().enumerate() {
+                    *column = product(simd, before, &behind, number);
                 }
             }
         }
@@ -173,13 +191,19 @@ impl Split {
     }
 }
 
-/// The weights' columns times moments.
+/// The weights' columns times moments of a number, in lanes of blocks.
 #[inline(always)]
-fn product<S: Simd>(simd: S, weights: &[Column; MOMENTS], moments: &Moments) -> Column {
-    let mut sum = Vector::load_array_ref(simd, &weights[0]) * moments.0[0];
+fn product<S: Simd>(
+    simd: S,
+    weights: &[Column; MOMENTS],
+    blocks: &[Moments<Column>],
+    number: usize,
+) -> Column {
+    let (moments, lane) = (&blocks[number / LANES].0, number % LANES);
+    let mut sum = Vector::load_array_ref(simd, &weights[0]) * moments[0][lane];
     for k in 1..MOMENTS {
         let column = Vector::load_array_ref(simd, &weights[k]);
-        sum = column.scaled_plus(moments.0[k], sum);
+        sum = column.scaled_plus(moments[k][lane], sum);
     }
     sum.to_array()
 }

@@ -1,5 +1,7 @@
 //! Laws of the general solver by itself; `tests/structures` has those of its robots.
 
+mod company;
+
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::string::{String, ToString};
 use std::vec::Vec;

@@ -38,7 +38,7 @@ pub(crate) const FOUND_INSIDE: u64 = Status::FOUND.union(Status::WITHIN_LIMITS).
 /// which poses are regular: those away from every singularity and from the edge of reach, on all
 /// branches. It holds the precomputed constants of an arm.
 pub(crate) trait LaneKernel<const N: usize, const S: usize>:
-    Copy + Debug + PartialEq
+    Clone + Debug + PartialEq
 {
     /// Joints, from 0, whose theta is a difference of two angles and may therefore be off by a
     /// turn.
@@ -58,7 +58,7 @@ pub(crate) trait LaneKernel<const N: usize, const S: usize>:
 
     /// The same kernel for the poses of a path: regular are those whose every branch is determined
     /// so well that a path has nothing to choose. `None` if there is no such bound.
-    fn for_path(self) -> Option<Self> {
+    fn for_path(&self) -> Option<Self> {
         None
     }
 

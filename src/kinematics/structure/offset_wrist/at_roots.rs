@@ -7,9 +7,11 @@ use fearless_simd::prelude::*;
 
 use super::branch::{Branch, Plane, SLACK};
 use super::geometry::Constants;
-use super::resultant::Hand;
-use crate::kinematics::structure::closure::{Candidates, Target};
+use super::resultant::{Hand, polynomial};
+use crate::kinematics::structure::by_roots::ByRoots;
+use crate::kinematics::structure::closure::{Candidates, Closure, Target};
 use crate::kinematics::structure::end_frames::Frame;
+use crate::kinematics::structure::trigonometric::{RootBlock, TrigonometricPolynomial};
 use crate::lanes::{Column, Number as _, Vector, sin_cos_of};
 
 /// Size of z4 . z5 - cos alpha_4 at a root, by which a branch may be worse than the best one and
@@ -31,6 +33,48 @@ pub(super) struct AtRoots<'a, S: Simd> {
 pub(super) struct Served<'a, S: Simd> {
     pub(super) branches: &'a [Branch<Vector<S>>],
     pub(super) nearest: Branch<Vector<S>>,
+}
+
+impl ByRoots for Constants {
+    type Posed = Frame;
+    const NONE: Frame = Frame::IDENTITY;
+
+    fn closure(&self) -> &Closure {
+        &self.closure
+    }
+
+    fn may_be_regular(&self, last: &Frame) -> bool {
+        !self.lengths.is_parallel_at(last)
+    }
+
+    #[inline(always)]
+    fn posed<S: Simd>(&self, _simd: S, last: &Frame) -> Frame {
+        *last
+    }
+
+    #[inline(always)]
+    fn polynomial<S: Simd>(&self, simd: S, last: &Frame) -> TrigonometricPolynomial {
+        polynomial(simd, &self.lengths, &Hand::of(&self.lengths, last))
+    }
+
+    fn root_of(&self, theta: &[f64; 6]) -> f64 {
+        theta[5]
+    }
+
+    #[inline(always)]
+    fn candidates<S: Simd>(
+        &self,
+        simd: S,
+        all: &[Frame],
+        roots: &RootBlock,
+        pass: &mut impl FnMut(&Candidates),
+    ) {
+        let last = Frame::of_lanes(simd, all, &roots.of);
+        let at_roots = AtRoots::new(self, &last, Vector::load_array_ref(simd, &roots.angles));
+        for number in 0..self.lengths.per_root() {
+            pass(&at_roots.converge(&at_roots.served(number).nearest));
+        }
+    }
 }
 
 impl<'a, S: Simd> AtRoots<'a, S> {

@@ -5,7 +5,6 @@
 //! code.
 
 mod at_roots;
-mod block;
 mod branch;
 mod clusters;
 mod determinant;
@@ -13,7 +12,6 @@ mod geometry;
 mod measure;
 mod parallel;
 mod reach;
-mod regular;
 mod resultant;
 mod search;
 mod solve;
@@ -22,9 +20,12 @@ mod tests;
 
 use alloc::boxed::Box;
 
-pub(crate) use geometry::{Constants, OffsetWrist};
+pub(crate) use geometry::OffsetWrist;
+
+use geometry::Constants;
 
 use super::branches::Branches;
+use super::by_roots::{RootKernel, SLOTS};
 use super::free_choice::FreeChoice;
 use super::joint_map::JointMap;
 use super::{Structure, TakeStep};
@@ -35,9 +36,6 @@ use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::pose::Pose;
 use crate::report::{Pattern, UnknownStructure};
 
-/// Slots of the structure: an arm has up to sixteen solutions, which have no names.
-const SLOTS: usize = 16;
-
 impl Structure<6, SLOTS> for OffsetWrist {
     const PATTERN: &'static Pattern = &measure::PATTERN;
     const IS_CLOSED_FORM: bool = false;
@@ -45,7 +43,7 @@ impl Structure<6, SLOTS> for OffsetWrist {
     const SLOT_NAMES: Option<&'static [&'static str; SLOTS]> = None;
 
     type Redundancy = ();
-    type Kernel = Constants;
+    type Kernel = RootKernel<Constants>;
 
     fn measure(mdh: &mut Mdh<6>) -> Result<Self, UnknownStructure> {
         measure::measure(mdh)
@@ -61,8 +59,8 @@ impl Structure<6, SLOTS> for OffsetWrist {
         Self { constants, general, ..self }
     }
 
-    fn kernel(&self) -> Option<Constants> {
-        Some(self.constants)
+    fn kernel(&self) -> Option<RootKernel<Constants>> {
+        Some(RootKernel(self.constants))
     }
 
     #[inline]

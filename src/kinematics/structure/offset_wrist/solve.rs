@@ -4,7 +4,6 @@
 
 use fearless_simd::Simd;
 
-use super::SLOTS;
 use super::clusters::Clusters;
 use super::geometry::OffsetWrist;
 use super::parallel::Parallel;
@@ -12,6 +11,7 @@ use super::resultant::polynomial;
 use super::search::Search;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::branches::Branches;
+use crate::kinematics::structure::by_roots::SLOTS;
 use crate::kinematics::structure::closure::Accepted;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::free_choice::FreeChoice;

@@ -15,7 +15,7 @@ impl LaneKernel<6, 8> for Constants {
     type Regular = WristSlots;
     type Block = WristBlock;
 
-    fn for_path(self) -> Option<Self> {
+    fn for_path(&self) -> Option<Self> {
         Some(self.on_path())
     }
 

@@ -26,7 +26,7 @@ impl LaneKernel<6, SLOTS> for Constants {
     type Regular = RegularSlots<6, SLOTS>;
     type Block = ParallelBlock;
 
-    fn for_path(self) -> Option<Self> {
+    fn for_path(&self) -> Option<Self> {
         Some(self.on_path())
     }
 

@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 
 use super::tables::{DEGREE, FOURIER, ORDERS, SAMPLES};
-use crate::lanes::{LANES, Number, Vector};
+use crate::lanes::{LANES, Number, Vector, transposed};
 
 /// Size of the noise of a value, as a multiple of the largest surplus harmonic: the noise of a
 /// value is the sum of that of 17 coefficients, of which seven surplus ones are a sample.
@@ -115,21 +115,13 @@ impl<S: Simd> TrigonometricPolynomial<Vector<S>> {
             lanes.noise = zero.like(one.noise);
             return lanes;
         }
-        let mut columns = [[[0.0; LANES]; DEGREE + 1]; 2];
-        let mut noise = [0.0; LANES];
+        let (mut cos, mut sin, mut noise) =
+            ([&all[0].cos; LANES], [&all[0].sin; LANES], [0.0; LANES]);
         for lane in 0..LANES {
             let one = &all[numbers[lane]];
-            for k in 0..=DEGREE {
-                columns[0][k][lane] = one.cos[k];
-                columns[1][k][lane] = one.sin[k];
-            }
-            noise[lane] = one.noise;
+            (cos[lane], sin[lane], noise[lane]) = (&one.cos, &one.sin, one.noise);
         }
-        for k in 0..=DEGREE {
-            lanes.cos[k] = Vector::load_array_ref(simd, &columns[0][k]);
-            lanes.sin[k] = Vector::load_array_ref(simd, &columns[1][k]);
-        }
-        lanes.noise = Vector::load_array_ref(simd, &noise);
-        lanes
+        let noise = Vector::load_array(simd, noise);
+        Self { cos: transposed(simd, &cos), sin: transposed(simd, &sin), noise }
     }
 }

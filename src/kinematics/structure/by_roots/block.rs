@@ -1,8 +1,7 @@
 //! Regular poses in lanes: one, and a block of them.
 
-use super::SLOTS;
-use super::geometry::Constants;
 use super::regular::{Eight, One, Solved};
+use super::{ByRoots, SLOTS};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::lanes::{
     AnswerRow, Block, Columns, FOUND_INSIDE, LaneKernel, Poses, RegularSlots, SlotColumns,
@@ -10,17 +9,21 @@ use crate::kinematics::structure::lanes::{
 };
 use crate::lanes::{Column, Flags, LANES};
 
-impl LaneKernel<6, SLOTS> for Constants {
+/// A way to the solutions at roots, as a kernel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct RootKernel<M>(pub(crate) M);
+
+impl<M: ByRoots> LaneKernel<6, SLOTS> for RootKernel<M> {
     const DIFFERENCES: &'static [usize] = &[];
     const WIDE: bool = false;
 
     type Redundancy = ();
     type Regular = RegularSlots<6, SLOTS>;
-    type Block = OffsetBlock;
+    type Block = RegularBlock<M>;
 
     /// A regular pose leaves nothing to choose.
-    fn for_path(self) -> Option<Self> {
-        Some(self)
+    fn for_path(&self) -> Option<Self> {
+        Some(self.clone())
     }
 
     #[inline(always)]
@@ -30,11 +33,12 @@ impl LaneKernel<6, SLOTS> for Constants {
         t_first_last: &Frame,
         (): (),
     ) -> Option<RegularSlots<6, SLOTS>> {
-        if self.lengths.is_parallel_at(t_first_last) {
+        let Self(method) = self;
+        if !method.may_be_regular(t_first_last) {
             return None;
         }
         let mut one = One::NEW;
-        let solved = one.solve(self, &[*t_first_last]).first()?;
+        let solved = one.solve(method, &[*t_first_last]).first()?;
         if !solved.is_regular || solved.as_slice().is_empty() {
             return None;
         }
@@ -50,24 +54,24 @@ impl LaneKernel<6, SLOTS> for Constants {
 }
 
 /// A block of poses with their solutions.
-pub(crate) struct OffsetBlock {
-    regular: Eight,
+pub(crate) struct RegularBlock<M: ByRoots> {
+    regular: Eight<M>,
     slots: SlotColumns<6, SLOTS>,
 }
 
-impl Block<Constants, 6, SLOTS> for OffsetBlock {
+impl<M: ByRoots> Block<RootKernel<M>, 6, SLOTS> for RegularBlock<M> {
     const NEW: Self = Self { regular: Eight::NEW, slots: SlotColumns::NEW };
 
     #[inline(always)]
     fn solve<const FUSED: bool>(
         &mut self,
-        kernel: &Constants,
+        RootKernel(method): &RootKernel<M>,
         columns: &Columns<6>,
         poses: &mut Poses,
         (): (),
     ) -> Flags {
-        let (frames, count, places) = different(kernel, poses);
-        let solved = self.regular.solve(kernel, &frames[..count]);
+        let (frames, count, places) = different(method, poses);
+        let solved = self.regular.solve(method, &frames[..count]);
         let mut regular = [0; LANES];
         for (lane, place) in places.into_iter().enumerate() {
             let solved = place.map(|place: usize| &solved[place]);
@@ -105,13 +109,13 @@ impl Block<Constants, 6, SLOTS> for OffsetBlock {
 /// The poses of a block that may be regular, those that repeat the one before left out; how many
 /// there are, and which of them each lane has.
 fn different(
-    constants: &Constants,
+    method: &impl ByRoots,
     poses: &Poses,
 ) -> ([Frame; LANES], usize, [Option<usize>; LANES]) {
     let (mut frames, mut count, mut places) = ([Frame::IDENTITY; LANES], 0, [None; LANES]);
     for (lane, place) in places.iter_mut().enumerate() {
         let frame = poses.frame(lane);
-        if constants.lengths.is_parallel_at(&frame) {
+        if !method.may_be_regular(&frame) {
             continue;
         }
         if count == 0 || frames[count - 1] != frame {

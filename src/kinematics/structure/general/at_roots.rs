@@ -1,0 +1,105 @@
+//! Regular poses by the first split of an arm: candidates at the roots of its determinant.
+
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+
+use fearless_simd::prelude::*;
+
+use super::back::{Angle, completed, eliminated};
+use super::determinant::{Equated, Rest};
+use super::geometry::General;
+use super::pose_link::PoseLink;
+use super::split::{Posed, Split};
+use crate::kinematics::structure::by_roots::ByRoots;
+use crate::kinematics::structure::closure::{Candidates, Closure, Target};
+use crate::kinematics::structure::end_frames::Frame;
+use crate::kinematics::structure::trigonometric::{RootBlock, TrigonometricPolynomial};
+use crate::lanes::{LANES, Vector, sin_cos_of};
+
+/// The split of an arm that is tried first.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct FirstSplit {
+    closure: Closure,
+    splits: Arc<Vec<Split>>,
+}
+
+impl FirstSplit {
+    pub(super) fn new(closure: &Closure, splits: &Arc<Vec<Split>>) -> Self {
+        Self { closure: *closure, splits: Arc::clone(splits) }
+    }
+
+    pub(super) fn of(arm: &General) -> Self {
+        Self::new(&arm.closure, &arm.splits)
+    }
+
+    fn split(&self) -> &Split {
+        &self.splits[0]
+    }
+}
+
+/// A pose in the first split.
+#[derive(Clone, Copy)]
+pub(crate) struct AtTarget {
+    target: Target,
+    posed: Posed,
+}
+
+impl ByRoots for FirstSplit {
+    type Posed = AtTarget;
+    const NONE: AtTarget =
+        AtTarget { target: Target { frame: Frame::IDENTITY }, posed: Posed::NONE };
+
+    fn closure(&self) -> &Closure {
+        &self.closure
+    }
+
+    fn may_be_regular(&self, last: &Frame) -> bool {
+        !self.closure.target(*last).is_beyond()
+    }
+
+    #[inline(always)]
+    fn posed<S: Simd>(&self, simd: S, last: &Frame) -> AtTarget {
+        let target = self.closure.target(*last);
+        AtTarget { target, posed: self.split().posed(simd, &target.frame.inverse()) }
+    }
+
+    #[inline(always)]
+    fn polynomial<S: Simd>(&self, simd: S, pose: &AtTarget) -> TrigonometricPolynomial {
+        pose.posed.polynomial(simd, self.closure.rounding)
+    }
+
+    fn root_of(&self, theta: &[f64; 6]) -> f64 {
+        let split = self.split();
+        split.sign * theta[split.searched()]
+    }
+
+    #[inline(always)]
+    fn candidates<S: Simd>(
+        &self,
+        simd: S,
+        all: &[AtTarget],
+        roots: &RootBlock,
+        pass: &mut impl FnMut(&Candidates),
+    ) {
+        let (sin, cos) = sin_cos_of(Vector::load_array_ref(simd, &roots.angles));
+        let t5 = Angle { sin, cos };
+        let (target, link, equations) = if let [one] = all {
+            let Posed { link, equations } = &one.posed;
+            (one.target.in_lanes(sin), link.in_lanes(sin), Equated::One(equations))
+        } else {
+            let mut frames = [&all[0].target.frame; LANES];
+            let mut links = [&all[0].posed.link; LANES];
+            let mut equations = [&all[0].posed.equations; LANES];
+            for lane in 0..LANES {
+                let AtTarget { target, posed } = &all[roots.of[lane]];
+                (frames[lane], links[lane]) = (&target.frame, &posed.link);
+                equations[lane] = &posed.equations;
+            }
+            let target = Target { frame: Frame::of_each(simd, &frames) };
+            (target, PoseLink::of_each(simd, &links), Equated::Each(equations))
+        };
+        let [t4, t3] = eliminated(&Rest::at(&equations, &sin, &cos, false).null_vector());
+        let [sin, cos] = completed(self.split(), &link, [t3, t4, t5]);
+        pass(&self.closure.converge(&target, &sin, &cos));
+    }
+}

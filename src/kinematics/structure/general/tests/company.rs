@@ -1,0 +1,85 @@
+//! Regular poses, alone and in the company of others.
+
+use std::vec::Vec;
+
+use super::{FirstSplit, General, STRUCTURED, arms, poses_or};
+use crate::Pose;
+use crate::kinematics::structure::by_roots::regular_of;
+use crate::kinematics::structure::by_roots::tests::{is_as_in_whole_search, same_in_company};
+use crate::kinematics::structure::closure::Accepted;
+use crate::kinematics::structure::end_frames::Frame;
+use crate::kinematics::structure::free_choice::FreeChoice;
+use crate::lanes::on_each_set;
+use crate::rng::Rng;
+
+/// Random and structured joint angles of the table, those of one kind far from one another.
+fn mixed(rng: &mut Rng, count: usize) -> Vec<[f64; 6]> {
+    let of_each = |theta: [f64; 6]| {
+        let structured = STRUCTURED.iter().map(move |(_, change)| change(theta));
+        core::iter::once(theta).chain(structured)
+    };
+    (0..count).map(|_| rng.angles()).flat_map(of_each).collect()
+}
+
+fn frames(arm: &General, all: &[[f64; 6]]) -> Vec<Frame> {
+    all.iter().map(|theta| arm.closure.last_frame(theta)).collect()
+}
+
+fn pose_of(frame: &Frame) -> Pose {
+    let Frame { rotation: [x, y, z], origin } = frame;
+    let elements = core::array::from_fn(|i| match (i / 4, i % 4) {
+        (3, 3) => 1.0,
+        (3, _) => 0.0,
+        (row, 3) => origin[row],
+        (row, column) => [x, y, z][row][column],
+    });
+    crate::pose_from_rows(&elements).unwrap()
+}
+
+#[test]
+fn a_pose_has_the_bits_in_company_that_it_has_alone() {
+    on_each_set(|_| {
+        for (name, mdh) in arms() {
+            let arm = General::of(&mdh).unwrap();
+            let frames = frames(&arm, &mixed(&mut Rng::new(7), 20));
+            let count = same_in_company(&FirstSplit::of(&arm), &frames, &name);
+            let is_expected = 6 * count > frames.len() || !arm.is_mostly_regular;
+            assert!(is_expected, "{name}: {count} of {}", frames.len());
+        }
+    });
+}
+
+#[test]
+fn a_regular_pose_has_the_solutions_of_the_whole_search() {
+    for (name, mdh) in arms() {
+        let arm = General::of(&mdh).unwrap();
+        let method = FirstSplit::of(&arm);
+        let frames = frames(&arm, &mixed(&mut Rng::new(8), poses_or(20).min(2000)));
+        let mut count = 0;
+        for frame in &frames {
+            let whole_search = || {
+                let mut found = Accepted::NONE;
+                let free = FreeChoice::rest([0.0; 6]);
+                let is_certified = arm.solve_all(&pose_of(frame), &free, &mut found);
+                (found.as_slice().to_vec(), is_certified)
+            };
+            count += usize::from(is_as_in_whole_search(&method, frame, whole_search, &name));
+        }
+        let is_expected = 6 * count > frames.len() || !arm.is_mostly_regular;
+        assert!(is_expected, "{name}: {count} of {}", frames.len());
+    }
+}
+
+#[test]
+fn nearly_all_random_poses_are_regular_unless_roots_are_pairs() {
+    let mut rng = Rng::new(9);
+    for (name, mdh) in arms() {
+        let arm = General::of(&mdh).unwrap();
+        let all: Vec<_> = (0..poses_or(500)).map(|_| rng.angles()).collect();
+        let count = regular_of(&FirstSplit::of(&arm), &frames(&arm, &all));
+        std::println!("{name}: {count} of {} are regular", all.len());
+        let has_pairs = ["CRX-10iA/L", "IRB 2600-12/1.65 1e-6"].contains(&name.as_str());
+        assert_eq!(arm.is_mostly_regular, !has_pairs, "{name}");
+        assert!(has_pairs || 10 * count > 9 * all.len(), "{name}: {count} of {}", all.len());
+    }
+}
