@@ -63,6 +63,64 @@ fn a_row_among_bad_and_repeated_ones_has_the_bits_that_it_has_alone() {
     }
 }
 
+/// A robot by alpha [deg], a and d [m] of its rows, and joint angles from degrees.
+fn nice(rows: [[f64; 3]; 6], q: [f64; 6]) -> (Robot<6>, [f64; 6]) {
+    let rows = rows.map(|[alpha, a, d]| DhRow::new(alpha.to_radians(), a, d, 0.0));
+    let mdh = Mdh { base: Pose::identity(), rows, flange: Pose::identity() };
+    (Robot::from_mdh(mdh).unwrap(), q.map(f64::to_radians))
+}
+
+#[test]
+fn what_no_attempt_has_understood_certifies_no_later_one() {
+    // Two directions are free; a second split finds the same points, and as many as it has roots.
+    for (rows, q) in [
+        (
+            [
+                [0.0, 0.3, 0.5],
+                [-90.0, 0.0, 0.3],
+                [90.0, 0.0, 0.4],
+                [90.0, 0.5, 0.0],
+                [-90.0, 0.5, 0.25],
+                [90.0, 0.1, 0.1],
+            ],
+            [-90.0, 180.0, -90.0, -180.0, 90.0, 90.0],
+        ),
+        (
+            [
+                [0.0, 0.3, 0.4],
+                [0.0, 0.5, 0.3],
+                [-90.0, 0.1, 0.0],
+                [90.0, 0.0, 0.0],
+                [-90.0, 0.0, 0.0],
+                [90.0, 0.2, 0.1],
+            ],
+            [-180.0, 180.0, 0.0, 0.0, -90.0, 0.0],
+        ),
+    ] {
+        let (robot, q) = nice(rows, q);
+        assert!(!robot.ik(&robot.fk(&q)).unwrap().is_certified());
+    }
+}
+
+#[test]
+fn with_axes_5_and_6_parallel_no_certified_answer_lacks_a_fold() {
+    // By the polynomial of an offset wrist none of these folds had a solution, for certain.
+    for (q_2, q_5) in [(0.0, -90.0), (30.0, -90.0), (90.0, 0.0), (-47.0, 180.0), (180.0, 90.0)] {
+        let rows = [
+            [0.0, 0.4, 0.4],
+            [90.0, 0.25, 0.0],
+            [0.0, 0.25, 0.0],
+            [-90.0, 0.25, 0.25],
+            [90.0, 0.0, 0.0],
+            [0.0, 0.2, 0.0],
+        ];
+        let (robot, q) = nice(rows, [90.0, q_2, -90.0, 0.0, q_5, -61.0]);
+        let solutions = robot.ik(&robot.fk(&q)).unwrap();
+        let is_found = solutions.iter().any(|one| apart(&one.q, &q) < 1e-6);
+        assert!(is_found || !solutions.is_certified(), "{q:?}");
+    }
+}
+
 #[test]
 fn every_solution_of_the_cases_is_found() {
     for (name, case, robot) in cases() {

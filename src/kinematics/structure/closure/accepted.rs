@@ -232,7 +232,9 @@ impl Accepted {
             self.thin(closure, target);
         }
         for one in settled.all.into_iter().flatten() {
-            self.insert(closure, one);
+            // A later attempt finds it explained, and would not ask again.
+            let is_placed = one.is_placed && settled.is_certain;
+            self.insert(closure, Configuration { is_placed, ..one });
         }
         settled.is_certain
     }

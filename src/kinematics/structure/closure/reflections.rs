@@ -145,8 +145,8 @@ impl Triangle<f64, 0> {
     }
 }
 
-/// Reflect rows k to `END - 1` of a column in a mirror with this normal; the scale is minus two over
-/// the square of its length.
+/// Reflect rows k to `END - 1` of a column in a mirror with this normal; the scale is minus two
+/// over the square of its length.
 #[inline(always)]
 pub(crate) fn reflect<const END: usize, T: Number>(
     mirror: &[T; 6],

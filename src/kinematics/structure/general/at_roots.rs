@@ -6,7 +6,8 @@ use alloc::vec::Vec;
 use fearless_simd::prelude::*;
 
 use super::back::{Angle, completed, eliminated};
-use super::determinant::{Equated, Rest};
+use super::determinant::Rest;
+use super::equated::Equated;
 use super::geometry::General;
 use super::pose_link::PoseLink;
 use super::split::{Posed, Split};
@@ -99,7 +100,7 @@ impl ByRoots for FirstSplit {
             (target, PoseLink::of_each(simd, &links), Equated::Each(equations))
         };
         let [t4, t3] = eliminated(&Rest::at(&equations, &sin, &cos, false).null_vector());
-        let [sin, cos] = completed(self.split(), &link, [t3, t4, t5]);
+        let [sin, cos] = completed(self.split(), &link, &[t3, t4, t5]);
         pass(&self.closure.converge(&target, &sin, &cos));
     }
 }

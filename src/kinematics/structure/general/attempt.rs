@@ -5,7 +5,8 @@ use core::f64::consts::PI;
 use fearless_simd::prelude::*;
 
 use super::back::{Angle, completed, eliminated, pencil};
-use super::determinant::{Equated, Rest};
+use super::determinant::Rest;
+use super::equated::Equated;
 use super::split::{Posed, Split};
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::closure::{Accepted, Closure, Configuration, Missed, Target};
@@ -148,7 +149,7 @@ impl Search<'_> {
         let target = self.target.in_lanes(t5.sin);
         for powers in &ways[..if is_cluster { 3 } else { 1 }] {
             let [t4, t3] = eliminated(powers);
-            let [sin, cos] = completed(self.split, &pose, [t3, t4, t5]);
+            let [sin, cos] = completed(self.split, &pose, &[t3, t4, t5]);
             let candidates = self.closure.converge(&target, &sin, &cos);
             accepted.take(self.closure, self.target, &candidates, lanes);
         }

@@ -96,8 +96,20 @@ fn tipped<S: Simd>(vector: &Powers<S>) -> ([Vector<S>; 3], [Vector<S>; 3]) {
 }
 
 /// The sines and cosines of the joint angles of candidates with these t3 to t5.
-#[inline(always)]
 pub(super) fn completed<S: Simd>(
+    split: &Split,
+    pose: &PoseLink<Vector<S>>,
+    angles: &[Angle<S>; 3],
+) -> [Six<S>; 2] {
+    // A function of its own for each instruction set: it is long.
+    angles[0].sin.token().vectorize(
+        #[inline(always)]
+        || all_of(split, pose, *angles),
+    )
+}
+
+#[inline(always)]
+fn all_of<S: Simd>(
     split: &Split,
     pose: &PoseLink<Vector<S>>,
     [t3, t4, t5]: [Angle<S>; 3],

@@ -13,7 +13,8 @@
 
 use fearless_simd::prelude::*;
 
-use super::split::{Equations, Posed};
+use super::equated::Equated;
+use super::split::Posed;
 use crate::kinematics::structure::closure::{Six, reflect};
 use crate::kinematics::structure::trigonometric::{
     SAMPLE_COS, SAMPLE_SIN, SAMPLES, TrigonometricPolynomial,
@@ -33,12 +34,6 @@ const REGULAR: f64 = 1e7;
 /// at det J = 0 of calibrated arms: with 1/2, two answers of 100,000 are certified that miss the
 /// fold; with 4, none of 60,000.
 const OF_THE_POSE: f64 = 4.0;
-
-/// The equations of the pose of all lanes, or of one in each.
-pub(super) enum Equated<'a> {
-    One(&'a Equations),
-    Each([&'a Equations; LANES]),
-}
 
 /// What is left of the matrix: six rows of six, for the powers 2 and 3 of x4, as a triangle.
 pub(super) struct Rest<S: Simd> {
@@ -64,8 +59,16 @@ struct Pivot<S: Simd> {
 impl Posed {
     /// The determinant as a polynomial of t5 (eq. 91), with the noise of a pose that is rounded
     /// (eq. 92): all of it is noise where it is zero at every angle.
-    #[inline(always)]
     pub(super) fn polynomial<S: Simd>(&self, simd: S, rounding: f64) -> TrigonometricPolynomial {
+        // A function of its own for each instruction set: it is long.
+        simd.vectorize(
+            #[inline(always)]
+            || self.sampled(simd, rounding),
+        )
+    }
+
+    #[inline(always)]
+    fn sampled<S: Simd>(&self, simd: S, rounding: f64) -> TrigonometricPolynomial {
         let zero = Vector::splat(simd, 0.0);
         let (mut samples, mut regular, mut change) = ([zero; SAMPLES / LANES], zero, zero);
         for block in 0..SAMPLES / LANES {
@@ -97,48 +100,6 @@ impl Posed {
             let size = rest.least_singular_value() * rest.least_before;
             !size.simd_gt(VANISHES * rounding).any_true()
         })
-    }
-}
-
-impl Equated<'_> {
-    /// The equations at angles t5 with these sines and cosines: by powers of x3 and x4, and rows.
-    #[inline(always)]
-    fn at<S: Simd>(&self, sin: Vector<S>, cos: Vector<S>) -> [Six<S>; 9] {
-        let mut at = [[sin.like(0.0); 6]; 9];
-        match self {
-            Self::One(all) => {
-                for product in 0..9 {
-                    let [constant, of_cos, of_sin] =
-                        [&all[product], &all[9 + product], &all[18 + product]];
-                    for row in 0..6 {
-                        let along = cos.scaled_plus(of_cos[row], sin.like(constant[row]));
-                        at[product][row] = sin.scaled_plus(of_sin[row], along);
-                    }
-                }
-            }
-            Self::Each(each) => {
-                let mut rows = [[[0.0; LANES]; 9]; LANES];
-                for lane in 0..LANES {
-                    let (all, sin, cos) = (each[lane], sin.like(sin[lane]), sin.like(cos[lane]));
-                    for product in 0..9 {
-                        let [constant, of_cos, of_sin] = [product, 9 + product, 18 + product]
-                            .map(|at| Vector::load_array_ref(sin.token(), &all[at]));
-                        let along = cos.times_plus(of_cos, constant);
-                        rows[lane][product] = sin.times_plus(of_sin, along).to_array();
-                    }
-                }
-                for product in 0..9 {
-                    for row in 0..6 {
-                        let mut lanes = [0.0; LANES];
-                        for lane in 0..LANES {
-                            lanes[lane] = rows[lane][product][row];
-                        }
-                        at[product][row] = Vector::load_array(sin.token(), lanes);
-                    }
-                }
-            }
-        }
-        at
     }
 }
 
@@ -384,8 +345,8 @@ impl<S: Simd> Pivot<S> {
     }
 }
 
-/// Reflect rows K to END - 1 so that column K is zero below row K, as it is from row END on; returns
-/// its element there.
+/// Reflect rows K to `END - 1` so that column K is zero below row K, as it is from row `END` on;
+/// returns its element there.
 #[inline(always)]
 fn triangulate<const K: usize, const END: usize, const C: usize, S: Simd>(
     columns: &mut [Six<S>; C],

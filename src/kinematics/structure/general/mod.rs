@@ -9,6 +9,7 @@ mod attempt;
 mod back;
 mod choice;
 mod determinant;
+mod equated;
 mod geometry;
 mod measure;
 mod moments;

@@ -159,8 +159,16 @@ impl Split {
     }
 
     /// The equations for a pose link, in the direction in which the arm is read (eq. 87).
-    #[inline(always)]
     pub(super) fn posed<S: Simd>(&self, simd: S, t_last_first: &Frame) -> Posed {
+        // A function of its own for each instruction set: it is long.
+        simd.vectorize(
+            #[inline(always)]
+            || self.posed_at(simd, t_last_first),
+        )
+    }
+
+    #[inline(always)]
+    fn posed_at<S: Simd>(&self, simd: S, t_last_first: &Frame) -> Posed {
         let pose = if self.sign < 0.0 { t_last_first.inverse() } else { *t_last_first };
         let (inverse, mut left) = (pose.inverse(), self.left);
         if self.place < 2 {

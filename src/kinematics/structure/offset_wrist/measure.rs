@@ -42,6 +42,8 @@ pub(super) fn measure(mdh: &Mdh<6>) -> Result<OffsetWrist, UnknownStructure> {
     for (field, sin) in [
         ("forearm times the sine of the angle between axes 3 and 4", sin_3),
         ("forearm times the sine of the angle between axes 4 and 5", links[4].sin_alpha),
+        // Joint 6 would not turn axis 5, nor the condition of its direction.
+        ("forearm times the sine of the angle between axes 5 and 6", links[5].sin_alpha),
     ] {
         let (value, bound) = (forearm * sin.abs(), forearm * LEAST_TWIST_SIN);
         if value < bound {
