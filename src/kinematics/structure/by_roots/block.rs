@@ -1,7 +1,7 @@
 //! Regular poses in lanes: one, and a block of them.
 
+use super::method::{ByRoots, SLOTS};
 use super::regular::{Eight, One, Solved};
-use super::{ByRoots, SLOTS};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::lanes::{
     AnswerRow, Block, Columns, FOUND_INSIDE, LaneKernel, Poses, RegularSlots, SlotColumns,

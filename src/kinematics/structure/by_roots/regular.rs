@@ -2,7 +2,7 @@
 
 use fearless_simd::Simd;
 
-use super::{ByRoots, SLOTS};
+use super::method::{ByRoots, SLOTS};
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::closure::in_order;
 use crate::kinematics::structure::end_frames::Frame;

@@ -2,7 +2,8 @@
 
 use std::vec::Vec;
 
-use super::{ByRoots, Eight, One};
+use super::method::ByRoots;
+use super::regular::{Eight, One};
 use crate::kinematics::structure::closure::Configuration;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::lanes::LANES;
