@@ -7,7 +7,8 @@ use irbkin::{
     DhRow, JacobianFrame, Mdh, Pose, Robot, Status, batch, pose_from_euler_zyx, pose_to_rows,
 };
 
-use crate::common::{Rng, apart, company};
+use crate::common::rng::drawn;
+use crate::common::{apart, company};
 use crate::structures::offset_wrist::{JACO2, ODD};
 
 /// Name; alpha [deg], a [m], d [m], theta [deg] of each row.
@@ -100,12 +101,6 @@ fn the_solutions_are_those_that_others_computed() {
         }
     }
     assert_eq!(compared, 48);
-}
-
-/// Joint vectors between -pi and pi.
-fn drawn(seed: u64, count: usize) -> impl Iterator<Item = [f64; 6]> {
-    let mut rng = Rng::new(seed);
-    (0..count).map(move |_| std::array::from_fn(|_| rng.angle()))
 }
 
 #[test]

@@ -2,12 +2,7 @@
 
 use irbkin::{Robot, Status, batch, pose_from_rows, pose_to_rows};
 
-use super::Rng;
-
-fn drawn(seed: u64, count: usize) -> impl Iterator<Item = [f64; 6]> {
-    let mut rng = Rng::new(seed);
-    (0..count).map(move |_| std::array::from_fn(|_| rng.angle()))
-}
+use super::rng::drawn;
 
 /// Rows of a batch: random ones, one with axis 4 at zero, one out of reach, one that is no pose, and
 /// one that repeats the row before.

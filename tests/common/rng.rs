@@ -62,3 +62,9 @@ impl Rng {
         limits.to_array().map(|[low, high]| self.between(low.max(-TAU * 2.0), high.min(TAU * 2.0)))
     }
 }
+
+/// Joint vectors between -pi and pi.
+pub fn drawn(seed: u64, count: usize) -> impl Iterator<Item = [f64; 6]> {
+    let mut rng = Rng::new(seed);
+    (0..count).map(move |_| rng.angles())
+}

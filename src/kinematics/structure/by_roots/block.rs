@@ -4,10 +4,9 @@ use super::method::{ByRoots, SLOTS};
 use super::regular::{Eight, One, Solved};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::lanes::{
-    AnswerRow, Block, Columns, FOUND_INSIDE, LaneKernel, Poses, RegularSlots, SlotColumns,
-    StatusRow,
+    Block, Columns, FOUND_INSIDE, LaneKernel, Poses, RegularSlots, SlotColumns,
 };
-use crate::lanes::{Column, Flags, LANES};
+use crate::lanes::{Flags, LANES};
 
 /// A way to the solutions at roots, as a kernel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,6 +59,8 @@ pub(crate) struct RegularBlock<M: ByRoots> {
 }
 
 impl<M: ByRoots> Block<RootKernel<M>, 6, SLOTS> for RegularBlock<M> {
+    type Slots = SlotColumns<6, SLOTS>;
+
     const NEW: Self = Self { regular: Eight::NEW, slots: SlotColumns::NEW };
 
     #[inline(always)]
@@ -90,19 +91,9 @@ impl<M: ByRoots> Block<RootKernel<M>, 6, SLOTS> for RegularBlock<M> {
         regular
     }
 
-    #[inline(never)]
-    fn write(&self, q: &mut [AnswerRow<6, SLOTS>; LANES], status: &mut [StatusRow<SLOTS>; LANES]) {
-        self.slots.write(q, status);
-    }
-
     #[inline(always)]
-    fn angles(&self, slot: usize, joint: usize) -> &Column {
-        &self.slots.q[joint][slot]
-    }
-
-    #[inline(always)]
-    fn status(&self, slot: usize) -> &Flags {
-        &self.slots.status[slot]
+    fn slots(&self) -> &SlotColumns<6, SLOTS> {
+        &self.slots
     }
 }
 

@@ -140,12 +140,13 @@ impl Search<'_> {
         let Posed { link, equations } = self.posed;
         let (pose, equations) = (link.in_lanes(sin), Equated::One(equations));
         let rest = Rest::at(&equations, &sin, &cos, false);
-        let mut ways = [rest.null_vector(); 3];
-        if is_cluster {
+        let ways = if is_cluster {
             let null = rest.null_vectors();
             let [one, other] = pencil(&null);
-            ways = [null[0], one, other];
-        }
+            [null[0], one, other]
+        } else {
+            [rest.null_vector(); 3]
+        };
         let target = self.target.in_lanes(t5.sin);
         for powers in &ways[..if is_cluster { 3 } else { 1 }] {
             let [t4, t3] = eliminated(powers);

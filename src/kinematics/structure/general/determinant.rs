@@ -225,7 +225,11 @@ impl<S: Simd> Rest<S> {
 
     #[inline(always)]
     fn start(&self, constants: &[f64; 6]) -> Six<S> {
-        constants.map(|constant| self.determinant.like(constant))
+        let mut vector = [self.determinant.like(0.0); 6];
+        for (element, constant) in vector.iter_mut().zip(constants) {
+            *element = self.determinant.like(*constant);
+        }
+        vector
     }
 
     /// `(R^T R)^-1 v`, with a largest element of 1.

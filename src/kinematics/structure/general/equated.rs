@@ -4,7 +4,7 @@ use fearless_simd::prelude::*;
 
 use super::split::Equations;
 use crate::kinematics::structure::closure::Six;
-use crate::lanes::{LANES, Number as _, Vector};
+use crate::lanes::{LANES, Number as _, Vector, transposed};
 
 /// The equations of the pose of all lanes, or of one in each.
 pub(super) enum Equated<'a> {
@@ -29,24 +29,21 @@ impl Equated<'_> {
                 }
             }
             Self::Each(each) => {
-                let mut rows = [[[0.0; LANES]; 9]; LANES];
+                let simd = sin.token();
+                let mut rows = [[[0.0; LANES]; LANES]; 9];
                 for lane in 0..LANES {
                     let (all, sin, cos) = (each[lane], sin.like(sin[lane]), sin.like(cos[lane]));
                     for product in 0..9 {
-                        let [constant, of_cos, of_sin] = [product, 9 + product, 18 + product]
-                            .map(|at| Vector::load_array_ref(sin.token(), &all[at]));
+                        let constant = Vector::load_array_ref(simd, &all[product]);
+                        let of_cos = Vector::load_array_ref(simd, &all[9 + product]);
+                        let of_sin = Vector::load_array_ref(simd, &all[18 + product]);
                         let along = cos.times_plus(of_cos, constant);
-                        rows[lane][product] = sin.times_plus(of_sin, along).to_array();
+                        rows[product][lane] = sin.times_plus(of_sin, along).to_array();
                     }
                 }
                 for product in 0..9 {
-                    for row in 0..6 {
-                        let mut lanes = [0.0; LANES];
-                        for lane in 0..LANES {
-                            lanes[lane] = rows[lane][product][row];
-                        }
-                        at[product][row] = Vector::load_array(sin.token(), lanes);
-                    }
+                    let columns = transposed(simd, &rows[product].each_ref());
+                    at[product].copy_from_slice(&columns[..6]);
                 }
             }
         }

@@ -6,6 +6,9 @@ use crate::lanes::{Column, Flags, LANES};
 
 /// A block of poses with its solutions.
 pub(crate) trait Block<K: LaneKernel<N, S>, const N: usize, const S: usize> {
+    /// The solutions.
+    type Slots: BlockSlots<N, S>;
+
     /// Room for a block.
     const NEW: Self;
 
@@ -19,6 +22,12 @@ pub(crate) trait Block<K: LaneKernel<N, S>, const N: usize, const S: usize> {
         redundancy: <K::Redundancy as Redundancy>::Lanes,
     ) -> Flags;
 
+    /// The solutions of the poses that were solved last. Must be `#[inline(always)]`.
+    fn slots(&self) -> &Self::Slots;
+}
+
+/// The solutions of a block of poses.
+pub(crate) trait BlockSlots<const N: usize, const S: usize> {
     /// Write the slots as rows.
     fn write(&self, q: &mut [AnswerRow<N, S>; LANES], status: &mut [StatusRow<S>; LANES]);
 

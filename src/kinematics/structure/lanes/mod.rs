@@ -9,7 +9,7 @@ mod poses;
 mod rows;
 mod slots;
 
-pub(crate) use block::Block;
+pub(crate) use block::{Block, BlockSlots};
 pub(crate) use columns::{Columns, JointColumn};
 pub(crate) use directions::{Direction, Directions};
 pub(crate) use nearest::Choice;

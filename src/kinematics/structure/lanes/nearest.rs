@@ -2,7 +2,7 @@
 
 use core::f64::consts::{PI, TAU};
 
-use super::{Block, LaneKernel};
+use super::BlockSlots;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::thresholds::{LIMIT_TOLERANCE, MOST_ANGLE};
 use crate::lanes::{Column, Flags, LANES, nearest_whole};
@@ -52,9 +52,9 @@ impl<const N: usize> Choice<N> {
     /// returns the lanes in which the choice is certain. Chooses as
     /// [`Solutions::cheapest`](crate::Solutions::nearest) does, to the bit.
     #[inline(always)]
-    pub(super) fn nearest<K: LaneKernel<N, S>, const S: usize>(
+    pub(super) fn nearest<const S: usize>(
         &self,
-        block: &K::Block,
+        slots: &impl BlockSlots<N, S>,
         seeds: &[[f64; N]; LANES],
         q: &mut [[f64; N]; LANES],
     ) -> Flags {
@@ -69,8 +69,8 @@ impl<const N: usize> Choice<N> {
         let (mut best, mut least) = ([[f64::NAN; LANES]; N], [f64::INFINITY; LANES]);
         let mut least_tied = [f64::INFINITY; LANES];
         for slot in 0..S {
-            let status = block.status(slot);
-            let priced = self.priced::<K, S>(block, slot, &seed);
+            let status = slots.status(slot);
+            let priced = self.priced(slots, slot, &seed);
             for lane in 0..LANES {
                 let found = u64::from(status[lane] != 0) & priced.inside[lane];
                 let cost = priced.cost[lane];
@@ -99,9 +99,9 @@ impl<const N: usize> Choice<N> {
 
     /// The solution of a slot at its turn nearest to the seed.
     #[inline(always)]
-    fn priced<K: LaneKernel<N, S>, const S: usize>(
+    fn priced<const S: usize>(
         &self,
-        block: &K::Block,
+        slots: &impl BlockSlots<N, S>,
         slot: usize,
         seed: &[Column; N],
     ) -> Priced<N> {
@@ -114,7 +114,7 @@ impl<const N: usize> Choice<N> {
         };
         for joint in 0..N {
             let (low, high, weight) = (self.low[joint], self.high[joint], self.weights[joint]);
-            let angles = block.angles(slot, joint);
+            let angles = slots.angles(slot, joint);
             for lane in 0..LANES {
                 let (angle, seed) = (angles[lane], seed[joint][lane]);
                 let apart = seed - angle;
@@ -146,7 +146,7 @@ impl<const N: usize> Choice<N> {
             }
         }
         if let Some([lower, upper, middle]) = self.linkage {
-            let (second, third) = (block.angles(slot, 1), block.angles(slot, 2));
+            let (second, third) = (slots.angles(slot, 1), slots.angles(slot, 2));
             for lane in 0..LANES {
                 let angle = third[lane] - second[lane];
                 let angle = angle + TAU * nearest_whole((middle - angle) / TAU);

@@ -4,7 +4,7 @@ use core::convert::Infallible;
 use core::fmt::Debug;
 use core::marker::PhantomData;
 
-use super::{AnswerRow, Block, Columns, LaneKernel, Poses, RegularPose, StatusRow};
+use super::{AnswerRow, Block, BlockSlots, Columns, LaneKernel, Poses, RegularPose, StatusRow};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::redundancy::Redundancy;
 use crate::lanes::{Column, Flags, LANES};
@@ -44,6 +44,8 @@ impl<R, const N: usize, const S: usize> Block<NoKernel<R>, N, S> for NoBlock
 where
     R: Redundancy + Debug + PartialEq,
 {
+    type Slots = Self;
+
     const NEW: Self = Self;
 
     fn solve<const FUSED: bool>(
@@ -56,6 +58,12 @@ where
         match kernel.never {}
     }
 
+    fn slots(&self) -> &Self {
+        self
+    }
+}
+
+impl<const N: usize, const S: usize> BlockSlots<N, S> for NoBlock {
     fn write(&self, _: &mut [AnswerRow<N, S>; LANES], _: &mut [StatusRow<S>; LANES]) {}
 
     fn angles(&self, _: usize, _: usize) -> &Column {

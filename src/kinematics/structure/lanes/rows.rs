@@ -1,6 +1,6 @@
 //! Rows of poses through a kernel, a block of lanes at a time.
 
-use super::{AnswerRow, Block, Choice, Columns, LaneKernel, PoseRow, Poses, StatusRow};
+use super::{AnswerRow, Block, BlockSlots, Choice, Columns, LaneKernel, PoseRow, Poses, StatusRow};
 use crate::kinematics::structure::end_frames::Seen;
 use crate::kinematics::structure::redundancy::Redundancy;
 use crate::lanes::{Flags, Kernel, LANES};
@@ -76,7 +76,7 @@ impl<const N: usize, const S: usize> Wanted<'_, N, S> {
             Self::Slots { q, status } => {
                 let (q, status) = (&mut q[first..], &mut status[first..]);
                 match (q.first_chunk_mut::<LANES>(), status.first_chunk_mut::<LANES>()) {
-                    (Some(q), Some(status)) => block.write(q, status),
+                    (Some(q), Some(status)) => block.slots().write(q, status),
                     _ => write_some::<K, N, S>(block, q, status),
                 }
                 let rows = q.iter_mut().zip(status).zip(regular).enumerate();
@@ -89,7 +89,7 @@ impl<const N: usize, const S: usize> Wanted<'_, N, S> {
                 let count = seeds.len().min(LANES);
                 let (mut those, mut nearest) = ([[0.0; N]; LANES], [[0.0; N]; LANES]);
                 those[..count].copy_from_slice(&seeds[..count]);
-                let certain = choice.nearest::<K, S>(block, &those, &mut nearest);
+                let certain = choice.nearest(block.slots(), &those, &mut nearest);
                 for (lane, q) in q.iter_mut().take(LANES).enumerate() {
                     if regular[lane] & certain[lane] == 0 {
                         by_itself(first + lane, core::slice::from_mut(q), &mut []);
@@ -110,7 +110,7 @@ fn write_some<K: LaneKernel<N, S>, const N: usize, const S: usize>(
     status: &mut [StatusRow<S>],
 ) {
     let (mut all, mut flags) = ([[[0.0; N]; S]; LANES], [[0; S]; LANES]);
-    block.write(&mut all, &mut flags);
+    block.slots().write(&mut all, &mut flags);
     q.copy_from_slice(&all[..q.len()]);
     status.copy_from_slice(&flags[..status.len()]);
 }

@@ -1,7 +1,7 @@
 //! Joint angles in lanes, a column for each joint of each slot.
 
 use super::columns::JointColumn;
-use super::{AnswerRow, RegularPose, StatusRow};
+use super::{AnswerRow, BlockSlots, RegularPose, StatusRow};
 use crate::lanes::{Column, Flags, LANES};
 
 /// The slots of a block of poses: theta, later the joint angles, and the status.
@@ -37,14 +37,18 @@ impl<const N: usize, const S: usize> SlotColumns<N, S> {
         }
     }
 
-    /// Write the slots as rows, two numbers at a time.
+    /// The column with an index in a row.
     #[inline(always)]
+    fn column(&self, number: usize) -> &Column {
+        &self.q[number % N][number / N]
+    }
+}
+
+impl<const N: usize, const S: usize> BlockSlots<N, S> for SlotColumns<N, S> {
+    /// Two numbers at a time.
+    #[inline(never)]
     #[expect(clippy::cast_possible_truncation, reason = "flags of a byte")]
-    pub(crate) fn write(
-        &self,
-        q: &mut [AnswerRow<N, S>; LANES],
-        status: &mut [StatusRow<S>; LANES],
-    ) {
+    fn write(&self, q: &mut [AnswerRow<N, S>; LANES], status: &mut [StatusRow<S>; LANES]) {
         for pair in 0..S * N / 2 {
             let (left, right) = (self.column(2 * pair), self.column(2 * pair + 1));
             for lane in 0..LANES {
@@ -58,10 +62,14 @@ impl<const N: usize, const S: usize> SlotColumns<N, S> {
         }
     }
 
-    /// The column with an index in a row.
     #[inline(always)]
-    fn column(&self, number: usize) -> &Column {
-        &self.q[number % N][number / N]
+    fn angles(&self, slot: usize, joint: usize) -> &Column {
+        &self.q[joint][slot]
+    }
+
+    #[inline(always)]
+    fn status(&self, slot: usize) -> &Flags {
+        &self.status[slot]
     }
 }
 

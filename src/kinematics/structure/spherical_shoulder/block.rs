@@ -2,8 +2,7 @@
 
 use super::branch::{Branch, Constants, branch};
 use crate::kinematics::structure::lanes::{
-    AnswerRow, Block, Columns, Directions, FOUND_INSIDE, Poses, SlotColumns, StatusRow, half_turn,
-    where_found,
+    Block, Columns, Directions, FOUND_INSIDE, Poses, SlotColumns, half_turn, where_found,
 };
 use crate::kinematics::thresholds::MOST_ANGLE;
 use crate::lanes::{Column, Flags, LANES};
@@ -32,6 +31,8 @@ pub(crate) struct ShoulderBlock {
 }
 
 impl Block<Constants, 7, SLOTS> for ShoulderBlock {
+    type Slots = SlotColumns<7, SLOTS>;
+
     const NEW: Self =
         Self { directions: Directions::NEW, slots: SlotColumns::NEW, regular: [0; LANES] };
 
@@ -61,19 +62,9 @@ impl Block<Constants, 7, SLOTS> for ShoulderBlock {
         self.regular
     }
 
-    #[inline(never)]
-    fn write(&self, q: &mut [AnswerRow<7, SLOTS>; LANES], status: &mut [StatusRow<SLOTS>; LANES]) {
-        self.slots.write(q, status);
-    }
-
     #[inline(always)]
-    fn angles(&self, slot: usize, joint: usize) -> &Column {
-        &self.slots.q[joint][slot]
-    }
-
-    #[inline(always)]
-    fn status(&self, slot: usize) -> &Flags {
-        &self.slots.status[slot]
+    fn slots(&self) -> &SlotColumns<7, SLOTS> {
+        &self.slots
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::branch::{Branch, Constants, branch};
 use crate::kinematics::structure::lanes::{
-    AnswerRow, Block, Columns, Directions, FOUND_INSIDE, Poses, StatusRow, half_turn,
+    AnswerRow, Block, BlockSlots, Columns, Directions, FOUND_INSIDE, Poses, StatusRow, half_turn,
 };
 use crate::lanes::{Column, Flags, LANES, mul_add};
 
@@ -38,6 +38,8 @@ pub(crate) struct WristBlock {
 }
 
 impl Block<Constants, 6, SLOTS> for WristBlock {
+    type Slots = Self;
+
     const NEW: Self = Self {
         directions: Directions::NEW,
         q: [[[0.0; LANES]; BRANCHES]; 6],
@@ -65,6 +67,13 @@ impl Block<Constants, 6, SLOTS> for WristBlock {
         self.regular
     }
 
+    #[inline(always)]
+    fn slots(&self) -> &Self {
+        self
+    }
+}
+
+impl BlockSlots<6, SLOTS> for WristBlock {
     #[inline(never)]
     #[expect(clippy::cast_possible_truncation, reason = "flags of a byte")]
     fn write(&self, q: &mut [AnswerRow<6, SLOTS>; LANES], status: &mut [StatusRow<SLOTS>; LANES]) {

@@ -2,10 +2,9 @@
 
 use super::branch::{Branch, Constants, Facing, branch, facing};
 use crate::kinematics::structure::lanes::{
-    AnswerRow, Block, Columns, Directions, FOUND_INSIDE, Poses, SlotColumns, StatusRow, half_turn,
-    where_found,
+    Block, Columns, Directions, FOUND_INSIDE, Poses, SlotColumns, half_turn, where_found,
 };
-use crate::lanes::{Column, Flags, LANES};
+use crate::lanes::{Flags, LANES};
 
 /// Slots of the structure.
 pub(super) const SLOTS: usize = 8;
@@ -27,6 +26,8 @@ pub(crate) struct ParallelBlock {
 }
 
 impl Block<Constants, 6, SLOTS> for ParallelBlock {
+    type Slots = SlotColumns<6, SLOTS>;
+
     const NEW: Self =
         Self { directions: Directions::NEW, slots: SlotColumns::NEW, regular: [0; LANES] };
 
@@ -62,19 +63,9 @@ impl Block<Constants, 6, SLOTS> for ParallelBlock {
         self.regular
     }
 
-    #[inline(never)]
-    fn write(&self, q: &mut [AnswerRow<6, SLOTS>; LANES], status: &mut [StatusRow<SLOTS>; LANES]) {
-        self.slots.write(q, status);
-    }
-
     #[inline(always)]
-    fn angles(&self, slot: usize, joint: usize) -> &Column {
-        &self.slots.q[joint][slot]
-    }
-
-    #[inline(always)]
-    fn status(&self, slot: usize) -> &Flags {
-        &self.slots.status[slot]
+    fn slots(&self) -> &SlotColumns<6, SLOTS> {
+        &self.slots
     }
 }
 
