@@ -119,3 +119,49 @@ def test_an_invalid_angle_is_refused(value, error):
     ]
     with pytest.raises(error):
         solution.with_free_joint(value)
+
+
+SURFACES = {
+    # Five joints of a plane, of which three place and turn what they carry.
+    "planar": (
+        [[90, 0, 0], [0, 0.5, 0.5], [90, 0.2, 0.5], [-90, 0, 0], [0, 0.2, 0], [0, 0.4, 0]],
+        [0, -90, 0, 0, -180, -90],
+        3,
+    ),
+    "planar, read backwards": (
+        [[-90, 0, 0], [0, 0.5, 0], [0, 0.25, 0.4], [-90, 0.4, 0.5], [90, 0, 0.3], [0, 0.2, 0.5]],
+        [-180, -90, -90, 0, -90, 0],
+        4,
+    ),
+    # Joints 1 and 5 turn with one another: two such self-motions in one place.
+    "merged": (
+        [[90, 0.5, 0], [90, 0.3, 0], [-90, 0, 0.3], [-90, 0, 0], [-90, 0, 0], [90, 0.25, 0]],
+        [-180, 90, -180, 90, -90, 90],
+        2,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SURFACES)
+def test_what_is_free_in_two_directions_stands_once(name):
+    rows, q, fixed = SURFACES[name]
+    rows = [[np.radians(alpha), a, d, 0] for alpha, a, d in rows]
+    robot, q = irbkin.Robot.from_mdh(rows), np.radians(q)
+    pose = robot.fk(q)
+    solutions = robot.ik(pose)
+    assert not solutions.certified
+    assert 1 <= len(solutions) <= 2
+    for solution in solutions:
+        assert solution.free_joint.joint == 1
+        assert f"q{fixed}" in solution.free_joint.fixed
+        assert solution.residual <= 4e-14
+        values = np.linalg.svd(robot.jacobian(solution.q), compute_uv=False)
+        assert values[4] < 1e-6
+    # The joint vector that made the pose is a member.
+    assert apart(robot.ik_nearest(pose, q), q).max() < 1e-6
+    if name == "merged":
+        for solution in solutions:
+            for value in VALUES:
+                member = solution.with_free_joint(value)
+                assert member.q[0] == pytest.approx(value, abs=1e-12)
+                assert member.residual <= 4e-14

@@ -29,6 +29,8 @@ pub(crate) enum Kind {
     Merged(u8),
     /// Move, its ends standing still: these joints, as far as is known.
     Free([bool; 6]),
+    /// The same in two directions, or more.
+    Surface([bool; 6]),
 }
 
 impl Kind {
@@ -88,7 +90,7 @@ impl Configuration {
                 (0.1 * self.least).max(2.0 * rounding / self.least.max(1e-9)).min(SAME)
             }
             // Its distance from the exact fold is the root of rounding.
-            Kind::Merged(_) | Kind::Free(_) => 1e-6,
+            Kind::Merged(_) | Kind::Free(_) | Kind::Surface(_) => 1e-6,
         }
     }
 
@@ -104,7 +106,7 @@ impl Configuration {
 
     /// Whether the chain can move there.
     pub(crate) fn is_free(&self) -> bool {
-        matches!(self.kind, Kind::Free(_))
+        matches!(self.kind, Kind::Free(_) | Kind::Surface(_))
     }
 
     /// Angles at a part of the way to another one.

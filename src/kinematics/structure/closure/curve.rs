@@ -34,8 +34,9 @@ pub(super) struct Curve {
     pub(super) start: [f64; 6],
     u: [f64; 6],
     v: [f64; 6],
-    /// The least singular value at the start [1].
+    /// The least singular value at the start, and the next [1].
     pub(super) least: f64,
+    pub(super) second: f64,
 }
 
 /// A point of a curve.
@@ -80,7 +81,7 @@ impl Closure {
         let (least, u, v) = triangle(&columns).least_vectors();
         border(&mut columns, &u, &v);
         let second = triangle(&columns).least();
-        (second > SECOND).then_some(Curve { start: *theta, u, v, least })
+        (second > SECOND).then_some(Curve { start: *theta, u, v, least, second })
     }
 
     /// Points on curves, by Newton's method.

@@ -12,6 +12,7 @@ use super::chain::{Closure, Target, largest, sines};
 use super::configuration::{Configuration, EXTENT, ISOLATED, Kind, MERGED, Missed};
 use super::curve::{Curve, Point, Wanted};
 use super::merged::Merged;
+use super::surface::{NEARLY, Surface};
 use crate::lanes::LANES;
 
 /// Points to an extreme value or to a root, at most.
@@ -38,6 +39,9 @@ const FLAT: f64 = 0.03;
 /// How far the closure may be off a parabola, as a part of its value, for the complex roots to be
 /// where that has them [1].
 const PARABOLIC: f64 = 0.1;
+
+/// Second singular value up to which a candidate may be beside a surface [1].
+const BESIDE: f64 = 0.02;
 
 /// What is at a configuration that hardly closes better in one direction.
 #[derive(Clone, Copy, Debug, Default)]
@@ -90,18 +94,39 @@ impl Closure {
         let mut curves = Curves { closure: self, target, all: [None; LANES] };
         let mut settled = [Settled::default(); LANES];
         for (index, theta) in all.iter().enumerate() {
-            match self.curve(target, theta) {
-                None => settled[index] = self.unanalyzed(target, theta),
-                curve => curves.all[index] = curve,
-            }
+            curves.all[index] = self.curve(target, theta);
         }
         curves.settle(&mut settled);
+        for (theta, (curve, settled)) in all.iter().zip(curves.all.iter().zip(&mut settled)) {
+            self.settle_surface(target, theta, curve.as_ref(), settled);
+        }
         settled
     }
 
-    /// A configuration with two free directions: taken if it closes, without a claim.
-    fn unanalyzed(&self, target: &Target, theta: &[f64; 6]) -> Settled {
-        Settled::of([self.accepted(target, *theta, 0.0, Kind::FOLD), None], false)
+    /// Take a configuration of a surface, or where no curve could be followed, without a claim.
+    fn settle_surface(
+        &self,
+        target: &Target,
+        theta: &[f64; 6],
+        curve: Option<&Curve>,
+        settled: &mut Settled,
+    ) {
+        let mut theta = *theta;
+        if let Some(curve) = curve {
+            // A candidate beside a surface has a curve, too, along which it is free.
+            let free = settled.all[0].filter(|one| one.is_free() && curve.second <= BESIDE);
+            let Some(free) = free else { return };
+            theta = free.theta;
+            if self.curve(target, &theta).is_some_and(|curve| curve.second > NEARLY) {
+                return;
+            }
+        }
+        let Some(surface) = Surface::next_to(self, target, &theta) else { return };
+        let one = surface.configuration(&theta);
+        let is_surface = |one: &Configuration| matches!(one.kind, Kind::Surface(_));
+        if curve.is_none() || one.as_ref().is_some_and(is_surface) {
+            *settled = Settled::of([one, None], false);
+        }
     }
 
     /// The configuration if it closes.
@@ -209,7 +234,7 @@ impl Curves<'_> {
         let least = match kind {
             Kind::Regular => point.slope.abs(),
             Kind::Merged(_) => 0.0,
-            Kind::Free(_) => self.all[lane]?.least,
+            Kind::Free(_) | Kind::Surface(_) => self.all[lane]?.least,
         };
         self.closure.accepted(self.target, point.theta, least, kind)
     }

@@ -20,6 +20,8 @@ mod order;
 mod placed;
 mod reflections;
 mod self_motion;
+mod surface;
+mod surfaces;
 #[cfg(test)]
 mod tests;
 mod walked;

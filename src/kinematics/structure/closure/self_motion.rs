@@ -27,6 +27,10 @@ const ON_CURVE: f64 = 0.02;
 /// How far it may be from the place of the self-motion that is found for it [rad].
 const SAME: f64 = 1e-5;
 
+/// How far from there it may be if the chain closes between the two, too [rad]: where self-motions
+/// cross or nearly do, the closure is below its rounding as far as the root of that.
+const FLAT: f64 = 2e-3;
+
 /// How far beyond the ends of a step it may be, as a part of it [1].
 const BEYOND: f64 = 0.05;
 
@@ -92,7 +96,19 @@ impl SelfMotion<'_> {
             || off < ON_CURVE && {
                 let s = SVector::from(ends[0].direction).dot(&(between - one));
                 let member = self.closure.member_ahead(self.target, ends[0], s, between.into());
-                member.is_some_and(|member| (place - SVector::from(member.theta)).amax() < SAME)
+                member.is_some_and(|member| {
+                    let apart = place - SVector::from(member.theta);
+                    apart.amax() < SAME || apart.amax() < FLAT && self.is_flat(&member, &apart)
+                })
             }
+    }
+
+    /// Whether the chain closes half of a way from a member, too.
+    fn is_flat(&self, member: &Member, way: &SVector<f64, 6>) -> bool {
+        let Member { theta, .. } = *member;
+        let from = Member { theta, direction: way.normalize().into() };
+        let middle = SVector::from(theta) + way * 0.5;
+        let half = self.closure.member_ahead(self.target, &from, 0.5 * way.norm(), middle.into());
+        half.is_some_and(|half| (SVector::from(half.theta) - middle).norm() < 0.25 * way.norm())
     }
 }

@@ -91,7 +91,15 @@ impl Accepted {
         let kept = self.emptied();
         for one in kept.as_slice() {
             let member = members[..count].iter().find(|(kept, _)| kept == one);
-            self.insert(closure, member.map_or(*one, |(_, member)| *member));
+            let mut member = member.map_or(*one, |(_, member)| *member);
+            if let Kind::Surface(moving) = one.kind
+                && let Some(joint) = moving.iter().position(|moves| *moves)
+                && let Some(there) =
+                    closure.member_of_surface(target, &one.theta, joint, near[joint])
+            {
+                member = Configuration { kind: one.kind, ..there };
+            }
+            self.insert(closure, member);
         }
     }
 
@@ -109,9 +117,10 @@ impl Accepted {
         near: &[f64; 6],
         take: &mut dyn FnMut(&Configuration, &SelfMotion<'_>, &Way),
     ) {
+        self.thin_surfaces(closure, target);
         let mut index = 0;
         while let Some(one) = self.as_slice().get(index).copied() {
-            if one.is_free() {
+            if let Kind::Free(_) = one.kind {
                 let motion = closure.self_motions(target, &one.theta).next();
                 let mut way = Way::NONE;
                 if let Some(motion) = &motion {

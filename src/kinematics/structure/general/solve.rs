@@ -78,6 +78,7 @@ impl General {
     /// Take what Newton's method leads to from all over the joints (eq. 104a).
     #[cold]
     fn start_anywhere(&self, target: &Target, accepted: &mut Accepted) {
+        accepted.begin();
         let mut starts = (0..STARTS).map(quasi_random);
         // Rounds that are left in each lane: one that closes, or has none left, takes a new start.
         let (mut theta, mut left) = ([[0.0; LANES]; 6], [0; LANES]);
@@ -135,7 +136,7 @@ impl General {
         for (slot, index) in order.iter().enumerate() {
             branches.q[slot] = Some(self.joint_map.joints(all[*index].theta));
             branches.flags[slot] = kinds_of(&all[*index]).into();
-            if let Kind::Free(moving) = all[*index].kind {
+            if let Kind::Free(moving) | Kind::Surface(moving) = all[*index].kind {
                 branches.free[slot] = FreeJoint::of_chain(moving);
             }
         }
@@ -155,8 +156,11 @@ impl General {
         let mut near = *q;
         near[joint] = value;
         let near = self.joint_map.theta(&near);
-        let mut motions = self.closure.self_motions(&target, &self.joint_map.theta(q));
-        let member = motions.find_map(|motion| motion.member(joint, &near))?;
+        let theta = self.joint_map.theta(q);
+        let on_surface = self.closure.member_of_surface(&target, &theta, joint, near[joint]);
+        let mut motions = self.closure.self_motions(&target, &theta);
+        let member =
+            on_surface.or_else(|| motions.find_map(|motion| motion.member(joint, &near)))?;
         Some(self.joint_map.joints(member.theta))
     }
 
@@ -185,6 +189,6 @@ fn kinds_of(one: &Configuration) -> SingularityKind {
     match one.kind {
         Kind::Regular if one.least >= SINGULAR => SingularityKind::empty(),
         Kind::Regular | Kind::Merged(_) => SingularityKind::ELBOW,
-        Kind::Free(_) => SingularityKind::WRIST,
+        Kind::Free(_) | Kind::Surface(_) => SingularityKind::WRIST,
     }
 }
