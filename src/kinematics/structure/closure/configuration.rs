@@ -109,6 +109,11 @@ impl Configuration {
         matches!(self.kind, Kind::Free(_) | Kind::Surface(_))
     }
 
+    /// Whether two directions are free there, or more.
+    pub(super) fn is_surface(&self) -> bool {
+        matches!(self.kind, Kind::Surface(_))
+    }
+
     /// Angles at a part of the way to another one.
     pub(super) fn between(&self, other: &Self, part: f64) -> [f64; 6] {
         core::array::from_fn(|i| self.theta[i] + part * wrap(other.theta[i] - self.theta[i]))

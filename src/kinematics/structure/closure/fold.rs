@@ -123,8 +123,7 @@ impl Closure {
         }
         let Some(surface) = Surface::next_to(self, target, &theta) else { return };
         let one = surface.configuration(&theta);
-        let is_surface = |one: &Configuration| matches!(one.kind, Kind::Surface(_));
-        if curve.is_none() || one.as_ref().is_some_and(is_surface) {
+        if curve.is_none() || one.as_ref().is_some_and(Configuration::is_surface) {
             *settled = Settled::of([one, None], false);
         }
     }

@@ -62,7 +62,7 @@ impl Closure {
         None
     }
 
-    fn closes(&self, target: &Target, theta: &[f64; 6]) -> bool {
+    pub(super) fn closes(&self, target: &Target, theta: &[f64; 6]) -> bool {
         let (sin, cos) = sines(theta);
         largest(&self.missing(target, &sin, &cos)) <= self.accepts()
     }

@@ -217,7 +217,7 @@ impl<'a> Surface<'a> {
             }
         }
         let theta = theta.into();
-        self.closure.accepted(self.target, theta, 0.0, Kind::FOLD).map(|_| theta)
+        self.closure.closes(self.target, &theta).then_some(theta)
     }
 
     /// Whether a way along the surface joins two configurations.

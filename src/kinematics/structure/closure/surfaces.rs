@@ -4,7 +4,7 @@
 
 use super::accepted::{Accepted, ROOM};
 use super::chain::{Closure, Target};
-use super::configuration::{Configuration, Kind};
+use super::configuration::Kind;
 use super::surface::Surface;
 
 /// Configurations that are tried to join with one: those nearest to it.
@@ -13,8 +13,7 @@ const NEAREST: usize = 4;
 impl Accepted {
     /// Keep one configuration of each surface.
     pub(super) fn thin_surfaces(&mut self, closure: &Closure, target: &Target) {
-        let is_surface = |one: &Configuration| matches!(one.kind, Kind::Surface(_));
-        let Some(first) = self.as_slice().iter().find(|one| is_surface(one)) else { return };
+        let Some(first) = self.as_slice().iter().find(|one| one.is_surface()) else { return };
         let Some(surface) = Surface::next_to(closure, target, &first.theta) else { return };
         let all = self.emptied();
         let all = all.as_slice();
@@ -23,8 +22,8 @@ impl Accepted {
         for (index, one) in all.iter().enumerate() {
             let may_join = |other: &usize| {
                 let other = &all[*other];
-                let (known, new) = if is_surface(one) { (one, other) } else { (other, one) };
-                is_surface(known) && new.is_singular() && !matches!(new.kind, Kind::Free(_))
+                let (known, new) = if one.is_surface() { (one, other) } else { (other, one) };
+                known.is_surface() && new.is_singular() && !matches!(new.kind, Kind::Free(_))
             };
             let (mut nearest, mut count) = ([0; ROOM], 0);
             for other in (0..index).filter(may_join) {
@@ -44,8 +43,10 @@ impl Accepted {
                 }
             }
         }
-        for (_, one) in all.iter().enumerate().filter(|(index, _)| group[*index] == *index) {
-            self.insert(closure, *one);
+        for (index, one) in all.iter().enumerate() {
+            if group[index] == index {
+                self.insert(closure, *one);
+            }
         }
     }
 }
