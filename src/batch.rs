@@ -7,8 +7,6 @@
 mod forward;
 #[cfg(feature = "python")]
 mod given;
-#[cfg(feature = "std")]
-mod helpers;
 mod inverse;
 mod margins;
 mod pace;
@@ -20,12 +18,14 @@ mod plans;
 #[cfg(feature = "python")]
 mod poses;
 mod rows;
+#[cfg(feature = "std")]
+mod threads;
 
 pub use forward::{configuration, fk, jacobian, link_frames, singularity};
 #[cfg(feature = "python")]
 pub(crate) use inverse::Configured;
 pub use inverse::{NO_CONFIGURATION, ik, ik_configured, ik_nearest, ik_with};
-pub use margins::{Margins, ik_margin};
+pub use margins::{Margins, ik_margin, margin};
 #[cfg(feature = "python")]
 pub(crate) use pace::Pace;
 pub use parameters::{corrected_fk, parameter_jacobian};

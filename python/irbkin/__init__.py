@@ -65,6 +65,7 @@ from irbkin.records import (
     SingularityMode,
     Status,
     StrandEnd,
+    ToolSpeedLimits,
     TrajectorySample,
 )
 
@@ -120,6 +121,7 @@ __all__ = [
     "ToolCone",
     "ToolOffset",
     "ToolRotation",
+    "ToolSpeedLimits",
     "Track",
     "TrajectorySample",
     "UnknownNameError",

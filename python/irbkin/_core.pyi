@@ -862,19 +862,20 @@ class Robot:
             InvalidPoseError, InvalidJointsError, InvalidModelError: As `ik`; a seed or weight that
                 is not finite; a single pose or seed for a whole batch that is invalid.
         """
-    def margin(self, q: npt.ArrayLike) -> Margin:
+    def margin(self, q: npt.ArrayLike, *, threads: int = 1) -> Margin:
         """How far joint vectors are from limits and singularities, as parts of the farthest that
         they can be.
 
         Args:
             q: Joint angles [rad], shape (..., n).
+            threads: Number of threads; 0 for one a core.
 
         Returns:
             Margin: two arrays of shape (...), 1 in the middle, 0 at a limit or a singularity,
-            negative outside limits. A row with a NaN or inf gives NaN.
+            negative outside limits. Of many rows, one with a NaN or inf gives NaN.
 
         Raises:
-            InvalidJointsError: A wrong shape.
+            InvalidJointsError: A wrong shape, or a single row with a NaN or inf.
         """
     def ik_margin(
         self, T: npt.ArrayLike, q7: npt.ArrayLike | None = None, *, threads: int = 1

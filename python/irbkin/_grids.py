@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from irbkin.records import by_value
+from irbkin._equality import by_value
 
 if TYPE_CHECKING:
     import numpy as np

@@ -1,16 +1,40 @@
-//! How much room the solutions of many poses leave.
+//! How much room many joint vectors, and the solutions of many poses, leave.
 
 use alloc::vec;
 use core::num::NonZeroUsize;
 
 use super::inverse::check_structure;
 use super::pace::Pace;
-use super::rows::{check_length, rows};
+use super::rows::{check_length, is_finite, rows};
 use crate::error::Error;
 use crate::kinematics::{Arity, Joints, Margin, RedundancyOf, Robot, Rows, Status};
 
 /// Poses that a thread takes at a time: some ten microseconds of work.
 const PART: usize = 64;
+
+/// Joint vectors that a thread takes at a time.
+const JOINT_VECTORS: usize = 1024;
+
+/// How far rows of `N` joint angles are from limits and singularities, [`Robot::margin`] of each:
+/// its two numbers; NaN for a row that is not finite.
+///
+/// On up to `threads` threads, as [`ik_with`](super::ik_with).
+///
+/// # Errors
+///
+/// [`Error::WrongLength`] when a slice does not hold as many rows as `q`.
+pub fn margin<const N: usize>(
+    robot: &Robot<N>,
+    q: &[f64],
+    limits: &mut [f64],
+    singularities: &mut [f64],
+    threads: Option<NonZeroUsize>,
+) -> Result<(), Error>
+where
+    Joints<N>: Arity<N>,
+{
+    Pace::steady(threads).margin(robot, q, limits, singularities)
+}
 
 /// Where the answers of [`ik_margin`] are written, an element for each pose.
 #[derive(Debug)]
@@ -47,6 +71,32 @@ where
 }
 
 impl Pace<'_> {
+    /// [`margin`]
+    pub(crate) fn margin<const N: usize>(
+        &mut self,
+        robot: &Robot<N>,
+        q: &[f64],
+        limits: &mut [f64],
+        singularities: &mut [f64],
+    ) -> Result<(), Error>
+    where
+        Joints<N>: Arity<N>,
+    {
+        let q = rows::<N>("q", q)?;
+        check_length("limits", limits.len(), q.len())?;
+        check_length("singularities", singularities.len(), q.len())?;
+        let answers = limits.chunks_mut(JOINT_VECTORS).zip(singularities.chunks_mut(JOINT_VECTORS));
+        let parts = q.chunks(JOINT_VECTORS).zip(answers);
+        self.run(q.len(), parts, |(q, (limits, singularities)), _| {
+            for (row, q) in q.iter().enumerate() {
+                let unknown = Margin { limits: f64::NAN, singularities: f64::NAN };
+                let margin = if is_finite(q) { robot.margin(q) } else { unknown };
+                (limits[row], singularities[row]) = (margin.limits, margin.singularities);
+            }
+        });
+        Ok(())
+    }
+
     /// [`ik_margin`]
     pub(crate) fn ik_margin<const N: usize>(
         &mut self,
@@ -167,6 +217,27 @@ mod tests {
             let many = poses.repeat(16);
             assert_eq!(bits(margins(&robot, &many, 2)), bits((margin.repeat(16), vec![], vec![])));
         }
+    }
+
+    #[test]
+    fn a_row_has_the_margin_that_it_has_alone() {
+        let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
+        let mut rng = Rng::new(7);
+        let mut q: Vec<f64> = (0..10_000).flat_map(|_| rng.inside(robot.limits())).collect();
+        q[6 * 70 + 3] = f64::INFINITY;
+        for threads in [1, 2] {
+            let (mut limits, mut singularities) = (vec![9.0; 10_000], vec![9.0; 10_000]);
+            let threads = NonZeroUsize::new(threads);
+            super::margin(&robot, &q, &mut limits, &mut singularities, threads).unwrap();
+            assert!(limits[70].is_nan() && singularities[70].is_nan());
+            for (row, q) in q.as_chunks().0.iter().enumerate().filter(|(row, _)| *row != 70) {
+                let alone = robot.margin(q);
+                assert_eq!(limits[row].to_bits(), alone.limits.to_bits());
+                assert_eq!(singularities[row].to_bits(), alone.singularities.to_bits());
+            }
+        }
+        let error = super::margin(&robot, &q, &mut [0.0; 3], &mut [0.0; 3], None).unwrap_err();
+        assert!(error.to_string().contains("limits"), "{error}");
     }
 
     #[test]

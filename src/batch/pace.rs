@@ -11,7 +11,7 @@ use std::time::Duration;
 use core::num::NonZeroUsize;
 
 #[cfg(feature = "std")]
-use super::helpers::Helpers;
+use super::threads::Helpers;
 
 /// How often the caller is asked while it waits for other threads.
 #[cfg(feature = "std")]
@@ -150,7 +150,7 @@ impl Drop for Ended<'_> {
 #[cfg(all(test, feature = "std"))]
 mod tests {
     use super::*;
-    use crate::batch::helpers::WORTH_A_THREAD;
+    use crate::batch::threads::WORTH_A_THREAD;
     use std::sync::atomic::AtomicUsize;
     use std::thread;
     use std::vec::Vec;

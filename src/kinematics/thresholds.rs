@@ -1,4 +1,5 @@
-//! Every threshold of the library, with its unit and its reason. `docs/accuracy.md` derives them.
+//! Every threshold of the library that answers and flags depend on, with its unit and its reason.
+//! `docs/accuracy.md` derives them. Parameters of one algorithm are beside it.
 
 /// How far a rotation's columns may deviate from orthonormal and still be repaired: the largest
 /// element of `R^T R - I` [1]. Elements in single precision (6e-8 off) and in text with six digits
@@ -53,6 +54,11 @@ pub const POSITION_ROUNDING: f64 = 1.5e-15;
 /// How close to a singularity a seeded solve may keep the seed's value of the undetermined joint
 /// [rad, m]: the precision of the best poses met in practice.
 pub const SEEDED_FREE: f64 = 1e-12;
+
+/// Least singular value of the closure of an arm without a closed form, lengths in units of the arm,
+/// below which a joint vector is flagged as singular [1]: the root of rounding, at which two
+/// solutions merge.
+pub const CLOSURE_SINGULAR: f64 = 1e-7;
 
 /// sin q5
 ///

@@ -1,19 +1,15 @@
-//! Building robots from Python's arguments, and their state for pickle, hash and comparison.
+//! Building robots from Python's arguments.
 
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
 
-use super::arm::{Arm, on};
+use super::arm::Arm;
 use super::arrays::Rows;
 use super::edits::Edit;
 use super::errors::{Fault, to_py};
 use super::wording::shape;
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{
-    Arity, Definition, DhRow, Joints, Mdh, OpwParameters, Pose, Robot, Sdh, pose_from_rows,
-    pose_to_rows,
-};
-use crate::report::{ConfigurationRule, Convention};
+use crate::kinematics::{Arity, DhRow, Joints, Mdh, OpwParameters, Pose, Robot, Sdh};
+use crate::report::Convention;
 
 /// How a Denavit-Hartenberg table is to be read.
 #[derive(Clone, Copy)]
@@ -109,148 +105,4 @@ pub(super) fn with_limits(arm: &Arm, limits: &Bound<'_, PyAny>) -> PyResult<Arm>
         return Err(Fault::Model.error(limits.py(), message));
     }
     arm.changed(limits.py(), &Edit::Limits(rows.data()?.as_chunks::<2>().0))
-}
-
-/// Everything that a robot was built from: (name, definition, numbers of it, limits, base, tool,
-/// velocities, linkage, rule). The linkage is of coupled arms alone: its limits, or no numbers. The
-/// rule is of arms whose controllers count configurations in a way of their own: the reference of a
-/// YuMi's arm angle, no numbers of a GoFa.
-pub(super) type State = (
-    String,
-    String,
-    Vec<f64>,
-    Vec<f64>,
-    Vec<f64>,
-    Vec<f64>,
-    Option<Vec<f64>>,
-    Option<Vec<f64>>,
-    Option<Vec<f64>>,
-);
-
-/// The state of an arm. Equal robots have equal states.
-pub(super) fn state(arm: &Arm) -> State {
-    on!(arm, robot => {
-        let (definition, numbers) = match robot.definition() {
-            Definition::Opw(opw) => ("opw", opw_numbers(opw)),
-            Definition::Mdh(mdh) => ("mdh", mdh_numbers(mdh)),
-            Definition::Refined { mdh, nominal } => {
-                let nominal = match &**nominal {
-                    Definition::Opw(opw) => opw_numbers(opw),
-                    Definition::Mdh(nominal) | Definition::Refined { mdh: nominal, .. } => {
-                        mdh_numbers(nominal)
-                    }
-                };
-                ("refined", [mdh_numbers(mdh), nominal].concat())
-            }
-        };
-        (
-            robot.name().to_owned(),
-            definition.to_owned(),
-            numbers,
-            robot.limits().to_array().concat(),
-            pose_to_rows(robot.base()).to_vec(),
-            pose_to_rows(robot.tool()).to_vec(),
-            robot.max_velocity().map(|velocity| velocity.to_vec()),
-            robot.is_coupled().then(|| robot.limits().linkage().map_or_else(Vec::new, Vec::from)),
-            robot.own_rule().map(|rule| match rule {
-                ConfigurationRule::ArmAngle { reference } => Vec::from(reference),
-                _ => Vec::new(),
-            }),
-        )
-    })
-}
-
-fn opw_numbers(opw: &OpwParameters) -> Vec<f64> {
-    let lengths = [opw.a1, opw.a2, opw.b, opw.c1, opw.c2, opw.c3, opw.c4];
-    lengths.into_iter().chain(opw.offsets).chain(opw.signs.map(f64::from)).collect()
-}
-
-fn mdh_numbers<const N: usize>(mdh: &Mdh<N>) -> Vec<f64> {
-    let rows = mdh.rows.iter().flat_map(|row| row.to_array());
-    rows.chain(pose_to_rows(&mdh.base)).chain(pose_to_rows(&mdh.flange)).collect()
-}
-
-/// Hash of a robot's value.
-pub(super) fn hash(py: Python<'_>, arm: &Arm) -> PyResult<isize> {
-    let (name, definition, numbers, limits, base, tool, velocity, linkage, rule) = state(arm);
-    let (coupled, ruled) = (linkage.is_some(), rule.is_some());
-    let others = [velocity, linkage, rule].map(Option::unwrap_or_default).concat();
-    let numbers = [numbers, limits, base, tool, others].concat();
-    // Python's own hash of floats holds 0.0 and -0.0 for one, as the comparison does.
-    (name, definition, coupled, ruled, PyTuple::new(py, numbers)?).into_pyobject(py)?.hash()
-}
-
-/// The arm of a state, for pickle.
-pub(super) fn restored(py: Python<'_>, state: &State) -> PyResult<Arm> {
-    let (name, definition, numbers, limits, base, tool, velocity, linkage, rule) = state;
-    let (limit_rows, rest) = limits.as_chunks::<2>();
-    let broken = || Fault::Model.error(py, "the pickled robot is damaged".to_owned());
-    if !rest.is_empty() {
-        return Err(broken());
-    }
-    let built = match (definition.as_str(), numbers.len()) {
-        ("opw", 19) => opw_of(numbers).ok_or_else(broken)?.map(Arm::from),
-        ("mdh", 56) => mdh_of::<6>(numbers).ok_or_else(broken)?.map(Arm::from),
-        ("refined", 75 | 112) => refined_of(numbers).ok_or_else(broken)?.map(Arm::from),
-        ("mdh", 60) => mdh_of::<7>(numbers).ok_or_else(broken)?.map(Arm::from),
-        _ => return Err(broken()),
-    };
-    let pose = |rows: &[f64]| -> PyResult<Pose> {
-        let rows = <&[f64; 16]>::try_from(rows).map_err(|_| broken())?;
-        pose_from_rows(rows).map_err(|error| to_py(py, &error))
-    };
-    built
-        .map_err(|error| to_py(py, &error))?
-        .changed(py, &Edit::Name(name))?
-        .changed(py, &Edit::Coupling(linkage.as_deref()))?
-        .changed(py, &Edit::StoredLimits(limit_rows))?
-        .changed(py, &Edit::Base(pose(base)?))?
-        .changed(py, &Edit::Tool(pose(tool)?))?
-        .changed(py, &Edit::MaxVelocity(velocity.as_deref()))?
-        .changed(py, &Edit::Rule(rule.as_deref().map(rule_of)))
-}
-
-fn rule_of(numbers: &[f64]) -> ConfigurationRule {
-    match numbers.first_chunk::<3>() {
-        Some(reference) => ConfigurationRule::ArmAngle { reference: *reference },
-        None => ConfigurationRule::OffsetWrist,
-    }
-}
-
-fn opw_of(numbers: &[f64]) -> Option<Result<Robot<6>, Error>> {
-    let &[a1, a2, b, c1, c2, c3, c4, ref rest @ ..] = numbers else { return None };
-    let (offsets, signs) = rest.split_first_chunk::<6>()?;
-    let signs = <[f64; 6]>::try_from(signs).ok()?;
-    if signs.iter().any(|sign| sign.abs().total_cmp(&1.0).is_ne()) {
-        return None;
-    }
-    let signs = signs.map(|sign| if sign < 0.0 { -1 } else { 1 });
-    Some(Robot::from_opw(OpwParameters { a1, a2, b, c1, c2, c3, c4, offsets: *offsets, signs }))
-}
-
-fn refined_of(numbers: &[f64]) -> Option<Result<Robot<6>, Error>> {
-    let (calibrated, nominal) = numbers.split_at_checked(56)?;
-    let calibrated = mdh_of::<6>(calibrated)?;
-    let nominal = if nominal.len() == 19 { opw_of(nominal)? } else { mdh_of::<6>(nominal)? };
-    Some(calibrated.and_then(|robot| robot.with_nominal(&nominal?)))
-}
-
-fn mdh_of<const N: usize>(numbers: &[f64]) -> Option<Result<Robot<N>, Error>>
-where
-    Joints<N>: Arity<N>,
-{
-    let (rows, poses) = numbers.split_at_checked(4 * N)?;
-    let (base, flange) = poses.split_first_chunk::<16>()?;
-    let rows = <[[f64; 4]; N]>::try_from(rows.as_chunks::<4>().0).ok()?;
-    let rows = rows.map(|[alpha, a, d, theta]| DhRow::new(alpha, a, d, theta));
-    let built = pose_from_rows(base)
-        .and_then(|base| {
-            Ok(Mdh {
-                base,
-                rows,
-                flange: pose_from_rows(flange.try_into().unwrap_or(&[f64::NAN; 16]))?,
-            })
-        })
-        .and_then(Robot::of_table);
-    Some(built)
 }

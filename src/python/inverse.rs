@@ -2,13 +2,12 @@
 
 use std::sync::Arc;
 
-use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
 use super::answers::pose_check;
 use super::arguments::{read_singularity_mode, thread_count};
 use super::arm::{Arm, on};
-use super::batches::{self, needed_q7, no_q7, one_angle};
+use super::batches;
 use super::configured::{self, Options};
 use super::errors::{of_seed, to_py};
 use super::found::{Found, read_weights};
@@ -18,6 +17,7 @@ use super::nearest::{self, Seeded, read_seeded};
 use super::outputs::answer_row;
 use super::paths;
 use super::poses::{read_ik_pose, read_single_pose};
+use super::redundancy::{needed_q7, no_q7, no_q7_beside_given, one_angle};
 use super::robot::PyRobot;
 use super::solutions::PySolutions;
 use crate::kinematics::thresholds::WRIST_ZONE;
@@ -354,13 +354,5 @@ impl PyRobot {
         let explanation = on!(self.arm(), robot => robot.explain(&pose))
             .map_err(|error| to_py(T.py(), &error))?;
         pose_check(T.py(), &explanation)
-    }
-}
-
-/// Of q7 and given, one says all.
-fn no_q7_beside_given(q7: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
-    match q7 {
-        Some(_) => Err(PyTypeError::new_err("q7 and given: pass one of them")),
-        None => Ok(()),
     }
 }

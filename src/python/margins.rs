@@ -5,8 +5,8 @@ use pyo3::prelude::*;
 
 use super::arguments::thread_count;
 use super::arm::{Arm, on};
-use super::batches::read_poses;
 use super::classes;
+use super::redundancy::read_poses_with_q7;
 use super::robot::PyRobot;
 use super::signals::detached;
 use crate::batch::Margins;
@@ -19,27 +19,29 @@ impl PyRobot {
     ///
     /// Args:
     ///     q: Joint angles [rad], shape (..., n).
+    ///     threads: Number of threads; 0 for one a core.
     ///
     /// Returns:
     ///     Margin: two arrays of shape (...), 1 in the middle, 0 at a limit or a singularity,
-    ///     negative outside limits. A row with a NaN or inf gives NaN.
+    ///     negative outside limits. Of many rows, one with a NaN or inf gives NaN.
     ///
     /// Raises:
-    ///     InvalidJointsError: A wrong shape.
-    fn margin<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        let py = q.py();
+    ///     InvalidJointsError: A wrong shape, or a single row with a NaN or inf.
+    #[pyo3(signature = (q, *, threads=1))]
+    fn margin<'py>(&self, q: &Bound<'py, PyAny>, threads: isize) -> PyResult<Bound<'py, PyAny>> {
+        let (py, threads) = (q.py(), thread_count(threads)?);
         let rows = self.arm().joints(q)?;
         let data = rows.data()?;
         let limits = PyArrayDyn::zeros(py, rows.lead.clone(), false);
         let singularities = PyArrayDyn::zeros(py, rows.lead.clone(), false);
         let (mut to_limits, mut to_singularities) = (limits.readwrite(), singularities.readwrite());
-        let columns = to_limits.as_slice_mut()?.iter_mut().zip(to_singularities.as_slice_mut()?);
-        on!(self.arm(), robot => for (q, (limits, singularities)) in data.as_chunks().0.iter().zip(columns) {
-            let margin = robot.margin(q);
-            let is_finite = q.iter().all(|angle| angle.is_finite());
-            *limits = if is_finite { margin.limits } else { f64::NAN };
-            *singularities = if is_finite { margin.singularities } else { f64::NAN };
-        });
+        let (limits_out, singularities_out) =
+            (to_limits.as_slice_mut()?, to_singularities.as_slice_mut()?);
+        detached(
+            py,
+            threads,
+            |pace| on!(self.arm(), robot => pace.margin(robot, data, limits_out, singularities_out)),
+        )?;
         classes::margin_class(py)?.call1((limits, singularities))
     }
 
@@ -67,7 +69,7 @@ impl PyRobot {
         threads: isize,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (py, arm, threads) = (T.py(), self.arm(), thread_count(threads)?);
-        let (poses, given) = read_poses(arm, T, q7)?;
+        let (poses, given) = read_poses_with_q7(arm, T, q7)?;
         let data = poses.data()?;
         let margin = PyArrayDyn::<f64>::zeros(py, poses.lead.clone(), false);
         let singularities = PyArrayDyn::<f64>::zeros(py, poses.lead.clone(), false);

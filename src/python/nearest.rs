@@ -9,6 +9,7 @@ use super::broadcast::{Argument, together};
 use super::errors::{Fault, to_py};
 use super::found::read_weights;
 use super::outputs::{output, writable};
+use super::poses::single_pose;
 use super::signals::detached;
 use crate::kinematics::{Arity, Inverse, Joints, Pose, Robot, check_seed, pose_from_rows};
 
@@ -62,16 +63,6 @@ fn read_arrays<'py, const N: usize>(
         ],
     )?;
     Ok(Seeded::Many(poses, seeds))
-}
-
-/// The pose where there is one alone, checked.
-pub(super) fn single_pose(py: Python<'_>, poses: &Rows<'_>) -> PyResult<Option<Pose>> {
-    match poses.data()?.as_chunks::<16>().0 {
-        [pose] if poses.is_single() => {
-            pose_from_rows(pose).map(Some).map_err(|error| to_py(py, &error))
-        }
-        _ => Ok(None),
-    }
 }
 
 /// The seed where there is one alone, checked.

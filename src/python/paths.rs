@@ -15,7 +15,7 @@ use super::errors::{Fault, to_py};
 use super::nearest::single_seed;
 use super::outputs::{Writable, output, writable};
 use super::signals::detached;
-use super::wording::shape;
+use super::wording::{index_in, shape};
 use crate::kinematics::{
     BreakReason, FollowOptions, Followed, Pose, Robot, check_seed, pose_from_rows,
 };
@@ -67,7 +67,7 @@ pub(super) fn one_path<'py>(path: &Bound<'py, PyAny>, field: &str) -> PyResult<R
 }
 
 /// The poses of one path `T`, shape (m, 4, 4), checked.
-pub(super) fn read_poses(path: &Bound<'_, PyAny>) -> PyResult<Vec<Pose>> {
+pub(super) fn read_path_poses(path: &Bound<'_, PyAny>) -> PyResult<Vec<Pose>> {
     let rows = one_path(path, "T")?;
     read_path(path.py(), &rows, &rows.shape()[..1])
 }
@@ -165,21 +165,6 @@ impl<'py> Answers<'py> {
         let breaks = PyTuple::new(py, breaks)?;
         classes::follow_result_class(py)?.call1((self.q, self.errors, breaks))
     }
-}
-
-/// The index of an element by its number in row-major order.
-pub(super) fn index_in(shape: &[usize], mut number: usize) -> Vec<usize> {
-    let mut index: Vec<usize> = shape
-        .iter()
-        .rev()
-        .map(|size| {
-            let at = number % size;
-            number /= size;
-            at
-        })
-        .collect();
-    index.reverse();
-    index
 }
 
 /// `irbkin.BreakReason` of a break.

@@ -12,7 +12,7 @@ use super::classes;
 use super::errors::{Fault, raised, to_py};
 use super::freedoms::{Costs, read_end, read_options};
 use super::outputs::matrix;
-use super::paths::read_poses;
+use super::paths::read_path_poses;
 use super::robot::PyRobot;
 use super::signals::detached_while;
 use super::wording::shape;
@@ -109,7 +109,7 @@ impl PyRobot {
             end_external,
             ..all
         };
-        let path = read_poses(T)?;
+        let path = read_path_poses(T)?;
         let accept = accept.map(|accept| accept.clone().unbind());
         let (planned, failure) = detached_while(py, |go_on| {
             let mut failure = None;

@@ -7,9 +7,7 @@ use pyo3::prelude::*;
 use super::arrays::{Rows, copied_matrix4, copied_vector, matrix4};
 use super::broadcast::{Argument, together};
 use super::errors::{Fault, to_py};
-use super::nearest::single_pose;
 use super::outputs::{matrix, output, writable};
-use super::paths::index_in;
 use super::signals::detached;
 use super::wording;
 use crate::error::Error;
@@ -47,6 +45,16 @@ fn read_one_pose(value: &Bound<'_, PyAny>, many: &str) -> PyResult<Pose> {
         }
         _ => error,
     })
+}
+
+/// The pose where there is one alone, checked.
+pub(super) fn single_pose(py: Python<'_>, poses: &Rows<'_>) -> PyResult<Option<Pose>> {
+    match poses.data()?.as_chunks::<16>().0 {
+        [pose] if poses.is_single() => {
+            pose_from_rows(pose).map(Some).map_err(|error| to_py(py, &error))
+        }
+        _ => Ok(None),
+    }
 }
 
 /// The shape that NumPy sees in an argument.
@@ -160,7 +168,7 @@ fn made<'py, const R: usize>(
     let poses = view.as_slice_mut()?;
     match detached(py, None, |pace| pace.make_poses(translations, turns, poses, make))? {
         Some((row, error)) => {
-            let place = index_in(&xyz.lead, row);
+            let place = wording::index_in(&xyz.lead, row);
             Err(Fault::Pose.error(py, format!("row {place:?}: {error}")))
         }
         None => Ok(answer.into_any()),

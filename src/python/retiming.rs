@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use super::arguments::read_steps;
 use super::classes;
 use super::errors::{Fault, to_py};
-use super::paths::read_poses;
+use super::paths::read_path_poses;
 use super::trajectories::{read_each, read_rows};
 use super::trajectory::PyTrajectory;
 use crate::error::Error;
@@ -41,7 +41,7 @@ impl Path {
 
     /// The lengths of the tool's path `T` up to each row.
     fn read_lengths(&self, tool: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
-        let poses = read_poses(tool)?;
+        let poses = read_path_poses(tool)?;
         let (found, wanted) = (poses.len(), self.rows());
         if found != wanted {
             let message = format!(

@@ -6,11 +6,12 @@ use pyo3::prelude::*;
 
 use super::arm::{Arm, on};
 use super::arrays::vector;
-use super::build::{self, State};
+use super::build;
 use super::edits::Edit;
 use super::errors::{Fault, to_py};
 use super::poses::{pose_array, read_single_pose};
 use super::robot_repr;
+use super::robot_state::{self, State};
 use crate::kinematics::AnyRobot;
 
 /// A robot arm of six or seven joints: `Robot("IRB 2600-12/1.65")`.
@@ -47,7 +48,7 @@ impl From<Arm> for PyRobot {
 #[pyo3(name = "_restore_robot")]
 #[expect(clippy::needless_pass_by_value, reason = "an extracted argument")]
 pub(super) fn restore_robot(py: Python<'_>, state: State) -> PyResult<PyRobot> {
-    build::restored(py, &state).map(PyRobot::from)
+    robot_state::restored(py, &state).map(PyRobot::from)
 }
 
 #[pymethods]
@@ -232,11 +233,14 @@ impl PyRobot {
     }
 
     fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
-        build::hash(py, &self.arm)
+        robot_state::hash(py, &self.arm)
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (State,))> {
-        Ok((py.import("irbkin._core")?.getattr("_restore_robot")?, (build::state(&self.arm),)))
+        Ok((
+            py.import("irbkin._core")?.getattr("_restore_robot")?,
+            (robot_state::state(&self.arm),),
+        ))
     }
 
     fn __repr__(&self) -> String {

@@ -8,7 +8,7 @@ use pyo3::types::PyString;
 use super::arguments::{read_orientation, read_steps};
 use super::arrays::{matrix4, vector};
 use super::errors::{Fault, to_py};
-use super::paths::read_poses;
+use super::paths::read_path_poses;
 use crate::error::Error;
 use crate::kinematics::{Pose, pose_from_rows, pose_to_rows};
 use crate::paths::{Spacing, Zone};
@@ -181,7 +181,7 @@ pub(super) fn polyline<'py>(
     dt: Option<f64>,
 ) -> PyResult<PoseArray<'py>> {
     let py = T.py();
-    let poses = read_poses(T)?;
+    let poses = read_path_poses(T)?;
     let zones = read_zones(zones, poses.len())?;
     let spacing = SpacingArguments { steps, step, turn, speed, dt }.read(py)?;
     pose_rows(py, crate::paths::polyline(&poses, &zones, spacing))
@@ -223,7 +223,7 @@ pub(super) fn spline<'py>(
     dt: Option<f64>,
 ) -> PyResult<PoseArray<'py>> {
     let py = T.py();
-    let poses = read_poses(T)?;
+    let poses = read_path_poses(T)?;
     let spacing = SpacingArguments { steps, step, turn, speed, dt }.read(py)?;
     pose_rows(py, py.detach(|| crate::paths::spline(&poses, spacing)))
 }

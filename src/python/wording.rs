@@ -1,4 +1,4 @@
-//! How messages spell shapes and what was passed in place of an array.
+//! How messages spell shapes, indices and what was passed in place of an array.
 
 use pyo3::intern;
 use pyo3::prelude::*;
@@ -15,6 +15,21 @@ pub(super) fn shape(sizes: &[usize]) -> String {
 /// A shape with any leading dimensions: (..., 4, 4), (...).
 pub(super) fn shape_of_rows(tail: &[usize]) -> String {
     if tail.is_empty() { "(...)".to_owned() } else { format!("(..., {})", listed(tail)) }
+}
+
+/// The index of an element by its number in row-major order.
+pub(super) fn index_in(shape: &[usize], mut number: usize) -> Vec<usize> {
+    let mut index: Vec<usize> = shape
+        .iter()
+        .rev()
+        .map(|size| {
+            let at = number % size;
+            number /= size;
+            at
+        })
+        .collect();
+    index.reverse();
+    index
 }
 
 fn listed(sizes: &[usize]) -> String {

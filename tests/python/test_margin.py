@@ -35,6 +35,8 @@ def test_a_margin_is_its_definition(name):
         np.testing.assert_allclose(field, wanted, atol=1e-12)
     assert robot.margin(q[0]) == irbkin.Margin(found.limits[0], found.singularities[0])
     assert robot.margin(q.reshape(20, 10, 6)).limits.shape == (20, 10)
+    many = np.tile(q, (30, 1))
+    np.testing.assert_array_equal(robot.margin(many, threads=2).limits, np.tile(found.limits, 30))
 
 
 @pytest.mark.parametrize("threads", [1, 2])
@@ -83,3 +85,5 @@ def test_what_is_no_pose_has_no_solution():
         ROBOT.ik_margin(T[0, :3])
     with pytest.raises(irbkin.InvalidJointsError, match="shape"):
         ROBOT.margin(np.zeros(5))
+    with pytest.raises(irbkin.InvalidJointsError, match="finite"):
+        ROBOT.margin([0, 0, 0, 0, np.inf, 0])

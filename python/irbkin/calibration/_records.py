@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from irbkin.records import by_value
+from irbkin._equality import by_value
 
 if TYPE_CHECKING:
     from irbkin._arrays import Floats

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
+from irbkin._equality import by_value
 from irbkin.rapid.records import JointTarget, RobTarget, SpeedData, ToolData, WobjData, ZoneData
-from irbkin.records import ConfigurationBatch, by_value
+from irbkin.records import ConfigurationBatch
 
 if TYPE_CHECKING:
     from typing import TypeAlias

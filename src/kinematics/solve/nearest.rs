@@ -280,7 +280,7 @@ where
 
     /// The branch of `from` with other joint angles.
     fn at(&self, q: [f64; N], from: &Solution<N>) -> Solution<N> {
-        let wrist = self.robot.solver().arm().spherical_wrist();
+        let wrist = self.robot.solver().arm().singular_wrist();
         let slot = wrist.map_or(from.slot, |wrist| from.slot.flipped_to(wrist.sin_5(&q) < 0.0));
         Solution { q, slot, ..*from }
     }
@@ -319,7 +319,7 @@ where
         let is_searched =
             |free: &FreeJoint| free.partner().is_none() && !matches!(free, FreeJoint::Chain { .. });
         let named = solution.free_joint.filter(is_searched);
-        if self.robot.solver().arm().spherical_wrist().is_none() {
+        if self.robot.solver().arm().singular_wrist().is_none() {
             let parallel = Some(FreeJoint::Parallel);
             let hidden = self.has_uncertain_plane(solution) && named != parallel;
             return [named, parallel.filter(|_| hidden), None];
@@ -338,7 +338,7 @@ where
     /// undetermined.
     fn has_uncertain_plane(&self, solution: &Solution<N>) -> bool {
         let arm = self.robot.solver().arm();
-        arm.spherical_wrist().is_none()
+        arm.singular_wrist().is_none()
             && (self.must_meet() || solution.singularities().contains(SingularityKind::WRIST))
             && arm.sin_5(&solution.q).is_some_and(|sin_5| sin_5.abs() <= UNCERTAIN_PLANE_SIN)
     }

@@ -252,7 +252,7 @@ where
     }
 
     fn wrist(&self, solutions: &Solutions<N>, slot: usize) -> f64 {
-        let Some(wrist) = self.robot.solver().arm().spherical_wrist() else {
+        let Some(wrist) = self.robot.solver().arm().singular_wrist() else {
             return f64::INFINITY;
         };
         let solution = solutions.slot(slot).or_else(|| solutions.slot(slot ^ 1));

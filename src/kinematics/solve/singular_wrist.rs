@@ -26,7 +26,7 @@ where
 {
     /// Search near joint vectors with joint 5 at its singularity, on either side.
     pub(super) fn start_with_straight_wrist(&mut self, start: &[f64; N], solution: &Solution<N>) {
-        let Some(wrist) = self.robot.solver().arm().spherical_wrist() else { return };
+        let Some(wrist) = self.robot.solver().arm().singular_wrist() else { return };
         for side in [1.0, -1.0] {
             let straight = wrist.with_straight_wrist(start, side);
             self.move_keeping(&straight, &[4], DAMPED, solution);
@@ -72,7 +72,7 @@ where
             return;
         }
         self.move_keeping(&q, &[2], DAMPED, from);
-        if let Some(wrist) = self.robot.solver().arm().spherical_wrist() {
+        if let Some(wrist) = self.robot.solver().arm().singular_wrist() {
             let straight = wrist.with_straight_wrist(&q, 0.0);
             self.move_keeping(&straight, &[4], DAMPED, from);
             self.move_keeping(&straight, &[2, 4], DAMPED, from);
@@ -83,7 +83,7 @@ where
     /// so does an undetermined wrist.
     pub(super) fn bend_elbow(&mut self, from: &Solution<N>) {
         let arm = self.robot.solver().arm();
-        let Some(wrist) = arm.spherical_wrist() else { return };
+        let Some(wrist) = arm.singular_wrist() else { return };
         if !arm
             .singular(&from.q)
             .is_some_and(|(_, singularities)| singularities.contains(SingularityKind::ELBOW))
@@ -109,7 +109,7 @@ where
         if declared.is_some() {
             return declared;
         }
-        let wrist = self.robot.solver().arm().spherical_wrist()?;
+        let wrist = self.robot.solver().arm().singular_wrist()?;
         let q = &solution.q;
         // If it is off the pose by more than rounding, it must be a wrist whose branches are
         // merged.

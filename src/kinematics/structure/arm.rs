@@ -104,7 +104,7 @@ pub(crate) trait Arm<const N: usize, R> {
     fn walk(&self, _pose: &Pose, _q: &[f64; N], _pass: &mut TakeStep<'_, N>) {}
 
     /// [`Structure::singular_wrist`]
-    fn spherical_wrist(&self) -> Option<&dyn SingularWrist<N>> {
+    fn singular_wrist(&self) -> Option<&dyn SingularWrist<N>> {
         None
     }
 

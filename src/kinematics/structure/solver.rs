@@ -187,7 +187,7 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Arm<N, T::Redundancy> f
         self.structure.walk(&self.end_frames.wrist_pose(pose), q, pass);
     }
 
-    fn spherical_wrist(&self) -> Option<&dyn SingularWrist<N>> {
+    fn singular_wrist(&self) -> Option<&dyn SingularWrist<N>> {
         self.structure.singular_wrist()
     }
 

@@ -99,7 +99,7 @@ where
         if let Some(rule) = self.own_rule() {
             return Ok(rule);
         }
-        match self.solver().arm().spherical_wrist() {
+        match self.solver().arm().singular_wrist() {
             Some(_) => Ok(ConfigurationRule::SphericalWrist),
             None => Err(ModelFault::NoConfiguration { structure: self.structure() }.into()),
         }

@@ -22,13 +22,13 @@ pub(super) const ROOM: usize = 2 * MOST;
 const CLOSES: f64 = 20.0;
 
 /// Places where more than two solutions have merged, at most.
-const MOST_MERGED: usize = MOST / 3;
+const MERGED_PLACES: usize = MOST / 3;
 
 /// How far a candidate may be from closing and still be examined [1].
 const EXAMINED: f64 = 0.05;
 
 /// Least singular value, or residual, up to which a candidate that does not close is examined [1].
-const NEARLY: f64 = 1e-3;
+const NEARLY_SINGULAR: f64 = 1e-3;
 
 /// Candidates that are examined in an attempt, at most.
 const MOST_EXAMINED: usize = 24;
@@ -45,7 +45,7 @@ pub(crate) struct Accepted {
     missed: [Missed; MOST / 2],
     missed_count: usize,
     /// Where more than two solutions have merged.
-    merged: [Merged; MOST_MERGED],
+    merged: [Merged; MERGED_PLACES],
     merged_count: usize,
     /// How many candidates next to a singularity may still be examined.
     left: usize,
@@ -71,7 +71,7 @@ impl Accepted {
         is_certain: true,
         missed: [Missed::NONE; MOST / 2],
         missed_count: 0,
-        merged: [Merged::NONE; MOST_MERGED],
+        merged: [Merged::NONE; MERGED_PLACES],
         merged_count: 0,
         left: MOST_EXAMINED,
     };
@@ -144,7 +144,7 @@ impl Accepted {
             let one = Configuration { theta, residual, least, ..Configuration::NONE };
             if candidates.is_regular(closure, lane) {
                 self.insert(closure, one);
-            } else if least.min(residual) <= NEARLY {
+            } else if least.min(residual) <= NEARLY_SINGULAR {
                 singular[count] = one;
                 count += 1;
             }

@@ -25,7 +25,7 @@ pub(super) const SECOND: f64 = 1e-6;
 /// Steps that are the last [rad]: of rounding's size, or near it and no longer much smaller than
 /// the one before.
 const OF_ROUNDING: f64 = 1e-15;
-const NEARLY: f64 = 1e-8;
+const NEAR_ROUNDING: f64 = 1e-8;
 const SMALLER: f64 = 0.01;
 
 /// A curve.
@@ -210,7 +210,7 @@ impl VectorKernel for Along<'_> {
             left = is_moving.select(rest - part, left);
             slope = is_moving.select(one - v_b.inverse(), slope);
             // From here on rounding no longer shrinks it.
-            let shrinks = size.simd_ge(NEARLY) | size.simd_le(before * SMALLER);
+            let shrinks = size.simd_ge(NEAR_ROUNDING) | size.simd_le(before * SMALLER);
             let is_left = size.simd_ge(OF_ROUNDING) & shrinks;
             is_found = is_moving.select(is_left.select(zero, one), is_found);
             is_moving &= is_left;

@@ -9,7 +9,7 @@ use super::curve::Point;
 
 /// How far two findings of one solution may be apart [rad]: where solutions of multiplicity six
 /// merge, the closure is below its rounding as far as the sixth root of that.
-const FARTHEST: f64 = 0.02;
+const FARTHEST_FINDING: f64 = 0.02;
 
 /// How far the curve through one finding may be from the other [rad]: the root of rounding.
 const SAME_END: f64 = 1e-6;
@@ -45,7 +45,7 @@ impl Closure {
     /// (99) between them.
     fn is_flat_between(&self, target: &Target, [one, other]: &[Configuration; 2]) -> bool {
         let is_singular = |one: &Configuration| one.is_singular() && !one.is_free();
-        let is_near = one.distance(&other.theta) < FARTHEST;
+        let is_near = one.distance(&other.theta) < FARTHEST_FINDING;
         if !(is_singular(one) && is_singular(other) && is_near) {
             return false;
         }

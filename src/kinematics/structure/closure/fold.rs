@@ -12,7 +12,7 @@ use super::chain::{Closure, Target, largest, sines};
 use super::configuration::{Configuration, EXTENT, ISOLATED, Kind, MERGED, Missed};
 use super::curve::{Curve, Point, Wanted};
 use super::merged::Merged;
-use super::surface::{NEARLY, Surface};
+use super::surface::{NEARLY_FREE, Surface};
 use crate::lanes::LANES;
 
 /// Points to an extreme value or to a root, at most.
@@ -31,10 +31,10 @@ const FREE: f64 = 100.0;
 const PLACED: f64 = 1e-5;
 
 /// How far from the start the curve is searched for solutions [rad].
-const FARTHEST: f64 = 0.2;
+const FARTHEST_ROOT: f64 = 0.2;
 
 /// Half of the second derivative below which more than two solutions may have merged [1].
-const FLAT: f64 = 0.03;
+const FLAT_CURVATURE: f64 = 0.03;
 
 /// How far the closure may be off a parabola, as a part of its value, for the complex roots to be
 /// where that has them [1].
@@ -117,7 +117,7 @@ impl Closure {
             let free = settled.all[0].filter(|one| one.is_free() && curve.second <= BESIDE);
             let Some(free) = free else { return };
             theta = free.theta;
-            if self.curve(target, &theta).is_some_and(|curve| curve.second > NEARLY) {
+            if self.curve(target, &theta).is_some_and(|curve| curve.second > NEARLY_FREE) {
                 return;
             }
         }
@@ -155,11 +155,12 @@ impl Curves<'_> {
             if self.is_free(&start) && self.is_free(&ahead) {
                 let free = self.accepted(lane, &start, Kind::FREE);
                 settled[lane] = Settled::of([free, None], free.is_some());
-            } else if let Some(curve) = self.all[lane].as_ref().filter(|_| c2.abs() < FLAT)
+            } else if let Some(curve) =
+                self.all[lane].as_ref().filter(|_| c2.abs() < FLAT_CURVATURE)
                 && let Some(merged) = self.merged(curve, settled)
             {
                 settled[lane] = merged;
-            } else if c2.abs() * FARTHEST < 0.5 * start.slope.abs() {
+            } else if c2.abs() * FARTHEST_ROOT < 0.5 * start.slope.abs() {
                 // Too flat for two solutions in sight: one.
                 singles[lane] = Some(start);
             } else {
@@ -319,5 +320,5 @@ impl Curves<'_> {
 
 /// A place on a curve, if it is in sight.
 fn within(s: f64) -> Option<f64> {
-    (s.abs() <= FARTHEST).then_some(s)
+    (s.abs() <= FARTHEST_ROOT).then_some(s)
 }

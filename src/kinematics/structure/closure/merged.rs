@@ -28,12 +28,12 @@ const SAMPLES: [f64; LANES] = [
 ];
 
 /// Most solutions that merge in one place.
-const MOST_MERGED: u8 = 6;
+const MOST_MULTIPLICITY: u8 = 6;
 
 /// How far from the start the place may be, and how far from it the lowest power is the greatest at
 /// least, as parts of the sampled way.
-const FARTHEST: f64 = 0.5;
-const EXTENT: f64 = 0.5;
+const FARTHEST_PLACE: f64 = 0.5;
+const DOMINANT_PART: f64 = 0.5;
 
 /// How far from the place what is below the lowest power may move a solution, as a part of the
 /// sampled way.
@@ -101,7 +101,7 @@ impl Closure {
             point.as_ref().map(like).is_some_and(|like| LIKE[0] < like && like < LIKE[1])
         };
         let far = points.chunks(2).take_while(|pair| pair.iter().all(is_like)).count();
-        let extent = if far > 0 { BEYOND[far - 1] } else { EXTENT * SAMPLED };
+        let extent = if far > 0 { BEYOND[far - 1] } else { DOMINANT_PART * SAMPLED };
         let through = self.curve(target, &at.theta);
         let direction = *through.as_ref().unwrap_or(curve).direction();
         Some(Merged { at, direction, extent })
@@ -149,7 +149,7 @@ struct Lowest {
 impl Lowest {
     /// The noise is that of the closure, and of its powers.
     fn of(powers: &Powers, noise: [f64; 2]) -> Option<Self> {
-        (2..=MOST_MERGED).find_map(|power| Self::if_lowest(powers, power, noise))
+        (2..=MOST_MULTIPLICITY).find_map(|power| Self::if_lowest(powers, power, noise))
     }
 
     fn if_lowest(powers: &Powers, power: u8, [rounding, noise]: [f64; 2]) -> Option<Self> {
@@ -169,12 +169,12 @@ impl Lowest {
             most /= NEAR;
         }
         // It is greater than all others together: by Rouche's theorem, so many roots are there.
-        let (mut others, mut scale) = (order * noise / EXTENT.powi(power.into()), 1.0);
+        let (mut others, mut scale) = (order * noise / DOMINANT_PART.powi(power.into()), 1.0);
         for above in &about[index + 1..] {
-            scale *= EXTENT;
+            scale *= DOMINANT_PART;
             others += above.abs() * scale;
         }
-        let is_found = is_lowest && place.abs() <= FARTHEST && size.abs() > 2.0 * others;
+        let is_found = is_lowest && place.abs() <= FARTHEST_PLACE && size.abs() > 2.0 * others;
         is_found.then_some(Self { power, size, place })
     }
 }

@@ -25,11 +25,11 @@ const MOST_STEPS: usize = 400;
 const ON_CURVE: f64 = 0.02;
 
 /// How far it may be from the place of the self-motion that is found for it [rad].
-const SAME: f64 = 1e-5;
+const ON_MOTION: f64 = 1e-5;
 
 /// How far from there it may be if the chain closes between the two, too [rad]: where self-motions
 /// cross or nearly do, the closure is below its rounding as far as the root of that.
-const FLAT: f64 = 2e-3;
+const SAME_IF_JOINED: f64 = 2e-3;
 
 /// How far beyond the ends of a step it may be, as a part of it [1].
 const BEYOND: f64 = 0.05;
@@ -92,13 +92,14 @@ impl SelfMotion<'_> {
         }
         let between = interpolated(ends, part);
         let off = (place - between).amax();
-        off < SAME
+        off < ON_MOTION
             || off < ON_CURVE && {
                 let s = SVector::from(ends[0].direction).dot(&(between - one));
                 let member = self.closure.member_ahead(self.target, ends[0], s, between.into());
                 member.is_some_and(|member| {
                     let apart = place - SVector::from(member.theta);
-                    apart.amax() < SAME || apart.amax() < FLAT && self.is_flat(&member, &apart)
+                    apart.amax() < ON_MOTION
+                        || apart.amax() < SAME_IF_JOINED && self.is_flat(&member, &apart)
                 })
             }
     }

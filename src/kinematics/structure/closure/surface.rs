@@ -14,7 +14,7 @@ use super::member::SWEEPS;
 use crate::kinematics::pose::angles::wrap;
 
 /// Singular value up to which a direction may be free at a member nearby [1]: as far away is it.
-pub(super) const NEARLY: f64 = 1e-3;
+pub(super) const NEARLY_FREE: f64 = 1e-3;
 
 /// Singular value below which rounding decides [1].
 const LEAST: f64 = 1e-7;
@@ -28,7 +28,7 @@ const MOVED: f64 = 0.5;
 /// How far ahead the derivatives are compared [rad], and by how much they change along a surface at
 /// most [1/rad].
 const LITTLE: f64 = 1e-4;
-const FLAT: f64 = 0.01;
+const MOST_CHANGE: f64 = 0.01;
 
 /// Angle by which a joint that moves does so there [rad].
 const MOVES: f64 = 2e-4;
@@ -91,7 +91,7 @@ impl<'a> Surface<'a> {
         theta: &[f64; 6],
     ) -> Option<Self> {
         let values = closure.derivatives(theta).singular_values();
-        let directions = values.iter().filter(|value| **value <= NEARLY).count();
+        let directions = values.iter().filter(|value| **value <= NEARLY_FREE).count();
         (directions > 1).then_some(Self { closure, target, directions })
     }
 
@@ -106,7 +106,7 @@ impl<'a> Surface<'a> {
     /// The joints that move from a member on: none where the chain is less free a step ahead.
     fn moving(&self, theta: &[f64; 6]) -> Option<[bool; 6]> {
         let here = self.place(theta)?;
-        if self.least_turn(theta, &here) > FLAT {
+        if self.least_turn(theta, &here) > MOST_CHANGE {
             return None;
         }
         let (mut moving, mut moves) = ([false; 6], false);

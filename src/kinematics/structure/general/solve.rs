@@ -12,12 +12,9 @@ use crate::kinematics::structure::branches::Branches;
 use crate::kinematics::structure::by_roots::SLOTS;
 use crate::kinematics::structure::closure::{Accepted, Configuration, Kind, Target, in_order};
 use crate::kinematics::structure::free_choice::FreeChoice;
+use crate::kinematics::thresholds::CLOSURE_SINGULAR;
 use crate::lanes::{LANES, run_vectors};
 use crate::report::{FreeJoint, Reach};
-
-/// Least singular value of the closure, lengths in units of the arm, below which a joint vector is
-/// singular [1]: the root of rounding, at which two solutions merge.
-const SINGULAR: f64 = 1e-7;
 
 /// Joint vectors from which Newton's method starts where no count is certain.
 const STARTS: usize = 128;
@@ -179,7 +176,7 @@ impl General {
     /// The singularities of a joint vector.
     pub(super) fn kinds(&self, q: &[f64; 6]) -> SingularityKind {
         let least = self.closure.least_singular_value(&self.joint_map.theta(q));
-        if least < SINGULAR { SingularityKind::ELBOW } else { SingularityKind::empty() }
+        if least < CLOSURE_SINGULAR { SingularityKind::ELBOW } else { SingularityKind::empty() }
     }
 }
 
@@ -187,7 +184,7 @@ impl General {
 /// of a wrist.
 fn kinds_of(one: &Configuration) -> SingularityKind {
     match one.kind {
-        Kind::Regular if one.least >= SINGULAR => SingularityKind::empty(),
+        Kind::Regular if one.least >= CLOSURE_SINGULAR => SingularityKind::empty(),
         Kind::Regular | Kind::Merged(_) => SingularityKind::ELBOW,
         Kind::Free(_) | Kind::Surface(_) => SingularityKind::WRIST,
     }

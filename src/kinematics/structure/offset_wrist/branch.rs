@@ -204,7 +204,7 @@ impl<T: Number> Branch<T> {
         lengths: &Lengths,
         last: &Frame<T>,
         [s6, c6]: [T; 2],
-        constants: &Twists,
+        twists: &Twists,
     ) -> [[T; 6]; 2] {
         let Lengths { upper, s1, e, .. } = *lengths;
         let turn = s1 * e;
@@ -226,12 +226,12 @@ impl<T: Number> Branch<T> {
             let [x6, y6, z6] = last.rotation[i];
             x5[i] = c6.times_plus(x6, s6 * -y6);
             let across = s6.times_plus(x6, c6 * y6);
-            z5[i] = across.scaled_plus(constants.sin_5, z6 * constants.cos_5);
+            z5[i] = across.scaled_plus(twists.sin_5, z6 * twists.cos_5);
         }
-        let (sin_3, cos_3) = (zero.like(constants.sin_3), zero.like(constants.cos_3));
+        let (sin_3, cos_3) = (zero.like(twists.sin_3), zero.like(twists.cos_3));
         let y3_turned = combined(y3, cos_3, z3, sin_3);
         // z5 = sin alpha_4 (sin theta_4 x3 - cos theta_4 y3') + ...
-        let scale = 1.0 / constants.sin_4;
+        let scale = 1.0 / twists.sin_4;
         let (s4, c4) = (dot(z5, x3) * scale, dot(z5, y3_turned) * -scale);
         let size = s4.times_plus(s4, c4 * c4).root().inverse();
         let (s4, c4) = (s4 * size, c4 * size);
