@@ -228,7 +228,8 @@ impl Accepted {
             self.merged_count += 1;
         }
         // A self-motion has filled the room.
-        if self.count + settled.all.len() > ROOM && self.has_self_motion() {
+        let new = settled.all.iter().flatten().count();
+        if self.count + new > ROOM && self.has_self_motion() {
             self.thin(closure, target);
         }
         for one in settled.all.into_iter().flatten() {

@@ -67,6 +67,11 @@ impl Curve {
         Wanted { curve: self, s, guess }
     }
 
+    /// The point `s` ahead, looked for where the curve would be if it were straight.
+    pub(super) fn straight_ahead(&self, s: f64) -> Wanted<'_> {
+        self.at(s, core::array::from_fn(|joint| self.start[joint] + s * self.v[joint]))
+    }
+
     /// The start itself, brought to the curve.
     pub(super) fn at_start(&self) -> Wanted<'_> {
         self.at(0.0, self.start)

@@ -12,6 +12,7 @@ use super::chain::{Closure, Target, largest, sines};
 use super::configuration::{Configuration, EXTENT, ISOLATED, Kind, MERGED, Missed};
 use super::curve::{Curve, Point, Wanted};
 use super::merged::Merged;
+use super::powers::{SPAN, SimpleRoots, value};
 use super::surface::{NEARLY_FREE, Surface};
 use crate::lanes::LANES;
 
@@ -46,7 +47,7 @@ const BESIDE: f64 = 0.02;
 /// What is at a configuration that hardly closes better in one direction.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Settled {
-    pub(super) all: [Option<Configuration>; 2],
+    pub(super) all: Each<Configuration>,
     /// Whether the analysis holds: rank 5, and a curve of second order.
     pub(super) is_certain: bool,
     /// Where two solutions would merge, if the pose misses them.
@@ -56,7 +57,9 @@ pub(super) struct Settled {
 }
 
 impl Settled {
-    fn of(all: [Option<Configuration>; 2], is_certain: bool) -> Self {
+    fn of(found: [Option<Configuration>; 2], is_certain: bool) -> Self {
+        let mut all = [None; LANES];
+        all[..2].copy_from_slice(&found);
         Self { all, is_certain, missed: None, merged: None }
     }
 }
@@ -149,14 +152,15 @@ impl Curves<'_> {
         let starts = self.points(&|_, curve| Some(curve.at_start()));
         let aheads = self.points(&|lane, curve| Some(curve.at(SAMPLED, starts[lane]?.theta)));
         let (mut singles, mut samples) = ([None; LANES], [None; LANES]);
+        let mut is_flat = [false; LANES];
         for lane in 0..LANES {
             let (Some(start), Some(ahead)) = (starts[lane], aheads[lane]) else { continue };
             let c2 = (ahead.slope - start.slope) / (2.0 * (ahead.s - start.s));
+            is_flat[lane] = c2.abs() < FLAT_CURVATURE;
             if self.is_free(&start) && self.is_free(&ahead) {
                 let free = self.accepted(lane, &start, Kind::FREE);
                 settled[lane] = Settled::of([free, None], free.is_some());
-            } else if let Some(curve) =
-                self.all[lane].as_ref().filter(|_| c2.abs() < FLAT_CURVATURE)
+            } else if let Some(curve) = self.all[lane].as_ref().filter(|_| is_flat[lane])
                 && let Some(merged) = self.merged(curve, settled)
             {
                 settled[lane] = merged;
@@ -201,13 +205,42 @@ impl Curves<'_> {
                 settled[lane] = Settled::of(pair, settled[lane].is_certain && are_found);
             }
             // More than two have merged, perhaps, nearer to what was found than to the start.
-            if let Settled { all: [Some(one), _], is_certain: false, .. } = settled[lane]
+            if let Settled { all: [Some(one), ..], is_certain: false, .. } = settled[lane]
                 && let Some(curve) = self.closure.curve(self.target, &one.theta)
                 && let Some(merged) = self.merged(&curve, settled)
             {
                 settled[lane] = merged;
             }
+            // Or nearly.
+            if let Some(curve) = self.all[lane].filter(|_| is_flat[lane])
+                && !settled[lane].is_certain
+                && let Some(all) = self.all_on(&curve)
+            {
+                settled[lane] = all;
+            }
         }
+    }
+
+    /// The solutions about the start of a curve, if there are any: as many as the polynomial
+    /// through its closure has simple roots (eq. 102d).
+    fn all_on(&self, curve: &Curve) -> Option<Settled> {
+        let powers = self.closure.powers(self.target, curve)?;
+        let roots = SimpleRoots::of(&powers, self.closure.accepts());
+        let each = Curves { all: roots.all.map(|root| root.map(|_| *curve)), ..*self };
+        let mut near = each
+            .points(&|lane, curve| roots.all[lane].map(|root| curve.straight_ahead(root * SPAN)));
+        let mut all = each.roots(&mut near);
+        for (one, root) in all.iter_mut().zip(roots.all) {
+            let sides = root.map(|root| [-1.0, 1.0].map(|side| root + side * EXTENT / SPAN));
+            let is_off = |at: f64| value(&powers, at).abs() > MERGED * self.closure.rounding;
+            if let (Some(one), Some(sides)) = (one, sides) {
+                one.is_placed = sides.into_iter().all(is_off);
+            }
+        }
+        let is_certain = roots.are_all
+            && all.iter().zip(roots.all).all(|(one, root)| one.is_some() == root.is_some());
+        let is_any = all.iter().any(Option::is_some);
+        is_any.then_some(Settled { all, ..Settled::of([None; 2], is_certain) })
     }
 
     /// Where more than two solutions have merged near the start of a curve, if they have.

@@ -9,23 +9,8 @@ use nalgebra::ComplexField as _;
 use super::chain::{Closure, Target};
 use super::configuration::{Configuration, Kind, MERGED};
 use super::curve::{Curve, Point};
+use super::powers::{Powers, SPAN, shifted};
 use crate::kinematics::pose::angles::wrap;
-use crate::lanes::LANES;
-
-/// How far the curve is sampled to either side [rad].
-const SAMPLED: f64 = 0.05;
-
-/// The samples, the zeros of the eighth Chebyshev polynomial, as parts of that.
-const SAMPLES: [f64; LANES] = [
-    -0.980_785_280_403_230_4,
-    -0.831_469_612_302_545_2,
-    -0.555_570_233_019_602_2,
-    -0.195_090_322_016_128_27,
-    0.195_090_322_016_128_27,
-    0.555_570_233_019_602_2,
-    0.831_469_612_302_545_2,
-    0.980_785_280_403_230_4,
-];
 
 /// Most solutions that merge in one place.
 const MOST_MULTIPLICITY: u8 = 6;
@@ -72,70 +57,28 @@ impl Merged {
     }
 }
 
-/// A polynomial by its coefficients of powers.
-type Powers = [f64; LANES];
-
 impl Closure {
     /// The place on a curve, near its start, where solutions have merged, if they are no farther
     /// apart than rounding.
     pub(super) fn merged(&self, target: &Target, curve: &Curve) -> Option<Merged> {
-        let ahead = |s: f64| -> [f64; 6] {
-            core::array::from_fn(|joint| curve.start[joint] + s * curve.direction()[joint])
-        };
-        let wanted = SAMPLES.map(|part| Some(curve.at(part * SAMPLED, ahead(part * SAMPLED))));
-        let points = self.points(target, &wanted);
-        let mut values = [0.0; LANES];
-        for (value, point) in values.iter_mut().zip(&points) {
-            *value = point.as_ref()?.left;
-        }
         let noise = [MERGED * self.rounding, self.accepts()];
-        let Lowest { power, size, place } = Lowest::of(&interpolated(values), noise)?;
-        let s = place * SAMPLED;
+        let Lowest { power, size, place } = Lowest::of(&self.powers(target, curve)?, noise)?;
+        let s = place * SPAN;
         let beyond = |at: usize| [s, s - BEYOND[at / 2], s + BEYOND[at / 2]][1 + at % 2];
-        let [point] = self.points(target, &[Some(curve.at(s, ahead(s)))]);
+        let [point] = self.points(target, &[Some(curve.straight_ahead(s))]);
         let at = self.accepted(target, point?.theta, 0.0, Kind::Merged(power))?;
-        let wanted = core::array::from_fn(|at| Some(curve.at(beyond(at), ahead(beyond(at)))));
+        let wanted = core::array::from_fn(|at| Some(curve.straight_ahead(beyond(at))));
         let points: [_; 2 * BEYOND.len()] = self.points(target, &wanted);
         let is_like = |point: &Option<Point>| {
-            let like = |one: &Point| one.left / (size * ((one.s - s) / SAMPLED).powi(power.into()));
+            let like = |one: &Point| one.left / (size * ((one.s - s) / SPAN).powi(power.into()));
             point.as_ref().map(like).is_some_and(|like| LIKE[0] < like && like < LIKE[1])
         };
         let far = points.chunks(2).take_while(|pair| pair.iter().all(is_like)).count();
-        let extent = if far > 0 { BEYOND[far - 1] } else { DOMINANT_PART * SAMPLED };
+        let extent = if far > 0 { BEYOND[far - 1] } else { DOMINANT_PART * SPAN };
         let through = self.curve(target, &at.theta);
         let direction = *through.as_ref().unwrap_or(curve).direction();
         Some(Merged { at, direction, extent })
     }
-}
-
-/// The polynomial with these values at the samples, by divided differences.
-fn interpolated(values: Powers) -> Powers {
-    let mut differences = values;
-    for order in 1..LANES {
-        for i in (order..LANES).rev() {
-            let width = SAMPLES[i] - SAMPLES[i - order];
-            differences[i] = (differences[i] - differences[i - 1]) / width;
-        }
-    }
-    let mut powers = [0.0; LANES];
-    for (sample, difference) in SAMPLES.iter().zip(&differences).rev() {
-        for k in (1..LANES).rev() {
-            powers[k] = powers[k - 1] - sample * powers[k];
-        }
-        powers[0] = difference - sample * powers[0];
-    }
-    powers
-}
-
-/// The polynomial about another place.
-fn shifted(powers: &Powers, by: f64) -> Powers {
-    let mut shifted = *powers;
-    for first in 0..LANES {
-        for k in (first..LANES - 1).rev() {
-            shifted[k] += by * shifted[k + 1];
-        }
-    }
-    shifted
 }
 
 /// The lowest power of a polynomial, to a noise, about the place where it is that.
@@ -182,6 +125,8 @@ impl Lowest {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kinematics::structure::closure::powers::{SAMPLES, interpolated};
+    use crate::lanes::LANES;
 
     /// The powers of `(x - place)^power (1 + x / 4)`, through its values at the samples.
     fn of_root(power: i32, place: f64, size: f64) -> Powers {

@@ -18,6 +18,7 @@ mod merged;
 mod newton;
 mod order;
 mod placed;
+mod powers;
 mod reflections;
 mod self_motion;
 mod surface;
