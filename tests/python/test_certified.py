@@ -45,6 +45,22 @@ def test_axes_that_are_nearly_one_line(angle):
     found = arm.ik_batch(arm.fk(q))
     # Where the least singular value is that of rounding, a joint vector is one of many.
     assert not (certified(found) & (apart(found.q, q) > 1e-2)).any()
+    assert certified(found).mean() > 0.95
+
+
+@pytest.mark.parametrize("name", ["GoFa 5", "GoFa 10", "GoFa 12", "xArm6"])
+def test_axes_4_and_6_parallel_to_axis_1_and_a_pose_in_single_precision(name):
+    """Three solutions merge there; rounding of the pose leaves one or three of them."""
+    arm = irbkin.Robot(name)
+    rng = np.random.default_rng(2)
+    q = rng.uniform(-1, 1, (300, 6))
+    # Forearm and hand point straight down, or up: a posture of picking, and the xArm6's zero.
+    q[:, 1] += 0.5
+    q[:, 2] = -q[:, 1] if name == "xArm6" else np.pi / 2 - q[:, 1]
+    q[:, 3:5] = 0
+    found = arm.ik_batch(arm.fk(q).astype(np.float32))
+    # Rounding moves a solution by its cube root.
+    assert apart(found.q, q).max() < 0.03
 
 
 def folds(arm: irbkin.Robot, low: np.ndarray, joint: int, step: np.ndarray | float) -> np.ndarray:
