@@ -98,7 +98,7 @@ impl Accepted {
 
     /// Begin another attempt: what is uncertain about an earlier one no longer counts.
     pub(crate) fn begin(&mut self) {
-        (self.is_certain, self.missed_count, self.left) = (true, 0, MOST_EXAMINED);
+        (self.is_certain, self.left) = (true, MOST_EXAMINED);
     }
 
     /// Whether everything that was tried is understood, and the place of each configuration known.
@@ -106,7 +106,7 @@ impl Accepted {
         self.is_certain && self.as_slice().iter().all(|one| one.is_placed)
     }
 
-    /// Where this attempt looked for two solutions that the pose misses.
+    /// Where two solutions were looked for that the pose misses for certain.
     pub(crate) fn missed(&self) -> &[Missed] {
         &self.missed[..self.missed_count]
     }
@@ -213,7 +213,7 @@ impl Accepted {
     /// Take the solutions next to a configuration. Returns whether these are certain to be all.
     fn settle(&mut self, closure: &Closure, target: &Target, settled: &Settled) -> bool {
         self.left -= 1;
-        if let Some(missed) = settled.missed
+        if let Some(missed) = settled.missed.filter(|_| settled.is_certain)
             && !self.missed().iter().any(|one| one.is(&missed))
             && let Some(place) = self.missed.get_mut(self.missed_count)
         {

@@ -12,7 +12,7 @@ use super::chain::{Closure, Target, largest, sines};
 use super::configuration::{Configuration, EXTENT, ISOLATED, Kind, MERGED, Missed};
 use super::curve::{Curve, Point, Wanted};
 use super::merged::Merged;
-use super::powers::{SPAN, SimpleRoots, value};
+use super::powers::{Powers, SPAN, SimpleRoots, complex_beside, value};
 use super::surface::{NEARLY_FREE, Surface};
 use crate::lanes::LANES;
 
@@ -240,7 +240,18 @@ impl Curves<'_> {
         let is_certain = roots.are_all
             && all.iter().zip(roots.all).all(|(one, root)| one.is_some() == root.is_some());
         let is_any = all.iter().any(Option::is_some);
-        is_any.then_some(Settled { all, ..Settled::of([None; 2], is_certain) })
+        let missed = if is_certain { self.missed_beside(curve, &powers, &roots) } else { None };
+        is_any.then_some(Settled { all, missed, ..Settled::of([None; 2], is_certain) })
+    }
+
+    /// The two complex solutions next to a single real one.
+    fn missed_beside(&self, curve: &Curve, powers: &Powers, roots: &SimpleRoots) -> Option<Missed> {
+        let &[Some(root), None, ..] = &roots.all else { return None };
+        let [middle, aside] = complex_beside(powers, root)?;
+        let [point] =
+            self.closure.points(self.target, &[Some(curve.straight_ahead(middle * SPAN))]);
+        let aside = curve.direction().map(|part| (aside * SPAN * part).abs());
+        point.map(|point| Missed { theta: point.theta, aside })
     }
 
     /// Where more than two solutions have merged near the start of a curve, if they have.

@@ -24,6 +24,10 @@ pub(super) const SAMPLES: [f64; LANES] = [
     0.980_785_280_403_230_4,
 ];
 
+/// How far the polynomial may be off a quadratic one at its complex roots, as a part of its highest
+/// term [1].
+const QUADRATIC: f64 = 0.1;
+
 /// Halvings of an interval to a root: an extreme value is then known to rounding, and Newton's
 /// method goes on from a root.
 const HALVINGS: usize = 26;
@@ -82,6 +86,18 @@ pub(super) fn value(powers: &Powers, at: f64) -> f64 {
 /// The derivative.
 fn derivative(powers: &Powers) -> Powers {
     core::array::from_fn(|k| powers.get(k + 1).map_or(0.0, |power| (k + 1) as f64 * power))
+}
+
+/// The two complex roots beside a real one, where three nearly merge: their real part and the size
+/// of their imaginary part.
+pub(super) fn complex_beside(powers: &Powers, root: f64) -> Option<[f64; 2]> {
+    // Without the factor of the root, whose coefficient is zero.
+    let [_, constant, linear, square, rest @ ..] = shifted(powers, root);
+    let (middle, product) = (-0.5 * linear / square, constant / square);
+    let higher = rest.iter().rev().fold(0.0, |sum, power| sum * product.abs().sqrt() + power.abs());
+    let is_quadratic = higher * product.abs().sqrt() <= QUADRATIC * square.abs();
+    let aside = (product - middle * middle).sqrt();
+    (is_quadratic && aside.is_finite()).then_some([root + middle, aside])
 }
 
 /// The roots of a polynomial between -1 and 1.
@@ -169,6 +185,12 @@ mod tests {
         let found = SimpleRoots::of(&through(|x: f64| x * x * x + 1e-8 * x), 1e-14);
         assert!(found.are_all && found.all[1].is_none());
         assert!(found.all[0].unwrap().abs() < 1e-7, "{:?}", found.all);
+        let [middle, aside] = complex_beside(&through(|x: f64| x * x * x + 1e-4 * x), 0.0).unwrap();
+        assert!(middle.abs() < 1e-9 && (aside - 1e-2).abs() < 1e-6, "{middle} {aside}");
+        // Three real ones, and terms of higher order that move the complex ones.
+        assert_eq!(complex_beside(&through(|x: f64| x * x * x - 1e-4 * x), 0.0), None);
+        let bent = through(|x: f64| x * (1e-2 + x * x + 5.0 * x * x * x));
+        assert_eq!(complex_beside(&bent, 0.0), None);
         // A double root that noise may have made, beside a simple one.
         let found = SimpleRoots::of(&through(|x: f64| x * x * (x - 0.5)), 1e-12);
         assert!(!found.are_all && found.all[1].is_none());
