@@ -5,12 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from irbkin._equality import by_value
+from irbkin.records._flags import BreakReason, SingularityKind
 
 if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
-
-    from irbkin.records._flags import BreakReason, SingularityKind
 
 
 @by_value
