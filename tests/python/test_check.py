@@ -218,6 +218,10 @@ def test_codes_are_selected_and_ignored(tmp_path):
     done = check(file, "--select", "X1")
     assert done.returncode == 2
     assert done.stderr.startswith(b"irbkin: unknown code 'X1': did you mean ")
+    for nothing in (["--select", ""], ["--select", ","], ["--select", "C2", "--ignore", "C"]):
+        done = check(file, *nothing)
+        assert (done.returncode, done.stdout) == (2, b"")
+        assert b"leave no code to check" in done.stderr
     listed = run("--codes").stdout.decode()
     assert [line.split()[0] for line in listed.splitlines()] == CODES
 
