@@ -211,6 +211,9 @@ def test_codes_are_selected_and_ignored(tmp_path):
     assert selected(None, "", known) == default
     assert {code for code in CODES if code not in default} == {"U801", "U802", "U803"}
     assert selected("ALL", "", known) == set(CODES)
+    unknown = rapid.parse("PROC main() MoveJ *,v100,fine,tool0; ENDPROC")
+    assert {it.code for it in rapid.check(ROBOT, unknown)} == {"U801"}
+    assert rapid.check(ROBOT, unknown, codes=default) == ()
     assert selected("c2,R101", "C202", known) == {"C201", "C203", "R101"}
     assert selected("wrong-confdata", "", known) == {"C201"}
     file = tmp_path / "seam.mod"
