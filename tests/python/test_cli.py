@@ -374,6 +374,12 @@ def test_a_pose_far_beyond_reach_is_explained_in_millimeters():
     assert b"(arguments and CSV are in millimeters, .npy files in meters)" in done.stderr
 
 
+def test_a_pose_without_solutions_is_not_drawn(tmp_path):
+    pytest.importorskip("matplotlib")
+    done = run("plot", NAME, "solutions", "--xyz", 8500, 0, 0, "-o", tmp_path / "ik.svg")
+    assert done.stderr.startswith(b"irbkin: the pose has no solution to draw: wrist center ")
+
+
 POSES = irbkin.pose(
     [[0.9, -0.2, 0.6], [0.9, 0.2, 0.6], [1.0, 0.2, 0.6]], euler_zyx=np.radians([0, 160, 0])
 )

@@ -28,6 +28,7 @@ OWN_WORDS = {
     "catalog() lists all, from_urdf and from_mdh take other arms": (
         "irbkin catalog lists all; another arm is given by a .urdf file"
     ),
+    "T has no solution to draw": "the pose has no solution to draw",
     "is step in m, or speed in m/s and dt in s?": "take a larger --step",
 }
 """What the library says in its units and calls, and what the command says in their place."""
