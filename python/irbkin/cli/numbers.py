@@ -14,6 +14,7 @@ MOST_TURN = 360.0
 """The largest Euler angle that the library takes [deg]."""
 MOST_TOOL = 50e3
 """The farthest tool center point that the library takes [mm from the flange]."""
+_TOO_LARGE = f"is too large: its size must be at most {MOST_ANGLE:.0f} deg (remove whole turns)"
 
 
 def number(text: str) -> float:
@@ -41,9 +42,6 @@ def angle(text: str) -> float:
     if abs(value) > MOST_ANGLE:
         raise ArgumentTypeError(f"{value:g} deg {_TOO_LARGE}")
     return value
-
-
-_TOO_LARGE = f"is too large: its size must be at most {MOST_ANGLE:.0f} deg (remove whole turns)"
 
 
 def check_joints(angles: Sequence[float], name: str) -> None:
