@@ -532,7 +532,14 @@ class Robot:
     def structure(
         self,
     ) -> Literal[
-        "spherical wrist", "three parallel axes", "spherical shoulder", "general", "unknown"
+        "spherical wrist",
+        "three parallel axes",
+        "spherical shoulder",
+        "offset wrist",
+        "general",
+        "refined spherical wrist",
+        "refined three parallel axes",
+        "unknown",
     ]:
         """Kinematic structure: "spherical wrist", "three parallel axes", "spherical shoulder",
         "offset wrist", or "general" for any other; "refined spherical wrist" or "refined three
@@ -1344,7 +1351,7 @@ class Solutions(Sequence[Solution]):
     @property
     def shortfall(self) -> float:
         """Distance missing to reach [m]: of the wrist center from where the arm can bring it; 0
-        when it is reached, NaN where it is not and the structure has no closed form.
+        when it is reached, NaN where it is not known: when `reach` is `Reach.NO_ROOTS`.
         """
     def explain(self) -> str:
         """Return the outcome in a sentence: how many solutions, or why there are none. For an
@@ -1930,8 +1937,8 @@ def spline(
 
     Args:
         q: Waypoints [rad], shape (m, n).
-        t: Times of the waypoints [s], shape (m,), increasing. Without them they are spaced by the
-            distances of the waypoints.
+        t: Times of the waypoints [s], shape (m,), increasing. The trajectory begins at 0: only
+            their differences count. Without them they are spaced by the distances of the waypoints.
         steps: Number of samples.
         duration: Duration without `t` [s]; 1 where no limit is given.
         profile: "quintic" (zero acceleration at both ends, four continuous derivatives) or "cubic"

@@ -108,7 +108,7 @@ impl PySolutions {
     }
 
     /// Distance missing to reach [m]: of the wrist center from where the arm can bring it; 0 when
-    /// it is reached, NaN where it is not and the structure has no closed form.
+    /// it is reached, NaN where it is not known: when `reach` is `Reach.NO_ROOTS`.
     #[getter]
     fn shortfall(&self) -> f64 {
         on!(&self.found, found => found.solutions.reach().shortfall())

@@ -196,8 +196,8 @@ pub(super) fn joint(
 ///
 /// Args:
 ///     q: Waypoints [rad], shape (m, n).
-///     t: Times of the waypoints [s], shape (m,), increasing. Without them they are spaced by the
-///         distances of the waypoints.
+///     t: Times of the waypoints [s], shape (m,), increasing. The trajectory begins at 0: only
+///         their differences count. Without them they are spaced by the distances of the waypoints.
 ///     steps: Number of samples.
 ///     duration: Duration without `t` [s]; 1 where no limit is given.
 ///     profile: "quintic" (zero acceleration at both ends, four continuous derivatives) or "cubic"

@@ -261,6 +261,11 @@ def test_what_cannot_be_fitted_is_refused_in_words(q, measured, options, error, 
         irbkin.calibrate(IRB2600, q, measured, **options)
 
 
+def test_a_name_is_no_robot():
+    with pytest.raises(TypeError, match=r"got str: give Robot\('UR5e'\)"):
+        irbkin.calibrate("UR5e", Q, T)
+
+
 def test_a_coupled_table_is_refused_but_not_its_ends():
     robot = irbkin.Robot("IRB 2400-10/1.55")
     q = drawn(robot, 20, 27)

@@ -211,6 +211,9 @@ def test_codes_are_selected_and_ignored(tmp_path):
     assert selected(None, "", known) == default
     assert {code for code in CODES if code not in default} == {"U801", "U802", "U803"}
     assert selected("ALL", "", known) == set(CODES)
+    unknown = rapid.parse("PROC main() MoveJ *,v100,fine,tool0; ENDPROC")
+    assert {it.code for it in rapid.check(ROBOT, unknown)} == {"U801"}
+    assert rapid.check(ROBOT, unknown, codes=default) == ()
     assert selected("c2,R101", "C202", known) == {"C201", "C203", "R101"}
     assert selected("wrong-confdata", "", known) == {"C201"}
     file = tmp_path / "seam.mod"
@@ -218,6 +221,10 @@ def test_codes_are_selected_and_ignored(tmp_path):
     done = check(file, "--select", "X1")
     assert done.returncode == 2
     assert done.stderr.startswith(b"irbkin: unknown code 'X1': did you mean ")
+    for nothing in (["--select", ""], ["--select", ","], ["--select", "C2", "--ignore", "C"]):
+        done = check(file, *nothing)
+        assert (done.returncode, done.stdout) == (2, b"")
+        assert b"leave no code to check" in done.stderr
     listed = run("--codes").stdout.decode()
     assert [line.split()[0] for line in listed.splitlines()] == CODES
 

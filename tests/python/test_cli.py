@@ -13,6 +13,7 @@ import pytest
 from command import JOINTS, NAME, ROBOT, XYZ, joints_of, refused, rows, run
 from irbkin.cli import VERBS
 from irbkin.cli.arguments import Parser
+from irbkin.cli.tool_paths import ZONES
 
 EVERY_VERB = list(VERBS)
 
@@ -324,6 +325,59 @@ def test_the_catalog_is_listed_and_filtered():
     np.testing.assert_allclose(np.radians(one["lower_deg"]), ROBOT.limits[:, 0])
     assert run("catalog", "irb2600-12/1.65").stdout == run("catalog", NAME).stdout
     assert "close" in refused("catalog", "IRB 99999")
+    assert run("catalog", "irb2600-12/1.65", "--payload", 5).returncode == 0
+
+
+def test_a_filter_that_leaves_no_arm_says_so():
+    done = run("catalog", "--payload", "1e9")
+    assert (done.returncode, done.stdout) == (1, b"")
+    words = "irbkin: no arm of the catalog has a payload of 1e+09 kg or more\n"
+    assert done.stderr.decode() == words
+    done = run("catalog", 2600, "--payload", 500, "--reach", 1000)
+    assert done.returncode == 1
+    assert done.stderr.decode() == (
+        "irbkin: no arm of the catalog with '2600' in its name has a reach of 1000 mm or more and "
+        "a payload of 500 kg or more\n"
+    )
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["fk", NAME, "nan", 0, 0, 0, 0, 0], "joint angles: 'nan' is no finite number"),
+        (["fk", NAME, 0, "1e9", 0, 0, 0, 0], "joint 2 at 1e+09 deg is too large"),
+        (["fk", NAME, *[0] * 6, "--tool", 0, 0, "inf"], "--tool: 'inf' is no finite number"),
+        (["fk", NAME, *[0] * 6, "--tool", 0, 0, 100000], "it must be at most 50000 mm"),
+        (["fk", NAME, *[0] * 6, "--tool", 0, 0, 1, 0, -400, 0], "--tool: ry is -400 deg"),
+        (["ik", NAME, "--xyz", 850, 0, 0, "--euler", 400, 0, 0], "--euler: rz is 400 deg"),
+        (["ik", NAME, "--xyz", 850, 0, 0, "--confdata", 0, 0, 0, 0.5], "'0.5' is no whole number"),
+        (["ik", "Panda", "--xyz", 4, 0, 0, "--given", 3], "as 3=11.5"),
+        (["ik", "Panda", "--xyz", 4, 0, 0, "--given", f"{'9' * 20}=5"], "must be 1 to 7"),
+        (["ik", "Panda", "--xyz", 4, 0, 0, "--q7", "1e9"], "--q7: 1e+09 deg is too large"),
+        (["catalog", "--reach", "1e9"], "--reach is 1e+09 mm, it must be 0 to 100000 mm"),
+        (["urdf", "Wxyz"], "irbkin catalog lists all; another arm is given by a .urdf file"),
+    ],
+)
+def test_wrong_numbers_are_named_in_the_units_of_the_command(words, message):
+    assert message in refused(*words)
+
+
+def test_angles_too_large_for_a_confdata_have_none():
+    table = rows(run("fk", NAME, "-", "--csv", stdin="0,0,0,0,30,0\n1e9,0,0,0,30,0\n"))
+    for name in ("cf1", "cf4", "cf6", "cfx"):
+        np.testing.assert_array_equal(table[name], [0, np.nan])
+    assert "row 2: ry is 400 deg" in refused("ik", NAME, "-", stdin="9,0,0,0,0,0\n9,0,0,0,400,0\n")
+
+
+def test_a_pose_far_beyond_reach_is_explained_in_millimeters():
+    done = run("ik", NAME, "--xyz", 850000, 0, 0)
+    assert b"(arguments and CSV are in millimeters, .npy files in meters)" in done.stderr
+
+
+def test_a_pose_without_solutions_is_not_drawn(tmp_path):
+    pytest.importorskip("matplotlib")
+    done = run("plot", NAME, "solutions", "--xyz", 8500, 0, 0, "-o", tmp_path / "ik.svg")
+    assert done.stderr.startswith(b"irbkin: the pose has no solution to draw: wrist center ")
 
 
 POSES = irbkin.pose(
@@ -352,6 +406,34 @@ def test_a_path_is_that_of_the_library(corners, tmp_path):
     assert len(json.loads(done.stdout)["rows"]) == len(spline)
     assert json.loads(done.stdout)["fastest_mm_s"] > 0
     assert "zone" in refused("path", NAME, corners, "--through", "lines", "--zone", "z7")
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--step", 5], "--step goes with --through lines, spline or arc"),
+        (["--zone", "z10"], "--zone goes with --through lines"),
+        (["--through", "spline", "--zone", "z10"], "--zone goes with --through lines"),
+        (["--through", "lines", "--step", -3], "--step: -3 must be positive"),
+        (["--through", "lines", "--step", "1e-9"], "poses, at most 1e7 are given: take a larger"),
+        (["--through", "lines", "--zone", "z33"], "--zone is 'z33', it must be a radius of 0 mm"),
+        (["--through", "lines", "--zone", -3], "--zone is '-3'"),
+    ],
+)
+@pytest.mark.parametrize("verb", ["path", "plan"])
+def test_options_of_a_path_have_effect_or_are_refused(verb, words, message, corners):
+    assert message in refused(verb, NAME, corners, *words)
+    assert "Panda has 7" in refused(verb, "Panda", corners)
+
+
+def test_every_zone_of_the_message_is_one_of_the_library(corners):
+    for zone in ZONES:
+        assert len(irbkin.paths.polyline(POSES, zone, step=0.1))
+
+
+def test_a_track_has_a_direction_and_a_range(corners):
+    assert "0 0 0" in refused("plan", NAME, corners, "--track", 0, 0, 0, 0, 100)
+    assert "its ends 100 and 0 mm" in refused("plan", NAME, corners, "--track", 0, 1, 0, 100, 0)
 
 
 def test_a_broken_path_is_reported(tmp_path):
@@ -420,6 +502,20 @@ def test_rapid_gives_moves_samples_and_a_module(tmp_path):
     assert done.stderr.startswith(f"irbkin: {file}:7:9: MoveL nowhere: ".encode())
     file.write_text("MODULE M PROC main( ENDMODULE")
     assert f"{file}: line 1, column " in refused("rapid", NAME, file)
+
+
+def test_rapid_takes_the_speeds_of_the_joints(tmp_path):
+    file = tmp_path / "weld.mod"
+    file.write_text(PROGRAM)
+    longer, speeds = "IRB 2600-12/1.85", np.degrees(ROBOT.max_velocity)
+    assert "1.85 are unknown: give --max-velocity" in refused("rapid", longer, file)
+    table = rows(run("rapid", longer, file, "--max-velocity", *speeds, "--csv"))
+    motion = irbkin.rapid.motion(
+        irbkin.Robot(longer), irbkin.rapid.parse(PROGRAM), max_velocity=ROBOT.max_velocity
+    )
+    np.testing.assert_allclose(table["end_s"], [it.end for it in motion.moves])
+    assert "takes 6 speeds" in refused("rapid", longer, file, "--max-velocity", 90)
+    assert "0 must be positive" in refused("rapid", longer, file, "--max-velocity", 0)
 
 
 def test_plots_are_files_of_their_format(tmp_path, joints_csv):

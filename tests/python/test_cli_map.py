@@ -37,7 +37,11 @@ def test_nothing_reached_is_a_finding():
         (["--step", "0"], "--step 0"),
         (["--step", "nan"], "--step nan"),
         (["--step", "1e-9"], "more than"),
-        (["--directions", "0"], "directions is 0"),
+        (["--directions", "0"], "--directions: 0 must be 1 to 1000000"),
+        (["--directions", "1000", "--turns", "2000"], "it must be at most 1,000,000"),
+        (["--threads", "-1"], "--threads: -1 must be 0 to 1024"),
+        (["--threads", "9" * 20], "must be 0 to 1024"),
+        (["--euler", "0", "0", "400"], "--euler: rx is 400 deg"),
     ],
 )
 def test_grids_that_make_no_sense_are_refused(changed, words):

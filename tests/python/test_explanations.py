@@ -27,6 +27,16 @@ def reaches(name):
     return abs(upper - k), upper + k
 
 
+def test_the_shortfall_is_known_but_where_a_pose_has_no_roots():
+    far = irbkin.pose([5, 0, 0.5])
+    assert irbkin.Robot("GoFa 5").ik(far).shortfall == pytest.approx(3.995, abs=1e-3)
+    table = irbkin.Robot("UR5e").mdh.copy()
+    table[:, 0] += 0.1
+    solutions = irbkin.Robot.from_mdh(table).ik(far)
+    assert solutions.reach is irbkin.Reach.NO_ROOTS
+    assert np.isnan(solutions.shortfall)
+
+
 @pytest.mark.parametrize("beyond", [1.1e-9, 1e-6, 0.012, 3.0])
 @pytest.mark.parametrize("name", ABB)
 def test_shortfall_is_the_distance_beyond_the_stretched_arm(name, beyond):

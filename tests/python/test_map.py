@@ -147,6 +147,10 @@ def test_starts_and_times_go_with_their_paths(client):
 
 def test_a_map_is_written_and_read(tmp_path):
     output = tmp_path / "maps" / "reach.npz"
+    with pytest.raises(FileNotFoundError, match="its folder does not exist"):
+        irbkin.map.reach(ROBOT, X, Y, Z, SPREAD, output=output)
+    assert not output.parent.exists()
+    output.parent.mkdir()
     found = irbkin.map.reach(ROBOT, X, Y, Z, SPREAD, output=output, block=7)
     assert found == whole()
     assert irbkin.map.load(output) == found
@@ -320,11 +324,18 @@ def test_bad_input_is_refused_with_its_name():
         ({"orientations": mirrored}, irbkin.InvalidPoseError, r"orientations\[3\]: "),
         ({"orientations": np.eye(4)}, irbkin.InvalidPoseError, "orientations must have shape"),
         ({"block": 0}, irbkin.InvalidPoseError, "block is 0"),
+        ({"block": 2.5}, irbkin.InvalidPoseError, "block is 2.5, it must be a whole number"),
+        ({"robot": "UR5e"}, TypeError, r"robot must be a Robot, got str: give Robot\('UR5e'\)"),
         ({"q7": 0.1}, TypeError, "q7"),
     ]:
-        arguments = {"x": X, "y": Y, "z": Z, "orientations": SPREAD, **change}
+        arguments = {"robot": ROBOT, "x": X, "y": Y, "z": Z, "orientations": SPREAD, **change}
         with pytest.raises(error, match=message):
-            irbkin.map.reach(ROBOT, **arguments)
+            irbkin.map.reach(**arguments)
+    with pytest.raises(TypeError, match="robot must be a Robot"):
+        irbkin.map.plan_batch("UR5e", [])
+    for number in (2.5, "3"):
+        with pytest.raises(irbkin.InvalidPoseError, match="it must be a whole number"):
+            irbkin.map.orientations(number)
 
 
 def test_a_cluster_is_not_needed_for_the_import():

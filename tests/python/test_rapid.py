@@ -79,6 +79,13 @@ def test_a_record_that_was_dumped_is_read_again(record):
     assert rapid.parse(rapid.dump(record)) == record
 
 
+@pytest.mark.parametrize("value", [rapid.SpeedData(100), (0.0, 0.0, 1.0), [1.0, 2.0], 5.5])
+def test_a_value_whose_shape_does_not_determine_its_type_is_read_in_a_module_only(value):
+    with pytest.raises(irbkin.RapidError):
+        rapid.parse(rapid.dump(value))
+    assert rapid.parse(rapid.dump({"value": value}))["value"] == value
+
+
 @given(st.dictionaries(NAMES, st.one_of(ANY, ARRAYS), max_size=6))
 def test_data_that_were_dumped_are_read_again_by_their_names(data):
     module = rapid.parse(rapid.dump(data, name="Targets"))

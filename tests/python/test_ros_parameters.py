@@ -56,6 +56,7 @@ def test_a_urdf_is_a_robot_if_its_joints_are_named(tmp_path):
         ({"robot": "UR5", "robot_description": "<robot/>"}, "robot and robot_description are both"),
         ({"robot_description": ROBOT.to_urdf()}, "joint_names is empty: with robot_description"),
         ({"robot_description": "no.urdf"}, "robot_description: [Errno 2] No such file"),
+        ({"robot": "UR5e", "weights": [-1.0] * 6}, "weights[0] is -1.0, it must be 0 or more"),
         ({"robot": "UR5", "tool": [1.0, 2.0]}, "tool must have shape (7,), got (2,)"),
         ({"robot": "UR5", "tool": [0.0] * 7}, "quaternion norm is 0.000000"),
         ({"robot": "UR5", "start": "zero"}, "start is 'zero', it must be an array of numbers"),

@@ -30,6 +30,15 @@ def test_docstrings_are_put_in_and_replaced():
     ]
 
 
+def test_the_stub_has_every_structure():
+    doc = " ".join(irbkin.Robot.structure.__doc__.split())
+    literal = re.search(r"def structure\(.*?Literal\[(.*?)\]", STUB.read_text(), re.DOTALL)
+    names = set(re.findall(r'"([^"]+)"', doc))
+    assert len(names) == 8
+    assert set(re.findall(r'"([^"]+)"', literal[1])) == names
+    assert {irbkin.Robot(name).structure for name in irbkin.catalog()} < names
+
+
 def documented():
     for module in (irbkin, rapid):
         for name in module.__all__:

@@ -90,6 +90,9 @@ def test_a_spline_passes_its_waypoints_in_time():
         move = trajectory.spline(q, t=t, profile=profile)
         np.testing.assert_allclose(move.sample(t).q, q, rtol=0, atol=1e-12)
         assert abs(move.sample([0, 4]).dq).max() < 1e-10
+        # Only differences of times count.
+        later = trajectory.spline(q, t=np.add(t, 5), profile=profile)
+        np.testing.assert_allclose(later.t, move.t, rtol=0, atol=1e-12)
     fast = trajectory.spline(q, max_velocity=2.0, max_acceleration=9.0)
     assert (fast.peaks().velocity <= 2 * (1 + 1e-9)).all()
     assert (fast.peaks().acceleration <= 9 * (1 + 1e-9)).all()

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from irbkin._arguments import check_robot
 from irbkin.calibration import _fit, _identify, _measurements, _parameters, _start
 from irbkin.calibration._records import (
     CalibratedParameter,
@@ -89,6 +90,7 @@ def calibrate(
         raise ImportError(
             "irbkin.calibrate needs scipy: pip install 'irbkin[calibrate]'", name="scipy"
         ) from missing
+    check_robot(robot)
     wanted = _options(fit, position_std, rotation_std, loss, folds)
     if "table" in wanted and robot.is_coupled:
         # Refused with the words of the core.

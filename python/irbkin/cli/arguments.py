@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NoReturn
 
 from irbkin.cli.errors import CommandError
+from irbkin.cli.numbers import MOST_TOOL, check_euler, check_joints, number
 
 if TYPE_CHECKING:
     from irbkin import Robot
@@ -46,7 +47,7 @@ class Parser:
             self.add(
                 f"--{name}",
                 nargs="+",
-                type=float,
+                type=number,
                 metavar="N",
                 help=f"{frame}: x y z [mm], then w x y z or rz ry rx [deg] if turned",
             )
@@ -74,14 +75,6 @@ class Parser:
         )
 
 
-def whole(text: str) -> int:
-    """A whole number of 32 bits, as confdata has."""
-    number = int(text)
-    if abs(number) >= 2**31:
-        raise argparse.ArgumentTypeError(f"{text.strip()} is no number of a confdata")
-    return number
-
-
 class _Help(argparse.RawDescriptionHelpFormatter):
     """Help of one width: asking for that of the terminal would import what nothing else needs."""
 
@@ -105,7 +98,14 @@ def read_robot(arguments: argparse.Namespace) -> Robot:
     robot = Robot.from_urdf(name) if name.lower().endswith(".urdf") else Robot(name)
     if arguments.base is not None:
         robot = robot.with_base(frame(arguments.base, "--base"))
-    return robot if arguments.tool is None else robot.with_tool(frame(arguments.tool, "--tool"))
+    if arguments.tool is None:
+        return robot
+    length = math.hypot(*arguments.tool[:3])
+    if length > MOST_TOOL:
+        raise CommandError(
+            f"--tool is {length:g} mm from the flange, it must be at most {MOST_TOOL:g} mm"
+        )
+    return robot.with_tool(frame(arguments.tool, "--tool"))
 
 
 def frame(numbers: Sequence[float], name: str) -> Floats:
@@ -119,6 +119,7 @@ def frame(numbers: Sequence[float], name: str) -> Floats:
     if len(numbers) == 3:
         return pose(xyz)
     if len(numbers) == 6:
+        check_euler(turn, name)
         return pose(xyz, euler_zyx=np.radians(turn))
     if len(numbers) == 7:
         return pose(xyz, wxyz=turn)
@@ -146,4 +147,5 @@ def joints(numbers: Sequence[float] | None, name: str, dof: int) -> Floats | Non
         return None
     if len(numbers) != dof:
         raise CommandError(f"{name} takes {dof} angles [deg] of this arm, got {len(numbers)}")
+    check_joints(numbers, name)
     return np.radians(numbers)

@@ -6,7 +6,8 @@ import argparse
 from typing import TYPE_CHECKING
 
 from irbkin.cli.arguments import Parser
-from irbkin.cli.errors import FINE, CommandError
+from irbkin.cli.errors import FINE, FOUND, CommandError
+from irbkin.cli.numbers import number
 
 if TYPE_CHECKING:
     from irbkin import CatalogEntry
@@ -18,13 +19,15 @@ EXAMPLES = """  irbkin catalog
   irbkin catalog "IRB 2600-12/1.65"
   irbkin catalog --reach 2500 --payload 100
   irbkin catalog --csv > arms.csv"""
+MOST_REACH = 100e3
+"""The longest reach that the library takes [mm]."""
 
 
 def add_arguments(parser: Parser) -> None:
     """The arguments of the verb."""
     parser.add("words", metavar="WORD", nargs="*", help="a part of a name, or a whole one")
-    parser.add("--reach", type=float, metavar="MM", help="reach at least [mm]")
-    parser.add("--payload", type=float, metavar="KG", help="payload at least [kg]")
+    parser.add("--reach", type=number, metavar="MM", help="reach at least [mm]")
+    parser.add("--payload", type=number, metavar="KG", help="payload at least [kg]")
     parser.add_formats("limits of one arm, shape (n, 2), in radians")
 
 
@@ -34,21 +37,42 @@ def run(arguments: argparse.Namespace) -> int:
 
     words = [word.strip() for word in arguments.words]
     name = " ".join(words)
-    reach = None if arguments.reach is None else arguments.reach / 1e3
-    try:
-        known = irbkin.catalog(reach=reach, payload=arguments.payload)
-    except ValueError as error:
-        raise CommandError(f"--{error}") from None
+    known = _filtered(arguments.reach, arguments.payload)
     if name in irbkin.catalog():
         _show_one(arguments, irbkin.catalog_entry(name))
         return FINE
-    found = [it for it in known if all(word.lower() in it.lower() for word in words)]
-    if words and not found:
+    named = [it for it in irbkin.catalog() if all(word.lower() in it.lower() for word in words)]
+    found = [it for it in named if it in known]
+    if named and not found:
+        whose = f" with {name!r} in its name" if words else ""
+        raise CommandError(f"no arm of the catalog{whose} has {_bounds(arguments)}", FOUND)
+    if not found:
         # It may be another spelling; if not, the error has the close names.
         _show_one(arguments, irbkin.catalog_entry(name))
         return FINE
     _show_all(arguments, [irbkin.catalog_entry(it) for it in found])
     return FINE
+
+
+def _filtered(reach: float | None, payload: float | None) -> tuple[str, ...]:
+    """The names of arms with at least a reach [mm] and a payload [kg]."""
+    import irbkin
+
+    if reach is not None and not 0.0 <= reach <= MOST_REACH:
+        raise CommandError(f"--reach is {reach:g} mm, it must be 0 to {MOST_REACH:g} mm")
+    if payload is not None and payload < 0.0:
+        raise CommandError(f"--payload is {payload:g} kg, it must be 0 or more")
+    return irbkin.catalog(reach=None if reach is None else reach / 1e3, payload=payload)
+
+
+def _bounds(arguments: argparse.Namespace) -> str:
+    """The filter in words."""
+    reach, payload = arguments.reach, arguments.payload
+    bounds = (
+        "" if reach is None else f"a reach of {reach:g} mm or more",
+        "" if payload is None else f"a payload of {payload:g} kg or more",
+    )
+    return " and ".join(filter(None, bounds))
 
 
 def _show_all(arguments: argparse.Namespace, entries: list[CatalogEntry]) -> None:

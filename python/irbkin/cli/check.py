@@ -104,4 +104,10 @@ def selected(
     wanted = {code for code, _, is_default in known if is_default}
     if select is not None:
         wanted = meant(select)
-    return wanted - meant(ignore)
+    wanted -= meant(ignore)
+    if not wanted:
+        raise CommandError(
+            "--select and --ignore leave no code to check: select codes or their beginnings, or "
+            "ALL (--codes lists them)"
+        )
+    return wanted

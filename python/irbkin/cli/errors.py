@@ -21,6 +21,19 @@ CLOSED_PIPE = 141
 """What a shell gives a program that writes into a closed pipe."""
 
 
+OWN_WORDS = {
+    " (is the pose in millimeters? meters are wanted)": (
+        " (arguments and CSV are in millimeters, .npy files in meters)"
+    ),
+    "catalog() lists all, from_urdf and from_mdh take other arms": (
+        "irbkin catalog lists all; another arm is given by a .urdf file"
+    ),
+    "T has no solution to draw": "the pose has no solution to draw",
+    "is step in m, or speed in m/s and dt in s?": "take a larger --step",
+}
+"""What the library says in its units and calls, and what the command says in their place."""
+
+
 class CommandError(Exception):
     """What ends the command, with its exit code."""
 
@@ -36,6 +49,8 @@ class _Terminated(BaseException):
 def complain(message: object) -> None:
     """Print a line on stderr."""
     line = " ".join(str(message).split())
+    for words, own in OWN_WORDS.items():
+        line = line.replace(words, own)
     print(f"irbkin: {line}", file=sys.stderr)
 
 

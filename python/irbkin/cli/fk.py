@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from irbkin.cli.arguments import Parser, joints, read_robot
 from irbkin.cli.errors import FINE, CommandError
+from irbkin.cli.numbers import number
 
 if TYPE_CHECKING:
     from irbkin._arrays import Floats
@@ -55,8 +56,8 @@ def run(arguments: argparse.Namespace) -> int:
 def _one(given: list[str], dof: int) -> Floats:
     """The joint vector of arguments [rad], shape (1, dof)."""
     try:
-        numbers = [float(word) for word in given]
-    except ValueError as error:
+        numbers = [number(word) for word in given]
+    except argparse.ArgumentTypeError as error:
         raise CommandError(f"joint angles: {error}") from None
     q = joints(numbers, "fk", dof)
     assert q is not None

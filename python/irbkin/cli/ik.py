@@ -6,8 +6,9 @@ import argparse
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
-from irbkin.cli.arguments import Parser, frame, joints, read_q7, read_robot, whole
+from irbkin.cli.arguments import Parser, frame, joints, read_q7, read_robot
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
+from irbkin.cli.numbers import angle, confdata, joint_and_angle, number
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -33,22 +34,25 @@ def add_arguments(parser: Parser) -> None:
     parser.add_robot()
     parser.add_rows("poses")
     add = parser.add
-    add("--xyz", nargs=3, type=float, metavar=("X", "Y", "Z"), help="position of the tool [mm]")
-    add("--wxyz", nargs=4, type=float, metavar=tuple("WXYZ"), help="its quaternion, w first")
-    add("--euler", nargs=3, type=float, metavar=("RZ", "RY", "RX"), help="or ZYX angles [deg]")
-    add("--q7", type=float, metavar="Q7", help="angle of joint 7 of a seven-axis arm [deg]")
-    add("--given", type=_given, metavar="J=Q", help="or of another joint of it, as 3=11.5 [deg]")
+    add("--xyz", nargs=3, type=number, metavar=("X", "Y", "Z"), help="position of the tool [mm]")
+    add("--wxyz", nargs=4, type=number, metavar=tuple("WXYZ"), help="its quaternion, w first")
+    add("--euler", nargs=3, type=number, metavar=("RZ", "RY", "RX"), help="or ZYX angles [deg]")
+    add("--q7", type=angle, metavar="Q7", help="angle of joint 7 of a seven-axis arm [deg]")
+    add(
+        "--given",
+        type=joint_and_angle,
+        metavar="J=Q",
+        help="or of another joint of it, as 3=11.5 [deg]",
+    )
     add("--within", action="store_true", help="only solutions inside the limits")
-    add("--seed", nargs="+", type=float, metavar="Q", help="only the nearest to these joints [deg]")
-    add("--confdata", nargs=4, type=whole, metavar="CF", help="only the one with cf1 cf4 cf6 cfx")
-    add("--arm-angle", type=float, metavar="A", help="with --confdata of a YuMi: its eax_a [deg]")
+    add(
+        "--seed", nargs="+", type=number, metavar="Q", help="only the nearest to these joints [deg]"
+    )
+    add(
+        "--confdata", nargs=4, type=confdata, metavar="CF", help="only the one with cf1 cf4 cf6 cfx"
+    )
+    add("--arm-angle", type=angle, metavar="A", help="with --confdata of a YuMi: its eax_a [deg]")
     parser.add_formats("joint angles, shape (m, slots, n) or (m, n), in radians")
-
-
-def _given(text: str) -> tuple[int, float]:
-    """A joint, from 1, and its angle [deg]."""
-    joint, _, angle = text.partition("=")
-    return int(joint), float(angle)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -81,7 +85,7 @@ def _poses(arguments: argparse.Namespace, robot: Robot) -> tuple[Iterator[Floats
     if arguments.wxyz is not None and arguments.euler is not None:
         raise CommandError("--wxyz and --euler: give one of them")
     turn = arguments.wxyz or arguments.euler or []
-    one = frame([*arguments.xyz, *turn], "--xyz with --wxyz or --euler")[None]
+    one = frame([*arguments.xyz, *turn], "--wxyz" if arguments.wxyz else "--euler")[None]
     x, y, z = arguments.xyz
     name = "wxyz" if arguments.wxyz else "rz ry rx"
     words = f", {name} {' '.join(f'{number:g}' for number in turn)}" if turn else ""
@@ -145,8 +149,8 @@ def _write_all(
     if arguments.given is None:
         q7, given = read_q7(arguments, robot), None
     else:
-        joint, angle = arguments.given
-        q7, given = None, robot.given({joint: np.radians(angle)})
+        joint, degrees = arguments.given
+        q7, given = None, robot.given({joint: np.radians(degrees)})
 
     def reason(pose: Floats) -> str:
         if robot.dof == 6:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from irbkin.cli.arguments import Parser, frame, read_q7, read_robot
 from irbkin.cli.errors import FINE, FOUND, CommandError
+from irbkin.cli.numbers import angle, count, number
 
 if TYPE_CHECKING:
     from irbkin.map import ReachMap
@@ -19,6 +20,8 @@ EXAMPLES = """  irbkin map "IRB 2600-12/1.65" --x 400 1600 --y -800 800 --z 0 16
   irbkin map "IRB 2600-12/1.65" --x 400 1600 --y 0 0 --z 0 1600 --euler 0 180 0 --csv
   irbkin map "IRB 120-3/0.58" --x -600 600 --y -600 600 --z 0 900 --step 25 -o reach.npz"""
 MOST_POSITIONS = 10**9
+MOST_ORIENTATIONS = 10**6
+MOST_THREADS = 1024
 
 
 def add_arguments(parser: Parser) -> None:
@@ -35,11 +38,17 @@ def add_arguments(parser: Parser) -> None:
             help=f"positions along {axis} [mm]",
         )
     add("--step", type=float, default=100.0, metavar="MM", help="their distance; 100 mm")
-    add("--directions", type=int, default=20, help="directions of the tool, spread evenly; 20")
-    add("--turns", type=int, default=1, help="turns of each about the tool's z; 1")
-    add("--euler", nargs=3, type=float, metavar=("RZ", "RY", "RX"), help="or one, ZYX [deg]")
-    add("--q7", type=float, metavar="Q7", help="angle of joint 7 of a seven-axis arm [deg]")
-    add("--threads", type=int, default=1, help="number of threads; 0 for one a core")
+    many = count(1, MOST_ORIENTATIONS)
+    add("--directions", type=many, default=20, help="directions of the tool, spread evenly; 20")
+    add("--turns", type=many, default=1, help="turns of each about the tool's z; 1")
+    add("--euler", nargs=3, type=number, metavar=("RZ", "RY", "RX"), help="or one, ZYX [deg]")
+    add("--q7", type=angle, metavar="Q7", help="angle of joint 7 of a seven-axis arm [deg]")
+    add(
+        "--threads",
+        type=count(0, MOST_THREADS),
+        default=1,
+        help="number of threads; 0 for one a core",
+    )
     parser.add_formats("x, y, z [m], share, solutions, margin, shape (m, 6)")
 
 
@@ -50,17 +59,24 @@ def run(arguments: argparse.Namespace) -> int:
 
     robot = read_robot(arguments)
     x, y, z = (_positions(name, getattr(arguments, name), arguments.step) for name in "xyz")
-    count = len(x) * len(y) * len(z)
-    if count > MOST_POSITIONS:
-        raise CommandError(f"{count:,} positions, at most {MOST_POSITIONS:,}: take a larger --step")
+    positions = len(x) * len(y) * len(z)
+    if positions > MOST_POSITIONS:
+        raise CommandError(
+            f"{positions:,} positions, at most {MOST_POSITIONS:,}: take a larger --step"
+        )
     if arguments.euler is None:
+        many = arguments.directions * arguments.turns
+        if many > MOST_ORIENTATIONS:
+            raise CommandError(
+                f"--directions times --turns is {many:,}, it must be at most {MOST_ORIENTATIONS:,}"
+            )
         orientations = maps.orientations(arguments.directions, arguments.turns)
     else:
         orientations = frame([0, 0, 0, *arguments.euler], "--euler")[None, :3, :3]
     output: str | None = arguments.output
     store = output if output and output.lower().endswith(".npz") else None
     done = 0
-    with Progress("positions", count) as progress:
+    with Progress("positions", positions) as progress:
 
         def told(ready: int, _: int) -> None:
             nonlocal done
@@ -80,7 +96,7 @@ def run(arguments: argparse.Namespace) -> int:
         )
     if store is not None:
         arguments.output = None
-    heading = f"{robot.name}: {count:,} positions, {len(orientations)} orientations each"
+    heading = f"{robot.name}: {positions:,} positions, {len(orientations)} orientations each"
     if store is not None or not (arguments.csv or arguments.json or arguments.output):
         _levels(arguments, found, heading)
     else:

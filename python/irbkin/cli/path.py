@@ -6,6 +6,7 @@ import argparse
 
 from irbkin.cli.arguments import Parser, joints, read_robot
 from irbkin.cli.errors import FINE, FOUND, complain
+from irbkin.cli.numbers import number
 from irbkin.cli.tool_paths import add_path, fastest, read_path
 
 HELP = """The joints go from pose to pose on the branch of the first one: that nearest to --seed.
@@ -25,7 +26,7 @@ def add_arguments(parser: Parser) -> None:
     parser.add_robot()
     add_path(parser)
     add = parser.add
-    add("--seed", nargs="+", type=float, metavar="Q", help="joints before the path [deg]: zeros")
+    add("--seed", nargs="+", type=number, metavar="Q", help="joints before the path [deg]: zeros")
     add(
         "--singularity",
         choices=("through", "error", "wrist", "lock_axis4"),
@@ -43,7 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
     from irbkin.cli.postures import Postures
 
     robot = read_robot(arguments)
-    poses = read_path(arguments)
+    poses = read_path(arguments, robot)
     seed = joints(arguments.seed, "--seed", robot.dof)
     followed = robot.follow(
         poses,

@@ -6,7 +6,8 @@ import argparse
 from typing import TYPE_CHECKING
 
 from irbkin.cli.arguments import Parser, joints, read_robot
-from irbkin.cli.errors import FINE, FOUND, complain
+from irbkin.cli.errors import FINE, FOUND, CommandError, complain
+from irbkin.cli.numbers import count, number
 from irbkin.cli.tool_paths import add_path, fastest, read_path
 
 if TYPE_CHECKING:
@@ -21,6 +22,9 @@ EXAMPLES = """  irbkin plan "IRB 2600-12/1.65" poses.csv
   irbkin plan "IRB 2600-12/1.65" corners.csv --through lines --rotation 36 --csv
   irbkin plan "IRB 2600-12/1.65" seam.csv --through lines --track 0 1 0 -3000 3000
   irbkin plan "IRB 2600-12/1.65" contour.npy --closed -o q.npy"""
+MOST_ROTATION = 3600
+MOST_TRACK = 1e6
+"""How far the ends of a track may be from its zero [mm]."""
 
 
 def add_arguments(parser: Parser) -> None:
@@ -28,16 +32,23 @@ def add_arguments(parser: Parser) -> None:
     parser.add_robot()
     add_path(parser)
     add = parser.add
-    add("--rotation", type=int, metavar="STEPS", help="number of tool angles around z")
+    add(
+        "--rotation",
+        type=count(2, MOST_ROTATION),
+        metavar="STEPS",
+        help="number of tool angles around z",
+    )
     add(
         "--track",
         nargs=5,
-        type=float,
+        type=number,
         metavar=("X", "Y", "Z", "FROM", "TO"),
         help="a track under the robot: its direction and its ends [mm]",
     )
-    add("--start", nargs="+", type=float, metavar="Q", help="joints at the first pose [deg], track")
-    add("--end", nargs="+", type=float, metavar="Q", help="joints at the last pose [deg], track")
+    add(
+        "--start", nargs="+", type=number, metavar="Q", help="joints at the first pose [deg], track"
+    )
+    add("--end", nargs="+", type=number, metavar="Q", help="joints at the last pose [deg], track")
     add("--closed", action="store_true", help="the joints end where they start")
     parser.add_formats("joint angles in radians, shape (m, 6), and the track in meters, (m, 7)")
 
@@ -51,7 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
     from irbkin.errors import PathError
 
     robot = read_robot(arguments)
-    poses = read_path(arguments)
+    poses = read_path(arguments, robot)
     try:
         plan = robot.plan(
             poses,
@@ -96,6 +107,13 @@ def _track(numbers: list[float] | None) -> Track | None:
     if numbers is None:
         return None
     *direction, lower, upper = numbers
+    if not any(direction):
+        raise CommandError("--track: its direction X Y Z is 0 0 0, it must have a length")
+    if not -MOST_TRACK <= lower < upper <= MOST_TRACK:
+        raise CommandError(
+            f"--track: its ends {lower:g} and {upper:g} mm must be FROM < TO, between "
+            f"{-MOST_TRACK:g} and {MOST_TRACK:g} mm"
+        )
     return Track(direction, lower / 1e3, upper / 1e3)
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from irbkin.cli.arguments import Parser, frame, read_q7, read_robot
 from irbkin.cli.errors import FINE, CommandError
 from irbkin.cli.files import replaced
+from irbkin.cli.numbers import angle, number
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -32,10 +33,10 @@ def add_arguments(parser: Parser) -> None:
     add = parser.add
     add("kind", choices=KINDS, help="what to draw")
     parser.add_rows("joint angles of path and singularity")
-    add("--xyz", nargs=3, type=float, metavar=("X", "Y", "Z"), help="position of the tool [mm]")
-    add("--wxyz", nargs=4, type=float, metavar=tuple("WXYZ"), help="its quaternion, w first")
-    add("--euler", nargs=3, type=float, metavar=("RZ", "RY", "RX"), help="or ZYX angles [deg]")
-    add("--q7", type=float, metavar="Q7", help="angle of joint 7 of a seven-axis arm [deg]")
+    add("--xyz", nargs=3, type=number, metavar=("X", "Y", "Z"), help="position of the tool [mm]")
+    add("--wxyz", nargs=4, type=number, metavar=tuple("WXYZ"), help="its quaternion, w first")
+    add("--euler", nargs=3, type=number, metavar=("RZ", "RY", "RX"), help="or ZYX angles [deg]")
+    add("--q7", type=angle, metavar="Q7", help="angle of joint 7 of a seven-axis arm [deg]")
     add("-o", "--output", metavar="FILE", required=True, help="the picture: .svg, .png, .pdf")
 
 
@@ -63,7 +64,8 @@ def _drawn(arguments: argparse.Namespace, robot: Robot) -> Figure:
         if arguments.xyz is None and kind == "solutions":
             raise CommandError("solutions takes a pose: --xyz and --wxyz or --euler")
         turn = arguments.wxyz or arguments.euler or []
-        pose = frame([*(arguments.xyz or (0, 0, 0)), *turn], "--xyz with --wxyz or --euler")
+        name = "--wxyz" if arguments.wxyz else "--euler"
+        pose = frame([*(arguments.xyz or (0, 0, 0)), *turn], name)
         if kind == "solutions":
             return plot.solutions(robot, pose, q7=q7)
         return plot.reach(robot, pose, q7=q7)

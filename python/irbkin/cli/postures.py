@@ -18,6 +18,8 @@ POSE = (
     *(Column(name, "mm", "9.2f") for name in "xyz"),
     *(Column(name, "", "8.5f") for name in ("qw", "qx", "qy", "qz")),
 )
+NO_CONFDATA = np.iinfo(np.int32).min
+"""What `configuration` has in rows of angles that are too large for one."""
 EULER = tuple(Column(name, "deg", "8.2f") for name in ("rz", "ry", "rx"))
 
 
@@ -76,12 +78,14 @@ class Postures:
         known = np.asarray(np.isfinite(q).all(axis=1))
         filled = np.where(known[:, None], q, 0.0)
 
-        def masked(values: Any) -> Any:
-            return values if known.all() else np.where(known, values, np.nan)
+        def masked(values: Any, is_shown: Any = known) -> Any:
+            return values if is_shown.all() else np.where(is_shown, values, np.nan)
 
         confdata: list[Values] = []
         if self.has_confdata:
-            confdata = [masked(numbers) for numbers in robot.configuration(filled)]
+            numbers = robot.configuration(filled)
+            has_numbers = known & (numbers.cf1 != NO_CONFDATA)
+            confdata = [masked(it, has_numbers) for it in numbers]
         margin, joint = margins(robot, filled)
         names = np.array([f"J{number + 1}" for number in range(robot.dof)])[joint]
         at = robot.singularity(filled)

@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING
 
 from irbkin.cli.arguments import Parser, read_robot
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
+from irbkin.cli.numbers import positive
 
 if TYPE_CHECKING:
     from irbkin import Robot
+    from irbkin._arrays import Floats
     from irbkin.rapid import RoutineMotion
 
 HELP = """The moves are followed from the joints before them and timed at their programmed speeds
@@ -19,6 +21,7 @@ is 1. `irbkin check` checks all routines, branches and loops too."""
 EXAMPLES = """  irbkin rapid "IRB 2600-12/1.65" program.mod
   irbkin rapid "IRB 2600-12/1.65" program.mod tools.sys --routine weld --acceleration 600
   irbkin rapid "IRB 2600-12/1.65" program.mod --samples --csv > motion.csv
+  irbkin rapid "IRB 2600-12/1.85" program.mod --max-velocity 175 175 175 360 360 500
   irbkin rapid "IRB 2600-12/1.65" program.mod -o joints.mod"""
 
 
@@ -29,7 +32,14 @@ def add_arguments(parser: Parser) -> None:
     add("file", metavar="FILE", help="a RAPID module (.mod, .sys, .prg), - for stdin")
     add("context", metavar="OTHER", nargs="*", help="modules that declare what it names")
     add("--routine", metavar="NAME", help="the routine: main, or the only one that moves")
-    add("--acceleration", type=float, metavar="A", help="of every joint [deg/s^2]")
+    add("--acceleration", type=positive, metavar="A", help="of every joint [deg/s^2]")
+    add(
+        "--max-velocity",
+        nargs="+",
+        type=positive,
+        metavar="V",
+        help="of each joint [deg/s]: those of the catalog",
+    )
     add("--samples", action="store_true", help="the samples of the motion, not its moves")
     parser.add_formats("samples: time [s] and joint angles [rad], shape (m, 7); .mod: MoveAbsJ")
 
@@ -54,10 +64,12 @@ def run(arguments: argparse.Namespace) -> int:
 
     context = tuple(parsed(name) for name in arguments.context)
     acceleration = arguments.acceleration
+    velocity = _max_velocity(arguments.max_velocity, robot)
     motion = rapid.motion(
         robot,
         parsed(arguments.file, context),
         arguments.routine,
+        max_velocity=velocity,
         max_acceleration=None if acceleration is None else math.radians(acceleration),
     )
     output: str = arguments.output or ""
@@ -71,6 +83,22 @@ def run(arguments: argparse.Namespace) -> int:
     for finding in motion.findings:
         complain(f"{arguments.file}:{finding.line}:{finding.column}: {_words(finding.message)}")
     return FOUND if motion.findings else FINE
+
+
+def _max_velocity(numbers: list[float] | None, robot: Robot) -> Floats | None:
+    """Speeds of the joints [deg/s] as an array [rad/s]; none for those of the robot."""
+    import numpy as np
+
+    if numbers is None and robot.max_velocity is None:
+        raise CommandError(
+            f"the speeds of the joints of {robot.name} are unknown: give --max-velocity, one for "
+            "each joint [deg/s]"
+        )
+    if numbers is not None and len(numbers) != robot.dof:
+        raise CommandError(
+            f"--max-velocity takes {robot.dof} speeds [deg/s] of this arm, got {len(numbers)}"
+        )
+    return None if numbers is None else np.radians(numbers)
 
 
 def _words(message: str) -> str:

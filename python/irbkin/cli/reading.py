@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 MAGIC = b"\x93NUMPY"
 QUATERNION_TOLERANCE = 2e-3
+MOST_EULER = 2.0 * np.pi + 1e-4
+"""The largest Euler angle that the library takes [rad]."""
 
 
 _XYZ = (Heading("x", "mm"), Heading("y", "mm"), Heading("z", "mm"))
@@ -54,6 +56,12 @@ def _as_poses(rows: Floats, name: str, before: int) -> Floats:
     """Poses of rows in meters and radians."""
     xyz, turn = rows[:, :3], rows[:, 3:]
     if turn.shape[1] == 3:
+        for row, column in np.argwhere(np.abs(turn) > MOST_EULER)[:1]:
+            axis, degrees = ("rz", "ry", "rx")[column], np.degrees(turn[row, column])
+            raise CommandError(
+                f"{name}: row {before + row + 1}: {axis} is {degrees:g} deg, its size must be at "
+                "most 360 deg"
+            )
         return pose(xyz, euler_zyx=turn)
     norms = np.linalg.norm(turn, axis=1)
     wrong = ~(np.abs(norms - 1.0) <= QUATERNION_TOLERANCE)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from irbkin._arguments import check_robot
 from irbkin._blocks import worked
 from irbkin.errors import InvalidMotionError
 
@@ -82,6 +83,7 @@ def plan_batch(
         IrbkinError: As `Robot.plan_batch`.
         ValueError: A block below 1, or another `order`.
     """
+    check_robot(robot)
     if block < 1:
         raise ValueError(f"block is {block}, it must be at least 1")
     options: dict[str, Any] = {

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from irbkin._arguments import check_robot, count
 from irbkin._arrays import as_array, finite
 from irbkin._blocks import worked
 from irbkin._core import Robot, __version__
@@ -61,11 +62,10 @@ def orientations(directions: int, turns: int = 1) -> Floats:
         Rotation matrices, shape (directions * turns, 3, 3).
 
     Raises:
-        InvalidPoseError: A number below 1.
+        InvalidPoseError: A number that is not whole, or below 1.
     """
-    for name, number in (("directions", directions), ("turns", turns)):
-        if number < 1:
-            raise InvalidPoseError(f"{name} is {number}, it must be at least 1")
+    directions = count(directions, "directions", InvalidPoseError)
+    turns = count(turns, "turns", InvalidPoseError)
     indices = np.arange(directions)
     height = 1.0 - (2.0 * indices + 1.0) / directions
     # The golden angle.
@@ -122,23 +122,25 @@ def reach(
         InvalidModelError: The first six joints do not move the tool in six independent ways.
         TypeError: `q7` of an arm of six joints, or none of one of seven.
         FileExistsError: `output` is the map of something else.
+        FileNotFoundError: The folder of `output` does not exist.
     """
+    check_robot(robot)
     axes = (_axis("x", x), _axis("y", y), _axis("z", z))
     grid = Grid(robot, axes, _rotations(robot, orientations, q7), q7, threads)
-    count = int(np.prod(grid.shape))
-    size = max(1, IN_A_BLOCK // len(grid.orientations)) if block is None else block
-    if size < 1:
-        raise InvalidPoseError(f"block is {block}, it must be at least 1")
-    store = Store(output, (__version__, robot, *axes, grid.orientations, q7), count)
+    positions = int(np.prod(grid.shape))
+    size = max(1, IN_A_BLOCK // len(grid.orientations))
+    if block is not None:
+        size = count(block, "block", InvalidPoseError)
+    store = Store(output, (__version__, robot, *axes, grid.orientations, q7), positions)
     blocks = store.missing(size)
-    done = count - sum(last - first for first, last in blocks)
+    done = positions - sum(last - first for first, last in blocks)
     if progress is not None:
-        progress(done, count)
+        progress(done, positions)
     for (first, last), part in worked(client, solved, grid, blocks):
         store.add(first, last, part)
         done += last - first
         if progress is not None:
-            progress(done, count)
+            progress(done, positions)
     fields = {name: field.reshape(grid.shape) for name, field in store.fields.items()}
     found = ReachMap(*axes, grid.orientations, **fields)
     store.finish(found)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import os
 import pickle
@@ -46,6 +47,10 @@ class Store:
         if self._output.suffix != ".npz":
             raise ValueError(f"output must be a file .npz, got {self._output}")
         self._parts = self._output.with_name(self._output.name + ".parts")
+        if not self._output.parent.is_dir():
+            raise FileNotFoundError(
+                errno.ENOENT, "cannot be written: its folder does not exist", str(self._output)
+            )
         if self._output.exists():
             self._take(self._output, 0, count)
             return
@@ -84,7 +89,7 @@ class Store:
             field[first:last] = values
         self._is_done[first:last] = True
         if self._output is not None:
-            self._parts.mkdir(parents=True, exist_ok=True)
+            self._parts.mkdir(exist_ok=True)
             path = self._parts / f"{first:012d}-{last:012d}.npz"
             self._write(path, dict(zip(FIELDS, part, strict=True)))
 
@@ -97,7 +102,6 @@ class Store:
 
     def _write(self, path: Path, fields: Mapping[str, Any]) -> None:
         """Write a file beside its place, then move it there: there is no half of one."""
-        path.parent.mkdir(parents=True, exist_ok=True)
         beside = path.with_name(f"{path.stem}.{os.getpid()}.tmp")
         try:
             with beside.open("wb") as file:

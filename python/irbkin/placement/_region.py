@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from irbkin._grids import Region
 from irbkin.errors import InvalidPoseError
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     import numpy.typing as npt
 
     from irbkin import Robot
     from irbkin._arrays import Floats
-    from irbkin._grids import Region
 
 FIELDS = ("x", "y", "z", "turn")
 MOST_BASES = 10**7
@@ -49,13 +48,17 @@ class Bases:
         Raises:
             InvalidPoseError: A range that is empty or not finite, steps that are none.
         """
+        if not isinstance(region, Region):
+            raise InvalidPoseError(
+                f"region must be a Region, got {region!r}: give Region(x=(lower, upper), ...)"
+            )
         ranges = np.array([_range(name, getattr(region, name)) for name in FIELDS])
         low, high = ranges.T
         if high[3] - low[3] > 2 * np.pi + 1e-9:
             raise InvalidPoseError(
                 f"region.turn is {region.turn}, more than a full turn (did you pass degrees?)"
             )
-        counts = (steps,) * 4 if isinstance(steps, int) else tuple(steps)
+        counts = tuple(steps) if isinstance(steps, Sequence) else (steps,) * 4
         if len(counts) != 4 or any(not isinstance(n, int) or n < 1 for n in counts):
             raise InvalidPoseError(f"steps must be 1 or more, or four such numbers, got {steps!r}")
         counts = tuple(n if b > a else 1 for n, a, b in zip(counts, low, high, strict=True))

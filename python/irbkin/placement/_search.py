@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from irbkin._arguments import check_robot
 from irbkin._blocks import worked
 from irbkin._grids import BaseGrid, Placement
 from irbkin.placement._region import Bases
@@ -74,6 +75,7 @@ def best_base(
         InvalidMotionError: A rotation that is empty; of a path, two poses half a turn apart.
         InvalidModelError: The arm has seven joints.
     """
+    check_robot(robot)
     bases = Bases.of(region, steps, frame, robot)
     scene = Scene(robot, T, rotation, path, threads)
     values = bases.grid()

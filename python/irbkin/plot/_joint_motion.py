@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from irbkin._arguments import check_robot
 from irbkin._arrays import as_array, limit_of_each
 from irbkin.errors import InvalidMotionError
-from irbkin.plot._style import FONT, SHADE, VERMILION, canvas, check_robot, line_style, tidy, whole
+from irbkin.plot._style import FONT, SHADE, VERMILION, canvas, line_style, tidy, whole
 from irbkin.trajectory import Trajectory
 
 if TYPE_CHECKING:

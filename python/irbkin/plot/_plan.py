@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from irbkin._arguments import check_robot
 from irbkin._arrays import as_array
 from irbkin.errors import InvalidJointsError, InvalidMotionError
 from irbkin.plot._style import (
@@ -14,7 +15,6 @@ from irbkin.plot._style import (
     SHADE,
     VERMILION,
     canvas,
-    check_robot,
     line_style,
     tidy,
     whole,

@@ -8,9 +8,10 @@ import numpy as np
 from matplotlib import colormaps
 from matplotlib.colors import BoundaryNorm, ListedColormap
 
+from irbkin._arguments import check_robot
 from irbkin._arrays import as_array
 from irbkin.errors import InvalidPoseError, UnreachableError
-from irbkin.plot._style import BLACK, FONT, canvas, check_robot, whole
+from irbkin.plot._style import BLACK, FONT, canvas, whole
 from irbkin.records import Status
 
 if TYPE_CHECKING:

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from irbkin._arguments import check_robot
 from irbkin._arrays import as_array
 from irbkin.errors import InvalidJointsError
-from irbkin.plot._style import FONT, VERMILION, canvas, check_robot, line_style, tidy, whole
+from irbkin.plot._style import FONT, VERMILION, canvas, line_style, tidy, whole
 
 if TYPE_CHECKING:
     import numpy.typing as npt

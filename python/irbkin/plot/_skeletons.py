@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.lines import Line2D
 
+from irbkin._arguments import check_robot
 from irbkin.errors import UnreachableError
-from irbkin.plot._style import BLACK, BLUE, ORANGE, VERMILION, canvas, check_robot, whole
+from irbkin.plot._style import BLACK, BLUE, ORANGE, VERMILION, canvas, whole
 
 if TYPE_CHECKING:
     import numpy.typing as npt

@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from matplotlib.figure import Figure, SubFigure
 
-from irbkin._core import Robot
-
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
@@ -48,12 +46,6 @@ def canvas(
 ) -> Canvas:
     """The figure that is given, or a new one of a size [inch]."""
     return Figure(figsize=(width, height), layout=layout) if figure is None else figure
-
-
-def check_robot(robot: object) -> None:
-    """Refuse what is no robot, a name for instance."""
-    if not isinstance(robot, Robot):
-        raise TypeError(f"robot must be a Robot, got {type(robot).__name__}")
 
 
 def whole(figure: Canvas) -> Figure:

@@ -133,8 +133,11 @@ def load(path: str | PathLike[str], context: Iterable[Module] = ()) -> Module:
 
 
 def dump(value: Any, name: str = "Data") -> str:
-    """Return the RAPID text of a record, of a module, or of a mapping of names to values; `parse`
-    gives back what was dumped.
+    """Return the RAPID text of a record, of a module, or of a mapping of names to values.
+
+    `parse` gives back modules with all their data, and single RobTarget, JointTarget, ToolData,
+    WobjData, Pose and LoadData. The text of any other single value belongs into a declaration:
+    alone its shape does not determine its type, and `parse` refuses it.
 
     Args:
         value: RobTarget, JointTarget, ToolData, WobjData, Pose, LoadData, SpeedData, ZoneData,

@@ -72,7 +72,8 @@ class Reach(enum.Enum):
     offset.
     """
     NO_ROOTS = "no roots"
-    """An arm without a closed form has no solution; how far the pose is out of reach is not known.
+    """An arm in general, or one with an offset wrist, has no solution; how far the pose is out of
+    reach is not known.
     """
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
+from irbkin._arguments import check_robot
 from irbkin._arrays import finite, limit_of_each
 from irbkin._core import retime
 from irbkin.errors import InvalidJointsError, InvalidMotionError, InvalidPoseError, IrbkinError
@@ -21,6 +22,9 @@ if TYPE_CHECKING:
     from irbkin.ros.messages import PoseStampedMessage, Stamped
 
     _Floats = npt.NDArray[np.float64]
+
+# How far a start may exceed a limit [rad], as everywhere: rounding of what was taught there.
+LIMIT_TOLERANCE = 1e-9
 
 _A = TypeVar("_A", bound=Answer)
 
@@ -52,7 +56,8 @@ class Kinematics:
 
     Raises:
         InvalidJointsError, InvalidMotionError: A vector has a wrong length, is not finite or not
-            positive, or there are not as many names as joints.
+            positive, `start` is outside the limits, or there are not as many different names as
+            joints.
     """
 
     def __init__(
@@ -69,6 +74,7 @@ class Kinematics:
         track_name: str = "track",
         track_acceleration: float = 1.0,
     ) -> None:
+        check_robot(robot)
         self.robot = robot
         self.base_frame = base_frame
         self.joint_names = list(joint_names or (f"joint_{i + 1}" for i in range(robot.dof)))
@@ -77,14 +83,16 @@ class Kinematics:
                 f"joint_names has {len(self.joint_names)} names, {robot.name} has {robot.dof} "
                 "joints"
             )
-        shape = (robot.dof,)
-        if weights is not None:
-            weights = finite(weights, "weights", shape, InvalidJointsError)
-        lower, upper = robot.limits.T
-        start = np.clip(np.zeros(robot.dof), lower, upper) if start is None else start
-        self._weights = weights
+        names = [*self.joint_names, *([] if track is None else [track_name])]
+        for index, name in enumerate(names):
+            if not name or name in names[:index]:
+                raise InvalidJointsError(
+                    f"joint_names and track_name have {name!r} twice or empty: each joint must "
+                    "have a name of its own"
+                )
+        self._weights = None if weights is None else _weights(weights, robot)
         self._lock = threading.Lock()
-        self._last = finite(start, "start", shape, InvalidJointsError)
+        self._last = _start(start, robot)
         limits = robot.max_velocity if max_velocity is None else max_velocity
         self._max_velocity = (
             None if limits is None else limit_of_each(limits, "max_velocity", robot.dof)
@@ -226,6 +234,29 @@ class Kinematics:
         message.points = [
             point(*row) for row in zip(*(part.tolist() for part in rows), strict=True)
         ]
+
+
+def _start(start: npt.ArrayLike | None, robot: Robot) -> _Floats:
+    """A joint vector inside the limits; zeros, moved inside them, when not given."""
+    lower, upper = robot.limits.T
+    if start is None:
+        inside: _Floats = np.clip(np.zeros(robot.dof), lower, upper)
+        return inside
+    q = finite(start, "start", (robot.dof,), InvalidJointsError)
+    for index in np.flatnonzero((q < lower - LIMIT_TOLERANCE) | (q > upper + LIMIT_TOLERANCE)):
+        raise InvalidJointsError(
+            f"start[{index}] is {q[index]:.4g} rad, joint {index + 1} must be "
+            f"{lower[index]:.4g} to {upper[index]:.4g} rad"
+        )
+    return q
+
+
+def _weights(weights: npt.ArrayLike, robot: Robot) -> _Floats:
+    """Costs of moving each joint."""
+    costs = finite(weights, "weights", (robot.dof,), InvalidJointsError)
+    for index in np.flatnonzero(costs < 0.0):
+        raise InvalidJointsError(f"weights[{index}] is {costs[index]}, it must be 0 or more")
+    return costs
 
 
 def _answered(response: _A, answer: Callable[[Message], str]) -> _A:

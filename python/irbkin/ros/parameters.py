@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from irbkin._arguments import check_robot
 from irbkin._arrays import finite
 from irbkin._core import Robot, pose
 from irbkin.errors import InvalidModelError, InvalidMotionError, InvalidPoseError, IrbkinError
@@ -113,6 +114,7 @@ def service_prefix(robot: Robot) -> str:
 
     It is the type without its variant: what is before the first "-", "/" or parenthesis.
     """
+    check_robot(robot)
     kind = re.split(r"[-/(]", robot.name.lower())[0]
     kind = re.sub(r"[^a-z0-9_]", "", kind)
     return f"{kind if re.match('[a-z]', kind) else f'robot{kind}'}_kinematics"

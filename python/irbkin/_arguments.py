@@ -1,0 +1,33 @@
+"""Arguments of Python functions that are no arrays: robots and whole numbers."""
+
+from __future__ import annotations
+
+import operator
+from typing import TYPE_CHECKING
+
+from irbkin._core import Robot
+
+if TYPE_CHECKING:
+    from irbkin.errors import IrbkinError
+
+
+def check_robot(robot: object) -> None:
+    """Refuse what is no robot, a name for instance."""
+    if not isinstance(robot, Robot):
+        remedy = f": give Robot({robot!r})" if isinstance(robot, str) else ""
+        raise TypeError(f"robot must be a Robot, got {type(robot).__name__}{remedy}")
+
+
+def count(value: object, name: str, error: type[IrbkinError]) -> int:
+    """A whole number of at least 1.
+
+    Raises:
+        IrbkinError: Of the class that is given, for anything else.
+    """
+    try:
+        number = operator.index(value)  # type: ignore[arg-type]
+    except TypeError:
+        raise error(f"{name} is {value!r}, it must be a whole number of at least 1") from None
+    if number < 1:
+        raise error(f"{name} is {number}, it must be at least 1")
+    return number
