@@ -3,6 +3,7 @@
 use alloc::borrow::ToOwned;
 use alloc::string::String;
 use alloc::vec::Vec;
+use core::iter;
 
 use super::{CatalogArm, catalog, left_out};
 use crate::error::{Error, UnknownRobot};
@@ -101,8 +102,8 @@ fn trim_decimals(text: &mut String, point: Option<usize>) {
     }
 }
 
-/// Names that contain the wanted one, the earlier in the name the closer; if there are none, those
-/// with a similar spelling.
+/// Names and aliases that contain the wanted one, one of an arm, the earlier in the name the closer;
+/// if there are none, those with a similar spelling.
 fn close_to(wanted: &str) -> Vec<&'static str> {
     if wanted.is_empty() {
         return Vec::new();
@@ -112,13 +113,19 @@ fn close_to(wanted: &str) -> Vec<&'static str> {
     if !of_maker.is_empty() {
         return of_maker;
     }
-    let place = |arm: &CatalogArm| squeezed(arm.name).find(wanted);
-    let mut holding: Vec<_> = catalog().filter_map(|arm| Some((place(arm)?, arm.name))).collect();
+    let place = |name: &'static str| Some((squeezed(name).find(wanted)?, name));
+    let of_arm = |arm: &'static CatalogArm| names_of(arm).find_map(place);
+    let mut holding: Vec<_> = catalog().filter_map(of_arm).collect();
     if holding.is_empty() {
         return spelled_like(wanted);
     }
     holding.sort_by_key(|&(place, _)| place);
     holding.into_iter().map(|(_, name)| name).take(MOST_CLOSE).collect()
+}
+
+/// The name of an arm and its aliases.
+fn names_of(arm: &'static CatalogArm) -> impl Iterator<Item = &'static str> {
+    iter::once(arm.name).chain(arm.aliases())
 }
 
 /// Names with a spelling similar to the wanted one, or with the same beginning.
@@ -134,7 +141,7 @@ fn spelled_like(wanted: &str) -> Vec<&'static str> {
             [name, start].map(|name| strsim::normalized_damerau_levenshtein(&name, wanted));
         whole.max(start)
     };
-    let mut close = similar(catalog().map(|arm| arm.name), similarity, LEAST_SIMILARITY);
+    let mut close = similar(catalog().flat_map(names_of), similarity, LEAST_SIMILARITY);
     close.truncate(MOST_CLOSE);
     close
 }

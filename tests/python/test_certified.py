@@ -175,3 +175,46 @@ def test_random_tables_with_right_angles():
     assert poses > 20 * tables
     assert complete > 0.5 * poses
     assert lost == 0
+
+
+def test_axes_that_meet_in_two_points_three_by_three():
+    """Axes 2, 3, 4 and 4, 5, 6: some splits have two solutions to a root."""
+    degrees = [
+        [-45, 0.2, 0.25, 0],
+        [0, 0.2, 0.4, 0],
+        [-45, 0, 0, 90],
+        [-90, 0, 0.3, 90],
+        [55, 0, 0, 0],
+        [-70, 0, 0.3, 90],
+    ]
+    arm = irbkin.Robot.from_mdh(np.array(degrees) * [np.pi / 180, 1, 1, np.pi / 180])
+    q = np.random.default_rng(1).uniform(-np.pi, np.pi, (500, 6))
+    found = arm.ik_batch(arm.fk(q))
+    assert (apart(found.q, q) < 1e-6).all()
+    assert certified(found).mean() > 0.5
+
+
+@pytest.mark.parametrize(("row", "off"), [(4, 1e-6), (4, 1e-3), (5, 1e-3)])
+def test_a_wrist_that_is_straight_and_nearly_spherical(row, off):
+    half = np.pi / 2
+    rows = np.array(
+        [
+            [0, 0, 0.1525, 0],
+            [-half, 0, 0.0345, -half],
+            [0, 0.62, 0, half],
+            [half, 0, 0.559, 0],
+            [-half, 0, 0, 0],
+            [half, 0, 0.121, 0],
+        ]
+    )
+    rows[row, 0] += off
+    arm = irbkin.Robot.from_mdh(rows)
+    assert arm.structure == "offset wrist"
+    q = np.random.default_rng(1).uniform(-np.pi, np.pi, (1000, 6))
+    found = arm.ik_batch(arm.fk(q))
+    assert certified(found).mean() > 0.9
+    assert (apart(found.q, q) < 1e-6).all()
+    q[:, 4] = 0
+    found = arm.ik_batch(arm.fk(q))
+    assert not (certified(found) & (apart(found.q, q) > 1e-2)).any()
+    assert (apart(found.q, q) < 1e-2).all()

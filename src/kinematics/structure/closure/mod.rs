@@ -3,6 +3,12 @@
 //!
 //! Lengths are in units of the chain's own, so that positions and rotations weigh the same. Angles
 //! are those of the table, theta = q + offset (docs/general.md, eq. 97 to 104).
+//!
+//! The way of a candidate: `newton` brings it to the pose. [`Accepted`] takes what is regular there;
+//! next to a singularity `fold` settles what is on the `curve` through it: two solutions or none,
+//! one in which several have `merged`, as many as its `powers` tell, a `self_motion` or a `surface`.
+//! Of a self-motion, `walked` keeps one `member`, of a surface `surfaces` does; `flat` unites what
+//! rounding keeps apart. `members` are those where a joint has an angle, `freedom` is what moves.
 
 mod accepted;
 mod chain;

@@ -30,7 +30,7 @@ const TRIED: usize = 6;
 
 /// Angles of a quasi-random sequence: multiples of powers of the inverse of the root of
 /// x^7 = x + 1. Reference: Roberts, The unreasonable effectiveness of quasirandom sequences, 2018.
-pub(super) fn quasi_random(index: usize) -> [f64; 6] {
+pub(crate) fn quasi_random(index: usize) -> [f64; 6] {
     let root = 1.112_775_684_278_705_5_f64;
     let mut step = 1.0;
     core::array::from_fn(|_| {
@@ -80,11 +80,12 @@ pub(super) fn chosen(links: &[Frame; 5], closure: &Closure, offsets: &[f64; 6]) 
     let total = |split: &Split, poses: &[_]| {
         poses.iter().map(|pose| score(split, closure, pose)).sum::<usize>()
     };
+    // Of a split whose roots have two solutions each, a count would prove nothing.
     let new = |number| {
         let split = Split::new(links, number);
-        (total(&split, first), split)
+        split.is_single().then(|| (total(&split, first), split))
     };
-    let mut splits: Vec<(usize, Split)> = (0..SPLITS).map(new).collect();
+    let mut splits: Vec<(usize, Split)> = (0..SPLITS).filter_map(new).collect();
     sort(&mut splits);
     for (score, split) in splits.iter_mut().take(TRIED) {
         // A split that finds next to nothing is not tried further.

@@ -19,6 +19,7 @@ mod split;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use choice::quasi_random;
 pub(crate) use geometry::General;
 
 use at_roots::FirstSplit;

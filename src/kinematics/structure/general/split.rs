@@ -106,6 +106,11 @@ impl Split {
         if k == self.place { pose.inverse } else { self.inverses[k].in_lanes(like) }
     }
 
+    /// Whether a root has no more than one solution as a rule.
+    pub(super) fn is_single(&self) -> bool {
+        self.place <= 1 || self.left.tells_second()
+    }
+
     /// The joint that is searched, from 0.
     pub(super) fn searched(&self) -> usize {
         self.joints[5]

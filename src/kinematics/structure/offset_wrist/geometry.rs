@@ -28,6 +28,8 @@ pub(crate) struct Constants {
     pub(super) closure: Closure,
 }
 
+use crate::kinematics::thresholds::LEAST_LINK;
+
 /// The lengths and angles of the equations (docs/offset_wrist.md, section 1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Lengths {
@@ -60,11 +62,19 @@ pub(super) struct Lengths {
     pub(super) circle: f64,
     /// The sum of the lengths of the rows [m].
     pub(super) extent: f64,
+    /// What the noise of the polynomial is at least.
+    pub(super) least_noise: f64,
     /// Whether the polynomial is a square (eq. 129).
     pub(super) is_square: bool,
 }
 
 impl Lengths {
+    /// Whether joint 6 moves the wrist point. Where it does not, every double root is one of a wrist
+    /// that is straight, or nearly so, and shows nothing of the others.
+    pub(super) fn turns_wrist_point(&self) -> bool {
+        self.circle > LEAST_LINK
+    }
+
     /// How many solutions a root has: one for each side of the shoulder, or one.
     pub(super) fn per_root(&self) -> usize {
         if self.is_square { 2 } else { 1 }

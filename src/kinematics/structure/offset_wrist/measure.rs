@@ -6,6 +6,7 @@ use nalgebra::ComplexField as _;
 use alloc::boxed::Box;
 
 use super::geometry::{Constants, Lengths, OffsetWrist, Twists};
+use super::resultant::least_noise;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::axes::Link;
 use crate::kinematics::chain::dh::{DhRow, Mdh};
@@ -58,7 +59,7 @@ pub(super) fn measure(mdh: &Mdh<6>) -> Result<OffsetWrist, UnknownStructure> {
     let [a1, cos_4] = [links[1].a, links[4].cos_alpha];
     let is_even = v[0] == 0.0 || (v[1] == 0.0 && cos_4 == 0.0);
     let is_square = is_even && [a1, b, cos_3].iter().all(|term| *term == 0.0);
-    let lengths = Lengths {
+    let mut lengths = Lengths {
         a1,
         upper: links[2].a,
         forearm,
@@ -75,6 +76,7 @@ pub(super) fn measure(mdh: &Mdh<6>) -> Result<OffsetWrist, UnknownStructure> {
         cos_5: links[5].cos_alpha,
         circle: links[5].a.hypot(links[4].d * links[5].sin_alpha),
         extent,
+        least_noise: 0.0,
         is_square,
     };
     let mut bare = *rows;
@@ -92,6 +94,7 @@ pub(super) fn measure(mdh: &Mdh<6>) -> Result<OffsetWrist, UnknownStructure> {
         cos_5: links[5].cos_alpha,
     };
     let general = Box::new(General::of(mdh)?);
+    lengths.least_noise = least_noise(&lengths, general.closure());
     let constants = Constants { lengths, twists, closure: *general.closure() };
     Ok(OffsetWrist { chain, constants, general })
 }

@@ -59,7 +59,8 @@ impl VectorKernel for Solve<'_> {
         search.converge();
         let simple = lengths.per_root() * count;
         let agree = |accepted: &Accepted| {
-            is_complete
+            lengths.turns_wrist_point()
+                && is_complete
                 && accepted.is_certain()
                 && !accepted.has_self_motion()
                 && clusters.agree(accepted.as_slice(), simple)

