@@ -62,6 +62,14 @@ impl Settled {
         all[..2].copy_from_slice(&found);
         Self { all, is_certain, missed: None, merged: None }
     }
+
+    /// Take what another analysis has found, too.
+    fn add(&mut self, other: &Self) {
+        let free = self.all.iter_mut().filter(|one| one.is_none());
+        for (place, one) in free.zip(other.all.iter().flatten()) {
+            *place = Some(*one);
+        }
+    }
 }
 
 /// The extreme value of the closure along a curve.
@@ -214,8 +222,12 @@ impl Curves<'_> {
             // Or nearly.
             if let Some(curve) = self.all[lane].filter(|_| is_flat[lane])
                 && !settled[lane].is_certain
-                && let Some(all) = self.all_on(&curve)
+                && let Some(mut all) = self.all_on(&curve)
             {
+                if !all.is_certain {
+                    // What has merged to rounding is no simple root.
+                    all.add(&settled[lane]);
+                }
                 settled[lane] = all;
             }
         }
