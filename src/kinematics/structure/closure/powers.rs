@@ -85,7 +85,11 @@ pub(super) fn value(powers: &Powers, at: f64) -> f64 {
 
 /// The derivative.
 fn derivative(powers: &Powers) -> Powers {
-    core::array::from_fn(|k| powers.get(k + 1).map_or(0.0, |power| (k + 1) as f64 * power))
+    let mut degree = 0.0;
+    core::array::from_fn(|k| {
+        degree += 1.0;
+        powers.get(k + 1).map_or(0.0, |power| degree * power)
+    })
 }
 
 /// The two complex roots beside a real one, where three nearly merge: their real part and the size
