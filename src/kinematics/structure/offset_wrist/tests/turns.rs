@@ -50,7 +50,7 @@ fn lateral(b: f64) -> OffsetWrist {
 fn a_wrist_point_that_passes_an_axis_between_two_angles_is_not_certain() {
     let (_, folding) = arms().into_iter().find(|(name, _)| *name == "CRX-10iA").unwrap();
     let [mut folded, mut beside] = [[0; 2]; 2];
-    let mut count = |[asked, certified]: &mut [usize; 2], is_certified| {
+    let count = |[asked, certified]: &mut [usize; 2], is_certified| {
         (*asked, *certified) = (*asked + 1, *certified + usize::from(is_certified));
     };
     for (number, q) in joints(6).take(1000).enumerate() {
