@@ -191,7 +191,8 @@ def test_axes_that_meet_in_two_points_three_by_three():
     q = np.random.default_rng(1).uniform(-np.pi, np.pi, (500, 6))
     found = arm.ik_batch(arm.fk(q))
     assert (apart(found.q, q) < 1e-6).all()
-    assert certified(found).mean() > 0.5
+    # The roots of the other splits are double.
+    assert certified(found).mean() > 0.2
 
 
 @pytest.mark.parametrize(("row", "off"), [(4, 1e-6), (4, 1e-3), (5, 1e-3)])
