@@ -20,17 +20,44 @@ pub(crate) fn transposed<S: Simd, const N: usize>(
     simd: S,
     rows: &[&[f64; N]; LANES],
 ) -> [Vector<S>; N] {
-    let mut columns = [[0.0; LANES]; N];
-    for lane in 0..LANES {
-        for place in 0..N {
-            columns[place][lane] = rows[lane][place];
-        }
-    }
     let mut vectors = [Vector::splat(simd, 0.0); N];
-    for place in 0..N {
-        vectors[place] = Vector::load_array_ref(simd, &columns[place]);
+    if N < LANES {
+        let mut columns = [[0.0; LANES]; N];
+        for lane in 0..LANES {
+            for place in 0..N {
+                columns[place][lane] = rows[lane][place];
+            }
+        }
+        for place in 0..N {
+            vectors[place] = Vector::load_array_ref(simd, &columns[place]);
+        }
+        return vectors;
+    }
+    for chunk in 0..N.div_ceil(LANES) {
+        // The last eight overlap those before.
+        let first = (LANES * chunk).min(N - LANES);
+        let mut square = [vectors[0]; LANES];
+        for lane in 0..LANES {
+            square[lane] = Vector::from_slice(simd, &rows[lane][first..first + LANES]);
+        }
+        let square = turned_over(square);
+        vectors[first..first + LANES].copy_from_slice(&square);
     }
     vectors
+}
+
+/// The transpose of eight rows of eight, by perfect shuffles.
+#[inline(always)]
+fn turned_over<S: Simd>(mut rows: [Vector<S>; LANES]) -> [Vector<S>; LANES] {
+    for _ in 0..3 {
+        let mut next = rows;
+        for i in 0..LANES / 2 {
+            next[2 * i] = rows[i].zip_low(rows[i + LANES / 2]);
+            next[2 * i + 1] = rows[i].zip_high(rows[i + LANES / 2]);
+        }
+        rows = next;
+    }
+    rows
 }
 
 /// A computation in vectors, which is compiled for each instruction set.

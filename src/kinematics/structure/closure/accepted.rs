@@ -111,6 +111,11 @@ impl Accepted {
         &self.missed[..self.missed_count]
     }
 
+    /// Whether they are so many solutions, with their multiplicity, and all of it is certain.
+    pub(crate) fn are_certain(&self, roots: usize) -> bool {
+        self.is_certain() && !self.has_self_motion() && self.root_count() == roots
+    }
+
     fn merged(&self) -> &[Merged] {
         &self.merged[..self.merged_count]
     }
@@ -125,6 +130,18 @@ impl Accepted {
         self.as_slice().iter().any(Configuration::is_singular)
     }
 
+    /// Take those of the candidates in these lanes that are away from every singularity.
+    pub(crate) fn take_regular(
+        &mut self,
+        closure: &Closure,
+        candidates: &Candidates,
+        lanes: usize,
+    ) {
+        for lane in (0..lanes).filter(|lane| candidates.is_regular(closure, *lane)) {
+            self.insert(closure, candidates.configuration(lane));
+        }
+    }
+
     /// Take what the candidates in these lanes, which have converged, lead to.
     pub(crate) fn take(
         &mut self,
@@ -135,16 +152,14 @@ impl Accepted {
     ) {
         let (mut singular, mut count) = ([Configuration::NONE; LANES], 0);
         for lane in 0..lanes {
-            let residual = candidates.residual[lane];
-            let is_near = residual < EXAMINED;
+            let one = candidates.configuration(lane);
+            let is_near = one.residual < EXAMINED;
             if !is_near {
                 continue;
             }
-            let (theta, least) = (candidates.theta(lane), candidates.least[lane]);
-            let one = Configuration { theta, residual, least, ..Configuration::NONE };
             if candidates.is_regular(closure, lane) {
                 self.insert(closure, one);
-            } else if least.min(residual) <= NEARLY_SINGULAR {
+            } else if one.least.min(one.residual) <= NEARLY_SINGULAR {
                 singular[count] = one;
                 count += 1;
             }

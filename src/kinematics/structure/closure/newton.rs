@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 
 use super::chain::{Closure, Target, largest};
-use super::configuration::SINGULAR;
+use super::configuration::{Configuration, SINGULAR};
 use super::reflections::Triangle;
 use crate::lanes::{
     Column, LANES, Number as _, Vector, VectorKernel, atan2_of, run_vectors, sin_cos_of,
@@ -47,6 +47,12 @@ impl Candidates {
     /// The angles in a lane [rad].
     pub(crate) fn theta(&self, lane: usize) -> [f64; 6] {
         core::array::from_fn(|joint| self.theta[joint][lane])
+    }
+
+    /// What is in a lane, as it is.
+    pub(super) fn configuration(&self, lane: usize) -> Configuration {
+        let (residual, least) = (self.residual[lane], self.least[lane]);
+        Configuration { theta: self.theta(lane), residual, least, ..Configuration::NONE }
     }
 }
 

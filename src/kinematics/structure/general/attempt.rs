@@ -34,6 +34,9 @@ pub(super) struct Attempt<'a> {
     pub(super) split: &'a Split,
     pub(super) closure: &'a Closure,
     pub(super) target: &'a Target,
+    /// Whether clusters are searched all over for solutions of any kind, or but in their middles for
+    /// regular ones.
+    pub(super) is_whole: bool,
     /// Solutions of earlier attempts, and those that this one adds.
     pub(super) accepted: &'a mut Accepted,
 }
@@ -44,57 +47,68 @@ impl VectorKernel for Attempt<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> bool {
-        let Self { split, closure, target, accepted } = self;
+        let Self { split, closure, target, is_whole, accepted } = self;
         let posed = split.posed(simd, &target.frame.inverse());
         let roots = posed.polynomial(simd, closure.rounding).roots(simd, &[]);
         // A determinant that is zero at every angle: each may have a solution.
         let is_free = !roots.is_complete && roots.as_slice().is_empty();
         let search = Search { split, closure, target, posed: &posed };
-        let mut simple = roots.as_slice().iter().filter(|root| root.is_simple);
-        let clusters = roots.as_slice().iter().filter(|root| is_cluster(**root));
-        let (mut count, mut clusters) = (0, clusters.chain(is_free.then_some(&ANYWHERE)));
+        let all = roots.as_slice();
+        let mut simple = all.iter().filter(|root| root.is_simple);
+        while let Some((angles, lanes)) = next_angles(&mut simple) {
+            search.look(simd, &angles, lanes, Wanted::Simple, accepted);
+        }
+        let mut clusters = all.iter().filter(|root| is_cluster(root));
+        if !is_whole {
+            if let Some((angles, lanes)) = next_angles(&mut clusters) {
+                search.look(simd, &angles, lanes, Wanted::Regular, accepted);
+            }
+            return roots.is_complete && split.all_are_at(all, accepted);
+        }
         let mut is_certain = roots.is_complete;
-        let mut in_clusters = 0;
-        // Simple roots, eight at a time, then the clusters: in one place, for it is long.
-        loop {
-            let (mut places, mut lanes) = ([0.0; LANES], 0);
-            for root in simple.by_ref().take(LANES) {
-                // Lanes without a root repeat the last.
-                places[lanes..].fill(root.angle());
-                lanes += 1;
-            }
-            count += lanes;
-            let mut cluster = None;
-            if lanes == 0 {
-                let Some(root) = clusters.next() else { break };
-                places = PLACES.map(|place| root.angle() + place * root.radius());
-                // Where the interval is narrow, its places are one.
-                lanes = if root.radius() < NARROW { 1 } else { LANES };
-                cluster = Some(root);
-            }
-            search.look(simd, &places, lanes, cluster.is_some(), accepted);
-            if let Some(root) = cluster.filter(|root| !root.is_simple) {
+        let mut expected = all.iter().filter(|root| root.is_simple).count();
+        for root in clusters.chain(is_free.then_some(&ANYWHERE)) {
+            let places = PLACES.map(|place| root.angle() + place * root.radius());
+            // Where the interval is narrow, its places are one.
+            let lanes = if root.radius() < NARROW { 1 } else { LANES };
+            search.look(simd, &places, lanes, Wanted::All, accepted);
+            if !root.is_simple {
                 let found = split.solutions_at(root, accepted);
                 let missed = root.most.wrapping_sub(found);
                 // Roots that come and go in pairs.
                 let is_fold = |missed: &Missed| split.holds_missed(root, missed);
                 is_certain &= missed == 0 || missed == 2 && accepted.missed().iter().any(is_fold);
-                in_clusters += found;
+                expected += found;
             }
         }
-        is_certain
-            && accepted.is_certain()
-            && !accepted.has_self_motion()
-            && accepted.root_count() == count + in_clusters
+        is_certain && accepted.are_certain(expected)
     }
 }
 
+/// Angles of the next roots, up to eight, and how many these are: other lanes repeat the last.
+fn next_angles<'a>(roots: &mut impl Iterator<Item = &'a Root>) -> Option<(Column, usize)> {
+    let (mut angles, mut lanes) = ([0.0; LANES], 0);
+    for root in roots.by_ref().take(LANES) {
+        angles[lanes..].fill(root.angle());
+        lanes += 1;
+    }
+    (lanes > 0).then_some((angles, lanes))
+}
+
 /// Whether a root is searched for in its whole interval.
-fn is_cluster(root: Root) -> bool {
+fn is_cluster(root: &Root) -> bool {
     !root.is_simple || root.radius() > UNCERTAIN
 }
 
 impl Split {
+    /// Whether each root has its solution, and each cluster as many as it can have.
+    fn all_are_at(&self, roots: &[Root], accepted: &Accepted) -> bool {
+        let is_full =
+            |root: &&Root| root.is_simple || self.solutions_at(root, accepted) == root.most;
+        roots.iter().take_while(is_full).count() == roots.len()
+            && accepted.are_certain(roots.iter().map(|root| root.most).sum())
+    }
+
     /// Number of solutions in the interval of a cluster, with their multiplicity.
     fn solutions_at(&self, root: &Root, accepted: &Accepted) -> usize {
         let is_in = |one: &&Configuration| self.is_in(root, &one.theta);
@@ -123,16 +137,41 @@ struct Search<'a> {
     posed: &'a Posed,
 }
 
+/// Which solutions are wanted at angles of the searched joint.
+#[derive(Clone, Copy, PartialEq)]
+enum Wanted {
+    /// Those of simple roots: of one null vector.
+    Simple,
+    /// Those in clusters: of the pencil of two null vectors, as well.
+    All,
+    /// The same, those away from every singularity alone.
+    Regular,
+}
+
 impl Search<'_> {
-    /// Take what is at these angles of the searched joint: from one null vector, in a cluster from
-    /// the pencil of two as well.
-    #[inline(always)]
+    /// Take what is at these angles of the searched joint.
     fn look<S: Simd>(
         &self,
         simd: S,
         angles: &Column,
         lanes: usize,
-        is_cluster: bool,
+        wanted: Wanted,
+        accepted: &mut Accepted,
+    ) {
+        // A function of its own for each instruction set: it is long.
+        simd.vectorize(
+            #[inline(always)]
+            || self.look_at(simd, angles, lanes, wanted, accepted),
+        );
+    }
+
+    #[inline(always)]
+    fn look_at<S: Simd>(
+        &self,
+        simd: S,
+        angles: &Column,
+        lanes: usize,
+        wanted: Wanted,
         accepted: &mut Accepted,
     ) {
         let (sin, cos) = sin_cos_of(Vector::load_array_ref(simd, angles));
@@ -140,19 +179,23 @@ impl Search<'_> {
         let Posed { link, equations } = self.posed;
         let (pose, equations) = (link.in_lanes(sin), Equated::One(equations));
         let rest = Rest::at(&equations, &sin, &cos, false);
-        let ways = if is_cluster {
+        let ways = if wanted == Wanted::Simple {
+            [rest.null_vector(); 3]
+        } else {
             let null = rest.null_vectors();
             let [one, other] = pencil(&null);
             [null[0], one, other]
-        } else {
-            [rest.null_vector(); 3]
         };
         let target = self.target.in_lanes(t5.sin);
-        for powers in &ways[..if is_cluster { 3 } else { 1 }] {
+        for powers in &ways[..if wanted == Wanted::Simple { 1 } else { 3 }] {
             let [t4, t3] = eliminated(powers);
             let [sin, cos] = completed(self.split, &pose, &[t3, t4, t5]);
             let candidates = self.closure.converge(&target, &sin, &cos);
-            accepted.take(self.closure, self.target, &candidates, lanes);
+            if wanted == Wanted::Regular {
+                accepted.take_regular(self.closure, &candidates, lanes);
+            } else {
+                accepted.take(self.closure, self.target, &candidates, lanes);
+            }
         }
     }
 }

@@ -124,8 +124,7 @@ fn sort(splits: &mut [(usize, Split)]) {
 /// Points of a split for a pose: two if it finds the joints that made it, one if it is certain.
 fn score(split: &Split, closure: &Closure, (target, theta): &(Target, [f64; 6])) -> usize {
     let mut accepted = Accepted::REGULAR_ONLY;
-    let accepted_to = &mut accepted;
-    let attempt = Attempt { split, closure, target, accepted: accepted_to };
+    let attempt = Attempt { split, closure, target, is_whole: true, accepted: &mut accepted };
     let is_certain = run_vectors(attempt);
     let is_found = accepted.as_slice().iter().any(|one| one.distance(theta) < 1e-6);
     2 * usize::from(is_found) + usize::from(is_certain)

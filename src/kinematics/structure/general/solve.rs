@@ -43,16 +43,17 @@ impl General {
         if target.is_beyond() {
             return true;
         }
-        let mut is_certain = false;
-        for split in self.splits.iter() {
-            accepted.begin();
-            let (closure, target) = (&self.closure, &target);
-            is_certain = run_vectors(Attempt { split, closure, target, accepted });
-            if is_certain {
-                break;
-            }
-        }
-        is_certain
+        let (closure, target) = (&self.closure, &target);
+        // What is double in one split is seldom so in another: no cluster is searched all over
+        // before all splits were tried. With a self-motion none would certify anything.
+        let depths = if accepted.has_self_motion() { &[true][..] } else { &[false, true] };
+        depths.iter().any(|is_whole| {
+            self.splits.iter().any(|split| {
+                accepted.begin();
+                let (is_whole, accepted) = (*is_whole, &mut *accepted);
+                run_vectors(Attempt { split, closure, target, is_whole, accepted })
+            })
+        })
     }
 
     /// Keep one member of each self-motion, that which the free joint's angle of `free` chooses.

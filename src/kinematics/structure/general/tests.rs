@@ -275,7 +275,8 @@ fn a_determinant_that_only_rounding_keeps_from_zero_certifies_nothing() {
         for split in arm.splits.iter() {
             let mut accepted = Accepted::NONE;
             let closure = &arm.closure;
-            let attempt = Attempt { split, closure, target: &target, accepted: &mut accepted };
+            let (target, accepted) = (&target, &mut accepted);
+            let attempt = Attempt { split, closure, target, is_whole: true, accepted };
             assert!(!run_vectors(attempt), "{:?}: {accepted:?}", split.joints);
         }
         let map = arm.joint_map();
