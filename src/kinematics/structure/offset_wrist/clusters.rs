@@ -13,7 +13,7 @@ use super::geometry::Lengths;
 use super::search::Search;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::closure::Configuration;
-use crate::kinematics::structure::trigonometric::Root;
+use crate::kinematics::structure::trigonometric::Roots;
 use crate::lanes::{LANES, run_vectors};
 
 /// Distance of the angles at which the branches are examined in a cluster of roots [rad], and the
@@ -54,7 +54,7 @@ const MOST_CROSSINGS: usize = 32;
 const ALL_ANGLES: usize = 360;
 
 /// A cluster of roots.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 struct Cluster {
     low: f64,
     high: f64,
@@ -65,6 +65,11 @@ struct Cluster {
 }
 
 impl Cluster {
+    /// Its angle [rad].
+    fn middle(&self) -> f64 {
+        0.5 * (self.low + self.high)
+    }
+
     /// Whether so many solutions are all that it has.
     fn holds(&self, count: usize) -> bool {
         self.zeros == Some(count) || self.most == count
@@ -79,11 +84,26 @@ pub(super) struct Clusters {
 }
 
 impl Clusters {
-    pub(super) const NONE: Self = Self {
-        all: [Cluster { low: 0.0, high: 0.0, zeros: None, most: 0 }; MOST_CLUSTERS],
-        count: 0,
-        is_complete: true,
-    };
+    /// Those among roots with so many solutions each; none of them is examined yet.
+    pub(super) fn of(roots: &Roots, per_root: usize) -> Self {
+        let none = Cluster { low: 0.0, high: 0.0, zeros: None, most: 0 };
+        let mut clusters = Self { all: [none; MOST_CLUSTERS], count: 0, is_complete: true };
+        for root in roots.as_slice().iter().filter(|root| !root.is_simple) {
+            let Some(place) = clusters.all.get_mut(clusters.count) else {
+                clusters.is_complete = false;
+                break;
+            };
+            let (low, high) = (root.low - ROOT_ERROR, root.high + ROOT_ERROR);
+            *place = Cluster { low, high, zeros: None, most: per_root * root.most };
+            clusters.count += 1;
+        }
+        clusters
+    }
+
+    /// Take the regular solutions that the branches in their middles lead to.
+    pub(super) fn take_regular(&self, search: &mut Search<'_>) {
+        search.take_regular_at(self.all[..self.count].iter().map(Cluster::middle));
+    }
 
     /// Whether there are as many solutions as the roots announce: in each cluster the zeros of the
     /// branches, and one for each simple root beside them.
@@ -94,7 +114,7 @@ impl Clusters {
         for one in solutions {
             let holds = |cluster: &Cluster| {
                 let Cluster { low, high, .. } = *cluster;
-                wrap(one.theta[5] - 0.5 * (low + high)).abs() <= 0.5 * (high - low)
+                wrap(one.theta[5] - cluster.middle()).abs() <= 0.5 * (high - low)
             };
             match clusters.iter().position(holds) {
                 Some(index) => in_cluster[index] += one.multiplicity(),
@@ -106,25 +126,13 @@ impl Clusters {
             && clusters.iter().zip(in_cluster).all(|(cluster, count)| cluster.holds(count))
     }
 
-    /// Examine a cluster of roots.
+    /// Examine each of them.
     #[cold]
-    pub(super) fn examine(&mut self, root: &Root, search: &mut Search<'_>) {
-        let (low, high) = (root.low - ROOT_ERROR, root.high + ROOT_ERROR);
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "few")]
-        let count = ((high - low) / SPACING) as usize;
-        let few = search.view([low, high], count.min(MOST_ANGLES));
-        let view = if few.zeros().is_some() { few } else { search.view([low, high], MOST_ANGLES) };
-        search.put_view(&view);
-        let zeros = view.zeros();
-        match self.all.get_mut(self.count) {
-            Some(place) => {
-                let per_root = search.arm.constants.lengths.per_root();
-                *place = Cluster { low, high, zeros, most: per_root * root.most };
-                self.count += 1;
-            }
-            None => self.is_complete = false,
+    pub(super) fn examine(&mut self, search: &mut Search<'_>) {
+        for cluster in &mut self.all[..self.count] {
+            cluster.zeros = search.zeros_in([cluster.low, cluster.high]);
+            search.at_degenerate(cluster.middle());
         }
-        search.at_degenerate(root.angle());
     }
 }
 
@@ -134,6 +142,16 @@ impl Search<'_> {
     pub(super) fn everywhere(&mut self) {
         let view = self.view([-PI, PI], ALL_ANGLES);
         self.put_view(&view);
+    }
+
+    /// Take what the branches have as zeros in an interval; returns how many, if that is certain.
+    fn zeros_in(&mut self, [low, high]: [f64; 2]) -> Option<usize> {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "few")]
+        let count = ((high - low) / SPACING) as usize;
+        let few = self.view([low, high], count.min(MOST_ANGLES));
+        let view = if few.zeros().is_some() { few } else { self.view([low, high], MOST_ANGLES) };
+        self.put_view(&view);
+        view.zeros()
     }
 
     /// View the branches in an interval.

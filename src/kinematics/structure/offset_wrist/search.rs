@@ -152,6 +152,24 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// Take what all branches at some angles of joint 6 lead to away from every singularity.
+    pub(super) fn take_regular_at(&mut self, angles: impl Iterator<Item = f64>) {
+        let mut places = Places::NONE;
+        let mut left = angles.flat_map(|angle| SIDES.map(|sides| (angle, sides))).peekable();
+        while let Some((angle, sides)) = left.next() {
+            places.put(angle, sides);
+            if places.count < LANES && left.peek().is_some() {
+                continue;
+            }
+            let places = &core::mem::replace(&mut places, Places::NONE).filled();
+            let at_places = AtPlaces { search: self, places, by: Condition::Length };
+            if let Some(candidates) = run_vectors(at_places) {
+                let closure = &self.arm.constants.closure;
+                self.accepted.take_regular(closure, &candidates, places.count);
+            }
+        }
+    }
+
     /// Take a branch as the only candidate.
     fn put(&mut self, branch: &Branch<f64>, sin_cos_6: [f64; 2]) {
         let Constants { lengths, twists, closure } = &self.arm.constants;

@@ -38,10 +38,7 @@ impl VectorKernel for Solve<'_> {
         let known = if has_parallel { Parallel::of(lengths, &search.hand) } else { Parallel::NONE };
         let roots = polynomial.roots(simd, known.as_slice());
         let is_complete = roots.is_complete;
-        let mut clusters = Clusters::NONE;
-        for root in roots.as_slice().iter().filter(|root| !root.is_simple) {
-            clusters.examine(root, &mut search);
-        }
+        let mut clusters = Clusters::of(&roots, lengths.per_root());
         let mut rest = roots.as_slice().iter().filter(|root| root.is_simple);
         let mut count = 0;
         loop {
@@ -58,19 +55,26 @@ impl VectorKernel for Solve<'_> {
         }
         search.converge();
         let simple = lengths.per_root() * count;
-        let agree = |accepted: &Accepted| {
+        let agree = |clusters: &Clusters, accepted: &Accepted| {
             lengths.turns_wrist_point()
                 && is_complete
                 && accepted.is_certain()
                 && !accepted.has_self_motion()
                 && clusters.agree(accepted.as_slice(), simple)
         };
-        agree(search.accepted) || {
-            search.accepted.begin();
-            search.everywhere();
-            search.converge();
-            agree(search.accepted)
-        }
+        clusters.take_regular(&mut search);
+        agree(&clusters, search.accepted)
+            || {
+                clusters.examine(&mut search);
+                search.converge();
+                agree(&clusters, search.accepted)
+            }
+            || {
+                search.accepted.begin();
+                search.everywhere();
+                search.converge();
+                agree(&clusters, search.accepted)
+            }
     }
 }
 
