@@ -13,7 +13,7 @@ use crate::lanes::{LANES, VectorKernel, run_vectors};
 const AT_ROOT: f64 = 1e-6;
 
 /// Room for the solution of one pose.
-pub(crate) type One<M> = Regular<M, 1, 3, 3>;
+pub(crate) type One<M> = Regular<M, 1, 4, 3>;
 
 /// The same for eight, with sixteen roots each. Parts that wait are divided before they are more
 /// than those of one.

@@ -4,10 +4,10 @@ use super::part::Part;
 use super::roots::Roots;
 
 /// Width of a part of an arc that is not divided [1]: 5e-8 rad.
-const LEAST_WIDTH: f64 = 1.0 / (1 << 23) as f64;
+const LEAST_WIDTH: f64 = 1.0 / (1 << 22) as f64;
 
 /// The same for a polynomial that is left if it has a cluster: 4e-4 rad.
-const WIDE: f64 = 1.0 / 1024.0;
+const WIDE: f64 = 1.0 / 512.0;
 
 /// Parts that wait for their division in a polynomial that is not left, at most.
 const MOST_PARTS: usize = 24;

@@ -1,12 +1,9 @@
 //! Clusters that are known beforehand, cut out of the arcs: it would take many divisions to isolate
 //! what noise does not separate.
 
-#[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
-
 use super::part::{Part, middle};
 use super::roots::Root;
-use super::tables::{HALF_ARC, HALF_ARC_TAN};
+use super::tables::HALF_ARC;
 use crate::kinematics::pose::angles::wrap;
 
 impl Root {
@@ -28,5 +25,5 @@ impl Part {
 
 /// The place of an angle on an arc: outside of 0 ..= 1 beyond it.
 fn place(arc: usize, angle: f64) -> f64 {
-    0.5 + (0.5 * wrap(angle - middle(arc))).tan() / (2.0 * HALF_ARC_TAN)
+    0.5 + wrap(angle - middle(arc)) / (2.0 * HALF_ARC)
 }

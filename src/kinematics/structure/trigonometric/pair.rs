@@ -10,7 +10,7 @@ use nalgebra::ComplexField as _;
 use super::brackets::Brackets;
 use super::clusters::Clusters;
 use super::part::{Coefficients, Part};
-use super::tables::POWERS;
+use super::tables::{POWERS, binomial};
 
 /// Steps towards the extreme value, at most: Newton's method on the derivative, bracketed.
 const MOST_STEPS: usize = 12;
@@ -18,7 +18,7 @@ const MOST_STEPS: usize = 12;
 /// How much of the noise the extreme value may be off [1].
 const OFF: f64 = 0.1;
 
-#[expect(clippy::cast_precision_loss, reason = "16")]
+#[expect(clippy::cast_precision_loss, reason = "12")]
 const N: f64 = POWERS as f64;
 
 impl Part {
@@ -115,11 +115,14 @@ impl Weighted {
     fn at(&self, place: f64) -> [f64; 3] {
         let (rest, is_first) = (1.0 - place, place <= 0.5);
         let (near, ratio) = if is_first { (rest, place / rest) } else { (place, rest / place) };
-        let [square, power_4, power_8] = [near * near, near.powi(4), near.powi(8)];
+        let mut powers = [1.0; POWERS + 1];
+        for order in 1..=POWERS {
+            powers[order] = powers[order - 1] * near;
+        }
         [
-            power_8 * power_8 * sum(&self.value, ratio, is_first),
-            power_8 * power_4 * square * near * sum(&self.slope, ratio, is_first),
-            power_8 * power_4 * square * sum(&self.second, ratio, is_first),
+            powers[POWERS] * sum(&self.value, ratio, is_first),
+            powers[POWERS - 1] * sum(&self.slope, ratio, is_first),
+            powers[POWERS - 2] * sum(&self.second, ratio, is_first),
         ]
     }
 }
@@ -130,21 +133,17 @@ fn sum(numbers: &[f64], ratio: f64, is_first: bool) -> f64 {
     if is_first { numbers.iter().rev().fold(0.0, add) } else { numbers.iter().fold(0.0, add) }
 }
 
-/// Binomial coefficients of degree 16, 15 and 14.
-const BINOMIALS: [[f64; POWERS + 1]; 3] = binomials();
-
-#[expect(clippy::cast_precision_loss, reason = "numbers up to 16")]
-const fn binomials() -> [[f64; POWERS + 1]; 3] {
+/// Binomial coefficients of degree 12, 11 and 10.
+const BINOMIALS: [[f64; POWERS + 1]; 3] = {
     let mut rows = [[0.0; POWERS + 1]; 3];
     let mut less = 0;
     while less < 3 {
-        rows[less][0] = 1.0;
-        let mut j = 1;
+        let mut j = 0;
         while j <= POWERS - less {
-            rows[less][j] = rows[less][j - 1] * (POWERS - less + 1 - j) as f64 / j as f64;
+            rows[less][j] = binomial(POWERS - less, j);
             j += 1;
         }
         less += 1;
     }
     rows
-}
+};

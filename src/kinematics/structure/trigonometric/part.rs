@@ -1,12 +1,8 @@
 //! A part of an arc.
 
 use super::roots::Root;
-use super::tables::{FIRST_MIDDLE, HALF_ARC, HALF_ARC_TAN, POWERS};
+use super::tables::{FIRST, HALF_ARC, POWERS};
 use crate::lanes::Number;
-
-/// Series of the arc tangent, behind its first term: good to 1e-17 on half an arc.
-const ATAN: [f64; 7] =
-    [-1.0 / 3.0, 1.0 / 5.0, -1.0 / 7.0, 1.0 / 9.0, -1.0 / 11.0, 1.0 / 13.0, -1.0 / 15.0];
 
 /// Bernstein coefficients between the ends of a part.
 pub(super) type Coefficients<T> = [T; POWERS + 1];
@@ -56,19 +52,13 @@ impl Part {
 }
 
 /// The middle of an arc [rad].
-#[expect(clippy::cast_precision_loss, reason = "one of 16")]
+#[expect(clippy::cast_precision_loss, reason = "one of 32")]
 pub(super) fn middle(arc: usize) -> f64 {
-    FIRST_MIDDLE + arc as f64 * (2.0 * HALF_ARC)
+    FIRST + (arc as f64 + 0.5) * (2.0 * HALF_ARC)
 }
 
 /// The angle at a place of an arc with this middle [rad].
 #[inline(always)]
 pub(super) fn angle<T: Number>(middle: T, place: T) -> T {
-    let tan = place.scaled_plus(2.0 * HALF_ARC_TAN, place.like(-HALF_ARC_TAN));
-    let square = tan * tan;
-    let mut series = place.like(ATAN[ATAN.len() - 1]);
-    for part in ATAN[..ATAN.len() - 1].iter().rev() {
-        series = series.times_plus(square, place.like(*part));
-    }
-    (tan * 2.0).times_plus(series.times_plus(square, place.like(1.0)), middle)
+    place.scaled_plus(2.0 * HALF_ARC, middle - middle.like(HALF_ARC))
 }

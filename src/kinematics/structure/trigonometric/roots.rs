@@ -2,7 +2,7 @@
 
 use core::f64::consts::TAU;
 
-use super::tables::{FIRST_MIDDLE, HALF_ARC};
+use super::tables::FIRST;
 
 /// Most intervals that are kept: twice as many as there can be roots.
 const MOST_ROOTS: usize = 32;
@@ -30,7 +30,7 @@ impl Root {
     /// A cluster about an angle in -pi ..= pi [rad].
     pub(crate) fn cluster(angle: f64, radius: f64) -> Self {
         // In the range of the arcs.
-        let angle = if angle < FIRST_MIDDLE - HALF_ARC { angle + TAU } else { angle };
+        let angle = if angle < FIRST { angle + TAU } else { angle };
         Self { low: angle - radius, high: angle + radius, ..Self::NONE }
     }
 

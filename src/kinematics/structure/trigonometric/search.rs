@@ -29,7 +29,7 @@ impl TrigonometricPolynomial {
         for cluster in known {
             roots.push(*cluster);
         }
-        let mut room = Room::<3, 3>::NEW;
+        let mut room = Room::<4, 3>::NEW;
         let (mut space, all) = (room.space(), core::slice::from_ref(self));
         let mut search = space.search(Clusters::Kept(&mut roots));
         search.isolate(simd, all, known);

@@ -1,5 +1,6 @@
 //! Constants of the transforms: from samples to coefficients, and from those to Bernstein
-//! coefficients on each of 16 arcs. All are computed by the compiler.
+//! coefficients on each of 32 arcs. All are computed by the compiler.
+#![expect(clippy::cast_precision_loss, reason = "numbers up to 200")]
 
 use crate::lanes::{Column, LANES};
 
@@ -10,20 +11,20 @@ pub(super) const DEGREE: usize = 8;
 pub(crate) const SAMPLES: usize = 24;
 
 /// Arcs into which the circle is divided before roots are isolated.
-pub(super) const ARCS: usize = 16;
+pub(super) const ARCS: usize = 32;
 
-/// Degree in the tangent of half an angle.
-pub(super) const POWERS: usize = 2 * DEGREE;
+/// Quarters of the circle: the arcs of each are in the lanes of a vector.
+pub(super) const QUARTERS: usize = ARCS / LANES;
 
-/// Middle of arc 0 [rad]: no arc ends within 2.5 deg of a multiple of 7.5 deg, where structured
+/// Degree of the polynomials on an arc, in the angle.
+pub(super) const POWERS: usize = 12;
+
+/// Where arc 0 begins [rad]: no arc ends within 1.8 deg of a multiple of 7.5 deg, where structured
 /// poses have their roots.
-pub(super) const FIRST_MIDDLE: f64 = 0.11;
+pub(super) const FIRST: f64 = core::f64::consts::PI / 96.0;
 
 /// Half of an arc [rad].
-pub(super) const HALF_ARC: f64 = core::f64::consts::PI / 16.0;
-
-/// Tangent of half of half an arc, pi / 32.
-pub(super) const HALF_ARC_TAN: f64 = 0.098_491_403_357_164_25;
+pub(super) const HALF_ARC: f64 = core::f64::consts::PI / 32.0;
 
 /// Orders of the harmonics, as factors.
 pub(super) const ORDERS: [f64; DEGREE + 1] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0];
@@ -39,33 +40,44 @@ const COS_15: [f64; 7] = [
     0.0,
 ];
 
-/// `cos(22.5 deg k)`, k = 0 .. 4
-const COS_22: [f64; 5] =
-    [1.0, 0.923_879_532_511_286_7, core::f64::consts::FRAC_1_SQRT_2, 0.382_683_432_365_089_84, 0.0];
+/// `cos(1.875 deg k)`, k = 0 .. 48: three parts of it are half of an arc, one is where arc 0 begins.
+const COS_FINE: [f64; FINE / 4 + 1] = {
+    let mut table = [1.0; FINE / 4 + 1];
+    let mut k = 1;
+    while k <= FINE / 4 {
+        table[k] = cos_of(k as f64 * (2.0 * core::f64::consts::PI / FINE as f64));
+        k += 1;
+    }
+    // The last is zero but for the rounding of pi.
+    table[FINE / 4] = 0.0;
+    table
+};
 
-/// `cos(k FIRST_MIDDLE)` and `sin(k FIRST_MIDDLE)`, k = 0 .. 8
-const COS_FIRST: [f64; DEGREE + 1] = [
-    1.0,
-    0.993_956_097_956_696_8,
-    0.975_897_449_330_605_5,
-    0.946_042_343_528_387,
-    0.904_751_663_219_963_4,
-    0.852_524_522_059_505_7,
-    0.789_992_231_497_365_1,
-    0.717_910_669_610_943_3,
-    0.637_151_144_198_580_2,
-];
-const SIN_FIRST: [f64; DEGREE + 1] = [
-    0.0,
-    0.109_778_300_837_174_81,
-    0.218_229_623_080_869_32,
-    0.324_043_028_394_868_37,
-    0.425_939_465_065_999_6,
-    0.522_687_228_930_659_2,
-    0.613_116_851_973_433_8,
-    0.696_135_238_627_356_7,
-    0.770_738_878_898_969_3,
-];
+/// Steps of 1.875 deg in a full turn.
+const FINE: usize = 192;
+
+/// Such steps in half of an arc, and before the first arc.
+const HALF_ARC_STEPS: usize = 3;
+const FIRST_STEPS: usize = 1;
+
+/// The cosine of an angle in the first quarter, by its series.
+const fn cos_of(angle: f64) -> f64 {
+    let (mut sum, mut term, mut order) = (0.0, 1.0, 0.0);
+    let mut terms = [0.0; 14];
+    let mut n = 0;
+    while n < terms.len() {
+        terms[n] = term;
+        term = -term * angle * angle / ((order + 1.0) * (order + 2.0));
+        order += 2.0;
+        n += 1;
+    }
+    // From the smallest on.
+    while n > 0 {
+        n -= 1;
+        sum += terms[n];
+    }
+    sum
+}
 
 /// The cosine of a whole number of `1 / turn` full turns, by its values in the first quarter.
 const fn whole_cos(steps: usize, turn: usize, quarter: &[f64]) -> f64 {
@@ -122,68 +134,107 @@ const fn fourier() -> [[Column; 3]; SAMPLES] {
     weights
 }
 
-/// `cos(k m)` and `sin(k m)` of the middles m of the arcs: by half of the arcs, order and arc.
-pub(super) static MIDDLES: [[[Column; 2]; DEGREE + 1]; ARCS / LANES] = middles();
+/// `cos(k m)` and `sin(k m)` of the middles m of the arcs of the first quarter, from the beginning
+/// of the first arc: by order and arc.
+pub(super) static MIDDLES: [[Column; 2]; DEGREE + 1] = middles();
 
-const fn middles() -> [[[Column; 2]; DEGREE + 1]; ARCS / LANES] {
-    let mut table = [[[[0.0; LANES]; 2]; DEGREE + 1]; ARCS / LANES];
-    let mut arc = 0;
-    while arc < ARCS {
-        let mut k = 0;
-        while k <= DEGREE {
-            let cos = whole_cos(k * arc, ARCS, &COS_22);
-            let sin = whole_cos(k * arc + 3 * ARCS / 4, ARCS, &COS_22);
-            let place = &mut table[arc / LANES][k];
-            place[0][arc % LANES] = cos * COS_FIRST[k] - sin * SIN_FIRST[k];
-            place[1][arc % LANES] = sin * COS_FIRST[k] + cos * SIN_FIRST[k];
-            k += 1;
-        }
-        arc += 1;
-    }
-    table
-}
-
-/// Bernstein coefficients 0 to 8 of `(1 + tau^2)^8 cos(2 k atan tau)` and of the sine, for tau of
-/// half an arc to either side: by order and coefficient. Coefficient 16 - j of the cosine equals
-/// coefficient j, that of the sine its negative (eq. 94).
-pub(super) static BERNSTEIN: [[[f64; 2]; DEGREE + 1]; DEGREE + 1] = bernstein();
-
-#[expect(clippy::cast_precision_loss, reason = "numbers up to 16")]
-const fn bernstein() -> [[[f64; 2]; DEGREE + 1]; DEGREE + 1] {
-    let mut table = [[[0.0; 2]; DEGREE + 1]; DEGREE + 1];
+const fn middles() -> [[Column; 2]; DEGREE + 1] {
+    let mut table = [[[0.0; LANES]; 2]; DEGREE + 1];
     let mut k = 0;
     while k <= DEGREE {
-        // (1 + i tau)^(8 + k) (1 - i tau)^(8 - k) as a product of 16 linear factors: coefficients
-        // by powers of t and 1 - t, tau = h (2 t - 1), complex.
-        let mut product = [[0.0; 2]; POWERS + 1];
-        product[0] = [1.0, 0.0];
-        let mut factor = 0;
-        while factor < POWERS {
-            let h = if factor < DEGREE + k { HALF_ARC_TAN } else { -HALF_ARC_TAN };
-            let mut j = factor + 1;
-            loop {
-                let here = product[j];
-                let before = if j == 0 { [0.0; 2] } else { product[j - 1] };
-                // (1 - i h) (1 - t) + (1 + i h) t
-                product[j] = [
-                    here[0] + here[1] * h + before[0] - before[1] * h,
-                    here[1] - here[0] * h + before[1] + before[0] * h,
-                ];
-                if j == 0 {
-                    break;
-                }
-                j -= 1;
-            }
-            factor += 1;
-        }
-        let mut binomial = 1.0;
-        let mut j = 0;
-        while j <= DEGREE {
-            table[k][j] = [product[j][0] / binomial, product[j][1] / binomial];
-            binomial = binomial * (POWERS - j) as f64 / (j + 1) as f64;
-            j += 1;
+        let mut arc = 0;
+        while arc < LANES {
+            table[k][0][arc] = fine_cos(k * (2 * arc + 1) * HALF_ARC_STEPS);
+            table[k][1][arc] = fine_sin(k * (2 * arc + 1) * HALF_ARC_STEPS);
+            arc += 1;
         }
         k += 1;
     }
     table
+}
+
+/// `cos(k x)` and `sin(k x)` of the beginning x of the first arc, k = 1 .. 8.
+pub(super) static BEGINNING: [Column; 2] = {
+    let mut columns = [[0.0; LANES]; 2];
+    let mut k = 1;
+    while k <= DEGREE {
+        columns[0][k - 1] = fine_cos(k * FIRST_STEPS);
+        columns[1][k - 1] = fine_sin(k * FIRST_STEPS);
+        k += 1;
+    }
+    columns
+};
+
+const fn fine_cos(steps: usize) -> f64 {
+    whole_cos(steps, FINE, &COS_FINE)
+}
+
+const fn fine_sin(steps: usize) -> f64 {
+    whole_cos(steps + 3 * FINE / 4, FINE, &COS_FINE)
+}
+
+/// Bernstein coefficients 0 to 6 of `cos(k x)` and of `sin(k x)` for x of half an arc to either side:
+/// by coefficient and order. Coefficient 12 - j of the cosine equals coefficient j, that of the sine
+/// its negative (eq. 94).
+pub(super) static BERNSTEIN: [[[f64; DEGREE + 1]; 2]; POWERS / 2 + 1] = bernstein();
+
+const fn bernstein() -> [[[f64; DEGREE + 1]; 2]; POWERS / 2 + 1] {
+    let mut table = [[[0.0; DEGREE + 1]; 2]; POWERS / 2 + 1];
+    let mut k = 0;
+    while k <= DEGREE {
+        let mut n = 0;
+        while n <= POWERS {
+            let twice = if n == 0 { 1.0 } else { 2.0 };
+            let sign = if n % 4 < 2 { 1.0 } else { -1.0 };
+            let weight = sign * twice * bessel(n, k as f64 * HALF_ARC);
+            let mut j = 0;
+            while j <= POWERS / 2 {
+                table[j][n % 2][k] += weight * chebyshev(n, j);
+                j += 1;
+            }
+            n += 1;
+        }
+        k += 1;
+    }
+    table
+}
+
+/// Bessel's function of the first kind, by its series.
+const fn bessel(order: usize, of: f64) -> f64 {
+    let (mut sum, mut term) = (0.0, 1.0);
+    let mut n = 1;
+    while n <= order {
+        term *= 0.5 * of / n as f64;
+        n += 1;
+    }
+    let mut m = 1;
+    while m < 16 {
+        sum += term;
+        term *= -0.25 * of * of / (m * (m + order)) as f64;
+        m += 1;
+    }
+    sum
+}
+
+/// Bernstein coefficient j, in degree 12, of Chebyshev's polynomial of degree n on -1 .. 1.
+const fn chebyshev(n: usize, j: usize) -> f64 {
+    let (mut sum, mut i) = (0.0, 0);
+    while i <= n && i <= j {
+        if j - i <= POWERS - n {
+            let sign = if (n - i) % 2 == 0 { 1.0 } else { -1.0 };
+            sum += sign * binomial(2 * n, 2 * i) * binomial(POWERS - n, j - i);
+        }
+        i += 1;
+    }
+    sum / binomial(POWERS, j)
+}
+
+/// A binomial coefficient.
+pub(super) const fn binomial(n: usize, k: usize) -> f64 {
+    let (mut product, mut i) = (1.0, 0);
+    while i < k {
+        product = product * (n - i) as f64 / (i + 1) as f64;
+        i += 1;
+    }
+    product
 }

@@ -6,7 +6,10 @@ use std::vec::Vec;
 
 use fearless_simd::prelude::*;
 
+use super::isolation::ARCS_OF;
+use super::part::{angle, middle};
 use super::roots::Roots;
+use super::tables::{ARCS, POWERS};
 use super::*;
 use crate::lanes::{Column, InstructionSet, LANES, Vector, VectorKernel, run_on, run_vectors};
 use crate::rng::Rng;
@@ -107,6 +110,53 @@ fn values_are_those_of_the_samples() {
             }
         }
     }
+}
+
+/// The polynomial on all arcs, by arc and coefficient.
+struct OnArcs<'a>(&'a TrigonometricPolynomial);
+
+impl VectorKernel for OnArcs<'_> {
+    type Answer = [[f64; POWERS + 1]; ARCS];
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> [[f64; POWERS + 1]; ARCS] {
+        let mut all = [[0.0; POWERS + 1]; ARCS];
+        for (columns, arcs) in self.0.on_arcs(simd).iter().zip(ARCS_OF) {
+            for (lane, arc) in arcs.into_iter().enumerate() {
+                for j in 0..=POWERS {
+                    all[arc][j] = columns[j][lane];
+                }
+            }
+        }
+        all
+    }
+}
+
+#[test]
+fn on_each_arc_it_is_what_its_coefficients_make() {
+    let mut rng = Rng::new(8);
+    let mut largest = 0.0_f64;
+    for _ in 0..200 {
+        let (roots, complex) = (separate(&mut rng, 8, 0.01), pairs(&mut rng, 4));
+        let polynomial = polynomial(&roots, &complex);
+        let arcs = run_vectors(OnArcs(&polynomial));
+        for (arc, coefficients) in arcs.iter().enumerate() {
+            for place in [0.0, 0.1, 0.5, 0.77, 1.0] {
+                let mut all = *coefficients;
+                for row in 1..=POWERS {
+                    for j in 0..=POWERS - row {
+                        all[j] += place * (all[j + 1] - all[j]);
+                    }
+                }
+                let (sin, cos) = angle(middle(arc), place).sin_cos();
+                let [value, _] = polynomial.values(sin, cos);
+                let off = (value - all[0]).abs();
+                largest = largest.max(off / polynomial.size());
+                assert!(off < 16.0 * f64::EPSILON * polynomial.size(), "{arc} {place}: {off:e}");
+            }
+        }
+    }
+    println!("{largest:e}");
 }
 
 #[test]
