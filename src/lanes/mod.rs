@@ -23,7 +23,7 @@ pub(crate) use functions::{
 pub(crate) use number::{Number, cross, dot};
 #[cfg(test)]
 pub(crate) use vector::run_on;
-pub(crate) use vector::{Vector, VectorKernel, run_vectors, transposed};
+pub(crate) use vector::{Vector, VectorKernel, run_vectors, same, transposed};
 
 /// Lanes of a block: the widest vector of any instruction set, in `f64`.
 pub(crate) const LANES: usize = 8;

@@ -14,6 +14,12 @@ use super::dispatch::InstructionSet;
 /// A number for each lane, in registers of an instruction set.
 pub(crate) type Vector<S> = f64x8<S>;
 
+/// The number that is in every lane, if it is one.
+#[inline(always)]
+pub(crate) fn same(numbers: &[usize; LANES]) -> Option<usize> {
+    numbers.iter().all(|number| *number == numbers[0]).then_some(numbers[0])
+}
+
 /// The numbers of eight rows in lanes: one vector for each place in a row.
 #[inline(always)]
 pub(crate) fn transposed<S: Simd, const N: usize>(

@@ -7,7 +7,7 @@ use crate::kinematics::chain::Chain;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::rotation::Rows3;
 use crate::kinematics::structure::joint_map::JointMap;
-use crate::lanes::{LANES, Number, Vector, dot, mul_add, transposed};
+use crate::lanes::{LANES, Number, Vector, dot, mul_add, same, transposed};
 
 /// The constant factors of eq. 1, which remove base, shoulder height, flange and tool from a pose.
 #[derive(Clone, Debug, PartialEq)]
@@ -132,8 +132,8 @@ impl<S: Simd> Frame<Vector<S>> {
     /// Those of these frames with the given numbers, a lane for each.
     #[inline(always)]
     pub(crate) fn of_lanes(simd: S, all: &[Frame], numbers: &[usize; LANES]) -> Self {
-        if let [one] = all {
-            return one.in_lanes(Vector::splat(simd, 0.0));
+        if let Some(one) = same(numbers) {
+            return all[one].in_lanes(Vector::splat(simd, 0.0));
         }
         let mut each = [&all[0]; LANES];
         for lane in 0..LANES {

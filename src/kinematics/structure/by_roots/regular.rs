@@ -104,7 +104,7 @@ impl<M: ByRoots> VectorKernel for Solve<'_, M> {
         }
         let closure = method.closure();
         for number in 0..roots.isolate(simd) {
-            let Some(block) = roots.block(simd, number) else { continue };
+            let block = roots.block(simd, number);
             method.candidates(simd, posed, &block, &mut |candidates| {
                 for lane in 0..block.count {
                     let (theta, solved) = (candidates.theta(lane), &mut solved[block.of[lane]]);

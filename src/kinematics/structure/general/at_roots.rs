@@ -15,7 +15,7 @@ use crate::kinematics::structure::by_roots::ByRoots;
 use crate::kinematics::structure::closure::{Candidates, Closure, Target};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::trigonometric::{RootBlock, TrigonometricPolynomial};
-use crate::lanes::{LANES, Vector, sin_cos_of};
+use crate::lanes::{LANES, Vector, same, sin_cos_of};
 
 /// The split of an arm that is tried first.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,9 +84,9 @@ impl ByRoots for FirstSplit {
     ) {
         let (sin, cos) = sin_cos_of(Vector::load_array_ref(simd, &roots.angles));
         let t5 = Angle { sin, cos };
-        let (target, link, equations) = if let [one] = all {
-            let Posed { link, equations } = &one.posed;
-            (one.target.in_lanes(sin), link.in_lanes(sin), Equated::One(equations))
+        let (target, link, equations) = if let Some(one) = same(&roots.of) {
+            let AtTarget { target, posed: Posed { link, equations } } = &all[one];
+            (target.in_lanes(sin), link.in_lanes(sin), Equated::One(equations))
         } else {
             let mut frames = [&all[0].target.frame; LANES];
             let mut links = [&all[0].posed.link; LANES];

@@ -30,6 +30,30 @@ impl BracketBlock {
         signs: [0.0; LANES],
     };
 
+    /// Put a bracket in a lane.
+    #[inline(always)]
+    fn put(&mut self, lane: usize, of: usize, [middle, low, high, start, sign]: [f64; 5]) {
+        self.of[lane] = of;
+        self.middles[lane] = middle;
+        (self.lows[lane], self.highs[lane], self.starts[lane]) = (low, high, start);
+        self.signs[lane] = sign;
+    }
+
+    /// Repeat the first bracket in lanes without one.
+    fn fill(&mut self, lanes: usize) {
+        let (of, bracket) = self.bracket(0);
+        for lane in lanes..LANES {
+            self.put(lane, of, bracket);
+        }
+    }
+
+    /// The bracket in a lane.
+    #[inline(always)]
+    fn bracket(&self, lane: usize) -> (usize, [f64; 5]) {
+        let Self { of, middles, lows, highs, starts, signs } = self;
+        (of[lane], [middles, lows, highs, starts, signs].map(|column| column[lane]))
+    }
+
     #[inline(always)]
     pub(super) fn in_lanes<S: Simd>(&self, simd: S) -> Bracket<S> {
         let middle = Vector::load_array_ref(simd, &self.middles);
@@ -64,6 +88,46 @@ impl<'a> Brackets<'a> {
         Self { blocks, count: 0, is_complete: true }
     }
 
+    /// Repeat the first bracket of the last block in its lanes without one.
+    pub(super) fn fill(&mut self) {
+        if let Some(last) = self.blocks.get_mut(self.count / LANES) {
+            last.fill(self.count % LANES);
+        }
+    }
+
+    /// Put those of wanted polynomials, up to eight, in another order: first the blocks that the
+    /// brackets of one polynomial fill, then the rest. Returns how many they are.
+    pub(super) fn pack(
+        &self,
+        into: &mut [BracketBlock],
+        is_wanted: impl Fn(usize) -> bool,
+    ) -> usize {
+        let all = (0..self.count).map(|index| self.blocks[index / LANES].bracket(index % LANES));
+        let all = all.filter(|(of, _)| is_wanted(*of));
+        let mut counts = [0; LANES];
+        all.clone().for_each(|(of, _)| counts[of] += 1);
+        // Places of the next full one and of the next of the rest, and how many are full.
+        let mut next = [[0; 2]; LANES];
+        let full = counts.map(|count| count - count % LANES);
+        let (mut first, mut rest) = (0, full.iter().sum());
+        for of in 0..LANES {
+            next[of] = [first, rest];
+            (first, rest) = (first + full[of], rest + counts[of] - full[of]);
+        }
+        let mut left = full;
+        for (of, bracket) in all {
+            let is_rest = usize::from(left[of] == 0);
+            left[of] -= 1 - is_rest;
+            let place = next[of][is_rest];
+            next[of][is_rest] += 1;
+            into[place / LANES].put(place % LANES, of, bracket);
+        }
+        if let Some(last) = into.get_mut(rest / LANES) {
+            last.fill(rest % LANES);
+        }
+        rest
+    }
+
     /// Take a root in a part of an arc, sought first at a part of the way through it, with the sign
     /// of the value before it.
     pub(super) fn push(&mut self, at: &Part, part: f64, sign: f64) {
@@ -72,15 +136,9 @@ impl<'a> Brackets<'a> {
             self.is_complete = false;
             return;
         };
-        // The first of a block stands in its other lanes until there are others.
-        let lanes = if lane == 0 { 0..LANES } else { lane..lane + 1 };
         let Part { of, arc, low, high, .. } = *at;
-        block.of[lanes.clone()].fill(of);
-        block.middles[lanes.clone()].fill(middle(arc));
-        block.lows[lanes.clone()].fill(low);
-        block.highs[lanes.clone()].fill(high);
-        block.starts[lanes.clone()].fill(low + part * (high - low));
-        block.signs[lanes].fill(sign);
+        let [middle, start] = [middle(arc), low + part * (high - low)];
+        block.put(lane, of, [middle, low, high, start, sign]);
         self.count += 1;
     }
 }

@@ -29,6 +29,7 @@ pub(super) struct Room<const PARTS: usize, const BRACKETS: usize> {
     columns: [Coefficients<Column>; PARTS],
     parts: [[Part; LANES]; PARTS],
     brackets: [BracketBlock; BRACKETS],
+    packed: [BracketBlock; BRACKETS],
 }
 
 impl<const PARTS: usize, const BRACKETS: usize> Room<PARTS, BRACKETS> {
@@ -36,11 +37,12 @@ impl<const PARTS: usize, const BRACKETS: usize> Room<PARTS, BRACKETS> {
         columns: [[[0.0; LANES]; POWERS + 1]; PARTS],
         parts: [[Part::NONE; LANES]; PARTS],
         brackets: [BracketBlock::NONE; BRACKETS],
+        packed: [BracketBlock::NONE; BRACKETS],
     };
 
     pub(super) fn space(&mut self) -> Space<'_> {
-        let Self { columns, parts, brackets } = self;
-        Space { columns, parts: parts.as_flattened_mut(), brackets }
+        let Self { columns, parts, brackets, packed } = self;
+        Space { columns, parts: parts.as_flattened_mut(), brackets, packed }
     }
 }
 
@@ -49,12 +51,14 @@ pub(super) struct Space<'a> {
     columns: &'a mut [Coefficients<Column>],
     parts: &'a mut [Part],
     pub(super) brackets: &'a mut [BracketBlock],
+    /// The same in another order.
+    pub(super) packed: &'a mut [BracketBlock],
 }
 
 impl Space<'_> {
     /// A search in it, which has found nothing yet.
     pub(super) fn search<'a>(&'a mut self, clusters: Clusters<'a>) -> Search<'a> {
-        let Self { columns, parts, brackets } = self;
+        let Self { columns, parts, brackets, .. } = self;
         let parts = Parts { columns, all: parts, count: 0 };
         Search { parts, brackets: Brackets::none(brackets), clusters }
     }
@@ -165,6 +169,7 @@ impl Search<'_> {
         for part in &self.parts.all[..self.parts.count] {
             self.clusters.take(part);
         }
+        self.brackets.fill();
     }
 
     /// Begin with a polynomial: on all arcs, without what is in a known cluster.

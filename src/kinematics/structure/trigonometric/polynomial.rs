@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 
 use super::tables::{DEGREE, FOURIER, ORDERS, SAMPLES};
-use crate::lanes::{LANES, Number, Vector, transposed};
+use crate::lanes::{LANES, Number, Vector, same, transposed};
 
 /// Size of the noise of a value, as a multiple of the largest surplus harmonic: the noise of a
 /// value is the sum of that of 17 coefficients, of which seven surplus ones are a sample.
@@ -108,7 +108,8 @@ impl<S: Simd> TrigonometricPolynomial<Vector<S>> {
     ) -> Self {
         let zero = Vector::splat(simd, 0.0);
         let mut lanes = Self { cos: [zero; DEGREE + 1], sin: [zero; DEGREE + 1], noise: zero };
-        if let [one] = all {
+        if let Some(one) = same(numbers) {
+            let one = &all[one];
             for k in 0..=DEGREE {
                 (lanes.cos[k], lanes.sin[k]) = (zero.like(one.cos[k]), zero.like(one.sin[k]));
             }

@@ -57,25 +57,25 @@ impl SimpleRoots<'_> {
         self.polynomials[number] = polynomial;
     }
 
-    /// Isolate the roots. Returns the number of blocks.
+    /// Isolate the roots. Returns the number of blocks: most have the roots of one polynomial.
     pub(crate) fn isolate<S: Simd>(&mut self, simd: S) -> usize {
         let Self { polynomials, progress, space, .. } = self;
         let mut search = space.search(Clusters::Left(progress));
         search.isolate(simd, polynomials, &[]);
         let Brackets { count, is_complete, .. } = search.brackets;
-        (self.count, self.is_complete) = (count, is_complete);
-        count.div_ceil(LANES)
+        let Space { brackets, packed, .. } = space;
+        let found = Brackets { blocks: brackets, count, is_complete };
+        self.count = found.pack(packed, |of| !progress[of].is_left);
+        self.is_complete = is_complete;
+        self.count.div_ceil(LANES)
     }
 
-    /// The roots of a block; `None` if their polynomials are left.
-    pub(crate) fn block<S: Simd>(&self, simd: S, number: usize) -> Option<RootBlock> {
-        let block = &self.space.brackets[number];
+    /// The roots of a block.
+    pub(crate) fn block<S: Simd>(&self, simd: S, number: usize) -> RootBlock {
+        let block = &self.space.packed[number];
         let count = LANES.min(self.count - LANES * number);
-        if block.of[..count].iter().all(|of| self.progress[*of].is_left) {
-            return None;
-        }
         let Refined { angles, .. } = block.refined(simd, self.polynomials);
-        Some(RootBlock { of: block.of, angles, count })
+        RootBlock { of: block.of, angles, count }
     }
 
     /// Whether the roots of a polynomial are all that it has.
