@@ -36,12 +36,12 @@ pub(crate) trait ByRoots: Clone + Debug + PartialEq {
     fn root_of(&self, theta: &[f64; 6]) -> f64;
 
     /// Bring a candidate at each root of a block to its pose, as often as a root has solutions;
-    /// pass them on. Must be `#[inline(always)]`.
+    /// pass them on, with the root of each. Must be `#[inline(always)]`.
     fn candidates<S: Simd>(
         &self,
         simd: S,
         all: &[Self::Posed],
         roots: &RootBlock,
-        pass: &mut impl FnMut(&Candidates),
+        pass: &mut impl FnMut(&Candidates, &RootBlock),
     );
 }

@@ -105,7 +105,7 @@ impl<M: ByRoots> VectorKernel for Solve<'_, M> {
         let closure = method.closure();
         for number in 0..roots.isolate(simd) {
             let block = roots.block(simd, number);
-            method.candidates(simd, posed, &block, &mut |candidates| {
+            method.candidates(simd, posed, &block, &mut |candidates, block| {
                 for lane in 0..block.count {
                     let (theta, solved) = (candidates.theta(lane), &mut solved[block.of[lane]]);
                     let from_root = wrap(method.root_of(&theta) - block.angles[lane]).abs();

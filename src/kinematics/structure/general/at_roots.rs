@@ -80,7 +80,7 @@ impl ByRoots for FirstSplit {
         simd: S,
         all: &[AtTarget],
         roots: &RootBlock,
-        pass: &mut impl FnMut(&Candidates),
+        pass: &mut impl FnMut(&Candidates, &RootBlock),
     ) {
         let (sin, cos) = sin_cos_of(Vector::load_array_ref(simd, &roots.angles));
         let t5 = Angle { sin, cos };
@@ -101,6 +101,6 @@ impl ByRoots for FirstSplit {
         };
         let [t4, t3] = eliminated(&Rest::at(&equations, &sin, &cos, false).null_vector());
         let [sin, cos] = completed(self.split(), &link, &[t3, t4, t5]);
-        pass(&self.closure.converge(&target, &sin, &cos));
+        pass(&self.closure.converge(&target, &sin, &cos), roots);
     }
 }

@@ -12,7 +12,7 @@ use crate::kinematics::structure::by_roots::ByRoots;
 use crate::kinematics::structure::closure::{Candidates, Closure, Target};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::trigonometric::{RootBlock, TrigonometricPolynomial};
-use crate::lanes::{Column, Number as _, Vector, sin_cos_of};
+use crate::lanes::{Column, LANES, Number as _, Vector, sin_cos_of};
 
 /// Size of z4 . z5 - cos alpha_4 at a root, by which a branch may be worse than the best one and
 /// still be a candidate: at once [1], and as a multiple of the radius of the root [1/rad].
@@ -67,15 +67,29 @@ impl ByRoots for Constants {
         simd: S,
         all: &[Frame],
         roots: &RootBlock,
-        pass: &mut impl FnMut(&Candidates),
+        pass: &mut impl FnMut(&Candidates, &RootBlock),
     ) {
-        let last = Frame::of_lanes(simd, all, &roots.of);
-        let at_roots = AtRoots::new(self, &last, Vector::load_array_ref(simd, &roots.angles));
-        for number in 0..self.lengths.per_root() {
-            pass(&at_roots.converge(&at_roots.served(number).nearest));
+        let per_root = self.lengths.per_root();
+        // Few roots with two solutions each share one block: those of the second are behind.
+        let is_shared = per_root == 2 && 2 * roots.count <= LANES;
+        let block = if is_shared { &roots.repeated(2) } else { roots };
+        let last = Frame::of_lanes(simd, all, &block.of);
+        let at_roots = AtRoots::new(self, &last, Vector::load_array_ref(simd, &block.angles));
+        let mut nearest = at_roots.served(0).nearest;
+        if is_shared {
+            let lane = Vector::load_array_ref(simd, &LANE);
+            let (last, second) = (lane.like(LANE[roots.count] - 0.5), at_roots.served(1).nearest);
+            nearest = Branch::where_above(lane, last, &second, &nearest);
+        }
+        pass(&at_roots.converge(&nearest), block);
+        if per_root == 2 && !is_shared {
+            pass(&at_roots.converge(&at_roots.served(1).nearest), roots);
         }
     }
 }
+
+/// Numbers of the lanes.
+const LANE: Column = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
 
 impl<'a, S: Simd> AtRoots<'a, S> {
     /// At angles of joint 6 [rad], of poses of frame 6.

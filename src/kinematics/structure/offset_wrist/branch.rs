@@ -186,15 +186,20 @@ impl<T: Number> Branch<T> {
     /// This branch where it is nearer to a solution, else another.
     #[inline(always)]
     pub(super) fn or_nearer(&self, other: &Self) -> Self {
-        let (one, two) = (other.off.size(), self.off.size());
-        let mut nearer = *self;
-        nearer.off = one.if_above(two, self.off, other.off);
+        Self::where_above(other.off.size(), self.off.size(), self, other)
+    }
+
+    /// A branch where a number is above another, else another branch.
+    #[inline(always)]
+    pub(super) fn where_above(one: T, two: T, yes: &Self, no: &Self) -> Self {
+        let mut chosen = *no;
+        chosen.off = one.if_above(two, yes.off, no.off);
         for i in 0..2 {
-            nearer.forearm[i] = one.if_above(two, self.forearm[i], other.forearm[i]);
-            nearer.shoulder[i] = one.if_above(two, self.shoulder[i], other.shoulder[i]);
-            nearer.elbow[i] = one.if_above(two, self.elbow[i], other.elbow[i]);
+            chosen.forearm[i] = one.if_above(two, yes.forearm[i], no.forearm[i]);
+            chosen.shoulder[i] = one.if_above(two, yes.shoulder[i], no.shoulder[i]);
+            chosen.elbow[i] = one.if_above(two, yes.elbow[i], no.elbow[i]);
         }
-        nearer
+        chosen
     }
 
     /// Sines and cosines of all joints (eq. 132).

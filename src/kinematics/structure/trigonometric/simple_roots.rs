@@ -42,11 +42,25 @@ pub(crate) struct SimpleRoots<'a> {
 }
 
 /// Up to eight roots [rad]: lanes without one repeat the first.
+#[derive(Clone, Copy)]
 pub(crate) struct RootBlock {
     /// Numbers of the polynomials.
     pub(crate) of: [usize; LANES],
     pub(crate) angles: Column,
     pub(crate) count: usize,
+}
+
+impl RootBlock {
+    /// The same, each root so many times: as a whole, one behind the other.
+    #[inline(always)]
+    pub(crate) fn repeated(&self, times: usize) -> Self {
+        let (mut repeated, count) = (*self, self.count * times);
+        for lane in self.count..count {
+            repeated.of[lane] = self.of[lane % self.count];
+            repeated.angles[lane] = self.angles[lane % self.count];
+        }
+        Self { count, ..repeated }
+    }
 }
 
 impl SimpleRoots<'_> {
