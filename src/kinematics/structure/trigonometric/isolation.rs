@@ -151,19 +151,20 @@ impl Search<'_> {
     #[inline(always)]
     fn isolate_in<S: Simd>(&mut self, simd: S, all: &[TrigonometricPolynomial], known: &[Root]) {
         let zero = Vector::splat(simd, 0.0);
-        let (mut left, mut right) = ([zero; POWERS + 1], [zero; POWERS + 1]);
-        let mut divisions = 0;
+        let (mut columns, mut divisions) = ([[zero; POWERS + 1]; QUARTERS], 0);
         for of in 0..=all.len() {
             // Blocks of parts are divided when they are full, in the end all.
             let most = if of == all.len() { 0 } else { LANES - 1 };
             while self.parts.count > most && divisions < MOST_DIVISIONS * all.len() {
-                self.divide(&mut left, &mut right);
+                let [left, right, ..] = &mut columns;
+                self.divide(left, right);
                 divisions += 1;
             }
             if let Some(polynomial) = all.get(of)
                 && !self.clusters.is_left(of)
             {
-                self.begin(simd, (of, polynomial), known);
+                polynomial.on_arcs(simd, &mut columns);
+                self.begin(&columns, (of, polynomial.noise), known);
             }
         }
         for part in &self.parts.all[..self.parts.count] {
@@ -172,18 +173,17 @@ impl Search<'_> {
         self.brackets.fill();
     }
 
-    /// Begin with a polynomial: on all arcs, without what is in a known cluster.
+    /// Begin with a polynomial with this number and noise: on all arcs, by quarters of the circle,
+    /// without what is in a known cluster.
     #[inline(always)]
     fn begin<S: Simd>(
         &mut self,
-        simd: S,
-        (of, polynomial): (usize, &TrigonometricPolynomial),
+        quarters: &[Coefficients<Vector<S>>; QUARTERS],
+        (of, noise): (usize, f64),
         known: &[Root],
     ) {
-        let noise = polynomial.noise;
-        let quarters = polynomial.on_arcs(simd);
         for (columns, arcs) in quarters.iter().zip(&ARCS_OF) {
-            let seen = Seen::of(columns, Vector::splat(simd, noise));
+            let seen = Seen::of(columns, columns[0].like(noise));
             let whole = |lane: usize| Part::whole(of, noise, arcs[lane]);
             let mut cut = 0;
             for lane in if known.is_empty() { 0..0 } else { 0..LANES } {
@@ -259,18 +259,21 @@ impl Search<'_> {
 impl TrigonometricPolynomial {
     /// Bernstein coefficients on all arcs, by quarters (eq. 94).
     #[inline(always)]
-    pub(super) fn on_arcs<S: Simd>(&self, simd: S) -> [Coefficients<Vector<S>>; QUARTERS] {
+    pub(super) fn on_arcs<S: Simd>(
+        &self,
+        simd: S,
+        quarters: &mut [Coefficients<Vector<S>>; QUARTERS],
+    ) {
         let zero = Vector::splat(simd, 0.0);
         let [cos, sin] = self.from_first_arc(simd);
         // Products with cosines and sines of the middles: of the cosines of an angle from there, and
         // of its sines.
-        let ([mut even, mut odd], none) = ([[[zero; DEGREE + 1]; 2]; 2], [zero; POWERS + 1]);
+        let [mut even, mut odd] = [[[zero; DEGREE + 1]; 2]; 2];
         for k in 0..=DEGREE {
             let [of_cos, of_sin] = MIDDLES[k].each_ref().map(|c| Vector::load_array_ref(simd, c));
             (even[0][k], even[1][k]) = (of_cos * cos[k], of_sin * sin[k]);
             (odd[0][k], odd[1][k]) = (of_cos * sin[k], of_sin * cos[k]);
         }
-        let mut quarters = [none; QUARTERS];
         for j in 0..=POWERS / 2 {
             let [of_even, of_odd] = &BERNSTEIN[j];
             let [same, turned] = both_ways(&even, of_even);
@@ -287,7 +290,6 @@ impl TrigonometricPolynomial {
                 columns[j] = even + odd;
             }
         }
-        quarters
     }
 
     /// Coefficients of the cosines and sines of angles from the beginning of the first arc.
