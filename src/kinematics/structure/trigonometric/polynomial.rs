@@ -79,22 +79,23 @@ impl TrigonometricPolynomial {
 }
 
 impl<T: Number> TrigonometricPolynomial<T> {
-    /// The value and the derivative at an angle with this sine and cosine.
+    /// The value and the first two derivatives at an angle with this sine and cosine.
     #[inline(always)]
-    pub(crate) fn values(&self, sin: T, cos: T) -> [T; 2] {
+    pub(crate) fn values(&self, sin: T, cos: T) -> [T; 3] {
         // Horner's rule in powers of exp(i x): the value is the real part of the sum of
-        // (cos[k] - i sin[k]) exp(i k x), the derivative that of its k i fold.
+        // (cos[k] - i sin[k]) exp(i k x), the derivatives those of its k i fold and -k k fold.
         let zero = sin.like(0.0);
-        let ([mut re, mut im], [mut slope_re, mut slope_im]) = ([zero; 2], [zero; 2]);
+        let mut sums = [[zero; 2]; 3];
         for k in (1..=DEGREE).rev() {
-            let (of_cos, of_sin) = (self.cos[k], -self.sin[k]);
-            let (a, b) = (re + of_cos, im + of_sin);
-            (re, im) = (a.times_minus(cos, b * sin), a.times_plus(sin, b * cos));
-            let a = of_cos.scaled_plus(ORDERS[k], slope_re);
-            let b = of_sin.scaled_plus(ORDERS[k], slope_im);
-            (slope_re, slope_im) = (a.times_minus(cos, b * sin), a.times_plus(sin, b * cos));
+            let (of_cos, of_sin, mut factor) = (self.cos[k], -self.sin[k], 1.0);
+            for [re, im] in &mut sums {
+                let (a, b) = (of_cos.scaled_plus(factor, *re), of_sin.scaled_plus(factor, *im));
+                (*re, *im) = (a.times_minus(cos, b * sin), a.times_plus(sin, b * cos));
+                factor *= ORDERS[k];
+            }
         }
-        [re + self.cos[0], -slope_im]
+        let [[value, _], [_, slope], [second, _]] = sums;
+        [value + self.cos[0], -slope, -second]
     }
 }
 

@@ -1,4 +1,4 @@
-//! Simple roots by Newton's method, held inside their intervals.
+//! Simple roots by Halley's method, held inside their intervals.
 
 use fearless_simd::prelude::*;
 
@@ -6,9 +6,9 @@ use super::brackets::{Bracket, BracketBlock};
 use super::polynomial::TrigonometricPolynomial;
 use crate::lanes::{Column, Number as _, Vector, sin_cos_of};
 
-/// Step of Newton's method after which a root is taken, relative to the width of its interval, or
-/// to the length on which the slope changes [1]: its error is of the order of the square.
-const CONVERGED: f64 = 1e-5;
+/// Step after which a root is taken, relative to the width of its interval, or to the length on which
+/// the slope changes [1]: its error is of the order of the third power.
+const CONVERGED: f64 = 3e-4;
 
 /// Largest step that may count as noise, relative to the width of the interval [1].
 const MOST_NOISE: f64 = 1e-3;
@@ -44,23 +44,23 @@ impl<S: Simd> TrigonometricPolynomial<Vector<S>> {
         let zero = low.like(0.0);
         let width = high - low;
         let mut angle = start;
-        // Before the first step no change of the slope is known.
-        let (mut before, mut slopes) = (start, zero.like(f64::NAN));
+        let mut last = zero;
         let mut is_moving = zero.simd_eq(zero);
         for _ in 0..MOST_STEPS {
             let (sin, cos) = sin_cos_of(angle);
-            let [value, slope] = self.values(sin, cos);
+            let [value, slope, second] = self.values(sin, cos);
             let is_before = !(value.simd_lt(0.0) ^ sign.simd_lt(0.0));
             low = is_before.select(angle, low);
             high = is_before.select(high, angle);
-            let newton = angle - value / slope;
-            let is_inside = newton.simd_ge(low) & newton.simd_le(high);
-            let next = is_inside.select(newton, (low + high) * 0.5);
+            let square = slope * slope;
+            let halley = angle - value * slope / (value * second).mul_add(-0.5, square);
+            let is_inside = halley.simd_ge(low) & halley.simd_le(high);
+            let next = is_inside.select(halley, (low + high) * 0.5);
             // The length on which the slope changes: the distance of a root from the next, if that
             // is near.
-            let turning = (slope * (angle - before) / (slope - slopes)).abs();
+            let turning = (slope / second).abs();
             let length = width.if_above(turning, turning, width);
-            (before, slopes) = (angle, slope);
+            last = is_moving.select(slope, last);
             let (noise, most) = (self.noise / slope.abs(), width * MOST_NOISE);
             let noise = most.if_above(noise, noise, most);
             let stays = (next - angle).abs().simd_gt(length.mul_add(CONVERGED, noise));
@@ -71,7 +71,7 @@ impl<S: Simd> TrigonometricPolynomial<Vector<S>> {
                 break;
             }
         }
-        let left = self.noise / slopes.abs();
+        let left = self.noise / last.abs();
         // A slope of zero leaves the interval.
         let radius = width.if_above(left, left, width);
         Refined { angles: angle.to_array(), radii: radius.to_array() }
