@@ -34,8 +34,8 @@ pub(super) struct Attempt<'a> {
     pub(super) split: &'a Split,
     pub(super) closure: &'a Closure,
     pub(super) target: &'a Target,
-    /// Whether clusters are searched all over for solutions of any kind, or but in their middles for
-    /// regular ones.
+    /// Whether solutions of any kind are wanted, and clusters searched all over for them; or regular
+    /// ones, and those in the middles of clusters.
     pub(super) is_whole: bool,
     /// Solutions of earlier attempts, and those that this one adds.
     pub(super) accepted: &'a mut Accepted,
@@ -52,16 +52,16 @@ impl VectorKernel for Attempt<'_> {
         let roots = posed.polynomial(simd, closure.rounding).roots(simd, &[]);
         // A determinant that is zero at every angle: each may have a solution.
         let is_free = !roots.is_complete && roots.as_slice().is_empty();
-        let search = Search { split, closure, target, posed: &posed };
+        let search = Search { split, closure, target, posed: &posed, is_whole };
         let all = roots.as_slice();
         let mut simple = all.iter().filter(|root| root.is_simple);
         while let Some((angles, lanes)) = next_angles(&mut simple) {
-            search.look(simd, &angles, lanes, Wanted::Simple, accepted);
+            search.look(simd, &angles, lanes, false, accepted);
         }
         let mut clusters = all.iter().filter(|root| is_cluster(root));
         if !is_whole {
             if let Some((angles, lanes)) = next_angles(&mut clusters) {
-                search.look(simd, &angles, lanes, Wanted::Regular, accepted);
+                search.look(simd, &angles, lanes, true, accepted);
             }
             return roots.is_complete && split.all_are_at(all, accepted);
         }
@@ -71,7 +71,7 @@ impl VectorKernel for Attempt<'_> {
             let places = PLACES.map(|place| root.angle() + place * root.radius());
             // Where the interval is narrow, its places are one.
             let lanes = if root.radius() < NARROW { 1 } else { LANES };
-            search.look(simd, &places, lanes, Wanted::All, accepted);
+            search.look(simd, &places, lanes, true, accepted);
             if !root.is_simple {
                 let found = split.solutions_at(root, accepted);
                 let missed = root.most.wrapping_sub(found);
@@ -135,33 +135,24 @@ struct Search<'a> {
     closure: &'a Closure,
     target: &'a Target,
     posed: &'a Posed,
-}
-
-/// Which solutions are wanted at angles of the searched joint.
-#[derive(Clone, Copy, PartialEq)]
-enum Wanted {
-    /// Those of simple roots: of one null vector.
-    Simple,
-    /// Those in clusters: of the pencil of two null vectors, as well.
-    All,
-    /// The same, those away from every singularity alone.
-    Regular,
+    is_whole: bool,
 }
 
 impl Search<'_> {
-    /// Take what is at these angles of the searched joint.
+    /// Take what is at these angles of the searched joint: from one null vector, in a cluster from
+    /// the pencil of two as well.
     fn look<S: Simd>(
         &self,
         simd: S,
         angles: &Column,
         lanes: usize,
-        wanted: Wanted,
+        is_cluster: bool,
         accepted: &mut Accepted,
     ) {
         // A function of its own for each instruction set: it is long.
         simd.vectorize(
             #[inline(always)]
-            || self.look_at(simd, angles, lanes, wanted, accepted),
+            || self.look_at(simd, angles, lanes, is_cluster, accepted),
         );
     }
 
@@ -171,7 +162,7 @@ impl Search<'_> {
         simd: S,
         angles: &Column,
         lanes: usize,
-        wanted: Wanted,
+        is_cluster: bool,
         accepted: &mut Accepted,
     ) {
         let (sin, cos) = sin_cos_of(Vector::load_array_ref(simd, angles));
@@ -179,22 +170,22 @@ impl Search<'_> {
         let Posed { link, equations } = self.posed;
         let (pose, equations) = (link.in_lanes(sin), Equated::One(equations));
         let rest = Rest::at(&equations, &sin, &cos, false);
-        let ways = if wanted == Wanted::Simple {
-            [rest.null_vector(); 3]
-        } else {
+        let ways = if is_cluster {
             let null = rest.null_vectors();
             let [one, other] = pencil(&null);
             [null[0], one, other]
+        } else {
+            [rest.null_vector(); 3]
         };
         let target = self.target.in_lanes(t5.sin);
-        for powers in &ways[..if wanted == Wanted::Simple { 1 } else { 3 }] {
+        for powers in &ways[..if is_cluster { 3 } else { 1 }] {
             let [t4, t3] = eliminated(powers);
             let [sin, cos] = completed(self.split, &pose, &[t3, t4, t5]);
             let candidates = self.closure.converge(&target, &sin, &cos);
-            if wanted == Wanted::Regular {
-                accepted.take_regular(self.closure, &candidates, lanes);
-            } else {
+            if self.is_whole {
                 accepted.take(self.closure, self.target, &candidates, lanes);
+            } else {
+                accepted.take_regular(self.closure, &candidates, lanes);
             }
         }
     }

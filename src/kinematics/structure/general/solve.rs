@@ -43,17 +43,23 @@ impl General {
         if target.is_beyond() {
             return true;
         }
-        let (closure, target) = (&self.closure, &target);
-        // What is double in one split is seldom so in another: no cluster is searched all over
-        // before all splits were tried. With a self-motion none would certify anything.
-        let depths = if accepted.has_self_motion() { &[true][..] } else { &[false, true] };
-        depths.iter().any(|is_whole| {
+        let any = |is_whole: bool, accepted: &mut Accepted| {
             self.splits.iter().any(|split| {
                 accepted.begin();
-                let (is_whole, accepted) = (*is_whole, &mut *accepted);
+                let (closure, target, accepted) = (&self.closure, &target, &mut *accepted);
                 run_vectors(Attempt { split, closure, target, is_whole, accepted })
             })
-        })
+        };
+        // What is double in one split is seldom so in another: no cluster is searched all over
+        // before all splits were tried. With a self-motion none would certify anything.
+        if !accepted.has_self_motion() {
+            let mut regular = *accepted;
+            if any(false, &mut regular) {
+                *accepted = regular;
+                return true;
+            }
+        }
+        any(true, accepted)
     }
 
     /// Keep one member of each self-motion, that which the free joint's angle of `free` chooses.

@@ -100,9 +100,11 @@ impl Clusters {
         clusters
     }
 
-    /// Take the regular solutions that the branches in their middles lead to.
-    pub(super) fn take_regular(&self, search: &mut Search<'_>) {
-        search.take_regular_at(self.all[..self.count].iter().map(Cluster::middle));
+    /// Take all branches in their middles as candidates.
+    pub(super) fn put_middles(&self, search: &mut Search<'_>) {
+        for cluster in &self.all[..self.count] {
+            search.put_all_at(cluster.middle());
+        }
     }
 
     /// Whether there are as many solutions as the roots announce: in each cluster the zeros of the

@@ -31,6 +31,8 @@ pub(super) struct Search<'a> {
     pub(super) hand: Hand,
     pub(super) target: Target,
     pub(super) accepted: &'a mut Accepted,
+    /// Whether solutions of any kind are taken, or regular ones alone.
+    pub(super) is_whole: bool,
     places: Places,
 }
 
@@ -125,7 +127,18 @@ impl<'a> Search<'a> {
             hand: Hand::of(&arm.constants.lengths, last),
             target: arm.constants.closure.target(*last),
             accepted,
+            is_whole: true,
             places: Places::NONE,
+        }
+    }
+
+    /// Take what candidates in these lanes, which have converged, lead to.
+    fn take(&mut self, candidates: &Candidates, lanes: usize) {
+        let closure = &self.arm.constants.closure;
+        if self.is_whole {
+            self.accepted.take(closure, &self.target, candidates, lanes);
+        } else {
+            self.accepted.take_regular(closure, candidates, lanes);
         }
     }
 
@@ -147,26 +160,14 @@ impl<'a> Search<'a> {
 
     fn converge_at(&mut self, places: &Places, by: Condition) {
         if let Some(candidates) = run_vectors(AtPlaces { search: self, places, by }) {
-            let closure = &self.arm.constants.closure;
-            self.accepted.take(closure, &self.target, &candidates, places.count);
+            self.take(&candidates, places.count);
         }
     }
 
-    /// Take what all branches at some angles of joint 6 lead to away from every singularity.
-    pub(super) fn take_regular_at(&mut self, angles: impl Iterator<Item = f64>) {
-        let mut places = Places::NONE;
-        let mut left = angles.flat_map(|angle| SIDES.map(|sides| (angle, sides))).peekable();
-        while let Some((angle, sides)) = left.next() {
-            places.put(angle, sides);
-            if places.count < LANES && left.peek().is_some() {
-                continue;
-            }
-            let places = &core::mem::replace(&mut places, Places::NONE).filled();
-            let at_places = AtPlaces { search: self, places, by: Condition::Length };
-            if let Some(candidates) = run_vectors(at_places) {
-                let closure = &self.arm.constants.closure;
-                self.accepted.take_regular(closure, &candidates, places.count);
-            }
+    /// Take all branches at an angle of joint 6 as candidates.
+    pub(super) fn put_all_at(&mut self, angle: f64) {
+        for sides in SIDES {
+            self.put_at(sides, angle);
         }
     }
 
@@ -176,13 +177,42 @@ impl<'a> Search<'a> {
         let [sin, cos] = branch.joints(lengths, self.last, sin_cos_6, twists);
         let theta = core::array::from_fn(|joint| [atan2::<false>(sin[joint], cos[joint]); LANES]);
         let candidates = closure.converged(&self.target, &theta);
-        self.accepted.take(closure, &self.target, &candidates, 1);
+        self.take(&candidates, 1);
+    }
+
+    /// The solutions at simple roots, and those of the candidates that wait.
+    pub(super) fn at_all_roots<'r, S: Simd>(
+        &mut self,
+        simd: S,
+        roots: impl Iterator<Item = &'r Root>,
+    ) {
+        // A function of its own for each instruction set: it is long.
+        simd.vectorize(
+            #[inline(always)]
+            || self.at_each_eight(simd, roots),
+        );
+        self.converge();
+    }
+
+    #[inline(always)]
+    fn at_each_eight<'r, S: Simd>(&mut self, simd: S, mut roots: impl Iterator<Item = &'r Root>) {
+        loop {
+            let (mut block, mut lanes) = ([Root::NONE; LANES], 0);
+            for (place, root) in block.iter_mut().zip(&mut roots) {
+                *place = *root;
+                lanes += 1;
+            }
+            if lanes == 0 {
+                break;
+            }
+            self.at_roots(simd, &block[..lanes]);
+        }
     }
 
     /// The solutions at up to eight simple roots: of the branch that is nearest to one, and of those
     /// that are hardly worse.
     #[inline(always)]
-    pub(super) fn at_roots<S: Simd>(&mut self, simd: S, roots: &[Root]) {
+    fn at_roots<S: Simd>(&mut self, simd: S, roots: &[Root]) {
         let (mut angles, mut radii) = ([0.0; LANES], [0.0; LANES]);
         for lane in 0..LANES {
             // Lanes without a root repeat the first.
@@ -195,7 +225,7 @@ impl<'a> Search<'a> {
         for number in 0..constants.lengths.per_root() {
             let served = at_roots.served(number);
             let candidates = at_roots.converge(&served.nearest);
-            self.accepted.take(&constants.closure, &self.target, &candidates, roots.len());
+            self.take(&candidates, roots.len());
             let [most, count] = served.candidates(&radii);
             if !count.simd_gt(1.5).any_true() {
                 continue;

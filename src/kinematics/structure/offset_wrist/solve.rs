@@ -15,8 +15,7 @@ use crate::kinematics::structure::by_roots::SLOTS;
 use crate::kinematics::structure::closure::Accepted;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::free_choice::FreeChoice;
-use crate::kinematics::structure::trigonometric::Root;
-use crate::lanes::{LANES, VectorKernel, run_vectors};
+use crate::lanes::{VectorKernel, run_vectors};
 
 /// The solve of one pose, compiled for each instruction set.
 struct Solve<'a> {
@@ -39,42 +38,33 @@ impl VectorKernel for Solve<'_> {
         let roots = polynomial.roots(simd, known.as_slice());
         let is_complete = roots.is_complete;
         let mut clusters = Clusters::of(&roots, lengths.per_root());
-        let mut rest = roots.as_slice().iter().filter(|root| root.is_simple);
-        let mut count = 0;
-        loop {
-            let (mut block, mut lanes) = ([Root::NONE; LANES], 0);
-            for (place, root) in block.iter_mut().zip(&mut rest) {
-                *place = *root;
-                lanes += 1;
-            }
-            if lanes == 0 {
-                break;
-            }
-            search.at_roots(simd, &block[..lanes]);
-            count += lanes;
-        }
-        search.converge();
-        let simple = lengths.per_root() * count;
+        let simple = roots.as_slice().iter().filter(|root| root.is_simple);
+        let count = lengths.per_root() * simple.clone().count();
         let agree = |clusters: &Clusters, accepted: &Accepted| {
             lengths.turns_wrist_point()
                 && is_complete
                 && accepted.is_certain()
                 && !accepted.has_self_motion()
-                && clusters.agree(accepted.as_slice(), simple)
+                && clusters.agree(accepted.as_slice(), count)
         };
-        clusters.take_regular(&mut search);
-        agree(&clusters, search.accepted)
-            || {
-                clusters.examine(&mut search);
-                search.converge();
-                agree(&clusters, search.accepted)
-            }
-            || {
-                search.accepted.begin();
-                search.everywhere();
-                search.converge();
-                agree(&clusters, search.accepted)
-            }
+        // At first regular solutions alone, those of clusters from their middles.
+        let before = *search.accepted;
+        search.is_whole = false;
+        clusters.put_middles(&mut search);
+        search.at_all_roots(simd, simple.clone());
+        if agree(&clusters, search.accepted) {
+            return true;
+        }
+        search.is_whole = true;
+        *search.accepted = before;
+        clusters.examine(&mut search);
+        search.at_all_roots(simd, simple);
+        agree(&clusters, search.accepted) || {
+            search.accepted.begin();
+            search.everywhere();
+            search.converge();
+            agree(&clusters, search.accepted)
+        }
     }
 }
 
