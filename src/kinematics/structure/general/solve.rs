@@ -43,23 +43,25 @@ impl General {
         if target.is_beyond() {
             return true;
         }
-        let any = |is_whole: bool, accepted: &mut Accepted| {
-            self.splits.iter().any(|split| {
-                accepted.begin();
-                let (closure, target, accepted) = (&self.closure, &target, &mut *accepted);
-                run_vectors(Attempt { split, closure, target, is_whole, accepted })
-            })
+        let attempt = |split, is_whole, accepted: &mut Accepted| {
+            accepted.begin();
+            let (closure, target) = (&self.closure, &target);
+            run_vectors(Attempt { split, closure, target, is_whole, accepted })
         };
         // What is double in one split is seldom so in another: no cluster is searched all over
-        // before all splits were tried. With a self-motion none would certify anything.
-        if !accepted.has_self_motion() {
-            let mut regular = *accepted;
-            if any(false, &mut regular) {
+        // before all splits were tried. With a singular solution none would certify anything.
+        let mut regular = *accepted;
+        regular.begin();
+        for split in self.splits.iter() {
+            if accepted.has_self_motion() || !regular.is_certain() {
+                break;
+            }
+            if attempt(split, false, &mut regular) {
                 *accepted = regular;
                 return true;
             }
         }
-        any(true, accepted)
+        self.splits.iter().any(|split| attempt(split, true, accepted))
     }
 
     /// Keep one member of each self-motion, that which the free joint's angle of `free` chooses.

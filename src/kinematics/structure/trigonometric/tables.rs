@@ -19,9 +19,9 @@ pub(super) const QUARTERS: usize = ARCS / LANES;
 /// Degree of the polynomials on an arc, in the angle.
 pub(super) const POWERS: usize = 12;
 
-/// Where arc 0 begins [rad]: no arc ends within 1.8 deg of a multiple of 7.5 deg, where structured
-/// poses have their roots.
-pub(super) const FIRST: f64 = core::f64::consts::PI / 96.0;
+/// Where arc 0 begins [rad], -9.375 deg: no arc ends within 1.8 deg of a multiple of 7.5 deg, where
+/// structured poses have their roots, and the range of roots not within 5.6 deg of one of 15 deg.
+pub(super) const FIRST: f64 = -5.0 * core::f64::consts::PI / 96.0;
 
 /// Half of an arc [rad].
 pub(super) const HALF_ARC: f64 = core::f64::consts::PI / 32.0;
@@ -40,7 +40,7 @@ const COS_15: [f64; 7] = [
     0.0,
 ];
 
-/// `cos(1.875 deg k)`, k = 0 .. 48: three parts of it are half of an arc, one is where arc 0 begins.
+/// `cos(1.875 deg k)`, k = 0 .. 48: three such steps are half of an arc.
 const COS_FINE: [f64; FINE / 4 + 1] = {
     let mut table = [1.0; FINE / 4 + 1];
     let mut k = 1;
@@ -56,9 +56,9 @@ const COS_FINE: [f64; FINE / 4 + 1] = {
 /// Steps of 1.875 deg in a full turn.
 const FINE: usize = 192;
 
-/// Such steps in half of an arc, and before the first arc.
+/// Such steps in half of an arc, and to where arc 0 begins, a turn on.
 const HALF_ARC_STEPS: usize = 3;
-const FIRST_STEPS: usize = 1;
+const FIRST_STEPS: usize = FINE - 5;
 
 /// The cosine of an angle in the first quarter, by its series.
 const fn cos_of(angle: f64) -> f64 {
