@@ -103,13 +103,11 @@ fn is_cluster(root: &Root) -> bool {
 impl Split {
     /// Whether each root has its solution, and each cluster as many as it can have.
     fn all_are_at(&self, roots: &[Root], accepted: &Accepted) -> bool {
-        let is_full =
-            |root: &&Root| root.is_simple || self.solutions_at(root, accepted) == root.most;
-        roots.iter().take_while(is_full).count() == roots.len()
+        roots.iter().all(|root| self.solutions_at(root, accepted) == root.most)
             && accepted.are_certain(roots.iter().map(|root| root.most).sum())
     }
 
-    /// Number of solutions in the interval of a cluster, with their multiplicity.
+    /// Number of solutions in the interval of a root, with their multiplicity.
     fn solutions_at(&self, root: &Root, accepted: &Accepted) -> usize {
         let is_in = |one: &&Configuration| self.is_in(root, &one.theta);
         accepted.as_slice().iter().filter(is_in).map(Configuration::multiplicity).sum()

@@ -49,7 +49,8 @@ impl General {
             run_vectors(Attempt { split, closure, target, is_whole, accepted })
         };
         // What is double in one split is seldom so in another: no cluster is searched all over
-        // before all splits were tried. With a singular solution none would certify anything.
+        // before all splits were tried. Next to a singular solution a polynomial may lack roots: a
+        // count alone proves nothing then, in any split.
         let mut regular = *accepted;
         regular.begin();
         for split in self.splits.iter() {

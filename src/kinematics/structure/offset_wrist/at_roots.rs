@@ -78,8 +78,8 @@ impl ByRoots for Constants {
         let mut nearest = at_roots.served(0).nearest;
         if is_shared {
             let lane = Vector::load_array_ref(simd, &LANE);
-            let (last, second) = (lane.like(LANE[roots.count] - 0.5), at_roots.served(1).nearest);
-            nearest = Branch::where_above(lane, last, &second, &nearest);
+            let (first, second) = (lane.like(LANE[roots.count] - 0.5), at_roots.served(1).nearest);
+            nearest = Branch::where_above(lane, first, &second, &nearest);
         }
         pass(&at_roots.converge(&nearest), block);
         if per_root == 2 && !is_shared {

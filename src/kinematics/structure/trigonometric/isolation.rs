@@ -265,7 +265,7 @@ impl TrigonometricPolynomial {
         quarters: &mut [Coefficients<Vector<S>>; QUARTERS],
     ) {
         let zero = Vector::splat(simd, 0.0);
-        let [cos, sin] = self.from_first_arc(simd);
+        let [cos, sin] = self.at_first_arc(simd);
         // Products with cosines and sines of the middles: of the cosines of an angle from there, and
         // of its sines.
         let [mut even, mut odd] = [[[zero; DEGREE + 1]; 2]; 2];
@@ -294,7 +294,7 @@ impl TrigonometricPolynomial {
 
     /// Coefficients of the cosines and sines of angles from the beginning of the first arc.
     #[inline(always)]
-    fn from_first_arc<S: Simd>(&self, simd: S) -> [[f64; DEGREE + 1]; 2] {
+    fn at_first_arc<S: Simd>(&self, simd: S) -> [[f64; DEGREE + 1]; 2] {
         let [of_cos, of_sin] = BEGINNING.each_ref().map(|c| Vector::load_array_ref(simd, c));
         let cos = Vector::from_slice(simd, &self.cos[1..]);
         let sin = Vector::from_slice(simd, &self.sin[1..]);

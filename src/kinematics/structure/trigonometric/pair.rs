@@ -1,4 +1,4 @@
-//! Parts of arcs on which the polynomial bends one way: none, two or a double root (eq. 96).
+//! Parts of arcs on which the polynomial bends one way: none, two or a double root (eq. 95a).
 //!
 //! Where the second differences of the Bernstein coefficients have one sign, the polynomial is
 //! convex, or concave, and has one extreme value, which decides. Dividing a part with a double root

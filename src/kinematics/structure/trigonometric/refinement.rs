@@ -13,7 +13,7 @@ const CONVERGED: f64 = 3e-4;
 /// Largest step that may count as noise, relative to the width of the interval [1].
 const MOST_NOISE: f64 = 1e-3;
 
-/// Steps at most: halving alone takes 20 for an arc.
+/// Steps at most: halving alone takes 12 for an arc.
 const MOST_STEPS: usize = 48;
 
 /// What the noise leaves of up to eight roots [rad].

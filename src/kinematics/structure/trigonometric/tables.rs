@@ -221,7 +221,7 @@ const fn chebyshev(n: usize, j: usize) -> f64 {
     let (mut sum, mut i) = (0.0, 0);
     while i <= n && i <= j {
         if j - i <= POWERS - n {
-            let sign = if (n - i) % 2 == 0 { 1.0 } else { -1.0 };
+            let sign = if (n - i).is_multiple_of(2) { 1.0 } else { -1.0 };
             sum += sign * binomial(2 * n, 2 * i) * binomial(POWERS - n, j - i);
         }
         i += 1;
