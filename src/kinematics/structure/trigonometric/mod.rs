@@ -4,6 +4,7 @@
 //! polynomial. Its roots are the values of that joint in all solutions (docs/general.md, eq. 91 to
 //! 96).
 
+mod arcs;
 mod brackets;
 mod clusters;
 mod cut;

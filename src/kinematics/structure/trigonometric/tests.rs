@@ -6,7 +6,7 @@ use std::vec::Vec;
 
 use fearless_simd::prelude::*;
 
-use super::isolation::ARCS_OF;
+use super::arcs::ARCS_OF;
 use super::part::{angle, middle};
 use super::roots::Roots;
 use super::tables::{ARCS, POWERS, QUARTERS};
