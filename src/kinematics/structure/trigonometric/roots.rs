@@ -108,7 +108,7 @@ impl Roots {
     /// Sort by angle, and join clusters that touch one another.
     pub(super) fn join(&mut self) {
         let roots = &mut self.all[..self.count];
-        // An insertion sort: the few roots are nearly in order.
+        // An insertion sort: they are few.
         for end in 1..roots.len() {
             let mut place = end;
             while place > 0 && roots[place].low < roots[place - 1].low {
