@@ -8,11 +8,13 @@
 //! Docs: offset_wrist.md, section 6, and general.md, section 7.
 
 mod block;
+mod counts;
 mod method;
 mod regular;
 #[cfg(test)]
 pub(crate) mod tests;
 
 pub(crate) use block::RootKernel;
+pub(crate) use counts::{BESIDE, InCluster};
 pub(crate) use method::{ByRoots, SLOTS};
 pub(crate) use regular::regular_of;

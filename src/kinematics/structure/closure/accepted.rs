@@ -139,33 +139,6 @@ impl Accepted {
         lanes: usize,
     ) {
         let (mut singular, mut count) = ([Configuration::NONE; LANES], 0);
-        self.take_regular_but(closure, candidates, lanes, &mut |_, one| {
-            singular[count] = one;
-            count += 1;
-        });
-        if count > 0 {
-            self.examine(closure, target, &mut singular[..count]);
-        }
-    }
-
-    /// Take those away from every singularity alone; with others nothing is certain.
-    pub(crate) fn take_regular(
-        &mut self,
-        closure: &Closure,
-        candidates: &Candidates,
-        lanes: usize,
-    ) {
-        self.take_regular_but(closure, candidates, lanes, &mut |all, _| all.is_certain = false);
-    }
-
-    /// Take those away from every singularity, and pass those next to one.
-    fn take_regular_but(
-        &mut self,
-        closure: &Closure,
-        candidates: &Candidates,
-        lanes: usize,
-        pass: &mut impl FnMut(&mut Self, Configuration),
-    ) {
         for lane in 0..lanes {
             let one = candidates.configuration(lane);
             let is_near = one.residual < EXAMINED;
@@ -175,8 +148,12 @@ impl Accepted {
             if candidates.is_regular(closure, lane) {
                 self.insert(closure, one);
             } else if one.least.min(one.residual) <= NEARLY_SINGULAR {
-                pass(self, one);
+                singular[count] = one;
+                count += 1;
             }
+        }
+        if count > 0 {
+            self.examine(closure, target, &mut singular[..count]);
         }
     }
 

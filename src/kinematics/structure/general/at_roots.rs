@@ -70,8 +70,7 @@ impl ByRoots for FirstSplit {
     }
 
     fn root_of(&self, theta: &[f64; 6]) -> f64 {
-        let split = self.split();
-        split.sign * theta[split.searched()]
+        self.split().root_of(theta)
     }
 
     #[inline(always)]

@@ -8,14 +8,10 @@ use super::back::{Angle, completed, eliminated, pencil};
 use super::determinant::Rest;
 use super::equated::Equated;
 use super::split::{Posed, Split};
-use crate::kinematics::pose::angles::wrap;
-use crate::kinematics::structure::closure::{Accepted, Closure, Configuration, Missed, Target};
+use crate::kinematics::structure::by_roots::{BESIDE, InCluster};
+use crate::kinematics::structure::closure::{Accepted, Closure, Missed, Target};
 use crate::kinematics::structure::trigonometric::Root;
 use crate::lanes::{Column, LANES, Vector, VectorKernel, sin_cos_of};
-
-/// How far from its interval a solution of a cluster may be [rad]: what rounding moves a double
-/// root.
-const BESIDE: f64 = 1e-5;
 
 /// Places in the interval of a cluster from which solutions are searched, as parts of its radius.
 const PLACES: Column = [0.0, -0.15, 0.15, -0.4, 0.4, -0.7, 0.7, 1.0];
@@ -34,9 +30,7 @@ pub(super) struct Attempt<'a> {
     pub(super) split: &'a Split,
     pub(super) closure: &'a Closure,
     pub(super) target: &'a Target,
-    /// Whether solutions of any kind are wanted, and clusters searched all over for them; or regular
-    /// ones, and those in the middles of clusters.
-    pub(super) is_whole: bool,
+    pub(super) in_cluster: InCluster,
     /// Solutions of earlier attempts, and those that this one adds.
     pub(super) accepted: &'a mut Accepted,
 }
@@ -47,23 +41,30 @@ impl VectorKernel for Attempt<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> bool {
-        let Self { split, closure, target, is_whole, accepted } = self;
+        let Self { split, closure, target, in_cluster, accepted } = self;
         let posed = split.posed(simd, &target.frame.inverse());
-        let roots = posed.polynomial(simd, closure.rounding).roots(simd, &[]);
+        let polynomial = posed.polynomial(simd, closure.rounding);
+        let roots = if in_cluster == InCluster::Nowhere {
+            let Some(roots) = polynomial.simple_roots(simd) else { return false };
+            roots
+        } else {
+            polynomial.roots(simd, &[])
+        };
         // A determinant that is zero at every angle: each may have a solution.
         let is_free = !roots.is_complete && roots.as_slice().is_empty();
-        let search = Search { split, closure, target, posed: &posed, is_whole };
+        let search = Search { split, closure, target, posed: &posed };
         let all = roots.as_slice();
+        let root_of = |theta: &[f64; 6]| split.root_of(theta);
         let mut simple = all.iter().filter(|root| root.is_simple);
         while let Some((angles, lanes)) = next_angles(&mut simple) {
             search.look(simd, &angles, lanes, false, accepted);
         }
         let mut clusters = all.iter().filter(|root| is_cluster(root));
-        if !is_whole {
-            if let Some((angles, lanes)) = next_angles(&mut clusters) {
+        if in_cluster != InCluster::Everywhere {
+            while let Some((angles, lanes)) = next_angles(&mut clusters) {
                 search.look(simd, &angles, lanes, true, accepted);
             }
-            return roots.is_complete && split.all_are_at(all, accepted);
+            return accepted.are_at_all(&roots, 1, root_of);
         }
         let mut is_certain = roots.is_complete;
         let mut expected = all.iter().filter(|root| root.is_simple).count();
@@ -73,7 +74,7 @@ impl VectorKernel for Attempt<'_> {
             let lanes = if root.radius() < NARROW { 1 } else { LANES };
             search.look(simd, &places, lanes, true, accepted);
             if !root.is_simple {
-                let found = split.solutions_at(root, accepted);
+                let found = accepted.at(root, root_of);
                 let missed = root.most.wrapping_sub(found);
                 // Roots that come and go in pairs.
                 let is_fold = |missed: &Missed| split.holds_missed(root, missed);
@@ -101,29 +102,11 @@ fn is_cluster(root: &Root) -> bool {
 }
 
 impl Split {
-    /// Whether each root has its solution, and each cluster as many as it can have.
-    fn all_are_at(&self, roots: &[Root], accepted: &Accepted) -> bool {
-        roots.iter().all(|root| self.solutions_at(root, accepted) == root.most)
-            && accepted.are_certain(roots.iter().map(|root| root.most).sum())
-    }
-
-    /// Number of solutions in the interval of a root, with their multiplicity.
-    fn solutions_at(&self, root: &Root, accepted: &Accepted) -> usize {
-        let is_in = |one: &&Configuration| self.is_in(root, &one.theta);
-        accepted.as_slice().iter().filter(is_in).map(Configuration::multiplicity).sum()
-    }
-
     /// Whether a missed fold is what an interval without solutions is about: both complex ones are
     /// within it.
     fn holds_missed(&self, root: &Root, missed: &Missed) -> bool {
         let aside = missed.aside[self.searched()];
-        aside <= root.radius() + BESIDE && self.is_in(root, &missed.theta)
-    }
-
-    /// Whether a configuration is in the interval of a cluster.
-    fn is_in(&self, root: &Root, theta: &[f64; 6]) -> bool {
-        let angle = self.sign * theta[self.searched()];
-        wrap(angle - root.angle()).abs() <= root.radius() + BESIDE
+        aside <= root.radius() + BESIDE && root.is_at(self.root_of(&missed.theta))
     }
 }
 
@@ -133,7 +116,6 @@ struct Search<'a> {
     closure: &'a Closure,
     target: &'a Target,
     posed: &'a Posed,
-    is_whole: bool,
 }
 
 impl Search<'_> {
@@ -180,11 +162,7 @@ impl Search<'_> {
             let [t4, t3] = eliminated(powers);
             let [sin, cos] = completed(self.split, &pose, &[t3, t4, t5]);
             let candidates = self.closure.converge(&target, &sin, &cos);
-            if self.is_whole {
-                accepted.take(self.closure, self.target, &candidates, lanes);
-            } else {
-                accepted.take_regular(self.closure, &candidates, lanes);
-            }
+            accepted.take(self.closure, self.target, &candidates, lanes);
         }
     }
 }

@@ -11,7 +11,7 @@ use nalgebra::ComplexField as _;
 use super::at_roots::FirstSplit;
 use super::attempt::Attempt;
 use super::split::{SPLITS, Split};
-use crate::kinematics::structure::by_roots::{ByRoots as _, regular_of};
+use crate::kinematics::structure::by_roots::{ByRoots as _, InCluster, regular_of};
 use crate::kinematics::structure::closure::{Accepted, Closure, Target};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::lanes::run_vectors;
@@ -124,7 +124,8 @@ fn sort(splits: &mut [(usize, Split)]) {
 /// Points of a split for a pose: two if it finds the joints that made it, one if it is certain.
 fn score(split: &Split, closure: &Closure, (target, theta): &(Target, [f64; 6])) -> usize {
     let mut accepted = Accepted::REGULAR_ONLY;
-    let attempt = Attempt { split, closure, target, is_whole: true, accepted: &mut accepted };
+    let in_cluster = InCluster::Everywhere;
+    let attempt = Attempt { split, closure, target, in_cluster, accepted: &mut accepted };
     let is_certain = run_vectors(attempt);
     let is_found = accepted.as_slice().iter().any(|one| one.distance(theta) < 1e-6);
     2 * usize::from(is_found) + usize::from(is_certain)

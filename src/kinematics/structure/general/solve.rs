@@ -5,11 +5,12 @@ use core::ops::ControlFlow;
 use super::attempt::Attempt;
 use super::choice::quasi_random;
 use super::geometry::General;
+use super::split::Split;
 use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::TakeStep;
 use crate::kinematics::structure::branches::Branches;
-use crate::kinematics::structure::by_roots::SLOTS;
+use crate::kinematics::structure::by_roots::{InCluster, SLOTS};
 use crate::kinematics::structure::closure::{Accepted, Configuration, Kind, Target, in_order};
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::thresholds::CLOSURE_SINGULAR;
@@ -24,45 +25,64 @@ const ROUNDS: usize = 4;
 
 impl General {
     /// Take every solution of a pose; returns whether their number is certain.
-    pub(crate) fn solve_all(
+    pub(crate) fn solutions(
         &self,
         t_first_last: &Pose,
         free: &FreeChoice<6>,
         accepted: &mut Accepted,
     ) -> bool {
-        let is_certain = self.attempt_all(t_first_last, accepted);
+        // The kernel has tried the first split.
+        let tried = usize::from(self.is_mostly_regular);
+        self.regular(t_first_last, tried, accepted) || self.search(t_first_last, free, accepted)
+    }
+
+    /// Take every solution of a pose that has no cluster of roots in one of the splits, those that
+    /// were tried left out; returns whether there is such a split.
+    pub(crate) fn regular(
+        &self,
+        t_first_last: &Pose,
+        tried: usize,
+        accepted: &mut Accepted,
+    ) -> bool {
+        let target = self.closure.target_of(t_first_last);
+        !accepted.has_singular()
+            && self.attempt(&self.splits[tried..], &target, InCluster::Nowhere, accepted)
+    }
+
+    /// Take every solution of a pose with clusters of roots; returns whether their number is
+    /// certain.
+    pub(crate) fn search(
+        &self,
+        t_first_last: &Pose,
+        free: &FreeChoice<6>,
+        accepted: &mut Accepted,
+    ) -> bool {
+        let target = self.closure.target_of(t_first_last);
+        // What is double in one split is seldom so in another: no cluster is searched everywhere
+        // before all splits were tried.
+        let is_certain = target.is_beyond()
+            || [InCluster::Middle, InCluster::Everywhere]
+                .into_iter()
+                .any(|in_cluster| self.attempt(&self.splits, &target, in_cluster, accepted));
         if !is_certain {
             self.complete(t_first_last, free, accepted);
         }
         is_certain
     }
 
-    /// Take what the splits find; returns whether it is certain to be all.
-    fn attempt_all(&self, t_first_last: &Pose, accepted: &mut Accepted) -> bool {
-        let target = self.closure.target_of(t_first_last);
-        if target.is_beyond() {
-            return true;
-        }
-        let attempt = |split, is_whole, accepted: &mut Accepted| {
+    /// Take what splits find, until one is certain to find all; returns whether one is.
+    fn attempt(
+        &self,
+        splits: &[Split],
+        target: &Target,
+        in_cluster: InCluster,
+        accepted: &mut Accepted,
+    ) -> bool {
+        let closure = &self.closure;
+        splits.iter().any(|split| {
             accepted.begin();
-            let (closure, target) = (&self.closure, &target);
-            run_vectors(Attempt { split, closure, target, is_whole, accepted })
-        };
-        // What is double in one split is seldom so in another: no cluster is searched all over
-        // before all splits were tried. Next to a singular solution a polynomial may lack roots: a
-        // count alone proves nothing then, in any split.
-        let mut regular = *accepted;
-        regular.begin();
-        for split in self.splits.iter() {
-            if accepted.has_self_motion() || !regular.is_certain() {
-                break;
-            }
-            if attempt(split, false, &mut regular) {
-                *accepted = regular;
-                return true;
-            }
-        }
-        self.splits.iter().any(|split| attempt(split, true, accepted))
+            run_vectors(Attempt { split, closure, target, in_cluster, accepted })
+        })
     }
 
     /// Keep one member of each self-motion, that which the free joint's angle of `free` chooses.
@@ -119,7 +139,7 @@ impl General {
     /// The solutions as slots, which are ordinals.
     pub(super) fn branches(&self, t_first_last: &Pose, free: &FreeChoice<6>) -> Branches<6, SLOTS> {
         let mut accepted = Accepted::NONE;
-        let is_certain = self.solve_all(t_first_last, free, &mut accepted);
+        let is_certain = self.solutions(t_first_last, free, &mut accepted);
         self.slots(t_first_last, &mut accepted, is_certain)
     }
 

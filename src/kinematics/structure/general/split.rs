@@ -116,6 +116,11 @@ impl Split {
         self.joints[5]
     }
 
+    /// The angle that is a root of the determinant, by the angles of the table [rad].
+    pub(super) fn root_of(&self, theta: &[f64; 6]) -> f64 {
+        self.sign * theta[self.searched()]
+    }
+
     /// The moments of axis 2 from the right, up to the pose: by products of the angles passed.
     fn behind_pose(&self) -> Vec<Moments> {
         let mut all = alloc::vec![Moments::AXIS];

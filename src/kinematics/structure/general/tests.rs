@@ -1,10 +1,13 @@
 //! Laws of the general solver by itself; `tests/structures` has those of its robots.
 
+mod attempts;
 mod company;
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::string::{String, ToString};
 use std::vec::Vec;
+
+use attempts::IN_CLUSTER;
 
 use super::attempt::Attempt;
 use super::*;
@@ -90,7 +93,7 @@ fn report(mdh: &Mdh<6>, draws: impl Iterator<Item = [f64; 6]>, close: f64) -> Re
         let pose = chain.fk(&q);
         let t = map.t_base_shoulder.inverse() * pose * map.t_wrist_flange.inverse();
         let mut accepted = Accepted::NONE;
-        let is_certain = arm.solve_all(&t, &FreeChoice::rest([0.0; 6]), &mut accepted);
+        let is_certain = arm.solutions(&t, &FreeChoice::rest([0.0; 6]), &mut accepted);
         let found: Vec<_> =
             accepted.as_slice().iter().map(|one| arm.joint_map.joints(one.theta)).collect();
         report.poses += 1;
@@ -220,6 +223,23 @@ fn every_solution_of_structured_poses_is_found_or_the_answer_says_so() {
     }
 }
 
+/// Joint vectors whose joint 3 is so far from a zero of the determinant.
+fn near_folds(arm: &General, rng: &mut Rng, off: f64) -> impl Iterator<Item = [f64; 6]> {
+    core::iter::from_fn(move || {
+        let mut q: [f64; 6] = rng.angles();
+        let at = |q3: f64| arm.jacobian_determinant(&[q[0], q[1], q3, q[3], q[4], q[5]]);
+        let (mut low, mut high) = (q[2], q[2] + 0.5);
+        let is_between = at(low) * at(high) <= 0.0;
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            (low, high) = if at(low) * at(middle) <= 0.0 { (low, middle) } else { (middle, high) };
+        }
+        q[2] = low + off;
+        Some(is_between.then_some(q))
+    })
+    .flatten()
+}
+
 #[test]
 fn at_and_next_to_a_fold_every_solution_is_found_or_the_answer_says_so() {
     let mut rng = Rng::new(4);
@@ -227,23 +247,8 @@ fn at_and_next_to_a_fold_every_solution_is_found_or_the_answer_says_so() {
     for (name, mdh) in arms() {
         let arm = General::of(&mdh).unwrap();
         for off in [0.0, 1e-9, 1e-6, 1e-4] {
-            let mut draws = Vec::new();
-            while draws.len() < poses_or(100).min(500) {
-                let mut q: [f64; 6] = rng.angles();
-                // Bisect joint 3 to a zero of the determinant.
-                let at = |q3: f64| arm.jacobian_determinant(&[q[0], q[1], q3, q[3], q[4], q[5]]);
-                let (mut low, mut high) = (q[2], q[2] + 0.5);
-                if at(low) * at(high) > 0.0 {
-                    continue;
-                }
-                for _ in 0..60 {
-                    let middle = 0.5 * (low + high);
-                    (low, high) =
-                        if at(low) * at(middle) <= 0.0 { (low, middle) } else { (middle, high) };
-                }
-                q[2] = low + off;
-                draws.push(q);
-            }
+            let draws: Vec<_> =
+                near_folds(&arm, &mut rng, off).take(poses_or(100).min(500)).collect();
             // Where two solutions merge, rounding moves them by its root over their curvature.
             let report = report(&mdh, draws.into_iter(), 1e-3);
             std::println!("{name}, det J = 0 + {off:e}: {report:?}");
@@ -273,17 +278,18 @@ fn a_determinant_that_only_rounding_keeps_from_zero_certifies_nothing() {
         let q = [0.0, -2.0 * FRAC_PI_2, -FRAC_PI_2, FRAC_PI_2, FRAC_PI_2, q_6];
         let target = arm.closure.reached(&arm.joint_map.theta(&q));
         for split in arm.splits.iter() {
-            let mut accepted = Accepted::NONE;
-            let closure = &arm.closure;
-            let (target, accepted) = (&target, &mut accepted);
-            let attempt = Attempt { split, closure, target, is_whole: true, accepted };
-            assert!(!run_vectors(attempt), "{:?}: {accepted:?}", split.joints);
+            for in_cluster in IN_CLUSTER {
+                let mut accepted = Accepted::NONE;
+                let (closure, target, accepted) = (&arm.closure, &target, &mut accepted);
+                let attempt = Attempt { split, closure, target, in_cluster, accepted };
+                assert!(!run_vectors(attempt), "{:?}, {in_cluster:?}", split.joints);
+            }
         }
         let map = arm.joint_map();
         let pose = robot.fk(&q);
         let t = map.t_base_shoulder.inverse() * pose * map.t_wrist_flange.inverse();
         let mut accepted = Accepted::NONE;
-        assert!(!arm.solve_all(&t, &FreeChoice::rest([0.0; 6]), &mut accepted), "{accepted:?}");
+        assert!(!arm.solutions(&t, &FreeChoice::rest([0.0; 6]), &mut accepted), "{accepted:?}");
         let moves = |one: &&Configuration| one.is_free();
         assert_eq!(accepted.as_slice().iter().filter(moves).count(), 1, "{accepted:?}");
     }
@@ -302,7 +308,7 @@ fn the_closed_forms_find_the_same() {
             let known = robot.ik(&pose).unwrap();
             let t = map.t_base_shoulder.inverse() * pose * map.t_wrist_flange.inverse();
             let mut accepted = Accepted::NONE;
-            let is_certain = arm.solve_all(&t, &FreeChoice::rest([0.0; 6]), &mut accepted);
+            let is_certain = arm.solutions(&t, &FreeChoice::rest([0.0; 6]), &mut accepted);
             if !is_certain {
                 left_out += 1;
                 continue;
@@ -327,7 +333,7 @@ fn out_of_reach_there_is_no_solution() {
     for distance in [1.2, 3.0, 100.0] {
         let pose = Pose::translation(distance, 0.1, 0.2);
         let mut accepted = Accepted::NONE;
-        let is_certain = arm.solve_all(&pose, &FreeChoice::rest([0.0; 6]), &mut accepted);
+        let is_certain = arm.solutions(&pose, &FreeChoice::rest([0.0; 6]), &mut accepted);
         assert!(accepted.as_slice().is_empty() && is_certain, "{distance}: {accepted:?}");
     }
 }

@@ -100,13 +100,6 @@ impl Clusters {
         clusters
     }
 
-    /// Take all branches in their middles as candidates.
-    pub(super) fn put_middles(&self, search: &mut Search<'_>) {
-        for cluster in &self.all[..self.count] {
-            search.put_all_at(cluster.middle());
-        }
-    }
-
     /// Whether there are as many solutions as the roots announce: in each cluster the zeros of the
     /// branches, and one for each simple root beside them.
     pub(super) fn agree(&self, solutions: &[Configuration], simple: usize) -> bool {

@@ -31,8 +31,6 @@ pub(super) struct Search<'a> {
     pub(super) hand: Hand,
     pub(super) target: Target,
     pub(super) accepted: &'a mut Accepted,
-    /// Whether solutions of any kind are taken, or regular ones alone.
-    pub(super) is_whole: bool,
     places: Places,
 }
 
@@ -127,19 +125,13 @@ impl<'a> Search<'a> {
             hand: Hand::of(&arm.constants.lengths, last),
             target: arm.constants.closure.target(*last),
             accepted,
-            is_whole: true,
             places: Places::NONE,
         }
     }
 
     /// Take what candidates in these lanes, which have converged, lead to.
     fn take(&mut self, candidates: &Candidates, lanes: usize) {
-        let closure = &self.arm.constants.closure;
-        if self.is_whole {
-            self.accepted.take(closure, &self.target, candidates, lanes);
-        } else {
-            self.accepted.take_regular(closure, candidates, lanes);
-        }
+        self.accepted.take(&self.arm.constants.closure, &self.target, candidates, lanes);
     }
 
     /// Take a branch at an angle of joint 6 as a candidate, even if it is a little out of reach.

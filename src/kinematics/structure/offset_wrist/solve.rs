@@ -11,7 +11,7 @@ use super::resultant::polynomial;
 use super::search::Search;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::branches::Branches;
-use crate::kinematics::structure::by_roots::SLOTS;
+use crate::kinematics::structure::by_roots::{InCluster, SLOTS};
 use crate::kinematics::structure::closure::Accepted;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::free_choice::FreeChoice;
@@ -21,6 +21,7 @@ use crate::lanes::{VectorKernel, run_vectors};
 struct Solve<'a> {
     arm: &'a OffsetWrist,
     last: &'a Frame,
+    in_cluster: InCluster,
     accepted: &'a mut Accepted,
 }
 
@@ -36,27 +37,24 @@ impl VectorKernel for Solve<'_> {
         let has_parallel = lengths.has_parallel();
         let known = if has_parallel { Parallel::of(lengths, &search.hand) } else { Parallel::NONE };
         let roots = polynomial.roots(simd, known.as_slice());
-        let is_complete = roots.is_complete;
-        let mut clusters = Clusters::of(&roots, lengths.per_root());
         let simple = roots.as_slice().iter().filter(|root| root.is_simple);
+        if self.in_cluster == InCluster::Middle {
+            for cluster in roots.as_slice().iter().filter(|root| !root.is_simple) {
+                search.put_all_at(cluster.angle());
+            }
+            search.at_all_roots(simd, simple);
+            return lengths.turns_wrist_point()
+                && search.accepted.are_at_all(&roots, lengths.per_root(), |theta| theta[5]);
+        }
+        let mut clusters = Clusters::of(&roots, lengths.per_root());
         let count = lengths.per_root() * simple.clone().count();
         let agree = |clusters: &Clusters, accepted: &Accepted| {
             lengths.turns_wrist_point()
-                && is_complete
+                && roots.is_complete
                 && accepted.is_certain()
                 && !accepted.has_self_motion()
                 && clusters.agree(accepted.as_slice(), count)
         };
-        // At first regular solutions alone, those of clusters from their middles.
-        let before = *search.accepted;
-        search.is_whole = false;
-        clusters.put_middles(&mut search);
-        search.at_all_roots(simd, simple.clone());
-        if agree(&clusters, search.accepted) {
-            return true;
-        }
-        search.is_whole = true;
-        *search.accepted = before;
         clusters.examine(&mut search);
         search.at_all_roots(simd, simple);
         agree(&clusters, search.accepted) || {
@@ -93,13 +91,14 @@ impl OffsetWrist {
         accepted: &mut Accepted,
     ) -> bool {
         let last = &Frame::of(t_first_last);
-        run_vectors(Solve { arm: self, last, accepted })
-            || self.rescue(t_first_last, free, accepted)
-    }
-
-    /// Add the solutions of the general method, which shares no polynomial with this one.
-    #[cold]
-    fn rescue(&self, t_first_last: &Pose, free: &FreeChoice<6>, accepted: &mut Accepted) -> bool {
-        self.general.solve_all(t_first_last, free, accepted)
+        let solve = |in_cluster, accepted: &mut Accepted| {
+            accepted.begin();
+            run_vectors(Solve { arm: self, last, in_cluster, accepted })
+        };
+        // The general method shares no polynomial with this one.
+        solve(InCluster::Middle, accepted)
+            || self.general.regular(t_first_last, 0, accepted)
+            || solve(InCluster::Everywhere, accepted)
+            || self.general.search(t_first_last, free, accepted)
     }
 }

@@ -30,7 +30,6 @@ pub(super) struct Room<const PARTS: usize, const BRACKETS: usize> {
     columns: [Coefficients<Column>; PARTS],
     parts: [[Part; LANES]; PARTS],
     brackets: [BracketBlock; BRACKETS],
-    packed: [BracketBlock; BRACKETS],
 }
 
 impl<const PARTS: usize, const BRACKETS: usize> Room<PARTS, BRACKETS> {
@@ -38,12 +37,11 @@ impl<const PARTS: usize, const BRACKETS: usize> Room<PARTS, BRACKETS> {
         columns: [[[0.0; LANES]; POWERS + 1]; PARTS],
         parts: [[Part::NONE; LANES]; PARTS],
         brackets: [BracketBlock::NONE; BRACKETS],
-        packed: [BracketBlock::NONE; BRACKETS],
     };
 
     pub(super) fn space(&mut self) -> Space<'_> {
-        let Self { columns, parts, brackets, packed } = self;
-        Space { columns, parts: parts.as_flattened_mut(), brackets, packed }
+        let Self { columns, parts, brackets } = self;
+        Space { columns, parts: parts.as_flattened_mut(), brackets }
     }
 }
 
@@ -51,25 +49,23 @@ impl<const PARTS: usize, const BRACKETS: usize> Room<PARTS, BRACKETS> {
 pub(super) struct Space<'a> {
     columns: &'a mut [Coefficients<Column>],
     parts: &'a mut [Part],
-    pub(super) brackets: &'a mut [BracketBlock],
-    /// The same in another order.
-    pub(super) packed: &'a mut [BracketBlock],
+    brackets: &'a mut [BracketBlock],
 }
 
 impl Space<'_> {
     /// A search in it, which has found nothing yet.
-    pub(super) fn search<'a>(&'a mut self, clusters: Clusters<'a>) -> Search<'a> {
-        let Self { columns, parts, brackets, .. } = self;
+    pub(super) fn search<'a, 'c>(&'a mut self, clusters: Clusters<'c>) -> Search<'a, 'c> {
+        let Self { columns, parts, brackets } = self;
         let parts = Parts { columns, all: parts, count: 0 };
         Search { parts, brackets: Brackets::none(brackets), clusters }
     }
 }
 
 /// What is found, and what is to be divided.
-pub(super) struct Search<'a> {
+pub(super) struct Search<'a, 'c> {
     parts: Parts<'a>,
     pub(super) brackets: Brackets<'a>,
-    clusters: Clusters<'a>,
+    clusters: Clusters<'c>,
 }
 
 /// Parts to be divided, in blocks of lanes.
@@ -133,7 +129,7 @@ impl Parts<'_> {
     }
 }
 
-impl Search<'_> {
+impl Search<'_, '_> {
     /// Find an interval for every root beside the known clusters: brackets of simple roots, as wide
     /// as they can be, and clusters.
     pub(super) fn isolate<S: Simd>(

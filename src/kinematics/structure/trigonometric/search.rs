@@ -1,10 +1,12 @@
 //! All real roots of a polynomial.
 
+use core::slice;
+
 use fearless_simd::Simd;
 
 use super::brackets::Brackets;
-use super::clusters::Clusters;
-use super::isolation::Room;
+use super::clusters::{Clusters, Progress};
+use super::isolation::{Room, Search};
 use super::polynomial::TrigonometricPolynomial;
 use super::refinement::Refined;
 use super::roots::{Root, Roots};
@@ -16,6 +18,9 @@ const MOST_MULTIPLICITY: usize = 8;
 
 /// Order of the derivative that is only bounded, in the series of the others.
 const TAYLOR: usize = 14;
+
+/// Room for the roots of one polynomial.
+type RoomForOne = Room<4, 3>;
 
 impl TrigonometricPolynomial {
     /// Every real root, in a range of a full turn: complete up to the noise (eq. 96). Clusters that
@@ -29,23 +34,34 @@ impl TrigonometricPolynomial {
         for cluster in known {
             roots.push(*cluster);
         }
-        let mut room = Room::<4, 3>::NEW;
-        let (mut space, all) = (room.space(), core::slice::from_ref(self));
+        let mut room = RoomForOne::NEW;
+        let mut space = room.space();
         let mut search = space.search(Clusters::Kept(&mut roots));
-        search.isolate(simd, all, known);
-        let Brackets { count, is_complete, .. } = search.brackets;
-        roots.is_complete &= is_complete;
-        for (first, block) in (0..count).step_by(LANES).zip(space.brackets) {
-            let Refined { angles, radii } = block.refined(simd, all);
-            for lane in 0..LANES.min(count - first) {
-                roots.push(Root::simple(angles[lane], radii[lane]));
-            }
-        }
+        search.isolate(simd, slice::from_ref(self), known);
+        let Search { brackets, .. } = search;
+        brackets.refine_into(simd, self, &mut roots);
         roots.join();
         for root in roots.as_mut_slice().iter_mut().filter(|root| !root.is_simple) {
             root.most = self.most_roots(*root);
         }
         roots
+    }
+
+    /// Every real root if each is simple and apart from the next; none as soon as there may be a
+    /// cluster.
+    pub(crate) fn simple_roots<S: Simd>(&self, simd: S) -> Option<Roots> {
+        let (mut roots, mut progress) = (Roots::NONE, [Progress::NEW]);
+        let mut room = RoomForOne::NEW;
+        let mut space = room.space();
+        let mut search = space.search(Clusters::Left(&mut progress));
+        search.isolate(simd, slice::from_ref(self), &[]);
+        let Search { brackets, .. } = search;
+        if self.is_noise() || progress[0].is_left || !brackets.is_complete {
+            return None;
+        }
+        brackets.refine_into(simd, self, &mut roots);
+        roots.join();
+        Some(roots)
     }
 
     /// Most roots in an interval: k if the derivative of order k has no zero there, by Rolle's
@@ -86,5 +102,18 @@ impl TrigonometricPolynomial {
             derivatives[*order].abs() > others
         };
         (1..=MOST_MULTIPLICITY).find(has_no_zero).unwrap_or(2 * DEGREE)
+    }
+}
+
+impl Brackets<'_> {
+    /// Push the roots that they hold, which are those of one polynomial.
+    fn refine_into<S: Simd>(&self, simd: S, of: &TrigonometricPolynomial, roots: &mut Roots) {
+        roots.is_complete &= self.is_complete;
+        for (first, block) in (0..self.count).step_by(LANES).zip(&*self.blocks) {
+            let Refined { angles, radii } = block.refined(simd, slice::from_ref(of));
+            for lane in 0..LANES.min(self.count - first) {
+                roots.push(Root::simple(angles[lane], radii[lane]));
+            }
+        }
     }
 }

@@ -2,9 +2,9 @@
 
 use fearless_simd::Simd;
 
-use super::brackets::Brackets;
+use super::brackets::BracketBlock;
 use super::clusters::{Clusters, Progress};
-use super::isolation::{Room, Space};
+use super::isolation::{Room, Search, Space};
 use super::polynomial::TrigonometricPolynomial;
 use super::refinement::Refined;
 use crate::lanes::{Column, LANES};
@@ -14,6 +14,7 @@ pub(crate) struct RootRoom<const MANY: usize, const PARTS: usize, const ROOTS: u
     polynomials: [TrigonometricPolynomial; MANY],
     progress: [Progress; MANY],
     room: Room<PARTS, ROOTS>,
+    packed: [BracketBlock; ROOTS],
 }
 
 impl<const MANY: usize, const PARTS: usize, const ROOTS: usize> RootRoom<MANY, PARTS, ROOTS> {
@@ -21,13 +22,15 @@ impl<const MANY: usize, const PARTS: usize, const ROOTS: usize> RootRoom<MANY, P
         polynomials: [TrigonometricPolynomial::NONE; MANY],
         progress: [Progress::LEFT; MANY],
         room: Room::NEW,
+        packed: [BracketBlock::NONE; ROOTS],
     };
 
     /// A search for the roots of so many polynomials, which are to be put.
     pub(crate) fn search(&mut self, many: usize) -> SimpleRoots<'_> {
-        let Self { polynomials, progress, room } = self;
+        let Self { polynomials, progress, room, packed } = self;
         let (polynomials, progress) = (&mut polynomials[..many], &mut progress[..many]);
-        SimpleRoots { polynomials, progress, space: room.space(), count: 0, is_complete: true }
+        let space = room.space();
+        SimpleRoots { polynomials, progress, space, packed, count: 0, is_complete: true }
     }
 }
 
@@ -37,6 +40,8 @@ pub(crate) struct SimpleRoots<'a> {
     polynomials: &'a mut [TrigonometricPolynomial],
     progress: &'a mut [Progress],
     space: Space<'a>,
+    /// The brackets that are found, in another order.
+    packed: &'a mut [BracketBlock],
     count: usize,
     is_complete: bool,
 }
@@ -73,20 +78,18 @@ impl SimpleRoots<'_> {
 
     /// Isolate the roots. Returns the number of blocks: most have the roots of one polynomial.
     pub(crate) fn isolate<S: Simd>(&mut self, simd: S) -> usize {
-        let Self { polynomials, progress, space, .. } = self;
+        let Self { polynomials, progress, space, packed, .. } = self;
         let mut search = space.search(Clusters::Left(progress));
         search.isolate(simd, polynomials, &[]);
-        let Brackets { count, is_complete, .. } = search.brackets;
-        let Space { brackets, packed, .. } = space;
-        let found = Brackets { blocks: brackets, count, is_complete };
-        self.count = found.pack(packed, |of| !progress[of].is_left);
-        self.is_complete = is_complete;
+        let Search { brackets, .. } = search;
+        self.count = brackets.pack(packed, |of| !progress[of].is_left);
+        self.is_complete = brackets.is_complete;
         self.count.div_ceil(LANES)
     }
 
     /// The roots of a block.
     pub(crate) fn block<S: Simd>(&self, simd: S, number: usize) -> RootBlock {
-        let block = &self.space.packed[number];
+        let block = &self.packed[number];
         let count = LANES.min(self.count - LANES * number);
         let Refined { angles, .. } = block.refined(simd, self.polynomials);
         RootBlock { of: block.of, angles, count }

@@ -60,7 +60,7 @@ fn a_regular_pose_has_the_solutions_of_the_whole_search() {
             let whole_search = || {
                 let mut found = Accepted::NONE;
                 let free = FreeChoice::rest([0.0; 6]);
-                let is_certified = arm.solve_all(&pose_of(frame), &free, &mut found);
+                let is_certified = arm.search(&pose_of(frame), &free, &mut found);
                 (found.as_slice().to_vec(), is_certified)
             };
             count += usize::from(is_as_in_whole_search(&method, frame, whole_search, &name));
