@@ -146,26 +146,33 @@ def test_what_vanishing_determinants_hide_is_found():
     assert arm.check_pose(pose).reachable
 
 
-def test_random_tables_with_right_angles():
-    rng, half = np.random.default_rng(12), np.pi / 2
+RIGHT = ([0, 90, -90], [0], 90)
+OBLIQUE = ([0, 0, 90, -90, 90, -90, 180, 45, -45, 30, 60], [0, 0, 0, 90, -90, 180, 45], 45)
+
+
+@pytest.mark.parametrize(("alphas", "thetas", "step"), [RIGHT, OBLIQUE], ids=["right", "oblique"])
+def test_random_tables_with_angles_that_are_round(alphas, thetas, step):
+    rng = np.random.default_rng(12)
     tables = int(os.environ.get("TABLES", "60"))
     poses = complete = lost = 0
     for _ in range(tables):
-        alpha = rng.choice([0, half, -half], 6, p=[0.3, 0.35, 0.35])
+        alpha, theta = (np.radians(rng.choice(some, 6)) for some in (alphas, thetas))
         lengths = rng.choice([0, 0, 0.1, 0.2, 0.25, 0.3, 0.4, 0.5], (6, 2))
-        rows = [[angle, a, d, 0.0] for angle, (a, d) in zip(alpha, lengths, strict=True)]
         try:
-            arm = irbkin.Robot.from_mdh(rows)
+            arm = irbkin.Robot.from_mdh(np.c_[alpha, lengths, theta])
         except irbkin.InvalidModelError:
             continue
         if arm.structure not in ("general", "offset wrist"):
             # A closed form certifies its self-motions, too.
             continue
-        q = rng.integers(-1, 3, (100, 6)) * half
+        q = np.radians(rng.integers(-180 // step, 180 // step, (100, 6)) * float(step))
         # Half of them with a joint or two that are anywhere.
         anywhere = rng.random((100, 6)) < 0.3 * (np.arange(100) % 2)[:, None]
         q = np.where(anywhere, rng.uniform(-np.pi, np.pi, (100, 6)), q)
-        found = arm.ik_batch(arm.fk(q))
+        pose = arm.fk(q)
+        # Half of them a rounding off.
+        pose[:50, :3, 3] += rng.normal(0, 1e-16, (50, 3))
+        found = arm.ik_batch(pose)
         is_certified = certified(found)
         poses += len(q)
         complete += is_certified.sum()
@@ -175,6 +182,58 @@ def test_random_tables_with_right_angles():
     assert poses > 20 * tables
     assert complete > 0.5 * poses
     assert lost == 0
+
+
+# Alpha [deg], a, d [m], theta [deg]; joints [deg].
+TWO_TO_A_ROOT = [
+    (
+        [-90, -45, 180, 90, 90, 0],
+        [0.5, 0, 0.1, 0.3, 0.3, 0.25],
+        [0.5, 0, 0.4, 0.5, 0.1, 0],
+        [45, 180, 45, 45, 0, 0],
+        [45, -180, -135, 90, 135, -90],
+    ),
+    (
+        [0, 0, 90, 90, 0, 45],
+        [0.5, 0.5, 0, 0, 0.1, 0],
+        [0.25, 0.25, 0.25, 0.5, 0, 0.25],
+        [0, 0, 0, 0, 0, -90],
+        [0, -180, -45, -45, 135, -180],
+    ),
+    (
+        [90, 180, -45, 90, -90, 45],
+        [0.25, 0.25, 0, 0.5, 0, 0],
+        [0.4, 0.4, 0.5, 0.25, 0.25, 0.4],
+        [90, 45, 0, 45, 180, 0],
+        [0, 0, 90, -135, -90, -135],
+    ),
+    (
+        [90, 0, 90, 45, 90, 45],
+        [0, 0.5, 0, 0.5, 0.3, 0],
+        [0, 0.5, 0.1, 0, 0, 0.5],
+        [-90, 180, -90, 90, 0, 0],
+        [180, 45, 45, 180, -45, 45],
+    ),
+    (
+        [-90, 180, 90, -90, 0, -90],
+        [0, 0.5, 0, 0, 0.25, 0.1],
+        [0.1, 0.4, 0.1, 0.1, 0.25, 0.1],
+        [-90, 90, 90, 180, 90, 90],
+        [-90, 180, 0, 90, -90, 90],
+    ),
+]
+
+
+@pytest.mark.parametrize(("alpha", "a", "d", "theta", "q"), TWO_TO_A_ROOT)
+def test_poses_that_give_two_solutions_to_a_root_of_a_split(alpha, a, d, theta, q):
+    arm = irbkin.Robot.from_mdh(np.c_[np.radians(alpha), a, d, np.radians(theta)])
+    assert arm.structure == "general"
+    pose = np.repeat(arm.fk(np.radians(q))[None], 50, axis=0)
+    pose[1:, :3, 3] += np.random.default_rng(0).normal(0, 1e-16, (49, 3))
+    found = arm.ik_batch(pose)
+    assert (apart(found.q, np.radians([q])) < 1e-9).all()
+    counts = (~np.isnan(found.q[..., 0])).sum(-1)
+    assert len({*counts[certified(found)]}) <= 1, counts
 
 
 def test_axes_that_meet_in_two_points_three_by_three():

@@ -24,10 +24,6 @@ pub(super) struct Second<T = f64> {
     pub(super) weights: [[T; 6]; 2],
 }
 
-/// Part of the moments along z up to which they do not change with the sine, or cosine, of an angle
-/// [1]: rounding of a table's angles.
-const EVEN: f64 = 1e-10;
-
 /// A complex number.
 type Complex = [f64; 2];
 
@@ -69,15 +65,16 @@ impl Left {
         weights
     }
 
-    /// Whether the moments along z tell t1. Where axes 0, 1 and 2 meet in one point, or are
-    /// parallel, they are even in an angle: of each root there are two solutions, or none.
-    pub(super) fn tells_second(&self) -> bool {
+    /// Whether the moments along z tell t1, by more than a part of them that depends on it. Where
+    /// axes 0, 1 and 2 meet in one point, or are parallel, they are even in an angle: of each root
+    /// there are two solutions, or none.
+    pub(super) fn tells_second(&self, part: f64) -> bool {
         let [_, c, s] = self.of_1.map(|moments| ALONG.map(|at| moments.0[at]));
         let (long, short) = if dot(c, c) > dot(s, s) { (c, s) } else { (s, c) };
         let along = dot(long, short) / dot(long, long);
         let across: [f64; 6] = core::array::from_fn(|k| short[k] - along * long[k]);
         // Not if there is no number.
-        dot(across, across) > EVEN * EVEN * dot(long, long)
+        dot(across, across) > part * part * dot(long, long)
     }
 
     /// t1, by least squares (eq. 89).

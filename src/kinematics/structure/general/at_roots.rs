@@ -84,7 +84,7 @@ impl ByRoots for FirstSplit {
         let (sin, cos) = sin_cos_of(Vector::load_array_ref(simd, &roots.angles));
         let t5 = Angle { sin, cos };
         let (target, link, equations) = if let Some(one) = same(&roots.of) {
-            let AtTarget { target, posed: Posed { link, equations } } = &all[one];
+            let AtTarget { target, posed: Posed { link, equations, .. } } = &all[one];
             (target.in_lanes(sin), link.in_lanes(sin), Equated::One(equations))
         } else {
             let mut frames = [&all[0].target.frame; LANES];

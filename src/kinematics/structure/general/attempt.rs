@@ -147,7 +147,7 @@ impl Search<'_> {
     ) {
         let (sin, cos) = sin_cos_of(Vector::load_array_ref(simd, angles));
         let t5 = Angle { sin, cos };
-        let Posed { link, equations } = self.posed;
+        let Posed { link, equations, .. } = self.posed;
         let (pose, equations) = (link.in_lanes(sin), Equated::One(equations));
         let rest = Rest::at(&equations, &sin, &cos, false);
         let ways = if is_cluster {

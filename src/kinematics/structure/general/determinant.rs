@@ -58,7 +58,7 @@ struct Pivot<S: Simd> {
 
 impl Posed {
     /// The determinant as a polynomial of t5 (eq. 91), with the noise of a pose that is rounded
-    /// (eq. 92): all of it is noise where it is zero at every angle.
+    /// (eq. 92): all of it is noise where it is zero at every angle, or says too little.
     pub(super) fn polynomial<S: Simd>(&self, simd: S, rounding: f64) -> TrigonometricPolynomial {
         // A function of its own for each instruction set: it is long.
         simd.vectorize(
@@ -69,6 +69,9 @@ impl Posed {
 
     #[inline(always)]
     fn sampled<S: Simd>(&self, simd: S, rounding: f64) -> TrigonometricPolynomial {
+        if !self.is_single {
+            return TrigonometricPolynomial::UNKNOWN;
+        }
         let zero = Vector::splat(simd, 0.0);
         let (mut samples, mut regular, mut change) = ([zero; SAMPLES / LANES], zero, zero);
         for block in 0..SAMPLES / LANES {

@@ -20,6 +20,14 @@ pub(super) type Equations = [Column; PRODUCTS];
 /// Number of splits: six rotations of the loop, each in two directions.
 pub(super) const SPLITS: usize = 12;
 
+/// Part of the moments along z up to which they do not change with the sine, or cosine, of an angle
+/// [1]: rounding of a table's angles.
+const OF_A_TABLE: f64 = 1e-10;
+
+/// The same for a pose: the root of the rounding that moves two roots which are as far apart, with
+/// room.
+const OF_A_POSE: f64 = 1e-6;
+
 /// A split of an arm, with all that does not depend on the pose.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Split {
@@ -48,11 +56,13 @@ pub(super) struct Split {
 pub(super) struct Posed {
     pub(super) link: PoseLink,
     pub(super) equations: Equations,
+    /// Whether a root has no more than one solution.
+    pub(super) is_single: bool,
 }
 
 impl Posed {
     pub(super) const NONE: Self =
-        Self { link: PoseLink::NONE, equations: [[0.0; LANES]; PRODUCTS] };
+        Self { link: PoseLink::NONE, equations: [[0.0; LANES]; PRODUCTS], is_single: true };
 }
 
 impl Split {
@@ -108,7 +118,7 @@ impl Split {
 
     /// Whether a root has no more than one solution as a rule.
     pub(super) fn is_single(&self) -> bool {
-        self.place <= 1 || self.left.tells_second()
+        self.place <= 1 || self.left.tells_second(OF_A_TABLE)
     }
 
     /// The joint that is searched, from 0.
@@ -187,7 +197,8 @@ impl Split {
             left = Left::of(&links[0], &links[1]);
         }
         let link = PoseLink { link: pose, inverse, second: left.second() };
-        let mut posed = Posed { link, ..Posed::NONE };
+        let is_single = self.place > 1 || left.tells_second(OF_A_POSE);
+        let mut posed = Posed { link, is_single, ..Posed::NONE };
         if self.place < 2 {
             let annihilator = left.annihilator();
             for (number, column) in posed.equations.iter_mut().enumerate() {

@@ -32,6 +32,9 @@ impl TrigonometricPolynomial {
     pub(super) const NONE: Self =
         Self { cos: [0.0; DEGREE + 1], sin: [0.0; DEGREE + 1], noise: 0.0 };
 
+    /// One of which nothing is known.
+    pub(crate) const UNKNOWN: Self = Self { noise: f64::INFINITY, ..Self::NONE };
+
     /// The polynomial through values at the [`SAMPLES`] angles `2 pi j / 24`, in that order. The
     /// harmonics 9 to 12 that the values contain are its noise (eq. 92).
     #[inline(always)]
