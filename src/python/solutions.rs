@@ -118,7 +118,7 @@ impl PySolutions {
     /// without a closed form that has none, how near it gets is then searched, which takes
     /// milliseconds.
     fn explain(&self) -> String {
-        on!(&self.found, found => found.explain().to_string())
+        on!(&self.found, found => format!("{}{}", found.explain(), found.solutions.reservation()))
     }
 
     /// Return the solutions inside the joint limits.

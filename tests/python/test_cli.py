@@ -143,6 +143,23 @@ def test_arrays_of_all_solutions_have_gaps(joints_csv, tmp_path):
     np.testing.assert_array_equal(np.load(q), ROBOT.ik_batch(wanted).q)
 
 
+def test_ik_says_where_there_may_be_more_solutions(tmp_path):
+    arm, poses = irbkin.Robot("CRX-10iA"), tmp_path / "poses.npy"
+    # Stretched to a self-motion, and not.
+    pose = arm.fk(np.radians([[-22, -180, 90, 90, 5, -180], [10, 20, 30, 40, 50, 60]]))
+    np.save(poses, pose)
+    words = "of 1 of 2 poses there may be more solutions: their number is not certified"
+    assert run("ik", "CRX-10iA", poses).stdout.decode().splitlines()[-1] == words
+    assert json.loads(run("ik", "CRX-10iA", poses, "--json").stdout)["uncertified"] == 1
+    answers = [arm.ik(one) for one in pose]
+    assert [answer.certified for answer in answers] == [False, True]
+    reservation = "; there may be more (not certified)"
+    assert [answer.explain().endswith(reservation) for answer in answers] == [True, False]
+    assert str(answers[0]).splitlines()[0] == answers[0].explain()
+    np.save(poses, pose[1:])
+    assert "certified" not in run("ik", "CRX-10iA", poses).stdout.decode()
+
+
 def test_seven_axes_take_q7():
     table = rows(
         run("ik", "Panda", "--xyz", 400, 0, 500, "--wxyz", 0, 1, 0, 0, "--q7", 45, "--csv")

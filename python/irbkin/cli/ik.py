@@ -157,7 +157,7 @@ def _write_all(
             return robot.check_pose(pose).reason
         return robot.ik(pose, q7, given=given).explain()
 
-    missed = Missed(reason)
+    missed, uncertain = Missed(reason), 0
     wanted = int(Status.WITHIN_LIMITS if arguments.within else Status.FOUND)
     with table(arguments, columns, heading) as rows, Progress("poses") as progress:
         for poses in parts:
@@ -169,6 +169,8 @@ def _write_all(
             array = np.where((found.status & wanted)[..., None] != 0, found.q, np.nan)
             rows.write([*numbers, slot, *postures.values(q)], array)
             missed.add(poses, is_within.any(axis=1))
+            is_uncertain = found.status & int(Status.UNCERTIFIED) != 0
+            uncertain += int(is_uncertain.any(axis=1).sum())
             progress.add(len(poses))
             if is_one:
                 for solution in robot.ik(poses[0], q7, given=given):
@@ -177,6 +179,10 @@ def _write_all(
                             f"slot {solution.slot}: J{free.joint} is free, {free.fixed} is fixed"
                         )
                         rows.note(f"free_joint_of_slot_{solution.slot}", free.joint, words)
+        if uncertain:
+            of = "" if is_one else f"of {uncertain} of {missed.rows} poses "
+            words = f"{of}there may be more solutions: their number is not certified"
+            rows.note("uncertified", uncertain, words)
     return missed.code()
 
 

@@ -50,10 +50,18 @@ impl<const N: usize> fmt::Display for Solution<N> {
     }
 }
 
+impl<const N: usize> Solutions<N> {
+    /// What is said behind the outcome: whether there may be more solutions.
+    pub(crate) fn reservation(&self) -> &'static str {
+        let may_have_more = !self.is_certified && !self.is_empty();
+        if may_have_more { "; there may be more (not certified)" } else { "" }
+    }
+}
+
 impl<const N: usize> fmt::Display for Solutions<N> {
     /// The outcome in a sentence, then a table with a line for each solution, angles in degrees.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.explain())?;
+        write!(f, "{}{}", self.explain(), self.reservation())?;
         if self.is_empty() {
             return Ok(());
         }
