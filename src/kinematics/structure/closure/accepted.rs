@@ -201,8 +201,10 @@ impl Accepted {
             // It is a solution, whatever could be told about what is next to it.
             if is_isolated || !is_told && closes && candidate.least * SAME > closure.accepts() {
                 let again = again.get_or_insert_with(|| closure.converged(target, &columns(all)));
-                let (theta, residual) = (again.theta(lane), again.residual[lane]);
-                self.insert(closure, Configuration { theta, residual, ..*candidate });
+                let one = again.configuration(lane);
+                // It may have come to a self-motion.
+                self.is_certain &= !is_isolated || one.least > ISOLATED;
+                self.insert(closure, one);
             }
         }
     }

@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 
 use super::chain::{Closure, Target, largest};
-use super::configuration::{Configuration, SINGULAR};
+use super::configuration::{Configuration, ISOLATED, SINGULAR};
 use super::reflections::Triangle;
 use crate::lanes::{
     Column, LANES, Number as _, Vector, VectorKernel, atan2_of, run_vectors, sin_cos_of,
@@ -159,7 +159,21 @@ impl Closure {
             let cos = is_last.select(cos[joint], best_cos[joint]);
             candidates.theta[joint] = atan2_of(sin, cos).to_array();
         }
+        // What is singular is examined anyway.
+        let mut returned = (!is_last & least.simd_gt(ISOLATED)).to_bitmask();
+        while returned != 0 {
+            self.measure_again(&mut candidates, returned.trailing_zeros() as usize);
+            returned &= returned - 1;
+        }
         candidates
+    }
+
+    /// The least singular value of a lane that has returned to where it was.
+    #[cold]
+    fn measure_again(&self, candidates: &mut Candidates, lane: usize) {
+        let theta = candidates.theta(lane);
+        let is_there = theta.iter().all(|angle| angle.is_finite());
+        candidates.least[lane] = if is_there { self.least_singular_value(&theta) } else { 0.0 };
     }
 }
 
