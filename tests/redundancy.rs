@@ -266,6 +266,56 @@ fn at_pairs_of_singularities_nearest_is_never_farther_than_the_known_joints() {
     }
 }
 
+/// Joints [deg] of a YuMi that bring axes 1, 3 and 5 into one line or nearly so: with any joint 7
+/// the other six move by themselves, and what reaches the pose is a surface.
+const ON_A_SURFACE: [[f64; 7]; 9] = [
+    [0.0, 0.0, 0.0, -90.0, 0.0, 0.0, 0.0],
+    [0.0, 0.0, 0.0, -90.0, 20.0, 0.0, 0.0],
+    [0.0, 0.0, 0.0, -90.0, -90.0, 0.0, 0.0],
+    [0.0, 0.0, 90.0, -90.0, 0.0, 0.0, 90.0],
+    [0.0, 0.0, 168.5, -90.0, -90.0, 0.0, -171.887],
+    [0.0, 0.0, 20.0, -90.0, 30.0, 0.0, 40.0],
+    [30.0, 0.0, 20.0, -90.0, 30.0, 0.0, 40.0],
+    [0.0, 0.0, 0.0, -89.9999, 0.0, 0.0, 0.0],
+    [0.0, 0.0, 0.0, -89.9, 0.0, 0.0, 0.0],
+];
+
+/// The search ends, too: refined without a bound, it would take minutes for each pose.
+#[test]
+fn on_a_surface_of_solutions_nearest_is_never_farther_than_the_known_joints() {
+    let arm = Arm::new("YuMi", Robot::named("IRB 14050").unwrap());
+    let (mut rng, mut tally) = (Rng::new(8), Tally::default());
+    for degrees in ON_A_SURFACE {
+        let q = degrees.map(f64::to_radians);
+        tally.take(&arm, &q, &q.map(|angle| angle + 0.02), ROUNDING);
+    }
+    // Joint 6 off the line leaves the surface at one angle of joint 7 alone.
+    for pose in 0..4 * poses() {
+        let mut eighth = |most: f64| FRAC_PI_2 / 2.0 * (rng.between(-most, most)).round();
+        let (q1, q3, q5, q6, q7) =
+            (eighth(3.4), eighth(3.4), eighth(5.4), eighth(2.4), eighth(4.4));
+        let q6 = if pose % 2 == 0 { 0.0 } else { q6 };
+        let q = [q1, 0.0, q3, -FRAC_PI_2, q5, q6, q7];
+        let seed = q.map(|angle| angle + rng.between(-0.1, 0.1));
+        tally.take(&arm, &q, &seed, ROUNDING);
+    }
+    assert_eq!(tally.asked, ON_A_SURFACE.len() + 4 * poses());
+    let row = tally.row("YuMi on a surface");
+    assert!(row.is_empty(), "\n{row}");
+}
+
+/// Limits that no member of the surface is inside: the search ends without an answer.
+#[test]
+fn a_surface_of_solutions_outside_the_limits_ends_the_search() {
+    let yumi = Robot::<7>::named("IRB 14050").unwrap();
+    let q = [0.0, 0.0, 0.0, -FRAC_PI_2, 0.0, 0.0, 0.0];
+    let mut limits = yumi.limits().to_array();
+    limits[1] = [0.35, 0.5];
+    let narrow = yumi.with_limits(JointLimits::new(limits).unwrap());
+    let error = narrow.ik_nearest(&narrow.fk(&q), &q, &WEIGHTS).unwrap_err();
+    assert!(matches!(error, irbkin::Error::Unreachable(_)), "{error}");
+}
+
 /// Where the curve of self-motion nearly crosses itself, each of its branches has a nearest point.
 /// The second one is past a bend that a step of the descent skips.
 #[test]

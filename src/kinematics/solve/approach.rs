@@ -59,19 +59,23 @@ where
     }
 
     fn approach_of(&self, pose: &Pose) -> Approach {
-        let rows = &self.mdh().rows;
-        let lengths: f64 = rows.iter().map(|row| row.a.abs() + row.d.abs()).sum();
         let mut nearest = (f64::INFINITY, [0.0; N]);
-        for index in 0..STARTS {
-            let found = self.minimized(pose, lengths, start(index));
+        for found in self.approaches(pose) {
             nearest = if found.0 < nearest.0 { found } else { nearest };
         }
         let residual = self.residual(&nearest.1, pose);
         Approach { position: residual.position, rotation: residual.rotation }
     }
 
-    /// The square of the way that is left at a minimum, and its joints.
-    fn minimized(&self, pose: &Pose, lengths: f64, start: [f64; N]) -> (f64, [f64; N]) {
+    /// The minima that are found from all over the range of joints, as [`Self::minimized`] has them.
+    pub(super) fn approaches(&self, pose: &Pose) -> impl Iterator<Item = (f64, [f64; N])> {
+        (0..STARTS).map(|index| self.minimized(pose, start(index)))
+    }
+
+    /// The square of the way that is left at the minimum next to a joint vector, and its joints.
+    pub(super) fn minimized(&self, pose: &Pose, start: [f64; N]) -> (f64, [f64; N]) {
+        let rows = &self.mdh().rows;
+        let lengths: f64 = rows.iter().map(|row| row.a.abs() + row.d.abs()).sum();
         let mut q = self.with_joint_7_inside(start);
         let mut way = self.way(pose, lengths, &q);
         let mut damping = DAMPING;

@@ -33,7 +33,7 @@ const SLIDES: u32 = 16;
 const SWEEPS: usize = 100;
 
 /// Least relative gain of a step in cost to be followed by another [1].
-const LEAST_GAIN: f64 = 1e-12;
+pub(super) const LEAST_GAIN: f64 = 1e-12;
 
 /// Singular values of the Jacobian, relative to the greatest, below which joints do not move the
 /// tool [1]: values between rounding and this belong to a curve that descents follow.
@@ -43,7 +43,7 @@ const STILL: f64 = 1e-6;
 const LEAST_WEIGHT: f64 = 1e-8;
 
 /// Weight of a joint that is locked at its limit [1].
-const LOCKED: f64 = 1e24;
+pub(super) const LOCKED: f64 = 1e24;
 
 /// The motions of the joints in the metric of the weights: each angle times the root of its weight.
 pub(super) struct Scaled {
@@ -59,6 +59,10 @@ impl Search<'_> {
     /// Search the nearest of the joint vectors among which the undetermined joints choose, starting
     /// from those of a sample.
     pub(super) fn choose_free_joints(&mut self, sample: &Sample) -> Result<(), Error> {
+        if !self.are_named {
+            self.choose_member(sample);
+            return Ok(());
+        }
         let mut best = *sample;
         for joint in UNDETERMINED {
             if let Some(found) = self.choose(&best.q, joint)?
@@ -98,7 +102,7 @@ impl Search<'_> {
 
     /// The part of the way to the seed that does not move the tool, without small moves of it: in
     /// the metric of `weights`, the nearest point in the seed's linear neighborhood.
-    fn still_tool(&self, q: &[f64; 7], weights: &[f64; 7]) -> Option<[f64; 7]> {
+    pub(super) fn still_tool(&self, q: &[f64; 7], weights: &[f64; 7]) -> Option<[f64; 7]> {
         let Scaled { roots, mut way, sizes, rows } = self.scaled(q, weights)?;
         let greatest = sizes.max();
         for (row, size) in rows.row_iter().zip(&sizes) {
@@ -123,7 +127,7 @@ impl Search<'_> {
     }
 
     /// The fraction of a way that stays inside the limits, and the joint that ends it.
-    fn inside_part(
+    pub(super) fn inside_part(
         &self,
         q: &[f64; 7],
         way: &[f64; 7],

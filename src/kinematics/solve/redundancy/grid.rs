@@ -17,6 +17,10 @@ use crate::kinematics::thresholds::SAMPLE_LEAP;
 /// How often the interval between two samples is bisected where a joint moves far between them.
 const DEPTH: u32 = 12;
 
+/// Bisections of one sweep, at most: those that find where each of 16 branches begins and ends.
+/// Random poses take up to two thirds of them.
+const BISECTIONS: u32 = 2 * 16 * DEPTH;
+
 /// Least number of intervals between two marks: half a turn of joint 5 in steps far below
 /// [`SAMPLE_LEAP`], so that two valleys near an edge are resolved.
 const LEAST_INTERVALS: f64 = 16.0;
@@ -50,6 +54,7 @@ impl Search<'_> {
     /// descend from the minima of each slot.
     pub(super) fn between_edges(&mut self, spacing: f64) -> Result<(), Error> {
         let Some(marks) = self.marks() else { return Ok(()) };
+        self.bisections = BISECTIONS;
         let mut left = self.samples_at(marks.angles[0])?;
         let mut seen = [Samples::NONE, left];
         for (low, high) in marks.pairs() {
@@ -101,7 +106,9 @@ impl Search<'_> {
         right: &Samples,
         depth: u32,
     ) -> Result<(), Error> {
-        if depth < DEPTH && left.leap_to(right) {
+        let may_bisect = depth < DEPTH && self.bisections > 0 && self.uncertain > 0;
+        if may_bisect && left.leap_to(right) {
+            self.bisections -= 1;
             let middle = self.samples_at(0.5 * (left.q7 + right.q7))?;
             self.between(seen, left, &middle, depth + 1)?;
             return self.between(seen, &middle, right, depth + 1);

@@ -4,12 +4,13 @@
 //! docs/spherical_shoulder.md, section 5, has the method and its guarantees. [`grid`] samples joint
 //! 7 between the edges of reach, [`descent`] descends the valleys of the cost that it finds,
 //! [`crossing`] continues on the other branch where the curve nearly crosses itself, and
-//! [`free_joints`] chooses the joints that a pose leaves undetermined.
+//! [`free_joints`] and [`members`] choose the joints that a pose leaves undetermined.
 
 mod crossing;
 mod descent;
 mod free_joints;
 mod grid;
+mod members;
 mod samples;
 
 use core::cmp::Ordering;
@@ -35,6 +36,11 @@ use crate::kinematics::thresholds::{
     JOINT_7_FINER_SPACING, JOINT_7_SPACING, POSITION_ROUNDING, ROTATION_ROUNDING,
 };
 use crate::report::Explanation;
+
+/// Answers that may lack solutions, of those at a singularity, until samples are no longer refined:
+/// one takes a hundred times as long as another, some milliseconds, and what it lacks looks like
+/// the end of a branch.
+const MOST_UNCERTAIN: u32 = 96;
 
 impl Robot<7> {
     pub(in crate::kinematics) fn nearest_along_redundancy(
@@ -85,6 +91,8 @@ impl Robot<7> {
             best: None,
             nearly: None,
             missed: Missed::NOTHING,
+            bisections: 0,
+            uncertain: MOST_UNCERTAIN,
         };
         search.run()?;
         Ok(search)
@@ -166,6 +174,10 @@ struct Search<'a> {
     /// slightly beyond reach.
     nearly: Option<(f64, [f64; 7])>,
     missed: Missed,
+    /// Intervals of joint 7 that may still be bisected in this sweep.
+    bisections: u32,
+    /// Answers that may lack solutions, after which samples are no longer refined.
+    uncertain: u32,
 }
 
 impl Search<'_> {
@@ -178,13 +190,21 @@ impl Search<'_> {
             return Ok(());
         }
         // The solution that continues from the seed, with its joint 7 and along the curve.
-        self.samples(&self.seed.clone())?;
+        let at_seed = self.samples(&self.seed.clone())?;
         if let Some(start) = self.curve.nearest(&Joints::from(self.seed)) {
             self.descend(start);
         }
+        if !self.are_named {
+            self.start_at(&self.seed.clone());
+            let chosen = at_seed.slots.iter().flatten().filter(|sample| sample.is_chosen);
+            chosen.for_each(|sample| self.choose_member(sample));
+        }
         self.between_edges(JOINT_7_SPACING)?;
-        if self.best.is_none() && self.missed.shortfall == 0.0 {
+        if self.best.is_none() && self.missed.shortfall == 0.0 && self.uncertain > 0 {
             self.between_edges(JOINT_7_FINER_SPACING)?;
+        }
+        if self.nearest().is_none() && !self.are_named {
+            self.start_anywhere();
         }
         self.look_across();
         if self.nearest().is_none() && self.missed.shortfall > 0.0 {
@@ -209,6 +229,11 @@ impl Search<'_> {
         } else if cheaper(self.nearly) {
             self.nearly = Some((cost, *q));
         }
+    }
+
+    /// A joint vector at its 2 pi equivalents nearest to the seed, if those are inside the limits.
+    fn turned(&self, q: &[f64; 7]) -> [f64; 7] {
+        self.robot.limits().wrapped_near(q, &self.seed).unwrap_or(*q)
     }
 
     fn miss(&mut self, shortfall: f64, outside: f64, explanation: Explanation) {

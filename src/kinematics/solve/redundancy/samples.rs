@@ -24,6 +24,9 @@ pub(super) struct Sample {
     /// Whether the pose may leave a joint besides joint 7 undetermined: a straight elbow may leave
     /// the shoulder on axis 5 to rounding.
     pub(super) is_free: bool,
+    /// Whether it is one of a self-motion at its angle of joint 7. Which one, a solve chooses: it
+    /// shows nothing of where others end or how far they move.
+    pub(super) is_chosen: bool,
 }
 
 impl Sample {
@@ -76,7 +79,8 @@ impl Samples {
     pub(super) fn leap_to(&self, other: &Self) -> bool {
         if !(self.are_named && other.are_named) {
             let is_alone = |sample: &Sample, others: &Self| {
-                others.slots.iter().flatten().all(|other| sample.leaps_to(other))
+                !sample.is_chosen
+                    && others.slots.iter().flatten().all(|other| sample.leaps_to(other))
             };
             return self.slots.iter().flatten().any(|sample| is_alone(sample, other))
                 || other.slots.iter().flatten().any(|sample| is_alone(sample, self));
@@ -107,15 +111,16 @@ impl Search<'_> {
     /// The solutions with joint 7, and the other undetermined joints, at their values in `rest`.
     pub(super) fn samples(&mut self, rest: &[f64; 7]) -> Result<Samples, Error> {
         let solutions = self.robot.solve(*self.pose, &FreeChoice::seed(*rest))?;
+        if !(self.are_named || solutions.is_certified()) {
+            self.uncertain = self.uncertain.saturating_sub(1);
+        }
         let slots = core::array::from_fn(|slot| {
             let solution = solutions.slot(slot)?;
-            let q = self.robot.limits().wrapped_near(&solution.q, &self.seed).unwrap_or(solution.q);
+            let is_chosen = solution.free_joint.is_some();
             Some(Sample {
-                q,
-                joints_outside: self.joints_outside(&q),
-                outside: self.outside(&q),
-                cost: self.cost(&q),
-                is_free: solution.free_joint.is_some() || solution.status.contains(Status::ELBOW),
+                is_free: is_chosen || solution.status.contains(Status::ELBOW),
+                is_chosen,
+                ..self.sample(self.turned(&solution.q))
             })
         });
         slots.iter().flatten().for_each(|sample: &Sample| self.keep(&sample.q));
@@ -127,6 +132,18 @@ impl Search<'_> {
             .fold(f64::INFINITY, f64::min);
         self.miss(solutions.reach().shortfall(), outside, solutions.explain());
         Ok(Samples { q7: rest[6], are_named: self.are_named, slots })
+    }
+
+    /// A joint vector of the pose.
+    pub(super) fn sample(&self, q: [f64; 7]) -> Sample {
+        Sample {
+            q,
+            joints_outside: self.joints_outside(&q),
+            outside: self.outside(&q),
+            cost: self.cost(&q),
+            is_free: false,
+            is_chosen: false,
+        }
     }
 
     /// The solutions with joint 7 at an angle, the other undetermined joints at the seed's.
