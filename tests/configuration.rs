@@ -6,8 +6,8 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::common::{Rng, apart, asked_set};
 use irbkin::{
-    CatalogGeometry, Configuration, Error, JointLimits, OpwParameters, Robot, Solution, Status,
-    catalog, thresholds::CONFIGURATION_EDGE,
+    CatalogGeometry, Configuration, ConfigurationRequest, Error, FreeJoint, JointLimits,
+    OpwParameters, Robot, Solution, Status, catalog, thresholds::CONFIGURATION_EDGE,
 };
 
 const SLOTS: usize = 8;
@@ -374,4 +374,24 @@ fn the_configuration_of_a_coupled_arm_has_no_slot() {
         apart(&robot.ik_configured(&robot.fk(&q), configuration(0, 0, 0, 0)).unwrap().q, &q)
             < 1e-12
     );
+}
+
+#[test]
+fn two_axes_of_a_yumi_on_one_line_leave_a_joint_free() {
+    let robot = Robot::<7>::named("IRB 14050").unwrap();
+    for (degrees, free) in [
+        ([20.0, -60.0, 40.0, 10.0, 30.0, 0.0, 50.0], FreeJoint::LastSum),
+        ([20.0, 0.0, 40.0, 10.0, 30.0, 50.0, 70.0], FreeJoint::ShoulderSum),
+    ] {
+        let q = degrees.map(f64::to_radians);
+        let (pose, arm_angle) = (robot.fk(&q), robot.arm_angle(&q).unwrap().unwrap());
+        let request = ConfigurationRequest::from(robot.configuration(&q).unwrap());
+        let found = robot.ik_configured(&pose, request.at_arm_angle(arm_angle).near(q)).unwrap();
+        assert_eq!(found.free_joint, Some(free));
+        assert!(found.q.iter().zip(q).all(|(found, q)| (found - q).abs() < 1e-6), "{found:?}");
+        let moved = robot.with_free_joint(&pose, &found, 0.1).unwrap().unwrap();
+        assert!((moved.q[free.joint() - 1] - 0.1).abs() < 1e-15);
+        assert!(robot.residual(&moved.q, &pose).largest() < 1e-12);
+        assert!((robot.arm_angle(&moved.q).unwrap().unwrap() - arm_angle).abs() < 1e-9);
+    }
 }

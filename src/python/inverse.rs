@@ -318,7 +318,9 @@ impl PyRobot {
     /// Every solution of a pose that has an arm angle, of a YuMi.
     ///
     /// The search follows the arm's self-motion from all solutions at angles of the last joint,
-    /// then of the first, one degree apart. It may miss a self-motion that turns both by less.
+    /// then of the first, one degree apart, then at one angle of ABB's axis 7. It may miss a
+    /// self-motion that turns the two by less. Where two axes are one line, one joint vector
+    /// represents those that share the sum of their angles.
     ///
     /// Args:
     ///     T: Pose of the tool, shape (4, 4), translation [m].

@@ -28,6 +28,9 @@ pub enum FreeJoint {
     /// The shoulder of a seven-axis arm is on axis 6: q6 is free, q4 and q5 are fixed, the
     /// shoulder's joints follow.
     Hand,
+    /// Axes 4 and 6 of a YuMi, its joints 5 and 7, are one: q5 is free, q5 + q7 is fixed, and so is
+    /// the arm angle.
+    LastSum,
     /// A chain without a closed form moves with its ends standing still: the first joint that moves
     /// is free.
     Chain {
@@ -101,7 +104,7 @@ const fn standing(moving: u8) -> &'static str {
 impl FreeJoint {
     /// Every one of them but those of a chain.
     #[cfg(any(test, feature = "python"))]
-    const ALL: [Self; 10] = [
+    const ALL: [Self; 11] = [
         Self::Base,
         Self::Upper,
         Self::UpperCoupled,
@@ -112,6 +115,7 @@ impl FreeJoint {
         Self::ShoulderDifference,
         Self::Forearm,
         Self::Hand,
+        Self::LastSum,
     ];
 
     /// Every one of them.
@@ -138,6 +142,7 @@ impl FreeJoint {
             Self::ShoulderDifference => (1, "q1 - q3", Rest::Partner(3, -1.0)),
             Self::Forearm => (5, "q4, q6", Rest::Still(&[4, 6])),
             Self::Hand => (6, "q4, q5", Rest::Still(&[4, 5])),
+            Self::LastSum => (5, "q5 + q7", Rest::Partner(7, 1.0)),
             Self::Chain { moving } => {
                 (moving.trailing_zeros() as usize + 1, standing(moving), Rest::Still(&[]))
             }
@@ -205,6 +210,6 @@ mod tests {
         assert_eq!(chain([true; 6]).fixed(), "nothing");
         assert_eq!(chain([false, true, true, true, true, true]).joint(), 2);
         assert_eq!(FreeJoint::of_chain([false; 6]), None);
-        assert_eq!(FreeJoint::all().count(), 10 + 63);
+        assert_eq!(FreeJoint::all().count(), 11 + 63);
     }
 }

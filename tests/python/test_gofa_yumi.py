@@ -223,3 +223,106 @@ def test_a_configuration_that_exists_is_found_where_its_ranges_hold_little_of_th
         assert np.abs(robot.fk(found) - T).max() <= 1e-9
     assert np.array_equal(robot.ik_configured(T, confdata, arm_angle=psi), every[0])
     assert np.abs(robot.ik_configured(T, confdata, arm_angle=psi, seed=q) - q).max() <= 1e-9
+
+
+GOFA_10 = irbkin.Robot("GoFa 10")
+
+
+def at_special_angles(robot, rng, part):
+    """Joints inside the limits, a part of them at multiples of 90 deg or at a limit."""
+    low, high = robot.limits.T
+    q = rng.uniform(low, high)
+    for joint in np.flatnonzero(rng.random(6) < part):
+        quarters = np.arange(-4, 5) * np.pi / 2
+        inside = quarters[(quarters >= low[joint]) & (quarters <= high[joint])]
+        q[joint] = rng.choice([*inside, low[joint], high[joint]])
+    return q
+
+
+@pytest.mark.parametrize("robot", [GOFA["gofa5"], GOFA_10, GOFA["gofa12"]], ids=str)
+@pytest.mark.parametrize("part", [0.0, 0.3, 0.6, 1.0])
+def test_joints_of_a_gofa_are_among_those_of_their_configuration(robot, part):
+    rng = np.random.default_rng(7)
+    for _ in range(150):
+        q = at_special_angles(robot, rng, part)
+        T, confdata = robot.fk(q), robot.configuration(q)
+        # Of a self-motion, or of several that rounding does not tell apart, the seed names one.
+        is_singular = np.linalg.svd(robot.jacobian(q))[1][-1] < 1e-6
+        found = robot.ik_configured_all(T, confdata, seed=q if is_singular else None)
+        assert np.abs(found - q).max(axis=1).min() <= 1e-6, np.degrees(q)
+        assert np.abs(robot.fk(found) - T).max() <= 3e-9, np.degrees(q)
+        first = robot.ik_configured(T, confdata, seed=q)
+        assert np.abs(first - q).max() <= 1e-6, np.degrees(q)
+
+
+@pytest.mark.parametrize("robot", [GOFA["gofa5"], GOFA_10, GOFA["gofa12"]], ids=str)
+@pytest.mark.parametrize("axis_5", [-180, 180, 0, -0.009, 0.009])
+def test_axis_5_of_a_gofa_at_an_edge_loses_no_joints(robot, axis_5):
+    rng = np.random.default_rng(8)
+    for _ in range(150):
+        q = rng.uniform(*robot.limits.T)
+        q[4] = np.radians(axis_5)
+        T, confdata = robot.fk(q), robot.configuration(q)
+        found = robot.ik_configured_all(T, confdata)
+        assert np.abs(found - q).max(axis=1).min() <= 1e-6, np.degrees(q)
+        if abs(axis_5) < 1:
+            # The other side of the edge, too: after those that have the confdata exactly.
+            other = confdata._replace(cfx=confdata.cfx ^ 1)
+            found = robot.ik_configured_all(T, other)
+            assert np.abs(found - q).max(axis=1).min() <= 1e-6, np.degrees(q)
+
+
+def wrapped(angle):
+    return (angle + np.pi) % (2 * np.pi) - np.pi
+
+
+def of_its_numbers(robot, q, seed=None):
+    """The joints with the pose, confdata and arm angle of others; few, and each has them."""
+    T, confdata, psi = robot.fk(q), robot.configuration(q), robot.arm_angle(q)
+    found = robot.ik_configured_all(T, confdata, arm_angle=psi, seed=seed)
+    assert len(found) <= 3
+    assert np.abs(robot.fk(found) - T).max() <= 1e-8
+    assert all(abs(wrapped(robot.arm_angle(one) - psi)) <= 1e-6 for one in found)
+    return found
+
+
+@pytest.mark.parametrize("off", [0, 1e-6, 1e-4, 0.01])
+@pytest.mark.parametrize("arm", YUMI)
+def test_joints_of_a_yumi_are_found_where_axes_7_and_4_are_one_line(arm, off):
+    robot, rng = YUMI[arm], np.random.default_rng(1)
+    for _ in range(25):
+        q = rng.uniform(*robot.limits.T)
+        q[3] = off - np.pi / 2
+        assert np.abs(of_its_numbers(robot, q) - q).max(axis=1).min() <= 1e-6, q
+
+
+@pytest.mark.parametrize("off", [0, 1e-10, 1e-9])
+@pytest.mark.parametrize(("one", "between", "other"), [(0, 1, 2), (4, 5, 6)])
+def test_two_axes_of_a_yumi_on_one_line_have_one_representative(one, between, other, off):
+    robot, rng = YUMI["14050"], np.random.default_rng(2)
+
+    def shared(q):
+        sums = np.copy(q)
+        sums[..., one], sums[..., other] = 0, q[..., one] + q[..., other]
+        return sums
+
+    for _ in range(25):
+        q = rng.uniform(*robot.limits.T)
+        q[between] = off
+        found = of_its_numbers(robot, q)
+        apart = np.abs(wrapped(shared(found) - shared(q))).max(axis=1)
+        assert (apart <= 1e-4).sum() == 1, q
+        assert np.abs(of_its_numbers(robot, q, seed=q) - q).max(axis=1).min() <= 1e-6, q
+
+
+def test_the_representative_of_a_yumi_is_the_one_nearest_to_the_seed():
+    robot = YUMI["14050"]
+    q = np.radians([20, -60, 40, 10, 30, 0, 50])
+    T, confdata, psi = robot.fk(q), robot.configuration(q), robot.arm_angle(q)
+    (rest,) = np.degrees(robot.ik_configured_all(T, confdata, arm_angle=psi))
+    assert np.abs(rest - [20, -60, 40, 10, 35, 0, 45]).max() < 1e-6
+    seed = np.radians([20, -60, 40, 10, 20, 0, 50])
+    (near,) = np.degrees(robot.ik_configured_all(T, confdata, arm_angle=psi, seed=seed))
+    assert np.abs(near - [20, -60, 40, 10, 25, 0, 55]).max() < 1e-6
+    every = np.degrees(robot.ik_arm_angle(T, psi))
+    assert (np.abs(every[:, :4] - [20, -60, 40, 10]).max(axis=1) < 1e-4).sum() == 1

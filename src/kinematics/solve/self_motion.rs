@@ -58,6 +58,11 @@ where
         let found = if let FreeJoint::Chain { .. } = free {
             let member = self.solver().arm().member(pose, &solution.q, joint, value);
             member.map(|q| Solution { q: self.limits().wrap(q), ..*solution })
+        } else if let Some((partner, sign)) = free.partner().filter(|_| self.own_rule().is_some()) {
+            // Of a YuMi, whose other joints are no closed form.
+            let mut q = solution.q;
+            q[partner - 1] += sign * (q[joint] - value);
+            Some(Solution { q: self.limits().wrap(q), ..*solution })
         } else {
             let solutions = self.solve_with_free_joint(pose, solution, free, value)?;
             // The same branch, or the one that it becomes.

@@ -1,16 +1,17 @@
 //! Searches the joint vectors of a pose that have an arm angle.
 //!
-//! All solutions at some angles of one joint, the last or the first, are points of the curves on
+//! All solutions at some angles of one joint, the last or another, are points of the curves on
 //! which the arm moves while its tool stands still. Each curve is followed from one of these angles
 //! to the next, past the places where the joint turns back; where the arm angle passes the wanted
 //! one, Newton's method finds it.
 
-use core::f64::consts::PI;
+use core::f64::consts::{PI, TAU};
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::arm_angle::ArmAngle;
+use super::coaxial;
 use crate::error::Error;
 use crate::kinematics::answer::slot::{MOST_SLOTS, Slot};
 use crate::kinematics::answer::solutions::Solution;
@@ -44,6 +45,10 @@ const NEAR: f64 = 0.02;
 /// Angle by which joints differ from those of another solution, at least [rad].
 const APART: f64 = 1e-6;
 
+/// Angle by which what the members of a self-motion have in common differs from that of another, at
+/// least [rad]: along it, it may change by as much as the arm angle may, and a singularity adds.
+const FREE_APART: f64 = 1e-5;
+
 /// Number of solutions of one pose and arm angle that are kept: the most seen is sixteen.
 pub(super) const MOST: usize = 48;
 
@@ -64,8 +69,8 @@ pub(super) struct Search<'a> {
     pub(super) curve: SelfMotion<'a>,
     pub(super) angle: ArmAngle<'a>,
     pub(super) wanted: f64,
-    /// The arm with its first joint given, if that one has the sections; otherwise the last has.
-    pub(super) first: Option<GivenJoint>,
+    /// The arm with the joint of the sections given, if that is not the last.
+    pub(super) given: Option<GivenJoint>,
     pub(super) found: Found,
 }
 
@@ -76,12 +81,15 @@ fn largest_difference(a: &[f64; 7], b: &[f64; 7]) -> f64 {
 impl Search<'_> {
     /// The joint of the sections, from 0.
     fn joint(&self) -> usize {
-        if self.first.is_some() { 0 } else { 6 }
+        self.given.as_ref().map_or(6, |given| given.joint() - 1)
     }
 
     /// Search with the joint of the sections between two angles.
     pub(super) fn run(&mut self, [from, to]: [f64; 2]) -> Result<(), Error> {
-        let count = ((to - from) / SPACING).ceil().max(1.0);
+        // Another angle of a joint between the ends is another chain: one section, all around.
+        let is_between = self.given.as_ref().is_some_and(|given| !given.is_at_end());
+        let spacing = if is_between { TAU } else { SPACING };
+        let count = ((to - from) / spacing).ceil().max(1.0);
         let mut before = self.section(from)?;
         let mut number = 1.0;
         while number <= count {
@@ -101,13 +109,18 @@ impl Search<'_> {
     }
 
     fn section(&self, at: f64) -> Result<Section, Error> {
-        let found = match &self.first {
-            Some(first) => first.ik_checked(self.curve.pose, at)?,
+        let found = match &self.given {
+            Some(given) => {
+                let angle = if given.is_at_end() { at } else { given.angle() };
+                given.ik_checked(self.curve.pose, angle)?
+            }
             None => self.curve.robot.ik_checked(*self.curve.pose, at)?,
         };
         let mut solutions = [None; MOST_SLOTS];
         for (place, solution) in solutions.iter_mut().zip(&found) {
-            *place = Some(solution.q);
+            let mut q = solution.q;
+            q[self.joint()] = at;
+            *place = Some(q);
         }
         Ok(Section { at, solutions, passed: [false; MOST_SLOTS] })
     }
@@ -181,22 +194,35 @@ impl Search<'_> {
         };
         let Some(point) = self.curve.newton(Joints::from(*near), seventh) else { return };
         let q = self.curve.robot.limits().wrap(point.joints().map(wrap));
-        if self.off(&q).is_some_and(|off| off.abs() <= ARM_ANGLE_OFF) {
+        if self.has_wanted(&q) {
             self.keep(q);
         }
     }
 
+    fn has_wanted(&self, q: &[f64; 7]) -> bool {
+        self.off(q).is_some_and(|off| off.abs() <= ARM_ANGLE_OFF)
+    }
+
     fn keep(&mut self, q: [f64; 7]) {
-        let known = |found: &Solution<7>| largest_difference(&found.q, &q) <= APART;
-        if self.found.iter().flatten().any(known) {
-            return;
-        }
         let robot = self.curve.robot;
         let mut status = Status::FOUND | Status::from(robot.singularity(&q).kinds);
         status.set(Status::WITHIN_LIMITS, robot.limits().contains(&q));
         let slot = robot.slot_of(&q).unwrap_or(Slot::new(0));
+        let one = Solution { q, slot, status, free_joint: None };
+        let (limits, rest) = (robot.limits(), robot.limits().rest());
+        let has_arm_angle = |q: &[f64; 7]| self.has_wanted(q);
+        let member = self.curve.member_nearest(&one, limits, &rest, has_arm_angle);
+        let solution = member.unwrap_or(one);
+        let apart = if solution.free_joint.is_some() { FREE_APART } else { APART };
+        let known = |found: &Solution<7>| {
+            found.free_joint == solution.free_joint
+                && largest_difference(&coaxial::shared(found), &coaxial::shared(&solution)) <= apart
+        };
+        if self.found.iter().flatten().any(known) {
+            return;
+        }
         if let Some(place) = self.found.iter_mut().find(|place| place.is_none()) {
-            *place = Some(Solution { q, slot, status, free_joint: None });
+            *place = Some(solution);
         }
     }
 }

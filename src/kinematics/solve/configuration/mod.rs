@@ -3,6 +3,7 @@
 
 mod arm_angle;
 mod arm_angle_search;
+mod coaxial;
 mod having;
 mod request;
 mod rule;

@@ -2,12 +2,17 @@
 
 use alloc::vec::Vec;
 
+use super::having::{BEYOND, EDGE_ROUNDING};
 use super::request::ConfigurationRequest;
+use super::rule::Quarters;
 use crate::error::{Error, ModelFault, NoConfiguration};
 use crate::kinematics::answer::check::check_seed;
 use crate::kinematics::answer::solutions::{Solution, Solutions};
+use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
+use crate::kinematics::solve::nearest::Wanted;
+use crate::kinematics::thresholds::CONFIGURATION_EDGE;
 use crate::report::{Configuration, ConfigurationRule};
 
 impl Robot<6> {
@@ -42,11 +47,42 @@ impl Robot<6> {
             return self.configured_wrist(arm, *pose, wanted);
         }
         let solutions = self.ik_checked(*pose, ())?;
-        let having = self.having(&rule, &solutions.iter().copied(), wanted);
-        match having.and_then(|having| having.nearest(seed)) {
-            Some(nearest) => Ok(nearest),
-            None => Err(self.no_configuration(&rule, &solutions, wanted)?),
+        let near = self.having_near(&rule, &solutions, wanted, seed)?;
+        let members = with_near(&solutions, near);
+        for beyond in BEYOND {
+            let having = self.having(&rule, &members, wanted, beyond);
+            if let Some(nearest) = having.and_then(|having| having.nearest(seed)) {
+                return Ok(nearest);
+            }
         }
+        Err(self.no_configuration(&rule, &solutions, wanted)?)
+    }
+
+    /// Of a singular pose, the joint vector inside the limits that has a configuration and is
+    /// nearest to a seed: perhaps another member of a self-motion than its representative, or one
+    /// that rounding has moved over a limit.
+    fn having_near(
+        &self,
+        rule: &ConfigurationRule,
+        solutions: &Solutions<6>,
+        wanted: Configuration,
+        seed: &[f64; 6],
+    ) -> Result<Option<Solution<6>>, Error> {
+        if self.are_regular(solutions) && solutions.is_certified() {
+            return Ok(None);
+        }
+        for edge in [0.0, CONFIGURATION_EDGE] {
+            let ranges = Quarters::of(rule).ranges(wanted, edge);
+            let Some(limits) = self.limits().narrowed(&ranges) else { continue };
+            let edge = edge.max(EDGE_ROUNDING);
+            let accepts = |found: &Solution<6>| self.has_sides(rule, &found.q, wanted, edge);
+            let asked = Wanted { limits, seed, weights: &[1.0; 6], accepts: &accepts };
+            let found = self.nearest_at_singularity(solutions, &asked)?;
+            if found.is_some() {
+                return Ok(found);
+            }
+        }
+        Ok(None)
     }
 
     /// Every solution that has the configuration of a request, the nearest to a seed first.
@@ -61,10 +97,14 @@ impl Robot<6> {
             return Ok(Vec::from([self.configured_near(pose, request, seed)?]));
         }
         let solutions = self.ik_checked(*pose, ())?;
-        match self.having(&rule, &solutions.iter().copied(), wanted) {
-            Some(having) => Ok(having.all(seed)),
-            None => Err(self.no_configuration(&rule, &solutions, wanted)?),
+        let near = self.having_near(&rule, &solutions, wanted, seed)?;
+        let members = with_near(&solutions, near);
+        for beyond in BEYOND {
+            if let Some(having) = self.having(&rule, &members, wanted, beyond) {
+                return Ok(having.all(seed));
+            }
         }
+        Err(self.no_configuration(&rule, &solutions, wanted)?)
     }
 
     /// The rule of the arm, for a request that fits it.
@@ -103,4 +143,20 @@ impl Robot<6> {
         }
         Ok(Error::NoConfiguration(none))
     }
+}
+
+/// The solutions of a pose and one near some of them, which replaces its equals and the
+/// representative of its self-motion.
+fn with_near(
+    solutions: &Solutions<6>,
+    near: Option<Solution<6>>,
+) -> impl Iterator<Item = Solution<6>> + Clone + '_ {
+    let is_replaced = move |solution: &Solution<6>| {
+        near.is_some_and(|near| {
+            let mut pairs = solution.q.iter().zip(near.q);
+            (solution.free_joint.is_some() && solution.slot == near.slot)
+                || pairs.all(|(one, other)| wrap(one - other).abs() <= EDGE_ROUNDING)
+        })
+    };
+    solutions.iter().copied().filter(move |solution| !is_replaced(solution)).chain(near)
 }

@@ -1,21 +1,31 @@
 //! The joint vectors of a YuMi with an arm angle, and with a configuration.
 
-use core::f64::consts::{PI, TAU};
+use core::f64::consts::TAU;
 
 use alloc::vec::Vec;
 
 use super::arm_angle::ArmAngle;
 use super::arm_angle_search::{Found, MOST, Search};
+use super::having::BEYOND;
 use super::request::ConfigurationRequest;
 use super::rule::Quarters;
 use crate::error::{Error, JointFault, ModelFault, NoConfiguration};
 use crate::kinematics::answer::check::{check_arm_angle, check_seed};
 use crate::kinematics::answer::solutions::Solution;
+use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::self_motion_curve::SelfMotion;
-use crate::kinematics::thresholds::{CONFIGURATION_EDGE, TAUGHT_BEYOND_LIMITS};
+use crate::kinematics::thresholds::{ARM_ANGLE_OFF, CONFIGURATION_EDGE, TAUGHT_BEYOND_LIMITS};
 use crate::report::{Configuration, ConfigurationRule, Explanation};
+
+/// The joint, from 1, that is searched besides the last and the first: ABB's axis 7. Where axis 3
+/// is at -90 deg, axes 7 and 4 are one line and turn with the last and the first joint standing
+/// still.
+const BETWEEN: usize = 3;
+
+/// A turn of a joint [rad]. Its ends are no angle at which axes of the arm are parallel.
+const AROUND: [f64; 2] = [1.0 - TAU, 1.0];
 
 impl Robot<7> {
     /// The arm angle of joint angles [rad], as a YuMi's controller has it in the `eax_a` of a
@@ -37,7 +47,9 @@ impl Robot<7> {
     /// or not.
     ///
     /// The search follows the arm's self-motion from all solutions at angles of the last joint,
-    /// then of the first, one degree apart. It may miss a self-motion that turns both by less.
+    /// then of the first, one degree apart, then at one angle of ABB's axis 7. It may miss a
+    /// self-motion that turns the two by less. Where two axes are one line, one joint vector
+    /// represents those that share the sum of their angles, with its `free_joint`.
     ///
     /// # Errors
     ///
@@ -59,26 +71,58 @@ impl Robot<7> {
         let (rule, wanted) = (self.configuration_rule()?, request.configuration);
         wanted.check(false)?;
         let arm_angle = request.arm_angle.ok_or(JointFault::MissingArmAngle)?;
+        let mut found = [None; MOST];
+        let having = |found: &Found| self.having_at(&rule, pose, found, request, seed);
         let [first, _, last] = Quarters::of(&rule).ranges(wanted, CONFIGURATION_EDGE);
         let limits = self.limits().widened(TAUGHT_BEYOND_LIMITS).narrowed(&[first, last]);
         if let Some([first, .., last]) = limits.map(|limits| limits.to_array()) {
-            let mut found = self.at_arm_angle(pose, arm_angle, last, None)?;
-            let has_it = |found: &Found| {
-                self.having(&rule, &found.iter().flatten().copied(), wanted).is_some()
-            };
-            if !has_it(&found) {
-                found = self.at_arm_angle(pose, arm_angle, first, Some(&found))?;
-            }
-            if let Some(having) = self.having(&rule, &found.iter().flatten().copied(), wanted) {
-                return Ok(having.all(seed));
+            for (joint, range) in [(7, last), (BETWEEN, AROUND), (1, first)] {
+                self.search_arm_angle(pose, arm_angle, joint, range, &mut found)?;
+                if joint != 7
+                    && let Some(all) = having(&found)
+                {
+                    return Ok(all);
+                }
             }
         }
         // A self-motion that turns little inside the ranges may still be met from outside them.
         let found = self.at_arm_angle_anywhere(pose, arm_angle)?;
-        match self.having(&rule, &found.iter().flatten().copied(), wanted) {
-            Some(having) => Ok(having.all(seed)),
+        match having(&found) {
+            Some(all) => Ok(all),
             None => Err(self.no_configuration_at(&rule, pose, wanted, arm_angle, &found)?),
         }
+    }
+
+    /// Those of the joint vectors of a pose and arm angle that have a configuration, the nearest to
+    /// a seed first; of a self-motion the member nearest to it.
+    fn having_at(
+        &self,
+        rule: &ConfigurationRule,
+        pose: &Pose,
+        found: &Found,
+        request: &ConfigurationRequest<7>,
+        seed: &[f64; 7],
+    ) -> Option<Vec<Solution<7>>> {
+        let (wanted, arm_angle) = (request.configuration, request.arm_angle?);
+        let angle = ArmAngle::of(self, self.arm_angle_reference().ok()?, pose)?;
+        let has_arm_angle = |q: &[f64; 7]| {
+            angle.at(q).is_some_and(|(angle, _)| wrap(angle - arm_angle).abs() <= ARM_ANGLE_OFF)
+        };
+        let curve = SelfMotion { robot: self, pose, rounding: self.rounding() };
+        BEYOND.into_iter().find_map(|beyond| {
+            let inside = [0.0, CONFIGURATION_EDGE].map(|edge| {
+                let ranges = Quarters::of(rule).ranges(wanted, edge);
+                self.limits().widened(beyond).narrowed(&ranges)
+            });
+            let member = |solution: &Solution<7>| {
+                let nearest = |limits| curve.member_nearest(solution, limits, seed, &has_arm_angle);
+                let is_free = solution.free_joint.is_some();
+                let member = is_free.then(|| inside.iter().flatten().find_map(nearest)).flatten();
+                member.unwrap_or(*solution)
+            };
+            let members = found.iter().flatten().map(member);
+            self.having(rule, &members, wanted, beyond).map(|having| having.all(seed))
+        })
     }
 
     /// The reason why no joint vector has a configuration and an arm angle.
@@ -90,7 +134,8 @@ impl Robot<7> {
         arm_angle: f64,
         found: &Found,
     ) -> Result<Error, Error> {
-        let mut none = NoConfiguration { wanted, existing: Vec::new(), more: false, free: None };
+        let free = found.iter().flatten().find_map(|solution| solution.free_joint);
+        let mut none = NoConfiguration { wanted, existing: Vec::new(), more: false, free };
         for solution in found.iter().flatten() {
             self.list_turns(rule, solution, &mut none);
         }
@@ -103,31 +148,33 @@ impl Robot<7> {
         }))
     }
 
-    /// The joint vectors of a pose that have an arm angle, with any angle of the last joint and of
-    /// the first.
+    /// The joint vectors of a pose that have an arm angle, by every search.
     fn at_arm_angle_anywhere(&self, pose: &Pose, wanted: f64) -> Result<Found, Error> {
-        let turn = [-PI, PI];
-        let found = self.at_arm_angle(pose, wanted, turn, None)?;
-        self.at_arm_angle(pose, wanted, turn, Some(&found))
+        let mut found = [None; MOST];
+        for joint in [7, 1, BETWEEN] {
+            self.search_arm_angle(pose, wanted, joint, AROUND, &mut found)?;
+        }
+        Ok(found)
     }
 
-    /// The joint vectors of a pose that have an arm angle, with the last joint in a range, at most
-    /// a turn; or, with what that search has found, with the first joint in a range.
-    fn at_arm_angle(
+    /// Search the joint vectors of a pose that have an arm angle, with sections of a joint, from 1,
+    /// in a range of at most a turn.
+    fn search_arm_angle(
         &self,
         pose: &Pose,
         wanted: f64,
+        joint: usize,
         [from, to]: [f64; 2],
-        before: Option<&Found>,
-    ) -> Result<Found, Error> {
+        found: &mut Found,
+    ) -> Result<(), Error> {
         let reference = self.arm_angle_reference()?;
-        let found = before.copied().unwrap_or([None; MOST]);
-        let Some(angle) = ArmAngle::of(self, reference, pose) else { return Ok(found) };
-        let first = before.map(|_| self.given(1, 0.0)).transpose()?;
+        let Some(angle) = ArmAngle::of(self, reference, pose) else { return Ok(()) };
+        let given = (joint != 7).then(|| self.given(joint, from)).transpose()?;
         let curve = SelfMotion { robot: self, pose, rounding: self.rounding() };
-        let mut search = Search { curve, angle, wanted, first, found };
+        let mut search = Search { curve, angle, wanted, given, found: *found };
         search.run([from, to.min(from + TAU)])?;
-        Ok(search.found)
+        *found = search.found;
+        Ok(())
     }
 
     fn arm_angle_reference(&self) -> Result<[f64; 3], Error> {
