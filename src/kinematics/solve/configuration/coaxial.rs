@@ -5,6 +5,9 @@
 
 use core::f64::consts::TAU;
 
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
 use crate::kinematics::answer::solutions::Solution;
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::chain::limits::JointLimits;

@@ -115,7 +115,7 @@ impl Robot<7> {
                 self.limits().widened(beyond).narrowed(&ranges)
             });
             let member = |solution: &Solution<7>| {
-                let nearest = |limits| curve.member_nearest(solution, limits, seed, &has_arm_angle);
+                let nearest = |limits| curve.member_nearest(solution, limits, seed, has_arm_angle);
                 let is_free = solution.free_joint.is_some();
                 let member = is_free.then(|| inside.iter().flatten().find_map(nearest)).flatten();
                 member.unwrap_or(*solution)
