@@ -38,16 +38,20 @@ impl VectorKernel for Solve<'_> {
         let known = if has_parallel { Parallel::of(lengths, &search.hand) } else { Parallel::NONE };
         let roots = polynomial.roots(simd, known.as_slice());
         let simple = roots.as_slice().iter().filter(|root| root.is_simple);
+        let mut clusters = Clusters::of(&roots, lengths.per_root());
+        let count = lengths.per_root() * simple.clone().count();
         if self.in_cluster == InCluster::Middle {
             for cluster in roots.as_slice().iter().filter(|root| !root.is_simple) {
                 search.put_all_at(cluster.angle());
             }
-            search.at_all_roots(simd, simple);
+        } else {
+            clusters.examine(&mut search);
+        }
+        search.at_all_roots(simd, simple);
+        if self.in_cluster == InCluster::Middle {
             return lengths.turns_wrist_point()
                 && search.accepted.are_at_all(&roots, lengths.per_root(), |theta| theta[5]);
         }
-        let mut clusters = Clusters::of(&roots, lengths.per_root());
-        let count = lengths.per_root() * simple.clone().count();
         let agree = |clusters: &Clusters, accepted: &Accepted| {
             lengths.turns_wrist_point()
                 && roots.is_complete
@@ -55,8 +59,6 @@ impl VectorKernel for Solve<'_> {
                 && !accepted.has_self_motion()
                 && clusters.agree(accepted.as_slice(), count)
         };
-        clusters.examine(&mut search);
-        search.at_all_roots(simd, simple);
         agree(&clusters, search.accepted) || {
             search.accepted.begin();
             search.everywhere();
