@@ -93,14 +93,22 @@ impl OffsetWrist {
         accepted: &mut Accepted,
     ) -> bool {
         let last = &Frame::of(t_first_last);
-        let solve = |in_cluster, accepted: &mut Accepted| {
-            accepted.begin();
-            run_vectors(Solve { arm: self, last, in_cluster, accepted })
-        };
         // The general method shares no polynomial with this one.
-        solve(InCluster::Middle, accepted)
+        self.attempt(last, InCluster::Middle, accepted)
             || self.general.regular(t_first_last, 0, accepted)
-            || solve(InCluster::Everywhere, accepted)
+            || self.attempt(last, InCluster::Everywhere, accepted)
             || self.general.search(t_first_last, free, accepted)
+    }
+
+    /// Take what there is at the roots of the resultant, and in clusters; returns whether it is
+    /// certain to be all.
+    pub(super) fn attempt(
+        &self,
+        last: &Frame,
+        in_cluster: InCluster,
+        accepted: &mut Accepted,
+    ) -> bool {
+        accepted.begin();
+        run_vectors(Solve { arm: self, last, in_cluster, accepted })
     }
 }

@@ -4,6 +4,7 @@
 use core::f64::consts::{PI, TAU};
 
 mod arms;
+mod attempts;
 mod company;
 mod merged;
 mod self_motions;
