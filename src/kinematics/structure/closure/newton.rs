@@ -27,6 +27,9 @@ const LAST_STEPS: usize = 6;
 /// Size of a step from which on the next is its square, away from a fold [rad].
 const NEAR: f64 = 1e-3;
 
+/// Residual up to which two differ by rounding [1].
+const ROUNDING: f64 = 1e-15;
+
 /// Joint angles of eight candidates, and how well they close.
 #[derive(Clone, Copy)]
 pub(crate) struct Candidates {
@@ -159,8 +162,10 @@ impl Closure {
             let cos = is_last.select(cos[joint], best_cos[joint]);
             candidates.theta[joint] = atan2_of(sin, cos).to_array();
         }
-        // What is singular is examined anyway.
-        let mut returned = (!is_last & least.simd_gt(ISOLATED)).to_bitmask();
+        // What is singular is examined anyway, and rounding moves none far.
+        let is_elsewhere = !is_last & last.simd_gt(ROUNDING);
+        let may_be_regular = best.simd_le(self.accepts()) & least.simd_gt(ISOLATED);
+        let mut returned = (is_elsewhere & may_be_regular).to_bitmask();
         while returned != 0 {
             self.measure_again(&mut candidates, returned.trailing_zeros() as usize);
             returned &= returned - 1;

@@ -31,22 +31,11 @@ impl General {
         free: &FreeChoice<6>,
         accepted: &mut Accepted,
     ) -> bool {
-        // The kernel has tried the first split.
-        let tried = usize::from(self.is_mostly_regular);
-        self.regular(t_first_last, tried, accepted) || self.search(t_first_last, free, accepted)
-    }
-
-    /// Take every solution of a pose that has no cluster of roots in one of the splits, those that
-    /// were tried left out; returns whether there is such a split.
-    pub(crate) fn regular(
-        &self,
-        t_first_last: &Pose,
-        tried: usize,
-        accepted: &mut Accepted,
-    ) -> bool {
         let target = self.closure.target_of(t_first_last);
-        !accepted.has_singular()
-            && self.attempt(&self.splits[tried..], &target, InCluster::Nowhere, accepted)
+        // The kernel has tried the first split.
+        let left = &self.splits[usize::from(self.is_mostly_regular)..];
+        self.attempt(left, &target, InCluster::Nowhere, accepted)
+            || self.search(t_first_last, free, accepted)
     }
 
     /// Take every solution of a pose with clusters of roots; returns whether their number is

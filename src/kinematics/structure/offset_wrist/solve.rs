@@ -48,10 +48,6 @@ impl VectorKernel for Solve<'_> {
             clusters.examine(&mut search);
         }
         search.at_all_roots(simd, simple);
-        if self.in_cluster == InCluster::Middle {
-            return lengths.turns_wrist_point()
-                && search.accepted.are_at_all(&roots, lengths.per_root(), |theta| theta[5]);
-        }
         let agree = |clusters: &Clusters, accepted: &Accepted| {
             lengths.turns_wrist_point()
                 && roots.is_complete
@@ -59,6 +55,9 @@ impl VectorKernel for Solve<'_> {
                 && !accepted.has_self_motion()
                 && clusters.agree(accepted.as_slice(), count)
         };
+        if self.in_cluster == InCluster::Middle {
+            return !search.accepted.has_singular() && agree(&clusters, search.accepted);
+        }
         agree(&clusters, search.accepted) || {
             search.accepted.begin();
             search.everywhere();
@@ -95,7 +94,6 @@ impl OffsetWrist {
         let last = &Frame::of(t_first_last);
         // The general method shares no polynomial with this one.
         self.attempt(last, InCluster::Middle, accepted)
-            || self.general.regular(t_first_last, 0, accepted)
             || self.attempt(last, InCluster::Everywhere, accepted)
             || self.general.search(t_first_last, free, accepted)
     }
