@@ -8,8 +8,10 @@ use nalgebra::{ComplexField as _, RealField as _};
 use nalgebra::{Point3, Vector3};
 
 use crate::kinematics::pose::Pose;
+use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::self_motion_curve::Joints;
+use crate::kinematics::thresholds::ARM_ANGLE_OFF;
 
 /// What the arm angle of a pose is measured by (docs/abb.md, eq. A4).
 pub(super) struct ArmAngle<'a> {
@@ -35,6 +37,16 @@ impl<'a> ArmAngle<'a> {
         let zero = reference.cross(&toward_wrist);
         let quarter = reference - toward_wrist * toward_wrist.dot(&reference);
         (zero.norm() > 0.0).then_some(Self { robot, toward_wrist, zero, quarter })
+    }
+
+    /// How far the arm angle of a joint vector is from a wanted one [rad]; `None` where it has none.
+    pub(super) fn off(&self, q: &[f64; 7], wanted: f64) -> Option<f64> {
+        self.at(q).map(|(angle, _)| wrap(angle - wanted))
+    }
+
+    /// Whether a joint vector has a wanted arm angle.
+    pub(super) fn is_of(&self, q: &[f64; 7], wanted: f64) -> bool {
+        self.off(q, wanted).is_some_and(|off| off.abs() <= ARM_ANGLE_OFF)
     }
 
     /// The arm angle of joint angles that reach the pose, and its gradient; `None` if axis 3 points

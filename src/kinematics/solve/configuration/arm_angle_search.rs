@@ -19,7 +19,6 @@ use crate::kinematics::answer::status::Status;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::solve::given_joint::GivenJoint;
 use crate::kinematics::solve::self_motion_curve::{Joints, Point, SelfMotion};
-use crate::kinematics::thresholds::ARM_ANGLE_OFF;
 
 /// Spacing of the angles of the joint at which all solutions are computed [rad]: a self-motion that
 /// turns it by less may be missed.
@@ -127,7 +126,7 @@ impl Search<'_> {
 
     /// How far the arm angle is from the wanted one.
     fn off(&self, q: &[f64; 7]) -> Option<f64> {
-        self.angle.at(q).map(|(angle, _)| wrap(angle - self.wanted))
+        self.angle.off(q, self.wanted)
     }
 
     /// Follow the curve of a solution into the strip between two sections, the joint turning by the
@@ -200,7 +199,7 @@ impl Search<'_> {
     }
 
     fn has_wanted(&self, q: &[f64; 7]) -> bool {
-        self.off(q).is_some_and(|off| off.abs() <= ARM_ANGLE_OFF)
+        self.angle.is_of(q, self.wanted)
     }
 
     fn keep(&mut self, q: [f64; 7]) {

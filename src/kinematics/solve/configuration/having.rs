@@ -63,8 +63,8 @@ where
         edge: f64,
     ) -> bool {
         let bits = [4, 2, 1].map(|bit| wanted.cfx & bit != 0);
-        let sides = self.sides(rule, q).into_iter().zip(bits);
-        sides.into_iter().all(|(side, is_set)| side.abs() <= edge || (side < 0.0) == is_set)
+        let mut sides = self.sides(rule, q).into_iter().zip(bits);
+        sides.all(|(side, is_set)| side.abs() <= edge || (side < 0.0) == is_set)
     }
 }
 

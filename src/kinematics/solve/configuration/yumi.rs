@@ -12,11 +12,10 @@ use super::rule::Quarters;
 use crate::error::{Error, JointFault, ModelFault, NoConfiguration};
 use crate::kinematics::answer::check::{check_arm_angle, check_seed};
 use crate::kinematics::answer::solutions::Solution;
-use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::self_motion_curve::SelfMotion;
-use crate::kinematics::thresholds::{ARM_ANGLE_OFF, CONFIGURATION_EDGE, TAUGHT_BEYOND_LIMITS};
+use crate::kinematics::thresholds::{CONFIGURATION_EDGE, TAUGHT_BEYOND_LIMITS};
 use crate::report::{Configuration, ConfigurationRule, Explanation};
 
 /// The joint, from 1, that is searched besides the last and the first: ABB's axis 7. Where axis 3
@@ -105,9 +104,7 @@ impl Robot<7> {
     ) -> Option<Vec<Solution<7>>> {
         let (wanted, arm_angle) = (request.configuration, request.arm_angle?);
         let angle = ArmAngle::of(self, self.arm_angle_reference().ok()?, pose)?;
-        let has_arm_angle = |q: &[f64; 7]| {
-            angle.at(q).is_some_and(|(angle, _)| wrap(angle - arm_angle).abs() <= ARM_ANGLE_OFF)
-        };
+        let has_arm_angle = |q: &[f64; 7]| angle.is_of(q, arm_angle);
         let curve = SelfMotion { robot: self, pose, rounding: self.rounding() };
         BEYOND.into_iter().find_map(|beyond| {
             let inside = [0.0, CONFIGURATION_EDGE].map(|edge| {

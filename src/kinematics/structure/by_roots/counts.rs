@@ -8,15 +8,6 @@ use crate::kinematics::structure::trigonometric::{Root, Roots};
 /// root.
 pub(crate) const BESIDE: f64 = 1e-5;
 
-/// Where in a cluster of roots solutions are searched.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum InCluster {
-    /// Nowhere: a pose that has one is left.
-    Nowhere,
-    Middle,
-    Everywhere,
-}
-
 impl Root {
     /// Whether an angle is in its interval, or next to it [rad].
     pub(crate) fn is_at(&self, angle: f64) -> bool {
@@ -33,16 +24,11 @@ impl Accepted {
 
     /// Whether each of these roots has as many solutions as it can have, away from singularities, no
     /// solution is elsewhere, and all of it is certain.
-    pub(crate) fn are_at_all(
-        &self,
-        roots: &Roots,
-        per_root: usize,
-        root_of: impl Fn(&[f64; 6]) -> f64,
-    ) -> bool {
+    pub(crate) fn are_at_all(&self, roots: &Roots, root_of: impl Fn(&[f64; 6]) -> f64) -> bool {
         let all = roots.as_slice();
         roots.is_complete
             && !self.has_singular()
-            && self.are_certain(per_root * all.iter().map(|root| root.most).sum::<usize>())
-            && all.iter().all(|root| self.at(root, &root_of) >= per_root * root.most)
+            && self.are_certain(all.iter().map(|root| root.most).sum())
+            && all.iter().all(|root| self.at(root, &root_of) >= root.most)
     }
 }

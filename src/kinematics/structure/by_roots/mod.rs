@@ -9,12 +9,14 @@
 
 mod block;
 mod counts;
+mod in_cluster;
 mod method;
 mod regular;
 #[cfg(test)]
 pub(crate) mod tests;
 
 pub(crate) use block::RootKernel;
-pub(crate) use counts::{BESIDE, InCluster};
+pub(crate) use counts::BESIDE;
+pub(crate) use in_cluster::InCluster;
 pub(crate) use method::{ByRoots, SLOTS};
 pub(crate) use regular::regular_of;

@@ -64,7 +64,7 @@ impl VectorKernel for Attempt<'_> {
             while let Some((angles, lanes)) = next_angles(&mut clusters) {
                 search.look(simd, &angles, lanes, true, accepted);
             }
-            return accepted.are_at_all(&roots, 1, root_of);
+            return accepted.are_at_all(&roots, root_of);
         }
         let mut is_certain = roots.is_complete;
         let mut expected = all.iter().filter(|root| root.is_simple).count();

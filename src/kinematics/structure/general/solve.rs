@@ -49,17 +49,17 @@ impl General {
         let target = self.closure.target_of(t_first_last);
         // What is double in one split is seldom so in another: no cluster is searched everywhere
         // before all splits were tried.
-        let is_certain = target.is_beyond()
-            || [InCluster::Middle, InCluster::Everywhere]
-                .into_iter()
-                .any(|in_cluster| self.attempt(&self.splits, &target, in_cluster, accepted));
+        let is_certain = [InCluster::Middle, InCluster::Everywhere]
+            .into_iter()
+            .any(|in_cluster| self.attempt(&self.splits, &target, in_cluster, accepted));
         if !is_certain {
             self.complete(t_first_last, free, accepted);
         }
         is_certain
     }
 
-    /// Take what splits find, until one is certain to find all; returns whether one is.
+    /// Take what splits find, until one is certain to find all; returns whether one is, or nothing is
+    /// in reach.
     fn attempt(
         &self,
         splits: &[Split],
@@ -68,10 +68,11 @@ impl General {
         accepted: &mut Accepted,
     ) -> bool {
         let closure = &self.closure;
-        splits.iter().any(|split| {
-            accepted.begin();
-            run_vectors(Attempt { split, closure, target, in_cluster, accepted })
-        })
+        target.is_beyond()
+            || splits.iter().any(|split| {
+                accepted.begin();
+                run_vectors(Attempt { split, closure, target, in_cluster, accepted })
+            })
     }
 
     /// Keep one member of each self-motion, that which the free joint's angle of `free` chooses.
